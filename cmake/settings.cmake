@@ -1,0 +1,32 @@
+# What holds for every target: language, warnings, floating point, sanitizers.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+# Every own target links this. -ffp-contract=off: the same bits on every processor (no fma but where the code says so).
+add_library(dmoscope_settings INTERFACE)
+target_compile_options(dmoscope_settings INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wshadow -Wconversion -ffp-contract=off>)
+target_include_directories(dmoscope_settings INTERFACE ${PROJECT_SOURCE_DIR})
+if(DMOSCOPE_SANITIZE)
+  target_compile_options(dmoscope_settings INTERFACE -fsanitize=${DMOSCOPE_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(dmoscope_settings INTERFACE -fsanitize=${DMOSCOPE_SANITIZE})
+endif()
+
+# dmoscope_room(NAME): a static library of all sources below the current folder.
+function(dmoscope_room name)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp *.h)
+  add_library(${name} STATIC ${sources})
+  target_link_libraries(${name} PUBLIC dmoscope_settings)
+endfunction()

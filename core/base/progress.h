@@ -1,0 +1,43 @@
+#pragma once
+// How long work tells how far it is, and how it learns that it shall stop.
+
+#include <atomic>
+#include <mutex>
+#include <string>
+
+#include "core/base/error.h"
+
+namespace dmoscope {
+
+/// Shared between the thread that works and the one that watches. All members may be used from any thread.
+class Progress {
+ public:
+  /// Names the work ("reading east.14") and sets the fraction to 0.
+  void begin(std::string label) {
+    const std::scoped_lock lock(mutex_);
+    label_ = std::move(label);
+    fraction_ = 0.0;
+  }
+  /// Fraction done, 0 to 1.
+  void set(double fraction) noexcept { fraction_ = fraction; }
+  [[nodiscard]] double fraction() const noexcept { return fraction_; }
+  [[nodiscard]] std::string label() const {
+    const std::scoped_lock lock(mutex_);
+    return label_;
+  }
+  void request_cancel() noexcept { cancel_ = true; }
+  void clear_cancel() noexcept { cancel_ = false; }
+  [[nodiscard]] bool cancel_requested() const noexcept { return cancel_; }
+  /// Throws Cancelled when a cancel was requested. Call it at least every 50 ms of work.
+  void check() const {
+    if (cancel_) throw Cancelled();
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::string label_;
+  std::atomic<double> fraction_{0.0};
+  std::atomic<bool> cancel_{false};
+};
+
+}  // namespace dmoscope

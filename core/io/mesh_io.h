@@ -1,0 +1,38 @@
+#pragma once
+// Reading and writing meshes: one reader/writer a format, behind one table.
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/mesh/mesh.h"
+
+namespace dmoscope {
+
+struct FormatInfo {
+  std::string_view name;        // "vtk"
+  std::string_view title;       // "VTK legacy"
+  std::string_view extensions;  // ".vtk", several separated by spaces
+  std::string_view doc;         // what it can carry, one line
+};
+/// Every format the program reads and writes.
+[[nodiscard]] std::span<const FormatInfo> format_table();
+
+/// Reads a mesh, format by content where that is certain, else by extension. Positions are the file's exact doubles, vertices and
+/// elements in the file's order; nothing is normalised. Throws InputError (file and line), Cancelled.
+[[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, Progress& progress);
+
+/// Writes `mesh` with `positions` in place of its own (mesh.positions.size() of them) to `path`, format by extension.
+/// When mesh.source is of that format, its bytes are written again and only the coordinates whose bits changed are replaced;
+/// otherwise the file is made anew, in the file's own winding (mesh.flipped undone). Written beside the target and renamed: on any
+/// failure the old file stands. Returns one sentence for each thing the format could not carry. Throws OutputError, UsageError
+/// (unknown extension), Cancelled.
+std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress);
+
+/// Writes bytes beside `path` and renames: all or nothing. Throws OutputError.
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace dmoscope

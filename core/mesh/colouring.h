@@ -1,0 +1,29 @@
+#pragma once
+// Colour classes: vertices that may move at once because no two share an element.
+
+#include <span>
+#include <vector>
+
+#include "core/mesh/mesh.h"
+#include "core/mesh/topology.h"
+
+namespace dmoscope {
+
+/// The free vertices in the order in which an iteration visits them, class after class.
+struct Colouring {
+  std::vector<Index> order;          // every free vertex once
+  std::vector<Index> class_offsets;  // class c is order[class_offsets[c] .. class_offsets[c + 1])
+  [[nodiscard]] Index class_count() const noexcept { return class_offsets.empty() ? 0 : static_cast<Index>(class_offsets.size() - 1); }
+  [[nodiscard]] std::span<const Index> members(Index c) const noexcept {
+    return {order.data() + class_offsets[c], order.data() + class_offsets[c + 1]};
+  }
+};
+
+/// Greedy colouring in the order given: each vertex gets the lowest colour that no vertex sharing an ELEMENT with it has.
+/// Within a class the vertices keep that order. `free_vertices`: distinct vertex indices.
+[[nodiscard]] Colouring colour_vertices(const Mesh& mesh, const Topology& topology, std::span<const Index> free_vertices);
+
+/// The vertices in an order shuffled by `seed` with a generator of our own: the same on every platform.
+[[nodiscard]] std::vector<Index> shuffled(std::span<const Index> vertices, std::uint64_t seed);
+
+}  // namespace dmoscope

@@ -1,0 +1,26 @@
+#pragma once
+// Sample meshes the program makes itself.
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "core/base/progress.h"
+#include "core/mesh/mesh.h"
+
+namespace dmoscope {
+
+struct GeneratorInfo {
+  std::string_view name;   // "coast"
+  std::string_view doc;    // one line
+  std::size_t default_size;  // about how many vertices without --size
+};
+/// coast, block, annulus, random, quads, mixed, tangled, grid.
+[[nodiscard]] std::span<const GeneratorInfo> generator_table();
+
+/// Makes a sample. `size`: about how many vertices (0: the generator's default; exact for `random`).
+/// The same name, size and seed give the same mesh on every machine. Throws UsageError for an unknown name or a size
+/// out of range, Cancelled.
+[[nodiscard]] Mesh generate_mesh(std::string_view name, std::size_t size, std::uint64_t seed, Progress& progress);
+
+}  // namespace dmoscope

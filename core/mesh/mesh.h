@@ -1,0 +1,111 @@
+#pragma once
+// The mesh as its file gave it: positions, elements, and all that the file carried with them.
+
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/vec.h"
+
+namespace dmoscope {
+
+class SourceFile;  // core/io/source_file.h: the bytes a mesh was read from, with the place of every coordinate
+
+enum class ElementKind : std::uint8_t { Triangle, Quadrilateral, Tetrahedron, Hexahedron, Wedge, Pyramid };
+inline constexpr std::size_t kElementKindCount = 6;
+
+struct ElementKindInfo {
+  std::string_view name;    // "triangle"
+  std::string_view plural;  // "triangles"
+  Index corners;
+  int dimension;  // 2 or 3
+};
+[[nodiscard]] constexpr const ElementKindInfo& info(ElementKind kind) {
+  constexpr static std::array<ElementKindInfo, kElementKindCount> table{{{"triangle", "triangles", 3, 2},
+                                                                  {"quadrilateral", "quadrilaterals", 4, 2},
+                                                                  {"tetrahedron", "tetrahedra", 4, 3},
+                                                                  {"hexahedron", "hexahedra", 8, 3},
+                                                                  {"wedge", "wedges", 6, 3},
+                                                                  {"pyramid", "pyramids", 5, 3}}};
+  return table[static_cast<std::size_t>(kind)];
+}
+
+/// Elements of any mix of kinds; the corners of all lie in one array, in VTK's order for each kind.
+class ElementTable {
+ public:
+  [[nodiscard]] Index size() const noexcept { return static_cast<Index>(kinds_.size()); }
+  [[nodiscard]] ElementKind kind(Index e) const noexcept { return kinds_[e]; }
+  [[nodiscard]] std::span<const Index> corners(Index e) const noexcept {
+    return {corners_.data() + offsets_[e], corners_.data() + offsets_[e + 1]};
+  }
+  [[nodiscard]] std::span<const ElementKind> kinds() const noexcept { return kinds_; }
+  /// All corners of all elements, element after element.
+  [[nodiscard]] std::span<const Index> all_corners() const noexcept { return corners_; }
+  /// size() + 1 offsets into all_corners().
+  [[nodiscard]] std::span<const Index> offsets() const noexcept { return offsets_; }
+  void reserve(std::size_t elements, std::size_t corners) {
+    kinds_.reserve(elements);
+    offsets_.reserve(elements + 1);
+    corners_.reserve(corners);
+  }
+  /// Appends one element; corners.size() must be info(kind).corners.
+  void add(ElementKind kind, std::span<const Index> corners) {
+    assert(corners.size() == info(kind).corners);
+    kinds_.push_back(kind);
+    corners_.insert(corners_.end(), corners.begin(), corners.end());
+    offsets_.push_back(static_cast<Index>(corners_.size()));
+  }
+  /// Reverses the winding of a triangle or quadrilateral, keeping its first corner. Its own inverse.
+  void flip(Index e) noexcept {
+    Index* c = corners_.data() + offsets_[e];
+    std::swap(c[1], c[info(kinds_[e]).corners - 1]);
+  }
+
+ private:
+  std::vector<ElementKind> kinds_;
+  std::vector<Index> offsets_{0};
+  std::vector<Index> corners_;
+};
+
+/// Numbers that the file carried for every vertex or every element (depth of a fort.14, VTK point and cell data).
+struct Field {
+  enum class On { Vertices, Elements };
+  std::string name;
+  On on = On::Vertices;
+  int components = 1;           // values.size() == components * (number of vertices or elements)
+  std::string type = "double";  // the file's own word for its scalar ("float", "int", ...)
+  std::string role;             // the file's own word for what it is ("SCALARS", "VECTORS", "depth", ...), may be empty
+  std::vector<double> values;
+};
+
+/// A named set that the file carried: boundary strings of fort.14, markers of SU2.
+struct Group {
+  std::string name;
+  std::string role;             // "open boundary", "land boundary", "marker", ...
+  int code = 0;                 // the file's number for it (IBTYPE of fort.14), 0 if it has none
+  int dimension = 0;            // 0: members are vertices; 1: members are edges, two vertices each; 2: elements
+  std::vector<Index> members;   // 0-based
+};
+
+struct Mesh {
+  std::string name;   // file name without folder, for titles
+  std::string title;  // the file's own title line, may be empty
+  std::vector<Vec3> positions;
+  ElementTable elements;
+  std::vector<Field> fields;
+  std::vector<Group> groups;
+  /// Elements whose winding was reversed after reading (see orientation.h); empty if none, else one entry an element.
+  std::vector<std::uint8_t> flipped;
+  /// What the file was; writing the same format patches only the coordinates that changed. May be null.
+  std::shared_ptr<const SourceFile> source;
+
+  [[nodiscard]] Index vertex_count() const noexcept { return static_cast<Index>(positions.size()); }
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,21 @@
+#pragma once
+// One winding for the whole mesh. Real files mix windings (SU2 above all).
+
+#include "core/mesh/mesh.h"
+#include "core/mesh/plane.h"
+
+namespace dmoscope {
+
+struct OrientationReport {
+  Index components = 0;  // edge-connected components
+  Index flipped = 0;     // elements whose winding was reversed
+  Index contradictions = 0;  // edges across which no consistent winding exists (non-orientable or non-manifold)
+};
+
+/// Makes the winding of planar elements consistent inside each edge-connected component (neighbours across a
+/// manifold edge run it in opposite directions), and then positive for the majority of its elements. A tangled element
+/// keeps its neighbours' winding and so stays visibly inverted. A component of one element has no neighbour to agree with and keeps
+/// the winding it has. Sets mesh.flipped. Idempotent.
+OrientationReport normalise_orientation(Mesh& mesh, const Plane& plane);
+
+}  // namespace dmoscope

@@ -1,0 +1,32 @@
+#pragma once
+// The plane of a planar mesh, and the way between it and space.
+
+#include "core/base/vec.h"
+#include "core/mesh/mesh.h"
+
+namespace dmoscope {
+
+/// An orthonormal frame (u, v, normal). For a plane z = const u = x and v = y exactly, so nothing is rounded;
+/// likewise (y, z) for x = const and (z, x) for y = const.
+struct Plane {
+  Vec3 u{1, 0, 0}, v{0, 1, 0}, normal{0, 0, 1};
+  /// Coordinates in the plane of a difference of two positions. Only differences: offsets keep their digits far from the origin.
+  [[nodiscard]] Vec2<double> project(Vec3 difference) const { return {dot(difference, u), dot(difference, v)}; }
+  [[nodiscard]] Vec3 lift(Vec2<double> offset) const { return offset.x * u + offset.y * v; }
+};
+
+enum class Shape { Planar, Surface, Volume };
+
+/// What kind of mesh this is.
+struct Geometry {
+  Shape shape = Shape::Planar;
+  Plane plane;             // meaningful for Planar; for Surface the coordinate plane nearest to the mean normal
+  double deviation = 0.0;  // largest distance of a used vertex from the best plane, in mesh units
+  double size = 0.0;       // diagonal of the bounding box of the used vertices
+};
+
+/// Planar when no used vertex lies farther than 1e-6 * size from the best plane. The normal's largest component is positive.
+/// Volume as soon as one element is three-dimensional. Never throws; an empty mesh is planar with z normal.
+[[nodiscard]] Geometry classify(const Mesh& mesh);
+
+}  // namespace dmoscope

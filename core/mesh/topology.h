@@ -1,0 +1,51 @@
+#pragma once
+// Who touches whom: vertex stars in CSR, boundary, and what is odd about the mesh.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/mesh/mesh.h"
+
+namespace dmoscope {
+
+/// One incident element of a vertex: which, and which of its corners the vertex is.
+struct Incidence {
+  Index element;
+  Index corner;
+};
+
+/// Stars of all vertices, any valence, incident elements in ascending order.
+class Topology {
+ public:
+  explicit Topology(const Mesh& mesh);
+  [[nodiscard]] Index vertex_count() const noexcept { return static_cast<Index>(offsets_.size() - 1); }
+  [[nodiscard]] std::span<const Incidence> star(Index vertex) const noexcept {
+    return {incidences_.data() + offsets_[vertex], incidences_.data() + offsets_[vertex + 1]};
+  }
+  /// 1 for vertices on the boundary: an end of an edge that has exactly one element, or more than two (non-manifold).
+  [[nodiscard]] std::span<const std::uint8_t> boundary() const noexcept { return boundary_; }
+  [[nodiscard]] Index edge_count() const noexcept { return edge_count_; }
+
+ private:
+  std::vector<std::uint32_t> offsets_;
+  std::vector<Incidence> incidences_;
+  std::vector<std::uint8_t> boundary_;
+  Index edge_count_ = 0;
+};
+
+/// Findings a person should know of; never fatal.
+struct MeshReport {
+  std::vector<Index> unused_vertices;
+  std::vector<Index> duplicate_elements;   // elements with the very corners (as a set) of an earlier one
+  std::vector<Index> degenerate_elements;  // zero area, or a corner twice
+  std::vector<Index> inverted_elements;    // some corner Jacobian <= 0 (after orientation), degenerate ones not counted again
+  Index non_manifold_edges = 0;            // edges with more than two elements
+  Index boundary_loops = 0;                // from the half-edge structure; 0 where it could not be built
+  Index components = 0;
+  Index flipped_elements = 0;
+  /// One clear sentence a finding, e.g. "2 vertices belong to no element (first: 17)". Ids are 0-based.
+  [[nodiscard]] std::vector<std::string> sentences() const;
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,50 @@
+#pragma once
+// Quality of elements, vertices and whole meshes, always in double and always by the one definition in formulas.h.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/mesh/mesh.h"
+#include "core/mesh/plane.h"
+#include "core/mesh/topology.h"
+#include "core/quality/metric.h"
+
+namespace dmoscope {
+
+class ThreadPool;
+
+/// What quality needs to know of a mesh besides its positions. A view: the mesh and geometry must outlive it.
+struct QualityContext {
+  const Mesh& mesh;
+  const Geometry& geometry;  // Planar: signed in the plane. Surface: triangles unsigned, quadrilaterals against geometry.plane.normal.
+};
+
+/// Quality of one element with the mesh's vertices at `positions`. NaN where the metric is not defined for its kind.
+[[nodiscard]] double element_quality(const QualityContext& context, std::span<const Vec3> positions, Metric metric, Index element);
+
+/// Smallest signed corner Jacobian of an element (twice the corner triangle's area; mesh units squared). Inverted means <= 0.
+[[nodiscard]] double smallest_jacobian(const QualityContext& context, std::span<const Vec3> positions, Index element);
+
+/// Quality of every element, out.size() == mesh.elements.size().
+void element_qualities(const QualityContext& context, std::span<const Vec3> positions, Metric metric, ThreadPool* pool, std::span<double> out);
+
+/// Minimum over the star of `vertex` (paper eq. 1). +infinity for a vertex of no element.
+[[nodiscard]] double vertex_quality(const QualityContext& context, const Topology& topology, std::span<const Vec3> positions, Metric metric,
+                                    Index vertex);
+
+/// Whole-mesh statistics of one metric.
+struct Statistics {
+  double minimum = 0.0;
+  double mean = 0.0;
+  double movable_minimum = 0.0;  // over elements with at least one free corner; +infinity when there is none
+  double ceiling = 0.0;          // over elements whose corners are all fixed: they cap the minimum for ever; +infinity when there is none
+  Index worst_element = kNoIndex;  // lowest index among the elements at the minimum
+  Index inverted = 0;              // elements with a corner Jacobian <= 0, whatever the metric
+};
+
+/// `fixed`: one entry a vertex, non-zero where it may not move. The same bits for any pool (nullptr: this thread alone).
+[[nodiscard]] Statistics compute_statistics(const QualityContext& context, std::span<const Vec3> positions, Metric metric,
+                                            std::span<const std::uint8_t> fixed, ThreadPool* pool);
+
+}  // namespace dmoscope

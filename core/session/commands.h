@@ -1,0 +1,56 @@
+#pragma once
+// The command language: one table of verbs behind every button, key, palette entry, script line and test.
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.h"
+
+namespace dmoscope {
+
+/// Words of one command line. Words are split at blanks; "double quotes" keep blanks, \" and \\ inside them; # starts a comment.
+/// Throws UsageError for an open quote.
+[[nodiscard]] std::vector<std::string> split_words(std::string_view line);
+/// Quotes a word where split_words would need it.
+[[nodiscard]] std::string quote_word(std::string_view word);
+
+struct CommandInfo {
+  std::string name;    // first word, "step"
+  std::string usage;   // "step vertex|class|iteration [COUNT]"
+  std::string doc;     // one line
+};
+
+/// Verbs and what they do. Each room that has verbs fills in its own table.
+class CommandTable {
+ public:
+  using Arguments = std::span<const std::string>;  // words after the verb
+  using Handler = std::function<void(Arguments)>;
+  void add(CommandInfo info, Handler handler);
+  [[nodiscard]] const std::vector<CommandInfo>& commands() const noexcept { return infos_; }
+  [[nodiscard]] bool knows(std::string_view name) const;
+  /// Runs one line; an empty one (or a comment) does nothing. Throws UsageError for an unknown verb or wrong arguments
+  /// (with the verb's usage), and whatever the handler throws.
+  void execute(std::string_view line) const;
+
+ private:
+  std::vector<CommandInfo> infos_;
+  std::vector<Handler> handlers_;
+};
+
+/// Typed access to words; all throw UsageError naming the word and what was expected.
+[[nodiscard]] std::uint64_t to_count(const std::string& word, std::uint64_t least = 0);
+[[nodiscard]] double to_number(const std::string& word);
+
+/// The session's verbs, as the engine knows them (without handlers), for help, palette and man page:
+///   open FILE | generate KIND [SIZE [SEED]] | export FILE | stats FILE.csv | elements FILE.csv
+///   metric NAME | show NAME | method NAME | grid N | levels N | omega X | precision float|double | order natural|shuffle:SEED | fix V... | unfix
+///   step vertex|class|iteration [COUNT] | back vertex|class|iteration [COUNT] | run ITERATIONS | until-converged [PATIENCE [MAX]]
+///   seek ITERATION | reset | add-run METHOD[:METRIC] | select-run K | remove-run K | threads N | history MIB
+///   expect minimum|movable|mean|inverted|iteration|moved  <|<=|==|>=|>  VALUE      (NotReached when it does not hold)
+///   say TEXT
+[[nodiscard]] const std::vector<CommandInfo>& session_commands();
+
+}  // namespace dmoscope

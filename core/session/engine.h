@@ -1,0 +1,82 @@
+#pragma once
+// A session on a thread of its own. Whoever drives it (window, script, test) posts command lines and reads views; nobody else
+// touches the session, so nothing that takes long can block the window.
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/session/commands.h"
+#include "core/session/view.h"
+
+namespace dmoscope {
+
+/// One line of the session's log.
+struct Message {
+  enum class Kind { Info, Warning, Error };
+  Kind kind = Kind::Info;
+  std::string text;
+  int exit_code = 0;  // of an Error
+};
+
+class Engine {
+ public:
+  explicit Engine(unsigned threads = 0);
+  /// Cancels what runs, drops what waits, joins.
+  ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  /// Queues one command line of the table in commands.h. Returns at once; whatever goes wrong becomes a Message.
+  void post(std::string command_line);
+  /// Commands posted and not yet finished, the one at work included.
+  [[nodiscard]] std::size_t pending() const;
+  [[nodiscard]] bool busy() const { return pending() != 0; }
+  /// Blocks until nothing is pending (for scripts and tests; the window never calls it).
+  void wait_idle();
+  /// Cancels the command at work and drops the waiting ones.
+  void cancel();
+  [[nodiscard]] const Progress& progress() const noexcept { return progress_; }
+  /// What runs now, as typed; empty when idle.
+  [[nodiscard]] std::string current_command() const;
+
+  /// The latest state; never null. While a long run goes on a new frame is published after each iteration or at least
+  /// every 100 ms of class-wise progress, but only once the last one was taken by view().
+  [[nodiscard]] std::shared_ptr<const SessionView> view();
+  /// Messages since the last call, oldest first.
+  [[nodiscard]] std::vector<Message> take_messages();
+  /// Called from the worker whenever a view or message is new (the window wakes its event loop with it). Set before the first post.
+  void set_wake(std::function<void()> wake);
+
+ private:
+  void work(const std::stop_token& stop);
+  void run_one(const std::string& line);
+  void publish();
+  void say(Message message);
+
+  Session session_;           // touched by the worker alone
+  CommandTable commands_;
+  Progress progress_;
+  std::function<void()> wake_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::deque<std::string> queue_;
+  std::string current_;
+  bool working_ = false;
+  std::vector<Message> messages_;
+  std::shared_ptr<const SessionView> view_;
+  std::atomic<bool> taken_{true};
+  std::uint64_t frame_serial_ = 0;
+  std::uint64_t input_serial_ = 0;
+  std::jthread thread_;  // last: everything above exists before it starts
+};
+
+}  // namespace dmoscope

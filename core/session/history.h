@@ -1,0 +1,61 @@
+#pragma once
+// What a run keeps of its past: statistics of every iteration, and positions within a memory budget.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/quality/quality.h"
+
+namespace dmoscope {
+
+/// Where a run stands: whole iterations done, and visits done of the next one.
+struct Moment {
+  std::uint64_t iteration = 0;
+  std::uint64_t visits = 0;
+  friend auto operator<=>(const Moment&, const Moment&) = default;
+};
+
+struct IterationRecord {
+  std::uint64_t iteration = 0;  // 0 is the input
+  Statistics statistics;
+  std::uint64_t moved = 0;
+  double seconds = 0.0;  // this iteration's smoothing alone
+};
+
+class History {
+ public:
+  explicit History(std::size_t budget_bytes) : budget_(budget_bytes) {}
+
+  /// Records the end of an iteration; a record of the same iteration is kept as it was (a repeated iteration gives the same bits).
+  /// Positions are kept when the iteration number is a multiple of stride(); when the budget is full the stride doubles and
+  /// positions in between are let go: those iterations are computed again when asked for.
+  void record(const IterationRecord& record, const std::vector<Vec3>& positions);
+  [[nodiscard]] const std::vector<IterationRecord>& records() const noexcept { return records_; }
+
+  struct Kept {
+    std::uint64_t iteration;
+    std::vector<Vec3> positions;
+  };
+  /// The latest kept positions at or before `iteration`. The input (iteration 0) is always kept.
+  [[nodiscard]] const Kept& nearest(std::uint64_t iteration) const;
+  [[nodiscard]] bool kept(std::uint64_t iteration) const { return nearest(iteration).iteration == iteration; }
+
+  void set_budget(std::size_t bytes);
+  [[nodiscard]] std::size_t budget() const noexcept { return budget_; }
+  [[nodiscard]] std::size_t bytes() const noexcept;
+  /// Every how many iterations positions are kept: 1 until the budget is first met.
+  [[nodiscard]] std::uint64_t stride() const noexcept { return stride_; }
+  /// Empty while every iteration is kept; else a sentence that says which are and that the others are computed again on demand.
+  [[nodiscard]] std::string sentence() const;
+
+ private:
+  void thin();
+  std::size_t budget_;
+  std::uint64_t stride_ = 1;
+  std::vector<IterationRecord> records_;
+  std::vector<Kept> kept_;
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,39 @@
+#pragma once
+// The mesh of a session, with everything derived from it once. Immutable: runs, frames and views share it.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/mesh/mesh.h"
+#include "core/mesh/plane.h"
+#include "core/mesh/topology.h"
+#include "core/quality/quality.h"
+
+namespace dmoscope {
+
+struct InputMesh {
+  Mesh mesh;  // orientation normalised
+  Geometry geometry;
+  Topology topology;
+  MeshReport report;
+  std::filesystem::path path;               // empty for a generated mesh
+  std::vector<double> reference_measure;    // an element's mean |area| around it at input, > 0: divides its Jacobian while untangling
+  [[nodiscard]] QualityContext quality_context() const { return {mesh, geometry}; }
+};
+
+enum class Need { Smoothing, QualityOnly };
+
+/// Classifies, orients, examines and indexes a mesh. With Need::Smoothing a curved surface or a volume mesh is refused
+/// (InputError that names the file); with Need::QualityOnly only a volume mesh is.
+[[nodiscard]] std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path path, Need need, Progress& progress);
+
+/// read_mesh, then prepare_input.
+[[nodiscard]] std::shared_ptr<const InputMesh> load_input(const std::filesystem::path& path, Need need, Progress& progress);
+
+/// Orders the planar elements' findings (orientation, duplicates, ...); called by prepare_input, exposed for tests.
+[[nodiscard]] MeshReport examine(const Mesh& mesh, const Geometry& geometry);
+
+}  // namespace dmoscope

@@ -1,0 +1,112 @@
+#pragma once
+// A run: one method, metric and set of parameters on the input mesh, with its own positions and history.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/base/thread_pool.h"
+#include "core/mesh/colouring.h"
+#include "core/quality/quality.h"
+#include "core/search/parameters.h"
+#include "core/session/history.h"
+#include "core/session/input_mesh.h"
+
+namespace dmoscope {
+
+class Smoother;
+
+/// In which order an iteration visits the free vertices (before colouring).
+struct VisitOrder {
+  std::optional<std::uint64_t> seed;  // none: natural; else shuffled with this seed
+  friend bool operator==(const VisitOrder&, const VisitOrder&) = default;
+};
+
+struct RunParameters {
+  std::string method = "dmo";
+  Metric metric = Metric::MeanRatio;
+  SearchParameters search;
+  VisitOrder order;
+  std::vector<Index> fixed;  // the user's fixed set, besides boundary and unused vertices
+};
+
+enum class StepUnit { Vertex, Class, Iteration };
+
+/// When "until converged" stops.
+struct ConvergenceLimits {
+  std::uint64_t patience = 200;        // iterations without a rise of either minimum by `rise`
+  std::uint64_t max_iterations = 10000;
+  double rise = 1e-6;
+};
+enum class StopReason { NothingMoved, NoRise, IterationLimit, Cancelled };
+struct Outcome {
+  StopReason reason = StopReason::IterationLimit;
+  std::uint64_t iterations = 0;         // done by this call
+  std::uint64_t last_rise = 0;          // iteration in which a minimum last rose
+  /// "converged: no vertex moved in iteration 12; the minimum last rose in iteration 9"
+  [[nodiscard]] std::string sentence() const;
+};
+
+class Run {
+ public:
+  /// Throws UsageError for parameters out of range, an unknown method, or a metric not defined for the mesh.
+  Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::shared_ptr<ThreadPool> pool, std::size_t history_bytes);
+  ~Run();
+  Run(Run&&) noexcept;
+  Run& operator=(Run&&) noexcept;
+
+  [[nodiscard]] const InputMesh& input() const noexcept { return *input_; }
+  [[nodiscard]] const RunParameters& parameters() const noexcept { return parameters_; }
+  [[nodiscard]] std::string title() const;  // "dmo · mean-ratio"
+  [[nodiscard]] std::span<const Vec3> positions() const noexcept { return positions_; }
+  [[nodiscard]] const Moment& moment() const noexcept { return moment_; }
+  [[nodiscard]] const Colouring& colouring() const noexcept { return colouring_; }
+  /// 1 where a vertex may not move: boundary, unused, or the user's.
+  [[nodiscard]] std::span<const std::uint8_t> fixed() const noexcept { return fixed_; }
+  [[nodiscard]] std::uint64_t visits_per_iteration() const noexcept { return colouring_.order.size(); }
+  [[nodiscard]] const History& history() const noexcept { return history_; }
+  void set_history_budget(std::size_t bytes) { history_.set_budget(bytes); }
+
+  /// One vertex, one colour class (the rest of it when in its midst), or one iteration (likewise) forwards. Returns vertices moved.
+  /// On Cancelled the run stands at an exact moment between two visits; nothing is lost.
+  std::uint64_t step(StepUnit unit, Progress& progress);
+  /// The reverse: to the previous vertex, class start or iteration start. At the input: does nothing, returns false.
+  bool back(StepUnit unit, Progress& progress);
+  /// To any moment, past or future: restores the nearest kept positions before it and repeats the visits from there (the same bits).
+  void seek(Moment target, Progress& progress);
+
+  /// Called after every iteration of the two calls below, on the calling thread.
+  using AfterIteration = std::function<void(const Run&)>;
+  Outcome iterate(std::uint64_t iterations, Progress& progress, const AfterIteration& after = {});
+  Outcome until_converged(const ConvergenceLimits& limits, Progress& progress, const AfterIteration& after = {});
+
+ private:
+  void visit(std::uint64_t count, Progress& progress);
+  void begin_iteration();
+  void end_iteration();
+
+  std::shared_ptr<const InputMesh> input_;
+  RunParameters parameters_;
+  std::shared_ptr<ThreadPool> pool_;
+  std::unique_ptr<Smoother> smoother_;
+  std::vector<std::uint8_t> fixed_;
+  Colouring colouring_;
+  std::vector<Vec3> positions_;
+  Moment moment_;
+  std::uint64_t moved_ = 0;    // in the iteration under way
+  double seconds_ = 0.0;       // smoothing time of the iteration under way
+  History history_;
+};
+
+/// Names of the methods, with a doc line each.
+struct MethodInfo {
+  std::string_view name, doc;
+};
+[[nodiscard]] std::span<const MethodInfo> method_table();
+
+}  // namespace dmoscope

@@ -1,0 +1,61 @@
+#pragma once
+// A session: one input mesh and the runs on it. Plain state; engine.h gives it a thread of its own.
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/session/run.h"
+
+namespace dmoscope {
+
+class Session {
+ public:
+  static constexpr std::size_t kDefaultHistoryBytes = std::size_t{512} << 20U;
+
+  explicit Session(unsigned threads = 0);
+
+  /// Replaces input and runs by a mesh and one fresh run with the current parameters' method and metric (mean-ratio when the
+  /// metric is not defined for the new mesh). On any error the session stays as it was.
+  void open(const std::filesystem::path& path, Progress& progress);
+  void open(Mesh mesh, Progress& progress);
+  [[nodiscard]] bool has_input() const noexcept { return input_ != nullptr; }
+  /// Throws UsageError "no mesh is open".
+  [[nodiscard]] const std::shared_ptr<const InputMesh>& input() const;
+
+  [[nodiscard]] std::size_t run_count() const noexcept { return runs_.size(); }
+  [[nodiscard]] Run& run(std::size_t index);
+  [[nodiscard]] std::size_t active_index() const noexcept { return active_; }
+  [[nodiscard]] Run& active() { return run(active_); }
+  void select(std::size_t index);
+  /// Adds a run and makes it active; returns its index.
+  std::size_t add_run(RunParameters parameters);
+  /// Removes a run; the last one cannot be removed (UsageError).
+  void remove_run(std::size_t index);
+  /// Gives the active run other parameters: in place while it has not moved from the input, else as a new run beside it, so that
+  /// nothing is lost. Returns the index of the run that has them.
+  std::size_t change(RunParameters parameters);
+
+  /// Metric shown in colours, histogram and worst list; apart from the one a run optimises.
+  [[nodiscard]] Metric shown() const noexcept { return shown_; }
+  void show(Metric metric);
+  /// For all runs together; divided evenly.
+  void set_history_budget(std::size_t bytes);
+  void set_threads(unsigned threads);
+  [[nodiscard]] const std::shared_ptr<ThreadPool>& pool() const noexcept { return pool_; }
+
+ private:
+  void replace_input(std::shared_ptr<const InputMesh> input);
+  void share_history();
+
+  std::shared_ptr<ThreadPool> pool_;
+  std::size_t history_bytes_ = kDefaultHistoryBytes;
+  std::shared_ptr<const InputMesh> input_;
+  std::vector<Run> runs_;
+  std::size_t active_ = 0;
+  Metric shown_ = Metric::MeanRatio;
+};
+
+}  // namespace dmoscope

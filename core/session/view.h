@@ -1,0 +1,66 @@
+#pragma once
+// What the worker publishes and the window reads: immutable once published.
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/session/session.h"
+
+namespace dmoscope {
+
+/// Counts of element qualities. Bin i holds q in [lowest + i w, lowest + (i + 1) w); the last bin its upper end too.
+struct Histogram {
+  static constexpr std::size_t kBins = 64;
+  double lowest = 0.0, highest = 1.0;
+  std::array<Index, kBins> counts{};
+  Index below = 0;  // q < lowest (inverted elements when lowest is 0)
+  Index above = 0;
+};
+
+struct RankedElement {
+  Index element;
+  double quality;
+};
+
+/// One state of one run, ready to be drawn.
+struct Frame {
+  std::uint64_t serial = 0;         // grows with every frame: "did it change?"
+  std::uint64_t input_serial = 0;   // grows with every opened mesh: "must the topology be uploaded again?"
+  std::shared_ptr<const InputMesh> input;
+  std::size_t run = 0;
+  Moment moment;
+  Metric shown = Metric::MeanRatio;
+  std::vector<Vec3> positions;
+  std::vector<float> quality;        // of the shown metric, one an element; NaN where it is not defined
+  std::vector<std::uint8_t> inverted;  // one an element, 1 where a corner Jacobian is <= 0
+  Statistics shown_statistics;       // of the shown metric
+  Statistics statistics;             // of the metric the run optimises
+  Histogram before, now;             // of the shown metric: at the input, and here
+  std::vector<RankedElement> worst;  // of the shown metric, worst first, at most 100
+};
+
+struct RunView {
+  std::string title;
+  RunParameters parameters;
+  Moment moment;
+  std::uint64_t visits_per_iteration = 0;
+  Index class_count = 0;
+  Index free_vertices = 0;
+  std::vector<std::uint8_t> fixed;        // only of the active run, else empty; see Run::fixed
+  std::vector<IterationRecord> records;
+  std::string history_note;               // History::sentence()
+  std::string last_outcome;               // why it last stopped, may be empty
+};
+
+struct SessionView {
+  std::shared_ptr<const InputMesh> input;  // null: nothing is open
+  std::vector<RunView> runs;
+  std::size_t active = 0;
+  Metric shown = Metric::MeanRatio;
+  unsigned threads = 1;
+  std::shared_ptr<const Frame> frame;      // of the active run; null when nothing is open
+};
+
+}  // namespace dmoscope

@@ -26,15 +26,13 @@ struct ElementKindInfo {
   Index corners;
   int dimension;  // 2 or 3
 };
-[[nodiscard]] constexpr const ElementKindInfo& info(ElementKind kind) {
-  constexpr static std::array<ElementKindInfo, kElementKindCount> table{{{"triangle", "triangles", 3, 2},
-                                                                  {"quadrilateral", "quadrilaterals", 4, 2},
-                                                                  {"tetrahedron", "tetrahedra", 4, 3},
-                                                                  {"hexahedron", "hexahedra", 8, 3},
-                                                                  {"wedge", "wedges", 6, 3},
-                                                                  {"pyramid", "pyramids", 5, 3}}};
-  return table[static_cast<std::size_t>(kind)];
-}
+inline constexpr std::array<ElementKindInfo, kElementKindCount> kElementKinds{{{"triangle", "triangles", 3, 2},
+                                                                              {"quadrilateral", "quadrilaterals", 4, 2},
+                                                                              {"tetrahedron", "tetrahedra", 4, 3},
+                                                                              {"hexahedron", "hexahedra", 8, 3},
+                                                                              {"wedge", "wedges", 6, 3},
+                                                                              {"pyramid", "pyramids", 5, 3}}};
+[[nodiscard]] constexpr const ElementKindInfo& info(ElementKind kind) { return kElementKinds[static_cast<std::size_t>(kind)]; }
 
 /// Elements of any mix of kinds; the corners of all lie in one array, in VTK's order for each kind.
 class ElementTable {

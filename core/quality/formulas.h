@@ -1,0 +1,213 @@
+#pragma once
+// The definition of every metric, once, for any scalar and any vector type V that offers operator-, dot(V, V) and a signed
+// cross(V, V): points of the plane in double (statistics), in float or packs of float (search), vectors of a curved surface.
+//
+// Corners run counter-clockwise. Every value is 1 for the ideal element, <= 0 for an inverted or degenerate one
+// (mean-ratio-area cannot see a concave corner).
+
+#include <numbers>
+
+#include "core/base/vec.h"
+#include "core/quality/metric.h"
+#include "core/quality/scalar.h"
+
+namespace dmoscope::formulas {
+
+template <class V>
+using RealOf = decltype(dot(V{}, V{}));
+
+template <class R>
+inline constexpr R kPi = R(std::numbers::pi);
+template <class R>
+inline constexpr R kSqrt3 = R(std::numbers::sqrt3);
+
+/// Edge vectors and twice the signed area of the triangle a, b, c.
+template <class V>
+struct Triangle {
+  V ab, bc, ca;
+  RealOf<V> twice_area;
+  Triangle(V a, V b, V c) : ab(b - a), bc(c - b), ca(a - c), twice_area(cross(b - a, c - a)) {}
+};
+
+/// Edge vectors and the corner Jacobians a_i (cross product of the edges that leave corner i) of the quadrilateral a, b, c, d.
+template <class V>
+struct Quadrilateral {
+  using R = RealOf<V>;
+  V edge[4];
+  R jacobian[4];
+  Quadrilateral(V a, V b, V c, V d) : edge{b - a, c - b, d - c, a - d} {
+    for (int i = 0; i < 4; ++i) jacobian[i] = cross(edge[(i + 3) % 4], edge[i]);
+  }
+  /// Least of f(i, previous edge, next edge) over the corners.
+  template <class F>
+  R least(F f) const {
+    R result = f(0, edge[3], edge[0]);
+    for (int i = 1; i < 4; ++i) result = scalar::min(result, f(i, edge[i - 1], edge[i]));
+    return result;
+  }
+};
+
+/// Smallest signed corner Jacobian (twice the area of the corner's triangle). Inverted means <= 0.
+template <class V>
+RealOf<V> smallest_jacobian(const Triangle<V>& t) {
+  return t.twice_area;
+}
+template <class V>
+RealOf<V> smallest_jacobian(const Quadrilateral<V>& q) {
+  return scalar::min(scalar::min(q.jacobian[0], q.jacobian[1]), scalar::min(q.jacobian[2], q.jacobian[3]));
+}
+
+/// Interior angle between the edges u and v that leave a corner, 0 to pi. `area2`: |u x v|, the same at all three corners.
+template <class V>
+RealOf<V> angle(RealOf<V> area2, V u, V v) {
+  return scalar::atan2(area2, dot(u, v));
+}
+
+template <class V>
+RealOf<V> squared_length_sum(const Triangle<V>& t) {
+  return dot(t.ab, t.ab) + dot(t.bc, t.bc) + dot(t.ca, t.ca);
+}
+
+/// One specialisation a metric: triangle(...) and, where defined, quadrilateral(...).
+/// kSeesInversion: positive exactly where every corner Jacobian is positive.
+template <Metric M>
+struct Formula;
+
+/// Paper eq. (4); quadrilateral: Knupp's shape, least corner.
+template <>
+struct Formula<Metric::MeanRatio> {
+  static constexpr bool kSeesInversion = true;
+  template <class V>
+  static RealOf<V> triangle(const Triangle<V>& t) {
+    using R = RealOf<V>;
+    return scalar::ratio(R(2) * kSqrt3<R> * t.twice_area, squared_length_sum(t));
+  }
+  template <class V>
+  static RealOf<V> quadrilateral(const Quadrilateral<V>& q) {
+    using R = RealOf<V>;
+    return q.least([&](int i, V u, V v) { return scalar::ratio(R(2) * q.jacobian[i], dot(u, u) + dot(v, v)); });
+  }
+};
+
+/// Paper eq. (11), scaled to 1 for the square: 4 A / sum l^2. Cannot see a concave corner. On triangles it is the mean ratio.
+template <>
+struct Formula<Metric::MeanRatioArea> {
+  static constexpr bool kSeesInversion = false;
+  template <class V>
+  static RealOf<V> triangle(const Triangle<V>& t) {
+    return Formula<Metric::MeanRatio>::triangle(t);
+  }
+  template <class V>
+  static RealOf<V> quadrilateral(const Quadrilateral<V>& q) {
+    using R = RealOf<V>;
+    const R sum = dot(q.edge[0], q.edge[0]) + dot(q.edge[1], q.edge[1]) + dot(q.edge[2], q.edge[2]) + dot(q.edge[3], q.edge[3]);
+    return scalar::ratio(R(2) * (q.jacobian[1] + q.jacobian[3]), sum);  // 2 A = the two triangles at opposite corners
+  }
+};
+
+/// sign(A) 2 r / R = sign(A) 16 A^2 / (l1 l2 l3 (l1 + l2 + l3)).
+template <>
+struct Formula<Metric::RadiusRatio> {
+  static constexpr bool kSeesInversion = true;
+  template <class V>
+  static RealOf<V> triangle(const Triangle<V>& t) {
+    using R = RealOf<V>;
+    const R a = scalar::sqrt(dot(t.ab, t.ab)), b = scalar::sqrt(dot(t.bc, t.bc)), c = scalar::sqrt(dot(t.ca, t.ca));
+    return scalar::ratio(R(4) * t.twice_area * scalar::abs(t.twice_area), a * b * c * (a + b + c));
+  }
+};
+
+/// sign(A) 3 theta_min / pi.
+template <>
+struct Formula<Metric::MinAngle> {
+  static constexpr bool kSeesInversion = true;
+  template <class V>
+  static RealOf<V> triangle(const Triangle<V>& t) {
+    using R = RealOf<V>;
+    const R area2 = scalar::abs(t.twice_area);
+    const R least = scalar::min3(angle(area2, t.ab, V{} - t.ca), angle(area2, t.bc, V{} - t.ab), angle(area2, t.ca, V{} - t.bc));
+    return scalar::sign(t.twice_area) * (R(3) / kPi<R>)*least;
+  }
+};
+
+/// sign(A) 3/2 (1 - theta_max / pi).
+template <>
+struct Formula<Metric::MaxAngle> {
+  static constexpr bool kSeesInversion = true;
+  template <class V>
+  static RealOf<V> triangle(const Triangle<V>& t) {
+    using R = RealOf<V>;
+    const R area2 = scalar::abs(t.twice_area);
+    // pi - theta is the angle to the edge that arrives at the corner: nothing cancels near theta = pi.
+    const R least = scalar::min3(angle(area2, t.ab, t.ca), angle(area2, t.bc, t.ab), angle(area2, t.ca, t.bc));
+    return scalar::sign(t.twice_area) * (R(1.5) / kPi<R>)*least;
+  }
+};
+
+/// Paper eq. (9), (10): the best corner's closeness to a right angle with equal legs. One right angle is wanted, hence max.
+template <>
+struct Formula<Metric::Rectangularity> {
+  static constexpr bool kSeesInversion = true;
+  template <class V>
+  static RealOf<V> triangle(const Triangle<V>& t) {
+    using R = RealOf<V>;
+    const R area2 = scalar::abs(t.twice_area);
+    const R a = scalar::sqrt(dot(t.ab, t.ab)), b = scalar::sqrt(dot(t.bc, t.bc)), c = scalar::sqrt(dot(t.ca, t.ca));
+    const auto corner = [&](V u, V v, R length_u, R length_v) {
+      const R closeness = R(1) - scalar::abs(R(0.5) * kPi<R> - angle(area2, u, v)) / (R(0.5) * kPi<R>);
+      return closeness * scalar::ratio(scalar::min(length_u, length_v), scalar::max(length_u, length_v));
+    };
+    const R best = scalar::max3(corner(t.ab, V{} - t.ca, a, c), corner(t.bc, V{} - t.ab, b, a), corner(t.ca, V{} - t.bc, c, b));
+    return scalar::sign(t.twice_area) * best;
+  }
+};
+
+/// Triangle: (2 / sqrt 3) 2A / largest product of two edges; quadrilateral: least a_i / (l_i l_{i-1}). Verdict.
+template <>
+struct Formula<Metric::ScaledJacobian> {
+  static constexpr bool kSeesInversion = true;
+  template <class V>
+  static RealOf<V> triangle(const Triangle<V>& t) {
+    using R = RealOf<V>;
+    const R aa = dot(t.ab, t.ab), bb = dot(t.bc, t.bc), cc = dot(t.ca, t.ca);
+    const R product = scalar::sqrt(scalar::max3(aa * bb, bb * cc, cc * aa));
+    return scalar::ratio(R(2) / kSqrt3<R> * t.twice_area, product);
+  }
+  template <class V>
+  static RealOf<V> quadrilateral(const Quadrilateral<V>& q) {
+    return q.least([&](int i, V u, V v) { return scalar::ratio(q.jacobian[i], scalar::sqrt(dot(u, u) * dot(v, v))); });
+  }
+};
+
+/// 4 sqrt(3) A / (l_max (l1 + l2 + l3)). Verdict, inverted.
+template <>
+struct Formula<Metric::AspectRatio> {
+  static constexpr bool kSeesInversion = true;
+  template <class V>
+  static RealOf<V> triangle(const Triangle<V>& t) {
+    using R = RealOf<V>;
+    const R a = scalar::sqrt(dot(t.ab, t.ab)), b = scalar::sqrt(dot(t.bc, t.bc)), c = scalar::sqrt(dot(t.ca, t.ca));
+    return scalar::ratio(R(2) * kSqrt3<R> * t.twice_area, scalar::max3(a, b, c) * (a + b + c));
+  }
+};
+
+template <Metric M, class V>
+inline constexpr bool kDefinedForQuadrilaterals = requires(const Quadrilateral<V>& q) { Formula<M>::quadrilateral(q); };
+
+/// Calls f.template operator()<M>() with the run-time metric as a template argument.
+template <class F>
+decltype(auto) with_metric(Metric metric, F&& f) {
+  switch (metric) {
+    case Metric::MeanRatio: return f.template operator()<Metric::MeanRatio>();
+    case Metric::MeanRatioArea: return f.template operator()<Metric::MeanRatioArea>();
+    case Metric::RadiusRatio: return f.template operator()<Metric::RadiusRatio>();
+    case Metric::MinAngle: return f.template operator()<Metric::MinAngle>();
+    case Metric::MaxAngle: return f.template operator()<Metric::MaxAngle>();
+    case Metric::Rectangularity: return f.template operator()<Metric::Rectangularity>();
+    case Metric::ScaledJacobian: return f.template operator()<Metric::ScaledJacobian>();
+    case Metric::AspectRatio: break;
+  }
+  return f.template operator()<Metric::AspectRatio>();
+}
+
+}  // namespace dmoscope::formulas

@@ -1,0 +1,78 @@
+#pragma once
+// A planar mesh on the OpenGL side: its topology once, its positions and qualities again whenever they change.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "core/base/vec.h"
+#include "core/mesh/mesh.h"
+#include "core/mesh/plane.h"
+#include "core/session/view.h"
+#include "render/camera.h"
+#include "render/framebuffer.h"
+#include "render/style.h"
+
+namespace dmoscope::render {
+
+/// What lies under a pixel.
+struct Pick {
+  Index element = kNoIndex;      // the one drawn on top there; inverted elements lie above the others
+  Index vertex = kNoIndex;       // the nearest within the radius
+  double vertex_distance = 0.0;  // pixels; meaningful when there is a vertex
+};
+
+/// Whether to wait until a big mesh is made ready for drawing.
+enum class Loading { Wait, Background };
+
+/// Share of the elements worth drawing, (0, 1]: 1 except on software OpenGL while something moves (a drag, a run that is drawn
+/// live), where it is what keeps a frame below about 100 ms.
+[[nodiscard]] double suggested_detail(std::size_t element_count, bool is_software, bool moving);
+
+/// Draws and picks. Needs a current context in every member function but pick, bounds and the other questions.
+class MeshScene {
+ public:
+  MeshScene();
+  ~MeshScene();
+  MeshScene(MeshScene&&) noexcept;
+  MeshScene& operator=(MeshScene&&) noexcept;
+
+  /// Shows a frame: uploads topology when frame->input_serial differs from the last one's, positions and qualities in place when
+  /// frame->serial does; otherwise costs nothing. Null shows nothing. With Loading::Background the ordering of a big new mesh is
+  /// done on a thread of its own, and the scene shows nothing of it until a later call. Returns whether `frame` is on show now.
+  bool show(std::shared_ptr<const Frame> frame, Loading loading = Loading::Wait);
+
+  /// The same in two steps, for meshes without a session. Elements of `mesh` must be triangles and quadrilaterals (else
+  /// UsageError); the mesh is not kept.
+  void set_mesh(const Mesh& mesh, const Plane& plane);
+  /// positions: one a vertex. quality and inverted: one an element, as in Frame; inverted may be empty (none).
+  void update(std::span<const Vec3> positions, std::span<const float> quality, std::span<const std::uint8_t> inverted);
+
+  /// Which vertices are fixed (RunView::fixed), for Style::vertices; empty: all free.
+  void set_fixed(std::span<const std::uint8_t> fixed);
+
+  [[nodiscard]] bool empty() const noexcept;
+  [[nodiscard]] Index element_count() const noexcept;
+  /// Box of the vertices used by elements, in the plane; empty when nothing is shown. That of the positions shown last.
+  [[nodiscard]] const Bounds2& bounds() const noexcept;
+  /// Where a vertex is in the plane, as shown last.
+  [[nodiscard]] Vec2<double> vertex_point(Index vertex) const;
+  /// Box of an element's corners in the plane.
+  [[nodiscard]] Bounds2 element_bounds(Index element) const;
+
+  /// Clears `target` and draws all of it. detail in (0, 1]: below 1, when more than that share of the elements is in view, each
+  /// of an evenly spread subset stands for its neighbours as a small square (a group with an inverted element shows it),
+  /// and the wireframe is left out: the same picture for the same detail, coarser. Throws Error.
+  void draw(Framebuffer& target, const Camera2D& camera, const Style& style, const Marks& marks = {}, double detail = 1.0);
+
+  /// What is at `pixel` (of a viewport of that size) by exact geometry in double, not by colours. `radius`: how far a vertex may
+  /// be, in pixels. Milliseconds even for millions of elements.
+  [[nodiscard]] Pick pick(const Camera2D& camera, Vec2<double> viewport, Vec2<double> pixel, double radius = 8.0) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace dmoscope::render

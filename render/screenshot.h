@@ -1,0 +1,40 @@
+#pragma once
+// Pictures of a scene at any size.
+
+#include <optional>
+#include <string>
+
+#include "render/image.h"
+#include "render/scene.h"
+
+namespace dmoscope::render {
+
+/// Colour bar, drawn into the picture below the mesh.
+struct Legend {
+  std::string title;         // "mean ratio"
+  std::string subtitle;      // "east.14, dmo, iteration 4; minimum 0.8121"; may be empty
+  std::size_t inverted = 0;  // > 0: a magenta swatch with the number
+  bool undefined = false;    // a grey swatch "not defined"
+};
+
+struct Shot {
+  int width = 1280, height = 800;  // of the picture that comes out, legend included
+  int supersample = 2;             // n x n samples a pixel, 1 to 8
+  bool transparent = false;
+  std::optional<Legend> legend;
+  float scale = 1.0F;  // of text and line widths
+};
+
+struct Rendered {
+  Image image;
+  std::string note;  // what could not be done (no font: no text), else empty
+};
+
+/// Part of a Shot that the mesh gets: the viewport to fit a camera to.
+[[nodiscard]] Vec2<double> mesh_viewport(const Shot& shot);
+
+/// Draws the scene at full detail, supersampled, in tiles where OpenGL's limits ask for it. `camera` is for mesh_viewport(shot).
+/// Style::scale is multiplied by shot.scale. Throws UsageError for sizes out of range (1 to 32768), Error.
+[[nodiscard]] Rendered render_image(MeshScene& scene, const Camera2D& camera, const Style& style, const Marks& marks, const Shot& shot);
+
+}  // namespace dmoscope::render

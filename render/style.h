@@ -1,0 +1,56 @@
+#pragma once
+// How a scene looks, and what is marked in it.
+
+#include <optional>
+#include <vector>
+
+#include "core/base/vec.h"
+#include "render/colour_map.h"
+
+namespace dmoscope::render {
+
+/// Widths are in pixels at scale 1; `scale` multiplies them all (HiDPI, supersampling).
+struct Style {
+  ColourScale colours;
+  Rgb background{0x1b, 0x1e, 0x23};
+  bool transparent = false;  // background with alpha 0 instead
+  bool wireframe = true;     // edges of elements; they fade out where elements get smaller than a few pixels
+  float wire_width = 1.0F;
+  Rgba wire_colour{0x10, 0x12, 0x16, 190};
+  bool boundary = true;  // edges that have one element
+  float boundary_width = 1.6F;
+  Rgba boundary_colour{0xe6, 0xe9, 0xee, 255};
+  bool vertices = false;  // dots for free (round) and fixed (square) vertices, once there is room for them
+  Rgba free_colour{0xff, 0xff, 0xff, 255};
+  Rgba fixed_colour{0xff, 0xb0, 0x3a, 255};
+  Rgba highlight_colour{0xff, 0xff, 0xff, 255};  // outlines, dots and the ring; drawn on a casing of the opposite lightness
+  Rgba casing_colour{0x10, 0x12, 0x16, 230};
+  float scale = 1.0F;
+  [[nodiscard]] static Style dark();
+  [[nodiscard]] static Style light();
+};
+
+/// A dot at a point of the plane (a candidate of the grid).
+struct OverlayDot {
+  Vec2<double> point;
+  float diameter = 6.0F;  // pixels
+  Rgba colour{255, 255, 255, 255};
+  bool square = false;
+};
+/// A straight line between two points of the plane (the box of a candidate grid, a vertex's path).
+struct OverlayLine {
+  Vec2<double> from, to;
+  float width = 1.5F;  // pixels
+  Rgba colour{255, 255, 255, 255};
+};
+
+/// What is marked on top of the elements, in this order.
+struct Marks {
+  std::vector<Index> elements;  // outlined
+  std::vector<Index> vertices;  // dots
+  std::optional<Index> worst;   // element with a ring around it
+  std::vector<OverlayLine> lines;
+  std::vector<OverlayDot> dots;
+};
+
+}  // namespace dmoscope::render

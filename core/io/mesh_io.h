@@ -30,7 +30,8 @@ struct FormatInfo {
 /// otherwise the file is made anew, in the file's own winding (mesh.flipped undone). Written beside the target and renamed: on any
 /// failure the old file stands. Returns one sentence for each thing the format could not carry. Throws OutputError, UsageError
 /// (unknown extension), Cancelled.
-std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress);
+std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions,
+                                    Progress& progress);
 
 /// Writes bytes beside `path` and renames: all or nothing. Throws OutputError.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);

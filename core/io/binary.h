@@ -1,0 +1,89 @@
+#pragma once
+// Numbers in binary files, of either byte order.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/progress.h"
+
+namespace dmoscope {
+
+/// The number whose bytes begin at `bytes` (sizeof(Number) of them).
+template <class Number>
+requires std::is_arithmetic_v<Number>
+[[nodiscard]] Number load_number(const char* bytes, bool big_endian) noexcept {
+  std::array<char, sizeof(Number)> raw;
+  std::memcpy(raw.data(), bytes, raw.size());
+  if (big_endian != (std::endian::native == std::endian::big)) std::reverse(raw.begin(), raw.end());
+  return std::bit_cast<Number>(raw);
+}
+
+/// The bytes of a number in a byte order.
+template <class Number>
+requires std::is_arithmetic_v<Number>
+[[nodiscard]] std::array<char, sizeof(Number)> store_number(Number value, bool big_endian) noexcept {
+  auto raw = std::bit_cast<std::array<char, sizeof(Number)>>(value);
+  if (big_endian != (std::endian::native == std::endian::big)) std::reverse(raw.begin(), raw.end());
+  return raw;
+}
+
+/// Walks through binary data; every error is an InputError without a line.
+class BinaryReader {
+ public:
+  BinaryReader(std::string_view bytes, std::size_t offset, bool big_endian, std::string file, Progress& progress)
+      : bytes_(bytes), offset_(offset), big_endian_(big_endian), file_(std::move(file)), progress_(&progress) {}
+
+  [[nodiscard]] std::size_t offset() const noexcept { return offset_; }
+  [[nodiscard]] std::size_t remaining() const noexcept { return bytes_.size() - offset_; }
+  /// The next number; `what` names it for the error when the file ends before it.
+  template <class Number>
+  [[nodiscard]] Number read(std::string_view what) {
+    require(sizeof(Number), what);
+    const Number value = load_number<Number>(bytes_.data() + offset_, big_endian_);
+    offset_ += sizeof(Number);
+    if (offset_ >= next_report_) report();
+    return value;
+  }
+  void skip(std::size_t count, std::string_view what) {
+    require(count, what);
+    offset_ += count;
+    if (offset_ >= next_report_) report();
+  }
+  /// Throws InputError unless `count` pieces of `bytes_each` are left: call it before allocating for them.
+  void require_count(std::uint64_t count, std::size_t bytes_each, std::string_view what) const {
+    if (count > remaining() / bytes_each) {
+      fail(fmt::format("truncated: {} {} need more than the {} bytes left", count, what, remaining()));
+    }
+  }
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(file_, 0, what); }
+
+ private:
+  void require(std::size_t count, std::string_view what) const {
+    if (count > remaining()) fail(fmt::format("truncated: the file ends in {}", what));
+  }
+  void report() {
+    next_report_ = offset_ + (std::size_t{1} << 20);
+    progress_->check();
+    progress_->set(static_cast<double>(offset_) / static_cast<double>(bytes_.size() + 1));
+  }
+
+  std::string_view bytes_;
+  std::size_t offset_;
+  bool big_endian_;
+  std::string file_;
+  Progress* progress_;
+  std::size_t next_report_ = 0;
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,66 @@
+#pragma once
+// What a format has to give (for readers and writers only; others use mesh_io.h), and what writers share.
+//
+// A new format is one header-less source file core/io/<name>.cpp with a function `const FormatHandler& <name>_format()`, declared
+// below and listed in formats.cpp.
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/io/atomic_file.h"
+#include "core/io/mesh_io.h"
+#include "core/io/source_file.h"
+#include "core/mesh/mesh.h"
+
+namespace dmoscope {
+
+/// Sentences for a person: what a file could not carry.
+using Notes = std::vector<std::string>;
+
+struct FormatHandler {
+  FormatInfo info;
+  /// Do these bytes certainly begin a file of this format, whatever its name? Null or false: the extension decides.
+  bool (*recognises)(std::string_view bytes);
+  /// Parses source.bytes() and fills in the source's layout, places, only_in_file and notes. Sets neither Mesh::name nor
+  /// Mesh::source. Throws InputError, Cancelled.
+  Mesh (*read)(SourceFile& source, Progress& progress);
+  /// Makes a file anew from `mesh` at `positions`. Does not name what SourceFile::only_in_file() holds (write_mesh does).
+  /// Throws OutputError if the format cannot hold the mesh at all (its kinds of element, its z), Cancelled.
+  Notes (*write)(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress);
+  /// Writes mesh.source again with moved coordinates. Null: write_patched() of patch_writer.h.
+  Notes (*patch)(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress) = nullptr;
+};
+
+[[nodiscard]] const FormatHandler& off_format();
+[[nodiscard]] const FormatHandler& obj_format();
+[[nodiscard]] const FormatHandler& ply_format();
+[[nodiscard]] const FormatHandler& stl_format();
+[[nodiscard]] const FormatHandler& vtk_format();
+[[nodiscard]] const FormatHandler& fort14_format();
+[[nodiscard]] const FormatHandler& su2_format();
+
+/// All of them, in the order of format_table().
+[[nodiscard]] std::span<const FormatHandler* const> format_handlers();
+
+/// Appends an element. Throws InputError when the corners of all elements would no longer be counted by an Index.
+void add_element(Mesh& mesh, ElementKind kind, std::span<const Index> corners, const SourceFile& source);
+
+/// The corners of an element in the file's own winding (Mesh::flipped undone); `buffer` holds them where they differ.
+[[nodiscard]] std::span<const Index> file_corners(const Mesh& mesh, Index element, std::array<Index, 8>& buffer);
+
+/// Throws OutputError if the mesh has an element of three dimensions: "... holds only triangles and quadrilaterals".
+void require_surface_elements(const AtomicFile& file, const Mesh& mesh, std::string_view format_title);
+
+/// For a format with only x and y: z must be the same everywhere; a z other than 0 is named in the notes.
+/// Throws OutputError if z differs between vertices.
+void require_constant_z(const AtomicFile& file, std::span<const Vec3> positions, std::string_view format_title, Notes& notes);
+
+/// One sentence for each field or group that is not in `kept_fields` / `kept_groups` (indices into mesh.fields / mesh.groups).
+void note_dropped(const Mesh& mesh, std::span<const std::size_t> kept_fields, std::span<const std::size_t> kept_groups,
+                  std::string_view format_title, Notes& notes);
+
+}  // namespace dmoscope

@@ -1,0 +1,187 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/io/format.h"
+#include "core/io/mesh_io.h"
+#include "core/io/patch_writer.h"
+#include "core/io/tokenizer.h"
+
+namespace dmoscope {
+namespace {
+
+const std::array<const FormatHandler*, 4>& handlers() {
+  static const std::array<const FormatHandler*, 4> table{&off_format(), &obj_format(), &fort14_format(), &su2_format()};
+  return table;
+}
+
+/// The format with this extension (".off", whatever its case), null if there is none.
+const FormatHandler* by_extension(std::string_view extension) {
+  if (extension.size() < 2) return nullptr;
+  for (const FormatHandler* handler : handlers()) {
+    std::string_view list = handler->info.extensions;
+    while (!list.empty()) {
+      const std::string_view one = list.substr(0, list.find(' '));
+      if (equal_ignoring_case(one, extension)) return handler;
+      list.remove_prefix(std::min(list.size(), one.size() + 1));
+    }
+  }
+  return nullptr;
+}
+
+/// "off (.off), obj (.obj), ..."
+std::string known_formats() {
+  std::string result;
+  for (const FormatHandler* handler : handlers()) {
+    result += fmt::format("{}{} ({})", result.empty() ? "" : ", ", handler->info.name, handler->info.extensions);
+  }
+  return result;
+}
+
+const FormatHandler& format_of(const std::filesystem::path& path, std::string_view bytes) {
+  const FormatHandler* named = by_extension(path.extension().string());
+  const auto certain = [bytes](const FormatHandler* handler) { return handler->recognises != nullptr && handler->recognises(bytes); };
+  if (named != nullptr && certain(named)) return *named;
+  for (const FormatHandler* handler : handlers()) {
+    if (certain(handler)) return *handler;
+  }
+  if (named == nullptr) throw InputError(path.string(), 0, "unknown format; known are " + known_formats());
+  return *named;
+}
+
+/// Are the bytes of the source all that a mesh of this format needs, but for the coordinates?
+bool can_patch(const Mesh& mesh, const FormatHandler& handler) {
+  return mesh.source && mesh.source->format() == handler.info.name && mesh.source->not_patchable().empty();
+}
+
+Notes write_anew(AtomicFile& file, const FormatHandler& handler, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress) {
+  Notes notes = handler.write(file, mesh, positions, progress);
+  if (!mesh.source) return notes;
+  if (mesh.source->format() == handler.info.name) {
+    notes.push_back(fmt::format("The file was made anew: {}.", mesh.source->not_patchable()));
+  }
+  for (const std::string& thing : mesh.source->only_in_file()) {
+    notes.push_back(fmt::format("Dropped: {} of {}.", thing, mesh.source->path().filename().string()));
+  }
+  return notes;
+}
+
+void require_finite(const std::filesystem::path& path, std::span<const Vec3> positions) {
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    const Vec3 p = positions[v];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      throw OutputError(path.string(), fmt::format("vertex {} has a coordinate that is not finite", v));
+    }
+  }
+}
+
+}  // namespace
+
+std::span<const FormatHandler* const> format_handlers() { return handlers(); }
+
+std::span<const FormatInfo> format_table() {
+  static const std::vector<FormatInfo> table = [] {
+    std::vector<FormatInfo> result;
+    for (const FormatHandler* handler : handlers()) result.push_back(handler->info);
+    return result;
+  }();
+  return table;
+}
+
+Mesh read_mesh(const std::filesystem::path& path, Progress& progress) {
+  progress.begin("reading " + path.filename().string());
+  auto source = std::make_shared<SourceFile>(path, read_whole_file(path, progress));
+  if (source->bytes().empty()) throw InputError(path.string(), 0, "the file is empty");
+  const FormatHandler& handler = format_of(path, source->bytes());
+  source->set_format(handler.info.name);
+  Mesh mesh = handler.read(*source, progress);
+  mesh.name = path.filename().string();
+  mesh.source = std::move(source);
+  progress.set(1.0);
+  return mesh;
+}
+
+std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions,
+                                    Progress& progress) {
+  progress.begin("writing " + path.filename().string());
+  const FormatHandler* handler = by_extension(path.extension().string());
+  if (handler == nullptr) {
+    throw UsageError(fmt::format("{}: unknown extension {}; known formats are {}", path.string(), quote_token(path.extension().string()),
+                                 known_formats()));
+  }
+  if (positions.size() != mesh.positions.size()) {
+    throw UsageError(fmt::format("{}: {} positions for {} vertices", path.string(), positions.size(), mesh.positions.size()));
+  }
+  require_finite(path, positions);
+  AtomicFile file(path);
+  Notes notes;
+  if (can_patch(mesh, *handler)) {
+    notes = (handler->patch != nullptr ? handler->patch : write_patched)(file, mesh, positions, progress);
+  } else {
+    notes = write_anew(file, *handler, mesh, positions, progress);
+  }
+  progress.check();
+  file.commit();
+  progress.set(1.0);
+  return notes;
+}
+
+void add_element(Mesh& mesh, ElementKind kind, std::span<const Index> corners, const SourceFile& source) {
+  if (mesh.elements.all_corners().size() + corners.size() >= kNoIndex) {
+    throw InputError(source.path().string(), 0, fmt::format("too large: the elements have {} corners or more", kNoIndex));
+  }
+  mesh.elements.add(kind, corners);
+}
+
+std::span<const Index> file_corners(const Mesh& mesh, Index element, std::array<Index, 8>& buffer) {
+  const std::span<const Index> corners = mesh.elements.corners(element);
+  if (mesh.flipped.empty() || mesh.flipped[element] == 0) return corners;
+  std::copy(corners.begin(), corners.end(), buffer.begin());
+  std::swap(buffer[1], buffer[corners.size() - 1]);
+  return {buffer.data(), corners.size()};
+}
+
+void require_surface_elements(const AtomicFile& file, const Mesh& mesh, std::string_view format_title) {
+  for (const ElementKind kind : mesh.elements.kinds()) {
+    if (info(kind).dimension == 3) {
+      throw OutputError(file.path().string(),
+                        fmt::format("{} holds only triangles and quadrilaterals, and the mesh has {}", format_title, info(kind).plural));
+    }
+  }
+}
+
+void require_constant_z(const AtomicFile& file, std::span<const Vec3> positions, std::string_view format_title, Notes& notes) {
+  if (positions.empty()) return;
+  const double z = positions.front().z;
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    if (positions[v].z != z) {
+      throw OutputError(file.path().string(), fmt::format("{} holds only x and y, but vertex {} has z = {} and vertex 0 z = {}",
+                                                          format_title, v, positions[v].z, z));
+    }
+  }
+  if (z != 0.0) notes.push_back(fmt::format("Dropped: z = {} of every vertex; {} holds only x and y.", z, format_title));
+}
+
+void note_dropped(const Mesh& mesh, std::span<const std::size_t> kept_fields, std::span<const std::size_t> kept_groups,
+                  std::string_view format_title, Notes& notes) {
+  const auto has = [](std::span<const std::size_t> list, std::size_t i) { return std::find(list.begin(), list.end(), i) != list.end(); };
+  for (std::size_t i = 0; i < mesh.fields.size(); ++i) {
+    if (has(kept_fields, i)) continue;
+    const Field& field = mesh.fields[i];
+    notes.push_back(fmt::format("Dropped: field \"{}\" of the {}; {} cannot carry it.", field.name,
+                                field.on == Field::On::Vertices ? "vertices" : "elements", format_title));
+  }
+  for (std::size_t i = 0; i < mesh.groups.size(); ++i) {
+    if (has(kept_groups, i)) continue;
+    const Group& group = mesh.groups[i];
+    notes.push_back(
+        fmt::format("Dropped: {} \"{}\"; {} cannot carry it.", group.role.empty() ? "group" : group.role, group.name, format_title));
+  }
+}
+
+}  // namespace dmoscope

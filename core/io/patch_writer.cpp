@@ -1,0 +1,139 @@
+#include "core/io/patch_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/io/binary.h"
+#include "core/io/source_file.h"
+#include "core/io/text_writer.h"
+#include "core/io/tokenizer.h"
+
+namespace dmoscope {
+namespace {
+
+using Coordinates = std::array<double, 3>;
+
+Coordinates coordinates(Vec3 p) { return {p.x, p.y, p.z}; }
+
+bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+
+/// Copies the source and replaces in it, place after place.
+class Patcher {
+ public:
+  Patcher(AtomicFile& file, const SourceFile& source, Progress& progress)
+      : file_(file),
+        source_(source),
+        layout_(source.layout()),
+        out_(file, progress),
+        tokens_(source.bytes(), source.path().string(), source.layout().syntax, progress) {
+    std::sort(order_.begin(), order_.begin() + layout_.components,
+              [this](std::size_t a, std::size_t b) { return layout_.at[a] < layout_.at[b]; });
+  }
+
+  void place(std::size_t i, const Coordinates& before, const Coordinates& after) {
+    const std::size_t vertex = source_.vertex_at(i);
+    if (layout_.components == 2 && after[2] != 0.0) {
+      throw OutputError(file_.path().string(), fmt::format("vertex {} has z = {}, but the file holds only x and y", vertex, after[2]));
+    }
+    bool any = false;
+    for (int k = 0; k < layout_.components; ++k) {
+      const auto c = static_cast<std::size_t>(k);
+      any = any || !same_bits(before[c], after[c]);
+    }
+    if (!any) return;
+    if (layout_.binary) {
+      binary_place(i, before, after);
+    } else {
+      text_place(i, before, after);
+    }
+  }
+
+  std::vector<std::string> finish() {
+    copy_until(source_.bytes().size());
+    out_.finish();
+    if (rounded_ == 0) return {};
+    return {fmt::format("{} moved coordinates were rounded to 32-bit floats, which is what the file holds.", rounded_)};
+  }
+
+ private:
+  void copy_until(std::size_t offset) {
+    constexpr std::size_t kPiece = std::size_t{1} << 20;  // so that a cancel is seen in time
+    while (copied_ < offset) {
+      const std::size_t size = std::min(kPiece, offset - copied_);
+      out_ << source_.bytes().substr(copied_, size);
+      copied_ += size;
+    }
+  }
+
+  void text_place(std::size_t i, const Coordinates& before, const Coordinates& after) {
+    tokens_.seek(source_.place(i));
+    std::uint32_t next = 0;  // number of the token that comes next
+    for (int k = 0; k < layout_.components; ++k) {
+      const std::size_t c = order_[static_cast<std::size_t>(k)];
+      std::string_view token;
+      for (; next <= layout_.at[c]; ++next) token = tokens_.token();
+      if (same_bits(before[c], after[c])) continue;
+      copy_until(tokens_.offset_of(token));
+      out_ << after[c];
+      copied_ += token.size();
+    }
+  }
+
+  void binary_place(std::size_t i, const Coordinates& before, const Coordinates& after) {
+    for (int k = 0; k < layout_.components; ++k) {
+      const std::size_t c = order_[static_cast<std::size_t>(k)];
+      if (same_bits(before[c], after[c])) continue;
+      copy_until(source_.place(i) + layout_.at[c]);
+      if (layout_.scalar[c] == CoordinateScalar::Float64) {
+        put(after[c]);
+      } else {
+        put(to_float(after[c], source_.vertex_at(i)));
+      }
+    }
+  }
+
+  float to_float(double value, std::size_t vertex) {
+    const auto rounded = static_cast<float>(value);
+    if (!std::isfinite(rounded)) {
+      throw OutputError(file_.path().string(), fmt::format("coordinate {} of vertex {} is too large for a 32-bit float", value, vertex));
+    }
+    if (static_cast<double>(rounded) != value) ++rounded_;
+    return rounded;
+  }
+
+  template <class Number>
+  void put(Number value) {
+    const auto bytes = store_number(value, layout_.big_endian);
+    out_ << std::string_view(bytes.data(), bytes.size());
+    copied_ += bytes.size();
+  }
+
+  AtomicFile& file_;
+  const SourceFile& source_;
+  const CoordinateLayout& layout_;
+  TextWriter out_;
+  Tokenizer tokens_;
+  std::array<std::size_t, 3> order_{0, 1, 2};  // components as they come in the file
+  std::size_t copied_ = 0;                     // bytes of the source that were copied or replaced
+  std::size_t rounded_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::string> write_patched(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress) {
+  const SourceFile& source = *mesh.source;
+  Patcher patcher(file, source, progress);
+  for (std::size_t i = 0; i < source.place_count(); ++i) {
+    const std::size_t vertex = source.vertex_at(i);
+    patcher.place(i, coordinates(mesh.positions[vertex]), coordinates(positions[vertex]));
+  }
+  return patcher.finish();
+}
+
+}  // namespace dmoscope

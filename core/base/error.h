@@ -20,9 +20,7 @@ class Error : public std::runtime_error {
 class InputError : public Error {
  public:
   InputError(std::string file, std::size_t line, const std::string& what)
-      : Error(line == 0 ? file + ": " + what : file + ":" + std::to_string(line) + ": " + what),
-        file_(std::move(file)),
-        line_(line) {}
+      : Error(line == 0 ? file + ": " + what : file + ":" + std::to_string(line) + ": " + what), file_(std::move(file)), line_(line) {}
   [[nodiscard]] const std::string& file() const noexcept { return file_; }
   /// 1-based line, 0 where a line makes no sense (binary data, missing file).
   [[nodiscard]] std::size_t line() const noexcept { return line_; }

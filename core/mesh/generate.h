@@ -11,8 +11,8 @@
 namespace dmoscope {
 
 struct GeneratorInfo {
-  std::string_view name;   // "coast"
-  std::string_view doc;    // one line
+  std::string_view name;     // "coast"
+  std::string_view doc;      // one line
   std::size_t default_size;  // about how many vertices without --size
 };
 /// coast, block, annulus, random, quads, mixed, tangled, grid.

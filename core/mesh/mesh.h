@@ -27,11 +27,11 @@ struct ElementKindInfo {
   int dimension;  // 2 or 3
 };
 inline constexpr std::array<ElementKindInfo, kElementKindCount> kElementKinds{{{"triangle", "triangles", 3, 2},
-                                                                              {"quadrilateral", "quadrilaterals", 4, 2},
-                                                                              {"tetrahedron", "tetrahedra", 4, 3},
-                                                                              {"hexahedron", "hexahedra", 8, 3},
-                                                                              {"wedge", "wedges", 6, 3},
-                                                                              {"pyramid", "pyramids", 5, 3}}};
+                                                                               {"quadrilateral", "quadrilaterals", 4, 2},
+                                                                               {"tetrahedron", "tetrahedra", 4, 3},
+                                                                               {"hexahedron", "hexahedra", 8, 3},
+                                                                               {"wedge", "wedges", 6, 3},
+                                                                               {"pyramid", "pyramids", 5, 3}}};
 [[nodiscard]] constexpr const ElementKindInfo& info(ElementKind kind) { return kElementKinds[static_cast<std::size_t>(kind)]; }
 
 /// Elements of any mix of kinds; the corners of all lie in one array, in VTK's order for each kind.
@@ -85,10 +85,10 @@ struct Field {
 /// A named set that the file carried: boundary strings of fort.14, markers of SU2.
 struct Group {
   std::string name;
-  std::string role;             // "open boundary", "land boundary", "marker", ...
-  int code = 0;                 // the file's number for it (IBTYPE of fort.14), 0 if it has none
-  int dimension = 0;            // 0: members are vertices; 1: members are edges, two vertices each; 2: elements
-  std::vector<Index> members;   // 0-based
+  std::string role;            // "open boundary", "land boundary", "marker", ...
+  int code = 0;                // the file's number for it (IBTYPE of fort.14), 0 if it has none
+  int dimension = 0;           // 0: members are vertices; 1: members are edges, two vertices each; 2: elements
+  std::vector<Index> members;  // 0-based
 };
 
 struct Mesh {

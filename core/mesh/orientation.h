@@ -7,8 +7,8 @@
 namespace dmoscope {
 
 struct OrientationReport {
-  Index components = 0;  // edge-connected components
-  Index flipped = 0;     // elements whose winding was reversed
+  Index components = 0;      // edge-connected components
+  Index flipped = 0;         // elements whose winding was reversed
   Index contradictions = 0;  // edges across which no consistent winding exists (non-orientable or non-manifold)
 };
 

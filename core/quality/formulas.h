@@ -192,20 +192,30 @@ struct Formula<Metric::AspectRatio> {
 };
 
 template <Metric M, class V>
-inline constexpr bool kDefinedForQuadrilaterals = requires(const Quadrilateral<V>& q) { Formula<M>::quadrilateral(q); };
+inline constexpr bool kDefinedForQuadrilaterals = requires(const Quadrilateral<V>& q) {
+  Formula<M>::quadrilateral(q);
+};
 
 /// Calls f.template operator()<M>() with the run-time metric as a template argument.
 template <class F>
 decltype(auto) with_metric(Metric metric, F&& f) {
   switch (metric) {
-    case Metric::MeanRatio: return f.template operator()<Metric::MeanRatio>();
-    case Metric::MeanRatioArea: return f.template operator()<Metric::MeanRatioArea>();
-    case Metric::RadiusRatio: return f.template operator()<Metric::RadiusRatio>();
-    case Metric::MinAngle: return f.template operator()<Metric::MinAngle>();
-    case Metric::MaxAngle: return f.template operator()<Metric::MaxAngle>();
-    case Metric::Rectangularity: return f.template operator()<Metric::Rectangularity>();
-    case Metric::ScaledJacobian: return f.template operator()<Metric::ScaledJacobian>();
-    case Metric::AspectRatio: break;
+    case Metric::MeanRatio:
+      return f.template operator()<Metric::MeanRatio>();
+    case Metric::MeanRatioArea:
+      return f.template operator()<Metric::MeanRatioArea>();
+    case Metric::RadiusRatio:
+      return f.template operator()<Metric::RadiusRatio>();
+    case Metric::MinAngle:
+      return f.template operator()<Metric::MinAngle>();
+    case Metric::MaxAngle:
+      return f.template operator()<Metric::MaxAngle>();
+    case Metric::Rectangularity:
+      return f.template operator()<Metric::Rectangularity>();
+    case Metric::ScaledJacobian:
+      return f.template operator()<Metric::ScaledJacobian>();
+    case Metric::AspectRatio:
+      break;
   }
   return f.template operator()<Metric::AspectRatio>();
 }

@@ -1,10 +1,10 @@
 #include "core/quality/metric.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <string>
+
+#include <fmt/format.h>
 
 #include "core/base/error.h"
 
@@ -18,18 +18,15 @@ constexpr std::array<MetricInfo, kMetricCount> kTable{{
     {Metric::MeanRatioArea, "mean-ratio-area", "Mean ratio by area", true, true, -1.0, 1.0, 0.3,
      "quadrilateral: 4 A / Σ l²;  triangle: the mean ratio",
      "The paper's quadrilateral metric (eq. 11) scaled to 1 for a square. It cannot see a concave corner."},
-    {Metric::RadiusRatio, "radius-ratio", "Radius ratio", true, false, -1.0, 1.0, 0.3, "sign(A) 2 r / R",
-     "Incircle against circumcircle."},
-    {Metric::MinAngle, "min-angle", "Minimum angle", true, false, -1.0, 1.0, 0.5, "sign(A) 3 θmin / π",
-     "Smallest angle against 60°."},
+    {Metric::RadiusRatio, "radius-ratio", "Radius ratio", true, false, -1.0, 1.0, 0.3, "sign(A) 2 r / R", "Incircle against circumcircle."},
+    {Metric::MinAngle, "min-angle", "Minimum angle", true, false, -1.0, 1.0, 0.5, "sign(A) 3 θmin / π", "Smallest angle against 60°."},
     {Metric::MaxAngle, "max-angle", "Maximum angle", true, false, -1.0, 1.0, 0.5, "sign(A) 1.5 (1 − θmax / π)",
      "Largest angle against 60°; 0 at 180°."},
     {Metric::Rectangularity, "rectangularity", "Rectangularity", true, false, -1.0, 1.0, 0.5,
      "sign(A) maxᵢ (1 − |π/2 − θᵢ| / (π/2)) (1 − |eᵢⱼ − eᵢₖ| / max(eᵢⱼ, eᵢₖ))",
      "One right angle with equal legs (paper eq. 9, 10). Not quasiconcave."},
-    {Metric::ScaledJacobian, "scaled-jacobian", "Scaled Jacobian", true, true, -2.0 / 1.7320508075688772, 2.0 / 1.7320508075688772, 0.5,
-     "triangle: (2/√3) 2A / largest product of two edges;  quadrilateral: min aᵢ / (lᵢ lᵢ₋₁)",
-     "Sine of the worst corner (Verdict)."},
+    {Metric::ScaledJacobian, "scaled-jacobian", "Scaled Jacobian", true, true, -1.0, 1.0, 0.5,
+     "triangle: (2/√3) 2A / largest product of two edges;  quadrilateral: min aᵢ / (lᵢ lᵢ₋₁)", "Sine of the worst corner (Verdict)."},
     {Metric::AspectRatio, "aspect-ratio", "Aspect ratio", true, false, -1.0, 1.0, 0.3, "4√3 A / (lmax Σ l)",
      "Longest edge against the inradius (Verdict's value inverted)."},
 }};

@@ -10,16 +10,7 @@
 namespace dmoscope {
 
 /// q(element): 1 for the ideal element, <= 0 for an inverted one (mean-ratio-area cannot see a concave corner).
-enum class Metric : std::uint8_t {
-  MeanRatio,
-  MeanRatioArea,
-  RadiusRatio,
-  MinAngle,
-  MaxAngle,
-  Rectangularity,
-  ScaledJacobian,
-  AspectRatio
-};
+enum class Metric : std::uint8_t { MeanRatio, MeanRatioArea, RadiusRatio, MinAngle, MaxAngle, Rectangularity, ScaledJacobian, AspectRatio };
 inline constexpr std::size_t kMetricCount = 8;
 
 struct MetricInfo {

@@ -121,7 +121,8 @@ void element_qualities(const QualityContext& context, std::span<const Vec3> posi
   });
 }
 
-double vertex_quality(const QualityContext& context, const Topology& topology, std::span<const Vec3> positions, Metric metric, Index vertex) {
+double vertex_quality(const QualityContext& context, const Topology& topology, std::span<const Vec3> positions, Metric metric,
+                      Index vertex) {
   return formulas::with_metric(metric, [&]<Metric M>() {
     double least = kInfinity;
     for (const Incidence& incidence : topology.star(vertex)) least = std::min(least, quality_of<M>(context, positions, incidence.element));
@@ -155,7 +156,8 @@ Statistics compute_statistics(const QualityContext& context, std::span<const Vec
     total.defined += partial.defined;
   }
   return {total.minimum, total.defined > 0 ? total.sum / static_cast<double>(total.defined) : kUndefined,
-          total.movable, total.ceiling, total.worst, total.inverted};
+          total.movable, total.ceiling,
+          total.worst,   total.inverted};
 }
 
 }  // namespace dmoscope

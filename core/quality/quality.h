@@ -27,7 +27,8 @@ struct QualityContext {
 [[nodiscard]] double smallest_jacobian(const QualityContext& context, std::span<const Vec3> positions, Index element);
 
 /// Quality of every element, out.size() == mesh.elements.size().
-void element_qualities(const QualityContext& context, std::span<const Vec3> positions, Metric metric, ThreadPool* pool, std::span<double> out);
+void element_qualities(const QualityContext& context, std::span<const Vec3> positions, Metric metric, ThreadPool* pool,
+                       std::span<double> out);
 
 /// Minimum over the star of `vertex` (paper eq. 1). +infinity for a vertex of no element.
 [[nodiscard]] double vertex_quality(const QualityContext& context, const Topology& topology, std::span<const Vec3> positions, Metric metric,
@@ -37,8 +38,8 @@ void element_qualities(const QualityContext& context, std::span<const Vec3> posi
 struct Statistics {
   double minimum = 0.0;
   double mean = 0.0;
-  double movable_minimum = 0.0;  // over elements with at least one free corner; +infinity when there is none
-  double ceiling = 0.0;          // over elements whose corners are all fixed: they cap the minimum for ever; +infinity when there is none
+  double movable_minimum = 0.0;    // over elements with at least one free corner; +infinity when there is none
+  double ceiling = 0.0;            // over elements whose corners are all fixed: they cap the minimum for ever; +infinity when there is none
   Index worst_element = kNoIndex;  // lowest index among the elements at the minimum
   Index inverted = 0;              // elements with a corner Jacobian <= 0, whatever the metric
 };

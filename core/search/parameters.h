@@ -7,9 +7,9 @@ namespace dmoscope {
 enum class Precision { Float, Double };
 
 struct SearchParameters {
-  int grid_points = 8;   // n: candidates an axis, 2 to 64
-  int levels = 3;        // 1 to 16
-  double omega = 0.5;    // first grid: this times the bounding box of the star's other vertices, in (0, 2]
+  int grid_points = 8;  // n: candidates an axis, 2 to 64
+  int levels = 3;       // 1 to 16
+  double omega = 0.5;   // first grid: this times the bounding box of the star's other vertices, in (0, 2]
   Precision precision = Precision::Float;
   friend bool operator==(const SearchParameters&, const SearchParameters&) = default;
 };

@@ -1,10 +1,12 @@
 #pragma once
 // The command language: one table of verbs behind every button, key, palette entry, script line and test.
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.h"
@@ -17,10 +19,16 @@ namespace dmoscope {
 /// Quotes a word where split_words would need it.
 [[nodiscard]] std::string quote_word(std::string_view word);
 
+/// Wrong number or form of a verb's arguments; CommandTable::execute adds the verb's usage.
+class WrongArguments : public UsageError {
+ public:
+  using UsageError::UsageError;
+};
+
 struct CommandInfo {
-  std::string name;    // first word, "step"
-  std::string usage;   // "step vertex|class|iteration [COUNT]"
-  std::string doc;     // one line
+  std::string name;   // first word, "step"
+  std::string usage;  // "step vertex|class|iteration [COUNT]"
+  std::string doc;    // one line
 };
 
 /// Verbs and what they do. Each room that has verbs fills in its own table.
@@ -40,17 +48,8 @@ class CommandTable {
   std::vector<Handler> handlers_;
 };
 
-/// Typed access to words; all throw UsageError naming the word and what was expected.
+/// Typed access to words; all throw WrongArguments naming the word and what was expected.
 [[nodiscard]] std::uint64_t to_count(const std::string& word, std::uint64_t least = 0);
 [[nodiscard]] double to_number(const std::string& word);
-
-/// The session's verbs, as the engine knows them (without handlers), for help, palette and man page:
-///   open FILE | generate KIND [SIZE [SEED]] | export FILE | stats FILE.csv | elements FILE.csv
-///   metric NAME | show NAME | method NAME | grid N | levels N | omega X | precision float|double | order natural|shuffle:SEED | fix V... | unfix
-///   step vertex|class|iteration [COUNT] | back vertex|class|iteration [COUNT] | run ITERATIONS | until-converged [PATIENCE [MAX]]
-///   seek ITERATION | reset | add-run METHOD[:METRIC] | select-run K | remove-run K | threads N | history MIB
-///   expect minimum|movable|mean|inverted|iteration|moved  <|<=|==|>=|>  VALUE      (NotReached when it does not hold)
-///   say TEXT
-[[nodiscard]] const std::vector<CommandInfo>& session_commands();
 
 }  // namespace dmoscope

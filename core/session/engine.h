@@ -3,8 +3,10 @@
 // touches the session, so nothing that takes long can block the window.
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -13,18 +15,11 @@
 #include <vector>
 
 #include "core/base/progress.h"
-#include "core/session/commands.h"
+#include "core/session/frame_builder.h"
+#include "core/session/session_commands.h"
 #include "core/session/view.h"
 
 namespace dmoscope {
-
-/// One line of the session's log.
-struct Message {
-  enum class Kind { Info, Warning, Error };
-  Kind kind = Kind::Info;
-  std::string text;
-  int exit_code = 0;  // of an Error
-};
 
 class Engine {
  public:
@@ -59,11 +54,13 @@ class Engine {
   void work(const std::stop_token& stop);
   void run_one(const std::string& line);
   void publish();
+  void publish_if_due();
   void say(Message message);
 
-  Session session_;           // touched by the worker alone
-  CommandTable commands_;
   Progress progress_;
+  Session session_;  // touched by the worker alone
+  CommandContext context_;
+  CommandTable commands_;
   std::function<void()> wake_;
 
   mutable std::mutex mutex_;
@@ -74,8 +71,8 @@ class Engine {
   std::vector<Message> messages_;
   std::shared_ptr<const SessionView> view_;
   std::atomic<bool> taken_{true};
-  std::uint64_t frame_serial_ = 0;
-  std::uint64_t input_serial_ = 0;
+  FrameBuilder frames_;
+  std::chrono::steady_clock::time_point next_publication_;
   std::jthread thread_;  // last: everything above exists before it starts
 };
 

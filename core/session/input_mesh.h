@@ -19,8 +19,8 @@ struct InputMesh {
   Geometry geometry;
   Topology topology;
   MeshReport report;
-  std::filesystem::path path;               // empty for a generated mesh
-  std::vector<double> reference_measure;    // an element's mean |area| around it at input, > 0: divides its Jacobian while untangling
+  std::filesystem::path path;             // empty for a generated mesh
+  std::vector<double> reference_measure;  // an element's mean |area| around it at input, > 0: divides its Jacobian while untangling
   [[nodiscard]] QualityContext quality_context() const { return {mesh, geometry}; }
 };
 

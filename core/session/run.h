@@ -16,10 +16,9 @@
 #include "core/search/parameters.h"
 #include "core/session/history.h"
 #include "core/session/input_mesh.h"
+#include "core/smooth/smoother.h"
 
 namespace dmoscope {
-
-class Smoother;
 
 /// In which order an iteration visits the free vertices (before colouring).
 struct VisitOrder {
@@ -39,16 +38,17 @@ enum class StepUnit { Vertex, Class, Iteration };
 
 /// When "until converged" stops.
 struct ConvergenceLimits {
-  std::uint64_t patience = 200;        // iterations without a rise of either minimum by `rise`
+  std::uint64_t patience = 200;  // iterations without a rise of either minimum by `rise`
   std::uint64_t max_iterations = 10000;
   double rise = 1e-6;
 };
-enum class StopReason { NothingMoved, NoRise, IterationLimit, Cancelled };
+enum class StopReason { NothingMoved, NoRise, IterationLimit };
 struct Outcome {
   StopReason reason = StopReason::IterationLimit;
-  std::uint64_t iterations = 0;         // done by this call
-  std::uint64_t last_rise = 0;          // iteration in which a minimum last rose
-  /// "converged: no vertex moved in iteration 12; the minimum last rose in iteration 9"
+  std::uint64_t iterations = 0;  // done by this call
+  std::uint64_t last_rise = 0;   // iteration in which a minimum last rose by limits.rise; 0: never
+  ConvergenceLimits limits;
+  /// "converged: no vertex moved any more; the minimum last rose in iteration 9"
   [[nodiscard]] std::string sentence() const;
 };
 
@@ -65,12 +65,15 @@ class Run {
   [[nodiscard]] std::string title() const;  // "dmo · mean-ratio"
   [[nodiscard]] std::span<const Vec3> positions() const noexcept { return positions_; }
   [[nodiscard]] const Moment& moment() const noexcept { return moment_; }
+  /// Statistics of the optimised metric at this very moment.
+  [[nodiscard]] Statistics statistics() const;
   [[nodiscard]] const Colouring& colouring() const noexcept { return colouring_; }
   /// 1 where a vertex may not move: boundary, unused, or the user's.
   [[nodiscard]] std::span<const std::uint8_t> fixed() const noexcept { return fixed_; }
   [[nodiscard]] std::uint64_t visits_per_iteration() const noexcept { return colouring_.order.size(); }
   [[nodiscard]] const History& history() const noexcept { return history_; }
   void set_history_budget(std::size_t bytes) { history_.set_budget(bytes); }
+  void set_pool(std::shared_ptr<ThreadPool> pool) { pool_ = std::move(pool); }
 
   /// One vertex, one colour class (the rest of it when in its midst), or one iteration (likewise) forwards. Returns vertices moved.
   /// On Cancelled the run stands at an exact moment between two visits; nothing is lost.
@@ -80,15 +83,22 @@ class Run {
   /// To any moment, past or future: restores the nearest kept positions before it and repeats the visits from there (the same bits).
   void seek(Moment target, Progress& progress);
 
+  /// Called between two blocks of visits, on the thread that steps, at least every 100 ms or so: to publish what there is to see.
+  void set_observer(std::function<void(const Run&)> observer) { observer_ = std::move(observer); }
+
   /// Called after every iteration of the two calls below, on the calling thread.
   using AfterIteration = std::function<void(const Run&)>;
   Outcome iterate(std::uint64_t iterations, Progress& progress, const AfterIteration& after = {});
+  /// Why the last of these two calls stopped; none after any other step.
+  [[nodiscard]] const std::optional<Outcome>& last_outcome() const noexcept { return last_outcome_; }
   Outcome until_converged(const ConvergenceLimits& limits, Progress& progress, const AfterIteration& after = {});
 
  private:
   void visit(std::uint64_t count, Progress& progress);
-  void begin_iteration();
   void end_iteration();
+  void record();
+  void step_within(std::uint64_t done, std::uint64_t all, Progress& progress);
+  Outcome advance(const ConvergenceLimits& limits, bool stop_when_still, Progress& progress, const AfterIteration& after);
 
   std::shared_ptr<const InputMesh> input_;
   RunParameters parameters_;
@@ -98,15 +108,14 @@ class Run {
   Colouring colouring_;
   std::vector<Vec3> positions_;
   Moment moment_;
-  std::uint64_t moved_ = 0;    // in the iteration under way
-  double seconds_ = 0.0;       // smoothing time of the iteration under way
+  std::uint64_t moved_ = 0;       // in the iteration under way
+  std::uint64_t last_moved_ = 0;  // in the iteration last ended
+  double seconds_ = 0.0;          // smoothing time of the iteration under way
   History history_;
+  std::function<void(const Run&)> observer_;
+  std::optional<Outcome> last_outcome_;
+  double progress_base_ = 0.0;  // what share of the progress the iteration under way is: base to base + span
+  double progress_span_ = 1.0;
 };
-
-/// Names of the methods, with a doc line each.
-struct MethodInfo {
-  std::string_view name, doc;
-};
-[[nodiscard]] std::span<const MethodInfo> method_table();
 
 }  // namespace dmoscope

@@ -40,6 +40,7 @@ class Session {
 
   /// Metric shown in colours, histogram and worst list; apart from the one a run optimises.
   [[nodiscard]] Metric shown() const noexcept { return shown_; }
+  /// Throws UsageError when the metric is defined for none of the elements.
   void show(Metric metric);
   /// For all runs together; divided evenly.
   void set_history_budget(std::size_t bytes);

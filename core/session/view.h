@@ -26,19 +26,19 @@ struct RankedElement {
 
 /// One state of one run, ready to be drawn.
 struct Frame {
-  std::uint64_t serial = 0;         // grows with every frame: "did it change?"
-  std::uint64_t input_serial = 0;   // grows with every opened mesh: "must the topology be uploaded again?"
+  std::uint64_t serial = 0;        // grows with every frame: "did it change?"
+  std::uint64_t input_serial = 0;  // grows with every opened mesh: "must the topology be uploaded again?"
   std::shared_ptr<const InputMesh> input;
   std::size_t run = 0;
   Moment moment;
   Metric shown = Metric::MeanRatio;
   std::vector<Vec3> positions;
-  std::vector<float> quality;        // of the shown metric, one an element; NaN where it is not defined
+  std::vector<float> quality;          // of the shown metric, one an element; NaN where it is not defined
   std::vector<std::uint8_t> inverted;  // one an element, 1 where a corner Jacobian is <= 0
-  Statistics shown_statistics;       // of the shown metric
-  Statistics statistics;             // of the metric the run optimises
-  Histogram before, now;             // of the shown metric: at the input, and here
-  std::vector<RankedElement> worst;  // of the shown metric, worst first, at most 100
+  Statistics shown_statistics;         // of the shown metric
+  Statistics statistics;               // of the metric the run optimises
+  Histogram before, now;               // of the shown metric: at the input, and here
+  std::vector<RankedElement> worst;    // of the shown metric, worst first, at most 100
 };
 
 struct RunView {
@@ -48,10 +48,10 @@ struct RunView {
   std::uint64_t visits_per_iteration = 0;
   Index class_count = 0;
   Index free_vertices = 0;
-  std::vector<std::uint8_t> fixed;        // only of the active run, else empty; see Run::fixed
+  std::vector<std::uint8_t> fixed;  // only of the active run, else empty; see Run::fixed
   std::vector<IterationRecord> records;
-  std::string history_note;               // History::sentence()
-  std::string last_outcome;               // why it last stopped, may be empty
+  std::string history_note;  // History::sentence()
+  std::string last_outcome;  // why it last stopped, may be empty
 };
 
 struct SessionView {
@@ -60,7 +60,7 @@ struct SessionView {
   std::size_t active = 0;
   Metric shown = Metric::MeanRatio;
   unsigned threads = 1;
-  std::shared_ptr<const Frame> frame;      // of the active run; null when nothing is open
+  std::shared_ptr<const Frame> frame;  // of the active run; null when nothing is open
 };
 
 }  // namespace dmoscope

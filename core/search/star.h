@@ -1,0 +1,46 @@
+#pragma once
+// The star of one vertex as the search sees it: offsets from the vertex in the mesh's plane, scaled by a power of two.
+
+#include <cstddef>
+#include <vector>
+
+#include "core/base/vec.h"
+#include "core/mesh/topology.h"
+#include "core/quality/quality.h"
+
+namespace dmoscope {
+
+/// An incident triangle: its other two corners in the element's order, and its reference measure for untangling.
+template <class Real>
+struct StarTriangle {
+  Vec2<Real> b, c;
+  Real reference;
+};
+/// An incident quadrilateral: its other three corners in the element's order, and its reference measure.
+template <class Real>
+struct StarQuadrilateral {
+  Vec2<Real> b, c, d;
+  Real reference;
+};
+
+/// Everything is in units of `scale` (a power of two, so that scaling rounds nothing): the largest offset lies in [1, 2).
+template <class Real>
+struct Star {
+  std::vector<StarTriangle<Real>> triangles;
+  std::vector<StarQuadrilateral<Real>> quadrilaterals;
+  Vec2<Real> box;      // width and height of the bounding box of the other vertices
+  double scale = 1.0;  // mesh units
+};
+
+/// Fills `star` (its vectors are reused) for `vertex` at `positions`. `reference_measure`: one positive value an element.
+/// Planar meshes only. A star shrunk to a point gets an empty box.
+template <class Real>
+void gather_star(const QualityContext& context, const Topology& topology, std::span<const Vec3> positions,
+                 std::span<const double> reference_measure, Index vertex, Star<Real>& star);
+
+extern template void gather_star<float>(const QualityContext&, const Topology&, std::span<const Vec3>, std::span<const double>, Index,
+                                        Star<float>&);
+extern template void gather_star<double>(const QualityContext&, const Topology&, std::span<const Vec3>, std::span<const double>, Index,
+                                         Star<double>&);
+
+}  // namespace dmoscope

@@ -1,0 +1,138 @@
+#include "core/session/engine.h"
+
+#include <utility>
+
+namespace dmoscope {
+
+namespace {
+constexpr auto kPublicationInterval = std::chrono::milliseconds(100);
+constexpr int kPublicationShare = 5;  // a publication may take at most a fifth of the worker's time
+}  // namespace
+
+Engine::Engine(unsigned threads)
+    : session_(threads),
+      context_{session_, progress_, [this](Message message) { say(std::move(message)); }},
+      view_(std::make_shared<SessionView>()) {
+  add_session_commands(commands_, context_);
+  thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
+}
+
+Engine::~Engine() {
+  cancel();
+  thread_.request_stop();
+}
+
+void Engine::post(std::string command_line) {
+  {
+    const std::scoped_lock lock(mutex_);
+    queue_.push_back(std::move(command_line));
+  }
+  changed_.notify_all();
+}
+
+std::size_t Engine::pending() const {
+  const std::scoped_lock lock(mutex_);
+  return queue_.size() + (working_ ? 1 : 0);
+}
+
+void Engine::wait_idle() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return queue_.empty() && !working_; });
+}
+
+void Engine::cancel() {
+  {
+    const std::scoped_lock lock(mutex_);
+    queue_.clear();
+    if (working_) progress_.request_cancel();
+  }
+  changed_.notify_all();
+}
+
+std::string Engine::current_command() const {
+  const std::scoped_lock lock(mutex_);
+  return current_;
+}
+
+std::shared_ptr<const SessionView> Engine::view() {
+  const std::scoped_lock lock(mutex_);
+  taken_ = true;
+  return view_;
+}
+
+std::vector<Message> Engine::take_messages() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(messages_, {});
+}
+
+void Engine::set_wake(std::function<void()> wake) {
+  const std::scoped_lock lock(mutex_);
+  wake_ = std::move(wake);
+}
+
+void Engine::work(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  while (changed_.wait(lock, stop, [&] { return !queue_.empty(); })) {
+    current_ = std::move(queue_.front());
+    queue_.pop_front();
+    working_ = true;
+    progress_.clear_cancel();
+    lock.unlock();
+    run_one(current_);
+    publish();
+    lock.lock();
+    working_ = false;
+    current_.clear();
+    changed_.notify_all();
+    const auto wake = wake_;
+    lock.unlock();
+    if (wake) wake();  // idle now: the last look at progress
+    lock.lock();
+  }
+}
+
+void Engine::run_one(const std::string& line) {
+  progress_.begin(line);
+  if (session_.has_input()) session_.active().set_observer([this](const Run&) { publish_if_due(); });
+  try {
+    commands_.execute(line);
+  } catch (const Cancelled& cancelled) {
+    say({Message::Kind::Warning, "cancelled: " + line, cancelled.exit_code()});
+  } catch (const Error& error) {
+    say({Message::Kind::Error, error.what(), error.exit_code()});
+  } catch (const std::bad_alloc&) {
+    say({Message::Kind::Error, "not enough memory for: " + line, 3});
+  }
+}
+
+void Engine::publish_if_due() {
+  if (!taken_ || std::chrono::steady_clock::now() < next_publication_) return;
+  publish();
+}
+
+void Engine::publish() {
+  const auto start = std::chrono::steady_clock::now();
+  auto view = frames_.build(session_);
+  const auto end = std::chrono::steady_clock::now();
+  next_publication_ = end + std::max<std::chrono::steady_clock::duration>(kPublicationInterval, kPublicationShare * (end - start));
+  std::function<void()> wake;
+  {
+    const std::scoped_lock lock(mutex_);
+    view_ = std::move(view);
+    taken_ = false;
+    wake = wake_;
+  }
+  if (wake) wake();
+}
+
+void Engine::say(Message message) {
+  std::function<void()> wake;
+  {
+    const std::scoped_lock lock(mutex_);
+    messages_.push_back(std::move(message));
+    wake = wake_;
+  }
+  if (wake) wake();
+}
+
+}  // namespace dmoscope

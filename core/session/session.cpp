@@ -1,0 +1,94 @@
+#include "core/session/session.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace dmoscope {
+
+Session::Session(unsigned threads) : pool_(std::make_shared<ThreadPool>(threads)) {}
+
+void Session::open(const std::filesystem::path& path, Progress& progress) { replace_input(load_input(path, Need::Smoothing, progress)); }
+
+void Session::open(Mesh mesh, Progress& progress) { replace_input(prepare_input(std::move(mesh), {}, Need::Smoothing, progress)); }
+
+void Session::replace_input(std::shared_ptr<const InputMesh> input) {
+  RunParameters parameters;
+  if (!runs_.empty()) {
+    parameters = runs_[active_].parameters();
+    parameters.fixed.clear();
+  }
+  const auto usable = [&](Metric metric) {
+    return std::ranges::all_of(input->mesh.elements.kinds(), [&](ElementKind kind) { return info(metric).defined_for(kind); });
+  };
+  if (!usable(parameters.metric)) parameters.metric = Metric::MeanRatio;
+  Run run(input, parameters, pool_, history_bytes_);  // may throw: nothing has been replaced yet
+  input_ = std::move(input);
+  runs_.clear();
+  runs_.push_back(std::move(run));
+  active_ = 0;
+  if (!usable(shown_)) shown_ = parameters.metric;
+}
+
+const std::shared_ptr<const InputMesh>& Session::input() const {
+  if (!input_) throw UsageError("no mesh is open");
+  return input_;
+}
+
+Run& Session::run(std::size_t index) {
+  if (!input_) throw UsageError("no mesh is open");
+  if (index >= runs_.size()) throw UsageError(fmt::format("there is no run {}; the session has {}", index, runs_.size()));
+  return runs_[index];
+}
+
+void Session::select(std::size_t index) {
+  (void)run(index);
+  active_ = index;
+}
+
+std::size_t Session::add_run(RunParameters parameters) {
+  runs_.emplace_back(input(), std::move(parameters), pool_, history_bytes_);
+  active_ = runs_.size() - 1;
+  share_history();
+  return active_;
+}
+
+void Session::remove_run(std::size_t index) {
+  (void)run(index);
+  if (runs_.size() == 1) throw UsageError("the last run cannot be removed");
+  runs_.erase(runs_.begin() + static_cast<std::ptrdiff_t>(index));
+  if (active_ > index || active_ == runs_.size()) --active_;
+  share_history();
+}
+
+std::size_t Session::change(RunParameters parameters) {
+  Run& current = active();
+  const bool untouched = current.moment() == Moment{} && current.history().records().size() == 1;
+  if (!untouched) return add_run(std::move(parameters));
+  current = Run(input_, std::move(parameters), pool_, history_bytes_);
+  share_history();
+  return active_;
+}
+
+void Session::show(Metric metric) {
+  const auto kinds = input()->mesh.elements.kinds();
+  if (std::ranges::none_of(kinds, [&](ElementKind kind) { return info(metric).defined_for(kind); }))
+    throw UsageError(fmt::format("{} is not defined for any element of this mesh", info(metric).name));
+  shown_ = metric;
+}
+
+void Session::set_history_budget(std::size_t bytes) {
+  history_bytes_ = bytes;
+  share_history();
+}
+
+void Session::share_history() {
+  for (Run& run : runs_) run.set_history_budget(history_bytes_ / runs_.size());
+}
+
+void Session::set_threads(unsigned threads) {
+  pool_ = std::make_shared<ThreadPool>(threads);
+  for (Run& run : runs_) run.set_pool(pool_);
+}
+
+}  // namespace dmoscope

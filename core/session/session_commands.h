@@ -1,0 +1,38 @@
+#pragma once
+// The session's verbs: what the window's buttons, a script and the tests all say.
+//
+//   open FILE | generate KIND [SIZE [SEED]] | export FILE | stats FILE.csv | elements FILE.csv
+//   metric NAME | show NAME | method NAME | grid N | levels N | omega X | precision float|double | order natural|shuffle:SEED
+//   fix VERTEX... | unfix | step vertex|class|iteration [COUNT] | back vertex|class|iteration [COUNT]
+//   run ITERATIONS | until-converged [PATIENCE [MAX]] | seek ITERATION | reset
+//   add-run METHOD[:METRIC] | select-run K | remove-run K | threads N | history MIB
+//   expect minimum|movable|mean|inverted|iteration|moved  <|<=|==|>=|>  VALUE
+//   say TEXT
+
+#include <functional>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/session/commands.h"
+#include "core/session/message.h"
+#include "core/session/session.h"
+
+namespace dmoscope {
+
+/// What a session verb works on.
+struct CommandContext {
+  Session& session;
+  Progress& progress;
+  std::function<void(Message)> say;
+};
+
+/// The verbs in the order of the list above, for help, palette and man page.
+[[nodiscard]] const std::vector<CommandInfo>& session_commands();
+
+/// "natural" or "shuffle:SEED". Throws UsageError.
+[[nodiscard]] VisitOrder parse_order(std::string_view word);
+
+/// Adds them to `table`; their handlers keep a reference to `context`, which must outlive the table.
+void add_session_commands(CommandTable& table, CommandContext& context);
+
+}  // namespace dmoscope

@@ -6,8 +6,10 @@
 
 namespace dmoscope {
 
+class EdgeTable;
+
 struct OrientationReport {
-  Index components = 0;      // edge-connected components
+  Index components = 0;      // sets of elements connected across manifold edges
   Index flipped = 0;         // elements whose winding was reversed
   Index contradictions = 0;  // edges across which no consistent winding exists (non-orientable or non-manifold)
 };
@@ -17,5 +19,10 @@ struct OrientationReport {
 /// keeps its neighbours' winding and so stays visibly inverted. A component of one element has no neighbour to agree with and keeps
 /// the winding it has. Sets mesh.flipped. Idempotent.
 OrientationReport normalise_orientation(Mesh& mesh, const Plane& plane);
+/// The same with the mesh's edges at hand. They stay valid: reversing elements changes no edge.
+OrientationReport normalise_orientation(Mesh& mesh, const Plane& plane, const EdgeTable& edges);
+
+/// OrientationReport::components alone.
+[[nodiscard]] Index count_components(const Mesh& mesh, const EdgeTable& edges);
 
 }  // namespace dmoscope

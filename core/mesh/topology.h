@@ -9,16 +9,21 @@
 
 namespace dmoscope {
 
+class EdgeTable;
+
 /// One incident element of a vertex: which, and which of its corners the vertex is.
 struct Incidence {
   Index element;
   Index corner;
 };
 
-/// Stars of all vertices, any valence, incident elements in ascending order.
+/// Stars of all vertices, any valence, incident elements in ascending order. Elements of every dimension have their place in the
+/// stars; edges and boundary are those of the planar elements (faces of volume elements are not looked at).
 class Topology {
  public:
   explicit Topology(const Mesh& mesh);
+  /// The same with the mesh's edges at hand.
+  Topology(const Mesh& mesh, const EdgeTable& edges);
   [[nodiscard]] Index vertex_count() const noexcept { return static_cast<Index>(offsets_.size() - 1); }
   [[nodiscard]] std::span<const Incidence> star(Index vertex) const noexcept {
     return {incidences_.data() + offsets_[vertex], incidences_.data() + offsets_[vertex + 1]};
@@ -41,7 +46,7 @@ struct MeshReport {
   std::vector<Index> degenerate_elements;  // zero area, or a corner twice
   std::vector<Index> inverted_elements;    // some corner Jacobian <= 0 (after orientation), degenerate ones not counted again
   Index non_manifold_edges = 0;            // edges with more than two elements
-  Index boundary_loops = 0;                // from the half-edge structure; 0 where it could not be built
+  Index boundary_loops = 0;                // closed boundary curves (edges.h)
   Index components = 0;
   Index flipped_elements = 0;
   /// One clear sentence a finding, e.g. "2 vertices belong to no element (first: 17)". Ids are 0-based.

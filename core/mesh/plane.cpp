@@ -1,0 +1,162 @@
+#include "core/mesh/plane.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
+
+namespace dmoscope {
+namespace {
+
+constexpr double kPlanarTolerance = 1e-6;
+
+using Matrix3 = std::array<std::array<double, 3>, 3>;
+
+constexpr Plane kZ{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+constexpr Plane kX{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
+constexpr Plane kY{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
+
+std::array<double, 3> components(Vec3 a) { return {a.x, a.y, a.z}; }
+
+int largest_component(Vec3 a) {
+  const auto c = components(a);
+  // Ties go to z, then x: the order in which exact planes are tried.
+  int best = 2;
+  for (const int i : {0, 1}) {
+    if (std::abs(c[static_cast<std::size_t>(i)]) > std::abs(c[static_cast<std::size_t>(best)])) best = i;
+  }
+  return best;
+}
+
+const Plane& coordinate_plane(int axis) { return axis == 0 ? kX : axis == 1 ? kY : kZ; }
+
+/// The used vertices' box.
+struct Box {
+  Vec3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Vec3 high{-low.x, -low.y, -low.z};
+  void add(Vec3 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+};
+
+/// Normal of the least-squares plane: the eigenvector of the smallest eigenvalue of a symmetric matrix, by cyclic Jacobi rotations.
+Vec3 smallest_eigenvector(Matrix3 a) {
+  Matrix3 vectors{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  for (int sweep = 0; sweep < 60; ++sweep) {
+    bool rotated = false;
+    for (const auto& [p, q] : {std::pair<std::size_t, std::size_t>{0, 1}, {0, 2}, {1, 2}}) {
+      if (std::abs(a[p][q]) <= std::numeric_limits<double>::min()) continue;
+      rotated = true;
+      const double theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
+      const double t = (theta >= 0 ? 1.0 : -1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
+      const double c = 1.0 / std::sqrt(t * t + 1.0);
+      const double s = t * c;
+      const std::size_t r = 3 - p - q;
+      const double apq = a[p][q];
+      a[p][p] -= t * apq;
+      a[q][q] += t * apq;
+      a[p][q] = a[q][p] = 0.0;
+      const double arp = a[r][p];
+      const double arq = a[r][q];
+      a[r][p] = a[p][r] = c * arp - s * arq;
+      a[r][q] = a[q][r] = s * arp + c * arq;
+      for (auto& row : vectors) {
+        const double vp = row[p];
+        const double vq = row[q];
+        row[p] = c * vp - s * vq;
+        row[q] = s * vp + c * vq;
+      }
+    }
+    if (!rotated) break;
+  }
+  std::size_t k = 0;
+  for (const std::size_t i : {1U, 2U}) {
+    if (a[i][i] < a[k][k]) k = i;
+  }
+  return {vectors[0][k], vectors[1][k], vectors[2][k]};
+}
+
+/// The frame with this normal (its largest component made positive) that lies nearest to the coordinate plane's own.
+Plane frame(Vec3 normal) {
+  normal = (1.0 / length(normal)) * normal;
+  const int axis = largest_component(normal);
+  if (components(normal)[static_cast<std::size_t>(axis)] < 0) normal = -1.0 * normal;
+  Vec3 u = coordinate_plane(axis).u;
+  u = u - dot(u, normal) * normal;
+  u = (1.0 / length(u)) * u;
+  return {u, cross(normal, u), normal};
+}
+
+Vec3 mean_area_vector(const Mesh& mesh) {
+  Vec3 sum;
+  for (Index e = 0; e < mesh.elements.size(); ++e) {
+    const auto c = mesh.elements.corners(e);
+    const auto& p = mesh.positions;
+    sum = sum + (c.size() == 3 ? cross(p[c[1]] - p[c[0]], p[c[2]] - p[c[0]]) : cross(p[c[2]] - p[c[0]], p[c[3]] - p[c[1]]));
+  }
+  return sum;
+}
+
+/// Best plane of the used vertices; sets deviation and plane.
+void fit(const Mesh& mesh, const std::vector<std::uint8_t>& used, const Box& box, Geometry& geometry) {
+  // Offsets from the middle of the box and scaled by its size: no digits are lost far from the origin, nothing over- or underflows.
+  const Vec3 middle = box.low + 0.5 * (box.high - box.low);
+  const double scale = 1.0 / geometry.size;
+  Vec3 mean;
+  double count = 0;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (used[v] == 0) continue;
+    mean = mean + scale * (mesh.positions[v] - middle);
+    ++count;
+  }
+  mean = (1.0 / count) * mean;
+  Matrix3 covariance{};
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (used[v] == 0) continue;
+    const auto d = components(scale * (mesh.positions[v] - middle) - mean);
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) covariance[i][j] += d[i] * d[j];
+    }
+  }
+  geometry.plane = frame(smallest_eigenvector(covariance));
+  double deviation = 0;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (used[v] == 0) continue;
+    deviation = std::max(deviation, std::abs(dot(scale * (mesh.positions[v] - middle) - mean, geometry.plane.normal)));
+  }
+  geometry.deviation = deviation * geometry.size;
+}
+
+}  // namespace
+
+Geometry classify(const Mesh& mesh) {
+  Geometry geometry;
+  std::vector<std::uint8_t> used(mesh.positions.size(), 0);
+  for (const Index v : mesh.elements.all_corners()) used[v] = 1;
+  Box box;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (used[v] != 0) box.add(mesh.positions[v]);
+  }
+  if (mesh.elements.size() == 0) return geometry;
+  geometry.size = length(box.high - box.low);
+  const bool volume = std::ranges::any_of(mesh.elements.kinds(), [](ElementKind k) { return info(k).dimension == 3; });
+  if (volume) geometry.shape = Shape::Volume;
+
+  if (box.low.z == box.high.z) {
+    geometry.plane = kZ;
+  } else if (box.low.x == box.high.x) {
+    geometry.plane = kX;
+  } else if (box.low.y == box.high.y) {
+    geometry.plane = kY;
+  } else {
+    fit(mesh, used, box, geometry);
+    if (!volume && !(geometry.deviation <= kPlanarTolerance * geometry.size)) {
+      geometry.shape = Shape::Surface;
+      geometry.plane = coordinate_plane(largest_component(mean_area_vector(mesh)));
+    }
+  }
+  return geometry;
+}
+
+}  // namespace dmoscope

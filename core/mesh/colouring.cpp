@@ -9,7 +9,7 @@ namespace dmoscope {
 
 Colouring colour_vertices(const Mesh& mesh, const Topology& topology, std::span<const Index> free_vertices) {
   std::vector<Index> colour(mesh.positions.size(), kNoIndex);
-  std::vector<Index> taken_by;   // taken_by[c] == v: colour c is taken near v
+  std::vector<Index> taken_by;  // taken_by[c] == v: colour c is taken near v
   std::vector<Index> class_size;
   for (const Index v : free_vertices) {
     for (const Incidence& incidence : topology.star(v)) {

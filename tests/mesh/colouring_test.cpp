@@ -1,0 +1,97 @@
+#include "core/mesh/colouring.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "tests/mesh/meshes.h"
+
+namespace dmoscope {
+namespace {
+
+using test::lattice;
+
+std::vector<Index> interior(const Mesh& mesh, const Topology& topology) {
+  std::vector<Index> free;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (topology.boundary()[v] == 0) free.push_back(v);
+  }
+  return free;
+}
+
+TEST(Colouring, NoTwoOfAClassShareAnElementAndEveryVertexComesOnce) {
+  for (const Index every : {1U, 2U, 1000U}) {
+    const Mesh mesh = lattice(17, 13, every);
+    const Topology topology(mesh);
+    for (const std::uint64_t seed : {0U, 1U, 2U}) {
+      std::vector<Index> free = interior(mesh, topology);
+      if (seed != 0) free = shuffled(free, seed);
+      const Colouring colouring = colour_vertices(mesh, topology, free);
+      std::vector<Index> place(mesh.positions.size(), kNoIndex);
+      for (Index i = 0; i < free.size(); ++i) place[free[i]] = i;
+      std::vector<Index> colour(mesh.positions.size(), kNoIndex);
+      for (Index c = 0; c < colouring.class_count(); ++c) {
+        const auto members = colouring.members(c);
+        EXPECT_FALSE(members.empty());
+        EXPECT_TRUE(std::ranges::is_sorted(members, {}, [&](Index v) { return place[v]; }));
+        for (const Index v : members) {
+          EXPECT_EQ(colour[v], kNoIndex);
+          colour[v] = c;
+        }
+      }
+      EXPECT_EQ(colouring.order.size(), free.size());
+      for (Index e = 0; e < mesh.elements.size(); ++e) {
+        const auto corners = mesh.elements.corners(e);
+        for (const Index a : corners) {
+          for (const Index b : corners) EXPECT_TRUE(a == b || colour[a] == kNoIndex || colour[a] != colour[b]);
+        }
+      }
+      EXPECT_LE(colouring.class_count(), 9U) << "at most one more than the neighbours in elements";
+    }
+  }
+}
+
+TEST(Colouring, RegularQuadrilateralsInNaturalOrderNeedFour) {
+  const Mesh mesh = lattice(10, 10, 1);
+  const Topology topology(mesh);
+  EXPECT_EQ(colour_vertices(mesh, topology, interior(mesh, topology)).class_count(), 4U);
+}
+
+TEST(Colouring, NothingFreeGivesNoClass) {
+  const Mesh mesh = lattice(1, 1, 1);
+  const Colouring colouring = colour_vertices(mesh, Topology(mesh), {});
+  EXPECT_EQ(colouring.class_count(), 0U);
+  EXPECT_TRUE(colouring.order.empty());
+}
+
+TEST(Shuffled, IsAPermutationThatDependsOnTheSeedOnly) {
+  std::vector<Index> vertices(1000);
+  std::iota(vertices.begin(), vertices.end(), 7U);
+  const auto a = shuffled(vertices, 42);
+  EXPECT_EQ(a, shuffled(vertices, 42));
+  EXPECT_NE(a, shuffled(vertices, 43));
+  EXPECT_NE(a, vertices);
+  auto sorted = a;
+  std::ranges::sort(sorted);
+  EXPECT_EQ(sorted, vertices);
+}
+
+TEST(Shuffled, EveryOrderOfThreeIsAboutEquallyLikely) {
+  const std::vector<Index> three{0, 1, 2};
+  std::vector<int> count(27, 0);
+  for (std::uint64_t seed = 0; seed < 6000; ++seed) {
+    const auto s = shuffled(three, seed);
+    ++count[s[0] * 9 + s[1] * 3 + s[2]];
+  }
+  int orders = 0;
+  for (const int c : count) {
+    if (c == 0) continue;
+    ++orders;
+    EXPECT_NEAR(c, 1000, 150);  // five standard deviations
+  }
+  EXPECT_EQ(orders, 6);
+}
+
+}  // namespace
+}  // namespace dmoscope

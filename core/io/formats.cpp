@@ -100,6 +100,8 @@ Mesh read_mesh(const std::filesystem::path& path, Progress& progress) {
   const FormatHandler& handler = format_of(path, source->bytes());
   source->set_format(handler.info.name);
   Mesh mesh = handler.read(*source, progress);
+  if (mesh.positions.empty()) throw InputError(path.string(), 0, "the file holds no vertices");
+  if (mesh.elements.size() == 0) throw InputError(path.string(), 0, "the file holds no elements");
   mesh.name = path.filename().string();
   mesh.source = std::move(source);
   progress.set(1.0);

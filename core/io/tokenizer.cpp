@@ -67,8 +67,8 @@ std::optional<double> foreign_double(std::string_view token) {
 
 Tokenizer::Tokenizer(std::string_view text, std::string file, TextSyntax syntax, Progress& progress)
     : text_(text), file_(std::move(file)), syntax_(syntax), progress_(&progress) {
-  for (const unsigned char c : {' ', '\t', '\v', '\f'}) kind_[c] = kBlank;
-  for (const unsigned char c : {'\n', '\r'}) kind_[c] = kLineEnd;
+  for (const char c : {' ', '\t', '\v', '\f'}) kind_[static_cast<unsigned char>(c)] = kBlank;
+  for (const char c : {'\n', '\r'}) kind_[static_cast<unsigned char>(c)] = kLineEnd;
   if (syntax.comment != '\0') kind_[static_cast<unsigned char>(syntax.comment)] = kComment;
   if (syntax.comma_is_blank) kind_[static_cast<unsigned char>(',')] = kBlank;
   if (syntax.backslash_joins_lines) kind_[static_cast<unsigned char>('\\')] = kJoin;
@@ -145,6 +145,14 @@ std::size_t Tokenizer::check_count(std::int64_t count, std::string_view what, st
   return static_cast<std::size_t>(count);
 }
 
+std::size_t Tokenizer::line_at(std::size_t offset) const noexcept {
+  std::size_t line = 1;
+  for (std::size_t i = 0; i < offset; ++i) {
+    if (kind_[byte(i)] == kLineEnd && !(text_[i] == '\r' && i + 1 < offset && text_[i + 1] == '\n')) ++line;
+  }
+  return line;
+}
+
 void Tokenizer::fail(const std::string& what) const { throw InputError(file_, line_, what); }
 
 void Tokenizer::fail_at_end(std::string_view what) const {
@@ -165,6 +173,13 @@ std::string quote_token(std::string_view token) {
   }
   result += token.size() > kLongest ? "...\"" : "\"";
   return result;
+}
+
+std::string_view trimmed(std::string_view line) noexcept {
+  constexpr std::string_view kBlanks = " \t\v\f\r\n";
+  const std::size_t first = line.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return line.substr(first, line.find_last_not_of(kBlanks) - first + 1);
 }
 
 bool equal_ignoring_case(std::string_view a, std::string_view b) noexcept {

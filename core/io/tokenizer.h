@@ -36,6 +36,8 @@ class Tokenizer {
   [[nodiscard]] std::size_t offset_of(std::string_view token) const noexcept {
     return static_cast<std::size_t>(token.data() - text_.data());
   }
+  /// 1-based line of a byte, counted anew from the begin (for errors that are found late).
+  [[nodiscard]] std::size_t line_at(std::size_t offset) const noexcept;
   [[nodiscard]] std::size_t remaining() const noexcept { return text_.size() - position_; }
   [[nodiscard]] std::string_view text() const noexcept { return text_; }
   /// Goes on at byte `offset`; from then on line() is wrong unless the caller gives the line of that byte.
@@ -155,6 +157,9 @@ class Tokenizer {
 
 /// A token as an error message shows it: in quotes, cut when long, unprintable bytes as \xHH.
 [[nodiscard]] std::string quote_token(std::string_view token);
+
+/// A line without the blanks at both its ends.
+[[nodiscard]] std::string_view trimmed(std::string_view line) noexcept;
 
 /// Do two words agree but for the case of their letters (ASCII)?
 [[nodiscard]] bool equal_ignoring_case(std::string_view a, std::string_view b) noexcept;

@@ -1,0 +1,373 @@
+// The native mesh format of SU2: KEY= value sections in any order, elements by VTK's numbers for their kinds, markers.
+// https://su2code.github.io/docs_v7/Mesh-File/
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/io/format.h"
+#include "core/io/text_writer.h"
+#include "core/io/tokenizer.h"
+
+namespace dmoscope {
+namespace {
+
+constexpr TextSyntax kSyntax{.comment = '%'};
+constexpr std::string_view kMarker = "marker";
+constexpr std::int64_t kVertexType = 1;
+constexpr std::int64_t kLineType = 3;
+
+/// VTK's number for each ElementKind.
+constexpr std::array<std::int64_t, kElementKindCount> kTypes{5, 9, 10, 12, 13, 14};
+
+std::optional<ElementKind> kind_of(std::int64_t type) {
+  const auto* found = std::find(kTypes.begin(), kTypes.end(), type);
+  if (found == kTypes.end()) return std::nullopt;
+  return static_cast<ElementKind>(found - kTypes.begin());
+}
+
+/// Reads "KEY= value" up to the = at the begin of a line; empty if the line is none. Afterwards the value's tokens come.
+std::string_view read_key(Tokenizer& tokens) {
+  const std::size_t begin = tokens.offset();
+  const std::string_view word = tokens.token_on_line();
+  const std::size_t equals = word.find('=');
+  if (equals != std::string_view::npos && equals > 0) {
+    tokens.seek(begin + equals + 1, tokens.line());
+    return word.substr(0, equals);
+  }
+  const std::size_t after_word = tokens.offset();
+  const std::string_view next = tokens.token_on_line();
+  if (equals == std::string_view::npos && next.starts_with('=')) {
+    tokens.seek(tokens.offset_of(next) + 1, tokens.line());
+    return word;
+  }
+  tokens.seek(after_word, tokens.line());
+  return {};
+}
+
+/// Byte offset of the line with a key, wherever in the file; nothing if there is none. Sections may come in any order, but the
+/// elements need the number of points, and the points the dimension.
+std::optional<std::size_t> find_key(std::string_view text, std::string_view key) {
+  for (std::size_t at = text.find(key); at != std::string_view::npos; at = text.find(key, at + 1)) {
+    const std::size_t before = text.find_last_not_of(" \t", at == 0 ? 0 : at - 1);
+    const bool begins = at == 0 || before == std::string_view::npos || text[before] == '\n' || text[before] == '\r';
+    const std::size_t after = text.find_first_not_of(" \t", at + key.size());
+    if (begins && after != std::string_view::npos && text[after] == '=') return at;
+  }
+  return std::nullopt;
+}
+
+bool recognises(std::string_view bytes) {
+  constexpr std::size_t kLook = 65536;  // bytes in which comments end and the first key must come
+  Progress unwatched;
+  Tokenizer tokens(bytes.substr(0, kLook), {}, kSyntax, unwatched);
+  if (tokens.at_end()) return false;
+  const std::string_view key = read_key(tokens);
+  return key == "NDIME" || key == "NZONE" || key == "NELEM" || key == "NPOIN";
+}
+
+class Reader {
+ public:
+  Reader(SourceFile& source, Progress& progress)
+      : source_(source), progress_(progress), tokens_(source.bytes(), source.path().string(), kSyntax, progress) {}
+
+  Mesh read() {
+    const std::int64_t dimension = value_of("NDIME");
+    if (dimension != 2 && dimension != 3) {
+      throw InputError(source_.path().string(), 0, fmt::format("NDIME= {}: only 2 and 3 dimensions are read", dimension));
+    }
+    dimension_ = static_cast<int>(dimension);
+    vertices_ = std::max<std::int64_t>(value_of("NPOIN"), 0);  // a negative one is refused where it stands
+    CoordinateLayout layout;
+    layout.components = dimension_;
+    layout.syntax = kSyntax;
+    source_.set_layout(layout);
+    while (!tokens_.at_end()) section();
+    finish();
+    return std::move(mesh_);
+  }
+
+ private:
+  std::int64_t value_of(std::string_view key) {
+    const std::optional<std::size_t> at = find_key(source_.bytes(), key);
+    if (!at) throw InputError(source_.path().string(), 0, fmt::format("{}= is missing", key));
+    Tokenizer tokens(source_.bytes(), source_.path().string(), kSyntax, progress_);
+    tokens.seek(*at, tokens.line_at(*at));
+    (void)read_key(tokens);
+    return tokens.read_integer(key);
+  }
+
+  void section() {
+    const std::string_view key = read_key(tokens_);
+    if (key == "NDIME") {
+      tokens_.end_line();
+    } else if (key == "NELEM") {
+      elements();
+    } else if (key == "NPOIN") {
+      points();
+    } else if (key == "NMARK") {
+      markers_expected_ = tokens_.read_count("NMARK", 1);
+      tokens_.end_line();
+      foreign_ = false;
+    } else if (key == "MARKER_TAG") {
+      tag_ = tokens_.read_token("name of a marker");
+      tokens_.end_line();
+      foreign_ = false;
+    } else if (key == "MARKER_ELEMS") {
+      marker();
+    } else if (key == "NZONE") {
+      if (tokens_.read_integer("NZONE") != 1) tokens_.fail("files of several zones are not read");
+      tokens_.end_line();
+    } else {
+      other(key);
+    }
+  }
+
+  /// A key of which we know nothing owns the lines that follow it; anywhere else a line without a key is one too many.
+  void other(std::string_view key) {
+    if (key.empty() && !foreign_) tokens_.fail("expected KEY= value (more lines than the section's count says?)");
+    if (!key.empty()) {
+      foreign_ = true;
+      source_.add_only_in_file(fmt::format("{}=", key));
+    }
+    tokens_.end_line();
+  }
+
+  void once(bool& done, std::string_view key) const {
+    if (done) tokens_.fail(fmt::format("{}= a second time", key));
+    done = true;
+  }
+
+  void begin_line(std::string_view what) {
+    if (tokens_.at_end()) tokens_.fail_at_end(what);
+  }
+
+  Index vertex() { return tokens_.read_index("vertex index", static_cast<std::size_t>(vertices_), "vertices"); }
+
+  void elements() {
+    constexpr std::size_t kShortest = 8;  // "5 0 1 2\n"
+    once(elements_read_, "NELEM");
+    const std::size_t count = tokens_.read_count("NELEM", kShortest);
+    tokens_.end_line();
+    mesh_.elements.reserve(count, 4 * count);
+    for (std::size_t e = 0; e < count; ++e) {
+      begin_line("an element");
+      const std::int64_t type = tokens_.read_integer("type of an element");
+      const std::optional<ElementKind> kind = kind_of(type);
+      if (!kind || info(*kind).dimension > dimension_) {
+        tokens_.fail(fmt::format("element of type {} in {} dimensions is not read", type, dimension_));
+      }
+      std::array<Index, 8> corners{};
+      const std::span<Index> used(corners.data(), info(*kind).corners);
+      for (Index& c : used) c = vertex();
+      add_element(mesh_, *kind, used, source_);
+      tokens_.end_line();
+    }
+    foreign_ = false;
+  }
+
+  void points() {
+    once(points_read_, "NPOIN");
+    const std::size_t shortest = dimension_ == 2 ? 4 : 6;  // "0 0\n"
+    const std::size_t count = tokens_.read_count("NPOIN", shortest);
+    if (static_cast<std::int64_t>(count) != vertices_) tokens_.fail("NPOIN= a second time");
+    tokens_.end_line();  // a second count may follow: the points without those of neighbouring partitions
+    mesh_.positions.reserve(count);
+    source_.reserve_places(count);
+    for (std::size_t v = 0; v < count; ++v) {
+      begin_line("x coordinate");
+      source_.add_place(tokens_.offset());
+      Vec3 p;
+      p.x = tokens_.read_double("x coordinate");
+      p.y = tokens_.read_double("y coordinate");
+      if (dimension_ == 3) p.z = tokens_.read_double("z coordinate");
+      mesh_.positions.push_back(p);
+      tokens_.end_line();
+    }
+    foreign_ = false;
+  }
+
+  void marker() {
+    constexpr std::size_t kShortest = 4;  // "1 0\n"
+    if (tag_.empty()) tokens_.fail("MARKER_ELEMS= without a MARKER_TAG= before it");
+    const std::size_t count = tokens_.read_count("MARKER_ELEMS", kShortest);
+    tokens_.end_line();
+    std::vector<Index> edges;
+    std::vector<Index> points;
+    std::size_t faces = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      begin_line("an element of a marker");
+      skip_send_recv();
+      marker_element(edges, points, faces);
+      tokens_.end_line();
+    }
+    add_marker(std::move(edges), std::move(points), faces);
+    tag_.clear();
+    foreign_ = false;
+  }
+
+  /// In the markers of partitioned files SEND_RECV= stands between MARKER_ELEMS= and the elements.
+  void skip_send_recv() {
+    const std::size_t offset = tokens_.offset();
+    const std::size_t line = tokens_.line();
+    if (read_key(tokens_) == "SEND_RECV") {
+      tokens_.end_line();
+      source_.add_only_in_file("SEND_RECV=");
+      begin_line("an element of a marker");
+    } else {
+      tokens_.seek(offset, line);
+    }
+  }
+
+  void marker_element(std::vector<Index>& edges, std::vector<Index>& points, std::size_t& faces) {
+    const std::int64_t type = tokens_.read_integer("type of an element");
+    const std::optional<ElementKind> kind = kind_of(type);
+    if (type == kVertexType) {
+      points.push_back(vertex());
+    } else if (type == kLineType) {
+      edges.push_back(vertex());
+      edges.push_back(vertex());
+    } else if (kind && info(*kind).dimension == 2 && dimension_ == 3) {
+      for (Index c = 0; c < info(*kind).corners; ++c) (void)vertex();
+      ++faces;
+    } else {
+      tokens_.fail(fmt::format("element of type {} in a marker is not read", type));
+    }
+  }
+
+  void add_marker(std::vector<Index> edges, std::vector<Index> points, std::size_t faces) {
+    ++markers_;
+    // Group has room for one kind: faces of volumes, and points beside edges, stay in the file alone.
+    if (faces > 0) source_.add_only_in_file(fmt::format("faces of marker \"{}\"", tag_));
+    if (!points.empty() && !edges.empty()) source_.add_only_in_file(fmt::format("points of marker \"{}\"", tag_));
+    if (edges.empty() && faces > 0) return;
+    const bool of_points = edges.empty() && !points.empty();
+    mesh_.groups.push_back({.name = tag_,
+                            .role = std::string(kMarker),
+                            .code = 0,
+                            .dimension = of_points ? 0 : 1,
+                            .members = of_points ? std::move(points) : std::move(edges)});
+  }
+
+  void finish() {
+    if (!elements_read_) throw InputError(source_.path().string(), 0, "NELEM= is missing");
+    if (!points_read_) throw InputError(source_.path().string(), 0, "NPOIN= is missing");
+    if (!tag_.empty()) tokens_.fail_at_end("MARKER_ELEMS=");
+    if (markers_ < markers_expected_) tokens_.fail_at_end(fmt::format("marker {} of {}", markers_ + 1, markers_expected_));
+    if (source_.bytes().find('%') != std::string_view::npos) source_.add_only_in_file("comments");
+  }
+
+  SourceFile& source_;
+  Progress& progress_;
+  Tokenizer tokens_;
+  Mesh mesh_;
+  int dimension_ = 2;
+  std::int64_t vertices_ = 0;
+  bool elements_read_ = false;
+  bool points_read_ = false;
+  bool foreign_ = false;  // are we among the lines of a key that we do not know?
+  std::string tag_;       // of the marker whose elements come next
+  std::size_t markers_ = 0;
+  std::size_t markers_expected_ = 0;
+};
+
+Mesh read(SourceFile& source, Progress& progress) { return Reader(source, progress).read(); }
+
+// --- Writing anew ---
+
+/// A marker as it is written: edges, two vertices each.
+struct Marker {
+  std::string tag;
+  std::vector<Index> edges;
+};
+
+/// Is a closed island the type of this land boundary of a fort.14?
+bool is_island(const Group& group) { return group.role == "land boundary" && (group.code == 1 || group.code == 11 || group.code == 21); }
+
+/// A boundary string is a chain of vertices: its edges join each with the next, and the last of an island with the first.
+std::vector<Index> chain_edges(const Group& group) {
+  std::vector<Index> edges;
+  for (std::size_t i = 1; i < group.members.size(); ++i) {
+    edges.push_back(group.members[i - 1]);
+    edges.push_back(group.members[i]);
+  }
+  if (is_island(group) && group.members.size() > 2 && group.members.front() != group.members.back()) {
+    edges.push_back(group.members.back());
+    edges.push_back(group.members.front());
+  }
+  return edges;
+}
+
+/// The groups that SU2 can hold; `kept` gets their numbers.
+std::vector<Marker> markers_of(const Mesh& mesh, std::vector<std::size_t>& kept, Notes& notes) {
+  std::vector<Marker> markers;
+  for (std::size_t i = 0; i < mesh.groups.size(); ++i) {
+    const Group& group = mesh.groups[i];
+    const bool chain = group.dimension == 0 && (group.role == "open boundary" || group.role == "land boundary");
+    if (group.dimension != 1 && !chain) continue;
+    kept.push_back(i);
+    Marker marker{group.name, chain ? chain_edges(group) : group.members};
+    std::replace_if(
+        marker.tag.begin(), marker.tag.end(), [](char c) { return c == ' ' || c == '\t' || c == '%'; }, '_');
+    if (chain) {
+      notes.push_back(
+          fmt::format("The {} \"{}\" (type {}) was written as marker {} of its edges.", group.role, group.name, group.code, marker.tag));
+    }
+    markers.push_back(std::move(marker));
+  }
+  return markers;
+}
+
+void write_points(TextWriter& out, std::span<const Vec3> positions, bool volume) {
+  out << "NPOIN= " << positions.size() << '\n';
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    out << positions[v].x << ' ' << positions[v].y << ' ';
+    if (volume) out << positions[v].z << ' ';
+    out << v << '\n';
+  }
+}
+
+Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress) {
+  Notes notes;
+  const auto kinds = mesh.elements.kinds();
+  const bool volume = std::any_of(kinds.begin(), kinds.end(), [](ElementKind kind) { return info(kind).dimension == 3; });
+  if (!volume) require_constant_z(file, positions, su2_format().info.title, notes);
+  std::vector<std::size_t> kept;
+  const std::vector<Marker> markers = markers_of(mesh, kept, notes);
+  note_dropped(mesh, {}, kept, su2_format().info.title, notes);
+
+  TextWriter out(file, progress);
+  if (!mesh.title.empty()) out << "% " << mesh.title << '\n';
+  out << "NDIME= " << (volume ? 3 : 2) << "\nNELEM= " << mesh.elements.size() << '\n';
+  std::array<Index, 8> buffer{};
+  for (Index e = 0; e < mesh.elements.size(); ++e) {
+    out << kTypes[static_cast<std::size_t>(mesh.elements.kind(e))] << ' ';
+    for (const Index c : file_corners(mesh, e, buffer)) out << c << ' ';
+    out << e << '\n';
+  }
+  write_points(out, positions, volume);
+  out << "NMARK= " << markers.size() << '\n';
+  for (const Marker& marker : markers) {
+    out << "MARKER_TAG= " << marker.tag << "\nMARKER_ELEMS= " << marker.edges.size() / 2 << '\n';
+    for (std::size_t i = 0; i + 1 < marker.edges.size(); i += 2) {
+      out << kLineType << ' ' << marker.edges[i] << ' ' << marker.edges[i + 1] << '\n';
+    }
+  }
+  out.finish();
+  return notes;
+}
+
+}  // namespace
+
+const FormatHandler& su2_format() {
+  static const FormatHandler handler{{"su2", "SU2", ".su2", "positions, elements of all kinds, markers"}, recognises, read, write};
+  return handler;
+}
+
+}  // namespace dmoscope

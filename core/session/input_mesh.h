@@ -20,7 +20,8 @@ struct InputMesh {
   Topology topology;
   MeshReport report;
   std::filesystem::path path;             // empty for a generated mesh
-  std::vector<double> reference_measure;  // an element's mean |area| around it at input, > 0: divides its Jacobian while untangling
+  std::vector<double> reference_measure;  // > 0, divides an element's Jacobian while untangling: mean over its corners of the mean |area|
+                                          // in their stars, at input
   [[nodiscard]] QualityContext quality_context() const { return {mesh, geometry}; }
 };
 

@@ -1,0 +1,34 @@
+#include <fmt/format.h>
+
+#include "core/mesh/topology.h"
+
+namespace dmoscope {
+namespace {
+
+/// "1 vertex belongs to no element (17)", "2 vertices belong to no element (first: 17)".
+void add(std::vector<std::string>& sentences, const std::vector<Index>& ids, const char* one, const char* many) {
+  if (ids.size() == 1) sentences.push_back(fmt::format("1 {} ({})", one, ids.front()));
+  if (ids.size() > 1) sentences.push_back(fmt::format("{} {} (first: {})", ids.size(), many, ids.front()));
+}
+
+void add(std::vector<std::string>& sentences, Index count, const char* one, const char* many) {
+  if (count > 0) sentences.push_back(fmt::format("{} {}", count, count == 1 ? one : many));
+}
+
+}  // namespace
+
+std::vector<std::string> MeshReport::sentences() const {
+  std::vector<std::string> all;
+  add(all, inverted_elements, "element is inverted", "elements are inverted");
+  add(all, degenerate_elements, "element has no area", "elements have no area");
+  add(all, duplicate_elements, "element has the same corners as an earlier one", "elements have the same corners as an earlier one");
+  add(all, non_manifold_edges, "edge has more than two elements; its ends stay fixed",
+      "edges have more than two elements; their ends stay fixed");
+  add(all, unused_vertices, "vertex belongs to no element", "vertices belong to no element");
+  add(all, flipped_elements, "element was wound the other way round and is treated as turned over",
+      "elements were wound the other way round and are treated as turned over");
+  if (components > 1) all.push_back(fmt::format("the mesh has {} parts that share no edge", components));
+  return all;
+}
+
+}  // namespace dmoscope

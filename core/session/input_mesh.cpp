@@ -1,0 +1,186 @@
+#include "core/session/input_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/mesh/edges.h"
+#include "core/mesh/orientation.h"
+
+namespace dmoscope {
+namespace {
+
+constexpr Index kCheckEvery = 1U << 16U;  // elements between two looks for a cancel
+
+bool planar(const Mesh& mesh, Index e) { return info(mesh.elements.kind(e)).dimension == 2; }
+
+/// Corners in ascending order; shorter elements are filled up with kNoIndex.
+using CornerSet = std::array<Index, 4>;
+CornerSet corner_set(const Mesh& mesh, Index e) {
+  CornerSet set{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
+  std::ranges::copy(mesh.elements.corners(e), set.begin());
+  std::ranges::sort(set);
+  return set;
+}
+
+/// Elements with the corners of an earlier one. Two such elements share an edge, so only elements of one edge are compared.
+std::vector<Index> find_duplicates(const Mesh& mesh, const EdgeTable& edges) {
+  std::vector<Index> found;
+  std::vector<std::pair<CornerSet, Index>> around;
+  for (Index i = 0; i < edges.size(); ++i) {
+    const auto sides = edges.sides(i);
+    if (sides.size() < 2) continue;
+    around.clear();
+    for (const Index side : sides) around.emplace_back(corner_set(mesh, edges.element(side)), edges.element(side));
+    std::ranges::sort(around);
+    for (std::size_t k = 1; k < around.size(); ++k) {
+      if (around[k].first == around[k - 1].first && around[k].second != around[k - 1].second) found.push_back(around[k].second);
+    }
+  }
+  std::ranges::sort(found);
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+/// A corner twice, or no corner whose two edges span more area than rounding makes of a straight line.
+bool degenerate(const Mesh& mesh, Index e) {
+  constexpr double kRounding = 1e-15;
+  const auto c = mesh.elements.corners(e);
+  const std::size_t n = c.size();
+  double largest = 0.0;
+  double span = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i + 1; j < n; ++j) {
+      if (c[i] == c[j]) return true;
+    }
+    const Vec3 a = mesh.positions[c[(i + 1) % n]] - mesh.positions[c[i]];
+    const Vec3 b = mesh.positions[c[(i + n - 1) % n]] - mesh.positions[c[i]];
+    const Vec3 area = cross(a, b);
+    largest = std::max(largest, dot(area, area));
+    span = std::max({span, dot(a, a), dot(b, b)});
+  }
+  return !(largest > (kRounding * span) * (kRounding * span));
+}
+
+MeshReport examine(const Mesh& mesh, const Geometry& geometry, const EdgeTable& edges, Progress* progress) {
+  MeshReport report;
+  std::vector<std::uint8_t> used(mesh.positions.size(), 0);
+  for (const Index v : mesh.elements.all_corners()) used[v] = 1;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (used[v] == 0) report.unused_vertices.push_back(v);
+  }
+  report.duplicate_elements = find_duplicates(mesh, edges);
+  const QualityContext context{mesh, geometry};
+  for (Index e = 0; e < mesh.elements.size(); ++e) {
+    if (progress != nullptr && e % kCheckEvery == 0) {
+      progress->check();
+      progress->set(static_cast<double>(e) / mesh.elements.size());
+    }
+    if (!planar(mesh, e)) continue;
+    if (degenerate(mesh, e)) {
+      report.degenerate_elements.push_back(e);
+    } else if (!(smallest_jacobian(context, mesh.positions, e) > 0.0)) {
+      report.inverted_elements.push_back(e);
+    }
+  }
+  for (Index i = 0; i < edges.size(); ++i) report.non_manifold_edges += edges.sides(i).size() > 2 ? 1 : 0;
+  report.boundary_loops = count_boundary_loops(mesh, edges);
+  report.components = count_components(mesh, edges);
+  report.flipped_elements = static_cast<Index>(std::ranges::count_if(mesh.flipped, [](std::uint8_t f) { return f != 0; }));
+  return report;
+}
+
+/// "11098 tetrahedra", "445 tetrahedra, 190 pyramids and 305 hexahedra".
+std::string count_volume_elements(const Mesh& mesh) {
+  std::array<Index, kElementKindCount> count{};
+  for (const ElementKind kind : mesh.elements.kinds()) ++count[static_cast<std::size_t>(kind)];
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < kElementKindCount; ++k) {
+    const ElementKindInfo& kind = info(static_cast<ElementKind>(k));
+    if (kind.dimension == 3 && count[k] > 0) parts.push_back(fmt::format("{} {}", count[k], count[k] == 1 ? kind.name : kind.plural));
+  }
+  std::string text = parts.front();
+  for (std::size_t i = 1; i < parts.size(); ++i) text += (i + 1 < parts.size() ? ", " : " and ") + parts[i];
+  return text;
+}
+
+void refuse_what_cannot_be_done(const Mesh& mesh, const Geometry& geometry, const std::string& file, Need need) {
+  if (mesh.elements.size() == 0) throw InputError(file, 0, "the mesh has no elements");
+  if (geometry.shape == Shape::Volume) {
+    throw InputError(file, 0,
+                     fmt::format("this is a volume mesh ({}); this version {} only", count_volume_elements(mesh),
+                                 need == Need::Smoothing ? "smooths planar meshes" : "measures planar and surface meshes"));
+  }
+  if (geometry.shape == Shape::Surface && need == Need::Smoothing) {
+    throw InputError(file, 0,
+                     fmt::format("this is a curved surface mesh (its vertices lie up to {:.4g} from one plane, its size is {:.4g}); "
+                                 "this version smooths planar meshes only",
+                                 geometry.deviation, geometry.size));
+  }
+}
+
+/// See InputMesh::reference_measure.
+std::vector<double> reference_measures(const Mesh& mesh, const Geometry& geometry, const Topology& topology, Progress& progress) {
+  const Index count = mesh.elements.size();
+  std::vector<double> area(count, 0.0);
+  double total = 0.0;
+  for (Index e = 0; e < count; ++e) {
+    if (!planar(mesh, e)) continue;
+    const auto c = mesh.elements.corners(e);
+    const auto& p = mesh.positions;
+    const Vec3 twice = c.size() == 3 ? cross(p[c[1]] - p[c[0]], p[c[2]] - p[c[0]]) : cross(p[c[2]] - p[c[0]], p[c[3]] - p[c[1]]);
+    area[e] = 0.5 * (geometry.shape == Shape::Planar ? std::abs(dot(twice, geometry.plane.normal)) : length(twice));
+    total += area[e];
+  }
+  const double fallback = total > 0.0 ? total / count : 1.0;
+  // First around each vertex, then over the corners of each element: linear whatever the valence.
+  std::vector<double> around(mesh.positions.size(), 0.0);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (v % kCheckEvery == 0) progress.check();
+    const auto star = topology.star(v);
+    for (const Incidence& incidence : star) around[v] += area[incidence.element];
+    if (!star.empty()) around[v] /= static_cast<double>(star.size());
+  }
+  std::vector<double> reference(count, fallback);
+  for (Index e = 0; e < count; ++e) {
+    const auto corners = mesh.elements.corners(e);
+    double sum = 0.0;
+    for (const Index v : corners) sum += around[v];
+    if (sum > 0.0) reference[e] = sum / static_cast<double>(corners.size());
+  }
+  return reference;
+}
+
+}  // namespace
+
+MeshReport examine(const Mesh& mesh, const Geometry& geometry) { return examine(mesh, geometry, EdgeTable(mesh), nullptr); }
+
+std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path path, Need need, Progress& progress) {
+  const Geometry geometry = classify(mesh);
+  refuse_what_cannot_be_done(mesh, geometry, path.empty() ? (mesh.name.empty() ? "mesh" : mesh.name) : path.string(), need);
+  progress.check();
+
+  progress.begin("orienting");
+  const EdgeTable edges(mesh);
+  progress.check();
+  progress.set(0.5);
+  normalise_orientation(mesh, geometry.plane, edges);
+  progress.check();
+
+  progress.begin("finding neighbours");
+  Topology topology(mesh, edges);
+  progress.check();
+  progress.set(0.5);
+  std::vector<double> reference = reference_measures(mesh, geometry, topology, progress);
+
+  progress.begin("checking");
+  MeshReport report = examine(mesh, geometry, edges, &progress);
+  progress.check();
+  return std::make_shared<const InputMesh>(
+      InputMesh{std::move(mesh), geometry, std::move(topology), std::move(report), std::move(path), std::move(reference)});
+}
+
+}  // namespace dmoscope

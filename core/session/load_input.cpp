@@ -1,0 +1,10 @@
+#include "core/io/mesh_io.h"
+#include "core/session/input_mesh.h"
+
+namespace dmoscope {
+
+std::shared_ptr<const InputMesh> load_input(const std::filesystem::path& path, Need need, Progress& progress) {
+  return prepare_input(read_mesh(path, progress), path, need, progress);
+}
+
+}  // namespace dmoscope

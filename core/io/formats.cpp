@@ -15,8 +15,9 @@
 namespace dmoscope {
 namespace {
 
-const std::array<const FormatHandler*, 4>& handlers() {
-  static const std::array<const FormatHandler*, 4> table{&off_format(), &obj_format(), &fort14_format(), &su2_format()};
+const std::array<const FormatHandler*, 7>& handlers() {
+  static const std::array<const FormatHandler*, 7> table{&off_format(), &obj_format(),    &ply_format(), &stl_format(),
+                                                         &vtk_format(), &fort14_format(), &su2_format()};
   return table;
 }
 

@@ -47,7 +47,7 @@ class TextWriter {
   TextWriter& number(Number value) {
     char digits[kLongestNumber];
     const auto result = std::to_chars(digits, digits + kLongestNumber, value);
-    buffer_.append(digits, result.ptr);
+    buffer_.append(digits, static_cast<std::size_t>(result.ptr - digits));
     flush_if_full();
     return *this;
   }

@@ -1,0 +1,173 @@
+#include "core/io/vtk_cells.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+namespace dmoscope {
+namespace {
+
+const VtkType kInt{VtkType::Kind::Scalar, ScalarType::Int32};
+
+Index checked_corner(const VtkValues& values, std::int64_t corner, std::size_t points, std::size_t place) {
+  if (corner < 0 || static_cast<std::uint64_t>(corner) >= points) {
+    values.in.fail_at(
+        place, fmt::format("a cell names point {}, but there are {} points (0 to {})", corner, points, points == 0 ? 0 : points - 1));
+  }
+  return static_cast<Index>(corner);
+}
+
+/// Up to version 4.2: every cell as its number of corners and the corners.
+VtkCells read_counted(VtkValues& values, const std::string& keyword, std::size_t cells, std::size_t size, std::size_t header,
+                      std::size_t points) {
+  VtkCells found;
+  found.offsets.reserve(cells + 1);
+  found.places.reserve(cells);
+  found.corners.reserve(size >= cells ? size - cells : 0);
+  std::size_t remaining = 0;  // corners that the current cell still lacks
+  values.wholes(kInt, size, keyword, [&](std::int64_t value, std::size_t place) {
+    if (remaining > 0) {
+      found.corners.push_back(checked_corner(values, value, points, place));
+      if (--remaining == 0) found.offsets.push_back(static_cast<Index>(found.corners.size()));
+      return;
+    }
+    if (found.size() == cells) {
+      values.in.fail_at(header, fmt::format("{} declares {} numbers, but its {} cells take fewer", keyword, size, cells));
+    }
+    if (value < 0) values.in.fail_at(place, fmt::format("a cell of {} corners", value));
+    found.places.push_back(place);
+    remaining = static_cast<std::size_t>(value);
+    if (remaining == 0) found.offsets.push_back(static_cast<Index>(found.corners.size()));
+  });
+  if (found.size() != cells || remaining != 0) {
+    values.in.fail_at(
+        header, fmt::format("{} declares {} numbers, which are used up after {} of its {} cells", keyword, size, found.size(), cells));
+  }
+  return found;
+}
+
+/// From version 5: offsets into one array of corners. `entries` is the number of offsets, one more than there are cells.
+VtkCells read_offsets(VtkValues& values, const std::string& keyword, std::size_t entries, std::size_t size, std::size_t header,
+                      std::size_t points) {
+  VtkCells found;
+  values.in.word("OFFSETS");
+  const VtkType offset_type = values.type();
+  found.offsets.clear();
+  found.places.reserve(entries);
+  values.wholes(offset_type, entries, "OFFSETS", [&](std::int64_t value, std::size_t place) {
+    const std::int64_t least = found.offsets.empty() ? 0 : found.offsets.back();
+    if (value < least || static_cast<std::uint64_t>(value) > size || (found.offsets.empty() && value != 0)) {
+      values.in.fail_at(place, fmt::format("offset {} of a cell: offsets start with 0, do not fall and end with {}", value, size));
+    }
+    if (!found.offsets.empty()) found.places.push_back(place);
+    found.offsets.push_back(static_cast<Index>(value));
+  });
+  if (found.offsets.empty()) found.offsets.push_back(0);
+  if (found.offsets.back() != size) {
+    values.in.fail_at(header, fmt::format("{} declares {} corners, but the last offset is {}", keyword, size, found.offsets.back()));
+  }
+  if (!equal_ignoring_case(values.in.word("CONNECTIVITY"), "CONNECTIVITY")) values.in.fail("CONNECTIVITY should stand here");
+  const VtkType corner_type = values.type();
+  found.corners.reserve(size);
+  values.wholes(corner_type, size, "CONNECTIVITY",
+                [&](std::int64_t value, std::size_t place) { found.corners.push_back(checked_corner(values, value, points, place)); });
+  return found;
+}
+
+std::string type_name(std::int64_t type) {
+  constexpr static std::array<std::string_view, 17> second_order{"quadratic edge",
+                                                                 "quadratic triangle",
+                                                                 "quadratic quadrilateral",
+                                                                 "quadratic tetrahedron",
+                                                                 "quadratic hexahedron",
+                                                                 "quadratic wedge",
+                                                                 "quadratic pyramid",
+                                                                 "biquadratic quadrilateral",
+                                                                 "triquadratic hexahedron",
+                                                                 "quadratic linear quadrilateral",
+                                                                 "quadratic linear wedge",
+                                                                 "biquadratic quadratic wedge",
+                                                                 "biquadratic quadratic hexahedron",
+                                                                 "biquadratic triangle",
+                                                                 "cubic line",
+                                                                 "quadratic polygon",
+                                                                 "triquadratic pyramid"};
+  if (type >= 21 && type <= 37) return std::string(second_order[static_cast<std::size_t>(type - 21)]) + ", higher order";
+  if (type == 6) return "triangle strip";
+  if (type == 15) return "pentagonal prism";
+  if (type == 16) return "hexagonal prism";
+  if (type == 41) return "convex point set";
+  if (type == 42) return "polyhedron";
+  if (type >= 51 && type <= 67) return "parametric or higher order";
+  if (type >= 68 && type <= 81) return "Lagrange or Bezier, higher order";
+  return "unknown";
+}
+
+}  // namespace
+
+VtkCells read_vtk_cells(VtkValues& values, const std::string& keyword, std::size_t points) {
+  const std::size_t header = values.in.token();
+  const std::size_t cells = values.in.count(fmt::format("the number of cells of {}", keyword), 0.0);
+  const std::size_t size = values.in.count(fmt::format("the size of {}", keyword), values.binary ? 4.0 : 2.0);
+  if (size >= kNoIndex || cells >= kNoIndex) values.in.fail("more cells or corners than this program can hold");
+  if (equal_ignoring_case(values.in.peek_word(), "OFFSETS")) {
+    values.in.need(cells, values.binary ? 4.0 : 2.0, fmt::format("the number of offsets of {}", keyword));
+    return read_offsets(values, keyword, cells, size, header, points);
+  }
+  if (cells > size) values.in.fail_at(header, fmt::format("{} declares {} numbers, which cannot hold {} cells", keyword, size, cells));
+  return read_counted(values, keyword, cells, size, header, points);
+}
+
+std::optional<ElementKind> element_of_vtk_cell(const MixedInput& in, std::int64_t type, std::vector<Index>& corners, std::size_t cell_place,
+                                               std::size_t type_place) {
+  std::optional<ElementKind> kind;
+  switch (type) {
+    case 0:
+    case 1:
+    case 2:
+    case 3:
+    case 4:
+      return std::nullopt;  // empty cell, vertices, lines
+    case 5:
+      kind = ElementKind::Triangle;
+      break;
+    case 7:
+      if (corners.size() != 3 && corners.size() != 4) {
+        in.fail_at(cell_place, fmt::format("a polygon of {} corners: only those of 3 and 4 can be smoothed", corners.size()));
+      }
+      return corners.size() == 3 ? ElementKind::Triangle : ElementKind::Quadrilateral;
+    case 8:
+    case 9:
+      kind = ElementKind::Quadrilateral;
+      break;
+    case 10:
+      kind = ElementKind::Tetrahedron;
+      break;
+    case 11:
+    case 12:
+      kind = ElementKind::Hexahedron;
+      break;
+    case 13:
+      kind = ElementKind::Wedge;
+      break;
+    case 14:
+      kind = ElementKind::Pyramid;
+      break;
+    default:
+      in.fail_at(type_place, fmt::format("cells of type {} ({}) are not supported", type, type_name(type)));
+  }
+  if (corners.size() != info(*kind).corners) {
+    in.fail_at(cell_place,
+               fmt::format("a cell of type {} ({}) has {} corners, not {}", type, info(*kind).name, info(*kind).corners, corners.size()));
+  }
+  if (type == 8 || type == 11) std::swap(corners[2], corners[3]);
+  if (type == 11) std::swap(corners[6], corners[7]);
+  return kind;
+}
+
+int vtk_cell_type(ElementKind kind) noexcept {
+  constexpr static std::array<int, kElementKindCount> types{5, 9, 10, 12, 13, 14};
+  return types[static_cast<std::size_t>(kind)];
+}
+
+}  // namespace dmoscope

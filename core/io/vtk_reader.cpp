@@ -1,0 +1,281 @@
+#include "core/io/vtk_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/io/format.h"
+#include "core/io/vtk_attributes.h"
+#include "core/io/vtk_cells.h"
+#include "core/io/vtk_values.h"
+
+namespace dmoscope {
+namespace {
+
+constexpr std::string_view kSignature = "# vtk DataFile Version";
+constexpr std::uint8_t kNoKind = 0xff;
+
+class VtkReader {
+ public:
+  VtkReader(SourceFile& source, Progress& progress) : source_(source), values_(source, progress), attributes_(values_, source) {}
+
+  Mesh read() {
+    header();
+    while (!in().at_end()) section(std::string(in().word("a keyword")));
+    finish();
+    return std::move(mesh_);
+  }
+
+ private:
+  enum class Dataset { None, UnstructuredGrid, PolyData };
+
+  MixedInput& in() { return values_.in; }
+
+  void header() {
+    const std::string_view first = in().rest_of_line();
+    if (!equal_ignoring_case(first.substr(0, kSignature.size()), kSignature)) {
+      in().fail_at(0, fmt::format("a VTK legacy file begins with \"{} 3.0\", this one with {}", kSignature, quote_token(first)));
+    }
+    std::string_view version = first.substr(kSignature.size());
+    version.remove_prefix(std::min(version.find_first_not_of(" \t"), version.size()));
+    int major = 0;
+    const auto [end, error] = std::from_chars(version.data(), version.data() + version.size(), major);
+    if (error != std::errc() || major < 1 || major > 5) {
+      in().fail_at(0, fmt::format("VTK version {} is not known (1.0 to 5.1 are)", quote_token(version)));
+    }
+    mesh_.title = in().rest_of_line();
+    const std::string_view encoding = in().word("ASCII or BINARY");
+    values_.binary = equal_ignoring_case(encoding, "BINARY");
+    if (!values_.binary && !equal_ignoring_case(encoding, "ASCII")) {
+      in().fail("expected ASCII or BINARY, got " + quote_token(encoding));
+    }
+  }
+
+  void section(const std::string& keyword) {
+    const auto is = [&](std::string_view word) { return equal_ignoring_case(keyword, word); };
+    if (is("DATASET")) {
+      dataset();
+    } else if (is("METADATA")) {
+      values_.skip_metadata();
+    } else if (is("POINT_DATA")) {
+      data_begun_ = true;
+      attributes_.begin(Field::On::Vertices, mesh_.positions.size(), "POINT_DATA");
+    } else if (is("CELL_DATA")) {
+      data_begun_ = true;
+      attributes_.begin(Field::On::Elements, cell_count(), "CELL_DATA");
+    } else if (!attributes_.read(keyword) && !geometry(keyword)) {
+      in().fail("unknown keyword " + quote_token(keyword));
+    }
+  }
+
+  void dataset() {
+    if (dataset_ != Dataset::None) in().fail("a second DATASET: a file has one");
+    const std::string_view kind = in().word("the kind of dataset");
+    if (equal_ignoring_case(kind, "UNSTRUCTURED_GRID")) {
+      dataset_ = Dataset::UnstructuredGrid;
+    } else if (equal_ignoring_case(kind, "POLYDATA")) {
+      dataset_ = Dataset::PolyData;
+    } else {
+      in().fail(fmt::format("dataset {} is not supported: UNSTRUCTURED_GRID and POLYDATA are", quote_token(kind)));
+    }
+  }
+
+  bool geometry(const std::string& keyword) {
+    const auto is = [&](std::string_view word) { return equal_ignoring_case(keyword, word); };
+    const bool grid = dataset_ == Dataset::UnstructuredGrid;
+    const bool poly = dataset_ == Dataset::PolyData;
+    const bool known = is("POINTS") || (grid && (is("CELLS") || is("CELL_TYPES"))) ||
+                       (poly && (is("POLYGONS") || is("VERTICES") || is("LINES") || is("TRIANGLE_STRIPS")));
+    if (!known) return false;
+    if (dataset_ == Dataset::None) in().fail(keyword + " before DATASET");
+    if (data_begun_) in().fail(keyword + " after the data of points or cells");
+    if (is("POINTS")) {
+      points();
+    } else if (!points_read_) {
+      in().fail(keyword + " before POINTS");
+    } else if (is("CELLS")) {
+      read_cells(cells_, keyword);
+    } else if (is("CELL_TYPES")) {
+      cell_types();
+    } else if (is("POLYGONS")) {
+      read_cells(cells_, keyword);
+    } else if (is("TRIANGLE_STRIPS")) {
+      const std::size_t place = in().token();
+      if (read_vtk_cells(values_, keyword, mesh_.positions.size()).size() > 0) {
+        in().fail_at(place, "triangle strips are not supported: write the surface as triangles");
+      }
+    } else {
+      read_cells(is("VERTICES") ? vertices_ : lines_, keyword);
+    }
+    return true;
+  }
+
+  void read_cells(std::optional<VtkCells>& cells, const std::string& keyword) {
+    if (cells) in().fail("a second " + keyword);
+    cells = read_vtk_cells(values_, keyword, mesh_.positions.size());
+  }
+
+  void points() {
+    if (points_read_) in().fail("a second POINTS");
+    points_read_ = true;
+    const std::size_t n = in().count("the number of points", values_.binary ? 3.0 : 6.0);
+    const VtkType type = values_.type();
+    if (type.kind != VtkType::Kind::Scalar) in().fail("points must be of a number type");
+    mesh_.positions.reserve(n);
+    if (!values_.binary) source_.reserve_places(n);
+    std::array<double, 3> xyz{};
+    std::size_t axis = 0;
+    std::size_t first = 0;
+    in().need(n, 3.0 * values_.least_bytes(type), "the number of points");
+    const auto coordinate = [&](double value, std::size_t place) {
+      if (!std::isfinite(value))
+        in().fail_at(place, fmt::format("a coordinate of point {} is not a finite number", mesh_.positions.size()));
+      if (axis == 0) {
+        if (mesh_.positions.empty()) first = place;
+        if (!values_.binary) source_.add_place(place);
+      }
+      xyz[axis++] = value;
+      if (axis < 3) return;
+      axis = 0;
+      mesh_.positions.push_back({xyz[0], xyz[1], xyz[2]});
+    };
+    values_.numbers(type, n * 3, "a coordinate", coordinate);
+    set_layout(type.scalar, first, n);
+  }
+
+  void set_layout(ScalarType type, std::size_t first, std::size_t n) {
+    CoordinateLayout layout;
+    layout.syntax.free_form = true;
+    if (values_.binary) {
+      const auto size = static_cast<std::uint32_t>(size_of(type));
+      layout.binary = true;
+      layout.big_endian = true;
+      layout.at = {0, size, 2 * size};
+      layout.scalar.fill(type == ScalarType::Float32 ? CoordinateScalar::Float32 : CoordinateScalar::Float64);
+      source_.set_uniform_places(first, std::size_t{3} * size, n);
+    }
+    source_.set_layout(layout);
+    if (is_whole(type)) source_.set_not_patchable("its points are whole numbers");
+  }
+
+  void cell_types() {
+    if (!cells_) in().fail("CELL_TYPES before CELLS");
+    if (!kinds_.empty()) in().fail("a second CELL_TYPES");
+    const std::size_t n = in().count("the number of cell types", values_.binary ? 4.0 : 2.0);
+    if (n != cells_->size()) in().fail(fmt::format("CELL_TYPES {}, but there are {} cells", n, cells_->size()));
+    types_read_ = true;
+    kinds_.reserve(n);
+    const VtkType type{VtkType::Kind::Scalar, ScalarType::Int32};
+    values_.wholes(type, n, "a cell type", [&](std::int64_t value, std::size_t place) { add_kind(value, place); });
+  }
+
+  /// Takes the next cell as VTK's type `type`; pixels and voxels get the corner order of quadrilaterals and hexahedra.
+  void add_kind(std::int64_t type, std::size_t type_place) {
+    VtkCells& cells = *cells_;
+    const std::size_t c = kinds_.size();
+    const auto begin = cells.corners.begin() + static_cast<std::ptrdiff_t>(cells.offsets[c]);
+    corners_.assign(begin, cells.corners.begin() + static_cast<std::ptrdiff_t>(cells.offsets[c + 1]));
+    const std::optional<ElementKind> kind = element_of_vtk_cell(in(), type, corners_, cells.places[c], type_place);
+    std::copy(corners_.begin(), corners_.end(), begin);
+    kinds_.push_back(kind ? static_cast<std::uint8_t>(*kind) : kNoKind);
+  }
+
+  [[nodiscard]] std::size_t cell_count() const {
+    return (cells_ ? cells_->size() : 0) + (vertices_ ? vertices_->size() : 0) + (lines_ ? lines_->size() : 0);
+  }
+
+  void finish() {
+    if (dataset_ == Dataset::None) in().fail_at(source_.bytes().size(), "the file has no DATASET");
+    if (!points_read_) in().fail_at(source_.bytes().size(), "the file has no POINTS");
+    if (dataset_ == Dataset::PolyData) {
+      if (!cells_) in().fail_at(source_.bytes().size(), "the file has no POLYGONS");
+      for (std::size_t c = 0; c < cells_->size(); ++c) add_kind(7, cells_->places[c]);
+    } else if (!cells_ || !types_read_) {
+      in().fail_at(source_.bytes().size(), cells_ ? "the file has no CELL_TYPES" : "the file has no CELLS");
+    }
+    add_elements();
+    for (Field& field : attributes_.fields()) {
+      if (field.on == Field::On::Elements && rows_.size() != cell_count()) keep_rows(field);
+      mesh_.fields.push_back(std::move(field));
+    }
+  }
+
+  void add_elements() {
+    const bool volume = std::any_of(kinds_.begin(), kinds_.end(), [](std::uint8_t kind) {
+      return kind != kNoKind && info(static_cast<ElementKind>(kind)).dimension == 3;
+    });
+    // Cell data of POLYDATA have the rows of vertices and lines first.
+    const std::size_t before = (vertices_ ? vertices_->size() : 0) + (lines_ ? lines_->size() : 0);
+    std::size_t low = before;
+    std::size_t faces = 0;
+    mesh_.elements.reserve(kinds_.size(), cells_->corners.size());
+    rows_.reserve(kinds_.size());
+    for (std::size_t c = 0; c < kinds_.size(); ++c) {
+      const bool element = kinds_[c] != kNoKind;
+      const auto kind = static_cast<ElementKind>(kinds_[c]);
+      if (!element || (volume && info(kind).dimension == 2)) {
+        ++(element ? faces : low);
+        continue;
+      }
+      const Index from = cells_->offsets[c];
+      add_element(mesh_, kind, std::span(cells_->corners).subspan(from, cells_->offsets[c + 1] - from), source_);
+      rows_.push_back(before + c);
+    }
+    skipped(low, "vertices and lines");
+    skipped(faces, "faces of the volume mesh");
+  }
+
+  void skipped(std::size_t count, std::string_view what) {
+    if (count == 0) return;
+    source_.add_note(fmt::format("Cells that are no elements here: {} {}.", count, what));
+    source_.add_only_in_file(fmt::format("{} {}", count, what));
+  }
+
+  void keep_rows(Field& field) const {
+    const auto n = static_cast<std::size_t>(field.components);
+    std::vector<double> kept;
+    kept.reserve(rows_.size() * n);
+    for (const std::size_t row : rows_) {
+      for (std::size_t k = 0; k < n; ++k) kept.push_back(field.values[row * n + k]);
+    }
+    field.values = std::move(kept);
+  }
+
+  SourceFile& source_;
+  VtkValues values_;
+  VtkAttributes attributes_;
+  Mesh mesh_;
+  Dataset dataset_ = Dataset::None;
+  bool points_read_ = false;
+  bool types_read_ = false;
+  bool data_begun_ = false;
+  std::optional<VtkCells> cells_;     // CELLS or POLYGONS
+  std::optional<VtkCells> vertices_;  // of POLYDATA
+  std::optional<VtkCells> lines_;     // of POLYDATA
+  std::vector<std::uint8_t> kinds_;   // of each of cells_: ElementKind or kNoKind
+  std::vector<std::size_t> rows_;     // of each element: its row of cell data
+  std::vector<Index> corners_;        // of one cell
+};
+
+bool recognises_vtk(std::string_view bytes) { return equal_ignoring_case(bytes.substr(0, kSignature.size()), kSignature); }
+
+}  // namespace
+
+Mesh read_vtk(SourceFile& source, Progress& progress) { return VtkReader(source, progress).read(); }
+
+const FormatHandler& vtk_format() {
+  static const FormatHandler handler{
+      .info = {"vtk", "VTK legacy", ".vtk", "2D and 3D elements, point and cell data; ASCII and binary, POLYDATA and UNSTRUCTURED_GRID"},
+      .recognises = recognises_vtk,
+      .read = read_vtk,
+      .write = write_vtk};
+  return handler;
+}
+
+}  // namespace dmoscope

@@ -61,7 +61,7 @@ struct CandidateGrid {
 
  private:
   [[nodiscard]] Real coordinate(Real middle, Real width, int i) const {
-    return middle + width * (Real(static_cast<float>(i)) / Real(static_cast<float>(points - 1)) - Real(0.5F));
+    return middle + width * (static_cast<Real>(i) / static_cast<Real>(points - 1) - Real(0.5F));
   }
 };
 
@@ -82,7 +82,7 @@ template <class Real, class ObjectiveAt, class Trace = NoTrace>
   Candidate<Real> best{{}, objective(Vec2<Real>{})};
   double omega = parameters.omega;
   for (int level = 0; level < parameters.levels; ++level) {
-    const Real factor = Real(static_cast<float>(omega));
+    const Real factor = static_cast<Real>(omega);
     const CandidateGrid<Real> grid{best.offset, {box.x * factor, box.y * factor}, parameters.grid_points};
     trace.level(grid);
     for (int i = 0; i < grid.points; ++i) {

@@ -29,9 +29,9 @@ struct VisitOrder {
 struct RunParameters {
   std::string method = "dmo";
   Metric metric = Metric::MeanRatio;
-  SearchParameters search;
-  VisitOrder order;
-  std::vector<Index> fixed;  // the user's fixed set, besides boundary and unused vertices
+  SearchParameters search{};
+  VisitOrder order{};
+  std::vector<Index> fixed{};  // the user's fixed set, besides boundary and unused vertices
 };
 
 enum class StepUnit { Vertex, Class, Iteration };

@@ -250,7 +250,10 @@ void expect(CommandContext& context, Arguments arguments) {
 
 void say(CommandContext& context, Arguments arguments) {
   std::string text;
-  for (const std::string& word : arguments) text += (text.empty() ? "" : " ") + word;
+  for (const std::string& word : arguments) {
+    if (!text.empty()) text += ' ';
+    text += word;
+  }
   tell(context, std::move(text));
 }
 

@@ -1,0 +1,114 @@
+// Statistics of whole meshes, against plain loops.
+
+#include <cmath>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "core/base/thread_pool.h"
+#include "core/quality/quality.h"
+#include "tests/support/meshes.h"
+
+namespace dmoscope {
+namespace {
+
+using testing::Cells;
+using testing::input;
+using testing::lattice;
+
+TEST(Statistics, AgreesWithAPlainLoop) {
+  const auto mesh = input(lattice(20, 0.8, 3, Cells::Mixed));
+  const QualityContext context = mesh->quality_context();
+  const auto& positions = mesh->mesh.positions;
+  std::vector<std::uint8_t> fixed(positions.size(), 0);
+  for (std::size_t v = 0; v < fixed.size() / 2; ++v) fixed[v] = 1;
+  const Statistics statistics = compute_statistics(context, positions, Metric::MeanRatio, fixed, nullptr);
+  double least = 2, least_movable = 2, least_fixed = 2, sum = 0;
+  Index inverted = 0;
+  for (Index e = 0; e < mesh->mesh.elements.size(); ++e) {
+    const double q = element_quality(context, positions, Metric::MeanRatio, e);
+    bool movable = false;
+    for (const Index v : mesh->mesh.elements.corners(e)) movable = movable || fixed[v] == 0;
+    least = std::min(least, q);
+    (movable ? least_movable : least_fixed) = std::min(movable ? least_movable : least_fixed, q);
+    sum += q;
+    inverted += q <= 0 ? 1 : 0;  // for the mean ratio the sign is the validity
+  }
+  EXPECT_EQ(statistics.minimum, least);
+  EXPECT_EQ(statistics.movable_minimum, least_movable);
+  EXPECT_EQ(statistics.ceiling, least_fixed);
+  EXPECT_EQ(statistics.inverted, inverted);
+  EXPECT_GT(inverted, 0U) << "the example should hold inverted elements";
+  EXPECT_NEAR(statistics.mean, sum / mesh->mesh.elements.size(), 1e-14);
+  EXPECT_EQ(element_quality(context, positions, Metric::MeanRatio, statistics.worst_element), least);
+}
+
+TEST(Statistics, SameBitsForAnyPool) {
+  const auto mesh = input(lattice(120, 0.4, 4));
+  const std::vector<std::uint8_t> fixed(mesh->mesh.positions.size(), 0);
+  const auto at = [&](ThreadPool* pool) {
+    return compute_statistics(mesh->quality_context(), mesh->mesh.positions, Metric::RadiusRatio, fixed, pool);
+  };
+  const Statistics alone = at(nullptr);
+  for (const unsigned threads : {1U, 2U, 3U, 7U}) {
+    ThreadPool pool(threads);
+    EXPECT_EQ(at(&pool).mean, alone.mean) << threads;
+    EXPECT_EQ(at(&pool).minimum, alone.minimum) << threads;
+    EXPECT_EQ(at(&pool).worst_element, alone.worst_element) << threads;
+  }
+}
+
+TEST(Statistics, QualityDoesNotDependOnTheOriginOrThePlane) {
+  const Mesh flat = lattice(10, 0.3, 5);
+  Mesh moved = flat, tilted = flat;
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  for (std::size_t v = 0; v < flat.positions.size(); ++v) {
+    const Vec3 p = flat.positions[v];
+    moved.positions[v] = {p.x + 1048576.0, p.y - 2097152.0, 5.0};
+    tilted.positions[v] = {c * p.x, p.y, s * p.x};
+  }
+  const auto a = input(flat), b = input(moved), t = input(tilted);
+  for (const MetricInfo& entry : metric_table())
+    for (Index e = 0; e < flat.elements.size(); ++e) {
+      const double q = element_quality(a->quality_context(), a->mesh.positions, entry.metric, e);
+      EXPECT_NEAR(element_quality(b->quality_context(), b->mesh.positions, entry.metric, e), q, 1e-6) << entry.name;
+      EXPECT_NEAR(element_quality(t->quality_context(), t->mesh.positions, entry.metric, e), q, 1e-6) << entry.name;
+    }
+}
+
+TEST(Statistics, UndefinedMetricIsNaNForTheKindAndLeftOutOfTheMean) {
+  const auto mesh = input(lattice(6, 0.2, 6, Cells::Mixed));
+  const std::vector<std::uint8_t> fixed(mesh->mesh.positions.size(), 0);
+  double sum = 0;
+  int count = 0;
+  for (Index e = 0; e < mesh->mesh.elements.size(); ++e) {
+    const double q = element_quality(mesh->quality_context(), mesh->mesh.positions, Metric::MinAngle, e);
+    EXPECT_EQ(std::isnan(q), mesh->mesh.elements.kind(e) == ElementKind::Quadrilateral);
+    if (std::isnan(q)) continue;
+    sum += q;
+    ++count;
+  }
+  const Statistics statistics = compute_statistics(mesh->quality_context(), mesh->mesh.positions, Metric::MinAngle, fixed, nullptr);
+  EXPECT_NEAR(statistics.mean, sum / count, 1e-14);
+  EXPECT_THROW(require_defined(Metric::MinAngle, mesh->mesh), UsageError);
+}
+
+TEST(ThreadPool, CoversEveryIndexOnceAndPassesExceptionsOn) {
+  ThreadPool pool(3);
+  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{999}, std::size_t{5000}}) {
+    std::vector<std::atomic<int>> seen(count);
+    pool.parallel_for(count, 64, [&](std::size_t first, std::size_t last) {
+      EXPECT_EQ(first % 64, 0U);
+      for (std::size_t i = first; i < last; ++i) ++seen[i];
+    });
+    for (const auto& n : seen) EXPECT_EQ(n, 1);
+  }
+  EXPECT_THROW(pool.parallel_for(1000, 10,
+                                 [](std::size_t first, std::size_t) {
+                                   if (first == 500) throw UsageError("x");
+                                 }),
+               UsageError);
+}
+
+}  // namespace
+}  // namespace dmoscope

@@ -22,6 +22,11 @@ target_include_directories(dmoscope_settings INTERFACE ${PROJECT_SOURCE_DIR})
 if(DMOSCOPE_SANITIZE)
   target_compile_options(dmoscope_settings INTERFACE -fsanitize=${DMOSCOPE_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(dmoscope_settings INTERFACE -fsanitize=${DMOSCOPE_SANITIZE})
+  if(DMOSCOPE_SANITIZE MATCHES "address" AND DMOSCOPE_GUI)
+    add_library(dmoscope_keep_loaded OBJECT ${CMAKE_CURRENT_LIST_DIR}/keep_loaded.c)
+    target_link_libraries(dmoscope_settings INTERFACE $<TARGET_OBJECTS:dmoscope_keep_loaded>)
+    target_link_options(dmoscope_settings INTERFACE -Wl,--export-dynamic-symbol=dlclose)
+  endif()
 endif()
 
 # dmoscope_room(NAME): a static library of all sources below the current folder.

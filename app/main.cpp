@@ -1,0 +1,86 @@
+// The program: parses the command line, runs one verb, and turns every error into a message and an exit code.
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/console.h"
+#include "app/man_page.h"
+#include "app/verbs/verbs.h"
+#include "core/base/error.h"
+
+namespace dmoscope::app {
+namespace {
+
+constexpr int kWrongUsage = 2;
+constexpr int kBadInputOrOutput = 3;
+
+/// Runs what was asked for; whatever ends it early becomes a message and its exit code.
+int guarded(const Action& action) {
+  try {
+    return action();
+  } catch (const Error& error) {
+    complain(error.what());
+    return error.exit_code();
+  } catch (const std::bad_alloc&) {
+    complain("not enough memory for this mesh");
+    return kBadInputOrOutput;
+  } catch (const std::exception& error) {
+    complain(fmt::format("unexpected error (please report it): {}", error.what()));
+    return kBadInputOrOutput;
+  }
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("See, compare and run Discrete Mesh Optimization: smooth a planar mesh so that its worst element gets as good as it can.",
+               "dmoscope");
+  app.set_version_flag("--version", std::string("dmoscope ") + DMOSCOPE_VERSION);
+  app.require_subcommand(0, 1);
+  app.footer(
+      "Without a verb the window opens on the files. Exit codes: 0 done; 1 ran but did not reach what was asked; 2 wrong usage; 3 bad "
+      "input or output.");
+
+  std::vector<std::filesystem::path> files;
+  app.add_option("FILE", files, "Meshes to open in the window");
+  bool man = false;
+  app.add_flag("--man", man, "Print the man page in roff")->group("");
+
+  Action action = [&files] { return open_window(files); };
+  add_smooth(app, action);
+  add_quality(app, action);
+  add_render(app, action);
+  add_convert(app, action);
+  add_generate(app, action);
+  add_script(app, action);
+  add_bench(app, action);
+  add_info(app, action);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kWrongUsage;
+  }
+  if (man) {
+    fmt::print("{}", man_page(app));
+    return 0;
+  }
+  return guarded(action);
+}
+
+}  // namespace
+}  // namespace dmoscope::app
+
+int main(int argc, char** argv) {
+  try {
+    const int code = dmoscope::app::run(argc, argv);
+    // A full disk or closed pipe below standard output must not look like success.
+    return std::fflush(stdout) == 0 ? code : 3;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "dmoscope: %s\n", error.what());
+    return 3;
+  }
+}

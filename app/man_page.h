@@ -1,0 +1,15 @@
+#pragma once
+// The man page, made from the very tables and options the program runs on.
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace dmoscope::app {
+
+/// dmoscope(1) in roff.
+[[nodiscard]] std::string man_page(const CLI::App& app);
+
+}  // namespace dmoscope::app

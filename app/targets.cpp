@@ -1,0 +1,60 @@
+#include "app/targets.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "core/base/error.h"
+#include "core/io/mesh_io.h"
+
+namespace dmoscope::app {
+namespace {
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// `extensions`: several separated by blanks, as in FormatInfo.
+bool lists(std::string_view extensions, std::string_view extension) {
+  while (!extensions.empty()) {
+    const auto end = std::min(extensions.find(' '), extensions.size());
+    if (extensions.substr(0, end) == extension) return true;
+    extensions.remove_prefix(std::min(end + 1, extensions.size()));
+  }
+  return false;
+}
+
+}  // namespace
+
+void require_writable(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) throw OutputError(path.string(), "is a folder");
+  if (fs::exists(status)) {
+    if (!fs::is_regular_file(status)) throw OutputError(path.string(), "is not a regular file");
+    if (access(path.c_str(), W_OK) != 0) throw OutputError(path.string(), "the file is write-protected");
+  }
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, error)) throw OutputError(path.string(), fmt::format("there is no folder '{}'", folder.string()));
+  if (access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw OutputError(path.string(), fmt::format("the folder '{}' cannot be written to", folder.string()));
+  }
+}
+
+void require_mesh_target(const std::filesystem::path& path) {
+  const std::string extension = lower(path.extension().string());
+  std::string known;
+  for (const FormatInfo& format : format_table()) {
+    if (!extension.empty() && lists(format.extensions, extension)) return require_writable(path);
+    if (!known.empty()) known += ' ';
+    known += format.extensions;
+  }
+  throw UsageError(fmt::format("{}: no mesh format has the extension '{}' (known: {})", path.string(), extension, known));
+}
+
+}  // namespace dmoscope::app

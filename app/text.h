@@ -1,0 +1,38 @@
+#pragma once
+// Numbers, tables and JSON as the verbs print them.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace dmoscope::app {
+
+/// Keeps the order in which keys were given, so that the output reads like its documentation.
+using Json = nlohmann::ordered_json;
+
+/// Shortest text that reads back as the very same double; empty for infinity and NaN (a CSV's missing value).
+[[nodiscard]] std::string exact(double value);
+/// Six significant digits for a person; "-" for infinity and NaN.
+[[nodiscard]] std::string brief(double value);
+/// A number for JSON: null where it is infinite or NaN.
+[[nodiscard]] Json json_number(double value);
+/// The one object on standard output.
+void print_json(const Json& object);
+/// "a, b, c" of the names of a table's rows.
+template <class Table>
+[[nodiscard]] std::string names_of(const Table& table) {
+  std::string names;
+  for (const auto& row : table) {
+    if (!names.empty()) names += ", ";
+    names += row.name;
+  }
+  return names;
+}
+/// "1 element", "2 elements".
+[[nodiscard]] std::string counted(std::uint64_t count, std::string_view singular, std::string_view plural);
+
+}  // namespace dmoscope::app

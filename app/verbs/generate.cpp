@@ -1,0 +1,63 @@
+// dmoscope generate: makes a sample mesh.
+
+#include "core/mesh/generate.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/console.h"
+#include "app/targets.h"
+#include "app/text.h"
+#include "app/verbs/verbs.h"
+#include "core/io/mesh_io.h"
+
+namespace dmoscope::app {
+namespace {
+
+struct Options {
+  std::string kind;
+  std::filesystem::path output;
+  std::size_t size = 0;
+  std::uint64_t seed = 1;
+};
+
+int generate(const Options& options) {
+  require_mesh_target(options.output);
+  Watch watch;
+  const Mesh mesh = generate_mesh(options.kind, options.size, options.seed, watch.progress());
+  for (const std::string& sentence : write_mesh(options.output, mesh, mesh.positions, watch.progress())) {
+    complain(fmt::format("{}: {}", options.output.string(), sentence));
+  }
+  fmt::print("{}: {}, {}\n", options.output.string(), counted(mesh.vertex_count(), "vertex", "vertices"),
+             counted(mesh.elements.size(), "element", "elements"));
+  return 0;
+}
+
+std::string list_of_kinds() {
+  std::string text = "Kinds:";
+  for (const GeneratorInfo& generator : generator_table()) {
+    text +=
+        fmt::format("\n  {:<9} {} (about {} vertices unless --size says otherwise)", generator.name, generator.doc, generator.default_size);
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_generate(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = app.add_subcommand("generate", "Make a sample mesh");
+  verb->add_option("KIND", options->kind, "One of " + names_of(generator_table()))->required();
+  verb->add_option("-o,--output", options->output, "Where to write it; the format is the extension's")->required()->type_name("OUT");
+  verb->add_option("--size", options->size, "About how many vertices; 0: the kind's own size")->type_name("N")->capture_default_str();
+  verb->add_option("--seed", options->seed, "The same seed gives the same mesh everywhere")->type_name("S")->capture_default_str();
+  verb->footer(list_of_kinds());
+  verb->callback([options, &action] { action = [options] { return generate(*options); }; });
+}
+
+}  // namespace dmoscope::app

@@ -1,0 +1,127 @@
+// dmoscope info: what this program is and what it can use here.
+
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/text.h"
+#include "app/verbs/verbs.h"
+#include "core/base/error.h"
+#include "core/io/mesh_io.h"
+#include "core/mesh/generate.h"
+#include "core/quality/metric.h"
+#include "core/session/run.h"
+#include "gpu/device.h"
+
+#ifdef DMOSCOPE_HAVE_GUI
+#include "render/context.h"
+#endif
+
+namespace dmoscope::app {
+namespace {
+
+#if defined(__clang__)
+constexpr std::string_view kCompiler = "clang " __clang_version__;
+#else
+constexpr std::string_view kCompiler = "g++ " __VERSION__;
+#endif
+
+struct OpenGl {
+  bool usable = false;
+  std::string text;  // what draws, or why nothing does
+};
+
+OpenGl headless_opengl() {
+#ifdef DMOSCOPE_HAVE_GUI
+  try {
+    return {true, render::create_headless_context()->description()};
+  } catch (const Error& error) {
+    return {false, error.what()};
+  }
+#else
+  return {false, "built without OpenGL"};
+#endif
+}
+
+Json json_of(const gpu::Availability& cuda) {
+  Json devices = Json::array();
+  for (const gpu::Device& device : cuda.devices) {
+    devices.push_back(
+        {{"name", device.name}, {"compute_capability", fmt::format("{}.{}", device.major, device.minor)}, {"memory", device.memory}});
+  }
+  return {
+      {"name", "cuda"}, {"usable", cuda.reason.empty()}, {"built", cuda.built}, {"reason", cuda.reason}, {"devices", std::move(devices)}};
+}
+
+Json everything() {
+  const OpenGl gl = headless_opengl();
+  const unsigned threads = std::thread::hardware_concurrency();
+  Json object{{"version", DMOSCOPE_VERSION}, {"build", DMOSCOPE_BUILD_TYPE}, {"compiler", kCompiler}, {"threads", threads}};
+  object["backends"] = {{{"name", "cpu"}, {"usable", true}, {"threads", threads}}, json_of(gpu::availability())};
+  object["opengl"] = {{"usable", gl.usable}, {"description", gl.text}};
+  for (const FormatInfo& f : format_table()) {
+    object["formats"].push_back({{"name", f.name}, {"title", f.title}, {"extensions", f.extensions}, {"doc", f.doc}});
+  }
+  for (const MetricInfo& m : metric_table()) {
+    object["metrics"].push_back({{"name", m.name},
+                                 {"title", m.title},
+                                 {"triangles", m.triangles},
+                                 {"quadrilaterals", m.quadrilaterals},
+                                 {"lowest", m.lowest},
+                                 {"highest", m.highest},
+                                 {"acceptable", m.acceptable},
+                                 {"formula", m.formula},
+                                 {"doc", m.doc}});
+  }
+  for (const MethodInfo& m : method_table()) object["methods"].push_back({{"name", m.name}, {"doc", m.doc}});
+  for (const GeneratorInfo& g : generator_table()) {
+    object["generators"].push_back({{"name", g.name}, {"doc", g.doc}, {"default_size", g.default_size}});
+  }
+  return object;
+}
+
+void print_cuda(const gpu::Availability& cuda) {
+  fmt::print("  cuda   {}\n", cuda.reason.empty() ? "usable" : "not usable: " + cuda.reason);
+  for (const gpu::Device& device : cuda.devices) {
+    fmt::print("         {} (compute capability {}.{}, {:.1f} GiB)\n", device.name, device.major, device.minor,
+               static_cast<double>(device.memory) / static_cast<double>(std::size_t{1} << 30U));
+  }
+}
+
+void print_for_a_person() {
+  const OpenGl gl = headless_opengl();
+  fmt::print("dmoscope {} ({}, {})\n\nbackends\n", DMOSCOPE_VERSION, DMOSCOPE_BUILD_TYPE, kCompiler);
+  fmt::print("  cpu    usable, {}\n", counted(std::thread::hardware_concurrency(), "processor thread", "processor threads"));
+  print_cuda(gpu::availability());
+  fmt::print("  opengl {}{}\n\nformats\n", gl.usable ? "" : "not usable: ", gl.text);
+  for (const FormatInfo& f : format_table()) fmt::print("  {:<16} {}; {}\n", f.extensions, f.title, f.doc);
+  fmt::print("\nmetrics\n");
+  for (const MetricInfo& m : metric_table()) fmt::print("  {:<16} {}\n", m.name, m.doc);
+  fmt::print("\nmethods\n");
+  for (const MethodInfo& m : method_table()) fmt::print("  {:<16} {}\n", m.name, m.doc);
+  fmt::print("\nsamples (dmoscope generate)\n");
+  for (const GeneratorInfo& g : generator_table()) fmt::print("  {:<16} {}\n", g.name, g.doc);
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Action& action) {
+  auto json = std::make_shared<bool>(false);
+  CLI::App* verb = app.add_subcommand("info", "Version, backends and devices, formats, metrics, methods and samples");
+  verb->add_flag("--json", *json, "Print one JSON object and nothing else on standard output");
+  verb->callback([json, &action] {
+    action = [json] {
+      if (*json) {
+        print_json(everything());
+      } else {
+        print_for_a_person();
+      }
+      return 0;
+    };
+  });
+}
+
+}  // namespace dmoscope::app

@@ -1,0 +1,58 @@
+#include "app/verbs/run_options.h"
+
+#include <algorithm>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/text.h"
+#include "core/base/error.h"
+#include "core/quality/metric.h"
+#include "core/session/session_commands.h"
+
+namespace dmoscope::app {
+namespace {
+
+constexpr unsigned kMostThreads = 1024;
+
+void require_method(const std::string& name) {
+  const auto known = [&name](const MethodInfo& method) { return method.name == name; };
+  if (std::none_of(method_table().begin(), method_table().end(), known)) {
+    throw UsageError(fmt::format("unknown method '{}' (known: {})", name, names_of(method_table())));
+  }
+}
+
+}  // namespace
+
+void add_run_options(CLI::App& verb, RunOptions& options) {
+  verb.add_option("--method", options.method, "Method: " + names_of(method_table()))->type_name("NAME")->capture_default_str();
+  verb.add_option("--metric", options.metric, "Metric to optimise: " + names_of(metric_table()))->type_name("NAME")->capture_default_str();
+  verb.add_option("--backend", options.backend, "auto, cpu or cuda")->type_name("NAME")->capture_default_str();
+  verb.add_option("--threads", options.threads, "Threads; 0: one a processor thread. The result is the same for any")
+      ->type_name("N")
+      ->capture_default_str();
+  verb.add_option("--grid", options.search.grid_points, "Candidates an axis")->type_name("N")->capture_default_str();
+  verb.add_option("--levels", options.search.levels, "Grids a visit, each finer than the one before")
+      ->type_name("N")
+      ->capture_default_str();
+  verb.add_option("--order", options.order, "Order of the vertices: natural or shuffle:SEED")->type_name("ORDER")->capture_default_str();
+  verb.add_option("--fix", options.fix,
+                  "Vertices to keep where they are besides the boundary: ids from 0 and ranges (3,7-9), or a group's name")
+      ->type_name("LIST-OR-GROUP")
+      ->take_all()
+      ->expected(1);
+}
+
+RunParameters parameters_of(const RunOptions& options) {
+  RunParameters parameters;
+  require_method(options.method);
+  parameters.method = options.method;
+  parameters.metric = parse_metric(options.metric);
+  validate(options.search);
+  parameters.search = options.search;
+  parameters.order = parse_order(options.order);
+  if (options.threads > kMostThreads) throw UsageError(fmt::format("--threads {}: at most {}", options.threads, kMostThreads));
+  return parameters;
+}
+
+}  // namespace dmoscope::app

@@ -1,0 +1,31 @@
+#pragma once
+// The options that say how a run smooths, shared by the verbs that smooth.
+
+#include <string>
+#include <vector>
+
+#include "core/session/run.h"
+
+namespace CLI {
+class App;
+}
+
+namespace dmoscope::app {
+
+struct RunOptions {
+  std::string method = "dmo";
+  std::string metric = "mean-ratio";
+  std::string backend = "auto";
+  std::string order = "natural";
+  unsigned threads = 0;
+  SearchParameters search;
+  std::vector<std::string> fix;  // for named_vertices()
+};
+
+/// Declares --method, --metric, --backend, --threads, --grid, --levels, --order and --fix.
+void add_run_options(CLI::App& verb, RunOptions& options);
+
+/// The parameters without the fixed set, which needs the mesh. Throws UsageError for names that do not exist and values out of range.
+[[nodiscard]] RunParameters parameters_of(const RunOptions& options);
+
+}  // namespace dmoscope::app

@@ -1,0 +1,125 @@
+// dmoscope script: runs a file of commands, with or without the window.
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <istream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/console.h"
+#include "app/verbs/verbs.h"
+#include "core/base/error.h"
+#include "core/session/engine.h"
+#include "core/session/session_commands.h"
+
+#ifdef DMOSCOPE_HAVE_GUI
+#include "app/window/script.h"
+#endif
+
+namespace dmoscope::app {
+namespace {
+
+struct Options {
+  std::string file;
+  bool headless = false;
+};
+
+std::vector<std::string> lines_of(std::istream& stream) {
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(std::move(line));
+  return lines;
+}
+
+std::vector<std::string> read_lines(const std::string& file) {
+  if (file == "-") return lines_of(std::cin);
+  std::ifstream stream(file);
+  std::vector<std::string> lines = lines_of(stream);
+  // A folder opens but cannot be read.
+  if (!stream.is_open() || stream.bad()) throw InputError(file, 0, "cannot be read");
+  return lines;
+}
+
+/// The first verb of `lines` that the session does not know, with its line; 0 when it knows them all.
+struct Foreign {
+  std::size_t line = 0;
+  std::string verb;
+};
+Foreign first_foreign(const std::string& name, const std::vector<std::string>& lines) {
+  const auto& known = session_commands();
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    std::vector<std::string> words;
+    try {
+      words = split_words(lines[i]);
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("{}:{}: {}", name, i + 1, error.what()));
+    }
+    if (words.empty()) continue;
+    const auto matches = [&words](const CommandInfo& command) { return command.name == words.front(); };
+    if (std::none_of(known.begin(), known.end(), matches)) return {i + 1, words.front()};
+  }
+  return {};
+}
+
+/// Prints what the engine said; the exit code of its first error, 0 without one.
+int tell(const std::vector<Message>& messages, const std::string& name, std::size_t line) {
+  for (const Message& message : messages) {
+    if (message.kind == Message::Kind::Error) {
+      complain(fmt::format("{}:{}: {}", name, line, message.text));
+      return message.exit_code == 0 ? 3 : message.exit_code;
+    }
+    if (message.kind == Message::Kind::Warning) {
+      complain(message.text);
+    } else {
+      fmt::print("{}\n", message.text);
+      std::fflush(stdout);
+    }
+  }
+  return 0;
+}
+
+int run_on_session(const std::string& name, const std::vector<std::string>& lines) {
+  block_interrupts();  // before the engine's threads start
+  Engine engine;
+  const Watch watch(engine.progress(), [&engine] { engine.cancel(); });
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    engine.post(lines[i]);
+    engine.wait_idle();
+    if (const int code = tell(engine.take_messages(), name, i + 1); code != 0) return code;
+  }
+  return 0;
+}
+
+int script(const Options& options) {
+  const std::string name = options.file == "-" ? "standard input" : options.file;
+  const std::vector<std::string> lines = read_lines(options.file);
+  const Foreign foreign = first_foreign(name, lines);
+  if (foreign.line == 0) return run_on_session(name, lines);
+#ifdef DMOSCOPE_HAVE_GUI
+  ScriptOptions window;
+  window.name = name;
+  window.lines = lines;
+  window.headless = options.headless;
+  return run_script(window);
+#else
+  throw UsageError(fmt::format("{}:{}: unknown command '{}' (this program was built without the window and its commands)", name,
+                               foreign.line, foreign.verb));
+#endif
+}
+
+}  // namespace
+
+void add_script(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = app.add_subcommand("script", "Run a file of commands; stops at the first that fails");
+  verb->add_option("FILE", options->file, "Script to run; - reads standard input")->required();
+  verb->add_flag("--headless", options->headless, "Draw without a screen; a script that only computes needs none anyway");
+  verb->callback([options, &action] { action = [options] { return script(*options); }; });
+}
+
+}  // namespace dmoscope::app

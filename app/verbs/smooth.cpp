@@ -1,0 +1,198 @@
+// dmoscope smooth: reads a mesh, smooths it, writes it.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/console.h"
+#include "app/targets.h"
+#include "app/text.h"
+#include "app/verbs/backend.h"
+#include "app/verbs/input_report.h"
+#include "app/verbs/run_options.h"
+#include "app/verbs/verbs.h"
+#include "core/io/mesh_io.h"
+#include "core/session/csv.h"
+#include "core/session/run.h"
+
+namespace dmoscope::app {
+namespace {
+
+struct Options {
+  std::filesystem::path input, output, stats;
+  RunOptions run;
+  std::uint64_t iterations = 20;
+  bool until_converged = false;
+  ConvergenceLimits limits;
+  bool json = false;
+  std::string combine, then;
+};
+
+std::string_view reason_name(StopReason reason) {
+  switch (reason) {
+    case StopReason::NothingMoved:
+      return "nothing-moved";
+    case StopReason::NoRise:
+      return "no-rise";
+    case StopReason::IterationLimit:
+      return "iteration-limit";
+  }
+  return "unknown";
+}
+
+Json json_of(const Statistics& s) {
+  return {{"minimum", json_number(s.minimum)},
+          {"mean", json_number(s.mean)},
+          {"movable_minimum", json_number(s.movable_minimum)},
+          {"ceiling", json_number(s.ceiling)},
+          {"inverted", s.inverted}};
+}
+
+/// What came of it, as both the person and --json are told.
+struct Result {
+  const Options& options;
+  const Run& run;
+  std::string backend;
+  unsigned threads;
+  Outcome outcome;
+  double seconds;
+  std::vector<std::string> warnings;
+
+  [[nodiscard]] const IterationRecord& before() const { return run.history().records().front(); }
+  [[nodiscard]] const IterationRecord& after() const { return run.history().records().back(); }
+  [[nodiscard]] double visits_per_second() const {
+    const auto visits = static_cast<double>(outcome.iterations * run.visits_per_iteration());
+    return seconds > 0.0 ? visits / seconds : 0.0;
+  }
+};
+
+Json json_of(const Result& r) {
+  const RunParameters& p = r.run.parameters();
+  const Mesh& mesh = r.run.input().mesh;
+  Json object;
+  object["input"] = r.options.input.string();
+  object["output"] = r.options.output.string();
+  object["vertices"] = mesh.vertex_count();
+  object["elements"] = mesh.elements.size();
+  object["free"] = r.run.visits_per_iteration();
+  object["method"] = p.method;
+  object["metric"] = info(p.metric).name;
+  object["backend"] = r.backend;
+  object["threads"] = r.threads;
+  object["parameters"] = {{"grid", p.search.grid_points}, {"levels", p.search.levels},
+                          {"omega", p.search.omega},      {"precision", p.search.precision == Precision::Float ? "float" : "double"},
+                          {"order", r.options.run.order}, {"fixed_by_user", p.fixed.size()}};
+  object["iterations"] = r.outcome.iterations;
+  object["stopped"] = reason_name(r.outcome.reason);
+  object["last_rise"] = r.outcome.last_rise;
+  object["before"] = json_of(r.before().statistics);
+  object["after"] = json_of(r.after().statistics);
+  object["seconds"] = r.seconds;
+  object["vertices_per_second"] = json_number(r.visits_per_second());
+  object["warnings"] = r.warnings;
+  return object;
+}
+
+void print_summary(const Result& r) {
+  const Statistics& before = r.before().statistics;
+  const Statistics& after = r.after().statistics;
+  const Mesh& mesh = r.run.input().mesh;
+  fmt::print("{}: {}, {}, {} free; {}, {}\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
+             counted(mesh.elements.size(), "element", "elements"), r.run.visits_per_iteration(), r.run.title(), r.backend);
+  fmt::print("  {:<16} {:>10} -> {}\n", "minimum", brief(before.minimum), brief(after.minimum));
+  fmt::print("  {:<16} {:>10} -> {}\n", "movable minimum", brief(before.movable_minimum), brief(after.movable_minimum));
+  fmt::print("  {:<16} {:>10}    (elements whose corners are all fixed)\n", "ceiling", brief(after.ceiling));
+  fmt::print("  {:<16} {:>10} -> {}\n", "mean", brief(before.mean), brief(after.mean));
+  fmt::print("  {:<16} {:>10} -> {}\n", "inverted", before.inverted, after.inverted);
+  fmt::print("  {}\n", r.outcome.sentence());
+  fmt::print("  {} in {:.3f} s, {} vertices/s on {}\n", counted(r.outcome.iterations, "iteration", "iterations"), r.seconds,
+             brief(r.visits_per_second()), counted(r.threads, "thread", "threads"));
+  fmt::print("  wrote {}\n", r.options.output.string());
+}
+
+/// Everything that can be refused without reading the mesh.
+void refuse_early(const Options& options) {
+  if (!options.combine.empty()) throw UsageError("--combine is not in this version: one metric is optimised at a time");
+  if (!options.then.empty()) throw UsageError("--then is not in this version: smoothing has one phase");
+  require_mesh_target(options.output);
+  if (!options.stats.empty()) require_writable(options.stats);
+}
+
+void write_statistics(const std::filesystem::path& path, const Run& run) {
+  const RunParameters& p = run.parameters();
+  const std::vector<std::string> titles{fmt::format("{}:{}", p.method, info(p.metric).name)};
+  const std::vector<const std::vector<IterationRecord>*> records{&run.history().records()};
+  write_file_atomically(path, stats_csv(titles, records));
+}
+
+double smoothing_seconds(const Run& run) {
+  double seconds = 0.0;
+  for (const IterationRecord& record : run.history().records()) seconds += record.seconds;
+  return seconds;
+}
+
+int smooth(const Options& options) {
+  refuse_early(options);
+  RunParameters parameters = parameters_of(options.run);
+  const std::string backend = choose_backend(options.run.backend);
+
+  Watch watch;
+  Progress& progress = watch.progress();
+  const auto input = load_input(options.input, Need::Smoothing, progress);
+  std::vector<std::string> warnings = tell_findings(*input);
+  parameters.fixed = named_vertices(input->mesh, options.run.fix);
+
+  const auto pool = std::make_shared<ThreadPool>(options.run.threads);
+  Run run(input, std::move(parameters), pool, 0);  // no past positions: nobody asks for them here
+  const Outcome outcome =
+      options.until_converged ? run.until_converged(options.limits, progress) : run.iterate(options.iterations, progress);
+
+  for (std::string& sentence : write_mesh(options.output, input->mesh, run.positions(), progress)) {
+    complain(fmt::format("{}: {}", options.output.string(), sentence));
+    warnings.push_back(std::move(sentence));
+  }
+  if (!options.stats.empty()) write_statistics(options.stats, run);
+
+  const Result result{options, run, backend, pool->size(), outcome, smoothing_seconds(run), std::move(warnings)};
+  if (options.json) {
+    print_json(json_of(result));
+  } else {
+    print_summary(result);
+  }
+  const bool reached = !options.until_converged || outcome.reason != StopReason::IterationLimit;
+  if (!reached) complain(fmt::format("not converged: {}", outcome.sentence()));
+  return reached ? 0 : 1;
+}
+
+}  // namespace
+
+void add_smooth(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = app.add_subcommand("smooth", "Smooth a mesh and write it");
+  verb->add_option("IN", options->input, "Mesh to read")->required();
+  verb->add_option("-o,--output", options->output, "Where to write it; the format is the extension's")->required()->type_name("OUT");
+  add_run_options(*verb, options->run);
+  auto* iterations = verb->add_option("--iterations", options->iterations, "How many iterations")->type_name("N")->capture_default_str();
+  auto* until = verb->add_flag("--until-converged", options->until_converged, "Go on until no vertex moves or the minimum no longer rises");
+  until->excludes(iterations);
+  verb->add_option("--patience", options->limits.patience, "Iterations without a rise of 1e-6 that count as converged")
+      ->needs(until)
+      ->type_name("N")
+      ->capture_default_str();
+  verb->add_option("--max-iterations", options->limits.max_iterations, "Stop there with exit code 1 when not converged")
+      ->needs(until)
+      ->type_name("N")
+      ->capture_default_str();
+  verb->add_option("--stats", options->stats, "Write the statistics of every iteration; row 0 is the input")->type_name("FILE.csv");
+  verb->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
+  verb->add_option("--combine", options->combine, "")->group("");
+  verb->add_option("--then", options->then, "")->group("");
+  verb->callback([options, &action] { action = [options] { return smooth(*options); }; });
+}
+
+}  // namespace dmoscope::app

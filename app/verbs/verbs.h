@@ -1,0 +1,29 @@
+#pragma once
+// The verbs of the command line, one source a verb. Each declares its options and says what to do once they are parsed.
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace dmoscope::app {
+
+/// What the parsed command line asks for; returns the exit code, throws dmoscope::Error.
+using Action = std::function<int()>;
+
+void add_smooth(CLI::App& app, Action& action);
+void add_quality(CLI::App& app, Action& action);
+void add_render(CLI::App& app, Action& action);
+void add_convert(CLI::App& app, Action& action);
+void add_generate(CLI::App& app, Action& action);
+void add_script(CLI::App& app, Action& action);
+void add_bench(CLI::App& app, Action& action);
+void add_info(CLI::App& app, Action& action);
+
+/// No verb: opens the window on the files.
+int open_window(const std::vector<std::filesystem::path>& files);
+
+}  // namespace dmoscope::app

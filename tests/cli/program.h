@@ -1,0 +1,67 @@
+#pragma once
+// Runs the program as a person would and keeps what it says.
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace dmoscope::test {
+
+struct Output {
+  int code = -1;  // exit code; 128 + signal when a signal ended it, -1 when it ran past its time
+  std::string out, err;
+};
+
+struct Call {
+  std::vector<std::string> arguments;
+  std::string input;                       // standard input
+  bool display = false;                    // keep DISPLAY and WAYLAND_DISPLAY?
+  std::chrono::milliseconds interrupt{0};  // > 0: send SIGINT after that long
+  std::chrono::seconds limit{300};
+};
+/// Never throws for what the program does; the program is killed at the limit.
+Output run(const Call& call);
+Output run(std::vector<std::string> arguments);
+
+/// Standard output as JSON; fails the test (and returns null) when it is not exactly one object.
+nlohmann::json json_of(const Output& output);
+
+/// A folder of its own for one test, removed with it.
+class Folder {
+ public:
+  Folder();
+  ~Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  /// Writes a file and returns its path.
+  [[nodiscard]] std::string file(const std::string& name, const std::string& bytes) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string read_file(const std::string& path);
+std::vector<std::string> lines_of(const std::string& text);
+std::vector<std::string> split(const std::string& line, char separator);
+bool exists(const std::string& path);
+
+/// Path of a bundled sample.
+std::string sample(const std::string& name);
+/// Path below the shared meshes; empty where they are absent.
+std::string shared_mesh(const std::string& name);
+
+/// Rows of a CSV with a header: column name -> cells.
+struct Table {
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+  [[nodiscard]] std::size_t column(const std::string& name) const;
+  /// The cell as a number; NaN where it is empty.
+  [[nodiscard]] double number(std::size_t row, const std::string& name) const;
+};
+Table read_table(const std::string& path);
+
+}  // namespace dmoscope::test

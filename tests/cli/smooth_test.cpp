@@ -1,0 +1,273 @@
+// dmoscope smooth on real meshes and on the samples: what it reaches, what it leaves alone, and what it says.
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.h"
+
+namespace dmoscope::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A fort.14 as this test reads it: the words of its lines, and which vertices lie on no boundary edge.
+struct Fort14 {
+  std::vector<std::string> lines;
+  std::size_t elements = 0, vertices = 0;
+  std::vector<bool> free;
+
+  explicit Fort14(const std::string& path) : lines(lines_of(read_file(path))) {
+    std::istringstream(lines.at(1)) >> elements >> vertices;
+    std::map<std::pair<std::size_t, std::size_t>, int> edges;
+    for (std::size_t e = 0; e < elements; ++e) {
+      std::istringstream line(lines.at(2 + vertices + e));
+      std::size_t id = 0, count = 0;
+      line >> id >> count;
+      std::vector<std::size_t> corners(count);
+      for (std::size_t& corner : corners) line >> corner;
+      for (std::size_t i = 0; i < count; ++i) ++edges[std::minmax(corners[i], corners[(i + 1) % count])];
+    }
+    free.assign(vertices + 1, false);
+    for (const auto& [edge, uses] : edges) free[edge.first] = free[edge.second] = true;
+    for (const auto& [edge, uses] : edges) {
+      if (uses != 2) free[edge.first] = free[edge.second] = false;
+    }
+  }
+  [[nodiscard]] std::vector<std::string> words(std::size_t line) const {
+    std::istringstream stream(lines.at(line));
+    std::vector<std::string> list;
+    for (std::string word; stream >> word;) list.push_back(word);
+    return list;
+  }
+};
+
+/// The line with its second and third word taken out, blanks kept.
+std::string without_coordinates(const std::string& line) {
+  std::string kept;
+  std::size_t word = 0;
+  bool inside = false;
+  for (const char c : line) {
+    const bool blank = c == ' ' || c == '\t' || c == '\r';
+    if (!blank && !inside) ++word;
+    inside = !blank;
+    if (blank || (word != 2 && word != 3)) kept += c;
+  }
+  return kept;
+}
+
+/// The output must be the input but for x and y of free vertices; returns how many lines differ.
+std::size_t expect_only_free_coordinates_differ(const std::string& input, const std::string& output) {
+  const Fort14 before(input), after(output);
+  EXPECT_EQ(before.lines.size(), after.lines.size());
+  std::size_t differing = 0;
+  for (std::size_t i = 0; i < std::min(before.lines.size(), after.lines.size()); ++i) {
+    if (before.lines[i] == after.lines[i]) continue;
+    ++differing;
+    const bool vertex = i >= 2 && i < 2 + before.vertices;
+    EXPECT_TRUE(vertex && before.free[std::stoul(before.words(i).at(0))]) << "line " << i + 1;
+    EXPECT_EQ(without_coordinates(before.lines[i]), without_coordinates(after.lines[i])) << "line " << i + 1;
+  }
+  return differing;
+}
+
+/// Statistics must have a row an iteration, and the minimum must never fall.
+void expect_rising(const std::string& stats, std::size_t iterations) {
+  const Table table = read_table(stats);
+  const std::vector<std::string> documented{"run", "iteration", "min_quality", "mean_quality", "inverted", "moved", "seconds"};
+  ASSERT_GE(table.header.size(), documented.size());
+  EXPECT_TRUE(std::equal(documented.begin(), documented.end(), table.header.begin()));
+  ASSERT_EQ(table.rows.size(), iterations + 1);
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    EXPECT_EQ(table.number(i, "iteration"), static_cast<double>(i));
+    if (i == 0) continue;
+    EXPECT_LE(table.number(i, "inverted"), table.number(i - 1, "inverted"));
+    if (table.number(i - 1, "inverted") == 0) EXPECT_GE(table.number(i, "min_quality"), table.number(i - 1, "min_quality"));
+  }
+}
+
+nlohmann::json smooth(const std::string& input, const std::string& output, std::vector<std::string> more) {
+  std::vector<std::string> arguments{"smooth", input, "-o", output, "--json"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const Output result = run(arguments);
+  EXPECT_EQ(result.code, 0) << result.err;
+  return json_of(result);
+}
+
+#define REQUIRE_SHARED(path, name)            \
+  const std::string path = shared_mesh(name); \
+  if (path.empty()) GTEST_SKIP() << "the shared meshes are not here"
+
+TEST(Smooth, JsonHasTheDocumentedKeys) {
+  const Folder folder;
+  const auto json = smooth(sample("coast.14"), folder / "out.14", {"--iterations", "2", "--threads", "2"});
+  for (const char* key : {"input", "output", "vertices", "elements", "free", "method", "metric", "backend", "threads", "parameters",
+                          "iterations", "stopped", "last_rise", "before", "after", "seconds", "warnings"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  for (const char* when : {"before", "after"}) {
+    for (const char* key : {"minimum", "mean", "movable_minimum", "ceiling", "inverted"}) EXPECT_TRUE(json[when].contains(key)) << key;
+  }
+  EXPECT_EQ(json["method"], "dmo");
+  EXPECT_EQ(json["metric"], "mean-ratio");
+  EXPECT_EQ(json["backend"], "cpu");
+  EXPECT_EQ(json["threads"], 2);
+  EXPECT_EQ(json["iterations"], 2);
+  EXPECT_GE(json["after"]["minimum"], json["before"]["minimum"]);
+  // What it says of its output holds when that is judged anew.
+  const auto judged = json_of(run({"quality", folder / "out.14", "--metric", "mean-ratio", "--json"}));
+  EXPECT_EQ(judged["metrics"][0]["minimum"], json["after"]["minimum"]);
+}
+
+TEST(Smooth, SummaryForAPersonNamesWhatCounts) {
+  const Folder folder;
+  const Output output = run({"smooth", sample("coast.14"), "-o", folder / "out.14", "--iterations", "1"});
+  for (const char* word : {"minimum", "movable minimum", "ceiling", "mean", "inverted", "vertices/s", "last rose"}) {
+    EXPECT_THAT(output.out, HasSubstr(word));
+  }
+}
+
+TEST(Smooth, SampleChangesOnlyFreeCoordinates) {
+  const Folder folder;
+  smooth(sample("coast.14"), folder / "out.14", {"--iterations", "3", "--stats", folder / "s.csv"});
+  EXPECT_GT(expect_only_free_coordinates_differ(sample("coast.14"), folder / "out.14"), 0U);
+  expect_rising(folder / "s.csv", 3);
+}
+
+TEST(Smooth, InPlaceGivesTheSameFile) {
+  const Folder folder;
+  smooth(sample("coast.14"), folder / "out.14", {"--iterations", "2"});
+  const std::string copy = folder.file("copy.14", read_file(sample("coast.14")));
+  smooth(copy, copy, {"--iterations", "2"});
+  EXPECT_EQ(read_file(copy), read_file(folder / "out.14"));
+}
+
+TEST(Smooth, ThreadsAndRepetitionDoNotMatter) {
+  const Folder folder;
+  std::set<std::string> results;
+  for (const char* threads : {"1", "2", "1", "3"}) {
+    smooth(sample("coast.14"), folder / "out.14", {"--iterations", "3", "--threads", threads});
+    results.insert(read_file(folder / "out.14"));
+  }
+  EXPECT_EQ(results.size(), 1U);
+  smooth(sample("coast.14"), folder / "out.14", {"--iterations", "3", "--order", "shuffle:5"});
+  EXPECT_FALSE(results.contains(read_file(folder / "out.14")));
+}
+
+TEST(Smooth, FixedVerticesAndGroupsStay) {
+  const Folder folder;
+  const std::size_t vertices = json_of(run({"quality", sample("coast.14"), "--json"}))["vertices"];
+  smooth(sample("coast.14"), folder / "out.14", {"--iterations", "2", "--fix", "0-" + std::to_string(vertices - 1)});
+  EXPECT_EQ(read_file(folder / "out.14"), read_file(sample("coast.14")));
+  const auto all = smooth(sample("coast.14"), folder / "out.14", {"--iterations", "1"});
+  const auto some = smooth(sample("coast.14"), folder / "out.14", {"--iterations", "1", "--fix", "10,20-25"});
+  EXPECT_LE(some["free"], all["free"]);
+  const std::string grid =
+      "OFF\n9 4 0\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n1.3 1.2 0\n2 1 0\n0 2 0\n1 2 0\n2 2 0\n4 0 1 4 3\n4 1 2 5 4\n4 3 4 7 6\n4 4 5 8 7\n";
+  const std::string file = folder.file("grid.off", grid);
+  smooth(file, folder / "kept.off", {"--fix", "4"});
+  EXPECT_EQ(read_file(folder / "kept.off"), grid);
+  smooth(file, folder / "moved.off", {});
+  EXPECT_NE(read_file(folder / "moved.off"), grid);
+}
+
+TEST(Smooth, SaysWhyItDidNotConverge) {
+  const Folder folder;
+  const Output output =
+      run({"smooth", sample("coast.14"), "-o", folder / "out.14", "--until-converged", "--max-iterations", "1", "--json"});
+  EXPECT_EQ(output.code, 1) << output.err;
+  EXPECT_EQ(json_of(output)["stopped"], "iteration-limit");
+  EXPECT_TRUE(exists(folder / "out.14"));
+  EXPECT_THAT(output.err, HasSubstr("not converged"));
+}
+
+TEST(Smooth, RefusesSurfaces) {
+  const Folder folder;
+  const std::string corner = folder.file("corner.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 2 3\n3 0 3 1\n");
+  const Output output = run({"smooth", corner, "-o", folder / "out.off"});
+  EXPECT_EQ(output.code, 3);
+  EXPECT_THAT(output.err, HasSubstr(corner));
+  EXPECT_FALSE(exists(folder / "out.off"));
+  EXPECT_EQ(run({"quality", corner}).code, 0);
+}
+
+TEST(Smooth, EastCoast) {
+  REQUIRE_SHARED(east, "ocean/east.14");
+  const Folder folder;
+  const auto json = smooth(east, folder / "E.14", {"--iterations", "4", "--stats", folder / "E.csv"});
+  EXPECT_NEAR(json["before"]["minimum"].get<double>(), 0.6528, 1e-4);
+  EXPECT_GE(json["after"]["minimum"], 0.812);
+  EXPECT_EQ(json["free"], 8429);
+  expect_rising(folder / "E.csv", 4);
+  EXPECT_GT(expect_only_free_coordinates_differ(east, folder / "E.14"), 0U);
+
+  smooth(east, folder / "one.14", {"--iterations", "4", "--threads", "1"});
+  smooth(east, folder / "two.14", {"--iterations", "4", "--threads", "2"});
+  EXPECT_EQ(read_file(folder / "one.14"), read_file(folder / "E.14"));
+  EXPECT_EQ(read_file(folder / "two.14"), read_file(folder / "E.14"));
+}
+
+TEST(Smooth, FarFromTheOriginIsNoWorse) {
+  REQUIRE_SHARED(east, "ocean/east.14");
+  const Fort14 mesh(east);
+  std::ostringstream shifted;
+  shifted.precision(17);
+  for (std::size_t i = 0; i < mesh.lines.size(); ++i) {
+    if (i < 2 || i >= 2 + mesh.vertices) {
+      shifted << mesh.lines[i] << '\n';
+      continue;
+    }
+    const auto words = mesh.words(i);
+    shifted << words.at(0) << ' ' << std::stod(words.at(1)) + 1e6 << ' ' << std::stod(words.at(2)) + 1e6 << ' ' << words.at(3) << '\n';
+  }
+  const Folder folder;
+  const auto here = smooth(east, folder / "a.14", {"--iterations", "4"});
+  const auto there = smooth(folder.file("shifted.14", shifted.str()), folder / "b.14", {"--iterations", "4"});
+  EXPECT_NEAR(here["after"]["minimum"].get<double>(), there["after"]["minimum"].get<double>(), 1e-4);
+}
+
+TEST(Smooth, Bahamas) {
+  REQUIRE_SHARED(bahamas, "ocean/bahamas.14");
+  const Folder folder;
+  const auto json = smooth(bahamas, folder / "out.14", {"--iterations", "50", "--stats", folder / "s.csv"});
+  EXPECT_GE(json["after"]["minimum"], 0.765);
+  expect_rising(folder / "s.csv", 50);
+}
+
+TEST(Smooth, ShashkovUntilConverged) {
+  REQUIRE_SHARED(shashkov, "tri/shashkov.vtk");
+  const Folder folder;
+  const auto json = smooth(shashkov, folder / "out.vtk", {"--until-converged"});
+  EXPECT_GE(json["after"]["minimum"], 0.190);
+  EXPECT_LE(json["iterations"], 2000);
+  EXPECT_TRUE(json["stopped"] == "no-rise" || json["stopped"] == "nothing-moved") << json["stopped"];
+  EXPECT_GT(json["last_rise"], 0);
+}
+
+TEST(Smooth, OvertHybridNeverInverts) {
+  REQUIRE_SHARED(overt, "mixed2d/overt_hyb_1.vtk");
+  const Folder folder;
+  const auto json = smooth(overt, folder / "out.vtk", {"--iterations", "20", "--stats", folder / "s.csv"});
+  EXPECT_NEAR(json["before"]["minimum"].get<double>(), 0.193, 1e-3);
+  EXPECT_GE(json["after"]["minimum"], 0.60);
+  const Table table = read_table(folder / "s.csv");
+  for (std::size_t i = 0; i < table.rows.size(); ++i) EXPECT_EQ(table.number(i, "inverted"), 0.0);
+}
+
+TEST(Smooth, TangledMeshesUntangle) {
+  for (const char* name : {"tri/tangled_tri.vtk", "quad/tangled_quad.vtk"}) {
+    REQUIRE_SHARED(tangled, name);
+    const Folder folder;
+    const auto json = smooth(tangled, folder / "out.vtk", {"--iterations", "20"});
+    EXPECT_GT(json["before"]["inverted"], 0) << name;
+    EXPECT_EQ(json["after"]["inverted"], 0) << name;
+  }
+}
+
+}  // namespace
+}  // namespace dmoscope::test

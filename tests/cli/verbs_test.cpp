@@ -1,0 +1,233 @@
+// Every verb once, and what is wrong usage.
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.h"
+
+namespace dmoscope::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TEST(Help, NamesEveryVerb) {
+  const Output help = run({"--help"});
+  EXPECT_EQ(help.code, 0);
+  for (const char* verb : {"smooth", "quality", "render", "convert", "generate", "script", "bench", "info"}) {
+    EXPECT_THAT(help.out, HasSubstr(verb));
+    const Output more = run({verb, "--help"});
+    EXPECT_EQ(more.code, 0);
+    EXPECT_THAT(more.out, HasSubstr("--help"));
+  }
+  EXPECT_EQ(run({"--version"}).code, 0);
+}
+
+TEST(Help, ManPageHoldsEveryOptionMetricAndCommand) {
+  const Output man = run({"--man"});
+  EXPECT_EQ(man.code, 0);
+  EXPECT_THAT(man.out, ::testing::StartsWith(".TH DMOSCOPE 1"));
+  for (const char* word : {"until\\-converged", "scaled\\-jacobian", "fort.14", "add\\-run", "coast", "EXIT STATUS"}) {
+    EXPECT_THAT(man.out, HasSubstr(word));
+  }
+}
+
+TEST(Window, WithNoDisplaySaysSoAndNamesTheVerbs) {
+  const Output output = run(std::vector<std::string>{});
+  EXPECT_EQ(output.code, 2);
+  EXPECT_THAT(output.out, IsEmpty());
+  EXPECT_THAT(output.err, AllOf(HasSubstr("smooth"), HasSubstr("script"), HasSubstr("render")));
+}
+
+TEST(Usage, IsRefusedWithTwo) {
+  const Folder folder;
+  const std::string in = sample("coast.14"), out = folder / "out.14";
+  const std::vector<std::vector<std::string>> wrong{
+      {"smooth"},
+      {"smooth", in},
+      {"smooth", in, "-o", out, "--no-such-option"},
+      {"smooth", in, "-o", out, "--iterations", "many"},
+      {"smooth", in, "-o", out, "--iterations", "-3"},
+      {"smooth", in, "-o", out, "--iterations", "3", "--until-converged"},
+      {"smooth", in, "-o", out, "--patience", "3"},
+      {"smooth", in, "-o", out, "--metric", "beauty"},
+      {"smooth", in, "-o", out, "--metric", "scaled-jacobian", "extra"},
+      {"smooth", in, "-o", out, "--method", "laplace"},
+      {"smooth", in, "-o", out, "--backend", "abacus"},
+      {"smooth", in, "-o", out, "--backend", "cuda"},
+      {"smooth", in, "-o", out, "--combine", "mean-ratio:0.7:min-angle"},
+      {"smooth", in, "-o", out, "--then", "mean"},
+      {"smooth", in, "-o", out, "--grid", "1"},
+      {"smooth", in, "-o", out, "--levels", "0"},
+      {"smooth", in, "-o", out, "--order", "random"},
+      {"smooth", in, "-o", out, "--fix", "1,x"},
+      {"smooth", in, "-o", out, "--fix", "no such group"},
+      {"smooth", in, "-o", out, "--fix", "4000000000"},
+      {"smooth", in, "-o", folder / "out.unknown"},
+      {"smooth", in, "-o", folder / "out"},
+      {"quality", in, "--metric", "beauty"},
+      {"convert", in, folder / "out.unknown"},
+      {"generate", "castle", "-o", out},
+      {"generate", "grid", "-o", out, "--size", "99999999999999"},
+      {"render", in, "-o", folder / "out.png", "--size", "big"},
+      {"render", in, "-o", folder / "out.png", "--range", "1:0"},
+      {"render", in, "-o", folder / "out.jpeg"},
+      {"script"},
+  };
+  for (const auto& arguments : wrong) {
+    const Output output = run(arguments);
+    EXPECT_EQ(output.code, 2) << ::testing::PrintToString(arguments) << output.err;
+    EXPECT_THAT(output.err, ::testing::Not(IsEmpty())) << ::testing::PrintToString(arguments);
+    EXPECT_FALSE(exists(out)) << ::testing::PrintToString(arguments);
+  }
+}
+
+TEST(Usage, SaysWhatThereIs) {
+  const Folder folder;
+  EXPECT_THAT(run({"quality", sample("coast.14"), "--metric", "beauty"}).err, AllOf(HasSubstr("beauty"), HasSubstr("mean-ratio")));
+  EXPECT_THAT(run({"smooth", sample("coast.14"), "-o", folder / "o.14", "--method", "laplace"}).err,
+              AllOf(HasSubstr("laplace"), HasSubstr("dmo")));
+  EXPECT_THAT(run({"smooth", sample("coast.14"), "-o", folder / "o.xyz"}).err, AllOf(HasSubstr(".xyz"), HasSubstr(".vtk")));
+  EXPECT_THAT(run({"smooth", sample("coast.14"), "-o", folder / "o.14", "--backend", "cuda"}).err, HasSubstr("cuda"));
+}
+
+TEST(Info, JsonListsEverything) {
+  const auto info = json_of(run({"info", "--json"}));
+  for (const char* key : {"version", "build", "compiler", "threads", "backends", "opengl", "formats", "metrics", "methods", "generators"}) {
+    EXPECT_TRUE(info.contains(key)) << key;
+  }
+  EXPECT_EQ(info["metrics"].size(), 8U);
+  EXPECT_EQ(info["backends"][0]["name"], "cpu");
+  EXPECT_TRUE(info["backends"][1]["usable"] == true || !info["backends"][1]["reason"].get<std::string>().empty());
+  EXPECT_THAT(run({"info"}).out, AllOf(HasSubstr("mean-ratio"), HasSubstr("cuda"), HasSubstr(".14")));
+}
+
+TEST(Generate, MakesEveryKindTheSameAgain) {
+  const Folder folder;
+  const auto info = json_of(run({"info", "--json"}));
+  ASSERT_GE(info["generators"].size(), 8U);
+  for (const auto& generator : info["generators"]) {
+    const std::string kind = generator["name"];
+    for (const char* name : {"a.vtk", "b.vtk"}) {
+      const Output output = run({"generate", kind, "-o", folder / name, "--size", "400", "--seed", "7"});
+      EXPECT_EQ(output.code, 0) << kind << output.err;
+    }
+    EXPECT_EQ(read_file(folder / "a.vtk"), read_file(folder / "b.vtk")) << kind;
+    const auto quality = json_of(run({"quality", folder / "a.vtk", "--json"}));
+    EXPECT_GT(quality["vertices"], 50) << kind;
+    EXPECT_LT(quality["vertices"], 1600) << kind;
+  }
+}
+
+TEST(Quality, TableAndJsonAgree) {
+  const Output table = run({"quality", sample("coast.14"), "--worst", "3"});
+  EXPECT_EQ(table.code, 0);
+  EXPECT_THAT(table.out, AllOf(HasSubstr("mean-ratio"), HasSubstr("acceptable"), HasSubstr("worst of")));
+  const auto json = json_of(run({"quality", sample("coast.14"), "--worst", "3", "--json"}));
+  for (const char* key : {"input", "vertices", "elements", "inverted", "metrics", "warnings"}) EXPECT_TRUE(json.contains(key)) << key;
+  const auto& first = json["metrics"][0];
+  EXPECT_EQ(first["metric"], "mean-ratio");
+  for (const char* key : {"minimum", "mean", "percentile_1", "percentile_5", "percentile_50", "acceptable", "below_acceptable"}) {
+    EXPECT_TRUE(first.contains(key)) << key;
+  }
+  ASSERT_EQ(first["worst"].size(), 3U);
+  EXPECT_EQ(first["worst"][0]["quality"], first["minimum"]);
+  EXPECT_LE(first["worst"][0]["quality"], first["worst"][1]["quality"]);
+  EXPECT_LE(first["minimum"], first["percentile_1"]);
+  EXPECT_LE(first["percentile_5"], first["percentile_50"]);
+}
+
+TEST(Quality, ElementsFileHasOneRowAnElementAndBlanksWhereUndefined) {
+  const Folder folder;
+  ASSERT_EQ(run({"quality", sample("mixed.vtk"), "--elements", folder / "q.csv"}).code, 0);
+  const auto json = json_of(run({"quality", sample("mixed.vtk"), "--json"}));
+  const Table table = read_table(folder / "q.csv");
+  ASSERT_EQ(table.rows.size(), json["elements"]);
+  double least = INFINITY;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    EXPECT_EQ(table.rows[i][table.column("element")], std::to_string(i));
+    const bool quadrilateral = table.rows[i][table.column("kind")] == "quadrilateral";
+    EXPECT_EQ(table.rows[i][table.column("radius-ratio")].empty(), quadrilateral);
+    least = std::min(least, table.number(i, "mean-ratio"));
+  }
+  EXPECT_EQ(least, json["metrics"][0]["minimum"]);
+}
+
+TEST(Convert, ThereAndBackKeepsEveryCoordinate) {
+  const Folder folder;
+  for (const char* extension : {".obj", ".off", ".ply", ".vtk", ".su2"}) {
+    const std::string there = folder / (std::string("there") + extension), back = folder / "back.14";
+    ASSERT_EQ(run({"convert", sample("coast.14"), there}).code, 0) << extension;
+    ASSERT_EQ(run({"convert", there, back}).code, 0) << extension;
+    const auto before = lines_of(read_file(sample("coast.14"))), after = lines_of(read_file(back));
+    std::istringstream counts(before.at(1));
+    std::size_t elements = 0, vertices = 0;
+    counts >> elements >> vertices;
+    for (std::size_t i = 2; i < 2 + vertices; ++i) {
+      std::istringstream a(before.at(i)), b(after.at(i));
+      std::size_t id_a = 0, id_b = 0;
+      double xa = 0, ya = 0, xb = 1, yb = 1;
+      a >> id_a >> xa >> ya;
+      b >> id_b >> xb >> yb;
+      ASSERT_TRUE(xa == xb && ya == yb) << extension << ": " << before[i] << " became " << after[i];
+    }
+  }
+}
+
+TEST(Convert, SaysWhatIsLost) {
+  const Folder folder;
+  const Output output = run({"convert", sample("coast.14"), folder / "coast.stl"});
+  EXPECT_EQ(output.code, 0);
+  EXPECT_THAT(output.err, ::testing::Not(IsEmpty()));
+}
+
+TEST(Script, RunsSessionCommandsAndStopsAtTheFirstError) {
+  const Folder folder;
+  const std::string good = "# smooths a little\nopen \"" + sample("coast.14") + "\"\nrun 2\nexpect iteration == 2\nexport \"" +
+                           (folder / "a.14") + "\"\nsay done\n";
+  const Output output = run({"script", folder.file("good.txt", good), "--headless"});
+  EXPECT_EQ(output.code, 0) << output.err;
+  EXPECT_THAT(output.out, HasSubstr("done"));
+  EXPECT_TRUE(exists(folder / "a.14"));
+  // The same mesh as the smooth verb writes.
+  ASSERT_EQ(run({"smooth", sample("coast.14"), "-o", folder / "b.14", "--iterations", "2"}).code, 0);
+  EXPECT_EQ(read_file(folder / "a.14"), read_file(folder / "b.14"));
+
+  const std::string bad = folder.file("bad.txt", "open \"" + sample("coast.14") + "\"\nexpect minimum > 2\nsay never\n");
+  const Output stopped = run({"script", bad});
+  EXPECT_EQ(stopped.code, 1);
+  EXPECT_THAT(stopped.err, HasSubstr(bad + ":2: "));
+  EXPECT_THAT(stopped.out, ::testing::Not(HasSubstr("never")));
+
+  EXPECT_EQ(run({"script", folder.file("usage.txt", "step sideways\n")}).code, 2);
+  EXPECT_EQ(run({"script", folder.file("missing.txt", "open \"" + (folder / "none.14") + "\"\n")}).code, 3);
+  EXPECT_EQ(run({"script", folder / "none.txt"}).code, 3);
+}
+
+TEST(Script, ReadsStandardInput) {
+  Call call;
+  call.arguments = {"script", "-"};
+  call.input = "say hello\nexpect minimum > 0\n";
+  const Output output = run(call);
+  EXPECT_EQ(output.code, 2);  // no mesh is open
+  EXPECT_THAT(output.out, HasSubstr("hello"));
+  EXPECT_THAT(output.err, HasSubstr("standard input:2: "));
+}
+
+TEST(Bench, JsonHasAFigureForEachExecutor) {
+  const auto bench = json_of(run({"bench", sample("annulus.off"), "--json"}));
+  ASSERT_TRUE(bench.contains("figures"));
+  ASSERT_GE(bench["figures"].size(), 2U);
+  EXPECT_EQ(bench["figures"][0]["precision"], "double");
+  EXPECT_EQ(bench["figures"][0]["ratio"], 1.0);
+  for (const auto& figure : bench["figures"]) {
+    EXPECT_GT(figure["vertices_per_second"], 0.0);
+    EXPECT_LE(figure["lowest"], figure["highest"]);
+  }
+}
+
+}  // namespace
+}  // namespace dmoscope::test

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# The walls between the rooms: what each folder must not include or call. Prints every breach as file:line.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+failed=0
+
+# breach "what is wrong" PATTERN FOLDER...: no source below the folders may match the pattern.
+breach() {
+  local what=$1 pattern=$2
+  shift 2
+  local folders=()
+  for folder in "$@"; do [[ -d $folder ]] && folders+=("$folder"); done
+  [[ ${#folders[@]} -gt 0 ]] || return 0
+  local found
+  found=$(grep -rnE --include='*.cpp' --include='*.h' --include='*.cu' --include='*.cuh' -- "$pattern" "${folders[@]}" || true)
+  [[ -z $found ]] && return 0
+  failed=1
+  printf '%s:\n%s\n' "$what" "$found"
+}
+
+include='^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"]'
+opengl='(glad|GL|GLES[0-9]?|EGL|GLFW|glfw)[/0-9]'
+imgui='(imgui|backends/imgui|misc/)'
+cuda='(cuda|cuda_runtime|cuda_runtime_api|device_launch_parameters)'
+
+breach "core knows no other room" "${include}(gpu|render|ui|app)/" core
+breach "core knows no OpenGL, ImGui or CUDA" "${include}(${opengl}|${imgui}|${cuda})" core
+breach "gpu knows neither the screen nor the program" "${include}(render|ui|app)/" gpu
+breach "render knows no interface, program or GPU backend" "${include}(ui|app|gpu)/" render
+breach "render knows no ImGui and no CUDA" "${include}(${imgui}|${cuda})" render
+breach "ui knows no program and no GPU backend" "${include}(app|gpu)/" ui
+breach "ui calls no OpenGL, CUDA or GLFW" "${include}(glad|GL|EGL|GLFW|${cuda})|(^|[^A-Za-z0-9_:])(gl[A-Z][A-Za-z0-9]+|glfw[A-Z][A-Za-z0-9]+|egl[A-Z][A-Za-z0-9]+)\(" ui
+breach "only gpu includes CUDA" "${include}${cuda}" app tests
+
+if [[ $failed -eq 0 ]]; then echo "The walls stand."; fi
+exit "$failed"

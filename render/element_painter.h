@@ -1,0 +1,59 @@
+#pragma once
+// Elements on the OpenGL side. Only for sources of this room.
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "render/gl.h"
+#include "render/layout.h"
+#include "render/style.h"
+
+namespace dmoscope::render {
+
+/// Values of a shade that are no quality.
+inline constexpr float kInvertedShade = -3e38F, kUndefinedShade = 3e38F;
+
+/// A camera as the shaders take it.
+struct View {
+  Vec2<float> offset_high, offset_low;  // the camera's centre less the layout's origin
+  float zoom = 1.0F;                    // pixels a unit
+  Vec2<float> viewport;
+  float hatch_phase = 0.0F;
+  void apply(const Program& program) const;
+};
+inline constexpr float kHatchPeriod = 8.0F;  // pixels at scale 1
+
+class ElementPainter {
+ public:
+  ElementPainter();
+  void upload_topology(const Layout& layout);
+  /// Relative to the layout's origin, in place.
+  void upload_points(std::span<const Vec2<float>> points);
+  /// One an element, in place: a quality, kInvertedShade or kUndefinedShade.
+  void upload_shades(std::span<const float> shades);
+  void set_colours(const ColourScale& colours);
+  /// Draws all elements of the ranges.
+  void draw(const View& view, const Style& style, std::size_t batch, std::span<const DrawRange> ranges);
+  /// Draws a square for every stride-th element of the ranges.
+  void draw_coarse(const View& view, std::size_t batch, std::span<const DrawRange> ranges, Index stride);
+  void draw_boundary(const View& view, const Style& style);
+
+ private:
+  struct Elements {
+    Buffer order, corners;
+    Handle<DeleteVertexArray> array;
+  };
+  void bind_colours(const Program& program) const;
+  std::array<Program, 2> fill_;
+  Program coarse_, boundary_;
+  std::array<Elements, 2> elements_;
+  Buffer points_, shades_, edges_;
+  GLsizei edge_count_ = 0;
+  Handle<DeleteTexture> colours_;
+  Handle<DeleteVertexArray> nothing_;  // for shaders that read their vertices from buffers
+  std::optional<ColourScale> uploaded_;
+};
+
+}  // namespace dmoscope::render

@@ -1,0 +1,10 @@
+# Writes OUTPUT, a C++ source that holds every file of SHADERS (separated by |) as a string under its file name.
+set(body "// Made by embed_shaders.cmake from resources/shaders.\n#include \"render/shaders.h\"\n\n#include <array>\n\nnamespace dmoscope::render {\nnamespace {\nstruct Entry {\n  std::string_view name, text;\n};\nconstexpr std::array kEntries{\n")
+string(REPLACE "|" ";" SHADERS "${SHADERS}")
+foreach(path IN LISTS SHADERS)
+  get_filename_component(name "${path}" NAME)
+  file(READ "${path}" text)
+  string(APPEND body "    Entry{\"${name}\", R\"glsl(${text})glsl\"},\n")
+endforeach()
+string(APPEND body "};\n}  // namespace\n\nstd::string_view shader_text(std::string_view name) {\n  for (const Entry& entry : kEntries) {\n    if (entry.name == name) return entry.text;\n  }\n  return {};\n}\n\n}  // namespace dmoscope::render\n")
+file(WRITE "${OUTPUT}" "${body}")

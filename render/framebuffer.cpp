@@ -1,0 +1,131 @@
+#include "render/framebuffer.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "render/gl.h"
+
+namespace dmoscope::render {
+
+Framebuffer::Framebuffer(int width, int height) : width_(std::max(width, 1)), height_(std::max(height, 1)) {
+  try {
+    create();
+  } catch (...) {
+    release();
+    throw;
+  }
+}
+
+Framebuffer::~Framebuffer() { release(); }
+
+Framebuffer::Framebuffer(Framebuffer&& other) noexcept
+    : width_(other.width_),
+      height_(other.height_),
+      framebuffer_(std::exchange(other.framebuffer_, 0)),
+      colour_(std::exchange(other.colour_, 0)),
+      depth_(std::exchange(other.depth_, 0)) {}
+
+Framebuffer& Framebuffer::operator=(Framebuffer&& other) noexcept {
+  if (this == &other) return *this;
+  release();
+  width_ = other.width_;
+  height_ = other.height_;
+  framebuffer_ = std::exchange(other.framebuffer_, 0);
+  colour_ = std::exchange(other.colour_, 0);
+  depth_ = std::exchange(other.depth_, 0);
+  return *this;
+}
+
+void Framebuffer::release() noexcept {
+  if (framebuffer_ != 0) glDeleteFramebuffers(1, &framebuffer_);
+  if (colour_ != 0) glDeleteTextures(1, &colour_);
+  if (depth_ != 0) glDeleteRenderbuffers(1, &depth_);
+  framebuffer_ = colour_ = depth_ = 0;
+}
+
+void Framebuffer::create() {
+  if (std::max(width_, height_) > largest_size()) {
+    throw Error(fmt::format("OpenGL here draws pictures of at most {0} x {0} pixels, asked for {1} x {2}", largest_size(), width_, height_));
+  }
+  DMOSCOPE_GL(glCreateTextures(GL_TEXTURE_2D, 1, &colour_));
+  DMOSCOPE_GL(glTextureStorage2D(colour_, 1, GL_RGBA8, width_, height_));
+  glTextureParameteri(colour_, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(colour_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTextureParameteri(colour_, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(colour_, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  DMOSCOPE_GL(glCreateRenderbuffers(1, &depth_));
+  DMOSCOPE_GL(glNamedRenderbufferStorage(depth_, GL_DEPTH_COMPONENT24, width_, height_));
+  DMOSCOPE_GL(glCreateFramebuffers(1, &framebuffer_));
+  DMOSCOPE_GL(glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT0, colour_, 0));
+  DMOSCOPE_GL(glNamedFramebufferRenderbuffer(framebuffer_, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_));
+  const GLenum status = glCheckNamedFramebufferStatus(framebuffer_, GL_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE) throw Error(fmt::format("OpenGL: framebuffer {} x {} is not complete (0x{:04x})", width_, height_, status));
+}
+
+void Framebuffer::resize(int width, int height) {
+  width = std::max(width, 1);
+  height = std::max(height, 1);
+  if (width == width_ && height == height_) return;
+  *this = Framebuffer(width, height);
+}
+
+void Framebuffer::bind() {
+  DMOSCOPE_GL(glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_));
+  glViewport(0, 0, width_, height_);
+}
+
+void Framebuffer::bind_default(int width, int height) {
+  DMOSCOPE_GL(glBindFramebuffer(GL_FRAMEBUFFER, 0));
+  glViewport(0, 0, width, height);
+}
+
+void Framebuffer::clear(Rgba colour) {
+  bind();
+  glDisable(GL_SCISSOR_TEST);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthMask(GL_TRUE);
+  const float alpha = static_cast<float>(colour.a) / 255.0F;
+  const auto channel = [&](std::uint8_t value) { return static_cast<float>(value) / 255.0F * alpha; };
+  const GLfloat premultiplied[] = {channel(colour.r), channel(colour.g), channel(colour.b), alpha};
+  const GLfloat farthest = 1.0F;
+  glClearNamedFramebufferfv(framebuffer_, GL_COLOR, 0, premultiplied);
+  DMOSCOPE_GL(glClearNamedFramebufferfv(framebuffer_, GL_DEPTH, 0, &farthest));
+}
+
+Image Framebuffer::read_pixels() const {
+  Image image(width_, height_);
+  const std::size_t row = std::size_t{4} * static_cast<std::size_t>(width_);
+  std::vector<std::uint8_t> pixels(row * static_cast<std::size_t>(height_));
+  GLint pack = 4;
+  glGetIntegerv(GL_PACK_ALIGNMENT, &pack);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  DMOSCOPE_GL(glGetTextureImage(colour_, 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(pixels.size()), pixels.data()));
+  glPixelStorei(GL_PACK_ALIGNMENT, pack);
+  for (int y = 0; y < height_; ++y) {
+    const std::uint8_t* from = pixels.data() + row * static_cast<std::size_t>(height_ - 1 - y);
+    std::uint8_t* to = image.rgba.data() + row * static_cast<std::size_t>(y);
+    for (std::size_t x = 0; x < row; x += 4) {
+      const unsigned alpha = from[x + 3];
+      for (std::size_t c = 0; c < 3; ++c) {
+        to[x + c] = alpha == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(std::min(255U, (from[x + c] * 255U + alpha / 2) / alpha));
+      }
+      to[x + 3] = static_cast<std::uint8_t>(alpha);
+    }
+  }
+  return image;
+}
+
+int Framebuffer::largest_size() {
+  GLint texture = 0, renderbuffer = 0, viewport[2] = {0, 0};
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
+  glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &renderbuffer);
+  glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+  return std::min({texture, renderbuffer, viewport[0], viewport[1]});
+}
+
+}  // namespace dmoscope::render

@@ -1,0 +1,111 @@
+#include "render/gl.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "render/shaders.h"
+
+namespace dmoscope::render {
+namespace {
+
+std::string_view error_name(GLenum error) {
+  switch (error) {
+    case GL_INVALID_ENUM:
+      return "invalid enum";
+    case GL_INVALID_VALUE:
+      return "invalid value";
+    case GL_INVALID_OPERATION:
+      return "invalid operation";
+    case GL_INVALID_FRAMEBUFFER_OPERATION:
+      return "invalid framebuffer operation";
+    case GL_OUT_OF_MEMORY:
+      return "out of graphics memory";
+    default:
+      return "unknown error";
+  }
+}
+
+GLenum stage_of(std::string_view file) {
+  if (file.find(".vert.") != std::string_view::npos) return GL_VERTEX_SHADER;
+  if (file.find(".geom.") != std::string_view::npos) return GL_GEOMETRY_SHADER;
+  return GL_FRAGMENT_SHADER;
+}
+
+Handle<DeleteShader> compile(std::string_view file, std::string_view define) {
+  const std::string_view text = shader_text(file);
+  const std::string_view common = shader_text("common.glsl");
+  if (text.empty()) throw Error(fmt::format("the program holds no shader '{}'", file));
+  const std::string head = fmt::format("#version 450 core\n{}", define.empty() ? std::string{} : fmt::format("#define {} 1\n", define));
+  const GLchar* const parts[] = {head.data(), common.data(), text.data()};
+  const GLint lengths[] = {static_cast<GLint>(head.size()), static_cast<GLint>(common.size()), static_cast<GLint>(text.size())};
+  Handle<DeleteShader> shader(glCreateShader(stage_of(file)));
+  if (shader.id() == 0) throw Error(fmt::format("glCreateShader failed for {}", file));
+  DMOSCOPE_GL(glShaderSource(shader.id(), 3, parts, lengths));
+  DMOSCOPE_GL(glCompileShader(shader.id()));
+  GLint good = GL_FALSE;
+  glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &good);
+  if (good != GL_TRUE) {
+    std::vector<char> log(8192, '\0');
+    glGetShaderInfoLog(shader.id(), static_cast<GLsizei>(log.size()), nullptr, log.data());
+    throw Error(fmt::format("OpenGL does not compile {}: {}", file, log.data()));
+  }
+  return shader;
+}
+
+}  // namespace
+
+void check_gl(const char* call, const char* file, int line) {
+  const GLenum error = glGetError();
+  if (error == GL_NO_ERROR) return;
+  while (glGetError() != GL_NO_ERROR) {
+  }
+  throw Error(fmt::format("OpenGL: {} (0x{:04x}) in {} ({}:{})", error_name(error), error, call, file, line));
+}
+
+void Buffer::write(std::span<const std::byte> data) {
+  if (handle_.id() == 0 || data.size() > capacity_) {
+    GLuint id = 0;
+    DMOSCOPE_GL(glCreateBuffers(1, &id));
+    handle_ = Handle<DeleteBuffer>(id);
+    capacity_ = std::max<std::size_t>(data.size(), 16);
+    DMOSCOPE_GL(glNamedBufferStorage(id, static_cast<GLsizeiptr>(capacity_), nullptr, GL_DYNAMIC_STORAGE_BIT));
+  }
+  if (!data.empty()) DMOSCOPE_GL(glNamedBufferSubData(handle_.id(), 0, static_cast<GLsizeiptr>(data.size()), data.data()));
+}
+
+void Buffer::bind_storage(GLuint binding) const { DMOSCOPE_GL(glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, handle_.id())); }
+
+Program::Program(std::initializer_list<std::string_view> files, std::string_view define) : program_(glCreateProgram()) {
+  if (program_.id() == 0) throw Error("glCreateProgram failed");
+  std::vector<Handle<DeleteShader>> shaders;
+  for (const std::string_view file : files) {
+    shaders.push_back(compile(file, define));
+    DMOSCOPE_GL(glAttachShader(program_.id(), shaders.back().id()));
+  }
+  DMOSCOPE_GL(glLinkProgram(program_.id()));
+  GLint good = GL_FALSE;
+  glGetProgramiv(program_.id(), GL_LINK_STATUS, &good);
+  if (good != GL_TRUE) {
+    std::vector<char> log(8192, '\0');
+    glGetProgramInfoLog(program_.id(), static_cast<GLsizei>(log.size()), nullptr, log.data());
+    throw Error(fmt::format("OpenGL does not link {}: {}", *files.begin(), log.data()));
+  }
+  for (const Handle<DeleteShader>& shader : shaders) glDetachShader(program_.id(), shader.id());
+}
+
+void Program::use() const { DMOSCOPE_GL(glUseProgram(program_.id())); }
+
+// -1 for a uniform that the compiler left out because nothing reads it; OpenGL then ignores the value.
+GLint Program::location(const char* name) const { return glGetUniformLocation(program_.id(), name); }
+void Program::set(const char* name, float value) const { glProgramUniform1f(program_.id(), location(name), value); }
+void Program::set(const char* name, int value) const { glProgramUniform1i(program_.id(), location(name), value); }
+void Program::set(const char* name, unsigned value) const { glProgramUniform1ui(program_.id(), location(name), value); }
+void Program::set(const char* name, Vec2<float> value) const { glProgramUniform2f(program_.id(), location(name), value.x, value.y); }
+void Program::set(const char* name, float r, float g, float b, float a) const {
+  glProgramUniform4f(program_.id(), location(name), r, g, b, a);
+}
+
+}  // namespace dmoscope::render

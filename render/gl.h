@@ -1,0 +1,103 @@
+#pragma once
+// Thin owners of OpenGL objects; every call that can fail is checked. Only for sources of this room.
+
+#include <cstddef>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <glad/gl.h>
+
+#include "core/base/vec.h"
+
+namespace dmoscope::render {
+
+/// Throws Error with the call, its place and OpenGL's error, if there is one.
+void check_gl(const char* call, const char* file, int line);
+
+/// An OpenGL object name with the function that deletes it.
+template <class Deleter>
+class Handle {
+ public:
+  Handle() = default;
+  explicit Handle(GLuint id) : id_(id) {}
+  ~Handle() { reset(); }
+  Handle(Handle&& other) noexcept : id_(other.id_) { other.id_ = 0; }
+  Handle& operator=(Handle&& other) noexcept {
+    if (this != &other) {
+      reset();
+      id_ = other.id_;
+      other.id_ = 0;
+    }
+    return *this;
+  }
+  [[nodiscard]] GLuint id() const noexcept { return id_; }
+
+ private:
+  void reset() noexcept {
+    if (id_ != 0) Deleter{}(id_);
+    id_ = 0;
+  }
+  GLuint id_ = 0;
+};
+
+struct DeleteBuffer {
+  void operator()(GLuint id) const { glDeleteBuffers(1, &id); }
+};
+struct DeleteVertexArray {
+  void operator()(GLuint id) const { glDeleteVertexArrays(1, &id); }
+};
+struct DeleteTexture {
+  void operator()(GLuint id) const { glDeleteTextures(1, &id); }
+};
+struct DeleteShader {
+  void operator()(GLuint id) const { glDeleteShader(id); }
+};
+struct DeleteProgram {
+  void operator()(GLuint id) const { glDeleteProgram(id); }
+};
+
+/// A buffer that grows when it must and is otherwise written in place.
+class Buffer {
+ public:
+  /// Replaces the first bytes by `data`; memory is allocated anew only when it does not fit.
+  void write(std::span<const std::byte> data);
+  template <class T>
+  void write(std::span<const T> values) {
+    write(std::as_bytes(values));
+  }
+  void bind_storage(GLuint binding) const;
+  [[nodiscard]] GLuint id() const noexcept { return handle_.id(); }
+  [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
+
+ private:
+  Handle<DeleteBuffer> handle_;
+  std::size_t capacity_ = 0;
+};
+
+/// A linked program made of embedded shaders; "common.glsl" is put before each.
+class Program {
+ public:
+  /// Names of the stages' files; the stage is told by ".vert.", ".geom." or ".frag." in the name. `define`: a macro set to 1 in
+  /// all stages, may be empty. Throws Error with the compiler's log.
+  explicit Program(std::initializer_list<std::string_view> files, std::string_view define = {});
+  void use() const;
+  void set(const char* name, float value) const;
+  void set(const char* name, int value) const;
+  void set(const char* name, unsigned value) const;
+  void set(const char* name, Vec2<float> value) const;
+  void set(const char* name, float r, float g, float b, float a) const;
+
+ private:
+  [[nodiscard]] GLint location(const char* name) const;
+  Handle<DeleteProgram> program_;
+};
+
+}  // namespace dmoscope::render
+
+#define DMOSCOPE_GL(call)                                      \
+  do {                                                         \
+    call;                                                      \
+    ::dmoscope::render::check_gl(#call, __FILE__, __LINE__);   \
+  } while (false)

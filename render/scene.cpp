@@ -1,0 +1,330 @@
+#include "render/scene.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <future>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/session/input_mesh.h"
+#include "render/element_painter.h"
+#include "render/layout.h"
+#include "render/mark_painter.h"
+
+namespace dmoscope::render {
+namespace {
+
+constexpr std::size_t kBigMesh = 100'000;       // elements whose layout takes long enough to be built in the background
+constexpr std::size_t kMostVertexDots = 20'000;  // beyond, dots would hide the mesh anyway
+
+/// Keeps what a draw changes and others may rely on: the bound framebuffer and the viewport.
+class TargetGuard {
+ public:
+  TargetGuard() {
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
+    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);
+    glGetIntegerv(GL_VIEWPORT, viewport_);
+  }
+  ~TargetGuard() {
+    glBindVertexArray(0);
+    glUseProgram(0);
+    glDisable(GL_BLEND);
+    glDisable(GL_DEPTH_TEST);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(draw_));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read_));
+    glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
+  }
+  TargetGuard(const TargetGuard&) = delete;
+  TargetGuard& operator=(const TargetGuard&) = delete;
+
+ private:
+  GLint draw_ = 0, read_ = 0, viewport_[4] = {0, 0, 0, 0};
+};
+
+View make_view(const Layout& layout, const Camera2D& camera, Vec2<double> viewport, float scale) {
+  View view;
+  const Vec2<double> offset = camera.centre - layout.origin;
+  view.offset_high = {static_cast<float>(offset.x), static_cast<float>(offset.y)};
+  view.offset_low = {static_cast<float>(offset.x - static_cast<double>(view.offset_high.x)),
+                     static_cast<float>(offset.y - static_cast<double>(view.offset_high.y))};
+  view.zoom = static_cast<float>(1.0 / camera.units_per_pixel);
+  view.viewport = {static_cast<float>(viewport.x), static_cast<float>(viewport.y)};
+  // The stripes move with the mesh, so that tiles of a picture fit together.
+  const double periods = (offset.x - offset.y) / camera.units_per_pixel / static_cast<double>(kHatchPeriod * scale);
+  view.hatch_phase = static_cast<float>(periods - std::floor(periods));
+  return view;
+}
+
+}  // namespace
+
+struct MeshScene::Impl {
+  Placement placement;
+  ElementPainter elements;
+  MarkPainter marks;
+  std::vector<std::uint8_t> fixed;
+  std::vector<std::uint8_t> inverted;
+  std::vector<Vec2<float>> point_scratch;
+  std::vector<float> shade_scratch;
+  std::shared_ptr<const Frame> frame;  // the one on show
+  std::uint64_t input_serial = 0;
+  bool has_input = false;
+  std::future<std::shared_ptr<const Layout>> pending;
+  std::uint64_t pending_serial = 0;
+  std::shared_ptr<const InputMesh> pending_input;
+
+  void adopt(std::shared_ptr<const Layout> layout) {
+    elements.upload_topology(*layout);
+    placement = Placement(std::move(layout));
+    fixed.clear();
+    inverted.clear();
+  }
+  bool prepare(const Frame& wanted, Loading loading);
+  void upload(std::span<const Vec3> positions, std::span<const float> quality, std::span<const std::uint8_t> inverted_flags);
+  void gather_marks(const Camera2D& camera, const Style& style, const Marks& wanted);
+  void gather_vertices(const Camera2D& camera, const Style& style, const Bounds2& window);
+  void outline(std::span<const Index> corners, const Camera2D& camera, const Style& style);
+  /// Pixels from the middle of the viewport, y up.
+  [[nodiscard]] static Vec2<double> place(Vec2<double> point, const Camera2D& camera) {
+    return {(point.x - camera.centre.x) / camera.units_per_pixel, (point.y - camera.centre.y) / camera.units_per_pixel};
+  }
+};
+
+MeshScene::MeshScene() : impl_(std::make_unique<Impl>()) {}
+MeshScene::~MeshScene() = default;
+MeshScene::MeshScene(MeshScene&&) noexcept = default;
+MeshScene& MeshScene::operator=(MeshScene&&) noexcept = default;
+
+/// Whether the layout of the frame's mesh is on the OpenGL side now.
+bool MeshScene::Impl::prepare(const Frame& wanted, Loading loading) {
+  if (has_input && input_serial == wanted.input_serial && !placement.empty()) return true;
+  const bool background = loading == Loading::Background && wanted.input->mesh.elements.size() > kBigMesh;
+  if (!pending.valid() || pending_serial != wanted.input_serial) {
+    if (pending.valid()) {
+      // One at a time: the earlier one must end first, for it cannot be stopped.
+      if (background && pending.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
+      pending.wait();
+    }
+    pending_serial = wanted.input_serial;
+    pending = std::async(background ? std::launch::async : std::launch::deferred, [input = wanted.input] {
+      return build_layout(input->mesh, input->geometry.plane);
+    });
+  }
+  if (background && pending.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) return false;
+  adopt(pending.get());
+  input_serial = wanted.input_serial;
+  has_input = true;
+  return true;
+}
+
+bool MeshScene::show(std::shared_ptr<const Frame> frame, Loading loading) {
+  Impl& s = *impl_;
+  if (!frame) {
+    s.frame.reset();
+    s.placement = Placement();
+    s.has_input = false;
+    return true;
+  }
+  if (!s.prepare(*frame, loading)) {
+    s.placement = Placement();
+    s.has_input = false;
+    s.frame.reset();
+    return false;
+  }
+  if (!s.frame || s.frame->serial != frame->serial || s.frame->input_serial != frame->input_serial) {
+    s.upload(frame->positions, frame->quality, frame->inverted);
+  }
+  s.frame = std::move(frame);
+  return true;
+}
+
+void MeshScene::set_mesh(const Mesh& mesh, const Plane& plane) {
+  auto layout = build_layout(mesh, plane);
+  impl_->adopt(std::move(layout));
+  impl_->frame.reset();
+  impl_->has_input = false;
+}
+
+void MeshScene::update(std::span<const Vec3> positions, std::span<const float> quality, std::span<const std::uint8_t> inverted) {
+  if (impl_->placement.empty()) throw UsageError("there is no mesh to update");
+  impl_->upload(positions, quality, inverted);
+}
+
+void MeshScene::Impl::upload(std::span<const Vec3> positions, std::span<const float> quality, std::span<const std::uint8_t> inverted_flags) {
+  const Index count = placement.layout().element_count();
+  if (quality.size() != count || (!inverted_flags.empty() && inverted_flags.size() != count)) {
+    throw UsageError("as many qualities as the mesh has elements are needed");
+  }
+  placement.move(positions);
+  const Vec2<double> origin = placement.layout().origin;
+  const auto points = placement.points();
+  point_scratch.resize(points.size());
+  std::transform(points.begin(), points.end(), point_scratch.begin(), [&](const Vec2<double>& p) {
+    return Vec2<float>{static_cast<float>(p.x - origin.x), static_cast<float>(p.y - origin.y)};
+  });
+  elements.upload_points(point_scratch);
+  inverted.assign(inverted_flags.begin(), inverted_flags.end());
+  shade_scratch.resize(count);
+  for (Index e = 0; e < count; ++e) {
+    const float q = quality[e];
+    shade_scratch[e] = !inverted.empty() && inverted[e] != 0 ? kInvertedShade
+                       : std::isnan(q)                       ? kUndefinedShade
+                                                             : std::clamp(q, -1e37F, 1e37F);
+  }
+  elements.upload_shades(shade_scratch);
+}
+
+void MeshScene::set_fixed(std::span<const std::uint8_t> fixed) { impl_->fixed.assign(fixed.begin(), fixed.end()); }
+
+bool MeshScene::empty() const noexcept { return impl_->placement.empty() || impl_->placement.layout().element_count() == 0; }
+Index MeshScene::element_count() const noexcept { return impl_->placement.empty() ? 0 : impl_->placement.layout().element_count(); }
+const Bounds2& MeshScene::bounds() const noexcept { return impl_->placement.bounds(); }
+Vec2<double> MeshScene::vertex_point(Index vertex) const {
+  if (vertex >= impl_->placement.points().size()) throw UsageError("there is no such vertex");
+  return impl_->placement.points()[vertex];
+}
+Bounds2 MeshScene::element_bounds(Index element) const {
+  if (element >= element_count()) throw UsageError("there is no such element");
+  return impl_->placement.element_bounds(element);
+}
+
+void MeshScene::draw(Framebuffer& target, const Camera2D& camera, const Style& style, const Marks& marks, double detail) {
+  const TargetGuard guard;
+  target.clear(style.transparent ? Rgba{0, 0, 0, 0} : Rgba{style.background.r, style.background.g, style.background.b, 255});
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_STENCIL_TEST);
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_FUNC_ADD);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  Impl& s = *impl_;
+  const Vec2<double> viewport{static_cast<double>(target.width()), static_cast<double>(target.height())};
+  const Layout nothing;
+  const View view = make_view(s.placement.empty() ? nothing : s.placement.layout(), camera, viewport, style.scale);
+  if (!empty()) {
+    const Bounds2 window = camera.visible(viewport);
+    const std::vector<DrawRange> ranges[] = {s.placement.visible(0, window), s.placement.visible(1, window)};
+    double in_view = 0.0;
+    for (const auto& list : ranges) {
+      for (const DrawRange& range : list) in_view += range.last - range.first;
+    }
+    const double budget = std::max(1.0, std::clamp(detail, 0.0, 1.0) * element_count());
+    const auto stride = static_cast<Index>(std::ceil(in_view / budget - 1e-9));
+    s.elements.set_colours(style.colours);
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+    for (std::size_t batch = 0; batch < 2; ++batch) {
+      if (stride > 1) {
+        s.elements.draw_coarse(view, batch, ranges[batch], stride);
+      } else {
+        s.elements.draw(view, style, batch, ranges[batch]);
+      }
+    }
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_BLEND);
+    if (style.boundary) s.elements.draw_boundary(view, style);
+    if (style.vertices && stride <= 1) s.gather_vertices(camera, style, window);
+  }
+  s.gather_marks(camera, style, marks);
+  s.marks.flush(view, style.scale);
+}
+
+void MeshScene::Impl::outline(std::span<const Index> corners, const Camera2D& camera, const Style& style) {
+  const auto points = placement.points();
+  for (const bool casing : {true, false}) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vec2<double> a = place(points[corners[i]], camera), b = place(points[corners[(i + 1) % corners.size()]], camera);
+      marks.line(a, b, (casing ? 5.0F : 2.4F) * style.scale, casing ? style.casing_colour : style.highlight_colour);
+    }
+  }
+}
+
+void MeshScene::Impl::gather_marks(const Camera2D& camera, const Style& style, const Marks& wanted) {
+  if (!placement.empty()) {
+    const Layout& layout = placement.layout();
+    for (const Index e : wanted.elements) {
+      if (e < layout.element_count()) outline(layout.corners_of_element(e), camera, style);
+    }
+    for (const Index v : wanted.vertices) {
+      if (v < layout.vertex_count) {
+        marks.dot(place(placement.points()[v], camera), 9.0F * style.scale, DotShape::Round, style.highlight_colour, style.casing_colour);
+      }
+    }
+    if (wanted.worst && *wanted.worst < layout.element_count()) {
+      const Bounds2 box = placement.element_bounds(*wanted.worst);
+      const double size = std::hypot(box.size().x, box.size().y) / camera.units_per_pixel;
+      const float diameter = std::max(26.0F * style.scale, static_cast<float>(std::min(size, 1e5)) * 1.15F + 8.0F * style.scale);
+      marks.dot(place(box.centre(), camera), diameter, DotShape::Ring, style.highlight_colour, style.casing_colour);
+    }
+  }
+  for (const OverlayLine& line : wanted.lines) {
+    marks.line(place(line.from, camera), place(line.to, camera), line.width * style.scale, line.colour);
+  }
+  for (const OverlayDot& dot : wanted.dots) {
+    marks.dot(place(dot.point, camera), dot.diameter * style.scale, dot.square ? DotShape::Square : DotShape::Round, dot.colour, style.casing_colour);
+  }
+}
+
+void MeshScene::Impl::gather_vertices(const Camera2D& camera, const Style& style, const Bounds2& window) {
+  // Vertices of elements in view that are big enough, each once.
+  const double room = 14.0 * static_cast<double>(style.scale) * camera.units_per_pixel;
+  std::vector<Index> seen;
+  for (std::size_t batch = 0; batch < 2; ++batch) {
+    const Batch& elements_of = placement.layout().batches[batch];
+    for (const DrawRange& range : placement.visible(batch, window)) {
+      for (Index drawn = range.first; drawn < range.last; ++drawn) {
+        const auto corners = elements_of.corners_of(drawn);
+        const Vec2<double> a = placement.points()[corners[0]], b = placement.points()[corners[1]], c = placement.points()[corners[2]];
+        if (std::abs(cross(b - a, c - a)) < room * room) continue;
+        seen.insert(seen.end(), corners.begin(), corners.end());
+        if (seen.size() > 6 * kMostVertexDots) return;
+      }
+    }
+  }
+  std::sort(seen.begin(), seen.end());
+  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+  if (seen.size() > kMostVertexDots) return;
+  for (const Index v : seen) {
+    const bool is_fixed = v < fixed.size() && fixed[v] != 0;
+    marks.dot(place(placement.points()[v], camera), (is_fixed ? 5.0F : 4.5F) * style.scale, is_fixed ? DotShape::Square : DotShape::Round,
+              is_fixed ? style.fixed_colour : style.free_colour, style.casing_colour);
+  }
+}
+
+Pick MeshScene::pick(const Camera2D& camera, Vec2<double> viewport, Vec2<double> pixel, double radius) const {
+  Pick result;
+  const Impl& s = *impl_;
+  if (empty()) return result;
+  const Vec2<double> point = camera.to_plane(pixel, viewport);
+  const double reach = std::max(radius, 0.0) * camera.units_per_pixel;
+  const Bounds2 window{{point.x - reach, point.y - reach}, {point.x + reach, point.y + reach}};
+  double nearest = reach * reach;
+  bool on_top = false;
+  for (std::size_t batch = 0; batch < 2; ++batch) {
+    const Batch& elements = s.placement.layout().batches[batch];
+    for (const DrawRange& range : s.placement.visible(batch, window)) {
+      for (Index drawn = range.first; drawn < range.last; ++drawn) {
+        const auto corners = elements.corners_of(drawn);
+        for (const Index v : corners) {
+          const Vec2<double> away = s.placement.points()[v] - point;
+          const double square = dot(away, away);
+          if (square < nearest || (square == nearest && v < result.vertex)) {
+            nearest = square;
+            result.vertex = v;
+          }
+        }
+        if (!contains(corners, s.placement.points(), point)) continue;
+        const Index element = elements.order[drawn];
+        const bool inverted = !s.inverted.empty() && s.inverted[element] != 0;
+        if (on_top && !inverted) continue;  // the later one covers the earlier one, but no inverted one
+        result.element = element;
+        on_top = inverted;
+      }
+    }
+  }
+  result.vertex_distance = std::sqrt(nearest) / camera.units_per_pixel;
+  return result;
+}
+
+}  // namespace dmoscope::render

@@ -1,0 +1,19 @@
+#include "render/style.h"
+
+namespace dmoscope::render {
+
+Style Style::dark() { return {}; }
+
+Style Style::light() {
+  Style style;
+  style.background = {0xf6, 0xf7, 0xf9};
+  style.wire_colour = {0x10, 0x12, 0x16, 170};
+  style.boundary_colour = {0x22, 0x26, 0x2d, 255};
+  style.free_colour = {0xff, 0xff, 0xff, 255};
+  style.fixed_colour = {0xd9, 0x6b, 0x00, 255};
+  style.highlight_colour = {0x00, 0x00, 0x00, 255};
+  style.casing_colour = {0xff, 0xff, 0xff, 235};
+  return style;
+}
+
+}  // namespace dmoscope::render

@@ -1,0 +1,13 @@
+// Put before every stage. Pixels here are relative to the middle of the viewport, y up.
+uniform vec2 u_offset_high;  // the camera's centre relative to the scene's, in two floats: far from it nothing jitters
+uniform vec2 u_offset_low;
+uniform float u_zoom;      // pixels a unit of the plane
+uniform vec2 u_viewport;   // pixels
+
+vec2 to_pixels(vec2 point) {
+  precise vec2 coarse = point - u_offset_high;
+  precise vec2 fine = coarse - u_offset_low;
+  return fine * u_zoom;
+}
+
+vec4 to_clip(vec2 pixels, float depth) { return vec4(pixels * 2.0 / u_viewport, depth, 1.0); }

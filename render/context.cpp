@@ -30,8 +30,9 @@ void Context::adopt(const std::string& origin) {
   glGetIntegerv(GL_MINOR_VERSION, &minor);
   const std::string renderer = text_of(GL_RENDERER);
   if (major * 10 + minor < 45) {
-    throw Error(fmt::format("OpenGL 4.5 is needed, but {} offers {}.{}; a newer graphics driver (for Mesa: package libgl1-mesa-dri) may have it",
-                            renderer, major, minor));
+    throw Error(
+        fmt::format("OpenGL 4.5 is needed, but {} offers {}.{}; a newer graphics driver (for Mesa: package libgl1-mesa-dri) may have it",
+                    renderer, major, minor));
   }
   description_ = fmt::format("OpenGL {}.{}, {}, {}", major, minor, renderer, origin);
   software_ = false;

@@ -6,6 +6,7 @@ namespace dmoscope::render {
 namespace {
 
 constexpr int kColours = 4096;
+constexpr Stages kFill{"elements.vert.glsl", "elements.geom.glsl", "elements.frag.glsl"};
 
 Handle<DeleteVertexArray> make_array() {
   GLuint id = 0;
@@ -14,7 +15,8 @@ Handle<DeleteVertexArray> make_array() {
 }
 
 void set_colour(const Program& program, const char* name, Rgb colour, float alpha = 1.0F) {
-  program.set(name, static_cast<float>(colour.r) / 255.0F, static_cast<float>(colour.g) / 255.0F, static_cast<float>(colour.b) / 255.0F, alpha);
+  program.set(name, static_cast<float>(colour.r) / 255.0F, static_cast<float>(colour.g) / 255.0F, static_cast<float>(colour.b) / 255.0F,
+              alpha);
 }
 
 bool same(const ColourScale& a, const ColourScale& b) {
@@ -32,10 +34,9 @@ void View::apply(const Program& program) const {
 }
 
 ElementPainter::ElementPainter()
-    : fill_{Program{{"elements.vert.glsl", "elements.geom.glsl", "elements.frag.glsl"}},
-            Program{{"elements.vert.glsl", "elements.geom.glsl", "elements.frag.glsl"}, "QUADRILATERALS"}},
-      coarse_{{"coarse.vert.glsl", "coarse.frag.glsl"}},
-      boundary_{{"lines.vert.glsl", "lines.frag.glsl"}, "BOUNDARY"},
+    : fill_{Program(kFill), Program(kFill, "QUADRILATERALS")},
+      coarse_({"coarse.vert.glsl", {}, "coarse.frag.glsl"}),
+      boundary_({"lines.vert.glsl", {}, "lines.frag.glsl"}, "BOUNDARY"),
       nothing_(make_array()) {
   GLuint id = 0;
   DMOSCOPE_GL(glCreateTextures(GL_TEXTURE_2D, 1, &id));
@@ -124,7 +125,8 @@ void ElementPainter::draw(const View& view, const Style& style, std::size_t batc
   program.set("u_wire_half_width", 0.5F * style.wire_width * style.scale);
   set_colour(program, "u_wire_colour", {style.wire_colour.r, style.wire_colour.g, style.wire_colour.b},
              static_cast<float>(style.wire_colour.a) / 255.0F);
-  program.set("u_hatch", Vec2<float>{kHatchPeriod * style.scale, view.hatch_phase});
+  program.set("u_hatch_period", kHatchPeriod * style.scale);
+  program.set("u_hatch_phase", view.hatch_phase);
   DMOSCOPE_GL(glBindVertexArray(elements.array.id()));
   const std::size_t corner_count = batch == 0 ? 3 : 4;
   for (const DrawRange& range : ranges) {

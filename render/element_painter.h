@@ -20,7 +20,7 @@ struct View {
   Vec2<float> offset_high, offset_low;  // the camera's centre less the layout's origin
   float zoom = 1.0F;                    // pixels a unit
   Vec2<float> viewport;
-  float hatch_phase = 0.0F;
+  Vec2<float> hatch_phase;  // of rising and falling stripes, in periods
   void apply(const Program& program) const;
 };
 inline constexpr float kHatchPeriod = 8.0F;  // pixels at scale 1

@@ -49,7 +49,8 @@ void Framebuffer::release() noexcept {
 
 void Framebuffer::create() {
   if (std::max(width_, height_) > largest_size()) {
-    throw Error(fmt::format("OpenGL here draws pictures of at most {0} x {0} pixels, asked for {1} x {2}", largest_size(), width_, height_));
+    throw Error(
+        fmt::format("OpenGL here draws pictures of at most {0} x {0} pixels, asked for {1} x {2}", largest_size(), width_, height_));
   }
   DMOSCOPE_GL(glCreateTextures(GL_TEXTURE_2D, 1, &colour_));
   DMOSCOPE_GL(glTextureStorage2D(colour_, 1, GL_RGBA8, width_, height_));
@@ -63,7 +64,8 @@ void Framebuffer::create() {
   DMOSCOPE_GL(glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT0, colour_, 0));
   DMOSCOPE_GL(glNamedFramebufferRenderbuffer(framebuffer_, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_));
   const GLenum status = glCheckNamedFramebufferStatus(framebuffer_, GL_FRAMEBUFFER);
-  if (status != GL_FRAMEBUFFER_COMPLETE) throw Error(fmt::format("OpenGL: framebuffer {} x {} is not complete (0x{:04x})", width_, height_, status));
+  if (status != GL_FRAMEBUFFER_COMPLETE)
+    throw Error(fmt::format("OpenGL: framebuffer {} x {} is not complete (0x{:04x})", width_, height_, status));
 }
 
 void Framebuffer::resize(int width, int height) {

@@ -28,20 +28,14 @@ std::string_view error_name(GLenum error) {
   }
 }
 
-GLenum stage_of(std::string_view file) {
-  if (file.find(".vert.") != std::string_view::npos) return GL_VERTEX_SHADER;
-  if (file.find(".geom.") != std::string_view::npos) return GL_GEOMETRY_SHADER;
-  return GL_FRAGMENT_SHADER;
-}
-
-Handle<DeleteShader> compile(std::string_view file, std::string_view define) {
+Handle<DeleteShader> compile(GLenum stage, std::string_view file, std::string_view define) {
   const std::string_view text = shader_text(file);
   const std::string_view common = shader_text("common.glsl");
   if (text.empty()) throw Error(fmt::format("the program holds no shader '{}'", file));
   const std::string head = fmt::format("#version 450 core\n{}", define.empty() ? std::string{} : fmt::format("#define {} 1\n", define));
   const GLchar* const parts[] = {head.data(), common.data(), text.data()};
   const GLint lengths[] = {static_cast<GLint>(head.size()), static_cast<GLint>(common.size()), static_cast<GLint>(text.size())};
-  Handle<DeleteShader> shader(glCreateShader(stage_of(file)));
+  Handle<DeleteShader> shader(glCreateShader(stage));
   if (shader.id() == 0) throw Error(fmt::format("glCreateShader failed for {}", file));
   DMOSCOPE_GL(glShaderSource(shader.id(), 3, parts, lengths));
   DMOSCOPE_GL(glCompileShader(shader.id()));
@@ -78,20 +72,24 @@ void Buffer::write(std::span<const std::byte> data) {
 
 void Buffer::bind_storage(GLuint binding) const { DMOSCOPE_GL(glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, handle_.id())); }
 
-Program::Program(std::initializer_list<std::string_view> files, std::string_view define) : program_(glCreateProgram()) {
+Program::Program(const Stages& stages, std::string_view define) : program_(glCreateProgram()) {
   if (program_.id() == 0) throw Error("glCreateProgram failed");
   std::vector<Handle<DeleteShader>> shaders;
-  for (const std::string_view file : files) {
-    shaders.push_back(compile(file, define));
+  const auto add = [&](GLenum stage, std::string_view file) {
+    if (file.empty()) return;
+    shaders.push_back(compile(stage, file, define));
     DMOSCOPE_GL(glAttachShader(program_.id(), shaders.back().id()));
-  }
+  };
+  add(GL_VERTEX_SHADER, stages.vertex);
+  add(GL_GEOMETRY_SHADER, stages.geometry);
+  add(GL_FRAGMENT_SHADER, stages.fragment);
   DMOSCOPE_GL(glLinkProgram(program_.id()));
   GLint good = GL_FALSE;
   glGetProgramiv(program_.id(), GL_LINK_STATUS, &good);
   if (good != GL_TRUE) {
     std::vector<char> log(8192, '\0');
     glGetProgramInfoLog(program_.id(), static_cast<GLsizei>(log.size()), nullptr, log.data());
-    throw Error(fmt::format("OpenGL does not link {}: {}", *files.begin(), log.data()));
+    throw Error(fmt::format("OpenGL does not link {}: {}", stages.vertex, log.data()));
   }
   for (const Handle<DeleteShader>& shader : shaders) glDetachShader(program_.id(), shader.id());
 }

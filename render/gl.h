@@ -2,7 +2,6 @@
 // Thin owners of OpenGL objects; every call that can fail is checked. Only for sources of this room.
 
 #include <cstddef>
-#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -76,12 +75,16 @@ class Buffer {
   std::size_t capacity_ = 0;
 };
 
+/// Names of the shaders' files; `geometry` may be empty.
+struct Stages {
+  std::string_view vertex, geometry, fragment;
+};
+
 /// A linked program made of embedded shaders; "common.glsl" is put before each.
 class Program {
  public:
-  /// Names of the stages' files; the stage is told by ".vert.", ".geom." or ".frag." in the name. `define`: a macro set to 1 in
-  /// all stages, may be empty. Throws Error with the compiler's log.
-  explicit Program(std::initializer_list<std::string_view> files, std::string_view define = {});
+  /// `define`: a macro set to 1 in all stages, may be empty. Throws Error with the compiler's log.
+  explicit Program(const Stages& stages, std::string_view define = {});
   void use() const;
   void set(const char* name, float value) const;
   void set(const char* name, int value) const;
@@ -96,8 +99,8 @@ class Program {
 
 }  // namespace dmoscope::render
 
-#define DMOSCOPE_GL(call)                                      \
-  do {                                                         \
-    call;                                                      \
-    ::dmoscope::render::check_gl(#call, __FILE__, __LINE__);   \
+#define DMOSCOPE_GL(call)                                    \
+  do {                                                       \
+    call;                                                    \
+    ::dmoscope::render::check_gl(#call, __FILE__, __LINE__); \
   } while (false)

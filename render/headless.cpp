@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <dlfcn.h>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <glad/egl.h>
@@ -30,8 +29,8 @@ class EglLibrary {
   EglLibrary() : library_(dlopen("libEGL.so.1", RTLD_NOW | RTLD_GLOBAL)) {
     if (library_ == nullptr) {
       const char* why = dlerror();
-      throw Error(fmt::format("drawing without a window: libEGL.so.1 cannot be loaded ({}); {}", why == nullptr ? "unknown" : why,
-                              kWhatIsNeeded));
+      throw Error(
+          fmt::format("drawing without a window: libEGL.so.1 cannot be loaded ({}); {}", why == nullptr ? "unknown" : why, kWhatIsNeeded));
     }
     get_ = reinterpret_cast<Function (*)(const char*)>(dlsym(library_, "eglGetProcAddress"));
     if (get_ == nullptr) throw Error("drawing without a window: libEGL.so.1 has no eglGetProcAddress");
@@ -62,8 +61,8 @@ class HeadlessContext final : public Context {
     EGLint count = 0;
     if (eglChooseConfig(display_, wanted.data(), &config, 1, &count) != EGL_TRUE || count == 0) fail("eglChooseConfig");
     const std::array<EGLint, 7> attributes{
-        EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-        EGL_NONE};
+        EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
     context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, attributes.data());
     if (context_ == EGL_NO_CONTEXT) fail("eglCreateContext for OpenGL 4.5 core");
     try {

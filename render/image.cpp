@@ -65,7 +65,8 @@ double window_ssim(const Image& a, const Image& b, int left, int top, int right,
 
 }  // namespace
 
-Image::Image(int w, int h, Rgba fill) : width(w), height(h), rgba(std::size_t{4} * static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {
+Image::Image(int w, int h, Rgba fill)
+    : width(w), height(h), rgba(std::size_t{4} * static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {
   for (std::size_t i = 0; i < rgba.size(); i += 4) {
     rgba[i] = fill.r;
     rgba[i + 1] = fill.g;
@@ -122,7 +123,8 @@ void blend_over(Image& bottom, const Image& top, int x, int y) {
       const auto mix = [&](std::uint8_t o, std::uint8_t u) {
         return static_cast<std::uint8_t>(std::lround((static_cast<float>(o) * a + static_cast<float>(u) * b) / sum));
       };
-      bottom.set(x + i, y + j, {mix(over.r, under.r), mix(over.g, under.g), mix(over.b, under.b), static_cast<std::uint8_t>(std::lround(255.0F * sum))});
+      bottom.set(x + i, y + j,
+                 {mix(over.r, under.r), mix(over.g, under.g), mix(over.b, under.b), static_cast<std::uint8_t>(std::lround(255.0F * sum))});
     }
   }
 }

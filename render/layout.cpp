@@ -84,7 +84,8 @@ std::vector<std::array<Index, 2>> boundary_edges(const Mesh& mesh) {
 
 std::shared_ptr<const Layout> build_layout(const Mesh& mesh, const Plane& plane) {
   for (const ElementKind kind : mesh.elements.kinds()) {
-    if (info(kind).dimension != 2) throw UsageError(std::string("only triangles and quadrilaterals can be drawn, not ") + std::string(info(kind).plural));
+    if (info(kind).dimension != 2)
+      throw UsageError(std::string("only triangles and quadrilaterals can be drawn, not ") + std::string(info(kind).plural));
   }
   auto layout = std::make_shared<Layout>();
   layout->plane = plane;

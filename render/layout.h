@@ -38,8 +38,8 @@ struct Layout {
   Plane plane;
   Vec2<double> origin;  // middle of the bounding box at build: what positions on the OpenGL side are relative to
   Index vertex_count = 0;
-  std::array<Batch, 2> batches;  // triangles, quadrilaterals
-  std::vector<Index> slots;      // element to its drawn index; quadrilaterals count on after the last triangle
+  std::array<Batch, 2> batches;                      // triangles, quadrilaterals
+  std::vector<Index> slots;                          // element to its drawn index; quadrilaterals count on after the last triangle
   std::vector<std::array<Index, 2>> boundary_edges;  // edges with exactly one element
 
   [[nodiscard]] Index element_count() const noexcept { return static_cast<Index>(slots.size()); }

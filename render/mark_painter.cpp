@@ -18,7 +18,7 @@ float pixel(double value) { return static_cast<float>(std::clamp(value, -1e6, 1e
 }  // namespace
 
 MarkPainter::MarkPainter()
-    : line_program_{{"lines.vert.glsl", "lines.frag.glsl"}}, dot_program_{{"dots.vert.glsl", "dots.frag.glsl"}} {
+    : line_program_({"lines.vert.glsl", {}, "lines.frag.glsl"}), dot_program_({"dots.vert.glsl", {}, "dots.frag.glsl"}) {
   GLuint id = 0;
   DMOSCOPE_GL(glCreateVertexArrays(1, &id));
   nothing_ = Handle<DeleteVertexArray>(id);

@@ -1,4 +1,5 @@
 // The only source that sees stb's implementation.
+#include <algorithm>
 #include <climits>
 #include <cstdlib>
 #include <fstream>

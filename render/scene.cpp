@@ -16,7 +16,7 @@
 namespace dmoscope::render {
 namespace {
 
-constexpr std::size_t kBigMesh = 100'000;       // elements whose layout takes long enough to be built in the background
+constexpr std::size_t kBigMesh = 100'000;        // elements whose layout takes long enough to be built in the background
 constexpr std::size_t kMostVertexDots = 20'000;  // beyond, dots would hide the mesh anyway
 
 /// Keeps what a draw changes and others may rely on: the bound framebuffer and the viewport.
@@ -52,8 +52,9 @@ View make_view(const Layout& layout, const Camera2D& camera, Vec2<double> viewpo
   view.zoom = static_cast<float>(1.0 / camera.units_per_pixel);
   view.viewport = {static_cast<float>(viewport.x), static_cast<float>(viewport.y)};
   // The stripes move with the mesh, so that tiles of a picture fit together.
-  const double periods = (offset.x - offset.y) / camera.units_per_pixel / static_cast<double>(kHatchPeriod * scale);
-  view.hatch_phase = static_cast<float>(periods - std::floor(periods));
+  const double period = camera.units_per_pixel * static_cast<double>(kHatchPeriod * scale);
+  const auto phase = [&](double along) { return static_cast<float>(along / period - std::floor(along / period)); };
+  view.hatch_phase = {phase(offset.x - offset.y), phase(offset.x + offset.y)};
   return view;
 }
 
@@ -107,9 +108,8 @@ bool MeshScene::Impl::prepare(const Frame& wanted, Loading loading) {
       pending.wait();
     }
     pending_serial = wanted.input_serial;
-    pending = std::async(background ? std::launch::async : std::launch::deferred, [input = wanted.input] {
-      return build_layout(input->mesh, input->geometry.plane);
-    });
+    pending = std::async(background ? std::launch::async : std::launch::deferred,
+                         [input = wanted.input] { return build_layout(input->mesh, input->geometry.plane); });
   }
   if (background && pending.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) return false;
   adopt(pending.get());
@@ -151,7 +151,8 @@ void MeshScene::update(std::span<const Vec3> positions, std::span<const float> q
   impl_->upload(positions, quality, inverted);
 }
 
-void MeshScene::Impl::upload(std::span<const Vec3> positions, std::span<const float> quality, std::span<const std::uint8_t> inverted_flags) {
+void MeshScene::Impl::upload(std::span<const Vec3> positions, std::span<const float> quality,
+                             std::span<const std::uint8_t> inverted_flags) {
   const Index count = placement.layout().element_count();
   if (quality.size() != count || (!inverted_flags.empty() && inverted_flags.size() != count)) {
     throw UsageError("as many qualities as the mesh has elements are needed");
@@ -262,7 +263,8 @@ void MeshScene::Impl::gather_marks(const Camera2D& camera, const Style& style, c
     marks.line(place(line.from, camera), place(line.to, camera), line.width * style.scale, line.colour);
   }
   for (const OverlayDot& dot : wanted.dots) {
-    marks.dot(place(dot.point, camera), dot.diameter * style.scale, dot.square ? DotShape::Square : DotShape::Round, dot.colour, style.casing_colour);
+    marks.dot(place(dot.point, camera), dot.diameter * style.scale, dot.square ? DotShape::Square : DotShape::Round, dot.colour,
+              style.casing_colour);
   }
 }
 

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <utility>
 
+#include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <glad/gl.h>
-#include <GLFW/glfw3.h>
 
 #include "core/base/error.h"
 
@@ -59,9 +59,10 @@ std::unique_ptr<Window> Window::create(const Options& options) {
   glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "dmoscope");
   window->handle_ = glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
   if (window->handle_ == nullptr) {
-    throw Error(fmt::format("no window with OpenGL 4.5 can be opened: {}; needed: a graphics driver with OpenGL 4.5 (for Mesa: package "
-                            "libgl1-mesa-dri)",
-                            last_glfw_error()));
+    throw Error(
+        fmt::format("no window with OpenGL 4.5 can be opened: {}; needed: a graphics driver with OpenGL 4.5 (for Mesa: package "
+                    "libgl1-mesa-dri)",
+                    last_glfw_error()));
   }
   glfwSetWindowUserPointer(window->handle_, window.get());
   glfwSetDropCallback(window->handle_, WindowHooks::drop);

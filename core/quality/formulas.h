@@ -16,10 +16,8 @@ namespace dmoscope::formulas {
 template <class V>
 using RealOf = decltype(dot(V{}, V{}));
 
-template <class R>
-inline constexpr R kPi = R(std::numbers::pi);
-template <class R>
-inline constexpr R kSqrt3 = R(std::numbers::sqrt3);
+using std::numbers::pi;
+using std::numbers::sqrt3;
 
 /// Edge vectors and twice the signed area of the triangle a, b, c.
 template <class V>
@@ -80,7 +78,7 @@ struct Formula<Metric::MeanRatio> {
   template <class V>
   static RealOf<V> triangle(const Triangle<V>& t) {
     using R = RealOf<V>;
-    return scalar::ratio(R(2) * kSqrt3<R> * t.twice_area, squared_length_sum(t));
+    return scalar::ratio(scalar::constant<R>(2.0 * sqrt3) * t.twice_area, squared_length_sum(t));
   }
   template <class V>
   static RealOf<V> quadrilateral(const Quadrilateral<V>& q) {
@@ -126,7 +124,7 @@ struct Formula<Metric::MinAngle> {
     using R = RealOf<V>;
     const R area2 = scalar::abs(t.twice_area);
     const R least = scalar::min3(angle(area2, t.ab, V{} - t.ca), angle(area2, t.bc, V{} - t.ab), angle(area2, t.ca, V{} - t.bc));
-    return scalar::sign(t.twice_area) * (R(3) / kPi<R>)*least;
+    return scalar::sign(t.twice_area) * scalar::constant<R>(3.0 / pi) * least;
   }
 };
 
@@ -140,7 +138,7 @@ struct Formula<Metric::MaxAngle> {
     const R area2 = scalar::abs(t.twice_area);
     // pi - theta is the angle to the edge that arrives at the corner: nothing cancels near theta = pi.
     const R least = scalar::min3(angle(area2, t.ab, t.ca), angle(area2, t.bc, t.ab), angle(area2, t.ca, t.bc));
-    return scalar::sign(t.twice_area) * (R(1.5) / kPi<R>)*least;
+    return scalar::sign(t.twice_area) * scalar::constant<R>(1.5 / pi) * least;
   }
 };
 
@@ -153,8 +151,9 @@ struct Formula<Metric::Rectangularity> {
     using R = RealOf<V>;
     const R area2 = scalar::abs(t.twice_area);
     const R a = scalar::sqrt(dot(t.ab, t.ab)), b = scalar::sqrt(dot(t.bc, t.bc)), c = scalar::sqrt(dot(t.ca, t.ca));
+    const R right_angle = scalar::constant<R>(0.5 * pi);
     const auto corner = [&](V u, V v, R length_u, R length_v) {
-      const R closeness = R(1) - scalar::abs(R(0.5) * kPi<R> - angle(area2, u, v)) / (R(0.5) * kPi<R>);
+      const R closeness = R(1) - scalar::abs(right_angle - angle(area2, u, v)) / right_angle;
       return closeness * scalar::ratio(scalar::min(length_u, length_v), scalar::max(length_u, length_v));
     };
     const R best = scalar::max3(corner(t.ab, V{} - t.ca, a, c), corner(t.bc, V{} - t.ab, b, a), corner(t.ca, V{} - t.bc, c, b));
@@ -171,7 +170,7 @@ struct Formula<Metric::ScaledJacobian> {
     using R = RealOf<V>;
     const R aa = dot(t.ab, t.ab), bb = dot(t.bc, t.bc), cc = dot(t.ca, t.ca);
     const R product = scalar::sqrt(scalar::max3(aa * bb, bb * cc, cc * aa));
-    return scalar::ratio(R(2) / kSqrt3<R> * t.twice_area, product);
+    return scalar::ratio(scalar::constant<R>(2.0 / sqrt3) * t.twice_area, product);
   }
   template <class V>
   static RealOf<V> quadrilateral(const Quadrilateral<V>& q) {
@@ -187,7 +186,7 @@ struct Formula<Metric::AspectRatio> {
   static RealOf<V> triangle(const Triangle<V>& t) {
     using R = RealOf<V>;
     const R a = scalar::sqrt(dot(t.ab, t.ab)), b = scalar::sqrt(dot(t.bc, t.bc)), c = scalar::sqrt(dot(t.ca, t.ca));
-    return scalar::ratio(R(2) * kSqrt3<R> * t.twice_area, scalar::max3(a, b, c) * (a + b + c));
+    return scalar::ratio(scalar::constant<R>(2.0 * sqrt3) * t.twice_area, scalar::max3(a, b, c) * (a + b + c));
   }
 };
 

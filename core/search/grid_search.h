@@ -20,8 +20,8 @@ class Objective {
   explicit Objective(const Star<Real>& star) : star_(star) {}
 
   [[nodiscard]] Real operator()(Vec2<Real> p) const {
-    Real quality = std::numeric_limits<Real>::max();
-    Real jacobian = std::numeric_limits<Real>::max();
+    Real quality = scalar::constant<Real>(std::numeric_limits<float>::max());
+    Real jacobian = scalar::constant<Real>(std::numeric_limits<float>::max());
     for (const auto& t : star_.triangles) {
       const formulas::Triangle<Vec2<Real>> triangle(p, t.b, t.c);
       quality = scalar::min(quality, formulas::Formula<M>::triangle(triangle));
@@ -61,7 +61,7 @@ struct CandidateGrid {
 
  private:
   [[nodiscard]] Real coordinate(Real middle, Real width, int i) const {
-    return middle + width * (static_cast<Real>(i) / static_cast<Real>(points - 1) - Real(0.5F));
+    return middle + width * (scalar::constant<Real>(i) / scalar::constant<Real>(points - 1) - Real(0.5F));
   }
 };
 
@@ -82,7 +82,7 @@ template <class Real, class ObjectiveAt, class Trace = NoTrace>
   Candidate<Real> best{{}, objective(Vec2<Real>{})};
   double omega = parameters.omega;
   for (int level = 0; level < parameters.levels; ++level) {
-    const Real factor = static_cast<Real>(omega);
+    const Real factor = scalar::constant<Real>(omega);
     const CandidateGrid<Real> grid{best.offset, {box.x * factor, box.y * factor}, parameters.grid_points};
     trace.level(grid);
     for (int i = 0; i < grid.points; ++i) {

@@ -1,6 +1,8 @@
 // The command language, and the engine that runs it on a thread of its own.
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>

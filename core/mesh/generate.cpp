@@ -1,0 +1,69 @@
+#include "core/mesh/generate.h"
+
+#include <array>
+#include <limits>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/mesh/generators.h"
+
+namespace dmoscope {
+namespace {
+
+struct Generator {
+  Mesh (*make)(const generators::Request&);
+  std::size_t smallest, largest;  // range of size
+};
+
+constexpr std::size_t kGenerators = 8;
+constexpr std::array<GeneratorInfo, kGenerators> kInfos{{
+    {"coast", "an irregular coastline with islands and an open sea; triangles graded from fine at the coast to coarse offshore", 4000},
+    {"block", "fifteen blocks of triangles that meet in irregular vertices, smoothly distorted", 2500},
+    {"annulus", "a ring of triangles, sheared and jittered inside", 2500},
+    {"random", "Delaunay triangulation of random points in the unit square", 2000},
+    {"quads", "structured quadrilaterals over an arch, distorted", 2000},
+    {"mixed", "layers of quadrilaterals over a wall with a bump, triangles above", 2500},
+    {"tangled", "quadrilaterals and triangles with some vertices thrown out of place, so that elements are inverted", 600},
+    {"grid", "square lattice with random diagonals, jittered; of any size", 10000},
+}};
+constexpr std::array<Generator, kGenerators> kMakers{{
+    {generators::coast, 300, 200000},
+    {generators::block, 50, 5000000},
+    {generators::annulus, 50, 5000000},
+    {generators::random_points, 3, 2000000},
+    {generators::quads, 9, 5000000},
+    {generators::mixed, 50, 5000000},
+    {generators::tangled, 25, 5000000},
+    {generators::grid, 9, 10000000},
+}};
+
+}  // namespace
+
+std::span<const GeneratorInfo> generator_table() { return kInfos; }
+
+Mesh generate_mesh(std::string_view name, std::size_t size, std::uint64_t seed, Progress& progress) {
+  std::string names;
+  for (std::size_t i = 0; i < kGenerators; ++i) {
+    if (kInfos[i].name != name) {
+      names += (names.empty() ? "" : ", ") + std::string(kInfos[i].name);
+      continue;
+    }
+    const std::size_t wanted = size == 0 ? kInfos[i].default_size : size;
+    if (wanted < kMakers[i].smallest || wanted > kMakers[i].largest) {
+      throw UsageError(
+          fmt::format("{}: the size must be {} to {} vertices, not {}", name, kMakers[i].smallest, kMakers[i].largest, wanted));
+    }
+    progress.begin(fmt::format("generating {}", name));
+    Mesh mesh = kMakers[i].make({wanted, seed, progress});
+    progress.check();
+    progress.set(1.0);
+    mesh.name = name;
+    mesh.title = fmt::format("dmoscope {} with {} vertices, seed {}", name, mesh.positions.size(), seed);
+    return mesh;
+  }
+  throw UsageError(fmt::format("there is no generator \"{}\"; there are {}", name, names));
+}
+
+}  // namespace dmoscope

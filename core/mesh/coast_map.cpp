@@ -40,7 +40,7 @@ std::vector<Island> draw_islands(Random& random) {
 double land(Vec2<double> p, const std::vector<Island>& islands, std::uint64_t seed) {
   const double rough = fractal_noise(p.x / 26.0 + 11.0, p.y / 26.0, 6, seed);
   const double bays = fractal_noise(p.x / 55.0, 0.37 * p.y / 55.0 + 5.0, 2, seed + 100);
-  double height = (p.y - 15.0) / 15.0 + 1.7 * rough + 1.1 * bays;
+  double height = (p.y - 15.0) / 15.0 + 2.4 * rough + 1.2 * bays;
   for (const Island& island : islands) {
     const auto d = p - island.centre;
     if (dot(d, d) > 4.0 * island.radius * island.radius) continue;  // beyond all raggedness

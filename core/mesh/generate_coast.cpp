@@ -10,7 +10,9 @@
 #include "core/base/error.h"
 #include "core/mesh/coast_map.h"
 #include "core/mesh/delaunay.h"
+#include "core/mesh/edges.h"
 #include "core/mesh/generators.h"
+#include "core/mesh/orientation.h"
 
 namespace dmoscope::generators {
 namespace {
@@ -244,7 +246,7 @@ void roughen(Mesh& mesh, const Outline& outline, const CoastMap& map, const Requ
   displace(mesh, offsets, 100.0, request.progress);
 }
 
-/// One try with a given finest edge; false when the outline could not be made edges of the triangulation.
+/// One try with a given finest edge; false when the outline could not be made edges of the triangulation of one sea.
 bool try_coast(const CoastMap& map, const Request& request, Mesh& mesh) {
   Random random(request.seed + 1);
   Outline outline = make_outline(map, random);
@@ -275,6 +277,8 @@ bool try_coast(const CoastMap& map, const Request& request, Mesh& mesh) {
   mesh.fields.push_back(std::move(depth));
   mesh.elements.reserve(triangles.size(), triangles.size() * 3);
   for (const auto& t : triangles) mesh.elements.add(ElementKind::Triangle, std::array{renamed[t[0]], renamed[t[1]], renamed[t[2]]});
+  // A strait that the edges of its two shores close falls apart into two seas.
+  if (count_components(mesh, EdgeTable(mesh)) != 1) return false;
   for (auto& loop : outline.loops) {
     for (Index& v : loop) v = renamed[v];
   }

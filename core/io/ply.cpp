@@ -42,8 +42,7 @@ class PlyReader {
     required("face");
     vertex_count_ = vertices.count;
     for (const PlyElement& element : header_.elements) {
-      in_.need(element.count, element.properties.empty() ? 0.0 : static_cast<double>(element.least_size(header_.encoding)),
-               fmt::format("the number of {} elements", quote_token(element.name)));
+      check_count(element);
       if (element.name == "vertex") {
         read_vertices(element);
       } else if (element.name == "face") {
@@ -63,6 +62,15 @@ class PlyReader {
  private:
   [[nodiscard]] bool ascii() const noexcept { return header_.encoding == PlyEncoding::Ascii; }
   [[nodiscard]] bool big_endian() const noexcept { return header_.encoding == PlyEncoding::BigEndian; }
+
+  /// A wrong count must not make us allocate more than the file is worth.
+  void check_count(const PlyElement& element) const {
+    const double bytes = static_cast<double>(element.count) * static_cast<double>(element.least_size(header_.encoding));
+    // The last word of a text needs no separator after it, hence the one byte of grace.
+    if (bytes <= static_cast<double>(in_.left()) + 1.0) return;
+    in_.fail_at(element.place, fmt::format("{} elements {} are declared, but only {} bytes are left for them", element.count,
+                                           quote_token(element.name), in_.left()));
+  }
 
   const PlyElement& required(std::string_view name) {
     const auto found = std::find_if(header_.elements.begin(), header_.elements.end(), [&](const PlyElement& e) { return e.name == name; });

@@ -103,6 +103,7 @@ PlyHeader read_ply_header(MixedInput& in) {
       if (std::any_of(header.elements.begin(), header.elements.end(), [&](const PlyElement& e) { return e.name == element.name; })) {
         in.fail(fmt::format("a second element {}", quote_token(element.name)));
       }
+      if (in.line_over()) in.fail("the header line ends where the number of elements is expected");
       element.count = in.count(fmt::format("the number of {} elements", quote_token(element.name)), 0.0);
       header.elements.push_back(std::move(element));
     } else if (keyword == "property") {

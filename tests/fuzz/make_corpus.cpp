@@ -1,0 +1,26 @@
+// Writes the samples of every format to FOLDER/<format>/: what the fuzzers start from.
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+#include "core/io/mesh_io.h"
+#include "tests/fuzz/samples.h"
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fputs("usage: make_corpus FOLDER\n", stderr);
+    return 2;
+  }
+  try {
+    for (const dmoscope::testing::Sample& sample : dmoscope::testing::samples()) {
+      const auto folder = std::filesystem::path(argv[1]) / sample.format;
+      std::filesystem::create_directories(folder);
+      dmoscope::write_file_atomically(folder / sample.name, sample.bytes);
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 3;
+  }
+  return 0;
+}

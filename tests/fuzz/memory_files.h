@@ -1,0 +1,85 @@
+#pragma once
+// Reading and writing meshes as byte strings, for tests and fuzzers.
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <unistd.h>
+
+#include "core/io/format.h"
+#include "core/io/patch_writer.h"
+#include "core/io/source_file.h"
+
+namespace dmoscope::testing {
+
+/// The handler of a format by its name ("vtk").
+inline const FormatHandler& handler_of(std::string_view format) {
+  for (const FormatHandler* handler : format_handlers()) {
+    if (handler->info.name == format) return *handler;
+  }
+  throw std::logic_error("no such format");
+}
+
+/// Reads bytes as a format. Throws InputError.
+inline Mesh read_bytes(std::string_view format, std::string bytes) {
+  Progress progress;
+  auto source = std::make_shared<SourceFile>("sample." + std::string(format), std::move(bytes));
+  source->set_format(handler_of(format).info.name);
+  Mesh mesh = handler_of(format).read(*source, progress);
+  mesh.source = std::move(source);
+  return mesh;
+}
+
+struct Written {
+  std::string bytes;
+  Notes notes;
+};
+
+/// A file of this process alone, removed at the end of the program.
+inline const std::filesystem::path& scratch_path() {
+  struct Scratch {
+    std::filesystem::path path = std::filesystem::temp_directory_path() / ("dmoscope-test-" + std::to_string(::getpid()));
+    Scratch() = default;
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+    ~Scratch() {
+      std::error_code ignored;
+      std::filesystem::remove(path, ignored);
+    }
+  };
+  static const Scratch scratch;
+  return scratch.path;
+}
+
+template <class Write>
+Written written_by(Write&& write) {
+  Progress progress;
+  Written result;
+  {
+    AtomicFile file(scratch_path());
+    result.notes = write(file, progress);
+    file.commit();
+  }
+  result.bytes = read_whole_file(scratch_path(), progress);
+  return result;
+}
+
+/// A new file of a format. Throws OutputError.
+inline Written write_anew(std::string_view format, const Mesh& mesh, std::span<const Vec3> positions) {
+  return written_by([&](AtomicFile& file, Progress& progress) { return handler_of(format).write(file, mesh, positions, progress); });
+}
+
+/// The mesh's own file with moved coordinates. Throws OutputError.
+inline Written write_again(const Mesh& mesh, std::span<const Vec3> positions) {
+  const FormatHandler& handler = handler_of(mesh.source->format());
+  return written_by([&](AtomicFile& file, Progress& progress) {
+    return (handler.patch != nullptr ? handler.patch : write_patched)(file, mesh, positions, progress);
+  });
+}
+
+}  // namespace dmoscope::testing

@@ -1,0 +1,156 @@
+#pragma once
+// Small valid files of every format: what mutation tests start from and what the fuzzers' corpus is made of.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/io/binary.h"
+
+namespace dmoscope::testing {
+
+struct Sample {
+  std::string name;
+  std::string format;
+  std::string bytes;
+};
+
+/// Appends numbers in a byte order.
+template <class Number>
+void put(std::string& bytes, bool big_endian, std::initializer_list<Number> numbers) {
+  for (const Number number : numbers) {
+    const auto raw = store_number(number, big_endian);
+    bytes.append(raw.data(), raw.size());
+  }
+}
+
+// A square of two triangles beside a quadrilateral:
+//   3---2---5
+//   | / |   |
+//   0---1---4
+inline constexpr std::string_view kVtkPoints = "0 0 0\n1 0 0\n1.0 1 0\n0 1.50 0\n2 0 0\n2 1e0 0\n";
+
+inline std::string vtk_ascii() {
+  return "# vtk DataFile Version 3.0\nthree elements\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 double\n" + std::string(kVtkPoints) +
+         "CELLS 4 16\n3 0 1 2\n3 0 2 3\n2 0 1\n4 1 4 5 2\nCELL_TYPES 4\n5 5 3 9\nPOINT_DATA 6\nSCALARS depth float 1\nLOOKUP_TABLE "
+         "default\n"
+         "1 2 3 4 5 6.25\nVECTORS flow double\n1 0 0  0 1 0  0 0 1\n1 1 0  0 1 1  1 0 1\nCELL_DATA 4\nSCALARS id int\nLOOKUP_TABLE "
+         "default\n"
+         "7 8 9 10\nFIELD FieldData 1\npair%20of 2 4 unsigned_char\n1 2 3 4 5 6 7 8\n";
+}
+
+inline std::string vtk_poly_ascii() {
+  return "# vtk DataFile Version 5.1\r\npoly\r\nascii\r\ndataset polydata\r\npoints 6 float\r\n" + std::string(kVtkPoints) +
+         "METADATA\nINFORMATION 0\n\nVERTICES 2 1\nOFFSETS vtktypeint64\n0 1\nCONNECTIVITY vtktypeint64\n5\n"
+         "POLYGONS 4 10\nOFFSETS vtktypeint64\n0 3 6 10\nCONNECTIVITY vtktypeint64\n0 1 2 0 2 3 1 4\n5 2\n"
+         "CELL_DATA 4\nCOLOR_SCALARS rgb 3\n0 0 0 1 0 0 0 1 0 0 0 1\nNORMALS n float\n0 0 0 0 0 1 0 0 1 0 0 1\n";
+}
+
+inline std::string vtk_binary(bool offsets) {
+  std::string s = "# vtk DataFile Version ";
+  s += offsets ? "5.1" : "4.2";
+  s += "\nbinary\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 float\n";
+  put<float>(s, true, {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1.5F, 0, 2, 0, 0, 2, 1, 0.5F});
+  if (offsets) {
+    s += "\nCELLS 4 10\nOFFSETS vtktypeint64\n";
+    put<std::int64_t>(s, true, {0, 3, 6, 10});
+    s += "\nCONNECTIVITY vtktypeint64\n";
+    put<std::int64_t>(s, true, {0, 1, 2, 0, 2, 3, 1, 4, 5, 2});
+  } else {
+    s += "\nCELLS 3 13\n";
+    put<std::int32_t>(s, true, {3, 0, 1, 2, 3, 0, 2, 3, 4, 1, 4, 2, 5});
+  }
+  s += "\nCELL_TYPES 3\n";
+  put<std::int32_t>(s, true, {5, 7, offsets ? 9 : 8});
+  s += "\nPOINT_DATA 6\nSCALARS flags bit 1\nLOOKUP_TABLE default\n\x2c\nLOOKUP_TABLE colours 1\nabcd\nCELL_DATA 3\nTEXTURE_COORDINATES uv "
+       "2 short\n";
+  put<std::int16_t>(s, true, {1, -2, 3, 4, 5, -6});
+  s += "\n";
+  return s;
+}
+
+inline std::string vtk_volume() {
+  return "# vtk DataFile Version 2.0\nvolume\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 9 float\n"
+         "0 0 0 1 0 0 1 1 0 0 1 0\n0 0 1 1 0 1 1 1 1 0 1 1\n.5 .5 2\nCELLS 3 20\n8 0 1 2 3 4 5 6 7\n5 4 5 6 7 8\n4 0 1 2 3\nCELL_TYPES "
+         "3\n12 14 9\n";
+}
+
+inline std::string ply_ascii() {
+  return "ply\nformat ascii 1.0\ncomment a small mesh\nelement vertex 6\nproperty uchar red\nproperty double y\nproperty float x\nproperty "
+         "double z\n"
+         "element face 3\nproperty list uchar int vertex_indices\nproperty float quality\nelement edge 1\nproperty int vertex1\nproperty "
+         "int vertex2\n"
+         "end_header\n255 0 0 0\n0 0 1.0 0\n1 1 1 0\n2 1.5 0 0\n3 0 2 0\n4 1 2 -0.5\n3 0 1 2 0.25\n3 0 2 3 nan\n4 1 4 5 2 1\n0 1\n";
+}
+
+inline std::string ply_binary(bool big) {
+  std::string s = "ply\r\nformat binary_";
+  s += big ? "big" : "little";
+  s += "_endian 1.0\r\nobj_info none\r\nelement face 2\r\nproperty short mark\r\nproperty list uint8 uint16 vertex_index\r\n"
+       "element vertex 4\r\nproperty double x\r\nproperty float y\r\nproperty double z\r\nproperty list uint8 float more\r\nend_header\r\n";
+  for (const std::uint16_t last : {std::uint16_t{2}, std::uint16_t{3}}) {
+    put<std::int16_t>(s, big, {-7});
+    put<std::uint8_t>(s, big, {3});
+    put<std::uint16_t>(s, big, {0, static_cast<std::uint16_t>(last - 1), last});
+  }
+  for (int v = 0; v < 4; ++v) {
+    put<double>(s, big, {v == 1 || v == 2 ? 1.0 : 0.0});
+    put<float>(s, big, {v >= 2 ? 1.25F : 0.0F});
+    put<double>(s, big, {0.1 * v});
+    put<std::uint8_t>(s, big, {static_cast<std::uint8_t>(v)});
+    for (int i = 0; i < v; ++i) put<float>(s, big, {1.0F});
+  }
+  return s;
+}
+
+inline std::string stl_ascii() {
+  return "solid two facets\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   vertex 1 1 0\n  endloop\n endfacet\n"
+         " FACET NORMAL nan nan nan\n  OUTER LOOP\n   VERTEX -0.0 0 0\n   VERTEX 1.0 1 0\n   VERTEX 0 1e0 0\n  ENDLOOP\n "
+         "ENDFACET\nendsolid two facets\n";
+}
+
+inline std::string stl_binary() {
+  std::string s = "solid that is binary";
+  s.resize(80, ' ');
+  put<std::uint32_t>(s, false, {2});
+  put<float>(s, false, {0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 1, 0.5F});
+  put<std::uint16_t>(s, false, {0});
+  put<float>(s, false, {0, 0, 1, -0.0F, 0, 0, 1, 1, 0.5F, 0, 1, 0});
+  put<std::uint16_t>(s, false, {31});
+  return s;
+}
+
+inline std::string off_binary() {
+  std::string s = "OFF BINARY\n";
+  put<std::uint32_t>(s, true, {4, 2, 0});
+  put<float>(s, true, {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
+  put<std::uint32_t>(s, true, {3, 0, 1, 2, 0, 3, 0, 2, 3, 0});
+  return s;
+}
+
+/// At least one file of each format that format_table() names.
+inline std::vector<Sample> samples() {
+  return {
+      {"ascii", "off", "OFF\n# a comment\n5 2 0\n0 0 0\n1 0 0 # here\n1 1 0\n0 1.50 0\n2 0 0\n3 0 1 2\n4 0 2 3 4\n"},
+      {"binary", "off", off_binary()},
+      {"groups", "obj", "# square\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1.50 0\nvt 0 0\ng left\nf 1/1 2/1 3/1\nf -4 -2 -1\n"},
+      {"ascii", "ply", ply_ascii()},
+      {"little", "ply", ply_binary(false)},
+      {"big", "ply", ply_binary(true)},
+      {"ascii", "stl", stl_ascii()},
+      {"binary", "stl", stl_binary()},
+      {"ascii", "vtk", vtk_ascii()},
+      {"poly", "vtk", vtk_poly_ascii()},
+      {"binary", "vtk", vtk_binary(false)},
+      {"offsets", "vtk", vtk_binary(true)},
+      {"volume", "vtk", vtk_volume()},
+      {"depth", "fort14",
+       "grid\n2 4\n1 0.0 0.0 10.5\n2 1.0 0 11\n3 1 1 12.\n4 0 1 1.3D1\n1 3 1 2 3\n2 3 1 3 4\n1\n2\n2\n1\n2\n1\n2\n2 0\n3\n4\n"},
+      {"marker", "su2",
+       "NDIME= 2\nNELEM= 2\n5 0 1 2 0\n5 0 2 3 1\nNPOIN= 4\n0 0 0\n1 0 1\n1 1 2\n0 1.50 3\nNMARK= 1\nMARKER_TAG= wall\nMARKER_ELEMS= 2\n3 "
+       "0 1\n3 1 2\n"},
+  };
+}
+
+}  // namespace dmoscope::testing

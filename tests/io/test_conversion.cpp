@@ -1,0 +1,57 @@
+// From every format to every other: positions and connectivity come through exactly, and what does not is named.
+
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/io/mesh_io.h"
+#include "tests/fuzz/check_reader.h"
+#include "tests/fuzz/samples.h"
+
+namespace dmoscope::testing {
+namespace {
+
+TEST(Conversion, EverySampleToEveryFormat) {
+  int converted = 0;
+  for (const Sample& sample : samples()) {
+    const Mesh mesh = read_bytes(sample.format, sample.bytes);
+    for (const FormatInfo& format : format_table()) {
+      SCOPED_TRACE(sample.format + " " + sample.name + " to " + std::string(format.name));
+      Written written;
+      try {
+        written = write_anew(format.name, mesh, mesh.positions);
+      } catch (const OutputError& error) {
+        EXPECT_STRNE(error.what(), "");
+        continue;
+      }
+      ++converted;
+      const Mesh again = read_bytes(format.name, written.bytes);
+      EXPECT_NO_THROW(check_same(mesh, mesh.positions, again, format.name != "stl", again.source->layout().components == 3));
+      for (const Field& field : mesh.fields) {
+        bool named = false;
+        for (const std::string& note : written.notes) named = named || note.find(field.name) != std::string::npos;
+        bool kept = false;
+        for (const Field& other : again.fields) {
+          bool same = other.on == field.on && other.values.size() == field.values.size();
+          for (std::size_t i = 0; same && i < other.values.size(); ++i) same = same_bits(other.values[i], field.values[i]);
+          kept = kept || same;
+        }
+        EXPECT_TRUE(named || kept) << "field " << field.name << " is lost without a word";
+      }
+      for (const Group& group : mesh.groups) {
+        bool named = false;
+        for (const std::string& note : written.notes) named = named || note.find(group.name) != std::string::npos;
+        bool kept = false;
+        for (const Group& other : again.groups) kept = kept || other.members == group.members;
+        EXPECT_TRUE(named || kept) << "group " << group.name << " is lost without a word";
+      }
+    }
+  }
+  EXPECT_GE(converted, 50);
+}
+
+}  // namespace
+}  // namespace dmoscope::testing

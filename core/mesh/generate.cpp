@@ -29,7 +29,7 @@ constexpr std::array<GeneratorInfo, kGenerators> kInfos{{
     {"grid", "square lattice with random diagonals, jittered; of any size", 10000},
 }};
 constexpr std::array<Generator, kGenerators> kMakers{{
-    {generators::coast, 300, 200000},
+    {generators::coast, 300, 20000},
     {generators::block, 50, 5000000},
     {generators::annulus, 50, 5000000},
     {generators::random_points, 3, 2000000},

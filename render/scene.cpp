@@ -290,7 +290,7 @@ void MeshScene::Impl::gather_vertices(const Camera2D& camera, const Style& style
   for (const Index v : seen) {
     const bool is_fixed = v < fixed.size() && fixed[v] != 0;
     marks.dot(place(placement.points()[v], camera), (is_fixed ? 5.0F : 4.5F) * style.scale, is_fixed ? DotShape::Square : DotShape::Round,
-              is_fixed ? style.fixed_colour : style.free_colour, style.casing_colour);
+              is_fixed ? style.fixed_colour : style.free_colour, style.vertex_casing_colour);
   }
 }
 

@@ -49,7 +49,7 @@ class MeshScene {
   /// positions: one a vertex. quality and inverted: one an element, as in Frame; inverted may be empty (none).
   void update(std::span<const Vec3> positions, std::span<const float> quality, std::span<const std::uint8_t> inverted);
 
-  /// Which vertices are fixed (RunView::fixed), for Style::vertices; empty: all free.
+  /// Which vertices are fixed (RunView::fixed), for Style::vertices; empty: all free. Forgotten when another mesh is shown.
   void set_fixed(std::span<const std::uint8_t> fixed);
 
   [[nodiscard]] bool empty() const noexcept;

@@ -23,6 +23,7 @@ struct Style {
   bool vertices = false;  // dots for free (round) and fixed (square) vertices, once there is room for them
   Rgba free_colour{0xff, 0xff, 0xff, 255};
   Rgba fixed_colour{0xff, 0xb0, 0x3a, 255};
+  Rgba vertex_casing_colour{0x10, 0x12, 0x16, 230};
   Rgba highlight_colour{0xff, 0xff, 0xff, 255};  // outlines, dots and the ring; drawn on a casing of the opposite lightness
   Rgba casing_colour{0x10, 0x12, 0x16, 230};
   float scale = 1.0F;

@@ -1,5 +1,6 @@
 // From every format to every other: positions and connectivity come through exactly, and what does not is named.
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,24 @@ TEST(Conversion, EverySampleToEveryFormat) {
     }
   }
   EXPECT_GE(converted, 50);
+}
+
+TEST(Conversion, WhatOnlyTheFileHeldIsNamedAndARefusalLeavesTheOldFile) {
+  const std::filesystem::path folder = scratch_path().string() + "-folder";
+  std::filesystem::create_directories(folder);
+  write_file_atomically(folder / "in.vtk", vtk_ascii());
+  write_file_atomically(folder / "out.stl", "what stood there before");
+  Progress progress;
+  const Mesh mesh = read_mesh(folder / "in.vtk", progress);
+  const std::vector<std::string> notes = write_mesh(folder / "out.off", mesh, mesh.positions, progress);
+  EXPECT_THAT(notes, ::testing::Contains(::testing::HasSubstr("1 vertices and lines of in.vtk")));
+  EXPECT_THAT(notes, ::testing::Contains(::testing::HasSubstr("\"flow\"")));
+  // The same format keeps all of it, and has nothing to say.
+  EXPECT_TRUE(write_mesh(folder / "out.vtk", mesh, mesh.positions, progress).empty());
+  EXPECT_EQ(read_whole_file(folder / "out.vtk", progress), vtk_ascii());
+  EXPECT_THROW(write_mesh(folder / "out.stl", mesh, mesh.positions, progress), OutputError);
+  EXPECT_EQ(read_whole_file(folder / "out.stl", progress), "what stood there before");
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

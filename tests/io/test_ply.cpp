@@ -1,5 +1,7 @@
 // PLY: every encoding, any order of properties, errors with their line.
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <random>
 #include <string>

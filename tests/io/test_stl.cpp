@@ -1,6 +1,9 @@
 // STL: equal corners become one vertex, a moved vertex is written to all its places, normals follow.
 
+#include <array>
+#include <bit>
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -97,6 +100,23 @@ TEST(Stl, NewFileNamesUnusedVerticesAndOrder) {
   const Written written = write_anew("stl", mesh, mesh.positions);
   EXPECT_THAT(written.notes, ElementsAre(HasSubstr("1 vertices that no element uses"), HasSubstr("order of the vertices")));
   EXPECT_NO_THROW(check_same(mesh, mesh.positions, read_bytes("stl", written.bytes), false, true));
+}
+
+TEST(Stl, NewFileKeepsRandomDoublesBitwise) {
+  std::mt19937_64 random(3);
+  Mesh mesh;
+  for (Index i = 0; i < 300; ++i) {
+    std::array<double, 3> p{};
+    for (double& c : p) {
+      do c = std::bit_cast<double>(random());
+      while (!std::isfinite(c));
+    }
+    mesh.positions.push_back({p[0], p[1], p[2]});
+    if (i % 3 == 2) mesh.elements.add(ElementKind::Triangle, std::vector<Index>{i - 2, i - 1, i});
+  }
+  const Written written = write_anew("stl", mesh, mesh.positions);
+  EXPECT_TRUE(written.notes.empty());
+  EXPECT_NO_THROW(check_same(mesh, mesh.positions, read_bytes("stl", written.bytes), true, true));
 }
 
 TEST(Stl, RefusesMalformedFilesWithTheLine) {

@@ -1,5 +1,7 @@
 // VTK legacy: what is read, what is refused and where, and what a written file says.
 
+#include <bit>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <random>

@@ -13,7 +13,7 @@ cat >"$folder/smoke.txt" <<SCRIPT
 open "$mesh"
 step iteration 2
 expect iteration == 2
-screenshot "$folder/window.png"
+screenshot "$folder/window.png" --window
 SCRIPT
 status=0
 env -u WAYLAND_DISPLAY timeout 120 xvfb-run -a -s "-screen 0 1280x800x24" "$program" script "$folder/smoke.txt" || status=$?

@@ -44,7 +44,8 @@ std::string heading(const CLI::Option& option) {
 void add_options(std::string& page, const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_group().empty()) continue;
-    page += item(heading(*option), option->get_description());
+    const std::string usual = option->get_default_str();
+    page += item(heading(*option), option->get_description() + (usual.empty() ? "" : fmt::format(" (unless given: {})", usual)));
   }
 }
 

@@ -11,7 +11,6 @@ namespace dmoscope::test {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::MatchesRegex;
 
 constexpr const char* kTriangles = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
 
@@ -23,7 +22,9 @@ void expect_refused(const std::string& input, bool with_line) {
   EXPECT_EQ(smoothed.code, 3) << input << "\n" << smoothed.out << smoothed.err;
   EXPECT_EQ(smoothed.out, "") << input;
   EXPECT_THAT(smoothed.err, HasSubstr(with_line ? input + ":" : input)) << input;
-  if (with_line) EXPECT_THAT(smoothed.err, ::testing::ContainsRegex(":[0-9]+: ")) << input;
+  if (with_line) {
+    EXPECT_THAT(smoothed.err, ::testing::ContainsRegex(":[0-9]+: ")) << input;
+  }
   EXPECT_FALSE(exists(output)) << input;
   EXPECT_FALSE(exists(folder / "s.csv")) << input;
   EXPECT_EQ(run({"quality", input}).code, 3) << input;

@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Exact, OracleTest,
                          ::testing::Values(Oracle{"canon_tri", false, of_triangles()}, Oracle{"rand_tri", true, of_triangles()},
                                            Oracle{"rand_tri3d", false, of_triangles()}, Oracle{"canon_quad", false, of_quadrilaterals()},
                                            Oracle{"rand_quad", false, of_quadrilaterals()}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace dmoscope::test

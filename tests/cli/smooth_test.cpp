@@ -87,7 +87,9 @@ void expect_rising(const std::string& stats, std::size_t iterations) {
     EXPECT_EQ(table.number(i, "iteration"), static_cast<double>(i));
     if (i == 0) continue;
     EXPECT_LE(table.number(i, "inverted"), table.number(i - 1, "inverted"));
-    if (table.number(i - 1, "inverted") == 0) EXPECT_GE(table.number(i, "min_quality"), table.number(i - 1, "min_quality"));
+    if (table.number(i - 1, "inverted") == 0) {
+      EXPECT_GE(table.number(i, "min_quality"), table.number(i - 1, "min_quality"));
+    }
   }
 }
 

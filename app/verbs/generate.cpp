@@ -13,6 +13,7 @@
 #include "app/console.h"
 #include "app/targets.h"
 #include "app/text.h"
+#include "app/verbs/option_checks.h"
 #include "app/verbs/verbs.h"
 #include "core/io/mesh_io.h"
 
@@ -54,8 +55,14 @@ void add_generate(CLI::App& app, Action& action) {
   CLI::App* verb = app.add_subcommand("generate", "Make a sample mesh");
   verb->add_option("KIND", options->kind, "One of " + names_of(generator_table()))->required();
   verb->add_option("-o,--output", options->output, "Where to write it; the format is the extension's")->required()->type_name("OUT");
-  verb->add_option("--size", options->size, "About how many vertices; 0: the kind's own size")->type_name("N")->capture_default_str();
-  verb->add_option("--seed", options->seed, "The same seed gives the same mesh everywhere")->type_name("S")->capture_default_str();
+  verb->add_option("--size", options->size, "About how many vertices; 0: the kind's own size")
+      ->check(not_negative())
+      ->type_name("N")
+      ->capture_default_str();
+  verb->add_option("--seed", options->seed, "The same seed gives the same mesh everywhere")
+      ->check(not_negative())
+      ->type_name("S")
+      ->capture_default_str();
   verb->footer(list_of_kinds());
   verb->callback([options, &action] { action = [options] { return generate(*options); }; });
 }

@@ -16,6 +16,7 @@
 #include "app/targets.h"
 #include "app/text.h"
 #include "app/verbs/input_report.h"
+#include "app/verbs/option_checks.h"
 #include "app/verbs/verbs.h"
 #include "core/base/thread_pool.h"
 #include "core/io/mesh_io.h"
@@ -181,7 +182,7 @@ void add_quality(CLI::App& app, Action& action) {
   CLI::App* verb = app.add_subcommand("quality", "Judge the elements of a mesh");
   verb->add_option("FILE", options->input, "Mesh to read")->required();
   verb->add_option("--metric", options->metric, "all, or one of " + names_of(metric_table()))->type_name("NAME|all")->capture_default_str();
-  verb->add_option("--worst", options->worst, "List the N worst elements of each metric")->type_name("N");
+  verb->add_option("--worst", options->worst, "List the N worst elements of each metric")->check(not_negative())->type_name("N");
   verb->add_option("--elements", options->elements, "Write the quality of every element; empty where a metric is not defined")
       ->type_name("FILE.csv");
   verb->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/text.h"
+#include "app/verbs/option_checks.h"
 #include "core/base/error.h"
 #include "core/quality/metric.h"
 #include "core/session/session_commands.h"
@@ -29,6 +30,7 @@ void add_run_options(CLI::App& verb, RunOptions& options) {
   verb.add_option("--metric", options.metric, "Metric to optimise: " + names_of(metric_table()))->type_name("NAME")->capture_default_str();
   verb.add_option("--backend", options.backend, "auto, cpu or cuda")->type_name("NAME")->capture_default_str();
   verb.add_option("--threads", options.threads, "Threads; 0: one a processor thread. The result is the same for any")
+      ->check(not_negative())
       ->type_name("N")
       ->capture_default_str();
   verb.add_option("--grid", options.search.grid_points, "Candidates an axis")->type_name("N")->capture_default_str();

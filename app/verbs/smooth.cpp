@@ -14,6 +14,7 @@
 #include "app/text.h"
 #include "app/verbs/backend.h"
 #include "app/verbs/input_report.h"
+#include "app/verbs/option_checks.h"
 #include "app/verbs/run_options.h"
 #include "app/verbs/verbs.h"
 #include "core/io/mesh_io.h"
@@ -177,15 +178,20 @@ void add_smooth(CLI::App& app, Action& action) {
   verb->add_option("IN", options->input, "Mesh to read")->required();
   verb->add_option("-o,--output", options->output, "Where to write it; the format is the extension's")->required()->type_name("OUT");
   add_run_options(*verb, options->run);
-  auto* iterations = verb->add_option("--iterations", options->iterations, "How many iterations")->type_name("N")->capture_default_str();
+  auto* iterations = verb->add_option("--iterations", options->iterations, "How many iterations")
+                         ->check(not_negative())
+                         ->type_name("N")
+                         ->capture_default_str();
   auto* until = verb->add_flag("--until-converged", options->until_converged, "Go on until no vertex moves or the minimum no longer rises");
   until->excludes(iterations);
   verb->add_option("--patience", options->limits.patience, "Iterations without a rise of 1e-6 that count as converged")
       ->needs(until)
+      ->check(not_negative())
       ->type_name("N")
       ->capture_default_str();
   verb->add_option("--max-iterations", options->limits.max_iterations, "Stop there with exit code 1 when not converged")
       ->needs(until)
+      ->check(not_negative())
       ->type_name("N")
       ->capture_default_str();
   verb->add_option("--stats", options->stats, "Write the statistics of every iteration; row 0 is the input")->type_name("FILE.csv");

@@ -146,7 +146,7 @@ TEST(Smooth, InPlaceGivesTheSameFile) {
   smooth(sample("coast.14"), folder / "out.14", {"--iterations", "2"});
   const std::string copy = folder.file("copy.14", read_file(sample("coast.14")));
   smooth(copy, copy, {"--iterations", "2"});
-  EXPECT_EQ(read_file(copy), read_file(folder / "out.14"));
+  EXPECT_TRUE(read_file(copy) == read_file(folder / "out.14"));
 }
 
 TEST(Smooth, ThreadsAndRepetitionDoNotMatter) {
@@ -165,7 +165,7 @@ TEST(Smooth, FixedVerticesAndGroupsStay) {
   const Folder folder;
   const std::size_t vertices = json_of(run({"quality", sample("coast.14"), "--json"}))["vertices"];
   smooth(sample("coast.14"), folder / "out.14", {"--iterations", "2", "--fix", "0-" + std::to_string(vertices - 1)});
-  EXPECT_EQ(read_file(folder / "out.14"), read_file(sample("coast.14")));
+  EXPECT_TRUE(read_file(folder / "out.14") == read_file(sample("coast.14")));
   const auto all = smooth(sample("coast.14"), folder / "out.14", {"--iterations", "1"});
   const auto some = smooth(sample("coast.14"), folder / "out.14", {"--iterations", "1", "--fix", "10,20-25"});
   EXPECT_LE(some["free"], all["free"]);
@@ -173,7 +173,7 @@ TEST(Smooth, FixedVerticesAndGroupsStay) {
       "OFF\n9 4 0\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n1.3 1.2 0\n2 1 0\n0 2 0\n1 2 0\n2 2 0\n4 0 1 4 3\n4 1 2 5 4\n4 3 4 7 6\n4 4 5 8 7\n";
   const std::string file = folder.file("grid.off", grid);
   smooth(file, folder / "kept.off", {"--fix", "4"});
-  EXPECT_EQ(read_file(folder / "kept.off"), grid);
+  EXPECT_TRUE(read_file(folder / "kept.off") == grid);
   smooth(file, folder / "moved.off", {});
   EXPECT_NE(read_file(folder / "moved.off"), grid);
 }
@@ -210,8 +210,8 @@ TEST(Smooth, EastCoast) {
 
   smooth(east, folder / "one.14", {"--iterations", "4", "--threads", "1"});
   smooth(east, folder / "two.14", {"--iterations", "4", "--threads", "2"});
-  EXPECT_EQ(read_file(folder / "one.14"), read_file(folder / "E.14"));
-  EXPECT_EQ(read_file(folder / "two.14"), read_file(folder / "E.14"));
+  EXPECT_TRUE(read_file(folder / "one.14") == read_file(folder / "E.14"));
+  EXPECT_TRUE(read_file(folder / "two.14") == read_file(folder / "E.14"));
 }
 
 TEST(Smooth, FarFromTheOriginIsNoWorse) {

@@ -51,6 +51,7 @@ TEST(Usage, IsRefusedWithTwo) {
       {"smooth", in, "-o", out, "--no-such-option"},
       {"smooth", in, "-o", out, "--iterations", "many"},
       {"smooth", in, "-o", out, "--iterations", "-3"},
+      {"smooth", in, "-o", out, "--threads", "-1"},
       {"smooth", in, "-o", out, "--iterations", "3", "--until-converged"},
       {"smooth", in, "-o", out, "--patience", "3"},
       {"smooth", in, "-o", out, "--metric", "beauty"},
@@ -115,7 +116,7 @@ TEST(Generate, MakesEveryKindTheSameAgain) {
       const Output output = run({"generate", kind, "-o", folder / name, "--size", "400", "--seed", "7"});
       EXPECT_EQ(output.code, 0) << kind << output.err;
     }
-    EXPECT_EQ(read_file(folder / "a.vtk"), read_file(folder / "b.vtk")) << kind;
+    EXPECT_TRUE(read_file(folder / "a.vtk") == read_file(folder / "b.vtk")) << kind;
     const auto quality = json_of(run({"quality", folder / "a.vtk", "--json"}));
     EXPECT_GT(quality["vertices"], 50) << kind;
     EXPECT_LT(quality["vertices"], 1600) << kind;
@@ -194,7 +195,7 @@ TEST(Script, RunsSessionCommandsAndStopsAtTheFirstError) {
   EXPECT_TRUE(exists(folder / "a.14"));
   // The same mesh as the smooth verb writes.
   ASSERT_EQ(run({"smooth", sample("coast.14"), "-o", folder / "b.14", "--iterations", "2"}).code, 0);
-  EXPECT_EQ(read_file(folder / "a.14"), read_file(folder / "b.14"));
+  EXPECT_TRUE(read_file(folder / "a.14") == read_file(folder / "b.14"));
 
   const std::string bad = folder.file("bad.txt", "open \"" + sample("coast.14") + "\"\nexpect minimum > 2\nsay never\n");
   const Output stopped = run({"script", bad});

@@ -18,8 +18,8 @@ void Session::replace_input(std::shared_ptr<const InputMesh> input) {
     parameters = runs_[active_].parameters();
     parameters.fixed.clear();
   }
-  const auto usable = [&](Metric metric) {
-    return std::ranges::all_of(input->mesh.elements.kinds(), [&](ElementKind kind) { return info(metric).defined_for(kind); });
+  const auto usable = [&mesh = input->mesh](Metric metric) {  // not `input`: it is moved from below
+    return std::ranges::all_of(mesh.elements.kinds(), [&](ElementKind kind) { return info(metric).defined_for(kind); });
   };
   if (!usable(parameters.metric)) parameters.metric = Metric::MeanRatio;
   Run run(input, parameters, pool_, history_bytes_);  // may throw: nothing has been replaced yet

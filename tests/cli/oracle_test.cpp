@@ -52,6 +52,8 @@ std::vector<double> areas_in_xy(const std::string& path, std::size_t count) {
   return areas;
 }
 
+void PrintTo(const Oracle& oracle, std::ostream* stream) { *stream << oracle.name; }
+
 class OracleTest : public ::testing::TestWithParam<Oracle> {};
 
 TEST_P(OracleTest, AgreesToTwelveDigits) {

@@ -181,7 +181,8 @@ double Table::number(std::size_t row, const std::string& name) const {
 
 Table read_table(const std::string& path) {
   Table table;
-  for (const std::string& line : lines_of(read_file(path))) {
+  for (std::string line : lines_of(read_file(path))) {
+    if (line.ends_with('\r')) line.pop_back();
     if (table.header.empty()) {
       table.header = split(line, ',');
     } else {

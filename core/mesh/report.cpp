@@ -18,15 +18,15 @@ void add(std::vector<std::string>& sentences, Index count, const char* one, cons
 }  // namespace
 
 std::vector<std::string> MeshReport::sentences() const {
-  std::vector<std::string> all;
+  std::vector<std::string> all = file_notes;
   add(all, inverted_elements, "element is inverted", "elements are inverted");
   add(all, degenerate_elements, "element has no area", "elements have no area");
   add(all, duplicate_elements, "element has the same corners as an earlier one", "elements have the same corners as an earlier one");
   add(all, non_manifold_edges, "edge has more than two elements; its ends stay fixed",
       "edges have more than two elements; their ends stay fixed");
   add(all, unused_vertices, "vertex belongs to no element", "vertices belong to no element");
-  add(all, flipped_elements, "element was wound the other way round and is treated as turned over",
-      "elements were wound the other way round and are treated as turned over");
+  add(all, flipped_elements, "element is wound clockwise; it is turned over here and written back as it was",
+      "elements are wound clockwise; they are turned over here and written back as they were");
   if (components > 1) all.push_back(fmt::format("the mesh has {} parts that share no edge", components));
   return all;
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/io/source_file.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/orientation.h"
 
@@ -178,6 +179,7 @@ std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path 
 
   progress.begin("checking");
   MeshReport report = examine(mesh, geometry, edges, &progress);
+  if (mesh.source) report.file_notes = mesh.source->notes();
   progress.check();
   return std::make_shared<const InputMesh>(
       InputMesh{std::move(mesh), geometry, std::move(topology), std::move(report), std::move(path), std::move(reference)});

@@ -9,14 +9,14 @@ namespace dmoscope::gpu {
 
 struct Device {
   std::string name;
-  int major = 0, minor = 0;   // compute capability
-  std::size_t memory = 0;     // bytes
+  int major = 0, minor = 0;  // compute capability
+  std::size_t memory = 0;    // bytes
 };
 
 struct Availability {
-  bool built = false;          // was the program built with a CUDA toolkit?
+  bool built = false;  // was the program built with a CUDA toolkit?
   std::vector<Device> devices;
-  std::string reason;          // why the cuda backend cannot be used; empty when it can
+  std::string reason;  // why the cuda backend cannot be used; empty when it can
 };
 
 /// Asks the driver. Never throws; a machine without a driver gives a reason.

@@ -41,7 +41,7 @@ class Topology {
 
 /// Findings a person should know of; never fatal.
 struct MeshReport {
-  std::vector<std::string> file_notes;     // what the reader passed over (SourceFile::notes)
+  std::vector<std::string> file_notes;  // what the reader passed over (SourceFile::notes)
   std::vector<Index> unused_vertices;
   std::vector<Index> duplicate_elements;   // elements with the very corners (as a set) of an earlier one
   std::vector<Index> degenerate_elements;  // zero area, or a corner twice

@@ -18,8 +18,8 @@ struct KeyChord {
 /// Codes of the keys that have no character.
 namespace key {
 inline constexpr int kSpace = 32, kEscape = 256, kEnter = 257, kTab = 258, kBackspace = 259, kInsert = 260, kDelete = 261, kRight = 262,
-                     kLeft = 263, kDown = 264, kUp = 265, kPageUp = 266, kPageDown = 267, kHome = 268, kEnd = 269, kF1 = 290, kLeftShift = 340,
-                     kLeftControl = 341, kLeftAlt = 342;
+                     kLeft = 263, kDown = 264, kUp = 265, kPageUp = 266, kPageDown = 267, kHome = 268, kEnd = 269, kF1 = 290,
+                     kLeftShift = 340, kLeftControl = 341, kLeftAlt = 342;
 }  // namespace key
 
 /// Reads "N", "Shift+C", "Ctrl+=", "Space", "F11". Nothing for a name that is no key.

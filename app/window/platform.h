@@ -1,0 +1,43 @@
+#pragma once
+// Dear ImGui's context and its drawing, shared by the window and its twin without a screen.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "render/framebuffer.h"
+#include "render/image.h"
+#include "ui/app.h"
+
+struct ImGuiContext;
+
+namespace dmoscope::app {
+
+/// The one ImGui context, with the OpenGL backend. Needs a current OpenGL context.
+class Interface {
+ public:
+  Interface();
+  ~Interface();
+  Interface(const Interface&) = delete;
+  Interface& operator=(const Interface&) = delete;
+
+  /// After App::prepare said true.
+  void upload_fonts();
+  /// Draws the frame that ImGui::Render finished into the framebuffer that is bound.
+  void draw();
+  /// The same frame as a picture of `width` x `height` pixels.
+  [[nodiscard]] render::Image picture(int width, int height);
+
+ private:
+  ImGuiContext* context_ = nullptr;
+};
+
+/// Options for App that hold for this machine: backend and why, renderer.
+[[nodiscard]] ui::App::Options app_options(unsigned threads, const std::string& renderer, bool software);
+
+/// Takes the screenshots that were asked for, of the frame just drawn; what goes wrong becomes a message.
+/// Returns the first error, if any, for scripts.
+std::optional<Message> take_screenshots(ui::App& app, Interface& interface, int width, int height);
+
+}  // namespace dmoscope::app

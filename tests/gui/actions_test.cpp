@@ -1,0 +1,125 @@
+#include "ui/actions.h"
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "core/session/commands.h"
+#include "ui/layout.h"
+#include "ui/theme.h"
+#include "ui/view_commands.h"
+
+namespace dmoscope::ui {
+namespace {
+
+TEST(Actions, IdsAndKeysAreUniqueAndKeysCanBeRead) {
+  std::set<std::string_view> ids;
+  std::set<std::string> keys;
+  for (const Action& action : actions()) {
+    EXPECT_TRUE(ids.insert(action.id).second) << action.id;
+    if (action.key.empty()) continue;
+    const auto chord = parse_key(action.key);
+    ASSERT_TRUE(chord.has_value()) << action.key;
+    EXPECT_EQ(key_name(*chord), action.key);
+    EXPECT_TRUE(keys.insert(std::string(action.key)).second) << action.key;
+    EXPECT_EQ(action_of(*chord), &action) << action.key;
+  }
+}
+
+TEST(Actions, EveryCommandIsKnownToATable) {
+  ViewState state;
+  const CommandHost host;
+  const CommandTable table = view_commands(state, host);
+  for (const Action& action : actions()) {
+    const auto words = split_words(action.command);
+    ASSERT_FALSE(words.empty()) << action.id;
+    EXPECT_TRUE(is_session_command(action.command) || table.knows(words[0])) << action.command;
+  }
+}
+
+TEST(Actions, NoVerbOfTheWindowHidesOneOfTheSession) {
+  ViewState state;
+  const CommandHost host;
+  const CommandTable table = view_commands(state, host);
+  for (const CommandInfo& command : table.commands()) {
+    EXPECT_FALSE(is_session_command(command.name)) << command.name;
+    EXPECT_FALSE(command.usage.empty());
+    EXPECT_FALSE(command.doc.empty());
+  }
+}
+
+TEST(Actions, TheKeysThatPeopleAreToldOfWork) {
+  const std::pair<const char*, const char*> wanted[] = {{"Space", "run-pause"},   {"N", "step-iteration"},
+                                                        {"B", "back-iteration"},  {"C", "step-class"},
+                                                        {"V", "step-vertex"},     {"R", "reset"},
+                                                        {"U", "until-converged"}, {"F", "fit"},
+                                                        {"W", "wireframe"},       {"M", "next-metric"},
+                                                        {"Tab", "next-run"},      {"Ctrl+O", "open"},
+                                                        {"Ctrl+S", "export"},     {"Ctrl+Shift+S", "screenshot"},
+                                                        {"Ctrl+Z", "undo"},       {"Ctrl+F", "find"},
+                                                        {"F1", "keys"},           {"Ctrl+P", "palette"},
+                                                        {"F11", "full-screen"},   {"[", "timeline-back"},
+                                                        {"]", "timeline-forward"}};
+  for (const auto& [key, id] : wanted) {
+    const Action* action = action_of(*parse_key(key));
+    ASSERT_NE(action, nullptr) << key;
+    EXPECT_EQ(action->id, id);
+  }
+}
+
+TEST(Actions, AreFoundByWordsInAnyOrder) {
+  const auto found = search_actions("class next");
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found.front()->id, "step-class");
+  EXPECT_EQ(search_actions("").size(), actions().size());
+  EXPECT_TRUE(search_actions("no such thing at all").empty());
+}
+
+TEST(Actions, AreOnlyPossibleWhenTheyMakeSense) {
+  const Action& step = *find_action("step-iteration");
+  EXPECT_FALSE(enabled(step, {}));
+  EXPECT_TRUE(enabled(step, {.mesh = true, .busy = false, .picked = false, .runs = 1}));
+  EXPECT_FALSE(enabled(step, {.mesh = true, .busy = true, .picked = false, .runs = 1}));
+  EXPECT_TRUE(enabled(*find_action("cancel"), {.mesh = true, .busy = true, .picked = false, .runs = 1}));
+  EXPECT_TRUE(enabled(*find_action("run-pause"), {.mesh = true, .busy = true, .picked = false, .runs = 1}));
+}
+
+TEST(Keys, NamesAreReadBack) {
+  EXPECT_FALSE(parse_key("").has_value());
+  EXPECT_FALSE(parse_key("Nonsense").has_value());
+  EXPECT_FALSE(parse_key("F13").has_value());
+  EXPECT_FALSE(parse_key("Ctrl+").has_value());
+  EXPECT_EQ(parse_key("Ctrl+Shift+S"), (KeyChord{'S', true, true, false}));
+  EXPECT_EQ(parse_key("ctrl"), std::nullopt);
+  EXPECT_EQ(parse_key("n"), parse_key("N"));
+}
+
+TEST(Theme, TextIsReadableOnEveryGround) {
+  for (const Theme theme : {Theme::Dark, Theme::Light, Theme::Contrast}) {
+    const Palette& p = palette(theme);
+    for (const render::Rgb ground : {p.panel, p.background, p.raised}) {
+      for (const render::Rgb ink : {p.text, p.dim, p.warning, p.error, p.good}) EXPECT_GE(contrast(ink, ground), 4.5);
+    }
+    EXPECT_GE(contrast(p.on_accent, p.accent), 4.5);
+    for (const render::Rgb run : p.runs) EXPECT_GE(contrast(run, p.panel), 3.0);
+  }
+  EXPECT_NEAR(contrast({0, 0, 0}, {255, 255, 255}), 21.0, 1e-9);
+}
+
+TEST(Layout, PanelsCoverTheWindowWithoutOverlap) {
+  for (const auto& [width, height, em] :
+       {std::tuple{1280.0F, 800.0F, 15.0F}, {800.0F, 600.0F, 15.0F}, {2560.0F, 1600.0F, 30.0F}, {400.0F, 300.0F, 15.0F}}) {
+    const Layout layout = compute_layout({}, width, height, em, 24);
+    EXPECT_GE(layout.viewport.w, 0);
+    EXPECT_GE(layout.viewport.h, 0);
+    const float left = layout.folded ? layout.left_strip.w : layout.left.w, right = layout.folded ? layout.right_strip.w : layout.right.w;
+    EXPECT_NEAR(left + layout.viewport.w + right, width, 0.5);
+    EXPECT_NEAR(24 + layout.toolbar.h + layout.viewport.h + layout.bottom.h + layout.status.h, height, 0.5);
+  }
+  EXPECT_FALSE(compute_layout({}, 1280, 800, 15, 24).folded);
+  EXPECT_TRUE(compute_layout({}, 800, 600, 15, 24).folded);
+  EXPECT_FALSE(compute_layout({}, 2560, 1600, 30, 48).folded);
+}
+
+}  // namespace
+}  // namespace dmoscope::ui

@@ -1,0 +1,148 @@
+#include "ui/actions.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace dmoscope::ui {
+namespace {
+
+constexpr std::array kActions{
+    Action{"open", "File", "Open…", "Ctrl+O", "dialog open"},
+    Action{"export", "File", "Export mesh…", "Ctrl+S", "dialog export", Needs::Mesh},
+    Action{"screenshot", "File", "Screenshot…", "Ctrl+Shift+S", "dialog screenshot", Needs::Mesh},
+    Action{"sample-coast", "File", "Sample: coast", "", "generate coast", Needs::Nothing, true},
+    Action{"sample-block", "File", "Sample: block", "", "generate block"},
+    Action{"sample-annulus", "File", "Sample: annulus", "", "generate annulus"},
+    Action{"sample-random", "File", "Sample: random", "", "generate random"},
+    Action{"sample-quads", "File", "Sample: quads", "", "generate quads"},
+    Action{"sample-mixed", "File", "Sample: mixed", "", "generate mixed"},
+    Action{"sample-tangled", "File", "Sample: tangled", "", "generate tangled"},
+    Action{"sample-grid", "File", "Sample: grid", "", "generate grid"},
+    Action{"quit", "File", "Quit", "Ctrl+Q", "quit", Needs::Nothing, true},
+
+    Action{"undo", "Edit", "Undo an iteration", "Ctrl+Z", "back iteration", Needs::MeshAndIdle},
+    Action{"redo", "Edit", "Redo an iteration", "Ctrl+Y", "timeline forward", Needs::MeshAndIdle},
+    Action{"find", "Edit", "Find vertex or element…", "Ctrl+F", "dialog find", Needs::Mesh, true},
+    Action{"pick-none", "Edit", "Clear selection", "Escape", "pick none", Needs::Picked},
+
+    Action{"run-pause", "Run", "Run / pause", "Space", "run-pause", Needs::Mesh},
+    Action{"run-10", "Run", "Run 10 iterations", "Shift+N", "run 10", Needs::MeshAndIdle},
+    Action{"until-converged", "Run", "Until converged", "U", "until-converged", Needs::MeshAndIdle},
+    Action{"cancel", "Run", "Cancel", "Shift+Escape", "cancel", Needs::Work},
+    Action{"step-iteration", "Run", "Next iteration", "N", "step iteration", Needs::MeshAndIdle, true},
+    Action{"step-class", "Run", "Next colour class", "C", "step class", Needs::MeshAndIdle},
+    Action{"step-vertex", "Run", "Next vertex", "V", "step vertex", Needs::MeshAndIdle},
+    Action{"back-iteration", "Run", "Back one iteration", "B", "back iteration", Needs::MeshAndIdle, true},
+    Action{"back-class", "Run", "Back one colour class", "Shift+C", "back class", Needs::MeshAndIdle},
+    Action{"back-vertex", "Run", "Back one vertex", "Shift+V", "back vertex", Needs::MeshAndIdle},
+    Action{"reset", "Run", "Reset to the input", "R", "reset", Needs::MeshAndIdle},
+    Action{"timeline-back", "Run", "Timeline: earlier", "[", "timeline back", Needs::MeshAndIdle, true},
+    Action{"timeline-forward", "Run", "Timeline: later", "]", "timeline forward", Needs::MeshAndIdle},
+    Action{"timeline-first", "Run", "Timeline: input", "Home", "timeline first", Needs::MeshAndIdle},
+    Action{"timeline-last", "Run", "Timeline: latest", "End", "timeline last", Needs::MeshAndIdle},
+    Action{"next-run", "Run", "Next run", "Tab", "next-run", Needs::SeveralRuns, true},
+
+    Action{"fit", "View", "Fit", "F", "fit", Needs::Mesh},
+    Action{"zoom-in", "View", "Zoom in", "+", "zoom 1.25", Needs::Mesh},
+    Action{"zoom-out", "View", "Zoom out", "-", "zoom 0.8", Needs::Mesh},
+    Action{"next-metric", "View", "Show the next metric", "M", "next-metric", Needs::MeshAndIdle, true},
+    Action{"wireframe", "View", "Wireframe", "W", "wireframe toggle"},
+    Action{"vertices", "View", "Vertices", "D", "vertices toggle"},
+    Action{"worst-marker", "View", "Mark the worst element", "K", "worst toggle"},
+    Action{"range-fixed", "View", "Colours from 0 to 1", "", "range fixed"},
+    Action{"range-auto", "View", "Colours over the mesh's own range", "", "range auto"},
+    Action{"next-map", "View", "Next colour map", "Shift+M", "colormap next"},
+    Action{"plot-convergence", "View", "Plot: convergence", "Alt+1", "plot convergence", Needs::Nothing, true},
+    Action{"plot-histogram", "View", "Plot: histogram", "Alt+2", "plot histogram"},
+    Action{"plot-sorted", "View", "Plot: sorted quality", "Alt+3", "plot sorted"},
+    Action{"log-scale", "View", "Logarithmic plot", "L", "log-scale toggle"},
+    Action{"panel-left", "View", "Left panel: runs, parameters", "F2", "panel left toggle", Needs::Nothing, true},
+    Action{"panel-right", "View", "Right panel: inspector", "F3", "panel right toggle"},
+    Action{"panel-bottom", "View", "Bottom panel: plots", "F4", "panel bottom toggle"},
+    Action{"full-screen", "View", "Full screen", "F11", "full-screen toggle"},
+    Action{"theme-dark", "View", "Theme: dark", "", "theme dark", Needs::Nothing, true},
+    Action{"theme-light", "View", "Theme: light", "", "theme light"},
+    Action{"theme-contrast", "View", "Theme: high contrast", "", "theme contrast"},
+    Action{"scale-up", "View", "Larger interface", "Ctrl+=", "scale up"},
+    Action{"scale-down", "View", "Smaller interface", "Ctrl+-", "scale down"},
+    Action{"scale-one", "View", "Interface at its usual size", "Ctrl+0", "scale 1"},
+
+    Action{"palette", "Help", "All commands…", "Ctrl+P", "dialog palette"},
+    Action{"keys", "Help", "Keys", "F1", "dialog keys"},
+    Action{"about", "Help", "About", "", "dialog about"},
+};
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+}  // namespace
+
+std::span<const Action> actions() { return kActions; }
+
+const Action* find_action(std::string_view id) {
+  const auto at = std::find_if(kActions.begin(), kActions.end(), [id](const Action& action) { return action.id == id; });
+  return at == kActions.end() ? nullptr : &*at;
+}
+
+const Action* action_of(const KeyChord& chord) {
+  // "+" is Shift+"=" on many keyboards, and a key of its own on others; key codes know only "=".
+  KeyChord wanted = chord;
+  if (chord.code == '=' && !chord.ctrl && !chord.alt) wanted = {'+', false, false, false};
+  for (const Action& action : kActions) {
+    if (!action.key.empty() && parse_key(action.key) == wanted) return &action;
+  }
+  return nullptr;
+}
+
+std::vector<std::string_view> menu_names() {
+  std::vector<std::string_view> names;
+  for (const Action& action : kActions) {
+    if (std::find(names.begin(), names.end(), action.menu) == names.end()) names.push_back(action.menu);
+  }
+  return names;
+}
+
+bool enabled(const Action& action, const Situation& now) {
+  switch (action.needs) {
+    case Needs::Nothing:
+      return true;
+    case Needs::Mesh:
+      return now.mesh;
+    case Needs::Idle:
+      return !now.busy;
+    case Needs::MeshAndIdle:
+      return now.mesh && !now.busy;
+    case Needs::Work:
+      return now.busy;
+    case Needs::SeveralRuns:
+      return now.mesh && !now.busy && now.runs > 1;
+    case Needs::Picked:
+      return now.picked;
+  }
+  return false;
+}
+
+std::vector<const Action*> search_actions(std::string_view query) {
+  const std::string wanted = lower(query);
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at < wanted.size();) {
+    const std::size_t end = std::min(wanted.find(' ', at), wanted.size());
+    if (end > at) words.push_back(wanted.substr(at, end - at));
+    at = end + 1;
+  }
+  std::vector<const Action*> found;
+  for (const Action& action : kActions) {
+    const std::string text = lower(action.title) + "\n" + lower(action.menu) + "\n" + lower(action.command) + "\n" + std::string(action.id);
+    if (std::all_of(words.begin(), words.end(), [&](const std::string& word) { return text.find(word) != std::string::npos; })) {
+      found.push_back(&action);
+    }
+  }
+  std::stable_partition(found.begin(), found.end(), [&](const Action* action) { return lower(action->title).starts_with(wanted); });
+  return found;
+}
+
+}  // namespace dmoscope::ui

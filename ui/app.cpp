@@ -1,0 +1,289 @@
+#include "ui/app.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/quality/quality.h"
+#include "ui/derived.h"
+#include "ui/view_geometry.h"
+
+namespace dmoscope::ui {
+namespace {
+
+constexpr double kRestAfter = 0.25;  // seconds without movement until full detail comes back
+constexpr double kForever = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+App::App(Options options) : options_(std::move(options)), engine_(options_.threads), session_(engine_.view()) {
+  host_.session = [this] { return session_; };
+  host_.post = [this](std::string line) { engine_.post(std::move(line)); };
+  host_.busy = [this] { return engine_.busy(); };
+  host_.cancel = [this] { engine_.cancel(); };
+  host_.item = [this](const std::string& name) { return items_.find(name); };
+  commands_ = view_commands(state_, host_);
+  activity_.backend = options_.backend;
+  activity_.backend_reason = options_.backend_reason;
+  activity_.renderer = options_.renderer;
+}
+
+App::~App() = default;
+
+void App::execute(std::string_view line) { dispatch(commands_, host_, line); }
+
+void App::submit(std::string_view line) {
+  try {
+    execute(line);
+  } catch (const Error& error) {
+    add_message(state_, {Message::Kind::Error, error.what(), error.exit_code()});
+  }
+}
+
+std::string App::title() const { return session_->input ? session_->input->mesh.name + " – dmoscope" : "dmoscope"; }
+
+bool App::prepare() {
+  const bool fonts = styled_scale_ != state_.scale;
+  if (fonts) {
+    fonts_ = build_fonts(state_.scale);
+    styled_scale_ = state_.scale;
+  }
+  if (fonts || styled_theme_ != state_.theme) {
+    apply_style(state_.theme, state_.scale);
+    styled_theme_ = state_.theme;
+  }
+  return fonts;
+}
+
+void App::take_news(double now) {
+  session_ = engine_.view();
+  for (Message& message : engine_.take_messages()) {
+    if (listener_) listener_(message);
+    add_message(state_, std::move(message));
+  }
+  activity_.pending = engine_.pending();
+  activity_.busy = activity_.pending != 0;
+  activity_.command = engine_.current_command();
+  activity_.progress = engine_.progress().fraction();
+  activity_.progress_label = engine_.progress().label();
+  if (!activity_.busy) busy_since_ = -1.0;
+  if (activity_.busy && busy_since_ < 0.0) busy_since_ = now;
+  activity_.busy_seconds = activity_.busy ? now - busy_since_ : 0.0;
+
+  const double interval = now - last_draw_;
+  constexpr double kLongestInterval = 0.5;  // longer: nothing was to be drawn
+  const bool steady = last_draw_ >= 0.0 && interval > 0.0 && interval < kLongestInterval && (moving(now) || activity_.busy);
+  if (steady) {
+    frame_interval_ = frame_interval_ > 0.0 ? 0.9 * frame_interval_ + 0.1 * interval : interval;
+  } else {
+    frame_interval_ = 0.0;
+  }
+  activity_.frames_per_second = frame_interval_ > 0.0 ? 1.0 / frame_interval_ : 0.0;
+  last_draw_ = now;
+}
+
+bool App::moving(double now) const { return now - widgets_.moved_at < kRestAfter; }
+
+void App::notice_new_input() {
+  const Frame* frame = session_->frame.get();
+  const std::uint64_t serial = frame == nullptr ? 0 : frame->input_serial;
+  if (serial == seen_input_) return;
+  seen_input_ = serial;
+  state_.picked = {};
+  state_.requests.fit = true;
+  for (PlotView& plot : state_.plots) plot.x_range.reset();
+  if (frame != nullptr && !frame->input->path.empty()) remember_file(state_, frame->input->path.string());
+}
+
+void App::apply_fit() {
+  if (!state_.requests.fit) return;
+  if (session_->frame == nullptr) {
+    state_.requests.fit = false;
+    return;
+  }
+  if (!scene_current_) return;
+  state_.requests.fit = false;
+  // Title above and colour bar below the mesh, not on it.
+  const double em = ImGui::GetFontSize();
+  const double top = 2.4 * em, bottom = 4.4 * em;
+  const Vec2<double> free{state_.viewport.x, std::max(1.0, state_.viewport.y - top - bottom)};
+  state_.camera = render::Camera2D::fit(scene_.bounds(), free, std::min(1.2 * em, 0.05 * std::min(free.x, free.y)));
+  state_.camera.pan({0.0, (top - bottom) / 2});
+  fitted_ = state_.camera;
+}
+
+render::Style App::style() const {
+  render::Style style = scene_style(state_);
+  style.colours.low = derived_.range.first;
+  style.colours.high = derived_.range.second;
+  return style;
+}
+
+render::Marks App::marks() const {
+  render::Marks marks;
+  const Frame* frame = session_->frame.get();
+  if (frame == nullptr) return marks;
+  if (state_.picked.kind == Picked::Kind::Element && state_.picked.id < frame->quality.size()) marks.elements = {state_.picked.id};
+  if (state_.picked.kind == Picked::Kind::Vertex && state_.picked.id < frame->positions.size()) {
+    for (const Incidence& incidence : frame->input->topology.star(state_.picked.id)) marks.elements.push_back(incidence.element);
+    marks.vertices = {state_.picked.id};
+  }
+  if (state_.worst_marker && !frame->worst.empty()) marks.worst = frame->worst.front().element;
+  return marks;
+}
+
+void App::update_scene(const Rect& rect, double now) {
+  const Vec2<double> before = state_.viewport;
+  state_.viewport = {std::max(1.0, static_cast<double>(rect.w)), std::max(1.0, static_cast<double>(rect.h))};
+  // A fitted mesh stays fitted when the window or a panel changes its size.
+  const bool resized = before.x != state_.viewport.x || before.y != state_.viewport.y;
+  if (resized && fitted_ && *fitted_ == state_.camera) state_.requests.fit = true;
+  redraw_in_ = kForever;
+  scene_current_ = scene_.show(session_->frame, options_.wait_for_scene ? render::Loading::Wait : render::Loading::Background);
+  if (!scene_current_) redraw_in_ = 0.05;
+  apply_fit();
+  const Frame* frame = session_->frame.get();
+  if (frame == nullptr || rect.empty()) return;
+  if (const RunView& run = session_->runs[session_->active];
+      fixed_serial_ != frame->serial && run.fixed.size() == frame->positions.size()) {
+    scene_.set_fixed(run.fixed);
+    fixed_serial_ = frame->serial;
+  }
+  // A live run counts as movement: its next frame comes soon.
+  const bool restless = moving(now) || (activity_.busy && activity_.busy_seconds > kRestAfter);
+  const double detail = render::suggested_detail(scene_.element_count(), options_.software_renderer, restless);
+  activity_.reduced = detail < 1.0;
+  if (detail < 1.0 && !activity_.busy) redraw_in_ = std::min(redraw_in_, kRestAfter);
+  const auto w = static_cast<int>(std::lround(rect.w)), h = static_cast<int>(std::lround(rect.h));
+  const render::Camera2D& camera = state_.camera;
+  std::string key = fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", frame->serial, scene_current_, w, h,
+                                camera.centre.x, camera.centre.y, camera.units_per_pixel, detail, state_.wireframe, state_.vertices,
+                                state_.worst_marker, static_cast<int>(state_.theme), state_.scale, static_cast<int>(state_.colour_map),
+                                derived_.range.first, derived_.range.second, static_cast<int>(state_.picked.kind), state_.picked.id);
+  if (key == picture_key_) return;
+  picture_key_ = std::move(key);
+  picture_.resize(w, h);
+  scene_.draw(picture_, camera, style(), marks(), detail);
+}
+
+void App::handle_shortcuts() {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.WantTextInput || state_.dialog != Dialog::None || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
+  const auto pressed = [](int code) { return code >= 0 && code < 512 && ImGui::IsKeyPressed(code, true); };
+  for (const Action& action : actions()) {
+    const auto chord = action.key.empty() ? std::nullopt : parse_key(action.key);
+    if (!chord || io.KeyCtrl != chord->ctrl || io.KeyAlt != chord->alt) continue;
+    bool hit = io.KeyShift == chord->shift && pressed(chord->code);
+    constexpr int kKeypadMinus = 333, kKeypadPlus = 334;
+    if (chord->code == '+') hit = pressed('=') || pressed(kKeypadPlus);
+    if (chord->code == '-') hit = hit || pressed(kKeypadMinus);
+    if (!hit) continue;
+    // With the keyboard in the widgets, Space presses the one that has the focus.
+    if (chord->code == key::kSpace && io.NavVisible) continue;
+    if (enabled(action, {session_->input != nullptr, activity_.busy, state_.picked.kind != Picked::Kind::None, session_->runs.size()})) {
+      submit(action.command);
+    }
+    return;
+  }
+}
+
+void App::draw_side(PanelContext& context, const char* name, const Rect& rect, bool overlay, bool left) {
+  if (rect.empty()) return;
+  if (overlay) {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0F);
+    ImGui::SetNextWindowFocus();
+  }
+  begin_panel(name, rect, overlay);
+  if (overlay) ImGui::PopStyleVar();
+  if (left) {
+    draw_runs(context);
+    ImGui::Dummy({0, context.px(4)});
+    draw_parameters(context);
+  } else {
+    draw_inspector(context);
+    draw_worst(context);
+  }
+  end_panel();
+}
+
+void App::draw_panels(PanelContext& context) {
+  const float menu = draw_menu(context);
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const Layout layout = compute_layout(state_.panels, screen.x, screen.y, context.em(), menu);
+  update_scene(layout.viewport, context.now);
+  context.mesh_texture = picture_.texture();
+  draw_toolbar(context, layout.toolbar);
+  draw_viewport(context, layout.viewport);
+  if (!layout.folded) {
+    draw_side(context, "left", layout.left, false, true);
+    draw_side(context, "right", layout.right, false, false);
+  }
+  draw_plots(context, layout.bottom);
+  draw_strips(context, layout);
+  draw_splitters(context, layout);
+  if (layout.folded) {
+    draw_side(context, "left over", layout.left, true, true);
+    draw_side(context, "right over", layout.right, true, false);
+  }
+  draw_status(context, layout.status);
+  draw_dialogs(context);
+}
+
+void App::draw(double now) {
+  take_news(now);
+  notice_new_input();
+  update_derived();
+  items_.begin_frame();
+  handle_shortcuts();
+  PanelContext context{state_,
+                       widgets_,
+                       *session_,
+                       activity_,
+                       derived_,
+                       palette(state_.theme),
+                       fonts_,
+                       items_,
+                       [this](const std::string& line) { submit(line); },
+                       [this](Vec2<double> pixel) {
+                         const render::Pick pick = scene_.pick(state_.camera, state_.viewport, pixel, 8.0 * state_.scale);
+                         return std::pair{pick.vertex, pick.element};
+                       },
+                       0,
+                       now};
+  // What a panel holds must stay alive until the frame is done, whatever its commands bring about.
+  const std::shared_ptr<const SessionView> held = session_;
+  draw_panels(context);
+  if (activity_.busy) redraw_in_ = std::min(redraw_in_, 0.1);
+  if (state_.requests.fit) redraw_in_ = 0.0;
+}
+
+void App::update_derived() { refresh(derived_, state_, *session_); }
+
+render::Image App::mesh_picture(const ScreenshotOptions& options) {
+  const Frame* frame = session_->frame.get();
+  if (frame == nullptr) throw UsageError("no mesh is open: there is nothing to take a picture of");
+  render::Shot shot;
+  shot.width = options.width > 0 ? options.width : static_cast<int>(state_.viewport.x);
+  shot.height = options.height > 0 ? options.height : static_cast<int>(state_.viewport.y);
+  shot.supersample = options.supersample;
+  shot.transparent = options.transparent;
+  shot.scale = static_cast<float>(state_.scale);
+  const RunView& run = session_->runs[session_->active];
+  render::Legend legend;
+  legend.title = metric_phrase(frame->shown);
+  legend.subtitle = fmt::format("{} · {}, iteration {}, minimum {:.4g}", frame->input->mesh.name, run.parameters.method,
+                                frame->moment.iteration, frame->shown_statistics.minimum);
+  legend.inverted = frame->shown_statistics.inverted;
+  legend.undefined = derived_.undefined;
+  shot.legend = legend;
+  render::Style look = style();
+  look.scale = 1.0F;  // Shot::scale multiplies it
+  look.transparent = options.transparent;
+  const render::Camera2D camera = state_.camera.for_viewport(state_.viewport, render::mesh_viewport(shot));
+  picture_key_.clear();  // whatever the scene's state is now, draw again
+  return render::render_image(scene_, camera, look, marks(), shot).image;
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,104 @@
+#pragma once
+// The window's content: the engine, the view state and the scene, drawn one ImGui frame at a time. Whoever owns the platform
+// (GLFW, or nothing at all) drives it.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/session/engine.h"
+#include "render/framebuffer.h"
+#include "render/scene.h"
+#include "render/screenshot.h"
+#include "ui/panels/panels.h"
+#include "ui/view_commands.h"
+#include "ui/view_state.h"
+
+namespace dmoscope::ui {
+
+class App {
+ public:
+  struct Options {
+    unsigned threads = 0;  // of the smoothing; 0: one a hardware thread
+    std::string backend = "cpu";
+    std::string backend_reason;  // why no other one is used
+    std::string renderer;        // what draws
+    bool software_renderer = false;
+    bool wait_for_scene = false;  // big meshes are made ready for drawing before a frame goes on (headless)
+  };
+
+  /// Needs a current OpenGL context and a current ImGui context, also when destroyed.
+  explicit App(Options options);
+  ~App();
+  App(const App&) = delete;
+  App& operator=(const App&) = delete;
+
+  [[nodiscard]] ViewState& state() noexcept { return state_; }
+  [[nodiscard]] Engine& engine() noexcept { return engine_; }
+  [[nodiscard]] const Items& items() const noexcept { return items_; }
+  [[nodiscard]] const CommandTable& commands() const noexcept { return commands_; }
+
+  /// Runs or queues one command line. Throws UsageError for one that cannot be (what goes wrong in the session becomes a message).
+  void execute(std::string_view line);
+  /// The same; errors become messages.
+  void submit(std::string_view line);
+  /// Called with every message of the session, besides the log.
+  void set_listener(std::function<void(const Message&)> listener) { listener_ = std::move(listener); }
+
+  /// Before ImGui::NewFrame: builds fonts and style anew when theme or scale changed. True: upload the font texture again.
+  bool prepare();
+  /// Between ImGui::NewFrame and ImGui::Render. `now`: seconds on any steady clock. Draws the mesh into a texture of its own.
+  void draw(double now);
+  /// After which time a frame should be drawn though nothing happens; infinity when there is no such need.
+  [[nodiscard]] double redraw_in() const noexcept { return redraw_in_; }
+  /// False while the scene is still made ready in the background, or a fit waits for it.
+  [[nodiscard]] bool settled() const noexcept { return scene_current_ && !state_.requests.fit; }
+
+  /// A picture of the mesh as it is seen now, with its colour bar.
+  [[nodiscard]] render::Image mesh_picture(const ScreenshotOptions& options);
+  /// "east.14 – dmoscope"
+  [[nodiscard]] std::string title() const;
+
+ private:
+  void take_news(double now);
+  void notice_new_input();
+  void update_derived();
+  void update_scene(const Rect& rect, double now);
+  void apply_fit();
+  void handle_shortcuts();
+  void draw_panels(PanelContext& context);
+  void draw_side(PanelContext& context, const char* name, const Rect& rect, bool overlay, bool left);
+  [[nodiscard]] render::Marks marks() const;
+  [[nodiscard]] render::Style style() const;
+  [[nodiscard]] bool moving(double now) const;
+
+  Options options_;
+  ViewState state_;
+  Engine engine_;
+  CommandHost host_;
+  CommandTable commands_;
+  std::shared_ptr<const SessionView> session_;
+  Activity activity_;
+  Derived derived_;
+  WidgetState widgets_;
+  Items items_;
+  Fonts fonts_;
+  std::function<void(const Message&)> listener_;
+
+  render::MeshScene scene_;
+  render::Framebuffer picture_{1, 1};
+  std::string picture_key_;  // what the picture shows; drawn again when it changes
+  bool scene_current_ = true;
+  std::optional<render::Camera2D> fitted_;  // the camera of the last fit, while nobody has moved it
+  std::uint64_t fixed_serial_ = 0;
+
+  double styled_scale_ = 0.0;
+  std::optional<Theme> styled_theme_;
+  double busy_since_ = -1.0, last_draw_ = -1.0, frame_interval_ = 0.0;
+  double redraw_in_ = 0.0;
+  std::uint64_t seen_input_ = 0;
+};
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,30 @@
+#pragma once
+// What the open dialog lists.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dmoscope::ui {
+
+struct FolderEntry {
+  std::string name;
+  bool folder = false;
+  std::uintmax_t bytes = 0;
+};
+
+/// True for a name with the extension of a format that can be read.
+[[nodiscard]] bool is_mesh_name(std::string_view name);
+
+/// Folders first, then files, each by name without regard to case; hidden ones left out. Files that are no meshes only when
+/// `all`. On failure returns what could be read and puts a sentence into `error`, which is cleared otherwise.
+[[nodiscard]] std::vector<FolderEntry> list_folder(const std::filesystem::path& folder, bool all, std::string& error);
+
+/// "12.3 MB"
+[[nodiscard]] std::string byte_size(std::uintmax_t bytes);
+
+/// The parent's text of a folder; the folder itself at the root.
+[[nodiscard]] std::string parent_folder(const std::string& folder);
+
+}  // namespace dmoscope::ui

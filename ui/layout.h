@@ -1,0 +1,24 @@
+#pragma once
+// Which part of the window each panel gets.
+
+#include "ui/view_state.h"
+
+namespace dmoscope::ui {
+
+struct Rect {
+  float x = 0, y = 0, w = 0, h = 0;
+  [[nodiscard]] bool empty() const noexcept { return w <= 0 || h <= 0; }
+};
+
+struct Layout {
+  Rect toolbar, left, viewport, right, bottom, status;
+  Rect left_strip, right_strip;  // instead of the panels where the window is too small
+  bool folded = false;           // side panels are strips, and open over the mesh
+  bool bottom_folded = false;    // too low for the plots
+};
+
+/// All in pixels. `em`: the interface font's height; `menu`: the menu bar's. The mesh keeps at least 24 em of width; widths and
+/// heights of the panels are limited so that it does.
+[[nodiscard]] Layout compute_layout(const Panels& panels, float width, float height, float em, float menu);
+
+}  // namespace dmoscope::ui

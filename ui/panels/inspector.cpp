@@ -1,0 +1,229 @@
+// Right: facts of the mesh, of what is picked, and the worst elements.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/quality/quality.h"
+#include "ui/format.h"
+#include "ui/panels/panels.h"
+
+namespace dmoscope::ui {
+namespace {
+
+std::string kinds_sentence(const Derived& derived) {
+  std::string text;
+  for (std::size_t kind = 0; kind < kElementKindCount; ++kind) {
+    if (derived.kinds[kind] == 0) continue;
+    const ElementKindInfo& one = info(static_cast<ElementKind>(kind));
+    if (!text.empty()) text += ", ";
+    text += counted(derived.kinds[kind], std::string(one.name).c_str(), std::string(one.plural).c_str());
+  }
+  return text;
+}
+
+void draw_mesh(PanelContext& context, const Frame& frame) {
+  const Mesh& mesh = frame.input->mesh;
+  heading(context, "Mesh");
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(mesh.name.c_str());
+  ImGui::PopTextWrapPos();
+  if (!frame.input->path.empty()) next_item_tooltip(frame.input->path.string());
+  if (!mesh.title.empty() && mesh.title != mesh.name) dim_text(context, mesh.title);
+  dim_text(context, kinds_sentence(context.derived));
+  value_row(context, "vertices", count(mesh.vertex_count()));
+  if (const RunView* run = context.run()) value_row(context, "free", count(run->free_vertices), {}, {}, "vertices that may move");
+  if (!context.derived.mesh_facts.empty()) dim_text(context, "found in the input:");
+  for (const std::string& fact : context.derived.mesh_facts) {
+    ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.warning));
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(fact.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+  }
+}
+
+void draw_statistics(PanelContext& context, const char* title, Metric metric, const Statistics& statistics) {
+  ImGui::Dummy({0, context.px(2)});
+  heading(context, title);
+  metric_tooltip(context, info(metric));
+  ImGui::SameLine();
+  dim_text(context, metric_phrase(metric), false);
+  metric_tooltip(context, info(metric));
+  number_row(context, "minimum", statistics.minimum, "the worst element of all");
+  number_row(context, "movable minimum", statistics.movable_minimum,
+             "over elements with at least one free corner: what smoothing can raise");
+  number_row(context, "ceiling", statistics.ceiling,
+             "over elements whose corners are all fixed: the minimum can never rise above it (– when there is no such element)");
+  number_row(context, "mean", statistics.mean, "over all elements");
+}
+
+void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
+  heading(context, fmt::format("Vertex {}", count(vertex)).c_str());
+  const Topology& topology = frame.input->topology;
+  const RunView* run = context.run();
+  const Vec3& at = frame.positions[vertex];
+  const std::string full = fmt::format("{} {} {}", full_number(at.x), full_number(at.y), full_number(at.z));
+  value_row(context, "x", fmt::format("{:.8g}", at.x), full);
+  value_row(context, "y", fmt::format("{:.8g}", at.y), full);
+  if (at.z != 0.0) value_row(context, "z", fmt::format("{:.8g}", at.z), full);
+  const bool boundary = topology.boundary()[vertex] != 0;
+  const bool fixed = run != nullptr && vertex < run->fixed.size() && run->fixed[vertex] != 0;
+  value_row(context, "may move",
+            !fixed                          ? "free"
+            : boundary                      ? "fixed: boundary"
+            : topology.star(vertex).empty() ? "fixed: unused"
+                                            : "fixed");
+  value_row(context, "valence", count(topology.star(vertex).size()), {}, {}, "elements of its star");
+  const QualityContext quality = frame.input->quality_context();
+  const double now = vertex_quality(quality, topology, frame.positions, frame.shown, vertex);
+  const double before = vertex_quality(quality, topology, frame.input->mesh.positions, frame.shown, vertex);
+  number_row(context, "quality now", now, "minimum over its star, of the shown metric");
+  number_row(context, "at the input", before);
+  dim_text(context, fmt::format("star, {}", metric_phrase(frame.shown)));
+  for (const Incidence& incidence : topology.star(vertex)) {
+    const double q = static_cast<double>(frame.quality[incidence.element]);
+    ImGui::PushID(static_cast<int>(incidence.element));
+    const ImVec2 cursor = ImGui::GetCursorScreenPos();
+    if (ImGui::Selectable("##star")) context.send(fmt::format("pick element {}", incidence.element));
+    context.items.record_last(fmt::format("star:{}", incidence.element));
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float width = ImGui::GetContentRegionAvail().x, line = ImGui::GetTextLineHeight();
+    const std::string number = short_number(q), name = fmt::format("element {}", count(incidence.element));
+    list.AddText(cursor, colour(context.palette.text), name.c_str());
+    const float left = cursor.x + 8.5F * context.em(), right = cursor.x + width - 4 * context.em();
+    if (right > left + context.em()) {
+      list.AddRectFilled({left, cursor.y + 0.3F * line}, {right, cursor.y + 0.75F * line}, colour(context.palette.raised), context.px(2));
+      const float part = static_cast<float>(std::clamp(std::isfinite(q) ? q : 0.0, 0.0, 1.0));
+      const render::Rgb ink = frame.inverted[incidence.element] != 0 ? render::kInvertedColour : context.palette.accent;
+      list.AddRectFilled({left, cursor.y + 0.3F * line}, {left + part * (right - left), cursor.y + 0.75F * line}, colour(ink),
+                         context.px(2));
+    }
+    list.AddText({cursor.x + width - ImGui::CalcTextSize(number.c_str()).x, cursor.y}, colour(context.palette.text), number.c_str());
+    ImGui::PopID();
+  }
+}
+
+void draw_metric_table(PanelContext& context, const Frame& frame, Index element) {
+  if (!ImGui::BeginTable("metrics", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
+  ImGui::TableSetupColumn("metric", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("now", ImGuiTableColumnFlags_WidthFixed, 4.6F * context.em());
+  ImGui::TableSetupColumn("input", ImGuiTableColumnFlags_WidthFixed, 4.6F * context.em());
+  const auto right_text = [&](const std::string& text, const std::string& full, bool dim) {
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0F, ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x));
+    if (dim) {
+      dim_text(context, text, false);
+    } else {
+      ImGui::TextUnformatted(text.c_str());
+    }
+    next_item_tooltip(full);
+  };
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  dim_text(context, "metric", false);
+  ImGui::TableNextColumn();
+  right_text("now", {}, true);
+  ImGui::TableNextColumn();
+  right_text("input", {}, true);
+  const QualityContext quality = frame.input->quality_context();
+  const ElementKind kind = frame.input->mesh.elements.kind(element);
+  for (const MetricInfo& metric : metric_table()) {
+    if (!metric.defined_for(kind)) continue;
+    const double now = element_quality(quality, frame.positions, metric.metric, element);
+    const double before = element_quality(quality, frame.input->mesh.positions, metric.metric, element);
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(fit_text(std::string(metric.title), ImGui::GetContentRegionAvail().x).c_str());
+    metric_tooltip(context, metric);
+    ImGui::TableNextColumn();
+    right_text(short_number(now), full_number(now), false);
+    ImGui::TableNextColumn();
+    right_text(short_number(before), full_number(before), true);
+  }
+  ImGui::EndTable();
+}
+
+void draw_element(PanelContext& context, const Frame& frame, Index element) {
+  heading(context, fmt::format("Element {}", count(element)).c_str());
+  const ElementTable& elements = frame.input->mesh.elements;
+  value_row(context, "kind", std::string(info(elements.kind(element)).name));
+  if (frame.inverted[element] != 0) value_row(context, "inverted", "yes", {}, context.palette.error);
+  dim_text(context, "corners", false);
+  for (const Index corner : elements.corners(element)) {
+    ImGui::SameLine();
+    const std::string id = fmt::format("{}", corner);
+    if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize(id.c_str()).x + context.px(16)) ImGui::NewLine();
+    if (ImGui::SmallButton(id.c_str())) context.send(fmt::format("pick vertex {}", corner));
+    next_item_tooltip("select this vertex");
+  }
+  draw_metric_table(context, frame, element);
+}
+
+}  // namespace
+
+void draw_inspector(PanelContext& context) {
+  const Frame* frame = context.frame();
+  if (frame == nullptr) {
+    heading(context, "Inspector");
+    dim_text(context, "Numbers of the mesh, and of the vertex or element that you click.");
+    return;
+  }
+  draw_mesh(context, *frame);
+  const RunView* run = context.run();
+  const Metric optimised = run != nullptr ? run->parameters.metric : frame->shown;
+  const Statistics& statistics = frame->statistics;
+  value_row(context, "inverted", count(statistics.inverted), {},
+            statistics.inverted != 0 ? std::optional(context.palette.error) : std::nullopt, "elements with a corner Jacobian of 0 or less");
+  if (optimised == frame->shown) {
+    draw_statistics(context, "Quality", frame->shown, frame->shown_statistics);
+  } else {
+    draw_statistics(context, "Optimised", optimised, statistics);
+    draw_statistics(context, "Shown", frame->shown, frame->shown_statistics);
+  }
+  const Picked& picked = context.state.picked;
+  ImGui::Dummy({0, context.px(2)});
+  if (picked.kind == Picked::Kind::Vertex && picked.id < frame->positions.size()) {
+    draw_vertex(context, *frame, picked.id);
+  } else if (picked.kind == Picked::Kind::Element && picked.id < frame->quality.size()) {
+    draw_element(context, *frame, picked.id);
+  } else {
+    dim_text(context, "Click a vertex or an element to read it (Alt: always the element).");
+  }
+}
+
+void draw_worst(PanelContext& context) {
+  const Frame* frame = context.frame();
+  if (frame == nullptr || frame->worst.empty()) return;
+  ImGui::Dummy({0, context.px(2)});
+  heading(context, "Worst elements");
+  ImGui::SameLine();
+  dim_text(context, metric_phrase(frame->shown), false);
+  const float line = ImGui::GetTextLineHeightWithSpacing();
+  ImGui::BeginChild("worst list", {0, std::max(6 * line, ImGui::GetContentRegionAvail().y)});
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(frame->worst.size()));
+  while (clipper.Step()) {
+    for (int k = clipper.DisplayStart; k < clipper.DisplayEnd; ++k) {
+      const RankedElement& ranked = frame->worst[static_cast<std::size_t>(k)];
+      ImGui::PushID(k);
+      const ImVec2 at = ImGui::GetCursorScreenPos();
+      const float width = ImGui::GetContentRegionAvail().x;
+      const bool selected = context.state.picked == Picked{Picked::Kind::Element, ranked.element};
+      if (ImGui::Selectable("##worst", selected)) context.send(fmt::format("goto element {}", ranked.element));
+      context.items.record_last(fmt::format("worst:{}", k));
+      next_item_tooltip(full_number(ranked.quality) + "\nclick to go there");
+      ImDrawList& list = *ImGui::GetWindowDrawList();
+      const std::string rank = std::to_string(k + 1), number = short_number(ranked.quality);
+      list.AddText({at.x + 1.6F * context.em() - ImGui::CalcTextSize(rank.c_str()).x, at.y}, colour(context.palette.dim), rank.c_str());
+      list.AddText({at.x + 2.4F * context.em(), at.y}, colour(context.palette.text),
+                   fmt::format("element {}", count(ranked.element)).c_str());
+      const bool inverted = frame->inverted[ranked.element] != 0;
+      list.AddText({at.x + width - ImGui::CalcTextSize(number.c_str()).x - context.px(4), at.y},
+                   colour(inverted ? context.palette.error : context.palette.text), number.c_str());
+      ImGui::PopID();
+    }
+  }
+  ImGui::EndChild();
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,132 @@
+// Menu bar and tool bar, both from the table of actions.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "ui/panels/panels.h"
+
+namespace dmoscope::ui {
+namespace {
+
+bool is_checked(const ViewState& state, std::string_view id) {
+  if (id == "wireframe") return state.wireframe;
+  if (id == "vertices") return state.vertices;
+  if (id == "worst-marker") return state.worst_marker;
+  if (id == "range-fixed") return state.range_mode == RangeMode::Fixed;
+  if (id == "range-auto") return state.range_mode == RangeMode::Auto;
+  if (id == "plot-convergence") return state.plot == PlotTab::Convergence;
+  if (id == "plot-histogram") return state.plot == PlotTab::Histogram;
+  if (id == "plot-sorted") return state.plot == PlotTab::Sorted;
+  if (id == "log-scale") return state.plots[static_cast<std::size_t>(state.plot)].logarithmic;
+  if (id == "panel-left") return state.panels.left;
+  if (id == "panel-right") return state.panels.right;
+  if (id == "panel-bottom") return state.panels.bottom;
+  if (id == "full-screen") return state.full_screen;
+  if (id == "theme-dark") return state.theme == Theme::Dark;
+  if (id == "theme-light") return state.theme == Theme::Light;
+  if (id == "theme-contrast") return state.theme == Theme::Contrast;
+  return false;
+}
+
+void draw_recent(PanelContext& context) {
+  if (!ImGui::BeginMenu("Recent", !context.state.recent_files.empty())) return;
+  for (const std::string& file : context.state.recent_files) {
+    if (ImGui::MenuItem(file.c_str())) context.send(fmt::format("open {}", quote_word(file)));
+  }
+  ImGui::EndMenu();
+}
+
+void draw_entries(PanelContext& context, std::string_view menu) {
+  const bool had_sample = menu == "File";
+  for (const Action& action : actions()) {
+    if (action.menu != menu || action.id.starts_with("sample-")) continue;
+    if (action.separator) ImGui::Separator();
+    if (ImGui::MenuItem(std::string(action.title).c_str(), std::string(action.key).c_str(), is_checked(context.state, action.id),
+                        enabled(action, context.situation()))) {
+      context.send(std::string(action.command));
+    }
+    context.items.record_last(fmt::format("menu:{}", action.id));
+    if (action.id == "open" && had_sample) {
+      draw_recent(context);
+      if (ImGui::BeginMenu("Samples")) {
+        for (const Action& sample : actions()) {
+          if (!sample.id.starts_with("sample-")) continue;
+          if (ImGui::MenuItem(std::string(sample.title.substr(sample.title.find(' ') + 1)).c_str()))
+            context.send(std::string(sample.command));
+        }
+        ImGui::EndMenu();
+      }
+    }
+  }
+}
+
+/// Space between groups of the tool bar.
+void gap(const PanelContext& context) { ImGui::SameLine(0, context.px(18)); }
+
+}  // namespace
+
+float draw_menu(PanelContext& context) {
+  float height = 0;
+  if (ImGui::BeginMainMenuBar()) {
+    for (const std::string_view menu : menu_names()) {
+      const bool open = ImGui::BeginMenu(std::string(menu).c_str());
+      context.items.record_last(fmt::format("menu:{}", menu));
+      if (!open) continue;
+      draw_entries(context, menu);
+      ImGui::EndMenu();
+    }
+    height = ImGui::GetWindowSize().y;
+    ImGui::EndMainMenuBar();
+  }
+  return height;
+}
+
+void draw_toolbar(PanelContext& context, const Rect& rect) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(12), (rect.h - ImGui::GetFrameHeight()) / 2});
+  begin_panel("toolbar", rect);
+  ImGui::PopStyleVar();
+  action_button(context, "open", "Open…");
+  gap(context);
+  // Text first: what a button does must not be a riddle. Narrow windows get the shorter words.
+  const bool wide = rect.w > 66 * context.em();
+  const bool middling = rect.w > 50 * context.em();
+  const bool busy = context.activity.busy;
+  action_button(context, "run-pause", busy ? "❚❚ Pause" : "▶ Run", context.session.input != nullptr);
+  ImGui::SameLine();
+  action_button(context, "step-iteration", "Step");
+  ImGui::SameLine();
+  action_button(context, "back-iteration", "Back");
+  if (middling) {
+    ImGui::SameLine();
+    action_button(context, "reset", "Reset");
+  }
+  if (wide) {
+    gap(context);
+    action_button(context, "step-class", "Class");
+    ImGui::SameLine();
+    action_button(context, "step-vertex", "Vertex");
+  }
+  gap(context);
+  action_button(context, "fit", "Fit");
+  ImGui::SameLine();
+  action_button(context, "wireframe", context.state.wireframe ? "Wires ✓" : "Wires");
+  if (!context.derived.metrics.empty()) {
+    const float width = 12 * context.em();
+    const float label = ImGui::CalcTextSize("shown").x + context.px(8);
+    const float left = rect.w - context.px(12) - width;
+    ImGui::SameLine();
+    if (left - label > ImGui::GetCursorPosX() + context.px(8)) {
+      ImGui::SetCursorPosX(left - label);
+      ImGui::AlignTextToFramePadding();
+      dim_text(context, "shown", false);
+      ImGui::SameLine(left);
+    } else {
+      ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), left));
+    }
+    ImGui::SetNextItemWidth(std::min(width, ImGui::GetContentRegionAvail().x));
+    metric_combo(context, "toolbar-shown", context.session.shown, "show");
+  }
+  end_panel();
+}
+
+}  // namespace dmoscope::ui

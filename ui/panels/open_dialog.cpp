@@ -1,0 +1,151 @@
+// Our own file browser, so that the program depends on no desktop.
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "core/session/commands.h"
+#include "ui/panels/panels.h"
+
+namespace dmoscope::ui {
+namespace {
+
+namespace fs = std::filesystem;
+
+void enter_folder(WidgetState& widgets, const fs::path& folder) {
+  std::error_code ignored;
+  fs::path whole = fs::absolute(folder, ignored).lexically_normal();
+  if (!whole.has_filename() && whole.has_parent_path() && whole != whole.root_path()) whole = whole.parent_path();
+  widgets.open_folder = whole.string();
+  widgets.open_text = widgets.open_folder;
+  widgets.open_selected = -1;
+  widgets.open_entries = list_folder(whole, widgets.show_all_files, widgets.open_error);
+}
+
+void open_file(PanelContext& context, const fs::path& file) {
+  context.state.dialog = Dialog::None;
+  context.send(fmt::format("open {}", quote_word(file.string())));
+}
+
+/// A folder is entered, a file opened; anything else gets a sentence.
+void go_to(PanelContext& context, const fs::path& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) {
+    enter_folder(context.widgets, path);
+  } else if (fs::exists(path, ignored)) {
+    open_file(context, path);
+  } else {
+    context.widgets.open_error = path.string() + ": there is no such file or folder";
+  }
+}
+
+void draw_entries(PanelContext& context) {
+  WidgetState& widgets = context.widgets;
+  const int size = static_cast<int>(widgets.open_entries.size());
+  int chosen = -1;
+  bool scroll = false;
+  if (!ImGui::GetIO().WantTextInput) {
+    const int before = widgets.open_selected;
+    if (ImGui::IsKeyPressed(key::kDown)) widgets.open_selected = std::min(widgets.open_selected + 1, size - 1);
+    if (ImGui::IsKeyPressed(key::kUp)) widgets.open_selected = std::max(widgets.open_selected - 1, 0);
+    scroll = before != widgets.open_selected;
+    if (ImGui::IsKeyPressed(key::kEnter, false) && widgets.open_selected >= 0) chosen = widgets.open_selected;
+    if (ImGui::IsKeyPressed(key::kBackspace, false)) {
+      enter_folder(widgets, parent_folder(widgets.open_folder));
+      return;
+    }
+  }
+  ImGuiListClipper clipper;
+  clipper.Begin(size);
+  if (scroll && widgets.open_selected >= 0) clipper.ForceDisplayRangeByIndices(widgets.open_selected, widgets.open_selected + 1);
+  while (clipper.Step()) {
+    for (int k = clipper.DisplayStart; k < clipper.DisplayEnd; ++k) {
+      const FolderEntry& entry = widgets.open_entries[static_cast<std::size_t>(k)];
+      ImGui::PushID(k);
+      const ImVec2 at = ImGui::GetCursorScreenPos();
+      const float width = ImGui::GetContentRegionAvail().x;
+      constexpr ImGuiSelectableFlags kFlags = ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups;
+      if (ImGui::Selectable("##entry", k == widgets.open_selected, kFlags)) {
+        if (entry.folder || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) chosen = k;
+        widgets.open_selected = k;
+        if (!entry.folder) widgets.open_text = (fs::path(widgets.open_folder) / entry.name).string();
+      }
+      context.items.record_last("entry:" + entry.name);
+      if (scroll && k == widgets.open_selected) ImGui::SetScrollHereY();
+      ImDrawList& list = *ImGui::GetWindowDrawList();
+      const std::string name = entry.folder ? "▸ " + entry.name + "/" : "   " + entry.name;
+      list.AddText(at, colour(entry.folder ? context.palette.accent : context.palette.text),
+                   fit_text(name, width - 7 * context.em()).c_str());
+      if (!entry.folder) {
+        const std::string bytes = byte_size(entry.bytes);
+        list.AddText({at.x + width - ImGui::CalcTextSize(bytes.c_str()).x - context.px(8), at.y}, colour(context.palette.dim),
+                     bytes.c_str());
+      }
+      ImGui::PopID();
+    }
+  }
+  if (size == 0 && widgets.open_error.empty()) {
+    dim_text(context, widgets.show_all_files ? "an empty folder" : "no meshes here; \"all files\" shows the rest");
+  }
+  if (chosen >= 0) go_to(context, fs::path(widgets.open_folder) / widgets.open_entries[static_cast<std::size_t>(chosen)].name);
+}
+
+void draw_recent_column(PanelContext& context) {
+  heading(context, "Recent");
+  if (context.state.recent_files.empty()) dim_text(context, "nothing yet");
+  for (const std::string& file : context.state.recent_files) {
+    ImGui::PushID(file.c_str());
+    const std::string name = fs::path(file).filename().string();
+    if (ImGui::Selectable(fit_text(name, ImGui::GetContentRegionAvail().x).c_str())) open_file(context, file);
+    next_item_tooltip(file);
+    ImGui::PopID();
+  }
+}
+
+}  // namespace
+
+void draw_open_dialog(PanelContext& context) {
+  if (!begin_dialog(context, "Open a mesh", 56, 36)) return;
+  WidgetState& widgets = context.widgets;
+  if (widgets.dialog_opened) {
+    std::error_code ignored;
+    const bool known = !widgets.open_folder.empty() && fs::is_directory(widgets.open_folder, ignored);
+    enter_folder(widgets, known ? fs::path(widgets.open_folder) : fs::current_path(ignored));
+  }
+  if (ImGui::Button("↑ up")) enter_folder(widgets, parent_folder(widgets.open_folder));
+  context.items.record_last("open:up");
+  next_item_tooltip("the folder above   Backspace");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1);
+  const bool entered = ImGui::InputText("##path", &widgets.open_text, ImGuiInputTextFlags_EnterReturnsTrue);
+  context.items.record_last("open:path");
+  if (!widgets.open_error.empty()) {
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextColored(colour_vector(context.palette.error), "%s", widgets.open_error.c_str());
+    ImGui::PopTextWrapPos();
+  }
+  const float bottom = ImGui::GetFrameHeightWithSpacing() + context.px(4);
+  const float recent = 13 * context.em();
+  ImGui::BeginChild("recent", {recent, -bottom});
+  draw_recent_column(context);
+  ImGui::EndChild();
+  ImGui::SameLine(0, context.px(16));
+  ImGui::BeginChild("entries", {0, -bottom});
+  draw_entries(context);
+  ImGui::EndChild();
+
+  const bool open = ImGui::Button("Open");
+  context.items.record_last("open:open");
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel")) context.state.dialog = Dialog::None;
+  context.items.record_last("dialog:close");
+  ImGui::SameLine(0, context.px(24));
+  if (ImGui::Checkbox("all files", &widgets.show_all_files)) enter_folder(widgets, widgets.open_folder);
+  context.items.record_last("open:all");
+  if ((entered || open) && !widgets.open_text.empty()) go_to(context, widgets.open_text);
+  end_dialog();
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,99 @@
+// Ctrl+P: every action, and any line of the command language.
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "core/session/commands.h"
+#include "ui/panels/panels.h"
+
+namespace dmoscope::ui {
+namespace {
+
+struct Entry {
+  std::string title, detail, command;
+  bool possible = true;
+  bool complete = true;  // false: the command still needs words; choosing it puts it into the line
+};
+
+std::vector<Entry> entries_for(const PanelContext& context, const std::string& text) {
+  std::vector<Entry> entries;
+  for (const Action* action : search_actions(text)) {
+    entries.push_back({fmt::format("{}: {}", action->menu, action->title), std::string(action->key), std::string(action->command),
+                       enabled(*action, context.situation()), true});
+  }
+  const std::string verb = text.substr(0, text.find(' '));
+  for (const CommandInfo& command : session_commands()) {
+    if (verb.empty() || !command.name.starts_with(verb)) continue;
+    const bool has_words = text.find(' ') != std::string::npos && command.name == verb;
+    entries.push_back({has_words ? "run: " + text : command.usage, command.doc, has_words ? text : command.name + " ", true, has_words});
+  }
+  return entries;
+}
+
+int move_selection(int selected, int size) {
+  if (ImGui::IsKeyPressed(key::kDown)) ++selected;
+  if (ImGui::IsKeyPressed(key::kUp)) --selected;
+  return std::clamp(selected, 0, std::max(0, size - 1));
+}
+
+}  // namespace
+
+void draw_palette_dialog(PanelContext& context) {
+  if (!begin_dialog(context, "All commands", 44, 32)) return;
+  WidgetState& widgets = context.widgets;
+  if (widgets.dialog_opened) {
+    widgets.palette_text.clear();
+    widgets.palette_selected = 0;
+  }
+  if (widgets.dialog_opened || ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1);
+  const std::string before = widgets.palette_text;
+  const bool entered = ImGui::InputTextWithHint("##command", "type to search, or a command such as: step class 3", &widgets.palette_text,
+                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  context.items.record_last("palette:text");
+  if (before != widgets.palette_text) widgets.palette_selected = 0;
+  const std::vector<Entry> entries = entries_for(context, widgets.palette_text);
+  const int moved = move_selection(widgets.palette_selected, static_cast<int>(entries.size()));
+  const bool scroll = moved != widgets.palette_selected;
+  widgets.palette_selected = moved;
+
+  int chosen = entered && !entries.empty() ? widgets.palette_selected : -1;
+  ImGui::BeginChild("list");
+  for (int k = 0; k < static_cast<int>(entries.size()); ++k) {
+    const Entry& entry = entries[static_cast<std::size_t>(k)];
+    ImGui::PushID(k);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    const ImGuiSelectableFlags flags = entry.possible ? ImGuiSelectableFlags_DontClosePopups : ImGuiSelectableFlags_Disabled;
+    if (ImGui::Selectable("##entry", k == widgets.palette_selected, flags)) chosen = k;
+    if (scroll && k == widgets.palette_selected) ImGui::SetScrollHereY();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float alpha = entry.possible ? 1.0F : 0.45F;
+    const std::string title = fit_text(entry.title, 0.62F * width);
+    list.AddText(at, colour(context.palette.text, alpha), title.c_str());
+    const std::string detail = fit_text(entry.detail, width - ImGui::CalcTextSize(title.c_str()).x - 2 * context.em());
+    list.AddText({at.x + width - ImGui::CalcTextSize(detail.c_str()).x - context.px(8), at.y}, colour(context.palette.dim, alpha),
+                 detail.c_str());
+    ImGui::PopID();
+  }
+  if (entries.empty()) dim_text(context, "nothing by that name; Enter tries it as a command");
+  ImGui::EndChild();
+  end_dialog();
+
+  if (chosen >= 0 && entries[static_cast<std::size_t>(chosen)].possible) {
+    const Entry& entry = entries[static_cast<std::size_t>(chosen)];
+    if (!entry.complete) {
+      widgets.palette_text = entry.command;
+      return;
+    }
+    context.state.dialog = Dialog::None;
+    context.send(entry.command);
+  } else if (entered && entries.empty() && !widgets.palette_text.empty()) {
+    context.state.dialog = Dialog::None;
+    context.send(widgets.palette_text);
+  }
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,145 @@
+#pragma once
+// The parts of the window. Each reads the context and sends command lines; none changes the session, none calls OpenGL.
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "core/session/view.h"
+#include "ui/actions.h"
+#include "ui/file_browser.h"
+#include "ui/items.h"
+#include "ui/layout.h"
+#include "ui/plot.h"
+#include "ui/theme.h"
+#include "ui/thumbnails.h"
+#include "ui/view_state.h"
+
+namespace dmoscope::ui {
+
+/// What the engine and the machine are doing, as of this frame.
+struct Activity {
+  bool busy = false;
+  std::size_t pending = 0;
+  std::string command;  // at work, as typed
+  std::string progress_label;
+  double progress = 0.0;           // 0 to 1
+  double busy_seconds = 0.0;       // since it began
+  double frames_per_second = 0.0;  // while something moves, else 0
+  std::string backend;             // "cpu, 8 threads"
+  std::string backend_reason;      // why not cuda
+  std::string renderer;            // "OpenGL 4.5, ..."
+  bool reduced = false;            // the mesh is drawn with fewer elements just now
+};
+
+/// Values worked out once a frame serial, not once a drawing.
+struct Derived {
+  std::uint64_t input_serial = 0, frame_serial = 0;
+  std::vector<Metric> metrics;          // defined for every element
+  std::vector<std::string> mesh_facts;  // sentences of the report
+  std::array<std::size_t, kElementKindCount> kinds{};
+  std::vector<double> sorted_now, sorted_before;  // a sample of the shown quality, ascending; filled when its plot is open
+  std::size_t outside_low = 0, outside_high = 0;  // elements outside the colours' range, inverted ones not counted
+  bool undefined = false;                         // some element's shown quality is NaN
+  std::pair<double, double> range{0.0, 1.0};      // of the colours
+  std::tuple<RangeMode, double, double> range_key{RangeMode::Fixed, NAN, NAN};  // what `range` was worked out for
+};
+
+/// State that only widgets need between frames.
+struct WidgetState {
+  std::string open_folder, open_text, open_error;
+  std::vector<FolderEntry> open_entries;
+  int open_selected = -1;
+  bool show_all_files = false;
+  int export_what = 0;
+  std::string export_name, screenshot_name = "dmoscope.png";
+  std::string palette_text, find_text, find_error;
+  std::vector<Thumbnail> thumbnails;  // of the samples, made when the start page is first shown
+  int screenshot_width = 0, screenshot_height = 0, screenshot_supersample = 2;
+  bool screenshot_transparent = false, screenshot_window = false;
+  int palette_selected = 0;
+  int find_kind = 0;
+  Dialog dialog_shown = Dialog::None;                      // in the last frame
+  bool dialog_opened = false;                              // in this frame
+  bool dragged = false;                                    // the button held in the viewport has moved
+  std::pair<Index, Index> under_menu{kNoIndex, kNoIndex};  // vertex and element where the menu was opened
+  double moved_at = -1e9;                                  // when the view last moved
+};
+
+struct PanelContext {
+  ViewState& state;
+  WidgetState& widgets;
+  const SessionView& session;
+  const Activity& activity;
+  const Derived& derived;
+  const Palette& palette;
+  const Fonts& fonts;
+  Items& items;
+  std::function<void(const std::string&)> send;               // one command line; errors become messages
+  std::function<std::pair<Index, Index>(Vec2<double>)> pick;  // vertex and element at a pixel of the viewport
+  unsigned mesh_texture = 0;
+  double now = 0.0;  // seconds
+
+  [[nodiscard]] float em() const { return ImGui::GetFontSize(); }
+  [[nodiscard]] float px(float at_scale_one) const { return at_scale_one * static_cast<float>(state.scale); }
+  [[nodiscard]] const Frame* frame() const { return session.frame.get(); }
+  [[nodiscard]] const RunView* run() const { return session.runs.empty() ? nullptr : &session.runs[session.active]; }
+  [[nodiscard]] Situation situation() const;
+};
+
+// widgets.cpp: what panels are made of
+void begin_panel(const char* name, const Rect& rect, bool overlay = false);
+void end_panel();
+void heading(const PanelContext& context, const char* text);
+void dim_text(const PanelContext& context, const std::string& text, bool wrap = true);
+/// "label            value", value right-aligned with its full precision as tooltip.
+void value_row(const PanelContext& context, const char* label, const std::string& text, const std::string& full = {},
+               std::optional<render::Rgb> ink = {}, const char* tooltip = nullptr);
+void number_row(const PanelContext& context, const char* label, double value, const char* tooltip = nullptr);
+void metric_tooltip(const PanelContext& context, const MetricInfo& metric);
+/// A button for an action, with tooltip and key; records the item under the action's id.
+bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary = false);
+void next_item_tooltip(const std::string& text);
+/// Metric chooser that sends "COMMAND name".
+void metric_combo(PanelContext& context, const char* item, Metric current, const char* command);
+/// Text cut with "…" so that it is at most `width` pixels wide.
+[[nodiscard]] std::string fit_text(const std::string& text, float width);
+/// "Mean ratio" of a metric.
+[[nodiscard]] std::string metric_title(Metric metric);
+/// "mean ratio"
+[[nodiscard]] std::string metric_phrase(Metric metric);
+
+// one file each
+float draw_menu(PanelContext& context);  // returns its height
+void draw_toolbar(PanelContext& context, const Rect& rect);
+void draw_runs(PanelContext& context);
+void draw_parameters(PanelContext& context);
+void draw_inspector(PanelContext& context);
+void draw_worst(PanelContext& context);
+void draw_viewport(PanelContext& context, const Rect& rect);
+void draw_start_page(PanelContext& context, const Rect& rect);
+void draw_plots(PanelContext& context, const Rect& rect);
+void draw_status(PanelContext& context, const Rect& rect);
+void draw_strips(PanelContext& context, const Layout& layout);
+void draw_splitters(PanelContext& context, const Layout& layout);
+void draw_dialogs(PanelContext& context);
+
+// dialogs
+void draw_open_dialog(PanelContext& context);
+void draw_export_dialog(PanelContext& context);
+void draw_screenshot_dialog(PanelContext& context);
+void draw_palette_dialog(PanelContext& context);
+void draw_find_dialog(PanelContext& context);
+void draw_keys_dialog(PanelContext& context);
+void draw_about_dialog(PanelContext& context);
+void draw_error_dialog(PanelContext& context);
+/// Begins a modal window of the open dialog; false when it is closed. Escape closes it.
+bool begin_dialog(PanelContext& context, const char* title, float width_em, float height_em = 0);
+void end_dialog();
+
+}  // namespace dmoscope::ui

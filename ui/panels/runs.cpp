@@ -1,0 +1,205 @@
+// Left: the runs and the parameters of the active one.
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "ui/format.h"
+#include "ui/panels/panels.h"
+
+namespace dmoscope::ui {
+namespace {
+
+void draw_run_row(PanelContext& context, std::size_t k) {
+  const RunView& run = context.session.runs[k];
+  ImGui::PushID(static_cast<int>(k));
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float line = ImGui::GetTextLineHeight(), pad = context.px(4);
+  const float width = ImGui::GetContentRegionAvail().x;
+  const bool active = k == context.session.active;
+  if (ImGui::Selectable("##run", active, 0, {0, 2 * line + 3 * pad})) context.send(fmt::format("select-run {}", k));
+  context.items.record_last(fmt::format("run:{}", k));
+  next_item_tooltip(run.last_outcome.empty() ? run.title : run.title + "\n" + run.last_outcome);
+  if (ImGui::BeginPopupContextItem("run menu")) {
+    if (ImGui::MenuItem("Remove", nullptr, false, context.session.runs.size() > 1 && !context.activity.busy)) {
+      context.send(fmt::format("remove-run {}", k));
+    }
+    ImGui::EndPopup();
+  }
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float bar = context.px(4);
+  list.AddRectFilled({at.x, at.y + pad}, {at.x + bar, at.y + 2 * line + 2 * pad}, colour(context.palette.runs[k % 8]), bar / 2);
+  const float text = at.x + bar + context.px(8);
+  const std::string iteration = fmt::format("it {}", count(run.moment.iteration));
+  const float iteration_width = ImGui::CalcTextSize(iteration.c_str()).x;
+  const std::string title = fit_text(run.title, width - iteration_width - bar - context.px(24));
+  list.AddText({text, at.y + pad}, colour(context.palette.text), title.c_str());
+  list.AddText({at.x + width - iteration_width - pad, at.y + pad}, colour(context.palette.dim), iteration.c_str());
+  if (!run.records.empty()) {
+    const IterationRecord* record = &run.records.back();
+    for (const IterationRecord& one : run.records) {
+      if (one.iteration == run.moment.iteration) record = &one;
+    }
+    const std::string facts =
+        fmt::format("min {}  mean {}", short_number(record->statistics.minimum), short_number(record->statistics.mean));
+    list.AddText({text, at.y + line + 1.5F * pad}, colour(context.palette.dim), fit_text(facts, width - bar - context.px(12)).c_str());
+  }
+  ImGui::PopID();
+}
+
+/// A row "label [widget]" whose widget fills the right part.
+void labelled(const PanelContext& context, const char* label, const char* tooltip) {
+  ImGui::AlignTextToFramePadding();
+  dim_text(context, label, false);
+  next_item_tooltip(tooltip);
+  ImGui::SameLine();
+  const float at = ImGui::GetWindowContentRegionMax().x * 0.42F;
+  ImGui::SetCursorPosX(std::max(at, ImGui::GetCursorPosX()));
+  ImGui::SetNextItemWidth(-1);
+}
+
+/// An integer that is sent once editing is done.
+void integer(PanelContext& context, const char* item, int value, int least, int most, const char* command) {
+  int edited = value;
+  const bool entered = ImGui::InputInt(fmt::format("##{}", item).c_str(), &edited, 1, 1, ImGuiInputTextFlags_EnterReturnsTrue);
+  context.items.record_last(item);
+  const bool stepped = edited != value && !ImGui::IsItemActive();
+  if ((entered || stepped || ImGui::IsItemDeactivatedAfterEdit()) && edited != value) {
+    const bool joined = std::string_view(command).ends_with(':');  // "shuffle:SEED" is one word
+    context.send(fmt::format("{}{}{}", command, joined ? "" : " ", std::clamp(edited, least, most)));
+  }
+}
+
+void draw_method(PanelContext& context, const RunParameters& parameters) {
+  labelled(context, "method", "how vertices are moved");
+  const bool open = ImGui::BeginCombo("##method", parameters.method.c_str());
+  context.items.record_last("method");
+  if (!open) return;
+  for (const MethodInfo& method : method_table()) {
+    if (ImGui::Selectable(std::string(method.name).c_str(), method.name == parameters.method)) {
+      context.send(fmt::format("method {}", method.name));
+    }
+    next_item_tooltip(std::string(method.doc));
+  }
+  ImGui::EndCombo();
+}
+
+void draw_search(PanelContext& context, const RunParameters& parameters) {
+  labelled(context, "grid points", "candidates an axis of the search grid, 2 to 64");
+  integer(context, "grid", parameters.search.grid_points, 2, 64, "grid");
+  labelled(context, "levels", "how often the grid is refined around the best candidate, 1 to 16");
+  integer(context, "levels", parameters.search.levels, 1, 16, "levels");
+  labelled(context, "omega", "size of the first grid in bounding boxes of the star, above 0, up to 2");
+  double omega = parameters.search.omega;
+  ImGui::InputDouble("##omega", &omega, 0, 0, "%.4g");
+  context.items.record_last("omega");
+  if (ImGui::IsItemDeactivatedAfterEdit() && omega != parameters.search.omega) context.send(fmt::format("omega {}", full_number(omega)));
+
+  labelled(context, "precision", "scalar of the search; what it finds is confirmed in double before a vertex moves");
+  const bool single = parameters.search.precision == Precision::Float;
+  const bool open = ImGui::BeginCombo("##precision", single ? "float" : "double");
+  context.items.record_last("precision");
+  if (open) {
+    if (ImGui::Selectable("float", single)) context.send("precision float");
+    if (ImGui::Selectable("double", !single)) context.send("precision double");
+    ImGui::EndCombo();
+  }
+}
+
+void draw_order(PanelContext& context, const RunParameters& parameters) {
+  labelled(context, "order", "in which order an iteration visits the vertices, before colouring");
+  const bool shuffled = parameters.order.seed.has_value();
+  const bool open = ImGui::BeginCombo("##order", shuffled ? "shuffled" : "natural");
+  context.items.record_last("order");
+  if (open) {
+    if (ImGui::Selectable("natural", !shuffled)) context.send("order natural");
+    if (ImGui::Selectable("shuffled", shuffled)) context.send("order shuffle:1");
+    ImGui::EndCombo();
+  }
+  if (!shuffled) return;
+  labelled(context, "seed", "of the shuffled order");
+  integer(context, "seed", static_cast<int>(*parameters.order.seed), 0, 1 << 30, "order shuffle:");
+}
+
+}  // namespace
+
+void draw_runs(PanelContext& context) {
+  heading(context, "Runs");
+  ImGui::SameLine();
+  const char* add = "+ add";
+  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(add).x - 2 * ImGui::GetStyle().FramePadding.x);
+  const RunView* run = context.run();
+  ImGui::BeginDisabled(run == nullptr || context.activity.busy);
+  if (ImGui::SmallButton(add)) ImGui::OpenPopup("add run");
+  context.items.record_last("add-run");
+  ImGui::EndDisabled();
+  next_item_tooltip("another run on the same input, to compare with");
+  if (ImGui::BeginPopup("add run")) {
+    dim_text(context, "new run: metric to optimise", false);
+    for (const Metric metric : context.derived.metrics) {
+      if (ImGui::MenuItem(metric_title(metric).c_str())) {
+        context.send(fmt::format("add-run {}:{}", run->parameters.method, info(metric).name));
+      }
+    }
+    ImGui::EndPopup();
+  }
+  if (context.session.runs.empty()) dim_text(context, "none yet: open a mesh");
+  for (std::size_t k = 0; k < context.session.runs.size(); ++k) draw_run_row(context, k);
+}
+
+void draw_parameters(PanelContext& context) {
+  heading(context, "Parameters");
+  const RunView* run = context.run();
+  if (run == nullptr) {
+    dim_text(context, "of the run that is selected");
+    return;
+  }
+  const RunParameters& parameters = run->parameters;
+  ImGui::BeginDisabled(context.activity.busy);
+  draw_method(context, parameters);
+  labelled(context, "optimises", "the metric whose minimum over each star the method raises");
+  metric_combo(context, "metric", parameters.metric, "metric");
+  draw_search(context, parameters);
+  draw_order(context, parameters);
+  labelled(context, "threads", "of this computer that smooth; the result does not depend on it");
+  integer(context, "threads", static_cast<int>(context.session.threads), 1, 1024, "threads");
+  ImGui::EndDisabled();
+  if (run->moment.iteration > 0 || run->moment.visits > 0) {
+    dim_text(context, "A change starts a new run beside this one.");
+  }
+
+  ImGui::Dummy({0, context.px(4)});
+  heading(context, "Colours");
+  labelled(context, "shows", "the metric of colours, histogram and worst list");
+  metric_combo(context, "shown", context.session.shown, "show");
+  labelled(context, "map", "perceptually uniform and colour-blind safe");
+  const bool open = ImGui::BeginCombo("##map", std::string(render::name(context.state.colour_map)).c_str());
+  context.items.record_last("colormap");
+  if (open) {
+    for (const auto& map : render::colour_map_table()) {
+      if (ImGui::Selectable(std::string(map.name).c_str(), map.map == context.state.colour_map))
+        context.send(fmt::format("colormap {}", map.name));
+      next_item_tooltip(std::string(map.doc));
+    }
+    ImGui::EndCombo();
+  }
+  labelled(context, "range", "qualities that the colours span");
+  const char* modes[] = {"0 to 1", "the mesh's own", "given"};
+  if (ImGui::BeginCombo("##range", modes[static_cast<int>(context.state.range_mode)])) {
+    if (ImGui::Selectable(modes[0], context.state.range_mode == RangeMode::Fixed)) context.send("range fixed");
+    if (ImGui::Selectable(modes[1], context.state.range_mode == RangeMode::Auto)) context.send("range auto");
+    const auto now = colour_range(context.state, context.frame());
+    if (ImGui::Selectable(modes[2], context.state.range_mode == RangeMode::Given)) {
+      context.send(fmt::format("range {} {}", full_number(now.first), full_number(now.second)));
+    }
+    ImGui::EndCombo();
+  }
+  if (context.state.range_mode == RangeMode::Given) {
+    double range[2] = {context.state.range_low, context.state.range_high};
+    labelled(context, "from, to", "lowest and highest quality of the colours");
+    ImGui::InputScalarN("##given", ImGuiDataType_Double, range, 2, nullptr, nullptr, "%.4g");
+    if (ImGui::IsItemDeactivatedAfterEdit()) context.send(fmt::format("range {} {}", full_number(range[0]), full_number(range[1])));
+  }
+}
+
+}  // namespace dmoscope::ui

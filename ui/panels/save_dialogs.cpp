@@ -1,0 +1,159 @@
+// Export of the mesh and its numbers, and screenshots.
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "core/io/mesh_io.h"
+#include "core/session/commands.h"
+#include "ui/panels/panels.h"
+
+namespace dmoscope::ui {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kVerbs[] = {"export", "stats", "elements"};
+
+std::string default_name(const PanelContext& context, int what) {
+  const Frame* frame = context.frame();
+  if (frame == nullptr) return {};
+  fs::path path = frame->input->path;
+  std::error_code ignored;
+  if (path.empty()) path = fs::current_path(ignored) / (fs::path(frame->input->mesh.name).stem().string() + ".vtk");
+  const std::string stem = path.stem().string();
+  const std::string name = what == 0 ? stem + "-smoothed" + path.extension().string() : stem + (what == 1 ? "-stats.csv" : "-elements.csv");
+  return path.replace_filename(name).string();
+}
+
+void draw_formats(PanelContext& context, std::string& name) {
+  const std::string now = fs::path(name).extension().string();
+  const FormatInfo* current = nullptr;
+  const auto has = [&](const FormatInfo& format) {
+    return fmt::format(" {} ", format.extensions).find(fmt::format(" {} ", now)) != std::string::npos;
+  };
+  for (const FormatInfo& format : format_table()) {
+    if (has(format)) current = &format;
+  }
+  ImGui::AlignTextToFramePadding();
+  dim_text(context, "format", false);
+  ImGui::SameLine(6 * context.em());
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::BeginCombo("##format", current == nullptr ? "by the file's name" : std::string(current->title).c_str())) {
+    for (const FormatInfo& format : format_table()) {
+      const std::string label = fmt::format("{}   {}", format.title, format.extensions);
+      if (ImGui::Selectable(label.c_str(), &format == current)) {
+        const std::string extensions(format.extensions);
+        name = fs::path(name).replace_extension(extensions.substr(0, extensions.find(' '))).string();
+      }
+      next_item_tooltip(std::string(format.doc));
+    }
+    ImGui::EndCombo();
+  }
+  if (current != nullptr) dim_text(context, std::string(current->doc));
+}
+
+void say_if_replaced(PanelContext& context, const std::string& name) {
+  std::error_code ignored;
+  if (!name.empty() && fs::exists(name, ignored)) {
+    ImGui::TextColored(colour_vector(context.palette.warning), "This file is there already and will be replaced.");
+  }
+}
+
+}  // namespace
+
+void draw_export_dialog(PanelContext& context) {
+  if (!begin_dialog(context, "Export", 44)) return;
+  WidgetState& widgets = context.widgets;
+  if (widgets.dialog_opened) {
+    widgets.export_what = 0;
+    widgets.export_name = default_name(context, 0);
+    ImGui::SetKeyboardFocusHere();
+  }
+  constexpr const char* kWhat[] = {"mesh as it is shown", "statistics of all runs", "quality of every element"};
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0) ImGui::SameLine(0, context.px(16));
+    if (ImGui::RadioButton(kWhat[k], widgets.export_what == k)) {
+      widgets.export_what = k;
+      widgets.export_name = default_name(context, k);
+    }
+  }
+  ImGui::AlignTextToFramePadding();
+  dim_text(context, "file", false);
+  ImGui::SameLine(6 * context.em());
+  ImGui::SetNextItemWidth(-1);
+  const bool entered = ImGui::InputText("##file", &widgets.export_name, ImGuiInputTextFlags_EnterReturnsTrue);
+  context.items.record_last("export:file");
+  if (widgets.export_what == 0) draw_formats(context, widgets.export_name);
+  say_if_replaced(context, widgets.export_name);
+  ImGui::Spacing();
+  const bool go = ImGui::Button("Export");
+  context.items.record_last("export:go");
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel")) context.state.dialog = Dialog::None;
+  context.items.record_last("dialog:close");
+  if ((go || entered) && !widgets.export_name.empty()) {
+    context.state.dialog = Dialog::None;
+    context.send(fmt::format("{} {}", kVerbs[widgets.export_what], quote_word(widgets.export_name)));
+  }
+  end_dialog();
+}
+
+void draw_screenshot_dialog(PanelContext& context) {
+  if (!begin_dialog(context, "Screenshot", 40)) return;
+  WidgetState& widgets = context.widgets;
+  if (widgets.dialog_opened) {
+    widgets.screenshot_width = static_cast<int>(context.state.viewport.x);
+    widgets.screenshot_height = static_cast<int>(context.state.viewport.y);
+  }
+  const auto label = [&](const char* text) {
+    ImGui::AlignTextToFramePadding();
+    dim_text(context, text, false);
+    ImGui::SameLine(8 * context.em());
+    ImGui::SetNextItemWidth(-1);
+  };
+  label("file (.png)");
+  const bool entered = ImGui::InputText("##file", &widgets.screenshot_name, ImGuiInputTextFlags_EnterReturnsTrue);
+  context.items.record_last("screenshot:file");
+  label("what");
+  if (ImGui::RadioButton("the mesh", !widgets.screenshot_window)) widgets.screenshot_window = false;
+  ImGui::SameLine();
+  if (ImGui::RadioButton("the whole window", widgets.screenshot_window)) widgets.screenshot_window = true;
+  if (!widgets.screenshot_window) {
+    int size[2] = {widgets.screenshot_width, widgets.screenshot_height};
+    label("size, pixels");
+    if (ImGui::InputInt2("##size", size)) {
+      widgets.screenshot_width = std::clamp(size[0], 1, 32768);
+      widgets.screenshot_height = std::clamp(size[1], 1, 32768);
+    }
+    label("supersample");
+    ImGui::SliderInt("##supersample", &widgets.screenshot_supersample, 1, 8, "%d", ImGuiSliderFlags_AlwaysClamp);
+    next_item_tooltip("samples a pixel: smoother edges");
+    label("background");
+    ImGui::Checkbox("transparent", &widgets.screenshot_transparent);
+  }
+  say_if_replaced(context, widgets.screenshot_name);
+  ImGui::Spacing();
+  const bool go = ImGui::Button("Save");
+  context.items.record_last("screenshot:go");
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel")) context.state.dialog = Dialog::None;
+  context.items.record_last("dialog:close");
+  if ((go || entered) && !widgets.screenshot_name.empty()) {
+    context.state.dialog = Dialog::None;
+    std::string line = fmt::format("screenshot {}", quote_word(widgets.screenshot_name));
+    if (widgets.screenshot_window) {
+      line += " --window";
+    } else {
+      line += fmt::format(" --size {}x{} --supersample {}", widgets.screenshot_width, widgets.screenshot_height,
+                          widgets.screenshot_supersample);
+      if (widgets.screenshot_transparent) line += " --transparent";
+    }
+    context.send(line);
+  }
+  end_dialog();
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,157 @@
+// Status bar, the strips that stand for folded panels, and the splitters.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "ui/format.h"
+#include "ui/panels/panels.h"
+
+namespace dmoscope::ui {
+namespace {
+
+std::string speed_sentence(const PanelContext& context) {
+  const RunView* run = context.run();
+  if (run == nullptr) return {};
+  for (auto record = run->records.rbegin(); record != run->records.rend(); ++record) {
+    if (record->iteration == 0 || record->seconds <= 0.0) continue;
+    return fmt::format("{}v/s · {}/it", rate(static_cast<double>(run->free_vertices) / record->seconds), duration(record->seconds));
+  }
+  return {};
+}
+
+void draw_progress(PanelContext& context) {
+  // Shorter work than this comes and goes before it could be read.
+  constexpr double kShowAfter = 0.2;
+  if (!context.activity.busy || context.activity.busy_seconds < kShowAfter) return;
+  ImGui::SameLine(0, context.px(16));
+  const std::string& label = context.activity.progress_label.empty() ? context.activity.command : context.activity.progress_label;
+  const auto fraction = static_cast<float>(context.activity.progress);
+  ImGui::ProgressBar(fraction, {8 * context.em(), ImGui::GetTextLineHeight()}, "");
+  ImGui::SameLine();
+  ImGui::TextUnformatted(fmt::format("{} {:.0f} %", fit_text(label, 16 * context.em()), 100.0 * context.activity.progress).c_str());
+  ImGui::SameLine();
+  if (ImGui::SmallButton("Cancel")) context.send("cancel");
+  context.items.record_last("cancel");
+}
+
+void strip(PanelContext& context, const char* name, const Rect& rect, const char* label, const char* tooltip, bool& open,
+           const char* item) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(4), context.px(6)});
+  begin_panel(name, rect);
+  ImGui::PopStyleVar();
+  const float side = rect.w - 2 * context.px(4);
+  if (open) ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent, 0.25F));
+  const bool was_open = open;
+  if (ImGui::Button(label, {side, side})) open = !open;
+  if (was_open) ImGui::PopStyleColor();
+  context.items.record_last(item);
+  next_item_tooltip(tooltip);
+  end_panel();
+}
+
+/// A narrow strip between two panels that changes `size` (in em) when dragged; `direction` is +1 where dragging right or down grows it.
+void splitter(PanelContext& context, const char* name, const Rect& rect, bool vertical, float direction, double& size, double least,
+              double most) {
+  ImGui::SetNextWindowPos({rect.x, rect.y});
+  ImGui::SetNextWindowSize({rect.w, rect.h});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4{0, 0, 0, 0});
+  // Above the panels whose edge it lies on.
+  ImGui::Begin(name, nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                   ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar(2);
+  ImGui::InvisibleButton("grip", {rect.w, rect.h});
+  context.items.record_last(name);
+  const bool live = ImGui::IsItemActive() || ImGui::IsItemHovered();
+  if (live) ImGui::SetMouseCursor(vertical ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+  const ImVec2 delta = ImGui::GetIO().MouseDelta;
+  if (ImGui::IsItemActive()) {
+    const float move = vertical ? delta.x : delta.y;
+    size = std::clamp(size + static_cast<double>(direction * move / context.em()), least, most);
+  }
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float x = rect.x + rect.w / 2, y = rect.y + rect.h / 2;
+  const ImU32 ink = live ? colour(context.palette.accent) : colour(context.palette.line);
+  const float width = live ? context.px(2) : 1.0F;
+  if (vertical) {
+    list.AddLine({x, rect.y}, {x, rect.y + rect.h}, ink, width);
+  } else {
+    list.AddLine({rect.x, y}, {rect.x + rect.w, y}, ink, width);
+  }
+  ImGui::End();
+}
+
+}  // namespace
+
+void draw_status(PanelContext& context, const Rect& rect) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(12), (rect.h - ImGui::GetTextLineHeight()) / 2});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, colour_vector(context.palette.raised));
+  begin_panel("status", rect);
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar();
+  const Activity& activity = context.activity;
+  ImGui::TextUnformatted(
+      fmt::format("{}, {} thread{}", activity.backend, context.session.threads, context.session.threads == 1 ? "" : "s").c_str());
+  next_item_tooltip(activity.backend_reason + (activity.backend_reason.empty() ? "" : "\n") + activity.renderer);
+  if (const std::string speed = speed_sentence(context); !speed.empty()) {
+    ImGui::SameLine(0, context.px(16));
+    dim_text(context, speed, false);
+    next_item_tooltip("vertices visited a second and time of the last iteration, smoothing alone");
+  }
+  if (activity.frames_per_second > 0.0) {
+    ImGui::SameLine(0, context.px(16));
+    dim_text(context, fmt::format("{:.0f} frames/s", activity.frames_per_second), false);
+  }
+  draw_progress(context);
+  if (!context.state.log.empty()) {
+    const Message& message = context.state.log.back().message;
+    std::string text = message.text.substr(0, message.text.find('\n'));
+    ImGui::SameLine(0, context.px(16));
+    const float room = ImGui::GetContentRegionAvail().x;
+    if (room > 4 * context.em()) {
+      text = fit_text(text, room);
+      ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(text.c_str()).x);
+      const render::Rgb ink = message.kind == Message::Kind::Error     ? context.palette.error
+                              : message.kind == Message::Kind::Warning ? context.palette.warning
+                                                                       : context.palette.text;
+      ImGui::TextColored(colour_vector(ink), "%s", text.c_str());
+      std::string recent;
+      for (std::size_t k = context.state.log.size() - std::min<std::size_t>(8, context.state.log.size()); k < context.state.log.size();
+           ++k) {
+        recent += (recent.empty() ? "" : "\n") + context.state.log[k].message.text;
+      }
+      next_item_tooltip(recent);
+      if (ImGui::IsItemClicked()) context.state.requests.clipboard = message.text;
+    }
+  }
+  end_panel();
+}
+
+void draw_strips(PanelContext& context, const Layout& layout) {
+  if (!layout.folded) return;
+  Panels& panels = context.state.panels;
+  strip(context, "left strip", layout.left_strip, "☰", "runs and parameters", panels.left_over, "fold:left");
+  strip(context, "right strip", layout.right_strip, "ℹ", "inspector and worst elements", panels.right_over, "fold:right");
+}
+
+void draw_splitters(PanelContext& context, const Layout& layout) {
+  const float grip = context.px(6);
+  Panels& panels = context.state.panels;
+  if (!layout.folded && !layout.left.empty()) {
+    splitter(context, "splitter:left", {layout.left.x + layout.left.w - grip / 2, layout.left.y, grip, layout.left.h}, true, 1,
+             panels.left_width, 12, 40);
+  }
+  if (!layout.folded && !layout.right.empty()) {
+    splitter(context, "splitter:right", {layout.right.x - grip / 2, layout.right.y, grip, layout.right.h}, true, -1, panels.right_width, 13,
+             40);
+  }
+  if (!layout.bottom.empty()) {
+    splitter(context, "splitter:bottom", {layout.bottom.x, layout.bottom.y - grip / 2, layout.bottom.w, grip}, false, -1,
+             panels.bottom_height, 9, 40);
+  }
+}
+
+}  // namespace dmoscope::ui

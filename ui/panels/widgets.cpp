@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "ui/format.h"
+#include "ui/panels/panels.h"
+
+namespace dmoscope::ui {
+
+Situation PanelContext::situation() const {
+  return {session.input != nullptr, activity.busy, state.picked.kind != Picked::Kind::None, session.runs.size()};
+}
+
+void begin_panel(const char* name, const Rect& rect, bool overlay) {
+  ImGui::SetNextWindowPos({rect.x, rect.y});
+  ImGui::SetNextWindowSize({rect.w, rect.h});
+  ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
+  if (!overlay) flags |= ImGuiWindowFlags_NoBringToFrontOnFocus;
+  flags &= ~ImGuiWindowFlags_NoScrollbar;
+  ImGui::Begin(name, nullptr, flags);
+}
+
+void end_panel() { ImGui::End(); }
+
+void heading(const PanelContext& context, const char* text) {
+  ImGui::PushFont(context.fonts.bold);
+  ImGui::TextUnformatted(text);
+  ImGui::PopFont();
+}
+
+void dim_text(const PanelContext& context, const std::string& text, bool wrap) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.dim));
+  if (wrap) ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.c_str());
+  if (wrap) ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
+void next_item_tooltip(const std::string& text) {
+  if (!text.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 30);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+  }
+}
+
+void value_row(const PanelContext& context, const char* label, const std::string& text, const std::string& full,
+               std::optional<render::Rgb> ink, const char* tooltip) {
+  dim_text(context, label, false);
+  if (tooltip != nullptr) next_item_tooltip(tooltip);
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(label).x - context.px(8);
+  const std::string shown = fit_text(text, room);
+  ImGui::SameLine();
+  const float right = ImGui::GetWindowContentRegionMax().x;
+  ImGui::SetCursorPosX(right - ImGui::CalcTextSize(shown.c_str()).x);
+  ImGui::TextColored(colour_vector(ink.value_or(context.palette.text)), "%s", shown.c_str());
+  next_item_tooltip(full.empty() && shown != text ? text : full.empty() ? full : full + "\n(click copies it)");
+  if (ImGui::IsItemClicked()) context.state.requests.clipboard = full.empty() ? text : full;
+}
+
+void number_row(const PanelContext& context, const char* label, double value, const char* tooltip) {
+  value_row(context, label, short_number(value), full_number(value), {}, tooltip);
+}
+
+void metric_tooltip(const PanelContext& context, const MetricInfo& metric) {
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(context.em() * 30);
+  heading(context, std::string(metric.title).c_str());
+  ImGui::TextUnformatted(std::string(metric.doc).c_str());
+  ImGui::Spacing();
+  ImGui::TextUnformatted(std::string(metric.formula).c_str());
+  ImGui::Spacing();
+  dim_text(context, fmt::format("range {:g} to {:g} · usually fine from {:g}", metric.lowest, metric.highest, metric.acceptable));
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary) {
+  const Action* action = find_action(id);
+  const bool possible = enabled(*action, context.situation());
+  if (!possible) ImGui::BeginDisabled();
+  if (primary) {
+    ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent));
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, colour_vector(context.palette.accent, 0.85F));
+    ImGui::PushStyleColor(ImGuiCol_ButtonActive, colour_vector(context.palette.accent, 0.7F));
+    ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.on_accent));
+  }
+  const bool pressed = ImGui::Button(label);
+  if (primary) ImGui::PopStyleColor(4);
+  context.items.record_last(id);
+  if (!possible) ImGui::EndDisabled();
+  std::string tip(action->title);
+  if (!action->key.empty()) tip += "   " + std::string(action->key);
+  next_item_tooltip(tip);
+  if (pressed) context.send(std::string(action->command));
+  return pressed;
+}
+
+void metric_combo(PanelContext& context, const char* item, Metric current, const char* command) {
+  if (context.derived.metrics.empty()) return;
+  const bool open =
+      ImGui::BeginCombo(fmt::format("##{}", item).c_str(), std::string(info(current).title).c_str(), ImGuiComboFlags_HeightLarge);
+  context.items.record_last(item);
+  if (!open) {
+    metric_tooltip(context, info(current));
+    return;
+  }
+  for (const Metric metric : context.derived.metrics) {
+    const MetricInfo& one = info(metric);
+    if (ImGui::Selectable(std::string(one.title).c_str(), metric == current)) context.send(fmt::format("{} {}", command, one.name));
+    context.items.record_last(fmt::format("{}:{}", item, one.name));
+    metric_tooltip(context, one);
+  }
+  ImGui::EndCombo();
+}
+
+std::string fit_text(const std::string& text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+  std::string cut = text;
+  while (!cut.empty()) {
+    // Whole characters only: bytes 10xxxxxx continue one.
+    while (!cut.empty() && (static_cast<unsigned char>(cut.back()) & 0xc0U) == 0x80U) cut.pop_back();
+    if (!cut.empty()) cut.pop_back();
+    if (ImGui::CalcTextSize((cut + "…").c_str()).x <= width) break;
+  }
+  return cut + "…";
+}
+
+std::string metric_title(Metric metric) { return std::string(info(metric).title); }
+
+std::string metric_phrase(Metric metric) {
+  std::string title = metric_title(metric);
+  if (title.size() > 1 && std::islower(static_cast<unsigned char>(title[1])) != 0) {
+    title[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(title[0])));
+  }
+  return title;
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,39 @@
+#pragma once
+// The numbers of a plot: where its ticks are and which points of a long series are worth drawing. No drawing here.
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dmoscope::ui {
+
+struct Tick {
+  double value;
+  std::string label;  // empty for a minor tick
+};
+
+/// Ticks at 1, 2 or 5 times a power of ten inside [lowest, highest], at most about `most` of them. All labels have the same number
+/// of decimals. Empty when the range is empty or not finite.
+[[nodiscard]] std::vector<Tick> linear_ticks(double lowest, double highest, int most);
+
+/// The same at whole numbers only (steps of 1, 2, 5, 10, ...).
+[[nodiscard]] std::vector<Tick> integer_ticks(double lowest, double highest, int most);
+
+/// Powers of ten inside [lowest, highest] (every k-th when there are more than `most`), with unlabelled ticks at 2..9 between them
+/// where they are few; over less than two decades also labels at 2 and 5. Both bounds must be > 0, else empty.
+[[nodiscard]] std::vector<Tick> log_ticks(double lowest, double highest, int most);
+
+struct PlotPoint {
+  double x, y;
+};
+/// A stretch of a series without gaps.
+using Stroke = std::vector<PlotPoint>;
+
+/// What has to be drawn of a series over x in [lowest, highest], `columns` pixels wide: in each pixel column the first, smallest,
+/// largest and last point, so that no peak is lost and a stroke has at most 4 points a column. A NaN (or infinite) y is a gap.
+/// One point beyond either end is kept, so that lines reach the frame. x must ascend; x.size() == y.size().
+[[nodiscard]] std::vector<Stroke> decimate(std::span<const double> x, std::span<const double> y, double lowest, double highest,
+                                           std::size_t columns);
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,407 @@
+#include "ui/view_commands.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/quality/quality.h"
+#include "ui/view_geometry.h"
+
+namespace dmoscope::ui {
+namespace {
+
+using Arguments = CommandTable::Arguments;
+
+void need(Arguments words, std::size_t least, std::size_t most) {
+  if (words.size() < least) throw UsageError("too few words");
+  if (words.size() > most) throw UsageError(fmt::format("\"{}\" is one word too many", words[most]));
+}
+
+[[noreturn]] void unexpected(const std::string& word, std::string_view expected) {
+  throw UsageError(fmt::format("\"{}\": expected {}", word, expected));
+}
+
+/// on, off or toggle (also: no word).
+bool switched(Arguments words, std::size_t at, bool now) {
+  if (words.size() <= at || words[at] == "toggle") return !now;
+  if (words[at] == "on") return true;
+  if (words[at] == "off") return false;
+  unexpected(words[at], "on, off or toggle");
+}
+
+template <class Value, std::size_t N>
+Value choose(const std::string& word, const std::array<std::pair<std::string_view, Value>, N>& choices) {
+  std::string names;
+  for (const auto& [name, value] : choices) {
+    if (name == word) return value;
+    if (!names.empty()) names += ", ";
+    names += name;
+  }
+  unexpected(word, "one of " + names);
+}
+
+constexpr std::array<std::pair<std::string_view, Theme>, 3> kThemes{
+    {{"dark", Theme::Dark}, {"light", Theme::Light}, {"contrast", Theme::Contrast}}};
+constexpr std::array<std::pair<std::string_view, PlotTab>, 3> kPlots{
+    {{"convergence", PlotTab::Convergence}, {"histogram", PlotTab::Histogram}, {"sorted", PlotTab::Sorted}}};
+constexpr std::array<std::pair<std::string_view, Dialog>, 9> kDialogs{{{"none", Dialog::None},
+                                                                       {"open", Dialog::Open},
+                                                                       {"export", Dialog::Export},
+                                                                       {"screenshot", Dialog::Screenshot},
+                                                                       {"find", Dialog::Find},
+                                                                       {"palette", Dialog::Palette},
+                                                                       {"keys", Dialog::Keys},
+                                                                       {"about", Dialog::About},
+                                                                       {"error", Dialog::Error}}};
+
+const InputMesh& input_of(const CommandHost& host) {
+  const auto view = host.session();
+  if (!view || !view->input) throw UsageError("no mesh is open");
+  return *view->input;
+}
+
+Picked parse_pick(const CommandHost& host, Arguments words) {
+  if (words.size() == 1 && words[0] == "none") return {};
+  need(words, 2, 2);
+  static constexpr std::array<std::pair<std::string_view, Picked::Kind>, 2> kinds{
+      {{"vertex", Picked::Kind::Vertex}, {"element", Picked::Kind::Element}}};
+  Picked picked{choose(words[0], kinds), kNoIndex};
+  const Mesh& mesh = input_of(host).mesh;
+  const std::uint64_t id = to_count(words[1]);
+  const std::uint64_t size = picked.kind == Picked::Kind::Vertex ? mesh.vertex_count() : mesh.elements.size();
+  if (id >= size)
+    throw UsageError(fmt::format("there is no {} {}: the mesh has {} (0 to {})", words[0], id, size, size == 0 ? 0 : size - 1));
+  picked.id = static_cast<Index>(id);
+  return picked;
+}
+
+float pixel(const std::string& word) { return static_cast<float>(to_number(word)); }
+
+/// A point given by two numbers, or the middle of a named item; `at` moves past the words.
+std::pair<float, float> parse_point(const CommandHost& host, Arguments words, std::size_t& at) {
+  if (words.size() == at + 1) {
+    const auto box = host.item(words[at++]);
+    return {(box[0] + box[2]) / 2, (box[1] + box[3]) / 2};
+  }
+  if (words.size() < at + 2) throw UsageError("expected a point, X Y in pixels, or the name of an item");
+  const std::pair<float, float> point{pixel(words[at]), pixel(words[at + 1])};
+  at += 2;
+  return point;
+}
+
+using Kind = SimulatedInput::Kind;
+
+void push_click(ViewState& state, std::pair<float, float> at, int button) {
+  auto& input = state.requests.input;
+  // A few frames at rest first: windows that just opened take their place, hovering settles.
+  for (int k = 0; k < 2; ++k) input.push_back({Kind::Move, at.first, at.second, 0, {}, {}});
+  input.push_back({Kind::Press, at.first, at.second, button, {}, {}});
+  input.push_back({Kind::Release, at.first, at.second, button, {}, {}});
+}
+
+void add_camera_verbs(CommandTable& table, ViewState& state, const CommandHost& host) {
+  table.add({"pick", "pick vertex|element ID  or  pick none", "selects a vertex or an element"},
+            [&state, &host](Arguments words) { state.picked = parse_pick(host, words); });
+  table.add({"goto", "goto vertex|element ID", "selects it and moves the view there"}, [&state, &host](Arguments words) {
+    const Picked picked = parse_pick(host, words);
+    if (picked.kind == Picked::Kind::None) throw UsageError("expected vertex or element");
+    state.picked = picked;
+    const auto view = host.session();
+    if (view->frame) look_at_picked(state, *view->frame);
+  });
+  table.add({"fit", "fit", "shows the whole mesh"}, [&state](Arguments words) {
+    need(words, 0, 0);
+    state.requests.fit = true;
+  });
+  table.add({"zoom", "zoom FACTOR", "makes everything FACTOR times as big around the middle"}, [&state](Arguments words) {
+    need(words, 1, 1);
+    const double factor = to_number(words[0]);
+    if (!(factor > 0.0)) throw UsageError("the factor must be greater than 0");
+    state.camera.zoom_at({state.viewport.x / 2, state.viewport.y / 2}, state.viewport, factor);
+  });
+  table.add({"pan", "pan DX DY", "moves the picture by pixels"}, [&state](Arguments words) {
+    need(words, 2, 2);
+    state.camera.pan({to_number(words[0]), to_number(words[1])});
+  });
+}
+
+void add_look_verbs(CommandTable& table, ViewState& state) {
+  table.add({"wireframe", "wireframe [on|off|toggle]", "edges of the elements"}, [&state](Arguments words) {
+    need(words, 0, 1);
+    state.wireframe = switched(words, 0, state.wireframe);
+  });
+  table.add({"vertices", "vertices [on|off|toggle]", "dots: free vertices round, fixed ones square"}, [&state](Arguments words) {
+    need(words, 0, 1);
+    state.vertices = switched(words, 0, state.vertices);
+  });
+  table.add({"worst", "worst [on|off|toggle]", "ring around the worst element"}, [&state](Arguments words) {
+    need(words, 0, 1);
+    state.worst_marker = switched(words, 0, state.worst_marker);
+  });
+  table.add({"colormap", "colormap NAME|next", "colours of quality"}, [&state](Arguments words) {
+    need(words, 1, 1);
+    const auto maps = render::colour_map_table();
+    if (words[0] == "next") {
+      const auto at = std::find_if(maps.begin(), maps.end(), [&](const auto& map) { return map.map == state.colour_map; });
+      state.colour_map = at == maps.end() || at + 1 == maps.end() ? maps.front().map : (at + 1)->map;
+    } else {
+      state.colour_map = render::colour_map_from_name(words[0]);
+    }
+  });
+  table.add({"range", "range fixed|auto|LOW HIGH", "qualities that the colours span"}, [&state](Arguments words) {
+    if (words.size() == 1) {
+      static constexpr std::array<std::pair<std::string_view, RangeMode>, 2> modes{
+          {{"fixed", RangeMode::Fixed}, {"auto", RangeMode::Auto}}};
+      state.range_mode = choose(words[0], modes);
+      return;
+    }
+    need(words, 2, 2);
+    const double low = to_number(words[0]), high = to_number(words[1]);
+    if (!(high > low)) throw UsageError("the second quality must be greater than the first");
+    state.range_mode = RangeMode::Given;
+    state.range_low = low;
+    state.range_high = high;
+  });
+  table.add({"theme", "theme dark|light|contrast|next", "colours of the interface"}, [&state](Arguments words) {
+    need(words, 1, 1);
+    state.theme = words[0] == "next" ? static_cast<Theme>((static_cast<int>(state.theme) + 1) % 3) : choose(words[0], kThemes);
+  });
+  table.add({"scale", "scale FACTOR|up|down", "size of the interface, 0.5 to 4"}, [&state](Arguments words) {
+    need(words, 1, 1);
+    const double wanted = words[0] == "up" ? state.scale * 1.125 : words[0] == "down" ? state.scale / 1.125 : to_number(words[0]);
+    if (!(wanted > 0.0)) throw UsageError("the scale must be greater than 0");
+    state.scale = std::clamp(wanted, 0.5, 4.0);
+  });
+}
+
+void add_panel_verbs(CommandTable& table, ViewState& state) {
+  table.add({"size", "size WIDTH HEIGHT", "size of the window in pixels"}, [&state](Arguments words) {
+    need(words, 2, 2);
+    state.requests.size = parse_size(words[0] + "x" + words[1]);
+  });
+  table.add({"full-screen", "full-screen [on|off|toggle]", "the whole monitor"}, [&state](Arguments words) {
+    need(words, 0, 1);
+    state.full_screen = switched(words, 0, state.full_screen);
+    state.requests.full_screen = state.full_screen;
+  });
+  table.add({"panel", "panel left|right|bottom [on|off|toggle]", "shows or hides a panel"}, [&state](Arguments words) {
+    need(words, 1, 2);
+    static constexpr std::array<std::pair<std::string_view, bool Panels::*>, 3> names{
+        {{"left", &Panels::left}, {"right", &Panels::right}, {"bottom", &Panels::bottom}}};
+    bool Panels::*panel = choose(words[0], names);
+    state.panels.*panel = switched(words, 1, state.panels.*panel);
+  });
+  table.add({"plot", "plot convergence|histogram|sorted", "which plot is shown"}, [&state](Arguments words) {
+    need(words, 1, 1);
+    state.plot = choose(words[0], kPlots);
+  });
+  table.add({"log-scale", "log-scale [on|off|toggle]", "the shown plot's value axis"}, [&state](Arguments words) {
+    need(words, 0, 1);
+    state.plot_view().logarithmic = switched(words, 0, state.plot_view().logarithmic);
+  });
+  table.add({"dialog", "dialog NAME|none", "opens or closes a dialog"}, [&state](Arguments words) {
+    need(words, 1, 1);
+    state.dialog = choose(words[0], kDialogs);
+  });
+}
+
+void add_output_verbs(CommandTable& table, ViewState& state) {
+  table.add({"screenshot", "screenshot FILE [--size WxH] [--supersample N] [--transparent] [--window]",
+             "writes a PNG of the mesh, or of the whole window"},
+            [&state](Arguments words) {
+              ScreenshotOptions shot;
+              for (std::size_t k = 0; k < words.size(); ++k) {
+                const auto value = [&]() -> const std::string& {
+                  if (++k >= words.size()) throw UsageError(words[k - 1] + ": a value is missing");
+                  return words[k];
+                };
+                if (words[k] == "--size") {
+                  std::tie(shot.width, shot.height) = parse_size(value());
+                } else if (words[k] == "--supersample") {
+                  const std::uint64_t n = to_count(value(), 1);
+                  if (n > 8) throw UsageError("--supersample goes from 1 to 8");
+                  shot.supersample = static_cast<int>(n);
+                } else if (words[k] == "--transparent") {
+                  shot.transparent = true;
+                } else if (words[k] == "--window") {
+                  shot.window = true;
+                } else if (shot.path.empty() && !words[k].starts_with("--")) {
+                  shot.path = words[k];
+                } else {
+                  unexpected(words[k], "one file and options");
+                }
+              }
+              if (shot.path.empty()) throw UsageError("a file name is missing");
+              state.requests.screenshots.push_back(std::move(shot));
+            });
+  table.add({"copy", "copy TEXT", "puts a text on the clipboard"}, [&state](Arguments words) {
+    need(words, 1, 1);
+    state.requests.clipboard = words[0];
+  });
+  table.add({"quit", "quit", "closes the window"}, [&state](Arguments words) {
+    need(words, 0, 0);
+    state.requests.quit = true;
+  });
+}
+
+void add_input_verbs(CommandTable& table, ViewState& state, const CommandHost& host) {
+  static constexpr std::array<std::pair<const char*, int>, 2> buttons{{{"click", 0}, {"right-click", 1}}};
+  for (const auto& [name, button] : buttons) {
+    table.add({name, fmt::format("{} X Y|ITEM", name), "the mouse at a pixel or on a named item"},
+              [&state, &host, mouse_button = button](Arguments words) {
+                std::size_t at = 0;
+                const auto point = parse_point(host, words, at);
+                need(words, at, at);
+                push_click(state, point, mouse_button);
+              });
+  }
+  table.add({"double-click", "double-click X Y|ITEM", "the mouse, twice"}, [&state, &host](Arguments words) {
+    std::size_t at = 0;
+    const auto point = parse_point(host, words, at);
+    need(words, at, at);
+    push_click(state, point, 0);
+    push_click(state, point, 0);
+  });
+  table.add({"move", "move X Y|ITEM", "the mouse without a button"}, [&state, &host](Arguments words) {
+    std::size_t at = 0;
+    const auto point = parse_point(host, words, at);
+    for (int k = 0; k < 2; ++k) state.requests.input.push_back({Kind::Move, point.first, point.second, 0, {}, {}});
+  });
+  table.add({"drag", "drag X0 Y0 X1 Y1", "the mouse with the left button held"}, [&state](Arguments words) {
+    need(words, 4, 4);
+    const float x0 = pixel(words[0]), y0 = pixel(words[1]), x1 = pixel(words[2]), y1 = pixel(words[3]);
+    auto& input = state.requests.input;
+    for (int k = 0; k < 2; ++k) input.push_back({Kind::Move, x0, y0, 0, {}, {}});
+    input.push_back({Kind::Press, x0, y0, 0, {}, {}});
+    for (int k = 1; k <= 4; ++k) {
+      const float t = static_cast<float>(k) / 4;
+      input.push_back({Kind::Move, x0 + t * (x1 - x0), y0 + t * (y1 - y0), 0, {}, {}});
+    }
+    input.push_back({Kind::Release, x1, y1, 0, {}, {}});
+  });
+  table.add({"wheel", "wheel X Y AMOUNT", "the mouse's wheel, up is positive"}, [&state](Arguments words) {
+    need(words, 3, 3);
+    const float x = pixel(words[0]), y = pixel(words[1]);
+    state.requests.input.push_back({Kind::Move, x, y, 0, {}, {}});
+    state.requests.input.push_back({Kind::Wheel, 0, pixel(words[2]), 0, {}, {}});
+  });
+  table.add({"key", "key NAME", "presses a key, such as N or Ctrl+Shift+S"}, [&state](Arguments words) {
+    need(words, 1, 1);
+    const auto chord = parse_key(words[0]);
+    if (!chord) unexpected(words[0], "a key such as N, Space, F1 or Ctrl+Shift+S");
+    state.requests.input.push_back({Kind::KeyDown, 0, 0, 0, *chord, {}});
+    state.requests.input.push_back({Kind::KeyUp, 0, 0, 0, *chord, {}});
+  });
+  table.add({"type", "type TEXT", "types a text"}, [&state](Arguments words) {
+    need(words, 1, 1);
+    state.requests.input.push_back({Kind::Text, 0, 0, 0, {}, words[0]});
+  });
+  table.add({"wait", "wait", "until nothing is pending (scripts wait after every line anyway)"},
+            [](Arguments words) { need(words, 0, 0); });
+}
+
+void seek_in_timeline(const CommandHost& host, const std::string& where) {
+  const auto view = host.session();
+  if (!view || view->runs.empty()) throw UsageError("no mesh is open");
+  const RunView& run = view->runs[view->active];
+  const std::uint64_t last = run.records.empty() ? 0 : run.records.back().iteration;
+  const std::uint64_t now = run.moment.iteration;
+  std::uint64_t target = now;
+  if (where == "first") {
+    target = 0;
+  } else if (where == "last") {
+    target = last;
+  } else if (where == "back") {
+    target = run.moment.visits > 0 || now == 0 ? now : now - 1;
+  } else if (where == "forward") {
+    target = std::min(now + 1, last);
+  } else {
+    unexpected(where, "back, forward, first or last");
+  }
+  if (target != now || run.moment.visits > 0) host.post(fmt::format("seek {}", target));
+}
+
+void add_session_shortcuts(CommandTable& table, ViewState& state, const CommandHost& host) {
+  table.add({"run-pause", "run-pause", "runs until converged, or stops what runs"}, [&host](Arguments words) {
+    need(words, 0, 0);
+    if (host.busy()) {
+      host.cancel();
+    } else {
+      host.post("until-converged");
+    }
+  });
+  table.add({"cancel", "cancel", "stops what runs and forgets what waits"}, [&host](Arguments words) {
+    need(words, 0, 0);
+    host.cancel();
+  });
+  table.add({"timeline", "timeline back|forward|first|last", "shows another iteration of the history"}, [&host](Arguments words) {
+    need(words, 1, 1);
+    seek_in_timeline(host, words[0]);
+  });
+  table.add({"next-run", "next-run", "selects the next run"}, [&host](Arguments words) {
+    need(words, 0, 0);
+    const auto view = host.session();
+    if (view && view->runs.size() > 1) host.post(fmt::format("select-run {}", (view->active + 1) % view->runs.size()));
+  });
+  table.add({"next-metric", "next-metric", "shows the next metric that is defined for the mesh"}, [&host](Arguments words) {
+    need(words, 0, 0);
+    const auto view = host.session();
+    if (!view || !view->input) throw UsageError("no mesh is open");
+    const auto metrics = usable_metrics(view->input->mesh);
+    const auto at = std::find(metrics.begin(), metrics.end(), view->shown);
+    if (metrics.empty()) return;
+    host.post(fmt::format("show {}", info(at == metrics.end() || at + 1 == metrics.end() ? metrics.front() : *(at + 1)).name));
+  });
+  (void)state;
+}
+
+}  // namespace
+
+CommandTable view_commands(ViewState& state, const CommandHost& host) {
+  CommandTable table;
+  add_camera_verbs(table, state, host);
+  add_look_verbs(table, state);
+  add_panel_verbs(table, state);
+  add_output_verbs(table, state);
+  add_input_verbs(table, state, host);
+  add_session_shortcuts(table, state, host);
+  return table;
+}
+
+bool is_session_command(std::string_view line) {
+  const auto words = split_words(line);
+  if (words.empty()) return false;
+  const auto& commands = session_commands();
+  return std::any_of(commands.begin(), commands.end(), [&](const CommandInfo& command) { return command.name == words[0]; });
+}
+
+void dispatch(const CommandTable& view, const CommandHost& host, std::string_view line) {
+  const auto words = split_words(line);
+  if (words.empty()) return;
+  if (is_session_command(line)) {
+    host.post(std::string(line));
+  } else {
+    view.execute(line);
+  }
+}
+
+std::pair<int, int> parse_size(const std::string& word) {
+  constexpr int kLargest = 32768;
+  const auto cross = word.find('x');
+  std::array<int, 2> size{};
+  if (cross != std::string::npos) {
+    const std::array<std::string_view, 2> parts{std::string_view(word).substr(0, cross), std::string_view(word).substr(cross + 1)};
+    bool good = true;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto [end, error] = std::from_chars(parts[k].data(), parts[k].data() + parts[k].size(), size[k]);
+      good = good && error == std::errc() && end == parts[k].data() + parts[k].size() && size[k] >= 1 && size[k] <= kLargest;
+    }
+    if (good) return {size[0], size[1]};
+  }
+  throw UsageError(fmt::format("\"{}\": expected a size such as 1280x800, each from 1 to {}", word, kLargest));
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,49 @@
+#include "ui/view_geometry.h"
+
+#include <algorithm>
+#include <array>
+
+namespace dmoscope::ui {
+
+Vec2<double> plane_point(const Frame& frame, Index vertex) { return frame.input->geometry.plane.project(frame.positions[vertex]); }
+
+render::Bounds2 element_box(const Frame& frame, Index element) {
+  render::Bounds2 box;
+  for (const Index corner : frame.input->mesh.elements.corners(element)) box.include(plane_point(frame, corner));
+  return box;
+}
+
+render::Bounds2 star_box(const Frame& frame, Index vertex) {
+  render::Bounds2 box;
+  box.include(plane_point(frame, vertex));
+  for (const Incidence& incidence : frame.input->topology.star(vertex)) box.include(element_box(frame, incidence.element));
+  return box;
+}
+
+void look_at_picked(ViewState& state, const Frame& frame) {
+  // About a tenth of the view's side: what is picked can be read, and its neighbourhood is seen.
+  constexpr double kSurroundings = 6.0;
+  const Picked& picked = state.picked;
+  if (picked.kind == Picked::Kind::None) return;
+  const bool vertex = picked.kind == Picked::Kind::Vertex;
+  const render::Bounds2 box = vertex ? star_box(frame, picked.id) : element_box(frame, picked.id);
+  const double extent = std::max({box.size().x, box.size().y, 1e-9 * frame.input->geometry.size});
+  state.camera.look_at(vertex ? plane_point(frame, picked.id) : box.centre(), (vertex ? 0.5 : 1.0) * kSurroundings * extent,
+                       state.viewport);
+}
+
+std::vector<Metric> usable_metrics(const Mesh& mesh) {
+  std::array<bool, kElementKindCount> present{};
+  for (const ElementKind kind : mesh.elements.kinds()) present[static_cast<std::size_t>(kind)] = true;
+  std::vector<Metric> metrics;
+  for (const MetricInfo& metric : metric_table()) {
+    bool defined = true;
+    for (std::size_t kind = 0; kind < kElementKindCount; ++kind) {
+      defined = defined && (!present[kind] || metric.defined_for(static_cast<ElementKind>(kind)));
+    }
+    if (defined) metrics.push_back(metric.metric);
+  }
+  return metrics;
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,44 @@
+#include "ui/view_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dmoscope::ui {
+
+std::pair<double, double> colour_range(const ViewState& state, const Frame* frame) {
+  if (state.range_mode == RangeMode::Given) return {state.range_low, state.range_high};
+  if (state.range_mode == RangeMode::Auto && frame != nullptr) {
+    double low = INFINITY, high = -INFINITY;
+    for (const float q : frame->quality) {
+      if (!std::isfinite(q)) continue;
+      low = std::min(low, static_cast<double>(q));
+      high = std::max(high, static_cast<double>(q));
+    }
+    low = std::max(low, 0.0);  // inverted elements have their own colour
+    if (high > low) return {low, high};
+  }
+  return {0.0, 1.0};
+}
+
+void add_message(ViewState& state, Message message) {
+  constexpr std::size_t kMost = 200;
+  if (message.kind == Message::Kind::Error) {
+    if (state.dialog == Dialog::Error && !state.error_text.empty()) {
+      state.error_text += "\n\n" + message.text;
+    } else {
+      state.error_text = message.text;
+      state.dialog = Dialog::Error;
+    }
+  }
+  state.log.push_back({std::move(message), ++state.log_serial});
+  while (state.log.size() > kMost) state.log.pop_front();
+}
+
+void remember_file(ViewState& state, const std::string& path) {
+  constexpr std::size_t kMost = 10;
+  std::erase(state.recent_files, path);
+  state.recent_files.insert(state.recent_files.begin(), path);
+  if (state.recent_files.size() > kMost) state.recent_files.resize(kMost);
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,132 @@
+#pragma once
+// What the window shows, as plain data: no ImGui, no OpenGL. Commands change it, panels draw it, tests read it.
+
+#include <array>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/session/engine.h"
+#include "core/session/view.h"
+#include "render/camera.h"
+#include "render/colour_map.h"
+#include "ui/keys.h"
+
+namespace dmoscope::ui {
+
+enum class Theme { Dark, Light, Contrast };
+enum class PlotTab { Convergence, Histogram, Sorted };
+enum class Dialog { None, Open, Export, Screenshot, Find, Palette, Keys, About, Error };
+
+/// How the colours' range is chosen: 0 to 1; the shown qualities' own minimum and maximum; or given.
+enum class RangeMode { Fixed, Auto, Given };
+
+/// What a person picked.
+struct Picked {
+  enum class Kind { None, Vertex, Element };
+  Kind kind = Kind::None;
+  Index id = kNoIndex;
+  friend bool operator==(const Picked&, const Picked&) = default;
+};
+
+/// Which panels are there. The side panels give way to the mesh in a small window and then open over it.
+struct Panels {
+  bool left = true;                                                    // runs and parameters
+  bool right = true;                                                   // inspector and worst elements
+  bool bottom = true;                                                  // plots and timeline
+  bool left_over = false, right_over = false;                          // opened over the mesh where the window is too small for both
+  double left_width = 17.0, right_width = 19.0, bottom_height = 15.0;  // in heights of the interface's font
+};
+
+/// What is seen of one plot.
+struct PlotView {
+  std::set<std::string> hidden;                      // names of series switched off in the legend
+  std::optional<std::pair<double, double>> x_range;  // none: all of it
+  bool logarithmic = false;                          // the value axis
+};
+
+struct ScreenshotOptions {
+  std::filesystem::path path;
+  int width = 0, height = 0;  // 0: as on screen
+  int supersample = 2;
+  bool transparent = false;
+  bool window = false;  // the whole interface instead of the mesh
+};
+
+/// Input that a script plays through the window's own event handling, one a frame.
+struct SimulatedInput {
+  enum class Kind { Move, Press, Release, Wheel, KeyDown, KeyUp, Text };
+  Kind kind = Kind::Move;
+  float x = 0, y = 0;  // pixels; amount for Wheel in y
+  int button = 0;
+  KeyChord chord;
+  std::string text;
+};
+
+/// Wishes of commands to whoever runs the event loop; each is taken once.
+struct Requests {
+  bool quit = false;
+  bool fit = false;
+  std::optional<bool> full_screen;
+  std::optional<std::pair<int, int>> size;
+  std::deque<ScreenshotOptions> screenshots;
+  std::deque<SimulatedInput> input;
+  std::optional<std::string> clipboard;
+};
+
+/// One line of the log as the status bar shows it.
+struct LogEntry {
+  Message message;
+  std::uint64_t serial = 0;
+};
+
+struct ViewState {
+  // Camera and picture
+  render::Camera2D camera;
+  Vec2<double> viewport{800, 600};  // pixels, set by the drawing code
+  bool wireframe = true;
+  bool vertices = false;
+  bool worst_marker = true;
+  render::ColourMap colour_map = render::ColourMap::Viridis;
+  RangeMode range_mode = RangeMode::Fixed;
+  double range_low = 0.0, range_high = 1.0;  // for RangeMode::Given
+
+  // Interface
+  Theme theme = Theme::Dark;
+  double scale = 1.0;
+  Panels panels;
+  Dialog dialog = Dialog::None;
+  PlotTab plot = PlotTab::Convergence;
+  std::array<PlotView, 3> plots;
+  bool full_screen = false;
+
+  // Selection
+  Picked picked;
+
+  // Log
+  std::deque<LogEntry> log;  // newest last, at most 200
+  std::uint64_t log_serial = 0;
+  std::string error_text;  // of the error dialog
+
+  // Remembered
+  std::vector<std::string> recent_files;  // newest first, at most 10
+
+  Requests requests;
+
+  [[nodiscard]] PlotView& plot_view() { return plots[static_cast<std::size_t>(plot)]; }
+};
+
+/// Range of qualities that the colours span now. `statistics`: of the shown metric; null: nothing is shown.
+[[nodiscard]] std::pair<double, double> colour_range(const ViewState& state, const Frame* frame);
+
+/// Adds a line to the log; an error also opens the error dialog (unless one is open, then it is appended there).
+void add_message(ViewState& state, Message message);
+
+/// Puts a file at the front of the recent ones.
+void remember_file(ViewState& state, const std::string& path);
+
+}  // namespace dmoscope::ui

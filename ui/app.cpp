@@ -195,7 +195,7 @@ void App::draw_side(PanelContext& context, const char* name, const Rect& rect, b
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0F);
     ImGui::SetNextWindowFocus();
   }
-  begin_panel(name, rect, overlay);
+  begin_panel(name, rect, overlay, true);
   if (overlay) ImGui::PopStyleVar();
   if (left) {
     draw_runs(context);

@@ -198,8 +198,6 @@ void draw_worst(PanelContext& context) {
   heading(context, "Worst elements");
   ImGui::SameLine();
   dim_text(context, metric_phrase(frame->shown), false);
-  const float line = ImGui::GetTextLineHeightWithSpacing();
-  ImGui::BeginChild("worst list", {0, std::max(6 * line, ImGui::GetContentRegionAvail().y)});
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(frame->worst.size()));
   while (clipper.Step()) {
@@ -223,7 +221,6 @@ void draw_worst(PanelContext& context) {
       ImGui::PopID();
     }
   }
-  ImGui::EndChild();
 }
 
 }  // namespace dmoscope::ui

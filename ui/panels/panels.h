@@ -93,7 +93,8 @@ struct PanelContext {
 };
 
 // widgets.cpp: what panels are made of
-void begin_panel(const char* name, const Rect& rect, bool overlay = false);
+/// `overlay`: above the other panels. `scrolls`: with a scroll bar where the contents need one.
+void begin_panel(const char* name, const Rect& rect, bool overlay = false, bool scrolls = false);
 void end_panel();
 void heading(const PanelContext& context, const char* text);
 void dim_text(const PanelContext& context, const std::string& text, bool wrap = true);

@@ -127,10 +127,10 @@ void draw_timeline(PanelContext& context) {
   ImGui::SetNextItemWidth(std::max(4 * context.em(), ImGui::GetContentRegionAvail().x - label_width - buttons - context.px(20)));
   const bool possible = last > 0 && !context.activity.busy;
   ImGui::BeginDisabled(!possible);
-  int at = run == nullptr ? 0 : static_cast<int>(run->moment.iteration);
-  // The grab's width follows the range: a made-up one while there is no history yet.
-  constexpr int kEmptyRange = 100;
-  ImGui::SliderInt("##timeline", &at, 0, last == 0 ? kEmptyRange : static_cast<int>(last), "", ImGuiSliderFlags_AlwaysClamp);
+  // A slider of real numbers: its grab stays small however short the history is.
+  float position = run == nullptr ? 0.0F : static_cast<float>(run->moment.iteration);
+  ImGui::SliderFloat("##timeline", &position, 0.0F, std::max(1.0F, static_cast<float>(last)), "", ImGuiSliderFlags_AlwaysClamp);
+  const int at = static_cast<int>(std::lround(position));
   context.items.record_last("timeline");
   // While the slider is held every new value is a request; the session is asked only when it is idle, so they do not pile up.
   if (run != nullptr && possible && ImGui::IsItemActive() && at != static_cast<int>(run->moment.iteration))

@@ -70,7 +70,6 @@ void draw_export_dialog(PanelContext& context) {
   if (widgets.dialog_opened) {
     widgets.export_what = 0;
     widgets.export_name = default_name(context, 0);
-    ImGui::SetKeyboardFocusHere();
   }
   constexpr const char* kWhat[] = {"mesh as it is shown", "statistics of all runs", "quality of every element"};
   for (int k = 0; k < 3; ++k) {
@@ -84,6 +83,8 @@ void draw_export_dialog(PanelContext& context) {
   dim_text(context, "file", false);
   ImGui::SameLine(6 * context.em());
   ImGui::SetNextItemWidth(-1);
+  if (widgets.dialog_opened) ImGui::SetKeyboardFocusHere();
+  if (widgets.dialog_opened) ImGui::SetKeyboardFocusHere();
   const bool entered = ImGui::InputText("##file", &widgets.export_name, ImGuiInputTextFlags_EnterReturnsTrue);
   context.items.record_last("export:file");
   if (widgets.export_what == 0) draw_formats(context, widgets.export_name);

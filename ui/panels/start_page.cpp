@@ -19,6 +19,8 @@ void draw_card(PanelContext& context, const Thumbnail& sample, float side) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float inner = side - 2 * pad;
   const ImU32 edge = IM_COL32(0, 0, 0, 110);
+  constexpr std::size_t kMostEdged = 800;  // with more elements the edges would hide the colours
+  const bool edges = sample.polygons.size() <= kMostEdged;
   for (const Thumbnail::Polygon& polygon : sample.polygons) {
     ImVec2 corners[4];
     for (int k = 0; k < polygon.count; ++k) {
@@ -26,7 +28,7 @@ void draw_card(PanelContext& context, const Thumbnail& sample, float side) {
       corners[k] = {at.x + pad + corner[0] * inner, at.y + pad + corner[1] * inner};
     }
     list.AddConvexPolyFilled(corners, polygon.count, colour(polygon.colour));
-    list.AddPolyline(corners, polygon.count, edge, ImDrawFlags_Closed, 1.0F);
+    if (edges) list.AddPolyline(corners, polygon.count, edge, ImDrawFlags_Closed, 1.0F);
   }
   const float width = ImGui::CalcTextSize(sample.name.c_str()).x;
   list.AddText({at.x + (side - width) / 2, at.y + side}, colour(context.palette.text), sample.name.c_str());

@@ -93,8 +93,10 @@ void draw_status(PanelContext& context, const Rect& rect) {
   ImGui::PopStyleColor();
   ImGui::PopStyleVar();
   const Activity& activity = context.activity;
-  ImGui::TextUnformatted(
-      fmt::format("{}, {} thread{}", activity.backend, context.session.threads, context.session.threads == 1 ? "" : "s").c_str());
+  const unsigned threads = context.session.threads;
+  const std::string backend =
+      context.session.input ? fmt::format("{}, {} thread{}", activity.backend, threads, threads == 1 ? "" : "s") : activity.backend;
+  ImGui::TextUnformatted(backend.c_str());
   next_item_tooltip(activity.backend_reason + (activity.backend_reason.empty() ? "" : "\n") + activity.renderer);
   if (const std::string speed = speed_sentence(context); !speed.empty()) {
     ImGui::SameLine(0, context.px(16));

@@ -12,12 +12,12 @@ Situation PanelContext::situation() const {
   return {session.input != nullptr, activity.busy, state.picked.kind != Picked::Kind::None, session.runs.size()};
 }
 
-void begin_panel(const char* name, const Rect& rect, bool overlay) {
+void begin_panel(const char* name, const Rect& rect, bool overlay, bool scrolls) {
   ImGui::SetNextWindowPos({rect.x, rect.y});
   ImGui::SetNextWindowSize({rect.w, rect.h});
   ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
   if (!overlay) flags |= ImGuiWindowFlags_NoBringToFrontOnFocus;
-  flags &= ~ImGuiWindowFlags_NoScrollbar;
+  flags = scrolls ? flags & ~ImGuiWindowFlags_NoScrollbar : flags | ImGuiWindowFlags_NoScrollWithMouse;
   ImGui::Begin(name, nullptr, flags);
 }
 

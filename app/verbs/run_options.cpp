@@ -37,6 +37,12 @@ void add_run_options(CLI::App& verb, RunOptions& options) {
   verb.add_option("--levels", options.search.levels, "Grids a visit, each finer than the one before")
       ->type_name("N")
       ->capture_default_str();
+  verb.add_option("--omega", options.search.omega, "Size of the first grid over the bounding box of the star's other vertices")
+      ->type_name("X")
+      ->capture_default_str();
+  verb.add_option("--precision", options.precision, "Scalar of the search, float or double; moves are always confirmed in double")
+      ->type_name("NAME")
+      ->capture_default_str();
   verb.add_option("--order", options.order, "Order of the vertices: natural or shuffle:SEED")->type_name("ORDER")->capture_default_str();
   verb.add_option("--fix", options.fix,
                   "Vertices to keep where they are besides the boundary: ids from 0 and ranges (3,7-9), or a group's name")
@@ -52,6 +58,7 @@ RunParameters parameters_of(const RunOptions& options) {
   parameters.metric = parse_metric(options.metric);
   validate(options.search);
   parameters.search = options.search;
+  parameters.search.precision = parse_precision(options.precision);
   parameters.order = parse_order(options.order);
   if (options.threads > kMostThreads) throw UsageError(fmt::format("--threads {}: at most {}", options.threads, kMostThreads));
   return parameters;

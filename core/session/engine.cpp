@@ -102,6 +102,8 @@ void Engine::run_one(const std::string& line) {
     say({Message::Kind::Error, error.what(), error.exit_code()});
   } catch (const std::bad_alloc&) {
     say({Message::Kind::Error, "not enough memory for: " + line, 3});
+  } catch (const std::exception& unforeseen) {  // a person's session must outlive our mistakes
+    say({Message::Kind::Error, line + ": " + unforeseen.what(), 3});
   }
 }
 

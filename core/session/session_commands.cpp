@@ -122,8 +122,8 @@ void set_omega(CommandContext& context, Arguments arguments) {
 }
 void set_precision(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
-  if (arguments[0] != "float" && arguments[0] != "double") throw WrongArguments(fmt::format("'{}' is no precision", arguments[0]));
-  change(context, [&](RunParameters& p) { p.search.precision = arguments[0] == "float" ? Precision::Float : Precision::Double; });
+  const Precision precision = parse_precision(arguments[0]);
+  change(context, [&](RunParameters& p) { p.search.precision = precision; });
 }
 void set_order(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
@@ -304,6 +304,12 @@ VisitOrder parse_order(std::string_view word) {
   if (word == "natural") return {};
   if (word.starts_with(prefix)) return {to_count(std::string(word.substr(prefix.size())))};
   throw WrongArguments(fmt::format("'{}' is no order: natural or shuffle:SEED", word));
+}
+
+Precision parse_precision(std::string_view word) {
+  if (word == "float") return Precision::Float;
+  if (word == "double") return Precision::Double;
+  throw WrongArguments(fmt::format("'{}' is no precision: float or double", word));
 }
 
 const std::vector<CommandInfo>& session_commands() {

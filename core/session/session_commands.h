@@ -32,6 +32,9 @@ struct CommandContext {
 /// "natural" or "shuffle:SEED". Throws UsageError.
 [[nodiscard]] VisitOrder parse_order(std::string_view word);
 
+/// "float" or "double". Throws UsageError.
+[[nodiscard]] Precision parse_precision(std::string_view word);
+
 /// Adds them to `table`; their handlers keep a reference to `context`, which must outlive the table.
 void add_session_commands(CommandTable& table, CommandContext& context);
 

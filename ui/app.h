@@ -36,6 +36,7 @@ class App {
   App& operator=(const App&) = delete;
 
   [[nodiscard]] ViewState& state() noexcept { return state_; }
+  [[nodiscard]] const ViewState& state() const noexcept { return state_; }
   [[nodiscard]] Engine& engine() noexcept { return engine_; }
   [[nodiscard]] const Items& items() const noexcept { return items_; }
   [[nodiscard]] const CommandTable& commands() const noexcept { return commands_; }

@@ -61,46 +61,16 @@ void HeadlessWindow::set_up_input() {
   io.ClipboardUserData = this;
   io.SetClipboardTextFn = [](void* self, const char* text) { static_cast<HeadlessWindow*>(self)->clipboard_ = text; };
   io.GetClipboardTextFn = [](void* self) { return static_cast<HeadlessWindow*>(self)->clipboard_.c_str(); };
-  io.MousePos = {-1.0F, -1.0F};
-}
-
-void HeadlessWindow::play(const ui::SimulatedInput& input) {
-  ImGuiIO& io = ImGui::GetIO();
-  using Kind = ui::SimulatedInput::Kind;
-  switch (input.kind) {
-    case Kind::Move:
-      io.MousePos = {input.x, input.y};
-      break;
-    case Kind::Press:
-    case Kind::Release:
-      io.MousePos = {input.x, input.y};
-      io.MouseDown[input.button] = input.kind == Kind::Press;
-      break;
-    case Kind::Wheel:
-      io.MouseWheel = input.y;
-      break;
-    case Kind::KeyDown:
-    case Kind::KeyUp: {
-      const bool down = input.kind == Kind::KeyDown;
-      io.KeyCtrl = down && input.chord.ctrl;
-      io.KeyShift = down && input.chord.shift;
-      io.KeyAlt = down && input.chord.alt;
-      io.KeysDown[input.chord.code] = down;
-      break;
-    }
-    case Kind::Text:
-      io.AddInputCharactersUTF8(input.text.c_str());
-      break;
-  }
 }
 
 void HeadlessWindow::frame() {
   ImGuiIO& io = ImGui::GetIO();
   auto& input = app_->state().requests.input;
   if (!input.empty()) {
-    play(input.front());
+    simulated_.play(input.front(), io);
     input.pop_front();
   }
+  simulated_.hold(io);
   if (app_->prepare()) interface_->upload_fonts();
   io.DisplaySize = {static_cast<float>(width_), static_cast<float>(height_)};
   const float passed = pause_ ? kPause : kFrameTime;

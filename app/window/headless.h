@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/window/platform.h"
+#include "app/window/simulated_input.h"
 #include "render/context.h"
 #include "ui/app.h"
 
@@ -42,12 +43,12 @@ class HeadlessWindow {
 
  private:
   void set_up_input();
-  void play(const ui::SimulatedInput& input);
   void take_wishes();
 
   std::unique_ptr<render::Context> context_;
   std::unique_ptr<Interface> interface_;
   std::unique_ptr<ui::App> app_;
+  SimulatedInput simulated_;
   int width_, height_;
   double now_ = 0.0;
   bool pause_ = false;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/window/desktop.h"
 #include "app/window/headless.h"
 #include "app/window/window.h"
 #include "core/session/commands.h"
@@ -48,8 +49,8 @@ int run_in_engine(const ScriptOptions& options) {
   return 0;
 }
 
-int run_in_headless_window(const ScriptOptions& options) {
-  HeadlessWindow window({options.width, options.height, options.scale, options.threads});
+template <class Window>
+int run_in_window(Window& window, const ScriptOptions& options) {
   for (std::size_t k = 0; k < options.lines.size() && !window.quit(); ++k) {
     if (split_words(options.lines[k]).empty()) continue;
     const std::optional<Message> failure = window.run(options.lines[k]);
@@ -57,6 +58,21 @@ int run_in_headless_window(const ScriptOptions& options) {
     if (failure) return fail(options, k, *failure);
   }
   return 0;
+}
+
+int run_in_headless_window(const ScriptOptions& options) {
+  HeadlessWindow window({options.width, options.height, options.scale, options.threads});
+  return run_in_window(window, options);
+}
+
+int run_on_screen(const ScriptOptions& options) {
+  require_display();
+  WindowOptions look;
+  look.threads = options.threads;
+  look.scale = options.scale;
+  look.scripted = true;
+  Desktop window(look);
+  return run_in_window(window, options);
 }
 
 }  // namespace
@@ -69,13 +85,7 @@ int run_script(const ScriptOptions& options) {
       return fail(options, k, {Message::Kind::Error, error.what(), error.exit_code()});
     }
   }
-  if (!options.headless) {
-    WindowOptions window;
-    window.threads = options.threads;
-    window.scale = options.scale;
-    window.commands = options.lines;
-    return run_window(window);
-  }
+  if (!options.headless) return run_on_screen(options);
   return needs_window(options.lines) ? run_in_headless_window(options) : run_in_engine(options);
 }
 

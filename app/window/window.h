@@ -2,16 +2,15 @@
 // The window: GLFW, its event loop, and the interface drawn on demand.
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 namespace dmoscope::app {
 
 struct WindowOptions {
   std::vector<std::filesystem::path> files;  // opened at the start, the last one stays
-  std::vector<std::string> commands;         // posted after the files
   unsigned threads = 0;                      // of the smoothing; 0: one a hardware thread
   double scale = 0.0;                        // of the interface; 0: as saved, else as the monitor says
+  bool scripted = false;                     // settings are neither read nor written, and the mouse is the script's
 };
 
 /// Opens the window and returns when it is closed (0). Throws Error with a clear sentence (and names the verbs that need no

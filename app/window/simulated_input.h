@@ -1,0 +1,24 @@
+#pragma once
+// The mouse and keyboard of scripts, played through ImGui's own input.
+
+#include <array>
+
+#include <imgui.h>
+
+#include "ui/view_state.h"
+
+namespace dmoscope::app {
+
+class SimulatedInput {
+ public:
+  /// Plays one event; call hold afterwards.
+  void play(const ui::SimulatedInput& input, ImGuiIO& io);
+  /// Puts the mouse where the script left it, whatever the platform says. Before every ImGui::NewFrame.
+  void hold(ImGuiIO& io) const;
+
+ private:
+  ImVec2 mouse_{-1.0F, -1.0F};
+  std::array<bool, 3> down_{};
+};
+
+}  // namespace dmoscope::app

@@ -8,6 +8,9 @@
 #include "core/quality/metric.h"
 #include "core/session/run.h"
 #include "core/session/session_commands.h"
+#ifdef DMOSCOPE_HAVE_GUI
+#include "ui/view_commands.h"
+#endif
 
 namespace dmoscope::app {
 namespace {
@@ -80,6 +83,10 @@ void add_tables(std::string& page) {
   for (const GeneratorInfo& generator : generator_table()) page += item(generator.name, generator.doc);
   page += ".SH COMMAND LANGUAGE\nOne command a line, for dmoscope script; # starts a comment, \"double quotes\" keep blanks.\n";
   for (const CommandInfo& command : session_commands()) page += item(command.usage, command.doc);
+#ifdef DMOSCOPE_HAVE_GUI
+  page += ".PP\nThe window's own, which script \\-\\-headless plays without a screen:\n";
+  for (const CommandInfo& command : ui::view_verbs()) page += item(command.usage, command.doc);
+#endif
 }
 
 }  // namespace

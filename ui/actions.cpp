@@ -126,7 +126,7 @@ bool enabled(const Action& action, const Situation& now) {
   return false;
 }
 
-std::vector<const Action*> search_actions(std::string_view query) {
+std::vector<std::string> search_words(std::string_view query) {
   const std::string wanted = lower(query);
   std::vector<std::string> words;
   for (std::size_t at = 0; at < wanted.size();) {
@@ -134,13 +134,23 @@ std::vector<const Action*> search_actions(std::string_view query) {
     if (end > at) words.push_back(wanted.substr(at, end - at));
     at = end + 1;
   }
+  return words;
+}
+
+bool holds_all(std::string_view text, std::span<const std::string> words) {
+  const std::string low = lower(text);
+  return std::all_of(words.begin(), words.end(), [&](const std::string& word) { return low.find(word) != std::string::npos; });
+}
+
+std::vector<const Action*> search_actions(std::string_view query) {
+  const std::vector<std::string> words = search_words(query);
   std::vector<const Action*> found;
   for (const Action& action : kActions) {
-    const std::string text = lower(action.title) + "\n" + lower(action.menu) + "\n" + lower(action.command) + "\n" + std::string(action.id);
-    if (std::all_of(words.begin(), words.end(), [&](const std::string& word) { return text.find(word) != std::string::npos; })) {
-      found.push_back(&action);
-    }
+    std::string text;
+    for (const std::string_view part : {action.title, action.menu, action.command, action.id}) text.append(part).append("\n");
+    if (holds_all(text, words)) found.push_back(&action);
   }
+  const std::string wanted = lower(query);
   std::stable_partition(found.begin(), found.end(), [&](const Action* action) { return lower(action->title).starts_with(wanted); });
   return found;
 }

@@ -42,4 +42,8 @@ struct Situation {
 /// Actions whose title, menu or command holds all words of `query` (case-insensitive), best first: titles that begin with it.
 [[nodiscard]] std::vector<const Action*> search_actions(std::string_view query);
 
+/// The words of a search, in small letters, and whether a text holds all of them (case-insensitive).
+[[nodiscard]] std::vector<std::string> search_words(std::string_view query);
+[[nodiscard]] bool holds_all(std::string_view text, std::span<const std::string> words);
+
 }  // namespace dmoscope::ui

@@ -250,6 +250,7 @@ void App::draw(double now) {
                          const render::Pick pick = scene_.pick(state_.camera, state_.viewport, pixel, 8.0 * state_.scale);
                          return std::pair{pick.vertex, pick.element};
                        },
+                       commands_.commands(),
                        0,
                        now};
   // What a panel holds must stay alive until the frame is done, whatever its commands bring about.

@@ -8,40 +8,12 @@
 #include <fmt/format.h>
 
 #include "core/quality/quality.h"
+#include "ui/command_words.h"
+#include "ui/input_commands.h"
 #include "ui/view_geometry.h"
 
 namespace dmoscope::ui {
 namespace {
-
-using Arguments = CommandTable::Arguments;
-
-void need(Arguments words, std::size_t least, std::size_t most) {
-  if (words.size() < least) throw UsageError("too few words");
-  if (words.size() > most) throw UsageError(fmt::format("\"{}\" is one word too many", words[most]));
-}
-
-[[noreturn]] void unexpected(const std::string& word, std::string_view expected) {
-  throw UsageError(fmt::format("\"{}\": expected {}", word, expected));
-}
-
-/// on, off or toggle (also: no word).
-bool switched(Arguments words, std::size_t at, bool now) {
-  if (words.size() <= at || words[at] == "toggle") return !now;
-  if (words[at] == "on") return true;
-  if (words[at] == "off") return false;
-  unexpected(words[at], "on, off or toggle");
-}
-
-template <class Value, std::size_t N>
-Value choose(const std::string& word, const std::array<std::pair<std::string_view, Value>, N>& choices) {
-  std::string names;
-  for (const auto& [name, value] : choices) {
-    if (name == word) return value;
-    if (!names.empty()) names += ", ";
-    names += name;
-  }
-  unexpected(word, "one of " + names);
-}
 
 constexpr std::array<std::pair<std::string_view, Theme>, 3> kThemes{
     {{"dark", Theme::Dark}, {"light", Theme::Light}, {"contrast", Theme::Contrast}}};
@@ -76,30 +48,6 @@ Picked parse_pick(const CommandHost& host, Arguments words) {
     throw UsageError(fmt::format("there is no {} {}: the mesh has {} (0 to {})", words[0], id, size, size == 0 ? 0 : size - 1));
   picked.id = static_cast<Index>(id);
   return picked;
-}
-
-float pixel(const std::string& word) { return static_cast<float>(to_number(word)); }
-
-/// A point given by two numbers, or the middle of a named item; `at` moves past the words.
-std::pair<float, float> parse_point(const CommandHost& host, Arguments words, std::size_t& at) {
-  if (words.size() == at + 1) {
-    const auto box = host.item(words[at++]);
-    return {(box[0] + box[2]) / 2, (box[1] + box[3]) / 2};
-  }
-  if (words.size() < at + 2) throw UsageError("expected a point, X Y in pixels, or the name of an item");
-  const std::pair<float, float> point{pixel(words[at]), pixel(words[at + 1])};
-  at += 2;
-  return point;
-}
-
-using Kind = SimulatedInput::Kind;
-
-void push_click(ViewState& state, std::pair<float, float> at, int button) {
-  auto& input = state.requests.input;
-  // A few frames at rest first: windows that just opened take their place, hovering settles.
-  for (int k = 0; k < 2; ++k) input.push_back({Kind::Move, at.first, at.second, 0, {}, {}});
-  input.push_back({Kind::Press, at.first, at.second, button, {}, {}});
-  input.push_back({Kind::Release, at.first, at.second, button, {}, {}});
 }
 
 void add_camera_verbs(CommandTable& table, ViewState& state, const CommandHost& host) {
@@ -247,62 +195,6 @@ void add_output_verbs(CommandTable& table, ViewState& state) {
   });
 }
 
-void add_input_verbs(CommandTable& table, ViewState& state, const CommandHost& host) {
-  static constexpr std::array<std::pair<const char*, int>, 2> buttons{{{"click", 0}, {"right-click", 1}}};
-  for (const auto& [name, button] : buttons) {
-    table.add({name, fmt::format("{} X Y|ITEM", name), "the mouse at a pixel or on a named item"},
-              [&state, &host, mouse_button = button](Arguments words) {
-                std::size_t at = 0;
-                const auto point = parse_point(host, words, at);
-                need(words, at, at);
-                push_click(state, point, mouse_button);
-              });
-  }
-  table.add({"double-click", "double-click X Y|ITEM", "the mouse, twice"}, [&state, &host](Arguments words) {
-    std::size_t at = 0;
-    const auto point = parse_point(host, words, at);
-    need(words, at, at);
-    push_click(state, point, 0);
-    push_click(state, point, 0);
-  });
-  table.add({"move", "move X Y|ITEM", "the mouse without a button"}, [&state, &host](Arguments words) {
-    std::size_t at = 0;
-    const auto point = parse_point(host, words, at);
-    for (int k = 0; k < 2; ++k) state.requests.input.push_back({Kind::Move, point.first, point.second, 0, {}, {}});
-  });
-  table.add({"drag", "drag X0 Y0 X1 Y1", "the mouse with the left button held"}, [&state](Arguments words) {
-    need(words, 4, 4);
-    const float x0 = pixel(words[0]), y0 = pixel(words[1]), x1 = pixel(words[2]), y1 = pixel(words[3]);
-    auto& input = state.requests.input;
-    for (int k = 0; k < 2; ++k) input.push_back({Kind::Move, x0, y0, 0, {}, {}});
-    input.push_back({Kind::Press, x0, y0, 0, {}, {}});
-    for (int k = 1; k <= 4; ++k) {
-      const float t = static_cast<float>(k) / 4;
-      input.push_back({Kind::Move, x0 + t * (x1 - x0), y0 + t * (y1 - y0), 0, {}, {}});
-    }
-    input.push_back({Kind::Release, x1, y1, 0, {}, {}});
-  });
-  table.add({"wheel", "wheel X Y AMOUNT", "the mouse's wheel, up is positive"}, [&state](Arguments words) {
-    need(words, 3, 3);
-    const float x = pixel(words[0]), y = pixel(words[1]);
-    state.requests.input.push_back({Kind::Move, x, y, 0, {}, {}});
-    state.requests.input.push_back({Kind::Wheel, 0, pixel(words[2]), 0, {}, {}});
-  });
-  table.add({"key", "key NAME", "presses a key, such as N or Ctrl+Shift+S"}, [&state](Arguments words) {
-    need(words, 1, 1);
-    const auto chord = parse_key(words[0]);
-    if (!chord) unexpected(words[0], "a key such as N, Space, F1 or Ctrl+Shift+S");
-    state.requests.input.push_back({Kind::KeyDown, 0, 0, 0, *chord, {}});
-    state.requests.input.push_back({Kind::KeyUp, 0, 0, 0, *chord, {}});
-  });
-  table.add({"type", "type TEXT", "types a text"}, [&state](Arguments words) {
-    need(words, 1, 1);
-    state.requests.input.push_back({Kind::Text, 0, 0, 0, {}, words[0]});
-  });
-  table.add({"wait", "wait", "until nothing is pending (scripts wait after every line anyway)"},
-            [](Arguments words) { need(words, 0, 0); });
-}
-
 void seek_in_timeline(const CommandHost& host, const std::string& where) {
   const auto view = host.session();
   if (!view || view->runs.empty()) throw UsageError("no mesh is open");
@@ -369,6 +261,12 @@ CommandTable view_commands(ViewState& state, const CommandHost& host) {
   add_input_verbs(table, state, host);
   add_session_shortcuts(table, state, host);
   return table;
+}
+
+std::vector<CommandInfo> view_verbs() {
+  ViewState state;
+  const CommandHost host;
+  return view_commands(state, host).commands();
 }
 
 bool is_session_command(std::string_view line) {

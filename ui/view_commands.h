@@ -30,6 +30,9 @@ struct CommandHost {
 ///   timeline back|forward|first|last | next-run | next-metric | copy TEXT | wait | quit
 [[nodiscard]] CommandTable view_commands(ViewState& state, const CommandHost& host);
 
+/// Their names, usage and one line each, for palette and man page.
+[[nodiscard]] std::vector<CommandInfo> view_verbs();
+
 /// Sends one line where it belongs: to the window's table when it knows the verb, else to the session. Throws UsageError.
 void dispatch(const CommandTable& view, const CommandHost& host, std::string_view line);
 

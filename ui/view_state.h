@@ -39,7 +39,7 @@ struct Panels {
   bool right = true;                                                   // inspector and worst elements
   bool bottom = true;                                                  // plots and timeline
   bool left_over = false, right_over = false;                          // opened over the mesh where the window is too small for both
-  double left_width = 17.0, right_width = 19.0, bottom_height = 15.0;  // in heights of the interface's font
+  double left_width = 17.0, right_width = 22.0, bottom_height = 15.0;  // in heights of the interface's font
 };
 
 /// What is seen of one plot.

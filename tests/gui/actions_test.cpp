@@ -1,11 +1,14 @@
 #include "ui/actions.h"
 
+#include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
 
 #include "core/session/commands.h"
+#include "core/session/session_commands.h"
 #include "ui/layout.h"
+#include "ui/palette_entries.h"
 #include "ui/theme.h"
 #include "ui/view_commands.h"
 
@@ -73,6 +76,35 @@ TEST(Actions, AreFoundByWordsInAnyOrder) {
   EXPECT_EQ(found.front()->id, "step-class");
   EXPECT_EQ(search_actions("").size(), actions().size());
   EXPECT_TRUE(search_actions("no such thing at all").empty());
+}
+
+TEST(Palette, ListsEveryActionAndEveryVerbOfBothTables) {
+  const std::vector<PaletteEntry> all = palette_entries("", {}, view_verbs());
+  const auto lists = [&](std::string_view title) {
+    return std::any_of(all.begin(), all.end(), [&](const PaletteEntry& entry) { return entry.title == title; });
+  };
+  EXPECT_EQ(all.size(), actions().size() + view_verbs().size() + session_commands().size());
+  EXPECT_TRUE(lists("Run: Next iteration"));
+  EXPECT_TRUE(lists("colormap NAME|next"));
+  EXPECT_TRUE(lists("step vertex|class|iteration [COUNT]"));
+}
+
+TEST(Palette, ACommandWithItsWordsRunsAsTyped) {
+  // "Run 10 iterations" and "Zoom in" (zoom 1.25) hold these words too.
+  for (const char* line : {"run 1", "zoom 1", "step iteration 2", "goto vertex 3"}) {
+    const std::vector<PaletteEntry> found = palette_entries(line, {.mesh = true}, view_verbs());
+    ASSERT_FALSE(found.empty()) << line;
+    EXPECT_EQ(found.front().command, line);
+    EXPECT_TRUE(found.front().complete);
+  }
+}
+
+TEST(Palette, AVerbAloneAsksForItsWords) {
+  const std::vector<PaletteEntry> found = palette_entries("screensh", {.mesh = true}, view_verbs());
+  const auto at = std::find_if(found.begin(), found.end(), [](const PaletteEntry& entry) { return entry.command == "screenshot "; });
+  ASSERT_NE(at, found.end());
+  EXPECT_FALSE(at->complete);
+  EXPECT_TRUE(palette_entries("no such thing", {}, view_verbs()).empty());
 }
 
 TEST(Actions, AreOnlyPossibleWhenTheyMakeSense) {

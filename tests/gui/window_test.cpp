@@ -8,6 +8,7 @@
 #include "app/window/headless.h"
 #include "app/window/picture.h"
 #include "app/window/script.h"
+#include "core/quality/metric.h"
 #include "render/context.h"
 
 namespace dmoscope::app {
@@ -222,6 +223,23 @@ TEST_F(Window, TheWorstListJumps) {
   const Index worst = session()->frame->worst[0].element;
   good("click worst:0");
   EXPECT_EQ(state().picked, (Picked{Picked::Kind::Element, worst}));
+}
+
+TEST_F(Window, MetricNamesFitOnOneLineWhateverTheKindAndScale) {
+  for (const auto& [size, scale] : {std::pair{"1280 800", "1"}, {"2560 1600", "2"}}) {
+    good(std::string("size ") + size);
+    good(std::string("scale ") + scale);
+    for (const char* mesh : {"annulus", "quads", "mixed"}) {
+      good(std::string("generate ") + mesh);
+      good("step iteration");
+      good("pick element 3");
+      for (const MetricInfo& metric : metric_table()) {
+        const auto& box = window_->app().items().find("metric:" + std::string(metric.name));
+        EXPECT_LT(box[3] - box[1], 1.5F * 15.0F * static_cast<float>(state().scale)) << metric.name << " " << mesh << " " << scale;
+        EXPECT_GT(box[2] - box[0], 3.0F * 15.0F * static_cast<float>(state().scale)) << metric.name;
+      }
+    }
+  }
 }
 
 TEST_F(Window, SmallWindowsFoldTheirPanels) {

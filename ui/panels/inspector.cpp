@@ -1,6 +1,8 @@
 // Right: facts of the mesh, of what is picked, and the worst elements.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -104,12 +106,28 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
   }
 }
 
+/// Every metric of one element now and at the input; – where it is not defined for its kind. The names get what room the numbers
+/// leave, and a second line where that is too little.
 void draw_metric_table(PanelContext& context, const Frame& frame, Index element) {
-  if (!ImGui::BeginTable("metrics", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
+  struct Row {
+    const MetricInfo* metric;
+    std::array<double, 2> values;
+  };
+  std::vector<Row> rows;
+  std::array<float, 2> widths{ImGui::CalcTextSize("now").x, ImGui::CalcTextSize("input").x};
+  const QualityContext quality = frame.input->quality_context();
+  for (const MetricInfo& metric : metric_table()) {
+    rows.push_back({&metric,
+                    {element_quality(quality, frame.positions, metric.metric, element),
+                     element_quality(quality, frame.input->mesh.positions, metric.metric, element)}});
+    for (std::size_t k = 0; k < 2; ++k) widths[k] = std::max(widths[k], ImGui::CalcTextSize(short_number(rows.back().values[k]).c_str()).x);
+  }
+  if (!ImGui::BeginTable("metrics", 3, ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupColumn("metric", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("now", ImGuiTableColumnFlags_WidthFixed, 4.6F * context.em());
-  ImGui::TableSetupColumn("input", ImGuiTableColumnFlags_WidthFixed, 4.6F * context.em());
+  ImGui::TableSetupColumn("now", ImGuiTableColumnFlags_WidthFixed, widths[0]);
+  ImGui::TableSetupColumn("input", ImGuiTableColumnFlags_WidthFixed, widths[1]);
   const auto right_text = [&](const std::string& text, const std::string& full, bool dim) {
+    ImGui::TableNextColumn();
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0F, ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x));
     if (dim) {
       dim_text(context, text, false);
@@ -121,24 +139,18 @@ void draw_metric_table(PanelContext& context, const Frame& frame, Index element)
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   dim_text(context, "metric", false);
-  ImGui::TableNextColumn();
   right_text("now", {}, true);
-  ImGui::TableNextColumn();
   right_text("input", {}, true);
-  const QualityContext quality = frame.input->quality_context();
-  const ElementKind kind = frame.input->mesh.elements.kind(element);
-  for (const MetricInfo& metric : metric_table()) {
-    if (!metric.defined_for(kind)) continue;
-    const double now = element_quality(quality, frame.positions, metric.metric, element);
-    const double before = element_quality(quality, frame.input->mesh.positions, metric.metric, element);
+  for (const Row& row : rows) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(fit_text(std::string(metric.title), ImGui::GetContentRegionAvail().x).c_str());
-    metric_tooltip(context, metric);
-    ImGui::TableNextColumn();
-    right_text(short_number(now), full_number(now), false);
-    ImGui::TableNextColumn();
-    right_text(short_number(before), full_number(before), true);
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(std::string(row.metric->title).c_str());
+    ImGui::PopTextWrapPos();
+    metric_tooltip(context, *row.metric);
+    context.items.record_last(fmt::format("metric:{}", row.metric->name));
+    right_text(short_number(row.values[0]), full_number(row.values[0]), false);
+    right_text(short_number(row.values[1]), full_number(row.values[1]), true);
   }
   ImGui::EndTable();
 }

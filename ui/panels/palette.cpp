@@ -1,36 +1,14 @@
-// Ctrl+P: every action, and any line of the command language.
+// Ctrl+P: every action, every verb, and any line of the command language.
 #include <algorithm>
 
-#include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "core/session/commands.h"
+#include "ui/palette_entries.h"
 #include "ui/panels/panels.h"
 
 namespace dmoscope::ui {
 namespace {
-
-struct Entry {
-  std::string title, detail, command;
-  bool possible = true;
-  bool complete = true;  // false: the command still needs words; choosing it puts it into the line
-};
-
-std::vector<Entry> entries_for(const PanelContext& context, const std::string& text) {
-  std::vector<Entry> entries;
-  for (const Action* action : search_actions(text)) {
-    entries.push_back({fmt::format("{}: {}", action->menu, action->title), std::string(action->key), std::string(action->command),
-                       enabled(*action, context.situation()), true});
-  }
-  const std::string verb = text.substr(0, text.find(' '));
-  for (const CommandInfo& command : session_commands()) {
-    if (verb.empty() || !command.name.starts_with(verb)) continue;
-    const bool has_words = text.find(' ') != std::string::npos && command.name == verb;
-    entries.push_back({has_words ? "run: " + text : command.usage, command.doc, has_words ? text : command.name + " ", true, has_words});
-  }
-  return entries;
-}
 
 int move_selection(int selected, int size) {
   if (ImGui::IsKeyPressed(key::kDown)) ++selected;
@@ -54,7 +32,7 @@ void draw_palette_dialog(PanelContext& context) {
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
   context.items.record_last("palette:text");
   if (before != widgets.palette_text) widgets.palette_selected = 0;
-  const std::vector<Entry> entries = entries_for(context, widgets.palette_text);
+  const std::vector<PaletteEntry> entries = palette_entries(widgets.palette_text, context.situation(), context.verbs);
   const int moved = move_selection(widgets.palette_selected, static_cast<int>(entries.size()));
   const bool scroll = moved != widgets.palette_selected;
   widgets.palette_selected = moved;
@@ -62,7 +40,7 @@ void draw_palette_dialog(PanelContext& context) {
   int chosen = entered && !entries.empty() ? widgets.palette_selected : -1;
   ImGui::BeginChild("list");
   for (int k = 0; k < static_cast<int>(entries.size()); ++k) {
-    const Entry& entry = entries[static_cast<std::size_t>(k)];
+    const PaletteEntry& entry = entries[static_cast<std::size_t>(k)];
     ImGui::PushID(k);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x;
@@ -83,7 +61,7 @@ void draw_palette_dialog(PanelContext& context) {
   end_dialog();
 
   if (chosen >= 0 && entries[static_cast<std::size_t>(chosen)].possible) {
-    const Entry& entry = entries[static_cast<std::size_t>(chosen)];
+    const PaletteEntry& entry = entries[static_cast<std::size_t>(chosen)];
     if (!entry.complete) {
       widgets.palette_text = entry.command;
       return;

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/session/commands.h"
 #include "core/session/view.h"
 #include "ui/actions.h"
 #include "ui/file_browser.h"
@@ -82,6 +83,7 @@ struct PanelContext {
   Items& items;
   std::function<void(const std::string&)> send;               // one command line; errors become messages
   std::function<std::pair<Index, Index>(Vec2<double>)> pick;  // vertex and element at a pixel of the viewport
+  const std::vector<CommandInfo>& verbs;                      // of the window, for the palette
   unsigned mesh_texture = 0;
   double now = 0.0;  // seconds
 

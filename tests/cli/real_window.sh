@@ -67,9 +67,10 @@ for key in n space w space n ctrl+q; do
   xdotool key --window 0 "$key"
   sleep 0.3
 done
-for _ in $(seq 100); do
+for _ in $(seq 20); do
+  sleep 0.5
   kill -0 "$id" 2>/dev/null || { wait "$id"; exit; }
-  sleep 0.1
+  xdotool key --window 0 ctrl+q || true  # a display without a window manager may lose one
 done
 echo "Ctrl+Q did not close the window"
 kill "$id"

@@ -1,13 +1,17 @@
 #include "app/console.h"
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <pthread.h>
 #include <unistd.h>
+
+#include "core/base/error.h"
 
 namespace dmoscope::app {
 namespace {
@@ -32,6 +36,14 @@ void block_interrupts() {
 }
 
 void complain(std::string_view text) { fmt::print(stderr, "dmoscope: {}\n", text); }
+
+void flush_output() {
+  errno = 0;
+  const bool taken = std::fflush(stdout) == 0;
+  const int reason = errno;
+  if (taken && std::ferror(stdout) == 0) return;
+  throw OutputError("standard output", reason == 0 ? "not everything could be written" : std::generic_category().message(reason));
+}
 
 Watch::Watch() : Watch(own_, [this] { own_.request_cancel(); }) {}
 

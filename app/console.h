@@ -16,6 +16,9 @@ void block_interrupts();
 /// Writes "dmoscope: TEXT" and a line feed to standard error.
 void complain(std::string_view text);
 
+/// Hands standard output what was printed. Throws OutputError when it does not take it, now or before.
+void flush_output();
+
 /// Shows, on a terminal, one rewritten line of progress for work of more than 0.2 s, and turns the first Ctrl+C into a cancel;
 /// the second ends the process at once.
 class Watch {

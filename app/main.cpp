@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <sstream>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -29,10 +31,25 @@ int guarded(const Action& action) {
   } catch (const std::bad_alloc&) {
     complain("not enough memory for this mesh");
     return kBadInputOrOutput;
+  } catch (const std::system_error& error) {
+    if (std::ferror(stdout) == 0) {
+      complain(error.what());
+    } else {
+      complain(fmt::format("standard output: {}", error.code().message()));
+    }
+    return kBadInputOrOutput;
   } catch (const std::exception& error) {
     complain(fmt::format("unexpected error (please report it): {}", error.what()));
     return kBadInputOrOutput;
   }
+}
+
+/// --help and --version, which the parser ends with.
+int print_requested(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream text;
+  app.exit(error, text, text);
+  fmt::print("{}", text.str());
+  return 0;
 }
 
 int run(int argc, char** argv) {
@@ -62,11 +79,15 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kWrongUsage;
+    if (error.get_exit_code() == 0) return guarded([&app, &error] { return print_requested(app, error); });
+    complain(fmt::format("{}\nRun with --help for more information.", error.what()));
+    return kWrongUsage;
   }
   if (man) {
-    fmt::print("{}", man_page(app));
-    return 0;
+    action = [&app] {
+      fmt::print("{}", man_page(app));
+      return 0;
+    };
   }
   return guarded(action);
 }
@@ -77,8 +98,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     const int code = dmoscope::app::run(argc, argv);
-    // A full disk or closed pipe below standard output must not look like success.
-    return std::fflush(stdout) == 0 ? code : 3;
+    // A full disk or closed pipe below standard output must not look like success; whoever failed already said why.
+    if (code != dmoscope::app::kBadInputOrOutput) dmoscope::app::flush_output();
+    return code;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "dmoscope: %s\n", error.what());
     return 3;

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "core/base/error.h"
+#include "core/io/atomic_file.h"
 #include "core/io/mesh_io.h"
 
 namespace dmoscope::app {
@@ -55,6 +56,20 @@ void require_mesh_target(const std::filesystem::path& path) {
     known += format.extensions;
   }
   throw UsageError(fmt::format("{}: no mesh format has the extension '{}' (known: {})", path.string(), extension, known));
+}
+
+void require_another_file(const std::filesystem::path& path, std::string_view option, const std::filesystem::path& other) {
+  namespace fs = std::filesystem;
+  if (path.empty() || other.empty()) return;
+  std::error_code error;
+  // equivalent() follows links but needs both files; the absolute names also tell of one that is still to be made.
+  const bool same_file = fs::equivalent(path, other, error);
+  const fs::path first = fs::weakly_canonical(fs::absolute(follow_links(path)), error);
+  if (error && !same_file) return;
+  const fs::path second = fs::weakly_canonical(fs::absolute(follow_links(other)), error);
+  if (same_file || (!error && first == second)) {
+    throw UsageError(fmt::format("{} {}: this is the same file as {}, which it would overwrite", option, path.string(), other.string()));
+  }
 }
 
 }  // namespace dmoscope::app

@@ -2,11 +2,16 @@
 // Finds out before long work whether its result can be written at all.
 
 #include <filesystem>
+#include <string_view>
 
 namespace dmoscope::app {
 
 /// Throws OutputError when nothing can be written to `path`: a folder, a device, a missing or read-only folder, a read-only file.
 void require_writable(const std::filesystem::path& path);
+
+/// Throws UsageError when `path`, the value of `option`, is the file `other`, also through links and when neither exists yet. An
+/// empty path is no file.
+void require_another_file(const std::filesystem::path& path, std::string_view option, const std::filesystem::path& other);
 
 /// require_writable, and UsageError when no mesh format has this extension.
 void require_mesh_target(const std::filesystem::path& path);

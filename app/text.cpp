@@ -1,19 +1,10 @@
 #include "app/text.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
 
 namespace dmoscope::app {
-
-std::string exact(double value) {
-  if (!std::isfinite(value)) return {};
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
-}
 
 std::string brief(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : "-"; }
 

@@ -14,8 +14,6 @@ namespace dmoscope::app {
 /// Keeps the order in which keys were given, so that the output reads like its documentation.
 using Json = nlohmann::ordered_json;
 
-/// Shortest text that reads back as the very same double; empty for infinity and NaN (a CSV's missing value).
-[[nodiscard]] std::string exact(double value);
 /// Six significant digits for a person; "-" for infinity and NaN.
 [[nodiscard]] std::string brief(double value);
 /// A number for JSON: null where it is infinite or NaN.

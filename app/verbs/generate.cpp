@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -56,11 +57,11 @@ void add_generate(CLI::App& app, Action& action) {
   verb->add_option("KIND", options->kind, "One of " + names_of(generator_table()))->required();
   verb->add_option("-o,--output", options->output, "Where to write it; the format is the extension's")->required()->type_name("OUT");
   verb->add_option("--size", options->size, "About how many vertices; 0: the kind's own size")
-      ->check(not_negative())
+      ->transform(whole_number(0, kNoIndex))
       ->type_name("N")
       ->capture_default_str();
   verb->add_option("--seed", options->seed, "The same seed gives the same mesh everywhere")
-      ->check(not_negative())
+      ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
       ->type_name("S")
       ->capture_default_str();
   verb->footer(list_of_kinds());

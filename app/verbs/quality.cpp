@@ -133,14 +133,14 @@ void print_worst(const Mesh& mesh, const Column& column, std::size_t count) {
   fmt::print("\nworst of {}:\n{:>10} {:<14} {:>12}  centroid\n", info(column.metric).name, "element", "kind", "quality");
   for (const Index e : worst_of(column, count)) {
     const Vec3 c = centroid(mesh, e);
-    fmt::print("{:>10} {:<14} {:>12}  {} {} {}\n", e, info(mesh.elements.kind(e)).name, brief(column.values[e]), exact(c.x), exact(c.y),
-               exact(c.z));
+    fmt::print("{:>10} {:<14} {:>12}  {} {} {}\n", e, info(mesh.elements.kind(e)).name, brief(column.values[e]), c.x, c.y, c.z);
   }
 }
 
 int quality(const Options& options) {
   const std::vector<Metric> metrics = wanted_metrics(options.metric);
   if (!options.elements.empty()) require_writable(options.elements);
+  require_another_file(options.elements, "--elements", options.input);
 
   Watch watch;
   const auto input = load_input(options.input, Need::QualityOnly, watch.progress());
@@ -182,7 +182,9 @@ void add_quality(CLI::App& app, Action& action) {
   CLI::App* verb = app.add_subcommand("quality", "Judge the elements of a mesh");
   verb->add_option("FILE", options->input, "Mesh to read")->required();
   verb->add_option("--metric", options->metric, "all, or one of " + names_of(metric_table()))->type_name("NAME|all")->capture_default_str();
-  verb->add_option("--worst", options->worst, "List the N worst elements of each metric")->check(not_negative())->type_name("N");
+  verb->add_option("--worst", options->worst, "List the N worst elements of each metric")
+      ->transform(whole_number(0, kNoIndex))
+      ->type_name("N");
   verb->add_option("--elements", options->elements, "Write the quality of every element; empty where a metric is not defined")
       ->type_name("FILE.csv");
   verb->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");

@@ -74,6 +74,7 @@ int render(const Options& options) {
   const auto [width, height] = parse_size(options.size);
   const auto range = parse_range(options.range);
   if (options.output.extension() != ".png") throw UsageError(fmt::format("{}: pictures are written as .png", options.output.string()));
+  require_another_file(options.output, "-o", options.input);
   require_writable(options.output);
 #ifdef DMOSCOPE_HAVE_GUI
   PictureOptions picture;

@@ -30,11 +30,15 @@ void add_run_options(CLI::App& verb, RunOptions& options) {
   verb.add_option("--metric", options.metric, "Metric to optimise: " + names_of(metric_table()))->type_name("NAME")->capture_default_str();
   verb.add_option("--backend", options.backend, "auto, cpu or cuda")->type_name("NAME")->capture_default_str();
   verb.add_option("--threads", options.threads, "Threads; 0: one a processor thread. The result is the same for any")
-      ->check(not_negative())
+      ->transform(whole_number(0, kMostThreads))
       ->type_name("N")
       ->capture_default_str();
-  verb.add_option("--grid", options.search.grid_points, "Candidates an axis")->type_name("N")->capture_default_str();
+  verb.add_option("--grid", options.search.grid_points, "Candidates an axis")
+      ->transform(whole_number(2, 64))
+      ->type_name("N")
+      ->capture_default_str();
   verb.add_option("--levels", options.search.levels, "Grids a visit, each finer than the one before")
+      ->transform(whole_number(1, 16))
       ->type_name("N")
       ->capture_default_str();
   verb.add_option("--omega", options.search.omega, "Size of the first grid over the bounding box of the star's other vertices")
@@ -60,7 +64,6 @@ RunParameters parameters_of(const RunOptions& options) {
   parameters.search = options.search;
   parameters.search.precision = parse_precision(options.precision);
   parameters.order = parse_order(options.order);
-  if (options.threads > kMostThreads) throw UsageError(fmt::format("--threads {}: at most {}", options.threads, kMostThreads));
   return parameters;
 }
 

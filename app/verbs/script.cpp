@@ -1,6 +1,7 @@
 // dmoscope script: runs a file of commands, with or without the window.
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -66,10 +67,10 @@ Foreign first_foreign(const std::string& name, const std::vector<std::string>& l
   return {};
 }
 
-/// Prints what the engine said; the exit code of its first error, 0 without one.
+/// Prints what the engine said; the exit code of the first line that failed or was cancelled, 0 without one.
 int tell(const std::vector<Message>& messages, const std::string& name, std::size_t line) {
   for (const Message& message : messages) {
-    if (message.kind == Message::Kind::Error) {
+    if (message.kind == Message::Kind::Error || message.exit_code != 0) {
       complain(fmt::format("{}:{}: {}", name, line, message.text));
       return message.exit_code == 0 ? 3 : message.exit_code;
     }
@@ -77,7 +78,7 @@ int tell(const std::vector<Message>& messages, const std::string& name, std::siz
       complain(message.text);
     } else {
       fmt::print("{}\n", message.text);
-      std::fflush(stdout);
+      flush_output();
     }
   }
   return 0;
@@ -86,11 +87,21 @@ int tell(const std::vector<Message>& messages, const std::string& name, std::siz
 int run_on_session(const std::string& name, const std::vector<std::string>& lines) {
   block_interrupts();  // before the engine's threads start
   Engine engine;
-  const Watch watch(engine.progress(), [&engine] { engine.cancel(); });
+  // Ctrl+C may also come between two lines, when the engine has nothing to cancel.
+  std::atomic<bool> interrupted{false};
+  const Watch watch(engine.progress(), [&engine, &interrupted] {
+    interrupted = true;
+    engine.cancel();
+  });
   for (std::size_t i = 0; i < lines.size(); ++i) {
     engine.post(lines[i]);
+    if (interrupted) engine.cancel();
     engine.wait_idle();
     if (const int code = tell(engine.take_messages(), name, i + 1); code != 0) return code;
+    if (interrupted) {
+      complain(fmt::format("{}:{}: cancelled", name, i + 1));
+      return Cancelled().exit_code();
+    }
   }
   return 0;
 }

@@ -24,6 +24,8 @@
 namespace dmoscope::app {
 namespace {
 
+constexpr std::uint64_t kMostIterations = 1'000'000'000;
+
 struct Options {
   std::filesystem::path input, output, stats;
   RunOptions run;
@@ -121,6 +123,8 @@ void refuse_early(const Options& options) {
   if (!options.combine.empty()) throw UsageError("--combine is not in this version: one metric is optimised at a time");
   if (!options.then.empty()) throw UsageError("--then is not in this version: smoothing has one phase");
   require_mesh_target(options.output);
+  require_another_file(options.stats, "--stats", options.input);
+  require_another_file(options.stats, "--stats", options.output);
   if (!options.stats.empty()) require_writable(options.stats);
 }
 
@@ -179,19 +183,19 @@ void add_smooth(CLI::App& app, Action& action) {
   verb->add_option("-o,--output", options->output, "Where to write it; the format is the extension's")->required()->type_name("OUT");
   add_run_options(*verb, options->run);
   auto* iterations = verb->add_option("--iterations", options->iterations, "How many iterations")
-                         ->check(not_negative())
+                         ->transform(whole_number(0, kMostIterations))
                          ->type_name("N")
                          ->capture_default_str();
   auto* until = verb->add_flag("--until-converged", options->until_converged, "Go on until no vertex moves or the minimum no longer rises");
   until->excludes(iterations);
   verb->add_option("--patience", options->limits.patience, "Iterations without a rise of 1e-6 that count as converged")
       ->needs(until)
-      ->check(not_negative())
+      ->transform(whole_number(1, kMostIterations))
       ->type_name("N")
       ->capture_default_str();
   verb->add_option("--max-iterations", options->limits.max_iterations, "Stop there with exit code 1 when not converged")
       ->needs(until)
-      ->check(not_negative())
+      ->transform(whole_number(0, kMostIterations))
       ->type_name("N")
       ->capture_default_str();
   verb->add_option("--stats", options->stats, "Write the statistics of every iteration; row 0 is the input")->type_name("FILE.csv");

@@ -40,16 +40,15 @@ void require_files(const std::vector<std::filesystem::path>& files) {
 }  // namespace
 
 int open_window(const std::vector<std::filesystem::path>& files) {
+  require_files(files);
 #ifdef DMOSCOPE_HAVE_GUI
   if (!has_display()) {
     throw UsageError(fmt::format("there is no display (neither DISPLAY nor WAYLAND_DISPLAY is set), so no window can open; {}", kVerbs));
   }
-  require_files(files);
   WindowOptions options;
   options.files = files;
   return run_window(options);
 #else
-  require_files(files);
   throw UsageError(fmt::format("this program was built without the window; {}", kVerbs));
 #endif
 }

@@ -20,7 +20,7 @@ HeadlessWindow::HeadlessWindow(const Options& options)
       height_(options.height) {
   set_up_input();
   ui::App::Options app = app_options(options.threads, context_->description(), context_->is_software());
-  app.wait_for_scene = options.wait_for_scene;
+  app.wait_for_scene = true;
   app_ = std::make_unique<ui::App>(std::move(app));
   app_->state().scale = options.scale;
   app_->set_listener([this](const Message& message) {

@@ -21,7 +21,6 @@ class HeadlessWindow {
     int width = 1280, height = 800;  // pixels
     double scale = 1.0;
     unsigned threads = 0;
-    bool wait_for_scene = true;  // false: a big mesh is made ready for drawing while frames go on, as on a screen
   };
   /// Throws Error where no OpenGL without a screen can be had.
   explicit HeadlessWindow(const Options& options);

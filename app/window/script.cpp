@@ -5,6 +5,8 @@
 #include <memory>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "app/window/desktop.h"
 #include "app/window/headless.h"
 #include "app/window/window.h"
@@ -27,9 +29,15 @@ bool needs_window(const std::vector<std::string>& lines) {
                      [](const std::string& line) { return !split_words(line).empty() && !ui::is_session_command(line); });
 }
 
+/// Does the script end with this message? A cancelled line ends it as an error does, unless the script cancels its own work by a
+/// verb of the window.
+bool ends_script(const Message& message, const std::string& line) {
+  return message.kind == Message::Kind::Error || (message.exit_code != 0 && ui::is_session_command(line));
+}
+
 int fail(const ScriptOptions& options, std::size_t line, const Message& message) {
   std::fflush(stdout);
-  std::fprintf(stderr, "%s:%zu: %s\n", options.name.c_str(), line + 1, message.text.c_str());
+  std::fprintf(stderr, "dmoscope: %s:%zu: %s\n", options.name.c_str(), line + 1, message.text.c_str());
   return std::max(1, message.exit_code);
 }
 
@@ -41,8 +49,11 @@ int run_in_engine(const ScriptOptions& options) {
     engine.wait_idle();
     std::optional<Message> failure;
     for (const Message& message : engine.take_messages()) {
-      print(message);
-      if (message.kind == Message::Kind::Error && !failure) failure = message;
+      if (!failure && ends_script(message, options.lines[k])) {
+        failure = message;
+      } else {
+        print(message);
+      }
     }
     if (failure) return fail(options, k, *failure);
   }
@@ -53,8 +64,14 @@ template <class Window>
 int run_in_window(Window& window, const ScriptOptions& options) {
   for (std::size_t k = 0; k < options.lines.size() && !window.quit(); ++k) {
     if (split_words(options.lines[k]).empty()) continue;
-    const std::optional<Message> failure = window.run(options.lines[k]);
-    for (const Message& message : window.said()) print(message);
+    std::optional<Message> failure = window.run(options.lines[k]);
+    for (const Message& message : window.said()) {
+      if (!failure && ends_script(message, options.lines[k])) {
+        failure = message;
+      } else {
+        print(message);
+      }
+    }
     if (failure) return fail(options, k, *failure);
   }
   return 0;
@@ -78,9 +95,15 @@ int run_on_screen(const ScriptOptions& options) {
 }  // namespace
 
 int run_script(const ScriptOptions& options) {
+  ui::ViewState state;
+  const ui::CommandHost host;  // the verbs are only looked up
+  const CommandTable view = ui::view_commands(state, host);
   for (std::size_t k = 0; k < options.lines.size(); ++k) {
     try {
-      (void)split_words(options.lines[k]);
+      const std::vector<std::string> words = split_words(options.lines[k]);
+      if (!words.empty() && !view.knows(words.front()) && !ui::is_session_command(options.lines[k])) {
+        throw UsageError(fmt::format("unknown command '{}'", words.front()));
+      }
     } catch (const UsageError& error) {
       return fail(options, k, {Message::Kind::Error, error.what(), error.exit_code()});
     }

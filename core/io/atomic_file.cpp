@@ -12,9 +12,7 @@
 #include "core/io/mesh_io.h"
 
 namespace dmoscope {
-namespace {
 
-/// Where a path leads when symbolic links are followed, the last one even if it dangles.
 std::filesystem::path follow_links(const std::filesystem::path& path) {
   constexpr int kMostLinks = 40;  // as the system's own limit
   std::filesystem::path target = path;
@@ -26,8 +24,6 @@ std::filesystem::path follow_links(const std::filesystem::path& path) {
   }
   return target;
 }
-
-}  // namespace
 
 AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), target_(follow_links(path)) {
   struct stat status {};

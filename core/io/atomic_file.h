@@ -7,6 +7,9 @@
 
 namespace dmoscope {
 
+/// Where a path leads when symbolic links are followed, the last one even if it dangles.
+[[nodiscard]] std::filesystem::path follow_links(const std::filesystem::path& path);
+
 /// A file being written. Until commit() the target is as it was; without commit() the temporary file is removed.
 /// An existing target keeps its permissions; a symbolic link stays one, and what it points to is replaced; what is no regular file
 /// (a pipe, /dev/null) is written straight.

@@ -83,7 +83,9 @@ class Reader {
       throw InputError(source_.path().string(), 0, fmt::format("NDIME= {}: only 2 and 3 dimensions are read", dimension));
     }
     dimension_ = static_cast<int>(dimension);
-    vertices_ = std::max<std::int64_t>(value_of("NPOIN"), 0);  // a negative one is refused where it stands
+    // A negative count is refused where it stands. Without one the elements are read all the same: their place says more about a
+    // truncated file than the missing key does.
+    vertices_ = find_key(source_.bytes(), "NPOIN") ? std::max<std::int64_t>(value_of("NPOIN"), 0) : kNoIndex;
     CoordinateLayout layout;
     layout.components = dimension_;
     layout.syntax = kSyntax;

@@ -121,6 +121,66 @@ TEST(BadOutput, LeavesTheOldFile) {
   EXPECT_EQ(read_file(old), "precious");
 }
 
+TEST(BadOutput, IsNeverAnotherFileOfTheSameCall) {
+  const Folder folder;
+  const std::string in = folder.file("in.off", kTriangles);
+  const std::string link = folder / "link.csv", dangling = folder / "dangling.csv";
+  std::filesystem::create_symlink(in, link);
+  std::filesystem::create_symlink("out.off", dangling);
+  const std::string out = folder / "out.off", roundabout = folder / "./out.off";
+  const std::vector<std::vector<std::string>> wrong{
+      {"smooth", in, "-o", out, "--stats", in},           {"smooth", in, "-o", out, "--stats", link},
+      {"smooth", in, "-o", out, "--stats", out},          {"smooth", in, "-o", out, "--stats", roundabout},
+      {"smooth", in, "-o", out, "--stats", dangling},     {"quality", in, "--elements", in},
+      {"quality", in, "--elements", folder / "./in.off"}, {"quality", in, "--elements", link},
+  };
+  for (const auto& arguments : wrong) {
+    const Output output = run(arguments);
+    EXPECT_EQ(output.code, 2) << ::testing::PrintToString(arguments) << output.err;
+    EXPECT_THAT(output.err, HasSubstr("the same file")) << ::testing::PrintToString(arguments);
+    EXPECT_EQ(read_file(in), kTriangles);
+    EXPECT_FALSE(exists(out));
+  }
+  const std::string picture = folder.file("in.png", kTriangles);
+  EXPECT_EQ(run({"render", picture, "-o", picture}).code, 2);
+  EXPECT_EQ(read_file(picture), kTriangles);
+}
+
+TEST(BadOutput, AFullStandardOutputIsToldAndCounts) {
+  const Folder folder;
+  const std::string in = folder.file("in.off", kTriangles);
+  if (!exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+  for (const auto& arguments : {std::vector<std::string>{"quality", in},
+                                {"quality", in, "--json"},
+                                {"smooth", in, "-o", folder / "out.off"},
+                                {"info"},
+                                {"--version"},
+                                {"--help"},
+                                {"--man"},
+                                {"script", folder.file("s.txt", "say one\nsay two\n")}}) {
+    Call call;
+    call.arguments = arguments;
+    call.output = "/dev/full";
+    const Output output = run(call);
+    EXPECT_EQ(output.code, 3) << ::testing::PrintToString(arguments);
+    EXPECT_EQ(output.err, "dmoscope: standard output: No space left on device\n") << ::testing::PrintToString(arguments);
+  }
+}
+
+TEST(Interrupt, StopsAScriptWithOne) {
+  const Folder folder;
+  Call call;
+  call.arguments = {"script", "-"};
+  call.input = "open \"" + sample("coast.14") + "\"\nsay begun\nrun 1000000000\nsay never\nexport \"" + (folder / "out.14") + "\"\n";
+  call.interrupt = std::chrono::milliseconds(1500);
+  const Output output = run(call);
+  EXPECT_EQ(output.code, 1) << output.out << output.err;
+  EXPECT_THAT(output.out, HasSubstr("begun"));
+  EXPECT_THAT(output.out, ::testing::Not(HasSubstr("never")));
+  EXPECT_THAT(output.err, HasSubstr("standard input:3: cancelled"));
+  EXPECT_FALSE(exists(folder / "out.14"));
+}
+
 TEST(Interrupt, EndsWithOneAndWritesNothing) {
   const Folder folder;
   Call call;

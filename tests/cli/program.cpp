@@ -43,6 +43,11 @@ struct Pipe {
   dup2(in.read, STDIN_FILENO);
   dup2(out.write, STDOUT_FILENO);
   dup2(err.write, STDERR_FILENO);
+  if (!call.output.empty()) {
+    const int output = open(call.output.c_str(), O_WRONLY | O_CLOEXEC);
+    if (output < 0) _exit(126);
+    dup2(output, STDOUT_FILENO);
+  }
   if (!call.display) {
     unsetenv("DISPLAY");
     unsetenv("WAYLAND_DISPLAY");

@@ -86,6 +86,36 @@ TEST(Usage, IsRefusedWithTwo) {
   }
 }
 
+TEST(Usage, CountsAreWholeNumbersInTheirRange) {
+  const Folder folder;
+  const std::string in = sample("coast.14"), out = folder / "out.14";
+  const std::vector<std::vector<std::string>> wrong{
+      {"smooth", in, "-o", out, "--iterations", "99999999999999999999"},
+      {"smooth", in, "-o", out, "--iterations", "1000000001"},
+      {"smooth", in, "-o", out, "--iterations", "0x10"},
+      {"smooth", in, "-o", out, "--iterations", ""},
+      {"smooth", in, "-o", out, "--until-converged", "--max-iterations", "1000000001"},
+      {"smooth", in, "-o", out, "--until-converged", "--patience", "0"},
+      {"smooth", in, "-o", out, "--threads", "4294967297"},
+      {"smooth", in, "-o", out, "--threads", "1025"},
+      {"smooth", in, "-o", out, "--grid", "1e3"},
+      {"smooth", in, "-o", out, "--levels", "17"},
+      {"quality", in, "--worst", "1e3"},
+      {"quality", in, "--worst", "-1"},
+      {"generate", "grid", "-o", out, "--size", "1e3"},
+      {"generate", "grid", "-o", out, "--seed", "18446744073709551616"},
+  };
+  for (const auto& arguments : wrong) {
+    const Output output = run(arguments);
+    EXPECT_EQ(output.code, 2) << ::testing::PrintToString(arguments) << output.err;
+    EXPECT_THAT(output.err, ::testing::StartsWith("dmoscope: " + arguments[arguments.size() - 2] + ": expected a whole number from "));
+    EXPECT_FALSE(exists(out));
+  }
+  EXPECT_EQ(run({"generate", "grid", "-o", out, "--size", "100", "--seed", "18446744073709551615"}).code, 0);
+  // Leading zeros do not make another number of it.
+  EXPECT_EQ(json_of(run({"smooth", in, "-o", out, "--iterations", "010", "--json"}))["iterations"], 10);
+}
+
 TEST(Usage, SaysWhatThereIs) {
   const Folder folder;
   EXPECT_THAT(run({"quality", sample("coast.14"), "--metric", "beauty"}).err, AllOf(HasSubstr("beauty"), HasSubstr("mean-ratio")));
@@ -216,6 +246,22 @@ TEST(Script, ReadsStandardInput) {
   EXPECT_EQ(output.code, 2);  // no mesh is open
   EXPECT_THAT(output.out, HasSubstr("hello"));
   EXPECT_THAT(output.err, HasSubstr("standard input:2: "));
+}
+
+TEST(Script, UnknownCommandsAreToldBeforeAnythingIsNeeded) {
+  Call call;
+  call.arguments = {"script", "-"};
+  call.input = "say never\nbogus 3\n";
+  const Output output = run(call);
+  EXPECT_EQ(output.code, 2);
+  EXPECT_THAT(output.out, IsEmpty());
+  EXPECT_THAT(output.err, HasSubstr("standard input:2: unknown command 'bogus'"));
+}
+
+TEST(Window, AFileThatIsNotThereIsToldBeforeTheDisplay) {
+  const Output output = run({"bogus"});
+  EXPECT_EQ(output.code, 3);
+  EXPECT_THAT(output.err, AllOf(HasSubstr("bogus"), HasSubstr("no such file and no such verb"), ::testing::Not(HasSubstr("DISPLAY"))));
 }
 
 TEST(Bench, JsonHasAFigureForEachExecutor) {

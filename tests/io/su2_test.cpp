@@ -108,6 +108,12 @@ TEST(Su2, Malformed) {
   } table[] = {
       {"NELEM= 1\n5 0 1 2\n" + points, 0, "NDIME= is missing"},
       {"NDIME= 2\nNELEM= 1\n5 0 1 2\n", 0, "NPOIN= is missing"},
+      {"NDIME= 2\nNELEM= 2\n5 0 1 2\n", 2, "NELEM is 2, but only"},
+      {"NDIME= 2\nNELEM= 3\n5 0 1 2 0\n5 0 1 2 1\n5 0 1", 5, "the file ends"},
+      {"NDIME= 2\nNELEM= 99999999\n5 0 1 2\n", 2, "NELEM is 99999999, but only"},
+      {"NDIME= 2\nNELEM= 99999999999999999999\n5 0 1 2\n" + points, 2, "too large"},
+      {"NDIME= 2\nNELEM= 1\n5 0 1 2\nNPOIN= 4000000000\n0 0\n1 0\n0 1\n", 4, "NPOIN is 4000000000, but only"},
+      {"NDIME= 2\nNPOIN= 99999999999999999999\n0 0\nNELEM= 1\n5 0 1 2\n", 2, "too large"},
       {"NDIME= 2\n" + points, 0, "NELEM= is missing"},
       {"NDIME= 4\n" + points, 0, "NDIME= 4"},
       {"NDIME= two\n" + points, 1, "expected NDIME"},

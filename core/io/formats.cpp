@@ -104,6 +104,8 @@ Mesh read_mesh(const std::filesystem::path& path, Progress& progress) {
   if (mesh.positions.empty()) throw InputError(path.string(), 0, "the file holds no vertices");
   if (mesh.elements.size() == 0) throw InputError(path.string(), 0, "the file holds no elements");
   mesh.name = path.filename().string();
+  const CoordinateLayout& layout = source->layout();
+  mesh.single_precision = layout.binary && std::ranges::find(layout.scalar, CoordinateScalar::Float32) != layout.scalar.end();
   mesh.source = std::move(source);
   progress.set(1.0);
   return mesh;

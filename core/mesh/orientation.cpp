@@ -46,11 +46,11 @@ class WindingSets {
   std::vector<std::uint8_t> against_;
 };
 
-double signed_area(const Mesh& mesh, const Plane& plane, Index e) {
-  const auto c = mesh.elements.corners(e);
-  const auto& p = mesh.positions;
-  const Vec3 area = c.size() == 3 ? cross(p[c[1]] - p[c[0]], p[c[2]] - p[c[0]]) : cross(p[c[2]] - p[c[0]], p[c[3]] - p[c[1]]);
-  return 0.5 * dot(area, plane.normal);
+double signed_area(const Mesh& mesh, const Plane& plane, Index e) { return 0.5 * dot(area_vector(mesh, e), plane.normal); }
+
+/// Have the two elements the very same corners? Such lie on top of each other, not side by side.
+bool duplicates(const Mesh& mesh, Index a, Index b) {
+  return std::ranges::is_permutation(mesh.elements.corners(a), mesh.elements.corners(b));
 }
 
 bool planar(const Mesh& mesh, Index e) { return info(mesh.elements.kind(e)).dimension == 2; }
@@ -82,8 +82,9 @@ OrientationReport normalise_orientation(Mesh& mesh, const Plane& plane, const Ed
     const Index a = edges.element(sides[0]);
     const Index b = edges.element(sides[1]);
     if (a == b) continue;  // an element that has a corner twice
-    // Two elements that run their edge in the same direction are wound against each other.
-    if (!sets.relate(a, b, corners[sides[0]] == corners[sides[1]] ? 1 : 0)) ++report.contradictions;
+    // Two neighbours that run their edge in the same direction are wound against each other; an element and its duplicate are not.
+    const bool same_direction = corners[sides[0]] == corners[sides[1]];
+    if (!sets.relate(a, b, same_direction != duplicates(mesh, a, b) ? 1 : 0)) ++report.contradictions;
   }
 
   std::vector<Vote> votes(count);

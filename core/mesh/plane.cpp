@@ -20,10 +20,11 @@ std::array<double, 3> components(Vec3 a) { return {a.x, a.y, a.z}; }
 
 int largest_component(Vec3 a) {
   const auto c = components(a);
-  // Ties go to z, then x: the order in which exact planes are tried.
+  // Ties, those within rounding too, go to z, then x: the order in which exact planes are tried.
+  constexpr double kTie = 1.0 + 1e-9;
   int best = 2;
   for (const int i : {0, 1}) {
-    if (std::abs(c[static_cast<std::size_t>(i)]) > std::abs(c[static_cast<std::size_t>(best)])) best = i;
+    if (std::abs(c[static_cast<std::size_t>(i)]) > kTie * std::abs(c[static_cast<std::size_t>(best)])) best = i;
   }
   return best;
 }
@@ -90,12 +91,19 @@ Plane frame(Vec3 normal) {
 
 Vec3 mean_area_vector(const Mesh& mesh) {
   Vec3 sum;
-  for (Index e = 0; e < mesh.elements.size(); ++e) {
-    const auto c = mesh.elements.corners(e);
-    const auto& p = mesh.positions;
-    sum = sum + (c.size() == 3 ? cross(p[c[1]] - p[c[0]], p[c[2]] - p[c[0]]) : cross(p[c[2]] - p[c[0]], p[c[3]] - p[c[1]]));
-  }
+  for (Index e = 0; e < mesh.elements.size(); ++e) sum = sum + area_vector(mesh, e);
   return sum;
+}
+
+/// Are most elements parallel to the plane?
+bool mostly_parallel(const Mesh& mesh, const Plane& plane) {
+  Index parallel = 0;
+  for (Index e = 0; e < mesh.elements.size(); ++e) {
+    const Vec3 area = area_vector(mesh, e);
+    const double across = dot(area, plane.normal);
+    parallel += across * across >= (1.0 - 1e-12) * dot(area, area) ? 1 : 0;
+  }
+  return parallel > mesh.elements.size() / 2;
 }
 
 /// Best plane of the used vertices; sets deviation and plane.
@@ -130,6 +138,12 @@ void fit(const Mesh& mesh, const std::vector<std::uint8_t>& used, const Box& box
 
 }  // namespace
 
+Vec3 area_vector(const Mesh& mesh, Index element) {
+  const auto c = mesh.elements.corners(element);
+  const auto& p = mesh.positions;
+  return c.size() == 3 ? cross(p[c[1]] - p[c[0]], p[c[2]] - p[c[0]]) : cross(p[c[2]] - p[c[0]], p[c[3]] - p[c[1]]);
+}
+
 Geometry classify(const Mesh& mesh) {
   Geometry geometry;
   std::vector<std::uint8_t> used(mesh.positions.size(), 0);
@@ -154,6 +168,7 @@ Geometry classify(const Mesh& mesh) {
     if (!volume && !(geometry.deviation <= kPlanarTolerance * geometry.size)) {
       geometry.shape = Shape::Surface;
       geometry.plane = coordinate_plane(largest_component(mean_area_vector(mesh)));
+      geometry.mostly_flat = mostly_parallel(mesh, geometry.plane);
     }
   }
   return geometry;

@@ -20,10 +20,14 @@ enum class Shape { Planar, Surface, Volume };
 /// What kind of mesh this is.
 struct Geometry {
   Shape shape = Shape::Planar;
-  Plane plane;             // meaningful for Planar; for Surface the coordinate plane nearest to the mean normal
-  double deviation = 0.0;  // largest distance of a used vertex from the best plane, in mesh units
-  double size = 0.0;       // diagonal of the bounding box of the used vertices
+  Plane plane;               // of a Planar mesh; of a Surface the coordinate plane nearest to the mean normal
+  bool mostly_flat = false;  // Surface: most elements are parallel to `plane`, which then gives quadrilaterals their sign
+  double deviation = 0.0;    // largest distance of a used vertex from the best plane, in mesh units
+  double size = 0.0;         // diagonal of the bounding box of the used vertices
 };
+
+/// Twice the area vector of a triangle or quadrilateral: normal to it, counter-clockwise seen from its tip. Volume elements: meaningless.
+[[nodiscard]] Vec3 area_vector(const Mesh& mesh, Index element);
 
 /// Planar when no used vertex lies farther than 1e-6 * size from the best plane. The normal's largest component is positive.
 /// Volume as soon as one element is three-dimensional. Never throws; an empty mesh is planar with z normal.

@@ -1,6 +1,6 @@
-#include <fmt/format.h>
+#include "core/mesh/report.h"
 
-#include "core/mesh/topology.h"
+#include <fmt/format.h>
 
 namespace dmoscope {
 namespace {

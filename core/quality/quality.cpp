@@ -50,7 +50,7 @@ double visit_element(const QualityContext& context, std::span<const Vec3> positi
     const Vec3 n = unit_normal(b, c, plane.normal);  // a surface triangle has no sign
     return visitor(formulas::Triangle<V>({{}, n}, {b, n}, {c, n}));
   }
-  const Vec3 n = plane.normal;
+  const Vec3 n = context.geometry.mostly_flat ? plane.normal : unit_normal(c, d - b, plane.normal);
   return visitor(formulas::Quadrilateral<V>({{}, n}, {b, n}, {c, n}, {d, n}));
 }
 

@@ -51,19 +51,22 @@ bool degenerate(const Mesh& mesh, Index e) {
   constexpr double kRounding = 1e-15;
   const auto c = mesh.elements.corners(e);
   const std::size_t n = c.size();
-  double largest = 0.0;
-  double span = 0.0;
+  double extent = 0.0;  // edges are divided by it: nothing over- or underflows, whatever the mesh's units
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < n; ++j) {
       if (c[i] == c[j]) return true;
     }
-    const Vec3 a = mesh.positions[c[(i + 1) % n]] - mesh.positions[c[i]];
-    const Vec3 b = mesh.positions[c[(i + n - 1) % n]] - mesh.positions[c[i]];
-    const Vec3 area = cross(a, b);
-    largest = std::max(largest, dot(area, area));
-    span = std::max({span, dot(a, a), dot(b, b)});
+    const Vec3 edge = mesh.positions[c[(i + 1) % n]] - mesh.positions[c[i]];
+    extent = std::max({extent, std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)});
   }
-  return !(largest > (kRounding * span) * (kRounding * span));
+  if (extent == 0.0) return true;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 a = (1.0 / extent) * (mesh.positions[c[(i + 1) % n]] - mesh.positions[c[i]]);
+    const Vec3 b = (1.0 / extent) * (mesh.positions[c[(i + n - 1) % n]] - mesh.positions[c[i]]);
+    largest = std::max(largest, length(cross(a, b)));
+  }
+  return largest <= kRounding;
 }
 
 MeshReport examine(const Mesh& mesh, const Geometry& geometry, const EdgeTable& edges, Progress* progress) {
@@ -109,7 +112,13 @@ std::string count_volume_elements(const Mesh& mesh) {
 }
 
 void refuse_what_cannot_be_done(const Mesh& mesh, const Geometry& geometry, const std::string& file, Need need) {
+  constexpr double kLargest = 1e75;  // products of four lengths must stay finite and normal
   if (mesh.elements.size() == 0) throw InputError(file, 0, "the mesh has no elements");
+  if (geometry.size > kLargest || (geometry.size > 0.0 && geometry.size < 1.0 / kLargest)) {
+    throw InputError(file, 0,
+                     fmt::format("the mesh is {:.4g} units large; sizes from {:g} to {:g} can be computed with", geometry.size,
+                                 1.0 / kLargest, kLargest));
+  }
   if (geometry.shape == Shape::Volume) {
     throw InputError(file, 0,
                      fmt::format("this is a volume mesh ({}); this version {} only", count_volume_elements(mesh),
@@ -130,9 +139,7 @@ std::vector<double> reference_measures(const Mesh& mesh, const Geometry& geometr
   double total = 0.0;
   for (Index e = 0; e < count; ++e) {
     if (!planar(mesh, e)) continue;
-    const auto c = mesh.elements.corners(e);
-    const auto& p = mesh.positions;
-    const Vec3 twice = c.size() == 3 ? cross(p[c[1]] - p[c[0]], p[c[2]] - p[c[0]]) : cross(p[c[2]] - p[c[0]], p[c[3]] - p[c[1]]);
+    const Vec3 twice = area_vector(mesh, e);
     area[e] = 0.5 * (geometry.shape == Shape::Planar ? std::abs(dot(twice, geometry.plane.normal)) : length(twice));
     total += area[e];
   }
@@ -168,7 +175,7 @@ std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path 
   const EdgeTable edges(mesh);
   progress.check();
   progress.set(0.5);
-  normalise_orientation(mesh, geometry.plane, edges);
+  if (geometry.shape == Shape::Planar) normalise_orientation(mesh, geometry.plane, edges);
   progress.check();
 
   progress.begin("finding neighbours");

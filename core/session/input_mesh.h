@@ -9,6 +9,7 @@
 #include "core/base/progress.h"
 #include "core/mesh/mesh.h"
 #include "core/mesh/plane.h"
+#include "core/mesh/report.h"
 #include "core/mesh/topology.h"
 #include "core/quality/quality.h"
 

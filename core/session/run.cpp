@@ -143,7 +143,7 @@ void Run::seek(Moment target, Progress& progress) {
 }
 
 Outcome Run::iterate(std::uint64_t iterations, Progress& progress, const AfterIteration& after) {
-  return advance({.patience = iterations + 1, .max_iterations = iterations, .rise = ConvergenceLimits{}.rise}, false, progress, after);
+  return advance({.patience = iterations, .max_iterations = iterations, .rise = ConvergenceLimits{}.rise}, false, progress, after);
 }
 
 Outcome Run::until_converged(const ConvergenceLimits& limits, Progress& progress, const AfterIteration& after) {
@@ -163,7 +163,8 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, Prog
     ++outcome.iterations;
     ++since_rise;
     const Statistics& now = history_.records()[moment_.iteration].statistics;
-    if (now.minimum >= minimum + limits.rise || now.movable_minimum >= movable + limits.rise) {
+    // As differences: where nothing is movable both are infinite, and that is no rise.
+    if (now.minimum - minimum >= limits.rise || now.movable_minimum - movable >= limits.rise) {
       since_rise = 0;
       outcome.last_rise = moment_.iteration;
       minimum = std::max(minimum, now.minimum);

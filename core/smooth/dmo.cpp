@@ -14,9 +14,12 @@ namespace {
 
 constexpr std::size_t kGrain = 256;  // vertices a chunk: some 0.5 ms of work
 
-/// position + displacement, but a coordinate that does not move keeps its very bits (-0.0 + 0.0 would not).
-Vec3 displaced(Vec3 position, Vec3 displacement) {
-  const auto add = [](double a, double b) { return b == 0.0 ? a : a + b; };
+/// position + displacement, but a coordinate that does not move keeps its very bits (-0.0 + 0.0 would not). `single_precision`: see Mesh.
+Vec3 displaced(Vec3 position, Vec3 displacement, bool single_precision) {
+  const auto add = [single_precision](double a, double b) {
+    if (b == 0.0) return a;
+    return single_precision ? static_cast<double>(static_cast<float>(a + b)) : a + b;
+  };
   return {add(position.x, displacement.x), add(position.y, displacement.y), add(position.z, displacement.z)};
 }
 
@@ -57,7 +60,7 @@ class DmoSmoother : public Smoother {
     if (offset.x == 0.0 && offset.y == 0.0) return false;
     const Vec3 old = positions[vertex];
     const StarState before = star_state(*input_, positions, M, vertex);
-    positions[vertex] = displaced(old, input_->geometry.plane.lift(offset));
+    positions[vertex] = displaced(old, input_->geometry.plane.lift(offset), input_->mesh.single_precision);
     if (star_state(*input_, positions, M, vertex).better_than(before)) return true;
     positions[vertex] = old;
     return false;

@@ -1,5 +1,6 @@
 // Statistics of whole meshes, against plain loops.
 
+#include <atomic>
 #include <cmath>
 #include <numeric>
 
@@ -91,6 +92,43 @@ TEST(Statistics, UndefinedMetricIsNaNForTheKindAndLeftOutOfTheMean) {
   const Statistics statistics = compute_statistics(mesh->quality_context(), mesh->mesh.positions, Metric::MinAngle, fixed, nullptr);
   EXPECT_NEAR(statistics.mean, sum / count, 1e-14);
   EXPECT_THROW(require_defined(Metric::MinAngle, mesh->mesh), UsageError);
+}
+
+TEST(Surfaces, SquaresOfACubeAreIdealWhicheverWayTheyFace) {
+  Mesh cube;
+  cube.name = "cube";
+  for (int i = 0; i < 8; ++i) cube.positions.push_back({i & 1 ? 1.0 : 0.0, i & 2 ? 1.0 : 0.0, i & 4 ? 1.0 : 0.0});
+  for (const auto& face : {std::initializer_list<Index>{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
+    testing::add(cube, face);
+  const auto mesh = input(cube, Need::QualityOnly);
+  ASSERT_EQ(mesh->geometry.shape, Shape::Surface);
+  EXPECT_TRUE(mesh->report.inverted_elements.empty());
+  EXPECT_EQ(mesh->report.flipped_elements, 0U);
+  for (Index e = 0; e < 6; ++e)
+    EXPECT_NEAR(element_quality(mesh->quality_context(), mesh->mesh.positions, Metric::MeanRatio, e), 1.0, 1e-15);
+  EXPECT_THROW((void)input(cube), InputError) << "smoothing a curved surface is not for this version";
+}
+
+TEST(Findings, ADuplicateElementIsNeitherTurnedOverNorInverted) {
+  Mesh mesh;
+  mesh.name = "double";
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}};
+  for (const auto& t : {std::initializer_list<Index>{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {4, 0, 1}}) testing::add(mesh, t);
+  const auto prepared = input(mesh);
+  EXPECT_EQ(prepared->report.duplicate_elements, std::vector<Index>{4});
+  EXPECT_TRUE(prepared->report.inverted_elements.empty());
+  EXPECT_EQ(prepared->report.flipped_elements, 0U);
+}
+
+TEST(Findings, ScaleDoesNotMakeElementsDegenerate) {
+  for (const double scale : {1e-70, 1e-30, 1e30, 1e70}) {
+    Mesh mesh = lattice(4, 0.2, 8);
+    for (Vec3& p : mesh.positions) p = scale * p;
+    EXPECT_TRUE(input(mesh)->report.degenerate_elements.empty()) << scale;
+  }
+  Mesh huge = lattice(4, 0.2, 8);
+  for (Vec3& p : huge.positions) p = 1e160 * p;
+  EXPECT_THROW((void)input(huge), InputError);
 }
 
 TEST(ThreadPool, CoversEveryIndexOnceAndPassesExceptionsOn) {

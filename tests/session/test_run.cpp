@@ -121,6 +121,7 @@ TEST(Run, AMeshWithNothingFreeConvergesAtOnce) {
   const Outcome outcome = run.until_converged({}, progress);
   EXPECT_EQ(outcome.reason, StopReason::NothingMoved);
   EXPECT_EQ(outcome.iterations, 1U);
+  EXPECT_EQ(outcome.last_rise, 0U);
   run.step(StepUnit::Vertex, progress);
   EXPECT_TRUE(run.back(StepUnit::Vertex, progress));
 }

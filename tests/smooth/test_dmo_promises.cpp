@@ -60,7 +60,6 @@ TEST_P(Promises, NoVisitMakesAnythingWorseAndFixedVerticesKeepTheirBits) {
         EXPECT_GT(after.jacobian, 0.0) << "a valid star was inverted";
         EXPECT_GT(after.quality, before.quality);
       }
-      EXPECT_LE(all_after.inverted, all_before.inverted + (before.jacobian <= 0 ? 100U : 0U));
       if (all_before.inverted == 0) {
         EXPECT_EQ(all_after.inverted, 0U);
         EXPECT_GE(all_after.minimum, all_before.minimum);
@@ -136,7 +135,7 @@ TEST(Dmo, FarFromTheOriginAndInATiltedPlaneItReachesTheSameMinimum) {
     const auto prepared = input(*mesh);
     dmoscope::Run run = make_run(prepared, {});
     run.iterate(10, progress);
-    EXPECT_NEAR(run.statistics().minimum, reference.statistics().minimum, 1e-3);
+    EXPECT_NEAR(run.statistics().minimum, reference.statistics().minimum, 1e-4);
     for (const Vec3 p : run.positions()) {  // nobody leaves the plane
       const Plane& plane = prepared->geometry.plane;
       EXPECT_NEAR(dot(p - mesh->positions[0], plane.normal), 0.0, 1e-9);
@@ -153,8 +152,8 @@ TEST(Dmo, FloatAndDoubleReachTheSameMinimum) {
   dmoscope::Run in_double = make_run(mesh, parameters);
   in_float.iterate(20, progress);
   in_double.iterate(20, progress);
-  EXPECT_NEAR(in_float.statistics().minimum, in_double.statistics().minimum, 1e-2);
-  EXPECT_GT(in_float.statistics().minimum, mesh->mesh.elements.size() > 0 ? 0.3 : 1.0);
+  EXPECT_NEAR(in_float.statistics().minimum, in_double.statistics().minimum, 2e-3);
+  EXPECT_GT(in_float.statistics().minimum, 0.3);
 }
 
 TEST(Dmo, UntanglesALattice) {
@@ -177,6 +176,29 @@ TEST(Dmo, ShuffledOrderIsReproducibleAndDiffersFromTheNaturalOne) {
   EXPECT_TRUE(same_bits(a.positions(), b.positions()));
   EXPECT_FALSE(same_bits(a.positions(), c.positions()));
   EXPECT_FALSE(same_bits(a.positions(), natural.positions()));
+}
+
+TEST(Dmo, AMeshOfASinglePrecisionFileIsPutOnFloatsAndStillNeverGetsWorse) {
+  Mesh coarse = lattice(20, 0.4, 28);
+  for (Vec3& p : coarse.positions) p = {static_cast<float>(p.x + 1e5), static_cast<float>(p.y + 1e5), 0};  // 1/128 apart there
+  coarse.single_precision = true;
+  const auto mesh = input(coarse);
+  dmoscope::Run run = make_run(mesh, {});
+  Progress progress;
+  double minimum = run.statistics().minimum;
+  const Index inverted = run.statistics().inverted;
+  for (int i = 0; i < 5; ++i) {
+    run.step(StepUnit::Iteration, progress);
+    if (inverted == 0) {
+      EXPECT_GE(run.statistics().minimum, minimum);
+    }
+    minimum = run.statistics().minimum;
+    for (const Vec3 p : run.positions()) {
+      EXPECT_EQ(p.x, static_cast<float>(p.x));
+      EXPECT_EQ(p.y, static_cast<float>(p.y));
+    }
+  }
+  EXPECT_GT(run.history().records()[1].moved, 0U);
 }
 
 TEST(Dmo, HighValenceStarWorks) {

@@ -1,7 +1,5 @@
 #include "app/targets.h"
 
-#include <algorithm>
-#include <cctype>
 #include <string>
 
 #include <fmt/format.h>
@@ -12,25 +10,6 @@
 #include "core/io/mesh_io.h"
 
 namespace dmoscope::app {
-namespace {
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-/// `extensions`: several separated by blanks, as in FormatInfo.
-bool lists(std::string_view extensions, std::string_view extension) {
-  while (!extensions.empty()) {
-    const auto end = std::min(extensions.find(' '), extensions.size());
-    if (extensions.substr(0, end) == extension) return true;
-    extensions.remove_prefix(std::min(end + 1, extensions.size()));
-  }
-  return false;
-}
-
-}  // namespace
-
 void require_writable(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
   std::error_code error;
@@ -48,13 +27,10 @@ void require_writable(const std::filesystem::path& path) {
 }
 
 void require_mesh_target(const std::filesystem::path& path) {
-  const std::string extension = lower(path.extension().string());
+  const std::string extension = path.extension().string();
+  if (format_by_extension(extension) != nullptr) return require_writable(path);
   std::string known;
-  for (const FormatInfo& format : format_table()) {
-    if (!extension.empty() && lists(format.extensions, extension)) return require_writable(path);
-    if (!known.empty()) known += ' ';
-    known += format.extensions;
-  }
+  for (const FormatInfo& format : format_table()) known += fmt::format("{}{}", known.empty() ? "" : " ", format.extensions);
   throw UsageError(fmt::format("{}: no mesh format has the extension '{}' (known: {})", path.string(), extension, known));
 }
 

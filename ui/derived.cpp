@@ -8,8 +8,8 @@
 namespace dmoscope::ui {
 namespace {
 
-/// More points than a screen is wide draw the same curve; sorting and drawing all of a big mesh would be felt.
-constexpr std::size_t kMostSorted = 4096;
+/// Sorting more than this many qualities would be felt; an even sample of them draws the same curve.
+constexpr std::size_t kMostSorted = 65536;
 
 void refresh_input(Derived& derived, const Frame& frame) {
   derived.metrics = usable_metrics(frame.input->mesh);

@@ -247,9 +247,7 @@ std::optional<std::pair<double, double>> value_range(std::span<const Series> ser
   if (!(high >= low)) return std::nullopt;
   if (view.logarithmic) return bars ? std::pair{0.7, high * 1.5} : std::pair{low / 1.1, high * 1.1};
   if (bars) return std::pair{0.0, std::max(1.0, high * 1.05)};
-  // Values that differ by rounding alone are a flat line, not a mountain range.
-  const double size = std::max(std::abs(low), std::abs(high));
-  const double margin = high - low > 1e-6 * size ? 0.05 * (high - low) : std::max(1e-3, 0.05 * size);
+  const double margin = high > low ? 0.05 * (high - low) : std::max(1e-3, 0.05 * std::abs(high));
   return std::pair{low - margin, high + margin};
 }
 

@@ -55,6 +55,27 @@ const FormatHandler& format_of(const std::filesystem::path& path, std::string_vi
   return *named;
 }
 
+/// Things of one kind that a format cannot carry: one sentence for all of them.
+struct DroppedThings {
+  std::string kind, of;  // "field", " of the vertices"
+  std::vector<std::string> names;
+
+  [[nodiscard]] std::string sentence(std::string_view format_title) const {
+    constexpr std::size_t kNamed = 3;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(names.size(), kNamed); ++i) list += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", names[i]);
+    if (names.size() > kNamed) list += fmt::format(" and {} more", names.size() - kNamed);
+    return fmt::format("Dropped: {} {}{}; {} cannot carry {}.", kind, list, of, format_title, names.size() == 1 ? "it" : "them");
+  }
+};
+
+void add_dropped(std::vector<DroppedThings>& all, std::string_view kind, std::string_view of, const std::string& name) {
+  for (DroppedThings& things : all) {
+    if (things.kind == kind && things.of == of) return things.names.push_back(name);
+  }
+  all.push_back({std::string(kind), std::string(of), {name}});
+}
+
 /// Are the bytes of the source all that a mesh of this format needs, but for the coordinates?
 bool can_patch(const Mesh& mesh, const FormatHandler& handler) {
   return mesh.source && mesh.source->format() == handler.info.name && mesh.source->not_patchable().empty();
@@ -92,6 +113,11 @@ std::span<const FormatInfo> format_table() {
     return result;
   }();
   return table;
+}
+
+const FormatInfo* format_by_extension(std::string_view extension) {
+  const FormatHandler* handler = by_extension(extension);
+  return handler == nullptr ? nullptr : &handler->info;
 }
 
 Mesh read_mesh(const std::filesystem::path& path, Progress& progress) {
@@ -175,18 +201,18 @@ void require_constant_z(const AtomicFile& file, std::span<const Vec3> positions,
 void note_dropped(const Mesh& mesh, std::span<const std::size_t> kept_fields, std::span<const std::size_t> kept_groups,
                   std::string_view format_title, Notes& notes) {
   const auto has = [](std::span<const std::size_t> list, std::size_t i) { return std::find(list.begin(), list.end(), i) != list.end(); };
+  std::vector<DroppedThings> dropped;
   for (std::size_t i = 0; i < mesh.fields.size(); ++i) {
     if (has(kept_fields, i)) continue;
     const Field& field = mesh.fields[i];
-    notes.push_back(fmt::format("Dropped: field \"{}\" of the {}; {} cannot carry it.", field.name,
-                                field.on == Field::On::Vertices ? "vertices" : "elements", format_title));
+    add_dropped(dropped, "field", field.on == Field::On::Vertices ? " of the vertices" : " of the elements", field.name);
   }
   for (std::size_t i = 0; i < mesh.groups.size(); ++i) {
     if (has(kept_groups, i)) continue;
     const Group& group = mesh.groups[i];
-    notes.push_back(
-        fmt::format("Dropped: {} \"{}\"; {} cannot carry it.", group.role.empty() ? "group" : group.role, group.name, format_title));
+    add_dropped(dropped, group.role.empty() ? "group" : group.role, "", group.name);
   }
+  for (const DroppedThings& things : dropped) notes.push_back(things.sentence(format_title));
 }
 
 }  // namespace dmoscope

@@ -20,6 +20,8 @@ struct FormatInfo {
 };
 /// Every format the program reads and writes.
 [[nodiscard]] std::span<const FormatInfo> format_table();
+/// The format with this extension (".off", whatever its case), null if there is none.
+[[nodiscard]] const FormatInfo* format_by_extension(std::string_view extension);
 
 /// Reads a mesh, format by content where that is certain, else by extension. Positions are the file's exact doubles, vertices and
 /// elements in the file's order; nothing is normalised. Throws InputError (file and line), Cancelled.

@@ -162,6 +162,19 @@ TEST(WriteMesh, NamesWhatIsDropped) {
   EXPECT_THAT(notes, testing::ElementsAre(HasSubstr("no depth")));
 }
 
+TEST(WriteMesh, NamesEqualKindsInOneSentence) {
+  Mesh mesh = read_bytes("a.off", kOff);
+  mesh.source.reset();
+  for (const char* name : {"a", "b", "c", "d", "e"}) {
+    mesh.groups.push_back({.name = name, .role = "land boundary", .code = 0, .dimension = 0, .members = {0}});
+  }
+  mesh.groups.push_back({.name = "sea", .role = "open boundary", .code = 0, .dimension = 0, .members = {0}});
+  std::vector<std::string> notes;
+  (void)written("a.off", mesh, mesh.positions, &notes);
+  EXPECT_THAT(notes,
+              testing::UnorderedElementsAre(HasSubstr("land boundary \"a\", \"b\", \"c\" and 2 more"), HasSubstr("open boundary \"sea\"")));
+}
+
 TEST(WriteMesh, FilesOfTwoCoordinatesRefuseAThird) {
   for (const auto& [name, text] : {std::pair<std::string_view, std::string_view>{"a.14", "t\n1 3\n1 0 0 5\n2 1 0 5\n3 0 1 5\n1 3 1 2 3\n"},
                                    {"a.su2", "NDIME= 2\nNELEM= 1\n5 0 1 2\nNPOIN= 3\n0 0\n1 0\n0 1\n"}}) {

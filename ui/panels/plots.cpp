@@ -13,18 +13,12 @@ namespace {
 /// Values that can be plotted: infinity stands for "there is no such element".
 double finite_or_gap(double value) { return std::isfinite(value) ? value : NAN; }
 
-/// True when the runs optimise different metrics, which must then be named with every curve.
-bool metrics_differ(const std::vector<RunView>& runs) {
-  return std::any_of(runs.begin(), runs.end(), [&](const RunView& run) { return run.parameters.metric != runs.front().parameters.metric; });
-}
-
 std::vector<Series> convergence_series(const PanelContext& context) {
   std::vector<Series> all;
   const auto& runs = context.session.runs;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const RunView& run = runs[k];
-    std::string prefix = runs.size() == 1 ? "" : fmt::format("{} {} ", k + 1, run.parameters.method);
-    if (metrics_differ(runs)) prefix += metric_phrase(run.parameters.metric) + " ";
+    const std::string prefix = runs.size() == 1 ? "" : fmt::format("{} {} ", k + 1, run.parameters.method);
     const render::Rgb ink = context.palette.runs[k % 8];
     const float thick = k == context.session.active ? 2.2F : 1.5F;
     Series minimum{prefix + "minimum", ink, {}, {}, Series::Kind::Line, 0, thick, 1.0F, false};
@@ -82,7 +76,7 @@ PlotSpec describe(const PanelContext& context, std::vector<Series>& series) {
       spec = {"convergence", "iteration", "quality", true, {}, {}, {}, "open a mesh and run to see how its quality rises", "iteration"};
       series = convergence_series(context);
       if (const RunView* run = context.run()) {
-        spec.y_title = metrics_differ(context.session.runs) ? "quality" : metric_phrase(run->parameters.metric);
+        spec.y_title = metric_phrase(run->parameters.metric);
         if (run->records.size() > 1) spec.x_mark = static_cast<double>(run->moment.iteration);
       }
       break;

@@ -84,7 +84,7 @@ TEST(History, KeepsWithinItsBudgetAndStillReachesEveryIteration) {
   EXPECT_LE(poor.history().bytes(), budget);
   EXPECT_FALSE(poor.history().sentence().empty()) << "the budget was met: it must be said";
   EXPECT_EQ(poor.history().records().size(), 21U) << "statistics of every iteration are kept";
-  for (const std::uint64_t iteration : {13, 7, 19, 0, 20, 1}) {
+  for (const std::uint64_t iteration : {13U, 7U, 19U, 0U, 20U, 1U}) {
     poor.seek({iteration, 0}, progress);
     EXPECT_TRUE(same_bits(copy(poor), states[iteration])) << iteration;
   }

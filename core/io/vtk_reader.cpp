@@ -99,12 +99,10 @@ class VtkReader {
       points();
     } else if (!points_read_) {
       in().fail(keyword + " before POINTS");
-    } else if (is("CELLS")) {
+    } else if (is("CELLS") || is("POLYGONS")) {
       read_cells(cells_, keyword);
     } else if (is("CELL_TYPES")) {
       cell_types();
-    } else if (is("POLYGONS")) {
-      read_cells(cells_, keyword);
     } else if (is("TRIANGLE_STRIPS")) {
       const std::size_t place = in().token();
       if (read_vtk_cells(values_, keyword, mesh_.positions.size()).size() > 0) {

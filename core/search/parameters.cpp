@@ -12,6 +12,8 @@ void validate(const SearchParameters& parameters) {
   if (parameters.levels < 1 || parameters.levels > 16) throw UsageError(fmt::format("levels must be 1 to 16, not {}", parameters.levels));
   if (!(parameters.omega > 0.0 && parameters.omega <= 2.0))
     throw UsageError(fmt::format("omega must be above 0 and at most 2, not {}", parameters.omega));
+  if (parameters.simd && *parameters.simd > best_simd_level())
+    throw UsageError(fmt::format("this processor has no {}", name(*parameters.simd)));
 }
 
 }  // namespace dmoscope

@@ -76,7 +76,7 @@ TEST(Engine, ParametersOfAnUntouchedRunChangeInPlace) {
   const auto view = engine.view();
   ASSERT_EQ(view->runs.size(), 1U);
   const RunParameters& parameters = view->runs[0].parameters;
-  EXPECT_EQ(parameters.search, (SearchParameters{9, 4, 0.6, Precision::Double}));
+  EXPECT_EQ(parameters.search, (SearchParameters{9, 4, 0.6, Precision::Double, {}}));
   EXPECT_EQ(parameters.order, VisitOrder{3});
   EXPECT_EQ(parameters.metric, Metric::RadiusRatio);
 }

@@ -1,0 +1,22 @@
+#pragma once
+// Which vector instructions the search uses. The result has the same bits for any.
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace dmoscope {
+
+/// Baseline is what every processor of the architecture has: SSE2 on x86-64, NEON on ARM. The others exist on x86-64 only.
+enum class SimdLevel : std::uint8_t { Baseline, Avx2, Avx512 };
+
+/// The levels that this program has and this processor runs, lowest first; never empty.
+[[nodiscard]] std::span<const SimdLevel> supported_simd_levels();
+/// The highest of them.
+[[nodiscard]] SimdLevel best_simd_level();
+/// "baseline", "avx2", "avx512".
+[[nodiscard]] std::string_view name(SimdLevel level);
+/// Throws UsageError for an unknown name (listing the known ones) and for a level this processor lacks.
+[[nodiscard]] SimdLevel parse_simd_level(std::string_view name);
+
+}  // namespace dmoscope

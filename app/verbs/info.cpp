@@ -2,17 +2,21 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <thread>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "app/text.h"
+#include "app/verbs/bench_machine.h"
 #include "app/verbs/verbs.h"
 #include "core/base/error.h"
 #include "core/io/mesh_io.h"
 #include "core/mesh/generate.h"
 #include "core/quality/metric.h"
+#include "core/search/simd.h"
 #include "core/session/run.h"
 #include "gpu/device.h"
 
@@ -22,12 +26,6 @@
 
 namespace dmoscope::app {
 namespace {
-
-#if defined(__clang__)
-constexpr std::string_view kCompiler = "clang " __clang_version__;
-#else
-constexpr std::string_view kCompiler = "g++ " __VERSION__;
-#endif
 
 struct OpenGl {
   bool usable = false;
@@ -56,11 +54,18 @@ Json json_of(const gpu::Availability& cuda) {
       {"name", "cuda"}, {"usable", cuda.reason.empty()}, {"built", cuda.built}, {"reason", cuda.reason}, {"devices", std::move(devices)}};
 }
 
+std::vector<std::string_view> simd_names() {
+  std::vector<std::string_view> names;
+  for (const SimdLevel level : supported_simd_levels()) names.push_back(name(level));
+  return names;
+}
+
 Json everything() {
   const OpenGl gl = headless_opengl();
   const unsigned threads = std::thread::hardware_concurrency();
-  Json object{{"version", DMOSCOPE_VERSION}, {"build", DMOSCOPE_BUILD_TYPE}, {"compiler", kCompiler}, {"threads", threads}};
+  Json object{{"version", DMOSCOPE_VERSION}, {"build", DMOSCOPE_BUILD_TYPE}, {"compiler", compiler()}, {"threads", threads}};
   object["backends"] = {{{"name", "cpu"}, {"usable", true}, {"threads", threads}}, json_of(gpu::availability())};
+  object["simd"] = {{"levels", simd_names()}, {"used", name(best_simd_level())}};
   object["opengl"] = {{"usable", gl.usable}, {"description", gl.text}};
   for (const FormatInfo& f : format_table()) {
     object["formats"].push_back({{"name", f.name}, {"title", f.title}, {"extensions", f.extensions}, {"doc", f.doc}});
@@ -93,8 +98,9 @@ void print_cuda(const gpu::Availability& cuda) {
 
 void print_for_a_person() {
   const OpenGl gl = headless_opengl();
-  fmt::print("dmoscope {} ({}, {})\n\nbackends\n", DMOSCOPE_VERSION, DMOSCOPE_BUILD_TYPE, kCompiler);
+  fmt::print("dmoscope {} ({}, {})\n\nbackends\n", DMOSCOPE_VERSION, DMOSCOPE_BUILD_TYPE, compiler());
   fmt::print("  cpu    usable, {}\n", counted(std::thread::hardware_concurrency(), "processor thread", "processor threads"));
+  fmt::print("         SIMD {} (supported: {})\n", name(best_simd_level()), fmt::join(simd_names(), ", "));
   print_cuda(gpu::availability());
   fmt::print("  opengl {}{}\n\nformats\n", gl.usable ? "" : "not usable: ", gl.text);
   for (const FormatInfo& f : format_table()) fmt::print("  {:<16} {}; {}\n", f.extensions, f.title, f.doc);

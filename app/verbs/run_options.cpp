@@ -47,6 +47,9 @@ void add_run_options(CLI::App& verb, RunOptions& options) {
   verb.add_option("--precision", options.precision, "Scalar of the search, float or double; moves are always confirmed in double")
       ->type_name("NAME")
       ->capture_default_str();
+  verb.add_option("--simd", options.simd, "Vector instructions: auto, baseline, avx2 or avx512. The result is the same for any")
+      ->type_name("LEVEL")
+      ->capture_default_str();
   verb.add_option("--order", options.order, "Order of the vertices: natural or shuffle:SEED")->type_name("ORDER")->capture_default_str();
   verb.add_option("--fix", options.fix,
                   "Vertices to keep where they are besides the boundary: ids from 0 and ranges (3,7-9), or a group's name")
@@ -63,6 +66,7 @@ RunParameters parameters_of(const RunOptions& options) {
   validate(options.search);
   parameters.search = options.search;
   parameters.search.precision = parse_precision(options.precision);
+  if (options.simd != "auto") parameters.search.simd = parse_simd_level(options.simd);
   parameters.order = parse_order(options.order);
   return parameters;
 }

@@ -18,12 +18,13 @@ struct RunOptions {
   std::string backend = "auto";
   std::string order = "natural";
   std::string precision = "float";
+  std::string simd = "auto";
   unsigned threads = 0;
   SearchParameters search;
   std::vector<std::string> fix;  // for named_vertices()
 };
 
-/// Declares --method, --metric, --backend, --threads, --grid, --levels, --omega, --precision, --order and --fix.
+/// Declares --method, --metric, --backend, --threads, --grid, --levels, --omega, --precision, --simd, --order and --fix.
 void add_run_options(CLI::App& verb, RunOptions& options);
 
 /// The parameters without the fixed set, which needs the mesh. Throws UsageError for names that do not exist and values out of range.

@@ -58,6 +58,7 @@ TEST(Usage, IsRefusedWithTwo) {
       {"smooth", in, "-o", out, "--metric", "scaled-jacobian", "extra"},
       {"smooth", in, "-o", out, "--method", "laplace"},
       {"smooth", in, "-o", out, "--backend", "abacus"},
+      {"smooth", in, "-o", out, "--simd", "mmx"},
       {"smooth", in, "-o", out, "--backend", "cuda"},
       {"smooth", in, "-o", out, "--combine", "mean-ratio:0.7:min-angle"},
       {"smooth", in, "-o", out, "--then", "mean"},
@@ -127,11 +128,13 @@ TEST(Usage, SaysWhatThereIs) {
 
 TEST(Info, JsonListsEverything) {
   const auto info = json_of(run({"info", "--json"}));
-  for (const char* key : {"version", "build", "compiler", "threads", "backends", "opengl", "formats", "metrics", "methods", "generators"}) {
+  for (const char* key : {"version", "build", "compiler", "threads", "backends", "simd", "opengl", "formats", "metrics", "methods", "generators"}) {
     EXPECT_TRUE(info.contains(key)) << key;
   }
   EXPECT_EQ(info["metrics"].size(), 8U);
   EXPECT_EQ(info["backends"][0]["name"], "cpu");
+  EXPECT_EQ(info["simd"]["levels"][0], "baseline");
+  EXPECT_EQ(info["simd"]["levels"].back(), info["simd"]["used"]);
   EXPECT_TRUE(info["backends"][1]["usable"] == true || !info["backends"][1]["reason"].get<std::string>().empty());
   EXPECT_THAT(run({"info"}).out, AllOf(HasSubstr("mean-ratio"), HasSubstr("cuda"), HasSubstr(".14")));
 }
@@ -262,18 +265,6 @@ TEST(Window, AFileThatIsNotThereIsToldBeforeTheDisplay) {
   const Output output = run({"bogus"});
   EXPECT_EQ(output.code, 3);
   EXPECT_THAT(output.err, AllOf(HasSubstr("bogus"), HasSubstr("no such file and no such verb"), ::testing::Not(HasSubstr("DISPLAY"))));
-}
-
-TEST(Bench, JsonHasAFigureForEachExecutor) {
-  const auto bench = json_of(run({"bench", sample("annulus.off"), "--json"}));
-  ASSERT_TRUE(bench.contains("figures"));
-  ASSERT_GE(bench["figures"].size(), 2U);
-  EXPECT_EQ(bench["figures"][0]["precision"], "double");
-  EXPECT_EQ(bench["figures"][0]["ratio"], 1.0);
-  for (const auto& figure : bench["figures"]) {
-    EXPECT_GT(figure["vertices_per_second"], 0.0);
-    EXPECT_LE(figure["lowest"], figure["highest"]);
-  }
 }
 
 }  // namespace

@@ -1,0 +1,191 @@
+#include "app/verbs/bench_measure.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "app/text.h"
+#include "core/base/error.h"
+#include "core/mesh/generate.h"
+#include "core/session/run.h"
+
+namespace dmoscope::app {
+namespace {
+
+constexpr std::uint64_t kSeed = 1;
+constexpr std::uint64_t kReferenceVisits = 20'000;
+constexpr std::size_t kReferenceSize = 10'000;
+
+using SharedInput = std::shared_ptr<const InputMesh>;
+
+SharedInput generate(const BenchElements& elements, std::size_t size, Progress& progress) {
+  Mesh mesh = generate_mesh(elements.generator, size, kSeed, progress);
+  mesh.name = fmt::format("{} {}", elements.generator, size);
+  return prepare_input(std::move(mesh), {}, Need::Smoothing, progress);
+}
+
+std::uint64_t free_vertices(const InputMesh& input) {
+  std::uint64_t free = 0;
+  for (Index v = 0; v < input.mesh.vertex_count(); ++v) {
+    if (input.topology.boundary()[v] == 0 && !input.topology.star(v).empty()) ++free;
+  }
+  return free;
+}
+
+/// Of a mesh that has any.
+const BenchElements& elements_of(const Mesh& mesh) {
+  const auto kinds = mesh.elements.kinds();
+  const bool triangles = std::ranges::find(kinds, ElementKind::Triangle) != kinds.end();
+  const bool quadrilaterals = std::ranges::find(kinds, ElementKind::Quadrilateral) != kinds.end();
+  const auto same = [&](const BenchElements& e) { return e.triangles == triangles && e.quadrilaterals == quadrilaterals; };
+  return *std::ranges::find_if(bench_elements(), same);
+}
+
+Spread spread_of(std::vector<double> values) {
+  std::ranges::sort(values);
+  const std::size_t half = values.size() / 2;
+  const double median = values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+  return {median, values.front(), values.back()};
+}
+
+/// One way to smooth one mesh, and what its repeats took.
+struct Series {
+  Figure figure;  // all but its times
+  SharedInput input;
+  std::shared_ptr<ThreadPool> pool;
+  std::uint64_t steps = 0;  // iterations to do; figure.iterations of them count
+  std::vector<double> seconds{}, first{}, last{};
+
+  [[nodiscard]] std::string title() const {
+    return fmt::format("{}, {}, {}, {}", figure.mesh, info(figure.metric).name, figure.simd ? name(*figure.simd) : "scalar double",
+                       counted(figure.threads, "thread", "threads"));
+  }
+};
+
+/// A fresh run from the input, so that every repeat does the very same work.
+void repeat(Series& series, Progress& progress) {
+  RunParameters parameters;
+  parameters.method = series.figure.method;
+  parameters.metric = series.figure.metric;
+  parameters.search.precision = series.figure.precision;
+  parameters.search.simd = series.figure.simd;
+  Run run(series.input, parameters, series.pool, 0);
+  run.iterate(series.steps, progress);
+  const std::vector<IterationRecord>& records = run.history().records();
+  double seconds = 0.0;
+  for (std::uint64_t i = 1; i <= series.figure.iterations; ++i) seconds += records[i].seconds;
+  series.seconds.push_back(seconds);
+  series.first.push_back(records[1].seconds);
+  series.last.push_back(records[series.figure.settling ? series.figure.settling->iteration : series.steps].seconds);
+}
+
+class Bench {
+ public:
+  Bench(const BenchPlan& plan, Progress& progress, const TakeFigures& take) : plan_(plan), progress_(progress), take_(take) {
+    for (const unsigned count : plan.threads) pools_.push_back(std::make_shared<ThreadPool>(count));
+  }
+
+  void measure_all_of(const SharedInput& input) {
+    if (free_vertices(*input) == 0) {
+      throw UsageError(fmt::format("{}: no vertex is free to move, so there is nothing to measure", input->mesh.name));
+    }
+    const BenchElements& elements = elements_of(input->mesh);
+    std::vector<Series> all;
+    for (const Metric metric : plan_.metrics) {
+      if (!elements.suits(info(metric))) continue;
+      all.push_back(reference(input, elements, metric));
+      for (const SimdLevel level : plan_.levels) {
+        for (const auto& pool : pools_) all.push_back(variant(input, elements, metric, level, pool));
+      }
+    }
+    for (std::size_t i = 1; i <= plan_.repeats; ++i) {
+      for (Series& series : all) {
+        progress_.begin(fmt::format("{}: repeat {} of {}", series.title(), i, plan_.repeats));
+        repeat(series, progress_);
+      }
+    }
+    take_(figures_of(all));
+  }
+
+ private:
+  [[nodiscard]] static Figure figure_of(const SharedInput& input, const BenchElements& elements, Metric metric) {
+    Figure figure;
+    figure.mesh = input->mesh.name;
+    figure.elements = elements.name;
+    figure.vertices = figure.subject_vertices = input->mesh.vertex_count();
+    figure.free = free_vertices(*input);
+    figure.metric = metric;
+    figure.method = RunParameters{}.method;
+    return figure;
+  }
+
+  [[nodiscard]] Series variant(const SharedInput& input, const BenchElements& elements, Metric metric, SimdLevel level,
+                               const std::shared_ptr<ThreadPool>& pool) const {
+    Figure figure = figure_of(input, elements, metric);
+    figure.simd = level;
+    figure.threads = pool->size();
+    figure.iterations = plan_.iterations;
+    if (plan_.active > 0) figure.settling.emplace().iteration = plan_.active;
+    return {std::move(figure), input, pool, std::max(plan_.iterations, plan_.active)};
+  }
+
+  [[nodiscard]] Series reference(const SharedInput& subject, const BenchElements& elements, Metric metric) {
+    const bool large = free_vertices(*subject) > kReferenceVisits;
+    if (large && reference_elements_ != elements.name) {
+      reference_input_ = generate(elements, kReferenceSize, progress_);
+      reference_elements_ = elements.name;
+    }
+    const SharedInput& input = large ? reference_input_ : subject;
+    Figure figure = figure_of(input, elements, metric);
+    figure.subject_vertices = subject->mesh.vertex_count();
+    figure.precision = Precision::Double;
+    figure.reference = true;
+    figure.iterations = std::clamp<std::uint64_t>(kReferenceVisits / figure.free, 1, plan_.iterations);
+    const std::uint64_t steps = figure.iterations;
+    return {std::move(figure), input, single_, steps};
+  }
+
+  [[nodiscard]] std::vector<Figure> figures_of(const std::vector<Series>& all) const {
+    std::vector<Figure> figures;
+    double reference = 0.0;
+    for (const Series& series : all) {
+      Figure figure = series.figure;
+      figure.seconds = spread_of(series.seconds);
+      if (figure.reference) reference = figure.vertices_per_second();
+      figure.reference_vertices_per_second = reference;
+      if (figure.settling) {
+        figure.settling->first_seconds = spread_of(series.first).median;
+        figure.settling->seconds = spread_of(series.last).median;
+      }
+      figures.push_back(std::move(figure));
+    }
+    return figures;
+  }
+
+  const BenchPlan& plan_;
+  Progress& progress_;
+  const TakeFigures& take_;
+  std::vector<std::shared_ptr<ThreadPool>> pools_;
+  std::shared_ptr<ThreadPool> single_ = std::make_shared<ThreadPool>(1);
+  SharedInput reference_input_;
+  std::string_view reference_elements_;
+};
+
+}  // namespace
+
+void measure(const BenchPlan& plan, const std::filesystem::path& file, Progress& progress, const TakeFigures& take) {
+  Bench bench(plan, progress, take);
+  if (!file.empty()) {
+    const SharedInput input = load_input(file, Need::Smoothing, progress);
+    if (!plan.all_metrics) {
+      for (const Metric metric : plan.metrics) require_defined(metric, input->mesh);
+    }
+    bench.measure_all_of(input);
+    return;
+  }
+  for (const BenchElements& elements : plan.elements) {
+    for (const std::size_t size : plan.sizes) bench.measure_all_of(generate(elements, size, progress));
+  }
+}
+
+}  // namespace dmoscope::app

@@ -1,0 +1,60 @@
+#pragma once
+// What `dmoscope bench` is asked to measure, read from its options and checked before anything is generated.
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/quality/metric.h"
+#include "core/search/simd.h"
+
+namespace dmoscope::app {
+
+/// The options as given; the lists are separated by commas.
+struct BenchOptions {
+  std::filesystem::path file, plot;
+  std::string sizes = "1e4,1e5,1e6";
+  std::string threads = "1,0";
+  std::string metric = "mean-ratio";
+  std::string elements = "triangles";
+  std::string simd = "auto";
+  std::size_t repeats = 5;
+  std::uint64_t iterations = 4;
+  std::uint64_t active = 0;
+  bool full = false;
+  bool json = false;
+};
+
+/// Meshes of one make-up, and the generator that makes them.
+struct BenchElements {
+  std::string_view name;       // "triangles"
+  std::string_view generator;  // "grid"
+  std::size_t largest;         // size, in vertices
+  bool triangles, quadrilaterals;
+  [[nodiscard]] bool suits(const MetricInfo& metric) const noexcept {
+    return (!triangles || metric.triangles) && (!quadrilaterals || metric.quadrilaterals);
+  }
+};
+/// triangles, quadrilaterals, mixed.
+[[nodiscard]] std::span<const BenchElements> bench_elements();
+
+/// The options understood; no list has the same entry twice.
+struct BenchPlan {
+  std::vector<std::size_t> sizes;       // of the meshes to generate, in vertices; empty when a file is given
+  std::vector<BenchElements> elements;  // of the meshes to generate
+  std::vector<Metric> metrics;          // left out where a mesh has elements they are not defined for
+  bool all_metrics;                     // asked for as "all", not by their names
+  std::vector<SimdLevel> levels;        // of this processor
+  std::vector<unsigned> threads;        // at least 1 each
+  std::size_t repeats;                  // of every measurement
+  std::uint64_t iterations;             // timed, from the input on
+  std::uint64_t active;                 // the iteration whose time is compared with the first's; 0: none
+};
+
+/// Throws UsageError for what does not exist, is out of range, fits no other choice, or needs more memory than there is.
+[[nodiscard]] BenchPlan plan_of(const BenchOptions& options);
+
+}  // namespace dmoscope::app

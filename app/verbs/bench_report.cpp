@@ -1,0 +1,180 @@
+#include "app/verbs/bench_report.h"
+
+#include <algorithm>
+#include <string>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "app/drawing.h"
+#include "app/line_plot.h"
+#include "app/targets.h"
+#include "app/verbs/bench_machine.h"
+#include "core/base/error.h"
+#include "core/io/mesh_io.h"
+#ifdef DMOSCOPE_HAVE_GUI
+#include "app/window/drawing_picture.h"
+#endif
+
+namespace dmoscope::app {
+namespace {
+
+constexpr std::size_t kDotted = 3;  // of PlotSeries::dash
+
+constexpr std::string_view kReference =
+    "the plain scalar search in double on one thread, measured in turn with the others; where a mesh has more than 20000 free vertices, on "
+    "a generated one of 10000 with the same kinds of elements, since its cost a visit does not depend on the size";
+
+std::string_view simd_name(const Figure& f) { return f.simd ? name(*f.simd) : "scalar"; }
+std::string_view precision_name(const Figure& f) { return f.precision == Precision::Double ? "double" : "float"; }
+unsigned cores() { return std::max(1U, std::thread::hardware_concurrency()); }
+
+Json json_of(const Figure& f) {
+  Json object{{"mesh", f.mesh},
+              {"elements", f.elements},
+              {"vertices", f.vertices},
+              {"free", f.free},
+              {"metric", info(f.metric).name},
+              {"method", f.method},
+              {"precision", precision_name(f)},
+              {"simd", simd_name(f)},
+              {"threads", f.threads},
+              {"iterations", f.iterations},
+              {"seconds", {{"median", f.seconds.median}, {"lowest", f.seconds.lowest}, {"highest", f.seconds.highest}}},
+              {"vertices_per_second", json_number(f.vertices_per_second())},
+              {"ns_per_visit", json_number(f.ns_per_visit())},
+              {"reference", f.reference},
+              {"reference_vertices_per_second", json_number(f.reference_vertices_per_second)},
+              {"ratio", json_number(f.ratio())}};
+  if (f.settling) {
+    object["settling"] = {{"iteration", f.settling->iteration},
+                          {"first_seconds", f.settling->first_seconds},
+                          {"seconds", f.settling->seconds},
+                          {"ratio", json_number(f.settling->first_seconds / f.settling->seconds)}};
+  }
+  return object;
+}
+
+/// What all figures of one line of the plot have in common.
+std::string series_name(const Figure& f) {
+  const std::string what = fmt::format("{}, {}", f.elements, info(f.metric).name);
+  if (f.reference) return what + ", plain double";
+  return fmt::format("{}, {}, {}", what, simd_name(f), counted(f.threads, "thread", "threads"));
+}
+
+/// Million visits a second in `seconds`.
+double rate(const Figure& f, double seconds) { return 1e-6 * f.visits() / seconds; }
+
+/// Which colours and dashes tell the series apart: a colour for elements, metric and SIMD level, a dash for the number of threads.
+class PlotLook {
+ public:
+  explicit PlotLook(const std::vector<Figure>& figures) {
+    const Figure& first = figures.front();
+    single_ = std::ranges::all_of(figures, [&](const Figure& f) { return f.elements == first.elements && f.metric == first.metric; });
+  }
+
+  /// A reference is dotted, and grey where there is but one; else it has the colour of the first series it is compared with.
+  [[nodiscard]] PlotSeries series(const Figure& f, const Figure& compared) {
+    PlotSeries series{.name = series_name(f), .muted = f.reference && single_, .values = {}};
+    if (!series.muted) {
+      series.colour = place(colours_, fmt::format("{} {} {}", f.elements, info(f.metric).name, simd_name(f.reference ? compared : f)));
+    }
+    series.dash = f.reference ? kDotted : place(dashes_, f.threads);
+    return series;
+  }
+
+ private:
+  template <class Value>
+  static std::size_t place(std::vector<Value>& known, const Value& value) {
+    const auto found = std::find(known.begin(), known.end(), value);
+    const auto index = static_cast<std::size_t>(found - known.begin());
+    if (found == known.end()) known.push_back(value);
+    return index;
+  }
+  bool single_;
+  std::vector<std::string> colours_;
+  std::vector<unsigned> dashes_;
+};
+
+LinePlot plot_of(const std::vector<Figure>& figures) {
+  LinePlot plot;
+  plot.title = "Smoothing by size of the mesh";
+  plot.subtitle =
+      fmt::format("{}, {}; {}, {}; dmoscope {}, commit {}", processor(), counted(cores(), "processor thread", "processor threads"),
+                  compiler(), DMOSCOPE_BUILD_TYPE, DMOSCOPE_VERSION, commit());
+  plot.x_title = "vertices";
+  plot.y_title = "million vertex visits a second";
+  PlotLook look(figures);
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    const Figure& f = figures[i];
+    auto series = std::ranges::find(plot.series, series_name(f), &PlotSeries::name);
+    // After a reference comes the first figure that is compared with it.
+    if (series == plot.series.end()) series = plot.series.insert(series, look.series(f, figures[f.reference ? i + 1 : i]));
+    series->values.push_back(
+        {static_cast<double>(f.subject_vertices), rate(f, f.seconds.median), rate(f, f.seconds.highest), rate(f, f.seconds.lowest)});
+  }
+  for (PlotSeries& series : plot.series) std::ranges::sort(series.values, {}, &PlotValue::x);
+  return plot;
+}
+
+}  // namespace
+
+void print_head(const BenchPlan& plan) {
+  fmt::print("{}, {}\n{}, {}, commit {}; flags {}\n\n", processor(), counted(cores(), "processor thread", "processor threads"), compiler(),
+             DMOSCOPE_BUILD_TYPE, commit(), compiler_flags());
+  fmt::print("Smoothing alone, {} from the input; median of {} (lowest to highest).\nRatio to {}.\n\n",
+             counted(plan.iterations, "iteration", "iterations"), counted(plan.repeats, "repeat", "repeats"), kReference);
+  fmt::print("{:<20} {:<16} {:>9} {:>9} {:>7} {:>9} {:>8} {:>16} {:>9} {:>7}{}\n", "mesh", "metric", "free", "simd", "threads", "ms",
+             "Mv/s", "spread", "ns/visit", "ratio", plan.active > 0 ? fmt::format("  iteration {} against 1", plan.active) : "");
+}
+
+void print_rows(const std::vector<Figure>& figures) {
+  for (const Figure& f : figures) {
+    const std::string spread = fmt::format("{:.3g} to {:.3g}", rate(f, f.seconds.highest), rate(f, f.seconds.lowest));
+    fmt::print("{:<20} {:<16} {:>9} {:>9} {:>7} {:>9.3f} {:>8.4g} {:>16} {:>9.1f} {:>7.2f}", f.mesh, info(f.metric).name, f.free,
+               f.reference ? "double" : simd_name(f), f.threads, 1e3 * f.seconds.median, rate(f, f.seconds.median), spread,
+               f.ns_per_visit(), f.ratio());
+    if (f.settling) {
+      fmt::print("  {:.3f} ms against {:.3f} ms, {:.2f} x", 1e3 * f.settling->seconds, 1e3 * f.settling->first_seconds,
+                 f.settling->first_seconds / f.settling->seconds);
+    }
+    fmt::print("\n");
+  }
+  std::fflush(stdout);
+}
+
+Json json_of(const BenchPlan& plan, const std::vector<Figure>& figures) {
+  Json list = Json::array();
+  for (const Figure& figure : figures) list.push_back(json_of(figure));
+  Json levels = Json::array();
+  for (const SimdLevel level : supported_simd_levels()) levels.push_back(name(level));
+  const auto memory = total_memory();
+  return {{"version", DMOSCOPE_VERSION},
+          {"commit", commit()},
+          {"date", date_and_time()},
+          {"machine", {{"processor", processor()}, {"cores", cores()}, {"memory", memory ? Json(*memory) : Json(nullptr)}}},
+          {"build", {{"compiler", compiler()}, {"type", DMOSCOPE_BUILD_TYPE}, {"flags", compiler_flags()}}},
+          {"simd", {{"levels", std::move(levels)}, {"used", name(best_simd_level())}}},
+          {"repeats", plan.repeats},
+          {"reference", kReference},
+          {"figures", std::move(list)}};
+}
+
+void require_plot_target(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+#ifndef DMOSCOPE_HAVE_GUI
+  if (extension == ".png") throw UsageError("this program was built without its window, so it plots .svg only");
+#endif
+  if (extension != ".svg" && extension != ".png") throw UsageError(fmt::format("{}: plots are written as .svg or .png", path.string()));
+  require_writable(path);
+}
+
+void write_plot(const std::filesystem::path& path, const std::vector<Figure>& figures) {
+  const Drawing drawing = draw(plot_of(figures));
+#ifdef DMOSCOPE_HAVE_GUI
+  if (path.extension() == ".png") return render::write_png(path, picture_of(drawing));
+#endif
+  write_file_atomically(path, svg_of(drawing));
+}
+
+}  // namespace dmoscope::app

@@ -17,7 +17,7 @@ constexpr std::array<double, 4> kDashes{0.0, 7.0, 13.0, 3.0};
 constexpr DrawingColour kInk{40, 40, 40}, kFaint{110, 110, 110}, kGrid{200, 200, 200}, kFineGrid{232, 232, 232};
 
 constexpr double kPlotWidth = 620.0, kLeast = 380.0;  // of the frame; it grows with the legend
-constexpr double kLeft = 70.0, kTop = 92.0, kBottom = 62.0, kGap = 24.0;
+constexpr double kLeft = 70.0, kTop = 92.0, kBottom = 84.0, kGap = 24.0;
 constexpr double kRow = 21.0, kSample = 34.0, kText = 12.0;
 constexpr double kWidthOfALetter = 0.62 * kText;  // of DejaVu Sans, generously: other fonts are narrower
 
@@ -94,6 +94,7 @@ void draw_axes(Drawing& drawing, const LinePlot& plot, const Frame& f) {
   drawing.labels.push_back({{16.0, 30.0}, plot.title, 17.0, kInk});
   drawing.labels.push_back({{16.0, 50.0}, plot.subtitle, kText, kFaint});
   drawing.labels.push_back({{16.0, f.top - 12.0}, plot.y_title, kText + 1.0, kInk});
+  drawing.labels.push_back({{16.0, f.bottom + 68.0}, plot.note, kText, kFaint});
   drawing.labels.push_back({{0.5 * (f.left + f.right), f.bottom + 44.0}, plot.x_title, kText + 1.0, kInk, Drawing::Anchor::Middle});
 }
 
@@ -132,8 +133,9 @@ Drawing draw(const LinePlot& plot) {
   const Frame frame = frame_of(plot);
   Drawing drawing;
   const double legend = kGap + kSample + 8.0 + kWidthOfALetter * static_cast<double>(letters);
-  // The subtitle may be wider than the plot with its legend.
-  drawing.width = std::ceil(std::max(frame.right + legend, kWidthOfALetter * static_cast<double>(plot.subtitle.size())) + 16.0);
+  // The lines above and below may be wider than the plot with its legend.
+  const double line = 16.0 + kWidthOfALetter * static_cast<double>(std::max(plot.subtitle.size(), plot.note.size()));
+  drawing.width = std::ceil(std::max(frame.right + legend, line) + 16.0);
   drawing.height = std::ceil(frame.bottom + kBottom);
   draw_axes(drawing, plot, frame);
   for (const PlotSeries& series : plot.series) draw_series(drawing, series, frame);

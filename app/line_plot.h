@@ -26,6 +26,7 @@ struct PlotSeries {
 struct LinePlot {
   std::string title, subtitle;
   std::string x_title, y_title;  // with units
+  std::string note;              // one line below all
   std::vector<PlotSeries> series;
 };
 

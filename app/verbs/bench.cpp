@@ -45,22 +45,23 @@ void add_bench(CLI::App& app, Action& action) {
   auto options = std::make_shared<BenchOptions>();
   CLI::App* verb = app.add_subcommand("bench", "Measure how fast this machine smooths, against the plain search in double");
   auto* file = verb->add_option("FILE", options->file, "Mesh to smooth instead of generated ones");
-  const auto list = [verb](const char* option, std::string& value, const std::string& doc) {
-    return verb->add_option(option, value, doc)->type_name("LIST")->capture_default_str();
+  const auto list = [verb](const char* option, std::string& value, const char* type, const std::string& doc) {
+    return verb->add_option(option, value, doc)->type_name(type)->capture_default_str();
   };
-  list("--sizes", options->sizes, "Vertices of the generated meshes")->excludes(file);
+  list("--sizes", options->sizes, "N,N,...", "Vertices of the generated meshes")->excludes(file);
   verb->add_flag("--full", options->full, "Also a mesh of ten million vertices; takes some 4 GB of memory")->excludes(file);
-  list("--elements", options->elements, "Of the generated meshes: all, or some of " + names_of(bench_elements()))->excludes(file);
-  list("--metric", options->metric, "Metrics to optimise: all, or some of " + names_of(metric_table()));
-  list("--threads", options->threads, "Numbers of threads; 0: one a processor thread");
-  list("--simd", options->simd, "Vector instructions: all, or some of auto, baseline, avx2, avx512");
+  list("--elements", options->elements, "NAME,NAME,...", "Of the generated meshes: all, or some of " + names_of(bench_elements()))
+      ->excludes(file);
+  list("--metric", options->metric, "NAME,NAME,...", "Metrics to optimise: all, or some of " + names_of(metric_table()));
+  list("--threads", options->threads, "N,N,...", "Numbers of threads; 0: one a processor thread");
+  list("--simd", options->simd, "LEVEL,LEVEL,...", "Vector instructions: all, or some of auto, baseline, avx2, avx512");
   const auto count = [verb](const char* option, auto& value, std::uint64_t least, std::uint64_t most, const char* doc) {
     return verb->add_option(option, value, doc)->transform(whole_number(least, most))->type_name("N");
   };
   count("--repeats", options->repeats, 1, kMostRepeats, "Repeats of every measurement, in turn with the others")->capture_default_str();
   count("--iterations", options->iterations, 1, kMostIterations, "Iterations to time, from the input on")->capture_default_str();
   count("--active", options->active, 2, kMostIterations, "Also compare the time of iteration N with that of the first");
-  verb->add_option("--plot", options->plot, "Draw visits a second over sizes, as .svg or .png")->type_name("FILE");
+  verb->add_option("--plot", options->plot, "Draw visits a second over sizes")->type_name("FILE.svg|.png");
   verb->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
   verb->callback([options, &action] { action = [options] { return bench(*options); }; });
 }

@@ -5,6 +5,8 @@
 #include <ctime>
 #include <fstream>
 
+#include "dmoscope_commit.h"
+
 namespace dmoscope::app {
 namespace {
 
@@ -32,7 +34,8 @@ std::optional<std::uint64_t> memory(std::string_view key) {
 
 std::string_view compiler() {
 #if defined(__clang__)
-  return "clang " __clang_version__;
+  constexpr std::string_view kText = "clang " __clang_version__;  // may end in a blank
+  return kText.substr(0, kText.find_last_not_of(' ') + 1);
 #else
   return "g++ " __VERSION__;
 #endif

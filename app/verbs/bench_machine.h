@@ -12,7 +12,7 @@ namespace dmoscope::app {
 [[nodiscard]] std::string_view compiler();
 /// The options that decide about the code of the search: optimisation, instruction set, floating point, sanitizers.
 [[nodiscard]] std::string_view compiler_flags();
-/// The commit as git describes it, taken when the build was configured; "unknown" without git.
+/// The commit as git describes it, taken at the build; "unknown" without git.
 [[nodiscard]] std::string_view commit();
 
 /// The processor's name as the kernel tells it; "unknown" where it tells none.

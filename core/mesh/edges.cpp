@@ -1,93 +1,189 @@
 #include "core/mesh/edges.h"
 
-#include <algorithm>
-#include <numeric>
+#include <array>
 #include <unordered_map>
+#include <utility>
+
+#include "core/mesh/disjoint_sets.h"
 
 namespace dmoscope {
 namespace {
 
-/// Calls visit(from, to, side, element) for every side of every planar element with two distinct ends.
-template <class Visit>
-void for_each_side(const Mesh& mesh, Visit visit) {
-  const ElementTable& elements = mesh.elements;
-  for (Index e = 0; e < elements.size(); ++e) {
-    if (info(elements.kind(e)).dimension != 2) continue;
-    const auto corners = elements.corners(e);
-    const Index first = elements.offsets()[e];
-    for (Index i = 0; i < corners.size(); ++i) {
-      const Index from = corners[i];
-      const Index to = corners[i + 1 < corners.size() ? i + 1 : 0];
-      if (from != to) visit(from, to, first + i, e);
+constexpr Index kCheckEvery = 1U << 16U;  // vertices between two looks for a cancel
+
+bool planar(const Mesh& mesh, Index e) { return info(mesh.elements.kind(e)).dimension == 2; }
+
+/// Corners in ascending order; shorter elements are filled up with kNoIndex.
+using CornerSet = std::array<Index, 4>;
+CornerSet corner_set(const Mesh& mesh, Index e) {
+  CornerSet set{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
+  std::ranges::copy(mesh.elements.corners(e), set.begin());
+  std::ranges::sort(set);
+  return set;
+}
+
+/// Elements with the corners of an earlier one. Two such elements share an edge, so only elements of one edge are compared.
+class Duplicates {
+ public:
+  explicit Duplicates(const Mesh& mesh) : mesh_(mesh) {}
+
+  void look_at(std::span<const EdgeSide> sides) {
+    around_.clear();
+    for (const EdgeSide& side : sides) around_.emplace_back(corner_set(mesh_, side.element), side.element);
+    std::ranges::sort(around_);
+    for (std::size_t k = 1; k < around_.size(); ++k) {
+      if (around_[k].first == around_[k - 1].first && around_[k].second != around_[k - 1].second) found_.push_back(around_[k].second);
+    }
+  }
+  [[nodiscard]] std::vector<Index> take() {
+    std::ranges::sort(found_);
+    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
+    return std::move(found_);
+  }
+
+ private:
+  const Mesh& mesh_;
+  std::vector<Index> found_;
+  std::vector<std::pair<CornerSet, Index>> around_;
+};
+
+/// Numbers the sets in the order of their first elements.
+void number_components(const Mesh& mesh, DisjointSets& sets, EdgeSurvey& survey) {
+  survey.component = sets.take_parents();
+  for (Index e = 0; e < mesh.elements.size(); ++e) {
+    Index& component = survey.component[e];  // a parent comes before its children: it has its number already
+    if (component != e) {
+      component = survey.component[component];
+    } else {
+      component = planar(mesh, e) ? survey.components++ : kNoIndex;
     }
   }
 }
 
-/// Disjoint sets with path halving.
-class DisjointSets {
+}  // namespace
+
+bool same_corners(const Mesh& mesh, Index a, Index b) {
+  const auto of_a = mesh.elements.corners(a);
+  const auto of_b = mesh.elements.corners(b);
+  if (of_a.size() != of_b.size()) return false;
+  Index difference = 0;  // of the sums: nearly always tells them apart
+  for (std::size_t i = 0; i < of_a.size(); ++i) difference += of_a[i] - of_b[i];
+  return difference == 0 && std::ranges::is_permutation(of_a, of_b);
+}
+
+namespace {
+
+/// The edges from a vertex to higher ones where all is as it mostly is: a few elements, each edge with two, which run it in opposite
+/// directions. Finds them without sorting: what is compared with what does not depend on the vertices' numbers, which no
+/// processor foresees.
+class PlainStar {
  public:
-  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
-  Index find(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
+  PlainStar(const Mesh& mesh, const Topology& topology) : elements_(mesh.elements), topology_(topology) {}
+
+  /// False if something may be otherwise.
+  bool look_at(Index vertex) {
+    const auto star = topology_.star(vertex);
+    if (star.size() >= kMost) return false;
+    std::size_t leaving = 0;
+    std::size_t arriving = 0;
+    for (const auto& [element, corner] : star) {
+      if (info(elements_.kind(element)).dimension != 2) return false;
+      const auto corners = elements_.corners(element);
+      const Index next = corners[corner + 1 < corners.size() ? corner + 1 : 0];
+      const Index before = corners[corner > 0 ? corner - 1 : corners.size() - 1];
+      Index sum = corners[0] + corners[1] + corners[2];
+      if (corners.size() > 3) sum += corners[3];
+      leaving_[leaving] = {next, element, sum};
+      leaving += next > vertex ? 1U : 0U;
+      arriving_[arriving] = {before, element, sum};
+      arriving += before > vertex ? 1U : 0U;
+    }
+    count_ = leaving;
+    return leaving == arriving && match();
   }
-  /// True when the two were apart.
-  bool join(Index a, Index b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-    return a != b;
+  [[nodiscard]] std::size_t edges() const noexcept { return count_; }
+  /// The two elements on an edge.
+  [[nodiscard]] std::pair<Index, Index> sides(std::size_t i) const noexcept { return {leaving_[i].element, partner_[i]}; }
+
+ private:
+  static constexpr std::size_t kMost = 16;
+  struct Side {
+    Index other, element, corner_sum;
+  };
+
+  /// Does each leaving side have one arriving side of its own, of an element with other corners (judged by their sum)?
+  bool match() {
+    std::uint32_t taken = 0;
+    bool plain = true;
+    for (std::size_t i = 0; i < count_; ++i) {
+      std::size_t at = 0;
+      for (std::size_t k = 0; k < count_; ++k) at = arriving_[k].other == leaving_[i].other ? k : at;
+      plain = plain && arriving_[at].other == leaving_[i].other && arriving_[at].corner_sum != leaving_[i].corner_sum;
+      taken |= 1U << at;
+      partner_[i] = arriving_[at].element;
+    }
+    return plain && taken == (1U << count_) - 1U;  // as many as there are, none twice
+  }
+
+  const ElementTable& elements_;
+  const Topology& topology_;
+  std::array<Side, kMost> leaving_{}, arriving_{};
+  std::array<Index, kMost> partner_{};
+  std::size_t count_ = 0;
+};
+
+class Surveyor {
+ public:
+  Surveyor(const Mesh& mesh, const Topology& topology)
+      : mesh_(mesh), finder_(mesh, topology), plain_(mesh, topology), sets_(mesh.elements.size()), duplicates_(mesh) {}
+
+  void look_at(Index vertex) {
+    if (!plain_.look_at(vertex)) {
+      finder_.around(vertex, vertex + 1, [&](Index other, std::span<const EdgeSide> sides) { look_at({vertex, other}, sides); });
+      return;
+    }
+    survey_.edges += static_cast<Index>(plain_.edges());
+    for (std::size_t i = 0; i < plain_.edges(); ++i) sets_.join(plain_.sides(i).first, plain_.sides(i).second);
+  }
+  EdgeSurvey finish() {
+    survey_.duplicates = duplicates_.take();
+    number_components(mesh_, sets_, survey_);
+    return std::move(survey_);
   }
 
  private:
-  std::vector<Index> parent_;
+  void look_at(Edge edge, std::span<const EdgeSide> sides) {
+    ++survey_.edges;
+    if (sides.size() == 1) {
+      survey_.boundary.push_back({edge, sides[0].element});
+    } else if (sides.size() > 2) {
+      survey_.non_manifold.push_back(edge);
+      duplicates_.look_at(sides);
+    } else if (sides[0].element != sides[1].element) {
+      sets_.join(sides[0].element, sides[1].element);
+      const bool twins = same_corners(mesh_, sides[0].element, sides[1].element);
+      if (twins) duplicates_.look_at(sides);
+      survey_.consistent = survey_.consistent && !twins && sides[0].leaving != sides[1].leaving;
+    }
+  }
+
+  const Mesh& mesh_;
+  EdgeFinder finder_;
+  PlainStar plain_;
+  DisjointSets sets_;
+  Duplicates duplicates_;
+  EdgeSurvey survey_;
 };
 
 }  // namespace
 
-EdgeTable::EdgeTable(const Mesh& mesh) {
-  const ElementTable& elements = mesh.elements;
-  if (elements.size() > 0) {
-    const Index corners = info(elements.kind(0)).corners;
-    const bool uniform = std::ranges::all_of(elements.kinds(), [&](ElementKind k) { return info(k).corners == corners; });
-    if (uniform) uniform_ = corners;
+EdgeSurvey survey_edges(const Mesh& mesh, const Topology& topology, Progress* progress) {
+  Surveyor surveyor(mesh, topology);
+  for (Index v = 0; v < topology.vertex_count(); ++v) {
+    if (progress != nullptr && v % kCheckEvery == 0) progress->check();
+    surveyor.look_at(v);
   }
-  if (uniform_ == 0) {
-    owner_.resize(elements.all_corners().size());
-    for (Index e = 0; e < elements.size(); ++e) {
-      std::fill(owner_.begin() + elements.offsets()[e], owner_.begin() + elements.offsets()[e + 1], e);
-    }
-  }
-  collect(mesh);
-}
-
-void EdgeTable::collect(const Mesh& mesh) {
-  // Counting sort by the lower vertex, then a small sort by (higher vertex, side) inside each bucket.
-  std::vector<std::uint32_t> bucket(mesh.positions.size() + 2, 0);
-  for_each_side(mesh, [&](Index from, Index to, Index, Index) { ++bucket[std::min(from, to) + 2]; });
-  std::partial_sum(bucket.begin(), bucket.end(), bucket.begin());
-  std::vector<std::uint64_t> keys(bucket.back());
-  for_each_side(mesh, [&](Index from, Index to, Index side, Index) {
-    keys[bucket[std::min(from, to) + 1]++] = (static_cast<std::uint64_t>(std::max(from, to)) << 32U) | side;
-  });
-  sides_.reserve(keys.size());
-  edges_.reserve(keys.size() / 2 + keys.size() / 16);
-  first_.reserve(edges_.capacity() + 1);
-  for (Index low = 0; low < mesh.vertex_count(); ++low) {
-    const std::span bucket_keys(keys.data() + bucket[low], keys.data() + bucket[low + 1]);
-    std::ranges::sort(bucket_keys);
-    Index previous = kNoIndex;
-    for (const std::uint64_t key : bucket_keys) {
-      const auto high = static_cast<Index>(key >> 32U);
-      if (high != previous) {
-        edges_.push_back({low, high});
-        first_.push_back(static_cast<Index>(sides_.size()));
-        previous = high;
-      }
-      sides_.push_back(static_cast<Index>(key & 0xffffffffU));
-    }
-  }
-  first_.push_back(static_cast<Index>(sides_.size()));
+  return surveyor.finish();
 }
 
 namespace {
@@ -95,26 +191,24 @@ namespace {
 /// Boundary edges in a row, with what is needed to follow them through a vertex.
 class BoundaryCurves {
  public:
-  BoundaryCurves(const Mesh& mesh, const EdgeTable& edges) : edges_(edges), degree_(mesh.positions.size(), 0) {
-    for (Index i = 0; i < edges.size(); ++i) {
-      if (edges.sides(i).size() != 1) continue;
-      boundary_.push_back(i);
-      for (const Index v : {edges.edge(i).low, edges.edge(i).high}) degree_[v] = std::min<std::uint8_t>(3, degree_[v] + 1U);
+  BoundaryCurves(const Mesh& mesh, const Topology& topology, const EdgeSurvey& survey) : survey_(survey) {
+    std::unordered_map<Index, Index> degree;  // boundary edges at each vertex
+    for (const auto& [edge, element] : survey.boundary) {
+      if (++degree[edge.low] == 3) split_fans(mesh, topology, edge.low);
+      if (++degree[edge.high] == 3) split_fans(mesh, topology, edge.high);
     }
   }
 
-  [[nodiscard]] Index count(const Mesh& mesh) {
-    DisjointSets fans = split_fans(mesh);
+  [[nodiscard]] Index count() {
     // Curves are the connected sets of boundary edges: count = edges - successful joins.
-    DisjointSets curves(boundary_.size());
+    DisjointSets curves(survey_.boundary.size());
     std::unordered_map<std::uint64_t, Index> seen;
-    Index loops = static_cast<Index>(boundary_.size());
-    for (Index k = 0; k < boundary_.size(); ++k) {
-      const Edge edge = edges_.edge(boundary_[k]);
-      const Index element = edges_.element(edges_.sides(boundary_[k]).front());
+    Index loops = static_cast<Index>(survey_.boundary.size());
+    for (Index k = 0; k < survey_.boundary.size(); ++k) {
+      const auto& [edge, element] = survey_.boundary[k];
       for (const Index v : {edge.low, edge.high}) {
-        std::uint64_t key = static_cast<std::uint64_t>(v) << 32U;
-        if (degree_[v] > 2) key |= fans.find(corner_.at(corner_key(v, element))) + 1U;
+        const auto fan = fans_.find(corner_key(v, element));
+        const std::uint64_t key = fan == fans_.end() ? corner_key(v, kNoIndex) : corner_key(v, fan->second);
         const auto [place, fresh] = seen.try_emplace(key, k);
         if (!fresh && curves.join(place->second, k)) --loops;
       }
@@ -125,33 +219,29 @@ class BoundaryCurves {
  private:
   static std::uint64_t corner_key(Index vertex, Index element) { return (static_cast<std::uint64_t>(vertex) << 32U) | element; }
 
-  /// At vertices where more than two boundary edges meet: which elements hang together across edges through the vertex.
-  DisjointSets split_fans(const Mesh& mesh) {
-    for_each_side(mesh, [&](Index from, Index to, Index, Index e) {
-      for (const Index v : {from, to}) {
-        if (degree_[v] > 2) corner_.try_emplace(corner_key(v, e), static_cast<Index>(corner_.size()));
-      }
+  /// At a vertex where more than two boundary edges meet: which elements hang together across edges through it.
+  void split_fans(const Mesh& mesh, const Topology& topology, Index vertex) {
+    const auto star = topology.star(vertex);
+    const auto place = [star](Index element) {
+      return static_cast<Index>(std::ranges::lower_bound(star, element, {}, &Incidence::element) - star.begin());
+    };
+    DisjointSets fans(star.size());
+    EdgeFinder(mesh, topology).around(vertex, 0, [&](Index, std::span<const EdgeSide> sides) {
+      if (sides.size() == 2) fans.join(place(sides[0].element), place(sides[1].element));
     });
-    DisjointSets fans(corner_.size());
-    if (corner_.empty()) return fans;
-    for (Index i = 0; i < edges_.size(); ++i) {
-      const auto sides = edges_.sides(i);
-      for (const Index v : {edges_.edge(i).low, edges_.edge(i).high}) {
-        if (sides.size() != 2 || degree_[v] <= 2) continue;
-        fans.join(corner_.at(corner_key(v, edges_.element(sides[0]))), corner_.at(corner_key(v, edges_.element(sides[1]))));
-      }
+    for (const Incidence& incidence : star) {
+      fans_.try_emplace(corner_key(vertex, incidence.element), star[fans.find(place(incidence.element))].element);
     }
-    return fans;
   }
 
-  const EdgeTable& edges_;
-  std::vector<std::uint8_t> degree_;  // boundary edges at each vertex, 3 standing for more than two
-  std::vector<Index> boundary_;
-  std::unordered_map<std::uint64_t, Index> corner_;
+  const EdgeSurvey& survey_;
+  std::unordered_map<std::uint64_t, Index> fans_;  // first element of the fan that an element is in, at the vertices that need it
 };
 
 }  // namespace
 
-Index count_boundary_loops(const Mesh& mesh, const EdgeTable& edges) { return BoundaryCurves(mesh, edges).count(mesh); }
+Index count_boundary_loops(const Mesh& mesh, const Topology& topology, const EdgeSurvey& survey) {
+  return BoundaryCurves(mesh, topology, survey).count();
+}
 
 }  // namespace dmoscope

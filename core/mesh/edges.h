@@ -1,11 +1,14 @@
 #pragma once
-// Every edge of a planar or surface mesh with the elements on its sides: one table for orientation, boundary and checks.
+// The edges of a planar or surface mesh with the elements on their sides, found star by star: nothing is kept of the edges inside.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/mesh/mesh.h"
+#include "core/mesh/topology.h"
 
 namespace dmoscope {
 
@@ -15,32 +18,98 @@ struct Edge {
   Index high;
 };
 
-/// Edges in ascending order of (low, high), built in linear time for bounded valence. Three-dimensional elements are left out.
-/// A side is the way from one corner of an element to its next, named by the place of the first in ElementTable::all_corners().
-/// Sides whose two ends are one vertex (degenerate elements) are left out. Reversing the winding of an element
-/// renames its sides but leaves the edges and the elements on them as they are.
-class EdgeTable {
+/// One element's way along an edge, seen from one of the edge's ends.
+struct EdgeSide {
+  Index element;
+  bool leaving;  // in the element's winding the way goes from that end to the other
+};
+
+/// Finds the edges at a vertex in its star. Three-dimensional elements are passed over, and so is the way between two corners
+/// of an element that are the same vertex (degenerate elements). Mesh and topology must outlive it.
+class EdgeFinder {
  public:
-  explicit EdgeTable(const Mesh& mesh);
-  [[nodiscard]] Index size() const noexcept { return static_cast<Index>(edges_.size()); }
-  [[nodiscard]] Edge edge(Index i) const noexcept { return edges_[i]; }
-  /// The sides that lie on an edge, ascending: one on the boundary, two inside, more where the mesh is not manifold.
-  [[nodiscard]] std::span<const Index> sides(Index i) const noexcept { return {sides_.data() + first_[i], sides_.data() + first_[i + 1]}; }
-  /// The element a side belongs to.
-  [[nodiscard]] Index element(Index side) const noexcept { return uniform_ != 0 ? side / uniform_ : owner_[side]; }
+  EdgeFinder(const Mesh& mesh, const Topology& topology) : elements_(&mesh.elements), topology_(&topology) {}
+
+  /// Calls visit(other, sides) for every edge from `vertex` to a vertex `other` >= `least`, in ascending order of `other`.
+  /// `sides` are the EdgeSides seen from `vertex`, in ascending order of their elements: one on the boundary, two inside, more where
+  /// the mesh is not manifold.
+  template <class Visit>
+  void around(Index vertex, Index least, Visit&& visit) {
+    const auto star = topology_->star(vertex);
+    gather(star, vertex, least);
+    for (std::size_t first = 0; first < keys_.size();) {
+      const auto other = static_cast<Index>(keys_[first] >> 32U);
+      std::size_t last = first;
+      sides_.clear();
+      for (; last < keys_.size() && keys_[last] >> 32U == other; ++last) {
+        const auto place = static_cast<std::uint32_t>(keys_[last]);
+        sides_.push_back({star[place / 2].element, place % 2 == 0});
+      }
+      visit(other, std::span<const EdgeSide>(sides_));
+      first = last;
+    }
+  }
 
  private:
-  void collect(const Mesh& mesh);
+  void gather(std::span<const Incidence> star, Index vertex, Index least) {
+    keys_.resize(2 * star.size());
+    std::size_t count = 0;
+    const auto add = [&](Index other, std::size_t place) {
+      keys_[count] = (static_cast<std::uint64_t>(other) << 32U) | place;
+      count += other >= least && other != vertex ? 1U : 0U;
+    };
+    for (std::size_t i = 0; i < star.size(); ++i) {
+      if (info(elements_->kind(star[i].element)).dimension != 2) continue;
+      const auto corners = elements_->corners(star[i].element);
+      const std::size_t at = star[i].corner;
+      add(corners[at + 1 < corners.size() ? at + 1 : 0], 2 * i);
+      add(corners[at > 0 ? at - 1 : corners.size() - 1], 2 * i + 1);
+    }
+    keys_.resize(count);
+    std::ranges::sort(keys_);
+  }
 
-  std::vector<Edge> edges_;
-  std::vector<Index> first_;
-  std::vector<Index> sides_;
-  Index uniform_ = 0;         // corners of each element where all have the same number, else 0
-  std::vector<Index> owner_;  // element of each side, empty where uniform_ tells
+  const ElementTable* elements_;
+  const Topology* topology_;
+  std::vector<std::uint64_t> keys_;  // other end, then place in the star and 0 for leaving, 1 for arriving
+  std::vector<EdgeSide> sides_;
 };
+
+/// Calls visit(edge, sides) for every edge in ascending order of (low, high); sides as EdgeFinder gives them, seen from the low end.
+template <class Visit>
+void for_each_edge(const Mesh& mesh, const Topology& topology, Visit&& visit) {
+  EdgeFinder finder(mesh, topology);
+  for (Index low = 0; low < topology.vertex_count(); ++low) {
+    finder.around(low, low + 1, [&](Index high, std::span<const EdgeSide> sides) { visit(Edge{low, high}, sides); });
+  }
+}
+
+/// What all that look at the edges once want to know.
+struct EdgeSurvey {
+  struct BoundaryEdge {
+    Edge edge;
+    Index element;
+  };
+  Index edges = 0;
+  std::vector<BoundaryEdge> boundary;  // edges with exactly one element, in ascending order
+  std::vector<Edge> non_manifold;      // edges with more than two elements, in ascending order
+  /// Do any two elements on a manifold edge run it in opposite directions, and lie side by side (no duplicates)?
+  bool consistent = true;
+  std::vector<Index> duplicates;  // elements with the very corners (as a set) of an earlier one, ascending
+  /// Set of elements connected across manifold edges that an element belongs to, numbered in the order of their first elements;
+  /// kNoIndex for elements that are not planar.
+  std::vector<Index> component;
+  Index components = 0;
+};
+
+/// Have the two elements the very same corners, in whatever order?
+[[nodiscard]] bool same_corners(const Mesh& mesh, Index a, Index b);
+
+/// Walks over all edges once. Linear time for bounded valence. Throws Cancelled if `progress` (may be null) says so.
+[[nodiscard]] EdgeSurvey survey_edges(const Mesh& mesh, const Topology& topology, Progress* progress);
 
 /// Number of closed boundary curves. Where several curves touch in one vertex, a curve goes on along the fan of elements it borders.
 /// Edges with more than two elements are no boundary here. A curve that is interrupted by such an edge counts once.
-[[nodiscard]] Index count_boundary_loops(const Mesh& mesh, const EdgeTable& edges);
+[[nodiscard]] Index count_boundary_loops(const Mesh& mesh, const Topology& topology, const EdgeSurvey& survey);
 
 }  // namespace dmoscope

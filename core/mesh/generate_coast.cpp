@@ -12,7 +12,6 @@
 #include "core/mesh/delaunay.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/generators.h"
-#include "core/mesh/orientation.h"
 
 namespace dmoscope::generators {
 namespace {
@@ -278,7 +277,9 @@ bool try_coast(const CoastMap& map, const Request& request, Mesh& mesh) {
   mesh.elements.reserve(triangles.size(), triangles.size() * 3);
   for (const auto& t : triangles) mesh.elements.add(ElementKind::Triangle, std::array{renamed[t[0]], renamed[t[1]], renamed[t[2]]});
   // A strait that the edges of its two shores close falls apart into two seas.
-  if (count_components(mesh, EdgeTable(mesh)) != 1) return false;
+  EdgeSurvey edges;
+  const Topology topology(mesh, edges, request.progress);
+  if (edges.components != 1) return false;
   for (auto& loop : outline.loops) {
     for (Index& v : loop) v = renamed[v];
   }

@@ -48,14 +48,25 @@ class WindingSets {
 
 double signed_area(const Mesh& mesh, const Plane& plane, Index e) { return 0.5 * dot(area_vector(mesh, e), plane.normal); }
 
-/// Have the two elements the very same corners? Such lie on top of each other, not side by side.
-bool duplicates(const Mesh& mesh, Index a, Index b) {
-  return std::ranges::is_permutation(mesh.elements.corners(a), mesh.elements.corners(b));
+/// For every element whether it is wound against the first one of its component. Counts the edges where that is impossible.
+std::vector<std::uint8_t> relate_windings(const Mesh& mesh, const Topology& topology, Index& contradictions) {
+  WindingSets sets(mesh.elements.size());
+  for_each_edge(mesh, topology, [&](Edge, std::span<const EdgeSide> sides) {
+    if (sides.size() != 2) return;
+    const Index a = sides[0].element;
+    const Index b = sides[1].element;
+    if (a == b) return;  // an element that has a corner twice
+    // Two neighbours that run their edge in the same direction are wound against each other; an element and its duplicate, which lie
+    // on top of each other, are not.
+    const bool same_direction = sides[0].leaving == sides[1].leaving;
+    if (!sets.relate(a, b, same_direction != same_corners(mesh, a, b) ? 1 : 0)) ++contradictions;
+  });
+  std::vector<std::uint8_t> against(mesh.elements.size());
+  for (Index e = 0; e < mesh.elements.size(); ++e) against[e] = sets.find(e).against;
+  return against;
 }
 
-bool planar(const Mesh& mesh, Index e) { return info(mesh.elements.kind(e)).dimension == 2; }
-
-/// What a component's elements vote for when its root keeps its winding.
+/// What a component's elements vote for when its first element keeps its winding.
 struct Vote {
   Index members = 0;
   std::int64_t balance = 0;  // positive minus negative elements
@@ -65,43 +76,31 @@ struct Vote {
 
 }  // namespace
 
-OrientationReport normalise_orientation(Mesh& mesh, const Plane& plane) { return normalise_orientation(mesh, plane, EdgeTable(mesh)); }
+OrientationReport normalise_orientation(Mesh& mesh, const Plane& plane) {
+  EdgeSurvey edges;
+  Progress unwatched;
+  const Topology topology(mesh, edges, unwatched);
+  return normalise_orientation(mesh, plane, topology, edges);
+}
 
-OrientationReport normalise_orientation(Mesh& mesh, const Plane& plane, const EdgeTable& edges) {
-  OrientationReport report;
+OrientationReport normalise_orientation(Mesh& mesh, const Plane& plane, const Topology& topology, const EdgeSurvey& edges) {
   const Index count = mesh.elements.size();
-  const auto corners = mesh.elements.all_corners();
-  WindingSets sets(count);
-  for (Index i = 0; i < edges.size(); ++i) {
-    const auto sides = edges.sides(i);
-    if (sides.size() == 1) continue;
-    if (sides.size() > 2) {
-      ++report.contradictions;
-      continue;
-    }
-    const Index a = edges.element(sides[0]);
-    const Index b = edges.element(sides[1]);
-    if (a == b) continue;  // an element that has a corner twice
-    // Two neighbours that run their edge in the same direction are wound against each other; an element and its duplicate are not.
-    const bool same_direction = corners[sides[0]] == corners[sides[1]];
-    if (!sets.relate(a, b, same_direction != duplicates(mesh, a, b) ? 1 : 0)) ++report.contradictions;
-  }
+  OrientationReport report{.components = edges.components, .contradictions = static_cast<Index>(edges.non_manifold.size())};
+  std::vector<std::uint8_t> against;  // empty: none is
+  if (!edges.consistent) against = relate_windings(mesh, topology, report.contradictions);
+  const auto is_against = [&](Index e) { return !against.empty() && against[e] != 0; };
 
-  std::vector<Vote> votes(count);
+  std::vector<Vote> votes(edges.components);
   for (Index e = 0; e < count; ++e) {
-    if (!planar(mesh, e)) continue;
-    const auto [root, against] = sets.find(e);
-    const double area = against != 0 ? -signed_area(mesh, plane, e) : signed_area(mesh, plane, e);
-    Vote& vote = votes[root];
-    report.components += vote.members == 0 ? 1 : 0;
+    if (edges.component[e] == kNoIndex) continue;
+    const double area = is_against(e) ? -signed_area(mesh, plane, e) : signed_area(mesh, plane, e);
+    Vote& vote = votes[edges.component[e]];
     ++vote.members;
     vote.balance += (area > 0 ? 1 : 0) - (area < 0 ? 1 : 0);
     vote.area += area;
   }
   for (Index e = 0; e < count; ++e) {
-    if (!planar(mesh, e)) continue;
-    const auto [root, against] = sets.find(e);
-    if ((against != 0) == votes[root].reverse()) continue;
+    if (edges.component[e] == kNoIndex || is_against(e) == votes[edges.component[e]].reverse()) continue;
     mesh.elements.flip(e);
     if (mesh.flipped.empty()) mesh.flipped.assign(count, 0);
     mesh.flipped[e] ^= 1U;
@@ -109,17 +108,6 @@ OrientationReport normalise_orientation(Mesh& mesh, const Plane& plane, const Ed
   }
   if (std::ranges::none_of(mesh.flipped, [](std::uint8_t f) { return f != 0; })) mesh.flipped.clear();
   return report;
-}
-
-Index count_components(const Mesh& mesh, const EdgeTable& edges) {
-  WindingSets sets(mesh.elements.size());
-  for (Index i = 0; i < edges.size(); ++i) {
-    const auto sides = edges.sides(i);
-    if (sides.size() == 2) sets.relate(edges.element(sides[0]), edges.element(sides[1]), 0);
-  }
-  Index components = 0;
-  for (Index e = 0; e < mesh.elements.size(); ++e) components += planar(mesh, e) && sets.find(e).root == e ? 1 : 0;
-  return components;
 }
 
 }  // namespace dmoscope

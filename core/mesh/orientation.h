@@ -6,7 +6,8 @@
 
 namespace dmoscope {
 
-class EdgeTable;
+class Topology;
+struct EdgeSurvey;
 
 struct OrientationReport {
   Index components = 0;      // sets of elements connected across manifold edges
@@ -19,10 +20,8 @@ struct OrientationReport {
 /// keeps its neighbours' winding and so stays visibly inverted. A component of one element has no neighbour to agree with and keeps
 /// the winding it has. Sets mesh.flipped. Idempotent.
 OrientationReport normalise_orientation(Mesh& mesh, const Plane& plane);
-/// The same with the mesh's edges at hand. They stay valid: reversing elements changes no edge.
-OrientationReport normalise_orientation(Mesh& mesh, const Plane& plane, const EdgeTable& edges);
-
-/// OrientationReport::components alone.
-[[nodiscard]] Index count_components(const Mesh& mesh, const EdgeTable& edges);
+/// The same with the mesh's edges at hand. What was found of them stays true but for EdgeSurvey::consistent; where elements were
+/// reversed the topology has to follow() them.
+OrientationReport normalise_orientation(Mesh& mesh, const Plane& plane, const Topology& topology, const EdgeSurvey& edges);
 
 }  // namespace dmoscope

@@ -6,12 +6,14 @@
 
 namespace dmoscope {
 
-Topology::Topology(const Mesh& mesh) : Topology(mesh, EdgeTable(mesh)) {}
+Topology::Topology(const Mesh& mesh) { (void)index(mesh, nullptr); }
 
-Topology::Topology(const Mesh& mesh, const EdgeTable& edges)
-    : offsets_(mesh.positions.size() + 2, 0), boundary_(mesh.positions.size(), 0), edge_count_(edges.size()) {
+Topology::Topology(const Mesh& mesh, EdgeSurvey& found, Progress& progress) { found = index(mesh, &progress); }
+
+void Topology::follow(const Mesh& mesh) {
   const ElementTable& elements = mesh.elements;
   // Counting sort, shifted by one so that the fill pass leaves the offsets in place.
+  offsets_.assign(mesh.positions.size() + 2, 0);
   for (const Index v : elements.all_corners()) ++offsets_[v + 2];
   std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
   incidences_.resize(elements.all_corners().size());
@@ -20,12 +22,16 @@ Topology::Topology(const Mesh& mesh, const EdgeTable& edges)
     for (Index i = 0; i < corners.size(); ++i) incidences_[offsets_[corners[i] + 1]++] = {e, i};
   }
   offsets_.pop_back();
+}
 
-  for (Index i = 0; i < edges.size(); ++i) {
-    if (edges.sides(i).size() == 2) continue;
-    boundary_[edges.edge(i).low] = 1;
-    boundary_[edges.edge(i).high] = 1;
-  }
+EdgeSurvey Topology::index(const Mesh& mesh, Progress* progress) {
+  follow(mesh);
+  EdgeSurvey found = survey_edges(mesh, *this, progress);
+  edge_count_ = found.edges;
+  boundary_.assign(mesh.positions.size(), 0);
+  for (const auto& [edge, element] : found.boundary) boundary_[edge.low] = boundary_[edge.high] = 1;
+  for (const Edge edge : found.non_manifold) boundary_[edge.low] = boundary_[edge.high] = 1;
+  return found;
 }
 
 }  // namespace dmoscope

@@ -9,7 +9,8 @@
 
 namespace dmoscope {
 
-class EdgeTable;
+class Progress;
+struct EdgeSurvey;
 
 /// One incident element of a vertex: which, and which of its corners the vertex is.
 struct Incidence {
@@ -22,8 +23,10 @@ struct Incidence {
 class Topology {
  public:
   explicit Topology(const Mesh& mesh);
-  /// The same with the mesh's edges at hand.
-  Topology(const Mesh& mesh, const EdgeTable& edges);
+  /// The same, and what was found on the way. Throws Cancelled.
+  Topology(const Mesh& mesh, EdgeSurvey& found, Progress& progress);
+  /// The winding of elements was reversed since: their corners have other places now. Edges and boundary stay.
+  void follow(const Mesh& mesh);
   [[nodiscard]] Index vertex_count() const noexcept { return static_cast<Index>(offsets_.size() - 1); }
   [[nodiscard]] std::span<const Incidence> star(Index vertex) const noexcept {
     return {incidences_.data() + offsets_[vertex], incidences_.data() + offsets_[vertex + 1]};
@@ -33,6 +36,8 @@ class Topology {
   [[nodiscard]] Index edge_count() const noexcept { return edge_count_; }
 
  private:
+  EdgeSurvey index(const Mesh& mesh, Progress* progress);
+
   std::vector<std::uint32_t> offsets_;
   std::vector<Incidence> incidences_;
   std::vector<std::uint8_t> boundary_;

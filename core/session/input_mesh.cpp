@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -17,34 +18,6 @@ namespace {
 constexpr Index kCheckEvery = 1U << 16U;  // elements between two looks for a cancel
 
 bool planar(const Mesh& mesh, Index e) { return info(mesh.elements.kind(e)).dimension == 2; }
-
-/// Corners in ascending order; shorter elements are filled up with kNoIndex.
-using CornerSet = std::array<Index, 4>;
-CornerSet corner_set(const Mesh& mesh, Index e) {
-  CornerSet set{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
-  std::ranges::copy(mesh.elements.corners(e), set.begin());
-  std::ranges::sort(set);
-  return set;
-}
-
-/// Elements with the corners of an earlier one. Two such elements share an edge, so only elements of one edge are compared.
-std::vector<Index> find_duplicates(const Mesh& mesh, const EdgeTable& edges) {
-  std::vector<Index> found;
-  std::vector<std::pair<CornerSet, Index>> around;
-  for (Index i = 0; i < edges.size(); ++i) {
-    const auto sides = edges.sides(i);
-    if (sides.size() < 2) continue;
-    around.clear();
-    for (const Index side : sides) around.emplace_back(corner_set(mesh, edges.element(side)), edges.element(side));
-    std::ranges::sort(around);
-    for (std::size_t k = 1; k < around.size(); ++k) {
-      if (around[k].first == around[k - 1].first && around[k].second != around[k - 1].second) found.push_back(around[k].second);
-    }
-  }
-  std::ranges::sort(found);
-  found.erase(std::unique(found.begin(), found.end()), found.end());
-  return found;
-}
 
 /// A corner twice, or no corner whose two edges span more area than rounding makes of a straight line.
 bool degenerate(const Mesh& mesh, Index e) {
@@ -69,30 +42,46 @@ bool degenerate(const Mesh& mesh, Index e) {
   return largest <= kRounding;
 }
 
-MeshReport examine(const Mesh& mesh, const Geometry& geometry, const EdgeTable& edges, Progress* progress) {
-  MeshReport report;
-  std::vector<std::uint8_t> used(mesh.positions.size(), 0);
-  for (const Index v : mesh.elements.all_corners()) used[v] = 1;
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    if (used[v] == 0) report.unused_vertices.push_back(v);
+/// Is an element of a planar mesh neither degenerate nor inverted, by so much more than rounding that nobody needs to look closer?
+bool clearly_positive(const Mesh& mesh, Vec3 normal, Index e) {
+  constexpr double kClear = 1e-9;
+  constexpr double kSmallest = 1e-280;  // below, products lose digits
+  const auto c = mesh.elements.corners(e);
+  const std::size_t n = c.size();
+  Vec3 before = mesh.positions[c[0]] - mesh.positions[c[n - 1]];
+  double extent = 0.0;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 edge = mesh.positions[c[i + 1 < n ? i + 1 : 0]] - mesh.positions[c[i]];
+    extent = std::max({extent, std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)});
+    smallest = std::min(smallest, dot(cross(before, edge), normal));
+    before = edge;
   }
-  report.duplicate_elements = find_duplicates(mesh, edges);
+  return extent * extent > kSmallest && smallest > kClear * extent * extent;
+}
+
+MeshReport examine(const Mesh& mesh, const Geometry& geometry, const Topology& topology, const EdgeSurvey& edges, Progress& progress) {
+  MeshReport report;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (topology.star(v).empty()) report.unused_vertices.push_back(v);
+  }
+  report.duplicate_elements = edges.duplicates;
   const QualityContext context{mesh, geometry};
   for (Index e = 0; e < mesh.elements.size(); ++e) {
-    if (progress != nullptr && e % kCheckEvery == 0) {
-      progress->check();
-      progress->set(static_cast<double>(e) / mesh.elements.size());
+    if (e % kCheckEvery == 0) {
+      progress.check();
+      progress.set(static_cast<double>(e) / mesh.elements.size());
     }
-    if (!planar(mesh, e)) continue;
+    if (!planar(mesh, e) || (geometry.shape == Shape::Planar && clearly_positive(mesh, geometry.plane.normal, e))) continue;
     if (degenerate(mesh, e)) {
       report.degenerate_elements.push_back(e);
     } else if (!(smallest_jacobian(context, mesh.positions, e) > 0.0)) {
       report.inverted_elements.push_back(e);
     }
   }
-  for (Index i = 0; i < edges.size(); ++i) report.non_manifold_edges += edges.sides(i).size() > 2 ? 1 : 0;
-  report.boundary_loops = count_boundary_loops(mesh, edges);
-  report.components = count_components(mesh, edges);
+  report.non_manifold_edges = static_cast<Index>(edges.non_manifold.size());
+  report.boundary_loops = count_boundary_loops(mesh, topology, edges);
+  report.components = edges.components;
   report.flipped_elements = static_cast<Index>(std::ranges::count_if(mesh.flipped, [](std::uint8_t f) { return f != 0; }));
   return report;
 }
@@ -135,13 +124,13 @@ void refuse_what_cannot_be_done(const Mesh& mesh, const Geometry& geometry, cons
 /// See InputMesh::reference_measure.
 std::vector<double> reference_measures(const Mesh& mesh, const Geometry& geometry, const Topology& topology, Progress& progress) {
   const Index count = mesh.elements.size();
-  std::vector<double> area(count, 0.0);
+  std::vector<double> reference(count, 0.0);  // at first each element's own area
   double total = 0.0;
   for (Index e = 0; e < count; ++e) {
     if (!planar(mesh, e)) continue;
     const Vec3 twice = area_vector(mesh, e);
-    area[e] = 0.5 * (geometry.shape == Shape::Planar ? std::abs(dot(twice, geometry.plane.normal)) : length(twice));
-    total += area[e];
+    reference[e] = 0.5 * (geometry.shape == Shape::Planar ? std::abs(dot(twice, geometry.plane.normal)) : length(twice));
+    total += reference[e];
   }
   const double fallback = total > 0.0 ? total / count : 1.0;
   // First around each vertex, then over the corners of each element: linear whatever the valence.
@@ -149,44 +138,45 @@ std::vector<double> reference_measures(const Mesh& mesh, const Geometry& geometr
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     if (v % kCheckEvery == 0) progress.check();
     const auto star = topology.star(v);
-    for (const Incidence& incidence : star) around[v] += area[incidence.element];
+    for (const Incidence& incidence : star) around[v] += reference[incidence.element];
     if (!star.empty()) around[v] /= static_cast<double>(star.size());
   }
-  std::vector<double> reference(count, fallback);
   for (Index e = 0; e < count; ++e) {
     const auto corners = mesh.elements.corners(e);
     double sum = 0.0;
     for (const Index v : corners) sum += around[v];
-    if (sum > 0.0) reference[e] = sum / static_cast<double>(corners.size());
+    reference[e] = sum > 0.0 ? sum / static_cast<double>(corners.size()) : fallback;
   }
   return reference;
 }
 
 }  // namespace
 
-MeshReport examine(const Mesh& mesh, const Geometry& geometry) { return examine(mesh, geometry, EdgeTable(mesh), nullptr); }
+MeshReport examine(const Mesh& mesh, const Geometry& geometry) {
+  EdgeSurvey edges;
+  Progress unwatched;
+  const Topology topology(mesh, edges, unwatched);
+  return examine(mesh, geometry, topology, edges, unwatched);
+}
 
 std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path path, Need need, Progress& progress) {
   const Geometry geometry = classify(mesh);
   refuse_what_cannot_be_done(mesh, geometry, path.empty() ? (mesh.name.empty() ? "mesh" : mesh.name) : path.string(), need);
   progress.check();
 
-  progress.begin("orienting");
-  const EdgeTable edges(mesh);
-  progress.check();
-  progress.set(0.5);
-  if (geometry.shape == Shape::Planar) normalise_orientation(mesh, geometry.plane, edges);
-  progress.check();
-
   progress.begin("finding neighbours");
-  Topology topology(mesh, edges);
+  EdgeSurvey edges;
+  Topology topology(mesh, edges, progress);
   progress.check();
   progress.set(0.5);
-  std::vector<double> reference = reference_measures(mesh, geometry, topology, progress);
+  if (geometry.shape == Shape::Planar && normalise_orientation(mesh, geometry.plane, topology, edges).flipped > 0) topology.follow(mesh);
+  progress.check();
 
   progress.begin("checking");
-  MeshReport report = examine(mesh, geometry, edges, &progress);
+  MeshReport report = examine(mesh, geometry, topology, edges, progress);
   if (mesh.source) report.file_notes = mesh.source->notes();
+  edges = {};
+  std::vector<double> reference = reference_measures(mesh, geometry, topology, progress);
   progress.check();
   return std::make_shared<const InputMesh>(
       InputMesh{std::move(mesh), geometry, std::move(topology), std::move(report), std::move(path), std::move(reference)});

@@ -33,5 +33,15 @@ breach "ui knows no program and no GPU backend" "${include}(app|gpu)/" ui
 breach "ui calls no OpenGL, CUDA or GLFW" "${include}(glad|GL|EGL|GLFW|${cuda})|(^|[^A-Za-z0-9_:])(gl[A-Z][A-Za-z0-9]+|glfw[A-Z][A-Za-z0-9]+|egl[A-Z][A-Za-z0-9]+)\(" ui
 breach "only gpu includes CUDA" "${include}${cuda}" app tests
 
+# Code compiled for one kind of processor must share no compiled copy with the rest: every function that the linker could take for
+# another's carries its packs' architecture (xsimd) in its name. $1: the build folder.
+for object in ${1:+"$1"/core/CMakeFiles/dmoscope_core.dir/smooth/lane_kernel_avx*.o}; do
+  [[ -f $object ]] || continue
+  shared=$(nm "$object" | awk '$2 ~ /^[WVu]$/ && $3 !~ /xsimd/ && $3 !~ /^DW\.ref\./ {print $3}' | c++filt)
+  [[ -z $shared ]] && continue
+  failed=1
+  printf '%s could lend its code to other processors:\n%s\n' "${object##*/}" "$shared"
+done
+
 if [[ $failed -eq 0 ]]; then echo "The walls stand."; fi
 exit "$failed"

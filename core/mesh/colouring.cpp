@@ -1,11 +1,78 @@
 #include "core/mesh/colouring.h"
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numeric>
 #include <utility>
 
 #include "core/mesh/random.h"
 
 namespace dmoscope {
+
+namespace {
+
+/// Every second bit of the result is one of the 16 of `x`.
+std::uint32_t spread_bits(std::uint32_t x) {
+  x = (x | x << 8U) & 0x00ff00ffU;
+  x = (x | x << 4U) & 0x0f0f0f0fU;
+  x = (x | x << 2U) & 0x33333333U;
+  return (x | x << 1U) & 0x55555555U;
+}
+
+/// A vertex with what it is sorted by.
+struct Keyed {
+  std::uint32_t key;
+  Index vertex;
+};
+
+/// By the key, stably; digit by digit.
+void radix_sort(std::vector<Keyed>& items, unsigned bits) {
+  constexpr unsigned kDigit = 11;
+  std::vector<Keyed> other(items.size());
+  for (unsigned shift = 0; shift < bits; shift += kDigit) {
+    std::vector<std::size_t> start((std::size_t{1} << kDigit) + 1, 0);
+    const auto digit = [shift](const Keyed& item) { return item.key >> shift & ((1U << kDigit) - 1U); };
+    for (const Keyed& item : items) ++start[digit(item) + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    for (const Keyed& item : items) other[start[digit(item)]++] = item;
+    items.swap(other);
+  }
+}
+
+/// Where vertices lie along the Z-order curve over the box of all of them, 0 to 2^32 - 1.
+class Curve {
+ public:
+  Curve(const Mesh& mesh, const Plane& plane, std::span<const Index> vertices) : mesh_(mesh), plane_(plane) {
+    Vec2<double> high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    low_ = {-high.x, -high.y};
+    for (const Index v : vertices) {
+      const Vec2<double> p = plane.project(mesh.positions[v]);
+      low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    const double size = std::max(high.x - low_.x, high.y - low_.y);
+    scale_ = size > 0.0 ? 65535.0 / size : 0.0;
+  }
+  [[nodiscard]] std::uint32_t key(Index vertex) const {
+    const Vec2<double> p = plane_.project(mesh_.positions[vertex]);
+    return spread_bits(cell(p.x - low_.x)) | spread_bits(cell(p.y - low_.y)) << 1U;
+  }
+
+ private:
+  [[nodiscard]] std::uint32_t cell(double offset) const {
+    const double value = offset * scale_;
+    return value >= 0.0 && value <= 65535.0 ? static_cast<std::uint32_t>(value) : 0U;
+  }
+  const Mesh& mesh_;
+  const Plane& plane_;
+  Vec2<double> low_;
+  double scale_ = 0.0;
+};
+
+}  // namespace
 
 Colouring colour_vertices(const Mesh& mesh, const Topology& topology, std::span<const Index> free_vertices) {
   std::vector<Index> colour(mesh.positions.size(), kNoIndex);
@@ -34,6 +101,24 @@ Colouring colour_vertices(const Mesh& mesh, const Topology& topology, std::span<
   std::vector<Index> next(result.class_offsets.begin(), result.class_offsets.end() - 1);
   for (const Index v : free_vertices) result.order[next[colour[v]]++] = v;
   return result;
+}
+
+void arrange_classes(Colouring& colouring, const Mesh& mesh, const Plane& plane, const Topology& topology) {
+  constexpr std::size_t kStretch = 4096;  // vertices: some 200 KB with their rings
+  const Curve curve(mesh, plane, colouring.order);
+  std::vector<Keyed> items;
+  for (Index c = 0; c < colouring.class_count(); ++c) {
+    const auto members = colouring.members(c);
+    items.resize(members.size());
+    for (std::size_t i = 0; i < members.size(); ++i) items[i] = {curve.key(members[i]), members[i]};
+    radix_sort(items, 32);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const auto star = static_cast<std::uint32_t>(std::min<std::size_t>(topology.star(items[i].vertex).size(), 63));
+      items[i].key = static_cast<std::uint32_t>(i / kStretch) << 6U | star;
+    }
+    radix_sort(items, 6 + static_cast<unsigned>(std::bit_width(items.size() / kStretch)));
+    std::ranges::transform(items, colouring.order.begin() + colouring.class_offsets[c], &Keyed::vertex);
+  }
 }
 
 std::vector<Index> shuffled(std::span<const Index> vertices, std::uint64_t seed) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/mesh/mesh.h"
+#include "core/mesh/plane.h"
 #include "core/mesh/topology.h"
 
 namespace dmoscope {
@@ -22,6 +23,11 @@ struct Colouring {
 /// Greedy colouring in the order given: each vertex gets the lowest colour that no vertex sharing an ELEMENT with it has.
 /// Within a class the vertices keep that order. `free_vertices`: distinct vertex indices.
 [[nodiscard]] Colouring colour_vertices(const Mesh& mesh, const Topology& topology, std::span<const Index> free_vertices);
+
+/// Reorders every class, which changes no result since its members do not see each other: along a space-filling curve of `plane`, so that
+/// neighbours in space are neighbours in memory, and in stretches of it by the size of their stars, so that vertices that are searched
+/// side by side need the same work.
+void arrange_classes(Colouring& colouring, const Mesh& mesh, const Plane& plane, const Topology& topology);
 
 /// The vertices in an order shuffled by `seed` with a generator of our own: the same on every platform.
 [[nodiscard]] std::vector<Index> shuffled(std::span<const Index> vertices, std::uint64_t seed);

@@ -1,20 +1,11 @@
 #pragma once
-// The few operations the formulas need of their scalar. Each executor's scalar (double, float, a pack of floats) offers these.
+// The few operations that formulas and search need of their scalar, for double and float. Packs (core/search/pack.h) bring the same ones
+// in their own namespace: whoever uses them calls them without one, after `using`.
 
 #include <cmath>
 #include <concepts>
-#include <cstddef>
 
-#include <experimental/simd>
-
-namespace dmoscope {
-
-/// A pack of floats: the scalar of a lane that holds several vertices. Every operation does in each slot exactly what the plain float
-/// does, so packs of any width and single floats find the same bits.
-template <int Width>
-using Pack = std::experimental::simd<float, std::experimental::simd_abi::deduce_t<float, Width>>;
-
-namespace scalar {
+namespace dmoscope::scalar {
 
 /// A constant of the scalar from a double: Constant<R>::of(0.5).
 template <class R>
@@ -51,69 +42,31 @@ template <std::floating_point R>
   return std::atan2(y, x);
 }
 
-/// Does the condition hold in every slot?
-[[nodiscard]] constexpr bool all(bool condition) { return condition; }
-
-template <class Abi>
-using PackOf = std::experimental::simd<float, Abi>;
-template <class Abi>
-using MaskOf = std::experimental::simd_mask<float, Abi>;
-
-template <class Abi>
-struct Constant<PackOf<Abi>> {
-  static PackOf<Abi> of(double value) { return PackOf<Abi>(static_cast<float>(value)); }
+/// Does the condition hold in any slot?
+[[nodiscard]] constexpr bool any(bool condition) { return condition; }
+/// a + b, the same bits; packs let their multiplier do it where the adders are the bottleneck: Sum<R>::of(a, b).
+template <class R>
+struct Sum {
+  static constexpr R of(R a, R b) { return a + b; }
 };
-
-template <class Abi>
-[[nodiscard]] PackOf<Abi> select(MaskOf<Abi> condition, PackOf<Abi> yes, PackOf<Abi> no) {
-  where(condition, no) = yes;
-  return no;
-}
-template <class Abi>
-[[nodiscard]] bool all(MaskOf<Abi> condition) {
-  return std::experimental::all_of(condition);
-}
-template <class Abi>
-[[nodiscard]] PackOf<Abi> min(PackOf<Abi> a, PackOf<Abi> b) {
-  return scalar::select(b < a, b, a);
-}
-template <class Abi>
-[[nodiscard]] PackOf<Abi> max(PackOf<Abi> a, PackOf<Abi> b) {
-  return scalar::select(a < b, b, a);
-}
-template <class Abi>
-[[nodiscard]] PackOf<Abi> abs(PackOf<Abi> a) {
-  return std::experimental::abs(a);
-}
-template <class Abi>
-[[nodiscard]] PackOf<Abi> sqrt(PackOf<Abi> a) {
-  return std::experimental::sqrt(a);
-}
-template <class Abi>
-[[nodiscard]] PackOf<Abi> atan2(PackOf<Abi> y, PackOf<Abi> x) {
-  PackOf<Abi> result;
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] = std::atan2(static_cast<float>(y[i]), static_cast<float>(x[i]));
-  return result;
-}
 
 template <class R>
 [[nodiscard]] constexpr R min3(R a, R b, R c) {
-  return scalar::min(scalar::min(a, b), c);
+  return min(min(a, b), c);
 }
 template <class R>
 [[nodiscard]] constexpr R max3(R a, R b, R c) {
-  return scalar::max(scalar::max(a, b), c);
+  return max(max(a, b), c);
 }
 /// numerator / denominator, and 0 where the denominator is 0: an element shrunk to a point has quality 0, not NaN.
 template <class R>
 [[nodiscard]] constexpr R ratio(R numerator, R denominator) {
-  return scalar::select(denominator > R(0), numerator / scalar::select(denominator > R(0), denominator, R(1)), R(0));
+  return select(denominator > R(0), numerator / select(denominator > R(0), denominator, R(1)), R(0));
 }
 /// -1, 0 or 1.
 template <class R>
 [[nodiscard]] constexpr R sign(R a) {
-  return scalar::select(a > R(0), R(1), scalar::select(a < R(0), R(-1), R(0)));
+  return select(a > R(0), R(1), select(a < R(0), R(-1), R(0)));
 }
 
-}  // namespace scalar
-}  // namespace dmoscope
+}  // namespace dmoscope::scalar

@@ -1,6 +1,7 @@
 #pragma once
-// The DMO grid search (paper, Algorithm 2), once: a template over its metric and its lane. A lane is one vertex; its scalar `Real`
-// is double (the reference) or float (for speed), and may be a pack that holds several vertices.
+// The DMO grid search (paper, Algorithm 2): a template over its metric and its lane. A lane is one vertex; its scalar `Real` is double (the
+// reference) or float (for speed), and may be a pack that holds several vertices. ratio_search.h finds the same candidate faster where
+// the metric allows it.
 
 #include <limits>
 
@@ -10,38 +11,50 @@
 
 namespace dmoscope {
 
+/// Does the search compare the metric itself or its rank (formulas::rank), which costs less?
+enum class Value { Metric, Rank };
+
 /// What is maximised at a candidate position.
 /// A star without inverted elements: the least metric (paper eq. 1); a candidate that inverts one is <= 0 and never wins.
 /// Otherwise (Untangling): the smallest corner Jacobian over its element's reference measure while it is <= 0, and the least metric
 /// once all are positive; every valid candidate is above every invalid one, since valid elements have positive metrics.
-template <Metric M, bool Untangling, class Real>
+template <Metric M, bool Untangling, class Real, Value V = Value::Metric>
 class Objective {
  public:
-  explicit Objective(const Star<Real>& star) : star_(star) {}
+  explicit Objective(StarView<Real> star) : star_(star) {}
 
   [[nodiscard]] Real operator()(Vec2<Real> p) const {
+    using scalar::min, scalar::select;
     Real quality = scalar::constant<Real>(std::numeric_limits<float>::max());
     Real jacobian = scalar::constant<Real>(std::numeric_limits<float>::max());
-    for (const auto& t : star_.triangles) {
+    for (const auto& t : star_.triangles()) {
       const formulas::Triangle<Vec2<Real>> triangle(p, t.b, t.c);
-      quality = scalar::min(quality, formulas::Formula<M>::triangle(triangle));
-      if constexpr (kNeedsJacobian) jacobian = scalar::min(jacobian, formulas::smallest_jacobian(triangle) / t.reference);
+      quality = min(quality, value(triangle));
+      if constexpr (kNeedsJacobian) jacobian = min(jacobian, formulas::smallest_jacobian(triangle) / t.reference);
     }
     if constexpr (kQuadrilaterals) {
-      for (const auto& q : star_.quadrilaterals) {
+      for (const auto& q : star_.quadrilaterals()) {
         const formulas::Quadrilateral<Vec2<Real>> quadrilateral(p, q.b, q.c, q.d);
-        quality = scalar::min(quality, formulas::Formula<M>::quadrilateral(quadrilateral));
-        if constexpr (kNeedsJacobian) jacobian = scalar::min(jacobian, formulas::smallest_jacobian(quadrilateral) / q.reference);
+        quality = min(quality, value(quadrilateral));
+        if constexpr (kNeedsJacobian) jacobian = min(jacobian, formulas::smallest_jacobian(quadrilateral) / q.reference);
       }
     }
-    if constexpr (kNeedsJacobian) return scalar::select(jacobian > Real(0), quality, jacobian);
+    if constexpr (kNeedsJacobian) return select(jacobian > Real(0), quality, jacobian);
     return quality;
   }
 
  private:
+  [[nodiscard]] static Real value(const formulas::Triangle<Vec2<Real>>& t) {
+    if constexpr (V == Value::Rank) return formulas::rank<M>(t);
+    return formulas::Formula<M>::triangle(t);
+  }
+  [[nodiscard]] static Real value(const formulas::Quadrilateral<Vec2<Real>>& q) {
+    if constexpr (V == Value::Rank) return formulas::rank<M>(q);
+    return formulas::Formula<M>::quadrilateral(q);
+  }
   static constexpr bool kQuadrilaterals = formulas::kDefinedForQuadrilaterals<M, Vec2<Real>>;
   static constexpr bool kNeedsJacobian = Untangling || !formulas::Formula<M>::kSeesInversion;
-  const Star<Real>& star_;
+  StarView<Real> star_;
 };
 
 /// The best candidate of all levels: its offset from the vertex (units of the star's scale) and its objective.
@@ -79,6 +92,7 @@ struct NoTrace {
 template <class Real, class ObjectiveAt, class Trace = NoTrace>
 [[nodiscard]] Candidate<Real> grid_search(const ObjectiveAt& objective, Vec2<Real> box, const SearchParameters& parameters,
                                           Trace&& trace = {}) {
+  using scalar::select;
   Candidate<Real> best{{}, objective(Vec2<Real>{})};
   double omega = parameters.omega;
   for (int level = 0; level < parameters.levels; ++level) {
@@ -91,8 +105,8 @@ template <class Real, class ObjectiveAt, class Trace = NoTrace>
         const Real value = objective(p);
         trace.candidate(i * grid.points + j, p, value);
         const auto better = value > best.objective;
-        best.objective = scalar::select(better, value, best.objective);
-        best.offset = {scalar::select(better, p.x, best.offset.x), scalar::select(better, p.y, best.offset.y)};
+        best.objective = select(better, value, best.objective);
+        best.offset = {select(better, p.x, best.offset.x), select(better, p.y, best.offset.y)};
       }
     }
     omega *= 2.0 / (parameters.grid_points - 1);

@@ -2,6 +2,7 @@
 // The star of one vertex as the search sees it: offsets from the vertex in the mesh's plane, scaled by a power of two.
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/base/vec.h"
@@ -30,6 +31,23 @@ struct Star {
   std::vector<StarQuadrilateral<Real>> quadrilaterals;
   Vec2<Real> box;      // width and height of the bounding box of the other vertices
   double scale = 1.0;  // mesh units
+};
+
+/// The elements of a star, wherever they stand.
+template <class Real>
+class StarView {
+ public:
+  StarView(const Star<Real>& star)  // NOLINT(google-explicit-constructor): a view of it
+      : StarView(star.triangles.data(), star.triangles.size(), star.quadrilaterals.data(), star.quadrilaterals.size()) {}
+  StarView(const StarTriangle<Real>* triangles, std::size_t triangle_count, const StarQuadrilateral<Real>* quadrilaterals,
+           std::size_t quadrilateral_count)
+      : triangles_(triangles, triangle_count), quadrilaterals_(quadrilaterals, quadrilateral_count) {}
+  [[nodiscard]] std::span<const StarTriangle<Real>> triangles() const { return triangles_; }
+  [[nodiscard]] std::span<const StarQuadrilateral<Real>> quadrilaterals() const { return quadrilaterals_; }
+
+ private:
+  std::span<const StarTriangle<Real>> triangles_;
+  std::span<const StarQuadrilateral<Real>> quadrilaterals_;
 };
 
 /// Fills `star` (its vectors are reused) for `vertex` at `positions`. `reference_measure`: one positive value an element.

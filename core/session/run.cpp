@@ -31,6 +31,12 @@ std::vector<Index> free_vertices(std::span<const std::uint8_t> fixed, const Visi
   return order.seed ? shuffled(free, *order.seed) : free;
 }
 
+std::shared_ptr<const Colouring> make_colouring(const InputMesh& input, std::span<const Index> free) {
+  Colouring colouring = colour_vertices(input.mesh, input.topology, free);
+  arrange_classes(colouring, input.mesh, input.geometry.plane, input.topology);
+  return std::make_shared<const Colouring>(std::move(colouring));
+}
+
 }  // namespace
 
 std::string Outcome::sentence() const {
@@ -51,9 +57,9 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
     : input_(std::move(input)),
       parameters_(std::move(parameters)),
       pool_(std::move(pool)),
-      smoother_(make_smoother(parameters_.method, input_, parameters_.metric, parameters_.search)),
       fixed_(fixed_vertices(*input_, parameters_.fixed)),
-      colouring_(colour_vertices(input_->mesh, input_->topology, free_vertices(fixed_, parameters_.order))),
+      colouring_(make_colouring(*input_, free_vertices(fixed_, parameters_.order))),
+      smoother_(make_smoother(parameters_.method, input_, colouring_, parameters_.metric, parameters_.search, pool_.get())),
       positions_(input_->mesh.positions),
       history_(history_bytes) {
   record();
@@ -79,10 +85,10 @@ void Run::visit(std::uint64_t count, Progress& progress) {
   last_outcome_.reset();
   while (count > 0) {
     progress.check();
-    const auto next_class = std::ranges::upper_bound(colouring_.class_offsets, moment_.visits);
+    const auto next_class = std::ranges::upper_bound(colouring_->class_offsets, moment_.visits);
     const std::uint64_t block = std::min({count, *next_class - moment_.visits, kBlock});
     const auto start = std::chrono::steady_clock::now();
-    moved_ += smoother_->visit(std::span(colouring_.order).subspan(moment_.visits, block), positions_, pool_.get());
+    moved_ += smoother_->visit(moment_.visits, block, positions_, pool_.get());
     seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     moment_.visits += block;
     count -= block;
@@ -108,7 +114,7 @@ std::uint64_t Run::step(StepUnit unit, Progress& progress) {
   const std::uint64_t before = moved_;
   std::uint64_t target = visits_per_iteration();
   if (unit == StepUnit::Vertex) target = moment_.visits + 1;
-  if (unit == StepUnit::Class) target = *std::ranges::upper_bound(colouring_.class_offsets, moment_.visits);
+  if (unit == StepUnit::Class) target = *std::ranges::upper_bound(colouring_->class_offsets, moment_.visits);
   visit(target - moment_.visits, progress);
   return (moment_.visits == 0 ? last_moved_ : moved_) - before;
 }
@@ -123,7 +129,7 @@ bool Run::back(StepUnit unit, Progress& progress) {
   } else if (unit == StepUnit::Vertex) {
     --target.visits;
   } else {
-    target.visits = *std::prev(std::ranges::lower_bound(colouring_.class_offsets, target.visits));
+    target.visits = *std::prev(std::ranges::lower_bound(colouring_->class_offsets, target.visits));
   }
   seek(target, progress);
   return true;
@@ -134,6 +140,7 @@ void Run::seek(Moment target, Progress& progress) {
   const History::Kept& kept = history_.nearest(target.iteration);
   if (target < moment_ || kept.iteration > moment_.iteration) {
     positions_ = kept.positions;
+    smoother_->positions_replaced();
     moment_ = {kept.iteration, 0};
     moved_ = 0;
     seconds_ = 0.0;

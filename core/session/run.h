@@ -67,10 +67,10 @@ class Run {
   [[nodiscard]] const Moment& moment() const noexcept { return moment_; }
   /// Statistics of the optimised metric at this very moment.
   [[nodiscard]] Statistics statistics() const;
-  [[nodiscard]] const Colouring& colouring() const noexcept { return colouring_; }
+  [[nodiscard]] const Colouring& colouring() const noexcept { return *colouring_; }
   /// 1 where a vertex may not move: boundary, unused, or the user's.
   [[nodiscard]] std::span<const std::uint8_t> fixed() const noexcept { return fixed_; }
-  [[nodiscard]] std::uint64_t visits_per_iteration() const noexcept { return colouring_.order.size(); }
+  [[nodiscard]] std::uint64_t visits_per_iteration() const noexcept { return colouring_->order.size(); }
   [[nodiscard]] const History& history() const noexcept { return history_; }
   void set_history_budget(std::size_t bytes) { history_.set_budget(bytes); }
   void set_pool(std::shared_ptr<ThreadPool> pool) { pool_ = std::move(pool); }
@@ -103,9 +103,9 @@ class Run {
   std::shared_ptr<const InputMesh> input_;
   RunParameters parameters_;
   std::shared_ptr<ThreadPool> pool_;
-  std::unique_ptr<Smoother> smoother_;
   std::vector<std::uint8_t> fixed_;
-  Colouring colouring_;
+  std::shared_ptr<const Colouring> colouring_;
+  std::unique_ptr<Smoother> smoother_;
   std::vector<Vec3> positions_;
   Moment moment_;
   std::uint64_t moved_ = 0;       // in the iteration under way

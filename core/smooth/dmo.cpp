@@ -1,134 +1,172 @@
 #include "core/smooth/dmo.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/search/grid_search.h"
-#include "core/search/packed_star.h"
+#include "core/smooth/displace.h"
+#include "core/smooth/lane_kernel.h"
 
 namespace dmoscope {
 
 namespace {
 
-constexpr std::size_t kGrain = 256;  // vertices a chunk: some 0.5 ms of work
+constexpr std::size_t kGrain = 256;  // vertices a chunk of the reference: some 1 ms of work
 
-/// position + displacement, but a coordinate that does not move keeps its very bits (-0.0 + 0.0 would not). `single_precision`: see Mesh.
-Vec3 displaced(Vec3 position, Vec3 displacement, bool single_precision) {
-  const auto add = [single_precision](double a, double b) {
-    if (b == 0.0) return a;
-    return single_precision ? static_cast<double>(static_cast<float>(a + b)) : a + b;
-  };
-  return {add(position.x, displacement.x), add(position.y, displacement.y), add(position.z, displacement.z)};
-}
-
-/// Searches one lane. The untangling objective costs more and is needed only where an element of the star is inverted now; in a slot
-/// without one it finds the same candidate, since there every candidate it values otherwise is <= 0 and cannot win.
-template <Metric M, class Real>
-Candidate<Real> search_lane(const Star<Real>& star, const SearchParameters& parameters) {
-  const Objective<M, true, Real> untangling(star);
-  const bool valid = scalar::all(untangling(Vec2<Real>{}) > Real(0));
-  return valid ? grid_search<Real>(Objective<M, false, Real>(star), star.box, parameters)
-               : grid_search<Real>(untangling, star.box, parameters);
-}
-
-/// What both executors share: who is visited, and the confirmation in double.
+/// The untangling objective costs more and is needed only where an element of the star is inverted now; of one without, it finds the
+/// same candidate, since there every candidate it values otherwise is <= 0 and cannot win.
 template <Metric M>
-class DmoSmoother : public Smoother {
+Candidate<double> search_star(const Star<double>& star, const SearchParameters& parameters) {
+  const Objective<M, true, double> untangling(star);
+  const bool valid = untangling({}) > 0.0;
+  return valid ? grid_search<double>(Objective<M, false, double>(star), star.box, parameters)
+               : grid_search<double>(untangling, star.box, parameters);
+}
+
+/// One vertex after the other, in double: the plain search, which the fast one is compared with and falls back to.
+template <Metric M>
+class Reference {
  public:
-  DmoSmoother(std::shared_ptr<const InputMesh> input, const SearchParameters& parameters)
-      : input_(std::move(input)), parameters_(parameters) {}
+  Reference(const InputMesh& input, const SearchParameters& parameters) : input_(input), parameters_(parameters) {}
 
-  std::uint64_t visit(std::span<const Index> vertices, std::span<Vec3> positions, ThreadPool* pool) final {
-    std::atomic<std::uint64_t> moved{0};
-    for_chunks(pool, vertices.size(), kGrain,
-               [&](std::size_t first, std::size_t last) { moved += visit_chunk(vertices.subspan(first, last - first), positions); });
-    return moved;
-  }
-
- protected:
-  virtual std::uint64_t visit_chunk(std::span<const Index> vertices, std::span<Vec3> positions) const = 0;
-
-  template <class Real>
-  void gather(Index vertex, std::span<const Vec3> positions, Star<Real>& star) const {
-    gather_star(input_->quality_context(), input_->topology, positions, input_->reference_measure, vertex, star);
-  }
-
-  /// The search may be in float and in other rounding than the statistics; what counts is judged by the statistics' own functions.
-  bool move_if_better(Index vertex, std::span<Vec3> positions, Vec2<double> offset) const {
+  /// Moves `vertex` if it gains. `star`: room to work in.
+  bool visit(Index vertex, std::span<Vec3> positions, Star<double>& star) const {
+    gather_star(input_.quality_context(), input_.topology, positions, input_.reference_measure, vertex, star);
+    const Vec2<double> found = search_star<M>(star, parameters_).offset;
+    const Vec2<double> offset{found.x * star.scale, found.y * star.scale};
     if (offset.x == 0.0 && offset.y == 0.0) return false;
-    const Vec3 old = positions[vertex];
-    const StarState before = star_state(*input_, positions, M, vertex);
-    positions[vertex] = displaced(old, input_->geometry.plane.lift(offset), input_->mesh.single_precision);
-    if (star_state(*input_, positions, M, vertex).better_than(before)) return true;
-    positions[vertex] = old;
-    return false;
+    const Vec3 old = positions[vertex], step = input_.geometry.plane.lift(offset);
+    const bool single = input_.mesh.single_precision;
+    const Vec3 target{displaced(old.x, step.x, single), displaced(old.y, step.y, single), displaced(old.z, step.z, single)};
+    if (!gains(vertex, target, positions)) return false;
+    positions[vertex] = target;
+    return true;
   }
 
-  [[nodiscard]] const SearchParameters& parameters() const { return parameters_; }
+  /// A search may be in float and in other rounding than the statistics; what counts is judged by the statistics' own functions.
+  bool gains(Index vertex, Vec3 target, std::span<Vec3> positions) const {
+    const StarState before = star_state(input_, positions, M, vertex);
+    const Vec3 old = std::exchange(positions[vertex], target);
+    const bool better = star_state(input_, positions, M, vertex).better_than(before);
+    positions[vertex] = old;
+    return better;
+  }
 
  private:
-  std::shared_ptr<const InputMesh> input_;
+  const InputMesh& input_;
   SearchParameters parameters_;
 };
 
-/// The reference: one vertex after the other, in double.
 template <Metric M>
-class ScalarDmo final : public DmoSmoother<M> {
+class ScalarDmo final : public Smoother {
  public:
-  using DmoSmoother<M>::DmoSmoother;
+  ScalarDmo(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring, const SearchParameters& parameters)
+      : input_(std::move(input)), colouring_(std::move(colouring)), reference_(*input_, parameters) {}
 
- private:
-  std::uint64_t visit_chunk(std::span<const Index> vertices, std::span<Vec3> positions) const override {
-    Star<double> star;
-    std::uint64_t moved = 0;
-    for (const Index vertex : vertices) {
-      this->gather(vertex, positions, star);
-      const Vec2<double> offset = search_lane<M>(star, this->parameters()).offset;
-      moved += this->move_if_better(vertex, positions, {offset.x * star.scale, offset.y * star.scale}) ? 1U : 0U;
-    }
+  std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
+    const auto vertices = std::span(colouring_->order).subspan(first, count);
+    std::atomic<std::uint64_t> moved{0};
+    for_chunks(pool, count, kGrain, [&](std::size_t begin, std::size_t end) {
+      Star<double> star;
+      std::uint64_t here = 0;
+      for (std::size_t i = begin; i < end; ++i) here += reference_.visit(vertices[i], positions, star) ? 1U : 0U;
+      moved += here;
+    });
     return moved;
   }
+  void positions_replaced() override {}
+
+ private:
+  std::shared_ptr<const InputMesh> input_;
+  std::shared_ptr<const Colouring> colouring_;
+  Reference<M> reference_;
 };
 
-/// For speed: a lane holds kWidth vertices of the class as a pack of floats.
+/// For speed: lanes of many vertices. Keeps its own copy of the positions in the order of the visits, and who needs no visit because
+/// nothing of its star moved since it was last found at its best.
 template <Metric M>
-class PackedDmo final : public DmoSmoother<M> {
+class LaneDmo final : public Smoother {
  public:
-  using DmoSmoother<M>::DmoSmoother;
+  LaneDmo(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring, const SearchParameters& parameters,
+          ThreadPool* pool)
+      : input_(std::move(input)),
+        reference_(*input_, parameters),
+        table_(build_star_table(input_->mesh, input_->topology, *colouring, pool)),
+        kernel_(lane_kernel(parameters.simd.value_or(best_simd_level()), M)),
+        ranked_(3 * table_.vertex_of_rank.size()),
+        awake_(table_.vertex_of_rank.size()),
+        task_(describe(parameters)) {}
 
- private:
-  static constexpr int kWidth = static_cast<int>(std::experimental::native_simd<float>::size());  // wider packs measured slower than double
-
-  std::uint64_t visit_chunk(std::span<const Index> vertices, std::span<Vec3> positions) const override {
-    std::array<Star<float>, kWidth> stars;
-    PackedStar<kWidth> packed;
-    std::uint64_t moved = 0;
-    for (std::size_t first = 0; first < vertices.size(); first += kWidth) {
-      const auto group = vertices.subspan(first, std::min<std::size_t>(kWidth, vertices.size() - first));
-      for (std::size_t i = 0; i < group.size(); ++i) this->gather(group[i], positions, stars[i]);
-      const auto gathered = std::span<const Star<float>>(stars).first(group.size());
-      const auto offsets = search(gathered, packed);
-      for (std::size_t i = 0; i < group.size(); ++i) {
-        const Vec2<double> offset{static_cast<double>(offsets[i].x) * stars[i].scale, static_cast<double>(offsets[i].y) * stars[i].scale};
-        moved += this->move_if_better(group[i], positions, offset) ? 1U : 0U;
-      }
-    }
+  std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
+    if (positions_.data() != positions.data()) positions_replaced();
+    positions_ = positions;
+    if (stale_) load(pool);
+    task_.positions = &positions[0].x;
+    std::atomic<std::uint64_t> moved{0};
+    for_chunks(pool, count, kLaneGrain, [&](std::size_t begin, std::size_t end) { moved += kernel_(task_, first + begin, first + end); });
     return moved;
   }
+  void positions_replaced() override { stale_ = true; }
 
-  /// The best offset of each star, in units of its scale.
-  std::array<Vec2<float>, kWidth> search(std::span<const Star<float>> stars, PackedStar<kWidth>& packed) const {
-    std::array<Vec2<float>, kWidth> offsets{};
-    if (PackedStar<kWidth>::alike(stars)) {
-      const auto found = search_lane<M>(packed.pack(stars), this->parameters()).offset;
-      for (std::size_t i = 0; i < stars.size(); ++i) offsets[i] = {found.x[i], found.y[i]};
-    } else {
-      for (std::size_t i = 0; i < stars.size(); ++i) offsets[i] = search_lane<M>(stars[i], this->parameters()).offset;
-    }
-    return offsets;
+ private:
+  /// What does not change between visits.
+  LaneTask describe(const SearchParameters& parameters) {
+    const Plane& plane = input_->geometry.plane;
+    LaneTask task{};
+    task.shapes = table_.shapes.data();
+    task.others = table_.others.data();
+    task.vertex_of_rank = table_.vertex_of_rank.data();
+    task.ranked = ranked_.data();
+    task.awake = awake_.data();
+    const auto take = [](Vec3 from, double* to) { to[0] = from.x, to[1] = from.y, to[2] = from.z; };
+    take(plane.u, task.u);
+    take(plane.v, task.v);
+    const auto axis = [](const double* d) { return static_cast<int>(std::find(d, d + 3, 1.0) - d); };
+    task.u_axis = axis(task.u);
+    task.v_axis = axis(task.v);
+    if (task.u_axis > 2 || task.v_axis > 2) task.u_axis = task.v_axis = -1;
+    const double edge = input_->geometry.size / std::sqrt(1.0 + input_->mesh.elements.size());
+    task.scale = edge > 0.0 && std::isfinite(edge) ? std::exp2(std::ilogb(edge)) : 1.0;
+    task.inverse = 1.0 / task.scale;
+    task.single_precision = input_->mesh.single_precision;
+    task.parameters = parameters;
+    task.owner = this;
+    task.gains = [](const void* owner, Index vertex, const double* p) {
+      const auto& self = *static_cast<const LaneDmo*>(owner);
+      return self.reference_.gains(vertex, {p[0], p[1], p[2]}, self.positions_);
+    };
+    task.visit_alone = [](const void* owner, Index vertex) {
+      const auto& self = *static_cast<const LaneDmo*>(owner);
+      Star<double> star;
+      return self.reference_.visit(vertex, self.positions_, star);
+    };
+    return task;
   }
+
+  void load(ThreadPool* pool) {
+    for_chunks(pool, table_.vertex_of_rank.size(), std::size_t{1} << 16U, [&](std::size_t first, std::size_t last) {
+      for (std::size_t rank = first; rank < last; ++rank) {
+        const Vec3 p = positions_[table_.vertex_of_rank[rank]];
+        double* to = &ranked_[3 * rank];
+        to[0] = p.x, to[1] = p.y, to[2] = p.z;
+        awake_[rank] = 1;
+      }
+    });
+    stale_ = false;
+  }
+
+  std::shared_ptr<const InputMesh> input_;
+  Reference<M> reference_;
+  StarTable table_;
+  LaneKernel kernel_;
+  std::vector<double> ranked_;
+  std::vector<std::uint8_t> awake_;
+  LaneTask task_;
+  std::span<Vec3> positions_;
+  bool stale_ = true;
 };
 
 }  // namespace
@@ -143,10 +181,12 @@ StarState star_state(const InputMesh& input, std::span<const Vec3> positions, Me
   return state;
 }
 
-std::unique_ptr<Smoother> make_dmo_smoother(std::shared_ptr<const InputMesh> input, Metric metric, const SearchParameters& parameters) {
+std::unique_ptr<Smoother> make_dmo_smoother(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring,
+                                            Metric metric, const SearchParameters& parameters, ThreadPool* pool) {
   return formulas::with_metric(metric, [&]<Metric M>() -> std::unique_ptr<Smoother> {
-    if (parameters.precision == Precision::Double) return std::make_unique<ScalarDmo<M>>(std::move(input), parameters);
-    return std::make_unique<PackedDmo<M>>(std::move(input), parameters);
+    if (parameters.precision == Precision::Double)
+      return std::make_unique<ScalarDmo<M>>(std::move(input), std::move(colouring), parameters);
+    return std::make_unique<LaneDmo<M>>(std::move(input), std::move(colouring), parameters, pool);
   });
 }
 

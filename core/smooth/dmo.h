@@ -21,7 +21,8 @@ struct StarState {
 [[nodiscard]] StarState star_state(const InputMesh& input, std::span<const Vec3> positions, Metric metric, Index vertex);
 
 /// See make_smoother, which checks the arguments.
-[[nodiscard]] std::unique_ptr<Smoother> make_dmo_smoother(std::shared_ptr<const InputMesh> input, Metric metric,
-                                                          const SearchParameters& parameters);
+[[nodiscard]] std::unique_ptr<Smoother> make_dmo_smoother(std::shared_ptr<const InputMesh> input,
+                                                          std::shared_ptr<const Colouring> colouring, Metric metric,
+                                                          const SearchParameters& parameters, ThreadPool* pool);
 
 }  // namespace dmoscope

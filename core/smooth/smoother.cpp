@@ -17,8 +17,9 @@ constexpr std::array<MethodInfo, 1> kMethods{
 
 std::span<const MethodInfo> method_table() { return kMethods; }
 
-std::unique_ptr<Smoother> make_smoother(std::string_view method, std::shared_ptr<const InputMesh> input, Metric metric,
-                                        const SearchParameters& parameters) {
+std::unique_ptr<Smoother> make_smoother(std::string_view method, std::shared_ptr<const InputMesh> input,
+                                        std::shared_ptr<const Colouring> colouring, Metric metric, const SearchParameters& parameters,
+                                        ThreadPool* pool) {
   if (method != kMethods[0].name) {
     std::string known;
     for (const MethodInfo& entry : kMethods) known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
@@ -26,7 +27,7 @@ std::unique_ptr<Smoother> make_smoother(std::string_view method, std::shared_ptr
   }
   validate(parameters);
   require_defined(metric, input->mesh);
-  return make_dmo_smoother(std::move(input), metric, parameters);
+  return make_dmo_smoother(std::move(input), std::move(colouring), metric, parameters, pool);
 }
 
 }  // namespace dmoscope

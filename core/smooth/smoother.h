@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/thread_pool.h"
+#include "core/mesh/colouring.h"
 #include "core/quality/metric.h"
 #include "core/search/parameters.h"
 #include "core/session/input_mesh.h"
@@ -17,9 +18,12 @@ namespace dmoscope {
 class Smoother {
  public:
   virtual ~Smoother() = default;
-  /// Visits `vertices` (free, no two sharing an element, so that each sees the others' old and new positions alike) and moves those
-  /// that gain. Returns how many moved. The result does not depend on the pool.
-  virtual std::uint64_t visit(std::span<const Index> vertices, std::span<Vec3> positions, ThreadPool* pool) = 0;
+  /// Visits the vertices [first, first + count) of the colouring's order, all of one class (so that each sees the others' old and new
+  /// positions alike), and moves those that gain. Returns how many moved. The result does not depend on the pool. `positions`: of the
+  /// whole mesh, and the ones that the last call left, unless positions_replaced() was called in between.
+  virtual std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) = 0;
+  /// Forgets what was derived from the positions of the last visit.
+  virtual void positions_replaced() = 0;
 };
 
 struct MethodInfo {
@@ -28,9 +32,10 @@ struct MethodInfo {
 /// The methods this version has.
 [[nodiscard]] std::span<const MethodInfo> method_table();
 
-/// Makes the smoother for a method. Throws UsageError for an unknown method (listing the known ones), for parameters out of range or for
-/// a metric that is not defined for the mesh.
-[[nodiscard]] std::unique_ptr<Smoother> make_smoother(std::string_view method, std::shared_ptr<const InputMesh> input, Metric metric,
-                                                      const SearchParameters& parameters);
+/// Makes the smoother for a method. `colouring`: the vertices it may move. Throws UsageError for an unknown method (listing the known
+/// ones), for parameters out of range or for a metric that is not defined for the mesh.
+[[nodiscard]] std::unique_ptr<Smoother> make_smoother(std::string_view method, std::shared_ptr<const InputMesh> input,
+                                                      std::shared_ptr<const Colouring> colouring, Metric metric,
+                                                      const SearchParameters& parameters, ThreadPool* pool);
 
 }  // namespace dmoscope

@@ -1,0 +1,44 @@
+#pragma once
+// Visits many vertices at once, one a slot of a pack: the same code compiled for several processors, chosen at run time.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/quality/metric.h"
+#include "core/search/parameters.h"
+#include "core/smooth/star_table.h"
+
+namespace dmoscope {
+
+/// All a kernel needs to know, as plain data. Ranks: see StarTable.
+struct LaneTask {
+  const StarShape* shapes;
+  const Index* others;
+  const Index* vertex_of_rank;
+  double* ranked;         // 3 a rank: the working copy of the positions
+  double* positions;      // 3 a vertex: where they are wanted; kept equal to `ranked`
+  std::uint8_t* awake;    // one a rank: has its star changed since it was last found at its best?
+  double u[3], v[3];      // the mesh's plane
+  int u_axis, v_axis;     // the coordinates they are, or -1 where the plane is parallel to no coordinate plane
+  double scale, inverse;  // a power of two about as large as an edge, and 1 / scale
+  bool single_precision;  // see Mesh
+  SearchParameters parameters;
+
+  const void* owner;  // for the two below
+  /// Exactly: would `vertex` of the mesh gain by standing at `position` (3 coordinates)? Leaves it where it is.
+  bool (*gains)(const void* owner, Index vertex, const double* position);
+  /// The reference's visit of `vertex`; true if it moved in `positions`.
+  bool (*visit_alone)(const void* owner, Index vertex);
+};
+
+/// Visits the ranks [first, last), no two of which share an element, as far as they are awake, and wakes their neighbours where they
+/// move. Returns how many moved.
+using LaneKernel = std::uint64_t (*)(const LaneTask& task, std::size_t first, std::size_t last);
+
+/// The kernel for a metric. `level` must be one of supported_simd_levels(). All give the same bits.
+[[nodiscard]] LaneKernel lane_kernel(SimdLevel level, Metric metric);
+
+/// Visits a call of a kernel should make: enough to fill its lanes, few enough to share among threads.
+inline constexpr std::size_t kLaneGrain = 1024;
+
+}  // namespace dmoscope

@@ -1,0 +1,116 @@
+#include "core/smooth/star_table.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/base/thread_pool.h"
+
+namespace dmoscope {
+
+namespace {
+
+constexpr std::size_t kGrain = 8192;  // visits a chunk
+
+/// What one chunk of visits makes; `first` of its shapes counts from the chunk's own beginning.
+class Chunk {
+ public:
+  Chunk(const Mesh& mesh, const Topology& topology, std::span<const Index> rank) : mesh_(mesh), topology_(topology), rank_(rank) {}
+
+  StarShape add(Index vertex) {
+    const auto star = topology_.star(vertex);
+    StarShape shape;
+    shape.first = static_cast<std::uint32_t>(others.size());
+    pairs_.clear();
+    triples_.clear();
+    for (const Incidence& at : star) {
+      const auto corners = mesh_.elements.corners(at.element);
+      auto& list = corners.size() == 3 ? pairs_ : triples_;
+      for (std::size_t i = 1; i < corners.size(); ++i) list.push_back(rank_[corners[(at.corner + i) % corners.size()]]);
+    }
+    const std::size_t triangles = pairs_.size() / 2, quadrilaterals = triples_.size() / 3;
+    if (quadrilaterals == 0 && triangles <= kMaxFan && add_ring()) {
+      shape.kind = StarShape::Kind::Fan;
+    } else {
+      others.insert(others.end(), pairs_.begin(), pairs_.end());
+      others.insert(others.end(), triples_.begin(), triples_.end());
+      if (triangles > kMaxTriangles || quadrilaterals > kMaxQuadrilaterals) return shape;
+      shape.kind = StarShape::Kind::General;
+    }
+    shape.triangles = static_cast<std::uint8_t>(triangles);
+    shape.quadrilaterals = static_cast<std::uint8_t>(quadrilaterals);
+    return shape;
+  }
+
+  std::vector<Index> others;
+
+ private:
+  /// Chains the triangles (b, c) of `pairs_` into one closed ring; adds nothing where they form none.
+  bool add_ring() {
+    const std::size_t count = pairs_.size() / 2;
+    if (count < 3) return false;
+    std::array<Index, kMaxFan> ring;
+    ring[0] = pairs_[0];
+    Index end = pairs_[1];
+    std::uint64_t used = 1;
+    for (std::size_t i = 1; i < count; ++i) {
+      ring[i] = end;
+      std::size_t next = 1;
+      while (next < count && ((used >> next & 1U) != 0 || pairs_[2 * next] != end)) ++next;
+      if (next == count) return false;
+      used |= std::uint64_t{1} << next;
+      end = pairs_[2 * next + 1];
+    }
+    if (end != ring[0]) return false;
+    others.insert(others.end(), ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(count));
+    return true;
+  }
+
+  const Mesh& mesh_;
+  const Topology& topology_;
+  std::span<const Index> rank_;
+  std::vector<Index> pairs_, triples_;
+};
+
+/// Ranks of all vertices; fills their inverse.
+std::vector<Index> rank_vertices(std::size_t count, std::span<const Index> visits, std::vector<Index>& vertex_of_rank) {
+  std::vector<Index> rank(count, kNoIndex);
+  vertex_of_rank.assign(visits.begin(), visits.end());
+  vertex_of_rank.reserve(count);
+  for (std::size_t i = 0; i < visits.size(); ++i) rank[visits[i]] = static_cast<Index>(i);
+  for (Index v = 0; v < count; ++v) {
+    if (rank[v] != kNoIndex) continue;
+    rank[v] = static_cast<Index>(vertex_of_rank.size());
+    vertex_of_rank.push_back(v);
+  }
+  return rank;
+}
+
+}  // namespace
+
+StarTable build_star_table(const Mesh& mesh, const Topology& topology, const Colouring& colouring, ThreadPool* pool) {
+  StarTable table;
+  const std::vector<Index>& visits = colouring.order;
+  const std::vector<Index> rank = rank_vertices(mesh.positions.size(), visits, table.vertex_of_rank);
+  table.shapes.resize(visits.size() + 1);
+  std::vector<std::vector<Index>> chunks((visits.size() + kGrain - 1) / kGrain);
+  for_chunks(pool, visits.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    Chunk chunk(mesh, topology, rank);
+    chunk.others.reserve((last - first) * 7);
+    for (std::size_t i = first; i < last; ++i) table.shapes[i] = chunk.add(visits[i]);
+    chunks[first / kGrain] = std::move(chunk.others);
+  });
+
+  std::vector<std::uint32_t> offsets(chunks.size() + 1, 0);
+  for (std::size_t i = 0; i < chunks.size(); ++i) offsets[i + 1] = offsets[i] + static_cast<std::uint32_t>(chunks[i].size());
+  table.others.resize(offsets.back());
+  for_chunks(pool, visits.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    const std::size_t chunk = first / kGrain;
+    for (std::size_t i = first; i < last; ++i) table.shapes[i].first += offsets[chunk];
+    std::ranges::copy(chunks[chunk], table.others.begin() + offsets[chunk]);
+    chunks[chunk] = {};
+  });
+  table.shapes.back().first = offsets.back();
+  return table;
+}
+
+}  // namespace dmoscope

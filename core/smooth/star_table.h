@@ -1,0 +1,39 @@
+#pragma once
+// The stars of the free vertices laid out for speed: renumbered so that the order of the visits is the order in memory.
+
+#include <cstdint>
+#include <vector>
+
+#include "core/mesh/colouring.h"
+#include "core/mesh/mesh.h"
+#include "core/mesh/topology.h"
+
+namespace dmoscope {
+
+class ThreadPool;
+
+/// One free vertex's star. Its other corners stand in StarTable::others from `first` on, as ranks. Fan: the ring of a closed fan of
+/// triangles; triangle i is (vertex, ring[i], ring[i + 1]), the last one closed by ring[0]. Otherwise two corners a triangle, then three a
+/// quadrilateral, in the elements' order.
+struct StarShape {
+  enum class Kind : std::uint8_t { Fan, General, Alone };  // Alone: too large for lanes
+  std::uint32_t first = 0;
+  std::uint8_t triangles = 0, quadrilaterals = 0;  // 0 of one that is Alone
+  Kind kind = Kind::Alone;
+};
+
+/// The largest stars that have a place in lanes.
+inline constexpr std::size_t kMaxFan = 32, kMaxTriangles = 16, kMaxQuadrilaterals = 6;
+
+struct StarTable {
+  /// rank -> vertex of the mesh: first the free ones in the order of the visits, then all others.
+  std::vector<Index> vertex_of_rank;
+  /// One a visit, and one more that ends the last.
+  std::vector<StarShape> shapes;
+  std::vector<Index> others;
+};
+
+/// `colouring`: of the free vertices, in the order of the visits.
+[[nodiscard]] StarTable build_star_table(const Mesh& mesh, const Topology& topology, const Colouring& colouring, ThreadPool* pool);
+
+}  // namespace dmoscope

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/memory.h"
 #include "core/io/format.h"
 #include "core/io/text_writer.h"
 #include "core/io/tokenizer.h"
@@ -109,8 +110,8 @@ class Reader {
 
   void read_nodes(std::size_t count) {
     Field depth{.name = "depth", .on = Field::On::Vertices, .components = 1, .type = "double", .role = "depth", .values = {}};
-    mesh_.positions.reserve(count);
-    depth.values.reserve(count);
+    reserve_large(mesh_.positions, count);
+    reserve_large(depth.values, count);
     numbers_.reserve(count);
     source_.reserve_places(count);
     for (std::size_t v = 0; v < count; ++v) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/memory.h"
 #include "core/io/binary.h"
 #include "core/io/format.h"
 #include "core/io/text_writer.h"
@@ -64,7 +65,7 @@ std::string wrong_corners(std::int64_t corners) {
 // --- ASCII ---
 
 void read_vertices(Tokenizer& tokens, std::size_t count, const Header& header, SourceFile& source, Mesh& mesh) {
-  mesh.positions.reserve(count);
+  reserve_large(mesh.positions, count);
   source.reserve_places(count);
   bool extras = false;
   for (std::size_t v = 0; v < count; ++v) {
@@ -156,7 +157,7 @@ void read_binary(BinaryReader reader, const Header& header, SourceFile& source, 
   layout.scalar.fill(CoordinateScalar::Float32);
   source.set_layout(layout);
   source.set_uniform_places(reader.offset(), 12 + extra, count);
-  mesh.positions.reserve(count);
+  reserve_large(mesh.positions, count);
   for (std::size_t v = 0; v < count; ++v) {
     std::array<double, 3> x{};
     for (double& c : x) {

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <new>
 #include <system_error>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "core/base/memory.h"
 
 namespace dmoscope {
 namespace {
@@ -34,31 +37,47 @@ class Descriptor {
 
 }  // namespace
 
+FileBytes::FileBytes(std::string_view bytes) {
+  std::ranges::copy(bytes, room(bytes.size()).begin());
+  took(bytes.size());
+}
+
+std::span<char> FileBytes::room(std::size_t most) {
+  if (capacity_ - size_ < most) {
+    const std::size_t capacity = size_ + most;
+    std::unique_ptr<char, Free> larger(static_cast<char*>(std::malloc(std::max<std::size_t>(capacity, 1))));
+    if (!larger) throw std::bad_alloc();
+    advise_large_pages(larger.get(), capacity);
+    std::ranges::copy(view(), larger.get());
+    data_ = std::move(larger);
+    capacity_ = capacity;
+  }
+  return {data_.get() + size_, capacity_ - size_};
+}
+
 void SourceFile::add_only_in_file(std::string_view thing) {
   if (std::find(only_in_file_.begin(), only_in_file_.end(), thing) == only_in_file_.end()) only_in_file_.emplace_back(thing);
 }
 
-std::string read_whole_file(const std::filesystem::path& path, Progress& progress) {
+FileBytes read_whole_file(const std::filesystem::path& path, Progress& progress) {
   const Descriptor file(path);
   if (file.get() < 0) fail(path, errno);
   struct stat status {};
   if (::fstat(file.get(), &status) != 0) fail(path, errno);
   if (S_ISDIR(status.st_mode)) fail(path, EISDIR);
-  std::string bytes;
-  std::size_t used = 0;
+  FileBytes bytes;
   // A regular file tells its size; a pipe does not, and a file may still grow: go on until nothing comes.
-  bytes.resize(static_cast<std::size_t>(std::max<off_t>(status.st_size, 0)) + 1);
+  (void)bytes.room(static_cast<std::size_t>(std::max<off_t>(status.st_size, 0)) + 1);
   for (;;) {
     progress.check();
-    if (used == bytes.size()) bytes.resize(bytes.size() + std::max(bytes.size(), kChunk));
-    const ssize_t got = ::read(file.get(), bytes.data() + used, std::min(kChunk, bytes.size() - used));
+    std::span<char> room = bytes.room(0);
+    if (room.empty()) room = bytes.room(std::max(bytes.view().size(), kChunk));
+    const ssize_t got = ::read(file.get(), room.data(), std::min(kChunk, room.size()));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) fail(path, errno);
-    if (got == 0) break;
-    used += static_cast<std::size_t>(got);
+    if (got == 0) return bytes;
+    bytes.took(static_cast<std::size_t>(got));
   }
-  bytes.resize(used);
-  return bytes;
 }
 
 }  // namespace dmoscope

@@ -5,12 +5,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/base/memory.h"
 #include "core/base/progress.h"
 #include "core/base/vec.h"
 #include "core/io/tokenizer.h"
@@ -31,16 +35,38 @@ struct CoordinateLayout {
   bool big_endian = false;  // binary
 };
 
+/// The bytes of a file, in memory of their own.
+class FileBytes {
+ public:
+  FileBytes() = default;
+  explicit FileBytes(std::string_view bytes);
+  [[nodiscard]] std::string_view view() const noexcept { return {data_.get(), size_}; }
+
+  // For filling it.
+  /// Room behind the bytes, `most` at least; what is in it is left to chance.
+  [[nodiscard]] std::span<char> room(std::size_t most);
+  /// So many bytes were put into the room.
+  void took(std::size_t count) noexcept { size_ += count; }
+
+ private:
+  struct Free {
+    void operator()(char* bytes) const noexcept { std::free(bytes); }
+  };
+  std::unique_ptr<char, Free> data_;
+  std::size_t size_ = 0;
+  std::size_t capacity_ = 0;
+};
+
 /// A file as it was read. A reader fills in the layout, the places and what only the file holds; afterwards nothing changes it.
 ///
 /// The file is read whole into memory of our own: a mapping would crash the program when somebody truncates the file while it is
 /// open, and would show a file that another program is just writing anew.
 class SourceFile {
  public:
-  SourceFile(std::filesystem::path path, std::string bytes) : path_(std::move(path)), bytes_(std::move(bytes)) {}
+  SourceFile(std::filesystem::path path, FileBytes bytes) : path_(std::move(path)), bytes_(std::move(bytes)) {}
 
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-  [[nodiscard]] std::string_view bytes() const noexcept { return bytes_; }
+  [[nodiscard]] std::string_view bytes() const noexcept { return bytes_.view(); }
   /// FormatInfo::name of the format that it was read as.
   [[nodiscard]] std::string_view format() const noexcept { return format_; }
   [[nodiscard]] const CoordinateLayout& layout() const noexcept { return layout_; }
@@ -63,7 +89,7 @@ class SourceFile {
   // For readers.
   void set_format(std::string_view name) { format_ = name; }
   void set_layout(const CoordinateLayout& layout) { layout_ = layout; }
-  void reserve_places(std::size_t count) { places_.reserve(count); }
+  void reserve_places(std::size_t count) { reserve_large(places_, count); }
   void add_place(std::size_t offset) { places_.push_back(offset); }
   /// Places at first, first + stride, ... (no memory for each); stride > 0.
   void set_uniform_places(std::size_t first, std::size_t stride, std::size_t count) {
@@ -80,7 +106,7 @@ class SourceFile {
 
  private:
   std::filesystem::path path_;
-  std::string bytes_;
+  FileBytes bytes_;
   std::string format_;
   CoordinateLayout layout_;
   std::vector<std::uint64_t> places_;
@@ -94,6 +120,6 @@ class SourceFile {
 };
 
 /// Reads a whole file. Throws InputError with the system's reason (missing, a directory, no permission), Cancelled.
-[[nodiscard]] std::string read_whole_file(const std::filesystem::path& path, Progress& progress);
+[[nodiscard]] FileBytes read_whole_file(const std::filesystem::path& path, Progress& progress);
 
 }  // namespace dmoscope

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/memory.h"
 #include "core/io/format.h"
 #include "core/io/text_writer.h"
 #include "core/io/tokenizer.h"
@@ -180,7 +181,7 @@ class Reader {
     const std::size_t count = tokens_.read_count("NPOIN", shortest);
     if (static_cast<std::int64_t>(count) != vertices_) tokens_.fail("NPOIN= a second time");
     tokens_.end_line();  // a second count may follow: the points without those of neighbouring partitions
-    mesh_.positions.reserve(count);
+    reserve_large(mesh_.positions, count);
     source_.reserve_places(count);
     for (std::size_t v = 0; v < count; ++v) {
       begin_line("x coordinate");

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/memory.h"
 #include "core/io/format.h"
 #include "core/io/vtk_attributes.h"
 #include "core/io/vtk_cells.h"
@@ -125,7 +126,7 @@ class VtkReader {
     const std::size_t n = in().count("the number of points", values_.binary ? 3.0 : 6.0);
     const VtkType type = values_.type();
     if (type.kind != VtkType::Kind::Scalar) in().fail("points must be of a number type");
-    mesh_.positions.reserve(n);
+    reserve_large(mesh_.positions, n);
     if (!values_.binary) source_.reserve_places(n);
     std::array<double, 3> xyz{};
     std::size_t axis = 0;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/memory.h"
 #include "core/base/vec.h"
 
 namespace dmoscope {
@@ -13,7 +14,7 @@ namespace dmoscope {
 /// Disjoint sets with path halving. The root of a set is its lowest index.
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
+  explicit DisjointSets(std::size_t count) : parent_(large_vector<Index>(count)) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
   [[nodiscard]] Index find(Index i) noexcept {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/memory.h"
 #include "core/base/vec.h"
 
 namespace dmoscope {
@@ -48,9 +49,9 @@ class ElementTable {
   /// size() + 1 offsets into all_corners().
   [[nodiscard]] std::span<const Index> offsets() const noexcept { return offsets_; }
   void reserve(std::size_t elements, std::size_t corners) {
-    kinds_.reserve(elements);
-    offsets_.reserve(elements + 1);
-    corners_.reserve(corners);
+    reserve_large(kinds_, elements);
+    reserve_large(offsets_, elements + 1);
+    reserve_large(corners_, corners);
   }
   /// Appends one element; corners.size() must be info(kind).corners.
   void add(ElementKind kind, std::span<const Index> corners) {

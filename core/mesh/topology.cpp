@@ -13,9 +13,11 @@ Topology::Topology(const Mesh& mesh, EdgeSurvey& found, Progress& progress) { fo
 void Topology::follow(const Mesh& mesh) {
   const ElementTable& elements = mesh.elements;
   // Counting sort, shifted by one so that the fill pass leaves the offsets in place.
+  reserve_large(offsets_, mesh.positions.size() + 2);
   offsets_.assign(mesh.positions.size() + 2, 0);
   for (const Index v : elements.all_corners()) ++offsets_[v + 2];
   std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
+  reserve_large(incidences_, elements.all_corners().size());
   incidences_.resize(elements.all_corners().size());
   for (Index e = 0; e < elements.size(); ++e) {
     const auto corners = elements.corners(e);

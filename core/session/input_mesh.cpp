@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/memory.h"
 #include "core/io/source_file.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/orientation.h"
@@ -124,7 +125,7 @@ void refuse_what_cannot_be_done(const Mesh& mesh, const Geometry& geometry, cons
 /// See InputMesh::reference_measure.
 std::vector<double> reference_measures(const Mesh& mesh, const Geometry& geometry, const Topology& topology, Progress& progress) {
   const Index count = mesh.elements.size();
-  std::vector<double> reference(count, 0.0);  // at first each element's own area
+  auto reference = large_vector<double>(count);  // at first each element's own area
   double total = 0.0;
   for (Index e = 0; e < count; ++e) {
     if (!planar(mesh, e)) continue;
@@ -134,7 +135,7 @@ std::vector<double> reference_measures(const Mesh& mesh, const Geometry& geometr
   }
   const double fallback = total > 0.0 ? total / count : 1.0;
   // First around each vertex, then over the corners of each element: linear whatever the valence.
-  std::vector<double> around(mesh.positions.size(), 0.0);
+  auto around = large_vector<double>(mesh.positions.size());
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     if (v % kCheckEvery == 0) progress.check();
     const auto star = topology.star(v);

@@ -26,9 +26,9 @@ inline const FormatHandler& handler_of(std::string_view format) {
 }
 
 /// Reads bytes as a format. Throws InputError.
-inline Mesh read_bytes(std::string_view format, std::string bytes) {
+inline Mesh read_bytes(std::string_view format, std::string_view bytes) {
   Progress progress;
-  auto source = std::make_shared<SourceFile>("sample." + std::string(format), std::move(bytes));
+  auto source = std::make_shared<SourceFile>("sample." + std::string(format), FileBytes(bytes));
   source->set_format(handler_of(format).info.name);
   Mesh mesh = handler_of(format).read(*source, progress);
   mesh.source = std::move(source);
@@ -65,7 +65,7 @@ Written written_by(Write&& write) {
     result.notes = write(file, progress);
     file.commit();
   }
-  result.bytes = read_whole_file(scratch_path(), progress);
+  result.bytes = read_whole_file(scratch_path(), progress).view();
   return result;
 }
 

@@ -66,9 +66,9 @@ TEST(Conversion, WhatOnlyTheFileHeldIsNamedAndARefusalLeavesTheOldFile) {
   EXPECT_THAT(notes, ::testing::Contains(::testing::HasSubstr("\"flow\"")));
   // The same format keeps all of it, and has nothing to say.
   EXPECT_TRUE(write_mesh(folder / "out.vtk", mesh, mesh.positions, progress).empty());
-  EXPECT_EQ(read_whole_file(folder / "out.vtk", progress), vtk_ascii());
+  EXPECT_EQ(read_whole_file(folder / "out.vtk", progress).view(), vtk_ascii());
   EXPECT_THROW(write_mesh(folder / "out.stl", mesh, mesh.positions, progress), OutputError);
-  EXPECT_EQ(read_whole_file(folder / "out.stl", progress), "what stood there before");
+  EXPECT_EQ(read_whole_file(folder / "out.stl", progress).view(), "what stood there before");
   std::filesystem::remove_all(folder);
 }
 

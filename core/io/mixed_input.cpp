@@ -75,6 +75,7 @@ auto MixedInput::parsed(Parse&& parse) {
 }
 
 double MixedInput::number(std::string_view what) {
+  if (double value = 0.0; text_.take_double(value, token_)) return value;
   const std::string_view found = word(what);
   std::string_view letters = found;
   const bool negative = letters.starts_with('-');
@@ -87,11 +88,13 @@ double MixedInput::number(std::string_view what) {
 }
 
 double MixedInput::coordinate() {
+  if (double value = 0.0; text_.take_double(value, token_)) return value;
   const std::string_view found = word("a coordinate");
   return parsed([&] { return text_.parse_double(found, "a coordinate"); });
 }
 
 std::int64_t MixedInput::integer(std::string_view what) {
+  if (std::int64_t value = 0; text_.take_integer(value, token_)) return value;
   const std::string_view found = word(what);
   return parsed([&] { return text_.parse_integer(found, what); });
 }

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/memory.h"
 #include "core/io/binary_scalar.h"
 #include "core/io/format.h"
 #include "core/io/mixed_input.h"
@@ -130,8 +131,10 @@ class PlyReader {
   std::int64_t list_count(const PlyProperty& property, bool first) {
     const std::int64_t n = whole(property, property.count_type, first);
     if (n < 0) in_.fail(fmt::format("list {} has a negative count", quote_token(property.name)));
-    in_.need(static_cast<std::size_t>(n), ascii() ? 2.0 : static_cast<double>(size_of(property.type)),
-             fmt::format("the count of list {}", quote_token(property.name)));
+    const double bytes_each = ascii() ? 2.0 : static_cast<double>(size_of(property.type));
+    if (n >= kNoIndex || static_cast<double>(n) * bytes_each > static_cast<double>(in_.left())) {
+      in_.need(static_cast<std::size_t>(n), bytes_each, fmt::format("the count of list {}", quote_token(property.name)));
+    }
     return n;
   }
 
@@ -167,7 +170,7 @@ class PlyReader {
       field.on = on;
       field.type = property.type_word;
       field.role = "property";
-      field.values.reserve(element.count);
+      reserve_large(field.values, element.count);
       mesh_.fields.push_back(std::move(field));
       indices.push_back(p);
     }
@@ -183,7 +186,7 @@ class PlyReader {
     }
     const std::size_t first_field = mesh_.fields.size();
     const std::vector<std::size_t> others = add_fields(element, Field::On::Vertices, kAxes);
-    mesh_.positions.reserve(element.count);
+    reserve_large(mesh_.positions, element.count);
     const bool uniform = !ascii() && !element.has_list();
     if (uniform) {
       source_.set_uniform_places(in_.offset(), element.least_size(header_.encoding), element.count);

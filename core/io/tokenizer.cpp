@@ -1,5 +1,6 @@
 #include "core/io/tokenizer.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -63,6 +64,33 @@ std::optional<double> foreign_double(std::string_view token) {
   return plain_double(number);
 }
 
+bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
+
+/// A number of few digits without an exponent: digits and power of ten are both exact as doubles, and so one division rounds to the
+/// nearest double. Returns where it ends; null if it is no such number.
+const char* short_decimal(const char* at, const char* end, double& value) noexcept {
+  constexpr std::array<double, 20> kPowers{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,
+                                           1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19};
+  constexpr std::uint64_t kExact = std::uint64_t{1} << 53U;
+  const bool negative = at != end && *at == '-';
+  if (negative) ++at;
+  std::uint64_t digits = 0;
+  const char* const first = at;
+  for (; at != end && is_digit(*at); ++at) digits = 10 * digits + static_cast<std::uint64_t>(*at - '0');
+  auto count = static_cast<std::size_t>(at - first);
+  std::size_t behind_point = 0;
+  if (at != end && *at == '.') {
+    const char* const point = ++at;
+    for (; at != end && is_digit(*at); ++at) digits = 10 * digits + static_cast<std::uint64_t>(*at - '0');
+    behind_point = static_cast<std::size_t>(at - point);
+    count += behind_point;
+  }
+  if (count == 0 || count >= kPowers.size() || digits > kExact || (at != end && (*at == 'e' || *at == 'E'))) return nullptr;
+  const double size = static_cast<double>(digits) / kPowers[behind_point];
+  value = negative ? -size : size;
+  return at;
+}
+
 }  // namespace
 
 Tokenizer::Tokenizer(std::string_view text, std::string file, TextSyntax syntax, Progress& progress)
@@ -101,7 +129,44 @@ std::string_view Tokenizer::read_token(std::string_view what) {
   fail(fmt::format("expected {}, but the line ends", what));
 }
 
-double Tokenizer::read_double(std::string_view what) { return parse_double(read_token(what), what); }
+bool Tokenizer::take_double(double& value, std::size_t& begin) {
+  skip_to_token();
+  const char* const at = text_.data() + position_;
+  const char* const last = text_.data() + text_.size();
+  const char* end = short_decimal(at, last, value);
+  if (end == nullptr) {
+    const auto [stop, error] = std::from_chars(at, last, value);
+    if (error != std::errc() || !std::isfinite(value)) return false;
+    end = stop;
+  }
+  if (!ends_token(end)) return false;
+  begin = position_;
+  position_ = static_cast<std::size_t>(end - text_.data());
+  return true;
+}
+
+bool Tokenizer::take_integer(std::int64_t& value, std::size_t& begin) {
+  constexpr std::ptrdiff_t kMostDigits = 18;
+  skip_to_token();
+  const char* at = text_.data() + position_;
+  const char* const last = text_.data() + text_.size();
+  const bool negative = at != last && *at == '-';
+  if (negative) ++at;
+  const char* const first = at;
+  std::uint64_t digits = 0;
+  for (; at != last && is_digit(*at); ++at) digits = 10 * digits + static_cast<std::uint64_t>(*at - '0');
+  if (at == first || at - first > kMostDigits || !ends_token(at)) return false;
+  value = negative ? -static_cast<std::int64_t>(digits) : static_cast<std::int64_t>(digits);
+  begin = position_;
+  position_ = static_cast<std::size_t>(at - text_.data());
+  return true;
+}
+
+double Tokenizer::read_double(std::string_view what) {
+  double value = 0.0;
+  std::size_t begin = 0;
+  return take_double(value, begin) ? value : parse_double(read_token(what), what);
+}
 
 double Tokenizer::parse_double(std::string_view token, std::string_view what) const {
   std::optional<double> value = plain_double(token);
@@ -111,7 +176,11 @@ double Tokenizer::parse_double(std::string_view token, std::string_view what) co
   return *value;
 }
 
-std::int64_t Tokenizer::read_integer(std::string_view what) { return parse_integer(read_token(what), what); }
+std::int64_t Tokenizer::read_integer(std::string_view what) {
+  std::int64_t value = 0;
+  std::size_t begin = 0;
+  return take_integer(value, begin) ? value : parse_integer(read_token(what), what);
+}
 
 std::int64_t Tokenizer::parse_integer(std::string_view token, std::string_view what) const {
   std::string_view digits = token;
@@ -185,6 +254,7 @@ std::string_view trimmed(std::string_view line) noexcept {
 bool equal_ignoring_case(std::string_view a, std::string_view b) noexcept {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
   if (a.size() != b.size()) return false;
+  if (a == b) return true;
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (lower(a[i]) != lower(b[i])) return false;
   }

@@ -68,7 +68,13 @@ class Tokenizer {
     return take();
   }
   /// Skips what is left of this line, its end included.
-  void end_line() { (void)rest_of_line(); }
+  void end_line() {
+    if (position_ < text_.size() && text_[position_] == '\n') {
+      step_over_line_end();
+    } else {
+      (void)rest_of_line();
+    }
+  }
   /// What is left of this line as it stands, comments and blanks included, without the line end; goes on to the next line.
   std::string_view rest_of_line();
 
@@ -76,6 +82,11 @@ class Tokenizer {
 
   /// The next token (see TextSyntax::free_form); it is an error if there is none.
   std::string_view read_token(std::string_view what);
+  /// The next token (see TextSyntax::free_form) if it is a finite number in C's own way of writing, without a + before it: most are.
+  /// `begin` is its offset. False: nothing but blanks were passed over; read_token() gives whatever stands there.
+  [[nodiscard]] bool take_double(double& value, std::size_t& begin);
+  /// The same for a whole number of at most 18 digits.
+  [[nodiscard]] bool take_integer(std::int64_t& value, std::size_t& begin);
   /// A finite double, the nearest to the decimal number: a leading + and Fortran's D exponent are understood, nan and inf refused.
   double read_double(std::string_view what);
   std::int64_t read_integer(std::string_view what);
@@ -112,6 +123,19 @@ class Tokenizer {
   }
   void skip_to_line_end() noexcept {
     while (position_ < text_.size() && kind_[byte(position_)] != kLineEnd) ++position_;
+  }
+  void skip_to_token() {
+    if (syntax_.free_form) {
+      skip<true>();
+    } else {
+      skip<false>();
+    }
+  }
+  /// Does a token end before the character at `at`, for certain?
+  [[nodiscard]] bool ends_token(const char* at) const noexcept {
+    if (at == text_.data() + text_.size()) return true;
+    const std::uint8_t kind = kind_[static_cast<unsigned char>(*at)];
+    return kind != kOther && kind != kJoin;
   }
   template <bool kAcrossLines>
   void skip() {

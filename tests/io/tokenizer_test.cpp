@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/mesh/random.h"
+
 namespace dmoscope {
 namespace {
 
@@ -92,6 +94,52 @@ TEST_F(TokenizerTest, ReadsTheNearestDouble) {
   EXPECT_EQ(number("1e-400"), 0.0);
   EXPECT_TRUE(std::signbit(number("-1e-400")));
   EXPECT_EQ(number("0.00001e-320"), 0.0);
+}
+
+TEST_F(TokenizerTest, ReadsTheNearestDoubleOfAnyDigits) {
+  Random random(7);
+  for (int i = 0; i < 20000; ++i) {
+    std::string text = random.below(2) == 0 ? "-" : "";
+    const std::uint64_t digits = 1 + random.below(22);
+    const std::uint64_t point = random.below(digits + 3);  // may be before the first or behind the last digit, or nowhere
+    for (std::uint64_t d = 0; d < digits; ++d) {
+      if (d == point) text += '.';
+      text += static_cast<char>('0' + (random.below(4) == 0 ? 0 : random.below(10)));
+    }
+    if (point == digits) text += '.';
+    if (random.below(8) == 0) text.append("e").append(std::to_string(static_cast<int>(random.below(40)) - 20));
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(number(text)), std::bit_cast<std::uint64_t>(std::strtod(text.c_str(), nullptr))) << text;
+  }
+  for (const char* text : {"9007199254740992", "9007199254740993", "900719925474099.3", "9999999999999999999", ".9007199254740991"}) {
+    EXPECT_EQ(number(text), std::strtod(text, nullptr)) << text;
+  }
+}
+
+TEST_F(TokenizerTest, TakesPlainNumbersAndLeavesTheRest) {
+  Tokenizer tokens = over(" 1.5 -7 +3 2D1 12345678901234567890 8\\9 4#5", {.comment = '#', .backslash_joins_lines = true});
+  double number = 0.0;
+  std::int64_t whole = 0;
+  std::size_t begin = 0;
+  EXPECT_FALSE(tokens.take_integer(whole, begin));
+  ASSERT_TRUE(tokens.take_double(number, begin));
+  EXPECT_EQ(number, 1.5);
+  EXPECT_EQ(begin, 1U);
+  ASSERT_TRUE(tokens.take_integer(whole, begin));
+  EXPECT_EQ(whole, -7);
+  EXPECT_EQ(begin, 5U);
+  for (const char* left : {"+3", "2D1"}) {
+    EXPECT_FALSE(tokens.take_double(number, begin));
+    EXPECT_FALSE(tokens.take_integer(whole, begin));
+    EXPECT_EQ(tokens.token(), left);
+  }
+  EXPECT_FALSE(tokens.take_integer(whole, begin));
+  ASSERT_TRUE(tokens.take_double(number, begin));
+  EXPECT_EQ(number, 12345678901234567890.0);
+  EXPECT_FALSE(tokens.take_double(number, begin));
+  EXPECT_EQ(tokens.token(), "8\\9");
+  ASSERT_TRUE(tokens.take_double(number, begin));
+  EXPECT_EQ(number, 4.0);
+  EXPECT_FALSE(tokens.take_double(number, begin)) << "a comment and the end of the file";
 }
 
 TEST_F(TokenizerTest, RefusesWhatIsNoFiniteNumber) {

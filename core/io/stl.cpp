@@ -6,15 +6,15 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/memory.h"
+#include "core/base/rounding.h"
 #include "core/io/binary.h"
 #include "core/io/format.h"
 #include "core/io/stl_facets.h"
@@ -31,22 +31,40 @@ class Welder {
  public:
   /// The position's number, and whether it is new.
   std::pair<Index, bool> add(Vec3 p) {
-    const auto [entry, fresh] = numbers_.try_emplace(p, static_cast<Index>(numbers_.size()));
-    return {entry->second, fresh};
+    if (2 * positions_.size() >= slots_.size()) grow();
+    Index& slot = slots_[slot_of(p)];
+    if (slot != kNoIndex) return {slot, false};
+    slot = static_cast<Index>(positions_.size());
+    positions_.push_back(p);
+    return {slot, true};
   }
+  /// Every position that was added, once.
+  [[nodiscard]] std::vector<Vec3> take() noexcept { return std::move(positions_); }
 
  private:
-  struct Hash {
-    std::size_t operator()(Vec3 p) const noexcept {
-      std::uint64_t h = 0;
-      for (const double c : {p.x, p.y, p.z}) {
-        h = (h ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9e3779b97f4a7c15U;  // + 0.0: -0.0 becomes 0.0
-        h ^= h >> 29;
-      }
-      return static_cast<std::size_t>(h);
+  static std::uint64_t hash(Vec3 p) noexcept {
+    std::uint64_t h = 0;
+    for (const double c : {p.x, p.y, p.z}) {
+      h = (h ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9e3779b97f4a7c15U;  // + 0.0: -0.0 becomes 0.0
+      h ^= h >> 29;
     }
-  };
-  std::unordered_map<Vec3, Index, Hash> numbers_;
+    return h;
+  }
+  /// Where the position's number is, or the free slot where it belongs.
+  [[nodiscard]] std::size_t slot_of(Vec3 p) const noexcept {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t i = hash(p) & mask;
+    while (slots_[i] != kNoIndex && !(positions_[slots_[i]] == p)) i = (i + 1) & mask;
+    return i;
+  }
+  void grow() {
+    constexpr std::size_t kFirst = 1024;  // a power of two, as all that follow
+    slots_ = large_vector<Index>(std::max(kFirst, 2 * slots_.size()), kNoIndex);
+    for (std::size_t i = 0; i < positions_.size(); ++i) slots_[slot_of(positions_[i])] = static_cast<Index>(i);
+  }
+
+  std::vector<Vec3> positions_;
+  std::vector<Index> slots_;  // numbers of positions by their hash, at most half of them taken
 };
 
 Vec3 corner_of(const StlFacet& facet, std::size_t corner) {
@@ -91,18 +109,16 @@ Mesh read_stl(SourceFile& source, Progress& progress) {
   const auto facet = [&](const StlFacet& read) {
     std::array<Index, 3> corners{};
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 p = corner_of(read, k);
-      const auto [vertex, fresh] = welder.add(p);
-      if (fresh) mesh.positions.push_back(p);
-      corners[k] = vertex;
+      corners[k] = welder.add(corner_of(read, k)).first;
       source.add_place(read.places[3 + 3 * k]);
-      place_vertices.push_back(vertex);
+      place_vertices.push_back(corners[k]);
     }
     add_element(mesh, ElementKind::Triangle, corners, source);
     attributes.values.push_back(read.attribute);
     any_attribute = any_attribute || read.attribute != 0;
   };
   for_each_stl_facet(source, progress, solid, facet);
+  mesh.positions = welder.take();
   set_layout(source, is_binary_stl(source.bytes()), std::move(place_vertices));
   if (any_attribute) mesh.fields.push_back(std::move(attributes));
   if (solids > 1) source.add_only_in_file(fmt::format("division into {} solids", solids));
@@ -118,10 +134,7 @@ std::size_t count_coincident(const Mesh& mesh, std::span<const Vec3> positions, 
     if (seen[v]) continue;
     seen[v] = true;
     Vec3 p = positions[v];
-    if (as_float) {
-      p = {static_cast<double>(static_cast<float>(p.x)), static_cast<double>(static_cast<float>(p.y)),
-           static_cast<double>(static_cast<float>(p.z))};
-    }
+    if (as_float) p = {nearest_float(p.x), nearest_float(p.y), nearest_float(p.z)};
     if (!welder.add(p).second) ++coincident;
   }
   return coincident;

@@ -1,10 +1,39 @@
 #include "core/base/thread_pool.h"
 
 #include <algorithm>
-#include <atomic>
+#include <chrono>
 #include <exception>
 
 namespace dmoscope {
+
+namespace {
+
+/// To sleep and to be woken takes about as long.
+constexpr auto kPatience = std::chrono::microseconds(50);
+
+/// Tells the processor that this thread only waits.
+void relax() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  __asm__ __volatile__("yield");
+#endif
+}
+
+/// Waits awake until the condition holds, but not for longer than kPatience.
+template <class Condition>
+void linger(Condition holds) {
+  constexpr int kLooks = 16;  // between two looks at the clock
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  do {
+    for (int i = 0; i < kLooks; ++i) {
+      if (holds()) return;
+      relax();
+    }
+  } while (std::chrono::steady_clock::now() < end);
+}
+
+}  // namespace
 
 struct ThreadPool::Loop {
   std::size_t count, grain;
@@ -15,7 +44,9 @@ struct ThreadPool::Loop {
 };
 
 ThreadPool::ThreadPool(unsigned threads) {
-  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+  const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
+  if (threads == 0) threads = processors;
+  patient_ = threads <= processors;
   workers_.reserve(threads - 1);
   for (unsigned i = 1; i < threads; ++i) workers_.emplace_back([this](const std::stop_token& stop) { work(stop); });
 }
@@ -39,10 +70,23 @@ void ThreadPool::drain(Loop& loop) {
   }
 }
 
+/// Returns with the lock held, true when there is a loop later than `seen`, false when the pool ends.
+bool ThreadPool::wait_for_loop(std::unique_lock<std::mutex>& lock, const std::stop_token& stop, std::size_t seen) {
+  if (patient_) {
+    lock.unlock();
+    linger([&] { return generation_.load(std::memory_order_relaxed) != seen; });
+    lock.lock();
+  }
+  ++asleep_;
+  const bool found = wake_.wait(lock, stop, [&] { return generation_ != seen && loop_ != nullptr; });
+  --asleep_;
+  return found;
+}
+
 void ThreadPool::work(const std::stop_token& stop) {
   std::size_t seen = 0;
   std::unique_lock lock(mutex_);
-  while (wake_.wait(lock, stop, [&] { return generation_ != seen && loop_ != nullptr; })) {
+  while (wait_for_loop(lock, stop, seen)) {
     seen = generation_;
     Loop& loop = *loop_;
     ++busy_;
@@ -53,6 +97,21 @@ void ThreadPool::work(const std::stop_token& stop) {
   }
 }
 
+/// Leaves `loop` once nobody works on it any more.
+void ThreadPool::finish(Loop& loop) {
+  {
+    const std::scoped_lock lock(mutex_);
+    loop_ = nullptr;  // a worker that wakes late finds nothing
+  }
+  const auto left = [&] { return busy_ == 0; };
+  if (patient_) linger(left);
+  if (!left()) {
+    std::unique_lock lock(mutex_);
+    done_.wait(lock, left);
+  }
+  if (loop.error) std::rethrow_exception(loop.error);
+}
+
 void ThreadPool::parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
   grain = std::max<std::size_t>(grain, 1);
   if (workers_.empty() || count <= grain) {
@@ -60,17 +119,16 @@ void ThreadPool::parallel_for(std::size_t count, std::size_t grain, const std::f
     return;
   }
   Loop loop{count, grain, body, {}, {}, {}};
+  bool asleep = false;
   {
     const std::scoped_lock lock(mutex_);
     loop_ = &loop;
     ++generation_;
+    asleep = asleep_ > 0;
   }
-  wake_.notify_all();
+  if (asleep) wake_.notify_all();
   drain(loop);
-  std::unique_lock lock(mutex_);
-  loop_ = nullptr;  // a worker that wakes late finds nothing
-  done_.wait(lock, [&] { return busy_ == 0; });
-  if (loop.error) std::rethrow_exception(loop.error);
+  finish(loop);
 }
 
 void for_chunks(ThreadPool* pool, std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {

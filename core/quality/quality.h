@@ -45,7 +45,13 @@ struct Statistics {
   Index inverted = 0;              // elements with a corner Jacobian <= 0, whatever the metric
 };
 
-/// `fixed`: one entry a vertex, non-zero where it may not move. The same bits for any pool (nullptr: this thread alone).
+/// The elements whose corners are all fixed, ascending. `fixed`: one entry a vertex, non-zero where it may not move.
+[[nodiscard]] std::vector<Index> immovable_elements(const Mesh& mesh, std::span<const std::uint8_t> fixed, ThreadPool* pool);
+
+/// `immovable`: see immovable_elements. The same bits for any pool (nullptr: this thread alone).
+[[nodiscard]] Statistics compute_statistics(const QualityContext& context, std::span<const Vec3> positions, Metric metric,
+                                            std::span<const Index> immovable, ThreadPool* pool);
+/// The same for those who ask once; `fixed`: see immovable_elements.
 [[nodiscard]] Statistics compute_statistics(const QualityContext& context, std::span<const Vec3> positions, Metric metric,
                                             std::span<const std::uint8_t> fixed, ThreadPool* pool);
 

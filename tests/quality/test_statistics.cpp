@@ -1,8 +1,10 @@
 // Statistics of whole meshes, against plain loops.
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <numeric>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -42,6 +44,43 @@ TEST(Statistics, AgreesWithAPlainLoop) {
   EXPECT_GT(inverted, 0U) << "the example should hold inverted elements";
   EXPECT_NEAR(statistics.mean, sum / mesh->mesh.elements.size(), 1e-14);
   EXPECT_EQ(element_quality(context, positions, Metric::MeanRatio, statistics.worst_element), least);
+}
+
+TEST(Statistics, BoundsOfMovableAndImmovableElementsWhereverTheyLie) {
+  const auto mesh = input(lattice(60, 0.7, 9));
+  const auto& positions = mesh->mesh.positions;
+  const QualityContext context = mesh->quality_context();
+  testing::Random random(5);
+  for (const double share : {0.0, 0.3, 0.9, 1.0}) {
+    std::vector<std::uint8_t> fixed(positions.size());
+    for (std::uint8_t& f : fixed) f = random() < share ? 1 : 0;
+    double movable = INFINITY, ceiling = INFINITY;
+    std::vector<Index> immovable;
+    for (Index e = 0; e < mesh->mesh.elements.size(); ++e) {
+      const auto c = mesh->mesh.elements.corners(e);
+      const bool all = fixed[c[0]] != 0 && fixed[c[1]] != 0 && fixed[c[2]] != 0;
+      if (all) immovable.push_back(e);
+      double& bound = all ? ceiling : movable;
+      bound = std::min(bound, element_quality(context, positions, Metric::RadiusRatio, e));
+    }
+    ThreadPool pool(2);
+    EXPECT_EQ(immovable_elements(mesh->mesh, fixed, &pool), immovable);
+    for (const Statistics& s : {compute_statistics(context, positions, Metric::RadiusRatio, immovable, nullptr),
+                                compute_statistics(context, positions, Metric::RadiusRatio, fixed, &pool)}) {
+      EXPECT_EQ(s.movable_minimum, movable) << share;
+      EXPECT_EQ(s.ceiling, ceiling) << share;
+      EXPECT_EQ(s.minimum, std::min(movable, ceiling)) << share;
+    }
+  }
+}
+
+TEST(Statistics, TheWorstElementIsTheFirstOfEqualOnes) {
+  const auto mesh = input(lattice(100, 0.0, 1));  // all alike, if rounded alike
+  const std::vector<std::uint8_t> fixed(mesh->mesh.positions.size(), 0);
+  const Statistics s = compute_statistics(mesh->quality_context(), mesh->mesh.positions, Metric::MeanRatio, fixed, nullptr);
+  Index first = 0;
+  while (element_quality(mesh->quality_context(), mesh->mesh.positions, Metric::MeanRatio, first) != s.minimum) ++first;
+  EXPECT_EQ(s.worst_element, first);
 }
 
 TEST(Statistics, SameBitsForAnyPool) {
@@ -146,6 +185,20 @@ TEST(ThreadPool, CoversEveryIndexOnceAndPassesExceptionsOn) {
                                    if (first == 500) throw UsageError("x");
                                  }),
                UsageError);
+}
+
+TEST(ThreadPool, LoopsMayFollowEachOtherAtOnceOrAfterAWhile) {
+  for (const unsigned threads : {2U, 9U}) {  // 9: more than processors, most likely
+    ThreadPool pool(threads);
+    std::vector<std::size_t> sums(64, 0);
+    for (int loop = 0; loop < 3000; ++loop) {
+      if (loop % 1000 == 999) std::this_thread::sleep_for(std::chrono::milliseconds(5));  // the threads fall asleep
+      pool.parallel_for(sums.size(), 8, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) sums[i] += i;
+      });
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) EXPECT_EQ(sums[i], 3000 * i);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,42 @@
+#pragma once
+// Quality of many elements at once: the very bits of element_quality() and smallest_jacobian(), at the speed of memory.
+
+#include <array>
+#include <span>
+
+#include "core/quality/quality.h"
+
+namespace dmoscope {
+
+/// Consecutive elements and what is known of each.
+struct ElementBlock {
+  static constexpr std::size_t kSize = 256;
+
+  Index first = 0;
+  std::size_t count = 0;
+  alignas(64) std::array<double, kSize> quality;   // NaN where the metric is not defined for the kind
+  alignas(64) std::array<double, kSize> jacobian;  // smallest of the corners'; +infinity for volume elements
+
+  [[nodiscard]] std::span<const double> qualities() const noexcept { return {quality.data(), count}; }
+  [[nodiscard]] std::span<const double> jacobians() const noexcept { return {jacobian.data(), count}; }
+};
+
+/// Judges the elements block.first .. block.first + block.count of the mesh.
+using BlockJudge = void (*)(const QualityContext& context, std::span<const Vec3> positions, ElementBlock& block);
+[[nodiscard]] BlockJudge block_judge(Metric metric);
+
+/// Calls take(block) for blocks that together cover the elements [first, last), in their order.
+template <class Take>
+void for_blocks(const QualityContext& context, std::span<const Vec3> positions, Metric metric, std::size_t first, std::size_t last,
+                Take take) {
+  const BlockJudge judge = block_judge(metric);
+  ElementBlock block;
+  for (std::size_t e = first; e < last; e += ElementBlock::kSize) {
+    block.first = static_cast<Index>(e);
+    block.count = last - e < ElementBlock::kSize ? last - e : ElementBlock::kSize;
+    judge(context, positions, block);
+    take(static_cast<const ElementBlock&>(block));
+  }
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,31 @@
+#pragma once
+// Statistics gathered block by block.
+
+#include <array>
+#include <limits>
+#include <span>
+
+#include "core/quality/element_block.h"
+
+namespace dmoscope {
+
+/// What some of the elements add to the statistics.
+class Tally {
+ public:
+  /// `immovable`: ascending, at least those elements of the block whose corners are all fixed (see immovable_elements).
+  void add(const ElementBlock& block, std::span<const Index> immovable);
+  /// `next`: of elements that follow those of this one.
+  void append(const Tally& next);
+  [[nodiscard]] Statistics statistics() const;
+
+ private:
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  static constexpr std::size_t kLanes = 4;  // sums of every fourth element, so that no addition waits for the one before
+
+  double minimum_ = kInfinity, movable_ = kInfinity, ceiling_ = kInfinity;
+  std::array<double, kLanes> sums_{};
+  Index worst_ = kNoIndex, inverted_ = 0;
+  std::size_t defined_ = 0;
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,87 @@
+// Many elements at once: the very bits of one after the other.
+
+#include "core/quality/element_block.h"
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "core/base/thread_pool.h"
+#include "tests/support/meshes.h"
+
+namespace dmoscope {
+namespace {
+
+using testing::Cells;
+using testing::input;
+using testing::lattice;
+
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b)); }
+
+/// Elements of no area, of no extent, inverted ones and sharp ones among the others.
+Mesh tangled(Cells cells) {
+  Mesh mesh = lattice(24, 0.9, 11, cells);
+  for (std::size_t v = 30; v < 500; v += 31) mesh.positions[v] = mesh.positions[v + 1];
+  for (std::size_t v = 40; v < 500; v += 57) mesh.positions[v] = 0.5 * (mesh.positions[v - 1] + mesh.positions[v + 1]);
+  return mesh;
+}
+
+Mesh tilted(Mesh mesh) {
+  for (Vec3& p : mesh.positions) p = {0.6 * p.x - 0.3 * p.y + 7.0, 0.2 * p.x + 0.9 * p.y, 0.5 * p.x - 0.1 * p.y};
+  return mesh;
+}
+
+Mesh curved(Mesh mesh) {
+  for (Vec3& p : mesh.positions) p.z = std::sin(3.0 * p.x) * std::cos(2.0 * p.y);
+  return mesh;
+}
+
+void expect_the_very_bits(const InputMesh& mesh) {
+  const QualityContext context = mesh.quality_context();
+  const std::size_t count = mesh.mesh.elements.size();
+  for (const MetricInfo& entry : metric_table()) {
+    std::size_t seen = 0;
+    for_blocks(context, mesh.mesh.positions, entry.metric, 3, count, [&](const ElementBlock& block) {
+      ASSERT_EQ(block.first, 3 + seen);
+      for (std::size_t i = 0; i < block.count; ++i) {
+        const Index e = block.first + static_cast<Index>(i);
+        const double quality = element_quality(context, mesh.mesh.positions, entry.metric, e);
+        const double jacobian = smallest_jacobian(context, mesh.mesh.positions, e);
+        ASSERT_TRUE(same_bits(block.quality[i], quality)) << entry.name << " " << e << ": " << block.quality[i] << " " << quality;
+        ASSERT_EQ(block.jacobian[i], jacobian) << entry.name << " " << e;
+      }
+      seen += block.count;
+    });
+    EXPECT_EQ(seen, count - 3) << entry.name;
+  }
+}
+
+TEST(ElementBlock, HasTheVeryBitsOfEachElementInAnyPlane) {
+  for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals, Cells::Mixed}) {
+    expect_the_very_bits(*input(tangled(cells)));
+    expect_the_very_bits(*input(tilted(tangled(cells))));
+  }
+}
+
+TEST(ElementBlock, HasTheVeryBitsOfEachElementOfACurvedSurface) {
+  const auto mesh = input(curved(tangled(Cells::Mixed)), Need::QualityOnly);
+  ASSERT_EQ(mesh->geometry.shape, Shape::Surface);
+  expect_the_very_bits(*mesh);
+}
+
+TEST(ElementBlock, ElementQualitiesAreThoseOfEachElementForAnyPool) {
+  const auto mesh = input(tangled(Cells::Mixed));
+  std::vector<double> qualities(mesh->mesh.elements.size());
+  ThreadPool pool(2);
+  for (ThreadPool* any : {static_cast<ThreadPool*>(nullptr), &pool}) {
+    std::ranges::fill(qualities, -7.0);
+    element_qualities(mesh->quality_context(), mesh->mesh.positions, Metric::ScaledJacobian, any, qualities);
+    for (Index e = 0; e < qualities.size(); ++e)
+      ASSERT_TRUE(same_bits(qualities[e], element_quality(mesh->quality_context(), mesh->mesh.positions, Metric::ScaledJacobian, e))) << e;
+  }
+}
+
+}  // namespace
+}  // namespace dmoscope

@@ -4,14 +4,42 @@
 
 #include <fmt/format.h>
 
+#include "core/base/memory.h"
+#include "core/base/thread_pool.h"
+
 namespace dmoscope {
 
-void History::record(const IterationRecord& record, const std::vector<Vec3>& positions) {
+namespace {
+
+constexpr std::size_t kGrain = std::size_t{1} << 16U;
+
+History::Kept copy_of(std::uint64_t iteration, std::span<const Vec3> positions, ThreadPool* pool) {
+  const std::size_t count = positions.size();
+  // Not a vector: it would fill its memory on this thread before the others copy.
+  const std::shared_ptr<Vec3> copy(std::allocator<Vec3>().allocate(count),
+                                   [count](Vec3* p) { std::allocator<Vec3>().deallocate(p, count); });
+  advise_large_pages(copy.get(), positions.size_bytes());
+  for_chunks(pool, count, kGrain, [&](std::size_t first, std::size_t last) {
+    std::uninitialized_copy(positions.begin() + static_cast<std::ptrdiff_t>(first), positions.begin() + static_cast<std::ptrdiff_t>(last),
+                            copy.get() + first);
+  });
+  return {iteration, {copy.get(), count}, copy};
+}
+
+}  // namespace
+
+void History::record_input(const IterationRecord& record, std::shared_ptr<const std::vector<Vec3>> positions) {
+  records_.push_back(record);
+  kept_.push_back({record.iteration, *positions, positions});
+}
+
+void History::record(const IterationRecord& record, std::span<const Vec3> positions, ThreadPool* pool) {
   if (record.iteration < records_.size()) return;
   records_.push_back(record);
   if (record.iteration % stride_ != 0) return;
-  kept_.push_back({record.iteration, positions});
-  thin();
+  thin(positions.size_bytes());
+  const bool room = bytes() + positions.size_bytes() <= budget_;
+  if (room && record.iteration % stride_ == 0) kept_.push_back(copy_of(record.iteration, positions, pool));
 }
 
 const History::Kept& History::nearest(std::uint64_t iteration) const {
@@ -21,27 +49,28 @@ const History::Kept& History::nearest(std::uint64_t iteration) const {
 
 void History::set_budget(std::size_t bytes) {
   budget_ = bytes;
-  thin();
+  thin(0);
 }
 
 std::size_t History::bytes() const noexcept {
   std::size_t sum = 0;
-  for (const Kept& kept : kept_) sum += kept.positions.size() * sizeof(Vec3);
+  for (const Kept& kept : kept_) sum += kept.iteration == 0 ? 0 : kept.positions.size_bytes();
   return sum;
 }
 
-void History::thin() {
-  while (bytes() > budget_ && kept_.size() > 1) {
+/// Lets positions go until there is room for as many bytes more, or only the input is left.
+void History::thin(std::size_t needed) {
+  while (bytes() + needed > budget_ && kept_.size() > 1) {
     stride_ *= 2;
     std::erase_if(kept_, [&](const Kept& kept) { return kept.iteration % stride_ != 0; });
   }
 }
 
 std::string History::sentence() const {
-  if (stride_ == 1) return {};
-  return fmt::format(
-      "history budget of {} MiB reached: positions are kept every {} iterations, those in between are computed again when asked for",
-      budget_ >> 20U, stride_);
+  if (kept_.size() == records_.size()) return {};
+  const std::string kept =
+      stride_ == 1 ? "only the input's positions are kept" : fmt::format("positions are kept every {} iterations", stride_);
+  return fmt::format("history budget of {} MiB reached: {}, the others are computed again when asked for", budget_ >> 20U, kept);
 }
 
 }  // namespace dmoscope

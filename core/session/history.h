@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,15 +30,18 @@ class History {
  public:
   explicit History(std::size_t budget_bytes) : budget_(budget_bytes) {}
 
-  /// Records the end of an iteration; a record of the same iteration is kept as it was (a repeated iteration gives the same bits).
-  /// Positions are kept when the iteration number is a multiple of stride(); when the budget is full the stride doubles and
-  /// positions in between are let go: those iterations are computed again when asked for.
-  void record(const IterationRecord& record, const std::vector<Vec3>& positions);
+  /// Records iteration 0. Its positions are shared, never copied, whatever the budget.
+  void record_input(const IterationRecord& record, std::shared_ptr<const std::vector<Vec3>> positions);
+  /// Records the end of a later iteration; a record of the same iteration is kept as it was (a repeated iteration gives the same bits).
+  /// Positions are kept when the iteration number is a multiple of stride() and there is room; when the budget is full the stride doubles
+  /// and positions in between are let go: those iterations are computed again when asked for. `pool`: for the copy, may be null.
+  void record(const IterationRecord& record, std::span<const Vec3> positions, ThreadPool* pool);
   [[nodiscard]] const std::vector<IterationRecord>& records() const noexcept { return records_; }
 
   struct Kept {
     std::uint64_t iteration;
-    std::vector<Vec3> positions;
+    std::span<const Vec3> positions;
+    std::shared_ptr<const void> owner;  // of the positions
   };
   /// The latest kept positions at or before `iteration`. The input (iteration 0) is always kept.
   [[nodiscard]] const Kept& nearest(std::uint64_t iteration) const;
@@ -44,6 +49,7 @@ class History {
 
   void set_budget(std::size_t bytes);
   [[nodiscard]] std::size_t budget() const noexcept { return budget_; }
+  /// Of the positions kept, without the input's.
   [[nodiscard]] std::size_t bytes() const noexcept;
   /// Every how many iterations positions are kept: 1 until the budget is first met.
   [[nodiscard]] std::uint64_t stride() const noexcept { return stride_; }
@@ -51,7 +57,7 @@ class History {
   [[nodiscard]] std::string sentence() const;
 
  private:
-  void thin();
+  void thin(std::size_t needed);
   std::size_t budget_;
   std::uint64_t stride_ = 1;
   std::vector<IterationRecord> records_;

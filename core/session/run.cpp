@@ -5,12 +5,18 @@
 
 #include <fmt/format.h>
 
+#include "core/base/memory.h"
+
 namespace dmoscope {
 
 namespace {
 
-/// Visits between two looks at the cancel request: some 20 ms of work.
-constexpr std::uint64_t kBlock = 16384;
+/// Time of the visits between two looks at the cancel request.
+constexpr double kBlockSeconds = 0.02;
+/// Most of them: visits to vertices at rest cost next to nothing, and the next may be to others.
+constexpr std::uint64_t kLargestBlock = std::uint64_t{1} << 20U;
+/// How fast slow visits of the past are forgotten, block by block.
+constexpr double kForgetting = 0.75;
 
 std::vector<std::uint8_t> fixed_vertices(const InputMesh& input, std::span<const Index> chosen) {
   const auto boundary = input.topology.boundary();
@@ -37,6 +43,13 @@ std::shared_ptr<const Colouring> make_colouring(const InputMesh& input, std::spa
   return std::make_shared<const Colouring>(std::move(colouring));
 }
 
+std::vector<Vec3> working_copy(std::span<const Vec3> positions) {
+  std::vector<Vec3> copy;
+  reserve_large(copy, positions.size());
+  copy.assign(positions.begin(), positions.end());
+  return copy;
+}
+
 }  // namespace
 
 std::string Outcome::sentence() const {
@@ -60,9 +73,10 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
       fixed_(fixed_vertices(*input_, parameters_.fixed)),
       colouring_(make_colouring(*input_, free_vertices(fixed_, parameters_.order))),
       smoother_(make_smoother(parameters_.method, input_, colouring_, parameters_.metric, parameters_.search, pool_.get())),
-      positions_(input_->mesh.positions),
+      positions_(working_copy(input_->mesh.positions)),
+      immovable_(immovable_elements(input_->mesh, fixed_, pool_.get())),
       history_(history_bytes) {
-  record();
+  history_.record_input({0, statistics(), 0, 0.0}, {input_, &input_->mesh.positions});
 }
 
 Run::~Run() = default;
@@ -72,12 +86,13 @@ Run& Run::operator=(Run&&) noexcept = default;
 std::string Run::title() const { return fmt::format("{} · {}", parameters_.method, info(parameters_.metric).name); }
 
 Statistics Run::statistics() const {
-  return compute_statistics(input_->quality_context(), positions_, parameters_.metric, fixed_, pool_.get());
+  if (moment_.visits == 0 && moment_.iteration < history_.records().size()) return history_.records()[moment_.iteration].statistics;
+  return compute_statistics(input_->quality_context(), positions_, parameters_.metric, immovable_, pool_.get());
 }
 
 void Run::record() {
   if (moment_.iteration < history_.records().size()) return;  // been here before
-  history_.record({moment_.iteration, statistics(), moved_, seconds_}, positions_);
+  history_.record({moment_.iteration, statistics(), moved_, seconds_}, positions_, pool_.get());
 }
 
 void Run::visit(std::uint64_t count, Progress& progress) {
@@ -86,16 +101,25 @@ void Run::visit(std::uint64_t count, Progress& progress) {
   while (count > 0) {
     progress.check();
     const auto next_class = std::ranges::upper_bound(colouring_->class_offsets, moment_.visits);
-    const std::uint64_t block = std::min({count, *next_class - moment_.visits, kBlock});
+    const std::uint64_t block = std::min({count, *next_class - moment_.visits, block_});
     const auto start = std::chrono::steady_clock::now();
     moved_ += smoother_->visit(moment_.visits, block, positions_, pool_.get());
-    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    seconds_ += seconds;
+    choose_block(block, seconds);
     moment_.visits += block;
     count -= block;
     progress.set(progress_base_ + progress_span_ * static_cast<double>(moment_.visits) / static_cast<double>(whole));
     if (moment_.visits == whole) end_iteration();
     if (observer_) observer_(*this);
   }
+}
+
+/// How many visits to make before the next look, from the time of the last ones. The result does not depend on it.
+void Run::choose_block(std::uint64_t visits, double seconds) {
+  visit_seconds_ = std::max(seconds / static_cast<double>(visits), kForgetting * visit_seconds_);
+  const double most = static_cast<double>(kLargestBlock);
+  block_ = static_cast<std::uint64_t>(std::clamp(kBlockSeconds / std::max(visit_seconds_, kBlockSeconds / most), 1.0, most));
 }
 
 void Run::end_iteration() {
@@ -139,7 +163,7 @@ void Run::seek(Moment target, Progress& progress) {
   last_outcome_.reset();
   const History::Kept& kept = history_.nearest(target.iteration);
   if (target < moment_ || kept.iteration > moment_.iteration) {
-    positions_ = kept.positions;
+    positions_.assign(kept.positions.begin(), kept.positions.end());
     smoother_->positions_replaced();
     moment_ = {kept.iteration, 0};
     moved_ = 0;

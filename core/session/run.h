@@ -70,6 +70,8 @@ class Run {
   [[nodiscard]] const Colouring& colouring() const noexcept { return *colouring_; }
   /// 1 where a vertex may not move: boundary, unused, or the user's.
   [[nodiscard]] std::span<const std::uint8_t> fixed() const noexcept { return fixed_; }
+  /// The elements all of whose corners are fixed, ascending: see compute_statistics.
+  [[nodiscard]] std::span<const Index> immovable() const noexcept { return immovable_; }
   [[nodiscard]] std::uint64_t visits_per_iteration() const noexcept { return colouring_->order.size(); }
   [[nodiscard]] const History& history() const noexcept { return history_; }
   void set_history_budget(std::size_t bytes) { history_.set_budget(bytes); }
@@ -95,6 +97,7 @@ class Run {
 
  private:
   void visit(std::uint64_t count, Progress& progress);
+  void choose_block(std::uint64_t visits, double seconds);
   void end_iteration();
   void record();
   void step_within(std::uint64_t done, std::uint64_t all, Progress& progress);
@@ -107,10 +110,13 @@ class Run {
   std::shared_ptr<const Colouring> colouring_;
   std::unique_ptr<Smoother> smoother_;
   std::vector<Vec3> positions_;
+  std::vector<Index> immovable_;
   Moment moment_;
   std::uint64_t moved_ = 0;       // in the iteration under way
   std::uint64_t last_moved_ = 0;  // in the iteration last ended
   double seconds_ = 0.0;          // smoothing time of the iteration under way
+  double visit_seconds_ = 0.0;    // time of one visit, of the slower blocks of late
+  std::uint64_t block_ = 2048;    // visits until the next look at the cancel request; at first for want of experience
   History history_;
   std::function<void(const Run&)> observer_;
   std::optional<Outcome> last_outcome_;

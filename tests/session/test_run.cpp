@@ -90,6 +90,45 @@ TEST(History, KeepsWithinItsBudgetAndStillReachesEveryIteration) {
   }
 }
 
+TEST(History, WithoutABudgetOnlyTheInputItselfIsKept) {
+  Progress progress;
+  dmoscope::Run run = make_run(0);
+  EXPECT_TRUE(run.history().sentence().empty());
+  std::vector<std::vector<Vec3>> states{copy(run)};
+  run.iterate(5, progress, [&](const dmoscope::Run& now) { states.push_back(copy(now)); });
+  EXPECT_EQ(run.history().bytes(), 0U);
+  EXPECT_EQ(run.history().nearest(5).iteration, 0U);
+  EXPECT_EQ(run.history().nearest(5).positions.data(), run.input().mesh.positions.data()) << "shared, not copied";
+  EXPECT_FALSE(run.history().sentence().empty());
+  for (const std::uint64_t iteration : {4U, 0U, 2U, 5U}) {
+    run.seek({iteration, 0}, progress);
+    EXPECT_TRUE(same_bits(copy(run), states[iteration])) << iteration;
+  }
+}
+
+TEST(Run, StatisticsAreThoseOfTheMomentWhereverItStands) {
+  Progress progress;
+  dmoscope::Run run = make_run();
+  const auto expect_right = [&] {
+    const Statistics now = run.statistics();
+    const Statistics fresh = compute_statistics(run.input().quality_context(), run.positions(), Metric::MeanRatio, run.fixed(), nullptr);
+    EXPECT_EQ(now.minimum, fresh.minimum);
+    EXPECT_EQ(now.mean, fresh.mean);
+    EXPECT_EQ(now.movable_minimum, fresh.movable_minimum);
+    EXPECT_EQ(now.ceiling, fresh.ceiling);
+    EXPECT_EQ(now.worst_element, fresh.worst_element);
+  };
+  expect_right();
+  run.iterate(3, progress);
+  expect_right();
+  run.step(StepUnit::Class, progress);
+  expect_right();
+  run.back(StepUnit::Vertex, progress);
+  expect_right();
+  run.seek({1, 0}, progress);
+  expect_right();
+}
+
 TEST(Run, UntilConvergedSaysWhyItStopped) {
   Progress progress;
   dmoscope::Run run = make_run();

@@ -4,19 +4,126 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/memory.h"
+#include "core/quality/tally.h"
+
 namespace dmoscope {
 
 namespace {
 
 constexpr std::size_t kWorst = 100;
 
-std::vector<std::uint8_t> inverted_elements(const InputMesh& input, std::span<const Vec3> positions, ThreadPool* pool) {
-  std::vector<std::uint8_t> inverted(input.mesh.elements.size());
-  const QualityContext context = input.quality_context();
-  for_chunks(pool, inverted.size(), 8192, [&](std::size_t first, std::size_t last) {
-    for (std::size_t e = first; e < last; ++e) inverted[e] = smallest_jacobian(context, positions, static_cast<Index>(e)) <= 0.0 ? 1 : 0;
+constexpr std::size_t kGrain = std::size_t{1} << 15U;
+
+/// A histogram that is being filled.
+class Bins {
+ public:
+  void add(double q) {
+    if (q < histogram_.lowest)
+      ++histogram_.below;
+    else if (q > kHighest)
+      ++histogram_.above;
+    else if (!std::isnan(q))
+      ++histogram_.counts[std::min(Histogram::kBins - 1, static_cast<std::size_t>((q - histogram_.lowest) * kScale))];
+  }
+  void add(const Bins& other) {
+    histogram_.below += other.histogram_.below;
+    histogram_.above += other.histogram_.above;
+    for (std::size_t bin = 0; bin < Histogram::kBins; ++bin) histogram_.counts[bin] += other.histogram_.counts[bin];
+  }
+  [[nodiscard]] const Histogram& histogram() const noexcept { return histogram_; }
+
+ private:
+  static constexpr Histogram kEmpty{};
+  static constexpr double kScale = static_cast<double>(Histogram::kBins) / (kEmpty.highest - kEmpty.lowest);
+  static constexpr double kHighest = kEmpty.highest * (1.0 + 1e-12);  // rounding makes no element better than ideal
+  Histogram histogram_;
+};
+
+bool worse(const RankedElement& a, const RankedElement& b) {
+  return a.quality < b.quality || (a.quality == b.quality && a.element < b.element);
+}
+
+/// The worst of the elements offered.
+class Worst {
+ public:
+  explicit Worst(std::size_t most) : most_(most) {}
+  void offer(const RankedElement& ranked) {
+    if (heap_.size() == most_) {
+      if (most_ == 0 || !worse(ranked, heap_.front())) return;
+      std::ranges::pop_heap(heap_, worse);
+      heap_.back() = ranked;
+    } else {
+      if (std::isnan(ranked.quality)) return;
+      heap_.push_back(ranked);
+    }
+    std::ranges::push_heap(heap_, worse);
+  }
+  void offer_all_of(const Worst& other) {
+    for (const RankedElement& ranked : other.heap_) offer(ranked);
+  }
+  /// Worst first.
+  [[nodiscard]] std::vector<RankedElement> take() {
+    std::ranges::sort_heap(heap_, worse);
+    return std::move(heap_);
+  }
+
+ private:
+  std::size_t most_;
+  std::vector<RankedElement> heap_;  // the best of the worst on top
+};
+
+/// What a stretch of the elements shows.
+struct Part {
+  Tally tally;
+  Bins bins;
+  Worst worst{kWorst};
+};
+
+/// All that a frame shows of the elements, in one pass over them.
+void judge_elements(Frame& frame, std::span<const Index> immovable, ThreadPool* pool) {
+  const std::size_t count = frame.input->mesh.elements.size();
+  frame.quality = large_vector<float>(count);
+  frame.inverted = large_vector<std::uint8_t>(count);
+  std::vector<Part> parts((count + kGrain - 1) / kGrain);
+  for_chunks(pool, count, kGrain, [&](std::size_t first, std::size_t last) {
+    Part part;
+    for_blocks(frame.input->quality_context(), frame.positions, frame.shown, first, last, [&](const ElementBlock& block) {
+      part.tally.add(block, immovable);
+      for (std::size_t i = 0; i < block.count; ++i) {
+        const double q = block.quality[i];
+        frame.quality[block.first + i] = static_cast<float>(q);
+        frame.inverted[block.first + i] = block.jacobian[i] <= 0.0 ? 1 : 0;
+        part.bins.add(q);
+        part.worst.offer({block.first + static_cast<Index>(i), q});
+      }
+    });
+    parts[first / kGrain] = std::move(part);
   });
-  return inverted;
+  Part whole;
+  for (const Part& part : parts) {
+    whole.tally.append(part.tally);
+    whole.bins.add(part.bins);
+    whole.worst.offer_all_of(part.worst);
+  }
+  frame.shown_statistics = whole.tally.statistics();
+  frame.now = whole.bins.histogram();
+  frame.worst = whole.worst.take();
+}
+
+Histogram histogram_of(const InputMesh& input, Metric metric, ThreadPool* pool) {
+  const std::size_t count = input.mesh.elements.size();
+  std::vector<Bins> parts((count + kGrain - 1) / kGrain);
+  for_chunks(pool, count, kGrain, [&](std::size_t first, std::size_t last) {
+    Bins bins;
+    for_blocks(input.quality_context(), input.mesh.positions, metric, first, last, [&](const ElementBlock& block) {
+      for (const double q : block.qualities()) bins.add(q);
+    });
+    parts[first / kGrain] = bins;
+  });
+  Bins whole;
+  for (const Bins& part : parts) whole.add(part);
+  return whole.histogram();
 }
 
 RunView view_of(Run& run, bool active) {
@@ -37,39 +144,15 @@ RunView view_of(Run& run, bool active) {
 }  // namespace
 
 Histogram make_histogram(std::span<const double> qualities) {
-  Histogram histogram;
-  const double scale = static_cast<double>(Histogram::kBins) / (histogram.highest - histogram.lowest);
-  for (const double q : qualities) {
-    if (std::isnan(q)) continue;
-    if (q < histogram.lowest)
-      ++histogram.below;
-    else if (q > histogram.highest * (1.0 + 1e-12))
-      ++histogram.above;
-    else
-      ++histogram.counts[std::min(Histogram::kBins - 1, static_cast<std::size_t>((q - histogram.lowest) * scale))];
-  }
-  return histogram;
+  Bins bins;
+  for (const double q : qualities) bins.add(q);
+  return bins.histogram();
 }
 
 std::vector<RankedElement> worst_elements(std::span<const double> qualities, std::size_t most) {
-  const auto worse = [](const RankedElement& a, const RankedElement& b) {
-    return a.quality < b.quality || (a.quality == b.quality && a.element < b.element);
-  };
-  std::vector<RankedElement> heap;  // the best of the worst on top
-  for (std::size_t e = 0; e < qualities.size(); ++e) {
-    if (std::isnan(qualities[e])) continue;
-    const RankedElement ranked{static_cast<Index>(e), qualities[e]};
-    if (heap.size() < most) {
-      heap.push_back(ranked);
-      std::ranges::push_heap(heap, worse);
-    } else if (most > 0 && worse(ranked, heap.front())) {
-      std::ranges::pop_heap(heap, worse);
-      heap.back() = ranked;
-      std::ranges::push_heap(heap, worse);
-    }
-  }
-  std::ranges::sort_heap(heap, worse);
-  return heap;
+  Worst worst(most);
+  for (std::size_t e = 0; e < qualities.size(); ++e) worst.offer({static_cast<Index>(e), qualities[e]});
+  return worst.take();
 }
 
 void FrameBuilder::refresh_input(Session& session) {
@@ -79,16 +162,12 @@ void FrameBuilder::refresh_input(Session& session) {
   if (!same_input) ++input_serial_;
   input_ = session.input();
   before_metric_ = shown;
-  std::vector<double> qualities(input_->mesh.elements.size());
-  element_qualities(input_->quality_context(), input_->mesh.positions, shown, session.pool().get(), qualities);
-  before_ = make_histogram(qualities);
+  before_ = histogram_of(*input_, shown, session.pool().get());
 }
 
 std::shared_ptr<const Frame> FrameBuilder::frame(Session& session) {
   refresh_input(session);
   Run& run = session.active();
-  const QualityContext context = input_->quality_context();
-  ThreadPool* pool = session.pool().get();
   auto frame = std::make_shared<Frame>();
   frame->serial = ++serial_;
   frame->input_serial = input_serial_;
@@ -96,17 +175,11 @@ std::shared_ptr<const Frame> FrameBuilder::frame(Session& session) {
   frame->run = session.active_index();
   frame->moment = run.moment();
   frame->shown = session.shown();
+  reserve_large(frame->positions, run.positions().size());
   frame->positions.assign(run.positions().begin(), run.positions().end());
-  std::vector<double> qualities(input_->mesh.elements.size());
-  element_qualities(context, frame->positions, frame->shown, pool, qualities);
-  frame->quality.assign(qualities.size(), 0.0F);
-  std::ranges::transform(qualities, frame->quality.begin(), [](double q) { return static_cast<float>(q); });
-  frame->inverted = inverted_elements(*input_, frame->positions, pool);
-  frame->shown_statistics = compute_statistics(context, frame->positions, frame->shown, run.fixed(), pool);
+  judge_elements(*frame, run.immovable(), session.pool().get());
   frame->statistics = frame->shown == run.parameters().metric ? frame->shown_statistics : run.statistics();
   frame->before = before_;
-  frame->now = make_histogram(qualities);
-  frame->worst = worst_elements(qualities, kWorst);
   return frame;
 }
 

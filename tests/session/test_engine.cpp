@@ -12,6 +12,7 @@
 #include "core/session/csv.h"
 #include "core/session/engine.h"
 #include "core/session/frame_builder.h"
+#include "tests/support/meshes.h"
 
 namespace dmoscope {
 namespace {
@@ -164,6 +165,46 @@ TEST(Frame, WorstListAndHistogramAgreeWithSorting) {
   for (const Index count : histogram.counts) total += count;
   EXPECT_EQ(total, 999U);
   EXPECT_EQ(histogram.below, static_cast<Index>(std::ranges::count_if(sorted, [](double q) { return q < 0; })));
+}
+
+TEST(Frame, ShowsOfEveryElementWhatPlainFunctionsFind) {
+  Session session(2);
+  Progress progress;
+  session.open(testing::lattice(200, 0.8, 7, testing::Cells::Mixed), progress);  // 60,000 elements: several stretches for the threads
+  session.active().step(StepUnit::Class, progress);
+  session.show(Metric::ScaledJacobian);
+  FrameBuilder builder;
+  const auto frame = builder.build(session)->frame;
+  const QualityContext context = frame->input->quality_context();
+  std::vector<double> now, before;
+  for (Index e = 0; e < frame->input->mesh.elements.size(); ++e) {
+    now.push_back(element_quality(context, frame->positions, Metric::ScaledJacobian, e));
+    before.push_back(element_quality(context, frame->input->mesh.positions, Metric::ScaledJacobian, e));
+    ASSERT_EQ(frame->quality[e], static_cast<float>(now[e])) << e;
+    ASSERT_EQ(frame->inverted[e] != 0, smallest_jacobian(context, frame->positions, e) <= 0.0) << e;
+  }
+  EXPECT_EQ(frame->now.counts, make_histogram(now).counts);
+  EXPECT_EQ(frame->now.below, make_histogram(now).below);
+  EXPECT_EQ(frame->before.counts, make_histogram(before).counts);
+  EXPECT_EQ(frame->before.below, make_histogram(before).below);
+  EXPECT_NE(frame->now.counts, frame->before.counts);
+  const auto worst = worst_elements(now, 100);
+  ASSERT_EQ(frame->worst.size(), 100U);
+  for (std::size_t i = 0; i < 100; ++i) {
+    EXPECT_EQ(frame->worst[i].element, worst[i].element);
+    EXPECT_EQ(frame->worst[i].quality, worst[i].quality);
+  }
+  const auto fixed = session.active().fixed();
+  for (const auto& [shown, metric] :
+       {std::pair{frame->shown_statistics, Metric::ScaledJacobian}, std::pair{frame->statistics, Metric::MeanRatio}}) {
+    const Statistics plain = compute_statistics(context, frame->positions, metric, fixed, nullptr);
+    EXPECT_EQ(shown.minimum, plain.minimum);
+    EXPECT_EQ(shown.movable_minimum, plain.movable_minimum);
+    EXPECT_EQ(shown.ceiling, plain.ceiling);
+    EXPECT_EQ(shown.worst_element, plain.worst_element);
+    EXPECT_EQ(shown.inverted, plain.inverted);
+    EXPECT_NEAR(shown.mean, plain.mean, 1e-14);
+  }
 }
 
 }  // namespace

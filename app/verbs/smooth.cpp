@@ -18,6 +18,7 @@
 #include "app/verbs/run_options.h"
 #include "app/verbs/verbs.h"
 #include "core/io/mesh_io.h"
+#include "core/search/simd.h"
 #include "core/session/csv.h"
 #include "core/session/run.h"
 
@@ -74,6 +75,12 @@ struct Result {
   }
 };
 
+/// What the search computed with.
+std::string_view simd_name(const SearchParameters& search) {
+  if (search.precision == Precision::Double) return "scalar";
+  return name(search.simd.value_or(best_simd_level()));
+}
+
 Json json_of(const Result& r) {
   const RunParameters& p = r.run.parameters();
   const Mesh& mesh = r.run.input().mesh;
@@ -87,6 +94,7 @@ Json json_of(const Result& r) {
   object["metric"] = info(p.metric).name;
   object["backend"] = r.backend;
   object["threads"] = r.threads;
+  object["simd"] = simd_name(p.search);
   object["parameters"] = {{"grid", p.search.grid_points}, {"levels", p.search.levels},
                           {"omega", p.search.omega},      {"precision", p.search.precision == Precision::Float ? "float" : "double"},
                           {"order", r.options.run.order}, {"fixed_by_user", p.fixed.size()}};

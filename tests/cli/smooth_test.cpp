@@ -108,7 +108,7 @@ nlohmann::json smooth(const std::string& input, const std::string& output, std::
 TEST(Smooth, JsonHasTheDocumentedKeys) {
   const Folder folder;
   const auto json = smooth(sample("coast.14"), folder / "out.14", {"--iterations", "2", "--threads", "2"});
-  for (const char* key : {"input", "output", "vertices", "elements", "free", "method", "metric", "backend", "threads", "parameters",
+  for (const char* key : {"input", "output", "vertices", "elements", "free", "method", "metric", "backend", "threads", "simd", "parameters",
                           "iterations", "stopped", "last_rise", "before", "after", "seconds", "warnings"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
@@ -119,6 +119,10 @@ TEST(Smooth, JsonHasTheDocumentedKeys) {
   EXPECT_EQ(json["metric"], "mean-ratio");
   EXPECT_EQ(json["backend"], "cpu");
   EXPECT_EQ(json["threads"], 2);
+  EXPECT_EQ(json["simd"], json_of(run({"info", "--json"}))["simd"]["used"]);
+  const auto baseline = smooth(sample("coast.14"), folder / "out.14", {"--iterations", "2", "--simd", "baseline"});
+  EXPECT_EQ(baseline["simd"], "baseline");
+  EXPECT_EQ(smooth(sample("coast.14"), folder / "d.14", {"--iterations", "1", "--precision", "double"})["simd"], "scalar");
   EXPECT_EQ(json["iterations"], 2);
   EXPECT_GE(json["after"]["minimum"], json["before"]["minimum"]);
   // What it says of its output holds when that is judged anew.

@@ -15,6 +15,50 @@
 
 namespace dmoscope {
 
+/// The least margins of a column's eight candidates. Eight variables, because an array of them would live in memory.
+template <class R>
+struct LeastMargins {
+  R m0, m1, m2, m3, m4, m5, m6, m7;
+
+  /// Of the first element: its part of each row plus its part of the column.
+  LeastMargins(const std::array<R, 8>& row, R column)
+      : m0(sum(row[0], column)),
+        m1(sum(row[1], column)),
+        m2(sum(row[2], column)),
+        m3(sum(row[3], column)),
+        m4(sum(row[4], column)),
+        m5(sum(row[5], column)),
+        m6(sum(row[6], column)),
+        m7(sum(row[7], column)) {}
+
+  /// And of a further one.
+  void take(const std::array<R, 8>& row, R column) {
+    using scalar::min;
+    m0 = min(m0, sum(row[0], column));
+    m1 = min(m1, sum(row[1], column));
+    m2 = min(m2, sum(row[2], column));
+    m3 = min(m3, sum(row[3], column));
+    m4 = min(m4, sum(row[4], column));
+    m5 = min(m5, sum(row[5], column));
+    m6 = min(m6, sum(row[6], column));
+    m7 = min(m7, sum(row[7], column));
+  }
+
+  [[nodiscard]] R largest() const {
+    using scalar::max;
+    return max(max(max(m0, m1), max(m2, m3)), max(max(m4, m5), max(m6, m7)));
+  }
+
+  /// f(margin, row), from the last row to the first.
+  template <class F>
+  void backwards(F f) const {
+    f(m7, 7), f(m6, 6), f(m5, 5), f(m4, 4), f(m3, 3), f(m2, 2), f(m1, 1), f(m0, 0);
+  }
+
+ private:
+  static R sum(R a, R b) { return scalar::Sum<R>::of(a, b); }
+};
+
 template <class R>
 class RatioSearch {
  public:
@@ -38,14 +82,16 @@ class RatioSearch {
   }
 
  private:
+  static constexpr int kHalf = kPoints / 2;
   using Line = std::array<R, kPoints>;
+  static_assert(kPoints == 8, "LeastMargins has eight");
   /// N_k - t S_k, times w_k: a + b x + c y - d (x^2 + y^2).
   struct Margin {
     R a, b, c, d;
   };
   struct Best {
     R margin, second;  // the largest least margin and the next
-    R x;               // column of the former
+    Vec2<R> at;        // candidate of the former
   };
 
   static R huge() { return scalar::constant<R>(1e30); }
@@ -96,30 +142,24 @@ class RatioSearch {
     using scalar::any, scalar::select;
     recentre(moved_by_);
     const R bound = weigh(size);
-    Line x, y;
-    for (int i = 0; i < kPoints; ++i) {
-      const R s = scalar::constant<R>(static_cast<double>(i) / (kPoints - 1) - 0.5);
-      x[i] = size.x * s;
-      y[i] = size.y * s;
-    }
+    set_grid(size);
     R t = best.objective;
     Vec2<R> offset{R(0), R(0)};
     R floor = select(t < cap_, R(0), huge());  // what a margin must exceed: huge in slots that are done
     for (;;) {
-      fill_tables(t, x, y);
-      const Best found = largest_margin(x, floor);
+      fill_tables(t);
+      const Best found = largest_margin(floor);
       const auto positive = found.margin > floor;
       if (!any(positive)) break;
-      const Vec2<R> p{found.x, row_of(found, y)};
-      const R q = quality(p);
+      const R q = quality(found.at);
       const auto better = positive & (q > t);
       // Whatever else is left gains at most found.second * bound over the old t.
       const auto open = better & (found.second * bound > q - t) & (q < cap_);
       t = select(better, q, t);
-      offset = {select(better, p.x, offset.x), select(better, p.y, offset.y)};
+      offset = {select(better, found.at.x, offset.x), select(better, found.at.y, offset.y)};
       const auto capped = better & !(q < cap_);
       if (any(capped)) {
-        const Vec2<R> first = first_at_cap(x, y, p);
+        const Vec2<R> first = first_at_cap(found.at);
         offset = {select(capped, first.x, offset.x), select(capped, first.y, offset.y)};
       }
       if (!any(open)) break;
@@ -130,87 +170,86 @@ class RatioSearch {
     moved_by_ = offset;
   }
 
+  /// The candidates' offsets from the centre: the first half of each axis is the negative of the second.
+  void set_grid(Vec2<R> size) {
+    for (int i = 0; i < kHalf; ++i) {
+      const R s = scalar::constant<R>(static_cast<double>(kHalf + i) / (kPoints - 1) - 0.5);
+      x_[kHalf + i] = size.x * s;
+      y_[kHalf + i] = size.y * s;
+      x_[kHalf - 1 - i] = R(0) - x_[kHalf + i];
+      y_[kHalf - 1 - i] = R(0) - y_[kHalf + i];
+    }
+  }
+
   /// Margins at threshold `t`, as a part of each column and one of each row.
-  void fill_tables(R t, const Line& x, const Line& y) {
+  void fill_tables(R t) {
+    Line xx, yy;
+    for (int i = kHalf; i < kPoints; ++i) {
+      xx[i] = x_[i] * x_[i];
+      yy[i] = y_[i] * y_[i];
+    }
     for (std::size_t k = 0; k < forms_.size(); ++k) {
       const RatioForm<R>& f = forms_[k];
       const R w = weight_[k];
       const Margin m{(f.n0 - t * f.s0) * w, (f.nx - t * f.sx) * w, (f.ny - t * f.sy) * w, (t * f.s2) * w};
       margin_[k] = m;
-      for (int i = 0; i < kPoints; ++i) {
-        column_[k][i] = column_part(m, x[i]);
-        row_[k][i] = y[i] * (m.c - m.d * y[i]);
+      for (int i = kHalf; i < kPoints; ++i) {
+        const R even_x = m.a - m.d * xx[i], odd_x = m.b * x_[i];
+        column_[k][i] = even_x + odd_x;
+        column_[k][kPoints - 1 - i] = even_x - odd_x;
+        const R even_y = m.d * yy[i], odd_y = m.c * y_[i];
+        row_[k][i] = odd_y - even_y;
+        row_[k][kPoints - 1 - i] = R(0) - odd_y - even_y;
       }
     }
   }
 
   /// Many candidates may reach the cap alike: the one of lowest index, as grid_search would take. `p`: one that does.
-  Vec2<R> first_at_cap(const Line& x, const Line& y, Vec2<R> p) {
-    using scalar::max, scalar::select;
-    fill_tables(cap_, x, y);
+  Vec2<R> first_at_cap(Vec2<R> p) {
+    using scalar::select;
+    fill_tables(cap_);
     for (int i = kPoints - 1; i >= 0; --i) {
-      const Line m = least_margins([&](std::size_t k) { return column_[k][i]; });
-      for (int j = kPoints - 1; j >= 0; --j) {
-        const auto reaches = !(m[j] < R(0));
-        p = {select(reaches, x[i], p.x), select(reaches, y[j], p.y)};
-      }
+      least_margins([&](std::size_t k) { return column_[k][i]; }).backwards([&](R margin, int j) {
+        const auto reaches = !(margin < R(0));
+        p = {select(reaches, x_[i], p.x), select(reaches, y_[j], p.y)};
+      });
     }
     return p;
   }
 
-  Best largest_margin(const Line& x, R floor) const {
-    Best best{floor, R(0) - huge(), x[0]};
-    for (int i = 0; i < kPoints; ++i) take_column(least_margins([&](std::size_t k) { return column_[k][i]; }), x[i], best);
-    return best;
-  }
-
-  static R column_part(const Margin& m, R x) { return m.a + x * (m.b - m.d * x); }
-
-  /// Merges the two largest of a column into the two largest so far.
-  static void take_column(const Line& m, R x, Best& best) {
+  /// The candidate with the largest least margin above `floor`; among equals the one of lowest index.
+  [[nodiscard]] Best largest_margin(R floor) const {
     using scalar::max, scalar::min, scalar::select;
-    const auto merge = [](R& high, R& low, R high2, R low2) {
-      low = max(min(high, high2), max(low, low2));
-      high = max(high, high2);
-    };
-    R high[4], low[4];
-    for (int j = 0; j < 4; ++j) {
-      high[j] = max(m[2 * j], m[2 * j + 1]);
-      low[j] = min(m[2 * j], m[2 * j + 1]);
+    Best best{floor, R(0) - huge(), {x_[0], y_[0]}};
+    for (int i = 0; i < kPoints; ++i) {
+      const R high = least_margins([&](std::size_t k) { return column_[k][i]; }).largest();
+      best.at.x = select(high > best.margin, x_[i], best.at.x);
+      best.second = max(best.second, min(high, best.margin));
+      best.margin = max(best.margin, high);
     }
-    merge(high[0], low[0], high[1], low[1]);
-    merge(high[2], low[2], high[3], low[3]);
-    merge(high[0], low[0], high[2], low[2]);
-    best.x = select(high[0] > best.margin, x, best.x);
-    merge(best.margin, best.second, high[0], low[0]);
+    // The winning column again, for the row and for the next best beside it.
+    const R x = best.at.x, xx = x * x;
+    R high = R(0) - huge();
+    least_margins([&](std::size_t k) { return (margin_[k].a - margin_[k].d * xx) + margin_[k].b * x; }).backwards([&](R margin, int j) {
+      best.at.y = select(margin == best.margin, y_[j], best.at.y);
+      best.second = max(best.second, min(high, margin));
+      high = max(high, margin);
+    });
+    return best;
   }
 
   /// The least margin of every candidate of the column whose part of element k's margin is column(k).
   template <class Column>
-  Line least_margins(Column column) const {
-    using scalar::min;
-    const R first = column(0);
-    Line m;
-    for (int j = 0; j < kPoints; ++j) m[j] = scalar::Sum<R>::of(row_[0][j], first);
-    for (std::size_t k = 1; k < forms_.size(); ++k) {
-      const R part = column(k);
-      for (int j = 0; j < kPoints; ++j) m[j] = min(m[j], scalar::Sum<R>::of(row_[k][j], part));
-    }
-    return m;
-  }
-
-  /// Evaluates the winning column again to find the winner's row: the lowest with that margin.
-  [[nodiscard]] R row_of(const Best& best, const Line& y) const {
-    using scalar::select;
-    const Line m = least_margins([&](std::size_t k) { return column_part(margin_[k], best.x); });
-    R row = y[kPoints - 1];
-    for (int j = kPoints - 2; j >= 0; --j) row = select(m[j] == best.margin, y[j], row);
-    return row;
+  LeastMargins<R> least_margins(Column column) const {
+    LeastMargins<R> least(row_[0], column(0));
+    for (std::size_t k = 1; k < forms_.size(); ++k) least.take(row_[k], column(k));
+    return least;
   }
 
   std::span<RatioForm<R>> forms_;
   R cap_;
   Vec2<R> moved_by_;  // from the last level's centre
+  Line x_, y_;        // the candidates' offsets from the centre
   std::array<R, kMaxForms> weight_;
   std::array<Margin, kMaxForms> margin_;
   std::array<Line, kMaxForms> column_, row_;

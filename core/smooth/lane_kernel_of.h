@@ -43,6 +43,7 @@ class Kernel {
     std::uint64_t moved = 0;
     count_ = 0;
     for (std::size_t i = first; i < last; ++i) {
+      if (i + 2 * kWidth < last && is_awake(i + 2 * kWidth)) prefetch(i + 2 * kWidth);
       if (!is_awake(i)) continue;
       const Index rank = static_cast<Index>(i);
       if (task_.shapes[rank].kind == StarShape::Kind::Alone) {
@@ -55,6 +56,13 @@ class Kernel {
     }
     if (count_ > 0) moved += visit_group();
     return moved;
+  }
+
+  /// Asks for the memory that the visit of `rank` will read and write, long before it does.
+  void prefetch(std::size_t rank) const {
+    __builtin_prefetch(task_.positions + 3 * std::size_t{task_.vertex_of_rank[rank]}, 1);
+    for (std::uint32_t i = task_.shapes[rank].first; i < task_.shapes[rank + 1].first; ++i)
+      __builtin_prefetch(task_.ranked + 3 * std::size_t{task_.others[i]});
   }
 
   [[nodiscard]] bool is_awake(std::size_t rank) const { return __atomic_load_n(task_.awake + rank, __ATOMIC_RELAXED) != 0; }

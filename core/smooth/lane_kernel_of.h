@@ -109,6 +109,7 @@ class Kernel {
       else
         gather_slot<false>(slot, rank);
     }
+    round_to_float(fan_ ? triangles_ + 1 : 2 * triangles_ + 3 * quadrilaterals_);
   }
 
   template <bool Axes>
@@ -146,8 +147,14 @@ class Kernel {
     }
     exact_x_[point][slot] = x;
     exact_y_[point][slot] = y;
-    x_[point][slot] = static_cast<float>(x * task_.inverse);
-    y_[point][slot] = static_cast<float>(y * task_.inverse);
+  }
+
+  void round_to_float(std::size_t points) {
+    const double inverse = task_.inverse;
+    for (std::size_t i = 0; i < points; ++i) {
+      for (std::size_t slot = 0; slot < kWidth; ++slot) x_[i][slot] = static_cast<float>(exact_x_[i][slot] * inverse);
+      for (std::size_t slot = 0; slot < kWidth; ++slot) y_[i][slot] = static_cast<float>(exact_y_[i][slot] * inverse);
+    }
   }
 
   [[nodiscard]] Vec2<F> point(std::size_t i) const { return {F::load_aligned(x_[i]), F::load_aligned(y_[i])}; }
@@ -247,10 +254,20 @@ class Kernel {
   void place(std::size_t slot, float x, float y) {
     const double* at = task_.ranked + 3 * std::size_t{rank_[slot < count_ ? slot : 0]};
     const double along_u = static_cast<double>(x) * task_.scale, along_v = static_cast<double>(y) * task_.scale;
+    double* to = target_[slot];
+    const bool single = task_.single_precision;
+    if (const int u = task_.u_axis, v = task_.v_axis; u >= 0) {
+      for (int i = 0; i < 3; ++i) to[i] = at[i];
+      to[u] = displaced(at[u], along_u, single);
+      to[v] = displaced(at[v], along_v, single);
+      step_x_[slot] = to[u] - at[u];
+      step_y_[slot] = to[v] - at[v];
+      return;
+    }
     double step[3];
     for (int i = 0; i < 3; ++i) {
-      target_[slot][i] = displaced(at[i], along_u * task_.u[i] + along_v * task_.v[i], task_.single_precision);
-      step[i] = target_[slot][i] - at[i];
+      to[i] = displaced(at[i], along_u * task_.u[i] + along_v * task_.v[i], single);
+      step[i] = to[i] - at[i];
     }
     step_x_[slot] = step[0] * task_.u[0] + step[1] * task_.u[1] + step[2] * task_.u[2];
     step_y_[slot] = step[0] * task_.v[0] + step[1] * task_.v[1] + step[2] * task_.v[2];

@@ -75,16 +75,18 @@ RealOf<V> signed_square_of_sine(const Triangle<V>& t) {
   return scalar::ratio(t.twice_area * abs(t.twice_area), scalar::max3(aa * bb, bb * cc, cc * aa));
 }
 
-/// atan2(y, x) in right angles, 0 to 1, for y, x >= 0. Minimax polynomial on [0, 1], absolute error below 3e-8.
+/// atan2(y, x) in right angles, 0 to 2, for y >= 0. Minimax polynomial, absolute error below 3e-8.
 template <class R>
 R right_angles(R y, R x) {
   constexpr double kCoefficients[] = {-0.002581223011, 0.01391841026, -0.03559491945, 0.0613841536,
                                       -0.08854509287,  0.1269837822,  -0.212184484,   0.6366193494};
-  const R r = scalar::ratio(min(x, y), max(x, y)), square = r * r;
+  const R width = abs(x), most = max(width, y);
+  const R r = min(width, y) / select(most > R(0), most, R(1)), square = r * r;
   R value = scalar::constant<R>(kCoefficients[0]);
   for (int i = 1; i < 8; ++i) value = value * square + scalar::constant<R>(kCoefficients[i]);
   value = value * r;
-  return select(y > x, R(1) - value, value);
+  value = select(y > width, R(1) - value, value);
+  return select(x < R(0), R(2) - value, value);
 }
 
 template <class V>
@@ -214,16 +216,19 @@ struct Formula<Metric::Rectangularity> {
     const R best = scalar::max3(corner(t.ab, V{} - t.ca, a, c), corner(t.bc, V{} - t.ab, b, a), corner(t.ca, V{} - t.bc, c, b));
     return scalar::sign(t.twice_area) * best;
   }
-  /// The metric itself, with the angle by a polynomial.
+  /// The metric itself, with two angles by a polynomial and the third by their sum.
   template <class V>
   static RealOf<V> rank_triangle(const Triangle<V>& t) {
     using R = RealOf<V>;
     const R area2 = abs(t.twice_area);
-    const R a = sqrt(dot(t.ab, t.ab)), b = sqrt(dot(t.bc, t.bc)), c = sqrt(dot(t.ca, t.ca));
-    const auto corner = [&](V u, V v, R length_u, R length_v) {
-      return right_angles(area2, abs(dot(u, v))) * scalar::ratio(min(length_u, length_v), max(length_u, length_v));
+    const R aa = dot(t.ab, t.ab), bb = dot(t.bc, t.bc), cc = dot(t.ca, t.ca);
+    const R at_a = right_angles(area2, R(0) - dot(t.ab, t.ca)), at_b = right_angles(area2, R(0) - dot(t.bc, t.ab));
+    const auto corner = [](R right_angles, R u, R v) {
+      const R most = max(u, v);
+      return (R(1) - abs(R(1) - right_angles)) * sqrt(min(u, v) / select(most > R(0), most, R(1)));
     };
-    return scalar::sign(t.twice_area) * scalar::max3(corner(t.ab, t.ca, a, c), corner(t.bc, t.ab, b, a), corner(t.ca, t.bc, c, b));
+    const R best = scalar::max3(corner(at_a, aa, cc), corner(at_b, aa, bb), corner(R(2) - (at_a + at_b), bb, cc));
+    return scalar::sign(t.twice_area) * best;
   }
 };
 

@@ -68,6 +68,12 @@ RealOf<V> angle(RealOf<V> area2, V u, V v) {
   return atan2(area2, dot(u, v));
 }
 
+/// The least of three such angles, from the largest of the three u . v: one angle to compute.
+template <class R>
+R least_angle(R area2, R dot0, R dot1, R dot2) {
+  return atan2(area2, scalar::max3(dot0, dot1, dot2));
+}
+
 /// sign(A) sin^2 of the least angle, which the two longest edges enclose.
 template <class V>
 RealOf<V> signed_square_of_sine(const Triangle<V>& t) {
@@ -169,7 +175,7 @@ struct Formula<Metric::MinAngle> {
   static RealOf<V> triangle(const Triangle<V>& t) {
     using R = RealOf<V>;
     const R area2 = abs(t.twice_area);
-    const R least = scalar::min3(angle(area2, t.ab, V{} - t.ca), angle(area2, t.bc, V{} - t.ab), angle(area2, t.ca, V{} - t.bc));
+    const R least = least_angle(area2, dot(t.ab, V{} - t.ca), dot(t.bc, V{} - t.ab), dot(t.ca, V{} - t.bc));
     return scalar::sign(t.twice_area) * scalar::constant<R>(3.0 / pi) * least;
   }
   /// The least angle is at most 60 degrees, where its sine still rises.
@@ -188,7 +194,7 @@ struct Formula<Metric::MaxAngle> {
     using R = RealOf<V>;
     const R area2 = abs(t.twice_area);
     // pi - theta is the angle to the edge that arrives at the corner: nothing cancels near theta = pi.
-    const R least = scalar::min3(angle(area2, t.ab, t.ca), angle(area2, t.bc, t.ab), angle(area2, t.ca, t.bc));
+    const R least = least_angle(area2, dot(t.ab, t.ca), dot(t.bc, t.ab), dot(t.ca, t.bc));
     return scalar::sign(t.twice_area) * scalar::constant<R>(1.5 / pi) * least;
   }
   /// The tangent of half the outer angle: |u x v| / (|u| |v| - u . v).

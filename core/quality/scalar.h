@@ -51,10 +51,6 @@ struct Sum {
 };
 
 template <class R>
-[[nodiscard]] constexpr R min3(R a, R b, R c) {
-  return min(min(a, b), c);
-}
-template <class R>
 [[nodiscard]] constexpr R max3(R a, R b, R c) {
   return max(max(a, b), c);
 }

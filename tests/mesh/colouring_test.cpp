@@ -58,6 +58,64 @@ TEST(Colouring, RegularQuadrilateralsInNaturalOrderNeedFour) {
   EXPECT_EQ(colour_vertices(mesh, topology, interior(mesh, topology)).class_count(), 4U);
 }
 
+TEST(ArrangeClasses, KeepsClassesAndTheirMembersAndIsDeterministic) {
+  for (const Index every : {1U, 2U, 1000U}) {
+    const Mesh mesh = lattice(150, 140, every);
+    const Topology topology(mesh);
+    const Colouring before = colour_vertices(mesh, topology, shuffled(interior(mesh, topology), 5));
+    Colouring after = before, again = before;
+    arrange_classes(after, mesh, Plane{}, topology);
+    arrange_classes(again, mesh, Plane{}, topology);
+    EXPECT_EQ(after.order, again.order);
+    EXPECT_NE(after.order, before.order);
+    ASSERT_EQ(after.class_offsets, before.class_offsets);
+    for (Index c = 0; c < before.class_count(); ++c) {
+      std::vector<Index> old(before.members(c).begin(), before.members(c).end()), now(after.members(c).begin(), after.members(c).end());
+      std::ranges::sort(old);
+      std::ranges::sort(now);
+      EXPECT_EQ(now, old);
+    }
+  }
+}
+
+TEST(ArrangeClasses, PutsNeighboursInSpaceSideBySide) {
+  const Mesh mesh = lattice(64, 64, 1);  // all stars alike, so that space alone decides
+  const Topology topology(mesh);
+  Colouring colouring = colour_vertices(mesh, topology, shuffled(interior(mesh, topology), 6));
+  const auto mean_step = [&] {
+    double sum = 0.0;
+    for (Index c = 0; c < colouring.class_count(); ++c)
+      for (std::size_t i = 1; i < colouring.members(c).size(); ++i)
+        sum += length(mesh.positions[colouring.members(c)[i]] - mesh.positions[colouring.members(c)[i - 1]]);
+    return sum / static_cast<double>(colouring.order.size());
+  };
+  EXPECT_GT(mean_step(), 25.0) << "half of the lattice's width, by chance";
+  arrange_classes(colouring, mesh, Plane{}, topology);
+  EXPECT_LT(mean_step(), 6.0) << "two spacings of a class";
+}
+
+TEST(ArrangeClasses, PutsStarsOfOneSizeSideBySide) {
+  const Mesh mesh = lattice(40, 40, 3);
+  const Topology topology(mesh);
+  Colouring colouring = colour_vertices(mesh, topology, shuffled(interior(mesh, topology), 7));
+  arrange_classes(colouring, mesh, Plane{}, topology);
+  const auto size = [&](Index v) { return topology.star(v).size(); };
+  for (Index c = 0; c < colouring.class_count(); ++c) EXPECT_TRUE(std::ranges::is_sorted(colouring.members(c), {}, size)) << c;
+}
+
+TEST(ArrangeClasses, CopesWithNothingAndWithAllInOnePlace) {
+  Mesh mesh = lattice(10, 10, 1);
+  const Topology topology(mesh);
+  Colouring none = colour_vertices(mesh, topology, {});
+  arrange_classes(none, mesh, Plane{}, topology);
+  EXPECT_TRUE(none.order.empty());
+  for (Vec3& p : mesh.positions) p = {1e300, -1e300, 0};
+  Colouring colouring = colour_vertices(mesh, topology, interior(mesh, topology));
+  const std::vector<Index> before = colouring.order;
+  arrange_classes(colouring, mesh, Plane{}, topology);
+  EXPECT_EQ(colouring.order, before) << "nothing to tell them apart: they keep their order";
+}
+
 TEST(Colouring, NothingFreeGivesNoClass) {
   const Mesh mesh = lattice(1, 1, 1);
   const Colouring colouring = colour_vertices(mesh, Topology(mesh), {});

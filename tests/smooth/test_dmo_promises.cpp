@@ -1,14 +1,22 @@
-// Promises 1 to 3 of the program, on random meshes of every kind of element, for every metric and both precisions.
+// Promises 1 to 3 of the program, on meshes of every kind of element and star, for every metric, in double and with every kind of vector
+// instructions.
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/session/run.h"
 #include "core/smooth/dmo.h"
-#include "tests/support/meshes.h"
+#include "core/smooth/lane_kernel.h"
+#include "tests/smooth/zoo.h"
 
 namespace dmoscope {
 namespace {
@@ -16,6 +24,7 @@ namespace {
 using testing::Cells;
 using testing::input;
 using testing::lattice;
+using testing::Specimen;
 
 constexpr std::size_t kBudget = std::size_t{1} << 28U;
 
@@ -27,82 +36,151 @@ bool same_bits(std::span<const Vec3> a, std::span<const Vec3> b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
 }
 
-struct Case {
-  Cells cells;
-  double jitter;
-  Metric metric;
-  Precision precision;
-};
+/// A visit left the star no worse, and better if its vertex moved; which it did within its plane.
+void expect_no_worse(const Specimen& specimen, const dmoscope::Run& run, Index vertex, Vec3 old, const StarState& before) {
+  const StarState after = star_state(run.input(), run.positions(), run.parameters().metric, vertex);
+  if (same_bits(std::span(&old, 1), run.positions().subspan(vertex, 1))) return;
+  EXPECT_TRUE(after.better_than(before)) << specimen.name << ": vertex " << vertex << " from " << before.jacobian << ' ' << before.quality
+                                         << " to " << after.jacobian << ' ' << after.quality;
+  const Vec3 p = run.positions()[vertex], normal = run.input().geometry.plane.normal;
+  if (run.input().mesh.single_precision) {
+    for (const double x : {p.x, p.y, p.z}) EXPECT_EQ(x, static_cast<float>(x));
+  }
+  const double before_along[] = {old.x, old.y, old.z}, along[] = {p.x, p.y, p.z}, across[] = {normal.x, normal.y, normal.z};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (across[i] != 1.0) continue;  // else the coordinate that is the same for all
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(along[i]), std::bit_cast<std::uint64_t>(before_along[i])) << specimen.name;
+  }
+}
 
+/// Takes the run through its iterations class by class; no visit may make its star or the mesh worse.
+void expect_promise_one(const Specimen& specimen, dmoscope::Run& run, std::uint64_t iterations) {
+  Progress progress;
+  const InputMesh& mesh = run.input();
+  while (run.moment().iteration < iterations) {
+    const std::uint64_t visits = run.moment().visits;
+    const Index c = static_cast<Index>(std::ranges::find(run.colouring().class_offsets, visits) - run.colouring().class_offsets.begin());
+    const auto members = run.colouring().members(c);
+    const std::vector<Vec3> old(run.positions().begin(), run.positions().end());
+    std::vector<StarState> before;
+    for (const Index v : members) before.push_back(star_state(mesh, old, run.parameters().metric, v));
+    const Statistics all_before = run.statistics();
+    run.step(StepUnit::Class, progress);
+    for (std::size_t i = 0; i < members.size(); ++i) expect_no_worse(specimen, run, members[i], old[members[i]], before[i]);
+    const Statistics all_after = run.statistics();
+    if (all_before.inverted > 0) continue;
+    EXPECT_EQ(all_after.inverted, 0U) << specimen.name;
+    EXPECT_GE(all_after.minimum, all_before.minimum) << specimen.name;
+  }
+}
+
+void expect_fixed_stay(const Specimen& specimen, const dmoscope::Run& run) {
+  const std::span<const Vec3> start = run.input().mesh.positions;
+  for (Index v = 0; v < start.size(); ++v)
+    if (run.fixed()[v] != 0) {
+      EXPECT_TRUE(same_bits(start.subspan(v, 1), run.positions().subspan(v, 1))) << specimen.name << ": vertex " << v;
+    }
+}
+
+std::string title(Metric metric) {
+  std::string text(info(metric).name);
+  std::ranges::replace(text, '-', '_');
+  return text;
+}
+
+std::vector<Metric> all_metrics() {
+  std::vector<Metric> metrics;
+  for (const MetricInfo& entry : metric_table()) metrics.push_back(entry.metric);
+  return metrics;
+}
+
+/// The plain search.
+class PlainPromises : public ::testing::TestWithParam<Metric> {};
+
+TEST_P(PlainPromises, NoVisitMakesAnythingWorseAndFixedVerticesKeepTheirBits) {
+  for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals, Cells::Mixed})
+    for (const double jitter : {0.25, 0.9}) {  // valid, tangled
+      const Specimen specimen{"lattice", lattice(12, jitter, 21, cells)};
+      if (!testing::defined_for_all(GetParam(), specimen.mesh)) continue;
+      RunParameters parameters;
+      parameters.metric = GetParam();
+      parameters.search.precision = Precision::Double;
+      parameters.fixed = {40, 41, 80};
+      dmoscope::Run run = make_run(input(specimen.mesh), parameters);
+      expect_promise_one(specimen, run, 3);
+      expect_fixed_stay(specimen, run);
+      EXPECT_GT(run.history().records()[1].moved, 0U);
+    }
+}
+INSTANTIATE_TEST_SUITE_P(Dmo, PlainPromises, ::testing::ValuesIn(all_metrics()), [](const auto& test) { return title(test.param); });
+
+/// The fast search, with each kind of vector instructions.
+struct Case {
+  Metric metric;
+  SimdLevel level;
+};
 class Promises : public ::testing::TestWithParam<Case> {};
 
-TEST_P(Promises, NoVisitMakesAnythingWorseAndFixedVerticesKeepTheirBits) {
-  const Case& c = GetParam();
-  const auto mesh = input(lattice(12, c.jitter, 21, c.cells));
-  RunParameters parameters;
-  parameters.metric = c.metric;
-  parameters.search.precision = c.precision;
-  parameters.fixed = {40, 41, 80};
-  dmoscope::Run run = make_run(mesh, parameters);
+TEST_P(Promises, HoldOnEveryMeshWithTheSameBitsForAnyStepsThreadsAndInstructions) {
+  const auto [metric, level] = GetParam();
+  if (level > best_simd_level()) GTEST_SKIP() << "this processor has no " << name(level);
+  constexpr std::uint64_t kIterations = 3;
+  const auto one = std::make_shared<ThreadPool>(1), three = std::make_shared<ThreadPool>(3);
   Progress progress;
-  for (int iteration = 0; iteration < 3; ++iteration) {
-    for (const Index vertex : std::vector<Index>(run.colouring().order)) {
-      const StarState before = star_state(*mesh, run.positions(), c.metric, vertex);
-      const Vec3 old = run.positions()[vertex];
-      const Statistics all_before = run.statistics();
-      run.step(StepUnit::Vertex, progress);
-      const StarState after = star_state(*mesh, run.positions(), c.metric, vertex);
-      const Statistics all_after = run.statistics();
-      if (old == run.positions()[vertex]) continue;
-      if (before.jacobian <= 0) {
-        EXPECT_GT(after.jacobian, before.jacobian);
-      } else {
-        EXPECT_GT(after.jacobian, 0.0) << "a valid star was inverted";
-        EXPECT_GT(after.quality, before.quality);
-      }
-      if (all_before.inverted == 0) {
-        EXPECT_EQ(all_after.inverted, 0U);
-        EXPECT_GE(all_after.minimum, all_before.minimum);
-      }
-    }
+  for (const Specimen& specimen : testing::zoo()) {
+    if (!testing::defined_for_all(metric, specimen.mesh)) continue;
+    const auto mesh = input(specimen.mesh);
+    RunParameters parameters;
+    parameters.metric = metric;
+    parameters.search = specimen.search;
+    parameters.search.simd = level;
+    for (Index v = 3; v < mesh->mesh.vertex_count(); v += 37) parameters.fixed.push_back(v);
+
+    dmoscope::Run by_class(mesh, parameters, one, kBudget);
+    expect_promise_one(specimen, by_class, kIterations);
+    expect_fixed_stay(specimen, by_class);
+    EXPECT_GT(by_class.history().records()[1].moved, 0U) << specimen.name;
+
+    dmoscope::Run by_iteration(mesh, parameters, three, kBudget);
+    by_iteration.iterate(kIterations, progress);
+    EXPECT_TRUE(same_bits(by_class.positions(), by_iteration.positions())) << specimen.name << ", threads";
+
+    parameters.search.simd = SimdLevel::Baseline;
+    dmoscope::Run by_vertex(mesh, parameters, one, kBudget);
+    while (by_vertex.moment().iteration < kIterations) by_vertex.step(StepUnit::Vertex, progress);
+    EXPECT_TRUE(same_bits(by_class.positions(), by_vertex.positions())) << specimen.name << ", by vertex";
   }
-  for (Index v = 0; v < mesh->mesh.vertex_count(); ++v)
-    if (run.fixed()[v] != 0) {
-      EXPECT_TRUE(same_bits(std::span(&mesh->mesh.positions[v], 1), std::span(&run.positions()[v], 1)));
-    }
-  EXPECT_TRUE(run.fixed()[40] != 0 && run.fixed()[0] != 0);
 }
 
 std::vector<Case> all_cases() {
   std::vector<Case> cases;
-  for (const MetricInfo& entry : metric_table())
-    for (const Precision precision : {Precision::Float, Precision::Double})
-      for (const double jitter : {0.25, 0.9}) {  // valid, tangled
-        cases.push_back({Cells::Triangles, jitter, entry.metric, precision});
-        if (!entry.quadrilaterals) continue;
-        cases.push_back({Cells::Quadrilaterals, jitter, entry.metric, precision});
-        cases.push_back({Cells::Mixed, jitter, entry.metric, precision});
-      }
+  for (const Metric metric : all_metrics())
+    for (const SimdLevel level : {SimdLevel::Baseline, SimdLevel::Avx2, SimdLevel::Avx512}) cases.push_back({metric, level});
   return cases;
 }
-INSTANTIATE_TEST_SUITE_P(AllMetrics, Promises, ::testing::ValuesIn(all_cases()));
+INSTANTIATE_TEST_SUITE_P(Dmo, Promises, ::testing::ValuesIn(all_cases()),
+                         [](const auto& test) { return title(test.param.metric) + "_" + std::string(name(test.param.level)); });
 
-TEST(Dmo, SameBitsForAnyNumberOfThreadsAndAnyWayOfStepping) {
-  const auto mesh = input(lattice(60, 0.45, 22, Cells::Mixed));
-  Progress progress;
-  dmoscope::Run one = make_run(mesh, {}, 1);
-  one.iterate(5, progress);
-  for (const unsigned threads : {2U, 5U}) {
-    dmoscope::Run many = make_run(mesh, {}, threads);
-    many.iterate(5, progress);
-    EXPECT_TRUE(same_bits(one.positions(), many.positions())) << threads;
+TEST(Dmo, SameBitsForAnyThreadsAndInstructionsWhereClassesAreLarge) {
+  for (const Cells cells : {Cells::Triangles, Cells::Mixed}) {
+    const auto mesh = input(lattice(150, 0.45, 22, cells));
+    Progress progress;
+    dmoscope::Run baseline = make_run(mesh, {.search = {.simd = SimdLevel::Baseline}}, 1);
+    baseline.iterate(4, progress);
+    for (const SimdLevel level : supported_simd_levels()) {
+      RunParameters parameters;
+      parameters.search.simd = level;
+      dmoscope::Run one = make_run(mesh, parameters, 1);
+      ASSERT_GT(one.colouring().members(0).size(), 2 * kLaneGrain) << "or there is nothing to share";
+      one.iterate(4, progress);
+      EXPECT_TRUE(same_bits(one.positions(), baseline.positions())) << name(level);
+      for (const unsigned threads : {2U, 5U}) {
+        dmoscope::Run many = make_run(mesh, parameters, threads);
+        many.iterate(4, progress);
+        EXPECT_TRUE(same_bits(one.positions(), many.positions())) << threads << ", " << name(level);
+      }
+    }
   }
-  dmoscope::Run by_class = make_run(mesh, {}, 2);
-  while (by_class.moment().iteration < 5) by_class.step(StepUnit::Class, progress);
-  EXPECT_TRUE(same_bits(one.positions(), by_class.positions()));
-  dmoscope::Run by_vertex = make_run(mesh, {}, 2);
-  while (by_vertex.moment().iteration < 5) by_vertex.step(StepUnit::Vertex, progress);
-  EXPECT_TRUE(same_bits(one.positions(), by_vertex.positions()));
 }
 
 TEST(Dmo, ScaledMeshSmoothsToTheScaledShape) {
@@ -141,6 +219,47 @@ TEST(Dmo, FarFromTheOriginAndInATiltedPlaneItReachesTheSameMinimum) {
       EXPECT_NEAR(dot(p - mesh->positions[0], plane.normal), 0.0, 1e-9);
     }
   }
+}
+
+TEST(Dmo, InPlanesParallelToTheCoordinatePlanesItFindsTheSameBits) {
+  for (const Cells cells : {Cells::Triangles, Cells::Mixed}) {
+    const Mesh base = lattice(15, 0.4, 29, cells);
+    const auto smoothed = [](const Mesh& mesh) {
+      dmoscope::Run run = make_run(input(mesh), {});
+      Progress progress;
+      run.iterate(3, progress);
+      return std::vector<Vec3>(run.positions().begin(), run.positions().end());
+    };
+    const std::vector<Vec3> expected = smoothed(base);
+    const auto in_yz = smoothed(testing::mapped(base, [](Vec3 p) { return Vec3{3, p.x, p.y}; }));
+    const auto in_zx = smoothed(testing::mapped(base, [](Vec3 p) { return Vec3{p.y, 3, p.x}; }));
+    for (std::size_t v = 0; v < expected.size(); ++v) {
+      EXPECT_EQ(in_yz[v], (Vec3{3, expected[v].x, expected[v].y}));
+      EXPECT_EQ(in_zx[v], (Vec3{expected[v].y, 3, expected[v].x}));
+    }
+  }
+}
+
+/// One visit of each vertex of the first class, by both searches from the same positions.
+TEST(Dmo, TheFastSearchHasTheGridThePlainOneHas) {
+  for (const Cells cells : {Cells::Triangles, Cells::Mixed})
+    for (const int points : {2, 5, 8, 9, 16})
+      for (const int levels : {1, 3, 5})
+        for (const double omega : {0.5, 0.8}) {
+          const auto mesh = input(lattice(20, 0.3, 30, cells));
+          RunParameters parameters;
+          parameters.search = {.grid_points = points, .levels = levels, .omega = omega};
+          dmoscope::Run fast = make_run(mesh, parameters);
+          parameters.search.precision = Precision::Double;
+          dmoscope::Run plain = make_run(mesh, parameters);
+          Progress progress;
+          fast.step(StepUnit::Class, progress);
+          plain.step(StepUnit::Class, progress);
+          std::size_t different = 0;
+          const auto members = fast.colouring().members(0);
+          for (const Index v : members) different += length(fast.positions()[v] - plain.positions()[v]) > 1e-6 / 20 ? 1U : 0U;
+          EXPECT_LE(different, members.size() / 20) << points << ' ' << levels << ' ' << omega;
+        }
 }
 
 TEST(Dmo, FloatAndDoubleReachTheSameMinimum) {

@@ -1,0 +1,88 @@
+// Who is asleep would have stayed: smoothing that visits only the vertices whose stars changed gives the bits of smoothing that visits all.
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/session/run.h"
+#include "tests/smooth/zoo.h"
+
+namespace dmoscope {
+namespace {
+
+constexpr std::uint64_t kIterations = 30;
+
+bool same_bits(std::span<const Vec3> a, std::span<const Vec3> b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
+}
+
+dmoscope::Run make_run(const testing::Specimen& specimen, const std::shared_ptr<const InputMesh>& mesh, Metric metric) {
+  RunParameters parameters;
+  parameters.metric = metric;
+  parameters.search = specimen.search;
+  return {mesh, std::move(parameters), std::make_shared<ThreadPool>(1), std::size_t{1} << 28U};
+}
+
+/// Everybody is woken before every visit. Positions after each iteration.
+std::vector<std::vector<Vec3>> always_awake(const dmoscope::Run& run) {
+  const auto mesh = std::shared_ptr<const InputMesh>(std::shared_ptr<void>(), &run.input());
+  const auto colouring = std::make_shared<const Colouring>(run.colouring());
+  const auto smoother = make_smoother("dmo", mesh, colouring, run.parameters().metric, run.parameters().search, nullptr);
+  std::vector<std::vector<Vec3>> after{run.input().mesh.positions};
+  std::vector<Vec3> positions = after[0];
+  for (std::uint64_t iteration = 0; iteration < kIterations; ++iteration) {
+    for (Index c = 0; c < colouring->class_count(); ++c) {
+      const std::uint64_t first = colouring->class_offsets[c], count = colouring->class_offsets[c + 1] - first;
+      smoother->positions_replaced();
+      smoother->visit(first, count, positions, nullptr);
+    }
+    after.push_back(positions);
+  }
+  return after;
+}
+
+class ActiveSet : public ::testing::TestWithParam<Metric> {};
+
+TEST_P(ActiveSet, IsExact) {
+  Progress progress;
+  for (const testing::Specimen& specimen : testing::zoo()) {
+    if (!testing::defined_for_all(GetParam(), specimen.mesh)) continue;
+    const auto mesh = testing::input(specimen.mesh);
+    dmoscope::Run run = make_run(specimen, mesh, GetParam());
+    const auto expected = always_awake(run);
+    run.iterate(kIterations, progress, [&](const dmoscope::Run& now) {
+      EXPECT_TRUE(same_bits(now.positions(), expected[now.moment().iteration])) << specimen.name << ", " << now.moment().iteration;
+    });
+  }
+}
+
+TEST_P(ActiveSet, IsExactAfterStepsBackAndForth) {
+  Progress progress;
+  for (const testing::Specimen& specimen : testing::zoo()) {
+    if (!testing::defined_for_all(GetParam(), specimen.mesh)) continue;
+    const auto mesh = testing::input(specimen.mesh);
+    dmoscope::Run run = make_run(specimen, mesh, GetParam());
+    const auto expected = always_awake(run);
+    run.iterate(9, progress);
+    const std::uint64_t half = run.visits_per_iteration() / 2;
+    for (const Moment target : {Moment{3, half}, Moment{12, 1}, Moment{11, half}, Moment{0, 1}, Moment{20, 0}}) {
+      run.seek(target, progress);
+      for (const StepUnit unit : {StepUnit::Vertex, StepUnit::Class, StepUnit::Iteration, StepUnit::Vertex}) {
+        run.back(unit, progress);
+        run.step(StepUnit::Vertex, progress);
+      }
+      run.step(StepUnit::Iteration, progress);  // to the end of this one
+      EXPECT_TRUE(same_bits(run.positions(), expected[run.moment().iteration])) << specimen.name << ", " << run.moment().iteration;
+    }
+    run.seek({kIterations, 0}, progress);
+    EXPECT_TRUE(same_bits(run.positions(), expected[kIterations])) << specimen.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Metrics, ActiveSet, ::testing::Values(Metric::MeanRatio, Metric::MeanRatioArea, Metric::Rectangularity));
+
+}  // namespace
+}  // namespace dmoscope

@@ -156,16 +156,16 @@ int smooth(const Options& options) {
 
   Watch watch;
   Progress& progress = watch.progress();
-  const auto input = load_input(options.input, Need::Smoothing, progress);
+  const auto pool = std::make_shared<ThreadPool>(options.run.threads);
+  const auto input = load_input(options.input, Need::Smoothing, {progress, pool.get()});
   std::vector<std::string> warnings = tell_findings(*input);
   parameters.fixed = named_vertices(input->mesh, options.run.fix);
 
-  const auto pool = std::make_shared<ThreadPool>(options.run.threads);
   Run run(input, std::move(parameters), pool, 0);  // no past positions: nobody asks for them here
   const Outcome outcome =
       options.until_converged ? run.until_converged(options.limits, progress) : run.iterate(options.iterations, progress);
 
-  for (std::string& sentence : write_mesh(options.output, input->mesh, run.positions(), progress)) {
+  for (std::string& sentence : write_mesh(options.output, input->mesh, run.positions(), {progress, pool.get()})) {
     complain(fmt::format("{}: {}", options.output.string(), sentence));
     warnings.push_back(std::move(sentence));
   }

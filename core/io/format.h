@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/progress.h"
 #include "core/io/atomic_file.h"
+#include "core/io/io_context.h"
 #include "core/io/mesh_io.h"
 #include "core/io/source_file.h"
 #include "core/mesh/mesh.h"
@@ -27,12 +27,12 @@ struct FormatHandler {
   bool (*recognises)(std::string_view bytes);
   /// Parses source.bytes() and fills in the source's layout, places, only_in_file and notes. Sets neither Mesh::name nor
   /// Mesh::source. Throws InputError, Cancelled.
-  Mesh (*read)(SourceFile& source, Progress& progress);
+  Mesh (*read)(SourceFile& source, const IoContext& context);
   /// Makes a file anew from `mesh` at `positions`. Does not name what SourceFile::only_in_file() holds (write_mesh does).
   /// Throws OutputError if the format cannot hold the mesh at all (its kinds of element, its z), Cancelled.
-  Notes (*write)(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress);
+  Notes (*write)(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
   /// Writes mesh.source again with moved coordinates. Null: write_patched() of patch_writer.h.
-  Notes (*patch)(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress) = nullptr;
+  Notes (*patch)(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) = nullptr;
 };
 
 [[nodiscard]] const FormatHandler& off_format();

@@ -81,8 +81,9 @@ bool can_patch(const Mesh& mesh, const FormatHandler& handler) {
   return mesh.source && mesh.source->format() == handler.info.name && mesh.source->not_patchable().empty();
 }
 
-Notes write_anew(AtomicFile& file, const FormatHandler& handler, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress) {
-  Notes notes = handler.write(file, mesh, positions, progress);
+Notes write_anew(AtomicFile& file, const FormatHandler& handler, const Mesh& mesh, std::span<const Vec3> positions,
+                 const IoContext& context) {
+  Notes notes = handler.write(file, mesh, positions, context);
   if (!mesh.source) return notes;
   if (mesh.source->format() == handler.info.name) {
     notes.push_back(fmt::format("The file was made anew: {}.", mesh.source->not_patchable()));
@@ -120,13 +121,14 @@ const FormatInfo* format_by_extension(std::string_view extension) {
   return handler == nullptr ? nullptr : &handler->info;
 }
 
-Mesh read_mesh(const std::filesystem::path& path, Progress& progress) {
+Mesh read_mesh(const std::filesystem::path& path, const IoContext& context) {
+  Progress& progress = context.progress;
   progress.begin("reading " + path.filename().string());
   auto source = std::make_shared<SourceFile>(path, read_whole_file(path, progress));
   if (source->bytes().empty()) throw InputError(path.string(), 0, "the file is empty");
   const FormatHandler& handler = format_of(path, source->bytes());
   source->set_format(handler.info.name);
-  Mesh mesh = handler.read(*source, progress);
+  Mesh mesh = handler.read(*source, context);
   if (mesh.positions.empty()) throw InputError(path.string(), 0, "the file holds no vertices");
   if (mesh.elements.size() == 0) throw InputError(path.string(), 0, "the file holds no elements");
   mesh.name = path.filename().string();
@@ -138,7 +140,8 @@ Mesh read_mesh(const std::filesystem::path& path, Progress& progress) {
 }
 
 std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions,
-                                    Progress& progress) {
+                                    const IoContext& context) {
+  Progress& progress = context.progress;
   progress.begin("writing " + path.filename().string());
   const FormatHandler* handler = by_extension(path.extension().string());
   if (handler == nullptr) {
@@ -152,9 +155,9 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mes
   AtomicFile file(path);
   Notes notes;
   if (can_patch(mesh, *handler)) {
-    notes = (handler->patch != nullptr ? handler->patch : write_patched)(file, mesh, positions, progress);
+    notes = (handler->patch != nullptr ? handler->patch : write_patched)(file, mesh, positions, context);
   } else {
-    notes = write_anew(file, *handler, mesh, positions, progress);
+    notes = write_anew(file, *handler, mesh, positions, context);
   }
   progress.check();
   file.commit();

@@ -225,7 +225,7 @@ class Reader {
   NodeNumbers numbers_;
 };
 
-Mesh read(SourceFile& source, Progress& progress) { return Reader(source, progress).read(); }
+Mesh read(SourceFile& source, const IoContext& context) { return Reader(source, context.progress).read(); }
 
 // --- Writing anew ---
 
@@ -276,7 +276,7 @@ void write_boundaries(TextWriter& out, const Mesh& mesh, std::span<const std::si
   }
 }
 
-Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress) {
+Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
   Notes notes;
   const std::string_view title = fort14_format().info.title;
   require_surface_elements(file, mesh, title);
@@ -286,19 +286,19 @@ Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions,
   const std::array<std::size_t, 1> kept_fields{depth.value_or(0)};
   note_dropped(mesh, std::span(kept_fields).first(depth ? 1 : 0), kept, title, notes);
 
-  TextWriter out(file, progress);
+  TextWriter out(file, context);
   out << (mesh.title.empty() ? mesh.name : mesh.title) << '\n';
   out << mesh.elements.size() << ' ' << positions.size() << '\n';
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    out << v + 1 << ' ' << positions[v].x << ' ' << positions[v].y << ' ' << (depth ? mesh.fields[*depth].values[v] : 0.0) << '\n';
-  }
-  std::array<Index, 8> buffer{};
-  for (Index e = 0; e < mesh.elements.size(); ++e) {
-    const auto corners = file_corners(mesh, e, buffer);
-    out << e + 1 << ' ' << corners.size();
-    for (const Index c : corners) out << ' ' << c + 1;
-    out << '\n';
-  }
+  out.for_each(positions.size(), [&](TextBuffer& part, std::size_t v) {
+    part << v + 1 << ' ' << positions[v].x << ' ' << positions[v].y << ' ' << (depth ? mesh.fields[*depth].values[v] : 0.0) << '\n';
+  });
+  out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t e) {
+    std::array<Index, 8> buffer{};
+    const auto corners = file_corners(mesh, static_cast<Index>(e), buffer);
+    part << e + 1 << ' ' << corners.size();
+    for (const Index c : corners) part << ' ' << c + 1;
+    part << '\n';
+  });
   write_boundaries(out, mesh, kept, kOpen);
   write_boundaries(out, mesh, kept, kLand);
   out.finish();

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/progress.h"
+#include "core/io/io_context.h"
 #include "core/mesh/mesh.h"
 
 namespace dmoscope {
@@ -25,7 +25,7 @@ struct FormatInfo {
 
 /// Reads a mesh, format by content where that is certain, else by extension. Positions are the file's exact doubles, vertices and
 /// elements in the file's order; nothing is normalised. Throws InputError (file and line), Cancelled.
-[[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, Progress& progress);
+[[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, const IoContext& context);
 
 /// Writes `mesh` with `positions` in place of its own (mesh.positions.size() of them) to `path`, format by extension.
 /// When mesh.source is of that format, its bytes are written again and only the coordinates whose bits changed are replaced;
@@ -33,7 +33,7 @@ struct FormatInfo {
 /// failure the old file stands. Returns one sentence for each thing the format could not carry. Throws OutputError, UsageError
 /// (unknown extension), Cancelled.
 std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions,
-                                    Progress& progress);
+                                    const IoContext& context);
 
 /// Writes bytes beside `path` and renames: all or nothing. Throws OutputError.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);

@@ -167,21 +167,23 @@ class Reader {
   std::size_t points_ = 0;
 };
 
-Mesh read(SourceFile& source, Progress& progress) { return Reader(source, progress).read(); }
+Mesh read(SourceFile& source, const IoContext& context) { return Reader(source, context.progress).read(); }
 
-Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress) {
+Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
   Notes notes;
   require_surface_elements(file, mesh, obj_format().info.title);
   note_dropped(mesh, {}, {}, obj_format().info.title, notes);
-  TextWriter out(file, progress);
+  TextWriter out(file, context);
   if (!mesh.title.empty()) out << "# " << mesh.title << '\n';
-  for (const Vec3& p : positions) out << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
-  std::array<Index, 8> buffer{};
-  for (Index e = 0; e < mesh.elements.size(); ++e) {
-    out << 'f';
-    for (const Index c : file_corners(mesh, e, buffer)) out << ' ' << c + 1;
-    out << '\n';
-  }
+  out.for_each(positions.size(), [&](TextBuffer& part, std::size_t v) {
+    part << "v " << positions[v].x << ' ' << positions[v].y << ' ' << positions[v].z << '\n';
+  });
+  out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t e) {
+    std::array<Index, 8> buffer{};
+    part << 'f';
+    for (const Index c : file_corners(mesh, static_cast<Index>(e), buffer)) part << ' ' << c + 1;
+    part << '\n';
+  });
   out.finish();
   return notes;
 }

@@ -12,6 +12,7 @@
 #include "core/base/memory.h"
 #include "core/io/binary.h"
 #include "core/io/format.h"
+#include "core/io/line_chunks.h"
 #include "core/io/text_writer.h"
 #include "core/io/tokenizer.h"
 
@@ -64,42 +65,107 @@ std::string wrong_corners(std::int64_t corners) {
 
 // --- ASCII ---
 
-void read_vertices(Tokenizer& tokens, std::size_t count, const Header& header, SourceFile& source, Mesh& mesh) {
+/// What lines of vertices hold.
+struct Vertices {
+  std::vector<Vec3> positions;
+  std::vector<std::uint64_t> places;
+  bool extras = false;
+  void clear() {
+    positions.clear();
+    places.clear();
+    extras = false;
+  }
+};
+
+/// A line's vertex; `place` gets its offset, `extras` becomes true if more follows on the line.
+Vec3 read_vertex(Tokenizer& tokens, std::size_t& place, bool& extras) {
+  place = tokens.offset();
+  Vec3 p;
+  p.x = tokens.read_double("x coordinate");
+  p.y = tokens.read_double("y coordinate");
+  p.z = tokens.read_double("z coordinate");
+  extras = tokens.more_on_line() || extras;
+  tokens.end_line();
+  return p;
+}
+
+void read_vertices(Tokenizer& tokens, std::size_t count, const Header& header, SourceFile& source, Mesh& mesh, const IoContext& context) {
   reserve_large(mesh.positions, count);
   source.reserve_places(count);
   bool extras = false;
-  for (std::size_t v = 0; v < count; ++v) {
+  std::size_t place = 0;
+  read_in_chunks<Vertices>(
+      tokens, context,
+      [](Tokenizer& lines, Vertices& part) {
+        for (std::size_t at = 0; !lines.at_end();) {
+          part.positions.push_back(read_vertex(lines, at, part.extras));
+          part.places.push_back(at);
+        }
+      },
+      [&](const Vertices& part) {
+        if (part.positions.size() > count - mesh.positions.size()) return false;
+        mesh.positions.insert(mesh.positions.end(), part.positions.begin(), part.positions.end());
+        source.add_places(part.places);
+        extras = extras || part.extras;
+        return true;
+      });
+  while (mesh.positions.size() < count) {
     if (tokens.at_end()) tokens.fail_at_end("x coordinate");
-    source.add_place(tokens.offset());
-    Vec3 p;
-    p.x = tokens.read_double("x coordinate");
-    p.y = tokens.read_double("y coordinate");
-    p.z = tokens.read_double("z coordinate");
-    mesh.positions.push_back(p);
-    extras = tokens.more_on_line() || extras;
-    tokens.end_line();
+    mesh.positions.push_back(read_vertex(tokens, place, extras));
+    source.add_place(place);
   }
   if (extras && !header.texture && !header.colours && !header.normals) source.add_only_in_file("vertex colours");
 }
 
-void read_faces(Tokenizer& tokens, std::size_t count, SourceFile& source, Mesh& mesh) {
+/// What lines of faces hold.
+struct Faces {
+  ElementTable elements;
+  bool extras = false;
+  void clear() {
+    elements.clear();
+    extras = false;
+  }
+};
+
+/// A line's face; `extras` becomes true if more follows on the line.
+std::span<const Index> read_face(Tokenizer& tokens, std::size_t vertices, std::array<Index, 4>& corner, bool& extras) {
+  const std::int64_t corners = tokens.read_integer("number of corners");
+  if (corners != 3 && corners != 4) tokens.fail(wrong_corners(corners));
+  const std::span<Index> used(corner.data(), static_cast<std::size_t>(corners));
+  for (Index& c : used) c = tokens.read_index("vertex index", vertices, "vertices");
+  extras = tokens.more_on_line() || extras;
+  tokens.end_line();
+  return used;
+}
+
+void read_faces(Tokenizer& tokens, std::size_t count, SourceFile& source, Mesh& mesh, const IoContext& context) {
+  const std::size_t vertices = mesh.positions.size();
   mesh.elements.reserve(count, 4 * count);
   bool extras = false;
-  for (std::size_t f = 0; f < count; ++f) {
+  read_in_chunks<Faces>(
+      tokens, context,
+      [vertices](Tokenizer& lines, Faces& part) {
+        for (std::array<Index, 4> corner{}; !lines.at_end();) {
+          const auto corners = read_face(lines, vertices, corner, part.extras);
+          part.elements.add(kind_of(static_cast<std::int64_t>(corners.size())), corners);
+        }
+      },
+      [&](const Faces& part) {
+        if (part.elements.size() > count - mesh.elements.size()) return false;
+        if (mesh.elements.all_corners().size() + part.elements.all_corners().size() >= kNoIndex) return false;
+        mesh.elements.append(part.elements);
+        extras = extras || part.extras;
+        return true;
+      });
+  for (std::array<Index, 4> corner{}; mesh.elements.size() < count;) {
     if (tokens.at_end()) tokens.fail_at_end("number of corners");
-    const std::int64_t corners = tokens.read_integer("number of corners");
-    if (corners != 3 && corners != 4) tokens.fail(wrong_corners(corners));
-    std::array<Index, 4> corner{};
-    const std::span<Index> used(corner.data(), static_cast<std::size_t>(corners));
-    for (Index& c : used) c = tokens.read_index("vertex index", mesh.positions.size(), "vertices");
-    add_element(mesh, kind_of(corners), used, source);
-    extras = tokens.more_on_line() || extras;
-    tokens.end_line();
+    const auto corners = read_face(tokens, vertices, corner, extras);
+    add_element(mesh, kind_of(static_cast<std::int64_t>(corners.size())), corners, source);
   }
   if (extras) source.add_only_in_file("face colours");
 }
 
-void read_text(Tokenizer& tokens, const Header& header, SourceFile& source, Mesh& mesh) {
+void read_text(Tokenizer& tokens, const Header& header, SourceFile& source, Mesh& mesh, const IoContext& context) {
   constexpr std::size_t kShortestVertex = 6;  // "0 0 0\n"
   constexpr std::size_t kShortestFace = 8;    // "3 0 1 2\n"
   if (tokens.at_end()) tokens.fail_at_end("number of vertices");
@@ -109,8 +175,8 @@ void read_text(Tokenizer& tokens, const Header& header, SourceFile& source, Mesh
   CoordinateLayout layout;
   layout.syntax = {.comment = '#'};
   source.set_layout(layout);
-  read_vertices(tokens, vertices, header, source, mesh);
-  read_faces(tokens, faces, source, mesh);
+  read_vertices(tokens, vertices, header, source, mesh, context);
+  read_faces(tokens, faces, source, mesh, context);
   if (source.bytes().find('#') != std::string_view::npos) source.add_only_in_file("comments");
   if (!tokens.at_end()) {
     source.add_note(fmt::format("The file goes on after its {} faces (line {}); the rest is not read.", faces, tokens.line()));
@@ -172,7 +238,8 @@ void read_binary(BinaryReader reader, const Header& header, SourceFile& source, 
   if (reader.remaining() != 0) source.add_only_in_file("what follows the last face");
 }
 
-Mesh read(SourceFile& source, Progress& progress) {
+Mesh read(SourceFile& source, const IoContext& context) {
+  Progress& progress = context.progress;
   Tokenizer tokens(source.bytes(), source.path().string(), {.comment = '#'}, progress);
   Mesh mesh;
   Header header;
@@ -193,27 +260,28 @@ Mesh read(SourceFile& source, Progress& progress) {
     read_binary(BinaryReader(source.bytes(), tokens.offset(), true, source.path().string(), progress), header, source, mesh);
   } else {
     tokens.seek(after_word, tokens.line());
-    read_text(tokens, header, source, mesh);
+    read_text(tokens, header, source, mesh, context);
   }
   return mesh;
 }
 
-Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress) {
+Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
   Notes notes;
   require_surface_elements(file, mesh, off_format().info.title);
   note_dropped(mesh, {}, {}, off_format().info.title, notes);
-  TextWriter out(file, progress);
+  TextWriter out(file, context);
   out << "OFF\n";
   if (!mesh.title.empty()) out << "# " << mesh.title << '\n';
   out << positions.size() << ' ' << mesh.elements.size() << " 0\n";
-  for (const Vec3& p : positions) out << p.x << ' ' << p.y << ' ' << p.z << '\n';
-  std::array<Index, 8> buffer{};
-  for (Index e = 0; e < mesh.elements.size(); ++e) {
-    const auto corners = file_corners(mesh, e, buffer);
-    out << corners.size();
-    for (const Index c : corners) out << ' ' << c;
-    out << '\n';
-  }
+  out.for_each(positions.size(),
+               [&](TextBuffer& part, std::size_t v) { part << positions[v].x << ' ' << positions[v].y << ' ' << positions[v].z << '\n'; });
+  out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t e) {
+    std::array<Index, 8> buffer{};
+    const auto corners = file_corners(mesh, static_cast<Index>(e), buffer);
+    part << corners.size();
+    for (const Index c : corners) part << ' ' << c;
+    part << '\n';
+  });
   out.finish();
   return notes;
 }

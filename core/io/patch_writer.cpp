@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -23,15 +24,17 @@ Coordinates coordinates(Vec3 p) { return {p.x, p.y, p.z}; }
 
 bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
-/// Copies the source and replaces in it, place after place.
+/// Copies a part of the source and replaces in it, place after place.
 class Patcher {
  public:
-  Patcher(AtomicFile& file, const SourceFile& source, Progress& progress)
+  /// `begin`: where the part begins in the source. `file` is what errors call the target.
+  Patcher(const std::string& file, const SourceFile& source, std::size_t begin, TextBuffer& out)
       : file_(file),
         source_(source),
         layout_(source.layout()),
-        out_(file, progress),
-        tokens_(source.bytes(), source.path().string(), source.layout().syntax, progress) {
+        out_(out),
+        tokens_(source.bytes(), source.path().string(), source.layout().syntax, unwatched_),
+        copied_(begin) {
     std::sort(order_.begin(), order_.begin() + layout_.components,
               [this](std::size_t a, std::size_t b) { return layout_.at[a] < layout_.at[b]; });
   }
@@ -39,7 +42,7 @@ class Patcher {
   void place(std::size_t i, const Coordinates& before, const Coordinates& after) {
     const std::size_t vertex = source_.vertex_at(i);
     if (layout_.components == 2 && after[2] != 0.0) {
-      throw OutputError(file_.path().string(), fmt::format("vertex {} has z = {}, but the file holds only x and y", vertex, after[2]));
+      throw OutputError(file_, fmt::format("vertex {} has z = {}, but the file holds only x and y", vertex, after[2]));
     }
     bool any = false;
     for (int k = 0; k < layout_.components; ++k) {
@@ -54,23 +57,16 @@ class Patcher {
     }
   }
 
-  std::vector<std::string> finish() {
-    copy_until(source_.bytes().size());
-    out_.finish();
-    if (rounded_ == 0) return {};
-    return {fmt::format("{} moved coordinates were rounded to 32-bit floats, which is what the file holds.", rounded_)};
+  void copy_until(std::size_t offset) {
+    if (copied_ >= offset) return;
+    out_ << source_.bytes().substr(copied_, offset - copied_);
+    copied_ = offset;
   }
+  /// Bytes of the source that were copied or replaced.
+  [[nodiscard]] std::size_t copied() const noexcept { return copied_; }
+  [[nodiscard]] std::size_t rounded() const noexcept { return rounded_; }
 
  private:
-  void copy_until(std::size_t offset) {
-    constexpr std::size_t kPiece = std::size_t{1} << 20;  // so that a cancel is seen in time
-    while (copied_ < offset) {
-      const std::size_t size = std::min(kPiece, offset - copied_);
-      out_ << source_.bytes().substr(copied_, size);
-      copied_ += size;
-    }
-  }
-
   void text_place(std::size_t i, const Coordinates& before, const Coordinates& after) {
     tokens_.seek(source_.place(i));
     std::uint32_t next = 0;  // number of the token that comes next
@@ -101,7 +97,7 @@ class Patcher {
   float to_float(double value, std::size_t vertex) {
     const auto rounded = static_cast<float>(value);
     if (!std::isfinite(rounded)) {
-      throw OutputError(file_.path().string(), fmt::format("coordinate {} of vertex {} is too large for a 32-bit float", value, vertex));
+      throw OutputError(file_, fmt::format("coordinate {} of vertex {} is too large for a 32-bit float", value, vertex));
     }
     if (static_cast<double>(rounded) != value) ++rounded_;
     return rounded;
@@ -114,26 +110,42 @@ class Patcher {
     copied_ += bytes.size();
   }
 
-  AtomicFile& file_;
+  const std::string& file_;
   const SourceFile& source_;
   const CoordinateLayout& layout_;
-  TextWriter out_;
+  TextBuffer& out_;
+  Progress unwatched_;  // the writer watches
   Tokenizer tokens_;
   std::array<std::size_t, 3> order_{0, 1, 2};  // components as they come in the file
-  std::size_t copied_ = 0;                     // bytes of the source that were copied or replaced
+  std::size_t copied_;
   std::size_t rounded_ = 0;
 };
 
 }  // namespace
 
-std::vector<std::string> write_patched(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress) {
+std::vector<std::string> write_patched(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
+  constexpr std::size_t kGrain = 16384;
   const SourceFile& source = *mesh.source;
-  Patcher patcher(file, source, progress);
-  for (std::size_t i = 0; i < source.place_count(); ++i) {
-    const std::size_t vertex = source.vertex_at(i);
-    patcher.place(i, coordinates(mesh.positions[vertex]), coordinates(positions[vertex]));
-  }
-  return patcher.finish();
+  const std::size_t count = source.place_count();
+  const std::string name = file.path().string();
+  std::atomic<std::size_t> rounded = 0;
+  std::size_t copied = count == 0 ? 0 : source.place(0);
+  TextWriter out(file, context);
+  out.bytes(source.bytes().substr(0, copied));
+  out.in_parts(count, kGrain, [&](TextBuffer& part, std::size_t first, std::size_t last) {
+    Patcher patcher(name, source, source.place(first), part);
+    for (std::size_t i = first; i < last; ++i) {
+      const std::size_t vertex = source.vertex_at(i);
+      patcher.place(i, coordinates(mesh.positions[vertex]), coordinates(positions[vertex]));
+    }
+    patcher.copy_until(source.place(last < count ? last : last - 1));
+    rounded += patcher.rounded();
+    context.progress.set(static_cast<double>(last) / static_cast<double>(count));
+    if (last == count) copied = patcher.copied();
+  });
+  out.bytes(source.bytes().substr(copied));
+  if (rounded == 0) return {};
+  return {fmt::format("{} moved coordinates were rounded to 32-bit floats, which is what the file holds.", rounded.load())};
 }
 
 }  // namespace dmoscope

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/base/progress.h"
 #include "core/io/atomic_file.h"
+#include "core/io/io_context.h"
 #include "core/mesh/mesh.h"
 
 namespace dmoscope {
@@ -15,6 +15,6 @@ namespace dmoscope {
 /// are the file's own). Text: the shortest decimal number that reads back as the same double; binary: the file's scalar, rounded to
 /// float where that is one. All else stays byte for byte. mesh.source must be there and patchable, with a place for every vertex.
 /// Returns notes (rounding). Throws OutputError (z of a file that has only x and y; too large for a float), Cancelled.
-std::vector<std::string> write_patched(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress);
+std::vector<std::string> write_patched(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
 
 }  // namespace dmoscope

@@ -261,7 +261,7 @@ class PlyReader {
   std::size_t vertex_count_ = 0;
 };
 
-Mesh read_ply(SourceFile& source, Progress& progress) { return PlyReader(source, progress).read(); }
+Mesh read_ply(SourceFile& source, const IoContext& context) { return PlyReader(source, context.progress).read(); }
 
 /// A field as a property of a new file.
 struct Column {
@@ -272,8 +272,8 @@ struct Column {
 
 class PlyWriter {
  public:
-  PlyWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress)
-      : out_(file, progress), mesh_(mesh), positions_(positions) {}
+  PlyWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
+      : out_(file, context), mesh_(mesh), positions_(positions) {}
 
   Notes write() {
     const std::vector<Column> of_vertices = columns(Field::On::Vertices, positions_.size(), kAxes);
@@ -285,17 +285,17 @@ class PlyWriter {
     out_ << "element face " << mesh_.elements.size() << "\nproperty list uchar uint vertex_indices\n";
     declare(of_faces);
     out_ << "end_header\n";
-    for (std::size_t v = 0; v < positions_.size(); ++v) {
-      out_ << positions_[v].x << ' ' << positions_[v].y << ' ' << positions_[v].z;
-      values(of_vertices, v);
-    }
-    std::array<Index, 8> buffer{};
-    for (Index e = 0; e < mesh_.elements.size(); ++e) {
-      const std::span<const Index> corners = file_corners(mesh_, e, buffer);
-      out_ << corners.size();
-      for (const Index corner : corners) out_ << ' ' << corner;
-      values(of_faces, e);
-    }
+    out_.for_each(positions_.size(), [&](TextBuffer& part, std::size_t v) {
+      part << positions_[v].x << ' ' << positions_[v].y << ' ' << positions_[v].z;
+      values(part, of_vertices, v);
+    });
+    out_.for_each(mesh_.elements.size(), [&](TextBuffer& part, std::size_t e) {
+      std::array<Index, 8> buffer{};
+      const std::span<const Index> corners = file_corners(mesh_, static_cast<Index>(e), buffer);
+      part << corners.size();
+      for (const Index corner : corners) part << ' ' << corner;
+      values(part, of_faces, e);
+    });
     out_.finish();
     note_dropped(mesh_, kept_, {}, "PLY", notes_);
     return std::move(notes_);
@@ -341,16 +341,16 @@ class PlyWriter {
     for (const Column& column : columns) out_ << "property " << ply_word(column.type) << ' ' << column.name << '\n';
   }
 
-  void values(const std::vector<Column>& columns, std::size_t row) {
+  static void values(TextBuffer& part, const std::vector<Column>& columns, std::size_t row) {
     for (const Column& column : columns) {
-      out_ << ' ';
+      part << ' ';
       if (is_whole(column.type)) {
-        out_ << static_cast<std::int64_t>(column.field->values[row]);
+        part << static_cast<std::int64_t>(column.field->values[row]);
       } else {
-        out_ << column.field->values[row];
+        part << column.field->values[row];
       }
     }
-    out_ << '\n';
+    part << '\n';
   }
 
   TextWriter out_;
@@ -360,9 +360,9 @@ class PlyWriter {
   Notes notes_;
 };
 
-Notes write_ply(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress) {
+Notes write_ply(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
   require_surface_elements(file, mesh, "PLY");
-  return PlyWriter(file, mesh, positions, progress).write();
+  return PlyWriter(file, mesh, positions, context).write();
 }
 
 bool recognises_ply(std::string_view bytes) { return bytes.starts_with("ply\n") || bytes.starts_with("ply\r"); }

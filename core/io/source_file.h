@@ -91,6 +91,7 @@ class SourceFile {
   void set_layout(const CoordinateLayout& layout) { layout_ = layout; }
   void reserve_places(std::size_t count) { reserve_large(places_, count); }
   void add_place(std::size_t offset) { places_.push_back(offset); }
+  void add_places(std::span<const std::uint64_t> offsets) { places_.insert(places_.end(), offsets.begin(), offsets.end()); }
   /// Places at first, first + stride, ... (no memory for each); stride > 0.
   void set_uniform_places(std::size_t first, std::size_t stride, std::size_t count) {
     first_ = first;

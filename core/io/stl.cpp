@@ -96,7 +96,7 @@ void set_layout(SourceFile& source, bool binary, std::vector<Index> place_vertic
   source.set_place_vertices(std::move(place_vertices));
 }
 
-Mesh read_stl(SourceFile& source, Progress& progress) {
+Mesh read_stl(SourceFile& source, const IoContext& context) {
   Mesh mesh;
   Welder welder;
   std::vector<Index> place_vertices;
@@ -117,7 +117,7 @@ Mesh read_stl(SourceFile& source, Progress& progress) {
     attributes.values.push_back(read.attribute);
     any_attribute = any_attribute || read.attribute != 0;
   };
-  for_each_stl_facet(source, progress, solid, facet);
+  for_each_stl_facet(source, context.progress, solid, facet);
   mesh.positions = welder.take();
   set_layout(source, is_binary_stl(source.bytes()), std::move(place_vertices));
   if (any_attribute) mesh.fields.push_back(std::move(attributes));
@@ -148,8 +148,8 @@ void note_coincident(std::size_t coincident, Notes& notes) {
 /// Copies the source, with moved coordinates and the normals of their facets replaced.
 class StlPatcher {
  public:
-  StlPatcher(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress)
-      : file_(file), mesh_(mesh), positions_(positions), binary_(is_binary_stl(mesh.source->bytes())), out_(file, progress) {}
+  StlPatcher(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
+      : file_(file), mesh_(mesh), positions_(positions), binary_(is_binary_stl(mesh.source->bytes())), out_(file, context) {}
 
   Notes write(Progress& progress) {
     const SourceFile& source = *mesh_.source;
@@ -225,8 +225,8 @@ class StlPatcher {
   bool moved_ = false;
 };
 
-Notes patch_stl(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress) {
-  return StlPatcher(file, mesh, positions, progress).write(progress);
+Notes patch_stl(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
+  return StlPatcher(file, mesh, positions, context).write(context.progress);
 }
 
 void note_vertices(const Mesh& mesh, std::span<const Vec3> positions, Notes& notes) {
@@ -245,28 +245,28 @@ void note_vertices(const Mesh& mesh, std::span<const Vec3> positions, Notes& not
   note_coincident(count_coincident(mesh, positions, false), notes);
 }
 
-Notes write_stl(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress) {
+Notes write_stl(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
   for (const ElementKind kind : mesh.elements.kinds()) {
     if (kind == ElementKind::Triangle) continue;
     throw OutputError(file.path().string(), fmt::format("STL holds only triangles, and the mesh has {}: choose VTK{}", info(kind).plural,
                                                         info(kind).dimension == 2 ? ", PLY, OBJ or OFF" : " legacy"));
   }
-  TextWriter out(file, progress);
+  TextWriter out(file, context);
   std::string name = mesh.title;
   for (char& c : name) {
     if (c == '\n' || c == '\r') c = ' ';
   }
   out << "solid " << name << '\n';
-  std::array<Index, 8> buffer{};
-  for (Index e = 0; e < mesh.elements.size(); ++e) {
-    const std::span<const Index> corners = file_corners(mesh, e, buffer);
+  out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t e) {
+    std::array<Index, 8> buffer{};
+    const std::span<const Index> corners = file_corners(mesh, static_cast<Index>(e), buffer);
     const Vec3 normal = unit_normal(positions[corners[0]], positions[corners[1]], positions[corners[2]]);
-    out << "  facet normal " << normal.x << ' ' << normal.y << ' ' << normal.z << "\n    outer loop\n";
+    part << "  facet normal " << normal.x << ' ' << normal.y << ' ' << normal.z << "\n    outer loop\n";
     for (const Index v : corners) {
-      out << "      vertex " << positions[v].x << ' ' << positions[v].y << ' ' << positions[v].z << '\n';
+      part << "      vertex " << positions[v].x << ' ' << positions[v].y << ' ' << positions[v].z << '\n';
     }
-    out << "    endloop\n  endfacet\n";
-  }
+    part << "    endloop\n  endfacet\n";
+  });
   out << "endsolid " << name << '\n';
   out.finish();
   Notes notes;

@@ -280,7 +280,7 @@ class Reader {
   std::size_t markers_expected_ = 0;
 };
 
-Mesh read(SourceFile& source, Progress& progress) { return Reader(source, progress).read(); }
+Mesh read(SourceFile& source, const IoContext& context) { return Reader(source, context.progress).read(); }
 
 // --- Writing anew ---
 
@@ -329,14 +329,14 @@ std::vector<Marker> markers_of(const Mesh& mesh, std::vector<std::size_t>& kept,
 
 void write_points(TextWriter& out, std::span<const Vec3> positions, bool volume) {
   out << "NPOIN= " << positions.size() << '\n';
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    out << positions[v].x << ' ' << positions[v].y << ' ';
-    if (volume) out << positions[v].z << ' ';
-    out << v << '\n';
-  }
+  out.for_each(positions.size(), [&](TextBuffer& part, std::size_t v) {
+    part << positions[v].x << ' ' << positions[v].y << ' ';
+    if (volume) part << positions[v].z << ' ';
+    part << v << '\n';
+  });
 }
 
-Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress) {
+Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
   Notes notes;
   const auto kinds = mesh.elements.kinds();
   const bool volume = std::any_of(kinds.begin(), kinds.end(), [](ElementKind kind) { return info(kind).dimension == 3; });
@@ -345,15 +345,16 @@ Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions,
   const std::vector<Marker> markers = markers_of(mesh, kept, notes);
   note_dropped(mesh, {}, kept, su2_format().info.title, notes);
 
-  TextWriter out(file, progress);
+  TextWriter out(file, context);
   if (!mesh.title.empty()) out << "% " << mesh.title << '\n';
   out << "NDIME= " << (volume ? 3 : 2) << "\nNELEM= " << mesh.elements.size() << '\n';
-  std::array<Index, 8> buffer{};
-  for (Index e = 0; e < mesh.elements.size(); ++e) {
-    out << kTypes[static_cast<std::size_t>(mesh.elements.kind(e))] << ' ';
-    for (const Index c : file_corners(mesh, e, buffer)) out << c << ' ';
-    out << e << '\n';
-  }
+  out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t i) {
+    std::array<Index, 8> buffer{};
+    const auto e = static_cast<Index>(i);
+    part << kTypes[static_cast<std::size_t>(mesh.elements.kind(e))] << ' ';
+    for (const Index c : file_corners(mesh, e, buffer)) part << c << ' ';
+    part << e << '\n';
+  });
   write_points(out, positions, volume);
   out << "NMARK= " << markers.size() << '\n';
   for (const Marker& marker : markers) {

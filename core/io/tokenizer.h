@@ -28,6 +28,13 @@ class Tokenizer {
   /// `text` is read from its begin; `file` is what errors call it.
   Tokenizer(std::string_view text, std::string file, TextSyntax syntax, Progress& progress);
 
+  /// One that ends at byte `end` of the same text and begins at `begin`, the begin of a line, which it counts as the first.
+  [[nodiscard]] Tokenizer over(std::size_t begin, std::size_t end, Progress& progress) const {
+    Tokenizer part(text_.substr(0, end), file_, syntax_, progress);
+    part.seek(begin, 1);
+    return part;
+  }
+
   /// 1-based line of the token read last (or of the place where the next one was looked for).
   [[nodiscard]] std::size_t line() const noexcept { return line_; }
   /// Byte offset of the next character to be looked at.
@@ -77,6 +84,9 @@ class Tokenizer {
   }
   /// What is left of this line as it stands, comments and blanks included, without the line end; goes on to the next line.
   std::string_view rest_of_line();
+
+  /// Tells the progress, throws Cancelled. Done on the way as well.
+  void report();
 
   // In what follows `what` names the thing expected, for the error: "x coordinate", "number of vertices".
 
@@ -166,9 +176,6 @@ class Tokenizer {
     }
     return text_.substr(begin, position_ - begin);
   }
-  /// Tells the progress, throws Cancelled.
-  void report();
-
   std::string_view text_;
   std::string file_;
   TextSyntax syntax_;

@@ -266,7 +266,7 @@ bool recognises_vtk(std::string_view bytes) { return equal_ignoring_case(bytes.s
 
 }  // namespace
 
-Mesh read_vtk(SourceFile& source, Progress& progress) { return VtkReader(source, progress).read(); }
+Mesh read_vtk(SourceFile& source, const IoContext& context) { return VtkReader(source, context.progress).read(); }
 
 const FormatHandler& vtk_format() {
   static const FormatHandler handler{

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/base/progress.h"
 #include "core/io/atomic_file.h"
+#include "core/io/io_context.h"
 #include "core/io/source_file.h"
 #include "core/mesh/mesh.h"
 
@@ -15,9 +15,9 @@ namespace dmoscope {
 
 /// Reads a VTK legacy file; see FormatHandler::read. Cells of fewer dimensions than the elements (vertices, lines, the faces of a
 /// volume mesh) are passed over with a note, and their rows of cell data with them; writing the same file again keeps both.
-[[nodiscard]] Mesh read_vtk(SourceFile& source, Progress& progress);
+[[nodiscard]] Mesh read_vtk(SourceFile& source, const IoContext& context);
 
 /// Makes a VTK legacy file anew: UNSTRUCTURED_GRID, ASCII, version 3.0; see FormatHandler::write.
-std::vector<std::string> write_vtk(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress);
+std::vector<std::string> write_vtk(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
 
 }  // namespace dmoscope

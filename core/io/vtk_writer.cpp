@@ -19,8 +19,8 @@ constexpr std::size_t kLongestTitle = 255;  // VTK reads 256 bytes, the line end
 
 class VtkWriter {
  public:
-  VtkWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress)
-      : out_(file, progress), mesh_(mesh), positions_(positions) {}
+  VtkWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
+      : out_(file, context), mesh_(mesh), positions_(positions) {}
 
   Notes write() {
     out_ << "# vtk DataFile Version 3.0\n" << title() << "\nASCII\nDATASET UNSTRUCTURED_GRID\n";
@@ -48,19 +48,21 @@ class VtkWriter {
 
   void points() {
     out_ << "POINTS " << positions_.size() << " double\n";
-    for (const Vec3 p : positions_) out_ << p.x << ' ' << p.y << ' ' << p.z << '\n';
+    out_.for_each(positions_.size(), [this](TextBuffer& part, std::size_t v) {
+      part << positions_[v].x << ' ' << positions_[v].y << ' ' << positions_[v].z << '\n';
+    });
   }
 
   void cells() {
     const Index n = mesh_.elements.size();
     out_ << "CELLS " << n << ' ' << n + mesh_.elements.all_corners().size() << '\n';
-    std::array<Index, 8> buffer{};
-    for (Index e = 0; e < n; ++e) {
-      const std::span<const Index> corners = file_corners(mesh_, e, buffer);
-      out_ << corners.size();
-      for (const Index corner : corners) out_ << ' ' << corner;
-      out_ << '\n';
-    }
+    out_.for_each(n, [this](TextBuffer& part, std::size_t e) {
+      std::array<Index, 8> buffer{};
+      const std::span<const Index> corners = file_corners(mesh_, static_cast<Index>(e), buffer);
+      part << corners.size();
+      for (const Index corner : corners) part << ' ' << corner;
+      part << '\n';
+    });
     out_ << "CELL_TYPES " << n << '\n';
     for (const ElementKind kind : mesh_.elements.kinds()) out_ << vtk_cell_type(kind) << '\n';
   }
@@ -143,8 +145,8 @@ class VtkWriter {
 
 }  // namespace
 
-Notes write_vtk(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, Progress& progress) {
-  return VtkWriter(file, mesh, positions, progress).write();
+Notes write_vtk(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
+  return VtkWriter(file, mesh, positions, context).write();
 }
 
 }  // namespace dmoscope

@@ -60,6 +60,19 @@ class ElementTable {
     corners_.insert(corners_.end(), corners.begin(), corners.end());
     offsets_.push_back(static_cast<Index>(corners_.size()));
   }
+  /// Appends all elements of another table.
+  void append(const ElementTable& other) {
+    kinds_.insert(kinds_.end(), other.kinds_.begin(), other.kinds_.end());
+    const auto before = static_cast<Index>(corners_.size());
+    corners_.insert(corners_.end(), other.corners_.begin(), other.corners_.end());
+    for (std::size_t e = 1; e < other.offsets_.size(); ++e) offsets_.push_back(before + other.offsets_[e]);
+  }
+  /// Takes all elements out; what was reserved stays.
+  void clear() noexcept {
+    kinds_.clear();
+    corners_.clear();
+    offsets_.resize(1);
+  }
   /// Reverses the winding of a triangle or quadrilateral, keeping its first corner. Its own inverse.
   void flip(Index e) noexcept {
     Index* c = corners_.data() + offsets_[e];

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/progress.h"
+#include "core/io/io_context.h"
 #include "core/mesh/mesh.h"
 #include "core/mesh/plane.h"
 #include "core/mesh/report.h"
@@ -33,7 +34,7 @@ enum class Need { Smoothing, QualityOnly };
 [[nodiscard]] std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path path, Need need, Progress& progress);
 
 /// read_mesh, then prepare_input.
-[[nodiscard]] std::shared_ptr<const InputMesh> load_input(const std::filesystem::path& path, Need need, Progress& progress);
+[[nodiscard]] std::shared_ptr<const InputMesh> load_input(const std::filesystem::path& path, Need need, const IoContext& context);
 
 /// Orders the planar elements' findings (orientation, duplicates, ...); called by prepare_input, exposed for tests.
 [[nodiscard]] MeshReport examine(const Mesh& mesh, const Geometry& geometry);

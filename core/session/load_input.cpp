@@ -3,8 +3,8 @@
 
 namespace dmoscope {
 
-std::shared_ptr<const InputMesh> load_input(const std::filesystem::path& path, Need need, Progress& progress) {
-  return prepare_input(read_mesh(path, progress), path, need, progress);
+std::shared_ptr<const InputMesh> load_input(const std::filesystem::path& path, Need need, const IoContext& context) {
+  return prepare_input(read_mesh(path, context), path, need, context.progress);
 }
 
 }  // namespace dmoscope

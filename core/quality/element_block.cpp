@@ -34,54 +34,97 @@ void judge_one_by_one(const QualityContext& context, std::span<const Vec3> posit
   }
 }
 
-/// Corners of planar elements of one kind as differences from their first, coordinate by coordinate.
-template <std::size_t kCorners>
-struct Differences {
-  static constexpr std::size_t kOthers = kCorners - 1;
-  alignas(64) double x[kOthers][ElementBlock::kSize], y[kOthers][ElementBlock::kSize], z[kOthers][ElementBlock::kSize];
+/// The coordinates that u and v of a plane are; null where the plane is parallel to no coordinate plane.
+struct Axes {
+  double Vec3::*u = nullptr;
+  double Vec3::*v = nullptr;
+
+  explicit Axes(const Plane& plane) {
+    for (const auto coordinate : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+      if (plane.u.*coordinate == 1.0) u = coordinate;
+      if (plane.v.*coordinate == 1.0) v = coordinate;
+    }
+    if (u == nullptr || v == nullptr) u = v = nullptr;
+  }
+};
+
+/// Corners of planar elements of one kind as differences from their first, coordinate by coordinate: those of the plane where they are
+/// ones of space, else all three.
+template <std::size_t kCorners, bool kAligned>
+class Differences {
+ public:
+  Differences(const Plane& plane, const Axes& axes) : plane_(plane), axes_(axes) {}
 
   void gather(const Index* corners, std::span<const Vec3> positions, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i, corners += kCorners) {
-      const Vec3 origin = positions[corners[0]];
+      const Vec3& origin = positions[corners[0]];
       for (std::size_t k = 0; k < kOthers; ++k) {
-        const Vec3 d = positions[corners[k + 1]] - origin;
-        x[k][i] = d.x;
-        y[k][i] = d.y;
-        z[k][i] = d.z;
+        const Vec3& corner = positions[corners[k + 1]];
+        if constexpr (kAligned) {
+          at_[0][k][i] = corner.*axes_.u - origin.*axes_.u;
+          at_[1][k][i] = corner.*axes_.v - origin.*axes_.v;
+        } else {
+          at_[0][k][i] = corner.x - origin.x;
+          at_[1][k][i] = corner.y - origin.y;
+          at_[2][k][i] = corner.z - origin.z;
+        }
       }
     }
   }
 
-  /// See Plane::project.
-  [[nodiscard]] Vec2<Real> project(const Plane& plane, std::size_t k, std::size_t i) const {
-    const Real a = Real::load_aligned(&x[k][i]), b = Real::load_aligned(&y[k][i]), c = Real::load_aligned(&z[k][i]);
-    return {a * Real(plane.u.x) + b * Real(plane.u.y) + c * Real(plane.u.z),
-            a * Real(plane.v.x) + b * Real(plane.v.y) + c * Real(plane.v.z)};
+  /// The elements i, i + 1, ... of a pack.
+  [[nodiscard]] auto shape(std::size_t i) const {
+    const Vec2<Real> origin{Real(0.0), Real(0.0)};
+    if constexpr (kCorners == 3)
+      return formulas::Triangle<Vec2<Real>>(origin, project(0, i), project(1, i));
+    else
+      return formulas::Quadrilateral<Vec2<Real>>(origin, project(0, i), project(1, i), project(2, i));
   }
 
-  [[nodiscard]] auto shape(const Plane& plane, std::size_t i) const {
-    using V = Vec2<Real>;
-    const V origin{Real(0.0), Real(0.0)};
-    if constexpr (kCorners == 3)
-      return formulas::Triangle<V>(origin, project(plane, 0, i), project(plane, 1, i));
-    else
-      return formulas::Quadrilateral<V>(origin, project(plane, 0, i), project(plane, 1, i), project(plane, 2, i));
+ private:
+  static constexpr std::size_t kOthers = kCorners - 1;
+
+  /// See Plane::project: times 1 and plus 0 change at most a zero's sign.
+  [[nodiscard]] Vec2<Real> project(std::size_t k, std::size_t i) const {
+    const auto load = [&](std::size_t coordinate) { return Real::load_aligned(&at_[coordinate][k][i]); };
+    if constexpr (kAligned) {
+      return {load(0), load(1)};
+    } else {
+      const auto along = [x = load(0), y = load(1), z = load(2)](Vec3 axis) {
+        return x * Real(axis.x) + y * Real(axis.y) + z * Real(axis.z);
+      };
+      return {along(plane_.u), along(plane_.v)};
+    }
   }
+
+  const Plane& plane_;
+  const Axes& axes_;
+  alignas(64) double at_[kAligned ? 2 : 3][kOthers][ElementBlock::kSize];
 };
 
 /// The elements [first, last) of the block.
-template <Metric M, std::size_t kCorners>
-void judge_in_packs(const QualityContext& context, std::span<const Vec3> positions, ElementBlock& block, std::size_t first,
-                    std::size_t last) {
+template <Metric M, std::size_t kCorners, bool kAligned>
+void judge_in_packs(const QualityContext& context, std::span<const Vec3> positions, const Axes& axes, ElementBlock& block,
+                    std::size_t first, std::size_t last) {
   const std::size_t whole = (last - first) / kWidth * kWidth;
-  Differences<kCorners> differences;
+  Differences<kCorners, kAligned> differences(context.geometry.plane, axes);
   differences.gather(context.mesh.elements.corners(block.first + static_cast<Index>(first)).data(), positions, whole);
   for (std::size_t i = 0; i < whole; i += kWidth) {
-    const auto shape = differences.shape(context.geometry.plane, i);
+    const auto shape = differences.shape(i);
     evaluate<M>(shape).store_unaligned(&block.quality[first + i]);
     formulas::smallest_jacobian(shape).store_unaligned(&block.jacobian[first + i]);
   }
   judge_one_by_one<M>(context, positions, block, first + whole, last);
+}
+
+template <Metric M, std::size_t kCorners>
+void judge_in_packs(const QualityContext& context, std::span<const Vec3> positions, ElementBlock& block, std::size_t first,
+                    std::size_t last) {
+  const Axes axes(context.geometry.plane);
+  if (axes.u != nullptr)
+    judge_in_packs<M, kCorners, true>(context, positions, axes, block, first, last);
+  else
+    judge_in_packs<M, kCorners, false>(context, positions, axes, block, first, last);
 }
 
 template <Metric M>

@@ -33,6 +33,12 @@ Mesh tilted(Mesh mesh) {
   return mesh;
 }
 
+/// In the plane x = 3 or y = 3.
+Mesh upright(Mesh mesh, bool in_yz) {
+  for (Vec3& p : mesh.positions) p = in_yz ? Vec3{3.0, p.x, p.y} : Vec3{p.y, 3.0, p.x};
+  return mesh;
+}
+
 Mesh curved(Mesh mesh) {
   for (Vec3& p : mesh.positions) p.z = std::sin(3.0 * p.x) * std::cos(2.0 * p.y);
   return mesh;
@@ -62,6 +68,7 @@ TEST(ElementBlock, HasTheVeryBitsOfEachElementInAnyPlane) {
   for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals, Cells::Mixed}) {
     expect_the_very_bits(*input(tangled(cells)));
     expect_the_very_bits(*input(tilted(tangled(cells))));
+    for (const bool in_yz : {true, false}) expect_the_very_bits(*input(upright(tangled(cells), in_yz)));
   }
 }
 

@@ -18,10 +18,10 @@ TEST(Simd, SmoothWritesTheSameBytesWithAnyLevel) {
     std::string file;
     std::vector<std::string> metrics;
   };
-  const Job jobs[] = {{"coast.14", {"mean-ratio", "min-angle", "rectangularity"}},
+  const Job jobs[] = {{"coast.14", {"mean-ratio", "max-angle", "rectangularity"}},
                       {"quads.vtk", {"mean-ratio", "mean-ratio-area", "scaled-jacobian"}},
                       {"mixed.vtk", {"mean-ratio", "mean-ratio-area", "scaled-jacobian"}},
-                      {"tangled.obj", {"mean-ratio", "max-angle", "aspect-ratio"}}};
+                      {"tangled.obj", {"mean-ratio", "scaled-jacobian"}}};
   for (const auto& [file, metrics] : jobs)
     for (const std::string& metric : metrics) {
       std::string expected;

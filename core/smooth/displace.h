@@ -1,13 +1,15 @@
 #pragma once
 
+#include "core/base/rounding.h"
+
 namespace dmoscope {
 
 /// coordinate + displacement, but one that does not move keeps its very bits (-0.0 + 0.0 would not). `single_precision`: see Mesh.
 /// Always inlined: code for different processors shares it, and must not share one compiled copy.
 [[gnu::always_inline]] inline double displaced(double coordinate, double displacement, bool single_precision) {
+  if (displacement == 0.0) return coordinate;
   const double sum = coordinate + displacement;
-  const double rounded = single_precision ? static_cast<double>(static_cast<float>(sum)) : sum;
-  return displacement == 0.0 ? coordinate : rounded;
+  return single_precision ? nearest_float(sum) : sum;
 }
 
 }  // namespace dmoscope

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/memory.h"
 #include "core/search/grid_search.h"
 #include "core/smooth/displace.h"
 #include "core/smooth/lane_kernel.h"
@@ -96,8 +97,8 @@ class LaneDmo final : public Smoother {
         reference_(*input_, parameters),
         table_(build_star_table(input_->mesh, input_->topology, *colouring, pool)),
         kernel_(lane_kernel(parameters.simd.value_or(best_simd_level()), M)),
-        ranked_(3 * table_.vertex_of_rank.size()),
-        awake_(table_.vertex_of_rank.size()),
+        ranked_(large_vector<double>(3 * table_.vertex_of_rank.size())),
+        awake_(large_vector<std::uint8_t>(table_.vertex_of_rank.size())),
         task_(describe(parameters)) {}
 
   std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {

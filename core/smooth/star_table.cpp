@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/memory.h"
 #include "core/base/thread_pool.h"
 
 namespace dmoscope {
@@ -91,18 +92,18 @@ StarTable build_star_table(const Mesh& mesh, const Topology& topology, const Col
   StarTable table;
   const std::vector<Index>& visits = colouring.order;
   const std::vector<Index> rank = rank_vertices(mesh.positions.size(), visits, table.vertex_of_rank);
-  table.shapes.resize(visits.size() + 1);
+  table.shapes = large_vector<StarShape>(visits.size() + 1);
   std::vector<std::vector<Index>> chunks((visits.size() + kGrain - 1) / kGrain);
   for_chunks(pool, visits.size(), kGrain, [&](std::size_t first, std::size_t last) {
     Chunk chunk(mesh, topology, rank);
-    chunk.others.reserve((last - first) * 7);
+    chunk.others.reserve((last - first) * 7);  // most stars are fans of six
     for (std::size_t i = first; i < last; ++i) table.shapes[i] = chunk.add(visits[i]);
     chunks[first / kGrain] = std::move(chunk.others);
   });
 
   std::vector<std::uint32_t> offsets(chunks.size() + 1, 0);
   for (std::size_t i = 0; i < chunks.size(); ++i) offsets[i + 1] = offsets[i] + static_cast<std::uint32_t>(chunks[i].size());
-  table.others.resize(offsets.back());
+  table.others = large_vector<Index>(offsets.back());
   for_chunks(pool, visits.size(), kGrain, [&](std::size_t first, std::size_t last) {
     const std::size_t chunk = first / kGrain;
     for (std::size_t i = first; i < last; ++i) table.shapes[i].first += offsets[chunk];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -107,7 +108,8 @@ class LaneDmo final : public Smoother {
     if (stale_) load(pool);
     task_.positions = &positions[0].x;
     std::atomic<std::uint64_t> moved{0};
-    for_chunks(pool, count, kLaneGrain, [&](std::size_t begin, std::size_t end) { moved += kernel_(task_, first + begin, first + end); });
+    const auto chunk = [&](std::size_t begin, std::size_t end) { moved += kernel_(task_, first + begin, first + end); };
+    for_chunks(pool, count, kLaneGrain, std::cref(chunk));  // by reference: a function object of this size would be allocated
     return moved;
   }
   void positions_replaced() override { stale_ = true; }

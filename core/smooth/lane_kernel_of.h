@@ -31,6 +31,8 @@ class Kernel {
   static_assert(kMaxTriangles + 4 * kMaxQuadrilaterals <= RatioSearch<F>::kMaxForms);
   static constexpr bool kQuadrilaterals = formulas::kDefinedForQuadrilaterals<M, Vec2<F>>;
 
+  static constexpr bool kBlind = kQuadrilaterals && !formulas::Formula<M>::kSeesInversion;
+
   template <class R>
   struct Elements {
     std::array<StarTriangle<R>, kMaxFan> triangles;
@@ -197,13 +199,23 @@ class Kernel {
     const Objective<M, false, F, Value::Rank> objective(star);
     Vec2<F> size = box();
     const F extent = size.x + size.y;
-    const auto ready = (objective({F(0.0F), F(0.0F)}) > F(1e-4F)) & (extent > F(0x1p-20F)) & (extent < F(0x1p20F));
+    auto ready = (objective({F(0.0F), F(0.0F)}) > F(1e-4F)) & (extent > F(0x1p-20F)) & (extent < F(0x1p20F));
+    if constexpr (kBlind) ready = ready & (smallest_jacobian(star) > F(1e-5F) * extent * extent);
     size = {select(ready, size.x, F(0.0F)), select(ready, size.y, F(0.0F))};
     select(ready, F(1.0F), F(0.0F)).store_aligned(ready_);
     const SearchParameters& parameters = task_.parameters;
     if constexpr (kIsRatio<M>)
       if (parameters.grid_points == RatioSearch<F>::kPoints) return search_by_rounds(star, size);
     return grid_search<F>(objective, size, parameters);
+  }
+
+  /// The least of all corners of the quadrilaterals around the vertices as they stand.
+  static F smallest_jacobian(const StarView<F>& star) {
+    using scalar::min;
+    F least = scalar::constant<F>(1e30);
+    for (const StarQuadrilateral<F>& q : star.quadrilaterals())
+      least = min(least, formulas::smallest_jacobian(formulas::Quadrilateral<Vec2<F>>({F(0.0F), F(0.0F)}, q.b, q.c, q.d)));
+    return least;
   }
 
   Candidate<F> search_by_rounds(const StarView<F>& star, Vec2<F> size) {
@@ -285,8 +297,9 @@ class Kernel {
 
   [[nodiscard]] bool gains(std::size_t slot) const {
     const double before = before_[slot], after = after_[slot], doubt = formulas::kRankError<M> * before;
-    if (after > before + doubt) return true;
     if (!(after > before - doubt) || (step_x_[slot] == 0.0 && step_y_[slot] == 0.0)) return false;
+    // A metric that does not see a corner turn over says nothing of how near it is to that.
+    if (after > before + doubt && !(kBlind && quadrilaterals_ > 0)) return true;
     return task_.gains(task_.owner, task_.vertex_of_rank[rank_[slot]], target_[slot]);
   }
 

@@ -52,7 +52,7 @@ struct LeastMargins {
   /// f(margin, row), from the last row to the first.
   template <class F>
   void backwards(F f) const {
-    f(m7, 7), f(m6, 6), f(m5, 5), f(m4, 4), f(m3, 3), f(m2, 2), f(m1, 1), f(m0, 0);
+    f(m7, 7U), f(m6, 6U), f(m5, 5U), f(m4, 4U), f(m3, 3U), f(m2, 2U), f(m1, 1U), f(m0, 0U);
   }
 
  private:
@@ -62,8 +62,8 @@ struct LeastMargins {
 template <class R>
 class RatioSearch {
  public:
-  static constexpr int kPoints = 8;  // candidates an axis: the one size this search is made for
-  static constexpr int kMaxForms = 48;
+  static constexpr std::size_t kPoints = 8;  // candidates an axis: the one size this search is made for
+  static constexpr std::size_t kMaxForms = 48;
 
   /// Searches all levels. `forms`: 1 to kMaxForms, of which it uses the memory. `cap`: what no candidate's quality can exceed. `box`: of
   /// the star's other vertices. In every slot the quality at the origin must be positive. Returns the offset and its quality, as
@@ -82,7 +82,7 @@ class RatioSearch {
   }
 
  private:
-  static constexpr int kHalf = kPoints / 2;
+  static constexpr std::size_t kHalf = kPoints / 2;
   using Line = std::array<R, kPoints>;
   static_assert(kPoints == 8, "LeastMargins has eight");
   /// N_k - t S_k, times w_k: a + b x + c y - d (x^2 + y^2).
@@ -172,7 +172,7 @@ class RatioSearch {
 
   /// The candidates' offsets from the centre: the first half of each axis is the negative of the second.
   void set_grid(Vec2<R> size) {
-    for (int i = 0; i < kHalf; ++i) {
+    for (std::size_t i = 0; i < kHalf; ++i) {
       const R s = scalar::constant<R>(static_cast<double>(kHalf + i) / (kPoints - 1) - 0.5);
       x_[kHalf + i] = size.x * s;
       y_[kHalf + i] = size.y * s;
@@ -184,7 +184,7 @@ class RatioSearch {
   /// Margins at threshold `t`, as a part of each column and one of each row.
   void fill_tables(R t) {
     Line xx, yy;
-    for (int i = kHalf; i < kPoints; ++i) {
+    for (std::size_t i = kHalf; i < kPoints; ++i) {
       xx[i] = x_[i] * x_[i];
       yy[i] = y_[i] * y_[i];
     }
@@ -193,7 +193,7 @@ class RatioSearch {
       const R w = weight_[k];
       const Margin m{(f.n0 - t * f.s0) * w, (f.nx - t * f.sx) * w, (f.ny - t * f.sy) * w, (t * f.s2) * w};
       margin_[k] = m;
-      for (int i = kHalf; i < kPoints; ++i) {
+      for (std::size_t i = kHalf; i < kPoints; ++i) {
         const R even_x = m.a - m.d * xx[i], odd_x = m.b * x_[i];
         column_[k][i] = even_x + odd_x;
         column_[k][kPoints - 1 - i] = even_x - odd_x;
@@ -208,8 +208,8 @@ class RatioSearch {
   Vec2<R> first_at_cap(Vec2<R> p) {
     using scalar::select;
     fill_tables(cap_);
-    for (int i = kPoints - 1; i >= 0; --i) {
-      least_margins([&](std::size_t k) { return column_[k][i]; }).backwards([&](R margin, int j) {
+    for (std::size_t i = kPoints; i-- > 0;) {
+      least_margins([&](std::size_t k) { return column_[k][i]; }).backwards([&](R margin, std::size_t j) {
         const auto reaches = !(margin < R(0));
         p = {select(reaches, x_[i], p.x), select(reaches, y_[j], p.y)};
       });
@@ -221,7 +221,7 @@ class RatioSearch {
   [[nodiscard]] Best largest_margin(R floor) const {
     using scalar::max, scalar::min, scalar::select;
     Best best{floor, R(0) - huge(), {x_[0], y_[0]}};
-    for (int i = 0; i < kPoints; ++i) {
+    for (std::size_t i = 0; i < kPoints; ++i) {
       const R high = least_margins([&](std::size_t k) { return column_[k][i]; }).largest();
       best.at.x = select(high > best.margin, x_[i], best.at.x);
       best.second = max(best.second, min(high, best.margin));
@@ -230,7 +230,9 @@ class RatioSearch {
     // The winning column again, for the row and for the next best beside it.
     const R x = best.at.x, xx = x * x;
     R high = R(0) - huge();
-    least_margins([&](std::size_t k) { return (margin_[k].a - margin_[k].d * xx) + margin_[k].b * x; }).backwards([&](R margin, int j) {
+    least_margins([&](std::size_t k) {
+      return (margin_[k].a - margin_[k].d * xx) + margin_[k].b * x;
+    }).backwards([&](R margin, std::size_t j) {
       best.at.y = select(margin == best.margin, y_[j], best.at.y);
       best.second = max(best.second, min(high, margin));
       high = max(high, margin);

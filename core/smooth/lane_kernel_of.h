@@ -30,7 +30,7 @@ class Kernel {
   static_assert(kMaxPoints > kMaxFan && kMaxFan <= RatioSearch<F>::kMaxForms);
   static_assert(kMaxTriangles + 4 * kMaxQuadrilaterals <= RatioSearch<F>::kMaxForms);
   static constexpr bool kQuadrilaterals = formulas::kDefinedForQuadrilaterals<M, Vec2<F>>;
-
+  /// Positive quality does not mean that no corner has turned over.
   static constexpr bool kBlind = kQuadrilaterals && !formulas::Formula<M>::kSeesInversion;
 
   template <class R>
@@ -200,7 +200,7 @@ class Kernel {
     Vec2<F> size = box();
     const F extent = size.x + size.y;
     auto ready = (objective({F(0.0F), F(0.0F)}) > F(1e-4F)) & (extent > F(0x1p-20F)) & (extent < F(0x1p20F));
-    if constexpr (kBlind) ready = ready & (smallest_jacobian(star) > F(1e-5F) * extent * extent);
+    if constexpr (kBlind) ready = ready & (smallest_jacobian(star, {F(0.0F), F(0.0F)}) > F(1e-5F) * extent * extent);
     size = {select(ready, size.x, F(0.0F)), select(ready, size.y, F(0.0F))};
     select(ready, F(1.0F), F(0.0F)).store_aligned(ready_);
     const SearchParameters& parameters = task_.parameters;
@@ -209,12 +209,13 @@ class Kernel {
     return grid_search<F>(objective, size, parameters);
   }
 
-  /// The least of all corners of the quadrilaterals around the vertices as they stand.
-  static F smallest_jacobian(const StarView<F>& star) {
+  /// The least of all corners of the quadrilaterals, with the vertices at `p`.
+  template <class R>
+  static R smallest_jacobian(const StarView<R>& star, Vec2<R> p) {
     using scalar::min;
-    F least = scalar::constant<F>(1e30);
-    for (const StarQuadrilateral<F>& q : star.quadrilaterals())
-      least = min(least, formulas::smallest_jacobian(formulas::Quadrilateral<Vec2<F>>({F(0.0F), F(0.0F)}, q.b, q.c, q.d)));
+    R least = scalar::constant<R>(1e30);
+    for (const StarQuadrilateral<R>& q : star.quadrilaterals())
+      least = min(least, formulas::smallest_jacobian(formulas::Quadrilateral<Vec2<R>>(p, q.b, q.c, q.d)));
     return least;
   }
 
@@ -291,7 +292,9 @@ class Kernel {
       const StarView<D> star = elements<D>([this, slot](std::size_t i) { return exact_point(i, slot); }, room);
       const Objective<M, false, D, Value::Rank> objective(star);
       objective({D(0.0), D(0.0)}).store_aligned(before_ + slot);
-      objective({D::load_aligned(step_x_ + slot), D::load_aligned(step_y_ + slot)}).store_aligned(after_ + slot);
+      const Vec2<D> step{D::load_aligned(step_x_ + slot), D::load_aligned(step_y_ + slot)};
+      objective(step).store_aligned(after_ + slot);
+      if constexpr (kBlind) (smallest_jacobian(star, step) * D(task_.inverse * task_.inverse)).store_aligned(corner_ + slot);
     }
   }
 
@@ -299,7 +302,8 @@ class Kernel {
     const double before = before_[slot], after = after_[slot], doubt = formulas::kRankError<M> * before;
     if (!(after > before - doubt) || (step_x_[slot] == 0.0 && step_y_[slot] == 0.0)) return false;
     // A metric that does not see a corner turn over says nothing of how near it is to that.
-    if (after > before + doubt && !(kBlind && quadrilaterals_ > 0)) return true;
+    const bool sound = !kBlind || quadrilaterals_ == 0 || corner_[slot] > 1e-9;
+    if (after > before + doubt && sound) return true;
     return task_.gains(task_.owner, task_.vertex_of_rank[rank_[slot]], target_[slot]);
   }
 
@@ -320,6 +324,7 @@ class Kernel {
   alignas(64) double exact_x_[kMaxPoints][kWidth], exact_y_[kMaxPoints][kWidth];
   alignas(64) float ready_[kWidth];
   alignas(64) double step_x_[kWidth], step_y_[kWidth], before_[kWidth], after_[kWidth];
+  alignas(64) double corner_[kWidth];  // kBlind: the smallest Jacobian after the move, in units of scale^2
   double target_[kWidth][3];
   Elements<F> elements_;
   std::array<RatioForm<F>, RatioSearch<F>::kMaxForms> forms_;

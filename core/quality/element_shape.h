@@ -26,8 +26,7 @@ struct SurfaceVector {
 /// Calls visitor(Triangle) or visitor(Quadrilateral) with the element's corners as differences from its first one, so that nothing
 /// is lost far from the origin; fallback for other kinds.
 template <class Result, class Visitor>
-[[nodiscard]] Result visit_element(const QualityContext& context, std::span<const Vec3> positions, Index element, Result fallback,
-                                   Visitor visitor) {
+[[nodiscard]] Result visit_element(const QualityContext& context, PositionView positions, Index element, Result fallback, Visitor visitor) {
   const ElementKind kind = context.mesh.elements.kind(element);
   if (kind != ElementKind::Triangle && kind != ElementKind::Quadrilateral) return fallback;
   const auto corners = context.mesh.elements.corners(element);

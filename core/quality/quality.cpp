@@ -16,17 +16,17 @@ constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kGrain = 8192;
 
 template <Metric M>
-double quality_of(const QualityContext& context, std::span<const Vec3> positions, Index element) {
+double quality_of(const QualityContext& context, PositionView positions, Index element) {
   return visit_element(context, positions, element, kUndefined, [](const auto& shape) { return evaluate<M>(shape); });
 }
 
 }  // namespace
 
-double element_quality(const QualityContext& context, std::span<const Vec3> positions, Metric metric, Index element) {
+double element_quality(const QualityContext& context, PositionView positions, Metric metric, Index element) {
   return formulas::with_metric(metric, [&]<Metric M>() { return quality_of<M>(context, positions, element); });
 }
 
-double smallest_jacobian(const QualityContext& context, std::span<const Vec3> positions, Index element) {
+double smallest_jacobian(const QualityContext& context, PositionView positions, Index element) {
   return visit_element(context, positions, element, kInfinity, [](const auto& shape) { return formulas::smallest_jacobian(shape); });
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/mesh/mesh.h"
 #include "core/mesh/plane.h"
+#include "core/mesh/position_view.h"
 #include "core/mesh/topology.h"
 #include "core/quality/metric.h"
 
@@ -22,10 +23,10 @@ struct QualityContext {
 };
 
 /// Quality of one element with the mesh's vertices at `positions`. NaN where the metric is not defined for its kind.
-[[nodiscard]] double element_quality(const QualityContext& context, std::span<const Vec3> positions, Metric metric, Index element);
+[[nodiscard]] double element_quality(const QualityContext& context, PositionView positions, Metric metric, Index element);
 
 /// Smallest signed corner Jacobian of an element (twice the corner triangle's area; mesh units squared). Inverted means <= 0.
-[[nodiscard]] double smallest_jacobian(const QualityContext& context, std::span<const Vec3> positions, Index element);
+[[nodiscard]] double smallest_jacobian(const QualityContext& context, PositionView positions, Index element);
 
 /// Quality of every element, out.size() == mesh.elements.size().
 void element_qualities(const QualityContext& context, std::span<const Vec3> positions, Metric metric, ThreadPool* pool,

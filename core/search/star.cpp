@@ -19,7 +19,7 @@ struct Box {
 };
 
 /// Offsets of the element's other corners from its corner `corner`, in the element's order. Returns how many.
-std::size_t other_corners(const QualityContext& context, std::span<const Vec3> positions, Incidence at, Vec3 origin,
+std::size_t other_corners(const QualityContext& context, PositionView positions, Incidence at, Vec3 origin,
                           std::array<Vec2<double>, 3>& out) {
   const auto corners = context.mesh.elements.corners(at.element);
   const std::size_t n = corners.size();
@@ -35,8 +35,8 @@ Vec2<Real> scaled(Vec2<double> p, double inverse) {
 }  // namespace
 
 template <class Real>
-void gather_star(const QualityContext& context, const Topology& topology, std::span<const Vec3> positions,
-                 std::span<const double> reference_measure, Index vertex, Star<Real>& star) {
+void gather_star(const QualityContext& context, const Topology& topology, PositionView positions, std::span<const double> reference_measure,
+                 Index vertex, Star<Real>& star) {
   star.triangles.clear();
   star.quadrilaterals.clear();
   const Vec3 origin = positions[vertex];
@@ -61,9 +61,7 @@ void gather_star(const QualityContext& context, const Topology& topology, std::s
   }
 }
 
-template void gather_star<float>(const QualityContext&, const Topology&, std::span<const Vec3>, std::span<const double>, Index,
-                                 Star<float>&);
-template void gather_star<double>(const QualityContext&, const Topology&, std::span<const Vec3>, std::span<const double>, Index,
-                                  Star<double>&);
+template void gather_star<float>(const QualityContext&, const Topology&, PositionView, std::span<const double>, Index, Star<float>&);
+template void gather_star<double>(const QualityContext&, const Topology&, PositionView, std::span<const double>, Index, Star<double>&);
 
 }  // namespace dmoscope

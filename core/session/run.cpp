@@ -85,14 +85,19 @@ Run& Run::operator=(Run&&) noexcept = default;
 
 std::string Run::title() const { return fmt::format("{} · {}", parameters_.method, info(parameters_.metric).name); }
 
+std::span<const Vec3> Run::positions() const {
+  smoother_->store(positions_, pool_.get());
+  return positions_;
+}
+
 Statistics Run::statistics() const {
   if (moment_.visits == 0 && moment_.iteration < history_.records().size()) return history_.records()[moment_.iteration].statistics;
-  return compute_statistics(input_->quality_context(), positions_, parameters_.metric, immovable_, pool_.get());
+  return compute_statistics(input_->quality_context(), positions(), parameters_.metric, immovable_, pool_.get());
 }
 
 void Run::record() {
   if (moment_.iteration < history_.records().size()) return;  // been here before
-  history_.record({moment_.iteration, statistics(), moved_, seconds_}, positions_, pool_.get());
+  history_.record({moment_.iteration, statistics(), moved_, seconds_}, positions(), pool_.get());
 }
 
 void Run::visit(std::uint64_t count, Progress& progress) {

@@ -63,7 +63,7 @@ class Run {
   [[nodiscard]] const InputMesh& input() const noexcept { return *input_; }
   [[nodiscard]] const RunParameters& parameters() const noexcept { return parameters_; }
   [[nodiscard]] std::string title() const;  // "dmo · mean-ratio"
-  [[nodiscard]] std::span<const Vec3> positions() const noexcept { return positions_; }
+  [[nodiscard]] std::span<const Vec3> positions() const;
   [[nodiscard]] const Moment& moment() const noexcept { return moment_; }
   /// Statistics of the optimised metric at this very moment.
   [[nodiscard]] Statistics statistics() const;
@@ -109,7 +109,7 @@ class Run {
   std::vector<std::uint8_t> fixed_;
   std::shared_ptr<const Colouring> colouring_;
   std::unique_ptr<Smoother> smoother_;
-  std::vector<Vec3> positions_;
+  mutable std::vector<Vec3> positions_;  // the smoother may be ahead of them until positions() asks it
   std::vector<Index> immovable_;
   Moment moment_;
   std::uint64_t moved_ = 0;       // in the iteration under way

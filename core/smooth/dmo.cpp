@@ -34,26 +34,26 @@ class Reference {
  public:
   Reference(const InputMesh& input, const SearchParameters& parameters) : input_(input), parameters_(parameters) {}
 
-  /// Moves `vertex` if it gains. `star`: room to work in.
-  bool visit(Index vertex, std::span<Vec3> positions, Star<double>& star) const {
+  /// Moves `vertex` if it gains. `place`: where `positions` has it. `star`: room to work in.
+  bool visit(Index vertex, PositionView positions, Vec3& place, Star<double>& star) const {
     gather_star(input_.quality_context(), input_.topology, positions, input_.reference_measure, vertex, star);
     const Vec2<double> found = search_star<M>(star, parameters_).offset;
     const Vec2<double> offset{found.x * star.scale, found.y * star.scale};
     if (offset.x == 0.0 && offset.y == 0.0) return false;
-    const Vec3 old = positions[vertex], step = input_.geometry.plane.lift(offset);
+    const Vec3 step = input_.geometry.plane.lift(offset);
     const bool single = input_.mesh.single_precision;
-    const Vec3 target{displaced(old.x, step.x, single), displaced(old.y, step.y, single), displaced(old.z, step.z, single)};
-    if (!gains(vertex, target, positions)) return false;
-    positions[vertex] = target;
+    const Vec3 target{displaced(place.x, step.x, single), displaced(place.y, step.y, single), displaced(place.z, step.z, single)};
+    if (!gains(vertex, target, positions, place)) return false;
+    place = target;
     return true;
   }
 
   /// A search may be in float and in other rounding than the statistics; what counts is judged by the statistics' own functions.
-  bool gains(Index vertex, Vec3 target, std::span<Vec3> positions) const {
+  bool gains(Index vertex, Vec3 target, PositionView positions, Vec3& place) const {
     const StarState before = star_state(input_, positions, M, vertex);
-    const Vec3 old = std::exchange(positions[vertex], target);
+    const Vec3 old = std::exchange(place, target);
     const bool better = star_state(input_, positions, M, vertex).better_than(before);
-    positions[vertex] = old;
+    place = old;
     return better;
   }
 
@@ -74,11 +74,12 @@ class ScalarDmo final : public Smoother {
     for_chunks(pool, count, kGrain, [&](std::size_t begin, std::size_t end) {
       Star<double> star;
       std::uint64_t here = 0;
-      for (std::size_t i = begin; i < end; ++i) here += reference_.visit(vertices[i], positions, star) ? 1U : 0U;
+      for (std::size_t i = begin; i < end; ++i) here += reference_.visit(vertices[i], positions, positions[vertices[i]], star) ? 1U : 0U;
       moved += here;
     });
     return moved;
   }
+  void store(std::span<Vec3> /*positions*/, ThreadPool* /*pool*/) override {}  // they are always up to date
   void positions_replaced() override {}
 
  private:
@@ -87,8 +88,8 @@ class ScalarDmo final : public Smoother {
   Reference<M> reference_;
 };
 
-/// For speed: lanes of many vertices. Keeps its own copy of the positions in the order of the visits, and who needs no visit because
-/// nothing of its star moved since it was last found at its best.
+/// For speed: lanes of many vertices. Works on its own copy of the positions in the order of the visits, and keeps who needs no visit
+/// because nothing of its star moved since it was last found at its best.
 template <Metric M>
 class LaneDmo final : public Smoother {
  public:
@@ -98,31 +99,37 @@ class LaneDmo final : public Smoother {
         reference_(*input_, parameters),
         table_(build_star_table(input_->mesh, input_->topology, *colouring, pool)),
         kernel_(lane_kernel(parameters.simd.value_or(best_simd_level()), M)),
-        ranked_(large_vector<double>(3 * table_.vertex_of_rank.size())),
+        ranked_(large_vector<Vec3>(table_.vertex_of_rank.size())),
         awake_(large_vector<std::uint8_t>(table_.vertex_of_rank.size())),
         task_(describe(parameters)) {}
 
   std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
-    if (positions_.data() != positions.data()) positions_replaced();
-    positions_ = positions;
-    if (stale_) load(pool);
-    task_.positions = &positions[0].x;
+    if (stale_) load(positions, pool);
     std::atomic<std::uint64_t> moved{0};
     const auto chunk = [&](std::size_t begin, std::size_t end) { moved += kernel_(task_, first + begin, first + end); };
+    stored_ = false;
     for_chunks(pool, count, kLaneGrain, std::cref(chunk));  // by reference: a function object of this size would be allocated
     return moved;
+  }
+  void store(std::span<Vec3> positions, ThreadPool* pool) override {
+    if (stored_ || stale_) return;
+    for_chunks(pool, positions.size(), kCopyGrain, [&](std::size_t first, std::size_t last) {
+      for (std::size_t v = first; v < last; ++v) positions[v] = ranked_[table_.rank_of_vertex[v]];
+    });
+    stored_ = true;
   }
   void positions_replaced() override { stale_ = true; }
 
  private:
+  static constexpr std::size_t kCopyGrain = std::size_t{1} << 16U;
+
   /// What does not change between visits.
   LaneTask describe(const SearchParameters& parameters) {
     const Plane& plane = input_->geometry.plane;
     LaneTask task{};
     task.shapes = table_.shapes.data();
     task.others = table_.others.data();
-    task.vertex_of_rank = table_.vertex_of_rank.data();
-    task.ranked = ranked_.data();
+    task.ranked = ranked_.empty() ? nullptr : &ranked_[0].x;
     task.awake = awake_.data();
     const auto take = [](Vec3 from, double* to) { to[0] = from.x, to[1] = from.y, to[2] = from.z; };
     take(plane.u, task.u);
@@ -137,44 +144,44 @@ class LaneDmo final : public Smoother {
     task.single_precision = input_->mesh.single_precision;
     task.parameters = parameters;
     task.owner = this;
-    task.gains = [](const void* owner, Index vertex, const double* p) {
-      const auto& self = *static_cast<const LaneDmo*>(owner);
-      return self.reference_.gains(vertex, {p[0], p[1], p[2]}, self.positions_);
+    task.gains = [](void* owner, Index rank, const double* p) {
+      auto& self = *static_cast<LaneDmo*>(owner);
+      return self.reference_.gains(self.table_.vertex_of_rank[rank], {p[0], p[1], p[2]}, self.view(), self.ranked_[rank]);
     };
-    task.visit_alone = [](const void* owner, Index vertex) {
-      const auto& self = *static_cast<const LaneDmo*>(owner);
+    task.visit_alone = [](void* owner, Index rank) {
+      auto& self = *static_cast<LaneDmo*>(owner);
       Star<double> star;
-      return self.reference_.visit(vertex, self.positions_, star);
+      return self.reference_.visit(self.table_.vertex_of_rank[rank], self.view(), self.ranked_[rank], star);
     };
     return task;
   }
 
-  void load(ThreadPool* pool) {
-    for_chunks(pool, table_.vertex_of_rank.size(), std::size_t{1} << 16U, [&](std::size_t first, std::size_t last) {
+  void load(std::span<const Vec3> positions, ThreadPool* pool) {
+    for_chunks(pool, ranked_.size(), kCopyGrain, [&](std::size_t first, std::size_t last) {
       for (std::size_t rank = first; rank < last; ++rank) {
-        const Vec3 p = positions_[table_.vertex_of_rank[rank]];
-        double* to = &ranked_[3 * rank];
-        to[0] = p.x, to[1] = p.y, to[2] = p.z;
+        ranked_[rank] = positions[table_.vertex_of_rank[rank]];
         awake_[rank] = 1;
       }
     });
     stale_ = false;
   }
 
+  [[nodiscard]] PositionView view() const { return {ranked_, table_.rank_of_vertex}; }
+
   std::shared_ptr<const InputMesh> input_;
   Reference<M> reference_;
   StarTable table_;
   LaneKernel kernel_;
-  std::vector<double> ranked_;
+  std::vector<Vec3> ranked_;
   std::vector<std::uint8_t> awake_;
   LaneTask task_;
-  std::span<Vec3> positions_;
-  bool stale_ = true;
+  bool stale_ = true;    // ranked_ is older than the run's positions
+  bool stored_ = false;  // and these are as new as ranked_
 };
 
 }  // namespace
 
-StarState star_state(const InputMesh& input, std::span<const Vec3> positions, Metric metric, Index vertex) {
+StarState star_state(const InputMesh& input, PositionView positions, Metric metric, Index vertex) {
   const QualityContext context = input.quality_context();
   StarState state{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   for (const Incidence& at : input.topology.star(vertex)) {

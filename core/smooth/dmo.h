@@ -18,7 +18,7 @@ struct StarState {
     return jacobian > 0.0 && quality > other.quality;
   }
 };
-[[nodiscard]] StarState star_state(const InputMesh& input, std::span<const Vec3> positions, Metric metric, Index vertex);
+[[nodiscard]] StarState star_state(const InputMesh& input, PositionView positions, Metric metric, Index vertex);
 
 /// See make_smoother, which checks the arguments.
 [[nodiscard]] std::unique_ptr<Smoother> make_dmo_smoother(std::shared_ptr<const InputMesh> input,

@@ -14,9 +14,7 @@ namespace dmoscope {
 struct LaneTask {
   const StarShape* shapes;
   const Index* others;
-  const Index* vertex_of_rank;
-  double* ranked;         // 3 a rank: the working copy of the positions
-  double* positions;      // 3 a vertex: where they are wanted; kept equal to `ranked`
+  double* ranked;         // 3 a rank: the positions
   std::uint8_t* awake;    // one a rank: has its star changed since it was last found at its best?
   double u[3], v[3];      // the mesh's plane
   int u_axis, v_axis;     // the coordinates they are, or -1 where the plane is parallel to no coordinate plane
@@ -24,11 +22,11 @@ struct LaneTask {
   bool single_precision;  // see Mesh
   SearchParameters parameters;
 
-  const void* owner;  // for the two below
-  /// Exactly: would `vertex` of the mesh gain by standing at `position` (3 coordinates)? Leaves it where it is.
-  bool (*gains)(const void* owner, Index vertex, const double* position);
-  /// The reference's visit of `vertex`; true if it moved in `positions`.
-  bool (*visit_alone)(const void* owner, Index vertex);
+  void* owner;  // for the two below
+  /// Exactly: would the vertex of this rank gain by standing at `position` (3 coordinates)? Leaves it where it is.
+  bool (*gains)(void* owner, Index rank, const double* position);
+  /// The reference's visit of the vertex of this rank; true if it moved.
+  bool (*visit_alone)(void* owner, Index rank);
 };
 
 /// Visits the ranks [first, last), no two of which share an element, as far as they are awake, and wakes their neighbours where they

@@ -60,9 +60,8 @@ class Kernel {
     return moved;
   }
 
-  /// Asks for the memory that the visit of `rank` will read and write, long before it does.
+  /// Asks for the memory that the visit of `rank` will read, long before it does.
   void prefetch(std::size_t rank) const {
-    __builtin_prefetch(task_.positions + 3 * std::size_t{task_.vertex_of_rank[rank]}, 1);
     for (std::uint32_t i = task_.shapes[rank].first; i < task_.shapes[rank + 1].first; ++i)
       __builtin_prefetch(task_.ranked + 3 * std::size_t{task_.others[i]});
   }
@@ -77,13 +76,12 @@ class Kernel {
   }
 
   std::uint64_t visit_alone(Index rank) {
-    if (!task_.visit_alone(task_.owner, task_.vertex_of_rank[rank])) {
+    const bool moved = task_.visit_alone(task_.owner, rank);
+    if (moved)
+      wake_neighbours(rank);
+    else
       set_awake(rank, false);
-      return 0;
-    }
-    const double* to = task_.positions + 3 * std::size_t{task_.vertex_of_rank[rank]};
-    settle(rank, to);
-    return 1;
+    return moved ? 1 : 0;
   }
 
   /// Visits rank_[0 .. count_), all alike.
@@ -252,9 +250,9 @@ class Kernel {
       if (ready_[slot] <= 0.0F) {
         moved += visit_alone(rank);
       } else if (any && gains(slot)) {
-        double* to = task_.positions + 3 * std::size_t{task_.vertex_of_rank[rank]};
+        double* to = task_.ranked + 3 * std::size_t{rank};
         for (int i = 0; i < 3; ++i) to[i] = target_[slot][i];
-        settle(rank, to);
+        wake_neighbours(rank);
         ++moved;
       } else {
         set_awake(rank, false);
@@ -304,13 +302,11 @@ class Kernel {
     // A metric that does not see a corner turn over says nothing of how near it is to that.
     const bool sound = !kBlind || quadrilaterals_ == 0 || corner_[slot] > 1e-9;
     if (after > before + doubt && sound) return true;
-    return task_.gains(task_.owner, task_.vertex_of_rank[rank_[slot]], target_[slot]);
+    return task_.gains(task_.owner, rank_[slot], target_[slot]);
   }
 
-  /// The vertex moved: its working copy follows and its neighbours wake; it stays awake itself.
-  void settle(Index rank, const double* to) {
-    double* at = task_.ranked + 3 * std::size_t{rank};
-    for (int i = 0; i < 3; ++i) at[i] = to[i];
+  /// Of a vertex that moved; it stays awake itself.
+  void wake_neighbours(Index rank) {
     const std::uint32_t end = task_.shapes[rank + 1].first;
     for (std::uint32_t i = task_.shapes[rank].first; i < end; ++i) set_awake(task_.others[i], true);
   }

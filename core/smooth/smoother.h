@@ -20,9 +20,12 @@ class Smoother {
   virtual ~Smoother() = default;
   /// Visits the vertices [first, first + count) of the colouring's order, all of one class (so that each sees the others' old and new
   /// positions alike), and moves those that gain. Returns how many moved. The result does not depend on the pool. `positions`: of the
-  /// whole mesh, and the ones that the last call left, unless positions_replaced() was called in between.
+  /// whole mesh, and the ones that the last call left, unless positions_replaced() was called in between; what moved may be missing from
+  /// them until store().
   virtual std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) = 0;
-  /// Forgets what was derived from the positions of the last visit.
+  /// Brings `positions` up to date with all visits so far.
+  virtual void store(std::span<Vec3> positions, ThreadPool* pool) = 0;
+  /// Forgets what was derived from the positions of the last visit, and what store() would bring.
   virtual void positions_replaced() = 0;
 };
 

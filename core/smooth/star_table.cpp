@@ -91,11 +91,11 @@ std::vector<Index> rank_vertices(std::size_t count, std::span<const Index> visit
 StarTable build_star_table(const Mesh& mesh, const Topology& topology, const Colouring& colouring, ThreadPool* pool) {
   StarTable table;
   const std::vector<Index>& visits = colouring.order;
-  const std::vector<Index> rank = rank_vertices(mesh.positions.size(), visits, table.vertex_of_rank);
+  table.rank_of_vertex = rank_vertices(mesh.positions.size(), visits, table.vertex_of_rank);
   table.shapes = large_vector<StarShape>(visits.size() + 1);
   std::vector<std::vector<Index>> chunks((visits.size() + kGrain - 1) / kGrain);
   for_chunks(pool, visits.size(), kGrain, [&](std::size_t first, std::size_t last) {
-    Chunk chunk(mesh, topology, rank);
+    Chunk chunk(mesh, topology, table.rank_of_vertex);
     chunk.others.reserve((last - first) * 7);  // most stars are fans of six
     for (std::size_t i = first; i < last; ++i) table.shapes[i] = chunk.add(visits[i]);
     chunks[first / kGrain] = std::move(chunk.others);

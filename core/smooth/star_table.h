@@ -28,6 +28,7 @@ inline constexpr std::size_t kMaxFan = 32, kMaxTriangles = 16, kMaxQuadrilateral
 struct StarTable {
   /// rank -> vertex of the mesh: first the free ones in the order of the visits, then all others.
   std::vector<Index> vertex_of_rank;
+  std::vector<Index> rank_of_vertex;  // its inverse
   /// One a visit, and one more that ends the last.
   std::vector<StarShape> shapes;
   std::vector<Index> others;

@@ -38,6 +38,7 @@ std::vector<std::vector<Vec3>> always_awake(const dmoscope::Run& run) {
       const std::uint64_t first = colouring->class_offsets[c], count = colouring->class_offsets[c + 1] - first;
       smoother->positions_replaced();
       smoother->visit(first, count, positions, nullptr);
+      smoother->store(positions, nullptr);
     }
     after.push_back(positions);
   }

@@ -57,6 +57,7 @@ Tally compare(const std::shared_ptr<const InputMesh>& input, Metric metric, int 
       other = start;
       lanes->positions_replaced();
       lanes->visit(first, count, other, nullptr);
+      lanes->store(other, nullptr);
       reference->visit(first, count, positions, nullptr);
       for (const Index v : colouring->members(c)) {
         ++tally.visits;

@@ -50,6 +50,7 @@ TEST(Allocation, NoneWhileStepping) {
       const auto iterate = [&] {
         for (Index c = 0; c < colouring->class_count(); ++c)
           moved += smoother->visit(colouring->class_offsets[c], colouring->members(c).size(), positions, nullptr);
+        smoother->store(positions, nullptr);
       };
       iterate();
       const std::uint64_t before = allocations, moved_before = moved;

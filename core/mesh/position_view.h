@@ -1,0 +1,25 @@
+#pragma once
+// Positions of a mesh's vertices, wherever and in whatever order they stand.
+
+#include <span>
+#include <vector>
+
+#include "core/base/vec.h"
+
+namespace dmoscope {
+
+class PositionView {
+ public:
+  PositionView(std::span<const Vec3> positions) : at_(positions.data()) {}     // NOLINT(google-explicit-constructor): a view
+  PositionView(const std::vector<Vec3>& positions) : at_(positions.data()) {}  // NOLINT(google-explicit-constructor)
+  PositionView(std::span<Vec3> positions) : at_(positions.data()) {}           // NOLINT(google-explicit-constructor)
+  /// The position of vertex v is ranked[rank_of_vertex[v]].
+  PositionView(std::span<const Vec3> ranked, std::span<const Index> rank_of_vertex) : at_(ranked.data()), rank_(rank_of_vertex.data()) {}
+  [[nodiscard]] const Vec3& operator[](Index vertex) const { return at_[rank_ == nullptr ? vertex : rank_[vertex]]; }
+
+ private:
+  const Vec3* at_;
+  const Index* rank_ = nullptr;
+};
+
+}  // namespace dmoscope

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/base/memory.h"
 #include "core/base/thread_pool.h"
@@ -10,9 +11,9 @@ namespace dmoscope {
 
 namespace {
 
-constexpr std::size_t kGrain = 8192;  // visits a chunk
+constexpr std::size_t kGrain = 8192;  // vertices a chunk
 
-/// What one chunk of visits makes; `first` of its shapes counts from the chunk's own beginning.
+/// What one chunk of vertices makes; `first` of its shapes counts from the chunk's own beginning.
 class Chunk {
  public:
   Chunk(const Mesh& mesh, const Topology& topology, std::span<const Index> rank) : mesh_(mesh), topology_(topology), rank_(rank) {}
@@ -92,25 +93,39 @@ StarTable build_star_table(const Mesh& mesh, const Topology& topology, const Col
   StarTable table;
   const std::vector<Index>& visits = colouring.order;
   table.rank_of_vertex = rank_vertices(mesh.positions.size(), visits, table.vertex_of_rank);
+  const std::vector<Index>& rank = table.rank_of_vertex;
   table.shapes = large_vector<StarShape>(visits.size() + 1);
-  std::vector<std::vector<Index>> chunks((visits.size() + kGrain - 1) / kGrain);
-  for_chunks(pool, visits.size(), kGrain, [&](std::size_t first, std::size_t last) {
-    Chunk chunk(mesh, topology, table.rank_of_vertex);
+
+  // In the mesh's order, in which a star's elements lie together in memory, and from there to each one's place.
+  std::vector<std::vector<Index>> chunks((rank.size() + kGrain - 1) / kGrain);
+  auto sizes = large_vector<std::uint32_t>(visits.size());
+  for_chunks(pool, rank.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    Chunk chunk(mesh, topology, rank);
     chunk.others.reserve((last - first) * 7);  // most stars are fans of six
-    for (std::size_t i = first; i < last; ++i) table.shapes[i] = chunk.add(visits[i]);
+    for (std::size_t v = first; v < last; ++v) {
+      if (rank[v] >= visits.size()) continue;
+      const StarShape shape = chunk.add(static_cast<Index>(v));
+      table.shapes[rank[v]] = shape;
+      sizes[rank[v]] = static_cast<std::uint32_t>(chunk.others.size()) - shape.first;
+    }
     chunks[first / kGrain] = std::move(chunk.others);
   });
 
-  std::vector<std::uint32_t> offsets(chunks.size() + 1, 0);
-  for (std::size_t i = 0; i < chunks.size(); ++i) offsets[i + 1] = offsets[i] + static_cast<std::uint32_t>(chunks[i].size());
-  table.others = large_vector<Index>(offsets.back());
-  for_chunks(pool, visits.size(), kGrain, [&](std::size_t first, std::size_t last) {
-    const std::size_t chunk = first / kGrain;
-    for (std::size_t i = first; i < last; ++i) table.shapes[i].first += offsets[chunk];
-    std::ranges::copy(chunks[chunk], table.others.begin() + offsets[chunk]);
-    chunks[chunk] = {};
+  std::uint32_t end = 0;
+  for (std::size_t i = 0; i < visits.size(); ++i) table.shapes[i].first = std::exchange(end, end + sizes[i]);
+  table.shapes.back().first = end;
+  table.others = large_vector<Index>(end);
+  for_chunks(pool, rank.size(), kGrain, [&](std::size_t first, std::size_t last) {
+    std::vector<Index>& chunk = chunks[first / kGrain];
+    auto from = chunk.cbegin();
+    for (std::size_t v = first; v < last; ++v) {
+      if (rank[v] >= visits.size()) continue;
+      const auto next = from + sizes[rank[v]];
+      std::copy(from, next, table.others.begin() + table.shapes[rank[v]].first);
+      from = next;
+    }
+    chunk = {};
   });
-  table.shapes.back().first = offsets.back();
   return table;
 }
 

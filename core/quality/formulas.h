@@ -86,8 +86,8 @@ template <class R>
 R right_angles(R y, R x) {
   constexpr double kCoefficients[] = {-0.002581223011, 0.01391841026, -0.03559491945, 0.0613841536,
                                       -0.08854509287,  0.1269837822,  -0.212184484,   0.6366193494};
-  const R width = abs(x), most = max(width, y);
-  const R r = min(width, y) / select(most > R(0), most, R(1)), square = r * r;
+  const R width = abs(x);
+  const R r = min(width, y) / max(max(width, y), scalar::constant<R>(1e-37)), square = r * r;
   R value = scalar::constant<R>(kCoefficients[0]);
   for (int i = 1; i < 8; ++i) value = value * square + scalar::constant<R>(kCoefficients[i]);
   value = value * r;
@@ -222,7 +222,7 @@ struct Formula<Metric::Rectangularity> {
     const R best = scalar::max3(corner(t.ab, V{} - t.ca, a, c), corner(t.bc, V{} - t.ab, b, a), corner(t.ca, V{} - t.bc, c, b));
     return scalar::sign(t.twice_area) * best;
   }
-  /// The metric itself, with two angles by a polynomial and the third by their sum.
+  /// The metric times its absolute value, with two angles by a polynomial and the third by their sum.
   template <class V>
   static RealOf<V> rank_triangle(const Triangle<V>& t) {
     using R = RealOf<V>;
@@ -230,8 +230,8 @@ struct Formula<Metric::Rectangularity> {
     const R aa = dot(t.ab, t.ab), bb = dot(t.bc, t.bc), cc = dot(t.ca, t.ca);
     const R at_a = right_angles(area2, R(0) - dot(t.ab, t.ca)), at_b = right_angles(area2, R(0) - dot(t.bc, t.ab));
     const auto corner = [](R right_angles, R u, R v) {
-      const R most = max(u, v);
-      return (R(1) - abs(R(1) - right_angles)) * sqrt(min(u, v) / select(most > R(0), most, R(1)));
+      const R closeness = R(1) - abs(R(1) - right_angles);
+      return closeness * closeness * (min(u, v) / max(max(u, v), scalar::constant<R>(1e-37)));
     };
     const R best = scalar::max3(corner(at_a, aa, cc), corner(at_b, aa, bb), corner(R(2) - (at_a + at_b), bb, cc));
     return scalar::sign(t.twice_area) * best;
@@ -278,7 +278,7 @@ struct Formula<Metric::AspectRatio> {
 
 /// See rank().
 template <Metric M>
-inline constexpr double kRankError = M == Metric::Rectangularity ? 1e-5 : 1e-10;
+inline constexpr double kRankError = M == Metric::Rectangularity ? 2e-5 : 1e-10;
 
 template <Metric M, class V>
 inline constexpr bool kDefinedForQuadrilaterals = requires(const Quadrilateral<V>& q) {

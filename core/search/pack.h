@@ -11,6 +11,20 @@
 
 #include "core/quality/scalar.h"
 
+#if defined(__aarch64__)
+namespace xsimd {
+// xsimd 8 divides and takes roots of floats on ARM by approximation, though the processor has instructions that round as IEEE 754 asks.
+template <>
+inline batch<float, neon64>& batch<float, neon64>::operator/=(const batch<float, neon64>& other) noexcept {
+  return *this = batch<float, neon64>(vdivq_f32(*this, other));
+}
+template <>
+inline batch<float, neon64> sqrt<float, neon64>(const batch<float, neon64>& x) noexcept {
+  return vsqrtq_f32(x);
+}
+}  // namespace xsimd
+#endif
+
 namespace dmoscope {
 
 /// The widest pack of `T` that this translation unit is compiled for.

@@ -59,6 +59,7 @@ struct LeastMargins {
   static R sum(R a, R b) { return scalar::Sum<R>::of(a, b); }
 };
 
+/// Searches one star, or one a slot where R is a pack. Large: keep one and use it again.
 template <class R>
 class RatioSearch {
  public:

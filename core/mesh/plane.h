@@ -15,6 +15,18 @@ struct Plane {
   [[nodiscard]] Vec3 lift(Vec2<double> offset) const { return offset.x * u + offset.y * v; }
 };
 
+/// Which coordinates (0 x, 1 y, 2 z) u and v of a plane are, exactly; -1 and -1 where it is parallel to no coordinate plane. One component
+/// of 1 is not enough: a plane tilted by 1e-9 has that too, and the other components count.
+struct PlaneAxes {
+  int u = -1, v = -1;
+  explicit PlaneAxes(const Plane& plane) {
+    const auto axis = [](Vec3 d) { return d == Vec3{1, 0, 0} ? 0 : d == Vec3{0, 1, 0} ? 1 : d == Vec3{0, 0, 1} ? 2 : -1; };
+    u = axis(plane.u);
+    v = axis(plane.v);
+    if (u < 0 || v < 0) u = v = -1;
+  }
+};
+
 enum class Shape { Planar, Surface, Volume };
 
 /// What kind of mesh this is.

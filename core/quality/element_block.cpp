@@ -40,11 +40,11 @@ struct Axes {
   double Vec3::*v = nullptr;
 
   explicit Axes(const Plane& plane) {
-    for (const auto coordinate : {&Vec3::x, &Vec3::y, &Vec3::z}) {
-      if (plane.u.*coordinate == 1.0) u = coordinate;
-      if (plane.v.*coordinate == 1.0) v = coordinate;
-    }
-    if (u == nullptr || v == nullptr) u = v = nullptr;
+    constexpr std::array kCoordinates{&Vec3::x, &Vec3::y, &Vec3::z};
+    const PlaneAxes axes(plane);
+    if (axes.u < 0) return;
+    u = kCoordinates[static_cast<std::size_t>(axes.u)];
+    v = kCoordinates[static_cast<std::size_t>(axes.v)];
   }
 };
 

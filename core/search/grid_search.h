@@ -45,12 +45,16 @@ class Objective {
 
  private:
   [[nodiscard]] static Real value(const formulas::Triangle<Vec2<Real>>& t) {
-    if constexpr (V == Value::Rank) return formulas::rank<M>(t);
-    return formulas::Formula<M>::triangle(t);
+    if constexpr (V == Value::Rank)
+      return formulas::rank<M>(t);
+    else
+      return formulas::Formula<M>::triangle(t);
   }
   [[nodiscard]] static Real value(const formulas::Quadrilateral<Vec2<Real>>& q) {
-    if constexpr (V == Value::Rank) return formulas::rank<M>(q);
-    return formulas::Formula<M>::quadrilateral(q);
+    if constexpr (V == Value::Rank)
+      return formulas::rank<M>(q);
+    else
+      return formulas::Formula<M>::quadrilateral(q);
   }
   static constexpr bool kQuadrilaterals = formulas::kDefinedForQuadrilaterals<M, Vec2<Real>>;
   static constexpr bool kNeedsJacobian = Untangling || !formulas::Formula<M>::kSeesInversion;

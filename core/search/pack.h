@@ -38,9 +38,9 @@ struct Constant<xsimd::batch<T, Arch>> {
 };
 
 /// a * 1 + b rounds once, as a + b does. The compiler must not see the 1, or it would make it a + b again.
-template <class Arch>
-struct Sum<xsimd::batch<float, Arch>> {
-  using R = xsimd::batch<float, Arch>;
+template <>
+struct Sum<Pack<float>> {
+  using R = Pack<float>;
   static R of(R a, R b) {
 #if defined(__AVX512F__)
     __m512 one = _mm512_set1_ps(1.0F);

@@ -7,7 +7,7 @@
 
 namespace dmoscope {
 
-/// Baseline is what every processor of the architecture has: SSE2 on x86-64, NEON on ARM. The others exist on x86-64 only.
+/// Baseline is what every processor of the architecture has: SSE2 on x86-64, NEON on 64-bit ARM. The others exist on x86-64 only.
 enum class SimdLevel : std::uint8_t { Baseline, Avx2, Avx512 };
 
 /// The levels that this program has and this processor runs, lowest first; never empty.

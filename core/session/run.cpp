@@ -128,6 +128,9 @@ void Run::choose_block(std::uint64_t visits, double seconds) {
 }
 
 void Run::end_iteration() {
+  const auto start = std::chrono::steady_clock::now();
+  smoother_->store(positions_, pool_.get());
+  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   moment_ = {moment_.iteration + 1, 0};
   record();
   last_moved_ = moved_;

@@ -63,6 +63,7 @@ class Run {
   [[nodiscard]] const InputMesh& input() const noexcept { return *input_; }
   [[nodiscard]] const RunParameters& parameters() const noexcept { return parameters_; }
   [[nodiscard]] std::string title() const;  // "dmo · mean-ratio"
+  /// As they are now; brings them up to date first, so only on the thread that steps. What it returned before a step is out of date.
   [[nodiscard]] std::span<const Vec3> positions() const;
   [[nodiscard]] const Moment& moment() const noexcept { return moment_; }
   /// Statistics of the optimised metric at this very moment.

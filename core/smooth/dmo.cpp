@@ -134,10 +134,9 @@ class LaneDmo final : public Smoother {
     const auto take = [](Vec3 from, double* to) { to[0] = from.x, to[1] = from.y, to[2] = from.z; };
     take(plane.u, task.u);
     take(plane.v, task.v);
-    const auto axis = [](const double* d) { return static_cast<int>(std::find(d, d + 3, 1.0) - d); };
-    task.u_axis = axis(task.u);
-    task.v_axis = axis(task.v);
-    if (task.u_axis > 2 || task.v_axis > 2) task.u_axis = task.v_axis = -1;
+    const PlaneAxes axes(plane);
+    task.u_axis = axes.u;
+    task.v_axis = axes.v;
     const double edge = input_->geometry.size / std::sqrt(1.0 + input_->mesh.elements.size());
     task.scale = edge > 0.0 && std::isfinite(edge) ? std::exp2(std::ilogb(edge)) : 1.0;
     task.inverse = 1.0 / task.scale;
@@ -150,7 +149,7 @@ class LaneDmo final : public Smoother {
     };
     task.visit_alone = [](void* owner, Index rank) {
       auto& self = *static_cast<LaneDmo*>(owner);
-      Star<double> star;
+      thread_local Star<double> star;  // kept: stepping allocates nothing
       return self.reference_.visit(self.table_.vertex_of_rank[rank], self.view(), self.ranked_[rank], star);
     };
     return task;

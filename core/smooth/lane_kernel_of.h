@@ -1,7 +1,7 @@
 #pragma once
 // The one definition of the lanes' kernel. Only the lane_kernel_*.cpp, each compiled for one kind of processor, include it. Whatever
 // runs here must be a template over the packs or always inlined, so that no copy compiled for one processor can be linked into another's
-// code; tests/walls.sh looks after that.
+// code; tests/walls.sh looks after that in optimised builds (others inline less).
 
 #include <array>
 
@@ -32,6 +32,9 @@ class Kernel {
   static constexpr bool kQuadrilaterals = formulas::kDefinedForQuadrilaterals<M, Vec2<F>>;
   /// Positive quality does not mean that no corner has turned over.
   static constexpr bool kBlind = kQuadrilaterals && !formulas::Formula<M>::kSeesInversion;
+
+  /// Below it a star is the reference's; formulas::kRankError relies on it.
+  static constexpr float kLeastRank = 1e-4F;
 
   template <class R>
   struct Elements {
@@ -176,9 +179,9 @@ class Kernel {
     return {out.triangles.data(), triangles_, out.quadrilaterals.data(), quadrilaterals_};
   }
 
-  /// Width and height of the bounding box of the points; 0 in slots that floats cannot hold.
+  /// Width and height of the bounding box of the points.
   [[nodiscard]] Vec2<F> box() const {
-    using scalar::max, scalar::min, scalar::select, scalar::abs;
+    using scalar::max, scalar::min;
     const std::size_t points = fan_ ? triangles_ : 2 * triangles_ + 3 * quadrilaterals_;
     Vec2<F> low = point(0), high = low;
     for (std::size_t i = 1; i < points; ++i) {
@@ -189,18 +192,19 @@ class Kernel {
     return high - low;
   }
 
-  /// The best candidate of every slot; `ready_` tells the slots for which it holds: those whose star floats can hold and whose quality is
+  /// The best candidate of every slot; `ready_` tells the slots for which it holds: those whose star floats can hold and whose rank is
   /// not too near to 0, the inverted ones' included. The others are the reference's.
   Candidate<F> search() {
-    using scalar::min, scalar::select;
+    using scalar::select;
     const StarView<F> star = elements<F>([this](std::size_t i) { return point(i); }, elements_);
     const Objective<M, false, F, Value::Rank> objective(star);
     Vec2<F> size = box();
     const F extent = size.x + size.y;
-    auto ready = (objective({F(0.0F), F(0.0F)}) > F(1e-4F)) & (extent > F(0x1p-20F)) & (extent < F(0x1p20F));
+    auto ready = (objective({F(0.0F), F(0.0F)}) > F(kLeastRank)) & (extent > F(0x1p-20F)) & (extent < F(0x1p20F));
     if constexpr (kBlind) ready = ready & (smallest_jacobian(star, {F(0.0F), F(0.0F)}) > F(1e-5F) * extent * extent);
     size = {select(ready, size.x, F(0.0F)), select(ready, size.y, F(0.0F))};
     select(ready, F(1.0F), F(0.0F)).store_aligned(ready_);
+    if constexpr (kBlind) (extent * extent).store_aligned(extent2_);
     const SearchParameters& parameters = task_.parameters;
     if constexpr (kIsRatio<M>)
       if (parameters.grid_points == RatioSearch<F>::kPoints) return search_by_rounds(star, size);
@@ -300,7 +304,7 @@ class Kernel {
     const double before = before_[slot], after = after_[slot], doubt = formulas::kRankError<M> * before;
     if (!(after > before - doubt) || (step_x_[slot] == 0.0 && step_y_[slot] == 0.0)) return false;
     // A metric that does not see a corner turn over says nothing of how near it is to that.
-    const bool sound = !kBlind || quadrilaterals_ == 0 || corner_[slot] > 1e-9;
+    const bool sound = !kBlind || quadrilaterals_ == 0 || corner_[slot] > 1e-9 * static_cast<double>(extent2_[slot]);
     if (after > before + doubt && sound) return true;
     return task_.gains(task_.owner, rank_[slot], target_[slot]);
   }
@@ -321,6 +325,7 @@ class Kernel {
   alignas(64) float ready_[kWidth];
   alignas(64) double step_x_[kWidth], step_y_[kWidth], before_[kWidth], after_[kWidth];
   alignas(64) double corner_[kWidth];  // kBlind: the smallest Jacobian after the move, in units of scale^2
+  alignas(64) float extent2_[kWidth];  // kBlind: the square of the star's extent, likewise
   double target_[kWidth][3];
   Elements<F> elements_;
   std::array<RatioForm<F>, RatioSearch<F>::kMaxForms> forms_;

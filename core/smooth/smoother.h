@@ -17,6 +17,9 @@ namespace dmoscope {
 
 class Smoother {
  public:
+  Smoother() = default;
+  Smoother(const Smoother&) = delete;
+  Smoother& operator=(const Smoother&) = delete;
   virtual ~Smoother() = default;
   /// Visits the vertices [first, first + count) of the colouring's order, all of one class (so that each sees the others' old and new
   /// positions alike), and moves those that gain. Returns how many moved. The result does not depend on the pool. `positions`: of the

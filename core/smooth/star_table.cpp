@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
+#include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/base/thread_pool.h"
 
@@ -111,9 +113,11 @@ StarTable build_star_table(const Mesh& mesh, const Topology& topology, const Col
     chunks[first / kGrain] = std::move(chunk.others);
   });
 
-  std::uint32_t end = 0;
-  for (std::size_t i = 0; i < visits.size(); ++i) table.shapes[i].first = std::exchange(end, end + sizes[i]);
-  table.shapes.back().first = end;
+  std::uint64_t end = 0;
+  for (std::size_t i = 0; i < visits.size(); ++i) table.shapes[i].first = static_cast<std::uint32_t>(std::exchange(end, end + sizes[i]));
+  if (end > std::numeric_limits<std::uint32_t>::max())
+    throw UsageError("the mesh is too large to be smoothed: its stars have 2^32 corners or more");
+  table.shapes.back().first = static_cast<std::uint32_t>(end);
   table.others = large_vector<Index>(end);
   for_chunks(pool, rank.size(), kGrain, [&](std::size_t first, std::size_t last) {
     std::vector<Index>& chunk = chunks[first / kGrain];

@@ -34,7 +34,7 @@ struct StarTable {
   std::vector<Index> others;
 };
 
-/// `colouring`: of the free vertices, in the order of the visits.
+/// `colouring`: of the free vertices, in the order of the visits. Throws UsageError where 32 bits cannot count the stars' corners.
 [[nodiscard]] StarTable build_star_table(const Mesh& mesh, const Topology& topology, const Colouring& colouring, ThreadPool* pool);
 
 }  // namespace dmoscope

@@ -128,7 +128,8 @@ TEST(Usage, SaysWhatThereIs) {
 
 TEST(Info, JsonListsEverything) {
   const auto info = json_of(run({"info", "--json"}));
-  for (const char* key : {"version", "build", "compiler", "threads", "backends", "simd", "opengl", "formats", "metrics", "methods", "generators"}) {
+  for (const char* key :
+       {"version", "build", "compiler", "threads", "backends", "simd", "opengl", "formats", "metrics", "methods", "generators"}) {
     EXPECT_TRUE(info.contains(key)) << key;
   }
   EXPECT_EQ(info["metrics"].size(), 8U);

@@ -33,7 +33,7 @@ class Kernel {
   /// Positive quality does not mean that no corner has turned over.
   static constexpr bool kBlind = kQuadrilaterals && !formulas::Formula<M>::kSeesInversion;
 
-  /// Below it a star is the reference's; formulas::kRankError relies on it.
+  /// Below it a star is the reference's; formulas::rank_doubt relies on it.
   static constexpr float kLeastRank = 1e-4F;
 
   template <class R>
@@ -301,7 +301,7 @@ class Kernel {
   }
 
   [[nodiscard]] bool gains(std::size_t slot) const {
-    const double before = before_[slot], after = after_[slot], doubt = formulas::kRankError<M> * before;
+    const double before = before_[slot], after = after_[slot], doubt = formulas::rank_doubt<M>(before);
     if (!(after > before - doubt) || (step_x_[slot] == 0.0 && step_y_[slot] == 0.0)) return false;
     // A metric that does not see a corner turn over says nothing of how near it is to that.
     const bool sound = !kBlind || quadrilaterals_ == 0 || corner_[slot] > 1e-9 * static_cast<double>(extent2_[slot]);

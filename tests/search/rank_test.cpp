@@ -60,7 +60,7 @@ TEST(Rank, RisesWithTheMetricAndHasItsSign) {
         EXPECT_EQ(sign(element.rank), sign(element.metric)) << element.metric;
         EXPECT_EQ(sign(element.rank_in_float), sign(element.metric)) << element.metric;
         // Both of a pair may err, in the metric's last digits too.
-        EXPECT_GE(element.rank, highest - 2 * formulas::kRankError<M> * std::fabs(element.rank)) << element.metric;
+        EXPECT_GE(element.rank, highest - 2 * formulas::rank_doubt<M>(std::fabs(element.rank))) << element.metric;
         EXPECT_NEAR(element.rank_in_float, element.rank, 1e-7 + 2e-6 * std::fabs(element.rank)) << element.metric;
         highest = std::max(highest, element.rank);
       }

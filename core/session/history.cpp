@@ -1,6 +1,7 @@
 #include "core/session/history.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -30,7 +31,8 @@ History::Kept copy_of(std::uint64_t iteration, std::span<const Vec3> positions, 
 
 void History::record_input(const IterationRecord& record, std::shared_ptr<const std::vector<Vec3>> positions) {
   records_.push_back(record);
-  kept_.push_back({record.iteration, *positions, positions});
+  const std::span<const Vec3> view(*positions);
+  kept_.push_back({record.iteration, view, std::move(positions)});
 }
 
 void History::record(const IterationRecord& record, std::span<const Vec3> positions, ThreadPool* pool) {

@@ -93,11 +93,10 @@ class ScalarDmo final : public Smoother {
 template <Metric M>
 class LaneDmo final : public Smoother {
  public:
-  LaneDmo(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring, const SearchParameters& parameters,
-          ThreadPool* pool)
+  LaneDmo(std::shared_ptr<const InputMesh> input, const Colouring& colouring, const SearchParameters& parameters, ThreadPool* pool)
       : input_(std::move(input)),
         reference_(*input_, parameters),
-        table_(build_star_table(input_->mesh, input_->topology, *colouring, pool)),
+        table_(build_star_table(input_->mesh, input_->topology, colouring, pool)),
         kernel_(lane_kernel(parameters.simd.value_or(best_simd_level()), M)),
         ranked_(large_vector<Vec3>(table_.vertex_of_rank.size())),
         awake_(large_vector<std::uint8_t>(table_.vertex_of_rank.size())),
@@ -195,7 +194,7 @@ std::unique_ptr<Smoother> make_dmo_smoother(std::shared_ptr<const InputMesh> inp
   return formulas::with_metric(metric, [&]<Metric M>() -> std::unique_ptr<Smoother> {
     if (parameters.precision == Precision::Double)
       return std::make_unique<ScalarDmo<M>>(std::move(input), std::move(colouring), parameters);
-    return std::make_unique<LaneDmo<M>>(std::move(input), std::move(colouring), parameters, pool);
+    return std::make_unique<LaneDmo<M>>(std::move(input), *colouring, parameters, pool);
   });
 }
 

@@ -27,16 +27,12 @@ std::size_t other_corners(const QualityContext& context, PositionView positions,
   return n - 1;
 }
 
-template <class Real>
-Vec2<Real> scaled(Vec2<double> p, double inverse) {
-  return {static_cast<Real>(p.x * inverse), static_cast<Real>(p.y * inverse)};
-}
+Vec2<double> scaled(Vec2<double> p, double inverse) { return {p.x * inverse, p.y * inverse}; }
 
 }  // namespace
 
-template <class Real>
 void gather_star(const QualityContext& context, const Topology& topology, PositionView positions, std::span<const double> reference_measure,
-                 Index vertex, Star<Real>& star) {
+                 Index vertex, Star<double>& star) {
   star.triangles.clear();
   star.quadrilaterals.clear();
   const Vec3 origin = positions[vertex];
@@ -49,19 +45,16 @@ void gather_star(const QualityContext& context, const Topology& topology, Positi
   const double extent = box.farthest();
   star.scale = extent > 0.0 && std::isfinite(extent) ? std::exp2(std::ilogb(extent)) : 1.0;
   const double inverse = 1.0 / star.scale;
-  star.box = scaled<Real>(box.high - box.low, inverse);
+  star.box = scaled(box.high - box.low, inverse);
   for (const Incidence& at : topology.star(vertex)) {
     const std::size_t n = other_corners(context, positions, at, origin, others);
-    const Real reference = static_cast<Real>(reference_measure[at.element] * inverse * inverse);
-    const Vec2<Real> b = scaled<Real>(others[0], inverse), c = scaled<Real>(others[1], inverse);
+    const double reference = reference_measure[at.element] * inverse * inverse;
+    const Vec2<double> b = scaled(others[0], inverse), c = scaled(others[1], inverse);
     if (n == 2)
       star.triangles.push_back({b, c, reference});
     else
-      star.quadrilaterals.push_back({b, c, scaled<Real>(others[2], inverse), reference});
+      star.quadrilaterals.push_back({b, c, scaled(others[2], inverse), reference});
   }
 }
-
-template void gather_star<float>(const QualityContext&, const Topology&, PositionView, std::span<const double>, Index, Star<float>&);
-template void gather_star<double>(const QualityContext&, const Topology&, PositionView, std::span<const double>, Index, Star<double>&);
 
 }  // namespace dmoscope

@@ -52,12 +52,7 @@ class StarView {
 
 /// Fills `star` (its vectors are reused) for `vertex` at `positions`. `reference_measure`: one positive value an element.
 /// Planar meshes only. A star shrunk to a point gets an empty box.
-template <class Real>
 void gather_star(const QualityContext& context, const Topology& topology, PositionView positions, std::span<const double> reference_measure,
-                 Index vertex, Star<Real>& star);
-
-extern template void gather_star<float>(const QualityContext&, const Topology&, PositionView, std::span<const double>, Index, Star<float>&);
-extern template void gather_star<double>(const QualityContext&, const Topology&, PositionView, std::span<const double>, Index,
-                                         Star<double>&);
+                 Index vertex, Star<double>& star);
 
 }  // namespace dmoscope

@@ -12,9 +12,6 @@
 
 namespace dmoscope::render {
 
-/// Values of a shade that are no quality.
-inline constexpr float kInvertedShade = -3e38F, kUndefinedShade = 3e38F;
-
 /// A camera as the shaders take it.
 struct View {
   Vec2<float> offset_high, offset_low;  // the camera's centre less the layout's origin
@@ -31,7 +28,7 @@ class ElementPainter {
   void upload_topology(const Layout& layout);
   /// Relative to the layout's origin, in place.
   void upload_points(std::span<const Vec2<float>> points);
-  /// One an element, in place: a quality, kInvertedShade or kUndefinedShade.
+  /// One an element, in place: see shade_of.
   void upload_shades(std::span<const float> shades);
   void set_colours(const ColourScale& colours);
   /// Draws all elements of the ranges.

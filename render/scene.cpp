@@ -167,12 +167,7 @@ void MeshScene::Impl::upload(std::span<const Vec3> positions, std::span<const fl
   elements.upload_points(point_scratch);
   inverted.assign(inverted_flags.begin(), inverted_flags.end());
   shade_scratch.resize(count);
-  for (Index e = 0; e < count; ++e) {
-    const float q = quality[e];
-    shade_scratch[e] = !inverted.empty() && inverted[e] != 0 ? kInvertedShade
-                       : std::isnan(q)                       ? kUndefinedShade
-                                                             : std::clamp(q, -1e37F, 1e37F);
-  }
+  for (Index e = 0; e < count; ++e) shade_scratch[e] = shade_of(quality[e], !inverted.empty() && inverted[e] != 0);
   elements.upload_shades(shade_scratch);
 }
 

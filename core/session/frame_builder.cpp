@@ -1,6 +1,7 @@
 #include "core/session/frame_builder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -18,26 +19,20 @@ constexpr std::size_t kGrain = std::size_t{1} << 15U;
 /// A histogram that is being filled.
 class Bins {
  public:
-  void add(double q) {
-    if (q < histogram_.lowest)
-      ++histogram_.below;
-    else if (q > kHighest)
-      ++histogram_.above;
-    else if (!std::isnan(q))
-      ++histogram_.counts[std::min(Histogram::kBins - 1, static_cast<std::size_t>((q - histogram_.lowest) * kScale))];
-  }
+  void add(double q) { ++counts_[histogram_slot(q)]; }
   void add(const Bins& other) {
-    histogram_.below += other.histogram_.below;
-    histogram_.above += other.histogram_.above;
-    for (std::size_t bin = 0; bin < Histogram::kBins; ++bin) histogram_.counts[bin] += other.histogram_.counts[bin];
+    for (std::size_t slot = 0; slot < counts_.size(); ++slot) counts_[slot] += other.counts_[slot];
   }
-  [[nodiscard]] const Histogram& histogram() const noexcept { return histogram_; }
+  [[nodiscard]] Histogram histogram() const {
+    Histogram histogram;
+    std::copy_n(counts_.begin(), Histogram::kBins, histogram.counts.begin());
+    histogram.below = counts_[kSlotBelow];
+    histogram.above = counts_[kSlotAbove];
+    return histogram;
+  }
 
  private:
-  static constexpr Histogram kEmpty{};
-  static constexpr double kScale = static_cast<double>(Histogram::kBins) / (kEmpty.highest - kEmpty.lowest);
-  static constexpr double kHighest = kEmpty.highest * (1.0 + 1e-12);  // rounding makes no element better than ideal
-  Histogram histogram_;
+  std::array<Index, kSlotNowhere + 1> counts_{};
 };
 
 bool worse(const RankedElement& a, const RankedElement& b) {

@@ -1,28 +1,14 @@
 #pragma once
 // What the worker publishes and the window reads: immutable once published.
 
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/session/session.h"
+#include "core/session/summary.h"
 
 namespace dmoscope {
-
-/// Counts of element qualities. Bin i holds q in [lowest + i w, lowest + (i + 1) w); the last bin its upper end too.
-struct Histogram {
-  static constexpr std::size_t kBins = 64;
-  double lowest = 0.0, highest = 1.0;
-  std::array<Index, kBins> counts{};
-  Index below = 0;  // q < lowest (inverted elements when lowest is 0)
-  Index above = 0;
-};
-
-struct RankedElement {
-  Index element;
-  double quality;
-};
 
 /// One state of one run, ready to be drawn.
 struct Frame {

@@ -15,6 +15,8 @@
 
 namespace dmoscope {
 
+class DevicePicture;
+
 class Smoother {
  public:
   Smoother() = default;
@@ -30,6 +32,9 @@ class Smoother {
   virtual void store(std::span<Vec3> positions, ThreadPool* pool) = 0;
   /// Forgets what was derived from the positions of the last visit, and what store() would bring.
   virtual void positions_replaced() = 0;
+  /// A snapshot of the positions as they are now, where they live on a device and `shown` can be judged there; null: nowhere but on the
+  /// host. Throws DeviceError.
+  [[nodiscard]] virtual std::shared_ptr<const DevicePicture> picture([[maybe_unused]] Metric shown) { return nullptr; }
 };
 
 struct MethodInfo {

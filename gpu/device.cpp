@@ -2,9 +2,24 @@
 
 #ifdef DMOSCOPE_HAVE_CUDA
 #include <cuda_runtime_api.h>
+
+#include "gpu/probe.h"
 #endif
 
 namespace dmoscope::gpu {
+#ifdef DMOSCOPE_HAVE_CUDA
+namespace {
+
+/// The runtime calls a driver that is not there one that is too old.
+std::string why(cudaError_t error) {
+  int driver = 0;
+  if (error == cudaErrorInsufficientDriver && cudaDriverGetVersion(&driver) == cudaSuccess && driver == 0)
+    return "no NVIDIA driver is installed";
+  return cudaGetErrorString(error);
+}
+
+}  // namespace
+#endif
 
 Availability availability() {
   Availability result;
@@ -12,13 +27,13 @@ Availability availability() {
   result.built = true;
   int count = 0;  // cudaGetDeviceCount leaves it untouched on an error
   if (const cudaError_t error = cudaGetDeviceCount(&count); error != cudaSuccess) {
-    result.reason = std::string("no usable CUDA device: ") + cudaGetErrorString(error);
+    result.reason = std::string("no usable CUDA device: ") + why(error);
     return result;
   }
   for (int i = 0; i < count; ++i) {
     cudaDeviceProp properties{};
     if (cudaGetDeviceProperties(&properties, i) == cudaSuccess)
-      result.devices.push_back({properties.name, properties.major, properties.minor, properties.totalGlobalMem});
+      result.devices.push_back({properties.name, properties.major, properties.minor, properties.totalGlobalMem, probe(i)});
   }
   result.reason = result.devices.empty() ? "no CUDA device found" : "this version smooths on the CPU only; a CUDA search is not built yet";
 #else

@@ -1,0 +1,92 @@
+# The CUDA language, where DMOSCOPE_CUDA is on and there is a toolkit whose compiler works. Sets DMOSCOPE_USES_CUDA, and for what to compile:
+#
+#   DMOSCOPE_CUDA_ARCHITECTURES  all      machine code for every GPU from compute capability 7.5 to 12.0 that the toolkit knows, and
+#                                         PTX of the newest, from which drivers make code for later ones (the default)
+#                                native   machine code for this machine's GPUs (where none is found, 9.0) and PTX of the oldest: quick to build
+#                                a list   as CMake's CUDA_ARCHITECTURES, e.g. 90-real;75-virtual
+set(DMOSCOPE_CUDA_ARCHITECTURES "all" CACHE STRING "What the CUDA code is compiled for: all, native, or a list such as 90-real;75-virtual")
+set(DMOSCOPE_USES_CUDA OFF)
+
+# OUTPUT: CMake's architectures for "all": those from 75 to 120 that nvcc lists.
+function(dmoscope_all_architectures output)
+  execute_process(COMMAND ${NVCC} --list-gpu-arch OUTPUT_VARIABLE listed ERROR_QUIET)
+  string(REGEX MATCHALL "compute_[0-9]+" listed "${listed}")
+  list(TRANSFORM listed REPLACE "compute_" "")
+  list(SORT listed COMPARE NATURAL)
+  set(kept "")
+  foreach(architecture ${listed})
+    if(architecture GREATER_EQUAL 75 AND architecture LESS_EQUAL 120)
+      list(APPEND kept ${architecture}-real)
+      set(newest ${architecture}-virtual)
+    endif()
+  endforeach()
+  set(${output} ${kept} ${newest} PARENT_SCOPE)
+endfunction()
+
+# OUTPUT: those of the GPUs that the driver shows.
+function(dmoscope_native_architectures output)
+  execute_process(COMMAND nvidia-smi --query-gpu=compute_cap --format=csv,noheader OUTPUT_VARIABLE shown ERROR_QUIET)
+  string(REGEX MATCHALL "[0-9]+\\.[0-9]+" found "${shown}")
+  if(NOT found)
+    set(found 9.0)
+  endif()
+  list(TRANSFORM found REPLACE "\\." "")
+  list(REMOVE_DUPLICATES found)
+  list(TRANSFORM found APPEND "-real")
+  set(${output} ${found} 75-virtual PARENT_SCOPE)
+endfunction()
+
+if(NOT DMOSCOPE_CUDA)
+  message(STATUS "CUDA: switched off, built without the cuda backend")
+  return()
+endif()
+if(DMOSCOPE_SANITIZE)
+  message(STATUS "CUDA: left out of a build with sanitizers")
+  return()
+endif()
+# check_language(CUDA) does not look where the toolkit usually is.
+find_program(NVCC nvcc HINTS ENV CUDA_HOME ENV CUDA_PATH PATHS /usr/local/cuda PATH_SUFFIXES bin)
+if(NOT NVCC)
+  message(STATUS "CUDA: no toolkit found, built without the cuda backend")
+  return()
+endif()
+if(NOT DEFINED ENV{CUDACXX})
+  set(ENV{CUDACXX} ${NVCC})
+endif()
+if(NOT CMAKE_CUDA_HOST_COMPILER AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  set(CMAKE_CUDA_HOST_COMPILER ${CMAKE_CXX_COMPILER})  # one compiler for all that is linked together
+endif()
+if(DMOSCOPE_CUDA_ARCHITECTURES STREQUAL "all")
+  dmoscope_all_architectures(CMAKE_CUDA_ARCHITECTURES)
+elseif(DMOSCOPE_CUDA_ARCHITECTURES STREQUAL "native")
+  dmoscope_native_architectures(CMAKE_CUDA_ARCHITECTURES)
+else()
+  set(CMAKE_CUDA_ARCHITECTURES ${DMOSCOPE_CUDA_ARCHITECTURES})
+endif()
+include(CheckLanguage)
+check_language(CUDA)
+if(NOT CMAKE_CUDA_COMPILER)
+  message(WARNING "CUDA: ${NVCC} does not work with this compiler, built without the cuda backend. "
+    "-DCMAKE_CUDA_HOST_COMPILER=... names another one for it, -DDMOSCOPE_CUDA=OFF leaves it out.")
+  return()
+endif()
+enable_language(CUDA)
+find_package(CUDAToolkit REQUIRED)
+if(NOT CMAKE_CUDA20_STANDARD_COMPILE_OPTION)  # CMake 3.25 has not heard that nvcc compiles C++20
+  set(CMAKE_CUDA20_STANDARD_COMPILE_OPTION "-std=c++20")
+  set(CMAKE_CUDA20_EXTENSION_COMPILE_OPTION "-std=c++20")
+  list(APPEND CMAKE_CUDA_COMPILE_FEATURES cuda_std_20)
+  set(CMAKE_CUDA20_COMPILE_FEATURES cuda_std_20)
+endif()
+set(CMAKE_CUDA_STANDARD 20)
+set(CMAKE_CUDA_STANDARD_REQUIRED ON)
+set(CMAKE_CUDA_EXTENSIONS OFF)
+set(CMAKE_CUDA_RUNTIME_LIBRARY Static)  # the program starts where there is no driver, and says so
+if(CCACHE)
+  set(CMAKE_CUDA_COMPILER_LAUNCHER ${launcher})
+endif()
+# -fmad=false and no fast math: the same bits as on the processor. -lineinfo costs nothing at run time and lets the sanitizer name lines.
+target_compile_options(dmoscope_settings INTERFACE "$<$<COMPILE_LANGUAGE:CUDA>:--expt-relaxed-constexpr;-fmad=false;-lineinfo;\
+--Werror=cross-execution-space-call;-Xcompiler=-Wall,-Wextra,-Wshadow,-Wconversion,-ffp-contract=off>")
+set(DMOSCOPE_USES_CUDA ON)
+message(STATUS "CUDA: toolkit ${CUDAToolkit_VERSION}, compiled for ${CMAKE_CUDA_ARCHITECTURES}")

@@ -1,0 +1,86 @@
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+
+#include <cuda_runtime.h>
+
+#include "gpu/cuda_error.h"
+#include "gpu/probe.h"
+
+namespace dmoscope::gpu {
+namespace {
+
+/// What the two sides are compared on. Each value depends on something that a compiler or a device may do otherwise.
+struct Values {
+  float sum_of_product;  // contracted into one operation it has another last bit
+  float subnormal;       // flushed it is 0
+  float quotient, root;  // approximated they have another last bit
+  double quotient_of_doubles;
+};
+
+struct Inputs {
+  float a = 1.0F + 0x1p-12F, b = 1.0F - 0x1p-12F, tiny = 0x1.8p-126F, seven = 7.0F;
+  double third = 3.0;
+};
+
+__host__ __device__ Values compute(const Inputs& in) {
+  return {in.a * in.b - 1.0F, in.tiny * 0.25F, in.a / in.seven, std::sqrt(in.seven), static_cast<double>(in.a) / in.third};
+}
+
+__global__ void probe_kernel(Inputs in, Values* out) { *out = compute(in); }
+
+bool same_bits(const Values& one, const Values& other) {
+  const auto bits = [](const Values& of) {
+    return std::array<std::uint64_t, 5>{std::bit_cast<std::uint32_t>(of.sum_of_product), std::bit_cast<std::uint32_t>(of.subnormal),
+                                        std::bit_cast<std::uint32_t>(of.quotient), std::bit_cast<std::uint32_t>(of.root),
+                                        std::bit_cast<std::uint64_t>(of.quotient_of_doubles)};
+  };
+  return bits(one) == bits(other);
+}
+
+/// The device's memory for one Values, and the device that was current before.
+class Scope {
+ public:
+  explicit Scope(int device) {
+    DMOSCOPE_CUDA_CHECK(cudaGetDevice(&before_));
+    DMOSCOPE_CUDA_CHECK(cudaSetDevice(device));
+    if (const cudaError_t error = cudaMalloc(&values_, sizeof(Values)); error != cudaSuccess) {
+      (void)cudaSetDevice(before_);
+      throw_cuda_error(static_cast<int>(error), "cudaMalloc", __FILE__, __LINE__);
+    }
+  }
+  ~Scope() {
+    (void)cudaFree(values_);
+    (void)cudaSetDevice(before_);
+  }
+  Scope(const Scope&) = delete;
+  Scope& operator=(const Scope&) = delete;
+  [[nodiscard]] Values* values() const { return values_; }
+
+ private:
+  int before_ = 0;
+  Values* values_ = nullptr;
+};
+
+}  // namespace
+
+std::string probe(int device) {
+  try {
+    const Scope scope(device);
+    const Inputs in;
+    probe_kernel<<<1, 1>>>(in, scope.values());
+    DMOSCOPE_CUDA_CHECK(cudaGetLastError());
+    Values out{};
+    DMOSCOPE_CUDA_CHECK(cudaMemcpy(&out, scope.values(), sizeof out, cudaMemcpyDeviceToHost));
+    return same_bits(out, compute(in)) ? "" : "its arithmetic differs from the processor's";
+  } catch (const CudaError& error) {
+    if (error.code() == cudaErrorNoKernelImageForDevice) return "the program was not built for its compute capability";
+    return error.what();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+}  // namespace dmoscope::gpu

@@ -43,6 +43,13 @@ class UsageError : public Error {
   [[nodiscard]] int exit_code() const noexcept override { return 2; }
 };
 
+/// A device (GPU) failed or has not what was asked of it, such as memory: what() says what failed and, for memory, how much was asked for
+/// and how much is free.
+class DeviceError : public Error {
+ public:
+  using Error::Error;
+};
+
 /// The work was done but what was asked for was not reached (not converged, expectation failed).
 class NotReached : public Error {
  public:

@@ -15,6 +15,8 @@ namespace {
 constexpr double kBlockSeconds = 0.02;
 /// Most of them: visits to vertices at rest cost next to nothing, and the next may be to others.
 constexpr std::uint64_t kLargestBlock = std::uint64_t{1} << 20U;
+/// Where a call is dear and a visit is not: far more than an iteration of any mesh.
+constexpr std::uint64_t kLargestFarBlock = std::uint64_t{1} << 40U;
 /// How fast slow visits of the past are forgotten, block by block.
 constexpr double kForgetting = 0.75;
 
@@ -76,6 +78,7 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
       positions_(working_copy(input_->mesh.positions)),
       immovable_(immovable_elements(input_->mesh, fixed_, pool_.get())),
       history_(history_bytes) {
+  if (smoother_->positions_are_far()) block_ = kLargestFarBlock;
   history_.record_input({0, statistics(), 0, 0.0}, {input_, &input_->mesh.positions});
 }
 
@@ -92,6 +95,7 @@ std::span<const Vec3> Run::positions() const {
 
 Statistics Run::statistics() const {
   if (moment_.visits == 0 && moment_.iteration < history_.records().size()) return history_.records()[moment_.iteration].statistics;
+  if (const std::optional<Statistics> found = smoother_->statistics()) return *found;
   return compute_statistics(input_->quality_context(), positions(), parameters_.metric, immovable_, pool_.get());
 }
 
@@ -105,8 +109,7 @@ void Run::visit(std::uint64_t count, Progress& progress) {
   last_outcome_.reset();
   while (count > 0) {
     progress.check();
-    const auto next_class = std::ranges::upper_bound(colouring_->class_offsets, moment_.visits);
-    const std::uint64_t block = std::min({count, *next_class - moment_.visits, block_});
+    const std::uint64_t block = std::min({count, whole - moment_.visits, block_});
     const auto start = std::chrono::steady_clock::now();
     moved_ += smoother_->visit(moment_.visits, block, positions_, pool_.get());
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -123,7 +126,7 @@ void Run::visit(std::uint64_t count, Progress& progress) {
 /// How many visits to make before the next look, from the time of the last ones. The result does not depend on it.
 void Run::choose_block(std::uint64_t visits, double seconds) {
   visit_seconds_ = std::max(seconds / static_cast<double>(visits), kForgetting * visit_seconds_);
-  const double most = static_cast<double>(kLargestBlock);
+  const double most = static_cast<double>(smoother_->positions_are_far() ? kLargestFarBlock : kLargestBlock);
   block_ = static_cast<std::uint64_t>(std::clamp(kBlockSeconds / std::max(visit_seconds_, kBlockSeconds / most), 1.0, most));
 }
 

@@ -117,7 +117,7 @@ class Run {
   std::uint64_t last_moved_ = 0;  // in the iteration last ended
   double seconds_ = 0.0;          // smoothing time of the iteration under way
   double visit_seconds_ = 0.0;    // time of one visit, of the slower blocks of late
-  std::uint64_t block_ = 2048;    // visits until the next look at the cancel request; at first for want of experience
+  std::uint64_t block_ = 2048;    // visits until the next look at the cancel request; at first a guess
   History history_;
   std::function<void(const Run&)> observer_;
   std::optional<Outcome> last_outcome_;

@@ -62,6 +62,17 @@ class Reference {
   SearchParameters parameters_;
 };
 
+/// Calls body(begin, end) for the part of [first, first + count) that lies in each class.
+template <class Body>
+void for_classes(const Colouring& colouring, std::uint64_t first, std::uint64_t count, const Body& body) {
+  const std::uint64_t last = first + count;
+  auto next = std::ranges::upper_bound(colouring.class_offsets, first);
+  for (std::uint64_t end = first; first < last; first = end, ++next) {
+    end = std::min<std::uint64_t>(*next, last);
+    body(first, end);
+  }
+}
+
 template <Metric M>
 class ScalarDmo final : public Smoother {
  public:
@@ -69,13 +80,15 @@ class ScalarDmo final : public Smoother {
       : input_(std::move(input)), colouring_(std::move(colouring)), reference_(*input_, parameters) {}
 
   std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
-    const auto vertices = std::span(colouring_->order).subspan(first, count);
     std::atomic<std::uint64_t> moved{0};
-    for_chunks(pool, count, kGrain, [&](std::size_t begin, std::size_t end) {
-      Star<double> star;
-      std::uint64_t here = 0;
-      for (std::size_t i = begin; i < end; ++i) here += reference_.visit(vertices[i], positions, positions[vertices[i]], star) ? 1U : 0U;
-      moved += here;
+    for_classes(*colouring_, first, count, [&](std::uint64_t from, std::uint64_t to) {
+      const auto vertices = std::span(colouring_->order).subspan(from, to - from);
+      for_chunks(pool, vertices.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        Star<double> star;
+        std::uint64_t here = 0;
+        for (std::size_t i = begin; i < end; ++i) here += reference_.visit(vertices[i], positions, positions[vertices[i]], star) ? 1U : 0U;
+        moved += here;
+      });
     });
     return moved;
   }
@@ -93,10 +106,12 @@ class ScalarDmo final : public Smoother {
 template <Metric M>
 class LaneDmo final : public Smoother {
  public:
-  LaneDmo(std::shared_ptr<const InputMesh> input, const Colouring& colouring, const SearchParameters& parameters, ThreadPool* pool)
+  LaneDmo(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring, const SearchParameters& parameters,
+          ThreadPool* pool)
       : input_(std::move(input)),
+        colouring_(std::move(colouring)),
         reference_(*input_, parameters),
-        table_(build_star_table(input_->mesh, input_->topology, colouring, pool)),
+        table_(build_star_table(input_->mesh, input_->topology, *colouring_, pool)),
         kernel_(lane_kernel(parameters.simd.value_or(best_simd_level()), M)),
         ranked_(large_vector<Vec3>(table_.vertex_of_rank.size())),
         awake_(large_vector<std::uint8_t>(table_.vertex_of_rank.size())),
@@ -105,9 +120,11 @@ class LaneDmo final : public Smoother {
   std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
     if (stale_) load(positions, pool);
     std::atomic<std::uint64_t> moved{0};
-    const auto chunk = [&](std::size_t begin, std::size_t end) { moved += kernel_(task_, first + begin, first + end); };
     stored_ = false;
-    for_chunks(pool, count, kLaneGrain, std::cref(chunk));  // by reference: a function object of this size would be allocated
+    for_classes(*colouring_, first, count, [&](std::uint64_t from, std::uint64_t to) {
+      const auto chunk = [&](std::size_t begin, std::size_t end) { moved += kernel_(task_, from + begin, from + end); };
+      for_chunks(pool, to - from, kLaneGrain, std::cref(chunk));  // by reference: a function object of this size would be allocated
+    });
     return moved;
   }
   void store(std::span<Vec3> positions, ThreadPool* pool) override {
@@ -167,6 +184,7 @@ class LaneDmo final : public Smoother {
   [[nodiscard]] PositionView view() const { return {ranked_, table_.rank_of_vertex}; }
 
   std::shared_ptr<const InputMesh> input_;
+  std::shared_ptr<const Colouring> colouring_;
   Reference<M> reference_;
   StarTable table_;
   LaneKernel kernel_;
@@ -194,7 +212,7 @@ std::unique_ptr<Smoother> make_dmo_smoother(std::shared_ptr<const InputMesh> inp
   return formulas::with_metric(metric, [&]<Metric M>() -> std::unique_ptr<Smoother> {
     if (parameters.precision == Precision::Double)
       return std::make_unique<ScalarDmo<M>>(std::move(input), std::move(colouring), parameters);
-    return std::make_unique<LaneDmo<M>>(std::move(input), *colouring, parameters, pool);
+    return std::make_unique<LaneDmo<M>>(std::move(input), std::move(colouring), parameters, pool);
   });
 }
 

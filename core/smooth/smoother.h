@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "core/base/thread_pool.h"
 #include "core/mesh/colouring.h"
 #include "core/quality/metric.h"
+#include "core/quality/quality.h"
 #include "core/search/parameters.h"
 #include "core/session/input_mesh.h"
 
@@ -23,15 +25,25 @@ class Smoother {
   Smoother(const Smoother&) = delete;
   Smoother& operator=(const Smoother&) = delete;
   virtual ~Smoother() = default;
-  /// Visits the vertices [first, first + count) of the colouring's order, all of one class (so that each sees the others' old and new
-  /// positions alike), and moves those that gain. Returns how many moved. The result does not depend on the pool. `positions`: of the
-  /// whole mesh, and the ones that the last call left, unless positions_replaced() was called in between; what moved may be missing from
-  /// them until store().
+  /// Visits the vertices [first, first + count) of the colouring's order, class after class, so that each sees the old or the new positions
+  /// of its neighbours whatever the number of threads, and moves those that gain; returns how many moved. The stretch may begin and end in
+  /// the midst of classes and span any number of them, up to the whole order. The result depends neither on the pool nor on how an
+  /// iteration is cut into calls. `positions`: of the whole mesh, and the ones that the last call left, unless positions_replaced() was
+  /// called in between; what moved may be missing from them until store(). Throws DeviceError; whatever it worked on is lost then but
+  /// `positions`.
   virtual std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) = 0;
-  /// Brings `positions` up to date with all visits so far.
+  /// Brings `positions` up to date with all visits so far. Throws DeviceError, with `positions` in any state.
   virtual void store(std::span<Vec3> positions, ThreadPool* pool) = 0;
   /// Forgets what was derived from the positions of the last visit, and what store() would bring.
   virtual void positions_replaced() = 0;
+
+  /// Whether positions lie far from the host: store() and each call of visit() are dear then, so a run asks for neither more often than it
+  /// must.
+  [[nodiscard]] virtual bool positions_are_far() const noexcept { return false; }
+  /// Statistics of the metric that is optimised after all visits so far, found without bringing the positions to the host: the very bits of
+  /// compute_statistics(). None where that cannot be, and while there was no visit since the start or since positions_replaced(). Throws
+  /// DeviceError.
+  [[nodiscard]] virtual std::optional<Statistics> statistics() { return std::nullopt; }
   /// A snapshot of the positions as they are now, where they live on a device and `shown` can be judged there; null: nowhere but on the
   /// host. Throws DeviceError.
   [[nodiscard]] virtual std::shared_ptr<const DevicePicture> picture([[maybe_unused]] Metric shown) { return nullptr; }

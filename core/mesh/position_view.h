@@ -10,12 +10,14 @@ namespace dmoscope {
 
 class PositionView {
  public:
-  PositionView(std::span<const Vec3> positions) : at_(positions.data()) {}     // NOLINT(google-explicit-constructor): a view
-  PositionView(const std::vector<Vec3>& positions) : at_(positions.data()) {}  // NOLINT(google-explicit-constructor)
-  PositionView(std::span<Vec3> positions) : at_(positions.data()) {}           // NOLINT(google-explicit-constructor)
+  constexpr PositionView(std::span<const Vec3> positions) : at_(positions.data()) {}  // NOLINT(google-explicit-constructor): a view
+  PositionView(const std::vector<Vec3>& positions) : at_(positions.data()) {}         // NOLINT(google-explicit-constructor)
+  PositionView(std::span<Vec3> positions) : at_(positions.data()) {}                  // NOLINT(google-explicit-constructor)
   /// The position of vertex v is ranked[rank_of_vertex[v]].
-  PositionView(std::span<const Vec3> ranked, std::span<const Index> rank_of_vertex) : at_(ranked.data()), rank_(rank_of_vertex.data()) {}
-  [[nodiscard]] const Vec3& operator[](Index vertex) const { return at_[rank_ == nullptr ? vertex : rank_[vertex]]; }
+  constexpr PositionView(std::span<const Vec3> ranked, std::span<const Index> rank_of_vertex)
+      : at_(ranked.data()), rank_(rank_of_vertex.data()) {}
+  constexpr PositionView(const Vec3* ranked, const Index* rank_of_vertex) : at_(ranked), rank_(rank_of_vertex) {}
+  [[nodiscard]] constexpr const Vec3& operator[](Index vertex) const { return at_[rank_ == nullptr ? vertex : rank_[vertex]]; }
 
  private:
   const Vec3* at_;

@@ -31,6 +31,9 @@ class Topology {
   [[nodiscard]] std::span<const Incidence> star(Index vertex) const noexcept {
     return {incidences_.data() + offsets_[vertex], incidences_.data() + offsets_[vertex + 1]};
   }
+  /// The stars of all vertices, one after the other, and vertex_count() + 1 offsets into them.
+  [[nodiscard]] std::span<const Incidence> incidences() const noexcept { return incidences_; }
+  [[nodiscard]] std::span<const std::uint32_t> star_offsets() const noexcept { return offsets_; }
   /// 1 for vertices on the boundary: an end of an edge that has exactly one element, or more than two (non-manifold).
   [[nodiscard]] std::span<const std::uint8_t> boundary() const noexcept { return boundary_; }
   [[nodiscard]] Index edge_count() const noexcept { return edge_count_; }

@@ -23,22 +23,30 @@ struct SurfaceVector {
   return l > 0.0 ? (1.0 / l) * n : fallback;
 }
 
-/// Calls visitor(Triangle) or visitor(Quadrilateral) with the element's corners as differences from its first one, so that nothing
-/// is lost far from the origin; fallback for other kinds.
+/// The shape of a planar triangle or quadrilateral (by the number of its corners) from differences from its first corner, so that nothing
+/// is lost far from the origin: visitor(Triangle) or visitor(Quadrilateral). at(vertex): its position.
+template <class At, class Visitor>
+constexpr auto visit_planar(const Plane& plane, std::span<const Index> corners, At at, Visitor visitor) {
+  using V = Vec2<double>;
+  const Vec3 origin = at(corners[0]);
+  const V b = plane.project(at(corners[1]) - origin), c = plane.project(at(corners[2]) - origin);
+  if (corners.size() == 3) return visitor(formulas::Triangle<V>({}, b, c));
+  return visitor(formulas::Quadrilateral<V>({}, b, c, plane.project(at(corners[3]) - origin)));
+}
+
+/// The same of an element of a planar or curved mesh; fallback for other kinds.
 template <class Result, class Visitor>
 [[nodiscard]] Result visit_element(const QualityContext& context, PositionView positions, Index element, Result fallback, Visitor visitor) {
   const ElementKind kind = context.mesh.elements.kind(element);
   if (kind != ElementKind::Triangle && kind != ElementKind::Quadrilateral) return fallback;
   const auto corners = context.mesh.elements.corners(element);
+  if (context.geometry.shape == Shape::Planar)
+    return visit_planar(
+        context.geometry.plane, corners, [&](Index vertex) { return positions[vertex]; }, visitor);
   const Vec3 origin = positions[corners[0]];
   const Vec3 b = positions[corners[1]] - origin, c = positions[corners[2]] - origin;
   const Vec3 d = kind == ElementKind::Quadrilateral ? positions[corners[3]] - origin : Vec3{};
   const Plane& plane = context.geometry.plane;
-  if (context.geometry.shape == Shape::Planar) {
-    using V = Vec2<double>;
-    if (kind == ElementKind::Triangle) return visitor(formulas::Triangle<V>({}, plane.project(b), plane.project(c)));
-    return visitor(formulas::Quadrilateral<V>({}, plane.project(b), plane.project(c), plane.project(d)));
-  }
   using V = SurfaceVector;
   if (kind == ElementKind::Triangle) {
     const Vec3 n = unit_normal(b, c, plane.normal);  // a surface triangle has no sign
@@ -51,11 +59,11 @@ template <class Result, class Visitor>
 /// The metric of a triangle or quadrilateral of vectors V; NaN where it is not defined. Never -0, of which double and packs of it choose
 /// otherwise between equals.
 template <Metric M, class V>
-[[nodiscard]] formulas::RealOf<V> evaluate(const formulas::Triangle<V>& t) {
+[[nodiscard]] constexpr formulas::RealOf<V> evaluate(const formulas::Triangle<V>& t) {
   return formulas::Formula<M>::triangle(t) + formulas::RealOf<V>(0.0);
 }
 template <Metric M, class V>
-[[nodiscard]] formulas::RealOf<V> evaluate(const formulas::Quadrilateral<V>& q) {
+[[nodiscard]] constexpr formulas::RealOf<V> evaluate(const formulas::Quadrilateral<V>& q) {
   if constexpr (formulas::kDefinedForQuadrilaterals<M, V>)
     return formulas::Formula<M>::quadrilateral(q) + formulas::RealOf<V>(0.0);
   else

@@ -8,57 +8,68 @@
 #include "core/quality/formulas.h"
 #include "core/search/parameters.h"
 #include "core/search/star.h"
+#include "core/search/team.h"
 
 namespace dmoscope {
 
 /// Does the search compare the metric itself or its rank (formulas::rank), which costs less?
 enum class Value { Metric, Rank };
 
-/// What is maximised at a candidate position.
+/// What a star is worth with its vertex at one candidate position, element by element.
 /// A star without inverted elements: the least metric (paper eq. 1); a candidate that inverts one is <= 0 and never wins.
 /// Otherwise (Untangling): the smallest corner Jacobian over its element's reference measure while it is <= 0, and the least metric
 /// once all are positive; every valid candidate is above every invalid one, since valid elements have positive metrics.
-template <Metric M, bool Untangling, class Real, Value V = Value::Metric>
-class Objective {
+template <Metric M, bool Untangling, class Real, Value V>
+class Worth {
  public:
-  explicit Objective(StarView<Real> star) : star_(star) {}
+  static constexpr bool kQuadrilaterals = formulas::kDefinedForQuadrilaterals<M, Vec2<Real>>;
 
-  [[nodiscard]] Real operator()(Vec2<Real> p) const {
-    using scalar::min, scalar::select;
-    Real quality = scalar::constant<Real>(std::numeric_limits<float>::max());
-    Real jacobian = scalar::constant<Real>(std::numeric_limits<float>::max());
-    for (const auto& t : star_.triangles()) {
-      const formulas::Triangle<Vec2<Real>> triangle(p, t.b, t.c);
-      quality = min(quality, value(triangle));
-      if constexpr (kNeedsJacobian) jacobian = min(jacobian, formulas::smallest_jacobian(triangle) / t.reference);
-    }
-    if constexpr (kQuadrilaterals) {
-      for (const auto& q : star_.quadrilaterals()) {
-        const formulas::Quadrilateral<Vec2<Real>> quadrilateral(p, q.b, q.c, q.d);
-        quality = min(quality, value(quadrilateral));
-        if constexpr (kNeedsJacobian) jacobian = min(jacobian, formulas::smallest_jacobian(quadrilateral) / q.reference);
-      }
-    }
-    if constexpr (kNeedsJacobian) return select(jacobian > Real(0), quality, jacobian);
-    return quality;
+  constexpr void take(const StarTriangle<Real>& t, Vec2<Real> p) { take(formulas::Triangle<Vec2<Real>>(p, t.b, t.c), t.reference); }
+  constexpr void take(const StarQuadrilateral<Real>& q, Vec2<Real> p) {
+    take(formulas::Quadrilateral<Vec2<Real>>(p, q.b, q.c, q.d), q.reference);
+  }
+  [[nodiscard]] constexpr Real value() const {
+    using scalar::select;
+    if constexpr (kNeedsJacobian) return select(jacobian_ > Real(0), quality_, jacobian_);
+    return quality_;
   }
 
  private:
-  [[nodiscard]] static Real value(const formulas::Triangle<Vec2<Real>>& t) {
-    if constexpr (V == Value::Rank)
-      return formulas::rank<M>(t);
-    else
-      return formulas::Formula<M>::triangle(t);
-  }
-  [[nodiscard]] static Real value(const formulas::Quadrilateral<Vec2<Real>>& q) {
-    if constexpr (V == Value::Rank)
-      return formulas::rank<M>(q);
-    else
-      return formulas::Formula<M>::quadrilateral(q);
-  }
-  static constexpr bool kQuadrilaterals = formulas::kDefinedForQuadrilaterals<M, Vec2<Real>>;
   static constexpr bool kNeedsJacobian = Untangling || !formulas::Formula<M>::kSeesInversion;
-  StarView<Real> star_;
+
+  template <class Shape>
+  constexpr void take(const Shape& shape, [[maybe_unused]] Real reference) {
+    using scalar::min;
+    quality_ = min(quality_, value(shape));
+    if constexpr (kNeedsJacobian) jacobian_ = min(jacobian_, formulas::smallest_jacobian(shape) / reference);
+  }
+  template <class Shape>
+  [[nodiscard]] static constexpr Real value(const Shape& shape) {
+    if constexpr (V == Value::Rank)
+      return formulas::rank<M>(shape);
+    else
+      return formulas::metric<M>(shape);
+  }
+
+  Real quality_ = scalar::constant<Real>(std::numeric_limits<float>::max());
+  Real jacobian_ = quality_;
+};
+
+/// What is maximised: the worth of a star with its vertex at `p`. StarT: StarView or what else has its for_each().
+template <Metric M, bool Untangling, class Real, Value V = Value::Metric, class StarT = StarView<Real>>
+class Objective {
+ public:
+  explicit constexpr Objective(StarT star) : star_(star) {}
+
+  [[nodiscard]] constexpr Real operator()(Vec2<Real> p) const {
+    using At = Worth<M, Untangling, Real, V>;
+    At worth;
+    star_.template for_each<At::kQuadrilaterals>([&worth, p](const auto& element) { worth.take(element, p); });
+    return worth.value();
+  }
+
+ private:
+  StarT star_;
 };
 
 /// The best candidate of all levels: its offset from the vertex (units of the star's scale) and its objective.
@@ -74,10 +85,10 @@ struct CandidateGrid {
   Vec2<Real> centre{};
   Vec2<Real> size{};
   int points = 0;
-  [[nodiscard]] Vec2<Real> at(int i, int j) const { return {coordinate(centre.x, size.x, i), coordinate(centre.y, size.y, j)}; }
+  [[nodiscard]] constexpr Vec2<Real> at(int i, int j) const { return {coordinate(centre.x, size.x, i), coordinate(centre.y, size.y, j)}; }
 
  private:
-  [[nodiscard]] Real coordinate(Real middle, Real width, int i) const {
+  [[nodiscard]] constexpr Real coordinate(Real middle, Real width, int i) const {
     return middle + width * (scalar::constant<Real>(i) / scalar::constant<Real>(points - 1) - Real(0.5F));
   }
 };
@@ -85,17 +96,33 @@ struct CandidateGrid {
 /// Does nothing at each step of the search; grid inspection passes one that records.
 struct NoTrace {
   template <class Real>
-  void level(const CandidateGrid<Real>&) {}
+  constexpr void level(const CandidateGrid<Real>&) {}
   template <class Real>
-  void candidate(int /*index*/, Vec2<Real> /*offset*/, Real /*objective*/) {}
+  constexpr void candidate(int /*index*/, Vec2<Real> /*offset*/, Real /*objective*/) {}
 };
+
+/// The best of a team's lanes; among equals the one of lowest index.
+template <class Real, class Team>
+[[nodiscard]] constexpr Candidate<Real> best_of_team(const Team& team, const Candidate<Real>& mine, int index) {
+  struct Found {
+    Candidate<Real> candidate;
+    int index;
+  };
+  return fold(team, Found{mine, index},
+              [](const Found& a, const Found& b) {
+                const bool second =
+                    b.candidate.objective > a.candidate.objective || (b.candidate.objective == a.candidate.objective && b.index < a.index);
+                return second ? b : a;
+              })
+      .candidate;
+}
 
 /// Searches all levels and keeps the best of all. The current position is no candidate (n is even) and so is compared explicitly;
 /// only a strictly better candidate replaces it, so ties go to the earlier level and the lower index. Grids after the first are
 /// centred on the best position so far, `omega` times 2 / (n - 1) as large as the one before (paper eq. 5).
-template <class Real, class ObjectiveAt, class Trace = NoTrace>
-[[nodiscard]] Candidate<Real> grid_search(const ObjectiveAt& objective, Vec2<Real> box, const SearchParameters& parameters,
-                                          Trace&& trace = {}) {
+template <class Real, class ObjectiveAt, class Trace = NoTrace, class Team = Solo>
+[[nodiscard]] constexpr Candidate<Real> grid_search(const ObjectiveAt& objective, Vec2<Real> box, const SearchParameters& parameters,
+                                                    Trace&& trace = {}, const Team& team = {}) {
   using scalar::select;
   Candidate<Real> best{{}, objective(Vec2<Real>{})};
   double omega = parameters.omega;
@@ -103,7 +130,8 @@ template <class Real, class ObjectiveAt, class Trace = NoTrace>
     const Real factor = scalar::constant<Real>(omega);
     const CandidateGrid<Real> grid{best.offset, {box.x * factor, box.y * factor}, parameters.grid_points};
     trace.level(grid);
-    for (int i = 0; i < grid.points; ++i) {
+    [[maybe_unused]] int index = -1;  // of the best so far in this level: for a team alone
+    for (int i = static_cast<int>(team.lane()); i < grid.points; i += static_cast<int>(Team::kSize)) {
       for (int j = 0; j < grid.points; ++j) {
         const Vec2<Real> p = grid.at(i, j);
         const Real value = objective(p);
@@ -111,8 +139,10 @@ template <class Real, class ObjectiveAt, class Trace = NoTrace>
         const auto better = value > best.objective;
         best.objective = select(better, value, best.objective);
         best.offset = {select(better, p.x, best.offset.x), select(better, p.y, best.offset.y)};
+        if constexpr (Team::kSize > 1) index = better ? i * grid.points + j : index;
       }
     }
+    if constexpr (Team::kSize > 1) best = best_of_team(team, best, index);
     omega *= 2.0 / (parameters.grid_points - 1);
   }
   return best;

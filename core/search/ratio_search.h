@@ -10,8 +10,10 @@
 
 #include <array>
 
+#include "core/base/unroll.h"
 #include "core/search/grid_search.h"
 #include "core/search/ratio_form.h"
+#include "core/search/team.h"
 
 namespace dmoscope {
 
@@ -21,7 +23,7 @@ struct LeastMargins {
   R m0, m1, m2, m3, m4, m5, m6, m7;
 
   /// Of the first element: its part of each row plus its part of the column.
-  LeastMargins(const std::array<R, 8>& row, R column)
+  constexpr LeastMargins(const std::array<R, 8>& row, R column)
       : m0(sum(row[0], column)),
         m1(sum(row[1], column)),
         m2(sum(row[2], column)),
@@ -32,7 +34,7 @@ struct LeastMargins {
         m7(sum(row[7], column)) {}
 
   /// And of a further one.
-  void take(const std::array<R, 8>& row, R column) {
+  constexpr void take(const std::array<R, 8>& row, R column) {
     using scalar::min;
     m0 = min(m0, sum(row[0], column));
     m1 = min(m1, sum(row[1], column));
@@ -44,33 +46,42 @@ struct LeastMargins {
     m7 = min(m7, sum(row[7], column));
   }
 
-  [[nodiscard]] R largest() const {
+  [[nodiscard]] constexpr R largest() const {
     using scalar::max;
     return max(max(max(m0, m1), max(m2, m3)), max(max(m4, m5), max(m6, m7)));
   }
 
   /// f(margin, row), from the last row to the first.
   template <class F>
-  void backwards(F f) const {
+  constexpr void backwards(F f) const {
     f(m7, 7U), f(m6, 6U), f(m5, 5U), f(m4, 4U), f(m3, 3U), f(m2, 2U), f(m1, 1U), f(m0, 0U);
   }
 
  private:
-  static R sum(R a, R b) { return scalar::Sum<R>::of(a, b); }
+  static constexpr R sum(R a, R b) { return scalar::Sum<R>::of(a, b); }
 };
 
-/// Searches one star, or one a slot where R is a pack. Large: keep one and use it again.
-template <class R>
+/// What is kept between the candidates of a round. A processor keeps both parts of every margin in its cache; a GPU, whose lanes have few
+/// registers and little cache, computes the columns' parts again, and the rows' too where the number of elements is not known beforehand.
+enum class Tables { Full, Rows, None };
+
+/// Searches one star, or one a slot where R is a pack. Large: keep one and use it again. Forms: their number where it is known beforehand,
+/// else 0. What it finds does not depend on Tables and Team.
+template <class R, std::size_t Forms = 0, Tables Kept = Tables::Full, class Team = Solo>
 class RatioSearch {
  public:
   static constexpr std::size_t kPoints = 8;  // candidates an axis: the one size this search is made for
-  static constexpr std::size_t kMaxForms = 48;
+  static constexpr std::size_t kMaxForms = Forms == 0 ? 48 : Forms;
+  using FormSpan = std::span<RatioForm<R>, Forms == 0 ? std::dynamic_extent : Forms>;
+
+  constexpr explicit RatioSearch(Team team = {}) : team_(team) {}
 
   /// Searches all levels. `forms`: 1 to kMaxForms, of which it uses the memory. `cap`: what no candidate's quality can exceed. `box`: of
   /// the star's other vertices. In every slot the quality at the origin must be positive. Returns the offset and its quality, as
   /// grid_search does.
-  Candidate<R> search(std::span<RatioForm<R>> forms, R cap, Vec2<R> box, int levels, double omega) {
-    forms_ = forms;
+  constexpr Candidate<R> search(FormSpan forms, R cap, Vec2<R> box, int levels, double omega) {
+    forms_ = forms.data();
+    count_ = forms.size();
     cap_ = cap;
     moved_by_ = {R(0), R(0)};
     Candidate<R> best{{}, quality({})};
@@ -86,6 +97,7 @@ class RatioSearch {
   static constexpr std::size_t kHalf = kPoints / 2;
   using Line = std::array<R, kPoints>;
   static_assert(kPoints == 8, "LeastMargins has eight");
+  static_assert(Team::kSize == 1 || Team::kSize == kPoints, "a column each");
   /// N_k - t S_k, times w_k: a + b x + c y - d (x^2 + y^2).
   struct Margin {
     R a, b, c, d;
@@ -95,14 +107,22 @@ class RatioSearch {
     Vec2<R> at;        // candidate of the former
   };
 
-  static R huge() { return scalar::constant<R>(1e30); }
+  static constexpr R huge() { return scalar::constant<R>(1e30); }
+  [[nodiscard]] constexpr std::size_t count() const {
+    if constexpr (Forms == 0)
+      return count_;
+    else
+      return Forms;
+  }
 
   /// Least N / S at `p`.
-  [[nodiscard]] R quality(Vec2<R> p) const {
+  [[nodiscard]] constexpr R quality(Vec2<R> p) const {
     using scalar::min, scalar::select;
     R least = cap_;
     const R squared = dot(p, p);
-    for (const RatioForm<R>& f : forms_) {
+    DMOSCOPE_UNROLL
+    for (std::size_t k = 0; k < count(); ++k) {
+      const RatioForm<R>& f = forms_[k];
       const R n = f.n0 + f.nx * p.x + f.ny * p.y;
       const R s = f.s0 + f.sx * p.x + f.sy * p.y + f.s2 * squared;
       least = min(least, n / select(s > R(0), s, R(1)));
@@ -111,9 +131,11 @@ class RatioSearch {
   }
 
   /// Makes `centre` the forms' new origin.
-  void recentre(Vec2<R> centre) {
+  constexpr void recentre(Vec2<R> centre) {
     const R squared = dot(centre, centre);
-    for (RatioForm<R>& f : forms_) {
+    DMOSCOPE_UNROLL
+    for (std::size_t k = 0; k < count(); ++k) {
+      RatioForm<R>& f = forms_[k];
       f.n0 = f.n0 + f.nx * centre.x + f.ny * centre.y;
       f.s0 = f.s0 + f.sx * centre.x + f.sy * centre.y + f.s2 * squared;
       f.sx = f.sx + R(2) * f.s2 * centre.x;
@@ -122,11 +144,12 @@ class RatioSearch {
   }
 
   /// Sets the weights; returns a bound of S_k(centre) / S_k(p) over the grid of this size and all elements.
-  R weigh(Vec2<R> size) {
+  constexpr R weigh(Vec2<R> size) {
     using scalar::abs, scalar::max, scalar::min, scalar::select;
     const R half(0.5F), hx = half * size.x, hy = half * size.y;
     R least(1);
-    for (std::size_t k = 0; k < forms_.size(); ++k) {
+    DMOSCOPE_UNROLL
+    for (std::size_t k = 0; k < count(); ++k) {
       const RatioForm<R>& f = forms_[k];
       const auto counts = f.s0 > R(0);
       weight_[k] = R(1) / select(counts, f.s0, R(1));
@@ -139,7 +162,7 @@ class RatioSearch {
     return select(least > smallest, R(1) / max(least, smallest), huge());
   }
 
-  void search_level(Vec2<R> size, Candidate<R>& best) {
+  constexpr void search_level(Vec2<R> size, Candidate<R>& best) {
     using scalar::any, scalar::select;
     recentre(moved_by_);
     const R bound = weigh(size);
@@ -172,7 +195,7 @@ class RatioSearch {
   }
 
   /// The candidates' offsets from the centre: the first half of each axis is the negative of the second.
-  void set_grid(Vec2<R> size) {
+  constexpr void set_grid(Vec2<R> size) {
     for (std::size_t i = 0; i < kHalf; ++i) {
       const R s = scalar::constant<R>(static_cast<double>(kHalf + i) / (kPoints - 1) - 0.5);
       x_[kHalf + i] = size.x * s;
@@ -182,51 +205,89 @@ class RatioSearch {
     }
   }
 
-  /// Margins at threshold `t`, as a part of each column and one of each row.
-  void fill_tables(R t) {
-    Line xx, yy;
-    for (std::size_t i = kHalf; i < kPoints; ++i) {
-      xx[i] = x_[i] * x_[i];
-      yy[i] = y_[i] * y_[i];
+  /// x_[i]; on a GPU without the memory that an index known only at run time would need.
+  [[nodiscard]] constexpr R column_offset(std::size_t i) const {
+    if constexpr (Kept == Tables::Full) {
+      return x_[i];
+    } else {
+      R x = x_[0];
+      DMOSCOPE_UNROLL
+      for (std::size_t other = 1; other < kPoints; ++other) x = i == other ? x_[other] : x;
+      return x;
     }
-    for (std::size_t k = 0; k < forms_.size(); ++k) {
+  }
+
+  /// Margins at threshold `t`, as a part of each column and one of each row.
+  constexpr void fill_tables(R t) {
+    [[maybe_unused]] Line xx;
+    if constexpr (Kept == Tables::Full)
+      for (std::size_t i = kHalf; i < kPoints; ++i) xx[i] = x_[i] * x_[i];
+    for (std::size_t i = kHalf; i < kPoints; ++i) yy_[i] = y_[i] * y_[i];
+    DMOSCOPE_UNROLL
+    for (std::size_t k = 0; k < count(); ++k) {
       const RatioForm<R>& f = forms_[k];
       const R w = weight_[k];
       const Margin m{(f.n0 - t * f.s0) * w, (f.nx - t * f.sx) * w, (f.ny - t * f.sy) * w, (t * f.s2) * w};
       margin_[k] = m;
-      for (std::size_t i = kHalf; i < kPoints; ++i) {
-        const R even_x = m.a - m.d * xx[i], odd_x = m.b * x_[i];
-        column_[k][i] = even_x + odd_x;
-        column_[k][kPoints - 1 - i] = even_x - odd_x;
-        const R even_y = m.d * yy[i], odd_y = m.c * y_[i];
-        row_[k][i] = odd_y - even_y;
-        row_[k][kPoints - 1 - i] = R(0) - odd_y - even_y;
+      if constexpr (Kept == Tables::Full) {
+        for (std::size_t i = kHalf; i < kPoints; ++i) {
+          const R even_x = m.a - m.d * xx[i], odd_x = m.b * x_[i];
+          column_[k][i] = even_x + odd_x;
+          column_[k][kPoints - 1 - i] = even_x - odd_x;
+        }
       }
+      if constexpr (Kept != Tables::None) fill_row(m, row_[k]);
+    }
+  }
+
+  constexpr void fill_row(const Margin& m, Line& row) const {
+    DMOSCOPE_UNROLL
+    for (std::size_t i = kHalf; i < kPoints; ++i) {
+      const R even_y = m.d * yy_[i], odd_y = m.c * y_[i];
+      row[i] = odd_y - even_y;
+      row[kPoints - 1 - i] = R(0) - odd_y - even_y;
     }
   }
 
   /// Many candidates may reach the cap alike: the one of lowest index, as grid_search would take. `p`: one that does.
-  Vec2<R> first_at_cap(Vec2<R> p) {
+  constexpr Vec2<R> first_at_cap(Vec2<R> p) {
     using scalar::select;
     fill_tables(cap_);
     for (std::size_t i = kPoints; i-- > 0;) {
-      least_margins([&](std::size_t k) { return column_[k][i]; }).backwards([&](R margin, std::size_t j) {
+      const R x = column_offset(i);
+      least_margins_of_column(i, x).backwards([&](R margin, std::size_t j) {
         const auto reaches = !(margin < R(0));
-        p = {select(reaches, x_[i], p.x), select(reaches, y_[j], p.y)};
+        p = {select(reaches, x, p.x), select(reaches, y_[j], p.y)};
       });
     }
     return p;
   }
 
   /// The candidate with the largest least margin above `floor`; among equals the one of lowest index.
-  [[nodiscard]] Best largest_margin(R floor) const {
+  [[nodiscard]] constexpr Best largest_margin(R floor) const {
     using scalar::max, scalar::min, scalar::select;
     Best best{floor, R(0) - huge(), {x_[0], y_[0]}};
-    for (std::size_t i = 0; i < kPoints; ++i) {
-      const R high = least_margins([&](std::size_t k) { return column_[k][i]; }).largest();
-      best.at.x = select(high > best.margin, x_[i], best.at.x);
+    const auto take = [&best](R high, R second, R x) {
+      best.at.x = select(high > best.margin, x, best.at.x);
       best.second = max(best.second, min(high, best.margin));
+      if constexpr (Team::kSize > 1) best.second = max(best.second, second);
       best.margin = max(best.margin, high);
+    };
+    if constexpr (Team::kSize == 1) {
+      DMOSCOPE_NO_UNROLL
+      for (std::size_t i = 0; i < kPoints; ++i) {
+        const R x = column_offset(i);
+        take(least_margins_of_column(i, x).largest(), R(0) - huge(), x);
+      }
+    } else {
+      const R x = column_offset(team_.lane());
+      const Best mine{least_margins_of_column(team_.lane(), x).largest(), R(0) - huge(), {x, y_[0]}};
+      const Best all = fold(team_, mine, [](const Best& a, const Best& b) {
+        return Best{max(a.margin, b.margin),
+                    max(max(a.second, b.second), min(a.margin, b.margin)),
+                    {select(b.margin > a.margin, b.at.x, a.at.x), a.at.y}};
+      });
+      take(all.margin, all.second, all.at.x);
     }
     // The winning column again, for the row and for the next best beside it.
     const R x = best.at.x, xx = x * x;
@@ -241,21 +302,46 @@ class RatioSearch {
     return best;
   }
 
-  /// The least margin of every candidate of the column whose part of element k's margin is column(k).
-  template <class Column>
-  LeastMargins<R> least_margins(Column column) const {
-    LeastMargins<R> least(row_[0], column(0));
-    for (std::size_t k = 1; k < forms_.size(); ++k) least.take(row_[k], column(k));
-    return least;
+  /// `x`: column_offset(i).
+  [[nodiscard]] constexpr LeastMargins<R> least_margins_of_column(std::size_t i, R x) const {
+    if constexpr (Kept == Tables::Full) {
+      return least_margins([&](std::size_t k) { return column_[k][i]; });
+    } else {
+      const R xx = x * x;
+      return least_margins([&](std::size_t k) { return (margin_[k].a - margin_[k].d * xx) + margin_[k].b * x; });
+    }
   }
 
-  std::span<RatioForm<R>> forms_;
+  /// The least margin of every candidate of the column whose part of element k's margin is column(k).
+  template <class Column>
+  [[nodiscard]] constexpr LeastMargins<R> least_margins(Column column) const {
+    if constexpr (Kept == Tables::None) {
+      Line row;
+      fill_row(margin_[0], row);
+      LeastMargins<R> least(row, column(0));
+      for (std::size_t k = 1; k < count(); ++k) {
+        fill_row(margin_[k], row);
+        least.take(row, column(k));
+      }
+      return least;
+    } else {
+      LeastMargins<R> least(row_[0], column(0));
+      DMOSCOPE_UNROLL
+      for (std::size_t k = 1; k < count(); ++k) least.take(row_[k], column(k));
+      return least;
+    }
+  }
+
+  [[no_unique_address]] Team team_;
+  RatioForm<R>* forms_;
+  std::size_t count_;
   R cap_;
   Vec2<R> moved_by_;  // from the last level's centre
-  Line x_, y_;        // the candidates' offsets from the centre
+  Line x_, y_, yy_;   // the candidates' offsets from the centre; the squares of the latter's second half
   std::array<R, kMaxForms> weight_;
   std::array<Margin, kMaxForms> margin_;
-  std::array<Line, kMaxForms> column_, row_;
+  std::array<Line, Kept == Tables::Full ? kMaxForms : 0> column_;
+  std::array<Line, Kept == Tables::None ? 0 : kMaxForms> row_;
 };
 
 }  // namespace dmoscope

@@ -6,8 +6,6 @@
 #include <vector>
 
 #include "core/base/vec.h"
-#include "core/mesh/topology.h"
-#include "core/quality/quality.h"
 
 namespace dmoscope {
 
@@ -37,22 +35,24 @@ struct Star {
 template <class Real>
 class StarView {
  public:
-  StarView(const Star<Real>& star)  // NOLINT(google-explicit-constructor): a view of it
+  constexpr StarView(const Star<Real>& star)  // NOLINT(google-explicit-constructor): a view of it
       : StarView(star.triangles.data(), star.triangles.size(), star.quadrilaterals.data(), star.quadrilaterals.size()) {}
-  StarView(const StarTriangle<Real>* triangles, std::size_t triangle_count, const StarQuadrilateral<Real>* quadrilaterals,
-           std::size_t quadrilateral_count)
+  constexpr StarView(const StarTriangle<Real>* triangles, std::size_t triangle_count, const StarQuadrilateral<Real>* quadrilaterals,
+                     std::size_t quadrilateral_count)
       : triangles_(triangles, triangle_count), quadrilaterals_(quadrilaterals, quadrilateral_count) {}
-  [[nodiscard]] std::span<const StarTriangle<Real>> triangles() const { return triangles_; }
-  [[nodiscard]] std::span<const StarQuadrilateral<Real>> quadrilaterals() const { return quadrilaterals_; }
+  [[nodiscard]] constexpr std::span<const StarTriangle<Real>> triangles() const { return triangles_; }
+  [[nodiscard]] constexpr std::span<const StarQuadrilateral<Real>> quadrilaterals() const { return quadrilaterals_; }
+  /// Calls f with each triangle, then, unless told that f does not take them, with each quadrilateral.
+  template <bool Quadrilaterals, class F>
+  constexpr void for_each(F f) const {
+    for (const StarTriangle<Real>& t : triangles_) f(t);
+    if constexpr (Quadrilaterals)
+      for (const StarQuadrilateral<Real>& q : quadrilaterals_) f(q);
+  }
 
  private:
   std::span<const StarTriangle<Real>> triangles_;
   std::span<const StarQuadrilateral<Real>> quadrilaterals_;
 };
-
-/// Fills `star` (its vectors are reused) for `vertex` at `positions`. `reference_measure`: one positive value an element.
-/// Planar meshes only. A star shrunk to a point gets an empty box.
-void gather_star(const QualityContext& context, const Topology& topology, PositionView positions, std::span<const double> reference_measure,
-                 Index vertex, Star<double>& star);
 
 }  // namespace dmoscope

@@ -9,6 +9,7 @@
 #include "core/base/progress.h"
 #include "core/io/io_context.h"
 #include "core/mesh/mesh.h"
+#include "core/mesh/planar_view.h"
 #include "core/mesh/plane.h"
 #include "core/mesh/report.h"
 #include "core/mesh/topology.h"
@@ -25,6 +26,11 @@ struct InputMesh {
   std::vector<double> reference_measure;  // > 0, divides an element's Jacobian while untangling: mean over its corners of the mean |area|
                                           // in their stars, at input
   [[nodiscard]] QualityContext quality_context() const { return {mesh, geometry}; }
+  /// Of a planar mesh.
+  [[nodiscard]] PlanarView planar_view() const {
+    return {topology.star_offsets().data(),     topology.incidences().data(), mesh.elements.offsets().data(),
+            mesh.elements.all_corners().data(), reference_measure.data(),     geometry.plane};
+  }
 };
 
 enum class Need { Smoothing, QualityOnly };

@@ -6,7 +6,7 @@ namespace dmoscope {
 
 /// coordinate + displacement, but one that does not move keeps its very bits (-0.0 + 0.0 would not). `single_precision`: see Mesh.
 /// Always inlined: code for different processors shares it, and must not share one compiled copy.
-[[gnu::always_inline]] inline double displaced(double coordinate, double displacement, bool single_precision) {
+[[gnu::always_inline]] constexpr double displaced(double coordinate, double displacement, bool single_precision) {
   if (displacement == 0.0) return coordinate;
   const double sum = coordinate + displacement;
   return single_precision ? nearest_float(sum) : sum;

@@ -8,9 +8,8 @@
 #include <utility>
 
 #include "core/base/memory.h"
-#include "core/search/grid_search.h"
-#include "core/smooth/displace.h"
 #include "core/smooth/lane_kernel.h"
+#include "core/smooth/reference_visit.h"
 
 namespace dmoscope {
 
@@ -18,47 +17,29 @@ namespace {
 
 constexpr std::size_t kGrain = 256;  // vertices a chunk of the reference: some 1 ms of work
 
-/// The untangling objective costs more and is needed only where an element of the star is inverted now; of one without, it finds the
-/// same candidate, since there every candidate it values otherwise is <= 0 and cannot win.
-template <Metric M>
-Candidate<double> search_star(const Star<double>& star, const SearchParameters& parameters) {
-  const Objective<M, true, double> untangling(star);
-  const bool valid = untangling({}) > 0.0;
-  return valid ? grid_search<double>(Objective<M, false, double>(star), star.box, parameters)
-               : grid_search<double>(untangling, star.box, parameters);
-}
-
-/// One vertex after the other, in double: the plain search, which the fast one is compared with and falls back to.
+/// One vertex after the other, in double.
 template <Metric M>
 class Reference {
  public:
-  Reference(const InputMesh& input, const SearchParameters& parameters) : input_(input), parameters_(parameters) {}
+  Reference(const InputMesh& input, const SearchParameters& parameters)
+      : mesh_(input.planar_view()), single_(input.mesh.single_precision), parameters_(parameters) {}
 
-  /// Moves `vertex` if it gains. `place`: where `positions` has it. `star`: room to work in.
-  bool visit(Index vertex, PositionView positions, Vec3& place, Star<double>& star) const {
-    gather_star(input_.quality_context(), input_.topology, positions, input_.reference_measure, vertex, star);
-    const Vec2<double> found = search_star<M>(star, parameters_).offset;
-    const Vec2<double> offset{found.x * star.scale, found.y * star.scale};
-    if (offset.x == 0.0 && offset.y == 0.0) return false;
-    const Vec3 step = input_.geometry.plane.lift(offset);
-    const bool single = input_.mesh.single_precision;
-    const Vec3 target{displaced(place.x, step.x, single), displaced(place.y, step.y, single), displaced(place.z, step.z, single)};
-    if (!gains(vertex, target, positions, place)) return false;
+  /// Moves `vertex` if it gains. `place`: where `positions` has it. `room`: to work in.
+  bool visit(Index vertex, PositionView positions, Vec3& place, Star<double>& room) const {
+    gather_star(MeshStar(mesh_, positions, vertex), room);
+    const Vec2<double> found = search_star<M>(StarView<double>(room), room.box, parameters_);
+    if (found.x == 0.0 && found.y == 0.0) return false;
+    const Vec3 target = displaced(mesh_.plane, place, {found.x * room.scale, found.y * room.scale}, single_);
+    if (!gains(vertex, target, positions)) return false;
     place = target;
     return true;
   }
 
-  /// A search may be in float and in other rounding than the statistics; what counts is judged by the statistics' own functions.
-  bool gains(Index vertex, Vec3 target, PositionView positions, Vec3& place) const {
-    const StarState before = star_state(input_, positions, M, vertex);
-    const Vec3 old = std::exchange(place, target);
-    const bool better = star_state(input_, positions, M, vertex).better_than(before);
-    place = old;
-    return better;
-  }
+  bool gains(Index vertex, Vec3 target, PositionView positions) const { return gains_at<M>(mesh_, positions, vertex, target); }
 
  private:
-  const InputMesh& input_;
+  PlanarView mesh_;
+  bool single_;
   SearchParameters parameters_;
 };
 
@@ -161,7 +142,7 @@ class LaneDmo final : public Smoother {
     task.owner = this;
     task.gains = [](void* owner, Index rank, const double* p) {
       auto& self = *static_cast<LaneDmo*>(owner);
-      return self.reference_.gains(self.table_.vertex_of_rank[rank], {p[0], p[1], p[2]}, self.view(), self.ranked_[rank]);
+      return self.reference_.gains(self.table_.vertex_of_rank[rank], {p[0], p[1], p[2]}, self.view());
     };
     task.visit_alone = [](void* owner, Index rank) {
       auto& self = *static_cast<LaneDmo*>(owner);
@@ -198,13 +179,8 @@ class LaneDmo final : public Smoother {
 }  // namespace
 
 StarState star_state(const InputMesh& input, PositionView positions, Metric metric, Index vertex) {
-  const QualityContext context = input.quality_context();
-  StarState state{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  for (const Incidence& at : input.topology.star(vertex)) {
-    state.jacobian = std::min(state.jacobian, smallest_jacobian(context, positions, at.element) / input.reference_measure[at.element]);
-    state.quality = std::min(state.quality, element_quality(context, positions, metric, at.element));
-  }
-  return state;
+  return formulas::with_metric(metric,
+                               [&]<Metric M>() { return star_state<M>(input.planar_view(), positions, vertex, positions[vertex]); });
 }
 
 std::unique_ptr<Smoother> make_dmo_smoother(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring,

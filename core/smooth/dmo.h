@@ -3,21 +3,12 @@
 
 #include <memory>
 
+#include "core/smooth/reference_visit.h"
 #include "core/smooth/smoother.h"
 
 namespace dmoscope {
 
-/// How good a star is, judged in double by the very functions of the statistics. While one of its elements is inverted its smallest
-/// normalised Jacobian counts, afterwards its least metric.
-struct StarState {
-  double jacobian = 0.0;  // least of smallest corner Jacobian / reference measure
-  double quality = 0.0;   // least metric (paper eq. 1)
-  /// Strictly better: what a move must be (promise 1).
-  [[nodiscard]] bool better_than(const StarState& other) const noexcept {
-    if (other.jacobian <= 0.0) return jacobian > other.jacobian;
-    return jacobian > 0.0 && quality > other.quality;
-  }
-};
+/// How good the star of `vertex` is.
 [[nodiscard]] StarState star_state(const InputMesh& input, PositionView positions, Metric metric, Index vertex);
 
 /// See make_smoother, which checks the arguments.

@@ -1,0 +1,28 @@
+#pragma once
+// A planar mesh as plain pointers, for code that runs on any processor.
+
+#include <span>
+
+#include "core/mesh/plane.h"
+#include "core/mesh/topology.h"
+
+namespace dmoscope {
+
+/// Wherever the arrays stand; their owner must outlive it.
+struct PlanarView {
+  const std::uint32_t* star_offsets = nullptr;  // see Topology
+  const Incidence* incidences = nullptr;
+  const Index* corner_offsets = nullptr;  // see ElementTable
+  const Index* corners = nullptr;
+  const double* reference_measure = nullptr;  // see InputMesh
+  Plane plane;
+
+  [[nodiscard]] constexpr std::span<const Incidence> star(Index vertex) const {
+    return {incidences + star_offsets[vertex], incidences + star_offsets[vertex + 1]};
+  }
+  [[nodiscard]] constexpr std::span<const Index> corners_of(Index element) const {
+    return {corners + corner_offsets[element], corners + corner_offsets[element + 1]};
+  }
+};
+
+}  // namespace dmoscope

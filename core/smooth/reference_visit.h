@@ -1,0 +1,65 @@
+#pragma once
+// One vertex's visit in double by the plain search, judged by the statistics' own formulas: what the fast search is compared with, and
+// falls back to. For any processor.
+
+#include <limits>
+
+#include "core/quality/element_shape.h"
+#include "core/search/grid_search.h"
+#include "core/search/mesh_star.h"
+#include "core/smooth/displace.h"
+
+namespace dmoscope {
+
+/// How good a star is, judged in double by the very formulas of the statistics. While one of its elements is inverted its smallest
+/// normalised Jacobian counts, afterwards its least metric.
+struct StarState {
+  double jacobian = 0.0;  // least of smallest corner Jacobian / reference measure
+  double quality = 0.0;   // least metric (paper eq. 1)
+  /// Strictly better: what a move must be (promise 1).
+  [[nodiscard]] constexpr bool better_than(const StarState& other) const noexcept {
+    if (other.jacobian <= 0.0) return jacobian > other.jacobian;
+    return jacobian > 0.0 && quality > other.quality;
+  }
+};
+
+/// With the vertex at `place`.
+template <Metric M>
+[[nodiscard]] constexpr StarState star_state(const PlanarView& mesh, PositionView positions, Index vertex, Vec3 place) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  StarState state{kInfinity, kInfinity};
+  const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
+  for (const Incidence& incidence : mesh.star(vertex)) {
+    const double reference = mesh.reference_measure[incidence.element];
+    visit_planar(mesh.plane, mesh.corners_of(incidence.element), at, [&state, reference](const auto& shape) {
+      state.jacobian = scalar::min(state.jacobian, formulas::smallest_jacobian(shape) / reference);
+      state.quality = scalar::min(state.quality, evaluate<M>(shape));
+    });
+  }
+  return state;
+}
+
+/// Exactly: would the vertex gain by standing at `target`? A search may be in float and in other rounding than the statistics.
+template <Metric M>
+[[nodiscard]] constexpr bool gains_at(const PlanarView& mesh, PositionView positions, Index vertex, Vec3 target) {
+  return star_state<M>(mesh, positions, vertex, target).better_than(star_state<M>(mesh, positions, vertex, positions[vertex]));
+}
+
+/// The untangling objective costs more and is needed only where an element of the star is inverted now; of one without, it finds the
+/// same candidate, since there every candidate it values otherwise is <= 0 and cannot win. Returns the offset, in units of the star's
+/// scale.
+template <Metric M, class StarT, class Team = Solo>
+[[nodiscard]] constexpr Vec2<double> search_star(const StarT& star, Vec2<double> box, const SearchParameters& parameters,
+                                                 const Team& team = {}) {
+  const Objective<M, true, double, Value::Metric, StarT> untangling(star);
+  if (!(untangling({}) > 0.0)) return grid_search<double>(untangling, box, parameters, NoTrace{}, team).offset;
+  return grid_search<double>(Objective<M, false, double, Value::Metric, StarT>(star), box, parameters, NoTrace{}, team).offset;
+}
+
+/// Where a vertex at `place` comes to stand by an offset in the plane, in mesh units. `single`: see Mesh::single_precision.
+[[nodiscard]] constexpr Vec3 displaced(const Plane& plane, Vec3 place, Vec2<double> offset, bool single) {
+  const Vec3 step = plane.lift(offset);
+  return {displaced(place.x, step.x, single), displaced(place.y, step.y, single), displaced(place.z, step.z, single)};
+}
+
+}  // namespace dmoscope

@@ -8,10 +8,10 @@
 namespace dmoscope::gpu {
 
 /// A call of the CUDA runtime failed. what() is "file:line: the expression: the runtime's name of the error: its text".
-class CudaError : public Error {
+class CudaError : public DeviceError {
  public:
   /// `code`: the runtime's cudaError_t.
-  CudaError(int code, const std::string& what) : Error(what), code_(code) {}
+  CudaError(int code, const std::string& what) : DeviceError(what), code_(code) {}
   /// The runtime's number of the error; headers that know CUDA compare it with cudaErrorMemoryAllocation and its like.
   [[nodiscard]] int code() const noexcept { return code_; }
 

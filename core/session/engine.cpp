@@ -9,8 +9,8 @@ constexpr auto kPublicationInterval = std::chrono::milliseconds(100);
 constexpr int kPublicationShare = 5;  // a publication may take at most a fifth of the worker's time
 }  // namespace
 
-Engine::Engine(unsigned threads)
-    : session_(threads),
+Engine::Engine(unsigned threads, Acceleration acceleration, Backend backend)
+    : session_(threads, std::move(acceleration), backend),
       context_{session_, progress_, [this](Message message) { say(std::move(message)); }},
       view_(std::make_shared<SessionView>()) {
   add_session_commands(commands_, context_);

@@ -23,7 +23,8 @@ namespace dmoscope {
 
 class Engine {
  public:
-  explicit Engine(unsigned threads = 0);
+  /// See Session.
+  explicit Engine(unsigned threads = 0, Acceleration acceleration = {}, Backend backend = Backend::Auto);
   /// Cancels what runs, drops what waits, joins.
   ~Engine();
   Engine(const Engine&) = delete;

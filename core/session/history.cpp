@@ -1,6 +1,7 @@
 #include "core/session/history.h"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -32,16 +33,26 @@ History::Kept copy_of(std::uint64_t iteration, std::span<const Vec3> positions, 
 void History::record_input(const IterationRecord& record, std::shared_ptr<const std::vector<Vec3>> positions) {
   records_.push_back(record);
   const std::span<const Vec3> view(*positions);
+  size_ = view.size_bytes();
   kept_.push_back({record.iteration, view, std::move(positions)});
 }
 
-void History::record(const IterationRecord& record, std::span<const Vec3> positions, ThreadPool* pool) {
-  if (record.iteration < records_.size()) return;
-  records_.push_back(record);
-  if (record.iteration % stride_ != 0) return;
-  thin(positions.size_bytes());
-  const bool room = bytes() + positions.size_bytes() <= budget_;
-  if (room && record.iteration % stride_ == 0) kept_.push_back(copy_of(record.iteration, positions, pool));
+void History::record(const IterationRecord& record) {
+  if (record.iteration == records_.size()) records_.push_back(record);
+}
+
+bool History::wants(std::uint64_t iteration) const { return iteration % stride_ == 0 && size_ <= budget_ && !kept(iteration); }
+
+void History::keep(std::uint64_t iteration, std::span<const Vec3> positions, ThreadPool* pool) {
+  if (!wants(iteration)) return;
+  thin(size_);
+  if (!wants(iteration)) return;  // the stride may have grown
+  kept_.insert(std::ranges::upper_bound(kept_, iteration, {}, &Kept::iteration), copy_of(iteration, positions, pool));
+}
+
+void History::forget_after(std::uint64_t iteration) {
+  records_.resize(std::min<std::size_t>(records_.size(), iteration + 1));
+  std::erase_if(kept_, [&](const Kept& kept) { return kept.iteration > iteration; });
 }
 
 const History::Kept& History::nearest(std::uint64_t iteration) const {
@@ -70,9 +81,14 @@ void History::thin(std::size_t needed) {
 
 std::string History::sentence() const {
   if (kept_.size() == records_.size()) return {};
-  const std::string kept =
-      stride_ == 1 ? "only the input's positions are kept" : fmt::format("positions are kept every {} iterations", stride_);
-  return fmt::format("history budget of {} MiB reached: {}, the others are computed again when asked for", budget_ >> 20U, kept);
+  constexpr std::string_view kOthers = "the others are computed again when asked for";
+  const bool full = stride_ > 1 || size_ > budget_;
+  if (!full) return fmt::format("positions of {} of {} iterations are kept, {}", kept_.size() - 1, records_.size() - 1, kOthers);
+  const bool all_multiples = kept_.size() == (records_.size() - 1) / stride_ + 1;
+  const std::string kept = kept_.size() == 1
+                               ? "only the input's positions are kept"
+                               : fmt::format("positions are kept {} {} iterations", all_multiples ? "every" : "at most every", stride_);
+  return fmt::format("history budget of {} MiB reached: {}, {}", budget_ >> 20U, kept, kOthers);
 }
 
 }  // namespace dmoscope

@@ -26,16 +26,28 @@ struct IterationRecord {
   double seconds = 0.0;  // this iteration's smoothing alone
 };
 
+/// Positions that lie far from the host (on a device) are worth bringing only to keep them where that takes but a modest share of the time:
+/// `bringing` seconds, when the smoothing since positions were last kept took `since`.
+[[nodiscard]] constexpr bool worth_bringing(double bringing, double since) noexcept {
+  constexpr double kShare = 0.2;
+  return bringing < kShare * since;
+}
+
 class History {
  public:
   explicit History(std::size_t budget_bytes) : budget_(budget_bytes) {}
 
   /// Records iteration 0. Its positions are shared, never copied, whatever the budget.
   void record_input(const IterationRecord& record, std::shared_ptr<const std::vector<Vec3>> positions);
-  /// Records the end of a later iteration; a record of the same iteration is kept as it was (a repeated iteration gives the same bits).
-  /// Positions are kept when the iteration number is a multiple of stride() and there is room; when the budget is full the stride doubles
-  /// and positions in between are let go: those iterations are computed again when asked for. `pool`: for the copy, may be null.
-  void record(const IterationRecord& record, std::span<const Vec3> positions, ThreadPool* pool);
+  /// Records the end of the next iteration. One that has a record already keeps it (a repeated iteration gives the same bits).
+  void record(const IterationRecord& record);
+  /// Whether keep() would keep the positions of this iteration: those of multiples of stride() are kept, where the budget has room for any.
+  [[nodiscard]] bool wants(std::uint64_t iteration) const;
+  /// Keeps positions, unless they are kept already or not wanted. When the budget is full the stride doubles and positions in between are
+  /// let go: those iterations are computed again when asked for. `pool`: for the copy, may be null.
+  void keep(std::uint64_t iteration, std::span<const Vec3> positions, ThreadPool* pool);
+  /// Forgets all that came after an iteration.
+  void forget_after(std::uint64_t iteration);
   [[nodiscard]] const std::vector<IterationRecord>& records() const noexcept { return records_; }
 
   struct Kept {
@@ -53,12 +65,13 @@ class History {
   [[nodiscard]] std::size_t bytes() const noexcept;
   /// Every how many iterations positions are kept: 1 until the budget is first met.
   [[nodiscard]] std::uint64_t stride() const noexcept { return stride_; }
-  /// Empty while every iteration is kept; else a sentence that says which are and that the others are computed again on demand.
+  /// Empty while every iteration is kept; else a sentence that says which are, and that the others are computed again on demand.
   [[nodiscard]] std::string sentence() const;
 
  private:
   void thin(std::size_t needed);
   std::size_t budget_;
+  std::size_t size_ = 0;  // bytes of the positions of one iteration
   std::uint64_t stride_ = 1;
   std::vector<IterationRecord> records_;
   std::vector<Kept> kept_;

@@ -11,12 +11,18 @@ namespace dmoscope {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
 /// Time of the visits between two looks at the cancel request.
 constexpr double kBlockSeconds = 0.02;
 /// Most of them: visits to vertices at rest cost next to nothing, and the next may be to others.
 constexpr std::uint64_t kLargestBlock = std::uint64_t{1} << 20U;
 /// Where a call is dear and a visit is not: far more than an iteration of any mesh.
 constexpr std::uint64_t kLargestFarBlock = std::uint64_t{1} << 40U;
+/// Before anything is known of what visits take.
+constexpr std::uint64_t kFirstBlock = 2048;
 /// How fast slow visits of the past are forgotten, block by block.
 constexpr double kForgetting = 0.75;
 
@@ -68,17 +74,18 @@ std::string Outcome::sentence() const {
   return fmt::format("stopped at the iteration limit; {}", rose);
 }
 
-Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::shared_ptr<ThreadPool> pool, std::size_t history_bytes)
+Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::shared_ptr<ThreadPool> pool, std::size_t history_bytes,
+         Acceleration acceleration)
     : input_(std::move(input)),
       parameters_(std::move(parameters)),
       pool_(std::move(pool)),
       fixed_(fixed_vertices(*input_, parameters_.fixed)),
       colouring_(make_colouring(*input_, free_vertices(fixed_, parameters_.order))),
-      smoother_(make_smoother(parameters_.method, input_, colouring_, parameters_.metric, parameters_.search, pool_.get())),
-      positions_(working_copy(input_->mesh.positions)),
       immovable_(immovable_elements(input_->mesh, fixed_, pool_.get())),
+      executor_(make_executor(parameters_.backend, acceleration, task())),
+      positions_(working_copy(input_->mesh.positions)),
       history_(history_bytes) {
-  if (smoother_->positions_are_far()) block_ = kLargestFarBlock;
+  plan_blocks();
   history_.record_input({0, statistics(), 0, 0.0}, {input_, &input_->mesh.positions});
 }
 
@@ -88,77 +95,172 @@ Run& Run::operator=(Run&&) noexcept = default;
 
 std::string Run::title() const { return fmt::format("{} · {}", parameters_.method, info(parameters_.metric).name); }
 
+std::string Run::backend_sentence() const {
+  if (executor_.backend != name(Backend::Cpu)) return fmt::format("{}: {}", executor_.backend, executor_.reason);
+  const unsigned threads = pool_->size();
+  const std::string cpu = fmt::format("{}, {} thread{}", executor_.backend, threads, threads == 1 ? "" : "s");
+  return executor_.reason.empty() ? cpu : fmt::format("{} ({})", cpu, executor_.reason);
+}
+
+SmoothingTask Run::task() const {
+  return {parameters_.method, input_, colouring_, parameters_.metric, parameters_.search, immovable_, pool_.get()};
+}
+
+/// Does what may ask a device; a failure is remembered for recover().
+template <class Body>
+auto Run::asking_device(const Body& body) const {
+  try {
+    return body();
+  } catch (const DeviceError& error) {
+    failure_ = error.what();
+    throw;
+  }
+}
+
+/// Does what may ask a device; after a failure the run has recovered, and the error says so.
+template <class Body>
+auto Run::recovering(const Body& body) {
+  try {
+    return body();
+  } catch (const DeviceError&) {
+    recover();
+    throw DeviceError(take_warning());
+  }
+}
+
+void Run::bring() const {
+  if (brought_ && brought_->moment == at_.moment) return;
+  const auto start = Clock::now();
+  brought_.reset();
+  asking_device([this] { executor_.smoother->store(positions_, pool_.get()); });
+  brought_ = at_;
+  bring_seconds_ = seconds_since(start);
+}
+
 std::span<const Vec3> Run::positions() const {
-  smoother_->store(positions_, pool_.get());
+  bring();
   return positions_;
 }
 
 Statistics Run::statistics() const {
-  if (moment_.visits == 0 && moment_.iteration < history_.records().size()) return history_.records()[moment_.iteration].statistics;
-  if (const std::optional<Statistics> found = smoother_->statistics()) return *found;
+  const auto& [iteration, visits] = at_.moment;
+  if (visits == 0 && iteration < history_.records().size()) return history_.records()[iteration].statistics;
+  if (const auto found = asking_device([this] { return executor_.smoother->statistics(); })) return *found;
   return compute_statistics(input_->quality_context(), positions(), parameters_.metric, immovable_, pool_.get());
 }
 
-void Run::record() {
-  if (moment_.iteration < history_.records().size()) return;  // been here before
-  history_.record({moment_.iteration, statistics(), moved_, seconds_}, positions(), pool_.get());
+std::shared_ptr<const DevicePicture> Run::picture(Metric shown) const { return executor_.smoother->picture(shown); }
+
+void Run::settle() {
+  recover();
+  recovering([this] { bring(); });
+  keep();
+}
+
+void Run::recover() {
+  if (failure_.empty()) return;
+  executor_ = executor_after_failure(fmt::format("{} failed: {}", executor_.backend, failure_), task());
+  failure_.clear();
+  plan_blocks();
+  const History::Kept& kept = history_.nearest(at_.moment.iteration);
+  const Moment of_history{kept.iteration, 0};
+  if (!brought_ || brought_->moment < of_history) {
+    positions_.assign(kept.positions.begin(), kept.positions.end());
+    brought_ = Place{of_history};
+  }
+  at_ = *brought_;
+  history_.forget_after(at_.moment.iteration);
+  const auto& [iteration, visits] = at_.moment;
+  executor_.warning += visits == 0 ? fmt::format(", from the end of iteration {} on", iteration)
+                                   : fmt::format(", from visit {} after iteration {} on", visits, iteration);
+}
+
+void Run::record(const Place& done) {
+  const std::uint64_t iteration = at_.moment.iteration;
+  if (iteration < history_.records().size()) return;  // been here before
+  history_.record({iteration, statistics(), done.moved, done.seconds});
+  unkept_seconds_ += done.seconds;
+  const bool dear = executor_.smoother->positions_are_far() && !worth_bringing(bring_seconds_, unkept_seconds_);
+  if (!history_.wants(iteration) || dear) return;
+  bring();
+  keep();
+}
+
+/// Keeps the positions of an iteration's end, where they have been brought anyway.
+void Run::keep() {
+  if (at_.moment.visits != 0 || !brought_ || brought_->moment != at_.moment) return;
+  history_.keep(at_.moment.iteration, positions_, pool_.get());
+  unkept_seconds_ = 0.0;
 }
 
 void Run::visit(std::uint64_t count, Progress& progress) {
-  const std::uint64_t whole = visits_per_iteration();
+  const auto whole = static_cast<double>(visits_per_iteration());
   last_outcome_.reset();
+  keep();
   while (count > 0) {
     progress.check();
-    const std::uint64_t block = std::min({count, whole - moment_.visits, block_});
-    const auto start = std::chrono::steady_clock::now();
-    moved_ += smoother_->visit(moment_.visits, block, positions_, pool_.get());
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    seconds_ += seconds;
-    choose_block(block, seconds);
-    moment_.visits += block;
+    const std::uint64_t block = std::min({count, visits_per_iteration() - at_.moment.visits, block_});
+    recovering([&] { visit_block(block); });
     count -= block;
-    progress.set(progress_base_ + progress_span_ * static_cast<double>(moment_.visits) / static_cast<double>(whole));
-    if (moment_.visits == whole) end_iteration();
-    if (observer_) observer_(*this);
+    const double done = at_.moment.visits == 0 ? 1.0 : static_cast<double>(at_.moment.visits) / whole;
+    progress.set(progress_base_ + progress_span_ * done);
+    if (observer_) recovering([this] { observer_(*this); });
   }
+}
+
+void Run::visit_block(std::uint64_t count) {
+  const auto start = Clock::now();
+  at_.moved += asking_device([&] { return executor_.smoother->visit(at_.moment.visits, count, positions_, pool_.get()); });
+  const double seconds = seconds_since(start);
+  at_.seconds += seconds;
+  choose_block(count, seconds);
+  at_.moment.visits += count;
+  if (at_.moment.visits == visits_per_iteration()) end_iteration();
+}
+
+/// Before the first visit by a smoother.
+void Run::plan_blocks() {
+  visit_seconds_ = 0.0;
+  block_ = executor_.smoother->positions_are_far() ? kLargestFarBlock : kFirstBlock;
 }
 
 /// How many visits to make before the next look, from the time of the last ones. The result does not depend on it.
 void Run::choose_block(std::uint64_t visits, double seconds) {
   visit_seconds_ = std::max(seconds / static_cast<double>(visits), kForgetting * visit_seconds_);
-  const double most = static_cast<double>(smoother_->positions_are_far() ? kLargestFarBlock : kLargestBlock);
+  const double most = static_cast<double>(executor_.smoother->positions_are_far() ? kLargestFarBlock : kLargestBlock);
   block_ = static_cast<std::uint64_t>(std::clamp(kBlockSeconds / std::max(visit_seconds_, kBlockSeconds / most), 1.0, most));
 }
 
 void Run::end_iteration() {
-  const auto start = std::chrono::steady_clock::now();
-  smoother_->store(positions_, pool_.get());
-  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  moment_ = {moment_.iteration + 1, 0};
-  record();
-  last_moved_ = moved_;
-  moved_ = 0;
-  seconds_ = 0.0;
+  Place done = std::exchange(at_, {{at_.moment.iteration + 1, 0}});
+  if (!executor_.smoother->positions_are_far()) {  // where they are near, storing them is part of the smoothing
+    bring();
+    done.seconds += bring_seconds_;
+  }
+  record(done);
+  last_moved_ = done.moved;
 }
 
 std::uint64_t Run::step(StepUnit unit, Progress& progress) {
+  recover();
   if (visits_per_iteration() == 0) {  // nothing is free: an iteration visits nobody
-    end_iteration();
+    recovering([this] { end_iteration(); });
     return 0;
   }
-  const std::uint64_t before = moved_;
+  const std::uint64_t before = at_.moved;
   std::uint64_t target = visits_per_iteration();
-  if (unit == StepUnit::Vertex) target = moment_.visits + 1;
-  if (unit == StepUnit::Class) target = *std::ranges::upper_bound(colouring_->class_offsets, moment_.visits);
-  visit(target - moment_.visits, progress);
-  return (moment_.visits == 0 ? last_moved_ : moved_) - before;
+  if (unit == StepUnit::Vertex) target = at_.moment.visits + 1;
+  if (unit == StepUnit::Class) target = *std::ranges::upper_bound(colouring_->class_offsets, at_.moment.visits);
+  visit(target - at_.moment.visits, progress);
+  return (at_.moment.visits == 0 ? last_moved_ : at_.moved) - before;
 }
 
 bool Run::back(StepUnit unit, Progress& progress) {
-  if (moment_ == Moment{}) return false;
+  recover();
+  if (at_.moment == Moment{}) return false;
   const std::uint64_t whole = visits_per_iteration();
   // The end of an iteration is the same place as the start of the next; from there "back" goes into the iteration before.
-  Moment target = moment_.visits > 0 ? moment_ : Moment{moment_.iteration - 1, whole};
+  Moment target = at_.moment.visits > 0 ? at_.moment : Moment{at_.moment.iteration - 1, whole};
   if (unit == StepUnit::Iteration || whole == 0) {
     target.visits = 0;
   } else if (unit == StepUnit::Vertex) {
@@ -172,16 +274,17 @@ bool Run::back(StepUnit unit, Progress& progress) {
 
 void Run::seek(Moment target, Progress& progress) {
   last_outcome_.reset();
+  recover();
+  keep();
   const History::Kept& kept = history_.nearest(target.iteration);
-  if (target < moment_ || kept.iteration > moment_.iteration) {
+  if (target < at_.moment || kept.iteration > at_.moment.iteration) {
     positions_.assign(kept.positions.begin(), kept.positions.end());
-    smoother_->positions_replaced();
-    moment_ = {kept.iteration, 0};
-    moved_ = 0;
-    seconds_ = 0.0;
+    executor_.smoother->positions_replaced();
+    at_ = {{kept.iteration, 0}};
+    brought_ = at_;
   }
-  while (moment_.iteration < target.iteration) step(StepUnit::Iteration, progress);
-  if (target.visits > moment_.visits) visit(target.visits - moment_.visits, progress);
+  while (at_.moment.iteration < target.iteration) step(StepUnit::Iteration, progress);
+  if (target.visits > at_.moment.visits) visit(target.visits - at_.moment.visits, progress);
 }
 
 Outcome Run::iterate(std::uint64_t iterations, Progress& progress, const AfterIteration& after) {
@@ -194,25 +297,26 @@ Outcome Run::until_converged(const ConvergenceLimits& limits, Progress& progress
 
 Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, Progress& progress, const AfterIteration& after) {
   Outcome outcome{.limits = limits};
+  recover();
   // Where we stand now may be the midst of an iteration, of which the history has no record.
-  const Statistics start = statistics();
+  const Statistics start = recovering([this] { return statistics(); });
   double minimum = start.minimum, movable = start.movable_minimum;
   std::uint64_t since_rise = 0;
   bool stopped = false;
   while (!stopped && outcome.iterations < limits.max_iterations) {
-    const bool whole = moment_.visits == 0;
+    const bool whole = at_.moment.visits == 0;
     step_within(outcome.iterations, limits.max_iterations, progress);
     ++outcome.iterations;
     ++since_rise;
-    const Statistics& now = history_.records()[moment_.iteration].statistics;
+    const Statistics& now = history_.records()[at_.moment.iteration].statistics;
     // As differences: where nothing is movable both are infinite, and that is no rise.
     if (now.minimum - minimum >= limits.rise || now.movable_minimum - movable >= limits.rise) {
       since_rise = 0;
-      outcome.last_rise = moment_.iteration;
+      outcome.last_rise = at_.moment.iteration;
       minimum = std::max(minimum, now.minimum);
       movable = std::max(movable, now.movable_minimum);
     }
-    if (after) after(*this);
+    if (after) recovering([&] { after(*this); });
     const bool still = whole && last_moved_ == 0;
     stopped = stop_when_still && (still || since_rise >= limits.patience);
     if (stopped) outcome.reason = still ? StopReason::NothingMoved : StopReason::NoRise;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/progress.h"
@@ -16,7 +17,7 @@
 #include "core/search/parameters.h"
 #include "core/session/history.h"
 #include "core/session/input_mesh.h"
-#include "core/smooth/smoother.h"
+#include "core/smooth/executor.h"
 
 namespace dmoscope {
 
@@ -32,6 +33,7 @@ struct RunParameters {
   SearchParameters search{};
   VisitOrder order{};
   std::vector<Index> fixed{};  // the user's fixed set, besides boundary and unused vertices
+  Backend backend = Backend::Auto;
 };
 
 enum class StepUnit { Vertex, Class, Iteration };
@@ -52,10 +54,19 @@ struct Outcome {
   [[nodiscard]] std::string sentence() const;
 };
 
+/// A moment, with what the iteration under way has come to.
+struct Place {
+  Moment moment{};
+  std::uint64_t moved = 0;
+  double seconds = 0.0;  // of smoothing
+};
+
 class Run {
  public:
-  /// Throws UsageError for parameters out of range, an unknown method, or a metric not defined for the mesh.
-  Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::shared_ptr<ThreadPool> pool, std::size_t history_bytes);
+  /// Throws UsageError for parameters out of range, an unknown method, a metric not defined for the mesh, or a backend that cannot do it;
+  /// DeviceError when the backend asked for by name fails.
+  Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::shared_ptr<ThreadPool> pool, std::size_t history_bytes,
+      Acceleration acceleration = {});
   ~Run();
   Run(Run&&) noexcept;
   Run& operator=(Run&&) noexcept;
@@ -63,11 +74,29 @@ class Run {
   [[nodiscard]] const InputMesh& input() const noexcept { return *input_; }
   [[nodiscard]] const RunParameters& parameters() const noexcept { return parameters_; }
   [[nodiscard]] std::string title() const;  // "dmo · mean-ratio"
+  /// What smooths: "cpu" or "cuda", whatever was asked for.
+  [[nodiscard]] const std::string& backend() const noexcept { return executor_.backend; }
+  /// On cuda: the device; on the CPU: why not cuda, empty where it was not wanted.
+  [[nodiscard]] const std::string& backend_reason() const noexcept { return executor_.reason; }
+  /// Both together: "cuda: NVIDIA H200, ...", "cpu, 8 threads (no cuda: built without a CUDA toolkit)".
+  [[nodiscard]] std::string backend_sentence() const;
+  /// What a person should be told about the backend since the last call; usually empty.
+  [[nodiscard]] std::string take_warning() { return std::exchange(executor_.warning, {}); }
+
   /// As they are now; brings them up to date first, so only on the thread that steps. What it returned before a step is out of date.
+  /// Throws DeviceError; see recover().
   [[nodiscard]] std::span<const Vec3> positions() const;
-  [[nodiscard]] const Moment& moment() const noexcept { return moment_; }
-  /// Statistics of the optimised metric at this very moment.
+  [[nodiscard]] const Moment& moment() const noexcept { return at_.moment; }
+  /// Statistics of the optimised metric at this very moment. Throws DeviceError; see recover().
   [[nodiscard]] Statistics statistics() const;
+  /// Where the positions live on a device, as Smoother::picture; else null. Throws DeviceError, which need not mean that the device is
+  /// lost.
+  [[nodiscard]] std::shared_ptr<const DevicePicture> picture(Metric shown) const;
+  /// Brings the positions to the host, where they are kept for the history: nothing can take them away then.
+  void settle();
+  /// After a DeviceError of one of the above: goes back to the last moment whose positions the host has, and on from there on the CPU. All
+  /// that changes the run does so by itself when a device fails it, before it throws the DeviceError. Without a failure: does nothing.
+  void recover();
   [[nodiscard]] const Colouring& colouring() const noexcept { return *colouring_; }
   /// 1 where a vertex may not move: boundary, unused, or the user's.
   [[nodiscard]] std::span<const std::uint8_t> fixed() const noexcept { return fixed_; }
@@ -79,7 +108,8 @@ class Run {
   void set_pool(std::shared_ptr<ThreadPool> pool) { pool_ = std::move(pool); }
 
   /// One vertex, one colour class (the rest of it when in its midst), or one iteration (likewise) forwards. Returns vertices moved.
-  /// On Cancelled the run stands at an exact moment between two visits; nothing is lost.
+  /// On Cancelled the run stands at an exact moment between two visits; nothing is lost. On DeviceError (here and in all below) the run has
+  /// recovered: see there.
   std::uint64_t step(StepUnit unit, Progress& progress);
   /// The reverse: to the previous vertex, class start or iteration start. At the input: does nothing, returns false.
   bool back(StepUnit unit, Progress& progress);
@@ -97,27 +127,38 @@ class Run {
   Outcome until_converged(const ConvergenceLimits& limits, Progress& progress, const AfterIteration& after = {});
 
  private:
+  [[nodiscard]] SmoothingTask task() const;
+  void bring() const;
+  void keep();
   void visit(std::uint64_t count, Progress& progress);
+  void visit_block(std::uint64_t count);
   void choose_block(std::uint64_t visits, double seconds);
+  void plan_blocks();
   void end_iteration();
-  void record();
+  void record(const Place& done);
   void step_within(std::uint64_t done, std::uint64_t all, Progress& progress);
   Outcome advance(const ConvergenceLimits& limits, bool stop_when_still, Progress& progress, const AfterIteration& after);
+  template <class Body>
+  auto asking_device(const Body& body) const;
+  template <class Body>
+  auto recovering(const Body& body);
 
   std::shared_ptr<const InputMesh> input_;
   RunParameters parameters_;
   std::shared_ptr<ThreadPool> pool_;
   std::vector<std::uint8_t> fixed_;
   std::shared_ptr<const Colouring> colouring_;
-  std::unique_ptr<Smoother> smoother_;
-  mutable std::vector<Vec3> positions_;  // the smoother may be ahead of them until positions() asks it
   std::vector<Index> immovable_;
-  Moment moment_;
-  std::uint64_t moved_ = 0;       // in the iteration under way
-  std::uint64_t last_moved_ = 0;  // in the iteration last ended
-  double seconds_ = 0.0;          // smoothing time of the iteration under way
-  double visit_seconds_ = 0.0;    // time of one visit, of the slower blocks of late
-  std::uint64_t block_ = 2048;    // visits until the next look at the cancel request; at first a guess
+  Executor executor_;
+  Place at_;
+  mutable std::vector<Vec3> positions_;             // the smoother may be ahead of them until bring()
+  mutable std::optional<Place> brought_ = Place{};  // the place that positions_ show; none: a device failed while it was bringing them
+  mutable double bring_seconds_ = 0.0;              // what that took
+  mutable std::string failure_;                     // of the device, until recover()
+  double unkept_seconds_ = 0.0;                     // of smoothing since positions were last kept
+  std::uint64_t last_moved_ = 0;                    // in the iteration last ended
+  double visit_seconds_ = 0.0;                      // time of one visit, of the slower blocks of late
+  std::uint64_t block_ = 0;                         // visits until the next look at the cancel request
   History history_;
   std::function<void(const Run&)> observer_;
   std::optional<Outcome> last_outcome_;

@@ -6,14 +6,15 @@
 
 namespace dmoscope {
 
-Session::Session(unsigned threads) : pool_(std::make_shared<ThreadPool>(threads)) {}
+Session::Session(unsigned threads, Acceleration acceleration, Backend backend)
+    : pool_(std::make_shared<ThreadPool>(threads)), acceleration_(std::move(acceleration)), backend_(backend) {}
 
 void Session::open(const std::filesystem::path& path, Progress& progress) { replace_input(load_input(path, Need::Smoothing, progress)); }
 
 void Session::open(Mesh mesh, Progress& progress) { replace_input(prepare_input(std::move(mesh), {}, Need::Smoothing, progress)); }
 
 void Session::replace_input(std::shared_ptr<const InputMesh> input) {
-  RunParameters parameters;
+  RunParameters parameters{.backend = backend_};
   if (!runs_.empty()) {
     parameters = runs_[active_].parameters();
     parameters.fixed.clear();
@@ -22,7 +23,7 @@ void Session::replace_input(std::shared_ptr<const InputMesh> input) {
     return std::ranges::all_of(mesh.elements.kinds(), [&](ElementKind kind) { return info(metric).defined_for(kind); });
   };
   if (!usable(parameters.metric)) parameters.metric = Metric::MeanRatio;
-  Run run(input, parameters, pool_, history_bytes_);  // may throw: nothing has been replaced yet
+  Run run(input, parameters, pool_, history_bytes_, acceleration_);  // may throw: nothing has been replaced yet
   input_ = std::move(input);
   runs_.clear();
   runs_.push_back(std::move(run));
@@ -47,7 +48,7 @@ void Session::select(std::size_t index) {
 }
 
 std::size_t Session::add_run(RunParameters parameters) {
-  runs_.emplace_back(input(), std::move(parameters), pool_, history_bytes_);
+  runs_.emplace_back(input(), std::move(parameters), pool_, history_bytes_, acceleration_);
   active_ = runs_.size() - 1;
   share_history();
   return active_;
@@ -65,7 +66,7 @@ std::size_t Session::change(RunParameters parameters) {
   Run& current = active();
   const bool untouched = current.moment() == Moment{} && current.history().records().size() == 1;
   if (!untouched) return add_run(std::move(parameters));
-  current = Run(input_, std::move(parameters), pool_, history_bytes_);
+  current = Run(input_, std::move(parameters), pool_, history_bytes_, acceleration_);
   share_history();
   return active_;
 }

@@ -15,7 +15,8 @@ class Session {
  public:
   static constexpr std::size_t kDefaultHistoryBytes = std::size_t{512} << 20U;
 
-  explicit Session(unsigned threads = 0);
+  /// `acceleration`: what runs may use besides the CPU; `backend`: what the first run asks for.
+  explicit Session(unsigned threads = 0, Acceleration acceleration = {}, Backend backend = Backend::Auto);
 
   /// Replaces input and runs by a mesh and one fresh run with the current parameters' method and metric (mean-ratio when the
   /// metric is not defined for the new mesh). On any error the session stays as it was.
@@ -52,6 +53,8 @@ class Session {
   void share_history();
 
   std::shared_ptr<ThreadPool> pool_;
+  Acceleration acceleration_;
+  Backend backend_;
   std::size_t history_bytes_ = kDefaultHistoryBytes;
   std::shared_ptr<const InputMesh> input_;
   std::vector<Run> runs_;

@@ -27,6 +27,13 @@ void tell_report(CommandContext& context) {
   for (std::string& sentence : input.report.sentences()) tell(context, std::move(sentence), Message::Kind::Warning);
 }
 
+/// What the runs have to tell of their backends.
+void tell_warnings(CommandContext& context) {
+  for (std::size_t i = 0; i < context.session.run_count(); ++i)
+    if (std::string warning = context.session.run(i).take_warning(); !warning.empty())
+      tell(context, std::move(warning), Message::Kind::Warning);
+}
+
 // Meshes and files
 
 void open(CommandContext& context, Arguments arguments) {
@@ -124,6 +131,12 @@ void set_precision(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
   const Precision precision = parse_precision(arguments[0]);
   change(context, [&](RunParameters& p) { p.search.precision = precision; });
+}
+void set_backend(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  const Backend backend = parse_backend(arguments[0]);
+  change(context, [&](RunParameters& p) { p.backend = backend; });
+  tell(context, context.session.active().backend_sentence());
 }
 void set_order(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
@@ -277,6 +290,7 @@ const std::vector<Verb>& verbs() {
       {{"omega", "omega X", "Size of the first grid over the star's bounding box, up to 2 (the paper: 0.5)."}, set_omega},
       {{"precision", "precision float|double", "The scalar the search computes with; moves are always confirmed in double."},
        set_precision},
+      {{"backend", "backend auto|cpu|cuda", "What smooths: the CPU, a CUDA device, or the best there is."}, set_backend},
       {{"order", "order natural|shuffle:SEED", "The order in which vertices are coloured and visited."}, set_order},
       {{"fix", "fix VERTEX...", "Fixes vertices besides the boundary."}, fix},
       {{"unfix", "unfix", "Frees all that was fixed by hand."}, unfix},
@@ -323,7 +337,11 @@ const std::vector<CommandInfo>& session_commands() {
 
 void add_session_commands(CommandTable& table, CommandContext& context) {
   for (const Verb& verb : verbs())
-    table.add(verb.info, [&context, handler = verb.handler](Arguments arguments) { handler(context, arguments); });
+    table.add(verb.info, [&context, handler = verb.handler](Arguments arguments) {
+      handler(context, arguments);
+      if (context.session.has_input()) context.session.active().settle();  // a device that fails later takes nothing of what was asked for
+      tell_warnings(context);
+    });
 }
 
 }  // namespace dmoscope

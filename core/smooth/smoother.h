@@ -29,16 +29,16 @@ class Smoother {
   /// of its neighbours whatever the number of threads, and moves those that gain; returns how many moved. The stretch may begin and end in
   /// the midst of classes and span any number of them, up to the whole order. The result depends neither on the pool nor on how an
   /// iteration is cut into calls. `positions`: of the whole mesh, and the ones that the last call left, unless positions_replaced() was
-  /// called in between; what moved may be missing from them until store(). Throws DeviceError; whatever it worked on is lost then but
-  /// `positions`.
+  /// called in between; what moved may be missing from them until store(), and is where positions_are_far(). Throws DeviceError; the
+  /// smoother is of no use any more then.
   virtual std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) = 0;
   /// Brings `positions` up to date with all visits so far. Throws DeviceError, with `positions` in any state.
   virtual void store(std::span<Vec3> positions, ThreadPool* pool) = 0;
   /// Forgets what was derived from the positions of the last visit, and what store() would bring.
   virtual void positions_replaced() = 0;
 
-  /// Whether positions lie far from the host: store() and each call of visit() are dear then, so a run asks for neither more often than it
-  /// must.
+  /// Whether positions lie far from the host, on a device: store() and each call of visit() are dear then, so a run asks for neither more
+  /// often than it must, and visit() never writes to `positions`.
   [[nodiscard]] virtual bool positions_are_far() const noexcept { return false; }
   /// Statistics of the metric that is optimised after all visits so far, found without bringing the positions to the host: the very bits of
   /// compute_statistics(). None where that cannot be, and while there was no visit since the start or since positions_replaced(). Throws
@@ -55,8 +55,11 @@ struct MethodInfo {
 /// The methods this version has.
 [[nodiscard]] std::span<const MethodInfo> method_table();
 
-/// Makes the smoother for a method. `colouring`: the vertices it may move. Throws UsageError for an unknown method (listing the known
-/// ones), for parameters out of range or for a metric that is not defined for the mesh.
+/// Throws UsageError for an unknown method (listing the known ones), for parameters out of range or for a metric that is not defined for
+/// the mesh.
+void require_possible(std::string_view method, const Mesh& mesh, Metric metric, const SearchParameters& parameters);
+
+/// Makes the smoother for a method on the CPU. `colouring`: the vertices it may move. Throws as require_possible does.
 [[nodiscard]] std::unique_ptr<Smoother> make_smoother(std::string_view method, std::shared_ptr<const InputMesh> input,
                                                       std::shared_ptr<const Colouring> colouring, Metric metric,
                                                       const SearchParameters& parameters, ThreadPool* pool);

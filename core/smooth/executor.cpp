@@ -1,0 +1,66 @@
+#include "core/smooth/executor.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+
+namespace dmoscope {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> kNames{"auto", "cpu", "cuda"};  // in the order of Backend
+
+/// Why no accelerator does this; empty when one can.
+std::string obstacle(const Acceleration& acceleration, const SmoothingTask& task) {
+  if (task.method != "dmo") return fmt::format("{} runs on the CPU alone", task.method);
+  if (task.search.precision == Precision::Double) return "the search in double runs on the CPU alone";
+  if (task.search.simd) return "SIMD instructions were asked for, which are the CPU's";
+  return acceleration.accelerator ? std::string() : acceleration.reason;
+}
+
+Executor on_cpu(const SmoothingTask& task, std::string reason) {
+  auto smoother = make_smoother(task.method, task.input, task.colouring, task.metric, task.search, task.pool);
+  return {std::move(smoother), "cpu", std::move(reason), {}};
+}
+
+Executor on_device(const Accelerator& accelerator, const SmoothingTask& task) {
+  auto smoother = accelerator.make_dmo(task.input, task.colouring, task.metric, task.search, task.immovable, task.pool);
+  return {std::move(smoother), accelerator.name(), accelerator.description(), {}};
+}
+
+}  // namespace
+
+std::string_view name(Backend backend) { return kNames[static_cast<std::size_t>(backend)]; }
+
+Backend parse_backend(std::string_view word) {
+  const auto found = std::ranges::find(kNames, word);
+  if (found == kNames.end()) throw UsageError(fmt::format("unknown backend '{}' (known: {})", word, fmt::join(kNames, ", ")));
+  return static_cast<Backend>(found - kNames.begin());
+}
+
+Executor make_executor(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task) {
+  require_possible(task.method, task.input->mesh, task.metric, task.search);
+  if (wanted == Backend::Cpu) return on_cpu(task, {});
+  const std::string why_not = obstacle(acceleration, task);
+  if (wanted == Backend::Cuda) {
+    if (!why_not.empty()) throw UsageError(fmt::format("the cuda backend cannot be used: {}", why_not));
+    return on_device(*acceleration.accelerator, task);
+  }
+  if (!why_not.empty()) return on_cpu(task, fmt::format("no {}: {}", name(Backend::Cuda), why_not));
+  try {
+    return on_device(*acceleration.accelerator, task);
+  } catch (const DeviceError& error) {
+    return executor_after_failure(fmt::format("{} failed: {}", acceleration.accelerator->name(), error.what()), task);
+  }
+}
+
+Executor executor_after_failure(const std::string& why, const SmoothingTask& task) {
+  Executor executor = on_cpu(task, why);
+  executor.warning = fmt::format("{}; smoothing on the CPU", why);
+  return executor;
+}
+
+}  // namespace dmoscope

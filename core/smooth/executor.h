@@ -1,0 +1,39 @@
+#pragma once
+// Which of the backends does a run's smoothing, and why.
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/smooth/accelerator.h"
+
+namespace dmoscope {
+
+/// What make_smoother and Accelerator::make_dmo need to know.
+struct SmoothingTask {
+  std::string_view method;
+  std::shared_ptr<const InputMesh> input;
+  std::shared_ptr<const Colouring> colouring;
+  Metric metric;
+  SearchParameters search;
+  std::span<const Index> immovable;
+  ThreadPool* pool;
+};
+
+/// A smoother, and what it runs on.
+struct Executor {
+  std::unique_ptr<Smoother> smoother;
+  std::string backend;  // "cpu", or the accelerator's name
+  std::string reason;   // accelerator: what it is; cpu: why nothing faster ("no cuda: ..."), empty where nothing else was wanted
+  std::string warning;  // for a person: an accelerator should have been used and failed; usually empty
+};
+
+/// Throws UsageError as make_smoother does, and with the reason when `wanted` cannot be; DeviceError when `wanted` fails. For
+/// Backend::Auto a device's failure is no error: the CPU does the work, with a warning.
+[[nodiscard]] Executor make_executor(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task);
+
+/// On the CPU, since the accelerator of before failed: `why`.
+[[nodiscard]] Executor executor_after_failure(const std::string& why, const SmoothingTask& task);
+
+}  // namespace dmoscope

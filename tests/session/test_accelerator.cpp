@@ -1,0 +1,343 @@
+// Runs on an accelerator: who is chosen and why, the same bits, positions that lie far, and what happens when the device fails.
+
+#include <cstring>
+#include <functional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/session/engine.h"
+#include "core/session/run.h"
+#include "core/session/session_commands.h"
+#include "tests/support/fake_accelerator.h"
+#include "tests/support/meshes.h"
+
+namespace dmoscope {
+namespace {
+
+using testing::acceleration;
+using testing::FakeDevice;
+using ::testing::HasSubstr;
+using testing::input;
+using testing::lattice;
+
+constexpr std::size_t kPlenty = std::size_t{1} << 28U;
+
+std::vector<Vec3> copy(const dmoscope::Run& run) { return {run.positions().begin(), run.positions().end()}; }
+bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
+}
+bool same_bits(const Statistics& a, const Statistics& b) {
+  return a.minimum == b.minimum && a.mean == b.mean && a.movable_minimum == b.movable_minimum && a.ceiling == b.ceiling &&
+         a.worst_element == b.worst_element && a.inverted == b.inverted;
+}
+
+const std::shared_ptr<const InputMesh>& mesh() {
+  static const auto shared = input(lattice(30, 0.45, 31));
+  return shared;
+}
+dmoscope::Run make_run(RunParameters parameters, Acceleration acceleration, std::size_t budget = kPlenty) {
+  return {mesh(), std::move(parameters), std::make_shared<ThreadPool>(2), budget, std::move(acceleration)};
+}
+dmoscope::Run on_device(const std::shared_ptr<FakeDevice>& device, std::size_t budget = kPlenty) {
+  return make_run({.backend = Backend::Cuda}, acceleration(device), budget);
+}
+dmoscope::Run on_cpu(std::size_t budget = kPlenty) { return make_run({.backend = Backend::Cpu}, {}, budget); }
+
+/// Positions at the end of each iteration, the input first.
+std::vector<std::vector<Vec3>> states_on_cpu(std::uint64_t iterations) {
+  Progress progress;
+  dmoscope::Run run = on_cpu();
+  std::vector<std::vector<Vec3>> states{copy(run)};
+  run.iterate(iterations, progress, [&](const dmoscope::Run& now) { states.push_back(copy(now)); });
+  return states;
+}
+
+TEST(Backend, NamesReadBack) {
+  for (const Backend backend : {Backend::Auto, Backend::Cpu, Backend::Cuda}) EXPECT_EQ(parse_backend(name(backend)), backend);
+  EXPECT_THROW((void)parse_backend("abacus"), UsageError);
+}
+
+TEST(Backend, AutoTakesTheAcceleratorWhereItCan) {
+  const auto device = std::make_shared<FakeDevice>();
+  dmoscope::Run run = make_run({}, acceleration(device));
+  EXPECT_EQ(run.backend(), "cuda");
+  EXPECT_EQ(run.backend_sentence(), "cuda: Fake H1");
+  EXPECT_EQ(run.take_warning(), "");
+  EXPECT_EQ(make_run({.backend = Backend::Cpu}, acceleration(device)).backend_sentence(), "cpu, 2 threads");
+}
+
+TEST(Backend, AutoTakesTheCpuForWhatADeviceCannotDoAndSaysWhy) {
+  const auto device = std::make_shared<FakeDevice>();
+  RunParameters in_double, in_lanes;
+  in_double.search.precision = Precision::Double;
+  in_lanes.search.simd = best_simd_level();
+  for (const auto& [parameters, reason] : {std::pair{in_double, "double"}, std::pair{in_lanes, "SIMD"}}) {
+    dmoscope::Run run = make_run(parameters, acceleration(device));
+    EXPECT_EQ(run.backend(), "cpu");
+    EXPECT_THAT(run.backend_reason(), HasSubstr(reason));
+    EXPECT_EQ(run.take_warning(), "") << "nothing went wrong";
+    RunParameters insisting = parameters;
+    insisting.backend = Backend::Cuda;
+    EXPECT_THROW(make_run(insisting, acceleration(device)), UsageError);
+  }
+}
+
+TEST(Backend, WithoutAnAcceleratorTheReasonIsGiven) {
+  const Acceleration none{nullptr, "built without a CUDA toolkit"};
+  EXPECT_EQ(make_run({}, none).backend_sentence(), "cpu, 2 threads (no cuda: built without a CUDA toolkit)");
+  try {
+    (void)make_run({.backend = Backend::Cuda}, none);
+    FAIL() << "there is no cuda";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("built without a CUDA toolkit"));
+  }
+}
+
+TEST(Backend, ADeviceThatCannotBeMadeUseOfIsAWarningForAutoAndAnErrorByName) {
+  const auto device = std::make_shared<FakeDevice>();
+  device->fail_to_make = true;
+  dmoscope::Run run = make_run({}, acceleration(device));
+  EXPECT_EQ(run.backend(), "cpu");
+  EXPECT_THAT(run.take_warning(), AllOf(HasSubstr("3 GiB asked for, 2 GiB free"), HasSubstr("smoothing on the CPU")));
+  EXPECT_EQ(run.take_warning(), "") << "told once";
+  EXPECT_THAT(run.backend_sentence(), HasSubstr("3 GiB"));
+  EXPECT_THROW(on_device(device), DeviceError);
+}
+
+TEST(Accelerated, EveryStepGivesTheBitsOfTheCpu) {
+  Progress progress;
+  dmoscope::Run far = on_device(std::make_shared<FakeDevice>()), near = on_cpu();
+  const auto step = [&](const std::function<void(dmoscope::Run&)>& action) {
+    action(far);
+    action(near);
+    ASSERT_EQ(far.moment(), near.moment());
+    EXPECT_TRUE(same_bits(far.statistics(), near.statistics()));
+    EXPECT_TRUE(same_bits(copy(far), copy(near)));
+  };
+  step([&](dmoscope::Run& run) { run.iterate(3, progress); });
+  step([&](dmoscope::Run& run) { run.step(StepUnit::Class, progress); });
+  step([&](dmoscope::Run& run) { run.step(StepUnit::Vertex, progress); });
+  step([&](dmoscope::Run& run) { run.back(StepUnit::Class, progress); });
+  step([&](dmoscope::Run& run) { run.back(StepUnit::Iteration, progress); });
+  step([&](dmoscope::Run& run) { run.seek({1, 7}, progress); });
+  step([&](dmoscope::Run& run) { run.seek({5, 0}, progress); });
+  for (std::size_t i = 0; i < near.history().records().size(); ++i) {
+    EXPECT_EQ(far.history().records()[i].moved, near.history().records()[i].moved) << i;
+    EXPECT_TRUE(same_bits(far.history().records()[i].statistics, near.history().records()[i].statistics)) << i;
+  }
+}
+
+TEST(Accelerated, AnIterationIsOneCallAndNothingIsCopiedUntilPositionsAreAskedFor) {
+  Progress progress;
+  const auto device = std::make_shared<FakeDevice>();
+  dmoscope::Run run = on_device(device, 0);
+  run.iterate(5, progress);
+  EXPECT_EQ(device->visits, 5U);
+  EXPECT_EQ(device->stores, 0U);
+  EXPECT_EQ(device->statistics, 5U);
+  (void)run.positions();
+  (void)run.positions();
+  EXPECT_EQ(device->stores, 1U) << "once for a moment";
+}
+
+TEST(Accelerated, ADeviceWithoutStatisticsStillHasThem) {
+  Progress progress;
+  const auto device = std::make_shared<FakeDevice>();
+  device->has_statistics = false;
+  dmoscope::Run far = on_device(device), near = on_cpu();
+  for (dmoscope::Run* run : {&far, &near}) run->iterate(3, progress);
+  EXPECT_TRUE(same_bits(far.history().records()[3].statistics, near.history().records()[3].statistics));
+}
+
+TEST(History, FarPositionsAreBroughtForAFifthOfTheTimeAtMost) {
+  EXPECT_TRUE(worth_bringing(0.0, 0.001)) << "nothing is known of it: try";
+  EXPECT_FALSE(worth_bringing(0.010, 0.001));
+  EXPECT_FALSE(worth_bringing(0.010, 0.049));
+  EXPECT_TRUE(worth_bringing(0.010, 0.051));
+}
+
+TEST(History, KeepsFewPositionsOfAFarRunAndComputesTheOthersAgain) {
+  Progress progress;
+  const auto states = states_on_cpu(12);
+  const auto device = std::make_shared<FakeDevice>();
+  device->store_takes = std::chrono::milliseconds(100);  // a hundred times what an iteration takes
+  dmoscope::Run run = on_device(device);
+  run.iterate(12, progress);
+  EXPECT_LT(device->stores, 12U);
+  EXPECT_FALSE(run.history().kept(12));
+  EXPECT_THAT(run.history().sentence(), HasSubstr("computed again when asked for"));
+  for (const std::uint64_t iteration : {7U, 0U, 12U, 3U}) {
+    run.seek({iteration, 0}, progress);
+    EXPECT_TRUE(same_bits(copy(run), states[iteration])) << iteration;
+  }
+}
+
+TEST(History, KeepsTheFarPositionsThatSomebodyAskedFor) {
+  Progress progress;
+  const auto device = std::make_shared<FakeDevice>();
+  device->store_takes = std::chrono::milliseconds(100);
+  dmoscope::Run run = on_device(device);
+  run.iterate(6, progress);
+  ASSERT_FALSE(run.history().kept(6));
+  (void)run.positions();
+  run.iterate(1, progress);
+  EXPECT_TRUE(run.history().kept(6));
+  (void)run.positions();
+  run.seek({2, 0}, progress);
+  EXPECT_TRUE(run.history().kept(7));
+}
+
+/// At the n-th visit, and whether somebody had asked for positions just before.
+class Failure : public ::testing::TestWithParam<std::tuple<std::uint64_t, bool>> {};
+
+TEST_P(Failure, WhileSteppingLeavesTheLastPositionsOfTheHostAndGoesOnOnTheCpu) {
+  const auto [fails_at, asked] = GetParam();
+  Progress progress;
+  const auto states = states_on_cpu(8);
+  const auto device = std::make_shared<FakeDevice>();
+  device->fail_at_visit = fails_at;
+  dmoscope::Run run = on_device(device, 0);
+  run.iterate(fails_at - 1, progress);
+  if (asked) (void)run.positions();
+  try {
+    run.iterate(1, progress);
+    FAIL() << "the device is lost";
+  } catch (const DeviceError& error) {
+    EXPECT_EQ(error.exit_code(), 3);
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("cuda failed"), HasSubstr("the fake device was lost"), HasSubstr("on the CPU")));
+  }
+  const std::uint64_t stands = asked ? fails_at - 1 : 0;
+  EXPECT_EQ(run.moment(), (Moment{stands, 0}));
+  EXPECT_EQ(run.history().records().size(), stands + 1);
+  EXPECT_TRUE(same_bits(copy(run), states[stands]));
+  EXPECT_EQ(run.backend(), "cpu");
+  EXPECT_THAT(run.backend_reason(), HasSubstr("the fake device was lost"));
+  EXPECT_EQ(run.take_warning(), "") << "the error said it";
+
+  run.iterate(8 - stands, progress);
+  EXPECT_EQ(run.moment(), (Moment{8, 0}));
+  EXPECT_TRUE(same_bits(copy(run), states[8]));
+  dmoscope::Run whole = on_cpu();
+  whole.iterate(8, progress);
+  for (std::size_t i = 0; i <= 8; ++i) {
+    EXPECT_TRUE(same_bits(run.history().records()[i].statistics, whole.history().records()[i].statistics)) << i;
+    EXPECT_EQ(run.history().records()[i].moved, whole.history().records()[i].moved) << i;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Visits, Failure, ::testing::Combine(::testing::Values(1U, 2U, 6U), ::testing::Bool()));
+
+TEST(Accelerated, AFailureInTheMidstOfAnIterationGoesOnFromThePositionsBroughtThere) {
+  Progress progress;
+  const auto device = std::make_shared<FakeDevice>();
+  dmoscope::Run run = on_device(device, 0), near = on_cpu();
+  for (dmoscope::Run* each : {&run, &near}) {
+    each->iterate(2, progress);
+    each->step(StepUnit::Class, progress);
+  }
+  const Moment stands = run.moment();
+  EXPECT_TRUE(same_bits(copy(run), copy(near)));
+  device->fail_at_visit = device->visits + 1;
+  EXPECT_THROW(run.step(StepUnit::Vertex, progress), DeviceError);
+  EXPECT_EQ(run.moment(), stands);
+  for (dmoscope::Run* each : {&run, &near}) each->step(StepUnit::Iteration, progress);
+  EXPECT_EQ(run.moment(), (Moment{3, 0}));
+  EXPECT_TRUE(same_bits(copy(run), copy(near)));
+  EXPECT_EQ(run.history().records()[3].moved, near.history().records()[3].moved);
+}
+
+TEST(Accelerated, AFailureWhileCopyingGoesBackToPositionsThatWereKept) {
+  Progress progress;
+  const auto states = states_on_cpu(5);
+  const auto device = std::make_shared<FakeDevice>();
+  dmoscope::Run run = on_device(device);
+  run.iterate(1, progress);
+  (void)run.positions();
+  device->store_takes = std::chrono::milliseconds(100);
+  run.iterate(3, progress);  // the first of them keeps what was asked for
+  const std::uint64_t kept = run.history().nearest(4).iteration;
+  ASSERT_GE(kept, 1U);
+  ASSERT_LT(kept, 4U);
+  device->fail_at_store = device->stores + 1;
+  EXPECT_THROW((void)run.positions(), DeviceError);
+  EXPECT_THROW((void)run.positions(), DeviceError) << "never half copied ones";
+  run.recover();
+  EXPECT_THAT(run.take_warning(), HasSubstr("lost while copying"));
+  EXPECT_EQ(run.moment(), (Moment{kept, 0}));
+  EXPECT_TRUE(same_bits(copy(run), states[kept]));
+  run.iterate(5 - kept, progress);
+  EXPECT_TRUE(same_bits(copy(run), states[5]));
+}
+
+TEST(Accelerated, AnObserverThatMeetsTheFailureEndsTheStepWithIt) {
+  Progress progress;
+  const auto device = std::make_shared<FakeDevice>();
+  dmoscope::Run run = on_device(device, 0);
+  device->fail_at_store = 1;
+  run.set_observer([](const dmoscope::Run& now) { (void)now.positions(); });
+  EXPECT_THROW(run.iterate(2, progress), DeviceError);
+  EXPECT_EQ(run.backend(), "cpu");
+  EXPECT_EQ(run.moment(), Moment{});
+  run.iterate(2, progress);
+  EXPECT_TRUE(same_bits(copy(run), states_on_cpu(2)[2]));
+}
+
+TEST(Session, BackendIsACommandAndEveryRunSaysWhatItRunsOn) {
+  const auto device = std::make_shared<FakeDevice>();
+  Session session(2, acceleration(device));
+  Progress progress;
+  std::vector<Message> said;
+  CommandContext context{session, progress, [&](Message message) { said.push_back(std::move(message)); }};
+  CommandTable commands;
+  add_session_commands(commands, context);
+  commands.execute("generate grid 500");
+  EXPECT_EQ(session.active().backend(), "cuda");
+  commands.execute("backend cpu");
+  EXPECT_EQ(session.active().backend(), "cpu");
+  EXPECT_EQ(session.run_count(), 1U);
+  EXPECT_EQ(said.back().text, "cpu, 2 threads");
+  commands.execute("run 1");
+  commands.execute("backend cuda");
+  EXPECT_EQ(session.run_count(), 2U) << "the run before is kept";
+  EXPECT_EQ(session.active().backend(), "cuda");
+  EXPECT_THROW(commands.execute("backend abacus"), UsageError);
+  EXPECT_THROW(commands.execute("backend"), UsageError);
+  commands.execute("generate grid 600");
+  EXPECT_EQ(session.active().parameters().backend, Backend::Cuda) << "the next mesh keeps the choice";
+  EXPECT_EQ(Session(1, acceleration(device), Backend::Cpu).has_input(), false);
+
+  device->fail_to_make = true;
+  EXPECT_THROW(commands.execute("levels 2"), DeviceError);
+  EXPECT_EQ(session.active().parameters().search.levels, 3) << "as it was";
+  said.clear();
+  commands.execute("backend auto");
+  EXPECT_EQ(session.active().backend(), "cpu");
+  ASSERT_FALSE(said.empty());
+  EXPECT_EQ(said.back().kind, Message::Kind::Warning);
+  EXPECT_THAT(said.back().text, HasSubstr("2 GiB free"));
+}
+
+TEST(Engine, OutlivesALostDevice) {
+  for (const bool while_copying : {false, true}) {
+    const auto device = std::make_shared<FakeDevice>();
+    Engine engine(2, acceleration(device));
+    engine.post("generate grid 500");
+    engine.post("run 2");
+    engine.wait_idle();
+    (void)engine.take_messages();
+    (while_copying ? device->fail_at_store : device->fail_at_visit) = 1;
+    engine.post("run 2");
+    engine.wait_idle();
+    const auto messages = engine.take_messages();
+    EXPECT_TRUE(
+        std::ranges::any_of(messages, [](const Message& m) { return m.text.find("the fake device was lost") != std::string::npos; }));
+    engine.post("run 3");
+    engine.post("expect iteration >= 3");
+    engine.wait_idle();
+    for (const Message& message : engine.take_messages()) EXPECT_NE(message.kind, Message::Kind::Error) << message.text;
+    EXPECT_EQ(engine.view()->frame->moment, engine.view()->runs[0].moment);
+  }
+}
+
+}  // namespace
+}  // namespace dmoscope

@@ -1,0 +1,94 @@
+#pragma once
+// A device that is none: the CPU's smoother on positions of its own, which counts what it is asked and fails when told to.
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/smooth/accelerator.h"
+
+namespace dmoscope::testing {
+
+/// What the device is asked, and when it fails; 0: never.
+struct FakeDevice {
+  std::uint64_t visits = 0, stores = 0, statistics = 0;  // calls
+  std::uint64_t fail_at_visit = 0, fail_at_store = 0;    // counted from 1; all calls after it fail too
+  bool fail_to_make = false;
+  bool has_statistics = true;
+  std::chrono::milliseconds store_takes{0};
+};
+
+class FakeSmoother final : public Smoother {
+ public:
+  FakeSmoother(std::shared_ptr<FakeDevice> device, std::unique_ptr<Smoother> cpu, std::shared_ptr<const InputMesh> input, Metric metric,
+               std::span<const Index> immovable)
+      : device_(std::move(device)),
+        cpu_(std::move(cpu)),
+        input_(std::move(input)),
+        metric_(metric),
+        immovable_(immovable.begin(), immovable.end()) {}
+
+  std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
+    if (stale_) {
+      on_device_.assign(positions.begin(), positions.end());
+      cpu_->positions_replaced();
+      stale_ = false;
+    }
+    if (++device_->visits >= device_->fail_at_visit && device_->fail_at_visit > 0) throw DeviceError("the fake device was lost");
+    return cpu_->visit(first, count, on_device_, pool);
+  }
+  void store(std::span<Vec3> positions, ThreadPool* pool) override {
+    if (stale_) return;
+    ++device_->stores;
+    if (device_->fail_at_store > 0 && device_->stores >= device_->fail_at_store) {
+      std::ranges::fill(positions.first(positions.size() / 2), Vec3{});  // half done
+      throw DeviceError("the fake device was lost while copying");
+    }
+    std::this_thread::sleep_for(device_->store_takes);
+    cpu_->store(on_device_, pool);
+    std::ranges::copy(on_device_, positions.begin());
+  }
+  void positions_replaced() override { stale_ = true; }
+  [[nodiscard]] bool positions_are_far() const noexcept override { return true; }
+  [[nodiscard]] std::optional<Statistics> statistics() override {
+    if (stale_ || !device_->has_statistics) return std::nullopt;
+    ++device_->statistics;
+    cpu_->store(on_device_, nullptr);
+    return compute_statistics(input_->quality_context(), on_device_, metric_, immovable_, nullptr);
+  }
+
+ private:
+  std::shared_ptr<FakeDevice> device_;
+  std::unique_ptr<Smoother> cpu_;
+  std::shared_ptr<const InputMesh> input_;
+  Metric metric_;
+  std::vector<Index> immovable_;
+  std::vector<Vec3> on_device_;
+  bool stale_ = true;
+};
+
+class FakeAccelerator final : public Accelerator {
+ public:
+  explicit FakeAccelerator(std::shared_ptr<FakeDevice> device = std::make_shared<FakeDevice>()) : device_(std::move(device)) {}
+  [[nodiscard]] std::string name() const override { return "cuda"; }
+  [[nodiscard]] std::string description() const override { return "Fake H1"; }
+  [[nodiscard]] std::unique_ptr<Smoother> make_dmo(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring,
+                                                   Metric metric, const SearchParameters& parameters, std::span<const Index> immovable,
+                                                   ThreadPool* pool) const override {
+    if (device_->fail_to_make) throw DeviceError("out of memory: 3 GiB asked for, 2 GiB free");
+    auto cpu = make_smoother("dmo", input, std::move(colouring), metric, parameters, pool);
+    return std::make_unique<FakeSmoother>(device_, std::move(cpu), std::move(input), metric, immovable);
+  }
+
+ private:
+  std::shared_ptr<FakeDevice> device_;
+};
+
+/// The accelerator of a fake device, for a run or a session.
+inline Acceleration acceleration(std::shared_ptr<FakeDevice> device) { return {std::make_shared<FakeAccelerator>(std::move(device)), {}}; }
+
+}  // namespace dmoscope::testing

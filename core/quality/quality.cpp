@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kGrain = 8192;
+constexpr std::size_t kGrain = Tally::kStretch;
 
 template <Metric M>
 double quality_of(const QualityContext& context, PositionView positions, Index element) {

@@ -12,6 +12,10 @@ namespace dmoscope {
 /// What some of the elements add to the statistics.
 class Tally {
  public:
+  /// Sums are of every fourth element, so that no addition waits for the one before, and of stretches of as many elements: who wants the same
+  /// bits adds in the same order.
+  static constexpr std::size_t kLanes = 4, kStretch = 8192;
+
   /// `immovable`: ascending, at least those elements of the block whose corners are all fixed (see immovable_elements).
   void add(const ElementBlock& block, std::span<const Index> immovable);
   /// `next`: of elements that follow those of this one.
@@ -20,7 +24,6 @@ class Tally {
 
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  static constexpr std::size_t kLanes = 4;  // sums of every fourth element, so that no addition waits for the one before
 
   double minimum_ = kInfinity, movable_ = kInfinity, ceiling_ = kInfinity;
   std::array<double, kLanes> sums_{};

@@ -122,22 +122,12 @@ class LaneDmo final : public Smoother {
 
   /// What does not change between visits.
   LaneTask describe(const SearchParameters& parameters) {
-    const Plane& plane = input_->geometry.plane;
     LaneTask task{};
     task.shapes = table_.shapes.data();
     task.others = table_.others.data();
     task.ranked = ranked_.empty() ? nullptr : &ranked_[0].x;
     task.awake = awake_.data();
-    const auto take = [](Vec3 from, double* to) { to[0] = from.x, to[1] = from.y, to[2] = from.z; };
-    take(plane.u, task.u);
-    take(plane.v, task.v);
-    const PlaneAxes axes(plane);
-    task.u_axis = axes.u;
-    task.v_axis = axes.v;
-    const double edge = input_->geometry.size / std::sqrt(1.0 + input_->mesh.elements.size());
-    task.scale = edge > 0.0 && std::isfinite(edge) ? std::exp2(std::ilogb(edge)) : 1.0;
-    task.inverse = 1.0 / task.scale;
-    task.single_precision = input_->mesh.single_precision;
+    task.frame = make_search_frame(*input_);
     task.parameters = parameters;
     task.owner = this;
     task.gains = [](void* owner, Index rank, const double* p) {

@@ -6,6 +6,7 @@
 
 #include "core/quality/metric.h"
 #include "core/search/parameters.h"
+#include "core/smooth/search_frame.h"
 #include "core/smooth/star_table.h"
 
 namespace dmoscope {
@@ -14,12 +15,9 @@ namespace dmoscope {
 struct LaneTask {
   const StarShape* shapes;
   const Index* others;
-  double* ranked;         // 3 a rank: the positions
-  std::uint8_t* awake;    // one a rank: has its star changed since it was last found at its best?
-  double u[3], v[3];      // the mesh's plane
-  int u_axis, v_axis;     // the coordinates they are, or -1 where the plane is parallel to no coordinate plane
-  double scale, inverse;  // a power of two about as large as an edge, and 1 / scale
-  bool single_precision;  // see Mesh
+  double* ranked;       // 3 a rank: the positions
+  std::uint8_t* awake;  // one a rank: has its star changed since it was last found at its best?
+  SearchFrame frame;
   SearchParameters parameters;
 
   void* owner;  // for the two below

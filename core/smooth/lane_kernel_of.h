@@ -9,8 +9,8 @@
 // After the packs:
 #include "core/search/grid_search.h"
 #include "core/search/ratio_search.h"
-#include "core/smooth/displace.h"
 #include "core/smooth/lane_kernel.h"
+#include "core/smooth/visit_rules.h"
 
 namespace dmoscope::lanes {
 
@@ -30,11 +30,7 @@ class Kernel {
   static_assert(kMaxPoints > kMaxFan && kMaxFan <= RatioSearch<F>::kMaxForms);
   static_assert(kMaxTriangles + 4 * kMaxQuadrilaterals <= RatioSearch<F>::kMaxForms);
   static constexpr bool kQuadrilaterals = formulas::kDefinedForQuadrilaterals<M, Vec2<F>>;
-  /// Positive quality does not mean that no corner has turned over.
-  static constexpr bool kBlind = kQuadrilaterals && !formulas::Formula<M>::kSeesInversion;
-
-  /// Below it a star is the reference's; formulas::rank_doubt relies on it.
-  static constexpr float kLeastRank = 1e-4F;
+  static constexpr bool kBlind = visit_rules::kBlind<M, Vec2<F>>;
 
   template <class R>
   struct Elements {
@@ -107,7 +103,7 @@ class Kernel {
     }
     for (std::size_t slot = 0; slot < kWidth; ++slot) {
       const Index rank = rank_[slot < count_ ? slot : 0];
-      if (task_.u_axis >= 0)
+      if (task_.frame.u_axis >= 0)
         gather_slot<true>(slot, rank);
       else
         gather_slot<false>(slot, rank);
@@ -139,21 +135,13 @@ class Kernel {
   template <bool Axes>
   void set_point(std::size_t point, std::size_t slot, Index rank, const double* origin) {
     const double* at = task_.ranked + 3 * std::size_t{rank};
-    double x, y;
-    if constexpr (Axes) {
-      x = at[task_.u_axis] - origin[task_.u_axis];
-      y = at[task_.v_axis] - origin[task_.v_axis];
-    } else {
-      const double dx = at[0] - origin[0], dy = at[1] - origin[1], dz = at[2] - origin[2];
-      x = dx * task_.u[0] + dy * task_.u[1] + dz * task_.u[2];
-      y = dx * task_.v[0] + dy * task_.v[1] + dz * task_.v[2];
-    }
-    exact_x_[point][slot] = x;
-    exact_y_[point][slot] = y;
+    const Vec2<double> offset = task_.frame.offset<Axes>(at, origin);
+    exact_x_[point][slot] = offset.x;
+    exact_y_[point][slot] = offset.y;
   }
 
   void round_to_float(std::size_t points) {
-    const double inverse = task_.inverse;
+    const double inverse = task_.frame.inverse;
     for (std::size_t i = 0; i < points; ++i) {
       for (std::size_t slot = 0; slot < kWidth; ++slot) x_[i][slot] = static_cast<float>(exact_x_[i][slot] * inverse);
       for (std::size_t slot = 0; slot < kWidth; ++slot) y_[i][slot] = static_cast<float>(exact_y_[i][slot] * inverse);
@@ -200,8 +188,10 @@ class Kernel {
     const Objective<M, false, F, Value::Rank> objective(star);
     Vec2<F> size = box();
     const F extent = size.x + size.y;
-    auto ready = (objective({F(0.0F), F(0.0F)}) > F(kLeastRank)) & (extent > F(0x1p-20F)) & (extent < F(0x1p20F));
-    if constexpr (kBlind) ready = ready & (smallest_jacobian(star, {F(0.0F), F(0.0F)}) > F(1e-5F) * extent * extent);
+    auto ready = (objective({F(0.0F), F(0.0F)}) > F(visit_rules::kLeastRank)) & (extent > F(visit_rules::kSmallestExtent)) &
+                 (extent < F(visit_rules::kLargestExtent));
+    if constexpr (kBlind)
+      ready = ready & (visit_rules::smallest_corner(star, {F(0.0F), F(0.0F)}) > F(visit_rules::kLeastCorner) * extent * extent);
     size = {select(ready, size.x, F(0.0F)), select(ready, size.y, F(0.0F))};
     select(ready, F(1.0F), F(0.0F)).store_aligned(ready_);
     if constexpr (kBlind) (extent * extent).store_aligned(extent2_);
@@ -209,16 +199,6 @@ class Kernel {
     if constexpr (kIsRatio<M>)
       if (parameters.grid_points == RatioSearch<F>::kPoints) return search_by_rounds(star, size);
     return grid_search<F>(objective, size, parameters);
-  }
-
-  /// The least of all corners of the quadrilaterals, with the vertices at `p`.
-  template <class R>
-  static R smallest_jacobian(const StarView<R>& star, Vec2<R> p) {
-    using scalar::min;
-    R least = scalar::constant<R>(1e30);
-    for (const StarQuadrilateral<R>& q : star.quadrilaterals())
-      least = min(least, formulas::smallest_jacobian(formulas::Quadrilateral<Vec2<R>>(p, q.b, q.c, q.d)));
-    return least;
   }
 
   Candidate<F> search_by_rounds(const StarView<F>& star, Vec2<F> size) {
@@ -255,7 +235,7 @@ class Kernel {
         moved += visit_alone(rank);
       } else if (any && gains(slot)) {
         double* to = task_.ranked + 3 * std::size_t{rank};
-        for (int i = 0; i < 3; ++i) to[i] = target_[slot][i];
+        for (int i = 0; i < 3; ++i) to[i] = to_[slot].target[i];
         wake_neighbours(rank);
         ++moved;
       } else {
@@ -265,27 +245,10 @@ class Kernel {
     return moved;
   }
 
-  /// target_: where the slot's vertex would stand; step_: the offset from where it stands, as stored.
   void place(std::size_t slot, float x, float y) {
-    const double* at = task_.ranked + 3 * std::size_t{rank_[slot < count_ ? slot : 0]};
-    const double along_u = static_cast<double>(x) * task_.scale, along_v = static_cast<double>(y) * task_.scale;
-    double* to = target_[slot];
-    const bool single = task_.single_precision;
-    if (const int u = task_.u_axis, v = task_.v_axis; u >= 0) {
-      for (int i = 0; i < 3; ++i) to[i] = at[i];
-      to[u] = displaced(at[u], along_u, single);
-      to[v] = displaced(at[v], along_v, single);
-      step_x_[slot] = to[u] - at[u];
-      step_y_[slot] = to[v] - at[v];
-      return;
-    }
-    double step[3];
-    for (int i = 0; i < 3; ++i) {
-      to[i] = displaced(at[i], along_u * task_.u[i] + along_v * task_.v[i], single);
-      step[i] = to[i] - at[i];
-    }
-    step_x_[slot] = step[0] * task_.u[0] + step[1] * task_.u[1] + step[2] * task_.u[2];
-    step_y_[slot] = step[0] * task_.v[0] + step[1] * task_.v[1] + step[2] * task_.v[2];
+    to_[slot] = task_.frame.displace(task_.ranked + 3 * std::size_t{rank_[slot < count_ ? slot : 0]}, x, y);
+    step_x_[slot] = to_[slot].step.x;
+    step_y_[slot] = to_[slot].step.y;
   }
 
   void judge() {
@@ -296,17 +259,17 @@ class Kernel {
       objective({D(0.0), D(0.0)}).store_aligned(before_ + slot);
       const Vec2<D> step{D::load_aligned(step_x_ + slot), D::load_aligned(step_y_ + slot)};
       objective(step).store_aligned(after_ + slot);
-      if constexpr (kBlind) (smallest_jacobian(star, step) * D(task_.inverse * task_.inverse)).store_aligned(corner_ + slot);
+      const double inverse = task_.frame.inverse;
+      if constexpr (kBlind) (visit_rules::smallest_corner(star, step) * D(inverse * inverse)).store_aligned(corner_ + slot);
     }
   }
 
   [[nodiscard]] bool gains(std::size_t slot) const {
-    const double before = before_[slot], after = after_[slot], doubt = formulas::rank_doubt<M>(before);
-    if (!(after > before - doubt) || (step_x_[slot] == 0.0 && step_y_[slot] == 0.0)) return false;
+    using visit_rules::Verdict;
     // A metric that does not see a corner turn over says nothing of how near it is to that.
-    const bool sound = !kBlind || quadrilaterals_ == 0 || corner_[slot] > 1e-9 * static_cast<double>(extent2_[slot]);
-    if (after > before + doubt && sound) return true;
-    return task_.gains(task_.owner, rank_[slot], target_[slot]);
+    const bool sound = !kBlind || quadrilaterals_ == 0 || corner_[slot] > visit_rules::kSoundCorner * static_cast<double>(extent2_[slot]);
+    const Verdict verdict = visit_rules::judge<M>(before_[slot], after_[slot], to_[slot].step, sound);
+    return verdict == Verdict::Move || (verdict == Verdict::MoveIfExact && task_.gains(task_.owner, rank_[slot], to_[slot].target));
   }
 
   /// Of a vertex that moved; it stays awake itself.
@@ -326,7 +289,7 @@ class Kernel {
   alignas(64) double step_x_[kWidth], step_y_[kWidth], before_[kWidth], after_[kWidth];
   alignas(64) double corner_[kWidth];  // kBlind: the smallest Jacobian after the move, in units of scale^2
   alignas(64) float extent2_[kWidth];  // kBlind: the square of the star's extent, likewise
-  double target_[kWidth][3];
+  Displacement to_[kWidth];
   Elements<F> elements_;
   std::array<RatioForm<F>, RatioSearch<F>::kMaxForms> forms_;
   RatioSearch<F> rounds_;

@@ -1,0 +1,123 @@
+#include "gpu/device_dmo.h"
+
+#include <algorithm>
+#include <array>
+
+#include "gpu/bodies.h"
+#include "gpu/device_mesh.h"
+
+namespace dmoscope::gpu {
+
+namespace {
+
+/// Lanes of a team (gpu/cuda_team.cuh); a class that leaves more than this share of the device's lanes idle is visited by teams.
+constexpr std::size_t kTeam = 8;
+/// Teams among which a class's deferred visits are shared: enough for any device, and few where, as nearly always, there are none.
+constexpr std::size_t kSettlers = 2048;
+
+class DeviceDmo final : public Smoother {
+ public:
+  DeviceDmo(std::shared_ptr<Queue> queue, std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring, Metric metric,
+            const SearchParameters& parameters, std::span<const Index> immovable, ThreadPool* pool)
+      : queue_(std::move(queue)),
+        colouring_(std::move(colouring)),
+        metric_(metric),
+        mesh_(queue_, *input, *colouring_, immovable, pool),
+        counts_(queue_, colouring_->class_count() + std::size_t{1}),
+        deferred_(queue_, largest_class()),
+        task_(mesh_.task()) {
+    task_.parameters = parameters;
+    task_.deferred = deferred_.data();
+    task_.moved = counts_.data();
+  }
+  ~DeviceDmo() override = default;
+
+  std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* /*pool*/) override {
+    if (stale_) load(positions);
+    stored_ = judged_ = false;
+    if (first == 0 && count == colouring_->order.size()) {
+      if (iteration_ == nullptr) {
+        queue_->start_recording();
+        visit_classes(first, count);
+        iteration_ = queue_->stop_recording();
+      }
+      queue_->replay(*iteration_);
+    } else {
+      visit_classes(first, count);
+    }
+    std::uint32_t moved = 0;
+    counts_.download({&moved, 1});
+    return moved;
+  }
+
+  void store(std::span<Vec3> positions, ThreadPool* /*pool*/) override {
+    if (stored_ || stale_) return;
+    queue_->launch(Work::Store, metric_, task_, positions.size());
+    mesh_.positions().download(positions);
+    stored_ = true;
+  }
+
+  void positions_replaced() override { stale_ = true; }
+  bool positions_are_far() const noexcept override { return true; }
+
+  std::optional<Statistics> statistics() override {
+    if (stale_) return std::nullopt;
+    if (!judged_) {
+      mesh_.judge(metric_);
+      judged_ = true;
+    }
+    return mesh_.statistics();
+  }
+
+ private:
+  [[nodiscard]] std::size_t largest_class() const {
+    std::size_t largest = 0;
+    for (Index c = 0; c < colouring_->class_count(); ++c) largest = std::max(largest, colouring_->members(c).size());
+    return largest;
+  }
+
+  /// The part of [first, first + count) that lies in each class, after the one before: its members see the others' old and new positions
+  /// alike, those of one class at once.
+  void visit_classes(std::uint64_t first, std::uint64_t count) {
+    counts_.clear();
+    const std::uint64_t last = first + count;
+    for (Index c = 0; c < colouring_->class_count(); ++c) {
+      const std::uint64_t begin = std::max<std::uint64_t>(first, colouring_->class_offsets[c]);
+      const std::uint64_t end = std::min<std::uint64_t>(last, colouring_->class_offsets[c + 1]);
+      if (begin >= end) continue;
+      task_.first = begin;
+      task_.deferred_count = counts_.data() + 1 + c;
+      const bool small = (end - begin) * 2 <= queue_->lanes_at_once();
+      queue_->launch(small ? Work::VisitInTeam : Work::Visit, metric_, task_, end - begin);
+      queue_->launch(Work::Settle, metric_, task_, std::min<std::uint64_t>(end - begin, kSettlers));
+    }
+  }
+
+  void load(std::span<const Vec3> positions) {
+    mesh_.positions().upload(positions);
+    queue_->launch(Work::Load, metric_, task_, positions.size());
+    stale_ = false;
+  }
+
+  std::shared_ptr<Queue> queue_;
+  std::shared_ptr<const Colouring> colouring_;
+  Metric metric_;
+  DeviceMesh mesh_;
+  Buffer<std::uint32_t> counts_;  // moved, then the deferred visits of each class
+  Buffer<Deferred> deferred_;
+  Task task_;
+  std::unique_ptr<Queue::Recording> iteration_;
+  bool stale_ = true;    // the device's positions are older than the run's
+  bool stored_ = false;  // the run's are as new as the device's
+  bool judged_ = false;  // and so are the statistics
+};
+
+}  // namespace
+
+std::unique_ptr<Smoother> make_device_dmo(std::shared_ptr<Queue> queue, std::shared_ptr<const InputMesh> input,
+                                          std::shared_ptr<const Colouring> colouring, Metric metric, const SearchParameters& parameters,
+                                          std::span<const Index> immovable, ThreadPool* pool) {
+  return std::make_unique<DeviceDmo>(std::move(queue), std::move(input), std::move(colouring), metric, parameters, immovable, pool);
+}
+
+}  // namespace dmoscope::gpu

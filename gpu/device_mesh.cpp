@@ -1,0 +1,75 @@
+#include "gpu/device_mesh.h"
+
+#include <utility>
+
+#include "gpu/bodies.h"
+
+namespace dmoscope::gpu {
+
+namespace {
+
+std::vector<std::uint8_t> flags(std::size_t size, std::span<const Index> set) {
+  std::vector<std::uint8_t> result(size, 0);
+  for (const Index i : set) result[i] = 1;
+  return result;
+}
+
+std::size_t part_count(std::size_t elements) { return (elements + bodies::kStretch - 1) / bodies::kStretch * bodies::kParts; }
+
+}  // namespace
+
+DeviceMesh::DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, const Colouring& colouring, std::span<const Index> immovable,
+                       ThreadPool* pool)
+    : DeviceMesh(std::move(queue), input, build_star_table(input.mesh, input.topology, colouring, pool), immovable) {}
+
+DeviceMesh::DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, const StarTable& table, std::span<const Index> immovable)
+    : queue_(std::move(queue)),
+      shapes_(queue_, table.shapes),
+      others_(queue_, table.others),
+      star_offsets_(queue_, input.topology.star_offsets()),
+      incidences_(queue_, input.topology.incidences()),
+      corner_offsets_(queue_, input.mesh.elements.offsets()),
+      corners_(queue_, input.mesh.elements.all_corners()),
+      reference_measure_(queue_, input.reference_measure),
+      rank_of_vertex_(queue_, table.rank_of_vertex),
+      vertex_of_rank_(queue_, table.vertex_of_rank),
+      positions_(queue_, input.mesh.positions.size()),
+      ranked_(queue_, input.mesh.positions.size()),
+      awake_(queue_, input.mesh.positions.size()),
+      inverted_(queue_, input.mesh.elements.size()),
+      immovable_(queue_, flags(input.mesh.elements.size(), immovable)),
+      quality_(queue_, input.mesh.elements.size()),
+      parts_(queue_, part_count(input.mesh.elements.size())),
+      statistics_(queue_, 1) {
+  task_.shapes = shapes_.data();
+  task_.others = others_.data();
+  task_.mesh = {star_offsets_.data(), incidences_.data(),        corner_offsets_.data(),
+                corners_.data(),      reference_measure_.data(), input.geometry.plane};
+  task_.rank_of_vertex = rank_of_vertex_.data();
+  task_.vertex_of_rank = vertex_of_rank_.data();
+  task_.vertex_count = positions_.size();
+  task_.element_count = quality_.size();
+  task_.ranked = ranked_.data();
+  task_.awake = awake_.data();
+  task_.frame = make_search_frame(input);
+  task_.quality = quality_.data();
+  task_.inverted = inverted_.data();
+  task_.immovable = immovable_.data();
+  task_.parts = parts_.data();
+  task_.statistics = statistics_.data();
+  task_.positions = positions_.data();
+}
+
+void DeviceMesh::judge(Metric metric) {
+  queue_->launch(Work::Judge, metric, task_, task_.element_count);
+  queue_->launch(Work::Sum, metric, task_, parts_.size());
+  queue_->launch(Work::Total, metric, task_, 1);
+}
+
+Statistics DeviceMesh::statistics() const {
+  Statistics found;
+  statistics_.download({&found, 1});
+  return found;
+}
+
+}  // namespace dmoscope::gpu

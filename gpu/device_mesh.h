@@ -1,0 +1,52 @@
+#pragma once
+// A mesh on a device, in the order of a run's visits, and its statistics there.
+
+#include <vector>
+
+#include "core/mesh/colouring.h"
+#include "core/session/input_mesh.h"
+#include "gpu/queue.h"
+#include "gpu/task.h"
+
+namespace dmoscope {
+class ThreadPool;
+}
+
+namespace dmoscope::gpu {
+
+class DeviceMesh {
+ public:
+  /// `immovable`: see compute_statistics. Throws DeviceError, and UsageError as build_star_table() does.
+  DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, const Colouring& colouring, std::span<const Index> immovable,
+             ThreadPool* pool);
+
+  /// All that a kernel needs of the mesh.
+  [[nodiscard]] const Task& task() const noexcept { return task_; }
+  /// By vertices: where positions come from and go to.
+  [[nodiscard]] const Buffer<Vec3>& positions() const noexcept { return positions_; }
+
+  /// Finds every element's quality at the positions as they are now, and the statistics.
+  void judge(Metric metric);
+  /// Of the last judge(): the very bits of compute_statistics().
+  [[nodiscard]] Statistics statistics() const;
+
+ private:
+  DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, const StarTable& table, std::span<const Index> immovable);
+
+  std::shared_ptr<Queue> queue_;
+  Buffer<StarShape> shapes_;
+  Buffer<Index> others_;
+  Buffer<std::uint32_t> star_offsets_;
+  Buffer<Incidence> incidences_;
+  Buffer<Index> corner_offsets_, corners_;
+  Buffer<double> reference_measure_;
+  Buffer<Index> rank_of_vertex_, vertex_of_rank_;
+  Buffer<Vec3> positions_, ranked_;
+  Buffer<std::uint8_t> awake_, inverted_, immovable_;
+  Buffer<double> quality_;
+  Buffer<Part> parts_;
+  Buffer<Statistics> statistics_;
+  Task task_;
+};
+
+}  // namespace dmoscope::gpu

@@ -1,0 +1,131 @@
+#include "gpu/host_queue.h"
+
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "gpu/bodies.h"
+
+namespace dmoscope::gpu {
+
+namespace {
+
+constexpr std::size_t kGrain = 64;
+
+template <class Body>
+void run_lanes(const Task& task, std::size_t first, std::size_t last, std::size_t count) {
+  for (std::size_t i = first; i < last; ++i) Body::run(task, i, count, Solo{});
+}
+using Lanes = void (*)(const Task& task, std::size_t first, std::size_t last, std::size_t count);
+
+template <Metric M>
+Lanes lanes_of(Work work) {
+  switch (work) {
+    case Work::Visit:
+    case Work::VisitInTeam:
+      return run_lanes<bodies::Visit<M>>;
+    case Work::Settle:
+      return run_lanes<bodies::Settle<M>>;
+    case Work::Judge:
+      return run_lanes<bodies::Judge<M>>;
+    case Work::Sum:
+      return run_lanes<bodies::Sum>;
+    case Work::Total:
+      return run_lanes<bodies::Total>;
+    case Work::Load:
+      return run_lanes<bodies::Load>;
+    case Work::Store:
+      return run_lanes<bodies::Store>;
+  }
+  return nullptr;
+}
+
+class Recorded final : public Queue::Recording {
+ public:
+  std::vector<std::function<void()>> steps;
+};
+
+class Host final : public HostQueue {
+ public:
+  explicit Host(const HostDevice& device) : device_(device) {}
+  ~Host() override {
+    for (const auto& [memory, bytes] : sizes_) ::operator delete(memory);
+  }
+
+  void* allocate(std::size_t bytes) override {
+    check_lost();
+    const std::size_t used = counters().bytes_allocated, free = device_.memory - used;
+    if (bytes > free) throw DeviceError(fmt::format("the device is out of memory: {} bytes were asked for, {} are free", bytes, free));
+    void* memory = ::operator new(bytes);
+    std::memset(memory, 0xcd, bytes);  // so that what nobody wrote is noticed
+    sizes_[memory] = bytes;
+    counters().bytes_allocated += bytes;
+    return memory;
+  }
+  void release(void* memory) noexcept override {
+    const auto found = sizes_.find(memory);
+    counters().bytes_allocated -= found->second;
+    sizes_.erase(found);
+    ::operator delete(memory);
+  }
+  void upload(void* to, const void* from, std::size_t bytes) override {
+    check_lost();
+    std::memcpy(to, from, bytes);
+  }
+  void download(void* to, const void* from, std::size_t bytes) override {
+    check_lost();
+    std::memcpy(to, from, bytes);
+    counters().bytes_to_host += bytes;
+  }
+  void clear(void* memory, std::size_t bytes) override {
+    enqueue([memory, bytes] { std::memset(memory, 0, bytes); });
+  }
+  void launch(Work work, Metric metric, const Task& task, std::size_t count) override {
+    const Lanes lanes = formulas::with_metric(metric, [work]<Metric M>() { return lanes_of<M>(work); });
+    enqueue([this, lanes, task, count] {
+      if (launches_left_ == 0) lost_ = true;
+      check_lost();
+      --launches_left_;
+      for_chunks(device_.pool, count, kGrain, [&](std::size_t first, std::size_t last) { lanes(task, first, last, count); });
+    });
+  }
+  void wait() override { check_lost(); }
+
+  void start_recording() override { recording_ = std::make_unique<Recorded>(); }
+  std::unique_ptr<Recording> stop_recording() override { return std::move(recording_); }
+  void replay(Recording& recording) override {
+    for (const auto& step : static_cast<Recorded&>(recording).steps) step();
+  }
+
+  std::size_t lanes_at_once() const noexcept override { return device_.lanes_at_once; }
+  std::string description() const override { return "the host in a device's place"; }
+  void lose_after(std::size_t launches) override { launches_left_ = launches; }
+
+ private:
+  void check_lost() const {
+    if (lost_) throw DeviceError("the device was lost");
+  }
+  template <class Step>
+  void enqueue(Step step) {
+    if (recording_ != nullptr)
+      recording_->steps.emplace_back(std::move(step));
+    else
+      step();
+  }
+
+  HostDevice device_;
+  std::unordered_map<void*, std::size_t> sizes_;
+  std::unique_ptr<Recorded> recording_;
+  std::size_t launches_left_ = std::numeric_limits<std::size_t>::max();
+  bool lost_ = false;
+};
+
+}  // namespace
+
+std::shared_ptr<HostQueue> make_host_queue(const HostDevice& device) { return std::make_shared<Host>(device); }
+
+}  // namespace dmoscope::gpu

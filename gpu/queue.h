@@ -1,0 +1,119 @@
+#pragma once
+// A device's memory and a queue of work on it.
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/quality/metric.h"
+#include "gpu/work.h"
+
+namespace dmoscope::gpu {
+
+struct Task;
+
+/// What has crossed to the host, and what is allocated: of a device, shared by its queues.
+struct Counters {
+  std::atomic<std::uint64_t> bytes_to_host{0};
+  std::atomic<std::uint64_t> bytes_allocated{0};
+};
+
+/// Work is done in the order in which it was asked for. For one thread at a time. Everything throws DeviceError, which may tell of earlier
+/// work; a device that was lost stays so.
+class Queue {
+ public:
+  Queue() = default;
+  Queue(const Queue&) = delete;
+  Queue& operator=(const Queue&) = delete;
+  virtual ~Queue() = default;
+
+  /// Memory of the device, aligned for any type; its content is undefined. The error says how much was asked for and how much is free.
+  [[nodiscard]] virtual void* allocate(std::size_t bytes) = 0;
+  virtual void release(void* memory) noexcept = 0;
+
+  /// Host to device; `from` may be changed on return.
+  virtual void upload(void* to, const void* from, std::size_t bytes) = 0;
+  /// Device to host, after all work so far; done on return.
+  virtual void download(void* to, const void* from, std::size_t bytes) = 0;
+  /// Sets every byte to zero.
+  virtual void clear(void* memory, std::size_t bytes) = 0;
+  /// Runs the body of `work` for lanes (or teams) 0 to count - 1. Metric: for the kinds of work that depend on one.
+  virtual void launch(Work work, Metric metric, const Task& task, std::size_t count) = 0;
+  /// Until all work is done.
+  virtual void wait() = 0;
+
+  /// Launches and clears that are kept, to be asked for again in one go.
+  class Recording {
+   public:
+    Recording() = default;
+    Recording(const Recording&) = delete;
+    Recording& operator=(const Recording&) = delete;
+    virtual ~Recording() = default;
+  };
+  /// Between the two, launch() and clear() are kept and not done; nothing else may be asked for.
+  virtual void start_recording() = 0;
+  [[nodiscard]] virtual std::unique_ptr<Recording> stop_recording() = 0;
+  virtual void replay(Recording& recording) = 0;
+
+  /// How many lanes work at once: fewer vertices are better visited by teams.
+  [[nodiscard]] virtual std::size_t lanes_at_once() const noexcept = 0;
+  /// "NVIDIA H200, compute capability 9.0, 139.8 GiB".
+  [[nodiscard]] virtual std::string description() const = 0;
+  [[nodiscard]] Counters& counters() const noexcept { return *counters_; }
+
+ protected:
+  explicit Queue(std::shared_ptr<Counters> counters) : counters_(std::move(counters)) {}
+
+ private:
+  std::shared_ptr<Counters> counters_ = std::make_shared<Counters>();
+};
+
+/// Memory of a device for `size` objects of a trivial type.
+template <class T>
+class Buffer {
+ public:
+  Buffer() = default;
+  Buffer(std::shared_ptr<Queue> queue, std::size_t size)
+      : queue_(std::move(queue)), data_(size == 0 ? nullptr : static_cast<T*>(queue_->allocate(size * sizeof(T)))), size_(size) {}
+  Buffer(std::shared_ptr<Queue> queue, std::span<const T> content) : Buffer(std::move(queue), content.size()) { upload(content); }
+  ~Buffer() {
+    if (data_ != nullptr) queue_->release(data_);
+  }
+  Buffer(const Buffer&) = delete;
+  Buffer& operator=(const Buffer&) = delete;
+  Buffer(Buffer&& other) noexcept { swap(other); }
+  Buffer& operator=(Buffer&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+
+  [[nodiscard]] T* data() const noexcept { return data_; }
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  /// At most size() objects, to the beginning.
+  void upload(std::span<const T> content) const {
+    if (!content.empty()) queue_->upload(data_, content.data(), content.size_bytes());
+  }
+  void download(std::span<T> content) const {
+    if (!content.empty()) queue_->download(content.data(), data_, content.size_bytes());
+  }
+  void clear() const {
+    if (size_ > 0) queue_->clear(data_, size_ * sizeof(T));
+  }
+
+ private:
+  void swap(Buffer& other) noexcept {
+    std::swap(queue_, other.queue_);
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+  }
+  std::shared_ptr<Queue> queue_;
+  T* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+}  // namespace dmoscope::gpu

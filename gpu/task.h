@@ -1,0 +1,63 @@
+#pragma once
+// All that the kernels need to know, as plain data: it is copied to the device with every launch.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/mesh/planar_view.h"
+#include "core/mesh/position_view.h"
+#include "core/search/parameters.h"
+#include "core/session/summary.h"
+#include "core/smooth/search_frame.h"
+#include "core/smooth/star_table.h"
+
+namespace dmoscope::gpu {
+
+/// A vertex whose visit the fast search left to the exact one.
+struct Deferred {
+  Index rank = 0;
+  bool has_target = false;  // false: search it again, exactly; true: only judge whether it gains at `target`
+  double target[3] = {};
+};
+
+/// What a quarter of a stretch of elements adds to the statistics: see core/quality/tally.h, whose sums these are bit for bit.
+struct Part {
+  double sum = 0.0, minimum = 0.0, movable = 0.0, ceiling = 0.0;
+  Index worst = kNoIndex, inverted = 0, defined = 0;
+};
+
+/// Every pointer is one of the device's. Ranks: see StarTable.
+struct Task {
+  // The stars by ranks, for the fast search; the mesh by vertices, for the exact one.
+  const StarShape* shapes = nullptr;
+  const Index* others = nullptr;
+  PlanarView mesh;
+  const Index* rank_of_vertex = nullptr;
+  const Index* vertex_of_rank = nullptr;
+  std::size_t vertex_count = 0, element_count = 0;
+
+  Vec3* ranked = nullptr;         // the positions
+  std::uint8_t* awake = nullptr;  // one a rank: has its star changed since it was last found at its best?
+  SearchFrame frame{};
+  SearchParameters parameters;
+
+  // A class's deferred visits: room for as many as the largest class has, and how many there are.
+  Deferred* deferred = nullptr;
+  std::uint32_t* deferred_count = nullptr;
+  std::uint32_t* moved = nullptr;  // of the vertices visited since it was last set to 0
+
+  // Statistics: one an element; kParts a stretch of kStretch elements; the result.
+  double* quality = nullptr;                // NaN where the metric is not defined
+  std::uint8_t* inverted = nullptr;         // 1 where a corner Jacobian is <= 0
+  const std::uint8_t* immovable = nullptr;  // 1 where all corners are fixed
+  Part* parts = nullptr;
+  Statistics* statistics = nullptr;
+
+  Vec3* positions = nullptr;  // by vertices: what is copied from and to the host
+
+  std::size_t first = 0;  // what a launch's lane 0 works on
+};
+
+[[nodiscard]] constexpr PositionView positions_of(const Task& task) { return {task.ranked, task.rank_of_vertex}; }
+
+}  // namespace dmoscope::gpu

@@ -1,0 +1,17 @@
+#pragma once
+// The kinds of work that lanes do. Each is a kernel: a body (gpu/bodies.h) run for as many lanes as a launch asks for.
+
+namespace dmoscope::gpu {
+
+enum class Work {
+  Visit,        // one vertex a lane: the fast search of rank first + i
+  VisitInTeam,  // the same, one vertex a team of lanes: for classes too small to fill the device
+  Settle,       // the deferred visits, shared among all lanes
+  Judge,        // one element a lane: its quality and whether it is inverted
+  Sum,          // one part of the statistics a lane
+  Total,        // one lane: the statistics out of their parts
+  Load,         // one vertex a lane: positions -> ranked, and awake
+  Store,        // one vertex a lane: ranked -> positions
+};
+
+}  // namespace dmoscope::gpu

@@ -1,0 +1,41 @@
+#pragma once
+// The meshes that a device is tried on.
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/session/input_mesh.h"
+
+namespace dmoscope::gpu::testing {
+
+/// Those of a folder that can be smoothed, in the order of their names.
+inline std::vector<std::shared_ptr<const InputMesh>> planar_meshes(const std::filesystem::path& folder, std::size_t most_vertices) {
+  std::vector<std::filesystem::path> files;
+  if (std::filesystem::exists(folder))
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+      if (entry.is_regular_file()) files.push_back(entry.path());
+  std::ranges::sort(files);
+  std::vector<std::shared_ptr<const InputMesh>> meshes;
+  for (const auto& file : files) {
+    Progress progress;
+    try {
+      auto input = load_input(file, Need::Smoothing, progress);
+      if (input->mesh.vertex_count() <= most_vertices) meshes.push_back(std::move(input));
+    } catch (const Error&) {
+      continue;  // a surface, a volume, a text
+    }
+  }
+  return meshes;
+}
+
+[[nodiscard]] inline std::vector<std::shared_ptr<const InputMesh>> bundled_meshes() {
+  return planar_meshes(std::filesystem::path(DMOSCOPE_SOURCE_DIR) / "resources/samples", std::size_t{1} << 30U);
+}
+[[nodiscard]] inline std::vector<std::shared_ptr<const InputMesh>> shared_meshes() {
+  return planar_meshes(std::filesystem::path(DMOSCOPE_SHARED_DIR) / "meshes", 30000);
+}
+
+}  // namespace dmoscope::gpu::testing

@@ -85,8 +85,5 @@ set(CMAKE_CUDA_RUNTIME_LIBRARY Static)  # the program starts where there is no d
 if(CCACHE)
   set(CMAKE_CUDA_COMPILER_LAUNCHER ${launcher})
 endif()
-# -fmad=false and no fast math: the same bits as on the processor. -lineinfo costs nothing at run time and lets the sanitizer name lines.
-target_compile_options(dmoscope_settings INTERFACE "$<$<COMPILE_LANGUAGE:CUDA>:--expt-relaxed-constexpr;-fmad=false;-lineinfo;\
---Werror=cross-execution-space-call;-Xcompiler=-Wall,-Wextra,-Wshadow,-Wconversion,-ffp-contract=off>")
 set(DMOSCOPE_USES_CUDA ON)
 message(STATUS "CUDA: toolkit ${CUDAToolkit_VERSION}, compiled for ${CMAKE_CUDA_ARCHITECTURES}")

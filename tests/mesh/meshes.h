@@ -1,6 +1,7 @@
 #pragma once
 // Meshes made by hand for the tests.
 
+#include <cmath>
 #include <initializer_list>
 #include <vector>
 
@@ -39,6 +40,18 @@ inline Mesh lattice(Index nx, Index ny, Index every) {
         add(mesh, {a, c, d});
       }
     }
+  }
+  return mesh;
+}
+
+/// A lattice with holes: cells for which keep() is false are left out.
+template <class Keep>
+Mesh with_holes(Index n, Keep keep) {
+  Mesh mesh = lattice(n, n, 1);
+  const ElementTable all = mesh.elements;
+  mesh.elements = {};
+  for (Index e = 0; e < all.size(); ++e) {
+    if (keep(e % n, e / n)) mesh.elements.add(all.kind(e), all.corners(e));
   }
   return mesh;
 }

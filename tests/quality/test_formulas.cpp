@@ -1,5 +1,6 @@
 // The metrics against values computed here in other ways: elementary geometry in long double.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -57,6 +57,8 @@ void ElementPainter::upload_topology(const Layout& layout) {
   points_ = Buffer();
   shades_ = Buffer();
   edges_ = Buffer();
+  points_.reserve(layout.vertex_count * sizeof(Vec2<float>));
+  shades_.reserve(layout.element_count() * sizeof(float));
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     elements_[i].order = Buffer();
     elements_[i].corners = Buffer();
@@ -65,12 +67,6 @@ void ElementPainter::upload_topology(const Layout& layout) {
   }
   edges_.write(std::span<const std::array<Index, 2>>(layout.boundary_edges));
   edge_count_ = static_cast<GLsizei>(layout.boundary_edges.size());
-}
-
-void ElementPainter::upload_points(std::span<const Vec2<float>> points) {
-  const bool fresh = points_.id() == 0;
-  points_.write(points);
-  if (!fresh) return;
   for (Elements& elements : elements_) {
     const GLuint array = elements.array.id();
     DMOSCOPE_GL(glVertexArrayVertexBuffer(array, 0, points_.id(), 0, sizeof(Vec2<float>)));
@@ -81,6 +77,7 @@ void ElementPainter::upload_points(std::span<const Vec2<float>> points) {
   }
 }
 
+void ElementPainter::upload_points(std::span<const Vec2<float>> points) { points_.write(points); }
 void ElementPainter::upload_shades(std::span<const float> shades) { shades_.write(shades); }
 
 void ElementPainter::set_colours(const ColourScale& colours) {

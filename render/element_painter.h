@@ -25,11 +25,15 @@ inline constexpr float kHatchPeriod = 8.0F;  // pixels at scale 1
 class ElementPainter {
  public:
   ElementPainter();
+  /// Makes buffers for this layout; what the last one's held is gone.
   void upload_topology(const Layout& layout);
   /// Relative to the layout's origin, in place.
   void upload_points(std::span<const Vec2<float>> points);
   /// One an element, in place: see shade_of.
   void upload_shades(std::span<const float> shades);
+  /// The buffers of the two, for others to write: new ones with every upload_topology, the same ones until then.
+  [[nodiscard]] GLuint point_buffer() const noexcept { return points_.id(); }
+  [[nodiscard]] GLuint shade_buffer() const noexcept { return shades_.id(); }
   void set_colours(const ColourScale& colours);
   /// Draws all elements of the ranges.
   void draw(const View& view, const Style& style, std::size_t batch, std::span<const DrawRange> ranges);

@@ -59,14 +59,17 @@ void check_gl(const char* call, const char* file, int line) {
   throw Error(fmt::format("OpenGL: {} (0x{:04x}) in {} ({}:{})", error_name(error), error, call, file, line));
 }
 
+void Buffer::reserve(std::size_t bytes) {
+  if (handle_.id() != 0 && bytes <= capacity_) return;
+  GLuint id = 0;
+  DMOSCOPE_GL(glCreateBuffers(1, &id));
+  handle_ = Handle<DeleteBuffer>(id);
+  capacity_ = std::max<std::size_t>(bytes, 16);
+  DMOSCOPE_GL(glNamedBufferStorage(id, static_cast<GLsizeiptr>(capacity_), nullptr, GL_DYNAMIC_STORAGE_BIT));
+}
+
 void Buffer::write(std::span<const std::byte> data) {
-  if (handle_.id() == 0 || data.size() > capacity_) {
-    GLuint id = 0;
-    DMOSCOPE_GL(glCreateBuffers(1, &id));
-    handle_ = Handle<DeleteBuffer>(id);
-    capacity_ = std::max<std::size_t>(data.size(), 16);
-    DMOSCOPE_GL(glNamedBufferStorage(id, static_cast<GLsizeiptr>(capacity_), nullptr, GL_DYNAMIC_STORAGE_BIT));
-  }
+  reserve(data.size());
   if (!data.empty()) DMOSCOPE_GL(glNamedBufferSubData(handle_.id(), 0, static_cast<GLsizeiptr>(data.size()), data.data()));
 }
 

@@ -60,6 +60,8 @@ struct DeleteProgram {
 /// A buffer that grows when it must and is otherwise written in place.
 class Buffer {
  public:
+  /// Allocates anew, and forgets what was there, unless there is room for `bytes` already.
+  void reserve(std::size_t bytes);
   /// Replaces the first bytes by `data`; memory is allocated anew only when it does not fit.
   void write(std::span<const std::byte> data);
   template <class T>

@@ -115,6 +115,18 @@ Placement::Placement(std::shared_ptr<const Layout> layout) : layout_(std::move(l
 void Placement::move(std::span<const Vec3> positions) {
   if (positions.size() != points_.size()) throw UsageError("as many positions as the mesh has vertices are needed");
   std::transform(positions.begin(), positions.end(), points_.begin(), [&](const Vec3& p) { return layout_->plane.project(p); });
+  fit_boxes();
+}
+
+void Placement::move(std::span<const Vec2<float>> points) {
+  if (points.size() != points_.size()) throw UsageError("as many points as the mesh has vertices are needed");
+  std::transform(points.begin(), points.end(), points_.begin(), [&](const Vec2<float>& p) {
+    return layout_->origin + Vec2<double>{static_cast<double>(p.x), static_cast<double>(p.y)};
+  });
+  fit_boxes();
+}
+
+void Placement::fit_boxes() {
   bounds_ = {};
   for (std::size_t i = 0; i < block_bounds_.size(); ++i) {
     const Batch& batch = layout_->batches[i];
@@ -131,12 +143,6 @@ void Placement::move(std::span<const Vec3> positions) {
       bounds_.include(block_bounds_[i][b]);
     }
   }
-}
-
-Bounds2 Placement::element_bounds(Index element) const {
-  Bounds2 bounds;
-  for (const Index v : layout_->corners_of_element(element)) bounds.include(points_[v]);
-  return bounds;
 }
 
 std::vector<DrawRange> Placement::visible(std::size_t batch, const Bounds2& window) const {

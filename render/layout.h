@@ -60,6 +60,8 @@ class Placement {
   explicit Placement(std::shared_ptr<const Layout> layout);
   /// Takes new positions, layout().vertex_count of them.
   void move(std::span<const Vec3> positions);
+  /// The same for positions as OpenGL has them: relative to layout().origin.
+  void move(std::span<const Vec2<float>> points);
   [[nodiscard]] const Layout& layout() const noexcept { return *layout_; }
   [[nodiscard]] bool empty() const noexcept { return layout_ == nullptr; }
   /// Plane coordinates of all vertices.
@@ -67,11 +69,11 @@ class Placement {
   /// Of all vertices that elements use.
   [[nodiscard]] const Bounds2& bounds() const noexcept { return bounds_; }
   [[nodiscard]] const Bounds2& block_bounds(std::size_t batch, Index block) const noexcept { return block_bounds_[batch][block]; }
-  [[nodiscard]] Bounds2 element_bounds(Index element) const;
   /// Ranges of drawn elements whose blocks meet `window`, joined where they touch.
   [[nodiscard]] std::vector<DrawRange> visible(std::size_t batch, const Bounds2& window) const;
 
  private:
+  void fit_boxes();
   std::shared_ptr<const Layout> layout_;
   std::vector<Vec2<double>> points_;
   std::array<std::vector<Bounds2>, 2> block_bounds_;

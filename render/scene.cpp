@@ -4,11 +4,13 @@
 #include <chrono>
 #include <cmath>
 #include <future>
+#include <iterator>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.h"
 #include "core/session/input_mesh.h"
+#include "render/device_feed.h"
 #include "render/element_painter.h"
 #include "render/layout.h"
 #include "render/mark_painter.h"
@@ -62,7 +64,10 @@ View make_view(const Layout& layout, const Camera2D& camera, Vec2<double> viewpo
 
 struct MeshScene::Impl {
   Placement placement;
+  bool placement_current = true;  // false: what is on show stands on a device, and the placement is an older one's
+  Source source = Source::Host;
   ElementPainter elements;
+  DeviceFeed device;  // after the painter, whose buffers it knows
   MarkPainter marks;
   std::vector<std::uint8_t> fixed;
   std::vector<std::uint8_t> inverted;
@@ -76,6 +81,7 @@ struct MeshScene::Impl {
   std::shared_ptr<const InputMesh> pending_input;
 
   void adopt(std::shared_ptr<const Layout> layout) {
+    device.forget_buffers();
     elements.upload_topology(*layout);
     placement = Placement(std::move(layout));
     fixed.clear();
@@ -83,9 +89,16 @@ struct MeshScene::Impl {
   }
   bool prepare(const Frame& wanted, Loading loading);
   void upload(std::span<const Vec3> positions, std::span<const float> quality, std::span<const std::uint8_t> inverted_flags);
+  void show_device(const Frame& light);
+  /// Brings the placement up to date with what is on show. Throws DeviceError.
+  void place_all();
+  /// Where some vertices are in the plane. Throws DeviceError.
+  [[nodiscard]] std::vector<Vec2<double>> points_of(std::span<const Index> vertices) const;
+  [[nodiscard]] std::vector<DrawRange> visible(std::size_t batch, const Bounds2& window) const;
+  void gather_mesh_marks(const Camera2D& camera, const Style& style, const Marks& wanted);
   void gather_marks(const Camera2D& camera, const Style& style, const Marks& wanted);
   void gather_vertices(const Camera2D& camera, const Style& style, const Bounds2& window);
-  void outline(std::span<const Index> corners, const Camera2D& camera, const Style& style);
+  void outline(std::span<const Vec2<double>> corners, const Camera2D& camera, const Style& style);
   /// Pixels from the middle of the viewport, y up.
   [[nodiscard]] static Vec2<double> place(Vec2<double> point, const Camera2D& camera) {
     return {(point.x - camera.centre.x) / camera.units_per_pixel, (point.y - camera.centre.y) / camera.units_per_pixel};
@@ -120,20 +133,22 @@ bool MeshScene::Impl::prepare(const Frame& wanted, Loading loading) {
 
 bool MeshScene::show(std::shared_ptr<const Frame> frame, Loading loading) {
   Impl& s = *impl_;
-  if (!frame) {
-    s.frame.reset();
-    s.placement = Placement();
-    s.has_input = false;
-    return true;
-  }
-  if (!s.prepare(*frame, loading)) {
+  const bool ready = frame && s.prepare(*frame, loading);
+  if (!ready) {
+    s.device.clear();
+    s.source = Source::Host;
+    s.placement_current = true;
     s.placement = Placement();
     s.has_input = false;
     s.frame.reset();
-    return false;
+    return !frame;
   }
   if (!s.frame || s.frame->serial != frame->serial || s.frame->input_serial != frame->input_serial) {
-    s.upload(frame->positions, frame->quality, frame->inverted);
+    if (frame->device) {
+      s.show_device(*frame);
+    } else {
+      s.upload(frame->positions, frame->quality, frame->inverted);
+    }
   }
   s.frame = std::move(frame);
   return true;
@@ -157,6 +172,9 @@ void MeshScene::Impl::upload(std::span<const Vec3> positions, std::span<const fl
   if (quality.size() != count || (!inverted_flags.empty() && inverted_flags.size() != count)) {
     throw UsageError("as many qualities as the mesh has elements are needed");
   }
+  device.clear();
+  source = Source::Host;
+  placement_current = true;
   placement.move(positions);
   const Vec2<double> origin = placement.layout().origin;
   const auto points = placement.points();
@@ -171,19 +189,48 @@ void MeshScene::Impl::upload(std::span<const Vec3> positions, std::span<const fl
   elements.upload_shades(shade_scratch);
 }
 
+void MeshScene::Impl::show_device(const Frame& light) {
+  if (placement.bounds().empty()) placement.move(light.input->mesh.positions);  // something to fit the view to
+  placement_current = false;
+  const bool shown = device.show(light.device, elements, placement.layout());
+  source = !shown ? Source::Unreachable : device.direct() ? Source::Device : Source::HostCopy;
+}
+
+void MeshScene::Impl::place_all() {
+  if (placement_current) return;
+  const DeviceFeed::HostCopy& copy = device.host_copy(placement.layout());
+  placement.move(copy.points);
+  inverted.resize(copy.shades.size());
+  std::transform(copy.shades.begin(), copy.shades.end(), inverted.begin(),
+                 [](float shade) { return static_cast<std::uint8_t>(shade == kInvertedShade ? 1 : 0); });
+  placement_current = true;
+}
+
+std::vector<Vec2<double>> MeshScene::Impl::points_of(std::span<const Index> vertices) const {
+  std::vector<Vec2<double>> points;
+  points.reserve(vertices.size());
+  if (placement_current) {
+    for (const Index v : vertices) points.push_back(placement.points()[v]);
+  } else if (!vertices.empty()) {
+    for (const Vec3& position : device.positions(vertices)) points.push_back(placement.layout().plane.project(position));
+  }
+  return points;
+}
+
+/// Everything while nobody here knows where the elements are.
+std::vector<DrawRange> MeshScene::Impl::visible(std::size_t batch, const Bounds2& window) const {
+  if (placement_current) return placement.visible(batch, window);
+  const Index all = placement.layout().batches[batch].size();
+  return all == 0 ? std::vector<DrawRange>{} : std::vector<DrawRange>{{0, all}};
+}
+
 void MeshScene::set_fixed(std::span<const std::uint8_t> fixed) { impl_->fixed.assign(fixed.begin(), fixed.end()); }
 
 bool MeshScene::empty() const noexcept { return impl_->placement.empty() || impl_->placement.layout().element_count() == 0; }
 Index MeshScene::element_count() const noexcept { return impl_->placement.empty() ? 0 : impl_->placement.layout().element_count(); }
 const Bounds2& MeshScene::bounds() const noexcept { return impl_->placement.bounds(); }
-Vec2<double> MeshScene::vertex_point(Index vertex) const {
-  if (vertex >= impl_->placement.points().size()) throw UsageError("there is no such vertex");
-  return impl_->placement.points()[vertex];
-}
-Bounds2 MeshScene::element_bounds(Index element) const {
-  if (element >= element_count()) throw UsageError("there is no such element");
-  return impl_->placement.element_bounds(element);
-}
+Source MeshScene::source() const noexcept { return impl_->source; }
+const std::string& MeshScene::device_trouble() const noexcept { return impl_->device.trouble(); }
 
 void MeshScene::draw(Framebuffer& target, const Camera2D& camera, const Style& style, const Marks& marks, double detail) {
   const TargetGuard guard;
@@ -197,9 +244,9 @@ void MeshScene::draw(Framebuffer& target, const Camera2D& camera, const Style& s
   const Vec2<double> viewport{static_cast<double>(target.width()), static_cast<double>(target.height())};
   const Layout nothing;
   const View view = make_view(s.placement.empty() ? nothing : s.placement.layout(), camera, viewport, style.scale);
-  if (!empty()) {
+  if (!empty() && s.source != Source::Unreachable) {
     const Bounds2 window = camera.visible(viewport);
-    const std::vector<DrawRange> ranges[] = {s.placement.visible(0, window), s.placement.visible(1, window)};
+    const std::vector<DrawRange> ranges[] = {s.visible(0, window), s.visible(1, window)};
     double in_view = 0.0;
     for (const auto& list : ranges) {
       for (const DrawRange& range : list) in_view += range.last - range.first;
@@ -226,33 +273,51 @@ void MeshScene::draw(Framebuffer& target, const Camera2D& camera, const Style& s
   s.marks.flush(view, style.scale);
 }
 
-void MeshScene::Impl::outline(std::span<const Index> corners, const Camera2D& camera, const Style& style) {
-  const auto points = placement.points();
+void MeshScene::Impl::outline(std::span<const Vec2<double>> corners, const Camera2D& camera, const Style& style) {
   for (const bool casing : {true, false}) {
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Vec2<double> a = place(points[corners[i]], camera), b = place(points[corners[(i + 1) % corners.size()]], camera);
+      const Vec2<double> a = place(corners[i], camera), b = place(corners[(i + 1) % corners.size()], camera);
       marks.line(a, b, (casing ? 5.0F : 2.4F) * style.scale, casing ? style.casing_colour : style.highlight_colour);
     }
   }
 }
 
+/// Marks of elements and vertices; their places are asked for all together.
+void MeshScene::Impl::gather_mesh_marks(const Camera2D& camera, const Style& style, const Marks& wanted) {
+  const Layout& layout = placement.layout();
+  std::vector<std::span<const Index>> shapes;  // outlined elements, and last the worst
+  for (const Index e : wanted.elements) {
+    if (e < layout.element_count()) shapes.push_back(layout.corners_of_element(e));
+  }
+  const std::size_t outlined = shapes.size();
+  if (wanted.worst && *wanted.worst < layout.element_count()) shapes.push_back(layout.corners_of_element(*wanted.worst));
+  std::vector<Index> vertices;
+  for (const auto& shape : shapes) vertices.insert(vertices.end(), shape.begin(), shape.end());
+  const std::size_t corner_count = vertices.size();
+  std::copy_if(wanted.vertices.begin(), wanted.vertices.end(), std::back_inserter(vertices),
+               [&](Index v) { return v < layout.vertex_count; });
+  const std::vector<Vec2<double>> points = points_of(vertices);
+  std::span<const Vec2<double>> rest(points.data(), corner_count);
+  for (std::size_t k = 0; k < outlined; ++k) {
+    outline(rest.first(shapes[k].size()), camera, style);
+    rest = rest.subspan(shapes[k].size());
+  }
+  for (std::size_t k = corner_count; k < points.size(); ++k) {
+    marks.dot(place(points[k], camera), 9.0F * style.scale, DotShape::Round, style.highlight_colour, style.casing_colour);
+  }
+  if (shapes.size() > outlined) {
+    Bounds2 box;
+    for (const Vec2<double>& corner : rest) box.include(corner);
+    const double size = std::hypot(box.size().x, box.size().y) / camera.units_per_pixel;
+    const float diameter = std::max(26.0F * style.scale, static_cast<float>(std::min(size, 1e5)) * 1.15F + 8.0F * style.scale);
+    marks.dot(place(box.centre(), camera), diameter, DotShape::Ring, style.highlight_colour, style.casing_colour);
+  }
+}
+
 void MeshScene::Impl::gather_marks(const Camera2D& camera, const Style& style, const Marks& wanted) {
-  if (!placement.empty()) {
-    const Layout& layout = placement.layout();
-    for (const Index e : wanted.elements) {
-      if (e < layout.element_count()) outline(layout.corners_of_element(e), camera, style);
-    }
-    for (const Index v : wanted.vertices) {
-      if (v < layout.vertex_count) {
-        marks.dot(place(placement.points()[v], camera), 9.0F * style.scale, DotShape::Round, style.highlight_colour, style.casing_colour);
-      }
-    }
-    if (wanted.worst && *wanted.worst < layout.element_count()) {
-      const Bounds2 box = placement.element_bounds(*wanted.worst);
-      const double size = std::hypot(box.size().x, box.size().y) / camera.units_per_pixel;
-      const float diameter = std::max(26.0F * style.scale, static_cast<float>(std::min(size, 1e5)) * 1.15F + 8.0F * style.scale);
-      marks.dot(place(box.centre(), camera), diameter, DotShape::Ring, style.highlight_colour, style.casing_colour);
-    }
+  try {
+    if (!placement.empty() && source != Source::Unreachable) gather_mesh_marks(camera, style, wanted);
+  } catch (const DeviceError&) {  // unmarked; the next frame finds out what is the matter
   }
   for (const OverlayLine& line : wanted.lines) {
     marks.line(place(line.from, camera), place(line.to, camera), line.width * style.scale, line.colour);
@@ -264,6 +329,11 @@ void MeshScene::Impl::gather_marks(const Camera2D& camera, const Style& style, c
 }
 
 void MeshScene::Impl::gather_vertices(const Camera2D& camera, const Style& style, const Bounds2& window) {
+  try {
+    place_all();
+  } catch (const DeviceError&) {  // no dots; the next frame finds out what is the matter
+    return;
+  }
   // Vertices of elements in view that are big enough, each once.
   const double room = 14.0 * static_cast<double>(style.scale) * camera.units_per_pixel;
   std::vector<Index> seen;
@@ -291,8 +361,13 @@ void MeshScene::Impl::gather_vertices(const Camera2D& camera, const Style& style
 
 Pick MeshScene::pick(const Camera2D& camera, Vec2<double> viewport, Vec2<double> pixel, double radius) const {
   Pick result;
-  const Impl& s = *impl_;
-  if (empty()) return result;
+  Impl& s = *impl_;
+  if (empty() || s.source == Source::Unreachable) return result;
+  try {
+    s.place_all();
+  } catch (const DeviceError&) {
+    return result;
+  }
   const Vec2<double> point = camera.to_plane(pixel, viewport);
   const double reach = std::max(radius, 0.0) * camera.units_per_pixel;
   const Bounds2 window{{point.x - reach, point.y - reach}, {point.x + reach, point.y + reach}};

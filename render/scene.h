@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "core/base/vec.h"
 #include "core/mesh/mesh.h"
@@ -23,6 +24,14 @@ struct Pick {
   double vertex_distance = 0.0;  // pixels; meaningful when there is a vertex
 };
 
+/// How the positions and colours on show came to OpenGL.
+enum class Source {
+  Host,        // the frame had them
+  Device,      // the device that has them wrote them itself
+  HostCopy,    // the same through the host, see MeshScene::device_trouble
+  Unreachable  // not at all: the device tells nothing any more, and no element is drawn
+};
+
 /// Whether to wait until a big mesh is made ready for drawing.
 enum class Loading { Wait, Background };
 
@@ -39,7 +48,8 @@ class MeshScene {
   MeshScene& operator=(MeshScene&&) noexcept;
 
   /// Shows a frame: uploads topology when frame->input_serial differs from the last one's, positions and qualities in place when
-  /// frame->serial does; otherwise costs nothing. Null shows nothing. With Loading::Background the ordering of a big new mesh is
+  /// frame->serial does; otherwise costs nothing. Those of a light frame are written by its device, or where that fails brought through the
+  /// host, from then on until another mesh is shown. Null shows nothing. With Loading::Background the ordering of a big new mesh is
   /// done on a thread of its own, and the scene shows nothing of it until a later call. Returns whether `frame` is on show now.
   bool show(std::shared_ptr<const Frame> frame, Loading loading = Loading::Wait);
 
@@ -54,20 +64,21 @@ class MeshScene {
 
   [[nodiscard]] bool empty() const noexcept;
   [[nodiscard]] Index element_count() const noexcept;
-  /// Box of the vertices used by elements, in the plane; empty when nothing is shown. That of the positions shown last.
+  /// Box of the vertices used by elements, in the plane; empty when nothing is shown. That of the positions shown last, or while light
+  /// frames are shown of those that were last on the host.
   [[nodiscard]] const Bounds2& bounds() const noexcept;
-  /// Where a vertex is in the plane, as shown last.
-  [[nodiscard]] Vec2<double> vertex_point(Index vertex) const;
-  /// Box of an element's corners in the plane.
-  [[nodiscard]] Bounds2 element_bounds(Index element) const;
+  [[nodiscard]] Source source() const noexcept;
+  /// Why what lives on a device is drawn through the host, or not at all; empty when nothing speaks against drawing it there.
+  [[nodiscard]] const std::string& device_trouble() const noexcept;
 
   /// Clears `target` and draws all of it. detail in (0, 1]: below 1, when more than that share of the elements is in view, each
   /// of an evenly spread subset stands for its neighbours as a small square (a group with an inverted element shows it),
   /// and the wireframe is left out: the same picture for the same detail, coarser. Throws Error.
   void draw(Framebuffer& target, const Camera2D& camera, const Style& style, const Marks& marks = {}, double detail = 1.0);
 
-  /// What is at `pixel` (of a viewport of that size) by exact geometry in double, not by colours. `radius`: how far a vertex may
-  /// be, in pixels. Milliseconds even for millions of elements.
+  /// What is at `pixel` (of a viewport of that size) by geometry in double, not by colours. `radius`: how far a vertex may be, in pixels.
+  /// Milliseconds even for millions of elements; of a light frame once a frame as long as it takes to bring all of it to the host, and
+  /// nothing when the device does not give it.
   [[nodiscard]] Pick pick(const Camera2D& camera, Vec2<double> viewport, Vec2<double> pixel, double radius = 8.0) const;
 
  private:

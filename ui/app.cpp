@@ -125,8 +125,8 @@ render::Marks App::marks() const {
   render::Marks marks;
   const Frame* frame = session_->frame.get();
   if (frame == nullptr) return marks;
-  if (state_.picked.kind == Picked::Kind::Element && state_.picked.id < frame->quality.size()) marks.elements = {state_.picked.id};
-  if (state_.picked.kind == Picked::Kind::Vertex && state_.picked.id < frame->positions.size()) {
+  if (state_.picked.kind == Picked::Kind::Element && state_.picked.id < frame->element_count()) marks.elements = {state_.picked.id};
+  if (state_.picked.kind == Picked::Kind::Vertex && state_.picked.id < frame->vertex_count()) {
     for (const Incidence& incidence : frame->input->topology.star(state_.picked.id)) marks.elements.push_back(incidence.element);
     marks.vertices = {state_.picked.id};
   }
@@ -146,8 +146,7 @@ void App::update_scene(const Rect& rect, double now) {
   apply_fit();
   const Frame* frame = session_->frame.get();
   if (frame == nullptr || rect.empty()) return;
-  if (const RunView& run = session_->runs[session_->active];
-      fixed_serial_ != frame->serial && run.fixed.size() == frame->positions.size()) {
+  if (const RunView& run = session_->runs[session_->active]; fixed_serial_ != frame->serial && run.fixed.size() == frame->vertex_count()) {
     scene_.set_fixed(run.fixed);
     fixed_serial_ = frame->serial;
   }

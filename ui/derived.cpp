@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "ui/view_geometry.h"
 
@@ -9,7 +10,7 @@ namespace dmoscope::ui {
 namespace {
 
 /// Sorting more than this many qualities would be felt; an even sample of them draws the same curve.
-constexpr std::size_t kMostSorted = 65536;
+constexpr Index kMostSorted = 65536;
 
 void refresh_input(Derived& derived, const Frame& frame) {
   derived.metrics = usable_metrics(frame.input->mesh);
@@ -18,10 +19,15 @@ void refresh_input(Derived& derived, const Frame& frame) {
   for (const ElementKind kind : frame.input->mesh.elements.kinds()) ++derived.kinds[static_cast<std::size_t>(kind)];
 }
 
+/// Elements that have a quality.
+Index counted_elements(const Histogram& histogram) {
+  return std::accumulate(histogram.counts.begin(), histogram.counts.end(), histogram.below + histogram.above);
+}
+
 void refresh_range(Derived& derived, const ViewState& state, const Frame& frame) {
   derived.range = colour_range(state, &frame);
   derived.outside_low = derived.outside_high = 0;
-  derived.undefined = false;
+  derived.undefined = frame.device && counted_elements(frame.now) < frame.element_count();
   const auto [low, high] = derived.range;
   for (std::size_t e = 0; e < frame.quality.size(); ++e) {
     const auto q = static_cast<double>(frame.quality[e]);
@@ -35,19 +41,53 @@ void refresh_range(Derived& derived, const ViewState& state, const Frame& frame)
   }
 }
 
-void refresh_sorted(Derived& derived, const Frame& frame) {
-  const std::size_t size = frame.quality.size(), step = std::max<std::size_t>(1, (size + kMostSorted - 1) / kMostSorted);
-  const QualityContext context = frame.input->quality_context();
-  derived.sorted_now.clear();
-  derived.sorted_before.clear();
-  for (std::size_t e = 0; e < size; e += step) {
-    const double before = element_quality(context, frame.input->mesh.positions, frame.shown, static_cast<Index>(e));
-    if (std::isnan(before)) continue;
-    derived.sorted_now.push_back(static_cast<double>(frame.quality[e]));
-    derived.sorted_before.push_back(before);
+/// Calls `visit` with every element of an even sample.
+template <class Visit>
+void for_sample(const Frame& frame, Visit visit) {
+  const Index size = frame.element_count(), step = std::max<Index>(1, (size + kMostSorted - 1) / kMostSorted);
+  for (Index e = 0; e < size; e += step) visit(e);
+}
+
+/// A curve through the edges of the bins; those below lie at the lower edge, but the worst at its value.
+std::vector<double> sorted_by_histogram(const Frame& frame) {
+  constexpr int kPoints = 512;
+  const Histogram& histogram = frame.now;
+  const double width = (histogram.highest - histogram.lowest) / static_cast<double>(Histogram::kBins);
+  const double all = counted_elements(histogram);
+  std::vector<double> curve;
+  std::size_t bin = 0;
+  double before = histogram.below;  // elements before the bin
+  for (int k = 0; k < kPoints && all > 0; ++k) {
+    const double rank = all * (k + 0.5) / kPoints;
+    while (bin < Histogram::kBins && before + histogram.counts[bin] <= rank) before += histogram.counts[bin++];
+    const double within = bin < Histogram::kBins ? std::clamp((rank - before) / histogram.counts[bin], 0.0, 1.0) : 0.0;
+    curve.push_back(histogram.lowest + (static_cast<double>(bin) + within) * width);
   }
+  if (!curve.empty()) curve.front() = frame.shown_statistics.minimum;
+  return curve;
+}
+
+void refresh_sorted(Derived& derived, const Frame& frame) {
+  const std::pair before_key{frame.input_serial, frame.shown};
+  if (derived.sorted_before_key != before_key || derived.sorted_before.empty()) {
+    derived.sorted_before.clear();
+    const QualityContext context = frame.input->quality_context();
+    for_sample(frame, [&](Index e) {
+      const double before = element_quality(context, frame.input->mesh.positions, frame.shown, e);
+      if (!std::isnan(before)) derived.sorted_before.push_back(before);
+    });
+    std::sort(derived.sorted_before.begin(), derived.sorted_before.end());
+    derived.sorted_before_key = before_key;
+  }
+  if (frame.device) {
+    derived.sorted_now = sorted_by_histogram(frame);
+    return;
+  }
+  derived.sorted_now.clear();
+  for_sample(frame, [&](Index e) {
+    if (!std::isnan(frame.quality[e])) derived.sorted_now.push_back(static_cast<double>(frame.quality[e]));
+  });
   std::sort(derived.sorted_now.begin(), derived.sorted_now.end());
-  std::sort(derived.sorted_before.begin(), derived.sorted_before.end());
 }
 
 }  // namespace
@@ -68,6 +108,11 @@ void refresh(Derived& derived, const ViewState& state, const SessionView& sessio
   if (new_frame || derived.range_key != range_key) {
     refresh_range(derived, state, *frame);
     derived.range_key = range_key;
+  }
+  const std::pair facts_key{frame->serial, state.picked};
+  if (derived.facts_key != facts_key) {
+    derived.facts = facts_of(*frame, state.picked);
+    derived.facts_key = facts_key;
   }
   if (new_frame) derived.sorted_now.clear();
   if (state.plot == PlotTab::Sorted && derived.sorted_now.empty()) refresh_sorted(derived, *frame);

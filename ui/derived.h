@@ -5,7 +5,7 @@
 
 namespace dmoscope::ui {
 
-/// Brings `derived` up to date with the session's frame and the view's colour range and plot; cheap when nothing changed.
+/// Brings `derived` up to date with the session's frame and the view's colour range, plot and selection; cheap when nothing changed.
 void refresh(Derived& derived, const ViewState& state, const SessionView& session);
 
 }  // namespace dmoscope::ui

@@ -3,21 +3,33 @@
 #include <algorithm>
 #include <array>
 
+#include "core/session/patch.h"
+
 namespace dmoscope::ui {
 
-Vec2<double> plane_point(const Frame& frame, Index vertex) { return frame.input->geometry.plane.project(frame.positions[vertex]); }
+namespace {
 
-render::Bounds2 element_box(const Frame& frame, Index element) {
+render::Bounds2 box_of(const Frame& frame, std::span<const Index> vertices) {
   render::Bounds2 box;
-  for (const Index corner : frame.input->mesh.elements.corners(element)) box.include(plane_point(frame, corner));
+  for (const Vec3& position : positions_of(frame, vertices)) box.include(frame.input->geometry.plane.project(position));
   return box;
 }
 
+}  // namespace
+
+Vec2<double> plane_point(const Frame& frame, Index vertex) {
+  return frame.input->geometry.plane.project(positions_of(frame, {&vertex, 1}).front());
+}
+
+render::Bounds2 element_box(const Frame& frame, Index element) { return box_of(frame, frame.input->mesh.elements.corners(element)); }
+
 render::Bounds2 star_box(const Frame& frame, Index vertex) {
-  render::Bounds2 box;
-  box.include(plane_point(frame, vertex));
-  for (const Incidence& incidence : frame.input->topology.star(vertex)) box.include(element_box(frame, incidence.element));
-  return box;
+  std::vector<Index> vertices{vertex};
+  for (const Incidence& incidence : frame.input->topology.star(vertex)) {
+    const auto corners = frame.input->mesh.elements.corners(incidence.element);
+    vertices.insert(vertices.end(), corners.begin(), corners.end());
+  }
+  return box_of(frame, vertices);
 }
 
 void look_at_picked(ViewState& state, const Frame& frame) {

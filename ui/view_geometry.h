@@ -9,13 +9,13 @@
 
 namespace dmoscope::ui {
 
-/// A vertex in coordinates of the mesh's plane.
+/// A vertex in coordinates of the mesh's plane. Throws DeviceError.
 [[nodiscard]] Vec2<double> plane_point(const Frame& frame, Index vertex);
-/// Box of an element, or of the star of a vertex.
+/// Box of an element, or of the star of a vertex. Throw DeviceError.
 [[nodiscard]] render::Bounds2 element_box(const Frame& frame, Index element);
 [[nodiscard]] render::Bounds2 star_box(const Frame& frame, Index vertex);
 
-/// Moves the camera to what is picked, close enough to read it. Does nothing when nothing is picked.
+/// Moves the camera to what is picked, close enough to read it. Does nothing when nothing is picked. Throws DeviceError.
 void look_at_picked(ViewState& state, const Frame& frame);
 
 /// Metrics defined for every element of the mesh.

@@ -5,10 +5,26 @@
 
 namespace dmoscope::ui {
 
+namespace {
+
+/// The upper end of the highest bin that is not empty.
+double highest_of(const Histogram& histogram) {
+  if (histogram.above > 0) return histogram.highest;
+  const auto last = std::find_if(histogram.counts.rbegin(), histogram.counts.rend(), [](Index count) { return count > 0; });
+  const auto bins = static_cast<double>(histogram.counts.rend() - last);
+  return histogram.lowest + bins * (histogram.highest - histogram.lowest) / static_cast<double>(Histogram::kBins);
+}
+
+}  // namespace
+
 std::pair<double, double> colour_range(const ViewState& state, const Frame* frame) {
   if (state.range_mode == RangeMode::Given) return {state.range_low, state.range_high};
   if (state.range_mode == RangeMode::Auto && frame != nullptr) {
     double low = INFINITY, high = -INFINITY;
+    if (frame->device) {
+      low = frame->shown_statistics.minimum;
+      high = highest_of(frame->now);
+    }
     for (const float q : frame->quality) {
       if (!std::isfinite(q)) continue;
       low = std::min(low, static_cast<double>(q));

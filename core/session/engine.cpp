@@ -1,13 +1,19 @@
 #include "core/session/engine.h"
 
+#include <algorithm>
 #include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
 
 namespace dmoscope {
 
-namespace {
-constexpr auto kPublicationInterval = std::chrono::milliseconds(100);
-constexpr int kPublicationShare = 5;  // a publication may take at most a fifth of the worker's time
-}  // namespace
+std::chrono::steady_clock::duration publication_pause(bool light, std::chrono::steady_clock::duration cost) {
+  constexpr std::chrono::milliseconds kWhole{100}, kLight{12};
+  constexpr int kShare = 5;
+  return std::max<std::chrono::steady_clock::duration>(light ? kLight : kWhole, kShare * cost);
+}
 
 Engine::Engine(unsigned threads, Acceleration acceleration, Backend backend)
     : session_(threads, std::move(acceleration), backend),
@@ -79,7 +85,7 @@ void Engine::work(const std::stop_token& stop) {
     progress_.clear_cancel();
     lock.unlock();
     run_one(current_);
-    publish();
+    publish(FrameDetail::Whole);
     lock.lock();
     working_ = false;
     current_.clear();
@@ -109,14 +115,28 @@ void Engine::run_one(const std::string& line) {
 
 void Engine::publish_if_due() {
   if (!taken_ || std::chrono::steady_clock::now() < next_publication_) return;
-  publish();
+  publish(FrameDetail::Live);
 }
 
-void Engine::publish() {
+/// Null, and said why, when it cannot be built: what was published before stays.
+std::shared_ptr<const SessionView> Engine::build(FrameDetail detail) {
+  try {
+    return frames_.build(session_, detail);
+  } catch (const Error& error) {
+    say({Message::Kind::Error, fmt::format("what is reached cannot be shown: {}", error.what()), error.exit_code()});
+  } catch (const std::bad_alloc&) {
+    say({Message::Kind::Error, "not enough memory to show what is reached", 3});
+  }
+  return nullptr;
+}
+
+void Engine::publish(FrameDetail detail) {
   const auto start = std::chrono::steady_clock::now();
-  auto view = frames_.build(session_);
+  auto view = build(detail);
   const auto end = std::chrono::steady_clock::now();
-  next_publication_ = end + std::max<std::chrono::steady_clock::duration>(kPublicationInterval, kPublicationShare * (end - start));
+  const bool light = view && view->frame && view->frame->device;
+  next_publication_ = end + publication_pause(light, end - start);
+  if (!view) return;
   std::function<void()> wake;
   {
     const std::scoped_lock lock(mutex_);

@@ -21,6 +21,10 @@
 
 namespace dmoscope {
 
+/// How long a worker that took `cost` to publish goes on before it publishes again: so long that publishing takes at most a sixth of its
+/// time, and that a screen can show all there is (60 a second of light frames, 10 of whole ones).
+[[nodiscard]] std::chrono::steady_clock::duration publication_pause(bool light, std::chrono::steady_clock::duration cost);
+
 class Engine {
  public:
   /// See Session.
@@ -43,8 +47,8 @@ class Engine {
   /// What runs now, as typed; empty when idle.
   [[nodiscard]] std::string current_command() const;
 
-  /// The latest state; never null. While a long run goes on a new frame is published after each iteration or at least
-  /// every 100 ms of class-wise progress, but only once the last one was taken by view().
+  /// The latest state; never null. While a command goes on new frames are published (of a run on a device light ones, see Frame), each
+  /// publication_pause() after the one before and only once that was taken by view(); at its end a whole one.
   [[nodiscard]] std::shared_ptr<const SessionView> view();
   /// Messages since the last call, oldest first.
   [[nodiscard]] std::vector<Message> take_messages();
@@ -54,8 +58,9 @@ class Engine {
  private:
   void work(const std::stop_token& stop);
   void run_one(const std::string& line);
-  void publish();
+  void publish(FrameDetail detail);
   void publish_if_due();
+  [[nodiscard]] std::shared_ptr<const SessionView> build(FrameDetail detail);
   void say(Message message);
 
   Progress progress_;

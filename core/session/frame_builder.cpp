@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/quality/tally.h"
 
@@ -75,6 +76,21 @@ struct Part {
   Worst worst{kWorst};
 };
 
+/// Takes what a device knows of the run as it stands, if it lives on one. False: it must come from the host.
+bool take_picture(Frame& frame, const Run& run) {
+  try {
+    frame.device = run.picture(frame.shown);
+  } catch (const DeviceError& error) {
+    frame.device_trouble = error.what();
+  }
+  if (!frame.device) return false;
+  const ElementSummary& summary = frame.device->summary();
+  frame.shown_statistics = summary.statistics;
+  frame.now = summary.histogram;
+  frame.worst = summary.worst;
+  return true;
+}
+
 /// All that a frame shows of the elements, in one pass over them.
 void judge_elements(Frame& frame, std::span<const Index> immovable, ThreadPool* pool) {
   const std::size_t count = frame.input->mesh.elements.size();
@@ -90,7 +106,7 @@ void judge_elements(Frame& frame, std::span<const Index> immovable, ThreadPool* 
         frame.quality[block.first + i] = static_cast<float>(q);
         frame.inverted[block.first + i] = block.jacobian[i] <= 0.0 ? 1 : 0;
         part.bins.add(q);
-        part.worst.offer({block.first + static_cast<Index>(i), q});
+        part.worst.offer({block.first + static_cast<Index>(i), q, block.jacobian[i] <= 0.0});
       }
     });
     parts[first / kGrain] = std::move(part);
@@ -146,7 +162,7 @@ Histogram make_histogram(std::span<const double> qualities) {
 
 std::vector<RankedElement> worst_elements(std::span<const double> qualities, std::size_t most) {
   Worst worst(most);
-  for (std::size_t e = 0; e < qualities.size(); ++e) worst.offer({static_cast<Index>(e), qualities[e]});
+  for (std::size_t e = 0; e < qualities.size(); ++e) worst.offer({.element = static_cast<Index>(e), .quality = qualities[e]});
   return worst.take();
 }
 
@@ -160,7 +176,7 @@ void FrameBuilder::refresh_input(Session& session) {
   before_ = histogram_of(*input_, shown, session.pool().get());
 }
 
-std::shared_ptr<const Frame> FrameBuilder::frame(Session& session) {
+std::shared_ptr<const Frame> FrameBuilder::frame(Session& session, FrameDetail detail) {
   refresh_input(session);
   Run& run = session.active();
   auto frame = std::make_shared<Frame>();
@@ -170,15 +186,18 @@ std::shared_ptr<const Frame> FrameBuilder::frame(Session& session) {
   frame->run = session.active_index();
   frame->moment = run.moment();
   frame->shown = session.shown();
-  reserve_large(frame->positions, run.positions().size());
-  frame->positions.assign(run.positions().begin(), run.positions().end());
-  judge_elements(*frame, run.immovable(), session.pool().get());
+  if (detail == FrameDetail::Whole || !take_picture(*frame, run)) {
+    const auto positions = run.positions();
+    reserve_large(frame->positions, positions.size());
+    frame->positions.assign(positions.begin(), positions.end());
+    judge_elements(*frame, run.immovable(), session.pool().get());
+  }
   frame->statistics = frame->shown == run.parameters().metric ? frame->shown_statistics : run.statistics();
   frame->before = before_;
   return frame;
 }
 
-std::shared_ptr<const SessionView> FrameBuilder::build(Session& session) {
+std::shared_ptr<const SessionView> FrameBuilder::build(Session& session, FrameDetail detail) {
   auto view = std::make_shared<SessionView>();
   view->shown = session.shown();
   view->threads = session.pool()->size();
@@ -186,7 +205,7 @@ std::shared_ptr<const SessionView> FrameBuilder::build(Session& session) {
   view->input = session.input();
   view->active = session.active_index();
   for (std::size_t i = 0; i < session.run_count(); ++i) view->runs.push_back(view_of(session.run(i), i == view->active));
-  view->frame = frame(session);
+  view->frame = frame(session, detail);
   return view;
 }
 

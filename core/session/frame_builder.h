@@ -10,13 +10,16 @@
 
 namespace dmoscope {
 
+/// Whole: everything is in the frame. Live: what lives on a device stays there, see Frame.
+enum class FrameDetail { Whole, Live };
+
 class FrameBuilder {
  public:
-  /// The session as it stands. Qualities are computed with the session's pool.
-  [[nodiscard]] std::shared_ptr<const SessionView> build(Session& session);
+  /// The session as it stands. Qualities are computed with the session's pool. Throws DeviceError.
+  [[nodiscard]] std::shared_ptr<const SessionView> build(Session& session, FrameDetail detail = FrameDetail::Whole);
 
  private:
-  std::shared_ptr<const Frame> frame(Session& session);
+  std::shared_ptr<const Frame> frame(Session& session, FrameDetail detail);
   void refresh_input(Session& session);
 
   std::uint64_t serial_ = 0;

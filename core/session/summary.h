@@ -42,8 +42,9 @@ inline constexpr float kInvertedShade = -3e38F, kUndefinedShade = 3e38F;
 }
 
 struct RankedElement {
-  Index element;
-  double quality;
+  Index element = kNoIndex;
+  double quality = 0.0;
+  bool inverted = false;  // a corner Jacobian is <= 0
 };
 
 /// All elements by one metric.

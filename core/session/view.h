@@ -5,12 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "core/session/device_picture.h"
 #include "core/session/session.h"
 #include "core/session/summary.h"
 
 namespace dmoscope {
 
-/// One state of one run, ready to be drawn.
+/// One state of one run, ready to be drawn. While a run steps on a device its frames are light: what there is of every vertex and every
+/// element stays in `device` (positions, quality and inverted are empty), and the worst list may hold the worst element alone.
 struct Frame {
   std::uint64_t serial = 0;        // grows with every frame: "did it change?"
   std::uint64_t input_serial = 0;  // grows with every opened mesh: "must the topology be uploaded again?"
@@ -18,6 +20,8 @@ struct Frame {
   std::size_t run = 0;
   Moment moment;
   Metric shown = Metric::MeanRatio;
+  std::shared_ptr<const DevicePicture> device;  // null: all of it is here
+  std::string device_trouble;                   // why there is none although the run lives on a device; empty when there is no such reason
   std::vector<Vec3> positions;
   std::vector<float> quality;          // of the shown metric, one an element; NaN where it is not defined
   std::vector<std::uint8_t> inverted;  // one an element, 1 where a corner Jacobian is <= 0
@@ -25,6 +29,8 @@ struct Frame {
   Statistics statistics;               // of the metric the run optimises
   Histogram before, now;               // of the shown metric: at the input, and here
   std::vector<RankedElement> worst;    // of the shown metric, worst first, at most 100
+  [[nodiscard]] Index vertex_count() const noexcept { return input->mesh.vertex_count(); }
+  [[nodiscard]] Index element_count() const noexcept { return static_cast<Index>(input->mesh.elements.size()); }
 };
 
 struct RunView {

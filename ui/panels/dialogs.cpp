@@ -122,7 +122,7 @@ void draw_find_dialog(PanelContext& context) {
   ImGui::SameLine();
   if (ImGui::RadioButton("element", widgets.find_kind == 1)) widgets.find_kind = 1;
   if (frame != nullptr) {
-    const auto size = widgets.find_kind == 0 ? frame->positions.size() : frame->quality.size();
+    const auto size = widgets.find_kind == 0 ? frame->vertex_count() : frame->element_count();
     ImGui::SameLine(0, context.px(16));
     dim_text(context, fmt::format("id from 0 to {}", size == 0 ? 0 : size - 1), false);
   }

@@ -64,7 +64,8 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
   heading(context, fmt::format("Vertex {}", count(vertex)).c_str());
   const Topology& topology = frame.input->topology;
   const RunView* run = context.run();
-  const Vec3& at = frame.positions[vertex];
+  const PickedFacts& facts = context.derived.facts;
+  const Vec3& at = facts.at;
   const std::string full = fmt::format("{} {} {}", full_number(at.x), full_number(at.y), full_number(at.z));
   value_row(context, "x", fmt::format("{:.8g}", at.x), full);
   value_row(context, "y", fmt::format("{:.8g}", at.y), full);
@@ -77,27 +78,23 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
             : topology.star(vertex).empty() ? "fixed: unused"
                                             : "fixed");
   value_row(context, "valence", count(topology.star(vertex).size()), {}, {}, "elements of its star");
-  const QualityContext quality = frame.input->quality_context();
-  const double now = vertex_quality(quality, topology, frame.positions, frame.shown, vertex);
-  const double before = vertex_quality(quality, topology, frame.input->mesh.positions, frame.shown, vertex);
-  number_row(context, "quality now", now, "minimum over its star, of the shown metric");
-  number_row(context, "at the input", before);
+  number_row(context, "quality now", facts.now, "minimum over its star, of the shown metric");
+  number_row(context, "at the input", facts.before);
   dim_text(context, fmt::format("star, {}", metric_phrase(frame.shown)));
-  for (const Incidence& incidence : topology.star(vertex)) {
-    const double q = static_cast<double>(frame.quality[incidence.element]);
-    ImGui::PushID(static_cast<int>(incidence.element));
+  for (const auto& [element, q, inverted] : facts.star) {
+    ImGui::PushID(static_cast<int>(element));
     const ImVec2 cursor = ImGui::GetCursorScreenPos();
-    if (ImGui::Selectable("##star")) context.send(fmt::format("pick element {}", incidence.element));
-    context.items.record_last(fmt::format("star:{}", incidence.element));
+    if (ImGui::Selectable("##star")) context.send(fmt::format("pick element {}", element));
+    context.items.record_last(fmt::format("star:{}", element));
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float width = ImGui::GetContentRegionAvail().x, line = ImGui::GetTextLineHeight();
-    const std::string number = short_number(q), name = fmt::format("element {}", count(incidence.element));
+    const std::string number = short_number(q), name = fmt::format("element {}", count(element));
     list.AddText(cursor, colour(context.palette.text), name.c_str());
     const float left = cursor.x + 8.5F * context.em(), right = cursor.x + width - 4 * context.em();
     if (right > left + context.em()) {
       list.AddRectFilled({left, cursor.y + 0.3F * line}, {right, cursor.y + 0.75F * line}, colour(context.palette.raised), context.px(2));
       const float part = static_cast<float>(std::clamp(std::isfinite(q) ? q : 0.0, 0.0, 1.0));
-      const render::Rgb ink = frame.inverted[incidence.element] != 0 ? render::kInvertedColour : context.palette.accent;
+      const render::Rgb ink = inverted ? render::kInvertedColour : context.palette.accent;
       list.AddRectFilled({left, cursor.y + 0.3F * line}, {left + part * (right - left), cursor.y + 0.75F * line}, colour(ink),
                          context.px(2));
     }
@@ -108,19 +105,13 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
 
 /// Every metric of one element now and at the input; – where it is not defined for its kind. The names get what room the numbers
 /// leave, and a second line where that is too little.
-void draw_metric_table(PanelContext& context, const Frame& frame, Index element) {
-  struct Row {
-    const MetricInfo* metric;
-    std::array<double, 2> values;
-  };
-  std::vector<Row> rows;
+void draw_metric_table(PanelContext& context) {
+  using Row = PickedFacts::Row;
+  const std::vector<Row>& rows = context.derived.facts.metrics;
   std::array<float, 2> widths{ImGui::CalcTextSize("now").x, ImGui::CalcTextSize("input").x};
-  const QualityContext quality = frame.input->quality_context();
-  for (const MetricInfo& metric : metric_table()) {
-    rows.push_back({&metric,
-                    {element_quality(quality, frame.positions, metric.metric, element),
-                     element_quality(quality, frame.input->mesh.positions, metric.metric, element)}});
-    for (std::size_t k = 0; k < 2; ++k) widths[k] = std::max(widths[k], ImGui::CalcTextSize(short_number(rows.back().values[k]).c_str()).x);
+  for (const Row& row : rows) {
+    widths[0] = std::max(widths[0], ImGui::CalcTextSize(short_number(row.now).c_str()).x);
+    widths[1] = std::max(widths[1], ImGui::CalcTextSize(short_number(row.before).c_str()).x);
   }
   if (!ImGui::BeginTable("metrics", 3, ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupColumn("metric", ImGuiTableColumnFlags_WidthStretch);
@@ -149,8 +140,8 @@ void draw_metric_table(PanelContext& context, const Frame& frame, Index element)
     ImGui::PopTextWrapPos();
     metric_tooltip(context, *row.metric);
     context.items.record_last(fmt::format("metric:{}", row.metric->name));
-    right_text(short_number(row.values[0]), full_number(row.values[0]), false);
-    right_text(short_number(row.values[1]), full_number(row.values[1]), true);
+    right_text(short_number(row.now), full_number(row.now), false);
+    right_text(short_number(row.before), full_number(row.before), true);
   }
   ImGui::EndTable();
 }
@@ -159,7 +150,7 @@ void draw_element(PanelContext& context, const Frame& frame, Index element) {
   heading(context, fmt::format("Element {}", count(element)).c_str());
   const ElementTable& elements = frame.input->mesh.elements;
   value_row(context, "kind", std::string(info(elements.kind(element)).name));
-  if (frame.inverted[element] != 0) value_row(context, "inverted", "yes", {}, context.palette.error);
+  if (context.derived.facts.inverted) value_row(context, "inverted", "yes", {}, context.palette.error);
   dim_text(context, "corners", false);
   for (const Index corner : elements.corners(element)) {
     ImGui::SameLine();
@@ -168,7 +159,7 @@ void draw_element(PanelContext& context, const Frame& frame, Index element) {
     if (ImGui::SmallButton(id.c_str())) context.send(fmt::format("pick vertex {}", corner));
     next_item_tooltip("select this vertex");
   }
-  draw_metric_table(context, frame, element);
+  draw_metric_table(context);
 }
 
 }  // namespace
@@ -192,12 +183,14 @@ void draw_inspector(PanelContext& context) {
     draw_statistics(context, "Optimised", optimised, statistics);
     draw_statistics(context, "Shown", frame->shown, frame->shown_statistics);
   }
-  const Picked& picked = context.state.picked;
+  const PickedFacts& facts = context.derived.facts;  // of what was picked when this drawing began
   ImGui::Dummy({0, context.px(2)});
-  if (picked.kind == Picked::Kind::Vertex && picked.id < frame->positions.size()) {
-    draw_vertex(context, *frame, picked.id);
-  } else if (picked.kind == Picked::Kind::Element && picked.id < frame->quality.size()) {
-    draw_element(context, *frame, picked.id);
+  if (facts.picked.kind == Picked::Kind::Vertex) {
+    draw_vertex(context, *frame, facts.picked.id);
+  } else if (facts.picked.kind == Picked::Kind::Element) {
+    draw_element(context, *frame, facts.picked.id);
+  } else if (!facts.trouble.empty()) {
+    dim_text(context, "What is picked cannot be read now: " + facts.trouble);
   } else {
     dim_text(context, "Click a vertex or an element to read it (Alt: always the element).");
   }
@@ -227,9 +220,8 @@ void draw_worst(PanelContext& context) {
       list.AddText({at.x + 1.6F * context.em() - ImGui::CalcTextSize(rank.c_str()).x, at.y}, colour(context.palette.dim), rank.c_str());
       list.AddText({at.x + 2.4F * context.em(), at.y}, colour(context.palette.text),
                    fmt::format("element {}", count(ranked.element)).c_str());
-      const bool inverted = frame->inverted[ranked.element] != 0;
       list.AddText({at.x + width - ImGui::CalcTextSize(number.c_str()).x - context.px(4), at.y},
-                   colour(inverted ? context.palette.error : context.palette.text), number.c_str());
+                   colour(ranked.inverted ? context.palette.error : context.palette.text), number.c_str());
       ImGui::PopID();
     }
   }

@@ -13,6 +13,7 @@
 #include "core/session/commands.h"
 #include "core/session/view.h"
 #include "ui/actions.h"
+#include "ui/facts.h"
 #include "ui/file_browser.h"
 #include "ui/items.h"
 #include "ui/layout.h"
@@ -44,9 +45,13 @@ struct Derived {
   std::vector<Metric> metrics;          // defined for every element
   std::vector<std::string> mesh_facts;  // sentences of the report
   std::array<std::size_t, kElementKindCount> kinds{};
-  std::vector<double> sorted_now, sorted_before;  // a sample of the shown quality, ascending; filled when its plot is open
-  std::size_t outside_low = 0, outside_high = 0;  // elements outside the colours' range, inverted ones not counted
+  std::vector<double> sorted_now, sorted_before;  // a sample of the shown quality, ascending; filled when its plot is open. Of a light
+                                                  // frame, now: as far as the histogram tells
+  std::pair<std::uint64_t, Metric> sorted_before_key{0, Metric::MeanRatio};  // input_serial and metric of sorted_before
+  std::size_t outside_low = 0, outside_high = 0;  // elements outside the colours' range, inverted ones not counted; 0 for a light frame
   bool undefined = false;                         // some element's shown quality is NaN
+  PickedFacts facts;                              // of what is picked
+  std::pair<std::uint64_t, Picked> facts_key;     // frame serial and what was picked when they were read
   std::pair<double, double> range{0.0, 1.0};      // of the colours
   std::tuple<RangeMode, double, double> range_key{RangeMode::Fixed, NAN, NAN};  // what `range` was worked out for
 };

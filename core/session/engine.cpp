@@ -85,7 +85,7 @@ void Engine::work(const std::stop_token& stop) {
     progress_.clear_cancel();
     lock.unlock();
     run_one(current_);
-    publish(FrameDetail::Whole);
+    publish_at_rest();
     lock.lock();
     working_ = false;
     current_.clear();
@@ -118,25 +118,29 @@ void Engine::publish_if_due() {
   publish(FrameDetail::Live);
 }
 
-/// Null, and said why, when it cannot be built: what was published before stays.
-std::shared_ptr<const SessionView> Engine::build(FrameDetail detail) {
+/// Never throws: what cannot be shown is said, and what was published before stays.
+void Engine::publish_at_rest() {
   try {
-    return frames_.build(session_, detail);
+    try {
+      publish(FrameDetail::Whole);
+    } catch (const DeviceError&) {  // the run goes on from where the host knows it
+      session_.active().recover();
+      say({Message::Kind::Warning, session_.active().take_warning(), 0});
+      publish(FrameDetail::Whole);
+    }
   } catch (const Error& error) {
     say({Message::Kind::Error, fmt::format("what is reached cannot be shown: {}", error.what()), error.exit_code()});
   } catch (const std::bad_alloc&) {
     say({Message::Kind::Error, "not enough memory to show what is reached", 3});
   }
-  return nullptr;
 }
 
 void Engine::publish(FrameDetail detail) {
   const auto start = std::chrono::steady_clock::now();
-  auto view = build(detail);
+  auto view = frames_.build(session_, detail);
   const auto end = std::chrono::steady_clock::now();
-  const bool light = view && view->frame && view->frame->device;
+  const bool light = view->frame && view->frame->device;
   next_publication_ = end + publication_pause(light, end - start);
-  if (!view) return;
   std::function<void()> wake;
   {
     const std::scoped_lock lock(mutex_);

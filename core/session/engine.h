@@ -60,7 +60,7 @@ class Engine {
   void run_one(const std::string& line);
   void publish(FrameDetail detail);
   void publish_if_due();
-  [[nodiscard]] std::shared_ptr<const SessionView> build(FrameDetail detail);
+  void publish_at_rest();
   void say(Message message);
 
   Progress progress_;

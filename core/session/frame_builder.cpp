@@ -141,6 +141,8 @@ RunView view_of(Run& run, bool active) {
   RunView view;
   view.title = run.title();
   view.parameters = run.parameters();
+  view.backend = run.backend();
+  view.backend_reason = run.backend_reason();
   view.moment = run.moment();
   view.visits_per_iteration = run.visits_per_iteration();
   view.class_count = run.colouring().class_count();

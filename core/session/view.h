@@ -36,6 +36,7 @@ struct Frame {
 struct RunView {
   std::string title;
   RunParameters parameters;
+  std::string backend, backend_reason;  // see Run
   Moment moment;
   std::uint64_t visits_per_iteration = 0;
   Index class_count = 0;

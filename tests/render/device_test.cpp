@@ -6,12 +6,12 @@
 
 #include "core/base/progress.h"
 #include "fixture.h"
-#include "tests/support/fake_device.h"
+#include "tests/support/fake_picture.h"
 
 namespace dmoscope::render {
 namespace {
 
-using testing::FakeDevice;
+using testing::FakePictureDevice;
 using testing::light_frame;
 using testing::whole_frame;
 
@@ -44,7 +44,7 @@ class Device : public WithContext {
   }
 
   const Camera2D camera = unit_camera({500000 + 84, 4000000 + 54});
-  std::shared_ptr<FakeDevice> device = std::make_shared<FakeDevice>();
+  std::shared_ptr<FakePictureDevice> device = std::make_shared<FakePictureDevice>();
   std::map<std::uint64_t, std::shared_ptr<const InputMesh>> inputs;
   bool dots = false;
 };

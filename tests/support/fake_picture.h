@@ -14,7 +14,7 @@
 
 namespace dmoscope::testing {
 
-struct FakeDevice {
+struct FakePictureDevice {
   bool can_write = true, can_download = true, can_tell_positions = true;
   int targets_made = 0, targets_alive = 0, writes = 0, downloads = 0;
   std::size_t positions_told = 0;
@@ -24,7 +24,7 @@ struct FakeDevice {
 
 class FakeTarget final : public DeviceTarget {
  public:
-  FakeTarget(std::shared_ptr<FakeDevice> device, std::uint32_t points, std::uint32_t shades)
+  FakeTarget(std::shared_ptr<FakePictureDevice> device, std::uint32_t points, std::uint32_t shades)
       : point_buffer(points), shade_buffer(shades), device_(std::move(device)) {
     ++device_->targets_made;
     ++device_->targets_alive;
@@ -33,12 +33,12 @@ class FakeTarget final : public DeviceTarget {
   const std::uint32_t point_buffer, shade_buffer;
 
  private:
-  std::shared_ptr<FakeDevice> device_;
+  std::shared_ptr<FakePictureDevice> device_;
 };
 
 class FakePicture final : public DevicePicture {
  public:
-  FakePicture(std::shared_ptr<FakeDevice> device, std::shared_ptr<const InputMesh> input, std::vector<Vec3> positions, Metric shown)
+  FakePicture(std::shared_ptr<FakePictureDevice> device, std::shared_ptr<const InputMesh> input, std::vector<Vec3> positions, Metric shown)
       : device_(std::move(device)), input_(std::move(input)), positions_(std::move(positions)) {
     const QualityContext context = input_->quality_context();
     std::vector<double> quality(input_->mesh.elements.size());
@@ -87,7 +87,7 @@ class FakePicture final : public DevicePicture {
     }
     return points;
   }
-  std::shared_ptr<FakeDevice> device_;
+  std::shared_ptr<FakePictureDevice> device_;
   std::shared_ptr<const InputMesh> input_;
   std::vector<Vec3> positions_;
   std::vector<float> shades_;
@@ -95,7 +95,7 @@ class FakePicture final : public DevicePicture {
 };
 
 /// What was said of every vertex and element in `whole`, moved to the device.
-inline std::shared_ptr<Frame> light_frame(const Frame& whole, const std::shared_ptr<FakeDevice>& device) {
+inline std::shared_ptr<Frame> light_frame(const Frame& whole, const std::shared_ptr<FakePictureDevice>& device) {
   auto light = std::make_shared<Frame>(whole);
   light->device = std::make_shared<FakePicture>(device, whole.input, whole.positions, whole.shown);
   light->positions.clear();

@@ -1,0 +1,16 @@
+// Sharing buffers with OpenGL, as far as it can be tried without a context. The rest is in tests/gui/device_drawing_test.cpp.
+
+#include <gtest/gtest.h>
+
+#include "gpu/gl_interop.h"
+
+namespace dmoscope::gpu {
+namespace {
+
+TEST(GlInterop, SaysWhatIsInTheWayWhereNoContextIsCurrent) {
+  EXPECT_NE(gl_obstacle(0), "");
+  EXPECT_EQ(gl_obstacle(0), gl_obstacle(0)) << "asking leaves nothing behind";
+}
+
+}  // namespace
+}  // namespace dmoscope::gpu

@@ -18,15 +18,14 @@ constexpr double kForever = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-App::App(Options options) : options_(std::move(options)), engine_(options_.threads), session_(engine_.view()) {
+App::App(Options options)
+    : options_(std::move(options)), engine_(options_.threads, options_.acceleration, options_.backend), session_(engine_.view()) {
   host_.session = [this] { return session_; };
   host_.post = [this](std::string line) { engine_.post(std::move(line)); };
   host_.busy = [this] { return engine_.busy(); };
   host_.cancel = [this] { engine_.cancel(); };
   host_.item = [this](const std::string& name) { return items_.find(name); };
   commands_ = view_commands(state_, host_);
-  activity_.backend = options_.backend;
-  activity_.backend_reason = options_.backend_reason;
   activity_.renderer = options_.renderer;
 }
 
@@ -59,6 +58,7 @@ bool App::prepare() {
 
 void App::take_news(double now) {
   session_ = engine_.view();
+  update_backend();
   for (Message& message : engine_.take_messages()) {
     if (listener_) listener_(message);
     add_message(state_, std::move(message));
@@ -85,6 +85,21 @@ void App::take_news(double now) {
 }
 
 bool App::moving(double now) const { return now - widgets_.moved_at < kRestAfter; }
+
+/// The active run's; with no mesh, what a run would have.
+void App::update_backend() {
+  const Acceleration& acceleration = options_.acceleration;
+  if (session_->active < session_->runs.size()) {
+    activity_.backend = session_->runs[session_->active].backend;
+    activity_.backend_reason = session_->runs[session_->active].backend_reason;
+  } else if (acceleration.accelerator) {
+    activity_.backend = acceleration.accelerator->name();
+    activity_.backend_reason = acceleration.accelerator->description();
+  } else {
+    activity_.backend = name(Backend::Cpu);
+    activity_.backend_reason = "no cuda: " + acceleration.reason;
+  }
+}
 
 void App::notice_new_input() {
   const Frame* frame = session_->frame.get();

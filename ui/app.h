@@ -21,10 +21,10 @@ namespace dmoscope::ui {
 class App {
  public:
   struct Options {
-    unsigned threads = 0;  // of the smoothing; 0: one a hardware thread
-    std::string backend = "cpu";
-    std::string backend_reason;  // why no other one is used
-    std::string renderer;        // what draws
+    unsigned threads = 0;             // of the smoothing; 0: one a hardware thread
+    Acceleration acceleration{};      // what runs may use besides the CPU
+    Backend backend = Backend::Auto;  // what the first run asks for
+    std::string renderer;             // what draws
     bool software_renderer = false;
     bool wait_for_scene = false;  // big meshes are made ready for drawing before a frame goes on (headless)
   };
@@ -64,6 +64,7 @@ class App {
 
  private:
   void take_news(double now);
+  void update_backend();
   void notice_new_input();
   void update_derived();
   void update_scene(const Rect& rect, double now);

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/drawing_path.h"
 #include "app/text.h"
 #include "app/verbs/bench_machine.h"
 #include "app/verbs/verbs.h"
@@ -18,6 +19,7 @@
 #include "core/quality/metric.h"
 #include "core/search/simd.h"
 #include "core/session/run.h"
+#include "gpu/accelerator.h"
 #include "gpu/device.h"
 
 #ifdef DMOSCOPE_HAVE_GUI
@@ -44,14 +46,21 @@ OpenGl headless_opengl() {
 #endif
 }
 
-Json json_of(const gpu::Availability& cuda) {
+/// Where CUDA could write OpenGL's buffers; empty where it can. To be asked of the context that draws.
+std::string no_interop(const OpenGl& gl) { return gl.usable ? "this version copies through the host" : gl.text; }
+
+Json json_of(const gpu::Availability& cuda, const Acceleration& acceleration) {
   Json devices = Json::array();
   for (const gpu::Device& device : cuda.devices) {
     devices.push_back(
         {{"name", device.name}, {"compute_capability", fmt::format("{}.{}", device.major, device.minor)}, {"memory", device.memory}});
   }
-  return {
-      {"name", "cuda"}, {"usable", cuda.reason.empty()}, {"built", cuda.built}, {"reason", cuda.reason}, {"devices", std::move(devices)}};
+  return {{"name", "cuda"},
+          {"usable", acceleration.accelerator != nullptr},
+          {"built", cuda.built},
+          {"reason", acceleration.reason},
+          {"description", acceleration.accelerator ? acceleration.accelerator->description() : std::string()},
+          {"devices", std::move(devices)}};
 }
 
 std::vector<std::string_view> simd_names() {
@@ -63,10 +72,14 @@ std::vector<std::string_view> simd_names() {
 Json everything() {
   const OpenGl gl = headless_opengl();
   const unsigned threads = std::thread::hardware_concurrency();
+  const Acceleration acceleration = gpu::make_accelerator();
+  const DrawingPath drawing = drawing_path(acceleration, no_interop(gl));
   Json object{{"version", DMOSCOPE_VERSION}, {"build", DMOSCOPE_BUILD_TYPE}, {"compiler", compiler()}, {"threads", threads}};
-  object["backends"] = {{{"name", "cpu"}, {"usable", true}, {"threads", threads}}, json_of(gpu::availability())};
+  object["backends"] = {{{"name", "cpu"}, {"usable", true}, {"threads", threads}, {"simd", name(best_simd_level())}},
+                        json_of(gpu::availability(), acceleration)};
   object["simd"] = {{"levels", simd_names()}, {"used", name(best_simd_level())}};
   object["opengl"] = {{"usable", gl.usable}, {"description", gl.text}};
+  object["drawing"] = {{"path", drawing.name}, {"reason", drawing.reason}};
   for (const FormatInfo& f : format_table()) {
     object["formats"].push_back({{"name", f.name}, {"title", f.title}, {"extensions", f.extensions}, {"doc", f.doc}});
   }
@@ -88,8 +101,9 @@ Json everything() {
   return object;
 }
 
-void print_cuda(const gpu::Availability& cuda) {
-  fmt::print("  cuda   {}\n", cuda.reason.empty() ? "usable" : "not usable: " + cuda.reason);
+void print_cuda(const gpu::Availability& cuda, const Acceleration& acceleration) {
+  fmt::print("  cuda   {}\n",
+             acceleration.accelerator ? "usable: " + acceleration.accelerator->description() : "not usable: " + acceleration.reason);
   for (const gpu::Device& device : cuda.devices) {
     fmt::print("         {} (compute capability {}.{}, {:.1f} GiB)\n", device.name, device.major, device.minor,
                static_cast<double>(device.memory) / static_cast<double>(std::size_t{1} << 30U));
@@ -101,7 +115,10 @@ void print_for_a_person() {
   fmt::print("dmoscope {} ({}, {})\n\nbackends\n", DMOSCOPE_VERSION, DMOSCOPE_BUILD_TYPE, compiler());
   fmt::print("  cpu    usable, {}\n", counted(std::thread::hardware_concurrency(), "processor thread", "processor threads"));
   fmt::print("         SIMD {} (supported: {})\n", name(best_simd_level()), fmt::join(simd_names(), ", "));
-  print_cuda(gpu::availability());
+  const Acceleration acceleration = gpu::make_accelerator();
+  print_cuda(gpu::availability(), acceleration);
+  const DrawingPath drawing = drawing_path(acceleration, no_interop(gl));
+  fmt::print("\ndrawing\n  path   {}{}\n", drawing.name, drawing.reason.empty() ? "" : " (" + drawing.reason + ")");
   fmt::print("  opengl {}{}\n\nformats\n", gl.usable ? "" : "not usable: ", gl.text);
   for (const FormatInfo& f : format_table()) fmt::print("  {:<16} {}; {}\n", f.extensions, f.title, f.doc);
   fmt::print("\nmetrics\n");

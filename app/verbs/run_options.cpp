@@ -25,10 +25,16 @@ void require_method(const std::string& name) {
 
 }  // namespace
 
+void add_backend_option(CLI::App& verb, std::string& backend) {
+  verb.add_option("--backend", backend, "What smooths: cpu, cuda, or auto: cuda where it can be used")
+      ->type_name("NAME")
+      ->capture_default_str();
+}
+
 void add_run_options(CLI::App& verb, RunOptions& options) {
   verb.add_option("--method", options.method, "Method: " + names_of(method_table()))->type_name("NAME")->capture_default_str();
   verb.add_option("--metric", options.metric, "Metric to optimise: " + names_of(metric_table()))->type_name("NAME")->capture_default_str();
-  verb.add_option("--backend", options.backend, "auto, cpu or cuda")->type_name("NAME")->capture_default_str();
+  add_backend_option(verb, options.backend);
   verb.add_option("--threads", options.threads, "Threads; 0: one a processor thread. The result is the same for any")
       ->transform(whole_number(0, kMostThreads))
       ->type_name("N")
@@ -68,6 +74,7 @@ RunParameters parameters_of(const RunOptions& options) {
   parameters.search.precision = parse_precision(options.precision);
   if (options.simd != "auto") parameters.search.simd = parse_simd_level(options.simd);
   parameters.order = parse_order(options.order);
+  parameters.backend = parse_backend(options.backend);
   return parameters;
 }
 

@@ -24,6 +24,9 @@ struct RunOptions {
   std::vector<std::string> fix;  // for named_vertices()
 };
 
+/// Declares --backend.
+void add_backend_option(CLI::App& verb, std::string& backend);
+
 /// Declares --method, --metric, --backend, --threads, --grid, --levels, --omega, --precision, --simd, --order and --fix.
 void add_run_options(CLI::App& verb, RunOptions& options);
 

@@ -13,7 +13,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/acceleration.h"
 #include "app/console.h"
+#include "app/verbs/run_options.h"
 #include "app/verbs/verbs.h"
 #include "core/base/error.h"
 #include "core/session/engine.h"
@@ -28,6 +30,7 @@ namespace {
 
 struct Options {
   std::string file;
+  std::string backend = "auto";
   bool headless = false;
 };
 
@@ -84,9 +87,9 @@ int tell(const std::vector<Message>& messages, const std::string& name, std::siz
   return 0;
 }
 
-int run_on_session(const std::string& name, const std::vector<std::string>& lines) {
+int run_on_session(const std::string& name, const std::vector<std::string>& lines, Backend backend) {
   block_interrupts();  // before the engine's threads start
-  Engine engine;
+  Engine engine(0, acceleration_for(backend), backend);
   // Ctrl+C may also come between two lines, when the engine has nothing to cancel.
   std::atomic<bool> interrupted{false};
   const Watch watch(engine.progress(), [&engine, &interrupted] {
@@ -108,14 +111,16 @@ int run_on_session(const std::string& name, const std::vector<std::string>& line
 
 int script(const Options& options) {
   const std::string name = options.file == "-" ? "standard input" : options.file;
+  const Backend backend = parse_backend(options.backend);
   const std::vector<std::string> lines = read_lines(options.file);
   const Foreign foreign = first_foreign(name, lines);
-  if (foreign.line == 0) return run_on_session(name, lines);
+  if (foreign.line == 0) return run_on_session(name, lines, backend);
 #ifdef DMOSCOPE_HAVE_GUI
   ScriptOptions window;
   window.name = name;
   window.lines = lines;
   window.headless = options.headless;
+  window.backend = backend;
   return run_script(window);
 #else
   throw UsageError(fmt::format("{}:{}: unknown command '{}' (this program was built without the window and its commands)", name,
@@ -130,6 +135,7 @@ void add_script(CLI::App& app, Action& action) {
   CLI::App* verb = app.add_subcommand("script", "Run a file of commands; stops at the first that fails");
   verb->add_option("FILE", options->file, "Script to run; - reads standard input")->required();
   verb->add_flag("--headless", options->headless, "Draw without a screen; a script that only computes needs none anyway");
+  add_backend_option(*verb, options->backend);
   verb->callback([options, &action] { action = [options] { return script(*options); }; });
 }
 

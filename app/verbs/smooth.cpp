@@ -9,10 +9,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/acceleration.h"
 #include "app/console.h"
 #include "app/targets.h"
 #include "app/text.h"
-#include "app/verbs/backend.h"
 #include "app/verbs/input_report.h"
 #include "app/verbs/option_checks.h"
 #include "app/verbs/run_options.h"
@@ -61,7 +61,6 @@ Json json_of(const Statistics& s) {
 struct Result {
   const Options& options;
   const Run& run;
-  std::string backend;
   unsigned threads;
   Outcome outcome;
   double seconds;
@@ -75,8 +74,12 @@ struct Result {
   }
 };
 
-/// What the search computed with.
-std::string_view simd_name(const SearchParameters& search) {
+bool on_cpu(const Run& run) { return run.backend() == name(Backend::Cpu); }
+
+/// What the search computed with; null on a device.
+Json simd_name(const Run& run) {
+  const SearchParameters& search = run.parameters().search;
+  if (!on_cpu(run)) return nullptr;
   if (search.precision == Precision::Double) return "scalar";
   return name(search.simd.value_or(best_simd_level()));
 }
@@ -92,9 +95,10 @@ Json json_of(const Result& r) {
   object["free"] = r.run.visits_per_iteration();
   object["method"] = p.method;
   object["metric"] = info(p.metric).name;
-  object["backend"] = r.backend;
+  object["backend"] = r.run.backend();
+  object["backend_reason"] = r.run.backend_reason();
   object["threads"] = r.threads;
-  object["simd"] = simd_name(p.search);
+  object["simd"] = simd_name(r.run);
   object["parameters"] = {{"grid", p.search.grid_points}, {"levels", p.search.levels},
                           {"omega", p.search.omega},      {"precision", p.search.precision == Precision::Float ? "float" : "double"},
                           {"order", r.options.run.order}, {"fixed_by_user", p.fixed.size()}};
@@ -114,7 +118,7 @@ void print_summary(const Result& r) {
   const Statistics& after = r.after().statistics;
   const Mesh& mesh = r.run.input().mesh;
   fmt::print("{}: {}, {}, {} free; {}, {}\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
-             counted(mesh.elements.size(), "element", "elements"), r.run.visits_per_iteration(), r.run.title(), r.backend);
+             counted(mesh.elements.size(), "element", "elements"), r.run.visits_per_iteration(), r.run.title(), r.run.backend());
   fmt::print("  {:<16} {:>10} -> {}\n", "minimum", brief(before.minimum), brief(after.minimum));
   fmt::print("  {:<16} {:>10} -> {}\n", "movable minimum", brief(before.movable_minimum), brief(after.movable_minimum));
   fmt::print("  {:<16} {:>10}    (elements whose corners are all fixed)\n", "ceiling", brief(after.ceiling));
@@ -122,7 +126,7 @@ void print_summary(const Result& r) {
   fmt::print("  {:<16} {:>10} -> {}\n", "inverted", before.inverted, after.inverted);
   fmt::print("  {}\n", r.outcome.sentence());
   fmt::print("  {} in {:.3f} s, {} vertices/s on {}\n", counted(r.outcome.iterations, "iteration", "iterations"), r.seconds,
-             brief(r.visits_per_second()), counted(r.threads, "thread", "threads"));
+             brief(r.visits_per_second()), on_cpu(r.run) ? counted(r.threads, "thread", "threads") : r.run.backend_reason());
   fmt::print("  wrote {}\n", r.options.output.string());
 }
 
@@ -152,7 +156,7 @@ double smoothing_seconds(const Run& run) {
 int smooth(const Options& options) {
   refuse_early(options);
   RunParameters parameters = parameters_of(options.run);
-  const std::string backend = choose_backend(options.run.backend);
+  const Acceleration acceleration = acceleration_for(parameters.backend);
 
   Watch watch;
   Progress& progress = watch.progress();
@@ -161,7 +165,11 @@ int smooth(const Options& options) {
   std::vector<std::string> warnings = tell_findings(*input);
   parameters.fixed = named_vertices(input->mesh, options.run.fix);
 
-  Run run(input, std::move(parameters), pool, 0);  // no past positions: nobody asks for them here
+  Run run(input, std::move(parameters), pool, 0, acceleration);  // no past positions: nobody asks for them here
+  if (std::string warning = run.take_warning(); !warning.empty()) {
+    complain(warning);
+    warnings.push_back(std::move(warning));
+  }
   const Outcome outcome =
       options.until_converged ? run.until_converged(options.limits, progress) : run.iterate(options.iterations, progress);
 
@@ -171,7 +179,7 @@ int smooth(const Options& options) {
   }
   if (!options.stats.empty()) write_statistics(options.stats, run);
 
-  const Result result{options, run, backend, pool->size(), outcome, smoothing_seconds(run), std::move(warnings)};
+  const Result result{options, run, pool->size(), outcome, smoothing_seconds(run), std::move(warnings)};
   if (options.json) {
     print_json(json_of(result));
   } else {

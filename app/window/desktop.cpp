@@ -25,7 +25,7 @@ Desktop::Desktop(const WindowOptions& options)
     : options_(options),
       window_(render::Window::create({})),
       input_(window_->handle()),
-      app_(app_options(options.threads, window_->description(), window_->is_software())) {
+      app_(app_options(options.threads, options.backend, window_->description(), window_->is_software())) {
   ui::ViewState& state = app_.state();
   state.scale = static_cast<double>(window_->content_scale());
   if (!options_.scripted) {

@@ -19,7 +19,7 @@ HeadlessWindow::HeadlessWindow(const Options& options)
       width_(options.width),
       height_(options.height) {
   set_up_input();
-  ui::App::Options app = app_options(options.threads, context_->description(), context_->is_software());
+  ui::App::Options app = app_options(options.threads, options.backend, context_->description(), context_->is_software());
   app.wait_for_scene = true;
   app_ = std::make_unique<ui::App>(std::move(app));
   app_->state().scale = options.scale;

@@ -21,6 +21,7 @@ class HeadlessWindow {
     int width = 1280, height = 800;  // pixels
     double scale = 1.0;
     unsigned threads = 0;
+    Backend backend = Backend::Auto;
   };
   /// Throws Error where no OpenGL without a screen can be had.
   explicit HeadlessWindow(const Options& options);

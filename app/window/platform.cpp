@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "gpu/device.h"
+#include "app/acceleration.h"
 
 namespace dmoscope::app {
 
@@ -53,13 +53,11 @@ render::Image Interface::picture(int width, int height) {
   return image;
 }
 
-ui::App::Options app_options(unsigned threads, const std::string& renderer, bool software) {
+ui::App::Options app_options(unsigned threads, Backend backend, const std::string& renderer, bool software) {
   ui::App::Options options;
   options.threads = threads;
-  options.backend = "cpu";
-  const gpu::Availability cuda = gpu::availability();
-  options.backend_reason =
-      cuda.reason.empty() ? "a CUDA device is there; smoothing on it comes with a later version" : "no cuda: " + cuda.reason;
+  options.backend = backend;
+  options.acceleration = acceleration_for(backend);
   options.renderer = renderer;
   options.software_renderer = software;
   return options;

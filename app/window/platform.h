@@ -34,7 +34,7 @@ class Interface {
 };
 
 /// Options for App that hold for this machine: backend and why, renderer.
-[[nodiscard]] ui::App::Options app_options(unsigned threads, const std::string& renderer, bool software);
+[[nodiscard]] ui::App::Options app_options(unsigned threads, Backend backend, const std::string& renderer, bool software);
 
 /// Takes the screenshots that were asked for, of the frame just drawn; what goes wrong becomes a message.
 /// Returns the first error, if any, for scripts.

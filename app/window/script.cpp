@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "app/acceleration.h"
 #include "app/window/desktop.h"
 #include "app/window/headless.h"
 #include "app/window/window.h"
@@ -42,7 +43,7 @@ int fail(const ScriptOptions& options, std::size_t line, const Message& message)
 }
 
 int run_in_engine(const ScriptOptions& options) {
-  Engine engine(options.threads);
+  Engine engine(options.threads, acceleration_for(options.backend), options.backend);
   for (std::size_t k = 0; k < options.lines.size(); ++k) {
     if (split_words(options.lines[k]).empty()) continue;
     engine.post(options.lines[k]);
@@ -78,7 +79,7 @@ int run_in_window(Window& window, const ScriptOptions& options) {
 }
 
 int run_in_headless_window(const ScriptOptions& options) {
-  HeadlessWindow window({options.width, options.height, options.scale, options.threads});
+  HeadlessWindow window({options.width, options.height, options.scale, options.threads, options.backend});
   return run_in_window(window, options);
 }
 
@@ -86,6 +87,7 @@ int run_on_screen(const ScriptOptions& options) {
   require_display();
   WindowOptions look;
   look.threads = options.threads;
+  look.backend = options.backend;
   look.scale = options.scale;
   look.scripted = true;
   Desktop window(look);

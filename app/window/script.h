@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/smooth/accelerator.h"
+
 namespace dmoscope::app {
 
 struct ScriptOptions {
@@ -13,6 +15,7 @@ struct ScriptOptions {
   int width = 1280, height = 800;  // pixels
   double scale = 1.0;              // of the interface
   unsigned threads = 0;
+  Backend backend = Backend::Auto;
 };
 
 /// Runs the lines one after another, each until it is done. What the session says goes to standard output, what goes wrong to

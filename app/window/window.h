@@ -4,11 +4,14 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/smooth/accelerator.h"
+
 namespace dmoscope::app {
 
 struct WindowOptions {
   std::vector<std::filesystem::path> files;  // opened at the start, the last one stays
   unsigned threads = 0;                      // of the smoothing; 0: one a hardware thread
+  Backend backend = Backend::Auto;           // of the first run
   double scale = 0.0;                        // of the interface; 0: as saved, else as the monitor says
   bool scripted = false;                     // settings are neither read nor written, and the mouse is the script's
 };

@@ -40,7 +40,7 @@ class Accelerator {
 /// The accelerator of this machine, or why there is none.
 struct Acceleration {
   std::shared_ptr<const Accelerator> accelerator{};
-  std::string reason = "the program was not asked to look for a device";  // where there is none
+  std::string reason = "no device was looked for";  // where there is none
 };
 
 }  // namespace dmoscope

@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kNames{"auto", "cpu", "cuda"};  // in the order of Backend
 
+[[noreturn]] void refuse(const std::string& why) { throw UsageError(fmt::format("the cuda backend cannot be used: {}", why)); }
+
 /// Why no accelerator does this; empty when one can.
 std::string obstacle(const Acceleration& acceleration, const SmoothingTask& task) {
   if (task.method != "dmo") return fmt::format("{} runs on the CPU alone", task.method);
@@ -41,12 +43,16 @@ Backend parse_backend(std::string_view word) {
   return static_cast<Backend>(found - kNames.begin());
 }
 
+void require_backend(Backend wanted, const Acceleration& acceleration) {
+  if (wanted == Backend::Cuda && !acceleration.accelerator) refuse(acceleration.reason);
+}
+
 Executor make_executor(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task) {
   require_possible(task.method, task.input->mesh, task.metric, task.search);
   if (wanted == Backend::Cpu) return on_cpu(task, {});
   const std::string why_not = obstacle(acceleration, task);
   if (wanted == Backend::Cuda) {
-    if (!why_not.empty()) throw UsageError(fmt::format("the cuda backend cannot be used: {}", why_not));
+    if (!why_not.empty()) refuse(why_not);
     return on_device(*acceleration.accelerator, task);
   }
   if (!why_not.empty()) return on_cpu(task, fmt::format("no {}: {}", name(Backend::Cuda), why_not));

@@ -29,6 +29,9 @@ struct Executor {
   std::string warning;  // for a person: an accelerator should have been used and failed; usually empty
 };
 
+/// Throws UsageError with the reason when `wanted` names a backend that is not there.
+void require_backend(Backend wanted, const Acceleration& acceleration);
+
 /// Throws UsageError as make_smoother does, and with the reason when `wanted` cannot be; DeviceError when `wanted` fails. For
 /// Backend::Auto a device's failure is no error: the CPU does the work, with a warning.
 [[nodiscard]] Executor make_executor(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task);

@@ -18,7 +18,7 @@ struct Output {
 struct Call {
   std::vector<std::string> arguments;
   std::string input;                       // standard input
-  std::string output;                      // where standard output goes instead of Output::out, "/dev/full"
+  std::string output{};                    // where standard output goes instead of Output::out, "/dev/full"
   bool display = false;                    // keep DISPLAY and WAYLAND_DISPLAY?
   std::chrono::milliseconds interrupt{0};  // > 0: send SIGINT after that long
   std::chrono::seconds limit{300};

@@ -59,7 +59,8 @@ TEST(Usage, IsRefusedWithTwo) {
       {"smooth", in, "-o", out, "--method", "laplace"},
       {"smooth", in, "-o", out, "--backend", "abacus"},
       {"smooth", in, "-o", out, "--simd", "mmx"},
-      {"smooth", in, "-o", out, "--backend", "cuda"},
+      {"smooth", in, "-o", out, "--backend", "cuda", "--precision", "double"},
+      {"script", in, "--backend", "abacus"},
       {"smooth", in, "-o", out, "--combine", "mean-ratio:0.7:min-angle"},
       {"smooth", in, "-o", out, "--then", "mean"},
       {"smooth", in, "-o", out, "--grid", "1"},
@@ -123,13 +124,54 @@ TEST(Usage, SaysWhatThereIs) {
   EXPECT_THAT(run({"smooth", sample("coast.14"), "-o", folder / "o.14", "--method", "laplace"}).err,
               AllOf(HasSubstr("laplace"), HasSubstr("dmo")));
   EXPECT_THAT(run({"smooth", sample("coast.14"), "-o", folder / "o.xyz"}).err, AllOf(HasSubstr(".xyz"), HasSubstr(".vtk")));
-  EXPECT_THAT(run({"smooth", sample("coast.14"), "-o", folder / "o.14", "--backend", "cuda"}).err, HasSubstr("cuda"));
+}
+
+TEST(Backend, CudaIsUsedOrRefusedWithTheReasonThatInfoGives) {
+  const Folder folder;
+  const auto info = json_of(run({"info", "--json"}));
+  const auto& cuda = info["backends"][1];
+  ASSERT_EQ(cuda["name"], "cuda");
+  const std::vector<std::string> smooth{"smooth", sample("coast.14"), "-o", folder / "o.14", "--iterations", "1", "--json", "--backend"};
+  const auto with = [&](const std::string& backend) {
+    std::vector<std::string> words = smooth;
+    words.push_back(backend);
+    return run(words);
+  };
+  EXPECT_EQ(json_of(with("cpu"))["backend"], "cpu");
+  EXPECT_EQ(json_of(with("cpu"))["backend_reason"], "");
+  const auto automatic = json_of(with("auto"));
+  const Output by_name = with("cuda");
+  const Output script = run(Call{.arguments = {"script", "-", "--backend", "cuda"}, .input = "generate grid 500"});
+  if (cuda["usable"] == true) {
+    EXPECT_EQ(automatic["backend"], "cuda");
+    EXPECT_EQ(automatic["backend_reason"], cuda["description"]);
+    EXPECT_EQ(json_of(by_name)["backend"], "cuda");
+    EXPECT_EQ(script.code, 0);
+    return;
+  }
+  const std::string reason = cuda["reason"];
+  EXPECT_EQ(automatic["backend"], "cpu");
+  EXPECT_EQ(automatic["backend_reason"], "no cuda: " + reason);
+  for (const Output& refused : {by_name, script}) {
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.out, IsEmpty());
+    EXPECT_THAT(refused.err, HasSubstr(reason));
+  }
+  EXPECT_EQ(info["drawing"]["path"], "cpu");
+  EXPECT_EQ(info["drawing"]["reason"], "no cuda: " + reason);
+}
+
+TEST(Backend, IsACommandOfScripts) {
+  EXPECT_THAT(run(Call{.arguments = {"script", "-"}, .input = "generate grid 500\nbackend cpu\nrun 1"}).out, HasSubstr("cpu, "));
+  const Output refused = run(Call{.arguments = {"script", "-", "--backend", "cpu"}, .input = "generate grid 500\nbackend cuda"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("standard input:2"), HasSubstr("--backend cpu")));
 }
 
 TEST(Info, JsonListsEverything) {
   const auto info = json_of(run({"info", "--json"}));
-  for (const char* key :
-       {"version", "build", "compiler", "threads", "backends", "simd", "opengl", "formats", "metrics", "methods", "generators"}) {
+  for (const char* key : {"version", "build", "compiler", "threads", "backends", "simd", "opengl", "drawing", "formats", "metrics",
+                          "methods", "generators"}) {
     EXPECT_TRUE(info.contains(key)) << key;
   }
   EXPECT_EQ(info["metrics"].size(), 8U);

@@ -33,8 +33,8 @@ struct Activity {
   double progress = 0.0;           // 0 to 1
   double busy_seconds = 0.0;       // since it began
   double frames_per_second = 0.0;  // while something moves, else 0
-  std::string backend;             // "cpu, 8 threads"
-  std::string backend_reason;      // why not cuda
+  std::string backend;             // what smooths: "cpu" or "cuda"
+  std::string backend_reason;      // which device, or why not cuda
   std::string renderer;            // "OpenGL 4.5, ..."
   bool reduced = false;            // the mesh is drawn with fewer elements just now
 };

@@ -94,8 +94,9 @@ void draw_status(PanelContext& context, const Rect& rect) {
   ImGui::PopStyleVar();
   const Activity& activity = context.activity;
   const unsigned threads = context.session.threads;
+  const bool counts_threads = context.session.input && activity.backend == name(Backend::Cpu);
   const std::string backend =
-      context.session.input ? fmt::format("{}, {} thread{}", activity.backend, threads, threads == 1 ? "" : "s") : activity.backend;
+      counts_threads ? fmt::format("{}, {} thread{}", activity.backend, threads, threads == 1 ? "" : "s") : activity.backend;
   ImGui::TextUnformatted(backend.c_str());
   next_item_tooltip(activity.backend_reason + (activity.backend_reason.empty() ? "" : "\n") + activity.renderer);
   if (const std::string speed = speed_sentence(context); !speed.empty()) {

@@ -2,6 +2,7 @@
 // An OpenGL 4.5 core context, of a window or of none.
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace dmoscope::render {
@@ -32,8 +33,10 @@ class Context {
   bool software_ = false;
 };
 
-/// A context without window or display server: surfaceless EGL (Mesa), else an EGL device (NVIDIA). It is current on return.
-/// Throws Error that says what was tried, which packages are missing and which OpenGL version is needed.
-[[nodiscard]] std::unique_ptr<Context> create_headless_context();
+/// A context without window or display server: on the device that smooths, if `cuda_device` is CUDA's number of one that EGL knows; else
+/// surfaceless EGL (Mesa), or an EGL device (NVIDIA) where that draws on the processor. The environment variable DMOSCOPE_EGL chooses one
+/// instead: "surfaceless", "device:N" or "cuda:N". It is current on return. Throws Error that says what was tried, which packages are
+/// missing and which OpenGL version is needed.
+[[nodiscard]] std::unique_ptr<Context> create_headless_context(std::optional<int> cuda_device = {});
 
 }  // namespace dmoscope::render

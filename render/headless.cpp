@@ -1,4 +1,4 @@
-// Contexts without a window: surfaceless EGL, else an EGL device. libEGL is looked for when it is needed, so that the
+// Contexts without a window: of an EGL device, or surfaceless. libEGL is looked for when it is needed, so that the
 // program starts (and smooths) where it is not installed.
 
 #include <array>
@@ -15,6 +15,7 @@
 
 #include "core/base/error.h"
 #include "render/context.h"
+#include "render/egl_order.h"
 
 namespace dmoscope::render {
 namespace {
@@ -94,49 +95,77 @@ class HeadlessContext final : public Context {
   EGLContext context_ = EGL_NO_CONTEXT;
 };
 
-std::vector<std::pair<EGLDisplay, std::string>> device_displays() {
-  std::vector<std::pair<EGLDisplay, std::string>> found;
-  if (eglQueryDevicesEXT == nullptr || eglGetPlatformDisplayEXT == nullptr) return found;
+struct DeviceList {
+  std::vector<EGLDeviceEXT> handles;
+  std::vector<EglDevice> devices;
+};
+
+bool has_extension(EGLDeviceEXT device, std::string_view name) {
+  const char* all = eglQueryDeviceStringEXT == nullptr ? nullptr : eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
+  if (all == nullptr) return false;
+  const std::string words = fmt::format(" {} ", all);
+  return words.find(fmt::format(" {} ", name)) != std::string::npos;
+}
+
+EglDevice describe(EGLDeviceEXT handle) {
+  EglDevice device;
+  EGLAttrib number = 0;
+  if (has_extension(handle, "EGL_NV_device_cuda") && eglQueryDeviceAttribEXT != nullptr &&
+      eglQueryDeviceAttribEXT(handle, EGL_CUDA_DEVICE_NV, &number) == EGL_TRUE) {
+    device.cuda = static_cast<int>(number);
+  }
+  device.software = has_extension(handle, "EGL_MESA_device_software");
+  return device;
+}
+
+DeviceList query_devices() {
+  DeviceList list;
+  if (eglQueryDevicesEXT == nullptr || eglGetPlatformDisplayEXT == nullptr) return list;
   std::array<EGLDeviceEXT, 16> devices{};
   EGLint count = 0;
-  if (eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count) != EGL_TRUE) return found;
+  if (eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count) != EGL_TRUE) return list;
   for (EGLint i = 0; i < count; ++i) {
-    EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr);
-    if (display != EGL_NO_DISPLAY) found.emplace_back(display, fmt::format("EGL device {}", i));
+    list.handles.push_back(devices[static_cast<std::size_t>(i)]);
+    list.devices.push_back(describe(list.handles.back()));
   }
-  return found;
+  return list;
+}
+
+EGLDisplay display_of(const EglWay& way, const DeviceList& list) {
+  if (eglGetPlatformDisplayEXT == nullptr) return EGL_NO_DISPLAY;
+  if (!way.device) return eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
+  return eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, list.handles[*way.device], nullptr);
+}
+
+std::string_view variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? std::string_view{} : std::string_view{value};
 }
 
 }  // namespace
 
-std::unique_ptr<Context> create_headless_context() {
+std::unique_ptr<Context> create_headless_context(std::optional<int> cuda_device) {
   static EglLibrary egl;
   gladLoadEGLUserPtr(EGL_NO_DISPLAY, EglLibrary::load, &egl);
+  const DeviceList list = query_devices();
+  const std::string_view forced = variable("DMOSCOPE_EGL"), software_forced = variable("LIBGL_ALWAYS_SOFTWARE");
+  const bool software_wanted = !software_forced.empty() && software_forced != "0";
   std::vector<std::string> tried;
   std::unique_ptr<Context> software;
-  const auto attempt = [&](EGLDisplay display, const std::string& origin) -> std::unique_ptr<Context> {
+  for (const EglWay& way : egl_order(list.devices, forced, software_wanted ? std::nullopt : cuda_device)) {
+    const EGLDisplay display = display_of(way, list);
+    if (display == EGL_NO_DISPLAY) {
+      tried.push_back(way.description + ": not offered");
+      continue;
+    }
     try {
-      auto context = std::make_unique<HeadlessContext>(display, origin, egl);
+      auto context = std::make_unique<HeadlessContext>(display, way.description, egl);
       if (!context->is_software()) return context;
       if (!software) software = std::move(context);
     } catch (const Error& error) {
-      tried.push_back(fmt::format("{}: {}", origin, error.what()));
+      tried.push_back(fmt::format("{}: {}", way.description, error.what()));
     }
-    return nullptr;
-  };
-  EGLDisplay surfaceless = EGL_NO_DISPLAY;
-  if (eglGetPlatformDisplayEXT != nullptr) surfaceless = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
-  if (surfaceless == EGL_NO_DISPLAY) {
-    tried.emplace_back("surfaceless EGL: not offered");
-  } else if (auto context = attempt(surfaceless, "surfaceless EGL")) {
-    return context;
-  }
-  // Software drawing was asked for, or a graphics card may do better.
-  const char* forced = std::getenv("LIBGL_ALWAYS_SOFTWARE");
-  if (software == nullptr || forced == nullptr || std::string_view(forced) == "0") {
-    for (const auto& [display, origin] : device_displays()) {
-      if (auto context = attempt(display, origin)) return context;
-    }
+    if (software && software_wanted) break;  // software drawing was asked for; else a graphics card may do better
   }
   if (software) {
     software->make_current();

@@ -1,0 +1,29 @@
+#pragma once
+// Which of EGL's ways to OpenGL without a window are tried, and in which order. No EGL. Only for sources of this room.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dmoscope::render {
+
+/// What EGL tells of a device before it is used.
+struct EglDevice {
+  std::optional<int> cuda{};  // CUDA's number of it
+  bool software = false;      // Mesa's software rasteriser
+};
+
+/// A way to a context: the surfaceless platform, or a device of the device platform.
+struct EglWay {
+  std::optional<std::size_t> device;  // none: surfaceless
+  std::string description;            // "EGL device 0 (CUDA device 0)"
+};
+
+/// The ways in the order in which they are to be tried. `forced`: the value of the variable DMOSCOPE_EGL, "surfaceless", "device:N" or
+/// "cuda:N", which leaves one way alone; empty: the device that is CUDA device `cuda_device` if there is one, then surfaceless (Mesa),
+/// then the devices in EGL's order. Throws UsageError that says what there is when nothing matches `forced`.
+[[nodiscard]] std::vector<EglWay> egl_order(std::span<const EglDevice> devices, std::string_view forced, std::optional<int> cuda_device);
+
+}  // namespace dmoscope::render

@@ -55,6 +55,7 @@ void add_bench(CLI::App& app, Action& action) {
   list("--metric", options->metric, "NAME,NAME,...", "Metrics to optimise: all, or some of " + names_of(metric_table()));
   list("--threads", options->threads, "N,N,...", "Numbers of threads; 0: one a processor thread");
   list("--simd", options->simd, "LEVEL,LEVEL,...", "Vector instructions: all, or some of auto, baseline, avx2, avx512");
+  list("--backend", options->backend, "NAME,NAME,...", "Backends: cpu, cuda, or auto: cpu, and cuda where it can be used");
   const auto count = [verb](const char* option, auto& value, std::uint64_t least, std::uint64_t most, const char* doc) {
     return verb->add_option(option, value, doc)->transform(whole_number(least, most))->type_name("N");
   };

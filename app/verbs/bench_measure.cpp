@@ -1,6 +1,7 @@
 #include "app/verbs/bench_measure.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include <fmt/format.h>
 
@@ -54,13 +55,20 @@ struct Series {
   SharedInput input;
   std::shared_ptr<ThreadPool> pool;
   std::uint64_t steps = 0;  // iterations to do; figure.iterations of them count
-  std::vector<double> seconds{}, first{}, last{};
+  Acceleration acceleration{};
+  std::vector<double> seconds{}, first{}, last{}, prepare{}, step{};
 
   [[nodiscard]] std::string title() const {
-    return fmt::format("{}, {}, {}, {}", figure.mesh, info(figure.metric).name, figure.simd ? name(*figure.simd) : "scalar double",
+    const std::string what = fmt::format("{}, {}", figure.mesh, info(figure.metric).name);
+    if (!figure.on_cpu()) return fmt::format("{}, {}", what, figure.backend);
+    return fmt::format("{}, {}, {}", what, figure.simd ? name(*figure.simd) : "scalar double",
                        counted(figure.threads, "thread", "threads"));
   }
 };
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 /// A fresh run from the input, so that every repeat does the very same work.
 void repeat(Series& series, Progress& progress) {
@@ -69,8 +77,13 @@ void repeat(Series& series, Progress& progress) {
   parameters.metric = series.figure.metric;
   parameters.search.precision = series.figure.precision;
   parameters.search.simd = series.figure.simd;
-  Run run(series.input, parameters, series.pool, 0);
+  parameters.backend = series.figure.on_cpu() ? Backend::Cpu : Backend::Cuda;
+  const auto start = std::chrono::steady_clock::now();
+  Run run(series.input, parameters, series.pool, 0, series.acceleration);
+  series.prepare.push_back(seconds_since(start));
+  const auto ready = std::chrono::steady_clock::now();
   run.iterate(series.steps, progress);
+  series.step.push_back(seconds_since(ready) / static_cast<double>(series.steps));
   const std::vector<IterationRecord>& records = run.history().records();
   double seconds = 0.0;
   for (std::uint64_t i = 1; i <= series.figure.iterations; ++i) seconds += records[i].seconds;
@@ -94,6 +107,8 @@ class Bench {
     for (const Metric metric : plan_.metrics) {
       if (!elements.suits(info(metric))) continue;
       all.push_back(reference(input, elements, metric));
+      if (plan_.acceleration.accelerator) all.push_back(on_device(input, elements, metric));
+      if (!plan_.cpu) continue;
       for (const SimdLevel level : plan_.levels) {
         for (const auto& pool : pools_) all.push_back(variant(input, elements, metric, level, pool));
       }
@@ -119,14 +134,25 @@ class Bench {
     return figure;
   }
 
+  [[nodiscard]] Series timed(const SharedInput& input, Figure figure, const std::shared_ptr<ThreadPool>& pool) const {
+    figure.threads = pool->size();
+    figure.iterations = plan_.iterations;
+    if (plan_.active > 0) figure.settling.emplace().iteration = plan_.active;
+    return {std::move(figure), input, pool, std::max(plan_.iterations, plan_.active), plan_.acceleration};
+  }
+
+  /// The pool prepares; the device smooths.
+  [[nodiscard]] Series on_device(const SharedInput& input, const BenchElements& elements, Metric metric) const {
+    Figure figure = figure_of(input, elements, metric);
+    figure.backend = plan_.acceleration.accelerator->name();
+    return timed(input, std::move(figure), pools_.back());
+  }
+
   [[nodiscard]] Series variant(const SharedInput& input, const BenchElements& elements, Metric metric, SimdLevel level,
                                const std::shared_ptr<ThreadPool>& pool) const {
     Figure figure = figure_of(input, elements, metric);
     figure.simd = level;
-    figure.threads = pool->size();
-    figure.iterations = plan_.iterations;
-    if (plan_.active > 0) figure.settling.emplace().iteration = plan_.active;
-    return {std::move(figure), input, pool, std::max(plan_.iterations, plan_.active)};
+    return timed(input, std::move(figure), pool);
   }
 
   [[nodiscard]] Series reference(const SharedInput& subject, const BenchElements& elements, Metric metric) {
@@ -151,6 +177,8 @@ class Bench {
     for (const Series& series : all) {
       Figure figure = series.figure;
       figure.seconds = spread_of(series.seconds);
+      figure.prepare_seconds = spread_of(series.prepare);
+      figure.step_seconds = spread_of(series.step);
       if (figure.reference) reference = figure.vertices_per_second();
       figure.reference_vertices_per_second = reference;
       if (figure.settling) {

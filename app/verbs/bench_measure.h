@@ -35,11 +35,14 @@ struct Figure {
   std::uint64_t free = 0;
   Metric metric = Metric::MeanRatio;
   std::string method;
+  std::string backend = "cpu";
   Precision precision = Precision::Float;
-  std::optional<SimdLevel> simd;  // none: scalar
+  std::optional<SimdLevel> simd;  // none: scalar, or a device
   unsigned threads = 1;
   std::uint64_t iterations = 0;  // timed
   Spread seconds;                // of all of them
+  Spread prepare_seconds;        // from the mesh to the first visit: colouring, stars, what a device needs
+  Spread step_seconds;           // of an iteration by the clock, with its statistics and what else a run does for it
   bool reference = false;
   Index subject_vertices = 0;                // of the mesh that the reference was measured for; for the others: vertices
   double reference_vertices_per_second = 0;  // of the reference measured in turn with this one
@@ -47,6 +50,12 @@ struct Figure {
 
   [[nodiscard]] double visits() const noexcept { return static_cast<double>(free * iterations); }
   [[nodiscard]] double vertices_per_second() const noexcept { return visits() / seconds.median; }
+  [[nodiscard]] double iterations_per_second() const noexcept { return static_cast<double>(iterations) / seconds.median; }
+  /// What of preparing and these iterations together was preparing.
+  [[nodiscard]] double prepare_share() const noexcept {
+    return prepare_seconds.median / (prepare_seconds.median + static_cast<double>(iterations) * step_seconds.median);
+  }
+  [[nodiscard]] bool on_cpu() const noexcept { return backend == name(Backend::Cpu); }
   [[nodiscard]] double ns_per_visit() const noexcept { return 1e9 * seconds.median / visits(); }
   [[nodiscard]] double ratio() const noexcept { return vertices_per_second() / reference_vertices_per_second; }
 };

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "app/acceleration.h"
 #include "app/text.h"
 #include "app/verbs/bench_machine.h"
 #include "core/base/error.h"
@@ -95,6 +96,14 @@ std::vector<BenchElements> parse_elements(const std::string& list) {
   return elements;
 }
 
+/// Which backends to measure. "auto" is the CPU, and a device where there is one.
+void choose_backends(BenchPlan& plan, const std::string& list) {
+  const auto wanted = parse_list(list, parse_backend);
+  const auto has = [&](Backend backend) { return std::ranges::find(wanted, backend) != wanted.end(); };
+  plan.cpu = has(Backend::Cpu) || has(Backend::Auto);
+  plan.acceleration = acceleration_for(has(Backend::Cuda) ? Backend::Cuda : has(Backend::Auto) ? Backend::Auto : Backend::Cpu);
+}
+
 /// Names that stand for something to measure must not vanish without a word: each has to fit one of the others.
 void require_partners(const BenchPlan& plan, bool all_elements) {
   const auto fit = [](const BenchElements& elements, Metric metric) { return elements.suits(info(metric)); };
@@ -135,6 +144,7 @@ BenchPlan plan_of(const BenchOptions& options) {
                  .repeats = options.repeats,
                  .iterations = options.iterations,
                  .active = options.active};
+  choose_backends(plan, options.backend);
   if (!options.file.empty()) return plan;
   plan.sizes = parse_list(options.sizes, parse_size);
   if (options.full && std::ranges::find(plan.sizes, kFullSize) == plan.sizes.end()) plan.sizes.push_back(kFullSize);

@@ -10,6 +10,7 @@
 
 #include "core/quality/metric.h"
 #include "core/search/simd.h"
+#include "core/smooth/accelerator.h"
 
 namespace dmoscope::app {
 
@@ -21,6 +22,7 @@ struct BenchOptions {
   std::string metric = "mean-ratio";
   std::string elements = "triangles";
   std::string simd = "auto";
+  std::string backend = "auto";
   std::size_t repeats = 5;
   std::uint64_t iterations = 4;
   std::uint64_t active = 0;
@@ -47,6 +49,8 @@ struct BenchPlan {
   std::vector<BenchElements> elements;  // of the meshes to generate
   std::vector<Metric> metrics;          // left out where a mesh has elements they are not defined for
   bool all_metrics;                     // asked for as "all", not by their names
+  bool cpu = true;                      // whether to measure it, besides the reference
+  Acceleration acceleration{};          // what to measure besides the CPU, or why nothing is
   std::vector<SimdLevel> levels;        // of this processor
   std::vector<unsigned> threads;        // at least 1 each
   std::size_t repeats;                  // of every measurement

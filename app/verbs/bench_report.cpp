@@ -25,7 +25,9 @@ constexpr std::string_view kReference =
     "the plain scalar search in double on one thread, measured in turn with the others; where a mesh has more than 20000 free vertices, on "
     "a generated one of 10000 with the same kinds of elements, since its cost a visit does not depend on the size";
 
-std::string_view simd_name(const Figure& f) { return f.simd ? name(*f.simd) : "scalar"; }
+/// What searched: the processor's instructions, or a device.
+std::string_view executor_name(const Figure& f) { return !f.on_cpu() ? f.backend : f.simd ? name(*f.simd) : "scalar"; }
+Json json_of(const Spread& s) { return {{"median", s.median}, {"lowest", s.lowest}, {"highest", s.highest}}; }
 std::string_view precision_name(const Figure& f) { return f.precision == Precision::Double ? "double" : "float"; }
 unsigned cores() { return std::max(1U, std::thread::hardware_concurrency()); }
 
@@ -36,11 +38,16 @@ Json json_of(const Figure& f) {
               {"free", f.free},
               {"metric", info(f.metric).name},
               {"method", f.method},
+              {"backend", f.backend},
               {"precision", precision_name(f)},
-              {"simd", simd_name(f)},
+              {"simd", f.on_cpu() ? Json(executor_name(f)) : Json(nullptr)},
               {"threads", f.threads},
               {"iterations", f.iterations},
-              {"seconds", {{"median", f.seconds.median}, {"lowest", f.seconds.lowest}, {"highest", f.seconds.highest}}},
+              {"seconds", json_of(f.seconds)},
+              {"step_seconds", json_of(f.step_seconds)},
+              {"prepare_seconds", json_of(f.prepare_seconds)},
+              {"prepare_share", json_number(f.prepare_share())},
+              {"iterations_per_second", json_number(f.iterations_per_second())},
               {"vertices_per_second", json_number(f.vertices_per_second())},
               {"ns_per_visit", json_number(f.ns_per_visit())},
               {"reference", f.reference},
@@ -59,7 +66,8 @@ Json json_of(const Figure& f) {
 std::string series_name(const Figure& f) {
   const std::string what = fmt::format("{}, {}", f.elements, info(f.metric).name);
   if (f.reference) return what + ", plain double";
-  return fmt::format("{}, {}, {}", what, simd_name(f), counted(f.threads, "thread", "threads"));
+  if (!f.on_cpu()) return fmt::format("{}, {}", what, f.backend);
+  return fmt::format("{}, {}, {}", what, executor_name(f), counted(f.threads, "thread", "threads"));
 }
 
 /// Million visits a second in `seconds`.
@@ -77,7 +85,7 @@ class PlotLook {
   [[nodiscard]] PlotSeries series(const Figure& f, const Figure& compared) {
     PlotSeries series{.name = series_name(f), .muted = f.reference && single_, .values = {}};
     if (!series.muted) {
-      series.colour = place(colours_, fmt::format("{} {} {}", f.elements, info(f.metric).name, simd_name(f.reference ? compared : f)));
+      series.colour = place(colours_, fmt::format("{} {} {}", f.elements, info(f.metric).name, executor_name(f.reference ? compared : f)));
     }
     series.dash = f.reference ? kDotted : place(dashes_, f.threads);
     return series;
@@ -123,18 +131,24 @@ LinePlot plot_of(const std::vector<Figure>& figures) {
 void print_head(const BenchPlan& plan) {
   fmt::print("{}, {}\n{}, {}, commit {}; flags {}\n\n", processor(), counted(cores(), "processor thread", "processor threads"), compiler(),
              DMOSCOPE_BUILD_TYPE, commit(), compiler_flags());
+  if (plan.acceleration.accelerator) {
+    fmt::print("{}: {}\n", plan.acceleration.accelerator->name(), plan.acceleration.accelerator->description());
+  } else {
+    fmt::print("no cuda: {}\n", plan.acceleration.reason);
+  }
   fmt::print("Smoothing alone, {} from the input; median of {} (lowest to highest).\nRatio to {}.\n\n",
              counted(plan.iterations, "iteration", "iterations"), counted(plan.repeats, "repeat", "repeats"), kReference);
-  fmt::print("{:<20} {:<16} {:>9} {:>9} {:>7} {:>9} {:>8} {:>16} {:>9} {:>7}{}\n", "mesh", "metric", "free", "simd", "threads", "ms",
-             "Mv/s", "spread", "ns/visit", "ratio", plan.active > 0 ? fmt::format("  iteration {} against 1", plan.active) : "");
+  fmt::print("{:<20} {:<16} {:>9} {:>9} {:>7} {:>9} {:>8} {:>16} {:>9} {:>7} {:>9} {:>9}{}\n", "mesh", "metric", "free", "simd", "threads",
+             "ms", "Mv/s", "spread", "ns/visit", "ratio", "it/s", "prepare",
+             plan.active > 0 ? fmt::format("  iteration {} against 1", plan.active) : "");
 }
 
 void print_rows(const std::vector<Figure>& figures) {
   for (const Figure& f : figures) {
     const std::string spread = fmt::format("{:.3g} to {:.3g}", rate(f, f.seconds.highest), rate(f, f.seconds.lowest));
-    fmt::print("{:<20} {:<16} {:>9} {:>9} {:>7} {:>9.3f} {:>8.4g} {:>16} {:>9.1f} {:>7.2f}", f.mesh, info(f.metric).name, f.free,
-               f.reference ? "double" : simd_name(f), f.threads, 1e3 * f.seconds.median, rate(f, f.seconds.median), spread,
-               f.ns_per_visit(), f.ratio());
+    fmt::print("{:<20} {:<16} {:>9} {:>9} {:>7} {:>9.3f} {:>8.4g} {:>16} {:>9.1f} {:>7.2f} {:>9.4g} {:>6.1f} ms", f.mesh,
+               info(f.metric).name, f.free, f.reference ? "double" : executor_name(f), f.threads, 1e3 * f.seconds.median,
+               rate(f, f.seconds.median), spread, f.ns_per_visit(), f.ratio(), f.iterations_per_second(), 1e3 * f.prepare_seconds.median);
     if (f.settling) {
       fmt::print("  {:.3f} ms against {:.3f} ms, {:.2f} x", 1e3 * f.settling->seconds, 1e3 * f.settling->first_seconds,
                  f.settling->first_seconds / f.settling->seconds);
@@ -150,11 +164,15 @@ Json json_of(const BenchPlan& plan, const std::vector<Figure>& figures) {
   Json levels = Json::array();
   for (const SimdLevel level : supported_simd_levels()) levels.push_back(name(level));
   const auto memory = total_memory();
+  const auto& [accelerator, reason] = plan.acceleration;
+  Json cuda{{"measured", accelerator != nullptr}, {"device", accelerator ? Json(accelerator->description()) : Json(nullptr)}};
+  cuda["reason"] = accelerator ? "" : reason;
   return {{"version", DMOSCOPE_VERSION},
           {"commit", commit()},
           {"date", date_and_time()},
           {"machine", {{"processor", processor()}, {"cores", cores()}, {"memory", memory ? Json(*memory) : Json(nullptr)}}},
           {"build", {{"compiler", compiler()}, {"type", DMOSCOPE_BUILD_TYPE}, {"flags", compiler_flags()}}},
+          {"cuda", std::move(cuda)},
           {"simd", {{"levels", std::move(levels)}, {"used", name(best_simd_level())}}},
           {"repeats", plan.repeats},
           {"reference", kReference},

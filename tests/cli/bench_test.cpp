@@ -23,7 +23,7 @@ using ::testing::UnorderedElementsAreArray;
 /// `dmoscope bench` with little to do; the options come after.
 Output bench(std::vector<std::string> options) {
   options.insert(options.begin(), "bench");
-  for (const auto& [option, value] : {std::pair{"--repeats", "1"}, {"--iterations", "1"}}) {
+  for (const auto& [option, value] : {std::pair{"--repeats", "1"}, {"--iterations", "1"}, {"--backend", "cpu"}}) {
     if (std::find(options.begin(), options.end(), option) == options.end()) options.insert(options.end(), {option, value});
   }
   return run(options);
@@ -54,6 +54,10 @@ void expect_consistent(const json& figure, const json& reference) {
   const double visits = figure["free"].get<double>() * figure["iterations"].get<double>();
   EXPECT_DOUBLE_EQ(figure["vertices_per_second"], visits / seconds["median"].get<double>());
   EXPECT_DOUBLE_EQ(figure["ns_per_visit"], 1e9 * seconds["median"].get<double>() / visits);
+  const double iterations = figure["iterations"], step = figure["step_seconds"]["median"], prepare = figure["prepare_seconds"]["median"];
+  EXPECT_GT(prepare, 0.0);
+  EXPECT_DOUBLE_EQ(figure["iterations_per_second"], iterations / seconds["median"].get<double>());
+  EXPECT_DOUBLE_EQ(figure["prepare_share"], prepare / (prepare + iterations * step));
   EXPECT_EQ(figure["reference_vertices_per_second"], reference["vertices_per_second"]);
   const double plain =
       reference["seconds"]["median"].get<double>() / (reference["free"].get<double>() * reference["iterations"].get<double>());
@@ -62,7 +66,7 @@ void expect_consistent(const json& figure, const json& reference) {
 
 TEST(Bench, JsonTellsTheMachineTheBuildAndEveryFigure) {
   const json all = bench_json({"--sizes", "200,1e3", "--repeats", "3", "--iterations", "2", "--threads", "1,2"});
-  for (const char* key : {"version", "commit", "date", "machine", "build", "simd", "repeats", "reference", "figures"}) {
+  for (const char* key : {"version", "commit", "date", "machine", "build", "cuda", "simd", "repeats", "reference", "figures"}) {
     EXPECT_TRUE(all.contains(key)) << key;
   }
   for (const char* key : {"processor", "cores", "memory"}) EXPECT_TRUE(all["machine"].contains(key)) << key;
@@ -116,6 +120,31 @@ TEST(Bench, ListsHaveNoEntryTwiceAndPairsThatCannotBeAreLeftOut) {
   for (const json& figure : some["figures"])
     pairs.insert(figure["elements"].get<std::string>() + ' ' + figure["metric"].get<std::string>());
   EXPECT_THAT(pairs, ElementsAre("quadrilaterals mean-ratio", "triangles mean-ratio", "triangles min-angle"));
+}
+
+TEST(Bench, MeasuresTheBackendsAskedForOrRefusesThemWithTheReason) {
+  const json info = json_of(run({"info", "--json"}));
+  const json& cuda = info["backends"][1];
+  const auto backends = [](const json& all) {
+    std::set<std::string> names;
+    for (const json& figure : all["figures"])
+      if (figure["reference"] == false) names.insert(figure["backend"].get<std::string>());
+    return names;
+  };
+  const json automatic = bench_json({"--sizes", "200", "--threads", "1", "--backend", "auto"});
+  const Output by_name = bench({"--sizes", "200", "--threads", "1", "--backend", "cuda", "--json"});
+  EXPECT_THAT(backends(bench_json({"--sizes", "200", "--threads", "1", "--backend", "cpu"})), ElementsAre("cpu"));
+  EXPECT_EQ(automatic["cuda"]["measured"], cuda["usable"]);
+  if (cuda["usable"] == true) {
+    EXPECT_THAT(backends(automatic), ElementsAre("cpu", "cuda"));
+    EXPECT_THAT(backends(json_of(by_name)), ElementsAre("cuda"));
+    return;
+  }
+  EXPECT_THAT(backends(automatic), ElementsAre("cpu"));
+  EXPECT_EQ(automatic["cuda"]["reason"], cuda["reason"]);
+  EXPECT_EQ(by_name.code, 2);
+  EXPECT_THAT(by_name.out, IsEmpty());
+  EXPECT_THAT(by_name.err, HasSubstr(cuda["reason"].get<std::string>()));
 }
 
 TEST(Bench, ComparesALateIterationWithTheFirst) {
@@ -183,6 +212,8 @@ TEST(Bench, RefusesWhatItCannotMeasure) {
       {"--sizes", "200", "--metric", "min-angle", "--elements", "triangles,mixed"},
       {"--sizes", "200", "--elements", "tetrahedra"},
       {"--sizes", "200", "--simd", "mmx"},
+      {"--sizes", "200", "--backend", "abacus"},
+      {"--sizes", "200", "--backend", "cpu,"},
       {"--sizes", "200", "--simd", "all,baseline"},
       {"--sizes", "200", "--threads", "-1"},
       {"--sizes", "200", "--threads", "1025"},

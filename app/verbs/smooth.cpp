@@ -19,6 +19,7 @@
 #include "app/verbs/verbs.h"
 #include "core/io/mesh_io.h"
 #include "core/search/simd.h"
+#include "core/session/carry_on.h"
 #include "core/session/csv.h"
 #include "core/session/run.h"
 
@@ -166,12 +167,18 @@ int smooth(const Options& options) {
   parameters.fixed = named_vertices(input->mesh, options.run.fix);
 
   Run run(input, std::move(parameters), pool, 0, acceleration);  // no past positions: nobody asks for them here
-  if (std::string warning = run.take_warning(); !warning.empty()) {
-    complain(warning);
-    warnings.push_back(std::move(warning));
-  }
-  const Outcome outcome =
-      options.until_converged ? run.until_converged(options.limits, progress) : run.iterate(options.iterations, progress);
+  const auto warn = [&warnings](std::string sentence) {
+    complain(sentence);
+    warnings.push_back(std::move(sentence));
+  };
+  if (std::string warning = run.take_warning(); !warning.empty()) warn(std::move(warning));
+  const auto smooth_all = [&] {  // from the input on: without history nothing else is left after a failure
+    const Outcome done =
+        options.until_converged ? run.until_converged(options.limits, progress) : run.iterate(options.iterations, progress);
+    run.settle();
+    return done;
+  };
+  const Outcome outcome = carrying_on(run, smooth_all, warn);
 
   for (std::string& sentence : write_mesh(options.output, input->mesh, run.positions(), {progress, pool.get()})) {
     complain(fmt::format("{}: {}", options.output.string(), sentence));

@@ -171,8 +171,8 @@ void Run::recover() {
   at_ = *brought_;
   history_.forget_after(at_.moment.iteration);
   const auto& [iteration, visits] = at_.moment;
-  executor_.warning += visits == 0 ? fmt::format(", from the end of iteration {} on", iteration)
-                                   : fmt::format(", from visit {} after iteration {} on", visits, iteration);
+  executor_.warning = fmt::format("{}; the run is back at iteration {}{}, and the CPU can go on from there", executor_.reason, iteration,
+                                  visits == 0 ? "" : fmt::format(" and {} visits", visits));
 }
 
 void Run::record(const Place& done) {

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/session/carry_on.h"
 #include "core/session/engine.h"
 #include "core/session/run.h"
 #include "core/session/session_commands.h"
@@ -205,7 +206,7 @@ TEST_P(Failure, WhileSteppingLeavesTheLastPositionsOfTheHostAndGoesOnOnTheCpu) {
     FAIL() << "the device is lost";
   } catch (const DeviceError& error) {
     EXPECT_EQ(error.exit_code(), 3);
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("cuda failed"), HasSubstr("the fake device was lost"), HasSubstr("on the CPU")));
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("cuda failed"), HasSubstr("the fake device was lost"), HasSubstr("the CPU can go on")));
   }
   const std::uint64_t stands = asked ? fails_at - 1 : 0;
   EXPECT_EQ(run.moment(), (Moment{stands, 0}));
@@ -267,6 +268,28 @@ TEST(Accelerated, AFailureWhileCopyingGoesBackToPositionsThatWereKept) {
   EXPECT_TRUE(same_bits(copy(run), states[kept]));
   run.iterate(5 - kept, progress);
   EXPECT_TRUE(same_bits(copy(run), states[5]));
+}
+
+TEST(Accelerated, WorkThatDidNotAskForTheDeviceCarriesOnWithoutIt) {
+  Progress progress;
+  for (const Backend backend : {Backend::Auto, Backend::Cuda}) {
+    const auto device = std::make_shared<FakeDevice>();
+    device->fail_at_visit = 3;
+    dmoscope::Run run = make_run({.backend = backend}, acceleration(device), 0);
+    std::vector<std::string> told;
+    const auto work = [&] { return run.iterate(5, progress); };
+    const auto tell = [&](std::string sentence) { told.push_back(std::move(sentence)); };
+    if (backend == Backend::Cuda) {
+      EXPECT_THROW(carrying_on(run, work, tell), DeviceError);
+      EXPECT_TRUE(told.empty());
+      continue;
+    }
+    EXPECT_EQ(carrying_on(run, work, tell).iterations, 5U);
+    ASSERT_EQ(told.size(), 1U);
+    EXPECT_THAT(told[0], HasSubstr("the fake device was lost"));
+    EXPECT_EQ(run.moment(), (Moment{5, 0}));
+    EXPECT_TRUE(same_bits(copy(run), states_on_cpu(5)[5]));
+  }
 }
 
 TEST(Accelerated, AnObserverThatMeetsTheFailureEndsTheStepWithIt) {

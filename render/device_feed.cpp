@@ -40,10 +40,16 @@ void DeviceFeed::clear() noexcept {
   copied_ = direct_ = false;
 }
 
-void DeviceFeed::forget_buffers() noexcept {
+void DeviceFeed::forget_buffers() {
   clear();
   target_.reset();
-  trouble_.clear();
+  trouble_ = never_;
+}
+
+void DeviceFeed::never_direct(std::string why) {
+  never_ = std::move(why);
+  target_.reset();
+  trouble_ = never_;
 }
 
 const DeviceFeed::HostCopy& DeviceFeed::host_copy(const Layout& layout) {

@@ -20,7 +20,9 @@ class DeviceFeed {
   /// What is on show from now on is not a device's.
   void clear() noexcept;
   /// Before the painter's buffers are destroyed or made anew.
-  void forget_buffers() noexcept;
+  void forget_buffers();
+  /// From now on the device is not asked to write: `why`, for trouble().
+  void never_direct(std::string why);
 
   /// Why the device does not write itself; empty while nothing speaks against it.
   [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
@@ -40,7 +42,7 @@ class DeviceFeed {
   bool write(const ElementPainter& painter, Vec2<double> origin);
   std::shared_ptr<const DevicePicture> picture_;
   std::unique_ptr<DeviceTarget> target_;
-  std::string trouble_;
+  std::string trouble_, never_;
   HostCopy copy_;
   bool copied_ = false, direct_ = false;
 };

@@ -154,6 +154,8 @@ bool MeshScene::show(std::shared_ptr<const Frame> frame, Loading loading) {
   return true;
 }
 
+void MeshScene::draw_through_host(std::string why) { impl_->device.never_direct(std::move(why)); }
+
 void MeshScene::set_mesh(const Mesh& mesh, const Plane& plane) {
   auto layout = build_layout(mesh, plane);
   impl_->adopt(std::move(layout));

@@ -53,6 +53,9 @@ class MeshScene {
   /// done on a thread of its own, and the scene shows nothing of it until a later call. Returns whether `frame` is on show now.
   bool show(std::shared_ptr<const Frame> frame, Loading loading = Loading::Wait);
 
+  /// What lives on a device is brought through the host from now on; `why`: for device_trouble(), empty: no longer.
+  void draw_through_host(std::string why);
+
   /// The same in two steps, for meshes without a session. Elements of `mesh` must be triangles and quadrilaterals (else
   /// UsageError); the mesh is not kept.
   void set_mesh(const Mesh& mesh, const Plane& plane);

@@ -27,6 +27,7 @@ App::App(Options options)
   host_.item = [this](const std::string& name) { return items_.find(name); };
   commands_ = view_commands(state_, host_);
   activity_.renderer = options_.renderer;
+  scene_.draw_through_host(options_.no_interop);
 }
 
 App::~App() = default;
@@ -59,6 +60,7 @@ bool App::prepare() {
 void App::take_news(double now) {
   session_ = engine_.view();
   update_backend();
+  update_drawing();
   for (Message& message : engine_.take_messages()) {
     if (listener_) listener_(message);
     add_message(state_, std::move(message));
@@ -99,6 +101,14 @@ void App::update_backend() {
     activity_.backend = name(Backend::Cpu);
     activity_.backend_reason = "no cuda: " + acceleration.reason;
   }
+}
+
+/// What the scene has found out counts from the next drawing on.
+void App::update_drawing() {
+  const Frame* frame = session_->frame.get();
+  const bool snapshot_failed = frame != nullptr && !frame->device_trouble.empty();
+  activity_.drawing =
+      drawing_path(activity_.backend, activity_.backend_reason, snapshot_failed ? frame->device_trouble : scene_.device_trouble());
 }
 
 void App::notice_new_input() {

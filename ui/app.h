@@ -25,6 +25,7 @@ class App {
     Acceleration acceleration{};      // what runs may use besides the CPU
     Backend backend = Backend::Auto;  // what the first run asks for
     std::string renderer;             // what draws
+    std::string no_interop;           // why the accelerator cannot write what is drawn; empty where it can
     bool software_renderer = false;
     bool wait_for_scene = false;  // big meshes are made ready for drawing before a frame goes on (headless)
   };
@@ -65,6 +66,7 @@ class App {
  private:
   void take_news(double now);
   void update_backend();
+  void update_drawing();
   void notice_new_input();
   void update_derived();
   void update_scene(const Rect& rect, double now);

@@ -9,7 +9,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/drawing_path.h"
 #include "app/text.h"
 #include "app/verbs/bench_machine.h"
 #include "app/verbs/verbs.h"
@@ -18,12 +17,13 @@
 #include "core/mesh/generate.h"
 #include "core/quality/metric.h"
 #include "core/search/simd.h"
+#include "core/session/drawing_path.h"
 #include "core/session/run.h"
 #include "gpu/accelerator.h"
 #include "gpu/device.h"
 
 #ifdef DMOSCOPE_HAVE_GUI
-#include "render/context.h"
+#include "app/window/interop.h"
 #endif
 
 namespace dmoscope::app {
@@ -31,23 +31,27 @@ namespace {
 
 struct OpenGl {
   bool usable = false;
-  std::string text;  // what draws, or why nothing does
+  std::string text;     // what draws, or why nothing does
+  DrawingPath drawing;  // of what runs compute
 };
 
-OpenGl headless_opengl() {
+OpenGl headless_opengl(const Acceleration& acceleration) {
+  const auto path = [&](const std::string& obstacle) {
+    if (!acceleration.accelerator) return drawing_path(name(Backend::Cpu), "no cuda: " + acceleration.reason, obstacle);
+    return drawing_path(acceleration.accelerator->name(), acceleration.accelerator->description(), obstacle);
+  };
 #ifdef DMOSCOPE_HAVE_GUI
   try {
-    return {true, render::create_headless_context()->description()};
+    const auto context = headless_context_for(acceleration);
+    return {true, context->description(), path(no_interop(acceleration, *context))};
   } catch (const Error& error) {
-    return {false, error.what()};
+    return {false, error.what(), path(error.what())};
   }
 #else
-  return {false, "built without OpenGL"};
+  const std::string reason = "built without OpenGL";
+  return {false, reason, path(reason)};
 #endif
 }
-
-/// Where CUDA could write OpenGL's buffers; empty where it can. To be asked of the context that draws.
-std::string no_interop(const OpenGl& gl) { return gl.usable ? "this version copies through the host" : gl.text; }
 
 Json json_of(const gpu::Availability& cuda, const Acceleration& acceleration) {
   Json devices = Json::array();
@@ -70,16 +74,15 @@ std::vector<std::string_view> simd_names() {
 }
 
 Json everything() {
-  const OpenGl gl = headless_opengl();
-  const unsigned threads = std::thread::hardware_concurrency();
   const Acceleration acceleration = gpu::make_accelerator();
-  const DrawingPath drawing = drawing_path(acceleration, no_interop(gl));
+  const OpenGl gl = headless_opengl(acceleration);
+  const unsigned threads = std::thread::hardware_concurrency();
   Json object{{"version", DMOSCOPE_VERSION}, {"build", DMOSCOPE_BUILD_TYPE}, {"compiler", compiler()}, {"threads", threads}};
   object["backends"] = {{{"name", "cpu"}, {"usable", true}, {"threads", threads}, {"simd", name(best_simd_level())}},
                         json_of(gpu::availability(), acceleration)};
   object["simd"] = {{"levels", simd_names()}, {"used", name(best_simd_level())}};
   object["opengl"] = {{"usable", gl.usable}, {"description", gl.text}};
-  object["drawing"] = {{"path", drawing.name}, {"reason", drawing.reason}};
+  object["drawing"] = {{"path", gl.drawing.name}, {"reason", gl.drawing.reason}};
   for (const FormatInfo& f : format_table()) {
     object["formats"].push_back({{"name", f.name}, {"title", f.title}, {"extensions", f.extensions}, {"doc", f.doc}});
   }
@@ -111,14 +114,13 @@ void print_cuda(const gpu::Availability& cuda, const Acceleration& acceleration)
 }
 
 void print_for_a_person() {
-  const OpenGl gl = headless_opengl();
+  const Acceleration acceleration = gpu::make_accelerator();
+  const OpenGl gl = headless_opengl(acceleration);
   fmt::print("dmoscope {} ({}, {})\n\nbackends\n", DMOSCOPE_VERSION, DMOSCOPE_BUILD_TYPE, compiler());
   fmt::print("  cpu    usable, {}\n", counted(std::thread::hardware_concurrency(), "processor thread", "processor threads"));
   fmt::print("         SIMD {} (supported: {})\n", name(best_simd_level()), fmt::join(simd_names(), ", "));
-  const Acceleration acceleration = gpu::make_accelerator();
   print_cuda(gpu::availability(), acceleration);
-  const DrawingPath drawing = drawing_path(acceleration, no_interop(gl));
-  fmt::print("\ndrawing\n  path   {}{}\n", drawing.name, drawing.reason.empty() ? "" : " (" + drawing.reason + ")");
+  fmt::print("\ndrawing\n  path   {}{}\n", gl.drawing.name, gl.drawing.reason.empty() ? "" : " (" + gl.drawing.reason + ")");
   fmt::print("  opengl {}{}\n\nformats\n", gl.usable ? "" : "not usable: ", gl.text);
   for (const FormatInfo& f : format_table()) fmt::print("  {:<16} {}; {}\n", f.extensions, f.title, f.doc);
   fmt::print("\nmetrics\n");

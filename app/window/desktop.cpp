@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "app/acceleration.h"
 #include "core/session/commands.h"
 #include "ui/settings.h"
 
@@ -25,7 +26,7 @@ Desktop::Desktop(const WindowOptions& options)
     : options_(options),
       window_(render::Window::create({})),
       input_(window_->handle()),
-      app_(app_options(options.threads, options.backend, window_->description(), window_->is_software())) {
+      app_(app_options(options.threads, options.backend, acceleration_for(options.backend), *window_)) {
   ui::ViewState& state = app_.state();
   state.scale = static_cast<double>(window_->content_scale());
   if (!options_.scripted) {

@@ -5,6 +5,9 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include "app/acceleration.h"
+#include "app/window/interop.h"
+
 namespace dmoscope::app {
 namespace {
 
@@ -14,12 +17,14 @@ constexpr float kPause = 0.5F;  // between two lines, so that two clicks are no 
 }  // namespace
 
 HeadlessWindow::HeadlessWindow(const Options& options)
-    : context_(render::create_headless_context()),
+    : acceleration_(options.acceleration ? *options.acceleration : acceleration_for(options.backend)),
+      context_(headless_context_for(acceleration_)),
       interface_(std::make_unique<Interface>()),
       width_(options.width),
       height_(options.height) {
   set_up_input();
-  ui::App::Options app = app_options(options.threads, options.backend, context_->description(), context_->is_software());
+  ui::App::Options app = app_options(options.threads, options.backend, acceleration_, *context_);
+  if (options.no_interop) app.no_interop = *options.no_interop;
   app.wait_for_scene = true;
   app_ = std::make_unique<ui::App>(std::move(app));
   app_->state().scale = options.scale;

@@ -22,6 +22,8 @@ class HeadlessWindow {
     double scale = 1.0;
     unsigned threads = 0;
     Backend backend = Backend::Auto;
+    std::optional<Acceleration> acceleration{};  // none: this machine's
+    std::optional<std::string> no_interop{};     // why that cannot write what is drawn; none: what this machine says
   };
   /// Throws Error where no OpenGL without a screen can be had.
   explicit HeadlessWindow(const Options& options);
@@ -46,6 +48,7 @@ class HeadlessWindow {
   void set_up_input();
   void take_wishes();
 
+  Acceleration acceleration_;
   std::unique_ptr<render::Context> context_;
   std::unique_ptr<Interface> interface_;
   std::unique_ptr<ui::App> app_;

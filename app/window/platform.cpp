@@ -2,13 +2,14 @@
 
 #include <cmath>
 #include <exception>
+#include <utility>
 
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "app/acceleration.h"
+#include "app/window/interop.h"
 
 namespace dmoscope::app {
 
@@ -53,13 +54,14 @@ render::Image Interface::picture(int width, int height) {
   return image;
 }
 
-ui::App::Options app_options(unsigned threads, Backend backend, const std::string& renderer, bool software) {
+ui::App::Options app_options(unsigned threads, Backend backend, Acceleration acceleration, const render::Context& context) {
   ui::App::Options options;
   options.threads = threads;
   options.backend = backend;
-  options.acceleration = acceleration_for(backend);
-  options.renderer = renderer;
-  options.software_renderer = software;
+  options.no_interop = no_interop(acceleration, context);
+  options.acceleration = std::move(acceleration);
+  options.renderer = context.description();
+  options.software_renderer = context.is_software();
   return options;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "render/context.h"
 #include "render/framebuffer.h"
 #include "render/image.h"
 #include "ui/app.h"
@@ -33,8 +34,8 @@ class Interface {
   ImGuiContext* context_ = nullptr;
 };
 
-/// Options for App that hold for this machine: backend and why, renderer.
-[[nodiscard]] ui::App::Options app_options(unsigned threads, Backend backend, const std::string& renderer, bool software);
+/// Options for App that hold for this machine and for what draws, whose context is current.
+[[nodiscard]] ui::App::Options app_options(unsigned threads, Backend backend, Acceleration acceleration, const render::Context& context);
 
 /// Takes the screenshots that were asked for, of the frame just drawn; what goes wrong becomes a message.
 /// Returns the first error, if any, for scripts.

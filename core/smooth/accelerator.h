@@ -28,6 +28,8 @@ class Accelerator {
   [[nodiscard]] virtual std::string name() const = 0;
   /// "NVIDIA H200, compute capability 9.0, 139 GiB"
   [[nodiscard]] virtual std::string description() const = 0;
+  /// The runtime's number of the device, by which OpenGL's interfaces know it.
+  [[nodiscard]] virtual int number() const noexcept { return 0; }
   /// DMO in float on this device; the same contract as make_smoother's, which also checks the arguments. `immovable`: see
   /// immovable_elements; needed for Smoother::statistics() and only read here. Throws DeviceError, which for memory says how much was asked
   /// for and how much is free.

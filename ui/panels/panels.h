@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/session/commands.h"
+#include "core/session/drawing_path.h"
 #include "core/session/view.h"
 #include "ui/actions.h"
 #include "ui/facts.h"
@@ -35,6 +36,7 @@ struct Activity {
   double frames_per_second = 0.0;  // while something moves, else 0
   std::string backend;             // what smooths: "cpu" or "cuda"
   std::string backend_reason;      // which device, or why not cuda
+  DrawingPath drawing;             // how it gets to the screen, as far as is known
   std::string renderer;            // "OpenGL 4.5, ..."
   bool reduced = false;            // the mesh is drawn with fewer elements just now
 };

@@ -94,11 +94,15 @@ void draw_status(PanelContext& context, const Rect& rect) {
   ImGui::PopStyleVar();
   const Activity& activity = context.activity;
   const unsigned threads = context.session.threads;
-  const bool counts_threads = context.session.input && activity.backend == name(Backend::Cpu);
-  const std::string backend =
-      counts_threads ? fmt::format("{}, {} thread{}", activity.backend, threads, threads == 1 ? "" : "s") : activity.backend;
-  ImGui::TextUnformatted(backend.c_str());
-  next_item_tooltip(activity.backend_reason + (activity.backend_reason.empty() ? "" : "\n") + activity.renderer);
+  const bool on_cpu = activity.backend == name(Backend::Cpu);
+  std::string backend = on_cpu ? activity.backend : activity.drawing.sentence();
+  if (on_cpu && context.session.input) backend += fmt::format(", {} thread{}", threads, threads == 1 ? "" : "s");
+  ImGui::TextUnformatted(fit_text(backend, 24 * context.em()).c_str());
+  context.items.record_last("backend");
+  std::string more;
+  for (const std::string& line : {activity.backend_reason, on_cpu ? std::string() : activity.drawing.reason, activity.renderer})
+    if (!line.empty()) more += (more.empty() ? "" : "\n") + line;
+  next_item_tooltip(more);
   if (const std::string speed = speed_sentence(context); !speed.empty()) {
     ImGui::SameLine(0, context.px(16));
     dim_text(context, speed, false);

@@ -1,12 +1,42 @@
 #include "gpu/accelerator.h"
 
+#include <utility>
+
+#include "core/base/error.h"
+#include "gpu/cuda_queue.h"
 #include "gpu/device.h"
+#include "gpu/device_dmo.h"
 
 namespace dmoscope::gpu {
 
+namespace {
+
+/// Every run has a queue of its own, since runs may be made and destroyed by different threads.
+class CudaAccelerator final : public Accelerator {
+ public:
+  explicit CudaAccelerator(int device) : first_(make_cuda_queue(device)) {}
+  std::string name() const override { return "cuda"; }
+  std::string description() const override { return first_->description(); }
+  std::unique_ptr<Smoother> make_dmo(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring, Metric metric,
+                                     const SearchParameters& parameters, std::span<const Index> immovable,
+                                     ThreadPool* pool) const override {
+    return make_device_dmo(first_->sibling(), std::move(input), std::move(colouring), metric, parameters, immovable, pool);
+  }
+
+ private:
+  std::shared_ptr<Queue> first_;
+};
+
+}  // namespace
+
 Acceleration make_accelerator() {
   const Availability available = availability();
-  return {nullptr, available.reason.empty() ? "this version's cuda search is not built yet" : available.reason};
+  if (!available.reason.empty()) return {nullptr, available.reason};
+  try {
+    return {std::make_shared<CudaAccelerator>(available.best), ""};
+  } catch (const Error& error) {
+    return {nullptr, error.what()};
+  }
 }
 
 }  // namespace dmoscope::gpu

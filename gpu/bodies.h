@@ -4,8 +4,8 @@
 #include "core/quality/element_shape.h"
 #include "core/quality/tally.h"
 #include "core/smooth/reference_visit.h"
-#include "gpu/anywhere.h"
 #include "gpu/fast_visit.h"
+#include "gpu/lane.h"
 #include "gpu/task.h"
 #include "gpu/work.h"
 
@@ -14,7 +14,7 @@ namespace dmoscope::gpu::bodies {
 inline constexpr std::size_t kParts = Tally::kLanes, kStretch = Tally::kStretch;
 
 /// Where the vertex stands from now on; it stays awake itself.
-inline DMOSCOPE_ANYWHERE void move(const Task& task, Index rank, const double* target) {
+inline DMOSCOPE_LANE void move(const Task& task, Index rank, const double* target) {
   task.ranked[rank] = {target[0], target[1], target[2]};
   const std::uint32_t end = task.shapes[rank + 1].first;
   for (std::uint32_t i = task.shapes[rank].first; i < end; ++i) set_flag(task.awake + task.others[i], true);
@@ -22,14 +22,18 @@ inline DMOSCOPE_ANYWHERE void move(const Task& task, Index rank, const double* t
 }
 
 /// Every body has run(task, i, count, team): lane (or team) i of `count`.
-template <Metric M>
+template <Metric M, Stars S>
 struct Visit {
   template <class Team>
-  static DMOSCOPE_ANYWHERE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& team) {
+  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& team) {
     const auto rank = static_cast<Index>(task.first + i);
     if (!is_set(task.awake + rank)) return;
-    typename FastVisit<M, Team>::Outcome outcome;
-    if (task.shapes[rank].kind != StarShape::Kind::Alone) outcome = FastVisit<M, Team>(task, rank, team).run();
+    const StarShape shape = task.shapes[rank];
+    if constexpr (S != Stars::All)
+      if (in_registers<M>(shape, task.parameters) != (S == Stars::Fans)) return;
+    using Search = FastVisit<M, Team, S>;
+    typename Search::Outcome outcome;
+    if (S == Stars::Fans || shape.kind != StarShape::Kind::Alone) outcome = Search(task, rank, team).run();
     if (team.lane() != 0) return;
     using visit_rules::Verdict;
     if (outcome.ready && outcome.verdict == Verdict::Stay) {
@@ -47,7 +51,7 @@ struct Visit {
 template <Metric M>
 struct Settle {
   template <class Team>
-  static DMOSCOPE_ANYWHERE void run(const Task& task, std::size_t i, std::size_t count, const Team& team) {
+  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t count, const Team& team) {
     const std::size_t all = *task.deferred_count;
     for (std::size_t k = i; k < all; k += count) {
       Deferred d = task.deferred[k];
@@ -59,7 +63,7 @@ struct Settle {
  private:
   /// Fills the target.
   template <class Team>
-  static DMOSCOPE_ANYWHERE void search(const Task& task, Deferred& d, const Team& team) {
+  static DMOSCOPE_LANE void search(const Task& task, Deferred& d, const Team& team) {
     const PositionView positions = positions_of(task);
     const Index vertex = task.vertex_of_rank[d.rank];
     const MeshStar star(task.mesh, positions, vertex);
@@ -70,7 +74,7 @@ struct Settle {
     d = {d.rank, true, {to.x, to.y, to.z}};
   }
 
-  static DMOSCOPE_ANYWHERE void judge(const Task& task, const Deferred& d) {
+  static DMOSCOPE_LANE void judge(const Task& task, const Deferred& d) {
     const Vec3 target{d.target[0], d.target[1], d.target[2]};
     if (d.has_target && gains_at<M>(task.mesh, positions_of(task), task.vertex_of_rank[d.rank], target))
       move(task, d.rank, d.target);
@@ -82,7 +86,7 @@ struct Settle {
 template <Metric M>
 struct Judge {
   template <class Team>
-  static DMOSCOPE_ANYWHERE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
+  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
     const auto element = static_cast<Index>(task.first + i);
     const PositionView positions = positions_of(task);
     visit_planar(
@@ -97,7 +101,7 @@ struct Judge {
 /// Part i % kParts of stretch i / kParts. Every comparison with NaN is false: it is left out of minimum, sum and count.
 struct Sum {
   template <class Team>
-  static DMOSCOPE_ANYWHERE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
+  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Part part{0.0, kInfinity, kInfinity, kInfinity, kNoIndex, 0, 0};
     const std::size_t stretch = i / kParts * kStretch;
@@ -118,7 +122,7 @@ struct Sum {
 
 struct Total {
   template <class Team>
-  static DMOSCOPE_ANYWHERE void run(const Task& task, std::size_t /*i*/, std::size_t /*count*/, const Team& /*team*/) {
+  static DMOSCOPE_LANE void run(const Task& task, std::size_t /*i*/, std::size_t /*count*/, const Team& /*team*/) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Part total{0.0, kInfinity, kInfinity, kInfinity, kNoIndex, 0, 0};
     double sums[kParts] = {};
@@ -144,7 +148,7 @@ struct Total {
 
 struct Load {
   template <class Team>
-  static DMOSCOPE_ANYWHERE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
+  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
     task.ranked[i] = task.positions[task.vertex_of_rank[i]];
     set_flag(task.awake + i, true);
   }
@@ -152,8 +156,44 @@ struct Load {
 
 struct Store {
   template <class Team>
-  static DMOSCOPE_ANYWHERE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
+  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
     task.positions[i] = task.ranked[task.rank_of_vertex[i]];
+  }
+};
+
+struct Shade {
+  template <class Team>
+  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
+    task.shades[i] = shade_of(static_cast<float>(task.quality[i]), task.inverted[i] != 0);
+  }
+};
+
+struct Count {
+  template <class Team>
+  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
+    count_one(task.counts + histogram_slot(task.quality[i]));
+  }
+};
+
+struct Project {
+  template <class Team>
+  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
+    const Vec2<double> p = task.mesh.plane.project(task.positions[i]);
+    task.points[i] = {static_cast<float>(p.x - task.origin.x), static_cast<float>(p.y - task.origin.y)};
+  }
+};
+
+struct CopyShades {
+  template <class Team>
+  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
+    task.drawn_shades[i] = task.shades[i];
+  }
+};
+
+struct Pick {
+  template <class Team>
+  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
+    task.picked[i] = task.positions[task.wanted[i]];
   }
 };
 

@@ -30,12 +30,21 @@ Availability availability() {
     result.reason = std::string("no usable CUDA device: ") + why(error);
     return result;
   }
+  result.reason = "no CUDA device found";
+  std::size_t most_memory = 0;
   for (int i = 0; i < count; ++i) {
     cudaDeviceProp properties{};
-    if (cudaGetDeviceProperties(&properties, i) == cudaSuccess)
-      result.devices.push_back({properties.name, properties.major, properties.minor, properties.totalGlobalMem, probe(i)});
+    if (cudaGetDeviceProperties(&properties, i) != cudaSuccess) continue;
+    Device& device = result.devices.emplace_back();
+    device = {properties.name, properties.major, properties.minor, properties.totalGlobalMem, probe(i)};
+    if (!device.problem.empty()) {
+      if (result.best < 0) result.reason = device.name + ": " + device.problem;
+    } else if (device.memory > most_memory) {
+      result.best = i;
+      most_memory = device.memory;
+      result.reason.clear();
+    }
   }
-  result.reason = result.devices.empty() ? "no CUDA device found" : "this version smooths on the CPU only; a CUDA search is not built yet";
 #else
   result.reason = "built without a CUDA toolkit";
 #endif

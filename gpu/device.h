@@ -17,6 +17,7 @@ struct Device {
 struct Availability {
   bool built = false;  // was the program built with a CUDA toolkit?
   std::vector<Device> devices;
+  int best = -1;       // the usable device with the most memory
   std::string reason;  // why the cuda backend cannot be used; empty when it can
 };
 

@@ -5,13 +5,14 @@
 
 #include "gpu/bodies.h"
 #include "gpu/device_mesh.h"
+#include "gpu/device_picture.h"
 
 namespace dmoscope::gpu {
 
 namespace {
 
-/// Lanes of a team (gpu/cuda_team.cuh); a class that leaves more than this share of the device's lanes idle is visited by teams.
-constexpr std::size_t kTeam = 8;
+/// A class that would leave three quarters of the device's lanes idle is visited by teams of eight.
+constexpr std::size_t kTeamShare = 4;
 /// Teams among which a class's deferred visits are shared: enough for any device, and few where, as nearly always, there are none.
 constexpr std::size_t kSettlers = 2048;
 
@@ -25,6 +26,7 @@ class DeviceDmo final : public Smoother {
         mesh_(queue_, *input, *colouring_, immovable, pool),
         counts_(queue_, colouring_->class_count() + std::size_t{1}),
         deferred_(queue_, largest_class()),
+        pictures_(std::make_shared<Pictures>(queue_)),
         task_(mesh_.task()) {
     task_.parameters = parameters;
     task_.deferred = deferred_.data();
@@ -35,7 +37,7 @@ class DeviceDmo final : public Smoother {
   std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* /*pool*/) override {
     if (stale_) load(positions);
     stored_ = judged_ = false;
-    if (first == 0 && count == colouring_->order.size()) {
+    if (first == 0 && count == colouring_->order.size() && seen_) {
       if (iteration_ == nullptr) {
         queue_->start_recording();
         visit_classes(first, count);
@@ -44,6 +46,7 @@ class DeviceDmo final : public Smoother {
       queue_->replay(*iteration_);
     } else {
       visit_classes(first, count);
+      seen_ = seen_ || count == colouring_->order.size();
     }
     std::uint32_t moved = 0;
     counts_.download({&moved, 1});
@@ -54,6 +57,7 @@ class DeviceDmo final : public Smoother {
     if (stored_ || stale_) return;
     queue_->launch(Work::Store, metric_, task_, positions.size());
     mesh_.positions().download(positions);
+    queue_->counters().bytes_to_host += positions.size_bytes();
     stored_ = true;
   }
 
@@ -67,6 +71,13 @@ class DeviceDmo final : public Smoother {
       judged_ = true;
     }
     return mesh_.statistics();
+  }
+
+  std::shared_ptr<const DevicePicture> picture(Metric shown) override {
+    if (stale_) return nullptr;
+    auto picture = pictures_->make(mesh_, shown);
+    judged_ = shown == metric_;
+    return picture;
   }
 
  private:
@@ -87,10 +98,19 @@ class DeviceDmo final : public Smoother {
       if (begin >= end) continue;
       task_.first = begin;
       task_.deferred_count = counts_.data() + 1 + c;
-      const bool small = (end - begin) * 2 <= queue_->lanes_at_once();
-      queue_->launch(small ? Work::VisitInTeam : Work::Visit, metric_, task_, end - begin);
+      launch_visits(mesh_.stars_of_class(c), end - begin);
       queue_->launch(Work::Settle, metric_, task_, std::min<std::uint64_t>(end - begin, kSettlers));
     }
+  }
+
+  void launch_visits(const DeviceMesh::ClassStars& stars, std::size_t count) {
+    if (count * kTeamShare <= queue_->lanes_at_once()) {
+      queue_->launch(Work::VisitInTeam, metric_, task_, count);
+      return;
+    }
+    const bool ratio = formulas::with_metric(metric_, []<Metric M>() { return kIsRatio<M>; }) && task_.parameters.grid_points == 8;
+    if (ratio && stars.fans) queue_->launch(Work::VisitFans, metric_, task_, count);
+    if (!ratio || stars.others) queue_->launch(Work::VisitOthers, metric_, task_, count);
   }
 
   void load(std::span<const Vec3> positions) {
@@ -105,8 +125,10 @@ class DeviceDmo final : public Smoother {
   DeviceMesh mesh_;
   Buffer<std::uint32_t> counts_;  // moved, then the deferred visits of each class
   Buffer<Deferred> deferred_;
+  std::shared_ptr<Pictures> pictures_;
   Task task_;
   std::unique_ptr<Queue::Recording> iteration_;
+  bool seen_ = false;    // a whole iteration, unrecorded: a kernel's first launch loads it, and that should not be recorded
   bool stale_ = true;    // the device's positions are older than the run's
   bool stored_ = false;  // the run's are as new as the device's
   bool judged_ = false;  // and so are the statistics

@@ -20,9 +20,10 @@ std::size_t part_count(std::size_t elements) { return (elements + bodies::kStret
 
 DeviceMesh::DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, const Colouring& colouring, std::span<const Index> immovable,
                        ThreadPool* pool)
-    : DeviceMesh(std::move(queue), input, build_star_table(input.mesh, input.topology, colouring, pool), immovable) {}
+    : DeviceMesh(std::move(queue), input, colouring, build_star_table(input.mesh, input.topology, colouring, pool), immovable) {}
 
-DeviceMesh::DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, const StarTable& table, std::span<const Index> immovable)
+DeviceMesh::DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, const Colouring& colouring, const StarTable& table,
+                       std::span<const Index> immovable)
     : queue_(std::move(queue)),
       shapes_(queue_, table.shapes),
       others_(queue_, table.others),
@@ -58,6 +59,11 @@ DeviceMesh::DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, con
   task_.parts = parts_.data();
   task_.statistics = statistics_.data();
   task_.positions = positions_.data();
+  for (Index c = 0; c < colouring.class_count(); ++c) {
+    ClassStars& stars = classes_.emplace_back();
+    for (Index rank = colouring.class_offsets[c]; rank < colouring.class_offsets[c + 1]; ++rank)
+      (in_registers<Metric::MeanRatio>(table.shapes[rank], {}) ? stars.fans : stars.others) = true;
+  }
 }
 
 void DeviceMesh::judge(Metric metric) {

@@ -22,6 +22,11 @@ class DeviceMesh {
 
   /// All that a kernel needs of the mesh.
   [[nodiscard]] const Task& task() const noexcept { return task_; }
+  /// Has a class stars that are Stars::Fans to a metric of ratio form, and has it others?
+  struct ClassStars {
+    bool fans = false, others = false;
+  };
+  [[nodiscard]] const ClassStars& stars_of_class(Index colour) const { return classes_[colour]; }
   /// By vertices: where positions come from and go to.
   [[nodiscard]] const Buffer<Vec3>& positions() const noexcept { return positions_; }
 
@@ -31,7 +36,8 @@ class DeviceMesh {
   [[nodiscard]] Statistics statistics() const;
 
  private:
-  DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, const StarTable& table, std::span<const Index> immovable);
+  DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, const Colouring& colouring, const StarTable& table,
+             std::span<const Index> immovable);
 
   std::shared_ptr<Queue> queue_;
   Buffer<StarShape> shapes_;
@@ -47,6 +53,7 @@ class DeviceMesh {
   Buffer<Part> parts_;
   Buffer<Statistics> statistics_;
   Task task_;
+  std::vector<ClassStars> classes_;
 };
 
 }  // namespace dmoscope::gpu

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "core/base/anywhere.h"
 #include "core/search/grid_search.h"
 #include "core/search/ratio_search.h"
 #include "core/smooth/visit_rules.h"
@@ -17,14 +18,24 @@ struct FanStar {
   std::array<Vec2<R>, N> ring;
 
   template <bool Quadrilaterals, class F>
-  constexpr void for_each(F f) const {
+  DMOSCOPE_ANYWHERE void for_each(F f) const {
     DMOSCOPE_UNROLL
     for (std::size_t i = 0; i < N; ++i) f(StarTriangle<R>{ring[i], ring[i + 1 < N ? i + 1 : 0], R(1)});
   }
 };
 
+/// Which stars a kernel is made for: the closed fans of the sizes that nearly all triangle meshes have, whose search runs in registers; all
+/// others that have a place in lanes; or both.
+enum class Stars { Fans, Others, All };
+
+/// Is the star one of Stars::Fans?
+template <Metric M>
+[[nodiscard]] DMOSCOPE_ANYWHERE bool in_registers(const StarShape& shape, const SearchParameters& parameters) {
+  return kIsRatio<M> && shape.kind == StarShape::Kind::Fan && shape.triangles >= 4 && shape.triangles <= 7 && parameters.grid_points == 8;
+}
+
 /// Of a team's lanes only the first learns the verdict.
-template <Metric M, class Team>
+template <Metric M, class Team, Stars S>
 class FastVisit {
  public:
   using Verdict = visit_rules::Verdict;
@@ -35,29 +46,26 @@ class FastVisit {
   };
 
   /// `rank`: of a vertex whose star is not Alone.
-  constexpr FastVisit(const Task& task, Index rank, const Team& team)
+  DMOSCOPE_ANYWHERE FastVisit(const Task& task, Index rank, const Team& team)
       : task_(task), team_(team), shape_(task.shapes[rank]), others_(task.others + shape_.first), origin_(&task.ranked[rank].x) {}
 
-  [[nodiscard]] constexpr Outcome run() const {
-    if constexpr (kIsRatio<M>) {
-      if (shape_.kind == StarShape::Kind::Fan && task_.parameters.grid_points == static_cast<int>(kPoints)) {
-        switch (shape_.triangles) {  // the sizes that most stars have
+  [[nodiscard]] DMOSCOPE_ANYWHERE Outcome run() const {
+    if constexpr (kIsRatio<M> && S != Stars::Others) {
+      if (S == Stars::Fans || in_registers<M>(shape_, task_.parameters)) {
+        switch (shape_.triangles) {
           case 4:
             return visit_fan<4>();
           case 5:
             return visit_fan<5>();
           case 6:
             return visit_fan<6>();
-          case 7:
-            return visit_fan<7>();
-          case 8:
-            return visit_fan<8>();
           default:
-            break;
+            return visit_fan<7>();
         }
       }
     }
-    return visit_any();
+    if constexpr (S != Stars::Fans) return visit_any();
+    return {};
   }
 
  private:
@@ -65,11 +73,11 @@ class FastVisit {
   static constexpr bool kQuadrilaterals = formulas::kDefinedForQuadrilaterals<M, Vec2<float>>;
   static constexpr bool kBlind = visit_rules::kBlind<M, Vec2<float>>;
 
-  [[nodiscard]] constexpr Vec2<double> exact_point(std::size_t i) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<double> exact_point(std::size_t i) const {
     const double* at = &task_.ranked[others_[i]].x;
     return task_.frame.u_axis >= 0 ? task_.frame.offset<true>(at, origin_) : task_.frame.offset<false>(at, origin_);
   }
-  [[nodiscard]] constexpr Vec2<float> point(std::size_t i) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<float> point(std::size_t i) const {
     const Vec2<double> exact = exact_point(i);
     return {static_cast<float>(exact.x * task_.frame.inverse), static_cast<float>(exact.y * task_.frame.inverse)};
   }
@@ -77,19 +85,19 @@ class FastVisit {
   /// Width and height of the bounding box of points that are added one by one.
   class Box {
    public:
-    constexpr explicit Box(Vec2<float> first) : low_(first), high_(first) {}
-    constexpr void add(Vec2<float> p) {
+    DMOSCOPE_ANYWHERE explicit Box(Vec2<float> first) : low_(first), high_(first) {}
+    DMOSCOPE_ANYWHERE void add(Vec2<float> p) {
       low_ = {scalar::min(low_.x, p.x), scalar::min(low_.y, p.y)};
       high_ = {scalar::max(high_.x, p.x), scalar::max(high_.y, p.y)};
     }
-    [[nodiscard]] constexpr Vec2<float> size() const { return high_ - low_; }
+    [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<float> size() const { return high_ - low_; }
 
    private:
     Vec2<float> low_, high_;
   };
 
   template <std::size_t N>
-  [[nodiscard]] constexpr Outcome visit_fan() const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE Outcome visit_fan() const {
     FanStar<float, N> star;
     DMOSCOPE_UNROLL
     for (std::size_t i = 0; i < N; ++i) star.ring[i] = point(i);
@@ -107,7 +115,7 @@ class FastVisit {
   }
 
   /// A star of any kind that has a place in lanes.
-  [[nodiscard]] constexpr Outcome visit_any() const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE Outcome visit_any() const {
     std::array<StarTriangle<float>, kMaxFan> triangles;
     std::array<StarQuadrilateral<float>, kQuadrilaterals ? kMaxQuadrilaterals : 1> quadrilaterals;
     const Vec2<float> first = point(0);
@@ -141,7 +149,7 @@ class FastVisit {
     });
   }
 
-  [[nodiscard]] constexpr Candidate<float> search_by_rounds(const StarView<float>& star, Vec2<float> size) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE Candidate<float> search_by_rounds(const StarView<float>& star, Vec2<float> size) const {
     using Rounds = RatioSearch<float, 0, Tables::None, Team>;
     std::array<RatioForm<float>, Rounds::kMaxForms> forms;
     std::size_t count = 0;
@@ -158,13 +166,13 @@ class FastVisit {
   }
 
   template <class StarT>
-  [[nodiscard]] static constexpr auto objective(const StarT& star) {
+  [[nodiscard]] static DMOSCOPE_ANYWHERE auto objective(const StarT& star) {
     return Objective<M, false, float, Value::Rank, StarT>(star);
   }
 
   /// search(size): the best candidate of a grid over a box of that size.
   template <class StarT, class Search>
-  [[nodiscard]] constexpr Outcome decide(const StarT& star, Vec2<float> size, Search search) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE Outcome decide(const StarT& star, Vec2<float> size, Search search) const {
     const float extent = size.x + size.y;
     Outcome outcome;
     outcome.ready = objective(star)({0.0F, 0.0F}) > visit_rules::kLeastRank && extent > visit_rules::kSmallestExtent &&
@@ -179,14 +187,16 @@ class FastVisit {
     return outcome;
   }
 
-  [[nodiscard]] static constexpr float corners(const StarView<float>& star) { return visit_rules::smallest_corner(star, {0.0F, 0.0F}); }
+  [[nodiscard]] static DMOSCOPE_ANYWHERE float corners(const StarView<float>& star) {
+    return visit_rules::smallest_corner(star, {0.0F, 0.0F});
+  }
   template <std::size_t N>
-  [[nodiscard]] static constexpr float corners(const FanStar<float, N>& /*star*/) {
+  [[nodiscard]] static DMOSCOPE_ANYWHERE float corners(const FanStar<float, N>& /*star*/) {
     return 1e30F;
   }
 
   /// In double, at the very position that would be stored.
-  [[nodiscard]] constexpr Verdict judge(Vec2<double> step, float extent) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE Verdict judge(Vec2<double> step, float extent) const {
     Worth<M, false, double, Value::Rank> before, after;
     const auto take = [&](const auto& element) {
       before.take(element, {0.0, 0.0});

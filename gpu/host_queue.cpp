@@ -25,9 +25,12 @@ using Lanes = void (*)(const Task& task, std::size_t first, std::size_t last, st
 template <Metric M>
 Lanes lanes_of(Work work) {
   switch (work) {
-    case Work::Visit:
+    case Work::VisitFans:
+      return run_lanes<bodies::Visit<M, Stars::Fans>>;
+    case Work::VisitOthers:
+      return run_lanes<bodies::Visit<M, Stars::Others>>;
     case Work::VisitInTeam:
-      return run_lanes<bodies::Visit<M>>;
+      return run_lanes<bodies::Visit<M, Stars::All>>;
     case Work::Settle:
       return run_lanes<bodies::Settle<M>>;
     case Work::Judge:
@@ -40,6 +43,16 @@ Lanes lanes_of(Work work) {
       return run_lanes<bodies::Load>;
     case Work::Store:
       return run_lanes<bodies::Store>;
+    case Work::Shade:
+      return run_lanes<bodies::Shade>;
+    case Work::Count:
+      return run_lanes<bodies::Count>;
+    case Work::Project:
+      return run_lanes<bodies::Project>;
+    case Work::CopyShades:
+      return run_lanes<bodies::CopyShades>;
+    case Work::Pick:
+      return run_lanes<bodies::Pick>;
   }
   return nullptr;
 }
@@ -49,7 +62,7 @@ class Recorded final : public Queue::Recording {
   std::vector<std::function<void()>> steps;
 };
 
-class Host final : public HostQueue {
+class Host final : public HostQueue, public std::enable_shared_from_this<Host> {
  public:
   explicit Host(const HostDevice& device) : device_(device) {}
   ~Host() override {
@@ -79,7 +92,6 @@ class Host final : public HostQueue {
   void download(void* to, const void* from, std::size_t bytes) override {
     check_lost();
     std::memcpy(to, from, bytes);
-    counters().bytes_to_host += bytes;
   }
   void clear(void* memory, std::size_t bytes) override {
     enqueue([memory, bytes] { std::memset(memory, 0, bytes); });
@@ -100,6 +112,17 @@ class Host final : public HostQueue {
   void replay(Recording& recording) override {
     for (const auto& step : static_cast<Recorded&>(recording).steps) step();
   }
+
+  std::shared_ptr<Queue> sibling() const override { return std::const_pointer_cast<Host>(shared_from_this()); }
+  std::unique_ptr<Mark> mark() override {
+    check_lost();
+    return std::make_unique<Mark>();
+  }
+  void wait_for(const Mark& /*mark*/) override { check_lost(); }
+  std::unique_ptr<DeviceTarget> make_target(std::uint32_t /*point_buffer*/, std::uint32_t /*shade_buffer*/) override {
+    throw DeviceError("the host in a device's place writes no OpenGL buffers");
+  }
+  void draw(DeviceTarget& /*target*/, const Task& /*task*/) override {}
 
   std::size_t lanes_at_once() const noexcept override { return device_.lanes_at_once; }
   std::string description() const override { return "the host in a device's place"; }

@@ -11,15 +11,16 @@
 #include <vector>
 
 #include "core/quality/metric.h"
+#include "core/session/device_picture.h"
 #include "gpu/work.h"
 
 namespace dmoscope::gpu {
 
 struct Task;
 
-/// What has crossed to the host, and what is allocated: of a device, shared by its queues.
+/// Of a device, shared by its queues.
 struct Counters {
-  std::atomic<std::uint64_t> bytes_to_host{0};
+  std::atomic<std::uint64_t> bytes_to_host{0};  // of positions and element values, as those count who download them
   std::atomic<std::uint64_t> bytes_allocated{0};
 };
 
@@ -27,7 +28,6 @@ struct Counters {
 /// work; a device that was lost stays so.
 class Queue {
  public:
-  Queue() = default;
   Queue(const Queue&) = delete;
   Queue& operator=(const Queue&) = delete;
   virtual ~Queue() = default;
@@ -60,6 +60,27 @@ class Queue {
   [[nodiscard]] virtual std::unique_ptr<Recording> stop_recording() = 0;
   virtual void replay(Recording& recording) = 0;
 
+  /// Another queue of the same device, for another thread; work of the two is done in any order.
+  [[nodiscard]] virtual std::shared_ptr<Queue> sibling() const = 0;
+  /// A point in a queue's work that another queue of the device can wait for.
+  class Mark {
+   public:
+    Mark() = default;
+    Mark(const Mark&) = delete;
+    Mark& operator=(const Mark&) = delete;
+    virtual ~Mark() = default;
+  };
+  /// After all work so far.
+  [[nodiscard]] virtual std::unique_ptr<Mark> mark() = 0;
+  /// Work that is asked for from now on begins after what stands before the mark.
+  virtual void wait_for(const Mark& mark) = 0;
+
+  /// See DevicePicture::make_target().
+  [[nodiscard]] virtual std::unique_ptr<DeviceTarget> make_target(std::uint32_t point_buffer, std::uint32_t shade_buffer) = 0;
+  /// Fills the target with a picture's points and shades: Work::Project and Work::CopyShades, with task.points and task.drawn_shades in
+  /// OpenGL's buffers.
+  virtual void draw(DeviceTarget& target, const Task& task) = 0;
+
   /// How many lanes work at once: fewer vertices are better visited by teams.
   [[nodiscard]] virtual std::size_t lanes_at_once() const noexcept = 0;
   /// "NVIDIA H200, compute capability 9.0, 139.8 GiB".
@@ -67,10 +88,11 @@ class Queue {
   [[nodiscard]] Counters& counters() const noexcept { return *counters_; }
 
  protected:
-  explicit Queue(std::shared_ptr<Counters> counters) : counters_(std::move(counters)) {}
+  explicit Queue(std::shared_ptr<Counters> counters = std::make_shared<Counters>()) : counters_(std::move(counters)) {}
+  [[nodiscard]] const std::shared_ptr<Counters>& shared_counters() const noexcept { return counters_; }
 
  private:
-  std::shared_ptr<Counters> counters_ = std::make_shared<Counters>();
+  std::shared_ptr<Counters> counters_;
 };
 
 /// Memory of a device for `size` objects of a trivial type.

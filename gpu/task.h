@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/base/anywhere.h"
 #include "core/mesh/planar_view.h"
 #include "core/mesh/position_view.h"
 #include "core/search/parameters.h"
@@ -53,11 +54,20 @@ struct Task {
   Part* parts = nullptr;
   Statistics* statistics = nullptr;
 
-  Vec3* positions = nullptr;  // by vertices: what is copied from and to the host
+  Vec3* positions = nullptr;  // by vertices: what is copied from and to the host, or a picture's
+
+  // Of a picture. counts: one for each place of histogram_slot().
+  float* shades = nullptr;
+  std::uint32_t* counts = nullptr;
+  Vec2<double> origin{};
+  Vec2<float>* points = nullptr;  // less origin
+  float* drawn_shades = nullptr;
+  const Index* wanted = nullptr;
+  Vec3* picked = nullptr;
 
   std::size_t first = 0;  // what a launch's lane 0 works on
 };
 
-[[nodiscard]] constexpr PositionView positions_of(const Task& task) { return {task.ranked, task.rank_of_vertex}; }
+[[nodiscard]] DMOSCOPE_ANYWHERE PositionView positions_of(const Task& task) { return {task.ranked, task.rank_of_vertex}; }
 
 }  // namespace dmoscope::gpu

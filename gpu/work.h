@@ -4,14 +4,20 @@
 namespace dmoscope::gpu {
 
 enum class Work {
-  Visit,        // one vertex a lane: the fast search of rank first + i
-  VisitInTeam,  // the same, one vertex a team of lanes: for classes too small to fill the device
+  VisitFans,    // one vertex a lane: the fast search of rank first + i, where its star is one of Stars::Fans
+  VisitOthers,  // the same, where it is not
+  VisitInTeam,  // the same for all stars, one vertex a team of lanes: for classes too small to fill the device
   Settle,       // the deferred visits, shared among all lanes
   Judge,        // one element a lane: its quality and whether it is inverted
   Sum,          // one part of the statistics a lane
   Total,        // one lane: the statistics out of their parts
   Load,         // one vertex a lane: positions -> ranked, and awake
   Store,        // one vertex a lane: ranked -> positions
+  Shade,        // one element a lane: what the renderer colours it by
+  Count,        // one element a lane: the histogram
+  Project,      // one vertex a lane: positions -> points in the plane
+  CopyShades,   // one element a lane: shades -> drawn_shades
+  Pick,         // one of some vertices a lane: positions -> picked
 };
 
 }  // namespace dmoscope::gpu

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "core/base/anywhere.h"
 #include "core/mesh/plane.h"
 #include "core/mesh/topology.h"
 
@@ -17,10 +18,10 @@ struct PlanarView {
   const double* reference_measure = nullptr;  // see InputMesh
   Plane plane;
 
-  [[nodiscard]] constexpr std::span<const Incidence> star(Index vertex) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE std::span<const Incidence> star(Index vertex) const {
     return {incidences + star_offsets[vertex], incidences + star_offsets[vertex + 1]};
   }
-  [[nodiscard]] constexpr std::span<const Index> corners_of(Index element) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE std::span<const Index> corners_of(Index element) const {
     return {corners + corner_offsets[element], corners + corner_offsets[element + 1]};
   }
 };

@@ -1,6 +1,7 @@
 #pragma once
 // The plane of a planar mesh, and the way between it and space.
 
+#include "core/base/anywhere.h"
 #include "core/base/vec.h"
 #include "core/mesh/mesh.h"
 
@@ -11,8 +12,8 @@ namespace dmoscope {
 struct Plane {
   Vec3 u{1, 0, 0}, v{0, 1, 0}, normal{0, 0, 1};
   /// Coordinates in the plane of a difference of two positions. Only differences: offsets keep their digits far from the origin.
-  [[nodiscard]] constexpr Vec2<double> project(Vec3 difference) const { return {dot(difference, u), dot(difference, v)}; }
-  [[nodiscard]] constexpr Vec3 lift(Vec2<double> offset) const { return offset.x * u + offset.y * v; }
+  [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<double> project(Vec3 difference) const { return {dot(difference, u), dot(difference, v)}; }
+  [[nodiscard]] DMOSCOPE_ANYWHERE Vec3 lift(Vec2<double> offset) const { return offset.x * u + offset.y * v; }
 };
 
 /// Which coordinates (0 x, 1 y, 2 z) u and v of a plane are, exactly; -1 and -1 where it is parallel to no coordinate plane. One component

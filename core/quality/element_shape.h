@@ -4,6 +4,7 @@
 #include <limits>
 #include <span>
 
+#include "core/base/anywhere.h"
 #include "core/quality/formulas.h"
 #include "core/quality/quality.h"
 
@@ -26,7 +27,7 @@ struct SurfaceVector {
 /// The shape of a planar triangle or quadrilateral (by the number of its corners) from differences from its first corner, so that nothing
 /// is lost far from the origin: visitor(Triangle) or visitor(Quadrilateral). at(vertex): its position.
 template <class At, class Visitor>
-constexpr auto visit_planar(const Plane& plane, std::span<const Index> corners, At at, Visitor visitor) {
+DMOSCOPE_ANYWHERE auto visit_planar(const Plane& plane, std::span<const Index> corners, At at, Visitor visitor) {
   using V = Vec2<double>;
   const Vec3 origin = at(corners[0]);
   const V b = plane.project(at(corners[1]) - origin), c = plane.project(at(corners[2]) - origin);
@@ -59,11 +60,11 @@ template <class Result, class Visitor>
 /// The metric of a triangle or quadrilateral of vectors V; NaN where it is not defined. Never -0, of which double and packs of it choose
 /// otherwise between equals.
 template <Metric M, class V>
-[[nodiscard]] constexpr formulas::RealOf<V> evaluate(const formulas::Triangle<V>& t) {
+[[nodiscard]] DMOSCOPE_ANYWHERE formulas::RealOf<V> evaluate(const formulas::Triangle<V>& t) {
   return formulas::Formula<M>::triangle(t) + formulas::RealOf<V>(0.0);
 }
 template <Metric M, class V>
-[[nodiscard]] constexpr formulas::RealOf<V> evaluate(const formulas::Quadrilateral<V>& q) {
+[[nodiscard]] DMOSCOPE_ANYWHERE formulas::RealOf<V> evaluate(const formulas::Quadrilateral<V>& q) {
   if constexpr (formulas::kDefinedForQuadrilaterals<M, V>)
     return formulas::Formula<M>::quadrilateral(q) + formulas::RealOf<V>(0.0);
   else

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/anywhere.h"
 #include "core/base/vec.h"
 #include "core/quality/metric.h"
 #include "core/quality/scalar.h"
@@ -32,7 +33,7 @@ template <class V>
 struct Triangle {
   V ab, bc, ca;
   RealOf<V> twice_area;
-  constexpr Triangle(V a, V b, V c) : ab(b - a), bc(c - b), ca(a - c), twice_area(cross(b - a, c - a)) {}
+  DMOSCOPE_ANYWHERE Triangle(V a, V b, V c) : ab(b - a), bc(c - b), ca(a - c), twice_area(cross(b - a, c - a)) {}
 };
 
 /// Edge vectors and the corner Jacobians a_i (cross product of the edges that leave corner i) of the quadrilateral a, b, c, d.
@@ -41,12 +42,12 @@ struct Quadrilateral {
   using R = RealOf<V>;
   V edge[4];
   R jacobian[4];
-  constexpr Quadrilateral(V a, V b, V c, V d) : edge{b - a, c - b, d - c, a - d} {
+  DMOSCOPE_ANYWHERE Quadrilateral(V a, V b, V c, V d) : edge{b - a, c - b, d - c, a - d} {
     for (int i = 0; i < 4; ++i) jacobian[i] = cross(edge[(i + 3) % 4], edge[i]);
   }
   /// Least of f(i, previous edge, next edge) over the corners.
   template <class F>
-  constexpr R least(F f) const {
+  DMOSCOPE_ANYWHERE R least(F f) const {
     R result = f(0, edge[3], edge[0]);
     for (int i = 1; i < 4; ++i) result = min(result, f(i, edge[i - 1], edge[i]));
     return result;
@@ -55,36 +56,36 @@ struct Quadrilateral {
 
 /// Smallest signed corner Jacobian (twice the area of the corner's triangle). Inverted means <= 0.
 template <class V>
-constexpr RealOf<V> smallest_jacobian(const Triangle<V>& t) {
+DMOSCOPE_ANYWHERE RealOf<V> smallest_jacobian(const Triangle<V>& t) {
   return t.twice_area;
 }
 template <class V>
-constexpr RealOf<V> smallest_jacobian(const Quadrilateral<V>& q) {
+DMOSCOPE_ANYWHERE RealOf<V> smallest_jacobian(const Quadrilateral<V>& q) {
   return min(min(q.jacobian[0], q.jacobian[1]), min(q.jacobian[2], q.jacobian[3]));
 }
 
 /// Interior angle between the edges u and v that leave a corner, 0 to pi. `area2`: |u x v|, the same at all three corners.
 template <class V>
-constexpr RealOf<V> angle(RealOf<V> area2, V u, V v) {
+DMOSCOPE_ANYWHERE RealOf<V> angle(RealOf<V> area2, V u, V v) {
   return atan2(area2, dot(u, v));
 }
 
 /// The least of three such angles, from the largest of the three u . v: one angle to compute.
 template <class R>
-constexpr R least_angle(R area2, R dot0, R dot1, R dot2) {
+DMOSCOPE_ANYWHERE R least_angle(R area2, R dot0, R dot1, R dot2) {
   return atan2(area2, scalar::max3(dot0, dot1, dot2));
 }
 
 /// sign(A) sin^2 of the least angle, which the two longest edges enclose.
 template <class V>
-constexpr RealOf<V> signed_square_of_sine(const Triangle<V>& t) {
+DMOSCOPE_ANYWHERE RealOf<V> signed_square_of_sine(const Triangle<V>& t) {
   const auto aa = dot(t.ab, t.ab), bb = dot(t.bc, t.bc), cc = dot(t.ca, t.ca);
   return scalar::ratio(t.twice_area * abs(t.twice_area), scalar::max3(aa * bb, bb * cc, cc * aa));
 }
 
 /// atan2(y, x) in right angles, 0 to 2, for y >= 0. Minimax polynomial, absolute error below 3e-8.
 template <class R>
-constexpr R right_angles(R y, R x) {
+DMOSCOPE_ANYWHERE R right_angles(R y, R x) {
   constexpr double kCoefficients[] = {-0.002581223011, 0.01391841026, -0.03559491945, 0.0613841536,
                                       -0.08854509287,  0.1269837822,  -0.212184484,   0.6366193494};
   const R width = abs(x);
@@ -99,7 +100,7 @@ constexpr R right_angles(R y, R x) {
 }
 
 template <class V>
-constexpr RealOf<V> squared_length_sum(const Triangle<V>& t) {
+DMOSCOPE_ANYWHERE RealOf<V> squared_length_sum(const Triangle<V>& t) {
   return dot(t.ab, t.ab) + dot(t.bc, t.bc) + dot(t.ca, t.ca);
 }
 
@@ -111,25 +112,25 @@ struct Formula;
 
 /// The metric itself.
 template <Metric M, class V>
-constexpr RealOf<V> metric(const Triangle<V>& t) {
+DMOSCOPE_ANYWHERE RealOf<V> metric(const Triangle<V>& t) {
   return Formula<M>::triangle(t);
 }
 template <Metric M, class V>
-constexpr RealOf<V> metric(const Quadrilateral<V>& q) {
+DMOSCOPE_ANYWHERE RealOf<V> metric(const Quadrilateral<V>& q) {
   return Formula<M>::quadrilateral(q);
 }
 
 /// What the fast search compares instead of the metric: one increasing function of it for all elements, 0 where it is 0, that costs
 /// less, so that the same candidate wins. How exact it is: rank_doubt().
 template <Metric M, class V>
-constexpr RealOf<V> rank(const Triangle<V>& t) {
+DMOSCOPE_ANYWHERE RealOf<V> rank(const Triangle<V>& t) {
   if constexpr (requires { Formula<M>::rank_triangle(t); })
     return Formula<M>::rank_triangle(t);
   else
     return metric<M>(t);
 }
 template <Metric M, class V>
-constexpr RealOf<V> rank(const Quadrilateral<V>& q) {
+DMOSCOPE_ANYWHERE RealOf<V> rank(const Quadrilateral<V>& q) {
   if constexpr (requires { Formula<M>::rank_quadrilateral(q); })
     return Formula<M>::rank_quadrilateral(q);
   else
@@ -141,12 +142,12 @@ template <>
 struct Formula<Metric::MeanRatio> {
   static constexpr bool kSeesInversion = true;
   template <class V>
-  static constexpr RealOf<V> triangle(const Triangle<V>& t) {
+  static DMOSCOPE_ANYWHERE RealOf<V> triangle(const Triangle<V>& t) {
     using R = RealOf<V>;
     return scalar::ratio(scalar::constant<R>(2.0 * sqrt3) * t.twice_area, squared_length_sum(t));
   }
   template <class V>
-  static constexpr RealOf<V> quadrilateral(const Quadrilateral<V>& q) {
+  static DMOSCOPE_ANYWHERE RealOf<V> quadrilateral(const Quadrilateral<V>& q) {
     using R = RealOf<V>;
     return q.least([&](int i, V u, V v) { return scalar::ratio(R(2) * q.jacobian[i], dot(u, u) + dot(v, v)); });
   }
@@ -157,11 +158,11 @@ template <>
 struct Formula<Metric::MeanRatioArea> {
   static constexpr bool kSeesInversion = false;
   template <class V>
-  static constexpr RealOf<V> triangle(const Triangle<V>& t) {
+  static DMOSCOPE_ANYWHERE RealOf<V> triangle(const Triangle<V>& t) {
     return Formula<Metric::MeanRatio>::triangle(t);
   }
   template <class V>
-  static constexpr RealOf<V> quadrilateral(const Quadrilateral<V>& q) {
+  static DMOSCOPE_ANYWHERE RealOf<V> quadrilateral(const Quadrilateral<V>& q) {
     using R = RealOf<V>;
     const R sum = dot(q.edge[0], q.edge[0]) + dot(q.edge[1], q.edge[1]) + dot(q.edge[2], q.edge[2]) + dot(q.edge[3], q.edge[3]);
     return scalar::ratio(R(2) * (q.jacobian[1] + q.jacobian[3]), sum);  // 2 A = the two triangles at opposite corners
@@ -173,7 +174,7 @@ template <>
 struct Formula<Metric::RadiusRatio> {
   static constexpr bool kSeesInversion = true;
   template <class V>
-  static constexpr RealOf<V> triangle(const Triangle<V>& t) {
+  static DMOSCOPE_ANYWHERE RealOf<V> triangle(const Triangle<V>& t) {
     using R = RealOf<V>;
     const R a = sqrt(dot(t.ab, t.ab)), b = sqrt(dot(t.bc, t.bc)), c = sqrt(dot(t.ca, t.ca));
     return scalar::ratio(R(4) * t.twice_area * abs(t.twice_area), a * b * c * (a + b + c));
@@ -185,7 +186,7 @@ template <>
 struct Formula<Metric::MinAngle> {
   static constexpr bool kSeesInversion = true;
   template <class V>
-  static constexpr RealOf<V> triangle(const Triangle<V>& t) {
+  static DMOSCOPE_ANYWHERE RealOf<V> triangle(const Triangle<V>& t) {
     using R = RealOf<V>;
     const R area2 = abs(t.twice_area);
     const R least = least_angle(area2, dot(t.ab, V{} - t.ca), dot(t.bc, V{} - t.ab), dot(t.ca, V{} - t.bc));
@@ -193,7 +194,7 @@ struct Formula<Metric::MinAngle> {
   }
   /// The least angle is at most 60 degrees, where its sine still rises.
   template <class V>
-  static constexpr RealOf<V> rank_triangle(const Triangle<V>& t) {
+  static DMOSCOPE_ANYWHERE RealOf<V> rank_triangle(const Triangle<V>& t) {
     return signed_square_of_sine(t);
   }
 };
@@ -203,7 +204,7 @@ template <>
 struct Formula<Metric::MaxAngle> {
   static constexpr bool kSeesInversion = true;
   template <class V>
-  static constexpr RealOf<V> triangle(const Triangle<V>& t) {
+  static DMOSCOPE_ANYWHERE RealOf<V> triangle(const Triangle<V>& t) {
     using R = RealOf<V>;
     const R area2 = abs(t.twice_area);
     // pi - theta is the angle to the edge that arrives at the corner: nothing cancels near theta = pi.
@@ -212,7 +213,7 @@ struct Formula<Metric::MaxAngle> {
   }
   /// The tangent of half the outer angle: |u x v| / (|u| |v| - u . v).
   template <class V>
-  static constexpr RealOf<V> rank_triangle(const Triangle<V>& t) {
+  static DMOSCOPE_ANYWHERE RealOf<V> rank_triangle(const Triangle<V>& t) {
     const auto a = sqrt(dot(t.ab, t.ab)), b = sqrt(dot(t.bc, t.bc)), c = sqrt(dot(t.ca, t.ca));
     return scalar::ratio(t.twice_area, scalar::max3(a * c + dot(t.ab, t.ca), b * a + dot(t.bc, t.ab), c * b + dot(t.ca, t.bc)));
   }
@@ -223,7 +224,7 @@ template <>
 struct Formula<Metric::Rectangularity> {
   static constexpr bool kSeesInversion = true;
   template <class V>
-  static constexpr RealOf<V> triangle(const Triangle<V>& t) {
+  static DMOSCOPE_ANYWHERE RealOf<V> triangle(const Triangle<V>& t) {
     using R = RealOf<V>;
     const R area2 = abs(t.twice_area);
     const R a = sqrt(dot(t.ab, t.ab)), b = sqrt(dot(t.bc, t.bc)), c = sqrt(dot(t.ca, t.ca));
@@ -237,7 +238,7 @@ struct Formula<Metric::Rectangularity> {
   }
   /// The metric times its absolute value, with two angles by a polynomial and the third by their sum.
   template <class V>
-  static constexpr RealOf<V> rank_triangle(const Triangle<V>& t) {
+  static DMOSCOPE_ANYWHERE RealOf<V> rank_triangle(const Triangle<V>& t) {
     using R = RealOf<V>;
     const R area2 = abs(t.twice_area);
     const R aa = dot(t.ab, t.ab), bb = dot(t.bc, t.bc), cc = dot(t.ca, t.ca);
@@ -256,7 +257,7 @@ template <>
 struct Formula<Metric::ScaledJacobian> {
   static constexpr bool kSeesInversion = true;
   template <class V>
-  static constexpr RealOf<V> triangle(const Triangle<V>& t) {
+  static DMOSCOPE_ANYWHERE RealOf<V> triangle(const Triangle<V>& t) {
     using R = RealOf<V>;
     const R aa = dot(t.ab, t.ab), bb = dot(t.bc, t.bc), cc = dot(t.ca, t.ca);
     const R product = sqrt(scalar::max3(aa * bb, bb * cc, cc * aa));
@@ -264,15 +265,15 @@ struct Formula<Metric::ScaledJacobian> {
   }
   /// The metric times its absolute value.
   template <class V>
-  static constexpr RealOf<V> rank_triangle(const Triangle<V>& t) {
+  static DMOSCOPE_ANYWHERE RealOf<V> rank_triangle(const Triangle<V>& t) {
     return scalar::constant<RealOf<V>>(4.0 / 3.0) * signed_square_of_sine(t);
   }
   template <class V>
-  static constexpr RealOf<V> quadrilateral(const Quadrilateral<V>& q) {
+  static DMOSCOPE_ANYWHERE RealOf<V> quadrilateral(const Quadrilateral<V>& q) {
     return q.least([&](int i, V u, V v) { return scalar::ratio(q.jacobian[i], sqrt(dot(u, u) * dot(v, v))); });
   }
   template <class V>
-  static constexpr RealOf<V> rank_quadrilateral(const Quadrilateral<V>& q) {
+  static DMOSCOPE_ANYWHERE RealOf<V> rank_quadrilateral(const Quadrilateral<V>& q) {
     return q.least([&](int i, V u, V v) { return scalar::ratio(q.jacobian[i] * abs(q.jacobian[i]), dot(u, u) * dot(v, v)); });
   }
 };
@@ -282,7 +283,7 @@ template <>
 struct Formula<Metric::AspectRatio> {
   static constexpr bool kSeesInversion = true;
   template <class V>
-  static constexpr RealOf<V> triangle(const Triangle<V>& t) {
+  static DMOSCOPE_ANYWHERE RealOf<V> triangle(const Triangle<V>& t) {
     using R = RealOf<V>;
     const R a = sqrt(dot(t.ab, t.ab)), b = sqrt(dot(t.bc, t.bc)), c = sqrt(dot(t.ca, t.ca));
     return scalar::ratio(scalar::constant<R>(2.0 * sqrt3) * t.twice_area, scalar::max3(a, b, c) * (a + b + c));
@@ -292,7 +293,7 @@ struct Formula<Metric::AspectRatio> {
 /// By how much another rank in double must differ from `rank` (from 1e-4 on) for it to be certain which element is better. Rectangularity's
 /// polynomial errs by less than 5e-8 an angle, which changes its square by less than 1e-7 of the root; the others err by a few roundings.
 template <Metric M>
-[[gnu::always_inline]] constexpr double rank_doubt(double rank) {
+[[gnu::always_inline]] DMOSCOPE_ANYWHERE double rank_doubt(double rank) {
   if constexpr (M == Metric::Rectangularity)
     return 3e-7 * std::sqrt(rank);
   else

@@ -5,70 +5,72 @@
 #include <cmath>
 #include <concepts>
 
+#include "core/base/anywhere.h"
+
 namespace dmoscope::scalar {
 
 /// A constant of the scalar from a double: Constant<R>::of(0.5).
 template <class R>
 struct Constant {
-  static constexpr R of(double value) { return static_cast<R>(value); }
+  static DMOSCOPE_ANYWHERE R of(double value) { return static_cast<R>(value); }
 };
 template <class R>
-[[nodiscard]] constexpr R constant(double value) {
+[[nodiscard]] DMOSCOPE_ANYWHERE R constant(double value) {
   return Constant<R>::of(value);
 }
 
 template <std::floating_point R>
-[[nodiscard]] constexpr R select(bool condition, R yes, R no) {
+[[nodiscard]] DMOSCOPE_ANYWHERE R select(bool condition, R yes, R no) {
   return condition ? yes : no;
 }
 /// Which zero it is where both are one, and what becomes of NaN, differs between processors: nothing may depend on it.
 template <std::floating_point R>
-[[nodiscard]] constexpr R min(R a, R b) {
+[[nodiscard]] DMOSCOPE_ANYWHERE R min(R a, R b) {
 #if defined(__CUDA_ARCH__)
   if constexpr (sizeof(R) == sizeof(float)) return ::fminf(a, b);  // one instruction instead of two
 #endif
   return b < a ? b : a;
 }
 template <std::floating_point R>
-[[nodiscard]] constexpr R max(R a, R b) {
+[[nodiscard]] DMOSCOPE_ANYWHERE R max(R a, R b) {
 #if defined(__CUDA_ARCH__)
   if constexpr (sizeof(R) == sizeof(float)) return ::fmaxf(a, b);
 #endif
   return a < b ? b : a;
 }
 template <std::floating_point R>
-[[nodiscard]] constexpr R abs(R a) {
+[[nodiscard]] DMOSCOPE_ANYWHERE R abs(R a) {
   return std::fabs(a);
 }
 template <std::floating_point R>
-[[nodiscard]] constexpr R sqrt(R a) {
+[[nodiscard]] DMOSCOPE_ANYWHERE R sqrt(R a) {
   return std::sqrt(a);
 }
 template <std::floating_point R>
-[[nodiscard]] constexpr R atan2(R y, R x) {
+[[nodiscard]] DMOSCOPE_ANYWHERE R atan2(R y, R x) {
   return std::atan2(y, x);
 }
 
 /// Does the condition hold in any slot?
-[[nodiscard]] constexpr bool any(bool condition) { return condition; }
+[[nodiscard]] DMOSCOPE_ANYWHERE bool any(bool condition) { return condition; }
 /// a + b, the same bits; packs let their multiplier do it where the adders are the bottleneck: Sum<R>::of(a, b).
 template <class R>
 struct Sum {
-  static constexpr R of(R a, R b) { return a + b; }
+  static DMOSCOPE_ANYWHERE R of(R a, R b) { return a + b; }
 };
 
 template <class R>
-[[nodiscard]] constexpr R max3(R a, R b, R c) {
+[[nodiscard]] DMOSCOPE_ANYWHERE R max3(R a, R b, R c) {
   return max(max(a, b), c);
 }
 /// numerator / denominator, and 0 where the denominator is 0: an element shrunk to a point has quality 0, not NaN.
 template <class R>
-[[nodiscard]] constexpr R ratio(R numerator, R denominator) {
+[[nodiscard]] DMOSCOPE_ANYWHERE R ratio(R numerator, R denominator) {
   return select(denominator > R(0), numerator / select(denominator > R(0), denominator, R(1)), R(0));
 }
 /// -1, 0 or 1.
 template <class R>
-[[nodiscard]] constexpr R sign(R a) {
+[[nodiscard]] DMOSCOPE_ANYWHERE R sign(R a) {
   return select(a > R(0), R(1), select(a < R(0), R(-1), R(0)));
 }
 

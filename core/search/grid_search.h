@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "core/base/anywhere.h"
 #include "core/quality/formulas.h"
 #include "core/search/parameters.h"
 #include "core/search/star.h"
@@ -24,11 +25,12 @@ class Worth {
  public:
   static constexpr bool kQuadrilaterals = formulas::kDefinedForQuadrilaterals<M, Vec2<Real>>;
 
-  constexpr void take(const StarTriangle<Real>& t, Vec2<Real> p) { take(formulas::Triangle<Vec2<Real>>(p, t.b, t.c), t.reference); }
-  constexpr void take(const StarQuadrilateral<Real>& q, Vec2<Real> p) {
+  DMOSCOPE_ANYWHERE Worth() : quality_(scalar::constant<Real>(std::numeric_limits<float>::max())), jacobian_(quality_) {}
+  DMOSCOPE_ANYWHERE void take(const StarTriangle<Real>& t, Vec2<Real> p) { take(formulas::Triangle<Vec2<Real>>(p, t.b, t.c), t.reference); }
+  DMOSCOPE_ANYWHERE void take(const StarQuadrilateral<Real>& q, Vec2<Real> p) {
     take(formulas::Quadrilateral<Vec2<Real>>(p, q.b, q.c, q.d), q.reference);
   }
-  [[nodiscard]] constexpr Real value() const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE Real value() const {
     using scalar::select;
     if constexpr (kNeedsJacobian) return select(jacobian_ > Real(0), quality_, jacobian_);
     return quality_;
@@ -38,30 +40,29 @@ class Worth {
   static constexpr bool kNeedsJacobian = Untangling || !formulas::Formula<M>::kSeesInversion;
 
   template <class Shape>
-  constexpr void take(const Shape& shape, [[maybe_unused]] Real reference) {
+  DMOSCOPE_ANYWHERE void take(const Shape& shape, [[maybe_unused]] Real reference) {
     using scalar::min;
     quality_ = min(quality_, value(shape));
     if constexpr (kNeedsJacobian) jacobian_ = min(jacobian_, formulas::smallest_jacobian(shape) / reference);
   }
   template <class Shape>
-  [[nodiscard]] static constexpr Real value(const Shape& shape) {
+  [[nodiscard]] static DMOSCOPE_ANYWHERE Real value(const Shape& shape) {
     if constexpr (V == Value::Rank)
       return formulas::rank<M>(shape);
     else
       return formulas::metric<M>(shape);
   }
 
-  Real quality_ = scalar::constant<Real>(std::numeric_limits<float>::max());
-  Real jacobian_ = quality_;
+  Real quality_, jacobian_;
 };
 
 /// What is maximised: the worth of a star with its vertex at `p`. StarT: StarView or what else has its for_each().
 template <Metric M, bool Untangling, class Real, Value V = Value::Metric, class StarT = StarView<Real>>
 class Objective {
  public:
-  explicit constexpr Objective(StarT star) : star_(star) {}
+  explicit DMOSCOPE_ANYWHERE Objective(StarT star) : star_(star) {}
 
-  [[nodiscard]] constexpr Real operator()(Vec2<Real> p) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE Real operator()(Vec2<Real> p) const {
     using At = Worth<M, Untangling, Real, V>;
     At worth;
     star_.template for_each<At::kQuadrilaterals>([&worth, p](const auto& element) { worth.take(element, p); });
@@ -85,10 +86,12 @@ struct CandidateGrid {
   Vec2<Real> centre{};
   Vec2<Real> size{};
   int points = 0;
-  [[nodiscard]] constexpr Vec2<Real> at(int i, int j) const { return {coordinate(centre.x, size.x, i), coordinate(centre.y, size.y, j)}; }
+  [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<Real> at(int i, int j) const {
+    return {coordinate(centre.x, size.x, i), coordinate(centre.y, size.y, j)};
+  }
 
  private:
-  [[nodiscard]] constexpr Real coordinate(Real middle, Real width, int i) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE Real coordinate(Real middle, Real width, int i) const {
     return middle + width * (scalar::constant<Real>(i) / scalar::constant<Real>(points - 1) - Real(0.5F));
   }
 };
@@ -96,14 +99,14 @@ struct CandidateGrid {
 /// Does nothing at each step of the search; grid inspection passes one that records.
 struct NoTrace {
   template <class Real>
-  constexpr void level(const CandidateGrid<Real>&) {}
+  DMOSCOPE_ANYWHERE void level(const CandidateGrid<Real>&) {}
   template <class Real>
-  constexpr void candidate(int /*index*/, Vec2<Real> /*offset*/, Real /*objective*/) {}
+  DMOSCOPE_ANYWHERE void candidate(int /*index*/, Vec2<Real> /*offset*/, Real /*objective*/) {}
 };
 
 /// The best of a team's lanes; among equals the one of lowest index.
 template <class Real, class Team>
-[[nodiscard]] constexpr Candidate<Real> best_of_team(const Team& team, const Candidate<Real>& mine, int index) {
+[[nodiscard]] DMOSCOPE_ANYWHERE Candidate<Real> best_of_team(const Team& team, const Candidate<Real>& mine, int index) {
   struct Found {
     Candidate<Real> candidate;
     int index;
@@ -121,8 +124,8 @@ template <class Real, class Team>
 /// only a strictly better candidate replaces it, so ties go to the earlier level and the lower index. Grids after the first are
 /// centred on the best position so far, `omega` times 2 / (n - 1) as large as the one before (paper eq. 5).
 template <class Real, class ObjectiveAt, class Trace = NoTrace, class Team = Solo>
-[[nodiscard]] constexpr Candidate<Real> grid_search(const ObjectiveAt& objective, Vec2<Real> box, const SearchParameters& parameters,
-                                                    Trace&& trace = {}, const Team& team = {}) {
+[[nodiscard]] DMOSCOPE_ANYWHERE Candidate<Real> grid_search(const ObjectiveAt& objective, Vec2<Real> box,
+                                                            const SearchParameters& parameters, Trace&& trace = {}, const Team& team = {}) {
   using scalar::select;
   Candidate<Real> best{{}, objective(Vec2<Real>{})};
   double omega = parameters.omega;

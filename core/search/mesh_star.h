@@ -3,8 +3,10 @@
 
 #include <cmath>
 
+#include "core/base/anywhere.h"
 #include "core/mesh/planar_view.h"
 #include "core/mesh/position_view.h"
+#include "core/quality/scalar.h"
 #include "core/search/star.h"
 
 namespace dmoscope {
@@ -13,7 +15,7 @@ namespace dmoscope {
 /// those who look often.
 class MeshStar {
  public:
-  constexpr MeshStar(const PlanarView& mesh, PositionView positions, Index vertex)
+  DMOSCOPE_ANYWHERE MeshStar(const PlanarView& mesh, PositionView positions, Index vertex)
       : mesh_(mesh), positions_(positions), vertex_(vertex), origin_(positions[vertex]) {
     Vec2<double> low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
     for (const Incidence& at : mesh_.star(vertex_)) {
@@ -33,13 +35,13 @@ class MeshStar {
   }
 
   /// Width and height of the bounding box of the other vertices, in units of scale().
-  [[nodiscard]] constexpr Vec2<double> box() const { return box_; }
+  [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<double> box() const { return box_; }
   /// A power of two, in mesh units: the largest offset lies in [1, 2) of it.
-  [[nodiscard]] constexpr double scale() const { return scale_; }
+  [[nodiscard]] DMOSCOPE_ANYWHERE double scale() const { return scale_; }
 
   /// See StarView; in the order of the elements.
   template <bool Quadrilaterals, class F>
-  constexpr void for_each(F f) const {
+  DMOSCOPE_ANYWHERE void for_each(F f) const {
     for (const Incidence& at : mesh_.star(vertex_)) {
       const auto corners = mesh_.corners_of(at.element);
       const double reference = mesh_.reference_measure[at.element] * inverse_ * inverse_;
@@ -53,10 +55,10 @@ class MeshStar {
 
  private:
   /// Of the corner `i` places after the vertex.
-  [[nodiscard]] constexpr Vec2<double> offset(std::span<const Index> corners, Index corner, std::size_t i) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<double> offset(std::span<const Index> corners, Index corner, std::size_t i) const {
     return mesh_.plane.project(positions_[corners[(corner + i) % corners.size()]] - origin_);
   }
-  [[nodiscard]] constexpr Vec2<double> scaled(Vec2<double> p) const { return {p.x * inverse_, p.y * inverse_}; }
+  [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<double> scaled(Vec2<double> p) const { return {p.x * inverse_, p.y * inverse_}; }
 
   PlanarView mesh_;
   PositionView positions_;
@@ -67,17 +69,6 @@ class MeshStar {
 };
 
 /// Fills `out` (its vectors are reused). A star shrunk to a point has an empty box.
-inline void gather_star(const MeshStar& star, Star<double>& out) {
-  struct Gatherer {
-    Star<double>& out;
-    void operator()(const StarTriangle<double>& t) const { out.triangles.push_back(t); }
-    void operator()(const StarQuadrilateral<double>& q) const { out.quadrilaterals.push_back(q); }
-  };
-  out.triangles.clear();
-  out.quadrilaterals.clear();
-  out.box = star.box();
-  out.scale = star.scale();
-  star.for_each<true>(Gatherer{out});
-}
+void gather_star(const MeshStar& star, Star<double>& out);
 
 }  // namespace dmoscope

@@ -2,6 +2,7 @@
 // Metrics of ratio form: at a candidate p of a star's vertex each element's metric is the least of a few fractions N(p) / S(p) with N
 // affine in p and S(p) = s0 + sx x + sy y + s2 |p|^2 > 0.
 
+#include "core/base/anywhere.h"
 #include "core/quality/formulas.h"
 #include "core/search/star.h"
 
@@ -25,7 +26,7 @@ namespace ratio_form {
 
 /// Twice the area of the triangle p, b, c: b x c + p x (b - c).
 template <class R>
-constexpr void set_area(RatioForm<R>& form, Vec2<R> b, Vec2<R> c, R factor) {
+DMOSCOPE_ANYWHERE void set_area(RatioForm<R>& form, Vec2<R> b, Vec2<R> c, R factor) {
   form.n0 = factor * cross(b, c);
   form.nx = factor * (b.y - c.y);
   form.ny = factor * (c.x - b.x);
@@ -33,7 +34,7 @@ constexpr void set_area(RatioForm<R>& form, Vec2<R> b, Vec2<R> c, R factor) {
 
 /// |p - b|^2 + |p - c|^2 + rest.
 template <class R>
-constexpr void set_two_edges(RatioForm<R>& form, Vec2<R> b, Vec2<R> c, R rest) {
+DMOSCOPE_ANYWHERE void set_two_edges(RatioForm<R>& form, Vec2<R> b, Vec2<R> c, R rest) {
   form.s0 = dot(b, b) + dot(c, c) + rest;
   form.sx = R(-2) * (b.x + c.x);
   form.sy = R(-2) * (b.y + c.y);
@@ -42,7 +43,7 @@ constexpr void set_two_edges(RatioForm<R>& form, Vec2<R> b, Vec2<R> c, R rest) {
 
 /// |p - b|^2 + rest.
 template <class R>
-constexpr void set_one_edge(RatioForm<R>& form, Vec2<R> b, R rest) {
+DMOSCOPE_ANYWHERE void set_one_edge(RatioForm<R>& form, Vec2<R> b, R rest) {
   form.s0 = dot(b, b) + rest;
   form.sx = R(-2) * b.x;
   form.sy = R(-2) * b.y;
@@ -53,7 +54,7 @@ constexpr void set_one_edge(RatioForm<R>& form, Vec2<R> b, R rest) {
 
 /// The form of a triangle with the vertex and b, c.
 template <class R>
-constexpr void triangle_form(const StarTriangle<R>& t, RatioForm<R>& form) {
+DMOSCOPE_ANYWHERE void triangle_form(const StarTriangle<R>& t, RatioForm<R>& form) {
   const Vec2<R> e = t.c - t.b;
   ratio_form::set_area(form, t.b, t.c, scalar::constant<R>(2.0 * formulas::sqrt3));
   ratio_form::set_two_edges(form, t.b, t.c, dot(e, e));
@@ -62,7 +63,7 @@ constexpr void triangle_form(const StarTriangle<R>& t, RatioForm<R>& form) {
 /// The forms of a quadrilateral with the vertex and b, c, d. Returns what no candidate can exceed: the metric of the corner opposite to the
 /// vertex, where it is judged by itself.
 template <Metric M, class R>
-[[nodiscard]] constexpr R quadrilateral_forms(const StarQuadrilateral<R>& q, RatioForm<R>* forms) {
+[[nodiscard]] DMOSCOPE_ANYWHERE R quadrilateral_forms(const StarQuadrilateral<R>& q, RatioForm<R>* forms) {
   using namespace ratio_form;
   const Vec2<R> bc = q.c - q.b, cd = q.d - q.c;
   const R bc2 = dot(bc, bc), cd2 = dot(cd, cd), factor(2);

@@ -10,7 +10,7 @@
 
 #include <array>
 
-#include "core/base/unroll.h"
+#include "core/base/anywhere.h"
 #include "core/search/grid_search.h"
 #include "core/search/ratio_form.h"
 #include "core/search/team.h"
@@ -23,7 +23,7 @@ struct LeastMargins {
   R m0, m1, m2, m3, m4, m5, m6, m7;
 
   /// Of the first element: its part of each row plus its part of the column.
-  constexpr LeastMargins(const std::array<R, 8>& row, R column)
+  DMOSCOPE_ANYWHERE LeastMargins(const std::array<R, 8>& row, R column)
       : m0(sum(row[0], column)),
         m1(sum(row[1], column)),
         m2(sum(row[2], column)),
@@ -34,7 +34,7 @@ struct LeastMargins {
         m7(sum(row[7], column)) {}
 
   /// And of a further one.
-  constexpr void take(const std::array<R, 8>& row, R column) {
+  DMOSCOPE_ANYWHERE void take(const std::array<R, 8>& row, R column) {
     using scalar::min;
     m0 = min(m0, sum(row[0], column));
     m1 = min(m1, sum(row[1], column));
@@ -46,19 +46,19 @@ struct LeastMargins {
     m7 = min(m7, sum(row[7], column));
   }
 
-  [[nodiscard]] constexpr R largest() const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE R largest() const {
     using scalar::max;
     return max(max(max(m0, m1), max(m2, m3)), max(max(m4, m5), max(m6, m7)));
   }
 
   /// f(margin, row), from the last row to the first.
   template <class F>
-  constexpr void backwards(F f) const {
+  DMOSCOPE_ANYWHERE void backwards(F f) const {
     f(m7, 7U), f(m6, 6U), f(m5, 5U), f(m4, 4U), f(m3, 3U), f(m2, 2U), f(m1, 1U), f(m0, 0U);
   }
 
  private:
-  static constexpr R sum(R a, R b) { return scalar::Sum<R>::of(a, b); }
+  static DMOSCOPE_ANYWHERE R sum(R a, R b) { return scalar::Sum<R>::of(a, b); }
 };
 
 /// What is kept between the candidates of a round. A processor keeps both parts of every margin in its cache; a GPU, whose lanes have few
@@ -74,12 +74,12 @@ class RatioSearch {
   static constexpr std::size_t kMaxForms = Forms == 0 ? 48 : Forms;
   using FormSpan = std::span<RatioForm<R>, Forms == 0 ? std::dynamic_extent : Forms>;
 
-  constexpr explicit RatioSearch(Team team = {}) : team_(team) {}
+  DMOSCOPE_ANYWHERE explicit RatioSearch(Team team = {}) : team_(team) {}
 
   /// Searches all levels. `forms`: 1 to kMaxForms, of which it uses the memory. `cap`: what no candidate's quality can exceed. `box`: of
   /// the star's other vertices. In every slot the quality at the origin must be positive. Returns the offset and its quality, as
   /// grid_search does.
-  constexpr Candidate<R> search(FormSpan forms, R cap, Vec2<R> box, int levels, double omega) {
+  DMOSCOPE_ANYWHERE Candidate<R> search(FormSpan forms, R cap, Vec2<R> box, int levels, double omega) {
     forms_ = forms.data();
     count_ = forms.size();
     cap_ = cap;
@@ -107,8 +107,8 @@ class RatioSearch {
     Vec2<R> at;        // candidate of the former
   };
 
-  static constexpr R huge() { return scalar::constant<R>(1e30); }
-  [[nodiscard]] constexpr std::size_t count() const {
+  static DMOSCOPE_ANYWHERE R huge() { return scalar::constant<R>(1e30); }
+  [[nodiscard]] DMOSCOPE_ANYWHERE std::size_t count() const {
     if constexpr (Forms == 0)
       return count_;
     else
@@ -116,7 +116,7 @@ class RatioSearch {
   }
 
   /// Least N / S at `p`.
-  [[nodiscard]] constexpr R quality(Vec2<R> p) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE R quality(Vec2<R> p) const {
     using scalar::min, scalar::select;
     R least = cap_;
     const R squared = dot(p, p);
@@ -131,7 +131,7 @@ class RatioSearch {
   }
 
   /// Makes `centre` the forms' new origin.
-  constexpr void recentre(Vec2<R> centre) {
+  DMOSCOPE_ANYWHERE void recentre(Vec2<R> centre) {
     const R squared = dot(centre, centre);
     DMOSCOPE_UNROLL
     for (std::size_t k = 0; k < count(); ++k) {
@@ -144,7 +144,7 @@ class RatioSearch {
   }
 
   /// Sets the weights; returns a bound of S_k(centre) / S_k(p) over the grid of this size and all elements.
-  constexpr R weigh(Vec2<R> size) {
+  DMOSCOPE_ANYWHERE R weigh(Vec2<R> size) {
     using scalar::abs, scalar::max, scalar::min, scalar::select;
     const R half(0.5F), hx = half * size.x, hy = half * size.y;
     R least(1);
@@ -162,7 +162,7 @@ class RatioSearch {
     return select(least > smallest, R(1) / max(least, smallest), huge());
   }
 
-  constexpr void search_level(Vec2<R> size, Candidate<R>& best) {
+  DMOSCOPE_ANYWHERE void search_level(Vec2<R> size, Candidate<R>& best) {
     using scalar::any, scalar::select;
     recentre(moved_by_);
     const R bound = weigh(size);
@@ -195,7 +195,7 @@ class RatioSearch {
   }
 
   /// The candidates' offsets from the centre: the first half of each axis is the negative of the second.
-  constexpr void set_grid(Vec2<R> size) {
+  DMOSCOPE_ANYWHERE void set_grid(Vec2<R> size) {
     for (std::size_t i = 0; i < kHalf; ++i) {
       const R s = scalar::constant<R>(static_cast<double>(kHalf + i) / (kPoints - 1) - 0.5);
       x_[kHalf + i] = size.x * s;
@@ -206,7 +206,7 @@ class RatioSearch {
   }
 
   /// x_[i]; on a GPU without the memory that an index known only at run time would need.
-  [[nodiscard]] constexpr R column_offset(std::size_t i) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE R column_offset(std::size_t i) const {
     if constexpr (Kept == Tables::Full) {
       return x_[i];
     } else {
@@ -218,7 +218,7 @@ class RatioSearch {
   }
 
   /// Margins at threshold `t`, as a part of each column and one of each row.
-  constexpr void fill_tables(R t) {
+  DMOSCOPE_ANYWHERE void fill_tables(R t) {
     [[maybe_unused]] Line xx;
     if constexpr (Kept == Tables::Full)
       for (std::size_t i = kHalf; i < kPoints; ++i) xx[i] = x_[i] * x_[i];
@@ -240,7 +240,7 @@ class RatioSearch {
     }
   }
 
-  constexpr void fill_row(const Margin& m, Line& row) const {
+  DMOSCOPE_ANYWHERE void fill_row(const Margin& m, Line& row) const {
     DMOSCOPE_UNROLL
     for (std::size_t i = kHalf; i < kPoints; ++i) {
       const R even_y = m.d * yy_[i], odd_y = m.c * y_[i];
@@ -250,7 +250,7 @@ class RatioSearch {
   }
 
   /// Many candidates may reach the cap alike: the one of lowest index, as grid_search would take. `p`: one that does.
-  constexpr Vec2<R> first_at_cap(Vec2<R> p) {
+  DMOSCOPE_ANYWHERE Vec2<R> first_at_cap(Vec2<R> p) {
     using scalar::select;
     fill_tables(cap_);
     for (std::size_t i = kPoints; i-- > 0;) {
@@ -264,7 +264,7 @@ class RatioSearch {
   }
 
   /// The candidate with the largest least margin above `floor`; among equals the one of lowest index.
-  [[nodiscard]] constexpr Best largest_margin(R floor) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE Best largest_margin(R floor) const {
     using scalar::max, scalar::min, scalar::select;
     Best best{floor, R(0) - huge(), {x_[0], y_[0]}};
     const auto take = [&best](R high, R second, R x) {
@@ -303,7 +303,7 @@ class RatioSearch {
   }
 
   /// `x`: column_offset(i).
-  [[nodiscard]] constexpr LeastMargins<R> least_margins_of_column(std::size_t i, R x) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE LeastMargins<R> least_margins_of_column(std::size_t i, R x) const {
     if constexpr (Kept == Tables::Full) {
       return least_margins([&](std::size_t k) { return column_[k][i]; });
     } else {
@@ -314,7 +314,7 @@ class RatioSearch {
 
   /// The least margin of every candidate of the column whose part of element k's margin is column(k).
   template <class Column>
-  [[nodiscard]] constexpr LeastMargins<R> least_margins(Column column) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE LeastMargins<R> least_margins(Column column) const {
     if constexpr (Kept == Tables::None) {
       Line row;
       fill_row(margin_[0], row);

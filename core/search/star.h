@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/anywhere.h"
 #include "core/base/vec.h"
 
 namespace dmoscope {
@@ -35,16 +36,16 @@ struct Star {
 template <class Real>
 class StarView {
  public:
-  constexpr StarView(const Star<Real>& star)  // NOLINT(google-explicit-constructor): a view of it
+  DMOSCOPE_ANYWHERE StarView(const Star<Real>& star)  // NOLINT(google-explicit-constructor): a view of it
       : StarView(star.triangles.data(), star.triangles.size(), star.quadrilaterals.data(), star.quadrilaterals.size()) {}
-  constexpr StarView(const StarTriangle<Real>* triangles, std::size_t triangle_count, const StarQuadrilateral<Real>* quadrilaterals,
-                     std::size_t quadrilateral_count)
+  DMOSCOPE_ANYWHERE StarView(const StarTriangle<Real>* triangles, std::size_t triangle_count, const StarQuadrilateral<Real>* quadrilaterals,
+                             std::size_t quadrilateral_count)
       : triangles_(triangles, triangle_count), quadrilaterals_(quadrilaterals, quadrilateral_count) {}
-  [[nodiscard]] constexpr std::span<const StarTriangle<Real>> triangles() const { return triangles_; }
-  [[nodiscard]] constexpr std::span<const StarQuadrilateral<Real>> quadrilaterals() const { return quadrilaterals_; }
+  [[nodiscard]] DMOSCOPE_ANYWHERE std::span<const StarTriangle<Real>> triangles() const { return triangles_; }
+  [[nodiscard]] DMOSCOPE_ANYWHERE std::span<const StarQuadrilateral<Real>> quadrilaterals() const { return quadrilaterals_; }
   /// Calls f with each triangle, then, unless told that f does not take them, with each quadrilateral.
   template <bool Quadrilaterals, class F>
-  constexpr void for_each(F f) const {
+  DMOSCOPE_ANYWHERE void for_each(F f) const {
     for (const StarTriangle<Real>& t : triangles_) f(t);
     if constexpr (Quadrilaterals)
       for (const StarQuadrilateral<Real>& q : quadrilaterals_) f(q);

@@ -2,6 +2,8 @@
 // Who searches a star together: one lane alone, or lanes that share the columns of the candidate grid. All lanes of a team run the same
 // code on the same values and differ only in the columns they look at, so that a team finds, bit for bit, what one lane alone finds.
 
+#include "core/base/anywhere.h"
+
 namespace dmoscope {
 
 /// One lane alone. Another team (a GPU has one of eight, for meshes too small to fill it) brings as much: kSize, a power of two; lane(), 0
@@ -9,16 +11,16 @@ namespace dmoscope {
 /// `mask`.
 struct Solo {
   static constexpr unsigned kSize = 1;
-  [[nodiscard]] static constexpr unsigned lane() { return 0; }
+  [[nodiscard]] static DMOSCOPE_ANYWHERE unsigned lane() { return 0; }
   template <class T>
-  [[nodiscard]] constexpr T exchange(T value, unsigned /*mask*/) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE T exchange(T value, unsigned /*mask*/) const {
     return value;
   }
 };
 
 /// Joins the lanes' values by join(lower, higher), the value of the lower lanes first; every lane gets the result.
 template <class Team, class T, class Join>
-[[nodiscard]] constexpr T fold(const Team& team, T value, Join join) {
+[[nodiscard]] DMOSCOPE_ANYWHERE T fold(const Team& team, T value, Join join) {
   for (unsigned mask = 1; mask < Team::kSize; mask *= 2) {
     const T other = team.exchange(value, mask);
     value = (team.lane() & mask) == 0 ? join(value, other) : join(other, value);

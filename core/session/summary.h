@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/base/anywhere.h"
 #include "core/quality/quality.h"
 
 namespace dmoscope {
@@ -20,7 +21,7 @@ struct Histogram {
 
 /// Where a quality is counted: a bin of a Histogram, or one of the three places after the last bin.
 inline constexpr std::size_t kSlotBelow = Histogram::kBins, kSlotAbove = kSlotBelow + 1, kSlotNowhere = kSlotAbove + 1;
-[[nodiscard]] constexpr std::size_t histogram_slot(double quality) {
+[[nodiscard]] DMOSCOPE_ANYWHERE std::size_t histogram_slot(double quality) {
   constexpr double kLowest = 0.0, kHighest = 1.0;
   constexpr double kScale = static_cast<double>(Histogram::kBins) / (kHighest - kLowest);
   if (quality != quality) return kSlotNowhere;  // NaN: not defined
@@ -34,7 +35,7 @@ inline constexpr std::size_t kSlotBelow = Histogram::kBins, kSlotAbove = kSlotBe
 inline constexpr float kInvertedShade = -3e38F, kUndefinedShade = 3e38F;
 
 /// What the renderer colours an element by: its quality, or one of the values above. `quality`: NaN where it is not defined.
-[[nodiscard]] constexpr float shade_of(float quality, bool inverted) {
+[[nodiscard]] DMOSCOPE_ANYWHERE float shade_of(float quality, bool inverted) {
   constexpr float kLargest = 1e37F;
   if (inverted) return kInvertedShade;
   if (quality != quality) return kUndefinedShade;

@@ -1,12 +1,13 @@
 #pragma once
 
+#include "core/base/anywhere.h"
 #include "core/base/rounding.h"
 
 namespace dmoscope {
 
 /// coordinate + displacement, but one that does not move keeps its very bits (-0.0 + 0.0 would not). `single_precision`: see Mesh.
 /// Always inlined: code for different processors shares it, and must not share one compiled copy.
-[[gnu::always_inline]] constexpr double displaced(double coordinate, double displacement, bool single_precision) {
+[[gnu::always_inline]] DMOSCOPE_ANYWHERE double displaced(double coordinate, double displacement, bool single_precision) {
   if (displacement == 0.0) return coordinate;
   const double sum = coordinate + displacement;
   return single_precision ? nearest_float(sum) : sum;

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "core/base/anywhere.h"
 #include "core/quality/element_shape.h"
 #include "core/search/grid_search.h"
 #include "core/search/mesh_star.h"
@@ -17,7 +18,7 @@ struct StarState {
   double jacobian = 0.0;  // least of smallest corner Jacobian / reference measure
   double quality = 0.0;   // least metric (paper eq. 1)
   /// Strictly better: what a move must be (promise 1).
-  [[nodiscard]] constexpr bool better_than(const StarState& other) const noexcept {
+  [[nodiscard]] DMOSCOPE_ANYWHERE bool better_than(const StarState& other) const noexcept {
     if (other.jacobian <= 0.0) return jacobian > other.jacobian;
     return jacobian > 0.0 && quality > other.quality;
   }
@@ -25,7 +26,7 @@ struct StarState {
 
 /// With the vertex at `place`.
 template <Metric M>
-[[nodiscard]] constexpr StarState star_state(const PlanarView& mesh, PositionView positions, Index vertex, Vec3 place) {
+[[nodiscard]] DMOSCOPE_ANYWHERE StarState star_state(const PlanarView& mesh, PositionView positions, Index vertex, Vec3 place) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   StarState state{kInfinity, kInfinity};
   const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
@@ -41,7 +42,7 @@ template <Metric M>
 
 /// Exactly: would the vertex gain by standing at `target`? A search may be in float and in other rounding than the statistics.
 template <Metric M>
-[[nodiscard]] constexpr bool gains_at(const PlanarView& mesh, PositionView positions, Index vertex, Vec3 target) {
+[[nodiscard]] DMOSCOPE_ANYWHERE bool gains_at(const PlanarView& mesh, PositionView positions, Index vertex, Vec3 target) {
   return star_state<M>(mesh, positions, vertex, target).better_than(star_state<M>(mesh, positions, vertex, positions[vertex]));
 }
 
@@ -49,15 +50,15 @@ template <Metric M>
 /// same candidate, since there every candidate it values otherwise is <= 0 and cannot win. Returns the offset, in units of the star's
 /// scale.
 template <Metric M, class StarT, class Team = Solo>
-[[nodiscard]] constexpr Vec2<double> search_star(const StarT& star, Vec2<double> box, const SearchParameters& parameters,
-                                                 const Team& team = {}) {
+[[nodiscard]] DMOSCOPE_ANYWHERE Vec2<double> search_star(const StarT& star, Vec2<double> box, const SearchParameters& parameters,
+                                                         const Team& team = {}) {
   const Objective<M, true, double, Value::Metric, StarT> untangling(star);
   if (!(untangling({}) > 0.0)) return grid_search<double>(untangling, box, parameters, NoTrace{}, team).offset;
   return grid_search<double>(Objective<M, false, double, Value::Metric, StarT>(star), box, parameters, NoTrace{}, team).offset;
 }
 
 /// Where a vertex at `place` comes to stand by an offset in the plane, in mesh units. `single`: see Mesh::single_precision.
-[[nodiscard]] constexpr Vec3 displaced(const Plane& plane, Vec3 place, Vec2<double> offset, bool single) {
+[[nodiscard]] DMOSCOPE_ANYWHERE Vec3 displaced(const Plane& plane, Vec3 place, Vec2<double> offset, bool single) {
   const Vec3 step = plane.lift(offset);
   return {displaced(place.x, step.x, single), displaced(place.y, step.y, single), displaced(place.z, step.z, single)};
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/base/anywhere.h"
 #include "core/base/vec.h"
 #include "core/mesh/plane.h"
 #include "core/session/input_mesh.h"
@@ -26,7 +27,7 @@ struct SearchFrame {
 
   /// From `origin` to `at`, in the plane and in mesh units. Axes: u_axis and v_axis are coordinates.
   template <bool Axes>
-  [[gnu::always_inline]] [[nodiscard]] constexpr Vec2<double> offset(const double* at, const double* origin) const {
+  [[gnu::always_inline]] [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<double> offset(const double* at, const double* origin) const {
     if constexpr (Axes) {
       return {at[u_axis] - origin[u_axis], at[v_axis] - origin[v_axis]};
     } else {
@@ -36,7 +37,7 @@ struct SearchFrame {
   }
 
   /// Of a vertex at `at`, by an offset in units of `scale`.
-  [[gnu::always_inline]] [[nodiscard]] constexpr Displacement displace(const double* at, float x, float y) const {
+  [[gnu::always_inline]] [[nodiscard]] DMOSCOPE_ANYWHERE Displacement displace(const double* at, float x, float y) const {
     const double along_u = static_cast<double>(x) * scale, along_v = static_cast<double>(y) * scale;
     Displacement to{};
     if (u_axis >= 0) {

@@ -2,6 +2,7 @@
 // When the fast search in float may speak for a star, and when its finding must be judged exactly: the same rules for the processor's
 // lanes and a GPU's.
 
+#include "core/base/anywhere.h"
 #include "core/quality/formulas.h"
 #include "core/search/star.h"
 
@@ -21,7 +22,7 @@ inline constexpr bool kBlind = formulas::kDefinedForQuadrilaterals<M, V> && !for
 
 /// The least of all corners of the quadrilaterals, with the vertex at `p`.
 template <class R>
-[[nodiscard]] constexpr R smallest_corner(const StarView<R>& star, Vec2<R> p) {
+[[nodiscard]] DMOSCOPE_ANYWHERE R smallest_corner(const StarView<R>& star, Vec2<R> p) {
   using scalar::min;
   R least = scalar::constant<R>(1e30);
   for (const StarQuadrilateral<R>& q : star.quadrilaterals())
@@ -35,7 +36,7 @@ enum class Verdict { Stay, Move, MoveIfExact };
 /// `before`, `after`: the star's rank in double here and at the position that would be stored, `step` away. `sound`: no corner of a blind
 /// metric is near to turning over.
 template <Metric M>
-[[gnu::always_inline]] [[nodiscard]] constexpr Verdict judge(double before, double after, Vec2<double> step, bool sound) {
+[[gnu::always_inline]] [[nodiscard]] DMOSCOPE_ANYWHERE Verdict judge(double before, double after, Vec2<double> step, bool sound) {
   const double doubt = formulas::rank_doubt<M>(before);
   if (!(after > before - doubt) || (step.x == 0.0 && step.y == 0.0)) return Verdict::Stay;
   return after > before + doubt && sound ? Verdict::Move : Verdict::MoveIfExact;

@@ -1,8 +1,8 @@
 // Sharing buffers with OpenGL, as far as it can be tried without a context. The rest is in tests/gui/device_drawing_test.cpp.
 
-#include <gtest/gtest.h>
-
 #include "gpu/gl_interop.h"
+
+#include <gtest/gtest.h>
 
 namespace dmoscope::gpu {
 namespace {

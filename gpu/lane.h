@@ -1,19 +1,19 @@
 #pragma once
-// What device and host do each in its own way.
+// What a device and the host in its place do each in its own way.
 
 #include <cstdint>
 
-/// Marks functions that are compiled for both; constexpr ones need no mark.
+/// Marks functions that are not constexpr and that a device runs, or the host in its place.
 #if defined(__CUDACC__)
-#define DMOSCOPE_ANYWHERE __host__ __device__
+#define DMOSCOPE_LANE __host__ __device__
 #else
-#define DMOSCOPE_ANYWHERE
+#define DMOSCOPE_LANE
 #endif
 
 namespace dmoscope::gpu {
 
 /// Adds one and returns what was there before. Lanes of a warp that come together share one addition.
-[[nodiscard]] inline DMOSCOPE_ANYWHERE std::uint32_t increment(std::uint32_t* counter) {
+[[nodiscard]] inline DMOSCOPE_LANE std::uint32_t increment(std::uint32_t* counter) {
 #if defined(__CUDA_ARCH__)
   const unsigned lanes = __activemask();
   const int first = __ffs(static_cast<int>(lanes)) - 1;
@@ -27,15 +27,24 @@ namespace dmoscope::gpu {
 #endif
 }
 
+/// Adds one to a counter that is not the same for all lanes of a warp.
+inline DMOSCOPE_LANE void count_one(std::uint32_t* counter) {
+#if defined(__CUDA_ARCH__)
+  atomicAdd(counter, 1U);
+#else
+  __atomic_fetch_add(counter, 1U, __ATOMIC_RELAXED);
+#endif
+}
+
 /// A flag that several lanes may set to the same value at once.
-inline DMOSCOPE_ANYWHERE void set_flag(std::uint8_t* flag, bool value) {
+inline DMOSCOPE_LANE void set_flag(std::uint8_t* flag, bool value) {
 #if defined(__CUDA_ARCH__)
   *flag = value ? 1 : 0;
 #else
   __atomic_store_n(flag, value ? std::uint8_t{1} : std::uint8_t{0}, __ATOMIC_RELAXED);
 #endif
 }
-[[nodiscard]] inline DMOSCOPE_ANYWHERE bool is_set(const std::uint8_t* flag) {
+[[nodiscard]] inline DMOSCOPE_LANE bool is_set(const std::uint8_t* flag) {
 #if defined(__CUDA_ARCH__)
   return *flag != 0;
 #else

@@ -1,0 +1,47 @@
+#pragma once
+// The kernels: a body of gpu/bodies.h for each lane or team of lanes.
+
+#include <cuda_runtime.h>
+
+#include "gpu/bodies.h"
+#include "gpu/cuda_error.h"
+#include "gpu/cuda_launch.h"
+#include "gpu/cuda_team.cuh"
+
+namespace dmoscope::gpu {
+
+inline constexpr unsigned kBlock = 128;  // threads
+
+template <class Body, class Team>
+__global__ void __launch_bounds__(kBlock) kernel(const __grid_constant__ Task task, std::size_t count) {
+  const std::size_t i = (std::size_t{blockIdx.x} * kBlock + threadIdx.x) / Team::kSize;
+  if (i < count) Body::run(task, i, count, Team{});
+}
+
+template <class Body, class Team>
+void launch(const Task& task, std::size_t count, cudaStream_t stream) {
+  const std::size_t blocks = (count * Team::kSize + kBlock - 1) / kBlock;
+  kernel<Body, Team><<<static_cast<unsigned>(blocks), kBlock, 0, stream>>>(task, count);
+  DMOSCOPE_CUDA_CHECK(cudaGetLastError());
+}
+
+template <Metric M>
+Launcher metric_launcher(Work work) {
+  switch (work) {
+    case Work::VisitFans:
+      if constexpr (kIsRatio<M>) return launch<bodies::Visit<M, Stars::Fans>, Solo>;
+      return nullptr;
+    case Work::VisitOthers:
+      return launch<bodies::Visit<M, Stars::Others>, Solo>;
+    case Work::VisitInTeam:
+      return launch<bodies::Visit<M, Stars::All>, CudaTeam>;
+    case Work::Settle:
+      return launch<bodies::Settle<M>, CudaTeam>;
+    case Work::Judge:
+      return launch<bodies::Judge<M>, Solo>;
+    default:
+      return nullptr;
+  }
+}
+
+}  // namespace dmoscope::gpu

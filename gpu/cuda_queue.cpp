@@ -1,0 +1,245 @@
+#include "gpu/cuda_queue.h"
+
+#ifdef DMOSCOPE_HAVE_CUDA
+
+#include <cstring>
+#include <mutex>
+#include <unordered_map>
+
+#include <cuda_runtime.h>
+#include <fmt/format.h>
+
+#include "core/quality/formulas.h"
+#include "gpu/cuda_error.h"
+#include "gpu/cuda_launch.h"
+#include "gpu/gl_interop.h"
+#include "gpu/task.h"
+
+namespace dmoscope::gpu {
+
+namespace {
+
+/// Threads that a multiprocessor runs at once in the search's kernel, which takes nearly all registers a thread may have.
+constexpr std::size_t kThreadsAtOnce = 256;
+/// Downloads up to this size go through memory that the device writes directly.
+constexpr std::size_t kSmall = 4096;
+
+/// Makes the calling thread's CUDA calls go to a device; each thread has its own.
+void use(int device) { DMOSCOPE_CUDA_CHECK(cudaSetDevice(device)); }
+
+class CudaStream {
+ public:
+  explicit CudaStream(int device) {
+    use(device);
+    DMOSCOPE_CUDA_CHECK(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking));
+  }
+  ~CudaStream() { (void)cudaStreamDestroy(stream_); }
+  CudaStream(const CudaStream&) = delete;
+  CudaStream& operator=(const CudaStream&) = delete;
+  [[nodiscard]] cudaStream_t get() const noexcept { return stream_; }
+
+ private:
+  cudaStream_t stream_ = nullptr;
+};
+
+/// Host memory that the device reaches without a copy in between.
+class PinnedMemory {
+ public:
+  explicit PinnedMemory(std::size_t bytes) { DMOSCOPE_CUDA_CHECK(cudaMallocHost(&memory_, bytes)); }
+  ~PinnedMemory() { (void)cudaFreeHost(memory_); }
+  PinnedMemory(const PinnedMemory&) = delete;
+  PinnedMemory& operator=(const PinnedMemory&) = delete;
+  [[nodiscard]] void* get() const noexcept { return memory_; }
+
+ private:
+  void* memory_ = nullptr;
+};
+
+/// How large each piece of a device's memory is; any thread may give some back.
+class Memory {
+ public:
+  void add(void* memory, std::size_t bytes) {
+    const std::scoped_lock lock(mutex_);
+    sizes_[memory] = bytes;
+  }
+  std::size_t take(void* memory) {
+    const std::scoped_lock lock(mutex_);
+    const auto found = sizes_.find(memory);
+    const std::size_t bytes = found->second;
+    sizes_.erase(found);
+    return bytes;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::unordered_map<void*, std::size_t> sizes_;
+};
+
+class CudaRecording final : public Queue::Recording {
+ public:
+  explicit CudaRecording(cudaGraph_t graph) {
+    const cudaError_t status = cudaGraphInstantiate(&executable_, graph, 0);
+    (void)cudaGraphDestroy(graph);
+    DMOSCOPE_CUDA_CHECK(status);
+  }
+  ~CudaRecording() override { (void)cudaGraphExecDestroy(executable_); }
+  [[nodiscard]] cudaGraphExec_t get() const noexcept { return executable_; }
+
+ private:
+  cudaGraphExec_t executable_ = nullptr;
+};
+
+class CudaMark final : public Queue::Mark {
+ public:
+  explicit CudaMark(cudaStream_t stream) {
+    DMOSCOPE_CUDA_CHECK(cudaEventCreateWithFlags(&event_, cudaEventDisableTiming));
+    if (const cudaError_t status = cudaEventRecord(event_, stream); status != cudaSuccess) {
+      (void)cudaEventDestroy(event_);
+      DMOSCOPE_CUDA_CHECK(status);
+    }
+  }
+  ~CudaMark() override { (void)cudaEventDestroy(event_); }
+  [[nodiscard]] cudaEvent_t get() const noexcept { return event_; }
+
+ private:
+  cudaEvent_t event_ = nullptr;
+};
+
+class CudaQueue final : public Queue {
+ public:
+  CudaQueue(int device, std::shared_ptr<Memory> memory, std::shared_ptr<Counters> counters)
+      : Queue(std::move(counters)), device_(device), memory_(std::move(memory)), stream_(device), small_(kSmall) {
+    cudaDeviceProp properties{};
+    DMOSCOPE_CUDA_CHECK(cudaGetDeviceProperties(&properties, device));
+    lanes_at_once_ = static_cast<std::size_t>(properties.multiProcessorCount) * kThreadsAtOnce;
+    description_ = fmt::format("{}, compute capability {}.{}, {:.1f} GiB", properties.name, properties.major, properties.minor,
+                               static_cast<double>(properties.totalGlobalMem) / 0x1p30);
+  }
+  ~CudaQueue() override {
+    (void)cudaSetDevice(device_);
+    (void)cudaStreamSynchronize(stream_.get());
+  }
+
+  void* allocate(std::size_t bytes) override {
+    use(device_);
+    void* memory = nullptr;
+    const cudaError_t status = cudaMalloc(&memory, bytes);
+    if (status == cudaErrorMemoryAllocation) {
+      (void)cudaGetLastError();  // this one can be told and forgotten
+      std::size_t free = 0, total = 0;
+      (void)cudaMemGetInfo(&free, &total);
+      throw DeviceError(fmt::format("{} is out of memory: {} bytes were asked for, {} of {} are free", description_, bytes, free, total));
+    }
+    DMOSCOPE_CUDA_CHECK(status);
+    memory_->add(memory, bytes);
+    counters().bytes_allocated += bytes;
+    return memory;
+  }
+  void release(void* memory) noexcept override {
+    (void)cudaSetDevice(device_);
+    (void)cudaFree(memory);
+    counters().bytes_allocated -= memory_->take(memory);
+  }
+
+  void upload(void* to, const void* from, std::size_t bytes) override {
+    use(device_);
+    DMOSCOPE_CUDA_CHECK(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream_.get()));
+    DMOSCOPE_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));  // where the device reads ordinary memory, nothing else says when it has
+  }
+  void download(void* to, const void* from, std::size_t bytes) override {
+    use(device_);
+    void* target = bytes <= kSmall ? small_.get() : to;
+    DMOSCOPE_CUDA_CHECK(cudaMemcpyAsync(target, from, bytes, cudaMemcpyDeviceToHost, stream_.get()));
+    DMOSCOPE_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));
+    if (target != to) std::memcpy(to, target, bytes);
+  }
+  void clear(void* memory, std::size_t bytes) override {
+    use(device_);
+    DMOSCOPE_CUDA_CHECK(cudaMemsetAsync(memory, 0, bytes, stream_.get()));
+  }
+  void launch(Work work, Metric metric, const Task& task, std::size_t count) override {
+    if (count == 0) return;
+    use(device_);
+    launcher(work, metric)(task, count, stream_.get());
+  }
+  void wait() override {
+    use(device_);
+    DMOSCOPE_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));
+  }
+
+  void start_recording() override {
+    use(device_);
+    DMOSCOPE_CUDA_CHECK(cudaStreamBeginCapture(stream_.get(), cudaStreamCaptureModeThreadLocal));
+  }
+  std::unique_ptr<Recording> stop_recording() override {
+    cudaGraph_t graph = nullptr;
+    DMOSCOPE_CUDA_CHECK(cudaStreamEndCapture(stream_.get(), &graph));
+    return std::make_unique<CudaRecording>(graph);
+  }
+  void replay(Recording& recording) override {
+    use(device_);
+    DMOSCOPE_CUDA_CHECK(cudaGraphLaunch(static_cast<CudaRecording&>(recording).get(), stream_.get()));
+  }
+
+  std::shared_ptr<Queue> sibling() const override { return std::make_shared<CudaQueue>(device_, memory_, shared_counters()); }
+  std::unique_ptr<Mark> mark() override {
+    use(device_);
+    return std::make_unique<CudaMark>(stream_.get());
+  }
+  void wait_for(const Mark& mark) override {
+    use(device_);
+    DMOSCOPE_CUDA_CHECK(cudaStreamWaitEvent(stream_.get(), static_cast<const CudaMark&>(mark).get(), 0));
+  }
+
+  std::unique_ptr<DeviceTarget> make_target(std::uint32_t point_buffer, std::uint32_t shade_buffer) override {
+    return std::make_unique<GlTarget>(device_, point_buffer, shade_buffer);
+  }
+  void draw(DeviceTarget& target, const Task& task) override {
+    use(device_);
+    static_cast<GlTarget&>(target).fill(stream_.get(), nullptr, [&](const GlTarget::Mapped& mapped) {
+      if (mapped.point_bytes < task.vertex_count * sizeof(Vec2<float>) || mapped.shade_bytes < task.element_count * sizeof(float))
+        throw DeviceError("OpenGL's buffers are too small for the mesh");
+      Task into = task;
+      into.points = reinterpret_cast<Vec2<float>*>(mapped.points);
+      into.drawn_shades = mapped.shades;
+      launch(Work::Project, Metric::MeanRatio, into, task.vertex_count);
+      launch(Work::CopyShades, Metric::MeanRatio, into, task.element_count);
+    });
+  }
+
+  std::size_t lanes_at_once() const noexcept override { return lanes_at_once_; }
+  std::string description() const override { return description_; }
+
+ private:
+  static Launcher launcher(Work work, Metric metric) {
+    if (const Launcher plain = plain_launcher(work)) return plain;
+    return formulas::with_metric(metric, [work]<Metric M>() { return metric_launcher<M>(work); });
+  }
+
+  int device_;
+  std::shared_ptr<Memory> memory_;
+  CudaStream stream_;
+  PinnedMemory small_;
+  std::size_t lanes_at_once_ = 0;
+  std::string description_;
+};
+
+}  // namespace
+
+std::shared_ptr<Queue> make_cuda_queue(int device) {
+  return std::make_shared<CudaQueue>(device, std::make_shared<Memory>(), std::make_shared<Counters>());
+}
+
+}  // namespace dmoscope::gpu
+
+#else
+
+#include "core/base/error.h"
+
+namespace dmoscope::gpu {
+
+std::shared_ptr<Queue> make_cuda_queue(int /*device*/) { throw DeviceError("built without a CUDA toolkit"); }
+
+}  // namespace dmoscope::gpu
+
+#endif

@@ -1,0 +1,39 @@
+#pragma once
+// Snapshots of a run on a device, for whoever draws.
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "core/session/device_picture.h"
+#include "gpu/device_mesh.h"
+
+namespace dmoscope::gpu {
+
+/// Makes pictures of one mesh and uses their memory again.
+class Pictures : public std::enable_shared_from_this<Pictures> {
+ public:
+  explicit Pictures(std::shared_ptr<Queue> maker) : maker_(std::move(maker)), reader_(maker_->sibling()) {}
+
+  /// Of the mesh as it is now; judges it by `shown`. On the thread that steps. Throws DeviceError.
+  [[nodiscard]] std::shared_ptr<const DevicePicture> make(DeviceMesh& mesh, Metric shown);
+
+ private:
+  friend class Picture;
+  /// What a picture holds on the device.
+  struct Memory {
+    Buffer<Vec3> positions;
+    Buffer<float> shades;
+    Buffer<std::uint32_t> counts;
+    std::unique_ptr<Queue::Mark> last_read;  // by the reader; null: never
+  };
+  [[nodiscard]] std::unique_ptr<Memory> take(const Task& task);
+  void give_back(std::unique_ptr<Memory> memory);
+
+  std::shared_ptr<Queue> maker_, reader_;
+  std::mutex reading_;  // the reader's: one thread at a time
+  std::mutex mutex_;    // of free_
+  std::vector<std::unique_ptr<Memory>> free_;
+};
+
+}  // namespace dmoscope::gpu

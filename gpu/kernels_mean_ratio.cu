@@ -1,0 +1,5 @@
+#include "gpu/cuda_launch.cuh"
+
+namespace dmoscope::gpu {
+template Launcher metric_launcher<Metric::MeanRatio>(Work work);
+}

@@ -1,0 +1,149 @@
+// DMO on a CUDA device beside the processor's lanes. These need a device, and say so where there is none.
+
+#include <cstdlib>
+
+#include "gpu/cuda_queue.h"
+#include "gpu/device.h"
+#include "gpu/task.h"
+#include "tests/gpu/meshes.h"
+#include "tests/gpu/same_bits.h"
+#include "tests/smooth/zoo.h"
+
+namespace dmoscope::gpu {
+namespace {
+
+using namespace testing;
+using dmoscope::testing::defined_for_all;
+
+/// The processor's and the device's functions of angles differ in the last bits; the others are IEEE 754's.
+bool is_algebraic(Metric metric) { return metric != Metric::MinAngle && metric != Metric::MaxAngle && metric != Metric::Rectangularity; }
+
+class CudaTest : public ::testing::TestWithParam<Metric> {
+ protected:
+  void SetUp() override {
+    const Availability available = availability();
+    if (!available.reason.empty()) GTEST_SKIP() << "needs a CUDA device; " << available.reason;
+    queue = make_cuda_queue(available.best);
+  }
+  std::shared_ptr<Queue> queue;
+};
+
+class CudaDmo : public CudaTest {
+ protected:
+  void expect_same(const Subject& subject, const SearchParameters& parameters, int iterations) {
+    const Metric metric = GetParam();
+    const bool exact = is_algebraic(metric);
+    // Two candidates of the same quality but for the last bits are both right: after one iteration they may still be told apart.
+    expect_same_visits(queue, subject, metric, parameters, exact ? iterations : 1, nullptr, exact ? 0.0 : 1e-6);
+    expect_same_statistics(queue, subject, metric, exact);
+  }
+};
+
+TEST_P(CudaDmo, SameBitsOnTheZoo) {
+  for (auto& specimen : dmoscope::testing::zoo()) {
+    if (!defined_for_all(GetParam(), specimen.mesh)) continue;
+    SCOPED_TRACE(specimen.name);
+    Progress progress;
+    expect_same(Subject(prepare_input(std::move(specimen.mesh), {}, Need::Smoothing, progress)), specimen.search, 4);
+  }
+}
+
+TEST_P(CudaDmo, SameBitsOnTheBundledMeshes) {
+  for (const auto& mesh : bundled_meshes()) {
+    if (!defined_for_all(GetParam(), mesh->mesh)) continue;
+    SCOPED_TRACE(mesh->mesh.name);
+    expect_same(Subject(mesh), {}, 5);
+  }
+}
+
+TEST_P(CudaDmo, SameBitsOnTheSharedMeshes) {
+  const auto meshes = shared_meshes();
+  if (meshes.empty()) GTEST_SKIP() << "no shared meshes here";
+  for (const auto& mesh : meshes) {
+    if (!defined_for_all(GetParam(), mesh->mesh)) continue;
+    SCOPED_TRACE(mesh->mesh.name);
+    expect_same(Subject(mesh), {}, 2);
+  }
+}
+
+/// Classes too large for teams.
+TEST_P(CudaDmo, SameBitsOnALargeMesh) {
+  for (const auto cells : {dmoscope::testing::Cells::Triangles, dmoscope::testing::Cells::Mixed}) {
+    Mesh mesh = dmoscope::testing::lattice(700, 0.35, 81, cells);
+    if (!defined_for_all(GetParam(), mesh)) continue;
+    Progress progress;
+    expect_same(Subject(prepare_input(std::move(mesh), {}, Need::Smoothing, progress)), {}, 2);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(CudaMetrics, CudaDmo, ::testing::ValuesIn([] {
+                           std::vector<Metric> all;
+                           for (const MetricInfo& entry : metric_table()) all.push_back(entry.metric);
+                           return all;
+                         }()),
+                         [](const auto& tested) {
+                           std::string name(dmoscope::info(tested.param).name);
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+class CudaQueueTest : public CudaTest {};
+INSTANTIATE_TEST_SUITE_P(CudaAny, CudaQueueTest, ::testing::Values(Metric::MeanRatio));
+
+TEST_P(CudaQueueTest, OutOfMemoryIsSaidAndForgotten) {
+  try {
+    (void)queue->allocate(std::size_t{1} << 50U);
+    FAIL() << "no device has a pebibyte";
+  } catch (const DeviceError& error) {
+    EXPECT_NE(std::string(error.what()).find("out of memory"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("are free"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(queue->counters().bytes_allocated, 0U);
+  Progress progress;
+  const Subject subject(prepare_input(dmoscope::testing::lattice(12, 0.35, 82), {}, Need::Smoothing, progress));
+  expect_same_visits(queue, subject, Metric::MeanRatio, {}, 2);
+}
+
+TEST_P(CudaQueueTest, GivesItsMemoryBack) {
+  Progress progress;
+  const Subject subject(prepare_input(dmoscope::testing::lattice(12, 0.35, 83), {}, Need::Smoothing, progress));
+  {
+    const auto smoother = make_device_dmo(queue, subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+    std::vector<Vec3> positions = subject.input->mesh.positions;
+    smoother->visit(0, subject.visits(), positions, nullptr);
+    EXPECT_NE(smoother->picture(Metric::MeanRatio), nullptr);
+    EXPECT_GT(queue->counters().bytes_allocated, 0U);
+  }
+  EXPECT_EQ(queue->counters().bytes_allocated, 0U);
+}
+
+/// In a process of its own, since a device that a kernel's fault took away is lost to the whole process.
+TEST_P(CudaQueueTest, ALostDeviceIsSaidAndTheHostsPositionsStay) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto lose_it = [&] {
+    Progress progress;
+    const Subject subject(prepare_input(dmoscope::testing::lattice(12, 0.35, 84), {}, Need::Smoothing, progress));
+    const auto smoother = make_device_dmo(queue, subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+    std::vector<Vec3> positions = subject.input->mesh.positions;
+    smoother->visit(0, subject.visits(), positions, nullptr);
+    smoother->store(positions, nullptr);
+    const std::vector<Vec3> good = positions;
+    Task nowhere;  // its pointers are null
+    try {
+      queue->launch(Work::Load, Metric::MeanRatio, nowhere, 1);
+      queue->wait();
+    } catch (const DeviceError& error) {
+      try {
+        smoother->visit(0, subject.visits(), positions, nullptr);
+      } catch (const DeviceError& again) {
+        const bool kept = std::ranges::equal(good, positions, [](Vec3 a, Vec3 b) { return same(a, b); });
+        std::exit(kept && std::string(error.what()).find("illegal") != std::string::npos ? 0 : 1);
+      }
+    }
+    std::exit(2);
+  };
+  EXPECT_EXIT(lose_it(), ::testing::ExitedWithCode(0), "");
+}
+
+}  // namespace
+}  // namespace dmoscope::gpu

@@ -30,6 +30,13 @@ if(DMOSCOPE_SANITIZE)
     target_link_options(dmoscope_settings INTERFACE -Wl,--export-dynamic-symbol=dlclose)
   endif()
 endif()
+if(DMOSCOPE_PORTABLE)
+  # libstdc++ inside: one carried along could be too old for the drivers of the machine, which share it with the program. Old tags, for
+  # the new ones do not hold for what the libraries carried along need themselves.
+  target_link_options(dmoscope_settings INTERFACE -static-libstdc++ -static-libgcc -Wl,--disable-new-dtags)
+  set(CMAKE_INSTALL_RPATH "$ORIGIN/../lib")
+  set(CMAKE_BUILD_WITH_INSTALL_RPATH ON)
+endif()
 
 # dmoscope_room(NAME): a static library of all sources below the current folder.
 function(dmoscope_room name)

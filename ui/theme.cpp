@@ -90,8 +90,11 @@ constexpr ImWchar kGlyphs[] = {0x20,   0xff,   0x370,  0x3ff,  0x2000, 0x206f, 0
                                0x2200, 0x22ff, 0x2300, 0x23ff, 0x25a0, 0x25ff, 0x2600, 0x26ff, 0x2713, 0x2718, 0};
 
 std::filesystem::path font_file(const char* name) {
-  for (const char* folder : {"/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/dejavu-sans-fonts", "/usr/share/fonts/dejavu",
-                             "/usr/share/fonts/TTF", "/usr/local/share/fonts/dejavu"}) {
+  std::error_code none;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
+  const std::string carried = (program.parent_path().parent_path() / "share/fonts").string();  // of a bundle
+  for (const char* folder : {carried.c_str(), "/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/dejavu-sans-fonts",
+                             "/usr/share/fonts/dejavu", "/usr/share/fonts/TTF", "/usr/local/share/fonts/dejavu"}) {
     const std::filesystem::path file = std::filesystem::path(folder) / name;
     std::error_code ignored;
     if (std::filesystem::exists(file, ignored)) return file;

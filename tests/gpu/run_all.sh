@@ -100,7 +100,11 @@ done
 step configure 60 cmake --preset gpu-bench -DDMOSCOPE_TESTS=ON ${shared:+"-DDMOSCOPE_SHARED=$shared"} "${headers[@]}"
 [[ $status -eq 0 ]] || told configure "$(outcome)"
 # -k 0: what can be built is, so that the steps below have something to try.
-step build 300 cmake --build "$build" -- -k 0
+targets=(dmoscope test_gpu)
+for room in mesh quality search smooth session io cli; do
+  if grep -qsE '^TEST.*\(Cuda' "tests/$room"/*.cpp; then targets+=("test_$room"); fi
+done
+step build 300 cmake --build "$build" --target "${targets[@]}" -- -k 0
 told "build" "$(outcome)"
 
 step tests 150 ctest --test-dir "$build" -L '^gpu(_host)?$' -j 4 --output-on-failure --no-tests=error

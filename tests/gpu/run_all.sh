@@ -121,7 +121,7 @@ elif [[ -x $build/tests/test_gpu ]]; then
   pids=()
   for tool in "${tools[@]}"; do
     timeout -k 5 "$(limit_of 150)" "$sanitizer" --tool "$tool" --error-exitcode 9 \
-      "$build/tests/test_gpu" --gtest_filter='Cuda*Small*' >"$out/$tool.log" 2>&1 &
+      "$build/tests/test_gpu" --gtest_filter='Cuda*Small*:*/Cuda*Small*' >"$out/$tool.log" 2>&1 &
     pids+=($!)
   done
   for i in "${!tools[@]}"; do
@@ -139,19 +139,18 @@ fi
 
 program=$build/dmoscope
 step info 30 "$program" info
-step bench 150 "$program" bench --backend cuda --sizes 1e4,1e5,1.33e6,1e7 --threads 0 --repeats 3
+step bench 150 "$program" bench --backend cpu,cuda --sizes 1e4,1e5,1330000,1e7 --threads 0 --repeats 3
 told "bench of generated meshes" "$(outcome)"
-step bench-json 60 "$program" bench --backend cuda --sizes 1.33e6 --threads 0 --repeats 3 --json
 small=resources/samples/coast.14
 [[ -f $shared/meshes/ocean/east.14 ]] && small=$shared/meshes/ocean/east.14
-step bench-small 40 "$program" bench "$small" --backend cuda --threads 1 --iterations 1000 --repeats 3
+step bench-small 40 "$program" bench "$small" --backend cpu,cuda --threads 1 --iterations 1000 --repeats 3
 told "bench of $(basename "$small")" "$(outcome)"
 
 if [[ -n $bundle ]]; then
   step bundle-info 30 "$bundle/bin/dmoscope" info
   told "the bundle's info" "$(outcome)"
   if [[ -x $bundle/bin/test_render ]]; then
-    step interop-tests 60 "$bundle/bin/test_render" --gtest_filter='Cuda*'
+    step interop-tests 60 env -C "$bundle" bin/test_render --gtest_filter='Cuda*:*/Cuda*'
     told "the bundle's interop tests" "$(tests_of "$out/interop-tests.log")$([[ $status -eq 0 ]] || echo ", $(outcome)")"
   fi
   step draw 60 "$bundle/bin/dmoscope" bench --draw --backend cuda --sizes 1.33e6
@@ -174,8 +173,8 @@ figures() {
   printf '| what | |\n|---|---|\n| commit | %s |\n| driver | %s |\n| CUDA toolkit | %s |\n| processor | %s |\n| command | `tests/gpu/run_all.sh`, %d s in all |\n' \
     "$commit" "${driver:-none}" "${toolkit:-none}" "$processor" "$SECONDS"
   printf '%s\n' "${results[@]}"
-  figures bench "dmoscope bench --backend cuda --sizes 1e4,1e5,1.33e6,1e7 --threads 0 --repeats 3"
-  figures bench-small "dmoscope bench $(basename "$small") --backend cuda --threads 1 --iterations 1000 --repeats 3"
+  figures bench "dmoscope bench --backend cpu,cuda --sizes 1e4,1e5,1330000,1e7 --threads 0 --repeats 3"
+  figures bench-small "dmoscope bench $(basename "$small") --backend cpu,cuda --threads 1 --iterations 1000 --repeats 3"
   [[ -n $bundle ]] && figures draw "dmoscope bench --draw --backend cuda --sizes 1.33e6"
   [[ -n $authors ]] && figures authors "tests/gpu/authors.sh"
 } >"$out/block.md"

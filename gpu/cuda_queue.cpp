@@ -2,7 +2,6 @@
 
 #ifdef DMOSCOPE_HAVE_CUDA
 
-#include <cstring>
 #include <mutex>
 #include <unordered_map>
 
@@ -21,9 +20,6 @@ namespace {
 
 /// Threads that a multiprocessor runs at once in the search's kernel, which takes nearly all registers a thread may have.
 constexpr std::size_t kThreadsAtOnce = 256;
-/// Downloads up to this size go through memory that the device writes directly.
-constexpr std::size_t kSmall = 4096;
-
 /// Makes the calling thread's CUDA calls go to a device; each thread has its own.
 void use(int device) { DMOSCOPE_CUDA_CHECK(cudaSetDevice(device)); }
 
@@ -40,19 +36,6 @@ class CudaStream {
 
  private:
   cudaStream_t stream_ = nullptr;
-};
-
-/// Host memory that the device reaches without a copy in between.
-class PinnedMemory {
- public:
-  explicit PinnedMemory(std::size_t bytes) { DMOSCOPE_CUDA_CHECK(cudaMallocHost(&memory_, bytes)); }
-  ~PinnedMemory() { (void)cudaFreeHost(memory_); }
-  PinnedMemory(const PinnedMemory&) = delete;
-  PinnedMemory& operator=(const PinnedMemory&) = delete;
-  [[nodiscard]] void* get() const noexcept { return memory_; }
-
- private:
-  void* memory_ = nullptr;
 };
 
 /// How large each piece of a device's memory is; any thread may give some back.
@@ -108,7 +91,7 @@ class CudaMark final : public Queue::Mark {
 class CudaQueue final : public Queue {
  public:
   CudaQueue(int device, std::shared_ptr<Memory> memory, std::shared_ptr<Counters> counters)
-      : Queue(std::move(counters)), device_(device), memory_(std::move(memory)), stream_(device), small_(kSmall) {
+      : Queue(std::move(counters)), device_(device), memory_(std::move(memory)), stream_(device) {
     cudaDeviceProp properties{};
     DMOSCOPE_CUDA_CHECK(cudaGetDeviceProperties(&properties, device));
     lanes_at_once_ = static_cast<std::size_t>(properties.multiProcessorCount) * kThreadsAtOnce;
@@ -148,10 +131,19 @@ class CudaQueue final : public Queue {
   }
   void download(void* to, const void* from, std::size_t bytes) override {
     use(device_);
-    void* target = bytes <= kSmall ? small_.get() : to;
-    DMOSCOPE_CUDA_CHECK(cudaMemcpyAsync(target, from, bytes, cudaMemcpyDeviceToHost, stream_.get()));
-    DMOSCOPE_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));
-    if (target != to) std::memcpy(to, target, bytes);
+    fetch(to, from, bytes);
+    wait();
+  }
+  void* allocate_on_host(std::size_t bytes) override {
+    use(device_);
+    void* memory = nullptr;
+    DMOSCOPE_CUDA_CHECK(cudaMallocHost(&memory, bytes));
+    return memory;
+  }
+  void release_on_host(void* memory) noexcept override { (void)cudaFreeHost(memory); }
+  void fetch(void* to, const void* from, std::size_t bytes) override {
+    use(device_);
+    DMOSCOPE_CUDA_CHECK(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, stream_.get()));
   }
   void clear(void* memory, std::size_t bytes) override {
     use(device_);
@@ -219,7 +211,6 @@ class CudaQueue final : public Queue {
   int device_;
   std::shared_ptr<Memory> memory_;
   CudaStream stream_;
-  PinnedMemory small_;
   std::size_t lanes_at_once_ = 0;
   std::string description_;
 };

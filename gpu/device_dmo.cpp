@@ -25,6 +25,7 @@ class DeviceDmo final : public Smoother {
         metric_(metric),
         mesh_(queue_, *input, *colouring_, immovable, pool),
         counts_(queue_, colouring_->class_count() + std::size_t{1}),
+        moved_(queue_),
         deferred_(queue_, largest_class()),
         pictures_(std::make_shared<Pictures>(queue_)),
         task_(mesh_.task()) {
@@ -48,9 +49,8 @@ class DeviceDmo final : public Smoother {
       visit_classes(first, count);
       seen_ = seen_ || count == colouring_->order.size();
     }
-    std::uint32_t moved = 0;
-    counts_.download({&moved, 1});
-    return moved;
+    queue_->wait();
+    return moved_.value();
   }
 
   void store(std::span<Vec3> positions, ThreadPool* /*pool*/) override {
@@ -101,6 +101,7 @@ class DeviceDmo final : public Smoother {
       launch_visits(mesh_.stars_of_class(c), end - begin);
       queue_->launch(Work::Settle, metric_, task_, std::min<std::uint64_t>(end - begin, kSettlers));
     }
+    moved_.fetch(counts_.data());
   }
 
   void launch_visits(const DeviceMesh::ClassStars& stars, std::size_t count) {
@@ -124,6 +125,7 @@ class DeviceDmo final : public Smoother {
   Metric metric_;
   DeviceMesh mesh_;
   Buffer<std::uint32_t> counts_;  // moved, then the deferred visits of each class
+  Fetched<std::uint32_t> moved_;
   Buffer<Deferred> deferred_;
   std::shared_ptr<Pictures> pictures_;
   Task task_;

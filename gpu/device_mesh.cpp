@@ -41,7 +41,8 @@ DeviceMesh::DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, con
       immovable_(queue_, flags(input.mesh.elements.size(), immovable)),
       quality_(queue_, input.mesh.elements.size()),
       parts_(queue_, part_count(input.mesh.elements.size())),
-      statistics_(queue_, 1) {
+      statistics_(queue_, 1),
+      fetched_(queue_) {
   task_.shapes = shapes_.data();
   task_.others = others_.data();
   task_.mesh = {star_offsets_.data(), incidences_.data(),        corner_offsets_.data(),
@@ -70,12 +71,12 @@ void DeviceMesh::judge(Metric metric) {
   queue_->launch(Work::Judge, metric, task_, task_.element_count);
   queue_->launch(Work::Sum, metric, task_, parts_.size());
   queue_->launch(Work::Total, metric, task_, 1);
+  fetched_.fetch(statistics_.data());
 }
 
 Statistics DeviceMesh::statistics() const {
-  Statistics found;
-  statistics_.download({&found, 1});
-  return found;
+  queue_->wait();
+  return fetched_.value();
 }
 
 }  // namespace dmoscope::gpu

@@ -52,6 +52,7 @@ class DeviceMesh {
   Buffer<double> quality_;
   Buffer<Part> parts_;
   Buffer<Statistics> statistics_;
+  Fetched<Statistics> fetched_;
   Task task_;
   std::vector<ClassStars> classes_;
 };

@@ -93,6 +93,11 @@ class Host final : public HostQueue, public std::enable_shared_from_this<Host> {
     check_lost();
     std::memcpy(to, from, bytes);
   }
+  void* allocate_on_host(std::size_t bytes) override { return ::operator new(bytes); }
+  void release_on_host(void* memory) noexcept override { ::operator delete(memory); }
+  void fetch(void* to, const void* from, std::size_t bytes) override {
+    enqueue([to, from, bytes] { std::memcpy(to, from, bytes); });
+  }
   void clear(void* memory, std::size_t bytes) override {
     enqueue([memory, bytes] { std::memset(memory, 0, bytes); });
   }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <new>
 #include <span>
 #include <string>
 #include <utility>
@@ -40,6 +41,11 @@ class Queue {
   virtual void upload(void* to, const void* from, std::size_t bytes) = 0;
   /// Device to host, after all work so far; done on return.
   virtual void download(void* to, const void* from, std::size_t bytes) = 0;
+  /// Memory of the host that the device writes directly.
+  [[nodiscard]] virtual void* allocate_on_host(std::size_t bytes) = 0;
+  virtual void release_on_host(void* memory) noexcept = 0;
+  /// Device to such memory; done after wait(). `bytes`: a few.
+  virtual void fetch(void* to, const void* from, std::size_t bytes) = 0;
   /// Sets every byte to zero.
   virtual void clear(void* memory, std::size_t bytes) = 0;
   /// Runs the body of `work` for lanes (or teams) 0 to count - 1. Metric: for the kinds of work that depend on one.
@@ -47,7 +53,7 @@ class Queue {
   /// Until all work is done.
   virtual void wait() = 0;
 
-  /// Launches and clears that are kept, to be asked for again in one go.
+  /// Launches, clears and fetches that are kept, to be asked for again in one go.
   class Recording {
    public:
     Recording() = default;
@@ -55,7 +61,7 @@ class Queue {
     Recording& operator=(const Recording&) = delete;
     virtual ~Recording() = default;
   };
-  /// Between the two, launch() and clear() are kept and not done; nothing else may be asked for.
+  /// Between the two, launch(), clear() and fetch() are kept and not done; nothing else may be asked for.
   virtual void start_recording() = 0;
   [[nodiscard]] virtual std::unique_ptr<Recording> stop_recording() = 0;
   virtual void replay(Recording& recording) = 0;
@@ -136,6 +142,23 @@ class Buffer {
   std::shared_ptr<Queue> queue_;
   T* data_ = nullptr;
   std::size_t size_ = 0;
+};
+
+/// One object that a device brings to the host without a copy in between.
+template <class T>
+class Fetched {
+ public:
+  explicit Fetched(std::shared_ptr<Queue> queue) : queue_(std::move(queue)), value_(new (queue_->allocate_on_host(sizeof(T))) T{}) {}
+  ~Fetched() { queue_->release_on_host(value_); }
+  Fetched(const Fetched&) = delete;
+  Fetched& operator=(const Fetched&) = delete;
+  void fetch(const T* from) const { queue_->fetch(value_, from, sizeof(T)); }
+  /// After Queue::wait().
+  [[nodiscard]] const T& value() const noexcept { return *value_; }
+
+ private:
+  std::shared_ptr<Queue> queue_;
+  T* value_;
 };
 
 }  // namespace dmoscope::gpu

@@ -1,13 +1,14 @@
 #include "core/mesh/colouring.h"
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
 #include <utility>
 
+#include "core/base/thread_pool.h"
 #include "core/mesh/random.h"
 
 namespace dmoscope {
@@ -42,18 +43,46 @@ void radix_sort(std::vector<Keyed>& items, unsigned bits) {
   }
 }
 
+constexpr std::size_t kStretch = 4096;  // vertices: some 200 KB with their rings
+
+/// The items' vertices by the size of their stars, stably.
+void sort_by_star(std::span<const Keyed> items, const Topology& topology, std::span<Index> sorted) {
+  constexpr std::size_t kLargest = 63;  // larger ones count as this
+  std::array<std::uint8_t, kStretch> star;
+  std::array<std::size_t, kLargest + 2> start{};
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    star[i] = static_cast<std::uint8_t>(std::min(topology.star(items[i].vertex).size(), kLargest));
+    ++start[star[i] + std::size_t{1}];
+  }
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  for (std::size_t i = 0; i < items.size(); ++i) sorted[start[star[i]]++] = items[i].vertex;
+}
+
 /// Where vertices lie along the Z-order curve over the box of all of them, 0 to 2^32 - 1.
 class Curve {
  public:
-  Curve(const Mesh& mesh, const Plane& plane, std::span<const Index> vertices) : mesh_(mesh), plane_(plane) {
-    Vec2<double> high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-    low_ = {-high.x, -high.y};
-    for (const Index v : vertices) {
-      const Vec2<double> p = plane.project(mesh.positions[v]);
-      low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-    const double size = std::max(high.x - low_.x, high.y - low_.y);
+  Curve(const Mesh& mesh, const Plane& plane, std::span<const Index> vertices, ThreadPool* pool) : mesh_(mesh), plane_(plane) {
+    struct Box {
+      Vec2<double> low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
+      void add(Vec2<double> p, Vec2<double> q) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+        high = {std::max(high.x, q.x), std::max(high.y, q.y)};
+      }
+    };
+    constexpr std::size_t kGrain = 65536;
+    std::vector<Box> parts((vertices.size() + kGrain - 1) / kGrain);
+    for_chunks(pool, vertices.size(), kGrain, [&](std::size_t first, std::size_t last) {
+      Box box;
+      for (const Index v : vertices.subspan(first, last - first)) {
+        const Vec2<double> p = plane.project(mesh.positions[v]);
+        box.add(p, p);
+      }
+      parts[first / kGrain] = box;
+    });
+    Box box;
+    for (const Box& part : parts) box.add(part.low, part.high);
+    low_ = box.low;
+    const double size = std::max(box.high.x - low_.x, box.high.y - low_.y);
     scale_ = size > 0.0 ? 65535.0 / size : 0.0;
   }
   [[nodiscard]] std::uint32_t key(Index vertex) const {
@@ -103,22 +132,18 @@ Colouring colour_vertices(const Mesh& mesh, const Topology& topology, std::span<
   return result;
 }
 
-void arrange_classes(Colouring& colouring, const Mesh& mesh, const Plane& plane, const Topology& topology) {
-  constexpr std::size_t kStretch = 4096;  // vertices: some 200 KB with their rings
-  const Curve curve(mesh, plane, colouring.order);
-  std::vector<Keyed> items;
-  for (Index c = 0; c < colouring.class_count(); ++c) {
-    const auto members = colouring.members(c);
-    items.resize(members.size());
-    for (std::size_t i = 0; i < members.size(); ++i) items[i] = {curve.key(members[i]), members[i]};
-    radix_sort(items, 32);
-    for (std::size_t i = 0; i < items.size(); ++i) {
-      const auto star = static_cast<std::uint32_t>(std::min<std::size_t>(topology.star(items[i].vertex).size(), 63));
-      items[i].key = static_cast<std::uint32_t>(i / kStretch) << 6U | star;
+void arrange_classes(Colouring& colouring, const Mesh& mesh, const Plane& plane, const Topology& topology, ThreadPool* pool) {
+  const Curve curve(mesh, plane, colouring.order, pool);
+  for_chunks(pool, colouring.class_count(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c) {
+      const std::span<Index> members(colouring.order.data() + colouring.class_offsets[c], colouring.members(static_cast<Index>(c)).size());
+      std::vector<Keyed> items(members.size());
+      for (std::size_t i = 0; i < members.size(); ++i) items[i] = {curve.key(members[i]), members[i]};
+      radix_sort(items, 32);
+      for (std::size_t begin = 0; begin < items.size(); begin += kStretch)
+        sort_by_star(std::span(items).subspan(begin, std::min(kStretch, items.size() - begin)), topology, members.subspan(begin));
     }
-    radix_sort(items, 6 + static_cast<unsigned>(std::bit_width(items.size() / kStretch)));
-    std::ranges::transform(items, colouring.order.begin() + colouring.class_offsets[c], &Keyed::vertex);
-  }
+  });
 }
 
 std::vector<Index> shuffled(std::span<const Index> vertices, std::uint64_t seed) {

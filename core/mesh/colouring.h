@@ -10,6 +10,8 @@
 
 namespace dmoscope {
 
+class ThreadPool;
+
 /// The free vertices in the order in which an iteration visits them, class after class.
 struct Colouring {
   std::vector<Index> order;          // every free vertex once
@@ -26,8 +28,8 @@ struct Colouring {
 
 /// Reorders every class, which changes no result since its members do not see each other: along a space-filling curve of `plane`, so that
 /// neighbours in space are neighbours in memory, and in stretches of it by the size of their stars, so that vertices that are searched
-/// side by side need the same work.
-void arrange_classes(Colouring& colouring, const Mesh& mesh, const Plane& plane, const Topology& topology);
+/// side by side need the same work. The same for any pool (null: this thread alone).
+void arrange_classes(Colouring& colouring, const Mesh& mesh, const Plane& plane, const Topology& topology, ThreadPool* pool = nullptr);
 
 /// The vertices in an order shuffled by `seed` with a generator of our own: the same on every platform.
 [[nodiscard]] std::vector<Index> shuffled(std::span<const Index> vertices, std::uint64_t seed);

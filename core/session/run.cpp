@@ -45,9 +45,9 @@ std::vector<Index> free_vertices(std::span<const std::uint8_t> fixed, const Visi
   return order.seed ? shuffled(free, *order.seed) : free;
 }
 
-std::shared_ptr<const Colouring> make_colouring(const InputMesh& input, std::span<const Index> free) {
+std::shared_ptr<const Colouring> make_colouring(const InputMesh& input, std::span<const Index> free, ThreadPool* pool) {
   Colouring colouring = colour_vertices(input.mesh, input.topology, free);
-  arrange_classes(colouring, input.mesh, input.geometry.plane, input.topology);
+  arrange_classes(colouring, input.mesh, input.geometry.plane, input.topology, pool);
   return std::make_shared<const Colouring>(std::move(colouring));
 }
 
@@ -80,7 +80,7 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
       parameters_(std::move(parameters)),
       pool_(std::move(pool)),
       fixed_(fixed_vertices(*input_, parameters_.fixed)),
-      colouring_(make_colouring(*input_, free_vertices(fixed_, parameters_.order))),
+      colouring_(make_colouring(*input_, free_vertices(fixed_, parameters_.order), pool_.get())),
       immovable_(immovable_elements(input_->mesh, fixed_, pool_.get())),
       executor_(make_executor(parameters_.backend, acceleration, task())),
       positions_(working_copy(input_->mesh.positions)),

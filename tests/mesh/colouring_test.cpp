@@ -1,3 +1,4 @@
+#include "core/base/thread_pool.h"
 #include "core/mesh/colouring.h"
 
 #include <algorithm>
@@ -65,7 +66,8 @@ TEST(ArrangeClasses, KeepsClassesAndTheirMembersAndIsDeterministic) {
     const Colouring before = colour_vertices(mesh, topology, shuffled(interior(mesh, topology), 5));
     Colouring after = before, again = before;
     arrange_classes(after, mesh, Plane{}, topology);
-    arrange_classes(again, mesh, Plane{}, topology);
+    ThreadPool pool(3);
+    arrange_classes(again, mesh, Plane{}, topology, &pool);
     EXPECT_EQ(after.order, again.order);
     EXPECT_NE(after.order, before.order);
     ASSERT_EQ(after.class_offsets, before.class_offsets);

@@ -80,6 +80,17 @@ tests_of() {
   fi
 }
 
+# told_tests NAME STEP: notes how a step's tests ended; that all were skipped is a failure, for here there should be a GPU.
+told_tests() {
+  local tests
+  tests=$(tests_of "$out/$2.log")
+  if [[ $tests == "0 passed, 0 failed, "* && $status -eq 0 ]]; then
+    broken=$((broken + 1))
+    tests="$tests; **NOTHING RAN**"
+  fi
+  told "$1" "$tests$([[ $status -eq 0 ]] || echo "; $(outcome)")"
+}
+
 gpu=$(nvidia-smi --query-gpu=name,compute_cap,memory.total --format=csv,noheader 2>/dev/null | head -1)
 driver=$(nvidia-smi --query-gpu=driver_version --format=csv,noheader 2>/dev/null | head -1)
 nvcc=$(PATH=$PATH:/usr/local/cuda/bin command -v nvcc || echo nvcc)
@@ -108,32 +119,40 @@ step build 300 cmake --build "$build" --target "${targets[@]}" -- -k 0
 told "build" "$(outcome)"
 
 step tests 150 ctest --test-dir "$build" -L '^gpu(_host)?$' -j 4 --output-on-failure --no-tests=error
-told "tests (ctest -L gpu)" "$(tests_of "$out/tests.log")$([[ $status -eq 0 ]] || echo ", $(outcome)")"
+told_tests "tests (ctest -L gpu)" tests
 
-# The sanitizers are slow: they get the tests of small meshes, and run side by side, for nothing is measured here.
+# The sanitizers are slow: they get small meshes, of all metrics for memory, of two for the rest; and run side by side, for nothing is
+# measured here.
 sanitizer=$(PATH=$PATH:/usr/local/cuda/bin command -v compute-sanitizer)
 tools=(memcheck racecheck synccheck initcheck)
+small='*Cuda*.SameBitsOnTheZoo'
+declare -A subset=([memcheck]="$small/*:*Cuda*.GivesItsMemoryBack*:CudaDevice.*")
+for tool in "${tools[@]:1}"; do subset[$tool]="$small/meanratio:$small/minangle"; done
 if [[ -z $sanitizer ]]; then
   told compute-sanitizer "**NOT RUN**: it is not installed"
   broken=$((broken + 1))
-elif [[ -x $build/tests/test_gpu ]]; then
-  printf -- '--- compute-sanitizer: %s, on Cuda*Small*\n' "${tools[*]}"
+elif [[ ! -x $build/tests/test_gpu ]]; then
+  told compute-sanitizer "**NOT RUN**: there is no test_gpu"
+else
+  printf -- '--- compute-sanitizer: %s\n' "${tools[*]}"
   pids=()
   for tool in "${tools[@]}"; do
     timeout -k 5 "$(limit_of 150)" "$sanitizer" --tool "$tool" --error-exitcode 9 \
-      "$build/tests/test_gpu" --gtest_filter='Cuda*Small*:*/Cuda*Small*' >"$out/$tool.log" 2>&1 &
+      "$build/tests/test_gpu" --gtest_filter="${subset[$tool]}" >"$out/$tool.log" 2>&1 &
     pids+=($!)
   done
   for i in "${!tools[@]}"; do
     status=0
     wait "${pids[i]}" || status=$?
     log=$out/${tools[i]}.log
+    tests=$(tests_of "$log")
+    [[ $tests != "0 passed, 0 failed, "* || $status -ne 0 ]] || status=1
     if [[ $status -ne 0 ]]; then
       broken=$((broken + 1))
       tail -n 25 "$log" | sed 's/^/    /'
     fi
     summary=$(grep -oE '(ERROR|RACECHECK) SUMMARY: .*' "$log" | tail -1)
-    told "compute-sanitizer ${tools[i]}" "$(tests_of "$log"); ${summary:-no summary}$([[ $status -eq 0 ]] || echo ", $(outcome)")"
+    told "compute-sanitizer ${tools[i]}" "$tests; ${summary:-no summary}$([[ $status -eq 0 ]] || echo "; $(outcome)")"
   done
 fi
 
@@ -141,19 +160,17 @@ program=$build/dmoscope
 step info 30 "$program" info
 step bench 150 "$program" bench --backend cpu,cuda --sizes 1e4,1e5,1330000,1e7 --threads 0 --repeats 3
 told "bench of generated meshes" "$(outcome)"
-small=resources/samples/coast.14
-[[ -f $shared/meshes/ocean/east.14 ]] && small=$shared/meshes/ocean/east.14
-step bench-small 40 "$program" bench "$small" --backend cpu,cuda --threads 1 --iterations 1000 --repeats 3
-told "bench of $(basename "$small")" "$(outcome)"
+mesh=resources/samples/coast.14
+[[ -f $shared/meshes/ocean/east.14 ]] && mesh=$shared/meshes/ocean/east.14
+step bench-small 40 "$program" bench "$mesh" --backend cpu,cuda --threads 1 --iterations 1000 --repeats 3
+told "bench of $(basename "$mesh")" "$(outcome)"
 
 if [[ -n $bundle ]]; then
   step bundle-info 30 "$bundle/bin/dmoscope" info
   told "the bundle's info" "$(outcome)"
-  if [[ -x $bundle/bin/test_render ]]; then
-    step interop-tests 60 env -C "$bundle" bin/test_render --gtest_filter='Cuda*:*/Cuda*'
-    told "the bundle's interop tests" "$(tests_of "$out/interop-tests.log")$([[ $status -eq 0 ]] || echo ", $(outcome)")"
-  fi
-  step draw 60 "$bundle/bin/dmoscope" bench --draw --backend cuda --sizes 1.33e6
+  step bundle-tests 90 env -C "$bundle" sh -c 'for t in bin/test_*; do "$t" --gtest_filter="Cuda*:*/Cuda*" || bad=1; done; exit ${bad:-0}'
+  told_tests "the bundle's tests" bundle-tests
+  step draw 60 "$bundle/bin/dmoscope" bench --draw 120 --backend cuda --sizes 1330000
   told "stepped and drawn" "$(outcome)"
 fi
 if [[ -n $authors ]]; then
@@ -173,9 +190,12 @@ figures() {
   printf '| what | |\n|---|---|\n| commit | %s |\n| driver | %s |\n| CUDA toolkit | %s |\n| processor | %s |\n| command | `tests/gpu/run_all.sh`, %d s in all |\n' \
     "$commit" "${driver:-none}" "${toolkit:-none}" "$processor" "$SECONDS"
   printf '%s\n' "${results[@]}"
+  printf '\n`dmoscope info`\n\n```\n'
+  sed -n '/^backends/,/^formats/{/^formats/d;p}' "$out/info.log"
+  printf '```\n'
   figures bench "dmoscope bench --backend cpu,cuda --sizes 1e4,1e5,1330000,1e7 --threads 0 --repeats 3"
-  figures bench-small "dmoscope bench $(basename "$small") --backend cpu,cuda --threads 1 --iterations 1000 --repeats 3"
-  [[ -n $bundle ]] && figures draw "dmoscope bench --draw --backend cuda --sizes 1.33e6"
+  figures bench-small "dmoscope bench $(basename "$mesh") --backend cpu,cuda --threads 1 --iterations 1000 --repeats 3"
+  [[ -n $bundle ]] && figures draw "dmoscope bench --draw 120 --backend cuda --sizes 1330000"
   [[ -n $authors ]] && figures authors "tests/gpu/authors.sh"
 } >"$out/block.md"
 printf '\n========== for tests/gpu/RESULTS.md (also in %s)\n\n' "$out/block.md"

@@ -15,17 +15,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Time of the visits between two looks at the cancel request.
-constexpr double kBlockSeconds = 0.02;
-/// Most of them: visits to vertices at rest cost next to nothing, and the next may be to others.
-constexpr std::uint64_t kLargestBlock = std::uint64_t{1} << 20U;
-/// Where a call is dear and a visit is not: far more than an iteration of any mesh.
-constexpr std::uint64_t kLargestFarBlock = std::uint64_t{1} << 40U;
-/// Before anything is known of what visits take.
-constexpr std::uint64_t kFirstBlock = 2048;
-/// How fast slow visits of the past are forgotten, block by block.
-constexpr double kForgetting = 0.75;
-
 std::vector<std::uint8_t> fixed_vertices(const InputMesh& input, std::span<const Index> chosen) {
   const auto boundary = input.topology.boundary();
   std::vector<std::uint8_t> fixed(boundary.begin(), boundary.end());
@@ -84,8 +73,8 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
       immovable_(immovable_elements(input_->mesh, fixed_, pool_.get())),
       executor_(make_executor(parameters_.backend, acceleration, task())),
       positions_(working_copy(input_->mesh.positions)),
+      blocks_(executor_.smoother->positions_are_far()),
       history_(history_bytes) {
-  plan_blocks();
   history_.record_input({0, statistics(), 0, 0.0}, {input_, &input_->mesh.positions});
 }
 
@@ -161,7 +150,7 @@ void Run::recover() {
   if (failure_.empty()) return;
   executor_ = executor_after_failure(fmt::format("{} failed: {}", executor_.backend, failure_), task());
   failure_.clear();
-  plan_blocks();
+  blocks_ = BlockPlan(executor_.smoother->positions_are_far());
   const History::Kept& kept = history_.nearest(at_.moment.iteration);
   const Moment of_history{kept.iteration, 0};
   if (!brought_ || brought_->moment < of_history) {
@@ -199,7 +188,7 @@ void Run::visit(std::uint64_t count, Progress& progress) {
   keep();
   while (count > 0) {
     progress.check();
-    const std::uint64_t block = std::min({count, visits_per_iteration() - at_.moment.visits, block_});
+    const std::uint64_t block = std::min({count, visits_per_iteration() - at_.moment.visits, blocks_.visits()});
     recovering([&] { visit_block(block); });
     count -= block;
     const double done = at_.moment.visits == 0 ? 1.0 : static_cast<double>(at_.moment.visits) / whole;
@@ -213,22 +202,9 @@ void Run::visit_block(std::uint64_t count) {
   at_.moved += asking_device([&] { return executor_.smoother->visit(at_.moment.visits, count, positions_, pool_.get()); });
   const double seconds = seconds_since(start);
   at_.seconds += seconds;
-  choose_block(count, seconds);
+  blocks_.learn(count, seconds);
   at_.moment.visits += count;
   if (at_.moment.visits == visits_per_iteration()) end_iteration();
-}
-
-/// Before the first visit by a smoother.
-void Run::plan_blocks() {
-  visit_seconds_ = 0.0;
-  block_ = executor_.smoother->positions_are_far() ? kLargestFarBlock : kFirstBlock;
-}
-
-/// How many visits to make before the next look, from the time of the last ones. The result does not depend on it.
-void Run::choose_block(std::uint64_t visits, double seconds) {
-  visit_seconds_ = std::max(seconds / static_cast<double>(visits), kForgetting * visit_seconds_);
-  const double most = static_cast<double>(executor_.smoother->positions_are_far() ? kLargestFarBlock : kLargestBlock);
-  block_ = static_cast<std::uint64_t>(std::clamp(kBlockSeconds / std::max(visit_seconds_, kBlockSeconds / most), 1.0, most));
 }
 
 void Run::end_iteration() {

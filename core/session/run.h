@@ -15,6 +15,7 @@
 #include "core/mesh/colouring.h"
 #include "core/quality/quality.h"
 #include "core/search/parameters.h"
+#include "core/session/block_plan.h"
 #include "core/session/history.h"
 #include "core/session/input_mesh.h"
 #include "core/smooth/executor.h"
@@ -132,8 +133,6 @@ class Run {
   void keep();
   void visit(std::uint64_t count, Progress& progress);
   void visit_block(std::uint64_t count);
-  void choose_block(std::uint64_t visits, double seconds);
-  void plan_blocks();
   void end_iteration();
   void record(const Place& done);
   void step_within(std::uint64_t done, std::uint64_t all, Progress& progress);
@@ -157,8 +156,7 @@ class Run {
   mutable std::string failure_;                     // of the device, until recover()
   double unkept_seconds_ = 0.0;                     // of smoothing since positions were last kept
   std::uint64_t last_moved_ = 0;                    // in the iteration last ended
-  double visit_seconds_ = 0.0;                      // time of one visit, of the slower blocks of late
-  std::uint64_t block_ = 0;                         // visits until the next look at the cancel request
+  BlockPlan blocks_;
   History history_;
   std::function<void(const Run&)> observer_;
   std::optional<Outcome> last_outcome_;

@@ -129,12 +129,38 @@ TEST(Accelerated, EveryStepGivesTheBitsOfTheCpu) {
   }
 }
 
-TEST(Accelerated, AnIterationIsOneCallAndNothingIsCopiedUntilPositionsAreAskedFor) {
+TEST(BlockPlan, TakesAboutTheSameTimeWhateverVisitsTake) {
+  BlockPlan plan;
+  EXPECT_GE(plan.visits(), 1U);
+  EXPECT_LE(plan.visits(), 10000U) << "nothing is known: each may take long";
+  plan.learn(1000, 0.001);
+  EXPECT_NEAR(static_cast<double>(plan.visits()), 20000.0, 1.0);
+  plan.learn(1000, 1.0);
+  EXPECT_NEAR(static_cast<double>(plan.visits()), 20.0, 1.0);
+  plan.learn(20, 20e-6);
+  EXPECT_LT(plan.visits(), 40U) << "the slow ones are not forgotten at once";
+  for (int i = 0; i < 100; ++i) plan.learn(1000, 0.001);
+  EXPECT_NEAR(static_cast<double>(plan.visits()), 20000.0, 1.0);
+  plan.learn(1, 1000.0);
+  EXPECT_EQ(plan.visits(), 1U);
+}
+
+TEST(BlockPlan, OfADeviceIsAWholeIterationUnlessThatTakesLong) {
+  constexpr std::uint64_t kMillions = 30'000'000;
+  BlockPlan far(true), near(false);
+  EXPECT_GE(far.visits(), kMillions) << "nothing is known, but calls are dear";
+  for (BlockPlan* plan : {&far, &near}) plan->learn(kMillions, 0.015);
+  EXPECT_GE(far.visits(), kMillions);
+  EXPECT_LT(near.visits(), kMillions);
+  far.learn(kMillions, 0.1);
+  EXPECT_NEAR(static_cast<double>(far.visits()), 0.2 * kMillions, 1.0);
+}
+
+TEST(Accelerated, NothingIsCopiedUntilPositionsAreAskedFor) {
   Progress progress;
   const auto device = std::make_shared<FakeDevice>();
   dmoscope::Run run = on_device(device, 0);
   run.iterate(5, progress);
-  EXPECT_EQ(device->visits, 5U);
   EXPECT_EQ(device->stores, 0U);
   EXPECT_EQ(device->statistics, 5U);
   (void)run.positions();
@@ -189,7 +215,7 @@ TEST(History, KeepsTheFarPositionsThatSomebodyAskedFor) {
   EXPECT_TRUE(run.history().kept(7));
 }
 
-/// At the n-th visit, and whether somebody had asked for positions just before.
+/// In the n-th iteration, and whether somebody had asked for positions just before.
 class Failure : public ::testing::TestWithParam<std::tuple<std::uint64_t, bool>> {};
 
 TEST_P(Failure, WhileSteppingLeavesTheLastPositionsOfTheHostAndGoesOnOnTheCpu) {
@@ -197,10 +223,10 @@ TEST_P(Failure, WhileSteppingLeavesTheLastPositionsOfTheHostAndGoesOnOnTheCpu) {
   Progress progress;
   const auto states = states_on_cpu(8);
   const auto device = std::make_shared<FakeDevice>();
-  device->fail_at_visit = fails_at;
   dmoscope::Run run = on_device(device, 0);
   run.iterate(fails_at - 1, progress);
   if (asked) (void)run.positions();
+  device->fail_at_visit = device->visits + 1;
   try {
     run.iterate(1, progress);
     FAIL() << "the device is lost";
@@ -226,7 +252,7 @@ TEST_P(Failure, WhileSteppingLeavesTheLastPositionsOfTheHostAndGoesOnOnTheCpu) {
     EXPECT_EQ(run.history().records()[i].moved, whole.history().records()[i].moved) << i;
   }
 }
-INSTANTIATE_TEST_SUITE_P(Visits, Failure, ::testing::Combine(::testing::Values(1U, 2U, 6U), ::testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(Iterations, Failure, ::testing::Combine(::testing::Values(1U, 2U, 6U), ::testing::Bool()));
 
 TEST(Accelerated, AFailureInTheMidstOfAnIterationGoesOnFromThePositionsBroughtThere) {
   Progress progress;

@@ -296,6 +296,21 @@ TEST(Accelerated, AFailureWhileCopyingGoesBackToPositionsThatWereKept) {
   EXPECT_TRUE(same_bits(copy(run), states[5]));
 }
 
+TEST(Accelerated, AFailureWhileGoingOverThePastAgainGoesBackToTheLastThatWasKept) {
+  Progress progress;
+  const auto states = states_on_cpu(4);
+  const auto device = std::make_shared<FakeDevice>();
+  dmoscope::Run run = on_device(device);
+  run.iterate(4, progress, [](const dmoscope::Run& now) { (void)now.positions(); });
+  run.seek({1, 0}, progress);
+  ASSERT_TRUE(run.history().kept(3));
+  run.iterate(2, progress);  // nobody asks for positions
+  device->fail_at_visit = device->visits + 1;
+  EXPECT_THROW(run.iterate(1, progress), DeviceError);
+  EXPECT_EQ(run.moment(), (Moment{3, 0}));
+  EXPECT_TRUE(same_bits(copy(run), states[3]));
+}
+
 TEST(Accelerated, WorkThatDidNotAskForTheDeviceCarriesOnWithoutIt) {
   Progress progress;
   for (const Backend backend : {Backend::Auto, Backend::Cuda}) {
@@ -353,7 +368,9 @@ TEST(Session, BackendIsACommandAndEveryRunSaysWhatItRunsOn) {
   EXPECT_THROW(commands.execute("backend"), UsageError);
   commands.execute("generate grid 600");
   EXPECT_EQ(session.active().parameters().backend, Backend::Cuda) << "the next mesh keeps the choice";
-  EXPECT_EQ(Session(1, acceleration(device), Backend::Cpu).has_input(), false);
+  Session plain(1, acceleration(device), Backend::Cpu);
+  plain.open(lattice(4, 0.1, 1), progress);
+  EXPECT_EQ(plain.active().backend(), "cpu");
 
   device->fail_to_make = true;
   EXPECT_THROW(commands.execute("levels 2"), DeviceError);
@@ -369,6 +386,7 @@ TEST(Session, BackendIsACommandAndEveryRunSaysWhatItRunsOn) {
 TEST(Engine, OutlivesALostDevice) {
   for (const bool while_copying : {false, true}) {
     const auto device = std::make_shared<FakeDevice>();
+    device->store_takes = std::chrono::milliseconds(50);  // dear: only the end of a command copies
     Engine engine(2, acceleration(device));
     engine.post("generate grid 500");
     engine.post("run 2");
@@ -378,8 +396,10 @@ TEST(Engine, OutlivesALostDevice) {
     engine.post("run 2");
     engine.wait_idle();
     const auto messages = engine.take_messages();
-    EXPECT_TRUE(
-        std::ranges::any_of(messages, [](const Message& m) { return m.text.find("the fake device was lost") != std::string::npos; }));
+    const auto tells = [](const Message& message) {
+      return message.kind == Message::Kind::Error && message.exit_code == 3 && message.text.find("device was lost") != std::string::npos;
+    };
+    EXPECT_TRUE(std::ranges::any_of(messages, tells)) << "a script must not go on as if nothing had been";
     engine.post("run 3");
     engine.post("expect iteration >= 3");
     engine.wait_idle();

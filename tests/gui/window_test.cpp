@@ -58,6 +58,21 @@ TEST_F(Window, StepsByKeyAndByButton) {
   EXPECT_GT(session()->frame->moment.visits, 1U);
 }
 
+TEST_F(Window, TheBackendIsChosenInTheParametersAndARefusalIsSaid) {
+  good("generate annulus");
+  EXPECT_EQ(session()->runs[0].parameters.backend, Backend::Auto);
+  good("click backend");
+  good("click backend:cpu");
+  EXPECT_EQ(session()->runs[0].parameters.backend, Backend::Cpu);
+  EXPECT_EQ(session()->runs[0].backend, "cpu");
+  EXPECT_EQ(session()->runs[0].backend_reason, "");
+  good("click backend");
+  const auto failure = window_->run("click backend:cuda");
+  if (!failure) GTEST_SKIP() << "there is a CUDA device: nothing was refused";
+  EXPECT_NE(failure->text.find("the cuda backend cannot be used: "), std::string::npos) << failure->text;
+  EXPECT_EQ(session()->runs[0].parameters.backend, Backend::Cpu);
+}
+
 TEST_F(Window, StepsNothingWithoutAMesh) {
   good("key N");
   EXPECT_EQ(session()->frame, nullptr);

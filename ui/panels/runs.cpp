@@ -106,6 +106,22 @@ void draw_search(PanelContext& context, const RunParameters& parameters) {
   }
 }
 
+void draw_backend(PanelContext& context, const RunView& run) {
+  labelled(context, "backend", "what smooths: the processor, a CUDA device, or the best there is (auto)");
+  const Backend chosen = run.parameters.backend;
+  const std::string shown = chosen == Backend::Auto ? fmt::format("auto: {}", run.backend) : std::string(name(chosen));
+  const bool open = ImGui::BeginCombo("##backend", shown.c_str());
+  context.items.record_last("backend");
+  next_item_tooltip(run.backend_reason);
+  if (!open) return;
+  for (const Backend backend : {Backend::Auto, Backend::Cpu, Backend::Cuda}) {
+    const std::string word(name(backend));
+    if (ImGui::Selectable(word.c_str(), backend == chosen)) context.send("backend " + word);
+    context.items.record_last("backend:" + word);
+  }
+  ImGui::EndCombo();
+}
+
 void draw_order(PanelContext& context, const RunParameters& parameters) {
   labelled(context, "order", "in which order an iteration visits the vertices, before colouring");
   const bool shuffled = parameters.order.seed.has_value();
@@ -161,6 +177,7 @@ void draw_parameters(PanelContext& context) {
   metric_combo(context, "metric", parameters.metric, "metric");
   draw_search(context, parameters);
   draw_order(context, parameters);
+  draw_backend(context, *run);
   labelled(context, "threads", "of this computer that smooth; the result does not depend on it");
   integer(context, "threads", static_cast<int>(context.session.threads), 1, 1024, "threads");
   ImGui::EndDisabled();

@@ -20,8 +20,8 @@ Patch patch_of(const Frame& frame, std::span<const Index> elements) {
     patch.vertices.insert(patch.vertices.end(), corners.begin(), corners.end());
   }
   std::ranges::sort(patch.vertices);
-  const auto twice = std::ranges::unique(patch.vertices);
-  patch.vertices.erase(twice.begin(), twice.end());
+  // Not std::ranges::unique: clang 14 does not compile this library's.
+  patch.vertices.erase(std::unique(patch.vertices.begin(), patch.vertices.end()), patch.vertices.end());
   std::vector<Index> renamed;
   for (const Index element : elements) {
     renamed.clear();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
 namespace dmoscope {
 
@@ -10,13 +11,14 @@ namespace dmoscope {
 class BlockPlan {
  public:
   /// `far`: see Smoother::positions_are_far; there a block is as much as fits the time, so a whole iteration of most meshes.
-  explicit BlockPlan(bool far = false) : most_(far ? kMostFar : kMost), visits_(far ? kMostFar : kFirst) {}
+  explicit BlockPlan(bool far = false) : most_(far ? kMostFar : kMost), visits_(far ? kMostFar : kFirst), warming_up_(far) {}
 
   /// Visits of the next block, at least 1; an iteration may have fewer left.
   [[nodiscard]] std::uint64_t visits() const noexcept { return visits_; }
 
   /// `visits` took `seconds`.
   void learn(std::uint64_t visits, double seconds) {
+    if (std::exchange(warming_up_, false)) return;  // a device's first call also brings it positions and code
     visit_seconds_ = std::max(seconds / static_cast<double>(visits), kForgetting * visit_seconds_);
     const auto most = static_cast<double>(most_);
     visits_ = static_cast<std::uint64_t>(std::clamp(kSeconds / std::max(visit_seconds_, kSeconds / most), 1.0, most));
@@ -35,6 +37,7 @@ class BlockPlan {
 
   std::uint64_t most_;
   std::uint64_t visits_;
+  bool warming_up_;
   double visit_seconds_ = 0.0;
 };
 

@@ -1,0 +1,109 @@
+#pragma once
+// One thread of a kernel, and the instructions that it runs.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "tests/gpu/ptx/memory.h"
+
+namespace dmoscope::gpu::ptx {
+
+/// What a lane computes with: registers, constants and the special registers all have a slot.
+using Slot = std::uint32_t;
+inline constexpr Slot kThread = 0, kBlock = 1, kLocal = 2, kFirstParameter = 3;
+
+struct Instruction;
+class Lane;
+/// Does one instruction; the lane already stands at the next.
+using Handler = void (*)(Lane& lane, const Instruction& instruction);
+
+struct Instruction {
+  Handler run = nullptr;
+  std::int64_t offset = 0;             // what is added to an address; where a branch leads
+  std::array<Slot, 6> slots{};         // what is written, then what is read
+  std::uint8_t written = 0, used = 0;  // how many of them
+  std::uint8_t copied = 0;             // a bit for each that is not computed with, but passed on to the first or to memory
+  std::uint8_t aligned = 1;            // what an address must be a multiple of
+  std::uint32_t text = 0;              // in Entry::texts
+};
+
+/// A kernel, decoded.
+struct Entry {
+  std::string name;  // mangled
+  std::vector<Instruction> code;
+  std::vector<std::string> texts;
+  std::vector<std::uint64_t> initial;   // of every slot; what is no constant holds kPoison
+  std::vector<std::size_t> parameters;  // where each lies in the block of parameters
+  std::size_t parameter_bytes = 0, local_bytes = 0;
+};
+inline constexpr std::uint64_t kPoison = 0x7ff4cdcd7fa4cdcd;  // not a number, in both formats
+
+class Lane {
+ public:
+  enum class State { Running, AtButterfly, AtIndexedShuffle, AtActiveMask, Done };
+
+  /// At the beginning of a kernel. `parameters`: as the entry lays them out.
+  void start(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::uint32_t block,
+             std::uint32_t thread);
+  /// Until it is done or waits for others.
+  void run();
+
+  [[nodiscard]] State state() const noexcept { return state_; }
+  void wait(State why) noexcept {
+    state_ = why;
+    --at_;
+  }
+  void finish() noexcept { state_ = State::Done; }
+  /// After the instruction that it waited at.
+  void go_on() noexcept {
+    state_ = State::Running;
+    ++at_;
+  }
+  void jump(std::int64_t to) {
+    if (--jumps_left_ == 0) throw Fault("the lane comes to no end");
+    at_ = static_cast<std::size_t>(to);
+  }
+  [[nodiscard]] std::size_t at() const noexcept { return at_; }
+  [[nodiscard]] const Instruction& instruction() const { return entry_->code[at_]; }
+
+  /// The low bits of a slot.
+  template <class T>
+  [[nodiscard]] T get(Slot slot) const {
+    static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= 8);
+    if constexpr (std::is_same_v<T, bool>) {
+      return slots_[slot] != 0;
+    } else {
+      T value;
+      std::memcpy(&value, &slots_[slot], sizeof(T));
+      return value;
+    }
+  }
+  /// The higher bits become zero.
+  template <class T>
+  void put(Slot slot, T value) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof(T));
+    slots_[slot] = bits;
+  }
+
+  enum class Space { Global, Local, Parameter, Generic };
+  /// Throws Fault where the lane has nothing there, or the address is not a multiple of `aligned`.
+  [[nodiscard]] std::byte* memory(Space space, std::uintptr_t address, std::size_t size, std::size_t aligned) const;
+
+ private:
+  const Entry* entry_ = nullptr;
+  const GlobalMemory* global_ = nullptr;
+  std::vector<std::uint64_t> slots_;
+  std::vector<std::max_align_t> local_memory_;
+  Extent local_, parameters_;
+  std::size_t at_ = 0;
+  std::uint64_t jumps_left_ = 0;
+  State state_ = State::Done;
+};
+
+}  // namespace dmoscope::gpu::ptx

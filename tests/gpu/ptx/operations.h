@@ -1,0 +1,33 @@
+#pragma once
+// What each of PTX's instructions does, by the text of its opcode. After NVIDIA's "PTX ISA"; only what nvcc makes of the kernels.
+
+#include <optional>
+#include <string_view>
+
+#include "tests/gpu/ptx/lane.h"
+
+namespace dmoscope::gpu::ptx {
+
+struct Operation {
+  Handler run = nullptr;
+  std::uint8_t written = 0, used = 0, copied = 0;  // see Instruction
+};
+
+/// Of an opcode whose operands are registers and constants alone, such as "add.rn.f32".
+[[nodiscard]] std::optional<Operation> find_operation(std::string_view opcode);
+
+/// Of "ld.global.v2.f32", "st.local.u8", "atom.global.add.u32": what is done for each element of the vector.
+struct Access {
+  Operation operation;    // slots: register, address[, register]; of a store: address, register
+  std::size_t size = 0;   // bytes of an element
+  std::size_t count = 0;  // elements
+  bool is_load = false;
+};
+[[nodiscard]] std::optional<Access> find_access(std::string_view opcode);
+
+/// offset: where to; slots[0]: the predicate of the conditional two.
+extern const Operation kJump, kJumpIf, kJumpUnless;
+/// mov.b64 d, {a, b} and its reverse, which is two instructions.
+extern const Operation kPack, kLowHalf, kHighHalf;
+
+}  // namespace dmoscope::gpu::ptx

@@ -1,0 +1,198 @@
+#include "tests/gpu/ptx/ptx_queue.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <new>
+#include <typeinfo>
+
+#include <cxxabi.h>
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/quality/formulas.h"
+#include "gpu/bodies.h"
+
+namespace dmoscope::gpu::ptx {
+
+namespace {
+
+constexpr std::size_t kBlockSize = 128, kTeamSize = 8;
+constexpr std::align_val_t kAlignment{256};  // as a device's
+
+std::string demangled(const char* name) {
+  int status = 0;
+  const std::unique_ptr<char, void (*)(void*)> text(abi::__cxa_demangle(name, nullptr, nullptr, &status), std::free);
+  if (status != 0) throw Fault(fmt::format("no mangled name: {}", name));
+  return text.get();
+}
+
+template <class Body>
+Kernels::Name solo() {
+  return {fmt::format("void dmoscope::gpu::kernel<{}, dmoscope::Solo>(dmoscope::gpu::Task, unsigned long)", demangled(typeid(Body).name())),
+          1};
+}
+template <class Body>
+Kernels::Name in_team() {
+  return {fmt::format("void dmoscope::gpu::kernel<{}, dmoscope::gpu::CudaTeam>(dmoscope::gpu::Task, unsigned long)",
+                      demangled(typeid(Body).name())),
+          kTeamSize};
+}
+
+template <Metric M>
+Kernels::Name name_for(Work work) {
+  switch (work) {
+    case Work::VisitFans:
+      return solo<bodies::Visit<M, Stars::Fans>>();
+    case Work::VisitOthers:
+      return solo<bodies::Visit<M, Stars::Others>>();
+    case Work::VisitInTeam:
+      return in_team<bodies::Visit<M, Stars::All>>();
+    case Work::Settle:
+      return in_team<bodies::Settle<M>>();
+    case Work::Judge:
+      return solo<bodies::Judge<M>>();
+    case Work::Sum:
+      return solo<bodies::Sum>();
+    case Work::Total:
+      return solo<bodies::Total>();
+    case Work::Load:
+      return solo<bodies::Load>();
+    case Work::Store:
+      return solo<bodies::Store>();
+    case Work::Shade:
+      return solo<bodies::Shade>();
+    case Work::Count:
+      return solo<bodies::Count>();
+    case Work::Project:
+      return solo<bodies::Project>();
+    case Work::CopyShades:
+      return solo<bodies::CopyShades>();
+    case Work::Pick:
+      return solo<bodies::Pick>();
+  }
+  return {};
+}
+
+class Recorded final : public Queue::Recording {
+ public:
+  std::vector<std::function<void()>> steps;
+};
+
+class PtxQueue final : public Queue, public std::enable_shared_from_this<PtxQueue> {
+ public:
+  PtxQueue(std::shared_ptr<Kernels> kernels, const PtxDevice& device) : kernels_(std::move(kernels)), device_(device) {}
+
+  void* allocate(std::size_t bytes) override {
+    void* memory = ::operator new(bytes, kAlignment);
+    std::memset(memory, 0xcd, bytes);
+    global_.add(memory, bytes);
+    counters().bytes_allocated += bytes;
+    return memory;
+  }
+  void release(void* memory) noexcept override {
+    counters().bytes_allocated -= global_.remove(memory);
+    ::operator delete(memory, kAlignment);
+  }
+  void upload(void* to, const void* from, std::size_t bytes) override {
+    check(to, bytes);
+    std::memcpy(to, from, bytes);
+  }
+  void download(void* to, const void* from, std::size_t bytes) override {
+    check(from, bytes);
+    std::memcpy(to, from, bytes);
+  }
+  void* allocate_on_host(std::size_t bytes) override { return ::operator new(bytes); }
+  void release_on_host(void* memory) noexcept override { ::operator delete(memory); }
+  void fetch(void* to, const void* from, std::size_t bytes) override {
+    check(from, bytes);
+    enqueue([to, from, bytes] { std::memcpy(to, from, bytes); });
+  }
+  void clear(void* memory, std::size_t bytes) override {
+    check(memory, bytes);
+    enqueue([memory, bytes] { std::memset(memory, 0, bytes); });
+  }
+  void launch(Work work, Metric metric, const Task& task, std::size_t count) override {
+    enqueue([this, work, metric, task, count] { run(work, metric, task, count); });
+  }
+  void wait() override {}
+
+  void start_recording() override { recording_ = std::make_unique<Recorded>(); }
+  std::unique_ptr<Recording> stop_recording() override { return std::move(recording_); }
+  void replay(Recording& recording) override {
+    for (const auto& step : static_cast<Recorded&>(recording).steps) step();
+  }
+
+  std::shared_ptr<Queue> sibling() const override { return std::const_pointer_cast<PtxQueue>(shared_from_this()); }
+  std::unique_ptr<Mark> mark() override { return std::make_unique<Mark>(); }
+  void wait_for(const Mark& /*mark*/) override {}
+  std::unique_ptr<DeviceTarget> make_target(std::uint32_t /*point_buffer*/, std::uint32_t /*shade_buffer*/) override {
+    throw DeviceError("PTX run on the host writes no OpenGL buffers");
+  }
+  void draw(DeviceTarget& /*target*/, const Task& /*task*/) override {}
+
+  std::size_t lanes_at_once() const noexcept override { return device_.lanes_at_once; }
+  std::string description() const override { return "PTX run on the host"; }
+
+ private:
+  void check(const void* memory, std::size_t bytes) const {
+    if (!global_.holds(reinterpret_cast<std::uintptr_t>(memory), bytes)) throw DeviceError("a copy beyond what was allocated");
+  }
+  template <class Step>
+  void enqueue(Step step) {
+    if (recording_ != nullptr)
+      recording_->steps.emplace_back(std::move(step));
+    else
+      step();
+  }
+  void run(Work work, Metric metric, const Task& task, std::size_t count) {
+    try {
+      const Entry& entry = kernels_->find(work, metric);
+      std::vector<std::byte> parameters(sizeof(Task) + sizeof(std::uint64_t));
+      std::memcpy(parameters.data(), &task, sizeof(Task));
+      std::memcpy(parameters.data() + sizeof(Task), &count, sizeof(std::uint64_t));
+      const std::size_t lanes = count * Kernels::name_of(work, metric).team;
+      run_blocks(entry, global_, parameters, (lanes + kBlockSize - 1) / kBlockSize, device_.schedule);
+    } catch (const Fault& fault) {
+      throw DeviceError(fault.what());
+    }
+  }
+
+  std::shared_ptr<Kernels> kernels_;
+  PtxDevice device_;
+  GlobalMemory global_;
+  std::unique_ptr<Recorded> recording_;
+};
+
+}  // namespace
+
+Kernels::Kernels(const std::filesystem::path& folder) {
+  for (const auto& file : std::filesystem::directory_iterator(folder)) {
+    if (file.path().extension() != ".ptx") continue;
+    std::ifstream in(file.path(), std::ios::binary);
+    for (EntryText& entry : find_entries(std::string(std::istreambuf_iterator<char>(in), {}))) texts_.push_back(std::move(entry));
+  }
+  if (texts_.empty()) throw Fault(fmt::format("no kernels in {}", folder.string()));
+  for (std::size_t i = 0; i < texts_.size(); ++i)
+    if (!by_name_.emplace(demangled(texts_[i].name.c_str()), i).second) throw Fault(fmt::format("two kernels {}", texts_[i].name));
+}
+
+const Entry& Kernels::find(Work work, Metric metric) {
+  const std::string name = name_of(work, metric).text;
+  if (const auto found = decoded_.find(name); found != decoded_.end()) return found->second;
+  const auto text = by_name_.find(name);
+  if (text == by_name_.end()) throw Fault(fmt::format("no kernel {}", name));
+  return decoded_.emplace(name, decode(texts_[text->second])).first->second;
+}
+
+Kernels::Name Kernels::name_of(Work work, Metric metric) {
+  return formulas::with_metric(metric, [work]<Metric M>() { return name_for<M>(work); });
+}
+
+std::shared_ptr<Queue> make_ptx_queue(std::shared_ptr<Kernels> kernels, const PtxDevice& device) {
+  return std::make_shared<PtxQueue>(std::move(kernels), device);
+}
+
+}  // namespace dmoscope::gpu::ptx

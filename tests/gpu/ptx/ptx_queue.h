@@ -1,0 +1,45 @@
+#pragma once
+// A device whose kernels are what nvcc made of them, run instruction by instruction on the host: slow, and exact.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "gpu/queue.h"
+#include "tests/gpu/ptx/reader.h"
+#include "tests/gpu/ptx/warp.h"
+
+namespace dmoscope::gpu::ptx {
+
+/// The kernels in a folder's .ptx files.
+class Kernels {
+ public:
+  /// Throws Fault where there is none.
+  explicit Kernels(const std::filesystem::path& folder);
+  [[nodiscard]] const std::vector<EntryText>& texts() const noexcept { return texts_; }
+  /// Decoded when it is first asked for. Throws Fault where there is not exactly one.
+  [[nodiscard]] const Entry& find(Work work, Metric metric);
+
+  struct Name {
+    std::string text;  // as a compiler prints it
+    std::size_t team = 1;
+  };
+  /// Of the kernel that does some work, as gpu/cuda_launch.cuh chooses it.
+  [[nodiscard]] static Name name_of(Work work, Metric metric);
+
+ private:
+  std::vector<EntryText> texts_;
+  std::unordered_map<std::string, std::size_t> by_name_;  // demangled -> place in texts_
+  std::unordered_map<std::string, Entry> decoded_;
+};
+
+struct PtxDevice {
+  std::size_t lanes_at_once = 4096;
+  Schedule schedule;
+};
+/// Faults become DeviceErrors.
+[[nodiscard]] std::shared_ptr<Queue> make_ptx_queue(std::shared_ptr<Kernels> kernels, const PtxDevice& device = {});
+
+}  // namespace dmoscope::gpu::ptx

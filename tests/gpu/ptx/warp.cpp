@@ -1,0 +1,109 @@
+#include "tests/gpu/ptx/warp.h"
+
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace dmoscope::gpu::ptx {
+
+namespace {
+
+using State = Lane::State;
+constexpr std::size_t kBlockSize = 128;
+
+bool shuffles(const Lane& lane) { return lane.state() == State::AtButterfly || lane.state() == State::AtIndexedShuffle; }
+bool is_member(std::uint32_t members, std::size_t lane) { return (members >> lane & 1U) != 0; }
+/// shfl.sync d|p, a, b, c, members
+std::uint32_t members_of(const Lane& lane) { return lane.get<std::uint32_t>(lane.instruction().slots[5]); }
+
+}  // namespace
+
+void run_blocks(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::size_t blocks,
+                Schedule schedule) {
+  if (parameters.size() != entry.parameter_bytes)
+    throw Fault(fmt::format("{} takes {} bytes of parameters, not {}", entry.name, entry.parameter_bytes, parameters.size()));
+  Warp warp;
+  for (std::size_t k = 0; k < blocks; ++k) {
+    const std::size_t block = schedule.backwards ? blocks - 1 - k : k;
+    for (std::size_t first = 0; first < kBlockSize; first += Warp::kSize)
+      warp.run(entry, global, parameters, static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(first), schedule);
+  }
+}
+
+void Warp::run(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::uint32_t block,
+               std::uint32_t first, Schedule schedule) {
+  for (std::uint32_t i = 0; i < kSize; ++i) lanes_[i].start(entry, global, parameters, block, first + i);
+  for (;;) {
+    for (std::size_t i = 0; i < kSize; ++i) lanes_[schedule.backwards ? kSize - 1 - i : i].run();
+    if (std::ranges::all_of(lanes_, [](const Lane& lane) { return lane.state() == State::Done; })) return;
+    if (exchange() || tell_who_is_active(schedule.together)) continue;
+    throw Fault(fmt::format("{}: lanes wait for each other for ever", entry.name));
+  }
+}
+
+bool Warp::has_arrived(std::size_t lane, std::uint32_t members) const {
+  if (!is_member(members, lane)) throw Fault("a lane shuffles with others and not with itself");
+  for (std::size_t i = 0; i < kSize; ++i) {
+    if (!is_member(members, i)) continue;
+    if (lanes_[i].state() == State::Done) throw Fault(fmt::format("lane {} shuffles with lane {}, which is gone", lane, i));
+    if (!shuffles(lanes_[i]) || lanes_[i].at() != lanes_[lane].at()) return false;
+    if (members_of(lanes_[i]) != members) throw Fault("lanes at one shuffle name different members");
+  }
+  return true;
+}
+
+bool Warp::exchange() {
+  bool any = false;
+  for (std::size_t i = 0; i < kSize; ++i) {
+    if (!shuffles(lanes_[i])) continue;
+    const std::uint32_t members = members_of(lanes_[i]);
+    if (!has_arrived(i, members)) continue;
+    pass_values(members);
+    any = true;
+  }
+  return any;
+}
+
+void Warp::pass_values(std::uint32_t members) {
+  std::array<std::uint32_t, kSize> values{};
+  for (std::size_t i = 0; i < kSize; ++i)
+    if (is_member(members, i)) values[i] = lanes_[i].get<std::uint32_t>(lanes_[i].instruction().slots[2]);
+  for (std::uint32_t i = 0; i < kSize; ++i) {
+    if (!is_member(members, i)) continue;
+    Lane& lane = lanes_[i];
+    const Instruction& shuffle = lane.instruction();
+    const Source source = shuffle_source(lane.state() == State::AtButterfly, i, lane.get<std::uint32_t>(shuffle.slots[3]),
+                                         lane.get<std::uint32_t>(shuffle.slots[4]));
+    if (!is_member(members, source.lane)) throw Fault("a lane is to get the value of one that is no member");
+    lane.put(shuffle.slots[0], values[source.lane]);
+    lane.put(shuffle.slots[1], source.within);
+    lane.go_on();
+  }
+}
+
+bool Warp::tell_who_is_active(bool together) {
+  for (std::size_t i = 0; i < kSize; ++i) {
+    if (lanes_[i].state() != State::AtActiveMask) continue;
+    const std::size_t at = lanes_[i].at();
+    std::uint32_t active = 0;
+    for (std::size_t k = i; k < kSize; ++k)
+      if (lanes_[k].state() == State::AtActiveMask && lanes_[k].at() == at && (together || k == i)) active |= 1U << k;
+    for (std::size_t k = i; k < kSize; ++k)
+      if (is_member(active, k)) {
+        lanes_[k].put(lanes_[k].instruction().slots[0], active);
+        lanes_[k].go_on();
+      }
+    return true;
+  }
+  return false;
+}
+
+Source shuffle_source(bool butterfly, std::uint32_t lane, std::uint32_t b, std::uint32_t c) {
+  const std::uint32_t by = b & 0x1fU, clamp = c & 0x1fU, segments = c >> 8U & 0x1fU;
+  const std::uint32_t first = lane & segments, last = first | (clamp & ~segments);
+  const std::uint32_t wanted = butterfly ? lane ^ by : first | (by & ~segments);
+  return wanted <= last ? Source{wanted, true} : Source{lane, false};
+}
+
+}  // namespace dmoscope::gpu::ptx

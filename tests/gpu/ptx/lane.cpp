@@ -5,7 +5,7 @@
 namespace dmoscope::gpu::ptx {
 
 namespace {
-constexpr std::uint64_t kMostJumps = 1U << 28U;
+constexpr std::uint64_t kMostJumps = 1U << 24U;
 }
 
 void Lane::start(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::uint32_t block,

@@ -1,6 +1,9 @@
 // The smoother on what nvcc made of the kernels: the processor's bits, although no GPU is at hand.
 
-#include "core/session/frame_builder.h"
+#include "core/session/device_picture.h"
+#include "gpu/bodies.h"
+#include "gpu/host_queue.h"
+#include "tests/gpu/ptx/operations.h"
 #include "tests/gpu/ptx/ptx_queue.h"
 #include "tests/gpu/same_bits.h"
 #include "tests/smooth/zoo.h"
@@ -69,6 +72,74 @@ INSTANTIATE_TEST_SUITE_P(Metrics, PtxDmo, ::testing::ValuesIn([] {
                            std::erase(name, '-');
                            return name;
                          });
+
+/// What is drawn, made by the kernels and by their source compiled for the host.
+class PtxPicture : public PtxTest {};
+INSTANTIATE_TEST_SUITE_P(Shown, PtxPicture, ::testing::Values(Metric::MeanRatio, Metric::ScaledJacobian, Metric::MinAngle));
+
+TEST_P(PtxPicture, IsThatOfTheHost) {
+  const Subject subject = subject_of(lattice(12, 0.9, 71, Cells::Mixed));  // with inverted elements, and of two kinds
+  const Vec2<double> origin{3.25, -1.5};
+  const std::vector<Index> wanted{7, 0, static_cast<Index>(subject.input->mesh.vertex_count() - 1), 7};
+  struct Seen {
+    std::vector<Vec2<float>> points;
+    std::vector<float> shades;
+    std::vector<Vec3> some;
+    ElementSummary summary;
+  };
+  const auto see = [&](const std::shared_ptr<Queue>& queue) {
+    const auto smoother = make_device_dmo(queue, subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+    std::vector<Vec3> positions = subject.input->mesh.positions;
+    smoother->visit(0, subject.visits(), positions, nullptr);
+    const auto picture = smoother->picture(GetParam());
+    Seen seen{std::vector<Vec2<float>>(positions.size()), std::vector<float>(subject.input->mesh.elements.size()),
+              picture->positions(wanted), picture->summary()};
+    picture->download(seen.points, seen.shades, origin);
+    return seen;
+  };
+  const Seen here = see(make_host_queue({})), there = see(teams());
+  for (std::size_t v = 0; v < here.points.size(); ++v) {
+    ASSERT_EQ(here.points[v].x, there.points[v].x) << v;
+    ASSERT_EQ(here.points[v].y, there.points[v].y) << v;
+  }
+  for (std::size_t e = 0; e < here.shades.size(); ++e)
+    ASSERT_NEAR(here.shades[e], there.shades[e], is_algebraic(GetParam()) ? 0.0 : 1e-6) << e;
+  for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_TRUE(same(here.some[i], there.some[i])) << i;
+  EXPECT_EQ(here.summary.histogram.counts, there.summary.histogram.counts);
+  EXPECT_EQ(here.summary.histogram.below, there.summary.histogram.below);
+  EXPECT_EQ(here.summary.histogram.above, there.summary.histogram.above);
+  EXPECT_GT(here.summary.statistics.inverted, 0U);
+  EXPECT_EQ(here.summary.statistics.inverted, there.summary.statistics.inverted);
+  ASSERT_EQ(there.summary.worst.size(), 1U);
+  EXPECT_EQ(here.summary.worst.at(0).element, there.summary.worst[0].element);
+}
+
+class PtxText : public PtxTest {};
+INSTANTIATE_TEST_SUITE_P(Any, PtxText, ::testing::Values(Metric::MeanRatio));
+
+/// Bits are the processor's only if every operation rounds as IEEE 754 says, and none is two in one.
+TEST_P(PtxText, NothingIsApproximate) {
+  for (const EntryText& entry : kernels->texts())
+    for (const char* const unwanted : {"fma.rn.f32", ".ftz", ".approx", ".full", "mad.rn", ".sat", "call"})
+      EXPECT_EQ(entry.text.find(unwanted), std::string::npos) << unwanted << " in " << entry.name;
+}
+
+/// nvcc turns a kernel whose body it holds for the host's into an empty one, or into a loop without end.
+TEST_P(PtxText, KernelsAreWhole) {
+  std::size_t visits = 0;
+  for (const EntryText& text : kernels->texts()) {
+    const Entry entry = decode(text);
+    const bool is_visit = entry.name.find("bodies5Visit") != std::string::npos;
+    visits += is_visit ? 1 : 0;
+    EXPECT_GT(entry.code.size(), is_visit ? 500U : 10U) << entry.name;
+    for (std::size_t i = 0; i < entry.code.size(); ++i)
+      EXPECT_FALSE(entry.code[i].run == kJump.run && entry.code[i].offset == static_cast<std::int64_t>(i)) << entry.name;
+  }
+  std::size_t expected = 0;
+  for (const MetricInfo& metric : metric_table())
+    expected += formulas::with_metric(metric.metric, []<Metric M>() { return kIsRatio<M>; }) ? 3 : 2;
+  EXPECT_EQ(visits, expected);
+}
 
 }  // namespace
 }  // namespace dmoscope::gpu::ptx

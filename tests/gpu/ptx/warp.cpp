@@ -37,7 +37,11 @@ void Warp::run(const Entry& entry, const GlobalMemory& global, const std::vector
   for (;;) {
     for (std::size_t i = 0; i < kSize; ++i) lanes_[schedule.backwards ? kSize - 1 - i : i].run();
     if (std::ranges::all_of(lanes_, [](const Lane& lane) { return lane.state() == State::Done; })) return;
-    if (exchange() || tell_who_is_active(schedule.together)) continue;
+    try {
+      if (exchange() || tell_who_is_active(schedule.together)) continue;
+    } catch (const Fault& fault) {
+      throw Fault(fmt::format("{}: {}", entry.name, fault.what()));
+    }
     throw Fault(fmt::format("{}: lanes wait for each other for ever", entry.name));
   }
 }

@@ -40,6 +40,9 @@ class App {
   [[nodiscard]] const ViewState& state() const noexcept { return state_; }
   [[nodiscard]] Engine& engine() noexcept { return engine_; }
   [[nodiscard]] const Items& items() const noexcept { return items_; }
+  [[nodiscard]] const Activity& activity() const noexcept { return activity_; }
+  /// What was drawn last; null: nothing is open.
+  [[nodiscard]] std::shared_ptr<const Frame> frame() const { return session_->frame; }
   [[nodiscard]] const CommandTable& commands() const noexcept { return commands_; }
 
   /// Runs or queues one command line. Throws UsageError for one that cannot be (what goes wrong in the session becomes a message).

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/smooth/accelerator.h"
+#include "tests/support/fake_picture.h"
 
 namespace dmoscope::testing {
 
@@ -20,6 +21,7 @@ struct FakeDevice {
   bool fail_to_make = false;
   bool has_statistics = true;
   std::chrono::milliseconds store_takes{0};
+  std::shared_ptr<FakePictureDevice> pictures{};  // its side that is drawn; none: it gives no pictures
 };
 
 class FakeSmoother final : public Smoother {
@@ -54,6 +56,12 @@ class FakeSmoother final : public Smoother {
   }
   void positions_replaced() override { stale_ = true; }
   [[nodiscard]] bool positions_are_far() const noexcept override { return true; }
+  [[nodiscard]] std::shared_ptr<const DevicePicture> picture(Metric shown) override {
+    if (stale_ || !device_->pictures) return nullptr;
+    if (!device_->pictures->can_snapshot) throw DeviceError("no memory for a snapshot");
+    cpu_->store(on_device_, nullptr);
+    return std::make_shared<FakePicture>(device_->pictures, input_, on_device_, shown);
+  }
   [[nodiscard]] std::optional<Statistics> statistics() override {
     if (stale_ || !device_->has_statistics) return std::nullopt;
     ++device_->statistics;

@@ -15,7 +15,7 @@
 namespace dmoscope::testing {
 
 struct FakePictureDevice {
-  bool can_write = true, can_download = true, can_tell_positions = true;
+  bool can_snapshot = true, can_write = true, can_download = true, can_tell_positions = true;
   int targets_made = 0, targets_alive = 0, writes = 0, downloads = 0;
   std::size_t positions_told = 0;
   /// Fills OpenGL's buffers; tests that have OpenGL set it.

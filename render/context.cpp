@@ -24,6 +24,8 @@ void GLAD_API_PTR print_message(GLenum, GLenum, GLuint, GLenum severity, GLsizei
 
 }  // namespace
 
+void Context::finish() { glFinish(); }
+
 void Context::adopt(const std::string& origin) {
   GLint major = 0, minor = 0;
   glGetIntegerv(GL_MAJOR_VERSION, &major);

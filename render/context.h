@@ -18,6 +18,8 @@ class Context {
 
   /// Makes the context current on the calling thread. Throws Error.
   virtual void make_current() = 0;
+  /// Waits until everything that was drawn is there. The context must be current.
+  void finish();
   /// What draws, for the status bar and `info`: "OpenGL 4.5, llvmpipe (LLVM 15.0.6, 256 bits), surfaceless EGL".
   [[nodiscard]] const std::string& description() const noexcept { return description_; }
   /// True when the processor draws (llvmpipe, softpipe, swrast): big meshes are then slow, see suggested_detail.

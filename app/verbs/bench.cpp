@@ -9,6 +9,7 @@
 #include "app/console.h"
 #include "app/targets.h"
 #include "app/text.h"
+#include "app/verbs/bench_draw.h"
 #include "app/verbs/bench_measure.h"
 #include "app/verbs/bench_plan.h"
 #include "app/verbs/bench_report.h"
@@ -26,6 +27,10 @@ int bench(const BenchOptions& options) {
   if (!options.plot.empty()) require_plot_target(options.plot);
   require_another_file(options.plot, "--plot", options.file);
   Watch watch;
+  if (options.draw > 0) {
+    bench_drawing(plan, options.file, options.draw, options.json, watch.progress());
+    return 0;
+  }
   std::vector<Figure> figures;
   measure(plan, options.file, watch.progress(), [&](const std::vector<Figure>& more) {
     if (!options.json) {
@@ -62,7 +67,9 @@ void add_bench(CLI::App& app, Action& action) {
   count("--repeats", options->repeats, 1, kMostRepeats, "Repeats of every measurement, in turn with the others")->capture_default_str();
   count("--iterations", options->iterations, 1, kMostIterations, "Iterations to time, from the input on")->capture_default_str();
   count("--active", options->active, 2, kMostIterations, "Also compare the time of iteration N with that of the first");
-  verb->add_option("--plot", options->plot, "Draw visits a second over sizes")->type_name("FILE.svg|.png");
+  auto* draw = count("--draw", options->draw, 1, kMostIterations, "Draw this many iterations as they are made, without a window, instead");
+  auto* plot = verb->add_option("--plot", options->plot, "Draw visits a second over sizes")->type_name("FILE.svg|.png");
+  draw->excludes(plot);
   verb->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
   verb->callback([options, &action] { action = [options] { return bench(*options); }; });
 }

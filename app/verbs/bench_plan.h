@@ -26,6 +26,7 @@ struct BenchOptions {
   std::size_t repeats = 5;
   std::uint64_t iterations = 4;
   std::uint64_t active = 0;
+  std::uint64_t draw = 0;  // frames to draw instead; 0: none
   bool full = false;
   bool json = false;
 };

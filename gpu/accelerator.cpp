@@ -14,9 +14,10 @@ namespace {
 /// Every run has a queue of its own, since runs may be made and destroyed by different threads.
 class CudaAccelerator final : public Accelerator {
  public:
-  explicit CudaAccelerator(int device) : first_(make_cuda_queue(device)) {}
+  explicit CudaAccelerator(int device) : device_(device), first_(make_cuda_queue(device)) {}
   std::string name() const override { return "cuda"; }
   std::string description() const override { return first_->description(); }
+  int number() const noexcept override { return device_; }
   std::unique_ptr<Smoother> make_dmo(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring, Metric metric,
                                      const SearchParameters& parameters, std::span<const Index> immovable,
                                      ThreadPool* pool) const override {
@@ -24,6 +25,7 @@ class CudaAccelerator final : public Accelerator {
   }
 
  private:
+  int device_;
   std::shared_ptr<Queue> first_;
 };
 

@@ -21,43 +21,13 @@ inline DMOSCOPE_LANE void move(const Task& task, Index rank, const double* targe
   (void)increment(task.moved);
 }
 
-/// Every body has run(task, i, count, team): lane (or team) i of `count`.
-template <Metric M, Stars S>
-struct Visit {
-  template <class Team>
-  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& team) {
-    const auto rank = static_cast<Index>(task.first + i);
-    if (!is_set(task.awake + rank)) return;
-    const StarShape shape = task.shapes[rank];
-    if constexpr (S != Stars::All)
-      if (in_registers<M>(shape, task.parameters) != (S == Stars::Fans)) return;
-    using Search = FastVisit<M, Team, S>;
-    typename Search::Outcome outcome;
-    if (S == Stars::Fans || shape.kind != StarShape::Kind::Alone) outcome = Search(task, rank, team).run();
-    if (team.lane() != 0) return;
-    using visit_rules::Verdict;
-    if (outcome.ready && outcome.verdict == Verdict::Stay) {
-      set_flag(task.awake + rank, false);
-    } else if (outcome.ready && outcome.verdict == Verdict::Move) {
-      move(task, rank, outcome.to.target);
-    } else {
-      const double* to = outcome.to.target;
-      task.deferred[increment(task.deferred_count)] = {rank, outcome.ready, {to[0], to[1], to[2]}};
-    }
-  }
-};
-
-/// The visits that the fast search left, by the plain one in double.
+/// A visit in double by the plain search; a deferred one. By all lanes of a team.
 template <Metric M>
-struct Settle {
+struct ExactVisit {
   template <class Team>
-  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t count, const Team& team) {
-    const std::size_t all = *task.deferred_count;
-    for (std::size_t k = i; k < all; k += count) {
-      Deferred d = task.deferred[k];
-      if (!d.has_target) search(task, d, team);
-      if (team.lane() == 0) judge(task, d);
-    }
+  static DMOSCOPE_LANE void run(const Task& task, Deferred d, const Team& team) {
+    if (!d.has_target) search(task, d, team);
+    if (team.lane() == 0) judge(task, d);
   }
 
  private:
@@ -83,6 +53,46 @@ struct Settle {
   }
 };
 
+/// Every body has run(task, i, count, team): lane (or team) i of `count`. AtOnce: what the fast search leaves is settled here and now.
+template <Metric M, Stars S, bool AtOnce = false>
+struct Visit {
+  template <class Team>
+  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& team) {
+    const auto rank = static_cast<Index>(task.first + i);
+    if (!is_set(task.awake + rank)) return;
+    const StarShape shape = task.shapes[rank];
+    if constexpr (S != Stars::All)
+      if (in_registers<M>(shape, task.parameters) != (S == Stars::Fans)) return;
+    using Search = FastVisit<M, Team, S>;
+    typename Search::Outcome outcome;
+    if (S == Stars::Fans || shape.kind != StarShape::Kind::Alone) outcome = Search(task, rank, team).run();
+    const double* to = outcome.to.target;
+    const Deferred deferred{rank, outcome.ready, {to[0], to[1], to[2]}};
+    if constexpr (AtOnce)
+      if (!outcome.ready) return ExactVisit<M>::run(task, deferred, team);  // all lanes know that much
+    if (team.lane() != 0) return;
+    using visit_rules::Verdict;
+    if (outcome.ready && outcome.verdict == Verdict::Stay)
+      set_flag(task.awake + rank, false);
+    else if (outcome.ready && outcome.verdict == Verdict::Move)
+      move(task, rank, to);
+    else if constexpr (AtOnce)
+      ExactVisit<M>::run(task, deferred, Solo{});
+    else
+      task.deferred[increment(task.deferred_count)] = deferred;
+  }
+};
+
+/// The visits that the fast search left.
+template <Metric M>
+struct Settle {
+  template <class Team>
+  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t count, const Team& team) {
+    const std::size_t all = *task.deferred_count;
+    for (std::size_t k = i; k < all; k += count) ExactVisit<M>::run(task, task.deferred[k], team);
+  }
+};
+
 template <Metric M>
 struct Judge {
   template <class Team>
@@ -98,51 +108,101 @@ struct Judge {
   }
 };
 
-/// Part i % kParts of stretch i / kParts. Every comparison with NaN is false: it is left out of minimum, sum and count.
+/// What elements or parts of them come to, one after the other. Every comparison with NaN is false: it is left out of minimum, sum and
+/// count.
+class PartSum {
+ public:
+  DMOSCOPE_ANYWHERE void add(Index element, double quality, bool inverted, bool immovable) {
+    const bool is_defined = quality == quality;
+    part_.sum += is_defined ? quality : 0.0;
+    part_.defined += is_defined ? 1U : 0U;
+    part_.inverted += inverted ? 1U : 0U;
+    if (quality < part_.minimum) part_.minimum = quality, part_.worst = element;
+    double& bound = immovable ? part_.ceiling : part_.movable;
+    if (quality < bound) bound = quality;
+  }
+  DMOSCOPE_ANYWHERE void add(const Part& other) {
+    part_.sum += other.sum;
+    part_.defined += other.defined;
+    part_.inverted += other.inverted;
+    if (other.minimum < part_.minimum || (other.minimum == part_.minimum && other.worst < part_.worst))
+      part_.minimum = other.minimum, part_.worst = other.worst;
+    part_.movable = scalar::min(part_.movable, other.movable);
+    part_.ceiling = scalar::min(part_.ceiling, other.ceiling);
+  }
+  [[nodiscard]] DMOSCOPE_ANYWHERE const Part& part() const { return part_; }
+
+ private:
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Part part_{0.0, kInfinity, kInfinity, kInfinity, kNoIndex, 0, 0};
+};
+
+/// Part i % kParts of stretch i / kParts.
 struct Sum {
   template <class Team>
   static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    Part part{0.0, kInfinity, kInfinity, kInfinity, kNoIndex, 0, 0};
+    PartSum sum;
     const std::size_t stretch = i / kParts * kStretch;
+    std::size_t e = stretch + i % kParts;
     const std::size_t end = stretch + kStretch < task.element_count ? stretch + kStretch : task.element_count;
-    for (std::size_t e = stretch + i % kParts; e < end; e += kParts) {
-      const double quality = task.quality[e];
-      const bool is_defined = quality == quality;
-      part.sum += is_defined ? quality : 0.0;
-      part.defined += is_defined ? 1U : 0U;
-      part.inverted += task.inverted[e];
-      if (quality < part.minimum) part.minimum = quality, part.worst = static_cast<Index>(e);
-      double& bound = task.immovable[e] != 0 ? part.ceiling : part.movable;
-      if (quality < bound) bound = quality;
+    for (; e + (kBatch - 1) * kParts < end; e += kBatch * kParts) {
+      double quality[kBatch];
+      std::uint8_t inverted[kBatch], immovable[kBatch];
+      DMOSCOPE_UNROLL
+      for (std::size_t b = 0; b < kBatch; ++b) {
+        quality[b] = task.quality[e + b * kParts];
+        inverted[b] = task.inverted[e + b * kParts];
+        immovable[b] = task.immovable[e + b * kParts];
+      }
+      DMOSCOPE_UNROLL
+      for (std::size_t b = 0; b < kBatch; ++b) sum.add(static_cast<Index>(e + b * kParts), quality[b], inverted[b] != 0, immovable[b] != 0);
     }
-    task.parts[i] = part;
+    for (; e < end; e += kParts) sum.add(static_cast<Index>(e), task.quality[e], task.inverted[e] != 0, task.immovable[e] != 0);
+    task.parts[i] = sum.part();
   }
+
+ private:
+  static constexpr std::size_t kBatch = 16;  // loads that are waited for together
 };
 
+/// The sum of all parts i, i + kParts, ...; it stands behind them all.
 struct Total {
   template <class Team>
-  static DMOSCOPE_LANE void run(const Task& task, std::size_t /*i*/, std::size_t /*count*/, const Team& /*team*/) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    Part total{0.0, kInfinity, kInfinity, kInfinity, kNoIndex, 0, 0};
-    double sums[kParts] = {};
-    std::size_t defined = 0;
-    const std::size_t parts = (task.element_count + kStretch - 1) / kStretch * kParts;
-    for (std::size_t i = 0; i < parts; i += kParts) {
-      for (std::size_t lane = 0; lane < kParts; ++lane) {
-        const Part part = task.parts[i + lane];
-        sums[lane] += part.sum;
-        defined += part.defined;
-        total.inverted += part.inverted;
-        if (part.minimum < total.minimum || (part.minimum == total.minimum && part.worst < total.worst))
-          total.minimum = part.minimum, total.worst = part.worst;
-        total.movable = scalar::min(total.movable, part.movable);
-        total.ceiling = scalar::min(total.ceiling, part.ceiling);
-      }
+  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
+    PartSum sum;
+    const std::size_t parts = stretches(task) * kParts;
+    std::size_t k = i;
+    for (; k + (kBatch - 1) * kParts < parts; k += kBatch * kParts) {
+      Part batch[kBatch];
+      DMOSCOPE_UNROLL
+      for (std::size_t b = 0; b < kBatch; ++b) batch[b] = task.parts[k + b * kParts];
+      DMOSCOPE_UNROLL
+      for (const Part& part : batch) sum.add(part);
     }
-    const double sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    for (; k < parts; k += kParts) sum.add(task.parts[k]);
+    task.parts[parts + i] = sum.part();
+  }
+  [[nodiscard]] static DMOSCOPE_ANYWHERE std::size_t stretches(const Task& task) { return (task.element_count + kStretch - 1) / kStretch; }
+
+ private:
+  static constexpr std::size_t kBatch = 8;
+};
+
+/// The statistics out of the totals.
+struct Conclude {
+  template <class Team>
+  static DMOSCOPE_LANE void run(const Task& task, std::size_t /*i*/, std::size_t /*count*/, const Team& /*team*/) {
+    const Part* totals = task.parts + Total::stretches(task) * kParts;
+    PartSum all;
+    std::size_t defined = 0;
+    for (std::size_t lane = 0; lane < kParts; ++lane) {
+      all.add(totals[lane]);
+      defined += totals[lane].defined;
+    }
+    const double sum = (totals[0].sum + totals[1].sum) + (totals[2].sum + totals[3].sum);
     const double mean = defined > 0 ? sum / static_cast<double>(defined) : std::numeric_limits<double>::quiet_NaN();
-    *task.statistics = {total.minimum, mean, total.movable, total.ceiling, total.worst, total.inverted};
+    const Part& found = all.part();
+    *task.statistics = {found.minimum, mean, found.movable, found.ceiling, found.worst, found.inverted};
   }
 };
 

@@ -21,8 +21,9 @@ __global__ void __launch_bounds__(kBlock) kernel(const __grid_constant__ Task ta
 template <class Body, class Team>
 void launch(const Task& task, std::size_t count, cudaStream_t stream) {
   const std::size_t blocks = (count * Team::kSize + kBlock - 1) / kBlock;
-  kernel<Body, Team><<<static_cast<unsigned>(blocks), kBlock, 0, stream>>>(task, count);
-  DMOSCOPE_CUDA_CHECK(cudaGetLastError());
+  void* arguments[] = {const_cast<Task*>(&task), &count};
+  // Not <<<>>>, whose status would be that of whatever failed last on this thread.
+  DMOSCOPE_CUDA_CHECK(cudaLaunchKernel(kernel<Body, Team>, dim3(static_cast<unsigned>(blocks)), dim3(kBlock), arguments, 0, stream));
 }
 
 template <Metric M>
@@ -34,7 +35,7 @@ Launcher metric_launcher(Work work) {
     case Work::VisitOthers:
       return launch<bodies::Visit<M, Stars::Others>, Solo>;
     case Work::VisitInTeam:
-      return launch<bodies::Visit<M, Stars::All>, CudaTeam>;
+      return launch<bodies::Visit<M, Stars::All, true>, CudaTeam>;
     case Work::Settle:
       return launch<bodies::Settle<M>, CudaTeam>;
     case Work::Judge:

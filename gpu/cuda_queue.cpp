@@ -3,6 +3,7 @@
 #ifdef DMOSCOPE_HAVE_CUDA
 
 #include <mutex>
+#include <string>
 #include <unordered_map>
 
 #include <cuda_runtime.h>
@@ -58,6 +59,22 @@ class Memory {
   std::unordered_map<void*, std::size_t> sizes_;
 };
 
+/// What all queues of a device share.
+struct CudaDevice {
+  int number = 0;
+  std::size_t lanes_at_once = 0;
+  std::string description;
+  std::shared_ptr<Memory> memory = std::make_shared<Memory>();
+
+  explicit CudaDevice(int device) : number(device) {
+    cudaDeviceProp properties{};
+    DMOSCOPE_CUDA_CHECK(cudaGetDeviceProperties(&properties, device));
+    lanes_at_once = static_cast<std::size_t>(properties.multiProcessorCount) * kThreadsAtOnce;
+    description = fmt::format("{}, compute capability {}.{}, {:.1f} GiB", properties.name, properties.major, properties.minor,
+                              static_cast<double>(properties.totalGlobalMem) / 0x1p30);
+  }
+};
+
 class CudaRecording final : public Queue::Recording {
  public:
   explicit CudaRecording(cudaGraph_t graph) {
@@ -90,14 +107,8 @@ class CudaMark final : public Queue::Mark {
 
 class CudaQueue final : public Queue {
  public:
-  CudaQueue(int device, std::shared_ptr<Memory> memory, std::shared_ptr<Counters> counters)
-      : Queue(std::move(counters)), device_(device), memory_(std::move(memory)), stream_(device) {
-    cudaDeviceProp properties{};
-    DMOSCOPE_CUDA_CHECK(cudaGetDeviceProperties(&properties, device));
-    lanes_at_once_ = static_cast<std::size_t>(properties.multiProcessorCount) * kThreadsAtOnce;
-    description_ = fmt::format("{}, compute capability {}.{}, {:.1f} GiB", properties.name, properties.major, properties.minor,
-                               static_cast<double>(properties.totalGlobalMem) / 0x1p30);
-  }
+  CudaQueue(std::shared_ptr<const CudaDevice> device, std::shared_ptr<Counters> counters)
+      : Queue(std::move(counters)), about_(std::move(device)), device_(about_->number), stream_(device_) {}
   ~CudaQueue() override {
     (void)cudaSetDevice(device_);
     (void)cudaStreamSynchronize(stream_.get());
@@ -111,17 +122,23 @@ class CudaQueue final : public Queue {
       (void)cudaGetLastError();  // this one can be told and forgotten
       std::size_t free = 0, total = 0;
       (void)cudaMemGetInfo(&free, &total);
-      throw DeviceError(fmt::format("{} is out of memory: {} bytes were asked for, {} of {} are free", description_, bytes, free, total));
+      throw DeviceError(
+          fmt::format("{} is out of memory: {} bytes were asked for, {} of {} are free", about_->description, bytes, free, total));
     }
     DMOSCOPE_CUDA_CHECK(status);
-    memory_->add(memory, bytes);
+    try {
+      about_->memory->add(memory, bytes);
+    } catch (...) {
+      (void)cudaFree(memory);
+      throw;
+    }
     counters().bytes_allocated += bytes;
     return memory;
   }
   void release(void* memory) noexcept override {
     (void)cudaSetDevice(device_);
     (void)cudaFree(memory);
-    counters().bytes_allocated -= memory_->take(memory);
+    counters().bytes_allocated -= about_->memory->take(memory);
   }
 
   void upload(void* to, const void* from, std::size_t bytes) override {
@@ -140,7 +157,10 @@ class CudaQueue final : public Queue {
     DMOSCOPE_CUDA_CHECK(cudaMallocHost(&memory, bytes));
     return memory;
   }
-  void release_on_host(void* memory) noexcept override { (void)cudaFreeHost(memory); }
+  void release_on_host(void* memory) noexcept override {
+    (void)cudaSetDevice(device_);
+    (void)cudaFreeHost(memory);
+  }
   void fetch(void* to, const void* from, std::size_t bytes) override {
     use(device_);
     DMOSCOPE_CUDA_CHECK(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, stream_.get()));
@@ -159,21 +179,12 @@ class CudaQueue final : public Queue {
     DMOSCOPE_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));
   }
 
-  void start_recording() override {
-    use(device_);
-    DMOSCOPE_CUDA_CHECK(cudaStreamBeginCapture(stream_.get(), cudaStreamCaptureModeThreadLocal));
-  }
-  std::unique_ptr<Recording> stop_recording() override {
-    cudaGraph_t graph = nullptr;
-    DMOSCOPE_CUDA_CHECK(cudaStreamEndCapture(stream_.get(), &graph));
-    return std::make_unique<CudaRecording>(graph);
-  }
   void replay(Recording& recording) override {
     use(device_);
     DMOSCOPE_CUDA_CHECK(cudaGraphLaunch(static_cast<CudaRecording&>(recording).get(), stream_.get()));
   }
 
-  std::shared_ptr<Queue> sibling() const override { return std::make_shared<CudaQueue>(device_, memory_, shared_counters()); }
+  std::shared_ptr<Queue> sibling() const override { return std::make_shared<CudaQueue>(about_, shared_counters()); }
   std::unique_ptr<Mark> mark() override {
     use(device_);
     return std::make_unique<CudaMark>(stream_.get());
@@ -199,26 +210,40 @@ class CudaQueue final : public Queue {
     });
   }
 
-  std::size_t lanes_at_once() const noexcept override { return lanes_at_once_; }
-  std::string description() const override { return description_; }
+  std::size_t lanes_at_once() const noexcept override { return about_->lanes_at_once; }
+  std::string description() const override { return about_->description; }
 
  private:
+  void start_recording() override {
+    use(device_);
+    DMOSCOPE_CUDA_CHECK(cudaStreamBeginCapture(stream_.get(), cudaStreamCaptureModeThreadLocal));
+  }
+  std::unique_ptr<Recording> stop_recording() override {
+    cudaGraph_t graph = nullptr;
+    DMOSCOPE_CUDA_CHECK(cudaStreamEndCapture(stream_.get(), &graph));
+    return std::make_unique<CudaRecording>(graph);
+  }
+  void drop_recording() noexcept override {
+    cudaGraph_t graph = nullptr;
+    (void)cudaStreamEndCapture(stream_.get(), &graph);
+    if (graph != nullptr) (void)cudaGraphDestroy(graph);
+    (void)cudaGetLastError();
+  }
+
   static Launcher launcher(Work work, Metric metric) {
     if (const Launcher plain = plain_launcher(work)) return plain;
     return formulas::with_metric(metric, [work]<Metric M>() { return metric_launcher<M>(work); });
   }
 
+  std::shared_ptr<const CudaDevice> about_;
   int device_;
-  std::shared_ptr<Memory> memory_;
   CudaStream stream_;
-  std::size_t lanes_at_once_ = 0;
-  std::string description_;
 };
 
 }  // namespace
 
 std::shared_ptr<Queue> make_cuda_queue(int device) {
-  return std::make_shared<CudaQueue>(device, std::make_shared<Memory>(), std::make_shared<Counters>());
+  return std::make_shared<CudaQueue>(std::make_shared<const CudaDevice>(device), std::make_shared<Counters>());
 }
 
 }  // namespace dmoscope::gpu

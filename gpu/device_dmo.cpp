@@ -32,40 +32,42 @@ class DeviceDmo final : public Smoother {
     task_.parameters = parameters;
     task_.deferred = deferred_.data();
     task_.moved = counts_.data();
+    warm_up();
+    load(input->mesh.positions);
+    queue_->wait();
   }
   ~DeviceDmo() override = default;
 
   std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* /*pool*/) override {
     if (stale_) load(positions);
     stored_ = judged_ = false;
-    if (first == 0 && count == colouring_->order.size() && seen_) {
-      if (iteration_ == nullptr) {
-        queue_->start_recording();
-        visit_classes(first, count);
-        iteration_ = queue_->stop_recording();
-      }
+    visited_ = true;
+    if (first == 0 && count == colouring_->order.size()) {
+      if (iteration_ == nullptr) iteration_ = queue_->record([&] { visit_classes(first, count); });
       queue_->replay(*iteration_);
     } else {
       visit_classes(first, count);
-      seen_ = seen_ || count == colouring_->order.size();
     }
     queue_->wait();
     return moved_.value();
   }
 
   void store(std::span<Vec3> positions, ThreadPool* /*pool*/) override {
-    if (stored_ || stale_) return;
+    if (stored_ || stale_ || !visited_) return;
     queue_->launch(Work::Store, metric_, task_, positions.size());
     mesh_.positions().download(positions);
     queue_->counters().bytes_to_host += positions.size_bytes();
     stored_ = true;
   }
 
-  void positions_replaced() override { stale_ = true; }
+  void positions_replaced() override {
+    stale_ = true;
+    visited_ = false;
+  }
   bool positions_are_far() const noexcept override { return true; }
 
   std::optional<Statistics> statistics() override {
-    if (stale_) return std::nullopt;
+    if (stale_ || !visited_) return std::nullopt;
     if (!judged_) {
       mesh_.judge(metric_);
       judged_ = true;
@@ -74,7 +76,8 @@ class DeviceDmo final : public Smoother {
   }
 
   std::shared_ptr<const DevicePicture> picture(Metric shown) override {
-    if (stale_) return nullptr;
+    if (stale_ || !visited_) return nullptr;
+    judged_ = false;
     auto picture = pictures_->make(mesh_, shown);
     judged_ = shown == metric_;
     return picture;
@@ -99,7 +102,6 @@ class DeviceDmo final : public Smoother {
       task_.first = begin;
       task_.deferred_count = counts_.data() + 1 + c;
       launch_visits(mesh_.stars_of_class(c), end - begin);
-      queue_->launch(Work::Settle, metric_, task_, std::min<std::uint64_t>(end - begin, kSettlers));
     }
     moved_.fetch(counts_.data());
   }
@@ -109,9 +111,24 @@ class DeviceDmo final : public Smoother {
       queue_->launch(Work::VisitInTeam, metric_, task_, count);
       return;
     }
-    const bool ratio = formulas::with_metric(metric_, []<Metric M>() { return kIsRatio<M>; }) && task_.parameters.grid_points == 8;
-    if (ratio && stars.fans) queue_->launch(Work::VisitFans, metric_, task_, count);
-    if (!ratio || stars.others) queue_->launch(Work::VisitOthers, metric_, task_, count);
+    if (in_fans() && stars.fans) queue_->launch(Work::VisitFans, metric_, task_, count);
+    if (!in_fans() || stars.others) queue_->launch(Work::VisitOthers, metric_, task_, count);
+    queue_->launch(Work::Settle, metric_, task_, std::min(count, kSettlers));
+  }
+
+  /// Are there stars that the kernel for fans is made for?
+  [[nodiscard]] bool in_fans() const {
+    return task_.parameters.grid_points == 8 && formulas::with_metric(metric_, []<Metric M>() { return kIsRatio<M>; });
+  }
+
+  /// Runs every kernel once, for one vertex that needs no visit: to load it and reserve the memory of its lanes takes long, the first time.
+  void warm_up() {
+    mesh_.put_to_sleep();
+    counts_.clear();
+    task_.deferred_count = counts_.data() + 1;
+    if (colouring_->order.empty()) return;
+    for (const Work work : {Work::VisitInTeam, Work::VisitOthers, Work::Settle}) queue_->launch(work, metric_, task_, 1);
+    if (in_fans()) queue_->launch(Work::VisitFans, metric_, task_, 1);
   }
 
   void load(std::span<const Vec3> positions) {
@@ -130,10 +147,10 @@ class DeviceDmo final : public Smoother {
   std::shared_ptr<Pictures> pictures_;
   Task task_;
   std::unique_ptr<Queue::Recording> iteration_;
-  bool seen_ = false;    // a whole iteration, unrecorded: a kernel's first launch loads it, and that should not be recorded
-  bool stale_ = true;    // the device's positions are older than the run's
-  bool stored_ = false;  // the run's are as new as the device's
-  bool judged_ = false;  // and so are the statistics
+  bool stale_ = true;     // the device's positions are older than the run's
+  bool visited_ = false;  // since they last came from there
+  bool stored_ = false;   // the run's are as new as the device's
+  bool judged_ = false;   // and so are the statistics
 };
 
 }  // namespace

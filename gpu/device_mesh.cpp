@@ -14,7 +14,8 @@ std::vector<std::uint8_t> flags(std::size_t size, std::span<const Index> set) {
   return result;
 }
 
-std::size_t part_count(std::size_t elements) { return (elements + bodies::kStretch - 1) / bodies::kStretch * bodies::kParts; }
+/// With the totals.
+std::size_t part_count(std::size_t elements) { return ((elements + bodies::kStretch - 1) / bodies::kStretch + 1) * bodies::kParts; }
 
 }  // namespace
 
@@ -69,8 +70,9 @@ DeviceMesh::DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, con
 
 void DeviceMesh::judge(Metric metric) {
   queue_->launch(Work::Judge, metric, task_, task_.element_count);
-  queue_->launch(Work::Sum, metric, task_, parts_.size());
-  queue_->launch(Work::Total, metric, task_, 1);
+  queue_->launch(Work::Sum, metric, task_, parts_.size() - bodies::kParts);
+  queue_->launch(Work::Total, metric, task_, bodies::kParts);
+  queue_->launch(Work::Conclude, metric, task_, 1);
   fetched_.fetch(statistics_.data());
 }
 

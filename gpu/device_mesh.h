@@ -30,6 +30,8 @@ class DeviceMesh {
   /// By vertices: where positions come from and go to.
   [[nodiscard]] const Buffer<Vec3>& positions() const noexcept { return positions_; }
 
+  /// Nobody needs a visit.
+  void put_to_sleep() const { awake_.clear(); }
   /// Finds every element's quality at the positions as they are now, and the statistics.
   void judge(Metric metric);
   /// Of the last judge(): the very bits of compute_statistics().

@@ -32,26 +32,26 @@ class Picture final : public DevicePicture {
 
   void download(std::span<Vec2<float>> points, std::span<float> shades, Vec2<double> origin) const override {
     const std::scoped_lock lock(pictures_->reading_);
-    const Buffer<Vec2<float>> projected(pictures_->reader_, points.size());
     Task task = task_;
     task.origin = origin;
-    task.points = projected.data();
+    task.points = pictures_->projected_.with_room_for(points.size());
     reader().launch(Work::Project, Metric::MeanRatio, task, points.size());
-    projected.download(points);
-    if (!shades.empty()) reader().download(shades.data(), memory_->shades.data(), shades.size_bytes());
+    reader().download(points.data(), task.points, points.size_bytes());
+    reader().download(shades.data(), memory_->shades.data(), shades.size_bytes());
     reader().counters().bytes_to_host += points.size_bytes() + shades.size_bytes();
   }
 
   std::vector<Vec3> positions(std::span<const Index> vertices) const override {
     const std::scoped_lock lock(pictures_->reading_);
     std::vector<Vec3> found(vertices.size());
-    const Buffer<Index> wanted(pictures_->reader_, vertices);
-    const Buffer<Vec3> picked(pictures_->reader_, found.size());
+    if (found.empty()) return found;
     Task task = task_;
-    task.wanted = wanted.data();
-    task.picked = picked.data();
+    Index* wanted = pictures_->wanted_.with_room_for(found.size());
+    reader().upload(wanted, vertices.data(), vertices.size_bytes());
+    task.wanted = wanted;
+    task.picked = pictures_->picked_.with_room_for(found.size());
     reader().launch(Work::Pick, Metric::MeanRatio, task, found.size());
-    picked.download(found);
+    reader().download(found.data(), task.picked, found.size() * sizeof(Vec3));
     reader().counters().bytes_to_host += found.size() * sizeof(Vec3);
     return found;
   }
@@ -106,15 +106,15 @@ std::unique_ptr<Pictures::Memory> Pictures::take(const Task& task) {
   return memory;
 }
 
-void Pictures::give_back(std::unique_ptr<Memory> memory) {
+void Pictures::give_back(std::unique_ptr<Memory> memory) noexcept {
   try {
     const std::scoped_lock lock(reading_);
     memory->last_read = reader_->mark();
-  } catch (const DeviceError&) {
-    return;  // nothing on a lost device is used again
+    const std::scoped_lock free_lock(mutex_);
+    free_.push_back(std::move(memory));
+  } catch (...) {
+    return;  // then its memory is not used again: nothing on a lost device is
   }
-  const std::scoped_lock lock(mutex_);
-  free_.push_back(std::move(memory));
 }
 
 }  // namespace dmoscope::gpu

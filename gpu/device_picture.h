@@ -28,11 +28,29 @@ class Pictures : public std::enable_shared_from_this<Pictures> {
     std::unique_ptr<Queue::Mark> last_read;  // by the reader; null: never
   };
   [[nodiscard]] std::unique_ptr<Memory> take(const Task& task);
-  void give_back(std::unique_ptr<Memory> memory);
+  void give_back(std::unique_ptr<Memory> memory) noexcept;
+
+  /// Memory that is used again and again, and grows.
+  template <class T>
+  class Scratch {
+   public:
+    explicit Scratch(std::shared_ptr<Queue> queue) : queue_(std::move(queue)) {}
+    [[nodiscard]] T* with_room_for(std::size_t size) {
+      if (size > buffer_.size()) buffer_ = Buffer<T>(queue_, size);
+      return buffer_.data();
+    }
+
+   private:
+    std::shared_ptr<Queue> queue_;
+    Buffer<T> buffer_;
+  };
 
   std::shared_ptr<Queue> maker_, reader_;
-  std::mutex reading_;  // the reader's: one thread at a time
-  std::mutex mutex_;    // of free_
+  std::mutex reading_;  // the reader's, and of the following: one thread at a time
+  Scratch<Vec2<float>> projected_{reader_};
+  Scratch<Index> wanted_{reader_};
+  Scratch<Vec3> picked_{reader_};
+  std::mutex mutex_;  // of free_
   std::vector<std::unique_ptr<Memory>> free_;
 };
 

@@ -30,7 +30,7 @@ Lanes lanes_of(Work work) {
     case Work::VisitOthers:
       return run_lanes<bodies::Visit<M, Stars::Others>>;
     case Work::VisitInTeam:
-      return run_lanes<bodies::Visit<M, Stars::All>>;
+      return run_lanes<bodies::Visit<M, Stars::All, true>>;
     case Work::Settle:
       return run_lanes<bodies::Settle<M>>;
     case Work::Judge:
@@ -39,6 +39,8 @@ Lanes lanes_of(Work work) {
       return run_lanes<bodies::Sum>;
     case Work::Total:
       return run_lanes<bodies::Total>;
+    case Work::Conclude:
+      return run_lanes<bodies::Conclude>;
     case Work::Load:
       return run_lanes<bodies::Load>;
     case Work::Store:
@@ -112,8 +114,6 @@ class Host final : public HostQueue, public std::enable_shared_from_this<Host> {
   }
   void wait() override { check_lost(); }
 
-  void start_recording() override { recording_ = std::make_unique<Recorded>(); }
-  std::unique_ptr<Recording> stop_recording() override { return std::move(recording_); }
   void replay(Recording& recording) override {
     for (const auto& step : static_cast<Recorded&>(recording).steps) step();
   }
@@ -134,6 +134,9 @@ class Host final : public HostQueue, public std::enable_shared_from_this<Host> {
   void lose_after(std::size_t launches) override { launches_left_ = launches; }
 
  private:
+  void start_recording() override { recording_ = std::make_unique<Recorded>(); }
+  std::unique_ptr<Recording> stop_recording() override { return std::move(recording_); }
+  void drop_recording() noexcept override { recording_.reset(); }
   void check_lost() const {
     if (lost_) throw DeviceError("the device was lost");
   }

@@ -8,6 +8,8 @@ Launcher plain_launcher(Work work) {
       return launch<bodies::Sum, Solo>;
     case Work::Total:
       return launch<bodies::Total, Solo>;
+    case Work::Conclude:
+      return launch<bodies::Conclude, Solo>;
     case Work::Load:
       return launch<bodies::Load, Solo>;
     case Work::Store:

@@ -61,9 +61,18 @@ class Queue {
     Recording& operator=(const Recording&) = delete;
     virtual ~Recording() = default;
   };
-  /// Between the two, launch(), clear() and fetch() are kept and not done; nothing else may be asked for.
-  virtual void start_recording() = 0;
-  [[nodiscard]] virtual std::unique_ptr<Recording> stop_recording() = 0;
+  /// What `ask` asks for, only launches, clears and fetches, is kept and not done.
+  template <class Ask>
+  [[nodiscard]] std::unique_ptr<Recording> record(const Ask& ask) {
+    start_recording();
+    try {
+      ask();
+    } catch (...) {
+      drop_recording();
+      throw;
+    }
+    return stop_recording();
+  }
   virtual void replay(Recording& recording) = 0;
 
   /// Another queue of the same device, for another thread; work of the two is done in any order.
@@ -94,6 +103,9 @@ class Queue {
   [[nodiscard]] Counters& counters() const noexcept { return *counters_; }
 
  protected:
+  virtual void start_recording() = 0;
+  [[nodiscard]] virtual std::unique_ptr<Recording> stop_recording() = 0;
+  virtual void drop_recording() noexcept = 0;
   explicit Queue(std::shared_ptr<Counters> counters = std::make_shared<Counters>()) : counters_(std::move(counters)) {}
   [[nodiscard]] const std::shared_ptr<Counters>& shared_counters() const noexcept { return counters_; }
 

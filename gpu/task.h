@@ -47,7 +47,7 @@ struct Task {
   std::uint32_t* deferred_count = nullptr;
   std::uint32_t* moved = nullptr;  // of the vertices visited since it was last set to 0
 
-  // Statistics: one an element; kParts a stretch of kStretch elements; the result.
+  // Statistics: one an element; kParts a stretch of kStretch elements, and behind them their totals; the result.
   double* quality = nullptr;                // NaN where the metric is not defined
   std::uint8_t* inverted = nullptr;         // 1 where a corner Jacobian is <= 0
   const std::uint8_t* immovable = nullptr;  // 1 where all corners are fixed

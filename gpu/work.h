@@ -6,11 +6,12 @@ namespace dmoscope::gpu {
 enum class Work {
   VisitFans,    // one vertex a lane: the fast search of rank first + i, where its star is one of Stars::Fans
   VisitOthers,  // the same, where it is not
-  VisitInTeam,  // the same for all stars, one vertex a team of lanes: for classes too small to fill the device
-  Settle,       // the deferred visits, shared among all lanes
+  VisitInTeam,  // all stars, one vertex a team of lanes, settled at once: for classes too small to fill the device
+  Settle,       // what the first two deferred, shared among all teams
   Judge,        // one element a lane: its quality and whether it is inverted
   Sum,          // one part of the statistics a lane
-  Total,        // one lane: the statistics out of their parts
+  Total,        // one sum of all parts a lane
+  Conclude,     // one lane: the statistics
   Load,         // one vertex a lane: positions -> ranked, and awake
   Store,        // one vertex a lane: ranked -> positions
   Shade,        // one element a lane: what the renderer colours it by

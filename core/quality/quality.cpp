@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kGrain = Tally::kStretch;
+constexpr std::size_t kGrain = 8192;
 
 template <Metric M>
 double quality_of(const QualityContext& context, PositionView positions, Index element) {
@@ -64,11 +64,16 @@ std::vector<Index> immovable_elements(const Mesh& mesh, std::span<const std::uin
 Statistics compute_statistics(const QualityContext& context, std::span<const Vec3> positions, Metric metric,
                               std::span<const Index> immovable, ThreadPool* pool) {
   const std::size_t count = context.mesh.elements.size();
-  std::vector<Tally> tallies((count + kGrain - 1) / kGrain);
+  constexpr std::size_t kStretch = Tally::kStretch;
+  static_assert(kGrain % kStretch == 0);
+  std::vector<Tally> tallies((count + kStretch - 1) / kStretch);
   for_chunks(pool, count, kGrain, [&](std::size_t first, std::size_t last) {
-    Tally tally;  // here and not in the vector: threads would take its memory from each other with every block
-    for_blocks(context, positions, metric, first, last, [&](const ElementBlock& block) { tally.add(block, immovable); });
-    tallies[first / kGrain] = tally;
+    for (std::size_t begin = first; begin < last; begin += kStretch) {
+      Tally tally;  // here and not in the vector: threads would take its memory from each other with every block
+      for_blocks(context, positions, metric, begin, std::min(begin + kStretch, last),
+                 [&](const ElementBlock& block) { tally.add(block, immovable); });
+      tallies[begin / kStretch] = tally;
+    }
   });
   Tally total;
   for (const Tally& tally : tallies) total.append(tally);  // in the order of the elements: the same sum for any number of threads

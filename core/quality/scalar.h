@@ -6,6 +6,7 @@
 #include <concepts>
 
 #include "core/base/anywhere.h"
+#include "core/quality/arc_tangent.h"
 
 namespace dmoscope::scalar {
 
@@ -48,7 +49,7 @@ template <std::floating_point R>
 }
 template <std::floating_point R>
 [[nodiscard]] DMOSCOPE_ANYWHERE R atan2(R y, R x) {
-  return std::atan2(y, x);
+  return static_cast<R>(arc_tangent(static_cast<double>(y), static_cast<double>(x)));
 }
 
 /// Does the condition hold in any slot?

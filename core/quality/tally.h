@@ -12,9 +12,9 @@ namespace dmoscope {
 /// What some of the elements add to the statistics.
 class Tally {
  public:
-  /// Sums are of every fourth element, so that no addition waits for the one before, and of stretches of as many elements: who wants the same
-  /// bits adds in the same order.
-  static constexpr std::size_t kLanes = 4, kStretch = 8192;
+  /// Sums are of every fourth element, so that no addition waits for the one before, and of stretches of as many elements: who wants the
+  /// same bits adds in the same order.
+  static constexpr std::size_t kLanes = 4, kStretch = 1024;
 
   /// `immovable`: ascending, at least those elements of the block whose corners are all fixed (see immovable_elements).
   void add(const ElementBlock& block, std::span<const Index> immovable);

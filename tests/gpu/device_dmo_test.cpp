@@ -22,7 +22,7 @@ TEST_P(DeviceDmo, SameBitsOnTheZoo) {
     Progress progress;
     const Subject subject(prepare_input(std::move(specimen.mesh), {}, Need::Smoothing, progress));
     expect_same_visits(host(), subject, GetParam(), specimen.search, 4);
-    expect_same_statistics(host(), subject, GetParam(), true);
+    expect_same_statistics(host(), subject, GetParam());
   }
 }
 
@@ -43,7 +43,7 @@ TEST_P(DeviceDmo, SameBitsOnTheSharedMeshes) {
     if (!defined_for_all(GetParam(), mesh->mesh)) continue;
     SCOPED_TRACE(mesh->mesh.name);
     expect_same_visits(host(), Subject(mesh), GetParam(), {}, 1);
-    expect_same_statistics(host(), Subject(mesh), GetParam(), true);
+    expect_same_statistics(host(), Subject(mesh), GetParam());
   }
 }
 

@@ -39,32 +39,24 @@ struct Subject {
 inline bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 inline bool same(Vec3 a, Vec3 b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
 
-/// Iterations on both, compared after each; `tolerance` 0: bit for bit, else the largest distance in units of `unit`.
+/// Iterations on both, compared after each, bit for bit.
 inline void expect_same_visits(const std::shared_ptr<Queue>& queue, const Subject& subject, Metric metric,
-                               const SearchParameters& parameters, int iterations, ThreadPool* pool = nullptr, double tolerance = 0.0) {
+                               const SearchParameters& parameters, int iterations, ThreadPool* pool = nullptr) {
   const auto cpu = make_dmo_smoother(subject.input, subject.colouring, metric, parameters, nullptr);
   const auto device = make_device_dmo(queue, subject.input, subject.colouring, metric, parameters, subject.immovable, pool);
   std::vector<Vec3> expected = subject.input->mesh.positions, found = expected;
-  const double unit = subject.input->geometry.size / std::sqrt(1.0 + subject.input->mesh.elements.size());
   for (int i = 1; i <= iterations; ++i) {
     const std::uint64_t moved = cpu->visit(0, subject.visits(), expected, nullptr);
     cpu->store(expected, nullptr);
     const std::uint64_t moved_there = device->visit(0, subject.visits(), found, nullptr);
     device->store(found, nullptr);
-    for (Index v = 0; v < expected.size(); ++v) {
-      if (tolerance == 0.0)
-        ASSERT_TRUE(same(expected[v], found[v])) << "vertex " << v << ", iteration " << i;
-      else
-        ASSERT_LE(length(expected[v] - found[v]), tolerance * unit) << "vertex " << v << ", iteration " << i;
-    }
-    if (tolerance == 0.0) {
-      ASSERT_EQ(moved, moved_there) << "iteration " << i;
-    }
+    for (Index v = 0; v < expected.size(); ++v) ASSERT_TRUE(same(expected[v], found[v])) << "vertex " << v << ", iteration " << i;
+    ASSERT_EQ(moved, moved_there) << "iteration " << i;
   }
 }
 
-/// The statistics on the device are those of the host at the same positions; `exact`: bit for bit.
-inline void expect_same_statistics(const std::shared_ptr<Queue>& queue, const Subject& subject, Metric metric, bool exact) {
+/// The statistics on the device are those of the host at the same positions, bit for bit.
+inline void expect_same_statistics(const std::shared_ptr<Queue>& queue, const Subject& subject, Metric metric) {
   const auto device = make_device_dmo(queue, subject.input, subject.colouring, metric, {}, subject.immovable, nullptr);
   std::vector<Vec3> positions = subject.input->mesh.positions;
   EXPECT_FALSE(device->statistics().has_value()) << "nothing was visited yet";
@@ -73,16 +65,12 @@ inline void expect_same_statistics(const std::shared_ptr<Queue>& queue, const Su
   ASSERT_TRUE(there.has_value());
   device->store(positions, nullptr);
   const Statistics here = compute_statistics(subject.input->quality_context(), positions, metric, subject.immovable, nullptr);
-  const double tolerance = exact ? 0.0 : 1e-13;
-  const auto near = [tolerance](double a, double b) { return same(a, b) || std::fabs(a - b) <= tolerance; };
-  EXPECT_TRUE(near(there->minimum, here.minimum)) << there->minimum << ' ' << here.minimum;
-  EXPECT_TRUE(near(there->mean, here.mean)) << there->mean << ' ' << here.mean;
-  EXPECT_TRUE(near(there->movable_minimum, here.movable_minimum)) << there->movable_minimum << ' ' << here.movable_minimum;
-  EXPECT_TRUE(near(there->ceiling, here.ceiling)) << there->ceiling << ' ' << here.ceiling;
+  EXPECT_TRUE(same(there->minimum, here.minimum)) << there->minimum << ' ' << here.minimum;
+  EXPECT_TRUE(same(there->mean, here.mean)) << there->mean << ' ' << here.mean;
+  EXPECT_TRUE(same(there->movable_minimum, here.movable_minimum)) << there->movable_minimum << ' ' << here.movable_minimum;
+  EXPECT_TRUE(same(there->ceiling, here.ceiling)) << there->ceiling << ' ' << here.ceiling;
   EXPECT_EQ(there->inverted, here.inverted);
-  if (exact) {
-    EXPECT_EQ(there->worst_element, here.worst_element);
-  }
+  EXPECT_EQ(there->worst_element, here.worst_element);
 }
 
 }  // namespace dmoscope::gpu::testing

@@ -1,5 +1,6 @@
 #include "tests/gpu/ptx/operations.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -135,6 +136,11 @@ void add_floats(Table& t) {
   t["cvt.rn.f64.u32"] = op([](U32 a) { return static_cast<double>(a); });
   t["cvt.rn.f64.u64"] = op([](U64 a) { return static_cast<double>(a); });
   t["cvt.rzi.u64.f64"] = op([](double a) { return truncated(a); });
+  t["cvt.rzi.s32.f64"] = op([](double a) {  // NaN is 0, what is out of range the nearest that is not
+    if (a != a) return U32{0};
+    const double bounded = std::clamp(std::trunc(a), -0x1p31, 0x1p31 - 1.0);
+    return static_cast<U32>(static_cast<std::int32_t>(bounded));
+  });
 }
 
 void add_integers(Table& t) {
@@ -187,6 +193,7 @@ void add_bits(Table& t) {
   t["shr.u32"] = op([](U32 a, U32 by) { return shifted_right(a, by); });
   t["shr.u64"] = op([](U64 a, U32 by) { return shifted_right(a, by); });
   t["bfi.b64"] = op([](U64 from, U64 into, U32 position, U32 length) { return inserted(from, into, position, length); });
+  t["bfi.b32"] = op([](U32 from, U32 into, U32 position, U32 length) { return static_cast<U32>(inserted(from, into, position, length)); });
   t["brev.b32"] = op([](U32 a) { return reversed(a); });
   t["bfind.shiftamt.u32"] = op([](U32 a) { return a == 0 ? ~U32{0} : static_cast<U32>(std::countl_zero(a)); });
   t["popc.b32"] = op([](U32 a) { return static_cast<U32>(std::popcount(a)); });

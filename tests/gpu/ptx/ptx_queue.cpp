@@ -49,7 +49,7 @@ Kernels::Name name_for(Work work) {
     case Work::VisitOthers:
       return solo<bodies::Visit<M, Stars::Others>>();
     case Work::VisitInTeam:
-      return in_team<bodies::Visit<M, Stars::All>>();
+      return in_team<bodies::Visit<M, Stars::All, true>>();
     case Work::Settle:
       return in_team<bodies::Settle<M>>();
     case Work::Judge:
@@ -58,6 +58,8 @@ Kernels::Name name_for(Work work) {
       return solo<bodies::Sum>();
     case Work::Total:
       return solo<bodies::Total>();
+    case Work::Conclude:
+      return solo<bodies::Conclude>();
     case Work::Load:
       return solo<bodies::Load>();
     case Work::Store:
@@ -119,8 +121,6 @@ class PtxQueue final : public Queue, public std::enable_shared_from_this<PtxQueu
   }
   void wait() override {}
 
-  void start_recording() override { recording_ = std::make_unique<Recorded>(); }
-  std::unique_ptr<Recording> stop_recording() override { return std::move(recording_); }
   void replay(Recording& recording) override {
     for (const auto& step : static_cast<Recorded&>(recording).steps) step();
   }
@@ -137,6 +137,10 @@ class PtxQueue final : public Queue, public std::enable_shared_from_this<PtxQueu
   std::string description() const override { return "PTX run on the host"; }
 
  private:
+  void start_recording() override { recording_ = std::make_unique<Recorded>(); }
+  std::unique_ptr<Recording> stop_recording() override { return std::move(recording_); }
+  void drop_recording() noexcept override { recording_.reset(); }
+
   void check(const void* memory, std::size_t bytes) const {
     if (!global_.holds(reinterpret_cast<std::uintptr_t>(memory), bytes)) throw DeviceError("a copy beyond what was allocated");
   }

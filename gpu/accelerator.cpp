@@ -18,7 +18,6 @@ class CudaAccelerator final : public Accelerator {
   std::string name() const override { return "cuda"; }
   int number() const noexcept override { return device_; }
   std::string description() const override { return first_->description(); }
-  int number() const noexcept override { return device_; }
   std::unique_ptr<Smoother> make_dmo(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring, Metric metric,
                                      const SearchParameters& parameters, std::span<const Index> immovable,
                                      ThreadPool* pool) const override {

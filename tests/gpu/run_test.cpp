@@ -1,0 +1,102 @@
+// Runs on a device, with the host in the device's place: what a person steps, goes back in and compares is the same as on the processor.
+
+#include "core/session/run.h"
+
+#include "gpu/host_queue.h"
+#include "tests/gpu/same_bits.h"
+#include "tests/support/meshes.h"
+
+namespace dmoscope::gpu {
+namespace {
+
+using namespace testing;
+
+class HostAccelerator final : public Accelerator {
+ public:
+  std::string name() const override { return "cuda"; }
+  std::string description() const override { return queue->description(); }
+  std::unique_ptr<Smoother> make_dmo(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring, Metric metric,
+                                     const SearchParameters& parameters, std::span<const Index> immovable,
+                                     ThreadPool* pool) const override {
+    return make_device_dmo(queue, std::move(input), std::move(colouring), metric, parameters, immovable, pool);
+  }
+  std::shared_ptr<HostQueue> queue = make_host_queue({});
+};
+
+struct Pair {
+  std::shared_ptr<const InputMesh> input;
+  std::shared_ptr<HostAccelerator> accelerator = std::make_shared<HostAccelerator>();
+  Run cpu, device;
+  Progress progress;
+
+  explicit Pair(Mesh mesh, Metric metric = Metric::MeanRatio)
+      : input(prepare(std::move(mesh))), cpu(run(metric, Backend::Cpu)), device(run(metric, Backend::Cuda)) {}
+  static std::shared_ptr<const InputMesh> prepare(Mesh mesh) {
+    Progress none;
+    return prepare_input(std::move(mesh), {}, Need::Smoothing, none);
+  }
+  [[nodiscard]] Run run(Metric metric, Backend backend) const {
+    RunParameters parameters;
+    parameters.metric = metric;
+    parameters.backend = backend;
+    return {input, parameters, std::make_shared<ThreadPool>(2), std::size_t{1} << 24U, {accelerator, ""}};
+  }
+  void expect_same_place() {
+    EXPECT_EQ(cpu.moment(), device.moment());
+    const auto here = cpu.positions(), there = device.positions();
+    for (Index v = 0; v < here.size(); ++v) ASSERT_TRUE(same(here[v], there[v])) << v;
+    EXPECT_TRUE(same(cpu.statistics().mean, device.statistics().mean));
+    EXPECT_TRUE(same(cpu.statistics().minimum, device.statistics().minimum));
+  }
+};
+
+TEST(DeviceRun, StepsGoBackAndSeekAlike) {
+  Pair pair(dmoscope::testing::lattice(20, 0.35, 95));
+  EXPECT_EQ(pair.device.backend(), "cuda");
+  EXPECT_EQ(pair.cpu.backend(), "cpu");
+  const auto both = [&](const auto& act) {
+    act(pair.cpu);
+    act(pair.device);
+    pair.expect_same_place();
+  };
+  for (const StepUnit unit :
+       {StepUnit::Iteration, StepUnit::Vertex, StepUnit::Class, StepUnit::Class, StepUnit::Vertex, StepUnit::Iteration})
+    both([&](auto& run) { run.step(unit, pair.progress); });
+  for (const StepUnit unit : {StepUnit::Vertex, StepUnit::Class, StepUnit::Iteration})
+    both([&](auto& run) { run.back(unit, pair.progress); });
+  both([&](auto& run) { run.iterate(7, pair.progress); });
+  both([&](auto& run) { run.seek({3, 41}, pair.progress); });
+  both([&](auto& run) { run.seek({0, 0}, pair.progress); });
+  both([&](auto& run) { run.seek({9, 5}, pair.progress); });
+  ASSERT_EQ(pair.cpu.history().records().size(), pair.device.history().records().size());
+  for (std::size_t i = 0; i < pair.cpu.history().records().size(); ++i) {
+    const IterationRecord &here = pair.cpu.history().records()[i], &there = pair.device.history().records()[i];
+    EXPECT_TRUE(same(here.statistics.mean, there.statistics.mean)) << i;
+    EXPECT_EQ(here.statistics.worst_element, there.statistics.worst_element) << i;
+    EXPECT_EQ(here.moved, there.moved) << i;
+  }
+}
+
+TEST(DeviceRun, ConvergesAlike) {
+  Pair pair(dmoscope::testing::lattice(12, 0.35, 96, dmoscope::testing::Cells::Mixed), Metric::ScaledJacobian);
+  const Outcome here = pair.cpu.until_converged({}, pair.progress), there = pair.device.until_converged({}, pair.progress);
+  EXPECT_EQ(here.iterations, there.iterations);
+  EXPECT_EQ(here.last_rise, there.last_rise);
+  EXPECT_EQ(here.reason, there.reason);
+  pair.expect_same_place();
+}
+
+TEST(DeviceRun, GoesOnWithoutItsDevice) {
+  Pair pair(dmoscope::testing::lattice(20, 0.35, 97));
+  pair.device.iterate(2, pair.progress);
+  (void)pair.device.positions();
+  pair.accelerator->queue->lose_after(5);
+  EXPECT_THROW(pair.device.iterate(4, pair.progress), DeviceError);
+  EXPECT_EQ(pair.device.backend(), "cpu");
+  pair.device.seek({6, 0}, pair.progress);
+  pair.cpu.iterate(6, pair.progress);
+  pair.expect_same_place();
+}
+
+}  // namespace
+}  // namespace dmoscope::gpu

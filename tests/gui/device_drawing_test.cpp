@@ -14,7 +14,7 @@
 namespace dmoscope::app {
 namespace {
 
-class DeviceDrawing : public testing::Test {
+class CudaDrawing : public testing::Test {
  protected:
   void SetUp() override {
     acceleration = gpu::make_accelerator();
@@ -59,7 +59,7 @@ class DeviceDrawing : public testing::Test {
   std::shared_ptr<const Frame> light, whole;
 };
 
-TEST_F(DeviceDrawing, ThePictureOfALightFrameIsThatOfTheWholeOne) {
+TEST_F(CudaDrawing, ThePictureOfALightFrameIsThatOfTheWholeOne) {
   render::MeshScene scene;
   scene.draw_through_host(no_interop(acceleration, *context));
   render::Framebuffer target(640, 640);
@@ -75,7 +75,7 @@ TEST_F(DeviceDrawing, ThePictureOfALightFrameIsThatOfTheWholeOne) {
   EXPECT_EQ(got.rgba, wanted.rgba);
 }
 
-TEST_F(DeviceDrawing, WhatIsReadBackIsWhatTheDeviceTells) {
+TEST_F(CudaDrawing, WhatIsReadBackIsWhatTheDeviceTells) {
   if (const std::string why = no_interop(acceleration, *context); !why.empty()) GTEST_SKIP() << "no interop here: " << why;
   GLuint buffers[2] = {0, 0};
   glCreateBuffers(2, buffers);

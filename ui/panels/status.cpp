@@ -98,7 +98,7 @@ void draw_status(PanelContext& context, const Rect& rect) {
   std::string backend = on_cpu ? activity.backend : activity.drawing.sentence();
   if (on_cpu && context.session.input) backend += fmt::format(", {} thread{}", threads, threads == 1 ? "" : "s");
   ImGui::TextUnformatted(fit_text(backend, 24 * context.em()).c_str());
-  context.items.record_last("backend");
+  context.items.record_last("status-backend");
   std::string more;
   for (const std::string& line : {activity.backend_reason, on_cpu ? std::string() : activity.drawing.reason, activity.renderer})
     if (!line.empty()) more += (more.empty() ? "" : "\n") + line;

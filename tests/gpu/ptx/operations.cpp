@@ -95,6 +95,13 @@ U64 inserted(U64 from, U64 into, U32 position, U32 length) {
   return (into & ~mask) | (shifted_left(from, position) & mask);
 }
 
+/// `length` bits of `from`, from bit `position` on.
+U32 extracted(U32 from, U32 position, U32 length) {
+  length &= 0xffU;
+  const U32 rest = shifted_right(from, position & 0xffU);
+  return length < 32 ? rest & ((U32{1} << length) - 1) : rest;
+}
+
 U32 reversed(U32 x) {
   U32 result = 0;
   for (unsigned i = 0; i < 32; ++i) result |= (x >> i & 1U) << (31U - i);
@@ -132,6 +139,8 @@ void add_floats(Table& t) {
 
   t["cvt.f64.f32"] = op([](float a) { return static_cast<double>(a); });
   t["cvt.rn.f32.f64"] = op([](double a) { return canonical(static_cast<float>(a)); });
+  t["cvt.rn.f32.s32"] = op([](I32 a) { return static_cast<float>(a); });
+  t["cvt.rn.f32.u32"] = op([](U32 a) { return static_cast<float>(a); });
   t["cvt.rn.f64.s32"] = op([](I32 a) { return static_cast<double>(a); });
   t["cvt.rn.f64.u32"] = op([](U32 a) { return static_cast<double>(a); });
   t["cvt.rn.f64.u64"] = op([](U64 a) { return static_cast<double>(a); });
@@ -153,6 +162,8 @@ void add_integers(Table& t) {
   t["abs.s32"] = op([](U32 a) { return (a >> 31U) != 0 ? U32{0} - a : a; });
   t["min.s32"] = op([](I32 a, I32 b) { return a < b ? a : b; });
   t["max.s32"] = op([](I32 a, I32 b) { return a < b ? b : a; });
+  t["min.u32"] = op([](U32 a, U32 b) { return a < b ? a : b; });
+  t["max.u32"] = op([](U32 a, U32 b) { return a < b ? b : a; });
   t["min.u64"] = op([](U64 a, U64 b) { return a < b ? a : b; });
   t["max.u64"] = op([](U64 a, U64 b) { return a < b ? b : a; });
   t["mul.lo.s32"] = op([](U32 a, U32 b) { return a * b; });
@@ -160,6 +171,7 @@ void add_integers(Table& t) {
   t["mul.hi.u64"] = op([](U64 a, U64 b) { return static_cast<U64>(static_cast<U128>(a) * b >> 64U); });
   t["mul.wide.s32"] = op([](I32 a, I32 b) { return static_cast<I64>(a) * b; });
   t["mul.wide.u32"] = op([](U32 a, U32 b) { return U64{a} * b; });
+  t["mad.lo.s64"] = op([](U64 a, U64 b, U64 c) { return a * b + c; });
   t["mad.lo.s32"] = op([](U32 a, U32 b, U32 c) { return a * b + c; });
   t["rem.u32"] = op([](U32 a, U32 b) { return remainder_of(a, b); });
   t["rem.u64"] = op([](U64 a, U64 b) { return remainder_of(a, b); });
@@ -194,6 +206,7 @@ void add_bits(Table& t) {
   t["shr.u64"] = op([](U64 a, U32 by) { return shifted_right(a, by); });
   t["bfi.b64"] = op([](U64 from, U64 into, U32 position, U32 length) { return inserted(from, into, position, length); });
   t["bfi.b32"] = op([](U32 from, U32 into, U32 position, U32 length) { return static_cast<U32>(inserted(from, into, position, length)); });
+  t["bfe.u32"] = op([](U32 from, U32 position, U32 length) { return extracted(from, position, length); });
   t["brev.b32"] = op([](U32 a) { return reversed(a); });
   t["bfind.shiftamt.u32"] = op([](U32 a) { return a == 0 ? ~U32{0} : static_cast<U32>(std::countl_zero(a)); });
   t["popc.b32"] = op([](U32 a) { return static_cast<U32>(std::popcount(a)); });

@@ -99,6 +99,11 @@ TEST(PtxOperations, Conversions) {
   EXPECT_EQ(result<float>("cvt.rn.f32.f64", 1.0 + 0x1p-24), 1.0F);
   EXPECT_EQ(result<float>("cvt.rn.f32.f64", 1.0 + 0x1p-24 + 0x1p-50), 1.0F + 0x1p-23F);
   EXPECT_EQ(result<double>("cvt.f64.f32", 0.1F), 0.100000001490116119384765625);
+  EXPECT_EQ(result<float>("cvt.rn.f32.s32", -16777217), -16777216.0F);
+  EXPECT_EQ(result<float>("cvt.rn.f32.u32", 0xffffffffU), 0x1p32F);
+  EXPECT_EQ(result<std::int32_t>("cvt.rzi.s32.f64", -1.9), -1);
+  EXPECT_EQ(result<std::int32_t>("cvt.rzi.s32.f64", 1e10), 0x7fffffff);
+  EXPECT_EQ(result<std::int32_t>("cvt.rzi.s32.f64", std::nan("")), 0);
   EXPECT_EQ(result<double>("cvt.rn.f64.s32", -7), -7.0);
   EXPECT_EQ(result<double>("cvt.rn.f64.u64", ~U64{0}), 0x1p64);
   EXPECT_EQ(result<U64>("cvt.rzi.u64.f64", 1.99), 1U);
@@ -119,6 +124,8 @@ TEST(PtxOperations, Integers) {
   EXPECT_EQ(result<std::int64_t>("mul.wide.s32", -3, 0x7fffffff), -3 * std::int64_t{0x7fffffff});
   EXPECT_EQ(result<U64>("mul.wide.u32", 0xffffffffU, 24U), 103079215080U);
   EXPECT_EQ(result<U64>("mad.lo.s32", 7U, 6U, 0xffffffffU), 41U);
+  EXPECT_EQ(result<U64>("mad.lo.s64", U64{1} << 32U, U64{1} << 31U, U64{5}), (U64{1} << 63U) + 5);
+  EXPECT_EQ(result<U64>("min.u32", 0xffffffffU, 1U), 1U);
   EXPECT_EQ(result<U64>("rem.u64", U64{103}, U64{10}), 3U);
   EXPECT_EQ(result<U64>("abs.s32", -5), 5U);
   EXPECT_EQ(result<U64>("neg.s64", U64{1}), ~U64{0});
@@ -129,6 +136,10 @@ TEST(PtxOperations, Bits) {
   EXPECT_EQ(result<U64>("bfi.b64", U64{5}, U64{3}, 13U, 51U), (U64{5} << 13U) + 3);
   EXPECT_EQ(result<U64>("bfi.b64", U64{5}, U64{3}, 64U, 8U), 3U);
   EXPECT_EQ(result<U64>("bfi.b64", U64{5}, U64{3}, 0U, 64U), 5U);
+  EXPECT_EQ(result<U64>("bfe.u32", 0xabcdef01U, 8U, 12U), 0xdefU);
+  EXPECT_EQ(result<U64>("bfe.u32", 0xabcdef01U, 24U, 32U), 0xabU);
+  EXPECT_EQ(result<U64>("bfe.u32", 0xabcdef01U, 32U, 4U), 0U);
+  EXPECT_EQ(result<U64>("bfi.b32", 0xabcU, 0xffffffffU, 4U, 8U), 0xfffffbcfU);
   EXPECT_EQ(result<U64>("brev.b32", 0x00000005U), 0xa0000000U);
   EXPECT_EQ(result<U64>("bfind.shiftamt.u32", 0x00800000U), 8U);
   EXPECT_EQ(result<U64>("bfind.shiftamt.u32", 0U), 0xffffffffU);

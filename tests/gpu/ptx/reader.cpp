@@ -110,7 +110,8 @@ class Decoder {
       parameters.remove_prefix(std::min(parameters.size(), end + 1));
     }
     const std::string_view directive = take_until(text, "{");
-    if (directive != ".maxntid 128, 1, 1") throw Fault(fmt::format("{} is not meant for blocks of 128: {}", entry_.name, directive));
+    if (directive != ".maxntid 128, 1, 1" && directive != ".maxntid 128")
+      throw Fault(fmt::format("{} is not meant for blocks of 128: {}", entry_.name, directive));
   }
   /// ".param .align 8 .b8 NAME[424]" or ".param .u64 NAME"
   void add_parameter(std::string_view text) {

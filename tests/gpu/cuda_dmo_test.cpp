@@ -70,16 +70,7 @@ TEST_P(CudaDmo, SameBitsOnALargeMesh) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(CudaMetrics, CudaDmo, ::testing::ValuesIn([] {
-                           std::vector<Metric> all;
-                           for (const MetricInfo& entry : metric_table()) all.push_back(entry.metric);
-                           return all;
-                         }()),
-                         [](const auto& tested) {
-                           std::string name(dmoscope::info(tested.param).name);
-                           std::erase(name, '-');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(CudaMetrics, CudaDmo, every_metric(), name_of_metric);
 
 class CudaQueueTest : public CudaTest {};
 INSTANTIATE_TEST_SUITE_P(CudaAny, CudaQueueTest, ::testing::Values(Metric::MeanRatio));

@@ -47,16 +47,7 @@ TEST_P(DeviceDmo, SameBitsOnTheSharedMeshes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Metrics, DeviceDmo, ::testing::ValuesIn([] {
-                           std::vector<Metric> all;
-                           for (const MetricInfo& entry : metric_table()) all.push_back(entry.metric);
-                           return all;
-                         }()),
-                         [](const auto& tested) {
-                           std::string name(dmoscope::info(tested.param).name);
-                           std::erase(name, '-');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Metrics, DeviceDmo, every_metric(), name_of_metric);
 
 Subject jittered(Index size, double jitter = 0.35, std::uint64_t seed = 51) {
   Progress progress;

@@ -36,6 +36,18 @@ struct Subject {
   [[nodiscard]] std::uint64_t visits() const { return colouring->order.size(); }
 };
 
+/// For suites whose tests hold for every metric.
+[[nodiscard]] inline auto every_metric() {
+  std::vector<Metric> all;
+  for (const MetricInfo& entry : metric_table()) all.push_back(entry.metric);
+  return ::testing::ValuesIn(all);
+}
+[[nodiscard]] inline std::string name_of_metric(const ::testing::TestParamInfo<Metric>& tested) {
+  std::string name(dmoscope::info(tested.param).name);
+  std::erase(name, '-');
+  return name;
+}
+
 inline bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 inline bool same(Vec3 a, Vec3 b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
 

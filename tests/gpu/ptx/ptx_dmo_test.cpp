@@ -71,16 +71,7 @@ TEST_P(PtxDmo, SameBitsAlone) {
   for (Specimen& specimen : specimens()) expect_same(singles({.together = true, .backwards = true}), std::move(specimen), 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Metrics, PtxDmo, ::testing::ValuesIn([] {
-                           std::vector<Metric> all;
-                           for (const MetricInfo& entry : metric_table()) all.push_back(entry.metric);
-                           return all;
-                         }()),
-                         [](const auto& tested) {
-                           std::string name(dmoscope::info(tested.param).name);
-                           std::erase(name, '-');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Metrics, PtxDmo, every_metric(), name_of_metric);
 
 /// What is drawn, made by the kernels and by their source compiled for the host.
 class PtxPicture : public PtxTest {};

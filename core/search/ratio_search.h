@@ -194,26 +194,32 @@ class RatioSearch {
     moved_by_ = offset;
   }
 
-  /// The candidates' offsets from the centre: the first half of each axis is the negative of the second.
+  /// An axis' offsets from the centre, as parts of the grid's size: those of the second half; the first half are their negatives.
+  static DMOSCOPE_ANYWHERE R part(std::size_t i) { return scalar::constant<R>(static_cast<double>(kHalf + i) / (kPoints - 1) - 0.5); }
+
   DMOSCOPE_ANYWHERE void set_grid(Vec2<R> size) {
+    width_ = size.x;
     for (std::size_t i = 0; i < kHalf; ++i) {
-      const R s = scalar::constant<R>(static_cast<double>(kHalf + i) / (kPoints - 1) - 0.5);
-      x_[kHalf + i] = size.x * s;
-      y_[kHalf + i] = size.y * s;
-      x_[kHalf - 1 - i] = R(0) - x_[kHalf + i];
+      if constexpr (Kept == Tables::Full) {
+        x_[kHalf + i] = size.x * part(i);
+        x_[kHalf - 1 - i] = R(0) - x_[kHalf + i];
+      }
+      y_[kHalf + i] = size.y * part(i);
       y_[kHalf - 1 - i] = R(0) - y_[kHalf + i];
     }
   }
 
-  /// x_[i]; on a GPU without the memory that an index known only at run time would need.
+  /// Of a column's candidates. On a GPU without the memory that an index known only at run time would need.
   [[nodiscard]] DMOSCOPE_ANYWHERE R column_offset(std::size_t i) const {
     if constexpr (Kept == Tables::Full) {
       return x_[i];
     } else {
-      R x = x_[0];
+      const std::size_t mirrored = i < kHalf ? kHalf - 1 - i : i - kHalf;
+      R s = part(0);
       DMOSCOPE_UNROLL
-      for (std::size_t other = 1; other < kPoints; ++other) x = i == other ? x_[other] : x;
-      return x;
+      for (std::size_t other = 1; other < kHalf; ++other) s = mirrored == other ? part(other) : s;
+      const R x = width_ * s;
+      return i < kHalf ? R(0) - x : x;
     }
   }
 
@@ -266,7 +272,7 @@ class RatioSearch {
   /// The candidate with the largest least margin above `floor`; among equals the one of lowest index.
   [[nodiscard]] DMOSCOPE_ANYWHERE Best largest_margin(R floor) const {
     using scalar::max, scalar::min, scalar::select;
-    Best best{floor, R(0) - huge(), {x_[0], y_[0]}};
+    Best best{floor, R(0) - huge(), {column_offset(0), y_[0]}};
     const auto take = [&best](R high, R second, R x) {
       best.at.x = select(high > best.margin, x, best.at.x);
       best.second = max(best.second, min(high, best.margin));
@@ -337,9 +343,11 @@ class RatioSearch {
   std::size_t count_;
   R cap_;
   Vec2<R> moved_by_;  // from the last level's centre
-  Line x_, y_, yy_;   // the candidates' offsets from the centre; the squares of the latter's second half
+  R width_;           // of the grid
+  Line y_, yy_;       // the rows' offsets from the centre, and the squares of their second half
   std::array<R, kMaxForms> weight_;
   std::array<Margin, kMaxForms> margin_;
+  std::array<R, Kept == Tables::Full ? kPoints : 0> x_;  // the columns' offsets
   std::array<Line, Kept == Tables::Full ? kMaxForms : 0> column_;
   std::array<Line, Kept == Tables::None ? 0 : kMaxForms> row_;
 };

@@ -1,7 +1,6 @@
 #include "gpu/device_dmo.h"
 
 #include <algorithm>
-#include <array>
 
 #include "gpu/bodies.h"
 #include "gpu/device_mesh.h"
@@ -36,7 +35,6 @@ class DeviceDmo final : public Smoother {
     load(input->mesh.positions);
     queue_->wait();
   }
-  ~DeviceDmo() override = default;
 
   std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* /*pool*/) override {
     if (stale_) load(positions);

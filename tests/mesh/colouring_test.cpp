@@ -1,4 +1,3 @@
-#include "core/base/thread_pool.h"
 #include "core/mesh/colouring.h"
 
 #include <algorithm>
@@ -6,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/thread_pool.h"
 #include "tests/mesh/meshes.h"
 
 namespace dmoscope {

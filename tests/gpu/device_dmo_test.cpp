@@ -1,5 +1,6 @@
 // DMO on a device, with the host in the device's place: the very bits of the processor's own lanes.
 
+#include "gpu/bodies.h"
 #include "gpu/host_queue.h"
 #include "tests/gpu/meshes.h"
 #include "tests/gpu/same_bits.h"
@@ -52,6 +53,38 @@ INSTANTIATE_TEST_SUITE_P(Metrics, DeviceDmo, every_metric(), name_of_metric);
 Subject jittered(Index size, double jitter = 0.35, std::uint64_t seed = 51) {
   Progress progress;
   return Subject(prepare_input(dmoscope::testing::lattice(size, jitter, seed), {}, Need::Smoothing, progress));
+}
+
+/// All elements are alike, so that the worst is the first in every part and in their total.
+TEST(DeviceDmoStatistics, TheFirstOfTheWorstIsTheWorst) { expect_same_statistics(host(), jittered(40, 0.0), Metric::MeanRatio); }
+
+/// A visit that was left to be judged exactly moves its vertex only where that gains.
+TEST(DeviceDmoVisits, AnExactVisitRefusesWhatDoesNotGain) {
+  const Subject subject = jittered(6);
+  const StarTable table = build_star_table(subject.input->mesh, subject.input->topology, *subject.colouring, nullptr);
+  std::vector<Vec3> ranked;
+  for (const Index v : table.vertex_of_rank) ranked.push_back(subject.input->mesh.positions[v]);
+  std::vector<std::uint8_t> awake(ranked.size(), 1);
+  std::uint32_t moved = 0;
+  Task task;
+  task.shapes = table.shapes.data();
+  task.others = table.others.data();
+  task.mesh = subject.input->planar_view();
+  task.rank_of_vertex = table.rank_of_vertex.data();
+  task.vertex_of_rank = table.vertex_of_rank.data();
+  task.ranked = ranked.data();
+  task.awake = awake.data();
+  task.moved = &moved;
+  const Vec3 before = ranked[0], corner = ranked[table.others[table.shapes[0].first]];
+  const Vec3 worse = before + 0.99 * (corner - before);
+  ASSERT_FALSE(gains_at<Metric::MeanRatio>(task.mesh, positions_of(task), task.vertex_of_rank[0], worse));
+  bodies::ExactVisit<Metric::MeanRatio>::run(task, {0, true, {worse.x, worse.y, worse.z}}, Solo{});
+  EXPECT_TRUE(same(ranked[0], before));
+  EXPECT_EQ(moved, 0U);
+  EXPECT_EQ(awake[0], 0) << "it was found at its best";
+  bodies::ExactVisit<Metric::MeanRatio>::run(task, {0, false, {}}, Solo{});
+  EXPECT_FALSE(same(ranked[0], before)) << "searched anew it gains";
+  EXPECT_EQ(moved, 1U);
 }
 
 /// However many lanes work at once, and however an iteration is cut into calls.

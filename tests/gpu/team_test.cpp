@@ -160,5 +160,18 @@ TEST(Team, SettlesInvertedStarsAsOneLaneDoes) {
   expect_team_settles_the_same<Metric::ScaledJacobian>(prepared(dmoscope::testing::mixed_stars()));
 }
 
+/// Every lane has found as much, in another order than theirs: the lowest index wins, and what no lane bettered stays.
+TEST(Team, TheLowestIndexWinsAmongEquals) {
+  const auto best_of = [](int found_by) {
+    return with_team([found_by](const ThreadTeam& team) {
+      const int index = static_cast<int>(8 * (7 - team.lane()));
+      const bool found = static_cast<int>(team.lane()) >= found_by;
+      return best_of_team(team, Candidate<double>{{found ? 1.0 + index : 0.0, 0.0}, 0.5}, found ? index : -1).offset.x;
+    });
+  };
+  EXPECT_EQ(best_of(0), 1.0);
+  EXPECT_EQ(best_of(8), 0.0) << "none found more than there was";
+}
+
 }  // namespace
 }  // namespace dmoscope::gpu

@@ -145,7 +145,7 @@ RunView view_of(Run& run, bool active) {
   view.backend_reason = run.backend_reason();
   view.moment = run.moment();
   view.visits_per_iteration = run.visits_per_iteration();
-  view.class_count = run.colouring().class_count();
+  view.colouring = run.shared_colouring();
   view.free_vertices = static_cast<Index>(run.visits_per_iteration());
   if (active) view.fixed.assign(run.fixed().begin(), run.fixed().end());
   view.records = run.history().records();

@@ -99,6 +99,7 @@ class Run {
   /// that changes the run does so by itself when a device fails it, before it throws the DeviceError. Without a failure: does nothing.
   void recover();
   [[nodiscard]] const Colouring& colouring() const noexcept { return *colouring_; }
+  [[nodiscard]] const std::shared_ptr<const Colouring>& shared_colouring() const noexcept { return colouring_; }
   /// 1 where a vertex may not move: boundary, unused, or the user's.
   [[nodiscard]] std::span<const std::uint8_t> fixed() const noexcept { return fixed_; }
   /// The elements all of whose corners are fixed, ascending: see compute_statistics.

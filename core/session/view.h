@@ -39,7 +39,7 @@ struct RunView {
   std::string backend, backend_reason;  // see Run
   Moment moment;
   std::uint64_t visits_per_iteration = 0;
-  Index class_count = 0;
+  std::shared_ptr<const Colouring> colouring;  // of the free vertices, in the order of the visits
   Index free_vertices = 0;
   std::vector<std::uint8_t> fixed;  // only of the active run, else empty; see Run::fixed
   std::vector<IterationRecord> records;

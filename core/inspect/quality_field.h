@@ -1,0 +1,35 @@
+#pragma once
+// The quality of a star as a function of where its vertex stands (paper, Fig. 1), sampled densely; and for the triangles' mean ratio the
+// best place there is.
+
+#include <optional>
+#include <vector>
+
+#include "core/mesh/position_view.h"
+#include "core/quality/metric.h"
+#include "core/session/input_mesh.h"
+
+namespace dmoscope {
+
+/// Samples at the middles of columns x rows equal cells of a rectangle in the plane.
+struct QualityField {
+  Vec2<double> low, high;  // the rectangle, relative to the vertex; mesh units
+  int columns = 0, rows = 0;
+  std::vector<float> quality;   // rows * columns, row by row from below: the star's least metric; NaN where it is not defined
+  std::vector<float> jacobian;  // likewise: the least normalised Jacobian; > 0 where no element is inverted
+};
+
+/// Over `low` to `high`. Throws UsageError for a vertex that does not exist or is of no element, and for sizes below 2.
+[[nodiscard]] QualityField sample_quality(const InputMesh& input, PositionView positions, Metric metric, Index vertex, Vec2<double> low,
+                                          Vec2<double> high, int columns, int rows);
+
+struct LocalOptimum {
+  Vec2<double> at;       // relative to the vertex; in the plane, mesh units
+  double quality = 0.0;  // of the star there
+};
+
+/// The best place for `vertex` of a star of triangles by the mean ratio: its exact maximum, to 1e-9 of the star's size, where one without
+/// inverted elements exists; none otherwise, and for other stars and metrics.
+[[nodiscard]] std::optional<LocalOptimum> local_optimum(const InputMesh& input, PositionView positions, Metric metric, Index vertex);
+
+}  // namespace dmoscope

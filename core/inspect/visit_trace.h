@@ -1,0 +1,69 @@
+#pragma once
+// Looks into the visit of one vertex: what the search tried, what it valued each candidate at, and what came of it.
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/mesh/position_view.h"
+#include "core/search/parameters.h"
+#include "core/session/input_mesh.h"
+#include "core/smooth/reference_visit.h"
+
+namespace dmoscope {
+
+/// Candidate (i, j), 0 <= i, j < points, has the index i * points + j; i counts along the plane's first axis.
+struct TracedLevel {
+  Vec2<double> centre, size;    // of the grid: in the plane, mesh units, relative to where the vertex stood
+  int points = 0;               // an axis
+  std::vector<double> values;   // points^2: what the search compared, in its own scalar (see VisitTrace::value_phrase)
+  std::vector<double> quality;  // points^2: the star's quality with the vertex there, by the statistics' formulas: its least metric, or
+                                // the least normalised Jacobian (<= 0) where an element is inverted
+  std::optional<int> best;      // the candidate that this level chose; none: no candidate was better than what was found before
+  /// Candidate `index`, relative to where the vertex stood; in the plane, mesh units.
+  [[nodiscard]] Vec2<double> at(int index) const;
+};
+
+/// One element of the star, before and after the visit, by the statistics' formulas.
+struct ElementChange {
+  Index element = kNoIndex;
+  double before = 0.0, after = 0.0;  // of the metric that is optimised
+  bool inverted_before = false, inverted_after = false;
+};
+
+/// How a visit ends.
+enum class VisitEnd {
+  Moved,         // the vertex gains
+  NothingFound,  // no candidate is better than where it stands
+  NotConfirmed,  // the search found one, but judged exactly it gains nothing
+  Fixed          // it may not move, and was not searched
+};
+
+struct VisitTrace {
+  Index vertex = kNoIndex;
+  Metric metric = Metric::MeanRatio;
+  bool fast = false;         // searched in float by the fast search; else in double by the plain one
+  bool untangling = false;   // an element was inverted, so the smallest Jacobian came first
+  std::string value_phrase;  // what TracedLevel::values are: "squared mean ratio", "smallest normalised Jacobian", ...
+  Vec3 from, to;             // where it stood and stands after the visit; the same unless it moved
+  Vec2<double> step;         // in the plane; mesh units
+  Vec2<double> found;        // what the search chose, relative to `from`; in the plane, mesh units
+  StarState before, after;
+  std::vector<TracedLevel> levels;      // empty for a fixed vertex
+  std::vector<ElementChange> elements;  // in the star's order
+  VisitEnd end = VisitEnd::NothingFound;
+  /// "moved: worst element of its star 0.31 -> 0.82", "no candidate is better than where it stands", ...
+  [[nodiscard]] std::string sentence() const;
+};
+
+/// What DMO with these parameters does to `vertex` where the mesh's vertices stand at `positions`: the very templates of the smoother,
+/// asked for their trace, so that `to` has the bits that the smoother would store. `fixed`: one a vertex, as Run::fixed. Throws UsageError
+/// for a vertex that does not exist or a metric that is not defined for its star.
+[[nodiscard]] VisitTrace trace_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
+                                     const SearchParameters& parameters, Index vertex);
+
+}  // namespace dmoscope

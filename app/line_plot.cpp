@@ -81,16 +81,16 @@ Frame frame_of(const LinePlot& plot) {
 void draw_axes(Drawing& drawing, const LinePlot& plot, const Frame& f) {
   f.x.for_ticks([&](double value, bool labelled) {
     const double x = f.x.place(value);
-    drawing.lines.push_back({{{x, f.top}, {x, f.bottom}}, labelled ? kGrid : kFineGrid, 1.0});
+    drawing.rules.push_back({{{x, f.top}, {x, f.bottom}}, labelled ? kGrid : kFineGrid, 1.0});
     if (labelled) drawing.labels.push_back({{x, f.bottom + 18.0}, short_number(value), kText, kInk, Drawing::Anchor::Middle});
   });
   f.y.for_ticks([&](double value, bool labelled) {
     const double y = f.y.place(value);
-    drawing.lines.push_back({{{f.left, y}, {f.right, y}}, labelled ? kGrid : kFineGrid, 1.0});
+    drawing.rules.push_back({{{f.left, y}, {f.right, y}}, labelled ? kGrid : kFineGrid, 1.0});
     if (labelled) drawing.labels.push_back({{f.left - 8.0, y + 4.0}, fmt::format("{:g}", value), kText, kInk, Drawing::Anchor::End});
   });
   const std::vector<Drawing::Point> box{{f.left, f.top}, {f.right, f.top}, {f.right, f.bottom}, {f.left, f.bottom}, {f.left, f.top}};
-  drawing.lines.push_back({box, kFaint, 1.0});
+  drawing.rules.push_back({box, kFaint, 1.0});
   drawing.labels.push_back({{16.0, 30.0}, plot.title, 17.0, kInk});
   drawing.labels.push_back({{16.0, 50.0}, plot.subtitle, kText, kFaint});
   drawing.labels.push_back({{16.0, f.top - 12.0}, plot.y_title, kText + 1.0, kInk});

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/drawing.h"
+#include "core/drawing/drawing.h"
 
 namespace dmoscope::app {
 

@@ -239,13 +239,13 @@ std::optional<std::pair<double, double>> value_range(std::span<const Series> ser
     bars = bars || one.kind == Series::Kind::Bars;
     for (std::size_t k = 0; k < one.x.size(); ++k) {
       if (one.x[k] + one.bar_width < x_range.first || one.x[k] > x_range.second) continue;
-      if (!std::isfinite(one.y[k]) || (view.logarithmic && one.y[k] <= 0.0)) continue;
+      if (!std::isfinite(one.y[k]) || ((view.axis == ValueAxis::Log) && one.y[k] <= 0.0)) continue;
       low = std::min(low, one.y[k]);
       high = std::max(high, one.y[k]);
     }
   }
   if (!(high >= low)) return std::nullopt;
-  if (view.logarithmic) return bars ? std::pair{0.7, high * 1.5} : std::pair{low / 1.1, high * 1.1};
+  if (view.axis == ValueAxis::Log) return bars ? std::pair{0.7, high * 1.5} : std::pair{low / 1.1, high * 1.1};
   if (bars) return std::pair{0.0, std::max(1.0, high * 1.05)};
   const double margin = high > low ? 0.05 * (high - low) : std::max(1e-3, 0.05 * std::abs(high));
   return std::pair{low - margin, high + margin};
@@ -275,7 +275,7 @@ std::optional<double> draw_plot(const PlotSpec& spec, std::span<const Series> se
   const ImVec2 size{std::max(40.0F, ImGui::GetContentRegionAvail().x), std::max(30.0F, ImGui::GetContentRegionAvail().y)};
   const auto full = x_extent(spec, series);
   const auto x_range = view.x_range.value_or(full);
-  const auto y_range = spec.y_range && !view.logarithmic ? spec.y_range : value_range(series, view, x_range);
+  const auto y_range = view.y_range ? view.y_range : value_range(series, view, x_range);
   std::optional<double> clicked;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   if (!y_range) {
@@ -286,7 +286,7 @@ std::optional<double> draw_plot(const PlotSpec& spec, std::span<const Series> se
     return clicked;
   }
   const Axis x{x_range.first, x_range.second, origin.x + 4.2F * line, origin.x + size.x - 12 * s, false};
-  const Axis y{y_range->first, y_range->second, origin.y + size.y - 1.4F * line, origin.y + 4 * s, view.logarithmic};
+  const Axis y{y_range->first, y_range->second, origin.y + size.y - 1.4F * line, origin.y + 4 * s, (view.axis == ValueAxis::Log)};
   draw_axes(spec, x, y, palette, s);
   list.PushClipRect({x.from, y.to - 2 * s}, {x.to + 1, y.from + 1}, true);
   for (const Series& one : series) {

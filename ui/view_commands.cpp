@@ -10,6 +10,7 @@
 #include "core/quality/quality.h"
 #include "ui/command_words.h"
 #include "ui/input_commands.h"
+#include "ui/plot_commands.h"
 #include "ui/view_geometry.h"
 
 namespace dmoscope::ui {
@@ -17,8 +18,6 @@ namespace {
 
 constexpr std::array<std::pair<std::string_view, Theme>, 3> kThemes{
     {{"dark", Theme::Dark}, {"light", Theme::Light}, {"contrast", Theme::Contrast}}};
-constexpr std::array<std::pair<std::string_view, PlotTab>, 3> kPlots{
-    {{"convergence", PlotTab::Convergence}, {"histogram", PlotTab::Histogram}, {"sorted", PlotTab::Sorted}}};
 constexpr std::array<std::pair<std::string_view, Dialog>, 9> kDialogs{{{"none", Dialog::None},
                                                                        {"open", Dialog::Open},
                                                                        {"export", Dialog::Export},
@@ -142,14 +141,6 @@ void add_panel_verbs(CommandTable& table, ViewState& state) {
     bool Panels::*panel = choose(words[0], names);
     state.panels.*panel = switched(words, 1, state.panels.*panel);
   });
-  table.add({"plot", "plot convergence|histogram|sorted", "which plot is shown"}, [&state](Arguments words) {
-    need(words, 1, 1);
-    state.plot = choose(words[0], kPlots);
-  });
-  table.add({"log-scale", "log-scale [on|off|toggle]", "the shown plot's value axis"}, [&state](Arguments words) {
-    need(words, 0, 1);
-    state.plot_view().logarithmic = switched(words, 0, state.plot_view().logarithmic);
-  });
   table.add({"dialog", "dialog NAME|none", "opens or closes a dialog"}, [&state](Arguments words) {
     need(words, 1, 1);
     state.dialog = choose(words[0], kDialogs);
@@ -258,6 +249,7 @@ CommandTable view_commands(ViewState& state, const CommandHost& host) {
   add_look_verbs(table, state);
   add_panel_verbs(table, state);
   add_output_verbs(table, state);
+  add_plot_verbs(table, state);
   add_input_verbs(table, state, host);
   add_session_shortcuts(table, state, host);
   return table;

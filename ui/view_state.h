@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -15,11 +14,11 @@
 #include "render/camera.h"
 #include "render/colour_map.h"
 #include "ui/keys.h"
+#include "ui/plot_state.h"
 
 namespace dmoscope::ui {
 
 enum class Theme { Dark, Light, Contrast };
-enum class PlotTab { Convergence, Histogram, Sorted };
 enum class Dialog { None, Open, Export, Screenshot, Find, Palette, Keys, About, Error };
 
 /// How the colours' range is chosen: 0 to 1; the shown qualities' own minimum and maximum; or given.
@@ -40,13 +39,6 @@ struct Panels {
   bool bottom = true;                                                  // plots and timeline
   bool left_over = false, right_over = false;                          // opened over the mesh where the window is too small for both
   double left_width = 17.0, right_width = 22.0, bottom_height = 15.0;  // in heights of the interface's font
-};
-
-/// What is seen of one plot.
-struct PlotView {
-  std::set<std::string> hidden;                      // names of series switched off in the legend
-  std::optional<std::pair<double, double>> x_range;  // none: all of it
-  bool logarithmic = false;                          // the value axis
 };
 
 struct ScreenshotOptions {
@@ -101,7 +93,8 @@ struct ViewState {
   Panels panels;
   Dialog dialog = Dialog::None;
   PlotTab plot = PlotTab::Convergence;
-  std::array<PlotView, 3> plots;
+  std::array<PlotView, kPlotTabs.size()> plots;
+  PlotOptions plot_options;
   bool full_screen = false;
 
   // Selection

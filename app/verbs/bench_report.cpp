@@ -6,14 +6,14 @@
 
 #include <fmt/format.h>
 
-#include "app/drawing.h"
 #include "app/line_plot.h"
 #include "app/targets.h"
 #include "app/verbs/bench_machine.h"
 #include "core/base/error.h"
+#include "core/drawing/drawing.h"
 #include "core/io/mesh_io.h"
 #ifdef DMOSCOPE_HAVE_GUI
-#include "app/window/drawing_picture.h"
+#include "render/drawing_picture.h"
 #endif
 
 namespace dmoscope::app {
@@ -191,7 +191,7 @@ void require_plot_target(const std::filesystem::path& path) {
 void write_plot(const std::filesystem::path& path, const std::vector<Figure>& figures) {
   const Drawing drawing = draw(plot_of(figures));
 #ifdef DMOSCOPE_HAVE_GUI
-  if (path.extension() == ".png") return render::write_png(path, picture_of(drawing));
+  if (path.extension() == ".png") return render::write_png(path, render::picture_of(drawing));
 #endif
   write_file_atomically(path, svg_of(drawing));
 }

@@ -69,7 +69,7 @@ TEST_F(ViewCommands, SwitchesSwitch) {
   run("plot histogram");
   EXPECT_EQ(state_.plot, PlotTab::Histogram);
   run("log-scale on");
-  EXPECT_TRUE(state_.plot_view().logarithmic);
+  EXPECT_EQ(state_.plot_view().axis, ValueAxis::Log);
   run("colormap cividis");
   EXPECT_EQ(state_.colour_map, render::ColourMap::Cividis);
   EXPECT_THROW(run("colormap rainbow"), UsageError);

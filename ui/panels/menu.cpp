@@ -14,10 +14,10 @@ bool is_checked(const ViewState& state, std::string_view id) {
   if (id == "worst-marker") return state.worst_marker;
   if (id == "range-fixed") return state.range_mode == RangeMode::Fixed;
   if (id == "range-auto") return state.range_mode == RangeMode::Auto;
-  if (id == "plot-convergence") return state.plot == PlotTab::Convergence;
-  if (id == "plot-histogram") return state.plot == PlotTab::Histogram;
-  if (id == "plot-sorted") return state.plot == PlotTab::Sorted;
-  if (id == "log-scale") return state.plots[static_cast<std::size_t>(state.plot)].logarithmic;
+  for (const auto& [name, tab] : kPlotTabs) {
+    if (id.starts_with("plot-") && id.substr(5) == name) return state.plot == tab;
+  }
+  if (id == "plot-seconds") return state.plot_options.by_seconds;
   if (id == "panel-left") return state.panels.left;
   if (id == "panel-right") return state.panels.right;
   if (id == "panel-bottom") return state.panels.bottom;

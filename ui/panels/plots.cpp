@@ -40,6 +40,24 @@ std::vector<Series> convergence_series(const PanelContext& context) {
   return all;
 }
 
+/// What every iteration but the input's has one value of.
+template <class Value>
+std::vector<Series> course_series(const PanelContext& context, Value value) {
+  std::vector<Series> all;
+  const auto& runs = context.session.runs;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const std::string name = runs.size() == 1 ? runs[k].parameters.method : fmt::format("{} {}", k + 1, runs[k].parameters.method);
+    Series series{name, context.palette.runs[k % 8], {}, {}, Series::Kind::Line, 0, k == context.session.active ? 2.2F : 1.5F, 1.0F, false};
+    for (const IterationRecord& record : runs[k].records) {
+      if (record.iteration == 0) continue;
+      series.x.push_back(static_cast<double>(record.iteration));
+      series.y.push_back(finite_or_gap(value(record)));
+    }
+    all.push_back(std::move(series));
+  }
+  return all;
+}
+
 Series bars(const Histogram& histogram, std::string name, render::Rgb ink, float alpha) {
   Series series{std::move(name), ink, {}, {}, Series::Kind::Bars, 0, 1.0F, alpha, false};
   series.bar_width = (histogram.highest - histogram.lowest) / static_cast<double>(Histogram::kBins);
@@ -103,6 +121,14 @@ PlotSpec describe(const PanelContext& context, std::vector<Series>& series) {
       series.push_back(sorted(context.derived.sorted_now, "now", context.palette.runs[frame->run % 8], 1.0F));
       break;
     }
+    case PlotTab::Moved:
+      spec = {"moved", "iteration", "vertices moved", true, {}, {}, {}, "run to see how many vertices move", "iteration"};
+      series = course_series(context, [](const IterationRecord& record) { return static_cast<double>(record.moved); });
+      break;
+    case PlotTab::Time:
+      spec = {"time", "iteration", "seconds of smoothing", true, {}, {}, {}, "run to see how long it takes", "iteration"};
+      series = course_series(context, [](const IterationRecord& record) { return record.seconds; });
+      break;
   }
   return spec;
 }
@@ -160,6 +186,10 @@ void draw_plots(PanelContext& context, const Rect& rect) {
   tab_button(context, "plot-histogram", "Histogram", state.plot == PlotTab::Histogram);
   ImGui::SameLine(0, context.px(4));
   tab_button(context, "plot-sorted", "Sorted", state.plot == PlotTab::Sorted);
+  ImGui::SameLine(0, context.px(4));
+  tab_button(context, "plot-moved", "Moved", state.plot == PlotTab::Moved);
+  ImGui::SameLine(0, context.px(4));
+  tab_button(context, "plot-time", "Time", state.plot == PlotTab::Time);
   std::vector<Series> series;
   const PlotSpec spec = describe(context, series);
 
@@ -167,10 +197,10 @@ void draw_plots(PanelContext& context, const Rect& rect) {
   const float right = ImGui::GetFrameHeight() + look.ItemInnerSpacing.x + ImGui::CalcTextSize("log").x + context.px(12) +
                       ImGui::CalcTextSize("Copy data").x + 2 * look.FramePadding.x;
   ImGui::SameLine(rect.w - context.px(12) - right);
-  bool logarithmic = state.plot_view().logarithmic;
+  bool logarithmic = state.plot_view().axis == ValueAxis::Log;
   if (ImGui::Checkbox("log", &logarithmic)) context.send(logarithmic ? "log-scale on" : "log-scale off");
   context.items.record_last("log-scale");
-  next_item_tooltip("logarithmic value axis; values of 0 and below are gaps   L");
+  next_item_tooltip("logarithmic value axis; values of 0 and below are gaps");
   ImGui::SameLine(0, context.px(12));
   ImGui::BeginDisabled(series.empty());
   if (ImGui::Button("Copy data")) state.requests.clipboard = as_csv(spec, series);

@@ -1,15 +1,16 @@
-#include "app/drawing.h"
+#include "core/drawing/drawing.h"
 
 #include <iterator>
+#include <string_view>
 
 #include <fmt/format.h>
 
-namespace dmoscope::app {
+namespace dmoscope {
 namespace {
 
 std::string hex(DrawingColour c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
 
-std::string escaped(const std::string& text) {
+std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
     if (c == '&') {
@@ -30,6 +31,22 @@ std::string_view name(Drawing::Anchor anchor) {
   return anchor == Drawing::Anchor::Middle ? "middle" : "end";
 }
 
+/// The end of an element, around its title where it has one.
+std::string close(std::string_view element, const std::string& title) {
+  return title.empty() ? "/>\n" : fmt::format("><title>{}</title></{}>\n", escaped(title), element);
+}
+
+void add_lines(std::string& svg, const std::vector<Drawing::Line>& lines) {
+  const auto out = std::back_inserter(svg);
+  for (const Drawing::Line& line : lines) {
+    fmt::format_to(out, "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"{:g}\"", hex(line.colour), line.width);
+    if (line.dash > 0.0) fmt::format_to(out, " stroke-dasharray=\"{:g}\"", line.dash);
+    svg += " points=\"";
+    for (const Drawing::Point& p : line.points) fmt::format_to(out, "{:.2f},{:.2f} ", p.x, p.y);
+    svg += '"' + close("polyline", line.name);
+  }
+}
+
 }  // namespace
 
 std::string svg_of(const Drawing& drawing) {
@@ -39,13 +56,14 @@ std::string svg_of(const Drawing& drawing) {
       "fill=\"white\"/>\n",
       drawing.width, drawing.height);
   const auto out = std::back_inserter(svg);
-  for (const Drawing::Line& line : drawing.lines) {
-    fmt::format_to(out, "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"{:g}\"", hex(line.colour), line.width);
-    if (line.dash > 0.0) fmt::format_to(out, " stroke-dasharray=\"{:g}\"", line.dash);
-    svg += " points=\"";
-    for (const Drawing::Point& p : line.points) fmt::format_to(out, "{:.2f},{:.2f} ", p.x, p.y);
-    svg += "\"/>\n";
+  add_lines(svg, drawing.rules);
+  for (const Drawing::Box& box : drawing.boxes) {
+    fmt::format_to(out, "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"", box.from.x, box.from.y,
+                   box.to.x - box.from.x, box.to.y - box.from.y, hex(box.colour));
+    if (box.opacity < 1.0) fmt::format_to(out, " fill-opacity=\"{:g}\"", box.opacity);
+    svg += close("rect", box.name);
   }
+  add_lines(svg, drawing.lines);
   for (const Drawing::Disc& disc : drawing.discs) {
     fmt::format_to(out, "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:g}\" fill=\"{}\"/>\n", disc.centre.x, disc.centre.y, disc.radius,
                    hex(disc.colour));
@@ -57,4 +75,4 @@ std::string svg_of(const Drawing& drawing) {
   return svg + "</svg>\n";
 }
 
-}  // namespace dmoscope::app
+}  // namespace dmoscope

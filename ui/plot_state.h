@@ -1,0 +1,49 @@
+#pragma once
+// What is seen of the plots, as plain data.
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace dmoscope::ui {
+
+enum class PlotTab { Convergence, Histogram, Sorted, Moved, Time };
+inline constexpr std::array<std::pair<std::string_view, PlotTab>, 5> kPlotTabs{{{"convergence", PlotTab::Convergence},
+                                                                                {"histogram", PlotTab::Histogram},
+                                                                                {"sorted", PlotTab::Sorted},
+                                                                                {"moved", PlotTab::Moved},
+                                                                                {"time", PlotTab::Time}}};
+
+/// How values lie along the upright axis. LogDistance: by the logarithm of 1 - q, the distance to the ideal element, better ones higher.
+enum class ValueAxis { Linear, Log, LogDistance };
+inline constexpr std::array<std::pair<std::string_view, ValueAxis>, 3> kValueAxes{
+    {{"linear", ValueAxis::Linear}, {"log", ValueAxis::Log}, {"log-distance", ValueAxis::LogDistance}}};
+
+/// Only qualities have a distance to the ideal.
+[[nodiscard]] constexpr bool offers(PlotTab tab, ValueAxis axis) noexcept {
+  return axis != ValueAxis::LogDistance || tab == PlotTab::Convergence || tab == PlotTab::Sorted;
+}
+/// Plots that have the iterations, or the seconds that they took, along them.
+[[nodiscard]] constexpr bool over_iterations(PlotTab tab) noexcept { return tab != PlotTab::Histogram && tab != PlotTab::Sorted; }
+
+/// What is seen of one plot.
+struct PlotView {
+  std::set<std::string> hidden;                               // what is switched off in the legend
+  std::optional<std::pair<double, double>> x_range, y_range;  // none: all of it
+  ValueAxis axis = ValueAxis::Linear;
+  friend bool operator==(const PlotView&, const PlotView&) = default;
+};
+
+/// What holds for several of them.
+struct PlotOptions {
+  bool by_seconds = false;  // smoothing's seconds instead of iterations along the plot
+  int bins = 64;            // of the histogram: 16, 32 or 64
+  friend bool operator==(const PlotOptions&, const PlotOptions&) = default;
+};
+
+}  // namespace dmoscope::ui

@@ -3,8 +3,8 @@
 
 #include "core/quality/element_shape.h"
 #include "core/quality/tally.h"
+#include "core/smooth/fast_visit.h"
 #include "core/smooth/reference_visit.h"
-#include "gpu/fast_visit.h"
 #include "gpu/lane.h"
 #include "gpu/task.h"
 #include "gpu/work.h"
@@ -63,7 +63,7 @@ struct Visit {
     const StarShape shape = task.shapes[rank];
     if constexpr (S != Stars::All)
       if (in_registers<M>(shape, task.parameters) != (S == Stars::Fans)) return;
-    using Search = FastVisit<M, Team, S>;
+    using Search = FastVisit<M, Team, S, Task>;
     typename Search::Outcome outcome;
     if (S == Stars::Fans || shape.kind != StarShape::Kind::Alone) outcome = Search(task, rank, team).run();
     const double* to = outcome.to.target;

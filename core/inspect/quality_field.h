@@ -11,6 +11,8 @@
 
 namespace dmoscope {
 
+class ThreadPool;
+
 /// Samples at the middles of columns x rows equal cells of a rectangle in the plane.
 struct QualityField {
   Vec2<double> low, high;  // the rectangle, relative to the vertex; mesh units
@@ -19,9 +21,10 @@ struct QualityField {
   std::vector<float> jacobian;  // likewise: the least normalised Jacobian; > 0 where no element is inverted
 };
 
-/// Over `low` to `high`. Throws UsageError for a vertex that does not exist or is of no element, and for sizes below 2.
+/// Over `low` to `high`; the same for any pool (null: this thread alone). Throws UsageError for a mesh that is not planar, a vertex that
+/// does not exist or is of no element, and for sizes below 2.
 [[nodiscard]] QualityField sample_quality(const InputMesh& input, PositionView positions, Metric metric, Index vertex, Vec2<double> low,
-                                          Vec2<double> high, int columns, int rows);
+                                          Vec2<double> high, int columns, int rows, ThreadPool* pool = nullptr);
 
 struct LocalOptimum {
   Vec2<double> at;       // relative to the vertex; in the plane, mesh units

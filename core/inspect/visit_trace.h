@@ -18,15 +18,18 @@ namespace dmoscope {
 
 /// Candidate (i, j), 0 <= i, j < points, has the index i * points + j; i counts along the plane's first axis.
 struct TracedLevel {
-  Vec2<double> centre, size;    // of the grid: in the plane, mesh units, relative to where the vertex stood
-  int points = 0;               // an axis
-  std::vector<double> values;   // points^2: what the search compared, in its own scalar (see VisitTrace::value_phrase)
-  std::vector<double> quality;  // points^2: the star's quality with the vertex there, by the statistics' formulas: its least metric, or
-                                // the least normalised Jacobian (<= 0) where an element is inverted
-  std::optional<int> best;      // the candidate that this level chose; none: no candidate was better than what was found before
+  Vec2<double> centre, size;          // of the grid: in the plane, mesh units, relative to where the vertex stood
+  int points = 0;                     // an axis
+  std::vector<Vec2<double>> offsets;  // points^2: the candidates themselves, as the search rounded them; likewise
+  std::vector<double> values;         // points^2: what the search compared, in its own scalar (see VisitTrace::value_phrase)
+  std::vector<double> quality;        // points^2: the star's quality with the vertex there, by the statistics' formulas: see quality_of()
+  std::optional<int> best;            // the candidate that this level chose; none: no candidate was better than what was found before
   /// Candidate `index`, relative to where the vertex stood; in the plane, mesh units.
-  [[nodiscard]] Vec2<double> at(int index) const;
+  [[nodiscard]] Vec2<double> at(int index) const { return offsets[static_cast<std::size_t>(index)]; }
 };
+
+/// A star in one number: its least metric, or the least normalised Jacobian (<= 0) where an element is inverted.
+[[nodiscard]] inline double quality_of(const StarState& state) { return state.jacobian > 0.0 ? state.quality : state.jacobian; }
 
 /// One element of the star, before and after the visit, by the statistics' formulas.
 struct ElementChange {
@@ -48,7 +51,8 @@ struct VisitTrace {
   Metric metric = Metric::MeanRatio;
   bool fast = false;         // searched in float by the fast search; else in double by the plain one
   bool untangling = false;   // an element was inverted, so the smallest Jacobian came first
-  std::string value_phrase;  // what TracedLevel::values are: "squared mean ratio", "smallest normalised Jacobian", ...
+  std::string value_phrase;  // what TracedLevel::values are: "mean ratio", "squared sine of the smallest angle", ...
+  double value_here = 0.0;   // likewise, of the place where it stood: what a candidate had to exceed
   Vec3 from, to;             // where it stood and stands after the visit; the same unless it moved
   Vec2<double> step;         // in the plane; mesh units
   Vec2<double> found;        // what the search chose, relative to `from`; in the plane, mesh units
@@ -61,8 +65,9 @@ struct VisitTrace {
 };
 
 /// What DMO with these parameters does to `vertex` where the mesh's vertices stand at `positions`: the very templates of the smoother,
-/// asked for their trace, so that `to` has the bits that the smoother would store. `fixed`: one a vertex, as Run::fixed. Throws UsageError
-/// for a vertex that does not exist or a metric that is not defined for its star.
+/// asked for their trace, so that `to` has the bits that the smoother would store. Costs as much as the star is large, whatever the mesh.
+/// `fixed`: one a vertex, as Run::fixed. Throws UsageError for a mesh that is not planar, a vertex that does not exist, parameters out of
+/// range, or a metric that is not defined for its star.
 [[nodiscard]] VisitTrace trace_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
                                      const SearchParameters& parameters, Index vertex);
 

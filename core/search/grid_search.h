@@ -4,6 +4,7 @@
 // the metric allows it.
 
 #include <limits>
+#include <type_traits>
 
 #include "core/base/anywhere.h"
 #include "core/quality/formulas.h"
@@ -96,13 +97,21 @@ struct CandidateGrid {
   }
 };
 
-/// Does nothing at each step of the search; grid inspection passes one that records.
+/// Does nothing at each step of the search; grid inspection passes one that records: what the vertex's own place is worth; then for every
+/// level its grid, every candidate, and the best of all so far.
 struct NoTrace {
+  template <class Real>
+  DMOSCOPE_ANYWHERE void begin(const Real& /*objective*/) {}
   template <class Real>
   DMOSCOPE_ANYWHERE void level(const CandidateGrid<Real>&) {}
   template <class Real>
   DMOSCOPE_ANYWHERE void candidate(int /*index*/, Vec2<Real> /*offset*/, Real /*objective*/) {}
+  template <class Real>
+  DMOSCOPE_ANYWHERE void found(const Candidate<Real>& /*best*/) {}
 };
+/// Does somebody look? A search that needs no candidate's value for itself finds them only then.
+template <class Trace>
+inline constexpr bool kTraced = !std::is_same_v<std::remove_cvref_t<Trace>, NoTrace>;
 
 /// The best of a team's lanes; among equals the one of lowest index.
 template <class Real, class Team>
@@ -128,6 +137,7 @@ template <class Real, class ObjectiveAt, class Trace = NoTrace, class Team = Sol
                                                             const SearchParameters& parameters, Trace&& trace = {}, const Team& team = {}) {
   using scalar::select;
   Candidate<Real> best{{}, objective(Vec2<Real>{})};
+  trace.begin(best.objective);
   double omega = parameters.omega;
   for (int level = 0; level < parameters.levels; ++level) {
     const Real factor = scalar::constant<Real>(omega);
@@ -146,6 +156,7 @@ template <class Real, class ObjectiveAt, class Trace = NoTrace, class Team = Sol
       }
     }
     if constexpr (Team::kSize > 1) best = best_of_team(team, best, index);
+    trace.found(best);
     omega *= 2.0 / (parameters.grid_points - 1);
   }
   return best;

@@ -78,16 +78,20 @@ class RatioSearch {
 
   /// Searches all levels. `forms`: 1 to kMaxForms, of which it uses the memory. `cap`: what no candidate's quality can exceed. `box`: of
   /// the star's other vertices. In every slot the quality at the origin must be positive. Returns the offset and its quality, as
-  /// grid_search does.
-  DMOSCOPE_ANYWHERE Candidate<R> search(FormSpan forms, R cap, Vec2<R> box, int levels, double omega) {
+  /// grid_search does. A trace gets what quality() makes of each candidate; of those that differ by less than its rounding another one than
+  /// the first of the best may have won.
+  template <class Trace = NoTrace>
+  DMOSCOPE_ANYWHERE Candidate<R> search(FormSpan forms, R cap, Vec2<R> box, int levels, double omega, Trace&& trace = {}) {
     forms_ = forms.data();
     count_ = forms.size();
     cap_ = cap;
     moved_by_ = {R(0), R(0)};
     Candidate<R> best{{}, quality({})};
+    trace.begin(best.objective);
     for (int level = 0; level < levels; ++level) {
       const R factor = scalar::constant<R>(omega);
-      search_level({box.x * factor, box.y * factor}, best);
+      search_level({box.x * factor, box.y * factor}, best, trace);
+      trace.found(best);
       omega *= 2.0 / (kPoints - 1);
     }
     return best;
@@ -162,11 +166,13 @@ class RatioSearch {
     return select(least > smallest, R(1) / max(least, smallest), huge());
   }
 
-  DMOSCOPE_ANYWHERE void search_level(Vec2<R> size, Candidate<R>& best) {
+  template <class Trace>
+  DMOSCOPE_ANYWHERE void search_level(Vec2<R> size, Candidate<R>& best, Trace& trace) {
     using scalar::any, scalar::select;
     recentre(moved_by_);
     const R bound = weigh(size);
     set_grid(size);
+    if constexpr (kTraced<Trace>) show_level(CandidateGrid<R>{best.offset, size, static_cast<int>(kPoints)}, trace);
     R t = best.objective;
     Vec2<R> offset{R(0), R(0)};
     R floor = select(t < cap_, R(0), huge());  // what a margin must exceed: huge in slots that are done
@@ -192,6 +198,16 @@ class RatioSearch {
     best.objective = t;
     best.offset = best.offset + offset;
     moved_by_ = offset;
+  }
+
+  template <class Trace>
+  DMOSCOPE_ANYWHERE void show_level(const CandidateGrid<R>& grid, Trace& trace) const {
+    trace.level(grid);
+    for (std::size_t i = 0; i < kPoints; ++i)
+      for (std::size_t j = 0; j < kPoints; ++j) {
+        const Vec2<R> p{column_offset(i), y_[j]};
+        trace.candidate(static_cast<int>(i * kPoints + j), grid.centre + p, quality(p));
+      }
   }
 
   /// An axis' offsets from the centre, as parts of the grid's size: those of the second half; the first half are their negatives.

@@ -49,12 +49,12 @@ template <Metric M>
 /// The untangling objective costs more and is needed only where an element of the star is inverted now; of one without, it finds the
 /// same candidate, since there every candidate it values otherwise is <= 0 and cannot win. Returns the offset, in units of the star's
 /// scale.
-template <Metric M, class StarT, class Team = Solo>
+template <Metric M, class StarT, class Team = Solo, class Trace = NoTrace>
 [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<double> search_star(const StarT& star, Vec2<double> box, const SearchParameters& parameters,
-                                                         const Team& team = {}) {
+                                                         const Team& team = {}, Trace&& trace = {}) {
   const Objective<M, true, double, Value::Metric, StarT> untangling(star);
-  if (!(untangling({}) > 0.0)) return grid_search<double>(untangling, box, parameters, NoTrace{}, team).offset;
-  return grid_search<double>(Objective<M, false, double, Value::Metric, StarT>(star), box, parameters, NoTrace{}, team).offset;
+  if (!(untangling({}) > 0.0)) return grid_search<double>(untangling, box, parameters, trace, team).offset;
+  return grid_search<double>(Objective<M, false, double, Value::Metric, StarT>(star), box, parameters, trace, team).offset;
 }
 
 /// Where a vertex at `place` comes to stand by an offset in the plane, in mesh units. `single`: see Mesh::single_precision.

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kGrain = 8192;  // vertices a chunk
 
-/// What one chunk of vertices makes; `first` of its shapes counts from the chunk's own beginning.
+/// What one chunk of vertices makes; `first` of its shapes counts from the chunk's own beginning. No ranks: vertices stand for them.
 class Chunk {
  public:
   Chunk(const Mesh& mesh, const Topology& topology, std::span<const Index> rank) : mesh_(mesh), topology_(topology), rank_(rank) {}
@@ -29,7 +29,7 @@ class Chunk {
     for (const Incidence& at : star) {
       const auto corners = mesh_.elements.corners(at.element);
       auto& list = corners.size() == 3 ? pairs_ : triples_;
-      for (std::size_t i = 1; i < corners.size(); ++i) list.push_back(rank_[corners[(at.corner + i) % corners.size()]]);
+      for (std::size_t i = 1; i < corners.size(); ++i) list.push_back(rank_of(corners[(at.corner + i) % corners.size()]));
     }
     const std::size_t triangles = pairs_.size() / 2, quadrilaterals = triples_.size() / 3;
     if (quadrilaterals == 0 && triangles <= kMaxFan && add_ring()) {
@@ -48,6 +48,8 @@ class Chunk {
   std::vector<Index> others;
 
  private:
+  [[nodiscard]] Index rank_of(Index vertex) const { return rank_.empty() ? vertex : rank_[vertex]; }
+
   /// Chains the triangles (b, c) of `pairs_` into one closed ring; adds nothing where they form none.
   bool add_ring() {
     const std::size_t count = pairs_.size() / 2;
@@ -90,6 +92,14 @@ std::vector<Index> rank_vertices(std::size_t count, std::span<const Index> visit
 }
 
 }  // namespace
+
+StarShape star_shape(const Mesh& mesh, const Topology& topology, Index vertex, std::vector<Index>& others) {
+  Chunk chunk(mesh, topology, {});
+  StarShape shape = chunk.add(vertex);
+  shape.first = static_cast<std::uint32_t>(others.size());
+  others.insert(others.end(), chunk.others.begin(), chunk.others.end());
+  return shape;
+}
 
 StarTable build_star_table(const Mesh& mesh, const Topology& topology, const Colouring& colouring, ThreadPool* pool) {
   StarTable table;

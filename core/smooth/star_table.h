@@ -34,6 +34,9 @@ struct StarTable {
   std::vector<Index> others;
 };
 
+/// The star of one vertex, laid out as in the table: appends its other corners to `others`, as vertices.
+[[nodiscard]] StarShape star_shape(const Mesh& mesh, const Topology& topology, Index vertex, std::vector<Index>& others);
+
 /// `colouring`: of the free vertices, in the order of the visits. Throws UsageError where 32 bits cannot count the stars' corners.
 [[nodiscard]] StarTable build_star_table(const Mesh& mesh, const Topology& topology, const Colouring& colouring, ThreadPool* pool);
 

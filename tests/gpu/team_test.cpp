@@ -86,18 +86,18 @@ template <Metric M>
 void expect_team_finds_the_same(const HostTask& host, const SearchParameters& parameters) {
   Task task = host.task;
   task.parameters = parameters;
-  using Outcomes = std::vector<typename FastVisit<M, Solo, Stars::All>::Outcome>;
-  using TeamOutcomes = std::vector<typename FastVisit<M, ThreadTeam, Stars::All>::Outcome>;
+  using Outcomes = std::vector<typename FastVisit<M, Solo, Stars::All, Task>::Outcome>;
+  using TeamOutcomes = std::vector<typename FastVisit<M, ThreadTeam, Stars::All, Task>::Outcome>;
   const auto count = static_cast<Index>(host.subject.visits());
   Outcomes alone;
   for (Index rank = 0; rank < count; ++rank)
     alone.push_back(task.shapes[rank].kind == StarShape::Kind::Alone ? typename Outcomes::value_type{}
-                                                                     : FastVisit<M, Solo, Stars::All>(task, rank, Solo{}).run());
+                                                                     : FastVisit<M, Solo, Stars::All, Task>(task, rank, Solo{}).run());
   const TeamOutcomes together = with_team([&](const ThreadTeam& team) {
     TeamOutcomes found;
     for (Index rank = 0; rank < count; ++rank)
       found.push_back(task.shapes[rank].kind == StarShape::Kind::Alone ? typename TeamOutcomes::value_type{}
-                                                                       : FastVisit<M, ThreadTeam, Stars::All>(task, rank, team).run());
+                                                                       : FastVisit<M, ThreadTeam, Stars::All, Task>(task, rank, team).run());
     return found;
   });
   std::size_t moving = 0;

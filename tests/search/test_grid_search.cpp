@@ -157,7 +157,7 @@ TEST(GridSearch, FloatLosesAlmostNothing) {
   }
 }
 
-struct Recorder {
+struct Recorder : NoTrace {
   std::vector<CandidateGrid<double>> grids;
   std::vector<int> counts;
   double best = -1e9;

@@ -1,16 +1,17 @@
 #pragma once
-// One vertex's visit by the fast search: what the processor's lanes do (core/smooth/lane_kernel_of.h), for one lane of a GPU or a team
-// of them. The same bits.
+// One vertex's visit by the fast search: what the processor's lanes do (core/smooth/lane_kernel_of.h), for a vertex alone: for one lane of
+// a GPU or a team of them, and for those who look into a visit. The same bits.
 
 #include <array>
 
 #include "core/base/anywhere.h"
 #include "core/search/grid_search.h"
 #include "core/search/ratio_search.h"
+#include "core/smooth/search_frame.h"
+#include "core/smooth/star_table.h"
 #include "core/smooth/visit_rules.h"
-#include "gpu/task.h"
 
-namespace dmoscope::gpu {
+namespace dmoscope {
 
 /// A closed fan of N triangles around a vertex, each point known once, in registers.
 template <class R, std::size_t N>
@@ -34,8 +35,9 @@ template <Metric M>
   return kIsRatio<M> && shape.kind == StarShape::Kind::Fan && shape.triangles >= 4 && shape.triangles <= 7 && parameters.grid_points == 8;
 }
 
-/// Of a team's lanes only the first learns the verdict.
-template <Metric M, class Team, Stars S>
+/// Of a team's lanes only the first learns the verdict. Task: anything with the `shapes`, `others` and `ranked` positions (Vec3) of a
+/// StarTable, a `frame` and search `parameters`.
+template <Metric M, class Team, Stars S, class Task>
 class FastVisit {
  public:
   using Verdict = visit_rules::Verdict;
@@ -49,22 +51,23 @@ class FastVisit {
   DMOSCOPE_ANYWHERE FastVisit(const Task& task, Index rank, const Team& team)
       : task_(task), team_(team), shape_(task.shapes[rank]), others_(task.others + shape_.first), origin_(&task.ranked[rank].x) {}
 
-  [[nodiscard]] DMOSCOPE_ANYWHERE Outcome run() const {
+  template <class Trace = NoTrace>
+  [[nodiscard]] DMOSCOPE_ANYWHERE Outcome run(Trace&& trace = {}) const {
     if constexpr (kIsRatio<M> && S != Stars::Others) {
       if (S == Stars::Fans || in_registers<M>(shape_, task_.parameters)) {
         switch (shape_.triangles) {
           case 4:
-            return visit_fan<4>();
+            return visit_fan<4>(trace);
           case 5:
-            return visit_fan<5>();
+            return visit_fan<5>(trace);
           case 6:
-            return visit_fan<6>();
+            return visit_fan<6>(trace);
           default:
-            return visit_fan<7>();
+            return visit_fan<7>(trace);
         }
       }
     }
-    if constexpr (S != Stars::Fans) return visit_any();
+    if constexpr (S != Stars::Fans) return visit_any(trace);
     return {};
   }
 
@@ -75,7 +78,7 @@ class FastVisit {
 
   [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<double> exact_point(std::size_t i) const {
     const double* at = &task_.ranked[others_[i]].x;
-    return task_.frame.u_axis >= 0 ? task_.frame.offset<true>(at, origin_) : task_.frame.offset<false>(at, origin_);
+    return task_.frame.u_axis >= 0 ? task_.frame.template offset<true>(at, origin_) : task_.frame.template offset<false>(at, origin_);
   }
   [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<float> point(std::size_t i) const {
     const Vec2<double> exact = exact_point(i);
@@ -96,8 +99,8 @@ class FastVisit {
     Vec2<float> low_, high_;
   };
 
-  template <std::size_t N>
-  [[nodiscard]] DMOSCOPE_ANYWHERE Outcome visit_fan() const {
+  template <std::size_t N, class Trace>
+  [[nodiscard]] DMOSCOPE_ANYWHERE Outcome visit_fan(Trace& trace) const {
     FanStar<float, N> star;
     DMOSCOPE_UNROLL
     for (std::size_t i = 0; i < N; ++i) star.ring[i] = point(i);
@@ -110,12 +113,13 @@ class FastVisit {
       for (std::size_t i = 0; i < N; ++i)
         triangle_form(StarTriangle<float>{star.ring[i], star.ring[i + 1 < N ? i + 1 : 0], 1.0F}, forms[i]);
       RatioSearch<float, N, Tables::Rows, Team> rounds(team_);
-      return rounds.search(std::span<RatioForm<float>, N>(forms), 1e30F, size, task_.parameters.levels, task_.parameters.omega);
+      return rounds.search(std::span<RatioForm<float>, N>(forms), 1e30F, size, task_.parameters.levels, task_.parameters.omega, trace);
     });
   }
 
   /// A star of any kind that has a place in lanes.
-  [[nodiscard]] DMOSCOPE_ANYWHERE Outcome visit_any() const {
+  template <class Trace>
+  [[nodiscard]] DMOSCOPE_ANYWHERE Outcome visit_any(Trace& trace) const {
     std::array<StarTriangle<float>, kMaxFan> triangles;
     std::array<StarQuadrilateral<float>, kQuadrilaterals ? kMaxQuadrilaterals : 1> quadrilaterals;
     const Vec2<float> first = point(0);
@@ -144,12 +148,13 @@ class FastVisit {
     const StarView<float> star(triangles.data(), n, quadrilaterals.data(), kQuadrilaterals ? shape_.quadrilaterals : 0);
     return decide(star, box.size(), [&](Vec2<float> size) {
       if constexpr (kIsRatio<M>)
-        if (task_.parameters.grid_points == static_cast<int>(kPoints)) return search_by_rounds(star, size);
-      return grid_search<float>(objective(star), size, task_.parameters, NoTrace{}, team_);
+        if (task_.parameters.grid_points == static_cast<int>(kPoints)) return search_by_rounds(star, size, trace);
+      return grid_search<float>(objective(star), size, task_.parameters, trace, team_);
     });
   }
 
-  [[nodiscard]] DMOSCOPE_ANYWHERE Candidate<float> search_by_rounds(const StarView<float>& star, Vec2<float> size) const {
+  template <class Trace>
+  [[nodiscard]] DMOSCOPE_ANYWHERE Candidate<float> search_by_rounds(const StarView<float>& star, Vec2<float> size, Trace& trace) const {
     using Rounds = RatioSearch<float, 0, Tables::None, Team>;
     std::array<RatioForm<float>, Rounds::kMaxForms> forms;
     std::size_t count = 0;
@@ -162,7 +167,7 @@ class FastVisit {
       }
     }
     Rounds rounds(team_);
-    return rounds.search({forms.data(), count}, cap, size, task_.parameters.levels, task_.parameters.omega);
+    return rounds.search({forms.data(), count}, cap, size, task_.parameters.levels, task_.parameters.omega, trace);
   }
 
   template <class StarT>
@@ -236,4 +241,4 @@ class FastVisit {
   const double* origin_;
 };
 
-}  // namespace dmoscope::gpu
+}  // namespace dmoscope

@@ -1,0 +1,14 @@
+#pragma once
+// What whoever looks into a star asks for first.
+
+#include "core/session/input_mesh.h"
+
+namespace dmoscope {
+
+/// Throws UsageError unless the mesh is planar and has the vertex.
+void require_vertex(const InputMesh& input, Index vertex);
+
+/// Is the metric defined for all elements around the vertex?
+[[nodiscard]] bool defined_around(const InputMesh& input, Metric metric, Index vertex);
+
+}  // namespace dmoscope

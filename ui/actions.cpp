@@ -63,6 +63,9 @@ constexpr std::array kActions{
     Action{"scale-up", "View", "Larger interface", "Ctrl+=", "scale up"},
     Action{"scale-down", "View", "Smaller interface", "Ctrl+-", "scale down"},
     Action{"scale-one", "View", "Interface at its usual size", "Ctrl+0", "scale 1"},
+    Action{"unfold-left", "View", "Narrow window: runs over the mesh", "", "unfold left toggle"},
+    Action{"unfold-right", "View", "Narrow window: inspector over the mesh", "", "unfold right toggle"},
+    Action{"log", "View", "Log of commands and messages…", "F6", "dialog log", Needs::Nothing, true},
 
     Action{"plot-convergence", "Plot", "Convergence", "Alt+1", "plot convergence"},
     Action{"plot-histogram", "Plot", "Histogram", "Alt+2", "plot histogram"},

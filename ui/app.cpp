@@ -9,6 +9,7 @@
 #include "core/quality/quality.h"
 #include "ui/derived.h"
 #include "ui/view_geometry.h"
+#include "ui/view_lines.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -21,7 +22,7 @@ constexpr double kForever = std::numeric_limits<double>::infinity();
 App::App(Options options)
     : options_(std::move(options)), engine_(options_.threads, options_.acceleration, options_.backend), session_(engine_.view()) {
   host_.session = [this] { return session_; };
-  host_.post = [this](std::string line) { engine_.post(std::move(line)); };
+  host_.post = [this](const std::string& line) { state_.commands.posted(line, engine_.post(line)); };
   host_.busy = [this] { return engine_.busy(); };
   host_.cancel = [this] { engine_.cancel(); };
   host_.item = [this](const std::string& name) { return items_.find(name); };
@@ -32,7 +33,19 @@ App::App(Options options)
 
 App::~App() = default;
 
-void App::execute(std::string_view line) { dispatch(commands_, host_, line); }
+std::vector<std::string> App::look() const { return view_lines(state_, session_->frame != nullptr); }
+
+void App::execute(std::string_view line) {
+  state_.commands.begin(line, look());
+  try {
+    dispatch(commands_, host_, line);
+  } catch (const Error& error) {
+    state_.commands.refuse(error.what());
+    state_.commands.end(look());
+    throw;
+  }
+  state_.commands.end(look());
+}
 
 void App::submit(std::string_view line) {
   try {
@@ -65,6 +78,7 @@ void App::take_news(double now) {
     if (listener_) listener_(message);
     add_message(state_, std::move(message));
   }
+  for (const CommandEnd& end : engine_.take_ends()) state_.commands.ended(end);
   activity_.pending = engine_.pending();
   activity_.busy = activity_.pending != 0;
   activity_.command = engine_.current_command();
@@ -137,6 +151,7 @@ void App::apply_fit() {
   state_.camera = render::Camera2D::fit(scene_.bounds(), free, std::min(1.2 * em, 0.05 * std::min(free.x, free.y)));
   state_.camera.pan({0.0, (top - bottom) / 2});
   fitted_ = state_.camera;
+  state_.commands.keep_look(look());
 }
 
 render::Style App::style() const {
@@ -235,6 +250,7 @@ void App::draw_side(PanelContext& context, const char* name, const Rect& rect, b
 void App::draw_panels(PanelContext& context) {
   const float menu = draw_menu(context);
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  state_.window_size = {static_cast<int>(screen.x), static_cast<int>(screen.y)};
   const Layout layout = compute_layout(state_.panels, screen.x, screen.y, context.em(), menu);
   update_scene(layout.viewport, context.now);
   context.mesh_texture = picture_.texture();

@@ -68,6 +68,7 @@ class App {
 
  private:
   void take_news(double now);
+  [[nodiscard]] std::vector<std::string> look() const;
   void update_backend();
   void update_drawing();
   void notice_new_input();

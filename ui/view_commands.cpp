@@ -9,6 +9,7 @@
 
 #include "core/quality/quality.h"
 #include "ui/command_words.h"
+#include "ui/desktop_commands.h"
 #include "ui/input_commands.h"
 #include "ui/plot_commands.h"
 #include "ui/view_geometry.h"
@@ -18,15 +19,16 @@ namespace {
 
 constexpr std::array<std::pair<std::string_view, Theme>, 3> kThemes{
     {{"dark", Theme::Dark}, {"light", Theme::Light}, {"contrast", Theme::Contrast}}};
-constexpr std::array<std::pair<std::string_view, Dialog>, 9> kDialogs{{{"none", Dialog::None},
-                                                                       {"open", Dialog::Open},
-                                                                       {"export", Dialog::Export},
-                                                                       {"screenshot", Dialog::Screenshot},
-                                                                       {"find", Dialog::Find},
-                                                                       {"palette", Dialog::Palette},
-                                                                       {"keys", Dialog::Keys},
-                                                                       {"about", Dialog::About},
-                                                                       {"error", Dialog::Error}}};
+constexpr auto kDialogs = std::to_array<std::pair<std::string_view, Dialog>>({{"none", Dialog::None},
+                                                                              {"open", Dialog::Open},
+                                                                              {"export", Dialog::Export},
+                                                                              {"screenshot", Dialog::Screenshot},
+                                                                              {"find", Dialog::Find},
+                                                                              {"palette", Dialog::Palette},
+                                                                              {"keys", Dialog::Keys},
+                                                                              {"about", Dialog::About},
+                                                                              {"error", Dialog::Error},
+                                                                              {"log", Dialog::Log}});
 
 const InputMesh& input_of(const CommandHost& host) {
   const auto view = host.session();
@@ -127,7 +129,8 @@ void add_look_verbs(CommandTable& table, ViewState& state) {
 void add_panel_verbs(CommandTable& table, ViewState& state) {
   table.add({"size", "size WIDTH HEIGHT", "size of the window in pixels"}, [&state](Arguments words) {
     need(words, 2, 2);
-    state.requests.size = parse_size(words[0] + "x" + words[1]);
+    state.window_size = parse_size(words[0] + "x" + words[1]);
+    state.requests.size = state.window_size;
   });
   table.add({"full-screen", "full-screen [on|off|toggle]", "the whole monitor"}, [&state](Arguments words) {
     need(words, 0, 1);
@@ -227,7 +230,7 @@ void add_session_shortcuts(CommandTable& table, ViewState& state, const CommandH
   table.add({"next-run", "next-run", "selects the next run"}, [&host](Arguments words) {
     need(words, 0, 0);
     const auto view = host.session();
-    if (view && view->runs.size() > 1) host.post(fmt::format("select-run {}", (view->active + 1) % view->runs.size()));
+    if (view && view->runs.size() > 1) host.post(fmt::format("select-run {}", (view->active + 1) % view->runs.size() + 1));
   });
   table.add({"next-metric", "next-metric", "shows the next metric that is defined for the mesh"}, [&host](Arguments words) {
     need(words, 0, 0);
@@ -252,6 +255,7 @@ CommandTable view_commands(ViewState& state, const CommandHost& host) {
   add_plot_verbs(table, state);
   add_input_verbs(table, state, host);
   add_session_shortcuts(table, state, host);
+  add_desktop_verbs(table, state, host);
   return table;
 }
 

@@ -14,7 +14,7 @@ namespace dmoscope::ui {
 /// What the verbs act on besides the view state. All members must be set.
 struct CommandHost {
   std::function<std::shared_ptr<const SessionView>()> session;
-  std::function<void(std::string)> post;  // a session command
+  std::function<void(const std::string&)> post;  // a session command
   std::function<bool()> busy;
   std::function<void()> cancel;
   /// Rectangle (left, top, right, bottom in pixels) of a named item of the interface; throws UsageError for an unknown name.

@@ -17,6 +17,18 @@ double highest_of(const Histogram& histogram) {
 
 }  // namespace
 
+std::string_view theme_name(Theme theme) {
+  switch (theme) {
+    case Theme::Dark:
+      return "dark";
+    case Theme::Light:
+      return "light";
+    case Theme::Contrast:
+      break;
+  }
+  return "contrast";
+}
+
 std::pair<double, double> colour_range(const ViewState& state, const Frame* frame) {
   if (state.range_mode == RangeMode::Given) return {state.range_low, state.range_high};
   if (state.range_mode == RangeMode::Auto && frame != nullptr) {
@@ -46,6 +58,7 @@ void add_message(ViewState& state, Message message) {
       state.dialog = Dialog::Error;
     }
   }
+  state.commands.say(message);
   state.log.push_back({std::move(message), ++state.log_serial});
   while (state.log.size() > kMost) state.log.pop_front();
 }

@@ -13,13 +13,16 @@
 #include "core/session/view.h"
 #include "render/camera.h"
 #include "render/colour_map.h"
+#include "ui/command_log.h"
 #include "ui/keys.h"
 #include "ui/plot_state.h"
 
 namespace dmoscope::ui {
 
 enum class Theme { Dark, Light, Contrast };
-enum class Dialog { None, Open, Export, Screenshot, Find, Palette, Keys, About, Error };
+/// "dark", "light", "contrast"
+[[nodiscard]] std::string_view theme_name(Theme theme);
+enum class Dialog { None, Open, Export, Screenshot, Find, Palette, Keys, About, Error, Log };
 
 /// How the colours' range is chosen: 0 to 1; the shown qualities' own minimum and maximum; or given.
 enum class RangeMode { Fixed, Auto, Given };
@@ -79,7 +82,8 @@ struct LogEntry {
 struct ViewState {
   // Camera and picture
   render::Camera2D camera;
-  Vec2<double> viewport{800, 600};  // pixels, set by the drawing code
+  Vec2<double> viewport{800, 600};        // pixels, set by the drawing code
+  std::pair<int, int> window_size{0, 0};  // likewise; 0: not known yet
   bool wireframe = true;
   bool vertices = false;
   bool worst_marker = true;
@@ -103,6 +107,7 @@ struct ViewState {
   // Log
   std::deque<LogEntry> log;  // newest last, at most 200
   std::uint64_t log_serial = 0;
+  CommandLog commands;     // and messages, all of them
   std::string error_text;  // of the error dialog
 
   // Remembered

@@ -28,12 +28,15 @@ Engine::~Engine() {
   thread_.request_stop();
 }
 
-void Engine::post(std::string command_line) {
+std::uint64_t Engine::post(std::string command_line) {
+  std::uint64_t id = 0;
   {
     const std::scoped_lock lock(mutex_);
-    queue_.push_back(std::move(command_line));
+    id = ++last_id_;
+    queue_.push_back({id, std::move(command_line)});
   }
   changed_.notify_all();
+  return id;
 }
 
 std::size_t Engine::pending() const {
@@ -49,6 +52,7 @@ void Engine::wait_idle() {
 void Engine::cancel() {
   {
     const std::scoped_lock lock(mutex_);
+    for (const Posted& command : queue_) ends_.push_back({command.id, CommandEnd::Kind::Dropped});
     queue_.clear();
     if (working_) progress_.request_cancel();
   }
@@ -57,7 +61,7 @@ void Engine::cancel() {
 
 std::string Engine::current_command() const {
   const std::scoped_lock lock(mutex_);
-  return current_;
+  return current_.line;
 }
 
 std::shared_ptr<const SessionView> Engine::view() {
@@ -69,6 +73,11 @@ std::shared_ptr<const SessionView> Engine::view() {
 std::vector<Message> Engine::take_messages() {
   const std::scoped_lock lock(mutex_);
   return std::exchange(messages_, {});
+}
+
+std::vector<CommandEnd> Engine::take_ends() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(ends_, {});
 }
 
 void Engine::set_wake(std::function<void()> wake) {
@@ -84,11 +93,12 @@ void Engine::work(const std::stop_token& stop) {
     working_ = true;
     progress_.clear_cancel();
     lock.unlock();
-    run_one(current_);
+    const CommandEnd end = run_one(current_);
     publish_at_rest();
     lock.lock();
     working_ = false;
-    current_.clear();
+    current_ = {};
+    ends_.push_back(end);
     changed_.notify_all();
     const auto wake = wake_;
     lock.unlock();
@@ -97,13 +107,25 @@ void Engine::work(const std::stop_token& stop) {
   }
 }
 
-void Engine::run_one(const std::string& line) {
-  progress_.begin(line);
+CommandEnd Engine::run_one(const Posted& command) {
+  const auto moment = [this] { return session_.has_input() ? session_.active().moment() : Moment{}; };
+  progress_.begin(command.line);
   if (session_.has_input()) session_.active().set_observer([this](const Run&) { publish_if_due(); });
+  const Moment before = moment();
+  CommandEnd end{command.id, execute(command.line)};
+  end.at = moment();
+  end.moved = end.at != before;
+  return end;
+}
+
+CommandEnd::Kind Engine::execute(const std::string& line) {
+  using Kind = CommandEnd::Kind;
   try {
     commands_.execute(line);
+    return Kind::Done;
   } catch (const Cancelled& cancelled) {
     say({Message::Kind::Warning, "cancelled: " + line, cancelled.exit_code()});
+    return Kind::Cancelled;
   } catch (const Error& error) {
     say({Message::Kind::Error, error.what(), error.exit_code()});
   } catch (const std::bad_alloc&) {
@@ -111,6 +133,7 @@ void Engine::run_one(const std::string& line) {
   } catch (const std::exception& unforeseen) {  // a person's session must outlive our mistakes
     say({Message::Kind::Error, line + ": " + unforeseen.what(), 3});
   }
+  return Kind::Failed;
 }
 
 void Engine::publish_if_due() {

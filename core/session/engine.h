@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/base/progress.h"
+#include "core/session/command_end.h"
 #include "core/session/frame_builder.h"
 #include "core/session/session_commands.h"
 #include "core/session/view.h"
@@ -34,8 +35,9 @@ class Engine {
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  /// Queues one command line of the table in commands.h. Returns at once; whatever goes wrong becomes a Message.
-  void post(std::string command_line);
+  /// Queues one command line of the table in commands.h. Returns at once the command's number (1, 2, ...); whatever goes wrong becomes a
+  /// Message.
+  std::uint64_t post(std::string command_line);
   /// Commands posted and not yet finished, the one at work included.
   [[nodiscard]] std::size_t pending() const;
   [[nodiscard]] bool busy() const { return pending() != 0; }
@@ -52,12 +54,19 @@ class Engine {
   [[nodiscard]] std::shared_ptr<const SessionView> view();
   /// Messages since the last call, oldest first.
   [[nodiscard]] std::vector<Message> take_messages();
+  /// How the commands ended that did since the last call, in the order in which they did.
+  [[nodiscard]] std::vector<CommandEnd> take_ends();
   /// Called from the worker whenever a view or message is new (the window wakes its event loop with it). Set before the first post.
   void set_wake(std::function<void()> wake);
 
  private:
   void work(const std::stop_token& stop);
-  void run_one(const std::string& line);
+  struct Posted {
+    std::uint64_t id = 0;
+    std::string line;
+  };
+  [[nodiscard]] CommandEnd run_one(const Posted& command);
+  [[nodiscard]] CommandEnd::Kind execute(const std::string& line);
   void publish(FrameDetail detail);
   void publish_if_due();
   void publish_at_rest();
@@ -71,8 +80,10 @@ class Engine {
 
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
-  std::deque<std::string> queue_;
-  std::string current_;
+  std::deque<Posted> queue_;
+  Posted current_;
+  std::uint64_t last_id_ = 0;
+  std::vector<CommandEnd> ends_;
   bool working_ = false;
   std::vector<Message> messages_;
   std::shared_ptr<const SessionView> view_;

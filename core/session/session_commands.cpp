@@ -192,8 +192,11 @@ void until_converged(CommandContext& context, Arguments arguments) {
   tell(context, context.session.active().until_converged(limits, context.progress).sentence());
 }
 void seek(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 1);
-  context.session.active().seek({to_count(arguments[0]), 0}, context.progress);
+  require(arguments, 1, 2);
+  const std::uint64_t visits = arguments.size() > 1 ? to_count(arguments[1]) : 0;
+  const std::uint64_t most = context.session.active().visits_per_iteration();
+  if (visits > most) throw UsageError(fmt::format("an iteration has {} visits, not {}", most, visits));
+  context.session.active().seek({to_count(arguments[0]), visits}, context.progress);
 }
 void reset(CommandContext& context, Arguments arguments) {
   require(arguments, 0, 0);
@@ -298,7 +301,7 @@ const std::vector<Verb>& verbs() {
       {{"back", "back vertex|class|iteration [COUNT]", "Steps back."}, back},
       {{"run", "run ITERATIONS", "Runs that many iterations."}, run},
       {{"until-converged", "until-converged [PATIENCE [MAX]]", "Runs until nothing moves or no minimum rises any more."}, until_converged},
-      {{"seek", "seek ITERATION", "Goes to any iteration."}, seek},
+      {{"seek", "seek ITERATION [VISITS]", "Goes to any iteration, and so many visits further."}, seek},
       {{"reset", "reset", "Goes back to the input."}, reset},
       {{"add-run", "add-run METHOD[:METRIC]", "Adds a run beside the others."}, add_run},
       {{"select-run", "select-run K", "Makes run K (from 1) the active one."}, select_run},

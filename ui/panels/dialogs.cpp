@@ -63,6 +63,8 @@ const char* dialog_title(Dialog dialog) {
       return "About dmoscope";
     case Dialog::Error:
       return "That did not work";
+    case Dialog::Log:
+      return "Log";
     case Dialog::None:
       break;
   }
@@ -110,6 +112,9 @@ void draw_dialogs(PanelContext& context) {
       break;
     case Dialog::Error:
       draw_error_dialog(context);
+      break;
+    case Dialog::Log:
+      draw_log_dialog(context);
       break;
   }
 }

@@ -21,6 +21,8 @@ bool is_checked(const ViewState& state, std::string_view id) {
   if (id == "panel-left") return state.panels.left;
   if (id == "panel-right") return state.panels.right;
   if (id == "panel-bottom") return state.panels.bottom;
+  if (id == "unfold-left") return state.panels.left_over;
+  if (id == "unfold-right") return state.panels.right_over;
   if (id == "full-screen") return state.full_screen;
   if (id == "theme-dark") return state.theme == Theme::Dark;
   if (id == "theme-light") return state.theme == Theme::Light;

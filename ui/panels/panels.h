@@ -58,6 +58,13 @@ struct Derived {
   std::tuple<RangeMode, double, double> range_key{RangeMode::Fixed, NAN, NAN};  // what `range` was worked out for
 };
 
+/// What the log's dialog shows.
+struct LogWidgets {
+  std::string filter, script_name = "session.dmoscope";
+  bool commands = true, messages = true;
+  std::size_t seen = 0;  // lines there were in the last frame
+};
+
 /// State that only widgets need between frames.
 struct WidgetState {
   std::string open_folder, open_text, open_error;
@@ -67,6 +74,7 @@ struct WidgetState {
   int export_what = 0;
   std::string export_name, screenshot_name = "dmoscope.png";
   std::string palette_text, find_text, find_error;
+  LogWidgets log;
   std::vector<Thumbnail> thumbnails;  // of the samples, made when the start page is first shown
   int screenshot_width = 0, screenshot_height = 0, screenshot_supersample = 2;
   bool screenshot_transparent = false, screenshot_window = false;
@@ -148,6 +156,7 @@ void draw_find_dialog(PanelContext& context);
 void draw_keys_dialog(PanelContext& context);
 void draw_about_dialog(PanelContext& context);
 void draw_error_dialog(PanelContext& context);
+void draw_log_dialog(PanelContext& context);
 /// Begins a modal window of the open dialog; false when it is closed. Escape closes it.
 bool begin_dialog(PanelContext& context, const char* title, float width_em, float height_em = 0);
 void end_dialog();

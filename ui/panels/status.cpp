@@ -34,17 +34,15 @@ void draw_progress(PanelContext& context) {
   context.items.record_last("cancel");
 }
 
-void strip(PanelContext& context, const char* name, const Rect& rect, const char* label, const char* tooltip, bool& open,
-           const char* item) {
+void strip(PanelContext& context, const char* side_name, const Rect& rect, const char* label, const char* tooltip, bool open) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(4), context.px(6)});
-  begin_panel(name, rect);
+  begin_panel(fmt::format("{} strip", side_name).c_str(), rect);
   ImGui::PopStyleVar();
   const float side = rect.w - 2 * context.px(4);
   if (open) ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent, 0.25F));
-  const bool was_open = open;
-  if (ImGui::Button(label, {side, side})) open = !open;
-  if (was_open) ImGui::PopStyleColor();
-  context.items.record_last(item);
+  if (ImGui::Button(label, {side, side})) context.send(fmt::format("unfold {} {}", side_name, open ? "off" : "on"));
+  if (open) ImGui::PopStyleColor();
+  context.items.record_last(fmt::format("fold:{}", side_name));
   next_item_tooltip(tooltip);
   end_panel();
 }
@@ -130,8 +128,9 @@ void draw_status(PanelContext& context, const Rect& rect) {
            ++k) {
         recent += (recent.empty() ? "" : "\n") + context.state.log[k].message.text;
       }
-      next_item_tooltip(recent);
-      if (ImGui::IsItemClicked()) context.state.requests.clipboard = message.text;
+      next_item_tooltip(recent + "\n(click shows the log)");
+      if (ImGui::IsItemClicked()) context.send("dialog log");
+      context.items.record_last("status-message");
     }
   }
   end_panel();
@@ -139,9 +138,9 @@ void draw_status(PanelContext& context, const Rect& rect) {
 
 void draw_strips(PanelContext& context, const Layout& layout) {
   if (!layout.folded) return;
-  Panels& panels = context.state.panels;
-  strip(context, "left strip", layout.left_strip, "☰", "runs and parameters", panels.left_over, "fold:left");
-  strip(context, "right strip", layout.right_strip, "ℹ", "inspector and worst elements", panels.right_over, "fold:right");
+  const Panels& panels = context.state.panels;
+  strip(context, "left", layout.left_strip, "☰", "runs and parameters", panels.left_over);
+  strip(context, "right", layout.right_strip, "ℹ", "inspector and worst elements", panels.right_over);
 }
 
 void draw_splitters(PanelContext& context, const Layout& layout) {

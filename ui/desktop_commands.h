@@ -1,0 +1,11 @@
+#pragma once
+// Verbs with which a recorded session gives the window its look again, and that which saves one.
+
+#include "ui/view_commands.h"
+
+namespace dmoscope::ui {
+
+///   camera X Y UNITS-PER-PIXEL | panel-size left|right|bottom EM | unfold left|right [on|off|toggle] | save-script FILE
+void add_desktop_verbs(CommandTable& table, ViewState& state, const CommandHost& host);
+
+}  // namespace dmoscope::ui

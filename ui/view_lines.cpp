@@ -1,0 +1,29 @@
+#include "ui/view_lines.h"
+
+#include <fmt/format.h>
+
+namespace dmoscope::ui {
+
+std::vector<std::string> view_lines(const ViewState& state, bool with_camera) {
+  const auto on = [](bool value) { return value ? "on" : "off"; };
+  const Panels& panels = state.panels;
+  std::vector<std::string> lines;
+  if (state.window_size.first > 0) lines.push_back(fmt::format("size {} {}", state.window_size.first, state.window_size.second));
+  lines.push_back(fmt::format("scale {}", state.scale));
+  lines.push_back(fmt::format("theme {}", theme_name(state.theme)));
+  lines.push_back(fmt::format("panel left {}", on(panels.left)));
+  lines.push_back(fmt::format("panel right {}", on(panels.right)));
+  lines.push_back(fmt::format("panel bottom {}", on(panels.bottom)));
+  lines.push_back(fmt::format("panel-size left {}", panels.left_width));
+  lines.push_back(fmt::format("panel-size right {}", panels.right_width));
+  lines.push_back(fmt::format("panel-size bottom {}", panels.bottom_height));
+  lines.push_back(fmt::format("unfold left {}", on(panels.left_over)));
+  lines.push_back(fmt::format("unfold right {}", on(panels.right_over)));
+  lines.push_back(fmt::format("colormap {}", render::name(state.colour_map)));
+  lines.push_back(fmt::format("wireframe {}", on(state.wireframe)));
+  const render::Camera2D& camera = state.camera;
+  if (with_camera) lines.push_back(fmt::format("camera {} {} {}", camera.centre.x, camera.centre.y, camera.units_per_pixel));
+  return lines;
+}
+
+}  // namespace dmoscope::ui

@@ -38,6 +38,7 @@ struct ColourScale {
   int steps = 0;      // 0: continuous; n >= 2: n colours of equal width
   double low = 0.0;   // quality of the first colour; below it: the first colour
   double high = 1.0;  // quality of the last colour; above it: the last colour
+  friend bool operator==(const ColourScale&, const ColourScale&) = default;
   /// Position in the map, [0, 1], of a quality: clamped, reversed and stepped. NaN gives NaN.
   [[nodiscard]] double position(double quality) const;
   /// Colour of a quality; NaN gives kUndefinedColour. Inverted elements are the caller's (kInvertedColour).

@@ -8,6 +8,7 @@
 
 #include "render/gl.h"
 #include "render/layout.h"
+#include "render/shading.h"
 #include "render/style.h"
 
 namespace dmoscope::render {
@@ -35,10 +36,13 @@ class ElementPainter {
   [[nodiscard]] GLuint point_buffer() const noexcept { return points_.id(); }
   [[nodiscard]] GLuint shade_buffer() const noexcept { return shades_.id(); }
   void set_colours(const ColourScale& colours);
+  /// What is shown instead of quality; null: quality. Gone with upload_topology, as is the selection.
+  void set_shading(const Shading* shading);
+  void set_selection(const Selection& selection);
   /// Draws all elements of the ranges.
   void draw(const View& view, const Style& style, std::size_t batch, std::span<const DrawRange> ranges);
   /// Draws a square for every stride-th element of the ranges.
-  void draw_coarse(const View& view, std::size_t batch, std::span<const DrawRange> ranges, Index stride);
+  void draw_coarse(const View& view, const Style& style, std::size_t batch, std::span<const DrawRange> ranges, Index stride);
   void draw_boundary(const View& view, const Style& style);
 
  private:
@@ -46,15 +50,19 @@ class ElementPainter {
     Buffer order, corners;
     Handle<DeleteVertexArray> array;
   };
-  void bind_colours(const Program& program) const;
-  std::array<Program, 2> fill_;
+  /// What fill.glsl reads.
+  void bind_fill(const Program& program, const Style& style, std::size_t batch) const;
+  std::array<std::array<Program, 2>, 2> fill_;  // one colour an element, or by corners; of triangles, of quadrilaterals
   Program coarse_, boundary_;
   std::array<Elements, 2> elements_;
-  Buffer points_, shades_, edges_;
+  Buffer points_, shades_, edges_, values_, members_;
   GLsizei edge_count_ = 0;
-  Handle<DeleteTexture> colours_;
-  Handle<DeleteVertexArray> nothing_;  // for shaders that read their vertices from buffers
-  std::optional<ColourScale> uploaded_;
+  Handle<DeleteTexture> colours_, palette_;
+  std::optional<Shading::By> by_;  // none: quality
+  int categories_ = 0;
+  Selection selection_;
+  Handle<DeleteVertexArray> nothing_;    // for shaders that read their vertices from buffers
+  std::optional<ColourScale> uploaded_;  // the map as it is in colours_, from 0 to 1
 };
 
 }  // namespace dmoscope::render

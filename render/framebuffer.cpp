@@ -98,6 +98,11 @@ void Framebuffer::clear(Rgba colour) {
   DMOSCOPE_GL(glClearNamedFramebufferfv(framebuffer_, GL_DEPTH, 0, &farthest));
 }
 
+void Framebuffer::copy_from(const Framebuffer& other) {
+  resize(other.width_, other.height_);
+  DMOSCOPE_GL(glCopyImageSubData(other.colour_, GL_TEXTURE_2D, 0, 0, 0, 0, colour_, GL_TEXTURE_2D, 0, 0, 0, 0, width_, height_, 1));
+}
+
 Image Framebuffer::read_pixels() const {
   Image image(width_, height_);
   const std::size_t row = std::size_t{4} * static_cast<std::size_t>(width_);

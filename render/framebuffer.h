@@ -26,6 +26,8 @@ class Framebuffer {
   static void bind_default(int width, int height);
   /// Binds and fills: depth to its farthest.
   void clear(Rgba colour);
+  /// Takes the size and the colours of another one; depth is left as it is.
+  void copy_from(const Framebuffer& other);
   /// The picture, with straight alpha. Waits for OpenGL.
   [[nodiscard]] Image read_pixels() const;
   /// The largest width and height OpenGL allows here.

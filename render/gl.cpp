@@ -28,11 +28,23 @@ std::string_view error_name(GLenum error) {
   }
 }
 
-Handle<DeleteShader> compile(GLenum stage, std::string_view file, std::string_view define) {
-  const std::string_view text = shader_text(file);
-  const std::string_view common = shader_text("common.glsl");
+/// The text of a shader with what its lines `#include "FILE"` name in their place.
+std::string whole_text(std::string_view file) {
+  std::string text(shader_text(file));
   if (text.empty()) throw Error(fmt::format("the program holds no shader '{}'", file));
-  const std::string head = fmt::format("#version 450 core\n{}", define.empty() ? std::string{} : fmt::format("#define {} 1\n", define));
+  constexpr std::string_view kInclude = "#include \"";
+  for (std::size_t at = text.find(kInclude); at != std::string::npos; at = text.find(kInclude, at)) {
+    const std::size_t name = at + kInclude.size(), end = text.find('"', name);
+    text.replace(at, end + 1 - at, whole_text(text.substr(name, end - name)));
+  }
+  return text;
+}
+
+Handle<DeleteShader> compile(GLenum stage, std::string_view file, Defines defines) {
+  const std::string text = whole_text(file);
+  const std::string_view common = shader_text("common.glsl");
+  std::string head = "#version 450 core\n";
+  for (const std::string_view define : defines) head += fmt::format("#define {} 1\n", define);
   const GLchar* const parts[] = {head.data(), common.data(), text.data()};
   const GLint lengths[] = {static_cast<GLint>(head.size()), static_cast<GLint>(common.size()), static_cast<GLint>(text.size())};
   Handle<DeleteShader> shader(glCreateShader(stage));
@@ -75,12 +87,12 @@ void Buffer::write(std::span<const std::byte> data) {
 
 void Buffer::bind_storage(GLuint binding) const { DMOSCOPE_GL(glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, handle_.id())); }
 
-Program::Program(const Stages& stages, std::string_view define) : program_(glCreateProgram()) {
+Program::Program(const Stages& stages, Defines defines) : program_(glCreateProgram()) {
   if (program_.id() == 0) throw Error("glCreateProgram failed");
   std::vector<Handle<DeleteShader>> shaders;
   const auto add = [&](GLenum stage, std::string_view file) {
     if (file.empty()) return;
-    shaders.push_back(compile(stage, file, define));
+    shaders.push_back(compile(stage, file, defines));
     DMOSCOPE_GL(glAttachShader(program_.id(), shaders.back().id()));
   };
   add(GL_VERTEX_SHADER, stages.vertex);

@@ -2,6 +2,7 @@
 // Thin owners of OpenGL objects; every call that can fail is checked. Only for sources of this room.
 
 #include <cstddef>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -82,11 +83,14 @@ struct Stages {
   std::string_view vertex, geometry, fragment;
 };
 
-/// A linked program made of embedded shaders; "common.glsl" is put before each.
+/// Macros set to 1 in all stages of a program.
+using Defines = std::initializer_list<std::string_view>;
+
+/// A linked program made of embedded shaders; "common.glsl" is put before each, and lines `#include "FILE"` stand for other ones.
 class Program {
  public:
-  /// `define`: a macro set to 1 in all stages, may be empty. Throws Error with the compiler's log.
-  explicit Program(const Stages& stages, std::string_view define = {});
+  /// Throws Error with the compiler's log.
+  explicit Program(const Stages& stages, Defines defines = {});
   void use() const;
   void set(const char* name, float value) const;
   void set(const char* name, int value) const;

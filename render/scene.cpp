@@ -9,17 +9,12 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/session/input_mesh.h"
-#include "render/device_feed.h"
-#include "render/element_painter.h"
-#include "render/layout.h"
-#include "render/mark_painter.h"
+#include "render/scene_impl.h"
 
 namespace dmoscope::render {
 namespace {
 
-constexpr std::size_t kBigMesh = 100'000;        // elements whose layout takes long enough to be built in the background
-constexpr std::size_t kMostVertexDots = 20'000;  // beyond, dots would hide the mesh anyway
+constexpr std::size_t kBigMesh = 100'000;  // elements whose layout takes long enough to be built in the background
 
 /// Keeps what a draw changes and others may rely on: the bound framebuffer and the viewport.
 class TargetGuard {
@@ -60,50 +55,30 @@ View make_view(const Layout& layout, const Camera2D& camera, Vec2<double> viewpo
   return view;
 }
 
+Vec2<double> size_of(const Framebuffer& target) { return {static_cast<double>(target.width()), static_cast<double>(target.height())}; }
+
+void clear(Framebuffer& target, const Style& style) {
+  target.clear(style.transparent ? Rgba{0, 0, 0, 0} : Rgba{style.background.r, style.background.g, style.background.b, 255});
+}
+
+/// Elements cover each other by depth; marks are blended over each other.
+void begin_elements() {
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_STENCIL_TEST);
+  glDisable(GL_BLEND);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+}
+void begin_marks() {
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_STENCIL_TEST);
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_FUNC_ADD);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+}
+
 }  // namespace
-
-struct MeshScene::Impl {
-  Placement placement;
-  bool placement_current = true;  // false: what is on show stands on a device, and the placement is an older one's
-  Source source = Source::Host;
-  ElementPainter elements;
-  DeviceFeed device;  // after the painter, whose buffers it knows
-  MarkPainter marks;
-  std::vector<std::uint8_t> fixed;
-  std::vector<std::uint8_t> inverted;
-  std::vector<Vec2<float>> point_scratch;
-  std::vector<float> shade_scratch;
-  std::shared_ptr<const Frame> frame;  // the one on show
-  std::uint64_t input_serial = 0;
-  bool has_input = false;
-  std::future<std::shared_ptr<const Layout>> pending;
-  std::uint64_t pending_serial = 0;
-  std::shared_ptr<const InputMesh> pending_input;
-
-  void adopt(std::shared_ptr<const Layout> layout) {
-    device.forget_buffers();
-    elements.upload_topology(*layout);
-    placement = Placement(std::move(layout));
-    fixed.clear();
-    inverted.clear();
-  }
-  bool prepare(const Frame& wanted, Loading loading);
-  void upload(std::span<const Vec3> positions, std::span<const float> quality, std::span<const std::uint8_t> inverted_flags);
-  void show_device(const Frame& light);
-  /// Brings the placement up to date with what is on show. Throws DeviceError.
-  void place_all();
-  /// Where some vertices are in the plane. Throws DeviceError.
-  [[nodiscard]] std::vector<Vec2<double>> points_of(std::span<const Index> vertices) const;
-  [[nodiscard]] std::vector<DrawRange> visible(std::size_t batch, const Bounds2& window) const;
-  void gather_mesh_marks(const Camera2D& camera, const Style& style, const Marks& wanted);
-  void gather_marks(const Camera2D& camera, const Style& style, const Marks& wanted);
-  void gather_vertices(const Camera2D& camera, const Style& style, const Bounds2& window);
-  void outline(std::span<const Vec2<double>> corners, const Camera2D& camera, const Style& style);
-  /// Pixels from the middle of the viewport, y up.
-  [[nodiscard]] static Vec2<double> place(Vec2<double> point, const Camera2D& camera) {
-    return {(point.x - camera.centre.x) / camera.units_per_pixel, (point.y - camera.centre.y) / camera.units_per_pixel};
-  }
-};
 
 MeshScene::MeshScene() : impl_(std::make_unique<Impl>()) {}
 MeshScene::~MeshScene() = default;
@@ -141,6 +116,7 @@ bool MeshScene::show(std::shared_ptr<const Frame> frame, Loading loading) {
     s.placement = Placement();
     s.has_input = false;
     s.frame.reset();
+    ++s.revision;
     return !frame;
   }
   if (!s.frame || s.frame->serial != frame->serial || s.frame->input_serial != frame->input_serial) {
@@ -185,10 +161,10 @@ void MeshScene::Impl::upload(std::span<const Vec3> positions, std::span<const fl
     return Vec2<float>{static_cast<float>(p.x - origin.x), static_cast<float>(p.y - origin.y)};
   });
   elements.upload_points(point_scratch);
-  inverted.assign(inverted_flags.begin(), inverted_flags.end());
-  shade_scratch.resize(count);
-  for (Index e = 0; e < count; ++e) shade_scratch[e] = shade_of(quality[e], !inverted.empty() && inverted[e] != 0);
-  elements.upload_shades(shade_scratch);
+  shades.resize(count);
+  for (Index e = 0; e < count; ++e) shades[e] = shade_of(quality[e], !inverted_flags.empty() && inverted_flags[e] != 0);
+  elements.upload_shades(shades);
+  ++revision;
 }
 
 void MeshScene::Impl::show_device(const Frame& light) {
@@ -196,15 +172,14 @@ void MeshScene::Impl::show_device(const Frame& light) {
   placement_current = false;
   const bool shown = device.show(light.device, elements, placement.layout());
   source = !shown ? Source::Unreachable : device.direct() ? Source::Device : Source::HostCopy;
+  ++revision;
 }
 
 void MeshScene::Impl::place_all() {
   if (placement_current) return;
   const DeviceFeed::HostCopy& copy = device.host_copy(placement.layout());
   placement.move(copy.points);
-  inverted.resize(copy.shades.size());
-  std::transform(copy.shades.begin(), copy.shades.end(), inverted.begin(),
-                 [](float shade) { return static_cast<std::uint8_t>(shade == kInvertedShade ? 1 : 0); });
+  shades = copy.shades;
   placement_current = true;
 }
 
@@ -226,7 +201,36 @@ std::vector<DrawRange> MeshScene::Impl::visible(std::size_t batch, const Bounds2
   return all == 0 ? std::vector<DrawRange>{} : std::vector<DrawRange>{{0, all}};
 }
 
-void MeshScene::set_fixed(std::span<const std::uint8_t> fixed) { impl_->fixed.assign(fixed.begin(), fixed.end()); }
+void MeshScene::set_fixed(std::span<const std::uint8_t> fixed) {
+  impl_->fixed.assign(fixed.begin(), fixed.end());
+  ++impl_->revision;
+}
+
+void MeshScene::set_shading(std::shared_ptr<const Shading> shading) {
+  Impl& s = *impl_;
+  if (s.shading == shading) return;
+  if (shading) {
+    const Index wanted = shading->by == Shading::By::Elements ? element_count() : s.placement.layout().vertex_count;
+    if (s.placement.empty() || shading->values.size() != wanted)
+      throw UsageError("as many values as the mesh has elements or vertices are needed");
+  }
+  s.elements.set_shading(shading.get());
+  s.shading = std::move(shading);
+  ++s.revision;
+}
+
+void MeshScene::set_selection(const Selection& selection) {
+  Impl& s = *impl_;
+  if (s.selection == selection) return;
+  if (selection.members && selection.members->size() != element_count()) {
+    throw UsageError("as many members as the mesh has elements are needed");
+  }
+  s.elements.set_selection(selection);
+  s.selection = selection;
+  ++s.revision;
+}
+
+std::uint64_t MeshScene::revision() const noexcept { return impl_->revision; }
 
 bool MeshScene::empty() const noexcept { return impl_->placement.empty() || impl_->placement.layout().element_count() == 0; }
 Index MeshScene::element_count() const noexcept { return impl_->placement.empty() ? 0 : impl_->placement.layout().element_count(); }
@@ -234,171 +238,90 @@ const Bounds2& MeshScene::bounds() const noexcept { return impl_->placement.boun
 Source MeshScene::source() const noexcept { return impl_->source; }
 const std::string& MeshScene::device_trouble() const noexcept { return impl_->device.trouble(); }
 
+MeshScene::Impl::InView MeshScene::Impl::in_view(const Bounds2& window) const {
+  InView seen{{visible(0, window), visible(1, window)}, 0};
+  for (const auto& list : seen.ranges) {
+    for (const DrawRange& range : list) seen.count += range.last - range.first;
+  }
+  return seen;
+}
+
 void MeshScene::draw(Framebuffer& target, const Camera2D& camera, const Style& style, const Marks& marks, double detail) {
+  draw_elements(target, camera, style, detail);
+  draw_marks(target, camera, style, marks);
+}
+
+bool MeshScene::draw_elements(Framebuffer& target, const Camera2D& camera, const Style& style, double detail) {
   const TargetGuard guard;
-  target.clear(style.transparent ? Rgba{0, 0, 0, 0} : Rgba{style.background.r, style.background.g, style.background.b, 255});
-  glDisable(GL_CULL_FACE);
-  glDisable(GL_STENCIL_TEST);
-  glEnable(GL_BLEND);
-  glBlendEquation(GL_FUNC_ADD);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  clear(target, style);
   Impl& s = *impl_;
-  const Vec2<double> viewport{static_cast<double>(target.width()), static_cast<double>(target.height())};
+  if (empty() || s.source == Source::Unreachable) return true;
+  const Vec2<double> viewport = size_of(target);
+  const View view = make_view(s.placement.layout(), camera, viewport, style.scale);
+  const Bounds2 window = camera.visible(viewport);
+  const Impl::InView seen = s.in_view(window);
+  const double budget = std::max(1.0, std::clamp(detail, 0.0, 1.0) * element_count());
+  const auto stride = static_cast<Index>(std::ceil(seen.count / budget - 1e-9));
+  s.elements.set_colours(style.colours);
+  begin_elements();
+  for (std::size_t batch = 0; batch < 2; ++batch) {
+    if (stride > 1) {
+      s.elements.draw_coarse(view, style, batch, seen.ranges[batch], stride);
+    } else {
+      s.elements.draw(view, style, batch, seen.ranges[batch]);
+    }
+  }
+  s.draw_over(view, camera, style, stride <= 1 ? &window : nullptr);
+  return stride <= 1;
+}
+
+bool MeshScene::draw_slice(Framebuffer& target, const Camera2D& camera, const Style& style, SliceProgress& progress, Index most) {
+  const TargetGuard guard;
+  if (!std::exchange(progress.begun, true)) clear(target, style);
+  target.bind();
+  Impl& s = *impl_;
+  if (empty() || s.source == Source::Unreachable) return true;
+  const Vec2<double> viewport = size_of(target);
+  const View view = make_view(s.placement.layout(), camera, viewport, style.scale);
+  const Bounds2 window = camera.visible(viewport);
+  const Impl::InView seen = s.in_view(window);
+  s.elements.set_colours(style.colours);
+  begin_elements();
+  Index before = progress.drawn, rest = std::max<Index>(1, most);  // to pass over; to draw
+  for (std::size_t batch = 0; batch < 2; ++batch) {
+    std::vector<DrawRange> slice;
+    for (const DrawRange& range : seen.ranges[batch]) {
+      const Index passed = std::min(before, range.last - range.first), first = range.first + passed;
+      const Index taken = std::min(rest, range.last - first);
+      before -= passed;
+      rest -= taken;
+      progress.drawn += taken;
+      if (taken > 0) slice.push_back({first, first + taken});
+    }
+    s.elements.draw(view, style, batch, slice);
+  }
+  const bool last = progress.drawn >= seen.count;
+  if (last) s.draw_over(view, camera, style, &window);
+  glFinish();
+  return last;
+}
+
+void MeshScene::Impl::draw_over(const View& view, const Camera2D& camera, const Style& style, const Bounds2* vertices_of) {
+  begin_marks();
+  if (style.boundary) elements.draw_boundary(view, style);
+  if (style.vertices && vertices_of != nullptr) gather_vertices(camera, style, *vertices_of);
+  marks.flush(view, style.scale);
+}
+
+void MeshScene::draw_marks(Framebuffer& target, const Camera2D& camera, const Style& style, const Marks& marks) {
+  const TargetGuard guard;
+  target.bind();
+  Impl& s = *impl_;
   const Layout nothing;
-  const View view = make_view(s.placement.empty() ? nothing : s.placement.layout(), camera, viewport, style.scale);
-  if (!empty() && s.source != Source::Unreachable) {
-    const Bounds2 window = camera.visible(viewport);
-    const std::vector<DrawRange> ranges[] = {s.visible(0, window), s.visible(1, window)};
-    double in_view = 0.0;
-    for (const auto& list : ranges) {
-      for (const DrawRange& range : list) in_view += range.last - range.first;
-    }
-    const double budget = std::max(1.0, std::clamp(detail, 0.0, 1.0) * element_count());
-    const auto stride = static_cast<Index>(std::ceil(in_view / budget - 1e-9));
-    s.elements.set_colours(style.colours);
-    glDisable(GL_BLEND);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LEQUAL);
-    for (std::size_t batch = 0; batch < 2; ++batch) {
-      if (stride > 1) {
-        s.elements.draw_coarse(view, batch, ranges[batch], stride);
-      } else {
-        s.elements.draw(view, style, batch, ranges[batch]);
-      }
-    }
-    glDisable(GL_DEPTH_TEST);
-    glEnable(GL_BLEND);
-    if (style.boundary) s.elements.draw_boundary(view, style);
-    if (style.vertices && stride <= 1) s.gather_vertices(camera, style, window);
-  }
+  const View view = make_view(s.placement.empty() ? nothing : s.placement.layout(), camera, size_of(target), style.scale);
   s.gather_marks(camera, style, marks);
+  begin_marks();
   s.marks.flush(view, style.scale);
-}
-
-void MeshScene::Impl::outline(std::span<const Vec2<double>> corners, const Camera2D& camera, const Style& style) {
-  for (const bool casing : {true, false}) {
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Vec2<double> a = place(corners[i], camera), b = place(corners[(i + 1) % corners.size()], camera);
-      marks.line(a, b, (casing ? 5.0F : 2.4F) * style.scale, casing ? style.casing_colour : style.highlight_colour);
-    }
-  }
-}
-
-/// Marks of elements and vertices; their places are asked for all together.
-void MeshScene::Impl::gather_mesh_marks(const Camera2D& camera, const Style& style, const Marks& wanted) {
-  const Layout& layout = placement.layout();
-  std::vector<std::span<const Index>> shapes;  // outlined elements, and last the worst
-  for (const Index e : wanted.elements) {
-    if (e < layout.element_count()) shapes.push_back(layout.corners_of_element(e));
-  }
-  const std::size_t outlined = shapes.size();
-  if (wanted.worst && *wanted.worst < layout.element_count()) shapes.push_back(layout.corners_of_element(*wanted.worst));
-  std::vector<Index> vertices;
-  for (const auto& shape : shapes) vertices.insert(vertices.end(), shape.begin(), shape.end());
-  const std::size_t corner_count = vertices.size();
-  std::copy_if(wanted.vertices.begin(), wanted.vertices.end(), std::back_inserter(vertices),
-               [&](Index v) { return v < layout.vertex_count; });
-  const std::vector<Vec2<double>> points = points_of(vertices);
-  std::span<const Vec2<double>> rest(points.data(), corner_count);
-  for (std::size_t k = 0; k < outlined; ++k) {
-    outline(rest.first(shapes[k].size()), camera, style);
-    rest = rest.subspan(shapes[k].size());
-  }
-  for (std::size_t k = corner_count; k < points.size(); ++k) {
-    marks.dot(place(points[k], camera), 9.0F * style.scale, DotShape::Round, style.highlight_colour, style.casing_colour);
-  }
-  if (shapes.size() > outlined) {
-    Bounds2 box;
-    for (const Vec2<double>& corner : rest) box.include(corner);
-    const double size = std::hypot(box.size().x, box.size().y) / camera.units_per_pixel;
-    const float diameter = std::max(26.0F * style.scale, static_cast<float>(std::min(size, 1e5)) * 1.15F + 8.0F * style.scale);
-    marks.dot(place(box.centre(), camera), diameter, DotShape::Ring, style.highlight_colour, style.casing_colour);
-  }
-}
-
-void MeshScene::Impl::gather_marks(const Camera2D& camera, const Style& style, const Marks& wanted) {
-  try {
-    if (!placement.empty() && source != Source::Unreachable) gather_mesh_marks(camera, style, wanted);
-  } catch (const DeviceError&) {  // unmarked; the next frame finds out what is the matter
-  }
-  for (const OverlayLine& line : wanted.lines) {
-    marks.line(place(line.from, camera), place(line.to, camera), line.width * style.scale, line.colour);
-  }
-  for (const OverlayDot& dot : wanted.dots) {
-    marks.dot(place(dot.point, camera), dot.diameter * style.scale, dot.square ? DotShape::Square : DotShape::Round, dot.colour,
-              style.casing_colour);
-  }
-}
-
-void MeshScene::Impl::gather_vertices(const Camera2D& camera, const Style& style, const Bounds2& window) {
-  try {
-    place_all();
-  } catch (const DeviceError&) {  // no dots; the next frame finds out what is the matter
-    return;
-  }
-  // Vertices of elements in view that are big enough, each once.
-  const double room = 14.0 * static_cast<double>(style.scale) * camera.units_per_pixel;
-  std::vector<Index> seen;
-  for (std::size_t batch = 0; batch < 2; ++batch) {
-    const Batch& elements_of = placement.layout().batches[batch];
-    for (const DrawRange& range : placement.visible(batch, window)) {
-      for (Index drawn = range.first; drawn < range.last; ++drawn) {
-        const auto corners = elements_of.corners_of(drawn);
-        const Vec2<double> a = placement.points()[corners[0]], b = placement.points()[corners[1]], c = placement.points()[corners[2]];
-        if (std::abs(cross(b - a, c - a)) < room * room) continue;
-        seen.insert(seen.end(), corners.begin(), corners.end());
-        if (seen.size() > 6 * kMostVertexDots) return;
-      }
-    }
-  }
-  std::sort(seen.begin(), seen.end());
-  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
-  if (seen.size() > kMostVertexDots) return;
-  for (const Index v : seen) {
-    const bool is_fixed = v < fixed.size() && fixed[v] != 0;
-    marks.dot(place(placement.points()[v], camera), (is_fixed ? 5.0F : 4.5F) * style.scale, is_fixed ? DotShape::Square : DotShape::Round,
-              is_fixed ? style.fixed_colour : style.free_colour, style.vertex_casing_colour);
-  }
-}
-
-Pick MeshScene::pick(const Camera2D& camera, Vec2<double> viewport, Vec2<double> pixel, double radius) const {
-  Pick result;
-  Impl& s = *impl_;
-  if (empty() || s.source == Source::Unreachable) return result;
-  try {
-    s.place_all();
-  } catch (const DeviceError&) {
-    return result;
-  }
-  const Vec2<double> point = camera.to_plane(pixel, viewport);
-  const double reach = std::max(radius, 0.0) * camera.units_per_pixel;
-  const Bounds2 window{{point.x - reach, point.y - reach}, {point.x + reach, point.y + reach}};
-  double nearest = reach * reach;
-  bool on_top = false;
-  for (std::size_t batch = 0; batch < 2; ++batch) {
-    const Batch& elements = s.placement.layout().batches[batch];
-    for (const DrawRange& range : s.placement.visible(batch, window)) {
-      for (Index drawn = range.first; drawn < range.last; ++drawn) {
-        const auto corners = elements.corners_of(drawn);
-        for (const Index v : corners) {
-          const Vec2<double> away = s.placement.points()[v] - point;
-          const double square = dot(away, away);
-          if (square < nearest || (square == nearest && v < result.vertex)) {
-            nearest = square;
-            result.vertex = v;
-          }
-        }
-        if (!contains(corners, s.placement.points(), point)) continue;
-        const Index element = elements.order[drawn];
-        const bool inverted = !s.inverted.empty() && s.inverted[element] != 0;
-        if (on_top && !inverted) continue;  // the later one covers the earlier one, but no inverted one
-        result.element = element;
-        on_top = inverted;
-      }
-    }
-  }
-  result.vertex_distance = std::sqrt(nearest) / camera.units_per_pixel;
-  return result;
 }
 
 }  // namespace dmoscope::render

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/base/vec.h"
 #include "core/mesh/mesh.h"
@@ -13,6 +14,7 @@
 #include "core/session/view.h"
 #include "render/camera.h"
 #include "render/framebuffer.h"
+#include "render/shading.h"
 #include "render/style.h"
 
 namespace dmoscope::render {
@@ -22,6 +24,24 @@ struct Pick {
   Index element = kNoIndex;      // the one drawn on top there; inverted elements lie above the others
   Index vertex = kNoIndex;       // the nearest within the radius
   double vertex_distance = 0.0;  // pixels; meaningful when there is a vertex
+};
+
+/// Ids worth writing: what there is room for.
+struct Label {
+  Vec2<double> point;  // of the plane, where the middle of the text belongs
+  Index id = kNoIndex;
+  bool vertex = false;  // else an element
+};
+struct LabelWish {
+  bool vertices = false, elements = false;
+  double digit_width = 8.0, line_height = 15.0;  // of the text, pixels
+  std::size_t most = 400;                        // more would be a carpet: then there are none
+};
+
+/// How far a picture that is drawn in slices has come.
+struct SliceProgress {
+  bool begun = false;
+  Index drawn = 0;  // elements in view that are done
 };
 
 /// How the positions and colours on show came to OpenGL.
@@ -65,6 +85,14 @@ class MeshScene {
   /// Which vertices are fixed (RunView::fixed), for Style::vertices; empty: all free. Forgotten when another mesh is shown.
   void set_fixed(std::span<const std::uint8_t> fixed);
 
+  /// What is shown instead of quality; null: quality. Forgotten when another mesh is shown. Throws UsageError when it does not have as many
+  /// values as the mesh has elements or vertices.
+  void set_shading(std::shared_ptr<const Shading> shading);
+  /// Which elements count; forgotten when another mesh is shown. Throws UsageError when the members are not as many as the elements.
+  void set_selection(const Selection& selection);
+
+  /// Grows with every change of what is drawn, camera, style and marks apart.
+  [[nodiscard]] std::uint64_t revision() const noexcept;
   [[nodiscard]] bool empty() const noexcept;
   [[nodiscard]] Index element_count() const noexcept;
   /// Box of the vertices used by elements, in the plane; empty when nothing is shown. That of the positions shown last, or while light
@@ -79,10 +107,23 @@ class MeshScene {
   /// and the wireframe is left out: the same picture for the same detail, coarser. Throws Error.
   void draw(Framebuffer& target, const Camera2D& camera, const Style& style, const Marks& marks = {}, double detail = 1.0);
 
+  /// The same in two steps: clears `target` and draws all but the marks, and draws these over it. Returns whether every element in view was
+  /// drawn. Throws Error.
+  bool draw_elements(Framebuffer& target, const Camera2D& camera, const Style& style, double detail = 1.0);
+  void draw_marks(Framebuffer& target, const Camera2D& camera, const Style& style, const Marks& marks);
+
+  /// draw_elements at full detail, bit by bit: at most `most` elements more, and waits until they are drawn. Camera, style and revision()
+  /// must be those of the slices before. Returns whether it was the last slice. Throws Error.
+  bool draw_slice(Framebuffer& target, const Camera2D& camera, const Style& style, SliceProgress& progress, Index most);
+
   /// What is at `pixel` (of a viewport of that size) by geometry in double, not by colours. `radius`: how far a vertex may be, in pixels.
   /// Milliseconds even for millions of elements; of a light frame once a frame as long as it takes to bring all of it to the host, and
   /// nothing when the device does not give it.
   [[nodiscard]] Pick pick(const Camera2D& camera, Vec2<double> viewport, Vec2<double> pixel, double radius = 8.0) const;
+
+  /// The ids that have room in a viewport of that size: of an element inside of it, of a vertex between it and its neighbours. None when
+  /// there are more than wish.most, and none while too much is in view to look at it all.
+  [[nodiscard]] std::vector<Label> labels(const Camera2D& camera, Vec2<double> viewport, const LabelWish& wish) const;
 
  private:
   struct Impl;

@@ -26,7 +26,11 @@ struct Style {
   Rgba vertex_casing_colour{0x10, 0x12, 0x16, 230};
   Rgba highlight_colour{0xff, 0xff, 0xff, 255};  // outlines, dots and the ring; drawn on a casing of the opposite lightness
   Rgba casing_colour{0x10, 0x12, 0x16, 230};
+  Rgb neutral_colour{0x5c, 0x62, 0x6c};  // of no category
+  Rgb faded_colour{0x2e, 0x32, 0x39};    // of elements that do not count
+  Rgb hollow_colour{0x5c, 0x62, 0x6c};   // of the outlines of those, where only that is drawn
   float scale = 1.0F;
+  friend bool operator==(const Style&, const Style&) = default;
   [[nodiscard]] static Style dark();
   [[nodiscard]] static Style light();
 };
@@ -37,12 +41,19 @@ struct OverlayDot {
   float diameter = 6.0F;  // pixels
   Rgba colour{255, 255, 255, 255};
   bool square = false;
+  friend bool operator==(const OverlayDot& a, const OverlayDot& b) {
+    return a.point.x == b.point.x && a.point.y == b.point.y && a.diameter == b.diameter && a.colour == b.colour && a.square == b.square;
+  }
 };
 /// A straight line between two points of the plane (the box of a candidate grid, a vertex's path).
 struct OverlayLine {
   Vec2<double> from, to;
   float width = 1.5F;  // pixels
   Rgba colour{255, 255, 255, 255};
+  friend bool operator==(const OverlayLine& a, const OverlayLine& b) {
+    return a.from.x == b.from.x && a.from.y == b.from.y && a.to.x == b.to.x && a.to.y == b.to.y && a.width == b.width &&
+           a.colour == b.colour;
+  }
 };
 
 /// What is marked on top of the elements, in this order.
@@ -52,6 +63,7 @@ struct Marks {
   std::optional<Index> worst;   // element with a ring around it
   std::vector<OverlayLine> lines;
   std::vector<OverlayDot> dots;
+  friend bool operator==(const Marks&, const Marks&) = default;
 };
 
 }  // namespace dmoscope::render

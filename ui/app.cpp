@@ -181,6 +181,7 @@ void App::update_scene(const Rect& rect, double now) {
   const bool resized = before.x != state_.viewport.x || before.y != state_.viewport.y;
   if (resized && fitted_ && *fitted_ == state_.camera) state_.requests.fit = true;
   redraw_in_ = kForever;
+  refining_ = false;
   scene_current_ = scene_.show(session_->frame, options_.wait_for_scene ? render::Loading::Wait : render::Loading::Background);
   if (!scene_current_) redraw_in_ = 0.05;
   apply_fit();
@@ -192,19 +193,12 @@ void App::update_scene(const Rect& rect, double now) {
   }
   // A live run counts as movement: its next frame comes soon.
   const bool restless = moving(now) || (activity_.busy && activity_.busy_seconds > kRestAfter);
-  const double detail = render::suggested_detail(scene_.element_count(), options_.software_renderer, restless);
-  activity_.reduced = detail < 1.0;
-  if (detail < 1.0 && !activity_.busy) redraw_in_ = std::min(redraw_in_, kRestAfter);
+  const double detail = render::suggested_detail(scene_.element_count(), options_.software_renderer, true);
   const auto w = static_cast<int>(std::lround(rect.w)), h = static_cast<int>(std::lround(rect.h));
-  const render::Camera2D& camera = state_.camera;
-  std::string key = fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", frame->serial, scene_current_, w, h,
-                                camera.centre.x, camera.centre.y, camera.units_per_pixel, detail, state_.wireframe, state_.vertices,
-                                state_.worst_marker, static_cast<int>(state_.theme), state_.scale, static_cast<int>(state_.colour_map),
-                                derived_.range.first, derived_.range.second, static_cast<int>(state_.picked.kind), state_.picked.id);
-  if (key == picture_key_) return;
-  picture_key_ = std::move(key);
-  picture_.resize(w, h);
-  scene_.draw(picture_, camera, style(), marks(), detail);
+  picture_.update(scene_, {w, h, state_.camera, style(), marks(), detail, !restless});
+  refining_ = !picture_.complete();
+  activity_.reduced = refining_;
+  if (refining_ && !activity_.busy) redraw_in_ = restless ? std::min(redraw_in_, kRestAfter) : 0.0;
 }
 
 void App::handle_shortcuts() {
@@ -323,7 +317,6 @@ render::Image App::mesh_picture(const ScreenshotOptions& options) {
   look.scale = 1.0F;  // Shot::scale multiplies it
   look.transparent = options.transparent;
   const render::Camera2D camera = state_.camera.for_viewport(state_.viewport, render::mesh_viewport(shot));
-  picture_key_.clear();  // whatever the scene's state is now, draw again
   return render::render_image(scene_, camera, look, marks(), shot).image;
 }
 

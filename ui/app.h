@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "core/session/engine.h"
-#include "render/framebuffer.h"
+#include "render/live_picture.h"
 #include "render/scene.h"
 #include "render/screenshot.h"
 #include "ui/panels/panels.h"
@@ -58,8 +58,8 @@ class App {
   void draw(double now);
   /// After which time a frame should be drawn though nothing happens; infinity when there is no such need.
   [[nodiscard]] double redraw_in() const noexcept { return redraw_in_; }
-  /// False while the scene is still made ready in the background, or a fit waits for it.
-  [[nodiscard]] bool settled() const noexcept { return scene_current_ && !state_.requests.fit; }
+  /// False while the scene is still made ready in the background, or drawn in full, or a fit waits for it.
+  [[nodiscard]] bool settled() const noexcept { return scene_current_ && !refining_ && !state_.requests.fit; }
 
   /// A picture of the mesh as it is seen now, with its colour bar.
   [[nodiscard]] render::Image mesh_picture(const ScreenshotOptions& options);
@@ -96,9 +96,9 @@ class App {
   std::function<void(const Message&)> listener_;
 
   render::MeshScene scene_;
-  render::Framebuffer picture_{1, 1};
-  std::string picture_key_;  // what the picture shows; drawn again when it changes
+  render::LivePicture picture_;
   bool scene_current_ = true;
+  bool refining_ = false;                   // a full picture is being drawn, or will be once nothing moves
   std::optional<render::Camera2D> fitted_;  // the camera of the last fit, while nobody has moved it
   std::uint64_t fixed_serial_ = 0;
 

@@ -1,4 +1,6 @@
-// Colours an element once and gives its triangles the distances to its edges. With QUADRILATERALS an element comes as four corners.
+// Colours an element once and gives its triangles the distances to its edges. With QUADRILATERALS an element comes as four corners. With
+// BY_CORNERS its fragments get what they need to take the colour of the corner that is nearest.
+#include "fill.glsl"
 #ifdef QUADRILATERALS
 layout(lines_adjacency) in;
 layout(triangle_strip, max_vertices = 6) out;
@@ -7,28 +9,42 @@ layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
 #endif
 
-layout(std430, binding = 1) readonly buffer Shades { float shades[]; };       // by element
-layout(std430, binding = 2) readonly buffer Order { uint order[]; };          // drawn order to element
 uniform uint u_first;
-uniform sampler2D u_colours;
-uniform vec2 u_range;        // quality of the first and of the last colour
-uniform vec4 u_inverted_colour;
-uniform vec4 u_undefined_colour;
 uniform float u_wire_fade;   // pixels at which the wireframe begins to show; 0 or less: none
+uniform float u_hollow_fade; // the same for elements of which only the outline is drawn
+uniform int u_others;        // elements that do not count: 0 faded, 1 hidden, 2 outlined
+uniform vec4 u_faded_colour;
 
 in vec2 v_pixels[];
-flat out vec4 g_fill;              // colour; 0 plain, 1 inverted, 2 not defined
+flat out vec4 g_fill;              // colour; 0 plain, 1 inverted, 2 not defined, 3 hollow, 4 faded
 flat out vec2 g_wire_and_size;     // strength of the wireframe, size of the element in pixels
 noperspective out vec3 g_distance; // to the three edges, pixels
+#ifdef BY_CORNERS
+in float v_value[];
+flat out vec4 g_corners[2];        // pixels
+flat out vec4 g_values;            // of the corners; a triangle's first twice
+#endif
 
 const float kHidden = 1e6;
 
 // Outputs are lost with every vertex, so all are set again.
 void corner(vec2 point, vec3 distances, vec4 fill, vec2 wire_and_size) {
-  gl_Position = to_clip(point, fill.a == 1.0 ? -0.5 : 0.0);  // inverted elements lie above what they fold over
+  // Inverted elements lie above what they fold over, those that do not count below those that do.
+  gl_Position = to_clip(point, fill.a == 1.0 ? -0.5 : fill.a >= 3.0 ? 0.5 : 0.0);
   g_distance = distances;
   g_fill = fill;
   g_wire_and_size = wire_and_size;
+#ifdef BY_CORNERS
+#ifdef QUADRILATERALS
+  g_corners[0] = vec4(v_pixels[0], v_pixels[1]);
+  g_corners[1] = vec4(v_pixels[2], v_pixels[3]);
+  g_values = vec4(v_value[0], v_value[1], v_value[2], v_value[3]);
+#else
+  g_corners[0] = vec4(v_pixels[0], v_pixels[1]);
+  g_corners[1] = vec4(v_pixels[2], v_pixels[0]);
+  g_values = vec4(v_value[0], v_value[1], v_value[2], v_value[0]);
+#endif
+#endif
   EmitVertex();
 }
 
@@ -44,24 +60,30 @@ void emit(vec2 a, vec2 b, vec2 c, float hidden, vec4 fill, vec2 wire_and_size) {
 
 float turn(vec2 a, vec2 b, vec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
-vec4 fill_of(float shade) {
-  if (shade < -1e38) return vec4(u_inverted_colour.rgb, 1.0);
-  if (shade > 1e38) return vec4(u_undefined_colour.rgb, 2.0);
-  int last = textureSize(u_colours, 0).x - 1;
-  float t = clamp((shade - u_range.x) / (u_range.y - u_range.x), 0.0, 1.0);
-  return vec4(texelFetch(u_colours, ivec2(int(t * float(last) + 0.5), 0), 0).rgb, 0.0);
-}
+float wire_strength(float fade, float size) { return fade > 0.0 ? smoothstep(fade, 4.0 * fade, size) : 0.0; }
 
 void main() {
-  vec4 fill = fill_of(shades[order[u_first + uint(gl_PrimitiveIDIn)]]);
+  uint element = order[u_first + uint(gl_PrimitiveIDIn)];
+  bool counting = counts(element);
+  if (!counting && u_others == 1) return;
 #ifdef QUADRILATERALS
   float area = 0.5 * abs(turn(v_pixels[0], v_pixels[1], v_pixels[2]) + turn(v_pixels[0], v_pixels[2], v_pixels[3]));
 #else
   float area = 0.5 * abs(turn(v_pixels[0], v_pixels[1], v_pixels[2]));
 #endif
   float size = sqrt(2.0 * area);
-  float wire = u_wire_fade > 0.0 ? smoothstep(u_wire_fade, 4.0 * u_wire_fade, size) : 0.0;
-  vec2 wire_and_size = vec2(wire, size);
+  vec4 fill;
+  vec2 wire_and_size;
+  if (!counting && u_others == 2) {
+    fill = vec4(0.0, 0.0, 0.0, 3.0);
+    wire_and_size = vec2(wire_strength(u_hollow_fade, size), size);
+  } else if (!counting) {
+    fill = vec4(u_faded_colour.rgb, 4.0);
+    wire_and_size = vec2(u_faded_colour.a * wire_strength(u_wire_fade, size), size);
+  } else {
+    fill = fill_of(element);
+    wire_and_size = vec2(wire_strength(u_wire_fade, size), size);
+  }
 #ifdef QUADRILATERALS
   vec2 a = v_pixels[0], b = v_pixels[1], c = v_pixels[2], d = v_pixels[3];
   // The diagonal that lies inside: where a quadrilateral is not convex only one does.

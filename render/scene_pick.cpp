@@ -1,0 +1,141 @@
+// What is where in a viewport.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "core/base/error.h"
+#include "render/scene_impl.h"
+
+namespace dmoscope::render {
+
+Pick MeshScene::pick(const Camera2D& camera, Vec2<double> viewport, Vec2<double> pixel, double radius) const {
+  Pick result;
+  Impl& s = *impl_;
+  if (empty() || s.source == Source::Unreachable) return result;
+  try {
+    s.place_all();
+  } catch (const DeviceError&) {
+    return result;
+  }
+  const Vec2<double> point = camera.to_plane(pixel, viewport);
+  const double reach = std::max(radius, 0.0) * camera.units_per_pixel;
+  const Bounds2 window{{point.x - reach, point.y - reach}, {point.x + reach, point.y + reach}};
+  double nearest = reach * reach;
+  bool on_top = false;
+  for (std::size_t batch = 0; batch < 2; ++batch) {
+    const Batch& elements = s.placement.layout().batches[batch];
+    for (const DrawRange& range : s.placement.visible(batch, window)) {
+      for (Index drawn = range.first; drawn < range.last; ++drawn) {
+        const Index element = elements.order[drawn];
+        if (s.hidden(element)) continue;
+        const auto corners = elements.corners_of(drawn);
+        for (const Index v : corners) {
+          const Vec2<double> away = s.placement.points()[v] - point;
+          const double square = dot(away, away);
+          if (square < nearest || (square == nearest && v < result.vertex)) {
+            nearest = square;
+            result.vertex = v;
+          }
+        }
+        if (!contains(corners, s.placement.points(), point)) continue;
+        const bool inverted = element < s.shades.size() && s.shades[element] == kInvertedShade;
+        if (on_top && !inverted) continue;  // the later one covers the earlier one, but no inverted one
+        result.element = element;
+        on_top = inverted;
+      }
+    }
+  }
+  result.vertex_distance = std::sqrt(nearest) / camera.units_per_pixel;
+  return result;
+}
+
+namespace {
+
+/// Where an element's label belongs, and how far that is from the nearest edge; nothing for an element that is too thin for words.
+struct Room {
+  Vec2<double> point;
+  double radius = 0.0;
+};
+
+Room room_of(std::span<const Index> corners, std::span<const Vec2<double>> points) {
+  Room room{{0, 0}, INFINITY};
+  if (corners.size() == 3) {
+    const Vec2<double> a = points[corners[0]], b = points[corners[1]], c = points[corners[2]];
+    const auto length = [](Vec2<double> d) { return std::hypot(d.x, d.y); };
+    const double wa = length(c - b), wb = length(a - c), wc = length(b - a), whole = wa + wb + wc;
+    if (!(whole > 0.0)) return {a, 0.0};
+    const Vec2<double> ab = b - a, ac = c - a;
+    room.point = a + Vec2<double>{(wb * ab.x + wc * ac.x) / whole, (wb * ab.y + wc * ac.y) / whole};  // of the inscribed circle
+  } else {
+    const auto share = 1.0 / static_cast<double>(corners.size());
+    for (const Index v : corners) room.point = room.point + Vec2<double>{share * points[v].x, share * points[v].y};
+    if (!contains(corners, points, room.point)) return {room.point, 0.0};
+  }
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2<double> a = points[corners[i]], along = points[corners[(i + 1) % corners.size()]] - a;
+    const double size = std::hypot(along.x, along.y);
+    if (size > 0.0) room.radius = std::min(room.radius, std::abs(cross(along, room.point - a)) / size);
+  }
+  return room;
+}
+
+bool inside(const Bounds2& box, Vec2<double> point) {
+  return point.x >= box.low.x && point.x <= box.high.x && point.y >= box.low.y && point.y <= box.high.y;
+}
+
+double text_width(Index id, const LabelWish& wish) { return static_cast<double>(std::to_string(id).size()) * wish.digit_width; }
+
+}  // namespace
+
+std::vector<Label> MeshScene::labels(const Camera2D& camera, Vec2<double> viewport, const LabelWish& wish) const {
+  Impl& s = *impl_;
+  constexpr Index kMostInView = 40'000;  // as blocks tell: few of them are looked at however big the mesh is
+  if (empty() || s.source == Source::Unreachable || !(wish.vertices || wish.elements)) return {};
+  try {
+    s.place_all();
+  } catch (const DeviceError&) {
+    return {};
+  }
+  const Bounds2 window = camera.visible(viewport);
+  const Impl::InView seen = s.in_view(window);
+  if (seen.count > kMostInView) return {};
+  const auto points = s.placement.points();
+  const auto fits = [&](double pixels, double plane) { return pixels * camera.units_per_pixel <= plane; };
+  std::vector<Label> labels;
+  std::map<Index, double> nearest;  // of the vertices in view: the shortest of their edges
+  for (std::size_t batch = 0; batch < 2; ++batch) {
+    const Batch& elements = s.placement.layout().batches[batch];
+    for (const DrawRange& range : seen.ranges[batch]) {
+      for (Index drawn = range.first; drawn < range.last; ++drawn) {
+        const Index element = elements.order[drawn];
+        if (s.hidden(element)) continue;
+        const auto corners = elements.corners_of(drawn);
+        if (wish.elements) {
+          const Room room = room_of(corners, points);
+          const double half = 0.5 * std::hypot(text_width(element, wish), wish.line_height);
+          if (inside(window, room.point) && fits(half, room.radius)) labels.push_back({room.point, element, false});
+        }
+        for (std::size_t i = 0; wish.vertices && i < corners.size(); ++i) {
+          const Index a = corners[i], b = corners[(i + 1) % corners.size()];
+          const Vec2<double> edge = points[b] - points[a];
+          const double length = std::hypot(edge.x, edge.y);
+          for (const Index v : {a, b}) {
+            if (!inside(window, points[v])) continue;
+            const auto [at, added] = nearest.try_emplace(v, length);
+            if (!added) at->second = std::min(at->second, length);
+          }
+        }
+      }
+    }
+  }
+  // Neighbours with labels of the same width keep some room between them.
+  for (const auto& [vertex, length] : nearest) {
+    if (fits(text_width(vertex, wish) + 2.0 * wish.digit_width, length)) labels.push_back({points[vertex], vertex, true});
+  }
+  if (labels.size() > wish.most) labels.clear();
+  std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.vertex != b.vertex ? b.vertex : a.id < b.id; });
+  return labels;
+}
+
+}  // namespace dmoscope::render

@@ -1,0 +1,41 @@
+#pragma once
+// What elements are coloured by instead of their quality, and which of them count.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "render/image.h"
+
+namespace dmoscope::render {
+
+/// Values to colour by. Inverted elements keep their own colour whatever the others are coloured by.
+struct Shading {
+  enum class By {
+    Elements,  // one value an element
+    Vertices   // one a vertex; each part of an element has the colour of the corner that is nearest
+  };
+  By by = By::Elements;
+  std::vector<float> values;  // NaN: not defined. With a palette: index of a category, or -1 for none
+  std::vector<Rgb> palette;   // of categories, at most 256; empty: values go through Style::colours
+};
+
+/// Which elements count. The default: all.
+struct Selection {
+  enum class Others { Fade, Hide, Outline };
+  std::optional<std::pair<float, float>> quality;            // from, to; inverted elements count when `from` is 0 or less
+  std::shared_ptr<const std::vector<std::uint8_t>> members;  // one an element, 0: does not count; null: all do
+  Others others = Others::Fade;                              // how the others are drawn; hidden ones are not picked, either
+  [[nodiscard]] bool all() const noexcept { return !quality && !members; }
+  friend bool operator==(const Selection&, const Selection&) = default;
+};
+
+/// Whether an element of this shade (see shade_of) is within the range.
+[[nodiscard]] constexpr bool in_quality_range(std::pair<float, float> range, float shade) {
+  if (shade < -1e38F) return range.first <= 0.0F;
+  return shade >= range.first && shade <= range.second;
+}
+
+}  // namespace dmoscope::render

@@ -1,0 +1,44 @@
+// The colour of an element or of a corner, and which elements count. Included by those that need it.
+layout(std430, binding = 1) readonly buffer Shades { float shades[]; };    // quality by element, see shade_of
+layout(std430, binding = 2) readonly buffer Order { uint order[]; };       // drawn order to element
+layout(std430, binding = 5) readonly buffer Values { float values[]; };    // what is shown instead of quality, by element or by vertex
+layout(std430, binding = 6) readonly buffer Members { uint members[]; };   // a bit an element
+uniform int u_by;              // 0 quality, 1 values of elements, 2 values of vertices
+uniform int u_categories;      // how many the values are numbers of; 0: they go through the map
+uniform sampler2D u_colours;   // the map
+uniform sampler2D u_palette;   // of categories
+uniform vec2 u_range;          // values of the first and of the last colour of the map
+uniform vec4 u_inverted_colour;
+uniform vec4 u_undefined_colour;
+uniform vec4 u_neutral_colour;  // of no category
+uniform vec4 u_filter;          // lowest and highest quality that counts; 1: it is asked for; 1: inverted elements count
+uniform int u_has_members;
+
+bool counts(uint element) {
+  if (u_has_members != 0 && (members[element / 32u] >> (element % 32u) & 1u) == 0u) return false;
+  if (u_filter.z == 0.0) return true;
+  float shade = shades[element];
+  if (shade < -1e38) return u_filter.w != 0.0;
+  return shade >= u_filter.x && shade <= u_filter.y;
+}
+
+bool inverted(uint element) { return shades[element] < -1e38; }
+
+// rgb; 0 plain, 2 not defined
+vec4 colour_of(float value) {
+  if (value > 1e38) return vec4(u_undefined_colour.rgb, 2.0);
+  if (u_categories > 0) {
+    int category = int(floor(value + 0.5));
+    if (category < 0) return vec4(u_neutral_colour.rgb, 0.0);
+    return vec4(texelFetch(u_palette, ivec2(min(category, u_categories - 1), 0), 0).rgb, 0.0);
+  }
+  int last = textureSize(u_colours, 0).x - 1;
+  float t = clamp((value - u_range.x) / (u_range.y - u_range.x), 0.0, 1.0);
+  return vec4(texelFetch(u_colours, ivec2(int(t * float(last) + 0.5), 0), 0).rgb, 0.0);
+}
+
+// Not of those that are coloured corner by corner. rgb; 0 plain, 1 inverted, 2 not defined
+vec4 fill_of(uint element) {
+  if (inverted(element)) return vec4(u_inverted_colour.rgb, 1.0);
+  return colour_of(u_by == 1 ? values[element] : shades[element]);
+}

@@ -22,9 +22,13 @@ constexpr double kForever = std::numeric_limits<double>::infinity();
 App::App(Options options)
     : options_(std::move(options)), engine_(options_.threads, options_.acceleration, options_.backend), session_(engine_.view()) {
   host_.session = [this] { return session_; };
-  host_.post = [this](const std::string& line) { state_.commands.posted(line, engine_.post(line)); };
+  host_.post = [this](const std::string& line) {
+    state_.timeline.shown = Shown::Now;
+    state_.timeline.play.kind = Playback::Kind::Off;
+    post_by_itself(line);
+  };
   host_.busy = [this] { return engine_.busy(); };
-  host_.cancel = [this] { engine_.cancel(); };
+  host_.cancel = [this] { cancel(); };
   host_.item = [this](const std::string& name) { return items_.find(name); };
   commands_ = view_commands(state_, host_);
   activity_.renderer = options_.renderer;
@@ -71,7 +75,7 @@ bool App::prepare() {
 }
 
 void App::take_news(double now) {
-  session_ = engine_.view();
+  session_ = shown_view();
   update_backend();
   update_drawing();
   for (Message& message : engine_.take_messages()) {
@@ -130,8 +134,12 @@ void App::notice_new_input() {
   const std::uint64_t serial = frame == nullptr ? 0 : frame->input_serial;
   if (serial == seen_input_) return;
   seen_input_ = serial;
-  state_.picked = {};
-  state_.requests.fit = true;
+  const bool again = frame != nullptr && !frame->input->path.empty() && frame->input->path == seen_path_;
+  seen_path_ = frame == nullptr ? std::filesystem::path() : frame->input->path;
+  const bool same_ids = again && seen_sizes_ == std::pair{frame->vertex_count(), frame->element_count()};
+  seen_sizes_ = frame == nullptr ? std::pair<Index, Index>{} : std::pair{frame->vertex_count(), frame->element_count()};
+  if (!same_ids) state_.picked = {};  // a file read again keeps what is picked and where one looks
+  if (!again) state_.requests.fit = true;
   for (PlotView& plot : state_.plots) plot.x_range.reset();
   if (frame != nullptr && !frame->input->path.empty()) remember_file(state_, frame->input->path.string());
 }
@@ -292,6 +300,9 @@ void App::draw(double now) {
   draw_panels(context);
   if (activity_.busy) redraw_in_ = std::min(redraw_in_, 0.1);
   if (state_.requests.fit) redraw_in_ = 0.0;
+  advance_playback(now);
+  advance_sequence();
+  watch_file();
 }
 
 void App::update_derived() { refresh(derived_, state_, *session_); }

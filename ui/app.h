@@ -12,6 +12,7 @@
 #include "render/live_picture.h"
 #include "render/scene.h"
 #include "render/screenshot.h"
+#include "ui/file_watch.h"
 #include "ui/panels/panels.h"
 #include "ui/view_commands.h"
 #include "ui/view_state.h"
@@ -50,6 +51,8 @@ class App {
   /// The same; errors become messages.
   void submit(std::string_view line);
   /// Called with every message of the session, besides the log.
+  /// `wake` ends the event loop's waiting; called from any thread when there is something new.
+  void set_wake(const std::function<void()>& wake);
   void set_listener(std::function<void(const Message&)> listener) { listener_ = std::move(listener); }
 
   /// Before ImGui::NewFrame: builds fonts and style anew when theme or scale changed. True: upload the font texture again.
@@ -58,8 +61,12 @@ class App {
   void draw(double now);
   /// After which time a frame should be drawn though nothing happens; infinity when there is no such need.
   [[nodiscard]] double redraw_in() const noexcept { return redraw_in_; }
-  /// False while the scene is still made ready in the background, or drawn in full, or a fit waits for it.
-  [[nodiscard]] bool settled() const noexcept { return scene_current_ && !refining_ && !state_.requests.fit; }
+  /// False while the scene is still made ready in the background, or drawn in full, a fit waits for it, or the window does something by
+  /// itself that ends.
+  [[nodiscard]] bool settled() const noexcept {
+    const bool drawn = scene_current_ && !refining_ && !state_.requests.fit;
+    return drawn && !state_.sequence && state_.timeline.play.kind != Playback::Kind::History;
+  }
 
   /// A picture of the mesh as it is seen now, with its colour bar.
   [[nodiscard]] render::Image mesh_picture(const ScreenshotOptions& options);
@@ -69,6 +76,13 @@ class App {
  private:
   void take_news(double now);
   [[nodiscard]] std::vector<std::string> look() const;
+  [[nodiscard]] std::shared_ptr<const SessionView> shown_view();
+  void post_by_itself(const std::string& line);
+  void advance_playback(double now);
+  void advance_sequence();
+  void end_sequence(const std::string& outcome, Message::Kind kind);
+  void watch_file();
+  void cancel();
   void update_backend();
   void update_drawing();
   void notice_new_input();
@@ -94,6 +108,13 @@ class App {
   Items items_;
   Fonts fonts_;
   std::function<void(const Message&)> listener_;
+  std::function<void()> wake_;
+  struct Flipped {
+    std::shared_ptr<const SessionView> now;
+    std::shared_ptr<const Frame> mark;
+    std::shared_ptr<const SessionView> view;
+  };
+  Flipped flipped_;  // what shown_view() made last
 
   render::MeshScene scene_;
   render::LivePicture picture_;
@@ -107,6 +128,9 @@ class App {
   double busy_since_ = -1.0, last_draw_ = -1.0, frame_interval_ = 0.0;
   double redraw_in_ = 0.0;
   std::uint64_t seen_input_ = 0;
+  std::filesystem::path seen_path_;
+  std::pair<Index, Index> seen_sizes_;  // vertices and elements
+  std::unique_ptr<FileWatch> watch_;    // last: it wakes others
 };
 
 }  // namespace dmoscope::ui

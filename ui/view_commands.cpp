@@ -10,8 +10,10 @@
 #include "core/quality/quality.h"
 #include "ui/command_words.h"
 #include "ui/desktop_commands.h"
+#include "ui/file_commands.h"
 #include "ui/input_commands.h"
 #include "ui/plot_commands.h"
+#include "ui/timeline_commands.h"
 #include "ui/view_geometry.h"
 
 namespace dmoscope::ui {
@@ -28,7 +30,8 @@ constexpr auto kDialogs = std::to_array<std::pair<std::string_view, Dialog>>({{"
                                                                               {"keys", Dialog::Keys},
                                                                               {"about", Dialog::About},
                                                                               {"error", Dialog::Error},
-                                                                              {"log", Dialog::Log}});
+                                                                              {"log", Dialog::Log},
+                                                                              {"sequence", Dialog::Sequence}});
 
 const InputMesh& input_of(const CommandHost& host) {
   const auto view = host.session();
@@ -211,9 +214,11 @@ void seek_in_timeline(const CommandHost& host, const std::string& where) {
 }
 
 void add_session_shortcuts(CommandTable& table, ViewState& state, const CommandHost& host) {
-  table.add({"run-pause", "run-pause", "runs until converged, or stops what runs"}, [&host](Arguments words) {
+  table.add({"run-pause", "run-pause", "runs until converged, or stops what runs or plays"}, [&state, &host](Arguments words) {
     need(words, 0, 0);
-    if (host.busy()) {
+    if (state.timeline.play.kind != Playback::Kind::Off) {
+      state.timeline.play.kind = Playback::Kind::Off;
+    } else if (host.busy()) {
       host.cancel();
     } else {
       host.post("until-converged");
@@ -256,6 +261,8 @@ CommandTable view_commands(ViewState& state, const CommandHost& host) {
   add_input_verbs(table, state, host);
   add_session_shortcuts(table, state, host);
   add_desktop_verbs(table, state, host);
+  add_timeline_verbs(table, state, host);
+  add_file_verbs(table, state, host);
   return table;
 }
 

@@ -16,13 +16,15 @@
 #include "ui/command_log.h"
 #include "ui/keys.h"
 #include "ui/plot_state.h"
+#include "ui/sequence.h"
+#include "ui/timeline.h"
 
 namespace dmoscope::ui {
 
 enum class Theme { Dark, Light, Contrast };
 /// "dark", "light", "contrast"
 [[nodiscard]] std::string_view theme_name(Theme theme);
-enum class Dialog { None, Open, Export, Screenshot, Find, Palette, Keys, About, Error, Log };
+enum class Dialog { None, Open, Export, Screenshot, Find, Palette, Keys, About, Error, Log, Sequence };
 
 /// How the colours' range is chosen: 0 to 1; the shown qualities' own minimum and maximum; or given.
 enum class RangeMode { Fixed, Auto, Given };
@@ -50,6 +52,7 @@ struct ScreenshotOptions {
   int supersample = 2;
   bool transparent = false;
   bool window = false;  // the whole interface instead of the mesh
+  bool quiet = false;   // one of many: only what goes wrong is said
 };
 
 /// Input that a script plays through the window's own event handling, one a frame.
@@ -69,6 +72,7 @@ struct Requests {
   std::optional<bool> full_screen;
   std::optional<std::pair<int, int>> size;
   std::deque<ScreenshotOptions> screenshots;
+  bool screenshot_failed = false;  // since somebody set it to false
   std::deque<SimulatedInput> input;
   std::optional<std::string> clipboard;
 };
@@ -103,6 +107,11 @@ struct ViewState {
 
   // Selection
   Picked picked;
+
+  // Time
+  Timeline timeline;
+  std::optional<Sequence> sequence;  // of pictures that are being taken
+  bool watch_file = false;           // read the mesh again whenever its file is written anew
 
   // Log
   std::deque<LogEntry> log;  // newest last, at most 200

@@ -34,12 +34,14 @@ Desktop::Desktop(const WindowOptions& options)
     ui::load_settings(settings_, state);
   }
   if (options_.scale > 0.0) state.scale = options_.scale;
-  app_.engine().set_wake([] { render::Window::wake(); });
+  app_.set_wake([] { render::Window::wake(); });
   app_.set_listener([this](const Message& message) {
     if (!options_.scripted) return;
     said_.push_back(message);
     if (message.kind == Message::Kind::Error && !failure_) failure_ = message;
   });
+  const render::Extent size = window_->framebuffer_size();
+  state.window_size = {size.width, size.height};
   const auto open = [this](const std::filesystem::path& file) { app_.submit(fmt::format("open {}", quote_word(file.string()))); };
   window_->on_drop([open](const std::vector<std::filesystem::path>& files) { std::for_each(files.begin(), files.end(), open); });
   std::for_each(options_.files.begin(), options_.files.end(), open);
@@ -49,7 +51,7 @@ Desktop::~Desktop() {
   if (const std::string trouble = ui::save_settings(settings_, app_.state()); !trouble.empty())
     std::fprintf(stderr, "%s\n", trouble.c_str());
   app_.engine().cancel();
-  app_.engine().set_wake({});
+  app_.set_wake({});
 }
 
 double Desktop::now() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }

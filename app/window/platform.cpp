@@ -75,10 +75,12 @@ std::optional<Message> take_screenshots(ui::App& app, Interface& interface, int 
     try {
       const render::Image image = options.window ? interface.picture(width, height) : app.mesh_picture(options);
       render::write_png(options.path, image);
+      if (options.quiet) continue;
       message = {Message::Kind::Info, fmt::format("saved {} ({} x {} pixels)", options.path.string(), image.width, image.height), 0};
     } catch (const Error& error) {
       message = {Message::Kind::Error, error.what(), error.exit_code()};
       if (!failure) failure = message;
+      app.state().requests.screenshot_failed = true;
     }
     ui::add_message(app.state(), message);
   }

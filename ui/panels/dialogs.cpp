@@ -65,6 +65,8 @@ const char* dialog_title(Dialog dialog) {
       return "That did not work";
     case Dialog::Log:
       return "Log";
+    case Dialog::Sequence:
+      return "Pictures of a run";
     case Dialog::None:
       break;
   }
@@ -115,6 +117,9 @@ void draw_dialogs(PanelContext& context) {
       break;
     case Dialog::Log:
       draw_log_dialog(context);
+      break;
+    case Dialog::Sequence:
+      draw_sequence_dialog(context);
       break;
   }
 }

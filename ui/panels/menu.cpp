@@ -21,6 +21,11 @@ bool is_checked(const ViewState& state, std::string_view id) {
   if (id == "panel-left") return state.panels.left;
   if (id == "panel-right") return state.panels.right;
   if (id == "panel-bottom") return state.panels.bottom;
+  if (id == "watch") return state.watch_file;
+  if (id == "play") return state.timeline.play.kind == Playback::Kind::History;
+  if (id == "play-iterations") return state.timeline.play.kind == Playback::Kind::Iteration;
+  if (id == "play-classes") return state.timeline.play.kind == Playback::Kind::Class;
+  if (id == "play-vertices") return state.timeline.play.kind == Playback::Kind::Vertex;
   if (id == "unfold-left") return state.panels.left_over;
   if (id == "unfold-right") return state.panels.right_over;
   if (id == "full-screen") return state.full_screen;
@@ -32,8 +37,9 @@ bool is_checked(const ViewState& state, std::string_view id) {
 
 void draw_recent(PanelContext& context) {
   if (!ImGui::BeginMenu("Recent", !context.state.recent_files.empty())) return;
-  for (const std::string& file : context.state.recent_files) {
-    if (ImGui::MenuItem(file.c_str())) context.send(fmt::format("open {}", quote_word(file)));
+  for (const RecentFile& file : context.widgets.recent.list(context.state.recent_files, context.now)) {
+    if (ImGui::MenuItem(file.path.c_str(), nullptr, false, !file.missing)) context.send(fmt::format("open {}", quote_word(file.path)));
+    next_item_tooltip(file.reason());
   }
   ImGui::EndMenu();
 }

@@ -95,11 +95,12 @@ void draw_entries(PanelContext& context) {
 void draw_recent_column(PanelContext& context) {
   heading(context, "Recent");
   if (context.state.recent_files.empty()) dim_text(context, "nothing yet");
-  for (const std::string& file : context.state.recent_files) {
-    ImGui::PushID(file.c_str());
-    const std::string name = fs::path(file).filename().string();
-    if (ImGui::Selectable(fit_text(name, ImGui::GetContentRegionAvail().x).c_str())) open_file(context, file);
-    next_item_tooltip(file);
+  for (const RecentFile& file : context.widgets.recent.list(context.state.recent_files, context.now)) {
+    ImGui::PushID(file.path.c_str());
+    const std::string name = fs::path(file.path).filename().string();
+    const ImGuiSelectableFlags flags = file.missing ? ImGuiSelectableFlags_Disabled : 0;
+    if (ImGui::Selectable(fit_text(name, ImGui::GetContentRegionAvail().x).c_str(), false, flags)) open_file(context, file.path);
+    next_item_tooltip(file.missing ? file.reason() : file.path);
     ImGui::PopID();
   }
 }

@@ -19,6 +19,7 @@
 #include "ui/items.h"
 #include "ui/layout.h"
 #include "ui/plot.h"
+#include "ui/recent_files.h"
 #include "ui/theme.h"
 #include "ui/thumbnails.h"
 #include "ui/view_state.h"
@@ -65,6 +66,13 @@ struct LogWidgets {
   std::size_t seen = 0;  // lines there were in the last frame
 };
 
+/// What the dialog of picture sequences asks for.
+struct SequenceWidgets {
+  std::string folder = "pictures";
+  int from = 0, to = 0, every = 1, width = 0, height = 0;
+  bool window = false, overwrite = false;
+};
+
 /// State that only widgets need between frames.
 struct WidgetState {
   std::string open_folder, open_text, open_error;
@@ -75,6 +83,8 @@ struct WidgetState {
   std::string export_name, screenshot_name = "dmoscope.png";
   std::string palette_text, find_text, find_error;
   LogWidgets log;
+  SequenceWidgets sequence;
+  RecentFiles recent;
   std::vector<Thumbnail> thumbnails;  // of the samples, made when the start page is first shown
   int screenshot_width = 0, screenshot_height = 0, screenshot_supersample = 2;
   bool screenshot_transparent = false, screenshot_window = false;
@@ -142,6 +152,7 @@ void draw_worst(PanelContext& context);
 void draw_viewport(PanelContext& context, const Rect& rect);
 void draw_start_page(PanelContext& context, const Rect& rect);
 void draw_plots(PanelContext& context, const Rect& rect);
+void draw_timeline(PanelContext& context);
 void draw_status(PanelContext& context, const Rect& rect);
 void draw_strips(PanelContext& context, const Layout& layout);
 void draw_splitters(PanelContext& context, const Layout& layout);
@@ -157,6 +168,7 @@ void draw_keys_dialog(PanelContext& context);
 void draw_about_dialog(PanelContext& context);
 void draw_error_dialog(PanelContext& context);
 void draw_log_dialog(PanelContext& context);
+void draw_sequence_dialog(PanelContext& context);
 /// Begins a modal window of the open dialog; false when it is closed. Escape closes it.
 bool begin_dialog(PanelContext& context, const char* title, float width_em, float height_em = 0);
 void end_dialog();

@@ -1,4 +1,4 @@
-// Bottom: plots and the timeline.
+// Bottom: plots above the timeline.
 #include <algorithm>
 #include <cmath>
 
@@ -138,39 +138,6 @@ void tab_button(PanelContext& context, const char* id, const char* label, bool a
   if (!active) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4{0, 0, 0, 0});
   action_button(context, id, label);
   ImGui::PopStyleColor();
-}
-
-void draw_timeline(PanelContext& context) {
-  const RunView* run = context.run();
-  const std::uint64_t last = run == nullptr || run->records.empty() ? 0 : run->records.back().iteration;
-  action_button(context, "timeline-first", "|◀");
-  ImGui::SameLine(0, context.px(4));
-  action_button(context, "timeline-back", "◀");
-  ImGui::SameLine();
-  const std::string label = run == nullptr ? "" : fmt::format("iteration {} of {}", count(run->moment.iteration), count(last));
-  const float label_width = ImGui::CalcTextSize("iteration 00,000 of 00,000").x;
-  const float buttons = 2 * (2 * ImGui::GetStyle().FramePadding.x) + ImGui::CalcTextSize("▶▶|").x + 2 * context.px(12);
-  ImGui::SetNextItemWidth(std::max(4 * context.em(), ImGui::GetContentRegionAvail().x - label_width - buttons - context.px(20)));
-  const bool possible = last > 0 && !context.activity.busy;
-  ImGui::BeginDisabled(!possible);
-  // A slider of real numbers: its grab stays small however short the history is.
-  float position = run == nullptr ? 0.0F : static_cast<float>(run->moment.iteration);
-  ImGui::SliderFloat("##timeline", &position, 0.0F, std::max(1.0F, static_cast<float>(last)), "", ImGuiSliderFlags_AlwaysClamp);
-  const int at = static_cast<int>(std::lround(position));
-  context.items.record_last("timeline");
-  // While the slider is held every new value is a request; the session is asked only when it is idle, so they do not pile up.
-  if (run != nullptr && possible && ImGui::IsItemActive() && at != static_cast<int>(run->moment.iteration))
-    context.send(fmt::format("seek {}", at));
-  ImGui::EndDisabled();
-  ImGui::SameLine();
-  action_button(context, "timeline-forward", "▶");
-  ImGui::SameLine(0, context.px(4));
-  action_button(context, "timeline-last", "▶|");
-  ImGui::SameLine();
-  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(label.c_str()).x);
-  ImGui::AlignTextToFramePadding();
-  dim_text(context, label, false);
-  if (run != nullptr && !run->history_note.empty()) next_item_tooltip(run->history_note);
 }
 
 }  // namespace

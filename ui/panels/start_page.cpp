@@ -43,12 +43,15 @@ void draw_recent_files(PanelContext& context, const Rect& rect, float width) {
   centred(rect, width);
   dim_text(context, "Recent", false);
   std::size_t shown = 0;
-  for (const std::string& file : context.state.recent_files) {
+  for (const RecentFile& file : context.widgets.recent.list(context.state.recent_files, context.now)) {
     if (++shown > 5) break;
     centred(rect, width);
-    ImGui::PushID(file.c_str());
-    if (ImGui::Selectable(fit_text(file, width).c_str(), false, 0, {width, 0})) context.send(fmt::format("open {}", quote_word(file)));
-    next_item_tooltip(file);
+    ImGui::PushID(file.path.c_str());
+    const ImGuiSelectableFlags flags = file.missing ? ImGuiSelectableFlags_Disabled : 0;
+    if (ImGui::Selectable(fit_text(file.path, width).c_str(), false, flags, {width, 0}))
+      context.send(fmt::format("open {}", quote_word(file.path)));
+    context.items.record_last(fmt::format("recent:{}", shown - 1));
+    next_item_tooltip(file.missing ? file.reason() : file.path);
     ImGui::PopID();
   }
 }

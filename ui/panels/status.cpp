@@ -19,7 +19,20 @@ std::string speed_sentence(const PanelContext& context) {
   return {};
 }
 
+/// Of pictures that are being taken; not in the pictures themselves.
+void draw_sequence_progress(PanelContext& context, const Sequence& sequence) {
+  if (sequence.phase == Sequence::Phase::Clean) return;
+  ImGui::SameLine(0, context.px(16));
+  ImGui::ProgressBar(static_cast<float>(sequence.progress()), {8 * context.em(), ImGui::GetTextLineHeight()}, "");
+  ImGui::SameLine();
+  ImGui::TextUnformatted(fmt::format("picture {} of {}", sequence.done + 1, sequence.iterations.size()).c_str());
+  ImGui::SameLine();
+  if (ImGui::SmallButton("Cancel")) context.send("cancel");
+  context.items.record_last("cancel");
+}
+
 void draw_progress(PanelContext& context) {
+  if (context.state.sequence) return draw_sequence_progress(context, *context.state.sequence);
   // Shorter work than this comes and goes before it could be read.
   constexpr double kShowAfter = 0.2;
   if (!context.activity.busy || context.activity.busy_seconds < kShowAfter) return;

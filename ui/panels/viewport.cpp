@@ -24,7 +24,9 @@ void draw_title(PanelContext& context, const Rect& rect, const Frame& frame) {
   const RunView* run = context.run();
   if (run == nullptr) return;
   const float pad = context.px(8), line = ImGui::GetTextLineHeight();
-  const std::string title = fmt::format("{} · {}", run->parameters.method, metric_phrase(run->parameters.metric));
+  std::string title = fmt::format("{} · {}", run->parameters.method, metric_phrase(run->parameters.metric));
+  const Mark* mark = context.state.timeline.shown_mark();
+  if (mark != nullptr) title = fmt::format("{} · {}", context.state.timeline.shown == Shown::A ? "A" : "B", mark->title);
   std::string moment = fmt::format("it {}", count(frame.moment.iteration));
   if (frame.moment.visits > 0) moment += fmt::format(" + {} of {} visits", count(frame.moment.visits), count(run->visits_per_iteration));
   std::string shown;

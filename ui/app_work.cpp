@@ -1,0 +1,105 @@
+// What the window does by itself, frame by frame: playing, sequences of pictures, watching a file, showing a mark.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "ui/app.h"
+
+namespace dmoscope::ui {
+
+/// The session as it stands, or with a mark's frame in place of its own.
+std::shared_ptr<const SessionView> App::shown_view() {
+  std::shared_ptr<const SessionView> now = engine_.view();
+  drop_stale_marks(state_.timeline, *now);
+  const Mark* mark = state_.timeline.shown_mark();
+  if (mark == nullptr) {
+    flipped_ = {};
+    return now;
+  }
+  if (flipped_.now != now || flipped_.mark != mark->frame) {
+    auto view = std::make_shared<SessionView>(*now);
+    view->frame = mark->frame;
+    flipped_ = {now, mark->frame, std::move(view)};
+  }
+  return flipped_.view;
+}
+
+void App::set_wake(const std::function<void()>& wake) {
+  wake_ = wake;
+  engine_.set_wake(wake);
+}
+
+void App::cancel() {
+  engine_.cancel();
+  state_.timeline.play.kind = Playback::Kind::Off;
+  if (state_.sequence) end_sequence("cancelled: the sequence of pictures", Message::Kind::Warning);
+}
+
+void App::post_by_itself(const std::string& line) { state_.commands.posted(line, engine_.post(line)); }
+
+void App::advance_playback(double now) {
+  Playback& play = state_.timeline.play;
+  if (play.kind == Playback::Kind::Off) return;
+  if (!engine_.busy()) {
+    if (play.due <= 0.0) play.due = now;
+    if (const auto line = next_command(play, *engine_.view(), now)) post_by_itself(*line);
+  }
+  if (play.kind != Playback::Kind::Off) redraw_in_ = std::min(redraw_in_, std::max(0.0, play.due - now));
+}
+
+void App::end_sequence(const std::string& outcome, Message::Kind kind) {
+  const Sequence sequence = *std::exchange(state_.sequence, std::nullopt);
+  state_.requests.screenshots.clear();
+  engine_.post(fmt::format("seek {} {}", sequence.before.iteration, sequence.before.visits));
+  add_message(state_, {kind, outcome, kind == Message::Kind::Info ? 0 : 1});
+}
+
+/// One step of the sequence under way, if any: seeks are not recorded, as it ends where it began.
+void App::advance_sequence() {
+  if (!state_.sequence) return;
+  redraw_in_ = 0.0;
+  Sequence& sequence = *state_.sequence;
+  if (engine_.busy() || !scene_current_ || refining_ || activity_.reduced) return;
+  if (sequence.phase == Sequence::Phase::Shot) {
+    if (!state_.requests.screenshots.empty()) return;
+    if (state_.requests.screenshot_failed) return end_sequence("the sequence of pictures ended early", Message::Kind::Warning);
+    ++sequence.done;
+    sequence.phase = Sequence::Phase::Seek;
+  }
+  if (sequence.done == sequence.iterations.size()) {
+    const std::filesystem::path& folder = sequence.options.folder;
+    return end_sequence(fmt::format("saved {} pictures in {}\nfor a video: {}", sequence.done, folder.string(),
+                                    video_line(folder, state_.timeline.play.speed)),
+                        Message::Kind::Info);
+  }
+  const std::uint64_t wanted = sequence.iterations[sequence.done];
+  if (sequence.phase == Sequence::Phase::Seek) {
+    engine_.post(fmt::format("seek {}", wanted));
+    sequence.phase = Sequence::Phase::Wait;
+    return;
+  }
+  const Frame* frame = session_->frame.get();
+  if (frame == nullptr || frame->moment.iteration != wanted || frame->moment.visits != 0)
+    return end_sequence(fmt::format("the sequence of pictures ended early: iteration {} is not to be had", wanted), Message::Kind::Warning);
+  const SequenceOptions& options = sequence.options;
+  if (options.window && sequence.phase == Sequence::Phase::Wait) {
+    sequence.phase = Sequence::Phase::Clean;
+    return;
+  }
+  state_.requests.screenshot_failed = false;
+  state_.requests.screenshots.push_back({sequence.next_file(), options.width, options.height, 2, false, options.window, true});
+  sequence.phase = Sequence::Phase::Shot;
+}
+
+void App::watch_file() {
+  const bool wanted = state_.watch_file && session_->input && !session_->input->path.empty();
+  if (!wanted && !watch_) return;
+  if (!watch_)
+    watch_ = std::make_unique<FileWatch>([this] {
+      if (wake_) wake_();
+    });
+  watch_->follow(wanted ? session_->input->path.string() : std::string());
+  if (watch_->take_change()) post_by_itself("reload");
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,98 @@
+// Pictures of a run, for a video.
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "core/session/commands.h"
+#include "ui/format.h"
+#include "ui/panels/panels.h"
+
+namespace dmoscope::ui {
+namespace {
+
+void label(PanelContext& context, const char* text) {
+  ImGui::AlignTextToFramePadding();
+  dim_text(context, text, false);
+  ImGui::SameLine(9 * context.em());
+  ImGui::SetNextItemWidth(-1);
+}
+
+std::uint64_t last_iteration(const PanelContext& context) {
+  const RunView* run = context.run();
+  return run == nullptr || run->records.empty() ? 0 : run->records.back().iteration;
+}
+
+std::string command_of(const SequenceWidgets& widgets) {
+  std::string line =
+      fmt::format("sequence {} --from {} --to {} --every {}", quote_word(widgets.folder), widgets.from, widgets.to, widgets.every);
+  if (widgets.window) {
+    line += " --window";
+  } else {
+    line += fmt::format(" --size {}x{}", widgets.width, widgets.height);
+  }
+  return line + (widgets.overwrite ? " --overwrite" : "");
+}
+
+void draw_choices(PanelContext& context, SequenceWidgets& widgets) {
+  const int last = static_cast<int>(std::min<std::uint64_t>(last_iteration(context), 1'000'000'000));
+  int range[2] = {widgets.from, widgets.to};
+  label(context, "iterations");
+  if (ImGui::InputInt2("##range", range)) {
+    widgets.from = std::clamp(range[0], 0, last);
+    widgets.to = std::clamp(range[1], 0, last);
+  }
+  next_item_tooltip(fmt::format("from and to; the history has 0 to {}", last));
+  label(context, "every");
+  if (ImGui::InputInt("##every", &widgets.every)) widgets.every = std::max(1, widgets.every);
+  next_item_tooltip("a picture of every iteration, every second, ...; the last one is always there");
+  label(context, "what");
+  if (ImGui::RadioButton("the mesh", !widgets.window)) widgets.window = false;
+  ImGui::SameLine();
+  if (ImGui::RadioButton("the whole window", widgets.window)) widgets.window = true;
+  if (!widgets.window) {
+    int size[2] = {widgets.width, widgets.height};
+    label(context, "size, pixels");
+    if (ImGui::InputInt2("##size", size)) {
+      widgets.width = std::clamp(size[0], 1, 32768);
+      widgets.height = std::clamp(size[1], 1, 32768);
+    }
+  }
+  label(context, "old frames");
+  ImGui::Checkbox("replace those in the folder", &widgets.overwrite);
+  context.items.record_last("sequence:overwrite");
+}
+
+}  // namespace
+
+void draw_sequence_dialog(PanelContext& context) {
+  if (!begin_dialog(context, "Pictures of a run", 40)) return;
+  SequenceWidgets& widgets = context.widgets.sequence;
+  if (context.widgets.dialog_opened) {
+    widgets.from = 0;
+    widgets.to = static_cast<int>(std::min<std::uint64_t>(last_iteration(context), 1'000'000'000));
+    widgets.width = static_cast<int>(context.state.viewport.x) / 2 * 2;  // videos want even numbers
+    widgets.height = static_cast<int>(context.state.viewport.y) / 2 * 2;
+  }
+  dim_text(context, "Goes to one iteration after another and saves a picture of each: frame-0000.png, frame-0001.png, ...");
+  ImGui::Spacing();
+  label(context, "folder");
+  const bool entered = ImGui::InputText("##folder", &widgets.folder, ImGuiInputTextFlags_EnterReturnsTrue);
+  context.items.record_last("sequence:folder");
+  draw_choices(context, widgets);
+  ImGui::Spacing();
+  const auto pictures = widgets.to < widgets.from ? 0 : (widgets.to - widgets.from + widgets.every - 1) / widgets.every + 1;
+  const bool go = ImGui::Button(fmt::format("Save {} picture{}###go", pictures, pictures == 1 ? "" : "s").c_str());
+  context.items.record_last("sequence:go");
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel")) context.state.dialog = Dialog::None;
+  context.items.record_last("dialog:close");
+  if ((go || entered) && !widgets.folder.empty()) {
+    context.state.dialog = Dialog::None;
+    context.send(command_of(widgets));
+  }
+  end_dialog();
+}
+
+}  // namespace dmoscope::ui

@@ -9,8 +9,6 @@
 
 namespace dmoscope::render {
 
-enum class DotShape { Round, Square, Ring };
-
 /// Gathers lines and dots, then draws them: lines first. Pixels are relative to the middle of the viewport, y up.
 class MarkPainter {
  public:

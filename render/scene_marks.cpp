@@ -63,8 +63,7 @@ void MeshScene::Impl::gather_marks(const Camera2D& camera, const Style& style, c
     marks.line(place(line.from, camera), place(line.to, camera), line.width * style.scale, line.colour);
   }
   for (const OverlayDot& dot : wanted.dots) {
-    marks.dot(place(dot.point, camera), dot.diameter * style.scale, dot.square ? DotShape::Square : DotShape::Round, dot.colour,
-              style.casing_colour);
+    marks.dot(place(dot.point, camera), dot.diameter * style.scale, dot.shape, dot.colour, style.casing_colour);
   }
 }
 

@@ -35,14 +35,16 @@ struct Style {
   [[nodiscard]] static Style light();
 };
 
+enum class DotShape { Round, Square, Ring, Cross, Diamond };
+
 /// A dot at a point of the plane (a candidate of the grid).
 struct OverlayDot {
   Vec2<double> point;
   float diameter = 6.0F;  // pixels
   Rgba colour{255, 255, 255, 255};
-  bool square = false;
+  DotShape shape = DotShape::Round;
   friend bool operator==(const OverlayDot& a, const OverlayDot& b) {
-    return a.point.x == b.point.x && a.point.y == b.point.y && a.diameter == b.diameter && a.colour == b.colour && a.square == b.square;
+    return a.point.x == b.point.x && a.point.y == b.point.y && a.diameter == b.diameter && a.colour == b.colour && a.shape == b.shape;
   }
 };
 /// A straight line between two points of the plane (the box of a candidate grid, a vertex's path).

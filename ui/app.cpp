@@ -8,6 +8,8 @@
 
 #include "core/quality/quality.h"
 #include "ui/derived.h"
+#include "ui/inspection_commands.h"
+#include "ui/inspection_marks.h"
 #include "ui/view_geometry.h"
 #include "ui/view_lines.h"
 
@@ -169,16 +171,25 @@ render::Style App::style() const {
   return style;
 }
 
-render::Marks App::marks() const {
+render::Marks App::marks(const render::Camera2D& camera, double scale) const {
   render::Marks marks;
   const Frame* frame = session_->frame.get();
   if (frame == nullptr) return marks;
   if (state_.picked.kind == Picked::Kind::Element && state_.picked.id < frame->element_count()) marks.elements = {state_.picked.id};
+  const bool inspecting = state_.inspection.open && inspection_.trace && !state_.inspection.applied;
   if (state_.picked.kind == Picked::Kind::Vertex && state_.picked.id < frame->vertex_count()) {
-    for (const Incidence& incidence : frame->input->topology.star(state_.picked.id)) marks.elements.push_back(incidence.element);
+    for (const Incidence& incidence : inspecting ? std::span<const Incidence>{} : frame->input->topology.star(state_.picked.id))
+      marks.elements.push_back(incidence.element);
     marks.vertices = {state_.picked.id};
   }
   if (state_.worst_marker && !frame->worst.empty()) marks.worst = frame->worst.front().element;
+  if (state_.inspection.open) {
+    const render::Style look = style();
+    const render::Rgb accent = palette(state_.theme).accent;
+    add_inspection_marks(
+        marks, state_.inspection, inspection_,
+        {look.colours, look.highlight_colour, look.casing_colour, {accent.r, accent.g, accent.b, 255}, camera.units_per_pixel, scale});
+  }
   return marks;
 }
 
@@ -203,7 +214,7 @@ void App::update_scene(const Rect& rect, double now) {
   const bool restless = moving(now) || (activity_.busy && activity_.busy_seconds > kRestAfter);
   const double detail = render::suggested_detail(scene_.element_count(), options_.software_renderer, true);
   const auto w = static_cast<int>(std::lround(rect.w)), h = static_cast<int>(std::lround(rect.h));
-  picture_.update(scene_, {w, h, state_.camera, style(), marks(), detail, !restless});
+  picture_.update(scene_, {w, h, state_.camera, style(), marks(state_.camera, state_.scale), detail, !restless});
   refining_ = !picture_.complete();
   activity_.reduced = refining_;
   if (refining_ && !activity_.busy) redraw_in_ = restless ? std::min(redraw_in_, kRestAfter) : 0.0;
@@ -243,6 +254,7 @@ void App::draw_side(PanelContext& context, const char* name, const Rect& rect, b
     ImGui::Dummy({0, context.px(4)});
     draw_parameters(context);
   } else {
+    if (state_.inspection.open) draw_inspection(context);
     draw_inspector(context);
     draw_worst(context);
   }
@@ -274,9 +286,13 @@ void App::draw_panels(PanelContext& context) {
 }
 
 void App::draw(double now) {
+  // Asked before the news, so that nothing is taken for finished whose outcome is not among them.
+  const bool busy = engine_.busy();
   take_news(now);
   notice_new_input();
   update_derived();
+  refresh(inspection_, state_, *session_, busy);
+  const double play_in = play_levels(state_, host_, now);
   items_.begin_frame();
   handle_shortcuts();
   PanelContext context{state_,
@@ -284,6 +300,7 @@ void App::draw(double now) {
                        *session_,
                        activity_,
                        derived_,
+                       inspection_,
                        palette(state_.theme),
                        fonts_,
                        items_,
@@ -303,6 +320,7 @@ void App::draw(double now) {
   advance_playback(now);
   advance_sequence();
   watch_file();
+  redraw_in_ = std::min(redraw_in_, play_in);
 }
 
 void App::update_derived() { refresh(derived_, state_, *session_); }
@@ -328,7 +346,7 @@ render::Image App::mesh_picture(const ScreenshotOptions& options) {
   look.scale = 1.0F;  // Shot::scale multiplies it
   look.transparent = options.transparent;
   const render::Camera2D camera = state_.camera.for_viewport(state_.viewport, render::mesh_viewport(shot));
-  return render::render_image(scene_, camera, look, marks(), shot).image;
+  return render::render_image(scene_, camera, look, marks(camera, state_.scale), shot).image;
 }
 
 }  // namespace dmoscope::ui

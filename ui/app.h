@@ -45,6 +45,8 @@ class App {
   /// What was drawn last; null: nothing is open.
   [[nodiscard]] std::shared_ptr<const Frame> frame() const { return session_->frame; }
   [[nodiscard]] const CommandTable& commands() const noexcept { return commands_; }
+  /// The look into a visit as it was drawn last.
+  [[nodiscard]] const Inspection& inspection() const noexcept { return inspection_; }
 
   /// Runs or queues one command line. Throws UsageError for one that cannot be (what goes wrong in the session becomes a message).
   void execute(std::string_view line);
@@ -92,7 +94,8 @@ class App {
   void handle_shortcuts();
   void draw_panels(PanelContext& context);
   void draw_side(PanelContext& context, const char* name, const Rect& rect, bool overlay, bool left);
-  [[nodiscard]] render::Marks marks() const;
+  /// `camera`, `scale`: of the picture that they are drawn in.
+  [[nodiscard]] render::Marks marks(const render::Camera2D& camera, double scale) const;
   [[nodiscard]] render::Style style() const;
   [[nodiscard]] bool moving(double now) const;
 
@@ -104,6 +107,7 @@ class App {
   std::shared_ptr<const SessionView> session_;
   Activity activity_;
   Derived derived_;
+  Inspection inspection_;
   WidgetState widgets_;
   Items items_;
   Fonts fonts_;

@@ -12,6 +12,7 @@
 #include "ui/desktop_commands.h"
 #include "ui/file_commands.h"
 #include "ui/input_commands.h"
+#include "ui/inspection_commands.h"
 #include "ui/plot_commands.h"
 #include "ui/timeline_commands.h"
 #include "ui/view_geometry.h"
@@ -259,6 +260,7 @@ CommandTable view_commands(ViewState& state, const CommandHost& host) {
   add_output_verbs(table, state);
   add_plot_verbs(table, state);
   add_input_verbs(table, state, host);
+  add_inspection_verbs(table, state, host);
   add_session_shortcuts(table, state, host);
   add_desktop_verbs(table, state, host);
   add_timeline_verbs(table, state, host);

@@ -14,6 +14,7 @@
 #include "render/camera.h"
 #include "render/colour_map.h"
 #include "ui/command_log.h"
+#include "ui/inspection_state.h"
 #include "ui/keys.h"
 #include "ui/plot_state.h"
 #include "ui/sequence.h"
@@ -107,6 +108,7 @@ struct ViewState {
 
   // Selection
   Picked picked;
+  InspectionState inspection;
 
   // Time
   Timeline timeline;

@@ -112,7 +112,7 @@ void HeadlessWindow::settle() {
     rest = quiet && !app_->engine().busy() ? rest + 1 : 0;
   }
   // Detail comes back some time after the last movement.
-  for (int k = 0; k < 120 && app_->redraw_in() < 1e9; ++k) frame();
+  for (int k = 0; k < 600 && app_->redraw_in() < 1e9; ++k) frame();
 }
 
 std::optional<Message> HeadlessWindow::run(std::string_view line) {

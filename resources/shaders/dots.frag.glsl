@@ -11,6 +11,11 @@ void main() {
   float away;
   if (v_size.y == 1.0) {
     away = max(abs(v_offset.x), abs(v_offset.y)) - v_size.x;
+  } else if (v_size.y == 3.0) {
+    vec2 side = abs(v_offset);
+    away = max(0.7071 * abs(side.x - side.y) - 0.5 * u_ring_width, max(side.x, side.y) - v_size.x);
+  } else if (v_size.y == 4.0) {
+    away = 0.7071 * (abs(v_offset.x) + abs(v_offset.y) - v_size.x);
   } else {
     away = length(v_offset) - v_size.x;
     if (v_size.y == 2.0) away = abs(away) - 0.5 * u_ring_width;

@@ -18,6 +18,13 @@ bool is_checked(const ViewState& state, std::string_view id) {
     if (id.starts_with("plot-") && id.substr(5) == name) return state.plot == tab;
   }
   if (id == "plot-seconds") return state.plot_options.by_seconds;
+  if (id == "inspect") return state.inspection.open;
+  if (id == "play-levels") return state.inspection.playing;
+  if (id == "level-all") return state.inspection.open && state.inspection.all_levels;
+  if (id == "field") return state.inspection.field;
+  if (id == "inspect-zoom") return state.inspection.zoom;
+  if (id == "level-range-view") return !state.inspection.own_range;
+  if (id == "level-range-level") return state.inspection.own_range;
   if (id == "panel-left") return state.panels.left;
   if (id == "panel-right") return state.panels.right;
   if (id == "panel-bottom") return state.panels.bottom;

@@ -16,6 +16,7 @@
 #include "ui/actions.h"
 #include "ui/facts.h"
 #include "ui/file_browser.h"
+#include "ui/inspection.h"
 #include "ui/items.h"
 #include "ui/layout.h"
 #include "ui/plot.h"
@@ -103,6 +104,7 @@ struct PanelContext {
   const SessionView& session;
   const Activity& activity;
   const Derived& derived;
+  const Inspection& inspection;
   const Palette& palette;
   const Fonts& fonts;
   Items& items;
@@ -149,6 +151,7 @@ void draw_runs(PanelContext& context);
 void draw_parameters(PanelContext& context);
 void draw_inspector(PanelContext& context);
 void draw_worst(PanelContext& context);
+void draw_inspection(PanelContext& context);
 void draw_viewport(PanelContext& context, const Rect& rect);
 void draw_start_page(PanelContext& context, const Rect& rect);
 void draw_plots(PanelContext& context, const Rect& rect);

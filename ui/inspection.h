@@ -1,0 +1,78 @@
+#pragma once
+// A look into the visit of one vertex: what the search tried there, and what there was to find. Plain values; no ImGui, no OpenGL.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/inspect/quality_field.h"
+#include "core/inspect/visit_trace.h"
+#include "core/session/view.h"
+#include "render/camera.h"
+#include "ui/contours.h"
+#include "ui/inspection_state.h"
+#include "ui/view_state.h"
+
+namespace dmoscope::ui {
+
+/// The quality around the vertex, and its lines of equal quality. Contours are in samples of the field.
+struct FieldPicture {
+  QualityField field;
+  struct Line {
+    double value = 0.0;
+    std::vector<ContourPiece> pieces;
+  };
+  std::vector<Line> lines;             // at round values
+  std::vector<ContourPiece> outline;   // of the region in which no element is inverted
+  double lowest = 0.0, highest = 0.0;  // of the qualities in that region
+};
+
+struct Inspection {
+  /// What it was worked out from.
+  struct Key {
+    std::uint64_t input_serial = 0, frame_serial = 0;
+    std::size_t run = 0;
+    Index vertex = kNoIndex;
+    Metric metric = Metric::MeanRatio;
+    SearchParameters search;
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+  Key key;
+  std::string trouble;  // why there is no trace
+  std::optional<VisitTrace> trace;
+  Vec2<double> origin;  // where the vertex stood: in the plane. Everything below is relative to it, in mesh units
+  std::vector<std::array<Vec2<double>, 2>> edges;  // of the star, each once
+  render::Bounds2 box;                             // of the star
+  std::optional<LocalOptimum> optimum;
+  std::optional<FieldPicture> field;
+  std::vector<Index> corners;    // of the star, without the vertex, ascending
+  std::vector<Vec3> corners_at;  // where they stood
+};
+
+/// Why the search of this run on this frame cannot be looked into; empty when it can.
+[[nodiscard]] std::string no_inspection(const SessionView& session);
+
+/// Works out everything but the field. Never throws: trouble says what is the matter.
+[[nodiscard]] Inspection inspect(const SessionView& session, Index vertex);
+
+/// Brings `inspection` up to date with what the state wants to see of the session. A vertex that is picked while the inspection is open is
+/// looked into from then on. After its move was applied the search that found it stays, until something else moves. `busy`: commands are
+/// pending. Cheap when nothing changed.
+void refresh(Inspection& inspection, ViewState& state, const SessionView& session, bool busy);
+
+/// The vertex that a step of the active run would visit. Throws UsageError when there is none.
+[[nodiscard]] Index next_vertex(const SessionView& session);
+/// Of an element the free corner whose star is worst; among equals the one whose visit gains most, then the first. kNoIndex when all
+/// corners are fixed. Of a light frame: the first free corner.
+[[nodiscard]] Index worst_free_corner(const SessionView& session, Index element);
+/// The worst element of the shown metric that has a free corner. kNoIndex when there is none. Throws UsageError on a light frame.
+[[nodiscard]] Index worst_movable_element(const SessionView& session);
+
+/// How a quality is read: true for a candidate at which no element of the star is inverted.
+[[nodiscard]] bool is_valid(double quality);
+/// Least and greatest quality of a level's valid candidates; nothing when there is none.
+[[nodiscard]] std::optional<std::pair<double, double>> valid_range(const TracedLevel& level);
+
+}  // namespace dmoscope::ui

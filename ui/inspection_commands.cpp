@@ -1,0 +1,351 @@
+#include "ui/inspection_commands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/io/mesh_io.h"
+#include "ui/command_words.h"
+#include "ui/inspection_text.h"
+#include "ui/view_geometry.h"
+
+namespace dmoscope::ui {
+namespace {
+
+constexpr double kLevelTime = 0.8;  // seconds that playing shows a level
+
+std::shared_ptr<const SessionView> session_of(const CommandHost& host) {
+  auto session = host.session();
+  if (!session || !session->input || !session->frame) throw UsageError("no mesh is open");
+  return session;
+}
+
+/// Moves the view to the star when it is too small to read, or not all in sight.
+void look_at_star(ViewState& state, const Frame& frame, Index vertex) {
+  constexpr double kLeastShare = 1.0 / 8.0, kShare = 0.5;
+  if (frame.device) return;
+  const render::Bounds2 box = star_box(frame, vertex), seen = state.camera.visible(state.viewport);
+  const double extent = std::max({box.size().x, box.size().y, 1e-9 * frame.input->geometry.size});
+  const double side = std::min(state.viewport.x, state.viewport.y) * state.camera.units_per_pixel;
+  const bool inside = box.low.x >= seen.low.x && box.low.y >= seen.low.y && box.high.x <= seen.high.x && box.high.y <= seen.high.y;
+  if (extent >= kLeastShare * side && inside) return;
+  state.camera.look_at(box.centre(), extent / kShare, state.viewport);
+}
+
+/// Ends a close-up: back to where it came from, unless the camera was moved since.
+void leave_close_up(ViewState& state) {
+  auto& close_up = state.inspection.close_up;
+  if (close_up && close_up->second == state.camera) state.camera = close_up->first;
+  close_up.reset();
+}
+
+/// Candidates that would lie on top of each other are looked at from closer by.
+void close_up_on(ViewState& state, const Inspection& look) {
+  constexpr double kLeastSpacing = 8.0, kSpacing = 17.0, kLargestShare = 0.6;  // pixels; of the view's shorter side
+  leave_close_up(state);
+  InspectionState& inspection = state.inspection;
+  if (!inspection.zoom || !look.trace || inspection.applied || inspection.all_levels || inspection.level < 1) return;
+  if (static_cast<std::size_t>(inspection.level) > look.trace->levels.size()) return;
+  const TracedLevel& level = look.trace->levels[static_cast<std::size_t>(inspection.level - 1)];
+  const double extent = std::max(level.size.x, level.size.y);
+  const double spacing = extent / std::max(1, level.points - 1) / state.camera.units_per_pixel;
+  if (!(extent > 0.0) || spacing >= kLeastSpacing * state.scale) return;
+  const render::Camera2D before = state.camera;
+  const double side = std::min(state.viewport.x, state.viewport.y);
+  const double pixels = std::min(kLargestShare * side, kSpacing * state.scale * std::max(1, level.points - 1));
+  state.camera.look_at(look.origin + level.centre, extent * side / pixels, state.viewport);
+  inspection.close_up = {before, state.camera};
+}
+
+void show_level(ViewState& state, const Inspection& look, int level) {
+  InspectionState& inspection = state.inspection;
+  inspection.applied = inspection.all_levels = false;
+  inspection.level = level;
+  inspection.level_since = -1.0;
+  close_up_on(state, look);
+}
+
+/// `in_order`: it is the vertex that the run visits next.
+void open_at(ViewState& state, const SessionView& session, Index vertex, bool in_order) {
+  leave_close_up(state);
+  InspectionState& inspection = state.inspection;
+  inspection.open = true;
+  inspection.vertex = vertex;
+  inspection.note.clear();
+  inspection.in_order = in_order;
+  inspection.playing = false;
+  inspection.hovered.reset();
+  state.picked = {Picked::Kind::Vertex, vertex};
+  look_at_star(state, *session.frame, vertex);
+  show_level(state, inspect(session, vertex), 1);
+}
+
+void open_at_element(ViewState& state, const SessionView& session, Index element) {
+  const Index corner = worst_free_corner(session, element);
+  if (corner != kNoIndex) {
+    open_at(state, session, corner, false);
+    return;
+  }
+  leave_close_up(state);
+  InspectionState& inspection = state.inspection;
+  inspection.open = true;
+  inspection.vertex = kNoIndex;
+  inspection.playing = inspection.applied = false;
+  inspection.note = fmt::format(
+      "All corners of element {} are fixed: no smoothing can change it. It is part of the ceiling, above which the minimum cannot rise.",
+      element);
+  state.picked = {Picked::Kind::Element, element};
+}
+
+/// At what is picked, or where the run goes next.
+void open_inspection(ViewState& state, const SessionView& session) {
+  if (state.picked.kind == Picked::Kind::Vertex) {
+    open_at(state, session, state.picked.id, false);
+  } else if (state.picked.kind == Picked::Kind::Element) {
+    open_at_element(state, session, state.picked.id);
+  } else {
+    open_at(state, session, next_vertex(session), true);
+  }
+}
+
+void close_inspection(ViewState& state) {
+  leave_close_up(state);
+  state.inspection.open = state.inspection.playing = state.inspection.applied = false;
+}
+
+/// A vertex that was picked since is the one to look into.
+void follow_pick(ViewState& state) {
+  InspectionState& inspection = state.inspection;
+  if (!inspection.open || state.picked.kind != Picked::Kind::Vertex || state.picked.id == inspection.vertex) return;
+  inspection.vertex = state.picked.id;
+  inspection.note.clear();
+  inspection.in_order = inspection.applied = inspection.playing = false;
+}
+
+Index parse_index(const std::string& word, Index size, const char* what) {
+  const std::uint64_t id = to_count(word);
+  if (id >= size) throw UsageError(fmt::format("there is no {} {}: the mesh has {}", what, id, size));
+  return static_cast<Index>(id);
+}
+
+/// The visit as the run itself makes it: its next step when it is this vertex's turn, else a visit of this vertex alone.
+void apply_move(ViewState& state, const CommandHost& host, const SessionView& session) {
+  InspectionState& inspection = state.inspection;
+  if (!inspection.open || inspection.vertex == kNoIndex) throw UsageError("no vertex is looked into");
+  if (inspection.applied) return;
+  const Inspection look = inspect(session, inspection.vertex);
+  if (!look.trace) throw UsageError(look.trouble);
+  if (look.trace->end == VisitEnd::Fixed) throw UsageError(fmt::format("vertex {} is fixed", inspection.vertex));
+  if (inspection.in_order && next_vertex(session) == inspection.vertex) {
+    host.post("step vertex");
+  } else if (look.trace->end == VisitEnd::Moved) {
+    host.post(fmt::format("visit {}", inspection.vertex));
+  }
+  inspection.level = static_cast<int>(look.trace->levels.size());
+  inspection.all_levels = false;
+  inspection.applied = true;
+  leave_close_up(state);
+}
+
+void next_level(ViewState& state, const CommandHost& host, const SessionView& session) {
+  InspectionState& inspection = state.inspection;
+  if (!inspection.open || inspection.vertex == kNoIndex) {
+    open_inspection(state, session);
+    return;
+  }
+  if (inspection.applied) {
+    if (host.busy()) return;  // where the run goes next is not known yet
+    open_at(state, session, inspection.in_order ? next_vertex(session) : inspection.vertex, inspection.in_order);
+    return;
+  }
+  const Inspection look = inspect(session, inspection.vertex);
+  if (!look.trace || look.trace->levels.empty()) return;  // the inspector says why
+  const int last = static_cast<int>(look.trace->levels.size());
+  if (inspection.level < last && !inspection.all_levels) {
+    show_level(state, look, inspection.level + 1);
+  } else {
+    apply_move(state, host, session);
+  }
+}
+
+/// From the applied move back to the last level: the move is taken back, too.
+void previous_level(ViewState& state, const CommandHost& host, const SessionView& session) {
+  InspectionState& inspection = state.inspection;
+  if (!inspection.open) return;
+  const bool take_back = inspection.applied;
+  if (take_back && inspection.in_order) {
+    host.post("back vertex");
+  } else if (take_back && is_session_command("undo")) {
+    host.post("undo");
+  }
+  show_level(state, inspect(session, inspection.vertex),
+             take_back || inspection.all_levels ? inspection.level : std::max(0, inspection.level - 1));
+}
+
+void set_level(ViewState& state, const SessionView& session, const std::string& word) {
+  if (!state.inspection.open || state.inspection.vertex == kNoIndex) open_inspection(state, session);
+  if (state.inspection.vertex == kNoIndex) return;
+  const Inspection look = inspect(session, state.inspection.vertex);
+  if (word == "all") {
+    leave_close_up(state);
+    state.inspection.applied = false;
+    state.inspection.all_levels = true;
+    return;
+  }
+  const std::uint64_t level = to_count(word);
+  const std::size_t levels = look.trace ? look.trace->levels.size() : 0;
+  if (level > levels) throw UsageError(fmt::format("there is no level {}: this visit has {}", level, levels));
+  show_level(state, look, static_cast<int>(level));
+}
+
+void start_playing(ViewState& state, const CommandHost& host, const SessionView& session, bool play) {
+  InspectionState& inspection = state.inspection;
+  if (!play) {
+    inspection.playing = false;
+    return;
+  }
+  if (!inspection.open || inspection.vertex == kNoIndex || inspection.applied) next_level(state, host, session);
+  if (inspection.vertex == kNoIndex) return;
+  show_level(state, inspect(session, inspection.vertex), 1);
+  inspection.playing = true;
+}
+
+void add_opening_verbs(CommandTable& table, ViewState& state, const CommandHost& host) {
+  table.add({"inspect", "inspect [on|off|toggle|vertex ID|element ID]",
+             "looks into the search of a vertex: what is picked, or the next of the run; of an element its worst free corner"},
+            [&state, &host](Arguments words) {
+              need(words, 0, 2);
+              const auto session = session_of(host);
+              if (words.size() == 2 && words[0] == "vertex") {
+                open_at(state, *session, parse_index(words[1], session->frame->vertex_count(), "vertex"), false);
+              } else if (words.size() == 2 && words[0] == "element") {
+                open_at_element(state, *session, parse_index(words[1], session->frame->element_count(), "element"));
+              } else if (need(words, 0, 1); switched(words, 0, state.inspection.open)) {
+                if (!state.inspection.open || state.picked != Picked{Picked::Kind::Vertex, state.inspection.vertex})
+                  open_inspection(state, *session);
+              } else {
+                close_inspection(state);
+              }
+            });
+  table.add({"inspect-next", "inspect-next", "looks into the vertex that the run visits next"}, [&state, &host](Arguments words) {
+    need(words, 0, 0);
+    const auto session = session_of(host);
+    open_at(state, *session, next_vertex(*session), true);
+  });
+  table.add({"inspect-worst", "inspect-worst", "looks into the worst element that smoothing can change, at its worst free corner"},
+            [&state, &host](Arguments words) {
+              need(words, 0, 0);
+              const auto session = session_of(host);
+              const Index element = worst_movable_element(*session);
+              if (element == kNoIndex) throw UsageError("no vertex of this mesh may move");
+              open_at_element(state, *session, element);
+            });
+}
+
+void add_level_verbs(CommandTable& table, ViewState& state, const CommandHost& host) {
+  table.add({"level", "level next|back|all|N", "shows a level's candidates; next after the last one applies the move"},
+            [&state, &host](Arguments words) {
+              need(words, 1, 1);
+              const auto session = session_of(host);
+              follow_pick(state);
+              state.inspection.playing = false;
+              if (words[0] == "next") {
+                next_level(state, host, *session);
+              } else if (words[0] == "back") {
+                previous_level(state, host, *session);
+              } else {
+                set_level(state, *session, words[0]);
+              }
+            });
+  table.add({"play-levels", "play-levels [on|off|toggle]", "shows level after level, then applies the move"},
+            [&state, &host](Arguments words) {
+              need(words, 0, 1);
+              const auto session = session_of(host);
+              follow_pick(state);
+              start_playing(state, host, *session, switched(words, 0, state.inspection.playing));
+            });
+  table.add({"apply-move", "apply-move", "visits the inspected vertex: the run's own step when it is its turn"},
+            [&state, &host](Arguments words) {
+              need(words, 0, 0);
+              const auto session = session_of(host);
+              follow_pick(state);
+              apply_move(state, host, *session);
+            });
+}
+
+void add_inspection_look_verbs(CommandTable& table, ViewState& state) {
+  struct Switch {
+    const char* name;
+    bool InspectionState::*flag;
+    const char* doc;
+  };
+  static constexpr std::array<Switch, 3> switches{
+      {{"inspect-zoom", &InspectionState::zoom, "goes as close as the shown level needs"},
+       {"field", &InspectionState::field, "the quality around the inspected vertex, in the inspector"},
+       {"field-in-view", &InspectionState::field_in_view, "the quality around the inspected vertex, over the mesh"}}};
+  for (const Switch& one : switches) {
+    table.add({one.name, fmt::format("{} [on|off|toggle]", one.name), one.doc}, [&state, flag = one.flag](Arguments words) {
+      need(words, 0, 1);
+      state.inspection.*flag = switched(words, 0, state.inspection.*flag);
+    });
+  }
+  table.add({"level-range", "level-range view|level", "colours of the levels' heat maps: as in the view, or over each level's own range"},
+            [&state](Arguments words) {
+              need(words, 1, 1);
+              static constexpr std::array<std::pair<std::string_view, bool>, 2> names{{{"view", false}, {"level", true}}};
+              state.inspection.own_range = choose(words[0], names);
+            });
+}
+
+void add_trace_verbs(CommandTable& table, ViewState& state, const CommandHost& host) {
+  const auto traced = [&state, &host] {
+    const auto session = session_of(host);
+    follow_pick(state);
+    if (!state.inspection.open || state.inspection.vertex == kNoIndex) throw UsageError("no vertex is looked into");
+    Inspection look = inspect(*session, state.inspection.vertex);
+    if (!look.trace) throw UsageError(look.trouble);
+    return std::move(*look.trace);
+  };
+  table.add(
+      {"copy-level", "copy-level [N]", "puts the candidates of a level on the clipboard as CSV; without N of the shown one, 0: of all"},
+      [&state, traced](Arguments words) {
+        need(words, 0, 1);
+        const VisitTrace trace = traced();
+        const std::uint64_t level = words.empty() ? static_cast<std::uint64_t>(state.inspection.level) : to_count(words[0]);
+        if (level > trace.levels.size())
+          throw UsageError(fmt::format("there is no level {}: this visit has {}", level, trace.levels.size()));
+        state.requests.clipboard = trace_csv(trace, static_cast<int>(level));
+      });
+  table.add({"export-trace", "export-trace FILE.csv", "writes all candidates of all levels of the inspected vertex"},
+            [&state, traced](Arguments words) {
+              need(words, 1, 1);
+              write_file_atomically(words[0], trace_csv(traced()));
+              add_message(state, {Message::Kind::Info, fmt::format("wrote {}", words[0])});
+            });
+}
+
+}  // namespace
+
+void add_inspection_verbs(CommandTable& table, ViewState& state, const CommandHost& host) {
+  add_opening_verbs(table, state, host);
+  add_level_verbs(table, state, host);
+  add_inspection_look_verbs(table, state);
+  add_trace_verbs(table, state, host);
+}
+
+double play_levels(ViewState& state, const CommandHost& host, double now) {
+  InspectionState& inspection = state.inspection;
+  const auto session = host.session();
+  if (!inspection.playing || !session || !session->frame) return std::numeric_limits<double>::infinity();
+  if (inspection.level_since < 0.0) inspection.level_since = now;
+  const double rest = inspection.level_since + kLevelTime - now;
+  if (rest > 0.0) return rest;
+  next_level(state, host, *session);
+  inspection.playing = !inspection.applied;
+  inspection.level_since = now;
+  return inspection.playing ? kLevelTime : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,92 @@
+#include "ui/inspection_text.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "ui/format.h"
+
+namespace dmoscope::ui {
+namespace {
+
+/// What the statistics say of a star: its least metric, or while an element is inverted its least Jacobian.
+double worth(const StarState& state) { return state.jacobian > 0.0 ? state.quality : state.jacobian; }
+
+}  // namespace
+
+std::string level_label(const InspectionState& state, const Inspection& inspection) {
+  if (!inspection.trace) return {};
+  const VisitTrace& trace = *inspection.trace;
+  if (trace.levels.empty()) return "fixed";
+  if (state.applied) {
+    if (trace.end != VisitEnd::Moved) return fmt::format("stays · {}", short_number(worth(trace.before)));
+    return fmt::format("moved · {} → {}", short_number(worth(trace.before)), short_number(worth(trace.after)));
+  }
+  if (state.all_levels) return fmt::format("levels 1 to {}", trace.levels.size());
+  if (state.level < 1) return {};
+  const TracedLevel& level = trace.levels[static_cast<std::size_t>(state.level - 1)];
+  const std::string name = fmt::format("level {} of {}", state.level, trace.levels.size());
+  if (!level.best) return name + " · none better";
+  return fmt::format("{} · best {}", name, short_number(level.quality[static_cast<std::size_t>(*level.best)]));
+}
+
+Index limiting_element(const VisitTrace& trace, bool after) {
+  const auto quality = [after](const ElementChange& change) { return after ? change.after : change.before; };
+  const auto least = std::min_element(trace.elements.begin(), trace.elements.end(),
+                                      [&](const ElementChange& a, const ElementChange& b) { return quality(a) < quality(b); });
+  return least == trace.elements.end() ? kNoIndex : least->element;
+}
+
+std::string gap_sentence(const Inspection& inspection) {
+  if (!inspection.trace || !inspection.optimum) return {};
+  const double found = inspection.trace->after.quality, best = inspection.optimum->quality;
+  if (!(inspection.trace->after.jacobian > 0.0)) return fmt::format("{} is the best possible here", short_number(best));
+  return fmt::format("{} {}, {} best possible (gap {})", short_number(found),
+                     inspection.trace->end == VisitEnd::Moved ? "found" : "where it stands", short_number(best),
+                     short_number(std::max(0.0, best - found)));
+}
+
+std::string stuck_sentence(const Inspection& inspection) {
+  if (!inspection.trace) return {};
+  const VisitTrace& trace = *inspection.trace;
+  if (trace.end == VisitEnd::Moved) return {};
+  if (trace.end == VisitEnd::Fixed)
+    return "It is fixed: no search moves it, and what its elements can become depends on their other corners.";
+  std::string text = trace.end == VisitEnd::NotConfirmed ? "The search found a candidate, but judged exactly it gains nothing."
+                                                         : "No candidate of any level is better than where it stands.";
+  if (const Index limit = limiting_element(trace, false); limit != kNoIndex)
+    text += fmt::format(" Element {} limits the star at {}.", count(limit), short_number(trace.before.quality));
+  if (inspection.optimum) {
+    const double gap = inspection.optimum->quality - trace.before.quality;
+    if (gap < 1e-6) {
+      text += " That is the best there is for this vertex: only its neighbours can change it.";
+    } else {
+      text += fmt::format(" The best possible here is {}: {} is left, between the candidates.", short_number(inspection.optimum->quality),
+                          short_number(gap));
+    }
+  }
+  return text;
+}
+
+std::string search_phrase(const VisitTrace& trace) {
+  std::string text = trace.fast ? "fast search in float" : "plain search in double";
+  if (trace.untangling) text += ", untangling";
+  return text;
+}
+
+std::string trace_csv(const VisitTrace& trace, int level) {
+  std::string text = "level,index,i,j,u,v,value,quality,chosen\n";
+  for (std::size_t k = 0; k < trace.levels.size(); ++k) {
+    if (level != 0 && static_cast<std::size_t>(level) != k + 1) continue;
+    const TracedLevel& one = trace.levels[k];
+    for (int index = 0; index < one.points * one.points; ++index) {
+      const Vec2<double> at = one.at(index);
+      const auto slot = static_cast<std::size_t>(index);
+      text += fmt::format("{},{},{},{},{},{},{},{},{}\n", k + 1, index, index / one.points, index % one.points, at.x, at.y,
+                          one.values[slot], one.quality[slot], one.best == index ? 1 : 0);
+    }
+  }
+  return text;
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,28 @@
+#pragma once
+// What is written about an inspected visit.
+
+#include <string>
+
+#include "ui/inspection.h"
+
+namespace dmoscope::ui {
+
+/// "level 2 of 3 · best 0.8123", "level 3 of 3 · none better", "moved · 0.31 → 0.82"; empty when there is nothing to say.
+[[nodiscard]] std::string level_label(const InspectionState& state, const Inspection& inspection);
+
+/// Why the vertex stays where it is, in full sentences: what limits it, the best possible and the gap. Empty when it moves.
+[[nodiscard]] std::string stuck_sentence(const Inspection& inspection);
+
+/// "0.8123 found, 0.8130 best possible (gap 0.0007)"; empty where the best possible is not known.
+[[nodiscard]] std::string gap_sentence(const Inspection& inspection);
+
+/// Element of least quality of the star, before or after the visit: what limits it. kNoIndex for an empty star.
+[[nodiscard]] Index limiting_element(const VisitTrace& trace, bool after);
+
+/// Where the trace is from: "float, fast search", "double, plain search, untangling".
+[[nodiscard]] std::string search_phrase(const VisitTrace& trace);
+
+/// Columns level,index,i,j,u,v,value,quality,chosen; u and v: offset from the vertex in the plane, mesh units. `level`: from 1; 0: all.
+[[nodiscard]] std::string trace_csv(const VisitTrace& trace, int level = 0);
+
+}  // namespace dmoscope::ui

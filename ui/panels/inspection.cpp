@@ -1,0 +1,327 @@
+// Right, on top: the look into the visit of one vertex.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "ui/format.h"
+#include "ui/inspection_marks.h"
+#include "ui/inspection_text.h"
+#include "ui/panels/field.h"
+#include "ui/panels/panels.h"
+
+namespace dmoscope::ui {
+namespace {
+
+void wrapped(const std::string& text) {
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+}
+
+/// The colours of the mesh view.
+render::ColourScale view_colours(const PanelContext& context) {
+  render::ColourScale scale;
+  scale.map = context.state.colour_map;
+  std::tie(scale.low, scale.high) = context.derived.range;
+  return scale;
+}
+
+void draw_title(PanelContext& context) {
+  const InspectionState& state = context.state.inspection;
+  heading(context, state.vertex == kNoIndex ? "Grid inspection" : fmt::format("Grid inspection · vertex {}", count(state.vertex)).c_str());
+  const float button = ImGui::CalcTextSize("×").x + 2 * context.px(8);
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - button);
+  if (ImGui::SmallButton(" × ")) context.send("inspect off");
+  context.items.record_last("inspect:close");
+  next_item_tooltip("close   G");
+}
+
+void draw_story(PanelContext& context, const Inspection& inspection) {
+  const VisitTrace& trace = *inspection.trace;
+  const std::string stuck = stuck_sentence(inspection);
+  std::string sentence = trace.sentence();
+  if (!sentence.empty()) sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
+  if (stuck.empty()) {
+    wrapped(sentence);
+    if (const std::string gap = gap_sentence(inspection); !gap.empty()) {
+      dim_text(context, gap);
+      next_item_tooltip("best possible: the exact maximum of the star's mean ratio, wherever this one vertex might stand");
+    }
+  } else {
+    wrapped(stuck);
+  }
+  dim_text(context, fmt::format("{} · {}", metric_phrase(trace.metric), search_phrase(trace)));
+  next_item_tooltip(
+      fmt::format("What the candidates were compared by: {}.\nWhat is shown of them here is the quality as the statistics "
+                  "have it.\nQuality: {} to {}",
+                  trace.value_phrase, full_number(trace.before.quality), full_number(trace.after.quality)));
+}
+
+void draw_buttons(PanelContext& context) {
+  const std::size_t levels = context.inspection.trace ? context.inspection.trace->levels.size() : 0;
+  const InspectionState& state = context.state.inspection;
+  action_button(context, "level-back", "‹ Back");
+  ImGui::SameLine();
+  const bool last = static_cast<std::size_t>(state.level) >= levels;
+  action_button(context, "level-next", state.applied ? (state.in_order ? "Next vertex" : "Again") : last ? "Apply" : "Next level", true);
+  ImGui::SameLine();
+  action_button(context, "play-levels", state.playing ? "❚❚" : "▶ Play");
+  ImGui::SameLine();
+  action_button(context, "copy-level", "CSV");
+}
+
+std::string candidate_text(const VisitTrace& trace, const TracedLevel& level, int index) {
+  const auto slot = static_cast<std::size_t>(index);
+  const Vec2<double> at = level.at(index);
+  std::string text = fmt::format("candidate {} ({}, {})\noffset {}, {}\n", index, index / level.points, index % level.points,
+                                 short_number(at.x), short_number(at.y));
+  text += is_valid(level.quality[slot]) ? fmt::format("quality {}\n", full_number(level.quality[slot]))
+                                        : fmt::format("an element is inverted: least Jacobian {}\n", full_number(level.quality[slot]));
+  text += fmt::format("{} {}", trace.value_phrase, full_number(level.values[slot]));
+  if (level.best == index) text += "\nchosen: the best so far";
+  return text;
+}
+
+/// One level's candidates as cells in a square.
+class LevelMap {
+ public:
+  LevelMap(PanelContext& context, const TracedLevel& level, int number, ImVec2 low, float side)
+      : context_(context), level_(level), number_(number), low_(low), cell_(side / static_cast<float>(level.points)), side_(side) {}
+
+  void draw() {
+    render::ColourScale colours = view_colours(context_);
+    if (const auto range = valid_range(level_); context_.state.inspection.own_range && range && range->second > range->first)
+      std::tie(colours.low, colours.high) = *range;
+    for (int index = 0; index < level_.points * level_.points; ++index) {
+      const double quality = level_.quality[static_cast<std::size_t>(index)];
+      const auto [a, b] = box(index);
+      list_.AddRectFilled(a, b, is_valid(quality) ? colour(colours.colour(quality)) : colour(context_.palette.raised));
+      if (!is_valid(quality)) cross(a, b);
+    }
+    if (level_.best) frame(*level_.best, true);
+    if (context_.state.inspection.hovered) {
+      const CandidateName hovered = *context_.state.inspection.hovered;
+      if (hovered.level == number_ && hovered.index < level_.points * level_.points) frame(hovered.index, false);
+    }
+  }
+  /// Under the mouse; -1: none.
+  [[nodiscard]] int hovered() const {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const auto i = static_cast<int>(std::floor((mouse.x - low_.x) / cell_)),
+               j = static_cast<int>(std::floor((low_.y + side_ - mouse.y) / cell_));
+    return i >= 0 && j >= 0 && i < level_.points && j < level_.points ? i * level_.points + j : -1;
+  }
+
+ private:
+  /// The first axis to the right, the second up.
+  [[nodiscard]] std::pair<ImVec2, ImVec2> box(int index) const {
+    const auto i = static_cast<float>(index / level_.points), j = static_cast<float>(level_.points - 1 - index % level_.points);
+    return {{low_.x + i * cell_, low_.y + j * cell_}, {low_.x + (i + 1) * cell_, low_.y + (j + 1) * cell_}};
+  }
+  void cross(ImVec2 a, ImVec2 b) const {
+    const float inset = 0.28F * cell_;
+    if (cell_ < 4.0F) return;
+    const ImU32 ink = colour(kInvalidCandidate);
+    list_.AddLine({a.x + inset, a.y + inset}, {b.x - inset, b.y - inset}, ink, context_.px(1.3F));
+    list_.AddLine({a.x + inset, b.y - inset}, {b.x - inset, a.y + inset}, ink, context_.px(1.3F));
+  }
+  void frame(int index, bool chosen) const {
+    const auto [a, b] = box(index);
+    const float w = context_.px(chosen ? 2.0F : 1.4F);
+    list_.AddRect({a.x - w, a.y - w}, {b.x + w, b.y + w}, colour({0x10, 0x12, 0x16}), 0.0F, 0, 2.2F * w);
+    list_.AddRect({a.x - w / 2, a.y - w / 2}, {b.x + w / 2, b.y + w / 2}, colour({0xff, 0xff, 0xff}), 0.0F, 0, w);
+  }
+
+  PanelContext& context_;
+  const TracedLevel& level_;
+  int number_;
+  ImVec2 low_;
+  float cell_, side_;
+  ImDrawList& list_ = *ImGui::GetWindowDrawList();
+};
+
+void draw_level(PanelContext& context, const VisitTrace& trace, int number, float side) {
+  InspectionState& state = context.state.inspection;
+  const TracedLevel& level = trace.levels[static_cast<std::size_t>(number - 1)];
+  ImGui::BeginGroup();
+  const bool shown = !state.applied && (state.all_levels || state.level == number);
+  const std::string best = level.best ? short_number(level.quality[static_cast<std::size_t>(*level.best)]) : "none better";
+  const std::string name = fmt::format("{}", number);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddText(shown ? context.fonts.bold : context.fonts.body, context.em(), at,
+               colour(shown ? context.palette.text : context.palette.dim), name.c_str());
+  list.AddText({at.x + side - ImGui::CalcTextSize(best.c_str()).x, at.y}, colour(shown ? context.palette.text : context.palette.dim),
+               best.c_str());
+  const ImVec2 low{at.x, at.y + 1.2F * context.em()};
+  LevelMap map(context, level, number, low, side);
+  map.draw();
+  if (shown)
+    list.AddLine({at.x, low.y + side + context.px(5)}, {at.x + side, low.y + side + context.px(5)}, colour(context.palette.accent),
+                 context.px(2));
+  if (ImGui::InvisibleButton(fmt::format("##level{}", number).c_str(), {side, 1.2F * context.em() + side + context.px(4)}))
+    context.send(fmt::format("level {}", number));
+  context.items.record_last(fmt::format("level:{}", number));
+  if (ImGui::IsItemHovered()) {
+    if (const int index = map.hovered(); index >= 0) {
+      state.hovered = CandidateName{number, index};
+      next_item_tooltip(candidate_text(trace, level, index));
+    }
+  }
+  ImGui::EndGroup();
+}
+
+/// Side by side, as many in a row as can be read.
+void draw_levels(PanelContext& context, const VisitTrace& trace) {
+  context.state.inspection.hovered.reset();
+  const auto levels = static_cast<int>(trace.levels.size());
+  const float gap = context.px(8), room = ImGui::GetContentRegionAvail().x;
+  const int most = std::max(1, static_cast<int>((room + gap) / (5.2F * context.em() + gap)));
+  const int rows = (levels + most - 1) / most, in_row = (levels + rows - 1) / rows;
+  const float side = std::floor(std::min((room - gap * static_cast<float>(in_row - 1)) / static_cast<float>(in_row), 9.0F * context.em()));
+  for (int number = 1; number <= levels; ++number) {
+    if (number > 1 && (number - 1) % in_row != 0) ImGui::SameLine(0, gap);
+    draw_level(context, trace, number, side);
+  }
+}
+
+/// Two bars, one over the other: before and after.
+void draw_bars(const PanelContext& context, ImVec2 low, float width, const ElementChange& change, bool moved) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float line = ImGui::GetTextLineHeight(), height = moved ? 0.26F * line : 0.45F * line;
+  const auto bar = [&](float top, double quality, bool inverted, render::Rgb ink) {
+    const auto part = static_cast<float>(std::clamp(std::isfinite(quality) ? quality : 0.0, 0.0, 1.0));
+    list.AddRectFilled({low.x, top}, {low.x + width, top + height}, colour(context.palette.raised));
+    if (inverted) ink = render::kInvertedColour;
+    list.AddRectFilled({low.x, top}, {low.x + std::max(part * width, inverted ? context.px(3) : 0.0F), top + height}, colour(ink));
+  };
+  bar(low.y + 0.2F * line, change.before, change.inverted_before, context.palette.dim);
+  if (moved) bar(low.y + 0.56F * line, change.after, change.inverted_after, context.palette.accent);
+}
+
+void draw_elements(PanelContext& context, const VisitTrace& trace) {
+  const bool moved = trace.end == VisitEnd::Moved;
+  dim_text(context, moved ? "its elements, before → after" : "its elements", false);
+  next_item_tooltip("▸ limits the star before, ▹ after the visit; click selects an element");
+  const Index limit_before = limiting_element(trace, false), limit_after = limiting_element(trace, true);
+  const float number_width = ImGui::CalcTextSize(moved ? "0.0000 → 0.0000" : "0.0000").x;
+  float id_width = 0;
+  for (const ElementChange& change : trace.elements) id_width = std::max(id_width, ImGui::CalcTextSize(count(change.element).c_str()).x);
+  for (const ElementChange& change : trace.elements) {
+    ImGui::PushID(static_cast<int>(change.element));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x, gutter = 1.5F * context.em();
+    const bool selected = context.state.picked == Picked{Picked::Kind::Element, change.element};
+    if (ImGui::Selectable("##change", selected)) context.send(fmt::format("pick element {}", change.element));
+    context.items.record_last(fmt::format("change:{}", change.element));
+    next_item_tooltip(fmt::format("element {}\nbefore {}{}\nafter {}{}", count(change.element), full_number(change.before),
+                                  change.inverted_before ? ", inverted" : "", full_number(change.after),
+                                  change.inverted_after ? ", inverted" : ""));
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    std::string marks;
+    if (change.element == limit_before) marks += "▸";
+    if (moved && change.element == limit_after) marks += "▹";
+    list.AddText(at, colour(context.palette.text), marks.c_str());
+    const std::string id = count(change.element);
+    list.AddText({at.x + gutter + id_width - ImGui::CalcTextSize(id.c_str()).x, at.y}, colour(context.palette.text), id.c_str());
+    const std::string numbers =
+        moved ? fmt::format("{} → {}", short_number(change.before), short_number(change.after)) : short_number(change.before);
+    list.AddText({at.x + width - ImGui::CalcTextSize(numbers.c_str()).x, at.y},
+                 colour(change.inverted_after ? context.palette.error : context.palette.text), numbers.c_str());
+    const float left = at.x + gutter + id_width + context.px(8), right = at.x + width - number_width - context.px(8);
+    if (right > left + context.em()) draw_bars(context, {left, at.y}, right - left, change, moved);
+    ImGui::PopID();
+  }
+}
+
+/// Star, grids, and the places before, after and best, over the heat map.
+void draw_field_marks(const PanelContext& context, const Inspection& inspection, const ToWindow& at) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const VisitTrace& trace = *inspection.trace;
+  const ImU32 light = colour({0xff, 0xff, 0xff}), dark = colour({0x10, 0x12, 0x16});
+  for (const auto& [a, b] : inspection.edges) list.AddLine(at(a), at(b), colour({0x10, 0x12, 0x16}, 0.45F), context.px(1));
+  for (const TracedLevel& level : trace.levels) {
+    const Vec2<double> half{level.size.x / 2, level.size.y / 2};
+    const ImVec2 a = at(level.centre - half), b = at(level.centre + half);
+    list.AddRect({a.x, b.y}, {b.x, a.y}, dark, 0.0F, 0, context.px(2.6F));
+    list.AddRect({a.x, b.y}, {b.x, a.y}, light, 0.0F, 0, context.px(1.2F));
+  }
+  const ImVec2 from = at({}), to = at(trace.step);
+  list.AddCircle(from, context.px(4), dark, 0, context.px(3.4F));
+  list.AddCircle(from, context.px(4), light, 0, context.px(1.6F));
+  if (inspection.optimum) {
+    const ImVec2 best = at(inspection.optimum->at);
+    for (const bool casing : {true, false}) {
+      const float r = context.px(casing ? 7.0F : 5.4F);
+      list.AddQuadFilled({best.x - r, best.y}, {best.x, best.y - r}, {best.x + r, best.y}, {best.x, best.y + r},
+                         casing ? dark : colour(context.palette.accent));
+    }
+  }
+  if (trace.end == VisitEnd::Moved) {
+    list.AddCircleFilled(to, context.px(4.2F), dark);
+    list.AddCircleFilled(to, context.px(2.8F), light);
+  }
+}
+
+void draw_field_panel(PanelContext& context, const Inspection& inspection) {
+  const FieldPicture& picture = *inspection.field;
+  const QualityField& field = picture.field;
+  dim_text(context, fmt::format("{} around the vertex", metric_phrase(inspection.trace->metric)), false);
+  const double aspect = (field.high.y - field.low.y) / (field.high.x - field.low.x);
+  const float room = ImGui::GetContentRegionAvail().x;
+  float w = room, h = static_cast<float>(aspect) * w;
+  if (h > 1.15F * room) {
+    h = 1.15F * room;
+    w = h / static_cast<float>(aspect);
+  }
+  const ImVec2 cursor = ImGui::GetCursorScreenPos(), low{std::round(cursor.x + (room - w) / 2), cursor.y};
+  ImGui::InvisibleButton("##field", {room, h});
+  context.items.record_last("field");
+  if (!ImGui::IsItemVisible()) return;
+  const ToWindow at = [&](Vec2<double> p) {
+    return ImVec2{low.x + static_cast<float>((p.x - field.low.x) / (field.high.x - field.low.x)) * w,
+                  low.y + static_cast<float>((field.high.y - p.y) / (field.high.y - field.low.y)) * h};
+  };
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.PushClipRect(low, {low.x + w, low.y + h}, true);
+  draw_field(list, picture, {view_colours(context), context.palette, context.em(), context.px(1)}, at);
+  draw_field_marks(context, inspection, at);
+  list.PopClipRect();
+  if (!ImGui::IsItemHovered()) return;
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const Vec2<double> point{field.low.x + static_cast<double>((mouse.x - low.x) / w) * (field.high.x - field.low.x),
+                           field.high.y - static_cast<double>((mouse.y - low.y) / h) * (field.high.y - field.low.y)};
+  const auto value = field_at(field, point);
+  if (!value) return;
+  next_item_tooltip(fmt::format("{}\noffset {}, {}",
+                                value->second > 0.0 ? fmt::format("quality {}", short_number(value->first)) : "an element is inverted",
+                                short_number(point.x), short_number(point.y)));
+}
+
+}  // namespace
+
+void draw_inspection(PanelContext& context) {
+  draw_title(context);
+  const InspectionState& state = context.state.inspection;
+  const Inspection& inspection = context.inspection;
+  if (state.vertex == kNoIndex) {
+    wrapped(state.note.empty() ? "Click a vertex to look into its search; L goes to the one that the run visits next." : state.note);
+  } else if (!inspection.trace) {
+    wrapped(inspection.trouble);
+  } else {
+    draw_story(context, inspection);
+    if (!inspection.trace->levels.empty()) {
+      draw_buttons(context);
+      draw_levels(context, *inspection.trace);
+    }
+    draw_elements(context, *inspection.trace);
+    if (state.field && inspection.field) draw_field_panel(context, inspection);
+  }
+  ImGui::Dummy({0, context.px(2)});
+  ImGui::Separator();
+  ImGui::Dummy({0, context.px(2)});
+}
+
+}  // namespace dmoscope::ui

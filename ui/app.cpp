@@ -140,7 +140,10 @@ void App::notice_new_input() {
   seen_path_ = frame == nullptr ? std::filesystem::path() : frame->input->path;
   const bool same_ids = again && seen_sizes_ == std::pair{frame->vertex_count(), frame->element_count()};
   seen_sizes_ = frame == nullptr ? std::pair<Index, Index>{} : std::pair{frame->vertex_count(), frame->element_count()};
-  if (!same_ids) state_.picked = {};  // a file read again keeps what is picked and where one looks
+  if (!same_ids) {  // a file read again keeps what is picked and where one looks
+    state_.picked = {};
+    state_.inspection.open = state_.inspection.playing = false;
+  }
   if (!again) state_.requests.fit = true;
   for (PlotView& plot : state_.plots) plot.x_range.reset();
   if (frame != nullptr && !frame->input->path.empty()) remember_file(state_, frame->input->path.string());
@@ -182,7 +185,7 @@ render::Marks App::marks(const render::Camera2D& camera, double scale) const {
       marks.elements.push_back(incidence.element);
     marks.vertices = {state_.picked.id};
   }
-  if (state_.worst_marker && !frame->worst.empty()) marks.worst = frame->worst.front().element;
+  if (state_.worst_marker && !frame->worst.empty() && !state_.inspection.open) marks.worst = frame->worst.front().element;
   if (state_.inspection.open) {
     const render::Style look = style();
     const render::Rgb accent = palette(state_.theme).accent;
@@ -292,7 +295,7 @@ void App::draw(double now) {
   notice_new_input();
   update_derived();
   refresh(inspection_, state_, *session_, busy);
-  const double play_in = play_levels(state_, host_, now);
+  const double play_in = play_on(busy, now);
   items_.begin_frame();
   handle_shortcuts();
   PanelContext context{state_,
@@ -321,6 +324,18 @@ void App::draw(double now) {
   advance_sequence();
   watch_file();
   redraw_in_ = std::min(redraw_in_, play_in);
+}
+
+/// Each level as a command of its own, so that what was seen can be repeated. Returns after which time there may be more.
+double App::play_on(bool busy, double now) {
+  const LevelTurn turn = play_levels(state_, busy, now);
+  if (turn.line.empty()) return turn.wait;
+  submit(turn.line);
+  InspectionState& inspection = state_.inspection;
+  inspection.playing = inspection.open && !inspection.applied;
+  inspection.level_since = now;
+  refresh(inspection_, state_, *session_, true);
+  return turn.wait;
 }
 
 void App::update_derived() { refresh(derived_, state_, *session_); }

@@ -89,6 +89,7 @@ class App {
   void update_drawing();
   void notice_new_input();
   void update_derived();
+  double play_on(bool busy, double now);
   void update_scene(const Rect& rect, double now);
   void apply_fit();
   void handle_shortcuts();

@@ -118,6 +118,7 @@ void forget(InspectionState& state) {
   closed.field = state.field;
   closed.field_in_view = state.field_in_view;
   closed.own_range = state.own_range;
+  closed.playing = state.playing;
   state = closed;
 }
 

@@ -15,6 +15,7 @@ namespace dmoscope::ui {
 namespace {
 
 constexpr double kLevelTime = 0.8;  // seconds that playing shows a level
+constexpr double kBusyTime = 0.05;  // and waits for work to be done
 
 std::shared_ptr<const SessionView> session_of(const CommandHost& host) {
   auto session = host.session();
@@ -200,18 +201,6 @@ void set_level(ViewState& state, const SessionView& session, const std::string& 
   show_level(state, look, static_cast<int>(level));
 }
 
-void start_playing(ViewState& state, const CommandHost& host, const SessionView& session, bool play) {
-  InspectionState& inspection = state.inspection;
-  if (!play) {
-    inspection.playing = false;
-    return;
-  }
-  if (!inspection.open || inspection.vertex == kNoIndex || inspection.applied) next_level(state, host, session);
-  if (inspection.vertex == kNoIndex) return;
-  show_level(state, inspect(session, inspection.vertex), 1);
-  inspection.playing = true;
-}
-
 void add_opening_verbs(CommandTable& table, ViewState& state, const CommandHost& host) {
   table.add({"inspect", "inspect [on|off|toggle|vertex ID|element ID]",
              "looks into the search of a vertex: what is picked, or the next of the run; of an element its worst free corner"},
@@ -262,9 +251,10 @@ void add_level_verbs(CommandTable& table, ViewState& state, const CommandHost& h
   table.add({"play-levels", "play-levels [on|off|toggle]", "shows level after level, then applies the move"},
             [&state, &host](Arguments words) {
               need(words, 0, 1);
-              const auto session = session_of(host);
+              (void)session_of(host);
               follow_pick(state);
-              start_playing(state, host, *session, switched(words, 0, state.inspection.playing));
+              state.inspection.playing = switched(words, 0, state.inspection.playing);
+              state.inspection.level_since = -1.0;
             });
   table.add({"apply-move", "apply-move", "visits the inspected vertex: the run's own step when it is its turn"},
             [&state, &host](Arguments words) {
@@ -335,17 +325,16 @@ void add_inspection_verbs(CommandTable& table, ViewState& state, const CommandHo
   add_trace_verbs(table, state, host);
 }
 
-double play_levels(ViewState& state, const CommandHost& host, double now) {
+LevelTurn play_levels(ViewState& state, bool busy, double now) {
   InspectionState& inspection = state.inspection;
-  const auto session = host.session();
-  if (!inspection.playing || !session || !session->frame) return std::numeric_limits<double>::infinity();
-  if (inspection.level_since < 0.0) inspection.level_since = now;
+  if (!inspection.playing) return {};
+  if (busy) return {{}, kBusyTime};
+  if (inspection.level_since < 0.0) {
+    const bool shown = inspection.open && inspection.vertex != kNoIndex && !inspection.applied;
+    return {shown ? "level 1" : "level next", kLevelTime};
+  }
   const double rest = inspection.level_since + kLevelTime - now;
-  if (rest > 0.0) return rest;
-  next_level(state, host, *session);
-  inspection.playing = !inspection.applied;
-  inspection.level_since = now;
-  return inspection.playing ? kLevelTime : std::numeric_limits<double>::infinity();
+  return rest > 0.0 ? LevelTurn{{}, rest} : LevelTurn{"level next", kLevelTime};
 }
 
 }  // namespace dmoscope::ui

@@ -1,6 +1,9 @@
 #pragma once
 // Verbs that look into a visit, on plain state.
 
+#include <limits>
+#include <string>
+
 #include "ui/inspection.h"
 #include "ui/view_commands.h"
 
@@ -11,8 +14,12 @@ namespace dmoscope::ui {
 ///   field [on|off|toggle] | field-in-view [on|off|toggle] | level-range view|level | copy-level [N] | export-trace FILE.csv
 void add_inspection_verbs(CommandTable& table, ViewState& state, const CommandHost& host);
 
-/// While the levels play: shows the next one when its time has come, and at last applies the move. Returns after how many seconds there is
-/// something to do; infinity when nothing plays. `now`: seconds of the window.
-double play_levels(ViewState& state, const CommandHost& host, double now);
+/// What playing the levels asks for now: a command line, empty: none yet; and after how many seconds there may be another one.
+struct LevelTurn {
+  std::string line;
+  double wait = std::numeric_limits<double>::infinity();
+};
+/// `now`: seconds of the window. Whoever runs the line notes in the state since when its level is shown, and plays on until it is applied.
+[[nodiscard]] LevelTurn play_levels(ViewState& state, bool busy, double now);
 
 }  // namespace dmoscope::ui

@@ -7,20 +7,13 @@
 #include "ui/format.h"
 
 namespace dmoscope::ui {
-namespace {
-
-/// What the statistics say of a star: its least metric, or while an element is inverted its least Jacobian.
-double worth(const StarState& state) { return state.jacobian > 0.0 ? state.quality : state.jacobian; }
-
-}  // namespace
-
 std::string level_label(const InspectionState& state, const Inspection& inspection) {
   if (!inspection.trace) return {};
   const VisitTrace& trace = *inspection.trace;
   if (trace.levels.empty()) return "fixed";
   if (state.applied) {
-    if (trace.end != VisitEnd::Moved) return fmt::format("stays · {}", short_number(worth(trace.before)));
-    return fmt::format("moved · {} → {}", short_number(worth(trace.before)), short_number(worth(trace.after)));
+    if (trace.end != VisitEnd::Moved) return fmt::format("stays · {}", short_number(quality_of(trace.before)));
+    return fmt::format("moved · {} → {}", short_number(quality_of(trace.before)), short_number(quality_of(trace.after)));
   }
   if (state.all_levels) return fmt::format("levels 1 to {}", trace.levels.size());
   if (state.level < 1) return {};

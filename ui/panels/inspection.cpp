@@ -45,9 +45,11 @@ void draw_story(PanelContext& context, const Inspection& inspection) {
   if (!sentence.empty()) sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
   if (stuck.empty()) {
     wrapped(sentence);
-    if (const std::string gap = gap_sentence(inspection); !gap.empty()) {
-      dim_text(context, gap);
-      next_item_tooltip("best possible: the exact maximum of the star's mean ratio, wherever this one vertex might stand");
+    if (inspection.optimum) {
+      const std::string gap = gap_sentence(inspection);
+      number_row(context, "best possible here", inspection.optimum->quality,
+                 "the exact maximum of the star's mean ratio, wherever this one vertex might stand");
+      number_row(context, "gap", std::max(0.0, inspection.optimum->quality - quality_of(trace.after)), gap.c_str());
     }
   } else {
     wrapped(stuck);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "ui/format.h"
+#include "ui/inspection_text.h"
 #include "ui/panels/panels.h"
 
 namespace dmoscope::ui {
@@ -51,6 +52,28 @@ void draw_title(PanelContext& context, const Rect& rect, const Frame& frame) {
   x += title_width + pad;
   list.AddText({x, y}, colour(context.palette.text), moment.c_str());
   if (!shown.empty()) list.AddText({x + moment_width + 2 * pad, y}, colour(context.palette.warning), shown.c_str());
+}
+
+/// Which level is seen, at the upper left corner of its grid or as near to it as can be read.
+void draw_level_label(PanelContext& context, const Rect& rect) {
+  const InspectionState& state = context.state.inspection;
+  const std::string label = state.open ? level_label(state, context.inspection) : std::string();
+  if (label.empty()) return;
+  const Inspection& inspection = context.inspection;
+  Vec2<double> corner{inspection.box.low.x, inspection.box.high.y};
+  if (!state.applied && !state.all_levels && state.level >= 1 && !inspection.trace->levels.empty()) {
+    const TracedLevel& level = inspection.trace->levels[static_cast<std::size_t>(state.level - 1)];
+    corner = {level.centre.x - level.size.x / 2, level.centre.y + level.size.y / 2};
+  }
+  const Vec2<double> pixel = context.state.camera.to_pixel(inspection.origin + corner, context.state.viewport);
+  const ImVec2 size = ImGui::CalcTextSize(label.c_str());
+  const float pad = context.px(6), line = size.y;
+  const float highest = rect.y + 2 * line + 3 * pad, lowest = rect.y + rect.h - 6 * line;
+  const float x =
+      std::clamp(rect.x + static_cast<float>(pixel.x) - pad, rect.x + pad, std::max(rect.x + pad, rect.x + rect.w - size.x - 3 * pad));
+  const float y = std::clamp(rect.y + static_cast<float>(pixel.y) - line - 4 * pad, highest, std::max(highest, lowest));
+  plate(context, {x, y}, {x + size.x + 2 * pad, y + line + pad});
+  ImGui::GetWindowDrawList()->AddText({x + pad, y + pad / 2}, colour(context.palette.text), label.c_str());
 }
 
 void draw_bar_colours(const PanelContext& context, ImVec2 low, ImVec2 high) {
@@ -192,6 +215,7 @@ void draw_viewport(PanelContext& context, const Rect& rect) {
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
   context.items.record_last("viewport");
   handle_mouse(context, rect);
+  draw_level_label(context, rect);
   draw_title(context, rect, *frame);
   draw_colour_bar(context, rect, *frame);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(8), context.px(8)});

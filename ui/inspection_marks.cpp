@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
-
-#include <fmt/format.h>
 
 namespace dmoscope::ui {
 namespace {
@@ -75,13 +72,6 @@ void add_ring(Pen& pen, const TracedLevel& level, int index) {
 float candidate_diameter(double spacing, double part) {
   const double largest = std::clamp(0.72 * spacing, 2.0, 15.0);
   return static_cast<float>(largest * (0.42 + 0.58 * part));
-}
-
-std::string inspection_key(const InspectionState& state, const Inspection& inspection) {
-  if (!state.open || !inspection.trace) return {};
-  const CandidateName hovered = state.hovered.value_or(CandidateName{});
-  return fmt::format(" {} {} {} {} {} {} {}", inspection.key.frame_serial, inspection.key.vertex, state.level, state.all_levels,
-                     state.applied, hovered.level, hovered.index);
 }
 
 void add_inspection_marks(render::Marks& marks, const InspectionState& state, const Inspection& inspection, const InspectionLook& look) {

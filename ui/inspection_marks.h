@@ -26,7 +26,4 @@ struct InspectionLook {
 /// grid's outline, and the way from where the vertex stood.
 void add_inspection_marks(render::Marks& marks, const InspectionState& state, const Inspection& inspection, const InspectionLook& look);
 
-/// Changes whenever the marks do, the look aside.
-[[nodiscard]] std::string inspection_key(const InspectionState& state, const Inspection& inspection);
-
 }  // namespace dmoscope::ui

@@ -226,7 +226,7 @@ TEST_F(WithContext, ALivePictureComesToRestAtTheFullOneWhateverHappensOnTheWay) 
   live.update(*scene, wish);
   settle();
   ASSERT_TRUE(live.complete());
-  wish.marks.dots.push_back({scene->bounds().centre(), 12.0F, {1, 2, 3, 255}, false});
+  wish.marks.dots.push_back({scene->bounds().centre(), 12.0F, {1, 2, 3, 255}, DotShape::Round});
   live.update(*scene, wish);
   EXPECT_TRUE(live.complete()) << "marks ask for no new elements";
   Framebuffer copy(200, 120);

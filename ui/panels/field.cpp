@@ -67,29 +67,41 @@ class FieldPainter {
     }
   }
 
-  /// Each on its line, as far to the right as it goes; where another one is, none.
+  /// Each on its line, at one of its ends where no other one is.
   void labels() {
     const float size = 0.72F * look_.em;
     std::vector<ImVec2> taken;
     for (const FieldPicture::Line& line : picture_.lines) {
-      const auto rightmost = std::max_element(line.pieces.begin(), line.pieces.end(),
-                                              [](const ContourPiece& a, const ContourPiece& b) { return a.from.x < b.from.x; });
-      if (rightmost == line.pieces.end()) continue;
       const std::string text = fmt::format("{:g}", line.value);
-      const ImVec2 extent = ImGui::GetFont()->CalcTextSizeA(size, 1e6F, 0.0F, text.c_str()), on = at_(point(rightmost->from));
-      const bool crowded = std::any_of(taken.begin(), taken.end(), [&](ImVec2 other) {
-        return std::abs(other.x - on.x) < extent.x + 3 && std::abs(other.y - on.y) < 0.9F * size;
-      });
-      if (crowded) continue;
-      taken.push_back(on);
-      const render::Rgb ground = look_.colours.colour(line.value);
-      const ImVec2 low{on.x - extent.x / 2, on.y - extent.y / 2};
-      list_.AddRectFilled({low.x - 2, low.y}, {low.x + extent.x + 2, low.y + extent.y}, colour(ground, 0.85F), 2.0F);
-      list_.AddText(ImGui::GetFont(), size, low, colour(ink_on(ground)), text.c_str());
+      const ImVec2 extent = ImGui::GetFont()->CalcTextSizeA(size, 1e6F, 0.0F, text.c_str());
+      for (const Vec2<double> end : ends(line)) {
+        const ImVec2 on = at_(point(end));
+        const bool crowded = std::any_of(taken.begin(), taken.end(), [&](ImVec2 other) {
+          return std::abs(other.x - on.x) < extent.x + 3 && std::abs(other.y - on.y) < 0.9F * size;
+        });
+        if (crowded) continue;
+        taken.push_back(on);
+        const render::Rgb ground = look_.colours.colour(line.value);
+        const ImVec2 low{on.x - extent.x / 2, on.y - extent.y / 2};
+        list_.AddRectFilled({low.x - 2, low.y}, {low.x + extent.x + 2, low.y + extent.y}, colour(ground, 0.85F), 2.0F);
+        list_.AddText(ImGui::GetFont(), size, low, colour(ink_on(ground)), text.c_str());
+        break;
+      }
     }
   }
 
  private:
+  /// The outermost points of a line: to the right, left, above and below.
+  [[nodiscard]] static std::vector<Vec2<double>> ends(const FieldPicture::Line& line) {
+    std::vector<Vec2<double>> found;
+    for (const Vec2<double> way : {Vec2<double>{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+      const auto farthest = std::max_element(line.pieces.begin(), line.pieces.end(), [way](const ContourPiece& a, const ContourPiece& b) {
+        return dot(a.from, way) < dot(b.from, way);
+      });
+      if (farthest != line.pieces.end()) found.push_back(farthest->from);
+    }
+    return found;
+  }
   [[nodiscard]] std::size_t slot(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(field_.columns) + static_cast<std::size_t>(column);
   }

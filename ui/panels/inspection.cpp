@@ -40,25 +40,18 @@ void draw_title(PanelContext& context) {
 
 void draw_story(PanelContext& context, const Inspection& inspection) {
   const VisitTrace& trace = *inspection.trace;
-  const std::string stuck = stuck_sentence(inspection);
-  std::string sentence = trace.sentence();
-  if (!sentence.empty()) sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
-  if (stuck.empty()) {
-    wrapped(sentence);
-    if (inspection.optimum) {
-      const std::string gap = gap_sentence(inspection);
-      number_row(context, "best possible here", inspection.optimum->quality,
-                 "the exact maximum of the star's mean ratio, wherever this one vertex might stand");
-      number_row(context, "gap", std::max(0.0, inspection.optimum->quality - quality_of(trace.after)), gap.c_str());
-    }
-  } else {
-    wrapped(stuck);
+  if (const std::string stuck = stuck_sentence(inspection); !stuck.empty()) wrapped(stuck);
+  number_row(context, "its worst element now", quality_of(trace.before),
+             "least quality of its star; while an element is inverted: least normalised Jacobian");
+  if (trace.end == VisitEnd::Moved) number_row(context, "after this visit", quality_of(trace.after), trace.sentence().c_str());
+  if (inspection.optimum) {
+    number_row(context, "best possible", inspection.optimum->quality,
+               "the exact maximum of the star's mean ratio, wherever this one vertex might stand: the diamond");
+    number_row(context, "gap", std::max(0.0, inspection.optimum->quality - quality_of(trace.after)), gap_sentence(inspection).c_str());
   }
   dim_text(context, fmt::format("{} · {}", metric_phrase(trace.metric), search_phrase(trace)));
   next_item_tooltip(
-      fmt::format("What the candidates were compared by: {}.\nWhat is shown of them here is the quality as the statistics "
-                  "have it.\nQuality: {} to {}",
-                  trace.value_phrase, full_number(trace.before.quality), full_number(trace.after.quality)));
+      fmt::format("The candidates were compared by their {}. Shown of them is the quality as the statistics have it.", trace.value_phrase));
 }
 
 void draw_buttons(PanelContext& context) {
@@ -243,7 +236,10 @@ void draw_field_marks(const PanelContext& context, const Inspection& inspection,
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const VisitTrace& trace = *inspection.trace;
   const ImU32 light = colour({0xff, 0xff, 0xff}), dark = colour({0x10, 0x12, 0x16});
-  for (const auto& [a, b] : inspection.edges) list.AddLine(at(a), at(b), colour({0x10, 0x12, 0x16}, 0.45F), context.px(1));
+  for (const auto& [a, b] : inspection.edges) {
+    list.AddLine(at(a), at(b), colour({0xff, 0xff, 0xff}, 0.25F), context.px(2.4F));
+    list.AddLine(at(a), at(b), colour({0x10, 0x12, 0x16}, 0.55F), context.px(1));
+  }
   for (const TracedLevel& level : trace.levels) {
     const Vec2<double> half{level.size.x / 2, level.size.y / 2};
     const ImVec2 a = at(level.centre - half), b = at(level.centre + half);

@@ -80,6 +80,8 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
   value_row(context, "valence", count(topology.star(vertex).size()), {}, {}, "elements of its star");
   number_row(context, "quality now", facts.now, "minimum over its star, of the shown metric");
   number_row(context, "at the input", facts.before);
+  if (context.state.inspection.open && context.state.inspection.vertex == vertex) return;  // whose elements are listed above
+  action_button(context, "inspect", "Look into its search");
   dim_text(context, fmt::format("star, {}", metric_phrase(frame.shown)));
   for (const auto& [element, q, inverted] : facts.star) {
     ImGui::PushID(static_cast<int>(element));
@@ -159,7 +161,31 @@ void draw_element(PanelContext& context, const Frame& frame, Index element) {
     if (ImGui::SmallButton(id.c_str())) context.send(fmt::format("pick vertex {}", corner));
     next_item_tooltip("select this vertex");
   }
+  if (ImGui::SmallButton("Why is it so? Look at its worst corner")) context.send(fmt::format("inspect element {}", element));
+  context.items.record_last("why");
+  next_item_tooltip("looks into the search of its worst free corner");
   draw_metric_table(context);
+}
+
+/// At the right end of a row of the worst list: leads to the search of its worst free corner, or says that there is none.
+void draw_why(PanelContext& context, const Frame& frame, Index element, int row, ImVec2 at, float right) {
+  const RunView* run = context.run();
+  const auto corners = frame.input->mesh.elements.corners(element);
+  const bool fixed = run != nullptr && run->fixed.size() == frame.vertex_count() &&
+                     std::all_of(corners.begin(), corners.end(), [&](Index corner) { return run->fixed[corner] != 0; });
+  const char* label = fixed ? "fixed" : "why?";
+  const ImVec2 size = ImGui::CalcTextSize(label), back = ImGui::GetCursorScreenPos();
+  ImGui::SetCursorScreenPos({right - size.x, at.y});
+  if (ImGui::InvisibleButton("##why", size)) context.send(fmt::format("inspect element {}", element));
+  context.items.record_last(fmt::format("why:{}", row));
+  next_item_tooltip(fixed ? "All its corners are fixed: no smoothing can change it. It is part of the ceiling."
+                          : "looks into the search of its worst free corner: what limits it, and how much is left");
+  ImGui::GetWindowDrawList()->AddText({right - size.x, at.y},
+                                      colour(ImGui::IsItemHovered() ? context.palette.text
+                                             : fixed                ? context.palette.dim
+                                                                    : context.palette.accent),
+                                      label);
+  ImGui::SetCursorScreenPos(back);
 }
 
 }  // namespace
@@ -203,6 +229,7 @@ void draw_worst(PanelContext& context) {
   heading(context, "Worst elements");
   ImGui::SameLine();
   dim_text(context, metric_phrase(frame->shown), false);
+  const float number_width = ImGui::CalcTextSize("0.00000").x;
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(frame->worst.size()));
   while (clipper.Step()) {
@@ -212,7 +239,8 @@ void draw_worst(PanelContext& context) {
       const ImVec2 at = ImGui::GetCursorScreenPos();
       const float width = ImGui::GetContentRegionAvail().x;
       const bool selected = context.state.picked == Picked{Picked::Kind::Element, ranked.element};
-      if (ImGui::Selectable("##worst", selected)) context.send(fmt::format("goto element {}", ranked.element));
+      if (ImGui::Selectable("##worst", selected, ImGuiSelectableFlags_AllowItemOverlap))
+        context.send(fmt::format("goto element {}", ranked.element));
       context.items.record_last(fmt::format("worst:{}", k));
       next_item_tooltip(full_number(ranked.quality) + "\nclick to go there");
       ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -222,6 +250,7 @@ void draw_worst(PanelContext& context) {
                    fmt::format("element {}", count(ranked.element)).c_str());
       list.AddText({at.x + width - ImGui::CalcTextSize(number.c_str()).x - context.px(4), at.y},
                    colour(ranked.inverted ? context.palette.error : context.palette.text), number.c_str());
+      draw_why(context, *frame, ranked.element, k, at, at.x + width - number_width - context.px(14));
       ImGui::PopID();
     }
   }

@@ -120,6 +120,10 @@ class MeshScene {
   /// Milliseconds even for millions of elements; of a light frame once a frame as long as it takes to bring all of it to the host, and
   /// nothing when the device does not give it.
   [[nodiscard]] Pick pick(const Camera2D& camera, Vec2<double> viewport, Vec2<double> pixel, double radius = 8.0) const;
+  /// All vertices of elements within `radius` pixels of `pixel`, ascending; at the cost of pick().
+  [[nodiscard]] std::vector<Index> vertices_near(const Camera2D& camera, Vec2<double> viewport, Vec2<double> pixel, double radius) const;
+  /// The elements in view and some around it, in no order; none when they are more than `most`, or stand on a device.
+  [[nodiscard]] std::optional<std::vector<Index>> elements_in_view(const Camera2D& camera, Vec2<double> viewport, std::size_t most) const;
 
   /// The ids that have room in a viewport of that size: of an element inside of it, of a vertex between it and its neighbours. None when
   /// there are more than wish.most, and none while too much is in view to look at it all.

@@ -50,6 +50,51 @@ Pick MeshScene::pick(const Camera2D& camera, Vec2<double> viewport, Vec2<double>
   return result;
 }
 
+std::vector<Index> MeshScene::vertices_near(const Camera2D& camera, Vec2<double> viewport, Vec2<double> pixel, double radius) const {
+  std::vector<Index> found;
+  Impl& s = *impl_;
+  if (empty() || s.source == Source::Unreachable) return found;
+  try {
+    s.place_all();
+  } catch (const DeviceError&) {
+    return found;
+  }
+  const Vec2<double> point = camera.to_plane(pixel, viewport);
+  const double reach = radius * camera.units_per_pixel;
+  const Bounds2 window{{point.x - reach, point.y - reach}, {point.x + reach, point.y + reach}};
+  for (std::size_t batch = 0; batch < 2; ++batch) {
+    const Batch& elements = s.placement.layout().batches[batch];
+    for (const DrawRange& range : s.placement.visible(batch, window)) {
+      for (Index drawn = range.first; drawn < range.last; ++drawn) {
+        if (s.hidden(elements.order[drawn])) continue;
+        for (const Index v : elements.corners_of(drawn)) {
+          const Vec2<double> away = s.placement.points()[v] - point;
+          if (dot(away, away) <= reach * reach) found.push_back(v);
+        }
+      }
+    }
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+std::optional<std::vector<Index>> MeshScene::elements_in_view(const Camera2D& camera, Vec2<double> viewport, std::size_t most) const {
+  const Impl& s = *impl_;
+  std::vector<Index> found;
+  if (empty()) return found;
+  if (!s.placement_current) return std::nullopt;
+  const Impl::InView seen = s.in_view(camera.visible(viewport));
+  if (seen.count > most) return std::nullopt;
+  for (std::size_t batch = 0; batch < 2; ++batch) {
+    const Batch& elements = s.placement.layout().batches[batch];
+    for (const DrawRange& range : seen.ranges[batch])
+      for (Index drawn = range.first; drawn < range.last; ++drawn)
+        if (!s.hidden(elements.order[drawn])) found.push_back(elements.order[drawn]);
+  }
+  return found;
+}
+
 namespace {
 
 /// Where an element's label belongs, and how far that is from the nearest edge; nothing for an element that is too thin for words.

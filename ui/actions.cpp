@@ -54,6 +54,22 @@ constexpr std::array kActions{
     Action{"flip", "Run", "Flip between A and B", "X", "flip", Needs::Mesh},
     Action{"flip-now", "Run", "Show now again", "Shift+X", "flip now", Needs::Mesh},
     Action{"next-run", "Run", "Next run", "Tab", "next-run", Needs::SeveralRuns, true},
+    Action{"next-class", "Run", "Show who moves next", "H", "next-class toggle", Needs::Mesh, true},
+    Action{"arrows-previous", "Run", "Arrows of the last step", "A", "arrows previous toggle", Needs::Mesh},
+    Action{"arrows-input", "Run", "Arrows from the input", "Alt+A", "arrows input toggle", Needs::Mesh},
+    Action{"arrows-longer", "Run", "Longer arrows", "Ctrl+A", "arrow-scale up", Needs::Mesh},
+    Action{"arrows-shorter", "Run", "Shorter arrows", "Ctrl+Shift+A", "arrow-scale down", Needs::Mesh},
+    Action{"arrows-auto", "Run", "Arrows as long as can be read", "", "arrow-scale auto", Needs::Mesh},
+    Action{"ghost-previous", "Run", "Ghost of the mesh before the last step", "O", "ghost previous toggle", Needs::Mesh},
+    Action{"ghost-input", "Run", "Ghost of the input", "Shift+O", "ghost input toggle", Needs::Mesh},
+
+    Action{"brush", "Select", "Brush: drag to select vertices", "S", "brush toggle", Needs::Mesh},
+    Action{"brush-wider", "Select", "Wider brush", "Shift+S", "brush-radius up", Needs::Mesh},
+    Action{"brush-narrower", "Select", "Narrower brush", "Alt+S", "brush-radius down", Needs::Mesh},
+    Action{"smooth-selected", "Select", "Smooth the selected vertices", "Ctrl+Space", "smooth-selected", Needs::Selected, true},
+    Action{"fix-selected", "Select", "Fix the selected vertices", "Ctrl+Shift+F", "fix-selected", Needs::Selected},
+    Action{"select-none", "Select", "Select no vertices", "Ctrl+D", "select none", Needs::Selected},
+    Action{"click-smooths", "Select", "Smooth the vertex that is clicked", "T", "click-smooths toggle", Needs::Mesh, true},
 
     Action{"fit", "View", "Fit", "F", "fit", Needs::Mesh},
     Action{"zoom-in", "View", "Zoom in", "+", "zoom 1.25", Needs::Mesh},
@@ -156,6 +172,8 @@ bool enabled(const Action& action, const Situation& now) {
       return now.mesh && !now.busy && now.runs > 1;
     case Needs::Picked:
       return now.picked;
+    case Needs::Selected:
+      return now.mesh && !now.busy && now.selected;
   }
   return false;
 }

@@ -11,7 +11,7 @@
 namespace dmoscope::ui {
 
 /// What must be so for an action to be possible.
-enum class Needs { Nothing, Mesh, Idle, MeshAndIdle, Work, SeveralRuns, Picked };
+enum class Needs { Nothing, Mesh, Idle, MeshAndIdle, Work, SeveralRuns, Picked, Selected };
 
 struct Action {
   std::string_view id;       // "step-iteration"; also the name of its items
@@ -36,6 +36,7 @@ struct Action {
 struct Situation {
   bool mesh = false, busy = false, picked = false;
   std::size_t runs = 0;
+  bool selected = false;  // at least one vertex; see Selection
 };
 [[nodiscard]] bool enabled(const Action& action, const Situation& situation);
 

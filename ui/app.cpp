@@ -142,6 +142,7 @@ void App::notice_new_input() {
   seen_sizes_ = frame == nullptr ? std::pair<Index, Index>{} : std::pair{frame->vertex_count(), frame->element_count()};
   if (!same_ids) {  // a file read again keeps what is picked and where one looks
     state_.picked = {};
+    state_.selection.clear();
     state_.inspection.open = state_.inspection.playing = false;
   }
   if (!again) state_.requests.fit = true;
@@ -174,7 +175,7 @@ render::Style App::style() const {
   return style;
 }
 
-render::Marks App::marks(const render::Camera2D& camera, double scale) const {
+render::Marks App::marks(const MarkView& view) {
   render::Marks marks;
   const Frame* frame = session_->frame.get();
   if (frame == nullptr) return marks;
@@ -186,12 +187,18 @@ render::Marks App::marks(const render::Camera2D& camera, double scale) const {
     marks.vertices = {state_.picked.id};
   }
   if (state_.worst_marker && !frame->worst.empty() && !state_.inspection.open) marks.worst = frame->worst.front().element;
+  stepping_.add_marks(marks, state_, *session_, view,
+                      [this](const MarkView& seen, std::size_t most) { return scene_.elements_in_view(seen.camera, seen.viewport, most); });
   if (state_.inspection.open) {
     const render::Style look = style();
     const render::Rgb accent = palette(state_.theme).accent;
-    add_inspection_marks(
-        marks, state_.inspection, inspection_,
-        {look.colours, look.highlight_colour, look.casing_colour, {accent.r, accent.g, accent.b, 255}, camera.units_per_pixel, scale});
+    add_inspection_marks(marks, state_.inspection, inspection_,
+                         {look.colours,
+                          look.highlight_colour,
+                          look.casing_colour,
+                          {accent.r, accent.g, accent.b, 255},
+                          view.camera.units_per_pixel,
+                          view.scale});
   }
   return marks;
 }
@@ -217,7 +224,7 @@ void App::update_scene(const Rect& rect, double now) {
   const bool restless = moving(now) || (activity_.busy && activity_.busy_seconds > kRestAfter);
   const double detail = render::suggested_detail(scene_.element_count(), options_.software_renderer, true);
   const auto w = static_cast<int>(std::lround(rect.w)), h = static_cast<int>(std::lround(rect.h));
-  picture_.update(scene_, {w, h, state_.camera, style(), marks(state_.camera, state_.scale), detail, !restless});
+  picture_.update(scene_, {w, h, state_.camera, style(), marks({state_.camera, state_.viewport, state_.scale}), detail, !restless});
   refining_ = !picture_.complete();
   activity_.reduced = refining_;
   if (refining_ && !activity_.busy) redraw_in_ = restless ? std::min(redraw_in_, kRestAfter) : 0.0;
@@ -237,7 +244,8 @@ void App::handle_shortcuts() {
     if (!hit) continue;
     // With the keyboard in the widgets, Space presses the one that has the focus.
     if (chord->code == key::kSpace && io.NavVisible) continue;
-    if (enabled(action, {session_->input != nullptr, activity_.busy, state_.picked.kind != Picked::Kind::None, session_->runs.size()})) {
+    if (enabled(action, {session_->input != nullptr, activity_.busy, state_.picked.kind != Picked::Kind::None, session_->runs.size(),
+                         !state_.selection.empty()})) {
       submit(action.command);
     }
     return;
@@ -271,6 +279,7 @@ void App::draw_panels(PanelContext& context) {
   const Layout layout = compute_layout(state_.panels, screen.x, screen.y, context.em(), menu);
   update_scene(layout.viewport, context.now);
   context.mesh_texture = picture_.texture();
+  context.stepping_note = stepping_.note(state_, *session_);
   draw_toolbar(context, layout.toolbar);
   draw_viewport(context, layout.viewport);
   if (!layout.folded) {
@@ -294,27 +303,31 @@ void App::draw(double now) {
   take_news(now);
   notice_new_input();
   update_derived();
+  if (state_.timeline.shown == Shown::Now) stepping_.update(*session_, busy);
   refresh(inspection_, state_, *session_, busy);
   const double play_in = play_on(busy, now);
   items_.begin_frame();
   handle_shortcuts();
-  PanelContext context{state_,
-                       widgets_,
-                       *session_,
-                       activity_,
-                       derived_,
-                       inspection_,
-                       palette(state_.theme),
-                       fonts_,
-                       items_,
-                       [this](const std::string& line) { submit(line); },
-                       [this](Vec2<double> pixel) {
-                         const render::Pick pick = scene_.pick(state_.camera, state_.viewport, pixel, 8.0 * state_.scale);
-                         return std::pair{pick.vertex, pick.element};
-                       },
-                       commands_.commands(),
-                       0,
-                       now};
+  PanelContext context{
+      state_,
+      widgets_,
+      *session_,
+      activity_,
+      derived_,
+      inspection_,
+      palette(state_.theme),
+      fonts_,
+      items_,
+      [this](const std::string& line) { submit(line); },
+      [this](Vec2<double> pixel) {
+        const render::Pick pick = scene_.pick(state_.camera, state_.viewport, pixel, 8.0 * state_.scale);
+        return std::pair{pick.vertex, pick.element};
+      },
+      [this](Vec2<double> pixel, double radius) { return scene_.vertices_near(state_.camera, state_.viewport, pixel, radius); },
+      {},
+      commands_.commands(),
+      0,
+      now};
   // What a panel holds must stay alive until the frame is done, whatever its commands bring about.
   const std::shared_ptr<const SessionView> held = session_;
   draw_panels(context);
@@ -361,7 +374,7 @@ render::Image App::mesh_picture(const ScreenshotOptions& options) {
   look.scale = 1.0F;  // Shot::scale multiplies it
   look.transparent = options.transparent;
   const render::Camera2D camera = state_.camera.for_viewport(state_.viewport, render::mesh_viewport(shot));
-  return render::render_image(scene_, camera, look, marks(camera, state_.scale), shot).image;
+  return render::render_image(scene_, camera, look, marks({camera, render::mesh_viewport(shot), state_.scale}), shot).image;
 }
 
 }  // namespace dmoscope::ui

@@ -14,6 +14,7 @@
 #include "render/screenshot.h"
 #include "ui/file_watch.h"
 #include "ui/panels/panels.h"
+#include "ui/stepping_view.h"
 #include "ui/view_commands.h"
 #include "ui/view_state.h"
 
@@ -95,8 +96,8 @@ class App {
   void handle_shortcuts();
   void draw_panels(PanelContext& context);
   void draw_side(PanelContext& context, const char* name, const Rect& rect, bool overlay, bool left);
-  /// `camera`, `scale`: of the picture that they are drawn in.
-  [[nodiscard]] render::Marks marks(const render::Camera2D& camera, double scale) const;
+  /// `view`: of the picture that they are drawn in.
+  [[nodiscard]] render::Marks marks(const MarkView& view);
   [[nodiscard]] render::Style style() const;
   [[nodiscard]] bool moving(double now) const;
 
@@ -109,6 +110,7 @@ class App {
   Activity activity_;
   Derived derived_;
   Inspection inspection_;
+  SteppingView stepping_;
   WidgetState widgets_;
   Items items_;
   Fonts fonts_;

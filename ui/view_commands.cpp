@@ -14,6 +14,8 @@
 #include "ui/input_commands.h"
 #include "ui/inspection_commands.h"
 #include "ui/plot_commands.h"
+#include "ui/selection_commands.h"
+#include "ui/stepping_commands.h"
 #include "ui/timeline_commands.h"
 #include "ui/view_geometry.h"
 
@@ -265,6 +267,8 @@ CommandTable view_commands(ViewState& state, const CommandHost& host) {
   add_desktop_verbs(table, state, host);
   add_timeline_verbs(table, state, host);
   add_file_verbs(table, state, host);
+  add_selection_verbs(table, state, host);
+  add_stepping_verbs(table, state);
   return table;
 }
 

@@ -17,7 +17,9 @@
 #include "ui/inspection_state.h"
 #include "ui/keys.h"
 #include "ui/plot_state.h"
+#include "ui/selection.h"
 #include "ui/sequence.h"
+#include "ui/stepping_state.h"
 #include "ui/timeline.h"
 
 namespace dmoscope::ui {
@@ -108,6 +110,9 @@ struct ViewState {
 
   // Selection
   Picked picked;
+  Selection selection;
+  Brush brush;
+  SteppingState stepping;
   InspectionState inspection;
 
   // Time

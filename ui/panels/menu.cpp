@@ -11,6 +11,14 @@ namespace {
 bool is_checked(const ViewState& state, std::string_view id) {
   if (id == "wireframe") return state.wireframe;
   if (id == "vertices") return state.vertices;
+  if (id == "next-class") return state.stepping.next_class;
+  if (id == "arrows-previous") return state.stepping.arrows == Reference::Previous;
+  if (id == "arrows-input") return state.stepping.arrows == Reference::Input;
+  if (id == "arrows-auto") return !(state.stepping.arrow_scale > 0.0);
+  if (id == "ghost-previous") return state.stepping.ghost == Reference::Previous;
+  if (id == "ghost-input") return state.stepping.ghost == Reference::Input;
+  if (id == "brush") return state.brush.on;
+  if (id == "click-smooths") return state.stepping.click_smooths;
   if (id == "worst-marker") return state.worst_marker;
   if (id == "range-fixed") return state.range_mode == RangeMode::Fixed;
   if (id == "range-auto") return state.range_mode == RangeMode::Auto;

@@ -108,9 +108,11 @@ struct PanelContext {
   const Palette& palette;
   const Fonts& fonts;
   Items& items;
-  std::function<void(const std::string&)> send;               // one command line; errors become messages
-  std::function<std::pair<Index, Index>(Vec2<double>)> pick;  // vertex and element at a pixel of the viewport
-  const std::vector<CommandInfo>& verbs;                      // of the window, for the palette
+  std::function<void(const std::string&)> send;                           // one command line; errors become messages
+  std::function<std::pair<Index, Index>(Vec2<double>)> pick;              // vertex and element at a pixel of the viewport
+  std::function<std::vector<Index>(Vec2<double>, double)> vertices_near;  // of a pixel of the viewport, within so many pixels
+  std::string stepping_note;                                              // see SteppingView::note
+  const std::vector<CommandInfo>& verbs;                                  // of the window, for the palette
   unsigned mesh_texture = 0;
   double now = 0.0;  // seconds
 
@@ -153,6 +155,8 @@ void draw_inspector(PanelContext& context);
 void draw_worst(PanelContext& context);
 void draw_inspection(PanelContext& context);
 void draw_viewport(PanelContext& context, const Rect& rect);
+/// The brush under the mouse over the mesh's item, drawn last; `at`: the mouse in the viewport. True: dragging is the brush's.
+bool handle_brush(PanelContext& context, const Rect& rect, Vec2<double> at);
 void draw_start_page(PanelContext& context, const Rect& rect);
 void draw_plots(PanelContext& context, const Rect& rect);
 void draw_timeline(PanelContext& context);

@@ -21,6 +21,15 @@ void plate(const PanelContext& context, ImVec2 low, ImVec2 high) {
   ImGui::GetWindowDrawList()->AddRectFilled(low, high, colour(context.palette.panel, 0.90F), context.px(5));
 }
 
+/// What is shown of stepping and selecting, below the title.
+void draw_note(const PanelContext& context, ImVec2 at, float most) {
+  if (context.stepping_note.empty()) return;
+  const float pad = context.px(8);
+  const std::string note = fit_text(context.stepping_note, most - 2 * pad);
+  plate(context, at, {at.x + 2 * pad + ImGui::CalcTextSize(note.c_str()).x, at.y + ImGui::GetTextLineHeight() + pad});
+  ImGui::GetWindowDrawList()->AddText({at.x + pad, at.y + pad / 2}, colour(context.palette.dim), note.c_str());
+}
+
 void draw_title(PanelContext& context, const Rect& rect, const Frame& frame) {
   const RunView* run = context.run();
   if (run == nullptr) return;
@@ -52,6 +61,7 @@ void draw_title(PanelContext& context, const Rect& rect, const Frame& frame) {
   x += title_width + pad;
   list.AddText({x, y}, colour(context.palette.text), moment.c_str());
   if (!shown.empty()) list.AddText({x + moment_width + 2 * pad, y}, colour(context.palette.warning), shown.c_str());
+  draw_note(context, {at.x, at.y + line + 1.25F * pad}, rect.w - 2 * pad);
 }
 
 /// Which level is seen, at the upper left corner of its grid or as near to it as can be read.
@@ -135,6 +145,9 @@ void pick_at(PanelContext& context, Vec2<double> pixel) {
   const auto [vertex, element] = context.pick(pixel);
   if (vertex != kNoIndex && !ImGui::GetIO().KeyAlt) {
     context.send(fmt::format("pick vertex {}", vertex));
+    const RunView* run = context.run();
+    const bool is_free = run != nullptr && vertex < run->fixed.size() && run->fixed[vertex] == 0;
+    if (context.state.stepping.click_smooths && is_free && !context.activity.busy) context.send(fmt::format("visit {}", vertex));
   } else if (element != kNoIndex) {
     context.send(fmt::format("pick element {}", element));
   } else {
@@ -173,7 +186,9 @@ void handle_mouse(PanelContext& context, const Rect& rect) {
     context.widgets.moved_at = context.now;
   }
   if (ImGui::IsItemActivated()) context.widgets.dragged = false;
+  const bool painting = handle_brush(context, rect, at);
   for (const int button : {ImGuiMouseButton_Left, ImGuiMouseButton_Middle}) {
+    if (painting && button == ImGuiMouseButton_Left) continue;
     if (!ImGui::IsItemActive() || !ImGui::IsMouseDragging(button, context.widgets.dragged ? 0.0F : context.px(4))) continue;
     // The first drag event carries the way from the press on, so that the grabbed point stays under the cursor.
     const ImVec2 move = context.widgets.dragged ? io.MouseDelta : ImGui::GetMouseDragDelta(button, 0.0F);
@@ -181,7 +196,9 @@ void handle_mouse(PanelContext& context, const Rect& rect) {
     state.camera.pan({static_cast<double>(move.x), static_cast<double>(move.y)});
     if (move.x != 0 || move.y != 0) context.widgets.moved_at = context.now;
   }
-  if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+  if (painting) {
+    // Neither a pick nor a fit.
+  } else if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
     context.send("fit");
   } else if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && ImGui::IsItemDeactivated() && !context.widgets.dragged) {
     pick_at(context, at);

@@ -9,7 +9,7 @@
 namespace dmoscope::ui {
 
 Situation PanelContext::situation() const {
-  return {session.input != nullptr, activity.busy, state.picked.kind != Picked::Kind::None, session.runs.size()};
+  return {session.input != nullptr, activity.busy, state.picked.kind != Picked::Kind::None, session.runs.size(), !state.selection.empty()};
 }
 
 void begin_panel(const char* name, const Rect& rect, bool overlay, bool scrolls) {

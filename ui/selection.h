@@ -1,0 +1,53 @@
+#pragma once
+// The vertices that a person has chosen to smooth or to fix, and the brush that chooses them.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/vec.h"
+
+namespace dmoscope::ui {
+
+/// A set of vertices.
+class Selection {
+ public:
+  /// Ascending, each once.
+  [[nodiscard]] const std::vector<Index>& vertices() const noexcept { return vertices_; }
+  [[nodiscard]] bool empty() const noexcept { return vertices_.empty(); }
+  [[nodiscard]] bool contains(Index vertex) const;
+  /// Grows with every change: "must it be drawn again?"
+  [[nodiscard]] std::uint64_t serial() const noexcept { return serial_; }
+  /// All take vertices in any order.
+  void assign(std::vector<Index> vertices);
+  void add(std::span<const Index> vertices);
+  void remove(std::vector<Index> vertices);
+  void clear() { assign({}); }
+
+ private:
+  std::vector<Index> vertices_;
+  std::uint64_t serial_ = 0;
+};
+
+/// What a stroke of the brush does with the vertices under it.
+enum class StrokeKind { Select, Add, Remove };
+
+struct Brush {
+  bool on = false;        // dragging paints instead of moving the view
+  double radius = 20.0;   // pixels at scale 1
+  bool painting = false;  // a stroke is under way
+  StrokeKind kind = StrokeKind::Select;
+  Selection stroke;     // what it has touched so far
+  Vec2<double> last{};  // where it last was; pixels of the viewport
+};
+
+/// The selection as it will be once the stroke has ended.
+[[nodiscard]] Selection after_stroke(const Selection& selection, const Brush& brush);
+
+/// Ascending numbers as words of a command: "3-7 9".
+[[nodiscard]] std::string id_ranges(std::span<const Index> vertices);
+/// The reverse; all must be below `count`. Throws UsageError.
+[[nodiscard]] std::vector<Index> parse_id_ranges(std::span<const std::string> words, Index count);
+
+}  // namespace dmoscope::ui

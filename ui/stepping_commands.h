@@ -1,0 +1,11 @@
+#pragma once
+// The verbs of what the view shows of stepping.
+
+#include "ui/view_commands.h"
+
+namespace dmoscope::ui {
+
+///   next-class on|off|toggle | arrows off|input|previous [toggle] | arrow-scale FACTOR|auto|up|down | ghost off|input|previous [toggle]
+void add_stepping_verbs(CommandTable& table, ViewState& state);
+
+}  // namespace dmoscope::ui

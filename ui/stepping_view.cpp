@@ -1,0 +1,144 @@
+#include "ui/stepping_view.h"
+
+#include <cstring>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "ui/format.h"
+
+namespace dmoscope::ui {
+namespace {
+
+/// Ghosts of more elements than this around the view would be a grey veil.
+constexpr std::size_t kMostGhosts = 60'000;
+
+bool same_mesh(const Frame& a, const Frame& b) { return a.input_serial == b.input_serial && a.run == b.run && a.input == b.input; }
+
+bool same_positions(const Frame& a, const Frame& b) {
+  return a.positions.size() == b.positions.size() &&
+         std::memcmp(a.positions.data(), b.positions.data(), a.positions.size() * sizeof(Vec3)) == 0;
+}
+
+render::Rgba solid(render::Rgb c, int alpha = 255) { return {c.r, c.g, c.b, static_cast<std::uint8_t>(alpha)}; }
+
+}  // namespace
+
+void SteppingView::update(const SessionView& session, bool busy) {
+  const std::shared_ptr<const Frame>& frame = session.frame;
+  if (!frame) {
+    rest_.reset();
+    previous_.reset();
+    return;
+  }
+  if (busy || frame->device || rest_ == frame) return;
+  if (!rest_ || !same_mesh(*rest_, *frame)) {
+    previous_.reset();
+  } else if (!same_positions(*rest_, *frame)) {
+    previous_ = rest_;
+  }
+  rest_ = frame;
+}
+
+std::optional<std::span<const Vec3>> SteppingView::positions_of(Reference reference, const Frame& frame) const {
+  if (frame.device) return std::nullopt;
+  if (reference == Reference::Input) return std::span(frame.input->mesh.positions);
+  if (reference == Reference::Previous && previous_ && same_mesh(*previous_, frame)) return std::span(previous_->positions);
+  return std::nullopt;
+}
+
+std::string SteppingView::key(const ViewState& state, const Frame& frame, const MarkView& view) const {
+  const SteppingState& s = state.stepping;
+  const Brush& brush = state.brush;
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", frame.serial, previous_ ? previous_->serial : 0,
+                     view.camera.centre.x, view.camera.centre.y, view.camera.units_per_pixel, view.viewport.x, view.viewport.y, view.scale,
+                     static_cast<int>(state.theme), s.next_class, static_cast<int>(s.arrows), s.arrow_scale, static_cast<int>(s.ghost),
+                     state.selection.serial(), brush.painting, static_cast<int>(brush.kind), brush.stroke.serial());
+}
+
+void SteppingView::add_marks(render::Marks& marks, const ViewState& state, const SessionView& session, const MarkView& view,
+                             const ElementsInView& elements_in_view) {
+  const Frame* frame = session.frame.get();
+  if (frame == nullptr || frame->device) return;
+  std::string wanted = key(state, *frame, view);
+  if (wanted != marks_key_) {
+    marks_ = {};
+    make_marks(state, session, view, elements_in_view);
+    marks_key_ = std::move(wanted);
+  }
+  marks.lines.insert(marks.lines.end(), marks_.lines.begin(), marks_.lines.end());
+  marks.dots.insert(marks.dots.end(), marks_.dots.begin(), marks_.dots.end());
+}
+
+void SteppingView::make_marks(const ViewState& state, const SessionView& session, const MarkView& view,
+                              const ElementsInView& elements_in_view) {
+  const Frame& frame = *session.frame;
+  const Palette& colours = palette(state.theme);
+  const Plane& plane = frame.input->geometry.plane;
+  ghost_too_fine_ = false;
+  if (const auto from = positions_of(state.stepping.ghost, frame)) {
+    const auto elements = elements_in_view(view, kMostGhosts);
+    ghost_too_fine_ = !elements;
+    if (elements)
+      add_ghost(marks_, view, frame.input->mesh, plane, *from, frame.positions, *elements, solid(colours.text),
+                solid(colours.background, 120));
+  }
+  if (const auto from = positions_of(state.stepping.arrows, frame)) {
+    const std::tuple wanted{state.stepping.arrows, previous_ ? previous_->serial : 0, frame.serial};
+    if (moved_key_ != wanted) moved_ = Displacements(plane, *from, frame.positions);
+    moved_key_ = wanted;
+    factor_ = arrow_factor(view, moved_, state.stepping.arrow_scale);
+    add_arrows(marks_, view, moved_, factor_, solid(colours.text), solid(colours.background, 230));
+  }
+  if (state.stepping.next_class) add_next_class(state, session, view);
+  add_selection(state, frame, view);
+}
+
+void SteppingView::add_next_class(const ViewState& state, const SessionView& session, const MarkView& view) {
+  const Frame& frame = *session.frame;
+  if (frame.run >= session.runs.size() || !session.runs[frame.run].colouring) return;
+  const NextClass next = next_class(*session.runs[frame.run].colouring, frame.moment.visits);
+  if (next.vertices.empty()) return;
+  const render::Rgba accent = solid(palette(state.theme).runs[frame.run % 8]);
+  add_dots(marks_, view, *frame.input, frame.positions, next.vertices, accent, 8.0);
+  const Vec2<double> first = frame.input->geometry.plane.project(frame.positions[next.vertices.front()]);
+  marks_.dots.push_back({first, 20.0F, accent, render::DotShape::Ring});
+}
+
+void SteppingView::add_selection(const ViewState& state, const Frame& frame, const MarkView& view) {
+  const Selection selection = state.brush.painting ? after_stroke(state.selection, state.brush) : state.selection;
+  if (selection.empty() || selection.vertices().back() >= frame.vertex_count()) return;
+  add_dots(marks_, view, *frame.input, frame.positions, selection.vertices(), solid(palette(state.theme).text), 8.0);
+}
+
+std::string SteppingView::note(const ViewState& state, const SessionView& session) const {
+  const Frame* frame = session.frame.get();
+  if (frame == nullptr) return {};
+  std::string text;
+  const auto add = [&text](const std::string& part) { text += text.empty() ? part : " · " + part; };
+  const SteppingState& s = state.stepping;
+  const bool wanted = s.next_class || s.arrows != Reference::None || s.ghost != Reference::None || !state.selection.empty();
+  if (wanted && frame->device) return "stepping is shown when the run rests";
+  if (s.next_class && frame->run < session.runs.size() && session.runs[frame->run].colouring) {
+    const NextClass next = next_class(*session.runs[frame->run].colouring, frame->moment.visits);
+    if (next.number > 0) add(fmt::format("next: class {} of {}, {} vertices", next.number, next.count, count(next.vertices.size())));
+  }
+  const auto since = [](Reference r) { return r == Reference::Input ? "the input" : "the last step"; };
+  if (s.arrows != Reference::None) {
+    const bool known = positions_of(s.arrows, *frame).has_value();
+    add(known ? fmt::format("arrows × {:.3g} since {}", factor_, since(s.arrows)) : std::string("arrows: nothing has moved yet"));
+  }
+  if (s.ghost != Reference::None) {
+    const bool known = positions_of(s.ghost, *frame).has_value();
+    add(!known            ? std::string("ghost: nothing has moved yet")
+        : ghost_too_fine_ ? std::string("ghost: zoom in to see it")
+                          : fmt::format("ghost of {}", since(s.ghost)));
+  }
+  if (!state.selection.empty()) add(fmt::format("{} selected", count(state.selection.vertices().size())));
+  if (state.brush.on) add("brush");
+  if (s.click_smooths) add("a click smooths");
+  return text;
+}
+
+}  // namespace dmoscope::ui

@@ -113,6 +113,7 @@ constexpr std::array kActions{
     Action{"play-levels", "Inspect", "Play the levels", "Ctrl+Shift+L", "play-levels", Needs::MeshAndIdle},
     Action{"apply-move", "Inspect", "Apply the move", "", "apply-move", Needs::MeshAndIdle},
     Action{"field", "Inspect", "Quality around the vertex", "Shift+Q", "field toggle", Needs::Nothing, true},
+    Action{"field-in-view", "Inspect", "Quality around the vertex over the mesh", "Shift+F", "field-in-view toggle"},
     Action{"inspect-zoom", "Inspect", "Close-up of small levels", "", "inspect-zoom toggle"},
     Action{"level-range-view", "Inspect", "Heat maps in the view's colours", "", "level-range view"},
     Action{"level-range-level", "Inspect", "Heat maps over each level's range", "", "level-range level"},

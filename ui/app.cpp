@@ -190,15 +190,8 @@ render::Marks App::marks(const MarkView& view) {
   stepping_.add_marks(marks, state_, *session_, view,
                       [this](const MarkView& seen, std::size_t most) { return scene_.elements_in_view(seen.camera, seen.viewport, most); });
   if (state_.inspection.open) {
-    const render::Style look = style();
-    const render::Rgb accent = palette(state_.theme).accent;
-    add_inspection_marks(marks, state_.inspection, inspection_,
-                         {look.colours,
-                          look.highlight_colour,
-                          look.casing_colour,
-                          {accent.r, accent.g, accent.b, 255},
-                          view.camera.units_per_pixel,
-                          view.scale});
+    const InspectionLook look = inspection_look(style(), palette(state_.theme).accent, view.camera, view.scale);
+    add_inspection_marks(marks, state_.inspection, inspection_, look);
   }
   return marks;
 }

@@ -69,6 +69,10 @@ void add_ring(Pen& pen, const TracedLevel& level, int index) {
 
 }  // namespace
 
+InspectionLook inspection_look(const render::Style& style, render::Rgb accent, const render::Camera2D& camera, double scale) {
+  return {style.colours, style.highlight_colour, style.casing_colour, opaque(accent), camera.units_per_pixel, scale};
+}
+
 float candidate_diameter(double spacing, double part) {
   const double largest = std::clamp(0.72 * spacing, 2.0, 15.0);
   return static_cast<float>(largest * (0.42 + 0.58 * part));

@@ -18,6 +18,9 @@ struct InspectionLook {
   double scale = 1.0;            // pixels at scale 1 are multiplied by it
 };
 
+/// As the mesh is drawn in this style.
+[[nodiscard]] InspectionLook inspection_look(const render::Style& style, render::Rgb accent, const render::Camera2D& camera, double scale);
+
 /// Diameters of candidates, pixels at scale 1. `spacing`: between neighbours, pixels; `part`: 0 the level's worst valid candidate, 1 its
 /// best.
 [[nodiscard]] float candidate_diameter(double spacing, double part);

@@ -46,17 +46,13 @@ std::string stuck_sentence(const Inspection& inspection) {
   if (trace.end == VisitEnd::Fixed)
     return "It is fixed: no search moves it, and what its elements can become depends on their other corners.";
   std::string text = trace.end == VisitEnd::NotConfirmed ? "The search found a candidate, but judged exactly it gains nothing."
-                                                         : "No candidate of any level is better than where it stands.";
-  if (const Index limit = limiting_element(trace, false); limit != kNoIndex)
-    text += fmt::format(" Element {} limits the star at {}.", count(limit), short_number(trace.before.quality));
+                                                         : "No candidate is better than where it stands.";
+  if (const Index limit = limiting_element(trace, false); limit != kNoIndex) text += fmt::format(" Element {} limits it.", count(limit));
   if (inspection.optimum) {
-    const double gap = inspection.optimum->quality - trace.before.quality;
-    if (gap < 1e-6) {
-      text += " That is the best there is for this vertex: only its neighbours can change it.";
-    } else {
-      text += fmt::format(" The best possible here is {}: {} is left, between the candidates.", short_number(inspection.optimum->quality),
-                          short_number(gap));
-    }
+    constexpr double kNothing = 1e-6;  // a gap that no one would see
+    text += inspection.optimum->quality - trace.before.quality < kNothing
+                ? " There is no better place for this vertex: only its neighbours can change that."
+                : " What is left to the best possible lies between the candidates.";
   }
   return text;
 }

@@ -10,7 +10,7 @@ namespace dmoscope::ui {
 /// "level 2 of 3 · best 0.8123", "level 3 of 3 · none better", "moved · 0.31 → 0.82"; empty when there is nothing to say.
 [[nodiscard]] std::string level_label(const InspectionState& state, const Inspection& inspection);
 
-/// Why the vertex stays where it is, in full sentences: what limits it, the best possible and the gap. Empty when it moves.
+/// Why the vertex stays where it is, in full sentences: what limits it, and whether there is a better place. Empty when it moves.
 [[nodiscard]] std::string stuck_sentence(const Inspection& inspection);
 
 /// "0.8123 found, 0.8130 best possible (gap 0.0007)"; empty where the best possible is not known.

@@ -108,7 +108,7 @@ class FieldPainter {
   [[nodiscard]] bool valid(int column, int row) const { return field_.jacobian[slot(column, row)] > 0.0F; }
   [[nodiscard]] ImU32 ground(int column, int row) const {
     if (valid(column, row)) return colour(look_.colours.colour(static_cast<double>(field_.quality[slot(column, row)])));
-    return look_.only_valid ? colour(look_.palette.raised, 0.0F) : colour(look_.palette.raised);
+    return look_.only_valid ? colour(look_.colours.colour(look_.colours.low), 0.0F) : colour(look_.palette.raised);
   }
   /// Of a place in samples, relative to where the vertex stood.
   [[nodiscard]] Vec2<double> point(Vec2<double> sample) const {
@@ -136,6 +136,12 @@ void draw_field(ImDrawList& list, const FieldPicture& picture, const FieldLook& 
   painter.hatch();
   painter.contours();
   painter.labels();
+}
+
+render::ColourScale view_colours(const ViewState& state, const Derived& derived) {
+  render::ColourScale colours = scene_style(state).colours;
+  std::tie(colours.low, colours.high) = derived.range;
+  return colours;
 }
 
 std::optional<std::pair<double, double>> field_at(const QualityField& field, Vec2<double> point) {

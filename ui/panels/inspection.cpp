@@ -20,14 +20,6 @@ void wrapped(const std::string& text) {
   ImGui::PopTextWrapPos();
 }
 
-/// The colours of the mesh view.
-render::ColourScale view_colours(const PanelContext& context) {
-  render::ColourScale scale;
-  scale.map = context.state.colour_map;
-  std::tie(scale.low, scale.high) = context.derived.range;
-  return scale;
-}
-
 void draw_title(PanelContext& context) {
   const InspectionState& state = context.state.inspection;
   heading(context, state.vertex == kNoIndex ? "Grid inspection" : fmt::format("Grid inspection · vertex {}", count(state.vertex)).c_str());
@@ -41,9 +33,9 @@ void draw_title(PanelContext& context) {
 void draw_story(PanelContext& context, const Inspection& inspection) {
   const VisitTrace& trace = *inspection.trace;
   if (const std::string stuck = stuck_sentence(inspection); !stuck.empty()) wrapped(stuck);
-  number_row(context, "its worst element now", quality_of(trace.before),
+  number_row(context, "worst element before", quality_of(trace.before),
              "least quality of its star; while an element is inverted: least normalised Jacobian");
-  if (trace.end == VisitEnd::Moved) number_row(context, "after this visit", quality_of(trace.after), trace.sentence().c_str());
+  if (trace.end == VisitEnd::Moved) number_row(context, "after the visit", quality_of(trace.after), trace.sentence().c_str());
   if (inspection.optimum) {
     number_row(context, "best possible", inspection.optimum->quality,
                "the exact maximum of the star's mean ratio, wherever this one vertex might stand: the diamond");
@@ -86,7 +78,7 @@ class LevelMap {
       : context_(context), level_(level), number_(number), low_(low), cell_(side / static_cast<float>(level.points)), side_(side) {}
 
   void draw() {
-    render::ColourScale colours = view_colours(context_);
+    render::ColourScale colours = view_colours(context_.state, context_.derived);
     if (const auto range = valid_range(level_); context_.state.inspection.own_range && range && range->second > range->first)
       std::tie(colours.low, colours.high) = *range;
     for (int index = 0; index < level_.points * level_.points; ++index) {
@@ -284,7 +276,7 @@ void draw_field_panel(PanelContext& context, const Inspection& inspection) {
   };
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.PushClipRect(low, {low.x + w, low.y + h}, true);
-  draw_field(list, picture, {view_colours(context), context.palette, context.em(), context.px(1)}, at);
+  draw_field(list, picture, {view_colours(context.state, context.derived), context.palette, context.em(), context.px(1)}, at);
   draw_field_marks(context, inspection, at);
   list.PopClipRect();
   if (!ImGui::IsItemHovered()) return;

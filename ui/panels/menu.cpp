@@ -30,6 +30,7 @@ bool is_checked(const ViewState& state, std::string_view id) {
   if (id == "play-levels") return state.inspection.playing;
   if (id == "level-all") return state.inspection.open && state.inspection.all_levels;
   if (id == "field") return state.inspection.field;
+  if (id == "field-in-view") return state.inspection.field_in_view;
   if (id == "inspect-zoom") return state.inspection.zoom;
   if (id == "level-range-view") return !state.inspection.own_range;
   if (id == "level-range-level") return state.inspection.own_range;

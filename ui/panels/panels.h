@@ -154,6 +154,8 @@ void draw_parameters(PanelContext& context);
 void draw_inspector(PanelContext& context);
 void draw_worst(PanelContext& context);
 void draw_inspection(PanelContext& context);
+/// The quality around the inspected vertex over the mesh, when it is wanted, and over it the marks that it covers.
+void draw_field_in_view(PanelContext& context, const Rect& rect);
 void draw_viewport(PanelContext& context, const Rect& rect);
 /// The brush under the mouse over the mesh's item, drawn last; `at`: the mouse in the viewport. True: dragging is the brush's.
 bool handle_brush(PanelContext& context, const Rect& rect, Vec2<double> at);

@@ -160,10 +160,14 @@ void draw_context_menu(PanelContext& context) {
   const auto [vertex, element] = context.widgets.under_menu;
   if (vertex != kNoIndex) {
     if (ImGui::MenuItem(fmt::format("Select vertex {}", vertex).c_str())) context.send(fmt::format("pick vertex {}", vertex));
+    if (ImGui::MenuItem(fmt::format("Look into the search of vertex {}", vertex).c_str()))
+      context.send(fmt::format("inspect vertex {}", vertex));
     if (ImGui::MenuItem(fmt::format("Copy id {}", vertex).c_str())) context.send(fmt::format("copy {}", vertex));
   }
   if (element != kNoIndex) {
     if (ImGui::MenuItem(fmt::format("Select element {}", element).c_str())) context.send(fmt::format("pick element {}", element));
+    if (ImGui::MenuItem(fmt::format("Why is element {} so? Look at its worst corner", element).c_str()))
+      context.send(fmt::format("inspect element {}", element));
     if (ImGui::MenuItem(fmt::format("Go to element {}", element).c_str())) context.send(fmt::format("goto element {}", element));
   }
   if (vertex != kNoIndex || element != kNoIndex) ImGui::Separator();
@@ -232,6 +236,7 @@ void draw_viewport(PanelContext& context, const Rect& rect) {
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
   context.items.record_last("viewport");
   handle_mouse(context, rect);
+  draw_field_in_view(context, rect);
   draw_level_label(context, rect);
   draw_title(context, rect, *frame);
   draw_colour_bar(context, rect, *frame);

@@ -158,7 +158,7 @@ void CommandLog::ended(const CommandEnd& end) {
   if (LogLine* line = shown(*step)) line->state = state_of(end.kind);
   if (end.kind != CommandEnd::Kind::Done) {
     if (step->why_not.empty()) step->why_not = why_not(end.kind);
-    if (end.moved) step->resume = fmt::format("seek {} {}", end.at.iteration, end.at.visits);
+    if (end.moved) step->resume = fmt::format("seek {} {} {}", end.at.iteration, end.at.visits, end.at.edits);
   }
   step->ended = true;
   const auto pending = [](const Step& one) { return one.id != 0 && !one.ended; };

@@ -137,7 +137,7 @@ Histogram histogram_of(const InputMesh& input, Metric metric, ThreadPool* pool) 
   return whole.histogram();
 }
 
-RunView view_of(Run& run, bool active) {
+RunView view_of(Run& run) {
   RunView view;
   view.title = run.title();
   view.parameters = run.parameters();
@@ -147,8 +147,10 @@ RunView view_of(Run& run, bool active) {
   view.visits_per_iteration = run.visits_per_iteration();
   view.colouring = run.shared_colouring();
   view.free_vertices = static_cast<Index>(run.visits_per_iteration());
-  if (active) view.fixed.assign(run.fixed().begin(), run.fixed().end());
-  view.records = run.history().records();
+  view.fixed = run.shared_fixed();
+  view.records = run.history().shared_records();
+  view.edits = run.edits().all().size();
+  view.edits_done = run.edits().done_by(run.moment());
   view.history_note = run.history().sentence();
   if (run.last_outcome()) view.last_outcome = run.last_outcome()->sentence();
   return view;
@@ -206,7 +208,7 @@ std::shared_ptr<const SessionView> FrameBuilder::build(Session& session, FrameDe
   if (!session.has_input()) return view;
   view->input = session.input();
   view->active = session.active_index();
-  for (std::size_t i = 0; i < session.run_count(); ++i) view->runs.push_back(view_of(session.run(i), i == view->active));
+  for (std::size_t i = 0; i < session.run_count(); ++i) view->runs.push_back(view_of(session.run(i)));
   view->frame = frame(session, detail);
   return view;
 }

@@ -31,14 +31,14 @@ History::Kept copy_of(std::uint64_t iteration, std::span<const Vec3> positions, 
 }  // namespace
 
 void History::record_input(const IterationRecord& record, std::shared_ptr<const std::vector<Vec3>> positions) {
-  records_.push_back(record);
+  records_.change().push_back(record);
   const std::span<const Vec3> view(*positions);
   size_ = view.size_bytes();
   kept_.push_back({record.iteration, view, std::move(positions)});
 }
 
 void History::record(const IterationRecord& record) {
-  if (record.iteration == records_.size()) records_.push_back(record);
+  if (record.iteration == records().size()) records_.change().push_back(record);
 }
 
 bool History::wants(std::uint64_t iteration) const { return iteration % stride_ == 0 && size_ <= budget_ && !kept(iteration); }
@@ -51,7 +51,7 @@ void History::keep(std::uint64_t iteration, std::span<const Vec3> positions, Thr
 }
 
 void History::forget_after(std::uint64_t iteration) {
-  records_.resize(std::min<std::size_t>(records_.size(), iteration + 1));
+  if (records().size() > iteration + 1) records_.change().resize(iteration + 1);
   std::erase_if(kept_, [&](const Kept& kept) { return kept.iteration > iteration; });
 }
 
@@ -80,11 +80,11 @@ void History::thin(std::size_t needed) {
 }
 
 std::string History::sentence() const {
-  if (kept_.size() == records_.size()) return {};
+  if (kept_.size() == records().size()) return {};
   constexpr std::string_view kOthers = "the others are computed again when asked for";
   const bool full = stride_ > 1 || size_ > budget_;
-  if (!full) return fmt::format("positions of {} of {} iterations are kept, {}", kept_.size() - 1, records_.size() - 1, kOthers);
-  const bool all_multiples = kept_.size() == (records_.size() - 1) / stride_ + 1;
+  if (!full) return fmt::format("positions of {} of {} iterations are kept, {}", kept_.size() - 1, records().size() - 1, kOthers);
+  const bool all_multiples = kept_.size() == (records().size() - 1) / stride_ + 1;
   const std::string kept = kept_.size() == 1
                                ? "only the input's positions are kept"
                                : fmt::format("positions are kept {} {} iterations", all_multiples ? "every" : "at most every", stride_);

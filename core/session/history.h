@@ -8,16 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "core/base/shared_vector.h"
 #include "core/quality/quality.h"
+#include "core/session/moment.h"
 
 namespace dmoscope {
-
-/// Where a run stands: whole iterations done, and visits done of the next one.
-struct Moment {
-  std::uint64_t iteration = 0;
-  std::uint64_t visits = 0;
-  friend auto operator<=>(const Moment&, const Moment&) = default;
-};
 
 struct IterationRecord {
   std::uint64_t iteration = 0;  // 0 is the input
@@ -48,7 +43,8 @@ class History {
   void keep(std::uint64_t iteration, std::span<const Vec3> positions, ThreadPool* pool);
   /// Forgets all that came after an iteration.
   void forget_after(std::uint64_t iteration);
-  [[nodiscard]] const std::vector<IterationRecord>& records() const noexcept { return records_; }
+  [[nodiscard]] const std::vector<IterationRecord>& records() const noexcept { return records_.values(); }
+  [[nodiscard]] SharedVector<IterationRecord> shared_records() const { return records_.share(); }
 
   struct Kept {
     std::uint64_t iteration;
@@ -73,7 +69,7 @@ class History {
   std::size_t budget_;
   std::size_t size_ = 0;  // bytes of the positions of one iteration
   std::uint64_t stride_ = 1;
-  std::vector<IterationRecord> records_;
+  GrowingVector<IterationRecord> records_;
   std::vector<Kept> kept_;
 };
 

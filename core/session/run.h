@@ -10,12 +10,15 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/error.h"
 #include "core/base/progress.h"
+#include "core/base/shared_vector.h"
 #include "core/base/thread_pool.h"
 #include "core/mesh/colouring.h"
 #include "core/quality/quality.h"
 #include "core/search/parameters.h"
 #include "core/session/block_plan.h"
+#include "core/session/edit.h"
 #include "core/session/history.h"
 #include "core/session/input_mesh.h"
 #include "core/smooth/executor.h"
@@ -102,6 +105,9 @@ class Run {
   [[nodiscard]] const std::shared_ptr<const Colouring>& shared_colouring() const noexcept { return colouring_; }
   /// 1 where a vertex may not move: boundary, unused, or the user's.
   [[nodiscard]] std::span<const std::uint8_t> fixed() const noexcept { return fixed_; }
+  [[nodiscard]] const SharedVector<std::uint8_t>& shared_fixed() const noexcept { return fixed_; }
+  /// "it lies on the boundary, which stays"; empty for a free vertex.
+  [[nodiscard]] std::string why_fixed(Index vertex) const;
   /// The elements all of whose corners are fixed, ascending: see compute_statistics.
   [[nodiscard]] std::span<const Index> immovable() const noexcept { return immovable_; }
   [[nodiscard]] std::uint64_t visits_per_iteration() const noexcept { return colouring_->order.size(); }
@@ -109,14 +115,25 @@ class Run {
   void set_history_budget(std::size_t bytes) { history_.set_budget(bytes); }
   void set_pool(std::shared_ptr<ThreadPool> pool) { pool_ = std::move(pool); }
 
-  /// One vertex, one colour class (the rest of it when in its midst), or one iteration (likewise) forwards. Returns vertices moved.
-  /// On Cancelled the run stands at an exact moment between two visits; nothing is lost. On DeviceError (here and in all below) the run has
-  /// recovered: see there.
+  /// One vertex, one colour class (the rest of it when in its midst), or one iteration (likewise) forwards. Edits on the way are done
+  /// again; one is a step like a vertex. Returns vertices moved, not counting those that edits moved. On Cancelled the run stands at an
+  /// exact moment between two visits; nothing is lost. On DeviceError (here and in all below) the run has recovered: see there.
   std::uint64_t step(StepUnit unit, Progress& progress);
   /// The reverse: to the previous vertex, class start or iteration start. At the input: does nothing, returns false.
   bool back(StepUnit unit, Progress& progress);
   /// To any moment, past or future: restores the nearest kept positions before it and repeats the visits from there (the same bits).
-  void seek(Moment target, Progress& progress);
+  /// Throws UsageError for more visits or edits than there are.
+  void seek(const Moment& wanted, Progress& progress);
+
+  /// Visits these free vertices now, out of their turn, each once, in the order in which an iteration visits them; returns how many moved.
+  /// That is an edit (or several, where they are many): it belongs to the run's path from now on, and what came after this moment so far
+  /// is forgotten. Throws UsageError, with nothing done, for a vertex that is fixed or does not exist. On Cancelled nothing is done.
+  std::uint64_t visit_vertices(std::span<const Index> vertices, Progress& progress);
+  [[nodiscard]] const Edits& edits() const noexcept { return edits_; }
+  /// Back to the input, and the edits are forgotten.
+  void reset(Progress& progress);
+  /// Changes whenever a moment may show other positions than it did before: same run, same path, same moment, same bits.
+  [[nodiscard]] std::uint64_t path() const noexcept { return path_; }
 
   /// Called between two blocks of visits, on the thread that steps, at least every 100 ms or so: to publish what there is to see.
   void set_observer(std::function<void(const Run&)> observer) { observer_ = std::move(observer); }
@@ -132,7 +149,13 @@ class Run {
   [[nodiscard]] SmoothingTask task() const;
   void bring() const;
   void keep();
+  void walk_to(const Moment& target, Progress& progress);
+  [[nodiscard]] Moment moment_before(StepUnit unit) const;
+  void restore(std::uint64_t iteration);
+  void put(std::span<const Vec3> positions, const Place& place);
   void visit(std::uint64_t count, Progress& progress);
+  [[nodiscard]] std::vector<Index> ranks_of(std::span<const Index> vertices);
+  std::uint64_t do_edit(std::span<const Index> vertices);
   void visit_block(std::uint64_t count);
   void end_iteration();
   void record(const Place& done);
@@ -146,7 +169,7 @@ class Run {
   std::shared_ptr<const InputMesh> input_;
   RunParameters parameters_;
   std::shared_ptr<ThreadPool> pool_;
-  std::vector<std::uint8_t> fixed_;
+  SharedVector<std::uint8_t> fixed_;
   std::shared_ptr<const Colouring> colouring_;
   std::vector<Index> immovable_;
   Executor executor_;
@@ -159,10 +182,35 @@ class Run {
   std::uint64_t last_moved_ = 0;                    // in the iteration last ended
   BlockPlan blocks_;
   History history_;
+  Edits edits_;
+  std::uint64_t path_ = 0;
+  std::vector<Index> rank_of_;  // of every vertex in the colouring's order; empty until there is an edit
   std::function<void(const Run&)> observer_;
   std::optional<Outcome> last_outcome_;
   double progress_base_ = 0.0;  // what share of the progress the iteration under way is: base to base + span
   double progress_span_ = 1.0;
 };
+
+/// Does what may ask a device; a failure is remembered for recover().
+template <class Body>
+auto Run::asking_device(const Body& body) const {
+  try {
+    return body();
+  } catch (const DeviceError& error) {
+    failure_ = error.what();
+    throw;
+  }
+}
+
+/// Does what may ask a device; after a failure the run has recovered, and the error says so.
+template <class Body>
+auto Run::recovering(const Body& body) {
+  try {
+    return body();
+  } catch (const DeviceError&) {
+    recover();
+    throw DeviceError(take_warning());
+  }
+}
 
 }  // namespace dmoscope

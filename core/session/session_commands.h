@@ -3,8 +3,8 @@
 //
 //   open FILE | generate KIND [SIZE [SEED]] | export FILE | stats FILE.csv | elements FILE.csv
 //   metric NAME | show NAME | method NAME | grid N | levels N | omega X | precision float|double | backend auto|cpu|cuda
-//   order natural|shuffle:SEED | fix VERTEX... | unfix | step vertex|class|iteration [COUNT] | back vertex|class|iteration [COUNT]
-//   run ITERATIONS | until-converged [PATIENCE [MAX]] | seek ITERATION [VISITS] | reset
+//   order natural|shuffle:SEED | fix VERTEX|A-B... | unfix | step vertex|class|iteration [COUNT] | back vertex|class|iteration [COUNT]
+//   run ITERATIONS | until-converged [PATIENCE [MAX]] | visit VERTEX|A-B... | seek ITERATION [VISITS [EDITS]] | reset
 //   add-run METHOD[:METRIC] | select-run K | remove-run K | threads N | history MIB
 //   expect minimum|movable|mean|inverted|iteration|moved  <|<=|==|>=|>  VALUE
 //   say TEXT

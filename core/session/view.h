@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/base/shared_vector.h"
 #include "core/session/device_picture.h"
+#include "core/session/percentiles.h"
 #include "core/session/session.h"
 #include "core/session/summary.h"
 
@@ -33,6 +35,16 @@ struct Frame {
   [[nodiscard]] Index element_count() const noexcept { return static_cast<Index>(input->mesh.elements.size()); }
 };
 
+/// How a run fares at its moment, by the metric that is shown: enough to draw it beside others.
+struct RunSummary {
+  Metric metric = Metric::MeanRatio;
+  Moment moment;
+  Statistics statistics;
+  Histogram histogram;
+  std::size_t elements = 0;   // that have a quality
+  std::vector<float> sorted;  // their qualities, ascending; of many an even choice by rank, the worst and the best among them
+};
+
 struct RunView {
   std::string title;
   RunParameters parameters;
@@ -41,10 +53,13 @@ struct RunView {
   std::uint64_t visits_per_iteration = 0;
   std::shared_ptr<const Colouring> colouring;  // of the free vertices, in the order of the visits
   Index free_vertices = 0;
-  std::vector<std::uint8_t> fixed;  // only of the active run, else empty; see Run::fixed
-  std::vector<IterationRecord> records;
-  std::string history_note;  // History::sentence()
-  std::string last_outcome;  // why it last stopped, may be empty
+  SharedVector<std::uint8_t> fixed;  // see Run::fixed
+  SharedVector<IterationRecord> records;
+  SharedVector<Percentiles> percentiles;      // of the metric it optimises, one a record; empty while `percentiles` is off
+  std::shared_ptr<const RunSummary> summary;  // null until it has been worked out, which is once the session is at rest
+  std::size_t edits = 0, edits_done = 0;      // all of its path, and those up to its moment; see edit.h
+  std::string history_note;                   // History::sentence()
+  std::string last_outcome;                   // why it last stopped, may be empty
 };
 
 struct SessionView {

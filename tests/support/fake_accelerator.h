@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
@@ -21,6 +22,7 @@ struct FakeDevice {
   bool fail_to_make = false;
   bool has_statistics = true;
   std::chrono::milliseconds store_takes{0};
+  std::function<void()> after_visit{};
   std::shared_ptr<FakePictureDevice> pictures{};  // its side that is drawn; none: it gives no pictures
 };
 
@@ -41,7 +43,9 @@ class FakeSmoother final : public Smoother {
       stale_ = false;
     }
     if (++device_->visits >= device_->fail_at_visit && device_->fail_at_visit > 0) throw DeviceError("the fake device was lost");
-    return cpu_->visit(first, count, on_device_, pool);
+    const std::uint64_t moved = cpu_->visit(first, count, on_device_, pool);
+    if (device_->after_visit) device_->after_visit();
+    return moved;
   }
   void store(std::span<Vec3> positions, ThreadPool* pool) override {
     if (stale_) return;

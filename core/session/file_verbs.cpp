@@ -1,0 +1,78 @@
+// The session's verbs: meshes and files.
+
+#include <fmt/format.h>
+
+#include "core/io/mesh_io.h"
+#include "core/mesh/generate.h"
+#include "core/session/csv.h"
+#include "core/session/verbs.h"
+
+namespace dmoscope {
+
+namespace {
+
+void tell_report(CommandContext& context) {
+  const InputMesh& input = *context.session.input();
+  tell(context, fmt::format("{}: {} vertices, {} elements", input.mesh.name, input.mesh.vertex_count(), input.mesh.elements.size()));
+  for (std::string& sentence : input.report.sentences()) tell(context, std::move(sentence), Message::Kind::Warning);
+}
+
+void open(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  context.session.open(std::filesystem::path(arguments[0]), context.progress);
+  tell_report(context);
+}
+
+void generate(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 3);
+  const std::size_t size = arguments.size() > 1 ? to_count(arguments[1]) : 0;
+  const std::uint64_t seed = arguments.size() > 2 ? to_count(arguments[2]) : 1;
+  context.session.open(generate_mesh(arguments[0], size, seed, context.progress), context.progress);
+  tell_report(context);
+}
+
+void export_mesh(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  const Run& run = context.session.active();
+  for (std::string& note : write_mesh(arguments[0], run.input().mesh, run.positions(), context.progress))
+    tell(context, std::move(note), Message::Kind::Warning);
+  tell(context, fmt::format("wrote {}", arguments[0]));
+}
+
+void write_stats(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  std::vector<std::string> titles;
+  std::vector<const std::vector<IterationRecord>*> records;
+  (void)context.session.active();
+  for (std::size_t i = 0; i < context.session.run_count(); ++i) {
+    const RunParameters& parameters = context.session.run(i).parameters();
+    titles.push_back(fmt::format("{}:{}", parameters.method, info(parameters.metric).name));
+    records.push_back(&context.session.run(i).history().records());
+  }
+  write_file_atomically(arguments[0], stats_csv(titles, records));
+  tell(context, fmt::format("wrote {}", arguments[0]));
+}
+
+void write_elements(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  const Run& run = context.session.active();
+  std::vector<Metric> metrics;
+  for (const MetricInfo& entry : metric_table()) metrics.push_back(entry.metric);
+  write_file_atomically(arguments[0], elements_csv(run.input().quality_context(), run.positions(), metrics));
+  tell(context, fmt::format("wrote {}", arguments[0]));
+}
+
+}  // namespace
+
+std::span<const Verb> file_verbs() {
+  static const std::vector<Verb> table{
+      {{"open", "open FILE", "Opens a mesh and starts a run on it."}, open},
+      {{"generate", "generate KIND [SIZE [SEED]]", "Makes a sample mesh and starts a run on it."}, generate},
+      {{"export", "export FILE", "Writes the active run's mesh; the extension chooses the format."}, export_mesh},
+      {{"stats", "stats FILE.csv", "Writes the statistics of every iteration of every run."}, write_stats},
+      {{"elements", "elements FILE.csv", "Writes every element's quality by every metric."}, write_elements},
+  };
+  return table;
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,199 @@
+// How a run goes along its path: steps, seeks, and runs of iterations.
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/stopwatch.h"
+#include "core/session/run.h"
+
+namespace dmoscope {
+
+std::string Outcome::sentence() const {
+  const std::string rose = last_rise == 0 ? "the minimum never rose" : fmt::format("the minimum last rose in iteration {}", last_rise);
+  switch (reason) {
+    case StopReason::NothingMoved:
+      return fmt::format("converged: no vertex moved any more; {}", rose);
+    case StopReason::NoRise:
+      return fmt::format("converged: neither the minimum nor the movable minimum rose by {} in {} iterations; {}", limits.rise,
+                         limits.patience, rose);
+    case StopReason::IterationLimit:
+      break;
+  }
+  return fmt::format("stopped at the iteration limit; {}", rose);
+}
+
+void Run::visit(std::uint64_t count, Progress& progress) {
+  const auto whole = static_cast<double>(visits_per_iteration());
+  while (count > 0) {
+    progress.check();
+    const std::uint64_t block = std::min({count, visits_per_iteration() - at_.moment.visits, blocks_.visits()});
+    recovering([&] { visit_block(block); });
+    count -= block;
+    const double done = at_.moment.visits == 0 ? 1.0 : static_cast<double>(at_.moment.visits) / whole;
+    progress.set(progress_base_ + progress_span_ * done);
+    if (observer_) recovering([this] { observer_(*this); });
+  }
+}
+
+void Run::visit_block(std::uint64_t count) {
+  const Stopwatch watch;
+  at_.moved += asking_device([&] { return executor_.smoother->visit(at_.moment.visits, count, positions_, pool_.get()); });
+  const double seconds = watch.seconds();
+  at_.seconds += seconds;
+  blocks_.learn(count, seconds);
+  at_.moment.visits += count;
+  at_.moment.edits = 0;
+  if (at_.moment.visits == visits_per_iteration()) end_iteration();
+}
+
+void Run::end_iteration() {
+  Place done = std::exchange(at_, {{at_.moment.iteration + 1}});
+  if (!executor_.smoother->positions_are_far()) {  // where they are near, storing them is part of the smoothing
+    bring();
+    done.seconds += bring_seconds_;
+  }
+  record(done);
+  last_moved_ = done.moved;
+}
+
+void Run::walk_to(const Moment& target, Progress& progress) {
+  const std::uint64_t whole = visits_per_iteration();
+  last_outcome_.reset();
+  keep();
+  while (at_.moment < target) {
+    const Moment& now = at_.moment;
+    progress.check();
+    if (whole == 0) {  // nothing is free: an iteration visits nobody
+      recovering([this] { end_iteration(); });
+    } else if (const Edit* edit = edits_.at(now)) {
+      recovering([&] { do_edit(edit->vertices); });
+    } else {
+      std::uint64_t stop = now.iteration < target.iteration ? whole : target.visits;
+      if (const Edit* next = edits_.after(now); next != nullptr && next->at.iteration == now.iteration)
+        stop = std::min(stop, next->at.visits);
+      visit(stop - now.visits, progress);
+    }
+  }
+}
+
+std::uint64_t Run::step(StepUnit unit, Progress& progress) {
+  recover();
+  const Place before = at_;
+  Moment target{at_.moment.iteration + 1};
+  if (visits_per_iteration() > 0 && unit == StepUnit::Vertex) {
+    if (edits_.at(at_.moment) != nullptr) {
+      target = at_.moment;
+      ++target.edits;
+    } else {
+      target = {at_.moment.iteration, at_.moment.visits + 1};
+    }
+  } else if (visits_per_iteration() > 0 && unit == StepUnit::Class) {
+    target = {at_.moment.iteration, *std::ranges::upper_bound(colouring_->class_offsets, at_.moment.visits)};
+  }
+  walk_to(target, progress);
+  return (at_.moment.iteration > before.moment.iteration ? last_moved_ : at_.moved) - before.moved;
+}
+
+Moment Run::moment_before(StepUnit unit) const {
+  const std::uint64_t whole = visits_per_iteration();
+  Moment target = at_.moment;
+  // The end of an iteration is the same place as the start of the next; from there "back" goes into the iteration before.
+  if (target.is_iteration_end()) target = {target.iteration - 1, whole};
+  if (unit == StepUnit::Iteration || whole == 0) return {target.iteration};
+  if (unit == StepUnit::Vertex) {
+    if (target.edits > 0) return {target.iteration, target.visits, target.edits - 1};
+    --target.visits;
+    return {target.iteration, target.visits, edits_.count_at(target)};
+  }
+  const auto& starts = colouring_->class_offsets;
+  const auto here = target.edits > 0 ? std::ranges::upper_bound(starts, target.visits) : std::ranges::lower_bound(starts, target.visits);
+  return {target.iteration, *std::prev(here)};
+}
+
+bool Run::back(StepUnit unit, Progress& progress) {
+  recover();
+  if (at_.moment == Moment{}) return false;
+  seek(moment_before(unit), progress);
+  return true;
+}
+
+void Run::seek(const Moment& wanted, Progress& progress) {
+  const std::uint64_t whole = visits_per_iteration();
+  if (wanted.visits > whole) throw UsageError(fmt::format("an iteration has {} visits, not {}", whole, wanted.visits));
+  const bool at_end = wanted.visits == whole && wanted.visits > 0;  // which is the start of the next
+  const Moment target = at_end ? Moment{wanted.iteration + 1, 0, wanted.edits} : wanted;
+  if (const std::uint64_t edits = edits_.count_at(target); target.edits > edits)
+    throw UsageError(fmt::format("there {} {} visit{} of chosen vertices at that moment, not {}", edits == 1 ? "was" : "were", edits,
+                                 edits == 1 ? "" : "s", target.edits));
+  last_outcome_.reset();
+  recover();
+  keep();
+  if (target < at_.moment || history_.nearest(target.iteration).iteration > at_.moment.iteration) restore(target.iteration);
+  walk_to(target, progress);
+}
+
+/// Goes to the last kept positions that are no later than the end of `iteration`.
+void Run::restore(std::uint64_t iteration) {
+  const History::Kept& kept = history_.nearest(iteration);
+  put(kept.positions, {{kept.iteration}});
+}
+
+/// Stands at a place whose positions are these.
+void Run::put(std::span<const Vec3> positions, const Place& place) {
+  positions_.assign(positions.begin(), positions.end());
+  executor_.smoother->positions_replaced();
+  at_ = place;
+  brought_ = at_;
+}
+
+Outcome Run::iterate(std::uint64_t iterations, Progress& progress, const AfterIteration& after) {
+  return advance({.patience = iterations, .max_iterations = iterations, .rise = ConvergenceLimits{}.rise}, false, progress, after);
+}
+
+Outcome Run::until_converged(const ConvergenceLimits& limits, Progress& progress, const AfterIteration& after) {
+  return advance(limits, true, progress, after);
+}
+
+Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, Progress& progress, const AfterIteration& after) {
+  Outcome outcome{.limits = limits};
+  recover();
+  // Where we stand now may be the midst of an iteration, of which the history has no record.
+  const Statistics start = recovering([this] { return statistics(); });
+  double minimum = start.minimum, movable = start.movable_minimum;
+  std::uint64_t since_rise = 0;
+  bool stopped = false;
+  while (!stopped && outcome.iterations < limits.max_iterations) {
+    const bool whole = at_.moment.visits == 0;
+    step_within(outcome.iterations, limits.max_iterations, progress);
+    ++outcome.iterations;
+    ++since_rise;
+    const Statistics& now = history_.records()[at_.moment.iteration].statistics;
+    // As differences: where nothing is movable both are infinite, and that is no rise.
+    if (now.minimum - minimum >= limits.rise || now.movable_minimum - movable >= limits.rise) {
+      since_rise = 0;
+      outcome.last_rise = at_.moment.iteration;
+      minimum = std::max(minimum, now.minimum);
+      movable = std::max(movable, now.movable_minimum);
+    }
+    if (after) recovering([&] { after(*this); });
+    const bool still = whole && last_moved_ == 0;
+    stopped = stop_when_still && (still || since_rise >= limits.patience);
+    if (stopped) outcome.reason = still ? StopReason::NothingMoved : StopReason::NoRise;
+  }
+  last_outcome_ = outcome;
+  return outcome;
+}
+
+void Run::step_within(std::uint64_t done, std::uint64_t all, Progress& progress) {
+  progress_span_ = 1.0 / static_cast<double>(all);
+  progress_base_ = static_cast<double>(done) * progress_span_;
+  const auto whole_again = [this](void*) {
+    progress_base_ = 0.0;
+    progress_span_ = 1.0;
+  };
+  const std::unique_ptr<void, decltype(whole_again)> guard(this, whole_again);
+  step(StepUnit::Iteration, progress);
+}
+
+}  // namespace dmoscope

@@ -323,6 +323,7 @@ void App::draw(double now) {
       now};
   // What a panel holds must stay alive until the frame is done, whatever its commands bring about.
   const std::shared_ptr<const SessionView> held = session_;
+  const auto hovered = state_.inspection.hovered;
   draw_panels(context);
   if (activity_.busy) redraw_in_ = std::min(redraw_in_, 0.1);
   if (state_.requests.fit) redraw_in_ = 0.0;
@@ -330,6 +331,7 @@ void App::draw(double now) {
   advance_sequence();
   watch_file();
   redraw_in_ = std::min(redraw_in_, play_in);
+  if (state_.inspection.hovered != hovered) redraw_in_ = 0.0;  // the mesh is marked in the next frame
 }
 
 /// Each level as a command of its own, so that what was seen can be repeated. Returns after which time there may be more.

@@ -196,7 +196,8 @@ void set_level(ViewState& state, const SessionView& session, const std::string& 
     return;
   }
   const std::uint64_t level = to_count(word);
-  const std::size_t levels = look.trace ? look.trace->levels.size() : 0;
+  if (!look.trace) throw UsageError(look.trouble);
+  const std::size_t levels = look.trace->levels.size();
   if (level > levels) throw UsageError(fmt::format("there is no level {}: this visit has {}", level, levels));
   show_level(state, look, static_cast<int>(level));
 }

@@ -57,6 +57,18 @@ std::string stuck_sentence(const Inspection& inspection) {
   return text;
 }
 
+std::string candidate_text(const VisitTrace& trace, const TracedLevel& level, int index) {
+  const auto slot = static_cast<std::size_t>(index);
+  const Vec2<double> at = level.at(index);
+  std::string text = fmt::format("candidate {} ({}, {})\noffset {}, {}\n", index, index / level.points, index % level.points,
+                                 short_number(at.x), short_number(at.y));
+  text += is_valid(level.quality[slot]) ? fmt::format("quality {}\n", full_number(level.quality[slot]))
+                                        : fmt::format("an element is inverted: least Jacobian {}\n", full_number(level.quality[slot]));
+  text += fmt::format("{} {}", trace.value_phrase, full_number(level.values[slot]));
+  if (level.best == index) text += "\nchosen: the best so far";
+  return text;
+}
+
 std::string search_phrase(const VisitTrace& trace) {
   std::string text = trace.fast ? "fast search in float" : "plain search in double";
   if (trace.untangling) text += ", untangling";

@@ -19,6 +19,9 @@ namespace dmoscope::ui {
 /// Element of least quality of the star, before or after the visit: what limits it. kNoIndex for an empty star.
 [[nodiscard]] Index limiting_element(const VisitTrace& trace, bool after);
 
+/// A candidate in some lines: which, where, what it is worth.
+[[nodiscard]] std::string candidate_text(const VisitTrace& trace, const TracedLevel& level, int index);
+
 /// Where the trace is from: "float, fast search", "double, plain search, untangling".
 [[nodiscard]] std::string search_phrase(const VisitTrace& trace);
 

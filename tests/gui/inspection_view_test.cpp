@@ -189,6 +189,45 @@ TEST_F(InspectionView, LStepsThroughTheLevelsAndThroughTheRun) {
   EXPECT_EQ(session()->frame->positions, looked_into);
 }
 
+TEST_F(InspectionView, OutOfTurnTheVertexIsVisitedAlone) {
+  good("generate coast 800");
+  good("inspect-worst");
+  const Index vertex = inspection().vertex;
+  const auto before = session()->frame->positions;
+  ASSERT_EQ(look().trace->end, VisitEnd::Moved);
+  const Vec3 to = look().trace->to;
+  good("apply-move");
+  EXPECT_TRUE(inspection().applied);
+  EXPECT_EQ(session()->frame->moment.visits, 0U);
+  auto after = session()->frame->positions;
+  EXPECT_EQ(after[vertex], to);
+  after[vertex] = before[vertex];
+  EXPECT_EQ(after, before);
+  good("level next");  // the same vertex again, from where it stands now
+  EXPECT_EQ(inspection().vertex, vertex);
+  EXPECT_EQ(inspection().level, 1);
+  EXPECT_EQ(look().trace->from, to);
+}
+
+TEST_F(InspectionView, ACandidateIsReadUnderTheMouseInViewAndHeatMap) {
+  good("generate coast");
+  good("inspect-worst");
+  const TracedLevel& level = look().trace->levels[0];
+  const auto& view = window_->app().items().find("viewport");
+  const auto pixel = state().camera.to_pixel(look().origin + level.at(21), state().viewport);
+  good("move " + std::to_string(static_cast<double>(view[0]) + pixel.x) + " " + std::to_string(static_cast<double>(view[1]) + pixel.y));
+  ASSERT_TRUE(inspection().hovered.has_value());
+  EXPECT_EQ(*inspection().hovered, (ui::CandidateName{1, 21}));
+  const auto map = window_->app().items().find("level:2");
+  const float side = map[2] - map[0], top = map[3] - side - 4.0F;  // the cells end above a small gap
+  good("move " + std::to_string(map[0] + 0.5F * side / 8) + " " + std::to_string(top + 0.5F * side / 8));
+  ASSERT_TRUE(inspection().hovered.has_value());
+  EXPECT_EQ(*inspection().hovered, (ui::CandidateName{2, 7})) << "the first column, the highest row";
+  EXPECT_EQ(count(marks(), {render::DotShape::Ring}), 1U) << "of another level than the one shown: not in the view";
+  good("move 3 3");
+  EXPECT_FALSE(inspection().hovered.has_value());
+}
+
 TEST_F(InspectionView, AnAppliedMoveIsForgottenWhenSomethingElseMoves) {
   good("generate annulus");
   for (int k = 0; k < 4; ++k) good("key L");

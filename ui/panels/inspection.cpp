@@ -59,18 +59,6 @@ void draw_buttons(PanelContext& context) {
   action_button(context, "copy-level", "CSV");
 }
 
-std::string candidate_text(const VisitTrace& trace, const TracedLevel& level, int index) {
-  const auto slot = static_cast<std::size_t>(index);
-  const Vec2<double> at = level.at(index);
-  std::string text = fmt::format("candidate {} ({}, {})\noffset {}, {}\n", index, index / level.points, index % level.points,
-                                 short_number(at.x), short_number(at.y));
-  text += is_valid(level.quality[slot]) ? fmt::format("quality {}\n", full_number(level.quality[slot]))
-                                        : fmt::format("an element is inverted: least Jacobian {}\n", full_number(level.quality[slot]));
-  text += fmt::format("{} {}", trace.value_phrase, full_number(level.values[slot]));
-  if (level.best == index) text += "\nchosen: the best so far";
-  return text;
-}
-
 /// One level's candidates as cells in a square.
 class LevelMap {
  public:
@@ -162,7 +150,6 @@ void draw_level(PanelContext& context, const VisitTrace& trace, int number, floa
 
 /// Side by side, as many in a row as can be read.
 void draw_levels(PanelContext& context, const VisitTrace& trace) {
-  context.state.inspection.hovered.reset();
   const auto levels = static_cast<int>(trace.levels.size());
   const float gap = context.px(8), room = ImGui::GetContentRegionAvail().x;
   const int most = std::max(1, static_cast<int>((room + gap) / (5.2F * context.em() + gap)));
@@ -193,9 +180,14 @@ void draw_elements(PanelContext& context, const VisitTrace& trace) {
   dim_text(context, moved ? "its elements, before → after" : "its elements", false);
   next_item_tooltip("▸ limits the star before, ▹ after the visit; click selects an element");
   const Index limit_before = limiting_element(trace, false), limit_after = limiting_element(trace, true);
-  const float number_width = ImGui::CalcTextSize(moved ? "0.0000 → 0.0000" : "0.0000").x;
-  float id_width = 0;
-  for (const ElementChange& change : trace.elements) id_width = std::max(id_width, ImGui::CalcTextSize(count(change.element).c_str()).x);
+  const auto numbers_of = [moved](const ElementChange& change) {
+    return moved ? fmt::format("{} → {}", short_number(change.before), short_number(change.after)) : short_number(change.before);
+  };
+  float id_width = 0, number_width = 0;
+  for (const ElementChange& change : trace.elements) {
+    id_width = std::max(id_width, ImGui::CalcTextSize(count(change.element).c_str()).x);
+    number_width = std::max(number_width, ImGui::CalcTextSize(numbers_of(change).c_str()).x);
+  }
   for (const ElementChange& change : trace.elements) {
     ImGui::PushID(static_cast<int>(change.element));
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -213,8 +205,7 @@ void draw_elements(PanelContext& context, const VisitTrace& trace) {
     list.AddText(at, colour(context.palette.text), marks.c_str());
     const std::string id = count(change.element);
     list.AddText({at.x + gutter + id_width - ImGui::CalcTextSize(id.c_str()).x, at.y}, colour(context.palette.text), id.c_str());
-    const std::string numbers =
-        moved ? fmt::format("{} → {}", short_number(change.before), short_number(change.after)) : short_number(change.before);
+    const std::string numbers = numbers_of(change);
     list.AddText({at.x + width - ImGui::CalcTextSize(numbers.c_str()).x, at.y},
                  colour(change.inverted_after ? context.palette.error : context.palette.text), numbers.c_str());
     const float left = at.x + gutter + id_width + context.px(8), right = at.x + width - number_width - context.px(8);

@@ -86,6 +86,24 @@ void draw_level_label(PanelContext& context, const Rect& rect) {
   ImGui::GetWindowDrawList()->AddText({x + pad, y + pad / 2}, colour(context.palette.text), label.c_str());
 }
 
+/// The candidate under the mouse, in words; the inspector marks it, too.
+void read_candidate(PanelContext& context, const Rect& rect) {
+  InspectionState& state = context.state.inspection;
+  if (!state.open || state.applied || state.all_levels || state.level < 1 || !context.inspection.trace || !ImGui::IsItemHovered()) return;
+  const VisitTrace& trace = *context.inspection.trace;
+  if (static_cast<std::size_t>(state.level) > trace.levels.size()) return;
+  const TracedLevel& level = trace.levels[static_cast<std::size_t>(state.level - 1)];
+  const Vec2<double> mouse = mouse_in(rect);
+  double nearest = 9.0 * context.state.scale;  // pixels
+  for (int index = 0; index < level.points * level.points; ++index) {
+    const Vec2<double> way = context.state.camera.to_pixel(context.inspection.origin + level.at(index), context.state.viewport) - mouse;
+    if (std::hypot(way.x, way.y) >= nearest) continue;
+    nearest = std::hypot(way.x, way.y);
+    state.hovered = CandidateName{state.level, index};
+  }
+  if (state.hovered && !ImGui::IsAnyMouseDown()) next_item_tooltip(candidate_text(trace, level, state.hovered->index));
+}
+
 void draw_bar_colours(const PanelContext& context, ImVec2 low, ImVec2 high) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   render::ColourScale scale;
@@ -216,6 +234,7 @@ void handle_mouse(PanelContext& context, const Rect& rect) {
 }  // namespace
 
 void draw_viewport(PanelContext& context, const Rect& rect) {
+  context.state.inspection.hovered.reset();
   if (rect.empty()) return;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, colour_vector(context.palette.background));
@@ -235,6 +254,7 @@ void draw_viewport(PanelContext& context, const Rect& rect) {
   ImGui::InvisibleButton("mesh", {rect.w, rect.h},
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
   context.items.record_last("viewport");
+  read_candidate(context, rect);
   handle_mouse(context, rect);
   draw_field_in_view(context, rect);
   draw_level_label(context, rect);

@@ -23,8 +23,8 @@ constexpr std::array kActions{
     Action{"sample-grid", "File", "Sample: grid", "", "generate grid"},
     Action{"quit", "File", "Quit", "Ctrl+Q", "quit", Needs::Nothing, true},
 
-    Action{"undo", "Edit", "Undo an iteration", "Ctrl+Z", "back iteration", Needs::MeshAndIdle},
-    Action{"redo", "Edit", "Redo an iteration", "Ctrl+Y", "timeline forward", Needs::MeshAndIdle},
+    Action{"undo", "Edit", "Undo", "Ctrl+Z", "undo", Needs::Undo},
+    Action{"redo", "Edit", "Redo", "Ctrl+Y", "redo", Needs::Redo},
     Action{"find", "Edit", "Find vertex or element…", "Ctrl+F", "dialog find", Needs::Mesh, true},
     Action{"pick-none", "Edit", "Clear selection", "Escape", "pick none", Needs::Picked},
 
@@ -143,6 +143,7 @@ const Action* action_of(const KeyChord& chord) {
   // "+" is Shift+"=" on many keyboards, and a key of its own on others; key codes know only "=".
   KeyChord wanted = chord;
   if (chord.code == '=' && !chord.ctrl && !chord.alt) wanted = {'+', false, false, false};
+  if (wanted == parse_key("Ctrl+Shift+Z")) wanted = *parse_key("Ctrl+Y");  // people know either
   for (const Action& action : kActions) {
     if (!action.key.empty() && parse_key(action.key) == wanted) return &action;
   }
@@ -175,8 +176,17 @@ bool enabled(const Action& action, const Situation& now) {
       return now.picked;
     case Needs::Selected:
       return now.mesh && !now.busy && now.selected;
+    case Needs::Undo:
+      return !now.busy && !now.undo.empty();
+    case Needs::Redo:
+      return !now.busy && !now.redo.empty();
   }
   return false;
+}
+
+std::string title_of(const Action& action, const Situation& now) {
+  const std::string& about = action.needs == Needs::Undo ? now.undo : action.needs == Needs::Redo ? now.redo : std::string();
+  return about.empty() ? std::string(action.title) : std::string(action.title) + ' ' + about;
 }
 
 std::vector<std::string> search_words(std::string_view query) {

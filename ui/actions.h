@@ -11,7 +11,7 @@
 namespace dmoscope::ui {
 
 /// What must be so for an action to be possible.
-enum class Needs { Nothing, Mesh, Idle, MeshAndIdle, Work, SeveralRuns, Picked, Selected };
+enum class Needs { Nothing, Mesh, Idle, MeshAndIdle, Work, SeveralRuns, Picked, Selected, Undo, Redo };
 
 struct Action {
   std::string_view id;       // "step-iteration"; also the name of its items
@@ -36,9 +36,12 @@ struct Action {
 struct Situation {
   bool mesh = false, busy = false, picked = false;
   std::size_t runs = 0;
-  bool selected = false;  // at least one vertex; see Selection
+  bool selected = false;       // at least one vertex; see Selection
+  std::string undo{}, redo{};  // what they are about ("run 10"); empty: nothing
 };
 [[nodiscard]] bool enabled(const Action& action, const Situation& situation);
+/// The title, with what undo and redo are about: "Undo run 10".
+[[nodiscard]] std::string title_of(const Action& action, const Situation& situation);
 
 /// Actions whose title, menu or command holds all words of `query` (case-insensitive), best first: titles that begin with it.
 [[nodiscard]] std::vector<const Action*> search_actions(std::string_view query);

@@ -238,7 +238,7 @@ void App::handle_shortcuts() {
     // With the keyboard in the widgets, Space presses the one that has the focus.
     if (chord->code == key::kSpace && io.NavVisible) continue;
     if (enabled(action, {session_->input != nullptr, activity_.busy, state_.picked.kind != Picked::Kind::None, session_->runs.size(),
-                         !state_.selection.empty()})) {
+                         !state_.selection.empty(), session_->undo_label, session_->redo_label})) {
       submit(action.command);
     }
     return;

@@ -20,8 +20,8 @@ std::vector<PaletteEntry> palette_entries(std::string_view text, const Situation
     if (has_words && one->name == verb) entries.push_back({fmt::format("run: {}", text), one->usage, std::string(text), true, true});
   }
   for (const Action* action : search_actions(text)) {
-    entries.push_back({fmt::format("{}: {}", action->menu, action->title), std::string(action->key), std::string(action->command),
-                       enabled(*action, situation), true});
+    entries.push_back({fmt::format("{}: {}", action->menu, title_of(*action, situation)), std::string(action->key),
+                       std::string(action->command), enabled(*action, situation), true});
   }
   const std::vector<std::string> words = search_words(text);
   // Verbs that begin with what was typed before those that only speak of it.

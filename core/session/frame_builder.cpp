@@ -206,6 +206,8 @@ std::shared_ptr<const SessionView> FrameBuilder::build(Session& session, FrameDe
   view->shown = session.shown();
   view->threads = session.pool()->size();
   if (!session.has_input()) return view;
+  if (const UndoEntry* entry = session.undo_stack().to_undo()) view->undo_label = entry->label;
+  if (const UndoEntry* entry = session.undo_stack().to_redo()) view->redo_label = entry->label;
   view->input = session.input();
   view->active = session.active_index();
   for (std::size_t i = 0; i < session.run_count(); ++i) view->runs.push_back(view_of(session.run(i)));

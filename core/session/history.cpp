@@ -50,6 +50,10 @@ void History::keep(std::uint64_t iteration, std::span<const Vec3> positions, Thr
   kept_.insert(std::ranges::upper_bound(kept_, iteration, {}, &Kept::iteration), copy_of(iteration, positions, pool));
 }
 
+void History::know_again(const SharedVector<IterationRecord>& all) {
+  if (all.size() > records().size()) records_.replace(all.whole());
+}
+
 void History::forget_after(std::uint64_t iteration) {
   if (records().size() > iteration + 1) records_.change().resize(iteration + 1);
   std::erase_if(kept_, [&](const Kept& kept) { return kept.iteration > iteration; });

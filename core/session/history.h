@@ -41,6 +41,8 @@ class History {
   /// Keeps positions, unless they are kept already or not wanted. When the budget is full the stride doubles and positions in between are
   /// let go: those iterations are computed again when asked for. `pool`: for the copy, may be null.
   void keep(std::uint64_t iteration, std::span<const Vec3> positions, ThreadPool* pool);
+  /// Takes back records of the same path that were forgotten.
+  void know_again(const SharedVector<IterationRecord>& records);
   /// Forgets all that came after an iteration.
   void forget_after(std::uint64_t iteration);
   [[nodiscard]] const std::vector<IterationRecord>& records() const noexcept { return records_.values(); }

@@ -48,10 +48,11 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
     : input_(std::move(input)),
       parameters_(std::move(parameters)),
       pool_(std::move(pool)),
+      acceleration_(std::move(acceleration)),
       fixed_(std::make_shared<const std::vector<std::uint8_t>>(fixed_vertices(*input_, parameters_.fixed))),
       colouring_(make_colouring(*input_, free_vertices(fixed(), parameters_.order), pool_.get())),
       immovable_(immovable_elements(input_->mesh, fixed(), pool_.get())),
-      executor_(make_executor(parameters_.backend, acceleration, task())),
+      executor_(make_executor(parameters_.backend, acceleration_, task())),
       positions_(working_copy(input_->mesh.positions)),
       blocks_(executor_.smoother->positions_are_far()),
       history_(history_bytes) {
@@ -92,17 +93,38 @@ std::span<const Vec3> Run::positions() const {
 Statistics Run::statistics() const {
   const std::uint64_t iteration = at_.moment.iteration;
   if (at_.moment.is_iteration_end() && iteration < history_.records().size()) return history_.records()[iteration].statistics;
-  if (const auto found = asking_device([this] { return executor_.smoother->statistics(); })) return *found;
+  if (executor_.smoother)
+    if (const auto found = asking_device([this] { return executor_.smoother->statistics(); })) return *found;
   return compute_statistics(input_->quality_context(), positions(), parameters_.metric, immovable_, pool_.get());
 }
 
-std::shared_ptr<const DevicePicture> Run::picture(Metric shown) const { return executor_.smoother->picture(shown); }
+std::shared_ptr<const DevicePicture> Run::picture(Metric shown) const {
+  return executor_.smoother ? executor_.smoother->picture(shown) : nullptr;
+}
 
 void Run::settle() {
   recover();
   recovering([this] { bring(); });
   keep();
 }
+
+void Run::rest() {
+  settle();
+  executor_.smoother.reset();
+}
+
+void Run::awaken() {
+  if (executor_.smoother) return;
+  if (executor_.backend == name(Backend::Cpu)) {  // also where a device failed before
+    const SmoothingTask all = task();
+    executor_.smoother = make_smoother(all.method, all.input, all.colouring, all.metric, all.search, all.pool);
+  } else {
+    executor_ = make_executor(parameters_.backend, acceleration_, task());
+  }
+  blocks_ = BlockPlan(executor_.smoother->positions_are_far());
+}
+
+RunPoint Run::point() const { return {at_.moment, edits_.share(), history_.shared_records(), last_outcome_, path_}; }
 
 void Run::recover() {
   if (failure_.empty()) return;

@@ -65,6 +65,15 @@ struct Place {
   double seconds = 0.0;  // of smoothing
 };
 
+/// Where a run stands, and on which path.
+struct RunPoint {
+  Moment moment{};
+  SharedVector<Edit> edits{};
+  SharedVector<IterationRecord> records{};
+  std::optional<Outcome> outcome{};
+  std::uint64_t path = 0;  // Run::path()
+};
+
 class Run {
  public:
   /// Throws UsageError for parameters out of range, an unknown method, a metric not defined for the mesh, or a backend that cannot do it;
@@ -132,6 +141,12 @@ class Run {
   [[nodiscard]] const Edits& edits() const noexcept { return edits_; }
   /// Back to the input, and the edits are forgotten.
   void reset(Progress& progress);
+  [[nodiscard]] RunPoint point() const;
+  /// Goes to where this run stood, whatever became of its path since then. On Cancelled the run stands at an exact moment of that path.
+  void go_to(const RunPoint& point, Progress& progress);
+  /// Gives up what only smoothing needs, some of it on a device; who smooths next makes it again.
+  void rest();
+
   /// Changes whenever a moment may show other positions than it did before: same run, same path, same moment, same bits.
   [[nodiscard]] std::uint64_t path() const noexcept { return path_; }
 
@@ -147,6 +162,7 @@ class Run {
 
  private:
   [[nodiscard]] SmoothingTask task() const;
+  void awaken();
   void bring() const;
   void keep();
   void walk_to(const Moment& target, Progress& progress);
@@ -169,10 +185,11 @@ class Run {
   std::shared_ptr<const InputMesh> input_;
   RunParameters parameters_;
   std::shared_ptr<ThreadPool> pool_;
+  Acceleration acceleration_;
   SharedVector<std::uint8_t> fixed_;
   std::shared_ptr<const Colouring> colouring_;
   std::vector<Index> immovable_;
-  Executor executor_;
+  Executor executor_;  // its smoother is null while the run rests
   Place at_;
   mutable std::vector<Vec3> positions_;             // the smoother may be ahead of them until bring()
   mutable std::optional<Place> brought_ = Place{};  // the place that positions_ show; none: a device failed while it was bringing them

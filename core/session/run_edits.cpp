@@ -53,6 +53,7 @@ std::uint64_t Run::do_edit(std::span<const Index> vertices) {
 std::uint64_t Run::visit_vertices(std::span<const Index> vertices, Progress& progress) {
   recover();
   const std::vector<Index> ranks = ranks_of(vertices);
+  awaken();
   recovering([this] { bring(); });
   keep();
   const bool one = ranks.size() <= Edit::kMostVertices;

@@ -61,6 +61,7 @@ void Run::walk_to(const Moment& target, Progress& progress) {
   const std::uint64_t whole = visits_per_iteration();
   last_outcome_.reset();
   keep();
+  awaken();
   while (at_.moment < target) {
     const Moment& now = at_.moment;
     progress.check();
@@ -129,8 +130,26 @@ void Run::seek(const Moment& wanted, Progress& progress) {
   last_outcome_.reset();
   recover();
   keep();
+  if (target == at_.moment) return;
   if (target < at_.moment || history_.nearest(target.iteration).iteration > at_.moment.iteration) restore(target.iteration);
   walk_to(target, progress);
+}
+
+void Run::go_to(const RunPoint& point, Progress& progress) {
+  recover();
+  keep();
+  const std::vector<Edit>&mine = edits_.all(), &theirs = point.edits.whole();
+  const auto [a, b] = std::mismatch(mine.begin(), mine.end(), theirs.begin(), theirs.end());
+  if (a != mine.end() || b != theirs.end()) {
+    const Moment parting = a == mine.end() ? b->at : b == theirs.end() ? a->at : std::min(a->at, b->at);
+    history_.forget_after(parting.iteration);
+    if (parting < at_.moment) restore(parting.iteration);
+    edits_.replace(point.edits);
+    ++path_;
+  }
+  history_.know_again(point.records);
+  seek(point.moment, progress);
+  last_outcome_ = point.outcome;
 }
 
 /// Goes to the last kept positions that are no later than the end of `iteration`.
@@ -142,7 +161,7 @@ void Run::restore(std::uint64_t iteration) {
 /// Stands at a place whose positions are these.
 void Run::put(std::span<const Vec3> positions, const Place& place) {
   positions_.assign(positions.begin(), positions.end());
-  executor_.smoother->positions_replaced();
+  if (executor_.smoother) executor_.smoother->positions_replaced();
   at_ = place;
   brought_ = at_;
 }

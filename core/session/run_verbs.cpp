@@ -76,6 +76,15 @@ void say(CommandContext& context, Arguments arguments) {
   tell(context, std::move(text));
 }
 
+void undo(CommandContext& context, Arguments arguments) {
+  require(arguments, 0, 0);
+  tell(context, fmt::format("undid: {}", context.session.undo(context.progress)));
+}
+void redo(CommandContext& context, Arguments arguments) {
+  require(arguments, 0, 0);
+  tell(context, fmt::format("redid: {}", context.session.redo(context.progress)));
+}
+
 }  // namespace
 
 std::span<const Verb> run_verbs() {
@@ -83,6 +92,8 @@ std::span<const Verb> run_verbs() {
       {{"add-run", "add-run METHOD[:METRIC]", "Adds a run beside the others."}, add_run},
       {{"select-run", "select-run K", "Makes run K (from 1) the active one."}, select_run},
       {{"remove-run", "remove-run K", "Removes run K."}, remove_run},
+      {{"undo", "undo", "Undoes the last command that changed mesh or runs."}, undo, false},
+      {{"redo", "redo", "Does again what was undone."}, redo, false},
       {{"threads", "threads N", "Threads to smooth with; 0: all."}, set_threads},
       {{"history", "history MIB", "Memory for positions of past iterations, all runs together."}, set_history},
       {{"expect", "expect minimum|movable|mean|inverted|iteration|moved <|<=|==|>=|> VALUE", "Fails when it does not hold."}, expect},

@@ -16,14 +16,14 @@ void Session::open(Mesh mesh, Progress& progress) { replace_input(prepare_input(
 void Session::replace_input(std::shared_ptr<const InputMesh> input) {
   RunParameters parameters{.backend = backend_};
   if (!runs_.empty()) {
-    parameters = runs_[active_].parameters();
+    parameters = runs_[active_]->parameters();
     parameters.fixed.clear();
   }
   const auto usable = [&mesh = input->mesh](Metric metric) {  // not `input`: it is moved from below
     return std::ranges::all_of(mesh.elements.kinds(), [&](ElementKind kind) { return info(metric).defined_for(kind); });
   };
   if (!usable(parameters.metric)) parameters.metric = Metric::MeanRatio;
-  Run run(input, parameters, pool_, history_bytes_, acceleration_);  // may throw: nothing has been replaced yet
+  auto run = std::make_shared<Run>(input, parameters, pool_, history_bytes_, acceleration_);  // may throw: nothing has been replaced yet
   input_ = std::move(input);
   runs_.clear();
   runs_.push_back(std::move(run));
@@ -39,7 +39,7 @@ const std::shared_ptr<const InputMesh>& Session::input() const {
 Run& Session::run(std::size_t index) {
   if (!input_) throw UsageError("no mesh is open");
   if (index >= runs_.size()) throw UsageError(fmt::format("there is no run {}; the session has {}", index, runs_.size()));
-  return runs_[index];
+  return *runs_[index];
 }
 
 void Session::select(std::size_t index) {
@@ -48,7 +48,7 @@ void Session::select(std::size_t index) {
 }
 
 std::size_t Session::add_run(RunParameters parameters) {
-  runs_.emplace_back(input(), std::move(parameters), pool_, history_bytes_, acceleration_);
+  runs_.push_back(std::make_shared<Run>(input(), std::move(parameters), pool_, history_bytes_, acceleration_));
   active_ = runs_.size() - 1;
   share_history();
   return active_;
@@ -63,10 +63,10 @@ void Session::remove_run(std::size_t index) {
 }
 
 std::size_t Session::change(RunParameters parameters) {
-  Run& current = active();
-  const bool untouched = current.moment() == Moment{} && current.history().records().size() == 1;
+  const Run& current = active();
+  const bool untouched = current.moment() == Moment{} && current.history().records().size() == 1 && current.edits().all().empty();
   if (!untouched) return add_run(std::move(parameters));
-  current = Run(input_, std::move(parameters), pool_, history_bytes_, acceleration_);
+  runs_[active_] = std::make_shared<Run>(input_, std::move(parameters), pool_, history_bytes_, acceleration_);
   share_history();
   return active_;
 }
@@ -84,12 +84,67 @@ void Session::set_history_budget(std::size_t bytes) {
 }
 
 void Session::share_history() {
-  for (Run& run : runs_) run.set_history_budget(history_bytes_ / runs_.size());
+  for (const auto& run : runs_) run->set_history_budget(history_bytes_ / runs_.size());
 }
 
 void Session::set_threads(unsigned threads) {
   pool_ = std::make_shared<ThreadPool>(threads);
-  for (Run& run : runs_) run.set_pool(pool_);
+  for (const auto& run : runs_) run->set_pool(pool_);
+}
+
+SessionPoint Session::point() const {
+  SessionPoint point{input_, {}, active_, shown_};
+  for (const auto& run : runs_) point.runs.push_back({run, run->point()});
+  return point;
+}
+
+void Session::remember(std::string label, const SessionPoint& before) {
+  undo_.record(std::move(label), before, point());
+  rest_retired_runs();
+}
+
+std::string Session::undo(Progress& progress) {
+  const UndoEntry* entry = undo_.to_undo();
+  if (entry == nullptr) throw UsageError("there is nothing to undo");
+  go_to(entry->before, entry->before.shown != entry->after.shown, progress);
+  undo_.undone();
+  return entry->label;
+}
+
+std::string Session::redo(Progress& progress) {
+  const UndoEntry* entry = undo_.to_redo();
+  if (entry == nullptr) throw UsageError("there is nothing to redo");
+  go_to(entry->after, entry->before.shown != entry->after.shown, progress);
+  undo_.redone();
+  return entry->label;
+}
+
+/// `with_shown`: the metric that is shown, too; else that stays, where the mesh has it.
+void Session::go_to(const SessionPoint& point, bool with_shown, Progress& progress) {
+  const std::unique_ptr<Session, void (*)(Session*)> at_the_end(this, [](Session* session) { session->rest_retired_runs(); });
+  for (const auto& [run, where] : point.runs) {
+    run->set_pool(pool_);
+    run->go_to(where, progress);
+  }
+  const bool other_mesh = input_ != point.input;
+  input_ = point.input;
+  runs_.clear();
+  for (const auto& [run, where] : point.runs) runs_.push_back(run);
+  active_ = point.active;
+  if (with_shown || other_mesh) shown_ = point.shown;
+  share_history();
+}
+
+/// Runs that only undo knows keep no more than they must, and share among them as much memory for positions as the others do.
+void Session::rest_retired_runs() {
+  const auto retired = undo_.retired_runs(point());
+  for (const auto& run : retired) {
+    run->set_history_budget(history_bytes_ / retired.size());
+    try {
+      run->rest();
+    } catch (const DeviceError&) {  // it has recovered, and goes on on the CPU
+    }
+  }
 }
 
 }  // namespace dmoscope

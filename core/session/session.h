@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/session/run.h"
+#include "core/session/undo.h"
 
 namespace dmoscope {
 
@@ -28,6 +29,8 @@ class Session {
 
   [[nodiscard]] std::size_t run_count() const noexcept { return runs_.size(); }
   [[nodiscard]] Run& run(std::size_t index);
+  /// The same, to tell one run from another.
+  [[nodiscard]] std::weak_ptr<const Run> identity(std::size_t index) { return (void)run(index), runs_[index]; }
   [[nodiscard]] std::size_t active_index() const noexcept { return active_; }
   [[nodiscard]] Run& active() { return run(active_); }
   void select(std::size_t index);
@@ -38,6 +41,15 @@ class Session {
   /// Gives the active run other parameters: in place while it has not moved from the input, else as a new run beside it, so that
   /// nothing is lost. Returns the index of the run that has them.
   std::size_t change(RunParameters parameters);
+
+  [[nodiscard]] SessionPoint point() const;
+  /// Remembers what a command did since `before`, for undo.
+  void remember(std::string label, const SessionPoint& before);
+  /// Undoes the last command that is remembered; returns its label. Throws UsageError when there is none. On Cancelled every run stands at
+  /// an exact moment, on the way, and undo can be asked for again.
+  std::string undo(Progress& progress);
+  std::string redo(Progress& progress);
+  [[nodiscard]] const UndoStack& undo_stack() const noexcept { return undo_; }
 
   /// Metric shown in colours, histogram and worst list; apart from the one a run optimises.
   [[nodiscard]] Metric shown() const noexcept { return shown_; }
@@ -51,15 +63,18 @@ class Session {
  private:
   void replace_input(std::shared_ptr<const InputMesh> input);
   void share_history();
+  void go_to(const SessionPoint& point, bool with_shown, Progress& progress);
+  void rest_retired_runs();
 
   std::shared_ptr<ThreadPool> pool_;
   Acceleration acceleration_;
   Backend backend_;
   std::size_t history_bytes_ = kDefaultHistoryBytes;
   std::shared_ptr<const InputMesh> input_;
-  std::vector<Run> runs_;
+  std::vector<std::shared_ptr<Run>> runs_;
   std::size_t active_ = 0;
   Metric shown_ = Metric::MeanRatio;
+  UndoStack undo_;
 };
 
 }  // namespace dmoscope

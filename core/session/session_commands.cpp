@@ -24,6 +24,30 @@ void for_verbs(const Take& take) {
     for (const Verb& verb : theme) take(verb);
 }
 
+/// What a person reads of a command: "visit 12 13 14…".
+std::string label_of(const std::string& verb, Arguments arguments) {
+  constexpr std::size_t kLongest = 48;
+  std::string label = verb;
+  for (const std::string& word : arguments) {
+    if (label.size() + word.size() > kLongest) return label + " …";
+    label += ' ' + word;
+  }
+  return label;
+}
+
+/// Whatever `work` changes can be undone, even when it fails half-way.
+template <class Work>
+void remembering(Session& session, std::string label, const Work& work) {
+  const SessionPoint before = session.point();
+  try {
+    work();
+  } catch (...) {
+    session.remember(std::move(label), before);
+    throw;
+  }
+  session.remember(std::move(label), before);
+}
+
 /// The vertices "A-B" names, or the one.
 std::pair<std::uint64_t, std::uint64_t> to_range(const std::string& word) {
   const std::size_t dash = word.find('-');
@@ -76,9 +100,17 @@ const std::vector<CommandInfo>& session_commands() {
 
 void add_session_commands(CommandTable& table, CommandContext& context) {
   for_verbs([&](const Verb& verb) {
-    table.add(verb.info, [&context, handler = verb.handler](Arguments arguments) {
-      handler(context, arguments);
-      if (context.session.has_input()) context.session.active().settle();  // a device that fails later takes nothing of what was asked for
+    table.add(verb.info, [&context, verb](Arguments arguments) {
+      const auto carry_out = [&] {
+        verb.handler(context, arguments);
+        if (context.session.has_input())
+          context.session.active().settle();  // a device that fails later takes nothing of what was asked for
+      };
+      if (verb.remembered) {
+        remembering(context.session, label_of(verb.info.name, arguments), carry_out);
+      } else {
+        carry_out();
+      }
       tell_warnings(context);
     });
   });

@@ -14,6 +14,7 @@ using Arguments = CommandTable::Arguments;
 struct Verb {
   CommandInfo info;
   void (*handler)(CommandContext&, Arguments);
+  bool remembered = true;  // what it changes can be undone
 };
 
 /// Meshes and files; parameters of the active run; its steps; runs and the session.

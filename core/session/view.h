@@ -68,6 +68,7 @@ struct SessionView {
   std::size_t active = 0;
   Metric shown = Metric::MeanRatio;
   unsigned threads = 1;
+  std::string undo_label, redo_label;  // the commands that undo and redo are about ("run 10"); empty: there is none
   std::shared_ptr<const Frame> frame;  // of the active run; null when nothing is open
 };
 

@@ -60,6 +60,7 @@ TEST(Actions, TheKeysThatPeopleAreToldOfWork) {
                                                         {"Tab", "next-run"},      {"Ctrl+O", "open"},
                                                         {"Ctrl+S", "export"},     {"Ctrl+Shift+S", "screenshot"},
                                                         {"Ctrl+Z", "undo"},       {"Ctrl+F", "find"},
+                                                        {"Ctrl+Y", "redo"},       {"Ctrl+Shift+Z", "redo"},
                                                         {"F1", "keys"},           {"Ctrl+P", "palette"},
                                                         {"F11", "full-screen"},   {"[", "timeline-back"},
                                                         {"]", "timeline-forward"}};

@@ -208,7 +208,7 @@ TEST(CommandLog, ANumberedCommandEndsAsItsOwn) {
   log.ended({3, CommandEnd::Kind::Dropped, {}, false});  // told of before the one at work
   log.ended({2, CommandEnd::Kind::Cancelled, {7, 12}, true});
   EXPECT_EQ(log.script({}),
-            "# A recorded session: dmoscope script FILE [--headless]\nrun 5\n# cancelled: run 5\nseek 7 12\n# cancelled before it began: "
+            "# A recorded session: dmoscope script FILE [--headless]\nrun 5\n# cancelled: run 5\nseek 7 12 0\n# cancelled before it began: "
             "run 5\n");
   EXPECT_EQ(log.lines()[1].state, ui::LogLine::State::Cancelled);
 }

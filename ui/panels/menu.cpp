@@ -65,7 +65,8 @@ void draw_entries(PanelContext& context, std::string_view menu) {
   for (const Action& action : actions()) {
     if (action.menu != menu || action.id.starts_with("sample-")) continue;
     if (action.separator) ImGui::Separator();
-    if (ImGui::MenuItem(std::string(action.title).c_str(), std::string(action.key).c_str(), is_checked(context.state, action.id),
+    const std::string title = fmt::format("{}###{}", title_of(action, context.situation()), action.id);
+    if (ImGui::MenuItem(title.c_str(), std::string(action.key).c_str(), is_checked(context.state, action.id),
                         enabled(action, context.situation()))) {
       context.send(std::string(action.command));
     }

@@ -10,8 +10,8 @@ namespace {
 /// With "toggle" behind it, a reference that is shown already is shown no more.
 Reference chosen(Arguments words, Reference now) {
   need(words, 1, 2);
-  static constexpr std::array<std::pair<std::string_view, Reference>, 3> names{
-      {{"off", Reference::None}, {"input", Reference::Input}, {"previous", Reference::Previous}}};
+  static constexpr auto names = std::to_array<std::pair<std::string_view, Reference>>(
+      {{"off", Reference::None}, {"input", Reference::Input}, {"previous", Reference::Previous}, {"a", Reference::A}, {"b", Reference::B}});
   const Reference wanted = choose(words[0], names);
   if (words.size() == 1) return wanted;
   if (words[1] != "toggle") unexpected(words[1], "toggle");
@@ -26,8 +26,9 @@ void add_stepping_verbs(CommandTable& table, ViewState& state) {
               need(words, 0, 1);
               state.stepping.next_class = switched(words, 0, state.stepping.next_class);
             });
-  table.add({"arrows", "arrows off|input|previous [toggle]", "from where vertices were: at the input, or before the last command"},
-            [&state](Arguments words) { state.stepping.arrows = chosen(words, state.stepping.arrows); });
+  table.add(
+      {"arrows", "arrows off|input|previous|a|b [toggle]", "from where vertices were: at the input, before the last command, or at a mark"},
+      [&state](Arguments words) { state.stepping.arrows = chosen(words, state.stepping.arrows); });
   table.add({"arrow-scale", "arrow-scale FACTOR|auto|up|down", "how many times too long the arrows are drawn"}, [&state](Arguments words) {
     need(words, 1, 1);
     double& scale = state.stepping.arrow_scale;
@@ -40,7 +41,7 @@ void add_stepping_verbs(CommandTable& table, ViewState& state) {
     if (!(wanted > 0.0)) throw UsageError("the factor must be greater than 0");
     scale = std::clamp(wanted, 1e-3, 1e6);
   });
-  table.add({"ghost", "ghost off|input|previous [toggle]", "edges as they were: at the input, or before the last command"},
+  table.add({"ghost", "ghost off|input|previous|a|b [toggle]", "edges as they were: at the input, before the last command, or at a mark"},
             [&state](Arguments words) { state.stepping.ghost = chosen(words, state.stepping.ghost); });
 }
 

@@ -5,7 +5,8 @@
 
 namespace dmoscope::ui {
 
-///   next-class on|off|toggle | arrows off|input|previous [toggle] | arrow-scale FACTOR|auto|up|down | ghost off|input|previous [toggle]
+///   next-class on|off|toggle | arrows off|input|previous|a|b [toggle] | arrow-scale FACTOR|auto|up|down | ghost off|input|previous|a|b
+///   [toggle]
 void add_stepping_verbs(CommandTable& table, ViewState& state);
 
 }  // namespace dmoscope::ui

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace dmoscope::ui {
 namespace {
@@ -63,7 +64,7 @@ Displacements::Displacements(const Plane& plane, std::span<const Vec3> from, std
 }
 
 double arrow_factor(const MarkView& view, const Displacements& moved, double wanted) {
-  constexpr double kLong = 45.0;  // pixels at scale 1
+  constexpr double kLong = 28.0;  // pixels at scale 1
   if (wanted > 0.0) return wanted;
   const render::Bounds2 window = view.window();
   double longest = 0.0;
@@ -74,15 +75,17 @@ double arrow_factor(const MarkView& view, const Displacements& moved, double wan
   return longest > 0.0 ? view.units(kLong) / longest : 1.0;
 }
 
-void add_arrows(render::Marks& marks, const MarkView& view, const Displacements& moved, double factor, render::Rgba ink,
-                render::Rgba casing) {
+std::size_t add_arrows(render::Marks& marks, const MarkView& view, const Displacements& moved, double factor, render::Rgba ink,
+                       render::Rgba casing) {
   const render::Bounds2 window = view.window();
   const double least = view.units(4.0);
-  std::size_t drawn = 0;
+  const double cell = view.units(14.0);
+  std::size_t drawn = 0, left_out = 0;
+  std::set<std::pair<std::int64_t, std::int64_t>> taken;  // cells of the view where one begins
   std::vector<render::OverlayLine> inner;
   const auto line = [&](Vec2<double> a, Vec2<double> b) {
-    marks.lines.push_back({a, b, 3.2F, casing});
-    inner.push_back({a, b, 1.4F, ink});
+    marks.lines.push_back({a, b, 3.0F, casing});
+    inner.push_back({a, b, 1.3F, ink});
   };
   moved.for_each([&](const Displacements::One& one) {
     const Vec2<double> way = times(factor, one.way);
@@ -90,20 +93,27 @@ void add_arrows(render::Marks& marks, const MarkView& view, const Displacements&
     if (2.0 * length < least) return false;  // and all that follow are no more than twice as long as this one
     const Vec2<double> tip = one.from + way;
     if (length < least || !meets(window, one.from, tip)) return true;
+    const std::pair place{std::llround((one.from.x - window.low.x) / cell), std::llround((one.from.y - window.low.y) / cell)};
+    if (drawn == kMostMarks || !taken.insert(place).second) {
+      ++left_out;
+      return true;
+    }
+    ++drawn;
     line(one.from, tip);
     const double head = std::min(0.4 * length, view.units(7.0)) / length;
     const Vec2<double> back = times(-head, way), side = times(0.5, {-back.y, back.x});
     line(tip, tip + back + side);
     line(tip, tip + back - side);
-    return ++drawn < kMostMarks;
+    return true;
   });
   marks.lines.insert(marks.lines.end(), inner.begin(), inner.end());
+  return left_out;
 }
 
 void add_ghost(render::Marks& marks, const MarkView& view, const Mesh& mesh, const Plane& plane, std::span<const Vec3> from,
                std::span<const Vec3> to, std::span<const Index> elements, render::Rgba ink, render::Rgba casing) {
   const render::Bounds2 window = view.window();
-  const double least = view.units(0.5), shortest = view.units(8.0);
+  const double least = view.units(1.0), shortest = view.units(8.0);
   std::vector<render::OverlayLine> inner;
   const auto moved = [&](Index v) { return length_of(plane.project(to[v] - from[v])) >= least; };
   for (const Index e : elements) {

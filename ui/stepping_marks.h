@@ -57,14 +57,15 @@ class Displacements {
   double longest_ = 0.0;
 };
 
-/// By how much arrows are scaled: `wanted`, or where that is 0 what makes the longest in view 30 to 60 pixels long.
+/// By how much arrows are scaled: `wanted`, or where that is 0 what makes the longest in view 28 to 56 pixels long.
 [[nodiscard]] double arrow_factor(const MarkView& view, const Displacements& moved, double wanted);
 
-/// Arrows of those in view that are four pixels long or more when scaled by `factor`.
-void add_arrows(render::Marks& marks, const MarkView& view, const Displacements& moved, double factor, render::Rgba ink,
-                render::Rgba casing);
+/// Arrows of those in view that are four pixels long or more when scaled by `factor`, where there is room for them: a longer one has
+/// none that begins near its beginning. Returns how many have none.
+std::size_t add_arrows(render::Marks& marks, const MarkView& view, const Displacements& moved, double factor, render::Rgba ink,
+                       render::Rgba casing);
 
-/// The edges of `elements` as they were, where an end has moved by half a pixel or more and the edge is long enough to be told apart.
+/// The edges of `elements` as they were, where an end has moved by a pixel or more and the edge is long enough to be told apart.
 void add_ghost(render::Marks& marks, const MarkView& view, const Mesh& mesh, const Plane& plane, std::span<const Vec3> from,
                std::span<const Vec3> to, std::span<const Index> elements, render::Rgba ink, render::Rgba casing);
 

@@ -7,7 +7,9 @@ namespace dmoscope::ui {
 enum class Reference {
   None,
   Input,
-  Previous  // before the last command that moved something
+  Previous,  // before the last command that moved something
+  A,
+  B  // what was marked on the timeline
 };
 
 struct SteppingState {

@@ -1,5 +1,6 @@
 #include "ui/stepping_view.h"
 
+#include <array>
 #include <cstring>
 #include <tuple>
 #include <utility>
@@ -19,6 +20,14 @@ bool same_mesh(const Frame& a, const Frame& b) { return a.input_serial == b.inpu
 bool same_positions(const Frame& a, const Frame& b) {
   return a.positions.size() == b.positions.size() &&
          std::memcmp(a.positions.data(), b.positions.data(), a.positions.size() * sizeof(Vec3)) == 0;
+}
+
+std::string_view since(Reference reference) {
+  constexpr std::array<std::string_view, 5> kNames{"", "the input", "the last step", "A", "B"};  // in the order of Reference
+  return kNames[static_cast<std::size_t>(reference)];
+}
+std::string why_not(Reference reference) {
+  return reference == Reference::Previous ? "nothing has moved yet" : fmt::format("{} is not marked", since(reference));
 }
 
 render::Rgba solid(render::Rgb c, int alpha = 255) { return {c.r, c.g, c.b, static_cast<std::uint8_t>(alpha)}; }
@@ -41,20 +50,26 @@ void SteppingView::update(const SessionView& session, bool busy) {
   rest_ = frame;
 }
 
-std::optional<std::span<const Vec3>> SteppingView::positions_of(Reference reference, const Frame& frame) const {
+std::optional<std::span<const Vec3>> SteppingView::positions_of(const ViewState& state, Reference reference, const Frame& frame) const {
   if (frame.device) return std::nullopt;
   if (reference == Reference::Input) return std::span(frame.input->mesh.positions);
-  if (reference == Reference::Previous && previous_ && same_mesh(*previous_, frame)) return std::span(previous_->positions);
-  return std::nullopt;
+  const Frame* before = reference == Reference::Previous ? previous_.get()
+                        : reference == Reference::A      ? state.timeline.a.frame.get()
+                        : reference == Reference::B      ? state.timeline.b.frame.get()
+                                                         : nullptr;
+  if (before == nullptr || before->device || before->input != frame.input) return std::nullopt;
+  return std::span(before->positions);
 }
 
 std::string SteppingView::key(const ViewState& state, const Frame& frame, const MarkView& view) const {
   const SteppingState& s = state.stepping;
   const Brush& brush = state.brush;
-  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", frame.serial, previous_ ? previous_->serial : 0,
-                     view.camera.centre.x, view.camera.centre.y, view.camera.units_per_pixel, view.viewport.x, view.viewport.y, view.scale,
-                     static_cast<int>(state.theme), s.next_class, static_cast<int>(s.arrows), s.arrow_scale, static_cast<int>(s.ghost),
-                     state.selection.serial(), brush.painting, static_cast<int>(brush.kind), brush.stroke.serial());
+  const auto serial = [](const std::shared_ptr<const Frame>& of) { return of ? of->serial : 0; };
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", frame.serial, serial(previous_),
+                     serial(state.timeline.a.frame), serial(state.timeline.b.frame), view.camera.centre.x, view.camera.centre.y,
+                     view.camera.units_per_pixel, view.viewport.x, view.viewport.y, view.scale, static_cast<int>(state.theme), s.next_class,
+                     static_cast<int>(s.arrows), s.arrow_scale, static_cast<int>(s.ghost), state.selection.serial(), brush.painting,
+                     static_cast<int>(brush.kind), brush.stroke.serial());
 }
 
 void SteppingView::add_marks(render::Marks& marks, const ViewState& state, const SessionView& session, const MarkView& view,
@@ -77,19 +92,19 @@ void SteppingView::make_marks(const ViewState& state, const SessionView& session
   const Palette& colours = palette(state.theme);
   const Plane& plane = frame.input->geometry.plane;
   ghost_too_fine_ = false;
-  if (const auto from = positions_of(state.stepping.ghost, frame)) {
+  if (const auto from = positions_of(state, state.stepping.ghost, frame)) {
     const auto elements = elements_in_view(view, kMostGhosts);
     ghost_too_fine_ = !elements;
     if (elements)
-      add_ghost(marks_, view, frame.input->mesh, plane, *from, frame.positions, *elements, solid(colours.text),
-                solid(colours.background, 120));
+      // The wireframe is dark in all themes.
+      add_ghost(marks_, view, frame.input->mesh, plane, *from, frame.positions, *elements, {255, 255, 255, 255}, {16, 18, 22, 150});
   }
-  if (const auto from = positions_of(state.stepping.arrows, frame)) {
-    const std::tuple wanted{state.stepping.arrows, previous_ ? previous_->serial : 0, frame.serial};
+  if (const auto from = positions_of(state, state.stepping.arrows, frame)) {
+    const std::tuple wanted{from->data(), previous_ ? previous_->serial : 0, frame.serial};
     if (moved_key_ != wanted) moved_ = Displacements(plane, *from, frame.positions);
     moved_key_ = wanted;
     factor_ = arrow_factor(view, moved_, state.stepping.arrow_scale);
-    add_arrows(marks_, view, moved_, factor_, solid(colours.text), solid(colours.background, 230));
+    arrows_left_out_ = add_arrows(marks_, view, moved_, factor_, solid(colours.runs[frame.run % 8]), solid(colours.background, 230));
   }
   if (state.stepping.next_class) add_next_class(state, session, view);
   add_selection(state, frame, view);
@@ -115,29 +130,28 @@ void SteppingView::add_selection(const ViewState& state, const Frame& frame, con
 std::string SteppingView::note(const ViewState& state, const SessionView& session) const {
   const Frame* frame = session.frame.get();
   if (frame == nullptr) return {};
+  const SteppingState& s = state.stepping;
   std::string text;
   const auto add = [&text](const std::string& part) { text += text.empty() ? part : " · " + part; };
-  const SteppingState& s = state.stepping;
   const bool wanted = s.next_class || s.arrows != Reference::None || s.ghost != Reference::None || !state.selection.empty();
   if (wanted && frame->device) return "stepping is shown when the run rests";
+  if (!state.selection.empty()) add(fmt::format("{} selected", count(state.selection.vertices().size())));
+  if (state.brush.on) add("brush");
+  if (s.click_smooths) add("a click smooths");
   if (s.next_class && frame->run < session.runs.size() && session.runs[frame->run].colouring) {
     const NextClass next = next_class(*session.runs[frame->run].colouring, frame->moment.visits);
     if (next.number > 0) add(fmt::format("next: class {} of {}, {} vertices", next.number, next.count, count(next.vertices.size())));
   }
-  const auto since = [](Reference r) { return r == Reference::Input ? "the input" : "the last step"; };
-  if (s.arrows != Reference::None) {
-    const bool known = positions_of(s.arrows, *frame).has_value();
-    add(known ? fmt::format("arrows × {:.3g} since {}", factor_, since(s.arrows)) : std::string("arrows: nothing has moved yet"));
+  if (s.arrows != Reference::None && !positions_of(state, s.arrows, *frame)) {
+    add(fmt::format("no arrows: {}", why_not(s.arrows)));
+  } else if (s.arrows != Reference::None) {
+    add(fmt::format("{}arrows × {:.3g} since {}", arrows_left_out_ > 0 ? "longest " : "", factor_, since(s.arrows)));
   }
-  if (s.ghost != Reference::None) {
-    const bool known = positions_of(s.ghost, *frame).has_value();
-    add(!known            ? std::string("ghost: nothing has moved yet")
-        : ghost_too_fine_ ? std::string("ghost: zoom in to see it")
-                          : fmt::format("ghost of {}", since(s.ghost)));
+  if (s.ghost != Reference::None && !positions_of(state, s.ghost, *frame)) {
+    add(fmt::format("no ghost: {}", why_not(s.ghost)));
+  } else if (s.ghost != Reference::None) {
+    add(ghost_too_fine_ ? std::string("ghost: zoom in to see it") : fmt::format("ghost of {}", since(s.ghost)));
   }
-  if (!state.selection.empty()) add(fmt::format("{} selected", count(state.selection.vertices().size())));
-  if (state.brush.on) add("brush");
-  if (s.click_smooths) add("a click smooths");
   return text;
 }
 

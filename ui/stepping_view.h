@@ -31,7 +31,7 @@ class SteppingView {
   void make_marks(const ViewState& state, const SessionView& session, const MarkView& view, const ElementsInView& elements_in_view);
   /// Changes whenever the marks do.
   [[nodiscard]] std::string key(const ViewState& state, const Frame& frame, const MarkView& view) const;
-  [[nodiscard]] std::optional<std::span<const Vec3>> positions_of(Reference reference, const Frame& frame) const;
+  [[nodiscard]] std::optional<std::span<const Vec3>> positions_of(const ViewState& state, Reference reference, const Frame& frame) const;
   void add_next_class(const ViewState& state, const SessionView& session, const MarkView& view);
   void add_selection(const ViewState& state, const Frame& frame, const MarkView& view);
 
@@ -39,8 +39,9 @@ class SteppingView {
   render::Marks marks_;
   std::string marks_key_;
   Displacements moved_;
-  std::tuple<Reference, std::uint64_t, std::uint64_t> moved_key_;
-  double factor_ = 1.0;  // of the arrows drawn last
+  std::tuple<const Vec3*, std::uint64_t, std::uint64_t> moved_key_;
+  double factor_ = 1.0;              // of the arrows drawn last
+  std::size_t arrows_left_out_ = 0;  // likewise
   bool ghost_too_fine_ = false;
 };
 

@@ -92,13 +92,14 @@ TEST(Arrows, LeadFromWhereVerticesWereLongestFirst) {
   for (std::size_t i = 1; i < lengths.size(); ++i) EXPECT_LE(lengths[i], 2.0001 * lengths[i - 1]) << i;
 
   render::Marks marks;
-  add_arrows(marks, unit_view(), moved, 1.0, {}, {});
+  const std::size_t crowded = add_arrows(marks, unit_view(), moved, 1.0, {}, {});
   // Pixels are thousandths: those of four and more are drawn, each with two lines for its head, all twice.
   const auto long_ones = static_cast<std::size_t>(std::count_if(lengths.begin(), lengths.end(), [](double l) { return l >= 0.004; }));
   EXPECT_GT(long_ones, 50U);
-  EXPECT_EQ(marks.lines.size(), 6 * long_ones);
+  EXPECT_EQ(marks.lines.size(), 6 * (long_ones - crowded));
+  EXPECT_LT(crowded, long_ones / 5);
   render::Marks doubled;
-  add_arrows(doubled, unit_view(), moved, 2.0, {}, {});
+  EXPECT_GT(add_arrows(doubled, unit_view(), moved, 2.0, {}, {}), 0U);
   EXPECT_GT(doubled.lines.size(), marks.lines.size());
   for (std::size_t i = 0; i < doubled.lines.size() / 2; i += 3) {
     const auto& line = doubled.lines[i];
@@ -110,16 +111,16 @@ TEST(Arrows, LeadFromWhereVerticesWereLongestFirst) {
   }
   EXPECT_EQ(arrow_factor(unit_view(), moved, 3.0), 3.0);
   const double longest = arrow_factor(unit_view(), moved, 0.0) * moved.longest();
-  EXPECT_GE(longest, 0.030);
-  EXPECT_LE(longest, 0.091);
+  EXPECT_GE(longest, 0.028);
+  EXPECT_LE(longest, 0.0561);
 }
 
 TEST(Arrows, OfWhatStaysOrIsElsewhereAreNone) {
   const std::vector<Vec3> here{{0.5, 0.5, 0}, {9, 9, 0}}, there{{0.5, 0.5, 0}, {9.1, 9, 0}};
   render::Marks marks;
-  add_arrows(marks, unit_view(), Displacements({}, here, here), 1.0, {}, {});
-  add_arrows(marks, unit_view(), Displacements({}, here, there), 1.0, {}, {});
-  add_arrows(marks, unit_view(), Displacements(), 1.0, {}, {});
+  EXPECT_EQ(add_arrows(marks, unit_view(), Displacements({}, here, here), 1.0, {}, {}), 0U);
+  EXPECT_EQ(add_arrows(marks, unit_view(), Displacements({}, here, there), 1.0, {}, {}), 0U);
+  EXPECT_EQ(add_arrows(marks, unit_view(), Displacements(), 1.0, {}, {}), 0U);
   EXPECT_TRUE(marks.lines.empty());
   EXPECT_EQ(arrow_factor(unit_view(), Displacements(), 0.0), 1.0);
 }
@@ -218,7 +219,6 @@ TEST_F(Stepping, TheBrushSelectsWhatLiesUnderItAndTheMeshStays) {
 }
 
 TEST_F(Stepping, SelectedVerticesAreSmoothedAndFixed) {
-  if (!is_session_command("visit 0")) GTEST_SKIP() << "the session cannot visit chosen vertices yet";
   bad("smooth-selected");
   bad("select vertex 99999");
   bad("select everything");
@@ -246,7 +246,6 @@ TEST_F(Stepping, SelectedVerticesAreSmoothedAndFixed) {
 }
 
 TEST_F(Stepping, AClickSmoothsOneVertexWhereThatIsWanted) {
-  if (!is_session_command("visit 0")) GTEST_SKIP() << "the session cannot visit chosen vertices yet";
   const Index vertex = some_free_vertex();
   good(fmt::format("goto vertex {}", vertex));
   good("pick none");
@@ -290,11 +289,11 @@ TEST(SteppingView, ThePreviousPositionsAreThoseBeforeTheLastCommandThatMovedSome
     view.update(*engine.view(), false);
     return view.note(state, *engine.view());
   };
-  EXPECT_EQ(note("generate coast 600"), "arrows: nothing has moved yet");
-  EXPECT_EQ(note("show min-angle"), "arrows: nothing has moved yet") << "another metric moves nothing";
+  EXPECT_EQ(note("generate coast 600"), "no arrows: nothing has moved yet");
+  EXPECT_EQ(note("show min-angle"), "no arrows: nothing has moved yet") << "another metric moves nothing";
   const std::vector<Vec3> input = engine.view()->frame->positions;
-  EXPECT_NE(note("step iteration"), "arrows: nothing has moved yet");
-  EXPECT_NE(note("show mean-ratio"), "arrows: nothing has moved yet");
+  EXPECT_NE(note("step iteration"), "no arrows: nothing has moved yet");
+  EXPECT_NE(note("show mean-ratio"), "no arrows: nothing has moved yet");
   render::Marks marks;
   const MarkView seen{{{0, 0}, 1e6}, {1000, 1000}, 1.0};
   view.add_marks(marks, state, *engine.view(), seen, [](const MarkView&, std::size_t) { return std::nullopt; });

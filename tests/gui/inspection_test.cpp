@@ -1,0 +1,134 @@
+// What grid inspection shows of a vertex of a real mesh is what the smoother then does to it, bit for bit.
+#include <bit>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "app/window/headless.h"
+#include "core/inspect/visit_trace.h"
+#include "core/quality/quality.h"
+#include "ui/view_commands.h"
+
+namespace dmoscope::app {
+namespace {
+
+bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+bool same(Vec3 a, Vec3 b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
+bool same(Vec2<double> a, Vec2<double> b) { return same(a.x, b.x) && same(a.y, b.y); }
+bool same(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) { return same(x, y); });
+}
+
+class Inspection : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto file = std::filesystem::path(DMOSCOPE_SHARED_DIR) / "meshes/ocean/east.14";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "no shared meshes here";
+    try {
+      window_ = std::make_unique<HeadlessWindow>(HeadlessWindow::Options{1280, 800, 1.0, 1, Backend::Cpu});
+    } catch (const Error& error) {
+      GTEST_SKIP() << "no OpenGL without a screen: " << error.what();
+    }
+    good("open " + quote_word(file.string()));
+    good("inspect on");
+  }
+  void good(std::string_view line) {
+    const auto failure = window_->run(line);
+    ASSERT_FALSE(failure.has_value()) << line << ": " << failure->text;
+  }
+  [[nodiscard]] std::shared_ptr<const SessionView> session() { return window_->app().engine().view(); }
+  [[nodiscard]] const RunView& run() { return session()->runs[session()->active]; }
+
+  /// Picks the vertex, compares what is shown with a search of its own, then lets `move` visit it and compares with what was stored.
+  void expect_the_truth(Index vertex, const std::string& move) {
+    SCOPED_TRACE(fmt::format("vertex {}", vertex));
+    good(fmt::format("pick vertex {}", vertex));
+    ASSERT_TRUE(window_->app().inspection().trace.has_value()) << window_->app().inspection().trouble;
+    const VisitTrace shown = *window_->app().inspection().trace;
+    const auto before = session()->frame;
+    ASSERT_EQ(shown.vertex, vertex);
+    ASSERT_FALSE(shown.levels.empty());
+    expect_same(shown, *before);
+    expect_true_qualities(shown, *before);
+
+    good(move);
+    const auto after = session()->frame;
+    ASSERT_NE(before, after);
+    EXPECT_TRUE(same(before->positions[vertex], shown.from));
+    EXPECT_TRUE(same(after->positions[vertex], shown.to)) << shown.sentence();
+    EXPECT_EQ(!same(after->positions[vertex], before->positions[vertex]), shown.end == VisitEnd::Moved) << shown.sentence();
+    for (Index v = 0; v < before->vertex_count(); ++v) {
+      if (v != vertex) {
+        ASSERT_TRUE(same(before->positions[v], after->positions[v])) << v;
+      }
+    }
+    moved_ += shown.end == VisitEnd::Moved ? 1 : 0;
+  }
+
+  void expect_same(const VisitTrace& shown, const Frame& frame) {
+    const RunParameters& parameters = run().parameters;
+    const VisitTrace own = trace_visit(*frame.input, frame.positions, run().fixed, parameters.metric, parameters.search, shown.vertex);
+    ASSERT_EQ(shown.levels.size(), own.levels.size());
+    for (std::size_t i = 0; i < own.levels.size(); ++i) {
+      const TracedLevel &a = shown.levels[i], &b = own.levels[i];
+      EXPECT_TRUE(same(a.centre, b.centre) && same(a.size, b.size));
+      ASSERT_EQ(a.offsets.size(), b.offsets.size());
+      for (std::size_t k = 0; k < b.offsets.size(); ++k) EXPECT_TRUE(same(a.offsets[k], b.offsets[k])) << k;
+      EXPECT_TRUE(same(a.values, b.values) && same(a.quality, b.quality));
+      EXPECT_EQ(a.best, b.best);
+    }
+    EXPECT_TRUE(same(shown.to, own.to) && same(shown.found, own.found));
+  }
+
+  /// The qualities of the candidates, by the judges of whole meshes.
+  void expect_true_qualities(const VisitTrace& shown, const Frame& frame) {
+    const InputMesh& input = *frame.input;
+    std::vector<Vec3> positions = frame.positions;
+    for (const TracedLevel& level : shown.levels)
+      for (std::size_t k = 0; k < level.offsets.size(); ++k) {
+        const Vec3 step = input.geometry.plane.lift(level.offsets[k]);
+        positions[shown.vertex] = shown.from + step;
+        double quality = 1e300, jacobian = 1e300;
+        for (const ElementChange& change : shown.elements) {
+          quality = std::min(quality, element_quality(input.quality_context(), positions, shown.metric, change.element));
+          const double smallest = smallest_jacobian(input.quality_context(), positions, change.element);
+          jacobian = std::min(jacobian, smallest / input.reference_measure[change.element]);
+        }
+        EXPECT_TRUE(same(level.quality[k], jacobian > 0.0 ? quality : jacobian)) << k;
+      }
+  }
+
+  std::unique_ptr<HeadlessWindow> window_;
+  int moved_ = 0;
+};
+
+TEST_F(Inspection, ShowsWhatTheNextStepDoes) {
+  for (const char* precision : {"float", "double"}) {
+    good(fmt::format("precision {}", precision));
+    moved_ = 0;
+    for (int i = 0; i < 12 && !HasFailure(); ++i) {
+      good("step vertex 371");
+      expect_the_truth(run().colouring->order[session()->frame->moment.visits], "step vertex");
+    }
+    EXPECT_GT(moved_, 3) << precision;
+  }
+}
+
+TEST_F(Inspection, ShowsWhatAVisitOfAnyVertexDoes) {
+  good("step iteration");
+  for (const char* metric : {"mean-ratio", "min-angle", "radius-ratio"}) {
+    good(fmt::format("metric {}", metric));
+    moved_ = 0;
+    for (std::size_t i = 0; i < 12 && !HasFailure(); ++i) {
+      const auto& order = run().colouring->order;
+      const Index vertex = order[(i * 7919 + 13) % order.size()];
+      expect_the_truth(vertex, fmt::format("visit {}", vertex));
+    }
+    EXPECT_GT(moved_, 3) << metric;
+  }
+}
+
+}  // namespace
+}  // namespace dmoscope::app

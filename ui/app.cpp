@@ -10,6 +10,7 @@
 #include "ui/derived.h"
 #include "ui/inspection_commands.h"
 #include "ui/inspection_marks.h"
+#include "ui/plot_save.h"
 #include "ui/view_geometry.h"
 #include "ui/view_lines.h"
 
@@ -146,7 +147,7 @@ void App::notice_new_input() {
     state_.inspection.open = state_.inspection.playing = false;
   }
   if (!again) state_.requests.fit = true;
-  for (PlotView& plot : state_.plots) plot.x_range.reset();
+  for (PlotView& plot : state_.plots) plot.x_range = plot.y_range = {};
   if (frame != nullptr && !frame->input->path.empty()) remember_file(state_, frame->input->path.string());
 }
 
@@ -299,6 +300,10 @@ void App::draw(double now) {
   if (state_.timeline.shown == Shown::Now) stepping_.update(*session_, busy);
   refresh(inspection_, state_, *session_, busy);
   const double play_in = play_on(busy, now);
+  for (Message& message : serve_plot_requests(state_, *session_, {derived_.sorted_before, derived_.sorted_now})) {
+    if (listener_) listener_(message);
+    add_message(state_, std::move(message));
+  }
   items_.begin_frame();
   handle_shortcuts();
   PanelContext context{

@@ -32,7 +32,7 @@ void zoom_plot(ViewState& state, Arguments words) {
     view.y_range.reset();
     return;
   }
-  need(words, 3, 5);
+  need(words, 2, 5);
   if (words[0] == "box") {
     need(words, 5, 5);
     const auto x = parse_range(words[1], words[2]), y = parse_range(words[3], words[4]);
@@ -40,25 +40,60 @@ void zoom_plot(ViewState& state, Arguments words) {
     view.y_range = y;
     return;
   }
-  need(words, 3, 3);
   static constexpr std::array<std::pair<std::string_view, std::optional<std::pair<double, double>> PlotView::*>, 2> axes{
       {{"x", &PlotView::x_range}, {"y", &PlotView::y_range}}};
-  view.*choose(words[0], axes) = parse_range(words[1], words[2]);
+  auto& range = view.*choose(words[0], axes);
+  if (words.size() == 2 && words[1] == "all") {
+    range.reset();
+  } else {
+    need(words, 3, 3);
+    range = parse_range(words[1], words[2]);
+  }
 }
 
 void switch_series(ViewState& state, Arguments words) {
   need(words, 1, 2);
-  std::set<std::string>& hidden = state.plot_view().hidden;
+  PlotView& view = state.plot_view();
+  const std::string before = std::exchange(view.isolated, {});
   if (words[0] == "all") {
     if (words.size() > 1 && words[1] != "on") unexpected(words[1], "on");
-    hidden.clear();
-    return;
-  }
-  if (switched(words, 1, !hidden.contains(words[0]))) {
-    hidden.erase(words[0]);
+    view.hidden.clear();
+  } else if (words.size() > 1 && words[1] == "only") {
+    view.isolated = words[0];
+    view.hidden.erase(words[0]);
+  } else if (!before.empty() && (words.size() == 1 || words[1] == "toggle")) {
+    // Back to all that was there before one was isolated.
+  } else if (switched(words, 1, !view.hidden.contains(words[0]))) {
+    view.hidden.erase(words[0]);
   } else {
-    hidden.insert(words[0]);
+    view.hidden.insert(words[0]);
   }
+}
+
+PlotSave parse_save(Arguments words) {
+  PlotSave save;
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    const auto value = [&]() -> const std::string& {
+      if (++k >= words.size()) throw UsageError(words[k - 1] + ": a value is missing");
+      return words[k];
+    };
+    if (words[k] == "--size") {
+      std::tie(save.width, save.height) = parse_size(value());
+      if (save.width < 200 || save.height < 120 || save.width > 16384 || save.height > 16384)
+        throw UsageError("a plot's picture is 200x120 to 16384x16384");
+    } else if (words[k] == "--scale") {
+      const std::uint64_t scale = to_count(value(), 1);
+      if (scale > 8) throw UsageError("--scale goes from 1 to 8");
+      save.scale = static_cast<int>(scale);
+    } else if (save.path.empty() && !words[k].starts_with("--")) {
+      save.path = words[k];
+    } else {
+      unexpected(words[k], "one file and options");
+    }
+  }
+  const std::string extension = save.path.extension().string();
+  if (extension != ".csv" && extension != ".svg" && extension != ".png") throw UsageError("a plot is saved as .csv, .svg or .png");
+  return save;
 }
 
 }  // namespace
@@ -87,15 +122,22 @@ void add_plot_verbs(CommandTable& table, ViewState& state) {
       if (over_iterations(tab)) state.plots[static_cast<std::size_t>(tab)].x_range.reset();
     }
   });
-  table.add({"plot-zoom", "plot-zoom all | x LOW HIGH | y LOW HIGH | box X0 X1 Y0 Y1", "the part of the plot that is shown"},
+  table.add({"plot-zoom", "plot-zoom all | x|y LOW HIGH | x|y all | box X0 X1 Y0 Y1", "the part of the plot that is shown"},
             [&state](Arguments words) { zoom_plot(state, words); });
-  table.add({"plot-series", "plot-series NAME [on|off|toggle]  or  plot-series all", "shows or hides a name of the plot's legend"},
+  table.add({"plot-series", "plot-series NAME [on|off|toggle|only]  or  plot-series all",
+             "shows or hides a run or a quantity of the plot's legend"},
             [&state](Arguments words) { switch_series(state, words); });
   table.add({"plot-bins", "plot-bins 16|32|64", "bars of the histogram"}, [&state](Arguments words) {
     need(words, 1, 1);
     static constexpr std::array<std::pair<std::string_view, int>, 3> counts{{{"16", 16}, {"32", 32}, {"64", 64}}};
     state.plot_options.bins = choose(words[0], counts);
   });
+  table.add({"plot-copy", "plot-copy", "the plotted numbers as comma separated values, on the clipboard"}, [&state](Arguments words) {
+    need(words, 0, 0);
+    state.requests.plots.push_back({});
+  });
+  table.add({"plot-save", "plot-save FILE.csv|.svg|.png [--size WxH] [--scale N]", "writes the plot as it is seen, on white"},
+            [&state](Arguments words) { state.requests.plots.push_back(parse_save(words)); });
 }
 
 }  // namespace dmoscope::ui

@@ -34,6 +34,7 @@ inline constexpr std::array<std::pair<std::string_view, ValueAxis>, 3> kValueAxe
 /// What is seen of one plot.
 struct PlotView {
   std::set<std::string> hidden;                               // what is switched off in the legend
+  std::string isolated;                                       // of the runs, or of the quantities, only this one; empty: see hidden
   std::optional<std::pair<double, double>> x_range, y_range;  // none: all of it
   ValueAxis axis = ValueAxis::Linear;
   friend bool operator==(const PlotView&, const PlotView&) = default;
@@ -44,6 +45,13 @@ struct PlotOptions {
   bool by_seconds = false;  // smoothing's seconds instead of iterations along the plot
   int bins = 64;            // of the histogram: 16, 32 or 64
   friend bool operator==(const PlotOptions&, const PlotOptions&) = default;
+};
+
+/// A plot to be written as it is seen. An empty path: its numbers to the clipboard.
+struct PlotSave {
+  std::filesystem::path path;  // .csv, .svg or .png
+  int width = 0, height = 0;   // of the picture: units of an SVG, pixels of a PNG; 0: 800 x 450 units
+  int scale = 2;               // pixels of a PNG a unit; text is 12 units high
 };
 
 }  // namespace dmoscope::ui

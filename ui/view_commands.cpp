@@ -34,7 +34,8 @@ constexpr auto kDialogs = std::to_array<std::pair<std::string_view, Dialog>>({{"
                                                                               {"about", Dialog::About},
                                                                               {"error", Dialog::Error},
                                                                               {"log", Dialog::Log},
-                                                                              {"sequence", Dialog::Sequence}});
+                                                                              {"sequence", Dialog::Sequence},
+                                                                              {"plot", Dialog::Plot}});
 
 const InputMesh& input_of(const CommandHost& host) {
   const auto view = host.session();

@@ -27,7 +27,7 @@ namespace dmoscope::ui {
 enum class Theme { Dark, Light, Contrast };
 /// "dark", "light", "contrast"
 [[nodiscard]] std::string_view theme_name(Theme theme);
-enum class Dialog { None, Open, Export, Screenshot, Find, Palette, Keys, About, Error, Log, Sequence };
+enum class Dialog { None, Open, Export, Screenshot, Find, Palette, Keys, About, Error, Log, Sequence, Plot };
 
 /// How the colours' range is chosen: 0 to 1; the shown qualities' own minimum and maximum; or given.
 enum class RangeMode { Fixed, Auto, Given };
@@ -76,6 +76,7 @@ struct Requests {
   std::optional<std::pair<int, int>> size;
   std::deque<ScreenshotOptions> screenshots;
   bool screenshot_failed = false;  // since somebody set it to false
+  std::deque<PlotSave> plots;
   std::deque<SimulatedInput> input;
   std::optional<std::string> clipboard;
 };

@@ -67,6 +67,8 @@ const char* dialog_title(Dialog dialog) {
       return "Log";
     case Dialog::Sequence:
       return "Pictures of a run";
+    case Dialog::Plot:
+      return "Save the plot";
     case Dialog::None:
       break;
   }
@@ -120,6 +122,9 @@ void draw_dialogs(PanelContext& context) {
       break;
     case Dialog::Sequence:
       draw_sequence_dialog(context);
+      break;
+    case Dialog::Plot:
+      draw_plot_dialog(context);
       break;
   }
 }

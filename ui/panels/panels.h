@@ -19,8 +19,8 @@
 #include "ui/inspection.h"
 #include "ui/items.h"
 #include "ui/layout.h"
-#include "ui/plot.h"
 #include "ui/recent_files.h"
+#include "ui/plot_widget.h"
 #include "ui/theme.h"
 #include "ui/thumbnails.h"
 #include "ui/view_state.h"
@@ -81,6 +81,8 @@ struct WidgetState {
   int open_selected = -1;
   bool show_all_files = false;
   int export_what = 0;
+  PlotCache plot;
+  PlotDialog plot_dialog;
   std::string export_name, screenshot_name = "dmoscope.png";
   std::string palette_text, find_text, find_error;
   LogWidgets log;
@@ -178,6 +180,7 @@ void draw_about_dialog(PanelContext& context);
 void draw_error_dialog(PanelContext& context);
 void draw_log_dialog(PanelContext& context);
 void draw_sequence_dialog(PanelContext& context);
+void draw_plot_dialog(PanelContext& context);
 /// Begins a modal window of the open dialog; false when it is closed. Escape closes it.
 bool begin_dialog(PanelContext& context, const char* title, float width_em, float height_em = 0);
 void end_dialog();

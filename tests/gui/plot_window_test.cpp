@@ -1,0 +1,170 @@
+// Plots in the very window, off screen, and as files.
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "app/window/headless.h"
+#include "render/image.h"
+
+namespace dmoscope::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PlotWindow : public testing::Test {
+ protected:
+  void SetUp() override {
+    try {
+      window_ = std::make_unique<HeadlessWindow>(HeadlessWindow::Options{1280, 800, 1.0, 1});
+    } catch (const Error& error) {
+      GTEST_SKIP() << "no OpenGL without a screen: " << error.what();
+    }
+  }
+  void good(const std::string& line) {
+    const auto failure = window_->run(line);
+    ASSERT_FALSE(failure.has_value()) << line << ": " << failure->text;
+  }
+  static fs::path file(const std::string& name) {
+    const fs::path folder = fs::path(testing::TempDir()) / "dmoscope plots";
+    fs::create_directories(folder);
+    fs::remove(folder / name);
+    return folder / name;
+  }
+  static std::string read(const fs::path& path) {
+    std::ostringstream text;
+    text << std::ifstream(path, std::ios::binary).rdbuf();
+    return text.str();
+  }
+  [[nodiscard]] const ui::Items::Box& box(const std::string& name) { return window_->app().items().find(name); }
+  /// A pixel of the plot, from shares of its width and height.
+  [[nodiscard]] std::string at(double x, double y) {
+    const auto& b = box("plot");
+    const auto mix = [](float from, float to, double t) { return static_cast<double>(from) + t * static_cast<double>(to - from); };
+    return std::to_string(mix(b[0], b[2], x)) + " " + std::to_string(mix(b[1], b[3], y));
+  }
+  [[nodiscard]] ui::PlotView& view() { return window_->app().state().plot_view(); }
+  [[nodiscard]] std::uint64_t iteration() { return window_->app().engine().view()->frame->moment.iteration; }
+
+  std::unique_ptr<HeadlessWindow> window_;
+};
+
+TEST_F(PlotWindow, IsSavedAsNumbersDrawingAndPicture) {
+  good("generate annulus");
+  good("run 4");
+  for (const char* tab : {"convergence", "histogram", "sorted", "moved", "time"}) {
+    good(std::string("plot ") + tab);
+    const fs::path csv = file(std::string(tab) + ".csv"), svg = file(std::string(tab) + ".svg"), png = file(std::string(tab) + ".png");
+    good("plot-save \"" + csv.string() + "\"");
+    good("plot-save \"" + svg.string() + "\" --size 640x400");
+    good("plot-save \"" + png.string() + "\" --size 500x300 --scale 1");
+    EXPECT_TRUE(read(csv).starts_with("run,series,")) << tab;
+    EXPECT_NE(read(svg).find("width=\"640\" height=\"400\""), std::string::npos) << tab;
+    const render::Image picture = render::read_png(png);
+    EXPECT_EQ(picture.width, 500);
+    EXPECT_EQ(picture.height, 300);
+    EXPECT_EQ(picture.at(2, 2), (render::Rgba{255, 255, 255, 255}));
+    good("plot-copy");
+    EXPECT_EQ(window_->clipboard(), read(csv)) << tab;
+  }
+}
+
+TEST_F(PlotWindow, WhatCannotBeSavedIsAnErrorAndLeavesTheOldFile) {
+  EXPECT_TRUE(window_->run("plot-save /tmp/plot.svg").has_value());  // nothing is open
+  good("generate annulus");
+  EXPECT_TRUE(window_->run("plot-save /proc/none/plot.svg").has_value());
+  EXPECT_TRUE(window_->run("plot-save plot.bmp").has_value());
+  EXPECT_TRUE(window_->run("plot-save plot.png --size 10x10").has_value());
+}
+
+TEST_F(PlotWindow, WheelBoxAndDoubleClickZoom) {
+  good("generate annulus");
+  good("run 20");
+  good("wheel " + at(0.5, 0.5) + " 2");
+  ASSERT_TRUE(view().x_range);
+  EXPECT_NEAR((view().x_range->first + view().x_range->second) / 2, 10, 0.1);
+  EXPECT_FALSE(view().y_range);
+  const auto y = box("plot-y");
+  good("wheel " + std::to_string((y[0] + y[2]) / 2) + " " + std::to_string((y[1] + y[3]) / 2) + " 1");
+  EXPECT_TRUE(view().y_range);
+  good("double-click " + at(0.3, 0.5));
+  EXPECT_FALSE(view().x_range);
+  EXPECT_FALSE(view().y_range);
+}
+
+TEST_F(PlotWindow, AClickShowsThatIteration) {
+  good("generate annulus");
+  good("run 20");
+  good("click " + at(0.25, 0.4));
+  EXPECT_EQ(iteration(), 5U);
+  good("plot moved");
+  good("click " + at(0.5, 0.4));
+  EXPECT_EQ(iteration(), 10U);
+}
+
+TEST_F(PlotWindow, TheLegendHidesAndIsolates) {
+  good("generate annulus");
+  good("run 3");
+  good("click legend:mean");
+  EXPECT_TRUE(view().hidden.contains("mean"));
+  good("click legend:mean");
+  EXPECT_FALSE(view().hidden.contains("mean"));
+  good("double-click legend:minimum");
+  EXPECT_EQ(view().isolated, "minimum");
+  EXPECT_FALSE(view().hidden.contains("minimum"));
+  good("click legend:mean");
+  EXPECT_EQ(view().isolated, "");
+  EXPECT_TRUE(view().hidden.empty());
+}
+
+TEST_F(PlotWindow, AxesAreChosenAndKeptByTab) {
+  good("generate annulus");
+  good("run 3");
+  good("click plot-axis");
+  good("click \"plot-axis:log 1 − q\"");
+  EXPECT_EQ(view().axis, ui::ValueAxis::LogDistance);
+  good("plot histogram");
+  EXPECT_EQ(view().axis, ui::ValueAxis::Linear);
+  EXPECT_TRUE(window_->run("axis log-distance").has_value());
+  good("key Alt+L");
+  EXPECT_EQ(view().axis, ui::ValueAxis::Log);
+  good("key Alt+L");
+  EXPECT_EQ(view().axis, ui::ValueAxis::Linear);
+  good("click plot-along");
+  good("click \"plot-along:16 bars\"");
+  EXPECT_EQ(window_->app().state().plot_options.bins, 16);
+}
+
+TEST_F(PlotWindow, TheDialogSavesWhereItSays) {
+  good("generate annulus");
+  const fs::path svg = file("dialog.svg");
+  good("click plot-save");
+  ASSERT_EQ(window_->app().state().dialog, ui::Dialog::Plot);
+  good("click plot:file");
+  good("key Ctrl+A");
+  good("type \"" + svg.string() + "\"");
+  good("click plot:go");
+  EXPECT_EQ(window_->app().state().dialog, ui::Dialog::None);
+  EXPECT_FALSE(read(svg).empty());
+}
+
+TEST_F(PlotWindow, ControlsStayInTheWindowWhateverItsSizeAndScale) {
+  for (const auto& [size, scale] : {std::pair{"1280 800", "1"}, {"800 600", "1"}, {"2560 1600", "2"}, {"1600 1200", "2"}}) {
+    good(std::string("size ") + size);
+    good(std::string("scale ") + scale);
+    good("generate annulus");
+    for (const char* tab : {"convergence", "histogram", "sorted"}) {
+      good(std::string("plot ") + tab);
+      const float width = std::stof(size);
+      const bool roomy = window_->app().items().boxes().contains("plot-copy");
+      const auto& last = box(roomy ? "plot-save" : "plot-more");
+      EXPECT_LE(last[2], width) << size << " " << tab;
+      EXPECT_GT(box("plot-axis")[0], box("plot-time")[2]) << size << " " << tab;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dmoscope::app

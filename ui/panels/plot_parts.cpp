@@ -1,0 +1,203 @@
+#include "ui/panels/plot_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <imgui_stdlib.h>
+
+#include "ui/plot_series.h"
+
+namespace dmoscope::ui {
+namespace {
+
+struct Choice {
+  std::string label, command, tip;
+  bool chosen;
+};
+
+/// A combo box of commands, as wide as its widest label.
+void choice_box(PanelContext& context, const char* item, const std::vector<Choice>& choices) {
+  float width = 0;
+  std::string now;
+  for (const Choice& choice : choices) {
+    width = std::max(width, ImGui::CalcTextSize(choice.label.c_str()).x);
+    if (choice.chosen) now = choice.label;
+  }
+  ImGui::SetNextItemWidth(width + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetFrameHeight());
+  const bool open = ImGui::BeginCombo(fmt::format("##{}", item).c_str(), now.c_str());
+  context.items.record_last(item);
+  if (!open) {
+    for (const Choice& choice : choices) {
+      if (choice.chosen) next_item_tooltip(choice.tip);
+    }
+    return;
+  }
+  for (const Choice& choice : choices) {
+    if (ImGui::Selectable(choice.label.c_str(), choice.chosen)) context.send(choice.command);
+    context.items.record_last(fmt::format("{}:{}", item, choice.label));
+    next_item_tooltip(choice.tip);
+  }
+  ImGui::EndCombo();
+}
+
+float box_width(const std::vector<Choice>& choices) {
+  float width = 0;
+  for (const Choice& choice : choices) width = std::max(width, ImGui::CalcTextSize(choice.label.c_str()).x);
+  return width + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetFrameHeight();
+}
+
+float button_width(const char* label) { return ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x; }
+
+std::vector<Choice> axis_choices(const ViewState& state) {
+  static constexpr std::array<const char*, 3> kTips{"values evenly along the axis", "logarithmic; values of 0 and below are gaps",
+                                                    "by the logarithm of 1 - q, the distance to the ideal element: for qualities near 1"};
+  static constexpr std::array<const char*, 3> kLabels{"linear", "log", "log 1 − q"};
+  std::vector<Choice> choices;
+  const ValueAxis now = state.plots[static_cast<std::size_t>(state.plot)].axis;
+  for (std::size_t k = 0; k < kValueAxes.size(); ++k) {
+    const auto& [name, axis] = kValueAxes[k];
+    if (offers(state.plot, axis)) choices.push_back({kLabels[k], fmt::format("axis {}", name), kTips[k], axis == now});
+  }
+  return choices;
+}
+
+std::vector<Choice> along_choices(const ViewState& state) {
+  const PlotOptions& options = state.plot_options;
+  if (over_iterations(state.plot)) {
+    return {{"by iteration", "plot-x iteration", "iterations along the plot", !options.by_seconds},
+            {"by seconds", "plot-x seconds", "the seconds that smoothing took along the plot: methods compared by their cost",
+             options.by_seconds}};
+  }
+  std::vector<Choice> choices;
+  if (state.plot == PlotTab::Histogram) {
+    for (const int bins : {16, 32, 64})
+      choices.push_back({fmt::format("{} bars", bins), fmt::format("plot-bins {}", bins), "bars from 0 to 1", bins == options.bins});
+  }
+  return choices;
+}
+
+void draw_more_menu(PanelContext& context) {
+  if (ImGui::Button("…")) ImGui::OpenPopup("more of the plot");
+  context.items.record_last("plot-more");
+  if (!ImGui::BeginPopup("more of the plot")) return;
+  for (const char* id : {"plot-copy", "plot-save", "plot-all"}) {
+    const Action& action = *find_action(id);
+    if (ImGui::MenuItem(std::string(action.title).c_str(), std::string(action.key).c_str(), false, enabled(action, context.situation())))
+      context.send(std::string(action.command));
+    context.items.record_last(id);
+  }
+  ImGui::EndPopup();
+}
+
+}  // namespace
+
+void draw_plot_tabs(PanelContext& context) {
+  static constexpr std::array<const char*, kPlotTabs.size()> kTitles{"Convergence", "Histogram", "Sorted", "Moved", "Time"};
+  for (std::size_t k = 0; k < kPlotTabs.size(); ++k) {
+    const auto& [name, tab] = kPlotTabs[k];
+    if (k > 0) ImGui::SameLine(0, context.px(4));
+    const bool active = context.state.plot == tab;
+    ImGui::PushStyleColor(ImGuiCol_Button, active ? colour_vector(context.palette.accent, 0.25F) : ImVec4{0, 0, 0, 0});
+    action_button(context, fmt::format("plot-{}", name), kTitles[k]);
+    ImGui::PopStyleColor();
+  }
+}
+
+void draw_plot_controls(PanelContext& context, const Rect& rect) {
+  const float gap = context.px(8);
+  const auto axes = axis_choices(context.state), along = along_choices(context.state);
+  const float boxes = box_width(axes) + (along.empty() ? 0.0F : box_width(along) + gap);
+  const float buttons = button_width("Copy data") + gap + button_width("Save…");
+  ImGui::SameLine();
+  const float room = rect.w - context.px(12) - ImGui::GetCursorPosX();
+  const bool roomy = room > boxes + gap + buttons;
+  ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), rect.w - context.px(12) - boxes - gap - (roomy ? buttons : button_width("…"))));
+  choice_box(context, "plot-axis", axes);
+  ImGui::SameLine(0, gap);
+  if (!along.empty()) {
+    choice_box(context, "plot-along", along);
+    ImGui::SameLine(0, gap);
+  }
+  if (!roomy) return draw_more_menu(context);
+  action_button(context, "plot-copy", "Copy data");
+  ImGui::SameLine(0, gap);
+  action_button(context, "plot-save", "Save…");
+}
+
+void draw_plot_area(PanelContext& context) {
+  PlotCache& cache = context.widgets.plot;
+  const ViewState& state = context.state;
+  const SortedQualities sorted{context.derived.sorted_before, context.derived.sorted_now};
+  std::string key = plot_key(state, context.session, sorted) + fmt::format(" {}", static_cast<int>(state.theme));
+  if (key != cache.plot_key) {
+    cache.plot_key = std::move(key);
+    cache.plot = build_plot(state, context.session, sorted, context.palette);
+  }
+  const PlotOutcome outcome = draw_plot(cache, context.state.plot_view(), context.palette, state.scale, context.items);
+  for (const std::string& line : outcome.commands) context.send(line);
+  const RunView* run = context.run();
+  if (outcome.clicked && over_iterations(state.plot) && run != nullptr && !context.activity.busy)
+    context.send(fmt::format("seek {}", iteration_at(*run, state.plot_options.by_seconds, *outcome.clicked)));
+}
+
+void draw_plot_dialog(PanelContext& context) {
+  if (!begin_dialog(context, "Save the plot", 40)) return;
+  PlotDialog& dialog = context.widgets.plot_dialog;
+  const auto label = [&](const char* text) {
+    ImGui::AlignTextToFramePadding();
+    dim_text(context, text, false);
+    ImGui::SameLine(8 * context.em());
+    ImGui::SetNextItemWidth(-1);
+  };
+  label("file");
+  if (context.widgets.dialog_opened) ImGui::SetKeyboardFocusHere();
+  const bool entered = ImGui::InputText("##file", &dialog.name, ImGuiInputTextFlags_EnterReturnsTrue);
+  context.items.record_last("plot:file");
+  label("as");
+  const std::string extension = std::filesystem::path(dialog.name).extension().string();
+  static constexpr std::array<std::pair<const char*, const char*>, 3> kKinds{
+      {{".svg", "drawing (SVG)"}, {".png", "picture (PNG)"}, {".csv", "numbers (CSV)"}}};
+  for (const auto& [kind, title] : kKinds) {
+    if (kind != kKinds[0].first) ImGui::SameLine(0, context.px(16));
+    if (ImGui::RadioButton(title, extension == kind)) dialog.name = std::filesystem::path(dialog.name).replace_extension(kind).string();
+    context.items.record_last(fmt::format("plot:{}", kind + 1));
+  }
+  if (extension != ".csv") {
+    int size[2] = {dialog.width, dialog.height};
+    label("size");
+    if (ImGui::InputInt2("##size", size)) {
+      dialog.width = std::clamp(size[0], 200, 4096);
+      dialog.height = std::clamp(size[1], 120, 4096);
+    }
+    next_item_tooltip("width and height, of which text is 12 high");
+  }
+  if (extension == ".png") {
+    label("pixels");
+    ImGui::SliderInt("##scale", &dialog.scale, 1, 4,
+                     fmt::format("{} x {}", dialog.width * dialog.scale, dialog.height * dialog.scale).c_str(),
+                     ImGuiSliderFlags_AlwaysClamp);
+  }
+  dim_text(context, "As it is seen: the tab, its ranges, its axes, and what the legend leaves on. Pictures are on white.");
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(dialog.name, ignored))
+    ImGui::TextColored(colour_vector(context.palette.warning), "This file is there already and will be replaced.");
+  ImGui::Spacing();
+  const bool go = ImGui::Button("Save");
+  context.items.record_last("plot:go");
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel")) context.state.dialog = Dialog::None;
+  context.items.record_last("dialog:close");
+  if ((go || entered) && !dialog.name.empty()) {
+    context.state.dialog = Dialog::None;
+    std::string line = fmt::format("plot-save {}", quote_word(dialog.name));
+    const int scale = extension == ".png" ? dialog.scale : 1;
+    if (extension != ".csv") line += fmt::format(" --size {}x{}", dialog.width * scale, dialog.height * scale);
+    if (extension == ".png") line += fmt::format(" --scale {}", scale);
+    context.send(line);
+  }
+  end_dialog();
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,15 @@
+#pragma once
+// What the bottom panel's plots are made of.
+
+#include "ui/panels/panels.h"
+
+namespace dmoscope::ui {
+
+/// Buttons that choose the plot.
+void draw_plot_tabs(PanelContext& context);
+/// The shown plot's choices, at the right end of the tabs' line; `rect`: of the panel.
+void draw_plot_controls(PanelContext& context, const Rect& rect);
+/// The plot in the space that is left; a click in it shows that iteration.
+void draw_plot_area(PanelContext& context);
+
+}  // namespace dmoscope::ui

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -46,6 +47,11 @@ SessionView session_of(std::size_t runs, std::size_t records) {
 
 Plot plot_of(const ViewState& state, const SessionView& session) { return build_plot(state, session, {}, colours()); }
 
+Plot plot_of(const SessionView& session) {
+  const auto state = std::make_unique<ViewState>();
+  return plot_of(*state, session);
+}
+
 const Series& series_named(const Plot& plot, const std::string& run, const std::string& name) {
   for (const Series& one : plot.series) {
     if (one.run == run && one.name == name) return one;
@@ -65,7 +71,7 @@ TEST(PlotSeries, ConvergenceIsTheRecordsAndInfinityIsAGap) {
   SessionView session = session_of(1, 6);
   session.runs[0].records[2].statistics.movable_minimum = INFINITY;
   session.runs[0].records[4].statistics.inverted = 3;
-  const Plot plot = plot_of({}, session);
+  const Plot plot = plot_of(session);
   const Series& minimum = series_named(plot, "", "minimum");
   const Series& movable = series_named(plot, "", "movable minimum");
   const Series& inverted = series_named(plot, "", "inverted");
@@ -115,7 +121,7 @@ TEST(PlotSeries, EveryRunIsInEveryCourse) {
 }
 
 TEST(PlotSeries, TheLegendHidesAndIsolatesRunsAndQuantities) {
-  const Plot plot = plot_of({}, session_of(3, 4));
+  const Plot plot = plot_of(session_of(3, 4));
   const auto visible = [&](const PlotView& view) {
     std::set<std::string> names;
     for (const Series& one : plot.series) {
@@ -280,7 +286,7 @@ double by_labels(const std::vector<SvgText>& texts, const std::string& a, const 
 
 TEST(PlotSvg, HasEveryVisibleSeriesWithAllItsPointsWhereTheLabelsSay) {
   const SessionView session = session_of(2, 101);
-  const Plot plot = plot_of({}, session);
+  const Plot plot = plot_of(session);
   PlotView view;
   view.hidden = {"mean"};
   const auto [lines, texts] = read_svg(svg_of(whole_plot(plot, view, 900, 600, ink_of(colours()))));
@@ -309,7 +315,7 @@ TEST(PlotSvg, HasEveryVisibleSeriesWithAllItsPointsWhereTheLabelsSay) {
 
 TEST(PlotSvg, WhatIsZoomedAwayIsCutAtTheFrame) {
   const SessionView session = session_of(1, 101);
-  const Plot plot = plot_of({}, session);
+  const Plot plot = plot_of(session);
   PlotView view;
   view.x_range = Range{20.25, 60.75};
   view.y_range = Range{0.1295, 0.1505};  // the minimum there: iterations 30 to 50, and halfway to their neighbours
@@ -330,7 +336,7 @@ TEST(PlotSvg, WhatIsZoomedAwayIsCutAtTheFrame) {
 TEST(PlotSvg, GapsSplitALineAndALonePointIsADot) {
   SessionView session = session_of(1, 9);
   for (const std::size_t k : {3U, 5U}) session.runs[0].records[k].statistics.mean = NAN;
-  const Plot plot = plot_of({}, session);
+  const Plot plot = plot_of(session);
   const Drawing drawing = whole_plot(plot, {}, 800, 450, ink_of(colours()));
   std::vector<std::size_t> parts;
   for (const Drawing::Line& line : drawing.lines) {
@@ -367,7 +373,7 @@ TEST(PlotCsv, HoldsTheRecordsInFull) {
   session.runs[1].records[7].statistics.minimum = NAN;
   PlotView view;
   view.hidden = {"mean", "movable minimum"};
-  const auto rows = table_of(plot_csv(plot_of({}, session), view));
+  const auto rows = table_of(plot_csv(plot_of(session), view));
   ASSERT_EQ(rows.size(), 61U);
   EXPECT_EQ(rows[0], (std::vector<std::string>{"run", "series", "iteration", "value"}));
   for (std::size_t k = 0; k < 30; ++k) {
@@ -378,7 +384,7 @@ TEST(PlotCsv, HoldsTheRecordsInFull) {
   }
   EXPECT_EQ(rows[1 + 30 + 7], (std::vector<std::string>{"2 dmo", "minimum", "7", ""}));
   view.x_range = Range{10, 12};
-  EXPECT_EQ(table_of(plot_csv(plot_of({}, session), view)).size(), 1U + 2 * 3);
+  EXPECT_EQ(table_of(plot_csv(plot_of(session), view)).size(), 1U + 2 * 3);
 }
 
 // The mouse
@@ -528,7 +534,7 @@ TEST_F(PlotMice, AClickTellsWhereAndTwiceShowsAll) {
 TEST(PlotReading, SaysTheNearestSampleOfEachRunThatReachesThere) {
   SessionView session = session_of(2, 51);
   session.runs[1].records.resize(11);
-  const Plot plot = plot_of({}, session);
+  const Plot plot = plot_of(session);
   EXPECT_EQ(read_plot(plot, {}, 10.3).size(), 6U);
   const auto later = read_plot(plot, {}, 30.4);
   ASSERT_EQ(later.size(), 3U);

@@ -103,7 +103,7 @@ constexpr std::array kActions{
     Action{"log-scale", "Plot", "Next value axis", "Alt+L", "axis next", Needs::Nothing, true},
     Action{"plot-seconds", "Plot", "Seconds instead of iterations", "Alt+T", "plot-x toggle"},
     Action{"plot-all", "Plot", "All of the plot", "Alt+0", "plot-zoom all"},
-    Action{"plot-save", "Plot", "Save the plot…", "Alt+S", "dialog plot", Needs::Mesh, true},
+    Action{"plot-save", "Plot", "Save the plot…", "Alt+P", "dialog plot", Needs::Mesh, true},
     Action{"plot-copy", "Plot", "Copy the plot's data", "Alt+C", "plot-copy", Needs::Mesh},
 
     Action{"inspect", "Inspect", "Grid inspection", "G", "inspect toggle", Needs::Mesh},

@@ -125,9 +125,18 @@ class Builder {
       plot_.x_title = "smoothing time, " + plot_.x_unit.name;
     }
     if (session_.runs.empty()) return;
-    const RunView& run = session_.runs[session_.active];
-    const std::uint64_t at = run.moment.iteration;
-    if (run.records.size() > 1 && at < run.records.size()) plot_.marks.push_back({course(run)[at], {}});
+    mark(session_.active, session_.runs[session_.active].moment, {});
+    for (const auto& [its, label] : {std::pair{&state_.timeline.a, "A"}, {&state_.timeline.b, "B"}}) {
+      if (its->frame && session_.frame && its->frame->input_serial == session_.frame->input_serial)
+        mark(its->frame->run, its->frame->moment, label);
+    }
+  }
+
+  void mark(std::size_t run, const Moment& moment, std::string label) {
+    if (run >= session_.runs.size()) return;
+    const auto& records = session_.runs[run].records;
+    if (records.size() > 1 && moment.iteration < records.size())
+      plot_.marks.push_back({course(session_.runs[run])[moment.iteration], std::move(label)});
   }
 
   template <class Value>
@@ -292,6 +301,7 @@ std::string plot_key(const ViewState& state, const SessionView& session, const S
   std::string key = fmt::format("{} {} {} {} {} {} {} {}", static_cast<int>(state.plot), static_cast<int>(view.axis),
                                 state.plot_options.by_seconds, state.plot_options.bins, session.frame ? session.frame->serial : 0,
                                 session.active, sorted.before.size(), sorted.now.size());
+  for (const Mark* mark : {&state.timeline.a, &state.timeline.b}) key += mark->frame ? fmt::format(" {}", mark->frame->serial) : " -";
   for (const RunView& run : session.runs) fmt::format_to(std::back_inserter(key), " {} {}", run.title, run.records.size());
   return key;
 }

@@ -21,6 +21,9 @@ std::vector<std::string> view_lines(const ViewState& state, bool with_camera) {
   lines.push_back(fmt::format("unfold right {}", on(panels.right_over)));
   lines.push_back(fmt::format("colormap {}", render::name(state.colour_map)));
   lines.push_back(fmt::format("wireframe {}", on(state.wireframe)));
+  const PlotView& plot = state.plots[static_cast<std::size_t>(state.plot)];
+  for (const auto& [axis, range] : {std::pair{"x", plot.x_range}, {"y", plot.y_range}})
+    lines.push_back(range ? fmt::format("plot-zoom {} {} {}", axis, range->first, range->second) : fmt::format("plot-zoom {} all", axis));
   const render::Camera2D& camera = state.camera;
   if (with_camera) lines.push_back(fmt::format("camera {} {} {}", camera.centre.x, camera.centre.y, camera.units_per_pixel));
   return lines;

@@ -16,12 +16,6 @@ struct PlotCache {
   PlotDrag drag;
 };
 
-/// What the dialog that saves a plot holds.
-struct PlotDialog {
-  std::string name = "plot.svg";
-  int width = 800, height = 450, scale = 2;
-};
-
 /// Draws cache.plot into the space that is left, with its legend above, and reads what the mouse points at. Returns what a person does with
 /// it. Records the items "plot", its inside, "plot-y", the value axis' labels, and "legend:NAME".
 PlotOutcome draw_plot(PlotCache& cache, const PlotView& view, const Palette& palette, double scale, Items& items);

@@ -30,16 +30,30 @@ IterationRecord record(std::uint64_t iteration, double minimum, double mean, dou
   return made;
 }
 
+void set_records(RunView& run, std::vector<IterationRecord> records) {
+  run.records = SharedVector<IterationRecord>(std::make_shared<const std::vector<IterationRecord>>(std::move(records)));
+}
+
+/// Changes the statistics of one record.
+template <class Change>
+void change(RunView& run, std::size_t k, Change how) {
+  std::vector<IterationRecord> records = run.records.whole();
+  how(records.at(k).statistics);
+  set_records(run, std::move(records));
+}
+
 /// A session without a mesh: its runs' records are all that these plots need.
 SessionView session_of(std::size_t runs, std::size_t records) {
   SessionView session;
   for (std::size_t r = 0; r < runs; ++r) {
     RunView run;
     run.title = "run " + std::to_string(r);
+    std::vector<IterationRecord> made;
     for (std::size_t k = 0; k < records; ++k) {
       const double t = static_cast<double>(k) + 10.0 * static_cast<double>(r);
-      run.records.push_back(record(k, 0.1 + 0.001 * t, 0.8 + 0.0005 * t, k == 0 ? 0.0 : 0.002 + 0.0001 * t));
+      made.push_back(record(k, 0.1 + 0.001 * t, 0.8 + 0.0005 * t, k == 0 ? 0.0 : 0.002 + 0.0001 * t));
     }
+    set_records(run, std::move(made));
     session.runs.push_back(std::move(run));
   }
   return session;
@@ -69,8 +83,8 @@ std::shared_ptr<const SessionView> smoothed(const std::string& mesh, int iterati
 
 TEST(PlotSeries, ConvergenceIsTheRecordsAndInfinityIsAGap) {
   SessionView session = session_of(1, 6);
-  session.runs[0].records[2].statistics.movable_minimum = INFINITY;
-  session.runs[0].records[4].statistics.inverted = 3;
+  change(session.runs[0], 2, [](Statistics& its) { its.movable_minimum = INFINITY; });
+  change(session.runs[0], 4, [](Statistics& its) { its.inverted = 3; });
   const Plot plot = plot_of(session);
   const Series& minimum = series_named(plot, "", "minimum");
   const Series& movable = series_named(plot, "", "movable minimum");
@@ -335,7 +349,7 @@ TEST(PlotSvg, WhatIsZoomedAwayIsCutAtTheFrame) {
 
 TEST(PlotSvg, GapsSplitALineAndALonePointIsADot) {
   SessionView session = session_of(1, 9);
-  for (const std::size_t k : {3U, 5U}) session.runs[0].records[k].statistics.mean = NAN;
+  for (const std::size_t k : {3U, 5U}) change(session.runs[0], k, [](Statistics& its) { its.mean = NAN; });
   const Plot plot = plot_of(session);
   const Drawing drawing = whole_plot(plot, {}, 800, 450, ink_of(colours()));
   std::vector<std::size_t> parts;
@@ -370,7 +384,7 @@ std::vector<std::vector<std::string>> table_of(const std::string& csv) {
 
 TEST(PlotCsv, HoldsTheRecordsInFull) {
   SessionView session = session_of(2, 30);
-  session.runs[1].records[7].statistics.minimum = NAN;
+  change(session.runs[1], 7, [](Statistics& its) { its.minimum = NAN; });
   PlotView view;
   view.hidden = {"mean", "movable minimum"};
   const auto rows = table_of(plot_csv(plot_of(session), view));
@@ -533,7 +547,9 @@ TEST_F(PlotMice, AClickTellsWhereAndTwiceShowsAll) {
 
 TEST(PlotReading, SaysTheNearestSampleOfEachRunThatReachesThere) {
   SessionView session = session_of(2, 51);
-  session.runs[1].records.resize(11);
+  std::vector<IterationRecord> shorter = session.runs[1].records.whole();
+  shorter.resize(11);
+  set_records(session.runs[1], std::move(shorter));
   const Plot plot = plot_of(session);
   EXPECT_EQ(read_plot(plot, {}, 10.3).size(), 6U);
   const auto later = read_plot(plot, {}, 30.4);

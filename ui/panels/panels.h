@@ -20,7 +20,6 @@
 #include "ui/items.h"
 #include "ui/layout.h"
 #include "ui/recent_files.h"
-#include "ui/plot_widget.h"
 #include "ui/theme.h"
 #include "ui/thumbnails.h"
 #include "ui/view_state.h"
@@ -74,6 +73,14 @@ struct SequenceWidgets {
   bool window = false, overwrite = false;
 };
 
+struct PlotCache;
+
+/// What the dialog that saves a plot holds.
+struct PlotDialog {
+  std::string name = "plot.svg";
+  int width = 800, height = 450, scale = 2;
+};
+
 /// State that only widgets need between frames.
 struct WidgetState {
   std::string open_folder, open_text, open_error;
@@ -81,7 +88,7 @@ struct WidgetState {
   int open_selected = -1;
   bool show_all_files = false;
   int export_what = 0;
-  PlotCache plot;
+  std::shared_ptr<PlotCache> plot;  // as drawn last
   PlotDialog plot_dialog;
   std::string export_name, screenshot_name = "dmoscope.png";
   std::string palette_text, find_text, find_error;

@@ -8,6 +8,7 @@
 #include <imgui_stdlib.h>
 
 #include "ui/plot_series.h"
+#include "ui/plot_widget.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -131,7 +132,8 @@ void draw_plot_controls(PanelContext& context, const Rect& rect) {
 }
 
 void draw_plot_area(PanelContext& context) {
-  PlotCache& cache = context.widgets.plot;
+  if (!context.widgets.plot) context.widgets.plot = std::make_shared<PlotCache>();
+  PlotCache& cache = *context.widgets.plot;
   const ViewState& state = context.state;
   const SortedQualities sorted{context.derived.sorted_before, context.derived.sorted_now};
   std::string key = plot_key(state, context.session, sorted) + fmt::format(" {}", static_cast<int>(state.theme));

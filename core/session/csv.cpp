@@ -11,13 +11,21 @@ namespace {
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : std::string(); }
 }  // namespace
 
-std::string stats_csv(std::span<const std::string> titles, std::span<const std::vector<IterationRecord>* const> records) {
-  std::string text = "run,iteration,min_quality,mean_quality,inverted,moved,seconds,movable_minimum\n";
+std::string stats_csv(std::span<const std::string> titles, std::span<const std::vector<IterationRecord>* const> records,
+                      std::span<const SharedVector<Percentiles>> percentiles) {
+  std::string text = "run,iteration,min_quality,mean_quality,inverted,moved,seconds,movable_minimum";
+  text += percentiles.empty() ? "\n" : ",p1,p5,p50\n";
   for (std::size_t r = 0; r < titles.size(); ++r)
-    for (const IterationRecord& row : *records[r])
-      fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}\n", titles[r], row.iteration, number(row.statistics.minimum),
+    for (const IterationRecord& row : *records[r]) {
+      fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}", titles[r], row.iteration, number(row.statistics.minimum),
                      number(row.statistics.mean), row.statistics.inverted, row.moved, number(row.seconds),
                      number(row.statistics.movable_minimum));
+      if (!percentiles.empty()) {
+        const Percentiles p = row.iteration < percentiles[r].size() ? percentiles[r][row.iteration] : Percentiles{};
+        fmt::format_to(std::back_inserter(text), ",{},{},{}", number(p.p1), number(p.p5), number(p.p50));
+      }
+      text += '\n';
+    }
   return text;
 }
 

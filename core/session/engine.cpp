@@ -46,7 +46,10 @@ std::size_t Engine::pending() const {
 
 void Engine::wait_idle() {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return queue_.empty() && !working_; });
+  ++waiting_;
+  changed_.notify_all();
+  changed_.wait(lock, [&] { return queue_.empty() && !working_ && !resting_; });
+  --waiting_;
 }
 
 void Engine::cancel() {
@@ -86,6 +89,7 @@ void Engine::set_wake(std::function<void()> wake) {
 }
 
 void Engine::work(const std::stop_token& stop) {
+  constexpr std::chrono::milliseconds kQuiet{60};
   std::unique_lock lock(mutex_);
   while (changed_.wait(lock, stop, [&] { return !queue_.empty(); })) {
     current_ = std::move(queue_.front());
@@ -97,6 +101,7 @@ void Engine::work(const std::stop_token& stop) {
     publish_at_rest();
     lock.lock();
     working_ = false;
+    resting_ = true;
     current_ = {};
     ends_.push_back(end);
     changed_.notify_all();
@@ -104,6 +109,13 @@ void Engine::work(const std::stop_token& stop) {
     lock.unlock();
     if (wake) wake();  // idle now: the last look at progress
     lock.lock();
+    // Whoever drags along the timeline asks for the next at once, and shall not wait for what nobody looks at.
+    changed_.wait_for(lock, stop, kQuiet, [&] { return !queue_.empty() || waiting_ > 0; });
+    lock.unlock();
+    rest(stop);
+    lock.lock();
+    resting_ = false;
+    changed_.notify_all();
   }
 }
 
@@ -155,6 +167,18 @@ void Engine::publish_at_rest() {
     say({Message::Kind::Error, fmt::format("what is reached cannot be shown: {}", error.what()), error.exit_code()});
   } catch (const std::bad_alloc&) {
     say({Message::Kind::Error, "not enough memory to show what is reached", 3});
+  }
+}
+
+/// Works out what views show besides frames, until somebody asks for something. Never throws.
+void Engine::rest(const std::stop_token& stop) {
+  const auto go_on = [&] { return !stop.stop_requested() && pending() == 0; };
+  try {
+    if (frames_.work_at_rest(session_, go_on)) publish(FrameDetail::Whole);
+  } catch (const Error& error) {
+    say({Message::Kind::Warning, error.what(), 0});
+  } catch (const std::bad_alloc&) {
+    say({Message::Kind::Warning, "not enough memory to compare the runs", 0});
   }
 }
 

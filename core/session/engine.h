@@ -41,7 +41,8 @@ class Engine {
   /// Commands posted and not yet finished, the one at work included.
   [[nodiscard]] std::size_t pending() const;
   [[nodiscard]] bool busy() const { return pending() != 0; }
-  /// Blocks until nothing is pending (for scripts and tests; the window never calls it).
+  /// Blocks until nothing is pending and all is worked out that is while the session rests (for scripts and tests; the window never calls
+  /// it).
   void wait_idle();
   /// Cancels the command at work and drops the waiting ones.
   void cancel();
@@ -70,6 +71,7 @@ class Engine {
   void publish(FrameDetail detail);
   void publish_if_due();
   void publish_at_rest();
+  void rest(const std::stop_token& stop);
   void say(Message message);
 
   Progress progress_;
@@ -85,6 +87,8 @@ class Engine {
   std::uint64_t last_id_ = 0;
   std::vector<CommandEnd> ends_;
   bool working_ = false;
+  bool resting_ = false;  // works out what nobody waits for
+  int waiting_ = 0;       // in wait_idle()
   std::vector<Message> messages_;
   std::shared_ptr<const SessionView> view_;
   std::atomic<bool> taken_{true};

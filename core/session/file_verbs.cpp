@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "core/io/mesh_io.h"
-#include "core/mesh/generate.h"
 #include "core/session/csv.h"
+#include "core/session/state_file.h"
 #include "core/session/verbs.h"
 
 namespace dmoscope {
@@ -25,9 +25,9 @@ void open(CommandContext& context, Arguments arguments) {
 
 void generate(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 3);
-  const std::size_t size = arguments.size() > 1 ? to_count(arguments[1]) : 0;
-  const std::uint64_t seed = arguments.size() > 2 ? to_count(arguments[2]) : 1;
-  context.session.open(generate_mesh(arguments[0], size, seed, context.progress), context.progress);
+  std::string words = arguments[0];
+  for (const std::string& word : arguments.subspan(1)) words += ' ' + word;
+  context.session.generate(words, context.progress);
   tell_report(context);
 }
 
@@ -49,7 +49,16 @@ void write_stats(CommandContext& context, Arguments arguments) {
     titles.push_back(fmt::format("{}:{}", parameters.method, info(parameters.metric).name));
     records.push_back(&context.session.run(i).history().records());
   }
-  write_file_atomically(arguments[0], stats_csv(titles, records));
+  std::vector<SharedVector<Percentiles>> percentiles;
+  for (std::size_t i = 0; context.session.percentiles() && i < context.session.run_count(); ++i) {
+    context.session.run(i).find_percentiles([&](double done) {
+      context.progress.check();
+      context.progress.set(done);
+      return true;
+    });
+    percentiles.push_back(context.session.run(i).history().shared_percentiles());
+  }
+  write_file_atomically(arguments[0], stats_csv(titles, records, percentiles));
   tell(context, fmt::format("wrote {}", arguments[0]));
 }
 
@@ -62,6 +71,19 @@ void write_elements(CommandContext& context, Arguments arguments) {
   tell(context, fmt::format("wrote {}", arguments[0]));
 }
 
+void save_session(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 2);
+  save_state(arguments[0], context.session, arguments.size() > 1 ? arguments[1] : "", context.progress);
+  tell(context, fmt::format("saved the session as {}", arguments[0]));
+}
+
+void open_session(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  open_state(arguments[0], context.session, context.progress);
+  tell_report(context);
+  tell(context, fmt::format("{} run{} as saved", context.session.run_count(), context.session.run_count() == 1 ? "" : "s"));
+}
+
 }  // namespace
 
 std::span<const Verb> file_verbs() {
@@ -69,6 +91,8 @@ std::span<const Verb> file_verbs() {
       {{"open", "open FILE", "Opens a mesh and starts a run on it."}, open},
       {{"generate", "generate KIND [SIZE [SEED]]", "Makes a sample mesh and starts a run on it."}, generate},
       {{"export", "export FILE", "Writes the active run's mesh; the extension chooses the format."}, export_mesh},
+      {{"save-state", "save-state FILE [VIEW-JSON]", "Saves mesh, runs and where they stand; the view goes along."}, save_session},
+      {{"open-state", "open-state FILE", "Opens what save-state saved."}, open_session},
       {{"stats", "stats FILE.csv", "Writes the statistics of every iteration of every run."}, write_stats},
       {{"elements", "elements FILE.csv", "Writes every element's quality by every metric."}, write_elements},
   };

@@ -137,7 +137,7 @@ Histogram histogram_of(const InputMesh& input, Metric metric, ThreadPool* pool) 
   return whole.histogram();
 }
 
-RunView view_of(Run& run) {
+RunView view_of(Run& run, bool percentiles) {
   RunView view;
   view.title = run.title();
   view.parameters = run.parameters();
@@ -149,6 +149,7 @@ RunView view_of(Run& run) {
   view.free_vertices = static_cast<Index>(run.visits_per_iteration());
   view.fixed = run.shared_fixed();
   view.records = run.history().shared_records();
+  if (percentiles) view.percentiles = run.history().shared_percentiles();
   view.edits = run.edits().all().size();
   view.edits_done = run.edits().done_by(run.moment());
   view.history_note = run.history().sentence();
@@ -157,6 +158,17 @@ RunView view_of(Run& run) {
 }
 
 }  // namespace
+
+Frame judged(Session& session, std::size_t index) {
+  const Run& run = session.run(index);
+  Frame frame;
+  frame.input = session.input();
+  frame.moment = run.moment();
+  frame.shown = session.shown();
+  frame.positions.assign(run.positions().begin(), run.positions().end());
+  judge_elements(frame, run.immovable(), session.pool().get());
+  return frame;
+}
 
 Histogram make_histogram(std::span<const double> qualities) {
   Bins bins;
@@ -180,7 +192,27 @@ void FrameBuilder::refresh_input(Session& session) {
   before_ = histogram_of(*input_, shown, session.pool().get());
 }
 
+bool FrameBuilder::FrameKey::is(const FrameKey& other) const {
+  return !run.expired() && run.lock() == other.run.lock() && index == other.index && path == other.path && moment == other.moment &&
+         shown == other.shown;
+}
+
+FrameBuilder::FrameKey FrameBuilder::key_of(Session& session) {
+  const Run& run = session.active();
+  return {session.identity(session.active_index()), session.active_index(), run.path(), run.moment(), session.shown()};
+}
+
+bool FrameBuilder::work_at_rest(Session& session, const std::function<bool()>& go_on) {
+  if (!session.has_input() || !last_ || !last_key_.is(key_of(session))) return false;
+  bool found = summaries_.find(session, *last_, go_on);
+  for (std::size_t i = 0; session.percentiles() && i < session.run_count(); ++i)
+    if (session.run(i).find_percentiles([&](double) { return go_on(); })) found = true;
+  return found;
+}
+
 std::shared_ptr<const Frame> FrameBuilder::frame(Session& session, FrameDetail detail) {
+  const FrameKey key = key_of(session);
+  if (last_ && last_->input == session.input() && key.is(last_key_)) return last_;
   refresh_input(session);
   Run& run = session.active();
   auto frame = std::make_shared<Frame>();
@@ -198,6 +230,10 @@ std::shared_ptr<const Frame> FrameBuilder::frame(Session& session, FrameDetail d
   }
   frame->statistics = frame->shown == run.parameters().metric ? frame->shown_statistics : run.statistics();
   frame->before = before_;
+  if (!frame->device) {
+    last_ = frame;
+    last_key_ = key;
+  }
   return frame;
 }
 
@@ -208,9 +244,14 @@ std::shared_ptr<const SessionView> FrameBuilder::build(Session& session, FrameDe
   if (!session.has_input()) return view;
   if (const UndoEntry* entry = session.undo_stack().to_undo()) view->undo_label = entry->label;
   if (const UndoEntry* entry = session.undo_stack().to_redo()) view->redo_label = entry->label;
+  view->restored_view = session.restored_view();
+  view->restored_serial = session.restored_views();
   view->input = session.input();
   view->active = session.active_index();
-  for (std::size_t i = 0; i < session.run_count(); ++i) view->runs.push_back(view_of(session.run(i)));
+  for (std::size_t i = 0; i < session.run_count(); ++i) {
+    view->runs.push_back(view_of(session.run(i), session.percentiles()));
+    view->runs.back().summary = summaries_.of(session, i);
+  }
   view->frame = frame(session, detail);
   return view;
 }

@@ -54,8 +54,20 @@ void History::know_again(const SharedVector<IterationRecord>& all) {
   if (all.size() > records().size()) records_.replace(all.whole());
 }
 
+void History::note_percentiles(std::uint64_t iteration, const Percentiles& found) {
+  auto& all = percentiles_.change();
+  if (all.size() < records().size()) all.resize(records().size());
+  all.at(iteration) = found;
+}
+
+void History::hold(std::uint64_t iteration, std::span<const Vec3> positions, ThreadPool* pool) {
+  if (kept(iteration)) return;
+  kept_.insert(std::ranges::upper_bound(kept_, iteration, {}, &Kept::iteration), copy_of(iteration, positions, pool));
+}
+
 void History::forget_after(std::uint64_t iteration) {
   if (records().size() > iteration + 1) records_.change().resize(iteration + 1);
+  if (percentiles().size() > iteration + 1) percentiles_.change().resize(iteration + 1);
   std::erase_if(kept_, [&](const Kept& kept) { return kept.iteration > iteration; });
 }
 

@@ -11,6 +11,7 @@
 #include "core/base/shared_vector.h"
 #include "core/quality/quality.h"
 #include "core/session/moment.h"
+#include "core/session/percentiles.h"
 
 namespace dmoscope {
 
@@ -43,10 +44,18 @@ class History {
   void keep(std::uint64_t iteration, std::span<const Vec3> positions, ThreadPool* pool);
   /// Takes back records of the same path that were forgotten.
   void know_again(const SharedVector<IterationRecord>& records);
+  /// Keeps positions that were kept elsewhere, whether or not there is room for them.
+  void hold(std::uint64_t iteration, std::span<const Vec3> positions, ThreadPool* pool);
   /// Forgets all that came after an iteration.
   void forget_after(std::uint64_t iteration);
   [[nodiscard]] const std::vector<IterationRecord>& records() const noexcept { return records_.values(); }
   [[nodiscard]] SharedVector<IterationRecord> shared_records() const { return records_.share(); }
+
+  /// Of the records, as far as anybody worked them out; may be shorter.
+  [[nodiscard]] const std::vector<Percentiles>& percentiles() const noexcept { return percentiles_.values(); }
+  [[nodiscard]] SharedVector<Percentiles> shared_percentiles() const { return percentiles_.share(); }
+  /// Of a recorded iteration.
+  void note_percentiles(std::uint64_t iteration, const Percentiles& percentiles);
 
   struct Kept {
     std::uint64_t iteration;
@@ -72,6 +81,7 @@ class History {
   std::size_t size_ = 0;  // bytes of the positions of one iteration
   std::uint64_t stride_ = 1;
   GrowingVector<IterationRecord> records_;
+  GrowingVector<Percentiles> percentiles_;
   std::vector<Kept> kept_;
 };
 

@@ -160,7 +160,8 @@ MeshReport examine(const Mesh& mesh, const Geometry& geometry) {
   return examine(mesh, geometry, topology, edges, unwatched);
 }
 
-std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path path, Need need, Progress& progress) {
+std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path path, Need need, Progress& progress,
+                                               std::string generator) {
   const Geometry geometry = classify(mesh);
   refuse_what_cannot_be_done(mesh, geometry, path.empty() ? (mesh.name.empty() ? "mesh" : mesh.name) : path.string(), need);
   progress.check();
@@ -179,8 +180,8 @@ std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path 
   edges = {};
   std::vector<double> reference = reference_measures(mesh, geometry, topology, progress);
   progress.check();
-  return std::make_shared<const InputMesh>(
-      InputMesh{std::move(mesh), geometry, std::move(topology), std::move(report), std::move(path), std::move(reference)});
+  return std::make_shared<const InputMesh>(InputMesh{std::move(mesh), geometry, std::move(topology), std::move(report), std::move(path),
+                                                     std::move(reference), std::move(generator)});
 }
 
 }  // namespace dmoscope

@@ -25,6 +25,7 @@ struct InputMesh {
   std::filesystem::path path;             // empty for a generated mesh
   std::vector<double> reference_measure;  // > 0, divides an element's Jacobian while untangling: mean over its corners of the mean |area|
                                           // in their stars, at input
+  std::string generator{};                // "coast 4000 1": the words that make this mesh again; empty for any other
   [[nodiscard]] QualityContext quality_context() const { return {mesh, geometry}; }
   /// Of a planar mesh.
   [[nodiscard]] PlanarView planar_view() const {
@@ -37,7 +38,11 @@ enum class Need { Smoothing, QualityOnly };
 
 /// Classifies, orients, examines and indexes a mesh. With Need::Smoothing a curved surface or a volume mesh is refused
 /// (InputError that names the file); with Need::QualityOnly only a volume mesh is.
-[[nodiscard]] std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path path, Need need, Progress& progress);
+[[nodiscard]] std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path path, Need need, Progress& progress,
+                                                             std::string generator = {});
+
+/// A sample for smoothing: `words` is "KIND [SIZE [SEED]]", see generate_mesh. Throws UsageError.
+[[nodiscard]] std::shared_ptr<const InputMesh> generate_input(const std::string& words, Progress& progress);
 
 /// read_mesh, then prepare_input.
 [[nodiscard]] std::shared_ptr<const InputMesh> load_input(const std::filesystem::path& path, Need need, const IoContext& context);

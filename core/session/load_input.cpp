@@ -1,10 +1,20 @@
 #include "core/io/mesh_io.h"
+#include "core/mesh/generate.h"
+#include "core/session/commands.h"
 #include "core/session/input_mesh.h"
 
 namespace dmoscope {
 
 std::shared_ptr<const InputMesh> load_input(const std::filesystem::path& path, Need need, const IoContext& context) {
   return prepare_input(read_mesh(path, context), path, need, context.progress);
+}
+
+std::shared_ptr<const InputMesh> generate_input(const std::string& line, Progress& progress) {
+  const std::vector<std::string> words = split_words(line);
+  if (words.empty() || words.size() > 3) throw UsageError("a sample is KIND [SIZE [SEED]]");
+  const std::size_t size = words.size() > 1 ? to_count(words[1]) : 0;
+  const std::uint64_t seed = words.size() > 2 ? to_count(words[2]) : 1;
+  return prepare_input(generate_mesh(words[0], size, seed, progress), {}, Need::Smoothing, progress, line);
 }
 
 }  // namespace dmoscope

@@ -2,6 +2,10 @@
 // How the worst hundredth, the worst twentieth and the middle of all elements fare.
 
 #include <limits>
+#include <span>
+#include <vector>
+
+#include "core/quality/quality.h"
 
 namespace dmoscope {
 
@@ -12,5 +16,13 @@ struct Percentiles {
   double p50 = std::numeric_limits<double>::quiet_NaN();
   [[nodiscard]] bool known() const noexcept { return p50 == p50; }
 };
+
+/// The qualities that a hundredth, a twentieth and half of the elements are not better than: the smallest ones with so many at or below
+/// them. NaN is left out. Reorders `qualities`.
+[[nodiscard]] Percentiles percentiles_of(std::vector<double>& qualities);
+
+/// The same of a mesh.
+[[nodiscard]] Percentiles compute_percentiles(const QualityContext& context, std::span<const Vec3> positions, Metric metric,
+                                              ThreadPool* pool);
 
 }  // namespace dmoscope

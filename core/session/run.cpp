@@ -108,6 +108,21 @@ void Run::settle() {
   keep();
 }
 
+bool Run::find_percentiles(const std::function<bool(double)>& go_on) {
+  bool found = false;
+  const std::size_t count = history_.records().size();
+  for (std::uint64_t iteration = 0; iteration < count; ++iteration) {
+    if (iteration < history_.percentiles().size() && history_.percentiles()[iteration].known()) continue;
+    const bool here = at_.moment == Moment{iteration};
+    if (!here && !history_.kept(iteration)) continue;
+    if (!go_on(static_cast<double>(iteration) / static_cast<double>(count))) break;
+    const auto where = here ? positions() : history_.nearest(iteration).positions;
+    history_.note_percentiles(iteration, compute_percentiles(input_->quality_context(), where, parameters_.metric, pool_.get()));
+    found = true;
+  }
+  return found;
+}
+
 void Run::rest() {
   settle();
   executor_.smoother.reset();

@@ -147,6 +147,14 @@ class Run {
   /// Gives up what only smoothing needs, some of it on a device; who smooths next makes it again.
   void rest();
 
+  /// Works out the percentiles (of the optimised metric) of those recorded iterations that lack them and whose positions are known, asking
+  /// `go_on`, which gets the share that is done, before each. Returns whether there are new ones.
+  bool find_percentiles(const std::function<bool(double)>& go_on);
+
+  /// Takes over what is known of a path from elsewhere, with the positions at the end of iteration point.moment.iteration, and goes to its
+  /// moment. Of a run that is fresh. Throws UsageError for edits or moments that this run cannot have.
+  void adopt(const RunPoint& point, std::span<const Vec3> positions, Progress& progress);
+
   /// Changes whenever a moment may show other positions than it did before: same run, same path, same moment, same bits.
   [[nodiscard]] std::uint64_t path() const noexcept { return path_; }
 

@@ -84,6 +84,31 @@ std::uint64_t Run::visit_vertices(std::span<const Index> vertices, Progress& pro
   return moved;
 }
 
+void Run::adopt(const RunPoint& point, std::span<const Vec3> positions, Progress& progress) {
+  std::uint64_t at_same_place = 0;
+  for (const Edit *before = nullptr, *edit = point.edits.begin(); edit != point.edits.end(); before = edit++) {
+    const bool same_place = before != nullptr && before->at.iteration == edit->at.iteration && before->at.visits == edit->at.visits;
+    at_same_place = same_place ? at_same_place + 1 : 0;
+    const bool later = before == nullptr || before->at < edit->at;
+    if (!later || edit->at.edits != at_same_place || edit->at.visits >= visits_per_iteration())
+      throw UsageError("visits of chosen vertices at moments that cannot be");
+    const std::vector<Index> ranks = ranks_of(edit->vertices);
+    const auto in_order = [&](Index rank, Index vertex) { return colouring_->order[rank] == vertex; };
+    if (ranks.empty() || ranks.size() > Edit::kMostVertices ||
+        !std::equal(ranks.begin(), ranks.end(), edit->vertices.begin(), edit->vertices.end(), in_order))
+      throw UsageError("visits of chosen vertices in another order than this run's");
+  }
+  if (point.moment.iteration >= std::max<std::size_t>(1, point.records.size()))
+    throw UsageError("the run stands at an iteration that has no record");
+  edits_.replace(point.edits);
+  ++path_;
+  history_.know_again(point.records);
+  if (point.moment.iteration > 0) {
+    history_.hold(point.moment.iteration, positions, pool_.get());
+  }
+  seek(point.moment, progress);
+}
+
 void Run::reset(Progress& progress) {
   seek({}, progress);
   if (edits_.all().empty()) return;

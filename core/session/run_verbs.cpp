@@ -76,6 +76,11 @@ void say(CommandContext& context, Arguments arguments) {
   tell(context, std::move(text));
 }
 
+void set_percentiles(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  if (arguments[0] != "on" && arguments[0] != "off") throw WrongArguments(fmt::format("'{}' is neither on nor off", arguments[0]));
+  context.session.set_percentiles(arguments[0] == "on");
+}
 void undo(CommandContext& context, Arguments arguments) {
   require(arguments, 0, 0);
   tell(context, fmt::format("undid: {}", context.session.undo(context.progress)));
@@ -96,6 +101,8 @@ std::span<const Verb> run_verbs() {
       {{"redo", "redo", "Does again what was undone."}, redo, false},
       {{"threads", "threads N", "Threads to smooth with; 0: all."}, set_threads},
       {{"history", "history MIB", "Memory for positions of past iterations, all runs together."}, set_history},
+      {{"percentiles", "percentiles on|off", "Works out the 1st, 5th and 50th percentile of every iteration that is kept."},
+       set_percentiles},
       {{"expect", "expect minimum|movable|mean|inverted|iteration|moved <|<=|==|>=|> VALUE", "Fails when it does not hold."}, expect},
       {{"say", "say TEXT", "Writes a line to the log."}, say},
   };

@@ -13,6 +13,25 @@ void Session::open(const std::filesystem::path& path, Progress& progress) { repl
 
 void Session::open(Mesh mesh, Progress& progress) { replace_input(prepare_input(std::move(mesh), {}, Need::Smoothing, progress)); }
 
+void Session::generate(const std::string& words, Progress& progress) { replace_input(generate_input(words, progress)); }
+
+std::shared_ptr<Run> Session::make_run(std::shared_ptr<const InputMesh> input, RunParameters parameters) const {
+  return std::make_shared<Run>(std::move(input), std::move(parameters), pool_, history_bytes_, acceleration_);
+}
+
+void Session::replace(std::shared_ptr<const InputMesh> input, std::vector<std::shared_ptr<Run>> runs, std::size_t active, Metric shown) {
+  input_ = std::move(input);
+  runs_ = std::move(runs);
+  active_ = active;
+  shown_ = shown;
+  share_history();
+}
+
+void Session::restore_view(std::string json) {
+  restored_view_ = std::move(json);
+  ++restored_views_;
+}
+
 void Session::replace_input(std::shared_ptr<const InputMesh> input) {
   RunParameters parameters{.backend = backend_};
   if (!runs_.empty()) {
@@ -23,7 +42,7 @@ void Session::replace_input(std::shared_ptr<const InputMesh> input) {
     return std::ranges::all_of(mesh.elements.kinds(), [&](ElementKind kind) { return info(metric).defined_for(kind); });
   };
   if (!usable(parameters.metric)) parameters.metric = Metric::MeanRatio;
-  auto run = std::make_shared<Run>(input, parameters, pool_, history_bytes_, acceleration_);  // may throw: nothing has been replaced yet
+  auto run = make_run(input, parameters);  // may throw: nothing has been replaced yet
   input_ = std::move(input);
   runs_.clear();
   runs_.push_back(std::move(run));
@@ -48,7 +67,7 @@ void Session::select(std::size_t index) {
 }
 
 std::size_t Session::add_run(RunParameters parameters) {
-  runs_.push_back(std::make_shared<Run>(input(), std::move(parameters), pool_, history_bytes_, acceleration_));
+  runs_.push_back(make_run(input(), std::move(parameters)));
   active_ = runs_.size() - 1;
   share_history();
   return active_;
@@ -66,7 +85,7 @@ std::size_t Session::change(RunParameters parameters) {
   const Run& current = active();
   const bool untouched = current.moment() == Moment{} && current.history().records().size() == 1 && current.edits().all().empty();
   if (!untouched) return add_run(std::move(parameters));
-  runs_[active_] = std::make_shared<Run>(input_, std::move(parameters), pool_, history_bytes_, acceleration_);
+  runs_[active_] = make_run(input_, std::move(parameters));
   share_history();
   return active_;
 }

@@ -23,6 +23,16 @@ class Session {
   /// metric is not defined for the new mesh). On any error the session stays as it was.
   void open(const std::filesystem::path& path, Progress& progress);
   void open(Mesh mesh, Progress& progress);
+  /// The same with a sample, see generate_input.
+  void generate(const std::string& words, Progress& progress);
+  /// The same with runs of their own, at least one.
+  void replace(std::shared_ptr<const InputMesh> input, std::vector<std::shared_ptr<Run>> runs, std::size_t active, Metric shown);
+  /// A run with this session's threads and devices, which is none of its runs.
+  [[nodiscard]] std::shared_ptr<Run> make_run(std::shared_ptr<const InputMesh> input, RunParameters parameters) const;
+  /// JSON that whoever shows the session saved with it, to be shown again; and how often there was some.
+  void restore_view(std::string json);
+  [[nodiscard]] const std::string& restored_view() const noexcept { return restored_view_; }
+  [[nodiscard]] std::uint64_t restored_views() const noexcept { return restored_views_; }
   [[nodiscard]] bool has_input() const noexcept { return input_ != nullptr; }
   /// Throws UsageError "no mesh is open".
   [[nodiscard]] const std::shared_ptr<const InputMesh>& input() const;
@@ -55,6 +65,9 @@ class Session {
   [[nodiscard]] Metric shown() const noexcept { return shown_; }
   /// Throws UsageError when the metric is defined for none of the elements.
   void show(Metric metric);
+  /// Whether percentiles are worked out when the session is at rest.
+  [[nodiscard]] bool percentiles() const noexcept { return percentiles_; }
+  void set_percentiles(bool on) noexcept { percentiles_ = on; }
   /// For all runs together; divided evenly.
   void set_history_budget(std::size_t bytes);
   void set_threads(unsigned threads);
@@ -74,6 +87,9 @@ class Session {
   std::vector<std::shared_ptr<Run>> runs_;
   std::size_t active_ = 0;
   Metric shown_ = Metric::MeanRatio;
+  bool percentiles_ = false;
+  std::string restored_view_;
+  std::uint64_t restored_views_ = 0;
   UndoStack undo_;
 };
 

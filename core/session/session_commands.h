@@ -2,10 +2,11 @@
 // The session's verbs: what the window's buttons, a script and the tests all say.
 //
 //   open FILE | generate KIND [SIZE [SEED]] | export FILE | stats FILE.csv | elements FILE.csv
+//   save-state FILE [VIEW-JSON] | open-state FILE
 //   metric NAME | show NAME | method NAME | grid N | levels N | omega X | precision float|double | backend auto|cpu|cuda
 //   order natural|shuffle:SEED | fix VERTEX|A-B... | unfix | step vertex|class|iteration [COUNT] | back vertex|class|iteration [COUNT]
 //   run ITERATIONS | until-converged [PATIENCE [MAX]] | visit VERTEX|A-B... | seek ITERATION [VISITS [EDITS]] | reset
-//   add-run METHOD[:METRIC] | select-run K | remove-run K | undo | redo | threads N | history MIB
+//   add-run METHOD[:METRIC] | select-run K | remove-run K | undo | redo | threads N | history MIB | percentiles on|off
 //   expect minimum|movable|mean|inverted|iteration|moved  <|<=|==|>=|>  VALUE
 //   say TEXT
 

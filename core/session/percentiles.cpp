@@ -1,0 +1,34 @@
+#include "core/session/percentiles.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dmoscope {
+
+Percentiles percentiles_of(std::vector<double>& qualities) {
+  std::erase_if(qualities, [](double q) { return std::isnan(q); });
+  if (qualities.empty()) return {};
+  const std::size_t count = qualities.size();
+  // From above downwards, so that each search has less to look through.
+  auto end = qualities.end();
+  const auto of = [&](std::size_t hundredths) {
+    const std::size_t rank = (hundredths * count + 99) / 100 - 1;
+    const auto place = qualities.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(qualities.begin(), place, end);
+    end = place + 1;
+    return *place;
+  };
+  Percentiles found;
+  found.p50 = of(50);
+  found.p5 = of(5);
+  found.p1 = of(1);
+  return found;
+}
+
+Percentiles compute_percentiles(const QualityContext& context, std::span<const Vec3> positions, Metric metric, ThreadPool* pool) {
+  std::vector<double> qualities(context.mesh.elements.size());
+  element_qualities(context, positions, metric, pool, qualities);
+  return percentiles_of(qualities);
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,280 @@
+#include "core/session/state_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/io/mesh_io.h"
+#include "core/io/source_file.h"
+#include "core/session/base64.h"
+#include "core/session/session_commands.h"
+
+namespace dmoscope {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kFormat = "dmoscope session";
+constexpr int kVersion = 1;
+
+/// Of positions and elements, FNV-1a.
+std::string checksum(const Mesh& mesh) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  const auto add = [&](std::uint64_t value) {
+    for (unsigned k = 0; k < 8; ++k) hash = (hash ^ (value >> 8U * k & 255U)) * 1099511628211ULL;
+  };
+  for (const Vec3& p : mesh.positions)
+    for (const double coordinate : {p.x, p.y, p.z}) add(std::bit_cast<std::uint64_t>(coordinate));
+  for (const ElementKind kind : mesh.elements.kinds()) add(static_cast<std::uint64_t>(kind));
+  for (const Index corner : mesh.elements.all_corners()) add(corner);
+  return fmt::format("{:016x}", hash);
+}
+
+/// JSON has no number for what is not finite.
+Json number(double value) { return std::isnan(value) ? Json("nan") : std::isinf(value) ? Json(value > 0 ? "inf" : "-inf") : Json(value); }
+
+double to_double(const Json& json) {
+  if (json.is_number()) return json.get<double>();
+  const auto word = json.get<std::string>();
+  if (word == "inf") return std::numeric_limits<double>::infinity();
+  if (word == "-inf") return -std::numeric_limits<double>::infinity();
+  if (word == "nan") return std::numeric_limits<double>::quiet_NaN();
+  throw UsageError(fmt::format("'{}' is no number", word));
+}
+
+std::uint64_t to_whole(const Json& json) {
+  if (!json.is_number_unsigned()) throw UsageError("a whole number is expected where there is none");
+  return json.get<std::uint64_t>();
+}
+
+Index to_index(const Json& json) {
+  const std::uint64_t value = to_whole(json);
+  if (value >= kNoIndex) throw UsageError(fmt::format("{} is too large an index", value));
+  return static_cast<Index>(value);
+}
+
+int to_int(const Json& json) {
+  const std::uint64_t value = to_whole(json);
+  if (value > 1000000) throw UsageError(fmt::format("{} is too large", value));
+  return static_cast<int>(value);
+}
+
+std::vector<Index> to_indices(const Json& json) {
+  if (!json.is_array()) throw UsageError("a list of vertices is expected where there is none");
+  std::vector<Index> indices;
+  for (const Json& entry : json) indices.push_back(to_index(entry));
+  return indices;
+}
+
+Json json_of(const Moment& moment) { return {moment.iteration, moment.visits, moment.edits}; }
+
+Moment to_moment(const Json& json) {
+  if (!json.is_array() || json.size() != 3) throw UsageError("a moment is a list of iteration, visits and edits");
+  return {to_whole(json[0]), to_whole(json[1]), to_whole(json[2])};
+}
+
+Json json_of(const RunParameters& p) {
+  return {{"method", p.method},
+          {"metric", info(p.metric).name},
+          {"grid", p.search.grid_points},
+          {"levels", p.search.levels},
+          {"omega", p.search.omega},
+          {"precision", p.search.precision == Precision::Double ? "double" : "float"},
+          {"order", p.order.seed ? fmt::format("shuffle:{}", *p.order.seed) : "natural"},
+          {"fixed", p.fixed},
+          {"backend", name(p.backend)}};
+}
+
+RunParameters to_parameters(const Json& json) {
+  RunParameters p;
+  p.method = json.at("method").get<std::string>();
+  p.metric = parse_metric(json.at("metric").get<std::string>());
+  p.search.grid_points = to_int(json.at("grid"));
+  p.search.levels = to_int(json.at("levels"));
+  p.search.omega = to_double(json.at("omega"));
+  p.search.precision = parse_precision(json.at("precision").get<std::string>());
+  p.order = parse_order(json.at("order").get<std::string>());
+  p.fixed = to_indices(json.at("fixed"));
+  p.backend = parse_backend(json.at("backend").get<std::string>());
+  return p;
+}
+
+/// [minimum, mean, movable minimum, ceiling, worst element, inverted, moved, seconds]
+Json json_of(const IterationRecord& r) {
+  const Statistics& s = r.statistics;
+  return {number(s.minimum), number(s.mean), number(s.movable_minimum), number(s.ceiling), s.worst_element,
+          s.inverted,        r.moved,        number(r.seconds)};
+}
+
+IterationRecord to_record(const Json& json, std::uint64_t iteration) {
+  if (!json.is_array() || json.size() != 8) throw UsageError("a record of an iteration has 8 values");
+  IterationRecord record{iteration, {}, to_whole(json[6]), to_double(json[7])};
+  record.statistics = {to_double(json[0]), to_double(json[1]), to_double(json[2]), to_double(json[3]), kNoIndex, to_index(json[5])};
+  if (to_whole(json[4]) != kNoIndex) record.statistics.worst_element = to_index(json[4]);
+  return record;
+}
+
+/// The positions at the end of the iteration in which the run stands; brings the run there and back.
+std::string packed_start(Run& run, Progress& progress) {
+  const RunPoint here = run.point();
+  if (here.moment.is_iteration_end()) return pack_positions(run.positions());
+  if (run.history().kept(here.moment.iteration)) return pack_positions(run.history().nearest(here.moment.iteration).positions);
+  run.seek({here.moment.iteration}, progress);
+  std::string text = pack_positions(run.positions());
+  run.go_to(here, progress);
+  return text;
+}
+
+Json json_of(Run& run, Progress& progress) {
+  Json edits = Json::array();
+  for (const Edit& edit : run.edits().all()) edits.push_back({{"at", json_of(edit.at)}, {"vertices", edit.vertices}});
+  Json records = Json::array();
+  for (const IterationRecord& record : run.history().records()) records.push_back(json_of(record));
+  Json json{{"parameters", json_of(run.parameters())}, {"moment", json_of(run.moment())}, {"edits", edits}, {"records", records}};
+  if (run.moment().iteration > 0) json["positions"] = packed_start(run, progress);
+  return json;
+}
+
+/// A run as it is described, on a mesh.
+std::shared_ptr<Run> to_run(const Json& json, const Session& session, const std::shared_ptr<const InputMesh>& input, Progress& progress) {
+  auto run = session.make_run(input, to_parameters(json.at("parameters")));
+  RunPoint point;
+  point.moment = to_moment(json.at("moment"));
+  std::vector<Edit> edits;
+  if (!json.at("edits").is_array() || !json.at("records").is_array()) throw UsageError("edits and records are lists");
+  for (const Json& edit : json.at("edits")) edits.push_back({to_moment(edit.at("at")), to_indices(edit.at("vertices"))});
+  std::vector<IterationRecord> records{run->history().records().front()};
+  for (std::size_t i = 1; i < json.at("records").size(); ++i) records.push_back(to_record(json.at("records")[i], i));
+  point.edits = SharedVector<Edit>(std::make_shared<const std::vector<Edit>>(std::move(edits)));
+  point.records = SharedVector<IterationRecord>(std::make_shared<const std::vector<IterationRecord>>(std::move(records)));
+  std::vector<Vec3> positions;
+  if (point.moment.iteration > 0) {
+    auto unpacked = unpack_positions(json.at("positions").get_ref<const std::string&>(), input->mesh.positions.size());
+    if (!unpacked) throw UsageError("the positions of a run are damaged");
+    positions = std::move(*unpacked);
+    for (Index v = 0; v < positions.size(); ++v)
+      if (run->fixed()[v] != 0 && std::memcmp(&positions[v], &input->mesh.positions[v], sizeof(Vec3)) != 0)
+        throw UsageError(fmt::format("vertex {} is fixed, but has moved", v));
+  }
+  run->adopt(point, positions, progress);
+  return run;
+}
+
+/// The path as the file says, or beside the state file where it is not there any more.
+std::filesystem::path find_mesh(const std::filesystem::path& written, const std::filesystem::path& state) {
+  std::error_code ignored;
+  if (std::filesystem::exists(written, ignored)) return written;
+  const std::filesystem::path beside = state.parent_path() / written.filename();
+  return std::filesystem::exists(beside, ignored) ? beside : written;
+}
+
+std::shared_ptr<const InputMesh> to_input(const Json& json, const std::filesystem::path& state, Progress& progress) {
+  std::shared_ptr<const InputMesh> input;
+  std::string source;
+  if (json.contains("generate")) {
+    source = json.at("generate").get<std::string>();
+    input = generate_input(source, progress);
+  } else {
+    const std::filesystem::path path = find_mesh(json.at("path").get<std::string>(), state);
+    source = path.string();
+    input = load_input(path, Need::Smoothing, progress);
+  }
+  if (checksum(input->mesh) != json.at("checksum").get<std::string>())
+    throw UsageError(fmt::format("{} has changed since the session was saved: its positions or elements are others", source));
+  return input;
+}
+
+struct Opened {
+  std::shared_ptr<const InputMesh> input;
+  std::vector<std::shared_ptr<Run>> runs;
+  std::size_t active = 0;
+  Metric shown = Metric::MeanRatio;
+  std::string view;
+};
+
+Opened to_session(const Json& json, const std::filesystem::path& path, const Session& session, Progress& progress) {
+  if (!json.is_object() || json.value("format", "") != kFormat) throw UsageError("this is no saved session of dmoscope");
+  if (to_whole(json.at("version")) != kVersion)
+    throw UsageError(fmt::format("this session was saved in version {} of the format; this program reads version {}",
+                                 to_whole(json.at("version")), kVersion));
+  Opened opened;
+  opened.input = to_input(json.at("input"), path, progress);
+  const Json& runs = json.at("runs");
+  if (!runs.is_array() || runs.empty()) throw UsageError("the session has no runs");
+  for (const Json& run : runs) {
+    progress.check();
+    opened.runs.push_back(to_run(run, session, opened.input, progress));
+  }
+  opened.active = to_whole(json.at("active"));
+  if (opened.active >= runs.size()) throw UsageError(fmt::format("run {} is active, but there are {}", opened.active, runs.size()));
+  opened.shown = parse_metric(json.at("shown").get<std::string>());
+  if (json.contains("view")) opened.view = json.at("view").dump(-1, ' ', false, Json::error_handler_t::replace);
+  return opened;
+}
+
+Json parse(std::string_view text, const std::string& file) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    const std::string_view before = text.substr(0, std::min<std::size_t>(text.size(), error.byte == 0 ? 0 : error.byte - 1));
+    const auto line = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
+    throw InputError(file, line, "this is no JSON, so no saved session");
+  }
+}
+
+}  // namespace
+
+void save_state(const std::filesystem::path& path, Session& session, const std::string& view, Progress& progress) {
+  const InputMesh& input = *session.input();
+  Json source{{"vertices", input.mesh.vertex_count()}, {"elements", input.mesh.elements.size()}, {"checksum", checksum(input.mesh)}};
+  if (!input.generator.empty()) {
+    source["generate"] = input.generator;
+  } else if (!input.path.empty()) {
+    source["path"] = std::filesystem::absolute(input.path).string();
+  } else {
+    throw UsageError("this mesh came from no file and no generator: export it and open it first");
+  }
+  Json json{{"format", kFormat}, {"version", kVersion}, {"input", source}, {"runs", Json::array()}};
+  for (std::size_t i = 0; i < session.run_count(); ++i) {
+    progress.check();
+    json["runs"].push_back(json_of(session.run(i), progress));
+  }
+  json["active"] = session.active_index();
+  json["shown"] = info(session.shown()).name;
+  if (!view.empty()) {
+    json["view"] = Json::parse(view, nullptr, false);
+    if (json["view"].is_discarded()) throw UsageError("the view to be saved is no JSON");
+  }
+  std::string text;
+  try {
+    text = json.dump(1) + "\n";
+  } catch (const Json::exception&) {
+    throw OutputError(path.string(), "the mesh's name is no UTF-8 text");
+  }
+  write_file_atomically(path, text);
+}
+
+void open_state(const std::filesystem::path& path, Session& session, Progress& progress) {
+  const std::string file = path.string();
+  const FileBytes bytes = read_whole_file(path, progress);
+  const Json json = parse(bytes.view(), file);
+  Opened opened;
+  try {
+    opened = to_session(json, path, session, progress);
+  } catch (const Json::exception&) {
+    throw InputError(file, 0, "something is missing in this saved session, or is of another kind than it should be");
+  } catch (const UsageError& error) {
+    throw InputError(file, 0, error.what());
+  }
+  session.replace(std::move(opened.input), std::move(opened.runs), opened.active, opened.shown);
+  session.restore_view(std::move(opened.view));
+}
+
+}  // namespace dmoscope

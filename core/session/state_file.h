@@ -1,0 +1,21 @@
+#pragma once
+// A session in a file: which mesh, which runs, where they stand and by which path. JSON, so that it can be read by others.
+
+#include <filesystem>
+#include <string>
+
+#include "core/session/session.h"
+
+namespace dmoscope {
+
+/// Writes the session, all or nothing. `view`: JSON of whoever shows the session, kept as it is; empty: none. Throws UsageError where no
+/// mesh is open, where nobody could find the mesh again (it came from no file and no generator), and for a view that is no JSON;
+/// OutputError.
+void save_state(const std::filesystem::path& path, Session& session, const std::string& view, Progress& progress);
+
+/// Replaces mesh and runs by those of a file; every run stands at its moment, bit for bit. Earlier iterations are computed again when asked
+/// for. On any error, and on Cancelled, the session stays as it was. Throws InputError that names file and line for what is no state file
+/// or does not fit together, and for a mesh that has changed since; UsageError; DeviceError.
+void open_state(const std::filesystem::path& path, Session& session, Progress& progress);
+
+}  // namespace dmoscope

@@ -1,0 +1,40 @@
+#pragma once
+// How every run fares by the metric that is shown, worked out once for each moment.
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/session/view.h"
+
+namespace dmoscope {
+
+/// A summary of a frame that is whole.
+[[nodiscard]] RunSummary summary_of(const Frame& frame);
+
+/// The values at the ranks of an even choice of at most `most` (at least 2): of all of them in ascending order, the first and the last
+/// included. NaN is left out.
+[[nodiscard]] std::vector<float> sorted_choice(std::vector<float> values, std::size_t most);
+
+/// Summaries of a session's runs.
+class Summaries {
+ public:
+  static constexpr std::size_t kMostSorted = 65536;
+
+  /// Of a run as it stands, by the metric the session shows; null while it has not been worked out.
+  [[nodiscard]] std::shared_ptr<const RunSummary> of(Session& session, std::size_t run) const;
+  /// Works out those that are missing, asking `go_on` before each. `active`: the frame of the active run. Returns whether there are new
+  /// ones.
+  bool find(Session& session, const Frame& active, const std::function<bool()>& go_on);
+
+ private:
+  struct Known {
+    std::weak_ptr<const Run> run;
+    std::uint64_t path = 0;
+    std::shared_ptr<const RunSummary> summary;
+  };
+  [[nodiscard]] static bool fits(const Known& known, Session& session, std::size_t run);
+  std::vector<Known> known_;  // one a run
+};
+
+}  // namespace dmoscope

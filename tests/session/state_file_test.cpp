@@ -1,0 +1,263 @@
+// Sessions saved and opened: every run where it stood, bit for bit; nothing half opened; no file does harm.
+
+#include "core/session/state_file.h"
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/session/base64.h"
+#include "core/session/engine.h"
+#include "core/session/session_commands.h"
+#include "tests/support/meshes.h"
+
+namespace dmoscope {
+namespace {
+
+using ::testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+
+bool same_bits(std::span<const Vec3> a, std::span<const Vec3> b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
+}
+
+class StateFile : public ::testing::Test {
+ protected:
+  StateFile() {
+    std::filesystem::create_directories(folder_);
+    add_session_commands(commands_, context_);
+  }
+  ~StateFile() override { std::filesystem::remove_all(folder_); }
+  void say(const std::string& line) { commands_.execute(line); }
+  [[nodiscard]] std::string text() const {
+    std::ifstream stream(file_);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  void write(const std::string& text) const { std::ofstream(file_) << text; }
+  /// What opening says is wrong; empty: it opens.
+  std::string refusal() {
+    Session other(1);
+    try {
+      open_state(file_, other, progress_);
+    } catch (const InputError& error) {
+      EXPECT_FALSE(other.has_input()) << "nothing is half opened";
+      return error.what();
+    }
+    return {};
+  }
+
+  std::filesystem::path folder_ = std::filesystem::temp_directory_path() / "dmoscope_test_state";
+  std::filesystem::path file_ = folder_ / "session.json";
+  Session session_{2};
+  Progress progress_;
+  CommandContext context_{session_, progress_, [](const Message&) {}};
+  CommandTable commands_;
+};
+
+TEST_F(StateFile, OpensWhatWasSavedBitForBit) {
+  say("generate random 300 7");
+  say("precision double");
+  const auto vertex = session_.active().colouring().order[3];
+  say("fix " + std::to_string(vertex));
+  say("run 2");
+  say("visit 0-299");
+  say("run 2");
+  say("step class 2");
+  say("visit 0-299");
+  say("add-run dmo:radius-ratio");
+  say("order shuffle:5");
+  say("step vertex 5");
+  say("add-run dmo:min-angle");
+  say("run 3");
+  say("seek 1");
+  say("select-run 2");
+  say("show min-angle");
+  say("save-state " + file_.string() + R"( "{\"zoom\": 2}")");
+  Session other(1);
+  open_state(file_, other, progress_);
+  ASSERT_EQ(other.run_count(), session_.run_count());
+  EXPECT_EQ(other.active_index(), 1U);
+  EXPECT_EQ(other.shown(), Metric::MinAngle);
+  EXPECT_EQ(Json::parse(other.restored_view()), Json::parse("{\"zoom\": 2}"));
+  EXPECT_EQ(other.restored_views(), 1U);
+  for (std::size_t i = 0; i < other.run_count(); ++i) {
+    dmoscope::Run &a = session_.run(i), &b = other.run(i);
+    EXPECT_EQ(a.title(), b.title());
+    EXPECT_EQ(a.moment(), b.moment());
+    EXPECT_EQ(a.parameters().fixed, b.parameters().fixed);
+    EXPECT_EQ(a.parameters().search, b.parameters().search);
+    EXPECT_EQ(a.parameters().order, b.parameters().order);
+    EXPECT_EQ(a.edits().all(), b.edits().all());
+    EXPECT_TRUE(same_bits(a.positions(), b.positions())) << i;
+    ASSERT_EQ(a.history().records().size(), b.history().records().size());
+    for (std::size_t k = 0; k < a.history().records().size(); ++k) {
+      EXPECT_EQ(a.history().records()[k].statistics.mean, b.history().records()[k].statistics.mean);
+      EXPECT_EQ(a.history().records()[k].statistics.worst_element, b.history().records()[k].statistics.worst_element);
+      EXPECT_EQ(a.history().records()[k].moved, b.history().records()[k].moved);
+      a.seek({k}, progress_);
+      b.seek({k}, progress_);
+      EXPECT_TRUE(same_bits(a.positions(), b.positions())) << "run " << i << ", iteration " << k;
+    }
+  }
+}
+
+TEST_F(StateFile, FindsTheMeshAgainAndRefusesAnother) {
+  const auto mesh = folder_ / "mesh.off";
+  say("generate annulus 200");
+  say("export " + mesh.string());
+  say("open " + mesh.string());
+  say("run 2");
+  say("save-state " + file_.string());
+  EXPECT_EQ(refusal(), "");
+  // Both were moved elsewhere.
+  const auto elsewhere = folder_ / "elsewhere";
+  std::filesystem::create_directories(elsewhere);
+  std::filesystem::rename(mesh, elsewhere / "mesh.off");
+  EXPECT_THAT(refusal(), HasSubstr("mesh.off"));
+  std::filesystem::rename(file_, elsewhere / "session.json");
+  file_ = elsewhere / "session.json";
+  EXPECT_EQ(refusal(), "");
+  say("export " + (elsewhere / "mesh.off").string());  // smoothed: other positions
+  EXPECT_THAT(refusal(), HasSubstr("has changed since the session was saved"));
+}
+
+TEST_F(StateFile, NobodyCouldFindAMeshThatCameFromNowhere) {
+  session_.open(testing::lattice(5, 0.1, 1), progress_);
+  EXPECT_THROW(say("save-state " + file_.string()), UsageError);
+  EXPECT_FALSE(std::filesystem::exists(file_));
+  say("generate random 100");
+  EXPECT_THROW(say("save-state " + file_.string() + " {zoom"), UsageError) << "a view that is no JSON";
+  EXPECT_THROW(say("save-state /no/such/folder/x.json"), OutputError);
+}
+
+TEST_F(StateFile, CanBeUndone) {
+  say("generate random 100");
+  say("run 1");
+  say("save-state " + file_.string());
+  say("generate grid 400");
+  const auto grid = session_.input();
+  say("open-state " + file_.string());
+  EXPECT_EQ(session_.active().moment(), Moment{1});
+  say("undo");
+  EXPECT_EQ(session_.input(), grid);
+}
+
+TEST_F(StateFile, MalformedFilesAreRefusedWithAReason) {
+  say("generate random 100");
+  say("run 2");
+  say("visit 0-99");
+  say("step vertex");
+  say("save-state " + file_.string());
+  const std::string good = text();
+  const Json json = Json::parse(good);
+  EXPECT_EQ(refusal(), "");
+
+  write("");
+  EXPECT_THAT(refusal(), HasSubstr("session.json:1: this is no JSON"));
+  write("{\n\"format\": 1,,\n");
+  EXPECT_THAT(refusal(), HasSubstr("session.json:2: "));
+  write(std::string(100000, '['));
+  EXPECT_THAT(refusal(), HasSubstr("no JSON"));
+  for (const char* other : {"1", "null", "[]", "{}", "\"x\"", "{\"format\": 7}", "{\"format\": \"dmoscope session\"}"}) {
+    write(other);
+    EXPECT_NE(refusal(), "") << other;
+  }
+  // Every value anywhere in turn becomes something else, or goes away.
+  const Json flat = json.flatten();
+  const std::vector<Json> wrong{Json(), Json(-1), Json(1e300), Json("x"), Json::array(), Json::object(), Json(18446744073709551615ULL)};
+  std::size_t refused = 0, tried = 0;
+  for (const auto& item : flat.items()) {
+    if (item.key().find("/records/") != std::string::npos && item.key().find("/records/1") == std::string::npos) continue;
+    for (const Json& value : wrong) {
+      Json broken = json;
+      broken[Json::json_pointer(item.key())] = value;
+      write(broken.dump());
+      ++tried;
+      refused += refusal().empty() ? 0U : 1U;
+    }
+    for (auto pointer = Json::json_pointer(item.key()); !pointer.empty(); pointer = pointer.parent_pointer()) {
+      Json broken = json;
+      Json& parent = broken[pointer.parent_pointer()];
+      if (parent.is_array())
+        parent.erase(static_cast<std::size_t>(std::stoul(pointer.back())));
+      else
+        parent.erase(pointer.back());
+      write(broken.dump());
+      (void)refusal();
+    }
+  }
+  EXPECT_GT(refused * 10, tried * 6) << "most of them matter";
+  // And cut off anywhere.
+  for (std::size_t length = 0; length < good.size() - 2; length += 1 + good.size() / 97) {
+    write(good.substr(0, length));
+    EXPECT_NE(refusal(), "") << length;
+  }
+}
+
+TEST_F(StateFile, RefusesWhatCannotHaveBeen) {
+  say("generate random 100");
+  say("run 2");
+  say("visit 0-99");
+  say("save-state " + file_.string());
+  const Json json = Json::parse(text());
+  const auto refused = [&](const char* pointer, const Json& value) {
+    Json broken = json;
+    broken[Json::json_pointer(pointer)] = value;
+    write(broken.dump());
+    return refusal();
+  };
+  EXPECT_THAT(refused("/runs/0/moment", Json{9, 0, 0}), HasSubstr("no record"));
+  EXPECT_THAT(refused("/runs/0/moment", Json{2, 0, 9}), HasSubstr("visit"));
+  EXPECT_THAT(refused("/runs/0/moment", Json{2, 1000000, 0}), HasSubstr("visits"));
+  EXPECT_THAT(refused("/runs/0/edits/0/at", Json{2, 0, 1}), HasSubstr("cannot be"));
+  EXPECT_THAT(refused("/runs/0/edits/0/vertices", Json{1000000}), HasSubstr("1000000"));
+  EXPECT_THAT(refused("/runs/0/positions", "AAAA"), HasSubstr("damaged"));
+  EXPECT_THAT(refused("/version", 2), HasSubstr("version 2"));
+  EXPECT_THAT(refused("/active", 1), HasSubstr("run 1 is active"));
+  std::vector<Vec3> moved(session_.input()->mesh.positions);
+  for (Vec3& p : moved) p.x += 1.0;
+  EXPECT_THAT(refused("/runs/0/positions", pack_positions(moved)), HasSubstr("is fixed, but has moved"));
+}
+
+TEST_F(StateFile, ACancelledOpeningLeavesTheSession) {
+  say("generate random 2000");
+  say("run 2");
+  say("step class");
+  say("save-state " + file_.string());
+  say("generate grid 400");
+  const auto grid = session_.input();
+  progress_.request_cancel();
+  EXPECT_THROW(say("open-state " + file_.string()), Cancelled);
+  progress_.clear_cancel();
+  EXPECT_EQ(session_.input(), grid);
+}
+
+TEST(Base64, IsThatOfTheStandard) {
+  const auto encode = [](std::string_view text) {
+    return to_base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});  // NOLINT
+  };
+  // RFC 4648, section 10.
+  const std::pair<const char*, const char*> known[] = {
+      {"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
+  for (const auto& [plain, coded] : known) {
+    EXPECT_EQ(encode(plain), coded);
+    const auto back = from_base64(coded);
+    ASSERT_TRUE(back.has_value());
+    EXPECT_EQ(std::string(back->begin(), back->end()), plain);
+  }
+  for (const char* bad : {"Z", "Zg=", "Z===", "====", "Zg==Zg==", "Zm9\n", "Zm9v    "}) EXPECT_FALSE(from_base64(bad).has_value()) << bad;
+  const std::vector<Vec3> positions{{1.0 / 3.0, -0.0, 5e-324}, {1e308, -2.5, 3.0}};
+  const auto back = unpack_positions(pack_positions(positions), 2);
+  ASSERT_TRUE(back.has_value());
+  EXPECT_TRUE(same_bits(*back, positions));
+  EXPECT_FALSE(unpack_positions(pack_positions(positions), 3).has_value());
+  EXPECT_FALSE(unpack_positions(pack_positions(std::vector<Vec3>{{HUGE_VAL, 0, 0}}), 1).has_value());
+}
+
+}  // namespace
+}  // namespace dmoscope

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace dmoscope::ui {
 namespace {
@@ -28,6 +27,31 @@ double edge_at(const InputMesh& input, std::span<const Vec3> positions, Index ve
 
 Vec2<double> times(double s, Vec2<double> v) { return {s * v.x, s * v.y}; }
 double length_of(Vec2<double> v) { return std::hypot(v.x, v.y); }
+
+/// Which cells of a window are taken. What lies beside it shares the cells along its rim.
+class CellsTaken {
+ public:
+  CellsTaken(const render::Bounds2& window, double size)
+      : low_(window.low), size_(size), columns_(cells(window.size().x)), rows_(cells(window.size().y)), taken_(columns_ * rows_) {}
+  /// False where another one came first.
+  bool take(Vec2<double> p) {
+    const std::size_t cell = place(p.y - low_.y, rows_) * columns_ + place(p.x - low_.x, columns_);
+    const bool is_new = !taken_[cell];
+    taken_[cell] = true;
+    return is_new;
+  }
+
+ private:
+  [[nodiscard]] std::size_t cells(double length) const { return static_cast<std::size_t>(std::clamp(length / size_, 0.0, 1e4)) + 1; }
+  [[nodiscard]] std::size_t place(double at, std::size_t count) const {
+    return static_cast<std::size_t>(std::clamp(at / size_, 0.0, static_cast<double>(count - 1)));
+  }
+
+  Vec2<double> low_;
+  double size_;
+  std::size_t columns_, rows_;
+  std::vector<bool> taken_;
+};
 
 }  // namespace
 
@@ -79,9 +103,8 @@ std::size_t add_arrows(render::Marks& marks, const MarkView& view, const Displac
                        render::Rgba casing) {
   const render::Bounds2 window = view.window();
   const double least = view.units(4.0);
-  const double cell = view.units(14.0);
   std::size_t drawn = 0, left_out = 0;
-  std::set<std::pair<std::int64_t, std::int64_t>> taken;  // cells of the view where one begins
+  CellsTaken taken(window, view.units(14.0));
   std::vector<render::OverlayLine> inner;
   const auto line = [&](Vec2<double> a, Vec2<double> b) {
     marks.lines.push_back({a, b, 3.0F, casing});
@@ -93,8 +116,7 @@ std::size_t add_arrows(render::Marks& marks, const MarkView& view, const Displac
     if (2.0 * length < least) return false;  // and all that follow are no more than twice as long as this one
     const Vec2<double> tip = one.from + way;
     if (length < least || !meets(window, one.from, tip)) return true;
-    const std::pair place{std::llround((one.from.x - window.low.x) / cell), std::llround((one.from.y - window.low.y) / cell)};
-    if (drawn == kMostMarks || !taken.insert(place).second) {
+    if (drawn == kMostMarks || !taken.take(one.from)) {
       ++left_out;
       return true;
     }

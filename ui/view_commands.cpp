@@ -208,13 +208,13 @@ void seek_in_timeline(const CommandHost& host, const std::string& where) {
   } else if (where == "last") {
     target = last;
   } else if (where == "back") {
-    target = run.moment.visits > 0 || now == 0 ? now : now - 1;
+    target = !run.moment.is_iteration_end() || now == 0 ? now : now - 1;
   } else if (where == "forward") {
     target = std::min(now + 1, last);
   } else {
     unexpected(where, "back, forward, first or last");
   }
-  if (target != now || run.moment.visits > 0) host.post(fmt::format("seek {}", target));
+  if (target != now || !run.moment.is_iteration_end()) host.post(fmt::format("seek {}", target));
 }
 
 void add_session_shortcuts(CommandTable& table, ViewState& state, const CommandHost& host) {

@@ -181,7 +181,7 @@ void draw_parameters(PanelContext& context) {
   labelled(context, "threads", "of this computer that smooth; the result does not depend on it");
   integer(context, "threads", static_cast<int>(context.session.threads), 1, 1024, "threads");
   ImGui::EndDisabled();
-  if (run->moment.iteration > 0 || run->moment.visits > 0) {
+  if (run->moment != Moment{} || run->edits > 0) {
     dim_text(context, "A change starts a new run beside this one.");
   }
 

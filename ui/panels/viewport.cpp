@@ -40,6 +40,7 @@ void draw_title(PanelContext& context, const Rect& rect, const Frame& frame) {
   if (mark != nullptr) title = fmt::format("{} · {}", context.state.timeline.shown == Shown::A ? "A" : "B", mark->title);
   std::string moment = fmt::format("it {}", count(frame.moment.iteration));
   if (frame.moment.visits > 0) moment += fmt::format(" + {} of {} visits", count(frame.moment.visits), count(run->visits_per_iteration));
+  if (frame.moment.edits > 0) moment += fmt::format(" + {} by hand", count(frame.moment.edits));
   std::string shown;
   if (frame.shown != run->parameters.metric) shown = fmt::format("shown: {}", metric_phrase(frame.shown));
   if (context.activity.reduced) shown += shown.empty() ? "reduced detail" : " · reduced detail";

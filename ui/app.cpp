@@ -248,10 +248,9 @@ void App::handle_shortcuts() {
 
 void App::draw_side(PanelContext& context, const char* name, const Rect& rect, bool overlay, bool left) {
   if (rect.empty()) return;
-  if (overlay) {
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0F);
-    ImGui::SetNextWindowFocus();
-  }
+  // It comes to the front when it opens, and stays there, as the panels below never do. To focus it in every frame would take clicks and
+  // dialogs away from everything else.
+  if (overlay) ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0F);
   begin_panel(name, rect, overlay, true);
   if (overlay) ImGui::PopStyleVar();
   if (left) {
@@ -280,7 +279,7 @@ void App::draw_panels(PanelContext& context) {
     draw_side(context, "left", layout.left, false, true);
     draw_side(context, "right", layout.right, false, false);
   }
-  draw_plots(context, layout.bottom);
+  draw_plots(context, layout.bottom, layout.timeline_only);
   draw_strips(context, layout);
   draw_splitters(context, layout);
   if (layout.folded) {
@@ -296,6 +295,7 @@ void App::draw(double now) {
   const bool busy = engine_.busy();
   take_news(now);
   notice_new_input();
+  take_restored_view();
   update_derived();
   if (state_.timeline.shown == Shown::Now) stepping_.update(*session_, busy);
   refresh(inspection_, state_, *session_, busy);

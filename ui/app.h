@@ -82,6 +82,7 @@ class App {
   [[nodiscard]] std::shared_ptr<const SessionView> shown_view();
   void post_by_itself(const std::string& line);
   void advance_playback(double now);
+  void take_restored_view();
   void advance_sequence();
   void end_sequence(const std::string& outcome, Message::Kind kind);
   void watch_file();
@@ -134,7 +135,7 @@ class App {
   std::optional<Theme> styled_theme_;
   double busy_since_ = -1.0, last_draw_ = -1.0, frame_interval_ = 0.0;
   double redraw_in_ = 0.0;
-  std::uint64_t seen_input_ = 0;
+  std::uint64_t seen_input_ = 0, seen_restored_ = 0;
   std::filesystem::path seen_path_;
   std::pair<Index, Index> seen_sizes_;  // vertices and elements
   std::unique_ptr<FileWatch> watch_;    // last: it wakes others

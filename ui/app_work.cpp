@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "ui/app.h"
+#include "ui/view_json.h"
 
 namespace dmoscope::ui {
 
@@ -37,6 +38,34 @@ void App::cancel() {
 
 void App::post_by_itself(const std::string& line) { state_.commands.posted(line, engine_.post(line)); }
 
+namespace {
+
+/// The view saved with the session that was opened last, and its serial.
+template <class View>
+std::pair<std::string, std::uint64_t> restored(const View& view) {
+  if constexpr (requires { view.restored_serial; }) return {view.restored_view, view.restored_serial};
+  return {};
+}
+
+}  // namespace
+
+/// After a session was opened: the view that was saved with it.
+void App::take_restored_view() {
+  const auto [view, serial] = restored(*session_);
+  if (serial == seen_restored_) return;
+  seen_restored_ = serial;
+  if (view.empty()) return;
+  try {
+    apply_view_json(view, state_, session_->input ? &session_->input->mesh : nullptr);
+    fitted_.reset();
+    state_.commands.keep_look(look());
+  } catch (const UsageError& error) {
+    Message message{Message::Kind::Error, fmt::format("the session is open, but not with its view: {}", error.what()), error.exit_code()};
+    if (listener_) listener_(message);
+    add_message(state_, std::move(message));
+  }
+}
+
 void App::advance_playback(double now) {
   Playback& play = state_.timeline.play;
   if (play.kind == Playback::Kind::Off) return;
@@ -50,7 +79,8 @@ void App::advance_playback(double now) {
 void App::end_sequence(const std::string& outcome, Message::Kind kind) {
   const Sequence sequence = *std::exchange(state_.sequence, std::nullopt);
   state_.requests.screenshots.clear();
-  engine_.post(fmt::format("seek {} {}", sequence.before.iteration, sequence.before.visits));
+  const Moment& before = sequence.before;
+  engine_.post(fmt::format("seek {} {} {}", before.iteration, before.visits, before.edits));
   add_message(state_, {kind, outcome, kind == Message::Kind::Info ? 0 : 1});
 }
 
@@ -79,7 +109,7 @@ void App::advance_sequence() {
     return;
   }
   const Frame* frame = session_->frame.get();
-  if (frame == nullptr || frame->moment.iteration != wanted || frame->moment.visits != 0)
+  if (frame == nullptr || frame->moment != Moment{wanted})
     return end_sequence(fmt::format("the sequence of pictures ended early: iteration {} is not to be had", wanted), Message::Kind::Warning);
   const SequenceOptions& options = sequence.options;
   if (options.window && sequence.phase == Sequence::Phase::Wait) {

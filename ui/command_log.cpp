@@ -14,17 +14,17 @@
 namespace dmoscope::ui {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Record>, 25> kRecords{{
-    {"click", Record::Nothing},        {"right-click", Record::Nothing},   {"double-click", Record::Nothing},
-    {"move", Record::Nothing},         {"drag", Record::Nothing},          {"wheel", Record::Nothing},
-    {"key", Record::Nothing},          {"type", Record::Nothing},          {"wait", Record::Nothing},
-    {"dialog", Record::Nothing},       {"copy", Record::Nothing},          {"cancel", Record::Nothing},
-    {"plot-zoom", Record::Nothing},    {"run-pause", Record::Shortcut},    {"timeline", Record::Shortcut},
-    {"next-run", Record::Shortcut},    {"next-metric", Record::Shortcut},  {"play", Record::ToldOnly},
-    {"play-steps", Record::ToldOnly},  {"watch", Record::ToldOnly},        {"quit", Record::ToldOnly},
-    {"save-script", Record::ToldOnly}, {"save-session", Record::ToldOnly}, {"play-levels", Record::Shortcut},
-    {"copy-level", Record::Nothing},
-}};
+constexpr auto kRecords = std::to_array<std::pair<std::string_view, Record>>({
+    {"plot-zoom", Record::Nothing},    {"scale", Record::Nothing},        {"click", Record::Nothing},
+    {"right-click", Record::Nothing},  {"double-click", Record::Nothing}, {"move", Record::Nothing},
+    {"drag", Record::Nothing},         {"wheel", Record::Nothing},        {"key", Record::Nothing},
+    {"type", Record::Nothing},         {"wait", Record::Nothing},         {"dialog", Record::Nothing},
+    {"copy", Record::Nothing},         {"cancel", Record::Nothing},       {"run-pause", Record::Shortcut},
+    {"timeline", Record::Shortcut},    {"next-run", Record::Shortcut},    {"next-metric", Record::Shortcut},
+    {"play", Record::ToldOnly},        {"play-steps", Record::ToldOnly},  {"watch", Record::ToldOnly},
+    {"quit", Record::ToldOnly},        {"save-script", Record::ToldOnly}, {"save-session", Record::ToldOnly},
+    {"play-levels", Record::Shortcut}, {"copy-level", Record::Nothing},
+});
 
 std::string clock_now() {
   const std::time_t now = std::time(nullptr);
@@ -159,7 +159,7 @@ void CommandLog::ended(const CommandEnd& end) {
   if (LogLine* line = shown(*step)) line->state = state_of(end.kind);
   if (end.kind != CommandEnd::Kind::Done) {
     if (step->why_not.empty()) step->why_not = why_not(end.kind);
-    if (end.moved) step->resume = fmt::format("seek {} {} {}", end.at.iteration, end.at.visits, end.at.edits);
+    step->resume = end.again;
   }
   step->ended = true;
   const auto pending = [](const Step& one) { return one.id != 0 && !one.ended; };
@@ -176,7 +176,7 @@ std::string CommandLog::script(const std::vector<std::string>& look) const {
   for (const Step& step : steps_) {
     const std::string line = one_line(step.line);
     add(step.why_not.empty() ? line : fmt::format("# {}: {}", step.why_not, line));
-    if (!step.resume.empty()) add(step.resume);
+    std::ranges::for_each(step.resume, add);
   }
   for (const std::string& line : look) {
     if (begun_ && std::ranges::find(look_, line) == look_.end()) add(line);

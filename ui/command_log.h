@@ -51,10 +51,10 @@ class CommandLog {
  private:
   struct Step {
     std::string line;
-    std::uint64_t id = 0;      // of the session's command, 0: none
-    std::string resume;        // what leads to the moment it came to; empty where the line itself does
-    std::string why_not{};     // it is not to be done again, because
-    std::size_t shown_as = 0;  // number of its line in the list to be read
+    std::uint64_t id = 0;             // of the session's command, 0: none
+    std::vector<std::string> resume;  // what leads to the moment it came to; empty where the line itself does
+    std::string why_not{};            // it is not to be done again, because
+    std::size_t shown_as = 0;         // number of its line in the list to be read
     bool ended = false;
   };
   void show(LogLine line);

@@ -4,6 +4,7 @@
 
 #include "core/io/mesh_io.h"
 #include "ui/command_words.h"
+#include "ui/view_json.h"
 #include "ui/view_lines.h"
 
 namespace dmoscope::ui {
@@ -24,6 +25,18 @@ void set_camera(ViewState& state, Arguments words) {
   state.requests.fit = false;
 }
 
+void add_session_file_verbs(CommandTable& table, ViewState& state, const CommandHost& host) {
+  table.add({"save-session", "save-session FILE", "writes runs, histories and the view, to go on from there another time"},
+            [&state, &host](Arguments words) {
+              need(words, 1, 1);
+              host.post(fmt::format("save-state {} {}", quote_word(words[0]), quote_word(view_json(state))));
+            });
+  table.add({"open-session", "open-session FILE", "opens what save-session wrote"}, [&host](Arguments words) {
+    need(words, 1, 1);
+    host.post("open-state " + quote_word(words[0]));
+  });
+}
+
 }  // namespace
 
 void add_desktop_verbs(CommandTable& table, ViewState& state, const CommandHost& host) {
@@ -42,6 +55,7 @@ void add_desktop_verbs(CommandTable& table, ViewState& state, const CommandHost&
               bool Panels::*panel = choose(words[0], names);
               state.panels.*panel = switched(words, 1, state.panels.*panel);
             });
+  if (is_session_command("save-state")) add_session_file_verbs(table, state, host);
   table.add({"save-script", "save-script FILE", "writes what was done so far as a script that does it again"},
             [&state, &host](Arguments words) {
               need(words, 1, 1);

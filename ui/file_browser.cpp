@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/io/mesh_io.h"
+#include "core/session/commands.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -33,6 +34,12 @@ bool is_mesh_name(std::string_view name) {
   return false;
 }
 
+bool is_session_name(std::string_view name) { return name.size() > kSessionExtension.size() && lower(name).ends_with(kSessionExtension); }
+
+std::string open_command(const std::string& file) {
+  return fmt::format("{} {}", is_session_name(file) ? "open-session" : "open", quote_word(file));
+}
+
 std::vector<FolderEntry> list_folder(const std::filesystem::path& folder, bool all, std::string& error) {
   std::vector<FolderEntry> entries;
   error.clear();
@@ -43,7 +50,7 @@ std::vector<FolderEntry> list_folder(const std::filesystem::path& folder, bool a
     if (entry.name.empty() || entry.name.front() == '.') continue;
     std::error_code ignored;
     entry.folder = at->is_directory(ignored);
-    if (!entry.folder && !all && !is_mesh_name(entry.name)) continue;
+    if (!entry.folder && !all && !is_mesh_name(entry.name) && !is_session_name(entry.name)) continue;
     if (!entry.folder) entry.bytes = at->file_size(ignored);
     if (ignored) entry.bytes = 0;
     entries.push_back(std::move(entry));

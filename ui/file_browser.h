@@ -17,6 +17,12 @@ struct FolderEntry {
 /// True for a name with the extension of a format that can be read.
 [[nodiscard]] bool is_mesh_name(std::string_view name);
 
+/// What saved sessions are called.
+inline constexpr std::string_view kSessionExtension = ".dmoscope";
+[[nodiscard]] bool is_session_name(std::string_view name);
+/// The command that opens a mesh or a session, by its name.
+[[nodiscard]] std::string open_command(const std::string& file);
+
 /// Folders first, then files, each by name without regard to case; hidden ones left out. Files that are no meshes only when
 /// `all`. On failure returns what could be read and puts a sentence into `error`, which is cleared otherwise.
 [[nodiscard]] std::vector<FolderEntry> list_folder(const std::filesystem::path& folder, bool all, std::string& error);

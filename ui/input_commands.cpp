@@ -74,8 +74,9 @@ void add_input_verbs(CommandTable& table, ViewState& state, const CommandHost& h
   });
   table.add({"key", "key NAME", "presses a key, such as N or Ctrl+Shift+S"}, [&state](Arguments words) {
     need(words, 1, 1);
-    const auto chord = parse_key(words[0]);
+    auto chord = parse_key(words[0]);
     if (!chord) unexpected(words[0], "a key such as N, Space, F1 or Ctrl+Shift+S");
+    if (chord->code == '+') chord->code = '=';  // there is no other key of that name
     state.requests.input.push_back({Kind::KeyDown, 0, 0, 0, *chord, {}});
     state.requests.input.push_back({Kind::KeyUp, 0, 0, 0, *chord, {}});
   });

@@ -35,7 +35,8 @@ constexpr auto kDialogs = std::to_array<std::pair<std::string_view, Dialog>>({{"
                                                                               {"error", Dialog::Error},
                                                                               {"log", Dialog::Log},
                                                                               {"sequence", Dialog::Sequence},
-                                                                              {"plot", Dialog::Plot}});
+                                                                              {"plot", Dialog::Plot},
+                                                                              {"save-session", Dialog::SaveSession}});
 
 const InputMesh& input_of(const CommandHost& host) {
   const auto view = host.session();
@@ -125,9 +126,11 @@ void add_look_verbs(CommandTable& table, ViewState& state) {
     need(words, 1, 1);
     state.theme = words[0] == "next" ? static_cast<Theme>((static_cast<int>(state.theme) + 1) % 3) : choose(words[0], kThemes);
   });
-  table.add({"scale", "scale FACTOR|up|down", "size of the interface, 0.5 to 4"}, [&state](Arguments words) {
+  table.add({"scale", "scale FACTOR|up|down", "size of the interface over what the monitor asks for"}, [&state](Arguments words) {
     need(words, 1, 1);
-    const double wanted = words[0] == "up" ? state.scale * 1.125 : words[0] == "down" ? state.scale / 1.125 : to_number(words[0]);
+    const double wanted = words[0] == "up"     ? state.scale * 1.125
+                          : words[0] == "down" ? state.scale / 1.125
+                                               : to_number(words[0]) * state.monitor_scale;
     if (!(wanted > 0.0)) throw UsageError("the scale must be greater than 0");
     state.scale = std::clamp(wanted, 0.5, 4.0);
   });

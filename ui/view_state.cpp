@@ -48,6 +48,12 @@ std::pair<double, double> colour_range(const ViewState& state, const Frame* fram
   return {0.0, 1.0};
 }
 
+void move_to_monitor(ViewState& state, double monitor_scale) {
+  if (!(monitor_scale > 0.0) || monitor_scale == state.monitor_scale) return;
+  state.scale = std::clamp(state.scale * monitor_scale / state.monitor_scale, 0.5, 4.0);
+  state.monitor_scale = monitor_scale;
+}
+
 void add_message(ViewState& state, Message message) {
   constexpr std::size_t kMost = 200;
   if (message.kind == Message::Kind::Error) {

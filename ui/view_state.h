@@ -27,7 +27,7 @@ namespace dmoscope::ui {
 enum class Theme { Dark, Light, Contrast };
 /// "dark", "light", "contrast"
 [[nodiscard]] std::string_view theme_name(Theme theme);
-enum class Dialog { None, Open, Export, Screenshot, Find, Palette, Keys, About, Error, Log, Sequence, Plot };
+enum class Dialog { None, Open, Export, Screenshot, Find, Palette, Keys, About, Error, Log, Sequence, Plot, SaveSession };
 
 /// How the colours' range is chosen: 0 to 1; the shown qualities' own minimum and maximum; or given.
 enum class RangeMode { Fixed, Auto, Given };
@@ -101,7 +101,8 @@ struct ViewState {
 
   // Interface
   Theme theme = Theme::Dark;
-  double scale = 1.0;
+  double scale = 1.0;          // of text and widgets
+  double monitor_scale = 1.0;  // what of that is the monitor's; 1 for scripts, so that they draw the same everywhere
   Panels panels;
   Dialog dialog = Dialog::None;
   PlotTab plot = PlotTab::Convergence;
@@ -137,6 +138,9 @@ struct ViewState {
 
 /// Range of qualities that the colours span now. `statistics`: of the shown metric; null: nothing is shown.
 [[nodiscard]] std::pair<double, double> colour_range(const ViewState& state, const Frame* frame);
+
+/// The window has come to a monitor with another scale: what a person chose over it stays.
+void move_to_monitor(ViewState& state, double monitor_scale);
 
 /// Adds a line to the log; an error also opens the error dialog (unless one is open, then it is appended there).
 void add_message(ViewState& state, Message message);

@@ -11,6 +11,7 @@
 
 #include "app/acceleration.h"
 #include "core/session/commands.h"
+#include "ui/file_browser.h"
 #include "ui/settings.h"
 
 namespace dmoscope::app {
@@ -28,10 +29,12 @@ Desktop::Desktop(const WindowOptions& options)
       input_(window_->handle()),
       app_(app_options(options.threads, options.backend, acceleration_for(options.backend), *window_)) {
   ui::ViewState& state = app_.state();
-  state.scale = static_cast<double>(window_->content_scale());
   if (!options_.scripted) {
+    ui::move_to_monitor(state, static_cast<double>(window_->content_scale()));
     settings_ = ui::settings_path();
+    recent_ = ui::recent_path();
     ui::load_settings(settings_, state);
+    ui::load_recent(recent_, state);
   }
   if (options_.scale > 0.0) state.scale = options_.scale;
   app_.set_wake([] { render::Window::wake(); });
@@ -42,14 +45,15 @@ Desktop::Desktop(const WindowOptions& options)
   });
   const render::Extent size = window_->framebuffer_size();
   state.window_size = {size.width, size.height};
-  const auto open = [this](const std::filesystem::path& file) { app_.submit(fmt::format("open {}", quote_word(file.string()))); };
+  const auto open = [this](const std::filesystem::path& file) { app_.submit(ui::open_command(file.string())); };
   window_->on_drop([open](const std::vector<std::filesystem::path>& files) { std::for_each(files.begin(), files.end(), open); });
   std::for_each(options_.files.begin(), options_.files.end(), open);
 }
 
 Desktop::~Desktop() {
-  if (const std::string trouble = ui::save_settings(settings_, app_.state()); !trouble.empty())
-    std::fprintf(stderr, "%s\n", trouble.c_str());
+  for (const std::string& trouble : {ui::save_settings(settings_, app_.state()), ui::save_recent(recent_, app_.state())}) {
+    if (!trouble.empty()) std::fprintf(stderr, "%s\n", trouble.c_str());
+  }
   app_.engine().cancel();
   app_.set_wake({});
 }
@@ -80,6 +84,7 @@ void Desktop::wait() {
 void Desktop::frame() {
   const render::Extent size = window_->framebuffer_size();
   if (size.width == 0 || size.height == 0) return;
+  if (!options_.scripted) ui::move_to_monitor(app_.state(), static_cast<double>(window_->content_scale()));
   if (app_.prepare()) interface_.upload_fonts();
   ImGui_ImplOpenGL3_NewFrame();
   input_.begin_frame(size);

@@ -53,7 +53,7 @@ class Desktop {
   Interface interface_;
   GlfwInput input_;
   ui::App app_;
-  std::filesystem::path settings_;
+  std::filesystem::path settings_, recent_;  // empty: neither read nor written
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::string title_;
   int frames_left_ = 4;

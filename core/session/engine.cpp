@@ -127,6 +127,7 @@ CommandEnd Engine::run_one(const Posted& command) {
   CommandEnd end{command.id, execute(command.line)};
   end.at = moment();
   end.moved = end.at != before;
+  if (end.moved && end.kind != CommandEnd::Kind::Done) end.again = commands_from(session_.active(), before);
   return end;
 }
 

@@ -23,6 +23,13 @@ void open(CommandContext& context, Arguments arguments) {
   tell_report(context);
 }
 
+void reload(CommandContext& context, Arguments arguments) {
+  require(arguments, 0, 0);
+  const std::string note = context.session.reload(context.progress);
+  tell_report(context);
+  if (!note.empty()) tell(context, note, Message::Kind::Warning);
+}
+
 void generate(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 3);
   std::string words = arguments[0];
@@ -89,6 +96,7 @@ void open_session(CommandContext& context, Arguments arguments) {
 std::span<const Verb> file_verbs() {
   static const std::vector<Verb> table{
       {{"open", "open FILE", "Opens a mesh and starts a run on it."}, open},
+      {{"reload", "reload", "Reads the mesh's file again; the runs keep their parameters and start anew."}, reload},
       {{"generate", "generate KIND [SIZE [SEED]]", "Makes a sample mesh and starts a run on it."}, generate},
       {{"export", "export FILE", "Writes the active run's mesh; the extension chooses the format."}, export_mesh},
       {{"save-state", "save-state FILE [VIEW-JSON]", "Saves mesh, runs and where they stand; the view goes along."}, save_session},

@@ -33,6 +33,10 @@ class Session {
   void restore_view(std::string json);
   [[nodiscard]] const std::string& restored_view() const noexcept { return restored_view_; }
   [[nodiscard]] std::uint64_t restored_views() const noexcept { return restored_views_; }
+  /// Reads the mesh's file again: fresh runs with the parameters that the runs have. Returns what could not be kept (such as vertices fixed
+  /// by hand, when there is another number of them now), else nothing. Throws UsageError for a mesh without a file; on any error the
+  /// session stays as it was.
+  [[nodiscard]] std::string reload(Progress& progress);
   [[nodiscard]] bool has_input() const noexcept { return input_ != nullptr; }
   /// Throws UsageError "no mesh is open".
   [[nodiscard]] const std::shared_ptr<const InputMesh>& input() const;

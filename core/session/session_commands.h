@@ -1,7 +1,7 @@
 #pragma once
 // The session's verbs: what the window's buttons, a script and the tests all say.
 //
-//   open FILE | generate KIND [SIZE [SEED]] | export FILE | stats FILE.csv | elements FILE.csv
+//   open FILE | reload | generate KIND [SIZE [SEED]] | export FILE | stats FILE.csv | elements FILE.csv
 //   save-state FILE [VIEW-JSON] | open-state FILE
 //   metric NAME | show NAME | method NAME | grid N | levels N | omega X | precision float|double | backend auto|cpu|cuda
 //   order natural|shuffle:SEED | fix VERTEX|A-B... | unfix | step vertex|class|iteration [COUNT] | back vertex|class|iteration [COUNT]

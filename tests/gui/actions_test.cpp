@@ -149,6 +149,13 @@ TEST(Layout, PanelsCoverTheWindowWithoutOverlap) {
     EXPECT_NEAR(left + layout.viewport.w + right, width, 0.5);
     EXPECT_NEAR(24 + layout.toolbar.h + layout.viewport.h + layout.bottom.h + layout.status.h, height, 0.5);
   }
+  Panels open;
+  open.left_over = open.right_over = true;
+  const Layout both = compute_layout(open, 1280, 800, 30, 46);
+  EXPECT_LE(both.left.x + both.left.w, both.right.x);
+  EXPECT_TRUE(both.timeline_only);
+  EXPECT_GT(both.bottom.h, 0);
+  EXPECT_FALSE(compute_layout({}, 800, 600, 15, 24).timeline_only);
   EXPECT_FALSE(compute_layout({}, 1280, 800, 15, 24).folded);
   EXPECT_TRUE(compute_layout({}, 800, 600, 15, 24).folded);
   EXPECT_FALSE(compute_layout({}, 2560, 1600, 30, 48).folded);

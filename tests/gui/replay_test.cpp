@@ -206,7 +206,7 @@ TEST(CommandLog, ANumberedCommandEndsAsItsOwn) {
   }
   log.ended({1, CommandEnd::Kind::Done, {5, 0}, true});
   log.ended({3, CommandEnd::Kind::Dropped, {}, false});  // told of before the one at work
-  log.ended({2, CommandEnd::Kind::Cancelled, {7, 12}, true});
+  log.ended({2, CommandEnd::Kind::Cancelled, {7, 12}, true, {"seek 7 12 0"}});
   EXPECT_EQ(log.script({}),
             "# A recorded session: dmoscope script FILE [--headless]\nrun 5\n# cancelled: run 5\nseek 7 12 0\n# cancelled before it began: "
             "run 5\n");

@@ -173,6 +173,7 @@ TEST(Settings, ComeBackAsTheyWereAndNonsenseIsIgnored) {
   remember_file(state, "/a/b.vtk");
   ViewState read;
   ASSERT_TRUE(apply_settings(settings_text(state), read));
+  ASSERT_TRUE(apply_recent(recent_text(state), read));
   EXPECT_EQ(read.theme, Theme::Light);
   EXPECT_EQ(read.scale, 1.5);
   EXPECT_FALSE(read.panels.left);
@@ -180,9 +181,27 @@ TEST(Settings, ComeBackAsTheyWereAndNonsenseIsIgnored) {
   ViewState plain;
   EXPECT_FALSE(apply_settings("not json", plain));
   EXPECT_FALSE(apply_settings("[1, 2]", plain));
-  EXPECT_TRUE(apply_settings(R"({"theme": 7, "scale": "big", "recent": {"a": 1}, "panels": 3, "colormap": "none"})", plain));
+  EXPECT_FALSE(apply_recent("{}", plain));
+  EXPECT_TRUE(apply_recent(R"([1, "/a", {}])", plain));
+  EXPECT_EQ(plain.recent_files, std::vector<std::string>{"/a"});
+  EXPECT_TRUE(apply_settings(R"({"theme": 7, "scale": "big", "panels": 3, "colormap": "none"})", plain));
   EXPECT_EQ(plain.theme, Theme::Dark);
   EXPECT_EQ(plain.scale, 1.0);
+}
+
+TEST(Settings, TheScaleIsOverTheMonitorsAndFollowsTheWindow) {
+  ViewState state;
+  move_to_monitor(state, 2.0);
+  EXPECT_EQ(state.scale, 2.0);
+  state.scale *= 1.25;
+  move_to_monitor(state, 1.0);
+  EXPECT_EQ(state.scale, 1.25);
+  ViewState other;
+  move_to_monitor(other, 1.5);
+  ASSERT_TRUE(apply_settings(settings_text(state), other));
+  EXPECT_EQ(other.scale, 1.875);
+  move_to_monitor(other, 0.0);  // no monitor says so
+  EXPECT_EQ(other.monitor_scale, 1.5);
 }
 
 TEST(Settings, ABrokenFileIsNeverFatal) {

@@ -69,6 +69,8 @@ const char* dialog_title(Dialog dialog) {
       return "Pictures of a run";
     case Dialog::Plot:
       return "Save the plot";
+    case Dialog::SaveSession:
+      return "Save the session";
     case Dialog::None:
       break;
   }
@@ -126,6 +128,9 @@ void draw_dialogs(PanelContext& context) {
     case Dialog::Plot:
       draw_plot_dialog(context);
       break;
+    case Dialog::SaveSession:
+      draw_save_session_dialog(context);
+      break;
   }
 }
 
@@ -169,9 +174,12 @@ void draw_keys_dialog(PanelContext& context) {
   const auto table = [&](const char* name) {
     ImGui::Spacing();
     heading(context, name);
-    if (!ImGui::BeginTable(name, 4)) return false;
-    for (const float width : {7.5F, 17.0F, 7.5F, 17.0F})
-      ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, width * context.em());
+    const int pairs = ImGui::GetContentRegionAvail().x >= 46 * context.em() ? 2 : 1;  // else titles would be cut
+    if (!ImGui::BeginTable(name, 2 * pairs)) return false;
+    for (int k = 0; k < pairs; ++k) {
+      ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 7.5F * context.em());
+      ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+    }
     return true;
   };
   for (const std::string_view menu : menu_names()) {

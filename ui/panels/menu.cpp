@@ -54,7 +54,7 @@ bool is_checked(const ViewState& state, std::string_view id) {
 void draw_recent(PanelContext& context) {
   if (!ImGui::BeginMenu("Recent", !context.state.recent_files.empty())) return;
   for (const RecentFile& file : context.widgets.recent.list(context.state.recent_files, context.now)) {
-    if (ImGui::MenuItem(file.path.c_str(), nullptr, false, !file.missing)) context.send(fmt::format("open {}", quote_word(file.path)));
+    if (ImGui::MenuItem(file.path.c_str(), nullptr, false, !file.missing)) context.send(open_command(file.path));
     next_item_tooltip(file.reason());
   }
   ImGui::EndMenu();

@@ -26,7 +26,7 @@ void enter_folder(WidgetState& widgets, const fs::path& folder) {
 
 void open_file(PanelContext& context, const fs::path& file) {
   context.state.dialog = Dialog::None;
-  context.send(fmt::format("open {}", quote_word(file.string())));
+  context.send(open_command(file.string()));
 }
 
 /// A folder is entered, a file opened; anything else gets a sentence.

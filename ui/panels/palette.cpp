@@ -1,6 +1,7 @@
 // Ctrl+P: every action, every verb, and any line of the command language.
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
@@ -46,6 +47,7 @@ void draw_palette_dialog(PanelContext& context) {
     const float width = ImGui::GetContentRegionAvail().x;
     const ImGuiSelectableFlags flags = entry.possible ? ImGuiSelectableFlags_DontClosePopups : ImGuiSelectableFlags_Disabled;
     if (ImGui::Selectable("##entry", k == widgets.palette_selected, flags)) chosen = k;
+    context.items.record_last(fmt::format("palette:{}", k));
     if (scroll && k == widgets.palette_selected) ImGui::SetScrollHereY();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float alpha = entry.possible ? 1.0F : 0.45F;

@@ -61,7 +61,7 @@ struct Derived {
 
 /// What the log's dialog shows.
 struct LogWidgets {
-  std::string filter, script_name = "session.dmoscope";
+  std::string filter, script_name = "session.txt";
   bool commands = true, messages = true;
   std::size_t seen = 0;  // lines there were in the last frame
 };
@@ -94,6 +94,7 @@ struct WidgetState {
   std::string palette_text, find_text, find_error;
   LogWidgets log;
   SequenceWidgets sequence;
+  std::string session_name;
   RecentFiles recent;
   std::vector<Thumbnail> thumbnails;  // of the samples, made when the start page is first shown
   int screenshot_width = 0, screenshot_height = 0, screenshot_supersample = 2;
@@ -169,7 +170,8 @@ void draw_viewport(PanelContext& context, const Rect& rect);
 /// The brush under the mouse over the mesh's item, drawn last; `at`: the mouse in the viewport. True: dragging is the brush's.
 bool handle_brush(PanelContext& context, const Rect& rect, Vec2<double> at);
 void draw_start_page(PanelContext& context, const Rect& rect);
-void draw_plots(PanelContext& context, const Rect& rect);
+/// `timeline_only`: there is no room for more.
+void draw_plots(PanelContext& context, const Rect& rect, bool timeline_only);
 void draw_timeline(PanelContext& context);
 void draw_status(PanelContext& context, const Rect& rect);
 void draw_strips(PanelContext& context, const Layout& layout);
@@ -188,6 +190,7 @@ void draw_error_dialog(PanelContext& context);
 void draw_log_dialog(PanelContext& context);
 void draw_sequence_dialog(PanelContext& context);
 void draw_plot_dialog(PanelContext& context);
+void draw_save_session_dialog(PanelContext& context);
 /// Begins a modal window of the open dialog; false when it is closed. Escape closes it.
 bool begin_dialog(PanelContext& context, const char* title, float width_em, float height_em = 0);
 void end_dialog();

@@ -6,11 +6,16 @@
 
 namespace dmoscope::ui {
 
-void draw_plots(PanelContext& context, const Rect& rect) {
+void draw_plots(PanelContext& context, const Rect& rect, bool timeline_only) {
   if (rect.empty()) return;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(12), context.px(6)});
   begin_panel("plots", rect);
   ImGui::PopStyleVar();
+  if (timeline_only) {
+    draw_timeline(context);
+    end_panel();
+    return;
+  }
   draw_plot_tabs(context);
   draw_plot_controls(context, rect);
   const float timeline = ImGui::GetFrameHeightWithSpacing();

@@ -102,6 +102,37 @@ void draw_export_dialog(PanelContext& context) {
   end_dialog();
 }
 
+void draw_save_session_dialog(PanelContext& context) {
+  if (!begin_dialog(context, "Save the session", 44)) return;
+  std::string& name = context.widgets.session_name;
+  if (context.widgets.dialog_opened) {
+    if (name.empty()) name = fs::path(default_name(context, 1)).replace_filename("session").string() + std::string(kSessionExtension);
+    ImGui::SetKeyboardFocusHere();
+  }
+  dim_text(context,
+           "The runs with their histories, where they stand, and the view. The mesh's own file stays where it is and is read again.");
+  ImGui::Spacing();
+  ImGui::AlignTextToFramePadding();
+  dim_text(context, "file", false);
+  ImGui::SameLine(6 * context.em());
+  ImGui::SetNextItemWidth(-1);
+  const bool entered = ImGui::InputText("##file", &name, ImGuiInputTextFlags_EnterReturnsTrue);
+  context.items.record_last("session:file");
+  if (!name.empty() && !is_session_name(name)) dim_text(context, "without .dmoscope at its end the open dialog will not list it");
+  say_if_replaced(context, name);
+  ImGui::Spacing();
+  const bool go = ImGui::Button("Save");
+  context.items.record_last("session:go");
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel")) context.state.dialog = Dialog::None;
+  context.items.record_last("dialog:close");
+  if ((go || entered) && !name.empty()) {
+    context.state.dialog = Dialog::None;
+    context.send("save-session " + quote_word(name));
+  }
+  end_dialog();
+}
+
 void draw_screenshot_dialog(PanelContext& context) {
   if (!begin_dialog(context, "Screenshot", 40)) return;
   WidgetState& widgets = context.widgets;

@@ -48,8 +48,7 @@ void draw_recent_files(PanelContext& context, const Rect& rect, float width) {
     centred(rect, width);
     ImGui::PushID(file.path.c_str());
     const ImGuiSelectableFlags flags = file.missing ? ImGuiSelectableFlags_Disabled : 0;
-    if (ImGui::Selectable(fit_text(file.path, width).c_str(), false, flags, {width, 0}))
-      context.send(fmt::format("open {}", quote_word(file.path)));
+    if (ImGui::Selectable(fit_text(file.path, width).c_str(), false, flags, {width, 0})) context.send(open_command(file.path));
     context.items.record_last(fmt::format("recent:{}", shown - 1));
     next_item_tooltip(file.missing ? file.reason() : file.path);
     ImGui::PopID();
@@ -65,8 +64,11 @@ void draw_start_page(PanelContext& context, const Rect& rect) {
   // Cards in one or two rows, as large as the space allows.
   const float room = rect.w - 4 * em;
   const auto total = static_cast<float>(samples.size());
-  const float columns =
+  float columns =
       room > 8 * (5.5F * em + gap) ? total : std::max(1.0F, std::floor(std::min(total / 2.0F + 0.5F, room / (5.5F * em + gap))));
+  // A low window gets all cards in one row.
+  const bool low = rect.h < 8 * ImGui::GetTextLineHeightWithSpacing() + 2 * 8 * em;
+  if (low && total * 4.5F * em + (total - 1) * gap <= room) columns = total;
   const float side = std::clamp((room - (columns - 1) * gap) / columns, 4.5F * em, 8.0F * em);
   const float width = columns * side + (columns - 1) * gap;
   const float rows = std::ceil(total / columns);

@@ -167,7 +167,7 @@ void draw_splitters(PanelContext& context, const Layout& layout) {
     splitter(context, "splitter:right", {layout.right.x - grip / 2, layout.right.y, grip, layout.right.h}, true, -1, panels.right_width, 13,
              40);
   }
-  if (!layout.bottom.empty()) {
+  if (!layout.bottom.empty() && !layout.timeline_only) {
     splitter(context, "splitter:bottom", {layout.bottom.x, layout.bottom.y - grip / 2, layout.bottom.w, grip}, false, -1,
              panels.bottom_height, 9, 40);
   }

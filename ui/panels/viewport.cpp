@@ -240,7 +240,7 @@ void draw_viewport(PanelContext& context, const Rect& rect) {
   if (rect.empty()) return;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, colour_vector(context.palette.background));
-  begin_panel("viewport", rect);
+  begin_panel("viewport", rect, false, context.frame() == nullptr);
   ImGui::PopStyleColor();
   ImGui::PopStyleVar();
   const Frame* frame = context.frame();

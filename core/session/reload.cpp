@@ -1,0 +1,35 @@
+// Reading the mesh's file again.
+
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/session/session.h"
+
+namespace dmoscope {
+
+std::string Session::reload(Progress& progress) {
+  if (input()->path.empty()) throw UsageError("this mesh was made here: there is no file to read again");
+  std::vector<RunParameters> parameters;
+  for (std::size_t k = 0; k < run_count(); ++k) parameters.push_back(run(k).parameters());
+  const std::size_t was_active = active_index();
+  auto fresh = load_input(input()->path, Need::Smoothing, progress);
+  std::string note;
+  if (fresh->mesh.vertex_count() != input()->mesh.vertex_count()) {
+    for (RunParameters& one : parameters) {
+      if (!one.fixed.empty()) note = "the file has another number of vertices now: what was fixed by hand is free again";
+      one.fixed.clear();
+    }
+  }
+  replace_input(std::move(fresh));  // with one fresh run; may throw, with nothing replaced yet
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    try {
+      k == 0 ? change(parameters[k]) : add_run(parameters[k]);
+    } catch (const UsageError& error) {  // such as a metric that is not defined for the elements of now
+      note += (note.empty() ? "" : "\n") + std::string(error.what());
+    }
+  }
+  select(std::min(was_active, run_count() - 1));
+  return note;
+}
+
+}  // namespace dmoscope

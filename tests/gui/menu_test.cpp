@@ -1,0 +1,108 @@
+// Every action of the menus, run as a script's line, through the palette, and by its key, comes to the same.
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "app/window/headless.h"
+#include "ui/actions.h"
+#include "ui/palette_entries.h"
+#include "ui/view_commands.h"
+#include "ui/view_json.h"
+
+namespace dmoscope::app {
+namespace {
+
+class Menus : public testing::Test {
+ protected:
+  void SetUp() override {
+    try {
+      window_ = std::make_unique<HeadlessWindow>(HeadlessWindow::Options{800, 600, 1.0, 1});
+    } catch (const Error& error) {
+      GTEST_SKIP() << "no OpenGL without a screen: " << error.what();
+    }
+    fresh_ = state();
+  }
+  [[nodiscard]] ui::ViewState& state() { return window_->app().state(); }
+  void run(const std::string& line) { (void)window_->run(line); }
+  /// Two runs, a history, something picked and marked; the same every time.
+  void begin() {
+    state() = fresh_;
+    for (const char* line : {"generate grid 100", "pick vertex 40", "show mean-ratio", "step iteration 3", "add-run dmo",
+                             "step iteration 4", "seek 2", "step class", "mark a", "fit", "move 3 3"}) {
+      const auto failure = window_->run(line);
+      ASSERT_FALSE(failure.has_value()) << line << ": " << failure->text;
+    }
+  }
+  /// All of a window that an action can change, in words.
+  [[nodiscard]] std::string outcome() {
+    run("move 3 3");
+    const auto view = window_->app().engine().view();
+    std::string text = ui::view_json(state());
+    text += fmt::format("\ndialog {}, theme {}, scale {}, full screen {}, shown {}, plays {}, watches {}, b {}",
+                        static_cast<int>(state().dialog), ui::theme_name(state().theme), state().scale, state().full_screen,
+                        static_cast<int>(state().timeline.shown), static_cast<int>(state().timeline.play.kind), state().watch_file,
+                        state().timeline.b.frame != nullptr);
+    text +=
+        fmt::format("\n{}, run {} of {}, shown {}", view->input->mesh.name, view->active, view->runs.size(), static_cast<int>(view->shown));
+    for (const RunView& one : view->runs) text += fmt::format("\n{} {} {}", one.title, one.moment.iteration, one.moment.visits);
+    double sum = 0.0;
+    for (const Vec3& position : view->frame->positions) sum = 0.5 * sum + position.x + 3.0 * position.y;
+    text += fmt::format("\n{}", sum);
+    if (std::exchange(state().requests.quit, false)) text += "\nquit";
+    state().timeline.play.kind = ui::Playback::Kind::Off;
+    run("cancel");
+    return text;
+  }
+  /// Finds the action by its title, as a person does, and clicks on it.
+  [[nodiscard]] bool choose_in_palette(const ui::Action& action) {
+    run("key Ctrl+P");
+    run("type " + quote_word(action.title));
+    const auto view = window_->app().engine().view();
+    const ui::Situation now{true, false, true, view->runs.size(), false, view->undo_label, view->redo_label};
+    const auto entries = ui::palette_entries(action.title, now, window_->app().commands().commands());
+    const std::string title = fmt::format("{}: {}", action.menu, ui::title_of(action, now));
+    const auto at = std::ranges::find(entries, title, &ui::PaletteEntry::title);
+    if (at == entries.end()) return false;
+    run(fmt::format("click palette:{}", at - entries.begin()));
+    possible_ = at->possible;
+    return true;
+  }
+
+  std::unique_ptr<HeadlessWindow> window_;
+  ui::ViewState fresh_;
+  bool possible_ = true;
+};
+
+TEST_F(Menus, EveryActionIsReachedByScriptPaletteAndKeyAlike) {
+  for (const ui::Action& action : ui::actions()) {
+    SCOPED_TRACE(std::string(action.id));
+    // Stepping by itself goes on as long as it is let: where it comes to is a matter of time.
+    const bool endless = action.command.starts_with("play-steps");
+    begin();
+    // A script is told what goes wrong; a person gets the dialog.
+    if (window_->run(action.command)) state().dialog = ui::Dialog::Error;
+    const std::string by_script = outcome();
+    begin();
+    ASSERT_TRUE(choose_in_palette(action));
+    const std::string by_palette = outcome();
+    if (!possible_) {  // greyed; a script is told why
+      EXPECT_EQ(state().dialog, ui::Dialog::Palette);
+      continue;
+    }
+    if (!endless) {
+      EXPECT_EQ(by_palette, by_script);
+    }
+    if (action.key.empty()) continue;
+    begin();
+    run("key " + std::string(action.key));
+    if (!endless) {
+      EXPECT_EQ(outcome(), by_script);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dmoscope::app

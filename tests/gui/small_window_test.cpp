@@ -1,0 +1,81 @@
+// 800 x 600: everything can still be reached.
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "app/window/headless.h"
+
+namespace dmoscope::app {
+namespace {
+
+class SmallWindow : public testing::Test {
+ protected:
+  void SetUp() override {
+    try {
+      window_ = std::make_unique<HeadlessWindow>(HeadlessWindow::Options{800, 600, 1.0, 1});
+    } catch (const Error& error) {
+      GTEST_SKIP() << "no OpenGL without a screen: " << error.what();
+    }
+  }
+  void good(const std::string& line) {
+    const auto failure = window_->run(line);
+    ASSERT_FALSE(failure.has_value()) << line << ": " << failure->text;
+  }
+  [[nodiscard]] ui::ViewState& state() { return window_->app().state(); }
+  [[nodiscard]] const ui::Items::Box& box(const std::string& item) { return window_->app().items().find(item); }
+
+  std::unique_ptr<HeadlessWindow> window_;
+};
+
+TEST_F(SmallWindow, FoldedPanelsOpenAndCloseAndTakeNothingFromOthers) {
+  good("generate annulus");
+  good("click fold:right");
+  EXPECT_TRUE(state().panels.right_over);
+  good("click fold:left");
+  EXPECT_TRUE(state().panels.left_over);
+  good("click step-iteration");
+  EXPECT_EQ(window_->app().frame()->moment.iteration, 1U);
+  good("key F1");
+  EXPECT_EQ(state().dialog, ui::Dialog::Keys);
+  good("click dialog:close");
+  EXPECT_EQ(state().dialog, ui::Dialog::None);
+  good("key Ctrl+F");
+  good("type 12");
+  good("key Enter");
+  EXPECT_EQ(state().picked, (ui::Picked{ui::Picked::Kind::Vertex, 12}));
+  good("click fold:left");
+  EXPECT_FALSE(state().panels.left_over);
+  good("click fold:right");
+  EXPECT_FALSE(state().panels.right_over);
+}
+
+TEST_F(SmallWindow, AllSamplesAreInSight) {
+  const float bottom = box("plot-convergence")[1];
+  for (const char* name : {"coast", "block", "annulus", "random", "quads", "mixed", "tangled", "grid"}) {
+    const auto& card = box(std::string("sample:") + name);
+    EXPECT_LE(card[3], bottom) << name;
+    EXPECT_GE(card[0], 0.0F) << name;
+    EXPECT_LE(card[2], 800.0F) << name;
+  }
+  good("click sample:grid");
+  EXPECT_NE(window_->app().frame(), nullptr);
+}
+
+TEST_F(SmallWindow, EveryDialogFitsAndCanBeClosed) {
+  good("generate annulus");
+  for (const char* scale : {"1", "1.5"}) {
+    good(std::string("scale ") + scale);
+    for (const char* name : {"export", "screenshot", "find", "keys", "about", "log", "sequence", "open"}) {
+      good(std::string("dialog ") + name);
+      const auto& button = box("dialog:close");
+      EXPECT_GE(button[1], 0.0F) << name << scale;
+      EXPECT_LE(button[3], 600.0F) << name << scale;
+      EXPECT_LE(button[2], 800.0F) << name << scale;
+      good("click dialog:close");
+      EXPECT_EQ(state().dialog, ui::Dialog::None) << name << scale;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dmoscope::app

@@ -1,0 +1,226 @@
+#include "ui/view_json.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+
+namespace dmoscope::ui {
+namespace {
+
+using nlohmann::json;
+
+/// Writes members. It and Reader offer the same, so that one description of the view serves both ways.
+class Writer {
+ public:
+  [[nodiscard]] const json& result() const noexcept { return json_; }
+  void flag(const char* name, bool value) { json_[name] = value; }
+  void number(const char* name, double value, double /*least*/, double /*most*/) { json_[name] = value; }
+  template <class Count>
+  void count(const char* name, Count value, std::uint64_t /*most*/) {
+    json_[name] = static_cast<std::uint64_t>(value);
+  }
+  template <class Value, class Choices>
+  void choice(const char* name, Value value, const Choices& choices) {
+    for (const auto& [word, one] : choices) {
+      if (one == value) json_[name] = word;
+    }
+  }
+  void range(const char* name, const std::optional<std::pair<double, double>>& value) {
+    json_[name] = value ? json{value->first, value->second} : json();
+  }
+  void words(const char* name, const std::set<std::string>& value) { json_[name] = value; }
+  template <class Body>
+  void object(const char* name, Body body) {
+    Writer inner;
+    body(inner);
+    json_[name] = inner.json_;
+  }
+
+ private:
+  json json_ = json::object();
+};
+
+/// Reads members; throws UsageError with the whole name of one that is wrong.
+class Reader {
+ public:
+  Reader(const json& from, std::string path) : json_(from), path_(std::move(path)) {
+    if (!json_.is_object()) throw UsageError(path_ + ": expected an object");
+  }
+  void flag(const char* name, bool& value) {
+    if (const json* at = find(name)) value = at->is_boolean() ? at->get<bool>() : (wrong(name, "true or false"), false);
+  }
+  void number(const char* name, double& value, double least, double most) {
+    const json* at = find(name);
+    if (at == nullptr) return;
+    const double read = at->is_number() ? at->get<double>() : NAN;
+    if (!(read >= least && read <= most)) wrong(name, fmt::format("a number from {} to {}", least, most));
+    value = read;
+  }
+  template <class Count>
+  void count(const char* name, Count& value, std::uint64_t most) {
+    const json* at = find(name);
+    if (at == nullptr) return;
+    if (!at->is_number_unsigned() || at->get<std::uint64_t>() > most) wrong(name, fmt::format("a whole number from 0 to {}", most));
+    value = static_cast<Count>(at->get<std::uint64_t>());
+  }
+  template <class Value, class Choices>
+  void choice(const char* name, Value& value, const Choices& choices) {
+    const json* at = find(name);
+    if (at == nullptr) return;
+    std::string names;
+    for (const auto& [word, one] : choices) {
+      names += (names.empty() ? "" : ", ") + std::string(word);
+      if (!at->is_string() || at->get<std::string>() != word) continue;
+      value = one;
+      return;
+    }
+    wrong(name, "one of " + names);
+  }
+  void range(const char* name, std::optional<std::pair<double, double>>& value) {
+    const json* at = find(name);
+    if (at == nullptr) return;
+    if (at->is_null()) {
+      value.reset();
+      return;
+    }
+    const bool pair = at->is_array() && at->size() == 2 && (*at)[0].is_number() && (*at)[1].is_number();
+    const double low = pair ? (*at)[0].get<double>() : NAN, high = pair ? (*at)[1].get<double>() : NAN;
+    if (!(low < high)) wrong(name, "null, or two numbers of which the second is greater");
+    value = {low, high};
+  }
+  void words(const char* name, std::set<std::string>& value) {
+    const json* at = find(name);
+    if (at == nullptr) return;
+    std::set<std::string> read;
+    for (const json& word : at->is_array() ? *at : json{1}) {
+      if (!word.is_string()) wrong(name, "an array of words");
+      read.insert(word.get<std::string>());
+    }
+    value = std::move(read);
+  }
+  template <class Body>
+  void object(const char* name, Body body) {
+    const json* at = find(name);
+    if (at == nullptr) return;
+    Reader inner(*at, path_ + "." + name);
+    body(inner);
+  }
+
+ private:
+  [[nodiscard]] const json* find(const char* name) const {
+    const auto at = json_.find(name);
+    return at == json_.end() ? nullptr : &*at;
+  }
+  [[noreturn]] void wrong(const char* name, const std::string& expected) const {
+    throw UsageError(fmt::format("{}.{}: expected {}", path_, name, expected));
+  }
+
+  const json& json_;
+  std::string path_;
+};
+
+constexpr double kFar = 1e300;
+
+constexpr std::array<std::pair<std::string_view, int>, 3> kBins{{{"16", 16}, {"32", 32}, {"64", 64}}};
+constexpr std::array<std::pair<std::string_view, Picked::Kind>, 3> kPicks{
+    {{"none", Picked::Kind::None}, {"vertex", Picked::Kind::Vertex}, {"element", Picked::Kind::Element}}};
+
+std::vector<std::pair<std::string_view, render::ColourMap>> colour_map_names() {
+  std::vector<std::pair<std::string_view, render::ColourMap>> names;
+  for (const render::ColourMapInfo& map : render::colour_map_table()) names.emplace_back(map.name, map.map);
+  return names;
+}
+
+// State is const where it is written.
+
+template <class Archive, class Panels>
+void describe_panels(Archive& archive, Panels& panels) {
+  archive.flag("left", panels.left);
+  archive.flag("right", panels.right);
+  archive.flag("bottom", panels.bottom);
+  archive.number("left_width", panels.left_width, 6.0, 60.0);
+  archive.number("right_width", panels.right_width, 6.0, 60.0);
+  archive.number("bottom_height", panels.bottom_height, 6.0, 60.0);
+}
+
+template <class Archive, class State>
+void describe_plots(Archive& archive, State& state) {
+  archive.choice("shown", state.plot, kPlotTabs);
+  archive.flag("by_seconds", state.plot_options.by_seconds);
+  archive.choice("bins", state.plot_options.bins, kBins);
+  for (const auto& [name, tab] : kPlotTabs) {
+    auto& view = state.plots[static_cast<std::size_t>(tab)];
+    archive.object(std::string(name).c_str(), [&view](auto& plot) {
+      plot.choice("axis", view.axis, kValueAxes);
+      plot.range("x_range", view.x_range);
+      plot.range("y_range", view.y_range);
+      plot.words("hidden", view.hidden);
+    });
+  }
+}
+
+/// The one description of the view.
+template <class Archive, class State>
+void describe(Archive& archive, State& state) {
+  archive.object("camera", [&state](auto& camera) {
+    camera.number("x", state.camera.centre.x, -kFar, kFar);
+    camera.number("y", state.camera.centre.y, -kFar, kFar);
+    camera.number("units_per_pixel", state.camera.units_per_pixel, 1e-300, kFar);
+  });
+  archive.flag("wireframe", state.wireframe);
+  archive.flag("vertices", state.vertices);
+  archive.flag("worst_marker", state.worst_marker);
+  archive.choice("colormap", state.colour_map, colour_map_names());
+  archive.object("panels", [&state](auto& panels) { describe_panels(panels, state.panels); });
+  archive.object("plots", [&state](auto& plots) { describe_plots(plots, state); });
+  archive.object("inspection", [&state](auto& inspection) {
+    inspection.flag("open", state.inspection.open);
+    inspection.count("level", state.inspection.level, 16);
+    inspection.flag("all_levels", state.inspection.all_levels);
+    inspection.flag("zoom", state.inspection.zoom);
+    inspection.flag("field", state.inspection.field);
+    inspection.flag("field_in_view", state.inspection.field_in_view);
+  });
+  archive.number("speed", state.timeline.play.speed, Playback::kSlowest, Playback::kFastest);
+  archive.object("picked", [&state](auto& picked) {
+    picked.choice("kind", state.picked.kind, kPicks);
+    picked.count("id", state.picked.id, kNoIndex);
+  });
+}
+
+void check(const ViewState& state, const Mesh* mesh) {
+  const auto [kind, id] = state.picked;
+  if (kind == Picked::Kind::None) return;
+  const std::uint64_t size = mesh == nullptr ? 0 : kind == Picked::Kind::Vertex ? mesh->vertex_count() : mesh->elements.size();
+  if (id >= size) throw UsageError(fmt::format("view.picked.id: there is no {}, the mesh has {}", id, size));
+}
+
+}  // namespace
+
+std::string view_json(const ViewState& state) {
+  Writer writer;
+  describe(writer, state);
+  return writer.result().dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+void apply_view_json(std::string_view text, ViewState& state, const Mesh* mesh) {
+  const json in = json::parse(text, nullptr, false);
+  if (in.is_discarded()) throw UsageError("view: this is not JSON");
+  ViewState next = state;
+  Reader reader(in, "view");
+  describe(reader, next);
+  check(next, mesh);
+  state = std::move(next);
+  state.requests.fit = false;
+}
+
+}  // namespace dmoscope::ui

@@ -74,6 +74,7 @@ void ElementPainter::upload_topology(const Layout& layout) {
   members_ = Buffer();
   by_.reset();
   categories_ = 0;
+  edges_by_category_ = false;
   selection_ = {};
   points_.reserve(layout.vertex_count * sizeof(Vec2<float>));
   shades_.reserve(layout.element_count() * sizeof(float));
@@ -112,9 +113,11 @@ void ElementPainter::set_colours(const ColourScale& colours) {
 void ElementPainter::set_shading(const Shading* shading) {
   by_.reset();
   categories_ = 0;
+  edges_by_category_ = false;
   if (shading == nullptr) return;
   by_ = shading->by;
   categories_ = static_cast<int>(std::min<std::size_t>(shading->palette.size(), kMostCategories));
+  edges_by_category_ = shading->edges && categories_ > 0 && by_ == Shading::By::Vertices;
   if (categories_ > 0) fill_table(palette_, std::span(shading->palette).first(static_cast<std::size_t>(categories_)));
   std::vector<float> values = shading->values;
   for (float& value : values) value = shade_of(value, false);
@@ -215,6 +218,10 @@ void ElementPainter::draw_boundary(const View& view, const Style& style) {
   view.apply(boundary_);
   points_.bind_storage(0);
   edges_.bind_storage(4);
+  (edges_by_category_ ? values_ : points_).bind_storage(5);
+  DMOSCOPE_GL(glBindTextureUnit(1, palette_.id()));
+  boundary_.set("u_palette", 1);
+  boundary_.set("u_edge_categories", edges_by_category_ ? categories_ : 0);
   boundary_.set("u_width", style.boundary_width * style.scale);
   set_colour(boundary_, "u_colour", {style.boundary_colour.r, style.boundary_colour.g, style.boundary_colour.b},
              static_cast<float>(style.boundary_colour.a) / 255.0F);

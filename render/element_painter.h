@@ -60,6 +60,7 @@ class ElementPainter {
   Handle<DeleteTexture> colours_, palette_;
   std::optional<Shading::By> by_;  // none: quality
   int categories_ = 0;
+  bool edges_by_category_ = false;
   Selection selection_;
   Handle<DeleteVertexArray> nothing_;    // for shaders that read their vertices from buffers
   std::optional<ColourScale> uploaded_;  // the map as it is in colours_, from 0 to 1

@@ -75,40 +75,126 @@ std::vector<double> round_ticks(double low, double high, int wanted) {
 
 int legend_height(float scale) { return Measures(scale).px(58); }
 
+namespace {
+
+struct BarTick {
+  double value;
+  std::string label;
+};
+
+/// At 1 of every power of ten, and at 2 and 5 where there are few.
+std::vector<BarTick> powers_of_ten(double low, double high) {
+  std::vector<BarTick> ticks;
+  const bool few = high - low < 2.0;
+  const double step = std::max(1.0, std::ceil((high - low) / 8.0));
+  for (double power = std::floor(low); power <= std::ceil(high); power += step) {
+    for (const double multiple : {1.0, 2.0, 5.0}) {
+      const double value = power + std::log10(multiple);
+      if ((multiple == 1.0 || few) && value >= low && value <= high)
+        ticks.push_back({value, fmt::format("{:g}", multiple * std::pow(10.0, power))});
+    }
+  }
+  return ticks;
+}
+
+std::vector<BarTick> bar_ticks(const Legend& legend, const ColourScale& scale) {
+  if (legend.logarithmic) return powers_of_ten(scale.low, scale.high);
+  std::vector<BarTick> ticks;
+  for (const double value : round_ticks(scale.low, scale.high, 5)) ticks.push_back({value, fmt::format("{:.6g}", value)});
+  return ticks;
+}
+
+/// Draws the parts of a legend from left to right.
+class LegendPainter {
+ public:
+  LegendPainter(Image& image, const Style& style, float scale, const Font* font)
+      : image_(image), style_(style), m_(scale), font_(font), ink_(text_colour(style)), top_(image.height - legend_height(scale)) {
+    x_ = m_.px(16);
+  }
+
+  void title(const Legend& legend) {
+    const int baseline = top_ + m_.px(17), margin = m_.px(16);
+    text(margin, baseline, legend.title);
+    const std::string right = legend.selection.empty() ? legend.subtitle : legend.subtitle + " · " + legend.selection;
+    text(std::max(margin + width(legend.title) + m_.px(18), image_.width - margin - width(right)), baseline, right);
+  }
+  void bar(const Legend& legend) {
+    const int margin = m_.px(16);
+    const int size = std::min(std::clamp(image_.width * 2 / 5, m_.px(80), m_.px(420)), image_.width - 2 * margin);
+    draw_bar(image_, style_, x_, row(), size, height());
+    const ColourScale& scale = style_.colours;
+    for (const BarTick& tick : bar_ticks(legend, scale)) {
+      const int x = x_ + static_cast<int>(std::lround((tick.value - scale.low) / (scale.high - scale.low) * (size - 1)));
+      fill(image_, x, row() + height(), std::max(1, m_.px(1)), m_.px(4), ink_);
+      if (!font_) continue;
+      const float small = 0.92F * m_.text();
+      font_->draw(image_, std::max(m_.px(2), x - font_->width(tick.label, small) / 2), row() + height() + m_.px(16), tick.label, small,
+                  ink_);
+    }
+    x_ += size + m_.px(20);
+  }
+  void inverted(std::size_t count) {
+    if (count == 0) return;
+    draw_inverted_swatch(image_, x_, row(), height(), m_.unit);
+    beside_swatch(fmt::format("{} inverted", count));
+  }
+  void swatch(Rgb colour, const std::string& name) {
+    fill(image_, x_, row(), height(), height(), opaque(colour));
+    beside_swatch(name);
+  }
+  /// As many as there is room for, and how many there are more.
+  void categories(const std::vector<LegendEntry>& entries) {
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      const std::string name = fmt::format("{} ({})", entries[k].name, entries[k].count);
+      const bool last = k + 1 == entries.size();
+      if (x_ + height() + m_.px(6) + width(name) + (last ? 0 : m_.px(90)) > image_.width) {
+        plain(fmt::format("and {} more", entries.size() - k));
+        return;
+      }
+      swatch(entries[k].colour, name);
+    }
+  }
+  void plain(const std::string& words) {
+    text(x_, row() + height() - m_.px(1), words);
+    x_ += width(words) + m_.px(18);
+  }
+
+ private:
+  [[nodiscard]] int row() const { return top_ + m_.px(24); }
+  [[nodiscard]] int height() const { return m_.px(12); }
+  [[nodiscard]] int width(const std::string& words) const { return font_ ? font_->width(words, m_.text()) : 0; }
+  void text(int x, int baseline, const std::string& words) {
+    if (font_) font_->draw(image_, x, baseline, words, m_.text(), ink_);
+  }
+  void beside_swatch(const std::string& words) {
+    text(x_ + height() + m_.px(6), row() + height() - m_.px(1), words);
+    x_ += height() + m_.px(6) + width(words) + m_.px(18);
+  }
+
+  Image& image_;
+  const Style& style_;
+  Measures m_;
+  const Font* font_;
+  Rgba ink_;
+  int top_, x_ = 0;
+};
+
+}  // namespace
+
 std::string draw_legend(Image& image, const Legend& legend, const Style& style, float scale) {
-  const Measures m(scale);
   const std::unique_ptr<Font> font = Font::load();
-  const Rgba colour = text_colour(style);
-  const int margin = m.px(16), top = image.height - legend_height(scale);
-  const int bar_width = std::clamp(image.width * 2 / 5, m.px(80), m.px(420)), bar_height = m.px(12);
-  const int left = margin, bar_top = top + m.px(24);
-  draw_bar(image, style, left, bar_top, std::min(bar_width, image.width - 2 * margin), bar_height);
-  int swatch_left = left + bar_width + m.px(20);
-  if (legend.inverted > 0) draw_inverted_swatch(image, swatch_left, bar_top, bar_height, m.unit);
-  if (!font) return "the picture has no text: the font DejaVu Sans is not installed (package fonts-dejavu-core)";
-  font->draw(image, left, bar_top - m.px(7), legend.title, m.text(), colour);
-  const int title_end = left + font->width(legend.title, m.text()) + m.px(18);
-  const int subtitle_width = font->width(legend.subtitle, m.text());
-  const int subtitle_left = std::max(title_end, image.width - margin - subtitle_width);
-  font->draw(image, subtitle_left, bar_top - m.px(7), legend.subtitle, m.text(), colour);
-  const ColourScale& scale_of = style.colours;
-  for (const double tick : round_ticks(scale_of.low, scale_of.high, 5)) {
-    const int x = left + static_cast<int>(std::lround((tick - scale_of.low) / (scale_of.high - scale_of.low) * (bar_width - 1)));
-    fill(image, x, bar_top + bar_height, std::max(1, m.px(1)), m.px(4), colour);
-    const std::string label = fmt::format("{:.6g}", tick);
-    const int width = font->width(label, 0.92F * m.text());
-    font->draw(image, std::max(m.px(2), x - width / 2), bar_top + bar_height + m.px(16), label, 0.92F * m.text(), colour);
+  LegendPainter painter(image, style, scale, font.get());
+  painter.title(legend);
+  if (legend.has_categories) {
+    painter.categories(legend.categories);
+  } else {
+    painter.bar(legend);
   }
-  if (legend.inverted > 0) {
-    const std::string text = fmt::format("{} inverted", legend.inverted);
-    font->draw(image, swatch_left + bar_height + m.px(6), bar_top + bar_height - m.px(1), text, m.text(), colour);
-    swatch_left += bar_height + m.px(6) + font->width(text, m.text()) + m.px(18);
-  }
-  if (legend.undefined) {
-    fill(image, swatch_left, bar_top, bar_height, bar_height, opaque(kUndefinedColour));
-    font->draw(image, swatch_left + bar_height + m.px(6), bar_top + bar_height - m.px(1), "not defined", m.text(), colour);
-  }
-  return {};
+  painter.inverted(legend.inverted);
+  if (legend.undefined) painter.swatch(kUndefinedColour, "not defined");
+  if (legend.below > 0) painter.plain(fmt::format("{} below", legend.below));
+  if (legend.above > 0) painter.plain(fmt::format("{} above", legend.above));
+  return font ? std::string{} : "the picture has no text: the font DejaVu Sans is not installed (package fonts-dejavu-core)";
 }
 
 }  // namespace dmoscope::render

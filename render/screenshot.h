@@ -3,18 +3,31 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "render/image.h"
 #include "render/scene.h"
 
 namespace dmoscope::render {
 
-/// Colour bar, drawn into the picture below the mesh.
+/// A category in a legend.
+struct LegendEntry {
+  std::string name;
+  Rgb colour;
+  std::size_t count = 0;
+};
+
+/// Colour bar or categories, drawn into the picture below the mesh.
 struct Legend {
-  std::string title;         // "mean ratio"
-  std::string subtitle;      // "east.14, dmo, iteration 4; minimum 0.8121"; may be empty
-  std::size_t inverted = 0;  // > 0: a magenta swatch with the number
-  bool undefined = false;    // a grey swatch "not defined"
+  std::string title;                 // "mean ratio"
+  std::string subtitle;              // "east.14, dmo, iteration 4; minimum 0.8121"; may be empty
+  std::size_t inverted = 0;          // > 0: a magenta swatch with the number
+  bool undefined = false;            // a grey swatch "not defined"
+  std::size_t below = 0, above = 0;  // elements outside the bar's range
+  bool logarithmic = false;          // the bar's values are powers of ten
+  bool has_categories = false;       // swatches instead of the bar
+  std::vector<LegendEntry> categories;
+  std::string selection;  // which elements count: "120 of 5,000 elements"; may be empty
 };
 
 struct Shot {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/quality/quality.h"
+#include "render/labels.h"
 #include "ui/derived.h"
 #include "ui/inspection_commands.h"
 #include "ui/inspection_marks.h"
@@ -171,8 +172,7 @@ void App::apply_fit() {
 
 render::Style App::style() const {
   render::Style style = scene_style(state_);
-  style.colours.low = derived_.range.first;
-  style.colours.high = derived_.range.second;
+  style.colours = shown_scale(state_, derived_);
   return style;
 }
 
@@ -191,7 +191,9 @@ render::Marks App::marks(const MarkView& view) {
   stepping_.add_marks(marks, state_, *session_, view,
                       [this](const MarkView& seen, std::size_t most) { return scene_.elements_in_view(seen.camera, seen.viewport, most); });
   if (state_.inspection.open) {
-    const InspectionLook look = inspection_look(style(), palette(state_.theme).accent, view.camera, view.scale);
+    render::Style of_quality = style();
+    of_quality.colours = colour_scale(state_, derived_);  // of candidates, whatever the elements show
+    const InspectionLook look = inspection_look(of_quality, palette(state_.theme).accent, view.camera, view.scale);
     add_inspection_marks(marks, state_.inspection, inspection_, look);
   }
   return marks;
@@ -214,6 +216,9 @@ void App::update_scene(const Rect& rect, double now) {
     scene_.set_fixed(run.fixed);
     fixed_serial_ = frame->serial;
   }
+  scene_.set_shading(scene_current_ && derived_.colouring.colours ? derived_.colouring.colours->shading : nullptr);
+  if (scene_current_) scene_.set_selection(selection_of(state_, derived_));
+  update_labels();
   // A live run counts as movement: its next frame comes soon.
   const bool restless = moving(now) || (activity_.busy && activity_.busy_seconds > kRestAfter);
   const double detail = render::suggested_detail(scene_.element_count(), options_.software_renderer, true);
@@ -222,6 +227,16 @@ void App::update_scene(const Rect& rect, double now) {
   refining_ = !picture_.complete();
   activity_.reduced = refining_;
   if (refining_ && !activity_.busy) redraw_in_ = restless ? std::min(redraw_in_, kRestAfter) : 0.0;
+}
+
+void App::update_labels() {
+  const ColouringState& colouring = state_.colouring;
+  const double em = ImGui::GetFontSize();
+  // As they are drawn: digits of DejaVu Sans are 0.64 em wide.
+  const render::LabelWish wish{colouring.label_vertices, colouring.label_elements, 0.8 * 0.64 * em, em, 400};
+  ColourFacts& facts = derived_.colouring;
+  facts.labels = scene_.labels(state_.camera, state_.viewport, wish);
+  facts.labels_lack_room = (wish.vertices || wish.elements) && facts.labels.empty();
 }
 
 void App::handle_shortcuts() {
@@ -257,6 +272,7 @@ void App::draw_side(PanelContext& context, const char* name, const Rect& rect, b
     draw_runs(context);
     ImGui::Dummy({0, context.px(4)});
     draw_parameters(context);
+    draw_colours(context);
   } else {
     if (state_.inspection.open) draw_inspection(context);
     draw_inspector(context);
@@ -331,6 +347,7 @@ void App::draw(double now) {
   const auto hovered = state_.inspection.hovered;
   draw_panels(context);
   if (activity_.busy) redraw_in_ = std::min(redraw_in_, 0.1);
+  if (!colour_worker_.settled()) redraw_in_ = std::min(redraw_in_, 0.02);
   if (state_.requests.fit) redraw_in_ = 0.0;
   advance_playback(now);
   advance_sequence();
@@ -351,7 +368,11 @@ double App::play_on(bool busy, double now) {
   return turn.wait;
 }
 
-void App::update_derived() { refresh(derived_, state_, *session_); }
+void App::update_derived() {
+  refresh(derived_, state_, *session_);
+  colour_worker_.update(state_, *session_);
+  derived_.colouring.colours = colour_worker_.colours();
+}
 
 render::Image App::mesh_picture(const ScreenshotOptions& options) {
   const Frame* frame = session_->frame.get();
@@ -363,18 +384,19 @@ render::Image App::mesh_picture(const ScreenshotOptions& options) {
   shot.transparent = options.transparent;
   shot.scale = static_cast<float>(state_.scale);
   const RunView& run = session_->runs[session_->active];
-  render::Legend legend;
-  legend.title = metric_phrase(frame->shown);
+  render::Legend legend = legend_of(state_, derived_, *frame);
   legend.subtitle = fmt::format("{} · {}, iteration {}, minimum {:.4g}", frame->input->mesh.name, run.parameters.method,
                                 frame->moment.iteration, frame->shown_statistics.minimum);
-  legend.inverted = frame->shown_statistics.inverted;
-  legend.undefined = derived_.undefined;
   shot.legend = legend;
   render::Style look = style();
   look.scale = 1.0F;  // Shot::scale multiplies it
   look.transparent = options.transparent;
   const render::Camera2D camera = state_.camera.for_viewport(state_.viewport, render::mesh_viewport(shot));
-  return render::render_image(scene_, camera, look, marks({camera, render::mesh_viewport(shot), state_.scale}), shot).image;
+  render::Image image = render::render_image(scene_, camera, look, marks({camera, render::mesh_viewport(shot), state_.scale}), shot).image;
+  const Vec2<double> digit = render::label_digit(shot.scale), viewport = render::mesh_viewport(shot);
+  const render::LabelWish wish{state_.colouring.label_vertices, state_.colouring.label_elements, digit.x, digit.y, 400};
+  render::draw_labels(image, scene_.labels(camera, viewport, wish), camera, viewport, look, shot.scale);
+  return image;
 }
 
 }  // namespace dmoscope::ui

@@ -12,6 +12,7 @@
 #include "render/live_picture.h"
 #include "render/scene.h"
 #include "render/screenshot.h"
+#include "ui/colour_worker.h"
 #include "ui/file_watch.h"
 #include "ui/panels/panels.h"
 #include "ui/stepping_view.h"
@@ -67,7 +68,7 @@ class App {
   /// False while the scene is still made ready in the background, or drawn in full, a fit waits for it, or the window does something by
   /// itself that ends.
   [[nodiscard]] bool settled() const noexcept {
-    const bool drawn = scene_current_ && !refining_ && !state_.requests.fit;
+    const bool drawn = scene_current_ && !refining_ && colour_worker_.settled() && !state_.requests.fit;
     return drawn && !state_.sequence && state_.timeline.play.kind != Playback::Kind::History;
   }
 
@@ -93,6 +94,7 @@ class App {
   void update_derived();
   double play_on(bool busy, double now);
   void update_scene(const Rect& rect, double now);
+  void update_labels();
   void apply_fit();
   void handle_shortcuts();
   void draw_panels(PanelContext& context);
@@ -127,6 +129,7 @@ class App {
   render::MeshScene scene_;
   render::LivePicture picture_;
   bool scene_current_ = true;
+  ColourWorker colour_worker_;
   bool refining_ = false;                   // a full picture is being drawn, or will be once nothing moves
   std::optional<render::Camera2D> fitted_;  // the camera of the last fit, while nobody has moved it
   std::uint64_t fixed_serial_ = 0;

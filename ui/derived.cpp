@@ -3,11 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
+#include <fmt/format.h>
+
+#include "ui/format.h"
 #include "ui/view_geometry.h"
 
 namespace dmoscope::ui {
 namespace {
+
+using render::in_quality_range;
 
 /// Sorting more than this many qualities would be felt; an even sample of them draws the same curve.
 constexpr Index kMostSorted = 65536;
@@ -24,11 +30,31 @@ Index counted_elements(const Histogram& histogram) {
   return std::accumulate(histogram.counts.begin(), histogram.counts.end(), histogram.below + histogram.above);
 }
 
-void refresh_range(Derived& derived, const ViewState& state, const Frame& frame) {
-  derived.range = colour_range(state, &frame);
+void widen(std::map<Metric, std::pair<double, double>>& seen, Metric metric, std::pair<double, double> range) {
+  const auto [at, added] = seen.try_emplace(metric, range);
+  if (!added) at->second = {std::min(at->second.first, range.first), std::max(at->second.second, range.second)};
+}
+
+void refresh_members(ColourFacts& facts, const ViewState& state, const SessionView& session) {
+  const Frame& frame = *session.frame;
+  const ColouringState& colouring = state.colouring;
+  const Colouring* classes = session.runs.empty() ? nullptr : session.runs[session.active].colouring.get();
+  const bool by_frame = colouring.worst > 0 || (colouring.isolated && colouring.isolated->by == ColourBy::Inverted);
+  const ColourFacts::MembersKey key{colouring.isolated, colouring.worst, frame.input_serial, by_frame ? frame.serial : 0,
+                                    colouring.isolated ? classes : nullptr};
+  if (facts.members_key == key) return;
+  facts.members_key = key;
+  facts.members = members_of(colouring, frame, classes);
+}
+
+/// One look at all elements: how many lie outside the colours' range, and how many count.
+void count_elements(Derived& derived, const ViewState& state, const Frame& frame) {
   derived.outside_low = derived.outside_high = 0;
   derived.undefined = frame.device && counted_elements(frame.now) < frame.element_count();
+  derived.colouring.counting.reset();
+  const render::Selection selection = selection_of(state, derived);
   const auto [low, high] = derived.range;
+  std::size_t counting = 0;
   for (std::size_t e = 0; e < frame.quality.size(); ++e) {
     const auto q = static_cast<double>(frame.quality[e]);
     if (std::isnan(q)) {
@@ -38,7 +64,25 @@ void refresh_range(Derived& derived, const ViewState& state, const Frame& frame)
       derived.outside_low += q < low - 1e-6 ? 1 : 0;
       derived.outside_high += q > high + 1e-6 ? 1 : 0;
     }
+    if (selection.members && (*selection.members)[e] == 0) continue;
+    counting += !selection.quality || in_quality_range(*selection.quality, shade_of(frame.quality[e], frame.inverted[e] != 0)) ? 1 : 0;
   }
+  if (!selection.all() && !frame.device) derived.colouring.counting = counting;
+}
+
+void refresh_range(Derived& derived, const ViewState& state, const Frame& frame, bool new_frame) {
+  ColourFacts& facts = derived.colouring;
+  if (new_frame) {
+    facts.own = own_range(frame);
+    if (facts.own) widen(facts.seen, frame.shown, *facts.own);
+  }
+  const ColourFacts::RangeKey key{state.range_mode,           state.range_low,        state.range_high,
+                                  state.colouring.held_range, state.colouring.filter, facts.members.get()};
+  if (!new_frame && facts.range_key == key) return;
+  facts.range_key = key;
+  const auto seen = facts.seen.find(frame.shown);
+  derived.range = colour_range(state, facts.own, seen == facts.seen.end() ? std::nullopt : std::optional(seen->second));
+  count_elements(derived, state, frame);
 }
 
 /// Calls `visit` with every element of an even sample.
@@ -100,15 +144,13 @@ void refresh(Derived& derived, const ViewState& state, const SessionView& sessio
   }
   if (derived.input_serial != frame->input_serial) {
     refresh_input(derived, *frame);
+    derived.colouring.seen.clear();
     derived.input_serial = frame->input_serial;
   }
   const bool new_frame = derived.frame_serial != frame->serial;
   derived.frame_serial = frame->serial;
-  const std::tuple range_key{state.range_mode, state.range_low, state.range_high};
-  if (new_frame || derived.range_key != range_key) {
-    refresh_range(derived, state, *frame);
-    derived.range_key = range_key;
-  }
+  refresh_members(derived.colouring, state, session);
+  refresh_range(derived, state, *frame, new_frame);
   const std::pair facts_key{frame->serial, state.picked};
   if (derived.facts_key != facts_key) {
     derived.facts = facts_of(*frame, state.picked);
@@ -116,6 +158,48 @@ void refresh(Derived& derived, const ViewState& state, const SessionView& sessio
   }
   if (new_frame) derived.sorted_now.clear();
   if (state.plot == PlotTab::Sorted && derived.sorted_now.empty()) refresh_sorted(derived, *frame);
+}
+
+render::ColourScale colour_scale(const ViewState& state, const Derived& derived) {
+  return {state.colour_map, state.colouring.reversed, state.colouring.steps, derived.range.first, derived.range.second};
+}
+
+render::ColourScale shown_scale(const ViewState& state, const Derived& derived) {
+  render::ColourScale scale = colour_scale(state, derived);
+  if (derived.colouring.colours) std::tie(scale.low, scale.high) = derived.colouring.colours->range;
+  return scale;
+}
+
+render::Selection selection_of(const ViewState& state, const Derived& derived) {
+  render::Selection selection;
+  if (const auto& filter = state.colouring.filter) {
+    selection.quality = {static_cast<float>(filter->first), static_cast<float>(filter->second)};
+  }
+  selection.members = derived.colouring.members;
+  selection.others = state.colouring.others;
+  return selection;
+}
+
+render::Legend legend_of(const ViewState& state, const Derived& derived, const Frame& frame) {
+  render::Legend legend;
+  const ElementColours* colours = derived.colouring.colours.get();
+  legend.title = colours != nullptr ? colours->title : metric_phrase(frame.shown);
+  legend.inverted = frame.shown_statistics.inverted;
+  if (colours == nullptr) {
+    legend.undefined = derived.undefined;
+    legend.below = derived.outside_low;
+    legend.above = derived.outside_high;
+  } else {
+    legend.logarithmic = colours->logarithmic;
+    legend.has_categories = has_categories(colours->by);
+    for (const Category& category : colours->categories) legend.categories.push_back({category.name, category.colour, category.count});
+  }
+  if (derived.colouring.counting) {
+    const auto others = state.colouring.others;
+    legend.selection = fmt::format("{} of {} elements{}", count(*derived.colouring.counting), count(frame.element_count()),
+                                   others == render::Selection::Others::Fade ? ", others faded" : "");
+  }
+  return legend;
 }
 
 }  // namespace dmoscope::ui

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/quality/quality.h"
+#include "ui/colouring_commands.h"
 #include "ui/command_words.h"
 #include "ui/desktop_commands.h"
 #include "ui/file_commands.h"
@@ -97,30 +98,6 @@ void add_look_verbs(CommandTable& table, ViewState& state) {
   table.add({"worst", "worst [on|off|toggle]", "ring around the worst element"}, [&state](Arguments words) {
     need(words, 0, 1);
     state.worst_marker = switched(words, 0, state.worst_marker);
-  });
-  table.add({"colormap", "colormap NAME|next", "colours of quality"}, [&state](Arguments words) {
-    need(words, 1, 1);
-    const auto maps = render::colour_map_table();
-    if (words[0] == "next") {
-      const auto at = std::find_if(maps.begin(), maps.end(), [&](const auto& map) { return map.map == state.colour_map; });
-      state.colour_map = at == maps.end() || at + 1 == maps.end() ? maps.front().map : (at + 1)->map;
-    } else {
-      state.colour_map = render::colour_map_from_name(words[0]);
-    }
-  });
-  table.add({"range", "range fixed|auto|LOW HIGH", "qualities that the colours span"}, [&state](Arguments words) {
-    if (words.size() == 1) {
-      static constexpr std::array<std::pair<std::string_view, RangeMode>, 2> modes{
-          {{"fixed", RangeMode::Fixed}, {"auto", RangeMode::Auto}}};
-      state.range_mode = choose(words[0], modes);
-      return;
-    }
-    need(words, 2, 2);
-    const double low = to_number(words[0]), high = to_number(words[1]);
-    if (!(high > low)) throw UsageError("the second quality must be greater than the first");
-    state.range_mode = RangeMode::Given;
-    state.range_low = low;
-    state.range_high = high;
   });
   table.add({"theme", "theme dark|light|contrast|next", "colours of the interface"}, [&state](Arguments words) {
     need(words, 1, 1);
@@ -262,6 +239,7 @@ CommandTable view_commands(ViewState& state, const CommandHost& host) {
   CommandTable table;
   add_camera_verbs(table, state, host);
   add_look_verbs(table, state);
+  add_colouring_verbs(table, state, host);
   add_panel_verbs(table, state);
   add_output_verbs(table, state);
   add_plot_verbs(table, state);

@@ -29,23 +29,27 @@ std::string_view theme_name(Theme theme) {
   return "contrast";
 }
 
-std::pair<double, double> colour_range(const ViewState& state, const Frame* frame) {
-  if (state.range_mode == RangeMode::Given) return {state.range_low, state.range_high};
-  if (state.range_mode == RangeMode::Auto && frame != nullptr) {
-    double low = INFINITY, high = -INFINITY;
-    if (frame->device) {
-      low = frame->shown_statistics.minimum;
-      high = highest_of(frame->now);
-    }
-    for (const float q : frame->quality) {
-      if (!std::isfinite(q)) continue;
-      low = std::min(low, static_cast<double>(q));
-      high = std::max(high, static_cast<double>(q));
-    }
-    low = std::max(low, 0.0);  // inverted elements have their own colour
-    if (high > low) return {low, high};
+std::optional<std::pair<double, double>> own_range(const Frame& frame) {
+  double low = INFINITY, high = -INFINITY;
+  if (frame.device) {
+    low = frame.shown_statistics.minimum;
+    high = highest_of(frame.now);
   }
-  return {0.0, 1.0};
+  for (const float q : frame.quality) {
+    if (!std::isfinite(q)) continue;
+    low = std::min(low, static_cast<double>(q));
+    high = std::max(high, static_cast<double>(q));
+  }
+  low = std::max(low, 0.0);  // inverted elements have their own colour
+  return high >= low ? std::optional(std::pair{low, high}) : std::nullopt;
+}
+
+std::pair<double, double> colour_range(const ViewState& state, std::optional<std::pair<double, double>> own,
+                                       std::optional<std::pair<double, double>> seen) {
+  if (state.colouring.held_range) return *state.colouring.held_range;
+  if (state.range_mode == RangeMode::Given) return {state.range_low, state.range_high};
+  const auto wanted = state.range_mode == RangeMode::Auto ? own : state.range_mode == RangeMode::Expanding ? seen : std::nullopt;
+  return wanted && wanted->second > wanted->first ? *wanted : std::pair{0.0, 1.0};
 }
 
 void move_to_monitor(ViewState& state, double monitor_scale) {

@@ -13,6 +13,7 @@
 #include "core/session/view.h"
 #include "render/camera.h"
 #include "render/colour_map.h"
+#include "ui/colouring_state.h"
 #include "ui/command_log.h"
 #include "ui/inspection_state.h"
 #include "ui/keys.h"
@@ -28,9 +29,6 @@ enum class Theme { Dark, Light, Contrast };
 /// "dark", "light", "contrast"
 [[nodiscard]] std::string_view theme_name(Theme theme);
 enum class Dialog { None, Open, Export, Screenshot, Find, Palette, Keys, About, Error, Log, Sequence, Plot, SaveSession };
-
-/// How the colours' range is chosen: 0 to 1; the shown qualities' own minimum and maximum; or given.
-enum class RangeMode { Fixed, Auto, Given };
 
 /// What a person picked.
 struct Picked {
@@ -98,6 +96,7 @@ struct ViewState {
   render::ColourMap colour_map = render::ColourMap::Viridis;
   RangeMode range_mode = RangeMode::Fixed;
   double range_low = 0.0, range_high = 1.0;  // for RangeMode::Given
+  ColouringState colouring;
 
   // Interface
   Theme theme = Theme::Dark;
@@ -136,8 +135,12 @@ struct ViewState {
   [[nodiscard]] PlotView& plot_view() { return plots[static_cast<std::size_t>(plot)]; }
 };
 
-/// Range of qualities that the colours span now. `statistics`: of the shown metric; null: nothing is shown.
-[[nodiscard]] std::pair<double, double> colour_range(const ViewState& state, const Frame* frame);
+/// The lowest and the highest quality of the shown metric, inverted elements apart; of a light frame as far as its histogram tells. None
+/// where no element has one.
+[[nodiscard]] std::optional<std::pair<double, double>> own_range(const Frame& frame);
+/// Range of qualities that the colours span now. `own`: see own_range; `seen`: what all the frames so far had, for RangeMode::Expanding.
+[[nodiscard]] std::pair<double, double> colour_range(const ViewState& state, std::optional<std::pair<double, double>> own,
+                                                     std::optional<std::pair<double, double>> seen = {});
 
 /// The window has come to a monitor with another scale: what a person chose over it stays.
 void move_to_monitor(ViewState& state, double monitor_scale);

@@ -2,6 +2,9 @@
 #ifdef BOUNDARY
 layout(std430, binding = 0) readonly buffer Positions { vec2 positions[]; };
 layout(std430, binding = 4) readonly buffer Edges { uvec2 edges[]; };
+layout(std430, binding = 5) readonly buffer Values { float values[]; };  // by vertex, see fill.glsl
+uniform sampler2D u_palette;
+uniform int u_edge_categories;  // 0: all edges have u_colour
 uniform float u_width;
 uniform vec4 u_colour;
 #else
@@ -29,6 +32,13 @@ void main() {
   float room = smoothstep(0.3, 5.0, distance(a, b));
   v_half_width = 0.5 * u_width * mix(0.45, 1.0, room);
   v_colour.a *= mix(0.6, 1.0, room);
+  if (u_edge_categories > 0) {
+    float category = values[edges[index].x];
+    if (category >= 0.0 && category < 1e38 && category == values[edges[index].y]) {
+      v_colour = vec4(texelFetch(u_palette, ivec2(min(int(category + 0.5), u_edge_categories - 1), 0), 0).rgb, 1.0);
+      v_half_width = u_width;
+    }
+  }
 #else
   vec2 a = lines[index].ends.xy, b = lines[index].ends.zw;
   v_colour = lines[index].colour;

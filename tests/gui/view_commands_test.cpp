@@ -82,11 +82,11 @@ TEST_F(ViewCommands, SwitchesSwitch) {
 
 TEST_F(ViewCommands, RangesAreChecked) {
   run("range 0.2 0.8");
-  EXPECT_EQ(colour_range(state_, nullptr), (std::pair{0.2, 0.8}));
+  EXPECT_EQ(colour_range(state_, std::nullopt), (std::pair{0.2, 0.8}));
   EXPECT_THROW(run("range 0.8 0.2"), UsageError);
-  EXPECT_EQ(colour_range(state_, nullptr), (std::pair{0.2, 0.8}));
+  EXPECT_EQ(colour_range(state_, std::nullopt), (std::pair{0.2, 0.8}));
   run("range fixed");
-  EXPECT_EQ(colour_range(state_, nullptr), (std::pair{0.0, 1.0}));
+  EXPECT_EQ(colour_range(state_, std::nullopt), (std::pair{0.0, 1.0}));
 }
 
 TEST_F(ViewCommands, PicksMustExist) {

@@ -85,7 +85,11 @@ TEST_F(Screenshot, LegendShowsTheColourBar) {
   Shot shot;
   shot.width = 600;
   shot.height = 300;
-  shot.legend = Legend{"mean ratio", "two elements", 3, true};
+  shot.legend.emplace();
+  shot.legend->title = "mean ratio";
+  shot.legend->subtitle = "two elements";
+  shot.legend->inverted = 3;
+  shot.legend->undefined = true;
   EXPECT_LT(mesh_viewport(shot).y, 300);
   const Rendered rendered = render_image(*scene, unit_camera(), Style::dark(), {}, shot);
   // Somewhere in the lowest rows the map's two ends lie in one row, low left of high.

@@ -12,7 +12,7 @@ namespace {
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 std::shared_ptr<Shading> shading(Shading::By by, std::vector<float> values, std::vector<Rgb> palette = {}) {
-  return std::make_shared<Shading>(Shading{by, std::move(values), std::move(palette)});
+  return std::make_shared<Shading>(Shading{by, std::move(values), false, std::move(palette)});
 }
 
 const Rgb kRed{200, 10, 10}, kBlue{10, 10, 200};

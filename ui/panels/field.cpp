@@ -138,12 +138,6 @@ void draw_field(ImDrawList& list, const FieldPicture& picture, const FieldLook& 
   painter.labels();
 }
 
-render::ColourScale view_colours(const ViewState& state, const Derived& derived) {
-  render::ColourScale colours = scene_style(state).colours;
-  std::tie(colours.low, colours.high) = derived.range;
-  return colours;
-}
-
 std::optional<std::pair<double, double>> field_at(const QualityField& field, Vec2<double> point) {
   const double x = (point.x - field.low.x) / (field.high.x - field.low.x) * field.columns;
   const double y = (point.y - field.low.y) / (field.high.y - field.low.y) * field.rows;

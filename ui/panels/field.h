@@ -23,9 +23,6 @@ struct FieldLook {
 /// Heat map, contours with their values, and the outline of the region without inverted elements.
 void draw_field(ImDrawList& list, const FieldPicture& picture, const FieldLook& look, const ToWindow& at);
 
-/// The colours of the mesh view.
-[[nodiscard]] render::ColourScale view_colours(const ViewState& state, const Derived& derived);
-
 /// Quality and Jacobian at the sample nearest to a point; nothing outside the field.
 [[nodiscard]] std::optional<std::pair<double, double>> field_at(const QualityField& field, Vec2<double> point);
 

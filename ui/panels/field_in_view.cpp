@@ -1,4 +1,5 @@
 // Over the mesh: the quality around the inspected vertex.
+#include "ui/derived.h"
 #include "ui/inspection_marks.h"
 #include "ui/panels/field.h"
 #include "ui/panels/panels.h"
@@ -67,9 +68,9 @@ void draw_field_in_view(PanelContext& context, const Rect& rect) {
   };
   const ToWindow at = [&](Vec2<double> point) { return window(inspection.origin + point); };
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  draw_field(list, *inspection.field, {view_colours(state, context.derived), context.palette, context.em(), context.px(1), true}, at);
+  draw_field(list, *inspection.field, {colour_scale(state, context.derived), context.palette, context.em(), context.px(1), true}, at);
   render::Style style = scene_style(state);
-  style.colours = view_colours(state, context.derived);
+  style.colours = colour_scale(state, context.derived);
   render::Marks marks;
   add_inspection_marks(marks, state.inspection, inspection, inspection_look(style, context.palette.accent, state.camera, state.scale));
   MarkPen pen(list, context.px(1), style.casing_colour);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "ui/derived.h"
 #include "ui/format.h"
 #include "ui/inspection_marks.h"
 #include "ui/inspection_text.h"
@@ -66,7 +67,7 @@ class LevelMap {
       : context_(context), level_(level), number_(number), low_(low), cell_(side / static_cast<float>(level.points)), side_(side) {}
 
   void draw() {
-    render::ColourScale colours = view_colours(context_.state, context_.derived);
+    render::ColourScale colours = colour_scale(context_.state, context_.derived);
     if (const auto range = valid_range(level_); context_.state.inspection.own_range && range && range->second > range->first)
       std::tie(colours.low, colours.high) = *range;
     for (int index = 0; index < level_.points * level_.points; ++index) {
@@ -267,7 +268,7 @@ void draw_field_panel(PanelContext& context, const Inspection& inspection) {
   };
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.PushClipRect(low, {low.x + w, low.y + h}, true);
-  draw_field(list, picture, {view_colours(context.state, context.derived), context.palette, context.em(), context.px(1)}, at);
+  draw_field(list, picture, {colour_scale(context.state, context.derived), context.palette, context.em(), context.px(1)}, at);
   draw_field_marks(context, inspection, at);
   list.PopClipRect();
   if (!ImGui::IsItemHovered()) return;

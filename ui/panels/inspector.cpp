@@ -127,7 +127,9 @@ void draw_metric_table(PanelContext& context) {
     } else {
       ImGui::TextUnformatted(text.c_str());
     }
-    next_item_tooltip(full);
+    if (full.empty()) return;
+    next_item_tooltip(full + "\n(click copies it)");
+    if (ImGui::IsItemClicked()) context.send("copy " + quote_word(full));
   };
   ImGui::TableNextRow();
   ImGui::TableNextColumn();

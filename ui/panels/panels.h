@@ -14,6 +14,7 @@
 #include "core/session/drawing_path.h"
 #include "core/session/view.h"
 #include "ui/actions.h"
+#include "ui/colour_facts.h"
 #include "ui/facts.h"
 #include "ui/file_browser.h"
 #include "ui/inspection.h"
@@ -55,8 +56,15 @@ struct Derived {
   bool undefined = false;                         // some element's shown quality is NaN
   PickedFacts facts;                              // of what is picked
   std::pair<std::uint64_t, Picked> facts_key;     // frame serial and what was picked when they were read
-  std::pair<double, double> range{0.0, 1.0};      // of the colours
-  std::tuple<RangeMode, double, double> range_key{RangeMode::Fixed, NAN, NAN};  // what `range` was worked out for
+  std::pair<double, double> range{0.0, 1.0};      // of the colours of quality
+  ColourFacts colouring;
+};
+
+/// A handle of the colour bar while it is held.
+struct RangeGrip {
+  int held = -1;                           // 0: the lower end, 1: the upper one
+  std::pair<double, double> before{0, 1};  // the range when it was taken
+  float pressed_at = 0;                    // pixels
 };
 
 /// What the log's dialog shows.
@@ -96,6 +104,7 @@ struct WidgetState {
   SequenceWidgets sequence;
   std::string session_name;
   RecentFiles recent;
+  RangeGrip range_grip;
   std::vector<Thumbnail> thumbnails;  // of the samples, made when the start page is first shown
   int screenshot_width = 0, screenshot_height = 0, screenshot_supersample = 2;
   bool screenshot_transparent = false, screenshot_window = false;
@@ -105,6 +114,7 @@ struct WidgetState {
   bool dialog_opened = false;                              // in this frame
   bool dragged = false;                                    // the button held in the viewport has moved
   std::pair<Index, Index> under_menu{kNoIndex, kNoIndex};  // vertex and element where the menu was opened
+  PickedFacts vertex_under_menu, element_under_menu;       // and what there is to copy of them
   double moved_at = -1e9;                                  // when the view last moved
 };
 
@@ -147,6 +157,12 @@ void metric_tooltip(const PanelContext& context, const MetricInfo& metric);
 /// A button for an action, with tooltip and key; records the item under the action's id.
 bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary = false);
 void next_item_tooltip(const std::string& text);
+/// Text on a plate in the panel's colour is readable on any mesh.
+void draw_plate(const PanelContext& context, ImVec2 low, ImVec2 high);
+/// A row "label [widget]" whose widget, drawn next, fills the right part.
+void labelled(const PanelContext& context, const char* label, const char* tooltip);
+/// An integer that is sent as "COMMAND value" once editing is done; as one word where the command ends with ':'.
+void integer(PanelContext& context, const char* item, int value, int least, int most, const char* command);
 /// Metric chooser that sends "COMMAND name".
 void metric_combo(PanelContext& context, const char* item, Metric current, const char* command);
 /// Text cut with "…" so that it is at most `width` pixels wide.
@@ -161,6 +177,7 @@ float draw_menu(PanelContext& context);  // returns its height
 void draw_toolbar(PanelContext& context, const Rect& rect);
 void draw_runs(PanelContext& context);
 void draw_parameters(PanelContext& context);
+void draw_colours(PanelContext& context);
 void draw_inspector(PanelContext& context);
 void draw_worst(PanelContext& context);
 void draw_inspection(PanelContext& context);
@@ -169,6 +186,12 @@ void draw_field_in_view(PanelContext& context, const Rect& rect);
 void draw_viewport(PanelContext& context, const Rect& rect);
 /// The brush under the mouse over the mesh's item, drawn last; `at`: the mouse in the viewport. True: dragging is the brush's.
 bool handle_brush(PanelContext& context, const Rect& rect, Vec2<double> at);
+/// The colour bar, or the legend of categories, in the lower left corner: what of it takes the mouse, to be called before whatever lies
+/// below it; and its picture.
+void handle_colour_bar(PanelContext& context, const Rect& rect);
+void draw_colour_bar(PanelContext& context, const Rect& rect);
+/// The ids on the mesh.
+void draw_labels(PanelContext& context, const Rect& rect);
 void draw_start_page(PanelContext& context, const Rect& rect);
 /// `timeline_only`: there is no room for more.
 void draw_plots(PanelContext& context, const Rect& rect, bool timeline_only);

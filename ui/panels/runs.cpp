@@ -47,29 +47,6 @@ void draw_run_row(PanelContext& context, std::size_t k) {
   ImGui::PopID();
 }
 
-/// A row "label [widget]" whose widget fills the right part.
-void labelled(const PanelContext& context, const char* label, const char* tooltip) {
-  ImGui::AlignTextToFramePadding();
-  dim_text(context, label, false);
-  next_item_tooltip(tooltip);
-  ImGui::SameLine();
-  const float at = ImGui::GetWindowContentRegionMax().x * 0.42F;
-  ImGui::SetCursorPosX(std::max(at, ImGui::GetCursorPosX()));
-  ImGui::SetNextItemWidth(-1);
-}
-
-/// An integer that is sent once editing is done.
-void integer(PanelContext& context, const char* item, int value, int least, int most, const char* command) {
-  int edited = value;
-  const bool entered = ImGui::InputInt(fmt::format("##{}", item).c_str(), &edited, 1, 1, ImGuiInputTextFlags_EnterReturnsTrue);
-  context.items.record_last(item);
-  const bool stepped = edited != value && !ImGui::IsItemActive();
-  if ((entered || stepped || ImGui::IsItemDeactivatedAfterEdit()) && edited != value) {
-    const bool joined = std::string_view(command).ends_with(':');  // "shuffle:SEED" is one word
-    context.send(fmt::format("{}{}{}", command, joined ? "" : " ", std::clamp(edited, least, most)));
-  }
-}
-
 void draw_method(PanelContext& context, const RunParameters& parameters) {
   labelled(context, "method", "how vertices are moved");
   const bool open = ImGui::BeginCombo("##method", parameters.method.c_str());
@@ -183,39 +160,6 @@ void draw_parameters(PanelContext& context) {
   ImGui::EndDisabled();
   if (run->moment != Moment{} || run->edits > 0) {
     dim_text(context, "A change starts a new run beside this one.");
-  }
-
-  ImGui::Dummy({0, context.px(4)});
-  heading(context, "Colours");
-  labelled(context, "shows", "the metric of colours, histogram and worst list");
-  metric_combo(context, "shown", context.session.shown, "show");
-  labelled(context, "map", "perceptually uniform and colour-blind safe");
-  const bool open = ImGui::BeginCombo("##map", std::string(render::name(context.state.colour_map)).c_str());
-  context.items.record_last("colormap");
-  if (open) {
-    for (const auto& map : render::colour_map_table()) {
-      if (ImGui::Selectable(std::string(map.name).c_str(), map.map == context.state.colour_map))
-        context.send(fmt::format("colormap {}", map.name));
-      next_item_tooltip(std::string(map.doc));
-    }
-    ImGui::EndCombo();
-  }
-  labelled(context, "range", "qualities that the colours span");
-  const char* modes[] = {"0 to 1", "the mesh's own", "given"};
-  if (ImGui::BeginCombo("##range", modes[static_cast<int>(context.state.range_mode)])) {
-    if (ImGui::Selectable(modes[0], context.state.range_mode == RangeMode::Fixed)) context.send("range fixed");
-    if (ImGui::Selectable(modes[1], context.state.range_mode == RangeMode::Auto)) context.send("range auto");
-    const auto now = colour_range(context.state, context.frame());
-    if (ImGui::Selectable(modes[2], context.state.range_mode == RangeMode::Given)) {
-      context.send(fmt::format("range {} {}", full_number(now.first), full_number(now.second)));
-    }
-    ImGui::EndCombo();
-  }
-  if (context.state.range_mode == RangeMode::Given) {
-    double range[2] = {context.state.range_low, context.state.range_high};
-    labelled(context, "from, to", "lowest and highest quality of the colours");
-    ImGui::InputScalarN("##given", ImGuiDataType_Double, range, 2, nullptr, nullptr, "%.4g");
-    if (ImGui::IsItemDeactivatedAfterEdit()) context.send(fmt::format("range {} {}", full_number(range[0]), full_number(range[1])));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "ui/format.h"
 #include "ui/inspection_text.h"
@@ -17,17 +18,12 @@ Vec2<double> mouse_in(const Rect& rect) {
   return {static_cast<double>(mouse.x - rect.x), static_cast<double>(mouse.y - rect.y)};
 }
 
-/// Text on a plate in the panel's colour, readable on any mesh.
-void plate(const PanelContext& context, ImVec2 low, ImVec2 high) {
-  ImGui::GetWindowDrawList()->AddRectFilled(low, high, colour(context.palette.panel, 0.90F), context.px(5));
-}
-
 /// What is shown of stepping and selecting, below the title.
 void draw_note(const PanelContext& context, ImVec2 at, float most) {
   if (context.stepping_note.empty()) return;
   const float pad = context.px(8);
   const std::string note = fit_text(context.stepping_note, most - 2 * pad);
-  plate(context, at, {at.x + 2 * pad + ImGui::CalcTextSize(note.c_str()).x, at.y + ImGui::GetTextLineHeight() + pad});
+  draw_plate(context, at, {at.x + 2 * pad + ImGui::CalcTextSize(note.c_str()).x, at.y + ImGui::GetTextLineHeight() + pad});
   ImGui::GetWindowDrawList()->AddText({at.x + pad, at.y + pad / 2}, colour(context.palette.dim), note.c_str());
 }
 
@@ -43,7 +39,9 @@ void draw_title(PanelContext& context, const Rect& rect, const Frame& frame) {
   if (frame.moment.edits > 0) moment += fmt::format(" + {} by hand", count(frame.moment.edits));
   std::string shown;
   if (frame.shown != run->parameters.metric) shown = fmt::format("shown: {}", metric_phrase(frame.shown));
-  if (context.activity.reduced) shown += shown.empty() ? "reduced detail" : " · reduced detail";
+  const auto add = [&](const char* note) { shown += (shown.empty() ? "" : " · ") + std::string(note); };
+  if (context.activity.reduced) add("reduced detail");
+  if (context.derived.colouring.labels_lack_room) add("zoom in for labels");
 
   ImDrawList& list = *ImGui::GetWindowDrawList();
   ImGui::PushFont(context.fonts.bold);
@@ -53,7 +51,7 @@ void draw_title(PanelContext& context, const Rect& rect, const Frame& frame) {
   float width = 3 * pad + context.px(14) + title_width + moment_width;
   if (!shown.empty()) width += 2 * pad + ImGui::CalcTextSize(shown.c_str()).x;
   const ImVec2 at{rect.x + pad, rect.y + pad};
-  plate(context, at, {at.x + width, at.y + line + pad});
+  draw_plate(context, at, {at.x + width, at.y + line + pad});
   float x = at.x + pad;
   const float y = at.y + pad / 2;
   list.AddRectFilled({x, y + 0.2F * line}, {x + context.px(8), y + 0.8F * line}, colour(context.palette.runs[frame.run % 8]),
@@ -84,7 +82,7 @@ void draw_level_label(PanelContext& context, const Rect& rect) {
   const float x =
       std::clamp(rect.x + static_cast<float>(pixel.x) - pad, rect.x + pad, std::max(rect.x + pad, rect.x + rect.w - size.x - 3 * pad));
   const float y = std::clamp(rect.y + static_cast<float>(pixel.y) - line - 4 * pad, highest, std::max(highest, lowest));
-  plate(context, {x, y}, {x + size.x + 2 * pad, y + line + pad});
+  draw_plate(context, {x, y}, {x + size.x + 2 * pad, y + line + pad});
   ImGui::GetWindowDrawList()->AddText({x + pad, y + pad / 2}, colour(context.palette.text), label.c_str());
 }
 
@@ -106,61 +104,6 @@ void read_candidate(PanelContext& context, const Rect& rect) {
   if (state.hovered && !ImGui::IsAnyMouseDown()) next_item_tooltip(candidate_text(trace, level, state.hovered->index));
 }
 
-void draw_bar_colours(const PanelContext& context, ImVec2 low, ImVec2 high) {
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  render::ColourScale scale;
-  scale.map = context.state.colour_map;
-  constexpr int kParts = 64;
-  for (int k = 0; k < kParts; ++k) {
-    const float a = static_cast<float>(k) / kParts, b = static_cast<float>(k + 1) / kParts;
-    const ImU32 left = colour(scale.colour(static_cast<double>(a))), right = colour(scale.colour(static_cast<double>(b)));
-    list.AddRectFilledMultiColor({low.x + a * (high.x - low.x), low.y}, {low.x + b * (high.x - low.x), high.y}, left, right, right, left);
-  }
-}
-
-void draw_colour_bar(PanelContext& context, const Rect& rect, const Frame& frame) {
-  const float pad = context.px(8), line = ImGui::GetTextLineHeight(), bar = std::round(0.8F * line);
-  const auto range = context.derived.range;
-  const std::string title = metric_phrase(frame.shown);
-  std::vector<std::pair<std::string, render::Rgb>> notes;  // swatches to the right of the bar
-  const Index inverted = frame.shown_statistics.inverted;
-  if (inverted > 0) notes.emplace_back(fmt::format("{} inverted", count(inverted)), render::kInvertedColour);
-  if (context.derived.undefined) notes.emplace_back("not defined", render::kUndefinedColour);
-  std::string outside;
-  if (context.derived.outside_low > 0) outside += fmt::format("{} below", count(context.derived.outside_low));
-  if (context.derived.outside_high > 0)
-    outside += fmt::format("{}{} above", outside.empty() ? "" : ", ", count(context.derived.outside_high));
-
-  float extra = 0;
-  for (const auto& [text, ink] : notes) extra += bar + context.px(6) + ImGui::CalcTextSize(text.c_str()).x + 2 * pad;
-  const float width = std::clamp(rect.w * 0.42F, 10 * context.em(), 30 * context.em());
-  const float whole = std::min(rect.w - 2 * pad, width + extra + 4 * pad);
-  const ImVec2 low{rect.x + pad, rect.y + rect.h - pad - (2.2F * line + bar + 1.5F * pad)};
-  plate(context, low, {low.x + whole, rect.y + rect.h - pad});
-
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float left = low.x + 2 * pad, top = low.y + 0.6F * pad;
-  list.AddText({left, top}, colour(context.palette.text), title.c_str());
-  if (!outside.empty()) {
-    const float outside_width = ImGui::CalcTextSize(outside.c_str()).x;
-    list.AddText({left + width - outside_width, top}, colour(context.palette.dim), outside.c_str());
-  }
-  const float bar_top = top + 1.15F * line;
-  draw_bar_colours(context, {left, bar_top}, {left + width, bar_top + bar});
-  for (const Tick& tick : linear_ticks(range.first, range.second, std::max(2, static_cast<int>(width / (5 * line))))) {
-    const float x = left + static_cast<float>((tick.value - range.first) / (range.second - range.first)) * width;
-    list.AddLine({x, bar_top + bar}, {x, bar_top + bar + context.px(3)}, colour(context.palette.text), 1.0F);
-    const float half = ImGui::CalcTextSize(tick.label.c_str()).x / 2;
-    list.AddText({x - half, bar_top + bar + context.px(3)}, colour(context.palette.text), tick.label.c_str());
-  }
-  float x = left + width + 2 * pad;
-  for (const auto& [text, ink] : notes) {
-    list.AddRectFilled({x, bar_top}, {x + bar, bar_top + bar}, colour(ink), context.px(2));
-    list.AddText({x + bar + context.px(6), bar_top - 0.1F * line}, colour(context.palette.text), text.c_str());
-    x += bar + context.px(6) + ImGui::CalcTextSize(text.c_str()).x + 2 * pad;
-  }
-}
-
 void pick_at(PanelContext& context, Vec2<double> pixel) {
   const auto [vertex, element] = context.pick(pixel);
   if (vertex != kNoIndex && !ImGui::GetIO().KeyAlt) {
@@ -175,21 +118,46 @@ void pick_at(PanelContext& context, Vec2<double> pixel) {
   }
 }
 
+/// "Copy quality 0.8123": all its digits.
+void copy_entry(PanelContext& context, const std::string& what, const std::string& shown, const std::string& full) {
+  if (ImGui::MenuItem(fmt::format("Copy {} {}", what, shown).c_str())) context.send("copy " + quote_word(full));
+  context.items.record_last("copy:" + what);
+}
+
+void draw_vertex_entries(PanelContext& context, Index vertex) {
+  if (ImGui::MenuItem(fmt::format("Select vertex {}", vertex).c_str())) context.send(fmt::format("pick vertex {}", vertex));
+  if (ImGui::MenuItem(fmt::format("Look into the search of vertex {}", vertex).c_str()))
+    context.send(fmt::format("inspect vertex {}", vertex));
+  const PickedFacts& facts = context.widgets.vertex_under_menu;
+  copy_entry(context, "vertex id", fmt::format("{}", vertex), fmt::format("{}", vertex));
+  if (facts.picked.kind == Picked::Kind::None) return;  // a device that tells nothing
+  const Vec3 at = facts.at;
+  copy_entry(context, "vertex coordinates", fmt::format("{:.6g}, {:.6g}", at.x, at.y),
+             fmt::format("{} {} {}", full_number(at.x), full_number(at.y), full_number(at.z)));
+  copy_entry(context, "vertex quality", short_number(facts.now), full_number(facts.now));
+}
+
+void draw_element_entries(PanelContext& context, Index element) {
+  if (ImGui::MenuItem(fmt::format("Select element {}", element).c_str())) context.send(fmt::format("pick element {}", element));
+  if (ImGui::MenuItem(fmt::format("Why is element {} so? Look at its worst corner", element).c_str()))
+    context.send(fmt::format("inspect element {}", element));
+  if (ImGui::MenuItem(fmt::format("Go to element {}", element).c_str())) context.send(fmt::format("goto element {}", element));
+  copy_entry(context, "element id", fmt::format("{}", element), fmt::format("{}", element));
+  const Frame& frame = *context.frame();
+  if (element >= frame.element_count()) return;  // another mesh has come
+  for (const PickedFacts::Row& row : context.widgets.element_under_menu.metrics) {
+    if (row.metric == &info(frame.shown)) copy_entry(context, "element quality", short_number(row.now), full_number(row.now));
+  }
+  const auto corners = frame.input->mesh.elements.corners(element);
+  copy_entry(context, "corners", fmt::format("{}", fmt::join(corners, ", ")), fmt::format("{}", fmt::join(corners, " ")));
+}
+
 void draw_context_menu(PanelContext& context) {
   if (!ImGui::BeginPopup("viewport menu")) return;
   const auto [vertex, element] = context.widgets.under_menu;
-  if (vertex != kNoIndex) {
-    if (ImGui::MenuItem(fmt::format("Select vertex {}", vertex).c_str())) context.send(fmt::format("pick vertex {}", vertex));
-    if (ImGui::MenuItem(fmt::format("Look into the search of vertex {}", vertex).c_str()))
-      context.send(fmt::format("inspect vertex {}", vertex));
-    if (ImGui::MenuItem(fmt::format("Copy id {}", vertex).c_str())) context.send(fmt::format("copy {}", vertex));
-  }
-  if (element != kNoIndex) {
-    if (ImGui::MenuItem(fmt::format("Select element {}", element).c_str())) context.send(fmt::format("pick element {}", element));
-    if (ImGui::MenuItem(fmt::format("Why is element {} so? Look at its worst corner", element).c_str()))
-      context.send(fmt::format("inspect element {}", element));
-    if (ImGui::MenuItem(fmt::format("Go to element {}", element).c_str())) context.send(fmt::format("goto element {}", element));
-  }
+  if (vertex != kNoIndex) draw_vertex_entries(context, vertex);
+  if (vertex != kNoIndex && element != kNoIndex) ImGui::Separator();
+  if (element != kNoIndex) draw_element_entries(context, element);
   if (vertex != kNoIndex || element != kNoIndex) ImGui::Separator();
   for (const char* id : {"step-iteration", "run-pause", "reset", "fit", "wireframe", "vertices", "worst-marker", "screenshot"}) {
     const Action& action = *find_action(id);
@@ -229,6 +197,10 @@ void handle_mouse(PanelContext& context, const Rect& rect) {
   }
   if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) {
     context.widgets.under_menu = context.pick(at);
+    const auto [vertex, element] = context.widgets.under_menu;
+    const Frame& frame = *context.frame();
+    context.widgets.vertex_under_menu = facts_of(frame, {vertex == kNoIndex ? Picked::Kind::None : Picked::Kind::Vertex, vertex});
+    context.widgets.element_under_menu = facts_of(frame, {element == kNoIndex ? Picked::Kind::None : Picked::Kind::Element, element});
     ImGui::OpenPopup("viewport menu");
   }
 }
@@ -253,15 +225,18 @@ void draw_viewport(PanelContext& context, const Rect& rect) {
     ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t{context.mesh_texture}), {rect.x, rect.y},
                                          {rect.x + rect.w, rect.y + rect.h}, {0, 1}, {1, 0});
   }
+  handle_colour_bar(context, rect);
+  ImGui::SetCursorScreenPos({rect.x, rect.y});
   ImGui::InvisibleButton("mesh", {rect.w, rect.h},
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
   context.items.record_last("viewport");
   read_candidate(context, rect);
   handle_mouse(context, rect);
+  draw_labels(context, rect);
   draw_field_in_view(context, rect);
   draw_level_label(context, rect);
   draw_title(context, rect, *frame);
-  draw_colour_bar(context, rect, *frame);
+  draw_colour_bar(context, rect);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(8), context.px(8)});
   draw_context_menu(context);
   ImGui::PopStyleVar();

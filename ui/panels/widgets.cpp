@@ -49,6 +49,10 @@ void next_item_tooltip(const std::string& text) {
   }
 }
 
+void draw_plate(const PanelContext& context, ImVec2 low, ImVec2 high) {
+  ImGui::GetWindowDrawList()->AddRectFilled(low, high, colour(context.palette.panel, 0.90F), context.px(5));
+}
+
 void value_row(const PanelContext& context, const char* label, const std::string& text, const std::string& full,
                std::optional<render::Rgb> ink, const char* tooltip) {
   dim_text(context, label, false);
@@ -59,8 +63,9 @@ void value_row(const PanelContext& context, const char* label, const std::string
   const float right = ImGui::GetWindowContentRegionMax().x;
   ImGui::SetCursorPosX(right - ImGui::CalcTextSize(shown.c_str()).x);
   ImGui::TextColored(colour_vector(ink.value_or(context.palette.text)), "%s", shown.c_str());
-  next_item_tooltip(full.empty() && shown != text ? text : full.empty() ? full : full + "\n(click copies it)");
-  if (ImGui::IsItemClicked()) context.state.requests.clipboard = full.empty() ? text : full;
+  const std::string& whole = full.empty() ? text : full;
+  next_item_tooltip(whole + "\n(click copies it)");
+  if (ImGui::IsItemClicked()) context.send("copy " + quote_word(whole));
 }
 
 void number_row(const PanelContext& context, const char* label, double value, const char* tooltip) {
@@ -100,6 +105,27 @@ bool action_button(PanelContext& context, std::string_view id, const char* label
   next_item_tooltip(tip);
   if (pressed) context.send(std::string(action->command));
   return pressed;
+}
+
+void labelled(const PanelContext& context, const char* label, const char* tooltip) {
+  ImGui::AlignTextToFramePadding();
+  dim_text(context, label, false);
+  next_item_tooltip(tooltip);
+  ImGui::SameLine();
+  const float at = ImGui::GetWindowContentRegionMax().x * 0.42F;
+  ImGui::SetCursorPosX(std::max(at, ImGui::GetCursorPosX()));
+  ImGui::SetNextItemWidth(-1);
+}
+
+void integer(PanelContext& context, const char* item, int value, int least, int most, const char* command) {
+  int edited = value;
+  const bool entered = ImGui::InputInt(fmt::format("##{}", item).c_str(), &edited, 1, 1, ImGuiInputTextFlags_EnterReturnsTrue);
+  context.items.record_last(item);
+  const bool stepped = edited != value && !ImGui::IsItemActive();
+  if ((entered || stepped || ImGui::IsItemDeactivatedAfterEdit()) && edited != value) {
+    const bool joined = std::string_view(command).ends_with(':');  // "shuffle:SEED" is one word
+    context.send(fmt::format("{}{}{}", command, joined ? "" : " ", std::clamp(edited, least, most)));
+  }
 }
 
 void metric_combo(PanelContext& context, const char* item, Metric current, const char* command) {

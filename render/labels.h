@@ -1,0 +1,20 @@
+#pragma once
+// Ids written into a picture. No OpenGL.
+
+#include <span>
+
+#include "render/camera.h"
+#include "render/image.h"
+#include "render/scene.h"
+#include "render/style.h"
+
+namespace dmoscope::render {
+
+/// How wide a digit of a label in a picture is, and how high its line, at a scale; for LabelWish.
+[[nodiscard]] Vec2<double> label_digit(float scale);
+
+/// Writes the labels of a view of the size `viewport` into the left upper part of `image`. Without a font it does nothing.
+void draw_labels(Image& image, std::span<const Label> labels, const Camera2D& camera, Vec2<double> viewport, const Style& style,
+                 float scale);
+
+}  // namespace dmoscope::render

@@ -1,0 +1,48 @@
+#include "ui/colour_worker.h"
+
+#include <chrono>
+#include <utility>
+
+namespace dmoscope::ui {
+namespace {
+
+constexpr Index kBigMesh = 100'000;  // elements whose colours take long enough to be felt
+
+}  // namespace
+
+void ColourWorker::take() {
+  if (pending_.valid() && pending_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) colours_ = pending_.get();
+}
+
+void ColourWorker::update(const ViewState& state, const SessionView& session) {
+  take();
+  const ColourBy by = state.colouring.by;
+  const Frame* frame = session.frame.get();
+  const bool possible = frame != nullptr && by != ColourBy::Quality && !(frame->device && needs_positions(by));
+  if (!possible) {
+    colours_.reset();  // what is pending ends soon, and then is dropped here
+    key_.reset();
+    return;
+  }
+  const bool by_class = by == ColourBy::Class, ordered = by == ColourBy::Valence;
+  ColourRequest request{by, session.frame, by_class ? session.runs[session.active].colouring : nullptr, state.colour_map,
+                        state.colouring.reversed};
+  const Key key{by,
+                frame->input_serial,
+                needs_positions(by) ? frame->serial : 0,
+                request.classes.get(),
+                ordered ? static_cast<int>(request.map) : 0,
+                ordered && request.reversed};
+  if (colours_ && (colours_->by != by || colours_->input_serial != frame->input_serial)) colours_.reset();
+  if (key_ == key || pending_.valid()) return;
+  key_ = key;
+  classes_ = request.classes;
+  const auto work = [request = std::move(request)] { return std::make_shared<const ElementColours>(colour_elements(request)); };
+  if (frame->element_count() < kBigMesh) {
+    colours_ = work();
+  } else {
+    pending_ = std::async(std::launch::async, work);
+  }
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,364 @@
+#include "ui/element_colours.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/session/input_mesh.h"
+
+namespace dmoscope::ui {
+namespace {
+
+using By = render::Shading::By;
+
+/// What a function below has found; the shading is moved to its place in the end.
+struct Work {
+  const ColourRequest& request;
+  const Mesh& mesh;
+  ElementColours out;
+  render::Shading shading;
+
+  void categories(By by, std::size_t size, const char* counted) {
+    shading.by = by;
+    shading.values.assign(size, -1.0F);
+    out.counted = counted;
+  }
+  /// A category without an order.
+  void add_category(std::string name) { out.categories.push_back({std::move(name), category_colour(out.categories.size()), 0}); }
+  void put(Index id, std::size_t category) {
+    shading.values[id] = static_cast<float>(category);
+    ++out.categories[category].count;
+  }
+};
+
+void by_kind(Work& work) {
+  work.categories(By::Elements, work.mesh.elements.size(), "elements");
+  std::array<std::size_t, kElementKindCount> category{};
+  const auto kinds = work.mesh.elements.kinds();
+  for (std::size_t kind = 0; kind < kElementKindCount; ++kind) {
+    if (std::find(kinds.begin(), kinds.end(), static_cast<ElementKind>(kind)) == kinds.end()) continue;
+    category[kind] = work.out.categories.size();
+    work.add_category(std::string(info(static_cast<ElementKind>(kind)).name));
+  }
+  for (Index e = 0; e < work.mesh.elements.size(); ++e) work.put(e, category[static_cast<std::size_t>(kinds[e])]);
+}
+
+/// Groups of one role and code are one category where there are many of them (hundreds of islands).
+std::string category_of(const Group& group, bool many) {
+  if (!many) return group.name;
+  return group.code != 0 ? fmt::format("{}, type {}", group.role, group.code) : group.role;
+}
+
+void by_group(Work& work) {
+  constexpr std::size_t kMostGroups = 8;
+  const auto& groups = work.mesh.groups;
+  const bool of_elements = std::any_of(groups.begin(), groups.end(), [](const Group& group) { return group.dimension == 2; });
+  work.categories(of_elements ? By::Elements : By::Vertices, of_elements ? work.mesh.elements.size() : work.mesh.positions.size(),
+                  of_elements ? "elements" : "vertices");
+  work.shading.edges = !of_elements;
+  if (groups.empty()) work.out.note = "the mesh has no groups or markers";
+  const bool many = groups.size() > kMostGroups;
+  std::map<std::string, std::size_t> numbers;
+  for (const Group& group : groups) {
+    if ((group.dimension == 2) != of_elements) continue;
+    const std::string name = category_of(group, many);
+    const auto [at, added] = numbers.try_emplace(name, work.out.categories.size());
+    if (added) work.add_category(name);
+    for (const Index member : group.members) {
+      if (member < work.shading.values.size() && work.shading.values[member] < 0.0F) work.put(member, at->second);
+    }
+  }
+}
+
+void by_valence(Work& work) {
+  constexpr std::size_t kMost = 10;  // categories
+  const Topology& topology = work.request.frame->input->topology;
+  work.categories(By::Vertices, topology.vertex_count(), "vertices");
+  const auto valence = [&](Index v) { return topology.star(v).size(); };
+  std::size_t least = SIZE_MAX, largest = 0;
+  for (Index v = 0; v < topology.vertex_count(); ++v) {
+    if (valence(v) == 0) continue;
+    least = std::min(least, valence(v));
+    largest = std::max(largest, valence(v));
+  }
+  if (largest == 0) return;
+  const std::size_t size = std::min(kMost, largest - least + 1);
+  for (std::size_t k = 0; k < size; ++k) {
+    const double t = size > 1 ? static_cast<double>(k) / static_cast<double>(size - 1) : 0.5;
+    const bool open = k + 1 == size && least + k < largest;
+    work.out.categories.push_back({open ? fmt::format("{} or more", least + k) : fmt::format("{}", least + k),
+                                   render::sample(work.request.map, work.request.reversed ? 1.0 - t : t), 0});
+  }
+  for (Index v = 0; v < topology.vertex_count(); ++v) {
+    if (valence(v) > 0) work.put(v, std::min(valence(v) - least, size - 1));
+  }
+}
+
+void by_class(Work& work) {
+  work.categories(By::Vertices, work.mesh.positions.size(), "free vertices");
+  const Colouring* classes = work.request.classes.get();
+  if (classes == nullptr) return;
+  for (Index c = 0; c < classes->class_count(); ++c) {
+    work.add_category(fmt::format("{}", c + 1));
+    for (const Index v : classes->members(c)) work.put(v, c);
+  }
+  work.out.note = "grey: vertices that may not move";
+}
+
+void by_inverted(Work& work) {
+  work.categories(By::Elements, work.mesh.elements.size(), "elements");
+  work.out.note = "all others are grey";
+}
+
+double mean_edge(const Mesh& mesh) {
+  double sum = 0.0;
+  std::size_t edges = 0;
+  for (Index e = 0; e < mesh.elements.size(); ++e) {
+    const auto corners = mesh.elements.corners(e);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      sum += length(mesh.positions[corners[(i + 1) % corners.size()]] - mesh.positions[corners[i]]);
+      ++edges;
+    }
+  }
+  return edges == 0 ? 0.0 : sum / static_cast<double>(edges);
+}
+
+void find_range(Work& work) {
+  double low = INFINITY, high = -INFINITY;
+  for (const float value : work.shading.values) {
+    if (std::isnan(value)) continue;
+    low = std::min(low, static_cast<double>(value));
+    high = std::max(high, static_cast<double>(value));
+  }
+  if (low <= high) work.out.range = {low, high};
+}
+
+void by_displacement(Work& work) {
+  const auto& now = work.request.frame->positions;
+  const double unit = mean_edge(work.mesh);
+  std::vector<float> moved(now.size());
+  for (std::size_t v = 0; v < now.size(); ++v) {
+    const double way = length(now[v] - work.mesh.positions[v]);
+    moved[v] = static_cast<float>(unit > 0.0 ? way / unit : way);
+  }
+  work.shading.values.resize(work.mesh.elements.size());
+  for (Index e = 0; e < work.mesh.elements.size(); ++e) {
+    float most = 0.0F;
+    for (const Index corner : work.mesh.elements.corners(e)) most = std::max(most, moved[corner]);
+    work.shading.values[e] = most;
+  }
+  find_range(work);
+  work.out.range.first = 0.0;
+  if (work.out.range.second == 0.0) work.out.range.second = 1.0;  // nothing has moved
+  work.out.title = "displacement, mean edges of the input";
+}
+
+void by_size(Work& work) {
+  const auto& elements = work.mesh.elements;
+  std::vector<double> areas(elements.size());
+  double sum = 0.0;
+  for (Index e = 0; e < elements.size(); ++e) {
+    const auto corners = elements.corners(e);
+    const Plane& plane = work.request.frame->input->geometry.plane;
+    const auto& at = work.request.frame->positions;
+    double twice = 0.0;
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+      twice += cross(plane.project(at[corners[i]] - at[corners[0]]), plane.project(at[corners[i + 1]] - at[corners[0]]));
+    }
+    areas[e] = std::abs(twice) / 2;
+    sum += areas[e];
+  }
+  const double mean = areas.empty() ? 0.0 : sum / static_cast<double>(areas.size());
+  work.shading.values.resize(areas.size());
+  std::transform(areas.begin(), areas.end(), work.shading.values.begin(), [&](double area) {
+    return area > 0.0 && mean > 0.0 ? static_cast<float>(std::log10(area / mean)) : std::numeric_limits<float>::quiet_NaN();
+  });
+  find_range(work);
+  // Elements of one size differ by rounding only: that is no range to spread colours over.
+  if (work.out.range.second - work.out.range.first < 0.02) work.out.range = {work.out.range.first - 0.01, work.out.range.second + 0.01};
+  work.out.logarithmic = true;
+  work.out.title = "area / mean area";
+}
+
+std::optional<std::size_t> number_in(std::string_view name, bool& open) {
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (error != std::errc()) return std::nullopt;
+  const std::string_view rest(end, static_cast<std::size_t>(name.data() + name.size() - end));
+  open = rest == " or more";
+  return rest.empty() || open ? std::optional(number) : std::nullopt;
+}
+
+bool is_named(const Group& group, std::string_view name) {
+  return group.name == name || group.role == name || category_of(group, true) == name;
+}
+
+/// Elements with a corner among the vertices.
+void mark_around(const Mesh& mesh, const std::vector<std::uint8_t>& vertices, std::vector<std::uint8_t>& elements) {
+  for (Index e = 0; e < mesh.elements.size(); ++e) {
+    const auto corners = mesh.elements.corners(e);
+    elements[e] = std::any_of(corners.begin(), corners.end(), [&](Index v) { return vertices[v] != 0; }) ? 1 : 0;
+  }
+}
+
+std::vector<std::uint8_t> members_of_group(const Mesh& mesh, const std::string& name) {
+  std::vector<std::uint8_t> elements(mesh.elements.size(), 0), vertices(mesh.positions.size(), 0);
+  bool exact = false;  // a group of that name goes before the role of that name
+  for (const Group& group : mesh.groups) exact = exact || group.name == name;
+  for (const Group& group : mesh.groups) {
+    if (exact ? group.name != name : !is_named(group, name)) continue;
+    auto& marked = group.dimension == 2 ? elements : vertices;
+    for (const Index member : group.members) {
+      if (member < marked.size()) marked[member] = 1;
+    }
+  }
+  std::vector<std::uint8_t> around(elements.size(), 0);
+  mark_around(mesh, vertices, around);
+  for (std::size_t e = 0; e < elements.size(); ++e) elements[e] = elements[e] != 0 || around[e] != 0 ? 1 : 0;
+  return elements;
+}
+
+std::vector<std::uint8_t> members_of_isolation(const Isolation& isolation, const Frame& frame, const Colouring* classes) {
+  const Mesh& mesh = frame.input->mesh;
+  std::vector<std::uint8_t> elements(mesh.elements.size(), 0);
+  bool open = false;
+  const std::optional<std::size_t> number = number_in(isolation.name, open);
+  std::vector<std::uint8_t> vertices(mesh.positions.size(), 0);
+  switch (isolation.by) {
+    case ColourBy::Kind:
+      for (Index e = 0; e < elements.size(); ++e) elements[e] = info(mesh.elements.kind(e)).name == isolation.name ? 1 : 0;
+      break;
+    case ColourBy::Group:
+      elements = members_of_group(mesh, isolation.name);
+      break;
+    case ColourBy::Valence:
+      for (Index v = 0; number && v < vertices.size(); ++v) {
+        const std::size_t valence = frame.input->topology.star(v).size();
+        vertices[v] = valence == *number || (open && valence > *number) ? 1 : 0;
+      }
+      mark_around(mesh, vertices, elements);
+      break;
+    case ColourBy::Class:
+      if (classes != nullptr && number && *number >= 1 && *number <= classes->class_count()) {
+        for (const Index v : classes->members(static_cast<Index>(*number - 1))) vertices[v] = 1;
+      }
+      mark_around(mesh, vertices, elements);
+      break;
+    case ColourBy::Inverted:
+      if (frame.inverted.size() == elements.size()) elements = frame.inverted;
+      break;
+    default:
+      elements.assign(elements.size(), 1);
+  }
+  return elements;
+}
+
+}  // namespace
+
+render::Rgb category_colour(std::size_t k) {
+  static constexpr std::array<render::Rgb, 8> kColours{{{0x00, 0x72, 0xb2},
+                                                        {0xe6, 0x9f, 0x00},
+                                                        {0x00, 0x9e, 0x73},
+                                                        {0xd5, 0x5e, 0x00},
+                                                        {0x56, 0xb4, 0xe9},
+                                                        {0xf0, 0xe4, 0x42},
+                                                        {0xcc, 0x79, 0xa7},
+                                                        {0x7f, 0x4f, 0x24}}};
+  render::Rgb colour = kColours[k % kColours.size()];
+  const std::size_t tier = k / kColours.size() % 3;
+  const auto mix = [&](std::uint8_t value) {
+    return tier == 0 ? value : static_cast<std::uint8_t>(tier == 1 ? value + (255 - value) * 55 / 100 : value * 55 / 100);
+  };
+  return {mix(colour.r), mix(colour.g), mix(colour.b)};
+}
+
+ElementColours colour_elements(const ColourRequest& request) {
+  Work work{request, request.frame->input->mesh, {}, {}};
+  work.out.by = request.by;
+  work.out.input_serial = request.frame->input_serial;
+  work.out.title = info(request.by).name;
+  switch (request.by) {
+    case ColourBy::Quality:
+      break;
+    case ColourBy::Kind:
+      by_kind(work);
+      break;
+    case ColourBy::Group:
+      by_group(work);
+      break;
+    case ColourBy::Valence:
+      by_valence(work);
+      break;
+    case ColourBy::Class:
+      by_class(work);
+      break;
+    case ColourBy::Displacement:
+      by_displacement(work);
+      break;
+    case ColourBy::Size:
+      by_size(work);
+      break;
+    case ColourBy::Inverted:
+      by_inverted(work);
+      break;
+  }
+  for (const Category& category : work.out.categories) work.shading.palette.push_back(category.colour);
+  // A palette that is not empty tells the values are categories.
+  if (has_categories(request.by) && work.shading.palette.empty()) work.shading.palette.push_back({});
+  work.out.shading = std::make_shared<const render::Shading>(std::move(work.shading));
+  return std::move(work.out);
+}
+
+std::optional<std::string> why_unknown(const Isolation& isolation, const InputMesh& input) {
+  const auto among = [&](const std::vector<std::string>& names, const char* what) -> std::optional<std::string> {
+    if (std::find(names.begin(), names.end(), isolation.name) != names.end()) return std::nullopt;
+    constexpr std::size_t kMostNames = 12;
+    std::string list;
+    for (std::size_t k = 0; k < std::min(names.size(), kMostNames); ++k) list += (k == 0 ? "" : ", ") + names[k];
+    if (names.size() > kMostNames) list += fmt::format(" and {} more", names.size() - kMostNames);
+    return fmt::format("the mesh has no {} \"{}\"; it has {}", what, isolation.name, list.empty() ? "none" : list);
+  };
+  std::vector<std::string> names;
+  bool open = false;
+  switch (isolation.by) {
+    case ColourBy::Kind:
+      for (std::size_t kind = 0; kind < kElementKindCount; ++kind) {
+        const auto kinds = input.mesh.elements.kinds();
+        const auto one = static_cast<ElementKind>(kind);
+        if (std::find(kinds.begin(), kinds.end(), one) != kinds.end()) names.emplace_back(dmoscope::info(one).name);
+      }
+      return among(names, "elements of the kind");
+    case ColourBy::Group:
+      for (const Group& group : input.mesh.groups) {
+        if (is_named(group, isolation.name)) return std::nullopt;
+        names.push_back(group.name);
+      }
+      return among(names, "group or marker");
+    case ColourBy::Valence:
+    case ColourBy::Class:
+      if (number_in(isolation.name, open)) return std::nullopt;
+      return fmt::format("\"{}\": expected a number", isolation.name);
+    default:
+      return std::nullopt;
+  }
+}
+
+std::shared_ptr<const std::vector<std::uint8_t>> members_of(const ColouringState& state, const Frame& frame, const Colouring* classes) {
+  if (!state.isolated && state.worst == 0) return nullptr;
+  const std::size_t size = frame.element_count();
+  auto members = std::make_shared<std::vector<std::uint8_t>>(size, std::uint8_t{1});
+  if (state.isolated) *members = members_of_isolation(*state.isolated, frame, classes);
+  if (state.worst > 0) {
+    std::vector<std::uint8_t> among(size, 0);
+    const std::size_t most = std::min(frame.worst.size(), static_cast<std::size_t>(state.worst));
+    for (std::size_t k = 0; k < most; ++k) among[frame.worst[k].element] = (*members)[frame.worst[k].element];
+    *members = std::move(among);
+  }
+  return members;
+}
+
+}  // namespace dmoscope::ui

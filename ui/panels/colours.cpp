@@ -1,0 +1,161 @@
+// Left: what the elements' colours tell, which elements count, and what is written on them.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "ui/format.h"
+#include "ui/panels/panels.h"
+
+namespace dmoscope::ui {
+namespace {
+
+/// One of some words, sent as "COMMAND word".
+template <class Value, std::size_t N>
+void word_combo(PanelContext& context, const char* item, const std::array<std::pair<std::string_view, Value>, N>& words,
+                const std::array<const char*, N>& titles, Value now, const char* command) {
+  std::size_t current = 0;
+  for (std::size_t k = 0; k < N; ++k) current = words[k].second == now ? k : current;
+  const bool open = ImGui::BeginCombo(fmt::format("##{}", item).c_str(), titles[current]);
+  context.items.record_last(item);
+  if (!open) return;
+  for (std::size_t k = 0; k < N; ++k) {
+    if (ImGui::Selectable(titles[k], k == current)) context.send(fmt::format("{} {}", command, words[k].first));
+    context.items.record_last(fmt::format("{}:{}", item, words[k].first));
+  }
+  ImGui::EndCombo();
+}
+
+void draw_colour_by(PanelContext& context) {
+  labelled(context, "colours", "what the elements' colours tell");
+  const ColourBy now = context.state.colouring.by;
+  const bool open = ImGui::BeginCombo("##color-by", std::string(info(now).title).c_str(), ImGuiComboFlags_HeightLarge);
+  context.items.record_last("color-by");
+  if (!open) return;
+  const bool no_groups = context.session.input && context.session.input->mesh.groups.empty();
+  for (const ColourByInfo& one : kColourBys) {
+    const bool possible = one.by != ColourBy::Group || !no_groups;
+    const int flags = possible ? 0 : ImGuiSelectableFlags_Disabled;
+    if (ImGui::Selectable(std::string(one.title).c_str(), one.by == now, flags)) context.send(fmt::format("color-by {}", one.name));
+    context.items.record_last(fmt::format("color-by:{}", one.name));
+    next_item_tooltip(possible ? std::string(one.doc) : "the mesh has no groups or markers");
+  }
+  ImGui::EndCombo();
+}
+
+void draw_map(PanelContext& context) {
+  labelled(context, "map", "perceptually uniform and colour-blind safe");
+  const char* flip = "reversed";
+  const float room = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize(flip).x;
+  ImGui::SetNextItemWidth(std::max(4 * context.em(), ImGui::GetContentRegionAvail().x - room - context.px(8)));
+  const bool open = ImGui::BeginCombo("##map", std::string(render::name(context.state.colour_map)).c_str());
+  context.items.record_last("colormap");
+  if (open) {
+    for (const auto& map : render::colour_map_table()) {
+      if (ImGui::Selectable(std::string(map.name).c_str(), map.map == context.state.colour_map))
+        context.send(fmt::format("colormap {}", map.name));
+      next_item_tooltip(std::string(map.doc));
+    }
+    ImGui::EndCombo();
+  }
+  ImGui::SameLine(0, context.px(8));
+  bool reversed = context.state.colouring.reversed;
+  if (ImGui::Checkbox(flip, &reversed)) context.send(reversed ? "reverse-colors on" : "reverse-colors off");
+  context.items.record_last("reverse-colors");
+  next_item_tooltip("the colour map from its other end");
+  labelled(context, "steps", "so many colours of equal width; 0: without steps");
+  int steps = context.state.colouring.steps;
+  ImGui::InputInt("##color-steps", &steps, 1, 1, ImGuiInputTextFlags_EnterReturnsTrue);
+  context.items.record_last("color-steps");
+  const int before = context.state.colouring.steps;
+  if (steps != before && (ImGui::IsItemDeactivatedAfterEdit() || !ImGui::IsItemActive())) {
+    // One colour is none: the buttons step over it.
+    context.send(fmt::format("color-steps {}", steps == 1 ? (before == 0 ? 2 : 0) : std::clamp(steps, 0, 64)));
+  }
+}
+
+void draw_range(PanelContext& context) {
+  static constexpr std::array<std::pair<std::string_view, RangeMode>, 3> kModes = kRangeModes;
+  labelled(context, "range", "qualities that the colours span; the ends of the colour bar can be dragged");
+  const bool given = context.state.range_mode == RangeMode::Given;
+  static constexpr std::array<const char*, 4> kTitles{"0 to 1", "the mesh's own", "all seen so far", "given"};
+  const bool open = ImGui::BeginCombo("##range", kTitles[static_cast<std::size_t>(context.state.range_mode)]);
+  context.items.record_last("range");
+  if (open) {
+    for (std::size_t k = 0; k < kModes.size(); ++k) {
+      if (ImGui::Selectable(kTitles[k], context.state.range_mode == kModes[k].second))
+        context.send(fmt::format("range {}", kModes[k].first));
+      context.items.record_last(fmt::format("range:{}", kModes[k].first));
+    }
+    next_item_tooltip("grows with what the shown metric has had since the input was opened, and never shrinks");
+    const auto now = context.derived.range;
+    if (ImGui::Selectable(kTitles[3], given)) context.send(fmt::format("range {} {}", full_number(now.first), full_number(now.second)));
+    ImGui::EndCombo();
+  }
+  if (!given) return;
+  double range[2] = {context.state.range_low, context.state.range_high};
+  labelled(context, "from, to", "lowest and highest quality of the colours");
+  ImGui::InputScalarN("##given", ImGuiDataType_Double, range, 2, nullptr, nullptr, "%.4g");
+  if (ImGui::IsItemDeactivatedAfterEdit()) context.send(fmt::format("range {} {}", full_number(range[0]), full_number(range[1])));
+}
+
+void draw_filter(PanelContext& context) {
+  const ColouringState& state = context.state.colouring;
+  labelled(context, "quality", "only elements from the first to the second quality count; inverted ones when the first is 0 or less");
+  double range[2] = {state.filter ? state.filter->first : 0.0, state.filter ? state.filter->second : 1.0};
+  const float clear = ImGui::CalcTextSize("off").x + 2 * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetNextItemWidth(std::max(6 * context.em(), ImGui::GetContentRegionAvail().x - clear - context.px(6)));
+  ImGui::InputScalarN("##filter", ImGuiDataType_Double, range, 2, nullptr, nullptr, "%.4g");
+  context.items.record_last("filter");
+  if (ImGui::IsItemDeactivatedAfterEdit()) context.send(fmt::format("filter {} {}", full_number(range[0]), full_number(range[1])));
+  ImGui::SameLine(0, context.px(6));
+  ImGui::BeginDisabled(!state.filter);
+  if (ImGui::Button("off##filter")) context.send("filter off");
+  context.items.record_last("filter-off");
+  ImGui::EndDisabled();
+  next_item_tooltip("all qualities count");
+
+  labelled(context, "worst", "only so many of the worst elements count; 0: all");
+  int worst = state.worst;
+  ImGui::InputInt("##worst", &worst, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue);
+  context.items.record_last("worst-view");
+  if (worst != state.worst && (ImGui::IsItemDeactivatedAfterEdit() || !ImGui::IsItemActive())) {
+    context.send(worst <= 0 ? std::string("worst-view off") : fmt::format("worst-view {}", std::min(worst, 100)));
+  }
+
+  labelled(context, "others", "how elements that do not count are drawn");
+  word_combo(context, "filter-mode", kFilterModes, {"faded", "hidden", "outlines"}, state.others, "filter-mode");
+
+  if (state.isolated) {
+    dim_text(context, fmt::format("only {}: {}", info(state.isolated->by).name, state.isolated->name));
+    ImGui::SameLine();
+    if (ImGui::SmallButton("off##isolate")) context.send("isolate off");
+    context.items.record_last("isolate-off");
+  }
+  if (context.derived.colouring.counting && context.frame() != nullptr) {
+    value_row(context, "these count",
+              fmt::format("{} of {}", count(*context.derived.colouring.counting), count(context.frame()->element_count())));
+  }
+}
+
+}  // namespace
+
+void draw_colours(PanelContext& context) {
+  if (context.run() == nullptr) return;
+  ImGui::Dummy({0, context.px(4)});
+  heading(context, "Colours");
+  draw_colour_by(context);
+  labelled(context, "metric", "of colours, histogram and worst list");
+  metric_combo(context, "shown", context.session.shown, "show");
+  draw_map(context);
+  draw_range(context);
+  labelled(context, "labels", "ids, where there is room for them");
+  static constexpr std::array<std::pair<std::string_view, int>, 4> kLabels{{{"off", 0}, {"vertices", 1}, {"elements", 2}, {"both", 3}}};
+  const ColouringState& state = context.state.colouring;
+  word_combo(context, "labels", kLabels, {"none", "vertices", "elements", "both"},
+             (state.label_vertices ? 1 : 0) + (state.label_elements ? 2 : 0), "labels");
+  ImGui::Dummy({0, context.px(4)});
+  heading(context, "Filter");
+  draw_filter(context);
+}
+
+}  // namespace dmoscope::ui

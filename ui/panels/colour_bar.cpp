@@ -7,6 +7,7 @@
 #include "ui/derived.h"
 #include "ui/format.h"
 #include "ui/panels/panels.h"
+#include "ui/ticks.h"
 
 namespace dmoscope::ui {
 namespace {

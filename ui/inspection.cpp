@@ -76,10 +76,15 @@ void add_lines(FieldPicture& picture) {
   }
 }
 
-/// Of the star's box with a margin. The vertex may stand elsewhere by now.
+/// Of the star's box and the first grid's, with a margin. The vertex may stand elsewhere by now.
 void sample_field(Inspection& inspection, const SessionView& session) {
   const Frame& frame = *session.frame;
-  const render::Bounds2& box = inspection.box;
+  render::Bounds2 box = inspection.box;
+  for (const TracedLevel& level : inspection.trace->levels) {
+    const Vec2<double> half{level.size.x / 2, level.size.y / 2};
+    box.include(level.centre - half);
+    box.include(level.centre + half);
+  }
   const double margin = 0.06 * std::max(box.size().x, box.size().y);
   Vec2<double> low{box.low.x - margin, box.low.y - margin}, high{box.high.x + margin, box.high.y + margin};
   const double longest = std::max(high.x - low.x, high.y - low.y);
@@ -109,6 +114,15 @@ bool still_applied(const Inspection& inspection, const SessionView& session, boo
   }
   const Vec3 now = frame.positions[key.vertex];
   return now == inspection.trace->to || (busy && now == inspection.trace->from);
+}
+
+std::optional<std::pair<double, double>> range_of(const TracedLevel& level, bool valid) {
+  std::optional<std::pair<double, double>> range;
+  for (const double q : level.quality) {
+    if (is_valid(q) != valid) continue;
+    range = range ? std::pair{std::min(range->first, q), std::max(range->second, q)} : std::pair{q, q};
+  }
+  return range;
 }
 
 /// All but the wishes of how things are shown.
@@ -237,13 +251,18 @@ Index worst_movable_element(const SessionView& session) {
 
 bool is_valid(double quality) { return quality > 0.0; }
 
-std::optional<std::pair<double, double>> valid_range(const TracedLevel& level) {
-  std::optional<std::pair<double, double>> range;
-  for (const double q : level.quality) {
-    if (!is_valid(q)) continue;
-    range = range ? std::pair{std::min(range->first, q), std::max(range->second, q)} : std::pair{q, q};
-  }
-  return range;
+std::optional<std::pair<double, double>> valid_range(const TracedLevel& level) { return range_of(level, true); }
+std::optional<std::pair<double, double>> invalid_range(const TracedLevel& level) { return range_of(level, false); }
+
+double part_of(const std::optional<std::pair<double, double>>& range, double quality) {
+  if (!range || !(range->second > range->first)) return 1.0;
+  return std::clamp((quality - range->first) / (range->second - range->first), 0.0, 1.0);
+}
+
+double least_spacing(const TracedLevel& level) {
+  constexpr double kLine = 1e-3;  // narrower than this share of its length
+  const double longer = std::max(level.size.x, level.size.y), shorter = std::min(level.size.x, level.size.y);
+  return (shorter > kLine * longer ? shorter : longer) / std::max(1, level.points - 1);
 }
 
 }  // namespace dmoscope::ui

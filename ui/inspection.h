@@ -72,7 +72,12 @@ void refresh(Inspection& inspection, ViewState& state, const SessionView& sessio
 
 /// How a quality is read: true for a candidate at which no element of the star is inverted.
 [[nodiscard]] bool is_valid(double quality);
-/// Least and greatest quality of a level's valid candidates; nothing when there is none.
+/// Least and greatest quality of a level's valid candidates, or of the others; nothing when there is none.
 [[nodiscard]] std::optional<std::pair<double, double>> valid_range(const TracedLevel& level);
+[[nodiscard]] std::optional<std::pair<double, double>> invalid_range(const TracedLevel& level);
+/// Where a quality lies in a range: 0 to 1; 1 in an empty one.
+[[nodiscard]] double part_of(const std::optional<std::pair<double, double>>& range, double quality);
+/// Between neighbours of a level's grid along the axis on which they are closer; mesh units. Of a grid that is a line, along that.
+[[nodiscard]] double least_spacing(const TracedLevel& level);
 
 }  // namespace dmoscope::ui

@@ -50,12 +50,12 @@ void close_up_on(ViewState& state, const Inspection& look) {
   if (!inspection.zoom || !look.trace || inspection.applied || inspection.all_levels || inspection.level < 1) return;
   if (static_cast<std::size_t>(inspection.level) > look.trace->levels.size()) return;
   const TracedLevel& level = look.trace->levels[static_cast<std::size_t>(inspection.level - 1)];
-  const double extent = std::max(level.size.x, level.size.y);
-  const double spacing = extent / std::max(1, level.points - 1) / state.camera.units_per_pixel;
-  if (!(extent > 0.0) || spacing >= kLeastSpacing * state.scale) return;
+  const double extent = std::max(level.size.x, level.size.y), spacing = least_spacing(level);
+  if (!(spacing > 0.0) || spacing / state.camera.units_per_pixel >= kLeastSpacing * state.scale) return;
   const render::Camera2D before = state.camera;
   const double side = std::min(state.viewport.x, state.viewport.y);
-  const double pixels = std::min(kLargestShare * side, kSpacing * state.scale * std::max(1, level.points - 1));
+  const double pixels = std::min(kLargestShare * side, kSpacing * state.scale * extent / spacing);
+  if (extent / pixels >= before.units_per_pixel) return;  // as close as it can be and stay in sight
   state.camera.look_at(look.origin + level.centre, extent * side / pixels, state.viewport);
   inspection.close_up = {before, state.camera};
 }

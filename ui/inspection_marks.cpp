@@ -42,24 +42,23 @@ class Pen {
 };
 
 /// In pixels at scale 1.
-double spacing_of(const TracedLevel& level, const InspectionLook& look) {
-  const double extent = std::max(level.size.x, level.size.y);
-  return extent / std::max(1, level.points - 1) / look.units_per_pixel / look.scale;
-}
+double spacing_of(const TracedLevel& level, const InspectionLook& look) { return least_spacing(level) / look.units_per_pixel / look.scale; }
 
 render::Rgba opaque(render::Rgb colour) { return {colour.r, colour.g, colour.b, 255}; }
 
 void add_candidates(Pen& pen, const TracedLevel& level) {
   const double spacing = spacing_of(level, pen.look());
-  const auto range = valid_range(level);
+  const auto valid = valid_range(level), invalid = invalid_range(level);
+  constexpr double kLargestCross = 0.35;
   for (int index = 0; index < level.points * level.points; ++index) {
     const double quality = level.quality[static_cast<std::size_t>(index)];
-    if (!is_valid(quality)) {
-      pen.dot(level.at(index), candidate_diameter(spacing, 0.2), opaque(kInvalidCandidate), DotShape::Cross);
-      continue;
+    if (is_valid(quality)) {
+      pen.dot(level.at(index), candidate_diameter(spacing, part_of(valid, quality)), opaque(pen.look().colours.colour(quality)),
+              DotShape::Round);
+    } else {
+      const double part = kLargestCross * part_of(invalid, quality);
+      pen.dot(level.at(index), candidate_diameter(spacing, part), opaque(kInvalidCandidate), DotShape::Cross);
     }
-    const double part = range->second > range->first ? (quality - range->first) / (range->second - range->first) : 1.0;
-    pen.dot(level.at(index), candidate_diameter(spacing, part), opaque(pen.look().colours.colour(quality)), DotShape::Round);
   }
 }
 

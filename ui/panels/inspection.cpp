@@ -34,9 +34,14 @@ void draw_title(PanelContext& context) {
 void draw_story(PanelContext& context, const Inspection& inspection) {
   const VisitTrace& trace = *inspection.trace;
   if (const std::string stuck = stuck_sentence(inspection); !stuck.empty()) wrapped(stuck);
-  number_row(context, "worst element before", quality_of(trace.before),
-             "least quality of its star; while an element is inverted: least normalised Jacobian");
-  if (trace.end == VisitEnd::Moved) number_row(context, "after the visit", quality_of(trace.after), trace.sentence().c_str());
+  const auto row = [&context](const StarState& star, const char* when) {
+    const bool inverted = !(star.jacobian > 0.0);
+    number_row(context, fmt::format("{} {}", inverted ? "least Jacobian" : "worst element", when).c_str(), quality_of(star),
+               inverted ? "while an element of the star is inverted: the least corner Jacobian over its element's reference size"
+                        : "the least quality of its star");
+  };
+  row(trace.before, "before");
+  if (trace.end == VisitEnd::Moved) row(trace.after, "after");
   if (inspection.optimum) {
     number_row(context, "best possible", inspection.optimum->quality,
                "the exact maximum of the star's mean ratio, wherever this one vertex might stand: the diamond");
@@ -70,10 +75,14 @@ class LevelMap {
     render::ColourScale colours = colour_scale(context_.state, context_.derived);
     if (const auto range = valid_range(level_); context_.state.inspection.own_range && range && range->second > range->first)
       std::tie(colours.low, colours.high) = *range;
+    const auto invalid = invalid_range(level_);
     for (int index = 0; index < level_.points * level_.points; ++index) {
       const double quality = level_.quality[static_cast<std::size_t>(index)];
       const auto [a, b] = box(index);
       list_.AddRectFilled(a, b, is_valid(quality) ? colour(colours.colour(quality)) : colour(context_.palette.raised));
+      // The less is inverted the fainter: what untangling goes by.
+      if (!is_valid(quality))
+        list_.AddRectFilled(a, b, colour(kInvalidCandidate, 0.4F - 0.4F * static_cast<float>(part_of(invalid, quality))));
       if (!is_valid(quality)) cross(a, b);
     }
     if (level_.best) frame(*level_.best, true);
@@ -179,7 +188,7 @@ void draw_bars(const PanelContext& context, ImVec2 low, float width, const Eleme
 void draw_elements(PanelContext& context, const VisitTrace& trace) {
   const bool moved = trace.end == VisitEnd::Moved;
   dim_text(context, moved ? "its elements, before → after" : "its elements", false);
-  next_item_tooltip("▸ limits the star before, ▹ after the visit; click selects an element");
+  next_item_tooltip("▸ has the least quality before the visit, ▹ after it; click selects an element");
   const Index limit_before = limiting_element(trace, false), limit_after = limiting_element(trace, true);
   const auto numbers_of = [moved](const ElementChange& change) {
     return moved ? fmt::format("{} → {}", short_number(change.before), short_number(change.after)) : short_number(change.before);
@@ -250,7 +259,11 @@ void draw_field_marks(const PanelContext& context, const Inspection& inspection,
 void draw_field_panel(PanelContext& context, const Inspection& inspection) {
   const FieldPicture& picture = *inspection.field;
   const QualityField& field = picture.field;
-  dim_text(context, fmt::format("{} around the vertex", metric_phrase(inspection.trace->metric)), false);
+  const bool nowhere = !(picture.highest >= picture.lowest);
+  dim_text(context,
+           nowhere ? std::string("an element is inverted wherever it stands")
+                   : fmt::format("{} around the vertex", metric_phrase(inspection.trace->metric)),
+           false);
   const double aspect = (field.high.y - field.low.y) / (field.high.x - field.low.x);
   const float room = ImGui::GetContentRegionAvail().x;
   float w = room, h = static_cast<float>(aspect) * w;

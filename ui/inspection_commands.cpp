@@ -139,10 +139,13 @@ void apply_move(ViewState& state, const CommandHost& host, const SessionView& se
   const Inspection look = inspect(session, inspection.vertex);
   if (!look.trace) throw UsageError(look.trouble);
   if (look.trace->end == VisitEnd::Fixed) throw UsageError(fmt::format("vertex {} is fixed", inspection.vertex));
+  inspection.take_back.clear();
   if (inspection.in_order && next_vertex(session) == inspection.vertex) {
     host.post("step vertex");
+    inspection.take_back = "back vertex";
   } else if (look.trace->end == VisitEnd::Moved) {
     host.post(fmt::format("visit {}", inspection.vertex));
+    inspection.take_back = "undo";
   }
   inspection.level = static_cast<int>(look.trace->levels.size());
   inspection.all_levels = false;
@@ -176,11 +179,7 @@ void previous_level(ViewState& state, const CommandHost& host, const SessionView
   InspectionState& inspection = state.inspection;
   if (!inspection.open) return;
   const bool take_back = inspection.applied;
-  if (take_back && inspection.in_order) {
-    host.post("back vertex");
-  } else if (take_back && is_session_command("undo")) {
-    host.post("undo");
-  }
+  if (take_back && !inspection.take_back.empty()) host.post(inspection.take_back);
   show_level(state, inspect(session, inspection.vertex),
              take_back || inspection.all_levels ? inspection.level : std::max(0, inspection.level - 1));
 }

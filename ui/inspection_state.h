@@ -23,6 +23,7 @@ struct InspectionState {
   int level = 1;            // whose grid is shown; 0: none
   bool all_levels = false;  // the grids of all levels at once
   bool applied = false;     // the vertex has been sent where its visit takes it
+  std::string take_back;    // the command that undoes what was applied; empty: nothing moved
   bool in_order = false;    // it is the one that the run visits next, so that applying is the run's own step
   bool zoom = true;         // the view goes as close as a level's grid needs
   bool field = true;        // the quality around the vertex, in the inspector

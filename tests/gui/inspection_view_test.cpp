@@ -207,6 +207,10 @@ TEST_F(InspectionView, OutOfTurnTheVertexIsVisitedAlone) {
   EXPECT_EQ(inspection().vertex, vertex);
   EXPECT_EQ(inspection().level, 1);
   EXPECT_EQ(look().trace->from, to);
+  good("apply-move");
+  good("level back");  // takes that back, too
+  EXPECT_FALSE(inspection().applied);
+  EXPECT_EQ(session()->frame->positions[vertex], to);
 }
 
 TEST_F(InspectionView, ACandidateIsReadUnderTheMouseInViewAndHeatMap) {

@@ -62,7 +62,9 @@ std::vector<PlacedTick> place_ticks(const Axis& axis, const AxisUnit& unit, bool
   switch (axis.kind) {
     case ValueAxis::Linear: {
       const double low = axis.low * f, high = axis.high * f;
-      put(integer ? integer_ticks(low, high, most) : linear_ticks(low, high, most), [f](double v) { return v / f; });
+      std::vector<Tick> ticks;
+      for (int n = most; n < most + 4 && ticks.size() < 2; ++n) ticks = integer ? integer_ticks(low, high, n) : linear_ticks(low, high, n);
+      put(ticks, [f](double v) { return v / f; });
       break;
     }
     case ValueAxis::Log:

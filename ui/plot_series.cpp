@@ -177,6 +177,7 @@ class Builder {
       mean.width = 1.2;
       add_course(k, std::move(mean), [](const IterationRecord& record) { return record.statistics.mean; });
       add_to_legend(plot_.series.back());
+      add_percentiles(k);
       if (!inverted) continue;
       Series strip = series_of_run(k, "inverted", 2.0);
       strip.strip = true;
@@ -185,6 +186,33 @@ class Builder {
       plot_.strip_share = 0.27;
       plot_.strip_title = "inverted";
     }
+  }
+
+  void add_percentiles(std::size_t k) {
+    const RunView& run = session_.runs[k];
+    if (run.percentiles.empty()) return;
+    struct Kind {
+      const char *name, *tip;
+      double Percentiles::*value;
+      double dash;
+    };
+    for (const Kind& kind : {Kind{"worst 1 %", "a hundredth of the elements is worse", &Percentiles::p1, 1.5},
+                             Kind{"worst 5 %", "a twentieth of the elements is worse", &Percentiles::p5, 3.0},
+                             Kind{"median", "half of the elements are worse", &Percentiles::p50, 9.0}}) {
+      Series series = series_of_run(k, kind.name, kind.dash, 0.85);
+      series.width = 1.2;
+      add_course(k, std::move(series), [&](const IterationRecord& record) {
+        const auto at = static_cast<std::size_t>(&record - run.records.begin());
+        return at < run.percentiles.size() ? run.percentiles[at].*kind.value : NAN;
+      });
+      add_to_legend(plot_.series.back(), kind.tip);
+    }
+  }
+
+  /// Of the shown metric, of a run whose elements are not in the frame; null where it is not worked out yet.
+  [[nodiscard]] const RunSummary* summary_of(std::size_t k) const {
+    const RunSummary* summary = session_.runs[k].summary.get();
+    return k != session_.frame->run && summary != nullptr && summary->metric == session_.frame->shown ? summary : nullptr;
   }
 
   void build_moved() {
@@ -253,10 +281,18 @@ class Builder {
     now.kind = several_ ? Series::Kind::Steps : Series::Kind::Bars;
     now.strength = several_ ? 1.0 : 0.75;
     add_histogram(std::move(now), frame->now);
+    for (std::size_t k = 0; k < session_.runs.size(); ++k) {
+      const RunSummary* summary = summary_of(k);
+      if (summary == nullptr) continue;
+      Series other = series_of_run(k, "now");
+      other.kind = Series::Kind::Steps;
+      add_histogram(std::move(other), summary->histogram);
+    }
     if (frame->now.below > 0) plot_.y_title += fmt::format(" ({} below {:g})", count(frame->now.below), frame->now.lowest);
   }
 
-  void add_sorted(Series series, std::span<const double> values) {
+  template <class Values>
+  void add_sorted(Series series, const Values& values) {
     series.y.assign(values.begin(), values.end());
     const auto last = static_cast<double>(std::max<std::size_t>(2, values.size()) - 1);
     for (std::size_t k = 0; k < values.size(); ++k) series.x.push_back(100.0 * static_cast<double>(k) / last);
@@ -280,6 +316,9 @@ class Builder {
     before.colour = palette_.dim;
     if (moved || several_) add_sorted(std::move(before), sorted_.before);
     add_sorted(series_of_run(frame->run, moved || several_ ? "now" : "input"), sorted_.now);
+    for (std::size_t k = 0; k < session_.runs.size(); ++k) {
+      if (const RunSummary* summary = summary_of(k)) add_sorted(series_of_run(k, "now"), summary->sorted);
+    }
   }
 
   const ViewState& state_;
@@ -302,7 +341,10 @@ std::string plot_key(const ViewState& state, const SessionView& session, const S
                                 state.plot_options.by_seconds, state.plot_options.bins, session.frame ? session.frame->serial : 0,
                                 session.active, sorted.before.size(), sorted.now.size());
   for (const Mark* mark : {&state.timeline.a, &state.timeline.b}) key += mark->frame ? fmt::format(" {}", mark->frame->serial) : " -";
-  for (const RunView& run : session.runs) fmt::format_to(std::back_inserter(key), " {} {}", run.title, run.records.size());
+  for (const RunView& run : session.runs) {
+    fmt::format_to(std::back_inserter(key), " {} {} {} {}", run.title, run.records.size(), fmt::ptr(run.percentiles.data()),
+                   fmt::ptr(run.summary.get()));
+  }
   return key;
 }
 

@@ -177,6 +177,45 @@ TEST(PlotSeries, HistogramBinsAreTheElementsInThem) {
   }
 }
 
+TEST(PlotSeries, PercentilesAreShownWhereTheyAreKnown) {
+  SessionView session = session_of(2, 4);
+  std::vector<Percentiles> known(4);
+  known[1] = {0.2, 0.3, 0.9};
+  known[3] = {0.25, 0.35, 0.95};
+  session.runs[1].percentiles = SharedVector<Percentiles>(std::make_shared<const std::vector<Percentiles>>(known));
+  const Plot plot = plot_of(session);
+  const Series& fifth = series_named(plot, "2 dmo", "worst 5 %");
+  ASSERT_EQ(fifth.y.size(), 4U);
+  EXPECT_TRUE(std::isnan(fifth.y[0]) && std::isnan(fifth.y[2]));
+  EXPECT_EQ(fifth.y[1], 0.3);
+  EXPECT_EQ(fifth.y[3], 0.35);
+  EXPECT_EQ(series_named(plot, "2 dmo", "median").y[3], 0.95);
+  EXPECT_EQ(series_named(plot, "2 dmo", "worst 1 %").y[1], 0.2);
+  EXPECT_THROW((void)series_named(plot, "1 dmo", "median"), std::out_of_range);
+}
+
+TEST(PlotSeries, OtherRunsShowTheirSummariesOfTheShownMetric) {
+  SessionView session = *smoothed("annulus", 2);
+  session.runs.push_back(session.runs[0]);
+  auto summary = std::make_shared<RunSummary>();
+  summary->metric = session.frame->shown;
+  summary->histogram.counts[63] = 7;
+  summary->sorted = {0.25F, 0.5F, 1.0F};
+  session.runs[1].summary = summary;
+  const auto state = std::make_unique<ViewState>();
+  state->plot = PlotTab::Histogram;
+  const Plot histogram = plot_of(*state, session);
+  EXPECT_EQ(series_named(histogram, "2 dmo", "now").y.back(), 7.0);
+  EXPECT_EQ(series_named(histogram, "1 dmo", "now").y.size(), 64U);
+  state->plot = PlotTab::Sorted;
+  const std::vector<double> own{0.1, 0.2};
+  const Plot sorted = build_plot(*state, session, {own, own}, colours());
+  EXPECT_EQ(series_named(sorted, "2 dmo", "now").y, (std::vector<double>{0.25, 0.5, 1.0}));
+  EXPECT_EQ(series_named(sorted, "2 dmo", "now").x, (std::vector<double>{0, 50, 100}));
+  summary->metric = Metric::MaxAngle;  // of another metric: not beside these
+  EXPECT_THROW((void)series_named(plot_of(*state, session), "2 dmo", "now"), std::out_of_range);
+}
+
 TEST(PlotSeries, SortedQualitiesGoFromTheWorstToTheBestElement) {
   const auto session = smoothed("annulus", 2);
   ViewState state;

@@ -13,6 +13,7 @@
 #include "app/verbs/bench_measure.h"
 #include "app/verbs/bench_plan.h"
 #include "app/verbs/bench_report.h"
+#include "app/verbs/bench_seek.h"
 #include "app/verbs/option_checks.h"
 #include "app/verbs/verbs.h"
 
@@ -29,6 +30,10 @@ int bench(const BenchOptions& options) {
   Watch watch;
   if (options.draw > 0) {
     bench_drawing(plan, options.file, options.draw, options.json, watch.progress());
+    return 0;
+  }
+  if (options.seek > 0) {
+    bench_seeking(plan, options.file, options.seek, options.json, watch.progress());
     return 0;
   }
   std::vector<Figure> figures;
@@ -70,6 +75,9 @@ void add_bench(CLI::App& app, Action& action) {
   auto* draw = count("--draw", options->draw, 1, kMostIterations, "Draw this many iterations as they are made, without a window, instead");
   auto* plot = verb->add_option("--plot", options->plot, "Draw visits a second over sizes")->type_name("FILE.svg|.png");
   draw->excludes(plot);
+  count("--seek", options->seek, 1, kMostIterations, "Seek so often among 200 iterations, without and with drawing, instead")
+      ->excludes(plot)
+      ->excludes(draw);
   verb->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
   verb->callback([options, &action] { action = [options] { return bench(*options); }; });
 }

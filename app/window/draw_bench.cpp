@@ -2,9 +2,8 @@
 
 #include <chrono>
 
-#include "app/window/interop.h"
+#include "app/window/bench_stage.h"
 #include "core/session/frame_builder.h"
-#include "render/scene.h"
 
 namespace dmoscope::app {
 namespace {
@@ -13,39 +12,11 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_between(Clock::time_point a, Clock::time_point b) { return std::chrono::duration<double>(b - a).count(); }
 
-/// A scene with its picture, on a context of its own.
-class Stage {
- public:
-  explicit Stage(const DrawSubject& subject)
-      : context_(headless_context_for(subject.acceleration)), picture_(subject.width, subject.height) {
-    scene_.draw_through_host(no_interop(subject.acceleration, *context_));
-  }
-  void show(const std::shared_ptr<const Frame>& frame) {
-    scene_.show(frame);
-    if (first_) {
-      const Vec2<double> viewport{static_cast<double>(picture_.width()), static_cast<double>(picture_.height())};
-      camera_ = render::Camera2D::fit(scene_.bounds(), viewport);
-      first_ = false;
-    }
-    scene_.draw(picture_, camera_, render::Style::dark());
-    context_->finish();
-  }
-  [[nodiscard]] const render::Context& context() const { return *context_; }
-  [[nodiscard]] const render::MeshScene& scene() const { return scene_; }
-
- private:
-  std::unique_ptr<render::Context> context_;
-  render::Framebuffer picture_;
-  render::MeshScene scene_;
-  render::Camera2D camera_;
-  bool first_ = true;
-};
-
 }  // namespace
 
 DrawFigure measure_drawing(const DrawSubject& subject, Progress& progress) {
   Session& session = subject.session;
-  Stage stage(subject);
+  BenchStage stage(subject.acceleration, subject.width, subject.height);
   FrameBuilder builder;
   stage.show(builder.build(session)->frame);  // uploads the topology
   const auto step = [&] { session.active().step(StepUnit::Iteration, progress); };

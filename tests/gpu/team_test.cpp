@@ -96,8 +96,9 @@ void expect_team_finds_the_same(const HostTask& host, const SearchParameters& pa
   const TeamOutcomes together = with_team([&](const ThreadTeam& team) {
     TeamOutcomes found;
     for (Index rank = 0; rank < count; ++rank)
-      found.push_back(task.shapes[rank].kind == StarShape::Kind::Alone ? typename TeamOutcomes::value_type{}
-                                                                       : FastVisit<M, ThreadTeam, Stars::All, Task>(task, rank, team).run());
+      found.push_back(task.shapes[rank].kind == StarShape::Kind::Alone
+                          ? typename TeamOutcomes::value_type{}
+                          : FastVisit<M, ThreadTeam, Stars::All, Task>(task, rank, team).run());
     return found;
   });
   std::size_t moving = 0;

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/session/commands.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -38,6 +39,7 @@ class Writer {
     json_[name] = value ? json{value->first, value->second} : json();
   }
   void words(const char* name, const std::set<std::string>& value) { json_[name] = value; }
+  void ids(const char* name, const Selection& value) { json_[name] = id_ranges(value.vertices()); }
   template <class Body>
   void object(const char* name, Body body) {
     Writer inner;
@@ -49,10 +51,10 @@ class Writer {
   json json_ = json::object();
 };
 
-/// Reads members; throws UsageError with the whole name of one that is wrong.
+/// Reads members; throws UsageError with the whole name of one that is wrong. `vertices`: of the mesh.
 class Reader {
  public:
-  Reader(const json& from, std::string path) : json_(from), path_(std::move(path)) {
+  Reader(const json& from, std::string path, Index vertices) : json_(from), path_(std::move(path)), vertices_(vertices) {
     if (!json_.is_object()) throw UsageError(path_ + ": expected an object");
   }
   void flag(const char* name, bool& value) {
@@ -107,11 +109,22 @@ class Reader {
     }
     value = std::move(read);
   }
+  /// As "3-7 9".
+  void ids(const char* name, Selection& value) {
+    const json* at = find(name);
+    if (at == nullptr) return;
+    if (!at->is_string()) wrong(name, "numbers and ranges, such as \"3-7 9\"");
+    try {
+      value.assign(parse_id_ranges(split_words(at->get<std::string>()), vertices_));
+    } catch (const UsageError& error) {
+      wrong(name, error.what());
+    }
+  }
   template <class Body>
   void object(const char* name, Body body) {
     const json* at = find(name);
     if (at == nullptr) return;
-    Reader inner(*at, path_ + "." + name);
+    Reader inner(*at, path_ + "." + name, vertices_);
     body(inner);
   }
 
@@ -126,6 +139,7 @@ class Reader {
 
   const json& json_;
   std::string path_;
+  Index vertices_;
 };
 
 constexpr double kFar = 1e300;
@@ -133,6 +147,17 @@ constexpr double kFar = 1e300;
 constexpr std::array<std::pair<std::string_view, int>, 3> kBins{{{"16", 16}, {"32", 32}, {"64", 64}}};
 constexpr std::array<std::pair<std::string_view, Picked::Kind>, 3> kPicks{
     {{"none", Picked::Kind::None}, {"vertex", Picked::Kind::Vertex}, {"element", Picked::Kind::Element}}};
+
+constexpr std::array<std::pair<std::string_view, RangeMode>, 4> kEveryRangeMode{
+    {kRangeModes[0], kRangeModes[1], kRangeModes[2], {"given", RangeMode::Given}}};
+/// Those that need nothing but the run; what another one showed is not saved.
+constexpr std::array<std::pair<std::string_view, Reference>, 2> kLastingReferences{{{"off", Reference::None}, {"input", Reference::Input}}};
+
+std::vector<std::pair<std::string_view, ColourBy>> colour_by_names() {
+  std::vector<std::pair<std::string_view, ColourBy>> names;
+  for (const ColourByInfo& one : kColourBys) names.emplace_back(one.name, one.by);
+  return names;
+}
 
 std::vector<std::pair<std::string_view, render::ColourMap>> colour_map_names() {
   std::vector<std::pair<std::string_view, render::ColourMap>> names;
@@ -168,6 +193,31 @@ void describe_plots(Archive& archive, State& state) {
   }
 }
 
+template <class Archive, class State>
+void describe_colouring(Archive& archive, State& state) {
+  auto& colouring = state.colouring;
+  archive.choice("by", colouring.by, colour_by_names());
+  archive.choice("range_mode", state.range_mode, kEveryRangeMode);
+  archive.number("range_low", state.range_low, -kFar, kFar);
+  archive.number("range_high", state.range_high, -kFar, kFar);
+  archive.flag("reversed", colouring.reversed);
+  archive.count("steps", colouring.steps, 64);
+  archive.range("filter", colouring.filter);
+  archive.choice("filter_mode", colouring.others, kFilterModes);
+  archive.count("worst", colouring.worst, 100);
+  archive.flag("label_vertices", colouring.label_vertices);
+  archive.flag("label_elements", colouring.label_elements);
+}
+
+template <class Archive, class State>
+void describe_stepping(Archive& archive, State& state) {
+  archive.flag("next_class", state.stepping.next_class);
+  archive.choice("arrows", state.stepping.arrows, kLastingReferences);
+  archive.number("arrow_scale", state.stepping.arrow_scale, 0.0, kFar);
+  archive.choice("ghost", state.stepping.ghost, kLastingReferences);
+  archive.flag("click_smooths", state.stepping.click_smooths);
+}
+
 /// The one description of the view.
 template <class Archive, class State>
 void describe(Archive& archive, State& state) {
@@ -180,6 +230,9 @@ void describe(Archive& archive, State& state) {
   archive.flag("vertices", state.vertices);
   archive.flag("worst_marker", state.worst_marker);
   archive.choice("colormap", state.colour_map, colour_map_names());
+  archive.object("colours", [&state](auto& colours) { describe_colouring(colours, state); });
+  archive.object("stepping", [&state](auto& stepping) { describe_stepping(stepping, state); });
+  archive.ids("selection", state.selection);
   archive.object("panels", [&state](auto& panels) { describe_panels(panels, state.panels); });
   archive.object("plots", [&state](auto& plots) { describe_plots(plots, state); });
   archive.object("inspection", [&state](auto& inspection) {
@@ -198,6 +251,7 @@ void describe(Archive& archive, State& state) {
 }
 
 void check(const ViewState& state, const Mesh* mesh) {
+  if (!(state.range_low < state.range_high)) throw UsageError("view.colours.range_high: it must be greater than range_low");
   const auto [kind, id] = state.picked;
   if (kind == Picked::Kind::None) return;
   const std::uint64_t size = mesh == nullptr ? 0 : kind == Picked::Kind::Vertex ? mesh->vertex_count() : mesh->elements.size();
@@ -216,7 +270,7 @@ void apply_view_json(std::string_view text, ViewState& state, const Mesh* mesh) 
   const json in = json::parse(text, nullptr, false);
   if (in.is_discarded()) throw UsageError("view: this is not JSON");
   ViewState next = state;
-  Reader reader(in, "view");
+  Reader reader(in, "view", mesh == nullptr ? 0 : mesh->vertex_count());
   describe(reader, next);
   check(next, mesh);
   state = std::move(next);

@@ -20,6 +20,8 @@ std::vector<std::string> view_lines(const ViewState& state, bool with_camera) {
   lines.push_back(fmt::format("unfold left {}", on(panels.left_over)));
   lines.push_back(fmt::format("unfold right {}", on(panels.right_over)));
   lines.push_back(fmt::format("colormap {}", render::name(state.colour_map)));
+  lines.push_back(fmt::format("reverse-colors {}", on(state.colouring.reversed)));
+  lines.push_back(fmt::format("color-steps {}", state.colouring.steps));
   lines.push_back(fmt::format("wireframe {}", on(state.wireframe)));
   const PlotView& plot = state.plots[static_cast<std::size_t>(state.plot)];
   for (const auto& [axis, range] : {std::pair{"x", plot.x_range}, {"y", plot.y_range}})

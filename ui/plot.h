@@ -63,7 +63,6 @@ struct Plot {
   std::vector<LegendEntry> legend;
   std::vector<PlotMark> marks;
   std::optional<Range> brush;  // selected part of x
-  std::string brush_text;      // how many lie in it
   std::string empty_text = "nothing to show yet";
 };
 

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "core/session/summary.h"
+#include "render/shading.h"
 #include "ui/format.h"
 #include "ui/panels/panels.h"
 
@@ -288,7 +290,22 @@ class Builder {
       other.kind = Series::Kind::Steps;
       add_histogram(std::move(other), summary->histogram);
     }
+    brush(*frame);
     if (frame->now.below > 0) plot_.y_title += fmt::format(" ({} below {:g})", count(frame->now.below), frame->now.lowest);
+  }
+
+  /// The filter is the histogram's brush; how many elements it leaves is said beside.
+  void brush(const Frame& frame) {
+    const auto& filter = state_.colouring.filter;
+    if (!filter) return;
+    plot_.brush = *filter;
+    if (frame.quality.empty()) return;  // they are on a device
+    const std::pair range{static_cast<float>(filter->first), static_cast<float>(filter->second)};
+    std::size_t inside = 0;
+    for (std::size_t e = 0; e < frame.quality.size(); ++e)
+      inside += render::in_quality_range(range, shade_of(frame.quality[e], frame.inverted[e] != 0)) ? 1 : 0;
+    plot_.y_title +=
+        fmt::format(" · {} of {} from {:.4g} to {:.4g}", count(inside), count(frame.quality.size()), filter->first, filter->second);
   }
 
   template <class Values>
@@ -340,6 +357,7 @@ std::string plot_key(const ViewState& state, const SessionView& session, const S
   std::string key = fmt::format("{} {} {} {} {} {} {} {}", static_cast<int>(state.plot), static_cast<int>(view.axis),
                                 state.plot_options.by_seconds, state.plot_options.bins, session.frame ? session.frame->serial : 0,
                                 session.active, sorted.before.size(), sorted.now.size());
+  if (const auto& filter = state.colouring.filter) fmt::format_to(std::back_inserter(key), " {}:{}", filter->first, filter->second);
   for (const Mark* mark : {&state.timeline.a, &state.timeline.b}) key += mark->frame ? fmt::format(" {}", mark->frame->serial) : " -";
   for (const RunView& run : session.runs) {
     fmt::format_to(std::back_inserter(key), " {} {} {} {}", run.title, run.records.size(), fmt::ptr(run.percentiles.data()),

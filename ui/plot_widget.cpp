@@ -42,7 +42,11 @@ void paint(ImDrawList& list, const Drawing::Line& line) {
   if (line.dash > 0.0) return paint_dashed(list, line);
   std::vector<ImVec2> points;
   points.reserve(line.points.size());
-  for (const Drawing::Point& p : line.points) points.push_back(vec(p));
+  for (const Drawing::Point& p : line.points) {
+    const ImVec2 at = vec(p);
+    // Stretches shorter than a pixel have no direction that ImGui could join well.
+    if (points.empty() || std::abs(at.x - points.back().x) > 0.7F || std::abs(at.y - points.back().y) > 0.7F) points.push_back(at);
+  }
   list.AddPolyline(points.data(), static_cast<int>(points.size()), opaque(line.colour), ImDrawFlags_None, static_cast<float>(line.width));
 }
 

@@ -8,6 +8,7 @@
 
 #include "app/window/headless.h"
 #include "render/image.h"
+#include "ui/format.h"
 
 namespace dmoscope::app {
 namespace {
@@ -102,6 +103,25 @@ TEST_F(PlotWindow, AClickShowsThatIteration) {
   good("plot moved");
   good("click " + at(0.5, 0.4));
   EXPECT_EQ(iteration(), 10U);
+}
+
+TEST_F(PlotWindow, BrushingTheHistogramFiltersAndAClickShowsAllAgain) {
+  good("generate annulus");
+  good("plot histogram");
+  good("plot-bins 16");
+  good("drag " + at(0.51, 0.5) + " " + at(0.73, 0.6));
+  const auto& filter = window_->app().state().colouring.filter;
+  ASSERT_TRUE(filter);
+  EXPECT_EQ(*filter, (std::pair{0.5, 0.75}));
+  std::size_t inside = 0;
+  for (const float q : window_->app().engine().view()->frame->quality) inside += q >= 0.5F && q <= 0.75F ? 1 : 0;
+  ASSERT_GT(inside, 0U);
+  const fs::path svg = file("brush.svg");
+  good("plot-save \"" + svg.string() + "\"");
+  EXPECT_NE(read(svg).find(ui::count(inside) + " of "), std::string::npos);
+  EXPECT_NE(read(svg).find("fill-opacity"), std::string::npos);  // bars outside are dimmed
+  good("click " + at(0.1, 0.2));
+  EXPECT_FALSE(filter);
 }
 
 TEST_F(PlotWindow, TheLegendHidesAndIsolates) {

@@ -79,10 +79,6 @@ std::vector<Choice> along_choices(const ViewState& state) {
   return choices;
 }
 
-bool knows_filter(const PanelContext& context) {
-  return std::any_of(context.verbs.begin(), context.verbs.end(), [](const CommandInfo& verb) { return verb.name == "filter"; });
-}
-
 void draw_more_menu(PanelContext& context) {
   if (ImGui::Button("…")) ImGui::OpenPopup("more of the plot");
   context.items.record_last("plot-more");
@@ -142,9 +138,7 @@ void draw_plot_area(PanelContext& context) {
     cache.plot = build_plot(state, context.session, sorted, context.palette);
   }
   const PlotOutcome outcome = draw_plot(cache, context.state.plot_view(), context.palette, state.scale, context.items);
-  for (const std::string& line : outcome.commands) {
-    if (!line.starts_with("filter") || knows_filter(context)) context.send(line);
-  }
+  for (const std::string& line : outcome.commands) context.send(line);
   const RunView* run = context.run();
   if (outcome.clicked && over_iterations(state.plot) && run != nullptr && !context.activity.busy)
     context.send(fmt::format("seek {}", iteration_at(*run, state.plot_options.by_seconds, *outcome.clicked)));

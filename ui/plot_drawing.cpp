@@ -178,19 +178,24 @@ void draw_brush(Drawing& drawing, const Plot& plot, const PlotLayout& layout, co
     drawing.rules.push_back({{{x, layout.top}, {x, layout.bottom}}, mixed(colours.accent, colours.background, 0.8), unit});
 }
 
+double width_of(const std::string& text, double size) {
+  const auto letters = std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; });
+  return 0.62 * size * static_cast<double>(letters);  // of DejaVu Sans, generously
+}
+
 void draw_marks(Drawing& drawing, const Plot& plot, const PlotLayout& layout, const PlotInk& colours, double font, double unit) {
   for (const PlotMark& mark : plot.marks) {
     const double x = layout.x.place(mark.x);
     if (x < layout.left - 0.5 || x > layout.right + 0.5) continue;
     drawing.lines.push_back({{{x, layout.top}, {x, layout.bottom}}, mixed(colours.accent, colours.background, 0.8), 1.5 * unit});
-    if (!mark.label.empty())
-      drawing.labels.push_back({{x + 0.3 * font, layout.top + 0.9 * font}, mark.label, font, ink(colours.accent), Drawing::Anchor::Start});
+    if (mark.label.empty()) continue;
+    const bool room = x + 0.3 * font + width_of(mark.label, font) < layout.right;
+    drawing.labels.push_back({{room ? x + 0.3 * font : x - 0.3 * font, layout.top + 0.9 * font},
+                              mark.label,
+                              font,
+                              ink(colours.accent),
+                              room ? Drawing::Anchor::Start : Drawing::Anchor::End});
   }
-}
-
-double width_of(const std::string& text, double size) {
-  const auto letters = std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; });
-  return 0.62 * size * static_cast<double>(letters);  // of DejaVu Sans, generously
 }
 
 void draw_sample(Drawing& drawing, const Series& look, double x, double y, const PlotInk& colours) {

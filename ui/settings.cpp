@@ -81,6 +81,8 @@ std::string settings_text(const ViewState& state) {
   json out = {{"theme", kThemeNames[static_cast<int>(state.theme)]},
               {"scale", state.scale / state.monitor_scale},
               {"colormap", render::name(state.colour_map)},
+              {"reversed", state.colouring.reversed},
+              {"steps", state.colouring.steps},
               {"wireframe", state.wireframe},
               {"panels",
                {{"left", panels.left},
@@ -103,6 +105,10 @@ bool apply_settings(const std::string& text, ViewState& state) {
   double scale = state.scale / state.monitor_scale;
   take(in, "scale", scale, 0.125, 4.0);
   state.scale = std::clamp(scale * state.monitor_scale, 0.5, 4.0);
+  take(in, "reversed", state.colouring.reversed);
+  double steps = state.colouring.steps;
+  take(in, "steps", steps, 0.0, 64.0);
+  state.colouring.steps = steps == 1.0 ? 0 : static_cast<int>(steps);
   take(in, "wireframe", state.wireframe);
   if (const auto at = in.find("colormap"); at != in.end() && at->is_string()) {
     for (const auto& map : render::colour_map_table()) {

@@ -44,9 +44,6 @@ void draw_colour_by(PanelContext& context) {
 
 void draw_map(PanelContext& context) {
   labelled(context, "map", "perceptually uniform and colour-blind safe");
-  const char* flip = "reversed";
-  const float room = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize(flip).x;
-  ImGui::SetNextItemWidth(std::max(4 * context.em(), ImGui::GetContentRegionAvail().x - room - context.px(8)));
   const bool open = ImGui::BeginCombo("##map", std::string(render::name(context.state.colour_map)).c_str());
   context.items.record_last("colormap");
   if (open) {
@@ -57,11 +54,10 @@ void draw_map(PanelContext& context) {
     }
     ImGui::EndCombo();
   }
-  ImGui::SameLine(0, context.px(8));
+  labelled(context, "reversed", "the colour map from its other end");
   bool reversed = context.state.colouring.reversed;
-  if (ImGui::Checkbox(flip, &reversed)) context.send(reversed ? "reverse-colors on" : "reverse-colors off");
+  if (ImGui::Checkbox("##reversed", &reversed)) context.send(reversed ? "reverse-colors on" : "reverse-colors off");
   context.items.record_last("reverse-colors");
-  next_item_tooltip("the colour map from its other end");
   labelled(context, "steps", "so many colours of equal width; 0: without steps");
   int steps = context.state.colouring.steps;
   ImGui::InputInt("##color-steps", &steps, 1, 1, ImGuiInputTextFlags_EnterReturnsTrue);

@@ -5,7 +5,7 @@
 # Xvfb or no /proc.
 set -euo pipefail
 program=$1 mesh=$2 seconds=${3:-10}
-for tool in xvfb-run Xvfb xauth; do
+for tool in xvfb-run Xvfb xauth xdotool; do
   command -v "$tool" >/dev/null || { echo "skipped: $tool is not installed"; exit 77; }
 done
 [[ -r /proc/self/stat ]] || { echo "skipped: no /proc"; exit 77; }
@@ -21,7 +21,7 @@ program=$1 mesh=$2 seconds=$3 keys=$4
 id=$!
 ticks() { awk '{ print $14 + $15 }' "/proc/$id/stat"; }
 sleep 3
-if [[ -n $keys ]] && command -v xdotool >/dev/null; then
+if [[ -n $keys ]]; then
   window=$(timeout 20 xdotool search --sync --onlyvisible --class dmoscope | head -n 1)
   xdotool windowfocus "$window"
   for key in $keys; do xdotool key --window 0 "$key"; sleep 0.3; done

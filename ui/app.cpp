@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,7 +28,8 @@ App::App(Options options)
     : options_(std::move(options)), engine_(options_.threads, options_.acceleration, options_.backend), session_(engine_.view()) {
   host_.session = [this] { return session_; };
   host_.post = [this](const std::string& line) {
-    state_.timeline.shown = Shown::Now;
+    if (std::exchange(state_.timeline.shown, Shown::Now) != Shown::Now)
+      add_message(state_, {Message::Kind::Info, "a mark was shown; commands are about the mesh as it is now", 0});
     state_.timeline.play.kind = Playback::Kind::Off;
     post_by_itself(line);
   };

@@ -136,6 +136,8 @@ void apply_move(ViewState& state, const CommandHost& host, const SessionView& se
   InspectionState& inspection = state.inspection;
   if (!inspection.open || inspection.vertex == kNoIndex) throw UsageError("no vertex is looked into");
   if (inspection.applied) return;
+  if (state.timeline.shown != Shown::Now)
+    throw UsageError("a marked moment is shown: this move would be made in the mesh as it is now (flip now shows that)");
   const Inspection look = inspect(session, inspection.vertex);
   if (!look.trace) throw UsageError(look.trouble);
   if (look.trace->end == VisitEnd::Fixed) throw UsageError(fmt::format("vertex {} is fixed", inspection.vertex));

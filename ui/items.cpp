@@ -7,6 +7,7 @@
 namespace dmoscope::ui {
 
 void Items::record_last(std::string_view name) {
+  if (!ImGui::IsItemVisible()) return;  // scrolled out of its panel: something else is where it would be
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   record(name, {low.x, low.y, high.x, high.y});
 }

@@ -44,7 +44,7 @@ void drop_stale_marks(Timeline& timeline, const SessionView& session) {
 std::string mark_text(std::string_view letter, const Frame& frame) {
   std::string text = fmt::format("{} · it {}", letter, count(frame.moment.iteration));
   if (frame.moment.visits > 0) text += fmt::format(" + {} visits", count(frame.moment.visits));
-  if (frame.moment.edits > 0) text += fmt::format(" + {} by hand", count(frame.moment.edits));
+  if (frame.moment.edits > 0) text += fmt::format(" + {}", counted(frame.moment.edits, "edit", "edits"));
   return text;
 }
 

@@ -132,7 +132,8 @@ int script(const Options& options) {
 
 void add_script(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb = app.add_subcommand("script", "Run a file of commands; stops at the first that fails");
+  CLI::App* verb = app.add_subcommand(
+      "script", "Run a file of commands, which the manual page and the palette (Ctrl+P) list; stops at the first that fails");
   verb->add_option("FILE", options->file, "Script to run; - reads standard input")->required();
   verb->add_flag("--headless", options->headless, "Draw without a screen; a script that only computes needs none anyway");
   add_backend_option(*verb, options->backend);

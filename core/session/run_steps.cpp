@@ -10,7 +10,8 @@
 namespace dmoscope {
 
 std::string Outcome::sentence() const {
-  const std::string rose = last_rise == 0 ? "the minimum never rose" : fmt::format("the minimum last rose in iteration {}", last_rise);
+  const std::string rose =
+      last_rise == 0 ? "the minimum rose in none of these iterations" : fmt::format("the minimum last rose in iteration {}", last_rise);
   switch (reason) {
     case StopReason::NothingMoved:
       return fmt::format("converged: no vertex moved any more; {}", rose);

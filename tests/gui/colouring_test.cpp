@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "app/window/headless.h"
+#include "tests/gui/headless_test.h"
 #include "tests/support/meshes.h"
 #include "ui/derived.h"
 #include "ui/element_colours.h"
@@ -291,25 +291,13 @@ TEST(CategoryColours, AreFarApartAndFarFromThatOfInvertedElements) {
   }
 }
 
-class ColourWindow : public ::testing::Test {
+class ColourWindow : public app::HeadlessTest {
  protected:
-  void SetUp() override {
-    try {
-      window_ = std::make_unique<app::HeadlessWindow>(app::HeadlessWindow::Options{1280, 800, 1.0, 1});
-    } catch (const Error& error) {
-      GTEST_SKIP() << "no OpenGL without a screen: " << error.what();
-    }
-  }
-  void good(std::string_view line) {
-    const auto failure = window_->run(line);
-    ASSERT_FALSE(failure.has_value()) << line << ": " << failure->text;
-  }
   [[nodiscard]] bool refused(std::string_view line) {
     const bool failed = window_->run(line).has_value();
     (void)window_->run("dialog none");
     return failed;
   }
-  [[nodiscard]] ViewState& state() { return window_->app().state(); }
   [[nodiscard]] std::array<float, 4> box(const std::string& item) { return window_->app().items().find(item); }
   void drag(std::pair<float, float> from, std::pair<float, float> to) {
     good(fmt::format("drag {} {} {} {}", from.first, from.second, to.first, to.second));
@@ -323,7 +311,6 @@ class ColourWindow : public ::testing::Test {
     return static_cast<std::size_t>(
         std::count_if(lines.begin(), lines.end(), [&](const LogLine& line) { return line.text.starts_with(start); }));
   }
-  std::unique_ptr<app::HeadlessWindow> window_;
 };
 
 TEST_F(ColourWindow, HandlesOfTheBarSetTheRangeAndADoubleClickResetsIt) {

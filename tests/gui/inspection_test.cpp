@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "app/window/headless.h"
 #include "core/inspect/visit_trace.h"
 #include "core/quality/quality.h"
+#include "tests/gui/headless_test.h"
 #include "ui/view_commands.h"
 
 namespace dmoscope::app {
@@ -21,24 +21,16 @@ bool same(const std::vector<double>& a, const std::vector<double>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) { return same(x, y); });
 }
 
-class Inspection : public testing::Test {
+class Inspection : public HeadlessTest {
  protected:
   void SetUp() override {
     const auto file = std::filesystem::path(DMOSCOPE_SHARED_DIR) / "meshes/ocean/east.14";
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "no shared meshes here";
-    try {
-      window_ = std::make_unique<HeadlessWindow>(HeadlessWindow::Options{1280, 800, 1.0, 1, Backend::Cpu});
-    } catch (const Error& error) {
-      GTEST_SKIP() << "no OpenGL without a screen: " << error.what();
-    }
+    open(1280, 800, Backend::Cpu);
+    if (IsSkipped()) return;
     good("open " + quote_word(file.string()));
     good("inspect on");
   }
-  void good(std::string_view line) {
-    const auto failure = window_->run(line);
-    ASSERT_FALSE(failure.has_value()) << line << ": " << failure->text;
-  }
-  [[nodiscard]] std::shared_ptr<const SessionView> session() { return window_->app().engine().view(); }
   [[nodiscard]] const RunView& run() { return session()->runs[session()->active]; }
 
   /// Picks the vertex, compares what is shown with a search of its own, then lets `move` visit it and compares with what was stored.
@@ -100,7 +92,6 @@ class Inspection : public testing::Test {
       }
   }
 
-  std::unique_ptr<HeadlessWindow> window_;
   int moved_ = 0;
 };
 

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "app/window/headless.h"
 #include "core/quality/quality.h"
+#include "tests/gui/headless_test.h"
 #include "ui/inspection_marks.h"
 #include "ui/inspection_text.h"
 #include "ui/view_commands.h"
@@ -17,21 +17,8 @@ namespace {
 
 using ui::Picked;
 
-class InspectionView : public testing::Test {
+class InspectionView : public HeadlessTest {
  protected:
-  void SetUp() override {
-    try {
-      window_ = std::make_unique<HeadlessWindow>(HeadlessWindow::Options{1280, 800, 1.0, 1});
-    } catch (const Error& error) {
-      GTEST_SKIP() << "no OpenGL without a screen: " << error.what();
-    }
-  }
-  void good(std::string_view line) {
-    const auto failure = window_->run(line);
-    ASSERT_FALSE(failure.has_value()) << line << ": " << failure->text;
-  }
-  [[nodiscard]] std::shared_ptr<const SessionView> session() { return window_->app().engine().view(); }
-  [[nodiscard]] ui::ViewState& state() { return window_->app().state(); }
   [[nodiscard]] ui::InspectionState& inspection() { return state().inspection; }
   [[nodiscard]] const ui::Inspection& look() { return window_->app().inspection(); }
   [[nodiscard]] render::Marks marks() {
@@ -56,8 +43,6 @@ class InspectionView : public testing::Test {
     }
     return star;
   }
-
-  std::unique_ptr<HeadlessWindow> window_;
 };
 
 TEST_F(InspectionView, OpensAtWhatIsPickedAndCloses) {

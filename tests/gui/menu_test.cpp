@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "app/window/headless.h"
+#include "tests/gui/headless_test.h"
 #include "ui/actions.h"
 #include "ui/palette_entries.h"
 #include "ui/view_commands.h"
@@ -15,17 +15,13 @@
 namespace dmoscope::app {
 namespace {
 
-class Menus : public testing::Test {
+class Menus : public HeadlessTest {
  protected:
   void SetUp() override {
-    try {
-      window_ = std::make_unique<HeadlessWindow>(HeadlessWindow::Options{800, 600, 1.0, 1});
-    } catch (const Error& error) {
-      GTEST_SKIP() << "no OpenGL without a screen: " << error.what();
-    }
+    open(800, 600);
+    if (IsSkipped()) return;
     fresh_ = state();
   }
-  [[nodiscard]] ui::ViewState& state() { return window_->app().state(); }
   void run(const std::string& line) { (void)window_->run(line); }
   /// Two runs, a history, something picked and marked; the same every time.
   void begin() {
@@ -71,7 +67,6 @@ class Menus : public testing::Test {
     return true;
   }
 
-  std::unique_ptr<HeadlessWindow> window_;
   ui::ViewState fresh_;
   bool possible_ = true;
 };

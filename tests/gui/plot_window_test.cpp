@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "app/window/headless.h"
 #include "render/image.h"
+#include "tests/gui/headless_test.h"
 #include "ui/format.h"
 
 namespace dmoscope::app {
@@ -15,19 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class PlotWindow : public testing::Test {
+class PlotWindow : public HeadlessTest {
  protected:
-  void SetUp() override {
-    try {
-      window_ = std::make_unique<HeadlessWindow>(HeadlessWindow::Options{1280, 800, 1.0, 1});
-    } catch (const Error& error) {
-      GTEST_SKIP() << "no OpenGL without a screen: " << error.what();
-    }
-  }
-  void good(const std::string& line) {
-    const auto failure = window_->run(line);
-    ASSERT_FALSE(failure.has_value()) << line << ": " << failure->text;
-  }
   static fs::path file(const std::string& name) {
     const fs::path folder = fs::path(testing::TempDir()) / "dmoscope plots";
     fs::create_directories(folder);
@@ -48,8 +37,6 @@ class PlotWindow : public testing::Test {
   }
   [[nodiscard]] ui::PlotView& view() { return window_->app().state().plot_view(); }
   [[nodiscard]] std::uint64_t iteration() { return window_->app().engine().view()->frame->moment.iteration; }
-
-  std::unique_ptr<HeadlessWindow> window_;
 };
 
 TEST_F(PlotWindow, IsSavedAsNumbersDrawingAndPicture) {

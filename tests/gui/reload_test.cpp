@@ -7,28 +7,21 @@
 
 #include <gtest/gtest.h>
 
-#include "app/window/headless.h"
+#include "tests/gui/headless_test.h"
 
 namespace dmoscope::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Reload : public testing::Test {
+class Reload : public HeadlessTest {
  protected:
   void SetUp() override {
-    try {
-      window_ = std::make_unique<HeadlessWindow>(HeadlessWindow::Options{1280, 800, 1.0, 1});
-    } catch (const Error& error) {
-      GTEST_SKIP() << "no OpenGL without a screen: " << error.what();
-    }
+    open();
+    if (IsSkipped()) return;
     file_ = fs::path(testing::TempDir()) / "dmoscope reloaded.off";
     write(0.0);
     good("open \"" + file_.string() + "\"");
-  }
-  void good(const std::string& line) {
-    const auto failure = window_->run(line);
-    ASSERT_FALSE(failure.has_value()) << line << ": " << failure->text;
   }
   /// A square of nine vertices whose middle one is off by `x`; `more`: with one vertex more.
   void write(double x, bool more = false) {
@@ -44,10 +37,7 @@ class Reload : public testing::Test {
       }
     if (more) file << "3 2 9 5\n";
   }
-  [[nodiscard]] std::shared_ptr<const SessionView> session() { return window_->app().engine().view(); }
-  [[nodiscard]] ui::ViewState& state() { return window_->app().state(); }
 
-  std::unique_ptr<HeadlessWindow> window_;
   fs::path file_;
 };
 

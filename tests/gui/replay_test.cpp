@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "app/window/headless.h"
 #include "render/image.h"
+#include "tests/gui/headless_test.h"
 #include "ui/command_log.h"
 
 namespace dmoscope::app {
@@ -19,21 +19,8 @@ struct Reached {
   render::Image picture;
 };
 
-class Replay : public testing::Test {
+class Replay : public HeadlessTest {
  protected:
-  void SetUp() override { open(); }
-  void open() {
-    window_.reset();
-    try {
-      window_ = std::make_unique<HeadlessWindow>(HeadlessWindow::Options{1280, 800, 1.0, 1});
-    } catch (const Error& error) {
-      GTEST_SKIP() << "no OpenGL without a screen: " << error.what();
-    }
-  }
-  void good(const std::string& line) {
-    const auto failure = window_->run(line);
-    ASSERT_FALSE(failure.has_value()) << line << ": " << failure->text;
-  }
   [[nodiscard]] Reached reached() {
     const auto view = window_->app().engine().view();
     window_->settle();
@@ -71,7 +58,6 @@ class Replay : public testing::Test {
   }
   [[nodiscard]] std::size_t count(std::string_view line) const { return static_cast<std::size_t>(std::ranges::count(lines_, line)); }
 
-  std::unique_ptr<HeadlessWindow> window_;
   std::vector<std::string> lines_;
 };
 

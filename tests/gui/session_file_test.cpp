@@ -6,34 +6,15 @@
 
 #include <gtest/gtest.h>
 
-#include "app/window/headless.h"
 #include "render/image.h"
+#include "tests/gui/headless_test.h"
 #include "ui/view_commands.h"
 
 namespace dmoscope::app {
 namespace {
 
-class SessionFile : public testing::Test {
+class SessionFile : public HeadlessTest {
  protected:
-  void SetUp() override {
-    if (!ui::is_session_command("save-state")) GTEST_SKIP() << "sessions cannot be saved yet";
-    open();
-  }
-  void open() {
-    window_.reset();
-    try {
-      window_ = std::make_unique<HeadlessWindow>(HeadlessWindow::Options{1280, 800, 1.0, 1});
-    } catch (const Error& error) {
-      GTEST_SKIP() << "no OpenGL without a screen: " << error.what();
-    }
-  }
-  void good(const std::string& line) {
-    const auto failure = window_->run(line);
-    ASSERT_FALSE(failure.has_value()) << line << ": " << failure->text;
-  }
-  [[nodiscard]] ui::ViewState& state() { return window_->app().state(); }
-
-  std::unique_ptr<HeadlessWindow> window_;
   const std::string file_ = (std::filesystem::path(testing::TempDir()) / "dmoscope saved.dmoscope").string();
 };
 

@@ -3,28 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include "app/window/headless.h"
+#include "tests/gui/headless_test.h"
 
 namespace dmoscope::app {
 namespace {
 
-class SmallWindow : public testing::Test {
+class SmallWindow : public HeadlessTest {
  protected:
-  void SetUp() override {
-    try {
-      window_ = std::make_unique<HeadlessWindow>(HeadlessWindow::Options{800, 600, 1.0, 1});
-    } catch (const Error& error) {
-      GTEST_SKIP() << "no OpenGL without a screen: " << error.what();
-    }
-  }
-  void good(const std::string& line) {
-    const auto failure = window_->run(line);
-    ASSERT_FALSE(failure.has_value()) << line << ": " << failure->text;
-  }
-  [[nodiscard]] ui::ViewState& state() { return window_->app().state(); }
+  void SetUp() override { open(800, 600); }
   [[nodiscard]] const ui::Items::Box& box(const std::string& item) { return window_->app().items().find(item); }
-
-  std::unique_ptr<HeadlessWindow> window_;
 };
 
 TEST_F(SmallWindow, FoldedPanelsOpenAndCloseAndTakeNothingFromOthers) {

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "app/window/headless.h"
 #include "core/session/engine.h"
 #include "render/context.h"
+#include "tests/gui/headless_test.h"
 #include "tests/support/meshes.h"
 #include "ui/selection_commands.h"
 #include "ui/stepping_marks.h"
@@ -159,26 +159,18 @@ TEST(Dots, AreThereForEveryVertexInViewOrForAnEvenSample) {
   for (const auto& dot : marks.dots) EXPECT_EQ(dot.diameter, 8.0F) << "there is room";
 }
 
-class Stepping : public ::testing::Test {
+class Stepping : public app::HeadlessTest {
  protected:
   void SetUp() override {
-    try {
-      window_ = std::make_unique<app::HeadlessWindow>(app::HeadlessWindow::Options{1280, 800, 1.0, 1, Backend::Cpu});
-    } catch (const Error& error) {
-      GTEST_SKIP() << "no OpenGL without a screen: " << error.what();
-    }
+    open(1280, 800, Backend::Cpu);
+    if (IsSkipped()) return;
     good("generate coast 600");
-  }
-  void good(std::string_view line) {
-    const auto failure = window_->run(line);
-    ASSERT_FALSE(failure.has_value()) << line << ": " << failure->text;
   }
   void bad(std::string_view line) {
     EXPECT_TRUE(window_->run(line).has_value()) << line;
     state().dialog = Dialog::None;
     state().error_text.clear();
   }
-  [[nodiscard]] ViewState& state() { return window_->app().state(); }
   [[nodiscard]] std::shared_ptr<const Frame> frame() { return window_->app().engine().view()->frame; }
   /// Where a vertex is in the window.
   [[nodiscard]] Vec2<double> pixel_of(Index vertex) {
@@ -187,8 +179,6 @@ class Stepping : public ::testing::Test {
     return {static_cast<double>(box[0]) + p.x, static_cast<double>(box[1]) + p.y};
   }
   [[nodiscard]] Index some_free_vertex() { return window_->app().engine().view()->runs[0].colouring->order[5]; }
-
-  std::unique_ptr<app::HeadlessWindow> window_;
 };
 
 TEST_F(Stepping, TheBrushSelectsWhatLiesUnderItAndTheMeshStays) {

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "app/window/headless.h"
 #include "render/image.h"
+#include "tests/gui/headless_test.h"
 #include "ui/sequence.h"
 
 namespace dmoscope::app {
@@ -15,24 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Timeline : public testing::Test {
+class Timeline : public HeadlessTest {
  protected:
-  void SetUp() override {
-    try {
-      window_ = std::make_unique<HeadlessWindow>(HeadlessWindow::Options{1280, 800, 1.0, 1});
-    } catch (const Error& error) {
-      GTEST_SKIP() << "no OpenGL without a screen: " << error.what();
-    }
-  }
-  void good(const std::string& line) {
-    const auto failure = window_->run(line);
-    ASSERT_FALSE(failure.has_value()) << line << ": " << failure->text;
-  }
   [[nodiscard]] const Frame& shown() { return *window_->app().frame(); }
-  [[nodiscard]] std::shared_ptr<const SessionView> session() { return window_->app().engine().view(); }
   [[nodiscard]] render::Image mesh() { return window_->app().mesh_picture({}); }
-
-  std::unique_ptr<HeadlessWindow> window_;
 };
 
 TEST_F(Timeline, FlippingShowsTheMarkedMomentsWhole) {

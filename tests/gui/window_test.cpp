@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "app/window/headless.h"
 #include "app/window/picture.h"
 #include "app/window/script.h"
 #include "core/quality/metric.h"
 #include "render/context.h"
+#include "tests/gui/headless_test.h"
 
 namespace dmoscope::app {
 namespace {
@@ -23,24 +23,9 @@ std::filesystem::path folder() {
   return path;
 }
 
-class Window : public testing::Test {
+class Window : public HeadlessTest {
  protected:
-  void SetUp() override {
-    try {
-      window_ = std::make_unique<HeadlessWindow>(HeadlessWindow::Options{1280, 800, 1.0, 1});
-    } catch (const Error& error) {
-      GTEST_SKIP() << "no OpenGL without a screen: " << error.what();
-    }
-  }
-  void good(std::string_view line) {
-    const auto failure = window_->run(line);
-    ASSERT_FALSE(failure.has_value()) << line << ": " << failure->text;
-  }
-  [[nodiscard]] std::shared_ptr<const SessionView> session() { return window_->app().engine().view(); }
   [[nodiscard]] std::uint64_t iteration() { return session()->frame->moment.iteration; }
-  [[nodiscard]] ui::ViewState& state() { return window_->app().state(); }
-
-  std::unique_ptr<HeadlessWindow> window_;
 };
 
 TEST_F(Window, StepsByKeyAndByButton) {
@@ -241,7 +226,7 @@ TEST_F(Window, TheWorstListJumps) {
 }
 
 TEST_F(Window, MetricNamesFitOnOneLineWhateverTheKindAndScale) {
-  for (const auto& [size, scale] : {std::pair{"1280 800", "1"}, {"2560 1600", "2"}}) {
+  for (const auto& [size, scale] : {std::pair{"1280 1400", "1"}, {"2560 2800", "2"}}) {
     good(std::string("size ") + size);
     good(std::string("scale ") + scale);
     for (const char* mesh : {"annulus", "quads", "mixed"}) {

@@ -64,7 +64,7 @@ BarLayout lay_out(const PanelContext& context, const Rect& rect) {
   layout.right = layout.has_bar ? outside_text(legend) : std::string();
   for (std::size_t k = 0; k < std::min(kMostEntries, legend.categories.size()); ++k) {
     const render::LegendEntry& entry = legend.categories[k];
-    layout.swatches.push_back({fmt::format("{}  {}", entry.name, count(entry.count)), entry.colour});
+    layout.swatches.push_back({fmt::format("{}: {}", entry.name, count(entry.count)), entry.colour});
   }
   layout.entries = layout.swatches.size();
   if (legend.categories.size() > kMostEntries) {

@@ -40,8 +40,11 @@ void draw_run_row(PanelContext& context, std::size_t k) {
     for (const IterationRecord& one : run.records) {
       if (one.iteration == run.moment.iteration) record = &one;
     }
-    const std::string facts =
-        fmt::format("min {}  mean {}", short_number(record->statistics.minimum), short_number(record->statistics.mean));
+    // In the midst of an iteration, and after edits, the record is of another moment.
+    const Frame* frame = context.frame();
+    const bool shown = frame != nullptr && frame->run == k && active;
+    const Statistics& statistics = shown ? frame->statistics : record->statistics;
+    const std::string facts = fmt::format("min {}  mean {}", short_number(statistics.minimum), short_number(statistics.mean));
     list.AddText({text, at.y + line + 1.5F * pad}, colour(context.palette.dim), fit_text(facts, width - bar - context.px(12)).c_str());
   }
   ImGui::PopID();

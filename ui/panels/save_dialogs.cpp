@@ -71,7 +71,7 @@ void draw_export_dialog(PanelContext& context) {
     widgets.export_what = 0;
     widgets.export_name = default_name(context, 0);
   }
-  constexpr const char* kWhat[] = {"mesh as it is shown", "statistics of all runs", "quality of every element"};
+  constexpr const char* kWhat[] = {"mesh as it is now", "statistics of all runs", "quality of every element"};
   for (int k = 0; k < 3; ++k) {
     if (k > 0) ImGui::SameLine(0, context.px(16));
     if (ImGui::RadioButton(kWhat[k], widgets.export_what == k)) {

@@ -36,7 +36,7 @@ void draw_title(PanelContext& context, const Rect& rect, const Frame& frame) {
   if (mark != nullptr) title = fmt::format("{} · {}", context.state.timeline.shown == Shown::A ? "A" : "B", mark->title);
   std::string moment = fmt::format("it {}", count(frame.moment.iteration));
   if (frame.moment.visits > 0) moment += fmt::format(" + {} of {} visits", count(frame.moment.visits), count(run->visits_per_iteration));
-  if (frame.moment.edits > 0) moment += fmt::format(" + {} by hand", count(frame.moment.edits));
+  if (frame.moment.edits > 0) moment += fmt::format(" + {}", counted(frame.moment.edits, "edit", "edits"));
   std::string shown;
   if (frame.shown != run->parameters.metric) shown = fmt::format("shown: {}", metric_phrase(frame.shown));
   const auto add = [&](const char* note) { shown += (shown.empty() ? "" : " · ") + std::string(note); };
@@ -159,8 +159,10 @@ void draw_context_menu(PanelContext& context) {
   if (vertex != kNoIndex && element != kNoIndex) ImGui::Separator();
   if (element != kNoIndex) draw_element_entries(context, element);
   if (vertex != kNoIndex || element != kNoIndex) ImGui::Separator();
-  for (const char* id : {"step-iteration", "run-pause", "reset", "fit", "wireframe", "vertices", "worst-marker", "screenshot"}) {
+  for (const char* id : {"smooth-selected", "fix-selected", "step-iteration", "run-pause", "reset", "fit", "wireframe", "vertices",
+                         "worst-marker", "screenshot"}) {
     const Action& action = *find_action(id);
+    if (action.needs == Needs::Selected && !context.situation().selected) continue;
     if (ImGui::MenuItem(std::string(action.title).c_str(), std::string(action.key).c_str(), false, enabled(action, context.situation()))) {
       context.send(std::string(action.command));
     }

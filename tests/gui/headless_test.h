@@ -1,0 +1,35 @@
+#pragma once
+// A window without a screen, for tests that drive it by lines of a script.
+
+#include <memory>
+#include <string_view>
+
+#include <gtest/gtest.h>
+
+#include "app/window/headless.h"
+
+namespace dmoscope::app {
+
+class HeadlessTest : public testing::Test {
+ protected:
+  void SetUp() override { open(); }
+  /// A fresh window instead of the one before; skips the test where there is no OpenGL.
+  void open(int width = 1280, int height = 800, Backend backend = Backend::Auto) {
+    window_.reset();
+    try {
+      window_ = std::make_unique<HeadlessWindow>(HeadlessWindow::Options{width, height, 1.0, 1, backend});
+    } catch (const Error& error) {
+      GTEST_SKIP() << "no OpenGL without a screen: " << error.what();
+    }
+  }
+  void good(std::string_view line) {
+    const auto failure = window_->run(line);
+    ASSERT_FALSE(failure.has_value()) << line << ": " << failure->text;
+  }
+  [[nodiscard]] ui::ViewState& state() { return window_->app().state(); }
+  [[nodiscard]] std::shared_ptr<const SessionView> session() { return window_->app().engine().view(); }
+
+  std::unique_ptr<HeadlessWindow> window_;
+};
+
+}  // namespace dmoscope::app

@@ -28,6 +28,7 @@ App::App(Options options)
     : options_(std::move(options)), engine_(options_.threads, options_.acceleration, options_.backend), session_(engine_.view()) {
   host_.session = [this] { return session_; };
   host_.post = [this](const std::string& line) {
+    if (state_.sequence) end_sequence("the sequence of pictures ended early: another command came", Message::Kind::Warning);
     if (std::exchange(state_.timeline.shown, Shown::Now) != Shown::Now)
       add_message(state_, {Message::Kind::Info, "a mark was shown; commands are about the mesh as it is now", 0});
     state_.timeline.play.kind = Playback::Kind::Off;
@@ -62,6 +63,8 @@ void App::submit(std::string_view line) {
     execute(line);
   } catch (const Error& error) {
     add_message(state_, {Message::Kind::Error, error.what(), error.exit_code()});
+  } catch (const std::exception& unforeseen) {  // a person's session must outlive our mistakes
+    add_message(state_, {Message::Kind::Error, fmt::format("{}: {}", line, unforeseen.what()), 3});
   }
 }
 

@@ -80,7 +80,7 @@ void App::end_sequence(const std::string& outcome, Message::Kind kind) {
   const Sequence sequence = *std::exchange(state_.sequence, std::nullopt);
   state_.requests.screenshots.clear();
   const Moment& before = sequence.before;
-  engine_.post(fmt::format("seek {} {} {}", before.iteration, before.visits, before.edits));
+  engine_.post(fmt::format("look-at {} {} {}", before.iteration, before.visits, before.edits));
   add_message(state_, {kind, outcome, kind == Message::Kind::Info ? 0 : 1});
 }
 
@@ -104,7 +104,7 @@ void App::advance_sequence() {
   }
   const std::uint64_t wanted = sequence.iterations[sequence.done];
   if (sequence.phase == Sequence::Phase::Seek) {
-    engine_.post(fmt::format("seek {}", wanted));
+    engine_.post(fmt::format("look-at {}", wanted));
     sequence.phase = Sequence::Phase::Wait;
     return;
   }
@@ -125,11 +125,11 @@ void App::watch_file() {
   const bool wanted = state_.watch_file && session_->input && !session_->input->path.empty();
   if (!wanted && !watch_) return;
   if (!watch_)
-    watch_ = std::make_unique<FileWatch>([this] {
-      if (wake_) wake_();
+    watch_ = std::make_unique<FileWatch>([wake = wake_] {
+      if (wake) wake();
     });
   watch_->follow(wanted ? session_->input->path.string() : std::string());
-  if (watch_->take_change()) post_by_itself("reload");
+  if (!state_.sequence && watch_->take_change()) post_by_itself("reload");
 }
 
 }  // namespace dmoscope::ui

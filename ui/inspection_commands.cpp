@@ -141,8 +141,12 @@ void apply_move(ViewState& state, const CommandHost& host, const SessionView& se
   const Inspection look = inspect(session, inspection.vertex);
   if (!look.trace) throw UsageError(look.trouble);
   if (look.trace->end == VisitEnd::Fixed) throw UsageError(fmt::format("vertex {} is fixed", inspection.vertex));
+  if (host.busy()) throw UsageError("the run is at work: wait until it rests, or cancel it");
+  const RunView& run = session.runs[session.active];
   inspection.take_back.clear();
-  if (inspection.in_order && next_vertex(session) == inspection.vertex) {
+  inspection.applied_from = run.moment;
+  // Where an edit waits to be done again, a step would be that one's.
+  if (inspection.in_order && run.edits == run.edits_done && next_vertex(session) == inspection.vertex) {
     host.post("step vertex");
     inspection.take_back = "back vertex";
   } else if (look.trace->end == VisitEnd::Moved) {
@@ -176,12 +180,22 @@ void next_level(ViewState& state, const CommandHost& host, const SessionView& se
   }
 }
 
-/// From the applied move back to the last level: the move is taken back, too.
+/// Whether the applied move is the last thing that the run did.
+bool can_take_back(const InspectionState& inspection, const RunView& run) {
+  const Moment& from = inspection.applied_from;
+  if (inspection.take_back == "undo") return run.moment == Moment{from.iteration, from.visits, from.edits + 1};
+  const bool ended = from.visits + 1 == run.visits_per_iteration;
+  return run.moment == (ended ? Moment{from.iteration + 1} : Moment{from.iteration, from.visits + 1});
+}
+
+/// From the applied move back to the last level: the move is taken back, too, unless something else came after it.
 void previous_level(ViewState& state, const CommandHost& host, const SessionView& session) {
   InspectionState& inspection = state.inspection;
   if (!inspection.open) return;
   const bool take_back = inspection.applied;
-  if (take_back && !inspection.take_back.empty()) host.post(inspection.take_back);
+  if (take_back && host.busy()) throw UsageError("the run is at work: wait until it rests, or cancel it");
+  if (take_back && !inspection.take_back.empty() && can_take_back(inspection, session.runs[session.active]))
+    host.post(inspection.take_back);
   show_level(state, inspect(session, inspection.vertex),
              take_back || inspection.all_levels ? inspection.level : std::max(0, inspection.level - 1));
 }

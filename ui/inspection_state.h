@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/vec.h"
+#include "core/session/moment.h"
 #include "render/camera.h"
 
 namespace dmoscope::ui {
@@ -24,6 +25,7 @@ struct InspectionState {
   bool all_levels = false;  // the grids of all levels at once
   bool applied = false;     // the vertex has been sent where its visit takes it
   std::string take_back;    // the command that undoes what was applied; empty: nothing moved
+  Moment applied_from;      // where the run stood before
   bool in_order = false;    // it is the one that the run visits next, so that applying is the run's own step
   bool zoom = true;         // the view goes as close as a level's grid needs
   bool field = true;        // the quality around the vertex, in the inspector

@@ -38,6 +38,7 @@ void select(ViewState& state, const CommandHost& host, Arguments words) {
   const Frame& frame = *open_session(view).frame;
   if (how == "all-in") {
     need(words, 5, 5);
+    if (host.busy()) throw UsageError("the run is at work: wait until it rests, or cancel it");
     state.selection.assign(vertices_in(frame, {to_number(words[1]), to_number(words[2])}, {to_number(words[3]), to_number(words[4])}));
     return;
   }

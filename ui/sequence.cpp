@@ -22,7 +22,8 @@ bool is_frame(const fs::path& path) {
 void prepare_folder(const SequenceOptions& options) {
   std::error_code error;
   fs::create_directories(options.folder, error);
-  if (!fs::is_directory(options.folder)) throw OutputError(options.folder.string(), "this folder cannot be made: " + error.message());
+  if (!fs::is_directory(options.folder, error))
+    throw OutputError(options.folder.string(), "this folder cannot be made: " + error.message());
   for (fs::directory_iterator at(options.folder, error); !error && at != fs::directory_iterator(); at.increment(error)) {
     if (!is_frame(at->path())) continue;
     if (!options.overwrite)

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <exception>
+#include <new>
 #include <utility>
 
 #include <GLFW/glfw3.h>
@@ -79,6 +80,10 @@ std::optional<Message> take_screenshots(ui::App& app, Interface& interface, int 
       message = {Message::Kind::Info, fmt::format("saved {} ({} x {} pixels)", options.path.string(), image.width, image.height), 0};
     } catch (const Error& error) {
       message = {Message::Kind::Error, error.what(), error.exit_code()};
+      if (!failure) failure = message;
+      app.state().requests.screenshot_failed = true;
+    } catch (const std::bad_alloc&) {
+      message = {Message::Kind::Error, "not enough memory for a picture of this size", 3};
       if (!failure) failure = message;
       app.state().requests.screenshot_failed = true;
     }

@@ -71,7 +71,9 @@ std::uint64_t Run::visit_vertices(std::span<const Index> vertices, Progress& pro
         edit.vertices.push_back(colouring_->order[rank]);
       moved += recovering([&] { return do_edit(edit.vertices); });
     }
-  } catch (const Cancelled&) {
+  } catch (const DeviceError&) {  // it has recovered
+    throw;
+  } catch (...) {
     if (at_.moment != before.moment) put(positions_before, before);
     throw;
   }

@@ -1,6 +1,7 @@
 #include "core/session/session.h"
 
 #include <algorithm>
+#include <new>
 
 #include <fmt/format.h>
 
@@ -161,7 +162,8 @@ void Session::rest_retired_runs() {
     run->set_history_budget(history_bytes_ / retired.size());
     try {
       run->rest();
-    } catch (const DeviceError&) {  // it has recovered, and goes on on the CPU
+    } catch (const DeviceError&) {     // it has recovered, and goes on on the CPU
+    } catch (const std::bad_alloc&) {  // it keeps less
     }
   }
 }

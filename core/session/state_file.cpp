@@ -126,9 +126,16 @@ std::string packed_start(Run& run, Progress& progress) {
   const RunPoint here = run.point();
   if (here.moment.is_iteration_end()) return pack_positions(run.positions());
   if (run.history().kept(here.moment.iteration)) return pack_positions(run.history().nearest(here.moment.iteration).positions);
-  run.seek({here.moment.iteration}, progress);
-  std::string text = pack_positions(run.positions());
-  run.go_to(here, progress);
+  Progress unwatched;  // the way back is not for cancelling
+  std::string text;
+  try {
+    run.seek({here.moment.iteration}, progress);
+    text = pack_positions(run.positions());
+  } catch (...) {
+    run.go_to(here, unwatched);
+    throw;
+  }
+  run.go_to(here, unwatched);
   return text;
 }
 
@@ -221,7 +228,12 @@ Opened to_session(const Json& json, const std::filesystem::path& path, const Ses
 
 Json parse(std::string_view text, const std::string& file) {
   try {
-    return Json::parse(text);
+    // Nothing of a session lies deep, and what walks through it later calls itself.
+    return Json::parse(text, [&file](int depth, Json::parse_event_t /*event*/, Json& /*parsed*/) {
+      constexpr int kDeepest = 64;
+      if (depth > kDeepest) throw InputError(file, 0, "nested too deeply for a saved session");
+      return true;
+    });
   } catch (const Json::parse_error& error) {
     const std::string_view before = text.substr(0, std::min<std::size_t>(text.size(), error.byte == 0 ? 0 : error.byte - 1));
     const auto line = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;

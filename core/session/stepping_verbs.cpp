@@ -91,6 +91,9 @@ std::span<const Verb> stepping_verbs() {
       {{"until-converged", "until-converged [PATIENCE [MAX]]", "Runs until nothing moves or no minimum rises any more."}, until_converged},
       {{"visit", "visit VERTEX|A-B...", "Visits these vertices now, out of their turn."}, visit},
       {{"seek", "seek ITERATION [VISITS [EDITS]]", "Goes to any iteration, or into its midst."}, seek},
+      {{"look-at", "look-at ITERATION [VISITS [EDITS]]", "Goes there as seek does, but for a look: undo knows nothing of it."},
+       seek,
+       false},
       {{"reset", "reset", "Goes back to the input; visits of chosen vertices are forgotten."}, reset},
   };
   return table;

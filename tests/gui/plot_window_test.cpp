@@ -8,6 +8,7 @@
 
 #include "render/image.h"
 #include "tests/gui/headless_test.h"
+#include "tests/support/temporary_folder.h"
 #include "ui/format.h"
 
 namespace dmoscope::app {
@@ -17,12 +18,7 @@ namespace fs = std::filesystem;
 
 class PlotWindow : public HeadlessTest {
  protected:
-  static fs::path file(const std::string& name) {
-    const fs::path folder = fs::path(testing::TempDir()) / "dmoscope plots";
-    fs::create_directories(folder);
-    fs::remove(folder / name);
-    return folder / name;
-  }
+  [[nodiscard]] fs::path file(const std::string& name) const { return folder_ / name; }
   static std::string read(const fs::path& path) {
     std::ostringstream text;
     text << std::ifstream(path, std::ios::binary).rdbuf();
@@ -37,6 +33,7 @@ class PlotWindow : public HeadlessTest {
   }
   [[nodiscard]] ui::PlotView& view() { return window_->app().state().plot_view(); }
   [[nodiscard]] std::uint64_t iteration() { return window_->app().engine().view()->frame->moment.iteration; }
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(PlotWindow, IsSavedAsNumbersDrawingAndPicture) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/gui/headless_test.h"
+#include "tests/support/temporary_folder.h"
 
 namespace dmoscope::app {
 namespace {
@@ -19,7 +20,6 @@ class Reload : public HeadlessTest {
   void SetUp() override {
     open();
     if (IsSkipped()) return;
-    file_ = fs::path(testing::TempDir()) / "dmoscope reloaded.off";
     write(0.0);
     good("open \"" + file_.string() + "\"");
   }
@@ -38,7 +38,8 @@ class Reload : public HeadlessTest {
     if (more) file << "3 2 9 5\n";
   }
 
-  fs::path file_;
+  const test::TemporaryFolder folder_;
+  const fs::path file_ = folder_ / "to reload.off";
 };
 
 TEST_F(Reload, KeepsParametersSelectionAndCamera) {
@@ -80,7 +81,7 @@ TEST_F(Reload, AFailureKeepsWhatIsOpenAndSaysSo) {
   std::ofstream(file_) << "OFF\n3 1 0\nnonsense\n";
   const auto failure = window_->run("reload");
   ASSERT_TRUE(failure.has_value());
-  EXPECT_NE(failure->text.find("reloaded.off:2"), std::string::npos) << failure->text;
+  EXPECT_NE(failure->text.find("to reload.off:2"), std::string::npos) << failure->text;
   EXPECT_EQ(session()->input, before->input);
   EXPECT_EQ(session()->frame->moment.iteration, 1U);
   good("dialog none");

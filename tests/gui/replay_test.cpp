@@ -8,6 +8,7 @@
 
 #include "render/image.h"
 #include "tests/gui/headless_test.h"
+#include "tests/support/temporary_folder.h"
 #include "ui/command_log.h"
 
 namespace dmoscope::app {
@@ -36,7 +37,7 @@ class Replay : public HeadlessTest {
   }
   /// The script's text; fills lines_.
   std::string saved() {
-    const auto path = std::filesystem::path(testing::TempDir()) / "dmoscope recorded session.txt";
+    const auto path = folder_ / "recorded session.txt";
     good("save-script \"" + path.string() + "\"");
     std::ifstream file(path);
     std::stringstream text;
@@ -58,6 +59,7 @@ class Replay : public HeadlessTest {
   }
   [[nodiscard]] std::size_t count(std::string_view line) const { return static_cast<std::size_t>(std::ranges::count(lines_, line)); }
 
+  const test::TemporaryFolder folder_;
   std::vector<std::string> lines_;
 };
 

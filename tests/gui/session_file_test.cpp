@@ -8,6 +8,7 @@
 
 #include "render/image.h"
 #include "tests/gui/headless_test.h"
+#include "tests/support/temporary_folder.h"
 #include "ui/view_commands.h"
 
 namespace dmoscope::app {
@@ -15,7 +16,8 @@ namespace {
 
 class SessionFile : public HeadlessTest {
  protected:
-  const std::string file_ = (std::filesystem::path(testing::TempDir()) / "dmoscope saved.dmoscope").string();
+  const test::TemporaryFolder folder_;
+  const std::string file_ = (folder_ / "a session.dmoscope").string();
 };
 
 TEST_F(SessionFile, GoesOnInAnotherWindowWithTheSameMeshAndPicture) {

@@ -14,22 +14,9 @@
 
 #include "core/base/progress.h"
 #include "core/mesh/mesh.h"
+#include "tests/support/temporary_folder.h"
 
 namespace dmoscope::test {
-
-/// A folder of its own for a test, removed with all that is in it.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  [[nodiscard]] std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 void put(const std::filesystem::path& path, std::string_view bytes);
 [[nodiscard]] std::string get(const std::filesystem::path& path);

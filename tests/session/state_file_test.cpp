@@ -15,6 +15,7 @@
 #include "core/session/engine.h"
 #include "core/session/session_commands.h"
 #include "tests/support/meshes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace dmoscope {
 namespace {
@@ -28,11 +29,7 @@ bool same_bits(std::span<const Vec3> a, std::span<const Vec3> b) {
 
 class StateFile : public ::testing::Test {
  protected:
-  StateFile() {
-    std::filesystem::create_directories(folder_);
-    add_session_commands(commands_, context_);
-  }
-  ~StateFile() override { std::filesystem::remove_all(folder_); }
+  StateFile() { add_session_commands(commands_, context_); }
   void say(const std::string& line) { commands_.execute(line); }
   [[nodiscard]] std::string text() const {
     std::ifstream stream(file_);
@@ -51,7 +48,7 @@ class StateFile : public ::testing::Test {
     return {};
   }
 
-  std::filesystem::path folder_ = std::filesystem::temp_directory_path() / "dmoscope_test_state";
+  const test::TemporaryFolder folder_;
   std::filesystem::path file_ = folder_ / "session.json";
   Session session_{2};
   Progress progress_;
@@ -162,7 +159,11 @@ TEST_F(StateFile, MalformedFilesAreRefusedWithAReason) {
   write("{\n\"format\": 1,,\n");
   EXPECT_THAT(refusal(), HasSubstr("session.json:2: "));
   write(std::string(100000, '['));
-  EXPECT_THAT(refusal(), HasSubstr("no JSON"));
+  EXPECT_THAT(refusal(), HasSubstr("nested too deeply"));
+  std::string deep = good;
+  deep.insert(deep.rfind('}'), ",\"view\":" + std::string(400000, '[') + std::string(400000, ']'));
+  write(deep);
+  EXPECT_THAT(refusal(), HasSubstr("nested too deeply"));
   for (const char* other : {"1", "null", "[]", "{}", "\"x\"", "{\"format\": 7}", "{\"format\": \"dmoscope session\"}"}) {
     write(other);
     EXPECT_NE(refusal(), "") << other;

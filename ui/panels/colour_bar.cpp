@@ -165,7 +165,8 @@ void handle_bar(PanelContext& context, const BarLayout& layout) {
 void draw_bar(const PanelContext& context, const BarLayout& layout) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const render::ColourScale scale = shown_scale(context.state, context.derived);
-  const auto [low, high] = axis(context);
+  const auto range = axis(context);
+  const double low = range.first, high = range.second;  // not a structured binding, which clang does not let lambdas capture
   const auto at = [&](double value) { return layout.left + static_cast<float>((value - low) / (high - low)) * layout.width; };
   const float top = layout.bar_top, bottom = top + layout.bar;
   const int parts = std::max(1, static_cast<int>(layout.width));

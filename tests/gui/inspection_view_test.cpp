@@ -331,5 +331,23 @@ TEST_F(InspectionView, SmallWindowsAndLargeInterfacesShowIt) {
   }
 }
 
+TEST_F(InspectionView, LevelBackLeavesAloneWhatCameAfterTheMove) {
+  good("generate annulus");
+  const auto& order = session()->runs[0].colouring->order;
+  const Index first = order.front(), far = order[order.size() / 2];
+  good("inspect vertex " + std::to_string(far));
+  good("apply-move");
+  ASSERT_EQ(session()->runs[0].moment.edits, 1U);
+  good("visit " + std::to_string(first));
+  ASSERT_EQ(session()->runs[0].moment.edits, 2U);
+  good("level back");
+  EXPECT_EQ(session()->runs[0].moment.edits, 2U) << "the visit that came after it is not the inspector's to undo";
+  good("undo");
+  good("level all");
+  good("level next");
+  good("level back");
+  EXPECT_LE(session()->runs[0].moment.edits, 1U);
+}
+
 }  // namespace
 }  // namespace dmoscope::app

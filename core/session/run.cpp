@@ -73,7 +73,16 @@ std::string Run::backend_sentence() const {
 }
 
 SmoothingTask Run::task() const {
-  return {parameters_.method, input_, colouring_, parameters_.metric, parameters_.search, immovable_, pool_.get()};
+  return {parameters_.method,
+          input_,
+          colouring_,
+          parameters_.metric,
+          parameters_.search,
+          parameters_.options,
+          parameters_.combination,
+          parameters_.then_mean.has_value(),
+          immovable_,
+          pool_.get()};
 }
 
 void Run::bring() const {
@@ -100,6 +109,31 @@ Statistics Run::statistics() const {
 
 std::shared_ptr<const DevicePicture> Run::picture(Metric shown) const {
   return executor_.smoother ? executor_.smoother->picture(shown) : nullptr;
+}
+
+std::optional<std::uint64_t> Run::mean_since() const {
+  return parameters_.then_mean ? turn_.find(*parameters_.then_mean, history_.records()) : std::nullopt;
+}
+
+void Run::forget_after(std::uint64_t iteration) {
+  history_.forget_after(iteration);
+  turn_.forget_after(iteration);
+}
+
+/// What the next visits are part of.
+Sweep Run::sweep() const {
+  const std::uint64_t iteration = at_.moment.iteration;
+  const auto since = mean_since();
+  if (!since || *since > iteration) return {iteration};
+  return {iteration, history_.records()[iteration].statistics.minimum};
+}
+
+std::uint64_t Run::ask_smoother(std::uint64_t first, std::uint64_t count) {
+  if (const Sweep now = sweep(); begun_ != now) {
+    executor_.smoother->begin(now);
+    begun_ = now;
+  }
+  return executor_.smoother->visit(first, count, positions_, pool_.get());
 }
 
 void Run::settle() {
@@ -131,12 +165,12 @@ void Run::rest() {
 void Run::awaken() {
   if (executor_.smoother) return;
   if (executor_.backend == name(Backend::Cpu)) {  // also where a device failed before
-    const SmoothingTask all = task();
-    executor_.smoother = make_smoother(all.method, all.input, all.colouring, all.metric, all.search, all.pool);
+    executor_.smoother = make_smoother(task());
   } else {
     executor_ = make_executor(parameters_.backend, acceleration_, task());
   }
   blocks_ = BlockPlan(executor_.smoother->positions_are_far());
+  begun_.reset();
 }
 
 RunPoint Run::point() const { return {at_.moment, edits_.share(), history_.shared_records(), last_outcome_, path_}; }
@@ -145,6 +179,7 @@ void Run::recover() {
   if (failure_.empty()) return;
   executor_ = executor_after_failure(fmt::format("{} failed: {}", executor_.backend, failure_), task());
   failure_.clear();
+  begun_.reset();
   blocks_ = BlockPlan(executor_.smoother->positions_are_far());
   const History::Kept& kept = history_.nearest(at_.moment.iteration);
   const Moment of_history{kept.iteration};
@@ -153,7 +188,7 @@ void Run::recover() {
     brought_ = Place{of_history};
   }
   at_ = *brought_;
-  history_.forget_after(at_.moment.iteration);
+  forget_after(at_.moment.iteration);
   ++path_;  // the CPU's last bits may be others
   const auto& [iteration, visits, edits] = at_.moment;
   executor_.warning = fmt::format("{}; the run is back at iteration {}{}, and the CPU can go on from there", executor_.reason, iteration,

@@ -21,6 +21,7 @@
 #include "core/session/edit.h"
 #include "core/session/history.h"
 #include "core/session/input_mesh.h"
+#include "core/session/mean_phase.h"
 #include "core/smooth/executor.h"
 
 namespace dmoscope {
@@ -35,6 +36,9 @@ struct RunParameters {
   std::string method = "dmo";
   Metric metric = Metric::MeanRatio;
   SearchParameters search{};
+  MethodOptions options{};
+  std::optional<Combination> combination{};  // of `metric`, the first, with a second aim
+  std::optional<MeanPhase> then_mean{};      // a second phase
   VisitOrder order{};
   std::vector<Index> fixed{};  // the user's fixed set, besides boundary and unused vertices
   Backend backend = Backend::Auto;
@@ -51,8 +55,9 @@ struct ConvergenceLimits {
 enum class StopReason { NothingMoved, NoRise, IterationLimit };
 struct Outcome {
   StopReason reason = StopReason::IterationLimit;
-  std::uint64_t iterations = 0;  // done by this call
-  std::uint64_t last_rise = 0;   // iteration in which a minimum last rose by limits.rise; 0: never
+  std::uint64_t iterations = 0;               // done by this call
+  std::uint64_t last_rise = 0;                // iteration in which a minimum last rose by limits.rise; 0: never
+  std::optional<std::uint64_t> mean_since{};  // the iteration after which the mean was raised, where that phase was reached
   ConvergenceLimits limits;
   /// "converged: no vertex moved any more; the minimum last rose in iteration 9"
   [[nodiscard]] std::string sentence() const;
@@ -87,6 +92,8 @@ class Run {
   [[nodiscard]] const InputMesh& input() const noexcept { return *input_; }
   [[nodiscard]] const RunParameters& parameters() const noexcept { return parameters_; }
   [[nodiscard]] std::string title() const;  // "dmo · mean-ratio"
+  /// The iteration at whose end the phase that raises the mean begins, where there is one and as far as is known.
+  [[nodiscard]] std::optional<std::uint64_t> mean_since() const;
   /// What smooths: "cpu" or "cuda", whatever was asked for.
   [[nodiscard]] const std::string& backend() const noexcept { return executor_.backend; }
   /// On cuda: the device; on the CPU: why not cuda, empty where it was not wanted.
@@ -176,6 +183,9 @@ class Run {
   void walk_to(const Moment& target, Progress& progress);
   [[nodiscard]] Moment moment_before(StepUnit unit) const;
   void restore(std::uint64_t iteration);
+  void forget_after(std::uint64_t iteration);
+  [[nodiscard]] Sweep sweep() const;
+  std::uint64_t ask_smoother(std::uint64_t first, std::uint64_t count);
   void put(std::span<const Vec3> positions, const Place& place);
   void visit(std::uint64_t count, Progress& progress);
   [[nodiscard]] std::vector<Index> ranks_of(std::span<const Index> vertices);
@@ -207,6 +217,8 @@ class Run {
   std::uint64_t last_moved_ = 0;                    // in the iteration last ended
   BlockPlan blocks_;
   History history_;
+  mutable PhaseTurn turn_;
+  std::optional<Sweep> begun_;  // what the smoother was told last
   Edits edits_;
   std::uint64_t path_ = 0;
   std::vector<Index> rank_of_;  // of every vertex in the colouring's order; empty until there is an edit

@@ -43,7 +43,7 @@ std::uint64_t Run::do_edit(std::span<const Index> vertices) {
       do {
         ++last;
       } while (last < ranks.size() && ranks[last] == ranks[last - 1] + 1);
-      moved += executor_.smoother->visit(ranks[first], last - first, positions_, pool_.get());
+      moved += ask_smoother(ranks[first], last - first);
     }
   });
   ++at_.moment.edits;
@@ -80,7 +80,7 @@ std::uint64_t Run::visit_vertices(std::span<const Index> vertices, Progress& pro
   if (edits.empty()) return 0;
   last_outcome_.reset();
   edits_.cut(before.moment);
-  history_.forget_after(before.moment.iteration);
+  forget_after(before.moment.iteration);
   for (Edit& edit : edits) edits_.add(std::move(edit));
   ++path_;
   return moved;
@@ -114,7 +114,7 @@ void Run::adopt(const RunPoint& point, std::span<const Vec3> positions, Progress
 void Run::reset(Progress& progress) {
   seek({}, progress);
   if (edits_.all().empty()) return;
-  history_.forget_after(edits_.all().front().at.iteration);
+  forget_after(edits_.all().front().at.iteration);
   edits_.cut({});
   ++path_;
 }

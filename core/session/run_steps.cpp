@@ -10,14 +10,15 @@
 namespace dmoscope {
 
 std::string Outcome::sentence() const {
-  const std::string rose =
+  std::string rose =
       last_rise == 0 ? "the minimum rose in none of these iterations" : fmt::format("the minimum last rose in iteration {}", last_rise);
+  if (mean_since) rose += fmt::format("; the mean was raised from iteration {} on", *mean_since + 1);
   switch (reason) {
     case StopReason::NothingMoved:
       return fmt::format("converged: no vertex moved any more; {}", rose);
     case StopReason::NoRise:
-      return fmt::format("converged: neither the minimum nor the movable minimum rose by {} in {} iterations; {}", limits.rise,
-                         limits.patience, rose);
+      return fmt::format("converged: neither the minimum nor {} rose by {} in {} iterations; {}",
+                         mean_since ? "the mean" : "the movable minimum", limits.rise, limits.patience, rose);
     case StopReason::IterationLimit:
       break;
   }
@@ -39,7 +40,7 @@ void Run::visit(std::uint64_t count, Progress& progress) {
 
 void Run::visit_block(std::uint64_t count) {
   const Stopwatch watch;
-  at_.moved += asking_device([&] { return executor_.smoother->visit(at_.moment.visits, count, positions_, pool_.get()); });
+  at_.moved += asking_device([&] { return ask_smoother(at_.moment.visits, count); });
   const double seconds = watch.seconds();
   at_.seconds += seconds;
   blocks_.learn(count, seconds);
@@ -143,7 +144,7 @@ void Run::go_to(const RunPoint& point, Progress& progress) {
   const auto [a, b] = std::mismatch(mine.begin(), mine.end(), theirs.begin(), theirs.end());
   if (a != mine.end() || b != theirs.end()) {
     const Moment parting = a == mine.end() ? b->at : b == theirs.end() ? a->at : std::min(a->at, b->at);
-    history_.forget_after(parting.iteration);
+    forget_after(parting.iteration);
     if (parting < at_.moment) restore(parting.iteration);
     edits_.replace(point.edits);
     ++path_;
@@ -180,7 +181,7 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, Prog
   recover();
   // Where we stand now may be the midst of an iteration, of which the history has no record.
   const Statistics start = recovering([this] { return statistics(); });
-  double minimum = start.minimum, movable = start.movable_minimum;
+  double minimum = start.minimum, movable = start.movable_minimum, mean = start.mean;
   std::uint64_t since_rise = 0;
   bool stopped = false;
   while (!stopped && outcome.iterations < limits.max_iterations) {
@@ -196,7 +197,15 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, Prog
       minimum = std::max(minimum, now.minimum);
       movable = std::max(movable, now.movable_minimum);
     }
+    const auto since = mean_since();
+    const bool raising_mean = since && *since < at_.moment.iteration;
+    if (raising_mean && (!outcome.mean_since || now.mean - mean >= limits.rise)) {
+      outcome.mean_since = since;
+      since_rise = 0;
+      mean = now.mean;
+    }
     if (after) recovering([&] { after(*this); });
+    if (parameters_.then_mean && !raising_mean) continue;  // the first phase's end is not the run's
     const bool still = whole && last_moved_ == 0;
     stopped = stop_when_still && (still || since_rise >= limits.patience);
     if (stopped) outcome.reason = still ? StopReason::NothingMoved : StopReason::NoRise;

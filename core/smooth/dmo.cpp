@@ -173,12 +173,10 @@ StarState star_state(const InputMesh& input, PositionView positions, Metric metr
                                [&]<Metric M>() { return star_state<M>(input.planar_view(), positions, vertex, positions[vertex]); });
 }
 
-std::unique_ptr<Smoother> make_dmo_smoother(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring,
-                                            Metric metric, const SearchParameters& parameters, ThreadPool* pool) {
-  return formulas::with_metric(metric, [&]<Metric M>() -> std::unique_ptr<Smoother> {
-    if (parameters.precision == Precision::Double)
-      return std::make_unique<ScalarDmo<M>>(std::move(input), std::move(colouring), parameters);
-    return std::make_unique<LaneDmo<M>>(std::move(input), std::move(colouring), parameters, pool);
+std::unique_ptr<Smoother> make_dmo_smoother(const SmoothingTask& task) {
+  return formulas::with_metric(task.metric, [&]<Metric M>() -> std::unique_ptr<Smoother> {
+    if (task.search.precision == Precision::Double) return std::make_unique<ScalarDmo<M>>(task.input, task.colouring, task.search);
+    return std::make_unique<LaneDmo<M>>(task.input, task.colouring, task.search, task.pool);
   });
 }
 

@@ -12,8 +12,6 @@ namespace dmoscope {
 [[nodiscard]] StarState star_state(const InputMesh& input, PositionView positions, Metric metric, Index vertex);
 
 /// See make_smoother, which checks the arguments.
-[[nodiscard]] std::unique_ptr<Smoother> make_dmo_smoother(std::shared_ptr<const InputMesh> input,
-                                                          std::shared_ptr<const Colouring> colouring, Metric metric,
-                                                          const SearchParameters& parameters, ThreadPool* pool);
+[[nodiscard]] std::unique_ptr<Smoother> make_dmo_smoother(const SmoothingTask& task);
 
 }  // namespace dmoscope

@@ -18,15 +18,14 @@ constexpr std::array<std::string_view, 3> kNames{"auto", "cpu", "cuda"};  // in 
 /// Why no accelerator does this; empty when one can.
 std::string obstacle(const Acceleration& acceleration, const SmoothingTask& task) {
   if (task.method != "dmo") return fmt::format("{} runs on the CPU alone", task.method);
+  if (task.combination) return "combined metrics run on the CPU alone";
+  if (task.then_mean) return "the phase that raises the mean runs on the CPU alone";
   if (task.search.precision == Precision::Double) return "the search in double runs on the CPU alone";
   if (task.search.simd) return "SIMD instructions were asked for, which are the CPU's";
   return acceleration.accelerator ? std::string() : acceleration.reason;
 }
 
-Executor on_cpu(const SmoothingTask& task, std::string reason) {
-  auto smoother = make_smoother(task.method, task.input, task.colouring, task.metric, task.search, task.pool);
-  return {std::move(smoother), "cpu", std::move(reason), {}};
-}
+Executor on_cpu(const SmoothingTask& task, std::string reason) { return {make_smoother(task), "cpu", std::move(reason), {}}; }
 
 Executor on_device(const Accelerator& accelerator, const SmoothingTask& task) {
   auto smoother = accelerator.make_dmo(task.input, task.colouring, task.metric, task.search, task.immovable, task.pool);
@@ -48,7 +47,7 @@ void require_backend(Backend wanted, const Acceleration& acceleration) {
 }
 
 Executor make_executor(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task) {
-  require_possible(task.method, task.input->mesh, task.metric, task.search);
+  require_possible(task);
   if (wanted == Backend::Cpu) return on_cpu(task, {});
   const std::string why_not = obstacle(acceleration, task);
   if (wanted == Backend::Cuda) {

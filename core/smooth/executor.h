@@ -2,24 +2,11 @@
 // Which of the backends does a run's smoothing, and why.
 
 #include <memory>
-#include <span>
 #include <string>
-#include <string_view>
 
 #include "core/smooth/accelerator.h"
 
 namespace dmoscope {
-
-/// What make_smoother and Accelerator::make_dmo need to know.
-struct SmoothingTask {
-  std::string_view method;
-  std::shared_ptr<const InputMesh> input;
-  std::shared_ptr<const Colouring> colouring;
-  Metric metric;
-  SearchParameters search;
-  std::span<const Index> immovable;
-  ThreadPool* pool;
-};
 
 /// A smoother, and what it runs on.
 struct Executor {

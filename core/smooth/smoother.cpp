@@ -1,5 +1,6 @@
 #include "core/smooth/smoother.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -13,25 +14,37 @@ namespace dmoscope {
 namespace {
 constexpr std::array<MethodInfo, 1> kMethods{
     {{"dmo", "Discrete mesh optimization: best candidate of a grid, three levels (Zint and Grosso 2018)"}}};
+
+void validate(const MethodOptions& options) {
+  if (!(options.relaxation > 0.0 && options.relaxation <= 1.0))
+    throw UsageError(fmt::format("relaxation must be above 0 and at most 1, not {}", options.relaxation));
 }
+}  // namespace
 
 std::span<const MethodInfo> method_table() { return kMethods; }
 
-void require_possible(std::string_view method, const Mesh& mesh, Metric metric, const SearchParameters& parameters) {
-  if (method != kMethods[0].name) {
-    std::string known;
-    for (const MethodInfo& entry : kMethods) known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
-    throw UsageError(fmt::format("unknown method '{}'; known are {}", method, known));
-  }
-  validate(parameters);
-  require_defined(metric, mesh);
+const MethodInfo& method_info(std::string_view name) {
+  const auto found = std::ranges::find(kMethods, name, &MethodInfo::name);
+  if (found != kMethods.end()) return *found;
+  std::string known;
+  for (const MethodInfo& entry : kMethods) known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
+  throw UsageError(fmt::format("unknown method '{}'; known are {}", name, known));
 }
 
-std::unique_ptr<Smoother> make_smoother(std::string_view method, std::shared_ptr<const InputMesh> input,
-                                        std::shared_ptr<const Colouring> colouring, Metric metric, const SearchParameters& parameters,
-                                        ThreadPool* pool) {
-  require_possible(method, input->mesh, metric, parameters);
-  return make_dmo_smoother(std::move(input), std::move(colouring), metric, parameters, pool);
+void require_possible(const SmoothingTask& task) {
+  const MethodInfo& method = method_info(task.method);
+  validate(task.search);
+  validate(task.options);
+  require_defined(task.metric, task.input->mesh);
+  if (method.mean_ratio_only && task.metric != Metric::MeanRatio)
+    throw UsageError(fmt::format("{} optimises the mean ratio alone, not {}", method.name, info(task.metric).name));
+  if (task.combination) throw UsageError("metrics cannot be combined yet");
+  if (task.then_mean) throw UsageError("a second phase for the mean is not possible yet");
+}
+
+std::unique_ptr<Smoother> make_smoother(const SmoothingTask& task) {
+  require_possible(task);
+  return make_dmo_smoother(task);
 }
 
 }  // namespace dmoscope

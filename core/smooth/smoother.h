@@ -6,18 +6,21 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <vector>
 
-#include "core/base/thread_pool.h"
-#include "core/mesh/colouring.h"
-#include "core/quality/metric.h"
 #include "core/quality/quality.h"
-#include "core/search/parameters.h"
-#include "core/session/input_mesh.h"
+#include "core/smooth/task.h"
 
 namespace dmoscope {
 
 class DevicePicture;
+
+/// The iteration that visits belong to. Whatever a method does differently from one iteration to the next follows from this alone, so that
+/// an iteration that is done again has the same bits.
+struct Sweep {
+  std::uint64_t iteration = 0;    // of the run; 0: from the input on
+  std::optional<double> floor{};  // second phase: raise the mean quality of the stars, with the mesh's minimum, this, as their floor
+  friend bool operator==(const Sweep&, const Sweep&) = default;
+};
 
 class Smoother {
  public:
@@ -25,6 +28,8 @@ class Smoother {
   Smoother(const Smoother&) = delete;
   Smoother& operator=(const Smoother&) = delete;
   virtual ~Smoother() = default;
+  /// Said before visits of another iteration, or of another phase, than those before.
+  virtual void begin([[maybe_unused]] const Sweep& sweep) {}
   /// Visits the vertices [first, first + count) of the colouring's order, class after class, so that each sees the old or the new positions
   /// of its neighbours whatever the number of threads, and moves those that gain; returns how many moved. The stretch may begin and end in
   /// the midst of classes and span any number of them, up to the whole order. The result depends neither on the pool nor on how an
@@ -51,17 +56,19 @@ class Smoother {
 
 struct MethodInfo {
   std::string_view name, doc;
+  bool optimises = true;         // the metric; else it only judges what the method does
+  bool mean_ratio_only = false;  // it can optimise no other metric
 };
 /// The methods this version has.
 [[nodiscard]] std::span<const MethodInfo> method_table();
+/// Throws UsageError that lists the known ones.
+[[nodiscard]] const MethodInfo& method_info(std::string_view name);
 
-/// Throws UsageError for an unknown method (listing the known ones), for parameters out of range or for a metric that is not defined for
-/// the mesh.
-void require_possible(std::string_view method, const Mesh& mesh, Metric metric, const SearchParameters& parameters);
+/// Throws UsageError for an unknown method, for parameters out of range, or for a metric that is not defined for the mesh or not for the
+/// method. Of the task's pointers only `input` is read.
+void require_possible(const SmoothingTask& task);
 
-/// Makes the smoother for a method on the CPU. `colouring`: the vertices it may move. Throws as require_possible does.
-[[nodiscard]] std::unique_ptr<Smoother> make_smoother(std::string_view method, std::shared_ptr<const InputMesh> input,
-                                                      std::shared_ptr<const Colouring> colouring, Metric metric,
-                                                      const SearchParameters& parameters, ThreadPool* pool);
+/// Makes the smoother for a task on the CPU. Throws as require_possible does.
+[[nodiscard]] std::unique_ptr<Smoother> make_smoother(const SmoothingTask& task);
 
 }  // namespace dmoscope

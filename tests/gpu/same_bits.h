@@ -54,7 +54,7 @@ inline bool same(Vec3 a, Vec3 b) { return same(a.x, b.x) && same(a.y, b.y) && sa
 /// Iterations on both, compared after each, bit for bit.
 inline void expect_same_visits(const std::shared_ptr<Queue>& queue, const Subject& subject, Metric metric,
                                const SearchParameters& parameters, int iterations, ThreadPool* pool = nullptr) {
-  const auto cpu = make_dmo_smoother(subject.input, subject.colouring, metric, parameters, nullptr);
+  const auto cpu = make_smoother({.input = subject.input, .colouring = subject.colouring, .metric = metric, .search = parameters});
   const auto device = make_device_dmo(queue, subject.input, subject.colouring, metric, parameters, subject.immovable, pool);
   std::vector<Vec3> expected = subject.input->mesh.positions, found = expected;
   for (int i = 1; i <= iterations; ++i) {

@@ -48,7 +48,8 @@ Positions smoothed(Positions positions, const dmoscope::Run& run, const std::vec
     restricted->class_offsets.push_back(static_cast<Index>(restricted->order.size()));
   }
   const std::uint64_t count = restricted->order.size();
-  const auto smoother = make_smoother("dmo", mesh(), restricted, run.parameters().metric, run.parameters().search, nullptr);
+  const auto smoother =
+      make_smoother({.input = mesh(), .colouring = restricted, .metric = run.parameters().metric, .search = run.parameters().search});
   smoother->visit(0, count, positions, nullptr);
   smoother->store(positions, nullptr);
   return positions;

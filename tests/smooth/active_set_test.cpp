@@ -30,7 +30,8 @@ dmoscope::Run make_run(const testing::Specimen& specimen, const std::shared_ptr<
 std::vector<std::vector<Vec3>> always_awake(const dmoscope::Run& run) {
   const auto mesh = std::shared_ptr<const InputMesh>(std::shared_ptr<void>(), &run.input());
   const auto colouring = std::make_shared<const Colouring>(run.colouring());
-  const auto smoother = make_smoother("dmo", mesh, colouring, run.parameters().metric, run.parameters().search, nullptr);
+  const auto smoother =
+      make_smoother({.input = mesh, .colouring = colouring, .metric = run.parameters().metric, .search = run.parameters().search});
   std::vector<std::vector<Vec3>> after{run.input().mesh.positions};
   std::vector<Vec3> positions = after[0];
   for (std::uint64_t iteration = 0; iteration < kIterations; ++iteration) {

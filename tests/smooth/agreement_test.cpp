@@ -47,8 +47,8 @@ Tally compare(const std::shared_ptr<const InputMesh>& input, Metric metric, int 
   const auto colouring = colouring_of(*input);
   SearchParameters plain, fast;
   plain.precision = Precision::Double;
-  const auto reference = make_dmo_smoother(input, colouring, metric, plain, nullptr);
-  const auto lanes = make_dmo_smoother(input, colouring, metric, fast, nullptr);
+  const auto reference = make_smoother({.input = input, .colouring = colouring, .metric = metric, .search = plain});
+  const auto lanes = make_smoother({.input = input, .colouring = colouring, .metric = metric, .search = fast});
   std::vector<Vec3> positions = input->mesh.positions, other = positions;
   for (int iteration = 0; iteration < iterations; ++iteration) {
     for (Index c = 0; c < colouring->class_count(); ++c) {

@@ -44,7 +44,7 @@ TEST(Allocation, NoneWhileStepping) {
   const auto colouring = std::make_shared<const Colouring>(colour_vertices(mesh->mesh, mesh->topology, free));
   for (const MetricInfo& entry : metric_table())
     for (const SimdLevel level : supported_simd_levels()) {
-      const auto smoother = make_smoother("dmo", mesh, colouring, entry.metric, {.simd = level}, nullptr);
+      const auto smoother = make_smoother({.input = mesh, .colouring = colouring, .metric = entry.metric, .search = {.simd = level}});
       std::vector<Vec3> positions = mesh->mesh.positions;
       std::uint64_t moved = 0;
       const auto iterate = [&] {

@@ -26,7 +26,7 @@ class Visit : public ::testing::TestWithParam<Precision> {
 
   /// Positions after some iterations, each cut after the visits of `cuts`, which ends with the number of all.
   [[nodiscard]] std::vector<Vec3> smoothed(const std::vector<std::uint64_t>& cuts, ThreadPool* pool, std::uint64_t& moved) const {
-    const auto smoother = make_smoother("dmo", input_, colouring_, Metric::MeanRatio, {.precision = GetParam()}, pool);
+    const auto smoother = make_smoother({.input = input_, .colouring = colouring_, .search = {.precision = GetParam()}, .pool = pool});
     std::vector<Vec3> positions = input_->mesh.positions;
     moved = 0;
     for (int i = 0; i < kIterations; ++i) {

@@ -92,7 +92,7 @@ class FakeAccelerator final : public Accelerator {
                                                    Metric metric, const SearchParameters& parameters, std::span<const Index> immovable,
                                                    ThreadPool* pool) const override {
     if (device_->fail_to_make) throw DeviceError("out of memory: 3 GiB asked for, 2 GiB free");
-    auto cpu = make_smoother("dmo", input, std::move(colouring), metric, parameters, pool);
+    auto cpu = make_smoother({.input = input, .colouring = std::move(colouring), .metric = metric, .search = parameters, .pool = pool});
     return std::make_unique<FakeSmoother>(device_, std::move(cpu), std::move(input), metric, immovable);
   }
 

@@ -1,0 +1,26 @@
+#include "core/session/mean_phase.h"
+
+#include <algorithm>
+
+namespace dmoscope {
+
+std::optional<std::uint64_t> PhaseTurn::find(const MeanPhase& phase, std::span<const IterationRecord> records) {
+  for (std::uint64_t i = seen_ + 1; !turn_ && i < records.size(); ++i) {
+    seen_ = i;
+    const std::uint64_t since = i >= phase.patience ? i - phase.patience : 0;
+    // As differences: where nothing is movable both are infinite, and that is no rise.
+    const auto rose = [&](double Statistics::*minimum) {
+      return records[i].statistics.*minimum - records[since].statistics.*minimum >= phase.rise;
+    };
+    const bool waited = i >= phase.patience && !rose(&Statistics::minimum) && !rose(&Statistics::movable_minimum);
+    if (waited || records[i].moved == 0) turn_ = i;
+  }
+  return turn_;
+}
+
+void PhaseTurn::forget_after(std::uint64_t iteration) {
+  if (turn_ && *turn_ > iteration) turn_.reset();
+  seen_ = std::min(seen_, iteration);
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,32 @@
+#pragma once
+// The second phase of a run, which raises the mean: when it begins.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "core/session/history.h"
+
+namespace dmoscope {
+
+/// Once the minimum has converged the mean quality of the stars is raised, with the mesh's minimum as floor: max-min alone lowers the mean.
+struct MeanPhase {
+  std::uint64_t patience = 5;  // at least 1: iterations in which neither minimum rose by `rise`, or one in which nothing moved
+  double rise = 1e-6;
+  friend bool operator==(const MeanPhase&, const MeanPhase&) = default;
+};
+
+/// Finds the end of the first phase among the records of a path, each looked at once.
+class PhaseTurn {
+ public:
+  /// The iteration at whose end the first phase is over; none: not within these records.
+  [[nodiscard]] std::optional<std::uint64_t> find(const MeanPhase& phase, std::span<const IterationRecord> records);
+  /// The records after an iteration are of another path from now on.
+  void forget_after(std::uint64_t iteration);
+
+ private:
+  std::optional<std::uint64_t> turn_;
+  std::uint64_t seen_ = 0;  // records up to this iteration have no turn before turn_
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,43 @@
+#pragma once
+// What a smoother is made from.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "core/base/thread_pool.h"
+#include "core/mesh/colouring.h"
+#include "core/quality/metric.h"
+#include "core/search/parameters.h"
+#include "core/session/input_mesh.h"
+#include "core/smooth/combination.h"
+
+namespace dmoscope {
+
+/// Along which directions dvr relaxes: one a sweep for all vertices, drawn at random from a seed; or the axes of the mesh's plane by turns.
+enum class Directions { Random, Axes };
+
+/// What methods other than dmo can be told. Each reads what concerns it.
+struct MethodOptions {
+  double relaxation = 1.0;  // laplace, smart-laplace, angle-based: the share of the way to the new place that is gone, in (0, 1]
+  Directions directions = Directions::Random;  // dvr
+  std::uint64_t seed = 1;                      // of dvr's random directions
+  friend bool operator==(const MethodOptions&, const MethodOptions&) = default;
+};
+
+struct SmoothingTask {
+  std::string_view method = "dmo";
+  std::shared_ptr<const InputMesh> input{};
+  std::shared_ptr<const Colouring> colouring{};  // of the vertices that may move
+  Metric metric = Metric::MeanRatio;
+  SearchParameters search{};
+  MethodOptions options{};
+  std::optional<Combination> combination{};  // dmo alone: `metric` is its first one
+  bool then_mean = false;                    // whether a second phase may come, see Sweep
+  std::span<const Index> immovable{};        // see immovable_elements; for statistics on a device
+  ThreadPool* pool = nullptr;
+};
+
+}  // namespace dmoscope

@@ -2,6 +2,7 @@
 // How long work tells how far it is, and how it learns that it shall stop.
 
 #include <atomic>
+#include <cstdint>
 #include <mutex>
 #include <string>
 
@@ -18,8 +19,8 @@ class Progress {
     label_ = std::move(label);
     fraction_ = 0.0;
   }
-  /// Fraction done, 0 to 1.
-  void set(double fraction) noexcept { fraction_ = fraction; }
+  /// Fraction done, 0 to 1; of the part under way, if there is one.
+  void set(double fraction) noexcept { fraction_ = base_ + span_ * fraction; }
   [[nodiscard]] double fraction() const noexcept { return fraction_; }
   [[nodiscard]] std::string label() const {
     const std::scoped_lock lock(mutex_);
@@ -33,11 +34,33 @@ class Progress {
     if (cancel_) throw Cancelled();
   }
 
+  /// While it lives, what is set() is a share of one of `all` equal parts of the work, the one after `done` of them. Parts nest. Made and
+  /// destroyed by the thread that works, while no other one reports.
+  class Part {
+   public:
+    Part(Progress& progress, std::uint64_t done, std::uint64_t all) noexcept
+        : progress_(progress), base_(progress.base_), span_(progress.span_) {
+      progress.span_ = span_ / static_cast<double>(all);
+      progress.base_ = base_ + static_cast<double>(done) * progress.span_;
+    }
+    ~Part() {
+      progress_.base_ = base_;
+      progress_.span_ = span_;
+    }
+    Part(const Part&) = delete;
+    Part& operator=(const Part&) = delete;
+
+   private:
+    Progress& progress_;
+    double base_, span_;
+  };
+
  private:
   mutable std::mutex mutex_;
   std::string label_;
   std::atomic<double> fraction_{0.0};
   std::atomic<bool> cancel_{false};
+  double base_ = 0.0, span_ = 1.0;  // of the part under way
 };
 
 }  // namespace dmoscope

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/session/run.h"
+#include "core/session/session.h"
 
 namespace dmoscope {
 
@@ -18,7 +18,8 @@ struct CommandEnd {
   std::vector<std::string> again{};  // commands that lead there from where it began, if it moved
 };
 
-/// Commands that lead `run` from `before` to where it is: a seek, or the edits that it has come to be ahead by.
-[[nodiscard]] std::vector<std::string> commands_from(const Run& run, const Moment& before);
+/// Commands that lead a session from `before` to where it is: what it has `done` besides moving runs, then for every run that moved a seek,
+/// or the edits that it has come to be ahead by. Of another mesh than before: nothing.
+[[nodiscard]] std::vector<std::string> commands_from(Session& session, const SessionPoint& before, const std::vector<std::string>& done);
 
 }  // namespace dmoscope

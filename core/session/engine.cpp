@@ -122,12 +122,14 @@ void Engine::work(const std::stop_token& stop) {
 CommandEnd Engine::run_one(const Posted& command) {
   const auto moment = [this] { return session_.has_input() ? session_.active().moment() : Moment{}; };
   progress_.begin(command.line);
-  if (session_.has_input()) session_.active().set_observer([this](const Run&) { publish_if_due(); });
+  context_.done.clear();
+  session_.observe([this](const Run&) { publish_if_due(); });
   const Moment before = moment();
+  const SessionPoint point = session_.point();
   CommandEnd end{command.id, execute(command.line)};
   end.at = moment();
   end.moved = end.at != before;
-  if (end.moved && end.kind != CommandEnd::Kind::Done) end.again = commands_from(session_.active(), before);
+  if (end.kind != CommandEnd::Kind::Done) end.again = commands_from(session_, point, context_.done);
   return end;
 }
 

@@ -42,6 +42,7 @@ struct RunParameters {
   VisitOrder order{};
   std::vector<Index> fixed{};  // the user's fixed set, besides boundary and unused vertices
   Backend backend = Backend::Auto;
+  friend bool operator==(const RunParameters&, const RunParameters&) = default;
 };
 
 enum class StepUnit { Vertex, Class, Iteration };
@@ -193,7 +194,6 @@ class Run {
   void visit_block(std::uint64_t count);
   void end_iteration();
   void record(const Place& done);
-  void step_within(std::uint64_t done, std::uint64_t all, Progress& progress);
   Outcome advance(const ConvergenceLimits& limits, bool stop_when_still, Progress& progress, const AfterIteration& after);
   template <class Body>
   auto asking_device(const Body& body) const;
@@ -224,8 +224,6 @@ class Run {
   std::vector<Index> rank_of_;  // of every vertex in the colouring's order; empty until there is an edit
   std::function<void(const Run&)> observer_;
   std::optional<Outcome> last_outcome_;
-  double progress_base_ = 0.0;  // what share of the progress the iteration under way is: base to base + span
-  double progress_span_ = 1.0;
 };
 
 /// Does what may ask a device; a failure is remembered for recover().

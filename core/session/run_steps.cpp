@@ -33,7 +33,7 @@ void Run::visit(std::uint64_t count, Progress& progress) {
     recovering([&] { visit_block(block); });
     count -= block;
     const double done = at_.moment.visits == 0 ? 1.0 : static_cast<double>(at_.moment.visits) / whole;
-    progress.set(progress_base_ + progress_span_ * done);
+    progress.set(done);
     if (observer_) recovering([this] { observer_(*this); });
   }
 }
@@ -186,7 +186,10 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, Prog
   bool stopped = false;
   while (!stopped && outcome.iterations < limits.max_iterations) {
     const bool whole = at_.moment.visits == 0;
-    step_within(outcome.iterations, limits.max_iterations, progress);
+    {
+      const Progress::Part part(progress, outcome.iterations, limits.max_iterations);
+      step(StepUnit::Iteration, progress);
+    }
     ++outcome.iterations;
     ++since_rise;
     const Statistics& now = history_.records()[at_.moment.iteration].statistics;
@@ -212,17 +215,6 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, Prog
   }
   last_outcome_ = outcome;
   return outcome;
-}
-
-void Run::step_within(std::uint64_t done, std::uint64_t all, Progress& progress) {
-  progress_span_ = 1.0 / static_cast<double>(all);
-  progress_base_ = static_cast<double>(done) * progress_span_;
-  const auto whole_again = [this](void*) {
-    progress_base_ = 0.0;
-    progress_span_ = 1.0;
-  };
-  const std::unique_ptr<void, decltype(whole_again)> guard(this, whole_again);
-  step(StepUnit::Iteration, progress);
 }
 
 }  // namespace dmoscope

@@ -17,7 +17,9 @@ void Session::open(Mesh mesh, Progress& progress) { replace_input(prepare_input(
 void Session::generate(const std::string& words, Progress& progress) { replace_input(generate_input(words, progress)); }
 
 std::shared_ptr<Run> Session::make_run(std::shared_ptr<const InputMesh> input, RunParameters parameters) const {
-  return std::make_shared<Run>(std::move(input), std::move(parameters), pool_, history_bytes_, acceleration_);
+  auto run = std::make_shared<Run>(std::move(input), std::move(parameters), pool_, history_bytes_, acceleration_);
+  run->set_observer(observer_);
+  return run;
 }
 
 void Session::replace(std::shared_ptr<const InputMesh> input, std::vector<std::shared_ptr<Run>> runs, std::size_t active, Metric shown) {
@@ -110,6 +112,11 @@ void Session::share_history() {
 void Session::set_threads(unsigned threads) {
   pool_ = std::make_shared<ThreadPool>(threads);
   for (const auto& run : runs_) run->set_pool(pool_);
+}
+
+void Session::observe(std::function<void(const Run&)> observer) {
+  observer_ = std::move(observer);
+  for (const auto& run : runs_) run->set_observer(observer_);
 }
 
 SessionPoint Session::point() const {

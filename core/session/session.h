@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -75,6 +76,8 @@ class Session {
   /// For all runs together; divided evenly.
   void set_history_budget(std::size_t bytes);
   void set_threads(unsigned threads);
+  /// Of all runs, and of those that are added later; see Run::set_observer.
+  void observe(std::function<void(const Run&)> observer);
   [[nodiscard]] const std::shared_ptr<ThreadPool>& pool() const noexcept { return pool_; }
 
  private:
@@ -89,6 +92,7 @@ class Session {
   std::size_t history_bytes_ = kDefaultHistoryBytes;
   std::shared_ptr<const InputMesh> input_;
   std::vector<std::shared_ptr<Run>> runs_;
+  std::function<void(const Run&)> observer_;
   std::size_t active_ = 0;
   Metric shown_ = Metric::MeanRatio;
   bool percentiles_ = false;

@@ -20,7 +20,7 @@ void tell_warnings(CommandContext& context) {
 /// Calls `take` with every verb, theme after theme.
 template <class Take>
 void for_verbs(const Take& take) {
-  for (const std::span<const Verb> theme : {file_verbs(), parameter_verbs(), stepping_verbs(), run_verbs()})
+  for (const std::span<const Verb> theme : {file_verbs(), parameter_verbs(), stepping_verbs(), run_verbs(), comparison_verbs()})
     for (const Verb& verb : theme) take(verb);
 }
 

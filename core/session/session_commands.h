@@ -9,6 +9,7 @@
 //   add-run METHOD[:METRIC] | select-run K | remove-run K | undo | redo | threads N | history MIB | percentiles on|off
 //   expect minimum|movable|mean|inverted|iteration|moved  <|<=|==|>=|>  VALUE
 //   say TEXT
+//   each step|run|back|until-converged|seek|reset [N [MAX]] | compare methods|metrics [ITERATIONS] | compare orders N [ITERATIONS]
 
 #include <functional>
 #include <vector>
@@ -25,6 +26,7 @@ struct CommandContext {
   Session& session;
   Progress& progress;
   std::function<void(Message)> say;
+  std::vector<std::string> done{};  // commands for what the one at work has done besides moving runs; see CommandEnd::again
 };
 
 /// The verbs in the order of the list above, for help, palette and man page.

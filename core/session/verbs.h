@@ -17,11 +17,12 @@ struct Verb {
   bool remembered = true;  // what it changes can be undone
 };
 
-/// Meshes and files; parameters of the active run; its steps; runs and the session.
+/// Meshes and files; parameters of the active run; its steps; runs and the session; all runs at once.
 [[nodiscard]] std::span<const Verb> file_verbs();
 [[nodiscard]] std::span<const Verb> parameter_verbs();
 [[nodiscard]] std::span<const Verb> stepping_verbs();
 [[nodiscard]] std::span<const Verb> run_verbs();
+[[nodiscard]] std::span<const Verb> comparison_verbs();
 
 /// Throws WrongArguments unless there are so many.
 void require(Arguments arguments, std::size_t least, std::size_t most);

@@ -10,6 +10,7 @@
 
 #include "core/session/engine.h"
 #include "core/session/session_commands.h"
+#include "tests/session/spoken_session.h"
 #include "tests/support/fake_accelerator.h"
 #include "tests/support/meshes.h"
 
@@ -64,19 +65,9 @@ void expect_same(const State& a, const State& b, const std::string& what) {
   }
 }
 
-/// A session that is driven by lines.
-class Undo : public ::testing::Test {
+class Undo : public testing::SpokenSession {
  protected:
-  explicit Undo(Acceleration acceleration = {}) : session_(2, std::move(acceleration)) { add_session_commands(commands_, context_); }
-  void say(const std::string& line) { commands_.execute(line); }
-  [[nodiscard]] bool fails(const std::string& line) {
-    try {
-      say(line);
-    } catch (const Error&) {
-      return true;
-    }
-    return false;
-  }
+  using SpokenSession::SpokenSession;
   [[nodiscard]] std::string next_undo() const {
     const UndoEntry* entry = session_.undo_stack().to_undo();
     return entry == nullptr ? "" : entry->label;
@@ -85,12 +76,6 @@ class Undo : public ::testing::Test {
     const dmoscope::Run& run = session_.active();
     return run.colouring().order[run.colouring().order.size() / 2];
   }
-
-  Session session_;
-  Progress progress_;
-  std::vector<std::string> messages_;
-  CommandContext context_{session_, progress_, [this](const Message& message) { messages_.push_back(message.text); }};
-  CommandTable commands_;
 };
 
 TEST_F(Undo, TakesBackEveryCommandAndDoesItAgain) {
@@ -122,6 +107,11 @@ TEST_F(Undo, TakesBackEveryCommandAndDoesItAgain) {
                                                           "add-run dmo:radius-ratio",
                                                           "run 1",
                                                           "remove-run 1",
+                                                          "each run 2",
+                                                          "compare metrics 4",
+                                                          "compare orders 2 1",
+                                                          "each back",
+                                                          "each reset",
                                                           "generate annulus 200",
                                                           "run 1",
                                                           "generate coast 300"}) {

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "core/drawing/ticks.h"
+
 namespace dmoscope::app {
 namespace {
 
@@ -26,68 +28,93 @@ std::string short_number(double value) {
   return value >= 1e3 ? fmt::format("{:g} k", value / 1e3) : fmt::format("{:g}", value);
 }
 
+bool drawable(double value, AxisKind kind) { return std::isfinite(value) && (kind == AxisKind::Linear || value > 0.0); }
+
 /// Where a value is along its axis.
-class LogAxis {
+class Axis {
  public:
-  LogAxis(double lowest, double highest, double start, double end)
-      : low_(std::log10(lowest)), high_(std::log10(highest)), start_(start), end_(end) {
-    // At least a decade, so that there are two labels even for a single value; and room at both ends.
-    const double widen = std::max(0.08 * (high_ - low_), 0.5 * (1.0 - (high_ - low_)));
+  Axis(AxisKind kind, double lowest, double highest, double start, double end)
+      : kind_(kind), low_(along(lowest)), high_(along(highest)), start_(start), end_(end) {
+    // Room at both ends. Of a logarithmic axis at least a decade, so that there are two labels even for a single value; of a linear one at
+    // least something.
+    const double span = high_ - low_;
+    const double least = kind == AxisKind::Logarithmic ? 0.5 * (1.0 - span) : span > 0.0 ? 0.0 : std::max(0.5 * std::abs(low_), 1e-3);
+    const double widen = std::max((kind == AxisKind::Logarithmic ? 0.08 : 0.03) * span, least);
     low_ -= widen;
     high_ += widen;
   }
-  [[nodiscard]] double place(double value) const { return start_ + (std::log10(value) - low_) / (high_ - low_) * (end_ - start_); }
+  [[nodiscard]] AxisKind kind() const noexcept { return kind_; }
+  [[nodiscard]] double place(double value) const { return start_ + (along(value) - low_) / (high_ - low_) * (end_ - start_); }
+
+  /// Calls tick(place, label); the label of a fine line is empty.
+  template <class Name, class Tick>
+  void for_ticks(Name name, Tick tick) const {
+    if (kind_ == AxisKind::Linear) {
+      for (const auto& [value, label] : linear_ticks(low_, high_, 8)) tick(place(value), std::abs(value) >= 1e3 ? name(value) : label);
+    } else {
+      for_powers([&](double value, bool labelled) { tick(place(value), labelled ? name(value) : std::string()); });
+    }
+  }
+
+ private:
+  [[nodiscard]] double along(double value) const { return kind_ == AxisKind::Logarithmic ? std::log10(value) : value; }
 
   /// Calls tick(value, labelled) for 1 to 9 times every power of ten inside.
   template <class Tick>
-  void for_ticks(Tick tick) const {
+  void for_powers(Tick tick) const {
     const bool many = high_ - low_ > 2.0;
     for (int power = static_cast<int>(std::floor(low_)); power <= static_cast<int>(std::floor(high_)); ++power) {
       for (int digit = 1; digit <= 9; ++digit) {
         const double value = power < 0 ? digit / std::pow(10.0, -power) : digit * std::pow(10.0, power);
-        const double place = std::log10(value);
-        if (place < low_ || place > high_) continue;
+        const double at = std::log10(value);
+        if (at < low_ || at > high_) continue;
         tick(value, digit == 1 || (!many && (digit == 2 || digit == 5)));
       }
     }
   }
 
- private:
+  AxisKind kind_;
   double low_, high_, start_, end_;
 };
 
 struct Frame {
   double left, right, top, bottom;
-  LogAxis x, y;
+  Axis x, y;
 };
+
+bool drawable(const PlotValue& v, const LinePlot& plot) {
+  return drawable(v.x, plot.x_axis) && drawable(v.y, plot.y_axis) && drawable(v.lowest, plot.y_axis) && drawable(v.highest, plot.y_axis);
+}
 
 Frame frame_of(const LinePlot& plot) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  double left = kInfinity, right = 0.0, low = kInfinity, high = 0.0;
+  double left = kInfinity, right = -kInfinity, low = kInfinity, high = -kInfinity;
+  std::size_t named = 0;
   for (const PlotSeries& series : plot.series) {
+    named += series.name.empty() ? 0 : 1;
     for (const PlotValue& v : series.values) {
+      if (!drawable(v, plot)) continue;
       left = std::min(left, v.x);
       right = std::max(right, v.x);
       low = std::min(low, v.lowest);
       high = std::max(high, v.highest);
     }
   }
-  if (!(left > 0.0 && low > 0.0 && right < kInfinity && high < kInfinity)) left = low = 1.0, right = high = 10.0;
-  const double height = std::max(kLeast, kRow * static_cast<double>(plot.series.size()));
+  if (left > right) left = low = 1.0, right = high = 10.0;  // nothing to draw
+  const double height = std::max(kLeast, kRow * static_cast<double>(named));
   const double x0 = kLeft, x1 = kLeft + kPlotWidth, y0 = kTop, y1 = kTop + height;
-  return {x0, x1, y0, y1, LogAxis(left, right, x0, x1), LogAxis(low, high, y1, y0)};
+  return {x0, x1, y0, y1, Axis(plot.x_axis, left, right, x0, x1), Axis(plot.y_axis, low, high, y1, y0)};
 }
 
 void draw_axes(Drawing& drawing, const LinePlot& plot, const Frame& f) {
-  f.x.for_ticks([&](double value, bool labelled) {
-    const double x = f.x.place(value);
-    drawing.rules.push_back({{{x, f.top}, {x, f.bottom}}, labelled ? kGrid : kFineGrid, 1.0});
-    if (labelled) drawing.labels.push_back({{x, f.bottom + 18.0}, short_number(value), kText, kInk, Drawing::Anchor::Middle});
+  f.x.for_ticks(short_number, [&](double x, const std::string& label) {
+    drawing.rules.push_back({{{x, f.top}, {x, f.bottom}}, label.empty() ? kFineGrid : kGrid, 1.0});
+    if (!label.empty()) drawing.labels.push_back({{x, f.bottom + 18.0}, label, kText, kInk, Drawing::Anchor::Middle});
   });
-  f.y.for_ticks([&](double value, bool labelled) {
-    const double y = f.y.place(value);
-    drawing.rules.push_back({{{f.left, y}, {f.right, y}}, labelled ? kGrid : kFineGrid, 1.0});
-    if (labelled) drawing.labels.push_back({{f.left - 8.0, y + 4.0}, fmt::format("{:g}", value), kText, kInk, Drawing::Anchor::End});
+  const auto plain = [](double value) { return fmt::format("{:g}", value); };
+  f.y.for_ticks(plain, [&](double y, const std::string& label) {
+    drawing.rules.push_back({{{f.left, y}, {f.right, y}}, label.empty() ? kFineGrid : kGrid, 1.0});
+    if (!label.empty()) drawing.labels.push_back({{f.left - 8.0, y + 4.0}, label, kText, kInk, Drawing::Anchor::End});
   });
   const std::vector<Drawing::Point> box{{f.left, f.top}, {f.right, f.top}, {f.right, f.bottom}, {f.left, f.bottom}, {f.left, f.top}};
   drawing.rules.push_back({box, kFaint, 1.0});
@@ -100,26 +127,37 @@ void draw_axes(Drawing& drawing, const LinePlot& plot, const Frame& f) {
 
 DrawingColour colour_of(const PlotSeries& series) { return series.muted ? kFaint : kColours[series.colour % kColours.size()]; }
 
-void draw_series(Drawing& drawing, const PlotSeries& series, const Frame& f) {
+void draw_series(Drawing& drawing, const LinePlot& plot, const PlotSeries& series, const Frame& f) {
+  constexpr double kNear = 0.4;  // points of a line without dots that nobody can tell apart
   const DrawingColour colour = colour_of(series);
   std::vector<Drawing::Point> points;
+  const auto finish = [&] {
+    if (points.size() > 1) drawing.lines.push_back({points, colour, series.width, kDashes[series.dash % kDashes.size()]});
+    points.clear();
+  };
   for (const PlotValue& v : series.values) {
-    if (!(v.x > 0.0 && v.lowest > 0.0 && std::isfinite(v.highest))) continue;
+    if (!drawable(v, plot)) {
+      finish();
+      continue;
+    }
     const Drawing::Point p{f.x.place(v.x), f.y.place(v.y)};
-    points.push_back(p);
+    const bool is_last = &v == &series.values.back();
+    if (series.dots || is_last || points.empty() || std::hypot(p.x - points.back().x, p.y - points.back().y) > kNear) points.push_back(p);
+    if (!series.dots) continue;
     drawing.lines.push_back({{{p.x, f.y.place(v.lowest)}, {p.x, f.y.place(v.highest)}}, colour, 1.2});
     drawing.discs.push_back({p, 3.2, colour});
   }
-  if (points.size() > 1) drawing.lines.push_back({std::move(points), colour, 1.8, kDashes[series.dash % kDashes.size()]});
+  finish();
 }
 
 void draw_legend(Drawing& drawing, const LinePlot& plot, const Frame& f) {
   const double x = f.right + kGap;
   double y = f.top + 0.5 * kRow;
   for (const PlotSeries& series : plot.series) {
+    if (series.name.empty()) continue;
     const DrawingColour colour = colour_of(series);
-    drawing.lines.push_back({{{x, y}, {x + kSample, y}}, colour, 1.8, kDashes[series.dash % kDashes.size()]});
-    drawing.discs.push_back({{x + 0.5 * kSample, y}, 3.2, colour});
+    drawing.lines.push_back({{{x, y}, {x + kSample, y}}, colour, std::max(series.width, 1.8), kDashes[series.dash % kDashes.size()]});
+    if (series.dots) drawing.discs.push_back({{x + 0.5 * kSample, y}, 3.2, colour});
     drawing.labels.push_back({{x + kSample + 8.0, y + 4.0}, series.name, kText, kInk});
     y += kRow;
   }
@@ -138,7 +176,7 @@ Drawing draw(const LinePlot& plot) {
   drawing.width = std::ceil(std::max(frame.right + legend, line) + 16.0);
   drawing.height = std::ceil(frame.bottom + kBottom);
   draw_axes(drawing, plot, frame);
-  for (const PlotSeries& series : plot.series) draw_series(drawing, series, frame);
+  for (const PlotSeries& series : plot.series) draw_series(drawing, plot, series, frame);
   draw_legend(drawing, plot, frame);
   return drawing;
 }

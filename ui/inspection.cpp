@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/quality/quality.h"
-#include "ui/ticks.h"
+#include "core/drawing/ticks.h"
 
 namespace dmoscope::ui {
 namespace {

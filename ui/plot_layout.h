@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "ui/plot.h"
-#include "ui/ticks.h"
+#include "core/drawing/ticks.h"
 
 namespace dmoscope::ui {
 

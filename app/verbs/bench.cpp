@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/console.h"
+#include "app/plot_file.h"
 #include "app/targets.h"
 #include "app/text.h"
 #include "app/verbs/bench_draw.h"
@@ -45,7 +46,7 @@ int bench(const BenchOptions& options) {
     figures.insert(figures.end(), more.begin(), more.end());
   });
   if (options.json) print_json(json_of(plan, figures));
-  if (!options.plot.empty()) write_plot(options.plot, figures);
+  if (!options.plot.empty()) write_plot(options.plot, draw(plot_of(figures)));
   return 0;
 }
 

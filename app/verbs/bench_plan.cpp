@@ -11,7 +11,7 @@
 
 #include "app/acceleration.h"
 #include "app/text.h"
-#include "app/verbs/bench_machine.h"
+#include "app/machine.h"
 #include "core/base/error.h"
 
 namespace dmoscope::app {

@@ -7,14 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/line_plot.h"
-#include "app/targets.h"
-#include "app/verbs/bench_machine.h"
-#include "core/base/error.h"
-#include "core/drawing/drawing.h"
-#include "core/io/mesh_io.h"
-#ifdef DMOSCOPE_HAVE_GUI
-#include "render/drawing_picture.h"
-#endif
+#include "app/machine.h"
 
 namespace dmoscope::app {
 namespace {
@@ -104,28 +97,6 @@ class PlotLook {
   std::vector<unsigned> dashes_;
 };
 
-LinePlot plot_of(const std::vector<Figure>& figures) {
-  LinePlot plot;
-  plot.title = "Smoothing by size of the mesh";
-  plot.subtitle =
-      fmt::format("{}, {}; {}, {}; dmoscope {}, commit {}", processor(), counted(cores(), "processor thread", "processor threads"),
-                  compiler(), DMOSCOPE_BUILD_TYPE, DMOSCOPE_VERSION, commit());
-  plot.x_title = "vertices";
-  plot.y_title = "million vertex visits a second";
-  plot.note = "plain double: the scalar search on one thread; for meshes of more than 20 k free vertices measured on one of 10 k";
-  PlotLook look(figures);
-  for (std::size_t i = 0; i < figures.size(); ++i) {
-    const Figure& f = figures[i];
-    auto series = std::ranges::find(plot.series, series_name(f), &PlotSeries::name);
-    // After a reference comes the first figure that is compared with it.
-    if (series == plot.series.end()) series = plot.series.insert(series, look.series(f, figures[f.reference ? i + 1 : i]));
-    series->values.push_back(
-        {static_cast<double>(f.subject_vertices), rate(f, f.seconds.median), rate(f, f.seconds.highest), rate(f, f.seconds.lowest)});
-  }
-  for (PlotSeries& series : plot.series) std::ranges::sort(series.values, {}, &PlotValue::x);
-  return plot;
-}
-
 }  // namespace
 
 void print_head(const BenchPlan& plan) {
@@ -179,21 +150,26 @@ Json json_of(const BenchPlan& plan, const std::vector<Figure>& figures) {
           {"figures", std::move(list)}};
 }
 
-void require_plot_target(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
-#ifndef DMOSCOPE_HAVE_GUI
-  if (extension == ".png") throw UsageError("this program was built without its window, so it plots .svg only");
-#endif
-  if (extension != ".svg" && extension != ".png") throw UsageError(fmt::format("{}: plots are written as .svg or .png", path.string()));
-  require_writable(path);
-}
-
-void write_plot(const std::filesystem::path& path, const std::vector<Figure>& figures) {
-  const Drawing drawing = draw(plot_of(figures));
-#ifdef DMOSCOPE_HAVE_GUI
-  if (path.extension() == ".png") return render::write_png(path, render::picture_of(drawing));
-#endif
-  write_file_atomically(path, svg_of(drawing));
+LinePlot plot_of(const std::vector<Figure>& figures) {
+  LinePlot plot;
+  plot.title = "Smoothing by size of the mesh";
+  plot.subtitle =
+      fmt::format("{}, {}; {}, {}; dmoscope {}, commit {}", processor(), counted(cores(), "processor thread", "processor threads"),
+                  compiler(), DMOSCOPE_BUILD_TYPE, DMOSCOPE_VERSION, commit());
+  plot.x_title = "vertices";
+  plot.y_title = "million vertex visits a second";
+  plot.note = "plain double: the scalar search on one thread; for meshes of more than 20 k free vertices measured on one of 10 k";
+  PlotLook look(figures);
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    const Figure& f = figures[i];
+    auto series = std::ranges::find(plot.series, series_name(f), &PlotSeries::name);
+    // After a reference comes the first figure that is compared with it.
+    if (series == plot.series.end()) series = plot.series.insert(series, look.series(f, figures[f.reference ? i + 1 : i]));
+    series->values.push_back(
+        {static_cast<double>(f.subject_vertices), rate(f, f.seconds.median), rate(f, f.seconds.highest), rate(f, f.seconds.lowest)});
+  }
+  for (PlotSeries& series : plot.series) std::ranges::sort(series.values, {}, &PlotValue::x);
+  return plot;
 }
 
 }  // namespace dmoscope::app

@@ -6,7 +6,7 @@
 
 #include "app/console.h"
 #include "app/text.h"
-#include "app/verbs/bench_machine.h"
+#include "app/machine.h"
 #include "core/base/error.h"
 
 #ifdef DMOSCOPE_HAVE_GUI

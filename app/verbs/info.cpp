@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "app/text.h"
-#include "app/verbs/bench_machine.h"
+#include "app/machine.h"
 #include "app/verbs/verbs.h"
 #include "core/base/error.h"
 #include "core/io/mesh_io.h"

@@ -77,17 +77,15 @@ int render(const Options& options) {
   require_another_file(options.output, "-o", options.input);
   require_writable(options.output);
 #ifdef DMOSCOPE_HAVE_GUI
-  PictureOptions picture;
-  picture.input = options.input;
-  picture.output = options.output;
-  picture.metric = metric;
-  picture.width = width;
-  picture.height = height;
-  picture.colormap = options.colormap;
-  picture.range = range;
-  picture.transparent = options.transparent;
+  PictureLook look;
+  look.metric = metric;
+  look.width = width;
+  look.height = height;
+  look.colormap = options.colormap;
+  look.range = range;
+  look.transparent = options.transparent;
   Watch watch;
-  return render_picture(picture, watch.progress());
+  return render_picture(options.input, options.output, look, watch.progress());
 #else
   static_cast<void>(metric), static_cast<void>(width), static_cast<void>(height), static_cast<void>(range);
   throw UsageError("this program was built without OpenGL, so it makes no pictures");

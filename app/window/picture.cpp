@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/io/mesh_io.h"
 #include "core/quality/quality.h"
-#include "core/session/input_mesh.h"
 #include "render/context.h"
 #include "render/scene.h"
 #include "render/screenshot.h"
@@ -14,20 +14,19 @@
 
 namespace dmoscope::app {
 
-int render_picture(const PictureOptions& options, Progress& progress) {
-  const auto input = load_input(options.input, Need::QualityOnly, progress);
-  require_defined(options.metric, input->mesh);
+std::string picture_png(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look, const Progress& progress) {
+  require_defined(look.metric, input.mesh);
   progress.check();
-  const std::size_t size = input->mesh.elements.size();
-  const QualityContext quality_context = input->quality_context();
+  const std::size_t size = input.mesh.elements.size();
+  const QualityContext quality_context = input.quality_context();
   std::vector<double> exact(size);
-  element_qualities(quality_context, input->mesh.positions, options.metric, nullptr, exact);
+  element_qualities(quality_context, positions, look.metric, nullptr, exact);
   std::vector<float> quality(exact.begin(), exact.end());
   std::vector<std::uint8_t> inverted(size);
   std::size_t inverted_count = 0;
   double minimum = INFINITY;
   for (Index e = 0; e < size; ++e) {
-    inverted[e] = smallest_jacobian(quality_context, input->mesh.positions, e) <= 0.0 ? 1 : 0;
+    inverted[e] = smallest_jacobian(quality_context, positions, e) <= 0.0 ? 1 : 0;
     inverted_count += inverted[e];
     minimum = std::fmin(minimum, exact[e]);
   }
@@ -35,28 +34,44 @@ int render_picture(const PictureOptions& options, Progress& progress) {
 
   const auto context = render::create_headless_context();
   render::MeshScene scene;
-  scene.set_mesh(input->mesh, input->geometry.plane);
-  scene.update(input->mesh.positions, quality, inverted);
-  render::Style style = options.transparent ? render::Style::light() : render::Style::dark();
-  style.transparent = options.transparent;
-  style.wireframe = options.wireframe;
-  style.colours.map = render::colour_map_from_name(options.colormap);
-  if (options.range) std::tie(style.colours.low, style.colours.high) = *options.range;
+  scene.set_mesh(input.mesh, input.geometry.plane);
+  scene.update(positions, quality, inverted);
+  render::Style style = look.transparent ? render::Style::light() : render::Style::dark();
+  style.transparent = look.transparent;
+  style.wireframe = look.wireframe;
+  style.colours.map = render::colour_map_from_name(look.colormap);
+  if (look.range) std::tie(style.colours.low, style.colours.high) = *look.range;
   render::Shot shot;
-  shot.width = options.width;
-  shot.height = options.height;
-  shot.supersample = options.supersample;
-  shot.transparent = options.transparent;
-  if (options.colour_bar) {
+  shot.width = look.width;
+  shot.height = look.height;
+  shot.supersample = look.supersample;
+  shot.transparent = look.transparent;
+  if (look.colour_bar) {
     render::Legend legend;
-    legend.title = std::string(info(options.metric).title);
+    legend.title = std::string(info(look.metric).title);
     legend.subtitle =
-        fmt::format("{} · {} · minimum {}", input->mesh.name, ui::counted(size, "element", "elements"), ui::short_number(minimum));
+        fmt::format("{} · {} · minimum {}", input.mesh.name, ui::counted(size, "element", "elements"), ui::short_number(minimum));
     legend.inverted = inverted_count;
     shot.legend = legend;
   }
   const render::Camera2D camera = render::Camera2D::fit(scene.bounds(), render::mesh_viewport(shot));
-  render::write_png(options.output, render::render_image(scene, camera, style, {}, shot).image);
+  return render::encode_png(render::render_image(scene, camera, style, {}, shot).image);
+}
+
+std::string css_gradient(std::string_view colormap) {
+  constexpr int kStops = 10;
+  const render::ColourMap map = render::colour_map_from_name(colormap);
+  std::string css = "linear-gradient(to right";
+  for (int i = 0; i <= kStops; ++i) {
+    const render::Rgb colour = render::sample(map, static_cast<double>(i) / kStops);
+    css += fmt::format(", #{:02x}{:02x}{:02x}", colour.r, colour.g, colour.b);
+  }
+  return css + ")";
+}
+
+int render_picture(const std::filesystem::path& input, const std::filesystem::path& output, const PictureLook& look, Progress& progress) {
+  const auto mesh = load_input(input, Need::QualityOnly, progress);
+  write_file_atomically(output, picture_png(*mesh, mesh->mesh.positions, look, progress));
   return 0;
 }
 

@@ -3,16 +3,18 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "core/base/progress.h"
-#include "core/quality/metric.h"
+#include "core/session/input_mesh.h"
 
 namespace dmoscope::app {
 
-struct PictureOptions {
-  std::filesystem::path input;
-  std::filesystem::path output;  // .png
+/// How a picture of a mesh looks.
+struct PictureLook {
   Metric metric = Metric::MeanRatio;
   int width = 1280, height = 800;  // pixels
   std::string colormap = "viridis";
@@ -23,7 +25,15 @@ struct PictureOptions {
   int supersample = 2;  // 1 to 8: drawn that much larger and averaged
 };
 
+/// The mesh with its vertices at `positions`, as a PNG file's bytes. Throws Error (no usable EGL, a metric or a colour map that there is
+/// not) and Cancelled.
+[[nodiscard]] std::string picture_png(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look,
+                                      const Progress& progress);
+
+/// A colour map as the CSS of a background, from its low end on the left.
+[[nodiscard]] std::string css_gradient(std::string_view colormap);
+
 /// Reads, draws, writes (all or nothing). Throws Error (bad input, no usable EGL, unwritable target) and Cancelled. Returns 0.
-int render_picture(const PictureOptions& options, Progress& progress);
+int render_picture(const std::filesystem::path& input, const std::filesystem::path& output, const PictureLook& look, Progress& progress);
 
 }  // namespace dmoscope::app

@@ -7,7 +7,7 @@
 #include "ui/derived.h"
 #include "ui/format.h"
 #include "ui/panels/panels.h"
-#include "ui/ticks.h"
+#include "core/drawing/ticks.h"
 
 namespace dmoscope::ui {
 namespace {

@@ -8,7 +8,7 @@
 #include "ui/format.h"
 #include "ui/inspection_text.h"
 #include "ui/panels/panels.h"
-#include "ui/ticks.h"
+#include "core/drawing/ticks.h"
 
 namespace dmoscope::ui {
 namespace {

@@ -1,4 +1,4 @@
-#include "ui/ticks.h"
+#include "core/drawing/ticks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dmoscope::ui {
+namespace dmoscope {
 namespace {
 
 TEST(Ticks, LinearStepsAreOneTwoOrFiveTimesAPowerOfTen) {
@@ -121,4 +121,4 @@ TEST(Decimation, KeepsOneNeighbourBeyondEitherEnd) {
 }
 
 }  // namespace
-}  // namespace dmoscope::ui
+}  // namespace dmoscope

@@ -1,11 +1,11 @@
-#include "ui/ticks.h"
+#include "core/drawing/ticks.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-namespace dmoscope::ui {
+namespace dmoscope {
 namespace {
 
 double nice_step(double least) {
@@ -120,4 +120,4 @@ std::vector<Stroke> decimate(std::span<const double> x, std::span<const double> 
   return strokes;
 }
 
-}  // namespace dmoscope::ui
+}  // namespace dmoscope

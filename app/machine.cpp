@@ -1,4 +1,4 @@
-#include "app/verbs/bench_machine.h"
+#include "app/machine.h"
 
 #include <array>
 #include <charconv>

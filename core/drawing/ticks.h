@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace dmoscope::ui {
+namespace dmoscope {
 
 struct Tick {
   double value;
@@ -36,4 +36,4 @@ using Stroke = std::vector<PlotPoint>;
 [[nodiscard]] std::vector<Stroke> decimate(std::span<const double> x, std::span<const double> y, double lowest, double highest,
                                            std::size_t columns);
 
-}  // namespace dmoscope::ui
+}  // namespace dmoscope

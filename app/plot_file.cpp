@@ -1,0 +1,32 @@
+#include "app/plot_file.h"
+
+#include <string>
+
+#include <fmt/format.h>
+
+#include "app/targets.h"
+#include "core/base/error.h"
+#include "core/io/mesh_io.h"
+#ifdef DMOSCOPE_HAVE_GUI
+#include "render/drawing_picture.h"
+#endif
+
+namespace dmoscope::app {
+
+void require_plot_target(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+#ifndef DMOSCOPE_HAVE_GUI
+  if (extension == ".png") throw UsageError("this program was built without its window, so it plots .svg only");
+#endif
+  if (extension != ".svg" && extension != ".png") throw UsageError(fmt::format("{}: plots are written as .svg or .png", path.string()));
+  require_writable(path);
+}
+
+void write_plot(const std::filesystem::path& path, const Drawing& drawing) {
+#ifdef DMOSCOPE_HAVE_GUI
+  if (path.extension() == ".png") return render::write_png(path, render::picture_of(drawing));
+#endif
+  write_file_atomically(path, svg_of(drawing));
+}
+
+}  // namespace dmoscope::app

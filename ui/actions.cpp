@@ -57,6 +57,15 @@ constexpr std::array kActions{
     Action{"flip-now", "Run", "Show now again", "Shift+X", "flip now", Needs::Mesh},
     Action{"next-run", "Run", "Next run", "Tab", "next-run", Needs::SeveralRuns, true},
 
+    Action{"every-method", "Compare", "Same metric, every method", "", "compare methods", Needs::MeshAndIdle},
+    Action{"every-metric", "Compare", "Same mesh, every metric", "", "compare metrics", Needs::MeshAndIdle},
+    Action{"every-order", "Compare", "Same run, 10 shuffled orders", "", "compare orders 10", Needs::MeshAndIdle},
+    Action{"each-step", "Compare", "Every run: next iteration", "Ctrl+N", "each step", Needs::MeshAndIdle, true},
+    Action{"each-10", "Compare", "Every run: 10 iterations", "Ctrl+Shift+N", "each run 10", Needs::MeshAndIdle},
+    Action{"each-converged", "Compare", "Every run: until converged", "Ctrl+U", "each until-converged", Needs::MeshAndIdle},
+    Action{"each-back", "Compare", "Every run: back one iteration", "Ctrl+B", "each back", Needs::MeshAndIdle},
+    Action{"each-reset", "Compare", "Every run: reset to the input", "Ctrl+R", "each reset", Needs::MeshAndIdle},
+
     Action{"next-class", "Stepping", "Show who moves next", "H", "next-class toggle", Needs::Mesh},
     Action{"arrows-previous", "Stepping", "Arrows of the last step", "A", "arrows previous toggle", Needs::Mesh},
     Action{"arrows-input", "Stepping", "Arrows from the input", "Alt+A", "arrows input toggle", Needs::Mesh},
@@ -99,6 +108,7 @@ constexpr std::array kActions{
     Action{"plot-sorted", "Plot", "Sorted quality", "Alt+3", "plot sorted"},
     Action{"plot-moved", "Plot", "Moved vertices", "Alt+4", "plot moved"},
     Action{"plot-time", "Plot", "Time", "Alt+5", "plot time"},
+    Action{"plot-runs", "Plot", "Table of runs", "Alt+6", "plot runs"},
     Action{"log-scale", "Plot", "Next value axis", "Alt+L", "axis next", Needs::Nothing, true},
     Action{"plot-seconds", "Plot", "Seconds instead of iterations", "Alt+T", "plot-x toggle"},
     Action{"plot-all", "Plot", "All of the plot", "Alt+0", "plot-zoom all"},

@@ -1,5 +1,6 @@
 #include "ui/plot_commands.h"
 
+#include "core/session/run_table.h"
 #include "ui/command_words.h"
 
 namespace dmoscope::ui {
@@ -70,6 +71,14 @@ void switch_series(ViewState& state, Arguments words) {
   }
 }
 
+void sort_runs(ViewState& state, Arguments words) {
+  need(words, 1, 2);
+  static constexpr std::array<std::pair<std::string_view, bool>, 2> ways{{{"ascending", false}, {"descending", true}}};
+  const bool descending = words.size() > 1 && choose(words[1], ways);
+  state.plot_options.sorted_by = words[0] == "off" ? std::string() : std::string(run_column(words[0]).name);
+  state.plot_options.descending = descending;
+}
+
 PlotSave parse_save(Arguments words) {
   PlotSave save;
   for (std::size_t k = 0; k < words.size(); ++k) {
@@ -99,10 +108,11 @@ PlotSave parse_save(Arguments words) {
 }  // namespace
 
 void add_plot_verbs(CommandTable& table, ViewState& state) {
-  table.add({"plot", "plot convergence|histogram|sorted|moved|time", "which plot is shown"}, [&state](Arguments words) {
-    need(words, 1, 1);
-    state.plot = choose(words[0], kPlotTabs);
-  });
+  table.add({"plot", "plot convergence|histogram|sorted|moved|time|runs", "which plot is shown, or the table of runs"},
+            [&state](Arguments words) {
+              need(words, 1, 1);
+              state.plot = choose(words[0], kPlotTabs);
+            });
   table.add({"axis", "axis linear|log|log-distance|next", "the shown plot's value axis; log-distance: by the logarithm of 1 - quality"},
             [&state](Arguments words) {
               need(words, 1, 1);
@@ -127,15 +137,18 @@ void add_plot_verbs(CommandTable& table, ViewState& state) {
   table.add({"plot-series", "plot-series NAME [on|off|toggle|only]  or  plot-series all",
              "shows or hides a run or a quantity of the plot's legend"},
             [&state](Arguments words) { switch_series(state, words); });
+  table.add({"sort-runs", "sort-runs COLUMN [ascending|descending] | sort-runs off", "the order of the table of runs"},
+            [&state](Arguments words) { sort_runs(state, words); });
   table.add({"plot-bins", "plot-bins 16|32|64", "bars of the histogram"}, [&state](Arguments words) {
     need(words, 1, 1);
     static constexpr std::array<std::pair<std::string_view, int>, 3> counts{{{"16", 16}, {"32", 32}, {"64", 64}}};
     state.plot_options.bins = choose(words[0], counts);
   });
-  table.add({"plot-copy", "plot-copy", "the plotted numbers as comma separated values, on the clipboard"}, [&state](Arguments words) {
-    need(words, 0, 0);
-    state.requests.plots.push_back({});
-  });
+  table.add({"plot-copy", "plot-copy", "the plotted numbers, or the table of runs, as comma separated values, on the clipboard"},
+            [&state](Arguments words) {
+              need(words, 0, 0);
+              state.requests.plots.push_back({});
+            });
   table.add({"plot-save", "plot-save FILE.csv|.svg|.png [--size WxH] [--scale N]", "writes the plot as it is seen, on white"},
             [&state](Arguments words) { state.requests.plots.push_back(parse_save(words)); });
 }

@@ -9,6 +9,7 @@
 #include "core/io/mesh_io.h"
 #include "render/drawing_picture.h"
 #include "ui/plot_drawing.h"
+#include "ui/run_rows.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -28,6 +29,18 @@ Drawing drawing_of(const PlotSave& save, const Plot& plot, const PlotView& view,
   PlotInk ink = ink_of(palette(Theme::Light));
   ink.background = {255, 255, 255};
   return whole_plot(plot, view, width, height, ink);
+}
+
+void save_table(const PlotSave& save, ViewState& state, const SessionView& session, std::vector<Message>& said) {
+  if (session.runs.empty()) throw UsageError("there are no runs yet");
+  std::string text = run_table_csv(sorted_runs(session, state.plot_options));
+  if (save.path.empty()) {
+    state.requests.clipboard = std::move(text);
+    return;
+  }
+  if (save.path.extension() != ".csv") throw UsageError("the table of runs is saved as .csv");
+  write_file_atomically(save.path, text);
+  said.push_back({Message::Kind::Info, "table of runs saved as " + save.path.string(), 0});
 }
 
 }  // namespace
@@ -68,6 +81,10 @@ std::vector<Message> serve_plot_requests(ViewState& state, const SessionView& se
     const PlotSave save = std::move(state.requests.plots.front());
     state.requests.plots.pop_front();
     try {
+      if (state.plot == PlotTab::Runs) {
+        save_table(save, state, session, said);
+        continue;
+      }
       const Plot plot = build_plot(state, session, sorted, palette(Theme::Light));
       if (plot.series.empty()) throw UsageError("there is no plot yet: " + plot.empty_text);
       if (save.path.empty()) {

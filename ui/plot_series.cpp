@@ -59,6 +59,9 @@ class Builder {
       case PlotTab::Time:
         build_time();
         break;
+      case PlotTab::Runs:
+        plot_.empty_text = "the table of runs is no plot";
+        break;
     }
     if (session_.input) plot_.title = session_.input->mesh.name + " · " + plot_.title;
     if (plot_.axis == ValueAxis::LogDistance) plot_.y_title = "1 − " + plot_.y_title;

@@ -12,12 +12,14 @@
 
 namespace dmoscope::ui {
 
-enum class PlotTab { Convergence, Histogram, Sorted, Moved, Time };
-inline constexpr std::array<std::pair<std::string_view, PlotTab>, 5> kPlotTabs{{{"convergence", PlotTab::Convergence},
+/// What the lower panel shows: plots, and the table of runs, which has no axes.
+enum class PlotTab { Convergence, Histogram, Sorted, Moved, Time, Runs };
+inline constexpr std::array<std::pair<std::string_view, PlotTab>, 6> kPlotTabs{{{"convergence", PlotTab::Convergence},
                                                                                 {"histogram", PlotTab::Histogram},
                                                                                 {"sorted", PlotTab::Sorted},
                                                                                 {"moved", PlotTab::Moved},
-                                                                                {"time", PlotTab::Time}}};
+                                                                                {"time", PlotTab::Time},
+                                                                                {"runs", PlotTab::Runs}}};
 
 /// How values lie along the upright axis. LogDistance: by the logarithm of 1 - q, the distance to the ideal element, better ones higher.
 enum class ValueAxis { Linear, Log, LogDistance };
@@ -26,10 +28,13 @@ inline constexpr std::array<std::pair<std::string_view, ValueAxis>, 3> kValueAxe
 
 /// Only qualities have a distance to the ideal.
 [[nodiscard]] constexpr bool offers(PlotTab tab, ValueAxis axis) noexcept {
+  if (tab == PlotTab::Runs) return axis == ValueAxis::Linear;
   return axis != ValueAxis::LogDistance || tab == PlotTab::Convergence || tab == PlotTab::Sorted;
 }
 /// Plots that have the iterations, or the seconds that they took, along them.
-[[nodiscard]] constexpr bool over_iterations(PlotTab tab) noexcept { return tab != PlotTab::Histogram && tab != PlotTab::Sorted; }
+[[nodiscard]] constexpr bool over_iterations(PlotTab tab) noexcept {
+  return tab != PlotTab::Histogram && tab != PlotTab::Sorted && tab != PlotTab::Runs;
+}
 
 /// What is seen of one plot.
 struct PlotView {
@@ -44,6 +49,8 @@ struct PlotView {
 struct PlotOptions {
   bool by_seconds = false;  // smoothing's seconds instead of iterations along the plot
   int bins = 64;            // of the histogram: 16, 32 or 64
+  std::string sorted_by{};  // the column of the table of runs that they are sorted by, see run_columns(); empty: as they were made
+  bool descending = false;  // likewise
   friend bool operator==(const PlotOptions&, const PlotOptions&) = default;
 };
 

@@ -13,6 +13,7 @@
 
 #include "core/base/error.h"
 #include "core/session/commands.h"
+#include "core/session/run_table.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -144,6 +145,12 @@ class Reader {
 
 constexpr double kFar = 1e300;
 
+std::vector<std::pair<std::string_view, std::string>> sortable_columns() {
+  std::vector<std::pair<std::string_view, std::string>> choices{{"off", ""}};
+  for (const RunColumn& column : run_columns()) choices.emplace_back(column.name, column.name);
+  return choices;
+}
+
 constexpr std::array<std::pair<std::string_view, int>, 3> kBins{{{"16", 16}, {"32", 32}, {"64", 64}}};
 constexpr std::array<std::pair<std::string_view, Picked::Kind>, 3> kPicks{
     {{"none", Picked::Kind::None}, {"vertex", Picked::Kind::Vertex}, {"element", Picked::Kind::Element}}};
@@ -182,6 +189,8 @@ void describe_plots(Archive& archive, State& state) {
   archive.choice("shown", state.plot, kPlotTabs);
   archive.flag("by_seconds", state.plot_options.by_seconds);
   archive.choice("bins", state.plot_options.bins, kBins);
+  archive.choice("runs_sorted_by", state.plot_options.sorted_by, sortable_columns());
+  archive.flag("runs_descending", state.plot_options.descending);
   for (const auto& [name, tab] : kPlotTabs) {
     auto& view = state.plots[static_cast<std::size_t>(tab)];
     archive.object(std::string(name).c_str(), [&view](auto& plot) {

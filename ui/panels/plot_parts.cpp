@@ -95,7 +95,7 @@ void draw_more_menu(PanelContext& context) {
 }  // namespace
 
 void draw_plot_tabs(PanelContext& context) {
-  static constexpr std::array<const char*, kPlotTabs.size()> kTitles{"Convergence", "Histogram", "Sorted", "Moved", "Time"};
+  static constexpr std::array<const char*, kPlotTabs.size()> kTitles{"Convergence", "Histogram", "Sorted", "Moved", "Time", "Runs"};
   for (std::size_t k = 0; k < kPlotTabs.size(); ++k) {
     const auto& [name, tab] = kPlotTabs[k];
     if (k > 0) ImGui::SameLine(0, context.px(4));
@@ -108,15 +108,19 @@ void draw_plot_tabs(PanelContext& context) {
 
 void draw_plot_controls(PanelContext& context, const Rect& rect) {
   const float gap = context.px(8);
-  const auto axes = axis_choices(context.state), along = along_choices(context.state);
-  const float boxes = box_width(axes) + (along.empty() ? 0.0F : box_width(along) + gap);
+  auto axes = axis_choices(context.state);
+  if (axes.size() < 2) axes.clear();  // no choice
+  const auto along = along_choices(context.state);
+  const float boxes = (axes.empty() ? 0.0F : box_width(axes)) + (along.empty() ? 0.0F : box_width(along) + gap);
   const float buttons = button_width("Copy data") + gap + button_width("Save…");
   ImGui::SameLine();
   const float room = rect.w - context.px(12) - ImGui::GetCursorPosX();
   const bool roomy = room > boxes + gap + buttons;
   ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), rect.w - context.px(12) - boxes - gap - (roomy ? buttons : button_width("…"))));
-  choice_box(context, "plot-axis", axes);
-  ImGui::SameLine(0, gap);
+  if (!axes.empty()) {
+    choice_box(context, "plot-axis", axes);
+    ImGui::SameLine(0, gap);
+  }
   if (!along.empty()) {
     choice_box(context, "plot-along", along);
     ImGui::SameLine(0, gap);

@@ -9,6 +9,8 @@ namespace dmoscope::ui {
 void draw_plot_tabs(PanelContext& context);
 /// The shown plot's choices, at the right end of the tabs' line; `rect`: of the panel.
 void draw_plot_controls(PanelContext& context, const Rect& rect);
+/// How every run fares, by the metric that is shown, in the space that is left.
+void draw_run_table(PanelContext& context);
 /// The plot in the space that is left; a click in it shows that iteration.
 void draw_plot_area(PanelContext& context);
 

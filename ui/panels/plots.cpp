@@ -21,7 +21,11 @@ void draw_plots(PanelContext& context, const Rect& rect, bool timeline_only) {
   const float timeline = ImGui::GetFrameHeightWithSpacing();
   ImGui::BeginChild("plot area", {0, std::max(1.0F, ImGui::GetContentRegionAvail().y - timeline)}, false,
                     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-  draw_plot_area(context);
+  if (context.state.plot == PlotTab::Runs) {
+    draw_run_table(context);
+  } else {
+    draw_plot_area(context);
+  }
   ImGui::EndChild();
   draw_timeline(context);
   end_panel();

@@ -1,0 +1,94 @@
+// The table of runs, off screen.
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/gui/headless_test.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/run_rows.h"
+
+namespace dmoscope::app {
+namespace {
+
+class RunTable : public HeadlessTest {
+ protected:
+  void SetUp() override {
+    HeadlessTest::SetUp();
+    if (IsSkipped()) return;
+    good("generate annulus 300");
+    good("compare metrics 3");
+    good("plot runs");
+    good("wait");
+  }
+  [[nodiscard]] std::vector<RunRow> rows() { return ui::sorted_runs(*session(), state().plot_options); }
+  [[nodiscard]] std::vector<std::size_t> order() {
+    std::vector<std::size_t> runs;
+    for (const RunRow& row : rows()) runs.push_back(row.run);
+    return runs;
+  }
+  [[nodiscard]] float top(std::size_t run) { return window_->app().items().find("run-row:" + std::to_string(run + 1))[1]; }
+  const test::TemporaryFolder folder_;
+};
+
+TEST_F(RunTable, StandsInTheOrderThatAClickOnAColumnAsksFor) {
+  const std::vector<std::size_t> as_made = order();
+  ASSERT_EQ(as_made.size(), kMetricCount);
+  EXPECT_TRUE(std::ranges::is_sorted(as_made));
+  good("click run-table:min_quality");
+  const auto best_first = rows();
+  for (std::size_t k = 1; k < best_first.size(); ++k) EXPECT_GE(best_first[k - 1].minimum, best_first[k].minimum);
+  EXPECT_LT(top(best_first.front().run), top(best_first[1].run));
+  good("click run-table:min_quality");
+  const auto worst_first = rows();
+  for (std::size_t k = 1; k < worst_first.size(); ++k) EXPECT_LE(worst_first[k - 1].minimum, worst_first[k].minimum);
+  EXPECT_NE(best_first.front().run, worst_first.front().run);
+  good("click run-table:min_quality");
+  EXPECT_EQ(order(), as_made);
+  good("sort-runs run descending");
+  const auto named = rows();
+  for (std::size_t k = 1; k < named.size(); ++k) EXPECT_GE(named[k - 1].title, named[k].title);
+  EXPECT_TRUE(window_->run("sort-runs beauty").has_value());
+  EXPECT_TRUE(window_->run("sort-runs run sideways").has_value());
+  good("sort-runs off");
+  EXPECT_EQ(order(), as_made);
+}
+
+TEST_F(RunTable, AllRowsAreJudgedByTheMetricThatIsShown) {
+  for (const char* metric : {"mean-ratio", "min-angle"}) {
+    good(std::string("show ") + metric);
+    good("wait");
+    for (const RunRow& row : rows()) {
+      EXPECT_EQ(row.judged, metric);
+      EXPECT_GT(row.minimum, 0.0);  // every row has a value, whatever its run optimises
+      EXPECT_LE(row.minimum, row.p1);
+      EXPECT_LE(row.p1, row.p5);
+      EXPECT_EQ(row.iterations, 3U);
+    }
+  }
+}
+
+TEST_F(RunTable, AClickOnARowMakesItsRunTheActiveOne) {
+  good("click run-row:3");
+  good("wait");
+  EXPECT_EQ(session()->active, 2U);
+}
+
+TEST_F(RunTable, IsSavedAndCopiedAsItStands) {
+  good("sort-runs mean_quality descending");
+  const auto file = folder_ / "runs.csv";
+  good("plot-save \"" + file.string() + "\"");
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  EXPECT_EQ(text.str(), run_table_csv(rows()));
+  good("plot-copy");
+  EXPECT_EQ(window_->clipboard(), text.str());
+  EXPECT_TRUE(window_->run("plot-save \"" + (folder_ / "runs.svg").string() + "\"").has_value());
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "runs.svg"));
+}
+
+}  // namespace
+}  // namespace dmoscope::app

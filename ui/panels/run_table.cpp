@@ -1,0 +1,136 @@
+// Bottom: the table of runs.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "ui/format.h"
+#include "ui/panels/plot_parts.h"
+#include "ui/run_rows.h"
+
+namespace dmoscope::ui {
+namespace {
+
+struct ShownColumn {
+  const char* column;
+  const char* title;   // short: many have to stand side by side
+  bool large_is_best;  // the best one is set off
+};
+constexpr std::array<ShownColumn, 11> kShown{{{"run", "run", false},
+                                              {"iterations", "iterations", false},
+                                              {"min_quality", "minimum", true},
+                                              {"movable_minimum", "movable", true},
+                                              {"mean_quality", "mean", true},
+                                              {"p1", "1 %", true},
+                                              {"p5", "5 %", true},
+                                              {"inverted", "inverted", false},
+                                              {"seconds", "seconds", false},
+                                              {"vertices_per_second", "vertices/s", false},
+                                              {"backend", "backend", false}}};
+
+/// Up, then down, then as they were made; numbers begin with the largest.
+std::string next_sort(const PlotOptions& options, const RunColumn& column) {
+  const bool first_way = !column.is_word();
+  if (options.sorted_by != column.name) return fmt::format("sort-runs {} {}", column.name, first_way ? "descending" : "ascending");
+  if (options.descending == first_way) return fmt::format("sort-runs {} {}", column.name, first_way ? "ascending" : "descending");
+  return "sort-runs off";
+}
+
+void draw_head(PanelContext& context) {
+  const PlotOptions& options = context.state.plot_options;
+  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+  for (const ShownColumn& shown : kShown) {
+    const RunColumn& column = run_column(shown.column);
+    ImGui::TableNextColumn();
+    const bool sorted = options.sorted_by == column.name;
+    const std::string text = fmt::format("{}{}", shown.title, !sorted ? "" : options.descending ? " ▼" : " ▲");
+    const float width = ImGui::GetContentRegionAvail().x, left = ImGui::GetCursorPosX();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    if (ImGui::Selectable(fmt::format("##{}", column.name).c_str(), false)) context.send(next_sort(options, column));
+    context.items.record_last(fmt::format("run-table:{}", column.name));
+    next_item_tooltip(fmt::format("{}: {}\nclick to sort", column.title, column.doc));
+    const float shift = column.is_word() ? 0.0F : std::max(0.0F, width - ImGui::CalcTextSize(text.c_str()).x);
+    ImGui::GetWindowDrawList()->AddText({at.x + shift, at.y}, colour(sorted ? context.palette.text : context.palette.dim), text.c_str());
+    ImGui::SetCursorPosX(left);
+  }
+}
+
+/// The largest value of a column among the rows; NaN where there are not two different ones.
+double best_of(const std::vector<RunRow>& rows, const RunColumn& column) {
+  double best = RunRow::kUnknown, least = RunRow::kUnknown;
+  for (const RunRow& row : rows) {
+    const double value = std::get<double>(cell(row, column));
+    if (!std::isfinite(value)) continue;
+    if (!(value <= best)) best = value;
+    if (!(value >= least)) least = value;
+  }
+  return best > least ? best : RunRow::kUnknown;
+}
+
+void draw_number(PanelContext& context, const RunRow& row, const RunColumn& column, double best) {
+  const double value = std::get<double>(cell(row, column));
+  std::string text = cell_text(row, column);
+  if (column.name == "vertices_per_second" && std::isfinite(value)) text = rate(value);
+  const bool bad = column.name == "inverted" && value > 0.0;
+  if (value == best) ImGui::PushFont(context.fonts.bold);
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0F, ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x));
+  ImGui::TextColored(colour_vector(bad ? context.palette.error : context.palette.text), "%s", text.c_str());
+  if (value == best) ImGui::PopFont();
+  if (std::isfinite(value)) next_item_tooltip(full_number(value));
+}
+
+void draw_run(PanelContext& context, const RunRow& row) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float line = ImGui::GetTextLineHeight();
+  const bool active = row.run == context.session.active;
+  if (ImGui::Selectable("##row", active, ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap) && !active)
+    context.send(fmt::format("select-run {}", row.run + 1));
+  context.items.record_last(fmt::format("run-row:{}", row.run + 1));
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({at.x, at.y + 0.15F * line}, {at.x + context.px(4), at.y + 0.9F * line},
+                     colour(context.palette.runs[row.run % context.palette.runs.size()]), context.px(2));
+  const std::string title = fmt::format("{}  {}", row.run + 1, row.title);
+  list.AddText({at.x + context.px(10), at.y}, colour(context.palette.text), title.c_str());
+}
+
+}  // namespace
+
+void draw_run_table(PanelContext& context) {
+  if (context.session.runs.empty()) return dim_text(context, "no runs yet: open a mesh");
+  const std::vector<RunRow> rows = sorted_runs(context.session, context.state.plot_options);
+  dim_text(context, fmt::format("judged by {}, the metric that is shown", metric_phrase(context.session.shown)), false);
+  constexpr ImGuiTableFlags kFlags =
+      ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_ScrollX | ImGuiTableFlags_SizingFixedFit;
+  if (!ImGui::BeginTable("runs", static_cast<int>(kShown.size()), kFlags)) return;
+  float widest = 0;
+  for (const RunRow& row : rows) widest = std::max(widest, ImGui::CalcTextSize(row.title.c_str()).x);
+  for (const ShownColumn& shown : kShown) {
+    const bool title = &shown == &kShown.front();
+    ImGui::TableSetupColumn(shown.title, ImGuiTableColumnFlags_WidthFixed, title ? widest + 3 * context.em() : 6 * context.em());
+  }
+  ImGui::TableSetupScrollFreeze(1, 1);
+  draw_head(context);
+  std::array<double, kShown.size()> best{};
+  for (std::size_t k = 0; k < kShown.size(); ++k)
+    best[k] = kShown[k].large_is_best ? best_of(rows, run_column(kShown[k].column)) : RunRow::kUnknown;
+  for (const RunRow& row : rows) {
+    ImGui::TableNextRow();
+    ImGui::PushID(static_cast<int>(row.run));
+    for (std::size_t k = 0; k < kShown.size(); ++k) {
+      const RunColumn& column = run_column(kShown[k].column);
+      ImGui::TableNextColumn();
+      if (k == 0) {
+        draw_run(context, row);
+      } else if (column.is_word()) {
+        dim_text(context, cell_text(row, column), false);
+      } else {
+        draw_number(context, row, column, best[k]);
+      }
+    }
+    ImGui::PopID();
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace dmoscope::ui

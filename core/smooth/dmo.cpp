@@ -1,85 +1,37 @@
 #include "core/smooth/dmo.h"
 
-#include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <functional>
-#include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/base/memory.h"
 #include "core/smooth/lane_kernel.h"
-#include "core/smooth/reference_visit.h"
+#include "core/smooth/vertex_rule.h"
 
 namespace dmoscope {
 
 namespace {
 
-constexpr std::size_t kGrain = 256;  // vertices a chunk of the reference: some 1 ms of work
-
-/// One vertex after the other, in double.
+/// The plain search in double.
 template <Metric M>
 class Reference {
  public:
-  Reference(const InputMesh& input, const SearchParameters& parameters)
-      : mesh_(input.planar_view()), single_(input.mesh.single_precision), parameters_(parameters) {}
+  using Room = Star<double>;
+  Reference(const InputMesh& input, const SearchParameters& parameters) : mesh_(input), parameters_(parameters) {}
 
-  /// Moves `vertex` if it gains. `place`: where `positions` has it. `room`: to work in.
-  bool visit(Index vertex, PositionView positions, Vec3& place, Star<double>& room) const {
-    gather_star(MeshStar(mesh_, positions, vertex), room);
-    const Vec2<double> found = search_star<M>(StarView<double>(room), room.box, parameters_);
-    if (found.x == 0.0 && found.y == 0.0) return false;
-    const Vec3 target = displaced(mesh_.plane, place, {found.x * room.scale, found.y * room.scale}, single_);
-    if (!gains(vertex, target, positions)) return false;
-    place = target;
-    return true;
+  std::optional<Vec3> target(PositionView positions, Index vertex, Room& star) const {
+    gather_star(MeshStar(mesh_.view, positions, vertex), star);
+    const Vec2<double> found = search_star<M>(StarView<double>(star), star.box, parameters_);
+    if (found.x == 0.0 && found.y == 0.0) return std::nullopt;
+    return mesh_.moved_if_gaining<M>(positions, vertex, {found.x * star.scale, found.y * star.scale});
   }
 
-  bool gains(Index vertex, Vec3 target, PositionView positions) const { return gains_at<M>(mesh_, positions, vertex, target); }
+  bool gains(Index vertex, Vec3 target, PositionView positions) const { return gains_at<M>(mesh_.view, positions, vertex, target); }
 
  private:
-  PlanarView mesh_;
-  bool single_;
+  RuleMesh mesh_;
   SearchParameters parameters_;
-};
-
-/// Calls body(begin, end) for the part of [first, first + count) that lies in each class.
-template <class Body>
-void for_classes(const Colouring& colouring, std::uint64_t first, std::uint64_t count, const Body& body) {
-  const std::uint64_t last = first + count;
-  auto next = std::ranges::upper_bound(colouring.class_offsets, first);
-  for (std::uint64_t end = first; first < last; first = end, ++next) {
-    end = std::min<std::uint64_t>(*next, last);
-    body(first, end);
-  }
-}
-
-template <Metric M>
-class ScalarDmo final : public Smoother {
- public:
-  ScalarDmo(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring, const SearchParameters& parameters)
-      : input_(std::move(input)), colouring_(std::move(colouring)), reference_(*input_, parameters) {}
-
-  std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
-    std::atomic<std::uint64_t> moved{0};
-    for_classes(*colouring_, first, count, [&](std::uint64_t from, std::uint64_t to) {
-      const auto vertices = std::span(colouring_->order).subspan(from, to - from);
-      for_chunks(pool, vertices.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        Star<double> star;
-        std::uint64_t here = 0;
-        for (std::size_t i = begin; i < end; ++i) here += reference_.visit(vertices[i], positions, positions[vertices[i]], star) ? 1U : 0U;
-        moved += here;
-      });
-    });
-    return moved;
-  }
-  void store(std::span<Vec3> /*positions*/, ThreadPool* /*pool*/) override {}  // they are always up to date
-  void positions_replaced() override {}
-
- private:
-  std::shared_ptr<const InputMesh> input_;
-  std::shared_ptr<const Colouring> colouring_;
-  Reference<M> reference_;
 };
 
 /// For speed: lanes of many vertices. Works on its own copy of the positions in the order of the visits, and keeps who needs no visit
@@ -137,7 +89,9 @@ class LaneDmo final : public Smoother {
     task.visit_alone = [](void* owner, Index rank) {
       auto& self = *static_cast<LaneDmo*>(owner);
       thread_local Star<double> star;  // kept: stepping allocates nothing
-      return self.reference_.visit(self.table_.vertex_of_rank[rank], self.view(), self.ranked_[rank], star);
+      const auto target = self.reference_.target(self.view(), self.table_.vertex_of_rank[rank], star);
+      if (target) self.ranked_[rank] = *target;
+      return target.has_value();
     };
     return task;
   }
@@ -175,7 +129,7 @@ StarState star_state(const InputMesh& input, PositionView positions, Metric metr
 
 std::unique_ptr<Smoother> make_dmo_smoother(const SmoothingTask& task) {
   return formulas::with_metric(task.metric, [&]<Metric M>() -> std::unique_ptr<Smoother> {
-    if (task.search.precision == Precision::Double) return std::make_unique<ScalarDmo<M>>(task.input, task.colouring, task.search);
+    if (task.search.precision == Precision::Double) return make_rule_smoother(task, Reference<M>(*task.input, task.search));
     return std::make_unique<LaneDmo<M>>(task.input, task.colouring, task.search, task.pool);
   });
 }

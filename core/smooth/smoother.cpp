@@ -8,12 +8,25 @@
 
 #include "core/base/error.h"
 #include "core/smooth/dmo.h"
+#include "core/smooth/dvr.h"
+#include "core/smooth/laplace.h"
 
 namespace dmoscope {
 
 namespace {
-constexpr std::array<MethodInfo, 1> kMethods{
-    {{"dmo", "Discrete mesh optimization: best candidate of a grid, three levels (Zint and Grosso 2018)"}}};
+constexpr std::array<MethodInfo, 4> kMethods{
+    {{.name = "dmo",
+      .doc = "Discrete mesh optimization: best candidate of a grid, three levels (Zint and Grosso 2018)",
+      .searches_grid = true},
+     {.name = "laplace",
+      .doc = "Laplacian smoothing: to the mean of the edge neighbours, whatever becomes of the elements",
+      .optimises = false,
+      .relaxes = true},
+     {.name = "smart-laplace", .doc = "Laplacian smoothing, only where the vertex gains (Freitag 1997)", .relaxes = true},
+     {.name = "dvr",
+      .doc = "Directional vertex relaxation: to the best place on a line, one direction an iteration (Rangarajan and Lew 2017)",
+      .mean_ratio_only = true,
+      .has_directions = true}}};
 
 void validate(const MethodOptions& options) {
   if (!(options.relaxation > 0.0 && options.relaxation <= 1.0))
@@ -44,6 +57,9 @@ void require_possible(const SmoothingTask& task) {
 
 std::unique_ptr<Smoother> make_smoother(const SmoothingTask& task) {
   require_possible(task);
+  if (task.method == "laplace") return make_laplace_smoother(task);
+  if (task.method == "smart-laplace") return make_smart_laplace_smoother(task);
+  if (task.method == "dvr") return make_dvr_smoother(task);
   return make_dmo_smoother(task);
 }
 

@@ -58,6 +58,9 @@ struct MethodInfo {
   std::string_view name, doc;
   bool optimises = true;         // the metric; else it only judges what the method does
   bool mean_ratio_only = false;  // it can optimise no other metric
+  bool searches_grid = false;    // reads SearchParameters
+  bool relaxes = false;          // reads MethodOptions::relaxation
+  bool has_directions = false;   // reads MethodOptions::directions and seed
 };
 /// The methods this version has.
 [[nodiscard]] std::span<const MethodInfo> method_table();

@@ -56,7 +56,9 @@ TEST(Usage, IsRefusedWithTwo) {
       {"smooth", in, "-o", out, "--patience", "3"},
       {"smooth", in, "-o", out, "--metric", "beauty"},
       {"smooth", in, "-o", out, "--metric", "scaled-jacobian", "extra"},
-      {"smooth", in, "-o", out, "--method", "laplace"},
+      {"smooth", in, "-o", out, "--method", "magic"},
+      {"smooth", in, "-o", out, "--method", "dvr", "--metric", "min-angle"},
+      {"smooth", in, "-o", out, "--method", "laplace", "--backend", "cuda"},
       {"smooth", in, "-o", out, "--backend", "abacus"},
       {"smooth", in, "-o", out, "--simd", "mmx"},
       {"smooth", in, "-o", out, "--backend", "cuda", "--precision", "double"},
@@ -121,8 +123,8 @@ TEST(Usage, CountsAreWholeNumbersInTheirRange) {
 TEST(Usage, SaysWhatThereIs) {
   const Folder folder;
   EXPECT_THAT(run({"quality", sample("coast.14"), "--metric", "beauty"}).err, AllOf(HasSubstr("beauty"), HasSubstr("mean-ratio")));
-  EXPECT_THAT(run({"smooth", sample("coast.14"), "-o", folder / "o.14", "--method", "laplace"}).err,
-              AllOf(HasSubstr("laplace"), HasSubstr("dmo")));
+  EXPECT_THAT(run({"smooth", sample("coast.14"), "-o", folder / "o.14", "--method", "magic"}).err,
+              AllOf(HasSubstr("magic"), HasSubstr("dmo"), HasSubstr("smart-laplace")));
   EXPECT_THAT(run({"smooth", sample("coast.14"), "-o", folder / "o.xyz"}).err, AllOf(HasSubstr(".xyz"), HasSubstr(".vtk")));
 }
 

@@ -2,13 +2,8 @@
 // instructions.
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -16,83 +11,23 @@
 #include "core/session/run.h"
 #include "core/smooth/dmo.h"
 #include "core/smooth/lane_kernel.h"
+#include "tests/smooth/promises.h"
 #include "tests/smooth/zoo.h"
 
 namespace dmoscope {
 namespace {
 
+using testing::all_metrics;
 using testing::Cells;
+using testing::expect_fixed_stay;
+using testing::expect_promise_one;
 using testing::input;
+using testing::kBudget;
 using testing::lattice;
+using testing::make_run;
+using testing::same_bits;
 using testing::Specimen;
-
-constexpr std::size_t kBudget = std::size_t{1} << 28U;
-
-dmoscope::Run make_run(const std::shared_ptr<const InputMesh>& mesh, RunParameters parameters, unsigned threads = 1) {
-  return {mesh, std::move(parameters), std::make_shared<ThreadPool>(threads), kBudget};
-}
-
-bool same_bits(std::span<const Vec3> a, std::span<const Vec3> b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
-}
-
-/// A visit left the star no worse, and better if its vertex moved; which it did within its plane.
-void expect_no_worse(const Specimen& specimen, const dmoscope::Run& run, Index vertex, Vec3 old, const StarState& before) {
-  const StarState after = star_state(run.input(), run.positions(), run.parameters().metric, vertex);
-  if (same_bits(std::span(&old, 1), run.positions().subspan(vertex, 1))) return;
-  EXPECT_TRUE(after.better_than(before)) << specimen.name << ": vertex " << vertex << " from " << before.jacobian << ' ' << before.quality
-                                         << " to " << after.jacobian << ' ' << after.quality;
-  const Vec3 p = run.positions()[vertex], normal = run.input().geometry.plane.normal;
-  if (run.input().mesh.single_precision) {
-    for (const double x : {p.x, p.y, p.z}) EXPECT_EQ(x, static_cast<float>(x));
-  }
-  const double before_along[] = {old.x, old.y, old.z}, along[] = {p.x, p.y, p.z}, across[] = {normal.x, normal.y, normal.z};
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (across[i] != 1.0) continue;  // else the coordinate that is the same for all
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(along[i]), std::bit_cast<std::uint64_t>(before_along[i])) << specimen.name;
-  }
-}
-
-/// Takes the run through its iterations class by class; no visit may make its star or the mesh worse.
-void expect_promise_one(const Specimen& specimen, dmoscope::Run& run, std::uint64_t iterations) {
-  Progress progress;
-  const InputMesh& mesh = run.input();
-  while (run.moment().iteration < iterations) {
-    const std::uint64_t visits = run.moment().visits;
-    const Index c = static_cast<Index>(std::ranges::find(run.colouring().class_offsets, visits) - run.colouring().class_offsets.begin());
-    const auto members = run.colouring().members(c);
-    const std::vector<Vec3> old(run.positions().begin(), run.positions().end());
-    std::vector<StarState> before;
-    for (const Index v : members) before.push_back(star_state(mesh, old, run.parameters().metric, v));
-    const Statistics all_before = run.statistics();
-    run.step(StepUnit::Class, progress);
-    for (std::size_t i = 0; i < members.size(); ++i) expect_no_worse(specimen, run, members[i], old[members[i]], before[i]);
-    const Statistics all_after = run.statistics();
-    if (all_before.inverted > 0) continue;
-    EXPECT_EQ(all_after.inverted, 0U) << specimen.name;
-    EXPECT_GE(all_after.minimum, all_before.minimum) << specimen.name;
-  }
-}
-
-void expect_fixed_stay(const Specimen& specimen, const dmoscope::Run& run) {
-  const std::span<const Vec3> start = run.input().mesh.positions;
-  for (Index v = 0; v < start.size(); ++v)
-    if (run.fixed()[v] != 0) {
-      EXPECT_TRUE(same_bits(start.subspan(v, 1), run.positions().subspan(v, 1))) << specimen.name << ": vertex " << v;
-    }
-}
-
-std::string title(Metric metric) {
-  std::string text(info(metric).name);
-  std::ranges::replace(text, '-', '_');
-  return text;
-}
-
-std::vector<Metric> all_metrics() {
-  std::vector<Metric> metrics;
-  for (const MetricInfo& entry : metric_table()) metrics.push_back(entry.metric);
-  return metrics;
-}
+using testing::title;
 
 /// The plain search.
 class PlainPromises : public ::testing::TestWithParam<Metric> {};

@@ -1,0 +1,93 @@
+#pragma once
+// Methods that treat one vertex after the other by a rule, on the processor and in double: what they share.
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "core/smooth/reference_visit.h"
+#include "core/smooth/smoother.h"
+
+namespace dmoscope {
+
+/// What a rule knows of the mesh.
+struct RuleMesh {
+  explicit RuleMesh(const InputMesh& input) : view(input.planar_view()), single(input.mesh.single_precision) {}
+  PlanarView view;
+  bool single;  // see Mesh::single_precision
+
+  /// Where a vertex at `place` comes to stand by an offset in mesh units; nowhere where that is no number.
+  [[nodiscard]] std::optional<Vec3> moved(Vec3 place, Vec2<double> offset) const {
+    if (!std::isfinite(offset.x) || !std::isfinite(offset.y)) return std::nullopt;
+    return displaced(view.plane, place, offset, single);
+  }
+  /// The same, and nowhere where the vertex does not gain there: promise 1.
+  template <Metric M>
+  [[nodiscard]] std::optional<Vec3> moved_if_gaining(PositionView positions, Index vertex, Vec2<double> offset) const {
+    const auto target = moved(positions[vertex], offset);
+    return target && gains_at<M>(view, positions, vertex, *target) ? target : std::nullopt;
+  }
+};
+
+/// Calls body(begin, end) for the part of [first, first + count) that lies in each class.
+template <class Body>
+void for_classes(const Colouring& colouring, std::uint64_t first, std::uint64_t count, const Body& body) {
+  const std::uint64_t last = first + count;
+  auto next = std::ranges::upper_bound(colouring.class_offsets, first);
+  for (std::uint64_t end = first; first < last; first = end, ++next) {
+    end = std::min<std::uint64_t>(*next, last);
+    body(first, end);
+  }
+}
+
+/// A rule says where one vertex goes, from the positions alone and, if it has a begin(const Sweep&), the iteration:
+///   struct Room;  what it works in, kept from one vertex to the next; no result may depend on what is left there
+///   std::optional<Vec3> target(PositionView positions, Index vertex, Room& room) const;  nowhere: it stays
+/// It is applied class after class by many threads.
+template <class Rule>
+class RuleSmoother final : public Smoother {
+ public:
+  RuleSmoother(const SmoothingTask& task, Rule rule) : input_(task.input), colouring_(task.colouring), rule_(std::move(rule)) { begin({}); }
+
+  void begin(const Sweep& sweep) override {
+    if constexpr (requires { rule_.begin(sweep); }) rule_.begin(sweep);
+  }
+  std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
+    std::atomic<std::uint64_t> moved{0};
+    for_classes(*colouring_, first, count, [&](std::uint64_t from, std::uint64_t to) {
+      const auto vertices = std::span(colouring_->order).subspan(from, to - from);
+      for_chunks(pool, vertices.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        typename Rule::Room room;
+        std::uint64_t here = 0;
+        for (const Index vertex : vertices.subspan(begin, end - begin)) {
+          const std::optional<Vec3> target = rule_.target(positions, vertex, room);
+          if (!target || *target == positions[vertex]) continue;
+          positions[vertex] = *target;
+          ++here;
+        }
+        moved += here;
+      });
+    });
+    return moved;
+  }
+  void store(std::span<Vec3> /*positions*/, ThreadPool* /*pool*/) override {}  // they are always up to date
+  void positions_replaced() override {}
+
+ private:
+  static constexpr std::size_t kGrain = 256;  // vertices a chunk: up to some 1 ms of work
+
+  std::shared_ptr<const InputMesh> input_;  // which the rule looks into
+  std::shared_ptr<const Colouring> colouring_;
+  Rule rule_;
+};
+
+template <class Rule>
+[[nodiscard]] std::unique_ptr<Smoother> make_rule_smoother(const SmoothingTask& task, Rule rule) {
+  return std::make_unique<RuleSmoother<Rule>>(task, std::move(rule));
+}
+
+}  // namespace dmoscope

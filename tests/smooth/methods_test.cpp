@@ -1,0 +1,183 @@
+// The methods beside dmo: what they do in cases that have a closed form, and what they refuse.
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "core/smooth/dvr.h"
+#include "tests/smooth/promises.h"
+
+namespace dmoscope {
+namespace {
+
+using testing::Cells;
+using testing::input;
+using testing::lattice;
+using testing::make_run;
+
+/// A hub amid a regular ring of radius 1 around `centre`; `corners_between`: 0 for triangles, 1 for quadrilaterals.
+Mesh wheel(Index spokes, Vec3 hub, Vec3 centre = {}, bool quadrilaterals = false) {
+  Mesh mesh;
+  mesh.name = "wheel";
+  mesh.positions.push_back(centre + hub);
+  const Index points = quadrilaterals ? 2 * spokes : spokes;
+  for (Index i = 0; i < points; ++i) {
+    const double angle = 2 * M_PI * i / points, radius = quadrilaterals && i % 2 == 1 ? std::sqrt(2.0) : 1.0;
+    mesh.positions.push_back(centre + Vec3{radius * std::cos(angle), radius * std::sin(angle), 0});
+  }
+  for (Index i = 0; i < spokes; ++i) {
+    if (quadrilaterals)
+      testing::add(mesh, {0, 1 + 2 * i, 2 + 2 * i, 1 + (2 * i + 2) % points});
+    else
+      testing::add(mesh, {0, 1 + i, 1 + (i + 1) % points});
+  }
+  return mesh;
+}
+
+/// Where the hub stands after so many visits.
+Vec3 hub_after(const Mesh& mesh, RunParameters parameters, std::uint64_t visits = 1) {
+  dmoscope::Run run = make_run(input(mesh), std::move(parameters));
+  Progress progress;
+  for (std::uint64_t i = 0; i < visits; ++i) run.step(StepUnit::Iteration, progress);
+  return run.positions()[0];
+}
+
+TEST(Methods, EachHasANameAndOptionsOfItsOwn) {
+  std::set<std::string_view> names;
+  for (const MethodInfo& method : method_table()) {
+    EXPECT_TRUE(names.insert(method.name).second) << method.name;
+    EXPECT_FALSE(method.doc.empty());
+    EXPECT_EQ(method_info(method.name).name, method.name);
+    EXPECT_NE(make_run(input(lattice(4, 0.1, 1)), {.method = std::string(method.name)}).visits_per_iteration(), 0U);
+  }
+  EXPECT_THROW((void)method_info("nonsense"), UsageError);
+}
+
+TEST(Methods, RefuseWhatTheyCannotDo) {
+  const auto mesh = input(lattice(4, 0.1, 1));
+  for (const double relaxation : {0.0, -0.5, 1.001, std::nan("")})
+    EXPECT_THROW((void)make_run(mesh, {.method = "laplace", .options = {.relaxation = relaxation}}), UsageError) << relaxation;
+  EXPECT_THROW((void)make_run(mesh, {.method = "dvr", .metric = Metric::MinAngle}), UsageError);
+  for (const char* method : {"laplace", "smart-laplace", "dvr"})
+    EXPECT_THROW((void)make_run(mesh, {.method = method, .backend = Backend::Cuda}), UsageError);
+}
+
+TEST(Laplace, GoesToTheMeanOfTheEdgeNeighboursByTheShareAskedFor) {
+  for (const Index spokes : {3U, 6U, 17U})
+    for (const bool quadrilaterals : {false, true})
+      for (const Vec3 centre : {Vec3{}, Vec3{1e6, -1e6, 7}}) {
+        const Mesh mesh = wheel(spokes, {0.25, -0.125, 0}, centre, quadrilaterals);
+        const double rounding = length(centre) > 0 ? 1e-9 : 2e-16;
+        EXPECT_LE(length(hub_after(mesh, {.method = "laplace"}) - centre), rounding);
+        const Vec3 half = hub_after(mesh, {.method = "laplace", .options = {.relaxation = 0.5}});
+        EXPECT_LE(length(half - (centre + Vec3{0.125, -0.0625, 0})), rounding);
+      }
+}
+
+TEST(Laplace, OfAnIrregularStarTheMeanIsOfEdgesAndEveryNeighbourCountsOnce) {
+  Mesh mesh = wheel(4, {0.1, 0.2, 0}, {}, true);
+  mesh.positions[2] = {9, 9, 0};  // a corner across: no edge neighbour
+  mesh.positions[1] = {2, 0.5, 0};
+  const Vec3 mean = 0.25 * (mesh.positions[1] + mesh.positions[3] + mesh.positions[5] + mesh.positions[7]);
+  EXPECT_LE(length(hub_after(mesh, {.method = "laplace"}) - mean), 1e-15);
+}
+
+/// A ring with a deep notch: its mean lies outside.
+Mesh notched() {
+  Mesh mesh = wheel(6, {-0.7, 0.0, 0});
+  for (const Index i : {1U, 2U, 6U}) mesh.positions[i] = {-0.55, mesh.positions[i].y, 0};
+  mesh.positions[1] = {-0.65, 0, 0};
+  mesh.positions[2] = {3, 0.4, 0};
+  mesh.positions[6] = {3, -0.4, 0};
+  return mesh;
+}
+
+TEST(SmartLaplace, GoesWhereLaplaceGoesIfItGainsThere) {
+  const Mesh good = wheel(6, {0.25, -0.125, 0});
+  EXPECT_EQ(hub_after(good, {.method = "smart-laplace"}), hub_after(good, {.method = "laplace"}));
+  const Mesh bad = notched();
+  ASSERT_GT(make_run(input(bad), {}).statistics().minimum, 0.0);
+  dmoscope::Run laplace = make_run(input(bad), {.method = "laplace"});
+  Progress progress;
+  laplace.step(StepUnit::Iteration, progress);
+  ASSERT_LT(laplace.statistics().minimum, 0.0) << "or there is nothing to refuse";
+  EXPECT_EQ(hub_after(bad, {.method = "smart-laplace"}), bad.positions[0]);
+}
+
+TEST(Dvr, DirectionsFollowFromSeedAndIterationAndHaveLengthOne) {
+  std::set<double> seen;
+  Vec2<double> sum{};
+  constexpr int kCount = 4000;
+  for (std::uint64_t i = 0; i < kCount; ++i) {
+    const Vec2<double> d = dvr_direction({.seed = 5}, i), again = dvr_direction({.seed = 5}, i), other = dvr_direction({.seed = 6}, i);
+    EXPECT_NEAR(std::hypot(d.x, d.y), 1.0, 1e-15);
+    EXPECT_EQ(d.x, again.x);
+    EXPECT_NE(d.x, other.x);
+    seen.insert(d.x);
+    const double twice = 2 * std::atan2(d.y, d.x);  // a line has no head
+    sum = {sum.x + std::cos(twice), sum.y + std::sin(twice)};
+  }
+  EXPECT_EQ(seen.size(), static_cast<std::size_t>(kCount));
+  EXPECT_LT(std::hypot(sum.x, sum.y) / kCount, 0.05) << "no angle is likelier than another";
+  const MethodOptions axes{.directions = Directions::Axes};
+  EXPECT_EQ(dvr_direction(axes, 4).x, 1.0);
+  EXPECT_EQ(dvr_direction(axes, 4).y, 0.0);
+  EXPECT_EQ(dvr_direction(axes, 7).x, 0.0);
+  EXPECT_EQ(dvr_direction(axes, 7).y, 1.0);
+}
+
+/// The least mean ratio of the hub's star with the hub `t` along `d` from where it stands.
+double least_at(const InputMesh& mesh, std::span<const Vec3> positions, Index hub, Vec2<double> d, double t) {
+  std::vector<Vec3> moved(positions.begin(), positions.end());
+  moved[hub] = moved[hub] + Vec3{t * d.x, t * d.y, 0};
+  const StarState state = star_state(mesh, moved, Metric::MeanRatio, hub);
+  return state.jacobian > 0.0 ? state.quality : state.jacobian;
+}
+
+/// Every hub's move against the best of 1e5 places on its line.
+void expect_best_on_the_line(const Mesh& mesh, Index hubs_apart, const char* name) {
+  const auto prepared = input(mesh);
+  dmoscope::Run run = make_run(prepared, {.method = "dvr", .options = {.seed = 3}});
+  const Vec2<double> d = dvr_direction({.seed = 3}, 0);
+  const std::vector<Vec3> old(run.positions().begin(), run.positions().end());
+  Progress progress;
+  run.step(StepUnit::Iteration, progress);
+  std::size_t looked_at = 0;
+  for (const Index hub : run.colouring().order) {
+    if (++looked_at % hubs_apart != 0) continue;
+    const Vec3 way = run.positions()[hub] - old[hub];
+    EXPECT_NEAR(way.x * d.y - way.y * d.x, 0.0, 1e-14) << name << ": off the line";
+    const double found = least_at(*prepared, old, hub, d, way.x * d.x + way.y * d.y);
+    double best = least_at(*prepared, old, hub, d, 0.0);
+    const bool valid = best > 0.0;
+    constexpr int kSamples = 100000;
+    for (int i = 0; i <= kSamples; ++i) {
+      const double value = least_at(*prepared, old, hub, d, -2.0 + 4.0 * i / kSamples);
+      best = std::max(best, valid ? value : std::min(value, 0.0));
+    }
+    EXPECT_GE(valid ? found : std::min(found, 0.0), best - 1e-12) << name << ": hub " << hub;
+  }
+  EXPECT_GT(looked_at, hubs_apart);
+}
+
+TEST(Dvr, FindsTheBestPlaceOnItsLine) {
+  expect_best_on_the_line(testing::stars(std::vector<std::vector<int>>(12, {3, 3, 3, 3, 3}), 3), 2, "fans of five");
+  expect_best_on_the_line(testing::stars({{3, 3, 3}, {3, 3, 3, 3}, std::vector<int>(9, 3), std::vector<int>(20, 3)}, 4), 1, "fans");
+  expect_best_on_the_line(testing::stars(std::vector<std::vector<int>>(8, {4, 4, 4, 4}), 5), 2, "quadrilaterals");
+  expect_best_on_the_line(testing::stars(std::vector<std::vector<int>>(8, {4, 3, 3, 4, 3}), 6), 2, "mixed");
+  // Hubs outside of their rings: the least Jacobian counts.
+  for (const int kind : {3, 4}) {
+    Mesh tangled = testing::stars(std::vector<std::vector<int>>(6, std::vector<int>(5, kind)), 7);
+    const std::size_t stride = tangled.positions.size() / 6;
+    for (std::size_t i = 0; i < 6; ++i) {
+      Vec3& hub = tangled.positions[i * stride];
+      hub = hub + Vec3{0.9, 0.4, 0};
+    }
+    expect_best_on_the_line(tangled, 1, kind == 3 ? "tangled triangles" : "tangled quadrilaterals");
+  }
+}
+
+}  // namespace
+}  // namespace dmoscope

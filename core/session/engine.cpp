@@ -44,11 +44,26 @@ std::size_t Engine::pending() const {
   return queue_.size() + (working_ ? 1 : 0);
 }
 
+void Engine::watch(std::vector<Watch> watched) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (watched_ == watched) return;
+    watched_ = std::move(watched);
+    watch_new_ = true;
+  }
+  changed_.notify_all();
+}
+
+std::vector<Watch> Engine::watched() const {
+  const std::scoped_lock lock(mutex_);
+  return watched_;
+}
+
 void Engine::wait_idle() {
   std::unique_lock lock(mutex_);
   ++waiting_;
   changed_.notify_all();
-  changed_.wait(lock, [&] { return queue_.empty() && !working_ && !resting_; });
+  changed_.wait(lock, [&] { return queue_.empty() && !watch_new_ && !working_ && !resting_; });
   --waiting_;
 }
 
@@ -91,32 +106,42 @@ void Engine::set_wake(std::function<void()> wake) {
 void Engine::work(const std::stop_token& stop) {
   constexpr std::chrono::milliseconds kQuiet{60};
   std::unique_lock lock(mutex_);
-  while (changed_.wait(lock, stop, [&] { return !queue_.empty(); })) {
-    current_ = std::move(queue_.front());
-    queue_.pop_front();
-    working_ = true;
-    progress_.clear_cancel();
-    lock.unlock();
-    const CommandEnd end = run_one(current_);
-    publish_at_rest();
-    lock.lock();
-    working_ = false;
-    resting_ = true;
-    current_ = {};
-    ends_.push_back(end);
-    changed_.notify_all();
-    const auto wake = wake_;
-    lock.unlock();
-    if (wake) wake();  // idle now: the last look at progress
+  while (changed_.wait(lock, stop, [&] { return !queue_.empty() || watch_new_; })) {
+    resting_ = true;  // also while a view of what is newly watched is made
+    if (queue_.empty()) {
+      lock.unlock();
+      publish_at_rest();
+    } else {
+      work_off(lock);
+    }
     lock.lock();
     // Whoever drags along the timeline asks for the next at once, and shall not wait for what nobody looks at.
-    changed_.wait_for(lock, stop, kQuiet, [&] { return !queue_.empty() || waiting_ > 0; });
+    changed_.wait_for(lock, stop, kQuiet, [&] { return !queue_.empty() || watch_new_ || waiting_ > 0; });
     lock.unlock();
     rest(stop);
     lock.lock();
     resting_ = false;
     changed_.notify_all();
   }
+}
+
+/// The first command of the queue; `lock` is held before and not after.
+void Engine::work_off(std::unique_lock<std::mutex>& lock) {
+  current_ = std::move(queue_.front());
+  queue_.pop_front();
+  working_ = true;
+  progress_.clear_cancel();
+  lock.unlock();
+  const CommandEnd end = run_one(current_);
+  publish_at_rest();
+  lock.lock();
+  working_ = false;
+  current_ = {};
+  ends_.push_back(end);
+  changed_.notify_all();
+  const auto wake = wake_;
+  lock.unlock();
+  if (wake) wake();  // idle now: the last look at progress
 }
 
 CommandEnd Engine::run_one(const Posted& command) {
@@ -175,9 +200,12 @@ void Engine::publish_at_rest() {
 
 /// Works out what views show besides frames, until somebody asks for something. Never throws.
 void Engine::rest(const std::stop_token& stop) {
-  const auto go_on = [&] { return !stop.stop_requested() && pending() == 0; };
+  const auto go_on = [&] {
+    const std::scoped_lock lock(mutex_);
+    return !stop.stop_requested() && queue_.empty() && !watch_new_;
+  };
   try {
-    if (frames_.work_at_rest(session_, go_on)) publish(FrameDetail::Whole);
+    if (frames_.work_at_rest(session_, watched(), go_on)) publish(FrameDetail::Whole);
   } catch (const Error& error) {
     say({Message::Kind::Warning, error.what(), 0});
   } catch (const std::bad_alloc&) {
@@ -187,7 +215,13 @@ void Engine::rest(const std::stop_token& stop) {
 
 void Engine::publish(FrameDetail detail) {
   const auto start = std::chrono::steady_clock::now();
-  auto view = frames_.build(session_, detail);
+  std::vector<Watch> watched;
+  {
+    const std::scoped_lock lock(mutex_);
+    watched = watched_;
+    watch_new_ = false;
+  }
+  auto view = frames_.build(session_, detail, watched);
   const auto end = std::chrono::steady_clock::now();
   const bool light = view->frame && view->frame->device;
   next_publication_ = end + publication_pause(light, end - start);

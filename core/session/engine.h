@@ -41,6 +41,8 @@ class Engine {
   /// Commands posted and not yet finished, the one at work included.
   [[nodiscard]] std::size_t pending() const;
   [[nodiscard]] bool busy() const { return pending() != 0; }
+  /// What views show besides the active run from now on: see SessionView::watched. Returns at once; a new view follows.
+  void watch(std::vector<Watch> watched);
   /// Blocks until nothing is pending and all is worked out that is while the session rests (for scripts and tests; the window never calls
   /// it).
   void wait_idle();
@@ -62,6 +64,7 @@ class Engine {
 
  private:
   void work(const std::stop_token& stop);
+  void work_off(std::unique_lock<std::mutex>& lock);
   struct Posted {
     std::uint64_t id = 0;
     std::string line;
@@ -72,6 +75,7 @@ class Engine {
   void publish_if_due();
   void publish_at_rest();
   void rest(const std::stop_token& stop);
+  [[nodiscard]] std::vector<Watch> watched() const;
   void say(Message message);
 
   Progress progress_;
@@ -86,6 +90,8 @@ class Engine {
   Posted current_;
   std::uint64_t last_id_ = 0;
   std::vector<CommandEnd> ends_;
+  std::vector<Watch> watched_;
+  bool watch_new_ = false;  // there is no view with them yet
   bool working_ = false;
   bool resting_ = false;  // works out what nobody waits for
   int waiting_ = 0;       // in wait_idle()

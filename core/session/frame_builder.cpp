@@ -1,80 +1,17 @@
 #include "core/session/frame_builder.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
-#include "core/quality/tally.h"
+#include "core/session/past.h"
 
 namespace dmoscope {
 
 namespace {
-
-constexpr std::size_t kWorst = 100;
-
-constexpr std::size_t kGrain = std::size_t{1} << 15U;
-
-/// A histogram that is being filled.
-class Bins {
- public:
-  void add(double q) { ++counts_[histogram_slot(q)]; }
-  void add(const Bins& other) {
-    for (std::size_t slot = 0; slot < counts_.size(); ++slot) counts_[slot] += other.counts_[slot];
-  }
-  [[nodiscard]] Histogram histogram() const {
-    Histogram histogram;
-    std::copy_n(counts_.begin(), Histogram::kBins, histogram.counts.begin());
-    histogram.below = counts_[kSlotBelow];
-    histogram.above = counts_[kSlotAbove];
-    return histogram;
-  }
-
- private:
-  std::array<Index, kSlotNowhere + 1> counts_{};
-};
-
-bool worse(const RankedElement& a, const RankedElement& b) {
-  return a.quality < b.quality || (a.quality == b.quality && a.element < b.element);
-}
-
-/// The worst of the elements offered.
-class Worst {
- public:
-  explicit Worst(std::size_t most) : most_(most) {}
-  void offer(const RankedElement& ranked) {
-    if (heap_.size() == most_) {
-      if (most_ == 0 || !worse(ranked, heap_.front())) return;
-      std::ranges::pop_heap(heap_, worse);
-      heap_.back() = ranked;
-    } else {
-      if (std::isnan(ranked.quality)) return;
-      heap_.push_back(ranked);
-    }
-    std::ranges::push_heap(heap_, worse);
-  }
-  void offer_all_of(const Worst& other) {
-    for (const RankedElement& ranked : other.heap_) offer(ranked);
-  }
-  /// Worst first.
-  [[nodiscard]] std::vector<RankedElement> take() {
-    std::ranges::sort_heap(heap_, worse);
-    return std::move(heap_);
-  }
-
- private:
-  std::size_t most_;
-  std::vector<RankedElement> heap_;  // the best of the worst on top
-};
-
-/// What a stretch of the elements shows.
-struct Part {
-  Tally tally;
-  Bins bins;
-  Worst worst{kWorst};
-};
 
 /// Takes what a device knows of the run as it stands, if it lives on one. False: it must come from the host.
 bool take_picture(Frame& frame, const Run& run) {
@@ -91,54 +28,9 @@ bool take_picture(Frame& frame, const Run& run) {
   return true;
 }
 
-/// All that a frame shows of the elements, in one pass over them.
-void judge_elements(Frame& frame, std::span<const Index> immovable, ThreadPool* pool) {
-  const std::size_t count = frame.input->mesh.elements.size();
-  frame.quality = large_vector<float>(count);
-  frame.inverted = large_vector<std::uint8_t>(count);
-  std::vector<Part> parts((count + kGrain - 1) / kGrain);
-  for_chunks(pool, count, kGrain, [&](std::size_t first, std::size_t last) {
-    Part part;
-    for_blocks(frame.input->quality_context(), frame.positions, frame.shown, first, last, [&](const ElementBlock& block) {
-      part.tally.add(block, immovable);
-      for (std::size_t i = 0; i < block.count; ++i) {
-        const double q = block.quality[i];
-        frame.quality[block.first + i] = static_cast<float>(q);
-        frame.inverted[block.first + i] = block.jacobian[i] <= 0.0 ? 1 : 0;
-        part.bins.add(q);
-        part.worst.offer({block.first + static_cast<Index>(i), q, block.jacobian[i] <= 0.0});
-      }
-    });
-    parts[first / kGrain] = std::move(part);
-  });
-  Part whole;
-  for (const Part& part : parts) {
-    whole.tally.append(part.tally);
-    whole.bins.add(part.bins);
-    whole.worst.offer_all_of(part.worst);
-  }
-  frame.shown_statistics = whole.tally.statistics();
-  frame.now = whole.bins.histogram();
-  frame.worst = whole.worst.take();
-}
-
-Histogram histogram_of(const InputMesh& input, Metric metric, ThreadPool* pool) {
-  const std::size_t count = input.mesh.elements.size();
-  std::vector<Bins> parts((count + kGrain - 1) / kGrain);
-  for_chunks(pool, count, kGrain, [&](std::size_t first, std::size_t last) {
-    Bins bins;
-    for_blocks(input.quality_context(), input.mesh.positions, metric, first, last, [&](const ElementBlock& block) {
-      for (const double q : block.qualities()) bins.add(q);
-    });
-    parts[first / kGrain] = bins;
-  });
-  Bins whole;
-  for (const Bins& part : parts) whole.add(part);
-  return whole.histogram();
-}
-
 RunView view_of(Run& run, bool percentiles) {
   RunView view;
+  view.id = run.id();
   view.title = run.title();
   view.parameters = run.parameters();
   view.backend = run.backend();
@@ -170,18 +62,6 @@ Frame judged(Session& session, std::size_t index) {
   return frame;
 }
 
-Histogram make_histogram(std::span<const double> qualities) {
-  Bins bins;
-  for (const double q : qualities) bins.add(q);
-  return bins.histogram();
-}
-
-std::vector<RankedElement> worst_elements(std::span<const double> qualities, std::size_t most) {
-  Worst worst(most);
-  for (std::size_t e = 0; e < qualities.size(); ++e) worst.offer({.element = static_cast<Index>(e), .quality = qualities[e]});
-  return worst.take();
-}
-
 void FrameBuilder::refresh_input(Session& session) {
   const Metric shown = session.shown();
   const bool same_input = input_ == session.input();
@@ -193,35 +73,54 @@ void FrameBuilder::refresh_input(Session& session) {
 }
 
 bool FrameBuilder::FrameKey::is(const FrameKey& other) const {
-  return !run.expired() && run.lock() == other.run.lock() && index == other.index && path == other.path && moment == other.moment &&
-         shown == other.shown;
+  const bool same_run = index == Frame::kNoRun || (!run.expired() && run.lock() == other.run.lock());
+  return same_run && index == other.index && path == other.path && moment == other.moment && shown == other.shown;
 }
 
-FrameBuilder::FrameKey FrameBuilder::key_of(Session& session) {
-  const Run& run = session.active();
-  return {session.identity(session.active_index()), session.active_index(), run.path(), run.moment(), session.shown()};
+FrameBuilder::FrameKey FrameBuilder::key_of(Session& session, std::size_t index) {
+  const Run& run = session.run(index);
+  return {session.identity(index), index, run.path(), run.moment(), session.shown()};
 }
 
-bool FrameBuilder::work_at_rest(Session& session, const std::function<bool()>& go_on) {
-  if (!session.has_input() || !last_ || !last_key_.is(key_of(session))) return false;
-  bool found = summaries_.find(session, *last_, go_on);
-  for (std::size_t i = 0; session.percentiles() && i < session.run_count(); ++i)
-    if (session.run(i).find_percentiles([&](double) { return go_on(); })) found = true;
-  return found;
+FrameBuilder::FrameKey FrameBuilder::key_of(Session& session, std::size_t index, std::uint64_t iteration) {
+  FrameKey key = key_of(session, index);
+  key.moment = {iteration};
+  return key;
 }
 
-std::shared_ptr<const Frame> FrameBuilder::frame(Session& session, FrameDetail detail) {
-  const FrameKey key = key_of(session);
-  if (last_ && last_->input == session.input() && key.is(last_key_)) return last_;
+FrameBuilder::Known* FrameBuilder::find(const Session& session, const FrameKey& key) {
+  const auto at = std::ranges::find_if(known_, [&](const Known& one) { return one.frame->input == session.input() && key.is(one.key); });
+  if (at == known_.end()) return nullptr;
+  at->wanted = true;
+  return &*at;
+}
+
+std::shared_ptr<const Frame> FrameBuilder::keep(FrameKey key, std::shared_ptr<const Frame> frame) {
+  std::erase_if(known_, [&](const Known& one) { return key.is(one.key); });
+  known_.push_back({std::move(key), frame});
+  return frame;
+}
+
+/// A frame that lacks nothing but its positions and what they tell.
+std::shared_ptr<Frame> FrameBuilder::begin(Session& session, const FrameKey& key) {
   refresh_input(session);
-  Run& run = session.active();
   auto frame = std::make_shared<Frame>();
   frame->serial = ++serial_;
   frame->input_serial = input_serial_;
   frame->input = input_;
-  frame->run = session.active_index();
-  frame->moment = run.moment();
-  frame->shown = session.shown();
+  frame->run = key.index;
+  frame->moment = key.moment;
+  frame->shown = key.shown;
+  frame->before = before_;
+  return frame;
+}
+
+std::shared_ptr<const Frame> FrameBuilder::standing(Session& session, std::size_t index, FrameDetail detail) {
+  FrameKey key = key_of(session, index);
+  const Known* known = find(session, key);
+  if (known != nullptr && (detail == FrameDetail::Live || !known->frame->device)) return known->frame;
+  const Run& run = session.run(index);
+  auto frame = begin(session, key);
   if (detail == FrameDetail::Whole || !take_picture(*frame, run)) {
     const auto positions = run.positions();
     reserve_large(frame->positions, positions.size());
@@ -229,15 +128,89 @@ std::shared_ptr<const Frame> FrameBuilder::frame(Session& session, FrameDetail d
     judge_elements(*frame, run.immovable(), session.pool().get());
   }
   frame->statistics = frame->shown == run.parameters().metric ? frame->shown_statistics : run.statistics();
-  frame->before = before_;
-  if (!frame->device) {
-    last_ = frame;
-    last_key_ = key;
-  }
-  return frame;
+  return keep(std::move(key), std::move(frame));
 }
 
-std::shared_ptr<const SessionView> FrameBuilder::build(Session& session, FrameDetail detail) {
+/// A run that is not the active one. Where its device fails it, it goes on from where the host knows it, once nothing runs.
+WatchedFrame FrameBuilder::watch_standing(Session& session, const Watch& what, std::size_t index, FrameDetail detail) {
+  try {
+    return {what, standing(session, index, detail), {}};
+  } catch (const DeviceError& error) {
+    if (detail == FrameDetail::Live) return {what, nullptr, error.what()};
+  }
+  session.run(index).recover();
+  return {what, standing(session, index, detail), {}};
+}
+
+std::shared_ptr<const Frame> FrameBuilder::past(Session& session, std::size_t index, std::uint64_t iteration,
+                                                std::span<const Vec3> positions) {
+  FrameKey key = key_of(session, index, iteration);
+  const Run& run = session.run(index);
+  auto frame = begin(session, key);
+  frame->positions.assign(positions.begin(), positions.end());
+  judge_elements(*frame, run.immovable(), session.pool().get());
+  frame->statistics = run.history().records()[iteration].statistics;
+  return keep(std::move(key), std::move(frame));
+}
+
+std::shared_ptr<const Frame> FrameBuilder::input_frame(Session& session) {
+  FrameKey key;
+  key.shown = session.shown();
+  if (const Known* known = find(session, key)) return known->frame;
+  auto frame = begin(session, key);
+  frame->positions = session.input()->mesh.positions;
+  judge_elements(*frame, immovable_elements(input_->mesh, input_->topology.boundary(), session.pool().get()), session.pool().get());
+  frame->statistics = frame->shown_statistics;
+  return keep(std::move(key), std::move(frame));
+}
+
+WatchedFrame FrameBuilder::watch(Session& session, const Watch& what, FrameDetail detail) {
+  if (what.run == Watch::kInput) return {what, input_frame(session), {}};
+  const auto place = session.place_of(what.run);
+  if (!place) return {what, nullptr, "this run is no more"};
+  Run& run = session.run(*place);
+  if (!what.iteration || run.moment() == Moment{*what.iteration}) {
+    if (*place == session.active_index()) return {what, standing(session, *place, detail), {}};
+    return watch_standing(session, what, *place, detail);
+  }
+  const std::uint64_t iteration = *what.iteration;
+  if (iteration >= run.history().records().size())
+    return {what, nullptr, fmt::format("the run has not come to iteration {} yet", iteration)};
+  if (const Known* known = find(session, key_of(session, *place, iteration))) return {what, known->frame, {}};
+  if (run.history().kept(iteration)) return {what, past(session, *place, iteration, run.history().nearest(iteration).positions), {}};
+  return {what, nullptr, fmt::format("iteration {} is no longer kept: it is computed again when the runs rest", iteration)};
+}
+
+bool FrameBuilder::find_past(Session& session, std::span<const Watch> watched, const std::function<bool()>& go_on) {
+  bool found = false;
+  for (const Watch& what : watched) {
+    const auto place = what.iteration ? session.place_of(what.run) : std::nullopt;
+    if (!place || *what.iteration >= session.run(*place).history().records().size()) continue;
+    if (session.run(*place).moment() == Moment{*what.iteration} || find(session, key_of(session, *place, *what.iteration))) continue;
+    const auto positions = positions_at(session, session.run(*place), *what.iteration, go_on);
+    if (!positions) break;
+    (void)past(session, *place, *what.iteration, *positions);
+    found = true;
+  }
+  return found;
+}
+
+bool FrameBuilder::work_at_rest(Session& session, std::span<const Watch> watched, const std::function<bool()>& go_on) {
+  if (!session.has_input()) return false;
+  const Known* active = find(session, key_of(session, session.active_index()));
+  if (active == nullptr || active->frame->device) return false;
+  bool found = find_past(session, watched, go_on);
+  const auto whole = [&](std::size_t run) -> const Frame* {
+    const Known* known = find(session, key_of(session, run));
+    return known == nullptr || known->frame->device ? nullptr : known->frame.get();
+  };
+  found = summaries_.find(session, whole, go_on) || found;
+  for (std::size_t i = 0; session.percentiles() && i < session.run_count(); ++i)
+    if (session.run(i).find_percentiles([&](double) { return go_on(); })) found = true;
+  return found;
+}
+
+std::shared_ptr<const SessionView> FrameBuilder::build(Session& session, FrameDetail detail, std::span<const Watch> watched) {
   auto view = std::make_shared<SessionView>();
   view->shown = session.shown();
   view->threads = session.pool()->size();
@@ -252,7 +225,10 @@ std::shared_ptr<const SessionView> FrameBuilder::build(Session& session, FrameDe
     view->runs.push_back(view_of(session.run(i), session.percentiles()));
     view->runs.back().summary = summaries_.of(session, i);
   }
-  view->frame = frame(session, detail);
+  for (Known& known : known_) known.wanted = false;
+  view->frame = standing(session, session.active_index(), detail);
+  for (const Watch& what : watched) view->watched.push_back(watch(session, what, detail));
+  std::erase_if(known_, [](const Known& known) { return !known.wanted; });
   return view;
 }
 

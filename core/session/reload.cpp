@@ -10,7 +10,11 @@ namespace dmoscope {
 std::string Session::reload(Progress& progress) {
   if (input()->path.empty()) throw UsageError("this mesh was made here: there is no file to read again");
   std::vector<RunParameters> parameters;
-  for (std::size_t k = 0; k < run_count(); ++k) parameters.push_back(run(k).parameters());
+  std::vector<std::uint64_t> ids;
+  for (const auto& run : runs_) {
+    parameters.push_back(run->parameters());
+    ids.push_back(run->id());
+  }
   const std::size_t was_active = active_index();
   auto fresh = load_input(input()->path, Need::Smoothing, progress);
   std::string note;
@@ -23,7 +27,7 @@ std::string Session::reload(Progress& progress) {
   replace_input(std::move(fresh));  // with one fresh run; may throw, with nothing replaced yet
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     try {
-      k == 0 ? change(parameters[k]) : add_run(parameters[k]);
+      runs_[k == 0 ? change(parameters[k]) : add_run(parameters[k])]->set_id(ids[k]);
     } catch (const UsageError& error) {  // such as a metric that is not defined for the elements of now
       note += (note.empty() ? "" : "\n") + std::string(error.what());
     }

@@ -90,6 +90,10 @@ class Run {
   Run(Run&&) noexcept;
   Run& operator=(Run&&) noexcept;
 
+  /// Which of a session's runs it is, given by the session: it stays when the parameters of an untouched run change or its mesh is read
+  /// again. 0: none of them.
+  [[nodiscard]] std::uint64_t id() const noexcept { return id_; }
+  void set_id(std::uint64_t id) noexcept { id_ = id; }
   [[nodiscard]] const InputMesh& input() const noexcept { return *input_; }
   [[nodiscard]] const RunParameters& parameters() const noexcept { return parameters_; }
   [[nodiscard]] std::string title() const;  // "dmo · mean-ratio"
@@ -200,6 +204,7 @@ class Run {
   template <class Body>
   auto recovering(const Body& body);
 
+  std::uint64_t id_ = 0;
   std::shared_ptr<const InputMesh> input_;
   RunParameters parameters_;
   std::shared_ptr<ThreadPool> pool_;

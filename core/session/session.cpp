@@ -27,6 +27,7 @@ void Session::replace(std::shared_ptr<const InputMesh> input, std::vector<std::s
   runs_ = std::move(runs);
   active_ = active;
   shown_ = shown;
+  for (const auto& run : runs_) run->set_id(++last_id_);
   share_history();
 }
 
@@ -47,6 +48,7 @@ void Session::replace_input(std::shared_ptr<const InputMesh> input) {
   if (!usable(parameters.metric)) parameters.metric = Metric::MeanRatio;
   auto run = make_run(input, parameters);  // may throw: nothing has been replaced yet
   input_ = std::move(input);
+  run->set_id(++last_id_);
   runs_.clear();
   runs_.push_back(std::move(run));
   active_ = 0;
@@ -64,6 +66,11 @@ Run& Session::run(std::size_t index) {
   return *runs_[index];
 }
 
+std::optional<std::size_t> Session::place_of(std::uint64_t id) const {
+  const auto at = std::ranges::find(runs_, id, [](const auto& run) { return run->id(); });
+  return at == runs_.end() ? std::nullopt : std::optional(static_cast<std::size_t>(at - runs_.begin()));
+}
+
 void Session::select(std::size_t index) {
   (void)run(index);
   active_ = index;
@@ -71,6 +78,7 @@ void Session::select(std::size_t index) {
 
 std::size_t Session::add_run(RunParameters parameters) {
   runs_.push_back(make_run(input(), std::move(parameters)));
+  runs_.back()->set_id(++last_id_);
   active_ = runs_.size() - 1;
   share_history();
   return active_;
@@ -88,7 +96,9 @@ std::size_t Session::change(RunParameters parameters) {
   const Run& current = active();
   const bool untouched = current.moment() == Moment{} && current.history().records().size() == 1 && current.edits().all().empty();
   if (!untouched) return add_run(std::move(parameters));
+  const std::uint64_t id = current.id();
   runs_[active_] = make_run(input_, std::move(parameters));
+  runs_[active_]->set_id(id);
   share_history();
   return active_;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,8 @@ class Session {
   [[nodiscard]] Run& run(std::size_t index);
   /// The same, to tell one run from another.
   [[nodiscard]] std::weak_ptr<const Run> identity(std::size_t index) { return (void)run(index), runs_[index]; }
+  /// Where in the list the run with this id (see Run::id) is.
+  [[nodiscard]] std::optional<std::size_t> place_of(std::uint64_t id) const;
   [[nodiscard]] std::size_t active_index() const noexcept { return active_; }
   [[nodiscard]] Run& active() { return run(active_); }
   void select(std::size_t index);
@@ -98,6 +101,7 @@ class Session {
   bool percentiles_ = false;
   std::string restored_view_;
   std::uint64_t restored_views_ = 0;
+  std::uint64_t last_id_ = 0;  // of all runs there were
   UndoStack undo_;
 };
 

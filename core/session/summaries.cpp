@@ -36,14 +36,14 @@ std::shared_ptr<const RunSummary> Summaries::of(Session& session, std::size_t ru
   return nullptr;
 }
 
-bool Summaries::find(Session& session, const Frame& active, const std::function<bool()>& go_on) {
+bool Summaries::find(Session& session, const std::function<const Frame*(std::size_t)>& whole, const std::function<bool()>& go_on) {
   std::vector<Known> known;
   bool found = false;
   for (std::size_t i = 0; i < session.run_count(); ++i) {
     auto summary = of(session, i);
     if (!summary && go_on()) {
-      const bool is_active = i == session.active_index() && !active.device && active.moment == session.run(i).moment();
-      summary = std::make_shared<const RunSummary>(summary_of(is_active ? active : judged(session, i)));
+      const Frame* frame = whole(i);
+      summary = std::make_shared<const RunSummary>(summary_of(frame != nullptr ? *frame : judged(session, i)));
       found = true;
     }
     if (summary) known.push_back({session.identity(i), session.run(i).path(), std::move(summary)});

@@ -23,9 +23,9 @@ class Summaries {
 
   /// Of a run as it stands, by the metric the session shows; null while it has not been worked out.
   [[nodiscard]] std::shared_ptr<const RunSummary> of(Session& session, std::size_t run) const;
-  /// Works out those that are missing, asking `go_on` before each. `active`: the frame of the active run. Returns whether there are new
-  /// ones.
-  bool find(Session& session, const Frame& active, const std::function<bool()>& go_on);
+  /// Works out those that are missing, asking `go_on` before each. `whole`: the frame of a run as it stands where there is one, else null.
+  /// Returns whether there are new ones.
+  bool find(Session& session, const std::function<const Frame*(std::size_t)>& whole, const std::function<bool()>& go_on);
 
  private:
   struct Known {

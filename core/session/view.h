@@ -2,6 +2,7 @@
 // What the worker publishes and the window reads: immutable once published.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,13 +14,22 @@
 
 namespace dmoscope {
 
+/// What whoever shows a session wants to see of it besides the active run.
+struct Watch {
+  static constexpr std::uint64_t kInput = 0;
+  std::uint64_t run = kInput;                // RunView::id, or the input
+  std::optional<std::uint64_t> iteration{};  // at the end of which; none: as the run stands
+  friend bool operator==(const Watch&, const Watch&) = default;
+};
+
 /// One state of one run, ready to be drawn. While a run steps on a device its frames are light: what there is of every vertex and every
 /// element stays in `device` (positions, quality and inverted are empty), and the worst list may hold the worst element alone.
 struct Frame {
+  static constexpr std::size_t kNoRun = static_cast<std::size_t>(-1);
   std::uint64_t serial = 0;        // grows with every frame: "did it change?"
   std::uint64_t input_serial = 0;  // grows with every opened mesh: "must the topology be uploaded again?"
   std::shared_ptr<const InputMesh> input;
-  std::size_t run = 0;
+  std::size_t run = 0;  // kNoRun: the input as such
   Moment moment;
   Metric shown = Metric::MeanRatio;
   std::shared_ptr<const DevicePicture> device;  // null: all of it is here
@@ -46,6 +56,7 @@ struct RunSummary {
 };
 
 struct RunView {
+  std::uint64_t id = 0;  // which run it is, whatever its place in the list; see Run::id
   std::string title;
   RunParameters parameters;
   std::string backend, backend_reason;  // see Run
@@ -62,6 +73,13 @@ struct RunView {
   std::string last_outcome;                   // why it last stopped, may be empty
 };
 
+/// What there is of a Watch.
+struct WatchedFrame {
+  Watch what;
+  std::shared_ptr<const Frame> frame;  // of a run as it stands the same one as long as nothing about it changes
+  std::string why_not;                 // there is no frame (yet); empty when there is one
+};
+
 struct SessionView {
   std::shared_ptr<const InputMesh> input;  // null: nothing is open
   std::vector<RunView> runs;
@@ -72,6 +90,7 @@ struct SessionView {
   std::uint64_t restored_serial = 0;   // grows with every session opened: "must the view be restored?"
   std::string undo_label, redo_label;  // the commands that undo and redo are about ("run 10"); empty: there is none
   std::shared_ptr<const Frame> frame;  // of the active run; null when nothing is open
+  std::vector<WatchedFrame> watched;   // what Engine::watch asked for, in its order
 };
 
 }  // namespace dmoscope

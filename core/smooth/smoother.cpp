@@ -7,14 +7,17 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/smooth/active_set_ascent.h"
+#include "core/smooth/angle_based.h"
 #include "core/smooth/dmo.h"
 #include "core/smooth/dvr.h"
 #include "core/smooth/laplace.h"
+#include "core/smooth/pattern_search.h"
 
 namespace dmoscope {
 
 namespace {
-constexpr std::array<MethodInfo, 4> kMethods{
+constexpr std::array<MethodInfo, 7> kMethods{
     {{.name = "dmo",
       .doc = "Discrete mesh optimization: best candidate of a grid, three levels (Zint and Grosso 2018)",
       .searches_grid = true},
@@ -23,10 +26,18 @@ constexpr std::array<MethodInfo, 4> kMethods{
       .optimises = false,
       .relaxes = true},
      {.name = "smart-laplace", .doc = "Laplacian smoothing, only where the vertex gains (Freitag 1997)", .relaxes = true},
+     {.name = "angle-based",
+      .doc = "Angle-based smoothing: to the mean of the places that halve the ring's angles, whatever becomes of the elements (Zhou and "
+             "Shimada 2000)",
+      .optimises = false,
+      .relaxes = true},
      {.name = "dvr",
       .doc = "Directional vertex relaxation: to the best place on a line, one direction an iteration (Rangarajan and Lew 2017)",
       .mean_ratio_only = true,
-      .has_directions = true}}};
+      .has_directions = true},
+     {.name = "pattern-search", .doc = "Compass search: the best of four steps, which grow or shrink (Park and Shontz 2010)"},
+     {.name = "active-set",
+      .doc = "Active-set ascent: along the steepest way on which none of the worst elements loses (Freitag, Jones and Plassmann 1995)"}}};
 
 void validate(const MethodOptions& options) {
   if (!(options.relaxation > 0.0 && options.relaxation <= 1.0))
@@ -59,6 +70,9 @@ std::unique_ptr<Smoother> make_smoother(const SmoothingTask& task) {
   require_possible(task);
   if (task.method == "laplace") return make_laplace_smoother(task);
   if (task.method == "smart-laplace") return make_smart_laplace_smoother(task);
+  if (task.method == "angle-based") return make_angle_based_smoother(task);
+  if (task.method == "pattern-search") return make_pattern_search_smoother(task);
+  if (task.method == "active-set") return make_active_set_smoother(task);
   if (task.method == "dvr") return make_dvr_smoother(task);
   return make_dmo_smoother(task);
 }

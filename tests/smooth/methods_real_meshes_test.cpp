@@ -34,7 +34,10 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Known{"laplace", "ocean/east.14", 10, 0.643, 0.663}, Known{"laplace", "ocean/bahamas.14", 50, 0.54, 0.60},
                       Known{"laplace", "tri/shashkov.vtk", 2000, 0.036, 0.038}, Known{"smart-laplace", "ocean/bahamas.14", 50, 0.73, 0.77},
                       Known{"dvr", "ocean/east.14", 10, 0.79, 0.8166}, Known{"dvr", "ocean/bahamas.14", 50, 0.76, 0.78},
-                      Known{"dvr", "tri/shashkov.vtk", 300, 0.02, 0.15}),
+                      Known{"dvr", "tri/shashkov.vtk", 300, 0.02, 0.15}, Known{"angle-based", "ocean/east.14", 10, 0.56, 0.60},
+                      Known{"angle-based", "ocean/bahamas.14", 50, 0.64, 0.70}, Known{"pattern-search", "ocean/east.14", 10, 0.806, 0.8166},
+                      Known{"pattern-search", "ocean/bahamas.14", 50, 0.755, 0.775},
+                      Known{"active-set", "ocean/east.14", 10, 0.816, 0.8166}, Known{"active-set", "ocean/bahamas.14", 50, 0.765, 0.78}),
     [](const auto& test) {
       std::string name = std::string(test.param.method) + "_" + std::filesystem::path(test.param.mesh).stem().string();
       std::erase(name, '-');

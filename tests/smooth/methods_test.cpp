@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/inspect/quality_field.h"
 #include "core/smooth/dvr.h"
 #include "tests/smooth/promises.h"
 
@@ -176,6 +177,95 @@ TEST(Dvr, FindsTheBestPlaceOnItsLine) {
       hub = hub + Vec3{0.9, 0.4, 0};
     }
     expect_best_on_the_line(tangled, 1, kind == 3 ? "tangled triangles" : "tangled quadrilaterals");
+  }
+}
+
+TEST(AngleBased, TheMiddleOfARegularRingIsWhereAllAnglesAreHalved) {
+  for (const Index spokes : {3U, 4U, 6U, 17U})
+    for (const bool quadrilaterals : {false, true})
+      for (const Vec3 centre : {Vec3{}, Vec3{1e6, -1e6, 7}}) {
+        const double rounding = length(centre) > 0 ? 1e-9 : 1e-15;
+        const Mesh still = wheel(spokes, {}, centre, quadrilaterals), moved = wheel(spokes, {0.2, -0.1, 0}, centre, quadrilaterals);
+        EXPECT_LE(length(hub_after(still, {.method = "angle-based"}) - centre), rounding);
+        EXPECT_LE(length(hub_after(moved, {.method = "angle-based"}, 200) - centre), 10 * rounding) << spokes;
+        const Vec3 whole = hub_after(moved, {.method = "angle-based"}),
+                   half = hub_after(moved, {.method = "angle-based", .options = {.relaxation = 0.5}});
+        EXPECT_LE(length(half - 0.5 * (moved.positions[0] + whole)), rounding);
+      }
+}
+
+TEST(AngleBased, ItsStepIsTheOneOfThePaperByAngles) {
+  // A ring with a reflex angle, and the paper's words in angles: rotate about each of the ring's vertices by half its angle less the angle
+  // to the hub.
+  Mesh mesh = wheel(6, {0.1, 0.05, 0});
+  mesh.positions[2] = 0.3 * mesh.positions[2];
+  Vec3 sum{};
+  const Vec3 hub = mesh.positions[0];
+  for (Index j = 1; j <= 6; ++j) {
+    const Vec3 at = mesh.positions[j], after = mesh.positions[j % 6 + 1], before = mesh.positions[(j + 4) % 6 + 1];
+    const auto turn = [&](Vec3 from, Vec3 to) {  // counter-clockwise, 0 to 2 pi
+      const double angle = std::atan2(to.y - at.y, to.x - at.x) - std::atan2(from.y - at.y, from.x - at.x);
+      return angle < 0 ? angle + 2 * M_PI : angle;
+    };
+    const double by = turn(after, before) / 2 - turn(after, hub), x = hub.x - at.x, y = hub.y - at.y;
+    sum = sum + at + Vec3{std::cos(by) * x - std::sin(by) * y, std::sin(by) * x + std::cos(by) * y, 0};
+  }
+  EXPECT_LE(length(hub_after(mesh, {.method = "angle-based"}) - 1.0 / 6 * sum), 1e-15);
+}
+
+/// How far below the exact optimum one visit leaves hubs amid rings of random radii: the median and the largest.
+std::pair<double, double> gaps(const char* method) {
+  std::vector<std::vector<int>> sectors;
+  for (int i = 0; i < 200; ++i) sectors.emplace_back(static_cast<std::size_t>(4 + i % 5), 3);
+  const auto mesh = input(testing::stars(sectors, 61));
+  dmoscope::Run run = make_run(mesh, {.method = method});
+  const std::vector<Vec3> old(run.positions().begin(), run.positions().end());
+  Progress progress;
+  run.step(StepUnit::Iteration, progress);
+  std::vector<double> gap;
+  for (const Index hub : run.colouring().order) {
+    if (!(star_state(*mesh, old, Metric::MeanRatio, hub).jacobian > 0.0)) continue;
+    const auto optimum = local_optimum(*mesh, old, Metric::MeanRatio, hub);
+    gap.push_back(optimum->quality - star_state(*mesh, run.positions(), Metric::MeanRatio, hub).quality);
+    EXPECT_GE(gap.back(), -1e-12) << "better than the best";
+  }
+  EXPECT_GT(gap.size(), 190U);
+  std::ranges::sort(gap);
+  return {gap[gap.size() / 2], gap.back()};
+}
+
+TEST(PatternSearch, ComesNearTheExactOptimum) {
+  const auto [median, largest] = gaps("pattern-search");
+  EXPECT_LT(median, 0.004);
+  EXPECT_LT(largest, 0.06) << "it may rest on a ridge that runs between the axes";
+}
+
+TEST(ActiveSetAscent, ComesNearTheExactOptimum) {
+  const auto [median, largest] = gaps("active-set");
+  EXPECT_LT(median, 1e-5);
+  EXPECT_LT(largest, 0.01);
+}
+
+/// Of a regular ring the middle is best by every metric that asks for equal angles or sides.
+TEST(Optimisers, FindTheMiddleOfARegularRing) {
+  for (const char* method : {"pattern-search", "active-set"})
+    for (const MetricInfo& entry : metric_table()) {
+      if (entry.metric == Metric::Rectangularity) continue;
+      for (const bool quadrilaterals : {false, true}) {
+        if (quadrilaterals && !entry.quadrilaterals) continue;
+        const Mesh mesh = wheel(quadrilaterals ? 4 : 6, {0.2, -0.1, 0}, {}, quadrilaterals);
+        EXPECT_LE(length(hub_after(mesh, {.method = method, .metric = entry.metric}, 20)), 0.02) << method << ' ' << entry.name;
+      }
+    }
+}
+
+TEST(Optimisers, MakeATangledSquareOfQuadrilateralsASquareGridAgain) {
+  for (const char* method : {"dvr", "pattern-search", "active-set"}) {
+    dmoscope::Run run = make_run(input(lattice(5, 0.7, 62, Cells::Quadrilaterals)), {.method = method});
+    ASSERT_GT(run.statistics().inverted, 0U);
+    Progress progress;
+    run.iterate(100, progress);
+    EXPECT_GT(run.statistics().minimum, 0.999) << method;
   }
 }
 

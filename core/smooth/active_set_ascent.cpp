@@ -1,0 +1,168 @@
+#include "core/smooth/active_set_ascent.h"
+
+#include <limits>
+#include <vector>
+
+#include "core/quality/dual.h"
+#include "core/smooth/star_pieces.h"
+#include "core/smooth/vertex_rule.h"
+
+namespace dmoscope {
+
+namespace {
+
+using V = Vec2<double>;
+
+// Lengths are in units of the star's scale, in which its other vertices are about 1 away.
+constexpr double kActive = 3e-5;  // above the least
+constexpr double kLeastStep = 1e-6, kLeastGain = 1e-6, kLongestStep = 1.0;
+constexpr double kNearEstimate = 0.9;
+constexpr int kRounds = 20;
+
+/// What one of the functions is at a place, and how it rises there.
+struct Piece {
+  double value;
+  V gradient;
+};
+
+struct Room {
+  Star<double> star;
+  std::vector<Piece> pieces;
+  std::vector<V> active;  // gradients
+};
+
+V operator*(double s, V a) { return {s * a.x, s * a.y}; }
+
+/// The point of the segment from a to b that is nearest to 0.
+V nearest_to_zero(V a, V b) {
+  const V way = b - a;
+  const double square = dot(way, way);
+  if (!(square > 0.0)) return a;
+  return a + std::clamp(-dot(a, way) / square, 0.0, 1.0) * way;
+}
+
+/// The point of the gradients' convex hull that is nearest to 0: along it all of them rise, by its length at least. 0 where they cannot.
+V steepest(const std::vector<V>& gradients) {
+  V best = gradients.front();
+  for (std::size_t i = 0; i < gradients.size(); ++i)
+    for (std::size_t k = i; k < gradients.size(); ++k) {
+      const V p = nearest_to_zero(gradients[i], gradients[k]);
+      if (dot(p, p) < dot(best, best)) best = p;
+    }
+  // The hull's edges are among the segments, so that one that lies on the wrong side of none of the gradients is its nearest.
+  constexpr double kRounding = 1e-9;
+  for (const V g : gradients)
+    if (dot(g, best) < (1.0 - kRounding) * dot(best, best)) return {};
+  return best;
+}
+
+/// Raises the least of the pieces from a place. for_pieces(p, f): calls f with each piece's value with the star's vertex at p, in the
+/// scalar of p. worth(p): the least of them, or what else the place is worth.
+template <class ForPieces, class Worth>
+class Ascent {
+ public:
+  Ascent(Room& room, const ForPieces& for_pieces, const Worth& worth) : room_(room), for_pieces_(for_pieces), worth_(worth) {}
+
+  [[nodiscard]] V from(V place) const {
+    double worth = worth_(place);
+    for (int round = 0; round < kRounds; ++round) {
+      const double least = look_at(place);
+      const V direction = steepest(room_.active);
+      const double rate = std::hypot(direction.x, direction.y);
+      if (!(rate > 0.0)) break;  // an equilibrium
+      const V unit = (1.0 / rate) * direction;
+      V next = place;
+      const double gain = search(place, worth, unit, rate, next_activation(least, unit, rate), next);
+      place = next;
+      worth += gain;
+      if (gain < kLeastGain) break;
+    }
+    return place;
+  }
+
+ private:
+  /// Gathers the pieces and those that are active; returns the least.
+  double look_at(V place) const {
+    room_.pieces.clear();
+    room_.active.clear();
+    double least = std::numeric_limits<double>::infinity();
+    for_pieces_(variable(place), [&](Dual q) {
+      least = std::min(least, q.value);
+      room_.pieces.push_back({q.value, {q.dx, q.dy}});
+    });
+    for (const Piece& piece : room_.pieces) {
+      // The corner across a quadrilateral never changes: one that is only near the least bounds the gain, but is no reason to stay.
+      const bool constant = piece.gradient.x == 0.0 && piece.gradient.y == 0.0;
+      if (piece.value <= least + (constant ? 0.0 : kActive)) room_.active.push_back(piece.gradient);
+    }
+    return least;
+  }
+
+  /// How far until another piece would be as low as the active ones, if all were linear.
+  [[nodiscard]] double next_activation(double least, V unit, double rate) const {
+    double nearest = kLongestStep;
+    for (const Piece& piece : room_.pieces) {
+      const double slower = rate - dot(piece.gradient, unit);
+      if (piece.value > least + kActive && slower > 0.0) nearest = std::min(nearest, (piece.value - least) / slower);
+    }
+    return nearest;
+  }
+
+  /// Halves the step until it gains about what it should, or the last longer one gained more. Returns the gain of the best, at `next`.
+  double search(V place, double worth, V unit, double rate, double step, V& next) const {
+    double best = 0.0;
+    for (; step > kLeastStep; step *= 0.5) {
+      const V there = place + step * unit;
+      const double gain = worth_(there) - worth;
+      if (best > 0.0 && !(gain > best)) break;
+      if (gain > best) best = gain, next = there;
+      if (gain >= kNearEstimate * rate * step) break;
+    }
+    return best;
+  }
+
+  Room& room_;
+  const ForPieces& for_pieces_;
+  const Worth& worth_;
+};
+
+template <Metric M>
+class ActiveSet {
+ public:
+  using Room = dmoscope::Room;
+  explicit ActiveSet(const SmoothingTask& task) : mesh_(*task.input) {}
+
+  std::optional<Vec3> target(PositionView positions, Index vertex, Room& room) const {
+    gather_star(MeshStar(mesh_.view, positions, vertex), room.star);
+    const V found = search(room);
+    if (found.x == 0.0 && found.y == 0.0) return std::nullopt;
+    return mesh_.moved_if_gaining<M>(positions, vertex, {found.x * room.star.scale, found.y * room.star.scale});
+  }
+
+ private:
+  /// Of a star with inverted elements first the least Jacobian.
+  static V search(Room& room) {
+    const Star<double>& star = room.star;
+    const auto jacobians = [&star](auto p, const auto& f) { for_jacobians(star, p, f); };
+    const auto least_jacobian = [&star](V p) {
+      double least = std::numeric_limits<double>::infinity();
+      for_jacobians(star, p, [&least](double j) { least = std::min(least, j); });
+      return least;
+    };
+    V place{};
+    if (!(least_jacobian(place) > 0.0)) place = Ascent(room, jacobians, least_jacobian).from(place);
+    if (!(least_jacobian(place) > 0.0)) return place;
+    const auto qualities = [&star](auto p, const auto& f) { for_qualities<M>(star, p, f); };
+    return Ascent(room, qualities, Objective<M, false, double>{StarView<double>(star)}).from(place);
+  }
+
+  RuleMesh mesh_;
+};
+
+}  // namespace
+
+std::unique_ptr<Smoother> make_active_set_smoother(const SmoothingTask& task) {
+  return formulas::with_metric(task.metric, [&]<Metric M>() { return make_rule_smoother(task, ActiveSet<M>(task)); });
+}
+
+}  // namespace dmoscope

@@ -1,6 +1,7 @@
 #include "app/verbs/run_options.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -33,7 +34,20 @@ void add_backend_option(CLI::App& verb, std::string& backend) {
 
 void add_run_options(CLI::App& verb, RunOptions& options) {
   verb.add_option("--method", options.method, "Method: " + names_of(method_table()))->type_name("NAME")->capture_default_str();
-  verb.add_option("--metric", options.metric, "Metric to optimise: " + names_of(metric_table()))->type_name("NAME")->capture_default_str();
+  auto* metric = verb.add_option("--metric", options.metric, "Metric to optimise: " + names_of(metric_table()))->type_name("NAME");
+  metric->capture_default_str();
+  auto* combine = verb.add_option("--combine", options.combine,
+                                  "Two aims: the metric FIRST up to THRESHOLD, and beyond it SECOND: another metric, or density, which "
+                                  "adapts the sizes of elements");
+  combine->type_name("FIRST:THRESHOLD:SECOND")->excludes(metric);
+  verb.add_option("--size-function", options.size_function,
+                  "Of --combine with density, the size that elements shall have: h1:X,Y (grows with the distance to a point), h2:X,Y "
+                  "(falls with it), constant, or field:NAME (a nodal field of the file)")
+      ->type_name("SIZE")
+      ->needs(combine);
+  verb.add_option("--then", options.then, "What follows once the minimum has converged: mean (raises the mean, with the minimum as floor)")
+      ->type_name("mean")
+      ->excludes(combine);
   add_backend_option(verb, options.backend);
   verb.add_option("--threads", options.threads, "Threads; 0: one a processor thread. The result is the same for any")
       ->transform(whole_number(0, kMostThreads))
@@ -69,6 +83,12 @@ RunParameters parameters_of(const RunOptions& options) {
   require_method(options.method);
   parameters.method = options.method;
   parameters.metric = parse_metric(options.metric);
+  if (!options.combine.empty())
+    std::tie(parameters.metric, parameters.combination) = parse_combination(options.combine, options.size_function);
+  if (!options.then.empty()) {
+    if (options.then != "mean") throw UsageError(fmt::format("--then knows 'mean' alone, not '{}'", options.then));
+    parameters.then_mean.emplace();
+  }
   validate(options.search);
   parameters.search = options.search;
   parameters.search.precision = parse_precision(options.precision);

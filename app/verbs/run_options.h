@@ -19,6 +19,9 @@ struct RunOptions {
   std::string order = "natural";
   std::string precision = "float";
   std::string simd = "auto";
+  std::string combine;        // FIRST:THRESHOLD:SECOND; empty: one metric alone
+  std::string size_function;  // of a combination with density; empty: constant
+  std::string then;           // "mean" or empty
   unsigned threads = 0;
   SearchParameters search;
   std::vector<std::string> fix;  // for named_vertices()
@@ -27,7 +30,8 @@ struct RunOptions {
 /// Declares --backend.
 void add_backend_option(CLI::App& verb, std::string& backend);
 
-/// Declares --method, --metric, --backend, --threads, --grid, --levels, --omega, --precision, --simd, --order and --fix.
+/// Declares --method, --metric, --combine, --size-function, --then, --backend, --threads, --grid, --levels, --omega, --precision, --simd,
+/// --order and --fix.
 void add_run_options(CLI::App& verb, RunOptions& options);
 
 /// The parameters without the fixed set, which needs the mesh. Throws UsageError for names that do not exist and values out of range.

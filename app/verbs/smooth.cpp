@@ -13,6 +13,7 @@
 #include "app/console.h"
 #include "app/targets.h"
 #include "app/text.h"
+#include "app/verbs/aims_report.h"
 #include "app/verbs/input_report.h"
 #include "app/verbs/option_checks.h"
 #include "app/verbs/run_options.h"
@@ -35,7 +36,6 @@ struct Options {
   bool until_converged = false;
   ConvergenceLimits limits;
   bool json = false;
-  std::string combine, then;
 };
 
 std::string_view reason_name(StopReason reason) {
@@ -81,7 +81,7 @@ bool on_cpu(const Run& run) { return run.backend() == name(Backend::Cpu); }
 Json simd_name(const Run& run) {
   const SearchParameters& search = run.parameters().search;
   if (!on_cpu(run)) return nullptr;
-  if (search.precision == Precision::Double) return "scalar";
+  if (search.precision == Precision::Double || run.parameters().combination) return "scalar";
   return name(search.simd.value_or(best_simd_level()));
 }
 
@@ -100,14 +100,16 @@ Json json_of(const Result& r) {
   object["backend_reason"] = r.run.backend_reason();
   object["threads"] = r.threads;
   object["simd"] = simd_name(r.run);
-  object["parameters"] = {{"grid", p.search.grid_points}, {"levels", p.search.levels},
-                          {"omega", p.search.omega},      {"precision", p.search.precision == Precision::Float ? "float" : "double"},
-                          {"order", r.options.run.order}, {"fixed_by_user", p.fixed.size()}};
+  object["parameters"] = {
+      {"grid", p.search.grid_points}, {"levels", p.search.levels},
+      {"omega", p.search.omega},      {"precision", p.search.precision == Precision::Float && !p.combination ? "float" : "double"},
+      {"order", r.options.run.order}, {"fixed_by_user", p.fixed.size()}};
   object["iterations"] = r.outcome.iterations;
   object["stopped"] = reason_name(r.outcome.reason);
   object["last_rise"] = r.outcome.last_rise;
   object["before"] = json_of(r.before().statistics);
   object["after"] = json_of(r.after().statistics);
+  add_aims(object, r.run);
   object["seconds"] = r.seconds;
   object["vertices_per_second"] = json_number(r.visits_per_second());
   object["warnings"] = r.warnings;
@@ -125,6 +127,7 @@ void print_summary(const Result& r) {
   fmt::print("  {:<16} {:>10}    (elements whose corners are all fixed)\n", "ceiling", brief(after.ceiling));
   fmt::print("  {:<16} {:>10} -> {}\n", "mean", brief(before.mean), brief(after.mean));
   fmt::print("  {:<16} {:>10} -> {}\n", "inverted", before.inverted, after.inverted);
+  print_aims(r.run);
   fmt::print("  {}\n", r.outcome.sentence());
   fmt::print("  {} in {:.3f} s, {} vertices/s on {}\n", counted(r.outcome.iterations, "iteration", "iterations"), r.seconds,
              brief(r.visits_per_second()), on_cpu(r.run) ? counted(r.threads, "thread", "threads") : r.run.backend_reason());
@@ -133,8 +136,6 @@ void print_summary(const Result& r) {
 
 /// Everything that can be refused without reading the mesh.
 void refuse_early(const Options& options) {
-  if (!options.combine.empty()) throw UsageError("--combine is not in this version: one metric is optimised at a time");
-  if (!options.then.empty()) throw UsageError("--then is not in this version: smoothing has one phase");
   require_mesh_target(options.output);
   require_another_file(options.stats, "--stats", options.input);
   require_another_file(options.stats, "--stats", options.output);
@@ -142,8 +143,7 @@ void refuse_early(const Options& options) {
 }
 
 void write_statistics(const std::filesystem::path& path, const Run& run) {
-  const RunParameters& p = run.parameters();
-  const std::vector<std::string> titles{fmt::format("{}:{}", p.method, info(p.metric).name)};
+  const std::vector<std::string> titles{stats_label(run.parameters())};
   const std::vector<const std::vector<IterationRecord>*> records{&run.history().records()};
   write_file_atomically(path, stats_csv(titles, records));
 }
@@ -157,6 +157,7 @@ double smoothing_seconds(const Run& run) {
 int smooth(const Options& options) {
   refuse_early(options);
   RunParameters parameters = parameters_of(options.run);
+  if (parameters.then_mean && options.until_converged) parameters.then_mean->patience = options.limits.patience;
   const Acceleration acceleration = acceleration_for(parameters.backend);
 
   Watch watch;
@@ -172,6 +173,7 @@ int smooth(const Options& options) {
     warnings.push_back(std::move(sentence));
   };
   if (std::string warning = run.take_warning(); !warning.empty()) warn(std::move(warning));
+  if (run.size_field() && !run.size_field()->note().empty()) warn(run.size_field()->note());
   const auto smooth_all = [&] {  // from the input on: without history nothing else is left after a failure
     const Outcome done =
         options.until_converged ? run.until_converged(options.limits, progress) : run.iterate(options.iterations, progress);
@@ -223,8 +225,6 @@ void add_smooth(CLI::App& app, Action& action) {
       ->capture_default_str();
   verb->add_option("--stats", options->stats, "Write the statistics of every iteration; row 0 is the input")->type_name("FILE.csv");
   verb->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
-  verb->add_option("--combine", options->combine, "")->group("");
-  verb->add_option("--then", options->then, "")->group("");
   verb->callback([options, &action] { action = [options] { return smooth(*options); }; });
 }
 

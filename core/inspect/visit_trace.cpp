@@ -113,12 +113,20 @@ std::string rank_phrase(Metric metric) {
   }
 }
 
+/// "mean ratio up to 0.7, beyond it 0.7 + density"
+std::string both_phrase(const Aims& aims) {
+  const auto* metric = std::get_if<Metric>(&aims.second);
+  const std::string second = metric != nullptr ? metric_phrase(*metric) : aims.raise_mean() ? "mean of the star" : "density";
+  return fmt::format("{} {} {:.6g}, {} {:.6g} + {}", metric_phrase(aims.first), aims.raise_mean() ? "below" : "up to", aims.threshold,
+                     aims.raise_mean() ? "from there on" : "beyond it", aims.threshold, second);
+}
+
 /// One look at one vertex.
 template <Metric M>
 class Look {
  public:
-  Look(const InputMesh& input, PositionView positions, const SearchParameters& parameters, Index vertex)
-      : input_(input), mesh_(input.planar_view()), positions_(positions), parameters_(parameters) {
+  Look(const InputMesh& input, PositionView positions, const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims)
+      : input_(input), mesh_(input.planar_view()), positions_(positions), parameters_(parameters), aims_(aims) {
     trace_.vertex = vertex;
     trace_.metric = M;
     trace_.from = trace_.to = positions[vertex];
@@ -128,6 +136,8 @@ class Look {
   VisitTrace run(bool fixed) {
     if (fixed)
       trace_.end = VisitEnd::Fixed;
+    else if (aims_)
+      search_for_both();
     else if (parameters_.precision == Precision::Double || !search_fast())
       search_plainly();
     trace_.step = mesh_.plane.project(trace_.to - trace_.from);
@@ -171,6 +181,21 @@ class Look {
     take(std::move(recorder), place);
     const Vec3 target = place(trace_.found);
     end(target, gains(target));
+  }
+
+  /// As RuleSmoother does it with a CombinedSearch.
+  void search_for_both() {
+    Star<double> star;
+    gather_star(MeshStar(mesh_, positions_, trace_.vertex), star);
+    Recorder recorder(star.scale);
+    const CombinedSearch search(input_, *aims_, parameters_);
+    trace_.combined = true;
+    trace_.untangling = search.search(star, positions_, trace_.vertex, recorder).untangling;
+    trace_.value_phrase = (trace_.untangling ? "smallest normalised Jacobian, once positive the " : "") + both_phrase(*aims_);
+    const auto place = [&](Vec2<double> offset) { return displaced(mesh_.plane, trace_.from, offset, input_.mesh.single_precision); };
+    take(std::move(recorder), place);
+    const Vec3 target = place(trace_.found);
+    end(target, search.gains(positions_, trace_.vertex, target));
   }
 
   [[nodiscard]] bool gains(Vec3 target) const { return gains_at<M>(mesh_, positions_, trace_.vertex, target); }
@@ -217,6 +242,7 @@ class Look {
   PlanarView mesh_;
   PositionView positions_;
   const SearchParameters& parameters_;
+  const std::optional<Aims>& aims_;
   VisitTrace trace_;
 };
 
@@ -225,10 +251,13 @@ class Look {
 std::string VisitTrace::sentence() const {
   switch (end) {
     case VisitEnd::Moved:
+      if (combined && !untangling)
+        return fmt::format("moved for two aims: worst element of its star {:.4g} -> {:.4g}", before.quality, after.quality);
       if (before.jacobian > 0.0) return fmt::format("moved: worst element of its star {:.4g} -> {:.4g}", before.quality, after.quality);
       if (after.jacobian > 0.0) return fmt::format("moved: untangled its star, whose worst element is {:.4g} now", after.quality);
       return fmt::format("moved: smallest Jacobian of its tangled star {:.4g} -> {:.4g}", before.jacobian, after.jacobian);
     case VisitEnd::NothingFound:
+      if (combined) return "stays: no candidate is better for its two aims than where it stands";
       return "stays: no candidate is better than where it stands";
     case VisitEnd::NotConfirmed:
       return "stays: the best candidate gains nothing when judged exactly";
@@ -239,13 +268,13 @@ std::string VisitTrace::sentence() const {
 }
 
 VisitTrace trace_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
-                       const SearchParameters& parameters, Index vertex) {
+                       const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims) {
   require_vertex(input, vertex);
   validate(parameters);
   if (!defined_around(input, metric, vertex))
     throw UsageError(fmt::format("{} is not defined for all elements around vertex {}", info(metric).name, vertex));
   const bool is_fixed = fixed[vertex] != 0 || input.topology.star(vertex).empty();
-  return formulas::with_metric(metric, [&]<Metric M>() { return Look<M>(input, positions, parameters, vertex).run(is_fixed); });
+  return formulas::with_metric(metric, [&]<Metric M>() { return Look<M>(input, positions, parameters, vertex, aims).run(is_fixed); });
 }
 
 }  // namespace dmoscope

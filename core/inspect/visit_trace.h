@@ -12,7 +12,7 @@
 #include "core/mesh/position_view.h"
 #include "core/search/parameters.h"
 #include "core/session/input_mesh.h"
-#include "core/smooth/reference_visit.h"
+#include "core/smooth/combined.h"
 
 namespace dmoscope {
 
@@ -50,6 +50,7 @@ struct VisitTrace {
   Index vertex = kNoIndex;
   Metric metric = Metric::MeanRatio;
   bool fast = false;         // searched in float by the fast search; else in double by the plain one
+  bool combined = false;     // for two aims: values beyond a threshold are the threshold plus the second aim
   bool untangling = false;   // an element was inverted, so the smallest Jacobian came first
   std::string value_phrase;  // what TracedLevel::values are: "mean ratio", "squared sine of the smallest angle", ...
   double value_here = 0.0;   // likewise, of the place where it stood: what a candidate had to exceed
@@ -67,8 +68,8 @@ struct VisitTrace {
 /// What DMO with these parameters does to `vertex` where the mesh's vertices stand at `positions`: the very templates of the smoother,
 /// asked for their trace, so that `to` has the bits that the smoother would store. Costs as much as the star is large, whatever the mesh.
 /// `fixed`: one a vertex, as Run::fixed. Throws UsageError for a mesh that is not planar, a vertex that does not exist, parameters out of
-/// range, or a metric that is not defined for its star.
+/// range, or a metric that is not defined for its star. `aims`: of a visit that has two, see aims_of_visit; then its first is `metric`.
 [[nodiscard]] VisitTrace trace_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
-                                     const SearchParameters& parameters, Index vertex);
+                                     const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims = {});
 
 }  // namespace dmoscope

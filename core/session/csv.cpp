@@ -11,6 +11,14 @@ namespace {
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : std::string(); }
 }  // namespace
 
+std::string stats_label(const RunParameters& parameters) {
+  const auto& p = parameters;
+  if (!p.combination) return fmt::format("{}:{}{}", p.method, info(p.metric).name, p.then_mean ? ":then-mean" : "");
+  const SizeFunction* size = p.combination->size();
+  const std::string how = size != nullptr ? to_text(*size) : std::string();
+  return fmt::format("{}:{}{}{}", p.method, to_text(p.metric, *p.combination), how.empty() ? "" : ":", how.substr(0, how.find(':')));
+}
+
 std::string stats_csv(std::span<const std::string> titles, std::span<const std::vector<IterationRecord>* const> records,
                       std::span<const SharedVector<Percentiles>> percentiles) {
   std::string text = "run,iteration,min_quality,mean_quality,inverted,moved,seconds,movable_minimum";

@@ -9,6 +9,10 @@
 
 namespace dmoscope {
 
+/// What tells a run from others in such tables, without commas: "dmo:mean-ratio", "dmo:mean-ratio:0.7:density:h1",
+/// "dmo:mean-ratio:then-mean".
+[[nodiscard]] std::string stats_label(const RunParameters& parameters);
+
 /// Columns run,iteration,min_quality,mean_quality,inverted,moved,seconds,movable_minimum; row 0 of a run is the input. Values
 /// that do not exist (infinite movable minimum) are empty. With `percentiles`, one list a run, also p1,p5,p50. Numbers are the shortest
 /// that read back as the same double.

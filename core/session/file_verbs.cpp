@@ -52,8 +52,7 @@ void write_stats(CommandContext& context, Arguments arguments) {
   std::vector<const std::vector<IterationRecord>*> records;
   (void)context.session.active();
   for (std::size_t i = 0; i < context.session.run_count(); ++i) {
-    const RunParameters& parameters = context.session.run(i).parameters();
-    titles.push_back(fmt::format("{}:{}", parameters.method, info(parameters.metric).name));
+    titles.push_back(stats_label(context.session.run(i).parameters()));
     records.push_back(&context.session.run(i).history().records());
   }
   std::vector<SharedVector<Percentiles>> percentiles;

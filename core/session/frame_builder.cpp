@@ -36,6 +36,9 @@ RunView view_of(Run& run, bool percentiles) {
   view.backend = run.backend();
   view.backend_reason = run.backend_reason();
   view.moment = run.moment();
+  view.sweep = run.sweep();
+  view.mean_since = run.mean_since();
+  view.size = run.size_field();
   view.visits_per_iteration = run.visits_per_iteration();
   view.colouring = run.shared_colouring();
   view.free_vertices = static_cast<Index>(run.visits_per_iteration());

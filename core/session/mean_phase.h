@@ -9,7 +9,8 @@
 
 namespace dmoscope {
 
-/// Once the minimum has converged the mean quality of the stars is raised, with the mesh's minimum as floor: max-min alone lowers the mean.
+/// Once the minimum has converged the mean quality of the stars is raised, with the movable minimum as floor: max-min alone lowers the
+/// mean.
 struct MeanPhase {
   std::uint64_t patience = 5;  // at least 1: iterations in which neither minimum rose by `rise`, or one in which nothing moved
   double rise = 1e-6;

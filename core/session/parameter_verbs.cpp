@@ -8,17 +8,6 @@ namespace dmoscope {
 
 namespace {
 
-/// Changes the active run's parameters; says so when that made a new run beside the old one.
-template <class Edit>
-void change(CommandContext& context, Edit edit) {
-  RunParameters parameters = context.session.active().parameters();
-  edit(parameters);
-  const std::size_t before = context.session.run_count();
-  const std::size_t index = context.session.change(std::move(parameters));
-  if (context.session.run_count() > before)
-    tell(context, fmt::format("run {}: {}, from the input; the run before is kept", index + 1, context.session.active().title()));
-}
-
 int to_int(const std::string& word) {
   const std::uint64_t value = to_count(word);
   if (value > 1000000) throw WrongArguments(fmt::format("'{}' is too large", word));
@@ -29,7 +18,7 @@ void set_metric(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
   const Metric metric = parse_metric(arguments[0]);
   const bool follows = context.session.shown() == context.session.active().parameters().metric;
-  change(context, [&](RunParameters& p) { p.metric = metric; });
+  change_run(context, [&](RunParameters& p) { p.metric = metric; });
   if (follows) context.session.show(metric);  // what is shown follows what is optimised until it was chosen apart
 }
 void show_metric(CommandContext& context, Arguments arguments) {
@@ -38,44 +27,44 @@ void show_metric(CommandContext& context, Arguments arguments) {
 }
 void set_method(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
-  change(context, [&](RunParameters& p) { p.method = arguments[0]; });
+  change_run(context, [&](RunParameters& p) { p.method = arguments[0]; });
 }
 void set_grid(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
-  change(context, [&](RunParameters& p) { p.search.grid_points = to_int(arguments[0]); });
+  change_run(context, [&](RunParameters& p) { p.search.grid_points = to_int(arguments[0]); });
 }
 void set_levels(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
-  change(context, [&](RunParameters& p) { p.search.levels = to_int(arguments[0]); });
+  change_run(context, [&](RunParameters& p) { p.search.levels = to_int(arguments[0]); });
 }
 void set_omega(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
-  change(context, [&](RunParameters& p) { p.search.omega = to_number(arguments[0]); });
+  change_run(context, [&](RunParameters& p) { p.search.omega = to_number(arguments[0]); });
 }
 void set_precision(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
   const Precision precision = parse_precision(arguments[0]);
-  change(context, [&](RunParameters& p) { p.search.precision = precision; });
+  change_run(context, [&](RunParameters& p) { p.search.precision = precision; });
 }
 void set_backend(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
   const Backend backend = parse_backend(arguments[0]);
-  change(context, [&](RunParameters& p) { p.backend = backend; });
+  change_run(context, [&](RunParameters& p) { p.backend = backend; });
   tell(context, context.session.active().backend_sentence());
 }
 void set_order(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
   const VisitOrder order = parse_order(arguments[0]);
-  change(context, [&](RunParameters& p) { p.order = order; });
+  change_run(context, [&](RunParameters& p) { p.order = order; });
 }
 void fix(CommandContext& context, Arguments arguments) {
   require(arguments, 1, arguments.size());
   const std::vector<Index> vertices = to_vertices(arguments, context.session.input()->mesh);
-  change(context, [&](RunParameters& p) { p.fixed.insert(p.fixed.end(), vertices.begin(), vertices.end()); });
+  change_run(context, [&](RunParameters& p) { p.fixed.insert(p.fixed.end(), vertices.begin(), vertices.end()); });
 }
 void unfix(CommandContext& context, Arguments arguments) {
   require(arguments, 0, 0);
-  change(context, [&](RunParameters& p) { p.fixed.clear(); });
+  change_run(context, [&](RunParameters& p) { p.fixed.clear(); });
 }
 
 }  // namespace

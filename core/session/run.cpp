@@ -1,5 +1,7 @@
 #include "core/session/run.h"
 
+#include <tuple>
+
 #include <fmt/format.h>
 
 #include "core/base/memory.h"
@@ -34,6 +36,12 @@ std::shared_ptr<const Colouring> make_colouring(const InputMesh& input, std::spa
   return std::make_shared<const Colouring>(std::move(colouring));
 }
 
+std::shared_ptr<const SizeField> make_size_field(const std::shared_ptr<const InputMesh>& input,
+                                                 const std::optional<Combination>& combination) {
+  const SizeFunction* function = combination ? combination->size() : nullptr;
+  return function != nullptr ? std::make_shared<const SizeField>(input, *function) : nullptr;
+}
+
 std::vector<Vec3> working_copy(std::span<const Vec3> positions) {
   std::vector<Vec3> copy;
   reserve_large(copy, positions.size());
@@ -52,6 +60,7 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
       fixed_(std::make_shared<const std::vector<std::uint8_t>>(fixed_vertices(*input_, parameters_.fixed))),
       colouring_(make_colouring(*input_, free_vertices(fixed(), parameters_.order), pool_.get())),
       immovable_(immovable_elements(input_->mesh, fixed(), pool_.get())),
+      size_(make_size_field(input_, parameters_.combination)),
       executor_(make_executor(parameters_.backend, acceleration_, task())),
       positions_(working_copy(input_->mesh.positions)),
       blocks_(executor_.smoother->positions_are_far()),
@@ -63,7 +72,11 @@ Run::~Run() = default;
 Run::Run(Run&&) noexcept = default;
 Run& Run::operator=(Run&&) noexcept = default;
 
-std::string Run::title() const { return fmt::format("{} · {}", parameters_.method, info(parameters_.metric).name); }
+std::string Run::title() const {
+  const auto& [method, metric] = std::tie(parameters_.method, parameters_.metric);
+  if (parameters_.combination) return fmt::format("{} · {}", method, phrase(metric, *parameters_.combination));
+  return fmt::format("{} · {}{}", method, info(metric).name, parameters_.then_mean ? ", then mean" : "");
+}
 
 std::string Run::backend_sentence() const {
   if (executor_.backend != name(Backend::Cpu)) return fmt::format("{}: {}", executor_.backend, executor_.reason);
@@ -80,6 +93,7 @@ SmoothingTask Run::task() const {
           parameters_.search,
           parameters_.options,
           parameters_.combination,
+          size_,
           parameters_.then_mean.has_value(),
           immovable_,
           pool_.get()};
@@ -120,12 +134,11 @@ void Run::forget_after(std::uint64_t iteration) {
   turn_.forget_after(iteration);
 }
 
-/// What the next visits are part of.
 Sweep Run::sweep() const {
   const std::uint64_t iteration = at_.moment.iteration;
   const auto since = mean_since();
   if (!since || *since > iteration) return {iteration};
-  return {iteration, history_.records()[iteration].statistics.minimum};
+  return {iteration, history_.records()[iteration].statistics.movable_minimum};
 }
 
 std::uint64_t Run::ask_smoother(std::uint64_t first, std::uint64_t count) {

@@ -23,6 +23,7 @@
 #include "core/session/input_mesh.h"
 #include "core/session/mean_phase.h"
 #include "core/smooth/executor.h"
+#include "core/smooth/size_field.h"
 
 namespace dmoscope {
 
@@ -99,6 +100,10 @@ class Run {
   [[nodiscard]] std::string title() const;  // "dmo · mean-ratio"
   /// The iteration at whose end the phase that raises the mean begins, where there is one and as far as is known.
   [[nodiscard]] std::optional<std::uint64_t> mean_since() const;
+  /// What the next visits are part of.
+  [[nodiscard]] Sweep sweep() const;
+  /// Of a combination with a size function; else null.
+  [[nodiscard]] const std::shared_ptr<const SizeField>& size_field() const noexcept { return size_; }
   /// What smooths: "cpu" or "cuda", whatever was asked for.
   [[nodiscard]] const std::string& backend() const noexcept { return executor_.backend; }
   /// On cuda: the device; on the CPU: why not cuda, empty where it was not wanted.
@@ -189,7 +194,6 @@ class Run {
   [[nodiscard]] Moment moment_before(StepUnit unit) const;
   void restore(std::uint64_t iteration);
   void forget_after(std::uint64_t iteration);
-  [[nodiscard]] Sweep sweep() const;
   std::uint64_t ask_smoother(std::uint64_t first, std::uint64_t count);
   void put(std::span<const Vec3> positions, const Place& place);
   void visit(std::uint64_t count, Progress& progress);
@@ -212,6 +216,7 @@ class Run {
   SharedVector<std::uint8_t> fixed_;
   std::shared_ptr<const Colouring> colouring_;
   std::vector<Index> immovable_;
+  std::shared_ptr<const SizeField> size_;
   Executor executor_;  // its smoother is null while the run rests
   Place at_;
   mutable std::vector<Vec3> positions_;             // the smoother may be ahead of them until bring()

@@ -46,6 +46,7 @@ void Session::replace_input(std::shared_ptr<const InputMesh> input) {
     return std::ranges::all_of(mesh.elements.kinds(), [&](ElementKind kind) { return info(metric).defined_for(kind); });
   };
   if (!usable(parameters.metric)) parameters.metric = Metric::MeanRatio;
+  parameters.combination.reset();          // its point, its field and its threshold are of the mesh before
   auto run = make_run(input, parameters);  // may throw: nothing has been replaced yet
   input_ = std::move(input);
   run->set_id(++last_id_);

@@ -20,7 +20,8 @@ void tell_warnings(CommandContext& context) {
 /// Calls `take` with every verb, theme after theme.
 template <class Take>
 void for_verbs(const Take& take) {
-  for (const std::span<const Verb> theme : {file_verbs(), parameter_verbs(), stepping_verbs(), run_verbs(), comparison_verbs()})
+  for (const std::span<const Verb> theme :
+       {file_verbs(), parameter_verbs(), aims_verbs(), stepping_verbs(), run_verbs(), comparison_verbs()})
     for (const Verb& verb : theme) take(verb);
 }
 
@@ -65,6 +66,15 @@ void require(Arguments arguments, std::size_t least, std::size_t most) {
 }
 
 void tell(CommandContext& context, std::string text, Message::Kind kind) { context.say({kind, std::move(text), 0}); }
+
+void change_run(CommandContext& context, const std::function<void(RunParameters&)>& edit) {
+  RunParameters parameters = context.session.active().parameters();
+  edit(parameters);
+  const std::size_t before = context.session.run_count();
+  const std::size_t index = context.session.change(std::move(parameters));
+  if (context.session.run_count() > before)
+    tell(context, fmt::format("run {}: {}, from the input; the run before is kept", index + 1, context.session.active().title()));
+}
 
 std::vector<Index> to_vertices(Arguments words, const Mesh& mesh) {
   std::vector<Index> vertices;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -81,15 +82,19 @@ Moment to_moment(const Json& json) {
 }
 
 Json json_of(const RunParameters& p) {
-  return {{"method", p.method},
-          {"metric", info(p.metric).name},
-          {"grid", p.search.grid_points},
-          {"levels", p.search.levels},
-          {"omega", p.search.omega},
-          {"precision", p.search.precision == Precision::Double ? "double" : "float"},
-          {"order", p.order.seed ? fmt::format("shuffle:{}", *p.order.seed) : "natural"},
-          {"fixed", p.fixed},
-          {"backend", name(p.backend)}};
+  Json json{{"method", p.method},
+            {"metric", info(p.metric).name},
+            {"grid", p.search.grid_points},
+            {"levels", p.search.levels},
+            {"omega", p.search.omega},
+            {"precision", p.search.precision == Precision::Double ? "double" : "float"},
+            {"order", p.order.seed ? fmt::format("shuffle:{}", *p.order.seed) : "natural"},
+            {"fixed", p.fixed},
+            {"backend", name(p.backend)}};
+  if (p.combination) json["combination"] = to_text(p.metric, *p.combination);
+  if (p.combination && p.combination->size() != nullptr) json["size_function"] = to_text(*p.combination->size());
+  if (p.then_mean) json["then_mean"] = {{"patience", p.then_mean->patience}, {"rise", p.then_mean->rise}};
+  return json;
 }
 
 RunParameters to_parameters(const Json& json) {
@@ -103,6 +108,13 @@ RunParameters to_parameters(const Json& json) {
   p.order = parse_order(json.at("order").get<std::string>());
   p.fixed = to_indices(json.at("fixed"));
   p.backend = parse_backend(json.at("backend").get<std::string>());
+  if (json.contains("combination"))
+    std::tie(p.metric, p.combination) = parse_combination(json.at("combination").get<std::string>(), json.value("size_function", ""));
+  if (json.contains("then_mean")) {
+    const Json& phase = json.at("then_mean");
+    p.then_mean = MeanPhase{to_whole(phase.at("patience")), to_double(phase.at("rise"))};
+    if (p.then_mean->patience == 0) throw UsageError("a second phase needs a patience of at least 1");
+  }
   return p;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // What the files of the session's verbs share. Only session_commands.cpp and those files need it.
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,9 +18,10 @@ struct Verb {
   bool remembered = true;  // what it changes can be undone
 };
 
-/// Meshes and files; parameters of the active run; its steps; runs and the session; all runs at once.
+/// Meshes and files; parameters of the active run; its second aims; its steps; runs and the session; all runs at once.
 [[nodiscard]] std::span<const Verb> file_verbs();
 [[nodiscard]] std::span<const Verb> parameter_verbs();
+[[nodiscard]] std::span<const Verb> aims_verbs();
 [[nodiscard]] std::span<const Verb> stepping_verbs();
 [[nodiscard]] std::span<const Verb> run_verbs();
 [[nodiscard]] std::span<const Verb> comparison_verbs();
@@ -28,6 +30,9 @@ struct Verb {
 void require(Arguments arguments, std::size_t least, std::size_t most);
 
 void tell(CommandContext& context, std::string text, Message::Kind kind = Message::Kind::Info);
+
+/// Changes the active run's parameters; says so when that made a new run beside the old one.
+void change_run(CommandContext& context, const std::function<void(RunParameters&)>& edit);
 
 /// The vertices that words such as "7" or "10-20" name, in their order. Throws WrongArguments, and UsageError for one that does not exist.
 [[nodiscard]] std::vector<Index> to_vertices(Arguments words, const Mesh& mesh);

@@ -61,6 +61,9 @@ struct RunView {
   RunParameters parameters;
   std::string backend, backend_reason;  // see Run
   Moment moment;
+  Sweep sweep;                              // what the next visits are part of
+  std::optional<std::uint64_t> mean_since;  // see Run
+  std::shared_ptr<const SizeField> size;    // see Run::size_field
   std::uint64_t visits_per_iteration = 0;
   std::shared_ptr<const Colouring> colouring;  // of the free vertices, in the order of the visits
   Index free_vertices = 0;

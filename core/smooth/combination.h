@@ -1,7 +1,10 @@
 #pragma once
-// Two aims in one objective (paper, Section 4.2): a first metric up to a threshold, and beyond it a second aim.
+// Two aims in one objective (paper, Section 4.2): a first metric up to a threshold, and beyond it a second aim. And how both are written:
+// the same way on the command line, in the command language and in saved sessions.
 
 #include <string>
+#include <string_view>
+#include <utility>
 #include <variant>
 
 #include "core/base/vec.h"
@@ -20,6 +23,7 @@ struct SizeFunction {
   Kind kind = Kind::Constant;
   Vec3 point{};         // in the mesh's coordinates
   std::string field{};  // its name
+  [[nodiscard]] bool has_point() const noexcept { return kind == Kind::Distance || kind == Kind::InverseDistance; }
   friend bool operator==(const SizeFunction&, const SizeFunction&) = default;
 };
 
@@ -28,7 +32,25 @@ struct SizeFunction {
 struct Combination {
   double threshold = 0.7;
   std::variant<Metric, SizeFunction> second = SizeFunction{};
+  [[nodiscard]] const SizeFunction* size() const noexcept { return std::get_if<SizeFunction>(&second); }  // null: a metric
   friend bool operator==(const Combination&, const Combination&) = default;
 };
+
+/// "constant", "h1:X,Y", "h2:X,Y" (",Z" where that is not 0), "field:NAME".
+[[nodiscard]] std::string to_text(const SizeFunction& size);
+/// Throws UsageError that says what is possible.
+[[nodiscard]] SizeFunction parse_size_function(std::string_view text);
+
+/// "mean-ratio:0.7:density", "mean-ratio:0.7:min-angle"; the size function is apart.
+[[nodiscard]] std::string to_text(Metric first, const Combination& combination);
+/// The reverse; `size`: as above, empty: everywhere the same, and nothing else where the second aim is a metric. Throws UsageError, also
+/// for a threshold that is not between 0 and 1.
+[[nodiscard]] std::pair<Metric, Combination> parse_combination(std::string_view text, std::string_view size = {});
+
+/// For titles: "mean-ratio > 0.7 · density h1".
+[[nodiscard]] std::string phrase(Metric first, const Combination& combination);
+
+/// Throws UsageError for values that no mesh can have: the threshold, the point.
+void validate(const Combination& combination);
 
 }  // namespace dmoscope

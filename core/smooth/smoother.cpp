@@ -9,10 +9,12 @@
 #include "core/base/error.h"
 #include "core/smooth/active_set_ascent.h"
 #include "core/smooth/angle_based.h"
+#include "core/smooth/combined.h"
 #include "core/smooth/dmo.h"
 #include "core/smooth/dvr.h"
 #include "core/smooth/laplace.h"
 #include "core/smooth/pattern_search.h"
+#include "core/smooth/then_mean.h"
 
 namespace dmoscope {
 
@@ -43,6 +45,23 @@ void validate(const MethodOptions& options) {
   if (!(options.relaxation > 0.0 && options.relaxation <= 1.0))
     throw UsageError(fmt::format("relaxation must be above 0 and at most 1, not {}", options.relaxation));
 }
+
+void require_possible(const Combination& combination, const SmoothingTask& task) {
+  validate(combination);
+  if (task.method != "dmo") throw UsageError(fmt::format("metrics are combined by dmo alone, not by {}", task.method));
+  if (task.then_mean) throw UsageError("a combination has a second aim of its own, which a phase that raises the mean would undo");
+  if (const auto* second = std::get_if<Metric>(&combination.second)) require_defined(*second, task.input->mesh);
+}
+
+std::unique_ptr<Smoother> make_method(const SmoothingTask& task) {
+  if (task.method == "laplace") return make_laplace_smoother(task);
+  if (task.method == "smart-laplace") return make_smart_laplace_smoother(task);
+  if (task.method == "angle-based") return make_angle_based_smoother(task);
+  if (task.method == "pattern-search") return make_pattern_search_smoother(task);
+  if (task.method == "active-set") return make_active_set_smoother(task);
+  if (task.method == "dvr") return make_dvr_smoother(task);
+  return make_dmo_smoother(task);
+}
 }  // namespace
 
 std::span<const MethodInfo> method_table() { return kMethods; }
@@ -62,19 +81,14 @@ void require_possible(const SmoothingTask& task) {
   require_defined(task.metric, task.input->mesh);
   if (method.mean_ratio_only && task.metric != Metric::MeanRatio)
     throw UsageError(fmt::format("{} optimises the mean ratio alone, not {}", method.name, info(task.metric).name));
-  if (task.combination) throw UsageError("metrics cannot be combined yet");
-  if (task.then_mean) throw UsageError("a second phase for the mean is not possible yet");
+  if (task.combination) require_possible(*task.combination, task);
 }
 
 std::unique_ptr<Smoother> make_smoother(const SmoothingTask& task) {
   require_possible(task);
-  if (task.method == "laplace") return make_laplace_smoother(task);
-  if (task.method == "smart-laplace") return make_smart_laplace_smoother(task);
-  if (task.method == "angle-based") return make_angle_based_smoother(task);
-  if (task.method == "pattern-search") return make_pattern_search_smoother(task);
-  if (task.method == "active-set") return make_active_set_smoother(task);
-  if (task.method == "dvr") return make_dvr_smoother(task);
-  return make_dmo_smoother(task);
+  if (task.combination) return make_combined_smoother(task);
+  auto smoother = make_method(task);
+  return task.then_mean ? then_mean(std::move(smoother), task) : std::move(smoother);
 }
 
 }  // namespace dmoscope

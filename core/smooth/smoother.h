@@ -17,8 +17,9 @@ class DevicePicture;
 /// The iteration that visits belong to. Whatever a method does differently from one iteration to the next follows from this alone, so that
 /// an iteration that is done again has the same bits.
 struct Sweep {
-  std::uint64_t iteration = 0;    // of the run; 0: from the input on
-  std::optional<double> floor{};  // second phase: raise the mean quality of the stars, with the mesh's minimum, this, as their floor
+  std::uint64_t iteration = 0;  // of the run; 0: from the input on
+  /// Second phase: raise the mean quality of the stars, with this as their floor: the least quality of the elements that can move.
+  std::optional<double> floor{};
   friend bool operator==(const Sweep&, const Sweep&) = default;
 };
 
@@ -67,8 +68,8 @@ struct MethodInfo {
 /// Throws UsageError that lists the known ones.
 [[nodiscard]] const MethodInfo& method_info(std::string_view name);
 
-/// Throws UsageError for an unknown method, for parameters out of range, or for a metric that is not defined for the mesh or not for the
-/// method. Of the task's pointers only `input` is read.
+/// Throws UsageError for an unknown method, for parameters out of range, for a metric that is not defined for the mesh or not for the
+/// method, or for a combination that is not possible. Of the task's pointers only `input` is read.
 void require_possible(const SmoothingTask& task);
 
 /// Makes the smoother for a task on the CPU. Throws as require_possible does.

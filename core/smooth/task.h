@@ -16,6 +16,8 @@
 
 namespace dmoscope {
 
+class SizeField;
+
 /// Along which directions dvr relaxes: one a sweep for all vertices, drawn at random from a seed; or the axes of the mesh's plane by turns.
 enum class Directions { Random, Axes };
 
@@ -35,6 +37,7 @@ struct SmoothingTask {
   SearchParameters search{};
   MethodOptions options{};
   std::optional<Combination> combination{};  // dmo alone: `metric` is its first one
+  std::shared_ptr<const SizeField> size{};   // of a combination with a size function
   bool then_mean = false;                    // whether a second phase may come, see Sweep
   std::span<const Index> immovable{};        // see immovable_elements; for statistics on a device
   ThreadPool* pool = nullptr;

@@ -1,0 +1,126 @@
+#include "core/mesh/nodal_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dmoscope {
+
+namespace {
+constexpr double kMostCellsAnAxis = 4096.0;
+}
+
+NodalField::NodalField(const Mesh& mesh, const Topology& topology, const Plane& plane, std::vector<double> values)
+    : mesh_(mesh), topology_(topology), plane_(plane), values_(std::move(values)) {
+  if (mesh_.positions.empty()) return;
+  origin_ = mesh_.positions.front();
+  low_ = high_ = flat(0);
+  for (Index v = 1; v < mesh_.vertex_count(); ++v) {
+    const Point p = flat(v);
+    low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
+    high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
+  }
+  const double extent = std::max(high_.x - low_.x, high_.y - low_.y);
+  const double cells = std::clamp(std::sqrt(static_cast<double>(mesh_.vertex_count())), 1.0, kMostCellsAnAxis);
+  if (extent > 0.0) width_ = extent / cells;
+  columns_ = static_cast<int>((high_.x - low_.x) / width_) + 1;
+  rows_ = static_cast<int>((high_.y - low_.y) / width_) + 1;
+  elements_ = fill([this](const auto& put) {
+    for (Index e = 0; e < mesh_.elements.size(); ++e) for_cells_of(e, [&](std::size_t cell) { put(cell, e); });
+  });
+  vertices_ = fill([this](const auto& put) {
+    for (Index v = 0; v < mesh_.vertex_count(); ++v)
+      if (const Point p = flat(v); !topology_.star(v).empty()) put(cell(column(p.x), row(p.y)), v);
+  });
+}
+
+NodalField::Point NodalField::flat(Index vertex) const { return plane_.project(mesh_.positions[vertex] - origin_); }
+
+int NodalField::column(double x) const { return static_cast<int>(std::clamp((x - low_.x) / width_, 0.0, columns_ - 1.0)); }
+int NodalField::row(double y) const { return static_cast<int>(std::clamp((y - low_.y) / width_, 0.0, rows_ - 1.0)); }
+std::size_t NodalField::cell(int i, int j) const {
+  return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i);
+}
+
+/// Calls visit(cell) for the cells that an element's bounding box touches.
+template <class Visit>
+void NodalField::for_cells_of(Index element, const Visit& visit) const {
+  const auto corners = mesh_.elements.corners(element);
+  Point low = flat(corners[0]), high = low;
+  for (const Index corner : corners.subspan(1)) {
+    const Point p = flat(corner);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  for (int j = row(low.y); j <= row(high.y); ++j)
+    for (int i = column(low.x); i <= column(high.x); ++i) visit(cell(i, j));
+}
+
+/// for_members(put) calls put(cell, member) for every member in ascending order; it is asked twice.
+template <class ForMembers>
+NodalField::Cells NodalField::fill(const ForMembers& for_members) const {
+  Cells cells;
+  cells.offsets.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
+  for_members([&](std::size_t cell, Index) { ++cells.offsets[cell + 1]; });
+  for (std::size_t c = 1; c < cells.offsets.size(); ++c) cells.offsets[c] += cells.offsets[c - 1];
+  cells.members.resize(cells.offsets.back());
+  std::vector<std::uint32_t> next(cells.offsets.begin(), cells.offsets.end() - 1);
+  for_members([&](std::size_t cell, Index member) { cells.members[next[cell]++] = member; });
+  return cells;
+}
+
+/// Nothing where `p` lies outside.
+std::optional<double> NodalField::in_triangle(Index a, Index b, Index c, Point p) const {
+  const Point at_a = flat(a), ab = flat(b) - at_a, ac = flat(c) - at_a, ap = p - at_a;
+  const double area = cross(ab, ac);
+  if (area == 0.0) return std::nullopt;
+  const double at_b = cross(ap, ac) / area, at_c = cross(ab, ap) / area;
+  constexpr double kRounding = 1e-12;  // so that no place falls between two elements
+  if (!(at_b >= -kRounding && at_c >= -kRounding && at_b + at_c <= 1.0 + kRounding)) return std::nullopt;
+  return values_[a] + at_b * (values_[b] - values_[a]) + at_c * (values_[c] - values_[a]);
+}
+
+std::optional<double> NodalField::in_element(Index element, Point p) const {
+  const auto corners = mesh_.elements.corners(element);
+  if (const auto value = in_triangle(corners[0], corners[1], corners[2], p)) return value;
+  return corners.size() == 4 ? in_triangle(corners[0], corners[2], corners[3], p) : std::nullopt;
+}
+
+/// The vertex nearest to `p`, among equals the first: looks at rings of cells around it, until what is left is farther away.
+Index NodalField::nearest(Point p) const {
+  const int column_of_p = column(p.x), row_of_p = row(p.y);
+  Index best = kNoIndex;
+  double least = HUGE_VAL;
+  const auto look = [&](int i, int j) {
+    if (i < 0 || i >= columns_ || j < 0 || j >= rows_) return;
+    for (const Index v : vertices_.of(cell(i, j))) {
+      const Point d = flat(v) - p;
+      const double square = dot(d, d);
+      if (square < least || (square == least && v < best)) {
+        least = square;
+        best = v;
+      }
+    }
+  };
+  for (int ring = 0; ring < std::max(columns_, rows_); ++ring) {
+    // Measured from the place in the grid that is nearest to p, nothing in this ring is nearer than so many cells less one.
+    const double reach = (ring - 1) * width_;
+    if (best != kNoIndex && ring > 0 && reach * reach > least) break;
+    for (int i = column_of_p - ring; i <= column_of_p + ring; ++i)
+      for (const int j : {row_of_p - ring, row_of_p + ring}) look(i, j);
+    for (int j = row_of_p - ring + 1; j < row_of_p + ring; ++j)
+      for (const int i : {column_of_p - ring, column_of_p + ring}) look(i, j);
+  }
+  return best;
+}
+
+double NodalField::at(Index near, Vec3 place) const {
+  const Point p = plane_.project(place - origin_);
+  for (const Incidence& incidence : topology_.star(near))
+    if (const auto value = in_element(incidence.element, p)) return *value;
+  for (const Index element : elements_.of(cell(column(p.x), row(p.y))))
+    if (const auto value = in_element(element, p)) return *value;
+  return values_[nearest(p)];
+}
+
+}  // namespace dmoscope

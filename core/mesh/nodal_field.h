@@ -1,0 +1,61 @@
+#pragma once
+// A nodal field of a planar mesh as a function of the place.
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/base/vec.h"
+#include "core/mesh/mesh.h"
+#include "core/mesh/plane.h"
+#include "core/mesh/topology.h"
+
+namespace dmoscope {
+
+/// Linear on triangles, and on the two triangles 0 1 2 and 0 2 3 of a quadrilateral; outside the mesh the value of the nearest vertex.
+/// The mesh is that of the positions given, wherever its vertices go later. Mesh and topology must outlive it.
+class NodalField {
+ public:
+  /// `values`: one a vertex.
+  NodalField(const Mesh& mesh, const Topology& topology, const Plane& plane, std::vector<double> values);
+
+  /// At a place. `near`: a vertex; where the place lies in its star, as it mostly does, nothing is searched. The same for every call.
+  [[nodiscard]] double at(Index near, Vec3 place) const;
+  [[nodiscard]] std::span<const double> values() const noexcept { return values_; }
+
+ private:
+  /// Lists of things in the cells of a uniform grid.
+  struct Cells {
+    std::vector<std::uint32_t> offsets;  // one more than cells
+    std::vector<Index> members;          // of each cell in ascending order
+    [[nodiscard]] std::span<const Index> of(std::size_t cell) const {
+      return {members.data() + offsets[cell], members.data() + offsets[cell + 1]};
+    }
+  };
+  using Point = Vec2<double>;
+  [[nodiscard]] Point flat(Index vertex) const;
+  [[nodiscard]] int column(double x) const;
+  [[nodiscard]] int row(double y) const;
+  [[nodiscard]] std::size_t cell(int i, int j) const;
+  template <class Visit>
+  void for_cells_of(Index element, const Visit& visit) const;
+  template <class ForMembers>
+  [[nodiscard]] Cells fill(const ForMembers& for_members) const;
+  [[nodiscard]] std::optional<double> in_element(Index element, Point p) const;
+  [[nodiscard]] std::optional<double> in_triangle(Index a, Index b, Index c, Point p) const;
+  [[nodiscard]] Index nearest(Point p) const;
+
+  const Mesh& mesh_;
+  const Topology& topology_;
+  Plane plane_;
+  std::vector<double> values_;
+  Vec3 origin_{};
+  Point low_{}, high_{};
+  double width_ = 1.0;  // of a cell
+  int columns_ = 1, rows_ = 1;
+  Cells elements_, vertices_;
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,129 @@
+#pragma once
+// The search for two aims at once (see combination.h): the very grid search, with an objective that goes on beyond a threshold.
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "core/smooth/size_field.h"
+#include "core/smooth/vertex_rule.h"
+
+namespace dmoscope {
+
+/// The second aim of the phase that raises the mean: the mean quality of the star, by the first metric.
+struct MeanOfStar {};
+
+/// Of two places the better one for a vertex is, in this order: while an element of its star is inverted, that of greater smallest
+/// normalised Jacobian; while its least first metric is not beyond the threshold, that of greater least first metric; that of greater
+/// second aim. Beyond: above the threshold; or, for the mean, not below it, so that a star whose least is the floor keeps its place unless
+/// its mean rises.
+struct Aims {
+  Metric first = Metric::MeanRatio;
+  double threshold = 0.7;  // at least 0
+  std::variant<Metric, std::shared_ptr<const SizeField>, MeanOfStar> second = MeanOfStar{};
+
+  [[nodiscard]] bool raise_mean() const noexcept { return std::holds_alternative<MeanOfStar>(second); }
+  [[nodiscard]] bool beyond(double least) const noexcept {
+    return raise_mean() ? least > 0.0 && least >= threshold : least > threshold;  // with inverted elements it is never beyond
+  }
+};
+
+/// What a combination aims at; `size`: its size function, null where the second aim is a metric.
+[[nodiscard]] Aims aims_of(Metric first, const Combination& combination, std::shared_ptr<const SizeField> size);
+/// What a phase that raises the mean aims at.
+[[nodiscard]] Aims raise_mean_above(Metric metric, double floor);
+
+/// The two aims that a visit of dmo has; none: one metric alone.
+[[nodiscard]] std::optional<Aims> aims_of_visit(Metric metric, const std::optional<Combination>& combination,
+                                                const std::shared_ptr<const SizeField>& size, const Sweep& sweep);
+
+/// What is needed of a metric, so that any two can be combined without a template for each pair.
+struct MetricFunctions {
+  // By the statistics' formulas, with the vertex at a place.
+  StarState (*state)(const PlanarView&, PositionView, Index vertex, Vec3 place);
+  double (*mean)(const PlanarView&, PositionView, Index vertex, Vec3 place);
+  // By the search's, with the vertex at an offset.
+  double (*least_at)(const StarView<double>&, Vec2<double>);
+  double (*untangling_at)(const StarView<double>&, Vec2<double>);
+  double (*mean_at)(const StarView<double>&, Vec2<double>);
+};
+[[nodiscard]] const MetricFunctions& metric_functions(Metric metric);
+
+/// Where a vertex would stand for the sake of density (paper eq. 7), and what other places are worth (eq. 6, but bounded and free of
+/// scale).
+struct DensityTarget {
+  Vec2<double> offset;  // from where the vertex stands, in the plane
+  double edge = 0.0;    // mean edge of the star
+  /// 1 / (1 + d^2 / h^2); `at`: relative to where the vertex stands.
+  [[nodiscard]] double density(Vec2<double> at) const noexcept {
+    const Vec2<double> away = at - offset;
+    return edge > 0.0 ? 1.0 / (1.0 + dot(away, away) / (edge * edge)) : 0.0;
+  }
+};
+/// The mean of the edge neighbours, weighted by the inverse of the size where each stands now.
+[[nodiscard]] DensityTarget density_target(const SizeField& size, const PlanarView& mesh, PositionView positions, Index vertex);
+
+/// What the grid search maximises, as the paper's eq. (8) has it: the least first metric (or, untangling, the smallest Jacobian while it is
+/// <= 0); beyond the threshold that plus the second aim, which is positive.
+class CombinedObjective {
+ public:
+  CombinedObjective(const Aims& aims, bool untangling, StarView<double> star, const DensityTarget& target)
+      : aims_(aims), star_(star), target_(target) {
+    const MetricFunctions& first = metric_functions(aims.first);
+    least_ = untangling ? first.untangling_at : first.least_at;
+    second_ = first.mean_at;
+    if (const auto* metric = std::get_if<Metric>(&aims.second)) second_ = metric_functions(*metric).least_at;
+    if (std::holds_alternative<std::shared_ptr<const SizeField>>(aims.second)) second_ = nullptr;
+  }
+  [[nodiscard]] double operator()(Vec2<double> p) const {
+    const double least = least_(star_, p);
+    if (!aims_.beyond(least)) return least;
+    return aims_.threshold + (second_ != nullptr ? second_(star_, p) : target_.density(p));
+  }
+
+ private:
+  const Aims& aims_;
+  StarView<double> star_;
+  DensityTarget target_;  // in units of the star's scale
+  double (*least_)(const StarView<double>&, Vec2<double>);
+  double (*second_)(const StarView<double>&, Vec2<double>);  // null: the density
+};
+
+/// One vertex's visit: a rule for RuleSmoother. The mesh must outlive it.
+class CombinedSearch {
+ public:
+  using Room = Star<double>;
+  CombinedSearch(const InputMesh& input, Aims aims, const SearchParameters& parameters)
+      : mesh_(input), aims_(std::move(aims)), parameters_(parameters) {}
+
+  /// What was found: the offset in units of the star's scale, and whether an element was inverted. `trace`: see grid_search.
+  struct Found {
+    Vec2<double> offset;
+    bool untangling = false;
+  };
+  template <class Trace = NoTrace>
+  [[nodiscard]] Found search(const Star<double>& star, PositionView positions, Index vertex, Trace&& trace = {}) const {
+    const StarView<double> view(star);
+    const bool untangling = !(metric_functions(aims_.first).untangling_at(view, {}) > 0.0);
+    const CombinedObjective objective(aims_, untangling, view, density_of(star, positions, vertex));
+    return {grid_search<double>(objective, star.box, parameters_, trace).offset, untangling};
+  }
+  /// Judged by the statistics' own formulas: does the vertex gain by standing at `target`?
+  [[nodiscard]] bool gains(PositionView positions, Index vertex, Vec3 target) const;
+  /// Where the vertex goes, if it gains there.
+  [[nodiscard]] std::optional<Vec3> target(PositionView positions, Index vertex, Room& star) const;
+
+ private:
+  [[nodiscard]] DensityTarget density_of(const Star<double>& star, PositionView positions, Index vertex) const;
+  [[nodiscard]] double second(PositionView positions, Index vertex, Vec3 place) const;
+
+  RuleMesh mesh_;
+  Aims aims_;
+  SearchParameters parameters_;
+};
+
+/// See make_smoother, which checks the arguments.
+[[nodiscard]] std::unique_ptr<Smoother> make_combined_smoother(const SmoothingTask& task);
+
+}  // namespace dmoscope

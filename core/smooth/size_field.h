@@ -1,0 +1,50 @@
+#pragma once
+// The size that elements shall have, anywhere in a mesh, and how well they have it.
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "core/mesh/nodal_field.h"
+#include "core/mesh/position_view.h"
+#include "core/session/input_mesh.h"
+#include "core/smooth/combination.h"
+
+namespace dmoscope {
+
+class SizeField {
+ public:
+  /// Throws UsageError for a field that the mesh has not (it lists those there are), or that is no size anywhere.
+  SizeField(std::shared_ptr<const InputMesh> input, SizeFunction function);
+
+  /// h > 0, up to a factor, where `vertex` stands when it is at `place`.
+  [[nodiscard]] double at(Index vertex, Vec3 place) const;
+  [[nodiscard]] const SizeFunction& function() const noexcept { return function_; }
+  /// What is to be known of it ("depth is not positive at 12 vertices: ..."), usually empty.
+  [[nodiscard]] const std::string& note() const noexcept { return note_; }
+
+ private:
+  void read_field();
+
+  std::shared_ptr<const InputMesh> input_;
+  SizeFunction function_;
+  std::unique_ptr<NodalField> field_;
+  double least_distance_ = 0.0;
+  std::string note_;
+};
+
+/// The names of the nodal fields that can be a size function: those with one number a vertex.
+[[nodiscard]] std::vector<std::string> scalar_fields(const Mesh& mesh);
+
+/// Mean length of the edges at a vertex; 0 for one of no element.
+[[nodiscard]] double local_edge_length(const PlanarView& mesh, PositionView positions, Index vertex);
+
+/// How the local edge lengths go with the target sizes over some vertices: Pearson's correlation of the two, and of their logarithms,
+/// which tells more where sizes span decades. NaN where either does not vary.
+struct SizeCorrelation {
+  double sizes = 0.0, logarithms = 0.0;
+};
+[[nodiscard]] SizeCorrelation size_correlation(const SizeField& size, const InputMesh& input, PositionView positions,
+                                               std::span<const Index> vertices);
+
+}  // namespace dmoscope

@@ -1,0 +1,242 @@
+// The phase that raises the mean: when it begins, what it keeps, and that a run goes over its beginning both ways with the same bits.
+
+#include "core/session/mean_phase.h"
+
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/session/run.h"
+#include "core/session/session_commands.h"
+#include "core/session/state_file.h"
+#include "tests/support/meshes.h"
+#include "tests/support/temporary_folder.h"
+
+namespace dmoscope {
+namespace {
+
+using testing::Cells;
+using ::testing::HasSubstr;
+using testing::input;
+using testing::lattice;
+
+bool same_bits(std::span<const Vec3> a, std::span<const Vec3> b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
+}
+
+/// Records with these minima, of which the movable ones are the same; some vertex moved in each.
+std::vector<IterationRecord> records(std::initializer_list<double> minima) {
+  std::vector<IterationRecord> all;
+  for (const double minimum : minima) {
+    IterationRecord& record = all.emplace_back();
+    record.iteration = all.size() - 1;
+    record.statistics.minimum = record.statistics.movable_minimum = minimum;
+    record.moved = 1;
+  }
+  return all;
+}
+
+TEST(PhaseTurn, ComesWhenTheMinimumHasNotRisenForSoLong) {
+  const auto rising = records({0.1, 0.2, 0.3, 0.4});
+  EXPECT_EQ(PhaseTurn().find({.patience = 2}, rising), std::nullopt);
+  const auto rested = records({0.1, 0.2, 0.2, 0.3, 0.3, 0.3, 0.4});
+  EXPECT_EQ(PhaseTurn().find({.patience = 1}, rested), 2U);
+  EXPECT_EQ(PhaseTurn().find({.patience = 2}, rested), 5U);
+  EXPECT_EQ(PhaseTurn().find({.patience = 3}, rested), std::nullopt);
+}
+
+TEST(PhaseTurn, AStillIterationEndsThePhaseAndAMovableMinimumDelaysIt) {
+  auto still = records({0.1, 0.2, 0.3});
+  still[1].moved = 0;
+  EXPECT_EQ(PhaseTurn().find({.patience = 5}, still), 1U);
+  auto movable = records({0.1, 0.1, 0.1, 0.1, 0.1});
+  for (std::size_t i = 0; i < 3; ++i) movable[i].statistics.movable_minimum = 0.2 + 0.1 * static_cast<double>(i);
+  movable[3].statistics.movable_minimum = movable[4].statistics.movable_minimum = 0.4;
+  EXPECT_EQ(PhaseTurn().find({.patience = 1}, movable), 3U);
+}
+
+TEST(PhaseTurn, FollowsAnotherPath) {
+  PhaseTurn turn;
+  EXPECT_EQ(turn.find({.patience = 2}, records({0.1, 0.2, 0.2, 0.2})), 3U);
+  turn.forget_after(3);
+  EXPECT_EQ(turn.find({.patience = 2}, records({0.1, 0.2, 0.2, 0.2})), 3U);
+  turn.forget_after(1);
+  EXPECT_EQ(turn.find({.patience = 2}, records({0.1, 0.2, 0.3, 0.3})), std::nullopt);
+  EXPECT_EQ(turn.find({.patience = 2}, records({0.1, 0.2, 0.3, 0.3, 0.3})), 4U);
+}
+
+RunParameters two_phases(std::uint64_t patience = 2) {
+  RunParameters parameters;
+  parameters.then_mean = MeanPhase{.patience = patience};
+  return parameters;
+}
+
+dmoscope::Run make_run(const std::shared_ptr<const InputMesh>& mesh, RunParameters parameters, std::size_t history = std::size_t{1} << 28U,
+                       unsigned threads = 1) {
+  return {mesh, std::move(parameters), std::make_shared<ThreadPool>(threads), history};
+}
+
+/// Takes the run well into its second phase.
+std::uint64_t go_beyond(dmoscope::Run& run) {
+  Progress progress;
+  while (!run.mean_since() && run.moment().iteration < 300) run.iterate(1, progress);
+  EXPECT_TRUE(run.mean_since());
+  run.iterate(5, progress);
+  return run.mean_since().value_or(0);
+}
+
+class MeanPhaseOf : public ::testing::TestWithParam<Cells> {};
+INSTANTIATE_TEST_SUITE_P(Meshes, MeanPhaseOf, ::testing::Values(Cells::Triangles, Cells::Quadrilaterals, Cells::Mixed));
+
+TEST_P(MeanPhaseOf, RaisesTheMeanAndKeepsTheMinimum) {
+  for (const Precision precision : {Precision::Float, Precision::Double}) {
+    RunParameters parameters = two_phases();
+    parameters.search.precision = precision;
+    auto run = make_run(input(lattice(12, 0.3, 3, GetParam())), parameters);
+    const std::uint64_t since = go_beyond(run);
+    const auto& all = run.history().records();
+    ASSERT_EQ(all[since].statistics.inverted, 0U);
+    EXPECT_GT(all.back().statistics.mean, all[since].statistics.mean + 1e-4);
+    for (std::size_t i = since + 1; i < all.size(); ++i) {
+      EXPECT_GE(all[i].statistics.minimum, all[i - 1].statistics.minimum);
+      EXPECT_GE(all[i].statistics.movable_minimum, all[i - 1].statistics.movable_minimum);
+      EXPECT_GE(all[i].statistics.mean, all[i - 1].statistics.mean - 1e-15);
+      EXPECT_EQ(all[i].statistics.inverted, 0U);
+    }
+  }
+}
+
+TEST_P(MeanPhaseOf, IsTheFirstPhaseBeforeItBegins) {
+  const auto mesh = input(lattice(12, 0.3, 3, GetParam()));
+  auto two = make_run(mesh, two_phases()), one = make_run(mesh, {});
+  const std::uint64_t since = go_beyond(two);
+  Progress progress;
+  one.iterate(since, progress);
+  two.seek({since}, progress);
+  EXPECT_TRUE(same_bits(one.positions(), two.positions()));
+}
+
+TEST_P(MeanPhaseOf, HasTheSameBitsWhicheverWayItIsReached) {
+  const auto mesh = input(lattice(12, 0.3, 3, GetParam()));
+  auto straight = make_run(mesh, two_phases());
+  const std::uint64_t since = go_beyond(straight);
+  const std::vector<Vec3> end(straight.positions().begin(), straight.positions().end());
+  Progress progress;
+  auto threaded = make_run(mesh, two_phases(), 0, 3), stepped = make_run(mesh, two_phases(), 0), sought = make_run(mesh, two_phases(), 0);
+  threaded.iterate(since + 5, progress);
+  EXPECT_TRUE(same_bits(threaded.positions(), end)) << "threads";
+  while (stepped.moment().iteration < since + 5)
+    stepped.step(stepped.moment().visits % 5 == 0 ? StepUnit::Vertex : StepUnit::Class, progress);
+  EXPECT_TRUE(same_bits(stepped.positions(), end)) << "steps";
+  // Back into the midst of the first phase and forth, and so from the midst of the second.
+  for (const Moment& moment : {Moment{since + 5}, {since - 1, 7}, {since + 2, 11}, {since, 3}, {since + 5}}) sought.seek(moment, progress);
+  EXPECT_TRUE(same_bits(sought.positions(), end)) << "seeks";
+}
+
+TEST(MeanPhase, ACancelledRunGoesOnWithTheSameBits) {
+  const auto mesh = input(lattice(20, 0.3, 4));
+  auto straight = make_run(mesh, two_phases()), cancelled = make_run(mesh, two_phases());
+  const std::uint64_t since = go_beyond(straight);
+  Progress progress;
+  int blocks = 0;
+  cancelled.set_observer([&](const dmoscope::Run& run) {
+    if (run.moment().iteration > since && ++blocks == 2) progress.request_cancel();
+  });
+  EXPECT_THROW(cancelled.iterate(since + 5, progress), Cancelled);
+  EXPECT_LT(cancelled.moment(), Moment{since + 5});
+  progress.clear_cancel();
+  cancelled.seek({since + 5}, progress);
+  EXPECT_TRUE(same_bits(cancelled.positions(), straight.positions()));
+}
+
+TEST(MeanPhase, GoesOnWithATangledMesh) {
+  auto run = make_run(input(lattice(9, 0.9, 42)), two_phases(1));
+  Progress progress;
+  for (int i = 0; i < 30; ++i) {
+    const auto since = run.mean_since();
+    const Statistics before = run.statistics();
+    run.iterate(1, progress);
+    if (!since) continue;
+    EXPECT_GE(run.statistics().minimum, before.minimum);
+    EXPECT_GE(run.statistics().mean, before.mean - 1e-15);
+    EXPECT_LE(run.statistics().inverted, before.inverted);
+  }
+  EXPECT_TRUE(run.mean_since());
+}
+
+TEST(MeanPhase, UntilConvergedGoesThroughBoth) {
+  auto run = make_run(input(lattice(10, 0.3, 5)), two_phases(3));
+  Progress progress;
+  const Outcome outcome = run.until_converged({.patience = 3}, progress);
+  ASSERT_TRUE(outcome.mean_since);
+  EXPECT_NE(outcome.reason, StopReason::IterationLimit);
+  EXPECT_GT(run.moment().iteration, *outcome.mean_since);
+  EXPECT_THAT(outcome.sentence(), HasSubstr("the mean was raised"));
+}
+
+/// A session that is told what to do.
+struct Told {
+  Session session{1};
+  Progress progress;
+  CommandContext context{session, progress, [](const Message&) {}};
+  CommandTable commands;
+  Told() { add_session_commands(commands, context); }
+  void say(const std::string& line) { commands.execute(line); }
+};
+
+TEST(MeanPhase, IsUndoneAndSaved) {
+  const test::TemporaryFolder folder;
+  const std::string file = (folder / "session.json").string();
+  Told told;
+  told.say("generate random 300 7");
+  told.say("then mean 2");
+  EXPECT_THAT(told.session.active().title(), HasSubstr("then mean"));
+  told.say("until-converged 2");
+  ASSERT_TRUE(told.session.active().mean_since());
+  const std::vector<Vec3> end(told.session.active().positions().begin(), told.session.active().positions().end());
+  told.say("back iteration 2");
+  told.say("undo");
+  EXPECT_TRUE(same_bits(told.session.active().positions(), end));
+  told.say("save-state " + file);
+  Told other;
+  other.say("open-state " + file);
+  EXPECT_EQ(other.session.active().parameters(), told.session.active().parameters());
+  EXPECT_EQ(other.session.active().mean_since(), told.session.active().mean_since());
+  EXPECT_TRUE(same_bits(other.session.active().positions(), end));
+  told.say("run 2");
+  other.say("run 2");
+  EXPECT_TRUE(same_bits(told.session.active().positions(), other.session.active().positions()));
+  other.say("undo");
+  other.say("then nothing");
+  EXPECT_FALSE(other.session.active().parameters().then_mean);
+}
+
+TEST(Combination, IsSaidAndSaved) {
+  const test::TemporaryFolder folder;
+  const std::string file = (folder / "session.json").string();
+  Told told;
+  told.say("generate random 300 7");
+  EXPECT_THROW(told.say("size-point 1 2"), UsageError);
+  told.say("combine mean-ratio:0.4:density h1:0.5,0.5");
+  told.say("size-point 0.25 0.75");
+  told.say("run 3");
+  const RunParameters& parameters = told.session.active().parameters();
+  ASSERT_TRUE(parameters.combination);
+  EXPECT_EQ(parameters.combination->size()->point, (Vec3{0.25, 0.75, 0.0}));
+  told.say("save-state " + file);
+  Told other;
+  other.say("open-state " + file);
+  EXPECT_EQ(other.session.active().parameters(), parameters);
+  EXPECT_TRUE(same_bits(other.session.active().positions(), told.session.active().positions()));
+  EXPECT_THROW(told.say("then mean"), UsageError);
+  EXPECT_THROW(told.say("combine mean-ratio:0.7:density field:depth"), UsageError);
+  EXPECT_TRUE(same_bits(other.session.active().positions(), told.session.active().positions())) << "nothing is half done";
+  told.say("combine off");
+  EXPECT_FALSE(told.session.active().parameters().combination);
+}
+
+}  // namespace
+}  // namespace dmoscope

@@ -1,0 +1,295 @@
+// Two aims at once: the search against one written apart, what its optimum is, and what it promises.
+
+#include "core/smooth/combined.h"
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/session/run.h"
+#include "tests/support/meshes.h"
+
+namespace dmoscope {
+namespace {
+
+using testing::Cells;
+using testing::input;
+using testing::lattice;
+using Point = Vec2<double>;
+
+bool same_bits(std::span<const Vec3> a, std::span<const Vec3> b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
+}
+
+dmoscope::Run make_run(const std::shared_ptr<const InputMesh>& mesh, RunParameters parameters, unsigned threads = 1) {
+  return {mesh, std::move(parameters), std::make_shared<ThreadPool>(threads), std::size_t{1} << 28U};
+}
+
+RunParameters combined(double threshold, std::variant<Metric, SizeFunction> second) {
+  RunParameters parameters;
+  parameters.combination = Combination{threshold, std::move(second)};
+  return parameters;
+}
+
+/// A mesh of triangles in the plane z = 0, judged by formulas of its own.
+struct Plain {
+  const InputMesh& input;
+  std::span<const Vec3> positions;
+
+  using Corners = std::vector<Point>;  // of each triangle of a star, the vertex first
+  [[nodiscard]] std::vector<Corners> star(Index vertex, Point at) const {
+    std::vector<Corners> triangles;
+    for (Index e = 0; e < input.mesh.elements.size(); ++e) {
+      const auto corners = input.mesh.elements.corners(e);
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (corners[k] != vertex) continue;
+        const Vec3 b = positions[corners[(k + 1) % 3]], c = positions[corners[(k + 2) % 3]];
+        triangles.push_back({at, {b.x, b.y}, {c.x, c.y}});
+      }
+    }
+    return triangles;
+  }
+  static double area(const Corners& t) { return 0.5 * ((t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[2].x - t[0].x) * (t[1].y - t[0].y)); }
+  static double side(const Corners& t, int k) {
+    return std::hypot(t[static_cast<std::size_t>((k + 1) % 3)].x - t[static_cast<std::size_t>(k)].x,
+                      t[static_cast<std::size_t>((k + 1) % 3)].y - t[static_cast<std::size_t>(k)].y);
+  }
+  static double mean_ratio(const Corners& t) {
+    const double a = side(t, 0), b = side(t, 1), c = side(t, 2);
+    return 4 * std::sqrt(3.0) * area(t) / (a * a + b * b + c * c);
+  }
+  static double min_angle(const Corners& t) {
+    const double a = side(t, 0), b = side(t, 1), c = side(t, 2);
+    const auto opposite = [](double x, double y, double z) { return std::acos((y * y + z * z - x * x) / (2 * y * z)); };
+    return std::copysign(3 / M_PI * std::min({opposite(a, b, c), opposite(b, c, a), opposite(c, a, b)}), area(t));
+  }
+};
+
+/// Where a place stands in the order: of the first numbers the greater is the better, among equals the second.
+using Worth = std::pair<int, double>;
+
+using SecondAim = std::function<double(const std::vector<Plain::Corners>&, Point)>;
+
+Worth worth(const Plain& mesh, Index vertex, Point at, double threshold, bool inclusive, const SecondAim& second) {
+  const auto star = mesh.star(vertex, at);
+  double least = INFINITY;
+  for (const auto& triangle : star) least = std::min(least, Plain::mean_ratio(triangle));
+  if (inclusive ? least >= threshold : least > threshold) return {1, second(star, at)};
+  return {0, least};
+}
+
+/// The paper's Algorithm 2 over that order; the best place and whether it is another one.
+Point best_place(const Plain& mesh, Index vertex, const std::function<Worth(Point)>& worth_at) {
+  const Point here{mesh.positions[vertex].x, mesh.positions[vertex].y};
+  Point low{INFINITY, INFINITY}, high{-INFINITY, -INFINITY};
+  for (const auto& triangle : mesh.star(vertex, here))
+    for (std::size_t k = 1; k < 3; ++k) {
+      low = {std::min(low.x, triangle[k].x), std::min(low.y, triangle[k].y)};
+      high = {std::max(high.x, triangle[k].x), std::max(high.y, triangle[k].y)};
+    }
+  Point best = here;
+  Worth most = worth_at(here);
+  double omega = 0.5;
+  for (int level = 0; level < 3; ++level) {
+    const Point centre = best;
+    for (int i = 0; i < 8; ++i)
+      for (int j = 0; j < 8; ++j) {
+        const Point p{centre.x + omega * (high.x - low.x) * (i / 7.0 - 0.5), centre.y + omega * (high.y - low.y) * (j / 7.0 - 0.5)};
+        if (const Worth w = worth_at(p); w > most) {
+          most = w;
+          best = p;
+        }
+      }
+    omega *= 2.0 / 7.0;
+  }
+  return best;
+}
+
+/// Compares the search with the one above for every free vertex without inverted elements; returns how many had a best place beyond the
+/// threshold, and below.
+std::pair<int, int> compare(const InputMesh& mesh, const Aims& aims, const SecondAim& second) {
+  const Plain plain{mesh, mesh.mesh.positions};
+  const CombinedSearch search(mesh, aims, {});
+  Star<double> room;
+  std::pair<int, int> counts{};
+  for (Index v = 0; v < mesh.mesh.vertex_count(); ++v) {
+    if (mesh.topology.boundary()[v] != 0) continue;
+    bool tangled = false;
+    for (const auto& triangle : plain.star(v, {mesh.mesh.positions[v].x, mesh.mesh.positions[v].y}))
+      tangled |= Plain::area(triangle) <= 0.0;
+    if (tangled) continue;
+    const auto worth_at = [&](Point p) { return worth(plain, v, p, aims.threshold, aims.raise_mean(), second); };
+    const Point expected = best_place(plain, v, worth_at);
+    const Vec3 here = mesh.mesh.positions[v];
+    const Vec3 found = search.target(mesh.mesh.positions, v, room).value_or(here);
+    EXPECT_NEAR(found.x, expected.x, 1e-9) << v;
+    EXPECT_NEAR(found.y, expected.y, 1e-9) << v;
+    ++(worth_at(expected).first == 1 ? counts.first : counts.second);
+  }
+  return counts;
+}
+
+TEST(CombinedSearch, FindsTheBestInTheOrderOfTheTwoAims) {
+  const auto mesh = input(lattice(12, 0.35, 5));
+  const auto least_angle = [](const std::vector<Plain::Corners>& star, Point) {
+    double least = INFINITY;
+    for (const auto& triangle : star) least = std::min(least, Plain::min_angle(triangle));
+    return least;
+  };
+  const auto [beyond, below] = compare(*mesh, aims_of(Metric::MeanRatio, {0.7, Metric::MinAngle}, nullptr), least_angle);
+  EXPECT_GT(beyond, 20);
+  EXPECT_GT(below, 5);
+}
+
+TEST(CombinedSearch, RaisesTheMeanAboveTheFloor) {
+  const auto mesh = input(lattice(12, 0.35, 6));
+  const auto mean = [](const std::vector<Plain::Corners>& star, Point) {
+    double sum = 0.0;
+    for (const auto& triangle : star) sum += Plain::mean_ratio(triangle);
+    return sum / static_cast<double>(star.size());
+  };
+  const auto [beyond, below] = compare(*mesh, raise_mean_above(Metric::MeanRatio, 0.55), mean);
+  EXPECT_GT(beyond, 20);
+  EXPECT_GT(below, 5);
+}
+
+TEST(CombinedSearch, GoesForTheWeightedMeanOfTheNeighbours) {
+  const auto mesh = input(lattice(12, 0.35, 7));
+  const Vec3 point{0.3, 0.4, 0.0};
+  const auto size = std::make_shared<const SizeField>(mesh, SizeFunction{SizeFunction::Kind::Distance, point, {}});
+  const auto density = [&](const std::vector<Plain::Corners>& star, Point at) {
+    double x = 0.0, y = 0.0, weights = 0.0;
+    for (const auto& triangle : star) {  // of each neighbour once: the corner after the vertex
+      const double weight = 1.0 / std::hypot(triangle[1].x - point.x, triangle[1].y - point.y);
+      x += weight * triangle[1].x;
+      y += weight * triangle[1].y;
+      weights += weight;
+    }
+    return -std::hypot(at.x - x / weights, at.y - y / weights);
+  };
+  const auto [beyond, below] = compare(*mesh, aims_of(Metric::MeanRatio, Combination{0.6}, size), density);
+  EXPECT_GT(beyond, 20);
+  EXPECT_GT(below, 5);
+}
+
+TEST(Combined, OneVertexEndsAtTheWeightedMean) {
+  Mesh mesh;  // a hub in a regular hexagon, far to one side of it
+  mesh.positions.push_back({0.45, -0.2, 0.0});
+  for (int k = 0; k < 6; ++k) mesh.positions.push_back({std::cos(k * M_PI / 3), std::sin(k * M_PI / 3), 0.0});
+  for (Index k = 0; k < 6; ++k) testing::add(mesh, {0, k + 1, (k + 1) % 6 + 1});
+  const auto hexagon = input(std::move(mesh));
+  for (const auto& [kind, sign] : {std::pair{SizeFunction::Kind::Distance, -1.0}, {SizeFunction::Kind::InverseDistance, 1.0}}) {
+    RunParameters parameters = combined(0.05, SizeFunction{kind, {3.0, 1.0, 0.0}, {}});
+    parameters.search.levels = 9;
+    auto run = make_run(hexagon, parameters);
+    Progress progress;
+    run.iterate(5, progress);
+    double x = 0.0, y = 0.0, weights = 0.0;
+    for (int k = 0; k < 6; ++k) {
+      const double px = std::cos(k * M_PI / 3), py = std::sin(k * M_PI / 3);
+      const double weight = std::pow(std::hypot(px - 3.0, py - 1.0), sign);
+      x += weight * px;
+      y += weight * py;
+      weights += weight;
+    }
+    EXPECT_NEAR(run.positions()[0].x, x / weights, 1e-5);
+    EXPECT_NEAR(run.positions()[0].y, y / weights, 1e-5);
+  }
+}
+
+std::vector<RunParameters> kinds_of_combination() {
+  return {combined(0.6, Metric::ScaledJacobian), combined(0.5, SizeFunction{}),
+          combined(0.6, SizeFunction{SizeFunction::Kind::InverseDistance, {0.2, 0.7, 0.0}, {}})};
+}
+
+TEST(Combined, NeitherThreadsNorStepsChangeABit) {
+  for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals, Cells::Mixed})
+    for (const RunParameters& parameters : kinds_of_combination()) {
+      const auto mesh = input(lattice(12, 0.35, 8, cells));
+      auto whole = make_run(mesh, parameters), threaded = make_run(mesh, parameters, 3), stepped = make_run(mesh, parameters);
+      Progress progress;
+      whole.iterate(3, progress);
+      threaded.iterate(3, progress);
+      while (stepped.moment().iteration < 3) stepped.step(stepped.moment().visits < 20 ? StepUnit::Vertex : StepUnit::Class, progress);
+      EXPECT_TRUE(same_bits(whole.positions(), threaded.positions()));
+      EXPECT_TRUE(same_bits(whole.positions(), stepped.positions()));
+      EXPECT_FALSE(same_bits(whole.positions(), mesh->mesh.positions));
+    }
+}
+
+TEST(Combined, NoStarFallsBelowTheThresholdNorGetsWorseThere) {
+  for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals, Cells::Mixed})
+    for (const RunParameters& parameters : kinds_of_combination()) {
+      const auto mesh = input(lattice(10, 0.45, 9, cells));
+      auto run = make_run(mesh, parameters);
+      Progress progress;
+      const double threshold = parameters.combination->threshold;
+      const auto quality = [&](Index v) {
+        return vertex_quality(mesh->quality_context(), mesh->topology, run.positions(), run.parameters().metric, v);
+      };
+      const auto jacobian = [&](Index v) {
+        double least = INFINITY;
+        for (const Incidence& at : mesh->topology.star(v))
+          least = std::min(least,
+                           smallest_jacobian(mesh->quality_context(), run.positions(), at.element) / mesh->reference_measure[at.element]);
+        return least;
+      };
+      while (run.moment().iteration < 2) {
+        const Index v = run.colouring().order[run.moment().visits];
+        const Vec3 here = run.positions()[v];
+        const double before = quality(v), jacobian_before = jacobian(v);
+        run.step(StepUnit::Vertex, progress);
+        if (run.positions()[v] == here) continue;
+        if (jacobian_before <= 0.0) {
+          EXPECT_GT(jacobian(v), jacobian_before);
+        } else {
+          EXPECT_GT(jacobian(v), 0.0);
+          EXPECT_GT(quality(v), std::min(before, threshold));
+        }
+      }
+      for (Index v = 0; v < mesh->mesh.vertex_count(); ++v) {
+        if (run.fixed()[v] == 0) continue;
+        EXPECT_EQ(std::memcmp(&run.positions()[v], &mesh->mesh.positions[v], sizeof(Vec3)), 0);
+      }
+    }
+}
+
+TEST(Combined, RefusesWhatCannotBe) {
+  const auto triangles = input(lattice(4, 0.1, 1)), quadrilaterals = input(lattice(4, 0.1, 1, Cells::Quadrilaterals));
+  const auto refused = [](const std::shared_ptr<const InputMesh>& mesh, const RunParameters& parameters) {
+    EXPECT_THROW((void)make_run(mesh, parameters), UsageError);
+  };
+  refused(triangles, combined(0.0, Metric::MinAngle));
+  refused(triangles, combined(1.0, Metric::MinAngle));
+  refused(quadrilaterals, combined(0.7, Metric::MinAngle));
+  refused(triangles, combined(0.7, SizeFunction{SizeFunction::Kind::Distance, {NAN, 0, 0}, {}}));
+  RunParameters both = combined(0.7, SizeFunction{});
+  both.then_mean.emplace();
+  refused(triangles, both);
+}
+
+TEST(Combination, IsWrittenAsItIsRead) {
+  for (const char* text : {"mean-ratio:0.7:density", "min-angle:0.1:radius-ratio"}) {
+    const auto [metric, combination] = parse_combination(text);
+    EXPECT_EQ(to_text(metric, combination), text);
+  }
+  for (const char* text : {"constant", "h1:1.5,-2", "h2:0.1,1e-07,3", "field:depth below: sea"})
+    EXPECT_EQ(to_text(parse_size_function(text)), text);
+  const auto [metric, combination] = parse_combination("mean-ratio:0.7:density", "h2:1,2");
+  EXPECT_EQ(*combination.size(), (SizeFunction{SizeFunction::Kind::InverseDistance, {1, 2, 0}, {}}));
+  EXPECT_EQ(phrase(metric, combination), "mean-ratio > 0.7 · density h2");
+  for (const char* text : {"", "mean-ratio", "mean-ratio:0.7", "mean-ratio:x:density", "mean-ratio:0:density", "mean-ratio:nan:density",
+                           "beauty:0.7:density", "mean-ratio:0.7:beauty", "mean-ratio:0.7:density:h1"})
+    EXPECT_THROW((void)parse_combination(text), UsageError) << text;
+  for (const char* text : {"h1", "h1:", "h1:1", "h1:1,2,3,4", "h1:1,x", "h1:inf,0", "h3:1,2", "field:", "constant:1"})
+    EXPECT_THROW((void)parse_size_function(text), UsageError) << text;
+  EXPECT_THROW((void)parse_combination("mean-ratio:0.7:min-angle", "constant"), UsageError);
+}
+
+}  // namespace
+}  // namespace dmoscope

@@ -181,4 +181,25 @@ Drawing draw(const LinePlot& plot) {
   return drawing;
 }
 
+Drawing stacked(Drawing upper, const Drawing& lower) {
+  const double down = upper.height;
+  const auto take = [down](auto& list, const auto& more, const auto& move) {
+    for (auto item : more) {
+      move(item, down);
+      list.push_back(std::move(item));
+    }
+  };
+  const auto line = [](Drawing::Line& l, double y) {
+    for (Drawing::Point& p : l.points) p.y += y;
+  };
+  take(upper.rules, lower.rules, line);
+  take(upper.lines, lower.lines, line);
+  take(upper.boxes, lower.boxes, [](Drawing::Box& b, double y) { b.from.y += y, b.to.y += y; });
+  take(upper.discs, lower.discs, [](Drawing::Disc& d, double y) { d.centre.y += y; });
+  take(upper.labels, lower.labels, [](Drawing::Label& l, double y) { l.at.y += y; });
+  upper.width = std::max(upper.width, lower.width);
+  upper.height += lower.height;
+  return upper;
+}
+
 }  // namespace dmoscope::app

@@ -41,4 +41,7 @@ struct LinePlot {
 
 [[nodiscard]] Drawing draw(const LinePlot& plot);
 
+/// One drawing above the other.
+[[nodiscard]] Drawing stacked(Drawing upper, const Drawing& lower);
+
 }  // namespace dmoscope::app

@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 #include <sstream>
+#include <string>
 #include <system_error>
 #include <vector>
 
@@ -12,6 +13,7 @@
 
 #include "app/console.h"
 #include "app/man_page.h"
+#include "app/text.h"
 #include "app/verbs/verbs.h"
 #include "core/base/error.h"
 
@@ -68,6 +70,8 @@ int run(int argc, char** argv) {
 
   Action action = [&files] { return open_window(files); };
   add_smooth(app, action);
+  const std::string command_line = shell_line(std::vector<std::string>(argv, argv + argc));
+  add_compare(app, action, command_line);
   add_quality(app, action);
   add_render(app, action);
   add_convert(app, action);

@@ -30,6 +30,11 @@ template <class Table>
   }
   return names;
 }
+/// Lines of cells under a head, each column as wide as its widest cell, two blanks apart. `alignment`: an 'l' or an 'r' a column.
+[[nodiscard]] std::string text_table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
+                                     std::string_view alignment);
+/// Words as a line that a shell takes apart into the same words.
+[[nodiscard]] std::string shell_line(const std::vector<std::string>& words);
 /// "1 element", "2 elements".
 [[nodiscard]] std::string counted(std::uint64_t count, std::string_view singular, std::string_view plural);
 

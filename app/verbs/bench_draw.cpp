@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "app/console.h"
-#include "app/text.h"
 #include "app/machine.h"
+#include "app/text.h"
 #include "core/base/error.h"
 #include "core/mesh/generate.h"
 

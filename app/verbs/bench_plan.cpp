@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "app/acceleration.h"
-#include "app/text.h"
 #include "app/machine.h"
+#include "app/text.h"
 #include "core/base/error.h"
 
 namespace dmoscope::app {

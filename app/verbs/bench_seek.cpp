@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "app/console.h"
-#include "app/text.h"
 #include "app/machine.h"
+#include "app/text.h"
 #include "core/base/error.h"
 
 #ifdef DMOSCOPE_HAVE_GUI

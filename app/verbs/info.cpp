@@ -9,8 +9,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/text.h"
 #include "app/machine.h"
+#include "app/text.h"
 #include "app/verbs/verbs.h"
 #include "core/base/error.h"
 #include "core/io/mesh_io.h"

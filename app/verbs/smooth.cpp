@@ -14,8 +14,8 @@
 #include "app/targets.h"
 #include "app/text.h"
 #include "app/verbs/aims_report.h"
+#include "app/verbs/goal_options.h"
 #include "app/verbs/input_report.h"
-#include "app/verbs/option_checks.h"
 #include "app/verbs/run_options.h"
 #include "app/verbs/verbs.h"
 #include "core/io/mesh_io.h"
@@ -27,14 +27,10 @@
 namespace dmoscope::app {
 namespace {
 
-constexpr std::uint64_t kMostIterations = 1'000'000'000;
-
 struct Options {
   std::filesystem::path input, output, stats;
   RunOptions run;
-  std::uint64_t iterations = 20;
-  bool until_converged = false;
-  ConvergenceLimits limits;
+  GoalOptions goal;
   bool json = false;
 };
 
@@ -176,7 +172,7 @@ int smooth(const Options& options) {
   if (run.size_field() && !run.size_field()->note().empty()) warn(run.size_field()->note());
   const auto smooth_all = [&] {  // from the input on: without history nothing else is left after a failure
     const Outcome done =
-        options.until_converged ? run.until_converged(options.limits, progress) : run.iterate(options.iterations, progress);
+        options.goal.until_converged ? run.until_converged(options.goal.limits, progress) : run.iterate(options.goal.iterations, progress);
     run.settle();
     return done;
   };
@@ -194,7 +190,7 @@ int smooth(const Options& options) {
   } else {
     print_summary(result);
   }
-  const bool reached = !options.until_converged || outcome.reason != StopReason::IterationLimit;
+  const bool reached = !options.goal.until_converged || outcome.reason != StopReason::IterationLimit;
   if (!reached) complain(fmt::format("not converged: {}", outcome.sentence()));
   return reached ? 0 : 1;
 }
@@ -207,22 +203,7 @@ void add_smooth(CLI::App& app, Action& action) {
   verb->add_option("IN", options->input, "Mesh to read")->required();
   verb->add_option("-o,--output", options->output, "Where to write it; the format is the extension's")->required()->type_name("OUT");
   add_run_options(*verb, options->run);
-  auto* iterations = verb->add_option("--iterations", options->iterations, "How many iterations")
-                         ->transform(whole_number(0, kMostIterations))
-                         ->type_name("N")
-                         ->capture_default_str();
-  auto* until = verb->add_flag("--until-converged", options->until_converged, "Go on until no vertex moves or the minimum no longer rises");
-  until->excludes(iterations);
-  verb->add_option("--patience", options->limits.patience, "Iterations without a rise of 1e-6 that count as converged")
-      ->needs(until)
-      ->transform(whole_number(1, kMostIterations))
-      ->type_name("N")
-      ->capture_default_str();
-  verb->add_option("--max-iterations", options->limits.max_iterations, "Stop there with exit code 1 when not converged")
-      ->needs(until)
-      ->transform(whole_number(0, kMostIterations))
-      ->type_name("N")
-      ->capture_default_str();
+  add_goal_options(*verb, options->goal);
   verb->add_option("--stats", options->stats, "Write the statistics of every iteration; row 0 is the input")->type_name("FILE.csv");
   verb->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
   verb->callback([options, &action] { action = [options] { return smooth(*options); }; });

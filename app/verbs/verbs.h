@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace CLI {
@@ -15,6 +16,8 @@ namespace dmoscope::app {
 using Action = std::function<int()>;
 
 void add_smooth(CLI::App& app, Action& action);
+/// `command_line`: as it was given, for its report.
+void add_compare(CLI::App& app, Action& action, const std::string& command_line);
 void add_quality(CLI::App& app, Action& action);
 void add_render(CLI::App& app, Action& action);
 void add_convert(CLI::App& app, Action& action);

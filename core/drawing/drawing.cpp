@@ -5,26 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "core/base/xml_text.h"
+
 namespace dmoscope {
 namespace {
 
 std::string hex(DrawingColour c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (static_cast<unsigned char>(c) >= ' ') {
-      out += c;
-    }
-  }
-  return out;
-}
 
 std::string_view name(Drawing::Anchor anchor) {
   if (anchor == Drawing::Anchor::Start) return "start";
@@ -33,7 +19,7 @@ std::string_view name(Drawing::Anchor anchor) {
 
 /// The end of an element, around its title where it has one.
 std::string close(std::string_view element, const std::string& title) {
-  return title.empty() ? "/>\n" : fmt::format("><title>{}</title></{}>\n", escaped(title), element);
+  return title.empty() ? "/>\n" : fmt::format("><title>{}</title></{}>\n", xml_escaped(title), element);
 }
 
 void add_lines(std::string& svg, const std::vector<Drawing::Line>& lines) {
@@ -70,7 +56,7 @@ std::string svg_of(const Drawing& drawing) {
   }
   for (const Drawing::Label& label : drawing.labels) {
     fmt::format_to(out, "<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{:g}\" fill=\"{}\" text-anchor=\"{}\">{}</text>\n", label.at.x,
-                   label.at.y, label.size, hex(label.colour), name(label.anchor), escaped(label.text));
+                   label.at.y, label.size, hex(label.colour), name(label.anchor), xml_escaped(label.text));
   }
   return svg + "</svg>\n";
 }

@@ -46,14 +46,17 @@ void require_backend(Backend wanted, const Acceleration& acceleration) {
   if (wanted == Backend::Cuda && !acceleration.accelerator) refuse(acceleration.reason);
 }
 
-Executor make_executor(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task) {
+void require_executable(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task) {
   require_possible(task);
+  if (wanted != Backend::Cuda) return;
+  if (const std::string why_not = obstacle(acceleration, task); !why_not.empty()) refuse(why_not);
+}
+
+Executor make_executor(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task) {
+  require_executable(wanted, acceleration, task);
   if (wanted == Backend::Cpu) return on_cpu(task, {});
+  if (wanted == Backend::Cuda) return on_device(*acceleration.accelerator, task);
   const std::string why_not = obstacle(acceleration, task);
-  if (wanted == Backend::Cuda) {
-    if (!why_not.empty()) refuse(why_not);
-    return on_device(*acceleration.accelerator, task);
-  }
   if (!why_not.empty()) return on_cpu(task, fmt::format("no {}: {}", name(Backend::Cuda), why_not));
   try {
     return on_device(*acceleration.accelerator, task);

@@ -19,6 +19,9 @@ struct Executor {
 /// Throws UsageError with the reason when `wanted` names a backend that is not there.
 void require_backend(Backend wanted, const Acceleration& acceleration);
 
+/// Throws the UsageError that make_executor would throw. Of the task's pointers only `input` is read.
+void require_executable(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task);
+
 /// Throws UsageError as make_smoother does, and with the reason when `wanted` cannot be; DeviceError when `wanted` fails. For
 /// Backend::Auto a device's failure is no error: the CPU does the work, with a warning.
 [[nodiscard]] Executor make_executor(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task);

@@ -143,7 +143,7 @@ TEST(PlotSvg, TextIsEscaped) {
   drawing.labels.push_back({{1, 1}, "a < b & \"c\" > d", 12, {}, Drawing::Anchor::Start});
   drawing.lines.push_back({{{0, 0}, {1, 1}}, {}, 1.0, 0.0, "x<y"});
   const std::string svg = svg_of(drawing);
-  EXPECT_NE(svg.find("a &lt; b &amp; \"c\" &gt; d"), std::string::npos);
+  EXPECT_NE(svg.find("a &lt; b &amp; &quot;c&quot; &gt; d"), std::string::npos);
   EXPECT_NE(svg.find("<title>x&lt;y</title>"), std::string::npos);
 }
 

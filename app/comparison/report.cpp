@@ -1,0 +1,256 @@
+#include "app/comparison/report.h"
+
+#include <cmath>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "app/machine.h"
+#include "app/pages/page.h"
+#include "core/session/csv.h"
+
+namespace dmoscope::app {
+
+namespace {
+
+/// What a person compares runs by; the CSV has all columns.
+std::vector<const RunColumn*> shown_columns() {
+  std::vector<const RunColumn*> columns;
+  for (const char* name : {"run", "backend", "iterations", "min_quality", "movable_minimum", "mean_quality", "p1", "p5", "inverted",
+                           "seconds", "vertices_per_second"})
+    columns.push_back(&run_column(name));
+  return columns;
+}
+
+std::string spread_sentence(const OrderSpread& s) {
+  return fmt::format("{}: minimum {} to {}; largest difference of the sorted qualities {}, at rank {} of {}; mean difference {}", s.name,
+                     brief(s.lowest_minimum), brief(s.highest_minimum), brief(s.largest_difference), s.rank + 1, s.elements,
+                     brief(s.mean_difference));
+}
+
+std::vector<const JudgedRun*> every_run(const Comparison& comparison) {
+  std::vector<const JudgedRun*> runs;
+  for (const JudgedRun& run : comparison.runs) runs.push_back(&run);
+  for (const JudgedRun& run : comparison.shuffled) runs.push_back(&run);
+  return runs;
+}
+
+/// The input as a row beside the runs.
+RunRow input_row(const Comparison& comparison) {
+  RunRow row;
+  row.title = "input";
+  const Statistics& s = comparison.runs.front().before();
+  row.minimum = s.minimum;
+  row.movable_minimum = s.movable_minimum;
+  row.mean = s.mean;
+  row.inverted = s.inverted;
+  row.p1 = comparison.input_percentiles.p1;
+  row.p5 = comparison.input_percentiles.p5;
+  row.seconds = RunRow::kUnknown;
+  return row;
+}
+
+Json json_of(const JudgedRun& run) {
+  const RunParameters& p = run.parameters;
+  Json object{{"run", run.name},
+              {"method", p.method},
+              {"metric", info(p.metric).name},
+              {"backend", run.row.backend},
+              {"backend_reason", run.backend_reason},
+              {"order", p.order.seed ? fmt::format("shuffle:{}", *p.order.seed) : "natural"},
+              {"iterations", run.row.iterations},
+              {"converged", run.outcome.reason != StopReason::IterationLimit},
+              {"outcome", run.outcome.sentence()}};
+  for (const RunColumn& column : run_columns()) {
+    if (column.is_word() || object.contains(column.name)) continue;
+    const double value = std::get<double>(cell(run.row, column));
+    object[std::string(column.name)] = column.is_count ? Json(static_cast<std::uint64_t>(value)) : json_number(value);
+  }
+  return object;
+}
+
+std::vector<std::vector<PageCell>> page_rows(const Comparison& comparison) {
+  std::vector<RunRow> rows{input_row(comparison)};
+  for (const JudgedRun& run : comparison.runs) rows.push_back(run.row);
+  std::vector<std::vector<PageCell>> cells;
+  for (const RunRow& row : rows) {
+    std::vector<PageCell>& line = cells.emplace_back();
+    for (const RunColumn* column : shown_columns()) {
+      std::string text = cell_text(row, *column);
+      if (column->is_word()) {
+        line.push_back({text, text});
+      } else {
+        line.push_back(number_cell(std::move(text), std::get<double>(cell(row, *column))));
+      }
+    }
+  }
+  return cells;
+}
+
+void add_orders(Page& page, const Comparison& comparison) {
+  if (comparison.orders.empty()) return;
+  page.heading("Robustness against the order of the vertices");
+  page.paragraph(
+      "Every run was done again with its vertices shuffled. The qualities of all elements are sorted, the worst first; the "
+      "difference is between the highest and the lowest of these curves at one rank.");
+  std::vector<std::vector<PageCell>> rows;
+  for (const OrderSpread& s : comparison.orders) {
+    rows.push_back({{s.name, s.name},
+                    number_cell(fmt::format("{}", s.orders), static_cast<double>(s.orders)),
+                    number_cell(brief(s.lowest_minimum), s.lowest_minimum),
+                    number_cell(brief(s.highest_minimum), s.highest_minimum),
+                    number_cell(brief(s.largest_difference), s.largest_difference),
+                    number_cell(fmt::format("{} of {}", s.rank + 1, s.elements), static_cast<double>(s.rank)),
+                    number_cell(brief(s.mean_difference), s.mean_difference)});
+  }
+  page.table({"run", "orders", "lowest minimum", "highest minimum", "largest difference", "at rank", "mean difference"}, {}, rows);
+}
+
+void add_pictures(Page& page, const Comparison& comparison, const Progress& progress) {
+  std::vector<std::pair<std::string, MeshPicture>> pictures;
+  const auto add = [&](std::string caption, std::span<const Vec3> positions) {
+    pictures.emplace_back(std::move(caption), picture_of_mesh(*comparison.input, positions, comparison.judge, progress));
+  };
+  add(fmt::format("input, minimum {}", brief(comparison.runs.front().before().minimum)), comparison.input->mesh.positions);
+  for (const JudgedRun& run : comparison.runs) add(fmt::format("{}, minimum {}", run.name, brief(run.row.minimum)), run.positions);
+  page.heading("Pictures");
+  page.pictures(pictures, info(comparison.judge).name);
+}
+
+void add_settings(Page& page, const Comparison& comparison, const ComparisonFacts& facts) {
+  const CompareOptions& options = facts.options;
+  const SearchParameters& search = comparison.runs.front().parameters.search;
+  const Mesh& mesh = comparison.input->mesh;
+  std::vector<std::pair<std::string, std::string>> list{
+      {"command", facts.command_line},
+      {"mesh", fmt::format("{}: {}, {}, {} free to move", options.file.string(), counted(mesh.vertex_count(), "vertex", "vertices"),
+                           counted(mesh.elements.size(), "element", "elements"), comparison.free)},
+      {"goal", goal_sentence(options.goal)},
+      {"judged by", fmt::format("{}: {}", info(comparison.judge).name, info(comparison.judge).doc)},
+      {"search of dmo", fmt::format("{0} x {0} candidates, {1}, first grid {2:g} of the star's box, in {3}", search.grid_points,
+                                    counted(search.levels, "level", "levels"), search.omega, options.run.precision)},
+      {"order", options.run.order + (options.shuffles > 0 ? fmt::format(", and {} shuffled ones", options.shuffles) : "")}};
+  if (!options.run.fix.empty()) list.emplace_back("kept where they are", fmt::format("{}", fmt::join(options.run.fix, "; ")));
+  for (auto& fact : machine_facts(facts.threads)) list.push_back(std::move(fact));
+  page.heading("Settings");
+  page.facts(list);
+  for (const std::string& warning : facts.warnings) page.paragraph("Note: " + warning);
+}
+
+}  // namespace
+
+std::string goal_sentence(const Goal& goal) {
+  if (!goal.until_converged) return counted(goal.iterations, "iteration", "iterations");
+  return fmt::format("until converged: no vertex moves, or no rise of the minimum by {:g} in {}; at most {}", goal.until_converged->rise,
+                     counted(goal.until_converged->patience, "iteration", "iterations"), goal.until_converged->max_iterations);
+}
+
+std::vector<std::pair<std::string, std::string>> machine_facts(unsigned threads) {
+  return {{"program", fmt::format("dmoscope {}, commit {}; {}, {}", DMOSCOPE_VERSION, commit(), compiler(), DMOSCOPE_BUILD_TYPE)},
+          {"machine",
+           fmt::format("{}, {}; {} used", processor(),
+                       counted(std::max(1U, std::thread::hardware_concurrency()), "processor thread", "processor threads"), threads)},
+          {"date", date_and_time()}};
+}
+
+PageCell number_cell(std::string text, double value) {
+  return {std::move(text), std::isfinite(value) ? fmt::format("{}", value) : std::string(), true};
+}
+
+std::string text_of(const Comparison& comparison) {
+  const auto columns = shown_columns();
+  std::vector<std::string> head;
+  std::string alignment;
+  for (const RunColumn* column : columns) {
+    head.emplace_back(column->title);
+    alignment += column->is_word() ? 'l' : 'r';
+  }
+  std::vector<std::vector<std::string>> rows;
+  const auto add = [&](const RunRow& row) {
+    auto& cells = rows.emplace_back();
+    for (const RunColumn* column : columns) cells.push_back(cell_text(row, *column));
+  };
+  add(input_row(comparison));
+  for (const JudgedRun& run : comparison.runs) add(run.row);
+  const Mesh& mesh = comparison.input->mesh;
+  std::string text = fmt::format("{}: {}, {}, {} free; qualities by {}\n\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
+                                 counted(mesh.elements.size(), "element", "elements"), comparison.free, info(comparison.judge).name);
+  text += text_table(head, rows, alignment);
+  if (!comparison.orders.empty())
+    text += fmt::format("\n{}, the natural one included:\n", counted(comparison.orders.front().orders, "order", "orders"));
+  for (const OrderSpread& spread : comparison.orders) text += "  " + spread_sentence(spread) + '\n';
+  for (const LeftOut& left : comparison.left_out) text += fmt::format("left out: {}: {}\n", left.name, left.reason);
+  return text;
+}
+
+Json json_of(const Comparison& comparison, const ComparisonFacts& facts) {
+  const Mesh& mesh = comparison.input->mesh;
+  const Statistics& before = comparison.runs.front().before();
+  Json runs = Json::array(), orders = Json::array(), left = Json::array();
+  for (const JudgedRun* run : every_run(comparison)) runs.push_back(json_of(*run));
+  for (const OrderSpread& s : comparison.orders) {
+    orders.push_back({{"run", s.name},
+                      {"orders", s.orders},
+                      {"lowest_minimum", json_number(s.lowest_minimum)},
+                      {"highest_minimum", json_number(s.highest_minimum)},
+                      {"largest_difference", json_number(s.largest_difference)},
+                      {"rank", s.rank},
+                      {"mean_difference", json_number(s.mean_difference)}});
+  }
+  for (const LeftOut& one : comparison.left_out) left.push_back({{"run", one.name}, {"reason", one.reason}});
+  return {{"input", facts.options.file.string()},
+          {"vertices", mesh.vertex_count()},
+          {"elements", mesh.elements.size()},
+          {"free", comparison.free},
+          {"judged_by", info(comparison.judge).name},
+          {"goal", goal_sentence(facts.options.goal)},
+          {"threads", facts.threads},
+          {"before",
+           {{"min_quality", json_number(before.minimum)},
+            {"movable_minimum", json_number(before.movable_minimum)},
+            {"mean_quality", json_number(before.mean)},
+            {"inverted", before.inverted}}},
+          {"runs", std::move(runs)},
+          {"orders", std::move(orders)},
+          {"left_out", std::move(left)},
+          {"warnings", facts.warnings}};
+}
+
+std::string statistics_csv(const Comparison& comparison) {
+  std::vector<std::string> titles;
+  std::vector<const std::vector<IterationRecord>*> records;
+  for (const JudgedRun* run : every_run(comparison)) {
+    titles.push_back(run->name);
+    records.push_back(&run->records);
+  }
+  return stats_csv(titles, records);
+}
+
+std::string table_csv(const Comparison& comparison) {
+  std::vector<RunRow> rows;
+  for (const JudgedRun* run : every_run(comparison)) rows.push_back(run->row);
+  return run_table_csv(rows);
+}
+
+std::string html_of(const Comparison& comparison, const ComparisonFacts& facts, const Progress& progress) {
+  Page page(fmt::format("{}: {} compared", comparison.input->mesh.name, counted(comparison.runs.size(), "run", "runs")));
+  page.paragraph(fmt::format("{}. All qualities are by {}: 1 is the ideal element, 0 or less an inverted one. A click on a head sorts.",
+                             goal_sentence(facts.options.goal), info(comparison.judge).name));
+  std::vector<std::string> head, hints;
+  for (const RunColumn* column : shown_columns()) {
+    head.emplace_back(column->title);
+    hints.emplace_back(column->doc);
+  }
+  page.table(head, hints, page_rows(comparison));
+  for (const LeftOut& left : comparison.left_out) page.paragraph(fmt::format("Left out: {}: {}", left.name, left.reason));
+  page.heading("Convergence");
+  page.plot(draw(convergence_plot(comparison)));
+  page.heading("Sorted qualities");
+  page.plot(draw(sorted_plot(comparison)));
+  add_orders(page, comparison);
+  add_pictures(page, comparison, progress);
+  add_settings(page, comparison, facts);
+  return page.text();
+}
+
+}  // namespace dmoscope::app

@@ -1,0 +1,137 @@
+#include "app/comparison/results.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "app/text.h"
+#include "core/session/summaries.h"
+
+namespace dmoscope::app {
+
+namespace {
+
+constexpr std::size_t kCurvePoints = 1500;
+constexpr std::uint64_t kFewIterations = 100;  // up to so many there is a linear axis, and the input on it
+
+std::vector<float> thinned(std::span<const double> qualities) {
+  return sorted_choice(std::vector<float>(qualities.begin(), qualities.end()), kCurvePoints);
+}
+
+std::vector<double> input_qualities(const InputMesh& input, Metric judge, ThreadPool* pool) {
+  std::vector<double> qualities(input.mesh.elements.size());
+  element_qualities(input.quality_context(), input.mesh.positions, judge, pool, qualities);
+  return qualities;
+}
+
+std::uint64_t free_vertices(const InputMesh& input, const std::vector<Index>& fixed) {
+  std::uint64_t free = 0;
+  for (Index v = 0; v < input.mesh.vertex_count(); ++v) {
+    const bool stays = input.topology.boundary()[v] != 0 || input.topology.star(v).empty() || std::ranges::binary_search(fixed, v);
+    free += stays ? 0 : 1;
+  }
+  return free;
+}
+
+}  // namespace
+
+Comparison run_all(const ComparisonPlan& plan, std::shared_ptr<const InputMesh> input, const Goal& goal, std::uint64_t shuffles,
+                   const Workshop& workshop) {
+  Comparison all;
+  all.input = std::move(input);
+  all.judge = plan.judge;
+  all.free = free_vertices(*all.input, plan.contenders.front().parameters.fixed);
+  all.left_out = plan.left_out;
+  std::vector<double> before = input_qualities(*all.input, plan.judge, workshop.pool.get());
+  all.input_curve = thinned(before);
+  all.input_percentiles = percentiles_of(before);
+  const std::uint64_t count = plan.contenders.size() * (shuffles + 1);
+  std::uint64_t done = 0;
+  const auto run = [&](const std::string& name, const RunParameters& parameters) {
+    workshop.progress.begin(fmt::format("{}, {} of {}:", name, done + 1, count));
+    const Progress::Part part(workshop.progress, done++, count);
+    return run_judged(name, all.input, parameters, plan.judge, goal, workshop);
+  };
+  for (std::size_t k = 0; k < plan.contenders.size(); ++k) {
+    const Contender& contender = plan.contenders[k];
+    OrderCurves orders;
+    const auto take_curve = [&](JudgedRun& judged, bool shuffled) {
+      orders.add(judged.qualities);
+      all.curves.push_back({k, shuffled, thinned(judged.qualities)});
+      judged.qualities = {};
+    };
+    all.runs.push_back(run(contender.name, contender.parameters));
+    take_curve(all.runs.back(), false);
+    for (std::uint64_t seed = 1; seed <= shuffles; ++seed) {
+      RunParameters parameters = contender.parameters;
+      parameters.order.seed = seed;
+      all.shuffled.push_back(run(fmt::format("{} shuffle:{}", contender.name, seed), parameters));
+      take_curve(all.shuffled.back(), true);
+      all.shuffled.back().positions = {};
+    }
+    if (shuffles > 0) all.orders.push_back(orders.spread(contender.name));
+  }
+  return all;
+}
+
+std::string quality_title(Metric judge) { return fmt::format("quality by {}", info(judge).name); }
+
+PlotSeries curve_series(std::string name, std::span<const float> qualities) {
+  PlotSeries series{.name = std::move(name), .dots = false};
+  const double last = qualities.size() > 1 ? static_cast<double>(qualities.size() - 1) : 1.0;
+  for (std::size_t i = 0; i < qualities.size(); ++i)
+    series.values.push_back(exact(100.0 * static_cast<double>(i) / last, static_cast<double>(qualities[i])));
+  return series;
+}
+
+PlotSeries course_series(std::string name, std::span<const IterationRecord> records) {
+  PlotSeries series{.name = std::move(name), .dots = records.size() <= 31};
+  for (const IterationRecord& record : records)
+    series.values.push_back(exact(static_cast<double>(record.iteration), record.statistics.minimum));
+  return series;
+}
+
+LinePlot convergence_plot(const Comparison& comparison) {
+  LinePlot plot;
+  plot.title = fmt::format("{}: the worst element", comparison.input->mesh.name);
+  plot.x_title = "iteration";
+  plot.y_title = "minimum, " + quality_title(comparison.judge);
+  plot.x_axis = plot.y_axis = AxisKind::Linear;
+  std::uint64_t longest = 0;
+  for (std::size_t k = 0; k < comparison.runs.size(); ++k) {
+    const JudgedRun& run = comparison.runs[k];
+    longest = std::max(longest, run.row.iterations);
+    PlotSeries series = course_series(run.name, run.records);
+    series.colour = k;
+    series.dash = k / 8;
+    plot.series.push_back(std::move(series));
+  }
+  if (longest > kFewIterations) {
+    plot.x_axis = AxisKind::Logarithmic;
+    plot.note = "the input, iteration 0, is off the axis";
+  }
+  return plot;
+}
+
+LinePlot sorted_plot(const Comparison& comparison) {
+  LinePlot plot;
+  plot.title = fmt::format("{}: all elements, worst first", comparison.input->mesh.name);
+  plot.x_title = "share of the elements, %";
+  plot.y_title = quality_title(comparison.judge);
+  plot.x_axis = plot.y_axis = AxisKind::Linear;
+  plot.series.push_back(curve_series("input", comparison.input_curve));
+  plot.series.back().muted = true;
+  for (const SortedCurve& curve : comparison.curves) {
+    const std::size_t others = comparison.shuffled.size() / comparison.runs.size();
+    std::string name = comparison.runs[curve.run].name;
+    if (others > 0) name += ", " + counted(others + 1, "order", "orders");
+    PlotSeries series = curve_series(curve.shuffled ? std::string() : std::move(name), curve.qualities);
+    series.colour = curve.run;
+    series.dash = curve.run / 8;
+    if (others > 0) series.width = 0.8;
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+}  // namespace dmoscope::app

@@ -1,0 +1,49 @@
+#include "app/judged_run.h"
+
+#include <algorithm>
+
+#include "core/session/carry_on.h"
+
+namespace dmoscope::app {
+
+JudgedRun run_judged(std::string name, std::shared_ptr<const InputMesh> input, RunParameters parameters, Metric judge, const Goal& goal,
+                     const Workshop& workshop) {
+  require_defined(judge, input->mesh);
+  ThreadPool* const pool = workshop.pool.get();
+  const QualityContext context = input->quality_context();
+  const bool own = judge == parameters.metric;
+  Run run(input, std::move(parameters), workshop.pool, 0, workshop.acceleration);  // no past positions: nobody asks for them here
+  if (std::string warning = run.take_warning(); !warning.empty()) workshop.warn(std::move(warning));
+
+  std::vector<Statistics> judged;
+  const auto judge_now = [&](const Run& now) {
+    judged.push_back(compute_statistics(context, now.positions(), judge, now.immovable(), pool));
+  };
+  const auto smooth_all = [&] {  // from the input on: without history nothing else is left after a failure
+    judged.clear();
+    if (!own) judge_now(run);
+    const Run::AfterIteration after = own ? Run::AfterIteration{} : judge_now;
+    Outcome outcome = goal.until_converged ? run.until_converged(*goal.until_converged, workshop.progress, after)
+                                           : run.iterate(goal.iterations, workshop.progress, after);
+    run.settle();
+    return outcome;
+  };
+
+  JudgedRun done;
+  done.outcome = carrying_on(run, smooth_all, workshop.warn);
+  done.name = std::move(name);
+  done.parameters = run.parameters();
+  done.backend_reason = run.backend_reason();
+  done.row = row_of(run, judge, pool);
+  done.row.title = done.name;
+  done.records = run.history().records();
+  for (std::size_t i = 0; i < judged.size(); ++i) done.records[i].statistics = judged[i];
+  done.after = done.records.back().statistics;
+  done.positions.assign(run.positions().begin(), run.positions().end());
+  done.qualities.resize(input->mesh.elements.size());
+  element_qualities(context, done.positions, judge, pool, done.qualities);
+  std::ranges::sort(done.qualities);
+  return done;
+}
+
+}  // namespace dmoscope::app

@@ -1,0 +1,44 @@
+#pragma once
+// Pages of HTML that stand alone: no network, light and dark as the reader's system is, well-formed as XML too.
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "app/mesh_picture.h"
+#include "core/drawing/drawing.h"
+
+namespace dmoscope::app {
+
+/// A cell of a table: what is seen, and what it is sorted by ("" where there is nothing, which comes last). A class of the page's style may
+/// be named: "good", "bad", "dim".
+struct PageCell {
+  std::string text;
+  std::string key{};
+  bool is_number = false;
+  std::string style{};
+};
+
+/// Markup, put together part by part; all text that is given is escaped.
+class Page {
+ public:
+  explicit Page(std::string title) : title_(std::move(title)) {}
+  void heading(std::string_view text, int level = 2);
+  void paragraph(std::string_view text);
+  /// Names and what they are.
+  void facts(const std::vector<std::pair<std::string, std::string>>& facts);
+  /// Its rows can be sorted by a click on a head. `hints`: a line on each head, may be empty.
+  void table(const std::vector<std::string>& head, const std::vector<std::string>& hints, const std::vector<std::vector<PageCell>>& rows);
+  /// The drawing itself, as SVG.
+  void plot(const Drawing& drawing);
+  /// Pictures side by side, each with a caption, above the bar of their colours; of one that is not there, why.
+  void pictures(const std::vector<std::pair<std::string, MeshPicture>>& pictures, std::string_view metric);
+  /// The whole page.
+  [[nodiscard]] std::string text() const;
+
+ private:
+  std::string title_, body_;
+};
+
+}  // namespace dmoscope::app

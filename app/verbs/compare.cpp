@@ -1,0 +1,129 @@
+// dmoscope compare: several runs on one mesh, side by side.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/comparison/report.h"
+#include "app/console.h"
+#include "app/plot_file.h"
+#include "app/targets.h"
+#include "app/verbs/goal_options.h"
+#include "app/verbs/input_report.h"
+#include "app/verbs/option_checks.h"
+#include "app/verbs/verbs.h"
+#include "core/base/error.h"
+#include "core/io/mesh_io.h"
+
+namespace dmoscope::app {
+namespace {
+
+constexpr std::uint64_t kMostShuffles = 1000;
+
+struct Target {
+  std::string_view option;
+  const std::filesystem::path& path;
+};
+
+std::vector<Target> targets_of(const CompareOptions& options) {
+  std::vector<Target> targets;
+  for (const Target& target : {Target{"--stats", options.stats}, Target{"--table", options.table}, Target{"--plot", options.plot},
+                               Target{"--report", options.report}})
+    if (!target.path.empty()) targets.push_back(target);
+  return targets;
+}
+
+/// Everything that can be refused without reading the mesh.
+void refuse_early(const CompareOptions& options) {
+  const std::vector<Target> targets = targets_of(options);
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    require_another_file(targets[i].path, targets[i].option, options.file);
+    for (std::size_t k = 0; k < i; ++k) require_another_file(targets[i].path, targets[i].option, targets[k].path);
+  }
+  if (!options.plot.empty()) require_plot_target(options.plot);
+  if (!options.report.empty() && options.report.extension() != ".html")
+    throw UsageError(fmt::format("{}: reports are written as .html", options.report.string()));
+  for (const Target& target : targets) require_writable(target.path);
+}
+
+void write_files(const Comparison& comparison, const ComparisonFacts& facts, const Progress& progress) {
+  const CompareOptions& options = facts.options;
+  const std::string report = options.report.empty() ? std::string() : html_of(comparison, facts, progress);  // the part that takes long
+  if (!options.stats.empty()) write_file_atomically(options.stats, statistics_csv(comparison));
+  if (!options.table.empty()) write_file_atomically(options.table, table_csv(comparison));
+  if (!options.plot.empty()) write_plot(options.plot, stacked(draw(convergence_plot(comparison)), draw(sorted_plot(comparison))));
+  if (!options.report.empty()) write_file_atomically(options.report, report);
+}
+
+int compare(const CompareOptions& options, const std::string& command_line) {
+  refuse_early(options);
+  ComparisonPlan plan = plan_of(options);
+  Watch watch;
+  Progress& progress = watch.progress();
+  const auto pool = std::make_shared<ThreadPool>(options.run.threads);
+  const auto input = load_input(options.file, Need::Smoothing, {progress, pool.get()});
+  std::vector<std::string> warnings = tell_findings(*input);
+  fit_to_mesh(plan, input, named_vertices(input->mesh, options.run.fix));
+
+  const auto warn = [&warnings](std::string sentence) {
+    complain(sentence);
+    warnings.push_back(std::move(sentence));
+  };
+  const Comparison comparison = run_all(plan, input, options.goal, options.shuffles, {pool, plan.acceleration, progress, warn});
+  const ComparisonFacts facts{options, pool->size(), command_line, std::move(warnings)};
+  write_files(comparison, facts, progress);
+  if (options.json) {
+    print_json(json_of(comparison, facts));
+  } else {
+    fmt::print("{}", text_of(comparison));
+    for (const Target& target : targets_of(options)) fmt::print("wrote {}\n", target.path.string());
+  }
+  bool reached = true;
+  for (const auto* runs : {&comparison.runs, &comparison.shuffled}) {
+    for (const JudgedRun& run : *runs) {
+      if (run.converged_or_done(options.goal)) continue;
+      complain(fmt::format("{}: not converged: {}", run.name, run.outcome.sentence()));
+      reached = false;
+    }
+  }
+  return reached ? 0 : 1;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Action& action, const std::string& command_line) {
+  auto options = std::make_shared<CompareOptions>();
+  auto goal = std::make_shared<GoalOptions>();
+  CLI::App* verb = app.add_subcommand("compare", "Smooth a mesh by several methods or metrics, and compare");
+  verb->add_option("FILE", options->file, "Mesh to read")->required();
+  verb->add_option("--run", options->runs, "A run: METHOD[:METRIC[:BACKEND]]; may be given again")
+      ->type_name("SPEC")
+      ->expected(1)
+      ->take_all();
+  verb->add_option("--every", options->every, "method: a run by every method; metric: a run for every metric; what cannot be is left out")
+      ->type_name("method|metric")
+      ->expected(1)
+      ->take_all();
+  verb->add_option("--judge", options->judge, "Metric that all runs are judged by (the first run's unless given)")->type_name("NAME");
+  verb->add_option("--shuffles", options->shuffles, "Do each run also in N shuffled orders, and say how far they lie apart")
+      ->transform(whole_number(0, kMostShuffles))
+      ->type_name("N");
+  add_goal_options(*verb, *goal);
+  add_run_options(*verb, options->run);
+  verb->remove_option(verb->get_option("--method"));  // a SPEC's business; --metric and --backend are what it leaves open
+  verb->add_option("--stats", options->stats, "Write the statistics of every iteration of every run")->type_name("FILE.csv");
+  verb->add_option("--table", options->table, "Write the table, with all columns")->type_name("FILE.csv");
+  verb->add_option("--plot", options->plot, "Draw convergence and sorted qualities")->type_name("FILE.svg|.png");
+  verb->add_option("--report", options->report, "Write a page with tables, plots and pictures that needs nothing else")
+      ->type_name("FILE.html");
+  verb->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
+  verb->callback([options, goal, command_line = &command_line, &action] {
+    options->goal = goal_of(*goal);
+    action = [options, command_line] { return compare(*options, *command_line); };
+  });
+}
+
+}  // namespace dmoscope::app

@@ -1,0 +1,212 @@
+// dmoscope compare: its numbers against runs of dmoscope smooth, its files, and what it refuses.
+
+#include <algorithm>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/markup.h"
+#include "tests/cli/program.h"
+
+namespace dmoscope::test {
+namespace {
+
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+/// `dmoscope compare` on the CPU.
+Output compare(std::vector<std::string> options) {
+  options.insert(options.begin(), "compare");
+  options.insert(options.end(), {"--backend", "cpu"});
+  return run(options);
+}
+
+json compare_json(std::vector<std::string> options) {
+  options.emplace_back("--json");
+  const Output output = compare(std::move(options));
+  EXPECT_EQ(output.code, 0) << output.err;
+  return json_of(output);
+}
+
+/// The qualities of a smoothed mesh by a metric, ascending, as another process tells them.
+std::vector<double> smoothed(const std::string& in, const std::vector<std::string>& how, const std::string& metric) {
+  const Folder folder;
+  std::vector<std::string> arguments{"smooth", in, "-o", folder / "out.vtk", "--backend", "cpu"};
+  arguments.insert(arguments.end(), how.begin(), how.end());
+  EXPECT_EQ(run(arguments).code, 0);
+  EXPECT_EQ(run({"quality", folder / "out.vtk", "--metric", metric, "--elements", folder / "elements.csv"}).code, 0);
+  const Table table = read_table(folder / "elements.csv");
+  std::vector<double> qualities;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) qualities.push_back(table.number(i, metric));
+  std::sort(qualities.begin(), qualities.end());
+  return qualities;
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double v : values) sum += v;
+  return sum / static_cast<double>(values.size());
+}
+
+TEST(Compare, RowsAreThoseOfSmoothJudgedByOneMetric) {
+  const std::string in = sample("annulus.off");
+  const json all = compare_json({in, "--run", "dmo:radius-ratio", "--run", "dmo:min-angle", "--judge", "mean-ratio", "--iterations", "4"});
+  EXPECT_EQ(all["judged_by"], "mean-ratio");
+  ASSERT_EQ(all["runs"].size(), 2U);
+  for (const auto& [row, metric] : {std::pair{0, "radius-ratio"}, {1, "min-angle"}}) {
+    const json& figure = all["runs"][static_cast<std::size_t>(row)];
+    const std::vector<double> qualities = smoothed(in, {"--metric", metric, "--iterations", "4"}, "mean-ratio");
+    const auto count = static_cast<double>(qualities.size());
+    EXPECT_EQ(figure["run"], std::string("dmo:") + metric);
+    EXPECT_EQ(figure["iterations"], 4);
+    EXPECT_NEAR(figure["min_quality"], qualities.front(), 1e-12);
+    EXPECT_NEAR(figure["mean_quality"], mean(qualities), 1e-9);
+    EXPECT_NEAR(figure["p5"], qualities[static_cast<std::size_t>(std::ceil(0.05 * count)) - 1], 1e-12);
+    EXPECT_EQ(figure["inverted"], 0);
+    EXPECT_NEAR(figure["vertices_per_second"].get<double>() * figure["seconds"].get<double>(), 4.0 * all["free"].get<double>(), 1e-3);
+  }
+}
+
+TEST(Compare, TheJudgeIsTheFirstRunsMetricUnlessNamed) {
+  EXPECT_EQ(compare_json({sample("annulus.off"), "--run", "dmo:max-angle", "--run", "dmo", "--iterations", "1"})["judged_by"], "max-angle");
+  EXPECT_EQ(compare_json({sample("annulus.off"), "--run", "dmo", "--metric", "min-angle", "--iterations", "1"})["runs"][0]["metric"],
+            "min-angle")
+      << "--metric is what a SPEC leaves open";
+}
+
+TEST(Compare, FilesHaveEveryRunAndIteration) {
+  const Folder folder;
+  const Output output =
+      compare({sample("annulus.off"), "--run", "dmo", "--run", "dmo:min-angle", "--judge", "mean-ratio", "--iterations", "3", "--shuffles",
+               "1", "--stats", folder / "stats.csv", "--table", folder / "table.csv", "--plot", folder / "plot.svg"});
+  ASSERT_EQ(output.code, 0) << output.err;
+  const Table stats = read_table(folder / "stats.csv");
+  EXPECT_EQ(stats.rows.size(), 4U * 4U) << "input and three iterations, of two runs in two orders";
+  for (std::size_t i = 0; i < stats.rows.size(); ++i) {
+    EXPECT_EQ(stats.number(i, "iteration"), static_cast<double>(i % 4));
+    EXPECT_EQ(stats.number(i - i % 4, "min_quality"), stats.number(0, "min_quality")) << "all judged alike from one input";
+  }
+  const Table table = read_table(folder / "table.csv");
+  ASSERT_EQ(table.rows.size(), 4U);
+  std::vector<std::string> names;
+  for (const auto& row : table.rows) names.push_back(row.at(0));
+  EXPECT_THAT(names, ElementsAre("dmo:mean-ratio", "dmo:min-angle", "dmo:mean-ratio shuffle:1", "dmo:min-angle shuffle:1"));
+  EXPECT_EQ(table.number(1, "min_quality"), stats.number(7, "min_quality")) << "the last iteration of the second run";
+  const std::string svg = read_file(folder / "plot.svg");
+  EXPECT_EQ(markup_fault(svg), "");
+  EXPECT_THAT(svg, HasSubstr("dmo:min-angle, 2 orders"));
+}
+
+TEST(Compare, OrdersLieAsFarApartAsTheirSortedQualities) {
+  const std::string in = sample("random.off");
+  const json orders = compare_json({in, "--run", "dmo", "--iterations", "5", "--shuffles", "2"})["orders"];
+  ASSERT_EQ(orders.size(), 1U);
+  std::vector<std::vector<double>> curves;
+  for (const char* order : {"natural", "shuffle:1", "shuffle:2"})
+    curves.push_back(smoothed(in, {"--iterations", "5", "--order", order}, "mean-ratio"));
+  double largest = 0.0, sum = 0.0;
+  for (std::size_t i = 0; i < curves[0].size(); ++i) {
+    const auto [low, high] = std::minmax({curves[0][i], curves[1][i], curves[2][i]});
+    largest = std::max(largest, high - low);
+    sum += high - low;
+  }
+  EXPECT_GT(largest, 0.0);
+  EXPECT_NEAR(orders[0]["largest_difference"], largest, 1e-9);
+  EXPECT_NEAR(orders[0]["mean_difference"], sum / static_cast<double>(curves[0].size()), 1e-9);
+  const auto minima = std::minmax({curves[0][0], curves[1][0], curves[2][0]});
+  EXPECT_NEAR(orders[0]["lowest_minimum"], minima.first, 1e-9);
+  EXPECT_NEAR(orders[0]["highest_minimum"], minima.second, 1e-9);
+}
+
+TEST(Compare, EveryLeavesOutWhatCannotBeAndSaysWhy) {
+  const json all = compare_json({sample("quads.vtk"), "--every", "metric", "--iterations", "1"});
+  ASSERT_GE(all["runs"].size(), 2U);
+  ASSERT_GE(all["left_out"].size(), 1U);
+  for (const json& left : all["left_out"]) EXPECT_THAT(left["reason"].get<std::string>(), HasSubstr("quadrilateral"));
+  const json info = json_of(run({"info", "--json"}));
+  EXPECT_EQ(all["runs"].size() + all["left_out"].size(), info["metrics"].size());
+  const json methods = compare_json({sample("annulus.off"), "--every", "method", "--iterations", "1"});
+  EXPECT_EQ(methods["runs"].size() + methods["left_out"].size(), info["methods"].size());
+}
+
+TEST(Compare, TheReportStandsAlone) {
+  const Folder folder;
+  const std::string in = folder / "a<b>&'c'.off";
+  std::filesystem::copy_file(sample("annulus.off"), in);
+  const Output output =
+      compare({in, "--run", "dmo", "--run", "dmo:max-angle", "--iterations", "2", "--shuffles", "1", "--report", folder / "report.html"});
+  ASSERT_EQ(output.code, 0) << output.err;
+  const std::string page = read_file(folder / "report.html");
+  EXPECT_EQ(markup_fault(page), "");
+  EXPECT_THAT(page, Not(HasSubstr("a<b>")));
+  EXPECT_THAT(page, HasSubstr("a&lt;b&gt;&amp;&#39;c&#39;.off"));
+  EXPECT_THAT(page, Not(HasSubstr("src=\"http")));
+  EXPECT_THAT(page, Not(HasSubstr("href=")));
+  EXPECT_THAT(page, HasSubstr("prefers-color-scheme: dark"));
+  EXPECT_THAT(page, HasSubstr("--shuffles 1")) << "the command that made it";
+  std::size_t plots = 0;
+  for (std::size_t at = page.find("<svg"); at != std::string::npos; at = page.find("<svg", at + 1)) ++plots;
+  EXPECT_EQ(plots, 2U);
+  const bool pictures = page.find("src=\"data:image/png;base64,iVBOR") != std::string::npos;
+  EXPECT_TRUE(pictures || page.find("No picture: ") != std::string::npos);
+  // The table has the figures that the CSV has.
+  ASSERT_EQ(compare({in, "--run", "dmo", "--run", "dmo:max-angle", "--iterations", "2", "--table", folder / "table.csv"}).code, 0);
+  const Table table = read_table(folder / "table.csv");
+  for (const auto& row : table.rows) EXPECT_THAT(page, HasSubstr("data-key=\"" + row.at(table.column("min_quality")) + "\""));
+}
+
+TEST(Compare, RefusesBeforeAnythingRuns) {
+  const Folder folder;
+  const std::string in = sample("quads.vtk");
+  const std::vector<std::vector<std::string>> wrong{
+      {in},
+      {in, "--run", "beauty"},
+      {in, "--run", "dmo:beauty"},
+      {in, "--run", "dmo:mean-ratio:abacus"},
+      {in, "--run", "dmo:mean-ratio:cpu:more"},
+      {in, "--run", "dmo:"},
+      {in, "--run", "dmo:min-angle"},
+      {in, "--run", "dmo", "--judge", "min-angle"},
+      {in, "--run", "dmo", "--judge", "beauty"},
+      {in, "--run", "dmo", "--run", "dmo:mean-ratio"},
+      {in, "--every", "thing"},
+      {in, "--run", "dmo", "--plot", folder / "plot.jpeg"},
+      {in, "--run", "dmo", "--report", folder / "report.txt"},
+      {in, "--run", "dmo", "--stats", folder / "same.csv", "--table", folder / "same.csv"},
+      {in, "--run", "dmo", "--stats", in},
+      {in, "--run", "dmo", "--until-converged", "--iterations", "3"},
+  };
+  for (const auto& options : wrong) {
+    const Output output = compare(options);
+    EXPECT_EQ(output.code, 2) << ::testing::PrintToString(options);
+    EXPECT_THAT(output.out, IsEmpty());
+    EXPECT_THAT(output.err, Not(IsEmpty()));
+  }
+  EXPECT_EQ(compare({in, "--run", "dmo", "--stats", folder / "missing/stats.csv"}).code, 3);
+  EXPECT_EQ(compare({folder / "missing.vtk", "--run", "dmo"}).code, 3);
+}
+
+TEST(Compare, AnOutcomeThatIsNotReachedIsCodeOneAndToldOf) {
+  const Output output = compare({sample("annulus.off"), "--run", "dmo", "--until-converged", "--max-iterations", "1"});
+  EXPECT_EQ(output.code, 1);
+  EXPECT_THAT(output.err, HasSubstr("dmo:mean-ratio: not converged"));
+}
+
+TEST(Compare, CancelledItLeavesNoFiles) {
+  const Folder folder;
+  Call call;
+  call.arguments = {"compare", sample("coast.14"), "--run",      "dmo",      "--iterations",   "100000000", "--backend",
+                    "cpu",     "--stats",          folder / "s", "--report", folder / "r.html"};
+  call.interrupt = std::chrono::milliseconds(800);
+  const Output output = run(call);
+  EXPECT_EQ(output.code, 1) << output.err;
+  EXPECT_FALSE(exists(folder / "s"));
+  EXPECT_FALSE(exists(folder / "r.html"));
+}
+
+}  // namespace
+}  // namespace dmoscope::test

@@ -34,6 +34,7 @@ JudgedRun run_judged(std::string name, std::shared_ptr<const InputMesh> input, R
   done.name = std::move(name);
   done.parameters = run.parameters();
   done.backend_reason = run.backend_reason();
+  done.free = run.visits_per_iteration();
   done.row = row_of(run, judge, pool);
   done.row.title = done.name;
   done.records = run.history().records();

@@ -22,6 +22,7 @@ struct JudgedRun {
   std::string name;
   RunParameters parameters;
   std::string backend_reason;  // see Run
+  std::uint64_t free = 0;      // vertices that may move
   RunRow row;                  // its title is `name`
   Statistics after;            // by the judge
   Outcome outcome;

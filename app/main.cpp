@@ -78,6 +78,7 @@ int run(int argc, char** argv) {
   add_generate(app, action);
   add_script(app, action);
   add_bench(app, action);
+  add_paper(app, action, command_line);
   add_info(app, action);
 
   try {

@@ -24,15 +24,6 @@ std::vector<double> input_qualities(const InputMesh& input, Metric judge, Thread
   return qualities;
 }
 
-std::uint64_t free_vertices(const InputMesh& input, const std::vector<Index>& fixed) {
-  std::uint64_t free = 0;
-  for (Index v = 0; v < input.mesh.vertex_count(); ++v) {
-    const bool stays = input.topology.boundary()[v] != 0 || input.topology.star(v).empty() || std::ranges::binary_search(fixed, v);
-    free += stays ? 0 : 1;
-  }
-  return free;
-}
-
 }  // namespace
 
 Comparison run_all(const ComparisonPlan& plan, std::shared_ptr<const InputMesh> input, const Goal& goal, std::uint64_t shuffles,
@@ -40,7 +31,6 @@ Comparison run_all(const ComparisonPlan& plan, std::shared_ptr<const InputMesh> 
   Comparison all;
   all.input = std::move(input);
   all.judge = plan.judge;
-  all.free = free_vertices(*all.input, plan.contenders.front().parameters.fixed);
   all.left_out = plan.left_out;
   std::vector<double> before = input_qualities(*all.input, plan.judge, workshop.pool.get());
   all.input_curve = thinned(before);
@@ -71,6 +61,7 @@ Comparison run_all(const ComparisonPlan& plan, std::shared_ptr<const InputMesh> 
     }
     if (shuffles > 0) all.orders.push_back(orders.spread(contender.name));
   }
+  all.free = all.runs.front().free;
   return all;
 }
 

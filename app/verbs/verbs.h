@@ -24,6 +24,7 @@ void add_convert(CLI::App& app, Action& action);
 void add_generate(CLI::App& app, Action& action);
 void add_script(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);
+void add_paper(CLI::App& app, Action& action, const std::string& command_line);
 void add_info(CLI::App& app, Action& action);
 
 /// No verb: opens the window on the files.

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/csv_text.h"
 #include "core/base/error.h"
 #include "core/session/view.h"
 
@@ -35,16 +36,6 @@ constexpr std::array<RunColumn, 14> kColumns{{
 bool has_value(const std::variant<std::string_view, double>& cell) {
   const double* number = std::get_if<double>(&cell);
   return number == nullptr || std::isfinite(*number);
-}
-
-std::string quoted(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
 }
 
 void judge(RunRow& row, const Statistics& statistics) {
@@ -153,7 +144,7 @@ std::string run_table_csv(std::span<const RunRow> rows) {
       if (&column != &kColumns.front()) text += ',';
       const auto content = cell(row, column);
       if (const auto* word = std::get_if<std::string_view>(&content)) {
-        text += quoted(*word);
+        text += csv_text(*word);
       } else if (has_value(content)) {
         text += fmt::format("{}", std::get<double>(content));
       }

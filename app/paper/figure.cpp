@@ -1,0 +1,46 @@
+#include "app/paper/figure.h"
+
+#include <fmt/format.h>
+
+namespace dmoscope::app {
+
+std::string_view name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Holds:
+      return "holds";
+    case Verdict::Differs:
+      return "differs";
+    case Verdict::Told:
+      return "told";
+    case Verdict::NoMesh:
+      return "no mesh";
+    case Verdict::NotPossible:
+      return "not possible";
+  }
+  return "";
+}
+
+Claim Claim::about(double value, double tolerance, std::string why) {
+  return {fmt::format("{:g} ± {:g}", value, tolerance), value, value - tolerance, value + tolerance, std::move(why)};
+}
+
+void Figure::check(std::string mesh, std::string what, double ours, Claim claim) {
+  const bool holds = ours >= claim.lowest && ours <= claim.highest;
+  std::optional<double> difference;
+  if (claim.value) difference = ours - *claim.value;
+  findings.push_back({id, std::move(mesh), std::move(what), std::move(claim.paper), ours, difference,
+                      holds ? Verdict::Holds : Verdict::Differs, std::move(claim.why)});
+}
+
+void Figure::tell(std::string mesh, std::string what, double ours, std::string paper, std::string why) {
+  findings.push_back({id, std::move(mesh), std::move(what), std::move(paper), ours, {}, Verdict::Told, std::move(why)});
+}
+
+void Figure::lack(std::string mesh, std::string what, Verdict verdict, std::string why) {
+  Finding finding{.figure = id, .mesh = std::move(mesh), .what = std::move(what), .paper = {}};
+  finding.verdict = verdict;
+  finding.why = std::move(why);
+  findings.push_back(std::move(finding));
+}
+
+}  // namespace dmoscope::app

@@ -1,0 +1,21 @@
+#pragma once
+// What the experiments came to, as text, CSV, files and a page.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/paper/figure.h"
+
+namespace dmoscope::app {
+
+/// A line a finding.
+[[nodiscard]] std::string findings_text(const std::vector<Figure>& figures);
+/// Columns figure,mesh,what,paper,ours,difference,verdict,why.
+[[nodiscard]] std::string findings_csv(const std::vector<Figure>& figures);
+/// A page that stands alone. `facts`: settings and machine.
+[[nodiscard]] std::string findings_page(const std::vector<Figure>& figures, const std::vector<std::pair<std::string, std::string>>& facts);
+/// Writes a folder for each figure that has plots or pictures: plots as SVG and CSV, pictures as PNG. Throws OutputError.
+void write_figures(const std::filesystem::path& folder, const std::vector<Figure>& figures);
+
+}  // namespace dmoscope::app

@@ -1,0 +1,127 @@
+// dmoscope paper: its table against runs of dmoscope smooth, what it says of what is missing, its files, what it refuses.
+
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/markup.h"
+#include "tests/cli/program.h"
+
+namespace dmoscope::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Cells of a CSV's line, some of them in quotes.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
+
+struct Row {
+  std::string figure, mesh, what, paper, ours, difference, verdict, why;
+};
+
+std::vector<Row> rows_of(const std::string& path) {
+  std::vector<Row> rows;
+  for (const std::string& line : lines_of(read_file(path))) {
+    const std::vector<std::string> c = cells_of(line);
+    EXPECT_EQ(c.size(), 8U) << line;
+    if (c.size() == 8) rows.push_back({c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]});
+  }
+  EXPECT_EQ(rows.front().figure, "figure") << "the head";
+  rows.erase(rows.begin());
+  return rows;
+}
+
+Output paper(const Folder& folder, std::vector<std::string> options) {
+  options.insert(options.begin(), {"paper", "-o", folder / "out", "--quick", "--backend", "cpu"});
+  return run(options);
+}
+
+TEST(Paper, ARowIsWhatSmoothSays) {
+  const Folder folder;
+  const Output output = paper(folder, {"--only", "4b"});
+  ASSERT_EQ(output.code, 0) << output.err << output.out;
+  ASSERT_EQ(run({"generate", "block", "--size", "10000", "--seed", "1", "-o", folder / "block.vtk"}).code, 0);
+  std::size_t compared = 0;
+  for (const Row& row : rows_of(folder / "out/table.csv")) {
+    for (const char* method : {"dmo", "laplace", "dvr"}) {
+      if (row.what != std::string(method) + ": minimum at the end") continue;
+      const auto smooth = json_of(run({"smooth", folder / "block.vtk", "-o", folder / "s.vtk", "--method", method, "--iterations", "60",
+                                       "--backend", "cpu", "--json"}));
+      EXPECT_DOUBLE_EQ(std::stod(row.ours), smooth["after"]["minimum"].get<double>()) << method;
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 3U);
+}
+
+TEST(Paper, WhatIsMissingIsSaid) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "empty");
+  const Output output = paper(folder, {"--only", "4a", "--only", "8", "--meshes", folder / "empty"});
+  ASSERT_EQ(output.code, 0) << output.err;
+  const std::vector<Row> rows = rows_of(folder / "out/table.csv");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].verdict, "no mesh");
+  EXPECT_THAT(rows[0].why, HasSubstr("east.14"));
+  EXPECT_EQ(rows[1].verdict, "not possible");
+  EXPECT_THAT(output.out, HasSubstr("no mesh"));
+}
+
+TEST(Paper, MeshesAreFoundByNameBelowTheFolder) {
+  const Folder folder;
+  std::filesystem::create_directories(folder / "meshes/deep/er");
+  std::filesystem::copy_file(sample("coast.14"), folder / "meshes/deep/er/east.14");
+  // Another mesh of that name: what is claimed of the paper's does not hold, and that is told and the exit code.
+  const Output output = paper(folder, {"--only", "4a", "--meshes", folder / "meshes"});
+  EXPECT_EQ(output.code, 1);
+  EXPECT_THAT(output.err, HasSubstr("figure 4a"));
+  std::set<std::string> verdicts;
+  for (const Row& row : rows_of(folder / "out/table.csv")) verdicts.insert(row.verdict);
+  EXPECT_TRUE(verdicts.contains("differs"));
+  EXPECT_FALSE(verdicts.contains("no mesh"));
+}
+
+TEST(Paper, FilesAreWhole) {
+  const Folder folder;
+  ASSERT_EQ(paper(folder, {"--only", "7", "--only", "11"}).code, 0);
+  const std::string page = read_file(folder / "out/index.html");
+  EXPECT_EQ(markup_fault(page), "");
+  EXPECT_THAT(page, HasSubstr("<svg"));
+  EXPECT_EQ(markup_fault(read_file(folder / "out/7/convergence.svg")), "");
+  const Table plot = read_table(folder / "out/7/convergence.csv");
+  EXPECT_EQ(plot.rows.size(), 2U * 51U) << "two metrics, the input and 50 iterations";
+  const bool pictures = exists(folder / "out/7/picture-1.png");
+  EXPECT_EQ(pictures, page.find("data:image/png;base64,iVBOR") != std::string::npos);
+  // As many rows on the page as in the table.
+  std::size_t rows = 0;
+  for (std::size_t at = page.find("<tr>"); at != std::string::npos; at = page.find("<tr>", at + 1)) ++rows;
+  EXPECT_EQ(rows, rows_of(folder / "out/table.csv").size() + 1);
+}
+
+TEST(Paper, RefusesWhatThereIsNot) {
+  const Folder folder;
+  EXPECT_EQ(paper(folder, {"--only", "13"}).code, 2);
+  EXPECT_EQ(paper(folder, {"--full"}).code, 2) << "quick and full";
+  EXPECT_EQ(run({"paper"}).code, 2);
+  EXPECT_EQ(paper(folder, {"--only", "8", "--meshes", folder / "nowhere"}).code, 3);
+  EXPECT_FALSE(exists(folder / "out"));
+  const std::string file = folder.file("file", "");
+  EXPECT_EQ(run({"paper", "-o", file, "--only", "8"}).code, 3);
+}
+
+}  // namespace
+}  // namespace dmoscope::test

@@ -14,6 +14,7 @@ JudgedRun run_judged(std::string name, std::shared_ptr<const InputMesh> input, R
   const bool own = judge == parameters.metric;
   Run run(input, std::move(parameters), workshop.pool, 0, workshop.acceleration);  // no past positions: nobody asks for them here
   if (std::string warning = run.take_warning(); !warning.empty()) workshop.warn(std::move(warning));
+  if (run.size_field() && !run.size_field()->note().empty()) workshop.warn(run.size_field()->note());
 
   std::vector<Statistics> judged;
   const auto judge_now = [&](const Run& now) {

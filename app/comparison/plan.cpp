@@ -30,7 +30,8 @@ Contender parse_spec(const std::string& spec, const RunOptions& open) {
   if (words.size() > 2) chosen.backend = words[2];
   try {
     Contender contender{{}, parameters_of(chosen)};
-    contender.name = fmt::format("{}:{}", chosen.method, chosen.metric) + (words.size() > 2 ? ":" + words[2] : "");
+    contender.name = fmt::format("{}:{}", chosen.method, info(contender.parameters.metric).name);
+    if (words.size() > 2) contender.name += fmt::format(":{}", words[2]);
     return contender;
   } catch (const UsageError& error) {
     throw UsageError(fmt::format("--run {}: {}", spec, error.what()));
@@ -93,6 +94,9 @@ ComparisonPlan plan_of(const CompareOptions& options) {
   for (const std::string& what : options.every) add_every(plan, what, options.run);
   if (plan.contenders.empty())
     throw UsageError("nothing to compare: name runs with --run METHOD[:METRIC[:BACKEND]], or --every method|metric");
+  if (options.goal.until_converged)
+    for (Contender& c : plan.contenders)
+      if (c.parameters.then_mean) c.parameters.then_mean->patience = options.goal.until_converged->patience;
   plan.judge = options.judge.empty() ? plan.contenders.front().parameters.metric : parse_metric(options.judge);
   plan.acceleration = acceleration_of(plan.contenders);
   return plan;

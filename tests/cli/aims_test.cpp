@@ -65,7 +65,7 @@ TEST(Aims, ThreadsDoNotMatter) {
   for (auto arguments : kinds) {
     arguments.insert(arguments.end(), {"--threads", "1"});
     smooth(sample("coast.14"), folder / "one.14", arguments);
-    arguments.back() = "3";
+    arguments.back() = std::string("3");
     smooth(sample("coast.14"), folder / "three.14", arguments);
     EXPECT_TRUE(read_file(folder / "one.14") == read_file(folder / "three.14"));
   }

@@ -13,6 +13,7 @@
 #include "ui/inspection_commands.h"
 #include "ui/inspection_marks.h"
 #include "ui/plot_save.h"
+#include "ui/size_point.h"
 #include "ui/view_geometry.h"
 #include "ui/view_lines.h"
 
@@ -201,6 +202,8 @@ render::Marks App::marks(const MarkView& view) {
     const InspectionLook look = inspection_look(of_quality, palette(state_.theme).accent, view.camera, view.scale);
     add_inspection_marks(marks, state_.inspection, inspection_, look);
   }
+  const render::Style plain = style();
+  add_size_point(marks, session_->runs[session_->active], frame->input->geometry.plane, plain.highlight_colour, plain.casing_colour);
   return marks;
 }
 

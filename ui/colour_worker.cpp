@@ -25,12 +25,17 @@ void ColourWorker::update(const ViewState& state, const SessionView& session) {
     return;
   }
   const bool by_class = by == ColourBy::Class, ordered = by == ColourBy::Valence;
-  ColourRequest request{by, session.frame, by_class ? session.runs[session.active].colouring : nullptr, state.colour_map,
-                        state.colouring.reversed};
+  const RunView& run = session.runs[session.active];
+  ColourRequest request{by,
+                        session.frame,
+                        by_class ? run.colouring : nullptr,
+                        state.colour_map,
+                        state.colouring.reversed,
+                        by == ColourBy::SizeOverTarget ? run.size : nullptr};
   const Key key{by,
                 frame->input_serial,
                 needs_positions(by) ? frame->serial : 0,
-                request.classes.get(),
+                by_class ? static_cast<const void*>(request.classes.get()) : request.size.get(),
                 ordered ? static_cast<int>(request.map) : 0,
                 ordered && request.reversed};
   if (colours_ && (colours_->by != by || colours_->input_serial != frame->input_serial)) colours_.reset();

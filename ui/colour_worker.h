@@ -23,8 +23,8 @@ class ColourWorker {
   [[nodiscard]] bool settled() const noexcept { return !pending_.valid(); }
 
  private:
-  /// What the colours depend on: by, input, frame where positions count, classes, map and its direction where there is an order.
-  using Key = std::tuple<ColourBy, std::uint64_t, std::uint64_t, const Colouring*, int, bool>;
+  /// What the colours depend on: by, input, frame where positions count, classes or size, map and its direction where there is an order.
+  using Key = std::tuple<ColourBy, std::uint64_t, std::uint64_t, const void*, int, bool>;
   void take();
 
   std::optional<Key> key_;  // of what was asked for last

@@ -18,12 +18,12 @@ inline constexpr std::array<std::pair<std::string_view, RangeMode>, 3> kRangeMod
     {{"fixed", RangeMode::Fixed}, {"auto", RangeMode::Auto}, {"expanding", RangeMode::Expanding}}};
 
 /// What the elements' colours tell.
-enum class ColourBy { Quality, Kind, Group, Valence, Class, Displacement, Size, Inverted };
+enum class ColourBy { Quality, Kind, Group, Valence, Class, Displacement, Size, Inverted, EdgeLength, SizeOverTarget };
 struct ColourByInfo {
   ColourBy by;
   std::string_view name, title, doc;
 };
-inline constexpr std::array<ColourByInfo, 8> kColourBys{{
+inline constexpr std::array<ColourByInfo, 10> kColourBys{{
     {ColourBy::Quality, "quality", "Quality", "of the shown metric"},
     {ColourBy::Kind, "kind", "Kind of element", "triangle or quadrilateral"},
     {ColourBy::Group, "group", "Group", "boundaries, markers and element groups that the file carried"},
@@ -32,12 +32,16 @@ inline constexpr std::array<ColourByInfo, 8> kColourBys{{
     {ColourBy::Displacement, "displacement", "Displacement", "how far the corner that moved most is from where it was in the input"},
     {ColourBy::Size, "size", "Size", "area relative to the mean, logarithmic"},
     {ColourBy::Inverted, "inverted", "Inverted", "nothing but the inverted elements"},
+    {ColourBy::EdgeLength, "edge-length", "Edge length", "mean length of the edges around an element's corners, logarithmic"},
+    {ColourBy::SizeOverTarget, "size-over-target", "Size over target",
+     "edge length over the size that the run's size function wants, logarithmic; 1: as large as the rest of the mesh allows"},
 }};
 [[nodiscard]] constexpr const ColourByInfo& info(ColourBy by) { return kColourBys[static_cast<std::size_t>(by)]; }
 
 /// Whether the colours are those of categories, whose elements can be looked at alone.
 [[nodiscard]] constexpr bool has_categories(ColourBy by) {
-  return by != ColourBy::Quality && by != ColourBy::Displacement && by != ColourBy::Size;
+  return by != ColourBy::Quality && by != ColourBy::Displacement && by != ColourBy::Size && by != ColourBy::EdgeLength &&
+         by != ColourBy::SizeOverTarget;
 }
 
 inline constexpr std::array<std::pair<std::string_view, render::Selection::Others>, 3> kFilterModes{

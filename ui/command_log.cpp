@@ -15,15 +15,20 @@ namespace dmoscope::ui {
 namespace {
 
 constexpr auto kRecords = std::to_array<std::pair<std::string_view, Record>>({
-    {"plot-zoom", Record::Nothing},     {"scale", Record::Nothing},        {"click", Record::Nothing},
-    {"right-click", Record::Nothing},   {"double-click", Record::Nothing}, {"move", Record::Nothing},
-    {"drag", Record::Nothing},          {"wheel", Record::Nothing},        {"key", Record::Nothing},
-    {"type", Record::Nothing},          {"wait", Record::Nothing},         {"dialog", Record::Nothing},
-    {"copy", Record::Nothing},          {"cancel", Record::Nothing},       {"run-pause", Record::Shortcut},
-    {"timeline", Record::Shortcut},     {"next-run", Record::Shortcut},    {"next-metric", Record::Shortcut},
-    {"play", Record::ToldOnly},         {"sequence", Record::ToldOnly},    {"play-steps", Record::ToldOnly},
-    {"watch", Record::ToldOnly},        {"quit", Record::ToldOnly},        {"save-script", Record::ToldOnly},
-    {"save-session", Record::ToldOnly}, {"play-levels", Record::Shortcut}, {"copy-level", Record::Nothing},
+    {"plot-zoom", Record::Nothing},     {"scale", Record::Nothing},
+    {"click", Record::Nothing},         {"right-click", Record::Nothing},
+    {"double-click", Record::Nothing},  {"move", Record::Nothing},
+    {"drag", Record::Nothing},          {"wheel", Record::Nothing},
+    {"key", Record::Nothing},           {"type", Record::Nothing},
+    {"wait", Record::Nothing},          {"dialog", Record::Nothing},
+    {"copy", Record::Nothing},          {"cancel", Record::Nothing},
+    {"run-pause", Record::Shortcut},    {"timeline", Record::Shortcut},
+    {"next-run", Record::Shortcut},     {"next-metric", Record::Shortcut},
+    {"play", Record::ToldOnly},         {"sequence", Record::ToldOnly},
+    {"play-steps", Record::ToldOnly},   {"watch", Record::ToldOnly},
+    {"quit", Record::ToldOnly},         {"save-script", Record::ToldOnly},
+    {"save-session", Record::ToldOnly}, {"play-levels", Record::Shortcut},
+    {"copy-level", Record::Nothing},    {"place-size-point", Record::Nothing},
 });
 
 std::string clock_now() {

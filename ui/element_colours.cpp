@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/session/input_mesh.h"
+#include "core/smooth/size_field.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -184,6 +185,59 @@ void by_size(Work& work) {
   work.out.title = "area / mean area";
 }
 
+/// Of every vertex the logarithm (of 10) of its mean edge, over the size that is wanted where it stands if there is one.
+std::vector<double> edge_logarithms(const Frame& frame, const SizeField* size) {
+  const PlanarView mesh = frame.input->planar_view();
+  std::vector<double> logarithms(frame.vertex_count());
+  for (Index v = 0; v < frame.vertex_count(); ++v) {
+    const double edge = local_edge_length(mesh, frame.positions, v);
+    logarithms[v] = std::log10(size != nullptr ? edge / size->at(v, frame.positions[v]) : edge);
+  }
+  return logarithms;
+}
+
+/// Colours each element by the mean of what its corners have.
+void by_corners(Work& work, std::span<const double> values) {
+  work.shading.values.resize(work.mesh.elements.size());
+  for (Index e = 0; e < work.mesh.elements.size(); ++e) {
+    const auto corners = work.mesh.elements.corners(e);
+    double sum = 0.0;
+    for (const Index corner : corners) sum += values[corner];
+    const double mean = sum / static_cast<double>(corners.size());
+    work.shading.values[e] = std::isfinite(mean) ? static_cast<float>(mean) : std::numeric_limits<float>::quiet_NaN();
+  }
+  find_range(work);
+  if (work.out.range.second - work.out.range.first < 0.02) work.out.range = {work.out.range.first - 0.01, work.out.range.second + 0.01};
+  work.out.logarithmic = true;
+}
+
+void by_edge_length(Work& work) {
+  by_corners(work, edge_logarithms(*work.request.frame, nullptr));
+  work.out.title = "mean edge length";
+}
+
+void by_size_over_target(Work& work) {
+  work.out.title = "edge length / target size";
+  if (!work.request.size) {
+    work.shading.values.assign(work.mesh.elements.size(), std::numeric_limits<float>::quiet_NaN());
+    work.out.note = "the run has no size function: combine its metric with density";
+    return;
+  }
+  std::vector<double> values = edge_logarithms(*work.request.frame, work.request.size.get());
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const double value : values)
+    if (std::isfinite(value)) {
+      sum += value;
+      ++count;
+    }
+  if (count > 0)
+    for (double& value : values) value -= sum / static_cast<double>(count);
+  by_corners(work, values);
+  const double widest = std::max(std::abs(work.out.range.first), std::abs(work.out.range.second));
+  work.out.range = {-widest, widest};  // so that 1 is in the middle
+}
+
 std::optional<std::size_t> number_in(std::string_view name, bool& open) {
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
@@ -304,6 +358,12 @@ ElementColours colour_elements(const ColourRequest& request) {
       break;
     case ColourBy::Inverted:
       by_inverted(work);
+      break;
+    case ColourBy::EdgeLength:
+      by_edge_length(work);
+      break;
+    case ColourBy::SizeOverTarget:
+      by_size_over_target(work);
       break;
   }
   for (const Category& category : work.out.categories) work.shading.palette.push_back(category.colour);

@@ -41,10 +41,13 @@ struct ColourRequest {
   std::shared_ptr<const Colouring> classes;            // for ColourBy::Class
   render::ColourMap map = render::ColourMap::Viridis;  // of ordered categories
   bool reversed = false;
+  std::shared_ptr<const SizeField> size{};  // for ColourBy::SizeOverTarget; null: the run has none
 };
 
 /// Whether it depends on where the vertices are, so that it is worked out for every frame, and cannot be for a light one.
-[[nodiscard]] constexpr bool needs_positions(ColourBy by) { return by == ColourBy::Displacement || by == ColourBy::Size; }
+[[nodiscard]] constexpr bool needs_positions(ColourBy by) {
+  return by == ColourBy::Displacement || by == ColourBy::Size || by == ColourBy::EdgeLength || by == ColourBy::SizeOverTarget;
+}
 
 /// Takes some 20 ms a million elements, on any thread. `by` must not be ColourBy::Quality.
 [[nodiscard]] ElementColours colour_elements(const ColourRequest& request);

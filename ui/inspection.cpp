@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/quality/quality.h"
 #include "core/drawing/ticks.h"
+#include "core/quality/quality.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -162,8 +162,9 @@ Inspection inspect(const SessionView& session, Index vertex) {
   }
   try {
     gather_star(inspection, frame, vertex);
-    inspection.trace = trace_visit(*frame.input, frame.positions, run.fixed, run.parameters.metric, run.parameters.search, vertex);
-    inspection.optimum = local_optimum(*frame.input, frame.positions, run.parameters.metric, vertex);
+    const auto aims = aims_of_visit(run.parameters.metric, run.parameters.combination, run.size, run.sweep);
+    inspection.trace = trace_visit(*frame.input, frame.positions, run.fixed, run.parameters.metric, run.parameters.search, vertex, aims);
+    if (!aims) inspection.optimum = local_optimum(*frame.input, frame.positions, run.parameters.metric, vertex);
   } catch (const Error& error) {
     inspection.trace.reset();
     inspection.trouble = error.what();

@@ -46,7 +46,10 @@ std::string stuck_sentence(const Inspection& inspection) {
   if (trace.end == VisitEnd::Fixed)
     return "It is fixed: no search moves it, and what its elements can become depends on their other corners.";
   std::string text = trace.end == VisitEnd::NotConfirmed ? "The search found a candidate, but judged exactly it gains nothing."
-                                                         : "No candidate is better than where it stands.";
+                     : trace.combined
+                         ? fmt::format("No candidate is better than where it stands by what the search compares: {}.", trace.value_phrase)
+                         : "No candidate is better than where it stands.";
+  if (trace.combined) return text;
   if (const Index limit = limiting_element(trace, false); limit != kNoIndex) text += fmt::format(" Element {} limits it.", count(limit));
   if (inspection.optimum) {
     constexpr double kNothing = 1e-6;  // a gap that no one would see

@@ -16,6 +16,7 @@
 #include "ui/inspection_commands.h"
 #include "ui/plot_commands.h"
 #include "ui/selection_commands.h"
+#include "ui/size_point.h"
 #include "ui/stepping_commands.h"
 #include "ui/timeline_commands.h"
 #include "ui/view_geometry.h"
@@ -251,6 +252,7 @@ CommandTable view_commands(ViewState& state, const CommandHost& host) {
   add_file_verbs(table, state, host);
   add_selection_verbs(table, state, host);
   add_stepping_verbs(table, state);
+  add_size_point_verbs(table, state, host);
   return table;
 }
 

@@ -115,6 +115,7 @@ struct ViewState {
   Brush brush;
   SteppingState stepping;
   InspectionState inspection;
+  bool placing_size_point = false;  // the next click in the view places the point of the size function
 
   // Time
   Timeline timeline;

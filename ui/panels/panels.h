@@ -177,6 +177,8 @@ float draw_menu(PanelContext& context);  // returns its height
 void draw_toolbar(PanelContext& context, const Rect& rect);
 void draw_runs(PanelContext& context);
 void draw_parameters(PanelContext& context);
+/// Of the active run, as a part of its parameters: a second phase, and a second aim.
+void draw_aims(PanelContext& context, const RunView& run);
 void draw_colours(PanelContext& context);
 void draw_inspector(PanelContext& context);
 void draw_worst(PanelContext& context);

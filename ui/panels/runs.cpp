@@ -155,6 +155,7 @@ void draw_parameters(PanelContext& context) {
   draw_method(context, parameters);
   labelled(context, "optimises", "the metric whose minimum over each star the method raises");
   metric_combo(context, "metric", parameters.metric, "metric");
+  draw_aims(context, *run);
   draw_search(context, parameters);
   draw_order(context, parameters);
   draw_backend(context, *run);

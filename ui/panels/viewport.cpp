@@ -5,10 +5,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/drawing/ticks.h"
 #include "ui/format.h"
 #include "ui/inspection_text.h"
 #include "ui/panels/panels.h"
-#include "core/drawing/ticks.h"
+#include "ui/size_point.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -32,6 +33,8 @@ void draw_title(PanelContext& context, const Rect& rect, const Frame& frame) {
   if (run == nullptr) return;
   const float pad = context.px(8), line = ImGui::GetTextLineHeight();
   std::string title = fmt::format("{} · {}", run->parameters.method, metric_phrase(run->parameters.metric));
+  if (run->parameters.combination) title = run->title;
+  if (run->mean_since && *run->mean_since < frame.moment.iteration) title += ", then mean";
   const Mark* mark = context.state.timeline.shown_mark();
   if (mark != nullptr) title = fmt::format("{} · {}", context.state.timeline.shown == Shown::A ? "A" : "B", mark->title);
   std::string moment = fmt::format("it {}", count(frame.moment.iteration));
@@ -105,6 +108,11 @@ void read_candidate(PanelContext& context, const Rect& rect) {
 }
 
 void pick_at(PanelContext& context, Vec2<double> pixel) {
+  if (context.state.placing_size_point) {
+    context.state.placing_size_point = false;
+    context.send(size_point_command(context.state, context.session.input->geometry.plane, pixel));
+    return;
+  }
   const auto [vertex, element] = context.pick(pixel);
   if (vertex != kNoIndex && !ImGui::GetIO().KeyAlt) {
     context.send(fmt::format("pick vertex {}", vertex));

@@ -1,0 +1,116 @@
+// Left, below the parameters: what the active run aims at besides its metric's minimum.
+#include <array>
+
+#include <fmt/format.h>
+
+#include "core/smooth/size_field.h"
+#include "ui/format.h"
+#include "ui/panels/panels.h"
+#include "ui/size_point.h"
+
+namespace dmoscope::ui {
+namespace {
+
+using Kind = SizeFunction::Kind;
+
+void say(PanelContext& context, Metric first, const Combination& combination) {
+  const SizeFunction* size = combination.size();
+  const std::string text = to_text(first, combination);
+  context.send(size == nullptr ? fmt::format("combine {}", text) : fmt::format("combine {} {}", text, quote_word(to_text(*size))));
+}
+
+Combination with(const Combination& combination, const SizeFunction& size) { return {combination.threshold, size}; }
+
+/// In the middle of the mesh, where no point was chosen yet.
+Vec3 middle(const InputMesh& input) {
+  Vec3 sum{};
+  for (const Vec3& p : input.mesh.positions) sum = sum + p;
+  return (1.0 / std::max<double>(1.0, static_cast<double>(input.mesh.positions.size()))) * sum;
+}
+
+void draw_second(PanelContext& context, const RunParameters& p) {
+  labelled(context, "second aim", "what counts once the first metric is above its threshold");
+  const auto* metric = std::get_if<Metric>(&p.combination->second);
+  const bool open = ImGui::BeginCombo("##second", metric != nullptr ? metric_title(*metric).c_str() : "Density");
+  context.items.record_last("second-aim");
+  if (!open) return;
+  if (ImGui::Selectable("Density", metric == nullptr)) say(context, p.metric, with(*p.combination, {}));
+  context.items.record_last("second-aim:density");
+  next_item_tooltip("sizes of elements after a size function: each vertex goes for the mean of its neighbours, weighted by 1 / size");
+  for (const Metric one : context.derived.metrics) {
+    if (ImGui::Selectable(metric_title(one).c_str(), metric != nullptr && *metric == one))
+      say(context, p.metric, {p.combination->threshold, one});
+    context.items.record_last(fmt::format("second-aim:{}", info(one).name));
+  }
+  ImGui::EndCombo();
+}
+
+void draw_size(PanelContext& context, const RunParameters& p, const SizeFunction& size) {
+  labelled(context, "size", "how large elements shall be, up to a common factor");
+  const bool open =
+      ImGui::BeginCombo("##size", size.kind == Kind::Field ? size.field.c_str() : to_text(size).substr(0, to_text(size).find(':')).c_str());
+  context.items.record_last("size-function");
+  if (open) {
+    const auto choice = [&](const char* name, const SizeFunction& wanted, const char* tip) {
+      if (ImGui::Selectable(name, size.kind == wanted.kind && size.field == wanted.field))
+        say(context, p.metric, with(*p.combination, wanted));
+      context.items.record_last(fmt::format("size-function:{}", name));
+      next_item_tooltip(tip);
+    };
+    const InputMesh& input = *context.session.input;
+    const Vec3 point = size.has_point() ? size.point : middle(input);
+    choice("constant", {}, "the same everywhere");
+    choice("h1", {Kind::Distance, point, {}}, "grows with the distance to a point (paper, eq. 12)");
+    choice("h2", {Kind::InverseDistance, point, {}}, "falls with the distance to a point (paper, eq. 13)");
+    for (const std::string& field : scalar_fields(input.mesh))
+      choice(field.c_str(), {Kind::Field, {}, field}, "a nodal field of the file, where the vertex stands");
+    ImGui::EndCombo();
+  }
+  if (!size.has_point()) return;
+  labelled(context, "point", "of the size function, in the mesh's coordinates; Place puts it where you click next");
+  const char* label = "Place";
+  const float button = ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x;
+  const std::string text = fmt::format("{}, {}", short_number(size.point.x), short_number(size.point.y));
+  ImGui::TextUnformatted(fit_text(text, ImGui::GetContentRegionAvail().x - button - context.px(8)).c_str());
+  next_item_tooltip(fmt::format("{}, {}", full_number(size.point.x), full_number(size.point.y)));
+  ImGui::SameLine();
+  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - button);
+  const bool placing = context.state.placing_size_point;
+  if (placing) ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent));
+  if (ImGui::SmallButton(label)) context.send("place-size-point");
+  if (placing) ImGui::PopStyleColor();
+  context.items.record_last("place-size-point");
+}
+
+}  // namespace
+
+void draw_aims(PanelContext& context, const RunView& run) {
+  const RunParameters& p = run.parameters;
+  if (!p.combination) {
+    bool then_mean = p.then_mean.has_value();
+    if (ImGui::Checkbox("then mean", &then_mean)) context.send(then_mean ? "then mean" : "then nothing");
+    context.items.record_last("then-mean");
+    next_item_tooltip("once the minimum has converged, raises the mean quality, with the minimum as floor");
+  }
+  if (p.method != "dmo" || p.then_mean) return;
+  bool combined = p.combination.has_value();
+  if (ImGui::Checkbox("combine", &combined)) {
+    if (combined)
+      say(context, p.metric, {});
+    else
+      context.send("combine off");
+  }
+  context.items.record_last("combine");
+  next_item_tooltip("two aims: the metric up to a threshold, and beyond it a second one, such as sizes of elements (paper, Section 4.2)");
+  if (!p.combination) return;
+  labelled(context, "threshold", "of the metric, above 0 and below 1: beyond it the second aim counts");
+  double threshold = p.combination->threshold;
+  ImGui::InputDouble("##threshold", &threshold, 0, 0, "%.4g");
+  context.items.record_last("threshold");
+  if (ImGui::IsItemDeactivatedAfterEdit() && threshold != p.combination->threshold)
+    say(context, p.metric, {threshold, p.combination->second});
+  draw_second(context, p);
+  if (const SizeFunction* size = p.combination->size()) draw_size(context, p, *size);
+}
+
+}  // namespace dmoscope::ui

@@ -86,6 +86,8 @@ bool drawable(const PlotValue& v, const LinePlot& plot) {
   return drawable(v.x, plot.x_axis) && drawable(v.y, plot.y_axis) && drawable(v.lowest, plot.y_axis) && drawable(v.highest, plot.y_axis);
 }
 
+double raised(double y, const LinePlot& plot) { return plot.y_lowest ? std::max(y, *plot.y_lowest) : y; }
+
 Frame frame_of(const LinePlot& plot) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double left = kInfinity, right = -kInfinity, low = kInfinity, high = -kInfinity;
@@ -96,8 +98,8 @@ Frame frame_of(const LinePlot& plot) {
       if (!drawable(v, plot)) continue;
       left = std::min(left, v.x);
       right = std::max(right, v.x);
-      low = std::min(low, v.lowest);
-      high = std::max(high, v.highest);
+      low = std::min(low, raised(v.lowest, plot));
+      high = std::max(high, raised(v.highest, plot));
     }
   }
   if (left > right) left = low = 1.0, right = high = 10.0;  // nothing to draw
@@ -140,11 +142,11 @@ void draw_series(Drawing& drawing, const LinePlot& plot, const PlotSeries& serie
       finish();
       continue;
     }
-    const Drawing::Point p{f.x.place(v.x), f.y.place(v.y)};
+    const Drawing::Point p{f.x.place(v.x), f.y.place(raised(v.y, plot))};
     const bool is_last = &v == &series.values.back();
     if (series.dots || is_last || points.empty() || std::hypot(p.x - points.back().x, p.y - points.back().y) > kNear) points.push_back(p);
     if (!series.dots) continue;
-    drawing.lines.push_back({{{p.x, f.y.place(v.lowest)}, {p.x, f.y.place(v.highest)}}, colour, 1.2});
+    drawing.lines.push_back({{{p.x, f.y.place(raised(v.lowest, plot))}, {p.x, f.y.place(raised(v.highest, plot))}}, colour, 1.2});
     drawing.discs.push_back({p, 3.2, colour});
   }
   finish();

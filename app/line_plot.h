@@ -2,6 +2,7 @@
 // A plot of several series over logarithmic or linear axes, one line a series, with a legend beside it.
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,7 @@ struct LinePlot {
   std::string note;              // one line below all
   std::vector<PlotSeries> series;
   AxisKind x_axis = AxisKind::Logarithmic, y_axis = AxisKind::Logarithmic;
+  std::optional<double> y_lowest{};  // what lies below is drawn here, at the lower edge, and the note should say so
 };
 
 [[nodiscard]] Drawing draw(const LinePlot& plot);

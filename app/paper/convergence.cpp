@@ -32,7 +32,10 @@ Race race(Lab& lab, Figure& figure, const std::shared_ptr<const InputMesh>& inpu
     }
     ++colour;
   }
-  if (plot.x_axis == AxisKind::Logarithmic) plot.note = "the input, iteration 0, is off the axis";
+  constexpr double kLowest = -0.05;
+  plot.y_lowest = kLowest;
+  plot.note = fmt::format("minima below {:g} lie on the lower edge", kLowest);
+  if (plot.x_axis == AxisKind::Logarithmic) plot.note += "; the input, iteration 0, is off the axis";
   figure.plots.emplace_back("convergence", std::move(plot));
   return all;
 }

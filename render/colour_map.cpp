@@ -41,6 +41,7 @@ std::span<const Rgb> controls(ColourMap map) {
       return kMagma;
     case ColourMap::Grey:
       return kGrey;
+    case ColourMap::OrangeBlue:
     case ColourMap::Viridis:
       break;
   }
@@ -74,7 +75,7 @@ std::span<const ColourMapInfo> colour_map_table() { return kTable; }
 
 std::string_view name(ColourMap map) {
   const auto found = std::find_if(kTable.begin(), kTable.end(), [&](const ColourMapInfo& info) { return info.map == map; });
-  return found->name;
+  return found == kTable.end() ? "difference" : found->name;
 }
 
 ColourMap colour_map_from_name(std::string_view name) {
@@ -110,7 +111,20 @@ Rgb from_oklab(Oklab colour) {
   return {byte(rgb[0]), byte(rgb[1]), byte(rgb[2])};
 }
 
+namespace {
+
+/// Both ends are as light and as strong as each other, and far apart for every kind of colour vision.
+Rgb sample_diverging(double t) {
+  constexpr Oklab kMiddle{0.96, 0.0, 0.005}, kBelow{0.60, 0.105, 0.125}, kAbove{0.60, -0.055, -0.125};
+  const Oklab& end = t < 0.5 ? kBelow : kAbove;
+  const double u = std::abs(2.0 * t - 1.0);
+  return from_oklab({kMiddle.l + u * (end.l - kMiddle.l), kMiddle.a + u * (end.a - kMiddle.a), kMiddle.b + u * (end.b - kMiddle.b)});
+}
+
+}  // namespace
+
 Rgb sample(ColourMap map, double t) {
+  if (map == ColourMap::OrangeBlue) return sample_diverging(std::clamp(t, 0.0, 1.0));
   const std::span<const Rgb> colours = controls(map);
   t = std::clamp(t, 0.0, 1.0);
   if (t == 0.0) return colours.front();

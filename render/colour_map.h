@@ -10,20 +10,22 @@
 
 namespace dmoscope::render {
 
-enum class ColourMap { Viridis, Cividis, Magma, Grey };
+/// The last is of differences: from orange (below) through white to blue; not among those of quality.
+enum class ColourMap { Viridis, Cividis, Magma, Grey, OrangeBlue };
 
 struct ColourMapInfo {
   ColourMap map;
   std::string_view name;  // "viridis", as on the command line
   std::string_view doc;   // one line
 };
-/// All maps, the default first.
+/// All maps of quality, the default first.
 [[nodiscard]] std::span<const ColourMapInfo> colour_map_table();
 [[nodiscard]] std::string_view name(ColourMap map);
 /// Throws UsageError that lists the names.
 [[nodiscard]] ColourMap colour_map_from_name(std::string_view name);
 
-/// Colour at t in [0, 1] (clamped). OKLab lightness rises linearly with t; hue and chroma follow the map's control colours.
+/// Colour at t in [0, 1] (clamped). OKLab lightness rises linearly with t; hue and chroma follow the map's control colours. Of OrangeBlue
+/// it rises so up to the middle and falls as much from there.
 [[nodiscard]] Rgb sample(ColourMap map, double t);
 
 /// Colour of inverted elements, drawn with hatching: far from every colour of every map.

@@ -190,6 +190,7 @@ std::string draw_legend(Image& image, const Legend& legend, const Style& style, 
   } else {
     painter.bar(legend);
   }
+  for (const LegendEntry& entry : legend.beside) painter.swatch(entry.colour, fmt::format("{} {}", entry.count, entry.name));
   painter.inverted(legend.inverted);
   if (legend.undefined) painter.swatch(kUndefinedColour, "not defined");
   if (legend.below > 0) painter.plain(fmt::format("{} below", legend.below));

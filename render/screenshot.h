@@ -27,7 +27,8 @@ struct Legend {
   bool logarithmic = false;          // the bar's values are powers of ten
   bool has_categories = false;       // swatches instead of the bar
   std::vector<LegendEntry> categories;
-  std::string selection;  // which elements count: "120 of 5,000 elements"; may be empty
+  std::vector<LegendEntry> beside;  // swatches beside the bar
+  std::string selection;            // which elements count: "120 of 5,000 elements"; may be empty
 };
 
 struct Shot {

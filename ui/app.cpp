@@ -8,12 +8,9 @@
 #include <fmt/format.h>
 
 #include "core/quality/quality.h"
-#include "render/labels.h"
 #include "ui/derived.h"
 #include "ui/inspection_commands.h"
-#include "ui/inspection_marks.h"
 #include "ui/plot_save.h"
-#include "ui/size_point.h"
 #include "ui/view_geometry.h"
 #include "ui/view_lines.h"
 
@@ -26,7 +23,10 @@ constexpr double kForever = std::numeric_limits<double>::infinity();
 }  // namespace
 
 App::App(Options options)
-    : options_(std::move(options)), engine_(options_.threads, options_.acceleration, options_.backend), session_(engine_.view()) {
+    : options_(std::move(options)),
+      engine_(options_.threads, options_.acceleration, options_.backend),
+      session_(engine_.view()),
+      viewports_({options_.no_interop, options_.software_renderer, options_.wait_for_scene}) {
   host_.session = [this] { return session_; };
   host_.post = [this](const std::string& line) {
     if (state_.sequence) end_sequence("the sequence of pictures ended early: another command came", Message::Kind::Warning);
@@ -40,7 +40,6 @@ App::App(Options options)
   host_.item = [this](const std::string& name) { return items_.find(name); };
   commands_ = view_commands(state_, host_);
   activity_.renderer = options_.renderer;
-  scene_.draw_through_host(options_.no_interop);
 }
 
 App::~App() = default;
@@ -86,6 +85,7 @@ bool App::prepare() {
 
 void App::take_news(double now) {
   session_ = shown_view();
+  state_.follow(*session_);
   update_backend();
   update_drawing();
   for (Message& message : engine_.take_messages()) {
@@ -135,8 +135,8 @@ void App::update_backend() {
 void App::update_drawing() {
   const Frame* frame = session_->frame.get();
   const bool snapshot_failed = frame != nullptr && !frame->device_trouble.empty();
-  activity_.drawing =
-      drawing_path(activity_.backend, activity_.backend_reason, snapshot_failed ? frame->device_trouble : scene_.device_trouble());
+  activity_.drawing = drawing_path(activity_.backend, activity_.backend_reason,
+                                   snapshot_failed ? frame->device_trouble : viewports_.active().scene().device_trouble());
 }
 
 void App::notice_new_input() {
@@ -153,98 +153,32 @@ void App::notice_new_input() {
     state_.selection.clear();
     state_.inspection.open = state_.inspection.playing = false;
   }
-  if (!again) state_.requests.fit = true;
+  if (!again) state_.requests.fit = state_.requests.fit_all = true;
   for (PlotView& plot : state_.plots) plot.x_range = plot.y_range = {};
   if (frame != nullptr && !frame->input->path.empty()) remember_file(state_, frame->input->path.string());
 }
 
-void App::apply_fit() {
-  if (!state_.requests.fit) return;
-  if (session_->frame == nullptr) {
-    state_.requests.fit = false;
-    return;
-  }
-  if (!scene_current_) return;
-  state_.requests.fit = false;
-  // Title above and colour bar below the mesh, not on it.
-  const double em = ImGui::GetFontSize();
-  const double top = 2.4 * em, bottom = 4.4 * em;
-  const Vec2<double> free{state_.viewport.x, std::max(1.0, state_.viewport.y - top - bottom)};
-  state_.camera = render::Camera2D::fit(scene_.bounds(), free, std::min(1.2 * em, 0.05 * std::min(free.x, free.y)));
-  state_.camera.pan({0.0, (top - bottom) / 2});
-  fitted_ = state_.camera;
-  state_.commands.keep_look(look());
+/// Of several viewports the colour bar has a place of its own below them, of one it lies on the mesh.
+std::vector<Rect> App::pane_places(PanelContext& context, const Rect& rect) {
+  Rect area = rect;
+  const PaneLayout layout = state_.panes.layout;
+  const bool below = (layout == PaneLayout::Two || layout == PaneLayout::Four) && context.frame() != nullptr;
+  if (below) area.h = std::max(0.0F, area.h - std::round(colour_bar_height(context, rect)));
+  return pane_rects(layout, area, std::round(context.px(4)), viewports_.aspect(), 2.9F * context.em());
 }
 
-render::Style App::style() const {
-  render::Style style = scene_style(state_);
-  style.colours = shown_scale(state_, derived_);
-  return style;
-}
-
-render::Marks App::marks(const MarkView& view) {
-  render::Marks marks;
-  const Frame* frame = session_->frame.get();
-  if (frame == nullptr) return marks;
-  if (state_.picked.kind == Picked::Kind::Element && state_.picked.id < frame->element_count()) marks.elements = {state_.picked.id};
-  const bool inspecting = state_.inspection.open && inspection_.trace && !state_.inspection.applied;
-  if (state_.picked.kind == Picked::Kind::Vertex && state_.picked.id < frame->vertex_count()) {
-    for (const Incidence& incidence : inspecting ? std::span<const Incidence>{} : frame->input->topology.star(state_.picked.id))
-      marks.elements.push_back(incidence.element);
-    marks.vertices = {state_.picked.id};
-  }
-  if (state_.worst_marker && !frame->worst.empty() && !state_.inspection.open) marks.worst = frame->worst.front().element;
-  stepping_.add_marks(marks, state_, *session_, view,
-                      [this](const MarkView& seen, std::size_t most) { return scene_.elements_in_view(seen.camera, seen.viewport, most); });
-  if (state_.inspection.open) {
-    render::Style of_quality = style();
-    of_quality.colours = colour_scale(state_, derived_);  // of candidates, whatever the elements show
-    const InspectionLook look = inspection_look(of_quality, palette(state_.theme).accent, view.camera, view.scale);
-    add_inspection_marks(marks, state_.inspection, inspection_, look);
-  }
-  const render::Style plain = style();
-  add_size_point(marks, session_->runs[session_->active], frame->input->geometry.plane, plain.highlight_colour, plain.casing_colour);
-  return marks;
-}
-
-void App::update_scene(const Rect& rect, double now) {
-  const Vec2<double> before = state_.viewport;
-  state_.viewport = {std::max(1.0, static_cast<double>(rect.w)), std::max(1.0, static_cast<double>(rect.h))};
-  // A fitted mesh stays fitted when the window or a panel changes its size.
-  const bool resized = before.x != state_.viewport.x || before.y != state_.viewport.y;
-  if (resized && fitted_ && *fitted_ == state_.camera) state_.requests.fit = true;
+void App::update_viewports(PanelContext& context, const Rect& rect) {
   redraw_in_ = kForever;
-  refining_ = false;
-  scene_current_ = scene_.show(session_->frame, options_.wait_for_scene ? render::Loading::Wait : render::Loading::Background);
-  if (!scene_current_) redraw_in_ = 0.05;
-  apply_fit();
-  const Frame* frame = session_->frame.get();
-  if (frame == nullptr || rect.empty()) return;
-  if (const RunView& run = session_->runs[session_->active]; fixed_serial_ != frame->serial && run.fixed.size() == frame->vertex_count()) {
-    scene_.set_fixed(run.fixed);
-    fixed_serial_ = frame->serial;
-  }
-  scene_.set_shading(scene_current_ && derived_.colouring.colours ? derived_.colouring.colours->shading : nullptr);
-  if (scene_current_) scene_.set_selection(selection_of(state_, derived_));
-  update_labels();
+  const bool moved = moving(context.now);
   // A live run counts as movement: its next frame comes soon.
-  const bool restless = moving(now) || (activity_.busy && activity_.busy_seconds > kRestAfter);
-  const double detail = render::suggested_detail(scene_.element_count(), options_.software_renderer, true);
-  const auto w = static_cast<int>(std::lround(rect.w)), h = static_cast<int>(std::lround(rect.h));
-  picture_.update(scene_, {w, h, state_.camera, style(), marks({state_.camera, state_.viewport, state_.scale}), detail, !restless});
-  refining_ = !picture_.complete();
-  activity_.reduced = refining_;
-  if (refining_ && !activity_.busy) redraw_in_ = restless ? std::min(redraw_in_, kRestAfter) : 0.0;
-}
-
-void App::update_labels() {
-  const ColouringState& colouring = state_.colouring;
-  const double em = ImGui::GetFontSize();
-  // As they are drawn: digits of DejaVu Sans are 0.64 em wide.
-  const render::LabelWish wish{colouring.label_vertices, colouring.label_elements, 0.8 * 0.64 * em, em, 400};
-  ColourFacts& facts = derived_.colouring;
-  facts.labels = scene_.labels(state_.camera, state_.viewport, wish);
-  facts.labels_lack_room = (wish.vertices || wish.elements) && facts.labels.empty();
+  const bool live = activity_.busy && activity_.busy_seconds > kRestAfter;
+  const std::vector<Rect> places = pane_places(context, rect);
+  if (viewports_.draw(state_, derived_, inspection_, places, {static_cast<double>(context.em()), moved, live}))
+    state_.commands.keep_look(look());
+  if (viewports_.loading()) redraw_in_ = 0.05;
+  activity_.reduced = viewports_.refining();
+  if (viewports_.refining() && !activity_.busy) redraw_in_ = moved || live ? std::min(redraw_in_, kRestAfter) : 0.0;
+  context.panes = viewports_.facts();
 }
 
 void App::handle_shortcuts() {
@@ -294,11 +228,9 @@ void App::draw_panels(PanelContext& context) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   state_.window_size = {static_cast<int>(screen.x), static_cast<int>(screen.y)};
   const Layout layout = compute_layout(state_.panels, screen.x, screen.y, context.em(), menu);
-  update_scene(layout.viewport, context.now);
-  context.mesh_texture = picture_.texture();
-  context.stepping_note = stepping_.note(state_, *session_);
+  update_viewports(context, layout.viewport);
   draw_toolbar(context, layout.toolbar);
-  draw_viewport(context, layout.viewport);
+  draw_viewports(context, layout.viewport);
   if (!layout.folded) {
     draw_side(context, "left", layout.left, false, true);
     draw_side(context, "right", layout.right, false, false);
@@ -320,8 +252,10 @@ void App::draw(double now) {
   take_news(now);
   notice_new_input();
   take_restored_view();
+  viewports_.follow(state_, session_);
+  engine_.watch(viewports_.wanted(state_));
   update_derived();
-  if (state_.timeline.shown == Shown::Now) stepping_.update(*session_, busy);
+  if (state_.timeline.shown == Shown::Now) viewports_.update_stepping(busy);
   refresh(inspection_, state_, *session_, busy);
   const double play_in = play_on(busy, now);
   for (Message& message : serve_plot_requests(state_, *session_, {derived_.sorted_before, derived_.sorted_now})) {
@@ -341,21 +275,20 @@ void App::draw(double now) {
       fonts_,
       items_,
       [this](const std::string& line) { submit(line); },
-      [this](Vec2<double> pixel) {
-        const render::Pick pick = scene_.pick(state_.camera, state_.viewport, pixel, 8.0 * state_.scale);
+      [this](std::size_t pane, Vec2<double> pixel) {
+        const render::Pick pick = viewports_.pick(state_, pane, pixel);
         return std::pair{pick.vertex, pick.element};
       },
-      [this](Vec2<double> pixel, double radius) { return scene_.vertices_near(state_.camera, state_.viewport, pixel, radius); },
+      [this](std::size_t pane, Vec2<double> pixel, double radius) { return viewports_.vertices_near(state_, pane, pixel, radius); },
       {},
       commands_.commands(),
-      0,
       now};
   // What a panel holds must stay alive until the frame is done, whatever its commands bring about.
   const std::shared_ptr<const SessionView> held = session_;
   const auto hovered = state_.inspection.hovered;
   draw_panels(context);
   if (activity_.busy) redraw_in_ = std::min(redraw_in_, 0.1);
-  if (!colour_worker_.settled()) redraw_in_ = std::min(redraw_in_, 0.02);
+  if (!viewports_.colours_settled()) redraw_in_ = std::min(redraw_in_, 0.02);
   if (state_.requests.fit) redraw_in_ = 0.0;
   advance_playback(now);
   advance_sequence();
@@ -377,34 +310,19 @@ double App::play_on(bool busy, double now) {
 }
 
 void App::update_derived() {
-  refresh(derived_, state_, *session_);
-  colour_worker_.update(state_, *session_);
-  derived_.colouring.colours = colour_worker_.colours();
+  refresh(derived_, state_, *session_, viewports_.frames());
+  viewports_.update_colours(state_, derived_);
 }
 
 render::Image App::mesh_picture(const ScreenshotOptions& options) {
-  const Frame* frame = session_->frame.get();
-  if (frame == nullptr) throw UsageError("no mesh is open: there is nothing to take a picture of");
+  if (session_->frame == nullptr) throw UsageError("no mesh is open: there is nothing to take a picture of");
   render::Shot shot;
   shot.width = options.width > 0 ? options.width : static_cast<int>(state_.viewport.x);
   shot.height = options.height > 0 ? options.height : static_cast<int>(state_.viewport.y);
   shot.supersample = options.supersample;
   shot.transparent = options.transparent;
   shot.scale = static_cast<float>(state_.scale);
-  const RunView& run = session_->runs[session_->active];
-  render::Legend legend = legend_of(state_, derived_, *frame);
-  legend.subtitle = fmt::format("{} · {}, iteration {}, minimum {:.4g}", frame->input->mesh.name, run.parameters.method,
-                                frame->moment.iteration, frame->shown_statistics.minimum);
-  shot.legend = legend;
-  render::Style look = style();
-  look.scale = 1.0F;  // Shot::scale multiplies it
-  look.transparent = options.transparent;
-  const render::Camera2D camera = state_.camera.for_viewport(state_.viewport, render::mesh_viewport(shot));
-  render::Image image = render::render_image(scene_, camera, look, marks({camera, render::mesh_viewport(shot), state_.scale}), shot).image;
-  const Vec2<double> digit = render::label_digit(shot.scale), viewport = render::mesh_viewport(shot);
-  const render::LabelWish wish{state_.colouring.label_vertices, state_.colouring.label_elements, digit.x, digit.y, 400};
-  render::draw_labels(image, scene_.labels(camera, viewport, wish), camera, viewport, look, shot.scale);
-  return image;
+  return viewports_.picture(state_, derived_, inspection_, shot);
 }
 
 }  // namespace dmoscope::ui

@@ -9,15 +9,12 @@
 #include <string_view>
 
 #include "core/session/engine.h"
-#include "render/live_picture.h"
-#include "render/scene.h"
 #include "render/screenshot.h"
-#include "ui/colour_worker.h"
 #include "ui/file_watch.h"
 #include "ui/panels/panels.h"
-#include "ui/stepping_view.h"
 #include "ui/view_commands.h"
 #include "ui/view_state.h"
+#include "ui/viewports.h"
 
 namespace dmoscope::ui {
 
@@ -47,6 +44,9 @@ class App {
   /// What was drawn last; null: nothing is open.
   [[nodiscard]] std::shared_ptr<const Frame> frame() const { return session_->frame; }
   [[nodiscard]] const CommandTable& commands() const noexcept { return commands_; }
+  /// Of quality and what the elements are coloured by instead (null: quality), in the active viewport as it was drawn last.
+  [[nodiscard]] std::pair<double, double> colour_range() const noexcept { return derived_.range; }
+  [[nodiscard]] std::shared_ptr<const ElementColours> colours() const noexcept { return derived_.colouring.colours; }
   /// The look into a visit as it was drawn last.
   [[nodiscard]] const Inspection& inspection() const noexcept { return inspection_; }
 
@@ -68,7 +68,7 @@ class App {
   /// False while the scene is still made ready in the background, or drawn in full, a fit waits for it, or the window does something by
   /// itself that ends.
   [[nodiscard]] bool settled() const noexcept {
-    const bool drawn = scene_current_ && !refining_ && colour_worker_.settled() && !state_.requests.fit;
+    const bool drawn = viewports_.settled() && !state_.requests.fit;
     return drawn && !state_.sequence && state_.timeline.play.kind != Playback::Kind::History;
   }
 
@@ -93,15 +93,11 @@ class App {
   void notice_new_input();
   void update_derived();
   double play_on(bool busy, double now);
-  void update_scene(const Rect& rect, double now);
-  void update_labels();
-  void apply_fit();
+  [[nodiscard]] std::vector<Rect> pane_places(PanelContext& context, const Rect& rect);
+  void update_viewports(PanelContext& context, const Rect& rect);
   void handle_shortcuts();
   void draw_panels(PanelContext& context);
   void draw_side(PanelContext& context, const char* name, const Rect& rect, bool overlay, bool left);
-  /// `view`: of the picture that they are drawn in.
-  [[nodiscard]] render::Marks marks(const MarkView& view);
-  [[nodiscard]] render::Style style() const;
   [[nodiscard]] bool moving(double now) const;
 
   Options options_;
@@ -113,7 +109,6 @@ class App {
   Activity activity_;
   Derived derived_;
   Inspection inspection_;
-  SteppingView stepping_;
   WidgetState widgets_;
   Items items_;
   Fonts fonts_;
@@ -126,13 +121,7 @@ class App {
   };
   Flipped flipped_;  // what shown_view() made last
 
-  render::MeshScene scene_;
-  render::LivePicture picture_;
-  bool scene_current_ = true;
-  ColourWorker colour_worker_;
-  bool refining_ = false;                   // a full picture is being drawn, or will be once nothing moves
-  std::optional<render::Camera2D> fitted_;  // the camera of the last fit, while nobody has moved it
-  std::uint64_t fixed_serial_ = 0;
+  Viewports viewports_;
 
   double styled_scale_ = 0.0;
   std::optional<Theme> styled_theme_;

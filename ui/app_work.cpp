@@ -57,7 +57,7 @@ void App::take_restored_view() {
   if (view.empty()) return;
   try {
     apply_view_json(view, state_, session_->input ? &session_->input->mesh : nullptr);
-    fitted_.reset();
+    viewports_.forget_fit();
     state_.commands.keep_look(look());
   } catch (const UsageError& error) {
     Message message{Message::Kind::Error, fmt::format("the session is open, but not with its view: {}", error.what()), error.exit_code()};
@@ -89,7 +89,7 @@ void App::advance_sequence() {
   if (!state_.sequence) return;
   redraw_in_ = 0.0;
   Sequence& sequence = *state_.sequence;
-  if (engine_.busy() || !scene_current_ || refining_ || activity_.reduced) return;
+  if (engine_.busy() || !viewports_.settled() || activity_.reduced) return;
   if (sequence.phase == Sequence::Phase::Shot) {
     if (!state_.requests.screenshots.empty()) return;
     if (state_.requests.screenshot_failed) return end_sequence("the sequence of pictures ended early", Message::Kind::Warning);

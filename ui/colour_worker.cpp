@@ -14,11 +14,13 @@ void ColourWorker::take() {
   if (pending_.valid() && pending_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) colours_ = pending_.get();
 }
 
-void ColourWorker::update(const ViewState& state, const SessionView& session) {
+void ColourWorker::update(const ViewState& state, const SessionView& session, std::shared_ptr<const Frame> reference) {
   take();
   const ColourBy by = state.colouring.by;
   const Frame* frame = session.frame.get();
-  const bool possible = frame != nullptr && by != ColourBy::Quality && !(frame->device && needs_positions(by));
+  const bool comparable = frame != nullptr && reference && !reference->device && reference->input == frame->input;
+  const bool possible =
+      frame != nullptr && by != ColourBy::Quality && !(frame->device && needs_positions(by)) && (by != ColourBy::Difference || comparable);
   if (!possible) {
     colours_.reset();  // what is pending ends soon, and then is dropped here
     key_.reset();
@@ -31,10 +33,12 @@ void ColourWorker::update(const ViewState& state, const SessionView& session) {
                         by_class ? run.colouring : nullptr,
                         state.colour_map,
                         state.colouring.reversed,
-                        by == ColourBy::SizeOverTarget ? run.size : nullptr};
+                        by == ColourBy::SizeOverTarget ? run.size : nullptr,
+                        by == ColourBy::Difference ? std::move(reference) : nullptr};
   const Key key{by,
                 frame->input_serial,
                 needs_positions(by) ? frame->serial : 0,
+                request.reference ? request.reference->serial : 0,
                 by_class ? static_cast<const void*>(request.classes.get()) : request.size.get(),
                 ordered ? static_cast<int>(request.map) : 0,
                 ordered && request.reversed};

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "core/session/input_mesh.h"
 #include "ui/command_words.h"
 #include "ui/element_colours.h"
@@ -19,6 +21,18 @@ ColourBy parse_by(const std::string& word) {
     names += (names.empty() ? "" : ", ") + std::string(one.name);
   }
   unexpected(word, "one of " + names);
+}
+
+PaneContent parse_reference(const ViewState& state, Arguments words) {
+  const PaneContent content = state.panes.parse({words.begin(), words.end()});
+  using Kind = PaneContent::Kind;
+  const bool usable = content.kind == Kind::Input || (content.kind == Kind::Run && !content.iteration) || content.kind == Kind::MarkA ||
+                      content.kind == Kind::MarkB;
+  if (!usable) throw UsageError("differences are taken from input, run N, mark a or mark b");
+  const Timeline& timeline = state.timeline;
+  if ((content.kind == Kind::MarkA && !timeline.a.frame) || (content.kind == Kind::MarkB && !timeline.b.frame))
+    throw UsageError(fmt::format("{} is not marked: mark {}", content.kind == Kind::MarkA ? "A" : "B", words[1]));
+  return content;
 }
 
 std::pair<double, double> parse_range(Arguments words) {
@@ -61,14 +75,17 @@ void add_colour_verbs(CommandTable& table, ViewState& state, const CommandHost& 
               state.range_low = range.first;
               state.range_high = range.second;
             });
-  table.add({"color-by", "color-by quality|kind|group|valence|class|displacement|size|inverted", "what the elements' colours tell"},
+  table.add({"color-by", "color-by quality|kind|group|valence|class|displacement|size|inverted|difference [input|run N|mark a|b]",
+             "what the elements' colours tell; difference: quality less that of the input, of a run or of a mark"},
             [&state, &host](Arguments words) {
-              need(words, 1, 1);
+              need(words, 1, 4);
               const ColourBy by = parse_by(words[0]);
               const auto view = host.session();
               if (by == ColourBy::Group && view && view->input && view->input->mesh.groups.empty()) {
                 throw UsageError("the mesh has no groups or markers");
               }
+              if (by != ColourBy::Difference) need(words, 1, 1);
+              if (by == ColourBy::Difference && words.size() > 1) state.colouring.reference = parse_reference(state, words.subspan(1));
               state.colouring.by = by;
             });
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "render/shading.h"
+#include "ui/panes.h"
 
 namespace dmoscope::ui {
 
@@ -18,12 +19,12 @@ inline constexpr std::array<std::pair<std::string_view, RangeMode>, 3> kRangeMod
     {{"fixed", RangeMode::Fixed}, {"auto", RangeMode::Auto}, {"expanding", RangeMode::Expanding}}};
 
 /// What the elements' colours tell.
-enum class ColourBy { Quality, Kind, Group, Valence, Class, Displacement, Size, Inverted, EdgeLength, SizeOverTarget };
+enum class ColourBy { Quality, Kind, Group, Valence, Class, Displacement, Size, Inverted, EdgeLength, SizeOverTarget, Difference };
 struct ColourByInfo {
   ColourBy by;
   std::string_view name, title, doc;
 };
-inline constexpr std::array<ColourByInfo, 10> kColourBys{{
+inline constexpr std::array<ColourByInfo, 11> kColourBys{{
     {ColourBy::Quality, "quality", "Quality", "of the shown metric"},
     {ColourBy::Kind, "kind", "Kind of element", "triangle or quadrilateral"},
     {ColourBy::Group, "group", "Group", "boundaries, markers and element groups that the file carried"},
@@ -35,13 +36,14 @@ inline constexpr std::array<ColourByInfo, 10> kColourBys{{
     {ColourBy::EdgeLength, "edge-length", "Edge length", "mean length of the edges around an element's corners, logarithmic"},
     {ColourBy::SizeOverTarget, "size-over-target", "Size over target",
      "edge length over the size that the run's size function wants, logarithmic; 1: as large as the rest of the mesh allows"},
+    {ColourBy::Difference, "difference", "Difference", "quality less that of the input, or of another run or a mark"},
 }};
 [[nodiscard]] constexpr const ColourByInfo& info(ColourBy by) { return kColourBys[static_cast<std::size_t>(by)]; }
 
 /// Whether the colours are those of categories, whose elements can be looked at alone.
 [[nodiscard]] constexpr bool has_categories(ColourBy by) {
   return by != ColourBy::Quality && by != ColourBy::Displacement && by != ColourBy::Size && by != ColourBy::EdgeLength &&
-         by != ColourBy::SizeOverTarget;
+         by != ColourBy::SizeOverTarget && by != ColourBy::Difference;
 }
 
 inline constexpr std::array<std::pair<std::string_view, render::Selection::Others>, 3> kFilterModes{
@@ -58,6 +60,7 @@ struct Isolation {
 
 struct ColouringState {
   ColourBy by = ColourBy::Quality;
+  PaneContent reference{PaneContent::Kind::Input, 0, std::nullopt};  // of ColourBy::Difference: input, a run as it stands or a mark
   bool reversed = false;
   int steps = 0;                                                       // see render::ColourScale
   std::optional<std::pair<double, double>> filter;                     // qualities that count, from and to

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "ui/format.h"
+#include "ui/panels/panels.h"
 #include "ui/view_geometry.h"
 
 namespace dmoscope::ui {
@@ -35,18 +36,6 @@ void widen(std::map<Metric, std::pair<double, double>>& seen, Metric metric, std
   if (!added) at->second = {std::min(at->second.first, range.first), std::max(at->second.second, range.second)};
 }
 
-void refresh_members(ColourFacts& facts, const ViewState& state, const SessionView& session) {
-  const Frame& frame = *session.frame;
-  const ColouringState& colouring = state.colouring;
-  const Colouring* classes = session.runs.empty() ? nullptr : session.runs[session.active].colouring.get();
-  const bool by_frame = colouring.worst > 0 || (colouring.isolated && colouring.isolated->by == ColourBy::Inverted);
-  const ColourFacts::MembersKey key{colouring.isolated, colouring.worst, frame.input_serial, by_frame ? frame.serial : 0,
-                                    colouring.isolated ? classes : nullptr};
-  if (facts.members_key == key) return;
-  facts.members_key = key;
-  facts.members = members_of(colouring, frame, classes);
-}
-
 /// One look at all elements: how many lie outside the colours' range, and how many count.
 void count_elements(Derived& derived, const ViewState& state, const Frame& frame) {
   derived.outside_low = derived.outside_high = 0;
@@ -70,12 +59,29 @@ void count_elements(Derived& derived, const ViewState& state, const Frame& frame
   if (!selection.all() && !frame.device) derived.colouring.counting = counting;
 }
 
+/// The range of all frames on show; each is looked at once.
+bool refresh_own(ColourFacts& facts, std::span<const std::shared_ptr<const Frame>> frames, const Frame& active) {
+  std::vector<std::pair<std::uint64_t, std::optional<std::pair<double, double>>>> owns;
+  const auto add = [&](const Frame& frame) {
+    const auto known = std::ranges::find(facts.owns, frame.serial, [](const auto& own) { return own.first; });
+    owns.emplace_back(frame.serial, known == facts.owns.end() ? own_range(frame) : known->second);
+    if (owns.back().second) widen(facts.seen, frame.shown, *owns.back().second);
+  };
+  for (const auto& frame : frames) add(*frame);
+  if (frames.empty()) add(active);
+  if (facts.owns == owns) return false;
+  facts.owns = std::move(owns);
+  facts.own.reset();
+  for (const auto& [serial, own] : facts.owns) {
+    if (!own) continue;
+    const auto [low, high] = facts.own.value_or(*own);
+    facts.own = {std::min(low, own->first), std::max(high, own->second)};
+  }
+  return true;
+}
+
 void refresh_range(Derived& derived, const ViewState& state, const Frame& frame, bool new_frame) {
   ColourFacts& facts = derived.colouring;
-  if (new_frame) {
-    facts.own = own_range(frame);
-    if (facts.own) widen(facts.seen, frame.shown, *facts.own);
-  }
   const ColourFacts::RangeKey key{state.range_mode,           state.range_low,        state.range_high,
                                   state.colouring.held_range, state.colouring.filter, facts.members.get()};
   if (!new_frame && facts.range_key == key) return;
@@ -136,7 +142,19 @@ void refresh_sorted(Derived& derived, const Frame& frame) {
 
 }  // namespace
 
-void refresh(Derived& derived, const ViewState& state, const SessionView& session) {
+void refresh_members(ColourFacts& facts, const ViewState& state, const SessionView& session) {
+  const Frame& frame = *session.frame;
+  const ColouringState& colouring = state.colouring;
+  const Colouring* classes = session.runs.empty() ? nullptr : session.runs[session.active].colouring.get();
+  const bool by_frame = colouring.worst > 0 || (colouring.isolated && colouring.isolated->by == ColourBy::Inverted);
+  const ColourFacts::MembersKey key{colouring.isolated, colouring.worst, frame.input_serial, by_frame ? frame.serial : 0,
+                                    colouring.isolated ? classes : nullptr};
+  if (facts.members_key == key) return;
+  facts.members_key = key;
+  facts.members = members_of(colouring, frame, classes);
+}
+
+void refresh(Derived& derived, const ViewState& state, const SessionView& session, std::span<const std::shared_ptr<const Frame>> frames) {
   const Frame* frame = session.frame.get();
   if (frame == nullptr) {
     derived = {};
@@ -145,12 +163,14 @@ void refresh(Derived& derived, const ViewState& state, const SessionView& sessio
   if (derived.input_serial != frame->input_serial) {
     refresh_input(derived, *frame);
     derived.colouring.seen.clear();
+    derived.colouring.owns.clear();
     derived.input_serial = frame->input_serial;
   }
   const bool new_frame = derived.frame_serial != frame->serial;
   derived.frame_serial = frame->serial;
   refresh_members(derived.colouring, state, session);
-  refresh_range(derived, state, *frame, new_frame);
+  const bool new_range = refresh_own(derived.colouring, frames, *frame);
+  refresh_range(derived, state, *frame, new_frame || new_range);
   const std::pair facts_key{frame->serial, state.picked};
   if (derived.facts_key != facts_key) {
     derived.facts = facts_of(*frame, state.picked);
@@ -166,7 +186,12 @@ render::ColourScale colour_scale(const ViewState& state, const Derived& derived)
 
 render::ColourScale shown_scale(const ViewState& state, const Derived& derived) {
   render::ColourScale scale = colour_scale(state, derived);
-  if (derived.colouring.colours) std::tie(scale.low, scale.high) = derived.colouring.colours->range;
+  const ColourFacts& facts = derived.colouring;
+  if (facts.colours) std::tie(scale.low, scale.high) = facts.values_range.value_or(facts.colours->range);
+  if (facts.colours && facts.colours->diverging) {
+    scale.map = render::ColourMap::OrangeBlue;
+    scale.reversed = false;
+  }
   return scale;
 }
 
@@ -183,7 +208,7 @@ render::Selection selection_of(const ViewState& state, const Derived& derived) {
 render::Legend legend_of(const ViewState& state, const Derived& derived, const Frame& frame) {
   render::Legend legend;
   const ElementColours* colours = derived.colouring.colours.get();
-  legend.title = colours != nullptr ? colours->title : metric_phrase(frame.shown);
+  legend.title = colours == nullptr ? metric_phrase(frame.shown) : state.panes.one() ? colours->title : colours->common_title;
   legend.inverted = frame.shown_statistics.inverted;
   if (colours == nullptr) {
     legend.undefined = derived.undefined;
@@ -192,6 +217,10 @@ render::Legend legend_of(const ViewState& state, const Derived& derived, const F
   } else {
     legend.logarithmic = colours->logarithmic;
     legend.has_categories = has_categories(colours->by);
+    if (colours->diverging && state.panes.one()) {
+      legend.beside = {{"better", render::sample(render::ColourMap::OrangeBlue, 0.9), colours->better},
+                       {"worse", render::sample(render::ColourMap::OrangeBlue, 0.1), colours->worse}};
+    }
     for (const Category& category : colours->categories) legend.categories.push_back({category.name, category.colour, category.count});
   }
   if (derived.colouring.counting) {

@@ -238,6 +238,38 @@ void by_size_over_target(Work& work) {
   work.out.range = {-widest, widest};  // so that 1 is in the middle
 }
 
+/// "run 2 it 10", "input"
+std::string name_of(const Frame& frame) {
+  if (frame.run == Frame::kNoRun) return "input";
+  std::string name = fmt::format("run {} it {}", frame.run + 1, frame.moment.iteration);
+  if (frame.moment.visits > 0) name += fmt::format(" + {}", frame.moment.visits);
+  return name;
+}
+
+void by_difference(Work& work) {
+  const Frame &frame = *work.request.frame, &reference = *work.request.reference;
+  const QualityContext context = frame.input->quality_context();
+  const bool same_metric = reference.shown == frame.shown;
+  work.shading.values.resize(frame.quality.size());
+  double most = 0.0;
+  for (Index e = 0; e < frame.quality.size(); ++e) {
+    // In float, as both are shown: what did not change has no difference.
+    const float before =
+        same_metric ? reference.quality[e] : static_cast<float>(element_quality(context, reference.positions, frame.shown, e));
+    const float difference = frame.quality[e] - before;
+    work.shading.values[e] = difference;
+    work.out.better += difference > 0.0F ? 1 : 0;
+    work.out.worse += difference < 0.0F ? 1 : 0;
+    if (std::isfinite(difference)) most = std::max(most, std::abs(static_cast<double>(difference)));
+  }
+  if (most == 0.0) most = 1.0;  // all is the same
+  work.out.range = {-most, most};
+  work.out.diverging = true;
+  const std::string metric(info(frame.shown).title), of = name_of(reference);
+  work.out.title = fmt::format("{}: {} minus {}", metric, name_of(frame), of);
+  work.out.common_title = fmt::format("{}: each minus {}", metric, of);
+}
+
 std::optional<std::size_t> number_in(std::string_view name, bool& open) {
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
@@ -365,7 +397,11 @@ ElementColours colour_elements(const ColourRequest& request) {
     case ColourBy::SizeOverTarget:
       by_size_over_target(work);
       break;
+    case ColourBy::Difference:
+      by_difference(work);
+      break;
   }
+  if (work.out.common_title.empty()) work.out.common_title = work.out.title;
   for (const Category& category : work.out.categories) work.shading.palette.push_back(category.colour);
   // A palette that is not empty tells the values are categories.
   if (has_categories(request.by) && work.shading.palette.empty()) work.shading.palette.push_back({});

@@ -28,10 +28,13 @@ struct ElementColours {
   std::uint64_t input_serial = 0;
   std::shared_ptr<const render::Shading> shading;
   std::string title;                      // "area / mean area"
+  std::string common_title;               // the same for all frames on show together
   std::string counted;                    // what the categories count: "elements", "vertices"
   std::vector<Category> categories;       // empty: values
   std::pair<double, double> range{0, 1};  // of the values
   bool logarithmic = false;               // the values are powers of ten
+  bool diverging = false;                 // the values are differences, and 0 is the middle of the range
+  std::size_t better = 0, worse = 0;      // of differences: elements above and below 0
   std::string note;                       // what is to be known about it, may be empty
 };
 
@@ -41,12 +44,14 @@ struct ColourRequest {
   std::shared_ptr<const Colouring> classes;            // for ColourBy::Class
   render::ColourMap map = render::ColourMap::Viridis;  // of ordered categories
   bool reversed = false;
-  std::shared_ptr<const SizeField> size{};  // for ColourBy::SizeOverTarget; null: the run has none
+  std::shared_ptr<const SizeField> size{};   // for ColourBy::SizeOverTarget; null: the run has none
+  std::shared_ptr<const Frame> reference{};  // for ColourBy::Difference: whole, of the same input
 };
 
 /// Whether it depends on where the vertices are, so that it is worked out for every frame, and cannot be for a light one.
 [[nodiscard]] constexpr bool needs_positions(ColourBy by) {
-  return by == ColourBy::Displacement || by == ColourBy::Size || by == ColourBy::EdgeLength || by == ColourBy::SizeOverTarget;
+  return by == ColourBy::Displacement || by == ColourBy::Size || by == ColourBy::EdgeLength || by == ColourBy::SizeOverTarget ||
+         by == ColourBy::Difference;
 }
 
 /// Takes some 20 ms a million elements, on any thread. `by` must not be ColourBy::Quality.

@@ -1,14 +1,10 @@
 #pragma once
 // Which part of the window each panel gets.
 
+#include "ui/layout_rect.h"
 #include "ui/view_state.h"
 
 namespace dmoscope::ui {
-
-struct Rect {
-  float x = 0, y = 0, w = 0, h = 0;
-  [[nodiscard]] bool empty() const noexcept { return w <= 0 || h <= 0; }
-};
 
 struct Layout {
   Rect toolbar, left, viewport, right, bottom, status;

@@ -14,6 +14,7 @@
 #include "ui/file_commands.h"
 #include "ui/input_commands.h"
 #include "ui/inspection_commands.h"
+#include "ui/pane_commands.h"
 #include "ui/plot_commands.h"
 #include "ui/selection_commands.h"
 #include "ui/size_point.h"
@@ -253,6 +254,7 @@ CommandTable view_commands(ViewState& state, const CommandHost& host) {
   add_selection_verbs(table, state, host);
   add_stepping_verbs(table, state);
   add_size_point_verbs(table, state, host);
+  add_pane_verbs(table, state);
   return table;
 }
 

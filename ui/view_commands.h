@@ -24,8 +24,8 @@ struct CommandHost {
 /// The verbs; session verbs are not among them. `state` and `host` must outlive the table.
 ///   pick vertex|element ID | pick none | goto vertex|element ID | fit | zoom FACTOR | pan DX DY
 ///   wireframe on|off|toggle | vertices ... | worst ... | colormap NAME | range fixed|auto|LOW HIGH | theme dark|light|contrast|next
-///   scale FACTOR|up|down | size W H | full-screen on|off|toggle | panel left|right|bottom on|off|toggle | verbs of plot_commands.h
-///   dialog NAME|none | screenshot FILE [--size WxH] [--supersample N] [--transparent] [--window] click X Y|ITEM |
+///   scale FACTOR|up|down | size W H | full-screen on|off|toggle | panel left|right|bottom on|off|toggle | verbs of plot_commands.h and
+///   pane_commands.h dialog NAME|none | screenshot FILE [--size WxH] [--supersample N] [--transparent] [--window] click X Y|ITEM |
 ///   double-click X Y | right-click X Y | drag X0 Y0 X1 Y1 | move X Y | wheel X Y AMOUNT | key NAME | type TEXT run-pause | cancel |
 ///   timeline back|forward|first|last | next-run | next-metric | copy TEXT | wait | quit
 [[nodiscard]] CommandTable view_commands(ViewState& state, const CommandHost& host);

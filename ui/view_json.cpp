@@ -1,5 +1,6 @@
 #include "ui/view_json.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -41,6 +42,7 @@ class Writer {
   }
   void words(const char* name, const std::set<std::string>& value) { json_[name] = value; }
   void ids(const char* name, const Selection& value) { json_[name] = id_ranges(value.vertices()); }
+  void content(const char* name, const PaneContent& value, const Panes& panes) { json_[name] = panes.words(value); }
   template <class Body>
   void object(const char* name, Body body) {
     Writer inner;
@@ -117,6 +119,17 @@ class Reader {
     if (!at->is_string()) wrong(name, "numbers and ranges, such as \"3-7 9\"");
     try {
       value.assign(parse_id_ranges(split_words(at->get<std::string>()), vertices_));
+    } catch (const UsageError& error) {
+      wrong(name, error.what());
+    }
+  }
+  /// Runs by their numbers.
+  void content(const char* name, PaneContent& value, const Panes& panes) {
+    const json* at = find(name);
+    if (at == nullptr) return;
+    if (!at->is_string()) wrong(name, "what is shown, such as \"run 2\"");
+    try {
+      value = panes.parse(split_words(at->get<std::string>()));
     } catch (const UsageError& error) {
       wrong(name, error.what());
     }
@@ -202,9 +215,33 @@ void describe_plots(Archive& archive, State& state) {
   }
 }
 
+template <class Archive, class Camera>
+void describe_camera(Archive& archive, Camera& camera) {
+  archive.number("x", camera.centre.x, -kFar, kFar);
+  archive.number("y", camera.centre.y, -kFar, kFar);
+  archive.number("units_per_pixel", camera.units_per_pixel, 1e-300, kFar);
+}
+
+template <class Archive, class Panes>
+void describe_panes(Archive& archive, Panes& panes) {
+  archive.choice("layout", panes.layout, kPaneLayouts);
+  archive.flag("linked", panes.linked);
+  archive.number("split", panes.split, 0.0, 1.0);
+  archive.count("active", panes.focus, Panes::kMost - 1);
+  for (std::size_t k = 0; k < Panes::kMost; ++k) {
+    auto& pane = panes.panes[k];
+    archive.object(fmt::format("pane{}", k + 1).c_str(), [&pane, &panes](auto& one) {
+      one.content("shows", pane.content, panes);
+      one.flag("chosen", pane.chosen);
+      one.object("camera", [&pane](auto& camera) { describe_camera(camera, pane.camera); });
+    });
+  }
+}
+
 template <class Archive, class State>
 void describe_colouring(Archive& archive, State& state) {
   auto& colouring = state.colouring;
+  archive.content("reference", colouring.reference, state.panes);
   archive.choice("by", colouring.by, colour_by_names());
   archive.choice("range_mode", state.range_mode, kEveryRangeMode);
   archive.number("range_low", state.range_low, -kFar, kFar);
@@ -230,11 +267,8 @@ void describe_stepping(Archive& archive, State& state) {
 /// The one description of the view.
 template <class Archive, class State>
 void describe(Archive& archive, State& state) {
-  archive.object("camera", [&state](auto& camera) {
-    camera.number("x", state.camera.centre.x, -kFar, kFar);
-    camera.number("y", state.camera.centre.y, -kFar, kFar);
-    camera.number("units_per_pixel", state.camera.units_per_pixel, 1e-300, kFar);
-  });
+  archive.object("camera", [&state](auto& camera) { describe_camera(camera, state.camera); });
+  archive.object("viewports", [&state](auto& viewports) { describe_panes(viewports, state.panes); });
   archive.flag("wireframe", state.wireframe);
   archive.flag("vertices", state.vertices);
   archive.flag("worst_marker", state.worst_marker);
@@ -282,6 +316,7 @@ void apply_view_json(std::string_view text, ViewState& state, const Mesh* mesh) 
   Reader reader(in, "view", mesh == nullptr ? 0 : mesh->vertex_count());
   describe(reader, next);
   check(next, mesh);
+  next.panes.focus = std::min(next.panes.focus, next.panes.count() - 1);
   state = std::move(next);
   state.requests.fit = false;
 }

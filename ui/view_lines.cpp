@@ -26,6 +26,18 @@ std::vector<std::string> view_lines(const ViewState& state, bool with_camera) {
   const PlotView& plot = state.plots[static_cast<std::size_t>(state.plot)];
   for (const auto& [axis, range] : {std::pair{"x", plot.x_range}, {"y", plot.y_range}})
     lines.push_back(range ? fmt::format("plot-zoom {} {} {}", axis, range->first, range->second) : fmt::format("plot-zoom {} all", axis));
+  const Panes& panes = state.panes;
+  for (const auto& [name, layout] : kPaneLayouts)
+    if (panes.layout == layout) lines.push_back(fmt::format("viewports {}", name));
+  lines.push_back(fmt::format("link-cameras {}", on(panes.linked)));
+  lines.push_back(fmt::format("split {}", panes.split));
+  for (std::size_t k = 0; k < panes.count() && !panes.one(); ++k) {
+    const Pane& pane = panes.panes[k];
+    lines.push_back(fmt::format("pane {} {}", k + 1, pane.chosen ? panes.words(pane.content) : "auto"));
+    if (panes.linked || k == panes.focus || !with_camera) continue;
+    lines.push_back(fmt::format("pane-camera {} {} {} {}", k + 1, pane.camera.centre.x, pane.camera.centre.y, pane.camera.units_per_pixel));
+  }
+  if (!panes.one()) lines.push_back(fmt::format("focus-pane {}", panes.focus + 1));
   const render::Camera2D& camera = state.camera;
   if (with_camera) lines.push_back(fmt::format("camera {} {} {}", camera.centre.x, camera.centre.y, camera.units_per_pixel));
   return lines;

@@ -52,6 +52,35 @@ std::pair<double, double> colour_range(const ViewState& state, std::optional<std
   return wanted && wanted->second > wanted->first ? *wanted : std::pair{0.0, 1.0};
 }
 
+void ViewState::link_cameras(bool linked) {
+  if (panes.linked && !linked) {
+    for (Pane& pane : panes.panes) pane.camera = camera;
+  }
+  panes.linked = linked;
+}
+
+void ViewState::focus_pane(std::size_t pane) {
+  if (!panes.linked && pane != panes.focus) {
+    panes.panes[panes.focus].camera = camera;
+    camera = panes.panes[pane].camera;
+  }
+  panes.focus = pane;
+}
+
+void ViewState::follow(const SessionView& session) {
+  focus_pane(panes.follow(session));
+  PaneContent& reference = colouring.reference;
+  using Kind = PaneContent::Kind;
+  const bool gone = (reference.kind == Kind::Run && std::ranges::find(panes.run_ids, reference.run) == panes.run_ids.end()) ||
+                    (reference.kind == Kind::MarkA && !timeline.a.frame) || (reference.kind == Kind::MarkB && !timeline.b.frame);
+  if (gone) reference = {Kind::Input, 0, std::nullopt};
+}
+
+void ViewState::set_layout(PaneLayout layout) {
+  focus_pane(std::min(panes.focus, pane_count(layout) - 1));
+  panes.set_layout(layout);
+}
+
 void move_to_monitor(ViewState& state, double monitor_scale) {
   if (!(monitor_scale > 0.0) || monitor_scale == state.monitor_scale) return;
   state.scale = std::clamp(state.scale * monitor_scale / state.monitor_scale, 0.5, 4.0);

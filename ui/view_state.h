@@ -17,6 +17,7 @@
 #include "ui/command_log.h"
 #include "ui/inspection_state.h"
 #include "ui/keys.h"
+#include "ui/panes.h"
 #include "ui/plot_state.h"
 #include "ui/selection.h"
 #include "ui/sequence.h"
@@ -70,6 +71,7 @@ struct SimulatedInput {
 struct Requests {
   bool quit = false;
   bool fit = false;
+  bool fit_all = false;  // with it: the viewports under cameras of their own, too
   std::optional<bool> full_screen;
   std::optional<std::pair<int, int>> size;
   std::deque<ScreenshotOptions> screenshots;
@@ -87,8 +89,9 @@ struct LogEntry {
 
 struct ViewState {
   // Camera and picture
-  render::Camera2D camera;
-  Vec2<double> viewport{800, 600};        // pixels, set by the drawing code
+  render::Camera2D camera;  // of the active pane, and of all while they are linked
+  Panes panes;
+  Vec2<double> viewport{800, 600};        // pixels of a pane, set by the drawing code
   std::pair<int, int> window_size{0, 0};  // likewise; 0: not known yet
   bool wireframe = true;
   bool vertices = false;
@@ -132,6 +135,19 @@ struct ViewState {
   std::vector<std::string> recent_files;  // newest first, at most 10
 
   Requests requests;
+
+  /// Of a pane.
+  [[nodiscard]] render::Camera2D& camera_of(std::size_t pane) {
+    return panes.linked || pane == panes.focus ? camera : panes.panes[pane].camera;
+  }
+  /// All panes under one camera, that of the active one; or each under its own, from where it is.
+  void link_cameras(bool linked);
+  /// Makes a pane the active one.
+  void focus_pane(std::size_t pane);
+  /// Brings panes, and what differences are taken from, up to date with the session.
+  void follow(const SessionView& session);
+  /// See Panes::set_layout.
+  void set_layout(PaneLayout layout);
 
   [[nodiscard]] PlotView& plot_view() { return plots[static_cast<std::size_t>(plot)]; }
 };

@@ -50,6 +50,21 @@ TEST(ColourMap, ChangesSmoothly) {
   }
 }
 
+TEST(ColourMap, OfDifferencesHasItsLightestInTheMiddleAndTwoLikeArms) {
+  const auto at = [](double t) { return oklab(sample(ColourMap::OrangeBlue, t)); };
+  EXPECT_GT(at(0.5).l, 0.94);
+  EXPECT_LT(std::hypot(at(0.5).a, at(0.5).b), 0.02) << "nearly white: nothing has changed";
+  for (int i = 0; i < 128; ++i) {
+    EXPECT_NEAR(at(i / 256.0).l, at(1.0 - i / 256.0).l, 0.012) << i;
+    EXPECT_LT(at(i / 256.0).l, at((i + 1) / 256.0).l + 0.004) << i;
+    EXPECT_LT(distance(at(i / 256.0), at((i + 1) / 256.0)), 0.03) << i;
+  }
+  // Yellow against blue is what red-green blind eyes still tell apart.
+  EXPECT_GT(at(0.1).b, 0.05);
+  EXPECT_LT(at(0.9).b, -0.05);
+  for (const ColourMapInfo& info : colour_map_table()) EXPECT_NE(info.map, ColourMap::OrangeBlue) << "none of quality";
+}
+
 TEST(ColourMap, EndsAreThePublishedOnes) {
   EXPECT_EQ(sample(ColourMap::Viridis, 0.0), (Rgb{68, 1, 84}));
   EXPECT_EQ(sample(ColourMap::Viridis, 1.0), (Rgb{253, 231, 37}));

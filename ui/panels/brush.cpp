@@ -16,7 +16,7 @@ void paint_to(PanelContext& context, Vec2<double> at, double radius) {
   std::vector<Index> touched;
   for (int i = 1; i <= steps; ++i) {
     const double t = static_cast<double>(i) / steps;
-    const auto near = context.vertices_near({brush.last.x + t * way.x, brush.last.y + t * way.y}, radius);
+    const auto near = context.vertices_near(context.widgets.brush_pane, {brush.last.x + t * way.x, brush.last.y + t * way.y}, radius);
     touched.insert(touched.end(), near.begin(), near.end());
   }
   if (!touched.empty()) brush.stroke.add(touched);
@@ -45,9 +45,10 @@ void draw_cursor(const PanelContext& context, Vec2<double> at, const Rect& rect,
 
 }  // namespace
 
-bool handle_brush(PanelContext& context, const Rect& rect, Vec2<double> at) {
+bool handle_brush(PanelContext& context, const PaneFacts& pane, Vec2<double> at) {
   Brush& brush = context.state.brush;
-  const Frame* frame = context.frame();
+  const Frame* frame = pane.frame();
+  if (brush.painting && context.widgets.brush_pane != pane.number) return true;
   if (!brush.on || frame == nullptr || frame->device) {
     brush.painting = false;
     return false;
@@ -55,6 +56,7 @@ bool handle_brush(PanelContext& context, const Rect& rect, Vec2<double> at) {
   const double radius = brush.radius * context.state.scale;
   if (ImGui::IsItemActivated() && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
     brush.painting = true;
+    context.widgets.brush_pane = pane.number;
     brush.kind = kind_of(ImGui::GetIO());
     brush.stroke.clear();
     brush.last = at;
@@ -64,7 +66,7 @@ bool handle_brush(PanelContext& context, const Rect& rect, Vec2<double> at) {
     if (moved) paint_to(context, at, radius);
     if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) end_stroke(context);
   }
-  if (ImGui::IsItemHovered() || brush.painting) draw_cursor(context, at, rect, radius);
+  if (ImGui::IsItemHovered() || brush.painting) draw_cursor(context, at, pane.rect, radius);
   return true;
 }
 

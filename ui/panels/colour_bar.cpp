@@ -70,6 +70,8 @@ BarLayout lay_out(const PanelContext& context, const Rect& rect) {
   if (legend.categories.size() > kMostEntries) {
     layout.swatches.push_back({fmt::format("and {} more", legend.categories.size() - kMostEntries), std::nullopt});
   }
+  for (const render::LegendEntry& entry : legend.beside)
+    layout.swatches.push_back({fmt::format("{} {}", count(entry.count), entry.name), entry.colour});
   if (legend.inverted > 0) layout.swatches.push_back({fmt::format("{} inverted", count(legend.inverted)), render::kInvertedColour});
   if (legend.undefined) layout.swatches.push_back({"not defined", render::kUndefinedColour});
   if (!legend.selection.empty()) layout.swatches.push_back({legend.selection, std::nullopt});
@@ -218,6 +220,8 @@ void draw_bar(const PanelContext& context, const BarLayout& layout) {
 }
 
 }  // namespace
+
+float colour_bar_height(const PanelContext& context, const Rect& rect) { return lay_out(context, rect).plate.h + 2 * context.px(8); }
 
 void handle_colour_bar(PanelContext& context, const Rect& rect) {
   const BarLayout layout = lay_out(context, rect);

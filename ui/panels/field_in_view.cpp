@@ -58,12 +58,13 @@ class MarkPen {
 
 }  // namespace
 
-void draw_field_in_view(PanelContext& context, const Rect& rect) {
+void draw_field_in_view(PanelContext& context, const PaneFacts& pane) {
+  const Rect& rect = pane.rect;
   const ViewState& state = context.state;
   const Inspection& inspection = context.inspection;
-  if (!state.inspection.open || !state.inspection.field_in_view || !inspection.trace || !inspection.field) return;
+  if (!pane.inspected || !state.inspection.open || !state.inspection.field_in_view || !inspection.trace || !inspection.field) return;
   const auto window = [&](Vec2<double> point) {
-    const Vec2<double> pixel = state.camera.to_pixel(point, state.viewport);
+    const Vec2<double> pixel = pane.camera.to_pixel(point, state.viewport);
     return ImVec2{rect.x + static_cast<float>(pixel.x), rect.y + static_cast<float>(pixel.y)};
   };
   const ToWindow at = [&](Vec2<double> point) { return window(inspection.origin + point); };
@@ -72,7 +73,7 @@ void draw_field_in_view(PanelContext& context, const Rect& rect) {
   render::Style style = scene_style(state);
   style.colours = colour_scale(state, context.derived);
   render::Marks marks;
-  add_inspection_marks(marks, state.inspection, inspection, inspection_look(style, context.palette.accent, state.camera, state.scale));
+  add_inspection_marks(marks, state.inspection, inspection, inspection_look(style, context.palette.accent, pane.camera, state.scale));
   MarkPen pen(list, context.px(1), style.casing_colour);
   for (const render::OverlayLine& line : marks.lines) pen.line(window(line.from), window(line.to), line);
   const Vec2<double> stands = state.inspection.applied ? inspection.trace->step : Vec2<double>{};

@@ -34,6 +34,10 @@ bool is_checked(const ViewState& state, std::string_view id) {
   if (id == "inspect-zoom") return state.inspection.zoom;
   if (id == "level-range-view") return !state.inspection.own_range;
   if (id == "level-range-level") return state.inspection.own_range;
+  for (const auto& [name, layout] : kPaneLayouts) {
+    if (id.starts_with("viewports-") && id.substr(10) == name) return state.panes.layout == layout;
+  }
+  if (id == "link-cameras") return state.panes.linked;
   if (id == "panel-left") return state.panels.left;
   if (id == "panel-right") return state.panels.right;
   if (id == "panel-bottom") return state.panels.bottom;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -14,8 +15,7 @@
 #include "core/session/drawing_path.h"
 #include "core/session/view.h"
 #include "ui/actions.h"
-#include "ui/colour_facts.h"
-#include "ui/facts.h"
+#include "ui/derived.h"
 #include "ui/file_browser.h"
 #include "ui/inspection.h"
 #include "ui/items.h"
@@ -24,6 +24,7 @@
 #include "ui/theme.h"
 #include "ui/thumbnails.h"
 #include "ui/view_state.h"
+#include "ui/viewports.h"
 
 namespace dmoscope::ui {
 
@@ -41,23 +42,6 @@ struct Activity {
   DrawingPath drawing;             // how it gets to the screen, as far as is known
   std::string renderer;            // "OpenGL 4.5, ..."
   bool reduced = false;            // the mesh is drawn with fewer elements just now
-};
-
-/// Values worked out once a frame serial, not once a drawing.
-struct Derived {
-  std::uint64_t input_serial = 0, frame_serial = 0;
-  std::vector<Metric> metrics;          // defined for every element
-  std::vector<std::string> mesh_facts;  // sentences of the report
-  std::array<std::size_t, kElementKindCount> kinds{};
-  std::vector<double> sorted_now, sorted_before;  // a sample of the shown quality, ascending; filled when its plot is open. Of a light
-                                                  // frame, now: as far as the histogram tells
-  std::pair<std::uint64_t, Metric> sorted_before_key{0, Metric::MeanRatio};  // input_serial and metric of sorted_before
-  std::size_t outside_low = 0, outside_high = 0;  // elements outside the colours' range, inverted ones not counted; 0 for a light frame
-  bool undefined = false;                         // some element's shown quality is NaN
-  PickedFacts facts;                              // of what is picked
-  std::pair<std::uint64_t, Picked> facts_key;     // frame serial and what was picked when they were read
-  std::pair<double, double> range{0.0, 1.0};      // of the colours of quality
-  ColourFacts colouring;
 };
 
 /// A handle of the colour bar while it is held.
@@ -113,6 +97,7 @@ struct WidgetState {
   Dialog dialog_shown = Dialog::None;                      // in the last frame
   bool dialog_opened = false;                              // in this frame
   bool dragged = false;                                    // the button held in the viewport has moved
+  std::size_t menu_pane = 0, brush_pane = 0;               // viewport whose menu is open; in which the brush paints
   std::pair<Index, Index> under_menu{kNoIndex, kNoIndex};  // vertex and element where the menu was opened
   PickedFacts vertex_under_menu, element_under_menu;       // and what there is to copy of them
   double moved_at = -1e9;                                  // when the view last moved
@@ -128,13 +113,12 @@ struct PanelContext {
   const Palette& palette;
   const Fonts& fonts;
   Items& items;
-  std::function<void(const std::string&)> send;                           // one command line; errors become messages
-  std::function<std::pair<Index, Index>(Vec2<double>)> pick;              // vertex and element at a pixel of the viewport
-  std::function<std::vector<Index>(Vec2<double>, double)> vertices_near;  // of a pixel of the viewport, within so many pixels
-  std::string stepping_note;                                              // see SteppingView::note
-  const std::vector<CommandInfo>& verbs;                                  // of the window, for the palette
-  unsigned mesh_texture = 0;
-  double now = 0.0;  // seconds
+  std::function<void(const std::string&)> send;                                        // one command line; errors become messages
+  std::function<std::pair<Index, Index>(std::size_t, Vec2<double>)> pick;              // vertex and element at a pixel of a viewport
+  std::function<std::vector<Index>(std::size_t, Vec2<double>, double)> vertices_near;  // the same, within so many pixels
+  std::span<const PaneFacts> panes;                                                    // the viewports
+  const std::vector<CommandInfo>& verbs;                                               // of the window, for the palette
+  double now = 0.0;                                                                    // seconds
 
   [[nodiscard]] float em() const { return ImGui::GetFontSize(); }
   [[nodiscard]] float px(float at_scale_one) const { return at_scale_one * static_cast<float>(state.scale); }
@@ -184,16 +168,24 @@ void draw_inspector(PanelContext& context);
 void draw_worst(PanelContext& context);
 void draw_inspection(PanelContext& context);
 /// The quality around the inspected vertex over the mesh, when it is wanted, and over it the marks that it covers.
-void draw_field_in_view(PanelContext& context, const Rect& rect);
-void draw_viewport(PanelContext& context, const Rect& rect);
+void draw_field_in_view(PanelContext& context, const PaneFacts& pane);
+void draw_viewports(PanelContext& context, const Rect& rect);
+/// What a viewport among several shows, in its upper left corner: what of it takes the mouse, to be called before whatever lies below it;
+/// and its picture.
+void handle_pane_title(PanelContext& context, const PaneFacts& pane);
+void draw_pane_title(PanelContext& context, const PaneFacts& pane);
+/// Entries that choose what a viewport shows.
+void draw_pane_entries(PanelContext& context, const PaneFacts& pane);
 /// The brush under the mouse over the mesh's item, drawn last; `at`: the mouse in the viewport. True: dragging is the brush's.
-bool handle_brush(PanelContext& context, const Rect& rect, Vec2<double> at);
+bool handle_brush(PanelContext& context, const PaneFacts& pane, Vec2<double> at);
 /// The colour bar, or the legend of categories, in the lower left corner: what of it takes the mouse, to be called before whatever lies
 /// below it; and its picture.
 void handle_colour_bar(PanelContext& context, const Rect& rect);
 void draw_colour_bar(PanelContext& context, const Rect& rect);
+/// With the space around it.
+[[nodiscard]] float colour_bar_height(const PanelContext& context, const Rect& rect);
 /// The ids on the mesh.
-void draw_labels(PanelContext& context, const Rect& rect);
+void draw_labels(PanelContext& context, const PaneFacts& pane);
 void draw_start_page(PanelContext& context, const Rect& rect);
 /// `timeline_only`: there is no room for more.
 void draw_plots(PanelContext& context, const Rect& rect, bool timeline_only);

@@ -17,12 +17,12 @@ void draw_run_row(PanelContext& context, std::size_t k) {
   const float line = ImGui::GetTextLineHeight(), pad = context.px(4);
   const float width = ImGui::GetContentRegionAvail().x;
   const bool active = k == context.session.active;
-  if (ImGui::Selectable("##run", active, 0, {0, 2 * line + 3 * pad})) context.send(fmt::format("select-run {}", k));
+  if (ImGui::Selectable("##run", active, 0, {0, 2 * line + 3 * pad})) context.send(fmt::format("select-run {}", k + 1));
   context.items.record_last(fmt::format("run:{}", k));
   next_item_tooltip(run.last_outcome.empty() ? run.title : run.title + "\n" + run.last_outcome);
   if (ImGui::BeginPopupContextItem("run menu")) {
     if (ImGui::MenuItem("Remove", nullptr, false, context.session.runs.size() > 1 && !context.activity.busy)) {
-      context.send(fmt::format("remove-run {}", k));
+      context.send(fmt::format("remove-run {}", k + 1));
     }
     ImGui::EndPopup();
   }

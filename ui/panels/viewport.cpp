@@ -1,4 +1,4 @@
-// Centre: the mesh, what is written over it, and the mouse.
+// Centre: the meshes, what is written over them, and the mouse.
 #include <algorithm>
 #include <cmath>
 
@@ -20,17 +20,20 @@ Vec2<double> mouse_in(const Rect& rect) {
 }
 
 /// What is shown of stepping and selecting, below the title.
-void draw_note(const PanelContext& context, ImVec2 at, float most) {
-  if (context.stepping_note.empty()) return;
+void draw_note(const PanelContext& context, const std::string& words, ImVec2 at, float most) {
+  if (words.empty()) return;
   const float pad = context.px(8);
-  const std::string note = fit_text(context.stepping_note, most - 2 * pad);
+  const std::string note = fit_text(words, most - 2 * pad);
   draw_plate(context, at, {at.x + 2 * pad + ImGui::CalcTextSize(note.c_str()).x, at.y + ImGui::GetTextLineHeight() + pad});
   ImGui::GetWindowDrawList()->AddText({at.x + pad, at.y + pad / 2}, colour(context.palette.dim), note.c_str());
 }
 
-void draw_title(PanelContext& context, const Rect& rect, const Frame& frame) {
+/// Of the one viewport.
+void draw_title(PanelContext& context, const PaneFacts& pane) {
   const RunView* run = context.run();
   if (run == nullptr) return;
+  const Frame& frame = *pane.frame();
+  const Rect& rect = pane.rect;
   const float pad = context.px(8), line = ImGui::GetTextLineHeight();
   std::string title = fmt::format("{} · {}", run->parameters.method, metric_phrase(run->parameters.metric));
   if (run->parameters.combination) title = run->title;
@@ -44,7 +47,7 @@ void draw_title(PanelContext& context, const Rect& rect, const Frame& frame) {
   if (frame.shown != run->parameters.metric) shown = fmt::format("shown: {}", metric_phrase(frame.shown));
   const auto add = [&](const char* note) { shown += (shown.empty() ? "" : " · ") + std::string(note); };
   if (context.activity.reduced) add("reduced detail");
-  if (context.derived.colouring.labels_lack_room) add("zoom in for labels");
+  if (pane.lacks_room) add("zoom in for labels");
 
   ImDrawList& list = *ImGui::GetWindowDrawList();
   ImGui::PushFont(context.fonts.bold);
@@ -64,11 +67,12 @@ void draw_title(PanelContext& context, const Rect& rect, const Frame& frame) {
   x += title_width + pad;
   list.AddText({x, y}, colour(context.palette.text), moment.c_str());
   if (!shown.empty()) list.AddText({x + moment_width + 2 * pad, y}, colour(context.palette.warning), shown.c_str());
-  draw_note(context, {at.x, at.y + line + 1.25F * pad}, rect.w - 2 * pad);
+  draw_note(context, pane.stepping_note, {at.x, at.y + line + 1.25F * pad}, rect.w - 2 * pad);
 }
 
 /// Which level is seen, at the upper left corner of its grid or as near to it as can be read.
-void draw_level_label(PanelContext& context, const Rect& rect) {
+void draw_level_label(PanelContext& context, const PaneFacts& pane) {
+  const Rect& rect = pane.rect;
   const InspectionState& state = context.state.inspection;
   const std::string label = state.open ? level_label(state, context.inspection) : std::string();
   if (label.empty()) return;
@@ -78,7 +82,7 @@ void draw_level_label(PanelContext& context, const Rect& rect) {
     const TracedLevel& level = inspection.trace->levels[static_cast<std::size_t>(state.level - 1)];
     corner = {level.centre.x - level.size.x / 2, level.centre.y + level.size.y / 2};
   }
-  const Vec2<double> pixel = context.state.camera.to_pixel(inspection.origin + corner, context.state.viewport);
+  const Vec2<double> pixel = pane.camera.to_pixel(inspection.origin + corner, context.state.viewport);
   const ImVec2 size = ImGui::CalcTextSize(label.c_str());
   const float pad = context.px(6), line = size.y;
   const float highest = rect.y + 2 * line + 3 * pad, lowest = rect.y + rect.h - 6 * line;
@@ -90,16 +94,16 @@ void draw_level_label(PanelContext& context, const Rect& rect) {
 }
 
 /// The candidate under the mouse, in words; the inspector marks it, too.
-void read_candidate(PanelContext& context, const Rect& rect) {
+void read_candidate(PanelContext& context, const PaneFacts& pane) {
   InspectionState& state = context.state.inspection;
   if (!state.open || state.applied || state.all_levels || state.level < 1 || !context.inspection.trace || !ImGui::IsItemHovered()) return;
   const VisitTrace& trace = *context.inspection.trace;
   if (static_cast<std::size_t>(state.level) > trace.levels.size()) return;
   const TracedLevel& level = trace.levels[static_cast<std::size_t>(state.level - 1)];
-  const Vec2<double> mouse = mouse_in(rect);
+  const Vec2<double> mouse = mouse_in(pane.rect);
   double nearest = 9.0 * context.state.scale;  // pixels
   for (int index = 0; index < level.points * level.points; ++index) {
-    const Vec2<double> way = context.state.camera.to_pixel(context.inspection.origin + level.at(index), context.state.viewport) - mouse;
+    const Vec2<double> way = pane.camera.to_pixel(context.inspection.origin + level.at(index), context.state.viewport) - mouse;
     if (std::hypot(way.x, way.y) >= nearest) continue;
     nearest = std::hypot(way.x, way.y);
     state.hovered = CandidateName{state.level, index};
@@ -107,13 +111,16 @@ void read_candidate(PanelContext& context, const Rect& rect) {
   if (state.hovered && !ImGui::IsAnyMouseDown()) next_item_tooltip(candidate_text(trace, level, state.hovered->index));
 }
 
-void pick_at(PanelContext& context, Vec2<double> pixel) {
-  if (context.state.placing_size_point) {
-    context.state.placing_size_point = false;
-    context.send(size_point_command(context.state, context.session.input->geometry.plane, pixel));
+void pick_at(PanelContext& context, const PaneFacts& pane, Vec2<double> pixel) {
+  ViewState& state = context.state;
+  if (state.placing_size_point) {
+    state.placing_size_point = false;
+    const Vec2<double> there =
+        state.camera.to_pixel(pane.camera.to_plane(pixel, state.viewport), state.viewport);  // as the active one has it
+    context.send(size_point_command(state, context.session.input->geometry.plane, there));
     return;
   }
-  const auto [vertex, element] = context.pick(pixel);
+  const auto [vertex, element] = context.pick(pane.number, pixel);
   if (vertex != kNoIndex && !ImGui::GetIO().KeyAlt) {
     context.send(fmt::format("pick vertex {}", vertex));
     const RunView* run = context.run();
@@ -151,8 +158,10 @@ void draw_element_entries(PanelContext& context, Index element) {
     context.send(fmt::format("inspect element {}", element));
   if (ImGui::MenuItem(fmt::format("Go to element {}", element).c_str())) context.send(fmt::format("goto element {}", element));
   copy_entry(context, "element id", fmt::format("{}", element), fmt::format("{}", element));
-  const Frame& frame = *context.frame();
-  if (element >= frame.element_count()) return;  // another mesh has come
+  const std::size_t pane = context.widgets.menu_pane;
+  const Frame* shown = pane < context.panes.size() ? context.panes[pane].frame() : nullptr;
+  if (shown == nullptr || element >= shown->element_count()) return;  // another mesh has come
+  const Frame& frame = *shown;
   for (const PickedFacts::Row& row : context.widgets.element_under_menu.metrics) {
     if (row.metric == &info(frame.shown)) copy_entry(context, "element quality", short_number(row.now), full_number(row.now));
   }
@@ -162,6 +171,10 @@ void draw_element_entries(PanelContext& context, Index element) {
 
 void draw_context_menu(PanelContext& context) {
   if (!ImGui::BeginPopup("viewport menu")) return;
+  if (context.widgets.menu_pane < context.panes.size() && !context.state.panes.one()) {
+    draw_pane_entries(context, context.panes[context.widgets.menu_pane]);
+    ImGui::Separator();
+  }
   const auto [vertex, element] = context.widgets.under_menu;
   if (vertex != kNoIndex) draw_vertex_entries(context, vertex);
   if (vertex != kNoIndex && element != kNoIndex) ImGui::Separator();
@@ -178,46 +191,128 @@ void draw_context_menu(PanelContext& context) {
   ImGui::EndPopup();
 }
 
-void handle_mouse(PanelContext& context, const Rect& rect) {
+void open_menu(PanelContext& context, const PaneFacts& pane, Vec2<double> at) {
+  WidgetState& widgets = context.widgets;
+  widgets.menu_pane = pane.number;
+  widgets.under_menu = {kNoIndex, kNoIndex};
+  if (pane.frame() != nullptr) {
+    widgets.under_menu = context.pick(pane.number, at);
+    const auto [vertex, element] = widgets.under_menu;
+    widgets.vertex_under_menu = facts_of(*pane.frame(), {vertex == kNoIndex ? Picked::Kind::None : Picked::Kind::Vertex, vertex});
+    widgets.element_under_menu = facts_of(*pane.frame(), {element == kNoIndex ? Picked::Kind::None : Picked::Kind::Element, element});
+  }
+  ImGui::OpenPopup("viewport menu");
+}
+
+void handle_mouse(PanelContext& context, const PaneFacts& pane) {
   const ImGuiIO& io = ImGui::GetIO();
   ViewState& state = context.state;
-  const Vec2<double> at = mouse_in(rect);
+  render::Camera2D& camera = state.camera_of(pane.number);
+  const Vec2<double> at = mouse_in(pane.rect);
   const bool hovered = ImGui::IsItemHovered();
   if (hovered && io.MouseWheel != 0) {
-    state.camera.zoom_at(at, state.viewport, std::pow(1.2, static_cast<double>(io.MouseWheel)));
+    camera.zoom_at(at, state.viewport, std::pow(1.2, static_cast<double>(io.MouseWheel)));
     context.widgets.moved_at = context.now;
   }
   if (ImGui::IsItemActivated()) context.widgets.dragged = false;
-  const bool painting = handle_brush(context, rect, at);
+  const bool painting = handle_brush(context, pane, at);
   for (const int button : {ImGuiMouseButton_Left, ImGuiMouseButton_Middle}) {
     if (painting && button == ImGuiMouseButton_Left) continue;
     if (!ImGui::IsItemActive() || !ImGui::IsMouseDragging(button, context.widgets.dragged ? 0.0F : context.px(4))) continue;
     // The first drag event carries the way from the press on, so that the grabbed point stays under the cursor.
     const ImVec2 move = context.widgets.dragged ? io.MouseDelta : ImGui::GetMouseDragDelta(button, 0.0F);
     context.widgets.dragged = true;
-    state.camera.pan({static_cast<double>(move.x), static_cast<double>(move.y)});
+    camera.pan({static_cast<double>(move.x), static_cast<double>(move.y)});
     if (move.x != 0 || move.y != 0) context.widgets.moved_at = context.now;
   }
   if (painting) {
     // Neither a pick nor a fit.
   } else if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+    if (!pane.focus && !state.panes.linked) context.send(fmt::format("focus-pane {}", pane.number + 1));
     context.send("fit");
   } else if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && ImGui::IsItemDeactivated() && !context.widgets.dragged) {
-    pick_at(context, at);
+    pick_at(context, pane, at);
   }
   if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) {
-    context.widgets.under_menu = context.pick(at);
-    const auto [vertex, element] = context.widgets.under_menu;
-    const Frame& frame = *context.frame();
-    context.widgets.vertex_under_menu = facts_of(frame, {vertex == kNoIndex ? Picked::Kind::None : Picked::Kind::Vertex, vertex});
-    context.widgets.element_under_menu = facts_of(frame, {element == kNoIndex ? Picked::Kind::None : Picked::Kind::Element, element});
-    ImGui::OpenPopup("viewport menu");
+    open_menu(context, pane, at);
   }
+}
+
+/// The handle between two viewports that lie over each other.
+void handle_split(PanelContext& context) {
+  const Rect& rect = context.panes[0].rect;
+  const float x = rect.x + context.panes[0].clip.w, reach = context.px(6);
+  ImGui::SetCursorScreenPos({x - reach, rect.y});
+  ImGui::InvisibleButton("split handle", {2 * reach, rect.h});
+  context.items.record_last("split");
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (!ImGui::IsItemActive() || !ImGui::IsMouseDragging(ImGuiMouseButton_Left, 1.0F) || rect.w <= 0) return;
+  context.state.panes.split = static_cast<double>(std::clamp((ImGui::GetIO().MousePos.x - rect.x) / rect.w, 0.0F, 1.0F));
+}
+
+void draw_split(const PanelContext& context) {
+  const Rect& rect = context.panes[0].rect;
+  const float x = rect.x + context.panes[0].clip.w, half = context.px(1.5F), middle = rect.y + rect.h / 2;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({x - half, rect.y}, {x + half, rect.y + rect.h}, colour(context.palette.text));
+  const float w = context.px(9), h = context.px(20);
+  list.AddRectFilled({x - w, middle - h}, {x + w, middle + h}, colour(context.palette.panel), context.px(5));
+  list.AddRect({x - w, middle - h}, {x + w, middle + h}, colour(context.palette.text), context.px(5), 0, context.px(1));
+  for (const float side : {-1.0F, 1.0F}) {
+    const float tip = x + side * context.px(6), base = x + side * context.px(2), up = context.px(5);
+    list.AddTriangleFilled({tip, middle}, {base, middle - up}, {base, middle + up}, colour(context.palette.text));
+  }
+}
+
+/// The picture, and what of the viewport takes the mouse.
+void handle_pane(PanelContext& context, const PaneFacts& pane) {
+  const Rect &rect = pane.rect, &clip = pane.clip;
+  if (clip.empty()) return;
+  const bool one = context.state.panes.one();
+  ImGui::PushClipRect({clip.x, clip.y}, {clip.x + clip.w, clip.y + clip.h}, true);
+  if (pane.texture != 0 && pane.frame() != nullptr) {
+    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t{pane.texture}), {rect.x, rect.y},
+                                         {rect.x + rect.w, rect.y + rect.h}, {0, 1}, {1, 0});
+  }
+  ImGui::PushID(static_cast<int>(pane.number));
+  if (!one) handle_pane_title(context, pane);
+  ImGui::SetCursorScreenPos({clip.x, clip.y});
+  ImGui::InvisibleButton("mesh", {clip.w, clip.h},
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
+  ImGui::PopID();
+  if (pane.focus) context.items.record_last("viewport");
+  if (!one) context.items.record_last(fmt::format("viewport:{}", pane.number + 1));
+  if (pane.frame() == nullptr) {
+    if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) open_menu(context, pane, {});
+  } else {
+    if (pane.inspected) read_candidate(context, pane);
+    handle_mouse(context, pane);
+  }
+  ImGui::PopClipRect();
+}
+
+/// What is written over the picture.
+void draw_pane(PanelContext& context, const PaneFacts& pane) {
+  const Rect& clip = pane.clip;
+  if (clip.empty()) return;
+  ImGui::PushClipRect({clip.x, clip.y}, {clip.x + clip.w, clip.y + clip.h}, true);
+  if (pane.frame() != nullptr) {
+    draw_labels(context, pane);
+    draw_field_in_view(context, pane);
+    if (pane.inspected) draw_level_label(context, pane);
+  }
+  const bool plain = context.state.panes.one() && pane.session->frame == context.session.frame;
+  if (plain) {
+    draw_title(context, pane);
+  } else {
+    draw_pane_title(context, pane);
+  }
+  ImGui::PopClipRect();
 }
 
 }  // namespace
 
-void draw_viewport(PanelContext& context, const Rect& rect) {
+void draw_viewports(PanelContext& context, const Rect& rect) {
   context.state.inspection.hovered.reset();
   if (rect.empty()) return;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
@@ -225,27 +320,17 @@ void draw_viewport(PanelContext& context, const Rect& rect) {
   begin_panel("viewport", rect, false, context.frame() == nullptr);
   ImGui::PopStyleColor();
   ImGui::PopStyleVar();
-  const Frame* frame = context.frame();
-  if (frame == nullptr) {
+  if (context.frame() == nullptr) {
     draw_start_page(context, rect);
     end_panel();
     return;
   }
-  if (context.mesh_texture != 0) {
-    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t{context.mesh_texture}), {rect.x, rect.y},
-                                         {rect.x + rect.w, rect.y + rect.h}, {0, 1}, {1, 0});
-  }
+  const bool split = context.state.panes.layout == PaneLayout::Split;
   handle_colour_bar(context, rect);
-  ImGui::SetCursorScreenPos({rect.x, rect.y});
-  ImGui::InvisibleButton("mesh", {rect.w, rect.h},
-                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
-  context.items.record_last("viewport");
-  read_candidate(context, rect);
-  handle_mouse(context, rect);
-  draw_labels(context, rect);
-  draw_field_in_view(context, rect);
-  draw_level_label(context, rect);
-  draw_title(context, rect, *frame);
+  if (split) handle_split(context);
+  for (const PaneFacts& pane : context.panes) handle_pane(context, pane);
+  for (const PaneFacts& pane : context.panes) draw_pane(context, pane);
+  if (split) draw_split(context);
   draw_colour_bar(context, rect);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(8), context.px(8)});
   draw_context_menu(context);

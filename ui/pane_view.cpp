@@ -1,0 +1,97 @@
+#include "ui/pane_view.h"
+
+#include <cmath>
+
+#include <imgui.h>
+
+#include "ui/inspection_marks.h"
+#include "ui/size_point.h"
+#include "ui/theme.h"
+
+namespace dmoscope::ui {
+
+render::Style picture_style(const ViewState& state, const Derived& derived) {
+  render::Style style = scene_style(state);
+  style.colours = shown_scale(state, derived);
+  return style;
+}
+
+void PaneView::update_colours(const ViewState& state, std::shared_ptr<const Frame> reference, const PaneView* like) {
+  if (like != nullptr && !needs_positions(state.colouring.by) && state.colouring.by != ColourBy::Class) {
+    colours_ = like->colours_;
+    return;
+  }
+  worker_.update(state, *session_, std::move(reference));
+  colours_ = worker_.colours();
+}
+
+void PaneView::update_stepping(bool busy) { stepping_.update(*session_, busy); }
+
+bool PaneView::bring(render::Loading loading) {
+  current_ = scene_.show(session_->frame, loading);
+  return current_;
+}
+
+void PaneView::select(const Scenery& scenery) {
+  render::Selection selection = selection_of(scenery.state, scenery.derived);
+  if (scenery.derived.frame_serial != frame()->serial) {
+    refresh_members(members_, scenery.state, *session_);
+    selection.members = members_.members;
+  }
+  scene_.set_selection(selection);
+}
+
+void PaneView::find_labels(const Scenery& scenery, const render::Camera2D& camera) {
+  const ColouringState& colouring = scenery.state.colouring;
+  const double em = ImGui::GetFontSize();
+  // As they are drawn: digits of DejaVu Sans are 0.64 em wide.
+  const render::LabelWish wish{colouring.label_vertices, colouring.label_elements, 0.8 * 0.64 * em, em, 400};
+  labels_ = scene_.labels(camera, scenery.state.viewport, wish);
+  labels_lack_room_ = (wish.vertices || wish.elements) && labels_.empty();
+}
+
+void PaneView::draw(const Scenery& scenery, const Wish& wish) {
+  const ViewState& state = scenery.state;
+  const RunView& run = session_->runs[session_->active];
+  if (fixed_serial_ != frame()->serial && run.fixed.size() == frame()->vertex_count()) {
+    scene_.set_fixed(run.fixed);
+    fixed_serial_ = frame()->serial;
+  }
+  scene_.set_shading(current_ && colours_ ? colours_->shading : nullptr);
+  if (current_) select(scenery);
+  find_labels(scenery, wish.camera);
+  const auto w = static_cast<int>(std::lround(state.viewport.x)), h = static_cast<int>(std::lround(state.viewport.y));
+  const MarkView view{wish.camera, state.viewport, state.scale};
+  picture_.update(
+      scene_, {w, h, wish.camera, picture_style(state, scenery.derived), marks(scenery, view, wish.inspected), wish.detail, wish.refine});
+}
+
+render::Marks PaneView::marks(const Scenery& scenery, const MarkView& view, bool inspected) {
+  const ViewState& state = scenery.state;
+  render::Marks marks;
+  if (frame() == nullptr) return marks;
+  const Picked& picked = state.picked;
+  if (picked.kind == Picked::Kind::Element && picked.id < frame()->element_count()) marks.elements = {picked.id};
+  const bool inspecting = inspected && state.inspection.open;
+  const bool searching = inspecting && scenery.inspection.trace && !state.inspection.applied;
+  if (picked.kind == Picked::Kind::Vertex && picked.id < frame()->vertex_count()) {
+    for (const Incidence& incidence : searching ? std::span<const Incidence>{} : frame()->input->topology.star(picked.id))
+      marks.elements.push_back(incidence.element);
+    marks.vertices = {picked.id};
+  }
+  if (state.worst_marker && !frame()->worst.empty() && !inspecting) marks.worst = frame()->worst.front().element;
+  stepping_.add_marks(marks, state, *session_, view,
+                      [this](const MarkView& seen, std::size_t most) { return scene_.elements_in_view(seen.camera, seen.viewport, most); });
+  const render::Style plain = scene_style(state);
+  if (inspecting) {
+    render::Style of_quality = plain;
+    of_quality.colours = colour_scale(state, scenery.derived);  // of candidates, whatever the elements show
+    const InspectionLook look = inspection_look(of_quality, palette(state.theme).accent, view.camera, view.scale);
+    add_inspection_marks(marks, state.inspection, scenery.inspection, look);
+  }
+  if (frame()->run != Frame::kNoRun)
+    add_size_point(marks, session_->runs[session_->active], frame()->input->geometry.plane, plain.highlight_colour, plain.casing_colour);
+  return marks;
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,159 @@
+// What a viewport among several shows: its title, its frame, and the menu that chooses it.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "ui/format.h"
+#include "ui/panels/panels.h"
+
+namespace dmoscope::ui {
+namespace {
+
+struct TitleLayout {
+  std::vector<TitlePiece> pieces;
+  Rect plate;
+  bool swatch = true;
+};
+
+bool is_bold(const TitlePiece& piece) { return piece.role == TitlePiece::Role::Name || piece.role == TitlePiece::Role::Bad; }
+
+render::Rgb ink_of(const PanelContext& context, const TitlePiece& piece) {
+  switch (piece.role) {
+    case TitlePiece::Role::Dim:
+      return context.palette.dim;
+    case TitlePiece::Role::Bad:
+      return context.palette.error;
+    case TitlePiece::Role::Warning:
+      return context.palette.warning;
+    case TitlePiece::Role::Name:
+    case TitlePiece::Role::Plain:
+      break;
+  }
+  return context.palette.text;
+}
+
+float width_of(const PanelContext& context, const TitlePiece& piece) {
+  const ImFont* font = is_bold(piece) ? context.fonts.bold : context.fonts.body;
+  return font->CalcTextSizeA(context.em(), FLT_MAX, 0.0F, piece.text.c_str()).x;
+}
+
+TitleLayout lay_out(const PanelContext& context, const PaneFacts& pane) {
+  TitleLayout layout;
+  layout.pieces = title_of(pane, context.session.shown);
+  layout.swatch = pane.of_run && pane.run() != nullptr;
+  const float pad = context.px(8), gap = context.px(9), line = ImGui::GetTextLineHeight();
+  const float room = pane.clip.w - 2 * pad;
+  const auto width = [&] {
+    float sum = 2 * pad + (layout.swatch ? context.px(14) : 0.0F);
+    for (const TitlePiece& piece : layout.pieces) sum += width_of(context, piece) + (&piece == &layout.pieces.front() ? 0.0F : gap);
+    return sum;
+  };
+  while (layout.pieces.size() > 1 && width() > room) {
+    const auto worst = std::ranges::max_element(layout.pieces, {}, &TitlePiece::rank);
+    if (worst->rank == 0) break;
+    layout.pieces.erase(worst);
+  }
+  layout.plate = {pane.clip.x + pad, pane.clip.y + pad, std::min(room, width()), line + pad};
+  return layout;
+}
+
+void draw_frame_of(const PanelContext& context, const PaneFacts& pane) {
+  const Rect& clip = pane.clip;
+  const float width = context.px(pane.focus ? 2 : 1), half = width / 2;
+  ImGui::GetWindowDrawList()->AddRect({clip.x + half, clip.y + half}, {clip.x + clip.w - half, clip.y + clip.h - half},
+                                      colour(pane.focus ? context.palette.accent : context.palette.line), 0.0F, 0, width);
+}
+
+void draw_why_not(const PanelContext& context, const PaneFacts& pane) {
+  const Rect& clip = pane.clip;
+  const auto line = [&](const std::string& words, float row) {
+    const std::string text = fit_text(words, clip.w - context.px(16));
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    ImGui::GetWindowDrawList()->AddText({std::round(clip.x + (clip.w - size.x) / 2), std::round(clip.y + clip.h / 2 + row * size.y)},
+                                        colour(context.palette.dim), text.c_str());
+  };
+  line(pane.why_not, -1.1F);
+  line("right click: choose what is shown here", 0.1F);
+}
+
+/// The run as it stands, which a click makes the active one; 0: none, or it is.
+std::size_t run_to_select(const PanelContext& context, const PaneFacts& pane) {
+  const PaneContent& content = context.state.panes.panes[pane.number].content;
+  const auto& ids = context.state.panes.run_ids;
+  const auto at = std::ranges::find(ids, content.run);
+  if (content.kind != PaneContent::Kind::Run || at == ids.end() || content.run == context.state.panes.active_id) return 0;
+  return static_cast<std::size_t>(at - ids.begin()) + 1;
+}
+
+}  // namespace
+
+void handle_pane_title(PanelContext& context, const PaneFacts& pane) {
+  const Rect plate = lay_out(context, pane).plate;
+  if (plate.w <= 0) return;
+  ImGui::SetCursorScreenPos({plate.x, plate.y});
+  const bool clicked = ImGui::InvisibleButton("title", {plate.w, plate.h});
+  context.items.record_last(fmt::format("pane-title:{}", pane.number + 1));
+  const std::size_t run = run_to_select(context, pane);
+  if (run > 0) {
+    next_item_tooltip(fmt::format("{}\nclick: makes this the active run (Tab: the next)", pane.run()->title));
+  } else if (pane.run() != nullptr && pane.frame() != nullptr) {
+    next_item_tooltip(pane.name == "input" ? "the mesh as it was read" : pane.run()->title);
+  }
+  if (!clicked) return;
+  if (!pane.focus) context.send(fmt::format("focus-pane {}", pane.number + 1));
+  if (run > 0) context.send(fmt::format("select-run {}", run));
+}
+
+void draw_pane_title(PanelContext& context, const PaneFacts& pane) {
+  const TitleLayout layout = lay_out(context, pane);
+  const Rect& plate = layout.plate;
+  if (pane.frame() == nullptr) draw_why_not(context, pane);
+  if (!context.state.panes.one()) draw_frame_of(context, pane);
+  if (layout.pieces.empty() || plate.w <= 0) return;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float pad = context.px(8), line = ImGui::GetTextLineHeight();
+  draw_plate(context, {plate.x, plate.y}, {plate.x + plate.w, plate.y + plate.h});
+  float x = plate.x + pad;
+  const float y = plate.y + pad / 2;
+  if (layout.swatch) {
+    const std::size_t run = pane.frame() == nullptr ? pane.session->active : pane.frame()->run;
+    list.AddRectFilled({x, y + 0.2F * line}, {x + context.px(8), y + 0.8F * line}, colour(context.palette.runs[run % 8]), context.px(2));
+    x += context.px(14);
+  }
+  ImGui::PushClipRect({plate.x, plate.y}, {plate.x + plate.w - pad / 2, plate.y + plate.h}, true);
+  for (const TitlePiece& piece : layout.pieces) {
+    list.AddText(is_bold(piece) ? context.fonts.bold : context.fonts.body, context.em(), {x, y}, colour(ink_of(context, piece)),
+                 piece.text.c_str());
+    x += width_of(context, piece) + context.px(9);
+  }
+  ImGui::PopClipRect();
+}
+
+void draw_pane_entries(PanelContext& context, const PaneFacts& pane) {
+  if (!ImGui::BeginMenu("Show here")) return;
+  const Panes& panes = context.state.panes;
+  const Pane& now = panes.panes[pane.number];
+  const auto entry = [&](const std::string& title, const PaneContent& content, bool possible) {
+    const bool chosen = content.kind == PaneContent::Kind::Free ? !now.chosen : now.content == content;
+    if (ImGui::MenuItem(title.c_str(), nullptr, chosen, possible))
+      context.send(fmt::format("pane {} {}", pane.number + 1, panes.words(content)));
+    context.items.record_last(fmt::format("show-here:{}", panes.words(content)));
+  };
+  using Kind = PaneContent::Kind;
+  entry("By itself: what is not shown elsewhere", {}, true);
+  entry("The active run", {Kind::Active, 0, std::nullopt}, true);
+  for (std::size_t k = 0; k < context.session.runs.size(); ++k) {
+    const RunView& run = context.session.runs[k];
+    entry(fmt::format("Run {}: {}", k + 1, run.title), {Kind::Run, run.id, std::nullopt}, true);
+  }
+  if (pane.frame() != nullptr && pane.frame()->run != Frame::kNoRun && pane.name.empty()) {
+    const PaneContent pinned{Kind::Run, pane.run()->id, pane.frame()->moment.iteration};
+    entry(fmt::format("Stay at iteration {} of this run", count(*pinned.iteration)), pinned, true);
+  }
+  entry("The input", {Kind::Input, 0, std::nullopt}, true);
+  entry("Mark A", {Kind::MarkA, 0, std::nullopt}, context.state.timeline.a.frame != nullptr);
+  entry("Mark B", {Kind::MarkB, 0, std::nullopt}, context.state.timeline.b.frame != nullptr);
+  ImGui::EndMenu();
+}
+
+}  // namespace dmoscope::ui

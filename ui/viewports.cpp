@@ -1,0 +1,261 @@
+#include "ui/viewports.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace dmoscope::ui {
+
+using Kind = PaneContent::Kind;
+
+namespace {
+
+/// What the session is asked for to show this; nothing for what is there anyway.
+std::optional<Watch> watch_of(const PaneContent& content) {
+  if (content.kind == Kind::Input) return Watch{};
+  if (content.kind == Kind::Run) return Watch{content.run, content.iteration};
+  return std::nullopt;
+}
+
+render::Bounds2 input_box(const InputMesh& input) {
+  render::Bounds2 box;
+  for (const Vec3& position : input.mesh.positions) box.include(input.geometry.plane.project(position));
+  return box;
+}
+
+}  // namespace
+
+Viewports::Viewports(Options options) : options_(std::move(options)), session_(std::make_shared<SessionView>()) {
+  views_[0] = std::make_unique<PaneView>();
+  views_[0]->show(session_);
+  views_[0]->scene().draw_through_host(options_.no_interop);
+}
+
+void Viewports::show(std::size_t pane, std::shared_ptr<const Frame> frame, std::size_t run, std::string name, std::string why_not) {
+  Content& shown = shown_[pane];
+  const bool same = shown.session == session_ && shown.frame == frame && shown.active == run && shown.view != nullptr;
+  if (!same) {
+    std::shared_ptr<const SessionView> view = session_;
+    if (frame != session_->frame || run != session_->active) {
+      auto other = std::make_shared<SessionView>(*session_);
+      other->frame = frame;
+      other->active = run;
+      view = std::move(other);
+    }
+    shown = {session_, std::move(view), std::move(frame), run, {}, {}};
+  }
+  shown.name = std::move(name);
+  shown.why_not = std::move(why_not);
+  views_[pane]->show(shown.view);
+}
+
+void Viewports::show_mark(std::size_t pane, const Mark& mark, const char* letter) {
+  const std::size_t run = mark.frame && mark.frame->run < session_->runs.size() ? mark.frame->run : session_->active;
+  show(pane, mark.frame, run, letter,
+       mark.frame ? std::string() : fmt::format("{} is not marked yet: Shift+{} marks what is shown", letter, letter));
+}
+
+void Viewports::show_content(const ViewState& state, std::size_t pane) {
+  const PaneContent& content = state.panes.panes[pane].content;
+  const std::size_t active = session_->active;
+  if (state.panes.shows(pane, state.panes.active_id)) {
+    const Timeline& timeline = state.timeline;
+    show(pane, session_->frame, active, timeline.shown_mark() == nullptr ? "" : timeline.shown == Shown::A ? "A" : "B", {});
+    return;
+  }
+  if (content.kind == Kind::MarkA || content.kind == Kind::MarkB) {
+    const bool a = content.kind == Kind::MarkA;
+    show_mark(pane, a ? state.timeline.a : state.timeline.b, a ? "A" : "B");
+    return;
+  }
+  if (content.kind == Kind::Free) {
+    show(pane, nullptr, active, {}, "free: a new run comes here");
+    return;
+  }
+  const Watch what = *watch_of(content);
+  const std::string name = content.kind == Kind::Input ? "input" : "";
+  const auto place = static_cast<std::size_t>(std::ranges::find(state.panes.run_ids, content.run) - state.panes.run_ids.begin());
+  const std::size_t run = place < session_->runs.size() ? place : active;
+  const auto at = std::ranges::find(session_->watched, what, &WatchedFrame::what);
+  if (at == session_->watched.end()) {
+    show(pane, nullptr, run, name, "…");
+  } else {
+    show(pane, at->frame, run, name, at->why_not);
+  }
+}
+
+void Viewports::follow(const ViewState& state, const std::shared_ptr<const SessionView>& session) {
+  session_ = session;
+  measure();
+  count_ = state.panes.count();
+  focus_ = state.panes.focus;
+  frames_.clear();
+  for (std::size_t k = 0; k < Panes::kMost; ++k) {
+    if (k >= count_) {
+      views_[k].reset();
+      shown_[k] = {};
+      continue;
+    }
+    if (!views_[k]) {
+      views_[k] = std::make_unique<PaneView>();
+      views_[k]->scene().draw_through_host(options_.no_interop);
+    }
+    show_content(state, k);
+    const auto& frame = shown_[k].frame;
+    if (frame && std::ranges::find(frames_, frame) == frames_.end()) frames_.push_back(frame);
+  }
+  if (frames_.empty() && session->frame) frames_.push_back(session->frame);
+}
+
+void Viewports::measure() {
+  if (measured_ == session_->input) return;
+  measured_ = session_->input;
+  aspect_ = 1.0;
+  if (!measured_) return;
+  const Vec2<double> size = input_box(*measured_).size();
+  if (size.x > 0.0 && size.y > 0.0) aspect_ = size.x / size.y;
+}
+
+std::vector<Watch> Viewports::wanted(const ViewState& state) const {
+  std::vector<Watch> wanted;
+  for (std::size_t k = 0; k < state.panes.count(); ++k) {
+    const auto what = watch_of(state.panes.panes[k].content);
+    if (what && std::ranges::find(wanted, *what) == wanted.end()) wanted.push_back(*what);
+  }
+  if (const auto what = watch_of(state.colouring.reference); state.colouring.by == ColourBy::Difference && what)
+    if (std::ranges::find(wanted, *what) == wanted.end()) wanted.push_back(*what);
+  return wanted;
+}
+
+/// What differences are taken from; null while it is not there.
+std::shared_ptr<const Frame> Viewports::reference(const ViewState& state) const {
+  const PaneContent& content = state.colouring.reference;
+  if (content.kind == Kind::MarkA) return state.timeline.a.frame;
+  if (content.kind == Kind::MarkB) return state.timeline.b.frame;
+  const auto what = watch_of(content);
+  if (!what) return nullptr;
+  const auto at = std::ranges::find(session_->watched, *what, &WatchedFrame::what);
+  return at == session_->watched.end() ? nullptr : at->frame;
+}
+
+void Viewports::update_colours(ViewState& state, Derived& derived) {
+  const std::shared_ptr<const Frame> compared = state.colouring.by == ColourBy::Difference ? reference(state) : nullptr;
+  for (std::size_t k = 0; k < count_; ++k) views_[k]->update_colours(state, compared, k == 0 ? nullptr : views_[0].get());
+  ColourFacts& facts = derived.colouring;
+  facts.colours = views_[focus_]->colours();
+  for (std::size_t k = 0; k < count_ && !facts.colours; ++k) facts.colours = views_[k]->colours();
+  facts.values_range.reset();
+  for (std::size_t k = 0; k < count_; ++k) {
+    if (const auto& colours = views_[k]->colours()) {
+      const auto [low, high] = facts.values_range.value_or(colours->range);
+      facts.values_range = {std::min(low, colours->range.first), std::max(high, colours->range.second)};
+    }
+  }
+}
+
+void Viewports::update_stepping(bool busy) {
+  for (std::size_t k = 0; k < count_; ++k) views_[k]->update_stepping(busy);
+}
+
+/// Shows all of the mesh in the active viewport, and in those that nobody has moved since the last fit.
+bool Viewports::fit(ViewState& state, double em) {
+  if (!state.requests.fit) return false;
+  if (session_->frame == nullptr) {
+    state.requests.fit = false;
+    return false;
+  }
+  if (!views_[focus_]->current()) return false;
+  render::Bounds2 bounds = views_[focus_]->scene().bounds();
+  if (bounds.empty()) bounds = input_box(*session_->frame->input);  // it shows nothing
+  state.requests.fit = false;
+  // Title above and colour bar below the mesh, not on it.
+  const bool bar_within = state.panes.one() || state.panes.layout == PaneLayout::Split;
+  const double top = 2.4 * em, bottom = bar_within ? 4.4 * em : 0.5 * em;
+  const Vec2<double> free{state.viewport.x, std::max(1.0, state.viewport.y - top - bottom)};
+  render::Camera2D camera = render::Camera2D::fit(bounds, free, std::min(1.2 * em, 0.05 * std::min(free.x, free.y)));
+  camera.pan({0.0, (top - bottom) / 2});
+  const bool all = std::exchange(state.requests.fit_all, false);
+  for (Pane& pane : state.panes.panes)
+    if (all || pane.camera == fitted_) pane.camera = camera;
+  state.camera = camera;
+  fitted_ = camera;
+  return true;
+}
+
+bool Viewports::inspected(const ViewState& state, std::size_t pane) const {
+  return pane == focus_ && state.panes.shows(pane, state.panes.active_id);
+}
+
+bool Viewports::draw(ViewState& state, const Derived& derived, const Inspection& inspection, std::span<const Rect> rects,
+                     const Turn& turn) {
+  const Vec2<double> before = state.viewport;
+  const Rect& rect = rects.front();
+  state.viewport = {std::max(1.0, static_cast<double>(rect.w)), std::max(1.0, static_cast<double>(rect.h))};
+  // A fitted mesh stays fitted when the window or a panel changes its size.
+  const bool resized = before.x != state.viewport.x || before.y != state.viewport.y;
+  if (resized && fitted_ && *fitted_ == state.camera) state.requests.fit = true;
+  loading_ = refining_ = false;
+  for (std::size_t k = 0; k < count_; ++k)
+    loading_ = !views_[k]->bring(options_.wait_for_scene ? render::Loading::Wait : render::Loading::Background) || loading_;
+  const bool fitted = fit(state, turn.em);
+  facts_.clear();
+  const Scenery scenery{state, derived, inspection};
+  // All viewports together are drawn within a moment; full pictures come one after the other.
+  const std::size_t elements = views_[0]->scene().element_count() * count_;
+  const double detail = render::suggested_detail(elements, options_.software_renderer, true);
+  bool refine = !turn.moving && !turn.live;
+  for (std::size_t k = 0; k < count_; ++k) {
+    PaneView& view = *views_[k];
+    if (view.frame() != nullptr && !rect.empty()) {
+      view.draw(scenery, {state.camera_of(k), inspected(state, k), detail, refine});
+      refining_ = refining_ || !view.picture().complete();
+      refine = refine && view.picture().complete();
+    }
+    facts_.push_back(facts_of_pane(state, k, rects[std::min(k, rects.size() - 1)]));
+  }
+  return fitted;
+}
+
+PaneFacts Viewports::facts_of_pane(ViewState& state, std::size_t pane, const Rect& rect) const {
+  const PaneView& view = *views_[pane];
+  PaneFacts facts;
+  facts.number = pane;
+  facts.rect = facts.clip = rect;
+  if (state.panes.layout == PaneLayout::Split) {
+    const float handle = std::round(static_cast<float>(state.panes.split) * rect.w);
+    facts.clip = pane == 0 ? Rect{rect.x, rect.y, handle, rect.h} : Rect{rect.x + handle, rect.y, rect.w - handle, rect.h};
+  }
+  facts.session = view.session();
+  facts.name = shown_[pane].name;
+  facts.why_not = shown_[pane].why_not;
+  const Kind kind = state.panes.panes[pane].content.kind;
+  facts.of_run = kind == Kind::Run || kind == Kind::Active || (view.frame() != nullptr && kind != Kind::Input);
+  facts.colours = view.colours();
+  facts.labels = view.labels();
+  facts.camera = state.camera_of(pane);
+  facts.texture = view.picture().texture();
+  facts.focus = pane == focus_;
+  facts.inspected = inspected(state, pane);
+  facts.reduced = view.frame() != nullptr && !view.picture().complete();
+  facts.lacks_room = view.labels_lack_room();
+  if (facts.focus) facts.stepping_note = view.stepping().note(state, *view.session());
+  return facts;
+}
+
+render::Pick Viewports::pick(const ViewState& state, std::size_t pane, Vec2<double> pixel) const {
+  return views_[pane]->scene().pick(facts_[pane].camera, state.viewport, pixel, 8.0 * state.scale);
+}
+
+std::vector<Index> Viewports::vertices_near(const ViewState& state, std::size_t pane, Vec2<double> pixel, double radius) const {
+  return views_[pane]->scene().vertices_near(facts_[pane].camera, state.viewport, pixel, radius);
+}
+
+bool Viewports::settled() const noexcept { return !loading_ && !refining_ && colours_settled(); }
+
+bool Viewports::colours_settled() const noexcept {
+  return std::all_of(views_.begin(), views_.begin() + static_cast<std::ptrdiff_t>(count_),
+                     [](const auto& view) { return view->colours_settled(); });
+}
+
+}  // namespace dmoscope::ui

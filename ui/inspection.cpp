@@ -25,7 +25,8 @@ Inspection::Key key_of(const SessionView& session, Index vertex) {
   const RunView* run = active_run(session);
   const Frame* frame = session.frame.get();
   if (run == nullptr || frame == nullptr) return {};
-  return {frame->input_serial, frame->serial, session.active, vertex, run->parameters.metric, run->parameters.search};
+  return {frame->input_serial,    frame->serial,          session.active,        vertex,
+          run->parameters.metric, run->parameters.search, run->parameters.method};
 }
 
 /// Edges and corners of the star, relative to the vertex.
@@ -142,9 +143,6 @@ std::string no_inspection(const SessionView& session) {
   const RunView* run = active_run(session);
   if (run == nullptr || session.frame == nullptr) return "no mesh is open";
   if (session.frame->device) return "The run is at work on its device. When it rests, its visits can be looked into.";
-  if (run->parameters.method != "dmo") {
-    return "This run's method is " + run->parameters.method + ", which tries no grid of candidates. Choose the method dmo to look into it.";
-  }
   if (session.input->geometry.shape != Shape::Planar) return "Only visits in a planar mesh can be looked into.";
   return {};
 }
@@ -160,6 +158,7 @@ Inspection inspect(const SessionView& session, Index vertex) {
     inspection.trouble = "This vertex is of no element: nothing moves it.";
     return inspection;
   }
+  if (!method_info(run.parameters.method).searches_grid) inspection.other_method = run.parameters.method;
   try {
     gather_star(inspection, frame, vertex);
     const auto aims = aims_of_visit(run.parameters.metric, run.parameters.combination, run.size, run.sweep);

@@ -37,10 +37,13 @@ struct Inspection {
     Index vertex = kNoIndex;
     Metric metric = Metric::MeanRatio;
     SearchParameters search;
+    std::string method;
     friend bool operator==(const Key&, const Key&) = default;
   };
   Key key;
   std::string trouble;  // why there is no trace
+  /// Whose trace it is: empty for the run's own; else the run's method, which tries no grid, and the trace is what dmo would do.
+  std::string other_method;
   std::optional<VisitTrace> trace;
   Vec2<double> origin;  // where the vertex stood: in the plane. Everything below is relative to it, in mesh units
   std::vector<std::array<Vec2<double>, 2>> edges;  // of the star, each once

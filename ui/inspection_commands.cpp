@@ -140,6 +140,9 @@ void apply_move(ViewState& state, const CommandHost& host, const SessionView& se
     throw UsageError("a marked moment is shown: this move would be made in the mesh as it is now (flip now shows that)");
   const Inspection look = inspect(session, inspection.vertex);
   if (!look.trace) throw UsageError(look.trouble);
+  if (!look.other_method.empty())
+    throw UsageError(fmt::format("this run's method is {}, not dmo, whose move this is (visit {} makes the run's own)", look.other_method,
+                                 inspection.vertex));
   if (look.trace->end == VisitEnd::Fixed) throw UsageError(fmt::format("vertex {} is fixed", inspection.vertex));
   if (host.busy()) throw UsageError("the run is at work: wait until it rests, or cancel it");
   const RunView& run = session.runs[session.active];
@@ -176,6 +179,7 @@ void next_level(ViewState& state, const CommandHost& host, const SessionView& se
   if (inspection.level < last && !inspection.all_levels) {
     show_level(state, look, inspection.level + 1);
   } else {
+    if (!look.other_method.empty()) inspection.playing = false;
     apply_move(state, host, session);
   }
 }

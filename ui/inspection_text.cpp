@@ -18,9 +18,16 @@ std::string level_label(const InspectionState& state, const Inspection& inspecti
   if (state.all_levels) return fmt::format("levels 1 to {}", trace.levels.size());
   if (state.level < 1) return {};
   const TracedLevel& level = trace.levels[static_cast<std::size_t>(state.level - 1)];
-  const std::string name = fmt::format("level {} of {}", state.level, trace.levels.size());
+  const std::string name =
+      fmt::format("{}level {} of {}", inspection.other_method.empty() ? "" : "dmo · ", state.level, trace.levels.size());
   if (!level.best) return name + " · none better";
   return fmt::format("{} · best {}", name, short_number(level.quality[static_cast<std::size_t>(*level.best)]));
+}
+
+std::string other_method_sentence(const Inspection& inspection) {
+  if (inspection.other_method.empty()) return {};
+  return fmt::format("This run's method is {}, which tries no grid of candidates: what follows is what dmo would do here.",
+                     inspection.other_method);
 }
 
 Index limiting_element(const VisitTrace& trace, bool after) {

@@ -7,7 +7,8 @@
 
 namespace dmoscope::ui {
 
-/// "level 2 of 3 · best 0.8123", "level 3 of 3 · none better", "moved · 0.31 → 0.82"; empty when there is nothing to say.
+/// "level 2 of 3 · best 0.8123", "dmo · level 2 of 3 · none better" (in a run of another method), "level 3 of 3 · none better", "moved ·
+/// 0.31 → 0.82"; empty when there is nothing to say.
 [[nodiscard]] std::string level_label(const InspectionState& state, const Inspection& inspection);
 
 /// Why the vertex stays where it is, in full sentences: what limits it, and whether there is a better place. Empty when it moves.
@@ -15,6 +16,9 @@ namespace dmoscope::ui {
 
 /// "0.8123 found, 0.8130 best possible (gap 0.0007)"; empty where the best possible is not known.
 [[nodiscard]] std::string gap_sentence(const Inspection& inspection);
+
+/// That the search shown is not the one of the run's method; empty where it is.
+[[nodiscard]] std::string other_method_sentence(const Inspection& inspection);
 
 /// Element of least quality of the star, before or after the visit: what limits it. kNoIndex for an empty star.
 [[nodiscard]] Index limiting_element(const VisitTrace& trace, bool after);

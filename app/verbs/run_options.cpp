@@ -1,6 +1,7 @@
 #include "app/verbs/run_options.h"
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 
 #include <CLI/CLI.hpp>
@@ -70,6 +71,17 @@ void add_run_options(CLI::App& verb, RunOptions& options) {
   verb.add_option("--simd", options.simd, "Vector instructions: auto, baseline, avx2 or avx512. The result is the same for any")
       ->type_name("LEVEL")
       ->capture_default_str();
+  verb.add_option("--relaxation", options.method_options.relaxation,
+                  "laplace, smart-laplace, angle-based: the share of the way that is gone, above 0, up to 1")
+      ->type_name("X")
+      ->capture_default_str();
+  verb.add_option("--directions", options.directions, "dvr: its lines' directions, random or axes")
+      ->type_name("NAME")
+      ->capture_default_str();
+  verb.add_option("--seed", options.method_options.seed, "dvr: of its random directions")
+      ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
+      ->type_name("N")
+      ->capture_default_str();
   verb.add_option("--order", options.order, "Order of the vertices: natural or shuffle:SEED")->type_name("ORDER")->capture_default_str();
   verb.add_option("--fix", options.fix,
                   "Vertices to keep where they are besides the boundary: ids from 0 and ranges (3,7-9), or a group's name")
@@ -93,6 +105,9 @@ RunParameters parameters_of(const RunOptions& options) {
   parameters.search = options.search;
   parameters.search.precision = parse_precision(options.precision);
   if (options.simd != "auto") parameters.search.simd = parse_simd_level(options.simd);
+  parameters.options = options.method_options;
+  parameters.options.directions = parse_directions(options.directions);
+  validate(parameters.options);
   parameters.order = parse_order(options.order);
   parameters.backend = parse_backend(options.backend);
   return parameters;

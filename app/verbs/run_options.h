@@ -22,8 +22,10 @@ struct RunOptions {
   std::string combine;        // FIRST:THRESHOLD:SECOND; empty: one metric alone
   std::string size_function;  // of a combination with density; empty: constant
   std::string then;           // "mean" or empty
+  std::string directions{name(MethodOptions{}.directions)};
   unsigned threads = 0;
   SearchParameters search;
+  MethodOptions method_options;
   std::vector<std::string> fix;  // for named_vertices()
 };
 
@@ -31,7 +33,7 @@ struct RunOptions {
 void add_backend_option(CLI::App& verb, std::string& backend);
 
 /// Declares --method, --metric, --combine, --size-function, --then, --backend, --threads, --grid, --levels, --omega, --precision, --simd,
-/// --order and --fix.
+/// --relaxation, --directions, --seed, --order and --fix.
 void add_run_options(CLI::App& verb, RunOptions& options);
 
 /// The parameters without the fixed set, which needs the mesh. Throws UsageError for names that do not exist and values out of range.

@@ -77,7 +77,8 @@ bool on_cpu(const Run& run) { return run.backend() == name(Backend::Cpu); }
 Json simd_name(const Run& run) {
   const SearchParameters& search = run.parameters().search;
   if (!on_cpu(run)) return nullptr;
-  if (search.precision == Precision::Double || run.parameters().combination) return "scalar";
+  const bool lanes = method_info(run.parameters().method).searches_grid && !run.parameters().combination;
+  if (!lanes || search.precision == Precision::Double) return "scalar";
   return name(search.simd.value_or(best_simd_level()));
 }
 
@@ -96,10 +97,15 @@ Json json_of(const Result& r) {
   object["backend_reason"] = r.run.backend_reason();
   object["threads"] = r.threads;
   object["simd"] = simd_name(r.run);
-  object["parameters"] = {
-      {"grid", p.search.grid_points}, {"levels", p.search.levels},
-      {"omega", p.search.omega},      {"precision", p.search.precision == Precision::Float && !p.combination ? "float" : "double"},
-      {"order", r.options.run.order}, {"fixed_by_user", p.fixed.size()}};
+  object["parameters"] = {{"grid", p.search.grid_points},
+                          {"levels", p.search.levels},
+                          {"omega", p.search.omega},
+                          {"precision", p.search.precision == Precision::Float && !p.combination ? "float" : "double"},
+                          {"relaxation", p.options.relaxation},
+                          {"directions", name(p.options.directions)},
+                          {"seed", p.options.seed},
+                          {"order", r.options.run.order},
+                          {"fixed_by_user", p.fixed.size()}};
   object["iterations"] = r.outcome.iterations;
   object["stopped"] = reason_name(r.outcome.reason);
   object["last_rise"] = r.outcome.last_rise;

@@ -46,6 +46,18 @@ void set_precision(CommandContext& context, Arguments arguments) {
   const Precision precision = parse_precision(arguments[0]);
   change_run(context, [&](RunParameters& p) { p.search.precision = precision; });
 }
+void set_relaxation(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  change_run(context, [&](RunParameters& p) { p.options.relaxation = to_number(arguments[0]); });
+}
+void set_directions(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  change_run(context, [&](RunParameters& p) { p.options.directions = parse_directions(arguments[0]); });
+}
+void set_seed(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  change_run(context, [&](RunParameters& p) { p.options.seed = to_count(arguments[0]); });
+}
 void set_backend(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
   const Backend backend = parse_backend(arguments[0]);
@@ -79,6 +91,10 @@ std::span<const Verb> parameter_verbs() {
       {{"omega", "omega X", "Size of the first grid over the star's bounding box, up to 2 (the paper: 0.5)."}, set_omega},
       {{"precision", "precision float|double", "The scalar the search computes with; moves are always confirmed in double."},
        set_precision},
+      {{"relaxation", "relaxation X", "The share of the way that laplace, smart-laplace and angle-based go, above 0, up to 1."},
+       set_relaxation},
+      {{"directions", "directions random|axes", "Along which lines dvr moves the vertices: one direction an iteration."}, set_directions},
+      {{"seed", "seed N", "Of dvr's random directions."}, set_seed},
       {{"backend", "backend auto|cpu|cuda", "What smooths: the CPU, a CUDA device, or the best there is."}, set_backend},
       {{"order", "order natural|shuffle:SEED", "The order in which vertices are coloured and visited."}, set_order},
       {{"fix", "fix VERTEX|A-B...", "Fixes vertices besides the boundary."}, fix},

@@ -4,6 +4,7 @@
 //   open FILE | reload | generate KIND [SIZE [SEED]] | export FILE | stats FILE.csv | elements FILE.csv
 //   save-state FILE [VIEW-JSON] | open-state FILE
 //   metric NAME | show NAME | method NAME | grid N | levels N | omega X | precision float|double | backend auto|cpu|cuda
+//   relaxation X | directions random|axes | seed N
 //   combine FIRST:THRESHOLD:SECOND [SIZE] | combine off | size-point X Y | then mean [PATIENCE] | then nothing
 //   order natural|shuffle:SEED | fix VERTEX|A-B... | unfix | step vertex|class|iteration [COUNT] | back vertex|class|iteration [COUNT]
 //   run ITERATIONS | until-converged [PATIENCE [MAX]] | visit VERTEX|A-B... | seek ITERATION [VISITS [EDITS]] | reset

@@ -88,6 +88,9 @@ Json json_of(const RunParameters& p) {
             {"levels", p.search.levels},
             {"omega", p.search.omega},
             {"precision", p.search.precision == Precision::Double ? "double" : "float"},
+            {"relaxation", p.options.relaxation},
+            {"directions", name(p.options.directions)},
+            {"seed", p.options.seed},
             {"order", p.order.seed ? fmt::format("shuffle:{}", *p.order.seed) : "natural"},
             {"fixed", p.fixed},
             {"backend", name(p.backend)}};
@@ -95,6 +98,15 @@ Json json_of(const RunParameters& p) {
   if (p.combination && p.combination->size() != nullptr) json["size_function"] = to_text(*p.combination->size());
   if (p.then_mean) json["then_mean"] = {{"patience", p.then_mean->patience}, {"rise", p.then_mean->rise}};
   return json;
+}
+
+/// A file of before there were these has none.
+MethodOptions to_options(const Json& json) {
+  MethodOptions options;
+  if (json.contains("relaxation")) options.relaxation = to_double(json.at("relaxation"));
+  if (json.contains("directions")) options.directions = parse_directions(json.at("directions").get<std::string>());
+  if (json.contains("seed")) options.seed = to_whole(json.at("seed"));
+  return options;
 }
 
 RunParameters to_parameters(const Json& json) {
@@ -105,6 +117,7 @@ RunParameters to_parameters(const Json& json) {
   p.search.levels = to_int(json.at("levels"));
   p.search.omega = to_double(json.at("omega"));
   p.search.precision = parse_precision(json.at("precision").get<std::string>());
+  p.options = to_options(json);
   p.order = parse_order(json.at("order").get<std::string>());
   p.fixed = to_indices(json.at("fixed"));
   p.backend = parse_backend(json.at("backend").get<std::string>());

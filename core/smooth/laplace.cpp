@@ -1,22 +1,22 @@
 #include "core/smooth/laplace.h"
 
+#include "core/smooth/edge_neighbours.h"
 #include "core/smooth/vertex_rule.h"
 
 namespace dmoscope {
 
 namespace {
 
-/// From a free vertex to the mean of its edge neighbours, which are the corners next to it in its elements: each of them in two.
+/// From a free vertex to the mean of its edge neighbours.
 Vec2<double> way_to_mean(const PlanarView& mesh, PositionView positions, Index vertex) {
   const Vec3 origin = positions[vertex];
   Vec3 sum{};
-  const auto star = mesh.star(vertex);
-  for (const Incidence& at : star) {
-    const auto corners = mesh.corners_of(at.element);
-    const Index next = corners[(at.corner + 1) % corners.size()], before = corners[(at.corner + corners.size() - 1) % corners.size()];
-    sum = sum + ((positions[next] - origin) + (positions[before] - origin));
-  }
-  return mesh.plane.project(1.0 / (2.0 * static_cast<double>(star.size())) * sum);
+  double count = 0.0;
+  for_edge_neighbours(mesh, vertex, [&](Index other) {
+    sum = sum + (positions[other] - origin);
+    count += 1.0;
+  });
+  return mesh.plane.project(1.0 / count * sum);
 }
 
 class Laplace {

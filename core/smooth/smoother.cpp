@@ -41,11 +41,6 @@ constexpr std::array<MethodInfo, 7> kMethods{
      {.name = "active-set",
       .doc = "Active-set ascent: along the steepest way on which none of the worst elements loses (Freitag, Jones and Plassmann 1995)"}}};
 
-void validate(const MethodOptions& options) {
-  if (!(options.relaxation > 0.0 && options.relaxation <= 1.0))
-    throw UsageError(fmt::format("relaxation must be above 0 and at most 1, not {}", options.relaxation));
-}
-
 void require_possible(const Combination& combination, const SmoothingTask& task) {
   validate(combination);
   if (task.method != "dmo") throw UsageError(fmt::format("metrics are combined by dmo alone, not by {}", task.method));

@@ -20,6 +20,10 @@ class SizeField;
 
 /// Along which directions dvr relaxes: one a sweep for all vertices, drawn at random from a seed; or the axes of the mesh's plane by turns.
 enum class Directions { Random, Axes };
+/// "random" or "axes".
+[[nodiscard]] std::string_view name(Directions directions);
+/// Throws UsageError.
+[[nodiscard]] Directions parse_directions(std::string_view word);
 
 /// What methods other than dmo can be told. Each reads what concerns it.
 struct MethodOptions {
@@ -28,6 +32,9 @@ struct MethodOptions {
   std::uint64_t seed = 1;                      // of dvr's random directions
   friend bool operator==(const MethodOptions&, const MethodOptions&) = default;
 };
+
+/// Throws UsageError that names what is out of range.
+void validate(const MethodOptions& options);
 
 struct SmoothingTask {
   std::string_view method = "dmo";

@@ -105,6 +105,26 @@ nlohmann::json smooth(const std::string& input, const std::string& output, std::
   const std::string path = shared_mesh(name); \
   if (path.empty()) GTEST_SKIP() << "the shared meshes are not here"
 
+TEST(Smooth, MethodsHaveTheirOptions) {
+  const Folder folder;
+  const auto minimum = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> words{"--iterations", "3", "--json"};
+    words.insert(words.end(), options.begin(), options.end());
+    return smooth(sample("coast.14"), folder / "out.14", words)["after"]["minimum"].get<double>();
+  };
+  const double dvr = minimum({"--method", "dvr"});
+  EXPECT_EQ(minimum({"--method", "dvr", "--seed", "1"}), dvr);
+  EXPECT_NE(minimum({"--method", "dvr", "--seed", "2"}), dvr);
+  EXPECT_NE(minimum({"--method", "dvr", "--directions", "axes"}), dvr);
+  EXPECT_NE(minimum({"--method", "laplace", "--relaxation", "0.5"}), minimum({"--method", "laplace"}));
+  const auto json = smooth(sample("coast.14"), folder / "out.14", {"--iterations", "1", "--method", "laplace", "--relaxation", "0.25"});
+  EXPECT_EQ(json["method"], "laplace");
+  EXPECT_EQ(json["simd"], "scalar");
+  EXPECT_EQ(json["parameters"]["relaxation"], 0.25);
+  EXPECT_EQ(json["parameters"]["directions"], "random");
+  EXPECT_EQ(json["parameters"]["seed"], 1);
+}
+
 TEST(Smooth, JsonHasTheDocumentedKeys) {
   const Folder folder;
   const auto json = smooth(sample("coast.14"), folder / "out.14", {"--iterations", "2", "--threads", "2", "--backend", "cpu"});

@@ -4,6 +4,7 @@
 #include <memory>
 #include <numeric>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/quality/quality.h"
@@ -347,6 +348,37 @@ TEST_F(InspectionView, LevelBackLeavesAloneWhatCameAfterTheMove) {
   good("level next");
   good("level back");
   EXPECT_LE(session()->runs[0].moment.edits, 1U);
+}
+
+TEST_F(InspectionView, InARunOfAnotherMethodItShowsWhatDmoWouldDoAndMakesNoMove) {
+  const auto bad = [this](const char* line) {
+    const auto failure = window_->run(line);
+    return failure ? failure->text : std::string();
+  };
+  good("generate annulus");
+  good("pick vertex 1203");
+  good("key G");
+  EXPECT_EQ(ui::other_method_sentence(look()), "");
+  const Vec3 dmo_would = look().trace->to;
+  good("method laplace");
+  ASSERT_TRUE(look().trace.has_value());
+  EXPECT_THAT(ui::other_method_sentence(look()), ::testing::AllOf(::testing::HasSubstr("laplace"), ::testing::HasSubstr("dmo would do")));
+  EXPECT_EQ(look().trace->to, dmo_would);
+  EXPECT_THAT(ui::level_label(inspection(), look()), ::testing::StartsWith("dmo · level"));
+  const Vec3 before = session()->frame->positions[1203];
+  EXPECT_THAT(bad("apply-move"), ::testing::HasSubstr("visit 1203"));
+  EXPECT_EQ(session()->frame->positions[1203], before);
+  EXPECT_FALSE(inspection().applied);
+  // Playing the levels ends after the last one, without a move.
+  inspection().level = 3;
+  inspection().playing = true;
+  EXPECT_THAT(bad("level next"), ::testing::HasSubstr("laplace"));
+  EXPECT_FALSE(inspection().playing);
+  EXPECT_EQ(session()->frame->positions[1203], before);
+  good("method dmo");
+  EXPECT_EQ(ui::other_method_sentence(look()), "");
+  good("apply-move");
+  EXPECT_EQ(session()->frame->positions[1203], dmo_would);
 }
 
 }  // namespace

@@ -72,6 +72,13 @@ TEST_F(StateFile, OpensWhatWasSavedBitForBit) {
   say("add-run dmo:min-angle");
   say("run 3");
   say("seek 1");
+  say("add-run dvr:mean-ratio");
+  say("directions axes");
+  say("seed 18446744073709551615");
+  say("run 2");
+  say("add-run angle-based:mean-ratio");
+  say("relaxation 0.3");
+  say("run 2");
   say("select-run 2");
   say("show min-angle");
   say("save-state " + file_.string() + R"( "{\"zoom\": 2}")");
@@ -88,6 +95,7 @@ TEST_F(StateFile, OpensWhatWasSavedBitForBit) {
     EXPECT_EQ(a.moment(), b.moment());
     EXPECT_EQ(a.parameters().fixed, b.parameters().fixed);
     EXPECT_EQ(a.parameters().search, b.parameters().search);
+    EXPECT_EQ(a.parameters().options, b.parameters().options);
     EXPECT_EQ(a.parameters().order, b.parameters().order);
     EXPECT_EQ(a.edits().all(), b.edits().all());
     EXPECT_TRUE(same_bits(a.positions(), b.positions())) << i;
@@ -130,6 +138,23 @@ TEST_F(StateFile, NobodyCouldFindAMeshThatCameFromNowhere) {
   say("generate random 100");
   EXPECT_THROW(say("save-state " + file_.string() + " {zoom"), UsageError) << "a view that is no JSON";
   EXPECT_THROW(say("save-state /no/such/folder/x.json"), OutputError);
+}
+
+TEST_F(StateFile, AFileOfBeforeMethodsHadOptionsStillOpens) {
+  say("generate random 100");
+  say("run 2");
+  say("save-state " + file_.string());
+  Json json = Json::parse(text());
+  Json& parameters = json["runs"][0]["parameters"];
+  for (const char* key : {"relaxation", "directions", "seed"}) EXPECT_EQ(parameters.erase(key), 1U) << key;
+  write(json.dump());
+  EXPECT_EQ(refusal(), "");
+  Session other(1);
+  open_state(file_, other, progress_);
+  EXPECT_EQ(other.active().parameters().options, MethodOptions{});
+  parameters["relaxation"] = 2.0;
+  write(json.dump());
+  EXPECT_THAT(refusal(), HasSubstr("relaxation"));
 }
 
 TEST_F(StateFile, CanBeUndone) {

@@ -26,6 +26,7 @@ struct State {
     std::string method;
     Metric metric;
     SearchParameters search;
+    MethodOptions options;
     VisitOrder order;
     std::vector<Index> fixed;
     Backend backend;
@@ -41,7 +42,7 @@ State state_of(Session& session) {
   for (std::size_t i = 0; i < session.run_count(); ++i) {
     dmoscope::Run& run = session.run(i);
     const RunParameters& p = run.parameters();
-    state.runs.push_back({p.method, p.metric, p.search, p.order, p.fixed, p.backend, run.moment(), run.edits().all(),
+    state.runs.push_back({p.method, p.metric, p.search, p.options, p.order, p.fixed, p.backend, run.moment(), run.edits().all(),
                           std::vector<Vec3>(run.positions().begin(), run.positions().end())});
   }
   return state;
@@ -55,6 +56,7 @@ void expect_same(const State& a, const State& b, const std::string& what) {
     EXPECT_EQ(x.method, y.method) << what;
     EXPECT_EQ(x.metric, y.metric) << what;
     EXPECT_EQ(x.search, y.search) << what;
+    EXPECT_EQ(x.options, y.options) << what;
     EXPECT_EQ(x.order, y.order) << what;
     EXPECT_EQ(x.fixed, y.fixed) << what;
     EXPECT_EQ(x.backend, y.backend) << what;
@@ -100,6 +102,10 @@ TEST_F(Undo, TakesBackEveryCommandAndDoesItAgain) {
                                                           "levels 2",
                                                           "omega 0.4",
                                                           "precision double",
+                                                          "relaxation 0.5",
+                                                          "directions axes",
+                                                          "seed 7",
+                                                          "method smart-laplace",
                                                           "order shuffle:3",
                                                           "backend cpu",
                                                           "fix " + vertex,

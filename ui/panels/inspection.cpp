@@ -33,6 +33,7 @@ void draw_title(PanelContext& context) {
 
 void draw_story(PanelContext& context, const Inspection& inspection) {
   const VisitTrace& trace = *inspection.trace;
+  if (const std::string other = other_method_sentence(inspection); !other.empty()) wrapped(other);
   if (const std::string stuck = stuck_sentence(inspection); !stuck.empty()) wrapped(stuck);
   const auto row = [&context](const StarState& star, const char* when) {
     const bool inverted = !(star.jacobian > 0.0);
@@ -57,8 +58,14 @@ void draw_buttons(PanelContext& context) {
   const InspectionState& state = context.state.inspection;
   action_button(context, "level-back", "‹ Back");
   ImGui::SameLine();
-  const bool last = static_cast<std::size_t>(state.level) >= levels;
-  action_button(context, "level-next", state.applied ? (state.in_order ? "Next vertex" : "Again") : last ? "Apply" : "Next level", true);
+  const bool last = static_cast<std::size_t>(state.level) >= levels, foreign = !context.inspection.other_method.empty();
+  ImGui::BeginDisabled(last && foreign);  // there is no such move to make
+  action_button(context, "level-next",
+                state.applied      ? (state.in_order ? "Next vertex" : "Again")
+                : last && !foreign ? "Apply"
+                                   : "Next level",
+                true);
+  ImGui::EndDisabled();
   ImGui::SameLine();
   action_button(context, "play-levels", state.playing ? "❚❚" : "▶ Play");
   ImGui::SameLine();

@@ -10,6 +10,8 @@
 namespace dmoscope::ui {
 namespace {
 
+constexpr int kLargestSeed = 1 << 30;  // that can be entered
+
 void draw_run_row(PanelContext& context, std::size_t k) {
   const RunView& run = context.session.runs[k];
   ImGui::PushID(static_cast<int>(k));
@@ -59,9 +61,18 @@ void draw_method(PanelContext& context, const RunParameters& parameters) {
     if (ImGui::Selectable(std::string(method.name).c_str(), method.name == parameters.method)) {
       context.send(fmt::format("method {}", method.name));
     }
+    context.items.record_last(fmt::format("method:{}", method.name));
     next_item_tooltip(std::string(method.doc));
   }
   ImGui::EndCombo();
+}
+
+/// Sends `command X` when another number was entered.
+void real(PanelContext& context, const char* item, double value) {
+  double edited = value;
+  ImGui::InputDouble(fmt::format("##{}", item).c_str(), &edited, 0, 0, "%.4g");
+  context.items.record_last(item);
+  if (ImGui::IsItemDeactivatedAfterEdit() && edited != value) context.send(fmt::format("{} {}", item, full_number(edited)));
 }
 
 void draw_search(PanelContext& context, const RunParameters& parameters) {
@@ -70,10 +81,7 @@ void draw_search(PanelContext& context, const RunParameters& parameters) {
   labelled(context, "levels", "how often the grid is refined around the best candidate, 1 to 16");
   integer(context, "levels", parameters.search.levels, 1, 16, "levels");
   labelled(context, "omega", "size of the first grid in bounding boxes of the star, above 0, up to 2");
-  double omega = parameters.search.omega;
-  ImGui::InputDouble("##omega", &omega, 0, 0, "%.4g");
-  context.items.record_last("omega");
-  if (ImGui::IsItemDeactivatedAfterEdit() && omega != parameters.search.omega) context.send(fmt::format("omega {}", full_number(omega)));
+  real(context, "omega", parameters.search.omega);
 
   labelled(context, "precision", "scalar of the search; what it finds is confirmed in double before a vertex moves");
   const bool single = parameters.search.precision == Precision::Float;
@@ -84,6 +92,35 @@ void draw_search(PanelContext& context, const RunParameters& parameters) {
     if (ImGui::Selectable("double", !single)) context.send("precision double");
     ImGui::EndCombo();
   }
+}
+
+/// Along which lines dvr goes.
+void draw_directions(PanelContext& context, const MethodOptions& options) {
+  labelled(context, "directions", "of the lines along which vertices go, one an iteration: at random, or the axes by turns");
+  const bool open = ImGui::BeginCombo("##directions", std::string(name(options.directions)).c_str());
+  context.items.record_last("directions");
+  if (open) {
+    for (const Directions directions : {Directions::Random, Directions::Axes}) {
+      const std::string word(name(directions));
+      if (ImGui::Selectable(word.c_str(), directions == options.directions)) context.send("directions " + word);
+      context.items.record_last("directions:" + word);
+    }
+    ImGui::EndCombo();
+  }
+  if (options.directions != Directions::Random) return;
+  labelled(context, "seed", "of the random directions");
+  integer(context, "directions-seed", static_cast<int>(std::min<std::uint64_t>(options.seed, kLargestSeed)), 0, kLargestSeed, "seed");
+}
+
+/// What the run's method can be told, and nothing else.
+void draw_options(PanelContext& context, const RunParameters& parameters) {
+  const MethodInfo& method = method_info(parameters.method);
+  if (method.searches_grid) draw_search(context, parameters);
+  if (method.relaxes) {
+    labelled(context, "relaxation", "the share of the way to the new place that is gone, above 0, up to 1");
+    real(context, "relaxation", parameters.options.relaxation);
+  }
+  if (method.has_directions) draw_directions(context, parameters.options);
 }
 
 void draw_backend(PanelContext& context, const RunView& run) {
@@ -114,7 +151,7 @@ void draw_order(PanelContext& context, const RunParameters& parameters) {
   }
   if (!shuffled) return;
   labelled(context, "seed", "of the shuffled order");
-  integer(context, "seed", static_cast<int>(*parameters.order.seed), 0, 1 << 30, "order shuffle:");
+  integer(context, "seed", static_cast<int>(*parameters.order.seed), 0, kLargestSeed, "order shuffle:");
 }
 
 }  // namespace
@@ -153,10 +190,13 @@ void draw_parameters(PanelContext& context) {
   const RunParameters& parameters = run->parameters;
   ImGui::BeginDisabled(context.activity.busy);
   draw_method(context, parameters);
-  labelled(context, "optimises", "the metric whose minimum over each star the method raises");
+  if (method_info(parameters.method).optimises)
+    labelled(context, "optimises", "the metric whose minimum over each star the method raises");
+  else
+    labelled(context, "judged by", "the metric of the run's statistics; the method goes by none");
   metric_combo(context, "metric", parameters.metric, "metric");
   draw_aims(context, *run);
-  draw_search(context, parameters);
+  draw_options(context, parameters);
   draw_order(context, parameters);
   draw_backend(context, *run);
   labelled(context, "threads", "of this computer that smooth; the result does not depend on it");

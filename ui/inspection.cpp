@@ -158,10 +158,10 @@ Inspection inspect(const SessionView& session, Index vertex) {
     inspection.trouble = "This vertex is of no element: nothing moves it.";
     return inspection;
   }
-  if (!method_info(run.parameters.method).searches_grid) inspection.other_method = run.parameters.method;
   try {
     gather_star(inspection, frame, vertex);
     const auto aims = aims_of_visit(run.parameters.metric, run.parameters.combination, run.size, run.sweep);
+    if (!aims && !method_info(run.parameters.method).searches_grid) inspection.other_method = run.parameters.method;
     inspection.trace = trace_visit(*frame.input, frame.positions, run.fixed, run.parameters.metric, run.parameters.search, vertex, aims);
     if (!aims) inspection.optimum = local_optimum(*frame.input, frame.positions, run.parameters.metric, vertex);
   } catch (const Error& error) {

@@ -195,22 +195,24 @@ TEST(AngleBased, TheMiddleOfARegularRingIsWhereAllAnglesAreHalved) {
 }
 
 TEST(AngleBased, ItsStepIsTheOneOfThePaperByAngles) {
-  // A ring with a reflex angle, and the paper's words in angles: rotate about each of the ring's vertices by half its angle less the angle
-  // to the hub.
-  Mesh mesh = wheel(6, {0.1, 0.05, 0});
-  mesh.positions[2] = 0.3 * mesh.positions[2];
-  Vec3 sum{};
-  const Vec3 hub = mesh.positions[0];
-  for (Index j = 1; j <= 6; ++j) {
-    const Vec3 at = mesh.positions[j], after = mesh.positions[j % 6 + 1], before = mesh.positions[(j + 4) % 6 + 1];
-    const auto turn = [&](Vec3 from, Vec3 to) {  // counter-clockwise, 0 to 2 pi
-      const double angle = std::atan2(to.y - at.y, to.x - at.x) - std::atan2(from.y - at.y, from.x - at.x);
-      return angle < 0 ? angle + 2 * M_PI : angle;
-    };
-    const double by = turn(after, before) / 2 - turn(after, hub), x = hub.x - at.x, y = hub.y - at.y;
-    sum = sum + at + Vec3{std::cos(by) * x - std::sin(by) * y, std::sin(by) * x + std::cos(by) * y, 0};
+  // Rings with a reflex angle, one of 240 and one of 300 degrees, and the paper's words in angles: rotate about each of the ring's vertices
+  // by half its angle less the angle to the hub.
+  for (const Index spokes : {6U, 17U}) {
+    Mesh mesh = wheel(spokes, {0.1, 0.05, 0});
+    mesh.positions[2] = 0.3 * mesh.positions[2];
+    Vec3 sum{};
+    const Vec3 hub = mesh.positions[0];
+    for (Index j = 1; j <= spokes; ++j) {
+      const Vec3 at = mesh.positions[j], after = mesh.positions[j % spokes + 1], before = mesh.positions[(j + spokes - 2) % spokes + 1];
+      const auto turn = [&](Vec3 from, Vec3 to) {  // counter-clockwise, 0 to 2 pi
+        const double angle = std::atan2(to.y - at.y, to.x - at.x) - std::atan2(from.y - at.y, from.x - at.x);
+        return angle < 0 ? angle + 2 * M_PI : angle;
+      };
+      const double by = turn(after, before) / 2 - turn(after, hub), x = hub.x - at.x, y = hub.y - at.y;
+      sum = sum + at + Vec3{std::cos(by) * x - std::sin(by) * y, std::sin(by) * x + std::cos(by) * y, 0};
+    }
+    EXPECT_LE(length(hub_after(mesh, {.method = "angle-based"}) - 1.0 / spokes * sum), 1e-15) << spokes;
   }
-  EXPECT_LE(length(hub_after(mesh, {.method = "angle-based"}) - 1.0 / 6 * sum), 1e-15);
 }
 
 /// How far below the exact optimum one visit leaves hubs amid rings of random radii: the median and the largest.

@@ -18,7 +18,7 @@ struct RunView;
 /// How a run fares where it stands. Values that are not known are NaN.
 struct RunRow {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  std::size_t run = 0;  // its place among the runs, from 0, where whoever made the row has set it
+  std::size_t run = 0;                         // its place among the runs, from 0, where whoever made the row has set it
   std::string title, method, metric, backend;  // metric: the one the run optimises
   std::string judged;                          // the metric that the qualities below are of
   std::uint64_t iterations = 0;                // whole ones, up to where the run stands

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "core/drawing/ticks.h"
 #include "ui/derived.h"
 #include "ui/format.h"
 #include "ui/panels/panels.h"
-#include "core/drawing/ticks.h"
 
 namespace dmoscope::ui {
 namespace {

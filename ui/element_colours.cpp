@@ -221,6 +221,7 @@ void by_size_over_target(Work& work) {
   if (!work.request.size) {
     work.shading.values.assign(work.mesh.elements.size(), std::numeric_limits<float>::quiet_NaN());
     work.out.note = "the run has no size function: combine its metric with density";
+    work.out.logarithmic = true;  // as other viewports have it, which share the colour bar
     return;
   }
   std::vector<double> values = edge_logarithms(*work.request.frame, work.request.size.get());
@@ -262,7 +263,8 @@ void by_difference(Work& work) {
     work.out.worse += difference < 0.0F ? 1 : 0;
     if (std::isfinite(difference)) most = std::max(most, std::abs(static_cast<double>(difference)));
   }
-  if (most == 0.0) most = 1.0;  // all is the same
+  constexpr double kLeast = 0.01;
+  if (most == 0.0) most = kLeast;  // all is the same, which must not widen the range of the viewports beside it
   work.out.range = {-most, most};
   work.out.diverging = true;
   const std::string metric(info(frame.shown).title), of = name_of(reference);

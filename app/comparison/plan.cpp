@@ -94,9 +94,6 @@ ComparisonPlan plan_of(const CompareOptions& options) {
   for (const std::string& what : options.every) add_every(plan, what, options.run);
   if (plan.contenders.empty())
     throw UsageError("nothing to compare: name runs with --run METHOD[:METRIC[:BACKEND]], or --every method|metric");
-  if (options.goal.until_converged)
-    for (Contender& c : plan.contenders)
-      if (c.parameters.then_mean) c.parameters.then_mean->patience = options.goal.until_converged->patience;
   plan.judge = options.judge.empty() ? plan.contenders.front().parameters.metric : parse_metric(options.judge);
   plan.acceleration = acceleration_of(plan.contenders);
   return plan;

@@ -46,7 +46,8 @@ double correlation(const InputMesh& input, std::span<const Vec3> positions, cons
   return (n * sxy - sx * sy) / std::sqrt((n * sxx - sx * sx) * (n * syy - sy * sy));
 }
 
-void density_on(Lab& lab, Figure& figure, const std::shared_ptr<const InputMesh>& input) {
+/// `papers`: the paper's own mesh; of another one the sizes are told, for nobody claims anything of them.
+void density_on(Lab& lab, Figure& figure, const std::shared_ptr<const InputMesh>& input, bool papers) {
   const std::string mesh = input->mesh.name;
   const Vec3 point = middle(*input);
   const char* why = "The paper shows pictures alone and does not say which point; ours is the middle of the mesh.";
@@ -62,14 +63,19 @@ void density_on(Lab& lab, Figure& figure, const std::shared_ptr<const InputMesh>
     const double before = correlation(*input, input->mesh.positions, point, inverse),
                  after = correlation(*input, run->positions, point, inverse);
     figure.tell(mesh, fmt::format("{}: correlation of size and wanted size, input", h), before, "", why);
-    figure.check(mesh, fmt::format("{}: rise of that correlation", h), after - before, Claim::at_least("rises", 0.05, why));
+    const std::string rise = fmt::format("{}: rise of that correlation", h);
+    if (papers) {
+      figure.check(mesh, rise, after - before, Claim::at_least("rises", 0.05, why));
+    } else {
+      figure.tell(mesh, rise, after - before, "rises", why);
+    }
     lab.picture(figure, *input, run->positions, Metric::MeanRatio, fmt::format("{}: {}", inverse ? "9c" : "9b", h));
   }
 }
 
 void density(Lab& lab, Figure& figure) {
-  if (const auto input = lab.mesh("bahamas.14", figure)) return density_on(lab, figure, input);
-  density_on(lab, figure, lab.stand_in("annulus 1000 1"));
+  if (const auto input = lab.mesh("bahamas.14", figure)) return density_on(lab, figure, input, true);
+  density_on(lab, figure, lab.stand_in("annulus 1000 1"), false);
 }
 
 }  // namespace

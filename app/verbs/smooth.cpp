@@ -159,7 +159,6 @@ double smoothing_seconds(const Run& run) {
 int smooth(const Options& options) {
   refuse_early(options);
   RunParameters parameters = parameters_of(options.run);
-  if (parameters.then_mean && options.goal.until_converged) parameters.then_mean->patience = options.goal.limits.patience;
   const Acceleration acceleration = acceleration_for(parameters.backend);
 
   Watch watch;

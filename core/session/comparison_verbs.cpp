@@ -59,27 +59,44 @@ void each(CommandContext& context, Arguments arguments) {
     for_runs(context, [&](Run& run) { run.seek({iteration}, context.progress); });
   } else if (what == "reset") {
     require(arguments, 1, 1);
-    for_runs(context, [&](Run& run) { run.reset(context.progress); });
+    std::size_t k = 0;
+    for_runs(context, [&](Run& run) {
+      run.reset(context.progress);
+      for (const std::string& line :
+           {fmt::format("select-run {}", ++k), std::string("reset"), fmt::format("select-run {}", context.session.active_index() + 1)})
+        context.done.push_back(line);
+    });
   } else {
     throw WrongArguments(fmt::format("'{}' is nothing that every run can do", what));
   }
 }
 
-/// Adds those runs that the session does not have yet, and leaves the active run the active one. A run that cannot be is left out, and
-/// told of, with the reason.
+bool has_run(Session& session, const RunParameters& parameters) {
+  for (std::size_t k = 0; k < session.run_count(); ++k)
+    if (session.run(k).parameters() == parameters) return true;
+  return false;
+}
+
+/// Adds those runs that the session does not have yet, all or none, and leaves the active run the active one. A run that cannot be is left
+/// out, and told of, with the reason.
 void add_missing(CommandContext& context, const std::vector<RunParameters>& wanted) {
   Session& session = context.session;
-  const std::size_t active = session.active_index();
-  for (const RunParameters& parameters : wanted) {
-    const auto has = [&](std::size_t k) { return session.run(k).parameters() == parameters; };
-    bool known = false;
-    for (std::size_t k = 0; k < session.run_count() && !known; ++k) known = has(k);
-    if (known) continue;
-    try {
-      session.add_run(parameters);
-    } catch (const UsageError& error) {
-      tell(context, fmt::format("left out: {}", error.what()), Message::Kind::Warning);
+  const std::size_t active = session.active_index(), before = session.run_count();
+  try {
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      context.progress.check();
+      context.progress.set(static_cast<double>(i) / static_cast<double>(wanted.size()));
+      if (has_run(session, wanted[i])) continue;
+      try {
+        session.add_run(wanted[i]);
+      } catch (const UsageError& error) {
+        tell(context, fmt::format("left out: {}", error.what()), Message::Kind::Warning);
+      }
     }
+  } catch (...) {
+    while (session.run_count() > before) session.remove_run(session.run_count() - 1);
+    session.select(active);
+    throw;
   }
   session.select(active);
 }

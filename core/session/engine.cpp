@@ -148,7 +148,13 @@ CommandEnd Engine::run_one(const Posted& command) {
   const auto moment = [this] { return session_.has_input() ? session_.active().moment() : Moment{}; };
   progress_.begin(command.line);
   context_.done.clear();
-  session_.observe([this](const Run&) { publish_if_due(); });
+  session_.observe([this](const Run& run) {
+    try {
+      publish_if_due();
+    } catch (const DeviceError&) {
+      if (&run == &session_.active()) throw;  // another run's device fails: that one hears of it when it is asked next
+    }
+  });
   const Moment before = moment();
   const SessionPoint point = session_.point();
   CommandEnd end{command.id, execute(command.line)};

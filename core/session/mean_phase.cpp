@@ -4,7 +4,8 @@
 
 namespace dmoscope {
 
-std::optional<std::uint64_t> PhaseTurn::find(const MeanPhase& phase, std::span<const IterationRecord> records) {
+std::optional<std::uint64_t> PhaseTurn::find(const MeanPhase& phase, std::span<const IterationRecord> records,
+                                             std::optional<std::uint64_t> still) {
   for (std::uint64_t i = seen_ + 1; !turn_ && i < records.size(); ++i) {
     seen_ = i;
     const std::uint64_t since = i >= phase.patience ? i - phase.patience : 0;
@@ -13,7 +14,9 @@ std::optional<std::uint64_t> PhaseTurn::find(const MeanPhase& phase, std::span<c
       return records[i].statistics.*minimum - records[since].statistics.*minimum >= phase.rise;
     };
     const bool waited = i >= phase.patience && !rose(&Statistics::minimum) && !rose(&Statistics::movable_minimum);
-    if (waited || records[i].moved == 0) turn_ = i;
+    const auto rests = [](const IterationRecord& record) { return record.moved == 0; };
+    const bool at_rest = still && i >= *still && std::ranges::all_of(records.subspan(i + 1 - *still, *still), rests);
+    if (waited || at_rest) turn_ = i;
   }
   return turn_;
 }

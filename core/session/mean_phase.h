@@ -12,7 +12,7 @@ namespace dmoscope {
 /// Once the minimum has converged the mean quality of the stars is raised, with the movable minimum as floor: max-min alone lowers the
 /// mean.
 struct MeanPhase {
-  std::uint64_t patience = 5;  // at least 1: iterations in which neither minimum rose by `rise`, or one in which nothing moved
+  std::uint64_t patience = 5;  // at least 1: iterations in which neither minimum rose by `rise`; or nothing moves any more
   double rise = 1e-6;
   friend bool operator==(const MeanPhase&, const MeanPhase&) = default;
 };
@@ -20,8 +20,9 @@ struct MeanPhase {
 /// Finds the end of the first phase among the records of a path, each looked at once.
 class PhaseTurn {
  public:
-  /// The iteration at whose end the first phase is over; none: not within these records.
-  [[nodiscard]] std::optional<std::uint64_t> find(const MeanPhase& phase, std::span<const IterationRecord> records);
+  /// The iteration at whose end the first phase is over; none: not within these records. `still`: see still_iterations().
+  [[nodiscard]] std::optional<std::uint64_t> find(const MeanPhase& phase, std::span<const IterationRecord> records,
+                                                  std::optional<std::uint64_t> still = 1);
   /// The records after an iteration are of another path from now on.
   void forget_after(std::uint64_t iteration);
 

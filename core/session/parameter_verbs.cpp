@@ -27,7 +27,13 @@ void show_metric(CommandContext& context, Arguments arguments) {
 }
 void set_method(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
-  change_run(context, [&](RunParameters& p) { p.method = arguments[0]; });
+  const RunParameters& now = context.session.active().parameters();
+  const bool drops = now.combination && method_info(arguments[0]).name != now.method;
+  change_run(context, [&](RunParameters& p) {
+    p.method = arguments[0];
+    if (drops) p.combination.reset();  // which is a method's own
+  });
+  if (drops) tell(context, "the second aim is dmo's: this run has none");
 }
 void set_grid(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);

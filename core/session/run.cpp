@@ -49,6 +49,19 @@ std::vector<Vec3> working_copy(std::span<const Vec3> positions) {
   return copy;
 }
 
+/// What tells a run from others by the same method and metric.
+std::string other_than_usual(const RunParameters& parameters) {
+  const MethodInfo& method = method_info(parameters.method);
+  const MethodOptions usual, &options = parameters.options;
+  std::string text;
+  if (method.relaxes && options.relaxation != usual.relaxation) text += fmt::format(", relaxation {}", options.relaxation);
+  if (method.has_directions && options.directions != usual.directions) text += ", along the axes";
+  if (method.has_directions && options.directions == usual.directions && options.seed != usual.seed)
+    text += fmt::format(", directions {}", options.seed);
+  if (parameters.order.seed) text += fmt::format(", shuffle:{}", *parameters.order.seed);
+  return text;
+}
+
 }  // namespace
 
 Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::shared_ptr<ThreadPool> pool, std::size_t history_bytes,
@@ -73,9 +86,10 @@ Run::Run(Run&&) noexcept = default;
 Run& Run::operator=(Run&&) noexcept = default;
 
 std::string Run::title() const {
-  const auto& [method, metric] = std::tie(parameters_.method, parameters_.metric);
-  if (parameters_.combination) return fmt::format("{} · {}", method, phrase(metric, *parameters_.combination));
-  return fmt::format("{} · {}{}", method, info(metric).name, parameters_.then_mean ? ", then mean" : "");
+  const RunParameters& p = parameters_;
+  std::string title = fmt::format("{} · {}", p.method, p.combination ? phrase(p.metric, *p.combination) : std::string(info(p.metric).name));
+  if (p.then_mean) title += ", then mean";
+  return title + other_than_usual(p);
 }
 
 std::string Run::backend_sentence() const {
@@ -126,7 +140,8 @@ std::shared_ptr<const DevicePicture> Run::picture(Metric shown) const {
 }
 
 std::optional<std::uint64_t> Run::mean_since() const {
-  return parameters_.then_mean ? turn_.find(*parameters_.then_mean, history_.records()) : std::nullopt;
+  if (!parameters_.then_mean) return std::nullopt;
+  return turn_.find(*parameters_.then_mean, history_.records(), still_iterations(method_info(parameters_.method), parameters_.options));
 }
 
 void Run::forget_after(std::uint64_t iteration) {

@@ -182,7 +182,7 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, Prog
   // Where we stand now may be the midst of an iteration, of which the history has no record.
   const Statistics start = recovering([this] { return statistics(); });
   double minimum = start.minimum, movable = start.movable_minimum, mean = start.mean;
-  std::uint64_t since_rise = 0;
+  std::uint64_t since_rise = 0, quiet = 0;  // quiet: iterations in a row in which nothing moved
   bool stopped = false;
   while (!stopped && outcome.iterations < limits.max_iterations) {
     const bool whole = at_.moment.visits == 0;
@@ -209,7 +209,10 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, Prog
     }
     if (after) recovering([&] { after(*this); });
     if (parameters_.then_mean && !raising_mean) continue;  // the first phase's end is not the run's
-    const bool still = whole && last_moved_ == 0;
+    // The second phase searches as DMO does, whatever the method.
+    const auto needed = raising_mean ? 1 : still_iterations(method_info(parameters_.method), parameters_.options);
+    quiet = whole && last_moved_ == 0 ? quiet + 1 : 0;
+    const bool still = needed && quiet >= *needed;
     stopped = stop_when_still && (still || since_rise >= limits.patience);
     if (stopped) outcome.reason = still ? StopReason::NothingMoved : StopReason::NoRise;
   }

@@ -67,6 +67,7 @@ class Ascent {
     double worth = worth_(place);
     for (int round = 0; round < kRounds; ++round) {
       const double least = look_at(place);
+      if (room_.active.empty()) break;  // nothing here has a value
       const V direction = steepest(room_.active);
       const double rate = std::hypot(direction.x, direction.y);
       if (!(rate > 0.0)) break;  // an equilibrium

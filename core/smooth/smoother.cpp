@@ -69,6 +69,12 @@ const MethodInfo& method_info(std::string_view name) {
   throw UsageError(fmt::format("unknown method '{}'; known are {}", name, known));
 }
 
+std::optional<std::uint64_t> still_iterations(const MethodInfo& method, const MethodOptions& options) {
+  constexpr std::uint64_t kAxes = 2;
+  if (!method.has_directions) return 1;
+  return options.directions == Directions::Axes ? std::optional(kAxes) : std::nullopt;
+}
+
 void require_possible(const SmoothingTask& task) {
   const MethodInfo& method = method_info(task.method);
   validate(task.search);

@@ -24,6 +24,12 @@ std::vector<double> input_qualities(const InputMesh& input, Metric judge, Thread
   return qualities;
 }
 
+/// Unlike `= {}`, which keeps the capacity, frees the memory.
+template <class T>
+void free_all(std::vector<T>& values) {
+  std::vector<T>().swap(values);
+}
+
 }  // namespace
 
 Comparison run_all(const ComparisonPlan& plan, std::shared_ptr<const InputMesh> input, const Goal& goal, std::uint64_t shuffles,
@@ -48,7 +54,7 @@ Comparison run_all(const ComparisonPlan& plan, std::shared_ptr<const InputMesh> 
     const auto take_curve = [&](JudgedRun& judged, bool shuffled) {
       orders.add(judged.qualities);
       all.curves.push_back({k, shuffled, thinned(judged.qualities)});
-      judged.qualities = {};
+      free_all(judged.qualities);
     };
     all.runs.push_back(run(contender.name, contender.parameters));
     take_curve(all.runs.back(), false);
@@ -57,7 +63,7 @@ Comparison run_all(const ComparisonPlan& plan, std::shared_ptr<const InputMesh> 
       parameters.order.seed = seed;
       all.shuffled.push_back(run(fmt::format("{} shuffle:{}", contender.name, seed), parameters));
       take_curve(all.shuffled.back(), true);
-      all.shuffled.back().positions = {};
+      free_all(all.shuffled.back().positions);
     }
     if (shuffles > 0) all.orders.push_back(orders.spread(contender.name));
   }

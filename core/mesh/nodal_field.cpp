@@ -8,7 +8,8 @@ namespace dmoscope {
 
 namespace {
 constexpr double kMostCellsAnAxis = 4096.0;
-}
+constexpr std::size_t kMostCellsAnElement = 16;  // on the average, besides one for every cell
+}  // namespace
 
 NodalField::NodalField(const Mesh& mesh, const Topology& topology, const Plane& plane, std::vector<double> values)
     : mesh_(mesh), topology_(topology), plane_(plane), values_(std::move(values)) {
@@ -22,11 +23,14 @@ NodalField::NodalField(const Mesh& mesh, const Topology& topology, const Plane& 
   }
   const double extent = std::max(high_.x - low_.x, high_.y - low_.y);
   const double cells = std::clamp(std::sqrt(static_cast<double>(mesh_.vertex_count())), 1.0, kMostCellsAnAxis);
-  if (extent > 0.0) width_ = extent / cells;
-  columns_ = static_cast<int>((high_.x - low_.x) / width_) + 1;
-  rows_ = static_cast<int>((high_.y - low_.y) / width_) + 1;
+  set_width(extent > 0.0 ? extent / cells : 1.0);
+  while (is_crowded()) set_width(2.0 * width_);
   elements_ = fill([this](const auto& put) {
-    for (Index e = 0; e < mesh_.elements.size(); ++e) for_cells_of(e, [&](std::size_t cell) { put(cell, e); });
+    for (Index e = 0; e < mesh_.elements.size(); ++e) {
+      const CellBox box = cells_of(e);
+      for (int j = box.bottom; j <= box.top; ++j)
+        for (int i = box.left; i <= box.right; ++i) put(cell(i, j), e);
+    }
   });
   vertices_ = fill([this](const auto& put) {
     for (Index v = 0; v < mesh_.vertex_count(); ++v)
@@ -42,9 +46,23 @@ std::size_t NodalField::cell(int i, int j) const {
   return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i);
 }
 
-/// Calls visit(cell) for the cells that an element's bounding box touches.
-template <class Visit>
-void NodalField::for_cells_of(Index element, const Visit& visit) const {
+void NodalField::set_width(double width) {
+  width_ = width;
+  columns_ = static_cast<int>((high_.x - low_.x) / width_) + 1;
+  rows_ = static_cast<int>((high_.y - low_.y) / width_) + 1;
+}
+
+/// Whether the elements' boxes touch too many cells to list: long elements, such as those of a fan, fill most of the grid each.
+bool NodalField::is_crowded() const {
+  const std::size_t cells = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
+  if (cells <= kMostCellsAnElement) return false;
+  const std::size_t most = kMostCellsAnElement * mesh_.elements.size() + cells;
+  std::size_t count = 0;
+  for (Index e = 0; e < mesh_.elements.size() && count <= most; ++e) count += cells_of(e).count();
+  return count > most;
+}
+
+NodalField::CellBox NodalField::cells_of(Index element) const {
   const auto corners = mesh_.elements.corners(element);
   Point low = flat(corners[0]), high = low;
   for (const Index corner : corners.subspan(1)) {
@@ -52,8 +70,7 @@ void NodalField::for_cells_of(Index element, const Visit& visit) const {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
-  for (int j = row(low.y); j <= row(high.y); ++j)
-    for (int i = column(low.x); i <= column(high.x); ++i) visit(cell(i, j));
+  return {column(low.x), row(low.y), column(high.x), row(high.y)};
 }
 
 /// for_members(put) calls put(cell, member) for every member in ascending order; it is asked twice.
@@ -64,7 +81,7 @@ NodalField::Cells NodalField::fill(const ForMembers& for_members) const {
   for_members([&](std::size_t cell, Index) { ++cells.offsets[cell + 1]; });
   for (std::size_t c = 1; c < cells.offsets.size(); ++c) cells.offsets[c] += cells.offsets[c - 1];
   cells.members.resize(cells.offsets.back());
-  std::vector<std::uint32_t> next(cells.offsets.begin(), cells.offsets.end() - 1);
+  std::vector<std::size_t> next(cells.offsets.begin(), cells.offsets.end() - 1);
   for_members([&](std::size_t cell, Index member) { cells.members[next[cell]++] = member; });
   return cells;
 }

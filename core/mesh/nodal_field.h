@@ -28,19 +28,27 @@ class NodalField {
  private:
   /// Lists of things in the cells of a uniform grid.
   struct Cells {
-    std::vector<std::uint32_t> offsets;  // one more than cells
-    std::vector<Index> members;          // of each cell in ascending order
+    std::vector<std::size_t> offsets;  // one more than cells
+    std::vector<Index> members;        // of each cell in ascending order
     [[nodiscard]] std::span<const Index> of(std::size_t cell) const {
       return {members.data() + offsets[cell], members.data() + offsets[cell + 1]};
     }
   };
   using Point = Vec2<double>;
+  /// Cells that a bounding box touches, from the first to the last.
+  struct CellBox {
+    int left, bottom, right, top;
+    [[nodiscard]] std::size_t count() const {
+      return static_cast<std::size_t>(right - left + 1) * static_cast<std::size_t>(top - bottom + 1);
+    }
+  };
   [[nodiscard]] Point flat(Index vertex) const;
   [[nodiscard]] int column(double x) const;
   [[nodiscard]] int row(double y) const;
   [[nodiscard]] std::size_t cell(int i, int j) const;
-  template <class Visit>
-  void for_cells_of(Index element, const Visit& visit) const;
+  [[nodiscard]] CellBox cells_of(Index element) const;
+  [[nodiscard]] bool is_crowded() const;
+  void set_width(double width);
   template <class ForMembers>
   [[nodiscard]] Cells fill(const ForMembers& for_members) const;
   [[nodiscard]] std::optional<double> in_element(Index element, Point p) const;

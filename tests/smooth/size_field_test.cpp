@@ -2,6 +2,7 @@
 
 #include "core/smooth/size_field.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -87,6 +88,27 @@ TEST(SizeField, OutsideItIsTheNearestVertexs) {
     ++outside;
   }
   EXPECT_EQ(outside, 500);
+}
+
+// Every element of a fan is as long as the fan's radius: a list of all cells that each touches would have more than 2^32 entries.
+TEST(SizeField, AFanOfManyElementsIsSearched) {
+  constexpr Index kElements = 300000;
+  const auto linear = [](Vec3 p) { return 5.0 + 2.0 * p.x - 3.0 * p.y; };
+  Mesh fan;
+  fan.positions.push_back({0.0, 0.0, 0.0});
+  for (Index i = 0; i < kElements; ++i) {
+    const double angle = 2.0 * M_PI * i / kElements;
+    fan.positions.push_back({std::cos(angle), std::sin(angle), 0.0});
+    fan.elements.add(ElementKind::Triangle, std::array<Index, 3>{0, i + 1, (i + 1) % kElements + 1});
+  }
+  const auto mesh = input(with_field(std::move(fan), linear));
+  const SizeField size = depth_of(mesh);
+  Random random(3);
+  for (int k = 0; k < 50; ++k) {
+    const double angle = random(0, 2 * M_PI), radius = random(0.05, 0.999);
+    const Vec3 p{radius * std::cos(angle), radius * std::sin(angle), 0.0};
+    EXPECT_NEAR(size.at(1, p), linear(p), 1e-9);
+  }
 }
 
 TEST(SizeField, LandHasTheLeastPositiveDepth) {

@@ -46,11 +46,16 @@ std::vector<Experiment> chosen(const std::vector<std::string>& only) {
   return all;
 }
 
-void make_output(const std::filesystem::path& folder) {
+/// Refuses before the long work what could not be written after it: the files, and what is in the way of a figure's folder.
+void make_output(const std::filesystem::path& folder, const std::vector<Experiment>& wanted) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw OutputError(folder.string(), error.message());
   for (const char* file : {"index.html", "table.csv"}) require_writable(folder / file);
+  for (const Experiment& experiment : wanted) {
+    const std::filesystem::path here = folder / experiment.id;
+    if (std::filesystem::exists(here, error)) require_writable(here / "picture-1.png");
+  }
 }
 
 int paper(const Options& options, const std::string& command_line) {
@@ -61,7 +66,7 @@ int paper(const Options& options, const std::string& command_line) {
   Progress& progress = watch.progress();
   const auto pool = std::make_shared<ThreadPool>(options.threads);
   Lab lab(options.meshes, extent, {pool, acceleration, progress, [](const std::string& sentence) { complain(sentence); }});
-  make_output(options.output);
+  make_output(options.output, wanted);
 
   std::vector<Figure> figures;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -73,9 +78,9 @@ int paper(const Options& options, const std::string& command_line) {
   facts.insert(facts.begin(), {"extent", lab.choose("quick", "usual", "full")});
   facts.insert(facts.begin(), {"command", command_line});
   const std::string page = findings_page(figures, facts);
-  write_figures(options.output, figures);
   write_file_atomically(options.output / "table.csv", findings_csv(figures));
   write_file_atomically(options.output / "index.html", page);
+  write_figures(options.output, figures);
 
   fmt::print("{}\nwrote {}\n", findings_text(figures), (options.output / "index.html").string());
   bool all_hold = true;

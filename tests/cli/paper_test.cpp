@@ -121,6 +121,10 @@ TEST(Paper, RefusesWhatThereIsNot) {
   EXPECT_FALSE(exists(folder / "out"));
   const std::string file = folder.file("file", "");
   EXPECT_EQ(run({"paper", "-o", file, "--only", "8"}).code, 3);
+  std::filesystem::create_directory(folder / "out");
+  (void)folder.file("out/7", "");
+  EXPECT_EQ(paper(folder, {"--only", "7"}).code, 3);
+  EXPECT_FALSE(exists(folder / "out/table.csv")) << "refused before the runs";
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ JudgedRun run_judged(std::string name, std::shared_ptr<const InputMesh> input, R
   const auto judge_now = [&](const Run& now) {
     judged.push_back(compute_statistics(context, now.positions(), judge, now.immovable(), pool));
   };
-  const auto smooth_all = [&] {  // from the input on: without history nothing else is left after a failure
+  const auto smooth_all = [&] {
+    run.reset(workshop.progress);  // after a failure it stands where its positions were last asked for
     judged.clear();
     if (!own) judge_now(run);
     const Run::AfterIteration after = own ? Run::AfterIteration{} : judge_now;

@@ -96,14 +96,20 @@ void two_orders(Lab& lab, Figure& figure) {
   const Orders orders = shuffle(lab, unseen, input, "random");
   const JudgedRun *first = nullptr, *second = nullptr;
   double widest = -1.0;
-  for (const JudgedRun& a : orders.runs) {
-    for (const JudgedRun& b : orders.runs) {
+  for (std::size_t i = 0; i < orders.runs.size(); ++i) {
+    for (std::size_t k = i + 1; k < orders.runs.size(); ++k) {
+      const JudgedRun &a = orders.runs[i], &b = orders.runs[k];
       const double apart = distance_of(*input, a, b);
       if (std::abs(a.after.minimum - b.after.minimum) > kAlike || apart <= widest) continue;
       first = &a, second = &b, widest = apart;
     }
   }
-  if (first == nullptr) return;
+  figure.findings = std::move(unseen.findings);  // what could not be done
+  if (first == nullptr) {
+    figure.lack(input->mesh.name, "two orders with approximately the same minimum", Verdict::NotPossible,
+                fmt::format("No two of {} orders have minima within {} of each other.", orders.runs.size(), kAlike));
+    return;
+  }
   const auto caption = [](const JudgedRun& run) {
     return fmt::format("12: order {}, minimum {:.4f}",
                        run.parameters.order.seed ? fmt::format("shuffle:{}", *run.parameters.order.seed) : "natural", run.after.minimum);

@@ -30,6 +30,8 @@ Contender parse_spec(const std::string& spec, const RunOptions& open) {
   if (words.size() > 2) chosen.backend = words[2];
   try {
     Contender contender{{}, parameters_of(chosen)};
+    if (words.size() > 1 && contender.parameters.metric != parse_metric(chosen.metric))
+      throw UsageError(fmt::format("the metric is {}, the first of --combine", info(contender.parameters.metric).name));
     contender.name = fmt::format("{}:{}", chosen.method, info(contender.parameters.metric).name);
     if (words.size() > 2) contender.name += fmt::format(":{}", words[2]);
     return contender;
@@ -39,17 +41,18 @@ Contender parse_spec(const std::string& spec, const RunOptions& open) {
 }
 
 void add_every(ComparisonPlan& plan, const std::string& what, const RunOptions& open) {
-  const auto add = [&](std::string_view method, std::string_view metric) {
-    Contender contender = parse_spec(fmt::format("{}:{}", method, metric), open);
+  const auto add = [&](const std::string& spec) {
+    Contender contender = parse_spec(spec, open);
     const auto known = std::ranges::find(plan.contenders, contender.name, &Contender::name);
     if (known != plan.contenders.end()) return;
     contender.by_every = true;
     plan.contenders.push_back(std::move(contender));
   };
   if (what == "method") {
-    for (const MethodInfo& method : method_table()) add(method.name, open.metric);
+    for (const MethodInfo& method : method_table()) add(std::string(method.name));
   } else if (what == "metric") {
-    for (const MetricInfo& metric : metric_table()) add(open.method, metric.name);
+    if (!open.combine.empty()) throw UsageError("--every metric: with --combine all runs have its metrics");
+    for (const MetricInfo& metric : metric_table()) add(fmt::format("{}:{}", open.method, metric.name));
   } else {
     throw UsageError(fmt::format("--every {}: expected method or metric", what));
   }

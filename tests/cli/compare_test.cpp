@@ -174,6 +174,8 @@ TEST(Compare, RefusesBeforeAnythingRuns) {
       {in, "--run", "dmo", "--judge", "beauty"},
       {in, "--run", "dmo", "--run", "dmo:mean-ratio"},
       {in, "--every", "thing"},
+      {in, "--run", "dmo:scaled-jacobian", "--combine", "mean-ratio:0.7:density"},
+      {in, "--every", "metric", "--combine", "mean-ratio:0.7:density"},
       {in, "--run", "dmo", "--plot", folder / "plot.jpeg"},
       {in, "--run", "dmo", "--report", folder / "report.txt"},
       {in, "--run", "dmo", "--stats", folder / "same.csv", "--table", folder / "same.csv"},

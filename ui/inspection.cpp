@@ -29,6 +29,15 @@ Inspection::Key key_of(const SessionView& session, Index vertex) {
           run->parameters.metric, run->parameters.search, run->parameters.method};
 }
 
+/// What visits of the frame are part of: it may be a mark, and the run stand elsewhere. Throws UsageError when that is not known any more.
+Sweep sweep_of(const RunView& run, const Moment& shown) {
+  if (shown == run.moment) return run.sweep;
+  if (!run.mean_since || *run.mean_since > shown.iteration) return {shown.iteration};
+  if (shown.iteration >= run.records.size())
+    throw UsageError("The run has no record of this iteration any more, nor the floor that its visits keep to.");
+  return {shown.iteration, run.records[shown.iteration].statistics.movable_minimum};
+}
+
 /// Edges and corners of the star, relative to the vertex.
 void gather_star(Inspection& inspection, const Frame& frame, Index vertex) {
   const InputMesh& input = *frame.input;
@@ -160,7 +169,7 @@ Inspection inspect(const SessionView& session, Index vertex) {
   }
   try {
     gather_star(inspection, frame, vertex);
-    const auto aims = aims_of_visit(run.parameters.metric, run.parameters.combination, run.size, run.sweep);
+    const auto aims = aims_of_visit(run.parameters.metric, run.parameters.combination, run.size, sweep_of(run, frame.moment));
     if (!aims && !method_info(run.parameters.method).searches_grid) inspection.other_method = run.parameters.method;
     inspection.trace = trace_visit(*frame.input, frame.positions, run.fixed, run.parameters.metric, run.parameters.search, vertex, aims);
     if (!aims) inspection.optimum = local_optimum(*frame.input, frame.positions, run.parameters.metric, vertex);

@@ -52,6 +52,31 @@ TEST_F(AimsInTheWindow, AClickPlacesThePoint) {
   EXPECT_EQ(state().picked.kind, ui::Picked::Kind::None) << "it picks nothing";
 }
 
+TEST_F(AimsInTheWindow, AMarkIsLookedIntoWithTheAimOfItsOwnPhase) {
+  good("generate random 300 7");
+  good("click then-mean");
+  good("mark a");
+  good("step iteration");
+  good("run 400");
+  good("mark b");
+  ASSERT_TRUE(run().mean_since);
+  ASSERT_LT(*run().mean_since, run().moment.iteration);
+  const Index vertex = run().colouring->order.front();
+  good("inspect on");
+  good("pick vertex " + std::to_string(vertex));
+  const auto has_optimum = [&] { return window_->app().inspection().optimum.has_value(); };  // of the one aim of the first phase
+  ASSERT_TRUE(window_->app().inspection().trace);
+  EXPECT_FALSE(has_optimum());
+  good("flip a");
+  ASSERT_TRUE(window_->app().inspection().trace);
+  EXPECT_TRUE(has_optimum());
+  good("seek 0");
+  EXPECT_TRUE(has_optimum());
+  good("flip b");
+  ASSERT_TRUE(window_->app().inspection().trace);
+  EXPECT_FALSE(has_optimum());
+}
+
 TEST(ElementColours, EdgeLengthAndSizeOverTarget) {
   const auto input = dmoscope::testing::input(dmoscope::testing::lattice(10, 0.0, 1, dmoscope::testing::Cells::Quadrilaterals));
   const auto frame = std::make_shared<Frame>();

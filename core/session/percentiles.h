@@ -21,6 +21,9 @@ struct Percentiles {
 /// them. NaN is left out. Reorders `qualities`.
 [[nodiscard]] Percentiles percentiles_of(std::vector<double>& qualities);
 
+/// The same of qualities in ascending order, without NaN.
+[[nodiscard]] Percentiles percentiles_of_sorted(std::span<const float> qualities);
+
 /// The same of a mesh.
 [[nodiscard]] Percentiles compute_percentiles(const QualityContext& context, std::span<const Vec3> positions, Metric metric,
                                               ThreadPool* pool);

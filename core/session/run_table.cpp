@@ -85,8 +85,7 @@ RunRow row_of(const RunView& run, Metric judged) {
   row.backend = run.backend;
   if (run.summary && run.summary->metric == judged) {
     judge(row, run.summary->statistics);
-    std::vector<double> qualities(run.summary->sorted.begin(), run.summary->sorted.end());
-    judge(row, percentiles_of(qualities));
+    judge(row, percentiles_of_sorted(run.summary->sorted));
   } else if (run.parameters.metric == judged && row.iterations < records.size()) {
     judge(row, records[row.iterations].statistics);
     if (row.iterations < run.percentiles.size()) judge(row, run.percentiles[row.iterations]);

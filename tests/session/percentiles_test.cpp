@@ -38,9 +38,15 @@ TEST(Percentiles, AreThoseOfCounting) {
     EXPECT_EQ(found.p1, by_counting(values, 0.01)) << count;
     EXPECT_EQ(found.p5, by_counting(values, 0.05)) << count;
     EXPECT_EQ(found.p50, by_counting(values, 0.5)) << count;
+    std::ranges::sort(values);
+    const Percentiles sorted = percentiles_of_sorted(std::vector<float>(values.begin(), values.end()));
+    EXPECT_EQ(sorted.p1, found.p1) << count;
+    EXPECT_EQ(sorted.p5, found.p5) << count;
+    EXPECT_EQ(sorted.p50, found.p50) << count;
   }
   std::vector<double> none;
   EXPECT_FALSE(percentiles_of(none).known());
+  EXPECT_FALSE(percentiles_of_sorted({}).known());
 }
 
 std::shared_ptr<const SessionView> say(Engine& engine, const std::string& line) {

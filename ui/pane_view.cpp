@@ -18,6 +18,7 @@ render::Style picture_style(const ViewState& state, const Derived& derived) {
 
 void PaneView::update_colours(const ViewState& state, std::shared_ptr<const Frame> reference, const PaneView* like) {
   if (like != nullptr && !needs_positions(state.colouring.by) && state.colouring.by != ColourBy::Class) {
+    worker_.update(state, {}, nullptr);  // what it worked at before nobody waits for
     colours_ = like->colours_;
     return;
   }

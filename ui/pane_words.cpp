@@ -26,7 +26,8 @@ std::vector<TitlePiece> title_of(const PaneFacts& pane, Metric shown) {
   if (of_run) {
     const RunView& run = *pane.run();
     const bool combined = run.parameters.combination.has_value();
-    pieces.push_back({fmt::format("{} {}", pane.session->active + 1, combined ? run.title : run.parameters.method), Role::Name, 0});
+    const std::string& what = combined ? run.title : run.parameters.method;
+    pieces.push_back({pane.removed ? what : fmt::format("{} {}", pane.session->active + 1, what), Role::Name, 0});
     if (!combined) pieces.push_back({metric_phrase(run.parameters.metric), Role::Name, 5});
     if (frame != nullptr && run.mean_since && *run.mean_since < frame->moment.iteration) pieces.push_back({"then mean", Role::Name, 4});
   }

@@ -84,7 +84,7 @@ render::Image Viewports::picture(const ViewState& state, const Derived& derived,
   const Frame& frame = *session_->frame;
   const Scenery scenery{state, derived, inspection};
   render::Legend legend = legend_of(state, derived, frame);
-  if (state.panes.one()) {
+  if (layout_ == PaneLayout::One) {
     const RunView& run = session_->runs[session_->active];
     legend.subtitle = fmt::format("{} · {}, iteration {}, minimum {:.4g}", frame.input->mesh.name, run.parameters.method,
                                   frame.moment.iteration, frame.shown_statistics.minimum);
@@ -96,28 +96,28 @@ render::Image Viewports::picture(const ViewState& state, const Derived& derived,
 }
 
 render::Image Viewports::joint_picture(const Scenery& scenery, const render::Shot& shot, const render::Legend& legend) {
-  const PaneLayout layout = scenery.state.panes.layout;
   render::Style style = picture_style(scenery.state, scenery.derived);
   style.transparent = shot.transparent;
   const render::Rgb paper = style.background;
   render::Image whole(shot.width, shot.height, shot.transparent ? render::Rgba{0, 0, 0, 0} : render::Rgba{paper.r, paper.g, paper.b, 255});
   const int height = std::max(1, shot.height - render::legend_height(shot.scale));
   const Rect area{0, 0, static_cast<float>(shot.width), static_cast<float>(height)};
-  const std::vector<Rect> places = pane_rects(layout, area, std::round(4 * shot.scale), aspect_, 40 * shot.scale);
+  const std::vector<Rect> places = pane_rects(layout_, area, std::round(4 * shot.scale), aspect_, 40 * shot.scale);
   const float handle = std::round(static_cast<float>(scenery.state.panes.split) * area.w);
   const std::unique_ptr<render::Font> font = render::Font::load();
   for (std::size_t k = 0; k < count_; ++k) {
     Rect clip = places[k];
-    if (layout == PaneLayout::Split) clip = k == 0 ? Rect{0, 0, handle, area.h} : Rect{handle, 0, area.w - handle, area.h};
+    if (layout_ == PaneLayout::Split) clip = k == 0 ? Rect{0, 0, handle, area.h} : Rect{handle, 0, area.w - handle, area.h};
     render::Shot one = shot;
     one.width = std::max(1, static_cast<int>(places[k].w));
     one.height = std::max(1, static_cast<int>(places[k].h));
     if (views_[k]->frame() != nullptr) paste(whole, picture_of(k, scenery, one), places[k], clip);
     std::optional<render::Rgb> run;
-    if (facts_[k].of_run && facts_[k].frame() != nullptr) run = palette(scenery.state.theme).runs[facts_[k].frame()->run % 8];
+    const PaneFacts& facts = facts_[k];
+    if (facts.of_run && !facts.removed && facts.frame() != nullptr) run = palette(scenery.state.theme).runs[facts.session->active % 8];
     if (font) draw_title(whole, *font, title_of(facts_[k], session_->shown), run, clip, style, shot.scale);
   }
-  if (layout == PaneLayout::Split)
+  if (layout_ == PaneLayout::Split)
     draw_rule(whole, static_cast<int>(handle), height, std::max(1, static_cast<int>(std::lround(3 * shot.scale))), style.highlight_colour);
   (void)render::draw_legend(whole, legend, style, shot.scale);
   return whole;

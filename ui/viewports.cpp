@@ -32,7 +32,8 @@ Viewports::Viewports(Options options) : options_(std::move(options)), session_(s
   views_[0]->scene().draw_through_host(options_.no_interop);
 }
 
-void Viewports::show(std::size_t pane, std::shared_ptr<const Frame> frame, std::size_t run, std::string name, std::string why_not) {
+void Viewports::show(std::size_t pane, std::shared_ptr<const Frame> frame, std::size_t run, std::string name, std::string why_not,
+                     const RunView* own) {
   Content& shown = shown_[pane];
   const bool same = shown.session == session_ && shown.frame == frame && shown.active == run && shown.view != nullptr;
   if (!same) {
@@ -40,6 +41,10 @@ void Viewports::show(std::size_t pane, std::shared_ptr<const Frame> frame, std::
     if (frame != session_->frame || run != session_->active) {
       auto other = std::make_shared<SessionView>(*session_);
       other->frame = frame;
+      if (own != nullptr) {
+        if (run == other->runs.size()) other->runs.emplace_back();
+        other->runs[run] = *own;
+      }
       other->active = run;
       view = std::move(other);
     }
@@ -50,10 +55,19 @@ void Viewports::show(std::size_t pane, std::shared_ptr<const Frame> frame, std::
   views_[pane]->show(shown.view);
 }
 
-void Viewports::show_mark(std::size_t pane, const Mark& mark, const char* letter) {
-  const std::size_t run = mark.frame && mark.frame->run < session_->runs.size() ? mark.frame->run : session_->active;
-  show(pane, mark.frame, run, letter,
-       mark.frame ? std::string() : fmt::format("{} is not marked yet: Shift+{} marks what is shown", letter, letter));
+void Viewports::remember(Marked& marked, const Mark& mark) {
+  if (marked.frame == mark.frame) return;
+  marked.frame = mark.frame;
+  marked.run = mark.frame && mark.frame->run < session_->runs.size() ? session_->runs[mark.frame->run] : RunView{};
+}
+
+void Viewports::show_mark(std::size_t pane, const Marked& mark, const char* letter) {
+  if (!mark.frame) {
+    show(pane, nullptr, session_->active, letter, fmt::format("{} is not marked yet: Shift+{} marks what is shown", letter, letter));
+    return;
+  }
+  const auto at = std::ranges::find(session_->runs, mark.run.id, &RunView::id);  // the end: it has been removed
+  show(pane, mark.frame, static_cast<std::size_t>(at - session_->runs.begin()), letter, {}, &mark.run);
 }
 
 void Viewports::show_content(const ViewState& state, std::size_t pane) {
@@ -66,7 +80,7 @@ void Viewports::show_content(const ViewState& state, std::size_t pane) {
   }
   if (content.kind == Kind::MarkA || content.kind == Kind::MarkB) {
     const bool a = content.kind == Kind::MarkA;
-    show_mark(pane, a ? state.timeline.a : state.timeline.b, a ? "A" : "B");
+    show_mark(pane, marked_[a ? 0 : 1], a ? "A" : "B");
     return;
   }
   if (content.kind == Kind::Free) {
@@ -88,8 +102,11 @@ void Viewports::show_content(const ViewState& state, std::size_t pane) {
 void Viewports::follow(const ViewState& state, const std::shared_ptr<const SessionView>& session) {
   session_ = session;
   measure();
-  count_ = state.panes.count();
+  layout_ = state.panes.layout;
+  count_ = pane_count(layout_);
   focus_ = state.panes.focus;
+  remember(marked_[0], state.timeline.a);
+  remember(marked_[1], state.timeline.b);
   frames_.clear();
   for (std::size_t k = 0; k < Panes::kMost; ++k) {
     if (k >= count_) {
@@ -141,7 +158,11 @@ std::shared_ptr<const Frame> Viewports::reference(const ViewState& state) const 
 
 void Viewports::update_colours(ViewState& state, Derived& derived) {
   const std::shared_ptr<const Frame> compared = state.colouring.by == ColourBy::Difference ? reference(state) : nullptr;
-  for (std::size_t k = 0; k < count_; ++k) views_[k]->update_colours(state, compared, k == 0 ? nullptr : views_[0].get());
+  const PaneView* first = nullptr;  // that has a mesh to work them out for
+  for (std::size_t k = 0; k < count_; ++k) {
+    views_[k]->update_colours(state, compared, first);
+    if (first == nullptr && views_[k]->frame() != nullptr) first = views_[k].get();
+  }
   ColourFacts& facts = derived.colouring;
   facts.colours = views_[focus_]->colours();
   for (std::size_t k = 0; k < count_ && !facts.colours; ++k) facts.colours = views_[k]->colours();
@@ -202,7 +223,9 @@ bool Viewports::draw(ViewState& state, const Derived& derived, const Inspection&
   facts_.clear();
   const Scenery scenery{state, derived, inspection};
   // All viewports together are drawn within a moment; full pictures come one after the other.
-  const std::size_t elements = views_[0]->scene().element_count() * count_;
+  std::size_t elements = 0;
+  for (std::size_t k = 0; k < count_; ++k)
+    if (views_[k]->frame() != nullptr) elements += views_[k]->scene().element_count();
   const double detail = render::suggested_detail(elements, options_.software_renderer, true);
   bool refine = !turn.moving && !turn.live;
   for (std::size_t k = 0; k < count_; ++k) {
@@ -227,6 +250,7 @@ PaneFacts Viewports::facts_of_pane(ViewState& state, std::size_t pane, const Rec
     facts.clip = pane == 0 ? Rect{rect.x, rect.y, handle, rect.h} : Rect{rect.x + handle, rect.y, rect.w - handle, rect.h};
   }
   facts.session = view.session();
+  facts.removed = facts.session->active >= session_->runs.size();
   facts.name = shown_[pane].name;
   facts.why_not = shown_[pane].why_not;
   const Kind kind = state.panes.panes[pane].content.kind;

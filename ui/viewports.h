@@ -24,6 +24,7 @@ struct PaneFacts {
   std::string name;                               // "A", "B", "input"; empty for a run
   std::string why_not;                            // it shows no mesh
   bool of_run = true;                             // it is meant to show a run
+  bool removed = false;                           // which the session has no longer: it was marked before
   std::shared_ptr<const ElementColours> colours;  // null: quality
   std::span<const render::Label> labels;
   render::Camera2D camera;
@@ -101,9 +102,17 @@ class Viewports {
     std::size_t active = 0;
     std::string name, why_not;
   };
-  void show(std::size_t pane, std::shared_ptr<const Frame> frame, std::size_t run, std::string name, std::string why_not);
+  /// A mark with its run as it was then: the place in the session that its frame tells may be another's by now, or nobody's.
+  struct Marked {
+    std::shared_ptr<const Frame> frame;  // null: not set
+    RunView run;
+  };
+  void remember(Marked& marked, const Mark& mark);
+  /// `own`: what the run at this place (or behind the last) is taken to be; null: what the session says.
+  void show(std::size_t pane, std::shared_ptr<const Frame> frame, std::size_t run, std::string name, std::string why_not,
+            const RunView* own = nullptr);
   void show_content(const ViewState& state, std::size_t pane);
-  void show_mark(std::size_t pane, const Mark& mark, const char* letter);
+  void show_mark(std::size_t pane, const Marked& mark, const char* letter);
   bool fit(ViewState& state, double em);
   [[nodiscard]] bool inspected(const ViewState& state, std::size_t pane) const;
   void measure();
@@ -116,9 +125,12 @@ class Viewports {
   std::shared_ptr<const SessionView> session_;
   std::array<std::unique_ptr<PaneView>, Panes::kMost> views_;  // as many as are shown
   std::array<Content, Panes::kMost> shown_;
+  std::array<Marked, 2> marked_;  // A and B
   std::vector<std::shared_ptr<const Frame>> frames_;
   std::vector<PaneFacts> facts_;
   std::optional<render::Camera2D> fitted_;  // the camera of the last fit, while nobody has moved it
+  // As followed last: a command may have changed the state since.
+  PaneLayout layout_ = PaneLayout::One;
   std::size_t count_ = 1, focus_ = 0;
   bool loading_ = false, refining_ = false;
   double aspect_ = 1.0;

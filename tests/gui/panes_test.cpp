@@ -193,6 +193,47 @@ TEST_F(PanesTest, APictureHasEveryPaneAndOneBar) {
   EXPECT_TRUE(render::compare(cut(same, 0, 30, 298, 340), cut(same, 302, 30, 600, 340)).alike()) << "the same mesh twice";
 }
 
+TEST_F(PanesTest, APictureIsOfTheLayoutOnShowThoughACommandHasChangedIt) {
+  good("generate annulus 400");
+  good("viewports 4");
+  const render::Image four = window_->app().mesh_picture({});
+  for (const char* line : {"viewports 2", "viewports 1", "viewports split"}) {
+    window_->app().execute(line);  // no frame has been drawn since
+    EXPECT_TRUE(render::compare(window_->app().mesh_picture({}), four).alike()) << line;
+  }
+}
+
+TEST_F(PanesTest, CategoriesAreSeenThoughTheFirstPaneIsEmpty) {
+  good("generate annulus 400");
+  good("viewports 2");
+  good("pane 1 mark a");
+  good("color-by valence");
+  ASSERT_NE(window_->app().colours(), nullptr);
+  EXPECT_EQ(window_->app().colours()->by, ui::ColourBy::Valence);
+}
+
+TEST_F(PanesTest, AMarkKeepsItsRunWhateverIsRemoved) {
+  good("generate annulus 400");
+  good("add-run dmo:scaled-jacobian");
+  good("add-run smart-laplace");
+  good("run 2");
+  good("mark a");
+  good("viewports 2");
+  good("pane 1 mark a");
+  good("pane 2 input");
+  const auto picture = [&] { return window_->app().mesh_picture({}); };
+  const auto title = [&](const render::Image& whole) { return cut(whole, 30, 0, 120, 30); };
+  good("remove-run 1");
+  const render::Image second = picture();
+  good("add-run dmo:radius-ratio");
+  good("select-run 1");
+  EXPECT_TRUE(render::compare(title(picture()), title(second)).alike());
+  good("remove-run 2");
+  const render::Image gone = picture();
+  good("undo");
+  EXPECT_FALSE(render::compare(title(picture()), title(gone)).alike()) << "without a number: it is no run of the session";
+}
+
 TEST_F(PanesTest, ARunMinusItselfIsNothingAndTheReferenceFollows) {
   good("generate annulus 400");
   good("run 3");

@@ -40,7 +40,7 @@ float width_of(const PanelContext& context, const TitlePiece& piece) {
 TitleLayout lay_out(const PanelContext& context, const PaneFacts& pane) {
   TitleLayout layout;
   layout.pieces = title_of(pane, context.session.shown);
-  layout.swatch = pane.of_run && pane.run() != nullptr;
+  layout.swatch = pane.of_run && pane.run() != nullptr && !pane.removed;
   const float pad = context.px(8), gap = context.px(9), line = ImGui::GetTextLineHeight();
   const float room = pane.clip.w - 2 * pad;
   const auto width = [&] {
@@ -116,7 +116,7 @@ void draw_pane_title(PanelContext& context, const PaneFacts& pane) {
   float x = plate.x + pad;
   const float y = plate.y + pad / 2;
   if (layout.swatch) {
-    const std::size_t run = pane.frame() == nullptr ? pane.session->active : pane.frame()->run;
+    const std::size_t run = pane.session->active;
     list.AddRectFilled({x, y + 0.2F * line}, {x + context.px(8), y + 0.8F * line}, colour(context.palette.runs[run % 8]), context.px(2));
     x += context.px(14);
   }

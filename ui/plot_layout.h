@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "ui/plot.h"
 #include "core/drawing/ticks.h"
+#include "ui/plot.h"
 
 namespace dmoscope::ui {
 

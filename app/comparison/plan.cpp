@@ -34,6 +34,9 @@ Contender parse_spec(const std::string& spec, const RunOptions& open) {
       throw UsageError(fmt::format("the metric is {}, the first of --combine", info(contender.parameters.metric).name));
     contender.name = fmt::format("{}:{}", chosen.method, info(contender.parameters.metric).name);
     if (words.size() > 2) contender.name += fmt::format(":{}", words[2]);
+    if (const auto& combination = contender.parameters.combination)
+      contender.name = fmt::format("{}:{}", chosen.method, phrase(contender.parameters.metric, *combination));
+    if (contender.parameters.then_mean) contender.name += ", then mean";
     return contender;
   } catch (const UsageError& error) {
     throw UsageError(fmt::format("--run {}: {}", spec, error.what()));

@@ -39,6 +39,31 @@ std::vector<IterationRecord> records(std::initializer_list<double> minima) {
   return all;
 }
 
+TEST(PhaseTurn, AMethodOfDirectionsIsNotAtRestWhileAnotherOneIsLeft) {
+  std::vector<IterationRecord> rising = records({0.1, 0.2, 0.3, 0.4, 0.5});
+  for (const std::size_t i : {1, 3, 4}) rising[i].moved = 0;
+  const MeanPhase patient{.patience = 4};
+  EXPECT_EQ(PhaseTurn().find(patient, rising, 1), 1U);
+  EXPECT_EQ(PhaseTurn().find(patient, rising, 2), 4U);
+  EXPECT_EQ(PhaseTurn().find(patient, rising, std::nullopt), std::nullopt);
+}
+
+/// A vertex that stands right along x and wrong along y: the first sweep finds nothing to do.
+TEST(PhaseTurn, DvrAlongTheAxesGoesOnAfterASweepThatFoundNothing) {
+  Mesh mesh;
+  mesh.positions = {{1, 0, 0},  {0.5, 0.8660254, 0}, {-0.5, 0.8660254, 0}, {-1, 0, 0}, {-0.5, -0.8660254, 0}, {0.5, -0.8660254, 0},
+                    {0, 0.3, 0}};
+  for (Index i = 0; i < 6; ++i) testing::add(mesh, {i, (i + 1) % 6, 6});
+  RunParameters parameters{.method = "dvr"};
+  parameters.options.directions = Directions::Axes;
+  dmoscope::Run run(input(std::move(mesh)), parameters, std::make_shared<ThreadPool>(1), 0);
+  Progress progress;
+  const Outcome outcome = run.until_converged({}, progress);
+  EXPECT_EQ(outcome.reason, StopReason::NothingMoved);
+  EXPECT_GE(outcome.iterations, 4U);  // x, y, and both again in vain
+  EXPECT_GT(run.statistics().minimum, 0.9999);
+}
+
 TEST(PhaseTurn, ComesWhenTheMinimumHasNotRisenForSoLong) {
   const auto rising = records({0.1, 0.2, 0.3, 0.4});
   EXPECT_EQ(PhaseTurn().find({.patience = 2}, rising), std::nullopt);

@@ -41,7 +41,7 @@ std::vector<IterationRecord> records(std::initializer_list<double> minima) {
 
 TEST(PhaseTurn, AMethodOfDirectionsIsNotAtRestWhileAnotherOneIsLeft) {
   std::vector<IterationRecord> rising = records({0.1, 0.2, 0.3, 0.4, 0.5});
-  for (const std::size_t i : {1, 3, 4}) rising[i].moved = 0;
+  for (const std::size_t i : {1UL, 3UL, 4UL}) rising[i].moved = 0;
   const MeanPhase patient{.patience = 4};
   EXPECT_EQ(PhaseTurn().find(patient, rising, 1), 1U);
   EXPECT_EQ(PhaseTurn().find(patient, rising, 2), 4U);

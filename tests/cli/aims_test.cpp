@@ -13,14 +13,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-nlohmann::json smooth(const std::string& input, const std::string& output, std::vector<std::string> more) {
-  std::vector<std::string> arguments{"smooth", input, "-o", output, "--json"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  const Output result = run(arguments);
-  EXPECT_EQ(result.code, 0) << result.err;
-  return json_of(result);
-}
-
 double number(const nlohmann::json& json) { return json.is_number() ? json.get<double>() : NAN; }
 
 #define REQUIRE_SHARED(path, name)            \

@@ -120,6 +120,14 @@ nlohmann::json json_of(const Output& output) {
   return object;
 }
 
+nlohmann::json smooth(const std::string& input, const std::string& output, std::vector<std::string> more) {
+  std::vector<std::string> arguments{"smooth", input, "-o", output, "--json"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const Output result = run(arguments);
+  EXPECT_EQ(result.code, 0) << result.err;
+  return json_of(result);
+}
+
 Folder::Folder() {
   std::string pattern = (std::filesystem::temp_directory_path() / "dmoscope-XXXXXX").string();
   if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");

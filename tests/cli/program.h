@@ -30,6 +30,9 @@ Output run(std::vector<std::string> arguments);
 /// Standard output as JSON; fails the test (and returns null) when it is not exactly one object.
 nlohmann::json json_of(const Output& output);
 
+/// What `dmoscope smooth --json` tells of one mesh; fails the test when it does not succeed.
+nlohmann::json smooth(const std::string& input, const std::string& output, std::vector<std::string> more);
+
 /// A folder of its own for one test, removed with it.
 class Folder {
  public:

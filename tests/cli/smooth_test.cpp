@@ -93,14 +93,6 @@ void expect_rising(const std::string& stats, std::size_t iterations) {
   }
 }
 
-nlohmann::json smooth(const std::string& input, const std::string& output, std::vector<std::string> more) {
-  std::vector<std::string> arguments{"smooth", input, "-o", output, "--json"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  const Output result = run(arguments);
-  EXPECT_EQ(result.code, 0) << result.err;
-  return json_of(result);
-}
-
 #define REQUIRE_SHARED(path, name)            \
   const std::string path = shared_mesh(name); \
   if (path.empty()) GTEST_SKIP() << "the shared meshes are not here"

@@ -33,6 +33,20 @@ breach "ui knows no program and no GPU backend" "${include}(app|gpu)/" ui
 breach "ui calls no OpenGL, CUDA or GLFW" "${include}(glad|GL|EGL|GLFW|${cuda})|(^|[^A-Za-z0-9_:])(gl[A-Z][A-Za-z0-9]+|glfw[A-Z][A-Za-z0-9]+|egl[A-Z][A-Za-z0-9]+)\(" ui
 breach "only gpu includes CUDA" "${include}${cuda}" app tests
 
+# One name, one type: two headers of a program that define the same name make it call one's functions on the other's objects.
+twice=$(find core gpu render ui app -name '*.h' -print0 | xargs -0 awk '
+  FNR == 1 { space = "" }
+  /^namespace [a-z:]+ \{/ { space = $2 }
+  /^(struct|class|enum class) [A-Za-z0-9_]+( final)?( :.*)? \{/ {
+    name = $1 == "enum" ? $3 : $2
+    if ((space, name) in where) print FILENAME ":" FNR ": " space "::" name " is also defined at " where[space, name]
+    else where[space, name] = FILENAME ":" FNR
+  }')
+if [[ -n $twice ]]; then
+  failed=1
+  printf 'One name, one type:\n%s\n' "$twice"
+fi
+
 # Code compiled for one kind of processor must share no compiled copy with the rest: every function that the linker could take for
 # another's carries its packs' architecture (xsimd) in its name. $1: the build folder.
 for object in ${1:+"$1"/core/CMakeFiles/dmoscope_core.dir/smooth/lane_kernel_avx*.o}; do

@@ -37,8 +37,8 @@ int bench(const BenchOptions& options) {
     bench_seeking(plan, options.file, options.seek, options.json, watch.progress());
     return 0;
   }
-  std::vector<Figure> figures;
-  measure(plan, options.file, watch.progress(), [&](const std::vector<Figure>& more) {
+  std::vector<Measurement> figures;
+  measure(plan, options.file, watch.progress(), [&](const std::vector<Measurement>& more) {
     if (!options.json) {
       if (figures.empty()) print_head(plan);
       print_rows(more);

@@ -51,7 +51,7 @@ Spread spread_of(std::vector<double> values) {
 
 /// One way to smooth one mesh, and what its repeats took.
 struct Series {
-  Figure figure;  // all but its times
+  Measurement figure;  // all but its times
   SharedInput input;
   std::shared_ptr<ThreadPool> pool;
   std::uint64_t steps = 0;  // iterations to do; figure.iterations of them count
@@ -123,8 +123,8 @@ class Bench {
   }
 
  private:
-  [[nodiscard]] static Figure figure_of(const SharedInput& input, const BenchElements& elements, Metric metric) {
-    Figure figure;
+  [[nodiscard]] static Measurement figure_of(const SharedInput& input, const BenchElements& elements, Metric metric) {
+    Measurement figure;
     figure.mesh = input->mesh.name;
     figure.elements = elements.name;
     figure.vertices = figure.subject_vertices = input->mesh.vertex_count();
@@ -134,7 +134,7 @@ class Bench {
     return figure;
   }
 
-  [[nodiscard]] Series timed(const SharedInput& input, Figure figure, const std::shared_ptr<ThreadPool>& pool) const {
+  [[nodiscard]] Series timed(const SharedInput& input, Measurement figure, const std::shared_ptr<ThreadPool>& pool) const {
     figure.threads = pool->size();
     figure.iterations = plan_.iterations;
     if (plan_.active > 0) figure.settling.emplace().iteration = plan_.active;
@@ -143,14 +143,14 @@ class Bench {
 
   /// The pool prepares; the device smooths.
   [[nodiscard]] Series on_device(const SharedInput& input, const BenchElements& elements, Metric metric) const {
-    Figure figure = figure_of(input, elements, metric);
+    Measurement figure = figure_of(input, elements, metric);
     figure.backend = plan_.acceleration.accelerator->name();
     return timed(input, std::move(figure), pools_.back());
   }
 
   [[nodiscard]] Series variant(const SharedInput& input, const BenchElements& elements, Metric metric, SimdLevel level,
                                const std::shared_ptr<ThreadPool>& pool) const {
-    Figure figure = figure_of(input, elements, metric);
+    Measurement figure = figure_of(input, elements, metric);
     figure.simd = level;
     return timed(input, std::move(figure), pool);
   }
@@ -162,7 +162,7 @@ class Bench {
       reference_elements_ = elements.name;
     }
     const SharedInput& input = large ? reference_input_ : subject;
-    Figure figure = figure_of(input, elements, metric);
+    Measurement figure = figure_of(input, elements, metric);
     figure.subject_vertices = subject->mesh.vertex_count();
     figure.precision = Precision::Double;
     figure.reference = true;
@@ -171,11 +171,11 @@ class Bench {
     return {std::move(figure), input, single_, steps};
   }
 
-  [[nodiscard]] std::vector<Figure> figures_of(const std::vector<Series>& all) const {
-    std::vector<Figure> figures;
+  [[nodiscard]] std::vector<Measurement> figures_of(const std::vector<Series>& all) const {
+    std::vector<Measurement> figures;
     double reference = 0.0;
     for (const Series& series : all) {
-      Figure figure = series.figure;
+      Measurement figure = series.figure;
       figure.seconds = spread_of(series.seconds);
       figure.prepare_seconds = spread_of(series.prepare);
       figure.step_seconds = spread_of(series.step);

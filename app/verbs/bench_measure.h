@@ -28,7 +28,7 @@ struct Settling {
   double first_seconds = 0.0, seconds = 0.0;  // medians of the first and of the late one
 };
 
-struct Figure {
+struct Measurement {
   std::string mesh;           // smoothed: "grid 100000" or a file's name
   std::string_view elements;  // "triangles", "quadrilaterals" or "mixed"
   Index vertices = 0;
@@ -61,7 +61,7 @@ struct Figure {
 };
 
 /// Called with the figures of each mesh as soon as they are there: for every metric the reference first.
-using TakeFigures = std::function<void(const std::vector<Figure>&)>;
+using TakeFigures = std::function<void(const std::vector<Measurement>&)>;
 
 /// Measures the plan on `file`, or where that is empty on generated meshes, one after the other. Throws Error and Cancelled.
 ///

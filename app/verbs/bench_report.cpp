@@ -19,12 +19,12 @@ constexpr std::string_view kReference =
     "a generated one of 10000 with the same kinds of elements, since its cost a visit does not depend on the size";
 
 /// What searched: the processor's instructions, or a device.
-std::string_view executor_name(const Figure& f) { return !f.on_cpu() ? f.backend : f.simd ? name(*f.simd) : "scalar"; }
+std::string_view executor_name(const Measurement& f) { return !f.on_cpu() ? f.backend : f.simd ? name(*f.simd) : "scalar"; }
 Json json_of(const Spread& s) { return {{"median", s.median}, {"lowest", s.lowest}, {"highest", s.highest}}; }
-std::string_view precision_name(const Figure& f) { return f.precision == Precision::Double ? "double" : "float"; }
+std::string_view precision_name(const Measurement& f) { return f.precision == Precision::Double ? "double" : "float"; }
 unsigned cores() { return std::max(1U, std::thread::hardware_concurrency()); }
 
-Json json_of(const Figure& f) {
+Json json_of(const Measurement& f) {
   Json object{{"mesh", f.mesh},
               {"elements", f.elements},
               {"vertices", f.vertices},
@@ -56,7 +56,7 @@ Json json_of(const Figure& f) {
 }
 
 /// What all figures of one line of the plot have in common.
-std::string series_name(const Figure& f) {
+std::string series_name(const Measurement& f) {
   const std::string what = fmt::format("{}, {}", f.elements, info(f.metric).name);
   if (f.reference) return what + ", plain double";
   if (!f.on_cpu()) return fmt::format("{}, {}", what, f.backend);
@@ -64,18 +64,18 @@ std::string series_name(const Figure& f) {
 }
 
 /// Million visits a second in `seconds`.
-double rate(const Figure& f, double seconds) { return 1e-6 * f.visits() / seconds; }
+double rate(const Measurement& f, double seconds) { return 1e-6 * f.visits() / seconds; }
 
 /// Which colours and dashes tell the series apart: a colour for elements, metric and SIMD level, a dash for the number of threads.
 class PlotLook {
  public:
-  explicit PlotLook(const std::vector<Figure>& figures) {
-    const Figure& first = figures.front();
-    single_ = std::ranges::all_of(figures, [&](const Figure& f) { return f.elements == first.elements && f.metric == first.metric; });
+  explicit PlotLook(const std::vector<Measurement>& figures) {
+    const Measurement& first = figures.front();
+    single_ = std::ranges::all_of(figures, [&](const Measurement& f) { return f.elements == first.elements && f.metric == first.metric; });
   }
 
   /// A reference is dotted, and grey where there is but one; else it has the colour of the first series it is compared with.
-  [[nodiscard]] PlotSeries series(const Figure& f, const Figure& compared) {
+  [[nodiscard]] PlotSeries series(const Measurement& f, const Measurement& compared) {
     PlotSeries series{.name = series_name(f), .muted = f.reference && single_, .values = {}};
     if (!series.muted) {
       series.colour = place(colours_, fmt::format("{} {} {}", f.elements, info(f.metric).name, executor_name(f.reference ? compared : f)));
@@ -114,8 +114,8 @@ void print_head(const BenchPlan& plan) {
              plan.active > 0 ? fmt::format("  iteration {} against 1", plan.active) : "");
 }
 
-void print_rows(const std::vector<Figure>& figures) {
-  for (const Figure& f : figures) {
+void print_rows(const std::vector<Measurement>& figures) {
+  for (const Measurement& f : figures) {
     const std::string spread = fmt::format("{:.3g} to {:.3g}", rate(f, f.seconds.highest), rate(f, f.seconds.lowest));
     fmt::print("{:<20} {:<16} {:>9} {:>9} {:>7} {:>9.3f} {:>8.4g} {:>16} {:>9.1f} {:>7.2f} {:>9.4g} {:>6.1f} ms", f.mesh,
                info(f.metric).name, f.free, f.reference ? "double" : executor_name(f), f.threads, 1e3 * f.seconds.median,
@@ -129,9 +129,9 @@ void print_rows(const std::vector<Figure>& figures) {
   std::fflush(stdout);
 }
 
-Json json_of(const BenchPlan& plan, const std::vector<Figure>& figures) {
+Json json_of(const BenchPlan& plan, const std::vector<Measurement>& figures) {
   Json list = Json::array();
-  for (const Figure& figure : figures) list.push_back(json_of(figure));
+  for (const Measurement& figure : figures) list.push_back(json_of(figure));
   Json levels = Json::array();
   for (const SimdLevel level : supported_simd_levels()) levels.push_back(name(level));
   const auto memory = total_memory();
@@ -150,7 +150,7 @@ Json json_of(const BenchPlan& plan, const std::vector<Figure>& figures) {
           {"figures", std::move(list)}};
 }
 
-LinePlot plot_of(const std::vector<Figure>& figures) {
+LinePlot plot_of(const std::vector<Measurement>& figures) {
   LinePlot plot;
   plot.title = "Smoothing by size of the mesh";
   plot.subtitle =
@@ -161,7 +161,7 @@ LinePlot plot_of(const std::vector<Figure>& figures) {
   plot.note = "plain double: the scalar search on one thread; for meshes of more than 20 k free vertices measured on one of 10 k";
   PlotLook look(figures);
   for (std::size_t i = 0; i < figures.size(); ++i) {
-    const Figure& f = figures[i];
+    const Measurement& f = figures[i];
     auto series = std::ranges::find(plot.series, series_name(f), &PlotSeries::name);
     // After a reference comes the first figure that is compared with it.
     if (series == plot.series.end()) series = plot.series.insert(series, look.series(f, figures[f.reference ? i + 1 : i]));

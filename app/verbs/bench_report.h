@@ -11,11 +11,11 @@ namespace dmoscope::app {
 
 /// What the figures depend on, and what the columns are; then print_rows() as they come.
 void print_head(const BenchPlan& plan);
-void print_rows(const std::vector<Figure>& figures);
+void print_rows(const std::vector<Measurement>& figures);
 
-[[nodiscard]] Json json_of(const BenchPlan& plan, const std::vector<Figure>& figures);
+[[nodiscard]] Json json_of(const BenchPlan& plan, const std::vector<Measurement>& figures);
 
 /// Vertex visits a second over the mesh's size, a line a series.
-[[nodiscard]] LinePlot plot_of(const std::vector<Figure>& figures);
+[[nodiscard]] LinePlot plot_of(const std::vector<Measurement>& figures);
 
 }  // namespace dmoscope::app

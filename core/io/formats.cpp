@@ -176,7 +176,7 @@ std::span<const Index> file_corners(const Mesh& mesh, Index element, std::array<
   const std::span<const Index> corners = mesh.elements.corners(element);
   if (mesh.flipped.empty() || mesh.flipped[element] == 0) return corners;
   std::copy(corners.begin(), corners.end(), buffer.begin());
-  std::swap(buffer[1], buffer[corners.size() - 1]);
+  flip_corners(mesh.elements.kind(element), buffer.data());
   return {buffer.data(), corners.size()};
 }
 

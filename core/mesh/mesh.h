@@ -35,6 +35,25 @@ inline constexpr std::array<ElementKindInfo, kElementKindCount> kElementKinds{{{
                                                                                {"pyramid", "pyramids", 5, 3}}};
 [[nodiscard]] constexpr const ElementKindInfo& info(ElementKind kind) { return kElementKinds[static_cast<std::size_t>(kind)]; }
 
+/// Turns an element inside out, keeping its first corner: reverses the winding of a triangle or quadrilateral, and that of every face of
+/// a volume element. Its own inverse. `c`: info(kind).corners of them.
+constexpr void flip_corners(ElementKind kind, Index* c) noexcept {
+  switch (kind) {
+    case ElementKind::Triangle:
+      return std::swap(c[1], c[2]);
+    case ElementKind::Quadrilateral:
+    case ElementKind::Tetrahedron:
+    case ElementKind::Pyramid:
+      return std::swap(c[1], c[3]);
+    case ElementKind::Hexahedron:
+      std::swap(c[1], c[3]);
+      return std::swap(c[5], c[7]);
+    case ElementKind::Wedge:
+      std::swap(c[1], c[2]);
+      return std::swap(c[4], c[5]);
+  }
+}
+
 /// Elements of any mix of kinds; the corners of all lie in one array, in VTK's order for each kind.
 class ElementTable {
  public:
@@ -73,11 +92,8 @@ class ElementTable {
     corners_.clear();
     offsets_.resize(1);
   }
-  /// Reverses the winding of a triangle or quadrilateral, keeping its first corner. Its own inverse.
-  void flip(Index e) noexcept {
-    Index* c = corners_.data() + offsets_[e];
-    std::swap(c[1], c[info(kinds_[e]).corners - 1]);
-  }
+  /// Turns an element inside out, see flip_corners().
+  void flip(Index e) noexcept { flip_corners(kinds_[e], corners_.data() + offsets_[e]); }
 
  private:
   std::vector<ElementKind> kinds_;

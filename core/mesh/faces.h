@@ -1,0 +1,64 @@
+#pragma once
+// The faces of volume elements, and who lies on their other side.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/mesh/mesh.h"
+
+namespace dmoscope {
+
+/// A face of an element by the element's own corners (0-based), counter-clockwise seen from outside an element that is not inverted.
+struct LocalFace {
+  Index count;  // 3 or 4
+  std::array<Index, 4> corners;
+  [[nodiscard]] constexpr std::span<const Index> span() const noexcept { return {corners.data(), count}; }
+};
+
+/// The faces of a volume element; none of a planar one. Positive are: a tetrahedron whose corner 3 lies on the side to which the normal of
+/// 0, 1, 2 points; likewise a wedge's 3, 4, 5 above 0, 1, 2, a hexahedron's 4 to 7 above 0 to 3, a pyramid's 4 above 0 to 3.
+[[nodiscard]] std::span<const LocalFace> faces_of(ElementKind kind) noexcept;
+
+/// One face of one element.
+struct ElementFace {
+  Index element;
+  Index face;  // into faces_of(kind of the element)
+  friend bool operator==(const ElementFace&, const ElementFace&) = default;
+};
+
+/// The face's vertices, in faces_of()'s order: 3 or 4, the rest kNoIndex.
+[[nodiscard]] std::array<Index, 4> vertices_of(const ElementTable& elements, ElementFace face) noexcept;
+
+/// For every face of every volume element the element on its other side. Linear in the number of elements for bounded valence.
+class FaceNeighbours {
+ public:
+  FaceNeighbours() = default;
+  /// Throws Cancelled if `progress` (may be null) says so.
+  explicit FaceNeighbours(const Mesh& mesh, Progress* progress = nullptr);
+
+  /// By local face: the element across, or kNoIndex on the boundary and where more than two elements share the face. Empty for planar ones.
+  [[nodiscard]] std::span<const Index> of(Index element) const noexcept {
+    return {across_.data() + offsets_[element], across_.data() + offsets_[element + 1]};
+  }
+  /// Which face of the element across `at` is the same one; kNoIndex where there is none.
+  [[nodiscard]] Index face_across(const ElementTable& elements, ElementFace at) const noexcept;
+  /// Faces that have one element alone, in ascending order of (element, face).
+  [[nodiscard]] std::span<const ElementFace> boundary() const noexcept { return boundary_; }
+  /// Faces that more than two elements share, once for each of these, in ascending order.
+  [[nodiscard]] std::span<const ElementFace> non_manifold() const noexcept { return non_manifold_; }
+  /// Different faces of the mesh.
+  [[nodiscard]] std::uint64_t face_count() const noexcept { return face_count_; }
+
+ private:
+  std::vector<std::uint32_t> offsets_{0};  // an element's first face
+  std::vector<Index> across_;
+  std::vector<ElementFace> boundary_, non_manifold_;
+  std::uint64_t face_count_ = 0;
+};
+
+/// Do the two elements run their common face in the same direction? Then one of them is turned inside out against the other.
+[[nodiscard]] bool same_direction(const ElementTable& elements, ElementFace a, ElementFace b) noexcept;
+
+}  // namespace dmoscope

@@ -188,7 +188,7 @@ class Look {
     Star<double> star;
     gather_star(MeshStar<Plane>(mesh_, positions_, trace_.vertex), star);
     Recorder recorder(star.scale);
-    const CombinedSearch search(input_, *aims_, parameters_);
+    const CombinedSearch<Plane> search(input_, *aims_, parameters_);
     trace_.combined = true;
     trace_.untangling = search.search(star, positions_, trace_.vertex, recorder).untangling;
     trace_.value_phrase = (trace_.untangling ? "smallest normalised Jacobian, once positive the " : "") + both_phrase(*aims_);

@@ -36,21 +36,21 @@ DMOSCOPE_ANYWHERE auto visit_planar(const Plane& plane, std::span<const Index> c
   return visitor(formulas::Quadrilateral<V>({}, b, c, plane.project(at(corners[3]) - origin)));
 }
 
-/// The shape of a volume element, likewise; its kind follows from the number of its corners.
+/// The shape of a volume element; its kind follows from the number of its corners. Edges are differences of positions: nothing is lost far
+/// from the origin, and what does not hang on a corner keeps its bits when that moves.
 template <class At, class Visitor>
 DMOSCOPE_ANYWHERE auto visit_solid(std::span<const Index> corners, At at, Visitor visitor) {
   using V = Vec3;
-  const Vec3 origin = at(corners[0]);
-  const auto offset = [&](std::size_t i) { return at(corners[i]) - origin; };
+  const auto corner = [&](std::size_t i) { return at(corners[i]); };
   switch (corners.size()) {
     case 4:
-      return visitor(formulas::Tetrahedron<V>({}, offset(1), offset(2), offset(3)));
+      return visitor(formulas::Tetrahedron<V>(corner(0), corner(1), corner(2), corner(3)));
     case 5:
-      return visitor(formulas::Pyramid<V>{{V{}, offset(1), offset(2), offset(3), offset(4)}});
+      return visitor(formulas::Pyramid<V>{{corner(0), corner(1), corner(2), corner(3), corner(4)}});
     case 6:
-      return visitor(formulas::Wedge<V>{{V{}, offset(1), offset(2), offset(3), offset(4), offset(5)}});
+      return visitor(formulas::Wedge<V>{{corner(0), corner(1), corner(2), corner(3), corner(4), corner(5)}});
     default:
-      return visitor(formulas::Hexahedron<V>{{V{}, offset(1), offset(2), offset(3), offset(4), offset(5), offset(6), offset(7)}});
+      return visitor(formulas::Hexahedron<V>{{corner(0), corner(1), corner(2), corner(3), corner(4), corner(5), corner(6), corner(7)}});
   }
 }
 
@@ -120,6 +120,21 @@ template <Metric M, class V, class Ideal, std::size_t N, class Corners>
     return formulas::metric<M>(s) + formulas::RealOf<V>(0.0);
   else
     return formulas::RealOf<V>(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// Of a star's element what changes when its corner `moving` moves: all of a simplex; of a planar element all, too, though a
+/// quadrilateral's corner across does not.
+template <class V>
+[[nodiscard]] DMOSCOPE_ANYWHERE formulas::RealOf<V> jacobian_around(const formulas::Triangle<V>& t, Index /*moving*/) {
+  return formulas::smallest_jacobian(t);
+}
+template <class V>
+[[nodiscard]] DMOSCOPE_ANYWHERE formulas::RealOf<V> jacobian_around(const formulas::Quadrilateral<V>& q, Index /*moving*/) {
+  return formulas::smallest_jacobian(q);
+}
+template <class Solid>
+[[nodiscard]] DMOSCOPE_ANYWHERE auto jacobian_around(const Solid& solid, Index moving) {
+  return formulas::smallest_jacobian_around(solid, moving);
 }
 
 }  // namespace dmoscope

@@ -74,6 +74,16 @@ struct CorneredSolid {
     for (std::size_t i = 1; i < Corners::kTable.size(); ++i) result = min(result, corner(i, f));
     return result;
   }
+  /// The same over the corners that change when the one at `moving` moves. The others tell nothing of where it should be.
+  template <class F>
+  DMOSCOPE_ANYWHERE R least_around(Index moving, F f) const {
+    R result = scalar::constant<R>(HUGE_VAL);
+    for (std::size_t i = 0; i < Corners::kTable.size(); ++i) {
+      const auto& c = Corners::kTable[i];
+      if (c[0] == moving || c[1] == moving || c[2] == moving || c[3] == moving) result = min(result, corner(i, f));
+    }
+    return result;
+  }
 
  private:
   template <class F>
@@ -111,6 +121,16 @@ DMOSCOPE_ANYWHERE RealOf<V> smallest_jacobian(const Tetrahedron<V>& t) {
 template <class V, class Ideal, std::size_t N, class Corners>
 DMOSCOPE_ANYWHERE RealOf<V> smallest_jacobian(const CorneredSolid<V, Ideal, N, Corners>& s) {
   return s.least([](V, V, V, RealOf<V> jacobian) { return jacobian; });
+}
+
+/// Of the corners that change when corner `moving` moves.
+template <class V>
+DMOSCOPE_ANYWHERE RealOf<V> smallest_jacobian_around(const Tetrahedron<V>& t, Index /*moving*/) {
+  return t.six_volume;
+}
+template <class V, class Ideal, std::size_t N, class Corners>
+DMOSCOPE_ANYWHERE RealOf<V> smallest_jacobian_around(const CorneredSolid<V, Ideal, N, Corners>& s, Index moving) {
+  return s.least_around(moving, [](V, V, V, RealOf<V> jacobian) { return jacobian; });
 }
 
 /// One specialisation a metric: tetrahedron(...) and corner<Ideal>(u, v, w, jacobian), whose least over the corners is the value of all

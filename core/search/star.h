@@ -66,6 +66,7 @@ class StarView {
 /// An incident tetrahedron: its other three corners, so that it is positive with the vertex as its first.
 template <class Real>
 struct StarTetrahedron {
+  static constexpr Index kMoving = 0;  // the corner that the vertex is
   Vec3Of<Real> b, c, d;
   Real reference;
   [[nodiscard]] DMOSCOPE_ANYWHERE auto with(Vec3Of<Real> p) const { return formulas::Tetrahedron<Vec3Of<Real>>(p, b, c, d); }
@@ -75,6 +76,7 @@ struct StarTetrahedron {
 template <class SolidT, std::size_t N, class Real>
 struct StarSolid {
   using Solid = SolidT;
+  static constexpr Index kMoving = 0;
   static constexpr std::size_t kOthers = N;
   std::array<Vec3Of<Real>, N> others;
   Real reference;
@@ -95,6 +97,7 @@ using StarPyramid = StarSolid<formulas::Pyramid<Vec3Of<Real>>, 4, Real>;
 /// The vertex is its tip.
 template <class Real>
 struct StarTip {
+  static constexpr Index kMoving = 4;
   std::array<Vec3Of<Real>, 4> base;
   Real reference;
   [[nodiscard]] DMOSCOPE_ANYWHERE auto with(Vec3Of<Real> p) const {

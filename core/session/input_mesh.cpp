@@ -129,6 +129,19 @@ std::vector<double> reference_measures(const Mesh& mesh, const Geometry& geometr
     total += reference[e];
   }
   const double fallback = total > 0.0 ? total / count : 1.0;
+  // An ideal element's corner Jacobian over its volume; in the plane areas are compared as they are.
+  constexpr auto kCorner = [](ElementKind kind) {
+    switch (kind) {
+      case ElementKind::Tetrahedron:
+        return 6.0;
+      case ElementKind::Pyramid:
+        return 3.0;
+      case ElementKind::Wedge:
+        return 2.0;
+      default:
+        return 1.0;
+    }
+  };
   // First around each vertex, then over the corners of each element: linear whatever the valence.
   auto around = large_vector<double>(mesh.positions.size());
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -141,7 +154,7 @@ std::vector<double> reference_measures(const Mesh& mesh, const Geometry& geometr
     const auto corners = mesh.elements.corners(e);
     double sum = 0.0;
     for (const Index v : corners) sum += around[v];
-    reference[e] = sum > 0.0 ? sum / static_cast<double>(corners.size()) : fallback;
+    reference[e] = kCorner(mesh.elements.kind(e)) * (sum > 0.0 ? sum / static_cast<double>(corners.size()) : fallback);
   }
   return reference;
 }

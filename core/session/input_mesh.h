@@ -26,7 +26,7 @@ struct InputMesh {
   MeshReport report;
   std::filesystem::path path;             // empty for a generated mesh
   std::vector<double> reference_measure;  // > 0, divides an element's Jacobian while untangling: mean over its corners of the mean |area|
-                                          // or |volume| in their stars, at input
+                                          // or |volume| in their stars, at input; of a volume the Jacobian of an ideal element of that size
   std::string generator{};                // "coast 4000 1": the words that make this mesh again; empty for any other
   [[nodiscard]] QualityContext quality_context() const { return {mesh, geometry}; }
   [[nodiscard]] bool is_volume() const noexcept { return geometry.shape == Shape::Volume; }

@@ -8,44 +8,57 @@ namespace dmoscope {
 
 namespace {
 
-template <Metric M>
-double mean_of_star(const PlanarView& mesh, PositionView positions, Index vertex, Vec3 place) {
+template <Metric M, class Frame>
+double mean_of_star(const MeshView<Frame>& mesh, PositionView positions, Index vertex, Vec3 place) {
   const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
   double sum = 0.0;
   for (const Incidence& incidence : mesh.star(vertex))
-    visit_planar(mesh.frame, mesh.corners_of(incidence.element), at, [&sum](const auto& shape) { sum += evaluate<M>(shape); });
+    visit_shape(mesh.frame, mesh.corners_of(incidence.element), at, [&sum](const auto& shape) { sum += evaluate<M>(shape); });
   return sum / static_cast<double>(mesh.star(vertex).size());
 }
 
-template <Metric M, bool Untangling>
-double worth_at(const StarView<double>& star, Vec2<double> p) {
-  return Objective<M, Untangling, double>(star)(p);
+template <Metric M, bool Untangling, class Frame>
+double worth_at(const StarViewIn<Frame, double>& star, OffsetIn<Frame, double> p) {
+  return Objective<M, Untangling, double, Value::Metric, StarViewIn<Frame, double>>(star)(p);
 }
 
-template <Metric M>
-double mean_at(const StarView<double>& star, Vec2<double> p) {
-  using V = Vec2<double>;
-  double sum = 0.0;
-  for (const StarTriangle<double>& t : star.triangles()) sum += evaluate<M>(formulas::Triangle<V>(p, t.b, t.c));
-  for (const StarQuadrilateral<double>& q : star.quadrilaterals()) sum += evaluate<M>(formulas::Quadrilateral<V>(p, q.b, q.c, q.d));
-  return sum / static_cast<double>(star.triangles().size() + star.quadrilaterals().size());
+template <Metric M, class Frame>
+double mean_at(const StarViewIn<Frame, double>& star, OffsetIn<Frame, double> p) {
+  double sum = 0.0, count = 0.0;
+  star.template for_each<true>([&](const auto& element) {
+    sum += evaluate<M>(element.with(p));
+    count += 1.0;
+  });
+  return sum / count;
 }
 
-std::array<MetricFunctions, kMetricCount> make_table() {
-  std::array<MetricFunctions, kMetricCount> table{};
-  for (const MetricInfo& entry : metric_table())
-    table[static_cast<std::size_t>(entry.metric)] = formulas::with_planar_metric(entry.metric, []<Metric M>() {
-      return MetricFunctions{star_state<M>, mean_of_star<M>, worth_at<M, false>, worth_at<M, true>, mean_at<M>};
-    });
+template <Metric M, class Frame>
+MetricFunctions<Frame> functions_of() {
+  return {star_state<M, Frame>, mean_of_star<M, Frame>, worth_at<M, false, Frame>, worth_at<M, true, Frame>, mean_at<M, Frame>};
+}
+
+template <class Frame>
+std::array<MetricFunctions<Frame>, kMetricCount> make_table() {
+  std::array<MetricFunctions<Frame>, kMetricCount> table{};
+  for (const MetricInfo& entry : metric_table()) {
+    auto& functions = table[static_cast<std::size_t>(entry.metric)];
+    if constexpr (std::is_same_v<Frame, Plane>)
+      functions = formulas::with_planar_metric(entry.metric, []<Metric M>() { return functions_of<M, Plane>(); });
+    else
+      functions = formulas::with_solid_metric(entry.metric, []<Metric M>() { return functions_of<M, Space>(); });
+  }
   return table;
 }
 
 }  // namespace
 
-const MetricFunctions& metric_functions(Metric metric) {
-  static const auto table = make_table();
+template <class Frame>
+const MetricFunctions<Frame>& metric_functions(Metric metric) {
+  static const auto table = make_table<Frame>();
   return table[static_cast<std::size_t>(metric)];
 }
+template const MetricFunctions<Plane>& metric_functions<Plane>(Metric);
+template const MetricFunctions<Space>& metric_functions<Space>(Metric);
 
 Aims aims_of(Metric first, const Combination& combination, std::shared_ptr<const SizeField> size) {
   if (size) return {first, combination.threshold, std::move(size)};
@@ -61,7 +74,7 @@ std::optional<Aims> aims_of_visit(Metric metric, const std::optional<Combination
   return std::nullopt;
 }
 
-DensityTarget density_target(const SizeField& size, const PlanarView& mesh, PositionView positions, Index vertex) {
+DensityTarget<Plane> density_target(const SizeField& size, const PlanarView& mesh, PositionView positions, Index vertex) {
   const Vec3 here = positions[vertex];
   Vec2<double> sum{};
   double weights = 0.0, lengths = 0.0;
@@ -78,24 +91,32 @@ DensityTarget density_target(const SizeField& size, const PlanarView& mesh, Posi
   return {{sum.x / weights, sum.y / weights}, lengths / static_cast<double>(count)};
 }
 
-DensityTarget CombinedSearch::density_of(const Star<double>& star, PositionView positions, Index vertex) const {
+template <class Frame>
+DensityTarget<Frame> CombinedSearch<Frame>::density_of(const Room& star, PositionView positions, Index vertex) const {
   const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&aims_.second);
   if (size == nullptr) return {};
-  const DensityTarget found = density_target(**size, mesh_.view, positions, vertex);
-  return {{found.offset.x / star.scale, found.offset.y / star.scale}, found.edge / star.scale};
+  if constexpr (std::is_same_v<Frame, Plane>) {
+    const DensityTarget<Plane> found = density_target(**size, mesh_.view, positions, vertex);
+    return {times(found.offset, 1.0 / star.scale), found.edge / star.scale};
+  }
+  return {};  // sizes are of planar meshes: see require_possible()
 }
 
 /// The second aim with the vertex at `place`.
-double CombinedSearch::second(PositionView positions, Index vertex, Vec3 place) const {
-  if (const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&aims_.second))
-    return density_target(**size, mesh_.view, positions, vertex).density(mesh_.view.frame.project(place - positions[vertex]));
+template <class Frame>
+double CombinedSearch<Frame>::second(PositionView positions, Index vertex, Vec3 place) const {
+  if constexpr (std::is_same_v<Frame, Plane>) {
+    if (const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&aims_.second))
+      return density_target(**size, mesh_.view, positions, vertex).density(mesh_.view.frame.project(place - positions[vertex]));
+  }
   if (const auto* metric = std::get_if<Metric>(&aims_.second))
-    return metric_functions(*metric).state(mesh_.view, positions, vertex, place).quality;
-  return metric_functions(aims_.first).mean(mesh_.view, positions, vertex, place);
+    return metric_functions<Frame>(*metric).state(mesh_.view, positions, vertex, place).quality;
+  return metric_functions<Frame>(aims_.first).mean(mesh_.view, positions, vertex, place);
 }
 
-bool CombinedSearch::gains(PositionView positions, Index vertex, Vec3 target) const {
-  const auto state = metric_functions(aims_.first).state;
+template <class Frame>
+bool CombinedSearch<Frame>::gains(PositionView positions, Index vertex, Vec3 target) const {
+  const auto state = metric_functions<Frame>(aims_.first).state;
   const Vec3 here = positions[vertex];
   const StarState before = state(mesh_.view, positions, vertex, here), after = state(mesh_.view, positions, vertex, target);
   const auto second_rises = [&] { return second(positions, vertex, target) > second(positions, vertex, here); };
@@ -109,16 +130,25 @@ bool CombinedSearch::gains(PositionView positions, Index vertex, Vec3 target) co
   return aims_.beyond(after.quality) && second_rises();
 }
 
-std::optional<Vec3> CombinedSearch::target(PositionView positions, Index vertex, Room& star) const {
+template <class Frame>
+std::optional<Vec3> CombinedSearch<Frame>::target(PositionView positions, Index vertex, Room& star) const {
   gather_star(MeshStar(mesh_.view, positions, vertex), star);
-  const Vec2<double> found = search(star, positions, vertex).offset;
-  if (found.x == 0.0 && found.y == 0.0) return std::nullopt;
-  const auto target = mesh_.moved(positions[vertex], {found.x * star.scale, found.y * star.scale});
+  const Offset found = search(star, positions, vertex).offset;
+  if (found == Offset{}) return std::nullopt;
+  const auto target = mesh_.moved(positions[vertex], times(found, star.scale));
   return target && gains(positions, vertex, *target) ? target : std::nullopt;
 }
 
+template class CombinedSearch<Plane>;
+template class CombinedSearch<Space>;
+
+std::unique_ptr<Smoother> make_combined_smoother(const SmoothingTask& task, Aims aims) {
+  if (task.input->is_volume()) return make_rule_smoother(task, CombinedSearch<Space>(*task.input, std::move(aims), task.search));
+  return make_rule_smoother(task, CombinedSearch<Plane>(*task.input, std::move(aims), task.search));
+}
+
 std::unique_ptr<Smoother> make_combined_smoother(const SmoothingTask& task) {
-  return make_rule_smoother(task, CombinedSearch(*task.input, aims_of(task.metric, *task.combination, task.size), task.search));
+  return make_combined_smoother(task, aims_of(task.metric, *task.combination, task.size));
 }
 
 }  // namespace dmoscope

@@ -38,45 +38,54 @@ struct Aims {
 [[nodiscard]] std::optional<Aims> aims_of_visit(Metric metric, const std::optional<Combination>& combination,
                                                 const std::shared_ptr<const SizeField>& size, const Sweep& sweep);
 
-/// What is needed of a metric, so that any two can be combined without a template for each pair.
+/// What is needed of a metric, so that any two can be combined without a template for each pair. Frame: Plane or Space.
+template <class Frame>
 struct MetricFunctions {
+  using View = StarViewIn<Frame, double>;
+  using Offset = OffsetIn<Frame, double>;
   // By the statistics' formulas, with the vertex at a place.
-  StarState (*state)(const PlanarView&, PositionView, Index vertex, Vec3 place);
-  double (*mean)(const PlanarView&, PositionView, Index vertex, Vec3 place);
+  StarState (*state)(const MeshView<Frame>&, PositionView, Index vertex, Vec3 place);
+  double (*mean)(const MeshView<Frame>&, PositionView, Index vertex, Vec3 place);
   // By the search's, with the vertex at an offset.
-  double (*least_at)(const StarView<double>&, Vec2<double>);
-  double (*untangling_at)(const StarView<double>&, Vec2<double>);
-  double (*mean_at)(const StarView<double>&, Vec2<double>);
+  double (*least_at)(const View&, Offset);
+  double (*untangling_at)(const View&, Offset);
+  double (*mean_at)(const View&, Offset);
 };
-[[nodiscard]] const MetricFunctions& metric_functions(Metric metric);
+template <class Frame>
+[[nodiscard]] const MetricFunctions<Frame>& metric_functions(Metric metric);
 
 /// Where a vertex would stand for the sake of density (paper eq. 7), and what other places are worth (eq. 6, but bounded and free of
 /// scale).
+template <class Frame>
 struct DensityTarget {
-  Vec2<double> offset;  // from where the vertex stands, in the plane
-  double edge = 0.0;    // mean edge of the star
+  using Offset = OffsetIn<Frame, double>;
+  Offset offset;      // from where the vertex stands
+  double edge = 0.0;  // mean edge of the star
   /// 1 / (1 + d^2 / h^2); `at`: relative to where the vertex stands.
-  [[nodiscard]] double density(Vec2<double> at) const noexcept {
-    const Vec2<double> away = at - offset;
+  [[nodiscard]] double density(Offset at) const noexcept {
+    const Offset away = at - offset;
     return edge > 0.0 ? 1.0 / (1.0 + dot(away, away) / (edge * edge)) : 0.0;
   }
 };
 /// The mean of the edge neighbours, weighted by the inverse of the size where each stands now.
-[[nodiscard]] DensityTarget density_target(const SizeField& size, const PlanarView& mesh, PositionView positions, Index vertex);
+[[nodiscard]] DensityTarget<Plane> density_target(const SizeField& size, const PlanarView& mesh, PositionView positions, Index vertex);
 
 /// What the grid search maximises, as the paper's eq. (8) has it: the least first metric (or, untangling, the smallest Jacobian while it is
 /// <= 0); beyond the threshold that plus the second aim, which is positive.
+template <class Frame>
 class CombinedObjective {
  public:
-  CombinedObjective(const Aims& aims, bool untangling, StarView<double> star, const DensityTarget& target)
+  using View = StarViewIn<Frame, double>;
+  using Offset = OffsetIn<Frame, double>;
+  CombinedObjective(const Aims& aims, bool untangling, View star, const DensityTarget<Frame>& target)
       : aims_(aims), star_(star), target_(target) {
-    const MetricFunctions& first = metric_functions(aims.first);
+    const auto& first = metric_functions<Frame>(aims.first);
     least_ = untangling ? first.untangling_at : first.least_at;
     second_ = first.mean_at;
-    if (const auto* metric = std::get_if<Metric>(&aims.second)) second_ = metric_functions(*metric).least_at;
+    if (const auto* metric = std::get_if<Metric>(&aims.second)) second_ = metric_functions<Frame>(*metric).least_at;
     if (std::holds_alternative<std::shared_ptr<const SizeField>>(aims.second)) second_ = nullptr;
   }
-  [[nodiscard]] double operator()(Vec2<double> p) const {
+  [[nodiscard]] double operator()(Offset p) const {
     const double least = least_(star_, p);
     if (!aims_.beyond(least)) return least;
     return aims_.threshold + (second_ != nullptr ? second_(star_, p) : target_.density(p));
@@ -84,29 +93,31 @@ class CombinedObjective {
 
  private:
   const Aims& aims_;
-  StarView<double> star_;
-  DensityTarget target_;  // in units of the star's scale
-  double (*least_)(const StarView<double>&, Vec2<double>);
-  double (*second_)(const StarView<double>&, Vec2<double>);  // null: the density
+  View star_;
+  DensityTarget<Frame> target_;  // in units of the star's scale
+  double (*least_)(const View&, Offset);
+  double (*second_)(const View&, Offset);  // null: the density
 };
 
 /// One vertex's visit: a rule for RuleSmoother. The mesh must outlive it.
+template <class Frame>
 class CombinedSearch {
  public:
-  using Room = Star<double>;
+  using Room = StarIn<Frame, double>;
+  using Offset = OffsetIn<Frame, double>;
   CombinedSearch(const InputMesh& input, Aims aims, const SearchParameters& parameters)
       : mesh_(input), aims_(std::move(aims)), parameters_(parameters) {}
 
   /// What was found: the offset in units of the star's scale, and whether an element was inverted. `trace`: see grid_search.
   struct Found {
-    Vec2<double> offset;
+    Offset offset;
     bool untangling = false;
   };
   template <class Trace = NoTrace>
-  [[nodiscard]] Found search(const Star<double>& star, PositionView positions, Index vertex, Trace&& trace = {}) const {
-    const StarView<double> view(star);
-    const bool untangling = !(metric_functions(aims_.first).untangling_at(view, {}) > 0.0);
-    const CombinedObjective objective(aims_, untangling, view, density_of(star, positions, vertex));
+  [[nodiscard]] Found search(const Room& star, PositionView positions, Index vertex, Trace&& trace = {}) const {
+    const StarViewIn<Frame, double> view(star);
+    const bool untangling = !(metric_functions<Frame>(aims_.first).untangling_at(view, {}) > 0.0);
+    const CombinedObjective<Frame> objective(aims_, untangling, view, density_of(star, positions, vertex));
     return {grid_search<double>(objective, star.box, parameters_, trace).offset, untangling};
   }
   /// Judged by the statistics' own formulas: does the vertex gain by standing at `target`?
@@ -115,14 +126,16 @@ class CombinedSearch {
   [[nodiscard]] std::optional<Vec3> target(PositionView positions, Index vertex, Room& star) const;
 
  private:
-  [[nodiscard]] DensityTarget density_of(const Star<double>& star, PositionView positions, Index vertex) const;
+  [[nodiscard]] DensityTarget<Frame> density_of(const Room& star, PositionView positions, Index vertex) const;
   [[nodiscard]] double second(PositionView positions, Index vertex, Vec3 place) const;
 
-  RuleMesh<Plane> mesh_;
+  RuleMesh<Frame> mesh_;
   Aims aims_;
   SearchParameters parameters_;
 };
 
+/// For any aims.
+[[nodiscard]] std::unique_ptr<Smoother> make_combined_smoother(const SmoothingTask& task, Aims aims);
 /// See make_smoother, which checks the arguments.
 [[nodiscard]] std::unique_ptr<Smoother> make_combined_smoother(const SmoothingTask& task);
 

@@ -8,18 +8,21 @@
 #include "core/quality/element_shape.h"
 #include "core/search/grid_search.h"
 #include "core/search/mesh_star.h"
+#include "core/search/untangling.h"
 #include "core/smooth/displace.h"
 
 namespace dmoscope {
 
 /// How good a star is, judged in double by the very formulas of the statistics. While one of its elements is inverted its smallest
-/// normalised Jacobian counts, afterwards its least metric.
+/// normalised Jacobian counts, afterwards its least metric. Of a volume's Jacobians only those of corners count that the vertex's place
+/// changes: the others keep their bits, so that no star's least gets worse where these do not.
 struct StarState {
-  double jacobian = 0.0;  // least of smallest corner Jacobian / reference measure
-  double quality = 0.0;   // least metric (paper eq. 1)
+  double jacobian = 0.0;    // least of smallest corner Jacobian / reference measure
+  double quality = 0.0;     // least metric (paper eq. 1)
+  double untangling = 0.0;  // what is raised while `jacobian` is <= 0, and does not fall: itself, or of a volume see UntanglingMean
   /// Strictly better: what a move must be (promise 1).
   [[nodiscard]] DMOSCOPE_ANYWHERE bool better_than(const StarState& other) const noexcept {
-    if (other.jacobian <= 0.0) return jacobian > other.jacobian;
+    if (other.jacobian <= 0.0) return jacobian > 0.0 || (jacobian >= other.jacobian && untangling > other.untangling);
     return jacobian > 0.0 && quality > other.quality;
   }
 };
@@ -28,15 +31,20 @@ struct StarState {
 template <Metric M, class Frame>
 [[nodiscard]] DMOSCOPE_ANYWHERE StarState star_state(const MeshView<Frame>& mesh, PositionView positions, Index vertex, Vec3 place) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  StarState state{kInfinity, kInfinity};
+  constexpr bool kVolume = std::is_same_v<Frame, Space>;
+  StarState state{kInfinity, kInfinity, 0.0};
+  [[maybe_unused]] UntanglingMean untangling;
   const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
   for (const Incidence& incidence : mesh.star(vertex)) {
     const double reference = mesh.reference_measure[incidence.element];
-    visit_shape(mesh.frame, mesh.corners_of(incidence.element), at, [&state, reference](const auto& shape) {
-      state.jacobian = scalar::min(state.jacobian, formulas::smallest_jacobian(shape) / reference);
+    const Index moving = incidence.corner;
+    visit_shape(mesh.frame, mesh.corners_of(incidence.element), at, [&](const auto& shape) {
+      state.jacobian = scalar::min(state.jacobian, jacobian_around(shape, moving) / reference);
       state.quality = scalar::min(state.quality, evaluate<M>(shape));
+      if constexpr (kVolume) untangling.add(shape, moving, reference);
     });
   }
+  state.untangling = kVolume ? untangling.value() : state.jacobian;
   return state;
 }
 
@@ -52,7 +60,9 @@ template <Metric M, class Frame>
 template <Metric M, class StarT, class Point, class Team = Solo, class Trace = NoTrace>
 [[nodiscard]] DMOSCOPE_ANYWHERE Point search_star(const StarT& star, Point box, const SearchParameters& parameters, const Team& team = {},
                                                   Trace&& trace = {}) {
-  const Objective<M, true, double, Value::Metric, StarT> untangling(star);
+  using Untangling =
+      std::conditional_t<std::is_same_v<Point, Vec3>, SolidUntangling<M, StarT>, Objective<M, true, double, Value::Metric, StarT>>;
+  const Untangling untangling(star);
   if (!(untangling(Point{}) > 0.0)) return grid_search<double>(untangling, box, parameters, trace, team).offset;
   return grid_search<double>(Objective<M, false, double, Value::Metric, StarT>(star), box, parameters, trace, team).offset;
 }

@@ -32,19 +32,24 @@ constexpr std::array<MethodInfo, 7> kMethods{
       .doc = "Angle-based smoothing: to the mean of the places that halve the ring's angles, whatever becomes of the elements (Zhou and "
              "Shimada 2000)",
       .optimises = false,
+      .planar_only = true,
       .relaxes = true},
      {.name = "dvr",
       .doc = "Directional vertex relaxation: to the best place on a line, one direction an iteration (Rangarajan and Lew 2017)",
       .mean_ratio_only = true,
+      .planar_only = true,
       .has_directions = true},
      {.name = "pattern-search", .doc = "Compass search: the best of four steps, which grow or shrink (Park and Shontz 2010)"},
      {.name = "active-set",
-      .doc = "Active-set ascent: along the steepest way on which none of the worst elements loses (Freitag, Jones and Plassmann 1995)"}}};
+      .doc = "Active-set ascent: along the steepest way on which none of the worst elements loses (Freitag, Jones and Plassmann 1995)",
+      .planar_only = true}}};
 
 void require_possible(const Combination& combination, const SmoothingTask& task) {
   validate(combination);
   if (task.method != "dmo") throw UsageError(fmt::format("metrics are combined by dmo alone, not by {}", task.method));
   if (task.then_mean) throw UsageError("a combination has a second aim of its own, which a phase that raises the mean would undo");
+  if (combination.size() != nullptr && task.input->is_volume())
+    throw UsageError("sizes are of planar meshes in this version, and the mesh is a volume");
   if (const auto* second = std::get_if<Metric>(&combination.second)) require_defined(*second, task.input->mesh);
 }
 
@@ -82,6 +87,7 @@ void require_possible(const SmoothingTask& task) {
   require_defined(task.metric, task.input->mesh);
   if (method.mean_ratio_only && task.metric != Metric::MeanRatio)
     throw UsageError(fmt::format("{} optimises the mean ratio alone, not {}", method.name, info(task.metric).name));
+  if (method.planar_only && task.input->is_volume()) throw UsageError(fmt::format("{} is defined for planar meshes alone", method.name));
   if (task.combination) require_possible(*task.combination, task);
 }
 

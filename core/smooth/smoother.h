@@ -59,6 +59,7 @@ struct MethodInfo {
   std::string_view name, doc;
   bool optimises = true;         // the metric; else it only judges what the method does
   bool mean_ratio_only = false;  // it can optimise no other metric
+  bool planar_only = false;      // not of volumes
   bool searches_grid = false;    // reads SearchParameters
   bool relaxes = false;          // reads MethodOptions::relaxation
   bool has_directions = false;   // reads MethodOptions::directions and seed

@@ -15,7 +15,7 @@ class ThenMean final : public Smoother {
   void begin(const Sweep& sweep) override {
     second_.reset();
     if (sweep.floor)
-      second_ = make_rule_smoother(task_, CombinedSearch(*task_.input, raise_mean_above(task_.metric, *sweep.floor), task_.search));
+      second_ = make_combined_smoother(task_, raise_mean_above(task_.metric, *sweep.floor));
     else
       first_->begin(sweep);
   }

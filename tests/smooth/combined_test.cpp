@@ -114,7 +114,7 @@ Point best_place(const Plain& mesh, Index vertex, const std::function<Worth(Poin
 /// threshold, and below.
 std::pair<int, int> compare(const InputMesh& mesh, const Aims& aims, const SecondAim& second) {
   const Plain plain{mesh, mesh.mesh.positions};
-  const CombinedSearch search(mesh, aims, {});
+  const CombinedSearch<Plane> search(mesh, aims, {});
   Star<double> room;
   std::pair<int, int> counts{};
   for (Index v = 0; v < mesh.mesh.vertex_count(); ++v) {

@@ -1,0 +1,131 @@
+// Blocks of volume elements: a cube of cells, each cut into elements of the kinds that are wanted, its inner vertices out of place.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/mesh/faces.h"
+#include "core/mesh/generators.h"
+
+namespace dmoscope::generators {
+
+namespace {
+
+/// (n + 1)^3 vertices of a unit lattice; cells have VTK's order of a hexahedron's corners.
+class Block {
+ public:
+  explicit Block(std::size_t vertices)
+      : n_(std::max<Index>(2, static_cast<Index>(std::lround(std::cbrt(static_cast<double>(vertices)))) - 1)) {}
+  [[nodiscard]] Index cells() const { return n_; }
+  [[nodiscard]] Index vertex(Index i, Index j, Index k) const { return i + (n_ + 1) * (j + (n_ + 1) * k); }
+  [[nodiscard]] std::array<Index, 8> cell(Index i, Index j, Index k) const {
+    return {vertex(i, j, k),     vertex(i + 1, j, k),     vertex(i + 1, j + 1, k),     vertex(i, j + 1, k),
+            vertex(i, j, k + 1), vertex(i + 1, j, k + 1), vertex(i + 1, j + 1, k + 1), vertex(i, j + 1, k + 1)};
+  }
+  /// Inner vertices up to `jitter` of a cell out of place, along each axis.
+  [[nodiscard]] std::vector<Vec3> positions(double jitter, std::uint64_t seed) const {
+    std::vector<Vec3> positions;
+    positions.reserve(static_cast<std::size_t>(n_ + 1) * (n_ + 1) * (n_ + 1));
+    Random random(seed);
+    for (Index k = 0; k <= n_; ++k)
+      for (Index j = 0; j <= n_; ++j)
+        for (Index i = 0; i <= n_; ++i) {
+          const auto inside = [this](Index a) { return a > 0 && a < n_; };
+          const double size = inside(i) && inside(j) && inside(k) ? jitter : 0.0;
+          const auto along = [&](Index a) { return neat(a + size * random.between(-1.0, 1.0)); };
+          const double x = along(i), y = along(j), z = along(k);
+          positions.push_back({x, y, z});
+        }
+    return positions;
+  }
+  template <class Visit>
+  void for_cells(Progress& progress, const Visit& visit) const {
+    for (Index k = 0; k < n_; ++k) {
+      progress.check();
+      progress.set(static_cast<double>(k) / n_);
+      for (Index j = 0; j < n_; ++j)
+        for (Index i = 0; i < n_; ++i) visit(i, j, k);
+    }
+  }
+
+ private:
+  Index n_;
+};
+
+/// What becomes of a column of cells, so that neighbours fit: prisms are cut along the z axis only, and whole quadrilaterals face the
+/// others.
+bool cut_into_wedges(Index i, Index j) { return (i / 2 + j / 2) % 3 == 1; }
+bool cut_into_pyramids(Index i, Index j, Index k) { return !cut_into_wedges(i, j) && (i / 2 + j / 2 + k / 2) % 2 == 1; }
+
+/// Of a cell six pyramids around its middle; those whose other side is such a cell, too, are cut in two along the same diagonal.
+void add_pyramids(Mesh& mesh, const Block& block, Index i, Index j, Index k) {
+  const std::array<Index, 8> c = block.cell(i, j, k);
+  Vec3 middle;
+  for (const Index v : c) middle = middle + 0.125 * mesh.positions[v];
+  const auto tip = static_cast<Index>(mesh.positions.size());
+  mesh.positions.push_back({neat(middle.x), neat(middle.y), neat(middle.z)});
+  const Index n = block.cells();
+  const auto same = [&](int di, int dj, int dk) {
+    const auto at = [](Index a, int d) { return a + static_cast<Index>(d); };  // -1 wraps beyond n
+    const Index x = at(i, di), y = at(j, dj), z = at(k, dk);
+    return x < n && y < n && z < n && cut_into_pyramids(x, y, z);
+  };
+  // In the order of faces_of(): bottom, top, front, right, back, left.
+  const std::array<bool, 6> cut{same(0, 0, -1), same(0, 0, 1), same(0, -1, 0), same(1, 0, 0), same(0, 1, 0), same(-1, 0, 0)};
+  for (std::size_t f = 0; f < 6; ++f) {
+    std::array<Index, 4> face{};
+    for (std::size_t m = 0; m < 4; ++m) face[m] = c[faces_of(ElementKind::Hexahedron)[f].corners[m]];
+    std::ranges::reverse(face);  // seen from the middle
+    if (!cut[f]) {
+      mesh.elements.add(ElementKind::Pyramid, std::array{face[0], face[1], face[2], face[3], tip});
+      continue;
+    }
+    std::ranges::rotate(face, std::ranges::min_element(face));  // both sides cut at the lowest vertex
+    mesh.elements.add(ElementKind::Tetrahedron, std::array{face[0], face[1], face[2], tip});
+    mesh.elements.add(ElementKind::Tetrahedron, std::array{face[0], face[2], face[3], tip});
+  }
+}
+
+}  // namespace
+
+Mesh tetrahedra(const Request& request) {
+  const Block block(request.size);
+  Mesh mesh;
+  mesh.positions = block.positions(0.2, request.seed);
+  // Six around the diagonal from corner 0 to corner 6 (Kuhn): neighbours cut their common faces alike.
+  constexpr std::array<std::array<Index, 2>, 6> kAround{{{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}}};
+  block.for_cells(request.progress, [&](Index i, Index j, Index k) {
+    const std::array<Index, 8> c = block.cell(i, j, k);
+    for (const auto& [a, b] : kAround) mesh.elements.add(ElementKind::Tetrahedron, std::array{c[0], c[a], c[b], c[6]});
+  });
+  return mesh;
+}
+
+Mesh hexahedra(const Request& request) {
+  const Block block(request.size);
+  Mesh mesh;
+  mesh.positions = block.positions(0.3, request.seed);
+  block.for_cells(request.progress, [&](Index i, Index j, Index k) { mesh.elements.add(ElementKind::Hexahedron, block.cell(i, j, k)); });
+  return mesh;
+}
+
+Mesh solids(const Request& request) {
+  const Block block(request.size);
+  Mesh mesh;
+  mesh.positions = block.positions(0.15, request.seed);
+  block.for_cells(request.progress, [&](Index i, Index j, Index k) {
+    const std::array<Index, 8> c = block.cell(i, j, k);
+    if (cut_into_wedges(i, j)) {
+      mesh.elements.add(ElementKind::Wedge, std::array{c[0], c[1], c[2], c[4], c[5], c[6]});
+      mesh.elements.add(ElementKind::Wedge, std::array{c[0], c[2], c[3], c[4], c[6], c[7]});
+    } else if (cut_into_pyramids(i, j, k)) {
+      add_pyramids(mesh, block, i, j, k);
+    } else {
+      mesh.elements.add(ElementKind::Hexahedron, c);
+    }
+  });
+  return mesh;
+}
+
+}  // namespace dmoscope::generators

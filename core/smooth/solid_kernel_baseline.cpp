@@ -1,0 +1,7 @@
+#include "core/smooth/solid_kernel_of.h"
+
+namespace dmoscope {
+
+SolidKernel solid_kernel_baseline(Metric metric) { return solids::kernel_for<Pack<float>>(metric); }
+
+}  // namespace dmoscope

@@ -1,0 +1,243 @@
+#pragma once
+// The one definition of the volumes' kernel. Only the solid_kernel_*.cpp, each compiled for one kind of processor, include it; see
+// lane_kernel_of.h for what that asks of the code.
+
+#include <array>
+
+#include "core/search/pack.h"
+// After the packs:
+#include "core/search/grid_search.h"
+#include "core/smooth/solid_kernel.h"
+
+namespace dmoscope::solids {
+
+/// The mean ratio of a tetrahedron as the vertex moves: six times the volume is affine in its place p, the sum of the squared edges affine
+/// plus 3 |p|^2.
+template <class F>
+struct TetrahedronForm {
+  F v0, vx, vy, vz;
+  F s0, sx, sy, sz;
+};
+
+/// F: pack of floats, a candidate a slot.
+template <Metric M, class F>
+class Kernel {
+ public:
+  static SolidFound run(const SolidSearch& task) {
+    Kernel kernel(task);
+    return kernel.search();
+  }
+
+ private:
+  using Point = Vec3Of<F>;
+  static constexpr std::size_t kWidth = F::size;
+  static constexpr std::size_t kMaxPlane = 64 * 64 + kWidth;
+  static constexpr bool kForms = M == Metric::MeanRatio;
+  static constexpr bool kCorners = formulas::kDefinedForCorners<M>;
+  static constexpr float kLeastRank = 1e-6F;  // below: the reference's, since floats do not tell such elements apart
+
+  explicit Kernel(const SolidSearch& task) : task_(task) {}
+
+  SolidFound search() {
+    SolidFound found;
+    take_elements();
+    best_ = least({F(0), F(0), F(0)}, F(-1)).get(0);
+    found.ready = best_ > kLeastRank;
+    if (!found.ready) return found;
+    double omega = task_.omega;
+    for (int level = 0; level < task_.levels && best_ < cap_; ++level) {
+      search_level(static_cast<float>(omega));
+      omega *= 2.0 / (task_.points - 1);
+    }
+    found.offset = {at_[0], at_[1], at_[2]};
+    return found;
+  }
+
+  static F wide(float a) { return F(a); }
+  static Point wide(const Vec3Of<float>& p) { return {F(p.x), F(p.y), F(p.z)}; }
+
+  void take_elements() {
+    for (std::size_t i = 0; i < task_.tetrahedra.size; ++i) {
+      const StarTetrahedron<float>& t = task_.tetrahedra.data[i];
+      order_[i] = static_cast<std::uint8_t>(i);
+      if constexpr (kForms)
+        forms_[i] = form(wide(t.b), wide(t.c), wide(t.d));
+      else
+        tetrahedra_[i] = {wide(t.b), wide(t.c), wide(t.d), F(1)};
+    }
+    if constexpr (kCorners) {
+      const Point origin{F(0), F(0), F(0)};
+      for_cornered([&](const auto& element) {
+        const auto solid = widened(element, origin);
+        const float constant = constant_part(solid, element.kMoving);
+        cap_ = constant < cap_ ? constant : cap_;
+      });
+    }
+  }
+
+  static TetrahedronForm<F> form(Point b, Point c, Point d) {
+    // det(b - p, c - p, d - p) = det(b, c, d) - p . ((b x c) + (c x d) + (d x b)).
+    const Point n = cross(b, c) + cross(c, d) + cross(d, b), sum = b + c + d;
+    const Point bc = c - b, cd = d - c, db = b - d;
+    const F squares = dot(b, b) + dot(c, c) + dot(d, d) + dot(bc, bc) + dot(cd, cd) + dot(db, db);
+    const F two = F(-2);
+    return {formulas::determinant(b, c, d), F(0) - n.x, F(0) - n.y, F(0) - n.z, squares, two * sum.x, two * sum.y, two * sum.z};
+  }
+
+  template <class Visit>
+  void for_cornered(const Visit& visit) const {
+    for (std::size_t i = 0; i < task_.hexahedra.size; ++i) visit(task_.hexahedra.data[i]);
+    for (std::size_t i = 0; i < task_.wedges.size; ++i) visit(task_.wedges.data[i]);
+    for (std::size_t i = 0; i < task_.pyramids.size; ++i) visit(task_.pyramids.data[i]);
+    for (std::size_t i = 0; i < task_.tips.size; ++i) visit(task_.tips.data[i]);
+  }
+
+  static auto widened(const StarHexahedron<float>& e, Point p) { return widened<formulas::Hexahedron<Point>>(e.others, p); }
+  static auto widened(const StarWedge<float>& e, Point p) { return widened<formulas::Wedge<Point>>(e.others, p); }
+  static auto widened(const StarPyramid<float>& e, Point p) { return widened<formulas::Pyramid<Point>>(e.others, p); }
+  static auto widened(const StarTip<float>& e, Point p) {
+    return formulas::Pyramid<Point>{{wide(e.base[0]), wide(e.base[1]), wide(e.base[2]), wide(e.base[3]), p}};
+  }
+  template <class Solid, std::size_t N>
+  static Solid widened(const std::array<Vec3Of<float>, N>& others, Point p) {
+    Solid solid;
+    solid.at[0] = p;
+    for (std::size_t i = 0; i < N; ++i) solid.at[i + 1] = wide(others[i]);
+    return solid;
+  }
+
+  template <class Ideal>
+  static F rank_of_corner(Point u, Point v, Point w, F jacobian) {
+    if constexpr (M == Metric::MeanRatio)
+      return formulas::SolidFormula<M>::template rank_corner<Ideal>(u, v, w, jacobian);
+    else
+      return formulas::SolidFormula<M>::template corner<Ideal>(u, v, w, jacobian);
+  }
+  /// The rank of the corners that change with the vertex.
+  template <class Ideal, std::size_t N, class Corners>
+  static F moving_part(const formulas::CorneredSolid<Point, Ideal, N, Corners>& solid, Index moving) {
+    return solid.least_around(moving, [](Point u, Point v, Point w, F jacobian) { return rank_of_corner<Ideal>(u, v, w, jacobian); });
+  }
+  /// And of all the others.
+  template <class Ideal, std::size_t N, class Corners>
+  static float constant_part(const formulas::CorneredSolid<Point, Ideal, N, Corners>& solid, Index moving) {
+    F least(1e30F);
+    for (const auto& c : Corners::kTable) {
+      if (c[0] == moving || c[1] == moving || c[2] == moving || c[3] == moving) continue;
+      const Point u = solid.at[c[1]] - solid.at[c[0]], v = solid.at[c[2]] - solid.at[c[0]], w = solid.at[c[3]] - solid.at[c[0]];
+      least = xsimd::min(least, rank_of_corner<Ideal>(u, v, w, formulas::determinant(u, v, w)));
+    }
+    return least.get(0);
+  }
+
+  /// The least rank of the star with its vertex at each of the places; anything not above `floor` where it is not above it in any slot.
+  F least(Point p, F floor) {
+    using scalar::min;
+    F worth(cap_);
+    if constexpr (kForms) {
+      if (!tetrahedra_may_pass(p, floor)) return F(-1);
+      const F square = dot(p, p);
+      for (std::size_t i = 0; i < task_.tetrahedra.size; ++i) {
+        const TetrahedronForm<F>& f = forms_[i];
+        worth = min(worth, F(432) * formulas::square_over_cube(volume(f, p), squares(f, p, square)));
+      }
+    } else {
+      for (std::size_t i = 0; i < task_.tetrahedra.size; ++i) {
+        const std::size_t k = order_[i];
+        worth = min(worth, formulas::rank<M>(tetrahedra_[k].with(p)));
+        if (!xsimd::any(worth > floor)) {
+          to_front(i);
+          return worth;
+        }
+      }
+    }
+    if constexpr (kCorners) {
+      bool passes = true;
+      for_cornered([&](const auto& element) {
+        if (!passes) return;
+        worth = min(worth, moving_part(widened(element, p), element.kMoving));
+        passes = xsimd::any(worth > floor);
+      });
+    }
+    return worth;
+  }
+
+  static F volume(const TetrahedronForm<F>& f, const Point& p) { return f.v0 + f.vx * p.x + f.vy * p.y + f.vz * p.z; }
+  static F squares(const TetrahedronForm<F>& f, const Point& p, F square) {
+    return f.s0 + f.sx * p.x + f.sy * p.y + f.sz * p.z + F(3) * square;
+  }
+
+  /// Without division: can any of the candidates have a rank above the floor? Most cannot, and the first few tetrahedra tell.
+  bool tetrahedra_may_pass(const Point& p, F floor) {
+    const F square = dot(p, p), threshold = floor * F((1.0F - 1e-4F) / 432.0F);
+    auto passes = square == square;
+    for (std::size_t i = 0; i < task_.tetrahedra.size; ++i) {
+      const TetrahedronForm<F>& f = forms_[order_[i]];
+      const F v = volume(f, p), s = squares(f, p, square);
+      passes = passes & (v * xsimd::abs(v) >= threshold * s * s * s);
+      if (!xsimd::any(passes)) {
+        to_front(i);
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// The one that decided is likely to decide the next.
+  void to_front(std::size_t i) {
+    const std::uint8_t k = order_[i];
+    for (; i > 0; --i) order_[i] = order_[i - 1];
+    order_[0] = k;
+  }
+
+  void search_level(float omega) {
+    const auto n = static_cast<std::size_t>(task_.points);
+    const CandidateGrid<F, Point> grid{
+        {F(at_[0]), F(at_[1]), F(at_[2])}, {F(task_.box.x) * F(omega), F(task_.box.y) * F(omega), F(task_.box.z) * F(omega)}, task_.points};
+    for (std::size_t i = 0; i < n * n; ++i) {
+      const Point p = grid.at(0, static_cast<int>(i / n), static_cast<int>(i % n));
+      y_[i] = p.y.get(0);
+      z_[i] = p.z.get(0);
+    }
+    for (std::size_t i = n * n; i % kWidth != 0; ++i) {  // once more the last, which cannot be better than itself
+      y_[i] = y_[n * n - 1];
+      z_[i] = z_[n * n - 1];
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const F x = grid.at(static_cast<int>(i), 0, 0).x;
+      for (std::size_t j = 0; j < n * n; j += kWidth) {
+        const F rank = least({x, F::load_aligned(y_ + j), F::load_aligned(z_ + j)}, F(best_));
+        if (xsimd::any(rank > F(best_))) take_best(rank, x, j);
+      }
+    }
+  }
+
+  /// Among equals the candidate of lowest index.
+  void take_best(F rank, F x, std::size_t j) {
+    alignas(64) float ranks[kWidth];
+    rank.store_aligned(ranks);
+    for (std::size_t k = 0; k < kWidth; ++k) {
+      if (!(ranks[k] > best_)) continue;
+      best_ = ranks[k];
+      at_[0] = x.get(0);
+      at_[1] = y_[j + k];
+      at_[2] = z_[j + k];
+    }
+  }
+
+  const SolidSearch& task_;
+  float best_ = 0.0F, cap_ = 1e30F;  // the best rank so far; what no candidate's can exceed
+  float at_[3] = {0.0F, 0.0F, 0.0F};
+  std::uint8_t order_[kMaxSolids];
+  alignas(64) float y_[kMaxPlane], z_[kMaxPlane];
+  std::array<TetrahedronForm<F>, kForms ? kMaxSolids : 1> forms_;
+  std::array<StarTetrahedron<F>, kForms ? 1 : kMaxSolids> tetrahedra_;
+};
+
+/// The kernel for `metric` with this translation unit's widest packs.
+template <class F>
+SolidKernel kernel_for(Metric metric) {
+  return formulas::with_solid_metric(metric, []<Metric M>() -> SolidKernel { return &Kernel<M, F>::run; });
+}
+
+}  // namespace dmoscope::solids

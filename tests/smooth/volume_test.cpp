@@ -1,0 +1,166 @@
+// Volumes: the promises on every kind of element, by every method that smooths them, and what must come of real meshes.
+
+#include <gtest/gtest.h>
+
+#include "core/mesh/generate.h"
+#include "core/session/input_mesh.h"
+#include "tests/smooth/promises.h"
+
+namespace dmoscope {
+namespace {
+
+using testing::expect_fixed_stay;
+using testing::expect_promise_one;
+using testing::input;
+using testing::kBudget;
+using testing::make_run;
+using testing::same_bits;
+using testing::Specimen;
+
+/// Small cubes of every kind of element, sound and with vertices thrown far out of place.
+std::vector<Specimen> volumes() {
+  std::vector<Specimen> all;
+  Progress progress;
+  for (const char* kind : {"tetrahedra", "hexahedra", "solids"}) {
+    const Mesh mesh = generate_mesh(kind, 216, 5, progress);
+    all.push_back({kind, mesh});
+    Mesh tangled = mesh;
+    Random random(6);
+    const auto free = input(mesh);
+    for (Index v = 0; v < mesh.vertex_count(); ++v)
+      if (free->topology.boundary()[v] == 0 && random.below(4) == 0)
+        tangled.positions[v] = tangled.positions[v] + Vec3{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
+    all.push_back({std::string(kind) + ", tangled", tangled});
+    Mesh far = mesh;
+    for (Vec3& p : far.positions) p = p + Vec3{1e6, -1e6, 1e6};
+    all.push_back({std::string(kind) + ", far", far});
+    Mesh single = mesh;
+    for (Vec3& p : single.positions) p = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    single.single_precision = true;
+    all.push_back({std::string(kind) + ", single precision", single});
+  }
+  return all;
+}
+
+class VolumePromises : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(VolumePromises, NoVisitMakesAnythingWorseAndFixedVerticesKeepTheirBits) {
+  for (const Specimen& specimen : volumes()) {
+    for (const Metric metric : {Metric::MeanRatio, Metric::Condition, Metric::RadiusRatio}) {
+      if (!testing::defined_for_all(metric, specimen.mesh)) continue;
+      RunParameters parameters;
+      parameters.method = GetParam();
+      parameters.metric = metric;
+      parameters.fixed = {43, 44};  // inside
+      dmoscope::Run run = make_run(input(specimen.mesh), parameters);
+      expect_promise_one(specimen, run, 2);
+      expect_fixed_stay(specimen, run);
+      EXPECT_GT(run.history().records()[1].moved, 0U) << specimen.name;
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Volumes, VolumePromises, ::testing::Values("dmo", "smart-laplace", "pattern-search"), [](const auto& test) {
+  std::string text = test.param;
+  std::ranges::replace(text, '-', '_');
+  return text;
+});
+
+TEST(Volume, SameBitsForAnyThreadsAndSteps) {
+  for (const Specimen& specimen : volumes()) {
+    const auto mesh = input(specimen.mesh);
+    Progress progress;
+    dmoscope::Run one = make_run(mesh, {}, 1), three = make_run(mesh, {}, 3), by_vertex = make_run(mesh, {}, 1);
+    one.iterate(2, progress);
+    three.iterate(2, progress);
+    while (by_vertex.moment().iteration < 2) by_vertex.step(StepUnit::Vertex, progress);
+    EXPECT_TRUE(same_bits(one.positions(), three.positions())) << specimen.name;
+    EXPECT_TRUE(same_bits(one.positions(), by_vertex.positions())) << specimen.name;
+  }
+}
+
+TEST(Volume, NoTwoOfAClassShareAnElement) {
+  for (const Specimen& specimen : volumes()) {
+    const auto mesh = input(specimen.mesh);
+    const dmoscope::Run run = make_run(mesh, {});
+    std::vector<Index> colour(mesh->mesh.positions.size(), kNoIndex);
+    for (Index c = 0; c < run.colouring().class_count(); ++c)
+      for (const Index v : run.colouring().members(c)) colour[v] = c;
+    for (Index e = 0; e < mesh->mesh.elements.size(); ++e) {
+      std::vector<Index> seen;
+      for (const Index v : mesh->mesh.elements.corners(e))
+        if (colour[v] != kNoIndex) seen.push_back(colour[v]);
+      std::ranges::sort(seen);
+      EXPECT_EQ(std::ranges::adjacent_find(seen), seen.end()) << specimen.name << ", element " << e;
+    }
+  }
+}
+
+TEST(Volume, ACubeOfHexahedraBecomesPerfectWithTheSecondPhase) {
+  Progress progress;
+  const auto mesh = input(generate_mesh("hexahedra", 216, 3, progress));
+  dmoscope::Run run = make_run(mesh, {.then_mean = MeanPhase{}});
+  run.iterate(60, progress);
+  EXPECT_GT(run.statistics().minimum, 0.99) << "the lattice it was made from is worth 1";
+}
+
+/// Units of length that are no powers of two: nothing but rounding may differ.
+TEST(Volume, TheUnitOfLengthDoesNotMatter) {
+  for (const Specimen& specimen : volumes()) {
+    if (specimen.name.find(',') != std::string::npos) continue;
+    Progress progress;
+    dmoscope::Run run = make_run(input(specimen.mesh), {});
+    run.iterate(4, progress);
+    for (const double scale : {1e-5, 1e4}) {
+      Mesh scaled = specimen.mesh;
+      for (Vec3& p : scaled.positions) p = scale * p;
+      dmoscope::Run other = make_run(input(scaled), {});
+      other.iterate(4, progress);
+      double largest = 0.0;
+      for (std::size_t v = 0; v < scaled.positions.size(); ++v)
+        largest = std::max(largest, length((1.0 / scale) * other.positions()[v] - run.positions()[v]));
+      EXPECT_LT(largest, 1e-6) << specimen.name << ", " << scale;
+    }
+  }
+}
+
+TEST(Volume, WhatIsForPlanarMeshesAloneIsRefused) {
+  Progress progress;
+  const auto mesh = input(generate_mesh("tetrahedra", 64, 1, progress));
+  EXPECT_THROW(make_run(mesh, {.method = "angle-based"}), UsageError);
+  EXPECT_THROW(make_run(mesh, {.metric = Metric::Rectangularity}), UsageError);
+}
+
+/// A real mesh, smoothed.
+Statistics smoothed(const char* file, std::uint64_t iterations, bool then_mean = false) {
+  const std::filesystem::path path = std::filesystem::path(DMOSCOPE_SHARED_DIR) / "meshes" / file;
+  Progress progress;
+  const auto mesh = load_input(path, Need::Smoothing, progress);
+  dmoscope::Run run = make_run(mesh, {.then_mean = then_mean ? std::optional(MeanPhase{}) : std::nullopt}, 2);
+  Statistics before = run.statistics();
+  for (std::uint64_t i = 0; i < iterations; ++i) {
+    run.iterate(i + 1, progress);
+    const Statistics after = run.statistics();
+    if (before.inverted == 0) {
+      EXPECT_GE(after.minimum, before.minimum) << file << ", iteration " << i + 1;
+      EXPECT_EQ(after.inverted, 0U) << file;
+    }
+    before = after;
+  }
+  return before;
+}
+bool shared_meshes_are_here() { return std::filesystem::exists(std::filesystem::path(DMOSCOPE_SHARED_DIR) / "meshes"); }
+
+TEST(Volume, RealMeshesBecomeAsGoodAsTheirReferences) {
+  if (!shared_meshes_are_here()) GTEST_SKIP() << "no shared meshes at " DMOSCOPE_SHARED_DIR;
+  const Statistics tire = smoothed("tet/tire.vtk", 2);
+  EXPECT_NEAR(tire.minimum, 0.1637, 1e-4) << "the ceiling that elements set whose corners are all fixed";
+  EXPECT_GT(tire.movable_minimum, 0.2335);
+  EXPECT_GT(smoothed("tet/cube-clip-5.vtk", 1).movable_minimum, 0.28);
+  const Statistics tetrahedra = smoothed("tet/tet_4_tangled.vtk", 2);
+  EXPECT_EQ(tetrahedra.inverted, 0U);
+  EXPECT_GT(smoothed("tet/tet_4_tangled.vtk", 20).minimum, 0.6);
+  EXPECT_EQ(smoothed("hex/hex_5_tangled.vtk", 20).inverted, 0U);
+}
+
+}  // namespace
+}  // namespace dmoscope

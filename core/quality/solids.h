@@ -220,8 +220,8 @@ struct SolidFormula<Metric::MinAngle> {
   static DMOSCOPE_ANYWHERE RealOf<V> least(const Tetrahedron<V>& t, F f) {
     const RealOf<V> volume = abs(t.six_volume);
     const auto edge = [&](V e, V g, V h) { return f(sqrt(dot(e, e)) * volume, cross(e, g), cross(e, h)); };
-    return min(min(min(edge(t.ab, t.ac, t.ad), edge(t.ac, t.ad, t.ab)), min(edge(t.ad, t.ab, t.ac), edge(t.bc, t.ab, t.bd))),
-               min(edge(t.bd, t.ab, t.bc), edge(t.cd, t.ac, t.bc)));
+    return min(min(min(edge(t.ab, t.ac, t.ad), edge(t.ac, t.ad, t.ab)), min(edge(t.ad, t.ab, t.ac), edge(t.bc, V{} - t.ab, t.bd))),
+               min(edge(t.bd, V{} - t.ab, t.bc), edge(t.cd, t.ac, t.bc)));
   }
   template <class V>
   static DMOSCOPE_ANYWHERE RealOf<V> tetrahedron(const Tetrahedron<V>& t) {

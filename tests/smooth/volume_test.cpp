@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/mesh/generate.h"
+#include "core/mesh/random.h"
 #include "core/session/input_mesh.h"
 #include "tests/smooth/promises.h"
 
@@ -25,7 +26,7 @@ std::vector<Specimen> volumes() {
     const Mesh mesh = generate_mesh(kind, 216, 5, progress);
     all.push_back({kind, mesh});
     Mesh tangled = mesh;
-    Random random(6);
+    dmoscope::Random random(6);
     const auto free = input(mesh);
     for (Index v = 0; v < mesh.vertex_count(); ++v)
       if (free->topology.boundary()[v] == 0 && random.below(4) == 0)

@@ -178,11 +178,10 @@ class VtkReader {
   void add_kind(std::int64_t type, std::size_t type_place) {
     VtkCells& cells = *cells_;
     const std::size_t c = kinds_.size();
-    const auto begin = cells.corners.begin() + static_cast<std::ptrdiff_t>(cells.offsets[c]);
-    corners_.assign(begin, cells.corners.begin() + static_cast<std::ptrdiff_t>(cells.offsets[c + 1]));
-    const std::optional<ElementKind> kind = element_of_vtk_cell(in(), type, corners_, cells.places[c], type_place);
-    std::copy(corners_.begin(), corners_.end(), begin);
-    kinds_.push_back(kind ? static_cast<std::uint8_t>(*kind) : kNoKind);
+    const std::span<Index> corners = std::span(cells.corners).subspan(cells.offsets[c], cells.offsets[c + 1] - cells.offsets[c]);
+    const VtkElement element = element_of_vtk_cell(type, corners);
+    if (!element.fault.empty()) in().fail_at(element.fault_of_type ? type_place : cells.places[c], element.fault);
+    kinds_.push_back(element.kind ? static_cast<std::uint8_t>(*element.kind) : kNoKind);
   }
 
   [[nodiscard]] std::size_t cell_count() const {
@@ -259,7 +258,6 @@ class VtkReader {
   std::optional<VtkCells> lines_;     // of POLYDATA
   std::vector<std::uint8_t> kinds_;   // of each of cells_: ElementKind or kNoKind
   std::vector<std::size_t> rows_;     // of each element: its row of cell data
-  std::vector<Index> corners_;        // of one cell
 };
 
 bool recognises_vtk(std::string_view bytes) { return equal_ignoring_case(bytes.substr(0, kSignature.size()), kSignature); }

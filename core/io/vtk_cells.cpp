@@ -1,8 +1,11 @@
 #include "core/io/vtk_cells.h"
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
+
+#include "core/io/format.h"
 
 namespace dmoscope {
 namespace {
@@ -159,6 +162,45 @@ VtkElement element_of_vtk_cell(std::int64_t type, std::span<Index> corners) {
   if (type == 8 || type == 11) std::swap(corners[2], corners[3]);
   if (type == 11) std::swap(corners[6], corners[7]);
   return {kind, {}, false};
+}
+
+std::vector<std::size_t> add_vtk_elements(Mesh& mesh, SourceFile& source, const VtkCells& cells, std::span<const std::uint8_t> kinds,
+                                          std::size_t low) {
+  const bool volume = std::any_of(kinds.begin(), kinds.end(),
+                                  [](std::uint8_t kind) { return kind != kNoKind && info(static_cast<ElementKind>(kind)).dimension == 3; });
+  std::size_t faces = 0;
+  std::vector<std::size_t> rows;
+  mesh.elements.reserve(kinds.size(), cells.corners.size());
+  rows.reserve(kinds.size());
+  for (std::size_t c = 0; c < kinds.size(); ++c) {
+    const bool element = kinds[c] != kNoKind;
+    const auto kind = static_cast<ElementKind>(kinds[c]);
+    if (!element || (volume && info(kind).dimension == 2)) {
+      ++(element ? faces : low);
+      continue;
+    }
+    const Index from = cells.offsets[c];
+    add_element(mesh, kind, std::span(cells.corners).subspan(from, cells.offsets[c + 1] - from), source);
+    rows.push_back(c);
+  }
+  const auto skipped = [&source](std::size_t count, std::string_view what) {
+    if (count == 0) return;
+    source.add_note(fmt::format("Cells that are no elements here: {} {}.", count, what));
+    source.add_only_in_file(fmt::format("{} {}", count, what));
+  };
+  skipped(low, "vertices and lines");
+  skipped(faces, "faces of the volume mesh");
+  return rows;
+}
+
+void keep_rows(Field& field, std::span<const std::size_t> rows) {
+  const auto n = static_cast<std::size_t>(field.components);
+  std::vector<double> kept;
+  kept.reserve(rows.size() * n);
+  for (const std::size_t row : rows) {
+    for (std::size_t k = 0; k < n; ++k) kept.push_back(field.values[row * n + k]);
+  }
+  field.values = std::move(kept);
 }
 
 int vtk_cell_type(ElementKind kind) noexcept {

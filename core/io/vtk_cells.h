@@ -33,6 +33,17 @@ struct VtkElement {
 /// hexahedra.
 [[nodiscard]] VtkElement element_of_vtk_cell(std::int64_t type, std::span<Index> corners);
 
+/// What stands for a kind of element where a cell is none.
+inline constexpr std::uint8_t kNoKind = 0xff;
+
+/// Makes elements of those cells that have the highest dimension of all; kinds: an ElementKind or kNoKind for each cell. The others, and
+/// `low` cells besides that are not among them, are named in the source. Returns the cells that became elements.
+[[nodiscard]] std::vector<std::size_t> add_vtk_elements(Mesh& mesh, SourceFile& source, const VtkCells& cells,
+                                                        std::span<const std::uint8_t> kinds, std::size_t low);
+
+/// Keeps of a field these rows alone.
+void keep_rows(Field& field, std::span<const std::size_t> rows);
+
 /// VTK's number for a kind of element.
 [[nodiscard]] int vtk_cell_type(ElementKind kind) noexcept;
 

@@ -88,7 +88,7 @@ SAMPLES = [
 
 
 def literal(line):
-    """A line of bytes as a C++ string literal; a digit after an escape would belong to it, so escapes are octal and whole."""
+    """Some bytes as a C++ string literal; a digit after an escape would belong to it, so escapes are octal and whole."""
     text = "".join(chr(c) if 32 <= c < 127 and c not in b'"\\?' else "\\n" if c == 10 else '\\"' if c == 34 else f"\\{c:03o}" for c in line)
     return f'    "{text}"'
 
@@ -109,8 +109,8 @@ inline std::vector<std::pair<std::string_view, std::string_view>> vtu_samples() 
   return {''')
 for name, writer, pieces in SAMPLES:
     data = writer.file(pieces)
-    lines = [line[i:i + 60] for line in data.splitlines(keepends=True) for i in range(0, len(line), 60)] if writer.where == "appended" and not writer.base else \
-        [line[i:i + 120] for line in data.splitlines(keepends=True) for i in range(0, len(line), 120)]
+    width = 60 if writer.where == "appended" and not writer.base else 130
+    lines = [data[i:i + width] for i in range(0, len(data), width)]
     print(f'  {{"{name}"sv,')
     print("\n".join(literal(line) for line in lines) + "sv},")
 print('''  };

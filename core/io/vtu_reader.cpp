@@ -77,6 +77,11 @@ class VtuReader {
     cells(node, point_count, cell_count);
     attributes(node.child("PointData"), Field::On::Vertices, point_count);
     attributes(node.child("CellData"), Field::On::Elements, cell_count);
+    for (const pugi::xml_node child : node) {
+      const std::string_view name = child.name();
+      const bool known = name == "Points" || name == "Cells" || name == "PointData" || name == "CellData";
+      if (!known && child.type() == pugi::node_element) source_.add_only_in_file(fmt::format("the element {}", name));
+    }
     pieces_read_ = true;
     progress_.check();
     progress_.set(static_cast<double>(node.offset_debug()) / static_cast<double>(document_.xml().size() + 1));
@@ -151,12 +156,12 @@ class VtuReader {
                  std::size_t points, const VtuArray& connectivity, const VtuArray& type_array) {
     const std::size_t first_point = mesh_.positions.size() - points;
     const std::size_t first = cells_.corners.size();
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      if (corners[i] < 0 || static_cast<std::uint64_t>(corners[i]) >= points) {
-        document_.fail(connectivity.node, fmt::format("a cell names point {}, but there are {} points (0 to {})", corners[i], points,
+    for (const std::int64_t corner : corners) {
+      if (corner < 0 || static_cast<std::uint64_t>(corner) >= points) {
+        document_.fail(connectivity.node, fmt::format("a cell names point {}, but there are {} points (0 to {})", corner, points,
                                                       points == 0 ? 0 : points - 1));
       }
-      cells_.corners.push_back(static_cast<Index>(first_point + static_cast<std::size_t>(corners[i])));
+      cells_.corners.push_back(static_cast<Index>(first_point + static_cast<std::size_t>(corner)));
     }
     for (std::size_t c = 0; c < types.size(); ++c) {
       const std::size_t begin = cells_.offsets.back();

@@ -223,8 +223,10 @@ TEST(Vtu, WhatIsNotReadIsNamed) {
       with(bytes, "Name=\"Points\" NumberOfComponents=\"3\" format=\"ascii\">\n",
            "Name=\"Points\" NumberOfComponents=\"3\" format=\"ascii\">\n<InformationKey name=\"L2_NORM_RANGE\" location=\"vtkDataArray\" "
            "length=\"2\"><Value index=\"0\">0</Value></InformationKey>\n");
+  bytes = with(bytes, "</Cells>\n", "</Cells>\n<Extra/>\n");
   const Mesh mesh = read_bytes("vtu", bytes);
   EXPECT_EQ(mesh.positions[9], (Vec3{2, 0.25, 0.5}));
+  EXPECT_THAT(mesh.source->only_in_file(), Contains(HasSubstr("Extra")));
   EXPECT_THAT(mesh.source->only_in_file(), Contains(HasSubstr("TIME")));
   EXPECT_THAT(mesh.source->only_in_file(), Contains(HasSubstr("\"names\"")));
   EXPECT_THAT(mesh.source->only_in_file(), Contains("comments"));

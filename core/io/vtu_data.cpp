@@ -156,7 +156,7 @@ std::vector<Value> ascii(const VtuDocument& document, const VtuArray& array, std
   const std::size_t size = array.limit - array.begin;
   if (expected > size / 2 + 1) document.fail(array.node, fmt::format("{} numbers do not fit in its {} bytes", expected, size));
   Tokenizer tokens(document.bytes().substr(0, array.limit), document.file(), vtu_text_syntax(), document.progress());
-  tokens.seek(array.begin, tokens.line_at(array.begin));
+  tokens.seek(array.begin, document.line_at(array.begin));
   std::vector<Value> values;
   values.reserve(expected);
   if (places != nullptr) places->reserve(expected);

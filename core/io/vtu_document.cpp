@@ -211,9 +211,17 @@ void VtuDocument::fail(pugi::xml_node node, const std::string& what) const {
   fail_at(place_of(node), fmt::format("{}: {}", element, what));
 }
 
+std::size_t VtuDocument::line_at(std::size_t offset) const {
+  const std::size_t low = std::min(offset, counted_at_);
+  const std::string_view between = bytes().substr(low, std::max(offset, counted_at_) - low);
+  const auto lines = static_cast<std::size_t>(std::count(between.begin(), between.end(), '\n'));
+  counted_line_ = offset < counted_at_ ? counted_line_ - lines : counted_line_ + lines;
+  counted_at_ = offset;
+  return counted_line_;
+}
+
 void VtuDocument::fail_at(std::size_t offset, const std::string& what) const {
-  const std::string_view before = bytes().substr(0, offset);
-  throw InputError(file(), 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')), what);
+  throw InputError(file(), line_at(std::min(offset, bytes().size())), what);
 }
 
 }  // namespace dmoscope

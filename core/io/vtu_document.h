@@ -60,6 +60,8 @@ class VtuDocument {
   /// Where the value of an element's attribute lies in the file: begin and size.
   [[nodiscard]] std::pair<std::size_t, std::size_t> attribute_place(pugi::xml_node node, std::string_view attribute) const;
 
+  /// 1-based line of a byte. Counts from the place that was asked for last: cheap for places that are near each other.
+  [[nodiscard]] std::size_t line_at(std::size_t offset) const;
   /// Throws InputError at the line of an element, naming it.
   [[noreturn]] void fail(pugi::xml_node node, const std::string& what) const;
   [[noreturn]] void fail_at(std::size_t offset, const std::string& what) const;
@@ -79,7 +81,8 @@ class VtuDocument {
   bool big_endian_ = false;
   ScalarType header_ = ScalarType::UInt32;
   std::string compressor_;
-  std::size_t appended_begin_ = 0, appended_end_ = 0;  // of the data itself, behind its underscore
+  std::size_t appended_begin_ = 0, appended_end_ = 0;      // of the data itself, behind its underscore
+  mutable std::size_t counted_at_ = 0, counted_line_ = 1;  // a byte and its line
   bool has_appended_ = false;
   bool appended_base64_ = false;
 };

@@ -81,19 +81,24 @@ class VtuPatcher {
     store_scalar(at, type, document_.big_endian(), value);
   }
 
+  /// What comes behind points whose encoded size changed moves with them.
   void move_offsets() {
-    std::vector<Replacement> offsets;
-    for (const auto& array : document_.appended()) {
-      std::size_t offset = array.offset;
-      for (const Replacement& one : replacements_) {
-        if (one.appended && array.begin >= one.end) offset = offset + one.bytes.size() - (one.end - one.begin);
-      }
-      if (offset == array.offset) continue;
-      const auto [begin, size] = document_.attribute_place(array.node, "offset");
-      offsets.push_back({begin, begin + size, std::to_string(offset), false});
+    const auto by_begin = [](const Replacement& a, const Replacement& b) { return a.begin < b.begin; };
+    std::sort(replacements_.begin(), replacements_.end(), by_begin);
+    std::vector<std::size_t> ends;    // of replaced appended data, ascending
+    std::vector<std::size_t> growth;  // of all up to there; below zero it wraps around, and back when it is added
+    for (const Replacement& one : replacements_) {
+      if (!one.appended) continue;
+      ends.push_back(one.end);
+      growth.push_back((growth.empty() ? 0 : growth.back()) + one.bytes.size() - (one.end - one.begin));
     }
-    for (Replacement& one : offsets) replacements_.push_back(std::move(one));
-    std::sort(replacements_.begin(), replacements_.end(), [](const Replacement& a, const Replacement& b) { return a.begin < b.begin; });
+    for (const auto& array : document_.appended()) {
+      const auto before = static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), array.begin) - ends.begin());
+      if (before == 0 || growth[before - 1] == 0) continue;
+      const auto [begin, size] = document_.attribute_place(array.node, "offset");
+      replacements_.push_back({begin, begin + size, std::to_string(array.offset + growth[before - 1]), false});
+    }
+    std::sort(replacements_.begin(), replacements_.end(), by_begin);
   }
 
   void apply() {

@@ -96,13 +96,13 @@ class VtuReader {
   std::vector<double> numbers(const VtuArray& array, std::size_t count) {
     std::size_t end = array.begin;
     std::vector<double> values = vtu_numbers(document_, array, count, end);
-    if (array.appended) others_.push_back({array.begin, end});
+    if (array.appended) others_.push_back({array.begin, end, false});
     return values;
   }
   std::vector<std::int64_t> wholes(const VtuArray& array, std::size_t count) {
     std::size_t end = array.begin;
     std::vector<std::int64_t> values = vtu_wholes(document_, array, count, end);
-    if (array.appended) others_.push_back({array.begin, end});
+    if (array.appended) others_.push_back({array.begin, end, false});
     return values;
   }
 
@@ -179,6 +179,7 @@ class VtuReader {
   void attributes(pugi::xml_node data, Field::On on, std::size_t count) {
     std::vector<std::uint8_t> met(fields_.size(), 0);
     for (const pugi::xml_node node : data) {
+      progress_.check();
       if (node.type() != pugi::node_element) continue;
       const bool of_numbers = std::string_view(node.name()) == "DataArray";
       const std::optional<VtuArray> array = of_numbers ? document_.array(node) : std::optional<VtuArray>();
@@ -243,6 +244,7 @@ class VtuReader {
   };
   struct Range {
     std::size_t begin, end;
+    bool of_points;
   };
 
   /// How coordinates are replaced: in place where they are text or raw, else patch_vtu() encodes them again.
@@ -269,16 +271,26 @@ class VtuReader {
 
   /// Writers may let arrays share their data; moved points would then move in the other arrays, too.
   void find_shared_data() {
+    std::vector<Range> ranges = others_;
     for (const auto& array : document_.appended()) {  // those of strings, say, whose ends are not known
-      const bool of_points = std::any_of(points_.begin(), points_.end(), [&](const PointArray& p) { return p.array.node == array.node; });
-      if (!of_points) others_.push_back({array.begin, array.begin + 1});
+      if (!is_of_points(array.node)) ranges.push_back({array.begin, array.begin + 1, false});
     }
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const auto overlaps = [&](std::size_t begin, std::size_t end) { return begin < points_[i].end && points_[i].array.begin < end; };
-      bool shared = std::any_of(others_.begin(), others_.end(), [&](const Range& other) { return overlaps(other.begin, other.end); });
-      for (std::size_t k = 0; k < i; ++k) shared = shared || overlaps(points_[k].array.begin, points_[k].end);
-      if (shared && points_[i].array.appended) source_.set_not_patchable("other data share the bytes of its points");
+    for (const PointArray& some : points_) {
+      if (some.array.appended) ranges.push_back({some.array.begin, some.end, true});
     }
+    std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.begin < b.begin; });
+    std::size_t end = 0, end_of_points = 0;  // of all before
+    for (const Range& range : ranges) {
+      if (range.end > range.begin && range.begin < (range.of_points ? end : end_of_points)) {
+        return source_.set_not_patchable("other data share the bytes of its points");
+      }
+      end = std::max(end, range.end);
+      if (range.of_points) end_of_points = std::max(end_of_points, range.end);
+    }
+  }
+
+  static bool is_of_points(pugi::xml_node array) {
+    return std::string_view(array.parent().name()) == "Points" && !array.previous_sibling();
   }
 
   void raw_places(std::size_t size) {

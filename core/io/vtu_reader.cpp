@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -114,7 +115,7 @@ class VtuReader {
     std::vector<std::uint64_t> places;
     std::size_t end = array.begin;
     const std::vector<double> values = vtu_numbers(document_, array, 3 * count, end, &places);
-    reserve_large(mesh_.positions, mesh_.positions.size() + count);
+    if (mesh_.positions.empty()) reserve_large(mesh_.positions, count);
     for (std::size_t v = 0; v < count; ++v) {
       const Vec3 p{values[3 * v], values[3 * v + 1], values[3 * v + 2]};
       if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
@@ -272,8 +273,10 @@ class VtuReader {
   /// Writers may let arrays share their data; moved points would then move in the other arrays, too.
   void find_shared_data() {
     std::vector<Range> ranges = others_;
+    std::unordered_set<std::size_t> of_points;
+    for (const PointArray& some : points_) of_points.insert(some.array.node.hash_value());
     for (const auto& array : document_.appended()) {  // those of strings, say, whose ends are not known
-      if (!is_of_points(array.node)) ranges.push_back({array.begin, array.begin + 1, false});
+      if (!of_points.contains(array.node.hash_value())) ranges.push_back({array.begin, array.begin + 1, false});
     }
     for (const PointArray& some : points_) {
       if (some.array.appended) ranges.push_back({some.array.begin, some.end, true});
@@ -287,10 +290,6 @@ class VtuReader {
       end = std::max(end, range.end);
       if (range.of_points) end_of_points = std::max(end_of_points, range.end);
     }
-  }
-
-  static bool is_of_points(pugi::xml_node array) {
-    return std::string_view(array.parent().name()) == "Points" && !array.previous_sibling();
   }
 
   void raw_places(std::size_t size) {

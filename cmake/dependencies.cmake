@@ -53,6 +53,7 @@ set(DMOSCOPE_FMT fmt::fmt)
 set(XSIMD_INCLUDE_DIR ${HEADERS})
 set(DMOSCOPE_HALFEDGES OFF)
 set(DMOSCOPE_VTU OFF)
+message(STATUS "VTU files: left out, they need the libraries zlib and pugixml")
 set(GOOGLETEST ${DMOSCOPE_HEADERS}/googletest)
 if(DMOSCOPE_TESTS AND EXISTS ${GOOGLETEST}/googlemock/src/gmock-all.cc)
   # Not by its own CMake files: those make errors of the warnings that later compilers have for it.

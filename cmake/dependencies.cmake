@@ -1,7 +1,8 @@
 # What everything but the window needs of others: their targets and headers. The rooms that draw find their own.
 #
 #   DMOSCOPE_HEADERS  a folder made by tools/collect-headers on a Debian machine: the build takes these libraries from there, headers
-#                     alone, and needs no package but a compiler. Half-edges (OpenMesh is more than headers) and their tests are left out.
+#                     alone, and needs no package but a compiler. Half-edges and VTU files (OpenMesh, zlib and pugixml are more than
+#                     headers) and their tests are left out.
 set(DMOSCOPE_HEADERS "" CACHE PATH "Folder of collected headers, for machines without the packages")
 find_package(Threads REQUIRED)
 
@@ -20,6 +21,17 @@ if(NOT DMOSCOPE_HEADERS)
     find_package(GTest REQUIRED)
   endif()
   set(DMOSCOPE_HALFEDGES ON)
+  set(DMOSCOPE_VTU OFF)
+  if(NOT DMOSCOPE_PORTABLE)  # its library would need libstdc++'s
+    find_package(ZLIB)
+    find_package(pugixml)
+    if(ZLIB_FOUND AND pugixml_FOUND)
+      set(DMOSCOPE_VTU ON)
+    endif()
+  endif()
+  if(NOT DMOSCOPE_VTU)
+    message(STATUS "VTU files: left out, they need the libraries zlib and pugixml")
+  endif()
   return()
 endif()
 
@@ -40,6 +52,8 @@ target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
 set(DMOSCOPE_FMT fmt::fmt)
 set(XSIMD_INCLUDE_DIR ${HEADERS})
 set(DMOSCOPE_HALFEDGES OFF)
+set(DMOSCOPE_VTU OFF)
+message(STATUS "VTU files: left out, they need the libraries zlib and pugixml")
 set(GOOGLETEST ${DMOSCOPE_HEADERS}/googletest)
 if(DMOSCOPE_TESTS AND EXISTS ${GOOGLETEST}/googlemock/src/gmock-all.cc)
   # Not by its own CMake files: those make errors of the warnings that later compilers have for it.

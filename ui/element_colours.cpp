@@ -57,7 +57,7 @@ std::string category_of(const Group& group, bool many) {
 void by_group(Work& work) {
   constexpr std::size_t kMostGroups = 8;
   const auto& groups = work.mesh.groups;
-  const bool of_elements = std::any_of(groups.begin(), groups.end(), [](const Group& group) { return group.dimension == 2; });
+  const bool of_elements = std::any_of(groups.begin(), groups.end(), [](const Group& group) { return group.of_elements(); });
   work.categories(of_elements ? By::Elements : By::Vertices, of_elements ? work.mesh.elements.size() : work.mesh.positions.size(),
                   of_elements ? "elements" : "vertices");
   work.shading.edges = !of_elements;
@@ -65,11 +65,11 @@ void by_group(Work& work) {
   const bool many = groups.size() > kMostGroups;
   std::map<std::string, std::size_t> numbers;
   for (const Group& group : groups) {
-    if ((group.dimension == 2) != of_elements) continue;
+    if (group.of_elements() != of_elements) continue;
     const std::string name = category_of(group, many);
     const auto [at, added] = numbers.try_emplace(name, work.out.categories.size());
     if (added) work.add_category(name);
-    for (const Index member : group.members) {
+    for (const Index member : of_elements ? std::span<const Index>(group.members) : group.vertices()) {
       if (member < work.shading.values.size() && work.shading.values[member] < 0.0F) work.put(member, at->second);
     }
   }
@@ -299,8 +299,8 @@ std::vector<std::uint8_t> members_of_group(const Mesh& mesh, const std::string& 
   for (const Group& group : mesh.groups) exact = exact || group.name == name;
   for (const Group& group : mesh.groups) {
     if (exact ? group.name != name : !is_named(group, name)) continue;
-    auto& marked = group.dimension == 2 ? elements : vertices;
-    for (const Index member : group.members) {
+    auto& marked = group.of_elements() ? elements : vertices;
+    for (const Index member : group.of_elements() ? std::span<const Index>(group.members) : group.vertices()) {
       if (member < marked.size()) marked[member] = 1;
     }
   }

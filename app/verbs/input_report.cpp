@@ -43,13 +43,12 @@ bool add_group(const std::string& name, const Mesh& mesh, std::vector<Index>& ve
   for (const Group& group : mesh.groups) {
     if (group.name != name) continue;
     found = true;
-    for (const Index member : group.members) {
-      if (group.dimension < 2) {
-        vertices.push_back(member);
-      } else {
-        const auto corners = mesh.elements.corners(member);
-        vertices.insert(vertices.end(), corners.begin(), corners.end());
-      }
+    const auto of_group = group.vertices();
+    vertices.insert(vertices.end(), of_group.begin(), of_group.end());
+    if (!group.of_elements()) continue;
+    for (const Index element : group.members) {
+      const auto corners = mesh.elements.corners(element);
+      vertices.insert(vertices.end(), corners.begin(), corners.end());
     }
   }
   return found;

@@ -15,9 +15,12 @@
 namespace dmoscope {
 namespace {
 
-const std::array<const FormatHandler*, 7>& handlers() {
-  static const std::array<const FormatHandler*, 7> table{&off_format(), &obj_format(),    &ply_format(), &stl_format(),
-                                                         &vtk_format(), &fort14_format(), &su2_format()};
+const std::vector<const FormatHandler*>& handlers() {
+  static const std::vector<const FormatHandler*> table{&off_format(),    &obj_format(), &ply_format(), &stl_format(), &vtk_format(),
+#ifdef DMOSCOPE_VTU
+                                                       &vtu_format(),
+#endif
+                                                       &fort14_format(), &su2_format()};
   return table;
 }
 
@@ -41,6 +44,9 @@ std::string known_formats() {
   for (const FormatHandler* handler : handlers()) {
     result += fmt::format("{}{} ({})", result.empty() ? "" : ", ", handler->info.name, handler->info.extensions);
   }
+#ifndef DMOSCOPE_VTU
+  result += "; VTU is left out of this build of the program, which was made without zlib or pugixml";
+#endif
   return result;
 }
 

@@ -201,16 +201,14 @@ class Reader {
     if (tag_.empty()) tokens_.fail("MARKER_ELEMS= without a MARKER_TAG= before it");
     const std::size_t count = tokens_.read_count("MARKER_ELEMS", kShortest);
     tokens_.end_line();
-    std::vector<Index> edges;
-    std::vector<Index> points;
-    std::size_t faces = 0;
+    MarkerElements found;
     for (std::size_t i = 0; i < count; ++i) {
       begin_line("an element of a marker");
       skip_send_recv();
-      marker_element(edges, points, faces);
+      marker_element(found);
       tokens_.end_line();
     }
-    add_marker(std::move(edges), std::move(points), faces);
+    add_marker(std::move(found));
     tag_.clear();
     foreign_ = false;
   }
@@ -228,34 +226,46 @@ class Reader {
     }
   }
 
-  void marker_element(std::vector<Index>& edges, std::vector<Index>& points, std::size_t& faces) {
+  struct MarkerElements {
+    std::vector<Index> points;
+    std::vector<Index> edges;  // two vertices each
+    ElementTable faces;
+  };
+
+  void marker_element(MarkerElements& found) {
     const std::int64_t type = tokens_.read_integer("type of an element");
     const std::optional<ElementKind> kind = kind_of(type);
     if (type == kVertexType) {
-      points.push_back(vertex());
+      found.points.push_back(vertex());
     } else if (type == kLineType) {
-      edges.push_back(vertex());
-      edges.push_back(vertex());
+      found.edges.push_back(vertex());
+      found.edges.push_back(vertex());
     } else if (kind && info(*kind).dimension == 2 && dimension_ == 3) {
-      for (Index c = 0; c < info(*kind).corners; ++c) (void)vertex();
-      ++faces;
+      std::array<Index, 4> corners{};
+      const std::span<Index> used(corners.data(), info(*kind).corners);
+      for (Index& c : used) c = vertex();
+      found.faces.add(*kind, used);
     } else {
       tokens_.fail(fmt::format("element of type {} in a marker is not read", type));
     }
   }
 
-  void add_marker(std::vector<Index> edges, std::vector<Index> points, std::size_t faces) {
+  /// Group has room for one kind of members: those of fewest dimensions beside others stay in the file alone.
+  void add_marker(MarkerElements found) {
     ++markers_;
-    // Group has room for one kind: faces of volumes, and points beside edges, stay in the file alone.
-    if (faces > 0) source_.add_only_in_file(fmt::format("faces of marker \"{}\"", tag_));
-    if (!points.empty() && !edges.empty()) source_.add_only_in_file(fmt::format("points of marker \"{}\"", tag_));
-    if (edges.empty() && faces > 0) return;
-    const bool of_points = edges.empty() && !points.empty();
-    mesh_.groups.push_back({.name = tag_,
-                            .role = std::string(kMarker),
-                            .code = 0,
-                            .dimension = of_points ? 0 : 1,
-                            .members = of_points ? std::move(points) : std::move(edges)});
+    Group group{.name = tag_, .role = std::string(kMarker), .code = 0, .dimension = 1, .members = {}};
+    if (found.faces.size() > 0) {
+      group.dimension = 2;
+      group.faces = std::move(found.faces);
+      if (!found.edges.empty()) source_.add_only_in_file(fmt::format("edges of marker \"{}\"", tag_));
+    } else if (found.edges.empty() && !found.points.empty()) {
+      group.dimension = 0;
+      group.members = std::move(found.points);
+    } else {
+      group.members = std::move(found.edges);
+    }
+    if (group.dimension > 0 && !found.points.empty()) source_.add_only_in_file(fmt::format("points of marker \"{}\"", tag_));
+    mesh_.groups.push_back(std::move(group));
   }
 
   void finish() {
@@ -284,10 +294,11 @@ Mesh read(SourceFile& source, const IoContext& context) { return Reader(source, 
 
 // --- Writing anew ---
 
-/// A marker as it is written: edges, two vertices each.
+/// A marker as it is written.
 struct Marker {
   std::string tag;
-  std::vector<Index> edges;
+  std::vector<Index> edges;             // two vertices each
+  const ElementTable* faces = nullptr;  // of a volume mesh
 };
 
 /// Is a closed island the type of this land boundary of a fort.14?
@@ -313,9 +324,9 @@ std::vector<Marker> markers_of(const Mesh& mesh, std::vector<std::size_t>& kept,
   for (std::size_t i = 0; i < mesh.groups.size(); ++i) {
     const Group& group = mesh.groups[i];
     const bool chain = group.dimension == 0 && (group.role == "open boundary" || group.role == "land boundary");
-    if (group.dimension != 1 && !chain) continue;
+    if (group.dimension != 1 && !chain && group.faces.size() == 0) continue;
     kept.push_back(i);
-    Marker marker{group.name, chain ? chain_edges(group) : group.members};
+    Marker marker{group.name, chain ? chain_edges(group) : group.members, group.faces.size() > 0 ? &group.faces : nullptr};
     std::replace_if(
         marker.tag.begin(), marker.tag.end(), [](char c) { return c == ' ' || c == '\t' || c == '%'; }, '_');
     if (chain) {
@@ -334,6 +345,19 @@ void write_points(TextWriter& out, std::span<const Vec3> positions, bool volume)
     if (volume) part << positions[v].z << ' ';
     part << v << '\n';
   });
+}
+
+void write_marker(TextWriter& out, const Marker& marker) {
+  const Index faces = marker.faces != nullptr ? marker.faces->size() : 0;
+  out << "MARKER_TAG= " << marker.tag << "\nMARKER_ELEMS= " << marker.edges.size() / 2 + faces << '\n';
+  for (std::size_t i = 0; i + 1 < marker.edges.size(); i += 2) {
+    out << kLineType << ' ' << marker.edges[i] << ' ' << marker.edges[i + 1] << '\n';
+  }
+  for (Index f = 0; f < faces; ++f) {
+    out << kTypes[static_cast<std::size_t>(marker.faces->kind(f))];
+    for (const Index c : marker.faces->corners(f)) out << ' ' << c;
+    out << '\n';
+  }
 }
 
 Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
@@ -357,12 +381,7 @@ Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions,
   });
   write_points(out, positions, volume);
   out << "NMARK= " << markers.size() << '\n';
-  for (const Marker& marker : markers) {
-    out << "MARKER_TAG= " << marker.tag << "\nMARKER_ELEMS= " << marker.edges.size() / 2 << '\n';
-    for (std::size_t i = 0; i + 1 < marker.edges.size(); i += 2) {
-      out << kLineType << ' ' << marker.edges[i] << ' ' << marker.edges[i + 1] << '\n';
-    }
-  }
+  for (const Marker& marker : markers) write_marker(out, marker);
   out.finish();
   return notes;
 }

@@ -1,8 +1,11 @@
 #include "core/io/vtk_cells.h"
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
+
+#include "core/io/format.h"
 
 namespace dmoscope {
 namespace {
@@ -74,33 +77,55 @@ VtkCells read_offsets(VtkValues& values, const std::string& keyword, std::size_t
   return found;
 }
 
-std::string type_name(std::int64_t type) {
-  constexpr static std::array<std::string_view, 17> second_order{"quadratic edge",
-                                                                 "quadratic triangle",
-                                                                 "quadratic quadrilateral",
-                                                                 "quadratic tetrahedron",
-                                                                 "quadratic hexahedron",
-                                                                 "quadratic wedge",
-                                                                 "quadratic pyramid",
-                                                                 "biquadratic quadrilateral",
-                                                                 "triquadratic hexahedron",
-                                                                 "quadratic linear quadrilateral",
-                                                                 "quadratic linear wedge",
-                                                                 "biquadratic quadratic wedge",
-                                                                 "biquadratic quadratic hexahedron",
-                                                                 "biquadratic triangle",
-                                                                 "cubic line",
-                                                                 "quadratic polygon",
-                                                                 "triquadratic pyramid"};
-  if (type >= 21 && type <= 37) return std::string(second_order[static_cast<std::size_t>(type - 21)]) + ", higher order";
-  if (type == 6) return "triangle strip";
-  if (type == 15) return "pentagonal prism";
-  if (type == 16) return "hexagonal prism";
-  if (type == 41) return "convex point set";
-  if (type == 42) return "polyhedron";
-  if (type >= 51 && type <= 67) return "parametric or higher order";
-  if (type >= 68 && type <= 81) return "Lagrange or Bezier, higher order";
-  return "unknown";
+/// What VTK's numbers from `first` on are called.
+struct TypeNames {
+  std::int64_t first;
+  std::span<const std::string_view> names;
+};
+
+constexpr std::array<std::string_view, 17> kSecondOrder{"quadratic edge",
+                                                        "quadratic triangle",
+                                                        "quadratic quadrilateral",
+                                                        "quadratic tetrahedron",
+                                                        "quadratic hexahedron",
+                                                        "quadratic wedge",
+                                                        "quadratic pyramid",
+                                                        "biquadratic quadrilateral",
+                                                        "triquadratic hexahedron",
+                                                        "quadratic linear quadrilateral",
+                                                        "quadratic linear wedge",
+                                                        "biquadratic quadratic wedge",
+                                                        "biquadratic quadratic hexahedron",
+                                                        "biquadratic triangle",
+                                                        "cubic line",
+                                                        "quadratic polygon",
+                                                        "triquadratic pyramid"};
+constexpr std::array<std::string_view, 6> kParametric{"parametric curve",         "parametric surface",     "parametric triangle",
+                                                      "parametric quadrilateral", "parametric tetrahedron", "parametric hexahedron"};
+constexpr std::array<std::string_view, 8> kHigherOrder{"higher-order edge",    "higher-order triangle",    "higher-order quadrilateral",
+                                                       "higher-order polygon", "higher-order tetrahedron", "higher-order wedge",
+                                                       "higher-order pyramid", "higher-order hexahedron"};
+constexpr std::array<std::string_view, 14> kLagrange{
+    "Lagrange curve",     "Lagrange triangle", "Lagrange quadrilateral", "Lagrange tetrahedron", "Lagrange hexahedron",
+    "Lagrange wedge",     "Lagrange pyramid",  "Bezier curve",           "Bezier triangle",      "Bezier quadrilateral",
+    "Bezier tetrahedron", "Bezier hexahedron", "Bezier wedge",           "Bezier pyramid"};
+constexpr std::array kHigherTypes{TypeNames{21, kSecondOrder}, TypeNames{51, kParametric}, TypeNames{60, kHigherOrder},
+                                  TypeNames{68, kLagrange}};
+
+/// Why a cell of this type cannot be read.
+std::string unsupported(std::int64_t type) {
+  for (const TypeNames& some : kHigherTypes) {
+    if (type < some.first || type - some.first >= static_cast<std::int64_t>(some.names.size())) continue;
+    return fmt::format("cells of type {} ({}) are of higher order, which cannot be smoothed here: save the mesh with linear cells", type,
+                       some.names[static_cast<std::size_t>(type - some.first)]);
+  }
+  std::string_view name = "unknown";
+  if (type == 6) name = "triangle strip";
+  if (type == 15) name = "pentagonal prism";
+  if (type == 16) name = "hexagonal prism";
+  if (type == 41) name = "convex point set";
+  if (type == 42) name = "polyhedron";
+  return fmt::format("cells of type {} ({}) are not supported", type, name);
 }
 
 }  // namespace
@@ -118,51 +143,64 @@ VtkCells read_vtk_cells(VtkValues& values, const std::string& keyword, std::size
   return read_counted(values, keyword, cells, size, header, points);
 }
 
-std::optional<ElementKind> element_of_vtk_cell(const MixedInput& in, std::int64_t type, std::vector<Index>& corners, std::size_t cell_place,
-                                               std::size_t type_place) {
-  std::optional<ElementKind> kind;
-  switch (type) {
-    case 0:
-    case 1:
-    case 2:
-    case 3:
-    case 4:
-      return std::nullopt;  // empty cell, vertices, lines
-    case 5:
-      kind = ElementKind::Triangle;
-      break;
-    case 7:
-      if (corners.size() != 3 && corners.size() != 4) {
-        in.fail_at(cell_place, fmt::format("a polygon of {} corners: only those of 3 and 4 can be smoothed", corners.size()));
-      }
-      return corners.size() == 3 ? ElementKind::Triangle : ElementKind::Quadrilateral;
-    case 8:
-    case 9:
-      kind = ElementKind::Quadrilateral;
-      break;
-    case 10:
-      kind = ElementKind::Tetrahedron;
-      break;
-    case 11:
-    case 12:
-      kind = ElementKind::Hexahedron;
-      break;
-    case 13:
-      kind = ElementKind::Wedge;
-      break;
-    case 14:
-      kind = ElementKind::Pyramid;
-      break;
-    default:
-      in.fail_at(type_place, fmt::format("cells of type {} ({}) are not supported", type, type_name(type)));
+VtkElement element_of_vtk_cell(std::int64_t type, std::span<Index> corners) {
+  // Of the types up to 14; -1: no element, -2: see below.
+  constexpr static std::array<int, 15> kinds{-1, -1, -1, -1, -1, 0, -2, -2, 1, 1, 2, 3, 3, 4, 5};
+  const int known = type >= 0 && type < static_cast<std::int64_t>(kinds.size()) ? kinds[static_cast<std::size_t>(type)] : -2;
+  if (known == -1) return {};  // empty cell, vertices, lines
+  if (type == 7) {
+    if (corners.size() == 3) return {ElementKind::Triangle, {}, false};
+    if (corners.size() == 4) return {ElementKind::Quadrilateral, {}, false};
+    return {{}, fmt::format("a polygon of {} corners: only those of 3 and 4 can be smoothed", corners.size()), false};
   }
-  if (corners.size() != info(*kind).corners) {
-    in.fail_at(cell_place,
-               fmt::format("a cell of type {} ({}) has {} corners, not {}", type, info(*kind).name, info(*kind).corners, corners.size()));
+  if (known == -2) return {{}, unsupported(type), true};
+  const auto kind = static_cast<ElementKind>(known);
+  if (corners.size() != info(kind).corners) {
+    return {
+        {}, fmt::format("a cell of type {} ({}) has {} corners, not {}", type, info(kind).name, info(kind).corners, corners.size()), false};
   }
   if (type == 8 || type == 11) std::swap(corners[2], corners[3]);
   if (type == 11) std::swap(corners[6], corners[7]);
-  return kind;
+  return {kind, {}, false};
+}
+
+std::vector<std::size_t> add_vtk_elements(Mesh& mesh, SourceFile& source, const VtkCells& cells, std::span<const std::uint8_t> kinds,
+                                          std::size_t low) {
+  const bool volume = std::any_of(kinds.begin(), kinds.end(),
+                                  [](std::uint8_t kind) { return kind != kNoKind && info(static_cast<ElementKind>(kind)).dimension == 3; });
+  std::size_t faces = 0;
+  std::vector<std::size_t> rows;
+  mesh.elements.reserve(kinds.size(), cells.corners.size());
+  rows.reserve(kinds.size());
+  for (std::size_t c = 0; c < kinds.size(); ++c) {
+    const bool element = kinds[c] != kNoKind;
+    const auto kind = static_cast<ElementKind>(kinds[c]);
+    if (!element || (volume && info(kind).dimension == 2)) {
+      ++(element ? faces : low);
+      continue;
+    }
+    const Index from = cells.offsets[c];
+    add_element(mesh, kind, std::span(cells.corners).subspan(from, cells.offsets[c + 1] - from), source);
+    rows.push_back(c);
+  }
+  const auto skipped = [&source](std::size_t count, std::string_view what) {
+    if (count == 0) return;
+    source.add_note(fmt::format("Cells that are no elements here: {} {}.", count, what));
+    source.add_only_in_file(fmt::format("{} {}", count, what));
+  };
+  skipped(low, "vertices and lines");
+  skipped(faces, "faces of the volume mesh");
+  return rows;
+}
+
+void keep_rows(Field& field, std::span<const std::size_t> rows) {
+  const auto n = static_cast<std::size_t>(field.components);
+  std::vector<double> kept;
+  kept.reserve(rows.size() * n);
+  for (const std::size_t row : rows) {
+    for (std::size_t k = 0; k < n; ++k) kept.push_back(field.values[row * n + k]);
+  }
+  field.values = std::move(kept);
 }
 
 int vtk_cell_type(ElementKind kind) noexcept {

@@ -20,7 +20,6 @@ namespace dmoscope {
 namespace {
 
 constexpr std::string_view kSignature = "# vtk DataFile Version";
-constexpr std::uint8_t kNoKind = 0xff;
 
 class VtkReader {
  public:
@@ -178,11 +177,10 @@ class VtkReader {
   void add_kind(std::int64_t type, std::size_t type_place) {
     VtkCells& cells = *cells_;
     const std::size_t c = kinds_.size();
-    const auto begin = cells.corners.begin() + static_cast<std::ptrdiff_t>(cells.offsets[c]);
-    corners_.assign(begin, cells.corners.begin() + static_cast<std::ptrdiff_t>(cells.offsets[c + 1]));
-    const std::optional<ElementKind> kind = element_of_vtk_cell(in(), type, corners_, cells.places[c], type_place);
-    std::copy(corners_.begin(), corners_.end(), begin);
-    kinds_.push_back(kind ? static_cast<std::uint8_t>(*kind) : kNoKind);
+    const std::span<Index> corners = std::span(cells.corners).subspan(cells.offsets[c], cells.offsets[c + 1] - cells.offsets[c]);
+    const VtkElement element = element_of_vtk_cell(type, corners);
+    if (!element.fault.empty()) in().fail_at(element.fault_of_type ? type_place : cells.places[c], element.fault);
+    kinds_.push_back(element.kind ? static_cast<std::uint8_t>(*element.kind) : kNoKind);
   }
 
   [[nodiscard]] std::size_t cell_count() const {
@@ -200,50 +198,16 @@ class VtkReader {
     }
     add_elements();
     for (Field& field : attributes_.fields()) {
-      if (field.on == Field::On::Elements && rows_.size() != cell_count()) keep_rows(field);
+      if (field.on == Field::On::Elements && rows_.size() != cell_count()) keep_rows(field, rows_);
       mesh_.fields.push_back(std::move(field));
     }
   }
 
   void add_elements() {
-    const bool volume = std::any_of(kinds_.begin(), kinds_.end(), [](std::uint8_t kind) {
-      return kind != kNoKind && info(static_cast<ElementKind>(kind)).dimension == 3;
-    });
     // Cell data of POLYDATA have the rows of vertices and lines first.
     const std::size_t before = (vertices_ ? vertices_->size() : 0) + (lines_ ? lines_->size() : 0);
-    std::size_t low = before;
-    std::size_t faces = 0;
-    mesh_.elements.reserve(kinds_.size(), cells_->corners.size());
-    rows_.reserve(kinds_.size());
-    for (std::size_t c = 0; c < kinds_.size(); ++c) {
-      const bool element = kinds_[c] != kNoKind;
-      const auto kind = static_cast<ElementKind>(kinds_[c]);
-      if (!element || (volume && info(kind).dimension == 2)) {
-        ++(element ? faces : low);
-        continue;
-      }
-      const Index from = cells_->offsets[c];
-      add_element(mesh_, kind, std::span(cells_->corners).subspan(from, cells_->offsets[c + 1] - from), source_);
-      rows_.push_back(before + c);
-    }
-    skipped(low, "vertices and lines");
-    skipped(faces, "faces of the volume mesh");
-  }
-
-  void skipped(std::size_t count, std::string_view what) {
-    if (count == 0) return;
-    source_.add_note(fmt::format("Cells that are no elements here: {} {}.", count, what));
-    source_.add_only_in_file(fmt::format("{} {}", count, what));
-  }
-
-  void keep_rows(Field& field) const {
-    const auto n = static_cast<std::size_t>(field.components);
-    std::vector<double> kept;
-    kept.reserve(rows_.size() * n);
-    for (const std::size_t row : rows_) {
-      for (std::size_t k = 0; k < n; ++k) kept.push_back(field.values[row * n + k]);
-    }
-    field.values = std::move(kept);
+    rows_ = add_vtk_elements(mesh_, source_, *cells_, kinds_, before);
+    for (std::size_t& row : rows_) row += before;
   }
 
   SourceFile& source_;
@@ -259,7 +223,6 @@ class VtkReader {
   std::optional<VtkCells> lines_;     // of POLYDATA
   std::vector<std::uint8_t> kinds_;   // of each of cells_: ElementKind or kNoKind
   std::vector<std::size_t> rows_;     // of each element: its row of cell data
-  std::vector<Index> corners_;        // of one cell
 };
 
 bool recognises_vtk(std::string_view bytes) { return equal_ignoring_case(bytes.substr(0, kSignature.size()), kSignature); }

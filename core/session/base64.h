@@ -1,5 +1,5 @@
 #pragma once
-// Bytes as text (RFC 4648).
+// Positions as text (RFC 4648).
 
 #include <optional>
 #include <span>
@@ -7,13 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/base64.h"
 #include "core/base/vec.h"
 
 namespace dmoscope {
-
-[[nodiscard]] std::string to_base64(std::span<const std::uint8_t> bytes);
-/// None for what is no base64.
-[[nodiscard]] std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text);
 
 /// Positions as the base64 of their coordinates, x y z x y z ..., little-endian doubles: the very bits.
 [[nodiscard]] std::string pack_positions(std::span<const Vec3> positions);

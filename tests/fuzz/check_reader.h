@@ -2,6 +2,7 @@
 // What must hold for whatever bytes a reader is given: it refuses them with an InputError, or the mesh is sound and survives being
 // written and read again.
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -35,6 +36,7 @@ inline void check_sound(const Mesh& mesh) {
     require(field.components >= 1 && field.values.size() == rows * static_cast<std::size_t>(field.components), "size of a field");
   }
   for (const Group& group : mesh.groups) {
+    for (const Index v : group.vertices()) require(v < mesh.positions.size(), "corner of a group's face");
     for (const Index member : group.members) {
       require(member < (group.dimension == 2 ? static_cast<std::size_t>(mesh.elements.size()) : mesh.positions.size()), "group member");
     }
@@ -82,7 +84,10 @@ inline void check_same_data(const Mesh& mesh, const Mesh& other) {
       require(same_bits(mesh.fields[i].values[k], other.fields[i].values[k]), "value of a field");
     }
   }
-  for (std::size_t i = 0; i < mesh.groups.size(); ++i) require(mesh.groups[i].members == other.groups[i].members, "members of a group");
+  for (std::size_t i = 0; i < mesh.groups.size(); ++i) {
+    require(mesh.groups[i].members == other.groups[i].members, "members of a group");
+    require(std::ranges::equal(mesh.groups[i].faces.all_corners(), other.groups[i].faces.all_corners()), "faces of a group");
+  }
 }
 
 /// The same file with every vertex moved; all else stays.

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "core/io/binary.h"
+#include "core/io/mesh_io.h"
+#include "tests/fuzz/vtu_samples.h"
 
 namespace dmoscope::testing {
 
@@ -131,7 +133,7 @@ inline std::string off_binary() {
 
 /// At least one file of each format that format_table() names.
 inline std::vector<Sample> samples() {
-  return {
+  std::vector<Sample> all{
       {"ascii", "off", "OFF\n# a comment\n5 2 0\n0 0 0\n1 0 0 # here\n1 1 0\n0 1.50 0\n2 0 0\n3 0 1 2\n4 0 2 3 4\n"},
       {"binary", "off", off_binary()},
       {"groups", "obj", "# square\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1.50 0\nvt 0 0\ng left\nf 1/1 2/1 3/1\nf -4 -2 -1\n"},
@@ -150,7 +152,14 @@ inline std::vector<Sample> samples() {
       {"marker", "su2",
        "NDIME= 2\nNELEM= 2\n5 0 1 2 0\n5 0 2 3 1\nNPOIN= 4\n0 0 0\n1 0 1\n1 1 2\n0 1.50 3\nNMARK= 1\nMARKER_TAG= wall\nMARKER_ELEMS= 2\n3 "
        "0 1\n3 1 2\n"},
+      {"faces", "su2",
+       "NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1.50 0\n0 0 1\nNMARK= 1\nMARKER_TAG= wall\nMARKER_ELEMS= 2\n5 "
+       "0 2 1\n5 0 1 3\n"},
   };
+  if (format_by_extension(".vtu") != nullptr) {  // not in every build
+    for (const auto& [name, bytes] : vtu_samples()) all.push_back({std::string(name), "vtu", std::string(bytes)});
+  }
+  return all;
 }
 
 }  // namespace dmoscope::testing

@@ -51,6 +51,7 @@ void expect_refused(std::string_view name, std::string_view bytes, std::size_t l
 void expect_consistent(const Mesh& mesh) {
   for (const Index c : mesh.elements.all_corners()) ASSERT_LT(c, mesh.positions.size());
   for (const Group& group : mesh.groups) {
+    for (const Index v : group.vertices()) ASSERT_LT(v, mesh.positions.size());
     const std::size_t limit = group.dimension == 2 ? mesh.elements.size() : mesh.positions.size();
     for (const Index m : group.members) ASSERT_LT(m, limit);
     if (group.dimension == 1) {

@@ -132,6 +132,62 @@ TEST(WriteMesh, UndoesTheFlipOfFlippedElements) {
   EXPECT_EQ(written("a.obj", mesh), kObj);
 }
 
+/// One element of each kind, that of volumes and that of surfaces by themselves; corners of the cube, its apex is vertex 8.
+Mesh one_of_each_kind(int dimension) {
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0.5, 0.5, 2}};
+  if (dimension == 2) {
+    for (Vec3& p : mesh.positions) p.z = 0;
+    mesh.elements.add(ElementKind::Triangle, std::vector<Index>{0, 1, 2});
+    mesh.elements.add(ElementKind::Quadrilateral, std::vector<Index>{0, 1, 2, 3});
+  } else {
+    mesh.elements.add(ElementKind::Tetrahedron, std::vector<Index>{0, 1, 3, 4});
+    mesh.elements.add(ElementKind::Hexahedron, std::vector<Index>{0, 1, 2, 3, 4, 5, 6, 7});
+    mesh.elements.add(ElementKind::Wedge, std::vector<Index>{0, 1, 2, 4, 5, 6});
+    mesh.elements.add(ElementKind::Pyramid, std::vector<Index>{4, 5, 6, 7, 8});
+  }
+  return mesh;
+}
+
+/// The corners of the mesh's one element of this kind.
+std::vector<Index> corners_of_kind(const Mesh& mesh, ElementKind kind) {
+  for (Index e = 0; e < mesh.elements.size(); ++e) {
+    const auto corners = mesh.elements.corners(e);
+    if (mesh.elements.kind(e) == kind) return {corners.begin(), corners.end()};
+  }
+  return {};
+}
+
+TEST(WriteMesh, EveryFormatUndoesTheFlipOfEveryKind) {
+  int kinds_written = 0;
+  for (const int dimension : {2, 3}) {
+    const Mesh mesh = one_of_each_kind(dimension);
+    Mesh turned = mesh;
+    turned.flipped.assign(mesh.elements.size(), 1);
+    for (Index e = 0; e < mesh.elements.size(); ++e) turned.elements.flip(e);
+    for (const FormatInfo& format : format_table()) {
+      if (format.name == "stl") continue;  // has triangles alone, and no vertices of its own
+      SCOPED_TRACE(format.name);
+      const TemporaryFolder folder;
+      std::string name("a");
+      name += format.extensions.substr(0, format.extensions.find(' '));
+      Progress progress;
+      try {
+        (void)write_mesh(folder / name, turned, turned.positions, progress);
+      } catch (const OutputError&) {
+        continue;  // cannot hold these kinds
+      }
+      const Mesh again = read_mesh(folder / name, progress);
+      EXPECT_EQ(again.elements.size(), mesh.elements.size());
+      for (const ElementKind kind : mesh.elements.kinds()) {
+        EXPECT_EQ(corners_of_kind(again, kind), corners_of_kind(mesh, kind)) << info(kind).name;
+        ++kinds_written;
+      }
+    }
+  }
+  EXPECT_GE(kinds_written, 5 * 2 + 2 * 4) << "five formats of surfaces, two of volumes at least";
+}
+
 TEST(WriteMesh, FreshFilesHoldEveryDouble) {
   Mesh mesh = read_bytes("a.off", kOff);
   mesh.source.reset();

@@ -87,6 +87,69 @@ TEST(Vtk, VolumeMeshLosesItsFaces) {
   EXPECT_THAT(mesh.source->notes(), ElementsAre(HasSubstr("1 faces of the volume mesh")));
 }
 
+/// All volume cells of both layouts; the voxel, numbered row by row, is the cube that is also given as a hexahedron.
+TEST(Vtk, VolumeCellsOfBothBinaryLayouts) {
+  const std::vector<std::vector<std::int32_t>> cells{
+      {0, 1, 3, 4}, {0, 1, 3, 2, 4, 5, 7, 6}, {0, 1, 2, 3, 4, 5, 6, 7}, {0, 1, 2, 4, 5, 6}, {4, 5, 6, 7, 8}, {0, 1, 2, 3}, {0, 1}};
+  for (const bool offsets : {false, true}) {
+    std::string s = std::string("# vtk DataFile Version ") + (offsets ? "5.1" : "4.2") +
+                    "\nvolume\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 9 double\n";
+    put<double>(s, true, {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1, 0.5, 0.5, 2});
+    s += offsets ? "\nCELLS 8 37\nOFFSETS vtktypeint64\n" : "\nCELLS 7 44\n";
+    if (offsets) {
+      put<std::int64_t>(s, true, {0, 4, 12, 20, 26, 31, 35, 37});
+      s += "\nCONNECTIVITY vtktypeint64\n";
+    }
+    for (const auto& cell : cells) {
+      if (!offsets) put<std::int32_t>(s, true, {static_cast<std::int32_t>(cell.size())});
+      for (const std::int32_t corner : cell) {
+        if (offsets) put<std::int64_t>(s, true, {corner});
+        if (!offsets) put<std::int32_t>(s, true, {corner});
+      }
+    }
+    s += "\nCELL_TYPES 7\n";
+    put<std::int32_t>(s, true, {10, 11, 12, 13, 14, 9, 3});
+    s += "\n";
+    const Mesh mesh = read_bytes("vtk", s);
+    ASSERT_EQ(mesh.elements.size(), 5U);
+    EXPECT_EQ(mesh.elements.kind(0), ElementKind::Tetrahedron);
+    EXPECT_EQ(mesh.elements.kind(1), ElementKind::Hexahedron);
+    EXPECT_EQ(corners(mesh, 1), corners(mesh, 2)) << "the voxel in a hexahedron's order";
+    EXPECT_THAT(corners(mesh, 1), ElementsAre(0, 1, 2, 3, 4, 5, 6, 7));
+    EXPECT_THAT(corners(mesh, 3), ElementsAre(0, 1, 2, 4, 5, 6));
+    EXPECT_THAT(corners(mesh, 4), ElementsAre(4, 5, 6, 7, 8));
+    EXPECT_THAT(mesh.source->only_in_file(), ElementsAre(HasSubstr("1 vertices and lines"), HasSubstr("1 faces of the volume")));
+    // Written again, the voxel, the face and the line are what they were.
+    std::vector<Vec3> positions = mesh.positions;
+    positions[8].z = 3.0;
+    std::string expected = s;
+    std::string two, three;
+    put<double>(two, true, {2.0});
+    put<double>(three, true, {3.0});
+    expected.replace(expected.find(two, expected.find("double")), 8, three);
+    EXPECT_EQ(write_again(mesh, positions).bytes, expected);
+  }
+}
+
+TEST(Vtk, CellsOfHigherOrderAreRefusedByName) {
+  const std::vector<std::pair<int, std::string>> kinds{
+      {21, "quadratic edge"},       {24, "quadratic tetrahedron"}, {25, "quadratic hexahedron"},
+      {34, "biquadratic triangle"}, {68, "Lagrange curve"},        {71, "Lagrange tetrahedron"},
+      {72, "Lagrange hexahedron"},  {75, "Bezier curve"},          {81, "Bezier pyramid"}};
+  for (const auto& [type, name] : kinds) {
+    std::string bytes = vtk_ascii();
+    bytes.replace(bytes.find("5 5 3 9"), 7, "5\n5 " + std::to_string(type) + " 9");
+    try {
+      read_bytes("vtk", bytes);
+      ADD_FAILURE() << name;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.line(), 19U);
+      EXPECT_THAT(error.what(), HasSubstr("type " + std::to_string(type) + " (" + name + ")"));
+      EXPECT_THAT(error.what(), HasSubstr("linear cells"));
+    }
+  }
+}
+
 TEST(Vtk, UnmovedVerticesKeepTheirCharacters) {
   const Mesh mesh = read_bytes("vtk", vtk_ascii());
   std::vector<Vec3> positions = mesh.positions;

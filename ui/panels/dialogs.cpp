@@ -211,7 +211,7 @@ void draw_about_dialog(PanelContext& context) {
   ImGui::Spacing();
   dim_text(context, "The method: D. Zint, R. Grosso. Discrete Mesh Optimization on GPU. 27th International Meshing Roundtable, 2018.");
   ImGui::Spacing();
-  dim_text(context, "MIT licence. Made with Dear ImGui, GLFW, GLAD, OpenMesh, FreeType, DejaVu fonts.");
+  dim_text(context, "MIT licence. Made with Dear ImGui, GLFW, GLAD, OpenMesh, FreeType, pugixml, zlib, DejaVu fonts.");
   ImGui::Spacing();
   dim_text(context, context.activity.renderer);
   dim_text(context, context.activity.backend + (context.activity.backend_reason.empty() ? "" : ": " + context.activity.backend_reason));

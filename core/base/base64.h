@@ -1,0 +1,39 @@
+#pragma once
+// Bytes as text (RFC 4648).
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dmoscope {
+
+[[nodiscard]] std::string to_base64(std::span<const std::uint8_t> bytes);
+/// None for what is no base64.
+[[nodiscard]] std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text);
+
+/// Reads base64 piece by piece. Blanks and line ends between the digits are passed over, and where one run of base64 ends with its padding
+/// the next may follow (VTK's XML files do so).
+class Base64Reader {
+ public:
+  explicit Base64Reader(std::string_view text) : text_(text) {}
+  /// Appends the next `count` bytes to `out`. False when the text ends before, or at what is no base64; `out` is then as it was.
+  [[nodiscard]] bool read(std::size_t count, std::vector<char>& out);
+  /// How much of the text was read; a group of four digits is read whole.
+  [[nodiscard]] std::size_t position() const noexcept { return at_; }
+
+ private:
+  /// Decodes the next four digits.
+  [[nodiscard]] bool next_group();
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  char group_[3] = {};
+  std::size_t used_ = 0;   // bytes of the group that were given out
+  std::size_t count_ = 0;  // bytes in the group
+};
+
+}  // namespace dmoscope

@@ -15,9 +15,9 @@
 namespace dmoscope {
 namespace {
 
-const std::array<const FormatHandler*, 7>& handlers() {
-  static const std::array<const FormatHandler*, 7> table{&off_format(), &obj_format(),    &ply_format(), &stl_format(),
-                                                         &vtk_format(), &fort14_format(), &su2_format()};
+std::span<const FormatHandler* const> handlers() {
+  static const std::array table{&off_format(), &obj_format(),    &ply_format(), &stl_format(),
+                                &vtk_format(), &fort14_format(), &su2_format(), &medit_format()};
   return table;
 }
 

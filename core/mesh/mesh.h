@@ -117,8 +117,16 @@ struct Group {
   std::string name;
   std::string role;            // "open boundary", "land boundary", "marker", ...
   int code = 0;                // the file's number for it (IBTYPE of fort.14), 0 if it has none
-  int dimension = 0;           // 0: members are vertices; 1: members are edges, two vertices each; 2: elements
+  int dimension = 0;           // 0: members are vertices; 1: members are edges, two vertices each; 2: elements, or else `faces`
   std::vector<Index> members;  // 0-based
+  ElementTable faces{};        // dimension 2, members empty: faces of a volume mesh by their corners, in the file's own winding
+
+  [[nodiscard]] bool of_elements() const noexcept { return dimension == 2 && faces.size() == 0; }
+  /// The vertices of a group of vertices, edges or faces, some more than once; none of a group of elements.
+  [[nodiscard]] std::span<const Index> vertices() const noexcept {
+    if (of_elements()) return {};
+    return faces.size() > 0 ? faces.all_corners() : std::span<const Index>(members);
+  }
 };
 
 struct Mesh {

@@ -129,6 +129,12 @@ inline std::string off_binary() {
   return s;
 }
 
+inline std::string medit_ascii() {
+  return "MeshVersionFormatted 2\n# a comment\nDimension\n3\nVertices\n5\n0 0 0 1\n1 0 0 1\n0 1.50 0 2\n0 0 1 0\n1 1 1 0\n"
+         "Triangles\n2\n1 3 2 7\n2 3 5 7\nEdges\n2\n1 2 3\n2 3 3\nTetrahedra\n2\n1 2 3 4 1\n2 3 4 5 0\n"
+         "Corners\n1\n4\nRidges\n1\n2\nNormals\n1\n0 0 1\nEnd\n";
+}
+
 /// At least one file of each format that format_table() names.
 inline std::vector<Sample> samples() {
   return {
@@ -150,6 +156,10 @@ inline std::vector<Sample> samples() {
       {"marker", "su2",
        "NDIME= 2\nNELEM= 2\n5 0 1 2 0\n5 0 2 3 1\nNPOIN= 4\n0 0 0\n1 0 1\n1 1 2\n0 1.50 3\nNMARK= 1\nMARKER_TAG= wall\nMARKER_ELEMS= 2\n3 "
        "0 1\n3 1 2\n"},
+      {"volume", "medit", medit_ascii()},
+      {"planar", "medit",
+       "MeshVersionFormatted 1\nDimension 2\nTriangles 2 1 2 3 5 1 3 4 0\nEdges 1 1 2 4\nQuadrilaterals 1\n2 5 6 3 5\n"
+       "Vertices 6\n0 0 0\n1 0 0\n1 1 0\n0 1.50 0\n2 0 0\n2 1e0 0\nRequiredVertices 1 1\nEnd\n"},
   };
 }
 

@@ -42,6 +42,7 @@ struct FormatHandler {
 [[nodiscard]] const FormatHandler& vtk_format();
 [[nodiscard]] const FormatHandler& fort14_format();
 [[nodiscard]] const FormatHandler& su2_format();
+[[nodiscard]] const FormatHandler& gmsh_format();
 [[nodiscard]] const FormatHandler& medit_format();
 
 /// All of them, in the order of format_table().

@@ -16,8 +16,8 @@ namespace dmoscope {
 namespace {
 
 std::span<const FormatHandler* const> handlers() {
-  static const std::array table{&off_format(), &obj_format(),    &ply_format(), &stl_format(),
-                                &vtk_format(), &fort14_format(), &su2_format(), &medit_format()};
+  static const std::array table{&off_format(),    &obj_format(), &ply_format(),  &stl_format(),  &vtk_format(),
+                                &fort14_format(), &su2_format(), &gmsh_format(), &medit_format()};
   return table;
 }
 

@@ -202,7 +202,7 @@ inline std::string gmsh_4_binary(bool big) {
   return s + "\n$EndElements\n";
 }
 
-/// At least one file of each format that format_table() names.
+/// At least one file of each format that format_table() names; of a format of two files, both, the byte 0x1e between them.
 inline std::vector<Sample> samples() {
   return {
       {"ascii", "off", "OFF\n# a comment\n5 2 0\n0 0 0\n1 0 0 # here\n1 1 0\n0 1.50 0\n2 0 0\n3 0 1 2\n4 0 2 3 4\n"},
@@ -229,6 +229,9 @@ inline std::vector<Sample> samples() {
       {"4_ascii", "gmsh", gmsh_4_ascii()},
       {"4_little", "gmsh", gmsh_4_binary(false)},
       {"4_big", "gmsh", gmsh_4_binary(true)},
+      {"triangle", "tetgen",
+       "# Triangle\n4 2 1 1\n0 0 0 0.5 1\n1 1 0 0.25 1\n2 1 1 1e-3 1 # corner\n3 0 1.50 0 0\n\x1e\n2 3 0\n0 0 1 2\n1 0 2 3\n"},
+      {"tetgen", "tetgen", "5 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1.0\n5 1 1 1\n\x1e\n2 4 1\n1 1 2 3 4 7\n2 2 3 4 5 -8.5\n# end\n"},
       {"volume", "medit", medit_ascii()},
       {"planar", "medit",
        "MeshVersionFormatted 1\nDimension 2\nTriangles 2 1 2 3 5 1 3 4 0\nEdges 1 1 2 4\nQuadrilaterals 1\n2 5 6 3 5\n"

@@ -109,7 +109,7 @@ std::uint32_t GmshCells::origin_of(int dimension, int physical, int entity) {
 }
 
 void GmshCells::elements_2(const GmshTags& nodes) {
-  const std::size_t count = in_.words.count("the number of elements", in_.binary ? 8.0 : 8.0);
+  const std::size_t count = in_.words.count("the number of elements", 8.0);
   if (in_.binary) return binary_elements_2(count, nodes);
   cells_.reserve_more(count, 4 * count);
   for (std::size_t e = 0; e < count; ++e) {

@@ -24,6 +24,7 @@ class GmshCells {
   void entities();
   void elements(const GmshTags& nodes);
 
+  [[nodiscard]] bool elements_read() const noexcept { return elements_read_; }
   [[nodiscard]] const CellTable& cells() const noexcept { return cells_; }
   /// The number of every cell in the file.
   [[nodiscard]] GmshTags& tags() noexcept { return tags_; }

@@ -1,8 +1,5 @@
-#include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +9,7 @@
 #include "core/base/memory.h"
 #include "core/io/gmsh.h"
 #include "core/io/gmsh_cells.h"
+#include "core/io/gmsh_data.h"
 #include "core/io/gmsh_input.h"
 #include "core/io/gmsh_tags.h"
 
@@ -24,7 +22,7 @@ constexpr std::size_t kPoint = 3 * kReal;
 
 class GmshReader {
  public:
-  GmshReader(SourceFile& source, Progress& progress) : source_(source), in_(source, progress), cells_(in_, source) {}
+  GmshReader(SourceFile& source, Progress& progress) : source_(source), in_(source, progress), cells_(in_, source), data_(in_, source) {}
 
   Mesh read() {
     while (!words().at_end()) section(std::string(words().word("a section")));
@@ -58,7 +56,11 @@ class GmshReader {
     } else if (name == "$Elements") {
       cells_.elements(nodes_);
     } else {
-      data(name == "$NodeData" ? Field::On::Vertices : Field::On::Elements);
+      const bool of_nodes = name == "$NodeData";
+      if (!of_nodes && !cells_.elements_read()) words().fail(name + " before $Elements");
+      GmshTags& tags = of_nodes ? nodes_ : cells_.tags();
+      (void)tags.finish();
+      data_.read(of_nodes ? Field::On::Vertices : Field::On::Elements, tags);
     }
     const std::string end = "$End" + name.substr(1);
     if (words().word(end) != end) words().fail(fmt::format("expected {} (more lines than the count says?)", end));
@@ -206,133 +208,21 @@ class GmshReader {
     for (std::size_t v = 0; v < number; ++v) binary_point(bytes + v * each, first + v * each);
   }
 
-  // --- Data of nodes and elements ---
-
-  /// What stands before the values, always as words.
-  struct DataHead {
-    std::string name;
-    std::size_t components = 0;
-    std::size_t values = 0;  // nodes or elements that have some
-  };
-
-  DataHead data_head() {
-    DataHead head;
-    const std::size_t strings = words().count("the number of strings", 1.0);
-    (void)words().rest_of_line();
-    for (std::size_t i = 0; i < strings; ++i) {
-      std::string_view line = words().rest_of_line();
-      if (line.size() >= 2 && line.front() == '"' && line.back() == '"') line = line.substr(1, line.size() - 2);
-      if (i == 0) head.name = line;
-    }
-    const std::size_t reals = words().count("the number of real tags", 2.0);
-    double time = 0.0;
-    for (std::size_t i = 0; i < reals; ++i) {
-      const double value = words().number("a real tag");
-      if (i == 0) time = value;
-    }
-    const std::size_t wholes = words().count("the number of integer tags", 2.0);
-    if (wholes < 3) words().fail("3 integer tags must say step, components and number of values");
-    std::array<std::int64_t, 3> tags{};
-    for (std::size_t i = 0; i < wholes; ++i) {
-      const std::int64_t value = words().integer("an integer tag");
-      if (i < tags.size()) tags[i] = value;
-      if (i == 1 && (value < 1 || value > 1024)) words().fail(fmt::format("{} components: 1 to 1024 are possible", value));
-      if (i == 2 && value < 0) words().fail(fmt::format("values of {} things", value));
-    }
-    head.components = static_cast<std::size_t>(tags[1]);
-    head.values = static_cast<std::size_t>(tags[2]);
-    const double components = static_cast<double>(head.components);
-    words().need(head.values, in_.binary ? 4.0 + 8.0 * components : 2.0 * (1.0 + components), "the number of values");
-    if (time != 0.0 || tags[0] != 0) {
-      source_.add_only_in_file(fmt::format("time {} and step {} of \"{}\"", time, tags[0], head.name));
-      if (tags[0] != 0) head.name += fmt::format(" (step {})", tags[0]);
-    }
-    return head;
-  }
-
-  void data(Field::On on) {
-    const bool of_nodes = on == Field::On::Vertices;
-    const DataHead head = data_head();
-    if (!of_nodes) (void)cells_.tags().finish();
-    const std::size_t rows = of_nodes ? mesh_.positions.size() : cells_.cells().size();
-    Field field{.name = head.name,
-                .on = on,
-                .components = static_cast<int>(head.components),
-                .type = "double",
-                .role = of_nodes ? "NodeData" : "ElementData",
-                .values = {}};
-    // Values of few nodes only must not make us hold many times what the file is worth.
-    const std::size_t size = rows * head.components;
-    const bool hold = size <= room_for_values_;
-    if (hold) {
-      room_for_values_ -= size;
-      field.values.assign(size, std::numeric_limits<double>::quiet_NaN());
-    } else {
-      source_.add_only_in_file(fmt::format("values \"{}\" of a few nodes or elements", head.name));
-    }
-    in_.begin_data();
-    const std::size_t n = head.components;
-    const std::size_t each = 4 + n * kReal;
-    const char* const bytes = in_.binary ? words().block(head.values * each, "values").data() : nullptr;
-    for (std::size_t i = 0; i < head.values; ++i) {
-      const std::int64_t tag = in_.binary ? in_.int_at(bytes + i * each) : words().integer("the number of a node or element");
-      const Index row = of_nodes ? nodes_.find(tag) : cells_.tags().find(tag);
-      if (row == kNoIndex) words().fail(fmt::format("values of {} {}, which the file does not have", of_nodes ? "node" : "element", tag));
-      for (std::size_t k = 0; k < n; ++k) {
-        const double value = in_.binary ? in_.real_at(bytes + i * each + 4 + k * kReal) : words().number("a value");
-        if (hold) field.values[row * n + k] = value;
-      }
-    }
-    if (hold) fields_.push_back(std::move(field));
-  }
-
-  // --- The end ---
-
   void finish() {
     if (in_.version == 0) words().fail_at(source_.bytes().size(), "the file has no $MeshFormat");
     if (!nodes_read_) words().fail_at(source_.bytes().size(), "the file has no $Nodes");
     if (cells_.cells().dimension() < 2) words().fail_at(source_.bytes().size(), "the file holds no elements of two or three dimensions");
     const std::vector<Index> rows = cells_.add_to(mesh_);
-    for (Field& field : fields_) {
-      const auto n = static_cast<std::size_t>(field.components);
-      if (field.on == Field::On::Elements && !rows.empty()) keep_rows(field, rows);
-      std::size_t without = 0;
-      for (std::size_t i = 0; i < field.values.size(); i += n) without += std::isnan(field.values[i]) ? 1 : 0;
-      const std::size_t things = field.values.size() / n;
-      if (without == things) {
-        source_.add_only_in_file(fmt::format("values \"{}\", which belong to no element of the mesh", field.name));
-        continue;
-      }
-      if (without > 0) {
-        source_.add_note(fmt::format("Field \"{}\" has no value on {} of {} {}.", field.name, without, things,
-                                     field.on == Field::On::Elements ? "elements" : "vertices"));
-      }
-      mesh_.fields.push_back(std::move(field));
-    }
-  }
-
-  void keep_rows(Field& field, std::span<const Index> rows) {
-    const auto n = static_cast<std::size_t>(field.components);
-    std::vector<double> kept;
-    kept.reserve(rows.size() * n);
-    for (const Index row : rows) {
-      for (std::size_t k = 0; k < n; ++k) kept.push_back(field.values[row * n + k]);
-    }
-    const auto values = [](const std::vector<double>& list) {
-      return std::count_if(list.begin(), list.end(), [](double v) { return !std::isnan(v); });
-    };
-    if (values(kept) != values(field.values)) source_.add_only_in_file(fmt::format("values \"{}\" on the boundary", field.name));
-    field.values = std::move(kept);
+    data_.add_to(mesh_, rows);
   }
 
   SourceFile& source_;
   GmshInput in_;
   GmshCells cells_;
+  GmshData data_;
   GmshTags nodes_;
   Mesh mesh_;
   bool nodes_read_ = false;
-  std::vector<Field> fields_;  // a row for each node, or for each cell of the file
-  std::size_t room_for_values_ = 65536 + source_.bytes().size();
 };
 
 bool recognises(std::string_view bytes) { return bytes.starts_with(kFormat) || bytes.starts_with("$NOD"); }

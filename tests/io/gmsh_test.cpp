@@ -258,6 +258,7 @@ TEST(Gmsh, Malformed) {
       {head + nodes + "$NodeData\n1\n\"a\"\n1\n0\n2\n0\n1\n", 15, "3 integer tags"},
       {head + nodes + "$NodeData\n1\n\"a\"\n1\n0\n3\n0\n1\n1\n9 1\n$EndNodeData\n", 19, "values of node 9, which"},
       {head + nodes + "$NodeData\n1\n\"a\"\n1\n0\n3\n0\n99999\n1\n1 1\n$EndNodeData\n", 17, "99999 components"},
+      {head + nodes + "$ElementData\n1\n\"a\"\n1\n0\n3\n0\n1\n0\n$EndElementData\n", 10, "$ElementData before $Elements"},
       {four + "$PartitionedEntities\n2\n", 4, "partitioned meshes are not read"},
       {four + "$Nodes\n1 1 1 3\n4 1 0 1\n1\n0 0 0\n", 6, "an entity of 4 dimensions"},
       {four + "$Nodes\n1 3 1 3\n2 1 0 9\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n", 6, "but only"},

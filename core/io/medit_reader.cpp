@@ -233,18 +233,42 @@ class MeditReader {
     if (!group.members.empty()) mesh_.groups.push_back(std::move(group));
   }
 
+  void add_field(Field::On on, std::vector<double> values) {
+    mesh_.fields.push_back({.name = std::string(kMeditField),
+                            .on = on,
+                            .components = 1,
+                            .type = "int",
+                            .role = std::string(kMeditReference),
+                            .values = std::move(values)});
+  }
+
+  /// Elements and groups. References of elements are groups while these are few, else (a number for each element, say) a field.
+  void add_cells() {
+    constexpr std::size_t kMostGroups = 256;
+    std::vector<std::uint8_t> of_element(labels_.size(), 0);  // by origin
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      if (dimension_of(cells_.shape(c)) == cells_.dimension()) of_element[cells_.origin(c)] = 1;
+    }
+    const bool many = static_cast<std::size_t>(std::count(of_element.begin(), of_element.end(), 1)) > kMostGroups;
+    if (many) {
+      for (OriginLabels& labels : labels_) labels.of_elements = false;
+    }
+    const std::vector<Index> rows = split_cells(cells_, labels_, mesh_, source_);
+    if (!many) return;
+    std::vector<double> values(mesh_.elements.size());
+    for (Index e = 0; e < mesh_.elements.size(); ++e) {
+      values[e] = labels_[cells_.origin(rows.empty() ? e : rows[e])].labels.front().code;
+    }
+    add_field(Field::On::Elements, std::move(values));
+  }
+
   void finish() {
     if (dimension_ == 0) tokens_.fail_at_end("Dimension");
     if (mesh_.positions.empty()) tokens_.fail_at_end("Vertices");
-    (void)split_cells(cells_, labels_, mesh_, source_);
+    add_cells();
     for (const Marks& marks : marks_) add_marks(marks);
     if (std::any_of(references_.begin(), references_.end(), [](int r) { return r != 0; })) {
-      mesh_.fields.push_back({.name = std::string(kMeditField),
-                              .on = Field::On::Vertices,
-                              .components = 1,
-                              .type = "int",
-                              .role = std::string(kMeditReference),
-                              .values = {references_.begin(), references_.end()}});
+      add_field(Field::On::Vertices, {references_.begin(), references_.end()});
     }
     if (source_.bytes().find('#') != std::string_view::npos) source_.add_only_in_file("comments");
   }

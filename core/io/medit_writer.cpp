@@ -74,19 +74,24 @@ class MeditWriter {
     }
   }
 
-  void vertices(bool flat) {
-    std::vector<int> references(positions_.size(), 0);
+  /// The references that a field holds; `otherwise` where there is none.
+  std::vector<int> references_of(Field::On on, std::vector<int> otherwise) {
+    const auto whole = [](double v) { return v == std::nearbyint(v) && std::abs(v) <= 2147483647.0; };
     for (std::size_t i = 0; i < mesh_.fields.size(); ++i) {
       const Field& field = mesh_.fields[i];
-      const auto whole = [](double v) { return v == std::nearbyint(v) && std::abs(v) <= 2147483647.0; };
-      if (field.name != kMeditField || field.on != Field::On::Vertices || field.values.size() != positions_.size() ||
+      if (field.name != kMeditField || field.on != on || field.values.size() != otherwise.size() ||
           !std::all_of(field.values.begin(), field.values.end(), whole)) {
         continue;
       }
-      std::transform(field.values.begin(), field.values.end(), references.begin(), [](double v) { return static_cast<int>(v); });
+      std::transform(field.values.begin(), field.values.end(), otherwise.begin(), [](double v) { return static_cast<int>(v); });
       kept_fields_.push_back(i);
       break;
     }
+    return otherwise;
+  }
+
+  void vertices(bool flat) {
+    const std::vector<int> references = references_of(Field::On::Vertices, std::vector<int>(positions_.size(), 0));
     out_ << "Vertices\n" << positions_.size() << '\n';
     out_.for_each(positions_.size(), [&](TextBuffer& part, std::size_t v) {
       part << positions_[v].x << ' ' << positions_[v].y << ' ';
@@ -147,9 +152,13 @@ class MeditWriter {
 
   /// Sorted by kinds, in the order in which the mesh has the first of each.
   void elements() {
-    const std::vector<int> references = numbers_of_elements(mesh_, numbers_, medit_format().info.title, notes_);
-    for (std::size_t i = 0; i < mesh_.groups.size(); ++i) {
-      if (mesh_.groups[i].of_elements()) keep(i);
+    const std::size_t fields = kept_fields_.size();
+    std::vector<int> references = references_of(Field::On::Elements, std::vector<int>(mesh_.elements.size(), 0));
+    if (fields == kept_fields_.size()) {
+      references = numbers_of_elements(mesh_, numbers_, medit_format().info.title, notes_);
+      for (std::size_t i = 0; i < mesh_.groups.size(); ++i) {
+        if (mesh_.groups[i].of_elements()) keep(i);
+      }
     }
     std::array<ReferencedCells, kElementKindCount> by_kind;
     std::vector<ElementKind> order;

@@ -149,6 +149,30 @@ TEST(Medit, MixedKindsAreSortedAndTheNotesSaySo) {
   EXPECT_THAT(again.groups[0].members, ElementsAre(0, 1));
 }
 
+TEST(Medit, ManyReferencesOfElementsAreAField) {
+  constexpr int kStrip = 300;
+  std::string text = "MeshVersionFormatted 2\nDimension 2\nVertices " + std::to_string(kStrip + 2) + "\n";
+  for (int v = 0; v < kStrip + 2; ++v) text += std::to_string(v / 2) + " " + std::to_string(v % 2) + " 0\n";
+  text += "Edges 1\n1 2 6\nTriangles " + std::to_string(kStrip) + "\n";
+  for (int t = 1; t <= kStrip; ++t) {
+    text += std::to_string(t) + " " + std::to_string(t + 1) + " " + std::to_string(t + 2) + " " + std::to_string(1000 - t) + "\n";
+  }
+  Mesh mesh = read_bytes("a.mesh", text);
+  expect_consistent(mesh);
+  ASSERT_EQ(mesh.groups.size(), 1U);
+  EXPECT_EQ(mesh.groups[0].code, 6);
+  ASSERT_EQ(mesh.fields.size(), 1U);
+  EXPECT_EQ(mesh.fields[0].on, Field::On::Elements);
+  EXPECT_EQ(mesh.fields[0].values.front(), 999);
+  EXPECT_EQ(mesh.fields[0].values.back(), 700);
+  mesh.source.reset();
+  std::vector<std::string> notes;
+  const Mesh again = read_bytes("b.mesh", written("b.mesh", mesh, mesh.positions, &notes));
+  EXPECT_THAT(notes, ElementsAre());
+  ASSERT_EQ(again.fields.size(), 1U);
+  EXPECT_EQ(again.fields[0].values, mesh.fields[0].values);
+}
+
 TEST(Medit, Malformed) {
   const std::string good = kHead + kVertices + kTetrahedra;
   const struct {

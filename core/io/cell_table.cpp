@@ -125,17 +125,17 @@ std::vector<Index> split_cells(const CellTable& cells, std::span<const OriginLab
   return rows;
 }
 
-std::vector<int> numbers_of_groups(const Mesh& mesh) {
+std::vector<int> numbers_of_groups(std::span<const Group> groups) {
   std::array<std::set<int>, 4> used;
-  std::vector<int> numbers(mesh.groups.size(), 0);
-  for (std::size_t i = 0; i < mesh.groups.size(); ++i) {
-    const Group& group = mesh.groups[i];
+  std::vector<int> numbers(groups.size(), 0);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const Group& group = groups[i];
     if (group.code > 0 && used[static_cast<std::size_t>(members_of(group))].insert(group.code).second) numbers[i] = group.code;
   }
   std::array<int, 4> next{1, 1, 1, 1};
-  for (std::size_t i = 0; i < mesh.groups.size(); ++i) {
+  for (std::size_t i = 0; i < groups.size(); ++i) {
     if (numbers[i] != 0) continue;
-    const auto kind = static_cast<std::size_t>(members_of(mesh.groups[i]));
+    const auto kind = static_cast<std::size_t>(members_of(groups[i]));
     while (!used[kind].insert(next[kind]).second) ++next[kind];
     numbers[i] = next[kind];
   }

@@ -79,7 +79,7 @@ struct OriginLabels {
 
 /// A number for every group: its code where that is positive and its own among the groups of its kind (vertices, edges, faces,
 /// elements), else one that is free.
-[[nodiscard]] std::vector<int> numbers_of_groups(const Mesh& mesh);
+[[nodiscard]] std::vector<int> numbers_of_groups(std::span<const Group> groups);
 /// The number of each element's group, 0 without one; the first where there are several, and the notes say so.
 [[nodiscard]] std::vector<int> numbers_of_elements(const Mesh& mesh, std::span<const int> numbers, std::string_view format_title,
                                                    Notes& notes);

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/io/boundary_strings.h"
 #include "core/io/gmsh.h"
 #include "core/io/text_writer.h"
 
@@ -18,7 +19,11 @@ namespace {
 class GmshWriter {
  public:
   GmshWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
-      : out_(file, context), mesh_(mesh), positions_(positions), numbers_(numbers_of_groups(mesh)) {}
+      : out_(file, context),
+        mesh_(mesh),
+        positions_(positions),
+        groups_(groups_with_edges(mesh, "physical group", notes_)),
+        numbers_(numbers_of_groups(groups_)) {}
 
   Notes write() {
     out_ << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
@@ -54,13 +59,13 @@ class GmshWriter {
   }
 
   void names() {
-    for (std::size_t i = 0; i < mesh_.groups.size(); ++i) {
-      if (members(mesh_.groups[i]) > 0 || !mesh_.groups[i].members.empty()) kept_groups_.push_back(i);
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      if (members(groups_[i]) > 0 || !groups_[i].members.empty()) kept_groups_.push_back(i);
     }
     if (kept_groups_.empty()) return;
     out_ << "$PhysicalNames\n" << kept_groups_.size() << '\n';
     for (const std::size_t i : kept_groups_) {
-      out_ << dimension(mesh_.groups[i]) << ' ' << numbers_[i] << " \"" << one_line(mesh_.groups[i].name) << "\"\n";
+      out_ << dimension(groups_[i]) << ' ' << numbers_[i] << " \"" << one_line(groups_[i].name) << "\"\n";
     }
     out_ << "$EndPhysicalNames\n";
   }
@@ -82,12 +87,12 @@ class GmshWriter {
   /// The members of groups first, then the elements, as Gmsh itself does.
   void elements(std::span<const int> physical) {
     std::size_t before = 0;
-    for (const Group& group : mesh_.groups) before += members(group);
+    for (const Group& group : groups_) before += members(group);
     const std::vector<int> entities = entities_of(physical);
     out_ << "$Elements\n" << before + mesh_.elements.size() << '\n';
     std::size_t number = 1;
-    for (std::size_t i = 0; i < mesh_.groups.size(); ++i) {
-      const Group& group = mesh_.groups[i];
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      const Group& group = groups_[i];
       const auto corners = static_cast<std::size_t>(group.dimension + 1);  // of vertices and edges
       out_.for_each(members(group), [&](TextBuffer& part, std::size_t m) {
         if (group.dimension == 2) {
@@ -156,10 +161,11 @@ class GmshWriter {
   TextWriter out_;
   const Mesh& mesh_;
   std::span<const Vec3> positions_;
-  std::vector<int> numbers_;  // of groups
+  Notes notes_;
+  std::vector<Group> groups_;  // the mesh's, boundary strings by their edges
+  std::vector<int> numbers_;   // of groups
   std::size_t first_element_ = 1;
   std::vector<std::size_t> kept_fields_, kept_groups_;
-  Notes notes_;
 };
 
 }  // namespace

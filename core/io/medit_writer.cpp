@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/io/boundary_strings.h"
 #include "core/io/cell_table.h"
 #include "core/io/medit.h"
 #include "core/io/text_writer.h"
@@ -38,10 +39,14 @@ std::string_view mark_of(const Group& group) {
 class MeditWriter {
  public:
   MeditWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
-      : out_(file, context), mesh_(mesh), positions_(positions), numbers_(numbers_of_groups(mesh)) {
+      : out_(file, context),
+        mesh_(mesh),
+        positions_(positions),
+        groups_(groups_with_edges(mesh, "reference", notes_)),
+        numbers_(numbers_of_groups(groups_)) {
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       // Cells without a reference are a group when they are no elements: they get none again.
-      if (mesh.groups[i].role == kMeditReference && mesh.groups[i].code == 0) numbers_[i] = 0;
+      if (groups_[i].role == kMeditReference && groups_[i].code == 0) numbers_[i] = 0;
     }
   }
 
@@ -66,11 +71,11 @@ class MeditWriter {
  private:
   void keep(std::size_t group) {
     kept_groups_.push_back(group);
-    const Group& g = mesh_.groups[group];
+    const Group& g = groups_[group];
     const std::string plain = fmt::format("reference {}", numbers_[group]);
     if (mark_of(g).empty() && g.name != plain) {
       notes_.push_back(
-          fmt::format("The {} \"{}\" was written as {}; MEDIT holds no names.", g.role.empty() ? "group" : g.role, g.name, plain));
+          fmt::format("The {} \"{}\" has {} in the file; MEDIT holds no names.", g.role.empty() ? "group" : g.role, g.name, plain));
     }
   }
 
@@ -118,13 +123,13 @@ class MeditWriter {
       edges.corners.insert(edges.corners.end(), {a, b});
       edges.references.push_back(reference);
     };
-    for (std::size_t i = 0; i < mesh_.groups.size(); ++i) {
-      const Group& group = mesh_.groups[i];
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      const Group& group = groups_[i];
       if (group.dimension != 1 || !mark_of(group).empty()) continue;
       for (std::size_t k = 0; k + 1 < group.members.size(); k += 2) add(group, k, numbers_[i]);
       keep(i);
     }
-    for (const Group& group : mesh_.groups) {
+    for (const Group& group : groups_) {
       if (group.dimension != 1 || mark_of(group).empty()) continue;
       for (std::size_t k = 0; k + 1 < group.members.size(); k += 2) {
         if (!edge_numbers_.contains(std::minmax(group.members[k], group.members[k + 1]))) add(group, k, 0);
@@ -135,8 +140,8 @@ class MeditWriter {
 
   void faces() {
     std::array<ReferencedCells, 2> faces;
-    for (std::size_t i = 0; i < mesh_.groups.size(); ++i) {
-      const ElementTable& of_group = mesh_.groups[i].faces;
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      const ElementTable& of_group = groups_[i].faces;
       if (of_group.size() == 0) continue;
       for (Index f = 0; f < of_group.size(); ++f) add(faces[static_cast<std::size_t>(of_group.kind(f))], of_group.corners(f), numbers_[i]);
       keep(i);
@@ -156,8 +161,8 @@ class MeditWriter {
     std::vector<int> references = references_of(Field::On::Elements, std::vector<int>(mesh_.elements.size(), 0));
     if (fields == kept_fields_.size()) {
       references = numbers_of_elements(mesh_, numbers_, medit_format().info.title, notes_);
-      for (std::size_t i = 0; i < mesh_.groups.size(); ++i) {
-        if (mesh_.groups[i].of_elements()) keep(i);
+      for (std::size_t i = 0; i < groups_.size(); ++i) {
+        if (groups_[i].of_elements()) keep(i);
       }
     }
     std::array<ReferencedCells, kElementKindCount> by_kind;
@@ -179,8 +184,8 @@ class MeditWriter {
   }
 
   void marks() {
-    for (std::size_t i = 0; i < mesh_.groups.size(); ++i) {
-      const Group& group = mesh_.groups[i];
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      const Group& group = groups_[i];
       const std::string_view keyword = mark_of(group);
       if (keyword.empty()) continue;
       const std::size_t each = group.dimension == 1 ? 2 : 1;
@@ -196,10 +201,11 @@ class MeditWriter {
   TextWriter out_;
   const Mesh& mesh_;
   std::span<const Vec3> positions_;
+  Notes notes_;
+  std::vector<Group> groups_;                                    // the mesh's, boundary strings by their edges
   std::vector<int> numbers_;                                     // of groups
   std::map<std::pair<Index, Index>, std::size_t> edge_numbers_;  // the first of each, smaller vertex first
   std::vector<std::size_t> kept_fields_, kept_groups_;
-  Notes notes_;
 };
 
 }  // namespace

@@ -199,6 +199,28 @@ TEST(Gmsh, WhatCannotBeCarriedIsNamed) {
   EXPECT_THAT(notes, ::testing::IsSupersetOf({HasSubstr("\"plate\""), HasSubstr("$Entities"), HasSubstr("the numbers of its nodes")}));
 }
 
+TEST(Gmsh, BoundaryStringsBecomeLines) {
+  // An island of type 1 is closed, an open boundary is not.
+  const Mesh grid =
+      read_bytes("a.14", "t\n2 4\n1 0 0 5\n2 1 0 5\n3 1 1 5\n4 0 1 6\n1 3 1 2 3\n2 3 1 3 4\n1\n3\n3\n1\n2\n3\n1\n3\n3 1\n1\n3\n4\n");
+  ASSERT_EQ(grid.groups.size(), 2U);
+  for (const std::string name : {"a.msh", "a.mesh"}) {
+    std::vector<std::string> notes;
+    const Mesh mesh = read_bytes(name, written(name, grid, grid.positions, &notes));
+    EXPECT_THAT(notes, ::testing::IsSupersetOf({HasSubstr(grid.groups[0].name), HasSubstr(grid.groups[1].name)}));
+    ASSERT_EQ(mesh.groups.size(), 2U) << name;
+    EXPECT_EQ(mesh.groups[0].dimension, 1);
+    EXPECT_THAT(mesh.groups[0].members, ElementsAre(0, 1, 1, 2));
+    EXPECT_THAT(mesh.groups[1].members, ElementsAre(0, 2, 2, 3, 3, 0));
+    if (name == "a.msh") {
+      EXPECT_EQ(mesh.groups[0].name, grid.groups[0].name);
+      ASSERT_EQ(mesh.fields.size(), 1U);
+      EXPECT_EQ(mesh.fields[0].name, "depth");
+      EXPECT_THAT(mesh.fields[0].values, ElementsAre(5, 5, 5, 6));
+    }
+  }
+}
+
 TEST(Gmsh, DataOfTheBoundaryIsNoField) {
   std::string text = dmoscope::testing::gmsh_2_ascii();
   const std::string before = "3\n2\n4 1 2 3\n9 0 0 nan\n";

@@ -144,7 +144,7 @@ TEST(Medit, MixedKindsAreSortedAndTheNotesSaySo) {
   EXPECT_THAT(std::vector<Index>(again.elements.all_corners().begin(), again.elements.all_corners().end()),
               ElementsAre(0, 1, 2, 0, 1, 4, 0, 2, 3, 4));
   EXPECT_THAT(notes, testing::Contains(HasSubstr("sorted by their kinds")));
-  EXPECT_THAT(notes, testing::Contains(HasSubstr("marker \"wall\" was written as reference 1")));
+  EXPECT_THAT(notes, testing::Contains(HasSubstr("marker \"wall\" has reference 1")));
   ASSERT_EQ(again.groups.size(), 1U);
   EXPECT_THAT(again.groups[0].members, ElementsAre(0, 1));
 }

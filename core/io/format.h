@@ -21,6 +21,14 @@ namespace dmoscope {
 /// Sentences for a person: what a file could not carry.
 using Notes = std::vector<std::string>;
 
+/// A second file that a format has beside the one with the coordinates, under the same name with an extension of its own.
+struct CompanionFile {
+  std::string_view main_extension;  // ".node": of the file with the coordinates
+  std::string_view extension;       // ".ele"; either of the two names both files
+  /// Makes it anew. FormatHandler::write was called before, and names what neither file can hold. Throws OutputError, Cancelled.
+  void (*write)(AtomicFile& file, const Mesh& mesh, const IoContext& context);
+};
+
 struct FormatHandler {
   FormatInfo info;
   /// Do these bytes certainly begin a file of this format, whatever its name? Null or false: the extension decides.
@@ -33,6 +41,8 @@ struct FormatHandler {
   Notes (*write)(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
   /// Writes mesh.source again with moved coordinates. Null: write_patched() of patch_writer.h.
   Notes (*patch)(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) = nullptr;
+  /// Null: the format is one file. Otherwise read() finds it as SourceFile::companion(), and patching writes its bytes as they were.
+  const CompanionFile* companion = nullptr;
 };
 
 [[nodiscard]] const FormatHandler& off_format();
@@ -43,6 +53,9 @@ struct FormatHandler {
 [[nodiscard]] const FormatHandler& vtu_format();  // needs zlib and pugixml: not in every build
 [[nodiscard]] const FormatHandler& fort14_format();
 [[nodiscard]] const FormatHandler& su2_format();
+[[nodiscard]] const FormatHandler& gmsh_format();
+[[nodiscard]] const FormatHandler& medit_format();
+[[nodiscard]] const FormatHandler& tetgen_format();
 
 /// All of them, in the order of format_table().
 [[nodiscard]] std::span<const FormatHandler* const> format_handlers();

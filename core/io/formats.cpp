@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,11 +17,11 @@ namespace dmoscope {
 namespace {
 
 const std::vector<const FormatHandler*>& handlers() {
-  static const std::vector<const FormatHandler*> table{&off_format(),    &obj_format(), &ply_format(), &stl_format(), &vtk_format(),
+  static const std::vector<const FormatHandler*> table{&off_format(),    &obj_format(), &ply_format(),  &stl_format(),   &vtk_format(),
 #ifdef DMOSCOPE_VTU
                                                        &vtu_format(),
 #endif
-                                                       &fort14_format(), &su2_format()};
+                                                       &fort14_format(), &su2_format(), &gmsh_format(), &medit_format(), &tetgen_format()};
   return table;
 }
 
@@ -100,6 +101,29 @@ Notes write_anew(AtomicFile& file, const FormatHandler& handler, const Mesh& mes
   return notes;
 }
 
+/// The file of a format with the coordinates, which `path` may name by its companion.
+std::filesystem::path main_path(const std::filesystem::path& path, const FormatHandler* handler) {
+  if (handler == nullptr || handler->companion == nullptr) return path;
+  if (!equal_ignoring_case(path.extension().string(), handler->companion->extension)) return path;
+  return std::filesystem::path(path).replace_extension(handler->companion->main_extension);
+}
+
+std::filesystem::path companion_path(const std::filesystem::path& main, const CompanionFile& companion) {
+  return std::filesystem::path(main).replace_extension(companion.extension);
+}
+
+/// Both files of a format that has two must be there; the error names the one that was asked for.
+void require_both(const std::filesystem::path& path, const FormatHandler* handler) {
+  if (handler == nullptr || handler->companion == nullptr) return;
+  const std::filesystem::path main = main_path(path, handler);
+  const std::filesystem::path second = companion_path(main, *handler->companion);
+  std::error_code error;
+  for (const std::filesystem::path& other : {main, second}) {
+    if (other == path || !std::filesystem::exists(path, error) || std::filesystem::exists(other, error)) continue;
+    throw InputError(path.string(), 0, fmt::format("{}, which belongs to it, is not there", other.filename().string()));
+  }
+}
+
 void require_finite(const std::filesystem::path& path, std::span<const Vec3> positions) {
   for (std::size_t v = 0; v < positions.size(); ++v) {
     const Vec3 p = positions[v];
@@ -130,10 +154,18 @@ const FormatInfo* format_by_extension(std::string_view extension) {
 Mesh read_mesh(const std::filesystem::path& path, const IoContext& context) {
   Progress& progress = context.progress;
   progress.begin("reading " + path.filename().string());
-  auto source = std::make_shared<SourceFile>(path, read_whole_file(path, progress));
-  if (source->bytes().empty()) throw InputError(path.string(), 0, "the file is empty");
-  const FormatHandler& handler = format_of(path, source->bytes());
+  const FormatHandler* named = by_extension(path.extension().string());
+  const std::filesystem::path main = main_path(path, named);
+  if (main != path) require_both(path, named);
+  auto source = std::make_shared<SourceFile>(main, read_whole_file(main, progress));
+  if (source->bytes().empty()) throw InputError(main.string(), 0, "the file is empty");
+  const FormatHandler& handler = format_of(main, source->bytes());
   source->set_format(handler.info.name);
+  if (handler.companion != nullptr) {
+    require_both(path, &handler);
+    const std::filesystem::path second = companion_path(main, *handler.companion);
+    source->set_companion(std::make_shared<SourceFile>(second, read_whole_file(second, progress)));
+  }
   Mesh mesh = handler.read(*source, context);
   if (mesh.positions.empty()) throw InputError(path.string(), 0, "the file holds no vertices");
   if (mesh.elements.size() == 0) throw InputError(path.string(), 0, "the file holds no elements");
@@ -158,14 +190,21 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mes
     throw UsageError(fmt::format("{}: {} positions for {} vertices", path.string(), positions.size(), mesh.positions.size()));
   }
   require_finite(path, positions);
-  AtomicFile file(path);
+  const std::filesystem::path main = main_path(path, handler);
+  AtomicFile file(main);
+  std::optional<AtomicFile> second;
+  if (handler->companion != nullptr) second.emplace(companion_path(main, *handler->companion));
   Notes notes;
   if (can_patch(mesh, *handler)) {
     notes = (handler->patch != nullptr ? handler->patch : write_patched)(file, mesh, positions, context);
+    if (second) second->write(mesh.source->companion()->bytes());
   } else {
     notes = write_anew(file, *handler, mesh, positions, context);
+    if (second) handler->companion->write(*second, mesh, context);
   }
   progress.check();
+  // Nothing can make two renames one; what can fail has been done by now.
+  if (second) second->commit();
   file.commit();
   progress.set(1.0);
   return notes;

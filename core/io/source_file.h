@@ -71,6 +71,9 @@ class SourceFile {
   [[nodiscard]] std::string_view format() const noexcept { return format_; }
   [[nodiscard]] const CoordinateLayout& layout() const noexcept { return layout_; }
 
+  /// The second file of a format that has two (see CompanionFile in format.h); null for all others.
+  [[nodiscard]] const SourceFile* companion() const noexcept { return companion_.get(); }
+
   /// How many places hold coordinates: one a vertex, but more where a format repeats its vertices (STL).
   [[nodiscard]] std::size_t place_count() const noexcept { return stride_ != 0 ? uniform_count_ : places_.size(); }
   /// Byte offset of a place. Ascending.
@@ -88,6 +91,7 @@ class SourceFile {
 
   // For readers.
   void set_format(std::string_view name) { format_ = name; }
+  void set_companion(std::shared_ptr<const SourceFile> file) { companion_ = std::move(file); }
   void set_layout(const CoordinateLayout& layout) { layout_ = layout; }
   void reserve_places(std::size_t count) { reserve_large(places_, count); }
   void add_place(std::size_t offset) { places_.push_back(offset); }
@@ -109,6 +113,7 @@ class SourceFile {
   std::filesystem::path path_;
   FileBytes bytes_;
   std::string format_;
+  std::shared_ptr<const SourceFile> companion_;
   CoordinateLayout layout_;
   std::vector<std::uint64_t> places_;
   std::uint64_t first_ = 0;

@@ -12,6 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
+#include "core/io/boundary_strings.h"
 #include "core/io/format.h"
 #include "core/io/text_writer.h"
 #include "core/io/tokenizer.h"
@@ -300,23 +301,6 @@ struct Marker {
   std::vector<Index> edges;             // two vertices each
   const ElementTable* faces = nullptr;  // of a volume mesh
 };
-
-/// Is a closed island the type of this land boundary of a fort.14?
-bool is_island(const Group& group) { return group.role == "land boundary" && (group.code == 1 || group.code == 11 || group.code == 21); }
-
-/// A boundary string is a chain of vertices: its edges join each with the next, and the last of an island with the first.
-std::vector<Index> chain_edges(const Group& group) {
-  std::vector<Index> edges;
-  for (std::size_t i = 1; i < group.members.size(); ++i) {
-    edges.push_back(group.members[i - 1]);
-    edges.push_back(group.members[i]);
-  }
-  if (is_island(group) && group.members.size() > 2 && group.members.front() != group.members.back()) {
-    edges.push_back(group.members.back());
-    edges.push_back(group.members.front());
-  }
-  return edges;
-}
 
 /// The groups that SU2 can hold; `kept` gets their numbers.
 std::vector<Marker> markers_of(const Mesh& mesh, std::vector<std::size_t>& kept, Notes& notes) {

@@ -55,7 +55,8 @@ TEST(BadInput, MissingEmptyOrAFolder) {
   const Folder folder;
   expect_refused(folder / "none.14", false);
   expect_refused(folder / "", false);
-  for (const char* name : {"e.14", "e.vtk", "e.obj", "e.off", "e.ply", "e.stl", "e.su2"}) expect_refused(folder.file(name, ""), false);
+  for (const char* name : {"e.14", "e.vtk", "e.obj", "e.off", "e.ply", "e.stl", "e.su2", "e.msh", "e.mesh", "e.node"})
+    expect_refused(folder.file(name, ""), false);
 }
 
 TEST(BadInput, UnknownFormat) {

@@ -249,7 +249,7 @@ TEST(Quality, ElementsFileHasOneRowAnElementAndBlanksWhereUndefined) {
 
 TEST(Convert, ThereAndBackKeepsEveryCoordinate) {
   const Folder folder;
-  for (const char* extension : {".obj", ".off", ".ply", ".vtk", ".su2"}) {
+  for (const char* extension : {".obj", ".off", ".ply", ".vtk", ".su2", ".msh", ".mesh", ".node", ".ele"}) {
     const std::string there = folder / (std::string("there") + extension), back = folder / "back.14";
     ASSERT_EQ(run({"convert", sample("coast.14"), there}).code, 0) << extension;
     ASSERT_EQ(run({"convert", there, back}).code, 0) << extension;

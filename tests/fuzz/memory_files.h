@@ -1,6 +1,7 @@
 #pragma once
 // Reading and writing meshes as byte strings, for tests and fuzzers.
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -25,11 +26,19 @@ inline const FormatHandler& handler_of(std::string_view format) {
   throw std::logic_error("no such format");
 }
 
+/// Between the two files of a format that has two.
+inline constexpr char kBetweenFiles = '\x1e';
+
 /// Reads bytes as a format. Throws InputError.
 inline Mesh read_bytes(std::string_view format, std::string_view bytes) {
   Progress progress;
-  auto source = std::make_shared<SourceFile>("sample." + std::string(format), FileBytes(bytes));
+  const std::size_t end = handler_of(format).companion == nullptr ? bytes.size() : std::min(bytes.find(kBetweenFiles), bytes.size());
+  auto source = std::make_shared<SourceFile>("sample." + std::string(format), FileBytes(bytes.substr(0, end)));
   source->set_format(handler_of(format).info.name);
+  if (handler_of(format).companion != nullptr) {
+    const std::string_view rest = bytes.substr(std::min(end + 1, bytes.size()));
+    source->set_companion(std::make_shared<SourceFile>("companion." + std::string(format), FileBytes(rest)));
+  }
   Mesh mesh = handler_of(format).read(*source, progress);
   mesh.source = std::move(source);
   return mesh;
@@ -71,15 +80,32 @@ Written written_by(Write&& write) {
 
 /// A new file of a format. Throws OutputError.
 inline Written write_anew(std::string_view format, const Mesh& mesh, std::span<const Vec3> positions) {
-  return written_by([&](AtomicFile& file, Progress& progress) { return handler_of(format).write(file, mesh, positions, progress); });
+  const FormatHandler& handler = handler_of(format);
+  Written result = written_by([&](AtomicFile& file, Progress& progress) { return handler.write(file, mesh, positions, progress); });
+  if (handler.companion == nullptr) return result;
+  const Written second = written_by([&](AtomicFile& file, Progress& progress) {
+    handler.companion->write(file, mesh, progress);
+    return Notes();
+  });
+  result.bytes += kBetweenFiles + second.bytes;
+  return result;
+}
+
+/// All that a mesh was read from, as read_bytes() took it.
+inline std::string source_bytes(const SourceFile& source) {
+  std::string bytes(source.bytes());
+  if (source.companion() != nullptr) bytes.append(1, kBetweenFiles).append(source.companion()->bytes());
+  return bytes;
 }
 
 /// The mesh's own file with moved coordinates. Throws OutputError.
 inline Written write_again(const Mesh& mesh, std::span<const Vec3> positions) {
   const FormatHandler& handler = handler_of(mesh.source->format());
-  return written_by([&](AtomicFile& file, Progress& progress) {
+  Written result = written_by([&](AtomicFile& file, Progress& progress) {
     return (handler.patch != nullptr ? handler.patch : write_patched)(file, mesh, positions, progress);
   });
+  if (mesh.source->companion() != nullptr) result.bytes.append(1, kBetweenFiles).append(mesh.source->companion()->bytes());
+  return result;
 }
 
 }  // namespace dmoscope::testing

@@ -131,7 +131,80 @@ inline std::string off_binary() {
   return s;
 }
 
-/// At least one file of each format that format_table() names.
+inline std::string medit_ascii() {
+  return "MeshVersionFormatted 2\n# a comment\nDimension\n3\nVertices\n5\n0 0 0 1\n1 0 0 1\n0 1.50 0 2\n0 0 1 0\n1 1 1 0\n"
+         "Triangles\n2\n1 3 2 7\n2 3 5 7\nEdges\n2\n1 2 3\n2 3 3\nTetrahedra\n2\n1 2 3 4 1\n2 3 4 5 0\n"
+         "Corners\n1\n4\nRidges\n1\n2\nNormals\n1\n0 0 1\nEnd\n";
+}
+
+// Two tetrahedra with a triangle, a line and a point of their boundary; the numbers of the nodes have gaps and are in no order.
+inline std::string gmsh_2_ascii() {
+  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 7 \"outer wall\"\n3 1 \"rock\"\n$EndPhysicalNames\n"
+         "$Nodes\n5\n3 0 0 0\n1 1.0 0 0\n10 0 1.50 0\n20 0 0 1\n5 1 1 1\n$EndNodes\n"
+         "$Elements\n5\n1 15 2 4 1 3\n2 1 2 0 2 3 1\n3 2 2 7 3 3 10 1\n4 4 2 1 1 3 1 10 20\n9 4 3 1 2 1 1 10 20 5\n$EndElements\n"
+         "$Periodic\n0\n$EndPeriodic\n$NodeData\n1\n\"depth\"\n1\n0.5\n3\n0\n1\n5\n1 1\n3 2\n5 3\n10 4e0\n20 5\n$EndNodeData\n"
+         "$ElementData\n1\n\"flow\"\n1\n0\n3\n0\n3\n2\n4 1 2 3\n9 0 0 nan\n$EndElementData\n";
+}
+
+inline std::string gmsh_2_binary(bool big) {
+  std::string s = "$MeshFormat\n2.2 1 8\n";
+  put<std::int32_t>(s, big, {1});
+  s += "\n$EndMeshFormat\n$Nodes\n5\n";
+  const double xyz[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1.5, 0}, {0, 0, 1}, {1, 1, 1}};
+  for (std::int32_t v = 0; v < 5; ++v) {
+    put<std::int32_t>(s, big, {v + 2});
+    put<double>(s, big, {xyz[v][0], xyz[v][1], xyz[v][2]});
+  }
+  s += "\n$EndNodes\n$Elements\n3\n";
+  put<std::int32_t>(s, big, {2, 1, 2, 1, 7, 3, 2, 4, 3});
+  put<std::int32_t>(s, big, {4, 2, 2, 2, 1, 1, 2, 3, 4, 5, 3, 1, 1, 3, 4, 5, 6});
+  s += "\n$EndElements\n$NodeData\n1\n\"depth\"\n1\n0\n3\n0\n1\n2\n";
+  for (std::int32_t v = 2; v < 4; ++v) {
+    put<std::int32_t>(s, big, {v});
+    put<double>(s, big, {0.25 * v});
+  }
+  return s + "\n$EndNodeData\n";
+}
+
+inline std::string gmsh_4_ascii() {
+  return "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 5 \"plate\"\n$EndPhysicalNames\n"
+         "$Entities\n1 1 2 0\n1 0 0 0 0\n1 0 0 0 1 0 0 1 6 2 1 -1\n1 0 0 0 1 1 0 2 5 8 1 1\n2 0 0 0 1 1 0 1 5 0\n$EndEntities\n"
+         "$Nodes\n3 5 1 9\n0 1 0 1\n9\n0 0 0\n1 1 1 1\n2\n1.0 0 0 0.5\n2 1 0 3\n3\n4\n1\n1 1 0\n0 1.50 0\n2 0.5 0\n$EndNodes\n"
+         "$Elements\n4 5 1 5\n0 1 15 1\n1 9\n1 1 1 1\n2 9 2\n2 1 2 2\n3 9 2 3\n4 9 3 4\n2 2 2 1\n5 2 1 3\n$EndElements\n";
+}
+
+inline std::string gmsh_4_binary(bool big) {
+  std::string s = "$MeshFormat\n4.1 1 8\n";
+  put<std::int32_t>(s, big, {1});
+  s += "\n$EndMeshFormat\n$Entities\n";
+  put<std::int64_t>(s, big, {0, 0, 1, 1});
+  put<std::int32_t>(s, big, {3});
+  put<double>(s, big, {0, 0, 0, 1, 1, 1});
+  put<std::int64_t>(s, big, {1});
+  put<std::int32_t>(s, big, {7});
+  put<std::int64_t>(s, big, {0});
+  put<std::int32_t>(s, big, {1});
+  put<double>(s, big, {0, 0, 0, 1, 1, 1});
+  put<std::int64_t>(s, big, {0, 1});
+  put<std::int32_t>(s, big, {-3});
+  s += "\n$EndEntities\n$Nodes\n";
+  put<std::int64_t>(s, big, {2, 5, 1, 6});
+  put<std::int32_t>(s, big, {2, 3, 1});
+  put<std::int64_t>(s, big, {3, 1, 2, 3});
+  put<double>(s, big, {0, 0, 0, 0.5, 0.5, 1, 0, 0, 0.5, 0.25, 0, 1.5, 0, 0, 0});
+  put<std::int32_t>(s, big, {3, 1, 0});
+  put<std::int64_t>(s, big, {2, 6, 5});
+  put<double>(s, big, {0, 0, 1, 1, 1, 1});
+  s += "\n$EndNodes\n$Elements\n";
+  put<std::int64_t>(s, big, {2, 3, 1, 3});
+  put<std::int32_t>(s, big, {2, 3, 2});
+  put<std::int64_t>(s, big, {1, 1, 1, 3, 2});
+  put<std::int32_t>(s, big, {3, 1, 4});
+  put<std::int64_t>(s, big, {2, 2, 1, 2, 3, 6, 3, 2, 3, 6, 5});
+  return s + "\n$EndElements\n";
+}
+
+/// At least one file of each format that format_table() names; of a format of two files, both, the byte 0x1e between them.
 inline std::vector<Sample> samples() {
   std::vector<Sample> all{
       {"ascii", "off", "OFF\n# a comment\n5 2 0\n0 0 0\n1 0 0 # here\n1 1 0\n0 1.50 0\n2 0 0\n3 0 1 2\n4 0 2 3 4\n"},
@@ -155,6 +228,19 @@ inline std::vector<Sample> samples() {
       {"faces", "su2",
        "NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1.50 0\n0 0 1\nNMARK= 1\nMARKER_TAG= wall\nMARKER_ELEMS= 2\n5 "
        "0 2 1\n5 0 1 3\n"},
+      {"2_ascii", "gmsh", gmsh_2_ascii()},
+      {"2_little", "gmsh", gmsh_2_binary(false)},
+      {"2_big", "gmsh", gmsh_2_binary(true)},
+      {"4_ascii", "gmsh", gmsh_4_ascii()},
+      {"4_little", "gmsh", gmsh_4_binary(false)},
+      {"4_big", "gmsh", gmsh_4_binary(true)},
+      {"triangle", "tetgen",
+       "# Triangle\n4 2 1 1\n0 0 0 0.5 1\n1 1 0 0.25 1\n2 1 1 1e-3 1 # corner\n3 0 1.50 0 0\n\x1e\n2 3 0\n0 0 1 2\n1 0 2 3\n"},
+      {"tetgen", "tetgen", "5 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1.0\n5 1 1 1\n\x1e\n2 4 1\n1 1 2 3 4 7\n2 2 3 4 5 -8.5\n# end\n"},
+      {"volume", "medit", medit_ascii()},
+      {"planar", "medit",
+       "MeshVersionFormatted 1\nDimension 2\nTriangles 2 1 2 3 5 1 3 4 0\nEdges 1 1 2 4\nQuadrilaterals 1\n2 5 6 3 5\n"
+       "Vertices 6\n0 0 0\n1 0 0\n1 1 0\n0 1.50 0\n2 0 0\n2 1e0 0\nRequiredVertices 1 1\nEnd\n"},
   };
   if (format_by_extension(".vtu") != nullptr) {  // not in every build
     for (const auto& [name, bytes] : vtu_samples()) all.push_back({std::string(name), "vtu", std::string(bytes)});

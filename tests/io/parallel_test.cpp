@@ -61,7 +61,7 @@ TEST(Threads, WriteTheSameBytes) {
   Progress progress;
   ThreadPool pool(3);
   Mesh mesh = large();
-  for (const std::string name : {"a.off", "a.obj", "a.14", "a.su2", "a.vtk", "a.ply"}) {
+  for (const std::string name : {"a.off", "a.obj", "a.14", "a.su2", "a.vtk", "a.ply", "a.msh", "a.mesh"}) {
     const std::string alone = written(name, mesh, shaken(mesh));
     write_mesh(folder / name, mesh, shaken(mesh), {progress, &pool});
     EXPECT_TRUE(get(folder / name) == alone) << name << " made anew";

@@ -1,0 +1,21 @@
+#pragma once
+// The boundary strings of fort.14 files, chains of vertices, for formats whose boundaries are edges.
+
+#include <string_view>
+#include <vector>
+
+#include "core/io/format.h"
+#include "core/mesh/mesh.h"
+
+namespace dmoscope {
+
+/// Is the group an open or land boundary of a fort.14?
+[[nodiscard]] bool is_boundary_string(const Group& group);
+
+/// The edges of a boundary string, two vertices each: they join each vertex with the next, and the last of an island with the first.
+[[nodiscard]] std::vector<Index> chain_edges(const Group& group);
+
+/// The mesh's groups, boundary strings among them as groups of their edges; the notes name these. `written_as`: "physical group".
+[[nodiscard]] std::vector<Group> groups_with_edges(const Mesh& mesh, std::string_view written_as, Notes& notes);
+
+}  // namespace dmoscope

@@ -1,0 +1,87 @@
+#pragma once
+// Cells of every dimension side by side, as Gmsh and MEDIT files hold them: those of the highest dimension are the mesh's elements, the
+// others become groups of vertices, edges and faces.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/io/format.h"
+#include "core/io/source_file.h"
+#include "core/mesh/mesh.h"
+
+namespace dmoscope {
+
+/// Points, lines, and then the kinds of element in their order.
+enum class CellShape : std::uint8_t { Point, Line, Triangle, Quadrilateral, Tetrahedron, Hexahedron, Wedge, Pyramid };
+inline constexpr std::size_t kCellShapeCount = 2 + kElementKindCount;
+
+[[nodiscard]] constexpr CellShape shape_of(ElementKind kind) noexcept { return static_cast<CellShape>(static_cast<int>(kind) + 2); }
+/// Nothing for points and lines.
+[[nodiscard]] constexpr std::optional<ElementKind> kind_of(CellShape shape) noexcept {
+  if (shape < CellShape::Triangle) return std::nullopt;
+  return static_cast<ElementKind>(static_cast<int>(shape) - 2);
+}
+[[nodiscard]] constexpr Index corners_of(CellShape shape) noexcept {
+  return shape < CellShape::Triangle ? static_cast<Index>(shape) + 1 : info(*kind_of(shape)).corners;
+}
+[[nodiscard]] constexpr int dimension_of(CellShape shape) noexcept {
+  return shape < CellShape::Triangle ? static_cast<int>(shape) : info(*kind_of(shape)).dimension;
+}
+
+/// Cells in the file's order. Each has an origin: the number of what the file puts it into (a reference, an entity), counted by the reader.
+class CellTable {
+ public:
+  [[nodiscard]] std::size_t size() const noexcept { return shapes_.size(); }
+  /// The highest of all cells, -1 without any.
+  [[nodiscard]] int dimension() const noexcept { return dimension_; }
+  [[nodiscard]] CellShape shape(std::size_t cell) const noexcept { return shapes_[cell]; }
+  [[nodiscard]] std::uint32_t origin(std::size_t cell) const noexcept { return origins_[cell]; }
+  [[nodiscard]] std::span<const Index> all_corners() const noexcept { return corners_; }
+  void reserve_more(std::size_t cells, std::size_t corners);
+  /// Appends one cell with corners_of(shape) corners.
+  void add(CellShape shape, const Index* corners, std::uint32_t origin) {
+    shapes_.push_back(shape);
+    origins_.push_back(origin);
+    corners_.insert(corners_.end(), corners, corners + corners_of(shape));
+    dimension_ = std::max(dimension_, dimension_of(shape));
+  }
+
+ private:
+  std::vector<CellShape> shapes_;
+  std::vector<std::uint32_t> origins_;
+  std::vector<Index> corners_;
+  int dimension_ = -1;
+};
+
+/// What a group made of cells is called.
+struct GroupLabel {
+  std::string name;
+  std::string role;
+  int code = 0;
+};
+/// The groups that the cells of one origin belong to.
+struct OriginLabels {
+  std::vector<GroupLabel> labels;
+  bool of_elements = true;  // are the mesh's elements put into groups, too? (or only what is no element)
+};
+
+/// Adds the cells of the highest dimension (2 or 3) to mesh.elements and all others to mesh.groups, and elements to groups where their
+/// origin says so. labels[origin]. Beyond several thousand groups the rest is one group, and said to be so.
+/// Returns the cell that each element was; empty if every cell is one. Throws InputError (too many corners).
+[[nodiscard]] std::vector<Index> split_cells(const CellTable& cells, std::span<const OriginLabels> labels, Mesh& mesh, SourceFile& source);
+
+// --- For writers ---
+
+/// A number for every group: its code where that is positive and its own among the groups of its kind (vertices, edges, faces,
+/// elements), else one that is free.
+[[nodiscard]] std::vector<int> numbers_of_groups(std::span<const Group> groups);
+/// The number of each element's group, 0 without one; the first where there are several, and the notes say so.
+[[nodiscard]] std::vector<int> numbers_of_elements(const Mesh& mesh, std::span<const int> numbers, std::string_view format_title,
+                                                   Notes& notes);
+
+}  // namespace dmoscope

@@ -44,8 +44,6 @@ class VisibleCells {
   [[nodiscard]] std::span<const CellChunk> chunks() const noexcept { return chunks_; }
   [[nodiscard]] std::size_t changed_count() const noexcept;
   [[nodiscard]] std::size_t visible_count() const noexcept;
-  /// Of all vertices, along the view's normal; only of a clip plane that was on in the last update.
-  [[nodiscard]] std::span<const double> heights() const noexcept { return heights_; }
 
  private:
   void measure(Vec3 normal, const CellState& state, ThreadPool* pool);

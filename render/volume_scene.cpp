@@ -1,0 +1,224 @@
+#include "render/volume_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/session/summary.h"
+#include "render/draw_state.h"
+#include "render/face_painter.h"
+#include "render/volume_marks.h"
+#include "render/volume_pick.h"
+
+namespace dmoscope::render {
+namespace {
+
+FacePainter::Point point_of(Vec3 p) { return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}; }
+
+}  // namespace
+
+struct VolumeScene::Impl {
+  FacePainter painter;
+  MarkPainter marks;
+  std::shared_ptr<const void> mesh_owner, state_owner;
+  const ElementTable* elements = nullptr;
+  std::unique_ptr<Inside> inside;
+  CellState state;
+  InsideView view;
+  InsideFaces nothing;
+  Bounds3 bounds;
+  Vec3 origin;  // positions on the OpenGL side are relative to it: the middle of the bounds
+  ThreadPool* pool = nullptr;
+  std::uint64_t revision = 0, uploaded_faces = 0, uploaded_cuts = 0, updates = 0;
+  std::uint64_t means_of = 0;  // the update whose means are uploaded
+  std::vector<FacePainter::Point> points;
+  std::vector<FaceRecord> records;
+
+  [[nodiscard]] const InsideFaces& seen() const noexcept { return inside ? inside->faces() : nothing; }
+  [[nodiscard]] SeenFaces seen_faces() const { return {*elements, state.positions, seen(), view}; }
+  void upload_state();
+  void upload_faces();
+  void upload_means();
+  void refresh() {
+    inside->update(view, state, pool);
+    upload_faces();
+    ++revision;
+  }
+  [[nodiscard]] Vec3 relative(Vec3 p) const { return p - origin; }
+};
+
+VolumeScene::VolumeScene() : impl_(std::make_unique<Impl>()) {}
+VolumeScene::~VolumeScene() = default;
+VolumeScene::VolumeScene(VolumeScene&&) noexcept = default;
+VolumeScene& VolumeScene::operator=(VolumeScene&&) noexcept = default;
+
+void VolumeScene::set_mesh(const ElementTable& elements, const FaceNeighbours& faces, std::shared_ptr<const void> owner) {
+  if (std::ranges::any_of(elements.kinds(), [](ElementKind kind) { return info(kind).dimension != 3; })) {
+    throw UsageError("only elements of a volume have an inside to be seen");
+  }
+  Impl& s = *impl_;
+  s.painter.reset();
+  s.inside = std::make_unique<Inside>(elements, faces);
+  s.elements = &elements;
+  s.mesh_owner = std::move(owner);
+  s.state = {};
+  s.state_owner.reset();
+  s.view = {};
+  s.bounds = {};
+  s.uploaded_faces = s.uploaded_cuts = s.means_of = 0;
+  ++s.revision;
+}
+
+void VolumeScene::update(const CellState& state, std::shared_ptr<const void> owner) {
+  Impl& s = *impl_;
+  if (s.elements == nullptr) throw UsageError("there is no mesh to update");
+  if (state.quality.size() != s.elements->size() || (!state.inverted.empty() && state.inverted.size() != s.elements->size())) {
+    throw UsageError("as many qualities as the mesh has elements are needed");
+  }
+  const auto last = state.positions.size() == s.state.positions.size() ? s.elements->all_corners().end()
+                                                                       : std::ranges::max_element(s.elements->all_corners());
+  if (last != s.elements->all_corners().end() && *last >= state.positions.size()) {
+    throw UsageError("as many positions as the mesh has vertices are needed");
+  }
+  s.state = state;
+  s.state.serial = ++s.updates;  // whatever the caller counts, it is another state
+  s.state_owner = std::move(owner);
+  s.upload_state();
+  s.refresh();
+}
+
+void VolumeScene::Impl::upload_state() {
+  bounds = {};
+  for (const Index v : elements->all_corners()) bounds.include(state.positions[v]);
+  origin = bounds.empty() ? Vec3{} : bounds.centre();
+  points.resize(state.positions.size());
+  std::ranges::transform(state.positions, points.begin(), [&](const Vec3& p) { return point_of(relative(p)); });
+  painter.upload_points(points);
+  std::vector<float> shades(state.quality.size());
+  for (std::size_t e = 0; e < shades.size(); ++e) shades[e] = shade_of(state.quality[e], !state.inverted.empty() && state.inverted[e] != 0);
+  painter.upload_shades(shades);
+}
+
+void VolumeScene::Impl::upload_means() {
+  points.resize(elements->size());
+  for (Index e = 0; e < elements->size(); ++e) {
+    Vec3 sum{};
+    const auto corners = elements->corners(e);
+    for (const Index v : corners) sum = sum + relative(state.positions[v]);
+    points[e] = point_of(1.0 / static_cast<double>(corners.size()) * sum);
+  }
+  painter.upload_means(points);
+}
+
+void VolumeScene::Impl::upload_faces() {
+  const InsideFaces& faces = seen();
+  if (std::exchange(uploaded_faces, faces.faces_revision) != faces.faces_revision) {
+    records_of(*elements, faces.faces, records);
+    painter.upload_faces(records);
+    records_of(*elements, faces.ghost, records);
+    painter.upload_ghost(records);
+  }
+  if (std::exchange(uploaded_cuts, faces.cuts_revision) != faces.cuts_revision) {
+    records_of(faces.cuts, records);
+    points.resize(faces.cuts.points.size());
+    std::ranges::transform(faces.cuts.points, points.begin(), [&](const Vec3& p) { return point_of(relative(p)); });
+    painter.upload_cuts(records, points);
+  }
+  if (view.shrink < 1.0 && std::exchange(means_of, updates) != updates) upload_means();
+}
+
+void VolumeScene::set_view(const InsideView& view) {
+  Impl& s = *impl_;
+  if (s.view == view) return;
+  if (s.state.serial > 0) s.inside->update(view, s.state, s.pool);
+  s.view = view;
+  if (s.state.serial > 0) s.upload_faces();
+  ++s.revision;
+}
+
+const InsideView& VolumeScene::view() const noexcept { return impl_->view; }
+
+void VolumeScene::set_shading(std::shared_ptr<const Shading> shading) {
+  Impl& s = *impl_;
+  if (shading && (s.elements == nullptr || shading->by != Shading::By::Elements || shading->values.size() != s.elements->size())) {
+    throw UsageError("as many values as the mesh has elements are needed");
+  }
+  s.painter.fill().set_shading(shading.get());
+  ++s.revision;
+}
+
+void VolumeScene::set_pool(ThreadPool* pool) noexcept { impl_->pool = pool; }
+bool VolumeScene::empty() const noexcept { return impl_->elements == nullptr; }
+std::uint64_t VolumeScene::revision() const noexcept { return impl_->revision; }
+const InsideFaces& VolumeScene::faces() const noexcept { return impl_->seen(); }
+const Bounds3& VolumeScene::bounds() const noexcept { return impl_->bounds; }
+
+void VolumeScene::draw(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks, double detail) {
+  const Vec2<double> viewport = size_of(target);
+  draw_part(target, camera, style, marks, detail, viewport, {{0, 0}, viewport});
+}
+
+void VolumeScene::draw_part(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks, double detail,
+                            Vec2<double> viewport, const PicturePart& part) {
+  const TargetGuard guard;
+  clear(target, style);
+  Impl& s = *impl_;
+  if (s.elements == nullptr || s.bounds.empty()) return;
+  Bounds3 depths = s.bounds;
+  const Projection projection = camera.projection(viewport, depths, part);
+  SpaceView view(camera, projection);
+  // The stripes stand still in the picture, so that its parts fit together.
+  const double period = static_cast<double>(kHatchPeriod * style.scale);
+  const Vec2<double> middle{0.5 * (part.low.x + part.high.x - viewport.x), -0.5 * (part.low.y + part.high.y - viewport.y)};
+  view.hatch_phase = {static_cast<float>(std::fmod((middle.x - middle.y) / period, 1.0)),
+                      static_cast<float>(std::fmod((middle.x + middle.y) / period, 1.0))};
+  FacePainter::Look look{.style = style, .shrink = s.view.shrink, .plane = {}};
+  const ClipPlane& clip = s.view.clip;
+  if (clip.on && clip.mode == ClipPlane::Mode::Cut) {
+    const double side = (clip.flip ? -1.0 : 1.0) / length(clip.normal);
+    const Vec3 normal = side * clip.normal;
+    const double slack = 1e-6 * s.bounds.radius();  // faces in the plane stay
+    look.plane = std::array{static_cast<float>(normal.x), static_cast<float>(normal.y), static_cast<float>(normal.z),
+                            static_cast<float>(side * clip.offset - dot(normal, projection.origin()) + slack)};
+  }
+  s.painter.fill().set_colours(style.colours);
+  begin_elements();
+  const auto count = static_cast<double>(s.seen().faces.size());
+  const auto stride = static_cast<Index>(std::clamp(std::ceil(1.0 / std::max(detail, 1e-9)), 1.0, std::max(count, 1.0)));
+  s.painter.draw_ghost(view, style);
+  s.painter.draw_faces(view, look, stride);
+  s.painter.draw_cuts(view, style);
+  begin_marks();
+  gather_marks(s.seen_faces(), projection, style, marks, s.marks);
+  if (marks.triad) {
+    const double margin = kTriadMargin * static_cast<double>(style.scale);
+    gather_triad(camera, {margin - 0.5 * viewport.x - middle.x, margin - 0.5 * viewport.y - middle.y}, style, s.marks);
+  }
+  View flat;
+  flat.viewport = view.viewport;
+  s.marks.flush(flat, style.scale);
+}
+
+Pick VolumeScene::pick(const OrbitCamera& camera, Vec2<double> viewport, Vec2<double> pixel, double radius) const {
+  const Impl& s = *impl_;
+  if (s.elements == nullptr || s.bounds.empty()) return {};
+  return render::pick(s.seen_faces(), s.bounds, camera, viewport, pixel, radius);
+}
+
+std::optional<Vec3> VolumeScene::point_at(const OrbitCamera& camera, Vec2<double> viewport, Vec2<double> pixel) const {
+  const Impl& s = *impl_;
+  if (s.elements == nullptr || s.bounds.empty()) return std::nullopt;
+  const ViewRay ray = camera.ray(pixel, viewport);
+  const auto hit = first_hit(s.seen_faces(), ray);
+  if (!hit) return std::nullopt;
+  return ray.from + hit->along * ray.direction;
+}
+
+double suggested_face_detail(std::size_t face_count, bool is_software, bool moving) {
+  constexpr double kAffordable = 150'000.0;
+  if (!is_software || !moving || face_count == 0) return 1.0;
+  return std::min(1.0, kAffordable / static_cast<double>(face_count));
+}
+
+}  // namespace dmoscope::render

@@ -62,15 +62,10 @@ void add_verbs(std::string& page, const CLI::App& app) {
   }
 }
 
-std::string elements_of(const MetricInfo& metric) {
-  if (metric.triangles && metric.quadrilaterals) return "triangles and quadrilaterals";
-  return metric.triangles ? "triangles" : "quadrilaterals";
-}
-
 void add_tables(std::string& page) {
   page += ".SH METRICS\nA metric is 1 for the ideal element and at most 0 for an inverted one.\n";
   for (const MetricInfo& metric : metric_table()) {
-    page += item(metric.name, fmt::format("{} For {}; from {:g} to {:g}, acceptable from {:g}. {}", metric.doc, elements_of(metric),
+    page += item(metric.name, fmt::format("{} For {}; from {:g} to {:g}, acceptable from {:g}. {}", metric.doc, words(metric.kinds),
                                           metric.lowest, metric.highest, metric.acceptable, metric.formula));
   }
   page += ".SH METHODS\n";

@@ -36,11 +36,11 @@ struct ExactVisit {
   static DMOSCOPE_LANE void search(const Task& task, Deferred& d, const Team& team) {
     const PositionView positions = positions_of(task);
     const Index vertex = task.vertex_of_rank[d.rank];
-    const MeshStar star(task.mesh, positions, vertex);
+    const MeshStar<Plane> star(task.mesh, positions, vertex);
     const Vec2<double> found = search_star<M>(star, star.box(), task.parameters, team);
     if (found.x == 0.0 && found.y == 0.0) return;
     const Vec3 to =
-        displaced(task.mesh.plane, positions[vertex], {found.x * star.scale(), found.y * star.scale()}, task.frame.single_precision);
+        displaced(task.mesh.frame, positions[vertex], {found.x * star.scale(), found.y * star.scale()}, task.frame.single_precision);
     d = {d.rank, true, {to.x, to.y, to.z}};
   }
 
@@ -100,7 +100,7 @@ struct Judge {
     const auto element = static_cast<Index>(task.first + i);
     const PositionView positions = positions_of(task);
     visit_planar(
-        task.mesh.plane, task.mesh.corners_of(element), [&](Index v) { return positions[v]; },
+        task.mesh.frame, task.mesh.corners_of(element), [&](Index v) { return positions[v]; },
         [&](const auto& shape) {
           task.quality[element] = evaluate<M>(shape);
           task.inverted[element] = formulas::smallest_jacobian(shape) <= 0.0 ? 1 : 0;
@@ -238,7 +238,7 @@ struct Count {
 struct Project {
   template <class Team>
   static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
-    const Vec2<double> p = task.mesh.plane.project(task.positions[i]);
+    const Vec2<double> p = task.mesh.frame.project(task.positions[i]);
     task.points[i] = {static_cast<float>(p.x - task.origin.x), static_cast<float>(p.y - task.origin.y)};
   }
 };

@@ -232,7 +232,7 @@ class CudaQueue final : public Queue {
 
   static Launcher launcher(Work work, Metric metric) {
     if (const Launcher plain = plain_launcher(work)) return plain;
-    return formulas::with_metric(metric, [work]<Metric M>() { return metric_launcher<M>(work); });
+    return formulas::with_planar_metric(metric, [work]<Metric M>() { return metric_launcher<M>(work); });
   }
 
   std::shared_ptr<const CudaDevice> about_;

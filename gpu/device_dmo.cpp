@@ -116,7 +116,7 @@ class DeviceDmo final : public Smoother {
 
   /// Are there stars that the kernel for fans is made for?
   [[nodiscard]] bool in_fans() const {
-    return task_.parameters.grid_points == 8 && formulas::with_metric(metric_, []<Metric M>() { return kIsRatio<M>; });
+    return task_.parameters.grid_points == 8 && formulas::with_planar_metric(metric_, []<Metric M>() { return kIsRatio<M>; });
   }
 
   /// Runs every kernel once, for one vertex that needs no visit: to load it and reserve the memory of its lanes takes long, the first time.

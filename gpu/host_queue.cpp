@@ -104,7 +104,7 @@ class Host final : public HostQueue, public std::enable_shared_from_this<Host> {
     enqueue([memory, bytes] { std::memset(memory, 0, bytes); });
   }
   void launch(Work work, Metric metric, const Task& task, std::size_t count) override {
-    const Lanes lanes = formulas::with_metric(metric, [work]<Metric M>() { return lanes_of<M>(work); });
+    const Lanes lanes = formulas::with_planar_metric(metric, [work]<Metric M>() { return lanes_of<M>(work); });
     enqueue([this, lanes, task, count] {
       if (launches_left_ == 0) lost_ = true;
       check_lost();

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/base/anywhere.h"
-#include "core/mesh/planar_view.h"
+#include "core/mesh/mesh_view.h"
 #include "core/mesh/position_view.h"
 #include "core/search/parameters.h"
 #include "core/session/summary.h"

@@ -39,7 +39,7 @@ struct BenchElements {
   std::size_t largest;         // size, in vertices
   bool triangles, quadrilaterals;
   [[nodiscard]] bool suits(const MetricInfo& metric) const noexcept {
-    return (!triangles || metric.triangles) && (!quadrilaterals || metric.quadrilaterals);
+    return (!triangles || metric.defined_for(ElementKind::Triangle)) && (!quadrilaterals || metric.defined_for(ElementKind::Quadrilateral));
   }
 };
 /// triangles, quadrilaterals, mixed.

@@ -77,6 +77,12 @@ Json everything() {
   const Acceleration acceleration = gpu::make_accelerator();
   const OpenGl gl = headless_opengl(acceleration);
   const unsigned threads = std::thread::hardware_concurrency();
+  const auto elements_of = [](const MetricInfo& metric) {
+    Json kinds = Json::array();
+    for (std::size_t k = 0; k < kElementKindCount; ++k)
+      if (metric.defined_for(static_cast<ElementKind>(k))) kinds.push_back(kElementKinds[k].name);
+    return kinds;
+  };
   Json object{{"version", DMOSCOPE_VERSION}, {"build", DMOSCOPE_BUILD_TYPE}, {"compiler", compiler()}, {"threads", threads}};
   object["backends"] = {{{"name", "cpu"}, {"usable", true}, {"threads", threads}, {"simd", name(best_simd_level())}},
                         json_of(gpu::availability(), acceleration)};
@@ -89,8 +95,7 @@ Json everything() {
   for (const MetricInfo& m : metric_table()) {
     object["metrics"].push_back({{"name", m.name},
                                  {"title", m.title},
-                                 {"triangles", m.triangles},
-                                 {"quadrilaterals", m.quadrilaterals},
+                                 {"elements", elements_of(m)},
                                  {"lowest", m.lowest},
                                  {"highest", m.highest},
                                  {"acceptable", m.acceptable},

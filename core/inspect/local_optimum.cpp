@@ -137,7 +137,7 @@ std::optional<LocalOptimum> local_optimum(const InputMesh& input, PositionView p
   if (metric != Metric::MeanRatio && metric != Metric::MeanRatioArea) return std::nullopt;  // alike for triangles
   if (input.topology.star(vertex).empty()) return std::nullopt;
   Star<double> star;
-  gather_star(MeshStar(input.planar_view(), positions, vertex), star);
+  gather_star(MeshStar<Plane>(input.planar_view(), positions, vertex), star);
   if (!star.quadrilaterals.empty()) return std::nullopt;
   Forms forms(star.triangles.size());
   for (std::size_t k = 0; k < forms.size(); ++k) triangle_form(star.triangles[k], forms[k]);

@@ -23,7 +23,7 @@ Star<double> star_of(const InputMesh& input, PositionView positions, Index verte
   require_vertex(input, vertex);
   if (input.topology.star(vertex).empty()) throw UsageError(fmt::format("vertex {} belongs to no element", vertex));
   Star<double> star;
-  gather_star(MeshStar(input.planar_view(), positions, vertex), star);
+  gather_star(MeshStar<Plane>(input.planar_view(), positions, vertex), star);
   return star;
 }
 
@@ -67,7 +67,7 @@ QualityField sample_quality(const InputMesh& input, PositionView positions, Metr
   const bool defined = defined_around(input, metric, vertex);
   const std::size_t samples = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
   QualityField field{low, high, columns, rows, std::vector<float>(samples), std::vector<float>(samples)};
-  formulas::with_metric(metric, [&]<Metric M>() { fill<M>(star, defined, pool, field); });
+  formulas::with_planar_metric(metric, [&]<Metric M>() { fill<M>(star, defined, pool, field); });
   return field;
 }
 

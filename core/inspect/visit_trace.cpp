@@ -140,7 +140,7 @@ class Look {
       search_for_both();
     else if (parameters_.precision == Precision::Double || !search_fast())
       search_plainly();
-    trace_.step = mesh_.plane.project(trace_.to - trace_.from);
+    trace_.step = mesh_.frame.project(trace_.to - trace_.from);
     if (trace_.end == VisitEnd::Moved) trace_.after = star_state<M>(mesh_, positions_, trace_.vertex, trace_.to);
     add_elements();
     return std::move(trace_);
@@ -172,12 +172,12 @@ class Look {
   /// As the reference does it.
   void search_plainly() {
     Star<double> star;
-    gather_star(MeshStar(mesh_, positions_, trace_.vertex), star);
+    gather_star(MeshStar<Plane>(mesh_, positions_, trace_.vertex), star);
     Recorder recorder(star.scale);
     (void)search_star<M>(StarView<double>(star), star.box, parameters_, Solo{}, recorder);
     trace_.untangling = !(recorder.here > 0.0);
     trace_.value_phrase = trace_.untangling ? "smallest normalised Jacobian, once positive the " + metric_phrase(M) : metric_phrase(M);
-    const auto place = [&](Vec2<double> offset) { return displaced(mesh_.plane, trace_.from, offset, input_.mesh.single_precision); };
+    const auto place = [&](Vec2<double> offset) { return displaced(mesh_.frame, trace_.from, offset, input_.mesh.single_precision); };
     take(std::move(recorder), place);
     const Vec3 target = place(trace_.found);
     end(target, gains(target));
@@ -186,13 +186,13 @@ class Look {
   /// As RuleSmoother does it with a CombinedSearch.
   void search_for_both() {
     Star<double> star;
-    gather_star(MeshStar(mesh_, positions_, trace_.vertex), star);
+    gather_star(MeshStar<Plane>(mesh_, positions_, trace_.vertex), star);
     Recorder recorder(star.scale);
     const CombinedSearch search(input_, *aims_, parameters_);
     trace_.combined = true;
     trace_.untangling = search.search(star, positions_, trace_.vertex, recorder).untangling;
     trace_.value_phrase = (trace_.untangling ? "smallest normalised Jacobian, once positive the " : "") + both_phrase(*aims_);
-    const auto place = [&](Vec2<double> offset) { return displaced(mesh_.plane, trace_.from, offset, input_.mesh.single_precision); };
+    const auto place = [&](Vec2<double> offset) { return displaced(mesh_.frame, trace_.from, offset, input_.mesh.single_precision); };
     take(std::move(recorder), place);
     const Vec3 target = place(trace_.found);
     end(target, search.gains(positions_, trace_.vertex, target));
@@ -227,7 +227,7 @@ class Look {
       ElementChange change{incidence.element};
       const auto judge = [&](Vec3 place, double& quality, bool& inverted) {
         const auto at = [&](Index v) { return v == trace_.vertex ? place : positions_[v]; };
-        visit_planar(mesh_.plane, mesh_.corners_of(incidence.element), at, [&](const auto& shape) {
+        visit_planar(mesh_.frame, mesh_.corners_of(incidence.element), at, [&](const auto& shape) {
           quality = evaluate<M>(shape);
           inverted = formulas::smallest_jacobian(shape) <= 0.0;
         });
@@ -274,7 +274,7 @@ VisitTrace trace_visit(const InputMesh& input, PositionView positions, std::span
   if (!defined_around(input, metric, vertex))
     throw UsageError(fmt::format("{} is not defined for all elements around vertex {}", info(metric).name, vertex));
   const bool is_fixed = fixed[vertex] != 0 || input.topology.star(vertex).empty();
-  return formulas::with_metric(metric, [&]<Metric M>() { return Look<M>(input, positions, parameters, vertex, aims).run(is_fixed); });
+  return formulas::with_planar_metric(metric, [&]<Metric M>() { return Look<M>(input, positions, parameters, vertex, aims).run(is_fixed); });
 }
 
 }  // namespace dmoscope

@@ -58,15 +58,24 @@ void sort_by_star(std::span<const Keyed> items, const Topology& topology, std::s
   for (std::size_t i = 0; i < items.size(); ++i) sorted[start[star[i]]++] = items[i].vertex;
 }
 
+/// Every third bit of the result is one of the 10 of `x`.
+std::uint32_t spread_bits_by_three(std::uint32_t x) {
+  x = (x | x << 16U) & 0x030000ffU;
+  x = (x | x << 8U) & 0x0300f00fU;
+  x = (x | x << 4U) & 0x030c30c3U;
+  return (x | x << 2U) & 0x09249249U;
+}
+
 /// Where vertices lie along the Z-order curve over the box of all of them, 0 to 2^32 - 1.
 class Curve {
  public:
-  Curve(const Mesh& mesh, const Plane& plane, std::span<const Index> vertices, ThreadPool* pool) : mesh_(mesh), plane_(plane) {
+  /// `plane`: null for a curve of space.
+  Curve(const Mesh& mesh, const Plane* plane, std::span<const Index> vertices, ThreadPool* pool) : mesh_(mesh), plane_(plane) {
     struct Box {
-      Vec2<double> low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
-      void add(Vec2<double> p, Vec2<double> q) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-        high = {std::max(high.x, q.x), std::max(high.y, q.y)};
+      Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+      void add(Vec3 p, Vec3 q) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, q.x), std::max(high.y, q.y), std::max(high.z, q.z)};
       }
     };
     constexpr std::size_t kGrain = 65536;
@@ -74,7 +83,7 @@ class Curve {
     for_chunks(pool, vertices.size(), kGrain, [&](std::size_t first, std::size_t last) {
       Box box;
       for (const Index v : vertices.subspan(first, last - first)) {
-        const Vec2<double> p = plane.project(mesh.positions[v]);
+        const Vec3 p = place(v);
         box.add(p, p);
       }
       parts[first / kGrain] = box;
@@ -82,22 +91,30 @@ class Curve {
     Box box;
     for (const Box& part : parts) box.add(part.low, part.high);
     low_ = box.low;
-    const double size = std::max(box.high.x - low_.x, box.high.y - low_.y);
-    scale_ = size > 0.0 ? 65535.0 / size : 0.0;
+    const double size = std::max({box.high.x - low_.x, box.high.y - low_.y, box.high.z - low_.z});
+    scale_ = size > 0.0 ? (plane != nullptr ? 65535.0 : 1023.0) / size : 0.0;
   }
   [[nodiscard]] std::uint32_t key(Index vertex) const {
-    const Vec2<double> p = plane_.project(mesh_.positions[vertex]);
-    return spread_bits(cell(p.x - low_.x)) | spread_bits(cell(p.y - low_.y)) << 1U;
+    const Vec3 p = place(vertex) - low_;
+    if (plane_ != nullptr) return spread_bits(cell(p.x)) | spread_bits(cell(p.y)) << 1U;
+    return spread_bits_by_three(cell(p.x)) | spread_bits_by_three(cell(p.y)) << 1U | spread_bits_by_three(cell(p.z)) << 2U;
   }
 
  private:
+  /// In the plane: with z = 0.
+  [[nodiscard]] Vec3 place(Index vertex) const {
+    const Vec3& p = mesh_.positions[vertex];
+    if (plane_ == nullptr) return p;
+    const Vec2<double> flat = plane_->project(p);
+    return {flat.x, flat.y, 0.0};
+  }
   [[nodiscard]] std::uint32_t cell(double offset) const {
     const double value = offset * scale_;
     return value >= 0.0 && value <= 65535.0 ? static_cast<std::uint32_t>(value) : 0U;
   }
   const Mesh& mesh_;
-  const Plane& plane_;
-  Vec2<double> low_;
+  const Plane* plane_;
+  Vec3 low_;
   double scale_ = 0.0;
 };
 
@@ -132,7 +149,7 @@ Colouring colour_vertices(const Mesh& mesh, const Topology& topology, std::span<
   return result;
 }
 
-void arrange_classes(Colouring& colouring, const Mesh& mesh, const Plane& plane, const Topology& topology, ThreadPool* pool) {
+void arrange_classes(Colouring& colouring, const Mesh& mesh, const Plane* plane, const Topology& topology, ThreadPool* pool) {
   const Curve curve(mesh, plane, colouring.order, pool);
   for_chunks(pool, colouring.class_count(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t c = first; c < last; ++c) {

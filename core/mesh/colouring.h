@@ -26,10 +26,11 @@ struct Colouring {
 /// Within a class the vertices keep that order. `free_vertices`: distinct vertex indices.
 [[nodiscard]] Colouring colour_vertices(const Mesh& mesh, const Topology& topology, std::span<const Index> free_vertices);
 
-/// Reorders every class, which changes no result since its members do not see each other: along a space-filling curve of `plane`, so that
+/// Reorders every class, which changes no result since its members do not see each other: along a space-filling curve of `plane` (null: of
+/// space), so that
 /// neighbours in space are neighbours in memory, and in stretches of it by the size of their stars, so that vertices that are searched
 /// side by side need the same work. The same for any pool (null: this thread alone).
-void arrange_classes(Colouring& colouring, const Mesh& mesh, const Plane& plane, const Topology& topology, ThreadPool* pool = nullptr);
+void arrange_classes(Colouring& colouring, const Mesh& mesh, const Plane* plane, const Topology& topology, ThreadPool* pool = nullptr);
 
 /// The vertices in an order shuffled by `seed` with a generator of our own: the same on every platform.
 [[nodiscard]] std::vector<Index> shuffled(std::span<const Index> vertices, std::uint64_t seed);

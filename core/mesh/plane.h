@@ -1,6 +1,8 @@
 #pragma once
 // The plane of a planar mesh, and the way between it and space.
 
+#include <type_traits>
+
 #include "core/base/anywhere.h"
 #include "core/base/vec.h"
 #include "core/mesh/mesh.h"
@@ -15,6 +17,16 @@ struct Plane {
   [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<double> project(Vec3 difference) const { return {dot(difference, u), dot(difference, v)}; }
   [[nodiscard]] DMOSCOPE_ANYWHERE Vec3 lift(Vec2<double> offset) const { return offset.x * u + offset.y * v; }
 };
+
+/// What a volume mesh has in a plane's place: all of space, whose offsets are the differences of positions themselves.
+struct Space {
+  [[nodiscard]] DMOSCOPE_ANYWHERE Vec3 project(Vec3 difference) const { return difference; }
+  [[nodiscard]] DMOSCOPE_ANYWHERE Vec3 lift(Vec3 offset) const { return offset; }
+};
+
+/// An offset from a vertex in a frame (Plane or Space), in whatever scalar computes with it.
+template <class Frame, class Real>
+using OffsetIn = std::conditional_t<std::is_same_v<Frame, Plane>, Vec2<Real>, Vec3Of<Real>>;
 
 /// Which coordinates (0 x, 1 y, 2 z) u and v of a plane are, exactly; -1 and -1 where it is parallel to no coordinate plane. One component
 /// of 1 is not enough: a plane tilted by 1e-9 has that too, and the other components count.

@@ -20,14 +20,23 @@ void add(std::vector<std::string>& sentences, Index count, const char* one, cons
 std::vector<std::string> MeshReport::sentences() const {
   std::vector<std::string> all = file_notes;
   add(all, inverted_elements, "element is inverted", "elements are inverted");
-  add(all, degenerate_elements, "element has no area", "elements have no area");
+  if (volume)
+    add(all, degenerate_elements, "element has no volume", "elements have no volume");
+  else
+    add(all, degenerate_elements, "element has no area", "elements have no area");
   add(all, duplicate_elements, "element has the same corners as an earlier one", "elements have the same corners as an earlier one");
   add(all, non_manifold_edges, "edge has more than two elements; its ends stay fixed",
       "edges have more than two elements; their ends stay fixed");
+  add(all, non_manifold_faces, "face is shared by more than two elements; its corners stay fixed",
+      "faces are shared by more than two elements; their corners stay fixed");
   add(all, unused_vertices, "vertex belongs to no element", "vertices belong to no element");
-  add(all, flipped_elements, "element is wound clockwise; it is turned over here and written back as it was",
-      "elements are wound clockwise; they are turned over here and written back as they were");
-  if (components > 1) all.push_back(fmt::format("the mesh has {} parts that share no edge", components));
+  if (volume)
+    add(all, flipped_elements, "element is wound inside out; it is turned over here and written back as it was",
+        "elements are wound inside out; they are turned over here and written back as they were");
+  else
+    add(all, flipped_elements, "element is wound clockwise; it is turned over here and written back as it was",
+        "elements are wound clockwise; they are turned over here and written back as they were");
+  if (components > 1) all.push_back(fmt::format("the mesh has {} parts that share no {}", components, volume ? "face" : "edge"));
   return all;
 }
 

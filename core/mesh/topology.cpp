@@ -3,12 +3,21 @@
 #include <numeric>
 
 #include "core/mesh/edges.h"
+#include "core/mesh/faces.h"
 
 namespace dmoscope {
 
 Topology::Topology(const Mesh& mesh) { (void)index(mesh, nullptr); }
 
 Topology::Topology(const Mesh& mesh, EdgeSurvey& found, Progress& progress) { found = index(mesh, &progress); }
+
+Topology::Topology(const Mesh& mesh, const FaceNeighbours& faces) : boundary_(mesh.positions.size(), 0) {
+  follow(mesh);
+  for (const auto& some : {faces.boundary(), faces.non_manifold()})
+    for (const ElementFace face : some)
+      for (const Index v : vertices_of(mesh.elements, face))
+        if (v != kNoIndex) boundary_[v] = 1;
+}
 
 void Topology::follow(const Mesh& mesh) {
   const ElementTable& elements = mesh.elements;

@@ -9,6 +9,7 @@
 
 namespace dmoscope {
 
+class FaceNeighbours;
 class Progress;
 struct EdgeSurvey;
 
@@ -19,12 +20,14 @@ struct Incidence {
 };
 
 /// Stars of all vertices, any valence, incident elements in ascending order. Elements of every dimension have their place in the
-/// stars; edges and boundary are those of the planar elements (faces of volume elements are not looked at).
+/// stars; edges and boundary are those of the planar elements, or of a volume's faces.
 class Topology {
  public:
   explicit Topology(const Mesh& mesh);
   /// The same, and what was found on the way. Throws Cancelled.
   Topology(const Mesh& mesh, EdgeSurvey& found, Progress& progress);
+  /// Of a volume mesh.
+  Topology(const Mesh& mesh, const FaceNeighbours& faces);
   /// The winding of elements was reversed since: their corners have other places now. Edges and boundary stay.
   void follow(const Mesh& mesh);
   [[nodiscard]] Index vertex_count() const noexcept { return static_cast<Index>(offsets_.size() - 1); }
@@ -34,7 +37,8 @@ class Topology {
   /// The stars of all vertices, one after the other, and vertex_count() + 1 offsets into them.
   [[nodiscard]] std::span<const Incidence> incidences() const noexcept { return incidences_; }
   [[nodiscard]] std::span<const std::uint32_t> star_offsets() const noexcept { return offsets_; }
-  /// 1 for vertices on the boundary: an end of an edge that has exactly one element, or more than two (non-manifold).
+  /// 1 for vertices on the boundary: an end of an edge, a corner of a volume's face, that has exactly one element, or more than two
+  /// (non-manifold).
   [[nodiscard]] std::span<const std::uint8_t> boundary() const noexcept { return boundary_; }
   [[nodiscard]] Index edge_count() const noexcept { return edge_count_; }
 

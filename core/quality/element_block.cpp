@@ -1,7 +1,5 @@
 #include "core/quality/element_block.h"
 
-#include <limits>
-
 #include "core/search/pack.h"
 // After the packs:
 #include "core/quality/element_shape.h"
@@ -24,9 +22,8 @@ struct Judged {
 template <Metric M>
 void judge_one_by_one(const QualityContext& context, std::span<const Vec3> positions, ElementBlock& block, std::size_t first,
                       std::size_t last) {
-  constexpr Judged kVolume{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()};
   for (std::size_t i = first; i < last; ++i) {
-    const Judged judged = visit_element(context, positions, block.first + static_cast<Index>(i), kVolume, [](const auto& element) {
+    const Judged judged = visit_element(context, positions, block.first + static_cast<Index>(i), [](const auto& element) {
       return Judged{evaluate<M>(element), formulas::smallest_jacobian(element)};
     });
     block.quality[i] = judged.quality;

@@ -7,6 +7,7 @@
 #include "core/base/anywhere.h"
 #include "core/quality/formulas.h"
 #include "core/quality/quality.h"
+#include "core/quality/solids.h"
 
 namespace dmoscope {
 
@@ -35,38 +36,88 @@ DMOSCOPE_ANYWHERE auto visit_planar(const Plane& plane, std::span<const Index> c
   return visitor(formulas::Quadrilateral<V>({}, b, c, plane.project(at(corners[3]) - origin)));
 }
 
-/// The same of an element of a planar or curved mesh; fallback for other kinds.
-template <class Result, class Visitor>
-[[nodiscard]] Result visit_element(const QualityContext& context, PositionView positions, Index element, Result fallback, Visitor visitor) {
-  const ElementKind kind = context.mesh.elements.kind(element);
-  if (kind != ElementKind::Triangle && kind != ElementKind::Quadrilateral) return fallback;
-  const auto corners = context.mesh.elements.corners(element);
-  if (context.geometry.shape == Shape::Planar)
-    return visit_planar(
-        context.geometry.plane, corners, [&](Index vertex) { return positions[vertex]; }, visitor);
+/// The shape of a volume element, likewise; its kind follows from the number of its corners.
+template <class At, class Visitor>
+DMOSCOPE_ANYWHERE auto visit_solid(std::span<const Index> corners, At at, Visitor visitor) {
+  using V = Vec3;
+  const Vec3 origin = at(corners[0]);
+  const auto offset = [&](std::size_t i) { return at(corners[i]) - origin; };
+  switch (corners.size()) {
+    case 4:
+      return visitor(formulas::Tetrahedron<V>({}, offset(1), offset(2), offset(3)));
+    case 5:
+      return visitor(formulas::Pyramid<V>{{V{}, offset(1), offset(2), offset(3), offset(4)}});
+    case 6:
+      return visitor(formulas::Wedge<V>{{V{}, offset(1), offset(2), offset(3), offset(4), offset(5)}});
+    default:
+      return visitor(formulas::Hexahedron<V>{{V{}, offset(1), offset(2), offset(3), offset(4), offset(5), offset(6), offset(7)}});
+  }
+}
+
+/// The shape of an element of a mesh whose elements' dimension is that of its frame.
+template <class At, class Visitor>
+DMOSCOPE_ANYWHERE auto visit_shape(const Plane& plane, std::span<const Index> corners, At at, Visitor visitor) {
+  return visit_planar(plane, corners, at, visitor);
+}
+template <class At, class Visitor>
+DMOSCOPE_ANYWHERE auto visit_shape(const Space& /*space*/, std::span<const Index> corners, At at, Visitor visitor) {
+  return visit_solid(corners, at, visitor);
+}
+
+/// The shape of a triangle or quadrilateral of a curved mesh.
+template <class Visitor>
+[[nodiscard]] auto visit_surface(const Geometry& geometry, std::span<const Index> corners, PositionView positions, Visitor visitor) {
   const Vec3 origin = positions[corners[0]];
   const Vec3 b = positions[corners[1]] - origin, c = positions[corners[2]] - origin;
-  const Vec3 d = kind == ElementKind::Quadrilateral ? positions[corners[3]] - origin : Vec3{};
-  const Plane& plane = context.geometry.plane;
   using V = SurfaceVector;
-  if (kind == ElementKind::Triangle) {
-    const Vec3 n = unit_normal(b, c, plane.normal);  // a surface triangle has no sign
+  if (corners.size() == 3) {
+    const Vec3 n = unit_normal(b, c, geometry.plane.normal);  // a surface triangle has no sign
     return visitor(formulas::Triangle<V>({{}, n}, {b, n}, {c, n}));
   }
-  const Vec3 n = context.geometry.mostly_flat ? plane.normal : unit_normal(c, d - b, plane.normal);
+  const Vec3 d = positions[corners[3]] - origin;
+  const Vec3 n = geometry.mostly_flat ? geometry.plane.normal : unit_normal(c, d - b, geometry.plane.normal);
   return visitor(formulas::Quadrilateral<V>({{}, n}, {b, n}, {c, n}, {d, n}));
+}
+
+/// The shape of any element of a mesh.
+template <class Visitor>
+[[nodiscard]] auto visit_element(const QualityContext& context, PositionView positions, Index element, Visitor visitor) {
+  const auto corners = context.mesh.elements.corners(element);
+  const auto at = [&](Index vertex) { return positions[vertex]; };
+  if (info(context.mesh.elements.kind(element)).dimension == 3) return visit_solid(corners, at, visitor);
+  if (context.geometry.shape == Shape::Planar) return visit_planar(context.geometry.plane, corners, at, visitor);
+  return visit_surface(context.geometry, corners, positions, visitor);
 }
 
 /// The metric of a triangle or quadrilateral of vectors V; NaN where it is not defined. Never -0, of which double and packs of it choose
 /// otherwise between equals.
 template <Metric M, class V>
 [[nodiscard]] DMOSCOPE_ANYWHERE formulas::RealOf<V> evaluate(const formulas::Triangle<V>& t) {
-  return formulas::Formula<M>::triangle(t) + formulas::RealOf<V>(0.0);
+  if constexpr (formulas::kDefinedForTriangles<M, V>)
+    return formulas::Formula<M>::triangle(t) + formulas::RealOf<V>(0.0);
+  else
+    return formulas::RealOf<V>(std::numeric_limits<double>::quiet_NaN());
 }
 template <Metric M, class V>
 [[nodiscard]] DMOSCOPE_ANYWHERE formulas::RealOf<V> evaluate(const formulas::Quadrilateral<V>& q) {
   if constexpr (formulas::kDefinedForQuadrilaterals<M, V>)
     return formulas::Formula<M>::quadrilateral(q) + formulas::RealOf<V>(0.0);
+  else
+    return formulas::RealOf<V>(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// Likewise of a volume element.
+template <Metric M, class V>
+[[nodiscard]] DMOSCOPE_ANYWHERE formulas::RealOf<V> evaluate(const formulas::Tetrahedron<V>& t) {
+  if constexpr (formulas::kDefinedForTetrahedra<M>)
+    return formulas::metric<M>(t) + formulas::RealOf<V>(0.0);
+  else
+    return formulas::RealOf<V>(std::numeric_limits<double>::quiet_NaN());
+}
+template <Metric M, class V, class Ideal, std::size_t N, class Corners>
+[[nodiscard]] DMOSCOPE_ANYWHERE formulas::RealOf<V> evaluate(const formulas::CorneredSolid<V, Ideal, N, Corners>& s) {
+  if constexpr (formulas::kDefinedForCorners<M>)
+    return formulas::metric<M>(s) + formulas::RealOf<V>(0.0);
   else
     return formulas::RealOf<V>(std::numeric_limits<double>::quiet_NaN());
 }

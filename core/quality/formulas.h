@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/base/anywhere.h"
 #include "core/base/vec.h"
@@ -290,6 +291,16 @@ struct Formula<Metric::AspectRatio> {
   }
 };
 
+/// Quadrilateral: 1 / the worst corner's condition number |J| |J^-1| / 2 = |J|^2 / (2 det J).
+template <>
+struct Formula<Metric::Condition> {
+  static constexpr bool kSeesInversion = true;
+  template <class V>
+  static DMOSCOPE_ANYWHERE RealOf<V> quadrilateral(const Quadrilateral<V>& q) {
+    return Formula<Metric::MeanRatio>::quadrilateral(q);
+  }
+};
+
 /// By how much another rank in double must differ from `rank` (from 1e-4 on) for it to be certain which element is better. Rectangularity's
 /// polynomial errs by less than 5e-8 an angle, which changes its square by less than 1e-7 of the root; the others err by a few roundings.
 template <Metric M>
@@ -301,16 +312,19 @@ template <Metric M>
 }
 
 template <Metric M, class V>
+inline constexpr bool kDefinedForTriangles = requires(const Triangle<V>& t) {
+  Formula<M>::triangle(t);
+};
+template <Metric M, class V>
 inline constexpr bool kDefinedForQuadrilaterals = requires(const Quadrilateral<V>& q) {
   Formula<M>::quadrilateral(q);
 };
 
-/// Calls f.template operator()<M>() with the run-time metric as a template argument.
+/// Calls f.template operator()<M>() with the run-time metric as a template argument. Of those that are defined in the plane: Condition is
+/// the mean ratio there, and MeanRatio is called for it.
 template <class F>
-decltype(auto) with_metric(Metric metric, F&& f) {
+decltype(auto) with_planar_metric(Metric metric, F&& f) {
   switch (metric) {
-    case Metric::MeanRatio:
-      return f.template operator()<Metric::MeanRatio>();
     case Metric::MeanRatioArea:
       return f.template operator()<Metric::MeanRatioArea>();
     case Metric::RadiusRatio:
@@ -324,9 +338,18 @@ decltype(auto) with_metric(Metric metric, F&& f) {
     case Metric::ScaledJacobian:
       return f.template operator()<Metric::ScaledJacobian>();
     case Metric::AspectRatio:
+      return f.template operator()<Metric::AspectRatio>();
+    case Metric::MeanRatio:
+    case Metric::Condition:
       break;
   }
-  return f.template operator()<Metric::AspectRatio>();
+  return f.template operator()<Metric::MeanRatio>();
+}
+/// Of all.
+template <class F>
+decltype(auto) with_metric(Metric metric, F&& f) {
+  if (metric == Metric::Condition) return f.template operator()<Metric::Condition>();
+  return with_planar_metric(metric, std::forward<F>(f));
 }
 
 }  // namespace dmoscope::formulas

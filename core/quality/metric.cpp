@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,26 +12,49 @@
 namespace dmoscope {
 
 namespace {
+constexpr KindSet kTriangles = kind_set(ElementKind::Triangle), kQuadrilaterals = kind_set(ElementKind::Quadrilateral),
+                  kTetrahedra = kind_set(ElementKind::Tetrahedron),
+                  kOtherSolids = kind_set(ElementKind::Hexahedron) | kind_set(ElementKind::Wedge) | kind_set(ElementKind::Pyramid);
+
 constexpr std::array<MetricInfo, kMetricCount> kTable{{
-    {Metric::MeanRatio, "mean-ratio", "Mean ratio", true, true, -1.0, 1.0, 0.3,
-     "triangle: 4√3 A / Σ l²;  quadrilateral: 2 min aᵢ / (lᵢ² + lᵢ₋₁²)",
-     "Shape; the paper's metric (eq. 4). Quadrilaterals by their least corner (Knupp)."},
-    {Metric::MeanRatioArea, "mean-ratio-area", "Mean ratio by area", true, true, -1.0, 1.0, 0.3,
+    {Metric::MeanRatio, "mean-ratio", "Mean ratio", kTriangles | kQuadrilaterals | kTetrahedra | kOtherSolids, -1.0, 1.0, 0.3,
+     "triangle: 4√3 A / Σ l²;  quadrilateral: 2 min aᵢ / (lᵢ² + lᵢ₋₁²);  tetrahedron: 12 (3V)^⅔ / Σ l²;  hexahedron, wedge, pyramid: "
+     "3 min det(Aᵢ)^⅔ / |Aᵢ|², Aᵢ a corner's Jacobian against the ideal one",
+     "Shape; the paper's metric (eq. 4). Elements with other than simplex corners by their least corner (Knupp)."},
+    {Metric::MeanRatioArea, "mean-ratio-area", "Mean ratio by area", kTriangles | kQuadrilaterals, -1.0, 1.0, 0.3,
      "quadrilateral: 4 A / Σ l²;  triangle: the mean ratio",
      "The paper's quadrilateral metric (eq. 11) scaled to 1 for a square. It cannot see a concave corner."},
-    {Metric::RadiusRatio, "radius-ratio", "Radius ratio", true, false, -1.0, 1.0, 0.3, "sign(A) 2 r / R", "Incircle against circumcircle."},
-    {Metric::MinAngle, "min-angle", "Minimum angle", true, false, -1.0, 1.0, 0.5, "sign(A) 3 θmin / π", "Smallest angle against 60°."},
-    {Metric::MaxAngle, "max-angle", "Maximum angle", true, false, -1.0, 1.0, 0.5, "sign(A) 1.5 (1 − θmax / π)",
+    {Metric::RadiusRatio, "radius-ratio", "Radius ratio", kTriangles | kTetrahedra, -1.0, 1.0, 0.3,
+     "triangle: sign(A) 2 r / R;  tetrahedron: sign(V) 3 r / R", "Incircle against circumcircle, insphere against circumsphere."},
+    {Metric::MinAngle, "min-angle", "Minimum angle", kTriangles | kTetrahedra, -1.0, 1.0, 0.5,
+     "triangle: sign(A) 3 θmin / π;  tetrahedron: sign(V) least dihedral angle / arccos ⅓",
+     "Smallest angle against 60°; of tetrahedra the smallest dihedral angle against 70.53°."},
+    {Metric::MaxAngle, "max-angle", "Maximum angle", kTriangles, -1.0, 1.0, 0.5, "sign(A) 1.5 (1 − θmax / π)",
      "Largest angle against 60°; 0 at 180°."},
-    {Metric::Rectangularity, "rectangularity", "Rectangularity", true, false, -1.0, 1.0, 0.5,
+    {Metric::Rectangularity, "rectangularity", "Rectangularity", kTriangles, -1.0, 1.0, 0.5,
      "sign(A) maxᵢ (1 − |π/2 − θᵢ| / (π/2)) (1 − |eᵢⱼ − eᵢₖ| / max(eᵢⱼ, eᵢₖ))",
      "One right angle with equal legs (paper eq. 9, 10). Not quasiconcave."},
-    {Metric::ScaledJacobian, "scaled-jacobian", "Scaled Jacobian", true, true, -1.0, 1.0, 0.5,
-     "triangle: (2/√3) 2A / largest product of two edges;  quadrilateral: min aᵢ / (lᵢ lᵢ₋₁)", "Sine of the worst corner (Verdict)."},
-    {Metric::AspectRatio, "aspect-ratio", "Aspect ratio", true, false, -1.0, 1.0, 0.3, "4√3 A / (lmax Σ l)",
-     "Longest edge against the inradius (Verdict's value inverted)."},
+    {Metric::ScaledJacobian, "scaled-jacobian", "Scaled Jacobian", kTriangles | kQuadrilaterals | kTetrahedra | kOtherSolids, -1.0, 1.0,
+     0.5,
+     "triangle: (2/√3) 2A / largest product of two edges;  quadrilateral: min aᵢ / (lᵢ lᵢ₋₁);  tetrahedron: √2 6V / largest product of "
+     "three edges at a corner;  hexahedron: least corner determinant of unit edges (wedge: × 2/√3, pyramid's base: × √2)",
+     "Sine of the worst corner, or its solid counterpart (Verdict)."},
+    {Metric::AspectRatio, "aspect-ratio", "Aspect ratio", kTriangles | kTetrahedra, -1.0, 1.0, 0.3,
+     "triangle: 4√3 A / (lmax Σ l);  tetrahedron: sign(V) 2√6 r / lmax", "Longest edge against the inradius (Verdict's value inverted)."},
+    {Metric::Condition, "condition", "Condition", kQuadrilaterals | kTetrahedra | kOtherSolids, -1.0, 1.0, 0.3,
+     "quadrilateral: the mean ratio;  solids: least 3 det(Aᵢ) / (|Aᵢ| |adj Aᵢ|), Aᵢ a corner's Jacobian against the ideal one",
+     "Inverse of the worst corner's condition number (Knupp; Verdict's value inverted), signed."},
 }};
 }  // namespace
+
+std::string words(KindSet kinds) {
+  std::vector<std::string_view> each;
+  for (std::size_t k = 0; k < kElementKindCount; ++k)
+    if ((kinds & kind_set(static_cast<ElementKind>(k))) != 0) each.push_back(kElementKinds[k].plural);
+  std::string text;
+  for (std::size_t i = 0; i < each.size(); ++i) text += fmt::format("{}{}", i == 0 ? "" : i + 1 < each.size() ? ", " : " and ", each[i]);
+  return text;
+}
 
 std::span<const MetricInfo> metric_table() { return kTable; }
 

@@ -12,12 +12,11 @@ namespace dmoscope {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kGrain = 8192;
 
 template <Metric M>
 double quality_of(const QualityContext& context, PositionView positions, Index element) {
-  return visit_element(context, positions, element, kUndefined, [](const auto& shape) { return evaluate<M>(shape); });
+  return visit_element(context, positions, element, [](const auto& shape) { return evaluate<M>(shape); });
 }
 
 }  // namespace
@@ -27,7 +26,7 @@ double element_quality(const QualityContext& context, PositionView positions, Me
 }
 
 double smallest_jacobian(const QualityContext& context, PositionView positions, Index element) {
-  return visit_element(context, positions, element, kInfinity, [](const auto& shape) { return formulas::smallest_jacobian(shape); });
+  return visit_element(context, positions, element, [](const auto& shape) { return formulas::smallest_jacobian(shape); });
 }
 
 void element_qualities(const QualityContext& context, std::span<const Vec3> positions, Metric metric, ThreadPool* pool,

@@ -25,7 +25,8 @@ struct QualityContext {
 /// Quality of one element with the mesh's vertices at `positions`. NaN where the metric is not defined for its kind.
 [[nodiscard]] double element_quality(const QualityContext& context, PositionView positions, Metric metric, Index element);
 
-/// Smallest signed corner Jacobian of an element (twice the corner triangle's area; mesh units squared). Inverted means <= 0.
+/// Smallest signed corner Jacobian of an element: twice the corner triangle's area, six times the volume of a solid's corner tetrahedron
+/// (mesh units squared, cubed). Inverted means <= 0.
 [[nodiscard]] double smallest_jacobian(const QualityContext& context, PositionView positions, Index element);
 
 /// Quality of every element, out.size() == mesh.elements.size().

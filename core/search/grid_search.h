@@ -8,6 +8,7 @@
 
 #include "core/base/anywhere.h"
 #include "core/quality/formulas.h"
+#include "core/quality/solids.h"
 #include "core/search/parameters.h"
 #include "core/search/star.h"
 #include "core/search/team.h"
@@ -17,19 +18,36 @@ namespace dmoscope {
 /// Does the search compare the metric itself or its rank (formulas::rank), which costs less?
 enum class Value { Metric, Rank };
 
+namespace formulas {
+/// Does the metric judge other elements of the frame than simplices, and is its sign theirs?
+template <Metric M, class Point>
+inline constexpr bool kDefinedForOthers = kDefinedForQuadrilaterals<M, Point>;
+template <Metric M, class Real>
+inline constexpr bool kDefinedForOthers<M, Vec3Of<Real>> = kDefinedForCorners<M>;
+template <Metric M, class Point>
+inline constexpr bool kSignTellsInversion = Formula<M>::kSeesInversion;
+template <Metric M, class Real>
+inline constexpr bool kSignTellsInversion<M, Vec3Of<Real>> = true;
+}  // namespace formulas
+
 /// What a star is worth with its vertex at one candidate position, element by element.
 /// A star without inverted elements: the least metric (paper eq. 1); a candidate that inverts one is <= 0 and never wins.
 /// Otherwise (Untangling): the smallest corner Jacobian over its element's reference measure while it is <= 0, and the least metric
 /// once all are positive; every valid candidate is above every invalid one, since valid elements have positive metrics.
-template <Metric M, bool Untangling, class Real, Value V>
+/// Point: Vec2<Real> in a plane, Vec3Of<Real> in space.
+template <Metric M, bool Untangling, class Real, Value V, class Point>
 class Worth {
  public:
-  static constexpr bool kQuadrilaterals = formulas::kDefinedForQuadrilaterals<M, Vec2<Real>>;
+  static constexpr bool kOthers = formulas::kDefinedForOthers<M, Point>;
 
   DMOSCOPE_ANYWHERE Worth() : quality_(scalar::constant<Real>(std::numeric_limits<float>::max())), jacobian_(quality_) {}
-  DMOSCOPE_ANYWHERE void take(const StarTriangle<Real>& t, Vec2<Real> p) { take(formulas::Triangle<Vec2<Real>>(p, t.b, t.c), t.reference); }
-  DMOSCOPE_ANYWHERE void take(const StarQuadrilateral<Real>& q, Vec2<Real> p) {
-    take(formulas::Quadrilateral<Vec2<Real>>(p, q.b, q.c, q.d), q.reference);
+  /// Element: of a Star or SolidStar.
+  template <class Element>
+  DMOSCOPE_ANYWHERE void take(const Element& element, Point p) {
+    using scalar::min;
+    const auto shape = element.with(p);
+    quality_ = min(quality_, value(shape));
+    if constexpr (kNeedsJacobian) jacobian_ = min(jacobian_, formulas::smallest_jacobian(shape) / element.reference);
   }
   [[nodiscard]] DMOSCOPE_ANYWHERE Real value() const {
     using scalar::select;
@@ -38,14 +56,8 @@ class Worth {
   }
 
  private:
-  static constexpr bool kNeedsJacobian = Untangling || !formulas::Formula<M>::kSeesInversion;
+  static constexpr bool kNeedsJacobian = Untangling || !formulas::kSignTellsInversion<M, Point>;
 
-  template <class Shape>
-  DMOSCOPE_ANYWHERE void take(const Shape& shape, [[maybe_unused]] Real reference) {
-    using scalar::min;
-    quality_ = min(quality_, value(shape));
-    if constexpr (kNeedsJacobian) jacobian_ = min(jacobian_, formulas::smallest_jacobian(shape) / reference);
-  }
   template <class Shape>
   [[nodiscard]] static DMOSCOPE_ANYWHERE Real value(const Shape& shape) {
     if constexpr (V == Value::Rank)
@@ -63,10 +75,11 @@ class Objective {
  public:
   explicit DMOSCOPE_ANYWHERE Objective(StarT star) : star_(star) {}
 
-  [[nodiscard]] DMOSCOPE_ANYWHERE Real operator()(Vec2<Real> p) const {
-    using At = Worth<M, Untangling, Real, V>;
+  template <class Point = Vec2<Real>>
+  [[nodiscard]] DMOSCOPE_ANYWHERE Real operator()(Point p) const {
+    using At = Worth<M, Untangling, Real, V, Point>;
     At worth;
-    star_.template for_each<At::kQuadrilaterals>([&worth, p](const auto& element) { worth.take(element, p); });
+    star_.template for_each<At::kOthers>([&worth, p](const auto& element) { worth.take(element, p); });
     return worth.value();
   }
 
@@ -75,20 +88,55 @@ class Objective {
 };
 
 /// The best candidate of all levels: its offset from the vertex (units of the star's scale) and its objective.
-template <class Real>
+template <class Real, class Point = Vec2<Real>>
 struct Candidate {
-  Vec2<Real> offset{};
+  Point offset{};
   Real objective{};
 };
 
-/// One level's grid: candidate (i, j), 0 <= i, j < n, is centre + ((i, j) / (n - 1) - 1/2) * size; its index is i * n + j.
+/// Coordinate by coordinate.
 template <class Real>
+[[nodiscard]] DMOSCOPE_ANYWHERE Vec2<Real> times(Vec2<Real> a, Real s) {
+  return {a.x * s, a.y * s};
+}
+template <class Real>
+[[nodiscard]] DMOSCOPE_ANYWHERE Vec3Of<Real> times(Vec3Of<Real> a, Real s) {
+  return {a.x * s, a.y * s, a.z * s};
+}
+template <class Condition, class Real>
+[[nodiscard]] DMOSCOPE_ANYWHERE Vec2<Real> select_point(const Condition& condition, Vec2<Real> yes, Vec2<Real> no) {
+  using scalar::select;
+  return {select(condition, yes.x, no.x), select(condition, yes.y, no.y)};
+}
+template <class Condition, class Real>
+[[nodiscard]] DMOSCOPE_ANYWHERE Vec3Of<Real> select_point(const Condition& condition, Vec3Of<Real> yes, Vec3Of<Real> no) {
+  using scalar::select;
+  return {select(condition, yes.x, no.x), select(condition, yes.y, no.y), select(condition, yes.z, no.z)};
+}
+
+/// One level's grid of n points an axis: candidate (i, j) or (i, j, k), each from 0 to n - 1, is centre + ((i, j, k) / (n - 1) - 1/2) *
+/// size; its index is i * n + j, or (i * n + j) * n + k.
+template <class Real, class Point = Vec2<Real>>
 struct CandidateGrid {
-  Vec2<Real> centre{};
-  Vec2<Real> size{};
+  Point centre{};
+  Point size{};
   int points = 0;
-  [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<Real> at(int i, int j) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE Point at(int i, int j) const requires std::is_same_v<Point, Vec2<Real>> {
     return {coordinate(centre.x, size.x, i), coordinate(centre.y, size.y, j)};
+  }
+  [[nodiscard]] DMOSCOPE_ANYWHERE Point at(int i, int j, int k) const requires std::is_same_v<Point, Vec3Of<Real>> {
+    return {coordinate(centre.x, size.x, i), coordinate(centre.y, size.y, j), coordinate(centre.z, size.z, k)};
+  }
+  /// Calls f(index, candidate) for all of one i, in the order of their indices.
+  template <class F>
+  DMOSCOPE_ANYWHERE void for_slice(int i, F f) const {
+    for (int j = 0; j < points; ++j) {
+      if constexpr (std::is_same_v<Point, Vec2<Real>>) {
+        f(i * points + j, at(i, j));
+      } else {
+        for (int k = 0; k < points; ++k) f((i * points + j) * points + k, at(i, j, k));
+      }
+    }
   }
 
  private:
@@ -102,22 +150,22 @@ struct CandidateGrid {
 struct NoTrace {
   template <class Real>
   DMOSCOPE_ANYWHERE void begin(const Real& /*objective*/) {}
-  template <class Real>
-  DMOSCOPE_ANYWHERE void level(const CandidateGrid<Real>&) {}
-  template <class Real>
-  DMOSCOPE_ANYWHERE void candidate(int /*index*/, Vec2<Real> /*offset*/, Real /*objective*/) {}
-  template <class Real>
-  DMOSCOPE_ANYWHERE void found(const Candidate<Real>& /*best*/) {}
+  template <class Real, class Point>
+  DMOSCOPE_ANYWHERE void level(const CandidateGrid<Real, Point>&) {}
+  template <class Real, class Point>
+  DMOSCOPE_ANYWHERE void candidate(int /*index*/, const Point& /*offset*/, const Real& /*objective*/) {}
+  template <class Real, class Point>
+  DMOSCOPE_ANYWHERE void found(const Candidate<Real, Point>& /*best*/) {}
 };
 /// Does somebody look? A search that needs no candidate's value for itself finds them only then.
 template <class Trace>
 inline constexpr bool kTraced = !std::is_same_v<std::remove_cvref_t<Trace>, NoTrace>;
 
 /// The best of a team's lanes; among equals the one of lowest index.
-template <class Real, class Team>
-[[nodiscard]] DMOSCOPE_ANYWHERE Candidate<Real> best_of_team(const Team& team, const Candidate<Real>& mine, int index) {
+template <class Real, class Point, class Team>
+[[nodiscard]] DMOSCOPE_ANYWHERE Candidate<Real, Point> best_of_team(const Team& team, const Candidate<Real, Point>& mine, int index) {
   struct Found {
-    Candidate<Real> candidate;
+    Candidate<Real, Point> candidate;
     int index;
   };
   return fold(team, Found{mine, index},
@@ -131,29 +179,29 @@ template <class Real, class Team>
 
 /// Searches all levels and keeps the best of all. The current position is no candidate (n is even) and so is compared explicitly;
 /// only a strictly better candidate replaces it, so ties go to the earlier level and the lower index. Grids after the first are
-/// centred on the best position so far, `omega` times 2 / (n - 1) as large as the one before (paper eq. 5).
-template <class Real, class ObjectiveAt, class Trace = NoTrace, class Team = Solo>
-[[nodiscard]] DMOSCOPE_ANYWHERE Candidate<Real> grid_search(const ObjectiveAt& objective, Vec2<Real> box,
-                                                            const SearchParameters& parameters, Trace&& trace = {}, const Team& team = {}) {
+/// centred on the best position so far, `omega` times 2 / (n - 1) as large as the one before (paper eq. 5). Point: of the plane or of
+/// space.
+template <class Real, class ObjectiveAt, class Point = Vec2<Real>, class Trace = NoTrace, class Team = Solo>
+[[nodiscard]] DMOSCOPE_ANYWHERE Candidate<Real, Point> grid_search(const ObjectiveAt& objective, Point box,
+                                                                   const SearchParameters& parameters, Trace&& trace = {},
+                                                                   const Team& team = {}) {
   using scalar::select;
-  Candidate<Real> best{{}, objective(Vec2<Real>{})};
+  Candidate<Real, Point> best{{}, objective(Point{})};
   trace.begin(best.objective);
   double omega = parameters.omega;
   for (int level = 0; level < parameters.levels; ++level) {
-    const Real factor = scalar::constant<Real>(omega);
-    const CandidateGrid<Real> grid{best.offset, {box.x * factor, box.y * factor}, parameters.grid_points};
+    const CandidateGrid<Real, Point> grid{best.offset, times(box, scalar::constant<Real>(omega)), parameters.grid_points};
     trace.level(grid);
     [[maybe_unused]] int index = -1;  // of the best so far in this level: for a team alone
     for (int i = static_cast<int>(team.lane()); i < grid.points; i += static_cast<int>(Team::kSize)) {
-      for (int j = 0; j < grid.points; ++j) {
-        const Vec2<Real> p = grid.at(i, j);
+      grid.for_slice(i, [&](int candidate, const Point& p) {
         const Real value = objective(p);
-        trace.candidate(i * grid.points + j, p, value);
+        trace.candidate(candidate, p, value);
         const auto better = value > best.objective;
         best.objective = select(better, value, best.objective);
-        best.offset = {select(better, p.x, best.offset.x), select(better, p.y, best.offset.y)};
-        if constexpr (Team::kSize > 1) index = better ? i * grid.points + j : index;
-      }
+        best.offset = select_point(better, p, best.offset);
+        if constexpr (Team::kSize > 1) index = better ? candidate : index;
+      });
     }
     if constexpr (Team::kSize > 1) best = best_of_team(team, best, index);
     trace.found(best);

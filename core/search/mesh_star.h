@@ -2,73 +2,144 @@
 // The star of one vertex straight from the mesh.
 
 #include <cmath>
+#include <cstdint>
 
 #include "core/base/anywhere.h"
-#include "core/mesh/planar_view.h"
+#include "core/mesh/mesh_view.h"
 #include "core/mesh/position_view.h"
 #include "core/quality/scalar.h"
 #include "core/search/star.h"
 
 namespace dmoscope {
 
+namespace turned {
+
+/// The corners of a solid, turned so that corner `c` is the first and the solid stays positive; a pyramid's tip stays the last.
+[[nodiscard]] DMOSCOPE_ANYWHERE Index tetrahedron(Index c, Index i) { return c ^ i; }
+[[nodiscard]] DMOSCOPE_ANYWHERE Index pyramid(Index c, Index i) { return i < 4 ? (c + i) % 4 : 4; }
+[[nodiscard]] DMOSCOPE_ANYWHERE Index wedge(Index c, Index i) {
+  const Index around = i % 3;
+  if (c < 3) return (c + around) % 3 + (i < 3 ? 0U : 3U);
+  return (c + 3 - around) % 3 + (i < 3 ? 3U : 0U);
+}
+[[nodiscard]] DMOSCOPE_ANYWHERE Index hexahedron(Index c, Index i) {
+  const Index around = i % 4;
+  if (c < 4) return (c + around) % 4 + (i < 4 ? 0U : 4U);
+  return (c + 4 - around) % 4 + (i < 4 ? 4U : 0U);
+}
+
+}  // namespace turned
+
 /// Reads the mesh anew at every look, so that it needs no memory, whatever the star's size: for a GPU's lanes. gather_star() copies it for
-/// those who look often.
+/// those who look often. Frame: Plane or Space.
+template <class Frame>
 class MeshStar {
  public:
-  DMOSCOPE_ANYWHERE MeshStar(const PlanarView& mesh, PositionView positions, Index vertex)
+  using Offset = OffsetIn<Frame, double>;
+
+  DMOSCOPE_ANYWHERE MeshStar(const MeshView<Frame>& mesh, PositionView positions, Index vertex)
       : mesh_(mesh), positions_(positions), vertex_(vertex), origin_(positions[vertex]) {
-    Vec2<double> low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
+    Box box;
     for (const Incidence& at : mesh_.star(vertex_)) {
       const auto corners = mesh_.corners_of(at.element);
-      for (std::size_t i = 1; i < corners.size(); ++i) {
-        const Vec2<double> p = offset(corners, at.corner, i);
-        low = {scalar::min(low.x, p.x), scalar::min(low.y, p.y)};
-        high = {scalar::max(high.x, p.x), scalar::max(high.y, p.y)};
-      }
+      for (std::size_t i = 1; i < corners.size(); ++i) box.add(offset(corners, (at.corner + i) % corners.size()));
     }
-    const double width = scalar::max(scalar::abs(low.x), scalar::abs(high.x)),
-                 height = scalar::max(scalar::abs(low.y), scalar::abs(high.y));
-    const double extent = scalar::max(width, height);
+    const double extent = box.largest();
     scale_ = extent > 0.0 && extent < HUGE_VAL ? std::ldexp(1.0, std::ilogb(extent)) : 1.0;
     inverse_ = 1.0 / scale_;
-    box_ = scaled(high - low);
+    box_ = scaled(box.high - box.low);
   }
 
-  /// Width and height of the bounding box of the other vertices, in units of scale().
-  [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<double> box() const { return box_; }
+  /// The bounding box of the other vertices, in units of scale().
+  [[nodiscard]] DMOSCOPE_ANYWHERE Offset box() const { return box_; }
   /// A power of two, in mesh units: the largest offset lies in [1, 2) of it.
   [[nodiscard]] DMOSCOPE_ANYWHERE double scale() const { return scale_; }
 
-  /// See StarView; in the order of the elements.
-  template <bool Quadrilaterals, class F>
+  /// See StarView; in the order of the elements. Others: those that are no simplices, too.
+  template <bool Others, class F>
   DMOSCOPE_ANYWHERE void for_each(F f) const {
     for (const Incidence& at : mesh_.star(vertex_)) {
       const auto corners = mesh_.corners_of(at.element);
-      const double reference = mesh_.reference_measure[at.element] * inverse_ * inverse_;
-      const Vec2<double> b = scaled(offset(corners, at.corner, 1)), c = scaled(offset(corners, at.corner, 2));
-      if (corners.size() == 3)
-        f(StarTriangle<double>{b, c, reference});
-      else if constexpr (Quadrilaterals)
-        f(StarQuadrilateral<double>{b, c, scaled(offset(corners, at.corner, 3)), reference});
+      const double reference = mesh_.reference_measure[at.element] * measure_of(inverse_);
+      if constexpr (std::is_same_v<Frame, Plane>)
+        visit_planar_element<Others>(corners, at.corner, reference, f);
+      else
+        visit_solid_element<Others>(corners, at.corner, reference, f);
     }
   }
 
  private:
-  /// Of the corner `i` places after the vertex.
-  [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<double> offset(std::span<const Index> corners, Index corner, std::size_t i) const {
-    return mesh_.plane.project(positions_[corners[(corner + i) % corners.size()]] - origin_);
-  }
-  [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<double> scaled(Vec2<double> p) const { return {p.x * inverse_, p.y * inverse_}; }
+  /// Of offsets.
+  struct Box {
+    Offset low{}, high{};
+    bool empty = true;
+    DMOSCOPE_ANYWHERE void add(Offset p) {
+      low = empty ? p : lower(low, p);
+      high = empty ? p : upper(high, p);
+      empty = false;
+    }
+    [[nodiscard]] DMOSCOPE_ANYWHERE double largest() const { return scalar::max(greatest(low), greatest(high)); }
+  };
+  using P2 = Vec2<double>;
+  static DMOSCOPE_ANYWHERE P2 lower(P2 a, P2 b) { return {scalar::min(a.x, b.x), scalar::min(a.y, b.y)}; }
+  static DMOSCOPE_ANYWHERE P2 upper(P2 a, P2 b) { return {scalar::max(a.x, b.x), scalar::max(a.y, b.y)}; }
+  static DMOSCOPE_ANYWHERE double greatest(P2 a) { return scalar::max(scalar::abs(a.x), scalar::abs(a.y)); }
+  static DMOSCOPE_ANYWHERE Vec3 lower(Vec3 a, Vec3 b) { return {scalar::min(a.x, b.x), scalar::min(a.y, b.y), scalar::min(a.z, b.z)}; }
+  static DMOSCOPE_ANYWHERE Vec3 upper(Vec3 a, Vec3 b) { return {scalar::max(a.x, b.x), scalar::max(a.y, b.y), scalar::max(a.z, b.z)}; }
+  static DMOSCOPE_ANYWHERE double greatest(Vec3 a) { return scalar::max3(scalar::abs(a.x), scalar::abs(a.y), scalar::abs(a.z)); }
 
-  PlanarView mesh_;
+  /// Of an area or a volume, where lengths are `length` times as large.
+  static DMOSCOPE_ANYWHERE double measure_of(double length) {
+    return std::is_same_v<Frame, Plane> ? length * length : length * length * length;
+  }
+  [[nodiscard]] DMOSCOPE_ANYWHERE Offset offset(std::span<const Index> corners, std::size_t corner) const {
+    return mesh_.frame.project(positions_[corners[corner]] - origin_);
+  }
+  [[nodiscard]] DMOSCOPE_ANYWHERE P2 scaled(P2 p) const { return {p.x * inverse_, p.y * inverse_}; }
+  [[nodiscard]] DMOSCOPE_ANYWHERE Vec3 scaled(Vec3 p) const { return {p.x * inverse_, p.y * inverse_, p.z * inverse_}; }
+
+  template <bool Others, class F>
+  DMOSCOPE_ANYWHERE void visit_planar_element(std::span<const Index> corners, Index corner, double reference, F& f) const {
+    const auto after = [&](std::size_t i) { return scaled(offset(corners, (corner + i) % corners.size())); };
+    if (corners.size() == 3)
+      f(StarTriangle<double>{after(1), after(2), reference});
+    else if constexpr (Others)
+      f(StarQuadrilateral<double>{after(1), after(2), after(3), reference});
+  }
+
+  template <bool Others, class F>
+  DMOSCOPE_ANYWHERE void visit_solid_element(std::span<const Index> corners, Index corner, double reference, F& f) const {
+    const auto at = [&](Index i) { return scaled(offset(corners, i)); };
+    if (corners.size() == 4) {
+      f(StarTetrahedron<double>{at(turned::tetrahedron(corner, 1)), at(turned::tetrahedron(corner, 2)), at(turned::tetrahedron(corner, 3)),
+                                reference});
+    } else if constexpr (Others) {
+      const auto visit = [&]<class Element>(Element element, Index (*turn)(Index, Index)) {
+        for (std::size_t i = 0; i < Element::kOthers; ++i) element.others[i] = at(turn(corner, static_cast<Index>(i + 1)));
+        element.reference = reference;
+        f(element);
+      };
+      if (corners.size() == 8)
+        visit(StarHexahedron<double>{}, turned::hexahedron);
+      else if (corners.size() == 6)
+        visit(StarWedge<double>{}, turned::wedge);
+      else if (corner < 4)
+        visit(StarPyramid<double>{}, turned::pyramid);
+      else
+        f(StarTip<double>{{at(0), at(1), at(2), at(3)}, reference});
+    }
+  }
+
+  MeshView<Frame> mesh_;
   PositionView positions_;
   Index vertex_;
   Vec3 origin_;
-  Vec2<double> box_;
+  Offset box_;
   double scale_ = 1.0, inverse_ = 1.0;
 };
 
 /// Fills `out` (its vectors are reused). A star shrunk to a point has an empty box.
-void gather_star(const MeshStar& star, Star<double>& out);
+void gather_star(const MeshStar<Plane>& star, Star<double>& out);
+void gather_star(const MeshStar<Space>& star, SolidStar<double>& out);
 
 }  // namespace dmoscope

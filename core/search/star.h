@@ -1,12 +1,16 @@
 #pragma once
-// The star of one vertex as the search sees it: offsets from the vertex in the mesh's plane, scaled by a power of two.
+// The star of one vertex as the search sees it: offsets from the vertex in the mesh's plane or in space, scaled by a power of two.
 
+#include <array>
 #include <cstddef>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/base/anywhere.h"
 #include "core/base/vec.h"
+#include "core/mesh/plane.h"
+#include "core/quality/solids.h"
 
 namespace dmoscope {
 
@@ -15,12 +19,15 @@ template <class Real>
 struct StarTriangle {
   Vec2<Real> b, c;
   Real reference;
+  /// The element with the star's vertex at `p`.
+  [[nodiscard]] DMOSCOPE_ANYWHERE auto with(Vec2<Real> p) const { return formulas::Triangle<Vec2<Real>>(p, b, c); }
 };
 /// An incident quadrilateral: its other three corners in the element's order, and its reference measure.
 template <class Real>
 struct StarQuadrilateral {
   Vec2<Real> b, c, d;
   Real reference;
+  [[nodiscard]] DMOSCOPE_ANYWHERE auto with(Vec2<Real> p) const { return formulas::Quadrilateral<Vec2<Real>>(p, b, c, d); }
 };
 
 /// Everything is in units of `scale` (a power of two, so that scaling rounds nothing): the largest offset lies in [1, 2).
@@ -55,5 +62,88 @@ class StarView {
   std::span<const StarTriangle<Real>> triangles_;
   std::span<const StarQuadrilateral<Real>> quadrilaterals_;
 };
+
+/// An incident tetrahedron: its other three corners, so that it is positive with the vertex as its first.
+template <class Real>
+struct StarTetrahedron {
+  Vec3Of<Real> b, c, d;
+  Real reference;
+  [[nodiscard]] DMOSCOPE_ANYWHERE auto with(Vec3Of<Real> p) const { return formulas::Tetrahedron<Vec3Of<Real>>(p, b, c, d); }
+};
+/// Any other incident solid (formulas::Hexahedron and so on), turned so that the vertex is its first corner, or the last of a pyramid: its
+/// other corners in order.
+template <class SolidT, std::size_t N, class Real>
+struct StarSolid {
+  using Solid = SolidT;
+  static constexpr std::size_t kOthers = N;
+  std::array<Vec3Of<Real>, N> others;
+  Real reference;
+  [[nodiscard]] DMOSCOPE_ANYWHERE Solid with(Vec3Of<Real> p) const {
+    Solid solid{};
+    solid.at[0] = p;
+    for (std::size_t i = 0; i < N; ++i) solid.at[i + 1] = others[i];
+    return solid;
+  }
+};
+template <class Real>
+using StarHexahedron = StarSolid<formulas::Hexahedron<Vec3Of<Real>>, 7, Real>;
+template <class Real>
+using StarWedge = StarSolid<formulas::Wedge<Vec3Of<Real>>, 5, Real>;
+/// The vertex is a corner of its base.
+template <class Real>
+using StarPyramid = StarSolid<formulas::Pyramid<Vec3Of<Real>>, 4, Real>;
+/// The vertex is its tip.
+template <class Real>
+struct StarTip {
+  std::array<Vec3Of<Real>, 4> base;
+  Real reference;
+  [[nodiscard]] DMOSCOPE_ANYWHERE auto with(Vec3Of<Real> p) const {
+    return formulas::Pyramid<Vec3Of<Real>>{{base[0], base[1], base[2], base[3], p}};
+  }
+};
+
+/// The star of a vertex of a volume; units as in Star.
+template <class Real>
+struct SolidStar {
+  std::vector<StarTetrahedron<Real>> tetrahedra;
+  std::vector<StarHexahedron<Real>> hexahedra;
+  std::vector<StarWedge<Real>> wedges;
+  std::vector<StarPyramid<Real>> pyramids;
+  std::vector<StarTip<Real>> tips;
+  Vec3Of<Real> box;
+  double scale = 1.0;
+
+  /// Of the star or of each of its lists in turn.
+  template <class F>
+  void for_each_list(F f) {
+    f(tetrahedra), f(hexahedra), f(wedges), f(pyramids), f(tips);
+  }
+};
+
+template <class Real>
+class SolidStarView {
+ public:
+  SolidStarView(const SolidStar<Real>& star) : star_(&star) {}  // NOLINT(google-explicit-constructor): a view of it
+  /// Calls f with each tetrahedron and, unless told that f does not take them, with each other solid.
+  template <bool Others, class F>
+  void for_each(F f) const {
+    for (const auto& t : star_->tetrahedra) f(t);
+    if constexpr (Others) {
+      for (const auto& h : star_->hexahedra) f(h);
+      for (const auto& w : star_->wedges) f(w);
+      for (const auto& p : star_->pyramids) f(p);
+      for (const auto& p : star_->tips) f(p);
+    }
+  }
+
+ private:
+  const SolidStar<Real>* star_;
+};
+
+/// What a star is in a frame.
+template <class Frame, class Real>
+using StarIn = std::conditional_t<std::is_same_v<Frame, Plane>, Star<Real>, SolidStar<Real>>;
+template <class Frame, class Real>
+using StarViewIn = std::conditional_t<std::is_same_v<Frame, Plane>, StarView<Real>, SolidStarView<Real>>;
 
 }  // namespace dmoscope

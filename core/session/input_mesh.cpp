@@ -12,6 +12,8 @@
 #include "core/io/source_file.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/orientation.h"
+#include "core/mesh/volume.h"
+#include "core/session/volume_input.h"
 
 namespace dmoscope {
 namespace {
@@ -87,39 +89,34 @@ MeshReport examine(const Mesh& mesh, const Geometry& geometry, const Topology& t
   return report;
 }
 
-/// "11098 tetrahedra", "445 tetrahedra, 190 pyramids and 305 hexahedra".
-std::string count_volume_elements(const Mesh& mesh) {
-  std::array<Index, kElementKindCount> count{};
-  for (const ElementKind kind : mesh.elements.kinds()) ++count[static_cast<std::size_t>(kind)];
-  std::vector<std::string> parts;
-  for (std::size_t k = 0; k < kElementKindCount; ++k) {
-    const ElementKindInfo& kind = info(static_cast<ElementKind>(k));
-    if (kind.dimension == 3 && count[k] > 0) parts.push_back(fmt::format("{} {}", count[k], count[k] == 1 ? kind.name : kind.plural));
-  }
-  std::string text = parts.front();
-  for (std::size_t i = 1; i < parts.size(); ++i) text += (i + 1 < parts.size() ? ", " : " and ") + parts[i];
-  return text;
-}
-
 void refuse_what_cannot_be_done(const Mesh& mesh, const Geometry& geometry, const std::string& file, Need need) {
-  constexpr double kLargest = 1e75;  // products of four lengths must stay finite and normal
+  // Products of four lengths must stay finite and normal; of a volume, of six.
+  const double largest = geometry.shape == Shape::Volume ? 1e50 : 1e75;
   if (mesh.elements.size() == 0) throw InputError(file, 0, "the mesh has no elements");
-  if (geometry.size > kLargest || (geometry.size > 0.0 && geometry.size < 1.0 / kLargest)) {
-    throw InputError(file, 0,
-                     fmt::format("the mesh is {:.4g} units large; sizes from {:g} to {:g} can be computed with", geometry.size,
-                                 1.0 / kLargest, kLargest));
+  if (geometry.size > largest || (geometry.size > 0.0 && geometry.size < 1.0 / largest)) {
+    throw InputError(
+        file, 0,
+        fmt::format("the mesh is {:.4g} units large; sizes from {:g} to {:g} can be computed with", geometry.size, 1.0 / largest, largest));
   }
   if (geometry.shape == Shape::Volume) {
-    throw InputError(file, 0,
-                     fmt::format("this is a volume mesh ({}); this version {} only", count_volume_elements(mesh),
-                                 need == Need::Smoothing ? "smooths planar meshes" : "measures planar and surface meshes"));
+    for (Index e = 0; e < mesh.elements.size(); ++e)
+      if (planar(mesh, e))
+        throw InputError(file, 0,
+                         fmt::format("the mesh mixes volume elements with {} (element {})", info(mesh.elements.kind(e)).plural, e));
   }
   if (geometry.shape == Shape::Surface && need == Need::Smoothing) {
     throw InputError(file, 0,
                      fmt::format("this is a curved surface mesh (its vertices lie up to {:.4g} from one plane, its size is {:.4g}); "
-                                 "this version smooths planar meshes only",
+                                 "this version smooths planar meshes and volumes only",
                                  geometry.deviation, geometry.size));
   }
+}
+
+/// Area or volume, at least 0.
+double measure(const Mesh& mesh, const Geometry& geometry, Index e) {
+  if (geometry.shape == Shape::Volume) return std::abs(signed_volume(mesh, e));
+  const Vec3 twice = area_vector(mesh, e);
+  return 0.5 * (geometry.shape == Shape::Planar ? std::abs(dot(twice, geometry.plane.normal)) : length(twice));
 }
 
 /// See InputMesh::reference_measure.
@@ -128,9 +125,7 @@ std::vector<double> reference_measures(const Mesh& mesh, const Geometry& geometr
   auto reference = large_vector<double>(count);  // at first each element's own area
   double total = 0.0;
   for (Index e = 0; e < count; ++e) {
-    if (!planar(mesh, e)) continue;
-    const Vec3 twice = area_vector(mesh, e);
-    reference[e] = 0.5 * (geometry.shape == Shape::Planar ? std::abs(dot(twice, geometry.plane.normal)) : length(twice));
+    reference[e] = measure(mesh, geometry, e);
     total += reference[e];
   }
   const double fallback = total > 0.0 ? total / count : 1.0;
@@ -160,6 +155,32 @@ MeshReport examine(const Mesh& mesh, const Geometry& geometry) {
   return examine(mesh, geometry, topology, edges, unwatched);
 }
 
+namespace {
+
+std::shared_ptr<const InputMesh> assemble(Mesh mesh, Geometry geometry, Topology topology, FaceNeighbours faces, MeshReport report,
+                                          std::filesystem::path path, Progress& progress, std::string generator) {
+  if (mesh.source) report.file_notes = mesh.source->notes();
+  std::vector<double> reference = reference_measures(mesh, geometry, topology, progress);
+  progress.check();
+  return std::make_shared<const InputMesh>(InputMesh{std::move(mesh), geometry, std::move(topology), std::move(faces), std::move(report),
+                                                     std::move(path), std::move(reference), std::move(generator)});
+}
+
+std::shared_ptr<const InputMesh> prepare_volume(Mesh mesh, const Geometry& geometry, std::filesystem::path path, Progress& progress,
+                                                std::string generator) {
+  FaceNeighbours faces(mesh, &progress);
+  progress.set(0.5);
+  const OrientationReport orientation = normalise_orientation(mesh, faces);
+  if (orientation.flipped > 0) faces = FaceNeighbours(mesh, &progress);
+  Topology topology(mesh, faces);
+  progress.begin("checking");
+  MeshReport report = examine_volume(mesh, geometry, topology, faces, orientation.components, progress);
+  return assemble(std::move(mesh), geometry, std::move(topology), std::move(faces), std::move(report), std::move(path), progress,
+                  std::move(generator));
+}
+
+}  // namespace
+
 std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path path, Need need, Progress& progress,
                                                std::string generator) {
   const Geometry geometry = classify(mesh);
@@ -167,6 +188,7 @@ std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path 
   progress.check();
 
   progress.begin("finding neighbours");
+  if (geometry.shape == Shape::Volume) return prepare_volume(std::move(mesh), geometry, std::move(path), progress, std::move(generator));
   EdgeSurvey edges;
   Topology topology(mesh, edges, progress);
   progress.check();
@@ -176,12 +198,8 @@ std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path 
 
   progress.begin("checking");
   MeshReport report = examine(mesh, geometry, topology, edges, progress);
-  if (mesh.source) report.file_notes = mesh.source->notes();
   edges = {};
-  std::vector<double> reference = reference_measures(mesh, geometry, topology, progress);
-  progress.check();
-  return std::make_shared<const InputMesh>(InputMesh{std::move(mesh), geometry, std::move(topology), std::move(report), std::move(path),
-                                                     std::move(reference), std::move(generator)});
+  return assemble(std::move(mesh), geometry, std::move(topology), {}, std::move(report), std::move(path), progress, std::move(generator));
 }
 
 }  // namespace dmoscope

@@ -8,8 +8,9 @@
 
 #include "core/base/progress.h"
 #include "core/io/io_context.h"
+#include "core/mesh/faces.h"
 #include "core/mesh/mesh.h"
-#include "core/mesh/planar_view.h"
+#include "core/mesh/mesh_view.h"
 #include "core/mesh/plane.h"
 #include "core/mesh/report.h"
 #include "core/mesh/topology.h"
@@ -21,23 +22,28 @@ struct InputMesh {
   Mesh mesh;  // orientation normalised
   Geometry geometry;
   Topology topology;
+  FaceNeighbours faces;  // of a volume
   MeshReport report;
   std::filesystem::path path;             // empty for a generated mesh
   std::vector<double> reference_measure;  // > 0, divides an element's Jacobian while untangling: mean over its corners of the mean |area|
-                                          // in their stars, at input
+                                          // or |volume| in their stars, at input
   std::string generator{};                // "coast 4000 1": the words that make this mesh again; empty for any other
   [[nodiscard]] QualityContext quality_context() const { return {mesh, geometry}; }
-  /// Of a planar mesh.
-  [[nodiscard]] PlanarView planar_view() const {
-    return {topology.star_offsets().data(),     topology.incidences().data(), mesh.elements.offsets().data(),
-            mesh.elements.all_corners().data(), reference_measure.data(),     geometry.plane};
+  [[nodiscard]] bool is_volume() const noexcept { return geometry.shape == Shape::Volume; }
+  /// Of a planar mesh (Plane) or of a volume (Space).
+  template <class Frame>
+  [[nodiscard]] MeshView<Frame> view() const {
+    MeshView<Frame> view{topology.star_offsets().data(),     topology.incidences().data(), mesh.elements.offsets().data(),
+                         mesh.elements.all_corners().data(), reference_measure.data(),     {}};
+    if constexpr (std::is_same_v<Frame, Plane>) view.frame = geometry.plane;
+    return view;
   }
+  [[nodiscard]] PlanarView planar_view() const { return view<Plane>(); }
 };
 
 enum class Need { Smoothing, QualityOnly };
 
-/// Classifies, orients, examines and indexes a mesh. With Need::Smoothing a curved surface or a volume mesh is refused
-/// (InputError that names the file); with Need::QualityOnly only a volume mesh is.
+/// Classifies, orients, examines and indexes a mesh. With Need::Smoothing a curved surface is refused (InputError that names the file).
 [[nodiscard]] std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path path, Need need, Progress& progress,
                                                              std::string generator = {});
 
@@ -47,7 +53,7 @@ enum class Need { Smoothing, QualityOnly };
 /// read_mesh, then prepare_input.
 [[nodiscard]] std::shared_ptr<const InputMesh> load_input(const std::filesystem::path& path, Need need, const IoContext& context);
 
-/// Orders the planar elements' findings (orientation, duplicates, ...); called by prepare_input, exposed for tests.
+/// The elements' findings (inverted, duplicates, ...); called by prepare_input, exposed for tests.
 [[nodiscard]] MeshReport examine(const Mesh& mesh, const Geometry& geometry);
 
 }  // namespace dmoscope

@@ -32,7 +32,7 @@ std::vector<Index> free_vertices(std::span<const std::uint8_t> fixed, const Visi
 
 std::shared_ptr<const Colouring> make_colouring(const InputMesh& input, std::span<const Index> free, ThreadPool* pool) {
   Colouring colouring = colour_vertices(input.mesh, input.topology, free);
-  arrange_classes(colouring, input.mesh, input.geometry.plane, input.topology, pool);
+  arrange_classes(colouring, input.mesh, input.is_volume() ? nullptr : &input.geometry.plane, input.topology, pool);
   return std::make_shared<const Colouring>(std::move(colouring));
 }
 

@@ -157,13 +157,13 @@ class ActiveSet {
     return Ascent(room, qualities, Objective<M, false, double>{StarView<double>(star)}).from(place);
   }
 
-  RuleMesh mesh_;
+  RuleMesh<Plane> mesh_;
 };
 
 }  // namespace
 
 std::unique_ptr<Smoother> make_active_set_smoother(const SmoothingTask& task) {
-  return formulas::with_metric(task.metric, [&]<Metric M>() { return make_rule_smoother(task, ActiveSet<M>(task)); });
+  return formulas::with_planar_metric(task.metric, [&]<Metric M>() { return make_rule_smoother(task, ActiveSet<M>(task)); });
 }
 
 }  // namespace dmoscope

@@ -13,7 +13,7 @@ double mean_of_star(const PlanarView& mesh, PositionView positions, Index vertex
   const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
   double sum = 0.0;
   for (const Incidence& incidence : mesh.star(vertex))
-    visit_planar(mesh.plane, mesh.corners_of(incidence.element), at, [&sum](const auto& shape) { sum += evaluate<M>(shape); });
+    visit_planar(mesh.frame, mesh.corners_of(incidence.element), at, [&sum](const auto& shape) { sum += evaluate<M>(shape); });
   return sum / static_cast<double>(mesh.star(vertex).size());
 }
 
@@ -34,7 +34,7 @@ double mean_at(const StarView<double>& star, Vec2<double> p) {
 std::array<MetricFunctions, kMetricCount> make_table() {
   std::array<MetricFunctions, kMetricCount> table{};
   for (const MetricInfo& entry : metric_table())
-    table[static_cast<std::size_t>(entry.metric)] = formulas::with_metric(entry.metric, []<Metric M>() {
+    table[static_cast<std::size_t>(entry.metric)] = formulas::with_planar_metric(entry.metric, []<Metric M>() {
       return MetricFunctions{star_state<M>, mean_of_star<M>, worth_at<M, false>, worth_at<M, true>, mean_at<M>};
     });
   return table;
@@ -67,7 +67,7 @@ DensityTarget density_target(const SizeField& size, const PlanarView& mesh, Posi
   double weights = 0.0, lengths = 0.0;
   std::size_t count = 0;
   for_edge_neighbours(mesh, vertex, [&](Index other) {
-    const Vec2<double> edge = mesh.plane.project(positions[other] - here);
+    const Vec2<double> edge = mesh.frame.project(positions[other] - here);
     const double weight = 1.0 / size.at(other, positions[other]);
     sum = {sum.x + weight * edge.x, sum.y + weight * edge.y};
     weights += weight;
@@ -88,7 +88,7 @@ DensityTarget CombinedSearch::density_of(const Star<double>& star, PositionView 
 /// The second aim with the vertex at `place`.
 double CombinedSearch::second(PositionView positions, Index vertex, Vec3 place) const {
   if (const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&aims_.second))
-    return density_target(**size, mesh_.view, positions, vertex).density(mesh_.view.plane.project(place - positions[vertex]));
+    return density_target(**size, mesh_.view, positions, vertex).density(mesh_.view.frame.project(place - positions[vertex]));
   if (const auto* metric = std::get_if<Metric>(&aims_.second))
     return metric_functions(*metric).state(mesh_.view, positions, vertex, place).quality;
   return metric_functions(aims_.first).mean(mesh_.view, positions, vertex, place);

@@ -118,7 +118,7 @@ class CombinedSearch {
   [[nodiscard]] DensityTarget density_of(const Star<double>& star, PositionView positions, Index vertex) const;
   [[nodiscard]] double second(PositionView positions, Index vertex, Vec3 place) const;
 
-  RuleMesh mesh_;
+  RuleMesh<Plane> mesh_;
   Aims aims_;
   SearchParameters parameters_;
 };

@@ -14,23 +14,23 @@ namespace dmoscope {
 namespace {
 
 /// The plain search in double.
-template <Metric M>
+template <Metric M, class Frame>
 class Reference {
  public:
-  using Room = Star<double>;
+  using Room = StarIn<Frame, double>;
   Reference(const InputMesh& input, const SearchParameters& parameters) : mesh_(input), parameters_(parameters) {}
 
   std::optional<Vec3> target(PositionView positions, Index vertex, Room& star) const {
     gather_star(MeshStar(mesh_.view, positions, vertex), star);
-    const Vec2<double> found = search_star<M>(StarView<double>(star), star.box, parameters_);
-    if (found.x == 0.0 && found.y == 0.0) return std::nullopt;
-    return mesh_.moved_if_gaining<M>(positions, vertex, {found.x * star.scale, found.y * star.scale});
+    const OffsetIn<Frame, double> found = search_star<M>(StarViewIn<Frame, double>(star), star.box, parameters_);
+    if (found == OffsetIn<Frame, double>{}) return std::nullopt;
+    return mesh_.template moved_if_gaining<M>(positions, vertex, found, star.scale);
   }
 
   bool gains(Index vertex, Vec3 target, PositionView positions) const { return gains_at<M>(mesh_.view, positions, vertex, target); }
 
  private:
-  RuleMesh mesh_;
+  RuleMesh<Frame> mesh_;
   SearchParameters parameters_;
 };
 
@@ -110,7 +110,7 @@ class LaneDmo final : public Smoother {
 
   std::shared_ptr<const InputMesh> input_;
   std::shared_ptr<const Colouring> colouring_;
-  Reference<M> reference_;
+  Reference<M, Plane> reference_;
   StarTable table_;
   LaneKernel kernel_;
   std::vector<Vec3> ranked_;
@@ -123,14 +123,15 @@ class LaneDmo final : public Smoother {
 }  // namespace
 
 StarState star_state(const InputMesh& input, PositionView positions, Metric metric, Index vertex) {
-  return formulas::with_metric(metric,
-                               [&]<Metric M>() { return star_state<M>(input.planar_view(), positions, vertex, positions[vertex]); });
+  return with_metric_and_frame(
+      input, metric, [&]<Metric M, class Frame>() { return star_state<M>(input.view<Frame>(), positions, vertex, positions[vertex]); });
 }
 
 std::unique_ptr<Smoother> make_dmo_smoother(const SmoothingTask& task) {
-  return formulas::with_metric(task.metric, [&]<Metric M>() -> std::unique_ptr<Smoother> {
-    if (task.search.precision == Precision::Double) return make_rule_smoother(task, Reference<M>(*task.input, task.search));
-    return std::make_unique<LaneDmo<M>>(task.input, task.colouring, task.search, task.pool);
+  return with_metric_and_frame(*task.input, task.metric, [&]<Metric M, class Frame>() -> std::unique_ptr<Smoother> {
+    if constexpr (std::is_same_v<Frame, Plane>)
+      if (task.search.precision == Precision::Float) return std::make_unique<LaneDmo<M>>(task.input, task.colouring, task.search, task.pool);
+    return make_rule_smoother(task, Reference<M, Frame>(*task.input, task.search));
   });
 }
 

@@ -97,7 +97,7 @@ class Dvr {
     return room.fractions.empty() ? 0.0 : maximise_least(room.fractions, -kReach, kReach);
   }
 
-  RuleMesh mesh_;
+  RuleMesh<Plane> mesh_;
   MethodOptions options_;
   Vec2<double> direction_;
 };

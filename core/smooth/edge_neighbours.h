@@ -1,7 +1,11 @@
 #pragma once
 // The other ends of a vertex's edges.
 
-#include "core/mesh/planar_view.h"
+#include <algorithm>
+#include <vector>
+
+#include "core/mesh/mesh_view.h"
+#include "core/quality/solids.h"
 
 namespace dmoscope {
 
@@ -14,6 +18,38 @@ void for_edge_neighbours(const PlanarView& mesh, Index vertex, const Visit& visi
     for (const std::size_t step : {std::size_t{1}, corners.size() - 1})
       if (const Index other = corners[(at.corner + step) % corners.size()]; other != vertex) visit(other);
   }
+}
+
+/// Calls visit(corner) for the other end of each edge that leaves a solid's corner.
+template <class Visit>
+void for_edges_of_corner(std::size_t corners, Index corner, const Visit& visit) {
+  const auto by_table = [&](const auto& table) {
+    for (std::size_t i = 1; i < 4; ++i) visit(Index{table[corner][i]});
+  };
+  if (corners == 4)
+    for (Index i = 1; i < 4; ++i) visit(corner ^ i);
+  else if (corners == 8)
+    by_table(formulas::HexahedronCorners::kTable);
+  else if (corners == 6)
+    by_table(formulas::WedgeCorners::kTable);
+  else if (corner < 4)
+    by_table(formulas::PyramidCorners::kTable);
+  else
+    for (Index i = 0; i < 4; ++i) visit(i);
+}
+
+/// The other ends of the edges of a volume's vertex, each once, ascending, into `out`.
+inline void gather_edge_neighbours(const VolumeView& mesh, Index vertex, std::vector<Index>& out) {
+  out.clear();
+  for (const Incidence& at : mesh.star(vertex)) {
+    const auto corners = mesh.corners_of(at.element);
+    for_edges_of_corner(corners.size(), at.corner, [&](Index corner) {
+      if (corners[corner] != vertex) out.push_back(corners[corner]);
+    });
+  }
+  std::ranges::sort(out);
+  const auto twice = std::ranges::unique(out);
+  out.erase(twice.begin(), twice.end());
 }
 
 }  // namespace dmoscope

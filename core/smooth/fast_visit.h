@@ -202,7 +202,7 @@ class FastVisit {
 
   /// In double, at the very position that would be stored.
   [[nodiscard]] DMOSCOPE_ANYWHERE Verdict judge(Vec2<double> step, float extent) const {
-    Worth<M, false, double, Value::Rank> before, after;
+    Worth<M, false, double, Value::Rank, Vec2<double>> before, after;
     const auto take = [&](const auto& element) {
       before.take(element, {0.0, 0.0});
       after.take(element, step);

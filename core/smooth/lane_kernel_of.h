@@ -298,7 +298,7 @@ class Kernel {
 /// The kernel for `metric` with this translation unit's widest packs.
 template <class F, class D>
 LaneKernel kernel_for(Metric metric) {
-  return formulas::with_metric(metric, []<Metric M>() -> LaneKernel { return &Kernel<M, F, D>::run; });
+  return formulas::with_planar_metric(metric, []<Metric M>() -> LaneKernel { return &Kernel<M, F, D>::run; });
 }
 
 }  // namespace dmoscope::lanes

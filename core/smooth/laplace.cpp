@@ -7,52 +7,75 @@ namespace dmoscope {
 
 namespace {
 
+using Room = std::vector<Index>;  // the neighbours
+
 /// From a free vertex to the mean of its edge neighbours.
-Vec2<double> way_to_mean(const PlanarView& mesh, PositionView positions, Index vertex) {
-  const Vec3 origin = positions[vertex];
-  Vec3 sum{};
-  double count = 0.0;
-  for_edge_neighbours(mesh, vertex, [&](Index other) {
-    sum = sum + (positions[other] - origin);
-    count += 1.0;
-  });
-  return mesh.plane.project(1.0 / count * sum);
+class WayToMean {
+ public:
+  WayToMean(PositionView positions, Index vertex) : positions_(positions), origin_(positions[vertex]) {}
+  void operator()(Index other) {
+    sum_ = sum_ + (positions_[other] - origin_);
+    count_ += 1.0;
+  }
+  [[nodiscard]] Vec3 way() const { return 1.0 / count_ * sum_; }
+
+ private:
+  PositionView positions_;
+  Vec3 origin_, sum_{};
+  double count_ = 0.0;
+};
+
+Vec3 way_to_mean(const PlanarView& mesh, PositionView positions, Index vertex, Room& /*room*/) {
+  WayToMean mean(positions, vertex);
+  for_edge_neighbours(mesh, vertex, [&](Index other) { mean(other); });
+  return mean.way();
+}
+Vec3 way_to_mean(const VolumeView& mesh, PositionView positions, Index vertex, Room& room) {
+  WayToMean mean(positions, vertex);
+  gather_edge_neighbours(mesh, vertex, room);
+  for (const Index other : room) mean(other);
+  return mean.way();
 }
 
+template <class Frame>
 class Laplace {
  public:
-  struct Room {};
+  using Room = dmoscope::Room;
   explicit Laplace(const SmoothingTask& task) : mesh_(*task.input), relaxation_(task.options.relaxation) {}
 
-  std::optional<Vec3> target(PositionView positions, Index vertex, Room& /*room*/) const {
-    return mesh_.moved(positions[vertex], step(positions, vertex));
+  std::optional<Vec3> target(PositionView positions, Index vertex, Room& room) const {
+    return mesh_.moved(positions[vertex], step(positions, vertex, room));
   }
 
  protected:
-  [[nodiscard]] Vec2<double> step(PositionView positions, Index vertex) const {
-    const Vec2<double> way = way_to_mean(mesh_.view, positions, vertex);
-    return {relaxation_ * way.x, relaxation_ * way.y};
+  [[nodiscard]] OffsetIn<Frame, double> step(PositionView positions, Index vertex, Room& room) const {
+    return times(mesh_.view.frame.project(way_to_mean(mesh_.view, positions, vertex, room)), relaxation_);
   }
 
-  RuleMesh mesh_;
+  RuleMesh<Frame> mesh_;
   double relaxation_;
 };
 
-template <Metric M>
-class SmartLaplace : private Laplace {
+template <Metric M, class Frame>
+class SmartLaplace : private Laplace<Frame> {
  public:
-  using Laplace::Laplace, Laplace::Room;
-  std::optional<Vec3> target(PositionView positions, Index vertex, Room& /*room*/) const {
-    return mesh_.moved_if_gaining<M>(positions, vertex, step(positions, vertex));
+  using typename Laplace<Frame>::Room;
+  using Laplace<Frame>::Laplace;
+  std::optional<Vec3> target(PositionView positions, Index vertex, Room& room) const {
+    return this->mesh_.template moved_if_gaining<M>(positions, vertex, this->step(positions, vertex, room));
   }
 };
 
 }  // namespace
 
-std::unique_ptr<Smoother> make_laplace_smoother(const SmoothingTask& task) { return make_rule_smoother(task, Laplace(task)); }
+std::unique_ptr<Smoother> make_laplace_smoother(const SmoothingTask& task) {
+  if (task.input->is_volume()) return make_rule_smoother(task, Laplace<Space>(task));
+  return make_rule_smoother(task, Laplace<Plane>(task));
+}
 
 std::unique_ptr<Smoother> make_smart_laplace_smoother(const SmoothingTask& task) {
-  return formulas::with_metric(task.metric, [&]<Metric M>() { return make_rule_smoother(task, SmartLaplace<M>(task)); });
+  return with_metric_and_frame(*task.input, task.metric,
+                               [&]<Metric M, class Frame>() { return make_rule_smoother(task, SmartLaplace<M, Frame>(task)); });
 }
 
 }  // namespace dmoscope

@@ -24,15 +24,15 @@ struct StarState {
   }
 };
 
-/// With the vertex at `place`.
-template <Metric M>
-[[nodiscard]] DMOSCOPE_ANYWHERE StarState star_state(const PlanarView& mesh, PositionView positions, Index vertex, Vec3 place) {
+/// With the vertex at `place`. Frame: Plane or Space.
+template <Metric M, class Frame>
+[[nodiscard]] DMOSCOPE_ANYWHERE StarState star_state(const MeshView<Frame>& mesh, PositionView positions, Index vertex, Vec3 place) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   StarState state{kInfinity, kInfinity};
   const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
   for (const Incidence& incidence : mesh.star(vertex)) {
     const double reference = mesh.reference_measure[incidence.element];
-    visit_planar(mesh.plane, mesh.corners_of(incidence.element), at, [&state, reference](const auto& shape) {
+    visit_shape(mesh.frame, mesh.corners_of(incidence.element), at, [&state, reference](const auto& shape) {
       state.jacobian = scalar::min(state.jacobian, formulas::smallest_jacobian(shape) / reference);
       state.quality = scalar::min(state.quality, evaluate<M>(shape));
     });
@@ -41,25 +41,26 @@ template <Metric M>
 }
 
 /// Exactly: would the vertex gain by standing at `target`? A search may be in float and in other rounding than the statistics.
-template <Metric M>
-[[nodiscard]] DMOSCOPE_ANYWHERE bool gains_at(const PlanarView& mesh, PositionView positions, Index vertex, Vec3 target) {
+template <Metric M, class Frame>
+[[nodiscard]] DMOSCOPE_ANYWHERE bool gains_at(const MeshView<Frame>& mesh, PositionView positions, Index vertex, Vec3 target) {
   return star_state<M>(mesh, positions, vertex, target).better_than(star_state<M>(mesh, positions, vertex, positions[vertex]));
 }
 
 /// The untangling objective costs more and is needed only where an element of the star is inverted now; of one without, it finds the
 /// same candidate, since there every candidate it values otherwise is <= 0 and cannot win. Returns the offset, in units of the star's
-/// scale.
-template <Metric M, class StarT, class Team = Solo, class Trace = NoTrace>
-[[nodiscard]] DMOSCOPE_ANYWHERE Vec2<double> search_star(const StarT& star, Vec2<double> box, const SearchParameters& parameters,
-                                                         const Team& team = {}, Trace&& trace = {}) {
+/// scale. Point: of the plane or of space.
+template <Metric M, class StarT, class Point, class Team = Solo, class Trace = NoTrace>
+[[nodiscard]] DMOSCOPE_ANYWHERE Point search_star(const StarT& star, Point box, const SearchParameters& parameters, const Team& team = {},
+                                                  Trace&& trace = {}) {
   const Objective<M, true, double, Value::Metric, StarT> untangling(star);
-  if (!(untangling({}) > 0.0)) return grid_search<double>(untangling, box, parameters, trace, team).offset;
+  if (!(untangling(Point{}) > 0.0)) return grid_search<double>(untangling, box, parameters, trace, team).offset;
   return grid_search<double>(Objective<M, false, double, Value::Metric, StarT>(star), box, parameters, trace, team).offset;
 }
 
-/// Where a vertex at `place` comes to stand by an offset in the plane, in mesh units. `single`: see Mesh::single_precision.
-[[nodiscard]] DMOSCOPE_ANYWHERE Vec3 displaced(const Plane& plane, Vec3 place, Vec2<double> offset, bool single) {
-  const Vec3 step = plane.lift(offset);
+/// Where a vertex at `place` comes to stand by an offset in the frame, in mesh units. `single`: see Mesh::single_precision.
+template <class Frame>
+[[nodiscard]] DMOSCOPE_ANYWHERE Vec3 displaced(const Frame& frame, Vec3 place, OffsetIn<Frame, double> offset, bool single) {
+  const Vec3 step = frame.lift(offset);
   return {displaced(place.x, step.x, single), displaced(place.y, step.y, single), displaced(place.z, step.z, single)};
 }
 

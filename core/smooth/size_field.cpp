@@ -95,7 +95,7 @@ double local_edge_length(const PlanarView& mesh, PositionView positions, Index v
   double sum = 0.0;
   std::size_t count = 0;
   for_edge_neighbours(mesh, vertex, [&](Index other) {
-    const Vec2<double> edge = mesh.plane.project(positions[other] - positions[vertex]);
+    const Vec2<double> edge = mesh.frame.project(positions[other] - positions[vertex]);
     sum += std::sqrt(dot(edge, edge));
     ++count;
   });

@@ -14,24 +14,40 @@
 
 namespace dmoscope {
 
-/// What a rule knows of the mesh.
+[[nodiscard]] inline bool is_finite(Vec2<double> a) { return std::isfinite(a.x) && std::isfinite(a.y); }
+[[nodiscard]] inline bool is_finite(Vec3 a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+
+/// What a rule knows of the mesh. Frame: Plane or Space.
+template <class Frame>
 struct RuleMesh {
-  explicit RuleMesh(const InputMesh& input) : view(input.planar_view()), single(input.mesh.single_precision) {}
-  PlanarView view;
+  using Offset = OffsetIn<Frame, double>;
+  explicit RuleMesh(const InputMesh& input) : view(input.view<Frame>()), single(input.mesh.single_precision) {}
+  MeshView<Frame> view;
   bool single;  // see Mesh::single_precision
 
   /// Where a vertex at `place` comes to stand by an offset in mesh units; nowhere where that is no number.
-  [[nodiscard]] std::optional<Vec3> moved(Vec3 place, Vec2<double> offset) const {
-    if (!std::isfinite(offset.x) || !std::isfinite(offset.y)) return std::nullopt;
-    return displaced(view.plane, place, offset, single);
+  [[nodiscard]] std::optional<Vec3> moved(Vec3 place, Offset offset) const {
+    if (!is_finite(offset)) return std::nullopt;
+    return displaced(view.frame, place, offset, single);
   }
-  /// The same, and nowhere where the vertex does not gain there: promise 1.
+  /// By an offset in units of a star's scale: where it gains by it, and nowhere else (promise 1).
   template <Metric M>
-  [[nodiscard]] std::optional<Vec3> moved_if_gaining(PositionView positions, Index vertex, Vec2<double> offset) const {
+  [[nodiscard]] std::optional<Vec3> moved_if_gaining(PositionView positions, Index vertex, Offset found, double scale) const {
+    return moved_if_gaining<M>(positions, vertex, times(found, scale));
+  }
+  template <Metric M>
+  [[nodiscard]] std::optional<Vec3> moved_if_gaining(PositionView positions, Index vertex, Offset offset) const {
     const auto target = moved(positions[vertex], offset);
     return target && gains_at<M>(view, positions, vertex, *target) ? target : std::nullopt;
   }
 };
+
+/// Calls f.template operator()<M, Frame>() with the metric and the frame of a mesh.
+template <class F>
+decltype(auto) with_metric_and_frame(const InputMesh& input, Metric metric, F&& f) {
+  if (input.is_volume()) return formulas::with_solid_metric(metric, [&]<Metric M>() { return f.template operator()<M, Space>(); });
+  return formulas::with_planar_metric(metric, [&]<Metric M>() { return f.template operator()<M, Plane>(); });
+}
 
 /// Calls body(begin, end) for the part of [first, first + count) that lies in each class.
 template <class Body>

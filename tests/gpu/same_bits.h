@@ -29,7 +29,7 @@ struct Subject {
     for (Index v = 0; v < boundary.size(); ++v)
       if (boundary[v] == 0 && !input->topology.star(v).empty()) free.push_back(v);
     Colouring classes = colour_vertices(input->mesh, input->topology, free);
-    arrange_classes(classes, input->mesh, input->geometry.plane, input->topology);
+    arrange_classes(classes, input->mesh, &input->geometry.plane, input->topology);
     colouring = std::make_shared<const Colouring>(std::move(classes));
     immovable = immovable_elements(input->mesh, boundary, nullptr);
   }

@@ -119,7 +119,7 @@ void expect_team_settles_the_same(const HostTask& host) {
   const auto targets = [&](const auto& team) {
     std::vector<Vec2<double>> found;
     for (Index rank = 0; rank < count; ++rank) {
-      const MeshStar star(host.task.mesh, positions, host.task.vertex_of_rank[rank]);
+      const MeshStar<Plane> star(host.task.mesh, positions, host.task.vertex_of_rank[rank]);
       found.push_back(search_star<M>(star, star.box(), SearchParameters{}, team));
     }
     return found;

@@ -21,6 +21,8 @@ std::vector<Index> interior(const Mesh& mesh, const Topology& topology) {
   return free;
 }
 
+constexpr Plane kPlane{};
+
 TEST(Colouring, NoTwoOfAClassShareAnElementAndEveryVertexComesOnce) {
   for (const Index every : {1U, 2U, 1000U}) {
     const Mesh mesh = lattice(17, 13, every);
@@ -65,9 +67,9 @@ TEST(ArrangeClasses, KeepsClassesAndTheirMembersAndIsDeterministic) {
     const Topology topology(mesh);
     const Colouring before = colour_vertices(mesh, topology, shuffled(interior(mesh, topology), 5));
     Colouring after = before, again = before;
-    arrange_classes(after, mesh, Plane{}, topology);
+    arrange_classes(after, mesh, &kPlane, topology);
     ThreadPool pool(3);
-    arrange_classes(again, mesh, Plane{}, topology, &pool);
+    arrange_classes(again, mesh, &kPlane, topology, &pool);
     EXPECT_EQ(after.order, again.order);
     EXPECT_NE(after.order, before.order);
     ASSERT_EQ(after.class_offsets, before.class_offsets);
@@ -92,7 +94,7 @@ TEST(ArrangeClasses, PutsNeighboursInSpaceSideBySide) {
     return sum / static_cast<double>(colouring.order.size());
   };
   EXPECT_GT(mean_step(), 25.0) << "half of the lattice's width, by chance";
-  arrange_classes(colouring, mesh, Plane{}, topology);
+  arrange_classes(colouring, mesh, &kPlane, topology);
   EXPECT_LT(mean_step(), 6.0) << "two spacings of a class";
 }
 
@@ -100,7 +102,7 @@ TEST(ArrangeClasses, PutsStarsOfOneSizeSideBySide) {
   const Mesh mesh = lattice(40, 40, 3);
   const Topology topology(mesh);
   Colouring colouring = colour_vertices(mesh, topology, shuffled(interior(mesh, topology), 7));
-  arrange_classes(colouring, mesh, Plane{}, topology);
+  arrange_classes(colouring, mesh, &kPlane, topology);
   const auto size = [&](Index v) { return topology.star(v).size(); };
   for (Index c = 0; c < colouring.class_count(); ++c) EXPECT_TRUE(std::ranges::is_sorted(colouring.members(c), {}, size)) << c;
 }
@@ -109,12 +111,12 @@ TEST(ArrangeClasses, CopesWithNothingAndWithAllInOnePlace) {
   Mesh mesh = lattice(10, 10, 1);
   const Topology topology(mesh);
   Colouring none = colour_vertices(mesh, topology, {});
-  arrange_classes(none, mesh, Plane{}, topology);
+  arrange_classes(none, mesh, &kPlane, topology);
   EXPECT_TRUE(none.order.empty());
   for (Vec3& p : mesh.positions) p = {1e300, -1e300, 0};
   Colouring colouring = colour_vertices(mesh, topology, interior(mesh, topology));
   const std::vector<Index> before = colouring.order;
-  arrange_classes(colouring, mesh, Plane{}, topology);
+  arrange_classes(colouring, mesh, &kPlane, topology);
   EXPECT_EQ(colouring.order, before) << "nothing to tell them apart: they keep their order";
 }
 

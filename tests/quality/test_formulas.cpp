@@ -18,11 +18,11 @@ using V = Vec2<double>;
 using Corners = std::array<V, 4>;
 
 double triangle_quality(Metric metric, V a, V b, V c) {
-  return formulas::with_metric(metric, [&]<Metric M>() { return formulas::Formula<M>::triangle(formulas::Triangle<V>(a, b, c)); });
+  return formulas::with_planar_metric(metric, [&]<Metric M>() { return formulas::Formula<M>::triangle(formulas::Triangle<V>(a, b, c)); });
 }
 double quadrilateral_quality(Metric metric, const Corners& p) {
   const formulas::Quadrilateral<V> q(p[0], p[1], p[2], p[3]);
-  return formulas::with_metric(metric, [&]<Metric M>() {
+  return formulas::with_planar_metric(metric, [&]<Metric M>() {
     if constexpr (formulas::kDefinedForQuadrilaterals<M, V>)
       return formulas::Formula<M>::quadrilateral(q);
     else
@@ -101,7 +101,7 @@ TEST(Formulas, IdealElementsHaveQualityOne) {
       EXPECT_NEAR(triangle_quality(entry.metric, a, b, {0, 1}), 1.0, 1e-15) << "its ideal is the right isosceles triangle";
     else
       EXPECT_NEAR(triangle_quality(entry.metric, a, b, c), 1.0, 1e-15) << entry.name;
-    if (entry.quadrilaterals) {
+    if (entry.defined_for(ElementKind::Quadrilateral)) {
       EXPECT_NEAR(quadrilateral_quality(entry.metric, {V{0, 0}, V{1, 0}, V{1, 1}, V{0, 1}}), 1.0, 1e-15) << entry.name;
     }
   }
@@ -112,7 +112,7 @@ TEST(Formulas, DegenerateElementsAreNeverPositiveNorNaN) {
   for (const MetricInfo& entry : metric_table()) {
     for (const auto& [a, b, c] : {std::array{o, o, o}, std::array{o, o, x}, std::array{o, x, far}, std::array{o, far, x}})
       EXPECT_LE(triangle_quality(entry.metric, a, b, c), 0.0) << entry.name;
-    if (entry.quadrilaterals) {
+    if (entry.defined_for(ElementKind::Quadrilateral)) {
       EXPECT_LE(quadrilateral_quality(entry.metric, {o, o, o, o}), 0.0) << entry.name;
       EXPECT_LE(quadrilateral_quality(entry.metric, {o, x, far, x}), 0.0) << entry.name;
     }
@@ -143,7 +143,7 @@ TEST(Formulas, AnyCornerMayComeFirstAndAnySimilarityMapLeavesQualityAlone) {
       EXPECT_NEAR(triangle_quality(entry.metric, p[1], p[2], p[0]), q, 1e-12) << entry.name;
       EXPECT_NEAR(triangle_quality(entry.metric, map(p[0]), map(p[1]), map(p[2])), q, 1e-6) << entry.name;
       EXPECT_NEAR(triangle_quality(entry.metric, p[0], p[2], p[1]), -q, 1e-12) << entry.name;
-      if (!entry.quadrilaterals) continue;
+      if (!entry.defined_for(ElementKind::Quadrilateral)) continue;
       const double quad = quadrilateral_quality(entry.metric, p);
       EXPECT_NEAR(quadrilateral_quality(entry.metric, {p[1], p[2], p[3], p[0]}), quad, 1e-12) << entry.name;
     }

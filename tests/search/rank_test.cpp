@@ -49,7 +49,7 @@ double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
 TEST(Rank, RisesWithTheMetricAndHasItsSign) {
   for (const MetricInfo& entry : metric_table())
-    formulas::with_metric(entry.metric, [&]<Metric M>() {
+    formulas::with_planar_metric(entry.metric, [&]<Metric M>() {
       SCOPED_TRACE(entry.name);
       auto all = judged_elements<M>();
       std::ranges::sort(all, {}, &Judged::metric);

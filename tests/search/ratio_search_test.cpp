@@ -283,9 +283,9 @@ TYPED_TEST(RatioSearchOf, GivesEverySlotOfAPackTheBitsOfOneLane) {
 TEST(GridSearch, GivesEverySlotOfAPackTheBitsOfOneLane) {
   Random random(75);
   for (const MetricInfo& entry : metric_table())
-    formulas::with_metric(entry.metric, [&]<Metric M>() {
+    formulas::with_planar_metric(entry.metric, [&]<Metric M>() {
       for (int trial = 0; trial < 60; ++trial) {
-        const int quadrilaterals = entry.quadrilaterals ? trial % 4 : 0;
+        const int quadrilaterals = entry.defined_for(ElementKind::Quadrilateral) ? trial % 4 : 0;
         const SearchParameters parameters{.grid_points = 5 + trial % 5, .levels = 1 + trial % 4};
         expect_lanes_alike(random, 3 + trial % 6, quadrilaterals, [&]<class R>(const Star<R>& star) {
           return grid_search<R>(Objective<M, false, R, Value::Rank>(star), star.box, parameters);

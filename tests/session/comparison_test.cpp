@@ -98,7 +98,7 @@ TEST_F(Comparison, OnlyMetricsOfAllElementsAreCompared) {
   say("generate quads 100");
   say("compare metrics 1");
   std::size_t defined = 0;
-  for (const MetricInfo& metric : metric_table()) defined += metric.quadrilaterals ? 1U : 0U;
+  for (const MetricInfo& metric : metric_table()) defined += metric.defined_for(ElementKind::Quadrilateral) ? 1U : 0U;
   EXPECT_EQ(session_.run_count(), defined);
 }
 

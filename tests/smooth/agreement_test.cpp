@@ -27,7 +27,7 @@ std::shared_ptr<const Colouring> colouring_of(const InputMesh& input) {
   for (Index v = 0; v < input.mesh.vertex_count(); ++v)
     if (input.topology.boundary()[v] == 0 && !input.topology.star(v).empty()) free.push_back(v);
   Colouring colouring = colour_vertices(input.mesh, input.topology, free);
-  arrange_classes(colouring, input.mesh, input.geometry.plane, input.topology);
+  arrange_classes(colouring, input.mesh, &input.geometry.plane, input.topology);
   return std::make_shared<const Colouring>(std::move(colouring));
 }
 

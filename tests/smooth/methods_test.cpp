@@ -254,7 +254,7 @@ TEST(Optimisers, FindTheMiddleOfARegularRing) {
     for (const MetricInfo& entry : metric_table()) {
       if (entry.metric == Metric::Rectangularity) continue;
       for (const bool quadrilaterals : {false, true}) {
-        if (quadrilaterals && !entry.quadrilaterals) continue;
+        if (quadrilaterals && !entry.defined_for(ElementKind::Quadrilateral)) continue;
         const Mesh mesh = wheel(quadrilaterals ? 4 : 6, {0.2, -0.1, 0}, {}, quadrilaterals);
         EXPECT_LE(length(hub_after(mesh, {.method = method, .metric = entry.metric}, 20)), 0.02) << method << ' ' << entry.name;
       }

@@ -136,7 +136,7 @@ TEST_P(PtxText, KernelsAreWhole) {
   }
   std::size_t expected = 0;
   for (const MetricInfo& metric : metric_table())
-    expected += formulas::with_metric(metric.metric, []<Metric M>() { return kIsRatio<M>; }) ? 3 : 2;
+    expected += formulas::with_planar_metric(metric.metric, []<Metric M>() { return kIsRatio<M>; }) ? 3 : 2;
   EXPECT_EQ(visits, expected);
 }
 

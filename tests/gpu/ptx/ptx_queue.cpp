@@ -192,7 +192,7 @@ const Entry& Kernels::find(Work work, Metric metric) {
 }
 
 Kernels::Name Kernels::name_of(Work work, Metric metric) {
-  return formulas::with_metric(metric, [work]<Metric M>() { return name_for<M>(work); });
+  return formulas::with_planar_metric(metric, [work]<Metric M>() { return name_for<M>(work); });
 }
 
 std::shared_ptr<Queue> make_ptx_queue(std::shared_ptr<Kernels> kernels, const PtxDevice& device) {

@@ -1,5 +1,5 @@
 #pragma once
-// A planar mesh as plain pointers, for code that runs on any processor.
+// A mesh as plain pointers, for code that runs on any processor.
 
 #include <span>
 
@@ -9,14 +9,16 @@
 
 namespace dmoscope {
 
-/// Wherever the arrays stand; their owner must outlive it.
-struct PlanarView {
+/// Wherever the arrays stand; their owner must outlive it. Frame: Plane of a planar mesh, Space of a volume.
+template <class FrameT>
+struct MeshView {
+  using Frame = FrameT;
   const std::uint32_t* star_offsets = nullptr;  // see Topology
   const Incidence* incidences = nullptr;
   const Index* corner_offsets = nullptr;  // see ElementTable
   const Index* corners = nullptr;
   const double* reference_measure = nullptr;  // see InputMesh
-  Plane plane;
+  Frame frame;
 
   [[nodiscard]] DMOSCOPE_ANYWHERE std::span<const Incidence> star(Index vertex) const {
     return {incidences + star_offsets[vertex], incidences + star_offsets[vertex + 1]};
@@ -25,5 +27,7 @@ struct PlanarView {
     return {corners + corner_offsets[element], corners + corner_offsets[element + 1]};
   }
 };
+using PlanarView = MeshView<Plane>;
+using VolumeView = MeshView<Space>;
 
 }  // namespace dmoscope

@@ -1,0 +1,71 @@
+#include "core/session/volume_input.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/mesh/edges.h"
+#include "core/mesh/volume.h"
+#include "core/quality/quality.h"
+
+namespace dmoscope {
+
+namespace {
+
+constexpr Index kCheckEvery = 1U << 14U;  // elements between two looks for a cancel
+
+/// A corner twice, or no volume but what rounding makes of a flat element.
+bool degenerate(const Mesh& mesh, Index e) {
+  constexpr double kRounding = 1e-15;
+  const auto corners = mesh.elements.corners(e);
+  double extent = 0.0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    for (std::size_t j = i + 1; j < corners.size(); ++j)
+      if (corners[i] == corners[j]) return true;
+    const Vec3 away = mesh.positions[corners[i]] - mesh.positions[corners[0]];
+    extent = std::max({extent, std::abs(away.x), std::abs(away.y), std::abs(away.z)});
+  }
+  return !(std::abs(signed_volume(mesh, e)) > kRounding * extent * extent * extent);
+}
+
+/// Elements with the very corners (as a set) of an earlier one.
+std::vector<Index> duplicates(const Mesh& mesh, const Topology& topology) {
+  const ElementTable& elements = mesh.elements;
+  std::vector<Index> found;
+  for (Index e = 0; e < elements.size(); ++e) {
+    for (const Incidence& at : topology.star(elements.corners(e)[0])) {
+      if (at.element >= e || elements.kind(at.element) != elements.kind(e) || !same_corners(mesh, at.element, e)) continue;
+      found.push_back(e);
+      break;
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+MeshReport examine_volume(const Mesh& mesh, const Geometry& geometry, const Topology& topology, const FaceNeighbours& faces,
+                          Index components, Progress& progress) {
+  MeshReport report;
+  report.volume = true;
+  for (Index v = 0; v < mesh.vertex_count(); ++v)
+    if (topology.star(v).empty()) report.unused_vertices.push_back(v);
+  report.duplicate_elements = duplicates(mesh, topology);
+  const QualityContext context{mesh, geometry};
+  for (Index e = 0; e < mesh.elements.size(); ++e) {
+    if (e % kCheckEvery == 0) {
+      progress.check();
+      progress.set(static_cast<double>(e) / mesh.elements.size());
+    }
+    if (degenerate(mesh, e))
+      report.degenerate_elements.push_back(e);
+    else if (!(smallest_jacobian(context, mesh.positions, e) > 0.0))
+      report.inverted_elements.push_back(e);
+  }
+  report.non_manifold_faces = static_cast<Index>(faces.non_manifold().size());
+  report.components = components;
+  report.flipped_elements = static_cast<Index>(std::ranges::count_if(mesh.flipped, [](std::uint8_t f) { return f != 0; }));
+  return report;
+}
+
+}  // namespace dmoscope

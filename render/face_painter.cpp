@@ -9,13 +9,18 @@ namespace dmoscope::render {
 namespace {
 
 constexpr Stages kFaces{"faces.vert.glsl", {}, "faces.frag.glsl"};
-constexpr GLsizei kMostAtOnce = 1 << 24;  // faces: six vertices of each are to be counted in 31 bits
+constexpr Index kMostAtOnce = 1U << 24U;  // faces: six vertices of each are to be counted in 31 bits
 
 std::array<float, 4> four(Vec3 v, double w) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
 }
 
 void set_four(const Program& program, const char* name, const std::array<float, 4>& v) { program.set(name, v[0], v[1], v[2], v[3]); }
+
+void set_wire(const Program& program, const Style& style) {
+  set_colour(program, "u_wire_colour", {style.wire_colour.r, style.wire_colour.g, style.wire_colour.b},
+             static_cast<float>(style.wire_colour.a) / 255.0F);
+}
 
 }  // namespace
 
@@ -71,31 +76,37 @@ void FacePainter::prepare(const Program& program, const Faces& faces, const Buff
   DMOSCOPE_GL(glBindVertexArray(nothing_.id()));
 }
 
-void FacePainter::draw_faces(const SpaceView& view, const Look& look, Index stride) const {
-  if (faces_.count == 0) return;
-  const Program& program = stride > 1 ? coarse_program_ : program_;
-  prepare(program, faces_, points_, view, look);
-  set_colour(program, "u_wire_colour", {look.style.wire_colour.r, look.style.wire_colour.g, look.style.wire_colour.b},
-             static_cast<float>(look.style.wire_colour.a) / 255.0F);
+void FacePainter::draw_faces(const SpaceView& view, const Look& look, Index first, Index count) const {
+  if (count == 0) return;
+  prepare(program_, faces_, points_, view, look);
+  set_wire(program_, look.style);
   if (look.plane) glEnable(GL_CLIP_DISTANCE0);
-  if (stride > 1) {
-    program.set("u_stride", stride);
-    glEnable(GL_PROGRAM_POINT_SIZE);
-    DMOSCOPE_GL(glDrawArrays(GL_POINTS, 0, (faces_.count + static_cast<GLsizei>(stride) - 1) / static_cast<GLsizei>(stride)));
-    glDisable(GL_PROGRAM_POINT_SIZE);
-  } else {
-    for (GLsizei first = 0; first < faces_.count; first += kMostAtOnce) {
-      DMOSCOPE_GL(glDrawArrays(GL_TRIANGLES, 6 * first, 6 * std::min(kMostAtOnce, faces_.count - first)));
-    }
+  while (count > 0) {
+    const Index now = std::min(kMostAtOnce, count);
+    program_.set("u_first", first);
+    DMOSCOPE_GL(glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(6 * now)));
+    first += now;
+    count -= now;
   }
+  program_.set("u_first", 0U);
+  glDisable(GL_CLIP_DISTANCE0);
+}
+
+void FacePainter::draw_coarse(const SpaceView& view, const Look& look, Index stride) const {
+  if (faces_.count == 0) return;
+  prepare(coarse_program_, faces_, points_, view, look);
+  coarse_program_.set("u_stride", stride);
+  if (look.plane) glEnable(GL_CLIP_DISTANCE0);
+  glEnable(GL_PROGRAM_POINT_SIZE);
+  DMOSCOPE_GL(glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>((face_count() + stride - 1) / stride)));
+  glDisable(GL_PROGRAM_POINT_SIZE);
   glDisable(GL_CLIP_DISTANCE0);
 }
 
 void FacePainter::draw_cuts(const SpaceView& view, const Style& style) const {
   if (cuts_.count == 0) return;
   prepare(program_, cuts_, cut_points_, view, {.style = style, .shrink = 1.0, .plane = {}});
-  set_colour(program_, "u_wire_colour", {style.wire_colour.r, style.wire_colour.g, style.wire_colour.b},
-             static_cast<float>(style.wire_colour.a) / 255.0F);
+  set_wire(program_, style);
   DMOSCOPE_GL(glDrawArrays(GL_TRIANGLES, 0, 6 * cuts_.count));
 }
 

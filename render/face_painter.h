@@ -42,8 +42,10 @@ class FacePainter {
     double shrink = 1.0;
     std::optional<std::array<float, 4>> plane;  // normal and offset: what is beyond is left out
   };
-  /// stride > 1: a square for every stride-th face.
-  void draw_faces(const SpaceView& view, const Look& look, Index stride) const;
+  [[nodiscard]] Index face_count() const noexcept { return static_cast<Index>(faces_.count); }
+  void draw_faces(const SpaceView& view, const Look& look, Index first, Index count) const;
+  /// A square for every stride-th face.
+  void draw_coarse(const SpaceView& view, const Look& look, Index stride) const;
   void draw_cuts(const SpaceView& view, const Style& style) const;
   /// Before the others: these are seen through it in their own colours.
   void draw_ghost(const SpaceView& view, const Style& style) const;

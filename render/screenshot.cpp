@@ -85,7 +85,7 @@ Rendered render_image(VolumeScene& scene, const OrbitCamera& camera, const Style
   const auto fine_pixels = static_cast<double>(shot.supersample);
   const auto scaled = [&](Vec2<double> p) { return Vec2<double>{p.x * fine_pixels, p.y * fine_pixels}; };
   return draw_tiles(shot, style, [&](Framebuffer& target, const Style& fine, const PicturePart& tile) {
-    scene.draw_part(target, camera, fine, marks, 1.0, scaled(mesh_viewport(shot)), {scaled(tile.low), scaled(tile.high)});
+    scene.draw_part(target, camera, fine, marks, scaled(mesh_viewport(shot)), {scaled(tile.low), scaled(tile.high)});
   });
 }
 

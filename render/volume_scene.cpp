@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/session/input_mesh.h"
 #include "core/session/summary.h"
 #include "render/draw_state.h"
 #include "render/face_painter.h"
@@ -37,6 +38,10 @@ struct VolumeScene::Impl {
 
   [[nodiscard]] const InsideFaces& seen() const noexcept { return inside ? inside->faces() : nothing; }
   [[nodiscard]] SeenFaces seen_faces() const { return {*elements, state.positions, seen(), view}; }
+  std::shared_ptr<const InputMesh> input;  // of the frame on show
+  std::uint64_t frame_serial = 0;          // likewise; 0: none
+
+  void forget();
   void upload_state();
   void upload_faces();
   void upload_means();
@@ -46,6 +51,8 @@ struct VolumeScene::Impl {
     ++revision;
   }
   [[nodiscard]] Vec3 relative(Vec3 p) const { return p - origin; }
+  struct Stage;
+  void draw_marks(const Stage& stage, const SpaceMarks& wanted);
 };
 
 VolumeScene::VolumeScene() : impl_(std::make_unique<Impl>()) {}
@@ -53,21 +60,50 @@ VolumeScene::~VolumeScene() = default;
 VolumeScene::VolumeScene(VolumeScene&&) noexcept = default;
 VolumeScene& VolumeScene::operator=(VolumeScene&&) noexcept = default;
 
+bool VolumeScene::show(std::shared_ptr<const Frame> frame) {
+  Impl& s = *impl_;
+  if (!frame) {
+    s.forget();
+    return true;
+  }
+  if (frame->device) return false;
+  if (s.input != frame->input) {
+    const InsideView wanted = s.view;
+    set_mesh(frame->input->mesh.elements, frame->input->faces, frame->input);
+    s.view = wanted;
+    s.input = frame->input;
+  }
+  if (s.frame_serial != frame->serial) {
+    s.frame_serial = frame->serial;
+    update({frame->positions, frame->quality, frame->inverted, frame->serial}, frame);
+  }
+  return true;
+}
+
 void VolumeScene::set_mesh(const ElementTable& elements, const FaceNeighbours& faces, std::shared_ptr<const void> owner) {
   if (std::ranges::any_of(elements.kinds(), [](ElementKind kind) { return info(kind).dimension != 3; })) {
     throw UsageError("only elements of a volume have an inside to be seen");
   }
   Impl& s = *impl_;
-  s.painter.reset();
+  s.forget();
   s.inside = std::make_unique<Inside>(elements, faces);
   s.elements = &elements;
   s.mesh_owner = std::move(owner);
-  s.state = {};
-  s.state_owner.reset();
-  s.view = {};
-  s.bounds = {};
-  s.uploaded_faces = s.uploaded_cuts = s.means_of = 0;
-  ++s.revision;
+}
+
+void VolumeScene::Impl::forget() {
+  painter.reset();
+  inside.reset();
+  elements = nullptr;
+  mesh_owner.reset();
+  state = {};
+  state_owner.reset();
+  input.reset();
+  frame_serial = 0;
+  view = {};
+  bounds = {};
+  uploaded_faces = uploaded_cuts = means_of = 0;
+  ++revision;
 }
 
 void VolumeScene::update(const CellState& state, std::shared_ptr<const void> owner) {
@@ -154,50 +190,121 @@ std::uint64_t VolumeScene::revision() const noexcept { return impl_->revision; }
 const InsideFaces& VolumeScene::faces() const noexcept { return impl_->seen(); }
 const Bounds3& VolumeScene::bounds() const noexcept { return impl_->bounds; }
 
-void VolumeScene::draw(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks, double detail) {
-  const Vec2<double> viewport = size_of(target);
-  draw_part(target, camera, style, marks, detail, viewport, {{0, 0}, viewport});
+namespace {
+
+/// Of the whole of a target.
+PicturePart all_of(Vec2<double> viewport) { return {{0, 0}, viewport}; }
+
+}  // namespace
+
+/// Everything a picture, or a part of one, is drawn with.
+struct VolumeScene::Impl::Stage {
+  Stage(const Impl& scene, const OrbitCamera& seen_by, const Style& in_style, Vec2<double> viewport, const PicturePart& part);
+  const OrbitCamera& camera;
+  const Style& style;
+  Projection projection;
+  SpaceView view;
+  FacePainter::Look look;
+  Vec2<double> triad;  // middle of the axes, pixels from the middle of the part
+};
+
+VolumeScene::Impl::Stage::Stage(const Impl& scene, const OrbitCamera& seen_by, const Style& in_style, Vec2<double> viewport,
+                                const PicturePart& part)
+    : camera(seen_by),
+      style(in_style),
+      projection(camera.projection(viewport, scene.bounds, part)),
+      view(camera, projection),
+      look{.style = style, .shrink = scene.view.shrink, .plane = {}} {
+  // The stripes stand still in the picture, so that its parts fit together.
+  const double period = static_cast<double>(kHatchPeriod * style.scale), margin = kTriadMargin * static_cast<double>(style.scale);
+  const Vec2<double> middle{0.5 * (part.low.x + part.high.x - viewport.x), -0.5 * (part.low.y + part.high.y - viewport.y)};
+  const auto phase = [&](double along) { return static_cast<float>(std::fmod(along / period, 1.0)); };
+  view.hatch_phase = {phase(middle.x - middle.y), phase(middle.x + middle.y)};
+  triad = {margin - 0.5 * viewport.x - middle.x, margin - 0.5 * viewport.y - middle.y};
+  const ClipPlane& clip = scene.view.clip;
+  if (!clip.on || clip.mode != ClipPlane::Mode::Cut) return;
+  const double side = (clip.flip ? -1.0 : 1.0) / length(clip.normal), slack = 1e-6 * scene.bounds.radius();  // faces in the plane stay
+  const Vec3 normal = side * clip.normal;
+  look.plane = std::array{static_cast<float>(normal.x), static_cast<float>(normal.y), static_cast<float>(normal.z),
+                          static_cast<float>(side * clip.offset - dot(normal, projection.origin()) + slack)};
 }
 
-void VolumeScene::draw_part(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks, double detail,
+void VolumeScene::Impl::draw_marks(const Stage& stage, const SpaceMarks& wanted) {
+  begin_marks();
+  if (elements != nullptr) gather_marks(seen_faces(), stage.projection, stage.style, wanted, marks);
+  if (wanted.triad) gather_triad(stage.camera, stage.triad, stage.style, marks);
+  View flat;
+  flat.viewport = stage.view.viewport;
+  marks.flush(flat, stage.style.scale);
+}
+
+void VolumeScene::draw(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks, double detail) {
+  draw_elements(target, camera, style, detail);
+  draw_marks(target, camera, style, marks);
+}
+
+bool VolumeScene::draw_elements(Framebuffer& target, const OrbitCamera& camera, const Style& style, double detail) {
+  const TargetGuard guard;
+  clear(target, style);
+  Impl& s = *impl_;
+  if (s.elements == nullptr || s.bounds.empty()) return true;
+  const Vec2<double> viewport = size_of(target);
+  const Impl::Stage stage(s, camera, style, viewport, all_of(viewport));
+  const double budget = std::max(1.0, std::clamp(detail, 0.0, 1.0) * s.painter.face_count());
+  const auto stride = static_cast<Index>(std::ceil(s.painter.face_count() / budget - 1e-9));
+  s.painter.fill().set_colours(style.colours);
+  begin_elements();
+  s.painter.draw_ghost(stage.view, style);
+  if (stride > 1) {
+    s.painter.draw_coarse(stage.view, stage.look, stride);
+  } else {
+    s.painter.draw_faces(stage.view, stage.look, 0, s.painter.face_count());
+  }
+  s.painter.draw_cuts(stage.view, style);
+  return stride <= 1;
+}
+
+bool VolumeScene::draw_slice(Framebuffer& target, const OrbitCamera& camera, const Style& style, SliceProgress& progress, Index most) {
+  const TargetGuard guard;
+  const bool first = !std::exchange(progress.begun, true);
+  if (first) clear(target, style);
+  target.bind();
+  Impl& s = *impl_;
+  if (s.elements == nullptr || s.bounds.empty()) return true;
+  const Vec2<double> viewport = size_of(target);
+  const Impl::Stage stage(s, camera, style, viewport, all_of(viewport));
+  s.painter.fill().set_colours(style.colours);
+  begin_elements();
+  if (first) s.painter.draw_ghost(stage.view, style);
+  const Index count = std::min(std::max<Index>(1, most), s.painter.face_count() - progress.drawn);
+  s.painter.draw_faces(stage.view, stage.look, progress.drawn, count);
+  progress.drawn += count;
+  const bool last = progress.drawn >= s.painter.face_count();
+  if (last) s.painter.draw_cuts(stage.view, style);
+  glFinish();
+  return last;
+}
+
+void VolumeScene::draw_marks(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks) {
+  const TargetGuard guard;
+  target.bind();
+  const Vec2<double> viewport = size_of(target);
+  impl_->draw_marks(Impl::Stage(*impl_, camera, style, viewport, all_of(viewport)), marks);
+}
+
+void VolumeScene::draw_part(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks,
                             Vec2<double> viewport, const PicturePart& part) {
   const TargetGuard guard;
   clear(target, style);
   Impl& s = *impl_;
   if (s.elements == nullptr || s.bounds.empty()) return;
-  Bounds3 depths = s.bounds;
-  const Projection projection = camera.projection(viewport, depths, part);
-  SpaceView view(camera, projection);
-  // The stripes stand still in the picture, so that its parts fit together.
-  const double period = static_cast<double>(kHatchPeriod * style.scale);
-  const Vec2<double> middle{0.5 * (part.low.x + part.high.x - viewport.x), -0.5 * (part.low.y + part.high.y - viewport.y)};
-  view.hatch_phase = {static_cast<float>(std::fmod((middle.x - middle.y) / period, 1.0)),
-                      static_cast<float>(std::fmod((middle.x + middle.y) / period, 1.0))};
-  FacePainter::Look look{.style = style, .shrink = s.view.shrink, .plane = {}};
-  const ClipPlane& clip = s.view.clip;
-  if (clip.on && clip.mode == ClipPlane::Mode::Cut) {
-    const double side = (clip.flip ? -1.0 : 1.0) / length(clip.normal);
-    const Vec3 normal = side * clip.normal;
-    const double slack = 1e-6 * s.bounds.radius();  // faces in the plane stay
-    look.plane = std::array{static_cast<float>(normal.x), static_cast<float>(normal.y), static_cast<float>(normal.z),
-                            static_cast<float>(side * clip.offset - dot(normal, projection.origin()) + slack)};
-  }
+  const Impl::Stage stage(s, camera, style, viewport, part);
   s.painter.fill().set_colours(style.colours);
   begin_elements();
-  const auto count = static_cast<double>(s.seen().faces.size());
-  const auto stride = static_cast<Index>(std::clamp(std::ceil(1.0 / std::max(detail, 1e-9)), 1.0, std::max(count, 1.0)));
-  s.painter.draw_ghost(view, style);
-  s.painter.draw_faces(view, look, stride);
-  s.painter.draw_cuts(view, style);
-  begin_marks();
-  gather_marks(s.seen_faces(), projection, style, marks, s.marks);
-  if (marks.triad) {
-    const double margin = kTriadMargin * static_cast<double>(style.scale);
-    gather_triad(camera, {margin - 0.5 * viewport.x - middle.x, margin - 0.5 * viewport.y - middle.y}, style, s.marks);
-  }
-  View flat;
-  flat.viewport = view.viewport;
-  s.marks.flush(flat, style.scale);
+  s.painter.draw_ghost(stage.view, style);
+  s.painter.draw_faces(stage.view, stage.look, 0, s.painter.face_count());
+  s.painter.draw_cuts(stage.view, style);
+  s.draw_marks(stage, marks);
 }
 
 Pick VolumeScene::pick(const OrbitCamera& camera, Vec2<double> viewport, Vec2<double> pixel, double radius) const {

@@ -48,8 +48,12 @@ class VolumeScene {
   VolumeScene(VolumeScene&&) noexcept;
   VolumeScene& operator=(VolumeScene&&) noexcept;
 
-  /// Shows another mesh, all of it. Both must live until the next call; `owner` is kept until then. Throws UsageError when an element is
-  /// not of a volume.
+  /// Shows a frame as MeshScene does; its input must be a volume. The view stays, also when another mesh comes. A light frame (one whose
+  /// positions stay on a device) is not shown: what was on show stays, and false comes back.
+  bool show(std::shared_ptr<const Frame> frame);
+
+  /// The same in two steps, for meshes without a session. Shows another mesh, all of it. Both must live until the next call; `owner` is
+  /// kept until then. Throws UsageError when an element is not of a volume.
   void set_mesh(const ElementTable& elements, const FaceNeighbours& faces, std::shared_ptr<const void> owner = {});
   /// Where vertices and how good cells are. What `state` views must live until the next call or another mesh; `owner` is kept until then.
   /// Uploads positions and qualities in place; faces only where a view depends on these. Throws UsageError for sizes that do not fit.
@@ -71,11 +75,17 @@ class VolumeScene {
   /// Of all vertices of elements, whatever is seen of them.
   [[nodiscard]] const Bounds3& bounds() const noexcept;
 
-  /// Clears `target` and draws. `detail` in (0, 1]: below 1 a square stands for each of that share of the faces and its neighbours. `part`:
-  /// the picture is `viewport` pixels large and the target gets that part of it. Throws Error.
+  /// Clears `target` and draws. `detail` in (0, 1]: below 1 a square stands for each of that share of the faces and its neighbours. Throws
+  /// Error.
   void draw(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks = {}, double detail = 1.0);
-  void draw_part(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks, double detail,
-                 Vec2<double> viewport, const PicturePart& part);
+  /// The same at full detail: the picture is `viewport` pixels large, and the target gets that part of it.
+  void draw_part(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks, Vec2<double> viewport,
+                 const PicturePart& part);
+
+  /// As those of MeshScene: draw() in two steps, and its first one in slices of at most `most` faces.
+  bool draw_elements(Framebuffer& target, const OrbitCamera& camera, const Style& style, double detail = 1.0);
+  void draw_marks(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks);
+  bool draw_slice(Framebuffer& target, const OrbitCamera& camera, const Style& style, SliceProgress& progress, Index most);
 
   /// What of what is seen lies at `pixel`: the element of the nearest face or cut there, and of its corners the nearest within `radius`; of
   /// an empty place the nearest vertex of a visible face. By geometry in double. Some 10 ns a face.

@@ -1,10 +1,8 @@
 #include "app/window/volume_picture.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 
+#include "app/window/picture_parts.h"
 #include "core/inside/clip_words.h"
 #include "render/context.h"
 #include "render/screenshot.h"
@@ -19,20 +17,6 @@ std::string share_seen(std::size_t seen, std::size_t all) {
   return fmt::format("{} of {}", ui::count(seen), ui::counted(all, "element", "elements"));
 }
 
-render::Legend legend_of(const JudgedVolume& volume, const PictureLook& look, std::size_t seen) {
-  float minimum = INFINITY;
-  for (const float q : volume.quality) minimum = std::fmin(minimum, q);
-  const std::size_t size = volume.mesh.elements.size();
-  render::Legend legend;
-  legend.title = std::string(info(look.metric).title);
-  legend.subtitle = fmt::format("{} · {} · minimum {}", volume.mesh.name, ui::counted(size, "element", "elements"),
-                                ui::short_number(static_cast<double>(minimum)));
-  legend.inverted = static_cast<std::size_t>(std::ranges::count_if(volume.inverted, [](std::uint8_t i) { return i != 0; }));
-  legend.undefined = std::ranges::any_of(volume.quality, [](float q) { return std::isnan(q); });
-  legend.selection = share_seen(seen, size);
-  return legend;
-}
-
 }  // namespace
 
 void require_sense(const InsideLook& inside) {
@@ -40,36 +24,28 @@ void require_sense(const InsideLook& inside) {
   static_cast<void>(render::view_preset_from_name(inside.from));
 }
 
-std::string volume_picture_png(const JudgedVolume& volume, const PictureLook& look, const InsideLook& inside) {
+std::string volume_picture_png(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look, const InsideLook& inside,
+                               const Progress& progress) {
+  const JudgedElements judged = judge(input, positions, look.metric, progress);
   const auto context = render::create_headless_context();
   ThreadPool pool;
   render::VolumeScene scene;
   scene.set_pool(&pool);
-  scene.set_mesh(volume.mesh.elements, volume.faces);
-  scene.update({volume.positions, volume.quality, volume.inverted, 1});
+  scene.set_mesh(input.mesh.elements, input.faces);
+  scene.update({positions, judged.quality, judged.inverted, 1});
   InsideView view = inside.view;
   if (!inside.clip.empty()) {
-    const ClipPlane::Mode mode = view.clip.mode;
     view.clip = parse_clip(inside.clip, scene.bounds().low, scene.bounds().high);
-    view.clip.mode = mode;
+    view.clip.mode = inside.view.clip.mode;
   }
   scene.set_view(view);
-  render::Style style = look.transparent ? render::Style::light() : render::Style::dark();
-  style.transparent = look.transparent;
-  style.wireframe = look.wireframe;
-  style.colours.map = render::colour_map_from_name(look.colormap);
-  if (look.range) std::tie(style.colours.low, style.colours.high) = *look.range;
-  render::Shot shot;
-  shot.width = look.width;
-  shot.height = look.height;
-  shot.supersample = look.supersample;
-  shot.transparent = look.transparent;
-  if (look.colour_bar) shot.legend = legend_of(volume, look, scene.faces().visible_cells);
+  render::Shot shot = shot_of(input, judged, look);
+  if (shot.legend) shot.legend->selection = share_seen(scene.faces().visible_cells, judged.quality.size());
   render::OrbitCamera camera;
   camera.perspective = inside.perspective;
   camera.look_from(render::view_preset_from_name(inside.from));
   camera.fit(scene.bounds(), render::mesh_viewport(shot));
-  return render::encode_png(render::render_image(scene, camera, style, {}, shot).image);
+  return render::encode_png(render::render_image(scene, camera, style_of(look), {}, shot).image);
 }
 
 }  // namespace dmoscope::app

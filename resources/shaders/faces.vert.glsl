@@ -1,6 +1,7 @@
 // Six vertices a face: two triangles, or one and nothing.
 #include "fill.glsl"
 #include "faces.glsl"
+uniform uint u_first;       // face
 uniform float u_wire_fade;  // pixels at which the wireframe begins to show; 0 or less: none
 uniform int u_others;       // elements that do not count: 0 faded, 1 hidden, 2 outlined (faded here)
 uniform vec4 u_faded_colour;
@@ -21,7 +22,7 @@ vec3 edge(vec2 a, vec2 b, vec2 c) {
 }
 
 void main() {
-  Face face = faces[uint(gl_VertexID) / 6u];
+  Face face = faces[u_first + uint(gl_VertexID) / 6u];
   uint at = uint(gl_VertexID) % 6u, local = at % 3u;
   bool triangle = is_triangle(face);
   bool counting = counts(face.element);

@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/session/input_mesh.h"
 #include "render/face_records.h"
+#include "render/live_picture.h"
 #include "render/screenshot.h"
 #include "tests/render/fixture.h"
 #include "tests/support/volume_grids.h"
@@ -202,7 +204,7 @@ TEST_F(VolumePicture, TilesMakeTheSamePictureAsOne) {
     for (const double top : {0.0, 50.0}) {
       const PicturePart part{{left, top}, {left == 0.0 ? 80.0 : kWidth, top == 0.0 ? 50.0 : kHeight}};
       Framebuffer tile(static_cast<int>(part.high.x - part.low.x), static_cast<int>(part.high.y - part.low.y));
-      space->draw_part(tile, camera, Style::dark(), {}, 1.0, kViewport, part);
+      space->draw_part(tile, camera, Style::dark(), {}, kViewport, part);
       const Image piece = tile.read_pixels();
       for (int y = 0; y < piece.height; ++y) {
         for (int x = 0; x < piece.width; ++x) pieced.set(x + static_cast<int>(left), y + static_cast<int>(top), piece.at(x, y));
@@ -222,6 +224,68 @@ TEST_F(VolumePicture, LittleDetailLooksMuchTheSame) {
   const Image full = shot(), coarse = shot(flat_style(), 0.2);
   EXPECT_TRUE(near_colour(at(coarse, {1, 0.43, 0.61}), of_quality(0.7)));
   EXPECT_LT(compare(full, coarse).off_share, 0.12);
+}
+
+TEST_F(VolumePicture, ALivePictureComesToRestAtTheFullOne) {
+  Mesh fine = test::volume_grid(30, test::Fill::Hexahedra);
+  const FaceNeighbours neighbours(fine);
+  std::vector<float> good(fine.elements.size(), 0.7F);
+  good[5] = 0.1F;
+  space->set_mesh(fine.elements, neighbours);
+  space->update({fine.positions, good, {}, 1});
+  InsideView view;
+  view.clip = {.on = true, .normal = {1, 0.2, 0}, .offset = 0.5, .flip = false, .mode = ClipPlane::Mode::Cut};
+  view.ghost = true;
+  space->set_view(view);
+  LiveVolumePicture live;
+  LiveVolumePicture::Wish wish{static_cast<int>(kWidth), static_cast<int>(kHeight), camera, Style::dark(), {}, 0.25, true};
+  live.update(*space, wish);
+  EXPECT_FALSE(live.complete());
+  for (int turn = 0; turn < 100 && !live.complete(); ++turn) live.update(*space, wish);
+  ASSERT_TRUE(live.complete());
+  plain.triad = true;
+  EXPECT_TRUE(compare(live.picture(), shot(Style::dark())).alike(0.0005));
+  // Another camera: a coarse picture at once, and no full one while it moves.
+  wish.camera.turn({5, 3}, kViewport);
+  wish.refine = false;
+  for (int turn = 0; turn < 5; ++turn) live.update(*space, wish);
+  EXPECT_FALSE(live.complete());
+  wish.refine = true;
+  for (int turn = 0; turn < 100 && !live.complete(); ++turn) live.update(*space, wish);
+  camera = wish.camera;
+  EXPECT_TRUE(compare(live.picture(), shot(Style::dark())).alike(0.0005));
+}
+
+TEST_F(VolumePicture, AFrameIsShownAndTheViewStays) {
+  Progress progress;
+  const auto input = prepare_input(mesh, {}, Need::QualityOnly, progress);
+  auto frame = std::make_shared<Frame>();
+  frame->serial = 7;
+  frame->input = input;
+  frame->positions = mesh.positions;
+  frame->quality = quality;
+  frame->inverted = inverted;
+  InsideView view;
+  view.clip = {.on = true, .normal = {1, 0, 0}, .offset = 0.5};
+  ASSERT_TRUE(space->show(frame));
+  space->set_view(view);
+  EXPECT_TRUE(near_colour(at(shot(), {0.5, 0.25, 0.25}), of_quality(0.1)));
+  const std::uint64_t revision = space->revision();
+  ASSERT_TRUE(space->show(frame));
+  EXPECT_EQ(space->revision(), revision);
+  auto next = std::make_shared<Frame>(*frame);
+  next->serial = 8;
+  next->quality[0] = 0.9F;
+  frame.reset();
+  ASSERT_TRUE(space->show(next));
+  EXPECT_TRUE(near_colour(at(shot(), {0.5, 0.25, 0.25}), of_quality(0.9)));
+  next.reset();  // the scene keeps what it shows
+  view.clip.on = false;
+  space->set_view(view);
+  EXPECT_TRUE(near_colour(at(shot(), {1, 0.25, 0.25}), of_quality(0.2)));
+  ASSERT_TRUE(space->show(nullptr));
+  EXPECT_TRUE(space->empty());
+  EXPECT_EQ(shot().at(100, 60).r, 0x1b);
 }
 
 TEST_F(VolumePicture, WhatDoesNotFitIsRefused) {

@@ -96,6 +96,7 @@ void FacePainter::draw_coarse(const SpaceView& view, const Look& look, Index str
   if (faces_.count == 0) return;
   prepare(coarse_program_, faces_, points_, view, look);
   coarse_program_.set("u_stride", stride);
+  coarse_program_.set("u_count", face_count());
   if (look.plane) glEnable(GL_CLIP_DISTANCE0);
   glEnable(GL_PROGRAM_POINT_SIZE);
   DMOSCOPE_GL(glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>((face_count() + stride - 1) / stride)));
@@ -107,7 +108,9 @@ void FacePainter::draw_cuts(const SpaceView& view, const Style& style) const {
   if (cuts_.count == 0) return;
   prepare(program_, cuts_, cut_points_, view, {.style = style, .shrink = 1.0, .plane = {}});
   set_wire(program_, style);
+  program_.set("u_cut", 1.0F);
   DMOSCOPE_GL(glDrawArrays(GL_TRIANGLES, 0, 6 * cuts_.count));
+  program_.set("u_cut", 0.0F);
 }
 
 void FacePainter::draw_ghost(const SpaceView& view, const Style& style) const {

@@ -44,7 +44,7 @@ class FacePainter {
   };
   [[nodiscard]] Index face_count() const noexcept { return static_cast<Index>(faces_.count); }
   void draw_faces(const SpaceView& view, const Look& look, Index first, Index count) const;
-  /// A square for every stride-th face.
+  /// A square for one of every `stride` faces.
   void draw_coarse(const SpaceView& view, const Look& look, Index stride) const;
   void draw_cuts(const SpaceView& view, const Style& style) const;
   /// Before the others: these are seen through it in their own colours.

@@ -1,7 +1,9 @@
 #include "render/volume_pick.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace dmoscope::render {
 namespace {
@@ -43,6 +45,17 @@ Corners corners_of(const SeenFaces& seen, ElementFace face) {
   return corners;
 }
 
+/// Whether a ray passes so near to an element's vertices' mean that it may meet the element.
+bool near_element(const SeenFaces& seen, Index element, const ViewRay& ray) {
+  const Vec3 mean = mean_of(seen, element), away = cross(mean - ray.from, ray.direction);
+  double square = 0.0;
+  for (const Index v : seen.elements.corners(element)) {
+    const Vec3 spoke = seen.positions[v] - mean;
+    square = std::max(square, dot(spoke, spoke));
+  }
+  return dot(away, away) <= square * (1.0 + 1e-9);
+}
+
 bool cut_away(const SeenFaces& seen, Vec3 point) {
   const ClipPlane& clip = seen.view.clip;
   return clip.on && clip.mode == ClipPlane::Mode::Cut && clip.beyond(point) > 0.0;
@@ -78,7 +91,11 @@ std::optional<RayHit> first_hit(const SeenFaces& seen, const ViewRay& ray) {
   const auto kept = [&](std::optional<double> along) {
     return along && !cut_away(seen, ray.from + *along * ray.direction) ? along : std::nullopt;
   };
+  Index element = kNoIndex;
+  bool near = false;
   for (const ElementFace& face : seen.faces.faces) {
+    if (std::exchange(element, face.element) != face.element) near = near_element(seen, element, ray);
+    if (!near) continue;
     const Corners c = corners_of(seen, face);
     consider(kept(meets(ray, c.points[0], c.points[1], c.points[2])), face.element, face);
     if (c.count == 4) consider(kept(meets(ray, c.points[2], c.points[3], c.points[0])), face.element, face);

@@ -24,9 +24,17 @@ vec3 corner_of(Face face, uint i) {
 
 float kept_by_plane(vec3 point) { return u_plane.w - dot(u_plane.xyz, point); }
 
+vec3 towards_eye(vec3 point) { return u_eye.w > 0.0 ? normalize(u_eye.xyz - point) : u_eye.xyz; }
+
+// The skin of what is seen is closed: faces that look away are hidden by others. Not those of inverted elements, whose outside is inside.
+bool looks_away(vec3 a, vec3 b, vec3 c, vec3 d) {
+  vec3 to_eye = u_eye.w > 0.0 ? u_eye.xyz - a : u_eye.xyz;
+  return dot(cross(b - a, c - a), to_eye) < 0.0 && dot(cross(c - a, d - a), to_eye) <= 0.0;
+}
+
 // A light beside the eye: faces that are turned away are darker, none is dark.
 float brightness(vec3 normal, vec3 middle) {
-  vec3 to_eye = u_eye.w > 0.0 ? normalize(u_eye.xyz - middle) : u_eye.xyz;
+  vec3 to_eye = towards_eye(middle);
   float size = length(normal);
   vec3 towards = size > 0.0 ? normal / size : to_eye;
   if (dot(towards, to_eye) < 0.0) towards = -towards;

@@ -2,6 +2,7 @@
 #include "fill.glsl"
 #include "faces.glsl"
 uniform uint u_first;       // face
+uniform float u_cut;        // 1: the faces are cuts
 uniform float u_wire_fade;  // pixels at which the wireframe begins to show; 0 or less: none
 uniform int u_others;       // elements that do not count: 0 faded, 1 hidden, 2 outlined (faded here)
 uniform vec4 u_faded_colour;
@@ -36,10 +37,15 @@ void main() {
   vec3 p[4];
   for (uint i = 0u; i < 3u; ++i) p[i] = corner_of(face, i);
   p[3] = triangle ? p[0] : corner_of(face, 3u);
+#ifndef GHOST
+  if (!inverted(face.element) && looks_away(p[0], p[1], p[2], p[3])) return;
+#endif
   vec3 a = at < 3u ? p[0] : p[2], b = at < 3u ? p[1] : p[3], c = at < 3u ? p[2] : p[0];
   vec3 here = local == 0u ? a : local == 1u ? b : c;
   gl_Position = u_to_clip_space * vec4(here, 1.0);
   gl_ClipDistance[0] = kept_by_plane(here);
+  // Where elements overlap the inverted lie above the others, and of cuts in one plane always the same.
+  gl_Position.z -= gl_Position.w * ((inverted(face.element) ? 4e-5 : 0.0) + u_cut * 2e-6 * float(face.element & 7u));
 
   vec4 clip[4];
   vec2 pixels[4];

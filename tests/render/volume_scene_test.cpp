@@ -2,6 +2,7 @@
 #include "render/volume_scene.h"
 
 #include <cmath>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
@@ -190,6 +191,51 @@ TEST_F(VolumePicture, TheMouseFindsWhatIsSeen) {
   space->set_view(view);
   EXPECT_EQ(pick({1, 0.5, 0.5}).element, kNoIndex);
   EXPECT_EQ(pick({1, 0.25, 0.25}).element, 1U);
+}
+
+/// What overlaps in one plane: the inverted are seen, wherever they stand in the order.
+TEST_F(VolumePicture, OfCutsInOnePlaceTheInvertedOneIsSeen) {
+  for (const bool first : {true, false}) {
+    Mesh twice = test::volume_grid(1, test::Fill::Hexahedra);
+    twice.positions.insert(twice.positions.end(), twice.positions.begin(), twice.positions.end());
+    std::vector<Index> corners(8);
+    std::iota(corners.begin(), corners.end(), 8U);
+    twice.elements.add(ElementKind::Hexahedron, corners);
+    const FaceNeighbours neighbours(twice);
+    const std::vector<float> good{0.7F, 0.7F};
+    const std::vector<std::uint8_t> bad{static_cast<std::uint8_t>(first ? 1 : 0), static_cast<std::uint8_t>(first ? 0 : 1)};
+    space->set_mesh(twice.elements, neighbours);
+    space->update({twice.positions, good, bad, 1});
+    InsideView view;
+    view.clip = {.on = true, .normal = {1, 0.1, 0}, .offset = 0.4, .flip = false, .mode = ClipPlane::Mode::Cut};
+    space->set_view(view);
+    const Image image = shot();
+    int magenta = 0, other = 0;
+    for (int y = 20; y < 100; ++y) {
+      for (int x = 60; x < 140; ++x) (image.at(x, y).g < 10 ? magenta : other) += 1;
+    }
+    EXPECT_GT(magenta, 6000) << first;
+    EXPECT_EQ(other, 0) << first;
+  }
+}
+
+TEST_F(VolumePicture, MarksLieOverTheMesh) {
+  Style style = flat_style();
+  style.highlight_colour = {1, 2, 3, 255};
+  plain.vertices = {0};  // behind all cells
+  plain.cells = {6};
+  plain.dots.push_back({{1, 0.25, 0.75}, 9.0F, {250, 20, 30, 255}, DotShape::Round});
+  plain.dots.push_back({{0, 0.25, 0.75}, 9.0F, {20, 250, 30, 255}, DotShape::Round});  // behind the other
+  const Image image = shot(style);
+  EXPECT_TRUE(near_colour(at(image, {0, 0, 0}), {1, 2, 3}));
+  EXPECT_TRUE(near_colour(at(image, {0, 0.75, 0.5}), {1, 2, 3}, 60));  // an edge of the hidden cell
+  EXPECT_TRUE(near_colour(at(image, {1, 0.75, 0.75}), of_quality(0.8)));
+  EXPECT_TRUE(near_colour(at(image, {1, 0.25, 0.75}), {250, 20, 30}));
+  EXPECT_EQ(image.at(10, 110), image.at(2, 60));  // no axes yet
+  plain.triad = true;
+  const Image with_axes = shot(style);
+  EXPECT_GT(with_axes.at(58 + 17, 120 - 58).g, 100);  // y points right
+  EXPECT_GT(with_axes.at(58, 120 - 58 - 17).b, 150);  // z up
 }
 
 TEST_F(VolumePicture, TilesMakeTheSamePictureAsOne) {

@@ -12,7 +12,7 @@ void gather_marks(const SeenFaces& seen, const Projection& projection, const Sty
 
 /// The axes' directions, `middle` in pixels from the middle of the viewport, y up; those that point away behind those that point here.
 void gather_triad(const OrbitCamera& camera, Vec2<double> middle, const Style& style, MarkPainter& painter);
-/// Pixels at scale 1 from the left lower corner of the picture to the triad's middle.
+/// Pixels at scale 1 from the right lower corner of the picture to the triad's middle.
 inline constexpr double kTriadMargin = 58.0;
 
 }  // namespace dmoscope::render

@@ -27,6 +27,7 @@ struct VolumeScene::Impl {
   std::unique_ptr<Inside> inside;
   CellState state;
   InsideView view;
+  Selection selection;
   InsideFaces nothing;
   std::vector<std::uint8_t> used;  // vertices that are corners of elements
   Bounds3 bounds;
@@ -106,6 +107,7 @@ void VolumeScene::Impl::forget() {
   input.reset();
   frame_serial = 0;
   view = {};
+  selection = {};
   bounds = {};
   uploaded_faces = uploaded_cuts = means_of = 0;
   ++revision;
@@ -187,6 +189,17 @@ void VolumeScene::set_shading(std::shared_ptr<const Shading> shading) {
   ++s.revision;
 }
 
+void VolumeScene::set_selection(const Selection& selection) {
+  Impl& s = *impl_;
+  if (s.selection == selection) return;
+  if (selection.members && (s.elements == nullptr || selection.members->size() != s.elements->size())) {
+    throw UsageError("as many members as the mesh has elements are needed");
+  }
+  s.painter.fill().set_selection(selection);
+  s.selection = selection;
+  ++s.revision;
+}
+
 void VolumeScene::set_pool(ThreadPool* pool) noexcept { impl_->pool = pool; }
 bool VolumeScene::empty() const noexcept { return impl_->elements == nullptr; }
 std::uint64_t VolumeScene::revision() const noexcept { return impl_->revision; }
@@ -223,7 +236,7 @@ VolumeScene::Impl::Stage::Stage(const Impl& scene, const OrbitCamera& seen_by, c
   const Vec2<double> middle{0.5 * (part.low.x + part.high.x - viewport.x), -0.5 * (part.low.y + part.high.y - viewport.y)};
   const auto phase = [&](double along) { return static_cast<float>(std::fmod(along / period, 1.0)); };
   view.hatch_phase = {phase(middle.x - middle.y), phase(middle.x + middle.y)};
-  triad = {margin - 0.5 * viewport.x - middle.x, margin - 0.5 * viewport.y - middle.y};
+  triad = {0.5 * viewport.x - margin - middle.x, margin - 0.5 * viewport.y - middle.y};
   const ClipPlane& clip = scene.view.clip;
   if (!clip.on || clip.mode != ClipPlane::Mode::Cut) return;
   const double side = (clip.flip ? -1.0 : 1.0) / length(clip.normal), slack = 1e-6 * scene.bounds.radius();  // faces in the plane stay

@@ -36,7 +36,7 @@ struct SpaceMarks {
   std::optional<Index> worst;   // cell with a ring around it
   std::vector<SpaceLine> lines;
   std::vector<SpaceDot> dots;  // the nearest on top
-  bool triad = true;           // the axes, in the left lower corner
+  bool triad = true;           // the axes, in the right lower corner
   friend bool operator==(const SpaceMarks&, const SpaceMarks&) = default;
 };
 
@@ -64,6 +64,9 @@ class VolumeScene {
   /// Shown instead of quality, by elements; null: quality. Forgotten with another mesh. Throws UsageError when values are not one an
   /// element.
   void set_shading(std::shared_ptr<const Shading> shading);
+  /// Cells that do not count are faded, or hidden as far as faces are drawn; what takes cells away is the view. Forgotten with another
+  /// mesh. Throws UsageError when the members are not as many as the elements.
+  void set_selection(const Selection& selection);
   /// Threads for finding what is seen; null: the caller's alone.
   void set_pool(ThreadPool* pool) noexcept;
 

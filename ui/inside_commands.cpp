@@ -55,7 +55,7 @@ void add_peel_verbs(CommandTable& table, ViewState& state) {
     need(words, 1, 1);
     view.peel_quality = words[0] == "off" ? std::nullopt : std::optional(to_quality(words[0]));
   });
-  table.add({"isolate", "isolate LOW HIGH  or  isolate off", "only cells of a quality in this range are seen"}, [&view](Arguments words) {
+  table.add({"keep-quality", "keep-quality LOW HIGH|off", "only cells of a quality in this range are seen"}, [&view](Arguments words) {
     if (words.size() == 1 && words[0] == "off") {
       view.isolate.reset();
       return;

@@ -1,6 +1,7 @@
 #include "ui/pane_view.h"
 
 #include <cmath>
+#include <utility>
 
 #include <imgui.h>
 
@@ -66,7 +67,17 @@ void PaneView::draw_volume(const Scenery& scenery, const Wish& wish) {
   render::VolumeScene& scene = volume_->scene;
   const bool by_elements = colours_ && colours_->shading && colours_->shading->by == render::Shading::By::Elements;
   scene.set_shading(by_elements ? colours_->shading : nullptr);
-  scene.set_view(state.inside);
+  // What is isolated of the histogram is taken out of the volume; what is merely chosen keeps its place, and the rest fades.
+  render::Selection selection = selection_of(state, scenery.derived);
+  InsideView view = state.inside;
+  if (selection.quality && selection.others == render::Selection::Others::Hide) view.isolate = std::exchange(selection.quality, {});
+  selection.others = render::Selection::Others::Fade;
+  if (scenery.derived.frame_serial != frame()->serial) {
+    refresh_members(members_, state, *session_);
+    selection.members = members_.members;
+  }
+  scene.set_selection(selection);
+  scene.set_view(view);
   labels_.clear();
   labels_lack_room_ = false;
   const auto w = static_cast<int>(std::lround(state.viewport.x)), h = static_cast<int>(std::lround(state.viewport.y));

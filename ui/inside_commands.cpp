@@ -71,7 +71,7 @@ void add_peel_verbs(CommandTable& table, ViewState& state) {
               view.worst = words[0] == "off" ? 0 : to_count(words[0]);
               view.ghost = view.worst > 0;
             });
-  table.add({"ghost", "ghost [on|off|toggle]", "the boundary of what was taken away is seen faintly"}, [&view](Arguments words) {
+  table.add({"ghost-rest", "ghost-rest [on|off|toggle]", "the boundary of what was taken away is seen faintly"}, [&view](Arguments words) {
     need(words, 0, 1);
     view.ghost = switched(words, 0, view.ghost);
   });

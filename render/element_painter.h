@@ -2,10 +2,10 @@
 // Elements on the OpenGL side. Only for sources of this room.
 
 #include <array>
-#include <optional>
 #include <span>
 #include <vector>
 
+#include "render/fill.h"
 #include "render/gl.h"
 #include "render/layout.h"
 #include "render/shading.h"
@@ -35,10 +35,10 @@ class ElementPainter {
   /// The buffers of the two, for others to write: new ones with every upload_topology, the same ones until then.
   [[nodiscard]] GLuint point_buffer() const noexcept { return points_.id(); }
   [[nodiscard]] GLuint shade_buffer() const noexcept { return shades_.id(); }
-  void set_colours(const ColourScale& colours);
+  void set_colours(const ColourScale& colours) { colouring_.set_colours(colours); }
   /// What is shown instead of quality; null: quality. Gone with upload_topology, as is the selection.
-  void set_shading(const Shading* shading);
-  void set_selection(const Selection& selection);
+  void set_shading(const Shading* shading) { colouring_.set_shading(shading); }
+  void set_selection(const Selection& selection) { colouring_.set_selection(selection); }
   /// Draws all elements of the ranges.
   void draw(const View& view, const Style& style, std::size_t batch, std::span<const DrawRange> ranges);
   /// Draws a square for every stride-th element of the ranges.
@@ -50,20 +50,13 @@ class ElementPainter {
     Buffer order, corners;
     Handle<DeleteVertexArray> array;
   };
-  /// What fill.glsl reads.
-  void bind_fill(const Program& program, const Style& style, std::size_t batch) const;
   std::array<std::array<Program, 2>, 2> fill_;  // one colour an element, or by corners; of triangles, of quadrilaterals
   Program coarse_, boundary_;
   std::array<Elements, 2> elements_;
-  Buffer points_, shades_, edges_, values_, members_;
+  Buffer points_, shades_, edges_;
   GLsizei edge_count_ = 0;
-  Handle<DeleteTexture> colours_, palette_;
-  std::optional<Shading::By> by_;  // none: quality
-  int categories_ = 0;
-  bool edges_by_category_ = false;
-  Selection selection_;
-  Handle<DeleteVertexArray> nothing_;    // for shaders that read their vertices from buffers
-  std::optional<ColourScale> uploaded_;  // the map as it is in colours_, from 0 to 1
+  Fill colouring_;
+  Handle<DeleteVertexArray> nothing_;  // for shaders that read their vertices from buffers
 };
 
 }  // namespace dmoscope::render

@@ -120,5 +120,8 @@ void Program::set(const char* name, Vec2<float> value) const { glProgramUniform2
 void Program::set(const char* name, float r, float g, float b, float a) const {
   glProgramUniform4f(program_.id(), location(name), r, g, b, a);
 }
+void Program::set(const char* name, const std::array<float, 16>& matrix) const {
+  glProgramUniformMatrix4fv(program_.id(), location(name), 1, GL_FALSE, matrix.data());
+}
 
 }  // namespace dmoscope::render

@@ -1,6 +1,7 @@
 #pragma once
 // Thin owners of OpenGL objects; every call that can fail is checked. Only for sources of this room.
 
+#include <array>
 #include <cstddef>
 #include <initializer_list>
 #include <span>
@@ -97,6 +98,8 @@ class Program {
   void set(const char* name, unsigned value) const;
   void set(const char* name, Vec2<float> value) const;
   void set(const char* name, float r, float g, float b, float a) const;
+  /// A matrix of 4 x 4, column after column.
+  void set(const char* name, const std::array<float, 16>& matrix) const;
 
  private:
   [[nodiscard]] GLint location(const char* name) const;

@@ -5,23 +5,25 @@
 
 #include "render/framebuffer.h"
 #include "render/scene.h"
+#include "render/volume_scene.h"
 
 namespace dmoscope::render {
 
 /// Elements are drawn again only when something about them changed; marks cost only themselves. Where drawing all of a big mesh takes long,
 /// a coarse picture comes first, and a full one is drawn beside it slice by slice until it takes its place.
-class LivePicture {
+template <class Scene, class Camera, class Marked>
+class LivePictureOf {
  public:
   struct Wish {
     int width = 1, height = 1;
-    Camera2D camera;
+    Camera camera;
     Style style;
-    Marks marks;
-    double detail = 1.0;  // what can be drawn in a moment, see MeshScene::draw
+    Marked marks;
+    double detail = 1.0;  // what can be drawn in a moment, see the scene's draw()
     bool refine = true;   // go on towards the full picture
   };
   /// Brings the picture up to date, as far as a moment goes. Throws Error.
-  void update(MeshScene& scene, const Wish& wish);
+  void update(Scene& scene, const Wish& wish);
   /// Whether every element in view is drawn.
   [[nodiscard]] bool complete() const noexcept { return complete_; }
   /// See Framebuffer::texture.
@@ -31,20 +33,23 @@ class LivePicture {
  private:
   struct Key {
     int width, height;
-    Camera2D camera;
+    Camera camera;
     Style style;
     double detail;
     std::uint64_t revision;
     friend bool operator==(const Key&, const Key&) = default;
   };
-  void refine(MeshScene& scene, const Wish& wish);
+  void refine(Scene& scene, const Wish& wish);
 
   Framebuffer base_{1, 1}, finer_{1, 1}, shown_{1, 1};
   std::optional<Key> key_;  // of base_
-  Marks marks_;             // on shown_
+  Marked marks_;            // on shown_
   SliceProgress progress_;  // of finer_
   Index slice_ = 50'000;    // elements that are drawn in a moment
   bool complete_ = true;
 };
+
+using LivePicture = LivePictureOf<MeshScene, Camera2D, Marks>;
+using LiveVolumePicture = LivePictureOf<VolumeScene, OrbitCamera, SpaceMarks>;
 
 }  // namespace dmoscope::render

@@ -9,36 +9,13 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "render/draw_state.h"
 #include "render/scene_impl.h"
 
 namespace dmoscope::render {
 namespace {
 
 constexpr std::size_t kBigMesh = 100'000;  // elements whose layout takes long enough to be built in the background
-
-/// Keeps what a draw changes and others may rely on: the bound framebuffer and the viewport.
-class TargetGuard {
- public:
-  TargetGuard() {
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
-    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);
-    glGetIntegerv(GL_VIEWPORT, viewport_);
-  }
-  ~TargetGuard() {
-    glBindVertexArray(0);
-    glUseProgram(0);
-    glDisable(GL_BLEND);
-    glDisable(GL_DEPTH_TEST);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(draw_));
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read_));
-    glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
-  }
-  TargetGuard(const TargetGuard&) = delete;
-  TargetGuard& operator=(const TargetGuard&) = delete;
-
- private:
-  GLint draw_ = 0, read_ = 0, viewport_[4] = {0, 0, 0, 0};
-};
 
 View make_view(const Layout& layout, const Camera2D& camera, Vec2<double> viewport, float scale) {
   View view;
@@ -53,29 +30,6 @@ View make_view(const Layout& layout, const Camera2D& camera, Vec2<double> viewpo
   const auto phase = [&](double along) { return static_cast<float>(along / period - std::floor(along / period)); };
   view.hatch_phase = {phase(offset.x - offset.y), phase(offset.x + offset.y)};
   return view;
-}
-
-Vec2<double> size_of(const Framebuffer& target) { return {static_cast<double>(target.width()), static_cast<double>(target.height())}; }
-
-void clear(Framebuffer& target, const Style& style) {
-  target.clear(style.transparent ? Rgba{0, 0, 0, 0} : Rgba{style.background.r, style.background.g, style.background.b, 255});
-}
-
-/// Elements cover each other by depth; marks are blended over each other.
-void begin_elements() {
-  glDisable(GL_CULL_FACE);
-  glDisable(GL_STENCIL_TEST);
-  glDisable(GL_BLEND);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LEQUAL);
-}
-void begin_marks() {
-  glDisable(GL_CULL_FACE);
-  glDisable(GL_STENCIL_TEST);
-  glDisable(GL_DEPTH_TEST);
-  glEnable(GL_BLEND);
-  glBlendEquation(GL_FUNC_ADD);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 }
 
 }  // namespace

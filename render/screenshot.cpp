@@ -34,7 +34,12 @@ Vec2<double> mesh_viewport(const Shot& shot) {
   return {static_cast<double>(shot.width), static_cast<double>(std::max(1, shot.height - below))};
 }
 
-Rendered render_image(MeshScene& scene, const Camera2D& camera, const Style& style, const Marks& marks, const Shot& shot) {
+namespace {
+
+/// Draws a picture in tiles: `draw(target, style, tile)` the part of the mesh's viewport that `tile` is, in pixels of the picture, each of
+/// which is supersample x supersample of the target's.
+template <class Draw>
+Rendered draw_tiles(const Shot& shot, const Style& style, const Draw& draw) {
   if (shot.width < 1 || shot.height < 1 || shot.width > kLargestPicture || shot.height > kLargestPicture) {
     throw UsageError(
         fmt::format("a picture is 1 to {0} pixels wide and high, asked for {1} x {2}", kLargestPicture, shot.width, shot.height));
@@ -52,11 +57,9 @@ Rendered render_image(MeshScene& scene, const Camera2D& camera, const Style& sty
   for (int top = 0; top < height; top += tile) {
     for (int left = 0; left < width; left += tile) {
       const int right = std::min(left + tile, width), bottom = std::min(top + tile, height);
-      Camera2D part = camera;
-      part.centre = camera.to_plane({(left + right) / 2.0, (top + bottom) / 2.0}, viewport);
-      part.units_per_pixel = camera.units_per_pixel / shot.supersample;
       target.resize((right - left) * shot.supersample, (bottom - top) * shot.supersample);
-      scene.draw(target, part, fine, marks, 1.0);
+      const auto at = [](int x, int y) { return Vec2<double>{static_cast<double>(x), static_cast<double>(y)}; };
+      draw(target, fine, PicturePart{at(left, top), at(right, bottom)});
       paste(result.image, downsample(target.read_pixels(), shot.supersample), left, top);
     }
   }
@@ -65,6 +68,25 @@ Rendered render_image(MeshScene& scene, const Camera2D& camera, const Style& sty
     result.note = draw_legend(result.image, *shot.legend, fine, shot.scale);
   }
   return result;
+}
+
+}  // namespace
+
+Rendered render_image(MeshScene& scene, const Camera2D& camera, const Style& style, const Marks& marks, const Shot& shot) {
+  return draw_tiles(shot, style, [&](Framebuffer& target, const Style& fine, const PicturePart& tile) {
+    Camera2D part = camera;
+    part.centre = camera.to_plane({(tile.low.x + tile.high.x) / 2.0, (tile.low.y + tile.high.y) / 2.0}, mesh_viewport(shot));
+    part.units_per_pixel = camera.units_per_pixel / shot.supersample;
+    scene.draw(target, part, fine, marks, 1.0);
+  });
+}
+
+Rendered render_image(VolumeScene& scene, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks, const Shot& shot) {
+  const auto fine_pixels = static_cast<double>(shot.supersample);
+  const auto scaled = [&](Vec2<double> p) { return Vec2<double>{p.x * fine_pixels, p.y * fine_pixels}; };
+  return draw_tiles(shot, style, [&](Framebuffer& target, const Style& fine, const PicturePart& tile) {
+    scene.draw_part(target, camera, fine, marks, scaled(mesh_viewport(shot)), {scaled(tile.low), scaled(tile.high)});
+  });
 }
 
 }  // namespace dmoscope::render

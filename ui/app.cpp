@@ -150,6 +150,8 @@ void App::notice_new_input() {
   seen_sizes_ = frame == nullptr ? std::pair<Index, Index>{} : std::pair{frame->vertex_count(), frame->element_count()};
   if (!same_ids) {  // a file read again keeps what is picked and where one looks
     state_.picked = {};
+    state_.inside = {};
+    state_.orbit.look_from(render::ViewPreset::Isometric);
     state_.selection.clear();
     state_.inspection.open = state_.inspection.playing = false;
   }
@@ -275,6 +277,7 @@ void App::draw(double now) {
       fonts_,
       items_,
       [this](const std::string& line) { submit(line); },
+      [this](std::size_t pane, Vec2<double> pixel) { return viewports_.point_at(state_, pane, pixel); },
       [this](std::size_t pane, Vec2<double> pixel) {
         const render::Pick pick = viewports_.pick(state_, pane, pixel);
         return std::pair{pick.vertex, pick.element};

@@ -1,6 +1,7 @@
 #include "ui/pane_view.h"
 
 #include <cmath>
+#include <utility>
 
 #include <imgui.h>
 
@@ -29,8 +30,58 @@ void PaneView::update_colours(const ViewState& state, std::shared_ptr<const Fram
 void PaneView::update_stepping(bool busy) { stepping_.update(*session_, busy); }
 
 bool PaneView::bring(render::Loading loading) {
+  if (is_volume()) {
+    if (!volume_) volume_ = std::make_unique<Volume>();
+    scene_.show(nullptr);
+    volume_->scene.show(session_->frame);
+    return current_ = true;
+  }
+  if (volume_) volume_->scene.show(nullptr);
   current_ = scene_.show(session_->frame, loading);
   return current_;
+}
+
+std::size_t PaneView::drawn_count() const noexcept {
+  return is_volume() && volume_ ? volume_->scene.faces().faces.size() : scene_.element_count();
+}
+
+render::Pick PaneView::pick(const ViewState& state, const render::Camera2D& camera, Vec2<double> pixel, double radius) const {
+  return is_volume() && volume_ ? volume_->scene.pick(state.orbit, state.viewport, pixel, radius)
+                                : scene_.pick(camera, state.viewport, pixel, radius);
+}
+
+render::SpaceMarks PaneView::space_marks(const ViewState& state) const {
+  render::SpaceMarks marks;
+  const Picked& picked = state.picked;
+  if (picked.kind == Picked::Kind::Element && picked.id < frame()->element_count()) marks.cells = {picked.id};
+  if (picked.kind == Picked::Kind::Vertex && picked.id < frame()->vertex_count()) {
+    for (const Incidence& incidence : frame()->input->topology.star(picked.id)) marks.cells.push_back(incidence.element);
+    marks.vertices = {picked.id};
+  }
+  if (state.worst_marker && !frame()->worst.empty()) marks.worst = frame()->worst.front().element;
+  return marks;
+}
+
+void PaneView::draw_volume(const Scenery& scenery, const Wish& wish) {
+  const ViewState& state = scenery.state;
+  render::VolumeScene& scene = volume_->scene;
+  const bool by_elements = colours_ && colours_->shading && colours_->shading->by == render::Shading::By::Elements;
+  scene.set_shading(by_elements ? colours_->shading : nullptr);
+  // What is isolated of the histogram is taken out of the volume; what is merely chosen keeps its place, and the rest fades.
+  render::Selection selection = selection_of(state, scenery.derived);
+  InsideView view = state.inside;
+  if (selection.quality && selection.others == render::Selection::Others::Hide) view.isolate = std::exchange(selection.quality, {});
+  selection.others = render::Selection::Others::Fade;
+  if (scenery.derived.frame_serial != frame()->serial) {
+    refresh_members(members_, state, *session_);
+    selection.members = members_.members;
+  }
+  scene.set_selection(selection);
+  scene.set_view(view);
+  labels_.clear();
+  labels_lack_room_ = false;
+  const auto w = static_cast<int>(std::lround(state.viewport.x)), h = static_cast<int>(std::lround(state.viewport.y));
+  volume_->picture.update(scene, {w, h, state.orbit, picture_style(state, scenery.derived), space_marks(state), wish.detail, wish.refine});
 }
 
 void PaneView::select(const Scenery& scenery) {
@@ -52,6 +103,7 @@ void PaneView::find_labels(const Scenery& scenery, const render::Camera2D& camer
 }
 
 void PaneView::draw(const Scenery& scenery, const Wish& wish) {
+  if (is_volume()) return draw_volume(scenery, wish);
   const ViewState& state = scenery.state;
   const RunView& run = session_->runs[session_->active];
   if (fixed_serial_ != frame()->serial && run.fixed.size() == frame()->vertex_count()) {

@@ -51,23 +51,39 @@ class PaneView {
   void draw(const Scenery& scenery, const Wish& wish);
   /// All that is marked, in a picture of another size perhaps.
   [[nodiscard]] render::Marks marks(const Scenery& scenery, const MarkView& view, bool inspected);
+  /// The same of a volume mesh.
+  [[nodiscard]] render::SpaceMarks space_marks(const ViewState& state) const;
 
   [[nodiscard]] render::MeshScene& scene() noexcept { return scene_; }
-  [[nodiscard]] const render::LivePicture& picture() const noexcept { return picture_; }
+  [[nodiscard]] bool is_volume() const noexcept { return frame() != nullptr && frame()->input->is_volume(); }
+  /// Of a volume mesh; null until the first one.
+  [[nodiscard]] render::VolumeScene* volume() noexcept { return volume_ ? &volume_->scene : nullptr; }
+  /// Faces or elements there are to draw.
+  [[nodiscard]] std::size_t drawn_count() const noexcept;
+  /// What lies at a pixel of its picture.
+  [[nodiscard]] render::Pick pick(const ViewState& state, const render::Camera2D& camera, Vec2<double> pixel, double radius) const;
+  [[nodiscard]] unsigned texture() const noexcept { return is_volume() && volume_ ? volume_->picture.texture() : picture_.texture(); }
+  [[nodiscard]] bool complete() const noexcept { return is_volume() && volume_ ? volume_->picture.complete() : picture_.complete(); }
   [[nodiscard]] bool current() const noexcept { return current_; }
-  [[nodiscard]] bool settled() const noexcept { return current_ && picture_.complete() && worker_.settled(); }
+  [[nodiscard]] bool settled() const noexcept { return current_ && complete() && worker_.settled(); }
   [[nodiscard]] bool colours_settled() const noexcept { return worker_.settled(); }
   /// Ids on the mesh, and whether there would be some but for lack of room.
   [[nodiscard]] const std::vector<render::Label>& labels() const noexcept { return labels_; }
   [[nodiscard]] bool labels_lack_room() const noexcept { return labels_lack_room_; }
 
  private:
+  struct Volume {
+    render::VolumeScene scene;
+    render::LiveVolumePicture picture;
+  };
+  void draw_volume(const Scenery& scenery, const Wish& wish);
   void select(const Scenery& scenery);
   void find_labels(const Scenery& scenery, const render::Camera2D& camera);
 
   std::shared_ptr<const SessionView> session_;
   render::MeshScene scene_;
   render::LivePicture picture_;
+  std::unique_ptr<Volume> volume_;  // from the first volume mesh on
   SteppingView stepping_;
   ColourWorker worker_;
   std::shared_ptr<const ElementColours> colours_;

@@ -13,6 +13,7 @@
 #include "ui/desktop_commands.h"
 #include "ui/file_commands.h"
 #include "ui/input_commands.h"
+#include "ui/inside_commands.h"
 #include "ui/inspection_commands.h"
 #include "ui/pane_commands.h"
 #include "ui/plot_commands.h"
@@ -80,11 +81,15 @@ void add_camera_verbs(CommandTable& table, ViewState& state, const CommandHost& 
     need(words, 1, 1);
     const double factor = to_number(words[0]);
     if (!(factor > 0.0)) throw UsageError("the factor must be greater than 0");
-    state.camera.zoom_at({state.viewport.x / 2, state.viewport.y / 2}, state.viewport, factor);
+    const Vec2<double> middle{state.viewport.x / 2, state.viewport.y / 2};
+    state.camera.zoom_at(middle, state.viewport, factor);
+    state.orbit.zoom_at(middle, state.viewport, factor);
   });
   table.add({"pan", "pan DX DY", "moves the picture by pixels"}, [&state](Arguments words) {
     need(words, 2, 2);
-    state.camera.pan({to_number(words[0]), to_number(words[1])});
+    const Vec2<double> pixels{to_number(words[0]), to_number(words[1])};
+    state.camera.pan(pixels);
+    state.orbit.pan(pixels, state.viewport);
   });
 }
 
@@ -249,6 +254,7 @@ CommandTable view_commands(ViewState& state, const CommandHost& host) {
   add_inspection_verbs(table, state, host);
   add_session_shortcuts(table, state, host);
   add_desktop_verbs(table, state, host);
+  add_inside_verbs(table, state, host);
   add_timeline_verbs(table, state, host);
   add_file_verbs(table, state, host);
   add_selection_verbs(table, state, host);

@@ -38,6 +38,20 @@ void look_at_picked(ViewState& state, const Frame& frame) {
   const Picked& picked = state.picked;
   if (picked.kind == Picked::Kind::None) return;
   const bool vertex = picked.kind == Picked::Kind::Vertex;
+  if (frame.input->is_volume()) {
+    render::Bounds3 box;
+    const auto include = [&](Index element) {
+      for (const Index v : frame.input->mesh.elements.corners(element)) box.include(frame.positions[v]);
+    };
+    if (vertex) {
+      for (const Incidence& incidence : frame.input->topology.star(picked.id)) include(incidence.element);
+    } else {
+      include(picked.id);
+    }
+    state.orbit.orbit_about(vertex ? frame.positions[picked.id] : box.centre());
+    state.orbit.height = kSurroundings * std::max(box.radius(), 1e-9 * frame.input->geometry.size);
+    return;
+  }
   const render::Bounds2 box = vertex ? star_box(frame, picked.id) : element_box(frame, picked.id);
   const double extent = std::max({box.size().x, box.size().y, 1e-9 * frame.input->geometry.size});
   state.camera.look_at(vertex ? plane_point(frame, picked.id) : box.centre(), (vertex ? 0.5 : 1.0) * kSurroundings * extent,

@@ -9,10 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "core/inside/inside_view.h"
 #include "core/session/engine.h"
 #include "core/session/view.h"
 #include "render/camera.h"
 #include "render/colour_map.h"
+#include "render/orbit_camera.h"
 #include "ui/colouring_state.h"
 #include "ui/command_log.h"
 #include "ui/inspection_state.h"
@@ -91,6 +93,9 @@ struct ViewState {
   // Camera and picture
   render::Camera2D camera;  // of the active pane, and of all while they are linked
   Panes panes;
+  render::OrbitCamera orbit;              // of volume meshes, in all panes
+  bool trackball = false;                 // a drag rolls them as a ball instead of turning them about the upright axis
+  InsideView inside;                      // what is seen of them
   Vec2<double> viewport{800, 600};        // pixels of a pane, set by the drawing code
   std::pair<int, int> window_size{0, 0};  // likewise; 0: not known yet
   bool wireframe = true;

@@ -187,13 +187,22 @@ bool Viewports::fit(ViewState& state, double em) {
     return false;
   }
   if (!views_[focus_]->current()) return false;
-  render::Bounds2 bounds = views_[focus_]->scene().bounds();
-  if (bounds.empty()) bounds = input_box(*session_->frame->input);  // it shows nothing
   state.requests.fit = false;
   // Title above and colour bar below the mesh, not on it.
   const bool bar_within = state.panes.one() || state.panes.layout == PaneLayout::Split;
   const double top = 2.4 * em, bottom = bar_within ? 4.4 * em : 0.5 * em;
   const Vec2<double> free{state.viewport.x, std::max(1.0, state.viewport.y - top - bottom)};
+  if (views_[focus_]->is_volume()) {
+    const double margin = std::min(1.2 * em, 0.05 * std::min(free.x, free.y));
+    state.orbit.fit(views_[focus_]->volume()->bounds(), free, margin);
+    state.orbit.height *= state.viewport.y / free.y;
+    state.orbit.pan({0.0, (top - bottom) / 2}, state.viewport);
+    state.requests.fit_all = false;
+    fitted_orbit_ = state.orbit;
+    return true;
+  }
+  render::Bounds2 bounds = views_[focus_]->scene().bounds();
+  if (bounds.empty()) bounds = input_box(*session_->frame->input);  // it shows nothing
   render::Camera2D camera = render::Camera2D::fit(bounds, free, std::min(1.2 * em, 0.05 * std::min(free.x, free.y)));
   camera.pan({0.0, (top - bottom) / 2});
   const bool all = std::exchange(state.requests.fit_all, false);
@@ -215,7 +224,8 @@ bool Viewports::draw(ViewState& state, const Derived& derived, const Inspection&
   state.viewport = {std::max(1.0, static_cast<double>(rect.w)), std::max(1.0, static_cast<double>(rect.h))};
   // A fitted mesh stays fitted when the window or a panel changes its size.
   const bool resized = before.x != state.viewport.x || before.y != state.viewport.y;
-  if (resized && fitted_ && *fitted_ == state.camera) state.requests.fit = true;
+  const bool volume = views_[focus_]->is_volume();
+  if (resized && (volume ? fitted_orbit_ && *fitted_orbit_ == state.orbit : fitted_ && *fitted_ == state.camera)) state.requests.fit = true;
   loading_ = refining_ = false;
   for (std::size_t k = 0; k < count_; ++k)
     loading_ = !views_[k]->bring(options_.wait_for_scene ? render::Loading::Wait : render::Loading::Background) || loading_;
@@ -225,15 +235,16 @@ bool Viewports::draw(ViewState& state, const Derived& derived, const Inspection&
   // All viewports together are drawn within a moment; full pictures come one after the other.
   std::size_t elements = 0;
   for (std::size_t k = 0; k < count_; ++k)
-    if (views_[k]->frame() != nullptr) elements += views_[k]->scene().element_count();
-  const double detail = render::suggested_detail(elements, options_.software_renderer, true);
+    if (views_[k]->frame() != nullptr) elements += views_[k]->drawn_count();
+  const double detail = volume ? render::suggested_face_detail(elements, options_.software_renderer, true)
+                               : render::suggested_detail(elements, options_.software_renderer, true);
   bool refine = !turn.moving && !turn.live;
   for (std::size_t k = 0; k < count_; ++k) {
     PaneView& view = *views_[k];
     if (view.frame() != nullptr && !rect.empty()) {
       view.draw(scenery, {state.camera_of(k), inspected(state, k), detail, refine});
-      refining_ = refining_ || !view.picture().complete();
-      refine = refine && view.picture().complete();
+      refining_ = refining_ || !view.complete();
+      refine = refine && view.complete();
     }
     facts_.push_back(facts_of_pane(state, k, rects[std::min(k, rects.size() - 1)]));
   }
@@ -258,17 +269,22 @@ PaneFacts Viewports::facts_of_pane(ViewState& state, std::size_t pane, const Rec
   facts.colours = view.colours();
   facts.labels = view.labels();
   facts.camera = state.camera_of(pane);
-  facts.texture = view.picture().texture();
+  facts.texture = view.texture();
   facts.focus = pane == focus_;
   facts.inspected = inspected(state, pane);
-  facts.reduced = view.frame() != nullptr && !view.picture().complete();
+  facts.reduced = view.frame() != nullptr && !view.complete();
   facts.lacks_room = view.labels_lack_room();
   if (facts.focus) facts.stepping_note = view.stepping().note(state, *view.session());
   return facts;
 }
 
 render::Pick Viewports::pick(const ViewState& state, std::size_t pane, Vec2<double> pixel) const {
-  return views_[pane]->scene().pick(facts_[pane].camera, state.viewport, pixel, 8.0 * state.scale);
+  return views_[pane]->pick(state, facts_[pane].camera, pixel, 8.0 * state.scale);
+}
+
+std::optional<Vec3> Viewports::point_at(const ViewState& state, std::size_t pane, Vec2<double> pixel) const {
+  render::VolumeScene* volume = views_[pane]->volume();
+  return volume == nullptr ? std::nullopt : volume->point_at(state.orbit, state.viewport, pixel);
 }
 
 std::vector<Index> Viewports::vertices_near(const ViewState& state, std::size_t pane, Vec2<double> pixel, double radius) const {

@@ -78,10 +78,15 @@ class Viewports {
   /// true: it was.
   bool draw(ViewState& state, const Derived& derived, const Inspection& inspection, std::span<const Rect> rects, const Turn& turn);
   /// Somebody else has set the cameras.
-  void forget_fit() { fitted_.reset(); }
+  void forget_fit() {
+    fitted_.reset();
+    fitted_orbit_.reset();
+  }
   [[nodiscard]] std::span<const PaneFacts> facts() const noexcept { return facts_; }
   /// See MeshScene.
   [[nodiscard]] render::Pick pick(const ViewState& state, std::size_t pane, Vec2<double> pixel) const;
+  /// The point of a volume mesh that is seen there; none where nothing is.
+  [[nodiscard]] std::optional<Vec3> point_at(const ViewState& state, std::size_t pane, Vec2<double> pixel) const;
   [[nodiscard]] std::vector<Index> vertices_near(const ViewState& state, std::size_t pane, Vec2<double> pixel, double radius) const;
 
   [[nodiscard]] PaneView& active() noexcept { return *views_[focus_]; }
@@ -129,6 +134,7 @@ class Viewports {
   std::vector<std::shared_ptr<const Frame>> frames_;
   std::vector<PaneFacts> facts_;
   std::optional<render::Camera2D> fitted_;  // the camera of the last fit, while nobody has moved it
+  std::optional<render::OrbitCamera> fitted_orbit_;
   // As followed last: a command may have changed the state since.
   PaneLayout layout_ = PaneLayout::One;
   std::size_t count_ = 1, focus_ = 0;

@@ -14,13 +14,16 @@
 
 #include "app/targets.h"
 #include "app/text.h"
+#include "app/verbs/option_checks.h"
 #include "app/verbs/verbs.h"
 #include "core/base/error.h"
+#include "core/inside/clip_words.h"
 #include "core/quality/metric.h"
 
 #ifdef DMOSCOPE_HAVE_GUI
 #include "app/console.h"
 #include "app/window/picture.h"
+#include "app/window/volume_picture.h"
 #endif
 
 namespace dmoscope::app {
@@ -35,7 +38,11 @@ struct Options {
   std::string colormap = "viridis";
   std::string range;
   bool transparent = false;
-  std::string clip;
+  std::string clip, clip_mode = "crinkle", isolate, from = "iso";
+  std::uint64_t peel = 0, worst = 0;
+  std::optional<float> peel_quality;
+  double shrink = 1.0;
+  bool perspective = false;
 };
 
 /// Two numbers with `separator` between them and nothing else; none where the text is something else.
@@ -68,11 +75,31 @@ std::optional<std::pair<double, double>> parse_range(const std::string& text) {
   return range;
 }
 
+/// What is seen of a volume mesh, its clip plane apart.
+InsideView inside_view(const Options& options) {
+  InsideView view;
+  view.clip.mode = parse_clip_mode(options.clip_mode);
+  if (options.clip.empty() && view.clip.mode != ClipPlane::Mode::Crinkle) throw UsageError("--clip-mode: there is no --clip");
+  view.peel = static_cast<Index>(options.peel);
+  view.peel_quality = options.peel_quality;
+  if (!options.isolate.empty()) {
+    view.isolate = parse_pair<float>(options.isolate, ':');
+    if (!view.isolate || !(view.isolate->first <= view.isolate->second)) {
+      throw UsageError(fmt::format("--isolate {}: expected LOW:HIGH, two qualities with LOW <= HIGH", options.isolate));
+    }
+  }
+  view.worst = options.worst;
+  view.ghost = options.worst > 0;
+  view.shrink = options.shrink;
+  if (!(view.shrink > 0.0 && view.shrink <= 1.0)) throw UsageError("--shrink: expected a factor greater than 0 and at most 1");
+  return view;
+}
+
 int render(const Options& options) {
-  if (!options.clip.empty()) throw UsageError("--clip is not in this version: it cuts volume meshes, which are not drawn yet");
   const Metric metric = parse_metric(options.metric);
   const auto [width, height] = parse_size(options.size);
   const auto range = parse_range(options.range);
+  const InsideView view = inside_view(options);
   if (options.output.extension() != ".png") throw UsageError(fmt::format("{}: pictures are written as .png", options.output.string()));
   require_another_file(options.output, "-o", options.input);
   require_writable(options.output);
@@ -84,12 +111,34 @@ int render(const Options& options) {
   look.colormap = options.colormap;
   look.range = range;
   look.transparent = options.transparent;
+  const InsideLook inside{options.clip, view, options.from, options.perspective};
+  require_sense(inside);
   Watch watch;
-  return render_picture(options.input, options.output, look, watch.progress());
+  return render_picture(options.input, options.output, look, inside, watch.progress());
 #else
-  static_cast<void>(metric), static_cast<void>(width), static_cast<void>(height), static_cast<void>(range);
+  static_cast<void>(view), static_cast<void>(metric), static_cast<void>(width), static_cast<void>(height), static_cast<void>(range);
   throw UsageError("this program was built without OpenGL, so it makes no pictures");
 #endif
+}
+
+/// Options of volume meshes.
+void add_inside(CLI::App& verb, Options& options) {
+  const auto option = [&verb](const char* name, auto& value, const char* type, const char* doc) {
+    return verb.add_option(name, value, doc)->type_name(type)->group("Volume meshes");
+  };
+  option(
+      "--clip", options.clip, "PLANE",
+      "Take away what lies beyond a plane: x, y or z, half-way through the mesh or at :FRACTION (0 to 1), -x, -y, -z: the other side; or "
+      "NX,NY,NZ:OFFSET");
+  option("--clip-mode", options.clip_mode, "MODE", "crinkle: whole elements, cut: cut through")->capture_default_str();
+  option("--peel", options.peel, "N", "Take so many layers of elements off the boundary")->transform(whole_number(0, 0xfffffffe));
+  option("--peel-quality", options.peel_quality, "Q", "Take elements of a higher quality away");
+  option("--isolate", options.isolate, "LO:HI", "Only elements of a quality in this range");
+  option("--worst", options.worst, "N", "Only the N worst elements, in a faint boundary of the rest")
+      ->transform(whole_number(1, 0xfffffffe));
+  option("--shrink", options.shrink, "F", "Draw every element F times as large")->capture_default_str();
+  option("--view", options.from, "VIEW", "Look from: iso, +x, -x, +y, -y, +z, -z")->capture_default_str();
+  verb.add_flag("--perspective", options.perspective, "What is farther away looks smaller")->group("Volume meshes");
 }
 
 }  // namespace
@@ -104,7 +153,7 @@ void add_render(CLI::App& app, Action& action) {
   verb->add_option("--colormap", options->colormap, "Colour map")->type_name("NAME")->capture_default_str();
   verb->add_option("--range", options->range, "Qualities at the ends of the colour map (0:1 unless given)")->type_name("LO:HI");
   verb->add_flag("--transparent", options->transparent, "Leave the background transparent");
-  verb->add_option("--clip", options->clip, "")->group("");
+  add_inside(*verb, *options);
   verb->callback([options, &action] { action = [options] { return render(*options); }; });
 }
 

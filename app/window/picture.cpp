@@ -5,57 +5,69 @@
 
 #include <fmt/format.h>
 
+#include "app/window/picture_parts.h"
+#include "app/window/volume_picture.h"
+#include "core/base/error.h"
 #include "core/io/mesh_io.h"
 #include "core/quality/quality.h"
 #include "render/context.h"
 #include "render/scene.h"
-#include "render/screenshot.h"
 #include "ui/format.h"
 
 namespace dmoscope::app {
 
-std::string picture_png(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look, const Progress& progress) {
-  require_defined(look.metric, input.mesh);
+JudgedElements judge(const InputMesh& input, std::span<const Vec3> positions, Metric metric, const Progress& progress) {
+  require_defined(metric, input.mesh);
   progress.check();
   const std::size_t size = input.mesh.elements.size();
-  const QualityContext quality_context = input.quality_context();
+  const QualityContext context = input.quality_context();
   std::vector<double> exact(size);
-  element_qualities(quality_context, positions, look.metric, nullptr, exact);
-  std::vector<float> quality(exact.begin(), exact.end());
-  std::vector<std::uint8_t> inverted(size);
-  std::size_t inverted_count = 0;
-  double minimum = INFINITY;
+  element_qualities(context, positions, metric, nullptr, exact);
+  JudgedElements judged{{exact.begin(), exact.end()}, std::vector<std::uint8_t>(size), 0, INFINITY};
   for (Index e = 0; e < size; ++e) {
-    inverted[e] = smallest_jacobian(quality_context, positions, e) <= 0.0 ? 1 : 0;
-    inverted_count += inverted[e];
-    minimum = std::fmin(minimum, exact[e]);
+    judged.inverted[e] = smallest_jacobian(context, positions, e) <= 0.0 ? 1 : 0;
+    judged.inverted_count += judged.inverted[e];
+    judged.minimum = std::fmin(judged.minimum, exact[e]);
   }
   progress.check();
+  return judged;
+}
 
-  const auto context = render::create_headless_context();
-  render::MeshScene scene;
-  scene.set_mesh(input.mesh, input.geometry.plane);
-  scene.update(positions, quality, inverted);
+render::Style style_of(const PictureLook& look) {
   render::Style style = look.transparent ? render::Style::light() : render::Style::dark();
   style.transparent = look.transparent;
   style.wireframe = look.wireframe;
   style.colours.map = render::colour_map_from_name(look.colormap);
   if (look.range) std::tie(style.colours.low, style.colours.high) = *look.range;
+  return style;
+}
+
+render::Shot shot_of(const InputMesh& input, const JudgedElements& judged, const PictureLook& look) {
   render::Shot shot;
   shot.width = look.width;
   shot.height = look.height;
   shot.supersample = look.supersample;
   shot.transparent = look.transparent;
-  if (look.colour_bar) {
-    render::Legend legend;
-    legend.title = std::string(info(look.metric).title);
-    legend.subtitle =
-        fmt::format("{} · {} · minimum {}", input.mesh.name, ui::counted(size, "element", "elements"), ui::short_number(minimum));
-    legend.inverted = inverted_count;
-    shot.legend = legend;
-  }
+  if (!look.colour_bar) return shot;
+  render::Legend legend;
+  legend.title = std::string(info(look.metric).title);
+  legend.subtitle = fmt::format("{} · {} · minimum {}", input.mesh.name, ui::counted(judged.quality.size(), "element", "elements"),
+                                ui::short_number(judged.minimum));
+  legend.inverted = judged.inverted_count;
+  shot.legend = legend;
+  return shot;
+}
+
+std::string picture_png(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look, const Progress& progress) {
+  if (input.is_volume()) return volume_picture_png(input, positions, look, {}, progress);
+  const JudgedElements judged = judge(input, positions, look.metric, progress);
+  const auto context = render::create_headless_context();
+  render::MeshScene scene;
+  scene.set_mesh(input.mesh, input.geometry.plane);
+  scene.update(positions, judged.quality, judged.inverted);
+  const render::Shot shot = shot_of(input, judged, look);
   const render::Camera2D camera = render::Camera2D::fit(scene.bounds(), render::mesh_viewport(shot));
-  return render::encode_png(render::render_image(scene, camera, style, {}, shot).image);
+  return render::encode_png(render::render_image(scene, camera, style_of(look), {}, shot).image);
 }
 
 std::string css_gradient(std::string_view colormap) {
@@ -69,9 +81,15 @@ std::string css_gradient(std::string_view colormap) {
   return css + ")";
 }
 
-int render_picture(const std::filesystem::path& input, const std::filesystem::path& output, const PictureLook& look, Progress& progress) {
+int render_picture(const std::filesystem::path& input, const std::filesystem::path& output, const PictureLook& look,
+                   const InsideLook& inside, Progress& progress) {
   const auto mesh = load_input(input, Need::QualityOnly, progress);
-  write_file_atomically(output, picture_png(*mesh, mesh->mesh.positions, look, progress));
+  if (!mesh->is_volume() && inside.asked_for()) {
+    throw UsageError(fmt::format("{}: only a mesh of volume elements has an inside to be seen", input.string()));
+  }
+  const std::span<const Vec3> positions = mesh->mesh.positions;
+  write_file_atomically(output, mesh->is_volume() ? volume_picture_png(*mesh, positions, look, inside, progress)
+                                                  : picture_png(*mesh, positions, look, progress));
   return 0;
 }
 

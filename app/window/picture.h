@@ -13,6 +13,8 @@
 
 namespace dmoscope::app {
 
+struct InsideLook;
+
 /// How a picture of a mesh looks.
 struct PictureLook {
   Metric metric = Metric::MeanRatio;
@@ -33,7 +35,9 @@ struct PictureLook {
 /// A colour map as the CSS of a background, from its low end on the left.
 [[nodiscard]] std::string css_gradient(std::string_view colormap);
 
-/// Reads, draws, writes (all or nothing). Throws Error (bad input, no usable EGL, unwritable target) and Cancelled. Returns 0.
-int render_picture(const std::filesystem::path& input, const std::filesystem::path& output, const PictureLook& look, Progress& progress);
+/// Reads, draws, writes (all or nothing). Throws Error (bad input, no usable EGL, unwritable target, an inside asked for of a mesh that has
+/// none) and Cancelled. Returns 0.
+int render_picture(const std::filesystem::path& input, const std::filesystem::path& output, const PictureLook& look,
+                   const InsideLook& inside, Progress& progress);
 
 }  // namespace dmoscope::app

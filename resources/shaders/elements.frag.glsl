@@ -1,10 +1,9 @@
 #include "fill.glsl"
+#include "hatch.glsl"
 uniform float u_wire_half_width;  // pixels
 uniform vec4 u_wire_colour;       // straight alpha
 uniform vec4 u_hollow_fill;       // what is inside of an element of which only the outline is drawn; premultiplied
 uniform vec4 u_hollow_colour;     // its outline
-uniform float u_hatch_period;     // pixels
-uniform vec2 u_hatch_phase;       // of the rising and of the falling stripes, periods
 
 flat in vec4 g_fill;
 flat in vec2 g_wire_and_size;
@@ -26,15 +25,7 @@ void main() {
     plain = colour_of(away.x == nearest ? g_values.x : away.y == nearest ? g_values.y : away.z == nearest ? g_values.z : g_values.w);
   }
 #endif
-  vec3 fill = plain.rgb;
-  if (plain.a == 1.0 || plain.a == 2.0) {
-    // Diagonal stripes, rising for inverted elements and falling for those without a value; they need some room.
-    float along = plain.a == 1.0 ? (pixel.x - pixel.y) / u_hatch_period + u_hatch_phase.x
-                                 : (pixel.x + pixel.y) / u_hatch_period + u_hatch_phase.y;
-    float stripe = abs(fract(along) - 0.5) * u_hatch_period;  // distance from the stripe's middle, pixels along x
-    float cover = clamp(0.16 * u_hatch_period - stripe + 0.7, 0.0, 1.0) * smoothstep(0.6, 1.6, g_wire_and_size.y / u_hatch_period);
-    fill = mix(fill, fill * 0.35, cover);
-  }
+  vec3 fill = hatched(plain, pixel, g_wire_and_size.y);
   float nearest = min(g_distance.x, min(g_distance.y, g_distance.z));
   float line = clamp(u_wire_half_width + 0.5 - nearest, 0.0, 1.0) * min(1.0, 2.0 * u_wire_half_width + 0.5) * g_wire_and_size.x;
   colour = plain.a == 3.0 ? mix(u_hollow_fill, vec4(u_hollow_colour.rgb, 1.0), line)

@@ -1,6 +1,9 @@
 // Every verb once, and what is wrong usage.
 
 #include <cmath>
+#include <set>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -92,6 +95,16 @@ TEST(Usage, IsRefusedWithTwo) {
       {"render", in, "-o", folder / "out.png", "--size", "big"},
       {"render", in, "-o", folder / "out.png", "--range", "1:0"},
       {"render", in, "-o", folder / "out.jpeg"},
+      {"render", in, "-o", folder / "out.png", "--clip", "w"},
+      {"render", in, "-o", folder / "out.png", "--clip", "x:1.5"},
+      {"render", in, "-o", folder / "out.png", "--clip", "0,0,0:1"},
+      {"render", in, "-o", folder / "out.png", "--clip-mode", "cut"},
+      {"render", in, "-o", folder / "out.png", "--clip", "x", "--clip-mode", "saw"},
+      {"render", in, "-o", folder / "out.png", "--isolate", "0.5:0.2"},
+      {"render", in, "-o", folder / "out.png", "--shrink", "0"},
+      {"render", in, "-o", folder / "out.png", "--worst", "-1"},
+      {"render", in, "-o", folder / "out.png", "--view", "+w"},
+      {"render", in, "-o", folder / "out.png", "--peel", "1"},  // a planar mesh has no inside
       {"script"},
   };
   for (const auto& arguments : wrong) {
@@ -100,6 +113,31 @@ TEST(Usage, IsRefusedWithTwo) {
     EXPECT_THAT(output.err, ::testing::Not(IsEmpty())) << ::testing::PrintToString(arguments);
     EXPECT_FALSE(exists(out)) << ::testing::PrintToString(arguments);
   }
+}
+
+TEST(Render, LooksInsideAVolume) {
+  const std::string mesh = shared_mesh("tet/tire.vtk");
+  if (mesh.empty()) GTEST_SKIP() << "the shared meshes are not here";
+  const Folder folder;
+  const std::vector<std::vector<std::string>> looks{{},
+                                                    {"--clip", "x", "--clip-mode", "cut"},
+                                                    {"--clip", "0,1,1:0"},
+                                                    {"--peel", "2"},
+                                                    {"--peel-quality", "0.5", "--perspective"},
+                                                    {"--worst", "50", "--view", "+z"},
+                                                    {"--isolate", "0:0.4", "--shrink", "0.8"}};
+  std::set<std::string> pictures;
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    const std::string picture = folder / (std::to_string(i) + ".png");
+    std::vector<std::string> arguments{"render", mesh, "-o", picture, "--size", "160x120"};
+    arguments.insert(arguments.end(), looks[i].begin(), looks[i].end());
+    const Output output = run(arguments);
+    if (output.code == 3 && output.err.find("EGL") != std::string::npos) GTEST_SKIP() << output.err;
+    if (output.err.find("without OpenGL") != std::string::npos) GTEST_SKIP() << output.err;
+    ASSERT_EQ(output.code, 0) << output.err;
+    pictures.insert(read_file(picture));
+  }
+  EXPECT_EQ(pictures.size(), looks.size()) << "each look differs";
 }
 
 TEST(Usage, CountsAreWholeNumbersInTheirRange) {

@@ -113,8 +113,9 @@ struct PanelContext {
   const Palette& palette;
   const Fonts& fonts;
   Items& items;
-  std::function<void(const std::string&)> send;                                        // one command line; errors become messages
-  std::function<std::pair<Index, Index>(std::size_t, Vec2<double>)> pick;              // vertex and element at a pixel of a viewport
+  std::function<void(const std::string&)> send;                            // one command line; errors become messages
+  std::function<std::optional<Vec3>(std::size_t, Vec2<double>)> point_at;  // of a volume mesh, what is seen at a pixel of a viewport
+  std::function<std::pair<Index, Index>(std::size_t, Vec2<double>)> pick;  // vertex and element at a pixel of a viewport
   std::function<std::vector<Index>(std::size_t, Vec2<double>, double)> vertices_near;  // the same, within so many pixels
   std::span<const PaneFacts> panes;                                                    // the viewports
   const std::vector<CommandInfo>& verbs;                                               // of the window, for the palette

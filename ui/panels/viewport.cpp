@@ -115,6 +115,7 @@ void pick_at(PanelContext& context, const PaneFacts& pane, Vec2<double> pixel) {
   ViewState& state = context.state;
   if (state.placing_size_point) {
     state.placing_size_point = false;
+    if (pane.frame()->input->is_volume()) return;  // in a plane alone a pixel is a point
     const Vec2<double> there =
         state.camera.to_pixel(pane.camera.to_plane(pixel, state.viewport), state.viewport);  // as the active one has it
     context.send(size_point_command(state, context.session.input->geometry.plane, there));
@@ -204,7 +205,46 @@ void open_menu(PanelContext& context, const PaneFacts& pane, Vec2<double> at) {
   ImGui::OpenPopup("viewport menu");
 }
 
+/// A drag of a volume mesh: it turns, with the middle button or Shift it moves.
+void drag_volume(ViewState& state, Vec2<double> at, Vec2<double> move, bool moves) {
+  if (moves) {
+    state.orbit.pan(move, state.viewport);
+  } else if (state.trackball) {
+    state.orbit.roll(at - move, at, state.viewport);
+  } else {
+    state.orbit.turn(move, state.viewport);
+  }
+}
+
+/// The mouse over a volume mesh.
+void handle_volume_mouse(PanelContext& context, const PaneFacts& pane) {
+  const ImGuiIO& io = ImGui::GetIO();
+  ViewState& state = context.state;
+  const Vec2<double> at = mouse_in(pane.rect);
+  const bool hovered = ImGui::IsItemHovered();
+  if (hovered && io.MouseWheel != 0) {
+    state.orbit.zoom_at(at, state.viewport, std::pow(1.2, static_cast<double>(io.MouseWheel)));
+    context.widgets.moved_at = context.now;
+  }
+  if (ImGui::IsItemActivated()) context.widgets.dragged = false;
+  for (const int button : {ImGuiMouseButton_Left, ImGuiMouseButton_Middle}) {
+    if (!ImGui::IsItemActive() || !ImGui::IsMouseDragging(button, context.widgets.dragged ? 0.0F : context.px(4))) continue;
+    const ImVec2 move = context.widgets.dragged ? io.MouseDelta : ImGui::GetMouseDragDelta(button, 0.0F);
+    context.widgets.dragged = true;
+    drag_volume(state, at, {static_cast<double>(move.x), static_cast<double>(move.y)}, button == ImGuiMouseButton_Middle || io.KeyShift);
+    if (move.x != 0 || move.y != 0) context.widgets.moved_at = context.now;
+  }
+  if (hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+    const auto point = context.point_at(pane.number, at);
+    context.send(point ? fmt::format("orbit-about {} {} {}", point->x, point->y, point->z) : "fit");
+  } else if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && ImGui::IsItemDeactivated() && !context.widgets.dragged) {
+    pick_at(context, pane, at);
+  }
+  if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) open_menu(context, pane, at);
+}
+
 void handle_mouse(PanelContext& context, const PaneFacts& pane) {
+  if (pane.frame()->input->is_volume()) return handle_volume_mouse(context, pane);
   const ImGuiIO& io = ImGui::GetIO();
   ViewState& state = context.state;
   render::Camera2D& camera = state.camera_of(pane.number);
@@ -285,7 +325,7 @@ void handle_pane(PanelContext& context, const PaneFacts& pane) {
   if (pane.frame() == nullptr) {
     if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) open_menu(context, pane, {});
   } else {
-    if (pane.inspected) read_candidate(context, pane);
+    if (pane.inspected && !pane.frame()->input->is_volume()) read_candidate(context, pane);
     handle_mouse(context, pane);
   }
   ImGui::PopClipRect();
@@ -296,7 +336,7 @@ void draw_pane(PanelContext& context, const PaneFacts& pane) {
   const Rect& clip = pane.clip;
   if (clip.empty()) return;
   ImGui::PushClipRect({clip.x, clip.y}, {clip.x + clip.w, clip.y + clip.h}, true);
-  if (pane.frame() != nullptr) {
+  if (pane.frame() != nullptr && !pane.frame()->input->is_volume()) {
     draw_labels(context, pane);
     draw_field_in_view(context, pane);
     if (pane.inspected) draw_level_label(context, pane);

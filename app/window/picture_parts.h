@@ -1,0 +1,26 @@
+#pragma once
+// What pictures of planar and of volume meshes have in common. Only for their sources.
+
+#include <span>
+#include <vector>
+
+#include "app/window/picture.h"
+#include "render/screenshot.h"
+
+namespace dmoscope::app {
+
+/// How good the elements of a mesh are.
+struct JudgedElements {
+  std::vector<float> quality;  // NaN: not defined
+  std::vector<std::uint8_t> inverted;
+  std::size_t inverted_count;
+  double minimum;  // infinity where no quality is defined
+};
+
+/// With the mesh's vertices at `positions`. Throws UsageError for a metric that there is not for such elements, and Cancelled.
+[[nodiscard]] JudgedElements judge(const InputMesh& input, std::span<const Vec3> positions, Metric metric, const Progress& progress);
+
+[[nodiscard]] render::Style style_of(const PictureLook& look);
+[[nodiscard]] render::Shot shot_of(const InputMesh& input, const JudgedElements& judged, const PictureLook& look);
+
+}  // namespace dmoscope::app

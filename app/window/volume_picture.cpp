@@ -1,0 +1,51 @@
+#include "app/window/volume_picture.h"
+
+#include <fmt/format.h>
+
+#include "app/window/picture_parts.h"
+#include "core/inside/clip_words.h"
+#include "render/context.h"
+#include "render/screenshot.h"
+#include "ui/format.h"
+
+namespace dmoscope::app {
+namespace {
+
+/// "120 of 5,000 elements", empty when all are seen.
+std::string share_seen(std::size_t seen, std::size_t all) {
+  if (seen == all) return {};
+  return fmt::format("{} of {}", ui::count(seen), ui::counted(all, "element", "elements"));
+}
+
+}  // namespace
+
+void require_sense(const InsideLook& inside) {
+  if (!inside.clip.empty()) static_cast<void>(parse_clip(inside.clip, {}, {1, 1, 1}));
+  static_cast<void>(render::view_preset_from_name(inside.from));
+}
+
+std::string volume_picture_png(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look, const InsideLook& inside,
+                               const Progress& progress) {
+  const JudgedElements judged = judge(input, positions, look.metric, progress);
+  const auto context = render::create_headless_context();
+  ThreadPool pool;
+  render::VolumeScene scene;
+  scene.set_pool(&pool);
+  scene.set_mesh(input.mesh.elements, input.faces);
+  scene.update({positions, judged.quality, judged.inverted, 1});
+  InsideView view = inside.view;
+  if (!inside.clip.empty()) {
+    view.clip = parse_clip(inside.clip, scene.bounds().low, scene.bounds().high);
+    view.clip.mode = inside.view.clip.mode;
+  }
+  scene.set_view(view);
+  render::Shot shot = shot_of(input, judged, look);
+  if (shot.legend) shot.legend->selection = share_seen(scene.faces().visible_cells, judged.quality.size());
+  render::OrbitCamera camera;
+  camera.perspective = inside.perspective;
+  camera.look_from(render::view_preset_from_name(inside.from));
+  camera.fit(scene.bounds(), render::mesh_viewport(shot));
+  return render::encode_png(render::render_image(scene, camera, style_of(look), {}, shot).image);
+}
+
+}  // namespace dmoscope::app

@@ -1,0 +1,29 @@
+#pragma once
+// A picture of a volume mesh, of its outside or of what is inside, without a window.
+
+#include <span>
+#include <string>
+
+#include "app/window/picture.h"
+#include "core/inside/inside_view.h"
+
+namespace dmoscope::app {
+
+/// What is seen of a volume mesh, and from where.
+struct InsideLook {
+  std::string clip;          // see parse_clip; empty: no plane
+  InsideView view{};         // its plane: the mode alone
+  std::string from = "iso";  // see view_preset_table
+  bool perspective = false;
+  /// Whether anything of it is not the default.
+  [[nodiscard]] bool asked_for() const { return !clip.empty() || view != InsideView{} || from != "iso" || perspective; }
+};
+
+/// Throws UsageError for words that mean nothing, before anything is read.
+void require_sense(const InsideLook& inside);
+
+/// picture_png of a volume mesh.
+[[nodiscard]] std::string volume_picture_png(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look,
+                                             const InsideLook& inside, const Progress& progress);
+
+}  // namespace dmoscope::app

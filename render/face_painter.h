@@ -1,0 +1,70 @@
+#pragma once
+// Faces of volume elements on the OpenGL side. Only for sources of this room.
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "render/face_records.h"
+#include "render/fill.h"
+#include "render/gl.h"
+#include "render/orbit_camera.h"
+
+namespace dmoscope::render {
+
+/// A camera as the shaders of faces take it. Positions are relative to an origin.
+struct SpaceView {
+  SpaceView(const OrbitCamera& camera, const Projection& projection);
+  std::array<float, 16> to_clip_space{};
+  std::array<float, 4> eye{}, light{};
+  Vec2<float> viewport;
+  Vec2<float> hatch_phase;
+};
+
+class FacePainter {
+ public:
+  FacePainter();
+  /// Another mesh: what buffers held is gone.
+  void reset();
+  using Point = std::array<float, 3>;
+  void upload_points(std::span<const Point> points) { points_.write(points); }
+  void upload_shades(std::span<const float> shades) { shades_.write(shades); }
+  /// Of the corners of all elements; needed while they are shrunk.
+  void upload_means(std::span<const Point> means) { means_.write(means); }
+  void upload_faces(std::span<const FaceRecord> faces) { upload(faces_, faces); }
+  void upload_ghost(std::span<const FaceRecord> faces) { upload(ghost_, faces); }
+  void upload_cuts(std::span<const FaceRecord> faces, std::span<const Point> points);
+  [[nodiscard]] Fill& fill() noexcept { return colouring_; }
+
+  /// How faces are drawn.
+  struct Look {
+    const Style& style;
+    double shrink = 1.0;
+    std::optional<std::array<float, 4>> plane;  // normal and offset: what is beyond is left out
+  };
+  [[nodiscard]] Index face_count() const noexcept { return static_cast<Index>(faces_.count); }
+  void draw_faces(const SpaceView& view, const Look& look, Index first, Index count) const;
+  /// A square for one of every `stride` faces.
+  void draw_coarse(const SpaceView& view, const Look& look, Index stride) const;
+  void draw_cuts(const SpaceView& view, const Style& style) const;
+  /// Before the others: these are seen through it in their own colours.
+  void draw_ghost(const SpaceView& view, const Style& style) const;
+
+ private:
+  struct Faces {
+    Buffer records;
+    GLsizei count = 0;
+  };
+  static void upload(Faces& to, std::span<const FaceRecord> faces) {
+    to.records.write(faces);
+    to.count = static_cast<GLsizei>(faces.size());
+  }
+  void prepare(const Program& program, const Faces& faces, const Buffer& points, const SpaceView& view, const Look& look) const;
+  Program program_, ghost_program_, coarse_program_;
+  Fill colouring_;
+  Buffer points_, shades_, means_, cut_points_;
+  Faces faces_, ghost_, cuts_;
+  Handle<DeleteVertexArray> nothing_;
+};
+
+}  // namespace dmoscope::render

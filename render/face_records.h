@@ -1,0 +1,29 @@
+#pragma once
+// Faces as the shaders read them. No OpenGL.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/inside/inside.h"
+
+namespace dmoscope::render {
+
+/// A face, or a triangle or quadrilateral of a cut: see resources/shaders/faces.glsl.
+struct FaceRecord {
+  /// Into the positions. The last one of a triangle: kNoIndex less 1, 2 or 4 for the edges from its first, second, third corner that are
+  /// not to be seen.
+  std::array<Index, 4> corners;
+  Index element;
+  friend bool operator==(const FaceRecord&, const FaceRecord&) = default;
+};
+static_assert(sizeof(FaceRecord) == 20);
+
+/// Replaces `records` by those of the faces, in their order.
+void records_of(const ElementTable& elements, std::span<const ElementFace> faces, std::vector<FaceRecord>& records);
+
+/// Replaces `records` by those of the polygons; a corner is the index of a point of the cuts. Of a polygon of more than four points its
+/// edges alone are to be seen, not those of its triangles.
+void records_of(const PlaneCuts& cuts, std::vector<FaceRecord>& records);
+
+}  // namespace dmoscope::render

@@ -1,0 +1,43 @@
+#pragma once
+// The colours of elements on the OpenGL side: what resources/shaders/fill.glsl reads. Only for sources of this room.
+
+#include <optional>
+
+#include "render/gl.h"
+#include "render/shading.h"
+#include "render/style.h"
+
+namespace dmoscope::render {
+
+/// rgb of a colour, and alpha.
+void set_colour(const Program& program, const char* name, Rgb colour, float alpha = 1.0F);
+
+/// An object that holds nothing, for shaders that read their vertices from buffers.
+[[nodiscard]] Handle<DeleteVertexArray> make_array();
+
+class Fill {
+ public:
+  Fill();
+  /// Another mesh: forgets shading and selection.
+  void reset();
+  void set_colours(const ColourScale& colours);
+  /// What is shown instead of quality; null: quality.
+  void set_shading(const Shading* shading);
+  void set_selection(const Selection& selection);
+  /// For the programs that include fill.glsl. `shades`: one an element, see shade_of; `order`: the elements as they are drawn.
+  void bind(const Program& program, const Style& style, const Buffer& shades, const Buffer& order) const;
+  /// Values by vertex and the palette for the shaders of edges; `instead`: what to bind where edges have no categories. Their number.
+  [[nodiscard]] int bind_edges(const Buffer& instead) const;
+  [[nodiscard]] bool by_vertices() const noexcept { return by_ == Shading::By::Vertices; }
+
+ private:
+  Buffer values_, members_;
+  Handle<DeleteTexture> colours_, palette_;
+  std::optional<Shading::By> by_;  // none: quality
+  int categories_ = 0;
+  bool edges_by_category_ = false;
+  Selection selection_;
+  std::optional<ColourScale> uploaded_;  // the map as it is in colours_, from 0 to 1
+};
+
+}  // namespace dmoscope::render

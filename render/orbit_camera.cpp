@@ -1,0 +1,211 @@
+#include "render/orbit_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "core/base/error.h"
+
+namespace dmoscope::render {
+namespace {
+
+constexpr double kSmallest = 1e-150, kLargest = 1e150;  // of what a viewport shows: squares of it are still numbers
+constexpr double kDragTurn = std::numbers::pi;          // by a drag over the shorter side of the viewport
+constexpr double kNearest = 1e-4;                       // of the farthest depth: what is nearer to the eye is not seen
+
+constexpr std::array<ViewPresetInfo, 7> kPresets{{{ViewPreset::Isometric, "iso"},
+                                                  {ViewPreset::PlusX, "+x"},
+                                                  {ViewPreset::MinusX, "-x"},
+                                                  {ViewPreset::PlusY, "+y"},
+                                                  {ViewPreset::MinusY, "-y"},
+                                                  {ViewPreset::PlusZ, "+z"},
+                                                  {ViewPreset::MinusZ, "-z"}}};
+
+Vec3 normalised(Vec3 v) { return 1.0 / length(v) * v; }
+
+/// Turns `v` about an axis of length 1, counter-clockwise seen from its tip.
+Vec3 turned(Vec3 v, Vec3 axis, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return c * v + s * cross(axis, v) + (1.0 - c) * dot(axis, v) * axis;
+}
+
+/// After many turns: right angles and lengths of 1 again.
+void straighten(OrbitCamera& camera) {
+  camera.right = normalised(camera.right);
+  camera.up = normalised(camera.up - dot(camera.up, camera.right) * camera.right);
+}
+
+double shorter_side(Vec2<double> viewport) { return std::max(1.0, std::min(viewport.x, viewport.y)); }
+
+/// A point on a ball that fills the viewport, or on the bowl around it (Bell's trackball): no jump at its border.
+Vec3 on_ball(Vec2<double> pixel, Vec2<double> viewport) {
+  const double radius = 0.5 * shorter_side(viewport);
+  const double x = (pixel.x - 0.5 * viewport.x) / radius, y = (0.5 * viewport.y - pixel.y) / radius;
+  const double square = x * x + y * y;
+  const double z = square < 0.5 ? std::sqrt(1.0 - square) : 0.5 / std::sqrt(square);
+  return normalised({x, y, z});
+}
+
+}  // namespace
+
+void Bounds3::include(Vec3 p) noexcept {
+  if (empty()) {
+    low = high = p;
+    return;
+  }
+  low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+  high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+}
+
+std::span<const ViewPresetInfo> view_preset_table() { return kPresets; }
+
+ViewPreset view_preset_from_name(std::string_view name) {
+  std::string names;
+  for (const ViewPresetInfo& preset : kPresets) {
+    if (preset.name == name) return preset.preset;
+    names += (names.empty() ? "" : ", ") + std::string(preset.name);
+  }
+  throw UsageError("there is no view '" + std::string(name) + "'; there are: " + names);
+}
+
+std::optional<Vec2<double>> Projection::place(Vec3 point) const {
+  const Vec3 p = point - origin_;
+  const auto row = [&](std::size_t r) { return matrix_[r] * p.x + matrix_[r + 4] * p.y + matrix_[r + 8] * p.z + matrix_[r + 12]; };
+  const double w = row(3);
+  if (!(w > 0.0)) return std::nullopt;
+  return Vec2<double>{0.5 * viewport_.x * row(0) / w, 0.5 * viewport_.y * row(1) / w};
+}
+
+double Projection::depth(Vec3 point) const {
+  const Vec3 p = point - origin_;
+  const auto row = [&](std::size_t r) { return matrix_[r] * p.x + matrix_[r + 4] * p.y + matrix_[r + 8] * p.z + matrix_[r + 12]; };
+  return row(2) / row(3);
+}
+
+double OrbitCamera::distance() const { return 0.5 * height / std::tan(0.5 * kFieldOfView); }
+
+void OrbitCamera::look_from(ViewPreset preset) {
+  const auto set = [this](Vec3 new_right, Vec3 new_up) {
+    right = new_right;
+    up = new_up;
+  };
+  switch (preset) {
+    case ViewPreset::PlusX:
+      return set({0, 1, 0}, {0, 0, 1});
+    case ViewPreset::MinusX:
+      return set({0, -1, 0}, {0, 0, 1});
+    case ViewPreset::PlusY:
+      return set({-1, 0, 0}, {0, 0, 1});
+    case ViewPreset::MinusY:
+      return set({1, 0, 0}, {0, 0, 1});
+    case ViewPreset::PlusZ:
+      return set({1, 0, 0}, {0, 1, 0});
+    case ViewPreset::MinusZ:
+      return set({-1, 0, 0}, {0, 1, 0});
+    case ViewPreset::Isometric:
+      break;
+  }
+  set(normalised({1, 1, 0}), normalised({-1, 1, 2}));
+}
+
+void OrbitCamera::fit(const Bounds3& bounds, Vec2<double> viewport, double margin) {
+  centre = bounds.empty() ? Vec3{} : bounds.centre();
+  const double room = std::max(0.2, 1.0 - 2.0 * margin / shorter_side(viewport));
+  const double aspect = std::max(viewport.x, 1.0) / std::max(viewport.y, 1.0), slope = std::tan(0.5 * kFieldOfView);
+  double wanted = 0.0;
+  for (unsigned corner = 0; corner < 8 && !bounds.empty(); ++corner) {
+    const Vec3 p = Vec3{(corner & 1U) != 0 ? bounds.high.x : bounds.low.x, (corner & 2U) != 0 ? bounds.high.y : bounds.low.y,
+                        (corner & 4U) != 0 ? bounds.high.z : bounds.low.z} -
+                   centre;
+    const double half = std::max(std::abs(dot(p, up)), std::abs(dot(p, right)) / aspect) / room;
+    // What is nearer to the eye than the centre looks larger.
+    wanted = std::max(wanted, 2.0 * (perspective ? half + slope * dot(p, back()) : half));
+  }
+  height = wanted > 0.0 ? std::clamp(wanted, kSmallest, kLargest) : 1.0;
+}
+
+void OrbitCamera::turn(Vec2<double> pixels, Vec2<double> viewport) {
+  constexpr Vec3 kUpright{0, 0, 1};
+  const double each = kDragTurn / shorter_side(viewport);
+  const double elevation = std::asin(std::clamp(back().z, -1.0, 1.0));
+  // Level, should it have been rolled; straight above or below `right` alone tells where it looks.
+  const Vec3 level = std::abs(back().z) < 1.0 - 1e-9 ? cross(kUpright, back()) : Vec3{right.x, right.y, 0.0};
+  right = turned(length(level) > 0.0 ? normalised(level) : Vec3{1, 0, 0}, kUpright, -each * pixels.x);
+  const double raised = std::clamp(elevation + each * pixels.y, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi);
+  const Vec3 outwards = cross(right, kUpright);  // of a camera that looks along the ground
+  up = std::cos(raised) * kUpright - std::sin(raised) * outwards;
+  straighten(*this);
+}
+
+void OrbitCamera::roll(Vec2<double> from, Vec2<double> to, Vec2<double> viewport) {
+  const Vec3 a = on_ball(from, viewport), b = on_ball(to, viewport), axis = cross(a, b);
+  const double sine = length(axis);
+  if (sine < 1e-12) return;
+  const double angle = std::atan2(sine, dot(a, b));
+  const Vec3 about = 1.0 / sine * (axis.x * right + axis.y * up + axis.z * back());
+  right = turned(right, about, -angle);
+  up = turned(up, about, -angle);
+  straighten(*this);
+}
+
+void OrbitCamera::pan(Vec2<double> pixels, Vec2<double> viewport) {
+  const double unit = units_per_pixel(viewport);
+  centre = centre - unit * pixels.x * right + unit * pixels.y * up;
+}
+
+void OrbitCamera::zoom_at(Vec2<double> cursor, Vec2<double> viewport, double factor) {
+  const double wanted = std::clamp(height / factor, kSmallest, kLargest), kept = wanted / height, unit = units_per_pixel(viewport);
+  const Vec3 point = unit * (cursor.x - 0.5 * viewport.x) * right - unit * (cursor.y - 0.5 * viewport.y) * up;
+  centre = centre + (1.0 - kept) * point;
+  height = wanted;
+}
+
+ViewRay OrbitCamera::ray(Vec2<double> pixel, Vec2<double> viewport) const {
+  const double unit = units_per_pixel(viewport);
+  const Vec3 point = centre + unit * (pixel.x - 0.5 * viewport.x) * right - unit * (pixel.y - 0.5 * viewport.y) * up;
+  if (!perspective) return {point, -1.0 * back()};
+  return {eye(), normalised(point - eye()), 0.0};
+}
+
+Projection OrbitCamera::projection(Vec2<double> viewport, const Bounds3& bounds, const std::optional<PicturePart>& part) const {
+  Projection result;
+  result.origin_ = bounds.empty() ? Vec3{} : bounds.centre();
+  const PicturePart whole = part.value_or(PicturePart{{0, 0}, viewport});
+  result.viewport_ = whole.high - whole.low;
+  const double radius = std::max(bounds.radius() * 1.001, height * 1e-9);
+  const Vec3 z = back(), to_centre = result.origin_ - centre;
+  const double half = 0.5 * height, half_across = half * viewport.x / viewport.y;
+  // Rows of the camera's own coordinates: right, up, towards the eye; w.
+  std::array<std::array<double, 4>, 4> rows{};
+  const auto axis = [&](Vec3 a, double scale) { return std::array{a.x * scale, a.y * scale, a.z * scale, dot(a, to_centre) * scale}; };
+  const double near_height = dot(z, to_centre) + radius, far_height = dot(z, to_centre) - radius;
+  rows[0] = axis(right, 1.0 / half_across);
+  rows[1] = axis(up, 1.0 / half);
+  if (perspective) {
+    const double eye_height = distance();
+    rows[3] = axis(z, -1.0 / eye_height);
+    rows[3][3] += 1.0;  // 1 at the centre
+    const double farthest = std::max((eye_height - far_height) / eye_height, 1e-9);
+    const double nearest = std::max((eye_height - near_height) / eye_height, kNearest * farthest);
+    // Depth a + b / w, from -1 to 1.
+    const double b = -2.0 * farthest * nearest / (farthest - nearest), a = (farthest + nearest) / (farthest - nearest);
+    for (std::size_t c = 0; c < 4; ++c) rows[2][c] = a * rows[3][c];
+    rows[2][3] += b;
+  } else {
+    rows[2] = axis(z, -2.0 / (near_height - far_height));
+    rows[2][3] += (near_height + far_height) / (near_height - far_height);
+    rows[3] = {0, 0, 0, 1};
+  }
+  // The part alone.
+  const Vec2<double> scale{viewport.x / result.viewport_.x, viewport.y / result.viewport_.y};
+  const Vec2<double> middle{(whole.low.x + whole.high.x) / viewport.x - 1.0, 1.0 - (whole.low.y + whole.high.y) / viewport.y};
+  for (std::size_t c = 0; c < 4; ++c) {
+    rows[0][c] = scale.x * (rows[0][c] - middle.x * rows[3][c]);
+    rows[1][c] = scale.y * (rows[1][c] - middle.y * rows[3][c]);
+    for (std::size_t r = 0; r < 4; ++r) result.matrix_[4 * c + r] = rows[r][c];
+  }
+  return result;
+}
+
+}  // namespace dmoscope::render

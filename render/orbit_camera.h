@@ -1,0 +1,99 @@
+#pragma once
+// Looking at a volume mesh from any side. Plain data and mathematics in double; no OpenGL.
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "core/base/vec.h"
+
+namespace dmoscope::render {
+
+/// Box along the axes. Empty when high < low.
+struct Bounds3 {
+  Vec3 low{0, 0, 0}, high{-1, -1, -1};
+  [[nodiscard]] bool empty() const noexcept { return high.x < low.x; }
+  [[nodiscard]] Vec3 centre() const noexcept { return low + 0.5 * (high - low); }
+  /// Of the ball around the box; 0 when it is empty.
+  [[nodiscard]] double radius() const noexcept { return empty() ? 0.0 : 0.5 * length(high - low); }
+  void include(Vec3 point) noexcept;
+};
+
+/// Where it is looked from.
+enum class ViewPreset { PlusX, MinusX, PlusY, MinusY, PlusZ, MinusZ, Isometric };
+struct ViewPresetInfo {
+  ViewPreset preset;
+  std::string_view name;  // "+x", as on the command line
+};
+[[nodiscard]] std::span<const ViewPresetInfo> view_preset_table();
+/// Throws UsageError that lists the names.
+[[nodiscard]] ViewPreset view_preset_from_name(std::string_view name);
+
+/// Points of the mesh that lie under a pixel: from + t * direction, t >= first; the nearest has the least t. `direction` is of length 1.
+struct ViewRay {
+  Vec3 from, direction;
+  double first = -std::numeric_limits<double>::infinity();
+};
+
+/// Part of a picture, in pixels of the whole.
+struct PicturePart {
+  Vec2<double> low, high;
+};
+
+/// From the mesh to a picture.
+class Projection {
+ public:
+  /// Of positions less origin(), to clip coordinates; column after column.
+  [[nodiscard]] const std::array<double, 16>& matrix() const noexcept { return matrix_; }
+  [[nodiscard]] Vec3 origin() const noexcept { return origin_; }
+  [[nodiscard]] Vec2<double> viewport() const noexcept { return viewport_; }  // of the part, pixels
+  /// Relative to the middle of the viewport, y up; none for what lies behind the eye.
+  [[nodiscard]] std::optional<Vec2<double>> place(Vec3 point) const;
+  /// How far from the eye: less is nearer, whatever the unit.
+  [[nodiscard]] double depth(Vec3 point) const;
+
+ private:
+  friend struct OrbitCamera;
+  std::array<double, 16> matrix_{};
+  Vec3 origin_;
+  Vec2<double> viewport_;
+};
+
+/// Pixels: as those of Camera2D, (0, 0) is the left upper corner of the viewport.
+struct OrbitCamera {
+  static constexpr double kFieldOfView = 0.5235987755982988;  // 30 degrees, from the lower to the upper border
+
+  Vec3 centre{0, 0, 0};              // what is in the middle of the viewport, and what it is turned about
+  double height = 1.0;               // units from the lower to the upper border of the viewport, at the centre; > 0
+  Vec3 right{1, 0, 0}, up{0, 1, 0};  // of length 1 and at right angles
+  bool perspective = false;
+  friend bool operator==(const OrbitCamera&, const OrbitCamera&) = default;
+
+  [[nodiscard]] Vec3 back() const { return cross(right, up); }
+  /// How far the eye is from the centre; of the orthographic view where the perspective one's would be.
+  [[nodiscard]] double distance() const;
+  [[nodiscard]] Vec3 eye() const { return centre + distance() * back(); }
+  [[nodiscard]] double units_per_pixel(Vec2<double> viewport) const { return height / viewport.y; }
+
+  /// Looks from there, at the same centre; z is up, or y where that is the line of sight.
+  void look_from(ViewPreset preset);
+  /// Shows all of `bounds` with at least `margin` pixels around it. Empty bounds or a single point give a sensible view.
+  void fit(const Bounds3& bounds, Vec2<double> viewport, double margin = 24.0);
+  /// Turns by a drag of so many pixels: sideways about the z axis, which stays upright, and up and down until straight above or below.
+  void turn(Vec2<double> pixels, Vec2<double> viewport);
+  /// Turns by a drag from one pixel to another as if the mesh were a ball that fills the viewport.
+  void roll(Vec2<double> from, Vec2<double> to, Vec2<double> viewport);
+  void pan(Vec2<double> pixels, Vec2<double> viewport);
+  /// Makes everything `factor` times as big (> 1: closer); the point under `cursor` at the centre's depth stays there.
+  void zoom_at(Vec2<double> cursor, Vec2<double> viewport, double factor);
+  /// Moves `point` to the middle: it is what the mesh turns about from now on.
+  void orbit_about(Vec3 point) { centre = point; }
+
+  [[nodiscard]] ViewRay ray(Vec2<double> pixel, Vec2<double> viewport) const;
+  /// Of positions relative to the centre of `bounds`, which all lie within the range of depths. `part`: none for the whole viewport.
+  [[nodiscard]] Projection projection(Vec2<double> viewport, const Bounds3& bounds, const std::optional<PicturePart>& part = {}) const;
+};
+
+}  // namespace dmoscope::render

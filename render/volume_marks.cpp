@@ -1,0 +1,107 @@
+#include "render/volume_marks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+namespace dmoscope::render {
+namespace {
+
+void line(const Projection& projection, Vec3 from, Vec3 to, float width, Rgba colour, MarkPainter& painter) {
+  const auto a = projection.place(from), b = projection.place(to);
+  if (a && b) painter.line(*a, *b, width, colour);
+}
+
+void outline(const SeenFaces& seen, Index cell, const Projection& projection, const Style& style, MarkPainter& painter) {
+  for (const bool casing : {true, false}) {
+    const auto faces = static_cast<Index>(faces_of(seen.elements.kind(cell)).size());
+    for (Index f = 0; f < faces; ++f) {
+      const auto v = vertices_of(seen.elements, {cell, f});
+      const std::size_t n = v[3] == kNoIndex ? 3 : 4;
+      for (std::size_t i = 0; i < n; ++i) {
+        const Index a = v[i], b = v[(i + 1) % n];
+        if (a > b) continue;  // each edge belongs to two faces, which run it in opposite directions
+        line(projection, drawn_corner(seen, cell, a), drawn_corner(seen, cell, b), (casing ? 4.4F : 2.0F) * style.scale,
+             casing ? style.casing_colour : style.highlight_colour, painter);
+      }
+    }
+  }
+}
+
+void ring(const SeenFaces& seen, Index cell, const Projection& projection, const Style& style, MarkPainter& painter) {
+  Bounds2 box;
+  for (const Index v : seen.elements.corners(cell)) {
+    const auto place = projection.place(drawn_corner(seen, cell, v));
+    if (!place) return;
+    box.include(*place);
+  }
+  const double size = std::hypot(box.size().x, box.size().y);
+  const float diameter = std::max(26.0F * style.scale, static_cast<float>(std::min(size, 1e5)) * 1.15F + 8.0F * style.scale);
+  painter.dot(box.centre(), diameter, DotShape::Ring, style.highlight_colour, style.casing_colour);
+}
+
+/// Strokes of X, Y and Z in a box from -1 to 1.
+struct Stroke {
+  Vec2<double> from, to;
+};
+constexpr std::array<Stroke, 2> kX{{{{-0.7, 1}, {0.7, -1}}, {{-0.7, -1}, {0.7, 1}}}};
+constexpr std::array<Stroke, 3> kY{{{{-0.7, 1}, {0, 0}}, {{0.7, 1}, {0, 0}}, {{0, 0}, {0, -1}}}};
+constexpr std::array<Stroke, 3> kZ{{{{-0.7, 1}, {0.7, 1}}, {{0.7, 1}, {-0.7, -1}}, {{-0.7, -1}, {0.7, -1}}}};
+
+}  // namespace
+
+void gather_marks(const SeenFaces& seen, const Projection& projection, const Style& style, const SpaceMarks& marks, MarkPainter& painter) {
+  for (const Index cell : marks.cells) {
+    if (cell < seen.elements.size()) outline(seen, cell, projection, style, painter);
+  }
+  for (const Index v : marks.vertices) {
+    if (v >= seen.positions.size()) continue;
+    if (const auto place = projection.place(seen.positions[v])) {
+      painter.dot(*place, 9.0F * style.scale, DotShape::Round, style.highlight_colour, style.casing_colour);
+    }
+  }
+  if (marks.worst && *marks.worst < seen.elements.size()) ring(seen, *marks.worst, projection, style, painter);
+  for (const SpaceLine& l : marks.lines) line(projection, l.from, l.to, l.width * style.scale, l.colour, painter);
+  std::vector<std::pair<double, std::size_t>> order;  // farthest first
+  order.reserve(marks.dots.size());
+  for (std::size_t i = 0; i < marks.dots.size(); ++i) order.emplace_back(-projection.depth(marks.dots[i].point), i);
+  std::ranges::sort(order);
+  for (const auto& [depth, i] : order) {
+    const SpaceDot& dot = marks.dots[i];
+    if (const auto place = projection.place(dot.point)) {
+      painter.dot(*place, dot.diameter * style.scale, dot.shape, dot.colour, style.casing_colour);
+    }
+  }
+}
+
+void gather_triad(const OrbitCamera& camera, Vec2<double> middle, const Style& style, MarkPainter& painter) {
+  constexpr double kLength = 34.0, kLetter = 4.5, kAway = 13.0;  // pixels at scale 1
+  struct Axis {
+    Vec3 direction;
+    Rgba colour;
+    std::span<const Stroke> letter;
+  };
+  const std::array<Axis, 3> axes{
+      {{{1, 0, 0}, {0xe0, 0x56, 0x4a, 255}, kX}, {{0, 1, 0}, {0x4f, 0xae, 0x55, 255}, kY}, {{0, 0, 1}, {0x4c, 0x8d, 0xf0, 255}, kZ}}};
+  std::array<std::size_t, 3> order{0, 1, 2};
+  std::ranges::sort(order, {}, [&](std::size_t i) { return dot(axes[i].direction, camera.back()); });
+  const auto scale = static_cast<double>(style.scale);
+  for (const std::size_t i : order) {
+    const Axis& axis = axes[i];
+    const Vec2<double> on_screen{dot(axis.direction, camera.right), dot(axis.direction, camera.up)};
+    const auto at = [&](double distance, double beyond) {
+      const double size = std::hypot(on_screen.x, on_screen.y), more = size > 0.15 ? beyond / size : 0.0;
+      return Vec2<double>{middle.x + scale * (distance + more) * on_screen.x, middle.y + scale * (distance + more) * on_screen.y};
+    };
+    const Vec2<double> tip = at(kLength, 0.0), letter = at(kLength, kAway);
+    painter.line(middle, tip, 3.0F * style.scale, axis.colour);
+    for (const Stroke& stroke : axis.letter) {
+      const auto place = [&](Vec2<double> p) { return letter + Vec2<double>{scale * kLetter * p.x, scale * kLetter * p.y}; };
+      painter.line(place(stroke.from), place(stroke.to), 1.8F * style.scale, axis.colour);
+    }
+  }
+}
+
+}  // namespace dmoscope::render

@@ -1,0 +1,36 @@
+#pragma once
+// What of a volume mesh lies under a pixel. No OpenGL.
+
+#include <optional>
+#include <span>
+
+#include "core/inside/inside.h"
+#include "render/orbit_camera.h"
+#include "render/scene.h"
+
+namespace dmoscope::render {
+
+/// What is seen of a mesh.
+struct SeenFaces {
+  const ElementTable& elements;
+  std::span<const Vec3> positions;
+  const InsideFaces& faces;
+  const InsideView& view;
+};
+
+/// The nearest face or cut along a ray.
+struct RayHit {
+  Index element = kNoIndex;
+  std::optional<ElementFace> face;  // none: a cut
+  double along = 0.0;
+};
+[[nodiscard]] std::optional<RayHit> first_hit(const SeenFaces& seen, const ViewRay& ray);
+
+/// See VolumeScene::pick. `bounds`: of the mesh.
+[[nodiscard]] Pick pick(const SeenFaces& seen, const Bounds3& bounds, const OrbitCamera& camera, Vec2<double> viewport, Vec2<double> pixel,
+                        double radius);
+
+/// Where a vertex of an element is drawn: shrunk about the mean of the element's vertices.
+[[nodiscard]] Vec3 drawn_corner(const SeenFaces& seen, Index element, Index vertex);
+
+}  // namespace dmoscope::render

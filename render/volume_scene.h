@@ -1,0 +1,107 @@
+#pragma once
+// A volume mesh on the OpenGL side, and what is seen of it: topology once, positions and qualities in place, faces when another part is
+// seen.
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/inside/inside.h"
+#include "render/framebuffer.h"
+#include "render/orbit_camera.h"
+#include "render/scene.h"
+#include "render/style.h"
+
+namespace dmoscope::render {
+
+/// A dot and a line in the space of the mesh (a candidate of the grid, its box).
+struct SpaceDot {
+  Vec3 point;
+  float diameter = 6.0F;  // pixels at scale 1
+  Rgba colour{255, 255, 255, 255};
+  DotShape shape = DotShape::Round;
+  friend bool operator==(const SpaceDot&, const SpaceDot&) = default;
+};
+struct SpaceLine {
+  Vec3 from, to;
+  float width = 1.5F;  // pixels at scale 1
+  Rgba colour{255, 255, 255, 255};
+  friend bool operator==(const SpaceLine&, const SpaceLine&) = default;
+};
+
+/// What is marked over the picture; nothing hides it.
+struct SpaceMarks {
+  std::vector<Index> cells;     // all their edges
+  std::vector<Index> vertices;  // dots
+  std::optional<Index> worst;   // cell with a ring around it
+  std::vector<SpaceLine> lines;
+  std::vector<SpaceDot> dots;  // the nearest on top
+  bool triad = true;           // the axes, in the right lower corner
+  friend bool operator==(const SpaceMarks&, const SpaceMarks&) = default;
+};
+
+/// Draws and picks. Only draw() and what uploads (set_mesh, update, set_view, set_shading) need a current context.
+class VolumeScene {
+ public:
+  VolumeScene();
+  ~VolumeScene();
+  VolumeScene(VolumeScene&&) noexcept;
+  VolumeScene& operator=(VolumeScene&&) noexcept;
+
+  /// Shows a frame as MeshScene does; its input must be a volume. The view stays, also when another mesh comes. A light frame (one whose
+  /// positions stay on a device) is not shown: what was on show stays, and false comes back.
+  bool show(std::shared_ptr<const Frame> frame);
+
+  /// The same in two steps, for meshes without a session. Shows another mesh, all of it. Both must live until the next call; `owner` is
+  /// kept until then. Throws UsageError when an element is not of a volume.
+  void set_mesh(const ElementTable& elements, const FaceNeighbours& faces, std::shared_ptr<const void> owner = {});
+  /// Where vertices and how good cells are. What `state` views must live until the next call or another mesh; `owner` is kept until then.
+  /// Uploads positions and qualities in place; faces only where a view depends on these. Throws UsageError for sizes that do not fit.
+  void update(const CellState& state, std::shared_ptr<const void> owner = {});
+  /// What is seen of it; the same again costs nothing. Throws UsageError, see VisibleCells; what was seen before is seen then.
+  void set_view(const InsideView& view);
+  [[nodiscard]] const InsideView& view() const noexcept;
+  /// Shown instead of quality, by elements; null: quality. Forgotten with another mesh. Throws UsageError when values are not one an
+  /// element.
+  void set_shading(std::shared_ptr<const Shading> shading);
+  /// Cells that do not count are faded, or hidden as far as faces are drawn; what takes cells away is the view. Forgotten with another
+  /// mesh. Throws UsageError when the members are not as many as the elements.
+  void set_selection(const Selection& selection);
+  /// Threads for finding what is seen; null: the caller's alone.
+  void set_pool(ThreadPool* pool) noexcept;
+
+  [[nodiscard]] bool empty() const noexcept;
+  /// Grows with every change of what is drawn, camera, style and marks apart.
+  [[nodiscard]] std::uint64_t revision() const noexcept;
+  /// What is seen: faces, cuts, number of cells.
+  [[nodiscard]] const InsideFaces& faces() const noexcept;
+  /// Of all vertices of elements, whatever is seen of them.
+  [[nodiscard]] const Bounds3& bounds() const noexcept;
+
+  /// Clears `target` and draws. `detail` in (0, 1]: below 1 a square stands for each of that share of the faces and its neighbours. Throws
+  /// Error.
+  void draw(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks = {}, double detail = 1.0);
+  /// The same at full detail: the picture is `viewport` pixels large, and the target gets that part of it.
+  void draw_part(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks, Vec2<double> viewport,
+                 const PicturePart& part);
+
+  /// As those of MeshScene: draw() in two steps, and its first one in slices of at most `most` faces.
+  bool draw_elements(Framebuffer& target, const OrbitCamera& camera, const Style& style, double detail = 1.0);
+  void draw_marks(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks);
+  bool draw_slice(Framebuffer& target, const OrbitCamera& camera, const Style& style, SliceProgress& progress, Index most);
+
+  /// What of what is seen lies at `pixel`: the element of the nearest face or cut there, and of its corners the nearest within `radius`; of
+  /// an empty place the nearest vertex of a visible face. By geometry in double. Some 10 ns a face.
+  [[nodiscard]] Pick pick(const OrbitCamera& camera, Vec2<double> viewport, Vec2<double> pixel, double radius = 8.0) const;
+  /// The point of the mesh that is seen at `pixel`, to orbit about; none where nothing is.
+  [[nodiscard]] std::optional<Vec3> point_at(const OrbitCamera& camera, Vec2<double> viewport, Vec2<double> pixel) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Share of the faces worth drawing while something moves: 1 except on software OpenGL, where a frame is to stay below about 100 ms.
+[[nodiscard]] double suggested_face_detail(std::size_t face_count, bool is_software, bool moving);
+
+}  // namespace dmoscope::render

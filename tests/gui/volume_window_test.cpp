@@ -1,0 +1,54 @@
+// A volume mesh in the window: seen, turned, clipped and picked by commands and by the mouse.
+#include <gmock/gmock.h>
+
+#include "core/io/mesh_io.h"
+#include "tests/gui/headless_test.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/volume_grids.h"
+
+namespace dmoscope::app {
+namespace {
+
+class VolumeWindow : public HeadlessTest {
+ protected:
+  void SetUp() override {
+    HeadlessTest::SetUp();
+    if (IsSkipped()) return;
+    const Mesh mesh = test::volume_grid(4, test::Fill::Hexahedra, 0.2);
+    Progress progress;
+    write_mesh(folder_.path() / "block.vtk", mesh, mesh.positions, progress);
+    good("open \"" + (folder_.path() / "block.vtk").string() + "\"");
+  }
+  [[nodiscard]] std::vector<std::uint8_t> picture() { return window_->picture().rgba; }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(VolumeWindow, IsSeenFromEverySideAndInside) {
+  std::vector<std::vector<std::uint8_t>> pictures{picture()};
+  for (const char* line : {"view-from +x", "turn 40 20", "perspective on", "clip x:0.6", "clip-mode cut", "clip flip", "clip off", "peel 1",
+                           "show-all", "shrink 0.7", "keep-quality 0 0.7", "keep-quality off", "worst-cells 5"}) {
+    good(line);
+    pictures.push_back(picture());
+    EXPECT_TRUE(pictures.back() != pictures[pictures.size() - 2]) << line;
+  }
+  good("show-all");
+  EXPECT_EQ(state().inside, InsideView{});
+}
+
+TEST_F(VolumeWindow, ADragTurnsItAndAClickPicks) {
+  const render::OrbitCamera before = state().orbit;
+  good("drag 600 300 660 320");
+  EXPECT_NE(state().orbit.right, before.right);
+  EXPECT_EQ(state().orbit.centre, before.centre);
+  EXPECT_EQ(state().picked.kind, ui::Picked::Kind::None);  // a drag is no click
+  good("click 640 330");
+  EXPECT_NE(state().picked.kind, ui::Picked::Kind::None);
+}
+
+TEST_F(VolumeWindow, AnInsideIsOfVolumesAlone) {
+  good("generate coast 500");
+  EXPECT_TRUE(window_->run("clip x").has_value());
+}
+
+}  // namespace
+}  // namespace dmoscope::app

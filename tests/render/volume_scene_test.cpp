@@ -1,0 +1,359 @@
+// Pictures of volume meshes: what is where, in which colour; and what the mouse finds there.
+#include "render/volume_scene.h"
+
+#include <cmath>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "core/session/input_mesh.h"
+#include "render/face_records.h"
+#include "render/live_picture.h"
+#include "render/screenshot.h"
+#include "tests/render/fixture.h"
+#include "tests/support/volume_grids.h"
+
+namespace dmoscope::render {
+namespace {
+
+TEST(FaceRecords, OfAPolygonItsOwnEdgesAreSeen) {
+  PlaneCuts cuts;
+  cuts.points.resize(12);
+  cuts.polygons = {{4, 0, 3}, {5, 3, 4}, {6, 7, 5}};
+  std::vector<FaceRecord> records;
+  records_of(cuts, records);
+  ASSERT_EQ(records.size(), 5U);
+  EXPECT_EQ(records[0], (FaceRecord{{0, 1, 2, kNoIndex}, 4}));
+  EXPECT_EQ(records[1], (FaceRecord{{3, 4, 5, 6}, 5}));
+  EXPECT_EQ(records[2], (FaceRecord{{7, 8, 9, kNoIndex - 4}, 6}));
+  EXPECT_EQ(records[3], (FaceRecord{{7, 9, 10, kNoIndex - 5}, 6}));
+  EXPECT_EQ(records[4], (FaceRecord{{7, 10, 11, kNoIndex - 1}, 6}));
+}
+
+/// Two by two by two cubes of a side of a half over the unit cube, seen from +x; cell 1 has corner (0.5 to 1, 0 to 0.5, 0 to 0.5) and so
+/// on.
+class VolumePicture : public WithContext {
+ protected:
+  void SetUp() override {
+    WithContext::SetUp();
+    if (IsSkipped()) return;
+    space = std::make_unique<VolumeScene>();
+    space->set_mesh(mesh.elements, faces);
+    show();
+    camera.look_from(ViewPreset::PlusX);
+    camera.fit(space->bounds(), kViewport, 10.0);
+    plain.triad = false;
+  }
+  void TearDown() override {
+    space.reset();
+    WithContext::TearDown();
+  }
+  void show() { space->update({mesh.positions, quality, inverted, 0}); }
+  Image shot(const Style& style = flat_style(), double detail = 1.0) {
+    space->draw(*target, camera, style, plain, detail);
+    return target->read_pixels();
+  }
+  /// The colour at a point of the mesh.
+  Rgba at(const Image& image, Vec3 point) const {
+    const auto place = camera.projection(kViewport, space->bounds()).place(point);
+    return image.at(static_cast<int>(0.5 * kWidth + place->x), static_cast<int>(0.5 * kHeight - place->y));
+  }
+  /// A colour as it is shown of a face that looks along +x, towards the eye: the light comes from over the left shoulder.
+  static Rgb lit(Rgb colour) {
+    const double brightness = 0.70 + 0.30 / std::sqrt(1.0 + 0.45 * 0.45 + 0.3 * 0.3);
+    const auto channel = [&](std::uint8_t c) { return static_cast<std::uint8_t>(std::lround(brightness * c)); };
+    return {channel(colour.r), channel(colour.g), channel(colour.b)};
+  }
+  static Rgb of_quality(double q) { return lit(flat_style().colours.colour(q)); }
+
+  Mesh mesh = test::volume_grid(2, test::Fill::Hexahedra);
+  FaceNeighbours faces{mesh};
+  std::vector<float> quality{0.1F, 0.2F, 0.3F, 0.4F, 0.5F, 0.6F, 0.7F, 0.8F};
+  std::vector<std::uint8_t> inverted = std::vector<std::uint8_t>(8, 0);
+  std::unique_ptr<VolumeScene> space;
+  OrbitCamera camera;
+  SpaceMarks plain;
+};
+
+TEST_F(VolumePicture, TheNearCellsHideTheFarOnes) {
+  const Image image = shot();
+  EXPECT_TRUE(near_colour(at(image, {1, 0.25, 0.25}), of_quality(0.2)));
+  EXPECT_TRUE(near_colour(at(image, {1, 0.75, 0.25}), of_quality(0.4)));
+  EXPECT_TRUE(near_colour(at(image, {1, 0.25, 0.75}), of_quality(0.6)));
+  EXPECT_TRUE(near_colour(at(image, {1, 0.75, 0.75}), of_quality(0.8)));
+  EXPECT_EQ(image.at(2, 60), (Rgba{0x1b, 0x1e, 0x23, 255}));
+}
+
+TEST_F(VolumePicture, AClipPlaneUncoversWhatLiesBehind) {
+  for (const auto mode : {ClipPlane::Mode::Crinkle, ClipPlane::Mode::Cut}) {
+    InsideView view;
+    view.clip = {.on = true, .normal = {1, 0, 0}, .offset = 0.5, .flip = false, .mode = mode};
+    space->set_view(view);
+    EXPECT_TRUE(near_colour(at(shot(), {0.5, 0.25, 0.25}), of_quality(0.1)));
+    // Through the cells: whole ones are left, or their cuts are seen, in the same colour at another depth.
+    view.clip.offset = 0.25;
+    view.clip.normal = {1, 0, 0};
+    space->set_view(view);
+    camera.look_from(ViewPreset::PlusX);
+    const Image image = shot();
+    EXPECT_TRUE(near_colour(at(image, {0.25, 0.75, 0.75}), of_quality(0.7)));
+    // From the side it is seen where they end.
+    camera.look_from(ViewPreset::MinusY);
+    const Image side = shot();
+    const bool whole = at(side, {0.4, 0, 0.25}).r != 0x1b;
+    EXPECT_EQ(whole, mode == ClipPlane::Mode::Crinkle);
+    EXPECT_NE(at(side, {0.1, 0, 0.25}).r, 0x1b);
+    camera.look_from(ViewPreset::PlusX);
+  }
+}
+
+TEST_F(VolumePicture, PositionsAndQualitiesAreChangedInPlace) {
+  const Image before = shot();
+  quality[1] = 0.9F;
+  inverted[3] = 1;
+  show();
+  const Image after = shot();
+  EXPECT_TRUE(near_colour(at(after, {1, 0.25, 0.25}), of_quality(0.9)));
+  // Magenta, plain or in the dark of a stripe.
+  const Rgba hatch = at(after, {1, 0.75, 0.25});
+  EXPECT_TRUE(hatch.g < 10 && hatch.r > 70 && hatch.b == hatch.r);
+  EXPECT_EQ(at(after, {1, 0.75, 0.75}), at(before, {1, 0.75, 0.75}));
+  for (Vec3& p : mesh.positions) p.y *= 0.5;
+  show();
+  EXPECT_EQ(at(shot(), {1, 0.75, 0.25}).r, 0x1b);  // nothing is there any more
+  EXPECT_TRUE(near_colour(at(shot(), {1, 0.1, 0.25}), of_quality(0.9)));
+}
+
+TEST_F(VolumePicture, ShrunkCellsLeaveRoomBetweenThem) {
+  InsideView view;
+  view.shrink = 0.5;
+  space->set_view(view);
+  const Image image = shot();
+  EXPECT_EQ(at(image, {1, 0.5, 0.5}).r, 0x1b);
+  EXPECT_TRUE(near_colour(at(image, {1, 0.25, 0.25}), of_quality(0.2)));
+  EXPECT_EQ(space->faces().faces.size(), 48U);
+}
+
+TEST_F(VolumePicture, WhatIsNotChosenFades) {
+  Selection selection;
+  selection.quality = std::pair{0.5F, 1.0F};
+  space->set_selection(selection);
+  const Image image = shot();
+  EXPECT_TRUE(near_colour(at(image, {1, 0.25, 0.25}), lit(flat_style().faded_colour)));
+  EXPECT_TRUE(near_colour(at(image, {1, 0.25, 0.75}), of_quality(0.6)));
+}
+
+TEST_F(VolumePicture, TheRestOfTheWorstIsAGhost) {
+  InsideView view;
+  view.worst = 1;
+  view.ghost = true;
+  space->set_view(view);
+  const Image image = shot();
+  // The worst cell is the far one at the bottom; the ghost's faces before it leave its colour nearly as it is.
+  EXPECT_TRUE(near_colour(at(image, {0.5, 0.25, 0.25}), of_quality(0.1), 20));
+  const Rgba ghost = at(image, {1, 0.75, 0.75});
+  EXPECT_GT(ghost.r, 0x1b + 10);
+  EXPECT_LT(ghost.r, 0x1b + 60);
+  view.ghost = false;
+  space->set_view(view);
+  EXPECT_EQ(at(shot(), {1, 0.75, 0.75}).r, 0x1b);
+}
+
+/// Of a quadrilateral its four edges are drawn, not the diagonal of its triangles.
+TEST_F(VolumePicture, TheWireframeIsOfFaces) {
+  Style style = flat_style();
+  style.wireframe = true;
+  style.wire_colour = {255, 0, 0, 255};
+  const Image image = shot(style);
+  EXPECT_TRUE(near_colour(at(image, {1, 0.25, 0.25}), of_quality(0.2)));  // in the middle of the diagonals
+  EXPECT_TRUE(near_colour(at(image, {1, 0.15, 0.15}), of_quality(0.2)));
+  EXPECT_GT(at(image, {1, 0.5, 0.25}).r, 110);
+  EXPECT_GT(at(image, {1, 0.25, 0.5}).r, 110);
+}
+
+TEST_F(VolumePicture, TheMouseFindsWhatIsSeen) {
+  const auto pixel_of = [&](Vec3 point) {
+    const auto place = camera.projection(kViewport, space->bounds()).place(point);
+    return Vec2<double>{0.5 * kWidth + place->x, 0.5 * kHeight - place->y};
+  };
+  const auto pick = [&](Vec3 point, double radius = 8.0) { return space->pick(camera, kViewport, pixel_of(point), radius); };
+  for (const bool perspective : {false, true}) {
+    camera.perspective = perspective;
+    EXPECT_EQ(pick({1, 0.25, 0.25}).element, 1U);
+    EXPECT_EQ(pick({1, 0.75, 0.75}).element, 7U);
+    EXPECT_EQ(pick({1, 0.25, 0.25}).vertex, kNoIndex);  // none within 8 pixels
+    EXPECT_EQ(pick({1, 0.02, 0.03}).vertex, 2U);
+    EXPECT_EQ(pick({1, 0.52, 0.51}).vertex, 14U);
+    EXPECT_EQ(pick({1, 3, 3}).element, kNoIndex);
+    EXPECT_EQ(pick({1, -0.04, 0.0}).element, kNoIndex);
+    EXPECT_EQ(pick({1, -0.04, 0.0}).vertex, 2U);  // beside the mesh, the front one
+  }
+  camera.perspective = false;
+  InsideView view;
+  view.clip = {.on = true, .normal = {1, 0, 0}, .offset = 0.3, .flip = false, .mode = ClipPlane::Mode::Cut};
+  space->set_view(view);
+  EXPECT_EQ(pick({1, 0.25, 0.25}).element, 0U);
+  EXPECT_NEAR(space->point_at(camera, kViewport, pixel_of({1, 0.25, 0.25}))->x, 0.3, 1e-12);  // on the cut
+  EXPECT_EQ(pick({1, 0.01, 0.01}).vertex, 0U);                                                // vertices beyond the plane are not seen
+  view.clip.on = false;
+  view.shrink = 0.5;
+  space->set_view(view);
+  EXPECT_EQ(pick({1, 0.5, 0.5}).element, kNoIndex);
+  EXPECT_EQ(pick({1, 0.25, 0.25}).element, 1U);
+}
+
+/// What overlaps in one plane: the inverted are seen, wherever they stand in the order.
+TEST_F(VolumePicture, OfCutsInOnePlaceTheInvertedOneIsSeen) {
+  for (const bool first : {true, false}) {
+    Mesh twice = test::volume_grid(1, test::Fill::Hexahedra);
+    twice.positions.insert(twice.positions.end(), twice.positions.begin(), twice.positions.end());
+    std::vector<Index> corners(8);
+    std::iota(corners.begin(), corners.end(), 8U);
+    twice.elements.add(ElementKind::Hexahedron, corners);
+    const FaceNeighbours neighbours(twice);
+    const std::vector<float> good{0.7F, 0.7F};
+    const std::vector<std::uint8_t> bad{static_cast<std::uint8_t>(first ? 1 : 0), static_cast<std::uint8_t>(first ? 0 : 1)};
+    space->set_mesh(twice.elements, neighbours);
+    space->update({twice.positions, good, bad, 1});
+    InsideView view;
+    view.clip = {.on = true, .normal = {1, 0.1, 0}, .offset = 0.4, .flip = false, .mode = ClipPlane::Mode::Cut};
+    space->set_view(view);
+    const Image image = shot();
+    int magenta = 0, other = 0;
+    for (int y = 20; y < 100; ++y) {
+      for (int x = 60; x < 140; ++x) (image.at(x, y).g < 10 ? magenta : other) += 1;
+    }
+    EXPECT_GT(magenta, 6000) << first;
+    EXPECT_EQ(other, 0) << first;
+  }
+}
+
+TEST_F(VolumePicture, MarksLieOverTheMesh) {
+  Style style = flat_style();
+  style.highlight_colour = {1, 2, 3, 255};
+  plain.vertices = {0};  // behind all cells
+  plain.cells = {6};
+  plain.dots.push_back({{1, 0.25, 0.75}, 9.0F, {250, 20, 30, 255}, DotShape::Round});
+  plain.dots.push_back({{0, 0.25, 0.75}, 9.0F, {20, 250, 30, 255}, DotShape::Round});  // behind the other
+  const Image image = shot(style);
+  EXPECT_TRUE(near_colour(at(image, {0, 0, 0}), {1, 2, 3}));
+  EXPECT_TRUE(near_colour(at(image, {0, 0.75, 0.5}), {1, 2, 3}, 60));  // an edge of the hidden cell
+  EXPECT_TRUE(near_colour(at(image, {1, 0.75, 0.75}), of_quality(0.8)));
+  EXPECT_TRUE(near_colour(at(image, {1, 0.25, 0.75}), {250, 20, 30}));
+  plain.triad = true;
+  const Image with_axes = shot(style);
+  EXPECT_GT(with_axes.at(200 - 58 + 25, 120 - 58).g, 100);  // y points right
+  EXPECT_GT(with_axes.at(200 - 58, 120 - 58 - 17).b, 150);  // z up
+}
+
+TEST_F(VolumePicture, TilesMakeTheSamePictureAsOne) {
+  inverted[1] = 1;
+  show();
+  camera.look_from(ViewPreset::Isometric);
+  camera.perspective = true;
+  space->draw(*target, camera, Style::dark(), {});
+  const Image whole = target->read_pixels();
+  Image pieced(whole.width, whole.height);
+  for (const double left : {0.0, 80.0}) {
+    for (const double top : {0.0, 50.0}) {
+      const PicturePart part{{left, top}, {left == 0.0 ? 80.0 : kWidth, top == 0.0 ? 50.0 : kHeight}};
+      Framebuffer tile(static_cast<int>(part.high.x - part.low.x), static_cast<int>(part.high.y - part.low.y));
+      space->draw_part(tile, camera, Style::dark(), {}, kViewport, part);
+      const Image piece = tile.read_pixels();
+      for (int y = 0; y < piece.height; ++y) {
+        for (int x = 0; x < piece.width; ++x) pieced.set(x + static_cast<int>(left), y + static_cast<int>(top), piece.at(x, y));
+      }
+    }
+  }
+  EXPECT_TRUE(compare(whole, pieced).alike(0.002)) << compare(whole, pieced).off_share;
+}
+
+/// Fewer faces while something moves: the same picture, only coarser.
+TEST_F(VolumePicture, LittleDetailLooksMuchTheSame) {
+  Mesh fine = test::volume_grid(40, test::Fill::Hexahedra);
+  const FaceNeighbours neighbours(fine);
+  std::vector<float> good(fine.elements.size(), 0.7F);
+  space->set_mesh(fine.elements, neighbours);
+  space->update({fine.positions, good, {}, 1});
+  const Image full = shot(), coarse = shot(flat_style(), 0.2);
+  EXPECT_TRUE(near_colour(at(coarse, {1, 0.43, 0.61}), of_quality(0.7)));
+  EXPECT_LT(compare(full, coarse).off_share, 0.12);
+}
+
+TEST_F(VolumePicture, ALivePictureComesToRestAtTheFullOne) {
+  Mesh fine = test::volume_grid(30, test::Fill::Hexahedra);
+  const FaceNeighbours neighbours(fine);
+  std::vector<float> good(fine.elements.size(), 0.7F);
+  good[5] = 0.1F;
+  space->set_mesh(fine.elements, neighbours);
+  space->update({fine.positions, good, {}, 1});
+  InsideView view;
+  view.clip = {.on = true, .normal = {1, 0.2, 0}, .offset = 0.5, .flip = false, .mode = ClipPlane::Mode::Cut};
+  view.ghost = true;
+  space->set_view(view);
+  LiveVolumePicture live;
+  LiveVolumePicture::Wish wish{static_cast<int>(kWidth), static_cast<int>(kHeight), camera, Style::dark(), {}, 0.25, true};
+  live.update(*space, wish);
+  EXPECT_FALSE(live.complete());
+  for (int turn = 0; turn < 100 && !live.complete(); ++turn) live.update(*space, wish);
+  ASSERT_TRUE(live.complete());
+  plain.triad = true;
+  EXPECT_TRUE(compare(live.picture(), shot(Style::dark())).alike(0.0005));
+  // Another camera: a coarse picture at once, and no full one while it moves.
+  wish.camera.turn({5, 3}, kViewport);
+  wish.refine = false;
+  for (int turn = 0; turn < 5; ++turn) live.update(*space, wish);
+  EXPECT_FALSE(live.complete());
+  wish.refine = true;
+  for (int turn = 0; turn < 100 && !live.complete(); ++turn) live.update(*space, wish);
+  camera = wish.camera;
+  EXPECT_TRUE(compare(live.picture(), shot(Style::dark())).alike(0.0005));
+}
+
+TEST_F(VolumePicture, AFrameIsShownAndTheViewStays) {
+  Progress progress;
+  const auto input = prepare_input(mesh, {}, Need::QualityOnly, progress);
+  auto frame = std::make_shared<Frame>();
+  frame->serial = 7;
+  frame->input = input;
+  frame->positions = mesh.positions;
+  frame->quality = quality;
+  frame->inverted = inverted;
+  InsideView view;
+  view.clip = {.on = true, .normal = {1, 0, 0}, .offset = 0.5};
+  ASSERT_TRUE(space->show(frame));
+  space->set_view(view);
+  EXPECT_TRUE(near_colour(at(shot(), {0.5, 0.25, 0.25}), of_quality(0.1)));
+  const std::uint64_t revision = space->revision();
+  ASSERT_TRUE(space->show(frame));
+  EXPECT_EQ(space->revision(), revision);
+  auto next = std::make_shared<Frame>(*frame);
+  next->serial = 8;
+  next->quality[0] = 0.9F;
+  frame.reset();
+  ASSERT_TRUE(space->show(next));
+  EXPECT_TRUE(near_colour(at(shot(), {0.5, 0.25, 0.25}), of_quality(0.9)));
+  next.reset();  // the scene keeps what it shows
+  view.clip.on = false;
+  space->set_view(view);
+  EXPECT_TRUE(near_colour(at(shot(), {1, 0.25, 0.25}), of_quality(0.2)));
+  ASSERT_TRUE(space->show(nullptr));
+  EXPECT_TRUE(space->empty());
+  EXPECT_EQ(shot().at(100, 60).r, 0x1b);
+}
+
+TEST_F(VolumePicture, WhatDoesNotFitIsRefused) {
+  std::vector<float> few(3);
+  EXPECT_THROW(space->update({mesh.positions, few, {}, 1}), UsageError);
+  EXPECT_THROW(space->update({std::span(mesh.positions).first(5), quality, {}, 1}), UsageError);
+  InsideView view;
+  view.shrink = 2.0;
+  EXPECT_THROW(space->set_view(view), UsageError);
+  EXPECT_EQ(space->view(), InsideView{});
+  const Mesh flat = triangle_and_quadrilateral();
+  const FaceNeighbours none(flat);
+  EXPECT_THROW(space->set_mesh(flat.elements, none), UsageError);
+}
+
+}  // namespace
+}  // namespace dmoscope::render

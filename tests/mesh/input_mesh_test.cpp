@@ -120,9 +120,9 @@ TEST(PrepareInput, RefusesWhatThisVersionCannotDo) {
   EXPECT_EQ(refusal(Mesh{}, Need::QualityOnly), "folder/some.vtk: the mesh has no elements");
   Mesh volume = make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {});
   volume.elements.add(ElementKind::Tetrahedron, std::vector<Index>{0, 1, 2, 3});
-  EXPECT_EQ(refusal(volume, Need::Smoothing),
-            "folder/some.vtk: this is a volume mesh (1 tetrahedron); this version smooths planar meshes only");
-  EXPECT_THAT(refusal(volume, Need::QualityOnly), HasSubstr("volume mesh"));
+  EXPECT_EQ(refusal(volume, Need::Smoothing), "");
+  volume.elements.add(ElementKind::Triangle, std::vector<Index>{0, 1, 2});
+  EXPECT_EQ(refusal(volume, Need::QualityOnly), "folder/some.vtk: the mesh mixes volume elements with triangles (element 1)");
   EXPECT_THAT(refusal(band(9, false), Need::Smoothing), HasSubstr("curved surface"));
   EXPECT_EQ(refusal(band(9, false), Need::QualityOnly), "");
 }

@@ -54,6 +54,8 @@ long double expected(Metric metric, const Measured& m) {
   const long double longest = std::max({m.side[0], m.side[1], m.side[2]});
   const long double perimeter = m.side[0] + m.side[1] + m.side[2];
   switch (metric) {
+    case Metric::Condition:  // not of triangles
+      return 0;
     case Metric::MeanRatio:
     case Metric::MeanRatioArea:
       return 4 * std::sqrt(3.0L) * m.area / (m.side[0] * m.side[0] + m.side[1] * m.side[1] + m.side[2] * m.side[2]);

@@ -79,6 +79,48 @@ TEST(Volume, SameBitsForAnyThreadsAndSteps) {
   }
 }
 
+TEST(Volume, SameBitsForAnyInstructions) {
+  for (const Specimen& specimen : volumes()) {
+    for (const Metric metric : {Metric::MeanRatio, Metric::MinAngle, Metric::ScaledJacobian}) {
+      if (!testing::defined_for_all(metric, specimen.mesh)) continue;
+      for (const int points : {5, 8}) {
+        const auto mesh = input(specimen.mesh);
+        Progress progress;
+        const auto with = [&](SimdLevel level) {
+          dmoscope::Run run = make_run(mesh, {.metric = metric, .search = {.grid_points = points, .simd = level}});
+          run.iterate(2, progress);
+          return std::vector<Vec3>(run.positions().begin(), run.positions().end());
+        };
+        const std::vector<Vec3> baseline = with(SimdLevel::Baseline);
+        for (const SimdLevel level : supported_simd_levels())
+          EXPECT_TRUE(same_bits(with(level), baseline))
+              << specimen.name << ", " << info(metric).name << ", " << name(level) << ", " << points;
+      }
+    }
+  }
+}
+
+/// The fast search in float against the plain one in double: vertex by vertex from the same positions, the same candidate but for ties
+/// within rounding.
+TEST(Volume, TheFastSearchFindsWhatThePlainOneFinds) {
+  for (const Specimen& specimen : volumes()) {
+    const auto mesh = input(specimen.mesh);
+    Progress progress;
+    dmoscope::Run fast = make_run(mesh, {}), plain = make_run(mesh, {.search = {.precision = Precision::Double}});
+    fast.step(StepUnit::Class, progress);
+    plain.step(StepUnit::Class, progress);
+    std::size_t same = 0, all = 0;
+    for (const Index v : fast.colouring().members(0)) {
+      const StarState a = star_state(*mesh, fast.positions(), Metric::MeanRatio, v),
+                      b = star_state(*mesh, plain.positions(), Metric::MeanRatio, v);
+      same += length(fast.positions()[v] - plain.positions()[v]) <= 1e-5 * mesh->geometry.size ? 1U : 0U;
+      ++all;
+      EXPECT_NEAR(a.quality, b.quality, 1e-4) << specimen.name << ", vertex " << v;
+    }
+    EXPECT_GE(same + all / 10, all) << specimen.name;
+  }
+}
+
 TEST(Volume, NoTwoOfAClassShareAnElement) {
   for (const Specimen& specimen : volumes()) {
     const auto mesh = input(specimen.mesh);

@@ -28,6 +28,7 @@ struct VolumeScene::Impl {
   CellState state;
   InsideView view;
   Selection selection;
+  std::shared_ptr<const Shading> shading;
   InsideFaces nothing;
   std::vector<std::uint8_t> used;  // vertices that are corners of elements
   Bounds3 bounds;
@@ -108,6 +109,7 @@ void VolumeScene::Impl::forget() {
   frame_serial = 0;
   view = {};
   selection = {};
+  shading.reset();
   bounds = {};
   uploaded_faces = uploaded_cuts = means_of = 0;
   ++revision;
@@ -185,7 +187,9 @@ void VolumeScene::set_shading(std::shared_ptr<const Shading> shading) {
   if (shading && (s.elements == nullptr || shading->by != Shading::By::Elements || shading->values.size() != s.elements->size())) {
     throw UsageError("as many values as the mesh has elements are needed");
   }
+  if (shading == s.shading) return;  // nothing new: a picture that is refined goes on
   s.painter.fill().set_shading(shading.get());
+  s.shading = std::move(shading);
   ++s.revision;
 }
 

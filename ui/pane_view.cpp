@@ -36,7 +36,7 @@ bool PaneView::bring(render::Loading loading) {
     volume_->scene.show(session_->frame);
     return current_ = true;
   }
-  if (volume_) volume_->scene.show(nullptr);
+  volume_.reset();
   current_ = scene_.show(session_->frame, loading);
   return current_;
 }

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/base/memory.h"
+#include "core/mesh/edges.h"
 
 namespace dmoscope {
 
@@ -92,10 +93,11 @@ FaceNeighbours::FaceNeighbours(const Mesh& mesh, Progress* progress) {
     for (std::size_t i = 0, end = 0; i < bucket.size(); i = end) {
       while (end < bucket.size() && bucket[end].key == bucket[i].key) ++end;
       ++face_count_;
-      if (end - i == 2) {
+      // An element and its duplicate lie on top of each other: neither is across the other's faces.
+      if (end - i == 2 && !same_corners(mesh, bucket[i].element, bucket[i + 1].element)) {
         across_[bucket[i].place] = bucket[i + 1].element;
         across_[bucket[i + 1].place] = bucket[i].element;
-      } else if (end - i > 2) {
+      } else if (end - i >= 2) {
         shared_by_many.resize(across_.size(), 0);
         for (std::size_t k = i; k < end; ++k) shared_by_many[bucket[k].place] = 1;
       }

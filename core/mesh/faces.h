@@ -46,7 +46,7 @@ class FaceNeighbours {
   [[nodiscard]] Index face_across(const ElementTable& elements, ElementFace at) const noexcept;
   /// Faces that have one element alone, in ascending order of (element, face).
   [[nodiscard]] std::span<const ElementFace> boundary() const noexcept { return boundary_; }
-  /// Faces that more than two elements share, once for each of these, in ascending order.
+  /// Faces that more than two elements share, or an element and its duplicate, once for each of these, in ascending order.
   [[nodiscard]] std::span<const ElementFace> non_manifold() const noexcept { return non_manifold_; }
   /// Different faces of the mesh.
   [[nodiscard]] std::uint64_t face_count() const noexcept { return face_count_; }

@@ -113,7 +113,7 @@ Mesh hexahedra(const Request& request) {
 Mesh solids(const Request& request) {
   const Block block(request.size);
   Mesh mesh;
-  mesh.positions = block.positions(0.15, request.seed);
+  mesh.positions = block.positions(0.22, request.seed);
   block.for_cells(request.progress, [&](Index i, Index j, Index k) {
     const std::array<Index, 8> c = block.cell(i, j, k);
     if (cut_into_wedges(i, j)) {

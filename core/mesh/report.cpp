@@ -27,8 +27,8 @@ std::vector<std::string> MeshReport::sentences() const {
   add(all, duplicate_elements, "element has the same corners as an earlier one", "elements have the same corners as an earlier one");
   add(all, non_manifold_edges, "edge has more than two elements; its ends stay fixed",
       "edges have more than two elements; their ends stay fixed");
-  add(all, non_manifold_faces, "face is shared by more than two elements; its corners stay fixed",
-      "faces are shared by more than two elements; their corners stay fixed");
+  add(all, non_manifold_faces, "face is shared by more than two elements, or by an element and its duplicate; its corners stay fixed",
+      "faces are shared by more than two elements, or by an element and its duplicate; their corners stay fixed");
   add(all, unused_vertices, "vertex belongs to no element", "vertices belong to no element");
   if (volume)
     add(all, flipped_elements, "element is wound inside out; it is turned over here and written back as it was",

@@ -90,8 +90,8 @@ MeshReport examine(const Mesh& mesh, const Geometry& geometry, const Topology& t
 }
 
 void refuse_what_cannot_be_done(const Mesh& mesh, const Geometry& geometry, const std::string& file, Need need) {
-  // Products of four lengths must stay finite and normal; of a volume, of six.
-  const double largest = geometry.shape == Shape::Volume ? 1e50 : 1e75;
+  // Products of four lengths must stay finite and normal; of a volume, of eight.
+  const double largest = geometry.shape == Shape::Volume ? 1e36 : 1e75;
   if (mesh.elements.size() == 0) throw InputError(file, 0, "the mesh has no elements");
   if (geometry.size > largest || (geometry.size > 0.0 && geometry.size < 1.0 / largest)) {
     throw InputError(

@@ -29,15 +29,17 @@ bool degenerate(const Mesh& mesh, Index e) {
 }
 
 /// Elements with the very corners (as a set) of an earlier one.
-std::vector<Index> duplicates(const Mesh& mesh, const Topology& topology) {
+std::vector<Index> duplicates(const Mesh& mesh, const Topology& topology, Progress& progress) {
   const ElementTable& elements = mesh.elements;
   std::vector<Index> found;
   for (Index e = 0; e < elements.size(); ++e) {
-    for (const Incidence& at : topology.star(elements.corners(e)[0])) {
-      if (at.element >= e || elements.kind(at.element) != elements.kind(e) || !same_corners(mesh, at.element, e)) continue;
-      found.push_back(e);
-      break;
-    }
+    if (e % kCheckEvery == 0) progress.check();
+    // At the corner of the smallest star: a hub of all elements must not be looked at from each.
+    const auto star = topology.star(std::ranges::min(elements.corners(e), {}, [&](Index v) { return topology.star(v).size(); }));
+    const auto twin = [&](const Incidence& at) {
+      return at.element < e && elements.kind(at.element) == elements.kind(e) && same_corners(mesh, at.element, e);
+    };
+    if (std::ranges::any_of(star, twin)) found.push_back(e);
   }
   return found;
 }
@@ -50,7 +52,7 @@ MeshReport examine_volume(const Mesh& mesh, const Geometry& geometry, const Topo
   report.volume = true;
   for (Index v = 0; v < mesh.vertex_count(); ++v)
     if (topology.star(v).empty()) report.unused_vertices.push_back(v);
-  report.duplicate_elements = duplicates(mesh, topology);
+  report.duplicate_elements = duplicates(mesh, topology, progress);
   const QualityContext context{mesh, geometry};
   for (Index e = 0; e < mesh.elements.size(); ++e) {
     if (e % kCheckEvery == 0) {

@@ -74,7 +74,7 @@ class PatternSearch {
 
   static Offset search(const Room& star) {
     using View = StarViewIn<Frame, double>;
-    const Objective<M, true, double, Value::Metric, View> worth{View(star)};
+    const UntanglingObjective<M, View, Offset> worth{View(star)};
     Try best{{}, worth(Offset{})};
     const double edge = mean_edge(star), last = kLast * edge;
     double step = kFirst * edge;

@@ -60,9 +60,7 @@ template <Metric M, class Frame>
 template <Metric M, class StarT, class Point, class Team = Solo, class Trace = NoTrace>
 [[nodiscard]] DMOSCOPE_ANYWHERE Point search_star(const StarT& star, Point box, const SearchParameters& parameters, const Team& team = {},
                                                   Trace&& trace = {}) {
-  using Untangling =
-      std::conditional_t<std::is_same_v<Point, Vec3>, SolidUntangling<M, StarT>, Objective<M, true, double, Value::Metric, StarT>>;
-  const Untangling untangling(star);
+  const UntanglingObjective<M, StarT, Point> untangling(star);
   if (!(untangling(Point{}) > 0.0)) return grid_search<double>(untangling, box, parameters, trace, team).offset;
   return grid_search<double>(Objective<M, false, double, Value::Metric, StarT>(star), box, parameters, trace, team).offset;
 }

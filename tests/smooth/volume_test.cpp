@@ -79,6 +79,56 @@ TEST(Volume, SameBitsForAnyThreadsAndSteps) {
   }
 }
 
+TEST(Volume, SameBitsForAnyThreadsWhereClassesAreLarge) {
+  Progress progress;
+  const auto mesh = input(generate_mesh("tetrahedra", 8000, 5, progress));
+  for (const char* method : {"dmo", "smart-laplace"}) {
+    dmoscope::Run one = make_run(mesh, {.method = method}, 1), three = make_run(mesh, {.method = method}, 3);
+    ASSERT_GT(one.colouring().members(0).size(), 512U) << "or there is nothing to share";
+    one.iterate(2, progress);
+    three.iterate(2, progress);
+    EXPECT_TRUE(same_bits(one.positions(), three.positions())) << method;
+  }
+}
+
+/// Over all corners of all elements, by the elements themselves.
+double least_normalised_jacobian(const InputMesh& mesh, std::span<const Vec3> positions) {
+  double least = HUGE_VAL;
+  for (Index e = 0; e < mesh.mesh.elements.size(); ++e)
+    least = std::min(least, smallest_jacobian(mesh.quality_context(), positions, e) / mesh.reference_measure[e]);
+  return least;
+}
+
+TEST(Volume, WhileTangledTheLeastJacobianNeverFalls) {
+  for (const Specimen& specimen : volumes()) {
+    if (specimen.name.find("tangled") == std::string::npos) continue;
+    for (const char* method : {"dmo", "smart-laplace", "pattern-search"}) {
+      const auto mesh = input(specimen.mesh);
+      Progress progress;
+      dmoscope::Run run = make_run(mesh, {.method = method});
+      double before = least_normalised_jacobian(*mesh, run.positions());
+      ASSERT_LT(before, 0.0);
+      while (run.moment().iteration < 3) {
+        run.step(StepUnit::Class, progress);
+        const double after = least_normalised_jacobian(*mesh, run.positions());
+        if (before <= 0.0) EXPECT_GE(after, before) << specimen.name << ", " << method;
+        before = after;
+      }
+    }
+  }
+}
+
+TEST(Volume, AnElementAndItsDuplicateHoldTheirBoundary) {
+  Progress progress;
+  Mesh mesh = generate_mesh("hexahedra", 64, 1, progress);
+  const Mesh alone = mesh;
+  mesh.elements.add(ElementKind::Hexahedron, std::vector<Index>(alone.elements.corners(0).begin(), alone.elements.corners(0).end()));
+  const auto twice = input(mesh), once = input(alone);
+  EXPECT_EQ(twice->report.duplicate_elements, std::vector<Index>{alone.elements.size()});
+  EXPECT_EQ(twice->report.flipped_elements, 0U);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) EXPECT_GE(twice->topology.boundary()[v], once->topology.boundary()[v]) << v;
+}
+
 TEST(Volume, SameBitsForAnyInstructions) {
   for (const Specimen& specimen : volumes()) {
     for (const Metric metric : {Metric::MeanRatio, Metric::MinAngle, Metric::ScaledJacobian}) {

@@ -100,8 +100,8 @@ template <Metric M, class R, class F>
 constexpr void for_qualities(const SolidStar<double>& star, Vec3Of<R> p, const F& f) {
   using V = Vec3Of<R>;
   star_pieces::for_solids<formulas::kDefinedForCorners<M>>(
-      star, p, [&f](const formulas::Tetrahedron<V>& t, double /*reference*/) { f(formulas::metric<M>(t)); },
-      [&f]<class Ideal>(V u, V v, V w, R jacobian, double /*reference*/) {
+      star, p, [&](const formulas::Tetrahedron<V>& t, double /*reference*/) { f(formulas::metric<M>(t)); },
+      [&]<class Ideal>(V u, V v, V w, R jacobian, double /*reference*/) {
         if constexpr (formulas::kDefinedForCorners<M>) f(formulas::SolidFormula<M>::template corner<Ideal>(u, v, w, jacobian));
       });
 }

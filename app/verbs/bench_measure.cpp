@@ -14,8 +14,14 @@ namespace dmoscope::app {
 namespace {
 
 constexpr std::uint64_t kSeed = 1;
-constexpr std::uint64_t kReferenceVisits = 20'000;
-constexpr std::size_t kReferenceSize = 10'000;
+/// How much the reference, which is slow, has to do: in a volume a visit costs some hundred times as much.
+struct ReferenceWork {
+  std::uint64_t visits;  // at most about so many, and on meshes of no more free vertices
+  std::size_t size;      // of what is generated in place of a larger mesh
+};
+ReferenceWork reference_work(const BenchElements& elements) {
+  return elements.solid() ? ReferenceWork{2'000, 2'000} : ReferenceWork{20'000, 10'000};
+}
 
 using SharedInput = std::shared_ptr<const InputMesh>;
 
@@ -33,13 +39,13 @@ std::uint64_t free_vertices(const InputMesh& input) {
   return free;
 }
 
-/// Of a mesh that has any.
+/// Of a mesh that has any: the first that has at least its kinds.
 const BenchElements& elements_of(const Mesh& mesh) {
-  const auto kinds = mesh.elements.kinds();
-  const bool triangles = std::ranges::find(kinds, ElementKind::Triangle) != kinds.end();
-  const bool quadrilaterals = std::ranges::find(kinds, ElementKind::Quadrilateral) != kinds.end();
-  const auto same = [&](const BenchElements& e) { return e.triangles == triangles && e.quadrilaterals == quadrilaterals; };
-  return *std::ranges::find_if(bench_elements(), same);
+  unsigned kinds = 0;
+  for (const ElementKind kind : mesh.elements.kinds()) kinds |= kind_set(kind);
+  const auto known = bench_elements();
+  const auto found = std::ranges::find_if(known, [&](const BenchElements& e) { return (kinds & ~unsigned{e.kinds}) == 0; });
+  return found != known.end() ? *found : known.back();
 }
 
 Spread spread_of(std::vector<double> values) {
@@ -156,9 +162,10 @@ class Bench {
   }
 
   [[nodiscard]] Series reference(const SharedInput& subject, const BenchElements& elements, Metric metric) {
-    const bool large = free_vertices(*subject) > kReferenceVisits;
+    const auto [visits, size] = reference_work(elements);
+    const bool large = free_vertices(*subject) > visits;
     if (large && reference_elements_ != elements.name) {
-      reference_input_ = generate(elements, kReferenceSize, progress_);
+      reference_input_ = generate(elements, size, progress_);
       reference_elements_ = elements.name;
     }
     const SharedInput& input = large ? reference_input_ : subject;
@@ -166,7 +173,7 @@ class Bench {
     figure.subject_vertices = subject->mesh.vertex_count();
     figure.precision = Precision::Double;
     figure.reference = true;
-    figure.iterations = std::clamp<std::uint64_t>(kReferenceVisits / figure.free, 1, plan_.iterations);
+    figure.iterations = std::clamp<std::uint64_t>(visits / figure.free, 1, plan_.iterations);
     const std::uint64_t steps = figure.iterations;
     return {std::move(figure), input, single_, steps};
   }

@@ -30,7 +30,7 @@ struct Settling {
 
 struct Measurement {
   std::string mesh;           // smoothed: "grid 100000" or a file's name
-  std::string_view elements;  // "triangles", "quadrilaterals" or "mixed"
+  std::string_view elements;  // "triangles", see bench_elements()
   Index vertices = 0;
   std::uint64_t free = 0;
   Metric metric = Metric::MeanRatio;
@@ -66,8 +66,9 @@ using TakeFigures = std::function<void(const std::vector<Measurement>&)>;
 /// Measures the plan on `file`, or where that is empty on generated meshes, one after the other. Throws Error and Cancelled.
 ///
 /// The reference of every ratio is the plain scalar search in double on one thread. It is slow and its cost a visit does not depend on
-/// the mesh's size, so where a mesh has more than 20,000 free vertices it is measured on a generated one of 10,000 with the same kinds of
-/// elements. The repeats of all measurements of a mesh, the references included, take turns: a neighbour's noise hits all alike.
+/// the mesh's size, so where a mesh has more than 20,000 free vertices (a volume 2,000) it is measured on a generated one of 10,000 (2,000)
+/// with the same kinds of elements. The repeats of all measurements of a mesh, the references included, take turns: a neighbour's noise
+/// hits all alike.
 void measure(const BenchPlan& plan, const std::filesystem::path& file, Progress& progress, const TakeFigures& take);
 
 }  // namespace dmoscope::app

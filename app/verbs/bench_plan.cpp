@@ -21,12 +21,20 @@ constexpr std::size_t kSmallest = 100;
 constexpr std::size_t kFullSize = 10'000'000;
 constexpr unsigned kMostThreads = 1024;
 
-/// Peak memory of the whole process a vertex of the largest mesh: 220 measured with each kind of elements, and a reserve.
-constexpr std::uint64_t kBytesPerVertex = 400;
+/// Peak memory of the whole process a vertex of the largest mesh, and a reserve: 220 measured with each kind of planar
+/// elements, 600 with tetrahedra.
+constexpr std::uint64_t kBytesPerVertex = 400, kBytesPerSolidVertex = 1000;
 
-constexpr std::array<BenchElements, 3> kElements{{{"triangles", "grid", kFullSize, true, false},
-                                                  {"quadrilaterals", "quads", 5'000'000, false, true},
-                                                  {"mixed", "mixed", 5'000'000, true, true}}};
+constexpr KindSet kTriangles = kind_set(ElementKind::Triangle), kQuadrilaterals = kind_set(ElementKind::Quadrilateral),
+                  kTetrahedra = kind_set(ElementKind::Tetrahedron), kHexahedra = kind_set(ElementKind::Hexahedron),
+                  kSolids = static_cast<KindSet>(kTetrahedra | kHexahedra | kind_set(ElementKind::Wedge) | kind_set(ElementKind::Pyramid)),
+                  kPlanar = kTriangles | kQuadrilaterals;
+constexpr std::array<BenchElements, 6> kElements{{{"triangles", "grid", kFullSize, kTriangles},
+                                                  {"quadrilaterals", "quads", 5'000'000, kQuadrilaterals},
+                                                  {"mixed", "mixed", 5'000'000, kPlanar},
+                                                  {"tetrahedra", "tetrahedra", 5'000'000, kTetrahedra},
+                                                  {"hexahedra", "hexahedra", 5'000'000, kHexahedra},
+                                                  {"solids", "solids", 5'000'000, kSolids}}};
 
 std::vector<std::string_view> words_of(std::string_view list) {
   std::vector<std::string_view> words;
@@ -123,7 +131,8 @@ void require_sizes(const BenchPlan& plan) {
     if (largest <= elements.largest) continue;
     throw UsageError(fmt::format("meshes of {} are made with up to {} vertices, not {}", elements.name, elements.largest, largest));
   }
-  const std::uint64_t needed = kBytesPerVertex * largest;
+  const bool solid = std::ranges::any_of(plan.elements, &BenchElements::solid);
+  const std::uint64_t needed = (solid ? kBytesPerSolidVertex : kBytesPerVertex) * largest;
   const std::optional<std::uint64_t> available = available_memory();
   if (!available || needed <= *available) return;
   throw UsageError(fmt::format("a mesh of {} vertices takes about {:.1f} GB of memory and {:.1f} GB are free: choose smaller --sizes",

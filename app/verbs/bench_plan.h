@@ -37,12 +37,13 @@ struct BenchElements {
   std::string_view name;       // "triangles"
   std::string_view generator;  // "grid"
   std::size_t largest;         // size, in vertices
-  bool triangles, quadrilaterals;
-  [[nodiscard]] bool suits(const MetricInfo& metric) const noexcept {
-    return (!triangles || metric.defined_for(ElementKind::Triangle)) && (!quadrilaterals || metric.defined_for(ElementKind::Quadrilateral));
+  KindSet kinds;               // of their elements
+  [[nodiscard]] bool solid() const noexcept {
+    return (kinds & (kind_set(ElementKind::Tetrahedron) | kind_set(ElementKind::Hexahedron))) != 0;
   }
+  [[nodiscard]] bool suits(const MetricInfo& metric) const noexcept { return (metric.kinds & kinds) == kinds; }
 };
-/// triangles, quadrilaterals, mixed.
+/// triangles, quadrilaterals, mixed; tetrahedra, hexahedra, solids.
 [[nodiscard]] std::span<const BenchElements> bench_elements();
 
 /// The options understood; no list has the same entry twice.

@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t kDotted = 3;  // of PlotSeries::dash
 
 constexpr std::string_view kReference =
-    "the plain scalar search in double on one thread, measured in turn with the others; where a mesh has more than 20000 free vertices, on "
-    "a generated one of 10000 with the same kinds of elements, since its cost a visit does not depend on the size";
+    "the plain scalar search in double on one thread, measured in turn with the others; where a mesh has more than 20000 free vertices (a "
+    "volume 2000), on a generated one of 10000 (2000) with the same kinds of elements, since its cost a visit does not depend on the size";
 
 /// What searched: the processor's instructions, or a device.
 std::string_view executor_name(const Measurement& f) { return !f.on_cpu() ? f.backend : f.simd ? name(*f.simd) : "scalar"; }
@@ -158,7 +158,8 @@ LinePlot plot_of(const std::vector<Measurement>& figures) {
                   compiler(), DMOSCOPE_BUILD_TYPE, DMOSCOPE_VERSION, commit());
   plot.x_title = "vertices";
   plot.y_title = "million vertex visits a second";
-  plot.note = "plain double: the scalar search on one thread; for meshes of more than 20 k free vertices measured on one of 10 k";
+  plot.note =
+      "plain double: the scalar search on one thread; for meshes of more than 20 k free vertices measured on one of 10 k (volumes: 2 k)";
   PlotLook look(figures);
   for (std::size_t i = 0; i < figures.size(); ++i) {
     const Measurement& f = figures[i];

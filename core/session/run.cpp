@@ -142,7 +142,8 @@ std::shared_ptr<const DevicePicture> Run::picture(Metric shown) const {
 
 std::optional<std::uint64_t> Run::mean_since() const {
   if (!parameters_.then_mean) return std::nullopt;
-  return turn_.find(*parameters_.then_mean, history_.records(), still_iterations(method_info(parameters_.method), parameters_.options));
+  return turn_.find(*parameters_.then_mean, history_.records(),
+                    still_iterations(method_info(parameters_.method), parameters_.options, input_->is_volume()));
 }
 
 void Run::forget_after(std::uint64_t iteration) {

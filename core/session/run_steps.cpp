@@ -210,7 +210,7 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, Prog
     if (after) recovering([&] { after(*this); });
     if (parameters_.then_mean && !raising_mean) continue;  // the first phase's end is not the run's
     // The second phase searches as DMO does, whatever the method.
-    const auto needed = raising_mean ? 1 : still_iterations(method_info(parameters_.method), parameters_.options);
+    const auto needed = raising_mean ? 1 : still_iterations(method_info(parameters_.method), parameters_.options, input_->is_volume());
     quiet = whole && last_moved_ == 0 ? quiet + 1 : 0;
     const bool still = needed && quiet >= *needed;
     stopped = stop_when_still && (still || since_rise >= limits.patience);

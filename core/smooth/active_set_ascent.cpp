@@ -11,37 +11,63 @@ namespace dmoscope {
 
 namespace {
 
-using V = Vec2<double>;
-
 // Lengths are in units of the star's scale, in which its other vertices are about 1 away.
 constexpr double kActive = 3e-5;  // above the least
 constexpr double kLeastStep = 1e-6, kLeastGain = 1e-6, kLongestStep = 1.0;
 constexpr double kNearEstimate = 0.9;
 constexpr int kRounds = 20;
 
-/// What one of the functions is at a place, and how it rises there.
+/// What one of the functions is at a place, and how it rises there. V: Vec2<double> or Vec3.
+template <class V>
 struct Piece {
   double value;
   V gradient;
 };
 
-struct Room {
-  Star<double> star;
-  std::vector<Piece> pieces;
+/// Frame: Plane or Space.
+template <class Frame>
+struct AscentRoom {
+  using V = OffsetIn<Frame, double>;
+  StarIn<Frame, double> star;
+  std::vector<Piece<V>> pieces;
   std::vector<V> active;  // gradients
 };
 
-V operator*(double s, V a) { return {s * a.x, s * a.y}; }
+double norm(Vec2<double> a) { return std::hypot(a.x, a.y); }
+double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
 
 /// The point of the segment from a to b that is nearest to 0.
+template <class V>
 V nearest_to_zero(V a, V b) {
   const V way = b - a;
   const double square = dot(way, way);
   if (!(square > 0.0)) return a;
-  return a + std::clamp(-dot(a, way) / square, 0.0, 1.0) * way;
+  return a + times(way, std::clamp(-dot(a, way) / square, 0.0, 1.0));
+}
+
+/// The foot of 0 on the plane of three points, where it lies in their triangle.
+std::optional<Vec3> foot_of_zero(Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 ab = b - a, bc = c - b, ca = a - c, n = cross(ab, bc);
+  const double square = dot(n, n);
+  if (!(square > 1e-24 * dot(ab, ab) * dot(bc, bc))) return std::nullopt;  // next to a segment
+  const Vec3 foot = times(n, dot(n, a) / square);
+  const auto inside = [&](Vec3 from, Vec3 edge) { return dot(cross(edge, foot - from), n) >= 0.0; };
+  return inside(a, ab) && inside(b, bc) && inside(c, ca) ? std::optional(foot) : std::nullopt;
+}
+
+/// Looks for what is nearer to 0 than `best` inside the hull's faces: in a plane it has none but its edges.
+void look_at_faces(const std::vector<Vec2<double>>& /*gradients*/, Vec2<double>& /*best*/) {}
+void look_at_faces(const std::vector<Vec3>& gradients, Vec3& best) {
+  const std::size_t n = gradients.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = i + 1; k < n; ++k)
+      for (std::size_t l = k + 1; l < n; ++l)
+        if (const auto foot = foot_of_zero(gradients[i], gradients[k], gradients[l]); foot && dot(*foot, *foot) < dot(best, best))
+          best = *foot;
 }
 
 /// The point of the gradients' convex hull that is nearest to 0: along it all of them rise, by its length at least. 0 where they cannot.
+template <class V>
 V steepest(const std::vector<V>& gradients) {
   V best = gradients.front();
   for (std::size_t i = 0; i < gradients.size(); ++i)
@@ -49,7 +75,8 @@ V steepest(const std::vector<V>& gradients) {
       const V p = nearest_to_zero(gradients[i], gradients[k]);
       if (dot(p, p) < dot(best, best)) best = p;
     }
-  // The hull's edges are among the segments, so that one that lies on the wrong side of none of the gradients is its nearest.
+  look_at_faces(gradients, best);
+  // The hull's edges and faces are among these, so that one that lies on the wrong side of none of the gradients is its nearest.
   constexpr double kRounding = 1e-9;
   for (const V g : gradients)
     if (dot(g, best) < (1.0 - kRounding) * dot(best, best)) return {};
@@ -58,10 +85,11 @@ V steepest(const std::vector<V>& gradients) {
 
 /// Raises the least of the pieces from a place. for_pieces(p, f): calls f with each piece's value with the star's vertex at p, in the
 /// scalar of p. worth(p): the least of them, or what else the place is worth.
-template <class ForPieces, class Worth>
+template <class Frame, class ForPieces, class Worth>
 class Ascent {
  public:
-  Ascent(Room& room, const ForPieces& for_pieces, const Worth& worth) : room_(room), for_pieces_(for_pieces), worth_(worth) {}
+  using V = OffsetIn<Frame, double>;
+  Ascent(AscentRoom<Frame>& room, const ForPieces& for_pieces, const Worth& worth) : room_(room), for_pieces_(for_pieces), worth_(worth) {}
 
   [[nodiscard]] V from(V place) const {
     double worth = worth_(place);
@@ -69,9 +97,9 @@ class Ascent {
       const double least = look_at(place);
       if (room_.active.empty()) break;  // nothing here has a value
       const V direction = steepest(room_.active);
-      const double rate = std::hypot(direction.x, direction.y);
+      const double rate = norm(direction);
       if (!(rate > 0.0)) break;  // an equilibrium
-      const V unit = (1.0 / rate) * direction;
+      const V unit = times(direction, 1.0 / rate);
       V next = place;
       const double gain = search(place, worth, unit, rate, next_activation(least, unit, rate), next);
       place = next;
@@ -87,13 +115,13 @@ class Ascent {
     room_.pieces.clear();
     room_.active.clear();
     double least = std::numeric_limits<double>::infinity();
-    for_pieces_(variable(place), [&](Dual q) {
+    for_pieces_(variable(place), [&](const auto& q) {
       least = std::min(least, q.value);
-      room_.pieces.push_back({q.value, {q.dx, q.dy}});
+      room_.pieces.push_back({q.value, q.by});
     });
-    for (const Piece& piece : room_.pieces) {
+    for (const Piece<V>& piece : room_.pieces) {
       // The corner across a quadrilateral never changes: one that is only near the least bounds the gain, but is no reason to stay.
-      const bool constant = piece.gradient.x == 0.0 && piece.gradient.y == 0.0;
+      const bool constant = piece.gradient == V{};
       if (piece.value <= least + (constant ? 0.0 : kActive)) room_.active.push_back(piece.gradient);
     }
     return least;
@@ -102,7 +130,7 @@ class Ascent {
   /// How far until another piece would be as low as the active ones, if all were linear.
   [[nodiscard]] double next_activation(double least, V unit, double rate) const {
     double nearest = kLongestStep;
-    for (const Piece& piece : room_.pieces) {
+    for (const Piece<V>& piece : room_.pieces) {
       const double slower = rate - dot(piece.gradient, unit);
       if (piece.value > least + kActive && slower > 0.0) nearest = std::min(nearest, (piece.value - least) / slower);
     }
@@ -113,7 +141,7 @@ class Ascent {
   double search(V place, double worth, V unit, double rate, double step, V& next) const {
     double best = 0.0;
     for (; step > kLeastStep; step *= 0.5) {
-      const V there = place + step * unit;
+      const V there = place + times(unit, step);
       const double gain = worth_(there) - worth;
       if (best > 0.0 && !(gain > best)) break;
       if (gain > best) best = gain, next = there;
@@ -122,28 +150,30 @@ class Ascent {
     return best;
   }
 
-  Room& room_;
+  AscentRoom<Frame>& room_;
   const ForPieces& for_pieces_;
   const Worth& worth_;
 };
 
-template <Metric M>
+template <Metric M, class Frame>
 class ActiveSet {
  public:
-  using Room = dmoscope::Room;
+  using Room = AscentRoom<Frame>;
   explicit ActiveSet(const SmoothingTask& task) : mesh_(*task.input) {}
 
   std::optional<Vec3> target(PositionView positions, Index vertex, Room& room) const {
     gather_star(MeshStar(mesh_.view, positions, vertex), room.star);
     const V found = search(room);
-    if (found.x == 0.0 && found.y == 0.0) return std::nullopt;
-    return mesh_.moved_if_gaining<M>(positions, vertex, {found.x * room.star.scale, found.y * room.star.scale});
+    if (found == V{}) return std::nullopt;
+    return mesh_.template moved_if_gaining<M>(positions, vertex, found, room.star.scale);
   }
 
  private:
+  using V = OffsetIn<Frame, double>;
+
   /// Of a star with inverted elements first the least Jacobian.
   static V search(Room& room) {
-    const Star<double>& star = room.star;
+    const auto& star = room.star;
     const auto jacobians = [&star](auto p, const auto& f) { for_jacobians(star, p, f); };
     const auto least_jacobian = [&star](V p) {
       double least = std::numeric_limits<double>::infinity();
@@ -153,17 +183,19 @@ class ActiveSet {
     V place{};
     if (!(least_jacobian(place) > 0.0)) place = Ascent(room, jacobians, least_jacobian).from(place);
     if (!(least_jacobian(place) > 0.0)) return place;
+    using View = StarViewIn<Frame, double>;
     const auto qualities = [&star](auto p, const auto& f) { for_qualities<M>(star, p, f); };
-    return Ascent(room, qualities, Objective<M, false, double>{StarView<double>(star)}).from(place);
+    return Ascent(room, qualities, Objective<M, false, double, Value::Metric, View>{View(star)}).from(place);
   }
 
-  RuleMesh<Plane> mesh_;
+  RuleMesh<Frame> mesh_;
 };
 
 }  // namespace
 
 std::unique_ptr<Smoother> make_active_set_smoother(const SmoothingTask& task) {
-  return formulas::with_planar_metric(task.metric, [&]<Metric M>() { return make_rule_smoother(task, ActiveSet<M>(task)); });
+  return with_metric_and_frame(*task.input, task.metric,
+                               [&]<Metric M, class Frame>() { return make_rule_smoother(task, ActiveSet<M, Frame>(task)); });
 }
 
 }  // namespace dmoscope

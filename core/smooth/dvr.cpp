@@ -5,6 +5,7 @@
 #include "core/mesh/random.h"
 #include "core/search/ratio_form.h"
 #include "core/smooth/line_maximum.h"
+#include "core/smooth/solid_dvr.h"
 #include "core/smooth/vertex_rule.h"
 
 namespace dmoscope {
@@ -113,6 +114,8 @@ Vec2<double> dvr_direction(const MethodOptions& options, std::uint64_t iteration
   }
 }
 
-std::unique_ptr<Smoother> make_dvr_smoother(const SmoothingTask& task) { return make_rule_smoother(task, Dvr(task)); }
+std::unique_ptr<Smoother> make_dvr_smoother(const SmoothingTask& task) {
+  return task.input->is_volume() ? make_solid_dvr_smoother(task) : make_rule_smoother(task, Dvr(task));
+}
 
 }  // namespace dmoscope

@@ -37,12 +37,10 @@ constexpr std::array<MethodInfo, 7> kMethods{
      {.name = "dvr",
       .doc = "Directional vertex relaxation: to the best place on a line, one direction an iteration (Rangarajan and Lew 2017)",
       .mean_ratio_only = true,
-      .planar_only = true,
       .has_directions = true},
      {.name = "pattern-search", .doc = "Compass search: the best of four steps, which grow or shrink (Park and Shontz 2010)"},
      {.name = "active-set",
-      .doc = "Active-set ascent: along the steepest way on which none of the worst elements loses (Freitag, Jones and Plassmann 1995)",
-      .planar_only = true}}};
+      .doc = "Active-set ascent: along the steepest way on which none of the worst elements loses (Freitag, Jones and Plassmann 1995)"}}};
 
 void require_possible(const Combination& combination, const SmoothingTask& task) {
   validate(combination);
@@ -74,10 +72,10 @@ const MethodInfo& method_info(std::string_view name) {
   throw UsageError(fmt::format("unknown method '{}'; known are {}", name, known));
 }
 
-std::optional<std::uint64_t> still_iterations(const MethodInfo& method, const MethodOptions& options) {
-  constexpr std::uint64_t kAxes = 2;
+std::optional<std::uint64_t> still_iterations(const MethodInfo& method, const MethodOptions& options, bool volume) {
   if (!method.has_directions) return 1;
-  return options.directions == Directions::Axes ? std::optional(kAxes) : std::nullopt;
+  const std::uint64_t axes = volume ? 3 : 2;
+  return options.directions == Directions::Axes ? std::optional(axes) : std::nullopt;
 }
 
 void require_possible(const SmoothingTask& task) {

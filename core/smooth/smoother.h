@@ -70,8 +70,8 @@ struct MethodInfo {
 [[nodiscard]] const MethodInfo& method_info(std::string_view name);
 
 /// After how many iterations in a row in which no vertex moved none will move any more; none: one can never tell. A method that looks along
-/// one direction an iteration may find nothing there, and something along the next.
-[[nodiscard]] std::optional<std::uint64_t> still_iterations(const MethodInfo& method, const MethodOptions& options);
+/// one direction an iteration may find nothing there, and something along the next. `volume`: whether it looks in space.
+[[nodiscard]] std::optional<std::uint64_t> still_iterations(const MethodInfo& method, const MethodOptions& options, bool volume);
 
 /// Throws UsageError for an unknown method, for parameters out of range, for a metric that is not defined for the mesh or not for the
 /// method, or for a combination that is not possible. Of the task's pointers only `input` is read.

@@ -1,7 +1,8 @@
 #pragma once
-// The smooth functions of which the quality of a star is the least: one a triangle, one a corner of a quadrilateral.
+// The smooth functions of which the quality of a star is the least: one a triangle or tetrahedron, one a corner of any other element.
 
 #include "core/quality/formulas.h"
+#include "core/quality/solids.h"
 #include "core/search/star.h"
 
 namespace dmoscope {
@@ -22,6 +23,43 @@ constexpr void for_corners(const StarQuadrilateral<double>& q, Vec2<R> p, const 
   f(b, c, p);
   f(c, d, b);
   f(d, p, c);
+}
+
+template <class R>
+[[nodiscard]] constexpr Vec3Of<R> as(Vec3 p) {
+  return {R(p.x), R(p.y), R(p.z)};
+}
+/// A solid of a star whose corner `moving` is at p.
+template <class R, class Ideal, std::size_t N, class Corners>
+[[nodiscard]] constexpr auto with(const formulas::CorneredSolid<Vec3, Ideal, N, Corners>& solid, Index moving, Vec3Of<R> p) {
+  formulas::CorneredSolid<Vec3Of<R>, Ideal, N, Corners> result{};
+  for (std::size_t i = 0; i < N; ++i) result.at[i] = i == moving ? p : as<R>(solid.at[i]);
+  return result;
+}
+/// Calls f.template operator()<Ideal>(u, v, w, their determinant) with the edges of every corner that changes when `moving` moves.
+template <class V, class Ideal, std::size_t N, class Corners, class F>
+constexpr void for_moving_corners(const formulas::CorneredSolid<V, Ideal, N, Corners>& solid, Index moving, const F& f) {
+  (void)solid.least_around(moving, [&f](V u, V v, V w, formulas::RealOf<V> jacobian) {
+    f.template operator()<Ideal>(u, v, w, jacobian);
+    return jacobian;
+  });
+}
+
+/// Calls tetrahedron(formulas::Tetrahedron, reference measure) for each tetrahedron of a volume's star with its vertex at `p` and, unless
+/// told to leave them out, corner.template operator()<Ideal>(u, v, w, their determinant, reference measure) for each corner of the other
+/// solids that changes with the vertex's place: the rest tells nothing of where it should be.
+template <bool Others, class R, class Take, class TakeCorner>
+constexpr void for_solids(const SolidStar<double>& star, Vec3Of<R> p, const Take& tetrahedron, const TakeCorner& corner) {
+  using V = Vec3Of<R>;
+  SolidStarView<double>(star).for_each<Others>([&]<class Element>(const Element& element) {
+    if constexpr (std::is_same_v<Element, StarTetrahedron<double>>) {
+      tetrahedron(formulas::Tetrahedron<V>(p, as<R>(element.b), as<R>(element.c), as<R>(element.d)), element.reference);
+    } else {
+      for_moving_corners(with(element.with({}), element.kMoving, p), element.kMoving, [&]<class Ideal>(V u, V v, V w, R jacobian) {
+        corner.template operator()<Ideal>(u, v, w, jacobian, element.reference);
+      });
+    }
+  });
 }
 
 }  // namespace star_pieces
@@ -55,6 +93,24 @@ constexpr void for_jacobians(const Star<double>& star, Vec2<R> p, const F& f) {
   for (const StarTriangle<double>& t : star.triangles) f(cross(as<R>(t.b) - p, as<R>(t.c) - p) / R(t.reference));
   for (const StarQuadrilateral<double>& q : star.quadrilaterals)
     star_pieces::for_corners(q, p, [&](V corner, V next, V before) { f(cross(next - corner, before - corner) / R(q.reference)); });
+}
+
+/// Likewise of a volume; only of what changes with the vertex's place.
+template <Metric M, class R, class F>
+constexpr void for_qualities(const SolidStar<double>& star, Vec3Of<R> p, const F& f) {
+  using V = Vec3Of<R>;
+  star_pieces::for_solids<formulas::kDefinedForCorners<M>>(
+      star, p, [&](const formulas::Tetrahedron<V>& t, double /*reference*/) { f(formulas::metric<M>(t)); },
+      [&]<class Ideal>(V u, V v, V w, R jacobian, double /*reference*/) {
+        if constexpr (formulas::kDefinedForCorners<M>) f(formulas::SolidFormula<M>::template corner<Ideal>(u, v, w, jacobian));
+      });
+}
+template <class R, class F>
+constexpr void for_jacobians(const SolidStar<double>& star, Vec3Of<R> p, const F& f) {
+  using V = Vec3Of<R>;
+  star_pieces::for_solids<true>(
+      star, p, [&f](const formulas::Tetrahedron<V>& t, double reference) { f(t.six_volume / R(reference)); },
+      [&f]<class Ideal>(V /*u*/, V /*v*/, V /*w*/, R jacobian, double reference) { f(jacobian / R(reference)); });
 }
 
 }  // namespace dmoscope

@@ -18,7 +18,8 @@ namespace dmoscope {
 
 class SizeField;
 
-/// Along which directions dvr relaxes: one a sweep for all vertices, drawn at random from a seed; or the axes of the mesh's plane by turns.
+/// Along which directions dvr relaxes: one a sweep for all vertices, drawn at random from a seed; or the axes of the mesh's plane, or of
+/// space, by turns.
 enum class Directions { Random, Axes };
 /// "random" or "axes".
 [[nodiscard]] std::string_view name(Directions directions);

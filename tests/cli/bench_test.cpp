@@ -97,14 +97,19 @@ TEST(Bench, MeasuresEveryMetricKindOfElementsAndLevelThatThereIs) {
   const json info = json_of(run({"info", "--json"}));
   const json all = bench_json({"--sizes", "200", "--metric", "all", "--elements", "all", "--simd", "all", "--threads", "1"});
   std::vector<std::string> expected;
-  for (const auto& [mesh, triangles, quadrilaterals] :
-       {std::tuple{"grid 200", true, false}, {"quads 200", false, true}, {"mixed 200", true, true}}) {
+  const std::pair<const char*, std::vector<const char*>> meshes[]{{"grid 200", {"triangle"}},
+                                                                  {"quads 200", {"quadrilateral"}},
+                                                                  {"mixed 200", {"triangle", "quadrilateral"}},
+                                                                  {"tetrahedra 200", {"tetrahedron"}},
+                                                                  {"hexahedra 200", {"hexahedron"}},
+                                                                  {"solids 200", {"tetrahedron", "hexahedron", "wedge", "pyramid"}}};
+  for (const auto& entry : meshes) {
     for (const json& metric : info["metrics"]) {
-      const auto defined_for = [&](const char* kind) {
+      const auto defined_for = [&metric](const char* kind) {
         return std::ranges::find(metric["elements"], json(kind)) != metric["elements"].end();
       };
-      if ((triangles && !defined_for("triangle")) || (quadrilaterals && !defined_for("quadrilateral"))) continue;
-      const std::string start = std::string(mesh) + ' ' + metric["name"].get<std::string>() + ' ';
+      if (!std::ranges::all_of(entry.second, defined_for)) continue;
+      const std::string start = std::string(entry.first) + ' ' + metric["name"].get<std::string>() + ' ';
       expected.push_back(start + "scalar double 1");
       for (const json& level : info["simd"]["levels"]) expected.push_back(start + level.get<std::string>() + " float 1");
     }
@@ -187,6 +192,18 @@ TEST(Bench, TheReferenceOfALargeMeshIsMeasuredOnASmallerOne) {
   expect_consistent(large["figures"][1], reference);
 }
 
+TEST(Bench, TheReferenceOfAVolumeIsSmallerStill) {
+  const json all = bench_json({"--sizes", "4096", "--elements", "hexahedra", "--threads", "1", "--iterations", "2"});
+  ASSERT_EQ(all["figures"].size(), 2U);
+  const json& reference = all["figures"][0];
+  EXPECT_EQ(reference["mesh"], "hexahedra 2000");
+  EXPECT_EQ(reference["iterations"], 1);
+  EXPECT_LT(reference["free"], 2000);
+  EXPECT_EQ(all["figures"][1]["vertices"], 4096);
+  EXPECT_EQ(all["figures"][1]["free"], 14 * 14 * 14);
+  expect_consistent(all["figures"][1], reference);
+}
+
 TEST(Bench, TableHasARowForEveryFigure) {
   const Output table = bench({"--sizes", "200,300", "--threads", "1", "--active", "2"});
   EXPECT_EQ(table.code, 0);
@@ -213,7 +230,8 @@ TEST(Bench, RefusesWhatItCannotMeasure) {
       {"--sizes", "200", "--metric", "mean-ratio,"},
       {"--sizes", "200", "--metric", "min-angle", "--elements", "quadrilaterals"},
       {"--sizes", "200", "--metric", "min-angle", "--elements", "triangles,mixed"},
-      {"--sizes", "200", "--elements", "tetrahedra"},
+      {"--sizes", "200", "--elements", "dodecahedra"},
+      {"--sizes", "200", "--metric", "min-angle", "--elements", "hexahedra"},
       {"--sizes", "200", "--simd", "mmx"},
       {"--sizes", "200", "--backend", "abacus"},
       {"--sizes", "200", "--backend", "cpu,"},

@@ -119,6 +119,14 @@ TEST(Paper, EveryMetricOfTheFiguresConverges) {
   EXPECT_GT(minimum_after(quads, 20), minimum_after(quads, 0) + 0.4);
 }
 
+TEST(Paper, OnTireTheMinimumRisesToItsCeilingAndTheMovableElementsFarAbove) {
+  REQUIRE_MESH(tire, "tet/tire.vtk");
+  const dmoscope::Run run = smoothed(tire, {}, 10);
+  EXPECT_NEAR(minimum_after(run, 0), 0.044167, 1e-6);
+  EXPECT_NEAR(minimum_after(run, 10), 0.1637, 1e-4);
+  EXPECT_GE(run.statistics().movable_minimum, 0.36);
+}
+
 TEST(Paper, TheOrderMattersLittleOnGoodMeshesAndMuchOnRandomOnes) {
   const auto spread = [](const Input& input) {
     std::vector<double> low, high;

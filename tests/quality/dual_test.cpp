@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/quality/formulas.h"
+#include "core/quality/solids.h"
 #include "tests/support/meshes.h"
 
 namespace dmoscope {
@@ -34,8 +35,8 @@ int expect_gradient(const Quality& quality, V p, std::string_view name) {
   const auto by_x = derivative([&](double h) { return quality(V{p.x + h, p.y}); });
   const auto by_y = derivative([&](double h) { return quality(V{p.x, p.y + h}); });
   if (!by_x || !by_y) return 0;
-  EXPECT_NEAR(exact.dx, *by_x, 1e-8 * (1 + std::fabs(*by_x))) << name;
-  EXPECT_NEAR(exact.dy, *by_y, 1e-8 * (1 + std::fabs(*by_y))) << name;
+  EXPECT_NEAR(exact.by.x, *by_x, 1e-8 * (1 + std::fabs(*by_x))) << name;
+  EXPECT_NEAR(exact.by.y, *by_y, 1e-8 * (1 + std::fabs(*by_y))) << name;
   return 1;
 }
 
@@ -78,24 +79,80 @@ TEST(Dual, GivesTheGradientOfEveryMetricAtEveryCornerOfEveryElement) {
   }
 }
 
+/// A solid with one corner at p, in any scalar.
+template <class R, class Solid>
+Solid with(const std::array<Vec3, 8>& corners, std::size_t moving, Vec3Of<R> p) {
+  const auto at = [&](std::size_t i) {
+    const Vec3 c = corners[i];
+    return i == moving ? p : Vec3Of<R>{R(c.x), R(c.y), R(c.z)};
+  };
+  if constexpr (std::is_same_v<Solid, formulas::Tetrahedron<Vec3Of<R>>>) {
+    return Solid(at(0), at(1), at(3), at(4));
+  } else {
+    Solid solid{};
+    for (std::size_t i = 0; i < solid.at.size(); ++i) solid.at[i] = at(i);
+    return solid;
+  }
+}
+
+template <Metric M, template <class> class Solid>
+int expect_solid_gradient(const std::array<Vec3, 8>& corners, std::size_t moving) {
+  const Vec3 p = corners[moving];
+  const auto quality = [&]<class R>(Vec3Of<R> q) { return formulas::metric<M>(with<R, Solid<Vec3Of<R>>>(corners, moving, q)); };
+  const SolidDual exact = quality(variable(p));
+  EXPECT_EQ(exact.value, quality(p)) << info(M).name << ": the same value as in double";
+  const auto by = [&](Vec3 axis) { return derivative([&](double h) { return quality(p + h * axis); }); };
+  const auto x = by({1, 0, 0}), y = by({0, 1, 0}), z = by({0, 0, 1});
+  if (!x || !y || !z) return 0;
+  EXPECT_NEAR(exact.by.x, *x, 1e-8 * (1 + std::fabs(*x))) << info(M).name;
+  EXPECT_NEAR(exact.by.y, *y, 1e-8 * (1 + std::fabs(*y))) << info(M).name;
+  EXPECT_NEAR(exact.by.z, *z, 1e-8 * (1 + std::fabs(*z))) << info(M).name;
+  return 1;
+}
+
+TEST(Dual, GivesTheGradientOfEveryMetricOfSolids) {
+  testing::Random random(12);
+  for (const MetricInfo& entry : metric_table()) {
+    if (!entry.defined_for(ElementKind::Tetrahedron)) continue;
+    const bool others = entry.defined_for(ElementKind::Hexahedron);
+    int tetrahedra = 0, hexahedra = 0;
+    for (int trial = 0; trial < 100; ++trial) {
+      std::array<Vec3, 8> p{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
+      for (Vec3& q : p) q = q + Vec3{random(-0.2, 0.2), random(-0.2, 0.2), random(-0.2, 0.2)};
+      formulas::with_solid_metric(entry.metric, [&]<Metric M>() {
+        constexpr std::array<std::size_t, 4> kCorners{0, 1, 3, 4};
+        tetrahedra += expect_solid_gradient<M, formulas::Tetrahedron>(p, kCorners[static_cast<std::size_t>(trial % 4)]);
+        if constexpr (formulas::kDefinedForCorners<M>)
+          hexahedra += expect_solid_gradient<M, formulas::Hexahedron>(p, static_cast<std::size_t>(trial % 8));
+      });
+    }
+    EXPECT_GT(tetrahedra, 70) << entry.name;
+    EXPECT_TRUE(!others || hexahedra > 70) << entry.name << ' ' << hexahedra;
+  }
+}
+
 TEST(Dual, ByHand) {
-  const D p = variable({3, -4});
+  const D p = variable(V{3, -4});
   const Dual length = sqrt(dot(p, p));
   EXPECT_DOUBLE_EQ(length.value, 5);
-  EXPECT_DOUBLE_EQ(length.dx, 0.6);
-  EXPECT_DOUBLE_EQ(length.dy, -0.8);
+  EXPECT_DOUBLE_EQ(length.by.x, 0.6);
+  EXPECT_DOUBLE_EQ(length.by.y, -0.8);
   const Dual angle = atan2(p.y, p.x);
-  EXPECT_DOUBLE_EQ(angle.dx, 4.0 / 25);
-  EXPECT_DOUBLE_EQ(angle.dy, 3.0 / 25);
+  EXPECT_DOUBLE_EQ(angle.by.x, 4.0 / 25);
+  EXPECT_DOUBLE_EQ(angle.by.y, 3.0 / 25);
   const Dual quotient = p.x / p.y;
-  EXPECT_DOUBLE_EQ(quotient.dx, -0.25);
-  EXPECT_DOUBLE_EQ(quotient.dy, -3.0 / 16);
-  EXPECT_DOUBLE_EQ(min(p.x, p.y).dy, 1);
-  EXPECT_DOUBLE_EQ(max(p.x, p.y).dx, 1);
-  EXPECT_DOUBLE_EQ(abs(p.y).dy, -1);
-  for (const Dual nothing : {sqrt(Dual(0, 1, 1)), atan2(Dual(0, 1, 1), Dual(0, 1, 1))}) {
-    EXPECT_EQ(nothing.dx, 0);
-    EXPECT_EQ(nothing.dy, 0);
+  EXPECT_DOUBLE_EQ(quotient.by.x, -0.25);
+  EXPECT_DOUBLE_EQ(quotient.by.y, -3.0 / 16);
+  const Dual root = cube_root(Dual(-8, {1, 3}));
+  EXPECT_DOUBLE_EQ(root.value, -2);
+  EXPECT_DOUBLE_EQ(root.by.x, 1.0 / 12);
+  EXPECT_DOUBLE_EQ(root.by.y, 3.0 / 12);
+  EXPECT_DOUBLE_EQ(min(p.x, p.y).by.y, 1);
+  EXPECT_DOUBLE_EQ(max(p.x, p.y).by.x, 1);
+  EXPECT_DOUBLE_EQ(abs(p.y).by.y, -1);
+  for (const Dual nothing : {sqrt(Dual(0, {1, 1})), cube_root(Dual(0, {1, 1})), atan2(Dual(0, {1, 1}), Dual(0, {1, 1}))}) {
+    EXPECT_EQ(nothing.by.x, 0);
+    EXPECT_EQ(nothing.by.y, 0);
   }
 }
 

@@ -5,6 +5,7 @@
 #include "core/mesh/generate.h"
 #include "core/mesh/random.h"
 #include "core/session/input_mesh.h"
+#include "core/smooth/solid_dvr.h"
 #include "tests/smooth/promises.h"
 
 namespace dmoscope {
@@ -49,6 +50,7 @@ TEST_P(VolumePromises, NoVisitMakesAnythingWorseAndFixedVerticesKeepTheirBits) {
   for (const Specimen& specimen : volumes()) {
     for (const Metric metric : {Metric::MeanRatio, Metric::Condition, Metric::RadiusRatio}) {
       if (!testing::defined_for_all(metric, specimen.mesh)) continue;
+      if (method_info(GetParam()).mean_ratio_only && metric != Metric::MeanRatio) continue;
       RunParameters parameters;
       parameters.method = GetParam();
       parameters.metric = metric;
@@ -60,11 +62,103 @@ TEST_P(VolumePromises, NoVisitMakesAnythingWorseAndFixedVerticesKeepTheirBits) {
     }
   }
 }
-INSTANTIATE_TEST_SUITE_P(Volumes, VolumePromises, ::testing::Values("dmo", "smart-laplace", "pattern-search"), [](const auto& test) {
-  std::string text = test.param;
-  std::ranges::replace(text, '-', '_');
-  return text;
-});
+INSTANTIATE_TEST_SUITE_P(Volumes, VolumePromises, ::testing::Values("dmo", "smart-laplace", "pattern-search", "dvr", "active-set"),
+                         [](const auto& test) {
+                           std::string text = test.param;
+                           std::ranges::replace(text, '-', '_');
+                           return text;
+                         });
+
+/// A regular octahedron or icosahedron of which every face and the hub, displaced from the middle, make a tetrahedron; the hub is the last.
+Mesh star_of_tetrahedra(bool icosahedron, Vec3 hub) {
+  const double golden = 0.5 * (1.0 + std::sqrt(5.0));
+  std::vector<Vec3> rim;
+  for (const double one : {-1.0, 1.0}) {
+    if (!icosahedron) {
+      rim.insert(rim.end(), {{one, 0, 0}, {0, one, 0}, {0, 0, one}});
+      continue;
+    }
+    for (const double other : {-golden, golden}) rim.insert(rim.end(), {{0, one, other}, {one, other, 0}, {other, 0, one}});
+  }
+  const double edge = icosahedron ? 2.0 : std::sqrt(2.0);
+  const auto apart = [&](Index a, Index b) { return std::abs(length(rim[a] - rim[b]) - edge) < 1e-9; };
+  Mesh mesh;
+  const auto n = static_cast<Index>(rim.size());
+  for (Index a = 0; a < n; ++a)
+    for (Index b = a + 1; b < n; ++b)
+      for (Index c = b + 1; c < n; ++c) {
+        if (!apart(a, b) || !apart(b, c) || !apart(c, a)) continue;
+        const bool outward = dot(cross(rim[b] - rim[a], rim[c] - rim[a]), rim[a]) > 0.0;
+        mesh.elements.add(ElementKind::Tetrahedron, std::array{n, a, outward ? b : c, outward ? c : b});
+      }
+  mesh.positions = std::move(rim);
+  mesh.positions.push_back(hub);
+  return mesh;
+}
+
+TEST(Volume, TheHubOfARegularStarGoesBackToItsMiddle) {
+  for (const bool icosahedron : {false, true}) {
+    const auto mesh = input(star_of_tetrahedra(icosahedron, {0.2, -0.11, 0.15}));
+    ASSERT_EQ(mesh->mesh.elements.size(), icosahedron ? 20U : 8U);
+    const Index hub = mesh->mesh.vertex_count() - 1;
+    Progress progress;
+    for (const Metric metric : {Metric::MeanRatio, Metric::RadiusRatio, Metric::Condition}) {
+      dmoscope::Run ascent = make_run(mesh, {.method = "active-set", .metric = metric});
+      ascent.iterate(10, progress);
+      // What is within 3e-5 of the least counts as the least.
+      EXPECT_LT(length(ascent.positions()[hub]), 1e-3) << icosahedron << ' ' << info(metric).name;
+    }
+    for (const Directions directions : {Directions::Random, Directions::Axes}) {
+      dmoscope::Run lines = make_run(mesh, {.method = "dvr", .options = {.directions = directions}});
+      lines.iterate(60, progress);
+      EXPECT_LT(length(lines.positions()[hub]), 1e-2) << icosahedron << ' ' << name(directions);
+    }
+  }
+}
+
+TEST(Volume, DvrFindsTheBestPlaceOnItsLineInEveryKindOfElement) {
+  for (const Specimen& specimen : volumes()) {
+    if (specimen.name.find(',') != std::string::npos) continue;
+    const auto mesh = input(specimen.mesh);
+    const Vec3 d = solid_dvr_direction({.seed = 3}, 0);
+    dmoscope::Run run = make_run(mesh, {.method = "dvr", .options = {.seed = 3}});
+    Progress progress;
+    for (const Index hub : run.colouring().members(0)) {
+      const std::vector<Vec3> old(run.positions().begin(), run.positions().end());
+      run.step(StepUnit::Vertex, progress);
+      const auto least_at = [&](double t) {
+        std::vector<Vec3> moved = old;
+        moved[hub] = moved[hub] + t * d;
+        const StarState state = star_state(*mesh, moved, Metric::MeanRatio, hub);
+        return state.jacobian > 0.0 ? state.quality : -1.0;
+      };
+      const Vec3 way = run.positions()[hub] - old[hub];
+      EXPECT_LT(length(cross(way, d)), 1e-14) << specimen.name << ": off the line";
+      const double found = least_at(dot(way, d));
+      constexpr int kSamples = 2000;
+      for (int i = -kSamples; i <= kSamples; ++i)
+        EXPECT_GE(found, least_at(0.5 * i / kSamples) - 1e-9) << specimen.name << ": hub " << hub << ", " << i;
+    }
+  }
+}
+
+TEST(Volume, DvrDirectionsAreOfLengthOneAndGoEverywhereAlike) {
+  double squares[3] = {};
+  constexpr int kCount = 4000;
+  for (std::uint64_t i = 0; i < kCount; ++i) {
+    const Vec3 d = solid_dvr_direction({.seed = 5}, i);
+    EXPECT_NEAR(length(d), 1.0, 1e-15);
+    EXPECT_EQ(d, solid_dvr_direction({.seed = 5}, i));
+    squares[0] += d.x * d.x, squares[1] += d.y * d.y, squares[2] += d.z * d.z;
+  }
+  for (const double sum : squares) EXPECT_NEAR(sum / kCount, 1.0 / 3.0, 0.02);
+  const MethodOptions axes{.directions = Directions::Axes};
+  EXPECT_EQ(solid_dvr_direction(axes, 3), (Vec3{1, 0, 0}));
+  EXPECT_EQ(solid_dvr_direction(axes, 4), (Vec3{0, 1, 0}));
+  EXPECT_EQ(solid_dvr_direction(axes, 5), (Vec3{0, 0, 1}));
+  EXPECT_EQ(still_iterations(method_info("dvr"), axes, true), 3U);
+  EXPECT_EQ(still_iterations(method_info("dvr"), axes, false), 2U);
+}
 
 TEST(Volume, SameBitsForAnyThreadsAndSteps) {
   for (const Specimen& specimen : volumes()) {

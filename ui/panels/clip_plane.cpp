@@ -96,7 +96,7 @@ std::optional<Handle> handle_of(const PanelContext& context, const PaneFacts& pa
     handle.along = {0.0, -towards * each};
   }
   const double each_step = std::hypot(handle.along.x, handle.along.y);
-  const double reach = static_cast<double>(context.px(34)) * std::max(seen, 0.45);
+  const double reach = static_cast<double>(context.px(46)) * std::max(seen, 0.45);
   handle.arrow = {handle.middle.x + static_cast<float>(side * reach * handle.along.x / each_step),
                   handle.middle.y + static_cast<float>(side * reach * handle.along.y / each_step)};
   return handle;
@@ -117,7 +117,7 @@ void drag(PanelContext& context, const PaneFacts& pane, const Handle& handle) {
     view.clip.offset = std::clamp(grip.before.clip.offset + moved, low, high);
     context.widgets.moved_at = context.now;
   }
-  if (ImGui::IsItemActive()) return;
+  if (!ImGui::IsItemDeactivated()) return;  // held by another part of the panel, perhaps
   grip.held = false;
   if (view == grip.before) return;
   const std::string command = clip_command(view.clip, pane.box);
@@ -165,14 +165,14 @@ void draw_clip_plane(const PanelContext& context, const PaneFacts& pane) {
   if (!handle) return;
   const ImVec2 from = handle->middle, to = handle->arrow;
   const float dx = to.x - from.x, dy = to.y - from.y, size = std::max(std::hypot(dx, dy), 1.0F), ux = dx / size, uy = dy / size;
-  const float head = context.px(9), half = context.px(5.5F);
+  const float head = context.px(12), half = context.px(7);
   const ImVec2 neck{to.x - ux * head, to.y - uy * head};
   for (const auto& [tint, more] : {std::pair{casing, context.px(1.5F)}, {ink, 0.0F}}) {
-    list.AddLine(from, neck, tint, context.px(2.5F) + 2 * more);
+    list.AddLine(from, neck, tint, context.px(3) + 2 * more);
     list.AddTriangleFilled({to.x + ux * 2 * more, to.y + uy * 2 * more},
                            {neck.x - ux * more - uy * (half + more), neck.y - uy * more + ux * (half + more)},
                            {neck.x - ux * more + uy * (half + more), neck.y - uy * more - ux * (half + more)}, tint);
-    list.AddCircleFilled(from, context.px(6) + more, tint);
+    list.AddCircleFilled(from, context.px(7) + more, tint);
   }
 }
 

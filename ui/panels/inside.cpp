@@ -187,6 +187,7 @@ void draw_looks(PanelContext& context) {
 
 void draw_from(PanelContext& context) {
   const render::OrbitCamera& orbit = context.state.orbit;
+  ImGui::AlignTextToFramePadding();
   dim_text(context, "look from", false);
   for (const render::ViewPresetInfo& preset : render::view_preset_table()) {
     ImGui::SameLine(0, context.px(4));
@@ -224,10 +225,16 @@ void draw_inside(PanelContext& context) {
   draw_worst_cells(context);
   draw_looks(context);
   draw_from(context);
-  ImGui::BeginDisabled(context.state.inside == InsideView{});
-  if (ImGui::Button("Show all cells")) context.send("show-all");
+  // What is isolated of the histogram takes cells away, too.
+  const ColouringState& colouring = context.state.colouring;
+  const bool isolated = colouring.filter && colouring.others == render::Selection::Others::Hide;
+  ImGui::BeginDisabled(context.state.inside == InsideView{} && !isolated);
+  if (ImGui::Button("Show all cells")) {
+    context.send("show-all");
+    if (isolated) context.send("filter off");
+  }
   context.items.record_last("inside:all");
-  next_item_tooltip("no plane, no peeling, nothing shrunk   Z");
+  next_item_tooltip("no plane, no peeling, nothing shrunk, no range of the histogram   Z");
   ImGui::EndDisabled();
   ImGui::Dummy({0, context.px(4)});
 }

@@ -109,6 +109,13 @@ void OrbitCamera::look_from(ViewPreset preset) {
   set(normalised({1, 1, 0}), normalised({-1, 1, 2}));
 }
 
+bool OrbitCamera::is_valid() const {
+  constexpr double kRounding = 1e-6;
+  const auto unit = [](Vec3 v) { return std::abs(length(v) - 1.0) < kRounding; };
+  return height >= kSmallest && height <= kLargest && std::isfinite(length(centre)) && unit(right) && unit(up) &&
+         std::abs(dot(right, up)) < kRounding;
+}
+
 void OrbitCamera::fit(const Bounds3& bounds, Vec2<double> viewport, double margin) {
   centre = bounds.empty() ? Vec3{} : bounds.centre();
   const double room = std::max(0.2, 1.0 - 2.0 * margin / shorter_side(viewport));

@@ -77,6 +77,8 @@ struct OrbitCamera {
   [[nodiscard]] Vec3 eye() const { return centre + distance() * back(); }
   [[nodiscard]] double units_per_pixel(Vec2<double> viewport) const { return height / viewport.y; }
 
+  /// Whether its numbers make a view: the height greater than 0, the directions as they must be up to rounding.
+  [[nodiscard]] bool is_valid() const;
   /// Looks from there, at the same centre; z is up, or y where that is the line of sight.
   void look_from(ViewPreset preset);
   /// Shows all of `bounds` with at least `margin` pixels around it. Empty bounds or a single point give a sensible view.

@@ -198,7 +198,7 @@ void App::handle_shortcuts() {
     // With the keyboard in the widgets, Space presses the one that has the focus.
     if (chord->code == key::kSpace && io.NavVisible) continue;
     if (enabled(action, {session_->input != nullptr, activity_.busy, state_.picked.kind != Picked::Kind::None, session_->runs.size(),
-                         !state_.selection.empty(), session_->undo_label, session_->redo_label})) {
+                         !state_.selection.empty(), session_->undo_label, session_->redo_label, state_.is_volume})) {
       submit(action.command);
     }
     return;
@@ -218,6 +218,7 @@ void App::draw_side(PanelContext& context, const char* name, const Rect& rect, b
     draw_parameters(context);
     draw_colours(context);
   } else {
+    draw_inside(context);
     if (state_.inspection.open) draw_inspection(context);
     draw_inspector(context);
     draw_worst(context);

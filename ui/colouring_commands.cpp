@@ -84,6 +84,7 @@ void add_colour_verbs(CommandTable& table, ViewState& state, const CommandHost& 
               if (by == ColourBy::Group && view && view->input && view->input->mesh.groups.empty()) {
                 throw UsageError("the mesh has no groups or markers");
               }
+              if (const auto why = view && view->input ? why_not_drawn(by, *view->input) : std::nullopt) throw UsageError(*why);
               if (by != ColourBy::Difference) need(words, 1, 1);
               if (by == ColourBy::Difference && words.size() > 1) state.colouring.reference = parse_reference(state, words.subspan(1));
               state.colouring.by = by;

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "core/mesh/faces.h"
+#include "core/mesh/volume.h"
 #include "core/session/input_mesh.h"
 #include "core/smooth/size_field.h"
 
@@ -115,17 +117,29 @@ void by_inverted(Work& work) {
   work.out.note = "all others are grey";
 }
 
-double mean_edge(const Mesh& mesh) {
+/// Of one or several elements.
+struct Edges {
   double sum = 0.0;
-  std::size_t edges = 0;
-  for (Index e = 0; e < mesh.elements.size(); ++e) {
-    const auto corners = mesh.elements.corners(e);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      sum += length(mesh.positions[corners[(i + 1) % corners.size()]] - mesh.positions[corners[i]]);
-      ++edges;
-    }
+  std::size_t count = 0;
+  void add(Vec3 a, Vec3 b) {
+    sum += length(b - a);
+    ++count;
   }
-  return edges == 0 ? 0.0 : sum / static_cast<double>(edges);
+  /// Each edge of a volume element twice, as it is one of two faces.
+  void add_element(const ElementTable& elements, std::span<const Vec3> at, Index element) {
+    const auto corners = elements.corners(element);
+    const auto faces = faces_of(elements.kind(element));
+    for (const LocalFace& face : faces)
+      for (Index i = 0; i < face.count; ++i) add(at[corners[face.corners[i]]], at[corners[face.corners[i + 1 < face.count ? i + 1 : 0]]]);
+    for (std::size_t i = 0; i < corners.size() && faces.empty(); ++i) add(at[corners[i]], at[corners[(i + 1) % corners.size()]]);
+  }
+  [[nodiscard]] double mean() const { return count == 0 ? 0.0 : sum / static_cast<double>(count); }
+};
+
+double mean_edge(const Mesh& mesh) {
+  Edges edges;
+  for (Index e = 0; e < mesh.elements.size(); ++e) edges.add_element(mesh.elements, mesh.positions, e);
+  return edges.mean();
 }
 
 void find_range(Work& work) {
@@ -158,19 +172,26 @@ void by_displacement(Work& work) {
   work.out.title = "displacement, mean edges of the input";
 }
 
+/// Area or volume, without its sign.
+double size_of_element(const Frame& frame, Index e) {
+  const ElementTable& elements = frame.input->mesh.elements;
+  const auto& at = frame.positions;
+  const auto corners = elements.corners(e);
+  if (frame.input->is_volume()) return std::abs(signed_volume(elements, at, e));
+  const Plane& plane = frame.input->geometry.plane;
+  double twice = 0.0;
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    twice += cross(plane.project(at[corners[i]] - at[corners[0]]), plane.project(at[corners[i + 1]] - at[corners[0]]));
+  }
+  return std::abs(twice) / 2;
+}
+
 void by_size(Work& work) {
   const auto& elements = work.mesh.elements;
   std::vector<double> areas(elements.size());
   double sum = 0.0;
   for (Index e = 0; e < elements.size(); ++e) {
-    const auto corners = elements.corners(e);
-    const Plane& plane = work.request.frame->input->geometry.plane;
-    const auto& at = work.request.frame->positions;
-    double twice = 0.0;
-    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-      twice += cross(plane.project(at[corners[i]] - at[corners[0]]), plane.project(at[corners[i + 1]] - at[corners[0]]));
-    }
-    areas[e] = std::abs(twice) / 2;
+    areas[e] = size_of_element(*work.request.frame, e);
     sum += areas[e];
   }
   const double mean = areas.empty() ? 0.0 : sum / static_cast<double>(areas.size());
@@ -182,7 +203,7 @@ void by_size(Work& work) {
   // Elements of one size differ by rounding only: that is no range to spread colours over.
   if (work.out.range.second - work.out.range.first < 0.02) work.out.range = {work.out.range.first - 0.01, work.out.range.second + 0.01};
   work.out.logarithmic = true;
-  work.out.title = "area / mean area";
+  work.out.title = work.request.frame->input->is_volume() ? "volume / mean volume" : "area / mean area";
 }
 
 /// Of every vertex the logarithm (of 10) of its mean edge, over the size that is wanted where it stands if there is one.
@@ -196,6 +217,13 @@ std::vector<double> edge_logarithms(const Frame& frame, const SizeField* size) {
   return logarithms;
 }
 
+/// Spreads the colours over logarithms.
+void find_log_range(Work& work) {
+  find_range(work);
+  if (work.out.range.second - work.out.range.first < 0.02) work.out.range = {work.out.range.first - 0.01, work.out.range.second + 0.01};
+  work.out.logarithmic = true;
+}
+
 /// Colours each element by the mean of what its corners have.
 void by_corners(Work& work, std::span<const double> values) {
   work.shading.values.resize(work.mesh.elements.size());
@@ -206,14 +234,25 @@ void by_corners(Work& work, std::span<const double> values) {
     const double mean = sum / static_cast<double>(corners.size());
     work.shading.values[e] = std::isfinite(mean) ? static_cast<float>(mean) : std::numeric_limits<float>::quiet_NaN();
   }
-  find_range(work);
-  if (work.out.range.second - work.out.range.first < 0.02) work.out.range = {work.out.range.first - 0.01, work.out.range.second + 0.01};
-  work.out.logarithmic = true;
+  find_log_range(work);
+}
+
+/// Each volume element by its own edges.
+void by_own_edges(Work& work) {
+  work.shading.values.resize(work.mesh.elements.size());
+  for (Index e = 0; e < work.mesh.elements.size(); ++e) {
+    Edges edges;
+    edges.add_element(work.mesh.elements, work.request.frame->positions, e);
+    const double mean = edges.mean();
+    work.shading.values[e] = mean > 0.0 ? static_cast<float>(std::log10(mean)) : std::numeric_limits<float>::quiet_NaN();
+  }
+  find_log_range(work);
 }
 
 void by_edge_length(Work& work) {
-  by_corners(work, edge_logarithms(*work.request.frame, nullptr));
   work.out.title = "mean edge length";
+  if (work.request.frame->input->is_volume()) return by_own_edges(work);
+  by_corners(work, edge_logarithms(*work.request.frame, nullptr));
 }
 
 void by_size_over_target(Work& work) {
@@ -409,6 +448,17 @@ ElementColours colour_elements(const ColourRequest& request) {
   if (has_categories(request.by) && work.shading.palette.empty()) work.shading.palette.push_back({});
   work.out.shading = std::make_shared<const render::Shading>(std::move(work.shading));
   return std::move(work.out);
+}
+
+std::optional<std::string> why_not_drawn(ColourBy by, const InputMesh& input) {
+  if (!input.is_volume()) return std::nullopt;
+  const auto of_elements = [](const Group& group) { return group.of_elements(); };
+  const bool around_vertices =
+      by == ColourBy::Valence || by == ColourBy::Class || (by == ColourBy::Group && std::ranges::none_of(input.mesh.groups, of_elements));
+  if (around_vertices)
+    return fmt::format("{} colours the surroundings of vertices: of volume meshes whole elements are coloured", info(by).name);
+  if (by == ColourBy::SizeOverTarget) return "size functions are of planar meshes";
+  return std::nullopt;
 }
 
 std::optional<std::string> why_unknown(const Isolation& isolation, const InputMesh& input) {

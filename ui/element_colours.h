@@ -54,6 +54,9 @@ struct ColourRequest {
          by == ColourBy::Difference;
 }
 
+/// Why the elements of a mesh cannot be coloured so; none where they can.
+[[nodiscard]] std::optional<std::string> why_not_drawn(ColourBy by, const InputMesh& input);
+
 /// Takes some 20 ms a million elements, on any thread. `by` must not be ColourBy::Quality.
 [[nodiscard]] ElementColours colour_elements(const ColourRequest& request);
 

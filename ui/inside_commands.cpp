@@ -1,8 +1,13 @@
 #include "ui/inside_commands.h"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
 #include "core/inside/clip_words.h"
 #include "core/session/input_mesh.h"
 #include "ui/command_words.h"
+#include "ui/inside_text.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -19,37 +24,62 @@ render::Bounds3 box_of_volume(const CommandHost& host) {
 
 float to_quality(const std::string& word) { return static_cast<float>(to_number(word)); }
 
+/// Where it was, or through the middle where it would miss the mesh.
+ClipPlane plane_within(ClipPlane plane, const render::Bounds3& box) {
+  plane.on = true;
+  const auto [low, high] = span_of(plane, box);
+  if (!(plane.offset > low && plane.offset < high)) plane.offset = low + 0.5 * (high - low);
+  return plane;
+}
+
+/// As far along the next axis as it was along its own; across x where it was not on, or oblique.
+ClipPlane across_next_axis(const ClipPlane& plane, const render::Bounds3& box) {
+  const auto now = plane.on ? axis_plane(plane, box) : std::nullopt;
+  const std::string name = now ? axis_name((now->axis + 1) % 3, now->flip) : "x";
+  return parse_clip(fmt::format("{}:{}", name, now ? std::clamp(now->fraction, 0.0, 1.0) : 0.5), box.low, box.high);
+}
+
 void set_clip(ViewState& state, const CommandHost& host, Arguments words) {
   need(words, 1, 1);
   ClipPlane& clip = state.inside.clip;
-  if (words[0] == "off") {
+  const std::string& word = words[0];
+  if (word == "off" || (word == "toggle" && clip.on)) {
     clip.on = false;
-  } else if (words[0] == "flip") {
+  } else if (word == "flip") {
     clip.flip = !clip.flip;
   } else {
     const render::Bounds3 box = box_of_volume(host);
     const ClipPlane::Mode mode = clip.mode;
-    clip = parse_clip(words[0], box.low, box.high);
+    clip = word == "on" || word == "toggle" ? plane_within(clip, box)
+           : word == "next"                 ? across_next_axis(clip, box)
+                                            : parse_clip(word, box.low, box.high);
     clip.mode = mode;
   }
 }
 
 void add_clip_verbs(CommandTable& table, ViewState& state, const CommandHost& host) {
-  table.add({"clip", "clip PLANE|off|flip",
+  table.add({"clip", "clip PLANE|on|off|toggle|flip|next",
              "takes away what of a volume mesh lies beyond a plane: x, y, z, -x, -y, -z, with :FRACTION of the mesh or half-way, or "
-             "NX,NY,NZ:OFFSET"},
+             "NX,NY,NZ:OFFSET; next: across the next axis"},
             [&state, &host](Arguments words) { set_clip(state, host, words); });
-  table.add({"clip-mode", "clip-mode crinkle|cut", "whole cells stay, or they are cut through"}, [&state](Arguments words) {
+  table.add({"clip-mode", "clip-mode crinkle|cut|toggle", "whole cells stay, or they are cut through"}, [&state](Arguments words) {
     need(words, 1, 1);
-    state.inside.clip.mode = parse_clip_mode(words[0]);
+    using Mode = ClipPlane::Mode;
+    Mode& mode = state.inside.clip.mode;
+    mode = words[0] == "toggle" ? (mode == Mode::Cut ? Mode::Crinkle : Mode::Cut) : parse_clip_mode(words[0]);
   });
 }
 
 void add_peel_verbs(CommandTable& table, ViewState& state) {
   InsideView& view = state.inside;
-  table.add({"peel", "peel N", "takes so many layers of cells off the boundary of a volume mesh"}, [&view](Arguments words) {
+  table.add({"peel", "peel N|more|less", "takes so many layers of cells off the boundary of a volume mesh"}, [&view](Arguments words) {
     need(words, 1, 1);
-    view.peel = static_cast<Index>(std::min<std::uint64_t>(to_count(words[0]), kNoIndex - 1));
+    constexpr std::uint64_t kMost = kNoIndex - 1;
+    const std::uint64_t now = view.peel;
+    const std::uint64_t wanted = words[0] == "more"   ? now + 1
+                                 : words[0] == "less" ? now - std::min<std::uint64_t>(now, 1)
+                                                      : to_count(words[0]);
+    view.peel = static_cast<Index>(std::min(wanted, kMost));
   });
   table.add({"peel-quality", "peel-quality Q|off", "takes cells of a higher quality away"}, [&view](Arguments words) {
     need(words, 1, 1);
@@ -65,19 +95,22 @@ void add_peel_verbs(CommandTable& table, ViewState& state) {
     if (!(range.first <= range.second)) throw UsageError("the lower quality comes first");
     view.isolate = range;
   });
-  table.add({"worst-cells", "worst-cells N|off", "only the N worst cells are seen, in a faint boundary of the rest"},
+  table.add({"worst-cells", "worst-cells N|off|toggle", "only the N worst cells (50) are seen, in a faint boundary of the rest"},
             [&view](Arguments words) {
               need(words, 1, 1);
-              view.worst = words[0] == "off" ? 0 : to_count(words[0]);
+              constexpr std::size_t kUsual = 50;
+              const bool toggle = words[0] == "toggle";
+              view.worst = words[0] == "off" ? 0 : toggle ? (view.worst > 0 ? 0 : kUsual) : to_count(words[0]);
               view.ghost = view.worst > 0;
             });
   table.add({"ghost-rest", "ghost-rest [on|off|toggle]", "the boundary of what was taken away is seen faintly"}, [&view](Arguments words) {
     need(words, 0, 1);
     view.ghost = switched(words, 0, view.ghost);
   });
-  table.add({"shrink", "shrink FACTOR", "draws every cell of a volume mesh so large, 1 is its own size"}, [&view](Arguments words) {
+  table.add({"shrink", "shrink FACTOR|toggle", "draws every cell of a volume mesh so large, 1 is its own size"}, [&view](Arguments words) {
     need(words, 1, 1);
-    const double factor = to_number(words[0]);
+    constexpr double kUsual = 0.8;
+    const double factor = words[0] == "toggle" ? (view.shrink < 1.0 ? 1.0 : kUsual) : to_number(words[0]);
     if (!(factor > 0.0 && factor <= 1.0)) throw UsageError("the factor must be greater than 0 and at most 1");
     view.shrink = factor;
   });
@@ -87,7 +120,25 @@ void add_peel_verbs(CommandTable& table, ViewState& state) {
   });
 }
 
+/// "CX CY CZ HEIGHT RX RY RZ UX UY UZ"
+void set_orbit(ViewState& state, Arguments words) {
+  need(words, 10, 10);
+  const auto at = [&words](std::size_t k) { return Vec3{to_number(words[k]), to_number(words[k + 1]), to_number(words[k + 2])}; };
+  render::OrbitCamera orbit = state.orbit;
+  orbit.centre = at(0);
+  orbit.height = to_number(words[3]);
+  orbit.right = at(4);
+  orbit.up = at(7);
+  if (!orbit.is_valid()) throw UsageError("the height must be greater than 0, and the two directions of length 1 and at right angles");
+  state.orbit = orbit;
+  state.requests.fit = false;
+}
+
 void add_orbit_verbs(CommandTable& table, ViewState& state) {
+  table.add({"orbit", "orbit X Y Z HEIGHT RX RY RZ UX UY UZ",
+             "looks at that point of a volume mesh, so much of it from the lower to the upper border, with these directions to the right "
+             "and up"},
+            [&state](Arguments words) { set_orbit(state, words); });
   table.add({"view-from", "view-from iso|+x|-x|+y|-y|+z|-z", "looks at all of a volume mesh from there"}, [&state](Arguments words) {
     need(words, 1, 1);
     state.orbit.look_from(render::view_preset_from_name(words[0]));

@@ -6,8 +6,9 @@
 
 namespace dmoscope::ui {
 
-/// clip PLANE|off|flip | clip-mode crinkle|cut | peel N | peel-quality Q|off | keep-quality LO HI|off | worst-cells N|off | ghost-rest
-/// on|off | shrink F | show-all | view-from VIEW | turn DX DY | roll X Y X Y | perspective on|off | trackball on|off | orbit-about X Y Z
+/// clip PLANE|on|off|toggle|flip|next | clip-mode crinkle|cut|toggle | peel N|more|less | peel-quality Q|off | keep-quality LO HI|off |
+/// worst-cells N|off | ghost-rest on|off | shrink F | show-all | view-from VIEW | turn DX DY | roll X Y X Y | perspective on|off |
+/// trackball on|off | orbit-about X Y Z
 void add_inside_verbs(CommandTable& table, ViewState& state, const CommandHost& host);
 
 }  // namespace dmoscope::ui

@@ -50,7 +50,9 @@ void add_pane_verbs(CommandTable& table, ViewState& state) {
   table.add({"link-cameras", "link-cameras [on|off|toggle]", "all viewports look at the same place, or each for itself"},
             [&state](Arguments words) {
               need(words, 0, 1);
-              state.link_cameras(switched(words, 0, state.panes.linked));
+              const bool linked = switched(words, 0, state.panes.linked);
+              if (!linked && state.is_volume) throw UsageError("of a volume mesh all viewports share one camera");
+              state.link_cameras(linked);
             });
   table.add({"pane-camera", "pane-camera K X Y UNITS-PER-PIXEL", "as camera, for one viewport while they are not linked"},
             [&state](Arguments words) { set_camera(state, words); });

@@ -25,6 +25,8 @@ void PaneView::update_colours(const ViewState& state, std::shared_ptr<const Fram
   }
   worker_.update(state, *session_, std::move(reference));
   colours_ = worker_.colours();
+  // Around its vertices a volume has no colours of its own: quality is shown, and said.
+  if (is_volume() && colours_ && (!colours_->shading || colours_->shading->by != render::Shading::By::Elements)) colours_.reset();
 }
 
 void PaneView::update_stepping(bool busy) { stepping_.update(*session_, busy); }
@@ -58,6 +60,10 @@ render::SpaceMarks PaneView::space_marks(const ViewState& state) const {
     for (const Incidence& incidence : frame()->input->topology.star(picked.id)) marks.cells.push_back(incidence.element);
     marks.vertices = {picked.id};
   }
+  constexpr std::size_t kMostDots = 20'000;  // more of them cover the mesh
+  if (!state.selection.empty() && state.selection.vertices().size() <= kMostDots)
+    for (const Index v : state.selection.vertices())
+      if (v < frame()->vertex_count()) marks.vertices.push_back(v);
   if (state.worst_marker && !frame()->worst.empty()) marks.worst = frame()->worst.front().element;
   return marks;
 }

@@ -58,6 +58,7 @@ class PaneView {
   [[nodiscard]] bool is_volume() const noexcept { return frame() != nullptr && frame()->input->is_volume(); }
   /// Of a volume mesh; null until the first one.
   [[nodiscard]] render::VolumeScene* volume() noexcept { return volume_ ? &volume_->scene : nullptr; }
+  [[nodiscard]] const render::VolumeScene* volume() const noexcept { return volume_ ? &volume_->scene : nullptr; }
   /// Faces or elements there are to draw.
   [[nodiscard]] std::size_t drawn_count() const noexcept;
   /// What lies at a pixel of its picture.

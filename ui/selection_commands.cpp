@@ -75,7 +75,9 @@ void add_selection_verbs(CommandTable& table, ViewState& state, const CommandHos
   table.add({"brush", "brush [on|off|toggle]", "dragging selects vertices; with Shift it adds, with Ctrl it removes"},
             [&state](Arguments words) {
               need(words, 0, 1);
-              state.brush.on = switched(words, 0, state.brush.on);
+              const bool on = switched(words, 0, state.brush.on);
+              if (on && state.is_volume) throw UsageError("the brush is of planar meshes: select vertices of a volume mesh by their ids");
+              state.brush.on = on;
             });
   table.add({"brush-radius", "brush-radius PIXELS|up|down", "how wide the brush is, 2 to 200 at scale 1"}, [&state](Arguments words) {
     need(words, 1, 1);

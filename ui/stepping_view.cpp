@@ -136,8 +136,13 @@ std::string SteppingView::note(const ViewState& state, const SessionView& sessio
   const bool wanted = s.next_class || s.arrows != Reference::None || s.ghost != Reference::None || !state.selection.empty();
   if (wanted && frame->device) return "stepping is shown when the run rests";
   if (!state.selection.empty()) add(fmt::format("{} selected", count(state.selection.vertices().size())));
-  if (state.brush.on) add("brush");
+  if (state.brush.on && !state.is_volume) add("brush");
   if (s.click_smooths) add("a click smooths");
+  if (state.is_volume) {
+    if (s.next_class || s.arrows != Reference::None || s.ghost != Reference::None)
+      add("arrows, ghosts and the next class are drawn of planar meshes alone");
+    return text;
+  }
   if (s.next_class && frame->run < session.runs.size() && session.runs[frame->run].colouring) {
     const NextClass next = next_class(*session.runs[frame->run].colouring, frame->moment.visits);
     if (next.number > 0) add(fmt::format("next: class {} of {}, {} vertices", next.number, next.count, count(next.vertices.size())));

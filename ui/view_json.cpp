@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <set>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -40,6 +41,7 @@ class Writer {
   void range(const char* name, const std::optional<std::pair<double, double>>& value) {
     json_[name] = value ? json{value->first, value->second} : json();
   }
+  void vector(const char* name, const Vec3& value) { json_[name] = {value.x, value.y, value.z}; }
   void words(const char* name, const std::set<std::string>& value) { json_[name] = value; }
   void ids(const char* name, const Selection& value) { json_[name] = id_ranges(value.vertices()); }
   void content(const char* name, const PaneContent& value, const Panes& panes) { json_[name] = panes.words(value); }
@@ -101,6 +103,13 @@ class Reader {
     const double low = pair ? (*at)[0].get<double>() : NAN, high = pair ? (*at)[1].get<double>() : NAN;
     if (!(low < high)) wrong(name, "null, or two numbers of which the second is greater");
     value = {low, high};
+  }
+  void vector(const char* name, Vec3& value) {
+    const json* at = find(name);
+    if (at == nullptr) return;
+    const bool three = at->is_array() && at->size() == 3 && std::ranges::all_of(*at, [](const json& one) { return one.is_number(); });
+    if (!three) wrong(name, "three numbers");
+    value = {(*at)[0].get<double>(), (*at)[1].get<double>(), (*at)[2].get<double>()};
   }
   void words(const char* name, std::set<std::string>& value) {
     const json* at = find(name);
@@ -222,6 +231,48 @@ void describe_camera(Archive& archive, Camera& camera) {
   archive.number("units_per_pixel", camera.units_per_pixel, 1e-300, kFar);
 }
 
+constexpr std::array<std::pair<std::string_view, ClipPlane::Mode>, 2> kClipModes{
+    {{"crinkle", ClipPlane::Mode::Crinkle}, {"cut", ClipPlane::Mode::Cut}}};
+
+/// What is seen of a volume mesh. Qualities in double, as the numbers of JSON are.
+template <class Archive, class View>
+void describe_inside(Archive& archive, View& view) {
+  archive.object("clip", [&view](auto& clip) {
+    clip.flag("on", view.clip.on);
+    clip.vector("normal", view.clip.normal);
+    clip.number("offset", view.clip.offset, -kFar, kFar);
+    clip.flag("flip", view.clip.flip);
+    clip.choice("mode", view.clip.mode, kClipModes);
+  });
+  archive.count("peel", view.peel, kNoIndex - 1);
+  std::optional<std::pair<double, double>> keep;
+  if (view.isolate) keep = *view.isolate;
+  bool by_quality = view.peel_quality.has_value();
+  double quality = by_quality ? static_cast<double>(*view.peel_quality) : 1.0;
+  archive.flag("peel_by_quality", by_quality);
+  archive.number("peel_quality", quality, -kFar, kFar);
+  archive.range("keep_quality", keep);
+  archive.count("worst", view.worst, kNoIndex);
+  archive.flag("ghost", view.ghost);
+  archive.number("shrink", view.shrink, 1e-6, 1.0);
+  if constexpr (!std::is_const_v<View>) {
+    view.peel_quality = by_quality ? std::optional(static_cast<float>(quality)) : std::nullopt;
+    view.isolate.reset();
+    if (keep) view.isolate = std::pair{static_cast<float>(keep->first), static_cast<float>(keep->second)};
+  }
+}
+
+template <class Archive, class State>
+void describe_volume(Archive& archive, State& state) {
+  archive.vector("centre", state.orbit.centre);
+  archive.number("height", state.orbit.height, 1e-150, 1e150);
+  archive.vector("right", state.orbit.right);
+  archive.vector("up", state.orbit.up);
+  archive.flag("perspective", state.orbit.perspective);
+  archive.flag("trackball", state.trackball);
+  archive.object("inside", [&state](auto& inside) { describe_inside(inside, state.inside); });
+}
+
 template <class Archive, class Panes>
 void describe_panes(Archive& archive, Panes& panes) {
   archive.choice("layout", panes.layout, kPaneLayouts);
@@ -268,6 +319,7 @@ void describe_stepping(Archive& archive, State& state) {
 template <class Archive, class State>
 void describe(Archive& archive, State& state) {
   archive.object("camera", [&state](auto& camera) { describe_camera(camera, state.camera); });
+  archive.object("volume", [&state](auto& volume) { describe_volume(volume, state); });
   archive.object("viewports", [&state](auto& viewports) { describe_panes(viewports, state.panes); });
   archive.flag("wireframe", state.wireframe);
   archive.flag("vertices", state.vertices);
@@ -295,6 +347,9 @@ void describe(Archive& archive, State& state) {
 
 void check(const ViewState& state, const Mesh* mesh) {
   if (!(state.range_low < state.range_high)) throw UsageError("view.colours.range_high: it must be greater than range_low");
+  if (!state.orbit.is_valid()) throw UsageError("view.volume.right, up: expected directions of length 1 and at right angles");
+  const double normal = length(state.inside.clip.normal);
+  if (!(normal > 0.0) || !std::isfinite(normal)) throw UsageError("view.volume.inside.clip.normal: expected a direction");
   const auto [kind, id] = state.picked;
   if (kind == Picked::Kind::None) return;
   const std::uint64_t size = mesh == nullptr ? 0 : kind == Picked::Kind::Vertex ? mesh->vertex_count() : mesh->elements.size();

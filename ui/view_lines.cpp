@@ -1,6 +1,10 @@
 #include "ui/view_lines.h"
 
+#include <utility>
+
 #include <fmt/format.h>
+
+#include "ui/inside_text.h"
 
 namespace dmoscope::ui {
 
@@ -38,6 +42,10 @@ std::vector<std::string> view_lines(const ViewState& state, bool with_camera) {
     lines.push_back(fmt::format("pane-camera {} {} {} {}", k + 1, pane.camera.centre.x, pane.camera.centre.y, pane.camera.units_per_pixel));
   }
   if (!panes.one()) lines.push_back(fmt::format("focus-pane {}", panes.focus + 1));
+  if (state.is_volume) {
+    for (std::string& line : inside_lines(state, with_camera)) lines.push_back(std::move(line));
+    return lines;
+  }
   const render::Camera2D& camera = state.camera;
   if (with_camera) lines.push_back(fmt::format("camera {} {} {}", camera.centre.x, camera.centre.y, camera.units_per_pixel));
   return lines;

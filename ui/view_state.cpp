@@ -68,6 +68,7 @@ void ViewState::focus_pane(std::size_t pane) {
 }
 
 void ViewState::follow(const SessionView& session) {
+  is_volume = session.input && session.input->is_volume();
   focus_pane(panes.follow(session));
   PaneContent& reference = colouring.reference;
   using Kind = PaneContent::Kind;

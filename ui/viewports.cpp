@@ -274,6 +274,10 @@ PaneFacts Viewports::facts_of_pane(ViewState& state, std::size_t pane, const Rec
   facts.inspected = inspected(state, pane);
   facts.reduced = view.frame() != nullptr && !view.complete();
   facts.lacks_room = view.labels_lack_room();
+  if (const render::VolumeScene* volume = view.volume(); volume != nullptr && view.is_volume()) {
+    facts.cells_seen = volume->faces().visible_cells;
+    facts.box = volume->bounds();
+  }
   if (facts.focus) facts.stepping_note = view.stepping().note(state, *view.session());
   return facts;
 }

@@ -29,10 +29,12 @@ struct PaneFacts {
   std::span<const render::Label> labels;
   render::Camera2D camera;
   unsigned texture = 0;
-  bool focus = false;       // the active one
-  bool inspected = false;   // where the search that is looked into is shown
-  bool reduced = false;     // drawn with fewer elements just now
-  bool lacks_room = false;  // for labels
+  bool focus = false;                     // the active one
+  bool inspected = false;                 // where the search that is looked into is shown
+  bool reduced = false;                   // drawn with fewer elements just now
+  bool lacks_room = false;                // for labels
+  std::optional<std::size_t> cells_seen;  // of a volume mesh, of all its elements
+  render::Bounds3 box;                    // of it
   std::string stepping_note;
   [[nodiscard]] const Frame* frame() const { return session->frame.get(); }
   [[nodiscard]] const RunView* run() const { return session->runs.empty() ? nullptr : &session->runs[session->active]; }

@@ -6,13 +6,14 @@
 
 namespace dmoscope {
 
-double signed_volume(const Mesh& mesh, Index element) {
-  const ElementTable& elements = mesh.elements;
-  const Vec3 origin = mesh.positions[elements.corners(element)[0]];
+double signed_volume(const Mesh& mesh, Index element) { return signed_volume(mesh.elements, mesh.positions, element); }
+
+double signed_volume(const ElementTable& elements, std::span<const Vec3> positions, Index element) {
+  const Vec3 origin = positions[elements.corners(element)[0]];
   double six = 0.0;
   for (Index f = 0; f < faces_of(elements.kind(element)).size(); ++f) {
     const auto vertices = vertices_of(elements, {element, f});
-    const auto at = [&](Index i) { return mesh.positions[vertices[i]] - origin; };
+    const auto at = [&](Index i) { return positions[vertices[i]] - origin; };
     if (vertices[3] == kNoIndex) {
       six += dot(at(0), cross(at(1), at(2)));
       continue;

@@ -22,6 +22,15 @@ ViewState some_view() {
   state.plots[1].hidden = {"dmo", "a \"quoted\" one"};
   state.timeline.play.speed = 2.5;
   state.picked = {Picked::Kind::Vertex, 7};
+  state.orbit = {{1e-9, 2.0, 1.0 / 3.0}, 7.5, {0, 1, 0}, {0, 0, 1}, true};
+  state.trackball = true;
+  state.inside.clip = {true, {0.0, -3.0, 4.0}, 0.1, true, ClipPlane::Mode::Cut};
+  state.inside.peel = 2;
+  state.inside.peel_quality = 0.3F;
+  state.inside.isolate = std::pair{0.1F, 0.7F};
+  state.inside.worst = 12;
+  state.inside.ghost = true;
+  state.inside.shrink = 0.7;
   return state;
 }
 
@@ -39,6 +48,9 @@ TEST(ViewJson, ComesBackAsItWas) {
   EXPECT_EQ(read.plots, state.plots);
   EXPECT_EQ(read.timeline.play.speed, 2.5);
   EXPECT_EQ(read.picked, state.picked);
+  EXPECT_EQ(read.orbit, state.orbit);
+  EXPECT_TRUE(read.trackball);
+  EXPECT_EQ(read.inside, state.inside);
   EXPECT_EQ(view_json(read), view_json(state));
   EXPECT_EQ(view_json(state).find('\n'), std::string::npos);
 }
@@ -66,6 +78,10 @@ TEST(ViewJson, WhatMakesNoSenseIsNamedAndChangesNothing) {
       {R"({"wireframe": false, "camera": {"units_per_pixel": 0}})", "view.camera.units_per_pixel: "},
       {R"({"wireframe": false, "camera": {"x": "left"}})", "view.camera.x: "},
       {R"({"wireframe": false, "colormap": "rainbow"})", "view.colormap: expected one of viridis"},
+      {R"({"wireframe": false, "volume": {"centre": [1, 2]}})", "view.volume.centre: "},
+      {R"({"wireframe": false, "volume": {"up": [1, 0, 0]}})", "view.volume.right, up: "},
+      {R"({"wireframe": false, "volume": {"inside": {"shrink": 0}}})", "view.volume.inside.shrink: "},
+      {R"({"wireframe": false, "volume": {"inside": {"clip": {"normal": [0, 0, 0]}}}})", "view.volume.inside.clip.normal: "},
       {R"({"wireframe": false, "colormap": 3})", "view.colormap: "},
       {R"({"wireframe": false, "plots": {"sorted": {"x_range": [1, 0]}}})", "view.plots.sorted.x_range: "},
       {R"({"wireframe": false, "plots": {"sorted": {"hidden": [1]}}})", "view.plots.sorted.hidden: "},

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "ui/element_colours.h"
 #include "ui/format.h"
 #include "ui/panels/panels.h"
 
@@ -33,11 +34,12 @@ void draw_colour_by(PanelContext& context) {
   if (!open) return;
   const bool no_groups = context.session.input && context.session.input->mesh.groups.empty();
   for (const ColourByInfo& one : kColourBys) {
-    const bool possible = one.by != ColourBy::Group || !no_groups;
+    const auto not_drawn = context.session.input ? why_not_drawn(one.by, *context.session.input) : std::nullopt;
+    const bool possible = !not_drawn && (one.by != ColourBy::Group || !no_groups);
     const int flags = possible ? 0 : ImGuiSelectableFlags_Disabled;
     if (ImGui::Selectable(std::string(one.title).c_str(), one.by == now, flags)) context.send(fmt::format("color-by {}", one.name));
     context.items.record_last(fmt::format("color-by:{}", one.name));
-    next_item_tooltip(possible ? std::string(one.doc) : "the mesh has no groups or markers");
+    next_item_tooltip(possible ? std::string(one.doc) : not_drawn ? *not_drawn : "the mesh has no groups or markers");
   }
   ImGui::EndCombo();
 }
@@ -144,11 +146,13 @@ void draw_colours(PanelContext& context) {
   metric_combo(context, "shown", context.session.shown, "show");
   draw_map(context);
   draw_range(context);
-  labelled(context, "labels", "ids, where there is room for them");
+  labelled(context, "labels", context.state.is_volume ? "ids are written on planar meshes alone" : "ids, where there is room for them");
+  ImGui::BeginDisabled(context.state.is_volume);
   static constexpr std::array<std::pair<std::string_view, int>, 4> kLabels{{{"off", 0}, {"vertices", 1}, {"elements", 2}, {"both", 3}}};
   const ColouringState& state = context.state.colouring;
   word_combo(context, "labels", kLabels, {"none", "vertices", "elements", "both"},
              (state.label_vertices ? 1 : 0) + (state.label_elements ? 2 : 0), "labels");
+  ImGui::EndDisabled();
   ImGui::Dummy({0, context.px(4)});
   heading(context, "Filter");
   draw_filter(context);

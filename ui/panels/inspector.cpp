@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/mesh/volume.h"
 #include "core/quality/quality.h"
 #include "ui/format.h"
 #include "ui/panels/panels.h"
@@ -34,6 +35,10 @@ void draw_mesh(PanelContext& context, const Frame& frame) {
   if (!mesh.title.empty() && mesh.title != mesh.name) dim_text(context, mesh.title);
   dim_text(context, kinds_sentence(context.derived));
   value_row(context, "vertices", count(mesh.vertex_count()));
+  if (frame.input->is_volume()) {
+    value_row(context, "faces", count(frame.input->faces.face_count()));
+    value_row(context, "on the boundary", count(frame.input->faces.boundary().size()), {}, {}, "faces of one element alone");
+  }
   if (const RunView* run = context.run()) value_row(context, "free", count(run->free_vertices), {}, {}, "vertices that may move");
   if (!context.derived.mesh_facts.empty()) dim_text(context, "found in the input:");
   for (const std::string& fact : context.derived.mesh_facts) {
@@ -69,7 +74,7 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
   const std::string full = fmt::format("{} {} {}", full_number(at.x), full_number(at.y), full_number(at.z));
   value_row(context, "x", fmt::format("{:.8g}", at.x), full);
   value_row(context, "y", fmt::format("{:.8g}", at.y), full);
-  if (at.z != 0.0) value_row(context, "z", fmt::format("{:.8g}", at.z), full);
+  if (at.z != 0.0 || context.state.is_volume) value_row(context, "z", fmt::format("{:.8g}", at.z), full);
   const bool boundary = topology.boundary()[vertex] != 0;
   const bool fixed = run != nullptr && vertex < run->fixed.size() && run->fixed[vertex] != 0;
   value_row(context, "may move",
@@ -155,6 +160,8 @@ void draw_element(PanelContext& context, const Frame& frame, Index element) {
   const ElementTable& elements = frame.input->mesh.elements;
   value_row(context, "kind", std::string(info(elements.kind(element)).name));
   if (context.derived.facts.inverted) value_row(context, "inverted", "yes", {}, context.palette.error);
+  if (frame.input->is_volume() && !frame.positions.empty())
+    number_row(context, "volume", signed_volume(elements, frame.positions, element), "negative where it is inside out");
   dim_text(context, "corners", false);
   for (const Index corner : elements.corners(element)) {
     ImGui::SameLine();

@@ -1,5 +1,6 @@
 // Menu bar and tool bar, both from the table of actions.
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -8,6 +9,19 @@
 
 namespace dmoscope::ui {
 namespace {
+
+/// Of the actions of a volume's inside.
+bool inside_checked(const ViewState& state, std::string_view id) {
+  const InsideView& view = state.inside;
+  if (id == "inside-clip") return view.clip.on;
+  if (id == "inside-flip") return view.clip.flip;
+  if (id == "inside-cut") return view.clip.mode == ClipPlane::Mode::Cut;
+  if (id == "inside-shrink") return view.shrink < 1.0;
+  if (id == "inside-worst") return view.worst > 0;
+  if (id == "inside-ghost") return view.ghost;
+  if (id == "from-perspective") return state.orbit.perspective;
+  return id == "from-trackball" && state.trackball;
+}
 
 bool is_checked(const ViewState& state, std::string_view id) {
   if (id == "wireframe") return state.wireframe;
@@ -37,7 +51,8 @@ bool is_checked(const ViewState& state, std::string_view id) {
   for (const auto& [name, layout] : kPaneLayouts) {
     if (id.starts_with("viewports-") && id.substr(10) == name) return state.panes.layout == layout;
   }
-  if (id == "link-cameras") return state.panes.linked;
+  if (id == "link-cameras") return state.panes.linked || state.is_volume;
+  if (state.is_volume && (id.starts_with("inside-") || id.starts_with("from-"))) return inside_checked(state, id);
   if (id == "panel-left") return state.panels.left;
   if (id == "panel-right") return state.panels.right;
   if (id == "panel-bottom") return state.panels.bottom;
@@ -64,17 +79,49 @@ void draw_recent(PanelContext& context) {
   ImGui::EndMenu();
 }
 
+void draw_entry(PanelContext& context, const Action& action) {
+  if (action.separator) ImGui::Separator();
+  const std::string title = fmt::format("{}###{}", title_of(action, context.situation()), action.id);
+  if (ImGui::MenuItem(title.c_str(), std::string(action.key).c_str(), is_checked(context.state, action.id),
+                      enabled(action, context.situation()))) {
+    context.send(std::string(action.command));
+  }
+  context.items.record_last(fmt::format("menu:{}", action.id));
+}
+
+/// Actions that share a menu of their own within another one, by how their ids begin.
+struct Submenu {
+  std::string_view prefix;
+  const char* title;
+};
+constexpr std::array<Submenu, 2> kSubmenus{{{"inside-", "Inside"}, {"from-", "Look from"}}};
+
+const Submenu* submenu_of(const Action& action) {
+  const auto* const at = std::ranges::find_if(kSubmenus, [&](const Submenu& one) { return action.id.starts_with(one.prefix); });
+  return at == kSubmenus.end() ? nullptr : at;
+}
+
+void draw_submenu(PanelContext& context, const Submenu& submenu) {
+  const bool open = ImGui::BeginMenu(submenu.title, context.state.is_volume);
+  context.items.record_last(fmt::format("menu:{}", submenu.title));
+  if (!context.state.is_volume) next_item_tooltip("of meshes of volume elements");
+  if (!open) return;
+  for (const Action& action : actions())
+    if (submenu_of(action) == &submenu) draw_entry(context, action);
+  ImGui::EndMenu();
+}
+
 void draw_entries(PanelContext& context, std::string_view menu) {
   const bool had_sample = menu == "File";
+  const Submenu* last = nullptr;
   for (const Action& action : actions()) {
     if (action.menu != menu || action.id.starts_with("sample-")) continue;
-    if (action.separator) ImGui::Separator();
-    const std::string title = fmt::format("{}###{}", title_of(action, context.situation()), action.id);
-    if (ImGui::MenuItem(title.c_str(), std::string(action.key).c_str(), is_checked(context.state, action.id),
-                        enabled(action, context.situation()))) {
-      context.send(std::string(action.command));
+    if (const Submenu* submenu = submenu_of(action)) {
+      if (submenu != last) draw_submenu(context, *submenu);
+      last = submenu;
+      continue;
     }
-    context.items.record_last(fmt::format("menu:{}", action.id));
+    draw_entry(context, action);
     if (action.id == "open" && had_sample) {
       draw_recent(context);
       if (ImGui::BeginMenu("Samples")) {

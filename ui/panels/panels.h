@@ -51,6 +51,13 @@ struct RangeGrip {
   float pressed_at = 0;                    // pixels
 };
 
+/// A part of the view of a volume's inside while the mouse holds it: shown at once, and told as one command when it is let go.
+struct InsideGrip {
+  bool held = false;
+  InsideView before;        // when it was taken
+  Vec2<double> pressed_at;  // pixels, of the clip plane's handle
+};
+
 /// What the log's dialog shows.
 struct LogWidgets {
   std::string filter, script_name = "session.txt";
@@ -89,6 +96,8 @@ struct WidgetState {
   std::string session_name;
   RecentFiles recent;
   RangeGrip range_grip;
+  InsideGrip inside_grip;
+  std::size_t worst_cells = 50;       // how many "only the worst" means
   std::vector<Thumbnail> thumbnails;  // of the samples, made when the start page is first shown
   int screenshot_width = 0, screenshot_height = 0, screenshot_supersample = 2;
   bool screenshot_transparent = false, screenshot_window = false;
@@ -165,6 +174,11 @@ void draw_parameters(PanelContext& context);
 /// Of the active run, as a part of its parameters: a second phase, and a second aim.
 void draw_aims(PanelContext& context, const RunView& run);
 void draw_colours(PanelContext& context);
+/// What is seen of a volume mesh, and from where; nothing of another one.
+void draw_inside(PanelContext& context);
+/// The clip plane in a viewport: what of it takes the mouse, to be called before whatever lies below it; and its picture.
+void handle_clip_plane(PanelContext& context, const PaneFacts& pane);
+void draw_clip_plane(const PanelContext& context, const PaneFacts& pane);
 void draw_inspector(PanelContext& context);
 void draw_worst(PanelContext& context);
 void draw_inspection(PanelContext& context);

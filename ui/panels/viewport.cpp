@@ -148,7 +148,8 @@ void draw_vertex_entries(PanelContext& context, Index vertex) {
   copy_entry(context, "vertex id", fmt::format("{}", vertex), fmt::format("{}", vertex));
   if (facts.picked.kind == Picked::Kind::None) return;  // a device that tells nothing
   const Vec3 at = facts.at;
-  copy_entry(context, "vertex coordinates", fmt::format("{:.6g}, {:.6g}", at.x, at.y),
+  const std::string height = context.state.is_volume ? fmt::format(", {:.6g}", at.z) : "";
+  copy_entry(context, "vertex coordinates", fmt::format("{:.6g}, {:.6g}{}", at.x, at.y, height),
              fmt::format("{} {} {}", full_number(at.x), full_number(at.y), full_number(at.z)));
   copy_entry(context, "vertex quality", short_number(facts.now), full_number(facts.now));
 }
@@ -181,10 +182,12 @@ void draw_context_menu(PanelContext& context) {
   if (vertex != kNoIndex && element != kNoIndex) ImGui::Separator();
   if (element != kNoIndex) draw_element_entries(context, element);
   if (vertex != kNoIndex || element != kNoIndex) ImGui::Separator();
-  for (const char* id : {"smooth-selected", "fix-selected", "step-iteration", "run-pause", "reset", "fit", "wireframe", "vertices",
-                         "worst-marker", "screenshot"}) {
+  for (const char* id : {"smooth-selected", "fix-selected", "step-iteration", "run-pause", "reset", "fit", "inside-clip", "inside-worst",
+                         "inside-all", "wireframe", "vertices", "worst-marker", "screenshot"}) {
     const Action& action = *find_action(id);
     if (action.needs == Needs::Selected && !context.situation().selected) continue;
+    if (action.needs == Needs::Volume && !context.state.is_volume) continue;
+    if (action.needs == Needs::Planar && context.state.is_volume) continue;
     if (ImGui::MenuItem(std::string(action.title).c_str(), std::string(action.key).c_str(), false, enabled(action, context.situation()))) {
       context.send(std::string(action.command));
     }
@@ -316,6 +319,7 @@ void handle_pane(PanelContext& context, const PaneFacts& pane) {
   }
   ImGui::PushID(static_cast<int>(pane.number));
   if (!one) handle_pane_title(context, pane);
+  handle_clip_plane(context, pane);
   ImGui::SetCursorScreenPos({clip.x, clip.y});
   ImGui::InvisibleButton("mesh", {clip.w, clip.h},
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
@@ -341,6 +345,7 @@ void draw_pane(PanelContext& context, const PaneFacts& pane) {
     draw_field_in_view(context, pane);
     if (pane.inspected) draw_level_label(context, pane);
   }
+  draw_clip_plane(context, pane);
   const bool plain = context.state.panes.one() && pane.session->frame == context.session.frame;
   if (plain) {
     draw_title(context, pane);

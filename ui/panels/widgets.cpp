@@ -9,9 +9,14 @@
 namespace dmoscope::ui {
 
 Situation PanelContext::situation() const {
-  return {
-      session.input != nullptr, activity.busy,     state.picked.kind != Picked::Kind::None, session.runs.size(), !state.selection.empty(),
-      session.undo_label,       session.redo_label};
+  return {session.input != nullptr,
+          activity.busy,
+          state.picked.kind != Picked::Kind::None,
+          session.runs.size(),
+          !state.selection.empty(),
+          session.undo_label,
+          session.redo_label,
+          state.is_volume};
 }
 
 void begin_panel(const char* name, const Rect& rect, bool overlay, bool scrolls) {

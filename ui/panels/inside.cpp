@@ -1,0 +1,242 @@
+// Right, for volume meshes: what of the mesh is seen, and from where.
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/quality/quality.h"
+#include "ui/format.h"
+#include "ui/inside_text.h"
+#include "ui/panels/panels.h"
+
+namespace dmoscope::ui {
+namespace {
+
+/// The viewport that commands are about.
+const PaneFacts* active_pane(const PanelContext& context) {
+  for (const PaneFacts& pane : context.panes)
+    if (pane.focus && pane.cells_seen) return &pane;
+  return nullptr;
+}
+
+/// After a slider: what it was moved to is seen at once, and becomes one command when it is let go. `show` changes the view, `line` tells
+/// the command.
+template <class Show, class Line>
+void hold(PanelContext& context, bool changed, Show show, Line line) {
+  InsideGrip& grip = context.widgets.inside_grip;
+  InsideView& view = context.state.inside;
+  if (ImGui::IsItemActivated()) grip = {true, view, {}};
+  if (changed) {
+    show(view);
+    context.widgets.moved_at = context.now;
+  }
+  if (!ImGui::IsItemDeactivated() || !grip.held) return;
+  grip.held = false;
+  if (view == grip.before) return;
+  const std::string command = line();
+  view = grip.before;  // the command is what changes it
+  context.send(command);
+}
+
+bool slider(const char* item, double& value, double low, double high, const char* format) {
+  return ImGui::SliderScalar(fmt::format("##{}", item).c_str(), ImGuiDataType_Double, &value, &low, &high, format,
+                             ImGuiSliderFlags_AlwaysClamp);
+}
+
+/// A button that stays pressed.
+bool toggle_button(PanelContext& context, const char* item, const char* label, bool pressed, const char* tip) {
+  if (pressed) {
+    ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent));
+    ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.on_accent));
+  }
+  const bool hit = ImGui::Button(fmt::format("{}##{}", label, item).c_str());
+  if (pressed) ImGui::PopStyleColor(2);
+  context.items.record_last(item);
+  next_item_tooltip(tip);
+  return hit;
+}
+
+void draw_clip(PanelContext& context, const render::Bounds3& box) {
+  ClipPlane& clip = context.state.inside.clip;
+  const auto across = axis_plane(clip, box);
+  labelled(context, "clip plane", "takes away what lies on one side of a plane; its handle in the view can be dragged   J");
+  bool on = clip.on;
+  if (ImGui::Checkbox("##clip", &on)) context.send(on ? "clip on" : "clip off");
+  context.items.record_last("inside:clip");
+  for (int axis = 0; axis < 3; ++axis) {
+    ImGui::SameLine(0, context.px(5));
+    const std::string name = axis_name(axis, false);
+    const bool pressed = clip.on && across && across->axis == axis;
+    if (toggle_button(context, fmt::format("inside:{}", name).c_str(), name.c_str(), pressed, "across this axis"))
+      context.send(fmt::format("clip {}:{:.4g}", axis_name(axis, clip.on && across && across->flip),
+                               clip.on && across ? std::clamp(across->fraction, 0.0, 1.0) : 0.5));
+  }
+  ImGui::SameLine(0, context.px(5));
+  ImGui::BeginDisabled(!clip.on);
+  const bool flipped = clip.on && across && across->flip;
+  if (toggle_button(context, "inside:flip", "flip", flipped, "takes the other side away   Shift+J")) context.send("clip flip");
+  if (clip.on) {
+    labelled(context, "place", "from the lower to the upper end of the mesh; Ctrl+click to type");
+    const auto ends = span_of(clip, box);
+    const double low = ends.first, high = ends.second, span = high - low;
+    double fraction = across ? across->fraction : span > 0.0 ? (clip.offset - low) / span : 0.5;
+    const double side = across && clip.normal.x + clip.normal.y + clip.normal.z < 0.0 ? -1.0 : 1.0;
+    const bool moved = slider("place", fraction, 0.0, 1.0, "%.3f");
+    context.items.record_last("inside:place");
+    hold(
+        context, moved, [&](InsideView& view) { view.clip.offset = side > 0.0 ? low + fraction * span : high - fraction * span; },
+        [&] { return clip_command(clip, box); });
+    labelled(context, "cells", "at the plane");
+    const bool cut = clip.mode == ClipPlane::Mode::Cut;
+    if (toggle_button(context, "inside:whole", "whole", !cut, "those that the plane passes through stay whole   Alt+J"))
+      context.send("clip-mode crinkle");
+    ImGui::SameLine(0, context.px(5));
+    if (toggle_button(context, "inside:cut", "cut", cut, "those that the plane passes through are cut   Alt+J"))
+      context.send("clip-mode cut");
+  }
+  ImGui::EndDisabled();
+}
+
+void draw_peel(PanelContext& context) {
+  InsideView& view = context.state.inside;
+  labelled(context, "layers off", "so many layers of cells are taken off the boundary   Y, Shift+Y; Ctrl+click to type");
+  int layers = static_cast<int>(std::min<Index>(view.peel, 1'000'000));
+  const float button = ImGui::GetFrameHeight(), gap = context.px(4);
+  ImGui::SetNextItemWidth(std::max(4 * context.em(), ImGui::GetContentRegionAvail().x - 2 * (button + gap)));
+  const bool moved = ImGui::SliderInt("##peel", &layers, 0, std::max(20, layers));
+  context.items.record_last("inside:peel");
+  hold(
+      context, moved, [&](InsideView& shown) { shown.peel = static_cast<Index>(std::max(layers, 0)); },
+      [&] { return fmt::format("peel {}", view.peel); });
+  ImGui::SameLine(0, gap);
+  ImGui::BeginDisabled(view.peel == 0);
+  if (ImGui::Button("-##peel", {button, 0})) context.send("peel less");
+  context.items.record_last("inside:peel-less");
+  ImGui::EndDisabled();
+  ImGui::SameLine(0, gap);
+  if (ImGui::Button("+##peel", {button, 0})) context.send("peel more");
+  context.items.record_last("inside:peel-more");
+}
+
+/// Which qualities are seen: two sliders, each off at its end.
+void draw_qualities(PanelContext& context) {
+  InsideView& view = context.state.inside;
+  const MetricInfo& metric = info(context.session.shown);
+  const double low = std::max(0.0, metric.lowest), high = metric.highest;
+  const std::string tip = fmt::format("of the shown metric, {}; at its end: off", metric_phrase(context.session.shown));
+  labelled(context, "hide better", ("takes cells of a higher quality away; inverted ones stay; " + tip).c_str());
+  double most = view.peel_quality ? static_cast<double>(*view.peel_quality) : high;
+  bool moved = slider("hide-better", most, low, high, view.peel_quality ? "> %.3f" : "off");
+  context.items.record_last("inside:hide-better");
+  const auto peel_to = [high](double value) { return value < high ? std::optional(static_cast<float>(value)) : std::nullopt; };
+  hold(
+      context, moved, [&](InsideView& shown) { shown.peel_quality = peel_to(most); },
+      [&] { return view.peel_quality ? fmt::format("peel-quality {:.4g}", *view.peel_quality) : std::string("peel-quality off"); });
+
+  labelled(context, "hide worse", ("takes cells of a lower quality away, and inverted ones; " + tip).c_str());
+  double least = view.isolate ? static_cast<double>(view.isolate->first) : low;
+  const float upper = view.isolate ? view.isolate->second : static_cast<float>(high);
+  moved = slider("hide-worse", least, low, std::max(low, static_cast<double>(upper)), view.isolate ? "< %.3f" : "off");
+  context.items.record_last("inside:hide-worse");
+  hold(
+      context, moved,
+      [&](InsideView& shown) {
+        shown.isolate = least > low ? std::optional(std::pair{static_cast<float>(least), upper}) : std::nullopt;
+      },
+      [&] {
+        return view.isolate ? fmt::format("keep-quality {:.4g} {:.4g}", view.isolate->first, view.isolate->second)
+                            : std::string("keep-quality off");
+      });
+}
+
+void draw_worst_cells(PanelContext& context) {
+  const InsideView& view = context.state.inside;
+  std::size_t& wanted = context.widgets.worst_cells;
+  if (view.worst > 0) wanted = view.worst;
+  labelled(context, "only worst", "only so many of the worst cells are seen, in a faint boundary of the rest   Q");
+  bool on = view.worst > 0;
+  if (ImGui::Checkbox("##only-worst", &on)) context.send(on ? fmt::format("worst-cells {}", wanted) : "worst-cells off");
+  context.items.record_last("inside:worst");
+  ImGui::SameLine(0, context.px(5));
+  ImGui::SetNextItemWidth(-1);
+  int number = static_cast<int>(std::min<std::size_t>(wanted, 1'000'000));
+  const int before = number;
+  ImGui::InputInt("##worst-cells", &number, 10, 100, ImGuiInputTextFlags_EnterReturnsTrue);
+  context.items.record_last("inside:worst-number");
+  if (number != before && (ImGui::IsItemDeactivatedAfterEdit() || !ImGui::IsItemActive())) {
+    wanted = static_cast<std::size_t>(std::max(number, 1));
+    if (view.worst > 0) context.send(fmt::format("worst-cells {}", wanted));
+  }
+}
+
+void draw_looks(PanelContext& context) {
+  InsideView& view = context.state.inside;
+  labelled(context, "faint rest", "the boundary of what was taken away is seen faintly   Alt+Q");
+  bool ghost = view.ghost;
+  if (ImGui::Checkbox("##ghost-rest", &ghost)) context.send(ghost ? "ghost-rest on" : "ghost-rest off");
+  context.items.record_last("inside:ghost");
+  labelled(context, "shrink", "every cell is drawn that large about its middle, so that one sees between them   E");
+  double shrink = view.shrink;
+  const bool moved = slider("shrink", shrink, 0.1, 1.0, "%.2f");
+  context.items.record_last("inside:shrink");
+  hold(
+      context, moved, [&](InsideView& shown) { shown.shrink = std::clamp(shrink, 0.1, 1.0); },
+      [&] { return fmt::format("shrink {:.3g}", view.shrink); });
+}
+
+void draw_from(PanelContext& context) {
+  const render::OrbitCamera& orbit = context.state.orbit;
+  ImGui::AlignTextToFramePadding();
+  dim_text(context, "look from", false);
+  for (const render::ViewPresetInfo& preset : render::view_preset_table()) {
+    ImGui::SameLine(0, context.px(4));
+    const std::string name(preset.name);
+    const float width = ImGui::CalcTextSize(name.c_str()).x + context.px(8);
+    if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+    if (ImGui::Button(fmt::format("{}##from", name).c_str(), {width, 0})) context.send("view-from " + name);
+    context.items.record_last("from:" + name);
+    next_item_tooltip("all of the mesh from there");
+  }
+  bool perspective = orbit.perspective, trackball = context.state.trackball;
+  if (ImGui::Checkbox("perspective", &perspective)) context.send(perspective ? "perspective on" : "perspective off");
+  context.items.record_last("inside:perspective");
+  next_item_tooltip("what is farther away looks smaller   Alt+E");
+  ImGui::SameLine(0, context.px(12));
+  if (ImGui::Checkbox("roll freely", &trackball)) context.send(trackball ? "trackball on" : "trackball off");
+  context.items.record_last("inside:trackball");
+  next_item_tooltip("a drag rolls the mesh as a ball instead of turning it about the upright axis");
+}
+
+}  // namespace
+
+void draw_inside(PanelContext& context) {
+  const PaneFacts* pane = active_pane(context);
+  if (!context.state.is_volume || pane == nullptr) return;
+  heading(context, "Inside");
+  ImGui::SameLine();
+  const std::size_t all = pane->frame()->element_count();
+  dim_text(context, *pane->cells_seen == all ? "all cells seen" : fmt::format("{} of {} cells", count(*pane->cells_seen), count(all)),
+           false);
+  context.items.record_last("inside:count");
+  draw_clip(context, pane->box);
+  draw_peel(context);
+  draw_qualities(context);
+  draw_worst_cells(context);
+  draw_looks(context);
+  draw_from(context);
+  // What is isolated of the histogram takes cells away, too.
+  const ColouringState& colouring = context.state.colouring;
+  const bool isolated = colouring.filter && colouring.others == render::Selection::Others::Hide;
+  ImGui::BeginDisabled(context.state.inside == InsideView{} && !isolated);
+  if (ImGui::Button("Show all cells")) {
+    context.send("show-all");
+    if (isolated) context.send("filter off");
+  }
+  context.items.record_last("inside:all");
+  next_item_tooltip("no plane, no peeling, nothing shrunk, no range of the histogram   Z");
+  ImGui::EndDisabled();
+  ImGui::Dummy({0, context.px(4)});
+}
+
+}  // namespace dmoscope::ui

@@ -19,30 +19,40 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kGrain = 16;  // rows a chunk
 
-Star<double> star_of(const InputMesh& input, PositionView positions, Index vertex) {
-  require_vertex(input, vertex);
+template <class Frame>
+StarIn<Frame, double> star_of(const InputMesh& input, PositionView positions, Index vertex) {
+  require_vertex(input, vertex, std::is_same_v<Frame, Plane> ? Shape::Planar : Shape::Volume);
   if (input.topology.star(vertex).empty()) throw UsageError(fmt::format("vertex {} belongs to no element", vertex));
-  Star<double> star;
-  gather_star(MeshStar<Plane>(input.planar_view(), positions, vertex), star);
+  StarIn<Frame, double> star;
+  gather_star(MeshStar(input.view<Frame>(), positions, vertex), star);
   return star;
 }
 
-/// With the vertex at `p`, in units of the star's scale.
-template <Metric M>
-StarState state_at(const Star<double>& star, Vec2<double> p) {
-  using V = Vec2<double>;
+/// Of those corners that the vertex's place changes: see StarState.
+template <class Element, class Shape>
+double least_jacobian(const Shape& shape) {
+  if constexpr (requires { Element::kMoving; })
+    return formulas::smallest_jacobian_around(shape, Element::kMoving);
+  else
+    return formulas::smallest_jacobian(shape);
+}
+
+/// With the vertex at `p`, in units of the star's scale. View: of a Star or SolidStar.
+template <Metric M, class View, class Offset>
+StarState state_at(const View& star, Offset p) {
   StarState state{kInfinity, kInfinity};
-  const auto take = [&state](const auto& shape, double reference) {
+  star.template for_each<true>([&state, p](const auto& element) {
+    const auto shape = element.with(p);
     state.quality = std::min(state.quality, evaluate<M>(shape));
-    state.jacobian = std::min(state.jacobian, formulas::smallest_jacobian(shape) / reference);
-  };
-  for (const StarTriangle<double>& t : star.triangles) take(formulas::Triangle<V>(p, t.b, t.c), t.reference);
-  for (const StarQuadrilateral<double>& q : star.quadrilaterals) take(formulas::Quadrilateral<V>(p, q.b, q.c, q.d), q.reference);
+    state.jacobian = std::min(state.jacobian, least_jacobian<std::remove_cvref_t<decltype(element)>>(shape) / element.reference);
+  });
   return state;
 }
 
-template <Metric M>
-void fill(const Star<double>& star, bool defined, ThreadPool* pool, QualityField& field) {
+/// offset(point): of the vertex, mesh units.
+template <Metric M, class Frame, class OffsetAt>
+void fill(const StarIn<Frame, double>& star, bool defined, ThreadPool* pool, const OffsetAt& offset, QualityField& field) {
+  const StarViewIn<Frame, double> view(star);
   const auto width = static_cast<std::size_t>(field.columns);
   const auto middle = [](double from, double to, std::size_t i, int count) {
     return from + (to - from) * ((static_cast<double>(i) + 0.5) / count);
@@ -51,23 +61,38 @@ void fill(const Star<double>& star, bool defined, ThreadPool* pool, QualityField
     for (std::size_t row = first; row < last; ++row)
       for (std::size_t column = 0; column < width; ++column) {
         const Vec2<double> at{middle(field.low.x, field.high.x, column, field.columns), middle(field.low.y, field.high.y, row, field.rows)};
-        const StarState state = state_at<M>(star, {at.x / star.scale, at.y / star.scale});
+        const StarState state = state_at<M>(view, times(offset(at), 1.0 / star.scale));
         field.quality[row * width + column] = defined ? static_cast<float>(state.quality) : std::numeric_limits<float>::quiet_NaN();
         field.jacobian[row * width + column] = static_cast<float>(state.jacobian);
       }
   });
 }
 
+QualityField empty_field(Vec2<double> low, Vec2<double> high, int columns, int rows) {
+  if (columns < 2 || rows < 2) throw UsageError(fmt::format("a field needs at least 2 x 2 samples, not {} x {}", columns, rows));
+  const std::size_t samples = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  return {low, high, columns, rows, std::vector<float>(samples), std::vector<float>(samples)};
+}
+
 }  // namespace
 
 QualityField sample_quality(const InputMesh& input, PositionView positions, Metric metric, Index vertex, Vec2<double> low,
                             Vec2<double> high, int columns, int rows, ThreadPool* pool) {
-  if (columns < 2 || rows < 2) throw UsageError(fmt::format("a field needs at least 2 x 2 samples, not {} x {}", columns, rows));
-  const Star<double> star = star_of(input, positions, vertex);
+  QualityField field = empty_field(low, high, columns, rows);
+  const Star<double> star = star_of<Plane>(input, positions, vertex);
   const bool defined = defined_around(input, metric, vertex);
-  const std::size_t samples = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-  QualityField field{low, high, columns, rows, std::vector<float>(samples), std::vector<float>(samples)};
-  formulas::with_planar_metric(metric, [&]<Metric M>() { fill<M>(star, defined, pool, field); });
+  const auto offset = [](Vec2<double> at) { return at; };
+  formulas::with_planar_metric(metric, [&]<Metric M>() { fill<M, Plane>(star, defined, pool, offset, field); });
+  return field;
+}
+
+QualityField sample_slice(const InputMesh& input, PositionView positions, Metric metric, Index vertex, const StarSlice& slice,
+                          Vec2<double> low, Vec2<double> high, int columns, int rows, ThreadPool* pool) {
+  QualityField field = empty_field(low, high, columns, rows);
+  const SolidStar<double> star = star_of<Space>(input, positions, vertex);
+  const bool defined = defined_around(input, metric, vertex);
+  const auto offset = [&slice](Vec2<double> at) { return slice.lift(at); };
+  formulas::with_solid_metric(metric, [&]<Metric M>() { fill<M, Space>(star, defined, pool, offset, field); });
   return field;
 }
 

@@ -26,6 +26,24 @@ struct QualityField {
 [[nodiscard]] QualityField sample_quality(const InputMesh& input, PositionView positions, Metric metric, Index vertex, Vec2<double> low,
                                           Vec2<double> high, int columns, int rows, ThreadPool* pool = nullptr);
 
+/// A plane through a volume's star, at right angles to an axis.
+struct StarSlice {
+  int axis = 2;         // 0 x, 1 y, 2 z: what is the same all over the plane
+  double offset = 0.0;  // along it, relative to the vertex; mesh units
+  /// Into the plane, whose axes are the other two in their order, and back.
+  [[nodiscard]] Vec2<double> project(Vec3 p) const {
+    return axis == 0 ? Vec2<double>{p.y, p.z} : axis == 1 ? Vec2<double>{p.x, p.z} : Vec2<double>{p.x, p.y};
+  }
+  [[nodiscard]] Vec3 lift(Vec2<double> p) const {
+    return axis == 0 ? Vec3{offset, p.x, p.y} : axis == 1 ? Vec3{p.x, offset, p.y} : Vec3{p.x, p.y, offset};
+  }
+  friend bool operator==(const StarSlice&, const StarSlice&) = default;
+};
+
+/// Of a volume in a slice: `low` to `high` are in its plane; otherwise as sample_quality().
+[[nodiscard]] QualityField sample_slice(const InputMesh& input, PositionView positions, Metric metric, Index vertex, const StarSlice& slice,
+                                        Vec2<double> low, Vec2<double> high, int columns, int rows, ThreadPool* pool = nullptr);
+
 struct LocalOptimum {
   Vec2<double> at;       // relative to the vertex; in the plane, mesh units
   double quality = 0.0;  // of the star there

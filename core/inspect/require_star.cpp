@@ -8,8 +8,9 @@
 
 namespace dmoscope {
 
-void require_vertex(const InputMesh& input, Index vertex) {
-  if (input.geometry.shape != Shape::Planar) throw UsageError("only vertices of planar meshes are searched");
+void require_vertex(const InputMesh& input, Index vertex, Shape shape) {
+  if (input.geometry.shape != shape)
+    throw UsageError(fmt::format("only vertices of {} meshes are searched here", shape == Shape::Volume ? "volume" : "planar"));
   if (vertex >= input.mesh.vertex_count())
     throw UsageError(fmt::format("vertex {} does not exist: the mesh has {} vertices", vertex, input.mesh.vertex_count()));
 }

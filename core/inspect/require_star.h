@@ -5,8 +5,8 @@
 
 namespace dmoscope {
 
-/// Throws UsageError unless the mesh is planar and has the vertex.
-void require_vertex(const InputMesh& input, Index vertex);
+/// Throws UsageError unless the mesh is of that shape and has the vertex.
+void require_vertex(const InputMesh& input, Index vertex, Shape shape = Shape::Planar);
 
 /// Is the metric defined for all elements around the vertex?
 [[nodiscard]] bool defined_around(const InputMesh& input, Metric metric, Index vertex);

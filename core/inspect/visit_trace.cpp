@@ -6,91 +6,14 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/inspect/lone_task.h"
+#include "core/inspect/recorder.h"
 #include "core/inspect/require_star.h"
-#include "core/smooth/fast_visit.h"
+#include "core/smooth/fast_solid_search.h"
 
 namespace dmoscope {
 
 namespace {
-
-/// Keeps what a search tells, in mesh units.
-class Recorder {
- public:
-  explicit Recorder(double scale) : scale_(scale) {}
-
-  template <class Real>
-  void begin(const Real& objective) {
-    here = static_cast<double>(objective);
-    best_ = here;
-  }
-  template <class Real>
-  void level(const CandidateGrid<Real>& grid) {
-    TracedLevel& level = levels.emplace_back();
-    level.centre = in_mesh_units(grid.centre);
-    level.size = in_mesh_units(grid.size);
-    level.points = grid.points;
-  }
-  template <class Real>
-  void candidate(int /*index*/, Vec2<Real> offset, Real objective) {
-    levels.back().offsets.push_back(in_mesh_units(offset));
-    levels.back().values.push_back(static_cast<double>(objective));
-  }
-  template <class Real>
-  void found(const Candidate<Real>& best) {
-    if (static_cast<double>(best.objective) > best_) levels.back().best = index_of(in_mesh_units(best.offset));
-    best_ = static_cast<double>(best.objective);
-  }
-
-  std::vector<TracedLevel> levels;
-  double here = 0.0;
-
- private:
-  template <class Real>
-  [[nodiscard]] Vec2<double> in_mesh_units(Vec2<Real> offset) const {
-    return {static_cast<double>(offset.x) * scale_, static_cast<double>(offset.y) * scale_};
-  }
-  /// Of a candidate of this level, by its very bits.
-  [[nodiscard]] std::optional<int> index_of(Vec2<double> offset) const {
-    const auto& all = levels.back().offsets;
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (all[i].x == offset.x && all[i].y == offset.y) return static_cast<int>(i);
-    return std::nullopt;
-  }
-
-  double scale_;
-  double best_ = 0.0;
-};
-
-/// One vertex's star as FastVisit wants it: the vertex is rank 0, its ring the ranks that follow.
-class LoneTask {
- public:
-  LoneTask(const InputMesh& input, PositionView positions, const SearchParameters& search_parameters, Index vertex)
-      : frame(make_search_frame(input)), parameters(search_parameters) {
-    shape_ = star_shape(input.mesh, input.topology, vertex, ranks_);
-    positions_.push_back(positions[vertex]);
-    for (Index& other : ranks_) {
-      positions_.push_back(positions[other]);
-      other = static_cast<Index>(positions_.size() - 1);
-    }
-    shapes = &shape_;
-    others = ranks_.data();
-    ranked = positions_.data();
-  }
-  LoneTask(const LoneTask&) = delete;
-  LoneTask& operator=(const LoneTask&) = delete;
-
-  // What FastVisit reads.
-  const StarShape* shapes;
-  const Index* others;
-  const Vec3* ranked;
-  SearchFrame frame;
-  SearchParameters parameters;
-
- private:
-  StarShape shape_;
-  std::vector<Index> ranks_;
-  std::vector<Vec3> positions_;
-};
 
 std::string metric_phrase(Metric metric) {
   std::string title(info(metric).title);
@@ -121,19 +44,30 @@ std::string both_phrase(const Aims& aims) {
                      aims.raise_mean() ? "from there on" : "beyond it", aims.threshold, second);
 }
 
-/// One look at one vertex.
-template <Metric M>
+std::string untangling_phrase(bool volume) {
+  return volume
+             ? "mean of the corners' Jacobians less 0.2, each taken up to 0.2, squeezed into -1 to 0 (below -1 where the least one falls); "
+               "once all are positive the "
+             : "smallest normalised Jacobian, once positive the ";
+}
+
+/// One look at one vertex. Frame: Plane or Space.
+template <Metric M, class Frame>
 class Look {
  public:
+  static constexpr bool kVolume = std::is_same_v<Frame, Space>;
+  using Offset = OffsetIn<Frame, double>;
+  using Trace = VisitTraceIn<Offset>;
+
   Look(const InputMesh& input, PositionView positions, const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims)
-      : input_(input), mesh_(input.planar_view()), positions_(positions), parameters_(parameters), aims_(aims) {
+      : input_(input), mesh_(input.view<Frame>()), positions_(positions), parameters_(parameters), aims_(aims) {
     trace_.vertex = vertex;
     trace_.metric = M;
     trace_.from = trace_.to = positions[vertex];
     trace_.before = trace_.after = star_state<M>(mesh_, positions_, vertex, trace_.from);
   }
 
-  VisitTrace run(bool fixed) {
+  Trace run(bool fixed) {
     if (fixed)
       trace_.end = VisitEnd::Fixed;
     else if (aims_)
@@ -147,16 +81,24 @@ class Look {
   }
 
  private:
-  /// As LaneDmo does it: false where the star is the plain search's.
+  /// As the fast smoothers do it: false where the star is the plain search's.
   bool search_fast() {
+    if constexpr (kVolume)
+      return search_by_solid_kernel();
+    else
+      return search_by_lanes();
+  }
+
+  /// As LaneDmo does it.
+  bool search_by_lanes() {
     const LoneTask task(input_, positions_, parameters_, trace_.vertex);
     if (task.shapes->kind == StarShape::Kind::Alone) return false;
-    Recorder recorder(task.frame.scale);
+    Recorder<Offset> recorder(task.frame.scale);
     const auto outcome = FastVisit<M, Solo, Stars::All, LoneTask>(task, 0, Solo{}).run(recorder);
     if (!outcome.ready) return false;
     trace_.fast = true;
     trace_.value_phrase = rank_phrase(M);
-    const auto place = [&](Vec2<double> offset) {
+    const auto place = [&](Offset offset) {
       // Exact: the offsets are floats times a power of two.
       const Displacement to = task.frame.displace(&trace_.from.x, static_cast<float>(offset.x * task.frame.inverse),
                                                   static_cast<float>(offset.y * task.frame.inverse));
@@ -169,15 +111,47 @@ class Look {
     return true;
   }
 
+  /// As SolidDmo does it. What the kernel chose in a level is what it finds in so many levels and not in one less.
+  bool search_by_solid_kernel() {
+    SolidRoom room;
+    gather_star(MeshStar(mesh_, positions_, trace_.vertex), room.exact);
+    const FastSolidSearch<M> search(input_, parameters_);
+    if (!search.find(room, 0).ready) return false;
+    trace_.fast = true;
+    trace_.value_phrase = metric_phrase(M);
+    const SolidStarView<double> star(room.exact);
+    const Objective<M, false, double, Value::Metric, SolidStarView<double>> objective(star);
+    Recorder<Offset> recorder(room.exact.scale);
+    recorder.begin(objective(Vec3{}));
+    const Vec3Of<float> box = in_float::narrow(room.exact.box);
+    Vec3Of<float> centre{};
+    double omega = parameters_.omega;
+    for (int level = 1; level <= parameters_.levels; ++level) {
+      const CandidateGrid<float, Vec3Of<float>> grid{centre, times(box, static_cast<float>(omega)), parameters_.grid_points};
+      recorder.level(grid);
+      for (int i = 0; i < grid.points; ++i)
+        grid.for_slice(i, [&](int index, Vec3Of<float> p) { recorder.candidate(index, p, objective(Vec3{p.x, p.y, p.z})); });
+      const Vec3Of<float> found = search.find(room, level).offset;
+      if (!(found == centre)) recorder.choose(found);
+      centre = found;
+      omega *= 2.0 / (parameters_.grid_points - 1);
+    }
+    const auto place = [this](Offset offset) { return stored(offset); };
+    take(std::move(recorder), place);
+    const Vec3 target = place(trace_.found);
+    end(target, gains(target));
+    return true;
+  }
+
   /// As the reference does it.
   void search_plainly() {
-    Star<double> star;
-    gather_star(MeshStar<Plane>(mesh_, positions_, trace_.vertex), star);
-    Recorder recorder(star.scale);
-    (void)search_star<M>(StarView<double>(star), star.box, parameters_, Solo{}, recorder);
+    StarIn<Frame, double> star;
+    gather_star(MeshStar(mesh_, positions_, trace_.vertex), star);
+    Recorder<Offset> recorder(star.scale);
+    (void)search_star<M>(StarViewIn<Frame, double>(star), star.box, parameters_, Solo{}, recorder);
     trace_.untangling = !(recorder.here > 0.0);
-    trace_.value_phrase = trace_.untangling ? "smallest normalised Jacobian, once positive the " + metric_phrase(M) : metric_phrase(M);
-    const auto place = [&](Vec2<double> offset) { return displaced(mesh_.frame, trace_.from, offset, input_.mesh.single_precision); };
+    trace_.value_phrase = (trace_.untangling ? untangling_phrase(kVolume) : "") + metric_phrase(M);
+    const auto place = [this](Offset offset) { return stored(offset); };
     take(std::move(recorder), place);
     const Vec3 target = place(trace_.found);
     end(target, gains(target));
@@ -185,36 +159,38 @@ class Look {
 
   /// As RuleSmoother does it with a CombinedSearch.
   void search_for_both() {
-    Star<double> star;
-    gather_star(MeshStar<Plane>(mesh_, positions_, trace_.vertex), star);
-    Recorder recorder(star.scale);
-    const CombinedSearch<Plane> search(input_, *aims_, parameters_);
+    StarIn<Frame, double> star;
+    gather_star(MeshStar(mesh_, positions_, trace_.vertex), star);
+    Recorder<Offset> recorder(star.scale);
+    const CombinedSearch<Frame> search(input_, *aims_, parameters_);
     trace_.combined = true;
     trace_.untangling = search.search(star, positions_, trace_.vertex, recorder).untangling;
-    trace_.value_phrase = (trace_.untangling ? "smallest normalised Jacobian, once positive the " : "") + both_phrase(*aims_);
-    const auto place = [&](Vec2<double> offset) { return displaced(mesh_.frame, trace_.from, offset, input_.mesh.single_precision); };
+    trace_.value_phrase = (trace_.untangling ? untangling_phrase(false) : "") + both_phrase(*aims_);
+    const auto place = [this](Offset offset) { return stored(offset); };
     take(std::move(recorder), place);
     const Vec3 target = place(trace_.found);
     end(target, search.gains(positions_, trace_.vertex, target));
   }
 
+  /// Where an offset leads as the smoothers in double store it.
+  [[nodiscard]] Vec3 stored(Offset offset) const { return displaced(mesh_.frame, trace_.from, offset, input_.mesh.single_precision); }
   [[nodiscard]] bool gains(Vec3 target) const { return gains_at<M>(mesh_, positions_, trace_.vertex, target); }
 
   /// place(offset): where the vertex would be stored.
   template <class Place>
-  void take(Recorder recorder, const Place& place) {
+  void take(Recorder<Offset> recorder, const Place& place) {
     trace_.value_here = recorder.here;
     trace_.levels = std::move(recorder.levels);
-    for (TracedLevel& level : trace_.levels) {
+    for (TracedLevelIn<Offset>& level : trace_.levels) {
       level.quality.reserve(level.offsets.size());
-      for (const Vec2<double>& offset : level.offsets)
+      for (const Offset& offset : level.offsets)
         level.quality.push_back(quality_of(star_state<M>(mesh_, positions_, trace_.vertex, place(offset))));
       if (level.best) trace_.found = level.at(*level.best);
     }
   }
 
   void end(Vec3 target, bool moves) {
-    if (trace_.found.x == 0.0 && trace_.found.y == 0.0)
+    if (trace_.found == Offset{})
       trace_.end = VisitEnd::NothingFound;
     else if (!moves)
       trace_.end = VisitEnd::NotConfirmed;
@@ -227,7 +203,7 @@ class Look {
       ElementChange change{incidence.element};
       const auto judge = [&](Vec3 place, double& quality, bool& inverted) {
         const auto at = [&](Index v) { return v == trace_.vertex ? place : positions_[v]; };
-        visit_planar(mesh_.frame, mesh_.corners_of(incidence.element), at, [&](const auto& shape) {
+        visit_shape(mesh_.frame, mesh_.corners_of(incidence.element), at, [&](const auto& shape) {
           quality = evaluate<M>(shape);
           inverted = formulas::smallest_jacobian(shape) <= 0.0;
         });
@@ -239,16 +215,26 @@ class Look {
   }
 
   const InputMesh& input_;
-  PlanarView mesh_;
+  MeshView<Frame> mesh_;
   PositionView positions_;
   const SearchParameters& parameters_;
   const std::optional<Aims>& aims_;
-  VisitTrace trace_;
+  Trace trace_;
 };
+
+/// Whether the vertex is fixed. Throws UsageError when there is nothing to trace.
+bool require_traceable(const InputMesh& input, Shape shape, std::span<const std::uint8_t> fixed, Metric metric,
+                       const SearchParameters& parameters, Index vertex) {
+  require_vertex(input, vertex, shape);
+  validate(parameters);
+  if (!defined_around(input, metric, vertex))
+    throw UsageError(fmt::format("{} is not defined for all elements around vertex {}", info(metric).name, vertex));
+  return fixed[vertex] != 0 || input.topology.star(vertex).empty();
+}
 
 }  // namespace
 
-std::string VisitTrace::sentence() const {
+std::string VisitSummary::sentence() const {
   switch (end) {
     case VisitEnd::Moved:
       if (combined && !untangling)
@@ -269,12 +255,16 @@ std::string VisitTrace::sentence() const {
 
 VisitTrace trace_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
                        const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims) {
-  require_vertex(input, vertex);
-  validate(parameters);
-  if (!defined_around(input, metric, vertex))
-    throw UsageError(fmt::format("{} is not defined for all elements around vertex {}", info(metric).name, vertex));
-  const bool is_fixed = fixed[vertex] != 0 || input.topology.star(vertex).empty();
-  return formulas::with_planar_metric(metric, [&]<Metric M>() { return Look<M>(input, positions, parameters, vertex, aims).run(is_fixed); });
+  const bool is_fixed = require_traceable(input, Shape::Planar, fixed, metric, parameters, vertex);
+  return formulas::with_planar_metric(metric,
+                                      [&]<Metric M>() { return Look<M, Plane>(input, positions, parameters, vertex, aims).run(is_fixed); });
+}
+
+SolidTrace trace_solid_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
+                             const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims) {
+  const bool is_fixed = require_traceable(input, Shape::Volume, fixed, metric, parameters, vertex);
+  return formulas::with_solid_metric(metric,
+                                     [&]<Metric M>() { return Look<M, Space>(input, positions, parameters, vertex, aims).run(is_fixed); });
 }
 
 }  // namespace dmoscope

@@ -16,17 +16,25 @@
 
 namespace dmoscope {
 
-/// Candidate (i, j), 0 <= i, j < points, has the index i * points + j; i counts along the plane's first axis.
-struct TracedLevel {
-  Vec2<double> centre, size;          // of the grid: in the plane, mesh units, relative to where the vertex stood
-  int points = 0;                     // an axis
-  std::vector<Vec2<double>> offsets;  // points^2: the candidates themselves, as the search rounded them; likewise
-  std::vector<double> values;         // points^2: what the search compared, in its own scalar (see VisitTrace::value_phrase)
-  std::vector<double> quality;        // points^2: the star's quality with the vertex there, by the statistics' formulas: see quality_of()
-  std::optional<int> best;            // the candidate that this level chose; none: no candidate was better than what was found before
-  /// Candidate `index`, relative to where the vertex stood; in the plane, mesh units.
-  [[nodiscard]] Vec2<double> at(int index) const { return offsets[static_cast<std::size_t>(index)]; }
+/// What the candidates of one level are worth, whether they lie in a plane or in space.
+struct LevelValues {
+  int points = 0;               // an axis
+  std::vector<double> values;   // of each candidate: what the search compared (see VisitSummary::value_phrase)
+  std::vector<double> quality;  // likewise: the star's quality with the vertex there, by the statistics' formulas: see quality_of()
+  std::optional<int> best;      // the candidate that this level chose; none: no candidate was better than what was found before
 };
+
+/// Candidate (i, j), 0 <= i, j < points, has the index i * points + j; i counts along the plane's first axis. In space candidate (i, j, k)
+/// has the index (i * points + j) * points + k, and i counts along x. Offset: Vec2<double> or Vec3.
+template <class Offset>
+struct TracedLevelIn : LevelValues {
+  Offset centre, size;          // of the grid: mesh units, relative to where the vertex stood
+  std::vector<Offset> offsets;  // the candidates themselves, as the search rounded them; likewise
+  /// Candidate `index`, relative to where the vertex stood; mesh units.
+  [[nodiscard]] Offset at(int index) const { return offsets[static_cast<std::size_t>(index)]; }
+};
+using TracedLevel = TracedLevelIn<Vec2<double>>;
+using SolidLevel = TracedLevelIn<Vec3>;
 
 /// A star in one number: its least metric, or the least normalised Jacobian (<= 0) where an element is inverted.
 [[nodiscard]] inline double quality_of(const StarState& state) { return state.jacobian > 0.0 ? state.quality : state.jacobian; }
@@ -46,24 +54,31 @@ enum class VisitEnd {
   Fixed          // it may not move, and was not searched
 };
 
-struct VisitTrace {
+/// What came of a visit, wherever its candidates lie.
+struct VisitSummary {
   Index vertex = kNoIndex;
   Metric metric = Metric::MeanRatio;
   bool fast = false;         // searched in float by the fast search; else in double by the plain one
   bool combined = false;     // for two aims: values beyond a threshold are the threshold plus the second aim
   bool untangling = false;   // an element was inverted, so the smallest Jacobian came first
-  std::string value_phrase;  // what TracedLevel::values are: "mean ratio", "squared sine of the smallest angle", ...
+  std::string value_phrase;  // what LevelValues::values are: "mean ratio", "squared sine of the smallest angle", ...
   double value_here = 0.0;   // likewise, of the place where it stood: what a candidate had to exceed
   Vec3 from, to;             // where it stood and stands after the visit; the same unless it moved
-  Vec2<double> step;         // in the plane; mesh units
-  Vec2<double> found;        // what the search chose, relative to `from`; in the plane, mesh units
   StarState before, after;
-  std::vector<TracedLevel> levels;      // empty for a fixed vertex
   std::vector<ElementChange> elements;  // in the star's order
   VisitEnd end = VisitEnd::NothingFound;
   /// "moved: worst element of its star 0.31 -> 0.82", "no candidate is better than where it stands", ...
   [[nodiscard]] std::string sentence() const;
 };
+
+template <class Offset>
+struct VisitTraceIn : VisitSummary {
+  Offset step;                                // mesh units
+  Offset found;                               // what the search chose, relative to `from`; mesh units
+  std::vector<TracedLevelIn<Offset>> levels;  // empty for a fixed vertex
+};
+using VisitTrace = VisitTraceIn<Vec2<double>>;  // in the mesh's plane
+using SolidTrace = VisitTraceIn<Vec3>;          // in a volume
 
 /// What DMO with these parameters does to `vertex` where the mesh's vertices stand at `positions`: the very templates of the smoother,
 /// asked for their trace, so that `to` has the bits that the smoother would store. Costs as much as the star is large, whatever the mesh.
@@ -71,5 +86,11 @@ struct VisitTrace {
 /// range, or a metric that is not defined for its star. `aims`: of a visit that has two, see aims_of_visit; then its first is `metric`.
 [[nodiscard]] VisitTrace trace_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
                                      const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims = {});
+
+/// The same of a volume mesh. The fast search tells of each level only which candidate it chose, having compared ranks in float: the values
+/// are the metric in double, so that among nearly equal ones the chosen one need not be the first of the largest.
+[[nodiscard]] SolidTrace trace_solid_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed,
+                                           Metric metric, const SearchParameters& parameters, Index vertex,
+                                           const std::optional<Aims>& aims = {});
 
 }  // namespace dmoscope

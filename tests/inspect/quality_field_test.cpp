@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/thread_pool.h"
+#include "core/mesh/generate.h"
 #include "tests/smooth/zoo.h"
 
 namespace dmoscope {
@@ -227,6 +228,59 @@ TEST(QualityField, NothingIsInvertedExactlyInTheKernel) {
   }
 }
 
+/// Of a volume, where the offset along the axis is the same all over.
+TEST(QualityField, OfASliceHasAtEachSampleWhatTheJudgesOfMeshesSay) {
+  Progress progress;
+  for (const char* kind : {"tetrahedra", "hexahedra", "solids"}) {
+    const auto input = testing::input(generate_mesh(kind, 125, 4, progress));
+    ThreadPool two(2);
+    std::size_t valid = 0, inverted = 0;
+    for (const Metric metric : {Metric::MeanRatio, Metric::RadiusRatio})
+      for (Index vertex = 0; vertex < input->mesh.vertex_count(); vertex += 13)
+        for (const int axis : {0, 1, 2}) {
+          std::vector<Vec3> positions = input->mesh.positions;
+          const Vec3 hub = positions[vertex];
+          const double size = 2 * length(positions[input->mesh.elements.corners(input->topology.star(vertex)[0].element)[0]] -
+                                         positions[input->mesh.elements.corners(input->topology.star(vertex)[0].element)[1]]);
+          const StarSlice slice{axis, 0.2 * size};
+          const V low{-0.6 * size, -0.3 * size}, high{0.3 * size, 0.6 * size};
+          const QualityField field = sample_slice(*input, positions, metric, vertex, slice, low, high, 4, 20);
+          EXPECT_EQ(field.jacobian, sample_slice(*input, positions, metric, vertex, slice, low, high, 4, 20, &two).jacobian);
+          for (int row = 0; row < 20; row += 3)
+            for (int column = 0; column < 4; ++column) {
+              const double u = low.x + 0.225 * size * (column + 0.5), v = low.y + 0.045 * size * (row + 0.5), w = 0.2 * size;
+              positions[vertex] = hub + (axis == 0 ? Vec3{w, u, v} : axis == 1 ? Vec3{u, w, v} : Vec3{u, v, w});
+              double quality = 1e300, jacobian = 1e300;
+              bool defined = true;
+              for (const Incidence& at : input->topology.star(vertex)) {
+                defined = defined && info(metric).defined_for(input->mesh.elements.kind(at.element));
+                quality = std::min(quality, element_quality(input->quality_context(), positions, metric, at.element));
+                jacobian = std::min(jacobian, smallest_jacobian(input->quality_context(), positions, at.element));
+              }
+              const auto i = static_cast<std::size_t>(row * 4 + column);
+              EXPECT_EQ(field.jacobian[i] > 0.0F, jacobian > 0.0) << kind << ' ' << vertex << ' ' << axis;
+              EXPECT_EQ(std::isnan(field.quality[i]), !defined);
+              (jacobian > 0.0 ? valid : inverted) += 1;
+              if (defined && jacobian > 0.0) {
+                EXPECT_NEAR(field.quality[i], quality, 1e-6) << kind << ' ' << vertex << ' ' << axis;
+              }
+            }
+        }
+    EXPECT_GT(valid, 100U) << kind;
+    EXPECT_GT(inverted, 100U) << kind;
+  }
+}
+
+TEST(QualityField, ASliceLeadsIntoItsPlaneAndBack) {
+  for (const int axis : {0, 1, 2}) {
+    const StarSlice slice{axis, 7.0};
+    const Vec3 there = slice.lift({2.0, 3.0});
+    const double along[] = {there.x, there.y, there.z};
+    EXPECT_EQ(along[axis], 7.0);
+    EXPECT_EQ(slice.project(there), (V{2.0, 3.0}));
+  }
+}
+
 TEST(QualityField, RefusesWhatIsNotThere) {
   Mesh mesh = testing::lattice(3, 0.2, 1);
   mesh.positions.push_back({5, 5, 0});
@@ -239,6 +293,7 @@ TEST(QualityField, RefusesWhatIsNotThere) {
   EXPECT_THROW((void)sample(16, 2), UsageError) << "of no element";
   EXPECT_THROW((void)sample(17, 2), UsageError);
   EXPECT_FALSE(local_optimum(*input, input->mesh.positions, Metric::MeanRatio, 16));
+  EXPECT_THROW((void)sample_slice(*input, input->mesh.positions, Metric::MeanRatio, 5, {}, {-1, -1}, {1, 1}, 2, 2), UsageError) << "planar";
 }
 
 }  // namespace

@@ -1,0 +1,66 @@
+#pragma once
+// What a search tells of itself, kept.
+
+#include <optional>
+#include <vector>
+
+#include "core/inspect/visit_trace.h"
+#include "core/search/grid_search.h"
+
+namespace dmoscope {
+
+/// Keeps what a search tells, in mesh units: a trace for grid_search(). Offset: Vec2<double> or Vec3.
+template <class Offset>
+class Recorder {
+ public:
+  explicit Recorder(double scale) : scale_(scale) {}
+
+  template <class Real>
+  void begin(const Real& objective) {
+    here = static_cast<double>(objective);
+    best_ = here;
+  }
+  template <class Real, class Point>
+  void level(const CandidateGrid<Real, Point>& grid) {
+    TracedLevelIn<Offset>& level = levels.emplace_back();
+    level.centre = in_mesh_units(grid.centre);
+    level.size = in_mesh_units(grid.size);
+    level.points = grid.points;
+  }
+  template <class Real, class Point>
+  void candidate(int /*index*/, const Point& offset, const Real& objective) {
+    levels.back().offsets.push_back(in_mesh_units(offset));
+    levels.back().values.push_back(static_cast<double>(objective));
+  }
+  template <class Real, class Point>
+  void found(const Candidate<Real, Point>& best) {
+    if (static_cast<double>(best.objective) > best_) choose(best.offset);
+    best_ = static_cast<double>(best.objective);
+  }
+  /// The level's candidate at this place, by its very bits, is the one chosen.
+  template <class Point>
+  void choose(const Point& offset) {
+    const Offset chosen = in_mesh_units(offset);
+    const auto& all = levels.back().offsets;
+    for (std::size_t i = 0; i < all.size() && !levels.back().best; ++i)
+      if (all[i] == chosen) levels.back().best = static_cast<int>(i);
+  }
+
+  std::vector<TracedLevelIn<Offset>> levels;
+  double here = 0.0;
+
+ private:
+  template <class Real>
+  [[nodiscard]] Vec2<double> in_mesh_units(Vec2<Real> offset) const {
+    return {static_cast<double>(offset.x) * scale_, static_cast<double>(offset.y) * scale_};
+  }
+  template <class Real>
+  [[nodiscard]] Vec3 in_mesh_units(Vec3Of<Real> offset) const {
+    return {static_cast<double>(offset.x) * scale_, static_cast<double>(offset.y) * scale_, static_cast<double>(offset.z) * scale_};
+  }
+
+  double scale_;
+  double best_ = 0.0;
+};
+
+}  // namespace dmoscope

@@ -61,9 +61,10 @@ struct TetrahedronCorner {
 };
 
 using CornerTable = std::array<std::uint8_t, 4>;
-/// One row of a table of corners: the corner and the ends of its three edges.
+/// One row of a table of corners: the corner and the ends of its three edges. Always inlined: code for different processors shares it, and
+/// must not share one compiled copy.
 template <class Corners>
-[[nodiscard]] DMOSCOPE_ANYWHERE CornerTable row_of(std::size_t i) {
+[[gnu::always_inline]] [[nodiscard]] DMOSCOPE_ANYWHERE CornerTable row_of(std::size_t i) {
 #if defined(__CUDA_ARCH__)
   constexpr auto table = Corners::kTable;  // a device knows the table's content, not its place
   return table[i];

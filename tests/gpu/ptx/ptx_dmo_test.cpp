@@ -90,7 +90,9 @@ class PtxSolidDmo : public PtxTest {
 };
 
 TEST_P(PtxSolidDmo, SameBitsInFloat) { expect_same({}, {}); }
-TEST_P(PtxSolidDmo, SameBitsInDouble) { expect_same({.precision = Precision::Double}, {.together = true, .backwards = true}); }
+TEST_P(PtxSolidDmo, SameBitsInDouble) {
+  expect_same({.grid_points = 6, .precision = Precision::Double}, {.together = true, .backwards = true});
+}
 
 INSTANTIATE_TEST_SUITE_P(Metrics, PtxSolidDmo, every_solid_metric(), name_of_metric);
 

@@ -25,7 +25,7 @@ class DeviceDmo final : public Smoother {
         mesh_(queue_, *input, *colouring_, immovable, pool),
         counts_(queue_, colouring_->class_count() + std::size_t{1}),
         moved_(queue_),
-        deferred_(queue_, largest_class()),
+        deferred_(queue_, mesh_.is_volume() ? 0 : largest_class()),
         pictures_(std::make_shared<Pictures>(queue_)),
         task_(mesh_.task()) {
     task_.parameters = parameters;
@@ -74,7 +74,7 @@ class DeviceDmo final : public Smoother {
   }
 
   std::shared_ptr<const DevicePicture> picture(Metric shown) override {
-    if (stale_ || !visited_) return nullptr;
+    if (stale_ || !visited_ || mesh_.is_volume()) return nullptr;  // which of a volume's faces are seen, the host knows
     judged_ = false;
     auto picture = pictures_->make(mesh_, shown);
     judged_ = shown == metric_;
@@ -99,12 +99,17 @@ class DeviceDmo final : public Smoother {
       if (begin >= end) continue;
       task_.first = begin;
       task_.deferred_count = counts_.data() + 1 + c;
-      launch_visits(mesh_.stars_of_class(c), end - begin);
+      launch_visits(c, end - begin);
     }
     moved_.fetch(counts_.data());
   }
 
-  void launch_visits(const DeviceMesh::ClassStars& stars, std::size_t count) {
+  void launch_visits(Index colour, std::size_t count) {
+    if (mesh_.is_volume()) {
+      queue_->launch(Work::VisitSolid, metric_, task_, count);
+      return;
+    }
+    const DeviceMesh::ClassStars& stars = mesh_.stars_of_class(colour);
     if (count * kTeamShare <= queue_->lanes_at_once()) {
       queue_->launch(Work::VisitInTeam, metric_, task_, count);
       return;
@@ -125,6 +130,10 @@ class DeviceDmo final : public Smoother {
     counts_.clear();
     task_.deferred_count = counts_.data() + 1;
     if (colouring_->order.empty()) return;
+    if (mesh_.is_volume()) {
+      queue_->launch(Work::VisitSolid, metric_, task_, 1);
+      return;
+    }
     for (const Work work : {Work::VisitInTeam, Work::VisitOthers, Work::Settle}) queue_->launch(work, metric_, task_, 1);
     if (in_fans()) queue_->launch(Work::VisitFans, metric_, task_, 1);
   }

@@ -8,7 +8,8 @@
 
 namespace dmoscope::gpu {
 
-/// `parameters`: of the search in float; `immovable`: see compute_statistics. The arguments must have passed make_smoother's checks. Throws
+/// `parameters`: of a planar mesh's search in float, of a volume's in either precision; `immovable`: see compute_statistics. There is no
+/// picture() of a volume: which of its faces are seen, the host finds out. The arguments must have passed make_smoother's checks. Throws
 /// DeviceError, for instance where the mesh does not fit into the device's memory.
 [[nodiscard]] std::unique_ptr<Smoother> make_device_dmo(std::shared_ptr<Queue> queue, std::shared_ptr<const InputMesh> input,
                                                         std::shared_ptr<const Colouring> colouring, Metric metric,

@@ -14,6 +14,23 @@ std::vector<std::uint8_t> flags(std::size_t size, std::span<const Index> set) {
   return result;
 }
 
+/// Volumes' stars have no place in the table; ranks are the same.
+StarTable star_table_of(const InputMesh& input, const Colouring& colouring, ThreadPool* pool) {
+  if (!input.is_volume()) return build_star_table(input.mesh, input.topology, colouring, pool);
+  StarTable table;
+  const std::size_t vertices = input.mesh.positions.size();
+  table.vertex_of_rank.reserve(vertices);
+  table.vertex_of_rank.assign(colouring.order.begin(), colouring.order.end());
+  table.rank_of_vertex.assign(vertices, kNoIndex);
+  for (Index rank = 0; rank < table.vertex_of_rank.size(); ++rank) table.rank_of_vertex[table.vertex_of_rank[rank]] = rank;
+  for (Index v = 0; v < vertices; ++v) {
+    if (table.rank_of_vertex[v] != kNoIndex) continue;
+    table.rank_of_vertex[v] = static_cast<Index>(table.vertex_of_rank.size());
+    table.vertex_of_rank.push_back(v);
+  }
+  return table;
+}
+
 /// With the totals.
 std::size_t part_count(std::size_t elements) { return ((elements + bodies::kStretch - 1) / bodies::kStretch + 1) * bodies::kParts; }
 
@@ -21,7 +38,7 @@ std::size_t part_count(std::size_t elements) { return ((elements + bodies::kStre
 
 DeviceMesh::DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, const Colouring& colouring, std::span<const Index> immovable,
                        ThreadPool* pool)
-    : DeviceMesh(std::move(queue), input, colouring, build_star_table(input.mesh, input.topology, colouring, pool), immovable) {}
+    : DeviceMesh(std::move(queue), input, colouring, star_table_of(input, colouring, pool), immovable) {}
 
 DeviceMesh::DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, const Colouring& colouring, const StarTable& table,
                        std::span<const Index> immovable)
@@ -43,7 +60,8 @@ DeviceMesh::DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, con
       quality_(queue_, input.mesh.elements.size()),
       parts_(queue_, part_count(input.mesh.elements.size())),
       statistics_(queue_, 1),
-      fetched_(queue_) {
+      fetched_(queue_),
+      is_volume_(input.is_volume()) {
   task_.shapes = shapes_.data();
   task_.others = others_.data();
   task_.mesh = {star_offsets_.data(), incidences_.data(),        corner_offsets_.data(),
@@ -61,7 +79,7 @@ DeviceMesh::DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, con
   task_.parts = parts_.data();
   task_.statistics = statistics_.data();
   task_.positions = positions_.data();
-  for (Index c = 0; c < colouring.class_count(); ++c) {
+  for (Index c = 0; c < colouring.class_count() && !is_volume_; ++c) {
     ClassStars& stars = classes_.emplace_back();
     for (Index rank = colouring.class_offsets[c]; rank < colouring.class_offsets[c + 1]; ++rank)
       (in_registers<Metric::MeanRatio>(table.shapes[rank], {}) ? stars.fans : stars.others) = true;
@@ -69,7 +87,7 @@ DeviceMesh::DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, con
 }
 
 void DeviceMesh::judge(Metric metric) {
-  queue_->launch(Work::Judge, metric, task_, task_.element_count);
+  queue_->launch(is_volume_ ? Work::JudgeSolid : Work::Judge, metric, task_, task_.element_count);
   queue_->launch(Work::Sum, metric, task_, parts_.size() - bodies::kParts);
   queue_->launch(Work::Total, metric, task_, bodies::kParts);
   queue_->launch(Work::Conclude, metric, task_, 1);

@@ -22,7 +22,8 @@ class DeviceMesh {
 
   /// All that a kernel needs of the mesh.
   [[nodiscard]] const Task& task() const noexcept { return task_; }
-  /// Has a class stars that are Stars::Fans to a metric of ratio form, and has it others?
+  [[nodiscard]] bool is_volume() const noexcept { return is_volume_; }
+  /// Has a class of a planar mesh stars that are Stars::Fans to a metric of ratio form, and has it others?
   struct ClassStars {
     bool fans = false, others = false;
   };
@@ -56,6 +57,7 @@ class DeviceMesh {
   Buffer<Statistics> statistics_;
   Fetched<Statistics> fetched_;
   Task task_;
+  bool is_volume_;
   std::vector<ClassStars> classes_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "gpu/bodies.h"
+#include "gpu/solid_bodies.h"
 
 namespace dmoscope::gpu {
 
@@ -35,6 +36,9 @@ Lanes lanes_of(Work work) {
       return run_lanes<bodies::Settle<M>>;
     case Work::Judge:
       return run_lanes<bodies::Judge<M>>;
+    case Work::VisitSolid:
+    case Work::JudgeSolid:
+      break;  // see solid_lanes_of()
     case Work::Sum:
       return run_lanes<bodies::Sum>;
     case Work::Total:
@@ -57,6 +61,16 @@ Lanes lanes_of(Work work) {
       return run_lanes<bodies::Pick>;
   }
   return nullptr;
+}
+
+template <Metric M>
+Lanes solid_lanes_of(Work work) {
+  return work == Work::VisitSolid ? run_lanes<bodies::VisitSolid<M>> : run_lanes<bodies::JudgeSolid<M>>;
+}
+
+Lanes lanes_of(Work work, Metric metric) {
+  if (is_of_solids(work)) return formulas::with_solid_metric(metric, [work]<Metric M>() { return solid_lanes_of<M>(work); });
+  return formulas::with_planar_metric(metric, [work]<Metric M>() { return lanes_of<M>(work); });
 }
 
 class Recorded final : public Queue::Recording {
@@ -104,7 +118,7 @@ class Host final : public HostQueue, public std::enable_shared_from_this<Host> {
     enqueue([memory, bytes] { std::memset(memory, 0, bytes); });
   }
   void launch(Work work, Metric metric, const Task& task, std::size_t count) override {
-    const Lanes lanes = formulas::with_planar_metric(metric, [work]<Metric M>() { return lanes_of<M>(work); });
+    const Lanes lanes = lanes_of(work, metric);
     enqueue([this, lanes, task, count] {
       if (launches_left_ == 0) lost_ = true;
       check_lost();

@@ -10,6 +10,13 @@
 #define DMOSCOPE_LANE
 #endif
 
+/// Put into a device's code where it is called, however long it is: a call would keep in memory what is in registers else.
+#if defined(__CUDACC__)
+#define DMOSCOPE_LANE_INLINE __forceinline__
+#else
+#define DMOSCOPE_LANE_INLINE inline
+#endif
+
 namespace dmoscope::gpu {
 
 /// Adds one and returns what was there before. Lanes of a warp that come together share one addition.

@@ -29,7 +29,7 @@ struct Part {
 
 /// Every pointer is one of the device's. Ranks: see StarTable.
 struct Task {
-  // The stars by ranks, for the fast search; the mesh by vertices, for the exact one.
+  // The stars by ranks, for the fast search of planar meshes; the mesh by vertices, for the exact one and for volumes (see volume_of()).
   const StarShape* shapes = nullptr;
   const Index* others = nullptr;
   PlanarView mesh;
@@ -68,6 +68,11 @@ struct Task {
   std::size_t first = 0;  // what a launch's lane 0 works on
 };
 
+/// The mesh of a volume.
+[[nodiscard]] DMOSCOPE_ANYWHERE VolumeView volume_of(const Task& task) {
+  const PlanarView& mesh = task.mesh;
+  return {mesh.star_offsets, mesh.incidences, mesh.corner_offsets, mesh.corners, mesh.reference_measure, {}};
+}
 [[nodiscard]] DMOSCOPE_ANYWHERE PositionView positions_of(const Task& task) { return {task.ranked, task.rank_of_vertex}; }
 
 }  // namespace dmoscope::gpu

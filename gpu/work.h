@@ -8,7 +8,9 @@ enum class Work {
   VisitOthers,  // the same, where it is not
   VisitInTeam,  // all stars, one vertex a team of lanes, settled at once: for classes too small to fill the device
   Settle,       // what the first two deferred, shared among all teams
+  VisitSolid,   // of a volume, one vertex a team of lanes: rank first + i
   Judge,        // one element a lane: its quality and whether it is inverted
+  JudgeSolid,   // the same of a volume
   Sum,          // one part of the statistics a lane
   Total,        // one sum of all parts a lane
   Conclude,     // one lane: the statistics
@@ -20,5 +22,8 @@ enum class Work {
   CopyShades,   // one element a lane: shades -> drawn_shades
   Pick,         // one of some vertices a lane: positions -> picked
 };
+
+/// Of volumes, whose metrics are formulas::with_solid_metric()'s.
+[[nodiscard]] constexpr bool is_of_solids(Work work) { return work == Work::VisitSolid || work == Work::JudgeSolid; }
 
 }  // namespace dmoscope::gpu

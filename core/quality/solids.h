@@ -60,6 +60,19 @@ struct TetrahedronCorner {
   }
 };
 
+using CornerTable = std::array<std::uint8_t, 4>;
+/// One row of a table of corners: the corner and the ends of its three edges. Always inlined: code for different processors shares it, and
+/// must not share one compiled copy.
+template <class Corners>
+[[gnu::always_inline]] [[nodiscard]] DMOSCOPE_ANYWHERE CornerTable row_of(std::size_t i) {
+#if defined(__CUDA_ARCH__)
+  constexpr auto table = Corners::kTable;  // a device knows the table's content, not its place
+  return table[i];
+#else
+  return Corners::kTable[i];
+#endif
+}
+
 /// An element that is judged corner by corner. Corners: a table of each corner and the ends of its three edges, right-handed. A pyramid's
 /// tip, where four edges meet, is in the corners of its base.
 template <class V, class Ideal, std::size_t N, class Corners>
@@ -79,7 +92,7 @@ struct CorneredSolid {
   DMOSCOPE_ANYWHERE R least_around(Index moving, F f) const {
     R result = scalar::constant<R>(HUGE_VAL);
     for (std::size_t i = 0; i < Corners::kTable.size(); ++i) {
-      const auto& c = Corners::kTable[i];
+      const CornerTable c = row_of<Corners>(i);
       if (c[0] == moving || c[1] == moving || c[2] == moving || c[3] == moving) result = min(result, corner(i, f));
     }
     return result;
@@ -88,13 +101,12 @@ struct CorneredSolid {
  private:
   template <class F>
   DMOSCOPE_ANYWHERE R corner(std::size_t i, F f) const {
-    const auto& c = Corners::kTable[i];
+    const CornerTable c = row_of<Corners>(i);
     const V u = at[c[1]] - at[c[0]], v = at[c[2]] - at[c[0]], w = at[c[3]] - at[c[0]];
     return f(u, v, w, determinant(u, v, w));
   }
 };
 
-using CornerTable = std::array<std::uint8_t, 4>;
 struct HexahedronCorners {
   static constexpr std::array<CornerTable, 8> kTable{
       {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7}, {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}}};

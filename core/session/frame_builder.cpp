@@ -124,6 +124,7 @@ std::shared_ptr<const Frame> FrameBuilder::standing(Session& session, std::size_
   if (known != nullptr && (detail == FrameDetail::Live || !known->frame->device)) return known->frame;
   const Run& run = session.run(index);
   auto frame = begin(session, key);
+  if (run.input().is_volume() && run.backend() != name(Backend::Cpu)) frame->device_trouble = "volumes are drawn from the host";
   if (detail == FrameDetail::Whole || !take_picture(*frame, run)) {
     const auto positions = run.positions();
     reserve_large(frame->positions, positions.size());

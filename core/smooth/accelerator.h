@@ -30,9 +30,9 @@ class Accelerator {
   [[nodiscard]] virtual std::string description() const = 0;
   /// The runtime's number of the device, by which OpenGL's interfaces know it.
   [[nodiscard]] virtual int number() const noexcept { return 0; }
-  /// DMO in float on this device; the same contract as make_smoother's, which also checks the arguments. `immovable`: see
-  /// immovable_elements; needed for Smoother::statistics() and only read here. Throws DeviceError, which for memory says how much was asked
-  /// for and how much is free.
+  /// DMO on this device, of planar meshes in float, of volumes in either precision; the same contract as make_smoother's, which also checks
+  /// the arguments. `immovable`: see immovable_elements; needed for Smoother::statistics() and only read here. Throws DeviceError, which
+  /// for memory says how much was asked for and how much is free.
   [[nodiscard]] virtual std::unique_ptr<Smoother> make_dmo(std::shared_ptr<const InputMesh> input,
                                                            std::shared_ptr<const Colouring> colouring, Metric metric,
                                                            const SearchParameters& parameters, std::span<const Index> immovable,

@@ -18,10 +18,9 @@ constexpr std::array<std::string_view, 3> kNames{"auto", "cpu", "cuda"};  // in 
 /// Why no accelerator does this; empty when one can.
 std::string obstacle(const Acceleration& acceleration, const SmoothingTask& task) {
   if (task.method != "dmo") return fmt::format("{} runs on the CPU alone", task.method);
-  if (task.input->is_volume()) return "volumes are smoothed on the CPU alone";
   if (task.combination) return "combined metrics run on the CPU alone";
   if (task.then_mean) return "the phase that raises the mean runs on the CPU alone";
-  if (task.search.precision == Precision::Double) return "the search in double runs on the CPU alone";
+  if (task.search.precision == Precision::Double && !task.input->is_volume()) return "the search in double runs on the CPU alone";
   if (task.search.simd) return "SIMD instructions were asked for, which are the CPU's";
   return acceleration.accelerator ? std::string() : acceleration.reason;
 }

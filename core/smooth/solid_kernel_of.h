@@ -7,17 +7,10 @@
 #include "core/search/pack.h"
 // After the packs:
 #include "core/search/grid_search.h"
+#include "core/smooth/solid_form.h"
 #include "core/smooth/solid_kernel.h"
 
 namespace dmoscope::solids {
-
-/// The mean ratio of a tetrahedron as the vertex moves: six times the volume is affine in its place p, the sum of the squared edges affine
-/// plus 3 |p|^2.
-template <class F>
-struct TetrahedronForm {
-  F v0, vx, vy, vz;
-  F s0, sx, sy, sz;
-};
 
 /// F: pack of floats, a candidate a slot.
 template <Metric M, class F>
@@ -34,7 +27,6 @@ class Kernel {
   static constexpr std::size_t kMaxPlane = 64 * 64 + kWidth;
   static constexpr bool kForms = M == Metric::MeanRatio;
   static constexpr bool kCorners = formulas::kDefinedForCorners<M>;
-  static constexpr float kLeastRank = 1e-6F;  // below: the reference's, since floats do not tell such elements apart
 
   explicit Kernel(const SolidSearch& task) : task_(task) {}
 
@@ -61,7 +53,7 @@ class Kernel {
       const StarTetrahedron<float>& t = task_.tetrahedra.data[i];
       order_[i] = static_cast<std::uint8_t>(i);
       if constexpr (kForms)
-        forms_[i] = form(wide(t.b), wide(t.c), wide(t.d));
+        forms_[i] = tetrahedron_form(wide(t.b), wide(t.c), wide(t.d));
       else
         tetrahedra_[i] = {wide(t.b), wide(t.c), wide(t.d), F(1)};
     }
@@ -69,19 +61,10 @@ class Kernel {
       const Point origin{F(0), F(0), F(0)};
       for_cornered([&](const auto& element) {
         const auto solid = widened(element, origin);
-        const float constant = constant_part(solid, element.kMoving);
+        const float constant = constant_part<M>(solid, element.kMoving).get(0);
         cap_ = constant < cap_ ? constant : cap_;
       });
     }
-  }
-
-  static TetrahedronForm<F> form(Point b, Point c, Point d) {
-    // det(b - p, c - p, d - p) = det(b, c, d) - p . ((b x c) + (c x d) + (d x b)).
-    const Point n = cross(b, c) + cross(c, d) + cross(d, b), sum = b + c + d;
-    const Point bc = c - b, cd = d - c, db = b - d;
-    const F squares = dot(b, b) + dot(c, c) + dot(d, d) + dot(bc, bc) + dot(cd, cd) + dot(db, db);
-    const F two = F(-2);
-    return {formulas::determinant(b, c, d), F(0) - n.x, F(0) - n.y, F(0) - n.z, squares, two * sum.x, two * sum.y, two * sum.z};
   }
 
   template <class Visit>
@@ -106,30 +89,6 @@ class Kernel {
     return solid;
   }
 
-  template <class Ideal>
-  static F rank_of_corner(Point u, Point v, Point w, F jacobian) {
-    if constexpr (M == Metric::MeanRatio)
-      return formulas::SolidFormula<M>::template rank_corner<Ideal>(u, v, w, jacobian);
-    else
-      return formulas::SolidFormula<M>::template corner<Ideal>(u, v, w, jacobian);
-  }
-  /// The rank of the corners that change with the vertex.
-  template <class Ideal, std::size_t N, class Corners>
-  static F moving_part(const formulas::CorneredSolid<Point, Ideal, N, Corners>& solid, Index moving) {
-    return solid.least_around(moving, [](Point u, Point v, Point w, F jacobian) { return rank_of_corner<Ideal>(u, v, w, jacobian); });
-  }
-  /// And of all the others.
-  template <class Ideal, std::size_t N, class Corners>
-  static float constant_part(const formulas::CorneredSolid<Point, Ideal, N, Corners>& solid, Index moving) {
-    F least(1e30F);
-    for (const auto& c : Corners::kTable) {
-      if (c[0] == moving || c[1] == moving || c[2] == moving || c[3] == moving) continue;
-      const Point u = solid.at[c[1]] - solid.at[c[0]], v = solid.at[c[2]] - solid.at[c[0]], w = solid.at[c[3]] - solid.at[c[0]];
-      least = xsimd::min(least, rank_of_corner<Ideal>(u, v, w, formulas::determinant(u, v, w)));
-    }
-    return least.get(0);
-  }
-
   /// The least rank of the star with its vertex at each of the places; anything not above `floor` where it is not above it in any slot.
   F least(Point p, F floor) {
     using scalar::min;
@@ -139,7 +98,7 @@ class Kernel {
       const F square = dot(p, p);
       for (std::size_t i = 0; i < task_.tetrahedra.size; ++i) {
         const TetrahedronForm<F>& f = forms_[i];
-        worth = min(worth, F(432) * formulas::square_over_cube(volume(f, p), squares(f, p, square)));
+        worth = min(worth, rank_of(f, p, square));
       }
     } else {
       for (std::size_t i = 0; i < task_.tetrahedra.size; ++i) {
@@ -155,16 +114,11 @@ class Kernel {
       bool passes = true;
       for_cornered([&](const auto& element) {
         if (!passes) return;
-        worth = min(worth, moving_part(widened(element, p), element.kMoving));
+        worth = min(worth, moving_part<M>(widened(element, p), element.kMoving));
         passes = xsimd::any(worth > floor);
       });
     }
     return worth;
-  }
-
-  static F volume(const TetrahedronForm<F>& f, const Point& p) { return f.v0 + f.vx * p.x + f.vy * p.y + f.vz * p.z; }
-  static F squares(const TetrahedronForm<F>& f, const Point& p, F square) {
-    return f.s0 + f.sx * p.x + f.sy * p.y + f.sz * p.z + F(3) * square;
   }
 
   /// Without division: can any of the candidates have a rank above the floor? Most cannot, and the first few tetrahedra tell.
@@ -173,7 +127,7 @@ class Kernel {
     auto passes = square == square;
     for (std::size_t i = 0; i < task_.tetrahedra.size; ++i) {
       const TetrahedronForm<F>& f = forms_[order_[i]];
-      const F v = volume(f, p), s = squares(f, p, square);
+      const F v = six_volume(f, p), s = squares(f, p, square);
       passes = passes & (v * xsimd::abs(v) >= threshold * s * s * s);
       if (!xsimd::any(passes)) {
         to_front(i);

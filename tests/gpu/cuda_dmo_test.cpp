@@ -7,6 +7,7 @@
 #include "gpu/task.h"
 #include "tests/gpu/meshes.h"
 #include "tests/gpu/same_bits.h"
+#include "tests/gpu/solids.h"
 #include "tests/smooth/zoo.h"
 
 namespace dmoscope::gpu {
@@ -69,6 +70,19 @@ TEST_P(CudaDmo, SameBitsOnALargeMesh) {
     expect_same(Subject(prepare_input(std::move(mesh), {}, Need::Smoothing, progress)), {}, 2);
   }
 }
+
+class CudaSolidDmo : public CudaTest {};
+
+TEST_P(CudaSolidDmo, SameBits) {
+  for (const Precision precision : {Precision::Float, Precision::Double})
+    for (const Solid& solid : solids(512)) {
+      if (!defined_for_all(GetParam(), solid.input->mesh)) continue;
+      SCOPED_TRACE(solid.name);
+      expect_same_visits(queue, Subject(solid.input), GetParam(), {.precision = precision}, 2);
+      expect_same_statistics(queue, Subject(solid.input), GetParam());
+    }
+}
+INSTANTIATE_TEST_SUITE_P(CudaMetrics, CudaSolidDmo, every_solid_metric(), name_of_metric);
 
 INSTANTIATE_TEST_SUITE_P(CudaMetrics, CudaDmo, every_metric(), name_of_metric);
 

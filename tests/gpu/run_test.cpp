@@ -2,6 +2,7 @@
 
 #include "core/session/run.h"
 
+#include "core/mesh/generate.h"
 #include "gpu/host_queue.h"
 #include "tests/gpu/same_bits.h"
 #include "tests/support/meshes.h"
@@ -29,14 +30,15 @@ struct Pair {
   Run cpu, device;
   Progress progress;
 
-  explicit Pair(Mesh mesh, Metric metric = Metric::MeanRatio)
-      : input(prepare(std::move(mesh))), cpu(run(metric, Backend::Cpu)), device(run(metric, Backend::Cuda)) {}
+  explicit Pair(Mesh mesh, Metric metric = Metric::MeanRatio, const SearchParameters& search = {})
+      : input(prepare(std::move(mesh))), cpu(run(metric, search, Backend::Cpu)), device(run(metric, search, Backend::Cuda)) {}
   static std::shared_ptr<const InputMesh> prepare(Mesh mesh) {
     Progress none;
     return prepare_input(std::move(mesh), {}, Need::Smoothing, none);
   }
-  [[nodiscard]] Run run(Metric metric, Backend backend) const {
+  [[nodiscard]] Run run(Metric metric, const SearchParameters& search, Backend backend) const {
     RunParameters parameters;
+    parameters.search = search;
     parameters.metric = metric;
     parameters.backend = backend;
     return {input, parameters, std::make_shared<ThreadPool>(2), std::size_t{1} << 24U, {accelerator, ""}};
@@ -84,6 +86,24 @@ TEST(DeviceRun, ConvergesAlike) {
   EXPECT_EQ(here.last_rise, there.last_rise);
   EXPECT_EQ(here.reason, there.reason);
   pair.expect_same_place();
+}
+
+TEST(DeviceRun, OfAVolumeIsAlikeInEitherPrecision) {
+  for (const Precision precision : {Precision::Float, Precision::Double}) {
+    Progress progress;
+    Pair pair(generate_mesh("solids", 125, 9, progress), Metric::MeanRatio, {.levels = 2, .precision = precision});
+    EXPECT_EQ(pair.device.backend(), "cuda");
+    const auto both = [&](const auto& act) {
+      act(pair.cpu);
+      act(pair.device);
+      pair.expect_same_place();
+    };
+    for (const StepUnit unit : {StepUnit::Vertex, StepUnit::Class, StepUnit::Iteration})
+      both([&](auto& run) { run.step(unit, pair.progress); });
+    both([&](auto& run) { run.seek({2, 5}, pair.progress); });
+    both([&](auto& run) { run.seek({1, 3}, pair.progress); });
+    EXPECT_EQ(pair.device.picture(Metric::MeanRatio), nullptr) << "it is drawn from the host";
+  }
 }
 
 TEST(DeviceRun, GoesOnWithoutItsDevice) {

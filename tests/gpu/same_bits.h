@@ -29,7 +29,7 @@ struct Subject {
     for (Index v = 0; v < boundary.size(); ++v)
       if (boundary[v] == 0 && !input->topology.star(v).empty()) free.push_back(v);
     Colouring classes = colour_vertices(input->mesh, input->topology, free);
-    arrange_classes(classes, input->mesh, &input->geometry.plane, input->topology);
+    arrange_classes(classes, input->mesh, input->is_volume() ? nullptr : &input->geometry.plane, input->topology);
     colouring = std::make_shared<const Colouring>(std::move(classes));
     immovable = immovable_elements(input->mesh, boundary, nullptr);
   }
@@ -40,6 +40,13 @@ struct Subject {
 [[nodiscard]] inline auto every_metric() {
   std::vector<Metric> all;
   for (const MetricInfo& entry : metric_table()) all.push_back(entry.metric);
+  return ::testing::ValuesIn(all);
+}
+/// For those of volumes.
+[[nodiscard]] inline auto every_solid_metric() {
+  std::vector<Metric> all;
+  for (const MetricInfo& entry : metric_table())
+    if (entry.defined_for(ElementKind::Tetrahedron)) all.push_back(entry.metric);
   return ::testing::ValuesIn(all);
 }
 [[nodiscard]] inline std::string name_of_metric(const ::testing::TestParamInfo<Metric>& tested) {

@@ -87,6 +87,12 @@ T remainder_of(T a, T b) {
   return a % b;
 }
 
+/// Towards zero.
+U32 quotient_of(I32 a, I32 b) {
+  if (b == 0 || (b == -1 && a == std::numeric_limits<I32>::min())) throw Fault("a division without a quotient");
+  return static_cast<U32>(a / b);
+}
+
 /// The low `length` bits of `from`, in `into` from bit `position` on.
 U64 inserted(U64 from, U64 into, U32 position, U32 length) {
   position &= 0xffU;
@@ -155,6 +161,10 @@ void add_floats(Table& t) {
 void add_integers(Table& t) {
   for (const char* name : {"add.s32", "add.u32"}) t[name] = op([](U32 a, U32 b) { return a + b; });
   for (const char* name : {"add.s64", "add.u64"}) t[name] = op([](U64 a, U64 b) { return a + b; });
+  t["add.s16"] = op([](U16 a, U16 b) { return static_cast<U16>(a + b); });
+  t["sub.s16"] = op([](U16 a, U16 b) { return static_cast<U16>(a - b); });
+  t["mul.lo.s16"] = op([](U16 a, U16 b) { return static_cast<U16>(U32{a} * b); });
+  t["mul.wide.u16"] = op([](U16 a, U16 b) { return U32{a} * b; });
   t["sub.s32"] = op([](U32 a, U32 b) { return a - b; });
   t["sub.s64"] = op([](U64 a, U64 b) { return a - b; });
   t["neg.s32"] = op([](U32 a) { return U32{0} - a; });
@@ -173,6 +183,7 @@ void add_integers(Table& t) {
   t["mul.wide.u32"] = op([](U32 a, U32 b) { return U64{a} * b; });
   t["mad.lo.s64"] = op([](U64 a, U64 b, U64 c) { return a * b + c; });
   t["mad.lo.s32"] = op([](U32 a, U32 b, U32 c) { return a * b + c; });
+  t["div.s32"] = op([](I32 a, I32 b) { return quotient_of(a, b); });
   t["rem.u32"] = op([](U32 a, U32 b) { return remainder_of(a, b); });
   t["rem.u64"] = op([](U64 a, U64 b) { return remainder_of(a, b); });
 

@@ -143,6 +143,12 @@ TEST(PtxOperations, Bits) {
   EXPECT_EQ(result<U64>("brev.b32", 0x00000005U), 0xa0000000U);
   EXPECT_EQ(result<U64>("bfind.shiftamt.u32", 0x00800000U), 8U);
   EXPECT_EQ(result<U64>("bfind.shiftamt.u32", 0U), 0xffffffffU);
+  EXPECT_EQ(result<U64>("add.s16", std::uint16_t{65535}, std::uint16_t{3}), 2U) << "16 bits, not 32";
+  EXPECT_EQ(result<U64>("sub.s16", std::uint16_t{2}, std::uint16_t{3}), 65535U);
+  EXPECT_EQ(result<U64>("mul.lo.s16", std::uint16_t{300}, std::uint16_t{300}), 90000U - 65536U);
+  EXPECT_EQ(result<U64>("mul.wide.u16", std::uint16_t{300}, std::uint16_t{300}), 90000U);
+  EXPECT_EQ(result<std::int32_t>("div.s32", -7, 2), -3) << "towards zero";
+  EXPECT_THROW((void)result<std::int32_t>("div.s32", 7, 0), Fault);
   EXPECT_EQ(result<U64>("popc.b32", 0xf0f00001U), 9U);
   EXPECT_EQ(result<U64>("clz.b64", U64{1} << 40U), 23U);
   EXPECT_EQ(result<U64>("clz.b64", U64{0}), 64U);

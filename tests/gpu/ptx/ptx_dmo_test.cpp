@@ -6,6 +6,7 @@
 #include "tests/gpu/ptx/operations.h"
 #include "tests/gpu/ptx/ptx_queue.h"
 #include "tests/gpu/same_bits.h"
+#include "tests/gpu/solids.h"
 #include "tests/smooth/zoo.h"
 
 namespace dmoscope::gpu::ptx {
@@ -73,6 +74,28 @@ TEST_P(PtxDmo, SameBitsAlone) {
 
 INSTANTIATE_TEST_SUITE_P(Metrics, PtxDmo, every_metric(), name_of_metric);
 
+/// Volumes, always in teams.
+class PtxSolidDmo : public PtxTest {
+ protected:
+  void expect_same(const SearchParameters& parameters, Schedule schedule) {
+    for (const Solid& solid : solids(64)) {
+      if (!defined_for_all(GetParam(), solid.input->mesh)) continue;
+      SCOPED_TRACE(solid.name);
+      const Subject subject(solid.input);
+      const auto queue = teams(schedule);
+      expect_same_visits(queue, subject, GetParam(), parameters, 2);
+      expect_same_statistics(queue, subject, GetParam());
+    }
+  }
+};
+
+TEST_P(PtxSolidDmo, SameBitsInFloat) { expect_same({}, {}); }
+TEST_P(PtxSolidDmo, SameBitsInDouble) {
+  expect_same({.grid_points = 6, .precision = Precision::Double}, {.together = true, .backwards = true});
+}
+
+INSTANTIATE_TEST_SUITE_P(Metrics, PtxSolidDmo, every_solid_metric(), name_of_metric);
+
 /// What is drawn, made by the kernels and by their source compiled for the host.
 class PtxPicture : public PtxTest {};
 INSTANTIATE_TEST_SUITE_P(Shown, PtxPicture, ::testing::Values(Metric::MeanRatio, Metric::ScaledJacobian, Metric::MinAngle));
@@ -128,7 +151,8 @@ TEST_P(PtxText, KernelsAreWhole) {
   std::size_t visits = 0;
   for (const EntryText& text : kernels->texts()) {
     const Entry entry = decode(text);
-    const bool is_visit = entry.name.find("bodies5Visit") != std::string::npos;
+    const bool is_visit =
+        entry.name.find("bodies5Visit") != std::string::npos || entry.name.find("bodies10VisitSolid") != std::string::npos;
     visits += is_visit ? 1 : 0;
     EXPECT_GT(entry.code.size(), is_visit ? 500U : 10U) << entry.name;
     for (std::size_t i = 0; i < entry.code.size(); ++i)
@@ -137,6 +161,7 @@ TEST_P(PtxText, KernelsAreWhole) {
   std::size_t expected = 0;
   for (const MetricInfo& metric : metric_table())
     expected += formulas::with_planar_metric(metric.metric, []<Metric M>() { return kIsRatio<M>; }) ? 3 : 2;
+  for (const MetricInfo& metric : metric_table()) expected += metric.defined_for(ElementKind::Tetrahedron) ? 1 : 0;
   EXPECT_EQ(visits, expected);
 }
 

@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/quality/formulas.h"
 #include "gpu/bodies.h"
+#include "gpu/solid_bodies.h"
 
 namespace dmoscope::gpu::ptx {
 
@@ -54,6 +55,9 @@ Kernels::Name name_for(Work work) {
       return in_team<bodies::Settle<M>>();
     case Work::Judge:
       return solo<bodies::Judge<M>>();
+    case Work::VisitSolid:
+    case Work::JudgeSolid:
+      break;  // see solid_name_for()
     case Work::Sum:
       return solo<bodies::Sum>();
     case Work::Total:
@@ -76,6 +80,11 @@ Kernels::Name name_for(Work work) {
       return solo<bodies::Pick>();
   }
   return {};
+}
+
+template <Metric M>
+Kernels::Name solid_name_for(Work work) {
+  return work == Work::VisitSolid ? in_team<bodies::VisitSolid<M>>() : solo<bodies::JudgeSolid<M>>();
 }
 
 class Recorded final : public Queue::Recording {
@@ -192,6 +201,7 @@ const Entry& Kernels::find(Work work, Metric metric) {
 }
 
 Kernels::Name Kernels::name_of(Work work, Metric metric) {
+  if (is_of_solids(work)) return formulas::with_solid_metric(metric, [work]<Metric M>() { return solid_name_for<M>(work); });
   return formulas::with_planar_metric(metric, [work]<Metric M>() { return name_for<M>(work); });
 }
 

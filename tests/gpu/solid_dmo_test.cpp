@@ -1,0 +1,101 @@
+// DMO of volumes on a device, with the host in the device's place: the very bits of the processor, in either precision.
+
+#include "gpu/host_queue.h"
+#include "gpu/solid_star.h"
+#include "tests/gpu/same_bits.h"
+#include "tests/gpu/solids.h"
+#include "tests/smooth/zoo.h"
+
+namespace dmoscope::gpu {
+namespace {
+
+using namespace testing;
+using dmoscope::testing::defined_for_all;
+
+std::shared_ptr<HostQueue> host(const HostDevice& device = {}) { return make_host_queue(device); }
+
+class SolidDeviceDmo : public ::testing::TestWithParam<Metric> {
+ protected:
+  void expect_same(const SearchParameters& parameters, std::size_t size, int iterations) {
+    for (const Solid& solid : solids(size)) {
+      if (!defined_for_all(GetParam(), solid.input->mesh)) continue;
+      SCOPED_TRACE(solid.name);
+      const Subject subject(solid.input);
+      ASSERT_GT(subject.visits(), 0U);
+      expect_same_visits(host(), subject, GetParam(), parameters, iterations);
+      expect_same_statistics(host(), subject, GetParam());
+    }
+  }
+};
+
+TEST_P(SolidDeviceDmo, SameBitsInDouble) { expect_same({.precision = Precision::Double}, 125, 2); }
+TEST_P(SolidDeviceDmo, SameBitsInFloat) { expect_same({}, 125, 3); }
+/// 7 and 2 candidates an axis are not a whole number of what a lane ranks at a time.
+TEST_P(SolidDeviceDmo, SameBitsWithOtherGrids) {
+  for (const Precision precision : {Precision::Float, Precision::Double}) {
+    expect_same({.grid_points = 7, .levels = 2, .omega = 1.25, .precision = precision}, 64, 2);
+    expect_same({.grid_points = 2, .levels = 5, .precision = precision}, 64, 2);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Metrics, SolidDeviceDmo, every_solid_metric(), name_of_metric);
+
+/// A mean over a star's elements depends on their order: list after list, as SolidStarView has them, whatever the mesh's.
+TEST(SolidDeviceStar, HasItsElementsListAfterList) {
+  const auto solid = solids(216)[9].input;  // "solids, tangled": they have all lists
+  std::size_t mixed = 0;
+  for (Index vertex = 0; vertex < solid->mesh.vertex_count(); ++vertex) {
+    if (solid->topology.star(vertex).empty()) continue;
+    const PositionView positions(solid->mesh.positions);
+    SolidStar<double> expected;
+    gather_star(MeshStar<Space>(solid->view<Space>(), positions, vertex), expected);
+    using Seen = std::pair<unsigned, double>;  // its list and its reference
+    std::vector<Seen> there, here;
+    const ListedStar star(solid->view<Space>(), positions, vertex);
+    star.for_each<true>([&here](const auto& e) { here.emplace_back(kListOf<std::remove_cvref_t<decltype(e)>>, e.reference); });
+    SolidStarView<double>(expected).for_each<true>(
+        [&there](const auto& e) { there.emplace_back(kListOf<std::remove_cvref_t<decltype(e)>>, e.reference); });
+    ASSERT_EQ(here, there) << vertex;
+    if (here.front().first != here.back().first) ++mixed;
+  }
+  EXPECT_GT(mixed, 0U);
+}
+
+Subject jittered_solids() {
+  Progress progress;
+  return Subject(solid_input(tangled(generate_mesh("solids", 216, 7, progress), 0.4)));
+}
+
+/// However many lanes work at once, and however an iteration is cut into calls.
+TEST(SolidDeviceVisits, NeitherThreadsNorCutsChangeTheResult) {
+  const Subject subject = jittered_solids();
+  ThreadPool pool(4);
+  const auto whole = make_device_dmo(host(), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+  const auto cut =
+      make_device_dmo(host({.pool = &pool}), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, &pool);
+  std::vector<Vec3> one = subject.input->mesh.positions, other = one;
+  for (int iteration = 0; iteration < 3; ++iteration) {
+    const std::uint64_t moved = whole->visit(0, subject.visits(), one, nullptr);
+    std::uint64_t in_parts = 0;
+    for (std::uint64_t first = 0; first < subject.visits(); first += 37)
+      in_parts += cut->visit(first, std::min<std::uint64_t>(37, subject.visits() - first), other, nullptr);
+    EXPECT_EQ(moved, in_parts);
+    EXPECT_GT(moved, 0U);
+  }
+  whole->store(one, nullptr);
+  cut->store(other, nullptr);
+  for (Index v = 0; v < one.size(); ++v) ASSERT_TRUE(same(one[v], other[v])) << v;
+}
+
+/// Who draws takes a volume's positions from the host.
+TEST(SolidDeviceVisits, HasNoPicture) {
+  const Subject subject = jittered_solids();
+  const auto smoother = make_device_dmo(host(), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+  std::vector<Vec3> positions = subject.input->mesh.positions;
+  smoother->visit(0, subject.visits(), positions, nullptr);
+  EXPECT_EQ(smoother->picture(Metric::MeanRatio), nullptr);
+  EXPECT_TRUE(smoother->statistics().has_value());
+}
+
+}  // namespace
+}  // namespace dmoscope::gpu

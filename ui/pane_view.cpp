@@ -97,8 +97,8 @@ void PaneView::draw_volume(const Scenery& scenery, const Wish& wish) {
   // What is isolated of the histogram is taken out of the volume; what is merely chosen keeps its place, and the rest fades.
   render::Selection selection = selection_of(state, scenery.derived);
   InsideView view = state.inside;
-  if (is_searching(scenery, wish.inspected) && state.inspection.alone) view = ghost_alone();
   if (selection.quality && selection.others == render::Selection::Others::Hide) view.isolate = std::exchange(selection.quality, {});
+  if (is_searching(scenery, wish.inspected) && state.inspection.alone) view = ghost_alone();
   selection.others = render::Selection::Others::Fade;
   if (scenery.derived.frame_serial != frame()->serial) {
     refresh_members(members_, state, *session_);

@@ -38,32 +38,56 @@ Sweep sweep_of(const RunView& run, const Moment& shown) {
   return {shown.iteration, run.records[shown.iteration].statistics.movable_minimum};
 }
 
-/// Edges and corners of the star, relative to the vertex.
-void gather_star(Inspection& inspection, const Frame& frame, Index vertex) {
-  const InputMesh& input = *frame.input;
-  const Vec3 origin = frame.positions[vertex];
-  const auto relative = [&](Index v) { return input.geometry.plane.project(frame.positions[v] - origin); };
-  inspection.origin = input.geometry.plane.project(origin);
+/// Of the star, each once.
+std::vector<std::array<Index, 2>> edges_of(const InputMesh& input, Index vertex) {
   std::vector<std::array<Index, 2>> edges;
   for (const Incidence& incidence : input.topology.star(vertex)) {
     const auto corners = input.mesh.elements.corners(incidence.element);
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const Index a = corners[k], b = corners[(k + 1) % corners.size()];
-      edges.push_back({std::min(a, b), std::max(a, b)});
-      if (a != vertex) inspection.corners.push_back(a);
+    const auto add_around = [&edges](std::span<const Index> polygon) {
+      for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const Index a = polygon[k], b = polygon[(k + 1) % polygon.size()];
+        edges.push_back({std::min(a, b), std::max(a, b)});
+      }
+    };
+    if (!input.is_volume()) {
+      add_around(corners);
+      continue;
+    }
+    const auto faces = static_cast<Index>(faces_of(input.mesh.elements.kind(incidence.element)).size());
+    for (Index f = 0; f < faces; ++f) {
+      const auto face = vertices_of(input.mesh.elements, {incidence.element, f});
+      add_around(std::span(face).first(face[3] == kNoIndex ? 3 : 4));
     }
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  for (const auto& [a, b] : edges) inspection.edges.push_back({relative(a), relative(b)});
+  return edges;
+}
+
+/// Edges and corners of the star, relative to the vertex.
+void gather_star(Inspection& inspection, const Frame& frame, Index vertex) {
+  const InputMesh& input = *frame.input;
+  const Vec3 origin = frame.positions[vertex];
+  const auto away = [&](Index v) { return frame.positions[v] - origin; };
+  const auto relative = [&](Index v) { return input.geometry.plane.project(away(v)); };
+  for (const Incidence& incidence : input.topology.star(vertex))
+    for (const Index corner : input.mesh.elements.corners(incidence.element))
+      if (corner != vertex) inspection.corners.push_back(corner);
   std::vector<Index>& corners = inspection.corners;
   std::sort(corners.begin(), corners.end());
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  inspection.box.include(Vec2<double>{0, 0});
-  for (const Index corner : corners) {
-    inspection.corners_at.push_back(frame.positions[corner]);
-    inspection.box.include(relative(corner));
+  for (const Index corner : corners) inspection.corners_at.push_back(frame.positions[corner]);
+  if (input.is_volume()) {
+    inspection.stood = origin;
+    for (const auto& [a, b] : edges_of(input, vertex)) inspection.space_edges.push_back({away(a), away(b)});
+    inspection.space_box.include(Vec3{});
+    for (const Index corner : corners) inspection.space_box.include(away(corner));
+    return;
   }
+  inspection.origin = input.geometry.plane.project(origin);
+  for (const auto& [a, b] : edges_of(input, vertex)) inspection.edges.push_back({relative(a), relative(b)});
+  inspection.box.include(Vec2<double>{0, 0});
+  for (const Index corner : corners) inspection.box.include(relative(corner));
 }
 
 /// Round values between the least and the greatest quality of the valid region.
@@ -86,15 +110,35 @@ void add_lines(FieldPicture& picture) {
   }
 }
 
-/// Of the star's box and the first grid's, with a margin. The vertex may stand elsewhere by now.
-void sample_field(Inspection& inspection, const SessionView& session) {
-  const Frame& frame = *session.frame;
+/// Of the star and the grids.
+render::Bounds2 box_of(const Inspection& inspection) {
   render::Bounds2 box = inspection.box;
   for (const TracedLevel& level : inspection.trace->levels) {
     const Vec2<double> half{level.size.x / 2, level.size.y / 2};
     box.include(level.centre - half);
     box.include(level.centre + half);
   }
+  return box;
+}
+render::Bounds2 box_in(const StarSlice& slice, const Inspection& inspection) {
+  render::Bounds2 box;
+  box.include(slice.project(inspection.space_box.low));
+  box.include(slice.project(inspection.space_box.high));
+  for (const SolidLevel& level : inspection.solid->levels) {
+    box.include(slice.project(level.centre - 0.5 * level.size));
+    box.include(slice.project(level.centre + 0.5 * level.size));
+  }
+  return box;
+}
+double along(int axis, Vec3 p) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+
+/// Of the star's box and the first grid's, with a margin. The vertex may stand elsewhere by now.
+void sample_field(Inspection& inspection, const SessionView& session) {
+  const Frame& frame = *session.frame;
+  const bool volume = inspection.solid.has_value();
+  const StarSlice& slice = inspection.field_slice;
+  const auto flat = [&](Vec3 p) { return volume ? slice.project(p) : frame.input->geometry.plane.project(p); };
+  const render::Bounds2 box = volume ? box_in(slice, inspection) : box_of(inspection);
   const double margin = 0.06 * std::max(box.size().x, box.size().y);
   Vec2<double> low{box.low.x - margin, box.low.y - margin}, high{box.high.x + margin, box.high.y + margin};
   const double longest = std::max(high.x - low.x, high.y - low.y);
@@ -103,10 +147,17 @@ void sample_field(Inspection& inspection, const SessionView& session) {
     return std::max(8, static_cast<int>(std::lround(static_cast<double>(kFieldSamples) * length / longest)));
   };
   const Index vertex = inspection.key.vertex;
-  const Vec2<double> moved = frame.input->geometry.plane.project(frame.positions[vertex] - inspection.trace->from);
+  const Vec3 moved_in_space = frame.positions[vertex] - inspection.visit()->from;
+  const Vec2<double> moved = flat(moved_in_space);
+  const int columns = samples(high.x - low.x), rows = samples(high.y - low.y);
   FieldPicture picture;
-  picture.field = sample_quality(*frame.input, frame.positions, inspection.key.metric, vertex, low - moved, high - moved,
-                                 samples(high.x - low.x), samples(high.y - low.y));
+  if (volume) {
+    const StarSlice now{slice.axis, slice.offset - along(slice.axis, moved_in_space)};
+    picture.field =
+        sample_slice(*frame.input, frame.positions, inspection.key.metric, vertex, now, low - moved, high - moved, columns, rows);
+  } else {
+    picture.field = sample_quality(*frame.input, frame.positions, inspection.key.metric, vertex, low - moved, high - moved, columns, rows);
+  }
   picture.field.low = low;
   picture.field.high = high;
   add_lines(picture);
@@ -118,15 +169,16 @@ bool still_applied(const Inspection& inspection, const SessionView& session, boo
   const Frame& frame = *session.frame;
   Inspection::Key key = key_of(session, inspection.key.vertex);
   key.frame_serial = inspection.key.frame_serial;
-  if (!inspection.trace || !(key == inspection.key) || !no_inspection(session).empty()) return false;
+  const VisitSummary* visit = inspection.visit();
+  if (visit == nullptr || !(key == inspection.key) || !no_inspection(session).empty()) return false;
   for (std::size_t k = 0; k < inspection.corners.size(); ++k) {
     if (!(frame.positions[inspection.corners[k]] == inspection.corners_at[k])) return false;
   }
   const Vec3 now = frame.positions[key.vertex];
-  return now == inspection.trace->to || (busy && now == inspection.trace->from);
+  return now == visit->to || (busy && now == visit->from);
 }
 
-std::optional<std::pair<double, double>> range_of(const TracedLevel& level, bool valid) {
+std::optional<std::pair<double, double>> range_of(const LevelValues& level, bool valid) {
   std::optional<std::pair<double, double>> range;
   for (const double q : level.quality) {
     if (is_valid(q) != valid) continue;
@@ -142,6 +194,8 @@ void forget(InspectionState& state) {
   closed.field = state.field;
   closed.field_in_view = state.field_in_view;
   closed.own_range = state.own_range;
+  closed.slice_axis = state.slice_axis;
+  closed.alone = state.alone;
   closed.playing = state.playing;
   state = closed;
 }
@@ -152,7 +206,7 @@ std::string no_inspection(const SessionView& session) {
   const RunView* run = active_run(session);
   if (run == nullptr || session.frame == nullptr) return "no mesh is open";
   if (session.frame->device) return "The run is at work on its device. When it rests, its visits can be looked into.";
-  if (session.input->geometry.shape != Shape::Planar) return "Only visits in a planar mesh can be looked into.";
+  if (session.input->geometry.shape == Shape::Surface) return "Only visits in a planar or volume mesh can be looked into.";
   return {};
 }
 
@@ -171,10 +225,18 @@ Inspection inspect(const SessionView& session, Index vertex) {
     gather_star(inspection, frame, vertex);
     const auto aims = aims_of_visit(run.parameters.metric, run.parameters.combination, run.size, sweep_of(run, frame.moment));
     if (!aims && !method_info(run.parameters.method).searches_grid) inspection.other_method = run.parameters.method;
-    inspection.trace = trace_visit(*frame.input, frame.positions, run.fixed, run.parameters.metric, run.parameters.search, vertex, aims);
+    const auto trace = [&](auto traced) {
+      return traced(*frame.input, frame.positions, run.fixed, run.parameters.metric, run.parameters.search, vertex, aims);
+    };
+    if (frame.input->is_volume()) {
+      inspection.solid = trace(trace_solid_visit);
+      return inspection;
+    }
+    inspection.trace = trace(trace_visit);
     if (!aims) inspection.optimum = local_optimum(*frame.input, frame.positions, run.parameters.metric, vertex);
   } catch (const Error& error) {
     inspection.trace.reset();
+    inspection.solid.reset();
     inspection.trouble = error.what();
   }
   return inspection;
@@ -203,9 +265,15 @@ void refresh(Inspection& inspection, ViewState& state, const SessionView& sessio
     wanted.level = std::min(wanted.level, 1);
   }
   if (!wanted.applied && !(inspection.key == key_of(session, wanted.vertex))) inspection = inspect(session, wanted.vertex);
-  if (inspection.trace) wanted.level = std::clamp(wanted.level, 0, static_cast<int>(inspection.trace->levels.size()));
-  const bool wants_field = wanted.field || wanted.field_in_view;
-  if (wants_field && inspection.trace && !inspection.field) sample_field(inspection, session);
+  if (inspection.visit() == nullptr) return;
+  wanted.level = std::clamp(wanted.level, 0, static_cast<int>(inspection.level_count()));
+  if (inspection.solid) {
+    const StarSlice plane = field_plane(wanted, inspection);
+    if (!(plane == inspection.field_slice)) inspection.field.reset();
+    inspection.field_slice = plane;
+  }
+  const bool wants_field = wanted.field || (wanted.field_in_view && inspection.trace);
+  if (wants_field && !inspection.field) sample_field(inspection, session);
 }
 
 Index next_vertex(const SessionView& session) {
@@ -226,10 +294,11 @@ Index worst_free_corner(const SessionView& session, Index element) {
     if (!is_free(*run, corner)) continue;
     if (frame.device) return corner;
     const Inspection look = inspect(session, corner);
-    const std::pair mine = look.trace ? std::pair{look.trace->before.quality, -look.trace->after.quality}
-                                      : std::pair{vertex_quality(frame.input->quality_context(), frame.input->topology, frame.positions,
-                                                                 run->parameters.metric, corner),
-                                                  0.0};
+    const VisitSummary* visit = look.visit();
+    const std::pair mine = visit != nullptr ? std::pair{visit->before.quality, -visit->after.quality}
+                                            : std::pair{vertex_quality(frame.input->quality_context(), frame.input->topology,
+                                                                       frame.positions, run->parameters.metric, corner),
+                                                        0.0};
     if (worst == kNoIndex || mine < value) {
       worst = corner;
       value = mine;
@@ -258,10 +327,29 @@ Index worst_movable_element(const SessionView& session) {
   return worst;
 }
 
+GridSlice shown_slice(const InspectionState& state, const Inspection& inspection, int level) {
+  const LevelValues& values = inspection.level(level);
+  GridSlice slice{values.points, {}, 0};
+  if (!inspection.solid) return slice;
+  slice.axis = state.slice_axis;
+  slice.number = values.points / 2;
+  if (values.best) slice.number = slice.along(*values.best);
+  if (state.slice) slice.number = std::clamp(*state.slice, 0, values.points - 1);
+  return slice;
+}
+
+StarSlice field_plane(const InspectionState& state, const Inspection& inspection) {
+  const int axis = state.slice_axis;
+  if (state.applied) return {axis, along(axis, inspection.solid->step)};
+  if (state.level < 1 || inspection.solid->levels.empty()) return {axis, 0.0};
+  const SolidLevel& level = inspection.solid->levels[static_cast<std::size_t>(state.level - 1)];
+  return {axis, along(axis, level.at(shown_slice(state, inspection, state.level).index(0, 0)))};
+}
+
 bool is_valid(double quality) { return quality > 0.0; }
 
-std::optional<std::pair<double, double>> valid_range(const TracedLevel& level) { return range_of(level, true); }
-std::optional<std::pair<double, double>> invalid_range(const TracedLevel& level) { return range_of(level, false); }
+std::optional<std::pair<double, double>> valid_range(const LevelValues& level) { return range_of(level, true); }
+std::optional<std::pair<double, double>> invalid_range(const LevelValues& level) { return range_of(level, false); }
 
 double part_of(const std::optional<std::pair<double, double>>& range, double quality) {
   if (!range || !(range->second > range->first)) return 1.0;

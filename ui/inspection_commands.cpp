@@ -27,6 +27,10 @@ std::shared_ptr<const SessionView> session_of(const CommandHost& host) {
 void look_at_star(ViewState& state, const Frame& frame, Index vertex) {
   constexpr double kLeastShare = 1.0 / 8.0, kShare = 0.5;
   if (frame.device) return;
+  if (frame.input->is_volume()) {
+    look_at_picked(state, frame);
+    return;
+  }
   const render::Bounds2 box = star_box(frame, vertex), seen = state.camera.visible(state.viewport);
   const double extent = std::max({box.size().x, box.size().y, 1e-9 * frame.input->geometry.size});
   const double side = std::min(state.viewport.x, state.viewport.y) * state.camera.units_per_pixel;
@@ -40,6 +44,21 @@ void leave_close_up(ViewState& state) {
   auto& close_up = state.inspection.close_up;
   if (close_up && close_up->second == state.camera) state.camera = close_up->first;
   close_up.reset();
+  auto& space = state.inspection.space_close_up;
+  if (space && space->second == state.orbit) state.orbit = space->first;
+  space.reset();
+}
+
+/// The grid of a volume's level fills a good part of the view where it would be too small to read.
+void close_up_in_space(ViewState& state, const Inspection& look) {
+  constexpr double kLeastShare = 0.4, kShare = 0.6;  // of the view's height
+  const SolidLevel& level = look.solid->levels[static_cast<std::size_t>(state.inspection.level - 1)];
+  const double extent = length(level.size);
+  if (!(extent > 0.0) || extent >= kLeastShare * state.orbit.height) return;
+  const render::OrbitCamera before = state.orbit;
+  state.orbit.orbit_about(look.stood + level.centre);
+  state.orbit.height = extent / kShare;
+  state.inspection.space_close_up = {before, state.orbit};
 }
 
 /// Candidates that would lie on top of each other are looked at from closer by.
@@ -47,8 +66,9 @@ void close_up_on(ViewState& state, const Inspection& look) {
   constexpr double kLeastSpacing = 8.0, kSpacing = 17.0, kLargestShare = 0.6;  // pixels; of the view's shorter side
   leave_close_up(state);
   InspectionState& inspection = state.inspection;
-  if (!inspection.zoom || !look.trace || inspection.applied || inspection.all_levels || inspection.level < 1) return;
-  if (static_cast<std::size_t>(inspection.level) > look.trace->levels.size()) return;
+  if (!inspection.zoom || look.visit() == nullptr || inspection.applied || inspection.all_levels || inspection.level < 1) return;
+  if (static_cast<std::size_t>(inspection.level) > look.level_count()) return;
+  if (look.solid) return close_up_in_space(state, look);
   const TracedLevel& level = look.trace->levels[static_cast<std::size_t>(inspection.level - 1)];
   const double extent = std::max(level.size.x, level.size.y), spacing = least_spacing(level);
   if (!(spacing > 0.0) || spacing / state.camera.units_per_pixel >= kLeastSpacing * state.scale) return;
@@ -139,11 +159,12 @@ void apply_move(ViewState& state, const CommandHost& host, const SessionView& se
   if (state.timeline.shown != Shown::Now)
     throw UsageError("a marked moment is shown: this move would be made in the mesh as it is now (flip now shows that)");
   const Inspection look = inspect(session, inspection.vertex);
-  if (!look.trace) throw UsageError(look.trouble);
+  const VisitSummary* visit = look.visit();
+  if (visit == nullptr) throw UsageError(look.trouble);
   if (!look.other_method.empty())
     throw UsageError(fmt::format("this run's method is {}, not dmo, whose move this is (visit {} makes the run's own)", look.other_method,
                                  inspection.vertex));
-  if (look.trace->end == VisitEnd::Fixed) throw UsageError(fmt::format("vertex {} is fixed", inspection.vertex));
+  if (visit->end == VisitEnd::Fixed) throw UsageError(fmt::format("vertex {} is fixed", inspection.vertex));
   if (host.busy()) throw UsageError("the run is at work: wait until it rests, or cancel it");
   const RunView& run = session.runs[session.active];
   inspection.take_back.clear();
@@ -152,11 +173,11 @@ void apply_move(ViewState& state, const CommandHost& host, const SessionView& se
   if (inspection.in_order && run.edits == run.edits_done && next_vertex(session) == inspection.vertex) {
     host.post("step vertex");
     inspection.take_back = "back vertex";
-  } else if (look.trace->end == VisitEnd::Moved) {
+  } else if (visit->end == VisitEnd::Moved) {
     host.post(fmt::format("visit {}", inspection.vertex));
     inspection.take_back = "undo";
   }
-  inspection.level = static_cast<int>(look.trace->levels.size());
+  inspection.level = static_cast<int>(look.level_count());
   inspection.all_levels = false;
   inspection.applied = true;
   leave_close_up(state);
@@ -174,8 +195,8 @@ void next_level(ViewState& state, const CommandHost& host, const SessionView& se
     return;
   }
   const Inspection look = inspect(session, inspection.vertex);
-  if (!look.trace || look.trace->levels.empty()) return;  // the inspector says why
-  const int last = static_cast<int>(look.trace->levels.size());
+  if (look.level_count() == 0) return;  // the inspector says why
+  const int last = static_cast<int>(look.level_count());
   if (inspection.level < last && !inspection.all_levels) {
     show_level(state, look, inspection.level + 1);
   } else {
@@ -215,8 +236,8 @@ void set_level(ViewState& state, const SessionView& session, const std::string& 
     return;
   }
   const std::uint64_t level = to_count(word);
-  if (!look.trace) throw UsageError(look.trouble);
-  const std::size_t levels = look.trace->levels.size();
+  if (look.visit() == nullptr) throw UsageError(look.trouble);
+  const std::size_t levels = look.level_count();
   if (level > levels) throw UsageError(fmt::format("there is no level {}: this visit has {}", level, levels));
   show_level(state, look, static_cast<int>(level));
 }
@@ -291,10 +312,11 @@ void add_inspection_look_verbs(CommandTable& table, ViewState& state) {
     bool InspectionState::*flag;
     const char* doc;
   };
-  static constexpr std::array<Switch, 3> switches{
+  static constexpr std::array<Switch, 4> switches{
       {{"inspect-zoom", &InspectionState::zoom, "goes as close as the shown level needs"},
        {"field", &InspectionState::field, "the quality around the inspected vertex, in the inspector"},
-       {"field-in-view", &InspectionState::field_in_view, "the quality around the inspected vertex, over the mesh"}}};
+       {"field-in-view", &InspectionState::field_in_view, "the quality around the inspected vertex, over the mesh"},
+       {"inspect-alone", &InspectionState::alone, "of a volume the rest is but a ghost while a vertex is looked into"}}};
   for (const Switch& one : switches) {
     table.add({one.name, fmt::format("{} [on|off|toggle]", one.name), one.doc}, [&state, flag = one.flag](Arguments words) {
       need(words, 0, 1);
@@ -309,24 +331,58 @@ void add_inspection_look_verbs(CommandTable& table, ViewState& state) {
             });
 }
 
+void add_slice_verb(CommandTable& table, ViewState& state, const CommandHost& host) {
+  table.add({"grid-slice", "grid-slice x|y|z|N|next|back|best",
+             "of a volume's grid the slice that the maps show: its axis, its number, or of each level the one chosen from"},
+            [&state, &host](Arguments words) {
+              need(words, 1, 1);
+              const auto session = session_of(host);
+              if (!session->input->is_volume()) throw UsageError("the grids of a planar mesh have no slices");
+              follow_pick(state);
+              InspectionState& inspection = state.inspection;
+              const std::string& word = words[0];
+              if (word == "x" || word == "y" || word == "z") {
+                inspection.slice_axis = word[0] - 'x';
+                return;
+              }
+              if (word == "best") {
+                inspection.slice.reset();
+                return;
+              }
+              if (!inspection.open || inspection.vertex == kNoIndex) throw UsageError("no vertex is looked into");
+              const Inspection look = inspect(*session, inspection.vertex);
+              if (look.level_count() == 0)
+                throw UsageError(look.visit() == nullptr ? look.trouble : "this vertex is fixed: it has no grid");
+              const int level = std::clamp(inspection.level, 1, static_cast<int>(look.level_count()));
+              const GridSlice shown = shown_slice(inspection, look, level);
+              if (word == "next" || word == "back") {
+                inspection.slice = std::clamp(shown.number + (word == "next" ? 1 : -1), 0, shown.points - 1);
+                return;
+              }
+              const std::uint64_t number = to_count(word);
+              if (number < 1 || number > static_cast<std::uint64_t>(shown.points))
+                throw UsageError(fmt::format("there is no slice {}: the grid has 1 to {}", number, shown.points));
+              inspection.slice = static_cast<int>(number) - 1;
+            });
+}
+
 void add_trace_verbs(CommandTable& table, ViewState& state, const CommandHost& host) {
   const auto traced = [&state, &host] {
     const auto session = session_of(host);
     follow_pick(state);
     if (!state.inspection.open || state.inspection.vertex == kNoIndex) throw UsageError("no vertex is looked into");
     Inspection look = inspect(*session, state.inspection.vertex);
-    if (!look.trace) throw UsageError(look.trouble);
-    return std::move(*look.trace);
+    if (look.visit() == nullptr) throw UsageError(look.trouble);
+    return look;
   };
   table.add(
       {"copy-level", "copy-level [N]", "puts the candidates of a level on the clipboard as CSV; without N of the shown one, 0: of all"},
       [&state, traced](Arguments words) {
         need(words, 0, 1);
-        const VisitTrace trace = traced();
+        const Inspection look = traced();
         const std::uint64_t level = words.empty() ? static_cast<std::uint64_t>(state.inspection.level) : to_count(words[0]);
-        if (level > trace.levels.size())
-          throw UsageError(fmt::format("there is no level {}: this visit has {}", level, trace.levels.size()));
-        state.requests.clipboard = trace_csv(trace, static_cast<int>(level));
+        if (level > look.level_count()) throw UsageError(fmt::format("there is no level {}: this visit has {}", level, look.level_count()));
+        state.requests.clipboard = trace_csv(look, static_cast<int>(level));
       });
   table.add({"export-trace", "export-trace FILE.csv", "writes all candidates of all levels of the inspected vertex"},
             [&state, traced](Arguments words) {
@@ -342,6 +398,7 @@ void add_inspection_verbs(CommandTable& table, ViewState& state, const CommandHo
   add_opening_verbs(table, state, host);
   add_level_verbs(table, state, host);
   add_inspection_look_verbs(table, state);
+  add_slice_verb(table, state, host);
   add_trace_verbs(table, state, host);
 }
 

@@ -11,7 +11,8 @@ namespace dmoscope::ui {
 
 ///   inspect [on|off|toggle] | inspect vertex ID | inspect element ID | inspect-next | inspect-worst
 ///   level next|back|N|all | play-levels [on|off|toggle] | apply-move | inspect-zoom [on|off|toggle]
-///   field [on|off|toggle] | field-in-view [on|off|toggle] | level-range view|level | copy-level [N] | export-trace FILE.csv
+///   field [on|off|toggle] | field-in-view [on|off|toggle] | inspect-alone [on|off|toggle] | grid-slice x|y|z|N|next|back|best
+///   level-range view|level | copy-level [N] | export-trace FILE.csv
 void add_inspection_verbs(CommandTable& table, ViewState& state, const CommandHost& host);
 
 /// What playing the levels asks for now: a command line, empty: none yet; and after how many seconds there may be another one.

@@ -68,8 +68,8 @@ void add_ring(Pen& pen, const TracedLevel& level, int index) {
 
 }  // namespace
 
-InspectionLook inspection_look(const render::Style& style, render::Rgb accent, const render::Camera2D& camera, double scale) {
-  return {style.colours, style.highlight_colour, style.casing_colour, opaque(accent), camera.units_per_pixel, scale};
+InspectionLook inspection_look(const render::Style& style, render::Rgb accent, double units_per_pixel, double scale) {
+  return {style.colours, style.highlight_colour, style.casing_colour, opaque(accent), units_per_pixel, scale};
 }
 
 float candidate_diameter(double spacing, double part) {

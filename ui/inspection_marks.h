@@ -2,6 +2,7 @@
 // What of an inspected visit is drawn on the mesh.
 
 #include "render/style.h"
+#include "render/volume_scene.h"
 #include "ui/inspection.h"
 
 namespace dmoscope::ui {
@@ -19,11 +20,15 @@ struct InspectionLook {
 };
 
 /// As the mesh is drawn in this style.
-[[nodiscard]] InspectionLook inspection_look(const render::Style& style, render::Rgb accent, const render::Camera2D& camera, double scale);
+[[nodiscard]] InspectionLook inspection_look(const render::Style& style, render::Rgb accent, double units_per_pixel, double scale);
 
 /// Diameters of candidates, pixels at scale 1. `spacing`: between neighbours, pixels; `part`: 0 the level's worst valid candidate, 1 its
 /// best.
 [[nodiscard]] float candidate_diameter(double spacing, double part);
+
+/// The same in the space of a volume.
+void add_inspection_marks(render::SpaceMarks& marks, const InspectionState& state, const Inspection& inspection,
+                          const InspectionLook& look);
 
 /// Adds the star, and of the levels shown: the grid's outline, a dot or cross for every candidate, a ring around the one chosen, the next
 /// grid's outline, and the way from where the vertex stood.

@@ -8,6 +8,7 @@
 #include "core/base/vec.h"
 #include "core/session/moment.h"
 #include "render/camera.h"
+#include "render/orbit_camera.h"
 
 namespace dmoscope::ui {
 
@@ -35,6 +36,11 @@ struct InspectionState {
   double level_since = -1.0;  // when playing came to what is shown, in seconds of the window; < 0: not drawn yet
   // While a level is shown closer than the star: the camera it came from and its own. Whoever moves the camera keeps it.
   std::optional<std::pair<render::Camera2D, render::Camera2D>> close_up;
+  std::optional<std::pair<render::OrbitCamera, render::OrbitCamera>> space_close_up;  // likewise of a volume
+  // Of a volume: the slice of the grid that the maps show.
+  int slice_axis = 2;                    // 0 x, 1 y, 2 z: it is at right angles to it
+  std::optional<int> slice;              // from 0; none: each level's own with its chosen candidate
+  bool alone = true;                     // the mesh is but a ghost meanwhile
   std::optional<CandidateName> hovered;  // under the mouse in the inspector
 };
 

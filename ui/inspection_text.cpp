@@ -8,18 +8,18 @@
 
 namespace dmoscope::ui {
 std::string level_label(const InspectionState& state, const Inspection& inspection) {
-  if (!inspection.trace) return {};
-  const VisitTrace& trace = *inspection.trace;
-  if (trace.levels.empty()) return "fixed";
+  if (inspection.visit() == nullptr) return {};
+  const VisitSummary& trace = *inspection.visit();
+  const std::size_t levels = inspection.level_count();
+  if (levels == 0) return "fixed";
   if (state.applied) {
     if (trace.end != VisitEnd::Moved) return fmt::format("stays · {}", short_number(quality_of(trace.before)));
     return fmt::format("moved · {} → {}", short_number(quality_of(trace.before)), short_number(quality_of(trace.after)));
   }
-  if (state.all_levels) return fmt::format("levels 1 to {}", trace.levels.size());
+  if (state.all_levels) return fmt::format("levels 1 to {}", levels);
   if (state.level < 1) return {};
-  const TracedLevel& level = trace.levels[static_cast<std::size_t>(state.level - 1)];
-  const std::string name =
-      fmt::format("{}level {} of {}", inspection.other_method.empty() ? "" : "dmo · ", state.level, trace.levels.size());
+  const LevelValues& level = inspection.level(state.level);
+  const std::string name = fmt::format("{}level {} of {}", inspection.other_method.empty() ? "" : "dmo · ", state.level, levels);
   if (!level.best) return name + " · none better";
   return fmt::format("{} · best {}", name, short_number(level.quality[static_cast<std::size_t>(*level.best)]));
 }
@@ -30,7 +30,7 @@ std::string other_method_sentence(const Inspection& inspection) {
                      inspection.other_method);
 }
 
-Index limiting_element(const VisitTrace& trace, bool after) {
+Index limiting_element(const VisitSummary& trace, bool after) {
   const auto quality = [after](const ElementChange& change) { return after ? change.after : change.before; };
   const auto least = std::min_element(trace.elements.begin(), trace.elements.end(),
                                       [&](const ElementChange& a, const ElementChange& b) { return quality(a) < quality(b); });
@@ -47,8 +47,8 @@ std::string gap_sentence(const Inspection& inspection) {
 }
 
 std::string stuck_sentence(const Inspection& inspection) {
-  if (!inspection.trace) return {};
-  const VisitTrace& trace = *inspection.trace;
+  if (inspection.visit() == nullptr) return {};
+  const VisitSummary& trace = *inspection.visit();
   if (trace.end == VisitEnd::Moved) return {};
   if (trace.end == VisitEnd::Fixed)
     return "It is fixed: no search moves it, and what its elements can become depends on their other corners.";
@@ -67,11 +67,27 @@ std::string stuck_sentence(const Inspection& inspection) {
   return text;
 }
 
-std::string candidate_text(const VisitTrace& trace, const TracedLevel& level, int index) {
-  const auto slot = static_cast<std::size_t>(index);
+namespace {
+
+std::string name_of(const TracedLevel& level, int index) {
   const Vec2<double> at = level.at(index);
-  std::string text = fmt::format("candidate {} ({}, {})\noffset {}, {}\n", index, index / level.points, index % level.points,
-                                 short_number(at.x), short_number(at.y));
+  return fmt::format("candidate {} ({}, {})\noffset {}, {}\n", index, index / level.points, index % level.points, short_number(at.x),
+                     short_number(at.y));
+}
+std::string name_of(const SolidLevel& level, int index) {
+  const Vec3 at = level.at(index);
+  const int n = level.points;
+  return fmt::format("candidate {} ({}, {}, {})\noffset {}, {}, {}\n", index, index / (n * n), index / n % n, index % n, short_number(at.x),
+                     short_number(at.y), short_number(at.z));
+}
+
+}  // namespace
+
+std::string candidate_text(const Inspection& inspection, int number, int index) {
+  const auto slot = static_cast<std::size_t>(index), of = static_cast<std::size_t>(number - 1);
+  const LevelValues& level = inspection.level(number);
+  const VisitSummary& trace = *inspection.visit();
+  std::string text = inspection.trace ? name_of(inspection.trace->levels[of], index) : name_of(inspection.solid->levels[of], index);
   text += is_valid(level.quality[slot]) ? fmt::format("quality {}\n", full_number(level.quality[slot]))
                                         : fmt::format("an element is inverted: least Jacobian {}\n", full_number(level.quality[slot]));
   text += fmt::format("{} {}", trace.value_phrase, full_number(level.values[slot]));
@@ -79,7 +95,7 @@ std::string candidate_text(const VisitTrace& trace, const TracedLevel& level, in
   return text;
 }
 
-std::string search_phrase(const VisitTrace& trace) {
+std::string search_phrase(const VisitSummary& trace) {
   std::string text = trace.fast ? "fast search in float" : "plain search in double";
   if (trace.untangling) text += ", untangling";
   return text;
@@ -98,6 +114,36 @@ std::string trace_csv(const VisitTrace& trace, int level) {
     }
   }
   return text;
+}
+
+std::string trace_csv(const SolidTrace& trace, int level) {
+  std::string text = "level,index,i,j,k,x,y,z,value,quality,chosen\n";
+  for (std::size_t l = 0; l < trace.levels.size(); ++l) {
+    if (level != 0 && static_cast<std::size_t>(level) != l + 1) continue;
+    const SolidLevel& one = trace.levels[l];
+    const int n = one.points;
+    for (int index = 0; index < n * n * n; ++index) {
+      const Vec3 at = one.at(index);
+      const auto slot = static_cast<std::size_t>(index);
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", l + 1, index, index / (n * n), index / n % n, index % n, at.x, at.y, at.z,
+                          one.values[slot], one.quality[slot], one.best == index ? 1 : 0);
+    }
+  }
+  return text;
+}
+
+std::string trace_csv(const Inspection& inspection, int level) {
+  return inspection.trace ? trace_csv(*inspection.trace, level) : trace_csv(*inspection.solid, level);
+}
+
+std::string grid_phrase(const Inspection& inspection) {
+  if (inspection.level_count() == 0) return {};
+  const int n = inspection.level(1).points;
+  return inspection.trace ? fmt::format("{} × {} candidates a level", n, n) : fmt::format("{} × {} × {} candidates a level", n, n, n);
+}
+
+std::string slice_phrase(const GridSlice& slice) {
+  return slice.axis ? fmt::format("{}, slice {} of {}", "xyz"[*slice.axis], slice.number + 1, slice.points) : std::string();
 }
 
 }  // namespace dmoscope::ui

@@ -21,15 +21,23 @@ namespace dmoscope::ui {
 [[nodiscard]] std::string other_method_sentence(const Inspection& inspection);
 
 /// Element of least quality of the star, before or after the visit: what limits it. kNoIndex for an empty star.
-[[nodiscard]] Index limiting_element(const VisitTrace& trace, bool after);
+[[nodiscard]] Index limiting_element(const VisitSummary& visit, bool after);
 
 /// A candidate in some lines: which, where, what it is worth.
-[[nodiscard]] std::string candidate_text(const VisitTrace& trace, const TracedLevel& level, int index);
+[[nodiscard]] std::string candidate_text(const Inspection& inspection, int level, int index);
 
 /// Where the trace is from: "float, fast search", "double, plain search, untangling".
-[[nodiscard]] std::string search_phrase(const VisitTrace& trace);
+[[nodiscard]] std::string search_phrase(const VisitSummary& visit);
 
 /// Columns level,index,i,j,u,v,value,quality,chosen; u and v: offset from the vertex in the plane, mesh units. `level`: from 1; 0: all.
 [[nodiscard]] std::string trace_csv(const VisitTrace& trace, int level = 0);
+/// Of a volume: level,index,i,j,k,x,y,z,value,quality,chosen; x, y and z: offset from the vertex.
+[[nodiscard]] std::string trace_csv(const SolidTrace& trace, int level = 0);
+[[nodiscard]] std::string trace_csv(const Inspection& inspection, int level = 0);
+
+/// How many candidates a level has: "8 × 8 × 8 candidates a level".
+[[nodiscard]] std::string grid_phrase(const Inspection& inspection);
+/// "z, slice 4 of 8" of a level (from 1) of a volume.
+[[nodiscard]] std::string slice_phrase(const GridSlice& slice);
 
 }  // namespace dmoscope::ui

@@ -11,6 +11,23 @@
 
 namespace dmoscope::ui {
 
+namespace {
+
+/// A search in a volume is looked into: its marks are to be seen.
+bool is_searching(const Scenery& scenery, bool inspected) {
+  return inspected && scenery.state.inspection.open && scenery.inspection.solid && !scenery.state.inspection.applied;
+}
+
+/// No cell at all, but faintly the boundary of all of them.
+InsideView ghost_alone() {
+  InsideView view;
+  view.isolate = {4.0F, 5.0F};  // no metric is
+  view.ghost = true;
+  return view;
+}
+
+}  // namespace
+
 render::Style picture_style(const ViewState& state, const Derived& derived) {
   render::Style style = scene_style(state);
   style.colours = shown_scale(state, derived);
@@ -52,19 +69,29 @@ render::Pick PaneView::pick(const ViewState& state, const render::Camera2D& came
                                 : scene_.pick(camera, state.viewport, pixel, radius);
 }
 
-render::SpaceMarks PaneView::space_marks(const ViewState& state) const {
+render::SpaceMarks PaneView::space_marks(const Scenery& scenery, Vec2<double> viewport, bool inspected) const {
+  const ViewState& state = scenery.state;
   render::SpaceMarks marks;
+  const bool inspecting = inspected && state.inspection.open, searching = is_searching(scenery, inspected);
   const Picked& picked = state.picked;
   if (picked.kind == Picked::Kind::Element && picked.id < frame()->element_count()) marks.cells = {picked.id};
   if (picked.kind == Picked::Kind::Vertex && picked.id < frame()->vertex_count()) {
-    for (const Incidence& incidence : frame()->input->topology.star(picked.id)) marks.cells.push_back(incidence.element);
+    for (const Incidence& incidence : searching ? std::span<const Incidence>{} : frame()->input->topology.star(picked.id))
+      marks.cells.push_back(incidence.element);
     marks.vertices = {picked.id};
   }
   constexpr std::size_t kMostDots = 20'000;  // more of them cover the mesh
   if (!state.selection.empty() && state.selection.vertices().size() <= kMostDots)
     for (const Index v : state.selection.vertices())
       if (v < frame()->vertex_count()) marks.vertices.push_back(v);
-  if (state.worst_marker && !frame()->worst.empty()) marks.worst = frame()->worst.front().element;
+  if (state.worst_marker && !frame()->worst.empty() && !inspecting) marks.worst = frame()->worst.front().element;
+  if (inspecting) {
+    render::Style of_quality = scene_style(state);
+    of_quality.colours = colour_scale(state, scenery.derived);  // of candidates, whatever the cells show
+    const double units = state.orbit.units_per_pixel(viewport);
+    add_inspection_marks(marks, state.inspection, scenery.inspection,
+                         inspection_look(of_quality, palette(state.theme).accent, units, state.scale));
+  }
   return marks;
 }
 
@@ -77,6 +104,7 @@ void PaneView::draw_volume(const Scenery& scenery, const Wish& wish) {
   render::Selection selection = selection_of(state, scenery.derived);
   InsideView view = state.inside;
   if (selection.quality && selection.others == render::Selection::Others::Hide) view.isolate = std::exchange(selection.quality, {});
+  if (is_searching(scenery, wish.inspected) && state.inspection.alone) view = ghost_alone();
   selection.others = render::Selection::Others::Fade;
   if (scenery.derived.frame_serial != frame()->serial) {
     refresh_members(members_, state, *session_);
@@ -87,7 +115,8 @@ void PaneView::draw_volume(const Scenery& scenery, const Wish& wish) {
   labels_.clear();
   labels_lack_room_ = false;
   const auto w = static_cast<int>(std::lround(state.viewport.x)), h = static_cast<int>(std::lround(state.viewport.y));
-  volume_->picture.update(scene, {w, h, state.orbit, picture_style(state, scenery.derived), space_marks(state), wish.detail, wish.refine});
+  volume_->picture.update(scene, {w, h, state.orbit, picture_style(state, scenery.derived),
+                                  space_marks(scenery, state.viewport, wish.inspected), wish.detail, wish.refine});
 }
 
 void PaneView::select(const Scenery& scenery) {
@@ -145,7 +174,7 @@ render::Marks PaneView::marks(const Scenery& scenery, const MarkView& view, bool
   if (inspecting) {
     render::Style of_quality = plain;
     of_quality.colours = colour_scale(state, scenery.derived);  // of candidates, whatever the elements show
-    const InspectionLook look = inspection_look(of_quality, palette(state.theme).accent, view.camera, view.scale);
+    const InspectionLook look = inspection_look(of_quality, palette(state.theme).accent, view.camera.units_per_pixel, view.scale);
     add_inspection_marks(marks, state.inspection, scenery.inspection, look);
   }
   if (frame()->run != Frame::kNoRun)

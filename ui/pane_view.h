@@ -52,7 +52,7 @@ class PaneView {
   /// All that is marked, in a picture of another size perhaps.
   [[nodiscard]] render::Marks marks(const Scenery& scenery, const MarkView& view, bool inspected);
   /// The same of a volume mesh.
-  [[nodiscard]] render::SpaceMarks space_marks(const ViewState& state) const;
+  [[nodiscard]] render::SpaceMarks space_marks(const Scenery& scenery, Vec2<double> viewport, bool inspected) const;
 
   [[nodiscard]] render::MeshScene& scene() noexcept { return scene_; }
   [[nodiscard]] bool is_volume() const noexcept { return frame() != nullptr && frame()->input->is_volume(); }

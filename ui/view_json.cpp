@@ -337,6 +337,8 @@ void describe(Archive& archive, State& state) {
     inspection.flag("zoom", state.inspection.zoom);
     inspection.flag("field", state.inspection.field);
     inspection.flag("field_in_view", state.inspection.field_in_view);
+    inspection.flag("alone", state.inspection.alone);
+    inspection.count("slice_axis", state.inspection.slice_axis, 2);
   });
   archive.number("speed", state.timeline.play.speed, Playback::kSlowest, Playback::kFastest);
   archive.object("picked", [&state](auto& picked) {

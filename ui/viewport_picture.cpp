@@ -71,7 +71,10 @@ render::Image Viewports::picture_of(std::size_t pane, const Scenery& scenery, co
   render::Style look = picture_style(state, scenery.derived);
   look.scale = 1.0F;  // Shot::scale multiplies it
   look.transparent = shot.transparent;
-  if (view.is_volume()) return render::render_image(*view.volume(), state.orbit, look, view.space_marks(state), shot).image;
+  if (view.is_volume())
+    return render::render_image(*view.volume(), state.orbit, look,
+                                view.space_marks(scenery, render::mesh_viewport(shot), facts_[pane].inspected), shot)
+        .image;
   const render::Camera2D camera = facts_[pane].camera.for_viewport(state.viewport, render::mesh_viewport(shot));
   const render::Marks marks = view.marks(scenery, {camera, render::mesh_viewport(shot), state.scale}, facts_[pane].inspected);
   render::Image image = render::render_image(view.scene(), camera, look, marks, shot).image;

@@ -73,7 +73,8 @@ void draw_field_in_view(PanelContext& context, const PaneFacts& pane) {
   render::Style style = scene_style(state);
   style.colours = colour_scale(state, context.derived);
   render::Marks marks;
-  add_inspection_marks(marks, state.inspection, inspection, inspection_look(style, context.palette.accent, pane.camera, state.scale));
+  add_inspection_marks(marks, state.inspection, inspection,
+                       inspection_look(style, context.palette.accent, pane.camera.units_per_pixel, state.scale));
   MarkPen pen(list, context.px(1), style.casing_colour);
   for (const render::OverlayLine& line : marks.lines) pen.line(window(line.from), window(line.to), line);
   const Vec2<double> stands = state.inspection.applied ? inspection.trace->step : Vec2<double>{};

@@ -32,7 +32,7 @@ void draw_title(PanelContext& context) {
 }
 
 void draw_story(PanelContext& context, const Inspection& inspection) {
-  const VisitTrace& trace = *inspection.trace;
+  const VisitSummary& trace = *inspection.visit();
   if (const std::string other = other_method_sentence(inspection); !other.empty()) wrapped(other);
   if (const std::string stuck = stuck_sentence(inspection); !stuck.empty()) wrapped(stuck);
   const auto row = [&context](const StarState& star, const char* when) {
@@ -49,12 +49,13 @@ void draw_story(PanelContext& context, const Inspection& inspection) {
     number_row(context, "gap", std::max(0.0, inspection.optimum->quality - quality_of(trace.after)), gap_sentence(inspection).c_str());
   }
   dim_text(context, fmt::format("{} · {}", metric_phrase(trace.metric), search_phrase(trace)));
+  if (inspection.solid && inspection.level_count() > 0) dim_text(context, grid_phrase(inspection));
   next_item_tooltip(
       fmt::format("The candidates were compared by their {}. Shown of them is the quality as the statistics have it.", trace.value_phrase));
 }
 
 void draw_buttons(PanelContext& context) {
-  const std::size_t levels = context.inspection.trace ? context.inspection.trace->levels.size() : 0;
+  const std::size_t levels = context.inspection.level_count();
   const InspectionState& state = context.state.inspection;
   action_button(context, "level-back", "‹ Back");
   ImGui::SameLine();
@@ -75,17 +76,24 @@ void draw_buttons(PanelContext& context) {
 /// One level's candidates as cells in a square.
 class LevelMap {
  public:
-  LevelMap(PanelContext& context, const TracedLevel& level, int number, ImVec2 low, float side)
-      : context_(context), level_(level), number_(number), low_(low), cell_(side / static_cast<float>(level.points)), side_(side) {}
+  LevelMap(PanelContext& context, const LevelValues& level, const GridSlice& slice, int number, ImVec2 low, float side)
+      : context_(context),
+        level_(level),
+        slice_(slice),
+        number_(number),
+        low_(low),
+        cell_(side / static_cast<float>(level.points)),
+        side_(side) {}
 
   void draw() {
     render::ColourScale colours = colour_scale(context_.state, context_.derived);
     if (const auto range = valid_range(level_); context_.state.inspection.own_range && range && range->second > range->first)
       std::tie(colours.low, colours.high) = *range;
     const auto invalid = invalid_range(level_);
-    for (int index = 0; index < level_.points * level_.points; ++index) {
-      const double quality = level_.quality[static_cast<std::size_t>(index)];
-      const auto [a, b] = box(index);
+    for (int cell = 0; cell < level_.points * level_.points; ++cell) {
+      const std::array<int, 2> place{cell / level_.points, cell % level_.points};
+      const double quality = level_.quality[static_cast<std::size_t>(slice_.index(place[0], place[1]))];
+      const auto [a, b] = box(place);
       list_.AddRectFilled(a, b, is_valid(quality) ? colour(colours.colour(quality)) : colour(context_.palette.raised));
       // The less is inverted the fainter: what untangling goes by.
       if (!is_valid(quality))
@@ -95,7 +103,7 @@ class LevelMap {
     if (level_.best) frame(*level_.best, true);
     if (context_.state.inspection.hovered) {
       const CandidateName hovered = *context_.state.inspection.hovered;
-      if (hovered.level == number_ && hovered.index < level_.points * level_.points) frame(hovered.index, false);
+      if (hovered.level == number_ && hovered.index < static_cast<int>(level_.quality.size())) frame(hovered.index, false);
     }
   }
   /// Under the mouse; -1: none.
@@ -103,13 +111,13 @@ class LevelMap {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const auto i = static_cast<int>(std::floor((mouse.x - low_.x) / cell_)),
                j = static_cast<int>(std::floor((low_.y + side_ - mouse.y) / cell_));
-    return i >= 0 && j >= 0 && i < level_.points && j < level_.points ? i * level_.points + j : -1;
+    return i >= 0 && j >= 0 && i < level_.points && j < level_.points ? slice_.index(i, j) : -1;
   }
 
  private:
   /// The first axis to the right, the second up.
-  [[nodiscard]] std::pair<ImVec2, ImVec2> box(int index) const {
-    const auto i = static_cast<float>(index / level_.points), j = static_cast<float>(level_.points - 1 - index % level_.points);
+  [[nodiscard]] std::pair<ImVec2, ImVec2> box(std::array<int, 2> place) const {
+    const auto i = static_cast<float>(place[0]), j = static_cast<float>(level_.points - 1 - place[1]);
     return {{low_.x + i * cell_, low_.y + j * cell_}, {low_.x + (i + 1) * cell_, low_.y + (j + 1) * cell_}};
   }
   void cross(ImVec2 a, ImVec2 b) const {
@@ -120,23 +128,26 @@ class LevelMap {
     list_.AddLine({a.x + inset, b.y - inset}, {b.x - inset, a.y + inset}, ink, context_.px(1.3F));
   }
   void frame(int index, bool chosen) const {
-    const auto [a, b] = box(index);
+    const auto place = slice_.place(index);
+    if (!place) return;
+    const auto [a, b] = box(*place);
     const float w = context_.px(chosen ? 2.0F : 1.4F);
     list_.AddRect({a.x - w, a.y - w}, {b.x + w, b.y + w}, colour({0x10, 0x12, 0x16}), 0.0F, 0, 2.2F * w);
     list_.AddRect({a.x - w / 2, a.y - w / 2}, {b.x + w / 2, b.y + w / 2}, colour({0xff, 0xff, 0xff}), 0.0F, 0, w);
   }
 
   PanelContext& context_;
-  const TracedLevel& level_;
+  const LevelValues& level_;
+  GridSlice slice_;
   int number_;
   ImVec2 low_;
   float cell_, side_;
   ImDrawList& list_ = *ImGui::GetWindowDrawList();
 };
 
-void draw_level(PanelContext& context, const VisitTrace& trace, int number, float side) {
+void draw_level(PanelContext& context, int number, float side) {
   InspectionState& state = context.state.inspection;
-  const TracedLevel& level = trace.levels[static_cast<std::size_t>(number - 1)];
+  const LevelValues& level = context.inspection.level(number);
   ImGui::BeginGroup();
   const bool shown = !state.applied && (state.all_levels || state.level == number);
   const std::string best = level.best ? short_number(level.quality[static_cast<std::size_t>(*level.best)]) : "none better";
@@ -148,7 +159,7 @@ void draw_level(PanelContext& context, const VisitTrace& trace, int number, floa
   list.AddText({at.x + side - ImGui::CalcTextSize(best.c_str()).x, at.y}, colour(shown ? context.palette.text : context.palette.dim),
                best.c_str());
   const ImVec2 low{at.x, at.y + 1.2F * context.em()};
-  LevelMap map(context, level, number, low, side);
+  LevelMap map(context, level, shown_slice(state, context.inspection, number), number, low, side);
   map.draw();
   if (shown)
     list.AddLine({at.x, low.y + side + context.px(5)}, {at.x + side, low.y + side + context.px(5)}, colour(context.palette.accent),
@@ -159,23 +170,53 @@ void draw_level(PanelContext& context, const VisitTrace& trace, int number, floa
   if (ImGui::IsItemHovered()) {
     if (const int index = map.hovered(); index >= 0) {
       state.hovered = CandidateName{number, index};
-      next_item_tooltip(candidate_text(trace, level, index));
+      next_item_tooltip(candidate_text(context.inspection, number, index));
     }
   }
   ImGui::EndGroup();
 }
 
 /// Side by side, as many in a row as can be read.
-void draw_levels(PanelContext& context, const VisitTrace& trace) {
-  const auto levels = static_cast<int>(trace.levels.size());
+void draw_levels(PanelContext& context) {
+  const auto levels = static_cast<int>(context.inspection.level_count());
   const float gap = context.px(8), room = ImGui::GetContentRegionAvail().x;
   const int most = std::max(1, static_cast<int>((room + gap) / (5.2F * context.em() + gap)));
   const int rows = (levels + most - 1) / most, in_row = (levels + rows - 1) / rows;
   const float side = std::floor(std::min((room - gap * static_cast<float>(in_row - 1)) / static_cast<float>(in_row), 9.0F * context.em()));
   for (int number = 1; number <= levels; ++number) {
     if (number > 1 && (number - 1) % in_row != 0) ImGui::SameLine(0, gap);
-    draw_level(context, trace, number, side);
+    draw_level(context, number, side);
   }
+}
+
+/// Of a volume: which slice of the grids the maps show.
+void draw_slice(PanelContext& context) {
+  const InspectionState& state = context.state.inspection;
+  const int level = std::clamp(state.level, 1, static_cast<int>(context.inspection.level_count()));
+  const GridSlice slice = shown_slice(state, context.inspection, level);
+  for (const int axis : {0, 1, 2}) {
+    const char name[2] = {"xyz"[axis], 0};
+    if (axis > 0) ImGui::SameLine(0, context.px(2));
+    ImGui::PushStyleColor(ImGuiCol_Text, colour(axis == state.slice_axis ? context.palette.text : context.palette.dim));
+    if (ImGui::Button(name)) context.send(fmt::format("grid-slice {}", name));
+    ImGui::PopStyleColor();
+    context.items.record_last(fmt::format("slice:{}", name));
+    next_item_tooltip(fmt::format("slices at right angles to the {} axis", name));
+  }
+  ImGui::SameLine(0, context.px(8));
+  const float button = ImGui::CalcTextSize("best").x + 2 * context.px(8);
+  ImGui::SetNextItemWidth(std::max(4 * context.em(), ImGui::GetContentRegionAvail().x - button - context.px(8)));
+  int number = slice.number + 1;
+  if (ImGui::SliderInt("##slice", &number, 1, slice.points, slice_phrase(slice).c_str(), ImGuiSliderFlags_AlwaysClamp) &&
+      number != slice.number + 1)
+    context.send(fmt::format("grid-slice {}", number));
+  context.items.record_last("slice");
+  ImGui::SameLine(0, context.px(8));
+  ImGui::BeginDisabled(!state.slice);
+  if (ImGui::Button("best")) context.send("grid-slice best");
+  ImGui::EndDisabled();
+  context.items.record_last("slice:best");
+  next_item_tooltip("of each level the slice of the candidate that it chose");
 }
 
 /// Two bars, one over the other: before and after.
@@ -192,7 +233,7 @@ void draw_bars(const PanelContext& context, ImVec2 low, float width, const Eleme
   if (moved) bar(low.y + 0.56F * line, change.after, change.inverted_after, context.palette.accent);
 }
 
-void draw_elements(PanelContext& context, const VisitTrace& trace) {
+void draw_elements(PanelContext& context, const VisitSummary& trace) {
   const bool moved = trace.end == VisitEnd::Moved;
   dim_text(context, moved ? "its elements, before → after" : "its elements", false);
   next_item_tooltip("▸ has the least quality before the visit, ▹ after it; click selects an element");
@@ -231,22 +272,54 @@ void draw_elements(PanelContext& context, const VisitTrace& trace) {
   }
 }
 
+/// Those of the shown level that lie in the slice.
+void draw_slice_candidates(const PanelContext& context, const Inspection& inspection, const ToWindow& at) {
+  const InspectionState& state = context.state.inspection;
+  if (state.applied || state.level < 1 || inspection.level_count() == 0) return;
+  const SolidLevel& level = inspection.solid->levels[static_cast<std::size_t>(state.level - 1)];
+  const GridSlice slice = shown_slice(state, inspection, state.level);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  for (int column = 0; column < level.points; ++column)
+    for (int row = 0; row < level.points; ++row) {
+      const int index = slice.index(column, row);
+      const ImVec2 place = at(inspection.field_slice.project(level.at(index)));
+      const bool valid = is_valid(level.quality[static_cast<std::size_t>(index)]), best = level.best == index;
+      list.AddCircleFilled(place, context.px(best ? 3.4F : 1.8F), colour({0x10, 0x12, 0x16}));
+      list.AddCircleFilled(place, context.px(best ? 2.2F : 1.0F), valid ? colour({0xff, 0xff, 0xff}) : colour(kInvalidCandidate));
+    }
+}
+
 /// Star, grids, and the places before, after and best, over the heat map.
 void draw_field_marks(const PanelContext& context, const Inspection& inspection, const ToWindow& at) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const VisitTrace& trace = *inspection.trace;
+  const VisitSummary& trace = *inspection.visit();
   const ImU32 light = colour({0xff, 0xff, 0xff}), dark = colour({0x10, 0x12, 0x16});
-  for (const auto& [a, b] : inspection.edges) {
-    list.AddLine(at(a), at(b), colour({0xff, 0xff, 0xff}, 0.25F), context.px(2.4F));
-    list.AddLine(at(a), at(b), colour({0x10, 0x12, 0x16}, 0.55F), context.px(1));
-  }
-  for (const TracedLevel& level : trace.levels) {
-    const Vec2<double> half{level.size.x / 2, level.size.y / 2};
-    const ImVec2 a = at(level.centre - half), b = at(level.centre + half);
+  const auto edge = [&](Vec2<double> a, Vec2<double> b, float strength) {
+    list.AddLine(at(a), at(b), colour({0xff, 0xff, 0xff}, 0.25F * strength), context.px(2.4F));
+    list.AddLine(at(a), at(b), colour({0x10, 0x12, 0x16}, 0.55F * strength), context.px(1));
+  };
+  const auto rectangle = [&](Vec2<double> low, Vec2<double> high) {
+    const ImVec2 a = at(low), b = at(high);
     list.AddRect({a.x, b.y}, {b.x, a.y}, dark, 0.0F, 0, context.px(2.6F));
     list.AddRect({a.x, b.y}, {b.x, a.y}, light, 0.0F, 0, context.px(1.2F));
+  };
+  Vec2<double> step;
+  if (inspection.trace) {
+    for (const auto& [a, b] : inspection.edges) edge(a, b, 1.0F);
+    for (const TracedLevel& level : inspection.trace->levels) {
+      const Vec2<double> half{level.size.x / 2, level.size.y / 2};
+      rectangle(level.centre - half, level.centre + half);
+    }
+    step = inspection.trace->step;
+  } else {  // their shadows in the plane of the slice
+    const StarSlice& plane = inspection.field_slice;
+    for (const auto& [a, b] : inspection.space_edges) edge(plane.project(a), plane.project(b), 0.5F);
+    for (const SolidLevel& level : inspection.solid->levels)
+      rectangle(plane.project(level.centre - 0.5 * level.size), plane.project(level.centre + 0.5 * level.size));
+    step = plane.project(inspection.solid->step);
+    draw_slice_candidates(context, inspection, at);
   }
-  const ImVec2 from = at({}), to = at(trace.step);
+  const ImVec2 from = at({}), to = at(step);
   list.AddCircle(from, context.px(4), dark, 0, context.px(3.4F));
   list.AddCircle(from, context.px(4), light, 0, context.px(1.6F));
   if (inspection.optimum) {
@@ -268,8 +341,9 @@ void draw_field_panel(PanelContext& context, const Inspection& inspection) {
   const QualityField& field = picture.field;
   const bool nowhere = !(picture.highest >= picture.lowest);
   dim_text(context,
-           nowhere ? std::string("an element is inverted wherever it stands")
-                   : fmt::format("{} around the vertex", metric_phrase(inspection.trace->metric)),
+           nowhere
+               ? std::string(inspection.solid ? "an element is inverted all over this slice" : "an element is inverted wherever it stands")
+               : fmt::format("{} around the vertex{}", metric_phrase(inspection.visit()->metric), inspection.solid ? ", in the slice" : ""),
            false);
   const double aspect = (field.high.y - field.low.y) / (field.high.x - field.low.x);
   const float room = ImGui::GetContentRegionAvail().x;
@@ -310,15 +384,16 @@ void draw_inspection(PanelContext& context) {
   const Inspection& inspection = context.inspection;
   if (state.vertex == kNoIndex) {
     wrapped(state.note.empty() ? "Click a vertex to look into its search; L goes to the one that the run visits next." : state.note);
-  } else if (!inspection.trace) {
+  } else if (inspection.visit() == nullptr) {
     wrapped(inspection.trouble);
   } else {
     draw_story(context, inspection);
-    if (!inspection.trace->levels.empty()) {
+    if (inspection.level_count() > 0) {
       draw_buttons(context);
-      draw_levels(context, *inspection.trace);
+      draw_levels(context);
+      if (inspection.solid) draw_slice(context);
     }
-    draw_elements(context, *inspection.trace);
+    draw_elements(context, *inspection.visit());
     if (state.field && inspection.field) draw_field_panel(context, inspection);
   }
   ImGui::Dummy({0, context.px(2)});

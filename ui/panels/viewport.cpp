@@ -77,12 +77,15 @@ void draw_level_label(PanelContext& context, const PaneFacts& pane) {
   const std::string label = state.open ? level_label(state, context.inspection) : std::string();
   if (label.empty()) return;
   const Inspection& inspection = context.inspection;
-  Vec2<double> corner{inspection.box.low.x, inspection.box.high.y};
-  if (!state.applied && !state.all_levels && state.level >= 1 && !inspection.trace->levels.empty()) {
-    const TracedLevel& level = inspection.trace->levels[static_cast<std::size_t>(state.level - 1)];
-    corner = {level.centre.x - level.size.x / 2, level.centre.y + level.size.y / 2};
+  Vec2<double> pixel;  // of a volume the upper left corner
+  if (inspection.trace) {
+    Vec2<double> corner{inspection.box.low.x, inspection.box.high.y};
+    if (!state.applied && !state.all_levels && state.level >= 1 && !inspection.trace->levels.empty()) {
+      const TracedLevel& level = inspection.trace->levels[static_cast<std::size_t>(state.level - 1)];
+      corner = {level.centre.x - level.size.x / 2, level.centre.y + level.size.y / 2};
+    }
+    pixel = pane.camera.to_pixel(inspection.origin + corner, context.state.viewport);
   }
-  const Vec2<double> pixel = pane.camera.to_pixel(inspection.origin + corner, context.state.viewport);
   const ImVec2 size = ImGui::CalcTextSize(label.c_str());
   const float pad = context.px(6), line = size.y;
   const float highest = rect.y + 2 * line + 3 * pad, lowest = rect.y + rect.h - 6 * line;
@@ -93,12 +96,57 @@ void draw_level_label(PanelContext& context, const PaneFacts& pane) {
   ImGui::GetWindowDrawList()->AddText({x + pad, y + pad / 2}, colour(context.palette.text), label.c_str());
 }
 
+/// Of a volume: where a candidate is in the picture.
+class SeenInSpace {
+ public:
+  SeenInSpace(const ViewState& state, const Inspection& inspection)
+      : middle_{state.viewport.x / 2, state.viewport.y / 2}, stood_(inspection.stood) {
+    render::Bounds3 bounds;
+    bounds.include(stood_ + inspection.space_box.low);
+    bounds.include(stood_ + inspection.space_box.high);
+    projection_ = state.orbit.projection(state.viewport, bounds);
+  }
+  /// Nowhere: behind the eye.
+  [[nodiscard]] std::optional<Vec2<double>> pixel(Vec3 offset) const {
+    const auto place = projection_.place(stood_ + offset);
+    return place ? std::optional(Vec2<double>{middle_.x + place->x, middle_.y - place->y}) : std::nullopt;
+  }
+
+ private:
+  Vec2<double> middle_;
+  Vec3 stood_;
+  render::Projection projection_;
+};
+
+/// The candidate of a volume under the mouse: of the slice that the maps show, and only where none of these is there of the others.
+void read_candidate_in_space(PanelContext& context, const PaneFacts& pane) {
+  InspectionState& state = context.state.inspection;
+  const SolidLevel& level = context.inspection.solid->levels[static_cast<std::size_t>(state.level - 1)];
+  const GridSlice slice = shown_slice(state, context.inspection, state.level);
+  const SeenInSpace seen(context.state, context.inspection);
+  const Vec2<double> mouse = mouse_in(pane.rect);
+  for (const bool of_slice : {true, false}) {
+    double nearest = 6.0 * context.state.scale;  // pixels
+    for (std::size_t index = 0; index < level.offsets.size(); ++index) {
+      if (slice.place(static_cast<int>(index)).has_value() != of_slice) continue;
+      const auto pixel = seen.pixel(level.offsets[index]);
+      const double away = pixel ? std::hypot(pixel->x - mouse.x, pixel->y - mouse.y) : nearest;
+      if (away >= nearest) continue;
+      nearest = away;
+      state.hovered = CandidateName{state.level, static_cast<int>(index)};
+    }
+    if (state.hovered) break;
+  }
+  if (state.hovered && !ImGui::IsAnyMouseDown()) next_item_tooltip(candidate_text(context.inspection, state.level, state.hovered->index));
+}
+
 /// The candidate under the mouse, in words; the inspector marks it, too.
 void read_candidate(PanelContext& context, const PaneFacts& pane) {
   InspectionState& state = context.state.inspection;
-  if (!state.open || state.applied || state.all_levels || state.level < 1 || !context.inspection.trace || !ImGui::IsItemHovered()) return;
+  if (!state.open || state.applied || state.all_levels || state.level < 1 || !ImGui::IsItemHovered()) return;
+  if (static_cast<std::size_t>(state.level) > context.inspection.level_count()) return;
+  if (context.inspection.solid) return read_candidate_in_space(context, pane);
   const VisitTrace& trace = *context.inspection.trace;
-  if (static_cast<std::size_t>(state.level) > trace.levels.size()) return;
   const TracedLevel& level = trace.levels[static_cast<std::size_t>(state.level - 1)];
   const Vec2<double> mouse = mouse_in(pane.rect);
   double nearest = 9.0 * context.state.scale;  // pixels
@@ -108,7 +156,7 @@ void read_candidate(PanelContext& context, const PaneFacts& pane) {
     nearest = std::hypot(way.x, way.y);
     state.hovered = CandidateName{state.level, index};
   }
-  if (state.hovered && !ImGui::IsAnyMouseDown()) next_item_tooltip(candidate_text(trace, level, state.hovered->index));
+  if (state.hovered && !ImGui::IsAnyMouseDown()) next_item_tooltip(candidate_text(context.inspection, state.level, state.hovered->index));
 }
 
 void pick_at(PanelContext& context, const PaneFacts& pane, Vec2<double> pixel) {
@@ -329,7 +377,7 @@ void handle_pane(PanelContext& context, const PaneFacts& pane) {
   if (pane.frame() == nullptr) {
     if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) open_menu(context, pane, {});
   } else {
-    if (pane.inspected && !pane.frame()->input->is_volume()) read_candidate(context, pane);
+    if (pane.inspected) read_candidate(context, pane);
     handle_mouse(context, pane);
   }
   ImGui::PopClipRect();
@@ -343,9 +391,9 @@ void draw_pane(PanelContext& context, const PaneFacts& pane) {
   if (pane.frame() != nullptr && !pane.frame()->input->is_volume()) {
     draw_labels(context, pane);
     draw_field_in_view(context, pane);
-    if (pane.inspected) draw_level_label(context, pane);
   }
-  draw_clip_plane(context, pane);
+  if (!pane.inspected) draw_clip_plane(context, pane);
+  if (pane.frame() != nullptr && pane.inspected) draw_level_label(context, pane);
   const bool plain = context.state.panes.one() && pane.session->frame == context.session.frame;
   if (plain) {
     draw_title(context, pane);

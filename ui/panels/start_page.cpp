@@ -68,8 +68,9 @@ void draw_start_page(PanelContext& context, const Rect& rect) {
       room > 8 * (5.5F * em + gap) ? total : std::max(1.0F, std::floor(std::min(total / 2.0F + 0.5F, room / (5.5F * em + gap))));
   // A low window gets all cards in one row.
   const bool low = rect.h < 8 * ImGui::GetTextLineHeightWithSpacing() + 2 * 8 * em;
-  if (low && total * 4.5F * em + (total - 1) * gap <= room) columns = total;
-  const float side = std::clamp((room - (columns - 1) * gap) / columns, 4.5F * em, 8.0F * em);
+  constexpr float kSmallest = 3.2F;  // em, of a card in such a row
+  if (low && total * kSmallest * em + (total - 1) * gap <= room) columns = total;
+  const float side = std::clamp((room - (columns - 1) * gap) / columns, (low ? kSmallest : 4.5F) * em, 8.0F * em);
   const float width = columns * side + (columns - 1) * gap;
   const float rows = std::ceil(total / columns);
   const float line = ImGui::GetTextLineHeightWithSpacing();

@@ -205,7 +205,9 @@ TEST(Volume, WhileTangledTheLeastJacobianNeverFalls) {
       while (run.moment().iteration < 3) {
         run.step(StepUnit::Class, progress);
         const double after = least_normalised_jacobian(*mesh, run.positions());
-        if (before <= 0.0) EXPECT_GE(after, before) << specimen.name << ", " << method;
+        if (before <= 0.0) {
+          EXPECT_GE(after, before) << specimen.name << ", " << method;
+        }
         before = after;
       }
     }

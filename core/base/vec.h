@@ -19,7 +19,7 @@ struct Vec3Of {
   friend DMOSCOPE_ANYWHERE Vec3Of operator+(Vec3Of a, Vec3Of b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
   friend DMOSCOPE_ANYWHERE Vec3Of operator-(Vec3Of a, Vec3Of b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
   friend DMOSCOPE_ANYWHERE Vec3Of operator*(Real s, Vec3Of a) { return {s * a.x, s * a.y, s * a.z}; }
-  friend DMOSCOPE_ANYWHERE bool operator==(const Vec3Of&, const Vec3Of&) = default;
+  friend DMOSCOPE_ANYWHERE bool operator==(const Vec3Of& a, const Vec3Of& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 };
 using Vec3 = Vec3Of<double>;
 template <class Real>
@@ -37,7 +37,7 @@ struct Vec2 {
   Real x{}, y{};
   friend DMOSCOPE_ANYWHERE Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
   friend DMOSCOPE_ANYWHERE Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
-  friend DMOSCOPE_ANYWHERE bool operator==(const Vec2&, const Vec2&) = default;
+  friend DMOSCOPE_ANYWHERE bool operator==(const Vec2& a, const Vec2& b) { return a.x == b.x && a.y == b.y; }
 };
 template <class Real>
 [[nodiscard]] DMOSCOPE_ANYWHERE Real dot(Vec2<Real> a, Vec2<Real> b) {

@@ -76,12 +76,12 @@ void add_pyramids(Mesh& mesh, const Block& block, Index i, Index j, Index k) {
   for (std::size_t f = 0; f < 6; ++f) {
     std::array<Index, 4> face{};
     for (std::size_t m = 0; m < 4; ++m) face[m] = c[faces_of(ElementKind::Hexahedron)[f].corners[m]];
-    std::ranges::reverse(face);  // seen from the middle
+    std::reverse(face.begin(), face.end());  // seen from the middle
     if (!cut[f]) {
       mesh.elements.add(ElementKind::Pyramid, std::array{face[0], face[1], face[2], face[3], tip});
       continue;
     }
-    std::ranges::rotate(face, std::ranges::min_element(face));  // both sides cut at the lowest vertex
+    std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());  // both sides cut at the lowest vertex
     mesh.elements.add(ElementKind::Tetrahedron, std::array{face[0], face[1], face[2], tip});
     mesh.elements.add(ElementKind::Tetrahedron, std::array{face[0], face[2], face[3], tip});
   }
@@ -113,7 +113,7 @@ Mesh hexahedra(const Request& request) {
 Mesh solids(const Request& request) {
   const Block block(request.size);
   Mesh mesh;
-  mesh.positions = block.positions(0.22, request.seed);
+  mesh.positions = block.positions(0.15, request.seed);
   block.for_cells(request.progress, [&](Index i, Index j, Index k) {
     const std::array<Index, 8> c = block.cell(i, j, k);
     if (cut_into_wedges(i, j)) {

@@ -37,9 +37,9 @@ class UntanglingMean {
   int count_ = 0;
 };
 
-/// The worth of a star with its vertex at a place: the least metric, put between 1 and 3, where no corner that changes with the vertex is
-/// inverted (others may be, and the metric negative); else, where the least Jacobian is not below that of the vertex's own place, the mean,
-/// put between -1 and 0; else below -1.
+/// The worth of a star with its vertex at a place. Where no corner that changes with the vertex is inverted: the least metric, or, where
+/// one of the others makes that negative, next to nothing. Else, where the least Jacobian is not below that of the vertex's own place: the
+/// mean, put between -1 and 0. Else below -1.
 template <Metric M, class StarT>
 class SolidUntangling {
  public:
@@ -47,7 +47,7 @@ class SolidUntangling {
 
   [[nodiscard]] DMOSCOPE_ANYWHERE double operator()(Vec3 p) const {
     const Look at = look(p);
-    if (at.jacobian > 0.0) return 2.0 + at.quality;
+    if (at.jacobian > 0.0) return at.quality > 0.0 ? at.quality : 1e-9 * (2.0 + at.quality);
     if (at.jacobian < floor_) return -1.0 + bounded(at.jacobian);
     return bounded(at.mean.value() - UntanglingMean::kEnough);
   }

@@ -48,8 +48,7 @@ inline void gather_edge_neighbours(const VolumeView& mesh, Index vertex, std::ve
     });
   }
   std::ranges::sort(out);
-  const auto twice = std::ranges::unique(out);
-  out.erase(twice.begin(), twice.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
 }
 
 }  // namespace dmoscope

@@ -30,6 +30,14 @@ TEST(Conversion, EverySampleToEveryFormat) {
       }
       ++converted;
       const Mesh again = read_bytes(format.name, written.bytes);
+      if (format.name == "medit" &&
+          std::ranges::adjacent_find(mesh.elements.kinds(), std::ranges::not_equal_to{}) != mesh.elements.kinds().end()) {
+        // Its elements are in lists by kind, which the notes say.
+        EXPECT_EQ(again.elements.size(), mesh.elements.size());
+        EXPECT_EQ(again.positions, mesh.positions);
+        EXPECT_FALSE(written.notes.empty());
+        continue;
+      }
       EXPECT_NO_THROW(check_same(mesh, mesh.positions, again, format.name != "stl", again.source->layout().components == 3));
       for (const Field& field : mesh.fields) {
         bool named = false;

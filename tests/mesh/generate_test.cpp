@@ -76,7 +76,8 @@ TEST(Generate, ThereIsRoomForImprovement) {
     Progress progress;
     const auto input = prepare_input(mesh, {}, Need::Smoothing, progress);
     const auto s = compute_statistics(input->quality_context(), mesh.positions, Metric::MeanRatio, input->topology.boundary(), nullptr);
-    EXPECT_LT(s.minimum, 0.35) << kind.name;
+    // The pyramids and tetrahedra of a cell leave its vertices little room.
+    EXPECT_LT(s.minimum, kind.name == "solids" ? 0.5 : 0.35) << kind.name;
     EXPECT_GT(s.ceiling, s.movable_minimum) << kind.name;
   }
 }

@@ -226,7 +226,7 @@ TEST(Info, JsonListsEverything) {
                           "methods", "generators"}) {
     EXPECT_TRUE(info.contains(key)) << key;
   }
-  EXPECT_EQ(info["metrics"].size(), 8U);
+  EXPECT_EQ(info["metrics"].size(), 9U);
   EXPECT_EQ(info["backends"][0]["name"], "cpu");
   EXPECT_EQ(info["simd"]["levels"][0], "baseline");
   EXPECT_EQ(info["simd"]["levels"].back(), info["simd"]["used"]);

@@ -105,7 +105,7 @@ Mesh tetrahedra(const Request& request) {
 Mesh hexahedra(const Request& request) {
   const Block block(request.size);
   Mesh mesh;
-  mesh.positions = block.positions(0.3, request.seed);
+  mesh.positions = block.positions(0.22, request.seed);
   block.for_cells(request.progress, [&](Index i, Index j, Index k) { mesh.elements.add(ElementKind::Hexahedron, block.cell(i, j, k)); });
   return mesh;
 }

@@ -30,8 +30,7 @@ TEST(Conversion, EverySampleToEveryFormat) {
       }
       ++converted;
       const Mesh again = read_bytes(format.name, written.bytes);
-      if (format.name == "medit" &&
-          std::ranges::adjacent_find(mesh.elements.kinds(), std::ranges::not_equal_to{}) != mesh.elements.kinds().end()) {
+      if (format.name == "medit" && !std::ranges::is_sorted(mesh.elements.kinds())) {
         // Its elements are in lists by kind, which the notes say.
         EXPECT_EQ(again.elements.size(), mesh.elements.size());
         EXPECT_EQ(again.positions, mesh.positions);

@@ -37,17 +37,16 @@ class UntanglingMean {
   int count_ = 0;
 };
 
-/// The worth of a star with its vertex at a place. Where no corner that changes with the vertex is inverted: the least metric, or, where
-/// one of the others makes that negative, next to nothing. Else, where the least Jacobian is not below that of the vertex's own place: the
-/// mean, put between -1 and 0. Else below -1.
+/// The worth of a star with its vertex at a place. Where no corner is inverted: the least metric. Else, where the least Jacobian of the
+/// corners that change with the vertex is not below that of its own place (or is positive): the mean, put between -1 and 0. Else below -1.
 template <Metric M, class StarT>
 class SolidUntangling {
  public:
-  explicit DMOSCOPE_ANYWHERE SolidUntangling(StarT star) : star_(star), floor_(look(Vec3{}).jacobian) {}
+  explicit DMOSCOPE_ANYWHERE SolidUntangling(StarT star) : star_(star), floor_(scalar::min(look(Vec3{}).jacobian, 0.0)) {}
 
   [[nodiscard]] DMOSCOPE_ANYWHERE double operator()(Vec3 p) const {
     const Look at = look(p);
-    if (at.jacobian > 0.0) return at.quality > 0.0 ? at.quality : 1e-9 * (2.0 + at.quality);
+    if (at.jacobian > 0.0 && at.quality > 0.0) return at.quality;
     if (at.jacobian < floor_) return -1.0 + bounded(at.jacobian);
     return bounded(at.mean.value() - UntanglingMean::kEnough);
   }

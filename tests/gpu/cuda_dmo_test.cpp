@@ -82,6 +82,16 @@ TEST_P(CudaSolidDmo, SameBits) {
       expect_same_statistics(queue, Subject(solid.input), GetParam());
     }
 }
+TEST_P(CudaSolidDmo, SameBitsOnTheSharedMeshes) {
+  const auto meshes = shared_volumes(30000);
+  if (meshes.empty()) GTEST_SKIP() << "no shared meshes here";
+  for (const auto& mesh : meshes) {
+    if (!defined_for_all(GetParam(), mesh->mesh)) continue;
+    SCOPED_TRACE(mesh->mesh.name);
+    expect_same_visits(queue, Subject(mesh), GetParam(), {}, 2);
+    expect_same_statistics(queue, Subject(mesh), GetParam());
+  }
+}
 INSTANTIATE_TEST_SUITE_P(CudaMetrics, CudaSolidDmo, every_solid_metric(), name_of_metric);
 
 INSTANTIATE_TEST_SUITE_P(CudaMetrics, CudaDmo, every_metric(), name_of_metric);

@@ -11,8 +11,9 @@
 
 namespace dmoscope::gpu::testing {
 
-/// Those of a folder that can be smoothed, in the order of their names.
-inline std::vector<std::shared_ptr<const InputMesh>> planar_meshes(const std::filesystem::path& folder, std::size_t most_vertices) {
+/// Those of a folder that can be smoothed, planar ones or volumes, in the order of their names.
+inline std::vector<std::shared_ptr<const InputMesh>> meshes_below(const std::filesystem::path& folder, std::size_t most_vertices,
+                                                                  bool volumes = false) {
   std::vector<std::filesystem::path> files;
   if (std::filesystem::exists(folder))
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
@@ -23,19 +24,22 @@ inline std::vector<std::shared_ptr<const InputMesh>> planar_meshes(const std::fi
     Progress progress;
     try {
       auto input = load_input(file, Need::Smoothing, progress);
-      if (input->mesh.vertex_count() <= most_vertices) meshes.push_back(std::move(input));
+      if (input->mesh.vertex_count() <= most_vertices && input->is_volume() == volumes) meshes.push_back(std::move(input));
     } catch (const Error&) {
-      continue;  // a surface, a volume, a text
+      continue;  // a surface, a text
     }
   }
   return meshes;
 }
 
 [[nodiscard]] inline std::vector<std::shared_ptr<const InputMesh>> bundled_meshes() {
-  return planar_meshes(std::filesystem::path(DMOSCOPE_SOURCE_DIR) / "resources/samples", std::size_t{1} << 30U);
+  return meshes_below(std::filesystem::path(DMOSCOPE_SOURCE_DIR) / "resources/samples", std::size_t{1} << 30U);
 }
 [[nodiscard]] inline std::vector<std::shared_ptr<const InputMesh>> shared_meshes() {
-  return planar_meshes(std::filesystem::path(DMOSCOPE_SHARED_DIR) / "meshes", 30000);
+  return meshes_below(std::filesystem::path(DMOSCOPE_SHARED_DIR) / "meshes", 30000);
+}
+[[nodiscard]] inline std::vector<std::shared_ptr<const InputMesh>> shared_volumes(std::size_t most_vertices) {
+  return meshes_below(std::filesystem::path(DMOSCOPE_SHARED_DIR) / "meshes", most_vertices, true);
 }
 
 }  // namespace dmoscope::gpu::testing

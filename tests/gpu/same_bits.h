@@ -36,10 +36,11 @@ struct Subject {
   [[nodiscard]] std::uint64_t visits() const { return colouring->order.size(); }
 };
 
-/// For suites whose tests hold for every metric.
+/// For suites whose tests hold for every metric that has a kernel for planar meshes; Condition is the mean ratio there.
 [[nodiscard]] inline auto every_metric() {
   std::vector<Metric> all;
-  for (const MetricInfo& entry : metric_table()) all.push_back(entry.metric);
+  for (const MetricInfo& entry : metric_table())
+    if (entry.metric != Metric::Condition) all.push_back(entry.metric);
   return ::testing::ValuesIn(all);
 }
 /// For those of volumes.

@@ -2,6 +2,7 @@
 
 #include "gpu/host_queue.h"
 #include "gpu/solid_star.h"
+#include "tests/gpu/meshes.h"
 #include "tests/gpu/same_bits.h"
 #include "tests/gpu/solids.h"
 #include "tests/smooth/zoo.h"
@@ -35,6 +36,18 @@ TEST_P(SolidDeviceDmo, SameBitsWithOtherGrids) {
   for (const Precision precision : {Precision::Float, Precision::Double}) {
     expect_same({.grid_points = 7, .levels = 2, .omega = 1.25, .precision = precision}, 64, 2);
     expect_same({.grid_points = 2, .levels = 5, .precision = precision}, 64, 2);
+  }
+}
+
+/// Small ones: the host is slow in a device's place.
+TEST_P(SolidDeviceDmo, SameBitsOnSharedMeshes) {
+  const auto meshes = shared_volumes(1000);
+  if (meshes.empty()) GTEST_SKIP() << "no shared meshes here";
+  for (const auto& mesh : meshes) {
+    if (!defined_for_all(GetParam(), mesh->mesh)) continue;
+    SCOPED_TRACE(mesh->mesh.name);
+    expect_same_visits(host(), Subject(mesh), GetParam(), {}, 1);
+    expect_same_statistics(host(), Subject(mesh), GetParam());
   }
 }
 

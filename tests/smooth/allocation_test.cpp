@@ -16,9 +16,12 @@
 namespace {
 std::atomic<std::uint64_t> allocations{0};
 
-void* allocate(std::size_t size, std::size_t alignment) {
+void* allocate_if_possible(std::size_t size, std::size_t alignment) noexcept {
   ++allocations;
-  void* const room = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+}
+void* allocate(std::size_t size, std::size_t alignment) {
+  void* const room = allocate_if_possible(size, alignment);
   if (room == nullptr) throw std::bad_alloc();
   return room;
 }
@@ -27,6 +30,10 @@ void* allocate(std::size_t size, std::size_t alignment) {
 }  // namespace
 
 void* operator new(std::size_t size) { return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__); }
+// std::stable_sort's buffer: AddressSanitizer's own would not be this file's to release.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return allocate_if_possible(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+}
 void* operator new(std::size_t size, std::align_val_t alignment) { return allocate(size, static_cast<std::size_t>(alignment)); }
 void operator delete(void* room) noexcept { release(room); }
 void operator delete(void* room, std::size_t) noexcept { release(room); }

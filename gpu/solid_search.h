@@ -39,11 +39,10 @@ class SolidRankSearch {
       : star_(star), parameters_(parameters), team_(team), box_(narrow(star.box())) {}
 
   [[nodiscard]] DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE SolidFound run() {
-    find_cap();
     Found best = rank({});
     if (!(best.objective > solids::kLeastRank)) return {};
     double omega = parameters_.omega;
-    for (int level = 0; level < parameters_.levels && best.objective < cap_; ++level) {
+    for (int level = 0; level < parameters_.levels; ++level) {
       best = search(best, static_cast<float>(omega));
       omega *= 2.0 / (parameters_.grid_points - 1);
     }
@@ -62,17 +61,6 @@ class SolidRankSearch {
     float worth[kAtOnce];
   };
 
-  /// What no candidate's rank can exceed: that of the corners that the vertex does not change.
-  DMOSCOPE_ANYWHERE void find_cap() {
-    if constexpr (kCorners)
-      star_.template for_each<true>([this](const auto& element) {
-        if constexpr (requires { element.b; })
-          return;  // a tetrahedron has none
-        else
-          cap_ = scalar::min(cap_, solids::constant_part<M>(narrow(element).with(Point{}), element.kMoving));
-      });
-  }
-
   DMOSCOPE_ANYWHERE Found rank(Point p) const {
     Some some;
     DMOSCOPE_UNROLL
@@ -82,7 +70,7 @@ class SolidRankSearch {
   }
   DMOSCOPE_ANYWHERE void rank(Some& some) const {
     DMOSCOPE_UNROLL
-    for (float& worth : some.worth) worth = cap_;
+    for (float& worth : some.worth) worth = std::numeric_limits<float>::max();
     star_.template for_each<kCorners>([&some](const auto& element) { lower(some, narrow(element)); });
   }
   static DMOSCOPE_ANYWHERE void lower(Some& some, const StarTetrahedron<float>& t) {
@@ -103,7 +91,7 @@ class SolidRankSearch {
   static DMOSCOPE_ANYWHERE void lower(Some& some, const Element& element) {
     DMOSCOPE_UNROLL
     for (int i = 0; i < kAtOnce; ++i)
-      some.worth[i] = scalar::min(some.worth[i], solids::moving_part<M>(element.with(some.at[i]), element.kMoving));
+      some.worth[i] = scalar::min(some.worth[i], formulas::rank_around<M>(element.with(some.at[i]), element.kMoving));
   }
 
   /// One level, around the best so far: among equals the candidate of lowest index.
@@ -133,7 +121,6 @@ class SolidRankSearch {
   const SearchParameters& parameters_;
   const Team& team_;
   Point box_;
-  float cap_ = 1e30F;
 };
 
 }  // namespace dmoscope::gpu

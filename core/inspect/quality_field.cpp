@@ -28,23 +28,14 @@ StarIn<Frame, double> star_of(const InputMesh& input, PositionView positions, In
   return star;
 }
 
-/// Of those corners that the vertex's place changes: see StarState.
-template <class Element, class Shape>
-double least_jacobian(const Shape& shape) {
-  if constexpr (requires { Element::kMoving; })
-    return formulas::smallest_jacobian_around(shape, Element::kMoving);
-  else
-    return formulas::smallest_jacobian(shape);
-}
-
 /// With the vertex at `p`, in units of the star's scale. View: of a Star or SolidStar.
 template <Metric M, class View, class Offset>
 StarState state_at(const View& star, Offset p) {
   StarState state{kInfinity, kInfinity};
   star.template for_each<true>([&state, p](const auto& element) {
     const auto shape = element.with(p);
-    state.quality = std::min(state.quality, evaluate<M>(shape));
-    state.jacobian = std::min(state.jacobian, least_jacobian<std::remove_cvref_t<decltype(element)>>(shape) / element.reference);
+    state.quality = std::min(state.quality, evaluate_around<M>(shape, element.kMoving));
+    state.jacobian = std::min(state.jacobian, formulas::smallest_jacobian_around(shape, element.kMoving) / element.reference);
   });
   return state;
 }

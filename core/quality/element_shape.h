@@ -122,19 +122,17 @@ template <Metric M, class V, class Ideal, std::size_t N, class Corners>
     return formulas::RealOf<V>(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// Of a star's element what changes when its corner `moving` moves: all of a simplex; of a planar element all, too, though a
-/// quadrilateral's corner across does not.
-template <class V>
-[[nodiscard]] DMOSCOPE_ANYWHERE formulas::RealOf<V> jacobian_around(const formulas::Triangle<V>& t, Index /*moving*/) {
-  return formulas::smallest_jacobian(t);
+/// Of an element of which corner `moving` moves: see formulas::metric_around.
+template <Metric M, class Shape>
+[[nodiscard]] DMOSCOPE_ANYWHERE auto evaluate_around(const Shape& shape, Index /*moving*/) {
+  return evaluate<M>(shape);
 }
-template <class V>
-[[nodiscard]] DMOSCOPE_ANYWHERE formulas::RealOf<V> jacobian_around(const formulas::Quadrilateral<V>& q, Index /*moving*/) {
-  return formulas::smallest_jacobian(q);
-}
-template <class Solid>
-[[nodiscard]] DMOSCOPE_ANYWHERE auto jacobian_around(const Solid& solid, Index moving) {
-  return formulas::smallest_jacobian_around(solid, moving);
+template <Metric M, class V, class Ideal, std::size_t N, class Corners>
+[[nodiscard]] DMOSCOPE_ANYWHERE formulas::RealOf<V> evaluate_around(const formulas::CorneredSolid<V, Ideal, N, Corners>& s, Index moving) {
+  if constexpr (formulas::kDefinedForCorners<M>)
+    return formulas::metric_around<M>(s, moving) + formulas::RealOf<V>(0.0);
+  else
+    return evaluate<M>(s);
 }
 
 }  // namespace dmoscope

@@ -138,6 +138,21 @@ DMOSCOPE_ANYWHERE RealOf<V> rank(const Quadrilateral<V>& q) {
     return metric<M>(q);
 }
 
+/// What these are of an element of which corner `moving` moves: all of a simplex; of other solids (solids.h) only the corners that change,
+/// for the others tell nothing of where it should be, and where one of them is the worst they would hold it. Of a quadrilateral all, too.
+template <Metric M, class Shape>
+DMOSCOPE_ANYWHERE auto metric_around(const Shape& shape, Index /*moving*/) {
+  return metric<M>(shape);
+}
+template <Metric M, class Shape>
+DMOSCOPE_ANYWHERE auto rank_around(const Shape& shape, Index /*moving*/) {
+  return rank<M>(shape);
+}
+template <class Shape>
+DMOSCOPE_ANYWHERE auto smallest_jacobian_around(const Shape& shape, Index /*moving*/) {
+  return smallest_jacobian(shape);
+}
+
 /// Paper eq. (4); quadrilateral: Knupp's shape, least corner.
 template <>
 struct Formula<Metric::MeanRatio> {

@@ -87,7 +87,7 @@ struct CorneredSolid {
     for (std::size_t i = 1; i < Corners::kTable.size(); ++i) result = min(result, corner(i, f));
     return result;
   }
-  /// The same over the corners that change when the one at `moving` moves. The others tell nothing of where it should be.
+  /// The same over the corners that change when the one at `moving` moves.
   template <class F>
   DMOSCOPE_ANYWHERE R least_around(Index moving, F f) const {
     R result = scalar::constant<R>(HUGE_VAL);
@@ -135,11 +135,6 @@ DMOSCOPE_ANYWHERE RealOf<V> smallest_jacobian(const CorneredSolid<V, Ideal, N, C
   return s.least([](V, V, V, RealOf<V> jacobian) { return jacobian; });
 }
 
-/// Of the corners that change when corner `moving` moves.
-template <class V>
-DMOSCOPE_ANYWHERE RealOf<V> smallest_jacobian_around(const Tetrahedron<V>& t, Index /*moving*/) {
-  return t.six_volume;
-}
 template <class V, class Ideal, std::size_t N, class Corners>
 DMOSCOPE_ANYWHERE RealOf<V> smallest_jacobian_around(const CorneredSolid<V, Ideal, N, Corners>& s, Index moving) {
   return s.least_around(moving, [](V, V, V, RealOf<V> jacobian) { return jacobian; });
@@ -324,12 +319,19 @@ DMOSCOPE_ANYWHERE RealOf<V> rank(const Tetrahedron<V>& t) {
   else
     return metric<M>(t);
 }
+
 template <Metric M, class V, class Ideal, std::size_t N, class Corners>
-DMOSCOPE_ANYWHERE RealOf<V> rank(const CorneredSolid<V, Ideal, N, Corners>& s) {
+DMOSCOPE_ANYWHERE RealOf<V> metric_around(const CorneredSolid<V, Ideal, N, Corners>& s, Index moving) {
+  return s.least_around(moving,
+                        [](V u, V v, V w, RealOf<V> jacobian) { return SolidFormula<M>::template corner<Ideal>(u, v, w, jacobian); });
+}
+template <Metric M, class V, class Ideal, std::size_t N, class Corners>
+DMOSCOPE_ANYWHERE RealOf<V> rank_around(const CorneredSolid<V, Ideal, N, Corners>& s, Index moving) {
   if constexpr (M == Metric::MeanRatio)
-    return s.least([](V u, V v, V w, RealOf<V> jacobian) { return SolidFormula<M>::template rank_corner<Ideal>(u, v, w, jacobian); });
+    return s.least_around(
+        moving, [](V u, V v, V w, RealOf<V> jacobian) { return SolidFormula<M>::template rank_corner<Ideal>(u, v, w, jacobian); });
   else
-    return metric<M>(s);
+    return metric_around<M>(s, moving);
 }
 
 /// Calls f.template operator()<M>() with a metric that is defined for some volume element; with MeanRatio for any other.

@@ -34,6 +34,8 @@ inline constexpr bool kSignTellsInversion<M, Vec3Of<Real>> = true;
 /// A star without inverted elements: the least metric (paper eq. 1); a candidate that inverts one is <= 0 and never wins.
 /// Otherwise (Untangling): the smallest corner Jacobian over its element's reference measure while it is <= 0, and the least metric
 /// once all are positive; every valid candidate is above every invalid one, since valid elements have positive metrics.
+/// Of solids that are judged corner by corner those corners count that the vertex changes (formulas::metric_around): what is best by them
+/// is best by all.
 /// Point: Vec2<Real> in a plane, Vec3Of<Real> in space.
 template <Metric M, bool Untangling, class Real, Value V, class Point>
 class Worth {
@@ -46,8 +48,9 @@ class Worth {
   DMOSCOPE_ANYWHERE void take(const Element& element, Point p) {
     using scalar::min;
     const auto shape = element.with(p);
-    quality_ = min(quality_, value(shape));
-    if constexpr (kNeedsJacobian) jacobian_ = min(jacobian_, formulas::smallest_jacobian(shape) / element.reference);
+    quality_ = min(quality_, value(shape, Element::kMoving));
+    if constexpr (kNeedsJacobian)
+      jacobian_ = min(jacobian_, formulas::smallest_jacobian_around(shape, Element::kMoving) / element.reference);
   }
   [[nodiscard]] DMOSCOPE_ANYWHERE Real value() const {
     using scalar::select;
@@ -59,11 +62,11 @@ class Worth {
   static constexpr bool kNeedsJacobian = Untangling || !formulas::kSignTellsInversion<M, Point>;
 
   template <class Shape>
-  [[nodiscard]] static DMOSCOPE_ANYWHERE Real value(const Shape& shape) {
+  [[nodiscard]] static DMOSCOPE_ANYWHERE Real value(const Shape& shape, Index moving) {
     if constexpr (V == Value::Rank)
-      return formulas::rank<M>(shape);
+      return formulas::rank_around<M>(shape, moving);
     else
-      return formulas::metric<M>(shape);
+      return formulas::metric_around<M>(shape, moving);
   }
 
   Real quality_, jacobian_;

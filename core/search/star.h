@@ -17,6 +17,7 @@ namespace dmoscope {
 /// An incident triangle: its other two corners in the element's order, and its reference measure for untangling.
 template <class Real>
 struct StarTriangle {
+  static constexpr Index kMoving = 0;  // the corner that the vertex is
   Vec2<Real> b, c;
   Real reference;
   /// The element with the star's vertex at `p`.
@@ -25,6 +26,7 @@ struct StarTriangle {
 /// An incident quadrilateral: its other three corners in the element's order, and its reference measure.
 template <class Real>
 struct StarQuadrilateral {
+  static constexpr Index kMoving = 0;
   Vec2<Real> b, c, d;
   Real reference;
   [[nodiscard]] DMOSCOPE_ANYWHERE auto with(Vec2<Real> p) const { return formulas::Quadrilateral<Vec2<Real>>(p, b, c, d); }
@@ -66,7 +68,7 @@ class StarView {
 /// An incident tetrahedron: its other three corners, so that it is positive with the vertex as its first.
 template <class Real>
 struct StarTetrahedron {
-  static constexpr Index kMoving = 0;  // the corner that the vertex is
+  static constexpr Index kMoving = 0;
   Vec3Of<Real> b, c, d;
   Real reference;
   [[nodiscard]] DMOSCOPE_ANYWHERE auto with(Vec3Of<Real> p) const { return formulas::Tetrahedron<Vec3Of<Real>>(p, b, c, d); }

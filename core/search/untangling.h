@@ -64,7 +64,7 @@ class SolidUntangling {
     Look found{kMost, kMost, {}};
     star_.template for_each<formulas::kDefinedForCorners<M>>([&found, p](const auto& element) {
       const auto solid = element.with(p);
-      found.quality = scalar::min(found.quality, formulas::metric<M>(solid));
+      found.quality = scalar::min(found.quality, formulas::metric_around<M>(solid, element.kMoving));
       found.jacobian = scalar::min(found.jacobian, formulas::smallest_jacobian_around(solid, element.kMoving) / element.reference);
       found.mean.add(solid, element.kMoving, element.reference);
     });

@@ -14,8 +14,8 @@
 namespace dmoscope {
 
 /// How good a star is, judged in double by the very formulas of the statistics. While one of its elements is inverted its smallest
-/// normalised Jacobian counts, afterwards its least metric. Of a volume's Jacobians only those of corners count that the vertex's place
-/// changes: the others keep their bits, so that no star's least gets worse where these do not.
+/// normalised Jacobian counts, afterwards its least metric. Of volumes only those corners count that the vertex's place changes: the others
+/// keep their bits, so that no star's least gets worse where these do not.
 struct StarState {
   double jacobian = 0.0;    // least of smallest corner Jacobian / reference measure
   double quality = 0.0;     // least metric (paper eq. 1)
@@ -39,8 +39,8 @@ template <Metric M, class Frame>
     const double reference = mesh.reference_measure[incidence.element];
     const Index moving = incidence.corner;
     visit_shape(mesh.frame, mesh.corners_of(incidence.element), at, [&](const auto& shape) {
-      state.jacobian = scalar::min(state.jacobian, jacobian_around(shape, moving) / reference);
-      state.quality = scalar::min(state.quality, evaluate<M>(shape));
+      state.jacobian = scalar::min(state.jacobian, formulas::smallest_jacobian_around(shape, moving) / reference);
+      state.quality = scalar::min(state.quality, evaluate_around<M>(shape, moving));
       if constexpr (kVolume) untangling.add(shape, moving, reference);
     });
   }

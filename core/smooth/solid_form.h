@@ -39,34 +39,6 @@ template <class F>
   return F(432) * formulas::square_over_cube(six_volume(f, p), squares(f, p, square));
 }
 
-template <Metric M, class Ideal, class Point>
-[[nodiscard]] DMOSCOPE_ANYWHERE formulas::RealOf<Point> rank_of_corner(Point u, Point v, Point w, formulas::RealOf<Point> jacobian) {
-  if constexpr (M == Metric::MeanRatio)
-    return formulas::SolidFormula<M>::template rank_corner<Ideal>(u, v, w, jacobian);
-  else
-    return formulas::SolidFormula<M>::template corner<Ideal>(u, v, w, jacobian);
-}
-/// The rank of the corners that change with the vertex.
-template <Metric M, class Point, class Ideal, std::size_t N, class Corners>
-[[nodiscard]] DMOSCOPE_ANYWHERE auto moving_part(const formulas::CorneredSolid<Point, Ideal, N, Corners>& solid, Index moving) {
-  using F = formulas::RealOf<Point>;
-  return solid.least_around(moving, [](Point u, Point v, Point w, F jacobian) { return rank_of_corner<M, Ideal>(u, v, w, jacobian); });
-}
-/// And of all the others.
-template <Metric M, class Point, class Ideal, std::size_t N, class Corners>
-[[nodiscard]] DMOSCOPE_ANYWHERE auto constant_part(const formulas::CorneredSolid<Point, Ideal, N, Corners>& solid, Index moving) {
-  using scalar::min;
-  using F = formulas::RealOf<Point>;
-  F least(1e30F);
-  for (std::size_t i = 0; i < Corners::kTable.size(); ++i) {
-    const formulas::CornerTable c = formulas::row_of<Corners>(i);
-    if (c[0] == moving || c[1] == moving || c[2] == moving || c[3] == moving) continue;
-    const Point u = solid.at[c[1]] - solid.at[c[0]], v = solid.at[c[2]] - solid.at[c[0]], w = solid.at[c[3]] - solid.at[c[0]];
-    least = min(least, rank_of_corner<M, Ideal>(u, v, w, formulas::determinant(u, v, w)));
-  }
-  return least;
-}
-
 /// Below this rank the search is the reference's, since floats do not tell such elements apart.
 inline constexpr float kLeastRank = 1e-6F;
 

@@ -3,6 +3,7 @@
 // lane_kernel_of.h for what that asks of the code.
 
 #include <array>
+#include <limits>
 
 #include "core/search/pack.h"
 // After the packs:
@@ -27,6 +28,7 @@ class Kernel {
   static constexpr std::size_t kMaxPlane = 64 * 64 + kWidth;
   static constexpr bool kForms = M == Metric::MeanRatio;
   static constexpr bool kCorners = formulas::kDefinedForCorners<M>;
+  static constexpr float kMost = std::numeric_limits<float>::max();
 
   explicit Kernel(const SolidSearch& task) : task_(task) {}
 
@@ -37,7 +39,7 @@ class Kernel {
     found.ready = best_ > kLeastRank;
     if (!found.ready) return found;
     double omega = task_.omega;
-    for (int level = 0; level < task_.levels && best_ < cap_; ++level) {
+    for (int level = 0; level < task_.levels; ++level) {
       search_level(static_cast<float>(omega));
       omega *= 2.0 / (task_.points - 1);
     }
@@ -56,14 +58,6 @@ class Kernel {
         forms_[i] = tetrahedron_form(wide(t.b), wide(t.c), wide(t.d));
       else
         tetrahedra_[i] = {wide(t.b), wide(t.c), wide(t.d), F(1)};
-    }
-    if constexpr (kCorners) {
-      const Point origin{F(0), F(0), F(0)};
-      for_cornered([&](const auto& element) {
-        const auto solid = widened(element, origin);
-        const float constant = constant_part<M>(solid, element.kMoving).get(0);
-        cap_ = constant < cap_ ? constant : cap_;
-      });
     }
   }
 
@@ -92,7 +86,7 @@ class Kernel {
   /// The least rank of the star with its vertex at each of the places; anything not above `floor` where it is not above it in any slot.
   F least(Point p, F floor) {
     using scalar::min;
-    F worth(cap_);
+    F worth(kMost);
     if constexpr (kForms) {
       if (!tetrahedra_may_pass(p, floor)) return F(-1);
       const F square = dot(p, p);
@@ -114,7 +108,7 @@ class Kernel {
       bool passes = true;
       for_cornered([&](const auto& element) {
         if (!passes) return;
-        worth = min(worth, moving_part<M>(widened(element, p), element.kMoving));
+        worth = min(worth, formulas::rank_around<M>(widened(element, p), element.kMoving));
         passes = xsimd::any(worth > floor);
       });
     }
@@ -180,7 +174,7 @@ class Kernel {
   }
 
   const SolidSearch& task_;
-  float best_ = 0.0F, cap_ = 1e30F;  // the best rank so far; what no candidate's can exceed
+  float best_ = 0.0F;  // rank
   float at_[3] = {0.0F, 0.0F, 0.0F};
   std::uint8_t order_[kMaxSolids];
   alignas(64) float y_[kMaxPlane], z_[kMaxPlane];

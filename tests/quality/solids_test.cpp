@@ -148,7 +148,7 @@ TEST(Solids, RanksRiseWithTheMetric) {
   for (int trial = 0; trial < 300; ++trial) {
     Wedge<Vec3> w = kPrism;
     for (Vec3& p : w.at) p = p + 0.5 * random_point(random);
-    all.emplace_back(formulas::metric<Metric::MeanRatio>(w), formulas::rank<Metric::MeanRatio>(w));
+    all.emplace_back(formulas::metric_around<Metric::MeanRatio>(w, 0), formulas::rank_around<Metric::MeanRatio>(w, 0));
   }
   for (const auto& [q, rank] : all) EXPECT_NEAR(rank, q * q * q, 1e-12);
 }

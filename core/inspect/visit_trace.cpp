@@ -1,5 +1,6 @@
 #include "core/inspect/visit_trace.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 
@@ -64,6 +65,7 @@ class Look {
     trace_.vertex = vertex;
     trace_.metric = M;
     trace_.from = trace_.to = positions[vertex];
+    trace_.by_corners = has_corners();
     trace_.before = trace_.after = star_state<M>(mesh_, positions_, vertex, trace_.from);
   }
 
@@ -172,6 +174,11 @@ class Look {
     end(target, search.gains(positions_, trace_.vertex, target));
   }
 
+  [[nodiscard]] bool has_corners() const {
+    const auto is_cornered = [this](const Incidence& at) { return mesh_.corners_of(at.element).size() > 4; };
+    return kVolume && std::ranges::any_of(mesh_.star(trace_.vertex), is_cornered);
+  }
+
   /// Where an offset leads as the smoothers in double store it.
   [[nodiscard]] Vec3 stored(Offset offset) const { return displaced(mesh_.frame, trace_.from, offset, input_.mesh.single_precision); }
   [[nodiscard]] bool gains(Vec3 target) const { return gains_at<M>(mesh_, positions_, trace_.vertex, target); }
@@ -238,9 +245,10 @@ std::string VisitSummary::sentence() const {
   switch (end) {
     case VisitEnd::Moved:
       if (combined && !untangling)
-        return fmt::format("moved for two aims: worst element of its star {:.4g} -> {:.4g}", before.quality, after.quality);
-      if (before.jacobian > 0.0) return fmt::format("moved: worst element of its star {:.4g} -> {:.4g}", before.quality, after.quality);
-      if (after.jacobian > 0.0) return fmt::format("moved: untangled its star, whose worst element is {:.4g} now", after.quality);
+        return fmt::format("moved for two aims: {} of its star {:.4g} -> {:.4g}", worst_phrase(), before.quality, after.quality);
+      if (before.jacobian > 0.0)
+        return fmt::format("moved: {} of its star {:.4g} -> {:.4g}", worst_phrase(), before.quality, after.quality);
+      if (after.jacobian > 0.0) return fmt::format("moved: untangled its star, whose {} is {:.4g} now", worst_phrase(), after.quality);
       return fmt::format("moved: smallest Jacobian of its tangled star {:.4g} -> {:.4g}", before.jacobian, after.jacobian);
     case VisitEnd::NothingFound:
       if (combined) return "stays: no candidate is better for its two aims than where it stands";

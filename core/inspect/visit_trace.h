@@ -58,9 +58,10 @@ enum class VisitEnd {
 struct VisitSummary {
   Index vertex = kNoIndex;
   Metric metric = Metric::MeanRatio;
-  bool fast = false;         // searched in float by the fast search; else in double by the plain one
-  bool combined = false;     // for two aims: values beyond a threshold are the threshold plus the second aim
-  bool untangling = false;   // an element was inverted, so the smallest Jacobian came first
+  bool fast = false;        // searched in float by the fast search; else in double by the plain one
+  bool combined = false;    // for two aims: values beyond a threshold are the threshold plus the second aim
+  bool by_corners = false;  // the star has solids judged corner by corner: of those what the vertex changes counts, in `before` and `after`
+  bool untangling = false;  // an element was inverted, so the smallest Jacobian came first
   std::string value_phrase;  // what LevelValues::values are: "mean ratio", "squared sine of the smallest angle", ...
   double value_here = 0.0;   // likewise, of the place where it stood: what a candidate had to exceed
   Vec3 from, to;             // where it stood and stands after the visit; the same unless it moved
@@ -69,6 +70,8 @@ struct VisitSummary {
   VisitEnd end = VisitEnd::NothingFound;
   /// "moved: worst element of its star 0.31 -> 0.82", "no candidate is better than where it stands", ...
   [[nodiscard]] std::string sentence() const;
+  /// Whose quality StarState::quality is.
+  [[nodiscard]] const char* worst_phrase() const { return by_corners ? "worst corner" : "worst element"; }
 };
 
 template <class Offset>

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "core/base/anywhere.h"
 #include "core/mesh/mesh_view.h"
@@ -45,14 +46,14 @@ class MeshStar {
       for (std::size_t i = 1; i < corners.size(); ++i) box.add(offset(corners, (at.corner + i) % corners.size()));
     }
     const double extent = box.largest();
-    scale_ = extent > 0.0 && extent < HUGE_VAL ? std::ldexp(1.0, std::ilogb(extent)) : 1.0;
+    scale_ = extent > 0.0 && extent < HUGE_VAL ? unit_of(extent) : 1.0;
     inverse_ = 1.0 / scale_;
     box_ = scaled(box.high - box.low);
   }
 
   /// The bounding box of the other vertices, in units of scale().
   [[nodiscard]] DMOSCOPE_ANYWHERE Offset box() const { return box_; }
-  /// A power of two, in mesh units: the largest offset lies in [1, 2) of it.
+  /// In mesh units: the largest offset lies in [1, 2) of it.
   [[nodiscard]] DMOSCOPE_ANYWHERE double scale() const { return scale_; }
 
   /// See StarView; in the order of the elements. Others: those that are no simplices, too.
@@ -88,6 +89,12 @@ class MeshStar {
   static DMOSCOPE_ANYWHERE Vec3 upper(Vec3 a, Vec3 b) { return {scalar::max(a.x, b.x), scalar::max(a.y, b.y), scalar::max(a.z, b.z)}; }
   static DMOSCOPE_ANYWHERE double greatest(Vec3 a) { return scalar::max3(scalar::abs(a.x), scalar::abs(a.y), scalar::abs(a.z)); }
 
+  /// In the plane a power of two, so that scaling rounds nothing. In space the extent itself: the fast search's floats are then the same
+  /// whatever the unit of length. (In the plane that search has units of its own: SearchFrame.)
+  static DMOSCOPE_ANYWHERE double unit_of(double extent) {
+    const double power = std::ldexp(1.0, std::ilogb(extent));
+    return std::is_same_v<Frame, Plane> || !(power >= std::numeric_limits<double>::min()) ? power : extent;
+  }
   /// Of an area or a volume, where lengths are `length` times as large.
   static DMOSCOPE_ANYWHERE double measure_of(double length) {
     return std::is_same_v<Frame, Plane> ? length * length : length * length * length;

@@ -1,5 +1,6 @@
 #pragma once
-// The star of one vertex as the search sees it: offsets from the vertex in the mesh's plane or in space, scaled by a power of two.
+// The star of one vertex as the search sees it: offsets from the vertex in the mesh's plane or in space, scaled so that
+// the largest is about 1.
 
 #include <array>
 #include <cstddef>
@@ -107,7 +108,7 @@ struct StarTip {
   }
 };
 
-/// The star of a vertex of a volume; units as in Star.
+/// The star of a vertex of a volume, in units of `scale`, its largest offset.
 template <class Real>
 struct SolidStar {
   std::vector<StarTetrahedron<Real>> tetrahedra;

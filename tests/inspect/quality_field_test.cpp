@@ -13,6 +13,7 @@
 #include "core/base/thread_pool.h"
 #include "core/mesh/generate.h"
 #include "tests/smooth/zoo.h"
+#include "tests/support/moving_quality.h"
 
 namespace dmoscope {
 namespace {
@@ -250,11 +251,11 @@ TEST(QualityField, OfASliceHasAtEachSampleWhatTheJudgesOfMeshesSay) {
             for (int column = 0; column < 4; ++column) {
               const double u = low.x + 0.225 * size * (column + 0.5), v = low.y + 0.045 * size * (row + 0.5), w = 0.2 * size;
               positions[vertex] = hub + (axis == 0 ? Vec3{w, u, v} : axis == 1 ? Vec3{u, w, v} : Vec3{u, v, w});
-              double quality = 1e300, jacobian = 1e300;
+              const double quality = testing::moving_quality(*input, positions, metric, vertex);
+              double jacobian = 1e300;
               bool defined = true;
               for (const Incidence& at : input->topology.star(vertex)) {
                 defined = defined && info(metric).defined_for(input->mesh.elements.kind(at.element));
-                quality = std::min(quality, element_quality(input->quality_context(), positions, metric, at.element));
                 jacobian = std::min(jacobian, smallest_jacobian(input->quality_context(), positions, at.element));
               }
               const auto i = static_cast<std::size_t>(row * 4 + column);

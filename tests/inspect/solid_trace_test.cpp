@@ -16,18 +16,18 @@
 #include "core/session/run.h"
 #include "tests/smooth/promises.h"
 #include "tests/smooth/zoo.h"
+#include "tests/support/moving_quality.h"
 
 namespace dmoscope {
 namespace {
 
-/// By the judges of whole meshes, with the vertex at `place`: the least quality of its elements, and whether one is inverted.
+/// With the vertex at `place`: the least quality of what it changes, and by the judges of whole meshes whether an element is inverted.
 std::pair<double, bool> judged(const InputMesh& input, std::vector<Vec3>& positions, Metric metric, Index vertex, Vec3 place) {
   const Vec3 before = std::exchange(positions[vertex], place);
-  double quality = 1e300, jacobian = 1e300;
-  for (const Incidence& at : input.topology.star(vertex)) {
-    quality = std::min(quality, element_quality(input.quality_context(), positions, metric, at.element));
+  const double quality = testing::moving_quality(input, positions, metric, vertex);
+  double jacobian = 1e300;
+  for (const Incidence& at : input.topology.star(vertex))
     jacobian = std::min(jacobian, smallest_jacobian(input.quality_context(), positions, at.element));
-  }
   positions[vertex] = before;
   return {quality, jacobian <= 0.0};
 }

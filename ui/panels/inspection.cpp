@@ -35,11 +35,12 @@ void draw_story(PanelContext& context, const Inspection& inspection) {
   const VisitSummary& trace = *inspection.visit();
   if (const std::string other = other_method_sentence(inspection); !other.empty()) wrapped(other);
   if (const std::string stuck = stuck_sentence(inspection); !stuck.empty()) wrapped(stuck);
-  const auto row = [&context](const StarState& star, const char* when) {
+  const auto row = [&context, &trace](const StarState& star, const char* when) {
     const bool inverted = !(star.jacobian > 0.0);
-    number_row(context, fmt::format("{} {}", inverted ? "least Jacobian" : "worst element", when).c_str(), quality_of(star),
-               inverted ? "while an element of the star is inverted: the least corner Jacobian over its element's reference size"
-                        : "the least quality of its star");
+    number_row(context, fmt::format("{} {}", inverted ? "least Jacobian" : trace.worst_phrase(), when).c_str(), quality_of(star),
+               inverted           ? "while an element of the star is inverted: the least corner Jacobian over its element's reference size"
+               : trace.by_corners ? "the least quality of its star's corners that the vertex changes, which is what it is moved by"
+                                  : "the least quality of its star");
   };
   row(trace.before, "before");
   if (trace.end == VisitEnd::Moved) row(trace.after, "after");

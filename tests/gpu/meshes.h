@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/io/mesh_io.h"
+#include "core/mesh/plane.h"
 #include "core/session/input_mesh.h"
+#include "tests/support/sanitized.h"
 
 namespace dmoscope::gpu::testing {
 
@@ -23,8 +26,9 @@ inline std::vector<std::shared_ptr<const InputMesh>> meshes_below(const std::fil
   for (const auto& file : files) {
     Progress progress;
     try {
-      auto input = load_input(file, Need::Smoothing, progress);
-      if (input->mesh.vertex_count() <= most_vertices && input->is_volume() == volumes) meshes.push_back(std::move(input));
+      Mesh mesh = read_mesh(file, {progress});
+      if (mesh.vertex_count() > most_vertices || (classify(mesh).shape == Shape::Volume) != volumes) continue;
+      meshes.push_back(prepare_input(std::move(mesh), file, Need::Smoothing, progress));
     } catch (const Error&) {
       continue;  // a surface, a text
     }
@@ -36,7 +40,7 @@ inline std::vector<std::shared_ptr<const InputMesh>> meshes_below(const std::fil
   return meshes_below(std::filesystem::path(DMOSCOPE_SOURCE_DIR) / "resources/samples", std::size_t{1} << 30U);
 }
 [[nodiscard]] inline std::vector<std::shared_ptr<const InputMesh>> shared_meshes() {
-  return meshes_below(std::filesystem::path(DMOSCOPE_SHARED_DIR) / "meshes", 30000);
+  return meshes_below(std::filesystem::path(DMOSCOPE_SHARED_DIR) / "meshes", dmoscope::testing::kSanitized ? 3000 : 30000);
 }
 [[nodiscard]] inline std::vector<std::shared_ptr<const InputMesh>> shared_volumes(std::size_t most_vertices) {
   return meshes_below(std::filesystem::path(DMOSCOPE_SHARED_DIR) / "meshes", most_vertices, true);

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -59,31 +60,10 @@ struct Subject {
 inline bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 inline bool same(Vec3 a, Vec3 b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
 
-/// Iterations on both, compared after each, bit for bit.
-inline void expect_same_visits(const std::shared_ptr<Queue>& queue, const Subject& subject, Metric metric,
-                               const SearchParameters& parameters, int iterations, ThreadPool* pool = nullptr) {
-  const auto cpu = make_smoother({.input = subject.input, .colouring = subject.colouring, .metric = metric, .search = parameters});
-  const auto device = make_device_dmo(queue, subject.input, subject.colouring, metric, parameters, subject.immovable, pool);
-  std::vector<Vec3> expected = subject.input->mesh.positions, found = expected;
-  for (int i = 1; i <= iterations; ++i) {
-    const std::uint64_t moved = cpu->visit(0, subject.visits(), expected, nullptr);
-    cpu->store(expected, nullptr);
-    const std::uint64_t moved_there = device->visit(0, subject.visits(), found, nullptr);
-    device->store(found, nullptr);
-    for (Index v = 0; v < expected.size(); ++v) ASSERT_TRUE(same(expected[v], found[v])) << "vertex " << v << ", iteration " << i;
-    ASSERT_EQ(moved, moved_there) << "iteration " << i;
-  }
-}
-
-/// The statistics on the device are those of the host at the same positions, bit for bit.
-inline void expect_same_statistics(const std::shared_ptr<Queue>& queue, const Subject& subject, Metric metric) {
-  const auto device = make_device_dmo(queue, subject.input, subject.colouring, metric, {}, subject.immovable, nullptr);
-  std::vector<Vec3> positions = subject.input->mesh.positions;
-  EXPECT_FALSE(device->statistics().has_value()) << "nothing was visited yet";
-  device->visit(0, subject.visits(), positions, nullptr);
-  const auto there = device->statistics();
+/// The statistics after all visits so far, which led to `positions`, are those of the host, bit for bit.
+inline void expect_same_statistics(Smoother& device, const Subject& subject, Metric metric, std::span<const Vec3> positions) {
+  const auto there = device.statistics();
   ASSERT_TRUE(there.has_value());
-  device->store(positions, nullptr);
   const Statistics here = compute_statistics(subject.input->quality_context(), positions, metric, subject.immovable, nullptr);
   EXPECT_TRUE(same(there->minimum, here.minimum)) << there->minimum << ' ' << here.minimum;
   EXPECT_TRUE(same(there->mean, here.mean)) << there->mean << ' ' << here.mean;
@@ -91,6 +71,25 @@ inline void expect_same_statistics(const std::shared_ptr<Queue>& queue, const Su
   EXPECT_TRUE(same(there->ceiling, here.ceiling)) << there->ceiling << ' ' << here.ceiling;
   EXPECT_EQ(there->inverted, here.inverted);
   EXPECT_EQ(there->worst_element, here.worst_element);
+}
+
+/// Iterations on both, compared after each, bit for bit, with their statistics.
+inline void expect_same_visits(const std::shared_ptr<Queue>& queue, const Subject& subject, Metric metric,
+                               const SearchParameters& parameters, int iterations, ThreadPool* pool = nullptr) {
+  const auto cpu = make_smoother({.input = subject.input, .colouring = subject.colouring, .metric = metric, .search = parameters});
+  const auto device = make_device_dmo(queue, subject.input, subject.colouring, metric, parameters, subject.immovable, pool);
+  EXPECT_FALSE(device->statistics().has_value()) << "nothing was visited yet";
+  std::vector<Vec3> expected = subject.input->mesh.positions, found = expected;
+  for (int i = 1; i <= iterations; ++i) {
+    SCOPED_TRACE("iteration " + std::to_string(i));
+    const std::uint64_t moved = cpu->visit(0, subject.visits(), expected, nullptr);
+    cpu->store(expected, nullptr);
+    const std::uint64_t moved_there = device->visit(0, subject.visits(), found, nullptr);
+    device->store(found, nullptr);
+    for (Index v = 0; v < expected.size(); ++v) ASSERT_TRUE(same(expected[v], found[v])) << "vertex " << v;
+    ASSERT_EQ(moved, moved_there);
+    expect_same_statistics(*device, subject, metric, found);
+  }
 }
 
 }  // namespace dmoscope::gpu::testing

@@ -6,12 +6,14 @@
 #include "tests/gpu/same_bits.h"
 #include "tests/gpu/solids.h"
 #include "tests/smooth/zoo.h"
+#include "tests/support/sanitized.h"
 
 namespace dmoscope::gpu {
 namespace {
 
 using namespace testing;
 using dmoscope::testing::defined_for_all;
+using dmoscope::testing::kSanitized;
 
 std::shared_ptr<HostQueue> host(const HostDevice& device = {}) { return make_host_queue(device); }
 
@@ -24,13 +26,13 @@ class SolidDeviceDmo : public ::testing::TestWithParam<Metric> {
       const Subject subject(solid.input);
       ASSERT_GT(subject.visits(), 0U);
       expect_same_visits(host(), subject, GetParam(), parameters, iterations);
-      expect_same_statistics(host(), subject, GetParam());
     }
   }
 };
 
-TEST_P(SolidDeviceDmo, SameBitsInDouble) { expect_same({.precision = Precision::Double}, 125, 2); }
-TEST_P(SolidDeviceDmo, SameBitsInFloat) { expect_same({}, 125, 3); }
+/// 27 vertices that may move, or eight.
+TEST_P(SolidDeviceDmo, SameBitsInFloat) { expect_same({}, kSanitized ? 64 : 125, 3); }
+TEST_P(SolidDeviceDmo, SameBitsInDouble) { expect_same({.precision = Precision::Double}, 64, 2); }
 /// 7 and 2 candidates an axis are not a whole number of what a lane ranks at a time.
 TEST_P(SolidDeviceDmo, SameBitsWithOtherGrids) {
   for (const Precision precision : {Precision::Float, Precision::Double}) {
@@ -41,13 +43,12 @@ TEST_P(SolidDeviceDmo, SameBitsWithOtherGrids) {
 
 /// Small ones: the host is slow in a device's place.
 TEST_P(SolidDeviceDmo, SameBitsOnSharedMeshes) {
-  const auto meshes = shared_volumes(1000);
+  const auto meshes = shared_volumes(kSanitized ? 400 : 1000);
   if (meshes.empty()) GTEST_SKIP() << "no shared meshes here";
   for (const auto& mesh : meshes) {
     if (!defined_for_all(GetParam(), mesh->mesh)) continue;
     SCOPED_TRACE(mesh->mesh.name);
     expect_same_visits(host(), Subject(mesh), GetParam(), {}, 1);
-    expect_same_statistics(host(), Subject(mesh), GetParam());
   }
 }
 

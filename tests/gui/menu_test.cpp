@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/gui/headless_test.h"
+#include "tests/support/sanitized.h"
 #include "ui/actions.h"
 #include "ui/palette_entries.h"
 #include "ui/view_commands.h"
@@ -52,17 +53,19 @@ class Menus : public HeadlessTest {
     run("cancel");
     return text;
   }
-  /// Finds the action by its title, as a person does, and clicks on it.
-  [[nodiscard]] bool choose_in_palette(const ui::Action& action) {
-    run("key Ctrl+P");
-    run("type " + quote_word(action.title));
+  /// Finds the action by its title, as a person does, and clicks on it; or only finds it.
+  [[nodiscard]] bool choose_in_palette(const ui::Action& action, bool click) {
+    if (click) {
+      run("key Ctrl+P");
+      run("type " + quote_word(action.title));
+    }
     const auto view = window_->app().engine().view();
     const ui::Situation now{true, false, true, view->runs.size(), false, view->undo_label, view->redo_label};
     const auto entries = ui::palette_entries(action.title, now, window_->app().commands().commands());
     const std::string title = fmt::format("{}: {}", action.menu, ui::title_of(action, now));
     const auto at = std::ranges::find(entries, title, &ui::PaletteEntry::title);
     if (at == entries.end()) return false;
-    run(fmt::format("click palette:{}", at - entries.begin()));
+    if (click) run(fmt::format("click palette:{}", at - entries.begin()));
     possible_ = at->possible;
     return true;
   }
@@ -72,26 +75,31 @@ class Menus : public HeadlessTest {
 };
 
 TEST_F(Menus, EveryActionIsReachedByScriptPaletteAndKeyAlike) {
+  // A frame a letter: with a sanitizer the palette is opened for some alone.
+  constexpr std::size_t kStride = testing::kSanitized ? 6 : 1;
+  std::size_t count = 0;
   for (const ui::Action& action : ui::actions()) {
     SCOPED_TRACE(std::string(action.id));
+    const bool by_hand = count++ % kStride == 0;
     // Stepping by itself goes on as long as it is let: where it comes to is a matter of time.
     const bool endless = action.command.starts_with("play-steps");
     begin();
     // A script is told what goes wrong; a person gets the dialog.
     if (window_->run(action.command)) state().dialog = ui::Dialog::Error;
     const std::string by_script = outcome();
+    if (!by_hand && action.key.empty()) continue;
     begin();
-    ASSERT_TRUE(choose_in_palette(action));
-    const std::string by_palette = outcome();
-    if (!possible_) {  // greyed; a script is told why
-      EXPECT_EQ(state().dialog, ui::Dialog::Palette);
-      continue;
+    ASSERT_TRUE(choose_in_palette(action, by_hand));
+    if (by_hand) {
+      const std::string by_palette = outcome();
+      if (!possible_) {  // greyed; a script is told why
+        EXPECT_EQ(state().dialog, ui::Dialog::Palette);
+      } else if (!endless) {
+        EXPECT_EQ(by_palette, by_script);
+      }
     }
-    if (!endless) {
-      EXPECT_EQ(by_palette, by_script);
-    }
-    if (action.key.empty()) continue;
-    begin();
+    if (!possible_ || action.key.empty()) continue;
+    if (by_hand) begin();
     run("key " + std::string(action.key));
     if (!endless) {
       EXPECT_EQ(outcome(), by_script);

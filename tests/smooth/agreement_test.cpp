@@ -13,6 +13,7 @@
 #include "core/base/error.h"
 #include "core/mesh/colouring.h"
 #include "core/smooth/dmo.h"
+#include "tests/support/sanitized.h"
 
 namespace dmoscope {
 namespace {
@@ -100,7 +101,7 @@ void expect_agreement(const std::vector<std::filesystem::path>& files) {
       if (!input) continue;
       const auto kinds = input->mesh.elements.kinds();
       if (!std::ranges::all_of(kinds, [&](ElementKind kind) { return entry.defined_for(kind); })) continue;
-      const Tally one = compare(input, entry.metric, input->mesh.vertex_count() > 20000 ? 1 : 4);
+      const Tally one = compare(input, entry.metric, input->mesh.vertex_count() > 20000 || testing::kSanitized ? 1 : 4);
       std::cout << entry.name << ' ' << file.filename() << ": " << one.different << " of " << one.visits << " differ, worst loss "
                 << one.worst_loss << '\n';
       all.visits += one.visits;

@@ -149,15 +149,15 @@ TEST(Volume, DvrFindsTheBestPlaceOnItsLineInEveryKindOfElement) {
     dmoscope::Run run = make_run(mesh, {.method = "dvr", .options = {.seed = 3}});
     Progress progress;
     for (const Index hub : run.colouring().members(0)) {
-      const std::vector<Vec3> old(run.positions().begin(), run.positions().end());
+      std::vector<Vec3> positions(run.positions().begin(), run.positions().end());
+      const Vec3 old = positions[hub];
       run.step(StepUnit::Vertex, progress);
       const auto least_at = [&](double t) {
-        std::vector<Vec3> moved = old;
-        moved[hub] = moved[hub] + t * d;
-        const StarState state = star_state(*mesh, moved, Metric::MeanRatio, hub);
+        positions[hub] = old + t * d;
+        const StarState state = star_state(*mesh, positions, Metric::MeanRatio, hub);
         return state.jacobian > 0.0 ? state.quality : -1.0;
       };
-      const Vec3 way = run.positions()[hub] - old[hub];
+      const Vec3 way = run.positions()[hub] - old;
       EXPECT_LT(length(cross(way, d)), 1e-14) << specimen.name << ": off the line";
       const double found = least_at(dot(way, d));
       constexpr int kSamples = 2000;
@@ -252,20 +252,22 @@ TEST(Volume, AnElementAndItsDuplicateHoldTheirBoundary) {
 
 TEST(Volume, SameBitsForAnyInstructions) {
   for (const Specimen& specimen : volumes()) {
+    const auto mesh = input(specimen.mesh);
     for (const Metric metric : {Metric::MeanRatio, Metric::MinAngle, Metric::ScaledJacobian}) {
       if (!testing::defined_for_all(metric, specimen.mesh)) continue;
       for (const int points : {5, 8}) {
-        const auto mesh = input(specimen.mesh);
-        Progress progress;
         const auto with = [&](SimdLevel level) {
           dmoscope::Run run = make_run(mesh, {.metric = metric, .search = {.grid_points = points, .simd = level}});
-          run.iterate(2, progress);
+          Progress progress;
+          run.iterate(points == 8 ? 2 : 1, progress);
           return std::vector<Vec3>(run.positions().begin(), run.positions().end());
         };
         const std::vector<Vec3> baseline = with(SimdLevel::Baseline);
-        for (const SimdLevel level : supported_simd_levels())
+        for (const SimdLevel level : supported_simd_levels()) {
+          if (level == SimdLevel::Baseline) continue;
           EXPECT_TRUE(same_bits(with(level), baseline))
               << specimen.name << ", " << info(metric).name << ", " << name(level) << ", " << points;
+        }
       }
     }
   }
@@ -311,7 +313,7 @@ TEST(Volume, NoTwoOfAClassShareAnElement) {
 
 TEST(Volume, ACubeOfHexahedraBecomesPerfectWithTheSecondPhase) {
   Progress progress;
-  const auto mesh = input(generate_mesh("hexahedra", 216, 3, progress));
+  const auto mesh = input(generate_mesh("hexahedra", 125, 3, progress));
   dmoscope::Run run = make_run(mesh, {.then_mean = MeanPhase{}});
   run.iterate(60, progress);
   EXPECT_GT(run.statistics().minimum, 0.99) << "the lattice it was made from is worth 1";

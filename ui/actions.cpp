@@ -23,6 +23,10 @@ constexpr std::array kActions{
     Action{"sample-mixed", "File", "Sample: mixed", "", "generate mixed"},
     Action{"sample-tangled", "File", "Sample: tangled", "", "generate tangled"},
     Action{"sample-grid", "File", "Sample: grid", "", "generate grid"},
+    Action{"sample-tetrahedra", "File", "Sample: tetrahedra", "", "generate tetrahedra", Needs::Nothing, true},
+    Action{"sample-hexahedra", "File", "Sample: hexahedra", "", "generate hexahedra"},
+    Action{"sample-solids", "File", "Sample: solids", "", "generate solids"},
+    Action{"sample-tangled-solids", "File", "Sample: tangled-solids", "", "generate tangled-solids"},
     Action{"quit", "File", "Quit", "Ctrl+Q", "quit", Needs::Nothing, true},
 
     Action{"undo", "Edit", "Undo", "Ctrl+Z", "undo", Needs::Undo},

@@ -1,10 +1,13 @@
 // A volume mesh in the window: seen, turned, clipped and picked by commands and by the mouse.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "core/io/mesh_io.h"
+#include "core/mesh/generate.h"
 #include "tests/gui/headless_test.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/volume_grids.h"
+#include "ui/actions.h"
 
 namespace dmoscope::app {
 namespace {
@@ -43,6 +46,20 @@ TEST_F(VolumeWindow, ADragTurnsItAndAClickPicks) {
   EXPECT_EQ(state().picked.kind, ui::Picked::Kind::None);  // a drag is no click
   good("click 640 330");
   EXPECT_NE(state().picked.kind, ui::Picked::Kind::None);
+}
+
+TEST_F(VolumeWindow, TheMenuHasEverySampleThatCanBeMade) {
+  std::size_t samples = 0;
+  for (const ui::Action& action : ui::actions()) samples += action.id.starts_with("sample-") ? 1 : 0;
+  EXPECT_EQ(samples, generator_table().size());
+  for (const GeneratorInfo& generator : generator_table()) {
+    const ui::Action* action = ui::find_action(fmt::format("sample-{}", generator.name));
+    ASSERT_NE(action, nullptr) << generator.name;
+    EXPECT_EQ(action->command, fmt::format("generate {}", generator.name));
+  }
+  for (const char* line : {"click menu:File", "click menu:Samples", "click menu:sample-tangled-solids"}) good(line);
+  EXPECT_EQ(session()->input->mesh.name, "tangled-solids");
+  EXPECT_TRUE(state().is_volume);
 }
 
 TEST_F(VolumeWindow, AnInsideIsOfVolumesAlone) {

@@ -1,4 +1,7 @@
 // A volume mesh in the window: seen, turned, clipped and picked by commands and by the mouse.
+#include <algorithm>
+#include <string>
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -46,6 +49,38 @@ TEST_F(VolumeWindow, ADragTurnsItAndAClickPicks) {
   EXPECT_EQ(state().picked.kind, ui::Picked::Kind::None);  // a drag is no click
   good("click 640 330");
   EXPECT_NE(state().picked.kind, ui::Picked::Kind::None);
+}
+
+/// Within its viewport, and as large as title and colour bar let it be.
+TEST_F(VolumeWindow, AFitFillsViewportsOfEveryShape) {
+  const double em = 15.0;
+  for (const char* size : {"800 600", "1280 800", "700 1000"}) {
+    for (const char* layout : {"1", "2", "4"}) {
+      for (const char* line : {"perspective on", "view-from +y", "perspective off", "view-from iso"}) {
+        for (const std::string& each : {std::string("size ") + size, std::string("viewports ") + layout, std::string(line)}) good(each);
+        SCOPED_TRACE(fmt::format("{}, {} viewports, {}", size, layout, line));
+        const auto frame = session()->frame;
+        render::Bounds3 box;
+        for (const Vec3& p : frame->positions) box.include(p);
+        const Vec2<double> viewport = state().viewport;
+        const render::Projection projection = state().orbit.projection(viewport, box);
+        double left = 1e9, right = -1e9, low = 1e9, high = -1e9;
+        for (const Vec3& p : frame->positions) {
+          const auto place = projection.place(p);
+          ASSERT_TRUE(place.has_value());
+          left = std::min(left, 0.5 * viewport.x + place->x);
+          right = std::max(right, 0.5 * viewport.x + place->x);
+          low = std::min(low, 0.5 * viewport.y + place->y);
+          high = std::max(high, 0.5 * viewport.y + place->y);
+        }
+        EXPECT_GT(left, 0.0);
+        EXPECT_LT(right, viewport.x);
+        EXPECT_GT(low, 0.5 * em);
+        EXPECT_LT(high, viewport.y - 2.4 * em);
+        EXPECT_TRUE(right - left > 0.88 * viewport.x || high - low > 0.88 * (viewport.y - 6.8 * em));
+      }
+    }
+  }
 }
 
 TEST_F(VolumeWindow, TheMenuHasEverySampleThatCanBeMade) {

@@ -84,15 +84,15 @@ void DepthMap::draw(const Corner& a, const Corner& b, const Corner& c) {
   const auto within = [](double at, int count) { return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(count))); };
   const int left = within(std::floor(std::min({a.x, b.x, c.x})), width_), end = within(std::ceil(std::max({a.x, b.x, c.x})), width_);
   const int low = within(std::floor(std::min({a.y, b.y, c.y})), height_), high = within(std::ceil(std::max({a.y, b.y, c.y})), height_);
+  // How the shares of b and c grow along x and y, from a.
+  const double b_x = (c.y - a.y) / area, b_y = (a.x - c.x) / area, c_x = (a.y - b.y) / area, c_y = (b.x - a.x) / area;
   for (int row = low; row < high; ++row) {
+    const double y = row + 0.5 - a.y;
+    float* depths = depths_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(width_);
     for (int column = left; column < end; ++column) {
-      const double x = column + 0.5, y = row + 0.5;
-      const double of_a = ((b.x - x) * (c.y - y) - (b.y - y) * (c.x - x)) / area;
-      const double of_b = ((c.x - x) * (a.y - y) - (c.y - y) * (a.x - x)) / area;
-      const double of_c = 1.0 - of_a - of_b;
-      if (of_a < 0.0 || of_b < 0.0 || of_c < 0.0) continue;
-      float& depth = depths_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(column)];
-      depth = std::min(depth, static_cast<float>(of_a * a.depth + of_b * b.depth + of_c * c.depth));
+      const double x = column + 0.5 - a.x, of_b = b_x * x + b_y * y, of_c = c_x * x + c_y * y;
+      if (of_b < 0.0 || of_c < 0.0 || of_b + of_c > 1.0) continue;
+      depths[column] = std::min(depths[column], static_cast<float>(a.depth + of_b * (b.depth - a.depth) + of_c * (c.depth - a.depth)));
     }
   }
 }

@@ -114,7 +114,8 @@ Unhidden unhidden_of(const SeenFaces& seen, const DepthMap& depths) {
     const std::size_t count = vertices[3] == kNoIndex ? 3 : 4;
     for (std::size_t i = 0; i < count; ++i) {
       const Index a = vertices[i], b = vertices[(i + 1) % count];
-      if (is_shown(a) && is_shown(b)) unhidden.edges.push_back({std::min(a, b), std::max(a, b)});
+      // The face beyond runs it the other way round.
+      if (is_shown(a) && is_shown(b) && a < b) unhidden.edges.push_back({a, b});
     }
   }
   std::sort(unhidden.edges.begin(), unhidden.edges.end());

@@ -247,7 +247,7 @@ bool Viewports::draw(ViewState& state, const Derived& derived, const Inspection&
   loading_ = refining_ = false;
   if (volume && !pool_) pool_ = std::make_unique<ThreadPool>(std::clamp(std::thread::hardware_concurrency(), 1U, kMostThreads));
   for (std::size_t k = 0; k < count_; ++k) {
-    views_[k]->set_pool(pool_.get());
+    views_[k]->set_pool(turn.live ? nullptr : pool_.get());  // a run that goes on has the processors already
     loading_ = !views_[k]->bring(options_.wait_for_scene ? render::Loading::Wait : render::Loading::Background) || loading_;
   }
   const bool fitted = fit(state, turn.em);

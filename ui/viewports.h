@@ -130,8 +130,8 @@ class Viewports {
   [[nodiscard]] render::Image picture_of(std::size_t pane, const Scenery& scenery, const render::Shot& shot);
 
   Options options_;
-  /// For what is seen of volumes; from the first one on. Of their own: those of a run are busy while it goes on, and a clip plane that is
-  /// dragged is not to wait for them. Before the viewports, which use it.
+  /// For what is seen of volumes; from the first one on. Of their own: a clip plane that is dragged is not to wait for the session's.
+  /// Before the viewports, which use it.
   std::unique_ptr<ThreadPool> pool_;
   std::shared_ptr<const SessionView> session_;
   std::array<std::unique_ptr<PaneView>, Panes::kMost> views_;  // as many as are shown

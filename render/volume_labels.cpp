@@ -129,8 +129,17 @@ std::vector<Label> labels_of(const SeenFaces& seen, const DepthMap& depths, cons
   std::vector<Label> labels;
   if (wish.elements) add_cells(seen, depths, wish, labels);
   if (wish.vertices) add_vertices(seen, depths, wish, labels);
-  if (labels.size() > wish.most) labels.clear();
-  return labels;
+  if (labels.size() > wish.most) return {};
+  // Faces that are seen obliquely bring what is written in them near their corners.
+  std::vector<Label> apart;
+  for (const Label& label : labels) {
+    const auto covers = [&](const Label& other) {
+      return std::abs(other.point.y - label.point.y) < wish.line_height &&
+             std::abs(other.point.x - label.point.x) < 0.5 * (label_width(other.id, wish) + label_width(label.id, wish)) + wish.digit_width;
+    };
+    if (std::ranges::none_of(apart, covers)) apart.push_back(label);
+  }
+  return apart;
 }
 
 }  // namespace dmoscope::render

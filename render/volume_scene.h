@@ -89,8 +89,8 @@ class VolumeScene {
   /// None while more faces are drawn than can be looked through in a moment.
   [[nodiscard]] std::optional<Unhidden> unhidden(const OrbitCamera& camera, Vec2<double> viewport) const;
   /// The ids that have room in a viewport of that size: of a cell within one of its faces, of a vertex between it and its neighbours, where
-  /// nothing hides them. Their points are in pixels from the middle of the viewport, y up. None when they are more than wish.most, and none
-  /// while there are too many faces.
+  /// nothing hides them and no other stands. Their points are in pixels from the middle of the viewport, y up. None when they are more than
+  /// wish.most, and none while there are too many faces.
   [[nodiscard]] std::vector<Label> labels(const OrbitCamera& camera, Vec2<double> viewport, const LabelWish& wish) const;
   /// Of all vertices of elements, whatever is seen of them.
   [[nodiscard]] const Bounds3& bounds() const noexcept;

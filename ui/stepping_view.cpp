@@ -202,7 +202,9 @@ std::string SteppingView::note(const ViewState& state, const SessionView& sessio
   if (s.arrows != Reference::None && !positions_of(state, s.arrows, *frame)) {
     add(fmt::format("no arrows: {}", why_not(s.arrows)));
   } else if (s.arrows != Reference::None && state.is_volume && arrows_drawn_ == 0) {
-    add(fmt::format("arrows: no vertex in sight has moved since {}", since(s.arrows)));
+    const bool cut = state.inside.clip.on && state.inside.clip.mode == ClipPlane::Mode::Cut;
+    add(fmt::format("arrows: no vertex in sight has moved since {}{}", since(s.arrows),
+                    cut ? "; whole cells show more than cut ones" : ""));
   } else if (s.arrows != Reference::None) {
     add(fmt::format("{}arrows × {:.3g} since {}", arrows_left_out_ > 0 ? "longest " : "", factor_, since(s.arrows)));
   }

@@ -125,12 +125,13 @@ TEST_F(VolumeStepping, WordsSayWhatIsShownAndWhyNot) {
 TEST_F(VolumeStepping, WhatIsMarkedAndTakenAwayIsNamed) {
   const Index worst = session()->frame->worst.front().element;
   good("worst off");
-  good("pick vertex 0");  // at (0, 0, 0)
-  EXPECT_EQ(note(), "");
-  good("clip x:0.6");
+  good("pick vertex 124");  // at (1, 1, 1); there is no cell of that number
   EXPECT_EQ(note(), "");
   good("clip -x:0.6");
-  EXPECT_EQ(note(), "taken away, so marked faintly: vertex 0");
+  EXPECT_EQ(note(), "");
+  good("clip x:0.6");
+  EXPECT_EQ(note(), "taken away, so marked faintly: vertex 124");
+  good("clip -x:0.6");
   good("pick element 0");
   EXPECT_EQ(note(), "taken away, so marked faintly: element 0");
   good("worst on");

@@ -327,6 +327,13 @@ TEST_F(VolumePicture, LabelsStandWhereThereIsRoomAndNothingHidesWhatTheyName) {
     EXPECT_NEAR(label.point.x, place->x, 1e-9);
     EXPECT_NEAR(label.point.y, place->y, 1e-9);
   }
+  // Larger ones: vertices have room beside their neighbours, but those of two digits not beside the cells' ids, 25 pixels away.
+  wish.digit_width = 12.0;
+  wish.line_height = 34.0;
+  EXPECT_EQ(ids(false), (std::vector<Index>{1, 3, 5, 7}));
+  EXPECT_EQ(ids(true), (std::vector<Index>{2, 5, 8}));
+  wish.digit_width = 3.0;
+  wish.line_height = 5.0;
   wish.most = 12;
   EXPECT_TRUE(space->labels(camera, kViewport, wish).empty()) << "13 are too many";
   wish.most = 400;

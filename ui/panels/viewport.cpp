@@ -390,7 +390,7 @@ void draw_pane(PanelContext& context, const PaneFacts& pane) {
   ImGui::PushClipRect({clip.x, clip.y}, {clip.x + clip.w, clip.y + clip.h}, true);
   if (pane.frame() != nullptr) draw_labels(context, pane);
   if (pane.frame() != nullptr && !pane.frame()->input->is_volume()) draw_field_in_view(context, pane);
-  if (!(pane.inspected && context.state.inspection.open)) draw_clip_plane(context, pane);
+  draw_clip_plane(context, pane);
   if (pane.frame() != nullptr && pane.inspected) draw_level_label(context, pane);
   const bool plain = context.state.panes.one() && pane.session->frame == context.session.frame;
   if (plain) {

@@ -108,10 +108,13 @@ void gather_triad(const OrbitCamera& camera, Vec2<double> middle, const Style& s
       return Vec2<double>{middle.x + scale * (distance + more) * on_screen.x, middle.y + scale * (distance + more) * on_screen.y};
     };
     const Vec2<double> tip = at(kLength, 0.0), letter = at(kLength, kAway);
-    painter.line(middle, tip, 3.0F * style.scale, axis.colour);
-    for (const Stroke& stroke : axis.letter) {
-      const auto place = [&](Vec2<double> p) { return letter + Vec2<double>{scale * kLetter * p.x, scale * kLetter * p.y}; };
-      painter.line(place(stroke.from), place(stroke.to), 1.8F * style.scale, axis.colour);
+    const auto place = [&](Vec2<double> p) { return letter + Vec2<double>{scale * kLetter * p.x, scale * kLetter * p.y}; };
+    // Over a mesh of any colour.
+    for (const bool casing : {true, false}) {
+      const float more = casing ? 3.0F : 0.0F;
+      const Rgba ink = casing ? style.casing_colour : axis.colour;
+      painter.line(middle, tip, (3.0F + more) * style.scale, ink);
+      for (const Stroke& stroke : axis.letter) painter.line(place(stroke.from), place(stroke.to), (1.8F + more) * style.scale, ink);
     }
   }
 }

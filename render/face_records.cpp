@@ -2,9 +2,11 @@
 
 namespace dmoscope::render {
 
-void records_of(const ElementTable& elements, std::span<const ElementFace> faces, std::vector<FaceRecord>& records) {
+void records_of(const ElementTable& elements, std::span<const ElementFace> faces, std::vector<FaceRecord>& records, ThreadPool* pool) {
   records.resize(faces.size());
-  for (std::size_t i = 0; i < faces.size(); ++i) records[i] = {vertices_of(elements, faces[i]), faces[i].element};
+  for_chunks(pool, faces.size(), CellChunk::kCells, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) records[i] = {vertices_of(elements, faces[i]), faces[i].element};
+  });
 }
 
 void records_of(const PlaneCuts& cuts, std::vector<FaceRecord>& records) {

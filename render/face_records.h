@@ -19,8 +19,9 @@ struct FaceRecord {
 };
 static_assert(sizeof(FaceRecord) == 20);
 
-/// Replaces `records` by those of the faces, in their order.
-void records_of(const ElementTable& elements, std::span<const ElementFace> faces, std::vector<FaceRecord>& records);
+/// Replaces `records` by those of the faces, in their order. `pool` may be null.
+void records_of(const ElementTable& elements, std::span<const ElementFace> faces, std::vector<FaceRecord>& records,
+                ThreadPool* pool = nullptr);
 
 /// Replaces `records` by those of the polygons; a corner is the index of a point of the cuts. Of a polygon of more than four points its
 /// edges alone are to be seen, not those of its triangles.

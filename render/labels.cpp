@@ -29,6 +29,8 @@ Vec2<double> label_digit(float scale) {
   return {0.64 * size, 1.25 * size};
 }
 
+double label_width(Index id, const LabelWish& wish) { return static_cast<double>(std::to_string(id).size()) * wish.digit_width; }
+
 void draw_labels(Image& image, std::span<const Label> labels, const Camera2D& camera, Vec2<double> viewport, const Style& style,
                  float scale) {
   const std::unique_ptr<Font> font = Font::load();

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/base/error.h"
 
@@ -116,20 +118,67 @@ bool OrbitCamera::is_valid() const {
          std::abs(dot(right, up)) < kRounding;
 }
 
-void OrbitCamera::fit(const Bounds3& bounds, Vec2<double> viewport, double margin) {
-  centre = bounds.empty() ? Vec3{} : bounds.centre();
-  const double room = std::max(0.2, 1.0 - 2.0 * margin / shorter_side(viewport));
-  const double aspect = std::max(viewport.x, 1.0) / std::max(viewport.y, 1.0), slope = std::tan(0.5 * kFieldOfView);
-  double wanted = 0.0;
-  for (unsigned corner = 0; corner < 8 && !bounds.empty(); ++corner) {
-    const Vec3 p = Vec3{(corner & 1U) != 0 ? bounds.high.x : bounds.low.x, (corner & 2U) != 0 ? bounds.high.y : bounds.low.y,
-                        (corner & 4U) != 0 ? bounds.high.z : bounds.low.z} -
-                   centre;
-    const double half = std::max(std::abs(dot(p, up)), std::abs(dot(p, right)) / aspect) / room;
-    // What is nearer to the eye than the centre looks larger.
-    wanted = std::max(wanted, 2.0 * (perspective ? half + slope * dot(p, back()) : half));
+namespace {
+
+/// Where the eye may stand sideways so that points stay between two borders: the farther away (the higher `reach`), the more freely.
+/// Borders are slopes: how far beside the line of sight they are where it has gone 1 from the eye. In the orthographic view, where
+/// nothing shrinks with its distance, depths count as 0 and `reach` as half the height.
+class Between {
+ public:
+  Between(double low, double high) : low_(low), high_(high) {}
+  void include(double across, double depth) {
+    lowest_ = std::min(lowest_, across + low_ * depth);
+    highest_ = std::max(highest_, across + high_ * depth);
   }
-  height = wanted > 0.0 ? std::clamp(wanted, kSmallest, kLargest) : 1.0;
+  [[nodiscard]] double least_reach() const { return (highest_ - lowest_) / (high_ - low_); }
+  [[nodiscard]] double middle(double reach) const { return 0.5 * (highest_ - high_ * reach + lowest_ - low_ * reach); }
+
+ private:
+  double low_, high_;
+  double lowest_ = std::numeric_limits<double>::infinity(), highest_ = -lowest_;
+};
+
+/// Not narrower than what something can still be seen in.
+std::pair<double, double> wide_enough(double low, double high, double whole) {
+  const double middle = 0.5 * (low + high), half = 0.5 * std::max(high - low, 0.2 * whole);
+  return {middle - half, middle + half};
+}
+
+}  // namespace
+
+void OrbitCamera::fit(std::span<const Vec3> points, Vec2<double> viewport, const PicturePart& room) {
+  height = 1.0;
+  centre = points.empty() ? Vec3{} : points.front();
+  if (points.empty()) return;
+  const Vec2<double> size{std::max(viewport.x, 1.0), std::max(viewport.y, 1.0)};
+  const auto [left, end] = wide_enough(room.low.x, room.high.x, size.x);
+  const auto [top, bottom] = wide_enough(room.low.y, room.high.y, size.y);
+  const double slope = std::tan(0.5 * kFieldOfView), unit = (perspective ? slope : 1.0) / (0.5 * size.y);
+  Between across(unit * (left - 0.5 * size.x), unit * (end - 0.5 * size.x));
+  Between upwards(unit * (0.5 * size.y - bottom), unit * (0.5 * size.y - top));
+  const Vec3 origin = centre, z = back();  // near them, so that no digits are lost far from the mesh's origin
+  double nearest = -std::numeric_limits<double>::infinity(), farthest = -nearest;
+  for (const Vec3& point : points) {
+    const Vec3 p = point - origin;
+    const double depth = dot(p, z), counted = perspective ? depth : 0.0;
+    across.include(dot(p, right), counted);
+    upwards.include(dot(p, up), counted);
+    nearest = std::max(nearest, depth);
+    farthest = std::min(farthest, depth);
+  }
+  const double reach = std::max(across.least_reach(), upwards.least_reach()), middle = 0.5 * (nearest + farthest);
+  const double wanted = 2.0 * (perspective ? slope * (reach - middle) : reach);
+  if (!(wanted > 0.0)) return;
+  height = std::clamp(wanted, kSmallest, kLargest);
+  centre = origin + across.middle(reach) * right + upwards.middle(reach) * up + middle * z;
+}
+
+void OrbitCamera::fit(const Bounds3& bounds, Vec2<double> viewport, double margin) {
+  std::vector<Vec3> corners;
+  for (unsigned corner = 0; corner < 8 && !bounds.empty(); ++corner)
+    corners.push_back({(corner & 1U) != 0 ? bounds.high.x : bounds.low.x, (corner & 2U) != 0 ? bounds.high.y : bounds.low.y,
+                       (corner & 4U) != 0 ? bounds.high.z : bounds.low.z});
+  fit(corners, viewport, {{margin, margin}, {viewport.x - margin, viewport.y - margin}});
 }
 
 void OrbitCamera::turn(Vec2<double> pixels, Vec2<double> viewport) {

@@ -81,7 +81,10 @@ struct OrbitCamera {
   [[nodiscard]] bool is_valid() const;
   /// Looks from there, at the same centre; z is up, or y where that is the line of sight.
   void look_from(ViewPreset preset);
-  /// Shows all of `bounds` with at least `margin` pixels around it. Empty bounds or a single point give a sensible view.
+  /// Shows all of `points` within that part of the viewport, as large as can be: they reach two opposite borders of it, and are in the
+  /// middle between the other two. Half-way into their depth they are turned about. None or a single point give a sensible view.
+  void fit(std::span<const Vec3> points, Vec2<double> viewport, const PicturePart& room);
+  /// The same of the corners of a box, with `margin` pixels around it.
   void fit(const Bounds3& bounds, Vec2<double> viewport, double margin = 24.0);
   /// Turns by a drag of so many pixels: sideways about the z axis, which stays upright, and up and down until straight above or below.
   void turn(Vec2<double> pixels, Vec2<double> viewport);

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <string>
 
 #include "core/base/error.h"
+#include "render/labels.h"
 #include "render/scene_impl.h"
 
 namespace dmoscope::render {
@@ -129,8 +129,6 @@ bool inside(const Bounds2& box, Vec2<double> point) {
   return point.x >= box.low.x && point.x <= box.high.x && point.y >= box.low.y && point.y <= box.high.y;
 }
 
-double text_width(Index id, const LabelWish& wish) { return static_cast<double>(std::to_string(id).size()) * wish.digit_width; }
-
 }  // namespace
 
 std::vector<Label> MeshScene::labels(const Camera2D& camera, Vec2<double> viewport, const LabelWish& wish) const {
@@ -158,7 +156,7 @@ std::vector<Label> MeshScene::labels(const Camera2D& camera, Vec2<double> viewpo
         const auto corners = elements.corners_of(drawn);
         if (wish.elements) {
           const Room room = room_of(corners, points);
-          const double half = 0.5 * std::hypot(text_width(element, wish), wish.line_height);
+          const double half = 0.5 * std::hypot(label_width(element, wish), wish.line_height);
           if (inside(window, room.point) && fits(half, room.radius)) labels.push_back({room.point, element, false});
         }
         for (std::size_t i = 0; wish.vertices && i < corners.size(); ++i) {
@@ -176,7 +174,7 @@ std::vector<Label> MeshScene::labels(const Camera2D& camera, Vec2<double> viewpo
   }
   // Neighbours with labels of the same width keep some room between them.
   for (const auto& [vertex, length] : nearest) {
-    if (fits(text_width(vertex, wish) + 2.0 * wish.digit_width, length)) labels.push_back({points[vertex], vertex, true});
+    if (fits(label_width(vertex, wish) + 2.0 * wish.digit_width, length)) labels.push_back({points[vertex], vertex, true});
   }
   if (labels.size() > wish.most) labels.clear();
   std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.vertex != b.vertex ? b.vertex : a.id < b.id; });

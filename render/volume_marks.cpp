@@ -14,7 +14,17 @@ void line(const Projection& projection, Vec3 from, Vec3 to, float width, Rgba co
   if (a && b) painter.line(*a, *b, width, colour);
 }
 
-void outline(const SeenFaces& seen, Index cell, const Projection& projection, const Style& style, MarkPainter& painter) {
+/// What marks are drawn with: faintly where what they mark was taken away.
+struct Inks {
+  Inks(const Style& style, bool there) : highlight(style.highlight_colour), casing(style.casing_colour) {
+    if (there) return;
+    highlight.a = static_cast<std::uint8_t>(highlight.a * 3 / 8);
+    casing.a = static_cast<std::uint8_t>(casing.a / 4);
+  }
+  Rgba highlight, casing;
+};
+
+void outline(const SeenFaces& seen, Index cell, const Projection& projection, const Style& style, const Inks& inks, MarkPainter& painter) {
   for (const bool casing : {true, false}) {
     const auto faces = static_cast<Index>(faces_of(seen.elements.kind(cell)).size());
     for (Index f = 0; f < faces; ++f) {
@@ -24,13 +34,13 @@ void outline(const SeenFaces& seen, Index cell, const Projection& projection, co
         const Index a = v[i], b = v[(i + 1) % n];
         if (a > b) continue;  // each edge belongs to two faces, which run it in opposite directions
         line(projection, drawn_corner(seen, cell, a), drawn_corner(seen, cell, b), (casing ? 4.4F : 2.0F) * style.scale,
-             casing ? style.casing_colour : style.highlight_colour, painter);
+             casing ? inks.casing : inks.highlight, painter);
       }
     }
   }
 }
 
-void ring(const SeenFaces& seen, Index cell, const Projection& projection, const Style& style, MarkPainter& painter) {
+void ring(const SeenFaces& seen, Index cell, const Projection& projection, const Style& style, const Inks& inks, MarkPainter& painter) {
   Bounds2 box;
   for (const Index v : seen.elements.corners(cell)) {
     const auto place = projection.place(drawn_corner(seen, cell, v));
@@ -39,7 +49,7 @@ void ring(const SeenFaces& seen, Index cell, const Projection& projection, const
   }
   const double size = std::hypot(box.size().x, box.size().y);
   const float diameter = std::max(26.0F * style.scale, static_cast<float>(std::min(size, 1e5)) * 1.15F + 8.0F * style.scale);
-  painter.dot(box.centre(), diameter, DotShape::Ring, style.highlight_colour, style.casing_colour);
+  painter.dot(box.centre(), diameter, DotShape::Ring, inks.highlight, inks.casing);
 }
 
 /// Strokes of X, Y and Z in a box from -1 to 1.
@@ -53,16 +63,18 @@ constexpr std::array<Stroke, 3> kZ{{{{-0.7, 1}, {0.7, 1}}, {{0.7, 1}, {-0.7, -1}
 }  // namespace
 
 void gather_marks(const SeenFaces& seen, const Projection& projection, const Style& style, const SpaceMarks& marks, MarkPainter& painter) {
+  const auto inks = [&](bool there) { return Inks(style, there || !marks.faint_where_taken_away); };
   for (const Index cell : marks.cells) {
-    if (cell < seen.elements.size()) outline(seen, cell, projection, style, painter);
+    if (cell < seen.elements.size()) outline(seen, cell, projection, style, inks(seen.has_cell(cell)), painter);
   }
   for (const Index v : marks.vertices) {
     if (v >= seen.positions.size()) continue;
-    if (const auto place = projection.place(seen.positions[v])) {
-      painter.dot(*place, 9.0F * style.scale, DotShape::Round, style.highlight_colour, style.casing_colour);
-    }
+    const Inks of_vertex = inks(seen.has_vertex(v));
+    if (const auto place = projection.place(seen.positions[v]))
+      painter.dot(*place, 9.0F * style.scale, DotShape::Round, of_vertex.highlight, of_vertex.casing);
   }
-  if (marks.worst && *marks.worst < seen.elements.size()) ring(seen, *marks.worst, projection, style, painter);
+  if (marks.worst && *marks.worst < seen.elements.size())
+    ring(seen, *marks.worst, projection, style, inks(seen.has_cell(*marks.worst)), painter);
   for (const SpaceLine& l : marks.lines) line(projection, l.from, l.to, l.width * style.scale, l.colour, painter);
   std::vector<std::pair<double, std::size_t>> order;  // farthest first
   order.reserve(marks.dots.size());
@@ -96,10 +108,13 @@ void gather_triad(const OrbitCamera& camera, Vec2<double> middle, const Style& s
       return Vec2<double>{middle.x + scale * (distance + more) * on_screen.x, middle.y + scale * (distance + more) * on_screen.y};
     };
     const Vec2<double> tip = at(kLength, 0.0), letter = at(kLength, kAway);
-    painter.line(middle, tip, 3.0F * style.scale, axis.colour);
-    for (const Stroke& stroke : axis.letter) {
-      const auto place = [&](Vec2<double> p) { return letter + Vec2<double>{scale * kLetter * p.x, scale * kLetter * p.y}; };
-      painter.line(place(stroke.from), place(stroke.to), 1.8F * style.scale, axis.colour);
+    const auto place = [&](Vec2<double> p) { return letter + Vec2<double>{scale * kLetter * p.x, scale * kLetter * p.y}; };
+    // Over a mesh of any colour.
+    for (const bool casing : {true, false}) {
+      const float more = casing ? 3.0F : 0.0F;
+      const Rgba ink = casing ? style.casing_colour : axis.colour;
+      painter.line(middle, tip, (3.0F + more) * style.scale, ink);
+      for (const Stroke& stroke : axis.letter) painter.line(place(stroke.from), place(stroke.to), (1.8F + more) * style.scale, ink);
     }
   }
 }

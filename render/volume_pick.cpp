@@ -28,23 +28,6 @@ Vec3 mean_of(const SeenFaces& seen, Index element) {
   return 1.0 / static_cast<double>(corners.size()) * mean;
 }
 
-/// A face's corners where they are drawn; of a triangle the last is the first.
-struct Corners {
-  std::array<Vec3, 4> points;
-  std::array<Index, 4> vertices;
-  std::size_t count;
-};
-Corners corners_of(const SeenFaces& seen, ElementFace face) {
-  Corners corners{{}, vertices_of(seen.elements, face), 4};
-  if (corners.vertices[3] == kNoIndex) corners.count = 3;
-  for (std::size_t i = 0; i < corners.count; ++i) corners.points[i] = seen.positions[corners.vertices[i]];
-  if (seen.view.shrink < 1.0) {
-    const Vec3 mean = mean_of(seen, face.element);
-    for (Vec3& p : corners.points) p = mean + seen.view.shrink * (p - mean);
-  }
-  return corners;
-}
-
 /// Whether a ray passes so near to an element's vertices' mean that it may meet the element.
 bool near_element(const SeenFaces& seen, Index element, const ViewRay& ray) {
   const Vec3 mean = mean_of(seen, element), away = cross(mean - ray.from, ray.direction);
@@ -56,13 +39,8 @@ bool near_element(const SeenFaces& seen, Index element, const ViewRay& ray) {
   return dot(away, away) <= square * (1.0 + 1e-9);
 }
 
-bool cut_away(const SeenFaces& seen, Vec3 point) {
-  const ClipPlane& clip = seen.view.clip;
-  return clip.on && clip.mode == ClipPlane::Mode::Cut && clip.beyond(point) > 0.0;
-}
-
 /// The nearest, in pixels, of the face's corners that are not cut away.
-void take_nearest(const SeenFaces& seen, const Corners& corners, const Projection& projection, Vec2<double> at, double radius, Pick& pick,
+void take_nearest(const SeenFaces& seen, const DrawnFace& corners, const Projection& projection, Vec2<double> at, double radius, Pick& pick,
                   double& depth) {
   for (std::size_t i = 0; i < corners.count; ++i) {
     const auto place = projection.place(corners.points[i]);
@@ -83,6 +61,26 @@ void take_nearest(const SeenFaces& seen, const Corners& corners, const Projectio
 
 }  // namespace
 
+DrawnFace drawn_face(const SeenFaces& seen, ElementFace face) {
+  DrawnFace corners{{}, vertices_of(seen.elements, face), 4};
+  if (corners.vertices[3] == kNoIndex) corners.count = 3;
+  for (std::size_t i = 0; i < corners.count; ++i) corners.points[i] = seen.positions[corners.vertices[i]];
+  if (seen.view.shrink < 1.0) {
+    const Vec3 mean = mean_of(seen, face.element);
+    for (Vec3& p : corners.points) p = mean + seen.view.shrink * (p - mean);
+  }
+  return corners;
+}
+
+bool cut_away(const SeenFaces& seen, Vec3 point) {
+  const ClipPlane& clip = seen.view.clip;
+  return clip.on && clip.mode == ClipPlane::Mode::Cut && clip.beyond(point) > 0.0;
+}
+
+bool SeenFaces::has_vertex(Index vertex) const {
+  return (vertices.empty() || vertices[vertex] != 0) && !cut_away(*this, positions[vertex]);
+}
+
 std::optional<RayHit> first_hit(const SeenFaces& seen, const ViewRay& ray) {
   std::optional<RayHit> hit;
   const auto consider = [&](std::optional<double> along, Index element, std::optional<ElementFace> face) {
@@ -96,7 +94,7 @@ std::optional<RayHit> first_hit(const SeenFaces& seen, const ViewRay& ray) {
   for (const ElementFace& face : seen.faces.faces) {
     if (std::exchange(element, face.element) != face.element) near = near_element(seen, element, ray);
     if (!near) continue;
-    const Corners c = corners_of(seen, face);
+    const DrawnFace c = drawn_face(seen, face);
     consider(kept(meets(ray, c.points[0], c.points[1], c.points[2])), face.element, face);
     if (c.count == 4) consider(kept(meets(ray, c.points[2], c.points[3], c.points[0])), face.element, face);
   }
@@ -117,16 +115,16 @@ Pick pick(const SeenFaces& seen, const Bounds3& bounds, const OrbitCamera& camer
   if (const auto hit = first_hit(seen, camera.ray(pixel, viewport))) {
     result.element = hit->element;
     if (hit->face) {
-      take_nearest(seen, corners_of(seen, *hit->face), projection, at, radius, result, depth);
+      take_nearest(seen, drawn_face(seen, *hit->face), projection, at, radius, result, depth);
     } else {
       const auto faces = static_cast<Index>(faces_of(seen.elements.kind(hit->element)).size());
       for (Index f = 0; f < faces; ++f) {
-        take_nearest(seen, corners_of(seen, {hit->element, f}), projection, at, radius, result, depth);
+        take_nearest(seen, drawn_face(seen, {hit->element, f}), projection, at, radius, result, depth);
       }
     }
     return result;
   }
-  for (const ElementFace& face : seen.faces.faces) take_nearest(seen, corners_of(seen, face), projection, at, radius, result, depth);
+  for (const ElementFace& face : seen.faces.faces) take_nearest(seen, drawn_face(seen, face), projection, at, radius, result, depth);
   return result;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // What of a volume mesh lies under a pixel. No OpenGL.
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -16,7 +18,21 @@ struct SeenFaces {
   std::span<const Vec3> positions;
   const InsideFaces& faces;
   const InsideView& view;
+  std::span<const std::uint8_t> cells{}, vertices{};  // 1 for those that are not taken away; empty: not known, so none is
+  [[nodiscard]] bool has_cell(Index cell) const { return cells.empty() || cells[cell] != 0; }
+  [[nodiscard]] bool has_vertex(Index vertex) const;
 };
+
+/// A face's corners where they are drawn.
+struct DrawnFace {
+  std::array<Vec3, 4> points;
+  std::array<Index, 4> vertices;
+  std::size_t count;  // 3 or 4
+  [[nodiscard]] std::span<const Vec3> corners() const { return {points.data(), count}; }
+};
+[[nodiscard]] DrawnFace drawn_face(const SeenFaces& seen, ElementFace face);
+/// Whether a plane that cuts cells through leaves this point of one out.
+[[nodiscard]] bool cut_away(const SeenFaces& seen, Vec3 point);
 
 /// The nearest face or cut along a ray.
 struct RayHit {

@@ -1,14 +1,17 @@
 #include "render/volume_scene.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/session/input_mesh.h"
 #include "core/session/summary.h"
+#include "render/depth_map.h"
 #include "render/draw_state.h"
 #include "render/face_painter.h"
+#include "render/volume_labels.h"
 #include "render/volume_marks.h"
 #include "render/volume_pick.h"
 
@@ -40,9 +43,21 @@ struct VolumeScene::Impl {
   std::vector<FaceRecord> records;
 
   [[nodiscard]] const InsideFaces& seen() const noexcept { return inside ? inside->faces() : nothing; }
-  [[nodiscard]] SeenFaces seen_faces() const { return {*elements, state.positions, seen(), view}; }
+  [[nodiscard]] SeenFaces seen_faces() const { return {*elements, state.positions, seen(), view, inside->visible(), {}}; }
+  [[nodiscard]] SeenFaces seen_vertices();
+  [[nodiscard]] const DepthMap* depth_map(const OrbitCamera& camera, Vec2<double> viewport);
   std::shared_ptr<const InputMesh> input;  // of the frame on show
   std::uint64_t frame_serial = 0;          // likewise; 0: none
+
+  std::vector<std::uint8_t> corners_seen;  // vertices of cells that are seen; made when it is asked for
+  std::uint64_t corners_seen_of = 0;       // the faces' revision that it is of
+  struct SeenFrom {
+    OrbitCamera camera;
+    Vec2<double> viewport;
+    std::uint64_t revision;
+  };
+  std::optional<SeenFrom> depths_of;
+  std::optional<DepthMap> depths;  // likewise
 
   void forget();
   void upload_state();
@@ -111,7 +126,9 @@ void VolumeScene::Impl::forget() {
   selection = {};
   shading.reset();
   bounds = {};
-  uploaded_faces = uploaded_cuts = means_of = 0;
+  uploaded_faces = uploaded_cuts = means_of = corners_seen_of = 0;
+  depths_of.reset();
+  depths.reset();
   ++revision;
 }
 
@@ -136,30 +153,36 @@ void VolumeScene::Impl::upload_state() {
   }
   origin = bounds.empty() ? Vec3{} : bounds.centre();
   points.resize(state.positions.size());
-  std::ranges::transform(state.positions, points.begin(), [&](const Vec3& p) { return point_of(relative(p)); });
+  for_chunks(pool, points.size(), CellChunk::kCells, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) points[v] = point_of(relative(state.positions[v]));
+  });
   painter.upload_points(points);
   std::vector<float> shades(state.quality.size());
-  for (std::size_t e = 0; e < shades.size(); ++e) shades[e] = shade_of(state.quality[e], !state.inverted.empty() && state.inverted[e] != 0);
+  for_chunks(pool, shades.size(), CellChunk::kCells, [&](std::size_t first, std::size_t last) {
+    for (std::size_t e = first; e < last; ++e) shades[e] = shade_of(state.quality[e], !state.inverted.empty() && state.inverted[e] != 0);
+  });
   painter.upload_shades(shades);
 }
 
 void VolumeScene::Impl::upload_means() {
   points.resize(elements->size());
-  for (Index e = 0; e < elements->size(); ++e) {
-    Vec3 sum{};
-    const auto corners = elements->corners(e);
-    for (const Index v : corners) sum = sum + relative(state.positions[v]);
-    points[e] = point_of(1.0 / static_cast<double>(corners.size()) * sum);
-  }
+  for_chunks(pool, points.size(), CellChunk::kCells, [&](std::size_t first, std::size_t last) {
+    for (std::size_t e = first; e < last; ++e) {
+      Vec3 sum{};
+      const auto corners = elements->corners(static_cast<Index>(e));
+      for (const Index v : corners) sum = sum + relative(state.positions[v]);
+      points[e] = point_of(1.0 / static_cast<double>(corners.size()) * sum);
+    }
+  });
   painter.upload_means(points);
 }
 
 void VolumeScene::Impl::upload_faces() {
   const InsideFaces& faces = seen();
   if (std::exchange(uploaded_faces, faces.faces_revision) != faces.faces_revision) {
-    records_of(*elements, faces.faces, records);
+    records_of(*elements, faces.faces, records, pool);
     painter.upload_faces(records);
-    records_of(*elements, faces.ghost, records);
+    records_of(*elements, faces.ghost, records, pool);
     painter.upload_ghost(records);
   }
   if (std::exchange(uploaded_cuts, faces.cuts_revision) != faces.cuts_revision) {
@@ -204,11 +227,70 @@ void VolumeScene::set_selection(const Selection& selection) {
   ++s.revision;
 }
 
+/// With the vertices that are seen.
+SeenFaces VolumeScene::Impl::seen_vertices() {
+  if (std::exchange(corners_seen_of, seen().faces_revision) != seen().faces_revision) {
+    corners_seen.assign(state.positions.size(), 0);
+    const auto visible = inside->visible();
+    for_chunks(pool, elements->size(), CellChunk::kCells, [&](std::size_t first, std::size_t last) {
+      for (std::size_t e = first; e < last; ++e) {
+        if (visible[e] == 0) continue;
+        // Several threads may say so of the same vertex.
+        for (const Index v : elements->corners(static_cast<Index>(e))) std::atomic_ref(corners_seen[v]).store(1, std::memory_order_relaxed);
+      }
+    });
+  }
+  SeenFaces faces = seen_faces();
+  faces.vertices = corners_seen;
+  return faces;
+}
+
+/// Null where it would take too long.
+const DepthMap* VolumeScene::Impl::depth_map(const OrbitCamera& camera, Vec2<double> viewport) {
+  constexpr std::size_t kMostFaces = 300'000;
+  if (elements == nullptr || bounds.empty() || seen().faces.size() > kMostFaces) return nullptr;
+  const bool same = depths_of && depths_of->camera == camera && depths_of->viewport.x == viewport.x &&
+                    depths_of->viewport.y == viewport.y && depths_of->revision == revision;
+  if (!same) depths.emplace(seen_faces(), camera.projection(viewport, bounds));
+  depths_of = {camera, viewport, revision};
+  return &*depths;
+}
+
+bool VolumeScene::sees_cell(Index cell) const {
+  return !impl_->inside || cell >= impl_->elements->size() || impl_->seen_faces().has_cell(cell);
+}
+
+bool VolumeScene::sees_vertex(Index vertex) const {
+  return !impl_->inside || vertex >= impl_->state.positions.size() || impl_->seen_vertices().has_vertex(vertex);
+}
+
+std::optional<Unhidden> VolumeScene::unhidden(const OrbitCamera& camera, Vec2<double> viewport) const {
+  const DepthMap* depths = impl_->depth_map(camera, viewport);
+  if (depths == nullptr) return std::nullopt;
+  return unhidden_of(impl_->seen_faces(), *depths);
+}
+
+std::vector<Label> VolumeScene::labels(const OrbitCamera& camera, Vec2<double> viewport, const LabelWish& wish) const {
+  if (!(wish.vertices || wish.elements)) return {};
+  const DepthMap* depths = impl_->depth_map(camera, viewport);
+  return depths == nullptr ? std::vector<Label>{} : labels_of(impl_->seen_faces(), *depths, wish);
+}
+
 void VolumeScene::set_pool(ThreadPool* pool) noexcept { impl_->pool = pool; }
 bool VolumeScene::empty() const noexcept { return impl_->elements == nullptr; }
 std::uint64_t VolumeScene::revision() const noexcept { return impl_->revision; }
 const InsideFaces& VolumeScene::faces() const noexcept { return impl_->seen(); }
 const Bounds3& VolumeScene::bounds() const noexcept { return impl_->bounds; }
+
+void VolumeScene::fit(OrbitCamera& camera, Vec2<double> viewport, const PicturePart& room) const {
+  const Impl& s = *impl_;
+  const auto positions = s.state.positions.first(std::min(s.used.size(), s.state.positions.size()));
+  if (std::ranges::find(s.used, 0) == s.used.end()) return camera.fit(positions, viewport, room);
+  std::vector<Vec3> points;
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    if (s.used[v] != 0) points.push_back(positions[v]);
+  camera.fit(points, viewport, room);
+}
 
 namespace {
 
@@ -251,7 +333,8 @@ VolumeScene::Impl::Stage::Stage(const Impl& scene, const OrbitCamera& seen_by, c
 
 void VolumeScene::Impl::draw_marks(const Stage& stage, const SpaceMarks& wanted) {
   begin_marks();
-  if (elements != nullptr) gather_marks(seen_faces(), stage.projection, stage.style, wanted, marks);
+  if (elements != nullptr)
+    gather_marks(wanted.vertices.empty() ? seen_faces() : seen_vertices(), stage.projection, stage.style, wanted, marks);
   if (wanted.triad) gather_triad(stage.camera, stage.triad, stage.style, marks);
   View flat;
   flat.viewport = stage.view.viewport;

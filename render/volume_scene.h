@@ -2,6 +2,7 @@
 // A volume mesh on the OpenGL side, and what is seen of it: topology once, positions and qualities in place, faces when another part is
 // seen.
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -35,9 +36,16 @@ struct SpaceMarks {
   std::vector<Index> vertices;  // dots
   std::optional<Index> worst;   // cell with a ring around it
   std::vector<SpaceLine> lines;
-  std::vector<SpaceDot> dots;  // the nearest on top
-  bool triad = true;           // the axes, in the right lower corner
+  std::vector<SpaceDot> dots;          // the nearest on top
+  bool triad = true;                   // the axes, in the right lower corner
+  bool faint_where_taken_away = true;  // marks of cells and vertices of which nothing is seen
   friend bool operator==(const SpaceMarks&, const SpaceMarks&) = default;
+};
+
+/// What nothing hides of what is seen: its vertices, ascending, and edges between two of them, each once.
+struct Unhidden {
+  std::vector<Index> vertices;
+  std::vector<std::array<Index, 2>> edges;
 };
 
 /// Draws and picks. Only draw() and what uploads (set_mesh, update, set_view, set_shading) need a current context.
@@ -75,8 +83,19 @@ class VolumeScene {
   [[nodiscard]] std::uint64_t revision() const noexcept;
   /// What is seen: faces, cuts, number of cells.
   [[nodiscard]] const InsideFaces& faces() const noexcept;
+  /// Whether a cell, or some cell around a vertex, is seen: not taken away, though others may hide it. True where there is none such.
+  [[nodiscard]] bool sees_cell(Index cell) const;
+  [[nodiscard]] bool sees_vertex(Index vertex) const;
+  /// None while more faces are drawn than can be looked through in a moment.
+  [[nodiscard]] std::optional<Unhidden> unhidden(const OrbitCamera& camera, Vec2<double> viewport) const;
+  /// The ids that have room in a viewport of that size: of a cell within one of its faces, of a vertex between it and its neighbours, where
+  /// nothing hides them and no other stands. Their points are in pixels from the middle of the viewport, y up. None when they are more than
+  /// wish.most, and none while there are too many faces.
+  [[nodiscard]] std::vector<Label> labels(const OrbitCamera& camera, Vec2<double> viewport, const LabelWish& wish) const;
   /// Of all vertices of elements, whatever is seen of them.
   [[nodiscard]] const Bounds3& bounds() const noexcept;
+  /// Moves a camera so that it shows all of these, as large as can be within that part of a viewport; see OrbitCamera::fit.
+  void fit(OrbitCamera& camera, Vec2<double> viewport, const PicturePart& room) const;
 
   /// Clears `target` and draws. `detail` in (0, 1]: below 1 a square stands for each of that share of the faces and its neighbours. Throws
   /// Error.

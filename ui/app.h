@@ -47,6 +47,8 @@ class App {
   /// Of quality and what the elements are coloured by instead (null: quality), in the active viewport as it was drawn last.
   [[nodiscard]] std::pair<double, double> colour_range() const noexcept { return derived_.range; }
   [[nodiscard]] std::shared_ptr<const ElementColours> colours() const noexcept { return derived_.colouring.colours; }
+  /// The viewports as they were drawn last.
+  [[nodiscard]] std::span<const PaneFacts> panes() const noexcept { return viewports_.facts(); }
   /// The look into a visit as it was drawn last.
   [[nodiscard]] const Inspection& inspection() const noexcept { return inspection_; }
 

@@ -24,8 +24,14 @@ render::Bounds3 box_of_volume(const CommandHost& host) {
 
 float to_quality(const std::string& word) { return static_cast<float>(to_number(word)); }
 
-/// Where it was, or through the middle where it would miss the mesh.
-ClipPlane plane_within(ClipPlane plane, const render::Bounds3& box) {
+/// Half-way along an axis; what lies towards the eye is taken away.
+ClipPlane across(int axis, double fraction, const render::OrbitCamera& seen_by, const render::Bounds3& box) {
+  return parse_clip(fmt::format("{}:{}", axis_name(axis, looks_along(seen_by, axis)), fraction), box.low, box.high);
+}
+
+/// Where it was; where it was nowhere yet, across x, and through the middle where it would miss the mesh.
+ClipPlane plane_within(ClipPlane plane, const render::OrbitCamera& seen_by, const render::Bounds3& box) {
+  if (plane == ClipPlane{.mode = plane.mode}) return across(0, 0.5, seen_by, box);
   plane.on = true;
   const auto [low, high] = span_of(plane, box);
   if (!(plane.offset > low && plane.offset < high)) plane.offset = low + 0.5 * (high - low);
@@ -33,10 +39,9 @@ ClipPlane plane_within(ClipPlane plane, const render::Bounds3& box) {
 }
 
 /// As far along the next axis as it was along its own; across x where it was not on, or oblique.
-ClipPlane across_next_axis(const ClipPlane& plane, const render::Bounds3& box) {
+ClipPlane across_next_axis(const ClipPlane& plane, const render::OrbitCamera& seen_by, const render::Bounds3& box) {
   const auto now = plane.on ? axis_plane(plane, box) : std::nullopt;
-  const std::string name = now ? axis_name((now->axis + 1) % 3, now->flip) : "x";
-  return parse_clip(fmt::format("{}:{}", name, now ? std::clamp(now->fraction, 0.0, 1.0) : 0.5), box.low, box.high);
+  return across(now ? (now->axis + 1) % 3 : 0, now ? std::clamp(now->fraction, 0.0, 1.0) : 0.5, seen_by, box);
 }
 
 void set_clip(ViewState& state, const CommandHost& host, Arguments words) {
@@ -50,8 +55,8 @@ void set_clip(ViewState& state, const CommandHost& host, Arguments words) {
   } else {
     const render::Bounds3 box = box_of_volume(host);
     const ClipPlane::Mode mode = clip.mode;
-    clip = word == "on" || word == "toggle" ? plane_within(clip, box)
-           : word == "next"                 ? across_next_axis(clip, box)
+    clip = word == "on" || word == "toggle" ? plane_within(clip, state.orbit, box)
+           : word == "next"                 ? across_next_axis(clip, state.orbit, box)
                                             : parse_clip(word, box.low, box.high);
     clip.mode = mode;
   }
@@ -60,7 +65,7 @@ void set_clip(ViewState& state, const CommandHost& host, Arguments words) {
 void add_clip_verbs(CommandTable& table, ViewState& state, const CommandHost& host) {
   table.add({"clip", "clip PLANE|on|off|toggle|flip|next",
              "takes away what of a volume mesh lies beyond a plane: x, y, z, -x, -y, -z, with :FRACTION of the mesh or half-way, or "
-             "NX,NY,NZ:OFFSET; next: across the next axis"},
+             "NX,NY,NZ:OFFSET; next: across the next axis, the side towards the eye"},
             [&state, &host](Arguments words) { set_clip(state, host, words); });
   table.add({"clip-mode", "clip-mode crinkle|cut|toggle", "whole cells stay, or they are cut through"}, [&state](Arguments words) {
     need(words, 1, 1);

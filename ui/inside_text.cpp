@@ -31,6 +31,12 @@ std::optional<AxisPlane> axis_plane(const ClipPlane& plane, const render::Bounds
   return std::nullopt;
 }
 
+bool looks_along(const render::OrbitCamera& camera, int axis) {
+  const Vec3 back = camera.back();
+  constexpr double kFromTheSide = 1e-6;  // and as good as so
+  return (axis == 0 ? back.x : axis == 1 ? back.y : back.z) < -kFromTheSide;
+}
+
 std::string axis_name(int axis, bool flip) { return std::string(flip ? "-" : "") + static_cast<char>('x' + axis); }
 
 std::string exact_clip_command(const ClipPlane& plane) {

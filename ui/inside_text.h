@@ -20,6 +20,8 @@ struct AxisPlane {
 [[nodiscard]] std::optional<AxisPlane> axis_plane(const ClipPlane& plane, const render::Bounds3& box);
 /// "x", "-x"
 [[nodiscard]] std::string axis_name(int axis, bool flip);
+/// Whether the side of a plane across an axis that is nearer to the eye is the lower one: what is taken away there uncovers the plane.
+[[nodiscard]] bool looks_along(const render::OrbitCamera& camera, int axis);
 /// The values of dot(normal, x) over the box, lowest and highest.
 [[nodiscard]] std::pair<double, double> span_of(const ClipPlane& plane, const render::Bounds3& box);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include "ui/inspection_marks.h"
@@ -52,6 +53,7 @@ bool PaneView::bring(render::Loading loading) {
   if (is_volume()) {
     if (!volume_) volume_ = std::make_unique<Volume>();
     scene_.show(nullptr);
+    volume_->scene.set_pool(pool_);
     volume_->scene.show(session_->frame);
     return current_ = true;
   }
@@ -69,10 +71,15 @@ render::Pick PaneView::pick(const ViewState& state, const render::Camera2D& came
                                 : scene_.pick(camera, state.viewport, pixel, radius);
 }
 
-render::SpaceMarks PaneView::space_marks(const Scenery& scenery, Vec2<double> viewport, bool inspected) const {
+bool PaneView::marks_worst(const ViewState& state, bool inspecting) const {
+  return state.worst_marker && !frame()->worst.empty() && !inspecting;
+}
+
+render::SpaceMarks PaneView::space_marks(const Scenery& scenery, Vec2<double> viewport, bool inspected) {
   const ViewState& state = scenery.state;
   render::SpaceMarks marks;
   const bool inspecting = inspected && state.inspection.open, searching = is_searching(scenery, inspected);
+  marks.faint_where_taken_away = !searching;  // all cells give way to the search, and what it is of stays plain
   const Picked& picked = state.picked;
   if (picked.kind == Picked::Kind::Element && picked.id < frame()->element_count()) marks.cells = {picked.id};
   if (picked.kind == Picked::Kind::Vertex && picked.id < frame()->vertex_count()) {
@@ -84,7 +91,7 @@ render::SpaceMarks PaneView::space_marks(const Scenery& scenery, Vec2<double> vi
   if (!state.selection.empty() && state.selection.vertices().size() <= kMostDots)
     for (const Index v : state.selection.vertices())
       if (v < frame()->vertex_count()) marks.vertices.push_back(v);
-  if (state.worst_marker && !frame()->worst.empty() && !inspecting) marks.worst = frame()->worst.front().element;
+  if (marks_worst(state, inspecting)) marks.worst = frame()->worst.front().element;
   if (inspecting) {
     render::Style of_quality = scene_style(state);
     of_quality.colours = colour_scale(state, scenery.derived);  // of candidates, whatever the cells show
@@ -92,7 +99,22 @@ render::SpaceMarks PaneView::space_marks(const Scenery& scenery, Vec2<double> vi
     add_inspection_marks(marks, state.inspection, scenery.inspection,
                          inspection_look(of_quality, palette(state.theme).accent, units, state.scale));
   }
+  if (!searching) stepping_.add_space_marks(marks, state, *session_, volume_->scene, viewport);
   return marks;
+}
+
+std::string PaneView::note(const ViewState& state) const {
+  std::string text = stepping_.note(state, *session_);
+  if (!is_volume() || !volume_ || state.inspection.open) return text;
+  const render::VolumeScene& scene = volume_->scene;
+  std::string faint;
+  const auto add = [&faint](const std::string& what) { faint += (faint.empty() ? "" : " and ") + what; };
+  if (marks_worst(state, false) && !scene.sees_cell(frame()->worst.front().element)) add("the worst element");
+  const Picked& picked = state.picked;
+  if (picked.kind == Picked::Kind::Element && !scene.sees_cell(picked.id)) add(fmt::format("element {}", picked.id));
+  if (picked.kind == Picked::Kind::Vertex && !scene.sees_vertex(picked.id)) add(fmt::format("vertex {}", picked.id));
+  if (faint.empty()) return text;
+  return "taken away, so marked faintly: " + faint + (text.empty() ? "" : " · ") + text;
 }
 
 void PaneView::draw_volume(const Scenery& scenery, const Wish& wish) {
@@ -112,8 +134,7 @@ void PaneView::draw_volume(const Scenery& scenery, const Wish& wish) {
   }
   scene.set_selection(selection);
   scene.set_view(view);
-  labels_.clear();
-  labels_lack_room_ = false;
+  find_labels(scenery, wish.camera);
   const auto w = static_cast<int>(std::lround(state.viewport.x)), h = static_cast<int>(std::lround(state.viewport.y));
   volume_->picture.update(scene, {w, h, state.orbit, picture_style(state, scenery.derived),
                                   space_marks(scenery, state.viewport, wish.inspected), wish.detail, wish.refine});
@@ -133,7 +154,8 @@ void PaneView::find_labels(const Scenery& scenery, const render::Camera2D& camer
   const double em = ImGui::GetFontSize();
   // As they are drawn: digits of DejaVu Sans are 0.64 em wide.
   const render::LabelWish wish{colouring.label_vertices, colouring.label_elements, 0.8 * 0.64 * em, em, 400};
-  labels_ = scene_.labels(camera, scenery.state.viewport, wish);
+  const Vec2<double> viewport = scenery.state.viewport;
+  labels_ = is_volume() ? volume_->scene.labels(scenery.state.orbit, viewport, wish) : scene_.labels(camera, viewport, wish);
   labels_lack_room_ = (wish.vertices || wish.elements) && labels_.empty();
 }
 
@@ -167,7 +189,7 @@ render::Marks PaneView::marks(const Scenery& scenery, const MarkView& view, bool
       marks.elements.push_back(incidence.element);
     marks.vertices = {picked.id};
   }
-  if (state.worst_marker && !frame()->worst.empty() && !inspecting) marks.worst = frame()->worst.front().element;
+  if (marks_worst(state, inspecting)) marks.worst = frame()->worst.front().element;
   stepping_.add_marks(marks, state, *session_, view,
                       [this](const MarkView& seen, std::size_t most) { return scene_.elements_in_view(seen.camera, seen.viewport, most); });
   const render::Style plain = scene_style(state);

@@ -52,7 +52,11 @@ class PaneView {
   /// All that is marked, in a picture of another size perhaps.
   [[nodiscard]] render::Marks marks(const Scenery& scenery, const MarkView& view, bool inspected);
   /// The same of a volume mesh.
-  [[nodiscard]] render::SpaceMarks space_marks(const Scenery& scenery, Vec2<double> viewport, bool inspected) const;
+  [[nodiscard]] render::SpaceMarks space_marks(const Scenery& scenery, Vec2<double> viewport, bool inspected);
+  /// What of the marks is faint, since it was taken away, and what is shown of stepping; in words.
+  [[nodiscard]] std::string note(const ViewState& state) const;
+  /// Threads for finding what is seen of a volume; null: the caller's alone.
+  void set_pool(ThreadPool* pool) noexcept { pool_ = pool; }
 
   [[nodiscard]] render::MeshScene& scene() noexcept { return scene_; }
   [[nodiscard]] bool is_volume() const noexcept { return frame() != nullptr && frame()->input->is_volume(); }
@@ -80,11 +84,13 @@ class PaneView {
   void draw_volume(const Scenery& scenery, const Wish& wish);
   void select(const Scenery& scenery);
   void find_labels(const Scenery& scenery, const render::Camera2D& camera);
+  [[nodiscard]] bool marks_worst(const ViewState& state, bool inspecting) const;
 
   std::shared_ptr<const SessionView> session_;
   render::MeshScene scene_;
   render::LivePicture picture_;
   std::unique_ptr<Volume> volume_;  // from the first volume mesh on
+  ThreadPool* pool_ = nullptr;
   SteppingView stepping_;
   ColourWorker worker_;
   std::shared_ptr<const ElementColours> colours_;

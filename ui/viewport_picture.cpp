@@ -71,15 +71,17 @@ render::Image Viewports::picture_of(std::size_t pane, const Scenery& scenery, co
   render::Style look = picture_style(state, scenery.derived);
   look.scale = 1.0F;  // Shot::scale multiplies it
   look.transparent = shot.transparent;
-  if (view.is_volume())
-    return render::render_image(*view.volume(), state.orbit, look,
-                                view.space_marks(scenery, render::mesh_viewport(shot), facts_[pane].inspected), shot)
-        .image;
-  const render::Camera2D camera = facts_[pane].camera.for_viewport(state.viewport, render::mesh_viewport(shot));
-  const render::Marks marks = view.marks(scenery, {camera, render::mesh_viewport(shot), state.scale}, facts_[pane].inspected);
-  render::Image image = render::render_image(view.scene(), camera, look, marks, shot).image;
   const Vec2<double> digit = render::label_digit(shot.scale), viewport = render::mesh_viewport(shot);
   const render::LabelWish wish{state.colouring.label_vertices, state.colouring.label_elements, digit.x, digit.y, 400};
+  if (view.is_volume()) {
+    const render::SpaceMarks marks = view.space_marks(scenery, viewport, facts_[pane].inspected);
+    render::Image image = render::render_image(*view.volume(), state.orbit, look, marks, shot).image;
+    render::draw_labels(image, view.volume()->labels(state.orbit, viewport, wish), {}, viewport, look, shot.scale);
+    return image;
+  }
+  const render::Camera2D camera = facts_[pane].camera.for_viewport(state.viewport, viewport);
+  const render::Marks marks = view.marks(scenery, {camera, viewport, state.scale}, facts_[pane].inspected);
+  render::Image image = render::render_image(view.scene(), camera, look, marks, shot).image;
   render::draw_labels(image, view.scene().labels(camera, viewport, wish), camera, viewport, look, shot.scale);
   return image;
 }

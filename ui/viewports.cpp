@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,9 @@ using Kind = PaneContent::Kind;
 
 namespace {
 
+/// More of them wait for memory.
+constexpr unsigned kMostThreads = 8;
+
 /// What the session is asked for to show this; nothing for what is there anyway.
 std::optional<Watch> watch_of(const PaneContent& content) {
   if (content.kind == Kind::Input) return Watch{};
@@ -18,8 +22,15 @@ std::optional<Watch> watch_of(const PaneContent& content) {
   return std::nullopt;
 }
 
+/// Of a volume as it is seen from a corner, from where it is seen first: viewports do not change their places while it is turned.
 render::Bounds2 input_box(const InputMesh& input) {
   render::Bounds2 box;
+  if (input.is_volume()) {
+    render::OrbitCamera camera;
+    camera.look_from(render::ViewPreset::Isometric);
+    for (const Vec3& position : input.mesh.positions) box.include(Vec2<double>{dot(position, camera.right), dot(position, camera.up)});
+    return box;
+  }
   for (const Vec3& position : input.mesh.positions) box.include(input.geometry.plane.project(position));
   return box;
 }
@@ -192,18 +203,17 @@ bool Viewports::fit(ViewState& state, double em) {
   const bool bar_within = state.panes.one() || state.panes.layout == PaneLayout::Split;
   const double top = 2.4 * em, bottom = bar_within ? 4.4 * em : 0.5 * em;
   const Vec2<double> free{state.viewport.x, std::max(1.0, state.viewport.y - top - bottom)};
+  const double margin = std::min(1.2 * em, 0.05 * std::min(free.x, free.y));
   if (views_[focus_]->is_volume()) {
-    const double margin = std::min(1.2 * em, 0.05 * std::min(free.x, free.y));
-    state.orbit.fit(views_[focus_]->volume()->bounds(), free, margin);
-    state.orbit.height *= state.viewport.y / free.y;
-    state.orbit.pan({0.0, (top - bottom) / 2}, state.viewport);
+    views_[focus_]->volume()->fit(state.orbit, state.viewport,
+                                  {{margin, top + margin}, {state.viewport.x - margin, state.viewport.y - bottom - margin}});
     state.requests.fit_all = false;
     fitted_orbit_ = state.orbit;
     return true;
   }
   render::Bounds2 bounds = views_[focus_]->scene().bounds();
   if (bounds.empty()) bounds = input_box(*session_->frame->input);  // it shows nothing
-  render::Camera2D camera = render::Camera2D::fit(bounds, free, std::min(1.2 * em, 0.05 * std::min(free.x, free.y)));
+  render::Camera2D camera = render::Camera2D::fit(bounds, free, margin);
   camera.pan({0.0, (top - bottom) / 2});
   const bool all = std::exchange(state.requests.fit_all, false);
   for (Pane& pane : state.panes.panes)
@@ -211,6 +221,14 @@ bool Viewports::fit(ViewState& state, double em) {
   state.camera = camera;
   fitted_ = camera;
   return true;
+}
+
+/// Whether a volume that was fitted is to be fitted anew: nobody has moved it, but the viewport or the kind of projection is another.
+bool Viewports::keeps_fit(const render::OrbitCamera& now, bool resized) const {
+  if (!fitted_orbit_) return false;
+  render::OrbitCamera fitted = *fitted_orbit_;
+  const bool other_projection = std::exchange(fitted.perspective, now.perspective) != now.perspective;
+  return fitted == now && (resized || other_projection);
 }
 
 bool Viewports::inspected(const ViewState& state, std::size_t pane) const {
@@ -222,13 +240,16 @@ bool Viewports::draw(ViewState& state, const Derived& derived, const Inspection&
   const Vec2<double> before = state.viewport;
   const Rect& rect = rects.front();
   state.viewport = {std::max(1.0, static_cast<double>(rect.w)), std::max(1.0, static_cast<double>(rect.h))};
-  // A fitted mesh stays fitted when the window or a panel changes its size.
+  // A fitted mesh stays fitted when the window or a panel changes its size, or its projection does.
   const bool resized = before.x != state.viewport.x || before.y != state.viewport.y;
   const bool volume = views_[focus_]->is_volume();
-  if (resized && (volume ? fitted_orbit_ && *fitted_orbit_ == state.orbit : fitted_ && *fitted_ == state.camera)) state.requests.fit = true;
+  if (volume ? keeps_fit(state.orbit, resized) : resized && fitted_ && *fitted_ == state.camera) state.requests.fit = true;
   loading_ = refining_ = false;
-  for (std::size_t k = 0; k < count_; ++k)
+  if (volume && !pool_) pool_ = std::make_unique<ThreadPool>(std::clamp(std::thread::hardware_concurrency(), 1U, kMostThreads));
+  for (std::size_t k = 0; k < count_; ++k) {
+    views_[k]->set_pool(turn.live ? nullptr : pool_.get());  // a run that goes on has the processors already
     loading_ = !views_[k]->bring(options_.wait_for_scene ? render::Loading::Wait : render::Loading::Background) || loading_;
+  }
   const bool fitted = fit(state, turn.em);
   facts_.clear();
   const Scenery scenery{state, derived, inspection};
@@ -268,7 +289,8 @@ PaneFacts Viewports::facts_of_pane(ViewState& state, std::size_t pane, const Rec
   facts.of_run = kind == Kind::Run || kind == Kind::Active || (view.frame() != nullptr && kind != Kind::Input);
   facts.colours = view.colours();
   facts.labels = view.labels();
-  facts.camera = state.camera_of(pane);
+  // Of a volume labels are in pixels already.
+  facts.camera = view.is_volume() ? render::Camera2D{} : state.camera_of(pane);
   facts.texture = view.texture();
   facts.focus = pane == focus_;
   facts.inspected = inspected(state, pane);
@@ -278,7 +300,7 @@ PaneFacts Viewports::facts_of_pane(ViewState& state, std::size_t pane, const Rec
     facts.cells_seen = volume->faces().visible_cells;
     facts.box = volume->bounds();
   }
-  if (facts.focus) facts.stepping_note = view.stepping().note(state, *view.session());
+  if (facts.focus) facts.stepping_note = view.note(state);
   return facts;
 }
 

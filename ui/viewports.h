@@ -121,6 +121,7 @@ class Viewports {
   void show_content(const ViewState& state, std::size_t pane);
   void show_mark(std::size_t pane, const Marked& mark, const char* letter);
   bool fit(ViewState& state, double em);
+  [[nodiscard]] bool keeps_fit(const render::OrbitCamera& now, bool resized) const;
   [[nodiscard]] bool inspected(const ViewState& state, std::size_t pane) const;
   void measure();
   [[nodiscard]] std::shared_ptr<const Frame> reference(const ViewState& state) const;
@@ -129,6 +130,9 @@ class Viewports {
   [[nodiscard]] render::Image picture_of(std::size_t pane, const Scenery& scenery, const render::Shot& shot);
 
   Options options_;
+  /// For what is seen of volumes; from the first one on. Of their own: a clip plane that is dragged is not to wait for the session's.
+  /// Before the viewports, which use it.
+  std::unique_ptr<ThreadPool> pool_;
   std::shared_ptr<const SessionView> session_;
   std::array<std::unique_ptr<PaneView>, Panes::kMost> views_;  // as many as are shown
   std::array<Content, Panes::kMost> shown_;

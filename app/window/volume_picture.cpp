@@ -44,7 +44,9 @@ std::string volume_picture_png(const InputMesh& input, std::span<const Vec3> pos
   render::OrbitCamera camera;
   camera.perspective = inside.perspective;
   camera.look_from(render::view_preset_from_name(inside.from));
-  camera.fit(scene.bounds(), render::mesh_viewport(shot));
+  const Vec2<double> viewport = render::mesh_viewport(shot);
+  constexpr double kMargin = 24.0;  // pixels
+  scene.fit(camera, viewport, {{kMargin, kMargin}, {viewport.x - kMargin, viewport.y - kMargin}});
   return render::encode_png(render::render_image(scene, camera, style_of(look), {}, shot).image);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
@@ -109,17 +110,18 @@ void VisibleCells::measure(Vec3 normal, const CellState& state, ThreadPool* pool
   measured_serial_ = state.serial;
 }
 
-/// Inverted cells come first, undefined ones never; equals by their number.
+/// Inverted cells come first, whatever the metric says of them, undefined ones never; of either the lowest, and equals by their number.
 void VisibleCells::rank_worst(std::size_t count, const CellState& state) {
   if (ranked_count_ == count && ranked_serial_ == state.serial) return;
   const auto key = [&](Index e) {
     const bool inverted = !state.inverted.empty() && state.inverted[e] != 0;
-    return std::pair(inverted ? -std::numeric_limits<float>::infinity() : state.quality[e], e);
+    const float quality = state.quality[e];
+    return std::tuple(!inverted, inverted && std::isnan(quality) ? -std::numeric_limits<float>::infinity() : quality, e);
   };
   std::vector<Index> order;
   order.reserve(elements_.size());
   for (Index e = 0; e < elements_.size(); ++e) {
-    if (!std::isnan(key(e).first)) order.push_back(e);
+    if (!std::isnan(std::get<float>(key(e)))) order.push_back(e);
   }
   among_worst_.assign(elements_.size(), 0);
   const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(count, order.size()));

@@ -17,7 +17,7 @@ struct Generator {
   std::size_t smallest, largest;  // range of size
 };
 
-constexpr std::size_t kGenerators = 11;
+constexpr std::size_t kGenerators = 12;
 constexpr std::array<GeneratorInfo, kGenerators> kInfos{{
     {"coast", "an irregular coastline with islands and an open sea; triangles graded from fine at the coast to coarse offshore", 4000},
     {"block", "fifteen blocks of triangles that meet in irregular vertices, smoothly distorted", 2500},
@@ -30,6 +30,8 @@ constexpr std::array<GeneratorInfo, kGenerators> kInfos{{
     {"tetrahedra", "a cube of tetrahedra, six a cell, jittered inside", 2000},
     {"hexahedra", "a cube of hexahedra, jittered inside", 2000},
     {"solids", "a cube of hexahedra, wedges, pyramids and tetrahedra, jittered inside", 2000},
+    {"tangled-solids", "a cube of all four kinds of volume elements with some vertices thrown out of place, so that elements are inverted",
+     1000},
 }};
 constexpr std::array<Generator, kGenerators> kMakers{{
     {generators::coast, 300, 20000},
@@ -43,6 +45,7 @@ constexpr std::array<Generator, kGenerators> kMakers{{
     {generators::tetrahedra, 27, 5000000},
     {generators::hexahedra, 27, 5000000},
     {generators::solids, 27, 5000000},
+    {generators::tangled_solids, 125, 5000000},
 }};
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Blocks of volume elements: a cube of cells, each cut into elements of the kinds that are wanted, its inner vertices out of place.
+// Blocks of volume elements: a cube of cells, each cut into elements of the kinds that are wanted, its inner vertices out of place, or
+// thrown out of their stars.
 
 #include <algorithm>
 #include <array>
@@ -125,6 +126,31 @@ Mesh solids(const Request& request) {
       mesh.elements.add(ElementKind::Hexahedron, c);
     }
   });
+  return mesh;
+}
+
+Mesh tangled_solids(const Request& request) {
+  const Block block(request.size);
+  Mesh mesh = solids(request);
+  std::vector<Index> inner;
+  const Index n = block.cells();
+  for (Index k = 1; k < n; ++k)
+    for (Index j = 1; j < n; ++j)
+      for (Index i = 1; i < n; ++i) inner.push_back(block.vertex(i, j, k));
+  const double middle = n / 2.0;  // of the cube, along each axis
+  Random random(request.seed + 1);
+  // Further than any star reaches, so that elements turn over; towards the middle, so that none leaves the cube.
+  const std::size_t thrown = std::max<std::size_t>(2, inner.size() / 20);
+  for (std::size_t t = 0; t < thrown; ++t) {
+    std::swap(inner[t], inner[t + random.below(inner.size() - t)]);
+    Vec3& p = mesh.positions[inner[t]];
+    // A direction as likely as any other on the sphere: its height is even, and so is the turn about the axis.
+    const double height = random.between(-1.0, 1.0), across = std::sqrt(1.0 - height * height), turns = random.unit();
+    Vec3 away = random.between(1.4, 1.8) * Vec3{across * cos_turns(turns), across * sin_turns(turns), height};
+    const auto inwards = [middle](double way, double at) { return way * (at - middle) > 0.0 ? -way : way; };
+    away = {inwards(away.x, p.x), inwards(away.y, p.y), inwards(away.z, p.z)};
+    p = {neat(p.x + away.x), neat(p.y + away.y), neat(p.z + away.z)};
+  }
   return mesh;
 }
 

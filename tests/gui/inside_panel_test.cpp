@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -85,10 +86,12 @@ TEST_F(InsidePanel, EveryWidgetDoesWhatItsCommandDoes) {
 TEST_F(InsidePanel, KeysAndMenusReachIt) {
   good("key J");
   EXPECT_TRUE(inside().clip.on);
+  EXPECT_FALSE(inside().clip.flip);
   good("key Ctrl+J");
   EXPECT_EQ(inside().clip.normal, (Vec3{0, 1, 0}));
+  EXPECT_TRUE(inside().clip.flip);  // seen from (1, -1, 1): the side towards the eye is taken away
   good("key Shift+J");
-  EXPECT_TRUE(inside().clip.flip);
+  EXPECT_FALSE(inside().clip.flip);
   good("key Y");
   EXPECT_EQ(inside().peel, 1U);
   good("key E");
@@ -134,6 +137,32 @@ TEST_F(InsidePanel, APlaneSeenFromAboveIsDraggedUpAndDown) {
   good("clip z");
   drag("clip-handle", 0, -40);  // up: towards the eye
   EXPECT_NEAR(inside().clip.offset, 0.5 + 40 * state().orbit.height / state().viewport.y, 1e-3);
+}
+
+TEST_F(InsidePanel, ANewPlaneUncoversWhatTheEyeSees) {
+  for (const auto& [from, axis, flip] : {std::tuple{"-x", "x", true}, {"+x", "x", false}, {"+y", "y", false}, {"-z", "z", true}}) {
+    good("clip off");
+    good(fmt::format("view-from {}", from));
+    good(fmt::format("click inside:{}", axis));
+    EXPECT_EQ(inside().clip.flip, flip) << from;
+  }
+  good("view-from -x");
+  good("show-all");
+  good("clip on");
+  EXPECT_TRUE(inside().clip.flip);
+  EXPECT_DOUBLE_EQ(inside().clip.offset, 0.5);
+  good("clip x:0.3");  // as it is said
+  EXPECT_FALSE(inside().clip.flip);
+}
+
+TEST_F(InsidePanel, ARangeThatNoSliderTellsIsSaidAndTakenBack) {
+  EXPECT_FALSE(has("inside:kept"));
+  good("keep-quality 0 0.4");
+  good("click inside:kept");
+  EXPECT_FALSE(inside().isolate.has_value());
+  EXPECT_FALSE(has("inside:kept"));
+  good("keep-quality 0.2 1");
+  EXPECT_FALSE(has("inside:kept"));  // "hide worse" tells it
 }
 
 TEST_F(InsidePanel, IsOfVolumesAlone) {

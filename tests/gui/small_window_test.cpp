@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/mesh/generate.h"
 #include "tests/gui/headless_test.h"
 
 namespace dmoscope::app {
@@ -38,8 +39,9 @@ TEST_F(SmallWindow, FoldedPanelsOpenAndCloseAndTakeNothingFromOthers) {
 
 TEST_F(SmallWindow, AllSamplesAreInSight) {
   const float bottom = box("plot-convergence")[1];
-  for (const char* name : {"coast", "block", "annulus", "random", "quads", "mixed", "tangled", "grid"}) {
-    const auto& card = box(std::string("sample:") + name);
+  for (const GeneratorInfo& sample : generator_table()) {
+    const std::string name(sample.name);
+    const auto& card = box("sample:" + name);
     EXPECT_LE(card[3], bottom) << name;
     EXPECT_GE(card[0], 0.0F) << name;
     EXPECT_LE(card[2], 800.0F) << name;

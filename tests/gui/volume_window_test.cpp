@@ -1,10 +1,16 @@
 // A volume mesh in the window: seen, turned, clipped and picked by commands and by the mouse.
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "core/io/mesh_io.h"
+#include "core/mesh/generate.h"
 #include "tests/gui/headless_test.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/volume_grids.h"
+#include "ui/actions.h"
 
 namespace dmoscope::app {
 namespace {
@@ -43,6 +49,52 @@ TEST_F(VolumeWindow, ADragTurnsItAndAClickPicks) {
   EXPECT_EQ(state().picked.kind, ui::Picked::Kind::None);  // a drag is no click
   good("click 640 330");
   EXPECT_NE(state().picked.kind, ui::Picked::Kind::None);
+}
+
+/// Within its viewport, and as large as title and colour bar let it be.
+TEST_F(VolumeWindow, AFitFillsViewportsOfEveryShape) {
+  const double em = 15.0;
+  for (const char* size : {"800 600", "1280 800", "700 1000"}) {
+    for (const char* layout : {"1", "2", "4"}) {
+      for (const char* line : {"perspective on", "view-from +y", "perspective off", "view-from iso"}) {
+        for (const std::string& each : {std::string("size ") + size, std::string("viewports ") + layout, std::string(line)}) good(each);
+        SCOPED_TRACE(fmt::format("{}, {} viewports, {}", size, layout, line));
+        const auto frame = session()->frame;
+        render::Bounds3 box;
+        for (const Vec3& p : frame->positions) box.include(p);
+        const Vec2<double> viewport = state().viewport;
+        const render::Projection projection = state().orbit.projection(viewport, box);
+        double left = 1e9, right = -1e9, low = 1e9, high = -1e9;
+        for (const Vec3& p : frame->positions) {
+          const auto place = projection.place(p);
+          ASSERT_TRUE(place.has_value());
+          left = std::min(left, 0.5 * viewport.x + place->x);
+          right = std::max(right, 0.5 * viewport.x + place->x);
+          low = std::min(low, 0.5 * viewport.y + place->y);
+          high = std::max(high, 0.5 * viewport.y + place->y);
+        }
+        EXPECT_GT(left, 0.0);
+        EXPECT_LT(right, viewport.x);
+        EXPECT_GT(low, 0.5 * em);
+        EXPECT_LT(high, viewport.y - 2.4 * em);
+        EXPECT_TRUE(right - left > 0.88 * viewport.x || high - low > 0.88 * (viewport.y - 6.8 * em));
+      }
+    }
+  }
+}
+
+TEST_F(VolumeWindow, TheMenuHasEverySampleThatCanBeMade) {
+  std::size_t samples = 0;
+  for (const ui::Action& action : ui::actions()) samples += action.id.starts_with("sample-") ? 1 : 0;
+  EXPECT_EQ(samples, generator_table().size());
+  for (const GeneratorInfo& generator : generator_table()) {
+    const ui::Action* action = ui::find_action(fmt::format("sample-{}", generator.name));
+    ASSERT_NE(action, nullptr) << generator.name;
+    EXPECT_EQ(action->command, fmt::format("generate {}", generator.name));
+  }
+  for (const char* line : {"click menu:File", "click menu:Samples", "click menu:sample-tangled-solids"}) good(line);
+  EXPECT_EQ(session()->input->mesh.name, "tangled-solids");
+  EXPECT_TRUE(state().is_volume);
 }
 
 TEST_F(VolumeWindow, AnInsideIsOfVolumesAlone) {

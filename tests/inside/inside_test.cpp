@@ -80,10 +80,10 @@ std::vector<Index> slow_layers(const Mesh& mesh) {
 std::vector<bool> slow_visible(const Block& block, const InsideView& view) {
   const Mesh& mesh = block.mesh;
   const std::vector<Index> layers = slow_layers(mesh);
-  std::vector<std::pair<double, Index>> ranks;
+  std::vector<std::pair<double, Index>> ranks;  // no quality is above 10
   for (Index e = 0; e < mesh.elements.size(); ++e) {
     if (block.inverted[e] != 0)
-      ranks.emplace_back(-1e9, e);
+      ranks.emplace_back(std::isnan(block.quality[e]) ? -1e9 : block.quality[e] - 1e6, e);
     else if (!std::isnan(block.quality[e]))
       ranks.emplace_back(block.quality[e], e);
   }
@@ -271,6 +271,12 @@ TEST(Inside, TheWorstAreTheInvertedThenTheLowest) {
   EXPECT_THAT(seen(2), testing::ElementsAre(13, 20));
   EXPECT_THAT(seen(4), testing::ElementsAre(0, 4, 13, 20));  // of equals the first
   EXPECT_EQ(seen(1000).size(), 27U);                         // none is undefined
+  block.inverted[25] = 1;
+  block.quality[25] = -0.5F;
+  EXPECT_THAT(seen(1), testing::ElementsAre(25));  // of the inverted the lowest
+  EXPECT_THAT(seen(3), testing::ElementsAre(13, 20, 25));
+  block.quality[13] = std::nanf("");  // inverted, whatever a metric makes of it
+  EXPECT_THAT(seen(1), testing::ElementsAre(13));
 }
 
 TEST(Inside, AViewThatMeansNothingIsRefusedAndChangesNothing) {

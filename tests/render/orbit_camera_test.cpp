@@ -1,8 +1,13 @@
 // Looking at a volume mesh: what is where in the picture, by geometry worked out by hand.
 #include "render/orbit_camera.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -66,8 +71,7 @@ TEST(OrbitCamera, FitShowsTheWholeBoxAndTouchesTheMargin) {
             pixel_of(camera, {(corner & 1U) != 0 ? -1.0 : 3.0, (corner & 2U) != 0 ? -2.0 : 2.0, (corner & 4U) != 0 ? -3.0 : 1.0});
         slack = std::min({slack, p.x, kSize.x - p.x, p.y, kSize.y - p.y});
       }
-      EXPECT_GE(slack, 19.999);
-      EXPECT_LE(slack, 31.0);  // 20 pixels of the shorter side are more of the longer one
+      EXPECT_NEAR(slack, 20.0, 1e-6);
     }
   }
   OrbitCamera camera;
@@ -76,6 +80,55 @@ TEST(OrbitCamera, FitShowsTheWholeBoxAndTouchesTheMargin) {
   camera.fit({{5, 5, 5}, {5, 5, 5}}, kSize);
   expect_near(camera.centre, {5, 5, 5});
   EXPECT_GT(camera.height, 0.0);
+}
+
+/// How far from each border of a part of the picture the nearest of the points is: left, right, below, above; less than 0 beyond it.
+std::array<double, 4> spaces(const OrbitCamera& camera, const std::vector<Vec3>& points, Vec2<double> size, const PicturePart& room) {
+  Bounds3 box;
+  for (const Vec3& p : points) box.include(p);
+  const Projection projection = camera.projection(size, box);
+  std::array<double, 4> least{1e9, 1e9, 1e9, 1e9};
+  for (const Vec3& p : points) {
+    const auto place = projection.place(p);
+    if (!place) return {-1e9, -1e9, -1e9, -1e9};
+    const double x = 0.5 * size.x + place->x, y = 0.5 * size.y - place->y;
+    const std::array<double, 4> now{x - room.low.x, room.high.x - x, room.high.y - y, y - room.low.y};
+    for (std::size_t i = 0; i < 4; ++i) least[i] = std::min(least[i], now[i]);
+  }
+  return least;
+}
+
+TEST(OrbitCamera, FitOfPointsFillsTheRoomThatIsThere) {
+  std::mt19937 random(7);
+  const auto unit = [&] { return static_cast<double>(random()) / 4294967296.0; };
+  // A long thin cloud, far from the origin, along no axis: a box around it is much larger than it is.
+  std::vector<Vec3> points;
+  for (int i = 0; i < 200; ++i) {
+    const double along = 10.0 * unit();
+    points.push_back({1000.0 + along + 0.3 * unit(), -500.0 + along, 20.0 - along + 0.5 * unit()});
+  }
+  const std::pair<Vec2<double>, PicturePart> places[] = {
+      {{1280, 400}, {{20, 50}, {1260, 330}}}, {{300, 700}, {{10, 40}, {250, 690}}}, {{400, 400}, {{200, 100}, {390, 390}}}};
+  for (const bool perspective : {false, true}) {
+    for (const ViewPresetInfo& preset : view_preset_table()) {
+      for (const auto& [size, room] : places) {
+        SCOPED_TRACE(std::string(preset.name) + (perspective ? " perspective" : ""));
+        OrbitCamera camera;
+        camera.perspective = perspective;
+        camera.look_from(preset.preset);
+        camera.turn({13, 7}, size);
+        const Vec3 right = camera.right;
+        camera.fit(points, size, room);
+        EXPECT_EQ(camera.right, right);
+        const auto space = spaces(camera, points, size, room);
+        for (const double each : space) EXPECT_GE(each, -1e-6);
+        const bool touches_sides = space[0] < 1e-6 && space[1] < 1e-6, touches_ends = space[2] < 1e-6 && space[3] < 1e-6;
+        EXPECT_TRUE(touches_sides || touches_ends);
+        const double in_depth = dot(camera.back(), camera.centre - points.front());
+        EXPECT_LT(std::abs(in_depth), 20.0) << "what it is turned about is among the points";
+      }
+    }
+  }
 }
 
 TEST(OrbitCamera, RaysAndProjectionAgree) {

@@ -12,16 +12,20 @@
 namespace dmoscope::render {
 namespace {
 
-class VolumeSpeed : public WithContext {};
+class VolumeSpeed : public WithContext {
+ protected:
+  void measure(ThreadPool* pool);
+};
 
-TEST_F(VolumeSpeed, DISABLED_MillisecondsOfAMillionHexahedra) {
+/// On the window's thread alone, or with others.
+void VolumeSpeed::measure(ThreadPool* pool) {
+  std::printf("%u threads\n", pool == nullptr ? 1U : pool->size());
   const Mesh mesh = test::volume_grid(100, test::Fill::Hexahedra, 0.2);
   const FaceNeighbours neighbours(mesh);
   std::vector<float> quality(mesh.elements.size());
   for (std::size_t e = 0; e < quality.size(); ++e) quality[e] = static_cast<float>(e * 2654435761U % 1000) / 1000.0F;
-  ThreadPool pool(2);
   VolumeScene space;
-  space.set_pool(&pool);
+  space.set_pool(pool);
   space.set_mesh(mesh.elements, neighbours);
   target->resize(1280, 800);
   OrbitCamera camera;
@@ -53,6 +57,10 @@ TEST_F(VolumeSpeed, DISABLED_MillisecondsOfAMillionHexahedra) {
       space.set_view(view);
     });
   }
+  const Stopwatch looking;
+  const auto unhidden = space.unhidden(camera, {1280, 800});
+  std::printf("what nothing hides among %zu faces %.1f ms (%zu vertices)\n", space.faces().faces.size(), 1e3 * looking.seconds(),
+              unhidden ? unhidden->vertices.size() : 0);
   view = {};
   view.shrink = 0.8;
   tell("shrunk, one fortieth", 5, 0.025, [&](int i) {
@@ -63,6 +71,12 @@ TEST_F(VolumeSpeed, DISABLED_MillisecondsOfAMillionHexahedra) {
   const Stopwatch watch;
   static_cast<void>(space.pick(camera, {1280, 800}, {640, 400}));
   std::printf("pick among %zu faces %.1f ms\n", space.faces().faces.size(), 1e3 * watch.seconds());
+}
+
+TEST_F(VolumeSpeed, DISABLED_MillisecondsOfAMillionHexahedra) {
+  measure(nullptr);
+  ThreadPool pool;
+  measure(&pool);
 }
 
 }  // namespace

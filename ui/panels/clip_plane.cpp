@@ -34,7 +34,10 @@ Drawing drawing_of(const PanelContext& context, const PaneFacts& pane) {
   return {state.orbit.projection(state.viewport, pane.box), state.viewport, {pane.rect.x, pane.rect.y}};
 }
 
+/// Not where all cells give way to a search that is looked into.
 bool has_plane(const PanelContext& context, const PaneFacts& pane) {
+  const InspectionState& inspection = context.state.inspection;
+  if (pane.inspected && inspection.open && inspection.alone && !inspection.applied) return false;
   return pane.frame() != nullptr && pane.cells_seen && context.state.inside.clip.on && !pane.box.empty();
 }
 

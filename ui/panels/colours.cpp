@@ -146,13 +146,11 @@ void draw_colours(PanelContext& context) {
   metric_combo(context, "shown", context.session.shown, "show");
   draw_map(context);
   draw_range(context);
-  labelled(context, "labels", context.state.is_volume ? "ids are written on planar meshes alone" : "ids, where there is room for them");
-  ImGui::BeginDisabled(context.state.is_volume);
+  labelled(context, "labels", "ids, where there is room for them and nothing hides what they name");
   static constexpr std::array<std::pair<std::string_view, int>, 4> kLabels{{{"off", 0}, {"vertices", 1}, {"elements", 2}, {"both", 3}}};
   const ColouringState& state = context.state.colouring;
   word_combo(context, "labels", kLabels, {"none", "vertices", "elements", "both"},
              (state.label_vertices ? 1 : 0) + (state.label_elements ? 2 : 0), "labels");
-  ImGui::EndDisabled();
   ImGui::Dummy({0, context.px(4)});
   heading(context, "Filter");
   draw_filter(context);

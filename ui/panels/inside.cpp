@@ -68,8 +68,9 @@ void draw_clip(PanelContext& context, const render::Bounds3& box) {
     ImGui::SameLine(0, context.px(5));
     const std::string name = axis_name(axis, false);
     const bool pressed = clip.on && across && across->axis == axis;
-    if (toggle_button(context, fmt::format("inside:{}", name).c_str(), name.c_str(), pressed, "across this axis"))
-      context.send(fmt::format("clip {}:{:.4g}", axis_name(axis, clip.on && across && across->flip),
+    if (toggle_button(context, fmt::format("inside:{}", name).c_str(), name.c_str(), pressed,
+                      "across this axis; the side towards the eye is taken away"))
+      context.send(fmt::format("clip {}:{:.4g}", axis_name(axis, looks_along(context.state.orbit, axis)),
                                clip.on && across ? std::clamp(across->fraction, 0.0, 1.0) : 0.5));
   }
   ImGui::SameLine(0, context.px(5));
@@ -137,7 +138,8 @@ void draw_qualities(PanelContext& context) {
   labelled(context, "hide worse", ("takes cells of a lower quality away, and inverted ones; " + tip).c_str());
   double least = view.isolate ? static_cast<double>(view.isolate->first) : low;
   const float upper = view.isolate ? view.isolate->second : static_cast<float>(high);
-  moved = slider("hide-worse", least, low, std::max(low, static_cast<double>(upper)), view.isolate ? "< %.3f" : "off");
+  const bool hides_worse = view.isolate && static_cast<double>(view.isolate->first) > low;
+  moved = slider("hide-worse", least, low, std::max(low, static_cast<double>(upper)), hides_worse ? "< %.3f" : "off");
   context.items.record_last("inside:hide-worse");
   hold(
       context, moved,
@@ -148,6 +150,12 @@ void draw_qualities(PanelContext& context) {
         return view.isolate ? fmt::format("keep-quality {:.4g} {:.4g}", view.isolate->first, view.isolate->second)
                             : std::string("keep-quality off");
       });
+  // A script or a session can keep a range that the sliders do not tell.
+  if (!view.isolate || static_cast<double>(upper) >= high) return;
+  labelled(context, "kept", "cells of other qualities are taken away");
+  if (ImGui::Button(fmt::format("{:.3g} to {:.3g}  ×##kept", view.isolate->first, upper).c_str())) context.send("keep-quality off");
+  context.items.record_last("inside:kept");
+  next_item_tooltip("shows the other qualities again");
 }
 
 void draw_worst_cells(PanelContext& context) {
@@ -189,6 +197,8 @@ void draw_from(PanelContext& context) {
   const render::OrbitCamera& orbit = context.state.orbit;
   ImGui::AlignTextToFramePadding();
   dim_text(context, "look from", false);
+  const ImVec2 padding = ImGui::GetStyle().FramePadding;
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {context.px(4), padding.y});  // seven in a row
   for (const render::ViewPresetInfo& preset : render::view_preset_table()) {
     ImGui::SameLine(0, context.px(4));
     const std::string name(preset.name);
@@ -198,6 +208,7 @@ void draw_from(PanelContext& context) {
     context.items.record_last("from:" + name);
     next_item_tooltip("all of the mesh from there");
   }
+  ImGui::PopStyleVar();
   bool perspective = orbit.perspective, trackball = context.state.trackball;
   if (ImGui::Checkbox("perspective", &perspective)) context.send(perspective ? "perspective on" : "perspective off");
   context.items.record_last("inside:perspective");
@@ -216,9 +227,15 @@ void draw_inside(PanelContext& context) {
   heading(context, "Inside");
   ImGui::SameLine();
   const std::size_t all = pane->frame()->element_count();
-  dim_text(context, *pane->cells_seen == all ? "all cells seen" : fmt::format("{} of {} cells", count(*pane->cells_seen), count(all)),
+  const InspectionState& inspection = context.state.inspection;
+  const bool searching = inspection.open && inspection.alone && context.inspection.solid && !inspection.applied;
+  dim_text(context,
+           searching                  ? "faint around the search"
+           : *pane->cells_seen == all ? "all cells seen"
+                                      : fmt::format("{} of {} cells", count(*pane->cells_seen), count(all)),
            false);
   context.items.record_last("inside:count");
+  next_item_tooltip("marks of what was taken away are faint: of the worst element and of what is picked");
   draw_clip(context, pane->box);
   draw_peel(context);
   draw_qualities(context);

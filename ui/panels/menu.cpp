@@ -1,9 +1,11 @@
 // Menu bar and tool bar, both from the table of actions.
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "core/mesh/generate.h"
 #include "ui/colouring_commands.h"
 #include "ui/panels/panels.h"
 
@@ -111,6 +113,24 @@ void draw_submenu(PanelContext& context, const Submenu& submenu) {
   ImGui::EndMenu();
 }
 
+/// Planar meshes, and below a line volumes.
+void draw_samples(PanelContext& context) {
+  const bool open = ImGui::BeginMenu("Samples");
+  context.items.record_last("menu:Samples");
+  if (!open) return;
+  bool below_others = false;
+  for (const Action& sample : actions()) {
+    if (!sample.id.starts_with("sample-")) continue;
+    if (std::exchange(below_others, true) && sample.separator) ImGui::Separator();
+    const std::string name(sample.title.substr(sample.title.find(' ') + 1));
+    if (ImGui::MenuItem(name.c_str())) context.send(std::string(sample.command));
+    context.items.record_last(fmt::format("menu:{}", sample.id));
+    const auto generator = std::ranges::find(generator_table(), name, &GeneratorInfo::name);
+    if (generator != generator_table().end()) next_item_tooltip(std::string(generator->doc));
+  }
+  ImGui::EndMenu();
+}
+
 void draw_entries(PanelContext& context, std::string_view menu) {
   const bool had_sample = menu == "File";
   const Submenu* last = nullptr;
@@ -124,14 +144,7 @@ void draw_entries(PanelContext& context, std::string_view menu) {
     draw_entry(context, action);
     if (action.id == "open" && had_sample) {
       draw_recent(context);
-      if (ImGui::BeginMenu("Samples")) {
-        for (const Action& sample : actions()) {
-          if (!sample.id.starts_with("sample-")) continue;
-          if (ImGui::MenuItem(std::string(sample.title.substr(sample.title.find(' ') + 1)).c_str()))
-            context.send(std::string(sample.command));
-        }
-        ImGui::EndMenu();
-      }
+      draw_samples(context);
     }
   }
 }

@@ -9,29 +9,37 @@
 namespace dmoscope::ui {
 namespace {
 
-void draw_card(PanelContext& context, const Thumbnail& sample, float side) {
-  const float line = ImGui::GetTextLineHeight(), pad = context.px(8);
+/// Of a sample's card: the side of its square picture, and how wide it is.
+struct CardSize {
+  float side, width;
+};
+
+float card_height(const PanelContext& context, const CardSize& size) { return size.side + ImGui::GetTextLineHeight() + context.px(8); }
+
+void draw_card(PanelContext& context, const Thumbnail& sample, const CardSize& size) {
+  const auto [side, width] = size;
+  const float pad = std::min(context.px(8), 0.1F * side);
   ImGui::PushID(sample.name.c_str());
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  if (ImGui::Button("##card", {side, side + line + pad}) && !context.activity.busy) context.send("generate " + sample.name);
+  if (ImGui::Button("##card", {width, card_height(context, size)}) && !context.activity.busy) context.send("generate " + sample.name);
   context.items.record_last("sample:" + sample.name);
   next_item_tooltip(sample.doc);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float inner = side - 2 * pad;
+  const float inner = side - 2 * pad, left = at.x + (width - inner) / 2;
   const ImU32 edge = IM_COL32(0, 0, 0, 110);
   constexpr std::size_t kMostEdged = 800;  // with more elements the edges would hide the colours
-  const bool edges = sample.polygons.size() <= kMostEdged;
+  const bool edges = sample.polygons.size() <= kMostEdged && side > 4.0F * context.em();
   for (const Thumbnail::Polygon& polygon : sample.polygons) {
     ImVec2 corners[4];
     for (int k = 0; k < polygon.count; ++k) {
       const auto& corner = polygon.corners[static_cast<std::size_t>(k)];
-      corners[k] = {at.x + pad + corner[0] * inner, at.y + pad + corner[1] * inner};
+      corners[k] = {left + corner[0] * inner, at.y + pad + corner[1] * inner};
     }
     list.AddConvexPolyFilled(corners, polygon.count, colour(polygon.colour));
     if (edges) list.AddPolyline(corners, polygon.count, edge, ImDrawFlags_Closed, 1.0F);
   }
-  const float width = ImGui::CalcTextSize(sample.name.c_str()).x;
-  list.AddText({at.x + (side - width) / 2, at.y + side}, colour(context.palette.text), sample.name.c_str());
+  const std::string name = fit_text(sample.name, width);
+  list.AddText({at.x + (width - ImGui::CalcTextSize(name.c_str()).x) / 2, at.y + side}, colour(context.palette.text), name.c_str());
   ImGui::PopID();
 }
 
@@ -61,23 +69,20 @@ void draw_start_page(PanelContext& context, const Rect& rect) {
   if (context.widgets.thumbnails.empty()) context.widgets.thumbnails = make_thumbnails(context.state.colour_map);
   const auto& samples = context.widgets.thumbnails;
   const float em = context.em(), gap = context.px(10);
-  // Cards in one or two rows, as large as the space allows.
-  const float room = rect.w - 4 * em;
+  // Cards in one row, or in two and more where there is no room, as large as the space allows: a low window gets small pictures.
+  const float room = rect.w - 4 * em, most = std::max(1.0F, std::floor((room + gap) / (5.5F * em + gap)));
   const auto total = static_cast<float>(samples.size());
-  float columns =
-      room > 8 * (5.5F * em + gap) ? total : std::max(1.0F, std::floor(std::min(total / 2.0F + 0.5F, room / (5.5F * em + gap))));
-  // A low window gets all cards in one row.
-  const bool low = rect.h < 8 * ImGui::GetTextLineHeightWithSpacing() + 2 * 8 * em;
-  constexpr float kSmallest = 3.2F;  // em, of a card in such a row
-  if (low && total * kSmallest * em + (total - 1) * gap <= room) columns = total;
-  const float side = std::clamp((room - (columns - 1) * gap) / columns, (low ? kSmallest : 4.5F) * em, 8.0F * em);
-  const float width = columns * side + (columns - 1) * gap;
-  const float rows = std::ceil(total / columns);
+  const float columns = total <= most ? total : std::min(most, std::ceil(total / 2.0F)), rows = std::ceil(total / columns);
+  const float card = std::clamp((room - (columns - 1) * gap) / columns, 4.5F * em, 8.0F * em);
+  const float width = columns * card + (columns - 1) * gap;
+  const float header = 9.2F * em, each = (rect.h - header - 1.5F * em) / rows;
+  const float below = ImGui::GetTextLineHeight() + context.px(8) + ImGui::GetStyle().ItemSpacing.y;
+  const CardSize size{std::clamp(each - below, 2.0F * em, card), card};
   const float line = ImGui::GetTextLineHeightWithSpacing();
   const float recent = context.state.recent_files.empty()
                            ? 0.0F
                            : line * (1.0F + static_cast<float>(std::min<std::size_t>(5, context.state.recent_files.size())));
-  const float height = 8 * line + rows * (side + 2.4F * em) + recent;
+  const float height = header + rows * (size.side + below) + recent;
   ImGui::SetCursorPosY(std::max(em, (rect.h - height) / 2));
 
   ImGui::PushFont(context.fonts.large);
@@ -106,7 +111,7 @@ void draw_start_page(PanelContext& context, const Rect& rect) {
     } else {
       ImGui::SameLine(0, gap);
     }
-    draw_card(context, samples[k], side);
+    draw_card(context, samples[k], size);
   }
   draw_recent_files(context, rect, width);
 }

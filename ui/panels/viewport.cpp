@@ -388,11 +388,9 @@ void draw_pane(PanelContext& context, const PaneFacts& pane) {
   const Rect& clip = pane.clip;
   if (clip.empty()) return;
   ImGui::PushClipRect({clip.x, clip.y}, {clip.x + clip.w, clip.y + clip.h}, true);
-  if (pane.frame() != nullptr && !pane.frame()->input->is_volume()) {
-    draw_labels(context, pane);
-    draw_field_in_view(context, pane);
-  }
-  if (!pane.inspected) draw_clip_plane(context, pane);
+  if (pane.frame() != nullptr) draw_labels(context, pane);
+  if (pane.frame() != nullptr && !pane.frame()->input->is_volume()) draw_field_in_view(context, pane);
+  draw_clip_plane(context, pane);
   if (pane.frame() != nullptr && pane.inspected) draw_level_label(context, pane);
   const bool plain = context.state.panes.one() && pane.session->frame == context.session.frame;
   if (plain) {

@@ -1,0 +1,175 @@
+// Arrows, ghosts, dots and labels over volume meshes: where they begin and end, and that the window draws them of what is seen.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/io/mesh_io.h"
+#include "tests/gui/headless_test.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/volume_grids.h"
+#include "ui/space_stepping_marks.h"
+#include "ui/theme.h"
+
+namespace dmoscope::ui {
+namespace {
+
+/// 1000 pixels for 10 units, looked at from +x: y goes to the right and z up.
+SpaceMarkView seen_from_x() {
+  render::OrbitCamera camera;
+  camera.look_from(render::ViewPreset::PlusX);
+  camera.height = 10.0;
+  render::Bounds3 bounds;
+  bounds.include({-5, -5, -5});
+  bounds.include({5, 5, 5});
+  return {camera, camera.projection({1000, 1000}, bounds), 1.0};
+}
+
+const std::vector<Vec3> kFrom{{0, 0, 0}, {0, 2, 0}, {0, -3, 0}, {0, 0, 3}, {0, 0.03, 3}, {0, 9, 0}};
+
+TEST(SpaceArrows, LeadFromWhereVerticesWereLongestFirstWhereThereIsRoom) {
+  std::vector<Vec3> to = kFrom;
+  to[0].y += 0.5;   // 50 pixels
+  to[1].x += 2.0;   // towards the eye: nothing of it is seen
+  to[2].z += 0.03;  // 3 pixels
+  to[3].z += 0.2;   // 20 pixels
+  to[4].z += 0.1;   // 10 pixels, from where another one begins
+  const std::vector<Index> all{0, 1, 2, 3, 4};
+  render::SpaceMarks marks;
+  const ArrowsAdded added = add_space_arrows(marks, seen_from_x(), kFrom, to, all, 1.0, {1, 2, 3, 255}, {4, 5, 6, 255});
+  EXPECT_EQ(added.drawn, 2U);
+  EXPECT_EQ(added.left_out, 1U);
+  ASSERT_EQ(marks.lines.size(), 12U);  // a shaft and two lines of a head each, with casings below
+  EXPECT_EQ(marks.lines[0].from, kFrom[0]);
+  EXPECT_EQ(marks.lines[0].to, to[0]);
+  EXPECT_EQ(marks.lines[3].from, kFrom[3]);
+  EXPECT_EQ(marks.lines[6].colour, (render::Rgba{1, 2, 3, 255}));
+  // The head: 7 pixels back from the tip, and as much apart.
+  EXPECT_NEAR(marks.lines[1].to.y, 0.5 - 0.07, 1e-12);
+  EXPECT_NEAR(std::abs(marks.lines[1].to.z), 0.035, 1e-12);
+  EXPECT_NEAR(marks.lines[1].to.z, -marks.lines[2].to.z, 1e-12);
+  // Of some vertices alone.
+  marks = {};
+  EXPECT_EQ(add_space_arrows(marks, seen_from_x(), kFrom, to, std::vector<Index>{3}, 2.0, {}, {}).drawn, 1U);
+  EXPECT_NEAR(marks.lines[0].to.z, 3.4, 1e-12);
+}
+
+TEST(SpaceArrows, AreFortyPixelsLongWhereNothingElseIsWanted) {
+  std::vector<Vec3> to = kFrom;
+  to[0].y += 0.5;
+  to[5].y += 100.0;  // not among those that are seen
+  const std::vector<Index> seen{0, 3};
+  EXPECT_NEAR(space_arrow_factor(seen_from_x(), kFrom, to, seen, 0.0) * 0.5 * 100.0, 40.0, 1e-9);
+  EXPECT_EQ(space_arrow_factor(seen_from_x(), kFrom, to, seen, 3.0), 3.0);
+  EXPECT_EQ(space_arrow_factor(seen_from_x(), kFrom, kFrom, seen, 0.0), 1.0);
+}
+
+TEST(SpaceGhost, HasTheEdgesOfWhatMovedWhereTheyWere) {
+  std::vector<Vec3> to = kFrom;
+  to[0].y += 0.5;
+  const std::vector<std::array<Index, 2>> edges{{0, 1}, {1, 2}, {3, 4}, {0, 3}};
+  render::SpaceMarks marks;
+  EXPECT_EQ(add_space_ghost(marks, seen_from_x(), kFrom, to, edges, {}, {}), 2U);
+  ASSERT_EQ(marks.lines.size(), 4U);
+  EXPECT_EQ(marks.lines[0].from, kFrom[0]);
+  EXPECT_EQ(marks.lines[0].to, kFrom[1]);
+  EXPECT_EQ(marks.lines[1].to, kFrom[3]);
+}
+
+TEST(SpaceDots, AreOnWhatNothingHides) {
+  render::SpaceMarks marks;
+  add_space_dots(marks, kFrom, std::vector<Index>{4, 2, 0}, std::vector<Index>{0, 1, 4}, {9, 9, 9, 255}, 8.0F);
+  ASSERT_EQ(marks.dots.size(), 2U);
+  EXPECT_EQ(marks.dots[0].point, kFrom[4]);
+  EXPECT_EQ(marks.dots[1].point, kFrom[0]);
+}
+
+class VolumeStepping : public app::HeadlessTest {
+ protected:
+  void SetUp() override {
+    HeadlessTest::SetUp();
+    if (IsSkipped()) return;
+    const Mesh mesh = test::volume_grid(4, test::Fill::Hexahedra, 0.3);
+    Progress progress;
+    write_mesh(folder_.path() / "block.vtk", mesh, mesh.positions, progress);
+    good("open \"" + (folder_.path() / "block.vtk").string() + "\"");
+    good("step iteration");
+  }
+  [[nodiscard]] std::vector<std::uint8_t> picture() { return window_->picture().rgba; }
+  [[nodiscard]] std::string note() { return window_->app().panes().front().stepping_note; }
+  const test::TemporaryFolder folder_;
+};
+
+TEST_F(VolumeStepping, ThePictureChangesWithWhatIsShown) {
+  good("clip x");
+  const auto plain = picture();
+  for (const char* line : {"next-class on", "arrows input", "ghost input", "arrows previous", "ghost previous", "labels both"}) {
+    good(line);
+    EXPECT_NE(picture(), plain) << line;
+    good(std::string(line).substr(0, std::string(line).find(' ')) + " off");
+    EXPECT_EQ(picture(), plain) << line;
+  }
+}
+
+TEST_F(VolumeStepping, WordsSayWhatIsShownAndWhyNot) {
+  good("arrows input");
+  EXPECT_EQ(note(), "arrows: no vertex in sight has moved since the input");  // the boundary stays
+  good("clip x");
+  EXPECT_NE(note().find("arrows × "), std::string::npos) << note();
+  good("ghost input");
+  EXPECT_NE(note().find("ghost of the input"), std::string::npos) << note();
+  for (const char* line : {"arrows off", "ghost off", "show-all"}) good(line);
+  EXPECT_EQ(note(), "");
+}
+
+TEST_F(VolumeStepping, WhatIsMarkedAndTakenAwayIsNamed) {
+  const Index worst = session()->frame->worst.front().element;
+  good("worst off");
+  good("pick vertex 124");  // at (1, 1, 1); there is no cell of that number
+  EXPECT_EQ(note(), "");
+  good("clip -x:0.6");
+  EXPECT_EQ(note(), "");
+  good("clip x:0.6");
+  EXPECT_EQ(note(), "taken away, so marked faintly: vertex 124");
+  good("clip -x:0.6");
+  good("pick element 0");
+  EXPECT_EQ(note(), "taken away, so marked faintly: element 0");
+  good("worst on");
+  good("show-all");
+  EXPECT_EQ(note(), "");
+  good("pick none");
+  good("keep-quality 0.99 1");
+  EXPECT_EQ(note(), "taken away, so marked faintly: the worst element");
+  good("worst-cells 1");
+  good("keep-quality off");
+  EXPECT_EQ(note(), "") << worst;
+}
+
+TEST_F(VolumeStepping, AFittedMeshStaysFittedInPerspective) {
+  good("fit");
+  const double height = state().orbit.height;
+  good("perspective on");
+  EXPECT_NE(state().orbit.height, height);  // what is near looks larger: it stands farther away
+  good("perspective off");
+  EXPECT_NEAR(state().orbit.height, height, 1e-12);
+  good("zoom 2");
+  good("perspective on");
+  EXPECT_NEAR(state().orbit.height, height / 2.0, 1e-12) << "somebody has moved it";
+}
+
+TEST_F(VolumeStepping, ThePlaneIsSeenWithItsHandle) {
+  good("clip z:0.999");
+  const auto at = window_->app().items().find("clip-handle");
+  const render::Image image = window_->picture();
+  const render::Rgb accent = palette(state().theme).accent;
+  int tinted = 0;
+  for (int y = static_cast<int>(at[1]); y < static_cast<int>(at[3]); ++y)
+    for (int x = static_cast<int>(at[0]); x < static_cast<int>(at[2]); ++x) {
+      const render::Rgba pixel = image.at(x, y);
+      tinted += pixel.r == accent.r && pixel.g == accent.g && pixel.b == accent.b ? 1 : 0;
+    }
+  EXPECT_GT(tinted, 100);
+}
+
+}  // namespace
+}  // namespace dmoscope::ui

@@ -52,6 +52,7 @@ class SolidRankSearch {
  private:
   using Point = Vec3Of<float>;
   using Found = Candidate<float, Point>;
+  using Form = solids::MeanRatioForm<float>;
   static constexpr bool kCorners = formulas::kDefinedForCorners<M>;
   static constexpr int kAtOnce = 4;
 
@@ -74,24 +75,29 @@ class SolidRankSearch {
     star_.template for_each<kCorners>([&some](const auto& element) { lower(some, narrow(element)); });
   }
   static DMOSCOPE_ANYWHERE void lower(Some& some, const StarTetrahedron<float>& t) {
-    [[maybe_unused]] solids::TetrahedronForm<float> form{};
-    if constexpr (M == Metric::MeanRatio) form = solids::tetrahedron_form(t.b, t.c, t.d);
-    DMOSCOPE_UNROLL
-    for (int i = 0; i < kAtOnce; ++i) {
-      const Point p = some.at[i];
-      float rank = 0.0F;
-      if constexpr (M == Metric::MeanRatio)
-        rank = solids::rank_of(form, p, dot(p, p));
-      else
-        rank = formulas::rank<M>(t.with(p));
-      some.worth[i] = scalar::min(some.worth[i], rank);
+    if constexpr (M == Metric::MeanRatio) {
+      lower(some, solids::tetrahedron_form(t.b, t.c, t.d));
+    } else {
+      DMOSCOPE_UNROLL
+      for (int i = 0; i < kAtOnce; ++i) some.worth[i] = scalar::min(some.worth[i], formulas::rank<M>(t.with(some.at[i])));
     }
   }
   template <class Element>
   static DMOSCOPE_ANYWHERE void lower(Some& some, const Element& element) {
+    if constexpr (M == Metric::MeanRatio) {
+      solids::for_corner_forms(element.with(Point{}), element.kMoving, [&some](const Form& form) { lower(some, form); });
+    } else {
+      DMOSCOPE_UNROLL
+      for (int i = 0; i < kAtOnce; ++i)
+        some.worth[i] = scalar::min(some.worth[i], formulas::rank_around<M>(element.with(some.at[i]), element.kMoving));
+    }
+  }
+  static DMOSCOPE_ANYWHERE void lower(Some& some, const Form& form) {
     DMOSCOPE_UNROLL
-    for (int i = 0; i < kAtOnce; ++i)
-      some.worth[i] = scalar::min(some.worth[i], formulas::rank_around<M>(element.with(some.at[i]), element.kMoving));
+    for (int i = 0; i < kAtOnce; ++i) {
+      const Point p = some.at[i];
+      some.worth[i] = scalar::min(some.worth[i], solids::rank_of(form, p, dot(p, p)));
+    }
   }
 
   /// One level, around the best so far: among equals the candidate of lowest index.

@@ -27,7 +27,8 @@ class Kernel {
   static constexpr std::size_t kWidth = F::size;
   static constexpr std::size_t kMaxPlane = 64 * 64 + kWidth;
   static constexpr bool kForms = M == Metric::MeanRatio;
-  static constexpr bool kCorners = formulas::kDefinedForCorners<M>;
+  static constexpr bool kCorners = !kForms && formulas::kDefinedForCorners<M>;
+  static constexpr std::size_t kMaxForms = 5 * 4 * kMaxSolids;  // lists, and corners of an element that one vertex changes
   static constexpr float kMost = std::numeric_limits<float>::max();
 
   explicit Kernel(const SolidSearch& task) : task_(task) {}
@@ -51,14 +52,27 @@ class Kernel {
   static Point wide(const Vec3Of<float>& p) { return {F(p.x), F(p.y), F(p.z)}; }
 
   void take_elements() {
-    for (std::size_t i = 0; i < task_.tetrahedra.size; ++i) {
-      const StarTetrahedron<float>& t = task_.tetrahedra.data[i];
-      order_[i] = static_cast<std::uint8_t>(i);
-      if constexpr (kForms)
-        forms_[i] = tetrahedron_form(wide(t.b), wide(t.c), wide(t.d));
-      else
+    if constexpr (kForms) {
+      for (std::size_t i = 0; i < task_.tetrahedra.size; ++i) {
+        const StarTetrahedron<float>& t = task_.tetrahedra.data[i];
+        take(solids::tetrahedron_form(wide(t.b), wide(t.c), wide(t.d)));
+      }
+      const Point origin{F(0), F(0), F(0)};
+      for_cornered([&](const auto& element) {
+        for_corner_forms(widened(element, origin), element.kMoving, [this](const MeanRatioForm<F>& form) { take(form); });
+      });
+    } else {
+      count_ = task_.tetrahedra.size;
+      for (std::size_t i = 0; i < count_; ++i) {
+        const StarTetrahedron<float>& t = task_.tetrahedra.data[i];
         tetrahedra_[i] = {wide(t.b), wide(t.c), wide(t.d), F(1)};
+      }
     }
+    for (std::size_t i = 0; i < count_; ++i) order_[i] = static_cast<std::uint16_t>(i);
+  }
+  void take(const MeanRatioForm<F>& f) {
+    forms_[count_++] = {f.v0.get(0), f.vx.get(0), f.vy.get(0), f.vz.get(0),    f.s0.get(0),
+                        f.sx.get(0), f.sy.get(0), f.sz.get(0), f.square.get(0)};
   }
 
   template <class Visit>
@@ -88,14 +102,11 @@ class Kernel {
     using scalar::min;
     F worth(kMost);
     if constexpr (kForms) {
-      if (!tetrahedra_may_pass(p, floor)) return F(-1);
+      if (!may_pass(p, floor)) return F(-1);
       const F square = dot(p, p);
-      for (std::size_t i = 0; i < task_.tetrahedra.size; ++i) {
-        const TetrahedronForm<F>& f = forms_[i];
-        worth = min(worth, rank_of(f, p, square));
-      }
+      for (std::size_t i = 0; i < count_; ++i) worth = min(worth, rank_of(forms_[i], p, square));
     } else {
-      for (std::size_t i = 0; i < task_.tetrahedra.size; ++i) {
+      for (std::size_t i = 0; i < count_; ++i) {
         const std::size_t k = order_[i];
         worth = min(worth, formulas::rank<M>(tetrahedra_[k].with(p)));
         if (!xsimd::any(worth > floor)) {
@@ -115,13 +126,13 @@ class Kernel {
     return worth;
   }
 
-  /// Without division: can any of the candidates have a rank above the floor? Most cannot, and the first few tetrahedra tell.
-  bool tetrahedra_may_pass(const Point& p, F floor) {
-    const F square = dot(p, p), threshold = floor * F((1.0F - 1e-4F) / 432.0F);
+  /// Without division: can any of the candidates have a rank above the floor? Most cannot, and the first few forms tell.
+  bool may_pass(const Point& p, F floor) {
+    const F square = dot(p, p), threshold = floor * F(1.0F - 1e-4F);
     auto passes = square == square;
-    for (std::size_t i = 0; i < task_.tetrahedra.size; ++i) {
-      const TetrahedronForm<F>& f = forms_[order_[i]];
-      const F v = six_volume(f, p), s = squares(f, p, square);
+    for (std::size_t i = 0; i < count_; ++i) {
+      const MeanRatioForm<float>& f = forms_[order_[i]];
+      const F v = determinant_of(f, p), s = squares_of(f, p, square);
       passes = passes & (v * xsimd::abs(v) >= threshold * s * s * s);
       if (!xsimd::any(passes)) {
         to_front(i);
@@ -133,7 +144,7 @@ class Kernel {
 
   /// The one that decided is likely to decide the next.
   void to_front(std::size_t i) {
-    const std::uint8_t k = order_[i];
+    const std::uint16_t k = order_[i];
     for (; i > 0; --i) order_[i] = order_[i - 1];
     order_[0] = k;
   }
@@ -176,9 +187,10 @@ class Kernel {
   const SolidSearch& task_;
   float best_ = 0.0F;  // rank
   float at_[3] = {0.0F, 0.0F, 0.0F};
-  std::uint8_t order_[kMaxSolids];
+  std::size_t count_ = 0;  // of the forms, or of the tetrahedra
+  std::uint16_t order_[kForms ? kMaxForms : kMaxSolids];
   alignas(64) float y_[kMaxPlane], z_[kMaxPlane];
-  std::array<TetrahedronForm<F>, kForms ? kMaxSolids : 1> forms_;
+  std::array<MeanRatioForm<float>, kForms ? kMaxForms : 1> forms_;
   std::array<StarTetrahedron<F>, kForms ? 1 : kMaxSolids> tetrahedra_;
 };
 

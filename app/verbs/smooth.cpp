@@ -77,8 +77,8 @@ bool on_cpu(const Run& run) { return run.backend() == name(Backend::Cpu); }
 Json simd_name(const Run& run) {
   const SearchParameters& search = run.parameters().search;
   if (!on_cpu(run)) return nullptr;
-  const bool lanes = method_info(run.parameters().method).searches_grid && !run.parameters().combination;
-  if (!lanes || search.precision == Precision::Double) return "scalar";
+  const bool in_packs = run.parameters().combination || search.precision == Precision::Float;
+  if (!method_info(run.parameters().method).searches_grid || !in_packs) return "scalar";
   return name(search.simd.value_or(best_simd_level()));
 }
 

@@ -166,7 +166,7 @@ class Look {
     Recorder<Offset> recorder(star.scale);
     const CombinedSearch<Frame> search(input_, *aims_, parameters_);
     trace_.combined = true;
-    trace_.untangling = search.search(star, positions_, trace_.vertex, recorder).untangling;
+    trace_.untangling = search.search_plainly(star, positions_, trace_.vertex, recorder).untangling;
     trace_.value_phrase = (trace_.untangling ? untangling_phrase(false) : "") + both_phrase(*aims_);
     const auto place = [this](Offset offset) { return stored(offset); };
     take(std::move(recorder), place);

@@ -73,6 +73,12 @@ template <class Corners>
 #endif
 }
 
+/// A value of a whole element, and of what of it changes with one of its corners.
+template <class R>
+struct WholeAndAround {
+  R whole, around;
+};
+
 /// An element that is judged corner by corner. Corners: a table of each corner and the ends of its three edges, right-handed. A pyramid's
 /// tip, where four edges meet, is in the corners of its base.
 template <class V, class Ideal, std::size_t N, class Corners>
@@ -94,6 +100,18 @@ struct CorneredSolid {
     for (std::size_t i = 0; i < Corners::kTable.size(); ++i) {
       const CornerTable c = row_of<Corners>(i);
       if (c[0] == moving || c[1] == moving || c[2] == moving || c[3] == moving) result = min(result, corner(i, f));
+    }
+    return result;
+  }
+  /// Both.
+  template <class F>
+  DMOSCOPE_ANYWHERE WholeAndAround<R> least_whole_and_around(Index moving, F f) const {
+    WholeAndAround<R> result{scalar::constant<R>(HUGE_VAL), scalar::constant<R>(HUGE_VAL)};
+    for (std::size_t i = 0; i < Corners::kTable.size(); ++i) {
+      const CornerTable c = row_of<Corners>(i);
+      const R value = corner(i, f);
+      result.whole = min(result.whole, value);
+      if (c[0] == moving || c[1] == moving || c[2] == moving || c[3] == moving) result.around = min(result.around, value);
     }
     return result;
   }
@@ -309,6 +327,19 @@ DMOSCOPE_ANYWHERE RealOf<V> metric(const Tetrahedron<V>& t) {
 template <Metric M, class V, class Ideal, std::size_t N, class Corners>
 DMOSCOPE_ANYWHERE RealOf<V> metric(const CorneredSolid<V, Ideal, N, Corners>& s) {
   return s.least([](V u, V v, V w, RealOf<V> jacobian) { return SolidFormula<M>::template corner<Ideal>(u, v, w, jacobian); });
+}
+
+/// metric() and metric_around() in one.
+template <Metric M, class V, class Ideal, std::size_t N, class Corners>
+DMOSCOPE_ANYWHERE WholeAndAround<RealOf<V>> metric_whole_and_around(const CorneredSolid<V, Ideal, N, Corners>& s, Index moving) {
+  return s.least_whole_and_around(
+      moving, [](V u, V v, V w, RealOf<V> jacobian) { return SolidFormula<M>::template corner<Ideal>(u, v, w, jacobian); });
+}
+/// Of what is judged as a whole.
+template <Metric M, class Shape>
+DMOSCOPE_ANYWHERE auto metric_whole_and_around(const Shape& shape, Index /*moving*/) {
+  const auto value = metric<M>(shape);
+  return WholeAndAround<std::remove_cv_t<decltype(value)>>{value, value};
 }
 
 /// See formulas.h.

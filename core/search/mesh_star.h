@@ -43,7 +43,8 @@ class MeshStar {
     Box box;
     for (const Incidence& at : mesh_.star(vertex_)) {
       const auto corners = mesh_.corners_of(at.element);
-      for (std::size_t i = 1; i < corners.size(); ++i) box.add(offset(corners, (at.corner + i) % corners.size()));
+      for (std::size_t i = 0; i < corners.size(); ++i)
+        if (i != at.corner) box.add(offset(corners, i));
     }
     const double extent = box.largest();
     scale_ = extent > 0.0 && extent < HUGE_VAL ? unit_of(extent) : 1.0;
@@ -107,7 +108,10 @@ class MeshStar {
 
   template <bool Others, class F>
   DMOSCOPE_ANYWHERE void visit_planar_element(std::span<const Index> corners, Index corner, double reference, F& f) const {
-    const auto after = [&](std::size_t i) { return scaled(offset(corners, (corner + i) % corners.size())); };
+    const auto after = [&](std::size_t i) {
+      const std::size_t c = corner + i;
+      return scaled(offset(corners, c < corners.size() ? c : c - corners.size()));
+    };
     if (corners.size() == 3)
       f(StarTriangle<double>{after(1), after(2), reference});
     else if constexpr (Others)

@@ -55,6 +55,33 @@ struct Sum<Pack<float>> {
 #endif
   }
 };
+
+/// As those of a double, to the bit; declared for this one type, so that they are taken before xsimd's own.
+inline Pack<double> atan2(Pack<double> y, Pack<double> x) {
+  using R = Pack<double>;
+  const R width = xsimd::abs(x), height = xsimd::abs(y);
+  const auto steep = height > width;
+  const R large = xsimd::select(steep, height, width), small = xsimd::select(steep, width, height);
+  const auto none = large == R(0.0);
+  const R r = xsimd::select(none, R(0.0), small / xsimd::select(none, R(1.0), large));
+  const R nearest = xsimd::floor(r * R(8.0) + R(0.5));
+  R known_angle(KnownAngles::kTable[0]);
+  for (int k = 1; k <= 8; ++k) known_angle = xsimd::select(nearest < R(k), known_angle, R(KnownAngles::kTable[k]));
+  R angle = angle_from_known(r, nearest * R(0.125), known_angle);
+  constexpr double kPi = 0x1.921fb54442d18p+1;
+  angle = xsimd::select(steep, R(kPi / 2.0) - angle, angle);
+  angle = xsimd::select(x < R(0.0), R(kPi) - angle, angle);
+  return xsimd::select(y < R(0.0), R(0.0) - angle, angle);
+}
+inline Pack<double> cube_root(Pack<double> a) {
+  using R = Pack<double>;
+  const R size = xsimd::abs(a);
+  alignas(64) double slots[R::size];
+  size.store_aligned(slots);
+  for (double& slot : slots) slot = rough_cube_root(slot);
+  const R root = refined_cube_root(size, R::load_aligned(slots));
+  return xsimd::select(size > R(0.0), xsimd::select(a < R(0.0), R(0.0) - root, root), a);
+}
 }  // namespace scalar
 
 }  // namespace dmoscope

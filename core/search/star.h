@@ -15,14 +15,27 @@
 
 namespace dmoscope {
 
+/// The same point in every slot of a pack; or as it is.
+template <class R, class Real>
+[[nodiscard]] DMOSCOPE_ANYWHERE Vec2<R> point_of(Vec2<Real> p) {
+  return {R(p.x), R(p.y)};
+}
+template <class R, class Real>
+[[nodiscard]] DMOSCOPE_ANYWHERE Vec3Of<R> point_of(Vec3Of<Real> p) {
+  return {R(p.x), R(p.y), R(p.z)};
+}
+
 /// An incident triangle: its other two corners in the element's order, and its reference measure for untangling.
 template <class Real>
 struct StarTriangle {
   static constexpr Index kMoving = 0;  // the corner that the vertex is
   Vec2<Real> b, c;
   Real reference;
-  /// The element with the star's vertex at `p`.
-  [[nodiscard]] DMOSCOPE_ANYWHERE auto with(Vec2<Real> p) const { return formulas::Triangle<Vec2<Real>>(p, b, c); }
+  /// The element with the star's vertex at `p`: a point, or a pack of points where the element is one of plain numbers.
+  template <class R>
+  [[nodiscard]] DMOSCOPE_ANYWHERE auto with(Vec2<R> p) const {
+    return formulas::Triangle<Vec2<R>>(p, point_of<R>(b), point_of<R>(c));
+  }
 };
 /// An incident quadrilateral: its other three corners in the element's order, and its reference measure.
 template <class Real>
@@ -30,7 +43,10 @@ struct StarQuadrilateral {
   static constexpr Index kMoving = 0;
   Vec2<Real> b, c, d;
   Real reference;
-  [[nodiscard]] DMOSCOPE_ANYWHERE auto with(Vec2<Real> p) const { return formulas::Quadrilateral<Vec2<Real>>(p, b, c, d); }
+  template <class R>
+  [[nodiscard]] DMOSCOPE_ANYWHERE auto with(Vec2<R> p) const {
+    return formulas::Quadrilateral<Vec2<R>>(p, point_of<R>(b), point_of<R>(c), point_of<R>(d));
+  }
 };
 
 /// Everything is in units of `scale` (a power of two, so that scaling rounds nothing): the largest offset lies in [1, 2).
@@ -72,39 +88,43 @@ struct StarTetrahedron {
   static constexpr Index kMoving = 0;
   Vec3Of<Real> b, c, d;
   Real reference;
-  [[nodiscard]] DMOSCOPE_ANYWHERE auto with(Vec3Of<Real> p) const { return formulas::Tetrahedron<Vec3Of<Real>>(p, b, c, d); }
+  template <class R>
+  [[nodiscard]] DMOSCOPE_ANYWHERE auto with(Vec3Of<R> p) const {
+    return formulas::Tetrahedron<Vec3Of<R>>(p, point_of<R>(b), point_of<R>(c), point_of<R>(d));
+  }
 };
 /// Any other incident solid (formulas::Hexahedron and so on), turned so that the vertex is its first corner, or the last of a pyramid: its
 /// other corners in order.
-template <class SolidT, std::size_t N, class Real>
+template <template <class> class SolidT, std::size_t N, class Real>
 struct StarSolid {
-  using Solid = SolidT;
   static constexpr Index kMoving = 0;
   static constexpr std::size_t kOthers = N;
   std::array<Vec3Of<Real>, N> others;
   Real reference;
-  [[nodiscard]] DMOSCOPE_ANYWHERE Solid with(Vec3Of<Real> p) const {
-    Solid solid{};
+  template <class R>
+  [[nodiscard]] DMOSCOPE_ANYWHERE auto with(Vec3Of<R> p) const {
+    SolidT<Vec3Of<R>> solid{};
     solid.at[0] = p;
-    for (std::size_t i = 0; i < N; ++i) solid.at[i + 1] = others[i];
+    for (std::size_t i = 0; i < N; ++i) solid.at[i + 1] = point_of<R>(others[i]);
     return solid;
   }
 };
 template <class Real>
-using StarHexahedron = StarSolid<formulas::Hexahedron<Vec3Of<Real>>, 7, Real>;
+using StarHexahedron = StarSolid<formulas::Hexahedron, 7, Real>;
 template <class Real>
-using StarWedge = StarSolid<formulas::Wedge<Vec3Of<Real>>, 5, Real>;
+using StarWedge = StarSolid<formulas::Wedge, 5, Real>;
 /// The vertex is a corner of its base.
 template <class Real>
-using StarPyramid = StarSolid<formulas::Pyramid<Vec3Of<Real>>, 4, Real>;
+using StarPyramid = StarSolid<formulas::Pyramid, 4, Real>;
 /// The vertex is its tip.
 template <class Real>
 struct StarTip {
   static constexpr Index kMoving = 4;
   std::array<Vec3Of<Real>, 4> base;
   Real reference;
-  [[nodiscard]] DMOSCOPE_ANYWHERE auto with(Vec3Of<Real> p) const {
-    return formulas::Pyramid<Vec3Of<Real>>{{base[0], base[1], base[2], base[3], p}};
+  template <class R>
+  [[nodiscard]] DMOSCOPE_ANYWHERE auto with(Vec3Of<R> p) const {
+    return formulas::Pyramid<Vec3Of<R>>{{point_of<R>(base[0]), point_of<R>(base[1]), point_of<R>(base[2]), point_of<R>(base[3]), p}};
   }
 };
 
@@ -123,6 +143,40 @@ struct SolidStar {
   template <class F>
   void for_each_list(F f) {
     f(tetrahedra), f(hexahedra), f(wedges), f(pyramids), f(tips);
+  }
+};
+
+/// A list of a star's elements, wherever it stands: plain data.
+template <class T>
+struct ListView {
+  const T* data = nullptr;
+  std::size_t size = 0;
+};
+
+/// The lists of a star, as plain data: what kernels for different processors take. Real: float or double.
+template <class Real>
+struct PlanarLists {
+  ListView<StarTriangle<Real>> simplices;
+  ListView<StarQuadrilateral<Real>> quadrilaterals;
+  /// Calls f with each element that is no simplex.
+  template <class F>
+  void for_others(F f) const {
+    for (std::size_t i = 0; i < quadrilaterals.size; ++i) f(quadrilaterals.data[i]);
+  }
+};
+template <class Real>
+struct SolidLists {
+  ListView<StarTetrahedron<Real>> simplices;
+  ListView<StarHexahedron<Real>> hexahedra;
+  ListView<StarWedge<Real>> wedges;
+  ListView<StarPyramid<Real>> pyramids;
+  ListView<StarTip<Real>> tips;
+  template <class F>
+  void for_others(F f) const {
+    for (std::size_t i = 0; i < hexahedra.size; ++i) f(hexahedra.data[i]);
+    for (std::size_t i = 0; i < wedges.size; ++i) f(wedges.data[i]);
+    for (std::size_t i = 0; i < pyramids.size; ++i) f(pyramids.data[i]);
+    for (std::size_t i = 0; i < tips.size; ++i) f(tips.data[i]);
   }
 };
 
@@ -146,9 +200,24 @@ class SolidStarView {
   const SolidStar<Real>* star_;
 };
 
+template <class T>
+[[nodiscard]] ListView<T> list_of(const std::vector<T>& list) {
+  return {list.data(), list.size()};
+}
+template <class Real>
+[[nodiscard]] PlanarLists<Real> lists_of(const Star<Real>& star) {
+  return {list_of(star.triangles), list_of(star.quadrilaterals)};
+}
+template <class Real>
+[[nodiscard]] SolidLists<Real> lists_of(const SolidStar<Real>& star) {
+  return {list_of(star.tetrahedra), list_of(star.hexahedra), list_of(star.wedges), list_of(star.pyramids), list_of(star.tips)};
+}
+
 /// What a star is in a frame.
 template <class Frame, class Real>
 using StarIn = std::conditional_t<std::is_same_v<Frame, Plane>, Star<Real>, SolidStar<Real>>;
+template <class Frame, class Real>
+using StarListsIn = std::conditional_t<std::is_same_v<Frame, Plane>, PlanarLists<Real>, SolidLists<Real>>;
 template <class Frame, class Real>
 using StarViewIn = std::conditional_t<std::is_same_v<Frame, Plane>, StarView<Real>, SolidStarView<Real>>;
 

@@ -92,6 +92,44 @@ DensityTarget<Plane> density_target(const SizeField& size, const PlanarView& mes
 }
 
 template <class Frame>
+CombinedSearch<Frame>::CombinedSearch(const InputMesh& input, Aims aims, const SearchParameters& parameters)
+    : mesh_(input),
+      aims_(std::move(aims)),
+      parameters_(parameters),
+      kernel_(aims_kernel<Frame>(parameters.simd.value_or(best_simd_level()), aims_.first)) {}
+
+template <class Frame>
+typename CombinedSearch<Frame>::Found CombinedSearch<Frame>::search(const Room& star, PositionView positions, Index vertex) const {
+  if (!is_tangled(star)) {
+    const AimsFound<Frame> found = kernel_(task_of(star, positions, vertex));
+    if (found.ready) return {found.offset, false};
+  }
+  return search_plainly(star, positions, vertex);
+}
+
+template <class Frame>
+AimsSearch<Frame> CombinedSearch<Frame>::task_of(const Room& star, PositionView positions, Index vertex) const {
+  AimsSearch<Frame> task;
+  task.star = lists_of(star);
+  task.box = star.box;
+  task.points = parameters_.grid_points;
+  task.levels = parameters_.levels;
+  task.omega = parameters_.omega;
+  task.threshold = aims_.threshold;
+  task.inclusive = aims_.raise_mean();
+  if (const auto* metric = std::get_if<Metric>(&aims_.second)) {
+    task.second = AimsSearch<Frame>::Second::Metric;
+    task.metric = *metric;
+  } else if (!aims_.raise_mean()) {
+    task.second = AimsSearch<Frame>::Second::Density;
+    const DensityTarget<Frame> target = density_of(star, positions, vertex);
+    task.wanted = target.offset;
+    task.edge = target.edge;
+  }
+  return task;
+}
+
+template <class Frame>
 DensityTarget<Frame> CombinedSearch<Frame>::density_of(const Room& star, PositionView positions, Index vertex) const {
   const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&aims_.second);
   if (size == nullptr) return {};

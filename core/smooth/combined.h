@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/smooth/aims_kernel.h"
 #include "core/smooth/size_field.h"
 #include "core/smooth/vertex_rule.h"
 
@@ -105,18 +106,22 @@ class CombinedSearch {
  public:
   using Room = StarIn<Frame, double>;
   using Offset = OffsetIn<Frame, double>;
-  CombinedSearch(const InputMesh& input, Aims aims, const SearchParameters& parameters)
-      : mesh_(input), aims_(std::move(aims)), parameters_(parameters) {}
+  /// The visit of a vertex hangs on nothing but where the vertices of its elements stand: see RuleSmoother.
+  static constexpr bool kDependsOnStarAlone = true;
+  CombinedSearch(const InputMesh& input, Aims aims, const SearchParameters& parameters);
 
-  /// What was found: the offset in units of the star's scale, and whether an element was inverted. `trace`: see grid_search.
+  /// What was found: the offset in units of the star's scale, and whether an element was inverted.
   struct Found {
     Offset offset;
     bool untangling = false;
   };
+  /// By packs of candidates where that can be, else the plain search; both find the same.
+  [[nodiscard]] Found search(const Room& star, PositionView positions, Index vertex) const;
+  /// `trace`: see grid_search.
   template <class Trace = NoTrace>
-  [[nodiscard]] Found search(const Room& star, PositionView positions, Index vertex, Trace&& trace = {}) const {
+  [[nodiscard]] Found search_plainly(const Room& star, PositionView positions, Index vertex, Trace&& trace = {}) const {
     const StarViewIn<Frame, double> view(star);
-    const bool untangling = !(metric_functions<Frame>(aims_.first).untangling_at(view, {}) > 0.0);
+    const bool untangling = is_tangled(star);
     const CombinedObjective<Frame> objective(aims_, untangling, view, density_of(star, positions, vertex));
     return {grid_search<double>(objective, star.box, parameters_, trace).offset, untangling};
   }
@@ -126,12 +131,17 @@ class CombinedSearch {
   [[nodiscard]] std::optional<Vec3> target(PositionView positions, Index vertex, Room& star) const;
 
  private:
+  [[nodiscard]] bool is_tangled(const Room& star) const {
+    return !(metric_functions<Frame>(aims_.first).untangling_at(StarViewIn<Frame, double>(star), {}) > 0.0);
+  }
+  [[nodiscard]] AimsSearch<Frame> task_of(const Room& star, PositionView positions, Index vertex) const;
   [[nodiscard]] DensityTarget<Frame> density_of(const Room& star, PositionView positions, Index vertex) const;
   [[nodiscard]] double second(PositionView positions, Index vertex, Vec3 place) const;
 
   RuleMesh<Frame> mesh_;
   Aims aims_;
   SearchParameters parameters_;
+  AimsKernel<Frame> kernel_;
 };
 
 /// For any aims.

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/base/memory.h"
+#include "core/smooth/fast_solid_search.h"
 #include "core/smooth/lane_kernel.h"
-#include "core/smooth/solid_dmo.h"
 #include "core/smooth/vertex_rule.h"
 
 namespace dmoscope {
@@ -129,11 +129,13 @@ StarState star_state(const InputMesh& input, PositionView positions, Metric metr
 }
 
 std::unique_ptr<Smoother> make_dmo_smoother(const SmoothingTask& task) {
-  if (task.input->is_volume() && task.search.precision == Precision::Float) return make_solid_dmo_smoother(task);
   return with_metric_and_frame(*task.input, task.metric, [&]<Metric M, class Frame>() -> std::unique_ptr<Smoother> {
-    if constexpr (std::is_same_v<Frame, Plane>)
-      if (task.search.precision == Precision::Float)
+    if (task.search.precision == Precision::Float) {
+      if constexpr (std::is_same_v<Frame, Plane>)
         return std::make_unique<LaneDmo<M>>(task.input, task.colouring, task.search, task.pool);
+      else
+        return make_rule_smoother(task, FastSolidSearch<M>(*task.input, task.search));
+    }
     return make_rule_smoother(task, Reference<M, Frame>(*task.input, task.search));
   });
 }

@@ -23,7 +23,7 @@ inline StarTetrahedron<float> narrow(const StarTetrahedron<double>& t) { return 
 inline StarTip<float> narrow(const StarTip<double>& t) {
   return {{narrow(t.base[0]), narrow(t.base[1]), narrow(t.base[2]), narrow(t.base[3])}, 1.0F};
 }
-template <class Narrow, class Solid, std::size_t N>
+template <class Narrow, template <class> class Solid, std::size_t N>
 Narrow narrow_others(const StarSolid<Solid, N, double>& s) {
   Narrow result{};
   for (std::size_t i = 0; i < N; ++i) result.others[i] = narrow(s.others[i]);
@@ -35,10 +35,9 @@ inline StarWedge<float> narrow(const StarWedge<double>& w) { return narrow_other
 inline StarPyramid<float> narrow(const StarPyramid<double>& p) { return narrow_others<StarPyramid<float>>(p); }
 
 template <class From, class To>
-ListView<To> narrow_list(const std::vector<From>& from, std::vector<To>& to) {
+void narrow_list(const std::vector<From>& from, std::vector<To>& to) {
   to.clear();
   for (const From& element : from) to.push_back(narrow(element));
-  return {to.data(), to.size()};
 }
 
 }  // namespace in_float
@@ -48,6 +47,8 @@ ListView<To> narrow_list(const std::vector<From>& from, std::vector<To>& to) {
 template <Metric M>
 class FastSolidSearch {
  public:
+  using Room = SolidRoom;
+  static constexpr bool kDependsOnStarAlone = true;
   FastSolidSearch(const InputMesh& input, const SearchParameters& parameters)
       : mesh_(input), parameters_(parameters), kernel_(solid_kernel(parameters.simd.value_or(best_simd_level()), M)) {}
 
@@ -67,8 +68,6 @@ class FastSolidSearch {
     return fits(room.exact) ? kernel_(search_of(room, levels)) : SolidFound{};
   }
 
-  const VolumeView& view() const { return mesh_.view; }
-
  private:
   static bool fits(SolidStar<double>& star) {
     bool fits = true;
@@ -77,12 +76,13 @@ class FastSolidSearch {
   }
 
   [[nodiscard]] SolidSearch search_of(SolidRoom& room, int levels) const {
+    in_float::narrow_list(room.exact.tetrahedra, room.fast.tetrahedra);
+    in_float::narrow_list(room.exact.hexahedra, room.fast.hexahedra);
+    in_float::narrow_list(room.exact.wedges, room.fast.wedges);
+    in_float::narrow_list(room.exact.pyramids, room.fast.pyramids);
+    in_float::narrow_list(room.exact.tips, room.fast.tips);
     SolidSearch search;
-    search.tetrahedra = in_float::narrow_list(room.exact.tetrahedra, room.fast.tetrahedra);
-    search.hexahedra = in_float::narrow_list(room.exact.hexahedra, room.fast.hexahedra);
-    search.wedges = in_float::narrow_list(room.exact.wedges, room.fast.wedges);
-    search.pyramids = in_float::narrow_list(room.exact.pyramids, room.fast.pyramids);
-    search.tips = in_float::narrow_list(room.exact.tips, room.fast.tips);
+    search.star = lists_of(room.fast);
     search.box = in_float::narrow(room.exact.box);
     search.points = parameters_.grid_points;
     search.levels = levels;

@@ -10,20 +10,9 @@
 
 namespace dmoscope {
 
-/// A list of a star, wherever it stands.
-template <class T>
-struct ListView {
-  const T* data = nullptr;
-  std::size_t size = 0;
-};
-
 /// A star in float, and how it is to be searched.
 struct SolidSearch {
-  ListView<StarTetrahedron<float>> tetrahedra;
-  ListView<StarHexahedron<float>> hexahedra;
-  ListView<StarWedge<float>> wedges;
-  ListView<StarPyramid<float>> pyramids;
-  ListView<StarTip<float>> tips;
+  SolidLists<float> star;
   Vec3Of<float> box;
   int points = 8, levels = 3;
   double omega = 0.5;

@@ -48,24 +48,21 @@ class Kernel {
     return found;
   }
 
-  static F wide(float a) { return F(a); }
-  static Point wide(const Vec3Of<float>& p) { return {F(p.x), F(p.y), F(p.z)}; }
-
   void take_elements() {
     if constexpr (kForms) {
-      for (std::size_t i = 0; i < task_.tetrahedra.size; ++i) {
-        const StarTetrahedron<float>& t = task_.tetrahedra.data[i];
-        take(solids::tetrahedron_form(wide(t.b), wide(t.c), wide(t.d)));
+      for (std::size_t i = 0; i < task_.star.simplices.size; ++i) {
+        const StarTetrahedron<float>& t = task_.star.simplices.data[i];
+        take(solids::tetrahedron_form(point_of<F>(t.b), point_of<F>(t.c), point_of<F>(t.d)));
       }
       const Point origin{F(0), F(0), F(0)};
-      for_cornered([&](const auto& element) {
-        for_corner_forms(widened(element, origin), element.kMoving, [this](const MeanRatioForm<F>& form) { take(form); });
+      task_.star.for_others([&](const auto& element) {
+        for_corner_forms(element.with(origin), element.kMoving, [this](const MeanRatioForm<F>& form) { take(form); });
       });
     } else {
-      count_ = task_.tetrahedra.size;
+      count_ = task_.star.simplices.size;
       for (std::size_t i = 0; i < count_; ++i) {
-        const StarTetrahedron<float>& t = task_.tetrahedra.data[i];
-        tetrahedra_[i] = {wide(t.b), wide(t.c), wide(t.d), F(1)};
+        const StarTetrahedron<float>& t = task_.star.simplices.data[i];
+        tetrahedra_[i] = {point_of<F>(t.b), point_of<F>(t.c), point_of<F>(t.d), F(1)};
       }
     }
     for (std::size_t i = 0; i < count_; ++i) order_[i] = static_cast<std::uint16_t>(i);
@@ -73,28 +70,6 @@ class Kernel {
   void take(const MeanRatioForm<F>& f) {
     forms_[count_++] = {f.v0.get(0), f.vx.get(0), f.vy.get(0), f.vz.get(0),    f.s0.get(0),
                         f.sx.get(0), f.sy.get(0), f.sz.get(0), f.square.get(0)};
-  }
-
-  template <class Visit>
-  void for_cornered(const Visit& visit) const {
-    for (std::size_t i = 0; i < task_.hexahedra.size; ++i) visit(task_.hexahedra.data[i]);
-    for (std::size_t i = 0; i < task_.wedges.size; ++i) visit(task_.wedges.data[i]);
-    for (std::size_t i = 0; i < task_.pyramids.size; ++i) visit(task_.pyramids.data[i]);
-    for (std::size_t i = 0; i < task_.tips.size; ++i) visit(task_.tips.data[i]);
-  }
-
-  static auto widened(const StarHexahedron<float>& e, Point p) { return widened<formulas::Hexahedron<Point>>(e.others, p); }
-  static auto widened(const StarWedge<float>& e, Point p) { return widened<formulas::Wedge<Point>>(e.others, p); }
-  static auto widened(const StarPyramid<float>& e, Point p) { return widened<formulas::Pyramid<Point>>(e.others, p); }
-  static auto widened(const StarTip<float>& e, Point p) {
-    return formulas::Pyramid<Point>{{wide(e.base[0]), wide(e.base[1]), wide(e.base[2]), wide(e.base[3]), p}};
-  }
-  template <class Solid, std::size_t N>
-  static Solid widened(const std::array<Vec3Of<float>, N>& others, Point p) {
-    Solid solid;
-    solid.at[0] = p;
-    for (std::size_t i = 0; i < N; ++i) solid.at[i + 1] = wide(others[i]);
-    return solid;
   }
 
   /// The least rank of the star with its vertex at each of the places; anything not above `floor` where it is not above it in any slot.
@@ -117,9 +92,9 @@ class Kernel {
     }
     if constexpr (kCorners) {
       bool passes = true;
-      for_cornered([&](const auto& element) {
+      task_.star.for_others([&](const auto& element) {
         if (!passes) return;
-        worth = min(worth, formulas::rank_around<M>(widened(element, p), element.kMoving));
+        worth = min(worth, formulas::rank_around<M>(element.with(p), element.kMoving));
         passes = xsimd::any(worth > floor);
       });
     }

@@ -9,33 +9,17 @@ namespace dmoscope {
 
 namespace star_pieces {
 
-template <class R>
-[[nodiscard]] constexpr Vec2<R> as(Vec2<double> p) {
-  return {R(p.x), R(p.y)};
-}
-
 /// Calls f with the vertex and its two neighbours of every corner of a quadrilateral, `p` the vertex of the star: the corner there, those
 /// beside it, and the one across.
 template <class R, class F>
 constexpr void for_corners(const StarQuadrilateral<double>& q, Vec2<R> p, const F& f) {
-  const Vec2<R> b = as<R>(q.b), c = as<R>(q.c), d = as<R>(q.d);
+  const Vec2<R> b = point_of<R>(q.b), c = point_of<R>(q.c), d = point_of<R>(q.d);
   f(p, b, d);
   f(b, c, p);
   f(c, d, b);
   f(d, p, c);
 }
 
-template <class R>
-[[nodiscard]] constexpr Vec3Of<R> as(Vec3 p) {
-  return {R(p.x), R(p.y), R(p.z)};
-}
-/// A solid of a star whose corner `moving` is at p.
-template <class R, class Ideal, std::size_t N, class Corners>
-[[nodiscard]] constexpr auto with(const formulas::CorneredSolid<Vec3, Ideal, N, Corners>& solid, Index moving, Vec3Of<R> p) {
-  formulas::CorneredSolid<Vec3Of<R>, Ideal, N, Corners> result{};
-  for (std::size_t i = 0; i < N; ++i) result.at[i] = i == moving ? p : as<R>(solid.at[i]);
-  return result;
-}
 /// Calls f.template operator()<Ideal>(u, v, w, their determinant) with the edges of every corner that changes when `moving` moves.
 template <class V, class Ideal, std::size_t N, class Corners, class F>
 constexpr void for_moving_corners(const formulas::CorneredSolid<V, Ideal, N, Corners>& solid, Index moving, const F& f) {
@@ -53,9 +37,9 @@ constexpr void for_solids(const SolidStar<double>& star, Vec3Of<R> p, const Take
   using V = Vec3Of<R>;
   SolidStarView<double>(star).for_each<Others>([&]<class Element>(const Element& element) {
     if constexpr (std::is_same_v<Element, StarTetrahedron<double>>) {
-      tetrahedron(formulas::Tetrahedron<V>(p, as<R>(element.b), as<R>(element.c), as<R>(element.d)), element.reference);
+      tetrahedron(element.with(p), element.reference);
     } else {
-      for_moving_corners(with(element.with({}), element.kMoving, p), element.kMoving, [&]<class Ideal>(V u, V v, V w, R jacobian) {
+      for_moving_corners(element.with(p), element.kMoving, [&]<class Ideal>(V u, V v, V w, R jacobian) {
         corner.template operator()<Ideal>(u, v, w, jacobian, element.reference);
       });
     }
@@ -69,8 +53,7 @@ constexpr void for_solids(const SolidStar<double>& star, Vec3Of<R> p, const Take
 template <Metric M, class R, class F>
 constexpr void for_qualities(const Star<double>& star, Vec2<R> p, const F& f) {
   using V = Vec2<R>;
-  using star_pieces::as;
-  for (const StarTriangle<double>& t : star.triangles) f(formulas::metric<M>(formulas::Triangle<V>(p, as<R>(t.b), as<R>(t.c))));
+  for (const StarTriangle<double>& t : star.triangles) f(formulas::metric<M>(t.with(p)));
   if constexpr (formulas::kDefinedForQuadrilaterals<M, V>) {
     for (const StarQuadrilateral<double>& q : star.quadrilaterals) {
       if constexpr (formulas::Formula<M>::kSeesInversion) {
@@ -79,7 +62,7 @@ constexpr void for_qualities(const Star<double>& star, Vec2<R> p, const F& f) {
           f(formulas::metric<M>(formulas::Quadrilateral<V>(corner, next, next + before - corner, before)));
         });
       } else {
-        f(formulas::metric<M>(formulas::Quadrilateral<V>(p, as<R>(q.b), as<R>(q.c), as<R>(q.d))));
+        f(formulas::metric<M>(q.with(p)));
       }
     }
   }
@@ -89,8 +72,7 @@ constexpr void for_qualities(const Star<double>& star, Vec2<R> p, const F& f) {
 template <class R, class F>
 constexpr void for_jacobians(const Star<double>& star, Vec2<R> p, const F& f) {
   using V = Vec2<R>;
-  using star_pieces::as;
-  for (const StarTriangle<double>& t : star.triangles) f(cross(as<R>(t.b) - p, as<R>(t.c) - p) / R(t.reference));
+  for (const StarTriangle<double>& t : star.triangles) f(cross(point_of<R>(t.b) - p, point_of<R>(t.c) - p) / R(t.reference));
   for (const StarQuadrilateral<double>& q : star.quadrilaterals)
     star_pieces::for_corners(q, p, [&](V corner, V next, V before) { f(cross(next - corner, before - corner) / R(q.reference)); });
 }

@@ -13,11 +13,13 @@ class ThenMean final : public Smoother {
   ThenMean(std::unique_ptr<Smoother> first, SmoothingTask task) : first_(std::move(first)), task_(std::move(task)) {}
 
   void begin(const Sweep& sweep) override {
-    second_.reset();
-    if (sweep.floor)
-      second_ = make_combined_smoother(task_, raise_mean_above(task_.metric, *sweep.floor));
-    else
+    if (!sweep.floor) {
+      second_.reset();
       first_->begin(sweep);
+    } else if (!second_ || floor_ != *sweep.floor) {
+      second_ = make_combined_smoother(task_, raise_mean_above(task_.metric, *sweep.floor));
+      floor_ = *sweep.floor;
+    }
   }
   std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
     if (second_) {
@@ -36,12 +38,14 @@ class ThenMean final : public Smoother {
   }
   void positions_replaced() override {
     first_->positions_replaced();
+    if (second_) second_->positions_replaced();
     unstored_ = moved_on_ = false;
   }
 
  private:
   std::unique_ptr<Smoother> first_, second_;  // the second where the mean is raised now
   SmoothingTask task_;
+  double floor_ = 0.0;     // of the second
   bool unstored_ = false;  // `first_` has visits that are not stored
   bool moved_on_ = false;  // positions are others than `first_` knows
 };

@@ -8,7 +8,9 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
+#include "core/base/memory.h"
 #include "core/smooth/reference_visit.h"
 #include "core/smooth/smoother.h"
 
@@ -63,11 +65,18 @@ void for_classes(const Colouring& colouring, std::uint64_t first, std::uint64_t 
 /// A rule says where one vertex goes, from the positions alone and, if it has a begin(const Sweep&), the iteration:
 ///   struct Room;  what it works in, kept from one vertex to the next; no result may depend on what is left there
 ///   std::optional<Vec3> target(PositionView positions, Index vertex, Room& room) const;  nowhere: it stays
+///   static constexpr bool kDependsOnStarAlone = true;  if it has that: the target hangs on nothing but the positions of the vertices of
+///   the
+///     star, so that a vertex of whose star nothing has moved since it stayed is not visited again
 /// It is applied class after class by many threads.
 template <class Rule>
 class RuleSmoother final : public Smoother {
  public:
-  RuleSmoother(const SmoothingTask& task, Rule rule) : input_(task.input), colouring_(task.colouring), rule_(std::move(rule)) { begin({}); }
+  RuleSmoother(const SmoothingTask& task, Rule rule) : input_(task.input), colouring_(task.colouring), rule_(std::move(rule)) {
+    if constexpr (kSleeps) awake_ = large_vector<std::uint8_t>(input_->mesh.positions.size());
+    positions_replaced();
+    begin({});
+  }
 
   void begin(const Sweep& sweep) override {
     if constexpr (requires { rule_.begin(sweep); }) rule_.begin(sweep);
@@ -77,28 +86,44 @@ class RuleSmoother final : public Smoother {
     for_classes(*colouring_, first, count, [&](std::uint64_t from, std::uint64_t to) {
       const auto vertices = std::span(colouring_->order).subspan(from, to - from);
       for_chunks(pool, vertices.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        typename Rule::Room room;
+        thread_local typename Rule::Room room;  // kept: stepping allocates nothing
         std::uint64_t here = 0;
-        for (const Index vertex : vertices.subspan(begin, end - begin)) {
-          const std::optional<Vec3> target = rule_.target(positions, vertex, room);
-          if (!target || *target == positions[vertex]) continue;
-          positions[vertex] = *target;
-          ++here;
-        }
+        for (const Index vertex : vertices.subspan(begin, end - begin)) here += visit(vertex, positions, room) ? 1U : 0U;
         moved += here;
       });
     });
     return moved;
   }
   void store(std::span<Vec3> /*positions*/, ThreadPool* /*pool*/) override {}  // they are always up to date
-  void positions_replaced() override {}
+  void positions_replaced() override { std::ranges::fill(awake_, std::uint8_t{1}); }
 
  private:
-  static constexpr std::size_t kGrain = 256;  // vertices a chunk: up to some 1 ms of work
+  static constexpr std::size_t kGrain = 128;  // vertices a chunk: up to some 1 ms of work
+  static constexpr bool kSleeps = requires { requires Rule::kDependsOnStarAlone; };
+
+  bool visit(Index vertex, std::span<Vec3> positions, typename Rule::Room& room) {
+    if constexpr (kSleeps)
+      if (awake_[vertex] == 0) return false;
+    const std::optional<Vec3> target = rule_.target(positions, vertex, room);
+    if (!target || *target == positions[vertex]) {
+      if constexpr (kSleeps) awake_[vertex] = 0;
+      return false;
+    }
+    positions[vertex] = *target;
+    if constexpr (kSleeps) wake_around(vertex);
+    return true;
+  }
+  /// Vertices of one class have no element in common, but may have a neighbour.
+  void wake_around(Index vertex) {
+    for (const Incidence& at : input_->topology.star(vertex))
+      for (const Index other : input_->mesh.elements.corners(at.element))
+        std::atomic_ref(awake_[other]).store(1, std::memory_order_relaxed);
+  }
 
   std::shared_ptr<const InputMesh> input_;  // which the rule looks into
   std::shared_ptr<const Colouring> colouring_;
   Rule rule_;
+  std::vector<std::uint8_t> awake_;  // by vertex; where one sleeps
 };
 
 template <class Rule>

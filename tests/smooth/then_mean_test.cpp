@@ -53,5 +53,34 @@ TEST_P(Phases, FollowEachOtherEitherWay) {
   EXPECT_NE(std::memcmp(a.data(), input->mesh.positions.data(), a.size() * sizeof(Vec3)), 0);
 }
 
+/// While the floor stays, vertices whose stars rest are not visited again; what a person or another floor changes wakes them.
+TEST(ThenMean, WhoSleepsIsNotMissed) {
+  const auto input = testing::input(testing::lattice(12, 0.3, 4));
+  SmoothingTask task;
+  task.input = input;
+  task.colouring = std::make_shared<const Colouring>(colour_vertices(input->mesh, input->topology, free_vertices(*input)));
+  task.then_mean = true;
+  const std::uint64_t whole = task.colouring->order.size();
+  const auto alone = make_smoother(task), forgetful = make_smoother(task);
+  std::vector<Vec3> a = input->mesh.positions, b = a;
+  std::uint64_t last = 1;
+  for (std::uint64_t iteration = 1; iteration <= 300 && last > 0; ++iteration) {
+    const Sweep sweep{iteration, iteration < 40 ? 0.3 : 0.2};
+    alone->begin(sweep);
+    forgetful->begin(sweep);
+    forgetful->positions_replaced();
+    last = alone->visit(0, whole, a, nullptr);
+    ASSERT_EQ(last, forgetful->visit(0, whole, b, nullptr)) << iteration;
+    if (iteration == 20 || iteration == 60) {  // an edit of one vertex
+      const Index hub = task.colouring->order[whole / 3];
+      a[hub].x += 0.01;
+      b[hub].x += 0.01;
+      alone->positions_replaced();
+    }
+  }
+  EXPECT_EQ(last, 0U) << "the mesh came to rest";
+  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)), 0);
+}
+
 }  // namespace
 }  // namespace dmoscope

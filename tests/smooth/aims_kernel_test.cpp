@@ -1,0 +1,141 @@
+// The search for two aims by packs of candidates finds what the plain one finds, to the bit, by any instructions; and speaks for every star
+// that it is meant for.
+
+#include "core/smooth/aims_kernel.h"
+
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/search/mesh_star.h"
+#include "core/smooth/combined.h"
+#include "tests/smooth/zoo.h"
+#include "tests/support/sanitized.h"
+#include "tests/support/volume_grids.h"
+
+namespace dmoscope {
+namespace {
+
+using testing::kSanitized;
+using testing::Specimen;
+
+/// Some of everything: each metric of the mesh as the first aim, and as the second one the mean, the next metric, and density.
+std::vector<Aims> kinds_of_aims(const std::shared_ptr<const InputMesh>& mesh) {
+  std::vector<Metric> metrics;
+  for (const MetricInfo& entry : metric_table()) {
+    bool defined = true;
+    for (Index e = 0; defined && e < mesh->mesh.elements.size(); ++e) defined = entry.defined_for(mesh->mesh.elements.kind(e));
+    if (defined) metrics.push_back(entry.metric);
+  }
+  std::vector<Aims> all;
+  for (std::size_t i = 0; i < metrics.size(); ++i) {
+    all.push_back(raise_mean_above(metrics[i], 0.25));
+    all.push_back(aims_of(metrics[i], {0.3, metrics[(i + 1) % metrics.size()]}, nullptr));
+  }
+  if (!mesh->is_volume()) {
+    const SizeFunction h1{SizeFunction::Kind::Distance, mesh->mesh.positions[0] + Vec3{0.2, 0.1, 0.0}, {}};
+    all.push_back(aims_of(metrics[0], Combination{0.3, h1}, std::make_shared<const SizeField>(mesh, h1)));
+  }
+  return all;
+}
+
+std::vector<Specimen> specimens() {
+  std::vector<Specimen> all = testing::zoo();
+  using test::Fill;
+  for (const Fill fill : {Fill::Tetrahedra, Fill::Hexahedra, Fill::Mixed})
+    for (const double jitter : {0.2, 0.6})
+      all.push_back({fmt::format("volume {} {}", static_cast<int>(fill), jitter), test::volume_grid(3, fill, jitter)});
+  all.push_back({"volume, grid 3, levels 2", test::volume_grid(3, Fill::Mixed, 0.2), {.grid_points = 3, .levels = 2}});
+  return all;
+}
+
+struct Count {
+  int vertices = 0, moved = 0, tangled = 0;
+};
+
+template <class Frame>
+void compare(const Specimen& specimen, const std::shared_ptr<const InputMesh>& mesh, const Aims& aims, Count& count) {
+  std::vector<CombinedSearch<Frame>> searches;
+  SearchParameters parameters = specimen.search;
+  for (const SimdLevel level : supported_simd_levels()) {
+    parameters.simd = level;
+    searches.emplace_back(*mesh, aims, parameters);
+  }
+  const std::vector<Vec3>& positions = mesh->mesh.positions;
+  StarIn<Frame, double> star;
+  for (Index v = 0; v < positions.size(); ++v) {
+    if (mesh->topology.boundary()[v] != 0 || mesh->topology.star(v).empty()) continue;
+    gather_star(MeshStar(mesh->view<Frame>(), positions, v), star);
+    const auto plain = searches.front().search_plainly(star, positions, v);
+    for (std::size_t i = 0; i < searches.size(); ++i) {
+      const auto fast = searches[i].search(star, positions, v);
+      ASSERT_EQ(std::memcmp(&fast.offset, &plain.offset, sizeof(plain.offset)), 0)
+          << specimen.name << ", vertex " << v << ", " << name(supported_simd_levels()[i]);
+      ASSERT_EQ(fast.untangling, plain.untangling);
+    }
+    ++count.vertices;
+    count.moved += plain.offset == OffsetIn<Frame, double>{} ? 0 : 1;
+    count.tangled += plain.untangling ? 1 : 0;
+  }
+}
+
+TEST(AimsKernel, FindsWhatThePlainSearchFinds) {
+  Count count;
+  std::size_t turn = 0;
+  for (Specimen& specimen : specimens()) {
+    if (kSanitized && ++turn % 5 != 0 && specimen.name.find("volume") == std::string::npos) continue;
+    const auto mesh = testing::input(specimen.mesh);
+    const std::vector<Aims> all = kinds_of_aims(mesh);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (kSanitized && i % 3 != turn % 3) continue;
+      if (mesh->is_volume())
+        compare<Space>(specimen, mesh, all[i], count);
+      else
+        compare<Plane>(specimen, mesh, all[i], count);
+      if (HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(count.moved, count.vertices / 2);
+  EXPECT_GT(count.tangled, 0);
+}
+
+/// A hub in the middle of a regular polygon, a little to one side.
+Star<double> wheel(int spokes) {
+  Star<double> star;
+  const auto corner = [&](int i) {
+    const double angle = 2 * M_PI * i / spokes;
+    return Vec2<double>{std::cos(angle) - 0.1, std::sin(angle)};
+  };
+  for (int i = 0; i < spokes; ++i) star.triangles.push_back({corner(i), corner(i + 1), 1.0});
+  star.box = {2.0, 2.0};
+  return star;
+}
+
+TEST(AimsKernel, SpeaksForSoundStarsUpToItsLimits) {
+  for (const SimdLevel level : supported_simd_levels()) {
+    const auto kernel = aims_kernel<Plane>(level, Metric::MeanRatio);
+    const auto ready = [&](const Star<double>& star, int points) {
+      AimsSearch<Plane> task;
+      task.star = lists_of(star);
+      task.box = star.box;
+      task.points = points;
+      task.threshold = 0.01;
+      task.inclusive = true;
+      return kernel(task).ready;
+    };
+    const auto most = static_cast<int>(kMaxSimplices);
+    for (const int spokes : {3, 6, most}) EXPECT_TRUE(ready(wheel(spokes), 8)) << spokes;
+    EXPECT_FALSE(ready(wheel(most + 1), 8));
+    for (const int points : {2, 3, kMaxAimsPoints}) EXPECT_TRUE(ready(wheel(6), points)) << points;
+    EXPECT_FALSE(ready(wheel(6), kMaxAimsPoints + 1));
+    Star<double> inverted = wheel(6);
+    std::swap(inverted.triangles[2].b, inverted.triangles[2].c);
+    EXPECT_FALSE(ready(inverted, 8));
+  }
+}
+
+}  // namespace
+}  // namespace dmoscope

@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/mesh/generate.h"
+#include "core/mesh/random.h"
 #include "core/session/run.h"
 #include "tests/support/meshes.h"
 
@@ -220,6 +222,65 @@ TEST(Combined, NeitherThreadsNorStepsChangeABit) {
       EXPECT_TRUE(same_bits(whole.positions(), stepped.positions()));
       EXPECT_FALSE(same_bits(whole.positions(), mesh->mesh.positions));
     }
+}
+
+/// Volumes of every kind of element, sound and tangled.
+std::vector<Mesh> solids() {
+  std::vector<Mesh> all;
+  Progress progress;
+  for (const char* kind : {"tetrahedra", "hexahedra", "tangled-solids"}) all.push_back(generate_mesh(kind, 125, 5, progress));
+  Mesh tangled = all[1];
+  Random random(6);
+  for (Vec3& p : tangled.positions)
+    if (std::min({p.x, p.y, p.z, 1 - p.x, 1 - p.y, 1 - p.z}) > 0.1 && random.below(3) == 0)
+      p = {random.between(0, 1), p.y, random.between(0, 1)};
+  all.push_back(std::move(tangled));
+  return all;
+}
+
+TEST(Combined, BelowItsThresholdItIsThePlainSearch) {
+  std::vector<Mesh> meshes = solids();
+  for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals, Cells::Mixed})
+    for (const double jitter : {0.3, 0.9}) meshes.push_back(lattice(7, jitter, 9, cells));
+  for (Mesh& mesh : meshes) {
+    const auto prepared = input(std::move(mesh));
+    auto plain = make_run(prepared, {.search = {.precision = Precision::Double}});
+    auto both = make_run(prepared, combined(0.9999, Metric::ScaledJacobian));  // which nothing reaches
+    Progress progress;
+    for (int i = 0; i < 3; ++i) {
+      plain.step(StepUnit::Iteration, progress);
+      both.step(StepUnit::Iteration, progress);
+      EXPECT_TRUE(same_bits(plain.positions(), both.positions())) << prepared->mesh.name << ", " << i;
+    }
+    EXPECT_LT(both.statistics().minimum, 0.9999);
+    EXPECT_FALSE(same_bits(both.positions(), prepared->mesh.positions));
+  }
+}
+
+TEST(Combined, OfVolumesNeitherThreadsNorStepsChangeABitAndNoStarFallsBelowTheThreshold) {
+  for (Mesh& mesh : solids()) {
+    const auto prepared = input(std::move(mesh));
+    const RunParameters parameters = combined(0.3, Metric::ScaledJacobian);
+    auto threaded = make_run(prepared, parameters, 3), stepped = make_run(prepared, parameters);
+    Progress progress;
+    threaded.iterate(2, progress);
+    const auto judge = [&](Metric metric, Index v) {
+      return vertex_quality(prepared->quality_context(), prepared->topology, stepped.positions(), metric, v);
+    };
+    std::size_t beyond = 0;
+    while (stepped.moment().iteration < 2) {
+      const Index v = stepped.colouring().order[stepped.moment().visits];
+      const Vec3 here = stepped.positions()[v];
+      const double first = judge(Metric::MeanRatio, v), before = judge(Metric::ScaledJacobian, v);
+      stepped.step(StepUnit::Vertex, progress);
+      if (first <= 0.3 || stepped.positions()[v] == here) continue;
+      ++beyond;
+      EXPECT_GT(judge(Metric::MeanRatio, v), 0.3);
+      EXPECT_GE(judge(Metric::ScaledJacobian, v), before);
+    }
+    EXPECT_GT(beyond, 10U) << prepared->mesh.name;
+    EXPECT_TRUE(same_bits(stepped.positions(), threaded.positions())) << prepared->mesh.name;
+  }
 }
 
 TEST(Combined, NoStarFallsBelowTheThresholdNorGetsWorseThere) {

@@ -101,6 +101,15 @@ TEST(Compare, FilesHaveEveryRunAndIteration) {
   EXPECT_THAT(svg, HasSubstr("dmo:min-angle, 2 orders"));
 }
 
+TEST(Compare, ANameWithACommaIsOneCell) {
+  const Folder folder;
+  const Output output = compare({sample("annulus.off"), "--run", "dmo", "--then", "mean", "--iterations", "1", "--stats",
+                                 folder / "stats.csv", "--table", folder / "table.csv"});
+  ASSERT_EQ(output.code, 0) << output.err;
+  for (const char* file : {"stats.csv", "table.csv"})
+    EXPECT_THAT(lines_of(read_file(folder / file)).at(1), ::testing::StartsWith("\"dmo:mean-ratio, then mean\",")) << file;
+}
+
 TEST(Compare, OrdersLieAsFarApartAsTheirSortedQualities) {
   const std::string in = sample("random.off");
   const json orders = compare_json({in, "--run", "dmo", "--iterations", "5", "--shuffles", "2"})["orders"];

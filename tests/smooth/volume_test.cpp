@@ -141,6 +141,45 @@ TEST(Volume, ACornerThatAVertexDoesNotChangeDoesNotHoldIt) {
       }
 }
 
+TEST(Volume, LaplaceGoesToTheMeanOfTheEdgeNeighboursEachOnce) {
+  // An octahedron's hub, one of whose eight tetrahedra is split into three: its seven neighbours are in three to five of them.
+  Mesh mesh = star_of_tetrahedra(false, {0.1, 0.05, -0.07});
+  const Index hub = mesh.vertex_count() - 1, split = mesh.vertex_count();
+  const std::vector<Index> one(mesh.elements.corners(0).begin(), mesh.elements.corners(0).end());
+  Mesh uneven;
+  uneven.positions = mesh.positions;
+  uneven.positions.push_back((1.0 / 3.0) * (mesh.positions[one[1]] + mesh.positions[one[2]] + mesh.positions[one[3]]));
+  for (std::size_t left = 1; left < 4; ++left) {
+    std::vector<Index> part = one;
+    part[left] = split;
+    uneven.elements.add(ElementKind::Tetrahedron, part);
+  }
+  for (Index e = 1; e < mesh.elements.size(); ++e) uneven.elements.add(ElementKind::Tetrahedron, mesh.elements.corners(e));
+  Vec3 mean{};
+  for (Index v = 0; v < uneven.vertex_count(); ++v)
+    if (v != hub) mean = mean + (1.0 / 7.0) * uneven.positions[v];
+  dmoscope::Run run = make_run(input(uneven), {.method = "laplace"});
+  ASSERT_EQ(run.visits_per_iteration(), 1U);
+  Progress progress;
+  run.step(StepUnit::Vertex, progress);
+  EXPECT_LT(length(run.positions()[hub] - mean), 1e-15);
+}
+
+TEST(Volume, LaplaceInABlockOfHexahedraLooksAlongTheEdges) {
+  Mesh mesh = test::volume_grid(2, test::Fill::Hexahedra);
+  const Index hub = 13;
+  mesh.positions[hub] = {0.6, 0.45, 0.5};
+  mesh.positions[hub + 1] = {1.0, 0.7, 0.6};   // beside it
+  mesh.positions[hub + 4] = {1.0, 1.1, 0.5};   // across a face
+  mesh.positions[hub + 13] = {1.0, 1.0, 1.2};  // across a cell
+  Vec3 mean{};
+  for (const Index v : {hub - 1, hub + 1, hub - 3, hub + 3, hub - 9, hub + 9}) mean = mean + (1.0 / 6.0) * mesh.positions[v];
+  dmoscope::Run run = make_run(input(mesh), {.method = "laplace"});
+  Progress progress;
+  run.step(StepUnit::Vertex, progress);
+  EXPECT_LT(length(run.positions()[hub] - mean), 1e-15);
+}
+
 TEST(Volume, DvrFindsTheBestPlaceOnItsLineInEveryKindOfElement) {
   for (const Specimen& specimen : volumes()) {
     if (specimen.name.find(',') != std::string::npos) continue;

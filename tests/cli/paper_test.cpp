@@ -1,5 +1,7 @@
 // dmoscope paper: its table against runs of dmoscope smooth, what it says of what is missing, its files, what it refuses.
 
+#include <cmath>
+#include <map>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -30,15 +32,15 @@ std::vector<std::string> cells_of(const std::string& line) {
 }
 
 struct Row {
-  std::string figure, mesh, what, paper, ours, difference, verdict, why;
+  std::string figure, mesh, what, paper, ours, difference, tolerance, verdict, why;
 };
 
 std::vector<Row> rows_of(const std::string& path) {
   std::vector<Row> rows;
   for (const std::string& line : lines_of(read_file(path))) {
     const std::vector<std::string> c = cells_of(line);
-    EXPECT_EQ(c.size(), 8U) << line;
-    if (c.size() == 8) rows.push_back({c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]});
+    EXPECT_EQ(c.size(), 9U) << line;
+    if (c.size() == 9) rows.push_back({c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8]});
   }
   EXPECT_EQ(rows.front().figure, "figure") << "the head";
   rows.erase(rows.begin());
@@ -69,7 +71,7 @@ TEST(Paper, ARowIsWhatSmoothSays) {
       ++compared;
     }
     if (row.what != "mean without the second phase" || row.mesh.find("annulus") == std::string::npos) continue;
-    EXPECT_DOUBLE_EQ(std::stod(row.ours), smoothed(annulus, "dmo", "40")["mean"].get<double>());
+    EXPECT_DOUBLE_EQ(std::stod(row.ours), smoothed(annulus, "dmo", "100")["mean"].get<double>());
     ++compared;
   }
   EXPECT_EQ(compared, 6U);
@@ -101,6 +103,40 @@ TEST(Paper, MeshesAreFoundByNameBelowTheFolder) {
   for (const Row& row : rows_of(folder / "out/table.csv")) verdicts.insert(row.verdict);
   EXPECT_TRUE(verdicts.contains("differs"));
   EXPECT_FALSE(verdicts.contains("no mesh"));
+}
+
+/// The bounds of "at least 0.812", "at most 1400" or "0.56 to 0.6".
+std::pair<double, double> bounds_of(const std::string& tolerance) {
+  if (tolerance.starts_with("at least ")) return {std::stod(tolerance.substr(9)), INFINITY};
+  if (tolerance.starts_with("at most ")) return {-INFINITY, std::stod(tolerance.substr(8))};
+  const std::size_t to = tolerance.find(" to ");
+  EXPECT_NE(to, std::string::npos) << tolerance;
+  return {std::stod(tolerance.substr(0, to)), std::stod(tolerance.substr(to + 4))};
+}
+
+TEST(Paper, VerdictsFollowFromTheirTolerances) {
+  const Folder folder;
+  std::filesystem::create_directories(folder / "meshes");
+  for (const char* name : {"bahamas.14", "east.14"})
+    std::filesystem::copy_file(sample("coast.14"), folder / (std::string("meshes/") + name));
+  ASSERT_EQ(paper(folder, {"--only", "4a", "--only", "methods", "--only", "9", "--meshes", folder / "meshes"}).code, 1);
+  std::map<std::string, int> seen;
+  for (const Row& row : rows_of(folder / "out/table.csv")) {
+    ++seen[row.verdict];
+    if (row.verdict == "told") {
+      EXPECT_EQ(row.tolerance, "") << row.what;
+      continue;
+    }
+    const auto [low, high] = bounds_of(row.tolerance);
+    const double ours = std::stod(row.ours);
+    EXPECT_EQ(row.verdict, ours >= low && ours <= high ? "holds" : "differs") << row.what;
+    if (row.paper == "0.82") {
+      EXPECT_DOUBLE_EQ(std::stod(row.difference), ours - 0.82);
+    }
+  }
+  EXPECT_GT(seen["holds"], 1);
+  EXPECT_GT(seen["differs"], 1);
+  EXPECT_GT(seen["told"], 1);
 }
 
 TEST(Paper, AVolumeIsAnExperiment) {

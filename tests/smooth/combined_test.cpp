@@ -179,6 +179,33 @@ TEST(CombinedSearch, GoesForTheWeightedMeanOfTheNeighbours) {
   EXPECT_GT(below, 5);
 }
 
+TEST(Aims, TheThresholdItselfIsNotBeyondButTheFloorIs) {
+  const Aims both = aims_of(Metric::MeanRatio, {0.7, Metric::MinAngle}, nullptr);
+  EXPECT_FALSE(both.beyond(0.7)) << "eq. (8)";
+  EXPECT_TRUE(both.beyond(std::nextafter(0.7, 1.0)));
+  const Aims mean = raise_mean_above(Metric::MeanRatio, 0.7);
+  EXPECT_TRUE(mean.beyond(0.7)) << "or the star that sets the floor could not rise";
+  EXPECT_FALSE(mean.beyond(std::nextafter(0.7, 0.0)));
+  EXPECT_FALSE(raise_mean_above(Metric::MeanRatio, -0.3).beyond(0.0)) << "inverted";
+}
+
+TEST(Density, IsOneAtTheWeightedMeanAndAHalfAMeanEdgeAway) {
+  Mesh mesh;  // a rhombus, its hub anywhere
+  mesh.positions = {{0.1, 0.2, 0}, {2, 0, 0}, {0, 1, 0}, {-2, 0, 0}, {0, -1, 0}};
+  for (Index i = 1; i <= 4; ++i) testing::add(mesh, {0, i, i % 4 + 1});
+  const auto rhombus = input(mesh);
+  const SizeField size(rhombus, {SizeFunction::Kind::Distance, {2, -1, 0}, {}});
+  const DensityTarget<Plane> target = density_target(size, rhombus->planar_view(), rhombus->mesh.positions, 0);
+  // Weights: 1 over the distances 1, 2 sqrt 2, sqrt 17, 2.
+  const double a = 1, b = 1 / std::sqrt(8.0), c = 1 / std::sqrt(17.0), d = 0.5, sum = a + b + c + d;
+  const Point mean{(2 * a - 2 * c) / sum, (b - d) / sum};
+  EXPECT_NEAR(target.offset.x, mean.x - 0.1, 1e-15);
+  EXPECT_NEAR(target.offset.y, mean.y - 0.2, 1e-15);
+  const double edge = 0.25 * (std::hypot(1.9, 0.2) + std::hypot(0.1, 0.8) + std::hypot(2.1, 0.2) + std::hypot(0.1, 1.2));
+  EXPECT_DOUBLE_EQ(target.density(target.offset), 1.0);
+  EXPECT_NEAR(target.density({target.offset.x + 0.6 * edge, target.offset.y - 0.8 * edge}), 0.5, 1e-15);
+}
+
 TEST(Combined, OneVertexEndsAtTheWeightedMean) {
   Mesh mesh;  // a hub in a regular hexagon, far to one side of it
   mesh.positions.push_back({0.45, -0.2, 0.0});

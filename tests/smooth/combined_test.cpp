@@ -14,6 +14,7 @@
 #include "core/mesh/generate.h"
 #include "core/mesh/random.h"
 #include "core/session/run.h"
+#include "core/smooth/dmo.h"
 #include "tests/support/meshes.h"
 
 namespace dmoscope {
@@ -177,6 +178,62 @@ TEST(CombinedSearch, GoesForTheWeightedMeanOfTheNeighbours) {
   const auto [beyond, below] = compare(*mesh, aims_of(Metric::MeanRatio, Combination{0.6}, size), density);
   EXPECT_GT(beyond, 20);
   EXPECT_GT(below, 5);
+}
+
+/// Whether a vertex may go, by the words of promise 1, for places near and far, inside of its ring and outside.
+void expect_gains_as_promised(const Aims& aims, const SecondAim& second) {
+  Random random(17);
+  int allowed = 0, refused_below = 0, refused_tangled = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    Mesh mesh;
+    const auto place = [&](double reach) { return Vec3{random.between(-reach, reach), random.between(-reach, reach), 0}; };
+    mesh.positions.push_back(place(trial % 4 < 2 ? 0.4 : 1.2));
+    for (int k = 0; k < 6; ++k) mesh.positions.push_back(Vec3{std::cos(k * M_PI / 3), std::sin(k * M_PI / 3), 0.0} + place(0.2));
+    for (Index k = 0; k < 6; ++k) testing::add(mesh, {0, k + 1, (k + 1) % 6 + 1});
+    const auto wheel = input(mesh);
+    if (wheel->report.flipped_elements > 0) continue;  // so tangled that it was taken for the other way round
+    const Vec3 here = mesh.positions[0], there = trial % 2 == 0 ? place(1.2) : here + place(0.3);
+    const Plain plain{*wheel, wheel->mesh.positions};
+    struct At {
+      double jacobian, first, second;
+    };
+    const auto look = [&](Vec3 p) {
+      const Point at{p.x, p.y};
+      std::vector<Vec3> positions = wheel->mesh.positions;
+      positions[0] = p;
+      At found{star_state(*wheel, positions, Metric::MeanRatio, 0).jacobian, INFINITY, second(plain.star(0, at), at)};
+      for (const auto& triangle : plain.star(0, at)) found.first = std::min(found.first, Plain::mean_ratio(triangle));
+      return found;
+    };
+    const At before = look(here), after = look(there);
+    const auto beyond = [&](double q) { return aims.raise_mean() ? q > 0.0 && q >= aims.threshold : q > aims.threshold; };
+    const bool rises = after.second > before.second;
+    bool expected = after.jacobian > 0.0 && (beyond(before.first) ? beyond(after.first) && rises : after.first > before.first);
+    if (before.jacobian <= 0.0)
+      expected = after.jacobian > before.jacobian && (!aims.raise_mean() || (after.first >= before.first && rises));
+    const bool gains = CombinedSearch<Plane>(*wheel, aims, {}).gains(wheel->mesh.positions, 0, there);
+    EXPECT_EQ(gains, expected) << trial;
+    allowed += gains ? 1 : 0;
+    refused_below += beyond(before.first) && rises && !beyond(after.first) ? 1 : 0;
+    refused_tangled += !gains && before.jacobian <= 0.0 && after.jacobian > before.jacobian ? 1 : 0;
+  }
+  EXPECT_GT(allowed, 200);
+  EXPECT_GT(refused_below, 2);
+  EXPECT_TRUE(!aims.raise_mean() || refused_tangled > 20);
+}
+
+TEST(CombinedSearch, AVertexGainsAsPromised) {
+  expect_gains_as_promised(aims_of(Metric::MeanRatio, {0.5, Metric::MinAngle}, nullptr),
+                           [](const std::vector<Plain::Corners>& star, Point) {
+                             double least = INFINITY;
+                             for (const auto& triangle : star) least = std::min(least, Plain::min_angle(triangle));
+                             return least;
+                           });
+  expect_gains_as_promised(raise_mean_above(Metric::MeanRatio, 0.5), [](const std::vector<Plain::Corners>& star, Point) {
+    double sum = 0.0;
+    for (const auto& triangle : star) sum += Plain::mean_ratio(triangle);
+    return sum;
+  });
 }
 
 TEST(Aims, TheThresholdItselfIsNotBeyondButTheFloorIs) {

@@ -110,6 +110,20 @@ TEST(Compare, ANameWithACommaIsOneCell) {
     EXPECT_THAT(lines_of(read_file(folder / file)).at(1), ::testing::StartsWith("\"dmo:mean-ratio, then mean\",")) << file;
 }
 
+TEST(Compare, TheReportSaysWhatWasSearched) {
+  const Folder folder;
+  const auto settings = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> options{"--run", "dmo", "--iterations", "1", "--report", folder / "report.html"};
+    options.insert(options.begin(), more.begin(), more.end());
+    EXPECT_EQ(compare(options).code, 0);
+    return read_file(folder / "report.html");
+  };
+  EXPECT_THAT(settings({sample("annulus.off")}), HasSubstr("8 x 8 candidates, 3 levels, first grid 0.5 of the star&#39;s box, in float"));
+  EXPECT_THAT(settings({sample("annulus.off"), "--combine", "mean-ratio:0.5:density"}), HasSubstr("box, in double"));
+  ASSERT_EQ(run({"generate", "tetrahedra", "--size", "64", "-o", folder / "v.vtk"}).code, 0);
+  EXPECT_THAT(settings({folder / "v.vtk"}), HasSubstr("8 x 8 x 8 candidates"));
+}
+
 TEST(Compare, OrdersLieAsFarApartAsTheirSortedQualities) {
   const std::string in = sample("random.off");
   const json orders = compare_json({in, "--run", "dmo", "--iterations", "5", "--shuffles", "2"})["orders"];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -176,6 +177,14 @@ TEST(Compare, TheReportStandsAlone) {
   EXPECT_EQ(plots, 2U);
   const bool pictures = page.find("src=\"data:image/png;base64,iVBOR") != std::string::npos;
   EXPECT_TRUE(pictures || page.find("No picture: ") != std::string::npos);
+  // Percentiles of the input, by counting.
+  ASSERT_EQ(run({"quality", in, "--metric", "mean-ratio", "--elements", folder / "elements.csv"}).code, 0);
+  const Table elements = read_table(folder / "elements.csv");
+  std::vector<double> qualities;
+  for (std::size_t i = 0; i < elements.rows.size(); ++i) qualities.push_back(elements.number(i, "mean-ratio"));
+  std::sort(qualities.begin(), qualities.end());
+  const auto hundredth = static_cast<std::size_t>(std::ceil(0.01 * static_cast<double>(qualities.size()))) - 1;
+  EXPECT_THAT(page, HasSubstr(fmt::format("data-key=\"{}\"", qualities[hundredth])));
   // The table has the figures that the CSV has.
   ASSERT_EQ(compare({in, "--run", "dmo", "--run", "dmo:max-angle", "--iterations", "2", "--table", folder / "table.csv"}).code, 0);
   const Table table = read_table(folder / "table.csv");
@@ -219,6 +228,31 @@ TEST(Compare, AnOutcomeThatIsNotReachedIsCodeOneAndToldOf) {
   const Output output = compare({sample("annulus.off"), "--run", "dmo", "--until-converged", "--max-iterations", "1"});
   EXPECT_EQ(output.code, 1);
   EXPECT_THAT(output.err, HasSubstr("dmo:mean-ratio: not converged"));
+}
+
+TEST(Compare, AnOrderThatDoesNotConvergeCountsToo) {
+  const std::vector<std::string> asked{sample("random.off"), "--run", "dmo", "--shuffles", "3", "--until-converged", "--patience", "5"};
+  std::vector<std::uint64_t> needed;
+  const json all = compare_json(asked);
+  for (const json& one : all["runs"]) needed.push_back(one["iterations"]);
+  ASSERT_EQ(needed.size(), 4U);
+  ASSERT_LT(needed[0], *std::ranges::max_element(needed)) << "or there is nothing to see here";
+  std::vector<std::string> short_of = asked;
+  short_of.insert(short_of.end(), {"--max-iterations", std::to_string(needed[0])});
+  const Output output = compare(short_of);
+  EXPECT_EQ(output.code, 1);
+  EXPECT_THAT(output.err, HasSubstr("shuffle:"));
+  EXPECT_THAT(output.err, Not(HasSubstr("dmo:mean-ratio: not converged")));
+}
+
+TEST(Compare, VerticesAreKeptInEveryRun) {
+  const std::string in = sample("annulus.off");
+  const auto smooth =
+      json_of(run({"smooth", in, "-o", Folder() / "s.off", "--fix", "200-300", "--iterations", "2", "--backend", "cpu", "--json"}));
+  const json all = compare_json({in, "--run", "dmo", "--fix", "200-300", "--iterations", "2"});
+  EXPECT_EQ(all["free"], smooth["free"]);
+  EXPECT_EQ(all["runs"][0]["mean_quality"], smooth["after"]["mean"]);
+  EXPECT_NE(compare_json({in, "--run", "dmo", "--iterations", "2"})["free"], smooth["free"]);
 }
 
 TEST(Compare, CancelledItLeavesNoFiles) {

@@ -1,5 +1,6 @@
 // dmoscope paper: its table against runs of dmoscope smooth, what it says of what is missing, its files, what it refuses.
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -119,7 +120,7 @@ TEST(Paper, VerdictsFollowFromTheirTolerances) {
   std::filesystem::create_directories(folder / "meshes");
   for (const char* name : {"bahamas.14", "east.14"})
     std::filesystem::copy_file(sample("coast.14"), folder / (std::string("meshes/") + name));
-  ASSERT_EQ(paper(folder, {"--only", "4a", "--only", "methods", "--only", "9", "--meshes", folder / "meshes"}).code, 1);
+  ASSERT_EQ(paper(folder, {"--only", "4a", "--only", "methods", "--meshes", folder / "meshes"}).code, 1);
   std::map<std::string, int> seen;
   for (const Row& row : rows_of(folder / "out/table.csv")) {
     ++seen[row.verdict];
@@ -137,6 +138,66 @@ TEST(Paper, VerdictsFollowFromTheirTolerances) {
   EXPECT_GT(seen["holds"], 1);
   EXPECT_GT(seen["differs"], 1);
   EXPECT_GT(seen["told"], 1);
+}
+
+/// The lines of a plot's CSV by their names, in the order of x.
+std::map<std::string, std::vector<double>> courses_of(const std::string& path) {
+  std::map<std::string, std::vector<double>> courses;
+  for (const std::string& line : lines_of(read_file(path))) {
+    const std::vector<std::string> c = cells_of(line);
+    if (c.at(0) != "series") courses[c.at(0)].push_back(std::stod(c.at(2)));
+  }
+  return courses;
+}
+
+double ours(const std::vector<Row>& rows, const std::string& what) {
+  const auto found = std::ranges::find_if(rows, [&](const Row& row) { return row.what.find(what) != std::string::npos; });
+  EXPECT_NE(found, rows.end()) << what;
+  return found == rows.end() || found->ours.empty() ? NAN : std::stod(found->ours);
+}
+
+TEST(Paper, WhatIsSaidOfCoursesFollowsFromTheirPlots) {
+  const Folder folder;
+  std::filesystem::create_directories(folder / "meshes");
+  ASSERT_EQ(run({"generate", "block", "--size", "400", "--seed", "1", "-o", folder / "meshes/shashkov.vtk"}).code, 0);
+  ASSERT_EQ(run({"generate", "block", "--size", "600", "--seed", "2", "-o", folder / "meshes/east.14"}).code, 0);
+  ASSERT_LE(paper(folder, {"--only", "4a", "--only", "4c", "--only", "5.2-east", "--meshes", folder / "meshes"}).code, 1);
+  const std::vector<Row> rows = rows_of(folder / "out/table.csv");
+  const auto first = [](const std::vector<double>& course, double goal) {
+    return static_cast<double>(std::ranges::find_if(course, [&](double q) { return q >= goal; }) - course.begin());
+  };
+  auto courses = courses_of(folder / "out/4c/convergence.csv");
+  const std::vector<double>&dmo = courses["dmo"], &dvr = courses["dvr"];
+  ASSERT_EQ(dmo.size(), 301U);
+  const double goal = std::min(dvr.back(), dmo.back() - 1e-3), sooner = first(dmo, goal);
+  EXPECT_GT(sooner, 1.0);
+  EXPECT_DOUBLE_EQ(ours(rows, "iterations of dvr over those of dmo"), first(dvr, goal) / sooner);
+  EXPECT_DOUBLE_EQ(ours(rows, "over dmo's"), dvr.back() / dmo.back());
+  // A minimum has converged where it stays near its last; minima of dmo do not fall.
+  const std::vector<double> east = courses_of(folder / "out/4a/convergence.csv")["dmo"];
+  ASSERT_EQ(east.size(), 21U);
+  EXPECT_DOUBLE_EQ(ours(rows, "dmo: iterations until converged"), first(east, east.back() - 1e-3));
+  EXPECT_DOUBLE_EQ(ours(rows, "dmo: minimum after 10 iterations"), east[10]);
+  EXPECT_DOUBLE_EQ(ours(rows, "seconds of dvr over those of dmo"),
+                   ours(rows, "dvr: seconds to the same minimum") / ours(rows, "dmo: seconds on the cpu"));
+}
+
+TEST(Paper, OrdersAreAllDifferent) {
+  const Folder folder;
+  ASSERT_EQ(paper(folder, {"--only", "11", "--only", "12"}).code, 0);
+  const auto courses = courses_of(folder / "out/11/random.csv");
+  EXPECT_EQ(courses.size(), 6U);
+  for (const auto& [name, course] : courses)
+    for (const auto& [other_name, other] : courses) EXPECT_EQ(course == other, name == other_name) << name << ", " << other_name;
+  const std::vector<Row> rows = rows_of(folder / "out/table.csv");
+  double low = INFINITY, high = -INFINITY;
+  for (const auto& [name, course] : courses) {
+    low = std::min(low, course.front());
+    high = std::max(high, course.front());
+  }
+  EXPECT_NEAR(ours(rows, "lowest minimum of 6"), low, 1e-7) << "the plot is in float";
+  EXPECT_NEAR(ours(rows, "highest minimum of 6"), high, 1e-7);
+  EXPECT_GT(ours(rows, "mean distance of their vertices"), 0.01);
 }
 
 TEST(Paper, AVolumeIsAnExperiment) {

@@ -137,7 +137,7 @@ TEST(Paper, VerdictsFollowFromTheirTolerances) {
   }
   EXPECT_GT(seen["holds"], 1);
   EXPECT_GT(seen["differs"], 1);
-  EXPECT_GT(seen["told"], 1);
+  EXPECT_GT(seen["told"], 0);
 }
 
 /// The lines of a plot's CSV by their names, in the order of x.

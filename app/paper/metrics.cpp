@@ -1,5 +1,7 @@
 // Figures 6 to 8: other metrics and other elements; and the phase that raises the mean.
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "app/comparison/results.h"

@@ -127,9 +127,10 @@ void add_settings(Page& page, const Comparison& comparison, const ComparisonFact
                            counted(mesh.elements.size(), "element", "elements"), comparison.free)},
       {"goal", goal_sentence(options.goal)},
       {"judged by", fmt::format("{}: {}", info(comparison.judge).name, info(comparison.judge).doc)},
-      {"search of dmo",
-       fmt::format("{0} x {0} candidates, {1}, first grid {2:g} of the star's box, in {3}", search.grid_points,
-                   counted(static_cast<std::uint64_t>(search.levels), "level", "levels"), search.omega, options.run.precision)},
+      {"search of dmo", fmt::format("{0} x {0}{1} candidates, {2}, first grid {3:g} of the star's box, in {4}", search.grid_points,
+                                    comparison.input->is_volume() ? fmt::format(" x {}", search.grid_points) : "",
+                                    counted(static_cast<std::uint64_t>(search.levels), "level", "levels"), search.omega,
+                                    options.run.combine.empty() ? options.run.precision : "double")},
       {"order", options.run.order + (options.shuffles > 0 ? fmt::format(", and {} shuffled ones", options.shuffles) : "")}};
   if (!options.run.fix.empty()) list.emplace_back("kept where they are", fmt::format("{}", fmt::join(options.run.fix, "; ")));
   for (auto& fact : machine_facts(facts.threads)) list.push_back(std::move(fact));

@@ -1,5 +1,7 @@
 // Figure 4: how the minimum rises under DMO, DVR, Laplace and angle-based smoothing; and what these reach on other meshes.
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "app/comparison/results.h"
@@ -40,11 +42,16 @@ Race race(Lab& lab, Figure& figure, const std::shared_ptr<const InputMesh>& inpu
   return all;
 }
 
-/// How many times as many iterations another method takes to get where it ends as DMO takes to get there. NaN where DMO never does.
+constexpr double kConverged = 1e-3;  // of a minimum: nearer than this to the last
+
+/// When the minimum had converged, of a method under which it never falls.
+double converged_after(const JudgedRun& run) { return static_cast<double>(*first_at_least(run, run.after.minimum - kConverged)); }
+
+/// How many times as many iterations as DMO another method takes to get where it ends, or, where that is above DMO's end, to where DMO has
+/// converged.
 double iterations_ratio(const JudgedRun& dmo, const JudgedRun& other) {
-  const auto reached = first_at_least(dmo, other.after.minimum);
-  if (!reached) return std::numeric_limits<double>::quiet_NaN();
-  return static_cast<double>(*first_at_least(other, other.after.minimum)) / static_cast<double>(std::max<std::uint64_t>(1, *reached));
+  const double goal = std::min(other.after.minimum, dmo.after.minimum - kConverged);
+  return static_cast<double>(*first_at_least(other, goal)) / static_cast<double>(std::max<std::uint64_t>(1, *first_at_least(dmo, goal)));
 }
 
 void east(Lab& lab, Figure& figure) {
@@ -56,13 +63,12 @@ void east(Lab& lab, Figure& figure) {
   if (dmo) {
     figure.check(mesh, "minimum of the input", dmo->before().minimum, Claim::about(0.65, 0.005));
     figure.check(mesh, "dmo: minimum after 10 iterations", after_ten(*dmo), {"0.82", 0.82, 0.812});
-    figure.check(mesh, "dmo: iterations until converged (to 1e-3)", static_cast<double>(settled_at(*dmo, 1e-3)),
-                 {"2 (Fig. 4a), 4 (Section 5.2)", {}, 1.0, 4.0});
+    figure.check(mesh, "dmo: iterations until converged (to 1e-3)", converged_after(*dmo), {"2 (Fig. 4a), 4 (Section 5.2)", {}, 1.0, 4.0});
   }
   if (dvr) {
     figure.check(mesh, "dvr: minimum after 10 iterations", after_ten(*dvr),
                  {"0.82", 0.82, 0.79, 1.0, "Which directions are drawn decides how near it is by then."});
-    figure.tell(mesh, "dvr: iterations until converged (to 1e-3), of 20", static_cast<double>(settled_at(*dvr, 1e-3)), "10",
+    figure.tell(mesh, "dvr: iterations until converged (to 1e-3), of 20", converged_after(*dvr), "10",
                 "Its directions are drawn at random; 20 iterations were done.");
   }
   if (laplace) figure.check(mesh, "laplace: minimum after 10 iterations", after_ten(*laplace), {"unchanged", 0.653, 0.643, 0.663});
@@ -83,12 +89,13 @@ void finer(Lab& lab, Figure& figure) {
   }
   if (dmo && dvr) {
     figure.tell(mesh, "dvr: minimum at the end", dvr->after.minimum, "", why);
-    figure.check(
-        mesh, "iterations of dvr over those of dmo to dvr's last minimum", iterations_ratio(*dmo, *dvr),
-        {"15 (900 over 60)", {}, 2.0, std::numeric_limits<double>::infinity(), why + " That DMO needs far fewer is what is claimed."});
+    figure.check(mesh, "iterations of dvr over those of dmo to the lesser of their last minima", iterations_ratio(*dmo, *dvr),
+                 Claim::at_least("15 (900 over 60)", lab.choose(4.0, 8.0, 8.0), why + " That DMO needs far fewer is what is claimed."));
   }
   if (laplace) figure.tell(mesh, "laplace: minimum at the end", laplace->after.minimum, "unstable", why);
-  if (angles) figure.tell(mesh, "angle-based: minimum at the end", angles->after.minimum, "lower than the input's", why);
+  if (angles)
+    figure.check(mesh, "angle-based: minimum at the end", angles->after.minimum,
+                 Claim::at_most("lower than the input's", angles->before().minimum, why));
 }
 
 void shashkov(Lab& lab, Figure& figure) {
@@ -103,14 +110,16 @@ void shashkov(Lab& lab, Figure& figure) {
   if (dmo && !quick) {
     figure.check(mesh, "dmo: minimum at the end", dmo->after.minimum,
                  Claim::at_least("", 0.19, "The paper has it in a plot alone; 0.194 was computed apart."));
-    figure.check(mesh, "dmo: iterations until converged (to 1e-3)", static_cast<double>(settled_at(*dmo, 1e-3)),
-                 Claim::at_most("1400", 1540.0));
+    figure.check(mesh, "dmo: iterations until converged (to 1e-3)", converged_after(*dmo), Claim::at_most("1400", 1400.0));
   }
   if (dmo && dvr) {
+    const std::string why =
+        "DMO stops where no vertex gets further alone; random directions find ways around, so that DVR passes it after some 4000 "
+        "iterations.";
     figure.check(mesh, fmt::format("dvr: minimum after {} iterations, over dmo's", iterations), dvr->after.minimum / dmo->after.minimum,
-                 Claim::at_most("below 1: not converged after 10000", 0.95));
-    figure.check(mesh, "iterations of dvr over those of dmo to dvr's last minimum", iterations_ratio(*dmo, *dvr),
-                 Claim::at_least("more than 7 (10000 over 1400)", 7.0));
+                 Claim::at_most("below 1: not converged after 10000", 0.95, why));
+    figure.check(mesh, "iterations of dvr over those of dmo to the lesser of their last minima", iterations_ratio(*dmo, *dvr),
+                 Claim::at_least("more than 7 (10000 over 1400)", 7.0, why));
   }
   if (laplace) figure.tell(mesh, "laplace: minimum at the end", laplace->after.minimum, "", "Its own plot ends below the others.");
   if (angles) figure.tell(mesh, "angle-based: minimum at the end", angles->after.minimum, "", "Its own plot ends below the others.");

@@ -1,19 +1,18 @@
 // Figure 9: the density of vertices follows a size function, with the mean ratio of 0.7 as threshold.
 
-#include <cmath>
+#include <algorithm>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "app/paper/lab.h"
+#include "core/smooth/size_field.h"
 
 namespace dmoscope::app {
 
 namespace {
 
-double distance(const Vec3& a, const Vec3& b) {
-  const Vec3 d = a - b;
-  return std::sqrt(dot(d, d));
-}
+constexpr double kThreshold = 0.7;
 
 Vec3 middle(const InputMesh& input) {
   Vec3 low = input.mesh.positions.front(), high = low;
@@ -24,26 +23,12 @@ Vec3 middle(const InputMesh& input) {
   return 0.5 * (low + high);
 }
 
-/// How the elements' mean edges and their wanted sizes go together: Pearson's correlation of the logarithms, since the size function counts
-/// up to a factor. Of elements with a free corner.
-double correlation(const InputMesh& input, std::span<const Vec3> positions, const Vec3& point, bool inverse) {
-  double n = 0, sx = 0, sy = 0, sxx = 0, syy = 0, sxy = 0;
-  for (Index e = 0; e < input.mesh.elements.size(); ++e) {
-    const auto corners = input.mesh.elements.corners(e);
-    double edges = 0.0;
-    bool free = false;
-    Vec3 centre{};
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      edges += distance(positions[corners[i]], positions[corners[(i + 1) % corners.size()]]);
-      centre = centre + (1.0 / static_cast<double>(corners.size())) * positions[corners[i]];
-      free = free || input.topology.boundary()[corners[i]] == 0;
-    }
-    if (!free) continue;
-    const double size = std::log(distance(centre, point)) * (inverse ? -1.0 : 1.0);
-    const double length = std::log(edges / static_cast<double>(corners.size()));
-    n += 1, sx += size, sy += length, sxx += size * size, syy += length * length, sxy += size * length;
-  }
-  return (n * sxy - sx * sy) / std::sqrt((n * sxx - sx * sx) * (n * syy - sy * sy));
+/// How the lengths of the edges at the free vertices go with the sizes wanted there: of the logarithms, since sizes count up to a factor.
+double correlation(const SizeField& size, const InputMesh& input, std::span<const Vec3> positions) {
+  std::vector<Index> free;
+  for (Index v = 0; v < input.mesh.vertex_count(); ++v)
+    if (input.topology.boundary()[v] == 0) free.push_back(v);
+  return size_correlation(size, input, positions, free).logarithms;
 }
 
 /// `papers`: the paper's own mesh; of another one the sizes are told, for nobody claims anything of them.
@@ -55,17 +40,17 @@ void density_on(Lab& lab, Figure& figure, const std::shared_ptr<const InputMesh>
   for (const bool inverse : {false, true}) {
     const char* h = inverse ? "h2" : "h1";
     const SizeFunction size{.kind = inverse ? SizeFunction::Kind::InverseDistance : SizeFunction::Kind::Distance, .point = point};
-    const auto run = lab.run(input, {.combination = Combination{0.7, size}}, lab.choose<std::uint64_t>(30, 100, 300), figure);
+    const auto run = lab.run(input, {.combination = Combination{kThreshold, size}}, lab.choose<std::uint64_t>(30, 100, 300), figure);
     if (!run) return;
     figure.check(mesh, fmt::format("{}: minimum", h), run->after.minimum,
-                 Claim::at_least("0.7, the threshold", std::min(0.7, run->before().minimum) - 1e-9,
+                 Claim::at_least("0.7, the threshold", papers ? kThreshold : std::min(kThreshold, run->before().minimum),
                                  "A star that cannot reach the threshold stays below it; no star that is above falls below."));
-    const double before = correlation(*input, input->mesh.positions, point, inverse),
-                 after = correlation(*input, run->positions, point, inverse);
+    const SizeField field(input, size);
+    const double before = correlation(field, *input, input->mesh.positions), after = correlation(field, *input, run->positions);
     figure.tell(mesh, fmt::format("{}: correlation of size and wanted size, input", h), before, "", why);
     const std::string rise = fmt::format("{}: rise of that correlation", h);
     if (papers) {
-      figure.check(mesh, rise, after - before, Claim::at_least("rises", 0.05, why));
+      figure.check(mesh, rise, after - before, Claim::at_least("rises", 0.2, why));
     } else {
       figure.tell(mesh, rise, after - before, "rises", why);
     }

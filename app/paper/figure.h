@@ -35,6 +35,9 @@ struct Claim {
     return {std::move(paper), {}, -std::numeric_limits<double>::infinity(), bound, std::move(why)};
   }
   [[nodiscard]] static Claim about(double value, double tolerance, std::string why = {});
+  [[nodiscard]] bool holds(double ours) const { return ours >= lowest && ours <= highest; }
+  /// "at least 0.812", "0.56 to 0.6"
+  [[nodiscard]] std::string tolerance() const;
 };
 
 /// A row of the table.
@@ -42,6 +45,7 @@ struct Finding {
   std::string figure, mesh, what, paper;
   double ours = std::numeric_limits<double>::quiet_NaN();
   std::optional<double> difference{};
+  std::string tolerance{};  // within which it holds; empty where nothing is claimed
   Verdict verdict = Verdict::Told;
   std::string why{};
 };

@@ -84,13 +84,4 @@ std::optional<std::uint64_t> first_at_least(const JudgedRun& run, double minimum
   return found->iteration;
 }
 
-std::uint64_t settled_at(const JudgedRun& run, double slack) {
-  std::uint64_t since = run.records.back().iteration;
-  for (auto record = run.records.rbegin(); record != run.records.rend(); ++record) {
-    if (std::abs(record->statistics.minimum - run.after.minimum) > slack) break;
-    since = record->iteration;
-  }
-  return since;
-}
-
 }  // namespace dmoscope::app

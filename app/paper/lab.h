@@ -60,7 +60,5 @@ struct Experiment {
 
 /// The first iteration whose minimum is at least this; none when there is none.
 [[nodiscard]] std::optional<std::uint64_t> first_at_least(const JudgedRun& run, double minimum);
-/// The first from which on the minimum is within `slack` of the last: when it had converged.
-[[nodiscard]] std::uint64_t settled_at(const JudgedRun& run, double slack);
 
 }  // namespace dmoscope::app

@@ -1,5 +1,7 @@
 // Figures 6 to 8: other metrics and other elements; and the phase that raises the mean.
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "app/comparison/results.h"
@@ -113,9 +115,8 @@ void volumes(Lab& lab, Figure& figure) {
 }
 
 void mean_phase(Lab& lab, Figure& figure) {
-  const auto raise = [&](const std::shared_ptr<const InputMesh>& input, std::optional<double> least_mean) {
+  const auto raise = [&](const std::shared_ptr<const InputMesh>& input, std::uint64_t iterations, std::optional<double> least_mean) {
     const std::string mesh = input->mesh.name;
-    const auto iterations = lab.choose<std::uint64_t>(40, 100, 300);
     const auto plain = lab.run(input, {}, iterations, figure);
     const auto raised = lab.run(input, {.then_mean = MeanPhase{}}, iterations, figure);
     if (!plain || !raised) return;
@@ -123,12 +124,14 @@ void mean_phase(Lab& lab, Figure& figure) {
                  {"kept", 0.0, -0.001, 1.0, "Not in the paper: it is its eq. (8) with the mean as second metric."});
     figure.tell(mesh, "mean of the input", raised->before().mean, "", "");
     figure.tell(mesh, "mean without the second phase", plain->after.mean, "", "Raising the minimum alone may lower the mean.");
-    const double bound = least_mean.value_or(plain->after.mean);
+    const double bound = least_mean.value_or(plain->after.mean + 0.001);
     figure.check(mesh, "mean with the second phase", raised->after.mean, Claim::at_least(fmt::format("at least {:.3g}", bound), bound));
   };
-  if (const auto input = lab.mesh("east.14", figure)) raise(input, 0.953);
-  if (const auto input = lab.mesh("bahamas.14", figure)) raise(input, 0.978);
-  raise(lab.stand_in("annulus 2500 1"), std::nullopt);
+  const auto iterations = lab.choose<std::uint64_t>(40, 100, 300);
+  if (const auto input = lab.mesh("east.14", figure)) raise(input, iterations, 0.953);
+  if (const auto input = lab.mesh("bahamas.14", figure)) raise(input, iterations, 0.978);
+  // Of this one the minimum rises for some 90 iterations, before which there is no second phase.
+  raise(lab.stand_in("annulus 2500 1"), std::max<std::uint64_t>(100, iterations), std::nullopt);
 }
 
 }  // namespace

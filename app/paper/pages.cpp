@@ -48,11 +48,12 @@ std::vector<PageCell> page_row(const Finding& f) {
           {f.paper, f.paper},
           number_cell(std::isnan(f.ours) ? "" : short_number(f.ours), f.ours),
           number_cell(short_number(f.difference), f.difference.value_or(std::nan(""))),
+          {f.tolerance, f.tolerance},
           {std::string(name(f.verdict)), std::string(name(f.verdict)), false, style_of(f.verdict)},
           {f.why, f.why}};
 }
 
-const std::vector<std::string> kHead{"figure", "mesh", "what", "paper", "ours", "difference", "verdict", "why"};
+const std::vector<std::string> kHead{"figure", "mesh", "what", "paper", "ours", "difference", "tolerance", "verdict", "why"};
 
 }  // namespace
 
@@ -61,16 +62,17 @@ std::string findings_text(const std::vector<Figure>& figures) {
   for (const Figure& figure : figures)
     for (const Finding& f : figure.findings)
       rows.push_back({f.figure, f.mesh, f.what, f.paper, std::isnan(f.ours) ? "" : short_number(f.ours), short_number(f.difference),
-                      std::string(name(f.verdict))});
-  return text_table({kHead.begin(), kHead.end() - 1}, rows, "llllrrl");
+                      f.tolerance, std::string(name(f.verdict))});
+  return text_table({kHead.begin(), kHead.end() - 1}, rows, "llllrrll");
 }
 
 std::string findings_csv(const std::vector<Figure>& figures) {
-  std::string text = "figure,mesh,what,paper,ours,difference,verdict,why\n";
+  std::string text = "figure,mesh,what,paper,ours,difference,tolerance,verdict,why\n";
   for (const Figure& figure : figures)
     for (const Finding& f : figure.findings)
-      text += fmt::format("{},{},{},{},{},{},{},{}\n", csv_text(f.figure), csv_text(f.mesh), csv_text(f.what), csv_text(f.paper),
-                          exact_number(f.ours), f.difference ? exact_number(*f.difference) : "", name(f.verdict), csv_text(f.why));
+      text += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_text(f.figure), csv_text(f.mesh), csv_text(f.what), csv_text(f.paper),
+                          exact_number(f.ours), f.difference ? exact_number(*f.difference) : "", csv_text(f.tolerance), name(f.verdict),
+                          csv_text(f.why));
   return text;
 }
 

@@ -11,7 +11,7 @@ namespace dmoscope::app {
 
 /// A line a finding.
 [[nodiscard]] std::string findings_text(const std::vector<Figure>& figures);
-/// Columns figure,mesh,what,paper,ours,difference,verdict,why.
+/// Columns figure,mesh,what,paper,ours,difference,tolerance,verdict,why.
 [[nodiscard]] std::string findings_csv(const std::vector<Figure>& figures);
 /// A page that stands alone. `facts`: settings and machine.
 [[nodiscard]] std::string findings_page(const std::vector<Figure>& figures, const std::vector<std::pair<std::string, std::string>>& facts);

@@ -89,9 +89,10 @@ double seconds_up_to(const JudgedRun& run, std::uint64_t iteration) {
   return seconds;
 }
 
-/// What the paper says of such a race.
+/// What the paper says of such a race: DMO's and DVR's seconds on its CPU, and their ratio; and how many iterations DVR must need here.
 struct PaperRace {
-  const char *free, *minimum, *iterations, *time;
+  const char *free, *minimum, *iterations, *dmo_seconds, *dvr_seconds, *ratio;
+  double least_iterations;
 };
 
 /// DMO for four iterations, and DVR until it is as good, less `slack`.
@@ -111,21 +112,23 @@ void race_to_quality(Lab& lab, Figure& figure, const std::shared_ptr<const Input
     return;
   }
   figure.check(mesh, fmt::format("dvr: iterations to the same minimum (less {:g})", slack), static_cast<double>(*reached),
-               {paper.iterations, {}, 4.0});
-  figure.tell(mesh, "seconds of dvr over those of dmo on the cpu", seconds_up_to(*dvr, *reached) / seconds_up_to(*dmo, 4), paper.time,
-              kAnotherMachine);
+               Claim::at_least(paper.iterations, paper.least_iterations));
+  const double dmo_seconds = seconds_up_to(*dmo, 4), dvr_seconds = seconds_up_to(*dvr, *reached);
+  figure.tell(mesh, "dmo: seconds on the cpu, 4 iterations", dmo_seconds, paper.dmo_seconds, kAnotherMachine);
+  figure.tell(mesh, "dvr: seconds to the same minimum", dvr_seconds, paper.dvr_seconds, kAnotherMachine);
+  figure.tell(mesh, "seconds of dvr over those of dmo on the cpu", dvr_seconds / dmo_seconds, paper.ratio, kAnotherMachine);
 }
 
 void million(Lab& lab, Figure& figure) {
   const auto input = lab.stand_in(lab.choose("grid 10000", "grid 100000", "grid 1333540"));
   figure.notes.emplace_back("The paper's mesh of 1 333 540 free vertices, minimum 0.033, is not named there; ours is a jittered lattice.");
-  race_to_quality(lab, figure, input, lab.choose<std::uint64_t>(50, 100, 100), 0.0, {"1333540", "0.34", "43", "14"});
+  race_to_quality(lab, figure, input, lab.choose<std::uint64_t>(50, 100, 100), 0.0, {"1333540", "0.34", "43", "31", "435", "14", 10.0});
 }
 
 void small(Lab& lab, Figure& figure) {
   const auto input = lab.mesh("east.14", figure);
   if (!input) return;
-  race_to_quality(lab, figure, input, 60, 0.001, {"8429", "0.82", "10", "7.8"});
+  race_to_quality(lab, figure, input, 60, 0.001, {"8429", "0.82", "10", "0.1", "0.78", "7.8", 5.0});
 }
 
 }  // namespace

@@ -73,13 +73,16 @@ struct Result {
 
 bool on_cpu(const Run& run) { return run.backend() == name(Backend::Cpu); }
 
-/// What the search computed with; null on a device.
+/// In float, many vertices at once: the plain grid search alone can do that.
+bool in_lanes(const RunParameters& p) {
+  return method_info(p.method).searches_grid && !p.combination && p.search.precision == Precision::Float;
+}
+
+/// What the search computed with; null on a device. That for two aims takes a pack of candidates at a time.
 Json simd_name(const Run& run) {
-  const SearchParameters& search = run.parameters().search;
+  const RunParameters& p = run.parameters();
   if (!on_cpu(run)) return nullptr;
-  const bool in_packs = run.parameters().combination || search.precision == Precision::Float;
-  if (!method_info(run.parameters().method).searches_grid || !in_packs) return "scalar";
-  return name(search.simd.value_or(best_simd_level()));
+  return in_lanes(p) || p.combination ? name(p.search.simd.value_or(best_simd_level())) : "scalar";
 }
 
 Json json_of(const Result& r) {
@@ -100,7 +103,7 @@ Json json_of(const Result& r) {
   object["parameters"] = {{"grid", p.search.grid_points},
                           {"levels", p.search.levels},
                           {"omega", p.search.omega},
-                          {"precision", p.search.precision == Precision::Float && !p.combination ? "float" : "double"},
+                          {"precision", in_lanes(p) ? "float" : "double"},
                           {"relaxation", p.options.relaxation},
                           {"directions", name(p.options.directions)},
                           {"seed", p.options.seed},

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/csv_text.h"
+
 namespace dmoscope {
 
 namespace {
@@ -23,9 +25,10 @@ std::string stats_csv(std::span<const std::string> titles, std::span<const std::
                       std::span<const SharedVector<Percentiles>> percentiles) {
   std::string text = "run,iteration,min_quality,mean_quality,inverted,moved,seconds,movable_minimum";
   text += percentiles.empty() ? "\n" : ",p1,p5,p50\n";
-  for (std::size_t r = 0; r < titles.size(); ++r)
+  for (std::size_t r = 0; r < titles.size(); ++r) {
+    const std::string title = csv_text(titles[r]);
     for (const IterationRecord& row : *records[r]) {
-      fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}", titles[r], row.iteration, number(row.statistics.minimum),
+      fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}", title, row.iteration, number(row.statistics.minimum),
                      number(row.statistics.mean), row.statistics.inverted, row.moved, number(row.seconds),
                      number(row.statistics.movable_minimum));
       if (!percentiles.empty()) {
@@ -34,6 +37,7 @@ std::string stats_csv(std::span<const std::string> titles, std::span<const std::
       }
       text += '\n';
     }
+  }
   return text;
 }
 

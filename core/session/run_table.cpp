@@ -29,7 +29,8 @@ constexpr std::array<RunColumn, 14> kColumns{{
     {"p5", "5 %", "a twentieth of the elements is not better than this", &RunRow::p5},
     {"inverted", "inverted", "elements with a corner Jacobian of 0 or less", &RunRow::inverted, true},
     {"seconds", "seconds", "of smoothing alone", &RunRow::seconds},
-    {"vertices_per_second", "vertices/s", "visits of free vertices in a second of smoothing", &RunRow::vertices_per_second},
+    {"vertices_per_second", "vertices/s", "free vertices times iterations in a second of smoothing; dmo passes over those at rest",
+     &RunRow::vertices_per_second},
 }};
 
 /// Whether there is something to sort by.

@@ -17,9 +17,14 @@ double mean_of_star(const MeshView<Frame>& mesh, PositionView positions, Index v
   return sum / static_cast<double>(mesh.star(vertex).size());
 }
 
-template <Metric M, bool Untangling, class Frame>
-double worth_at(const StarViewIn<Frame, double>& star, OffsetIn<Frame, double> p) {
-  return Objective<M, Untangling, double, Value::Metric, StarViewIn<Frame, double>>(star)(p);
+template <Metric M, class Frame>
+double least_at(const StarViewIn<Frame, double>& star, OffsetIn<Frame, double> p) {
+  return Objective<M, false, double, Value::Metric, StarViewIn<Frame, double>>(star)(p);
+}
+
+template <Metric M, class Frame>
+double untangling_at(const StarViewIn<Frame, double>& star, OffsetIn<Frame, double> p) {
+  return UntanglingObjective<M, StarViewIn<Frame, double>, OffsetIn<Frame, double>>(star)(p);
 }
 
 template <Metric M, class Frame>
@@ -34,7 +39,7 @@ double mean_at(const StarViewIn<Frame, double>& star, OffsetIn<Frame, double> p)
 
 template <Metric M, class Frame>
 MetricFunctions<Frame> functions_of() {
-  return {star_state<M, Frame>, mean_of_star<M, Frame>, worth_at<M, false, Frame>, worth_at<M, true, Frame>, mean_at<M, Frame>};
+  return {star_state<M, Frame>, mean_of_star<M, Frame>, least_at<M, Frame>, untangling_at<M, Frame>, mean_at<M, Frame>};
 }
 
 template <class Frame>

@@ -15,10 +15,10 @@ namespace dmoscope {
 /// The second aim of the phase that raises the mean: the mean quality of the star, by the first metric.
 struct MeanOfStar {};
 
-/// Of two places the better one for a vertex is, in this order: while an element of its star is inverted, that of greater smallest
-/// normalised Jacobian; while its least first metric is not beyond the threshold, that of greater least first metric; that of greater
-/// second aim. Beyond: above the threshold; or, for the mean, not below it, so that a star whose least is the floor keeps its place unless
-/// its mean rises.
+/// Of two places the better one for a vertex is, in this order: while an element of its star is inverted, the one where it is
+/// less so (see UntanglingObjective); while its least first metric is not beyond the threshold, that of greater least first metric; that of
+/// greater second aim. Beyond: above the threshold; or, for the mean, not below it, so that a star whose least is the floor keeps its place
+/// unless its mean rises.
 struct Aims {
   Metric first = Metric::MeanRatio;
   double threshold = 0.7;  // at least 0
@@ -71,8 +71,8 @@ struct DensityTarget {
 /// The mean of the edge neighbours, weighted by the inverse of the size where each stands now.
 [[nodiscard]] DensityTarget<Plane> density_target(const SizeField& size, const PlanarView& mesh, PositionView positions, Index vertex);
 
-/// What the grid search maximises, as the paper's eq. (8) has it: the least first metric (or, untangling, the smallest Jacobian while it is
-/// <= 0); beyond the threshold that plus the second aim, which is positive.
+/// What the grid search maximises, as the paper's eq. (8) has it: the least first metric (or, untangling, what is raised while an element
+/// is inverted, which is <= 0); beyond the threshold that plus the second aim, which is positive.
 template <class Frame>
 class CombinedObjective {
  public:

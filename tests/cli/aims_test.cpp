@@ -30,6 +30,10 @@ TEST(Aims, JsonTellsOfThem) {
   EXPECT_EQ(metrics["combination"]["threshold"], 0.4);
   EXPECT_EQ(metrics["combination"]["second"], "min-angle");
   EXPECT_EQ(metrics["simd"], plain["simd"]);
+  EXPECT_EQ(metrics["parameters"]["precision"], "double");
+  EXPECT_EQ(plain["parameters"]["precision"], "float");
+  const auto laplace = smooth(coast, folder / "l.14", {"--iterations", "1", "--method", "laplace"});
+  EXPECT_EQ(laplace["parameters"]["precision"], "double") << "dmo's lanes alone are of floats";
   const auto density =
       smooth(coast, folder / "c.14",
              {"--iterations", "1", "--combine", "mean-ratio:0.5:density", "--size-function", "field:depth", "--stats", folder / "c.csv"});

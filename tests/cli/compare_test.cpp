@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -101,6 +102,29 @@ TEST(Compare, FilesHaveEveryRunAndIteration) {
   EXPECT_THAT(svg, HasSubstr("dmo:min-angle, 2 orders"));
 }
 
+TEST(Compare, ANameWithACommaIsOneCell) {
+  const Folder folder;
+  const Output output = compare({sample("annulus.off"), "--run", "dmo", "--then", "mean", "--iterations", "1", "--stats",
+                                 folder / "stats.csv", "--table", folder / "table.csv"});
+  ASSERT_EQ(output.code, 0) << output.err;
+  for (const char* file : {"stats.csv", "table.csv"})
+    EXPECT_THAT(lines_of(read_file(folder / file)).at(1), ::testing::StartsWith("\"dmo:mean-ratio, then mean\",")) << file;
+}
+
+TEST(Compare, TheReportSaysWhatWasSearched) {
+  const Folder folder;
+  const auto settings = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> options{"--run", "dmo", "--iterations", "1", "--report", folder / "report.html"};
+    options.insert(options.begin(), more.begin(), more.end());
+    EXPECT_EQ(compare(options).code, 0);
+    return read_file(folder / "report.html");
+  };
+  EXPECT_THAT(settings({sample("annulus.off")}), HasSubstr("8 x 8 candidates, 3 levels, first grid 0.5 of the star&#39;s box, in float"));
+  EXPECT_THAT(settings({sample("annulus.off"), "--combine", "mean-ratio:0.5:density"}), HasSubstr("box, in double"));
+  ASSERT_EQ(run({"generate", "tetrahedra", "--size", "64", "-o", folder / "v.vtk"}).code, 0);
+  EXPECT_THAT(settings({folder / "v.vtk"}), HasSubstr("8 x 8 x 8 candidates"));
+}
+
 TEST(Compare, OrdersLieAsFarApartAsTheirSortedQualities) {
   const std::string in = sample("random.off");
   const json orders = compare_json({in, "--run", "dmo", "--iterations", "5", "--shuffles", "2"})["orders"];
@@ -153,6 +177,14 @@ TEST(Compare, TheReportStandsAlone) {
   EXPECT_EQ(plots, 2U);
   const bool pictures = page.find("src=\"data:image/png;base64,iVBOR") != std::string::npos;
   EXPECT_TRUE(pictures || page.find("No picture: ") != std::string::npos);
+  // Percentiles of the input, by counting.
+  ASSERT_EQ(run({"quality", in, "--metric", "mean-ratio", "--elements", folder / "elements.csv"}).code, 0);
+  const Table elements = read_table(folder / "elements.csv");
+  std::vector<double> qualities;
+  for (std::size_t i = 0; i < elements.rows.size(); ++i) qualities.push_back(elements.number(i, "mean-ratio"));
+  std::sort(qualities.begin(), qualities.end());
+  const auto hundredth = static_cast<std::size_t>(std::ceil(0.01 * static_cast<double>(qualities.size()))) - 1;
+  EXPECT_THAT(page, HasSubstr(fmt::format("data-key=\"{}\"", qualities[hundredth])));
   // The table has the figures that the CSV has.
   ASSERT_EQ(compare({in, "--run", "dmo", "--run", "dmo:max-angle", "--iterations", "2", "--table", folder / "table.csv"}).code, 0);
   const Table table = read_table(folder / "table.csv");
@@ -196,6 +228,31 @@ TEST(Compare, AnOutcomeThatIsNotReachedIsCodeOneAndToldOf) {
   const Output output = compare({sample("annulus.off"), "--run", "dmo", "--until-converged", "--max-iterations", "1"});
   EXPECT_EQ(output.code, 1);
   EXPECT_THAT(output.err, HasSubstr("dmo:mean-ratio: not converged"));
+}
+
+TEST(Compare, AnOrderThatDoesNotConvergeCountsToo) {
+  const std::vector<std::string> asked{sample("random.off"), "--run", "dmo", "--shuffles", "3", "--until-converged", "--patience", "5"};
+  std::vector<std::uint64_t> needed;
+  const json all = compare_json(asked);
+  for (const json& one : all["runs"]) needed.push_back(one["iterations"]);
+  ASSERT_EQ(needed.size(), 4U);
+  ASSERT_LT(needed[0], *std::ranges::max_element(needed)) << "or there is nothing to see here";
+  std::vector<std::string> short_of = asked;
+  short_of.insert(short_of.end(), {"--max-iterations", std::to_string(needed[0])});
+  const Output output = compare(short_of);
+  EXPECT_EQ(output.code, 1);
+  EXPECT_THAT(output.err, HasSubstr("shuffle:"));
+  EXPECT_THAT(output.err, Not(HasSubstr("dmo:mean-ratio: not converged")));
+}
+
+TEST(Compare, VerticesAreKeptInEveryRun) {
+  const std::string in = sample("annulus.off");
+  const auto smooth =
+      json_of(run({"smooth", in, "-o", Folder() / "s.off", "--fix", "200-300", "--iterations", "2", "--backend", "cpu", "--json"}));
+  const json all = compare_json({in, "--run", "dmo", "--fix", "200-300", "--iterations", "2"});
+  EXPECT_EQ(all["free"], smooth["free"]);
+  EXPECT_EQ(all["runs"][0]["mean_quality"], smooth["after"]["mean"]);
+  EXPECT_NE(compare_json({in, "--run", "dmo", "--iterations", "2"})["free"], smooth["free"]);
 }
 
 TEST(Compare, CancelledItLeavesNoFiles) {

@@ -1,5 +1,8 @@
 // dmoscope paper: its table against runs of dmoscope smooth, what it says of what is missing, its files, what it refuses.
 
+#include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -30,15 +33,15 @@ std::vector<std::string> cells_of(const std::string& line) {
 }
 
 struct Row {
-  std::string figure, mesh, what, paper, ours, difference, verdict, why;
+  std::string figure, mesh, what, paper, ours, difference, tolerance, verdict, why;
 };
 
 std::vector<Row> rows_of(const std::string& path) {
   std::vector<Row> rows;
   for (const std::string& line : lines_of(read_file(path))) {
     const std::vector<std::string> c = cells_of(line);
-    EXPECT_EQ(c.size(), 8U) << line;
-    if (c.size() == 8) rows.push_back({c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]});
+    EXPECT_EQ(c.size(), 9U) << line;
+    if (c.size() == 9) rows.push_back({c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7], c[8]});
   }
   EXPECT_EQ(rows.front().figure, "figure") << "the head";
   rows.erase(rows.begin());
@@ -69,7 +72,7 @@ TEST(Paper, ARowIsWhatSmoothSays) {
       ++compared;
     }
     if (row.what != "mean without the second phase" || row.mesh.find("annulus") == std::string::npos) continue;
-    EXPECT_DOUBLE_EQ(std::stod(row.ours), smoothed(annulus, "dmo", "40")["mean"].get<double>());
+    EXPECT_DOUBLE_EQ(std::stod(row.ours), smoothed(annulus, "dmo", "100")["mean"].get<double>());
     ++compared;
   }
   EXPECT_EQ(compared, 6U);
@@ -101,6 +104,100 @@ TEST(Paper, MeshesAreFoundByNameBelowTheFolder) {
   for (const Row& row : rows_of(folder / "out/table.csv")) verdicts.insert(row.verdict);
   EXPECT_TRUE(verdicts.contains("differs"));
   EXPECT_FALSE(verdicts.contains("no mesh"));
+}
+
+/// The bounds of "at least 0.812", "at most 1400" or "0.56 to 0.6".
+std::pair<double, double> bounds_of(const std::string& tolerance) {
+  if (tolerance.starts_with("at least ")) return {std::stod(tolerance.substr(9)), INFINITY};
+  if (tolerance.starts_with("at most ")) return {-INFINITY, std::stod(tolerance.substr(8))};
+  const std::size_t to = tolerance.find(" to ");
+  EXPECT_NE(to, std::string::npos) << tolerance;
+  return {std::stod(tolerance.substr(0, to)), std::stod(tolerance.substr(to + 4))};
+}
+
+TEST(Paper, VerdictsFollowFromTheirTolerances) {
+  const Folder folder;
+  std::filesystem::create_directories(folder / "meshes");
+  for (const char* name : {"bahamas.14", "east.14"})
+    std::filesystem::copy_file(sample("coast.14"), folder / (std::string("meshes/") + name));
+  ASSERT_EQ(paper(folder, {"--only", "4a", "--only", "methods", "--meshes", folder / "meshes"}).code, 1);
+  std::map<std::string, int> seen;
+  for (const Row& row : rows_of(folder / "out/table.csv")) {
+    ++seen[row.verdict];
+    if (row.verdict == "told") {
+      EXPECT_EQ(row.tolerance, "") << row.what;
+      continue;
+    }
+    const auto [low, high] = bounds_of(row.tolerance);
+    const double ours = std::stod(row.ours);
+    EXPECT_EQ(row.verdict, ours >= low && ours <= high ? "holds" : "differs") << row.what;
+    if (row.paper == "0.82") {
+      EXPECT_DOUBLE_EQ(std::stod(row.difference), ours - 0.82);
+    }
+  }
+  EXPECT_GT(seen["holds"], 1);
+  EXPECT_GT(seen["differs"], 1);
+  EXPECT_GT(seen["told"], 0);
+}
+
+/// The lines of a plot's CSV by their names, in the order of x.
+std::map<std::string, std::vector<double>> courses_of(const std::string& path) {
+  std::map<std::string, std::vector<double>> courses;
+  for (const std::string& line : lines_of(read_file(path))) {
+    const std::vector<std::string> c = cells_of(line);
+    if (c.at(0) != "series") courses[c.at(0)].push_back(std::stod(c.at(2)));
+  }
+  return courses;
+}
+
+double ours(const std::vector<Row>& rows, const std::string& what) {
+  const auto found = std::ranges::find_if(rows, [&](const Row& row) { return row.what.find(what) != std::string::npos; });
+  EXPECT_NE(found, rows.end()) << what;
+  return found == rows.end() || found->ours.empty() ? NAN : std::stod(found->ours);
+}
+
+TEST(Paper, WhatIsSaidOfCoursesFollowsFromTheirPlots) {
+  const Folder folder;
+  std::filesystem::create_directories(folder / "meshes");
+  ASSERT_EQ(run({"generate", "block", "--size", "400", "--seed", "1", "-o", folder / "meshes/shashkov.vtk"}).code, 0);
+  ASSERT_EQ(run({"generate", "block", "--size", "600", "--seed", "2", "-o", folder / "meshes/east.14"}).code, 0);
+  ASSERT_LE(paper(folder, {"--only", "4a", "--only", "4c", "--only", "5.2-east", "--meshes", folder / "meshes"}).code, 1);
+  const std::vector<Row> rows = rows_of(folder / "out/table.csv");
+  const auto first = [](const std::vector<double>& course, double goal) {
+    return static_cast<double>(std::ranges::find_if(course, [&](double q) { return q >= goal; }) - course.begin());
+  };
+  auto courses = courses_of(folder / "out/4c/convergence.csv");
+  const std::vector<double>&dmo = courses["dmo"], &dvr = courses["dvr"];
+  ASSERT_EQ(dmo.size(), 301U);
+  const double goal = std::min(dvr.back(), dmo.back() - 1e-3), sooner = first(dmo, goal);
+  EXPECT_GT(sooner, 1.0);
+  EXPECT_DOUBLE_EQ(ours(rows, "iterations of dvr over those of dmo"), first(dvr, goal) / sooner);
+  EXPECT_DOUBLE_EQ(ours(rows, "over dmo's"), dvr.back() / dmo.back());
+  // A minimum has converged where it stays near its last; minima of dmo do not fall.
+  const std::vector<double> east = courses_of(folder / "out/4a/convergence.csv")["dmo"];
+  ASSERT_EQ(east.size(), 21U);
+  EXPECT_DOUBLE_EQ(ours(rows, "dmo: iterations until converged"), first(east, east.back() - 1e-3));
+  EXPECT_DOUBLE_EQ(ours(rows, "dmo: minimum after 10 iterations"), east[10]);
+  EXPECT_DOUBLE_EQ(ours(rows, "seconds of dvr over those of dmo"),
+                   ours(rows, "dvr: seconds to the same minimum") / ours(rows, "dmo: seconds on the cpu"));
+}
+
+TEST(Paper, OrdersAreAllDifferent) {
+  const Folder folder;
+  ASSERT_EQ(paper(folder, {"--only", "11", "--only", "12"}).code, 0);
+  const auto courses = courses_of(folder / "out/11/random.csv");
+  EXPECT_EQ(courses.size(), 6U);
+  for (const auto& [name, course] : courses)
+    for (const auto& [other_name, other] : courses) EXPECT_EQ(course == other, name == other_name) << name << ", " << other_name;
+  const std::vector<Row> rows = rows_of(folder / "out/table.csv");
+  double low = INFINITY, high = -INFINITY;
+  for (const auto& [name, course] : courses) {
+    low = std::min(low, course.front());
+    high = std::max(high, course.front());
+  }
+  EXPECT_NEAR(ours(rows, "lowest minimum of 6"), low, 1e-7) << "the plot is in float";
+  EXPECT_NEAR(ours(rows, "highest minimum of 6"), high, 1e-7);
+  EXPECT_GT(ours(rows, "mean distance of their vertices"), 0.01);
 }
 
 TEST(Paper, AVolumeIsAnExperiment) {

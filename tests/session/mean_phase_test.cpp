@@ -89,6 +89,8 @@ TEST(PhaseTurn, FollowsAnotherPath) {
   turn.forget_after(3);
   EXPECT_EQ(turn.find({.patience = 2}, records({0.1, 0.2, 0.2, 0.2})), 3U);
   turn.forget_after(1);
+  EXPECT_EQ(turn.find({.patience = 2}, records({0.1, 0.2, 0.2, 0.2})), 3U);
+  turn.forget_after(1);
   EXPECT_EQ(turn.find({.patience = 2}, records({0.1, 0.2, 0.3, 0.3})), std::nullopt);
   EXPECT_EQ(turn.find({.patience = 2}, records({0.1, 0.2, 0.3, 0.3, 0.3})), 4U);
 }
@@ -200,6 +202,23 @@ TEST(MeanPhase, UntilConvergedGoesThroughBoth) {
   EXPECT_NE(outcome.reason, StopReason::IterationLimit);
   EXPECT_GT(run.moment().iteration, *outcome.mean_since);
   EXPECT_THAT(outcome.sentence(), HasSubstr("the mean was raised"));
+  const auto& all = run.history().records();
+  const double last_rise = all.back().statistics.mean - all[all.size() - 4].statistics.mean;
+  EXPECT_TRUE(all.back().moved == 0 || last_rise < 1e-6) << "while it rises there is no end: " << last_rise;
+}
+
+/// Of random directions one can never tell that nothing will move any more; the second phase looks all around.
+TEST(MeanPhase, NothingMovesAnyMoreAlsoAfterDvr) {
+  Mesh mesh;  // whose only free vertex stands in the middle already
+  mesh.positions = {{1, 0, 0}, {0.5, 0.75, 0}, {-0.5, 0.75, 0}, {-1, 0, 0}, {-0.5, -0.75, 0}, {0.5, -0.75, 0}, {0, 0, 0}};
+  for (Index i = 0; i < 6; ++i) testing::add(mesh, {i, (i + 1) % 6, 6});
+  RunParameters parameters = two_phases(3);
+  parameters.method = "dvr";
+  auto run = make_run(input(std::move(mesh)), parameters);
+  Progress progress;
+  const Outcome outcome = run.until_converged({.patience = 100, .max_iterations = 90}, progress);
+  EXPECT_EQ(outcome.reason, StopReason::NothingMoved);
+  EXPECT_TRUE(outcome.mean_since);
 }
 
 /// A session that is told what to do.

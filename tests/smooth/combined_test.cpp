@@ -11,7 +11,10 @@
 
 #include <gtest/gtest.h>
 
+#include "core/mesh/generate.h"
+#include "core/mesh/random.h"
 #include "core/session/run.h"
+#include "core/smooth/dmo.h"
 #include "tests/support/meshes.h"
 
 namespace dmoscope {
@@ -177,6 +180,89 @@ TEST(CombinedSearch, GoesForTheWeightedMeanOfTheNeighbours) {
   EXPECT_GT(below, 5);
 }
 
+/// Whether a vertex may go, by the words of promise 1, for places near and far, inside of its ring and outside.
+void expect_gains_as_promised(const Aims& aims, const SecondAim& second) {
+  Random random(17);
+  int allowed = 0, refused_below = 0, refused_tangled = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    Mesh mesh;
+    const auto place = [&](double reach) { return Vec3{random.between(-reach, reach), random.between(-reach, reach), 0}; };
+    mesh.positions.push_back(place(trial % 4 < 2 ? 0.4 : 1.2));
+    for (int k = 0; k < 6; ++k) mesh.positions.push_back(Vec3{std::cos(k * M_PI / 3), std::sin(k * M_PI / 3), 0.0} + place(0.2));
+    for (Index k = 0; k < 6; ++k) testing::add(mesh, {0, k + 1, (k + 1) % 6 + 1});
+    const auto wheel = input(mesh);
+    if (wheel->report.flipped_elements > 0) continue;  // so tangled that it was taken for the other way round
+    const Vec3 here = mesh.positions[0], there = trial % 2 == 0 ? place(1.2) : here + place(0.3);
+    const Plain plain{*wheel, wheel->mesh.positions};
+    struct At {
+      double jacobian, first, second;
+    };
+    const auto look = [&](Vec3 p) {
+      const Point at{p.x, p.y};
+      std::vector<Vec3> positions = wheel->mesh.positions;
+      positions[0] = p;
+      At found{star_state(*wheel, positions, Metric::MeanRatio, 0).jacobian, INFINITY, second(plain.star(0, at), at)};
+      for (const auto& triangle : plain.star(0, at)) found.first = std::min(found.first, Plain::mean_ratio(triangle));
+      return found;
+    };
+    const At before = look(here), after = look(there);
+    const auto beyond = [&](double q) { return aims.raise_mean() ? q > 0.0 && q >= aims.threshold : q > aims.threshold; };
+    const bool rises = after.second > before.second;
+    bool expected = after.jacobian > 0.0 && (beyond(before.first) ? beyond(after.first) && rises : after.first > before.first);
+    if (before.jacobian <= 0.0)
+      expected = after.jacobian > before.jacobian && (!aims.raise_mean() || (after.first >= before.first && rises));
+    const bool gains = CombinedSearch<Plane>(*wheel, aims, {}).gains(wheel->mesh.positions, 0, there);
+    EXPECT_EQ(gains, expected) << trial;
+    allowed += gains ? 1 : 0;
+    refused_below += beyond(before.first) && rises && !beyond(after.first) ? 1 : 0;
+    refused_tangled += !gains && before.jacobian <= 0.0 && after.jacobian > before.jacobian ? 1 : 0;
+  }
+  EXPECT_GT(allowed, 200);
+  EXPECT_GT(refused_below, 2);
+  EXPECT_TRUE(!aims.raise_mean() || refused_tangled > 20);
+}
+
+TEST(CombinedSearch, AVertexGainsAsPromised) {
+  expect_gains_as_promised(aims_of(Metric::MeanRatio, {0.5, Metric::MinAngle}, nullptr),
+                           [](const std::vector<Plain::Corners>& star, Point) {
+                             double least = INFINITY;
+                             for (const auto& triangle : star) least = std::min(least, Plain::min_angle(triangle));
+                             return least;
+                           });
+  expect_gains_as_promised(raise_mean_above(Metric::MeanRatio, 0.5), [](const std::vector<Plain::Corners>& star, Point) {
+    double sum = 0.0;
+    for (const auto& triangle : star) sum += Plain::mean_ratio(triangle);
+    return sum;
+  });
+}
+
+TEST(Aims, TheThresholdItselfIsNotBeyondButTheFloorIs) {
+  const Aims both = aims_of(Metric::MeanRatio, {0.7, Metric::MinAngle}, nullptr);
+  EXPECT_FALSE(both.beyond(0.7)) << "eq. (8)";
+  EXPECT_TRUE(both.beyond(std::nextafter(0.7, 1.0)));
+  const Aims mean = raise_mean_above(Metric::MeanRatio, 0.7);
+  EXPECT_TRUE(mean.beyond(0.7)) << "or the star that sets the floor could not rise";
+  EXPECT_FALSE(mean.beyond(std::nextafter(0.7, 0.0)));
+  EXPECT_FALSE(raise_mean_above(Metric::MeanRatio, -0.3).beyond(0.0)) << "inverted";
+}
+
+TEST(Density, IsOneAtTheWeightedMeanAndAHalfAMeanEdgeAway) {
+  Mesh mesh;  // a rhombus, its hub anywhere
+  mesh.positions = {{0.1, 0.2, 0}, {2, 0, 0}, {0, 1, 0}, {-2, 0, 0}, {0, -1, 0}};
+  for (Index i = 1; i <= 4; ++i) testing::add(mesh, {0, i, i % 4 + 1});
+  const auto rhombus = input(mesh);
+  const SizeField size(rhombus, {SizeFunction::Kind::Distance, {2, -1, 0}, {}});
+  const DensityTarget<Plane> target = density_target(size, rhombus->planar_view(), rhombus->mesh.positions, 0);
+  // Weights: 1 over the distances 1, 2 sqrt 2, sqrt 17, 2.
+  const double a = 1, b = 1 / std::sqrt(8.0), c = 1 / std::sqrt(17.0), d = 0.5, sum = a + b + c + d;
+  const Point mean{(2 * a - 2 * c) / sum, (b - d) / sum};
+  EXPECT_NEAR(target.offset.x, mean.x - 0.1, 1e-15);
+  EXPECT_NEAR(target.offset.y, mean.y - 0.2, 1e-15);
+  const double edge = 0.25 * (std::hypot(1.9, 0.2) + std::hypot(0.1, 0.8) + std::hypot(2.1, 0.2) + std::hypot(0.1, 1.2));
+  EXPECT_DOUBLE_EQ(target.density(target.offset), 1.0);
+  EXPECT_NEAR(target.density({target.offset.x + 0.6 * edge, target.offset.y - 0.8 * edge}), 0.5, 1e-15);
+}
+
 TEST(Combined, OneVertexEndsAtTheWeightedMean) {
   Mesh mesh;  // a hub in a regular hexagon, far to one side of it
   mesh.positions.push_back({0.45, -0.2, 0.0});
@@ -220,6 +306,65 @@ TEST(Combined, NeitherThreadsNorStepsChangeABit) {
       EXPECT_TRUE(same_bits(whole.positions(), stepped.positions()));
       EXPECT_FALSE(same_bits(whole.positions(), mesh->mesh.positions));
     }
+}
+
+/// Volumes of every kind of element, sound and tangled.
+std::vector<Mesh> solids() {
+  std::vector<Mesh> all;
+  Progress progress;
+  for (const char* kind : {"tetrahedra", "hexahedra", "tangled-solids"}) all.push_back(generate_mesh(kind, 125, 5, progress));
+  Mesh tangled = all[1];
+  Random random(6);
+  for (Vec3& p : tangled.positions)
+    if (std::min({p.x, p.y, p.z, 1 - p.x, 1 - p.y, 1 - p.z}) > 0.1 && random.below(3) == 0)
+      p = {random.between(0, 1), p.y, random.between(0, 1)};
+  all.push_back(std::move(tangled));
+  return all;
+}
+
+TEST(Combined, BelowItsThresholdItIsThePlainSearch) {
+  std::vector<Mesh> meshes = solids();
+  for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals, Cells::Mixed})
+    for (const double jitter : {0.3, 0.9}) meshes.push_back(lattice(7, jitter, 9, cells));
+  for (Mesh& mesh : meshes) {
+    const auto prepared = input(std::move(mesh));
+    auto plain = make_run(prepared, {.search = {.precision = Precision::Double}});
+    auto both = make_run(prepared, combined(0.9999, Metric::ScaledJacobian));  // which nothing reaches
+    Progress progress;
+    for (int i = 0; i < 3; ++i) {
+      plain.step(StepUnit::Iteration, progress);
+      both.step(StepUnit::Iteration, progress);
+      EXPECT_TRUE(same_bits(plain.positions(), both.positions())) << prepared->mesh.name << ", " << i;
+    }
+    EXPECT_LT(both.statistics().minimum, 0.9999);
+    EXPECT_FALSE(same_bits(both.positions(), prepared->mesh.positions));
+  }
+}
+
+TEST(Combined, OfVolumesNeitherThreadsNorStepsChangeABitAndNoStarFallsBelowTheThreshold) {
+  for (Mesh& mesh : solids()) {
+    const auto prepared = input(std::move(mesh));
+    const RunParameters parameters = combined(0.3, Metric::ScaledJacobian);
+    auto threaded = make_run(prepared, parameters, 3), stepped = make_run(prepared, parameters);
+    Progress progress;
+    threaded.iterate(2, progress);
+    const auto judge = [&](Metric metric, Index v) {
+      return vertex_quality(prepared->quality_context(), prepared->topology, stepped.positions(), metric, v);
+    };
+    std::size_t beyond = 0;
+    while (stepped.moment().iteration < 2) {
+      const Index v = stepped.colouring().order[stepped.moment().visits];
+      const Vec3 here = stepped.positions()[v];
+      const double first = judge(Metric::MeanRatio, v), before = judge(Metric::ScaledJacobian, v);
+      stepped.step(StepUnit::Vertex, progress);
+      if (first <= 0.3 || stepped.positions()[v] == here) continue;
+      ++beyond;
+      EXPECT_GT(judge(Metric::MeanRatio, v), 0.3);
+      EXPECT_GE(judge(Metric::ScaledJacobian, v), before);
+    }
+    EXPECT_GT(beyond, 10U) << prepared->mesh.name;
+    EXPECT_TRUE(same_bits(stepped.positions(), threaded.positions())) << prepared->mesh.name;
+  }
 }
 
 TEST(Combined, NoStarFallsBelowTheThresholdNorGetsWorseThere) {

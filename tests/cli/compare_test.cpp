@@ -150,13 +150,32 @@ TEST(Compare, TheReportStandsAlone) {
   EXPECT_THAT(page, HasSubstr("--shuffles 1")) << "the command that made it";
   std::size_t plots = 0;
   for (std::size_t at = page.find("<svg"); at != std::string::npos; at = page.find("<svg", at + 1)) ++plots;
-  EXPECT_EQ(plots, 2U);
+  EXPECT_EQ(plots, 3U) << "minimum, mean and sorted qualities";
   const bool pictures = page.find("src=\"data:image/png;base64,iVBOR") != std::string::npos;
   EXPECT_TRUE(pictures || page.find("No picture: ") != std::string::npos);
   // The table has the figures that the CSV has.
   ASSERT_EQ(compare({in, "--run", "dmo", "--run", "dmo:max-angle", "--iterations", "2", "--table", folder / "table.csv"}).code, 0);
   const Table table = read_table(folder / "table.csv");
   for (const auto& row : table.rows) EXPECT_THAT(page, HasSubstr("data-key=\"" + row.at(table.column("min_quality")) + "\""));
+}
+
+/// Where a picture has the first line of a colour.
+std::size_t first_line(const std::string& svg, const std::string& colour) { return svg.find("stroke=\"" + colour + "\""); }
+
+TEST(Compare, ThePlotShowsTheMeanAndTheFirstRunOnTop) {
+  const Folder folder;
+  const Output output = compare({sample("annulus.off"), "--run", "dmo", "--run", "active-set", "--then", "mean", "--iterations", "60",
+                                 "--plot", folder / "plot.svg"});
+  ASSERT_EQ(output.code, 0) << output.err;
+  const std::string svg = read_file(folder / "plot.svg");
+  EXPECT_EQ(markup_fault(svg), "");
+  EXPECT_THAT(svg, HasSubstr("annulus.off: the mean of all elements"));
+  EXPECT_THAT(svg, HasSubstr("raised by dmo:mean-ratio, then mean from iteration "));
+  // Both start at the input and end near each other: what is drawn last is seen.
+  const std::size_t first = first_line(svg, "#0072b2"), second = first_line(svg, "#d55e00");
+  ASSERT_NE(first, std::string::npos);
+  ASSERT_NE(second, std::string::npos);
+  EXPECT_GT(first, second);
 }
 
 TEST(Compare, RefusesBeforeAnythingRuns) {

@@ -102,7 +102,9 @@ void add_compare(CLI::App& app, Action& action, const std::string& command_line)
   auto goal = std::make_shared<GoalOptions>();
   CLI::App* verb = app.add_subcommand("compare", "Smooth a mesh by several methods or metrics, and compare");
   verb->add_option("FILE", options->file, "Mesh to read")->required();
-  verb->add_option("--run", options->runs, "A run: METHOD[:METRIC[:BACKEND]]; may be given again")
+  verb->add_option("--run", options->runs,
+                   "A run: METHOD[:METRIC[:BACKEND]], with ',alone' without what --combine or --then say, with ',then mean' as by "
+                   "--then; may be given again")
       ->type_name("SPEC")
       ->expected(1)
       ->take_all();

@@ -133,6 +133,31 @@ TEST(Compare, EveryLeavesOutWhatCannotBeAndSaysWhy) {
   EXPECT_EQ(methods["runs"].size() + methods["left_out"].size(), info["methods"].size());
 }
 
+std::vector<std::string> names(const json& all) {
+  std::vector<std::string> names;
+  for (const json& figure : all["runs"]) names.push_back(figure["run"]);
+  return names;
+}
+
+TEST(Compare, RunsMayHaveOtherAims) {
+  const std::string in = sample("annulus.off");
+  const json aims =
+      compare_json({in, "--run", "dmo", "--run", "dmo,then mean", "--run", "laplace:min-angle,then mean", "--iterations", "4"});
+  EXPECT_THAT(names(aims), ElementsAre("dmo:mean-ratio", "dmo:mean-ratio, then mean", "laplace:min-angle, then mean"));
+  const std::vector<std::string> combine{"--combine", "mean-ratio:0.3:density", "--size-function", "h1:0,0", "--iterations", "4"};
+  std::vector<std::string> options{in, "--run", "dmo", "--run", "dmo, alone"};
+  options.insert(options.end(), combine.begin(), combine.end());
+  const json combined = compare_json(options);
+  EXPECT_THAT(names(combined), ElementsAre(HasSubstr("density h1"), "dmo:mean-ratio"));
+  EXPECT_NEAR(combined["runs"][1]["min_quality"], smoothed(in, {"--iterations", "4"}, "mean-ratio").front(), 1e-12);
+  options = {in, "--every", "method"};
+  options.insert(options.end(), combine.begin(), combine.end());
+  const json every = compare_json(options);
+  EXPECT_THAT(names(every)[0], HasSubstr("density h1"));
+  EXPECT_THAT(names(every), ::testing::Contains("laplace:mean-ratio"));
+  EXPECT_TRUE(every["left_out"].empty());
+}
+
 TEST(Compare, TheReportStandsAlone) {
   const Folder folder;
   const std::string in = folder / "a<b>&'c'.off";
@@ -193,6 +218,9 @@ TEST(Compare, RefusesBeforeAnythingRuns) {
       {in, "--run", "dmo", "--judge", "beauty"},
       {in, "--run", "dmo", "--run", "dmo:mean-ratio"},
       {in, "--every", "thing"},
+      {in, "--run", "dmo,"},
+      {in, "--run", "dmo,then median"},
+      {in, "--run", "dmo", "--run", "dmo,alone"},
       {in, "--run", "dmo:scaled-jacobian", "--combine", "mean-ratio:0.7:density"},
       {in, "--every", "metric", "--combine", "mean-ratio:0.7:density"},
       {in, "--run", "dmo", "--plot", folder / "plot.jpeg"},

@@ -93,6 +93,9 @@ TEST(ElementColours, EdgeLengthAndSizeOverTarget) {
   const auto over = colours(ui::ColourBy::SizeOverTarget, size);
   EXPECT_TRUE(over.logarithmic);
   EXPECT_DOUBLE_EQ(over.range.first, -over.range.second);
+  EXPECT_TRUE(over.centred);
+  EXPECT_FALSE(nothing.has_values);
+  EXPECT_NE(nothing.note.find("no size function"), std::string::npos);
   double mean = 0.0;
   for (const Vec3& p : input->mesh.positions) mean += std::log10(0.1 / length(p - point));
   mean /= static_cast<double>(input->mesh.positions.size());
@@ -101,6 +104,20 @@ TEST(ElementColours, EdgeLengthAndSizeOverTarget) {
     for (const Index corner : input->mesh.elements.corners(e)) sum += std::log10(0.1 / length(input->mesh.positions[corner] - point));
     EXPECT_NEAR(static_cast<double>(over.shading->values[e]), sum / 4 - mean, 1e-5);
   }
+}
+
+TEST_F(AimsInTheWindow, ARunWithoutSizesDoesNotStretchTheColours) {
+  good("generate annulus 400");
+  good("run 1");
+  good("combine mean-ratio:0.7:density h1:0,0");
+  good("run 2");
+  good("color-by size-over-target");
+  good("viewports 2");
+  good("pane 1 input");
+  good("pane 2 run 2");
+  good("focus-pane 1");
+  EXPECT_TRUE(window_->app().colours()->has_values) << "the bar is of the one that has sizes";
+  EXPECT_EQ(window_->app().values_range(), window_->app().colours()->range);
 }
 
 TEST(PlotSeries, TheSecondPhaseIsMarked) {

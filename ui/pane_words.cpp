@@ -32,10 +32,12 @@ std::vector<TitlePiece> title_of(const PaneFacts& pane, Metric shown) {
   if (of_run) {
     const RunView& run = *pane.run();
     const RunName name = pane.removed ? RunName{{}, run.parameters.method} : run_name(*pane.session, pane.session->active);
-    if (name.number.empty() || name.rest.empty()) {
-      pieces.push_back({name.number.empty() ? name.method : name.whole(), Role::Name, 0});
+    if (name.number.empty()) {
+      pieces.push_back({name.method, Role::Name, 0});
+    } else if (name.rest.empty() || !name.one_method) {
+      pieces.push_back({name.whole(), Role::Name, 0});
     } else {
-      // Where there is little room, what tells it from others is worth more than the method that they share.
+      // Where there is little room, what tells it from others is worth more than the method that all share.
       pieces.push_back({name.number, Role::Name, 0});
       pieces.push_back({name.method, Role::Name, 3});
       pieces.push_back({name.rest, Role::Name, 0});

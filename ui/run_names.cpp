@@ -18,6 +18,7 @@ Parts parts_of(const RunParameters& p) {
 RunName name_among(const SessionView& session, const std::vector<Parts>& parts, std::size_t k) {
   const std::string& method = session.runs[k].parameters.method;
   RunName name{std::to_string(k + 1), method};
+  for (const RunView& run : session.runs) name.one_method = name.one_method && run.parameters.method == method;
   for (std::size_t part = 0; part < parts[k].size(); ++part) {
     bool differs = false;
     for (std::size_t other = 0; other < parts.size() && !differs; ++other)

@@ -11,7 +11,8 @@ namespace dmoscope::ui {
 /// A run's name in its parts, in the order in which they are read: "2", "dmo", "min-angle, shuffle:3".
 struct RunName {
   std::string number, method;
-  std::string rest{};  // what tells it from the other runs by its method; empty: there is none, or nothing does but the number
+  std::string rest{};      // what tells it from the other runs by its method; empty: there is none, or nothing does but the number
+  bool one_method = true;  // all runs have this method
   [[nodiscard]] std::string whole() const { return number + " " + method + (rest.empty() ? "" : " " + rest); }
 };
 

@@ -57,6 +57,10 @@ TEST_F(RunNames, ATitleWithoutRoomKeepsWhatDiffers) {
   ASSERT_EQ(pieces.size(), 2U);
   EXPECT_EQ(pieces[0].text, "2");
   EXPECT_EQ(pieces[1].text, "min-angle");
+  good("add-run laplace");
+  good("select-run 2");
+  pane.session = session();
+  EXPECT_EQ(ui::title_of(pane, Metric::MeanRatio).front().text, "2 dmo min-angle") << "where there are others, the method counts";
 }
 
 TEST_F(RunNames, ManyOfThemLeaveThePlotItsRoom) {

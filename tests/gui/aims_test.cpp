@@ -9,6 +9,7 @@
 #include "tests/gui/plots.h"
 #include "tests/support/meshes.h"
 #include "ui/element_colours.h"
+#include "ui/plot_drawing.h"
 #include "ui/size_point.h"
 
 namespace dmoscope::app {
@@ -128,6 +129,15 @@ TEST(PlotSeries, TheSecondPhaseIsMarked) {
   const auto found = std::ranges::find(marks, std::string("2 mean"), &ui::PlotMark::label);
   ASSERT_NE(found, marks.end());
   EXPECT_EQ(found->x, 4.0);
+}
+
+TEST(PlotSeries, PhasesThatBeginTogetherAreBothReadable) {
+  SessionView session = ui::session_of(2, 9);
+  for (RunView& run : session.runs) run.mean_since = 4;
+  const Drawing drawing = ui::whole_plot(ui::plot_of(session), {}, 900, 600, ui::ink_of(ui::colours()));
+  const auto label = [&](const char* text) { return *std::ranges::find(drawing.labels, std::string(text), &Drawing::Label::text); };
+  EXPECT_EQ(label("1 mean").at.x, label("2 mean").at.x);
+  EXPECT_GE(std::abs(label("1 mean").at.y - label("2 mean").at.y), label("1 mean").size);
 }
 
 }  // namespace

@@ -178,7 +178,10 @@ Drawing draw(const LinePlot& plot) {
   drawing.width = std::ceil(std::max(frame.right + legend, line) + 16.0);
   drawing.height = std::ceil(frame.bottom + kBottom);
   draw_axes(drawing, plot, frame);
-  for (const PlotSeries& series : plot.series) draw_series(drawing, plot, series, frame);
+  for (const bool muted : {true, false}) {
+    for (auto series = plot.series.rbegin(); series != plot.series.rend(); ++series)
+      if (series->muted == muted) draw_series(drawing, plot, *series, frame);
+  }
   draw_legend(drawing, plot, frame);
   return drawing;
 }

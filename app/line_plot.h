@@ -31,6 +31,7 @@ struct PlotSeries {
 
 enum class AxisKind { Logarithmic, Linear };
 
+/// The first series lies on top, so that what a reader named first is not hidden where others run along it; muted ones lie below all.
 /// A value that an axis cannot have, not positive on a logarithmic one or not finite, is not drawn: there the line has a gap.
 struct LinePlot {
   std::string title, subtitle;

@@ -15,11 +15,12 @@ std::string quality_gradient() {
 #endif
 }
 
-MeshPicture picture_of_mesh(const InputMesh& input, std::span<const Vec3> positions, Metric metric, const Progress& progress) {
+MeshPicture picture_of_mesh(const InputMesh& input, std::span<const Vec3> positions, Metric metric, const Progress& progress, double low) {
   require_defined(metric, input.mesh);
 #ifdef DMOSCOPE_HAVE_GUI
   PictureLook look;
   look.metric = metric;
+  look.range = {low, 1.0};
   look.width = 800;
   look.height = 600;
   look.transparent = true;
@@ -32,7 +33,7 @@ MeshPicture picture_of_mesh(const InputMesh& input, std::span<const Vec3> positi
     return {{}, error.what()};
   }
 #else
-  static_cast<void>(positions), static_cast<void>(progress);
+  static_cast<void>(positions), static_cast<void>(progress), static_cast<void>(low);
   return {{}, "this program was built without OpenGL, so it makes no pictures"};
 #endif
 }

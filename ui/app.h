@@ -46,6 +46,8 @@ class App {
   [[nodiscard]] const CommandTable& commands() const noexcept { return commands_; }
   /// Of quality and what the elements are coloured by instead (null: quality), in the active viewport as it was drawn last.
   [[nodiscard]] std::pair<double, double> colour_range() const noexcept { return derived_.range; }
+  /// Of what is coloured by other values than quality, all viewports together.
+  [[nodiscard]] std::optional<std::pair<double, double>> values_range() const { return derived_.colouring.values_range; }
   [[nodiscard]] std::shared_ptr<const ElementColours> colours() const noexcept { return derived_.colouring.colours; }
   /// The viewports as they were drawn last.
   [[nodiscard]] std::span<const PaneFacts> panes() const noexcept { return viewports_.facts(); }

@@ -188,7 +188,7 @@ render::ColourScale shown_scale(const ViewState& state, const Derived& derived) 
   render::ColourScale scale = colour_scale(state, derived);
   const ColourFacts& facts = derived.colouring;
   if (facts.colours) std::tie(scale.low, scale.high) = facts.values_range.value_or(facts.colours->range);
-  if (facts.colours && facts.colours->diverging) {
+  if (facts.colours && facts.colours->centred) {
     scale.map = render::ColourMap::OrangeBlue;
     scale.reversed = false;
   }

@@ -260,7 +260,7 @@ void by_size_over_target(Work& work) {
   if (!work.request.size) {
     work.shading.values.assign(work.mesh.elements.size(), std::numeric_limits<float>::quiet_NaN());
     work.out.note = "the run has no size function: combine its metric with density";
-    work.out.logarithmic = true;  // as other viewports have it, which share the colour bar
+    work.out.has_values = false;
     return;
   }
   std::vector<double> values = edge_logarithms(*work.request.frame, work.request.size.get());
@@ -276,6 +276,7 @@ void by_size_over_target(Work& work) {
   by_corners(work, values);
   const double widest = std::max(std::abs(work.out.range.first), std::abs(work.out.range.second));
   work.out.range = {-widest, widest};  // so that 1 is in the middle
+  work.out.centred = true;
 }
 
 /// "run 2 it 10", "input"
@@ -305,7 +306,7 @@ void by_difference(Work& work) {
   constexpr double kLeast = 0.01;
   if (most == 0.0) most = kLeast;  // all is the same, which must not widen the range of the viewports beside it
   work.out.range = {-most, most};
-  work.out.diverging = true;
+  work.out.diverging = work.out.centred = true;
   const std::string metric(info(frame.shown).title), of = name_of(reference);
   work.out.title = fmt::format("{}: {} minus {}", metric, name_of(frame), of);
   work.out.common_title = fmt::format("{}: each minus {}", metric, of);

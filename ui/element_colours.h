@@ -33,7 +33,9 @@ struct ElementColours {
   std::vector<Category> categories;       // empty: values
   std::pair<double, double> range{0, 1};  // of the values
   bool logarithmic = false;               // the values are powers of ten
-  bool diverging = false;                 // the values are differences, and 0 is the middle of the range
+  bool centred = false;                   // 0 is the middle of the range, which a map with a middle shows
+  bool has_values = true;                 // any element; else `note` says why none has
+  bool diverging = false;                 // the values are differences
   std::size_t better = 0, worse = 0;      // of differences: elements above and below 0
   std::string note;                       // what is to be known about it, may be empty
 };

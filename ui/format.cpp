@@ -6,12 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "core/base/number_text.h"
+
 namespace dmoscope::ui {
 
 std::string short_number(double value) {
   if (!std::isfinite(value)) return "–";
-  if (value == 0.0) return "0.000";
-  return fmt::format("{:#.4g}", value);
+  return four_digits(value);
 }
 
 std::string full_number(double value) {

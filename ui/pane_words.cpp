@@ -3,6 +3,7 @@
 
 #include "ui/format.h"
 #include "ui/panels/panels.h"
+#include "ui/run_names.h"
 #include "ui/viewports.h"
 
 namespace dmoscope::ui {
@@ -15,6 +16,11 @@ std::string moment_of(const Frame& frame) {
   return text;
 }
 
+std::string difference_words(const ElementColours& colours) {
+  if (colours.better == 0 && colours.worse == 0) return "no difference";
+  return fmt::format("{} better, {} worse", count(colours.better), count(colours.worse));
+}
+
 }  // namespace
 
 std::vector<TitlePiece> title_of(const PaneFacts& pane, Metric shown) {
@@ -25,19 +31,34 @@ std::vector<TitlePiece> title_of(const PaneFacts& pane, Metric shown) {
   if (!pane.name.empty()) pieces.push_back({pane.name, Role::Name, 0});
   if (of_run) {
     const RunView& run = *pane.run();
-    const bool combined = run.parameters.combination.has_value();
-    const std::string& what = combined ? run.title : run.parameters.method;
-    pieces.push_back({pane.removed ? what : fmt::format("{} {}", pane.session->active + 1, what), Role::Name, 0});
-    if (!combined) pieces.push_back({metric_phrase(run.parameters.metric), Role::Name, 5});
-    if (frame != nullptr && run.mean_since && *run.mean_since < frame->moment.iteration) pieces.push_back({"then mean", Role::Name, 4});
+    const RunName name = pane.removed ? RunName{{}, run.parameters.method} : run_name(*pane.session, pane.session->active);
+    if (name.number.empty()) {
+      pieces.push_back({name.method, Role::Name, 0});
+    } else if (name.rest.empty() || !name.one_method) {
+      pieces.push_back({name.whole(), Role::Name, 0});
+    } else {
+      // Where there is little room, what tells it from others is worth more than the method that all share.
+      pieces.push_back({name.number, Role::Name, 0});
+      pieces.push_back({name.method, Role::Name, 3});
+      pieces.push_back({name.rest, Role::Name, 0});
+    }
+    const bool aim_said = name.rest.starts_with(info(run.parameters.metric).name);
+    if (!aim_said)
+      pieces.push_back(
+          {run.parameters.combination ? phrase(run.parameters.metric, *run.parameters.combination) : metric_phrase(run.parameters.metric),
+           Role::Name, 5});
+    const bool in_mean_phase = frame != nullptr && run.mean_since && *run.mean_since < frame->moment.iteration;
+    if (in_mean_phase && name.rest.find("then mean") == std::string::npos) pieces.push_back({"then mean", Role::Name, 4});
   }
   if (frame == nullptr) return pieces;
-  if (frame->run != Frame::kNoRun) pieces.push_back({moment_of(*frame), Role::Plain, 1});
-  pieces.push_back({fmt::format("min {}", short_number(frame->shown_statistics.minimum)), Role::Dim, 2});
+  const bool difference = pane.colours && pane.colours->diverging;
+  if (frame->run != Frame::kNoRun) pieces.push_back({moment_of(*frame), Role::Plain, difference ? 2 : 1});
+  pieces.push_back({fmt::format("min {}", short_number(frame->shown_statistics.minimum)), Role::Dim, difference ? 3 : 2});
   if (const Index inverted = frame->shown_statistics.inverted; inverted > 0)
     pieces.push_back({fmt::format("{} inverted", count(inverted)), Role::Bad, 1});
-  if (pane.colours && pane.colours->diverging)
-    pieces.push_back({fmt::format("{} better, {} worse", count(pane.colours->better), count(pane.colours->worse)), Role::Plain, 3});
+  if (difference) pieces.push_back({difference_words(*pane.colours), Role::Plain, 1});
+  if (pane.colours && pane.colours->by == ColourBy::SizeOverTarget && !pane.colours->has_values)
+    pieces.push_back({"no target size", Role::Warning, 1});
   const bool other_metric = frame->shown != shown;
   if (other_metric || (of_run && frame->shown != pane.run()->parameters.metric))
     pieces.push_back({fmt::format("shown: {}", metric_phrase(frame->shown)), Role::Warning, other_metric ? 1 : 6});

@@ -184,13 +184,19 @@ double width_of(const std::string& text, double size) {
 }
 
 void draw_marks(Drawing& drawing, const Plot& plot, const PlotLayout& layout, const PlotInk& colours, double font, double unit) {
+  std::vector<std::pair<double, double>> taken;  // by the labels so far; one over another's goes a line down
   for (const PlotMark& mark : plot.marks) {
     const double x = layout.x.place(mark.x);
     if (x < layout.left - 0.5 || x > layout.right + 0.5) continue;
     drawing.lines.push_back({{{x, layout.top}, {x, layout.bottom}}, mixed(colours.accent, colours.background, 0.8), 1.5 * unit});
     if (mark.label.empty()) continue;
-    const bool room = x + 0.3 * font + width_of(mark.label, font) < layout.right;
-    drawing.labels.push_back({{room ? x + 0.3 * font : x - 0.3 * font, layout.top + 0.9 * font},
+    const double wide = 0.3 * font + width_of(mark.label, font);
+    const bool room = x + wide < layout.right;
+    const double from = room ? x : x - wide, to = from + wide;
+    const auto over = std::ranges::count_if(taken, [&](const auto& other) { return from < other.second && other.first < to; });
+    taken.emplace_back(from, to);
+    const double down = (0.9 + 1.1 * static_cast<double>(over)) * font;
+    drawing.labels.push_back({{room ? x + 0.3 * font : x - 0.3 * font, layout.top + down},
                               mark.label,
                               font,
                               ink(colours.accent),
@@ -214,9 +220,14 @@ void draw_inside(Drawing& drawing, const Plot& plot, const PlotView& view, const
                  double unit) {
   draw_axes(drawing, plot, layout, colours, font, unit);
   SeriesDrawer drawer(drawing, plot, layout, colours, unit);
+  // The thick ones, the active run's, over the others; among these the first over later ones, as their order in the legend has it.
+  std::vector<const Series*> order;
   for (const Series& one : plot.series) {
-    if (is_visible(plot, view, one)) drawer.draw(one);
+    if (is_visible(plot, view, one)) order.push_back(&one);
   }
+  std::ranges::reverse(order);
+  std::ranges::stable_sort(order, {}, [](const Series* one) { return one->kind == Series::Kind::Line ? one->width : 0.0; });
+  for (const Series* one : order) drawer.draw(*one);
   draw_brush(drawing, plot, layout, colours, unit);
   draw_marks(drawing, plot, layout, colours, font, unit);
 }

@@ -10,6 +10,7 @@
 #include "render/shading.h"
 #include "ui/format.h"
 #include "ui/panels/panels.h"
+#include "ui/run_names.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -39,6 +40,7 @@ class Builder {
     plot_.tab = state.plot;
     plot_.axis = state.plots[static_cast<std::size_t>(state.plot)].axis;
     several_ = session.runs.size() > 1;
+    names_ = run_names(session);
   }
 
   Plot build() {
@@ -69,17 +71,8 @@ class Builder {
   }
 
  private:
-  /// "2 laplace"; with the metric where another run has the same method.
-  [[nodiscard]] std::string run_name(std::size_t k) const {
-    if (!several_) return {};
-    const RunParameters& own = session_.runs[k].parameters;
-    bool twins = false;
-    for (std::size_t other = 0; other < session_.runs.size(); ++other) {
-      const RunParameters& its = session_.runs[other].parameters;
-      twins = twins || (other != k && its.method == own.method && its.metric != own.metric);
-    }
-    return twins ? fmt::format("{} {} {}", k + 1, own.method, info(own.metric).name) : fmt::format("{} {}", k + 1, own.method);
-  }
+  /// "2 laplace"; with more where another run has the same method.
+  [[nodiscard]] std::string run_name(std::size_t k) const { return several_ ? names_[k].whole() : std::string(); }
 
   [[nodiscard]] Series series_of_run(std::size_t k, std::string name, double dash = 0.0, double strength = 1.0) const {
     Series series;
@@ -348,6 +341,7 @@ class Builder {
   const SortedQualities& sorted_;
   const Palette& palette_;
   bool several_ = false;
+  std::vector<RunName> names_;
   Plot plot_;
 };
 

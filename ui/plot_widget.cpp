@@ -137,33 +137,95 @@ class Widget {
     ImGui::TextColored(colour_vector(palette_.dim), "%s", plot_.x_title.c_str());
   }
 
+  [[nodiscard]] float width_of(const std::string& name) const { return 26 * s_ + ImGui::CalcTextSize(name.c_str()).x; }
+
+  [[nodiscard]] static std::string more_text(std::size_t runs) { return fmt::format("… {} more", runs); }
+
+  /// How many lines the legend and the title of x take with only the first `runs` runs.
+  [[nodiscard]] int lines_with(std::size_t runs, std::size_t all, float left, float right) const {
+    float x = left;
+    int lines = 1;
+    const auto put = [&](float width, float gap) {
+      if (x > left && x + gap + width > right) {
+        x = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMin().x;
+        ++lines;
+        x += width;
+      } else {
+        x += (x > left ? gap : 0.0F) + width;
+      }
+    };
+    for (std::size_t k = 0; k < plot_.legend.size(); ++k) {
+      if (k < runs || k >= all) put(width_of(plot_.legend[k].name), (k == all ? 32 : 16) * s_);
+      if (k + 1 == all && runs < all) put(ImGui::CalcTextSize(more_text(all - runs).c_str()).x, 16 * s_);
+    }
+    put(ImGui::CalcTextSize(plot_.x_title.c_str()).x + 24 * s_, 16 * s_);
+    return lines;
+  }
+
+  /// How many of `all` runs are named, so that the plot keeps most of the height; the others are in a menu.
+  [[nodiscard]] std::size_t runs_with_room(std::size_t all, float right) const {
+    const float left = ImGui::GetCursorScreenPos().x;
+    const int most = std::max(2, static_cast<int>(0.3F * ImGui::GetContentRegionAvail().y / ImGui::GetTextLineHeightWithSpacing()));
+    std::size_t runs = all;
+    while (runs > 1 && lines_with(runs, all, left, right) > most) --runs;
+    return runs;
+  }
+
+  void take_press(const LegendEntry& entry) {
+    const bool twice = ImGui::GetIO().MouseClickedLastCount[ImGuiMouseButton_Left] > 1;
+    out_.commands.push_back(fmt::format("plot-series {} {}", quote_word(entry.name), twice ? "only" : "toggle"));
+  }
+
+  void draw_legend_entry(const LegendEntry& entry) {
+    const float line = ImGui::GetTextLineHeight();
+    ImGui::PushID(entry.name.c_str());
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const bool pressed = ImGui::InvisibleButton("legend", {width_of(entry.name), line});
+    ImGui::PopID();
+    items_.record_last("legend:" + entry.name);
+    if (pressed) take_press(entry);
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip("%s%sclick: show or hide, twice: this one only", entry.tip.c_str(), entry.tip.empty() ? "" : "\n");
+    const float alpha = is_on(plot_, view_, entry) ? 1.0F : 0.35F;
+    paint_sample(entry.look, {at.x, at.y + line / 2}, s_, alpha);
+    ImGui::GetWindowDrawList()->AddText({at.x + 26 * s_, at.y}, colour(palette_.text, alpha), entry.name.c_str());
+  }
+
+  /// The menu of the runs from `first` on, behind a word in the legend.
+  void draw_more_runs(std::size_t first, std::size_t all) {
+    const std::string text = more_text(all - first);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    if (ImGui::InvisibleButton("more runs", {ImGui::CalcTextSize(text.c_str()).x, ImGui::GetTextLineHeight()})) ImGui::OpenPopup("runs");
+    items_.record_last("legend-more");
+    ImGui::GetWindowDrawList()->AddText(at, colour(ImGui::IsItemHovered() ? palette_.text : palette_.accent), text.c_str());
+    if (!ImGui::BeginPopup("runs")) return;
+    for (std::size_t k = first; k < all; ++k) {
+      const LegendEntry& entry = plot_.legend[k];
+      if (ImGui::MenuItem(entry.name.c_str(), nullptr, is_on(plot_, view_, entry))) take_press(entry);
+      items_.record_last("legend:" + entry.name);
+    }
+    ImGui::EndPopup();
+  }
+
   void draw_legend() {
     const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
-    const float line = ImGui::GetTextLineHeight();
-    bool first = true, of_run = false;
-    for (const LegendEntry& entry : plot_.legend) {
-      const float width = 26 * s_ + ImGui::CalcTextSize(entry.name.c_str()).x;
-      if (!first) {
-        ImGui::SameLine(0, (of_run == entry.of_run ? 16 : 32) * s_);
-        if (ImGui::GetCursorScreenPos().x + width > right) ImGui::NewLine();
+    const auto all =
+        static_cast<std::size_t>(std::count_if(plot_.legend.begin(), plot_.legend.end(), [](const auto& e) { return e.of_run; }));
+    const std::size_t runs = runs_with_room(all, right);
+    const auto go_on = [&](std::size_t k, float width) {
+      if (k == 0) return;
+      ImGui::SameLine(0, (k == all ? 32 : 16) * s_);
+      if (ImGui::GetCursorScreenPos().x + width > right) ImGui::NewLine();
+    };
+    for (std::size_t k = 0; k < plot_.legend.size(); ++k) {
+      if (k < runs || k >= all) {
+        go_on(k, width_of(plot_.legend[k].name));
+        draw_legend_entry(plot_.legend[k]);
       }
-      first = false;
-      of_run = entry.of_run;
-      ImGui::PushID(entry.name.c_str());
-      const ImVec2 at = ImGui::GetCursorScreenPos();
-      const bool pressed = ImGui::InvisibleButton("legend", {width, line});
-      ImGui::PopID();
-      items_.record_last("legend:" + entry.name);
-      if (pressed) {
-        const bool twice = ImGui::GetIO().MouseClickedLastCount[ImGuiMouseButton_Left] > 1;
-        out_.commands.push_back(fmt::format("plot-series {} {}", quote_word(entry.name), twice ? "only" : "toggle"));
+      if (k + 1 == all && runs < all) {
+        go_on(runs, ImGui::CalcTextSize(more_text(all - runs).c_str()).x);
+        draw_more_runs(runs, all);
       }
-      if (ImGui::IsItemHovered()) {
-        ImGui::SetTooltip("%s%sclick: show or hide, twice: this one only", entry.tip.c_str(), entry.tip.empty() ? "" : "\n");
-      }
-      const float alpha = is_on(plot_, view_, entry) ? 1.0F : 0.35F;
-      paint_sample(entry.look, {at.x, at.y + line / 2}, s_, alpha);
-      ImGui::GetWindowDrawList()->AddText({at.x + 26 * s_, at.y}, colour(palette_.text, alpha), entry.name.c_str());
     }
   }
 

@@ -12,4 +12,21 @@ std::vector<RunRow> sorted_runs(const SessionView& session, const PlotOptions& o
   return rows;
 }
 
+std::optional<RunRow> input_row(const SessionView& session) {
+  for (const RunView& run : session.runs) {
+    if (run.parameters.metric != session.shown || run.records.empty() || run.records[0].iteration != 0) continue;
+    const Statistics& input = run.records[0].statistics;
+    RunRow row;
+    row.title = "input";
+    row.minimum = input.minimum;
+    row.movable_minimum = input.movable_minimum;
+    row.mean = input.mean;
+    row.inverted = static_cast<double>(input.inverted);
+    row.seconds = RunRow::kUnknown;
+    if (!run.percentiles.empty()) row.p1 = run.percentiles[0].p1, row.p5 = run.percentiles[0].p5;
+    return row;
+  }
+  return std::nullopt;
+}
+
 }  // namespace dmoscope::ui

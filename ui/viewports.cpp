@@ -176,10 +176,13 @@ void Viewports::update_colours(ViewState& state, Derived& derived) {
   }
   ColourFacts& facts = derived.colouring;
   facts.colours = views_[focus_]->colours();
-  for (std::size_t k = 0; k < count_ && !facts.colours; ++k) facts.colours = views_[k]->colours();
+  // The bar is of those that have values.
+  for (std::size_t k = 0; k < count_; ++k)
+    if (const auto& colours = views_[k]->colours(); colours && (!facts.colours || (colours->has_values && !facts.colours->has_values)))
+      facts.colours = colours;
   facts.values_range.reset();
   for (std::size_t k = 0; k < count_; ++k) {
-    if (const auto& colours = views_[k]->colours()) {
+    if (const auto& colours = views_[k]->colours(); colours && colours->has_values) {
       const auto [low, high] = facts.values_range.value_or(colours->range);
       facts.values_range = {std::min(low, colours->range.first), std::max(high, colours->range.second)};
     }

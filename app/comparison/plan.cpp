@@ -11,10 +11,21 @@ namespace dmoscope::app {
 
 namespace {
 
-/// The parameters of METHOD[:METRIC[:BACKEND]].
+/// Takes what follows the comma of a SPEC: another aim than --combine and --then give every run.
+void choose_aim(RunOptions& chosen, std::string aim) {
+  aim.erase(0, aim.find_first_not_of(' '));
+  if (aim != "alone" && aim != "then mean") throw UsageError("after the comma stands 'alone' or 'then mean'");
+  if (!chosen.combine.empty()) chosen.metric = info(parse_combination(chosen.combine, chosen.size_function).first).name;
+  chosen.combine.clear();
+  chosen.size_function.clear();
+  chosen.then = aim == "alone" ? "" : "mean";
+}
+
+/// The parameters of METHOD[:METRIC[:BACKEND]][,AIM].
 Contender parse_spec(const std::string& spec, const RunOptions& open) {
+  const std::size_t comma = spec.find(',');
   std::vector<std::string> words(1);
-  for (const char c : spec) {
+  for (const char c : spec.substr(0, comma)) {
     if (c == ':') {
       words.emplace_back();
     } else {
@@ -25,6 +36,11 @@ Contender parse_spec(const std::string& spec, const RunOptions& open) {
     throw UsageError(fmt::format("--run {}: expected METHOD, METHOD:METRIC or METHOD:METRIC:BACKEND", spec));
   }
   RunOptions chosen = open;
+  try {
+    if (comma != std::string::npos) choose_aim(chosen, spec.substr(comma + 1));
+  } catch (const UsageError& error) {
+    throw UsageError(fmt::format("--run {}: {}", spec, error.what()));
+  }
   chosen.method = words[0];
   if (words.size() > 1) chosen.metric = words[1];
   if (words.size() > 2) chosen.backend = words[2];
@@ -52,7 +68,9 @@ void add_every(ComparisonPlan& plan, const std::string& what, const RunOptions& 
     plan.contenders.push_back(std::move(contender));
   };
   if (what == "method") {
-    for (const MethodInfo& method : method_table()) add(std::string(method.name));
+    // A combination is dmo's; the others are there to compare it with.
+    for (const MethodInfo& method : method_table())
+      add(fmt::format("{}{}", method.name, !open.combine.empty() && method.name != "dmo" ? ",alone" : ""));
   } else if (what == "metric") {
     if (!open.combine.empty()) throw UsageError("--every metric: with --combine all runs have its metrics");
     for (const MetricInfo& metric : metric_table()) add(fmt::format("{}:{}", open.method, metric.name));
@@ -99,7 +117,7 @@ ComparisonPlan plan_of(const CompareOptions& options) {
   }
   for (const std::string& what : options.every) add_every(plan, what, options.run);
   if (plan.contenders.empty())
-    throw UsageError("nothing to compare: name runs with --run METHOD[:METRIC[:BACKEND]], or --every method|metric");
+    throw UsageError("nothing to compare: name runs with --run METHOD[:METRIC[:BACKEND]][,alone|,then mean], or --every method|metric");
   plan.judge = options.judge.empty() ? plan.contenders.front().parameters.metric : parse_metric(options.judge);
   plan.acceleration = acceleration_of(plan.contenders);
   return plan;

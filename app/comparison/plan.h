@@ -13,7 +13,7 @@ namespace dmoscope::app {
 
 struct CompareOptions {
   std::filesystem::path file, stats, table, plot, report;
-  std::vector<std::string> runs;   // METHOD[:METRIC[:BACKEND]]
+  std::vector<std::string> runs;   // METHOD[:METRIC[:BACKEND]][,alone|,then mean]
   std::vector<std::string> every;  // "method", "metric"
   RunOptions run;                  // what a SPEC leaves open
   std::string judge;               // empty: the first run's metric

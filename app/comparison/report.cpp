@@ -1,5 +1,6 @@
 #include "app/comparison/report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <thread>
 
@@ -69,6 +70,20 @@ Json json_of(const JudgedRun& run) {
   return object;
 }
 
+/// The largest quality of a column among the runs, where they differ; else NaN.
+double best_of(const Comparison& comparison, const RunColumn& column) {
+  if (column.is_word() || column.is_count || column.name.starts_with("seconds") || column.name.starts_with("vertices"))
+    return RunRow::kUnknown;
+  double best = RunRow::kUnknown, least = RunRow::kUnknown;
+  for (const JudgedRun& run : comparison.runs) {
+    const double value = std::get<double>(cell(run.row, column));
+    if (!std::isfinite(value)) continue;
+    best = std::fmax(best, value);
+    least = std::fmin(least, value);
+  }
+  return best > least ? best : RunRow::kUnknown;
+}
+
 std::vector<std::vector<PageCell>> page_rows(const Comparison& comparison) {
   std::vector<RunRow> rows{input_row(comparison)};
   for (const JudgedRun& run : comparison.runs) rows.push_back(run.row);
@@ -80,7 +95,9 @@ std::vector<std::vector<PageCell>> page_rows(const Comparison& comparison) {
       if (column->is_word()) {
         line.push_back({text, text});
       } else {
-        line.push_back(number_cell(std::move(text), std::get<double>(cell(row, *column))));
+        const double value = std::get<double>(cell(row, *column));
+        line.push_back(number_cell(std::move(text), value));
+        if (&row != &rows.front() && value == best_of(comparison, *column)) line.back().style = "best";
       }
     }
   }
@@ -106,15 +123,24 @@ void add_orders(Page& page, const Comparison& comparison) {
   page.table({"run", "orders", "lowest minimum", "highest minimum", "largest difference", "at rank", "mean difference"}, {}, rows);
 }
 
+/// Where the pictures' colours begin: the worst element of all of them, downwards to a tenth. From 0 on, good meshes would be of one
+/// colour.
+double low_end(const Comparison& comparison) {
+  double worst = comparison.runs.front().before().minimum;
+  for (const JudgedRun& run : comparison.runs) worst = std::fmin(worst, run.row.minimum);
+  return std::clamp(std::floor(10.0 * worst) / 10.0, 0.0, 0.9);
+}
+
 void add_pictures(Page& page, const Comparison& comparison, const Progress& progress) {
+  const double low = low_end(comparison);
   std::vector<std::pair<std::string, MeshPicture>> pictures;
   const auto add = [&](std::string caption, std::span<const Vec3> positions) {
-    pictures.emplace_back(std::move(caption), picture_of_mesh(*comparison.input, positions, comparison.judge, progress));
+    pictures.emplace_back(std::move(caption), picture_of_mesh(*comparison.input, positions, comparison.judge, progress, low));
   };
   add(fmt::format("input, minimum {}", brief(comparison.runs.front().before().minimum)), comparison.input->mesh.positions);
   for (const JudgedRun& run : comparison.runs) add(fmt::format("{}, minimum {}", run.name, brief(run.row.minimum)), run.positions);
   page.heading("Pictures");
-  page.pictures(pictures, info(comparison.judge).name);
+  page.pictures(pictures, info(comparison.judge).name, low);
 }
 
 void add_settings(Page& page, const Comparison& comparison, const ComparisonFacts& facts) {
@@ -247,6 +273,7 @@ std::string html_of(const Comparison& comparison, const ComparisonFacts& facts, 
   for (const LeftOut& left : comparison.left_out) page.paragraph(fmt::format("Left out: {}: {}", left.name, left.reason));
   page.heading("Convergence");
   page.plot(draw(convergence_plot(comparison)));
+  page.plot(draw(mean_plot(comparison)));
   page.heading("Sorted qualities");
   page.plot(draw(sorted_plot(comparison)));
   add_orders(page, comparison);

@@ -81,24 +81,26 @@ PlotSeries curve_series(std::string name, std::span<const float> qualities) {
   return series;
 }
 
-PlotSeries course_series(std::string name, std::span<const IterationRecord> records) {
+PlotSeries course_series(std::string name, std::span<const IterationRecord> records, double Statistics::*value) {
   PlotSeries series{.name = std::move(name), .dots = records.size() <= 31};
   for (const IterationRecord& record : records)
-    series.values.push_back(exact(static_cast<double>(record.iteration), record.statistics.minimum));
+    series.values.push_back(exact(static_cast<double>(record.iteration), record.statistics.*value));
   return series;
 }
 
-LinePlot convergence_plot(const Comparison& comparison) {
+namespace {
+
+LinePlot course_plot(const Comparison& comparison, const char* what, const char* quantity, double Statistics::*value) {
   LinePlot plot;
-  plot.title = fmt::format("{}: the worst element", comparison.input->mesh.name);
+  plot.title = fmt::format("{}: {}", comparison.input->mesh.name, what);
   plot.x_title = "iteration";
-  plot.y_title = "minimum, " + quality_title(comparison.judge);
+  plot.y_title = fmt::format("{}, {}", quantity, quality_title(comparison.judge));
   plot.x_axis = plot.y_axis = AxisKind::Linear;
   std::uint64_t longest = 0;
   for (std::size_t k = 0; k < comparison.runs.size(); ++k) {
     const JudgedRun& run = comparison.runs[k];
     longest = std::max(longest, run.row.iterations);
-    PlotSeries series = course_series(run.name, run.records);
+    PlotSeries series = course_series(run.name, run.records, value);
     series.colour = k;
     series.dash = k / 8;
     plot.series.push_back(std::move(series));
@@ -107,6 +109,23 @@ LinePlot convergence_plot(const Comparison& comparison) {
     plot.x_axis = AxisKind::Logarithmic;
     plot.note = "the input, iteration 0, is off the axis";
   }
+  return plot;
+}
+
+}  // namespace
+
+LinePlot convergence_plot(const Comparison& comparison) {
+  return course_plot(comparison, "the worst element", "minimum", &Statistics::minimum);
+}
+
+LinePlot mean_plot(const Comparison& comparison) {
+  LinePlot plot = course_plot(comparison, "the mean of all elements", "mean", &Statistics::mean);
+  std::string since;
+  for (const JudgedRun& run : comparison.runs) {
+    if (run.outcome.mean_since)
+      since += fmt::format("{}{} from iteration {} on", since.empty() ? "raised by " : "; ", run.name, *run.outcome.mean_since + 1);
+  }
+  plot.subtitle = since;
   return plot;
 }
 

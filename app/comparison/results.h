@@ -39,6 +39,8 @@ struct Comparison {
 
 /// The minimum over the iterations, a line a run.
 [[nodiscard]] LinePlot convergence_plot(const Comparison& comparison);
+/// The mean over the iterations, which what raises the minimum may lower; says since when it was itself raised.
+[[nodiscard]] LinePlot mean_plot(const Comparison& comparison);
 /// The qualities of all elements, worst first, a line a run and order; the input's in grey.
 [[nodiscard]] LinePlot sorted_plot(const Comparison& comparison);
 
@@ -46,7 +48,8 @@ struct Comparison {
 [[nodiscard]] std::string quality_title(Metric judge);
 /// A curve over the share of elements, for a plot.
 [[nodiscard]] PlotSeries curve_series(std::string name, std::span<const float> qualities);
-/// A course of minima over the iterations, for a plot.
-[[nodiscard]] PlotSeries course_series(std::string name, std::span<const IterationRecord> records);
+/// A course over the iterations, for a plot: of minima unless another value is named.
+[[nodiscard]] PlotSeries course_series(std::string name, std::span<const IterationRecord> records,
+                                       double Statistics::*value = &Statistics::minimum);
 
 }  // namespace dmoscope::app

@@ -28,7 +28,7 @@ th { position: sticky; top: 0; background: var(--page); white-space: nowrap; } t
 td.number { text-align: right; white-space: nowrap; } th.number { text-align: right; }
 th button { all: unset; cursor: pointer; font-weight: bold; } th button:focus-visible { outline: 2px solid var(--accent); }
 th[aria-sort=ascending] button::after { content: " \2191"; } th[aria-sort=descending] button::after { content: " \2193"; }
-.good { color: var(--good); } .bad { color: var(--bad); font-weight: bold; } .dim { color: var(--dim); }
+.good { color: var(--good); } .best { font-weight: bold; } .bad { color: var(--bad); font-weight: bold; } .dim { color: var(--dim); }
 .plot { margin: 1rem 0; overflow-x: auto; } .plot svg { max-width: 100%; height: auto; }
 .pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(20rem, 1fr)); gap: 1rem; }
 figure { margin: 0; } figure img { width: 100%; height: auto; } figcaption { font-size: .85rem; color: var(--dim); overflow-wrap: anywhere; }
@@ -108,7 +108,7 @@ void Page::plot(const Drawing& drawing) {
   body_ += "<div class=\"plot\">\n" + svg.substr(svg.find("<svg")) + "</div>\n";  // without the file's first line
 }
 
-void Page::pictures(const std::vector<std::pair<std::string, MeshPicture>>& pictures, std::string_view metric) {
+void Page::pictures(const std::vector<std::pair<std::string, MeshPicture>>& pictures, std::string_view metric, double low) {
   body_ += "<div class=\"pictures\">\n";
   bool any = false;
   for (const auto& [caption, picture] : pictures) {
@@ -125,8 +125,8 @@ void Page::pictures(const std::vector<std::pair<std::string, MeshPicture>>& pict
   body_ += "</div>\n";
   if (!any) return;
   body_ += fmt::format(
-      "<div class=\"bar\">{} 0 <span class=\"map\" style=\"background: {}\"></span> 1 <span class=\"inverted\"></span> inverted</div>\n",
-      xml_escaped(metric), quality_gradient());
+      "<div class=\"bar\">{} {:g} <span class=\"map\" style=\"background: {}\"></span> 1 <span class=\"inverted\"></span> inverted</div>\n",
+      xml_escaped(metric), low, quality_gradient());
 }
 
 std::string Page::text() const {

@@ -12,7 +12,7 @@
 namespace dmoscope::app {
 
 /// A cell of a table: what is seen, and what it is sorted by ("" where there is nothing, which comes last). A class of the page's style may
-/// be named: "good", "bad", "dim".
+/// be named: "good", "bad", "best", "dim".
 struct PageCell {
   std::string text;
   std::string key{};
@@ -33,7 +33,8 @@ class Page {
   /// The drawing itself, as SVG.
   void plot(const Drawing& drawing);
   /// Pictures side by side, each with a caption, above the bar of their colours; of one that is not there, why.
-  void pictures(const std::vector<std::pair<std::string, MeshPicture>>& pictures, std::string_view metric);
+  /// `low`: the quality at the bar's left end.
+  void pictures(const std::vector<std::pair<std::string, MeshPicture>>& pictures, std::string_view metric, double low = 0.0);
   /// The whole page.
   [[nodiscard]] std::string text() const;
 

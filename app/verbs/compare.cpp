@@ -54,7 +54,10 @@ void write_files(const Comparison& comparison, const ComparisonFacts& facts, con
   const std::string report = options.report.empty() ? std::string() : html_of(comparison, facts, progress);  // the part that takes long
   if (!options.stats.empty()) write_file_atomically(options.stats, statistics_csv(comparison));
   if (!options.table.empty()) write_file_atomically(options.table, table_csv(comparison));
-  if (!options.plot.empty()) write_plot(options.plot, stacked(draw(convergence_plot(comparison)), draw(sorted_plot(comparison))));
+  if (!options.plot.empty()) {
+    const Drawing courses = stacked(draw(convergence_plot(comparison)), draw(mean_plot(comparison)));
+    write_plot(options.plot, stacked(courses, draw(sorted_plot(comparison))));
+  }
   if (!options.report.empty()) write_file_atomically(options.report, report);
 }
 
@@ -99,7 +102,9 @@ void add_compare(CLI::App& app, Action& action, const std::string& command_line)
   auto goal = std::make_shared<GoalOptions>();
   CLI::App* verb = app.add_subcommand("compare", "Smooth a mesh by several methods or metrics, and compare");
   verb->add_option("FILE", options->file, "Mesh to read")->required();
-  verb->add_option("--run", options->runs, "A run: METHOD[:METRIC[:BACKEND]]; may be given again")
+  verb->add_option("--run", options->runs,
+                   "A run: METHOD[:METRIC[:BACKEND]], with ',alone' without what --combine or --then say, with ',then mean' as by "
+                   "--then; may be given again")
       ->type_name("SPEC")
       ->expected(1)
       ->take_all();
@@ -116,7 +121,7 @@ void add_compare(CLI::App& app, Action& action, const std::string& command_line)
   verb->remove_option(verb->get_option("--method"));  // a SPEC's business; --metric and --backend are what it leaves open
   verb->add_option("--stats", options->stats, "Write the statistics of every iteration of every run")->type_name("FILE.csv");
   verb->add_option("--table", options->table, "Write the table, with all columns")->type_name("FILE.csv");
-  verb->add_option("--plot", options->plot, "Draw convergence and sorted qualities")->type_name("FILE.svg|.png");
+  verb->add_option("--plot", options->plot, "Draw how minimum and mean go, and the sorted qualities")->type_name("FILE.svg|.png");
   verb->add_option("--report", options->report, "Write a page with tables, plots and pictures that needs nothing else")
       ->type_name("FILE.html");
   verb->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");

@@ -81,7 +81,15 @@ std::vector<Tick> log_ticks(double lowest, double highest, int most) {
       }
     }
   }
-  return ticks;
+  if (std::ranges::count_if(ticks, [](const Tick& tick) { return !tick.label.empty(); }) >= 2) return ticks;
+  // Over so short a stretch the axis is all but linear; over a longer one every power of ten has to have its label.
+  if (highest < 10.0 * lowest) {
+    for (int n = most; n < most + 5; ++n) {
+      if (std::vector<Tick> even = linear_ticks(lowest, highest, n); even.size() >= 2) return even;
+    }
+    return ticks;
+  }
+  return every > 1 ? log_ticks(lowest, highest, decades) : ticks;
 }
 
 std::vector<Stroke> decimate(std::span<const double> x, std::span<const double> y, double lowest, double highest, std::size_t columns) {

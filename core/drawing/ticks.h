@@ -21,7 +21,8 @@ struct Tick {
 [[nodiscard]] std::vector<Tick> integer_ticks(double lowest, double highest, int most);
 
 /// Powers of ten inside [lowest, highest] (every k-th when there are more than `most`), with unlabelled ticks at 2..9 between them
-/// where they are few; over less than two decades also labels at 2 and 5. Both bounds must be > 0, else empty.
+/// where they are few; over less than two decades also labels at 2 and 5, and where fewer than two labels would be inside, as
+/// many as it takes. Both bounds must be > 0, else empty.
 [[nodiscard]] std::vector<Tick> log_ticks(double lowest, double highest, int most);
 
 struct PlotPoint {

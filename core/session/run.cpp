@@ -50,11 +50,25 @@ std::vector<Vec3> working_copy(std::span<const Vec3> positions) {
   return copy;
 }
 
-/// What tells a run from others by the same method and metric.
+std::string search_other_than_usual(const SearchParameters& search) {
+  const SearchParameters usual;
+  std::string text;
+  if (search.grid_points != usual.grid_points) text += fmt::format(", grid {}", search.grid_points);
+  if (search.levels != usual.levels) text += fmt::format(", levels {}", search.levels);
+  if (search.omega != usual.omega) text += fmt::format(", omega {:g}", search.omega);
+  if (search.precision != usual.precision) text += ", double";
+  return text;
+}
+
+}  // namespace
+
 std::string other_than_usual(const RunParameters& parameters) {
   const MethodInfo& method = method_info(parameters.method);
   const MethodOptions usual, &options = parameters.options;
+  const SizeFunction* size = parameters.combination ? parameters.combination->size() : nullptr;
   std::string text;
+  if (size != nullptr && size->has_point()) text += fmt::format(", at {:g} {:g}", size->point.x, size->point.y);
+  if (method.searches_grid) text += search_other_than_usual(parameters.search);
   if (method.relaxes && options.relaxation != usual.relaxation) text += fmt::format(", relaxation {}", options.relaxation);
   if (method.has_directions && options.directions != usual.directions) text += ", along the axes";
   if (method.has_directions && options.directions == usual.directions && options.seed != usual.seed)
@@ -62,8 +76,6 @@ std::string other_than_usual(const RunParameters& parameters) {
   if (parameters.order.seed) text += fmt::format(", shuffle:{}", *parameters.order.seed);
   return text;
 }
-
-}  // namespace
 
 Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::shared_ptr<ThreadPool> pool, std::size_t history_bytes,
          Acceleration acceleration)

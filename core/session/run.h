@@ -46,6 +46,9 @@ struct RunParameters {
   friend bool operator==(const RunParameters&, const RunParameters&) = default;
 };
 
+/// What tells a run from others by the same method and aims: ", grid 16, shuffle:3"; empty where nothing does.
+[[nodiscard]] std::string other_than_usual(const RunParameters& parameters);
+
 enum class StepUnit { Vertex, Class, Iteration };
 
 /// When "until converged" stops.

@@ -9,6 +9,7 @@
 
 #include "core/base/csv_text.h"
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/session/view.h"
 
 namespace dmoscope {
@@ -123,7 +124,8 @@ std::string cell_text(const RunRow& row, const RunColumn& column) {
   if (const auto* word = std::get_if<std::string_view>(&content)) return std::string(*word);
   const double number = std::get<double>(content);
   if (!std::isfinite(number)) return "-";
-  return column.is_count ? fmt::format("{:.0f}", number) : fmt::format("{:.4g}", number);
+  if (column.is_count) return fmt::format("{:.0f}", number);
+  return four_digits(number);
 }
 
 void sort_rows(std::span<RunRow> rows, const RunColumn& by, bool descending) {

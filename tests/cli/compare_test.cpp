@@ -157,6 +157,31 @@ TEST(Compare, EveryLeavesOutWhatCannotBeAndSaysWhy) {
   EXPECT_EQ(methods["runs"].size() + methods["left_out"].size(), info["methods"].size());
 }
 
+std::vector<std::string> names(const json& all) {
+  std::vector<std::string> names;
+  for (const json& figure : all["runs"]) names.push_back(figure["run"]);
+  return names;
+}
+
+TEST(Compare, RunsMayHaveOtherAims) {
+  const std::string in = sample("annulus.off");
+  const json aims =
+      compare_json({in, "--run", "dmo", "--run", "dmo,then mean", "--run", "laplace:min-angle,then mean", "--iterations", "4"});
+  EXPECT_THAT(names(aims), ElementsAre("dmo:mean-ratio", "dmo:mean-ratio, then mean", "laplace:min-angle, then mean"));
+  const std::vector<std::string> combine{"--combine", "mean-ratio:0.3:density", "--size-function", "h1:0,0", "--iterations", "4"};
+  std::vector<std::string> options{in, "--run", "dmo", "--run", "dmo, alone"};
+  options.insert(options.end(), combine.begin(), combine.end());
+  const json combined = compare_json(options);
+  EXPECT_THAT(names(combined), ElementsAre(HasSubstr("density h1"), "dmo:mean-ratio"));
+  EXPECT_NEAR(combined["runs"][1]["min_quality"], smoothed(in, {"--iterations", "4"}, "mean-ratio").front(), 1e-12);
+  options = {in, "--every", "method"};
+  options.insert(options.end(), combine.begin(), combine.end());
+  const json every = compare_json(options);
+  EXPECT_THAT(names(every)[0], HasSubstr("density h1"));
+  EXPECT_THAT(names(every), ::testing::Contains("laplace:mean-ratio"));
+  EXPECT_TRUE(every["left_out"].empty());
+}
+
 TEST(Compare, TheReportStandsAlone) {
   const Folder folder;
   const std::string in = folder / "a<b>&'c'.off";
@@ -174,7 +199,7 @@ TEST(Compare, TheReportStandsAlone) {
   EXPECT_THAT(page, HasSubstr("--shuffles 1")) << "the command that made it";
   std::size_t plots = 0;
   for (std::size_t at = page.find("<svg"); at != std::string::npos; at = page.find("<svg", at + 1)) ++plots;
-  EXPECT_EQ(plots, 2U);
+  EXPECT_EQ(plots, 3U) << "minimum, mean and sorted qualities";
   const bool pictures = page.find("src=\"data:image/png;base64,iVBOR") != std::string::npos;
   EXPECT_TRUE(pictures || page.find("No picture: ") != std::string::npos);
   // Percentiles of the input, by counting.
@@ -189,6 +214,25 @@ TEST(Compare, TheReportStandsAlone) {
   ASSERT_EQ(compare({in, "--run", "dmo", "--run", "dmo:max-angle", "--iterations", "2", "--table", folder / "table.csv"}).code, 0);
   const Table table = read_table(folder / "table.csv");
   for (const auto& row : table.rows) EXPECT_THAT(page, HasSubstr("data-key=\"" + row.at(table.column("min_quality")) + "\""));
+}
+
+/// Where a picture has the first line of a colour.
+std::size_t first_line(const std::string& svg, const std::string& colour) { return svg.find("stroke=\"" + colour + "\""); }
+
+TEST(Compare, ThePlotShowsTheMeanAndTheFirstRunOnTop) {
+  const Folder folder;
+  const Output output = compare({sample("annulus.off"), "--run", "dmo", "--run", "active-set", "--then", "mean", "--iterations", "60",
+                                 "--plot", folder / "plot.svg"});
+  ASSERT_EQ(output.code, 0) << output.err;
+  const std::string svg = read_file(folder / "plot.svg");
+  EXPECT_EQ(markup_fault(svg), "");
+  EXPECT_THAT(svg, HasSubstr("annulus.off: the mean of all elements"));
+  EXPECT_THAT(svg, HasSubstr("raised by dmo:mean-ratio, then mean from iteration "));
+  // Both start at the input and end near each other: what is drawn last is seen.
+  const std::size_t first = first_line(svg, "#0072b2"), second = first_line(svg, "#d55e00");
+  ASSERT_NE(first, std::string::npos);
+  ASSERT_NE(second, std::string::npos);
+  EXPECT_GT(first, second);
 }
 
 TEST(Compare, RefusesBeforeAnythingRuns) {
@@ -206,6 +250,9 @@ TEST(Compare, RefusesBeforeAnythingRuns) {
       {in, "--run", "dmo", "--judge", "beauty"},
       {in, "--run", "dmo", "--run", "dmo:mean-ratio"},
       {in, "--every", "thing"},
+      {in, "--run", "dmo,"},
+      {in, "--run", "dmo,then median"},
+      {in, "--run", "dmo", "--run", "dmo,alone"},
       {in, "--run", "dmo:scaled-jacobian", "--combine", "mean-ratio:0.7:density"},
       {in, "--every", "metric", "--combine", "mean-ratio:0.7:density"},
       {in, "--run", "dmo", "--plot", folder / "plot.jpeg"},

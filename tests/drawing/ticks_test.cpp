@@ -64,6 +64,18 @@ TEST(Ticks, LogarithmicOnesStandAtPowersOfTen) {
   EXPECT_LE(log_ticks(1e-200, 1.0, 8).size(), 10U);
 }
 
+TEST(Ticks, AShortLogarithmicStretchHasTwoLabelsAtLeast) {
+  for (const auto& [low, high] : {std::pair{0.62, 1.6}, {0.95, 1.05}, {3.1, 4.9}, {1100.0, 1900.0}, {0.04, 25.0}}) {
+    std::size_t labelled = 0;
+    for (const Tick& tick : log_ticks(low, high, 2)) {
+      EXPECT_GE(tick.value, low);
+      EXPECT_LE(tick.value, high);
+      labelled += tick.label.empty() ? 0 : 1;
+    }
+    EXPECT_GE(labelled, 2U) << low << " to " << high;
+  }
+}
+
 std::vector<double> ramp(std::size_t size) {
   std::vector<double> x(size);
   for (std::size_t k = 0; k < size; ++k) x[k] = static_cast<double>(k);

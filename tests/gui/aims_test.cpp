@@ -9,6 +9,7 @@
 #include "tests/gui/plots.h"
 #include "tests/support/meshes.h"
 #include "ui/element_colours.h"
+#include "ui/plot_drawing.h"
 #include "ui/size_point.h"
 
 namespace dmoscope::app {
@@ -93,6 +94,9 @@ TEST(ElementColours, EdgeLengthAndSizeOverTarget) {
   const auto over = colours(ui::ColourBy::SizeOverTarget, size);
   EXPECT_TRUE(over.logarithmic);
   EXPECT_DOUBLE_EQ(over.range.first, -over.range.second);
+  EXPECT_TRUE(over.centred);
+  EXPECT_FALSE(nothing.has_values);
+  EXPECT_NE(nothing.note.find("no size function"), std::string::npos);
   double mean = 0.0;
   for (const Vec3& p : input->mesh.positions) mean += std::log10(0.1 / length(p - point));
   mean /= static_cast<double>(input->mesh.positions.size());
@@ -103,6 +107,20 @@ TEST(ElementColours, EdgeLengthAndSizeOverTarget) {
   }
 }
 
+TEST_F(AimsInTheWindow, ARunWithoutSizesDoesNotStretchTheColours) {
+  good("generate annulus 400");
+  good("run 1");
+  good("combine mean-ratio:0.7:density h1:0,0");
+  good("run 2");
+  good("color-by size-over-target");
+  good("viewports 2");
+  good("pane 1 input");
+  good("pane 2 run 2");
+  good("focus-pane 1");
+  EXPECT_TRUE(window_->app().colours()->has_values) << "the bar is of the one that has sizes";
+  EXPECT_EQ(window_->app().values_range(), window_->app().colours()->range);
+}
+
 TEST(PlotSeries, TheSecondPhaseIsMarked) {
   SessionView session = ui::session_of(2, 9);
   EXPECT_TRUE(std::ranges::none_of(ui::plot_of(session).marks, [](const ui::PlotMark& mark) { return !mark.label.empty(); }));
@@ -111,6 +129,15 @@ TEST(PlotSeries, TheSecondPhaseIsMarked) {
   const auto found = std::ranges::find(marks, std::string("2 mean"), &ui::PlotMark::label);
   ASSERT_NE(found, marks.end());
   EXPECT_EQ(found->x, 4.0);
+}
+
+TEST(PlotSeries, PhasesThatBeginTogetherAreBothReadable) {
+  SessionView session = ui::session_of(2, 9);
+  for (RunView& run : session.runs) run.mean_since = 4;
+  const Drawing drawing = ui::whole_plot(ui::plot_of(session), {}, 900, 600, ui::ink_of(ui::colours()));
+  const auto label = [&](const char* text) { return *std::ranges::find(drawing.labels, std::string(text), &Drawing::Label::text); };
+  EXPECT_EQ(label("1 mean").at.x, label("2 mean").at.x);
+  EXPECT_GE(std::abs(label("1 mean").at.y - label("2 mean").at.y), label("1 mean").size);
 }
 
 }  // namespace

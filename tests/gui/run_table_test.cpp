@@ -75,6 +75,28 @@ TEST_F(RunTable, AllRowsAreJudgedByTheMetricThatIsShown) {
   }
 }
 
+TEST_F(RunTable, TheInputStandsAboveTheRuns) {
+  const auto row = ui::input_row(*session());
+  ASSERT_TRUE(row.has_value());
+  double least = 1.0, sum = 0.0;
+  const InputMesh& input = *session()->input;
+  for (Index e = 0; e < input.mesh.elements.size(); ++e) {
+    const double quality = element_quality(input.quality_context(), input.mesh.positions, session()->shown, e);
+    least = std::min(least, quality);
+    sum += quality;
+  }
+  EXPECT_DOUBLE_EQ(row->minimum, least);
+  EXPECT_NEAR(row->mean, sum / static_cast<double>(input.mesh.elements.size()), 1e-12);
+  EXPECT_EQ(row->iterations, 0U);
+  EXPECT_TRUE(std::isnan(row->seconds));
+  const float before = top(0);
+  good("show mean-ratio-area");
+  for (int k = 0; k < 2; ++k) good("remove-run 1");  // the runs by both metrics of that shape
+  good("show mean-ratio");
+  EXPECT_FALSE(ui::input_row(*session()).has_value()) << "no run has judged it by that";
+  EXPECT_LT(top(0), before);
+}
+
 TEST_F(RunTable, AClickOnARowMakesItsRunTheActiveOne) {
   good("click run-row:3");
   good("wait");

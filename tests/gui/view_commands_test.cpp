@@ -244,6 +244,10 @@ TEST(Format, FourSignificantDigits) {
   EXPECT_EQ(short_number(0.031237), "0.03124");
   EXPECT_EQ(short_number(1.0), "1.000");
   EXPECT_EQ(short_number(-0.5), "-0.5000");
+  EXPECT_EQ(short_number(4728.4), "4728") << "no digit that is not known";
+  EXPECT_EQ(short_number(999.96), "1000");
+  EXPECT_EQ(short_number(99.999), "100.0");
+  EXPECT_EQ(short_number(37770.0), "3.777e+04");
   EXPECT_EQ(short_number(INFINITY), "–");
   EXPECT_EQ(full_number(0.1), "0.1");
   EXPECT_EQ(count(0), "0");

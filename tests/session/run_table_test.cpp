@@ -175,6 +175,12 @@ TEST(RunTable, TextIsForAPerson) {
   EXPECT_EQ(cell_text(one, run_column("min_quality")), "0.3333");
   EXPECT_EQ(cell_text(one, run_column("movable_minimum")), "-");
   EXPECT_EQ(cell_text(one, run_column("p1")), "-");
+  one.mean = 0.7;
+  one.p5 = 0.0;
+  one.vertices_per_second = 4728.4;
+  EXPECT_EQ(cell_text(one, run_column("mean_quality")), "0.7000") << "digits below each other";
+  EXPECT_EQ(cell_text(one, run_column("p5")), "0.000");
+  EXPECT_EQ(cell_text(one, run_column("vertices_per_second")), "4728");
 }
 
 }  // namespace

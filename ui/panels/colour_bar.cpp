@@ -58,7 +58,7 @@ BarLayout lay_out(const PanelContext& context, const Rect& rect) {
   const render::Legend legend = legend_of(context.state, context.derived, frame);
   const float pad = context.px(8), line = ImGui::GetTextLineHeight();
   BarLayout layout;
-  layout.has_bar = !legend.has_categories;
+  layout.has_bar = !legend.has_categories && (!context.derived.colouring.colours || context.derived.colouring.colours->has_values);
   layout.bar = std::round(0.8F * line);
   layout.title = legend.title;
   layout.right = layout.has_bar ? outside_text(legend) : std::string();

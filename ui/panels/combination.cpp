@@ -69,17 +69,18 @@ void draw_size(PanelContext& context, const RunParameters& p, const SizeFunction
   if (!size.has_point()) return;
   labelled(context, "point", "of the size function, in the mesh's coordinates; Place puts it where you click next");
   const char* label = "Place";
-  const float button = ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x;
-  const std::string text = fmt::format("{}, {}", short_number(size.point.x), short_number(size.point.y));
-  ImGui::TextUnformatted(fit_text(text, ImGui::GetContentRegionAvail().x - button - context.px(8)).c_str());
-  next_item_tooltip(fmt::format("{}, {}", full_number(size.point.x), full_number(size.point.y)));
-  ImGui::SameLine();
-  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - button);
   const bool placing = context.state.placing_size_point;
   if (placing) ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent));
   if (ImGui::SmallButton(label)) context.send("place-size-point");
   if (placing) ImGui::PopStyleColor();
   context.items.record_last("place-size-point");
+  if (placing) {
+    dim_text(context, "click where it shall be");
+  } else {
+    // In a line of its own: coordinates are long, and half of one says nothing.
+    ImGui::TextUnformatted(fit_text(fmt::format("{:.7g}, {:.7g}", size.point.x, size.point.y), ImGui::GetContentRegionAvail().x).c_str());
+    next_item_tooltip(fmt::format("{}, {}", full_number(size.point.x), full_number(size.point.y)));
+  }
 }
 
 }  // namespace

@@ -94,6 +94,23 @@ void draw_run(PanelContext& context, const RunRow& row) {
   list.AddText({at.x + context.px(10), at.y}, colour(context.palette.text), title.c_str());
 }
 
+/// What all runs began with, above them whatever they are sorted by.
+void draw_input(PanelContext& context) {
+  const std::optional<RunRow> row = input_row(context.session);
+  if (!row) return;
+  ImGui::TableNextRow();
+  for (const ShownColumn& shown : kShown) {
+    const RunColumn& column = run_column(shown.column);
+    ImGui::TableNextColumn();
+    if (&shown == &kShown.front()) {
+      ImGui::SetCursorPosX(ImGui::GetCursorPosX() + context.px(10));
+      dim_text(context, row->title, false);
+    } else if (!column.is_word()) {
+      draw_number(context, *row, column, RunRow::kUnknown);
+    }
+  }
+}
+
 }  // namespace
 
 void draw_run_table(PanelContext& context) {
@@ -114,6 +131,7 @@ void draw_run_table(PanelContext& context) {
   std::array<double, kShown.size()> best{};
   for (std::size_t k = 0; k < kShown.size(); ++k)
     best[k] = kShown[k].large_is_best ? best_of(rows, run_column(kShown[k].column)) : RunRow::kUnknown;
+  draw_input(context);
   for (const RunRow& row : rows) {
     ImGui::TableNextRow();
     ImGui::PushID(static_cast<int>(row.run));

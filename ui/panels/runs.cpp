@@ -12,6 +12,19 @@ namespace {
 
 constexpr int kLargestSeed = 1 << 30;  // that can be entered
 
+/// A title in one line, or, where it is too long, in two, the first of which ends with one of its parts.
+std::vector<std::string> in_lines(const std::string& title, float first_room, float room) {
+  const auto width = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
+  if (width(title) <= first_room) return {title};
+  std::size_t end = std::string::npos;
+  for (std::size_t at = title.find(' '); at != std::string::npos; at = title.find(' ', at + 1)) {
+    if (width(title.substr(0, at)) > first_room) break;
+    if (!title.substr(at).starts_with(" ·")) end = at;  // which would begin the second line
+  }
+  if (end == std::string::npos) return {fit_text(title, first_room)};
+  return {title.substr(0, end), fit_text(title.substr(end + 1), room)};
+}
+
 void draw_run_row(PanelContext& context, std::size_t k) {
   const RunView& run = context.session.runs[k];
   ImGui::PushID(static_cast<int>(k));
@@ -19,7 +32,12 @@ void draw_run_row(PanelContext& context, std::size_t k) {
   const float line = ImGui::GetTextLineHeight(), pad = context.px(4);
   const float width = ImGui::GetContentRegionAvail().x;
   const bool active = k == context.session.active;
-  if (ImGui::Selectable("##run", active, 0, {0, 2 * line + 3 * pad})) context.send(fmt::format("select-run {}", k + 1));
+  const float bar = context.px(4);
+  const std::string iteration = fmt::format("it {}", count(run.moment.iteration));
+  const float iteration_width = ImGui::CalcTextSize(iteration.c_str()).x;
+  const std::vector<std::string> title = in_lines(run.title, width - iteration_width - bar - context.px(24), width - bar - context.px(12));
+  const float height = static_cast<float>(title.size() + 1) * line;
+  if (ImGui::Selectable("##run", active, 0, {0, height + 3 * pad})) context.send(fmt::format("select-run {}", k + 1));
   context.items.record_last(fmt::format("run:{}", k));
   next_item_tooltip(run.last_outcome.empty() ? run.title : run.title + "\n" + run.last_outcome);
   if (ImGui::BeginPopupContextItem("run menu")) {
@@ -29,13 +47,10 @@ void draw_run_row(PanelContext& context, std::size_t k) {
     ImGui::EndPopup();
   }
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float bar = context.px(4);
-  list.AddRectFilled({at.x, at.y + pad}, {at.x + bar, at.y + 2 * line + 2 * pad}, colour(context.palette.runs[k % 8]), bar / 2);
+  list.AddRectFilled({at.x, at.y + pad}, {at.x + bar, at.y + height + 2 * pad}, colour(context.palette.runs[k % 8]), bar / 2);
   const float text = at.x + bar + context.px(8);
-  const std::string iteration = fmt::format("it {}", count(run.moment.iteration));
-  const float iteration_width = ImGui::CalcTextSize(iteration.c_str()).x;
-  const std::string title = fit_text(run.title, width - iteration_width - bar - context.px(24));
-  list.AddText({text, at.y + pad}, colour(context.palette.text), title.c_str());
+  for (std::size_t row = 0; row < title.size(); ++row)
+    list.AddText({text, at.y + pad + static_cast<float>(row) * line}, colour(context.palette.text), title[row].c_str());
   list.AddText({at.x + width - iteration_width - pad, at.y + pad}, colour(context.palette.dim), iteration.c_str());
   if (!run.records.empty()) {
     const IterationRecord* record = &run.records.back();
@@ -47,7 +62,8 @@ void draw_run_row(PanelContext& context, std::size_t k) {
     const bool shown = frame != nullptr && frame->run == k && active;
     const Statistics& statistics = shown ? frame->statistics : record->statistics;
     const std::string facts = fmt::format("min {}  mean {}", short_number(statistics.minimum), short_number(statistics.mean));
-    list.AddText({text, at.y + line + 1.5F * pad}, colour(context.palette.dim), fit_text(facts, width - bar - context.px(12)).c_str());
+    list.AddText({text, at.y + height - line + 1.5F * pad}, colour(context.palette.dim),
+                 fit_text(facts, width - bar - context.px(12)).c_str());
   }
   ImGui::PopID();
 }

@@ -1,0 +1,80 @@
+// What runs are called in legends and over viewports, and what is left of a plot whose legend has many of them.
+
+#include "ui/run_names.h"
+
+#include "tests/gui/headless_test.h"
+#include "ui/viewports.h"
+
+namespace dmoscope::app {
+namespace {
+
+class RunNames : public HeadlessTest {
+ protected:
+  [[nodiscard]] std::vector<std::string> names() {
+    std::vector<std::string> all;
+    for (const ui::RunName& name : ui::run_names(*session())) all.push_back(name.whole());
+    return all;
+  }
+  [[nodiscard]] ui::Items::Box box(const std::string& name) { return window_->app().items().find(name); }
+};
+
+TEST_F(RunNames, SayWhatTellsRunsApartAndNoMore) {
+  good("generate annulus 300");
+  EXPECT_EQ(names(), std::vector<std::string>{"1 dmo"});
+  good("add-run laplace");
+  EXPECT_EQ(names(), (std::vector<std::string>{"1 dmo", "2 laplace"}));
+  good("add-run dmo:min-angle");
+  EXPECT_EQ(names(), (std::vector<std::string>{"1 dmo mean-ratio", "2 laplace", "3 dmo min-angle"}));
+  good("metric mean-ratio");
+  good("order shuffle:7");
+  good("then mean");
+  EXPECT_EQ(names(), (std::vector<std::string>{"1 dmo", "2 laplace", "3 dmo then mean, shuffle:7"}));
+}
+
+TEST_F(RunNames, SearchesAndPlacesTellApart) {
+  good("generate annulus 300");
+  good("run 1");
+  good("grid 12");
+  EXPECT_EQ(names(), (std::vector<std::string>{"1 dmo", "2 dmo grid 12"}));
+  EXPECT_EQ(session()->runs[1].title, "dmo · mean-ratio, grid 12") << "and in the list";
+  good("grid 8");
+  good("combine mean-ratio:0.7:density h1:2,3");
+  good("run 1");
+  good("size-point 4 5");
+  const auto all = names();
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[1], "2 dmo mean-ratio > 0.7 · density h1, at 2 3");
+  EXPECT_EQ(all[2], "3 dmo mean-ratio > 0.7 · density h1, at 4 5");
+}
+
+TEST_F(RunNames, ATitleWithoutRoomKeepsWhatDiffers) {
+  good("generate annulus 300");
+  good("add-run dmo:min-angle");
+  ui::PaneFacts pane;
+  pane.session = session();
+  auto pieces = ui::title_of(pane, Metric::MeanRatio);
+  std::erase_if(pieces, [](const ui::TitlePiece& piece) { return piece.rank > 0; });
+  ASSERT_EQ(pieces.size(), 2U);
+  EXPECT_EQ(pieces[0].text, "2");
+  EXPECT_EQ(pieces[1].text, "min-angle");
+  good("add-run laplace");
+  good("select-run 2");
+  pane.session = session();
+  EXPECT_EQ(ui::title_of(pane, Metric::MeanRatio).front().text, "2 dmo min-angle") << "where there are others, the method counts";
+}
+
+TEST_F(RunNames, ManyOfThemLeaveThePlotItsRoom) {
+  good("generate annulus 200");
+  good("compare orders 50 1");
+  good("plot sorted");
+  const auto plot = box("plot");
+  EXPECT_GT(plot[3] - plot[1], 80.0F) << "of a panel of some 200";
+  EXPECT_FALSE(window_->run("click \"legend:20 dmo shuffle:19\"") == std::nullopt) << "has no room";
+  good("click legend-more");
+  good("click \"legend:20 dmo shuffle:19\"");
+  const ui::PlotView& view = state().plot_view();
+  EXPECT_TRUE(view.hidden.contains("20 dmo shuffle:19"));
+}
+
+}  // namespace
+}  // namespace dmoscope::app

@@ -63,7 +63,9 @@ void add_bench(CLI::App& app, Action& action) {
   verb->add_flag("--full", options->full, "Also a mesh of ten million vertices; takes some 4 GB of memory")->excludes(file);
   list("--elements", options->elements, "NAME,NAME,...", "Of the generated meshes: all, or some of " + names_of(bench_elements()))
       ->excludes(file);
-  list("--metric", options->metric, "NAME,NAME,...", "Metrics to optimise: all, or some of " + names_of(metric_table()));
+  auto* metric = list("--metric", options->metric, "NAME,NAME,...", "Metrics to optimise: all, or some of " + names_of(metric_table()));
+  auto* combine = verb->add_option("--combine", options->combine, "Two aims instead, in volumes two metrics; see dmoscope smooth --help");
+  combine->type_name("FIRST:THRESHOLD:SECOND")->excludes(metric);
   list("--threads", options->threads, "N,N,...", "Numbers of threads; 0: one a processor thread");
   list("--simd", options->simd, "LEVEL,LEVEL,...", "Vector instructions: all, or some of auto, baseline, avx2, avx512");
   list("--backend", options->backend, "NAME,NAME,...", "Backends: cpu, cuda, or auto: cpu, and cuda where it can be used");
@@ -75,10 +77,11 @@ void add_bench(CLI::App& app, Action& action) {
   count("--active", options->active, 2, kMostIterations, "Also compare the time of iteration N with that of the first");
   auto* draw = count("--draw", options->draw, 1, kMostIterations, "Draw this many iterations as they are made, without a window, instead");
   auto* plot = verb->add_option("--plot", options->plot, "Draw visits a second over sizes")->type_name("FILE.svg|.png");
-  draw->excludes(plot);
+  draw->excludes(plot)->excludes(combine);
   count("--seek", options->seek, 1, kMostIterations, "Seek so often among 200 iterations, without and with drawing, instead")
       ->excludes(plot)
-      ->excludes(draw);
+      ->excludes(draw)
+      ->excludes(combine);
   verb->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
   verb->callback([options, &action] { action = [options] { return bench(*options); }; });
 }

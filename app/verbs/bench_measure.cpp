@@ -81,6 +81,7 @@ void repeat(Series& series, Progress& progress) {
   RunParameters parameters;
   parameters.method = series.figure.method;
   parameters.metric = series.figure.metric;
+  parameters.combination = series.figure.combination;
   parameters.search.precision = series.figure.precision;
   parameters.search.simd = series.figure.simd;
   parameters.backend = series.figure.on_cpu() ? Backend::Cpu : Backend::Cuda;
@@ -129,13 +130,14 @@ class Bench {
   }
 
  private:
-  [[nodiscard]] static Measurement figure_of(const SharedInput& input, const BenchElements& elements, Metric metric) {
+  [[nodiscard]] Measurement figure_of(const SharedInput& input, const BenchElements& elements, Metric metric) const {
     Measurement figure;
     figure.mesh = input->mesh.name;
     figure.elements = elements.name;
     figure.vertices = figure.subject_vertices = input->mesh.vertex_count();
     figure.free = free_vertices(*input);
     figure.metric = metric;
+    figure.combination = plan_.combination;
     figure.method = RunParameters{}.method;
     return figure;
   }

@@ -34,6 +34,7 @@ struct Measurement {
   Index vertices = 0;
   std::uint64_t free = 0;
   Metric metric = Metric::MeanRatio;
+  std::optional<Combination> combination;  // of the metric with a second aim
   std::string method;
   std::string backend = "cpu";
   Precision precision = Precision::Float;

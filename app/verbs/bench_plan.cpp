@@ -112,9 +112,21 @@ void choose_backends(BenchPlan& plan, const std::string& list) {
   plan.acceleration = acceleration_for(has(Backend::Cuda) ? Backend::Cuda : has(Backend::Auto) ? Backend::Auto : Backend::Cpu);
 }
 
+/// One metric with a second aim, instead of the list of metrics; sizes, where they are the aim, are the same everywhere.
+void combine(BenchPlan& plan, const std::string& text) {
+  const auto [first, combination] = parse_combination(text);
+  plan.metrics = {first};
+  plan.combination = combination;
+  if (plan.acceleration.accelerator && !plan.cpu) throw UsageError("combined metrics run on the CPU alone");
+  if (plan.acceleration.accelerator) plan.acceleration = {nullptr, "combined metrics run on the CPU alone"};
+}
+
 /// Names that stand for something to measure must not vanish without a word: each has to fit one of the others.
 void require_partners(const BenchPlan& plan, bool all_elements) {
-  const auto fit = [](const BenchElements& elements, Metric metric) { return elements.suits(info(metric)); };
+  const Metric* second = plan.combination ? std::get_if<Metric>(&plan.combination->second) : nullptr;
+  const auto fit = [second](const BenchElements& elements, Metric metric) {
+    return elements.suits(info(metric)) && (second == nullptr || elements.suits(info(*second)));
+  };
   for (const Metric metric : plan.metrics) {
     if (plan.all_metrics || std::ranges::any_of(plan.elements, [&](const BenchElements& e) { return fit(e, metric); })) continue;
     throw UsageError(fmt::format("{} is not defined for {}", info(metric).name, names_of(plan.elements)));
@@ -154,6 +166,7 @@ BenchPlan plan_of(const BenchOptions& options) {
                  .iterations = options.iterations,
                  .active = options.active};
   choose_backends(plan, options.backend);
+  if (!options.combine.empty()) combine(plan, options.combine);
   if (!options.file.empty()) return plan;
   plan.sizes = parse_list(options.sizes, parse_size);
   if (options.full && std::ranges::find(plan.sizes, kFullSize) == plan.sizes.end()) plan.sizes.push_back(kFullSize);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include "core/quality/metric.h"
 #include "core/search/simd.h"
 #include "core/smooth/accelerator.h"
+#include "core/smooth/combination.h"
 
 namespace dmoscope::app {
 
@@ -20,6 +22,7 @@ struct BenchOptions {
   std::string sizes = "1e4,1e5,1e6";
   std::string threads = "1,0";
   std::string metric = "mean-ratio";
+  std::string combine;  // FIRST:THRESHOLD:SECOND; empty: one metric alone
   std::string elements = "triangles";
   std::string simd = "auto";
   std::string backend = "auto";
@@ -48,17 +51,18 @@ struct BenchElements {
 
 /// The options understood; no list has the same entry twice.
 struct BenchPlan {
-  std::vector<std::size_t> sizes;       // of the meshes to generate, in vertices; empty when a file is given
-  std::vector<BenchElements> elements;  // of the meshes to generate
-  std::vector<Metric> metrics;          // left out where a mesh has elements they are not defined for
-  bool all_metrics;                     // asked for as "all", not by their names
-  bool cpu = true;                      // whether to measure it, besides the reference
-  Acceleration acceleration{};          // what to measure besides the CPU, or why nothing is
-  std::vector<SimdLevel> levels;        // of this processor
-  std::vector<unsigned> threads;        // at least 1 each
-  std::size_t repeats;                  // of every measurement
-  std::uint64_t iterations;             // timed, from the input on
-  std::uint64_t active;                 // the iteration whose time is compared with the first's; 0: none
+  std::vector<std::size_t> sizes;            // of the meshes to generate, in vertices; empty when a file is given
+  std::vector<BenchElements> elements;       // of the meshes to generate
+  std::vector<Metric> metrics;               // left out where a mesh has elements they are not defined for
+  std::optional<Combination> combination{};  // of the one metric with a second aim
+  bool all_metrics;                          // asked for as "all", not by their names
+  bool cpu = true;                           // whether to measure it, besides the reference
+  Acceleration acceleration{};               // what to measure besides the CPU, or why nothing is
+  std::vector<SimdLevel> levels;             // of this processor
+  std::vector<unsigned> threads;             // at least 1 each
+  std::size_t repeats;                       // of every measurement
+  std::uint64_t iterations;                  // timed, from the input on
+  std::uint64_t active;                      // the iteration whose time is compared with the first's; 0: none
 };
 
 /// Throws UsageError for what does not exist, is out of range, fits no other choice, or needs more memory than there is.

@@ -21,7 +21,9 @@ constexpr std::string_view kReference =
 /// What searched: the processor's instructions, or a device.
 std::string_view executor_name(const Measurement& f) { return !f.on_cpu() ? f.backend : f.simd ? name(*f.simd) : "scalar"; }
 Json json_of(const Spread& s) { return {{"median", s.median}, {"lowest", s.lowest}, {"highest", s.highest}}; }
-std::string_view precision_name(const Measurement& f) { return f.precision == Precision::Double ? "double" : "float"; }
+/// Two aims are searched for in double, by packs or plainly.
+std::string_view precision_name(const Measurement& f) { return f.precision == Precision::Double || f.combination ? "double" : "float"; }
+std::string aims(const Measurement& f) { return f.combination ? to_text(f.metric, *f.combination) : std::string(info(f.metric).name); }
 unsigned cores() { return std::max(1U, std::thread::hardware_concurrency()); }
 
 Json json_of(const Measurement& f) {
@@ -30,6 +32,7 @@ Json json_of(const Measurement& f) {
               {"vertices", f.vertices},
               {"free", f.free},
               {"metric", info(f.metric).name},
+              {"combination", f.combination ? Json(aims(f)) : Json(nullptr)},
               {"method", f.method},
               {"backend", f.backend},
               {"precision", precision_name(f)},
@@ -57,7 +60,7 @@ Json json_of(const Measurement& f) {
 
 /// What all figures of one line of the plot have in common.
 std::string series_name(const Measurement& f) {
-  const std::string what = fmt::format("{}, {}", f.elements, info(f.metric).name);
+  const std::string what = fmt::format("{}, {}", f.elements, aims(f));
   if (f.reference) return what + ", plain double";
   if (!f.on_cpu()) return fmt::format("{}, {}", what, f.backend);
   return fmt::format("{}, {}, {}", what, executor_name(f), counted(f.threads, "thread", "threads"));
@@ -117,9 +120,9 @@ void print_head(const BenchPlan& plan) {
 void print_rows(const std::vector<Measurement>& figures) {
   for (const Measurement& f : figures) {
     const std::string spread = fmt::format("{:.3g} to {:.3g}", rate(f, f.seconds.highest), rate(f, f.seconds.lowest));
-    fmt::print("{:<20} {:<16} {:>9} {:>9} {:>7} {:>9.3f} {:>8.4g} {:>16} {:>9.1f} {:>7.2f} {:>9.4g} {:>6.1f} ms", f.mesh,
-               info(f.metric).name, f.free, f.reference ? "double" : executor_name(f), f.threads, 1e3 * f.seconds.median,
-               rate(f, f.seconds.median), spread, f.ns_per_visit(), f.ratio(), f.iterations_per_second(), 1e3 * f.prepare_seconds.median);
+    fmt::print("{:<20} {:<16} {:>9} {:>9} {:>7} {:>9.3f} {:>8.4g} {:>16} {:>9.1f} {:>7.2f} {:>9.4g} {:>6.1f} ms", f.mesh, aims(f), f.free,
+               f.reference ? "double" : executor_name(f), f.threads, 1e3 * f.seconds.median, rate(f, f.seconds.median), spread,
+               f.ns_per_visit(), f.ratio(), f.iterations_per_second(), 1e3 * f.prepare_seconds.median);
     if (f.settling) {
       fmt::print("  {:.3f} ms against {:.3f} ms, {:.2f} x", 1e3 * f.settling->seconds, 1e3 * f.settling->first_seconds,
                  f.settling->first_seconds / f.settling->seconds);

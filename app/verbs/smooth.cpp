@@ -73,16 +73,14 @@ struct Result {
 
 bool on_cpu(const Run& run) { return run.backend() == name(Backend::Cpu); }
 
-/// In float, many vertices at once: the plain grid search alone can do that.
-bool in_lanes(const RunParameters& p) {
-  return method_info(p.method).searches_grid && !p.combination && p.search.precision == Precision::Float;
-}
+/// By packs: the grid search alone can do that.
+bool in_packs(const RunParameters& p) { return method_info(p.method).searches_grid && p.search.precision == Precision::Float; }
 
-/// What the search computed with; null on a device. That for two aims takes a pack of candidates at a time.
+/// What the search computed with; null on a device.
 Json simd_name(const Run& run) {
   const RunParameters& p = run.parameters();
   if (!on_cpu(run)) return nullptr;
-  return in_lanes(p) || p.combination ? name(p.search.simd.value_or(best_simd_level())) : "scalar";
+  return in_packs(p) ? name(p.search.simd.value_or(best_simd_level())) : "scalar";
 }
 
 Json json_of(const Result& r) {
@@ -103,7 +101,7 @@ Json json_of(const Result& r) {
   object["parameters"] = {{"grid", p.search.grid_points},
                           {"levels", p.search.levels},
                           {"omega", p.search.omega},
-                          {"precision", in_lanes(p) ? "float" : "double"},
+                          {"precision", in_packs(p) && !p.combination ? "float" : "double"},
                           {"relaxation", p.options.relaxation},
                           {"directions", name(p.options.directions)},
                           {"seed", p.options.seed},

@@ -101,11 +101,12 @@ CombinedSearch<Frame>::CombinedSearch(const InputMesh& input, Aims aims, const S
     : mesh_(input),
       aims_(std::move(aims)),
       parameters_(parameters),
-      kernel_(aims_kernel<Frame>(parameters.simd.value_or(best_simd_level()), aims_.first)) {}
+      kernel_(parameters.precision == Precision::Double ? nullptr
+                                                        : aims_kernel<Frame>(parameters.simd.value_or(best_simd_level()), aims_.first)) {}
 
 template <class Frame>
 typename CombinedSearch<Frame>::Found CombinedSearch<Frame>::search(const Room& star, PositionView positions, Index vertex) const {
-  if (!is_tangled(star)) {
+  if (kernel_ != nullptr && !is_tangled(star)) {
     const AimsFound<Frame> found = kernel_(task_of(star, positions, vertex));
     if (found.ready) return {found.offset, false};
   }

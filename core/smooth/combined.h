@@ -115,7 +115,8 @@ class CombinedSearch {
     Offset offset;
     bool untangling = false;
   };
-  /// By packs of candidates where that can be, else the plain search; both find the same.
+  /// By packs of candidates where that can be, else, and where the precision asked for is double, the plain search; both compute in double
+  /// and find the same.
   [[nodiscard]] Found search(const Room& star, PositionView positions, Index vertex) const;
   /// `trace`: see grid_search.
   template <class Trace = NoTrace>
@@ -141,7 +142,7 @@ class CombinedSearch {
   RuleMesh<Frame> mesh_;
   Aims aims_;
   SearchParameters parameters_;
-  AimsKernel<Frame> kernel_;
+  AimsKernel<Frame> kernel_;  // null: the plain search alone
 };
 
 /// For any aims.

@@ -93,6 +93,18 @@ TEST(Bench, JsonTellsTheMachineTheBuildAndEveryFigure) {
   }
 }
 
+TEST(Bench, MeasuresTwoAims) {
+  const json all = bench_json({"--sizes", "200", "--repeats", "1", "--threads", "1", "--combine", "mean-ratio:0.6:min-angle"});
+  ASSERT_EQ(all["figures"].size(), 2U);
+  for (const json& figure : all["figures"]) {
+    EXPECT_EQ(figure["combination"], "mean-ratio:0.6:min-angle");
+    EXPECT_EQ(figure["precision"], "double");
+    expect_consistent(figure, all["figures"][0]);
+  }
+  EXPECT_EQ(all["figures"][0]["simd"], "scalar");
+  EXPECT_EQ(all["figures"][1]["simd"], all["simd"]["used"]);
+}
+
 TEST(Bench, MeasuresEveryMetricKindOfElementsAndLevelThatThereIs) {
   const json info = json_of(run({"info", "--json"}));
   const json all = bench_json({"--sizes", "100", "--metric", "all", "--elements", "all", "--simd", "all", "--threads", "1"});
@@ -231,6 +243,10 @@ TEST(Bench, RefusesWhatItCannotMeasure) {
       {"--sizes", "200", "--metric", "min-angle", "--elements", "quadrilaterals"},
       {"--sizes", "200", "--metric", "min-angle", "--elements", "triangles,mixed"},
       {"--sizes", "200", "--elements", "dodecahedra"},
+      {"--sizes", "200", "--combine", "mean-ratio:0.7"},
+      {"--sizes", "200", "--combine", "mean-ratio:0.7:min-angle", "--metric", "mean-ratio"},
+      {"--sizes", "200", "--combine", "mean-ratio:0.7:min-angle", "--elements", "quadrilaterals"},
+      {"--sizes", "200", "--combine", "mean-ratio:0.7:density", "--elements", "hexahedra"},
       {"--sizes", "200", "--metric", "min-angle", "--elements", "hexahedra"},
       {"--sizes", "200", "--simd", "mmx"},
       {"--sizes", "200", "--backend", "abacus"},

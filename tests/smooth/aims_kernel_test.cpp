@@ -45,9 +45,11 @@ std::vector<Aims> kinds_of_aims(const std::shared_ptr<const InputMesh>& mesh) {
 std::vector<Specimen> specimens() {
   std::vector<Specimen> all = testing::zoo();
   using test::Fill;
-  for (const Fill fill : {Fill::Tetrahedra, Fill::Hexahedra, Fill::Mixed})
-    for (const double jitter : {0.2, 0.6})
-      all.push_back({fmt::format("volume {} {}", static_cast<int>(fill), jitter), test::volume_grid(3, fill, jitter)});
+  for (const double jitter : {0.2, 0.6}) {
+    all.push_back({"volume, tetrahedra", test::volume_grid(3, Fill::Tetrahedra, jitter), {.levels = 2}});
+    all.push_back({"volume, hexahedra", test::volume_grid(2, Fill::Hexahedra, jitter), {.levels = 2}});
+    all.push_back({"volume, mixed", test::volume_grid(3, Fill::Mixed, jitter), {.levels = 1}});
+  }
   all.push_back({"volume, grid 3, levels 2", test::volume_grid(3, Fill::Mixed, 0.2), {.grid_points = 3, .levels = 2}});
   return all;
 }

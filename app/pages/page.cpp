@@ -42,20 +42,25 @@ dd { margin: 0; overflow-wrap: anywhere; }
 constexpr std::string_view kScript = R"(
 for (const table of document.querySelectorAll('table')) {
   const heads = Array.from(table.tHead.rows[0].cells);
+  const made = Array.from(table.tBodies[0].rows);
   heads.forEach((head, column) => {
     head.querySelector('button').addEventListener('click', () => {
-      const down = head.getAttribute('aria-sort') === 'ascending';
+      // As in the window: numbers begin with the largest; then the other way; then as they were made.
+      const ways = head.classList.contains('number') ? ['descending', 'ascending'] : ['ascending', 'descending'];
+      const way = ways[ways.indexOf(head.getAttribute('aria-sort')) + 1];
       heads.forEach(other => other.removeAttribute('aria-sort'));
-      head.setAttribute('aria-sort', down ? 'descending' : 'ascending');
-      const key = row => row.cells[column].dataset.key;
-      const rows = Array.from(table.tBodies[0].rows);
-      rows.sort((a, b) => {
-        const p = key(a), q = key(b);
-        if (p === '' || q === '') return (p === '') - (q === '');
-        const x = Number(p), y = Number(q);
-        const order = Number.isNaN(x) || Number.isNaN(y) ? p.localeCompare(q) : x - y;
-        return down ? -order : order;
-      });
+      const rows = made.slice();
+      if (way) {
+        head.setAttribute('aria-sort', way);
+        const key = row => row.cells[column].dataset.key;
+        rows.sort((a, b) => {
+          const p = key(a), q = key(b);
+          if (p === '' || q === '') return (p === '') - (q === '');
+          const x = Number(p), y = Number(q);
+          const order = Number.isNaN(x) || Number.isNaN(y) ? p.localeCompare(q) : x - y;
+          return way === 'descending' ? -order : order;
+        });
+      }
       rows.forEach(row => table.tBodies[0].append(row));
     });
   });

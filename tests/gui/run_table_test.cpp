@@ -110,6 +110,11 @@ TEST_F(RunTable, HasColumnsOfSizesWhereARunHasASizeFunction) {
   good("wait");
   good("click run-table:size_correlation");
   EXPECT_EQ(rows().front().run, session()->active) << "the only one that has a value";
+  good("generate annulus 300");  // one run alone, so that its parameters are in view
+  EXPECT_TRUE(window_->run("click run-table:size_correlation").has_value());
+  good("combine mean-ratio:0.3:density h1:0,0");
+  good("run 2");
+  good("wait");
   EXPECT_GT(window_->app().items().find("size-course")[2], 0.0F);
 }
 

@@ -269,7 +269,7 @@ std::string html_of(const Comparison& comparison, const ComparisonFacts& facts, 
     head.emplace_back(column->title);
     hints.emplace_back(column->doc);
   }
-  page.table(head, hints, page_rows(comparison));
+  page.table(head, hints, page_rows(comparison), 1);  // the input, as in the window
   for (const LeftOut& left : comparison.left_out) page.paragraph(fmt::format("Left out: {}: {}", left.name, left.reason));
   page.heading("Convergence");
   page.plot(draw(convergence_plot(comparison)));

@@ -42,7 +42,7 @@ dd { margin: 0; overflow-wrap: anywhere; }
 constexpr std::string_view kScript = R"(
 for (const table of document.querySelectorAll('table')) {
   const heads = Array.from(table.tHead.rows[0].cells);
-  const made = Array.from(table.tBodies[0].rows);
+  const made = Array.from(table.tBodies[0].rows).filter(row => row.className !== 'kept');
   heads.forEach((head, column) => {
     head.querySelector('button').addEventListener('click', () => {
       // As in the window: numbers begin with the largest; then the other way; then as they were made.
@@ -90,7 +90,7 @@ void Page::facts(const std::vector<std::pair<std::string, std::string>>& facts) 
 }
 
 void Page::table(const std::vector<std::string>& head, const std::vector<std::string>& hints,
-                 const std::vector<std::vector<PageCell>>& rows) {
+                 const std::vector<std::vector<PageCell>>& rows, std::size_t kept) {
   body_ += "<div class=\"scroll\"><table>\n<thead><tr>";
   for (std::size_t i = 0; i < head.size(); ++i) {
     const bool number = !rows.empty() && rows.front()[i].is_number;
@@ -100,7 +100,7 @@ void Page::table(const std::vector<std::string>& head, const std::vector<std::st
   }
   body_ += "</tr></thead>\n<tbody>\n";
   for (const auto& row : rows) {
-    body_ += "<tr>";
+    body_ += static_cast<std::size_t>(&row - rows.data()) < kept ? "<tr class=\"kept\">" : "<tr>";
     for (const PageCell& cell : row)
       body_ += fmt::format("<td{} data-key=\"{}\">{}</td>", class_of(cell), xml_escaped(cell.key), xml_escaped(cell.text));
     body_ += "</tr>\n";

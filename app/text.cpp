@@ -55,8 +55,4 @@ std::string shell_line(const std::vector<std::string>& words) {
   return line;
 }
 
-std::string counted(std::uint64_t count, std::string_view singular, std::string_view plural) {
-  return fmt::format("{} {}", count, count == 1 ? singular : plural);
-}
-
 }  // namespace dmoscope::app

@@ -9,6 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/number_text.h"
+
 namespace dmoscope::app {
 
 /// Keeps the order in which keys were given, so that the output reads like its documentation.
@@ -35,7 +37,5 @@ template <class Table>
                                      std::string_view alignment);
 /// Words as a line that a shell takes apart into the same words.
 [[nodiscard]] std::string shell_line(const std::vector<std::string>& words);
-/// "1 element", "2 elements".
-[[nodiscard]] std::string counted(std::uint64_t count, std::string_view singular, std::string_view plural);
 
 }  // namespace dmoscope::app

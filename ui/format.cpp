@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "core/base/number_text.h"
-
 namespace dmoscope::ui {
 
 std::string short_number(double value) {
@@ -22,22 +20,26 @@ std::string full_number(double value) {
   return {text.data(), end.ptr};
 }
 
-std::string count(std::uint64_t value) {
-  const std::string digits = std::to_string(value);
-  std::string out;
-  for (std::size_t k = 0; k < digits.size(); ++k) {
-    if (k > 0 && (digits.size() - k) % 3 == 0) out += ',';
-    out += digits[k];
-  }
-  return out;
+std::string count(std::uint64_t value) { return grouped(value); }
+
+std::string rate(double value) { return std::isfinite(value) ? with_prefix(value) : "–"; }
+
+std::string without_middle(std::string_view text, std::size_t letters) {
+  if (text.size() <= letters) return std::string(text);
+  const auto inside = [&](std::size_t at) { return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U; };
+  std::size_t end = (letters + 1) / 2, rest = text.size() - letters / 2;
+  while (inside(end)) --end;
+  while (inside(rest)) ++rest;
+  return std::string(text.substr(0, end)) + "…" + std::string(text.substr(rest));
 }
 
-std::string rate(double value) {
-  if (!std::isfinite(value)) return "–";
-  if (value >= 1e9) return fmt::format("{:.3g} G", value / 1e9);
-  if (value >= 1e6) return fmt::format("{:.3g} M", value / 1e6);
-  if (value >= 1e3) return fmt::format("{:.3g} k", value / 1e3);
-  return fmt::format("{:.3g} ", value);
+std::string size_course_text(double before, double after) {
+  return std::isfinite(after) ? fmt::format("{:.3f} → {:.3f}", before, after) : "–";
+}
+
+std::string size_course_details(const SizeCourse& sizes) {
+  return fmt::format("sizes: {} → {}\ntheir logarithms: {} → {}", full_number(sizes.before.sizes), full_number(sizes.after.sizes),
+                     full_number(sizes.before.logarithms), full_number(sizes.after.logarithms));
 }
 
 std::string duration(double seconds) {
@@ -47,7 +49,5 @@ std::string duration(double seconds) {
   if (seconds >= 1e-3) return fmt::format("{:.3g} ms", seconds * 1e3);
   return fmt::format("{:.3g} µs", seconds * 1e6);
 }
-
-std::string counted(std::uint64_t value, const char* one, const char* many) { return count(value) + " " + (value == 1 ? one : many); }
 
 }  // namespace dmoscope::ui

@@ -3,6 +3,10 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
+
+#include "core/base/number_text.h"
+#include "core/session/size_course.h"
 
 namespace dmoscope::ui {
 
@@ -14,9 +18,12 @@ namespace dmoscope::ui {
 [[nodiscard]] std::string count(std::uint64_t value);
 /// "1.61 M" for rates: three digits and a prefix.
 [[nodiscard]] std::string rate(double value);
+/// At most so many letters (bytes of UTF-8) of a text, "…" in place of its middle: "mean-r…-area".
+[[nodiscard]] std::string without_middle(std::string_view text, std::size_t letters);
+/// "0.041 → 0.734": how well sizes are met, at the input and now; "–" where there are none.
+[[nodiscard]] std::string size_course_text(double before, double after);
+/// The same in full, and of the sizes' logarithms, in two lines.
+[[nodiscard]] std::string size_course_details(const SizeCourse& sizes);
 /// "0.83 ms", "1.24 s".
 [[nodiscard]] std::string duration(double seconds);
-/// "1 vertex", "8,429 vertices".
-[[nodiscard]] std::string counted(std::uint64_t value, const char* one, const char* many);
-
 }  // namespace dmoscope::ui

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/number_text.h"
 #include "core/session/commands.h"
 
 namespace dmoscope::ui {
@@ -46,7 +47,11 @@ bool Panes::shows(std::size_t pane, std::uint64_t id) const {
 
 std::size_t Panes::follow(const SessionView& session) {
   run_ids.clear();
-  for (const RunView& run : session.runs) run_ids.push_back(run.id);
+  reached.clear();
+  for (const RunView& run : session.runs) {
+    run_ids.push_back(run.id);
+    reached.push_back(run.records.empty() ? 0 : run.records.back().iteration);
+  }
   const std::uint64_t active = session.active < session.runs.size() ? session.runs[session.active].id : 0;
   for (Pane& pane : panes) {
     if (pane.content.kind != Kind::Run || std::ranges::find(run_ids, pane.content.run) != run_ids.end()) continue;
@@ -128,7 +133,12 @@ PaneContent Panes::parse(const std::vector<std::string>& words) const {
     const std::uint64_t number = to_count(words[1], 1);
     if (number > run_ids.size()) throw UsageError(fmt::format("there is no run {}; the session has {}", number, run_ids.size()));
     PaneContent content{Kind::Run, run_ids[number - 1], std::nullopt};
-    if (words.size() == 3) content.iteration = to_count(words[2]);
+    if (words.size() == 3) {
+      content.iteration = to_count(words[2]);
+      if (*content.iteration > reached[number - 1])
+        throw UsageError(fmt::format("run {} has no iteration {}: it has come to {}", number, grouped(*content.iteration),
+                                     grouped(reached[number - 1])));
+    }
     return content;
   }
   throw UsageError("expected active, run N, run N ITERATION, input, mark a, mark b or auto");

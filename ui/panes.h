@@ -44,6 +44,7 @@ struct Panes {
   double split = 0.5;                  // where the handle is, 0 to 1
   std::size_t focus = 0;               // the active pane
   std::vector<std::uint64_t> run_ids;  // of the session's runs, as followed last
+  std::vector<std::uint64_t> reached;  // likewise: the last iteration that each has a record of
   std::uint64_t active_id = 0;         // likewise
 
   [[nodiscard]] std::size_t count() const { return pane_count(layout); }
@@ -59,7 +60,8 @@ struct Panes {
 
   /// "run 2", "run 2 10", "input", "mark a", "active"; "auto" for a pane that is filled by itself.
   [[nodiscard]] std::string words(const PaneContent& content) const;
-  /// The reverse. Throws UsageError for words that are none of these, or for a run that does not exist.
+  /// The reverse. Throws UsageError for words that are none of these, or for a run or an iteration that does not
+  /// exist.
   [[nodiscard]] PaneContent parse(const std::vector<std::string>& words) const;
 
  private:

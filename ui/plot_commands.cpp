@@ -107,6 +107,18 @@ PlotSave parse_save(Arguments words) {
 
 }  // namespace
 
+void rename_runs(PlotView& view, const std::map<std::string, std::string>& changed) {
+  // All at once: one run may have now the name that another one had.
+  std::set<std::string> hidden;
+  for (const std::string& name : view.hidden) {
+    const auto at = changed.find(name);
+    const std::string& now = at == changed.end() ? name : at->second;
+    if (!now.empty()) hidden.insert(now);
+  }
+  view.hidden = std::move(hidden);
+  if (const auto at = changed.find(view.isolated); at != changed.end()) view.isolated = at->second;
+}
+
 void add_plot_verbs(CommandTable& table, ViewState& state) {
   table.add({"plot", "plot convergence|histogram|sorted|moved|time|runs", "which plot is shown, or the table of runs"},
             [&state](Arguments words) {

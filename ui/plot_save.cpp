@@ -33,7 +33,7 @@ Drawing drawing_of(const PlotSave& save, const Plot& plot, const PlotView& view,
 
 void save_table(const PlotSave& save, ViewState& state, const SessionView& session, std::vector<Message>& said) {
   if (session.runs.empty()) throw UsageError("there are no runs yet");
-  std::string text = run_table_csv(sorted_runs(session, state.plot_options));
+  std::string text = run_table_csv(rows_to_save(session, state.plot_options));
   if (save.path.empty()) {
     state.requests.clipboard = std::move(text);
     return;

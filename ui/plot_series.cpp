@@ -78,7 +78,7 @@ class Builder {
     Series series;
     series.run = run_name(k);
     series.name = std::move(name);
-    series.colour = palette_.runs[k % palette_.runs.size()];
+    series.colour = palette_.run(k);
     series.width = k == session_.active ? kThick : kThin;
     series.dash = dash;
     series.strength = strength;

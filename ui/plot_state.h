@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -44,6 +45,9 @@ struct PlotView {
   ValueAxis axis = ValueAxis::Linear;
   friend bool operator==(const PlotView&, const PlotView&) = default;
 };
+
+/// Runs that the plot's legend switched off stay so under other names. `changed`: see KnownRunNames::follow.
+void rename_runs(PlotView& view, const std::map<std::string, std::string>& changed);
 
 /// What holds for several of them.
 struct PlotOptions {

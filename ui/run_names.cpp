@@ -1,5 +1,6 @@
 #include "ui/run_names.h"
 
+#include <algorithm>
 #include <array>
 
 namespace dmoscope::ui {
@@ -43,6 +44,23 @@ std::vector<RunName> run_names(const SessionView& session) {
   std::vector<RunName> names;
   for (std::size_t k = 0; k < parts.size(); ++k) names.push_back(name_among(session, parts, k));
   return names;
+}
+
+std::map<std::string, std::string> KnownRunNames::follow(const SessionView& session) {
+  // As long as runs and titles are the same, so are the names.
+  const auto is_known = [](const RunView& run, const Known& known) { return run.id == known.id && run.title == known.title; };
+  if (std::ranges::equal(session.runs, known_, is_known)) return {};
+  const std::vector<RunName> names = run_names(session);
+  std::vector<Known> now;
+  for (std::size_t k = 0; k < names.size(); ++k) now.push_back({session.runs[k].id, session.runs[k].title, names[k].whole()});
+  std::map<std::string, std::string> changed;
+  for (const Known& before : known_) {
+    const auto at = std::ranges::find(now, before.id, &Known::id);
+    std::string name = at == now.end() ? std::string() : at->name;
+    if (name != before.name) changed.emplace(before.name, std::move(name));
+  }
+  known_ = std::move(now);
+  return changed;
 }
 
 }  // namespace dmoscope::ui

@@ -13,20 +13,20 @@ std::vector<RunRow> sorted_runs(const SessionView& session, const PlotOptions& o
 }
 
 std::optional<RunRow> input_row(const SessionView& session) {
+  if (session.runs.empty()) return std::nullopt;
+  if (const InputSummary* input = session.input_summary.get(); input != nullptr && input->metric == session.shown)
+    return row_of_input(session.shown, input->statistics, input->percentiles);
   for (const RunView& run : session.runs) {
     if (run.parameters.metric != session.shown || run.records.empty() || run.records[0].iteration != 0) continue;
-    const Statistics& input = run.records[0].statistics;
-    RunRow row;
-    row.title = "input";
-    row.minimum = input.minimum;
-    row.movable_minimum = input.movable_minimum;
-    row.mean = input.mean;
-    row.inverted = static_cast<double>(input.inverted);
-    row.seconds = RunRow::kUnknown;
-    if (!run.percentiles.empty()) row.p1 = run.percentiles[0].p1, row.p5 = run.percentiles[0].p5;
-    return row;
+    return row_of_input(session.shown, run.records[0].statistics, run.percentiles.empty() ? Percentiles{} : run.percentiles[0]);
   }
   return std::nullopt;
+}
+
+std::vector<RunRow> rows_to_save(const SessionView& session, const PlotOptions& options) {
+  std::vector<RunRow> rows = sorted_runs(session, options);
+  if (std::optional<RunRow> input = input_row(session)) rows.insert(rows.begin(), std::move(*input));
+  return rows;
 }
 
 }  // namespace dmoscope::ui

@@ -105,7 +105,7 @@ void SteppingView::make_marks(const ViewState& state, const SessionView& session
     if (moved_key_ != wanted) moved_ = Displacements(plane, *from, frame.positions);
     moved_key_ = wanted;
     factor_ = arrow_factor(view, moved_, state.stepping.arrow_scale);
-    arrows_left_out_ = add_arrows(marks_, view, moved_, factor_, solid(colours.runs[frame.run % 8]), solid(colours.background, 230));
+    arrows_left_out_ = add_arrows(marks_, view, moved_, factor_, solid(colours.run(frame.run)), solid(colours.background, 230));
   }
   if (state.stepping.next_class) add_next_class(state, session, view);
   add_selection(state, frame, view);
@@ -121,7 +121,7 @@ void SteppingView::add_next_class(const ViewState& state, const SessionView& ses
   const Frame& frame = *session.frame;
   const NextClass next = class_of(session);
   if (next.vertices.empty()) return;
-  const render::Rgba accent = solid(palette(state.theme).runs[frame.run % 8]);
+  const render::Rgba accent = solid(palette(state.theme).run(frame.run));
   add_dots(marks_, view, *frame.input, frame.positions, next.vertices, accent, 8.0);
   const Vec2<double> first = frame.input->geometry.plane.project(frame.positions[next.vertices.front()]);
   marks_.dots.push_back({first, 20.0F, accent, render::DotShape::Ring});
@@ -150,7 +150,7 @@ void SteppingView::make_space_marks(const ViewState& state, const SessionView& s
                                     const SpaceMarkView& view) {
   const Frame& frame = *session.frame;
   const Palette& colours = palette(state.theme);
-  const render::Rgba accent = solid(colours.runs[frame.run % 8]);
+  const render::Rgba accent = solid(colours.run(frame.run));
   const auto unhidden = scene.unhidden(view.camera, view.projection.viewport());
   too_many_faces_ = !unhidden;
   arrows_drawn_ = arrows_left_out_ = 0;

@@ -19,7 +19,9 @@ struct Palette {
   render::Rgb accent, on_accent;
   render::Rgb good, warning, error;
   render::Rgb grid;  // of plots
-  std::array<render::Rgb, 8> runs;
+  std::array<render::Rgb, 16> runs;
+  /// Of run k, from 0.
+  [[nodiscard]] render::Rgb run(std::size_t k) const { return runs[k % runs.size()]; }
 };
 [[nodiscard]] const Palette& palette(Theme theme);
 

@@ -75,6 +75,8 @@ void ViewState::follow(const SessionView& session) {
   const bool gone = (reference.kind == Kind::Run && std::ranges::find(panes.run_ids, reference.run) == panes.run_ids.end()) ||
                     (reference.kind == Kind::MarkA && !timeline.a.frame) || (reference.kind == Kind::MarkB && !timeline.b.frame);
   if (gone) reference = {Kind::Input, 0, std::nullopt};
+  if (const auto changed = run_names.follow(session); !changed.empty())
+    for (PlotView& view : plots) rename_runs(view, changed);
 }
 
 void ViewState::set_layout(PaneLayout layout) {

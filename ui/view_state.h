@@ -21,6 +21,7 @@
 #include "ui/keys.h"
 #include "ui/panes.h"
 #include "ui/plot_state.h"
+#include "ui/run_names.h"
 #include "ui/selection.h"
 #include "ui/sequence.h"
 #include "ui/stepping_state.h"
@@ -116,6 +117,7 @@ struct ViewState {
   PlotTab plot = PlotTab::Convergence;
   std::array<PlotView, kPlotTabs.size()> plots;
   PlotOptions plot_options;
+  KnownRunNames run_names;  // that the plots' legends had last
   bool full_screen = false;
 
   // Selection
@@ -150,7 +152,7 @@ struct ViewState {
   void link_cameras(bool linked);
   /// Makes a pane the active one.
   void focus_pane(std::size_t pane);
-  /// Brings panes, and what differences are taken from, up to date with the session.
+  /// Brings panes, what differences are taken from, and the runs' names up to date with the session.
   void follow(const SessionView& session);
   /// See Panes::set_layout.
   void set_layout(PaneLayout layout);

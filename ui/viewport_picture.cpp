@@ -120,7 +120,7 @@ render::Image Viewports::joint_picture(const Scenery& scenery, const render::Sho
     if (views_[k]->frame() != nullptr) paste(whole, picture_of(k, scenery, one), places[k], clip);
     std::optional<render::Rgb> run;
     const PaneFacts& facts = facts_[k];
-    if (facts.of_run && !facts.removed && facts.frame() != nullptr) run = palette(scenery.state.theme).runs[facts.session->active % 8];
+    if (facts.of_run && !facts.removed && facts.frame() != nullptr) run = palette(scenery.state.theme).run(facts.session->active);
     if (font) draw_title(whole, *font, title_of(facts_[k], session_->shown), run, clip, style, shot.scale);
   }
   if (layout_ == PaneLayout::Split)

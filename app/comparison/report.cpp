@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <thread>
 
 #include <fmt/format.h>
@@ -14,19 +15,10 @@ namespace dmoscope::app {
 
 namespace {
 
-/// What a person compares runs by; the CSV has all columns.
-std::vector<const RunColumn*> shown_columns() {
-  std::vector<const RunColumn*> columns;
-  for (const char* name : {"run", "backend", "iterations", "min_quality", "movable_minimum", "mean_quality", "p1", "p5", "inverted",
-                           "seconds", "vertices_per_second"})
-    columns.push_back(&run_column(name));
-  return columns;
-}
-
 std::string spread_sentence(const OrderSpread& s) {
   return fmt::format("{}: minimum {} to {}; largest difference of the sorted qualities {}, at rank {} of {}; mean difference {}", s.name,
-                     brief(s.lowest_minimum), brief(s.highest_minimum), brief(s.largest_difference), s.rank + 1, s.elements,
-                     brief(s.mean_difference));
+                     brief(s.lowest_minimum), brief(s.highest_minimum), brief(s.largest_difference), grouped(s.rank + 1),
+                     grouped(s.elements), brief(s.mean_difference));
 }
 
 std::vector<const JudgedRun*> every_run(const Comparison& comparison) {
@@ -38,17 +30,24 @@ std::vector<const JudgedRun*> every_run(const Comparison& comparison) {
 
 /// The input as a row beside the runs.
 RunRow input_row(const Comparison& comparison) {
-  RunRow row;
-  row.title = "input";
-  const Statistics& s = comparison.runs.front().before();
-  row.minimum = s.minimum;
-  row.movable_minimum = s.movable_minimum;
-  row.mean = s.mean;
-  row.inverted = s.inverted;
-  row.p1 = comparison.input_percentiles.p1;
-  row.p5 = comparison.input_percentiles.p5;
-  row.seconds = RunRow::kUnknown;
-  return row;
+  return row_of_input(comparison.judge, comparison.runs.front().before(), comparison.input_percentiles);
+}
+
+std::vector<RunRow> shown_rows(const Comparison& comparison) {
+  std::vector<RunRow> rows{input_row(comparison)};
+  for (const JudgedRun& run : comparison.runs) rows.push_back(run.row);
+  return rows;
+}
+
+/// What a person compares runs by; the CSV has all columns. Those of sizes only where a run has a size function.
+std::vector<const RunColumn*> shown_columns(std::span<const RunRow> rows) {
+  std::vector<const RunColumn*> columns;
+  for (const char* name : {"run", "backend", "iterations", "min_quality", "movable_minimum", "mean_quality", "p1", "p5", "inverted",
+                           "input_size_correlation", "size_correlation", "seconds", "vertices_per_second"}) {
+    const RunColumn& column = run_column(name);
+    if (!column.name.ends_with("size_correlation") || has_values(rows, column)) columns.push_back(&column);
+  }
+  return columns;
 }
 
 Json json_of(const JudgedRun& run) {
@@ -72,7 +71,8 @@ Json json_of(const JudgedRun& run) {
 
 /// The largest quality of a column among the runs, where they differ; else NaN.
 double best_of(const Comparison& comparison, const RunColumn& column) {
-  if (column.is_word() || column.is_count || column.name.starts_with("seconds") || column.name.starts_with("vertices"))
+  if (column.is_word() || column.is_count || column.name == "seconds" || column.name == "vertices_per_second" ||
+      column.name == "input_size_correlation")
     return RunRow::kUnknown;
   double best = RunRow::kUnknown, least = RunRow::kUnknown;
   for (const JudgedRun& run : comparison.runs) {
@@ -85,12 +85,12 @@ double best_of(const Comparison& comparison, const RunColumn& column) {
 }
 
 std::vector<std::vector<PageCell>> page_rows(const Comparison& comparison) {
-  std::vector<RunRow> rows{input_row(comparison)};
-  for (const JudgedRun& run : comparison.runs) rows.push_back(run.row);
+  const std::vector<RunRow> rows = shown_rows(comparison);
+  const auto columns = shown_columns(rows);
   std::vector<std::vector<PageCell>> cells;
   for (const RunRow& row : rows) {
     std::vector<PageCell>& line = cells.emplace_back();
-    for (const RunColumn* column : shown_columns()) {
+    for (const RunColumn* column : columns) {
       std::string text = cell_text(row, *column);
       if (column->is_word()) {
         line.push_back({text, text});
@@ -117,7 +117,7 @@ void add_orders(Page& page, const Comparison& comparison) {
                     number_cell(brief(s.lowest_minimum), s.lowest_minimum),
                     number_cell(brief(s.highest_minimum), s.highest_minimum),
                     number_cell(brief(s.largest_difference), s.largest_difference),
-                    number_cell(fmt::format("{} of {}", s.rank + 1, s.elements), static_cast<double>(s.rank)),
+                    number_cell(fmt::format("{} of {}", grouped(s.rank + 1), grouped(s.elements)), static_cast<double>(s.rank)),
                     number_cell(brief(s.mean_difference), s.mean_difference)});
   }
   page.table({"run", "orders", "lowest minimum", "highest minimum", "largest difference", "at rank", "mean difference"}, {}, rows);
@@ -150,7 +150,7 @@ void add_settings(Page& page, const Comparison& comparison, const ComparisonFact
   std::vector<std::pair<std::string, std::string>> list{
       {"command", facts.command_line},
       {"mesh", fmt::format("{}: {}, {}, {} free to move", options.file.string(), counted(mesh.vertex_count(), "vertex", "vertices"),
-                           counted(mesh.elements.size(), "element", "elements"), comparison.free)},
+                           counted(mesh.elements.size(), "element", "elements"), grouped(comparison.free))},
       {"goal", goal_sentence(options.goal)},
       {"judged by", fmt::format("{}: {}", info(comparison.judge).name, info(comparison.judge).doc)},
       {"search of dmo", fmt::format("{0} x {0}{1} candidates, {2}, first grid {3:g} of the star's box, in {4}", search.grid_points,
@@ -186,7 +186,8 @@ PageCell number_cell(std::string text, double value) {
 }
 
 std::string text_of(const Comparison& comparison) {
-  const auto columns = shown_columns();
+  const std::vector<RunRow> shown = shown_rows(comparison);
+  const auto columns = shown_columns(shown);
   std::vector<std::string> head;
   std::string alignment;
   for (const RunColumn* column : columns) {
@@ -194,15 +195,14 @@ std::string text_of(const Comparison& comparison) {
     alignment += column->is_word() ? 'l' : 'r';
   }
   std::vector<std::vector<std::string>> rows;
-  const auto add = [&](const RunRow& row) {
+  for (const RunRow& row : shown) {
     auto& cells = rows.emplace_back();
     for (const RunColumn* column : columns) cells.push_back(cell_text(row, *column));
-  };
-  add(input_row(comparison));
-  for (const JudgedRun& run : comparison.runs) add(run.row);
+  }
   const Mesh& mesh = comparison.input->mesh;
-  std::string text = fmt::format("{}: {}, {}, {} free; qualities by {}\n\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
-                                 counted(mesh.elements.size(), "element", "elements"), comparison.free, info(comparison.judge).name);
+  std::string text =
+      fmt::format("{}: {}, {}, {} free; qualities by {}\n\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
+                  counted(mesh.elements.size(), "element", "elements"), grouped(comparison.free), info(comparison.judge).name);
   text += text_table(head, rows, alignment);
   if (!comparison.orders.empty())
     text += fmt::format("\n{}, the natural one included:\n", counted(comparison.orders.front().orders, "order", "orders"));
@@ -255,7 +255,7 @@ std::string statistics_csv(const Comparison& comparison) {
 }
 
 std::string table_csv(const Comparison& comparison) {
-  std::vector<RunRow> rows;
+  std::vector<RunRow> rows{input_row(comparison)};
   for (const JudgedRun* run : every_run(comparison)) rows.push_back(run->row);
   return run_table_csv(rows);
 }
@@ -265,11 +265,11 @@ std::string html_of(const Comparison& comparison, const ComparisonFacts& facts, 
   page.paragraph(fmt::format("{}. All qualities are by {}: 1 is the ideal element, 0 or less an inverted one. A click on a head sorts.",
                              goal_sentence(facts.options.goal), info(comparison.judge).name));
   std::vector<std::string> head, hints;
-  for (const RunColumn* column : shown_columns()) {
+  for (const RunColumn* column : shown_columns(shown_rows(comparison))) {
     head.emplace_back(column->title);
     hints.emplace_back(column->doc);
   }
-  page.table(head, hints, page_rows(comparison));
+  page.table(head, hints, page_rows(comparison), 1);  // the input, as in the window
   for (const LeftOut& left : comparison.left_out) page.paragraph(fmt::format("Left out: {}: {}", left.name, left.reason));
   page.heading("Convergence");
   page.plot(draw(convergence_plot(comparison)));

@@ -42,20 +42,25 @@ dd { margin: 0; overflow-wrap: anywhere; }
 constexpr std::string_view kScript = R"(
 for (const table of document.querySelectorAll('table')) {
   const heads = Array.from(table.tHead.rows[0].cells);
+  const made = Array.from(table.tBodies[0].rows).filter(row => row.className !== 'kept');
   heads.forEach((head, column) => {
     head.querySelector('button').addEventListener('click', () => {
-      const down = head.getAttribute('aria-sort') === 'ascending';
+      // As in the window: numbers begin with the largest; then the other way; then as they were made.
+      const ways = head.classList.contains('number') ? ['descending', 'ascending'] : ['ascending', 'descending'];
+      const way = ways[ways.indexOf(head.getAttribute('aria-sort')) + 1];
       heads.forEach(other => other.removeAttribute('aria-sort'));
-      head.setAttribute('aria-sort', down ? 'descending' : 'ascending');
-      const key = row => row.cells[column].dataset.key;
-      const rows = Array.from(table.tBodies[0].rows);
-      rows.sort((a, b) => {
-        const p = key(a), q = key(b);
-        if (p === '' || q === '') return (p === '') - (q === '');
-        const x = Number(p), y = Number(q);
-        const order = Number.isNaN(x) || Number.isNaN(y) ? p.localeCompare(q) : x - y;
-        return down ? -order : order;
-      });
+      const rows = made.slice();
+      if (way) {
+        head.setAttribute('aria-sort', way);
+        const key = row => row.cells[column].dataset.key;
+        rows.sort((a, b) => {
+          const p = key(a), q = key(b);
+          if (p === '' || q === '') return (p === '') - (q === '');
+          const x = Number(p), y = Number(q);
+          const order = Number.isNaN(x) || Number.isNaN(y) ? p.localeCompare(q) : x - y;
+          return way === 'descending' ? -order : order;
+        });
+      }
       rows.forEach(row => table.tBodies[0].append(row));
     });
   });
@@ -85,7 +90,7 @@ void Page::facts(const std::vector<std::pair<std::string, std::string>>& facts) 
 }
 
 void Page::table(const std::vector<std::string>& head, const std::vector<std::string>& hints,
-                 const std::vector<std::vector<PageCell>>& rows) {
+                 const std::vector<std::vector<PageCell>>& rows, std::size_t kept) {
   body_ += "<div class=\"scroll\"><table>\n<thead><tr>";
   for (std::size_t i = 0; i < head.size(); ++i) {
     const bool number = !rows.empty() && rows.front()[i].is_number;
@@ -95,7 +100,7 @@ void Page::table(const std::vector<std::string>& head, const std::vector<std::st
   }
   body_ += "</tr></thead>\n<tbody>\n";
   for (const auto& row : rows) {
-    body_ += "<tr>";
+    body_ += static_cast<std::size_t>(&row - rows.data()) < kept ? "<tr class=\"kept\">" : "<tr>";
     for (const PageCell& cell : row)
       body_ += fmt::format("<td{} data-key=\"{}\">{}</td>", class_of(cell), xml_escaped(cell.key), xml_escaped(cell.text));
     body_ += "</tr>\n";

@@ -28,8 +28,10 @@ class Page {
   void paragraph(std::string_view text);
   /// Names and what they are.
   void facts(const std::vector<std::pair<std::string, std::string>>& facts);
-  /// Its rows can be sorted by a click on a head. `hints`: a line on each head, may be empty.
-  void table(const std::vector<std::string>& head, const std::vector<std::string>& hints, const std::vector<std::vector<PageCell>>& rows);
+  /// Its rows can be sorted by a click on a head. `hints`: a line on each head, may be empty; `kept`: so many rows stay on
+  /// top, however the others are sorted.
+  void table(const std::vector<std::string>& head, const std::vector<std::string>& hints, const std::vector<std::vector<PageCell>>& rows,
+             std::size_t kept = 0);
   /// The drawing itself, as SVG.
   void plot(const Drawing& drawing);
   /// Pictures side by side, each with a caption, above the bar of their colours; of one that is not there, why.

@@ -4,19 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "core/session/size_course.h"
+
 namespace dmoscope::app {
 namespace {
-
-struct Correlations {
-  SizeCorrelation before, after;
-};
-
-Correlations correlations(const Run& run) {
-  const auto of = [&](std::span<const Vec3> positions) {
-    return size_correlation(*run.size_field(), run.input(), positions, run.colouring().order);
-  };
-  return {of(run.input().mesh.positions), of(run.positions())};
-}
 
 Json json_of(const Combination& combination, const Run& run) {
   Json object;
@@ -28,7 +19,7 @@ Json json_of(const Combination& combination, const Run& run) {
   }
   object["second"] = "density";
   object["size_function"] = to_text(*combination.size());
-  const auto [before, after] = correlations(run);
+  const auto [before, after] = size_course_of(run);
   object["size_correlation"] = {{"before", json_number(before.sizes)}, {"after", json_number(after.sizes)}};
   object["size_log_correlation"] = {{"before", json_number(before.logarithms)}, {"after", json_number(after.logarithms)}};
   return object;
@@ -46,7 +37,7 @@ void add_aims(Json& object, const Run& run) {
 
 void print_aims(const Run& run) {
   if (!run.size_field()) return;
-  const auto [before, after] = correlations(run);
+  const auto [before, after] = size_course_of(run);
   if (std::isnan(after.sizes)) return;  // one size for all
   fmt::print("  {:<16} {:>10} -> {}    (correlation of local edge length and target size)\n", "size", brief(before.sizes),
              brief(after.sizes));

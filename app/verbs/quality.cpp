@@ -169,7 +169,7 @@ int quality(const Options& options) {
     return 0;
   }
   fmt::print("{}: {}, {}, {} inverted\n\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
-             counted(mesh.elements.size(), "element", "elements"), inverted);
+             counted(mesh.elements.size(), "element", "elements"), grouped(inverted));
   print_table(columns);
   for (const Column& column : columns) print_worst(mesh, column, options.worst);
   return 0;

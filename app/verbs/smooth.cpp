@@ -124,16 +124,16 @@ void print_summary(const Result& r) {
   const Statistics& after = r.after().statistics;
   const Mesh& mesh = r.run.input().mesh;
   fmt::print("{}: {}, {}, {} free; {}, {}\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
-             counted(mesh.elements.size(), "element", "elements"), r.run.visits_per_iteration(), r.run.title(), r.run.backend());
+             counted(mesh.elements.size(), "element", "elements"), grouped(r.run.visits_per_iteration()), r.run.title(), r.run.backend());
   fmt::print("  {:<16} {:>10} -> {}\n", "minimum", brief(before.minimum), brief(after.minimum));
   fmt::print("  {:<16} {:>10} -> {}\n", "movable minimum", brief(before.movable_minimum), brief(after.movable_minimum));
   fmt::print("  {:<16} {:>10}    (elements whose corners are all fixed)\n", "ceiling", brief(after.ceiling));
   fmt::print("  {:<16} {:>10} -> {}\n", "mean", brief(before.mean), brief(after.mean));
-  fmt::print("  {:<16} {:>10} -> {}\n", "inverted", before.inverted, after.inverted);
+  fmt::print("  {:<16} {:>10} -> {}\n", "inverted", grouped(before.inverted), grouped(after.inverted));
   print_aims(r.run);
   fmt::print("  {}\n", r.outcome.sentence());
-  fmt::print("  {} in {:.3f} s, {} vertices/s on {}\n", counted(r.outcome.iterations, "iteration", "iterations"), r.seconds,
-             brief(r.visits_per_second()), on_cpu(r.run) ? counted(r.threads, "thread", "threads") : r.run.backend_reason());
+  fmt::print("  {} in {:.3f} s, {}vertices/s on {}\n", counted(r.outcome.iterations, "iteration", "iterations"), r.seconds,
+             with_prefix(r.visits_per_second()), on_cpu(r.run) ? counted(r.threads, "thread", "threads") : r.run.backend_reason());
   fmt::print("  wrote {}\n", r.options.output.string());
 }
 

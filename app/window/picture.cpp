@@ -51,7 +51,7 @@ render::Shot shot_of(const InputMesh& input, const JudgedElements& judged, const
   if (!look.colour_bar) return shot;
   render::Legend legend;
   legend.title = std::string(info(look.metric).title);
-  legend.subtitle = fmt::format("{} · {} · minimum {}", input.mesh.name, ui::counted(judged.quality.size(), "element", "elements"),
+  legend.subtitle = fmt::format("{} · {} · minimum {}", input.mesh.name, counted(judged.quality.size(), "element", "elements"),
                                 ui::short_number(judged.minimum));
   legend.inverted = judged.inverted_count;
   shot.legend = legend;

@@ -14,7 +14,7 @@ namespace {
 /// "120 of 5,000 elements", empty when all are seen.
 std::string share_seen(std::size_t seen, std::size_t all) {
   if (seen == all) return {};
-  return fmt::format("{} of {}", ui::count(seen), ui::counted(all, "element", "elements"));
+  return fmt::format("{} of {}", ui::count(seen), counted(all, "element", "elements"));
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 // Numbers as a person reads them.
 
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -14,6 +16,26 @@ namespace dmoscope {
   // From the thousands on the four digits need no point, after which fmt would put a 0 that is not known.
   std::string text = fmt::format("{:#.4g}", value);
   return text.find('e') == std::string::npos && std::abs(value) >= 999.95 ? fmt::format("{:.4g}", value) : text;
+}
+
+/// Thousands apart: "1,334,112".
+[[nodiscard]] inline std::string grouped(std::uint64_t value) {
+  std::string text = std::to_string(value);
+  for (std::size_t left = text.size(); left > 3;) text.insert(left -= 3, 1, ',');
+  return text;
+}
+
+/// "1 vertex", "8,429 vertices".
+[[nodiscard]] inline std::string counted(std::uint64_t value, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", grouped(value), value == 1 ? one : many);
+}
+
+/// Three digits and a prefix, for what stands before a unit: "1.61 M", "73.4 k", "12 ".
+[[nodiscard]] inline std::string with_prefix(double value) {
+  if (value >= 1e9) return fmt::format("{:.3g} G", value / 1e9);
+  if (value >= 1e6) return fmt::format("{:.3g} M", value / 1e6);
+  if (value >= 1e3) return fmt::format("{:.3g} k", value / 1e3);
+  return fmt::format("{:.3g} ", value);
 }
 
 }  // namespace dmoscope

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/number_text.h"
 #include "core/io/mesh_io.h"
 #include "core/session/csv.h"
 #include "core/session/state_file.h"
@@ -13,7 +14,8 @@ namespace {
 
 void tell_report(CommandContext& context) {
   const InputMesh& input = *context.session.input();
-  tell(context, fmt::format("{}: {} vertices, {} elements", input.mesh.name, input.mesh.vertex_count(), input.mesh.elements.size()));
+  tell(context, fmt::format("{}: {}, {}", input.mesh.name, counted(input.mesh.vertex_count(), "vertex", "vertices"),
+                            counted(input.mesh.elements.size(), "element", "elements")));
   for (std::string& sentence : input.report.sentences()) tell(context, std::move(sentence), Message::Kind::Warning);
 }
 

@@ -229,6 +229,7 @@ std::shared_ptr<const SessionView> FrameBuilder::build(Session& session, FrameDe
     view->runs.push_back(view_of(session.run(i), session.percentiles()));
     view->runs.back().summary = summaries_.of(session, i);
   }
+  view->input_summary = summaries_.of_input(session);
   for (Known& known : known_) known.wanted = false;
   view->frame = standing(session, session.active_index(), detail);
   for (const Watch& what : watched) view->watched.push_back(watch(session, what, detail));

@@ -16,7 +16,7 @@ namespace dmoscope {
 
 namespace {
 
-constexpr std::array<RunColumn, 14> kColumns{{
+constexpr std::array<RunColumn, 16> kColumns{{
     {"run", "run", "the run", &RunRow::title},
     {"method", "method", "what smooths", &RunRow::method},
     {"metric", "metric", "the metric that the run optimises", &RunRow::metric},
@@ -32,6 +32,10 @@ constexpr std::array<RunColumn, 14> kColumns{{
     {"seconds", "seconds", "of smoothing alone", &RunRow::seconds},
     {"vertices_per_second", "vertices/s", "free vertices times iterations in a second of smoothing; dmo passes over those at rest",
      &RunRow::vertices_per_second},
+    {"input_size_correlation", "input's size corr.",
+     "at the input: correlation of local edge length and target size, of runs that have one", &RunRow::input_size_correlation},
+    {"size_correlation", "size corr.", "correlation of local edge length and target size, of runs that have one: 1 when they go together",
+     &RunRow::size_correlation},
 }};
 
 /// Whether there is something to sort by.
@@ -45,6 +49,11 @@ void judge(RunRow& row, const Statistics& statistics) {
   row.movable_minimum = statistics.movable_minimum;
   row.mean = statistics.mean;
   row.inverted = statistics.inverted;
+}
+
+void judge(RunRow& row, const SizeCourse& sizes) {
+  row.input_size_correlation = sizes.before.sizes;
+  row.size_correlation = sizes.after.sizes;
 }
 
 void judge(RunRow& row, const Percentiles& percentiles) {
@@ -77,6 +86,17 @@ RunRow row_of(const Run& run, Metric judged, ThreadPool* pool) {
   const bool own = judged == run.parameters().metric;
   judge(row, own ? run.statistics() : compute_statistics(context, positions, judged, run.immovable(), pool));
   judge(row, compute_percentiles(context, positions, judged, pool));
+  judge(row, size_course_of(run));
+  return row;
+}
+
+RunRow row_of_input(Metric judged, const Statistics& statistics, const Percentiles& percentiles) {
+  RunRow row;
+  row.title = "input";
+  row.judged = info(judged).name;
+  row.seconds = RunRow::kUnknown;
+  judge(row, statistics);
+  judge(row, percentiles);
   return row;
 }
 
@@ -88,6 +108,7 @@ RunRow row_of(const RunView& run, Metric judged) {
   if (run.summary && run.summary->metric == judged) {
     judge(row, run.summary->statistics);
     judge(row, percentiles_of_sorted(run.summary->sorted));
+    judge(row, run.summary->sizes);
   } else if (run.parameters.metric == judged && row.iterations < records.size()) {
     judge(row, records[row.iterations].statistics);
     if (row.iterations < run.percentiles.size()) judge(row, run.percentiles[row.iterations]);
@@ -124,8 +145,13 @@ std::string cell_text(const RunRow& row, const RunColumn& column) {
   if (const auto* word = std::get_if<std::string_view>(&content)) return std::string(*word);
   const double number = std::get<double>(content);
   if (!std::isfinite(number)) return "-";
-  if (column.is_count) return fmt::format("{:.0f}", number);
+  if (column.is_count) return grouped(static_cast<std::uint64_t>(number));
+  if (column.name == "vertices_per_second") return with_prefix(number);
   return four_digits(number);
+}
+
+bool has_values(std::span<const RunRow> rows, const RunColumn& column) {
+  return std::ranges::any_of(rows, [&](const RunRow& row) { return has_value(cell(row, column)); });
 }
 
 void sort_rows(std::span<RunRow> rows, const RunColumn& by, bool descending) {

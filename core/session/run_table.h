@@ -27,7 +27,11 @@ struct RunRow {
   double inverted = kUnknown;           // elements
   double seconds = 0.0;                 // of smoothing, in those iterations
   double vertices_per_second = kUnknown;
+  double input_size_correlation = kUnknown, size_correlation = kUnknown;  // see SizeCourse
 };
+
+/// The mesh as it was read, as a row beside the runs.
+[[nodiscard]] RunRow row_of_input(Metric judged, const Statistics& statistics, const Percentiles& percentiles);
 
 /// Of a run as it stands. Throws UsageError when the metric is not defined for the mesh, DeviceError (see Run::recover).
 [[nodiscard]] RunRow row_of(const Run& run, Metric judged, ThreadPool* pool);
@@ -52,8 +56,12 @@ struct RunColumn {
 /// What stands in a cell: a word, or a number, which may be NaN (not known) or infinite (there is nothing to take it of). Words lie in the
 /// row.
 [[nodiscard]] std::variant<std::string_view, double> cell(const RunRow& row, const RunColumn& column);
-/// The same for a person: four significant digits, counts in full; "-" for what is not known or does not exist.
+/// The same for a person: four significant digits, counts in full ("1,234"), speeds in three digits and a prefix ("11.4 M"); "-" for what
+/// is not known or does not exist.
 [[nodiscard]] std::string cell_text(const RunRow& row, const RunColumn& column);
+
+/// Whether any of the rows has a value there: a column that is empty for all says nothing.
+[[nodiscard]] bool has_values(std::span<const RunRow> rows, const RunColumn& column);
 
 /// Rows with the same value keep their order; those without a value come last, whichever way.
 void sort_rows(std::span<RunRow> rows, const RunColumn& by, bool descending);

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/session/view.h"
@@ -23,6 +24,8 @@ class Summaries {
 
   /// Of a run as it stands, by the metric the session shows; null while it has not been worked out.
   [[nodiscard]] std::shared_ptr<const RunSummary> of(Session& session, std::size_t run) const;
+  /// Of the input, likewise.
+  [[nodiscard]] std::shared_ptr<const InputSummary> of_input(const Session& session) const;
   /// Works out those that are missing, asking `go_on` before each. `whole`: the frame of a run as it stands where there is one, else null.
   /// Returns whether there are new ones.
   bool find(Session& session, const std::function<const Frame*(std::size_t)>& whole, const std::function<bool()>& go_on);
@@ -33,8 +36,12 @@ class Summaries {
     std::uint64_t path = 0;
     std::shared_ptr<const RunSummary> summary;
   };
+  [[nodiscard]] SizeCourse sizes_of(Session& session, std::size_t run, std::span<const Vec3> positions) const;
+  bool find_input(const Session& session);
   [[nodiscard]] static bool fits(const Known& known, Session& session, std::size_t run);
   std::vector<Known> known_;  // one a run
+  std::weak_ptr<const InputMesh> input_;
+  std::shared_ptr<const InputSummary> of_input_;  // of input_
 };
 
 }  // namespace dmoscope

@@ -10,6 +10,7 @@
 #include "core/session/device_picture.h"
 #include "core/session/percentiles.h"
 #include "core/session/session.h"
+#include "core/session/size_course.h"
 #include "core/session/summary.h"
 
 namespace dmoscope {
@@ -53,6 +54,14 @@ struct RunSummary {
   Histogram histogram;
   std::size_t elements = 0;   // that have a quality
   std::vector<float> sorted;  // their qualities, ascending; of many an even choice by rank, the worst and the best among them
+  SizeCourse sizes{};         // of a run with a size function
+};
+
+/// How the input fares by a metric.
+struct InputSummary {
+  Metric metric = Metric::MeanRatio;
+  Statistics statistics;
+  Percentiles percentiles;
 };
 
 struct RunView {
@@ -88,6 +97,7 @@ struct SessionView {
   std::vector<RunView> runs;
   std::size_t active = 0;
   Metric shown = Metric::MeanRatio;
+  std::shared_ptr<const InputSummary> input_summary;  // by the metric that is shown; null until it has been worked out, as those of runs
   unsigned threads = 1;
   std::string restored_view;           // the JSON that was saved with the session that was opened last; see save-state
   std::uint64_t restored_serial = 0;   // grows with every session opened: "must the view be restored?"

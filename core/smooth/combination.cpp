@@ -99,7 +99,7 @@ std::pair<Metric, Combination> parse_combination(std::string_view text, std::str
       throw UsageError(fmt::format("{}; or {}", error.what(), kDensity));
     }
   }
-  validate(combination);
+  validate(first, combination);
   return {first, std::move(combination)};
 }
 
@@ -110,9 +110,12 @@ std::string phrase(Metric first, const Combination& combination) {
   return fmt::format("{} · {} {}", start, kDensity, size->kind == SizeFunction::Kind::Field ? size->field : short_name(size->kind));
 }
 
-void validate(const Combination& combination) {
+void validate(Metric first, const Combination& combination) {
   if (!(combination.threshold > 0.0 && combination.threshold < 1.0))
     throw UsageError(fmt::format("the threshold of a combination must be above 0 and below 1, not {}", combination.threshold));
+  if (const auto* second = std::get_if<Metric>(&combination.second); second != nullptr && *second == first)
+    throw UsageError(
+        fmt::format("{0} cannot be combined with itself: beyond the threshold another metric counts, or {1}", info(first).name, kDensity));
   if (const SizeFunction* size = combination.size();
       size != nullptr && !(std::isfinite(size->point.x) && std::isfinite(size->point.y) && std::isfinite(size->point.z)))
     throw UsageError("the point of a size function must be finite");

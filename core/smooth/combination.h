@@ -44,13 +44,13 @@ struct Combination {
 /// "mean-ratio:0.7:density", "mean-ratio:0.7:min-angle"; the size function is apart.
 [[nodiscard]] std::string to_text(Metric first, const Combination& combination);
 /// The reverse; `size`: as above, empty: everywhere the same, and nothing else where the second aim is a metric. Throws UsageError, also
-/// for a threshold that is not between 0 and 1.
+/// as validate() does.
 [[nodiscard]] std::pair<Metric, Combination> parse_combination(std::string_view text, std::string_view size = {});
 
 /// For titles: "mean-ratio > 0.7 · density h1".
 [[nodiscard]] std::string phrase(Metric first, const Combination& combination);
 
-/// Throws UsageError for values that no mesh can have: the threshold, the point.
-void validate(const Combination& combination);
+/// Throws UsageError for what no mesh can have: the threshold, the point, the same metric twice.
+void validate(Metric first, const Combination& combination);
 
 }  // namespace dmoscope

@@ -111,7 +111,7 @@ SizeCorrelation size_correlation(const SizeField& size, const InputMesh& input, 
     edges.push_back(edge);
     targets.push_back(size.at(v, positions[v]));
   }
-  SizeCorrelation found{correlation(edges, targets), 0.0};
+  SizeCorrelation found{.sizes = correlation(edges, targets)};
   for (auto* values : {&edges, &targets})
     for (double& value : *values) value = std::log(value);
   found.logarithms = correlation(edges, targets);

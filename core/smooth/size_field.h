@@ -1,6 +1,7 @@
 #pragma once
 // The size that elements shall have, anywhere in a mesh, and how well they have it.
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -42,7 +43,7 @@ class SizeField {
 /// How the local edge lengths go with the target sizes over some vertices: Pearson's correlation of the two, and of their logarithms,
 /// which tells more where sizes span decades. NaN where either does not vary.
 struct SizeCorrelation {
-  double sizes = 0.0, logarithms = 0.0;
+  double sizes = std::numeric_limits<double>::quiet_NaN(), logarithms = std::numeric_limits<double>::quiet_NaN();
 };
 [[nodiscard]] SizeCorrelation size_correlation(const SizeField& size, const InputMesh& input, PositionView positions,
                                                std::span<const Index> vertices);

@@ -43,7 +43,7 @@ constexpr std::array<MethodInfo, 7> kMethods{
       .doc = "Active-set ascent: along the steepest way on which none of the worst elements loses (Freitag, Jones and Plassmann 1995)"}}};
 
 void require_possible(const Combination& combination, const SmoothingTask& task) {
-  validate(combination);
+  validate(task.metric, combination);
   if (task.method != "dmo") throw UsageError(fmt::format("metrics are combined by dmo alone, not by {}", task.method));
   if (task.then_mean) throw UsageError("a combination has a second aim of its own, which a phase that raises the mean would undo");
   if (combination.size() != nullptr && task.input->is_volume())

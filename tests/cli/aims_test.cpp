@@ -94,6 +94,15 @@ TEST(Aims, TheMeanOfBahamasRisesUntilConverged) {
   EXPECT_EQ(json["mean_since"], as_long["mean_since"]) << "when the phase begins does not depend on when the run is to stop";
 }
 
+TEST(Aims, AMetricIsNotCombinedWithItself) {
+  const Folder folder;
+  const Output output =
+      run({"smooth", sample("annulus.off"), "-o", folder / "out.off", "--combine", "mean-ratio:0.7:mean-ratio", "--iterations", "1"});
+  EXPECT_NE(output.code, 0);
+  EXPECT_THAT(output.err, ::testing::HasSubstr("mean-ratio cannot be combined with itself"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.off"));
+}
+
 /// The paper's Fig. 9.
 TEST(Aims, TheSizesOfBahamasFollowTheDistance) {
   REQUIRE_SHARED(bahamas, "ocean/bahamas.14");

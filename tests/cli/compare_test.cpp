@@ -92,11 +92,12 @@ TEST(Compare, FilesHaveEveryRunAndIteration) {
     EXPECT_EQ(stats.number(i - i % 4, "min_quality"), stats.number(0, "min_quality")) << "all judged alike from one input";
   }
   const Table table = read_table(folder / "table.csv");
-  ASSERT_EQ(table.rows.size(), 4U);
+  ASSERT_EQ(table.rows.size(), 5U);
   std::vector<std::string> names;
   for (const auto& row : table.rows) names.push_back(row.at(0));
-  EXPECT_THAT(names, ElementsAre("dmo:mean-ratio", "dmo:min-angle", "dmo:mean-ratio shuffle:1", "dmo:min-angle shuffle:1"));
-  EXPECT_EQ(table.number(1, "min_quality"), stats.number(7, "min_quality")) << "the last iteration of the second run";
+  EXPECT_THAT(names, ElementsAre("input", "dmo:mean-ratio", "dmo:min-angle", "dmo:mean-ratio shuffle:1", "dmo:min-angle shuffle:1"));
+  EXPECT_EQ(table.number(0, "min_quality"), stats.number(0, "min_quality"));
+  EXPECT_EQ(table.number(2, "min_quality"), stats.number(7, "min_quality")) << "the last iteration of the second run";
   const std::string svg = read_file(folder / "plot.svg");
   EXPECT_EQ(markup_fault(svg), "");
   EXPECT_THAT(svg, HasSubstr("dmo:min-angle, 2 orders"));
@@ -108,7 +109,9 @@ TEST(Compare, ANameWithACommaIsOneCell) {
                                  folder / "stats.csv", "--table", folder / "table.csv"});
   ASSERT_EQ(output.code, 0) << output.err;
   for (const char* file : {"stats.csv", "table.csv"})
-    EXPECT_THAT(lines_of(read_file(folder / file)).at(1), ::testing::StartsWith("\"dmo:mean-ratio, then mean\",")) << file;
+    EXPECT_THAT(lines_of(read_file(folder / file)).at(file == std::string("table.csv") ? 2 : 1),
+                ::testing::StartsWith("\"dmo:mean-ratio, then mean\","))
+        << file;
 }
 
 TEST(Compare, TheReportSaysWhatWasSearched) {
@@ -173,6 +176,14 @@ TEST(Compare, RunsMayHaveOtherAims) {
   options.insert(options.end(), combine.begin(), combine.end());
   const json combined = compare_json(options);
   EXPECT_THAT(names(combined), ElementsAre(HasSubstr("density h1"), "dmo:mean-ratio"));
+  const Folder folder;
+  const json alone = json_of(run({"smooth", in, "-o", folder / "o.off", "--combine", "mean-ratio:0.3:density", "--size-function", "h1:0,0",
+                                  "--iterations", "4", "--json"}))["combination"]["size_correlation"];
+  EXPECT_NEAR(combined["runs"][0]["input_size_correlation"], alone["before"], 1e-12);
+  EXPECT_NEAR(combined["runs"][0]["size_correlation"], alone["after"], 1e-12);
+  EXPECT_TRUE(combined["runs"][1]["size_correlation"].is_null()) << "has no size function";
+  EXPECT_THAT(compare(options).out, HasSubstr("size corr."));
+  EXPECT_THAT(compare({in, "--run", "dmo", "--iterations", "1"}).out, Not(HasSubstr("size corr.")));
   EXPECT_NEAR(combined["runs"][1]["min_quality"], smoothed(in, {"--iterations", "4"}, "mean-ratio").front(), 1e-12);
   options = {in, "--every", "method"};
   options.insert(options.end(), combine.begin(), combine.end());
@@ -192,6 +203,7 @@ TEST(Compare, TheReportStandsAlone) {
   const std::string page = read_file(folder / "report.html");
   EXPECT_EQ(markup_fault(page), "");
   EXPECT_THAT(page, Not(HasSubstr("a<b>")));
+  EXPECT_THAT(page, HasSubstr("<tr class=\"kept\"><td data-key=\"input\">")) << "stays above the runs, however they are sorted";
   EXPECT_THAT(page, HasSubstr("a&lt;b&gt;&amp;&#39;c&#39;.off"));
   EXPECT_THAT(page, Not(HasSubstr("src=\"http")));
   EXPECT_THAT(page, Not(HasSubstr("href=")));

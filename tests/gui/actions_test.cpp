@@ -139,6 +139,19 @@ TEST(Theme, TextIsReadableOnEveryGround) {
   EXPECT_NEAR(contrast({0, 0, 0}, {255, 255, 255}), 21.0, 1e-9);
 }
 
+TEST(Theme, RunsHaveColoursOfTheirOwn) {
+  for (const Theme theme : {Theme::Dark, Theme::Light, Theme::Contrast}) {
+    const Palette& p = palette(theme);
+    for (std::size_t a = 0; a < 16; ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        const render::Rgb one = p.run(a), other = p.run(b);
+        const int distance = std::abs(one.r - other.r) + std::abs(one.g - other.g) + std::abs(one.b - other.b);
+        EXPECT_GE(distance, 50) << a << " and " << b;
+      }
+    }
+  }
+}
+
 TEST(Layout, PanelsCoverTheWindowWithoutOverlap) {
   for (const auto& [width, height, em] :
        {std::tuple{1280.0F, 800.0F, 15.0F}, {800.0F, 600.0F, 15.0F}, {2560.0F, 1600.0F, 30.0F}, {400.0F, 300.0F, 15.0F}}) {

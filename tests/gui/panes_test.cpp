@@ -79,6 +79,15 @@ TEST_F(PanesTest, WhatIsNotThereIsRefused) {
     good("dialog none");
   }
   EXPECT_EQ(all(), Words{"active"});
+  good("run 3");
+  for (const char* line : {"pane 1 run 1 99", "pane 1 run 1 4", "color-by difference run 1 4"}) {
+    const auto failure = window_->run(line);
+    ASSERT_TRUE(failure.has_value()) << line;
+    EXPECT_NE(failure->text.find("it has come to 3"), std::string::npos) << failure->text;
+    good("dialog none");
+  }
+  good("pane 1 run 1 3");
+  EXPECT_EQ(all(), Words{"run 1 3"});
 }
 
 TEST_F(PanesTest, ATitleMakesItsRunTheActiveOneAndAClickPicksWhereItIs) {

@@ -2,7 +2,10 @@
 
 #include "ui/run_names.h"
 
+#include <set>
+
 #include "tests/gui/headless_test.h"
+#include "ui/format.h"
 #include "ui/viewports.h"
 
 namespace dmoscope::app {
@@ -61,6 +64,29 @@ TEST_F(RunNames, ATitleWithoutRoomKeepsWhatDiffers) {
   good("select-run 2");
   pane.session = session();
   EXPECT_EQ(ui::title_of(pane, Metric::MeanRatio).front().text, "2 dmo min-angle") << "where there are others, the method counts";
+}
+
+TEST(WithoutMiddle, KeepsBothEndsAndWholeLetters) {
+  EXPECT_EQ(ui::without_middle("mean-ratio-area", 15), "mean-ratio-area");
+  EXPECT_EQ(ui::without_middle("mean-ratio-area", 9), "mean-…area");
+  EXPECT_EQ(ui::without_middle("a · · · b", 5), "a … b") << "no half of a dot";
+}
+
+TEST_F(RunNames, ARunThatIsSwitchedOffStaysSoUnderAnotherName) {
+  good("generate annulus 300");
+  good("add-run laplace");
+  good("plot convergence");
+  good("plot-series \"1 dmo\" off");
+  good("plot-series minimum off");
+  good("add-run dmo:min-angle");
+  using Names = std::set<std::string>;
+  EXPECT_EQ(state().plot_view().hidden, (Names{"1 dmo mean-ratio", "minimum"}));
+  good("plot-series \"2 laplace\" off");
+  good("remove-run 1");
+  EXPECT_EQ(state().plot_view().hidden, (Names{"1 laplace", "minimum"})) << "not the run that was removed, nor the one now in its place";
+  good("plot-series \"1 laplace\" only");
+  good("add-run laplace:min-angle");
+  EXPECT_EQ(state().plot_view().isolated, "1 laplace mean-ratio");
 }
 
 TEST_F(RunNames, ManyOfThemLeaveThePlotItsRoom) {

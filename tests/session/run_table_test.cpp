@@ -101,6 +101,72 @@ TEST(RunTable, APublishedRunHasTheSameRow) {
   EXPECT_GT(shown.vertices_per_second, 0.0);
 }
 
+TEST(RunTable, TheInputIsJudgedByAnyMetricOnceNothingRuns) {
+  Engine engine(2);
+  say(engine, "generate random 400");
+  say(engine, "run 2");
+  for (const Metric metric : {Metric::MeanRatio, Metric::RadiusRatio}) {
+    say(engine, std::string("show ") + std::string(info(metric).name));
+    const auto view = engine.view();
+    ASSERT_TRUE(view->input_summary);
+    EXPECT_EQ(view->input_summary->metric, metric);
+    const InputMesh& input = *view->input;
+    std::vector<double> qualities;
+    for (Index e = 0; e < input.mesh.elements.size(); ++e)
+      qualities.push_back(element_quality(input.quality_context(), input.mesh.positions, metric, e));
+    const RunRow row = row_of_input(metric, view->input_summary->statistics, view->input_summary->percentiles);
+    EXPECT_EQ(row.minimum, *std::min_element(qualities.begin(), qualities.end()));
+    EXPECT_EQ(row.p1, by_rank(qualities, 0.01));
+    EXPECT_EQ(row.p5, by_rank(qualities, 0.05));
+    EXPECT_EQ(row.judged, info(metric).name);
+    EXPECT_TRUE(std::isnan(row.seconds));
+  }
+}
+
+/// Pearson's correlation of the mean length of the edges at each free vertex and its distance to a point, for triangles: every edge of an
+/// inner vertex lies in two of its triangles.
+double correlation_with_distance(const InputMesh& input, std::span<const Vec3> positions, Vec3 point) {
+  std::vector<double> edges, sizes;
+  for (Index v = 0; v < input.mesh.vertex_count(); ++v) {
+    if (input.topology.boundary()[v] != 0) continue;
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const Incidence& at : input.topology.star(v))
+      for (const Index other : input.mesh.elements.corners(at.element))
+        if (other != v) sum += length(positions[other] - positions[v]), ++count;
+    edges.push_back(sum / static_cast<double>(count));
+    sizes.push_back(length(positions[v] - point));
+  }
+  const auto n = static_cast<double>(edges.size());
+  double a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    a += edges[i], b += sizes[i], aa += edges[i] * edges[i], bb += sizes[i] * sizes[i], ab += edges[i] * sizes[i];
+  return (n * ab - a * b) / std::sqrt((n * aa - a * a) * (n * bb - b * b));
+}
+
+TEST(RunTable, ARunWithASizeFunctionSaysHowWellSizesAreMet) {
+  Engine engine(2);
+  say(engine, "generate random 400");
+  say(engine, "combine mean-ratio:0.3:density h1:0,0");
+  say(engine, "run 4");
+  const auto view = engine.view();
+  const RunRow row = row_of(view->runs[0], view->shown);
+  const double before = correlation_with_distance(*view->input, view->input->mesh.positions, {});
+  const double after = correlation_with_distance(*view->input, view->frame->positions, {});
+  EXPECT_NEAR(row.input_size_correlation, before, 1e-9);
+  EXPECT_NEAR(row.size_correlation, after, 1e-9);
+  EXPECT_GT(after, before);
+  say(engine, "back");
+  const auto earlier = engine.view();
+  const RunRow back = row_of(earlier->runs[0], earlier->shown);
+  EXPECT_NEAR(back.size_correlation, correlation_with_distance(*earlier->input, earlier->frame->positions, {}), 1e-9);
+  EXPECT_EQ(back.input_size_correlation, row.input_size_correlation);
+  say(engine, "combine mean-ratio:0.3:density constant");
+  EXPECT_TRUE(std::isnan(row_of(engine.view()->runs[1], view->shown).size_correlation)) << "one size for all";
+  EXPECT_TRUE(has_values(std::vector{row}, run_column("size_correlation")));
+  EXPECT_FALSE(has_values(std::vector{RunRow{}}, run_column("size_correlation")));
+}
+
 TEST(RunTable, WithoutASummaryTheRecordsSayWhatTheyCan) {
   RunView view;
   view.parameters.metric = Metric::MeanRatio;
@@ -162,8 +228,8 @@ TEST(RunTable, CsvReadsBackAndQuotesWhatItMust) {
   std::getline(text, line);
   EXPECT_EQ(header,
             "run,method,metric,backend,judged_by,iterations,min_quality,movable_minimum,mean_quality,p1,p5,inverted,seconds,"
-            "vertices_per_second");
-  EXPECT_EQ(line, "\"density 0,7 \"\"h1\"\"\",,,,,12,0.3333333333333333,,,,,0,0,");
+            "vertices_per_second,input_size_correlation,size_correlation");
+  EXPECT_EQ(line, "\"density 0,7 \"\"h1\"\"\",,,,,12,0.3333333333333333,,,,,0,0,,,");
   EXPECT_FALSE(std::getline(text, rest));
 }
 
@@ -171,7 +237,7 @@ TEST(RunTable, TextIsForAPerson) {
   RunRow one = row("a", 1.0 / 3.0, 1234567);
   one.movable_minimum = HUGE_VAL;
   EXPECT_EQ(cell_text(one, run_column("run")), "a");
-  EXPECT_EQ(cell_text(one, run_column("iterations")), "1234567");
+  EXPECT_EQ(cell_text(one, run_column("iterations")), "1,234,567");
   EXPECT_EQ(cell_text(one, run_column("min_quality")), "0.3333");
   EXPECT_EQ(cell_text(one, run_column("movable_minimum")), "-");
   EXPECT_EQ(cell_text(one, run_column("p1")), "-");
@@ -180,7 +246,9 @@ TEST(RunTable, TextIsForAPerson) {
   one.vertices_per_second = 4728.4;
   EXPECT_EQ(cell_text(one, run_column("mean_quality")), "0.7000") << "digits below each other";
   EXPECT_EQ(cell_text(one, run_column("p5")), "0.000");
-  EXPECT_EQ(cell_text(one, run_column("vertices_per_second")), "4728");
+  EXPECT_EQ(cell_text(one, run_column("vertices_per_second")), "4.73 k");
+  one.vertices_per_second = 1.576e7;
+  EXPECT_EQ(cell_text(one, run_column("vertices_per_second")), "15.8 M");
 }
 
 }  // namespace

@@ -412,6 +412,7 @@ TEST(Combined, RefusesWhatCannotBe) {
   refused(triangles, combined(0.0, Metric::MinAngle));
   refused(triangles, combined(1.0, Metric::MinAngle));
   refused(quadrilaterals, combined(0.7, Metric::MinAngle));
+  refused(triangles, combined(0.7, Metric::MeanRatio));  // with itself
   refused(triangles, combined(0.7, SizeFunction{SizeFunction::Kind::Distance, {NAN, 0, 0}, {}}));
   RunParameters both = combined(0.7, SizeFunction{});
   both.then_mean.emplace();
@@ -429,7 +430,7 @@ TEST(Combination, IsWrittenAsItIsRead) {
   EXPECT_EQ(*combination.size(), (SizeFunction{SizeFunction::Kind::InverseDistance, {1, 2, 0}, {}}));
   EXPECT_EQ(phrase(metric, combination), "mean-ratio > 0.7 · density h2");
   for (const char* text : {"", "mean-ratio", "mean-ratio:0.7", "mean-ratio:x:density", "mean-ratio:0:density", "mean-ratio:nan:density",
-                           "beauty:0.7:density", "mean-ratio:0.7:beauty", "mean-ratio:0.7:density:h1"})
+                           "beauty:0.7:density", "mean-ratio:0.7:beauty", "mean-ratio:0.7:density:h1", "mean-ratio:0.7:mean-ratio"})
     EXPECT_THROW((void)parse_combination(text), UsageError) << text;
   for (const char* text : {"h1", "h1:", "h1:1", "h1:1,2,3,4", "h1:1,x", "h1:inf,0", "h3:1,2", "field:", "constant:1"})
     EXPECT_THROW((void)parse_size_function(text), UsageError) << text;

@@ -194,7 +194,9 @@ void draw_bar(const PanelContext& context, const BarLayout& layout) {
   }
   const bool logarithmic = !by_quality && context.derived.colouring.colours->logarithmic;
   const int most = std::max(2, static_cast<int>(layout.width / (5 * ImGui::GetTextLineHeight())));
-  const auto ticks = logarithmic ? log_ticks(std::pow(10.0, low), std::pow(10.0, high), most) : linear_ticks(low, high, most);
+  std::vector<Tick> ticks = logarithmic ? log_ticks(std::pow(10.0, low), std::pow(10.0, high), most) : linear_ticks(low, high, most);
+  // One number alone, such as the 0 of a difference, would not say how far the colours reach.
+  for (int more = most + 1; !logarithmic && ticks.size() < 2 && more <= 4 * most; ++more) ticks = linear_ticks(low, high, more);
   for (const Tick& tick : ticks) {
     const float x = at(logarithmic ? std::log10(tick.value) : tick.value);
     list.AddLine({x, bottom}, {x, bottom + context.px(3)}, colour(context.palette.text), 1.0F);

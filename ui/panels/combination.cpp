@@ -38,6 +38,7 @@ void draw_second(PanelContext& context, const RunParameters& p) {
   context.items.record_last("second-aim:density");
   next_item_tooltip("sizes of elements after a size function: each vertex goes for the mean of its neighbours, weighted by 1 / size");
   for (const Metric one : context.derived.metrics) {
+    if (one == p.metric) continue;
     if (ImGui::Selectable(metric_title(one).c_str(), metric != nullptr && *metric == one))
       say(context, p.metric, {p.combination->threshold, one});
     context.items.record_last(fmt::format("second-aim:{}", info(one).name));
@@ -45,7 +46,35 @@ void draw_second(PanelContext& context, const RunParameters& p) {
   ImGui::EndCombo();
 }
 
-void draw_size(PanelContext& context, const RunParameters& p, const SizeFunction& size) {
+void draw_point(PanelContext& context, const SizeFunction& size) {
+  labelled(context, "point", "of the size function, in the mesh's coordinates; Place puts it where you click next");
+  const char* label = "Place";
+  const bool placing = context.state.placing_size_point;
+  if (placing) ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent));
+  if (ImGui::SmallButton(label)) context.send("place-size-point");
+  if (placing) ImGui::PopStyleColor();
+  context.items.record_last("place-size-point");
+  if (placing) {
+    dim_text(context, "click where it shall be");
+  } else {
+    // In a line of its own: coordinates are long, and half of one says nothing.
+    ImGui::TextUnformatted(fit_text(fmt::format("{:.7g}, {:.7g}", size.point.x, size.point.y), ImGui::GetContentRegionAvail().x).c_str());
+    next_item_tooltip(fmt::format("{}, {}", full_number(size.point.x), full_number(size.point.y)));
+  }
+}
+
+/// How well the sizes are met.
+void draw_size_course(PanelContext& context, const RunView& run) {
+  const char* tip =
+      "correlation of the local mean edge length with the target size over the free vertices, at the input → now: 1 when they go together";
+  labelled(context, "size corr.", tip);
+  ImGui::TextUnformatted(run.summary ? size_course_text(run.summary->sizes.before.sizes, run.summary->sizes.after.sizes).c_str() : "…");
+  context.items.record_last("size-course");
+  next_item_tooltip(run.summary ? fmt::format("{}\n{}", tip, size_course_details(run.summary->sizes)) : "worked out when nothing runs");
+}
+
+void draw_size(PanelContext& context, const RunView& run, const SizeFunction& size) {
+  const RunParameters& p = run.parameters;
   labelled(context, "size", "how large elements shall be, up to a common factor");
   const bool open =
       ImGui::BeginCombo("##size", size.kind == Kind::Field ? size.field.c_str() : to_text(size).substr(0, to_text(size).find(':')).c_str());
@@ -66,21 +95,8 @@ void draw_size(PanelContext& context, const RunParameters& p, const SizeFunction
       choice(field.c_str(), {Kind::Field, {}, field}, "a nodal field of the file, where the vertex stands");
     ImGui::EndCombo();
   }
-  if (!size.has_point()) return;
-  labelled(context, "point", "of the size function, in the mesh's coordinates; Place puts it where you click next");
-  const char* label = "Place";
-  const bool placing = context.state.placing_size_point;
-  if (placing) ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent));
-  if (ImGui::SmallButton(label)) context.send("place-size-point");
-  if (placing) ImGui::PopStyleColor();
-  context.items.record_last("place-size-point");
-  if (placing) {
-    dim_text(context, "click where it shall be");
-  } else {
-    // In a line of its own: coordinates are long, and half of one says nothing.
-    ImGui::TextUnformatted(fit_text(fmt::format("{:.7g}, {:.7g}", size.point.x, size.point.y), ImGui::GetContentRegionAvail().x).c_str());
-    next_item_tooltip(fmt::format("{}, {}", full_number(size.point.x), full_number(size.point.y)));
-  }
+  if (size.has_point()) draw_point(context, size);
+  if (size.kind != Kind::Constant) draw_size_course(context, run);
 }
 
 }  // namespace
@@ -111,7 +127,7 @@ void draw_aims(PanelContext& context, const RunView& run) {
   if (ImGui::IsItemDeactivatedAfterEdit() && threshold != p.combination->threshold)
     say(context, p.metric, {threshold, p.combination->second});
   draw_second(context, p);
-  if (const SizeFunction* size = p.combination->size()) draw_size(context, p, *size);
+  if (const SizeFunction* size = p.combination->size()) draw_size(context, run, *size);
 }
 
 }  // namespace dmoscope::ui

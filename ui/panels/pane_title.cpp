@@ -53,6 +53,12 @@ TitleLayout lay_out(const PanelContext& context, const PaneFacts& pane) {
     if (worst->rank == 0) break;
     layout.pieces.erase(worst);
   }
+  // What is left must be said: the longest of it in its middle, since names that begin alike end differently.
+  const auto longest = std::ranges::max_element(layout.pieces, {}, [&](const TitlePiece& piece) { return width_of(context, piece); });
+  if (longest != layout.pieces.end()) {
+    const std::string whole = longest->text;
+    for (std::size_t letters = whole.size(); width() > room && letters > 4;) longest->text = without_middle(whole, --letters);
+  }
   layout.plate = {pane.clip.x + pad, pane.clip.y + pad, std::min(room, width()), line + pad};
   return layout;
 }
@@ -117,7 +123,7 @@ void draw_pane_title(PanelContext& context, const PaneFacts& pane) {
   const float y = plate.y + pad / 2;
   if (layout.swatch) {
     const std::size_t run = pane.session->active;
-    list.AddRectFilled({x, y + 0.2F * line}, {x + context.px(8), y + 0.8F * line}, colour(context.palette.runs[run % 8]), context.px(2));
+    list.AddRectFilled({x, y + 0.2F * line}, {x + context.px(8), y + 0.8F * line}, colour(context.palette.run(run)), context.px(2));
     x += context.px(14);
   }
   ImGui::PushClipRect({plate.x, plate.y}, {plate.x + plate.w - pad / 2, plate.y + plate.h}, true);

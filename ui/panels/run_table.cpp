@@ -12,22 +12,32 @@
 namespace dmoscope::ui {
 namespace {
 
+constexpr std::string_view kSizes = "size_correlation";  // with the input's before it, in one column
+
 struct ShownColumn {
   const char* column;
   const char* title;   // short: many have to stand side by side
   bool large_is_best;  // the best one is set off
 };
-constexpr std::array<ShownColumn, 11> kShown{{{"run", "run", false},
-                                              {"iterations", "iterations", false},
-                                              {"min_quality", "minimum", true},
-                                              {"movable_minimum", "movable", true},
-                                              {"mean_quality", "mean", true},
-                                              {"p1", "1 %", true},
-                                              {"p5", "5 %", true},
-                                              {"inverted", "inverted", false},
-                                              {"seconds", "seconds", false},
-                                              {"vertices_per_second", "vertices/s", false},
-                                              {"backend", "backend", false}}};
+constexpr std::array<ShownColumn, 12> kColumns{{{"run", "run", false},
+                                                {"iterations", "iterations", false},
+                                                {"min_quality", "minimum", true},
+                                                {"movable_minimum", "movable", true},
+                                                {"mean_quality", "mean", true},
+                                                {"p1", "1 %", true},
+                                                {"p5", "5 %", true},
+                                                {"inverted", "inverted", false},
+                                                {"size_correlation", "size corr.", true},
+                                                {"seconds", "seconds", false},
+                                                {"vertices_per_second", "vertices/s", false},
+                                                {"backend", "backend", false}}};
+
+/// That of sizes only where a run has a size function.
+std::vector<ShownColumn> shown_columns(const std::vector<RunRow>& rows) {
+  std::vector<ShownColumn> shown(kColumns.begin(), kColumns.end());
+  if (!has_values(rows, run_column(kSizes))) std::erase_if(shown, [](const ShownColumn& one) { return one.column == kSizes; });
+  return shown;
+}
 
 /// Up, then down, then as they were made; numbers begin with the largest.
 std::string next_sort(const PlotOptions& options, const RunColumn& column) {
@@ -37,10 +47,10 @@ std::string next_sort(const PlotOptions& options, const RunColumn& column) {
   return "sort-runs off";
 }
 
-void draw_head(PanelContext& context) {
+void draw_head(PanelContext& context, const std::vector<ShownColumn>& columns) {
   const PlotOptions& options = context.state.plot_options;
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
-  for (const ShownColumn& shown : kShown) {
+  for (const ShownColumn& shown : columns) {
     const RunColumn& column = run_column(shown.column);
     ImGui::TableNextColumn();
     const bool sorted = options.sorted_by == column.name;
@@ -71,7 +81,7 @@ double best_of(const std::vector<RunRow>& rows, const RunColumn& column) {
 void draw_number(PanelContext& context, const RunRow& row, const RunColumn& column, double best) {
   const double value = std::get<double>(cell(row, column));
   std::string text = cell_text(row, column);
-  if (column.name == "vertices_per_second" && std::isfinite(value)) text = rate(value);
+  if (column.name == kSizes && std::isfinite(value)) text = size_course_text(row.input_size_correlation, value);
   const bool bad = column.name == "inverted" && value > 0.0;
   if (value == best) ImGui::PushFont(context.fonts.bold);
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0F, ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x));
@@ -88,21 +98,21 @@ void draw_run(PanelContext& context, const RunRow& row) {
     context.send(fmt::format("select-run {}", row.run + 1));
   context.items.record_last(fmt::format("run-row:{}", row.run + 1));
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled({at.x, at.y + 0.15F * line}, {at.x + context.px(4), at.y + 0.9F * line},
-                     colour(context.palette.runs[row.run % context.palette.runs.size()]), context.px(2));
+  list.AddRectFilled({at.x, at.y + 0.15F * line}, {at.x + context.px(4), at.y + 0.9F * line}, colour(context.palette.run(row.run)),
+                     context.px(2));
   const std::string title = fmt::format("{}  {}", row.run + 1, row.title);
   list.AddText({at.x + context.px(10), at.y}, colour(context.palette.text), title.c_str());
 }
 
 /// What all runs began with, above them whatever they are sorted by.
-void draw_input(PanelContext& context) {
+void draw_input(PanelContext& context, const std::vector<ShownColumn>& columns) {
   const std::optional<RunRow> row = input_row(context.session);
   if (!row) return;
   ImGui::TableNextRow();
-  for (const ShownColumn& shown : kShown) {
+  for (const ShownColumn& shown : columns) {
     const RunColumn& column = run_column(shown.column);
     ImGui::TableNextColumn();
-    if (&shown == &kShown.front()) {
+    if (&shown == &columns.front()) {
       ImGui::SetCursorPosX(ImGui::GetCursorPosX() + context.px(10));
       dim_text(context, row->title, false);
     } else if (!column.is_word()) {
@@ -116,27 +126,31 @@ void draw_input(PanelContext& context) {
 void draw_run_table(PanelContext& context) {
   if (context.session.runs.empty()) return dim_text(context, "no runs yet: open a mesh");
   const std::vector<RunRow> rows = sorted_runs(context.session, context.state.plot_options);
+  const std::vector<ShownColumn> columns = shown_columns(rows);
   dim_text(context, fmt::format("judged by {}, the metric that is shown", metric_phrase(context.session.shown)), false);
   constexpr ImGuiTableFlags kFlags =
       ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_ScrollX | ImGuiTableFlags_SizingFixedFit;
-  if (!ImGui::BeginTable("runs", static_cast<int>(kShown.size()), kFlags)) return;
+  if (!ImGui::BeginTable("runs", static_cast<int>(columns.size()), kFlags)) return;
   float widest = 0;
   for (const RunRow& row : rows) widest = std::max(widest, ImGui::CalcTextSize(row.title.c_str()).x);
-  for (const ShownColumn& shown : kShown) {
-    const bool title = &shown == &kShown.front();
-    ImGui::TableSetupColumn(shown.title, ImGuiTableColumnFlags_WidthFixed, title ? widest + 3 * context.em() : 6 * context.em());
+  for (const ShownColumn& shown : columns) {
+    const bool title = &shown == &columns.front();
+    ImGui::TableSetupColumn(shown.title, ImGuiTableColumnFlags_WidthFixed,
+                            title                    ? widest + 3 * context.em()
+                            : shown.column == kSizes ? 7.5F * context.em()
+                                                     : 6 * context.em());
   }
   ImGui::TableSetupScrollFreeze(1, 1);
-  draw_head(context);
-  std::array<double, kShown.size()> best{};
-  for (std::size_t k = 0; k < kShown.size(); ++k)
-    best[k] = kShown[k].large_is_best ? best_of(rows, run_column(kShown[k].column)) : RunRow::kUnknown;
-  draw_input(context);
+  draw_head(context, columns);
+  std::vector<double> best(columns.size());
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    best[k] = columns[k].large_is_best ? best_of(rows, run_column(columns[k].column)) : RunRow::kUnknown;
+  draw_input(context, columns);
   for (const RunRow& row : rows) {
     ImGui::TableNextRow();
     ImGui::PushID(static_cast<int>(row.run));
-    for (std::size_t k = 0; k < kShown.size(); ++k) {
-      const RunColumn& column = run_column(kShown[k].column);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const RunColumn& column = run_column(columns[k].column);
       ImGui::TableNextColumn();
       if (k == 0) {
         draw_run(context, row);

@@ -39,7 +39,12 @@ void draw_run_row(PanelContext& context, std::size_t k) {
   const float height = static_cast<float>(title.size() + 1) * line;
   if (ImGui::Selectable("##run", active, 0, {0, height + 3 * pad})) context.send(fmt::format("select-run {}", k + 1));
   context.items.record_last(fmt::format("run:{}", k));
-  next_item_tooltip(run.last_outcome.empty() ? run.title : run.title + "\n" + run.last_outcome);
+  std::string tip = run.title;
+  if (!run.last_outcome.empty()) tip += "\n" + run.last_outcome;
+  if (run.summary && run.summary->sizes.known())
+    tip += "\ncorrelation of edge length and target size: " +
+           size_course_text(run.summary->sizes.before.sizes, run.summary->sizes.after.sizes);
+  next_item_tooltip(tip);
   if (ImGui::BeginPopupContextItem("run menu")) {
     if (ImGui::MenuItem("Remove", nullptr, false, context.session.runs.size() > 1 && !context.activity.busy)) {
       context.send(fmt::format("remove-run {}", k + 1));
@@ -47,7 +52,7 @@ void draw_run_row(PanelContext& context, std::size_t k) {
     ImGui::EndPopup();
   }
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled({at.x, at.y + pad}, {at.x + bar, at.y + height + 2 * pad}, colour(context.palette.runs[k % 8]), bar / 2);
+  list.AddRectFilled({at.x, at.y + pad}, {at.x + bar, at.y + height + 2 * pad}, colour(context.palette.run(k)), bar / 2);
   const float text = at.x + bar + context.px(8);
   for (std::size_t row = 0; row < title.size(); ++row)
     list.AddText({text, at.y + pad + static_cast<float>(row) * line}, colour(context.palette.text), title[row].c_str());

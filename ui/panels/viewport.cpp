@@ -60,8 +60,7 @@ void draw_title(PanelContext& context, const PaneFacts& pane) {
   draw_plate(context, at, {at.x + width, at.y + line + pad});
   float x = at.x + pad;
   const float y = at.y + pad / 2;
-  list.AddRectFilled({x, y + 0.2F * line}, {x + context.px(8), y + 0.8F * line}, colour(context.palette.runs[frame.run % 8]),
-                     context.px(2));
+  list.AddRectFilled({x, y + 0.2F * line}, {x + context.px(8), y + 0.8F * line}, colour(context.palette.run(frame.run)), context.px(2));
   x += context.px(14);
   list.AddText(context.fonts.bold, context.em(), {x, y}, colour(context.palette.text), title.c_str());
   x += title_width + pad;

@@ -37,8 +37,10 @@ endif()
 # For targets whose code is nobody's inner loop, and long for its templates: what the compiler makes of them takes most of its time, of
 # AddressSanitizer's checks in them twice as much as without optimisation.
 set(DMOSCOPE_COLD_CODE -O1)
+set(DMOSCOPE_DRAWING_CODE "")  # of the rooms of the window: people wait for it, tests do not
 if(DMOSCOPE_SANITIZE MATCHES "address")
   set(DMOSCOPE_COLD_CODE -O0)
+  set(DMOSCOPE_DRAWING_CODE -O0)
 endif()
 if(DMOSCOPE_PORTABLE)
   # libstdc++ inside: one carried along could be too old for the drivers of the machine, which share it with the program. Old tags, for
@@ -48,9 +50,17 @@ if(DMOSCOPE_PORTABLE)
   set(CMAKE_BUILD_WITH_INSTALL_RPATH ON)
 endif()
 
+# Headers of others that most sources include, read once for each target that asks for it. Every source includes what it uses all the same:
+# -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON builds without them.
+set(DMOSCOPE_PRECOMPILED <algorithm> <array> <cmath> <filesystem> <functional> <map> <memory> <optional> <span> <string> <string_view>
+  <vector> <fmt/format.h>)
+
 # dmoscope_room(NAME): a static library of all sources below the current folder.
 function(dmoscope_room name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp *.h)
   add_library(${name} STATIC ${sources})
   target_link_libraries(${name} PUBLIC dmoscope_settings)
+  if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")  # in g++'s, libstdc++ loses what keeps g++ from warning of it where it optimises
+    target_precompile_headers(${name} PRIVATE ${DMOSCOPE_PRECOMPILED})
+  endif()
 endfunction()

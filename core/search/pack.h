@@ -66,7 +66,8 @@ inline Pack<double> atan2(Pack<double> y, Pack<double> x) {
   const R r = xsimd::select(none, R(0.0), small / xsimd::select(none, R(1.0), large));
   const R nearest = xsimd::floor(r * R(8.0) + R(0.5));
   R known_angle(KnownAngles::kTable[0]);
-  for (int k = 1; k <= 8; ++k) known_angle = xsimd::select(nearest < R(k), known_angle, R(KnownAngles::kTable[k]));
+  for (std::size_t k = 1; k <= 8; ++k)
+    known_angle = xsimd::select(nearest < R(static_cast<double>(k)), known_angle, R(KnownAngles::kTable[k]));
   R angle = angle_from_known(r, nearest * R(0.125), known_angle);
   constexpr double kPi = 0x1.921fb54442d18p+1;
   angle = xsimd::select(steep, R(kPi / 2.0) - angle, angle);

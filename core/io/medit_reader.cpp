@@ -5,7 +5,6 @@
 #include <array>
 #include <limits>
 #include <optional>
-#include <set>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -92,7 +91,8 @@ class MeditReader {
     const auto is = [&](std::string_view word) { return equal_ignoring_case(keyword, word); };
     const auto cells = std::find_if(kCellSections.begin(), kCellSections.end(), [&](const CellSection& s) { return is(s.keyword); });
     if (!is_known(keyword)) return skip(keyword);
-    if (!met_.insert(std::string(keyword)).second) tokens_.fail(fmt::format("{} a second time", keyword));
+    if (std::ranges::any_of(met_, is)) tokens_.fail(fmt::format("{} a second time", keyword));
+    met_.emplace_back(keyword);
     if (is("Dimension")) {
       dimension();
     } else if (is("Vertices")) {
@@ -279,8 +279,8 @@ class MeditReader {
   Mesh mesh_;
   int dimension_ = 0;
   std::optional<std::size_t> vertex_count_;
-  std::set<std::string> met_;    // sections
-  std::vector<int> references_;  // of vertices
+  std::vector<std::string> met_;  // sections, in whatever case they were written
+  std::vector<int> references_;   // of vertices
   CellTable cells_;
   std::vector<Index> edges_;  // two vertices each
   std::vector<OriginLabels> labels_;

@@ -198,6 +198,7 @@ TEST(Medit, Malformed) {
       {kHead + kVertices + "TetrahedraP2\n1\n1 2 3 4 5 1 2 3 4 5 0\n", 10, "export linear elements"},
       {good + "1 2 3 4 0\n", 14, "expected a keyword, got \"1\""},
       {good + kTetrahedra, 14, "a second time"},
+      {good + "DimensioN 2\n", 14, "DimensioN a second time"},
       {good + kEdges + "Ridges\n2\n1\n3\n", 21, "Ridges 3 out of range (the file has 2 edges)"},
       {good + "Corners\n1\n9\n", 16, "Corners 9 out of range (the file has 5 vertices)"},
       {kHead + kVertices + kEdges, 0, "no elements"},

@@ -108,6 +108,7 @@ class CombinedSearch {
   using Offset = OffsetIn<Frame, double>;
   /// The visit of a vertex hangs on nothing but where the vertices of its elements stand: see RuleSmoother.
   static constexpr bool kDependsOnStarAlone = true;
+  static constexpr std::size_t kGrain = std::is_same_v<Frame, Plane> ? 32 : 1;  // in space a visit may take half a millisecond
   CombinedSearch(const InputMesh& input, Aims aims, const SearchParameters& parameters);
 
   /// What was found: the offset in units of the star's scale, and whether an element was inverted.

@@ -19,6 +19,7 @@ template <Metric M, class Frame>
 class Reference {
  public:
   using Room = StarIn<Frame, double>;
+  static constexpr std::size_t kGrain = std::is_same_v<Frame, Plane> ? 32 : 1;
   Reference(const InputMesh& input, const SearchParameters& parameters) : mesh_(input), parameters_(parameters) {}
 
   std::optional<Vec3> target(PositionView positions, Index vertex, Room& star) const {

@@ -49,6 +49,7 @@ class FastSolidSearch {
  public:
   using Room = SolidRoom;
   static constexpr bool kDependsOnStarAlone = true;
+  static constexpr std::size_t kGrain = 16;
   FastSolidSearch(const InputMesh& input, const SearchParameters& parameters)
       : mesh_(input), parameters_(parameters), kernel_(solid_kernel(parameters.simd.value_or(best_simd_level()), M)) {}
 

@@ -68,6 +68,7 @@ void for_classes(const Colouring& colouring, std::uint64_t first, std::uint64_t 
 ///   static constexpr bool kDependsOnStarAlone = true;  if it has that: the target hangs on nothing but the positions of the vertices of
 ///   the
 ///     star, so that a vertex of whose star nothing has moved since it stayed is not visited again
+///   static constexpr std::size_t kGrain = ...;  if it has that: how many vertices a thread takes at once, if not 128
 /// It is applied class after class by many threads.
 template <class Rule>
 class RuleSmoother final : public Smoother {
@@ -85,7 +86,7 @@ class RuleSmoother final : public Smoother {
     std::atomic<std::uint64_t> moved{0};
     for_classes(*colouring_, first, count, [&](std::uint64_t from, std::uint64_t to) {
       const auto vertices = std::span(colouring_->order).subspan(from, to - from);
-      for_chunks(pool, vertices.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for_chunks(pool, vertices.size(), grain(), [&](std::size_t begin, std::size_t end) {
         thread_local typename Rule::Room room;  // kept: stepping allocates nothing
         std::uint64_t here = 0;
         for (const Index vertex : vertices.subspan(begin, end - begin)) here += visit(vertex, positions, room) ? 1U : 0U;
@@ -98,7 +99,11 @@ class RuleSmoother final : public Smoother {
   void positions_replaced() override { std::ranges::fill(awake_, std::uint8_t{1}); }
 
  private:
-  static constexpr std::size_t kGrain = 128;  // vertices a chunk: up to some 1 ms of work
+  /// Vertices a chunk: work of some 0.1 ms.
+  static constexpr std::size_t grain() {
+    if constexpr (requires { Rule::kGrain; }) return Rule::kGrain;
+    return 128;
+  }
   static constexpr bool kSleeps = requires { requires Rule::kDependsOnStarAlone; };
 
   bool visit(Index vertex, std::span<Vec3> positions, typename Rule::Room& room) {

@@ -37,7 +37,7 @@ struct ExactVisit {
     const PositionView positions = positions_of(task);
     const Index vertex = task.vertex_of_rank[d.rank];
     const MeshStar<Plane> star(task.mesh, positions, vertex);
-    const Vec2<double> found = search_star<M>(star, star.box(), task.parameters, team);
+    const Vec2<double> found = search_star<M>(star, star.box(), task.parameters, task.untangling, team);
     if (found.x == 0.0 && found.y == 0.0) return;
     const Vec3 to =
         displaced(task.mesh.frame, positions[vertex], {found.x * star.scale(), found.y * star.scale()}, task.frame.single_precision);
@@ -46,7 +46,7 @@ struct ExactVisit {
 
   static DMOSCOPE_LANE void judge(const Task& task, const Deferred& d) {
     const Vec3 target{d.target[0], d.target[1], d.target[2]};
-    if (d.has_target && gains_at<M>(task.mesh, positions_of(task), task.vertex_of_rank[d.rank], target))
+    if (d.has_target && gains_at<M>(task.mesh, positions_of(task), task.vertex_of_rank[d.rank], target, task.untangling))
       move(task, d.rank, d.target);
     else
       set_flag(task.awake + d.rank, false);

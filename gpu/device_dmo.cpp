@@ -36,6 +36,16 @@ class DeviceDmo final : public Smoother {
     queue_->wait();
   }
 
+  void begin(const Sweep& sweep) override {
+    if (sweep.untangling == task_.untangling) return;
+    const bool wakes = sweep.untangling.attempt != task_.untangling.attempt;
+    task_.untangling = sweep.untangling;
+    iteration_.reset();  // it has the old ones
+    if (!wakes || stale_) return;  // who is loaded is awake
+    queue_->launch(Work::Store, metric_, task_, task_.vertex_count);
+    queue_->launch(Work::Load, metric_, task_, task_.vertex_count);
+  }
+
   std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* /*pool*/) override {
     if (stale_) load(positions);
     stored_ = judged_ = false;

@@ -30,7 +30,7 @@ struct VisitSolid {
       const SolidFound found = SolidRankSearch<M, Team>(star.star(), task.parameters, team).run();
       if (found.ready) return {found.offset.x, found.offset.y, found.offset.z};
     }
-    return search_star<M>(star, star.star().box(), task.parameters, team);
+    return search_star<M>(star, star.star().box(), task.parameters, task.untangling, team);
   }
 
   static DMOSCOPE_LANE void judge(const Task& task, Index rank, Vec3 offset) {
@@ -39,7 +39,7 @@ struct VisitSolid {
     const Index vertex = task.vertex_of_rank[rank];
     const Vec3 to = displaced(mesh.frame, positions[vertex], offset, task.frame.single_precision);
     const bool is_offset = !(offset == Vec3{}) && is_number(offset.x) && is_number(offset.y) && is_number(offset.z);
-    if (is_offset && gains_at<M>(mesh, positions, vertex, to))
+    if (is_offset && gains_at<M>(mesh, positions, vertex, to, task.untangling))
       move(task, rank, vertex, to);
     else
       set_flag(task.awake + rank, false);

@@ -8,6 +8,7 @@
 #include "core/mesh/mesh_view.h"
 #include "core/mesh/position_view.h"
 #include "core/search/parameters.h"
+#include "core/search/untangling.h"
 #include "core/session/summary.h"
 #include "core/smooth/search_frame.h"
 #include "core/smooth/star_table.h"
@@ -41,6 +42,7 @@ struct Task {
   std::uint8_t* awake = nullptr;  // one a rank: has its star changed since it was last found at its best?
   SearchFrame frame{};
   SearchParameters parameters;
+  Untangling untangling{};
 
   // A class's deferred visits: room for as many as the largest class has, and how many there are.
   Deferred* deferred = nullptr;

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/drawing/ticks.h"
 #include "core/quality/quality.h"
+#include "core/session/sweep_after.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -32,10 +33,9 @@ Inspection::Key key_of(const SessionView& session, Index vertex) {
 /// What visits of the frame are part of: it may be a mark, and the run stand elsewhere. Throws UsageError when that is not known any more.
 Sweep sweep_of(const RunView& run, const Moment& shown) {
   if (shown == run.moment) return run.sweep;
-  if (!run.mean_since || *run.mean_since > shown.iteration) return {shown.iteration};
   if (shown.iteration >= run.records.size())
     throw UsageError("The run has no record of this iteration any more, nor the floor that its visits keep to.");
-  return {shown.iteration, run.records[shown.iteration].statistics.movable_minimum};
+  return sweep_after(run.records.whole(), shown.iteration, run.mean_since);
 }
 
 /// Of the star, each once.
@@ -223,10 +223,12 @@ Inspection inspect(const SessionView& session, Index vertex) {
   }
   try {
     gather_star(inspection, frame, vertex);
-    const auto aims = aims_of_visit(run.parameters.metric, run.parameters.combination, run.size, sweep_of(run, frame.moment));
+    const Sweep sweep = sweep_of(run, frame.moment);
+    const auto aims = aims_of_visit(run.parameters.metric, run.parameters.combination, run.size, sweep);
     if (!aims && !method_info(run.parameters.method).searches_grid) inspection.other_method = run.parameters.method;
     const auto trace = [&](auto traced) {
-      return traced(*frame.input, frame.positions, run.fixed, run.parameters.metric, run.parameters.search, vertex, aims);
+      return traced(*frame.input, frame.positions, run.fixed, run.parameters.metric, run.parameters.search, vertex, aims,
+                    sweep.untangling);
     };
     if (frame.input->is_volume()) {
       inspection.solid = trace(trace_solid_visit);

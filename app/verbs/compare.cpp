@@ -64,6 +64,9 @@ void write_files(const Comparison& comparison, const ComparisonFacts& facts, con
 int compare(const CompareOptions& options, const std::string& command_line) {
   refuse_early(options);
   ComparisonPlan plan = plan_of(options);
+  if (options.goal.until_converged)  // the first phase is as patient as it would be alone
+    for (Contender& contender : plan.contenders)
+      if (contender.parameters.then_mean) contender.parameters.then_mean->patience = options.goal.until_converged->patience;
   Watch watch;
   Progress& progress = watch.progress();
   const auto pool = std::make_shared<ThreadPool>(options.run.threads);
@@ -87,6 +90,10 @@ int compare(const CompareOptions& options, const std::string& command_line) {
   bool reached = true;
   for (const auto* runs : {&comparison.runs, &comparison.shuffled}) {
     for (const JudgedRun& run : *runs) {
+      if (run.after.inverted > 0) {
+        complain(fmt::format("{}: {} inverted at the end", run.name, counted(run.after.inverted, "element is", "elements are")));
+        reached = false;
+      }
       if (run.converged_or_done(options.goal)) continue;
       complain(fmt::format("{}: not converged: {}", run.name, run.outcome.sentence()));
       reached = false;

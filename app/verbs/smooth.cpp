@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,13 @@
 #include "app/verbs/goal_options.h"
 #include "app/verbs/input_report.h"
 #include "app/verbs/run_options.h"
+#include "app/verbs/untangling_hint.h"
 #include "app/verbs/verbs.h"
 #include "core/io/mesh_io.h"
 #include "core/search/simd.h"
 #include "core/session/carry_on.h"
 #include "core/session/csv.h"
+#include "core/session/left_inverted.h"
 #include "core/session/run.h"
 
 namespace dmoscope::app {
@@ -31,6 +34,7 @@ struct Options {
   std::filesystem::path input, output, stats;
   RunOptions run;
   GoalOptions goal;
+  std::string write = "best";
   bool json = false;
 };
 
@@ -61,10 +65,12 @@ struct Result {
   unsigned threads;
   Outcome outcome;
   double seconds;
+  std::optional<LeftInverted> left;  // of what is written
   std::vector<std::string> warnings;
 
   [[nodiscard]] const IterationRecord& before() const { return run.history().records().front(); }
-  [[nodiscard]] const IterationRecord& after() const { return run.history().records().back(); }
+  /// What is written.
+  [[nodiscard]] const IterationRecord& after() const { return run.history().records()[run.moment().iteration]; }
   [[nodiscard]] double visits_per_second() const {
     const auto visits = static_cast<double>(outcome.iterations * run.visits_per_iteration());
     return seconds > 0.0 ? visits / seconds : 0.0;
@@ -110,6 +116,9 @@ Json json_of(const Result& r) {
   object["iterations"] = r.outcome.iterations;
   object["stopped"] = reason_name(r.outcome.reason);
   object["last_rise"] = r.outcome.last_rise;
+  object["written_iteration"] = r.after().iteration;
+  object["left_inverted"] = nullptr;
+  if (r.left) object["left_inverted"] = {{"count", r.left->count}, {"element", r.left->element}, {"vertex", r.left->vertex}};
   object["before"] = json_of(r.before().statistics);
   object["after"] = json_of(r.after().statistics);
   add_aims(object, r.run);
@@ -139,6 +148,8 @@ void print_summary(const Result& r) {
 
 /// Everything that can be refused without reading the mesh.
 void refuse_early(const Options& options) {
+  if (options.write != "best" && options.write != "last")
+    throw UsageError(fmt::format("--write knows 'best' and 'last', not '{}'", options.write));
   require_mesh_target(options.output);
   require_another_file(options.stats, "--stats", options.input);
   require_another_file(options.stats, "--stats", options.output);
@@ -157,9 +168,40 @@ double smoothing_seconds(const Run& run) {
   return seconds;
 }
 
+/// Goes to the iteration that is written; says so where it is not the last.
+template <class Warn>
+void go_to_what_is_written(Run& run, const Options& options, Progress& progress, const Warn& warn) {
+  const std::uint64_t last = run.history().records().size() - 1, best = best_iteration(run);
+  if (options.write == "last" || best == last) return;
+  run.seek({best}, progress);
+  run.settle();
+  warn(fmt::format("{} may make elements worse: written is {}, the best it passed through, not iteration {} (--write last: the last)",
+                   run.parameters().method, best == 0 ? "the input itself" : fmt::format("iteration {}", best), last));
+}
+
+/// Says what stays inverted, where to look and, if one does, which method gets further.
+template <class Warn>
+std::optional<LeftInverted> tell_left_inverted(const Run& run, const std::shared_ptr<const InputMesh>& input,
+                                               const std::shared_ptr<ThreadPool>& pool, Progress& progress, const Warn& warn) {
+  std::optional<LeftInverted> left = find_left_inverted(run);
+  if (!left) return left;
+  warn(left->sentence());
+  if (std::string hint = untangling_hint(run, input, pool, progress); !hint.empty()) warn(std::move(hint));
+  return left;
+}
+
+/// Of --then mean, where the second phase never began.
+template <class Warn>
+void tell_missing_phase(const Run& run, const Outcome& outcome, const Warn& warn) {
+  if (!run.parameters().then_mean || run.mean_since()) return;
+  warn(outcome.inverted > 0 ? "the mean was not raised: that begins once no element is inverted"
+                            : "the mean was not raised: that begins once the minimum rises no more, or nothing moves (--until-converged)");
+}
+
 int smooth(const Options& options) {
   refuse_early(options);
   RunParameters parameters = parameters_of(options.run);
+  if (parameters.then_mean && options.goal.until_converged) parameters.then_mean->patience = options.goal.limits.patience;
   const Acceleration acceleration = acceleration_for(parameters.backend);
 
   Watch watch;
@@ -183,6 +225,10 @@ int smooth(const Options& options) {
     return done;
   };
   const Outcome outcome = carrying_on(run, smooth_all, warn);
+  const double seconds = smoothing_seconds(run);
+  tell_missing_phase(run, outcome, warn);
+  go_to_what_is_written(run, options, progress, warn);
+  std::optional<LeftInverted> left = tell_left_inverted(run, input, pool, progress, warn);
 
   for (std::string& sentence : write_mesh(options.output, input->mesh, run.positions(), {progress, pool.get()})) {
     complain(fmt::format("{}: {}", options.output.string(), sentence));
@@ -190,7 +236,7 @@ int smooth(const Options& options) {
   }
   if (!options.stats.empty()) write_statistics(options.stats, run);
 
-  const Result result{options, run, pool->size(), outcome, smoothing_seconds(run), std::move(warnings)};
+  const Result result{options, run, pool->size(), outcome, seconds, std::move(left), std::move(warnings)};
   if (options.json) {
     print_json(json_of(result));
   } else {
@@ -198,7 +244,7 @@ int smooth(const Options& options) {
   }
   const bool reached = !options.goal.until_converged || outcome.reason != StopReason::IterationLimit;
   if (!reached) complain(fmt::format("not converged: {}", outcome.sentence()));
-  return reached ? 0 : 1;
+  return reached && !result.left ? 0 : 1;
 }
 
 }  // namespace
@@ -210,6 +256,10 @@ void add_smooth(CLI::App& app, Action& action) {
   verb->add_option("-o,--output", options->output, "Where to write it; the format is the extension's")->required()->type_name("OUT");
   add_run_options(*verb, options->run);
   add_goal_options(*verb, options->goal);
+  verb->add_option("--write", options->write,
+                   "What is written: best (by inverted elements, minimum and mean; of an optimising method the last) or last")
+      ->type_name("best|last")
+      ->capture_default_str();
   verb->add_option("--stats", options->stats, "Write the statistics of every iteration; row 0 is the input")->type_name("FILE.csv");
   verb->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
   verb->callback([options, &action] { action = [options] { return smooth(*options); }; });

@@ -45,11 +45,15 @@ std::string both_phrase(const Aims& aims) {
                      aims.raise_mean() ? "from there on" : "beyond it", aims.threshold, second);
 }
 
-std::string untangling_phrase(bool volume) {
-  return volume
-             ? "mean of the corners' Jacobians less 0.2, each taken up to 0.2, squeezed into -1 to 0 (below -1 where the least one falls); "
-               "once all are positive the "
-             : "smallest normalised Jacobian, once positive the ";
+std::string untangling_phrase(bool volume, const Untangling& rule) {
+  const char* of = volume ? "corners'" : "elements'";
+  if (rule.attempt)
+    return fmt::format(
+        "mean of the {} Jacobians less 0.2, each taken up to 0.2, squeezed into -1 to 0 (-1e9 where more elements would be inverted, the "
+        "least Jacobian fell, or a metric fell below the mesh's minimum); once all are positive the ",
+        of);
+  return "half of (least quality of the sound elements less 1), less the number of inverted ones (-1e9 where a sound one would be inverted, "
+         "or the least quality fell); once all are sound the ";
 }
 
 /// One look at one vertex. Frame: Plane or Space.
@@ -60,8 +64,9 @@ class Look {
   using Offset = OffsetIn<Frame, double>;
   using Trace = VisitTraceIn<Offset>;
 
-  Look(const InputMesh& input, PositionView positions, const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims)
-      : input_(input), mesh_(input.view<Frame>()), positions_(positions), parameters_(parameters), aims_(aims) {
+  Look(const InputMesh& input, PositionView positions, const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims,
+       const Untangling& untangling)
+      : input_(input), mesh_(input.view<Frame>()), positions_(positions), parameters_(parameters), aims_(aims), untangling_(untangling) {
     trace_.vertex = vertex;
     trace_.metric = M;
     trace_.from = trace_.to = positions[vertex];
@@ -150,9 +155,9 @@ class Look {
     StarIn<Frame, double> star;
     gather_star(MeshStar(mesh_, positions_, trace_.vertex), star);
     Recorder<Offset> recorder(star.scale);
-    (void)search_star<M>(StarViewIn<Frame, double>(star), star.box, parameters_, Solo{}, recorder);
+    (void)search_star<M>(StarViewIn<Frame, double>(star), star.box, parameters_, untangling_, Solo{}, recorder);
     trace_.untangling = !(recorder.here > 0.0);
-    trace_.value_phrase = (trace_.untangling ? untangling_phrase(kVolume) : "") + metric_phrase(M);
+    trace_.value_phrase = (trace_.untangling ? untangling_phrase(kVolume, untangling_) : "") + metric_phrase(M);
     const auto place = [this](Offset offset) { return stored(offset); };
     take(std::move(recorder), place);
     const Vec3 target = place(trace_.found);
@@ -164,10 +169,11 @@ class Look {
     StarIn<Frame, double> star;
     gather_star(MeshStar(mesh_, positions_, trace_.vertex), star);
     Recorder<Offset> recorder(star.scale);
-    const CombinedSearch<Frame> search(input_, *aims_, parameters_);
+    CombinedSearch<Frame> search(input_, *aims_, parameters_);
+    search.begin({.untangling = untangling_});
     trace_.combined = true;
     trace_.untangling = search.search_plainly(star, positions_, trace_.vertex, recorder).untangling;
-    trace_.value_phrase = (trace_.untangling ? untangling_phrase(false) : "") + both_phrase(*aims_);
+    trace_.value_phrase = (trace_.untangling ? untangling_phrase(kVolume, untangling_) : "") + both_phrase(*aims_);
     const auto place = [this](Offset offset) { return stored(offset); };
     take(std::move(recorder), place);
     const Vec3 target = place(trace_.found);
@@ -181,7 +187,7 @@ class Look {
 
   /// Where an offset leads as the smoothers in double store it.
   [[nodiscard]] Vec3 stored(Offset offset) const { return displaced(mesh_.frame, trace_.from, offset, input_.mesh.single_precision); }
-  [[nodiscard]] bool gains(Vec3 target) const { return gains_at<M>(mesh_, positions_, trace_.vertex, target); }
+  [[nodiscard]] bool gains(Vec3 target) const { return gains_at<M>(mesh_, positions_, trace_.vertex, target, untangling_); }
 
   /// place(offset): where the vertex would be stored.
   template <class Place>
@@ -226,6 +232,7 @@ class Look {
   PositionView positions_;
   const SearchParameters& parameters_;
   const std::optional<Aims>& aims_;
+  const Untangling& untangling_;
   Trace trace_;
 };
 
@@ -249,6 +256,10 @@ std::string VisitSummary::sentence() const {
       if (before.jacobian > 0.0)
         return fmt::format("moved: {} of its star {:.4g} -> {:.4g}", worst_phrase(), before.quality, after.quality);
       if (after.jacobian > 0.0) return fmt::format("moved: untangled its star, whose {} is {:.4g} now", worst_phrase(), after.quality);
+      if (after.inverted < before.inverted)
+        return fmt::format("moved: inverted elements of its star {} -> {}", before.inverted, after.inverted);
+      if (after.jacobian == before.jacobian)
+        return fmt::format("moved: its star stays tangled; least quality of its sound elements {:.4g} -> {:.4g}", before.sound, after.sound);
       return fmt::format("moved: smallest Jacobian of its tangled star {:.4g} -> {:.4g}", before.jacobian, after.jacobian);
     case VisitEnd::NothingFound:
       if (combined) return "stays: no candidate is better for its two aims than where it stands";
@@ -262,17 +273,19 @@ std::string VisitSummary::sentence() const {
 }
 
 VisitTrace trace_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
-                       const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims) {
+                       const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims,
+                       const Untangling& untangling) {
   const bool is_fixed = require_traceable(input, Shape::Planar, fixed, metric, parameters, vertex);
   return formulas::with_planar_metric(metric,
-                                      [&]<Metric M>() { return Look<M, Plane>(input, positions, parameters, vertex, aims).run(is_fixed); });
+                                      [&]<Metric M>() { return Look<M, Plane>(input, positions, parameters, vertex, aims, untangling).run(is_fixed); });
 }
 
 SolidTrace trace_solid_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
-                             const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims) {
+                             const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims,
+                       const Untangling& untangling) {
   const bool is_fixed = require_traceable(input, Shape::Volume, fixed, metric, parameters, vertex);
   return formulas::with_solid_metric(metric,
-                                     [&]<Metric M>() { return Look<M, Space>(input, positions, parameters, vertex, aims).run(is_fixed); });
+                                     [&]<Metric M>() { return Look<M, Space>(input, positions, parameters, vertex, aims, untangling).run(is_fixed); });
 }
 
 }  // namespace dmoscope

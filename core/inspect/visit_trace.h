@@ -61,7 +61,7 @@ struct VisitSummary {
   bool fast = false;        // searched in float by the fast search; else in double by the plain one
   bool combined = false;    // for two aims: values beyond a threshold are the threshold plus the second aim
   bool by_corners = false;  // the star has solids judged corner by corner: of those what the vertex changes counts, in `before` and `after`
-  bool untangling = false;  // an element was inverted, so the smallest Jacobian came first
+  bool untangling = false;  // an element was inverted, so that came first, see UntanglingObjective
   std::string value_phrase;  // what LevelValues::values are: "mean ratio", "squared sine of the smallest angle", ...
   double value_here = 0.0;   // likewise, of the place where it stood: what a candidate had to exceed
   Vec3 from, to;             // where it stood and stands after the visit; the same unless it moved
@@ -87,13 +87,15 @@ using SolidTrace = VisitTraceIn<Vec3>;          // in a volume
 /// asked for their trace, so that `to` has the bits that the smoother would store. Costs as much as the star is large, whatever the mesh.
 /// `fixed`: one a vertex, as Run::fixed. Throws UsageError for a mesh that is not planar, a vertex that does not exist, parameters out of
 /// range, or a metric that is not defined for its star. `aims`: of a visit that has two, see aims_of_visit; then its first is `metric`.
+/// `untangling`: of the iteration, as Run::sweep() has it.
 [[nodiscard]] VisitTrace trace_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
-                                     const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims = {});
+                                     const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims = {},
+                                     const Untangling& untangling = {});
 
 /// The same of a volume mesh. The fast search tells of each level only which candidate it chose, having compared ranks in float: the values
 /// are the metric in double, so that among nearly equal ones the chosen one need not be the first of the largest.
 [[nodiscard]] SolidTrace trace_solid_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed,
                                            Metric metric, const SearchParameters& parameters, Index vertex,
-                                           const std::optional<Aims>& aims = {});
+                                           const std::optional<Aims>& aims = {}, const Untangling& untangling = {});
 
 }  // namespace dmoscope

@@ -1,8 +1,13 @@
 #pragma once
-// What is maximised in a volume's star that has inverted elements. The least Jacobian alone does not do: it stalls where several corners
-// hold each other, and in a hexahedron that is not far from everywhere (a cube of 125, 36 of them inverted, ended with 3). So it must not
-// fall, and what rises is a mean over all corners, in which those that are good enough count no more.
+// What is maximised in a star that has inverted elements, and what such a star must keep (promise 1).
+//
+// The least Jacobian alone does not do: it stalls where several corners hold each other, and in a hexahedron that is not far from everywhere
+// (a cube of 125, 36 of them inverted, ended with 3). So it must not fall, and what rises is a mean over all corners, in which those that
+// are good enough count no more. Nor may the number of inverted elements rise, or a metric fall below the worst of the whole mesh: where a
+// fixed vertex makes untangling impossible, neighbours would hand on the damage for ever. For the same reason attempts are limited in time:
+// between them the sound elements of a star are raised as if the inverted ones were not there.
 
+#include <cstdint>
 #include <limits>
 
 #include "core/base/anywhere.h"
@@ -11,24 +16,25 @@
 
 namespace dmoscope {
 
+/// How the visits of an iteration treat stars with inverted elements.
+struct Untangling {
+  /// Whether sound elements of such a star may get worse, though not inverted, for the sake of the inverted ones; else the sound ones are
+  /// raised and no inverted one may get worse.
+  bool attempt = true;
+  /// The least metric of the mesh when the iteration began: no element may fall below it, or below what its star had.
+  double floor = -std::numeric_limits<double>::infinity();
+  friend bool operator==(const Untangling&, const Untangling&) = default;
+};
+
 /// The mean of min(J / reference, kEnough) over the corners of a star that change with its vertex. A reference is the Jacobian of an ideal
 /// element, so that J / reference is about 1 in a good one.
 class UntanglingMean {
  public:
   static constexpr double kEnough = 0.2;
 
-  /// `moving`: the corner of the solid that is the star's vertex.
-  template <class Solid>
-  DMOSCOPE_ANYWHERE void add(const Solid& solid, Index moving, double reference) {
-    const auto take = [this, reference](double jacobian) {
-      sum_ += scalar::min(jacobian / reference, kEnough);
-      ++count_;
-      return jacobian;
-    };
-    if constexpr (requires { solid.six_volume; })
-      (void)take(solid.six_volume);
-    else
-      (void)solid.least_around(moving, [&](Vec3, Vec3, Vec3, double jacobian) { return take(jacobian); });
+  DMOSCOPE_ANYWHERE void add(double jacobian, double reference) {
+    sum_ += scalar::min(jacobian / reference, kEnough);
+    ++count_;
   }
   [[nodiscard]] DMOSCOPE_ANYWHERE double value() const { return count_ > 0 ? sum_ / count_ : 0.0; }
 
@@ -37,47 +43,151 @@ class UntanglingMean {
   int count_ = 0;
 };
 
-/// The worth of a star with its vertex at a place. Where no corner is inverted: the least metric. Else, where the least Jacobian of the
-/// corners that change with the vertex is not below that of its own place (or is positive): the mean, put between -1 and 0. Else below -1.
-template <Metric M, class StarT>
-class SolidUntangling {
- public:
-  explicit DMOSCOPE_ANYWHERE SolidUntangling(StarT star) : star_(star), floor_(scalar::min(look(Vec3{}).jacobian, 0.0)) {}
+/// Smallest corner Jacobians of an element: of all its corners, and of those that change with corner `moving`. Calls take(J) with each of
+/// the latter (a planar element's least, as one).
+template <class V, class Take>
+[[nodiscard]] DMOSCOPE_ANYWHERE formulas::WholeAndAround<double> corner_jacobians(const formulas::Triangle<V>& t, Index /*moving*/, Take take) {
+  take(t.twice_area);
+  return {t.twice_area, t.twice_area};
+}
+template <class V, class Take>
+[[nodiscard]] DMOSCOPE_ANYWHERE formulas::WholeAndAround<double> corner_jacobians(const formulas::Quadrilateral<V>& q, Index /*moving*/,
+                                                                                  Take take) {
+  const double least = formulas::smallest_jacobian(q);
+  take(least);
+  return {least, least};
+}
+template <class V, class Take>
+[[nodiscard]] DMOSCOPE_ANYWHERE formulas::WholeAndAround<double> corner_jacobians(const formulas::Tetrahedron<V>& t, Index /*moving*/,
+                                                                                  Take take) {
+  take(t.six_volume);
+  return {t.six_volume, t.six_volume};
+}
+template <class V, class Ideal, std::size_t N, class Corners, class Take>
+[[nodiscard]] DMOSCOPE_ANYWHERE formulas::WholeAndAround<double> corner_jacobians(
+    const formulas::CorneredSolid<V, Ideal, N, Corners>& s, Index moving, Take take) {
+  (void)s.least_around(moving, [&take](V, V, V, double jacobian) {
+    take(jacobian);
+    return jacobian;
+  });
+  return s.least_whole_and_around(moving, [](V, V, V, double jacobian) { return jacobian; });
+}
 
-  [[nodiscard]] DMOSCOPE_ANYWHERE double operator()(Vec3 p) const {
-    const Look at = look(p);
-    if (at.jacobian > 0.0 && at.quality > 0.0) return at.quality;
-    if (at.jacobian < floor_) return -1.0 + bounded(at.jacobian);
-    return bounded(at.mean.value() - UntanglingMean::kEnough);
+/// Which elements of a star are inverted where its vertex stands: the first 64 are remembered, others looked at again.
+class InvertedSet {
+ public:
+  DMOSCOPE_ANYWHERE void add(int element, bool inverted) {
+    if (inverted && element < kKept) bits_ |= std::uint64_t{1} << static_cast<unsigned>(element);
   }
+  [[nodiscard]] static DMOSCOPE_ANYWHERE bool keeps(int element) { return element < kKept; }
+  [[nodiscard]] DMOSCOPE_ANYWHERE bool has(int element) const { return (bits_ >> static_cast<unsigned>(element) & 1U) != 0; }
 
  private:
-  struct Look {
-    double jacobian, quality;
-    UntanglingMean mean;
-  };
+  static constexpr int kKept = 64;
+  std::uint64_t bits_ = 0;
+};
+
+/// The worth of a star with its vertex at a place. Positive is the least metric where no corner that changes with the vertex is inverted.
+/// Else, of a place that is allowed: in an attempt, the mean put between -1 and 0; without one, (least metric of the sound elements - 1) / 2
+/// less the number of the inverted ones. A place that is not allowed: kForbidden.
+///   allowed in an attempt: no more inverted elements, the least Jacobian not below that of the own place, no metric below the floor;
+///   without one: what is sound stays sound, and the least metric of all does not fall.
+template <Metric M, class StarT, class Point>
+class UntanglingObjective {
+ public:
+  static constexpr double kForbidden = -1e9;
+
+  DMOSCOPE_ANYWHERE UntanglingObjective(StarT star, const Untangling& rule) : star_(star), rule_(rule) {
+    int element = 0;
+    star_.template for_each<kOthers>([&](const auto& each) {
+      const auto shape = each.with(Point{});
+      const auto least = corner_jacobians(shape, each.kMoving, [](double) {});
+      const double quality = formulas::metric_around<M>(shape, each.kMoving);
+      inverted_.add(element++, least.whole <= 0.0);
+      count_ += least.whole <= 0.0 ? 1 : 0;
+      jacobian_ = scalar::min(jacobian_, least.around / each.reference);
+      quality_ = scalar::min(quality_, quality);
+    });
+    floor_ = rule_.attempt ? scalar::min(quality_, rule_.floor) : quality_;
+  }
+
+  /// Is an element inverted where the vertex stands now, by a corner that changes with it?
+  [[nodiscard]] DMOSCOPE_ANYWHERE bool tangled() const { return !(jacobian_ > 0.0 && quality_ > 0.0); }
+
+  [[nodiscard]] DMOSCOPE_ANYWHERE double operator()(Point p) const { return rule_.attempt ? attempt(p) : hold(p); }
+
+ private:
+  static constexpr bool kOthers = formulas::kDefinedForOthers<M, Point>;
+  static constexpr double kMost = std::numeric_limits<double>::max();
   /// From (-infinity, 0] to (-1, 0].
   static DMOSCOPE_ANYWHERE double bounded(double a) { return a / (1.0 - a); }
 
-  [[nodiscard]] DMOSCOPE_ANYWHERE Look look(Vec3 p) const {
-    constexpr double kMost = std::numeric_limits<double>::max();
-    Look found{kMost, kMost, {}};
-    star_.template for_each<formulas::kDefinedForCorners<M>>([&found, p](const auto& element) {
-      const auto solid = element.with(p);
-      found.quality = scalar::min(found.quality, formulas::metric_around<M>(solid, element.kMoving));
-      found.jacobian = scalar::min(found.jacobian, formulas::smallest_jacobian_around(solid, element.kMoving) / element.reference);
-      found.mean.add(solid, element.kMoving, element.reference);
+  /// The metrics of sound elements are needed only where all are sound: they cost most.
+  [[nodiscard]] DMOSCOPE_ANYWHERE double attempt(Point p) const {
+    UntanglingMean mean;
+    double least = kMost;
+    int count = 0;
+    bool allowed = true;
+    star_.template for_each<kOthers>([&](const auto& each) {
+      if (!allowed) return;
+      const auto shape = each.with(p);
+      const auto jacobian = corner_jacobians(shape, each.kMoving, [&](double j) { mean.add(j, each.reference); });
+      const double relative = jacobian.around / each.reference;
+      count += jacobian.whole <= 0.0 ? 1 : 0;
+      least = scalar::min(least, relative);
+      const bool doubtful = jacobian.around <= 0.0 || !formulas::kSignTellsInversion<M, Point>;
+      allowed = count <= count_ && relative >= scalar::min(jacobian_, 0.0) &&
+                !(doubtful && formulas::metric_around<M>(shape, each.kMoving) < floor_);
     });
-    return found;
+    if (!allowed) return kForbidden;
+    if (least > 0.0) {
+      const double quality = least_metric(p);
+      if (quality > 0.0) return quality;
+    }
+    return bounded(scalar::min(mean.value() - UntanglingMean::kEnough, 0.0));
+  }
+
+  [[nodiscard]] DMOSCOPE_ANYWHERE double hold(Point p) const {
+    double sound = kMost, around = kMost, quality = kMost;
+    int element = 0, count = 0;
+    bool allowed = true;
+    star_.template for_each<kOthers>([&](const auto& each) {
+      const int i = element++;
+      if (!allowed) return;
+      const auto shape = each.with(p);
+      const auto jacobian = corner_jacobians(shape, each.kMoving, [](double) {});
+      const bool is_inverted = jacobian.whole <= 0.0;
+      if (is_inverted && !was_inverted(i, each)) allowed = false;
+      const double value = formulas::metric_around<M>(shape, each.kMoving);
+      if (value < floor_) allowed = false;
+      count += is_inverted ? 1 : 0;
+      around = scalar::min(around, jacobian.around);
+      quality = scalar::min(quality, value);
+      if (!is_inverted) sound = scalar::min(sound, value);
+    });
+    if (!allowed) return kForbidden;
+    if (around > 0.0 && quality > 0.0) return quality;
+    return 0.5 * (scalar::min(sound, 1.0) - 1.0) - count;
+  }
+
+  template <class Element>
+  [[nodiscard]] DMOSCOPE_ANYWHERE bool was_inverted(int i, const Element& each) const {
+    if (InvertedSet::keeps(i)) return inverted_.has(i);
+    return corner_jacobians(each.with(Point{}), each.kMoving, [](double) {}).whole <= 0.0;
+  }
+  [[nodiscard]] DMOSCOPE_ANYWHERE double least_metric(Point p) const {
+    double quality = kMost;
+    star_.template for_each<kOthers>(
+        [&](const auto& each) { quality = scalar::min(quality, formulas::metric_around<M>(each.with(p), each.kMoving)); });
+    return quality;
   }
 
   StarT star_;
-  double floor_;
+  Untangling rule_;
+  InvertedSet inverted_;
+  int count_ = 0;
+  double jacobian_ = kMost, quality_ = kMost;  // least, where the vertex stands: the former over its reference
+  double floor_ = 0.0;
 };
-
-/// What raises a star that has inverted elements, and is positive where it has none. Point: of the plane or of space.
-template <Metric M, class StarT, class Point>
-using UntanglingObjective =
-    std::conditional_t<std::is_same_v<Point, Vec3>, SolidUntangling<M, StarT>, Objective<M, true, double, Value::Metric, StarT>>;
 
 }  // namespace dmoscope

@@ -9,10 +9,10 @@
 
 namespace dmoscope {
 
-/// Once the minimum has converged the mean quality of the stars is raised, with the movable minimum as floor: max-min alone lowers the
-/// mean.
+/// Once no element is inverted and the minimum has converged, the mean quality of the stars is raised, with the movable minimum as floor:
+/// max-min alone lowers the mean.
 struct MeanPhase {
-  std::uint64_t patience = 5;  // at least 1: iterations in which neither minimum rose by `rise`; or nothing moves any more
+  std::uint64_t patience = 200;  // at least 1: iterations without a rise of the movable minimum by `rise`; or nothing moves any more
   double rise = 1e-6;
   friend bool operator==(const MeanPhase&, const MeanPhase&) = default;
 };
@@ -29,6 +29,8 @@ class PhaseTurn {
  private:
   std::optional<std::uint64_t> turn_;
   std::uint64_t seen_ = 0;  // records up to this iteration have no turn before turn_
+  std::uint64_t last_rise_ = 0;
+  double highest_ = 0.0;  // movable minimum, at the last rise
 };
 
 }  // namespace dmoscope

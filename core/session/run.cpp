@@ -6,6 +6,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/stopwatch.h"
+#include "core/session/sweep_after.h"
 
 namespace dmoscope {
 
@@ -163,12 +164,7 @@ void Run::forget_after(std::uint64_t iteration) {
   turn_.forget_after(iteration);
 }
 
-Sweep Run::sweep() const {
-  const std::uint64_t iteration = at_.moment.iteration;
-  const auto since = mean_since();
-  if (!since || *since > iteration) return {iteration};
-  return {iteration, history_.records()[iteration].statistics.movable_minimum};
-}
+Sweep Run::sweep() const { return sweep_after(history_.records(), at_.moment.iteration, mean_since()); }
 
 std::uint64_t Run::ask_smoother(std::uint64_t first, std::uint64_t count) {
   if (const Sweep now = sweep(); begun_ != now) {

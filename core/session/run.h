@@ -63,6 +63,7 @@ struct Outcome {
   std::uint64_t iterations = 0;               // done by this call
   std::uint64_t last_rise = 0;                // iteration in which a minimum last rose by limits.rise; 0: never
   std::optional<std::uint64_t> mean_since{};  // the iteration after which the mean was raised, where that phase was reached
+  Index inverted = 0;                         // elements, at the end
   ConvergenceLimits limits;
   /// "converged: no vertex moved any more; the minimum last rose in iteration 9"
   [[nodiscard]] std::string sentence() const;
@@ -205,6 +206,7 @@ class Run {
   void visit_block(std::uint64_t count);
   void end_iteration();
   void record(const Place& done);
+  [[nodiscard]] bool attempts_to_untangle() const;
   Outcome advance(const ConvergenceLimits& limits, bool stop_when_still, Progress& progress, const AfterIteration& after);
   template <class Body>
   auto asking_device(const Body& body) const;

@@ -6,12 +6,14 @@
 
 #include "core/base/stopwatch.h"
 #include "core/session/run.h"
+#include "core/session/sweep_after.h"
 
 namespace dmoscope {
 
 std::string Outcome::sentence() const {
   std::string rose =
       last_rise == 0 ? "the minimum rose in none of these iterations" : fmt::format("the minimum last rose in iteration {}", last_rise);
+  if (inverted > 0) rose += fmt::format("; {} element{} still inverted", inverted, inverted == 1 ? " is" : "s are");
   if (mean_since) rose += fmt::format("; the mean was raised from iteration {} on", *mean_since + 1);
   switch (reason) {
     case StopReason::NothingMoved:
@@ -168,6 +170,14 @@ void Run::put(std::span<const Vec3> positions, const Place& place) {
   brought_ = at_;
 }
 
+/// May a later iteration untangle what this one did not?
+bool Run::attempts_to_untangle() const {
+  const auto& records = history_.records();
+  const std::uint64_t iteration = at_.moment.iteration;
+  return records[iteration].statistics.inverted > 0 && method_info(parameters_.method).optimises &&
+         iterations_since_untangled(records, iteration) < UntanglingPlan::kEnd;
+}
+
 Outcome Run::iterate(std::uint64_t iterations, Progress& progress, const AfterIteration& after) {
   return advance({.patience = iterations, .max_iterations = iterations, .rise = ConvergenceLimits{}.rise}, false, progress, after);
 }
@@ -208,9 +218,11 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, Prog
       mean = now.mean;
     }
     if (after) recovering([&] { after(*this); });
-    if (parameters_.then_mean && !raising_mean) continue;  // the first phase's end is not the run's
+    outcome.inverted = now.inverted;
+    if (parameters_.then_mean && !raising_mean && now.inverted == 0) continue;  // the first phase's end is not the run's
     // The second phase searches as DMO does, whatever the method.
-    const auto needed = raising_mean ? 1 : still_iterations(method_info(parameters_.method), parameters_.options, input_->is_volume());
+    auto needed = raising_mean ? 1 : still_iterations(method_info(parameters_.method), parameters_.options, input_->is_volume());
+    if (needed && attempts_to_untangle()) *needed += UntanglingPlan::kCycle;
     quiet = whole && last_moved_ == 0 ? quiet + 1 : 0;
     const bool still = needed && quiet >= *needed;
     stopped = stop_when_still && (still || since_rise >= limits.patience);

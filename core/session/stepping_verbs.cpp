@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/session/left_inverted.h"
 #include "core/session/verbs.h"
 
 namespace dmoscope {
@@ -39,7 +40,16 @@ void until_converged(CommandContext& context, Arguments arguments) {
   ConvergenceLimits limits;
   if (!arguments.empty()) limits.patience = to_count(arguments[0], 1);
   if (arguments.size() > 1) limits.max_iterations = to_count(arguments[1], 1);
-  tell(context, context.session.active().until_converged(limits, context.progress).sentence());
+  Run& active = context.session.active();
+  tell(context, active.until_converged(limits, context.progress).sentence());
+  if (const auto left = find_left_inverted(active)) tell(context, left->sentence(), Message::Kind::Warning);
+}
+void best(CommandContext& context, Arguments arguments) {
+  require(arguments, 0, 0);
+  Run& active = context.session.active();
+  const std::uint64_t iteration = best_iteration(active);
+  active.seek({iteration}, context.progress);
+  tell(context, fmt::format("the best iteration is {}", iteration));
 }
 /// Those among `vertices` that may move; tells of the others, which stay where they are.
 std::vector<Index> free_among(CommandContext& context, const Run& run, const std::vector<Index>& vertices) {
@@ -94,6 +104,7 @@ std::span<const Verb> stepping_verbs() {
       {{"look-at", "look-at ITERATION [VISITS [EDITS]]", "Goes there as seek does, but for a look: undo knows nothing of it."},
        seek,
        false},
+      {{"best", "best", "Goes to the best iteration that the run passed through: by inverted elements, minimum and mean."}, best},
       {{"reset", "reset", "Goes back to the input; visits of chosen vertices are forgotten."}, reset},
   };
   return table;

@@ -161,6 +161,7 @@ class ActiveSet {
   using Room = AscentRoom<Frame>;
   explicit ActiveSet(const SmoothingTask& task) : mesh_(*task.input) {}
 
+  void begin(const Sweep& sweep) { mesh_.untangling = sweep.untangling; }
   std::optional<Vec3> target(PositionView positions, Index vertex, Room& room) const {
     gather_star(MeshStar(mesh_.view, positions, vertex), room.star);
     const V found = search(room);
@@ -172,7 +173,7 @@ class ActiveSet {
   using V = OffsetIn<Frame, double>;
 
   /// Of a star with inverted elements first the least Jacobian.
-  static V search(Room& room) {
+  [[nodiscard]] V search(Room& room) const {
     const auto& star = room.star;
     const auto jacobians = [&star](auto p, const auto& f) { for_jacobians(star, p, f); };
     const auto least_jacobian = [&star](V p) {
@@ -181,7 +182,10 @@ class ActiveSet {
       return least;
     };
     V place{};
-    if (!(least_jacobian(place) > 0.0)) place = Ascent(room, jacobians, least_jacobian).from(place);
+    if (!(least_jacobian(place) > 0.0)) {
+      if (!mesh_.untangling.attempt) return place;
+      place = Ascent(room, jacobians, least_jacobian).from(place);
+    }
     if (!(least_jacobian(place) > 0.0)) return place;
     using View = StarViewIn<Frame, double>;
     const auto qualities = [&star](auto p, const auto& f) { for_qualities<M>(star, p, f); };

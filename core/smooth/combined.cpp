@@ -23,8 +23,13 @@ double least_at(const StarViewIn<Frame, double>& star, OffsetIn<Frame, double> p
 }
 
 template <Metric M, class Frame>
-double untangling_at(const StarViewIn<Frame, double>& star, OffsetIn<Frame, double> p) {
-  return UntanglingObjective<M, StarViewIn<Frame, double>, OffsetIn<Frame, double>>(star)(p);
+bool is_tangled(const StarViewIn<Frame, double>& star) {
+  return UntanglingObjective<M, StarViewIn<Frame, double>, OffsetIn<Frame, double>>(star, {}).tangled();
+}
+
+template <Metric M, class Frame>
+double untangling_at(const StarViewIn<Frame, double>& star, const Untangling& rule, OffsetIn<Frame, double> p) {
+  return UntanglingObjective<M, StarViewIn<Frame, double>, OffsetIn<Frame, double>>(star, rule)(p);
 }
 
 template <Metric M, class Frame>
@@ -39,7 +44,7 @@ double mean_at(const StarViewIn<Frame, double>& star, OffsetIn<Frame, double> p)
 
 template <Metric M, class Frame>
 MetricFunctions<Frame> functions_of() {
-  return {star_state<M, Frame>, mean_of_star<M, Frame>, least_at<M, Frame>, untangling_at<M, Frame>, mean_at<M, Frame>};
+  return {star_state<M, Frame>, mean_of_star<M, Frame>, least_at<M, Frame>, mean_at<M, Frame>, is_tangled<M, Frame>, untangling_at<M, Frame>};
 }
 
 template <class Frame>
@@ -165,7 +170,8 @@ bool CombinedSearch<Frame>::gains(PositionView positions, Index vertex, Vec3 tar
   const StarState before = state(mesh_.view, positions, vertex, here), after = state(mesh_.view, positions, vertex, target);
   const auto second_rises = [&] { return second(positions, vertex, target) > second(positions, vertex, here); };
   if (!(before.jacobian > 0.0)) {
-    if (!after.better_than(before)) return false;
+    if (!after.better_than(before, mesh_.untangling)) return false;
+    if (!mesh_.untangling.attempt && !keeps_sound(mesh_.view, positions, vertex, target)) return false;
     // Raising the mean lowers neither the minimum nor the mean, not even for the sake of untangling.
     return !aims_.raise_mean() || (after.quality >= before.quality && second_rises());
   }

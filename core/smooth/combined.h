@@ -2,6 +2,7 @@
 // The search for two aims at once (see combination.h): the very grid search, with an objective that goes on beyond a threshold.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -49,8 +50,9 @@ struct MetricFunctions {
   double (*mean)(const MeshView<Frame>&, PositionView, Index vertex, Vec3 place);
   // By the search's, with the vertex at an offset.
   double (*least_at)(const View&, Offset);
-  double (*untangling_at)(const View&, Offset);
   double (*mean_at)(const View&, Offset);
+  bool (*is_tangled)(const View&);
+  double (*untangling_at)(const View&, const Untangling&, Offset);
 };
 template <class Frame>
 [[nodiscard]] const MetricFunctions<Frame>& metric_functions(Metric metric);
@@ -78,16 +80,15 @@ class CombinedObjective {
  public:
   using View = StarViewIn<Frame, double>;
   using Offset = OffsetIn<Frame, double>;
-  CombinedObjective(const Aims& aims, bool untangling, View star, const DensityTarget<Frame>& target)
-      : aims_(aims), star_(star), target_(target) {
-    const auto& first = metric_functions<Frame>(aims.first);
-    least_ = untangling ? first.untangling_at : first.least_at;
-    second_ = first.mean_at;
+  /// `untangling`: of a star with inverted elements; else none.
+  CombinedObjective(const Aims& aims, const std::optional<Untangling>& untangling, View star, const DensityTarget<Frame>& target)
+      : aims_(aims), star_(star), target_(target), untangling_(untangling), first_(metric_functions<Frame>(aims.first)) {
+    second_ = first_.mean_at;
     if (const auto* metric = std::get_if<Metric>(&aims.second)) second_ = metric_functions<Frame>(*metric).least_at;
     if (std::holds_alternative<std::shared_ptr<const SizeField>>(aims.second)) second_ = nullptr;
   }
   [[nodiscard]] double operator()(Offset p) const {
-    const double least = least_(star_, p);
+    const double least = untangling_ ? first_.untangling_at(star_, *untangling_, p) : first_.least_at(star_, p);
     if (!aims_.beyond(least)) return least;
     return aims_.threshold + (second_ != nullptr ? second_(star_, p) : target_.density(p));
   }
@@ -96,7 +97,8 @@ class CombinedObjective {
   const Aims& aims_;
   View star_;
   DensityTarget<Frame> target_;  // in units of the star's scale
-  double (*least_)(const View&, Offset);
+  std::optional<Untangling> untangling_;
+  const MetricFunctions<Frame>& first_;
   double (*second_)(const View&, Offset);  // null: the density
 };
 
@@ -110,6 +112,7 @@ class CombinedSearch {
   static constexpr bool kDependsOnStarAlone = true;
   static constexpr std::size_t kGrain = std::is_same_v<Frame, Plane> ? 32 : 1;  // in space a visit may take half a millisecond
   CombinedSearch(const InputMesh& input, Aims aims, const SearchParameters& parameters);
+  void begin(const Sweep& sweep) { mesh_.untangling = sweep.untangling; }
 
   /// What was found: the offset in units of the star's scale, and whether an element was inverted.
   struct Found {
@@ -124,7 +127,8 @@ class CombinedSearch {
   [[nodiscard]] Found search_plainly(const Room& star, PositionView positions, Index vertex, Trace&& trace = {}) const {
     const StarViewIn<Frame, double> view(star);
     const bool untangling = is_tangled(star);
-    const CombinedObjective<Frame> objective(aims_, untangling, view, density_of(star, positions, vertex));
+    const CombinedObjective<Frame> objective(aims_, untangling ? std::optional(mesh_.untangling) : std::nullopt, view,
+                                             density_of(star, positions, vertex));
     return {grid_search<double>(objective, star.box, parameters_, trace).offset, untangling};
   }
   /// Judged by the statistics' own formulas: does the vertex gain by standing at `target`?
@@ -134,7 +138,7 @@ class CombinedSearch {
 
  private:
   [[nodiscard]] bool is_tangled(const Room& star) const {
-    return !(metric_functions<Frame>(aims_.first).untangling_at(StarViewIn<Frame, double>(star), {}) > 0.0);
+    return metric_functions<Frame>(aims_.first).is_tangled(StarViewIn<Frame, double>(star));
   }
   [[nodiscard]] AimsSearch<Frame> task_of(const Room& star, PositionView positions, Index vertex) const;
   [[nodiscard]] DensityTarget<Frame> density_of(const Room& star, PositionView positions, Index vertex) const;

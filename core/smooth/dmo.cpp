@@ -1,5 +1,6 @@
 #include "core/smooth/dmo.h"
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <optional>
@@ -22,14 +23,17 @@ class Reference {
   static constexpr std::size_t kGrain = std::is_same_v<Frame, Plane> ? 32 : 1;
   Reference(const InputMesh& input, const SearchParameters& parameters) : mesh_(input), parameters_(parameters) {}
 
+  void begin(const Sweep& sweep) { mesh_.untangling = sweep.untangling; }
   std::optional<Vec3> target(PositionView positions, Index vertex, Room& star) const {
     gather_star(MeshStar(mesh_.view, positions, vertex), star);
-    const OffsetIn<Frame, double> found = search_star<M>(StarViewIn<Frame, double>(star), star.box, parameters_);
+    const OffsetIn<Frame, double> found = search_star<M>(StarViewIn<Frame, double>(star), star.box, parameters_, mesh_.untangling);
     if (found == OffsetIn<Frame, double>{}) return std::nullopt;
     return mesh_.template moved_if_gaining<M>(positions, vertex, found, star.scale);
   }
 
-  bool gains(Index vertex, Vec3 target, PositionView positions) const { return gains_at<M>(mesh_.view, positions, vertex, target); }
+  bool gains(Index vertex, Vec3 target, PositionView positions) const {
+    return gains_at<M>(mesh_.view, positions, vertex, target, mesh_.untangling);
+  }
 
  private:
   RuleMesh<Frame> mesh_;
@@ -52,6 +56,11 @@ class LaneDmo final : public Smoother {
         awake_(large_vector<std::uint8_t>(table_.vertex_of_rank.size())),
         task_(describe(parameters)) {}
 
+  void begin(const Sweep& sweep) override {
+    reference_.begin(sweep);
+    if (sweep.untangling.attempt != attempt_) std::ranges::fill(awake_, std::uint8_t{1});
+    attempt_ = sweep.untangling.attempt;
+  }
   std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
     if (stale_) load(positions, pool);
     std::atomic<std::uint64_t> moved{0};
@@ -120,6 +129,7 @@ class LaneDmo final : public Smoother {
   LaneTask task_;
   bool stale_ = true;    // ranked_ is older than the run's positions
   bool stored_ = false;  // and these are as new as ranked_
+  bool attempt_ = true;  // see Untangling
 };
 
 }  // namespace

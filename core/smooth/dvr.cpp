@@ -45,11 +45,16 @@ class Dvr {
   using Room = StarOnLine;
   explicit Dvr(const SmoothingTask& task) : mesh_(*task.input), options_(task.options) {}
 
-  void begin(const Sweep& sweep) { direction_ = dvr_direction(options_, sweep.iteration); }
+  void begin(const Sweep& sweep) {
+    direction_ = dvr_direction(options_, sweep.iteration);
+    mesh_.untangling = sweep.untangling;
+  }
 
   std::optional<Vec3> target(PositionView positions, Index vertex, Room& room) const {
     gather_star(MeshStar(mesh_.view, positions, vertex), room.star);
-    const double t = is_valid(room.star) ? best_quality(room) : best_jacobian(room);
+    const bool valid = is_valid(room.star);
+    if (!valid && !mesh_.untangling.attempt) return std::nullopt;
+    const double t = valid ? best_quality(room) : best_jacobian(room);
     if (t == 0.0) return std::nullopt;
     const double length = t * room.star.scale;
     return mesh_.moved_if_gaining<Metric::MeanRatio>(positions, vertex, {length * direction_.x, length * direction_.y});
@@ -75,7 +80,7 @@ class Dvr {
     return room.fractions.empty() ? 0.0 : maximise_least(room.fractions, low, high);
   }
 
-  /// Of a star with inverted elements: first the smallest Jacobian over its reference measure, as DMO does.
+  /// Of a star with inverted elements: first the smallest Jacobian over its reference measure.
   double best_jacobian(Room& room) const {
     room.fractions.clear();
     for_corners(room.star, [&](const RatioForm<double>& form, double measure) {

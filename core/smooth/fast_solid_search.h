@@ -53,6 +53,7 @@ class FastSolidSearch {
   FastSolidSearch(const InputMesh& input, const SearchParameters& parameters)
       : mesh_(input), parameters_(parameters), kernel_(solid_kernel(parameters.simd.value_or(best_simd_level()), M)) {}
 
+  void begin(const Sweep& sweep) { mesh_.untangling = sweep.untangling; }
   std::optional<Vec3> target(PositionView positions, Index vertex, SolidRoom& room) const {
     const MeshStar star(mesh_.view, positions, vertex);
     gather_star(star, room.exact);
@@ -92,7 +93,7 @@ class FastSolidSearch {
   }
 
   std::optional<Vec3> target_by_plain_search(PositionView positions, Index vertex, const SolidStar<double>& star) const {
-    const Vec3 found = search_star<M>(SolidStarView<double>(star), star.box, parameters_);
+    const Vec3 found = search_star<M>(SolidStarView<double>(star), star.box, parameters_, mesh_.untangling);
     if (found == Vec3{}) return std::nullopt;
     return mesh_.template moved_if_gaining<M>(positions, vertex, found, star.scale);
   }

@@ -61,6 +61,7 @@ class SmartLaplace : private Laplace<Frame> {
  public:
   using typename Laplace<Frame>::Room;
   using Laplace<Frame>::Laplace;
+  void begin(const Sweep& sweep) { this->mesh_.untangling = sweep.untangling; }
   std::optional<Vec3> target(PositionView positions, Index vertex, Room& room) const {
     return this->mesh_.template moved_if_gaining<M>(positions, vertex, this->step(positions, vertex, room));
   }

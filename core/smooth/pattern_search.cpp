@@ -58,6 +58,7 @@ class PatternSearch {
   using Room = StarIn<Frame, double>;
   explicit PatternSearch(const SmoothingTask& task) : mesh_(*task.input) {}
 
+  void begin(const Sweep& sweep) { mesh_.untangling = sweep.untangling; }
   std::optional<Vec3> target(PositionView positions, Index vertex, Room& star) const {
     gather_star(MeshStar(mesh_.view, positions, vertex), star);
     const Offset found = search(star);
@@ -72,9 +73,15 @@ class PatternSearch {
     double worth;
   };
 
-  static Offset search(const Room& star) {
+  [[nodiscard]] Offset search(const Room& star) const {
     using View = StarViewIn<Frame, double>;
-    const UntanglingObjective<M, View, Offset> worth{View(star)};
+    const UntanglingObjective<M, View, Offset> untangling(View(star), mesh_.untangling);
+    if (untangling.tangled()) return search(star, untangling);
+    return search(star, Objective<M, false, double, Value::Metric, View>(View(star)));
+  }
+
+  template <class Worth>
+  static Offset search(const Room& star, const Worth& worth) {
     Try best{{}, worth(Offset{})};
     const double edge = mean_edge(star), last = kLast * edge;
     double step = kFirst * edge;

@@ -13,17 +13,21 @@
 
 namespace dmoscope {
 
-/// How good a star is, judged in double by the very formulas of the statistics. While one of its elements is inverted its smallest
-/// normalised Jacobian counts, afterwards its least metric. Of volumes only those corners count that the vertex's place changes: the others
-/// keep their bits, so that no star's least gets worse where these do not.
+/// How good a star is, judged in double by the very formulas of the statistics. Of volumes only those corners count that the vertex's place
+/// changes, but in `inverted` and `sound`: the others keep their bits, so that no star's least gets worse where these do not.
 struct StarState {
   double jacobian = 0.0;    // least of smallest corner Jacobian / reference measure
   double quality = 0.0;     // least metric (paper eq. 1)
-  double untangling = 0.0;  // what is raised while `jacobian` is <= 0, and does not fall: itself, or of a volume see UntanglingMean
+  double untangling = 0.0;  // see UntanglingMean: what an attempt raises while `jacobian` is <= 0
+  int inverted = 0;         // elements
+  double sound = 0.0;       // least metric of those that are not inverted
   /// Strictly better: what a move must be (promise 1).
-  [[nodiscard]] DMOSCOPE_ANYWHERE bool better_than(const StarState& other) const noexcept {
-    if (other.jacobian <= 0.0) return jacobian > 0.0 || (jacobian >= other.jacobian && untangling > other.untangling);
-    return jacobian > 0.0 && quality > other.quality;
+  [[nodiscard]] DMOSCOPE_ANYWHERE bool better_than(const StarState& other, const Untangling& rule = {}) const noexcept {
+    if (other.jacobian > 0.0) return jacobian > 0.0 && quality > other.quality;
+    if (inverted > other.inverted || quality < scalar::min(other.quality, rule.attempt ? rule.floor : other.quality)) return false;
+    if (jacobian > 0.0) return true;
+    if (rule.attempt) return jacobian > other.jacobian || (jacobian == other.jacobian && untangling > other.untangling);
+    return inverted < other.inverted || sound > other.sound;
   }
 };
 
@@ -31,37 +35,57 @@ struct StarState {
 template <Metric M, class Frame>
 [[nodiscard]] DMOSCOPE_ANYWHERE StarState star_state(const MeshView<Frame>& mesh, PositionView positions, Index vertex, Vec3 place) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  constexpr bool kVolume = std::is_same_v<Frame, Space>;
-  StarState state{kInfinity, kInfinity, 0.0};
-  [[maybe_unused]] UntanglingMean untangling;
+  StarState state{kInfinity, kInfinity, 0.0, 0, kInfinity};
+  UntanglingMean mean;
   const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
   for (const Incidence& incidence : mesh.star(vertex)) {
     const double reference = mesh.reference_measure[incidence.element];
     const Index moving = incidence.corner;
     visit_shape(mesh.frame, mesh.corners_of(incidence.element), at, [&](const auto& shape) {
-      state.jacobian = scalar::min(state.jacobian, formulas::smallest_jacobian_around(shape, moving) / reference);
-      state.quality = scalar::min(state.quality, evaluate_around<M>(shape, moving));
-      if constexpr (kVolume) untangling.add(shape, moving, reference);
+      const auto jacobian = corner_jacobians(shape, moving, [&](double each) { mean.add(each, reference); });
+      const double quality = evaluate_around<M>(shape, moving);
+      state.jacobian = scalar::min(state.jacobian, jacobian.around / reference);
+      state.quality = scalar::min(state.quality, quality);
+      if (jacobian.whole <= 0.0)
+        ++state.inverted;
+      else
+        state.sound = scalar::min(state.sound, quality);
     });
   }
-  state.untangling = kVolume ? untangling.value() : state.jacobian;
+  state.untangling = mean.value();
   return state;
+}
+
+/// Is every element of the star that is sound where the vertex stands sound with it at `target`, too?
+template <class Frame>
+[[nodiscard]] DMOSCOPE_ANYWHERE bool keeps_sound(const MeshView<Frame>& mesh, PositionView positions, Index vertex, Vec3 target) {
+  for (const Incidence& incidence : mesh.star(vertex)) {
+    const auto is_inverted = [&](Vec3 place) {
+      const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
+      return visit_shape(mesh.frame, mesh.corners_of(incidence.element), at,
+                         [](const auto& shape) { return formulas::smallest_jacobian(shape) <= 0.0; });
+    };
+    if (is_inverted(target) && !is_inverted(positions[vertex])) return false;
+  }
+  return true;
 }
 
 /// Exactly: would the vertex gain by standing at `target`? A search may be in float and in other rounding than the statistics.
 template <Metric M, class Frame>
-[[nodiscard]] DMOSCOPE_ANYWHERE bool gains_at(const MeshView<Frame>& mesh, PositionView positions, Index vertex, Vec3 target) {
-  return star_state<M>(mesh, positions, vertex, target).better_than(star_state<M>(mesh, positions, vertex, positions[vertex]));
+[[nodiscard]] DMOSCOPE_ANYWHERE bool gains_at(const MeshView<Frame>& mesh, PositionView positions, Index vertex, Vec3 target,
+                                              const Untangling& rule) {
+  const StarState before = star_state<M>(mesh, positions, vertex, positions[vertex]);
+  if (!star_state<M>(mesh, positions, vertex, target).better_than(before, rule)) return false;
+  return rule.attempt || before.jacobian > 0.0 || keeps_sound(mesh, positions, vertex, target);
 }
 
-/// The untangling objective costs more and is needed only where an element of the star is inverted now; of one without, it finds the
-/// same candidate, since there every candidate it values otherwise is <= 0 and cannot win. Returns the offset, in units of the star's
-/// scale. Point: of the plane or of space.
+/// The untangling objective costs more and is needed only where an element of the star is inverted now. Returns the offset, in units of the
+/// star's scale. Point: of the plane or of space.
 template <Metric M, class StarT, class Point, class Team = Solo, class Trace = NoTrace>
-[[nodiscard]] DMOSCOPE_ANYWHERE Point search_star(const StarT& star, Point box, const SearchParameters& parameters, const Team& team = {},
-                                                  Trace&& trace = {}) {
-  const UntanglingObjective<M, StarT, Point> untangling(star);
-  if (!(untangling(Point{}) > 0.0)) return grid_search<double>(untangling, box, parameters, trace, team).offset;
+[[nodiscard]] DMOSCOPE_ANYWHERE Point search_star(const StarT& star, Point box, const SearchParameters& parameters, const Untangling& rule,
+                                                  const Team& team = {}, Trace&& trace = {}) {
+  const UntanglingObjective<M, StarT, Point> untangling(star, rule);
+  if (untangling.tangled()) return grid_search<double>(untangling, box, parameters, trace, team).offset;
   return grid_search<double>(Objective<M, false, double, Value::Metric, StarT>(star), box, parameters, trace, team).offset;
 }
 

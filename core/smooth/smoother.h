@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/quality/quality.h"
+#include "core/search/untangling.h"
 #include "core/smooth/task.h"
 
 namespace dmoscope {
@@ -20,6 +21,8 @@ struct Sweep {
   std::uint64_t iteration = 0;  // of the run; 0: from the input on
   /// Second phase: raise the mean quality of the stars, with this as their floor: the least quality of the elements that can move.
   std::optional<double> floor{};
+  /// While the mesh has inverted elements.
+  Untangling untangling{};
   friend bool operator==(const Sweep&, const Sweep&) = default;
 };
 

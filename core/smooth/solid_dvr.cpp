@@ -20,11 +20,15 @@ class SolidDvr {
   };
   explicit SolidDvr(const SmoothingTask& task) : mesh_(*task.input), options_(task.options) {}
 
-  void begin(const Sweep& sweep) { direction_ = solid_dvr_direction(options_, sweep.iteration); }
+  void begin(const Sweep& sweep) {
+    direction_ = solid_dvr_direction(options_, sweep.iteration);
+    mesh_.untangling = sweep.untangling;
+  }
 
   std::optional<Vec3> target(PositionView positions, Index vertex, Room& room) const {
     gather_star(MeshStar(mesh_.view, positions, vertex), room.star);
     corners_on_line(room.star, direction_, room.corners);
+    if (!mesh_.untangling.attempt && !(least_jacobian(room.corners, 0.0) > 0.0)) return std::nullopt;
     const double t = best_on_line(room.corners);
     if (t == 0.0) return std::nullopt;
     return mesh_.moved_if_gaining<Metric::MeanRatio>(positions, vertex, times(direction_, t), room.star.scale);

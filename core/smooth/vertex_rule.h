@@ -26,6 +26,7 @@ struct RuleMesh {
   explicit RuleMesh(const InputMesh& input) : view(input.view<Frame>()), single(input.mesh.single_precision) {}
   MeshView<Frame> view;
   bool single;  // see Mesh::single_precision
+  Untangling untangling{};
 
   /// Where a vertex at `place` comes to stand by an offset in mesh units; nowhere where that is no number.
   [[nodiscard]] std::optional<Vec3> moved(Vec3 place, Offset offset) const {
@@ -40,7 +41,7 @@ struct RuleMesh {
   template <Metric M>
   [[nodiscard]] std::optional<Vec3> moved_if_gaining(PositionView positions, Index vertex, Offset offset) const {
     const auto target = moved(positions[vertex], offset);
-    return target && gains_at<M>(view, positions, vertex, *target) ? target : std::nullopt;
+    return target && gains_at<M>(view, positions, vertex, *target, untangling) ? target : std::nullopt;
   }
 };
 
@@ -66,8 +67,7 @@ void for_classes(const Colouring& colouring, std::uint64_t first, std::uint64_t 
 ///   struct Room;  what it works in, kept from one vertex to the next; no result may depend on what is left there
 ///   std::optional<Vec3> target(PositionView positions, Index vertex, Room& room) const;  nowhere: it stays
 ///   static constexpr bool kDependsOnStarAlone = true;  if it has that: the target hangs on nothing but the positions of the vertices of
-///   the
-///     star, so that a vertex of whose star nothing has moved since it stayed is not visited again
+///     the star and Sweep::untangling, so that a vertex of whose star nothing has moved since it stayed is not visited again
 ///   static constexpr std::size_t kGrain = ...;  if it has that: how many vertices a thread takes at once, if not 128
 /// It is applied class after class by many threads.
 template <class Rule>
@@ -81,6 +81,9 @@ class RuleSmoother final : public Smoother {
 
   void begin(const Sweep& sweep) override {
     if constexpr (requires { rule_.begin(sweep); }) rule_.begin(sweep);
+    // Who stays by a floor stays by a higher one.
+    if (sweep.untangling.attempt != attempt_) std::ranges::fill(awake_, std::uint8_t{1});
+    attempt_ = sweep.untangling.attempt;
   }
   std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
     std::atomic<std::uint64_t> moved{0};
@@ -129,6 +132,7 @@ class RuleSmoother final : public Smoother {
   std::shared_ptr<const Colouring> colouring_;
   Rule rule_;
   std::vector<std::uint8_t> awake_;  // by vertex; where one sleeps
+  bool attempt_ = true;              // see Untangling
 };
 
 template <class Rule>

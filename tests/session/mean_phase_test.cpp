@@ -95,6 +95,19 @@ TEST(PhaseTurn, FollowsAnotherPath) {
   EXPECT_EQ(turn.find({.patience = 2}, records({0.1, 0.2, 0.3, 0.3, 0.3})), 4U);
 }
 
+TEST(PhaseTurn, DoesNotComeWhileElementsAreInverted) {
+  auto tangled = records({-0.3, -0.3, -0.3, -0.3, 0.1, 0.1, 0.1});
+  for (std::size_t i = 0; i < 4; ++i) tangled[i].statistics.inverted = 2;
+  tangled[2].moved = 0;  // nor where nothing moves
+  EXPECT_EQ(PhaseTurn().find({.patience = 2}, tangled), 6U);
+}
+
+/// What rises little by little rises: a first phase alone would go on, too.
+TEST(PhaseTurn, AddsUpSmallRises) {
+  const auto slow = records({0.1, 0.1 + 4e-7, 0.1 + 8e-7, 0.1 + 12e-7, 0.1 + 16e-7, 0.1 + 20e-7, 0.1 + 20e-7, 0.1 + 20e-7});
+  EXPECT_EQ(PhaseTurn().find({.patience = 3}, slow), 6U) << "the last rise of 1e-6 is in iteration 3";
+}
+
 RunParameters two_phases(std::uint64_t patience = 2) {
   RunParameters parameters;
   parameters.then_mean = MeanPhase{.patience = patience};

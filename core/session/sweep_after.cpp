@@ -1,0 +1,24 @@
+#include "core/session/sweep_after.h"
+
+namespace dmoscope {
+
+std::uint64_t iterations_since_untangled(std::span<const IterationRecord> records, std::uint64_t iteration) {
+  std::uint64_t since = 0;
+  while (since < UntanglingPlan::kEnd && since < iteration &&
+         records[iteration - since].statistics.inverted >= records[iteration - since - 1].statistics.inverted)
+    ++since;
+  return since;
+}
+
+Sweep sweep_after(std::span<const IterationRecord> records, std::uint64_t iteration, std::optional<std::uint64_t> mean_since) {
+  const Statistics& now = records[iteration].statistics;
+  Sweep sweep{.iteration = iteration};
+  if (mean_since && *mean_since <= iteration) sweep.floor = now.movable_minimum;
+  if (now.inverted == 0) return sweep;
+  const std::uint64_t since = iterations_since_untangled(records, iteration);
+  sweep.untangling.attempt = since < UntanglingPlan::kEnd && since % UntanglingPlan::kCycle < UntanglingPlan::kAttempt;
+  sweep.untangling.floor = now.minimum;
+  return sweep;
+}
+
+}  // namespace dmoscope

@@ -21,6 +21,11 @@ class Recorder {
     best_ = here;
   }
   template <class Real, class Point>
+  void start(const Candidate<Real, Point>& best) {
+    started = in_mesh_units(best.offset);
+    best_ = static_cast<double>(best.objective);
+  }
+  template <class Real, class Point>
   void level(const CandidateGrid<Real, Point>& grid) {
     TracedLevelIn<Offset>& level = levels.emplace_back();
     level.centre = in_mesh_units(grid.centre);
@@ -48,6 +53,7 @@ class Recorder {
 
   std::vector<TracedLevelIn<Offset>> levels;
   double here = 0.0;
+  Offset started{};  // where the first grid is centred
 
  private:
   template <class Real>

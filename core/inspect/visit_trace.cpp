@@ -194,6 +194,7 @@ class Look {
   void take(Recorder<Offset> recorder, const Place& place) {
     trace_.value_here = recorder.here;
     trace_.levels = std::move(recorder.levels);
+    trace_.found = recorder.started;
     for (TracedLevelIn<Offset>& level : trace_.levels) {
       level.quality.reserve(level.offsets.size());
       for (const Offset& offset : level.offsets)

@@ -148,11 +148,14 @@ struct CandidateGrid {
   }
 };
 
-/// Does nothing at each step of the search; grid inspection passes one that records: what the vertex's own place is worth; then for every
+/// Does nothing at each step of the search; grid inspection passes one that records: what the vertex's own place is worth; where a search
+/// that is told a start begins; then for every
 /// level its grid, every candidate, and the best of all so far.
 struct NoTrace {
   template <class Real>
   DMOSCOPE_ANYWHERE void begin(const Real& /*objective*/) {}
+  template <class Real, class Point>
+  DMOSCOPE_ANYWHERE void start(const Candidate<Real, Point>& /*where the first grid is centred*/) {}
   template <class Real, class Point>
   DMOSCOPE_ANYWHERE void level(const CandidateGrid<Real, Point>&) {}
   template <class Real, class Point>
@@ -182,15 +185,21 @@ template <class Real, class Point, class Team>
 
 /// Searches all levels and keeps the best of all. The current position is no candidate (n is even) and so is compared explicitly;
 /// only a strictly better candidate replaces it, so ties go to the earlier level and the lower index. Grids after the first are
-/// centred on the best position so far, `omega` times 2 / (n - 1) as large as the one before (paper eq. 5). Point: of the plane or of
-/// space.
+/// centred on the best position so far, `omega` times 2 / (n - 1) as large as the one before (paper eq. 5). `start`: where that is better
+/// than the current position, the first grid is centred there. Point: of the plane or of space.
 template <class Real, class ObjectiveAt, class Point = Vec2<Real>, class Trace = NoTrace, class Team = Solo>
 [[nodiscard]] DMOSCOPE_ANYWHERE Candidate<Real, Point> grid_search(const ObjectiveAt& objective, Point box,
                                                                    const SearchParameters& parameters, Trace&& trace = {},
-                                                                   const Team& team = {}) {
+                                                                   const Team& team = {}, const Point* start = nullptr) {
   using scalar::select;
   Candidate<Real, Point> best{{}, objective(Point{})};
   trace.begin(best.objective);
+  if (start != nullptr) {
+    const Real value = objective(*start);
+    const auto better = value > best.objective;
+    best = {select_point(better, *start, Point{}), select(better, value, best.objective)};
+    trace.start(best);
+  }
   double omega = parameters.omega;
   for (int level = 0; level < parameters.levels; ++level) {
     const CandidateGrid<Real, Point> grid{best.offset, times(box, scalar::constant<Real>(omega)), parameters.grid_points};

@@ -73,6 +73,37 @@ template <class V, class Ideal, std::size_t N, class Corners, class Take>
   return s.least_whole_and_around(moving, [](V, V, V, double jacobian) { return jacobian; });
 }
 
+/// The mean of the other corners of a star's elements: a vertex that lies far from its star finds back there, where no grid around it reaches.
+template <class Point>
+class MeanOfCorners {
+ public:
+  template <class Real>
+  DMOSCOPE_ANYWHERE void add(const StarTriangle<Real>& t) {
+    add(t.b), add(t.c);
+  }
+  template <class Element>
+  DMOSCOPE_ANYWHERE void add(const Element& element) requires requires { element.d; } {
+    add(element.b), add(element.c), add(element.d);
+  }
+  template <class Element>
+  DMOSCOPE_ANYWHERE void add(const Element& element) requires requires { element.others; } {
+    for (const Point& p : element.others) add(p);
+  }
+  template <class Element>
+  DMOSCOPE_ANYWHERE void add(const Element& element) requires requires { element.base; } {
+    for (const Point& p : element.base) add(p);
+  }
+  [[nodiscard]] DMOSCOPE_ANYWHERE Point value() const { return count_ > 0.0 ? times(sum_, 1.0 / count_) : Point{}; }
+
+ private:
+  DMOSCOPE_ANYWHERE void add(const Point& p) {
+    sum_ = sum_ + p;
+    count_ += 1.0;
+  }
+  Point sum_{};
+  double count_ = 0.0;
+};
+
 /// Which elements of a star are inverted where its vertex stands: the first 64 are remembered, others looked at again.
 class InvertedSet {
  public:
@@ -107,12 +138,16 @@ class UntanglingObjective {
       count_ += least.whole <= 0.0 ? 1 : 0;
       jacobian_ = scalar::min(jacobian_, least.around / each.reference);
       quality_ = scalar::min(quality_, quality);
+      middle_.add(each);
     });
     floor_ = rule_.attempt ? scalar::min(quality_, rule_.floor) : quality_;
   }
 
   /// Is an element inverted where the vertex stands now, by a corner that changes with it?
   [[nodiscard]] DMOSCOPE_ANYWHERE bool tangled() const { return !(jacobian_ > 0.0 && quality_ > 0.0); }
+
+  /// Where to look first.
+  [[nodiscard]] DMOSCOPE_ANYWHERE Point middle() const { return middle_.value(); }
 
   [[nodiscard]] DMOSCOPE_ANYWHERE double operator()(Point p) const { return rule_.attempt ? attempt(p) : hold(p); }
 
@@ -185,6 +220,7 @@ class UntanglingObjective {
   StarT star_;
   Untangling rule_;
   InvertedSet inverted_;
+  MeanOfCorners<Point> middle_;
   int count_ = 0;
   double jacobian_ = kMost, quality_ = kMost;  // least, where the vertex stands: the former over its reference
   double floor_ = 0.0;

@@ -16,7 +16,8 @@ Sweep sweep_after(std::span<const IterationRecord> records, std::uint64_t iterat
   if (mean_since && *mean_since <= iteration) sweep.floor = now.movable_minimum;
   if (now.inverted == 0) return sweep;
   const std::uint64_t since = iterations_since_untangled(records, iteration);
-  sweep.untangling.attempt = since < UntanglingPlan::kEnd && since % UntanglingPlan::kCycle < UntanglingPlan::kAttempt;
+  const std::uint64_t in_cycle = since % UntanglingPlan::kCycle;
+  sweep.untangling.attempt = since < UntanglingPlan::kEnd && in_cycle >= 1 && in_cycle <= UntanglingPlan::kAttempt;
   sweep.untangling.floor = now.minimum;
   return sweep;
 }

@@ -13,7 +13,7 @@ namespace dmoscope {
 /// How often and how long visits try to untangle what the last iterations did not: see Untangling. Counted from the input or from the last
 /// iteration that left fewer inverted elements than it found.
 struct UntanglingPlan {
-  static constexpr std::uint64_t kAttempt = 5;  // iterations of an attempt
+  static constexpr std::uint64_t kAttempt = 5;  // iterations of an attempt, after one in which only sound moves may untangle
   static constexpr std::uint64_t kCycle = 25;   // from one attempt to the next; in between sound elements recover
   static constexpr std::uint64_t kEnd = 50;    // no more attempts from here on
 };

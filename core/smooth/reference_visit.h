@@ -85,7 +85,10 @@ template <Metric M, class StarT, class Point, class Team = Solo, class Trace = N
 [[nodiscard]] DMOSCOPE_ANYWHERE Point search_star(const StarT& star, Point box, const SearchParameters& parameters, const Untangling& rule,
                                                   const Team& team = {}, Trace&& trace = {}) {
   const UntanglingObjective<M, StarT, Point> untangling(star, rule);
-  if (untangling.tangled()) return grid_search<double>(untangling, box, parameters, trace, team).offset;
+  if (untangling.tangled()) {
+    const Point middle = untangling.middle();
+    return grid_search<double>(untangling, box, parameters, trace, team, &middle).offset;
+  }
   return grid_search<double>(Objective<M, false, double, Value::Metric, StarT>(star), box, parameters, trace, team).offset;
 }
 

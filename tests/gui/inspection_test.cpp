@@ -61,7 +61,8 @@ class Inspection : public HeadlessTest {
 
   void expect_same(const VisitTrace& shown, const Frame& frame) {
     const RunParameters& parameters = run().parameters;
-    const VisitTrace own = trace_visit(*frame.input, frame.positions, run().fixed, parameters.metric, parameters.search, shown.vertex);
+    const VisitTrace own = trace_visit(*frame.input, frame.positions, run().fixed, parameters.metric, parameters.search, shown.vertex, {},
+                                       run().sweep.untangling);
     ASSERT_EQ(shown.levels.size(), own.levels.size());
     for (std::size_t i = 0; i < own.levels.size(); ++i) {
       const TracedLevel &a = shown.levels[i], &b = own.levels[i];

@@ -106,7 +106,8 @@ class SolidFollower {
   [[nodiscard]] SolidTrace look(const std::vector<Vec3>& positions, Index vertex) const {
     std::optional<Aims> aims;
     if (wish_.second) aims = Aims{wish_.metric, 0.4, *wish_.second};
-    return trace_solid_visit(run_.input(), positions, run_.fixed(), wish_.metric, wish_.search, vertex, aims);
+    return trace_solid_visit(run_.input(), positions, run_.fixed(), wish_.metric, wish_.search, vertex, aims,
+                             run_.sweep().untangling);
   }
 
   void expect_as_stored(const SolidTrace& trace, std::uint64_t moved_now, Vec3 before) {

@@ -196,13 +196,18 @@ void expect_gains_as_promised(const Aims& aims, const SecondAim& second) {
     const Plain plain{*wheel, wheel->mesh.positions};
     struct At {
       double jacobian, first, second;
-    };
+    int inverted = 0;
+  };
     const auto look = [&](Vec3 p) {
       const Point at{p.x, p.y};
       std::vector<Vec3> positions = wheel->mesh.positions;
       positions[0] = p;
       At found{star_state(*wheel, positions, Metric::MeanRatio, 0).jacobian, INFINITY, second(plain.star(0, at), at)};
-      for (const auto& triangle : plain.star(0, at)) found.first = std::min(found.first, Plain::mean_ratio(triangle));
+      for (const auto& triangle : plain.star(0, at)) {
+        const double quality = Plain::mean_ratio(triangle);
+        found.first = std::min(found.first, quality);
+        found.inverted += quality <= 0.0 ? 1 : 0;
+      }
       return found;
     };
     const At before = look(here), after = look(there);
@@ -210,7 +215,7 @@ void expect_gains_as_promised(const Aims& aims, const SecondAim& second) {
     const bool rises = after.second > before.second;
     bool expected = after.jacobian > 0.0 && (beyond(before.first) ? beyond(after.first) && rises : after.first > before.first);
     if (before.jacobian <= 0.0)
-      expected = after.jacobian > before.jacobian && (!aims.raise_mean() || (after.first >= before.first && rises));
+      expected = after.jacobian > before.jacobian && after.inverted <= before.inverted && (!aims.raise_mean() || (after.first >= before.first && rises));
     const bool gains = CombinedSearch<Plane>(*wheel, aims, {}).gains(wheel->mesh.positions, 0, there);
     EXPECT_EQ(gains, expected) << trial;
     allowed += gains ? 1 : 0;

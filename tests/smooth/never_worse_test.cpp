@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/smooth/promises.h"
@@ -68,6 +69,11 @@ struct Tried {
     untangled += before > 0 && after == 0 ? 1 : 0;
     less += after < before ? 1 : 0;
   }
+  void tell() const {
+    for (const auto& [name, count] : {std::pair{"runs", runs}, {"tangled", tangled}, {"untangled", untangled}, {"less", less}})
+      ::testing::Test::RecordProperty(name, static_cast<int>(count));
+    fmt::print("{} runs, {} of them on tangled meshes: {} untangled, {} with fewer inverted elements\n", runs, tangled, untangled, less);
+  }
 };
 
 /// `sound_enough`: of combined aims, the minimum may fall to this.
@@ -128,16 +134,16 @@ TEST_P(NeverWorse, OnTangledPlanarMeshesByEveryMetric) {
   Tried tried;
   for (const Metric metric : testing::all_metrics()) {
     if (GetParam().mean_ratio_only && metric != Metric::MeanRatio) continue;
-    for_spoiled(planar_meshes(6), metric, 3, [&](const auto& mesh, const std::string& what) {
+    for_spoiled(planar_meshes(6), metric, 6, [&](const auto& mesh, const std::string& what) {
       RunParameters parameters{.method = std::string(GetParam().name), .metric = metric};
       expect_never_worse(mesh, parameters, 8, what, tried);
       parameters.order.seed = 5;
       expect_never_worse(mesh, parameters, 8, what + ", shuffled", tried);
     });
   }
-  RecordProperty("runs", static_cast<int>(tried.runs));
-  EXPECT_GT(tried.tangled, tried.runs / 3);
-  EXPECT_GT(tried.less, tried.tangled / 5);
+  tried.tell();
+  EXPECT_GT(tried.tangled, tried.runs / 2);
+  EXPECT_GT(tried.less, tried.tangled / 3);
 }
 
 TEST_P(NeverWorse, OnTangledVolumes) {
@@ -151,6 +157,7 @@ TEST_P(NeverWorse, OnTangledVolumes) {
       expect_never_worse(mesh, {.method = std::string(GetParam().name), .metric = metric, .search = {.grid_points = 4}}, 6, what, tried);
     });
   }
+  tried.tell();
   EXPECT_GT(tried.tangled, tried.runs / 3);
 }
 
@@ -162,28 +169,31 @@ INSTANTIATE_TEST_SUITE_P(Optimisers, NeverWorse, ::testing::ValuesIn(optimisers(
 
 TEST(NeverWorseAlso, WithBothPhasesOtherGridsAndTheSearchInDouble) {
   Tried tried;
-  for_spoiled(planar_meshes(6), Metric::MeanRatio, 2, [&](const auto& mesh, const std::string& what) {
+  for_spoiled(planar_meshes(6), Metric::MeanRatio, 5, [&](const auto& mesh, const std::string& what) {
     expect_never_worse(mesh, {.then_mean = MeanPhase{.patience = 3}}, 30, what + ", then mean", tried);
     expect_never_worse(mesh, {.search = {.omega = 1.0}}, 8, what + ", omega 1", tried);
     expect_never_worse(mesh, {.search = {.grid_points = 5, .levels = 1, .precision = Precision::Double}}, 8, what + ", in double", tried);
   });
+  tried.tell();
   EXPECT_GT(tried.untangled, 20U);
 }
 
 TEST(NeverWorseAlso, CombinedDownToTheThreshold) {
   Tried tried;
   const Combination combination{.threshold = 0.3, .second = Metric::MinAngle};
-  for_spoiled({{"triangles", lattice(6, 0.2, 71), 6.0}}, Metric::MeanRatio, 4, [&](const auto& mesh, const std::string& what) {
+  for_spoiled({{"triangles", lattice(6, 0.2, 71), 6.0}}, Metric::MeanRatio, 12, [&](const auto& mesh, const std::string& what) {
     expect_never_worse(mesh, {.combination = combination}, 10, what + ", combined", tried, combination.threshold);
   });
+  tried.tell();
   EXPECT_GT(tried.untangled, 5U);
 }
 
 /// Attempts come and go: what they gain must stay in between and after, for long.
 TEST(NeverWorseAlso, ThroughAllAttemptsAndTheRestsBetweenThem) {
   Tried tried;
-  for_spoiled(planar_meshes(5), Metric::MeanRatio, 1,
+  for_spoiled(planar_meshes(5), Metric::MeanRatio, 3,
               [&](const auto& mesh, const std::string& what) { expect_never_worse(mesh, {}, 130, what, tried); });
+  tried.tell();
   EXPECT_GT(tried.tangled, 10U);
 }
 

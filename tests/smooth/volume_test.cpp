@@ -216,7 +216,7 @@ class LineOfPlaces {
 };
 
 TEST(Volume, DvrFindsTheBestPlaceOnItsLineInEveryKindOfElement) {
-  std::size_t made_sound = 0, less_tangled = 0;
+  std::size_t made_sound = 0, less_tangled = 0, refused = 0;
   for (const Specimen& specimen : volumes()) {
     if (specimen.name.find(',') != std::string::npos && !specimen.name.ends_with("tangled")) continue;
     const auto mesh = input(specimen.mesh);
@@ -229,6 +229,10 @@ TEST(Volume, DvrFindsTheBestPlaceOnItsLineInEveryKindOfElement) {
       run.step(StepUnit::Vertex, progress);
       const Vec3 way = run.positions()[hub] - old;
       EXPECT_LT(length(cross(way, d)), 1e-14) << specimen.name << ": off the line";
+      if (line.is_tangled() && way == Vec3{}) {  // the best place would invert more, or lower the mesh's minimum
+        ++refused;
+        continue;
+      }
       const double found = line.worth(dot(way, d));
       for (const double t : LineOfPlaces::samples())
         EXPECT_GE(found, line.worth(t) - 1e-8) << specimen.name << ": hub " << hub << ", " << t;
@@ -237,6 +241,7 @@ TEST(Volume, DvrFindsTheBestPlaceOnItsLineInEveryKindOfElement) {
   }
   EXPECT_GE(made_sound, 5U);
   EXPECT_GT(less_tangled, 5U);
+  EXPECT_LT(refused, 10U);
 }
 
 TEST(Volume, DvrDirectionsAreOfLengthOneAndGoEverywhereAlike) {

@@ -38,10 +38,9 @@ class DeviceDmo final : public Smoother {
 
   void begin(const Sweep& sweep) override {
     if (sweep.untangling == task_.untangling) return;
-    const bool wakes = sweep.untangling.attempt != task_.untangling.attempt;
     task_.untangling = sweep.untangling;
     iteration_.reset();  // it has the old ones
-    if (!wakes || stale_) return;  // who is loaded is awake
+    if (stale_) return;  // who is loaded is awake
     queue_->launch(Work::Store, metric_, task_, task_.vertex_count);
     queue_->launch(Work::Load, metric_, task_, task_.vertex_count);
   }

@@ -227,8 +227,7 @@ Inspection inspect(const SessionView& session, Index vertex) {
     const auto aims = aims_of_visit(run.parameters.metric, run.parameters.combination, run.size, sweep);
     if (!aims && !method_info(run.parameters.method).searches_grid) inspection.other_method = run.parameters.method;
     const auto trace = [&](auto traced) {
-      return traced(*frame.input, frame.positions, run.fixed, run.parameters.metric, run.parameters.search, vertex, aims,
-                    sweep.untangling);
+      return traced(*frame.input, frame.positions, run.fixed, run.parameters.metric, run.parameters.search, vertex, aims, sweep.untangling);
     };
     if (frame.input->is_volume()) {
       inspection.solid = trace(trace_solid_visit);

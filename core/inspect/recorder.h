@@ -18,12 +18,12 @@ class Recorder {
   template <class Real>
   void begin(const Real& objective) {
     here = static_cast<double>(objective);
-    best_ = here;
+    best_ = at_start = here;
   }
   template <class Real, class Point>
   void start(const Candidate<Real, Point>& best) {
     started = in_mesh_units(best.offset);
-    best_ = static_cast<double>(best.objective);
+    best_ = at_start = static_cast<double>(best.objective);
   }
   template <class Real, class Point>
   void level(const CandidateGrid<Real, Point>& grid) {
@@ -53,7 +53,8 @@ class Recorder {
 
   std::vector<TracedLevelIn<Offset>> levels;
   double here = 0.0;
-  Offset started{};  // where the first grid is centred
+  Offset started{};       // where the first grid is centred
+  double at_start = 0.0;  // what that is worth
 
  private:
   template <class Real>

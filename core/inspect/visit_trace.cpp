@@ -52,7 +52,8 @@ std::string untangling_phrase(bool volume, const Untangling& rule) {
         "mean of the {} Jacobians less 0.2, each taken up to 0.2, squeezed into -1 to 0 (-1e9 where more elements would be inverted, the "
         "least Jacobian fell, or a metric fell below the mesh's minimum); once all are positive the ",
         of);
-  return "half of (least quality of the sound elements less 1), less the number of inverted ones (-1e9 where a sound one would be inverted, "
+  return "half of (least quality of the sound elements less 1), less the number of inverted ones (-1e9 where a sound one would be "
+         "inverted, "
          "or the least quality fell); once all are sound the ";
 }
 
@@ -194,7 +195,8 @@ class Look {
   void take(Recorder<Offset> recorder, const Place& place) {
     trace_.value_here = recorder.here;
     trace_.levels = std::move(recorder.levels);
-    trace_.found = recorder.started;
+    trace_.found = trace_.start = recorder.started;
+    trace_.value_at_start = recorder.at_start;
     for (TracedLevelIn<Offset>& level : trace_.levels) {
       level.quality.reserve(level.offsets.size());
       for (const Offset& offset : level.offsets)
@@ -260,7 +262,8 @@ std::string VisitSummary::sentence() const {
       if (after.inverted < before.inverted)
         return fmt::format("moved: inverted elements of its star {} -> {}", before.inverted, after.inverted);
       if (after.jacobian == before.jacobian)
-        return fmt::format("moved: its star stays tangled; least quality of its sound elements {:.4g} -> {:.4g}", before.sound, after.sound);
+        return fmt::format("moved: its star stays tangled; least quality of its sound elements {:.4g} -> {:.4g}", before.sound,
+                           after.sound);
       return fmt::format("moved: smallest Jacobian of its tangled star {:.4g} -> {:.4g}", before.jacobian, after.jacobian);
     case VisitEnd::NothingFound:
       if (combined) return "stays: no candidate is better for its two aims than where it stands";
@@ -274,19 +277,18 @@ std::string VisitSummary::sentence() const {
 }
 
 VisitTrace trace_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
-                       const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims,
-                       const Untangling& untangling) {
+                       const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims, const Untangling& untangling) {
   const bool is_fixed = require_traceable(input, Shape::Planar, fixed, metric, parameters, vertex);
-  return formulas::with_planar_metric(metric,
-                                      [&]<Metric M>() { return Look<M, Plane>(input, positions, parameters, vertex, aims, untangling).run(is_fixed); });
+  return formulas::with_planar_metric(
+      metric, [&]<Metric M>() { return Look<M, Plane>(input, positions, parameters, vertex, aims, untangling).run(is_fixed); });
 }
 
 SolidTrace trace_solid_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
                              const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims,
-                       const Untangling& untangling) {
+                             const Untangling& untangling) {
   const bool is_fixed = require_traceable(input, Shape::Volume, fixed, metric, parameters, vertex);
-  return formulas::with_solid_metric(metric,
-                                     [&]<Metric M>() { return Look<M, Space>(input, positions, parameters, vertex, aims, untangling).run(is_fixed); });
+  return formulas::with_solid_metric(
+      metric, [&]<Metric M>() { return Look<M, Space>(input, positions, parameters, vertex, aims, untangling).run(is_fixed); });
 }
 
 }  // namespace dmoscope

@@ -62,9 +62,10 @@ struct VisitSummary {
   bool combined = false;    // for two aims: values beyond a threshold are the threshold plus the second aim
   bool by_corners = false;  // the star has solids judged corner by corner: of those what the vertex changes counts, in `before` and `after`
   bool untangling = false;  // an element was inverted, so that came first, see UntanglingObjective
-  std::string value_phrase;  // what LevelValues::values are: "mean ratio", "squared sine of the smallest angle", ...
-  double value_here = 0.0;   // likewise, of the place where it stood: what a candidate had to exceed
-  Vec3 from, to;             // where it stood and stands after the visit; the same unless it moved
+  std::string value_phrase;     // what LevelValues::values are: "mean ratio", "squared sine of the smallest angle", ...
+  double value_here = 0.0;      // likewise, of the place where it stood: what a candidate had to exceed
+  double value_at_start = 0.0;  // likewise, of where the first grid is centred: the same place but in a tangled star
+  Vec3 from, to;                // where it stood and stands after the visit; the same unless it moved
   StarState before, after;
   std::vector<ElementChange> elements;  // in the star's order
   VisitEnd end = VisitEnd::NothingFound;
@@ -77,6 +78,7 @@ struct VisitSummary {
 template <class Offset>
 struct VisitTraceIn : VisitSummary {
   Offset step;                                // mesh units
+  Offset start{};                             // where the first grid is centred, relative to `from`: of a tangled star, see MeanOfCorners
   Offset found;                               // what the search chose, relative to `from`; mesh units
   std::vector<TracedLevelIn<Offset>> levels;  // empty for a fixed vertex
 };

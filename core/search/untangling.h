@@ -1,11 +1,11 @@
 #pragma once
 // What is maximised in a star that has inverted elements, and what such a star must keep (promise 1).
 //
-// The least Jacobian alone does not do: it stalls where several corners hold each other, and in a hexahedron that is not far from everywhere
-// (a cube of 125, 36 of them inverted, ended with 3). So it must not fall, and what rises is a mean over all corners, in which those that
-// are good enough count no more. Nor may the number of inverted elements rise, or a metric fall below the worst of the whole mesh: where a
-// fixed vertex makes untangling impossible, neighbours would hand on the damage for ever. For the same reason attempts are limited in time:
-// between them the sound elements of a star are raised as if the inverted ones were not there.
+// The least Jacobian alone does not do: it stalls where several corners hold each other, and in a hexahedron that is not far from
+// everywhere (a cube of 125, 36 of them inverted, ended with 3). So it must not fall, and what rises is a mean over all corners, in which
+// those that are good enough count no more. Nor may the number of inverted elements rise, or a metric fall below the worst of the whole
+// mesh: where a fixed vertex makes untangling impossible, neighbours would hand on the damage for ever. For the same reason attempts are
+// limited in time: between them the sound elements of a star are raised as if the inverted ones were not there.
 
 #include <cstdint>
 #include <limits>
@@ -36,6 +36,11 @@ class UntanglingMean {
     sum_ += scalar::min(jacobian / reference, kEnough);
     ++count_;
   }
+  /// `other`: of other elements.
+  DMOSCOPE_ANYWHERE void add(const UntanglingMean& other) {
+    sum_ += other.sum_;
+    count_ += other.count_;
+  }
   [[nodiscard]] DMOSCOPE_ANYWHERE double value() const { return count_ > 0 ? sum_ / count_ : 0.0; }
 
  private:
@@ -43,10 +48,18 @@ class UntanglingMean {
   int count_ = 0;
 };
 
+/// A planar star may come in the order of the mesh's elements or triangles first: what is summed over its elements is summed for triangles
+/// and for quadrilaterals apart, so that it has the same bits. Which of the two.
+template <class Element>
+inline constexpr unsigned kPartOfSum = 1;
+template <class Real>
+inline constexpr unsigned kPartOfSum<StarTriangle<Real>> = 0;
+
 /// Smallest corner Jacobians of an element: of all its corners, and of those that change with corner `moving`. Calls take(J) with each of
 /// the latter (a planar element's least, as one).
 template <class V, class Take>
-[[nodiscard]] DMOSCOPE_ANYWHERE formulas::WholeAndAround<double> corner_jacobians(const formulas::Triangle<V>& t, Index /*moving*/, Take take) {
+[[nodiscard]] DMOSCOPE_ANYWHERE formulas::WholeAndAround<double> corner_jacobians(const formulas::Triangle<V>& t, Index /*moving*/,
+                                                                                  Take take) {
   take(t.twice_area);
   return {t.twice_area, t.twice_area};
 }
@@ -64,8 +77,8 @@ template <class V, class Take>
   return {t.six_volume, t.six_volume};
 }
 template <class V, class Ideal, std::size_t N, class Corners, class Take>
-[[nodiscard]] DMOSCOPE_ANYWHERE formulas::WholeAndAround<double> corner_jacobians(
-    const formulas::CorneredSolid<V, Ideal, N, Corners>& s, Index moving, Take take) {
+[[nodiscard]] DMOSCOPE_ANYWHERE formulas::WholeAndAround<double> corner_jacobians(const formulas::CorneredSolid<V, Ideal, N, Corners>& s,
+                                                                                  Index moving, Take take) {
   (void)s.least_around(moving, [&take](V, V, V, double jacobian) {
     take(jacobian);
     return jacobian;
@@ -73,7 +86,8 @@ template <class V, class Ideal, std::size_t N, class Corners, class Take>
   return s.least_whole_and_around(moving, [](V, V, V, double jacobian) { return jacobian; });
 }
 
-/// The mean of the other corners of a star's elements: a vertex that lies far from its star finds back there, where no grid around it reaches.
+/// The mean of the other corners of a star's elements: a vertex that lies far from its star finds back there, where no grid around it
+/// reaches.
 template <class Point>
 class MeanOfCorners {
  public:
@@ -82,18 +96,30 @@ class MeanOfCorners {
     add(t.b), add(t.c);
   }
   template <class Element>
-  DMOSCOPE_ANYWHERE void add(const Element& element) requires requires { element.d; } {
-    add(element.b), add(element.c), add(element.d);
+  DMOSCOPE_ANYWHERE void add(const Element& element) requires requires {
+    element.d;
   }
+  { add(element.b), add(element.c), add(element.d); }
   template <class Element>
-  DMOSCOPE_ANYWHERE void add(const Element& element) requires requires { element.others; } {
+  DMOSCOPE_ANYWHERE void add(const Element& element) requires requires {
+    element.others;
+  }
+  {
     for (const Point& p : element.others) add(p);
   }
   template <class Element>
-  DMOSCOPE_ANYWHERE void add(const Element& element) requires requires { element.base; } {
+  DMOSCOPE_ANYWHERE void add(const Element& element) requires requires {
+    element.base;
+  }
+  {
     for (const Point& p : element.base) add(p);
   }
   [[nodiscard]] DMOSCOPE_ANYWHERE Point value() const { return count_ > 0.0 ? times(sum_, 1.0 / count_) : Point{}; }
+  /// `other`: of other elements.
+  DMOSCOPE_ANYWHERE void add(const MeanOfCorners& other) {
+    sum_ = sum_ + other.sum_;
+    count_ += other.count_;
+  }
 
  private:
   DMOSCOPE_ANYWHERE void add(const Point& p) {
@@ -103,6 +129,15 @@ class MeanOfCorners {
   Point sum_{};
   double count_ = 0.0;
 };
+
+/// Where a search for a better place of a tangled star's vertex looks first.
+template <class Point, class StarT>
+[[nodiscard]] DMOSCOPE_ANYWHERE Point middle_of(const StarT& star) {
+  MeanOfCorners<Point> parts[2];
+  star.template for_each<true>([&parts]<class Element>(const Element& each) { parts[kPartOfSum<Element>].add(each); });
+  parts[0].add(parts[1]);
+  return parts[0].value();
+}
 
 /// Which elements of a star are inverted where its vertex stands: the first 64 are remembered, others looked at again.
 class InvertedSet {
@@ -119,8 +154,8 @@ class InvertedSet {
 };
 
 /// The worth of a star with its vertex at a place. Positive is the least metric where no corner that changes with the vertex is inverted.
-/// Else, of a place that is allowed: in an attempt, the mean put between -1 and 0; without one, (least metric of the sound elements - 1) / 2
-/// less the number of the inverted ones. A place that is not allowed: kForbidden.
+/// Else, of a place that is allowed: in an attempt, the mean put between -1 and 0; without one, (least metric of the sound elements - 1) /
+/// 2 less the number of the inverted ones. A place that is not allowed: kForbidden.
 ///   allowed in an attempt: no more inverted elements, the least Jacobian not below that of the own place, no metric below the floor;
 ///   without one: what is sound stays sound, and the least metric of all does not fall.
 template <Metric M, class StarT, class Point>
@@ -138,16 +173,12 @@ class UntanglingObjective {
       count_ += least.whole <= 0.0 ? 1 : 0;
       jacobian_ = scalar::min(jacobian_, least.around / each.reference);
       quality_ = scalar::min(quality_, quality);
-      middle_.add(each);
     });
     floor_ = rule_.attempt ? scalar::min(quality_, rule_.floor) : quality_;
   }
 
   /// Is an element inverted where the vertex stands now, by a corner that changes with it?
   [[nodiscard]] DMOSCOPE_ANYWHERE bool tangled() const { return !(jacobian_ > 0.0 && quality_ > 0.0); }
-
-  /// Where to look first.
-  [[nodiscard]] DMOSCOPE_ANYWHERE Point middle() const { return middle_.value(); }
 
   [[nodiscard]] DMOSCOPE_ANYWHERE double operator()(Point p) const { return rule_.attempt ? attempt(p) : hold(p); }
 
@@ -159,14 +190,14 @@ class UntanglingObjective {
 
   /// The metrics of sound elements are needed only where all are sound: they cost most.
   [[nodiscard]] DMOSCOPE_ANYWHERE double attempt(Point p) const {
-    UntanglingMean mean;
+    UntanglingMean mean[2];
     double least = kMost;
     int count = 0;
     bool allowed = true;
-    star_.template for_each<kOthers>([&](const auto& each) {
+    star_.template for_each<kOthers>([&]<class Element>(const Element& each) {
       if (!allowed) return;
       const auto shape = each.with(p);
-      const auto jacobian = corner_jacobians(shape, each.kMoving, [&](double j) { mean.add(j, each.reference); });
+      const auto jacobian = corner_jacobians(shape, each.kMoving, [&](double j) { mean[kPartOfSum<Element>].add(j, each.reference); });
       const double relative = jacobian.around / each.reference;
       count += jacobian.whole <= 0.0 ? 1 : 0;
       least = scalar::min(least, relative);
@@ -179,7 +210,8 @@ class UntanglingObjective {
       const double quality = least_metric(p);
       if (quality > 0.0) return quality;
     }
-    return bounded(scalar::min(mean.value() - UntanglingMean::kEnough, 0.0));
+    mean[0].add(mean[1]);
+    return bounded(scalar::min(mean[0].value() - UntanglingMean::kEnough, 0.0));
   }
 
   [[nodiscard]] DMOSCOPE_ANYWHERE double hold(Point p) const {
@@ -220,7 +252,6 @@ class UntanglingObjective {
   StarT star_;
   Untangling rule_;
   InvertedSet inverted_;
-  MeanOfCorners<Point> middle_;
   int count_ = 0;
   double jacobian_ = kMost, quality_ = kMost;  // least, where the vertex stands: the former over its reference
   double floor_ = 0.0;

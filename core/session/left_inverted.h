@@ -9,12 +9,12 @@
 namespace dmoscope {
 
 struct LeftInverted {
-  Index count = 0;            // inverted elements
-  Index element = kNoIndex;   // the most inverted one: of least corner Jacobian over its reference measure
-  Index vertex = kNoIndex;    // the vertex of the most inverted elements; a fixed one before a free one, then the lowest
-  Index around = 0;           // of how many
-  Vec3 place{};               // where it stands
-  std::string why_fixed{};    // see Run::why_fixed
+  Index count = 0;           // inverted elements
+  Index element = kNoIndex;  // the most inverted one: of least corner Jacobian over its reference measure
+  Index vertex = kNoIndex;   // the vertex of the most inverted elements; a fixed one before a free one, then the lowest
+  Index around = 0;          // of how many
+  Vec3 place{};              // where it stands
+  std::string why_fixed{};   // see Run::why_fixed
   /// "3 elements stay inverted. Look at element 17 and at vertex 4 at (1.5, 2), which is in 3 of them; it lies on the boundary, which
   /// stays."
   [[nodiscard]] std::string sentence() const;
@@ -23,8 +23,8 @@ struct LeftInverted {
 /// None where no element is inverted. Brings the positions; costs a look at each element.
 [[nodiscard]] std::optional<LeftInverted> find_left_inverted(const Run& run);
 
-/// The best iteration that a run passed through: fewest inverted elements, then greatest minimum, then greatest movable minimum; of a method
-/// that does not optimise then greatest mean; among equals the last. Of a run for two aims, which gives up some of the first for the
+/// The best iteration that a run passed through: fewest inverted elements, then greatest minimum, then greatest movable minimum; of a
+/// method that does not optimise then greatest mean; among equals the last. Of a run for two aims, which gives up some of the first for the
 /// second, the last.
 [[nodiscard]] std::uint64_t best_iteration(const Run& run);
 

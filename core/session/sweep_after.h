@@ -15,7 +15,7 @@ namespace dmoscope {
 struct UntanglingPlan {
   static constexpr std::uint64_t kAttempt = 5;  // iterations of an attempt, after one in which only sound moves may untangle
   static constexpr std::uint64_t kCycle = 25;   // from one attempt to the next; in between sound elements recover
-  static constexpr std::uint64_t kEnd = 50;    // no more attempts from here on
+  static constexpr std::uint64_t kEnd = 50;     // no more attempts from here on
 };
 
 /// Of the iteration after records[iteration], which must exist. `mean_since`: see Run::mean_since().

@@ -173,7 +173,7 @@ class ActiveSet {
   using V = OffsetIn<Frame, double>;
 
   /// Of a star with inverted elements first the least Jacobian.
-  [[nodiscard]] V search(Room& room) const {
+  static V search(Room& room) {
     const auto& star = room.star;
     const auto jacobians = [&star](auto p, const auto& f) { for_jacobians(star, p, f); };
     const auto least_jacobian = [&star](V p) {
@@ -182,10 +182,7 @@ class ActiveSet {
       return least;
     };
     V place{};
-    if (!(least_jacobian(place) > 0.0)) {
-      if (!mesh_.untangling.attempt) return place;
-      place = Ascent(room, jacobians, least_jacobian).from(place);
-    }
+    if (!(least_jacobian(place) > 0.0)) place = Ascent(room, jacobians, least_jacobian).from(place);
     if (!(least_jacobian(place) > 0.0)) return place;
     using View = StarViewIn<Frame, double>;
     const auto qualities = [&star](auto p, const auto& f) { for_qualities<M>(star, p, f); };

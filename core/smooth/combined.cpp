@@ -44,7 +44,8 @@ double mean_at(const StarViewIn<Frame, double>& star, OffsetIn<Frame, double> p)
 
 template <Metric M, class Frame>
 MetricFunctions<Frame> functions_of() {
-  return {star_state<M, Frame>, mean_of_star<M, Frame>, least_at<M, Frame>, mean_at<M, Frame>, is_tangled<M, Frame>, untangling_at<M, Frame>};
+  return {star_state<M, Frame>, mean_of_star<M, Frame>, least_at<M, Frame>,
+          mean_at<M, Frame>,    is_tangled<M, Frame>,   untangling_at<M, Frame>};
 }
 
 template <class Frame>

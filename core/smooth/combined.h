@@ -129,7 +129,8 @@ class CombinedSearch {
     const bool untangling = is_tangled(star);
     const CombinedObjective<Frame> objective(aims_, untangling ? std::optional(mesh_.untangling) : std::nullopt, view,
                                              density_of(star, positions, vertex));
-    return {grid_search<double>(objective, star.box, parameters_, trace).offset, untangling};
+    const Offset middle = untangling ? middle_of<Offset>(view) : Offset{};
+    return {grid_search<double>(objective, star.box, parameters_, trace, Solo{}, untangling ? &middle : nullptr).offset, untangling};
   }
   /// Judged by the statistics' own formulas: does the vertex gain by standing at `target`?
   [[nodiscard]] bool gains(PositionView positions, Index vertex, Vec3 target) const;

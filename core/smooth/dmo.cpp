@@ -58,8 +58,8 @@ class LaneDmo final : public Smoother {
 
   void begin(const Sweep& sweep) override {
     reference_.begin(sweep);
-    if (sweep.untangling.attempt != attempt_) std::ranges::fill(awake_, std::uint8_t{1});
-    attempt_ = sweep.untangling.attempt;
+    if (sweep.untangling != untangling_) std::ranges::fill(awake_, std::uint8_t{1});
+    untangling_ = sweep.untangling;
   }
   std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
     if (stale_) load(positions, pool);
@@ -127,9 +127,9 @@ class LaneDmo final : public Smoother {
   std::vector<Vec3> ranked_;
   std::vector<std::uint8_t> awake_;
   LaneTask task_;
-  bool stale_ = true;    // ranked_ is older than the run's positions
-  bool stored_ = false;  // and these are as new as ranked_
-  bool attempt_ = true;  // see Untangling
+  bool stale_ = true;        // ranked_ is older than the run's positions
+  bool stored_ = false;      // and these are as new as ranked_
+  Untangling untangling_{};  // by which those asleep stay
 };
 
 }  // namespace

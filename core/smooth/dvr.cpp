@@ -53,7 +53,6 @@ class Dvr {
   std::optional<Vec3> target(PositionView positions, Index vertex, Room& room) const {
     gather_star(MeshStar(mesh_.view, positions, vertex), room.star);
     const bool valid = is_valid(room.star);
-    if (!valid && !mesh_.untangling.attempt) return std::nullopt;
     const double t = valid ? best_quality(room) : best_jacobian(room);
     if (t == 0.0) return std::nullopt;
     const double length = t * room.star.scale;

@@ -86,7 +86,7 @@ template <Metric M, class StarT, class Point, class Team = Solo, class Trace = N
                                                   const Team& team = {}, Trace&& trace = {}) {
   const UntanglingObjective<M, StarT, Point> untangling(star, rule);
   if (untangling.tangled()) {
-    const Point middle = untangling.middle();
+    const Point middle = middle_of<Point>(star);
     return grid_search<double>(untangling, box, parameters, trace, team, &middle).offset;
   }
   return grid_search<double>(Objective<M, false, double, Value::Metric, StarT>(star), box, parameters, trace, team).offset;

@@ -28,7 +28,6 @@ class SolidDvr {
   std::optional<Vec3> target(PositionView positions, Index vertex, Room& room) const {
     gather_star(MeshStar(mesh_.view, positions, vertex), room.star);
     corners_on_line(room.star, direction_, room.corners);
-    if (!mesh_.untangling.attempt && !(least_jacobian(room.corners, 0.0) > 0.0)) return std::nullopt;
     const double t = best_on_line(room.corners);
     if (t == 0.0) return std::nullopt;
     return mesh_.moved_if_gaining<Metric::MeanRatio>(positions, vertex, times(direction_, t), room.star.scale);

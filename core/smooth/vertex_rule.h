@@ -81,9 +81,8 @@ class RuleSmoother final : public Smoother {
 
   void begin(const Sweep& sweep) override {
     if constexpr (requires { rule_.begin(sweep); }) rule_.begin(sweep);
-    // Who stays by a floor stays by a higher one.
-    if (sweep.untangling.attempt != attempt_) std::ranges::fill(awake_, std::uint8_t{1});
-    attempt_ = sweep.untangling.attempt;
+    if (sweep.untangling != untangling_) std::ranges::fill(awake_, std::uint8_t{1});
+    untangling_ = sweep.untangling;
   }
   std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
     std::atomic<std::uint64_t> moved{0};
@@ -132,7 +131,7 @@ class RuleSmoother final : public Smoother {
   std::shared_ptr<const Colouring> colouring_;
   Rule rule_;
   std::vector<std::uint8_t> awake_;  // by vertex; where one sleeps
-  bool attempt_ = true;              // see Untangling
+  Untangling untangling_{};          // by which those asleep stay
 };
 
 template <class Rule>

@@ -90,7 +90,8 @@ TEST(Aims, TheMeanOfBahamasRisesUntilConverged) {
   const auto json = smooth(bahamas, folder / "out.14", {"--then", "mean", "--until-converged", "--patience", "20"});
   EXPECT_GE(number(json["after"]["mean"]), 0.978);
   EXPECT_GE(number(json["after"]["minimum"]), 0.7687);
-  const auto as_long = smooth(bahamas, folder / "out.14", {"--then", "mean", "--until-converged", "--patience", "20", "--max-iterations", "9999"});
+  const auto as_long =
+      smooth(bahamas, folder / "out.14", {"--then", "mean", "--until-converged", "--patience", "20", "--max-iterations", "9999"});
   EXPECT_EQ(json["mean_since"], as_long["mean_since"]) << "when the phase begins does not depend on when the run is to stop";
 }
 

@@ -60,7 +60,8 @@ TEST(Paper, ARowIsWhatSmoothSays) {
   ASSERT_EQ(run({"generate", "block", "--size", "600", "--seed", "1", "-o", mesh}).code, 0);
   ASSERT_EQ(run({"generate", "annulus", "--size", "2500", "--seed", "1", "-o", annulus}).code, 0);
   const auto smoothed = [&](const std::string& input, const char* method, const char* iterations) {
-    return smooth(input, folder / "s.vtk", {"--method", method, "--iterations", iterations, "--backend", "cpu", "--write", "last"})["after"];
+    return smooth(input, folder / "s.vtk",
+                  {"--method", method, "--iterations", iterations, "--backend", "cpu", "--write", "last"})["after"];
   };
   // On a mesh that is read and on one that is made; the first is not the paper's, so that what is claimed of it need not hold.
   ASSERT_LE(paper(folder, {"--only", "methods", "--only", "mean", "--meshes", folder / "meshes"}).code, 1);

@@ -75,7 +75,7 @@ TEST(DeviceDmoVisits, AnExactVisitRefusesWhatDoesNotGain) {
   task.moved = &moved;
   const Vec3 before = ranked[0], corner = ranked[table.others[table.shapes[0].first]];
   const Vec3 worse = before + 0.99 * (corner - before);
-  ASSERT_FALSE(gains_at<Metric::MeanRatio>(task.mesh, positions_of(task), task.vertex_of_rank[0], worse));
+  ASSERT_FALSE(gains_at<Metric::MeanRatio>(task.mesh, positions_of(task), task.vertex_of_rank[0], worse, {}));
   bodies::ExactVisit<Metric::MeanRatio>::run(task, {0, true, {worse.x, worse.y, worse.z}}, Solo{});
   EXPECT_TRUE(same(ranked[0], before));
   EXPECT_EQ(moved, 0U);

@@ -120,7 +120,7 @@ void expect_team_settles_the_same(const HostTask& host) {
     std::vector<Vec2<double>> found;
     for (Index rank = 0; rank < count; ++rank) {
       const MeshStar<Plane> star(host.task.mesh, positions, host.task.vertex_of_rank[rank]);
-      found.push_back(search_star<M>(star, star.box(), SearchParameters{}, team));
+      found.push_back(search_star<M>(star, star.box(), SearchParameters{}, Untangling{}, team));
     }
     return found;
   };

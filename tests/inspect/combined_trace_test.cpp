@@ -44,8 +44,8 @@ void follow(dmoscope::Run& run, const Worth& worth) {
     const std::vector<Vec3> positions(run.positions().begin(), run.positions().end());
     const auto aims = aims_of_visit(run.parameters().metric, run.parameters().combination, run.size_field(), run.sweep());
     ASSERT_TRUE(aims);
-    const VisitTrace trace = trace_visit(input, positions, run.fixed(), run.parameters().metric, run.parameters().search, vertex, aims,
-                                         run.sweep().untangling);
+    const VisitTrace trace =
+        trace_visit(input, positions, run.fixed(), run.parameters().metric, run.parameters().search, vertex, aims, run.sweep().untangling);
     const std::uint64_t steps = run.step(StepUnit::Vertex, progress);
     moved += steps;
     ASSERT_TRUE(same(trace.to, run.positions()[vertex])) << vertex;

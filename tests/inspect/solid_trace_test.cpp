@@ -106,8 +106,7 @@ class SolidFollower {
   [[nodiscard]] SolidTrace look(const std::vector<Vec3>& positions, Index vertex) const {
     std::optional<Aims> aims;
     if (wish_.second) aims = Aims{wish_.metric, 0.4, *wish_.second};
-    return trace_solid_visit(run_.input(), positions, run_.fixed(), wish_.metric, wish_.search, vertex, aims,
-                             run_.sweep().untangling);
+    return trace_solid_visit(run_.input(), positions, run_.fixed(), wish_.metric, wish_.search, vertex, aims, run_.sweep().untangling);
   }
 
   void expect_as_stored(const SolidTrace& trace, std::uint64_t moved_now, Vec3 before) {
@@ -123,8 +122,10 @@ class SolidFollower {
     const Vec3 box = box_of(run_.input(), positions, trace.vertex);
     const double rounding = (trace.fast ? 1e-6 : 1e-14) * (box.x + box.y + box.z);
     ASSERT_EQ(trace.levels.size(), static_cast<std::size_t>(s.levels));
-    Vec3 reached{};
-    double worth = trace.value_here, omega = s.omega;
+    EXPECT_GE(trace.value_at_start, trace.value_here);
+    EXPECT_TRUE(trace.start == Vec3{} || trace.untangling);
+    Vec3 reached = trace.start;
+    double worth = trace.value_at_start, omega = s.omega;
     for (const SolidLevel& level : trace.levels) {
       const int n = s.grid_points;
       ASSERT_EQ(level.points, n);

@@ -54,6 +54,19 @@ Vec2<double> box_of(const InputMesh& input, const std::vector<Vec3>& positions, 
   return high - low;
 }
 
+/// The mean of the star's other corners, each as often as it is one.
+Vec2<double> middle_of(const InputMesh& input, const std::vector<Vec3>& positions, Index vertex) {
+  Vec3 sum{};
+  double count = 0.0;
+  for (const Incidence& at : input.topology.star(vertex))
+    for (const Index corner : input.mesh.elements.corners(at.element)) {
+      if (corner == vertex) continue;
+      sum = sum + (positions[corner] - positions[vertex]);
+      count += 1.0;
+    }
+  return input.geometry.plane.project(1.0 / count * sum);
+}
+
 /// Follows a run vertex by vertex, and looks into one visit of `stride` before it is made.
 class Follower {
  public:
@@ -69,7 +82,8 @@ class Follower {
         const Index vertex = order[k];
         run_.seek({static_cast<std::uint64_t>(i), k}, progress_);
         std::vector<Vec3> positions(run_.positions().begin(), run_.positions().end());
-        const VisitTrace trace = trace_visit(run_.input(), positions, run_.fixed(), metric(), search(), vertex, {}, run_.sweep().untangling);
+        const VisitTrace trace =
+            trace_visit(run_.input(), positions, run_.fixed(), metric(), search(), vertex, {}, run_.sweep().untangling);
         const std::uint64_t moved = run_.step(StepUnit::Vertex, progress_);
         expect_as_stored(trace, vertex, moved, positions[vertex]);
         expect_true_levels(trace, positions);
@@ -119,8 +133,13 @@ class Follower {
     };
     not_first_of_this_ = 0;
     ASSERT_EQ(trace.levels.size(), static_cast<std::size_t>(s.levels));
-    Vec2<double> best_offset{};
-    double best_value = trace.value_here, omega = s.omega;
+    EXPECT_GE(trace.value_at_start, trace.value_here);
+    if (!(trace.start == Vec2<double>{})) {
+      EXPECT_TRUE(trace.untangling);
+      EXPECT_TRUE(close(trace.start, middle_of(run_.input(), positions, trace.vertex)));
+    }
+    Vec2<double> best_offset = trace.start;
+    double best_value = trace.value_at_start, omega = s.omega;
     for (const TracedLevel& level : trace.levels) {
       const int n = s.grid_points;
       ASSERT_EQ(level.points, n);

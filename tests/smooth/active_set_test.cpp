@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/session/run.h"
+#include "core/session/sweep_after.h"
 #include "tests/smooth/zoo.h"
 
 namespace dmoscope {
@@ -34,7 +35,9 @@ std::vector<std::vector<Vec3>> always_awake(const dmoscope::Run& run) {
       make_smoother({.input = mesh, .colouring = colouring, .metric = run.parameters().metric, .search = run.parameters().search});
   std::vector<std::vector<Vec3>> after{run.input().mesh.positions};
   std::vector<Vec3> positions = after[0];
+  std::vector<IterationRecord> records{run.history().records()[0]};
   for (std::uint64_t iteration = 0; iteration < kIterations; ++iteration) {
+    smoother->begin(sweep_after(records, iteration, {}));
     for (Index c = 0; c < colouring->class_count(); ++c) {
       const std::uint64_t first = colouring->class_offsets[c], count = colouring->class_offsets[c + 1] - first;
       smoother->positions_replaced();
@@ -42,6 +45,8 @@ std::vector<std::vector<Vec3>> always_awake(const dmoscope::Run& run) {
       smoother->store(positions, nullptr);
     }
     after.push_back(positions);
+    const Statistics now = compute_statistics(mesh->quality_context(), positions, run.parameters().metric, run.immovable(), nullptr);
+    records.push_back({iteration + 1, now, 0, 0.0});
   }
   return after;
 }

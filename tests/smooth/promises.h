@@ -33,8 +33,8 @@ inline void expect_no_worse(const Specimen& specimen, const dmoscope::Run& run, 
                             const Untangling& rule) {
   const StarState after = star_state(run.input(), run.positions(), run.parameters().metric, vertex);
   if (same_bits(std::span(&old, 1), run.positions().subspan(vertex, 1))) return;
-  EXPECT_TRUE(after.better_than(before, rule)) << specimen.name << ": vertex " << vertex << " from " << before.jacobian << ' ' << before.quality
-                                         << " to " << after.jacobian << ' ' << after.quality;
+  EXPECT_TRUE(after.better_than(before, rule)) << specimen.name << ": vertex " << vertex << " from " << before.jacobian << ' '
+                                               << before.quality << " to " << after.jacobian << ' ' << after.quality;
   const Vec3 p = run.positions()[vertex], normal = run.input().geometry.plane.normal;
   if (run.input().mesh.single_precision) {
     for (const double x : {p.x, p.y, p.z}) EXPECT_EQ(x, static_cast<float>(x));

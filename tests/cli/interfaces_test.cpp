@@ -68,7 +68,7 @@ TEST(FixOnTheCommandLine, TakesEveryFormAndRefusesWhatIsNotClear) {
     return output.err;
   };
   EXPECT_THAT(refused("1"), HasSubstr("--fix 1: this can mean more than one thing; write 'group:inner' or 'vertices:1'"));
-  EXPECT_THAT(refused("group:middle"), HasSubstr("no such group; the mesh's groups: inner, outer"));
+  EXPECT_THAT(refused("group:middle"), HasSubstr("no such group; the mesh's groups: outer, inner"));
   EXPECT_THAT(refused("material=3"), HasSubstr("material is nowhere 3; it is 1, 2"));
   EXPECT_THAT(refused("box:8,8,7,9"), HasSubstr("the box ends"));
 }
@@ -82,7 +82,7 @@ TEST(GroupLists, InfoAndQualityTellKindDimensionNumberNameAndCounts) {
                               HasSubstr("20 vertices on the interface between groups stay")));
   for (const auto& listed : {json_of(run({"info", in, "--json"})), json_of(run({"quality", in, "--json"}))}) {
     ASSERT_EQ(listed["groups"].size(), 2U);
-    const auto& inner = listed["groups"][0];
+    const auto& inner = listed["groups"][1];  // whose elements come after the outer ones
     EXPECT_EQ(inner["kind"], "physical group");
     EXPECT_EQ(inner["dimension"], 2);
     EXPECT_EQ(inner["id"], 1);

@@ -27,6 +27,8 @@ constexpr std::array kActions{
     Action{"sample-hexahedra", "File", "Sample: hexahedra", "", "generate hexahedra"},
     Action{"sample-solids", "File", "Sample: solids", "", "generate solids"},
     Action{"sample-tangled-solids", "File", "Sample: tangled-solids", "", "generate tangled-solids"},
+    Action{"sample-nested", "File", "Sample: nested", "", "generate nested"},
+    Action{"sample-nested-solids", "File", "Sample: nested-solids", "", "generate nested-solids"},
     Action{"quit", "File", "Quit", "Ctrl+Q", "quit", Needs::Nothing, true},
 
     Action{"undo", "Edit", "Undo", "Ctrl+Z", "undo", Needs::Undo},

@@ -217,6 +217,7 @@ void App::draw_side(PanelContext& context, const char* name, const Rect& rect, b
     ImGui::Dummy({0, context.px(4)});
     draw_parameters(context);
     draw_colours(context);
+    draw_groups(context);
   } else {
     draw_inside(context);
     if (state_.inspection.open) draw_inspection(context);

@@ -22,6 +22,8 @@ constexpr Index kMostSorted = 65536;
 void refresh_input(Derived& derived, const Frame& frame) {
   derived.metrics = usable_metrics(frame.input->mesh);
   derived.mesh_facts = frame.input->report.sentences();
+  derived.interfaces = frame.input->interfaces.sentence("'interfaces free'");
+  derived.groups = group_lines(frame.input->mesh);
   derived.kinds.fill(0);
   for (const ElementKind kind : frame.input->mesh.elements.kinds()) ++derived.kinds[static_cast<std::size_t>(kind)];
 }

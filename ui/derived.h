@@ -11,6 +11,7 @@
 #include "render/screenshot.h"
 #include "ui/colour_facts.h"
 #include "ui/facts.h"
+#include "ui/group_list.h"
 #include "ui/view_state.h"
 
 namespace dmoscope::ui {
@@ -20,6 +21,8 @@ struct Derived {
   std::uint64_t input_serial = 0, frame_serial = 0;
   std::vector<Metric> metrics;          // defined for every element
   std::vector<std::string> mesh_facts;  // sentences of the report
+  std::string interfaces;               // what stays where the active run's interfaces are fixed; empty for nothing
+  std::vector<GroupLine> groups;
   std::array<std::size_t, kElementKindCount> kinds{};
   std::vector<double> sorted_now, sorted_before;  // a sample of the shown quality, ascending; filled when its plot is open. Of a light
                                                   // frame, now: as far as the histogram tells

@@ -12,6 +12,7 @@
 #include "core/mesh/volume.h"
 #include "core/session/input_mesh.h"
 #include "core/smooth/size_field.h"
+#include "ui/group_list.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -50,21 +51,14 @@ void by_kind(Work& work) {
   for (Index e = 0; e < work.mesh.elements.size(); ++e) work.put(e, category[static_cast<std::size_t>(kinds[e])]);
 }
 
-/// Groups of one role and code are one category where there are many of them (hundreds of islands).
-std::string category_of(const Group& group, bool many) {
-  if (!many) return group.name;
-  return group.code != 0 ? fmt::format("{}, type {}", group.role, group.code) : group.role;
-}
-
 void by_group(Work& work) {
-  constexpr std::size_t kMostGroups = 8;
   const auto& groups = work.mesh.groups;
   const bool of_elements = std::any_of(groups.begin(), groups.end(), [](const Group& group) { return group.of_elements(); });
   work.categories(of_elements ? By::Elements : By::Vertices, of_elements ? work.mesh.elements.size() : work.mesh.positions.size(),
                   of_elements ? "elements" : "vertices");
   work.shading.edges = !of_elements;
   if (groups.empty()) work.out.note = "the mesh has no groups or markers";
-  const bool many = groups.size() > kMostGroups;
+  const bool many = groups.size() > kMostGroupCategories;
   std::map<std::string, std::size_t> numbers;
   for (const Group& group : groups) {
     if (group.of_elements() != of_elements) continue;

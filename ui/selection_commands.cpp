@@ -96,7 +96,9 @@ void add_selection_verbs(CommandTable& table, ViewState& state, const CommandHos
   table.add({"fix-selected", "fix-selected", "fixes the selected vertices"}, [&state, &host](Arguments words) {
     need(words, 0, 0);
     const auto view = host.session();
-    host.post("fix " + id_ranges(free_of(state, open_session(view))));
+    std::string list = id_ranges(free_of(state, open_session(view)));
+    std::ranges::replace(list, ' ', ',');
+    host.post("fix vertices:" + list);  // a number alone may also be a group's
   });
   table.add({"click-smooths", "click-smooths [on|off|toggle]", "a click on a free vertex visits it"}, [&state](Arguments words) {
     need(words, 0, 1);

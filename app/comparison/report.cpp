@@ -158,6 +158,7 @@ void add_settings(Page& page, const Comparison& comparison, const ComparisonFact
                                     counted(static_cast<std::uint64_t>(search.levels), "level", "levels"), search.omega,
                                     options.run.combine.empty() ? options.run.precision : "double")},
       {"order", options.run.order + (options.shuffles > 0 ? fmt::format(", and {} shuffled ones", options.shuffles) : "")}};
+  list.emplace_back("interfaces", options.run.interfaces);
   if (!options.run.fix.empty()) list.emplace_back("kept where they are", fmt::format("{}", fmt::join(options.run.fix, "; ")));
   for (auto& fact : machine_facts(facts.threads)) list.push_back(std::move(fact));
   page.heading("Settings");

@@ -55,6 +55,7 @@ std::optional<JudgedRun> Lab::run(const std::shared_ptr<const InputMesh>& input,
   if (parameters.combination) name += ", combined";
   if (parameters.then_mean) name += ", then mean";
   workshop_.progress.begin(fmt::format("figure {}: {} on {}:", figure.id, name, input->mesh.name));
+  parameters.interfaces = InterfaceRule::Free;  // the paper knows none
   try {
     const Metric by = judge.value_or(parameters.metric);
     return run_judged(name, input, std::move(parameters), by, {iterations}, workshop_);

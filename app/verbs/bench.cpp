@@ -55,7 +55,7 @@ int bench(const BenchOptions& options) {
 void add_bench(CLI::App& app, Action& action) {
   auto options = std::make_shared<BenchOptions>();
   CLI::App* verb = app.add_subcommand("bench", "Measure how fast this machine smooths, against the plain search in double");
-  auto* file = verb->add_option("FILE", options->file, "Mesh to smooth instead of generated ones");
+  auto* file = verb->add_option("FILE", options->file, "Mesh to smooth instead of generated ones; its interfaces move, too");
   const auto list = [verb](const char* option, std::string& value, const char* type, const std::string& doc) {
     return verb->add_option(option, value, doc)->type_name(type)->capture_default_str();
   };

@@ -84,6 +84,7 @@ void repeat(Series& series, Progress& progress) {
   parameters.combination = series.figure.combination;
   parameters.search.precision = series.figure.precision;
   parameters.search.simd = series.figure.simd;
+  parameters.interfaces = InterfaceRule::Free;  // groups in a file shall not change what is compared
   parameters.backend = series.figure.on_cpu() ? Backend::Cpu : Backend::Cuda;
   const auto start = std::chrono::steady_clock::now();
   Run run(series.input, parameters, series.pool, 0, series.acceleration);

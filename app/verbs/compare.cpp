@@ -72,7 +72,8 @@ int compare(const CompareOptions& options, const std::string& command_line) {
   const auto pool = std::make_shared<ThreadPool>(options.run.threads);
   const auto input = load_input(options.file, Need::Smoothing, {progress, pool.get()});
   std::vector<std::string> warnings = tell_findings(*input);
-  fit_to_mesh(plan, input, named_vertices(input->mesh, options.run.fix));
+  fit_to_mesh(plan, input, vertices_to_fix(input->mesh, options.run.fix));
+  tell_interfaces(*input, plan.contenders.front().parameters, warnings);
 
   const auto warn = [&warnings](std::string sentence) {
     complain(sentence);

@@ -1,5 +1,6 @@
-// dmoscope info: what this program is and what it can use here.
+// dmoscope info: what this program is and what it can use here; or what is in a mesh file.
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 
 #include "app/machine.h"
 #include "app/text.h"
+#include "app/verbs/mesh_info.h"
 #include "app/verbs/verbs.h"
 #include "core/base/error.h"
 #include "core/io/mesh_io.h"
@@ -140,11 +142,15 @@ void print_for_a_person() {
 
 void add_info(CLI::App& app, Action& action) {
   auto json = std::make_shared<bool>(false);
-  CLI::App* verb = app.add_subcommand("info", "Version, backends and devices, formats, metrics, methods and samples");
+  auto file = std::make_shared<std::filesystem::path>();
+  CLI::App* verb = app.add_subcommand("info", "Version, backends and devices, formats, metrics, methods and samples; or what is in a mesh");
+  verb->add_option("FILE", *file, "Mesh whose elements, groups and data to list");
   verb->add_flag("--json", *json, "Print one JSON object and nothing else on standard output");
-  verb->callback([json, &action] {
-    action = [json] {
-      if (*json) {
+  verb->callback([json, file, &action] {
+    action = [json, file] {
+      if (!file->empty()) {
+        tell_mesh(*file, *json);
+      } else if (*json) {
         print_json(everything());
       } else {
         print_for_a_person();

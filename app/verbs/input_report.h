@@ -4,15 +4,17 @@
 #include <string>
 #include <vector>
 
-#include "core/session/input_mesh.h"
+#include "core/session/run.h"
 
 namespace dmoscope::app {
 
 /// Sentences about the mesh, the orientation's first; each also goes to standard error.
 std::vector<std::string> tell_findings(const InputMesh& input);
 
-/// Vertices of `texts`, each a list of 0-based ids and ranges ("3,7-9") or the name of a group of the mesh (its vertices, the ends
-/// of its edges, or the corners of its elements); a group's name goes before a list. Sorted, each once. Throws UsageError.
-[[nodiscard]] std::vector<Index> named_vertices(const Mesh& mesh, const std::vector<std::string>& texts);
+/// What stays on interfaces, if anything does by these parameters: to standard error and to `warnings`.
+void tell_interfaces(const InputMesh& input, const RunParameters& parameters, std::vector<std::string>& warnings);
+
+/// What the words of --fix name, see vertices_named(). Sorted, each once. Throws UsageError.
+[[nodiscard]] std::vector<Index> vertices_to_fix(const Mesh& mesh, const std::vector<std::string>& words);
 
 }  // namespace dmoscope::app

@@ -15,6 +15,7 @@
 #include "app/console.h"
 #include "app/targets.h"
 #include "app/text.h"
+#include "app/verbs/group_table.h"
 #include "app/verbs/input_report.h"
 #include "app/verbs/option_checks.h"
 #include "app/verbs/verbs.h"
@@ -165,6 +166,7 @@ int quality(const Options& options) {
                 {"elements", mesh.elements.size()},
                 {"inverted", inverted},
                 {"metrics", std::move(list)},
+                {"groups", json_of_groups(mesh)},
                 {"warnings", warnings}});
     return 0;
   }
@@ -172,6 +174,8 @@ int quality(const Options& options) {
              counted(mesh.elements.size(), "element", "elements"), grouped(inverted));
   print_table(columns);
   for (const Column& column : columns) print_worst(mesh, column, options.worst);
+  constexpr std::size_t kMostGroups = 20;
+  print_groups(mesh, kMostGroups);
   return 0;
 }
 

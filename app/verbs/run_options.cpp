@@ -10,6 +10,7 @@
 #include "app/text.h"
 #include "app/verbs/option_checks.h"
 #include "core/base/error.h"
+#include "core/mesh/vertex_words.h"
 #include "core/quality/metric.h"
 #include "core/session/session_commands.h"
 
@@ -83,11 +84,15 @@ void add_run_options(CLI::App& verb, RunOptions& options) {
       ->type_name("N")
       ->capture_default_str();
   verb.add_option("--order", options.order, "Order of the vertices: natural or shuffle:SEED")->type_name("ORDER")->capture_default_str();
-  verb.add_option("--fix", options.fix,
-                  "Vertices to keep where they are besides the boundary: ids from 0 and ranges (3,7-9), or a group's name")
-      ->type_name("LIST-OR-GROUP")
+  verb.add_option("--fix", options.fix, fmt::format("Vertices to keep where they are besides the boundary: {}", kVertexWords))
+      ->type_name("VERTICES")
       ->take_all()
       ->expected(1);
+  verb.add_option("--interfaces", options.interfaces,
+                  "What lies between groups of elements (or between values of material, region, mat_id and the like), on lines and faces "
+                  "inside that the file names, on its boundary strings, and points that it names: fixed, or free to move")
+      ->type_name("fixed|free")
+      ->capture_default_str();
 }
 
 RunParameters parameters_of(const RunOptions& options) {
@@ -109,6 +114,7 @@ RunParameters parameters_of(const RunOptions& options) {
   parameters.options.directions = parse_directions(options.directions);
   validate(parameters.options);
   parameters.order = parse_order(options.order);
+  parameters.interfaces = parse_interface_rule(options.interfaces);
   parameters.backend = parse_backend(options.backend);
   return parameters;
 }

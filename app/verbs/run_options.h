@@ -26,14 +26,15 @@ struct RunOptions {
   unsigned threads = 0;
   SearchParameters search;
   MethodOptions method_options;
-  std::vector<std::string> fix;  // for named_vertices()
+  std::vector<std::string> fix;  // for vertices_to_fix()
+  std::string interfaces{name(InterfaceRule::Fixed)};
 };
 
 /// Declares --backend.
 void add_backend_option(CLI::App& verb, std::string& backend);
 
 /// Declares --method, --metric, --combine, --size-function, --then, --backend, --threads, --grid, --levels, --omega, --precision, --simd,
-/// --relaxation, --directions, --seed, --order and --fix.
+/// --relaxation, --directions, --seed, --order, --fix and --interfaces.
 void add_run_options(CLI::App& verb, RunOptions& options);
 
 /// The parameters without the fixed set, which needs the mesh. Throws UsageError for names that do not exist and values out of range.

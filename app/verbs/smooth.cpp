@@ -112,7 +112,9 @@ Json json_of(const Result& r) {
                           {"directions", name(p.options.directions)},
                           {"seed", p.options.seed},
                           {"order", r.options.run.order},
-                          {"fixed_by_user", p.fixed.size()}};
+                          {"fixed_by_user", p.fixed.size()},
+                          {"interfaces", name(p.interfaces)}};
+  object["held_on_interfaces"] = p.interfaces == InterfaceRule::Fixed ? r.run.input().interfaces.count() : 0;
   object["iterations"] = r.outcome.iterations;
   object["stopped"] = reason_name(r.outcome.reason);
   object["last_rise"] = r.outcome.last_rise;
@@ -209,7 +211,8 @@ int smooth(const Options& options) {
   const auto pool = std::make_shared<ThreadPool>(options.run.threads);
   const auto input = load_input(options.input, Need::Smoothing, {progress, pool.get()});
   std::vector<std::string> warnings = tell_findings(*input);
-  parameters.fixed = named_vertices(input->mesh, options.run.fix);
+  parameters.fixed = vertices_to_fix(input->mesh, options.run.fix);
+  tell_interfaces(*input, parameters, warnings);
 
   Run run(input, std::move(parameters), pool, 0, acceleration);  // no past positions: nobody asks for them here
   const auto warn = [&warnings](std::string sentence) {

@@ -31,6 +31,8 @@ struct Request {
 [[nodiscard]] Mesh hexahedra(const Request& request);
 [[nodiscard]] Mesh solids(const Request& request);
 [[nodiscard]] Mesh tangled_solids(const Request& request);
+[[nodiscard]] Mesh nested(const Request& request);
+[[nodiscard]] Mesh nested_solids(const Request& request);
 
 /// Cosine and sine of an angle in turns, from additions and multiplications alone: the same bits with every mathematics library.
 [[nodiscard]] double cos_turns(double turns);

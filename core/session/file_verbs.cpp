@@ -17,6 +17,7 @@ void tell_report(CommandContext& context) {
   tell(context, fmt::format("{}: {}, {}", input.mesh.name, counted(input.mesh.vertex_count(), "vertex", "vertices"),
                             counted(input.mesh.elements.size(), "element", "elements")));
   for (std::string& sentence : input.report.sentences()) tell(context, std::move(sentence), Message::Kind::Warning);
+  tell_interfaces(context);
 }
 
 void open(CommandContext& context, Arguments arguments) {

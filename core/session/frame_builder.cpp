@@ -77,12 +77,13 @@ void FrameBuilder::refresh_input(Session& session) {
 
 bool FrameBuilder::FrameKey::is(const FrameKey& other) const {
   const bool same_run = index == Frame::kNoRun || (!run.expired() && run.lock() == other.run.lock());
-  return same_run && index == other.index && path == other.path && moment == other.moment && shown == other.shown;
+  return same_run && index == other.index && path == other.path && moment == other.moment && shown == other.shown &&
+         interfaces == other.interfaces;
 }
 
 FrameBuilder::FrameKey FrameBuilder::key_of(Session& session, std::size_t index) {
   const Run& run = session.run(index);
-  return {session.identity(index), index, run.path(), run.moment(), session.shown()};
+  return {session.identity(index), index, run.path(), run.moment(), session.shown(), {}};
 }
 
 FrameBuilder::FrameKey FrameBuilder::key_of(Session& session, std::size_t index, std::uint64_t iteration) {
@@ -160,10 +161,12 @@ std::shared_ptr<const Frame> FrameBuilder::past(Session& session, std::size_t in
 std::shared_ptr<const Frame> FrameBuilder::input_frame(Session& session) {
   FrameKey key;
   key.shown = session.shown();
+  key.interfaces = session.active().parameters().interfaces;
   if (const Known* known = find(session, key)) return known->frame;
   auto frame = begin(session, key);
   frame->positions = session.input()->mesh.positions;
-  judge_elements(*frame, immovable_elements(input_->mesh, input_->topology.boundary(), session.pool().get()), session.pool().get());
+  const std::vector<std::uint8_t> standing = standing_vertices(*input_, key.interfaces);
+  judge_elements(*frame, immovable_elements(input_->mesh, standing, session.pool().get()), session.pool().get());
   frame->statistics = frame->shown_statistics;
   return keep(std::move(key), std::move(frame));
 }

@@ -161,6 +161,15 @@ std::vector<double> reference_measures(const Mesh& mesh, const Geometry& geometr
 
 }  // namespace
 
+std::vector<std::uint8_t> standing_vertices(const InputMesh& input, InterfaceRule rule) {
+  const auto boundary = input.topology.boundary();
+  std::vector<std::uint8_t> standing(boundary.begin(), boundary.end());
+  for (Index v = 0; v < standing.size(); ++v) {
+    if (input.topology.star(v).empty() || (rule == InterfaceRule::Fixed && input.interfaces.holds(v))) standing[v] = 1;
+  }
+  return standing;
+}
+
 MeshReport examine(const Mesh& mesh, const Geometry& geometry) {
   EdgeSurvey edges;
   Progress unwatched;
@@ -175,8 +184,10 @@ std::shared_ptr<const InputMesh> assemble(Mesh mesh, Geometry geometry, Topology
   if (mesh.source) report.file_notes = mesh.source->notes();
   std::vector<double> reference = reference_measures(mesh, geometry, topology, progress);
   progress.check();
+  Interfaces interfaces(mesh, topology);
+  progress.check();
   return std::make_shared<const InputMesh>(InputMesh{std::move(mesh), geometry, std::move(topology), std::move(faces), std::move(report),
-                                                     std::move(path), std::move(reference), std::move(generator)});
+                                                     std::move(path), std::move(reference), std::move(generator), std::move(interfaces)});
 }
 
 std::shared_ptr<const InputMesh> prepare_volume(Mesh mesh, const Geometry& geometry, std::filesystem::path path, Progress& progress,

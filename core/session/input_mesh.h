@@ -9,6 +9,7 @@
 #include "core/base/progress.h"
 #include "core/io/io_context.h"
 #include "core/mesh/faces.h"
+#include "core/mesh/interfaces.h"
 #include "core/mesh/mesh.h"
 #include "core/mesh/mesh_view.h"
 #include "core/mesh/plane.h"
@@ -28,6 +29,7 @@ struct InputMesh {
   std::vector<double> reference_measure;  // > 0, divides an element's Jacobian while untangling: mean over its corners of the mean |area|
                                           // or |volume| in their stars, at input; of a volume the Jacobian of an ideal element of that size
   std::string generator{};                // "coast 4000 1": the words that make this mesh again; empty for any other
+  Interfaces interfaces{};
   [[nodiscard]] QualityContext quality_context() const { return {mesh, geometry}; }
   [[nodiscard]] bool is_volume() const noexcept { return geometry.shape == Shape::Volume; }
   /// Of a planar mesh (Plane) or of a volume (Space).
@@ -40,6 +42,9 @@ struct InputMesh {
   }
   [[nodiscard]] PlanarView planar_view() const { return view<Plane>(); }
 };
+
+/// 1 where a vertex of the mesh may not move whatever a person fixes: on the boundary, of no element and, by this rule, on an interface.
+[[nodiscard]] std::vector<std::uint8_t> standing_vertices(const InputMesh& input, InterfaceRule rule);
 
 enum class Need { Smoothing, QualityOnly };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/mesh/vertex_words.h"
 #include "core/session/verbs.h"
 
 namespace dmoscope {
@@ -77,8 +78,14 @@ void set_order(CommandContext& context, Arguments arguments) {
 }
 void fix(CommandContext& context, Arguments arguments) {
   require(arguments, 1, arguments.size());
-  const std::vector<Index> vertices = to_vertices(arguments, context.session.input()->mesh);
+  const std::vector<Index> vertices = vertices_named(context.session.input()->mesh, arguments);
   change_run(context, [&](RunParameters& p) { p.fixed.insert(p.fixed.end(), vertices.begin(), vertices.end()); });
+}
+void set_interfaces(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  const InterfaceRule rule = parse_interface_rule(arguments[0]);
+  change_run(context, [&](RunParameters& p) { p.interfaces = rule; });
+  tell_interfaces(context);
 }
 void unfix(CommandContext& context, Arguments arguments) {
   require(arguments, 0, 0);
@@ -103,7 +110,12 @@ std::span<const Verb> parameter_verbs() {
       {{"seed", "seed N", "Of dvr's random directions."}, set_seed},
       {{"backend", "backend auto|cpu|cuda", "What smooths: the CPU, a CUDA device, or the best there is."}, set_backend},
       {{"order", "order natural|shuffle:SEED", "The order in which vertices are coloured and visited."}, set_order},
-      {{"fix", "fix VERTEX|A-B...", "Fixes vertices besides the boundary."}, fix},
+      {{"interfaces", "interfaces fixed|free",
+        "Whether what lies between groups of elements, and on lines, faces and points that the file names, stays or may move."},
+       set_interfaces},
+      {{"fix", "fix VERTEX|A-B|group:NAME|FIELD=VALUE|box:X0,Y0,X1,Y1...",
+        "Fixes vertices besides the boundary: by number, by a group's name, by data of the file, or in a box."},
+       fix},
       {{"unfix", "unfix", "Frees all that was fixed by hand."}, unfix},
   };
   return table;

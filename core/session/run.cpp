@@ -12,12 +12,9 @@ namespace dmoscope {
 
 namespace {
 
-std::vector<std::uint8_t> fixed_vertices(const InputMesh& input, std::span<const Index> chosen) {
-  const auto boundary = input.topology.boundary();
-  std::vector<std::uint8_t> fixed(boundary.begin(), boundary.end());
-  for (Index v = 0; v < fixed.size(); ++v)
-    if (input.topology.star(v).empty()) fixed[v] = 1;
-  for (const Index v : chosen) {
+std::vector<std::uint8_t> fixed_vertices(const InputMesh& input, const RunParameters& parameters) {
+  std::vector<std::uint8_t> fixed = standing_vertices(input, parameters.interfaces);
+  for (const Index v : parameters.fixed) {
     if (v >= fixed.size()) throw UsageError(fmt::format("fixed vertex {} does not exist: the mesh has {} vertices", v, fixed.size()));
     fixed[v] = 1;
   }
@@ -75,6 +72,7 @@ std::string other_than_usual(const RunParameters& parameters) {
   if (method.has_directions && options.directions == usual.directions && options.seed != usual.seed)
     text += fmt::format(", directions {}", options.seed);
   if (parameters.order.seed) text += fmt::format(", shuffle:{}", *parameters.order.seed);
+  if (parameters.interfaces == InterfaceRule::Free) text += ", interfaces free";
   return text;
 }
 
@@ -84,7 +82,7 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
       parameters_(std::move(parameters)),
       pool_(std::move(pool)),
       acceleration_(std::move(acceleration)),
-      fixed_(std::make_shared<const std::vector<std::uint8_t>>(fixed_vertices(*input_, parameters_.fixed))),
+      fixed_(std::make_shared<const std::vector<std::uint8_t>>(fixed_vertices(*input_, parameters_))),
       colouring_(make_colouring(*input_, free_vertices(fixed(), parameters_.order), pool_.get())),
       immovable_(immovable_elements(input_->mesh, fixed(), pool_.get())),
       size_(make_size_field(input_, parameters_.combination)),

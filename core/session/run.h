@@ -41,7 +41,8 @@ struct RunParameters {
   std::optional<Combination> combination{};  // of `metric`, the first, with a second aim
   std::optional<MeanPhase> then_mean{};      // a second phase
   VisitOrder order{};
-  std::vector<Index> fixed{};  // the user's fixed set, besides boundary and unused vertices
+  std::vector<Index> fixed{};  // the user's fixed set, besides boundary and unused vertices and, as `interfaces` says, those on interfaces
+  InterfaceRule interfaces = InterfaceRule::Fixed;
   Backend backend = Backend::Auto;
   friend bool operator==(const RunParameters&, const RunParameters&) = default;
 };
@@ -133,7 +134,7 @@ class Run {
   void recover();
   [[nodiscard]] const Colouring& colouring() const noexcept { return *colouring_; }
   [[nodiscard]] const std::shared_ptr<const Colouring>& shared_colouring() const noexcept { return colouring_; }
-  /// 1 where a vertex may not move: boundary, unused, or the user's.
+  /// 1 where a vertex may not move: boundary, unused, on an interface that is fixed, or the user's.
   [[nodiscard]] std::span<const std::uint8_t> fixed() const noexcept { return fixed_; }
   [[nodiscard]] const SharedVector<std::uint8_t>& shared_fixed() const noexcept { return fixed_; }
   /// "it lies on the boundary, which stays"; empty for a free vertex.

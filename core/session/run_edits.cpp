@@ -31,6 +31,7 @@ std::string Run::why_fixed(Index vertex) const {
   if (fixed()[vertex] == 0) return {};
   if (input_->topology.star(vertex).empty()) return "it belongs to no element";
   if (input_->topology.boundary()[vertex] != 0) return "it lies on the boundary, which stays";
+  if (parameters_.interfaces == InterfaceRule::Fixed && input_->interfaces.holds(vertex)) return input_->interfaces.why(vertex);
   return "it was fixed by hand";
 }
 

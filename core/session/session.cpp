@@ -41,6 +41,7 @@ void Session::replace_input(std::shared_ptr<const InputMesh> input) {
   if (!runs_.empty()) {
     parameters = runs_[active_]->parameters();
     parameters.fixed.clear();
+    parameters.interfaces = InterfaceRule::Fixed;  // who freed those of one mesh has not seen the next one's
   }
   const auto usable = [&mesh = input->mesh](Metric metric) {  // not `input`: it is moved from below
     return std::ranges::all_of(mesh.elements.kinds(), [&](ElementKind kind) { return info(metric).defined_for(kind); });

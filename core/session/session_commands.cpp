@@ -67,6 +67,13 @@ void require(Arguments arguments, std::size_t least, std::size_t most) {
 
 void tell(CommandContext& context, std::string text, Message::Kind kind) { context.say({kind, std::move(text), 0}); }
 
+void tell_interfaces(CommandContext& context) {
+  const Run& run = context.session.active();
+  if (run.parameters().interfaces == InterfaceRule::Free) return;
+  std::string sentence = run.input().interfaces.sentence("'interfaces free'");
+  if (!sentence.empty()) tell(context, std::move(sentence), Message::Kind::Warning);
+}
+
 void change_run(CommandContext& context, const std::function<void(RunParameters&)>& edit) {
   RunParameters parameters = context.session.active().parameters();
   edit(parameters);

@@ -6,7 +6,8 @@
 //   metric NAME | show NAME | method NAME | grid N | levels N | omega X | precision float|double | backend auto|cpu|cuda
 //   relaxation X | directions random|axes | seed N
 //   combine FIRST:THRESHOLD:SECOND [SIZE] | combine off | size-point X Y | then mean [PATIENCE] | then nothing
-//   order natural|shuffle:SEED | fix VERTEX|A-B... | unfix | step vertex|class|iteration [COUNT] | back vertex|class|iteration [COUNT]
+//   order natural|shuffle:SEED | interfaces fixed|free | fix WORD... (see vertices_named) | unfix
+//   step vertex|class|iteration [COUNT] | back vertex|class|iteration [COUNT]
 //   run ITERATIONS | until-converged [PATIENCE [MAX]] | visit VERTEX|A-B... | seek ITERATION [VISITS [EDITS]] | reset
 //   add-run METHOD[:METRIC] | select-run K | remove-run K | undo | redo | threads N | history MIB | percentiles on|off
 //   expect minimum|movable|mean|inverted|iteration|moved  <|<=|==|>=|>  VALUE

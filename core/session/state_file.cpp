@@ -93,6 +93,7 @@ Json json_of(const RunParameters& p) {
             {"seed", p.options.seed},
             {"order", p.order.seed ? fmt::format("shuffle:{}", *p.order.seed) : "natural"},
             {"fixed", p.fixed},
+            {"interfaces", name(p.interfaces)},
             {"backend", name(p.backend)}};
   if (p.combination) json["combination"] = to_text(p.metric, *p.combination);
   if (p.combination && p.combination->size() != nullptr) json["size_function"] = to_text(*p.combination->size());
@@ -120,6 +121,8 @@ RunParameters to_parameters(const Json& json) {
   p.options = to_options(json);
   p.order = parse_order(json.at("order").get<std::string>());
   p.fixed = to_indices(json.at("fixed"));
+  // In a file of before there was this word they moved.
+  p.interfaces = json.contains("interfaces") ? parse_interface_rule(json.at("interfaces").get<std::string>()) : InterfaceRule::Free;
   p.backend = parse_backend(json.at("backend").get<std::string>());
   if (json.contains("combination"))
     std::tie(p.metric, p.combination) = parse_combination(json.at("combination").get<std::string>(), json.value("size_function", ""));

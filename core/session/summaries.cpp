@@ -36,15 +36,18 @@ std::shared_ptr<const RunSummary> Summaries::of(Session& session, std::size_t ru
   return nullptr;
 }
 
-std::shared_ptr<const InputSummary> Summaries::of_input(const Session& session) const {
-  return of_input_ && of_input_->metric == session.shown() && input_.lock() == session.input() ? of_input_ : nullptr;
+std::shared_ptr<const InputSummary> Summaries::of_input(Session& session) const {
+  const bool same = of_input_ && of_input_->metric == session.shown() && input_.lock() == session.input() &&
+                    input_rule_ == session.active().parameters().interfaces;
+  return same ? of_input_ : nullptr;
 }
 
-bool Summaries::find_input(const Session& session) {
+bool Summaries::find_input(Session& session) {
   if (of_input(session)) return false;
   const InputMesh& input = *session.input();
   const QualityContext context = input.quality_context();
-  const std::vector<Index> immovable = immovable_elements(input.mesh, input.topology.boundary(), session.pool().get());
+  input_rule_ = session.active().parameters().interfaces;
+  const std::vector<Index> immovable = immovable_elements(input.mesh, standing_vertices(input, input_rule_), session.pool().get());
   of_input_ = std::make_shared<const InputSummary>(
       InputSummary{session.shown(), compute_statistics(context, input.mesh.positions, session.shown(), immovable, session.pool().get()),
                    compute_percentiles(context, input.mesh.positions, session.shown(), session.pool().get())});

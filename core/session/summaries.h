@@ -25,7 +25,7 @@ class Summaries {
   /// Of a run as it stands, by the metric the session shows; null while it has not been worked out.
   [[nodiscard]] std::shared_ptr<const RunSummary> of(Session& session, std::size_t run) const;
   /// Of the input, likewise.
-  [[nodiscard]] std::shared_ptr<const InputSummary> of_input(const Session& session) const;
+  [[nodiscard]] std::shared_ptr<const InputSummary> of_input(Session& session) const;
   /// Works out those that are missing, asking `go_on` before each. `whole`: the frame of a run as it stands where there is one, else null.
   /// Returns whether there are new ones.
   bool find(Session& session, const std::function<const Frame*(std::size_t)>& whole, const std::function<bool()>& go_on);
@@ -37,11 +37,12 @@ class Summaries {
     std::shared_ptr<const RunSummary> summary;
   };
   [[nodiscard]] SizeCourse sizes_of(Session& session, std::size_t run, std::span<const Vec3> positions) const;
-  bool find_input(const Session& session);
+  bool find_input(Session& session);
   [[nodiscard]] static bool fits(const Known& known, Session& session, std::size_t run);
   std::vector<Known> known_;  // one a run
   std::weak_ptr<const InputMesh> input_;
-  std::shared_ptr<const InputSummary> of_input_;  // of input_
+  std::shared_ptr<const InputSummary> of_input_;     // of input_
+  InterfaceRule input_rule_ = InterfaceRule::Fixed;  // of of_input_: what stays there, as for the active run
 };
 
 }  // namespace dmoscope

@@ -31,6 +31,9 @@ void require(Arguments arguments, std::size_t least, std::size_t most);
 
 void tell(CommandContext& context, std::string text, Message::Kind kind = Message::Kind::Info);
 
+/// Says what the active run holds on interfaces, if anything.
+void tell_interfaces(CommandContext& context);
+
 /// Changes the active run's parameters; says so when that made a new run beside the old one.
 void change_run(CommandContext& context, const std::function<void(RunParameters&)>& edit);
 

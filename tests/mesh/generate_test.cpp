@@ -65,7 +65,9 @@ TEST(Generate, SmallestSizesWork) {
                                    {"tetrahedra", 27},
                                    {"hexahedra", 27},
                                    {"solids", 27},
-                                   {"tangled-solids", 125}}) {
+                                   {"tangled-solids", 125},
+                                   {"nested", 25},
+                                   {"nested-solids", 64}}) {
     SCOPED_TRACE(name);
     expect_valid(generated(name, static_cast<std::size_t>(size), 5), std::string_view(name).starts_with("tangled"));
   }

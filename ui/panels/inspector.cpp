@@ -40,8 +40,12 @@ void draw_mesh(PanelContext& context, const Frame& frame) {
     value_row(context, "on the boundary", count(frame.input->faces.boundary().size()), {}, {}, "faces of one element alone");
   }
   if (const RunView* run = context.run()) value_row(context, "free", count(run->free_vertices), {}, {}, "vertices that may move");
-  if (!context.derived.mesh_facts.empty()) dim_text(context, "found in the input:");
-  for (const std::string& fact : context.derived.mesh_facts) {
+  std::vector<std::string> facts = context.derived.mesh_facts;
+  const RunView* active = context.run();
+  const bool fixed = active != nullptr && active->parameters.interfaces == InterfaceRule::Fixed;
+  if (fixed && !context.derived.interfaces.empty()) facts.push_back(context.derived.interfaces);
+  if (!facts.empty()) dim_text(context, "found in the input:");
+  for (const std::string& fact : facts) {
     ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.warning));
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(fact.c_str());
@@ -77,11 +81,15 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
   if (at.z != 0.0 || context.state.is_volume) value_row(context, "z", fmt::format("{:.8g}", at.z), full);
   const bool boundary = topology.boundary()[vertex] != 0;
   const bool fixed = run != nullptr && vertex < run->fixed.size() && run->fixed[vertex] != 0;
+  const Interfaces& interfaces = frame.input->interfaces;
+  const bool interface = fixed && run->parameters.interfaces == InterfaceRule::Fixed && interfaces.holds(vertex);
   value_row(context, "may move",
             !fixed                          ? "free"
             : boundary                      ? "fixed: boundary"
             : topology.star(vertex).empty() ? "fixed: unused"
-                                            : "fixed");
+            : interface                     ? "fixed: interface"
+                                            : "fixed",
+            interface ? interfaces.why(vertex) : std::string());
   value_row(context, "valence", count(topology.star(vertex).size()), {}, {}, "elements of its star");
   number_row(context, "quality now", facts.now, "minimum over its star, of the shown metric");
   number_row(context, "at the input", facts.before);

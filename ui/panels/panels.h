@@ -174,6 +174,8 @@ void draw_parameters(PanelContext& context);
 /// Of the active run, as a part of its parameters: a second phase, and a second aim.
 void draw_aims(PanelContext& context, const RunView& run);
 void draw_colours(PanelContext& context);
+/// The mesh's groups; nothing of a mesh without any.
+void draw_groups(PanelContext& context);
 /// What is seen of a volume mesh, and from where; nothing of another one.
 void draw_inside(PanelContext& context);
 /// The clip plane in a viewport: what of it takes the mouse, to be called before whatever lies below it; and its picture.

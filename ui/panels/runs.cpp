@@ -160,6 +160,21 @@ void draw_backend(PanelContext& context, const RunView& run) {
   ImGui::EndCombo();
 }
 
+/// Of a mesh that has any.
+void draw_interfaces(PanelContext& context, const RunParameters& parameters) {
+  if (!context.session.input || !context.session.input->interfaces.any()) return;
+  labelled(context, "interfaces", "whether what lies between materials, and on lines, faces and points that the file names, stays");
+  const bool open = ImGui::BeginCombo("##interfaces", std::string(name(parameters.interfaces)).c_str());
+  context.items.record_last("interfaces");
+  if (!open) return;
+  for (const InterfaceRule rule : {InterfaceRule::Fixed, InterfaceRule::Free}) {
+    const std::string word(name(rule));
+    if (ImGui::Selectable(word.c_str(), rule == parameters.interfaces)) context.send("interfaces " + word);
+    context.items.record_last("interfaces:" + word);
+  }
+  ImGui::EndCombo();
+}
+
 void draw_order(PanelContext& context, const RunParameters& parameters) {
   labelled(context, "order", "in which order an iteration visits the vertices, before colouring");
   const bool shuffled = parameters.order.seed.has_value();
@@ -218,6 +233,7 @@ void draw_parameters(PanelContext& context) {
   metric_combo(context, "metric", parameters.metric, "metric");
   draw_aims(context, *run);
   draw_options(context, parameters);
+  draw_interfaces(context, parameters);
   draw_order(context, parameters);
   draw_backend(context, *run);
   labelled(context, "threads", "of this computer that smooth; the result does not depend on it");

@@ -1,0 +1,288 @@
+#include "core/mesh/interfaces.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/mesh/materials.h"
+#include "core/mesh/named_lists.h"
+#include "core/mesh/topology.h"
+
+namespace dmoscope {
+namespace {
+
+/// Two kinds of material side by side, or more.
+using Labels = std::vector<Index>;
+
+/// "A", "A and B", "A, B and C".
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
+/// The same; of many the first few.
+std::string first_listed(std::vector<std::string> names) {
+  constexpr std::size_t kMost = 4;
+  if (names.size() > kMost) {
+    const std::size_t more = names.size() - (kMost - 1);
+    names.resize(kMost - 1);
+    names.push_back(fmt::format("{} more", more));
+  }
+  return listed(names);
+}
+
+std::string quoted(const std::string& name) { return fmt::format("\"{}\"", name); }
+
+/// The set of groups that each element belongs to, numbered.
+class Memberships {
+ public:
+  explicit Memberships(const Mesh& mesh) : mesh_(mesh), set_of_(mesh.elements.size(), 0) {
+    for (std::size_t g = 0; g < mesh.groups.size(); ++g)
+      if (mesh.groups[g].of_elements()) add(g);
+  }
+  [[nodiscard]] const std::vector<Index>& sets() const noexcept { return set_of_; }
+  /// What tells these sets apart, one name for each: their groups but for those that all of them share.
+  [[nodiscard]] std::vector<std::string> names(const Labels& sets) const {
+    std::vector<std::size_t> shared = groups_of_[sets.front()];
+    for (const Index set : sets) {
+      std::vector<std::size_t> both;
+      std::ranges::set_intersection(shared, groups_of_[set], std::back_inserter(both));
+      shared = std::move(both);
+    }
+    std::vector<std::string> names;
+    for (const Index set : sets) {
+      std::vector<std::string> own;
+      for (const std::size_t g : groups_of_[set])
+        if (!std::ranges::binary_search(shared, g)) own.push_back(quoted(mesh_.groups[g].name));
+      if (!own.empty()) names.push_back(fmt::format("{}", fmt::join(own, " with ")));
+    }
+    if (names.size() < sets.size()) names.emplace_back("the rest");
+    return names;
+  }
+
+ private:
+  void add(std::size_t group) {
+    std::map<Index, Index> grown;  // a set, and the one with this group besides
+    for (const Index e : mesh_.groups[group].members) {
+      const Index before = set_of_[e];
+      if (!groups_of_[before].empty() && groups_of_[before].back() == group) continue;
+      const auto [at, added] = grown.try_emplace(before, static_cast<Index>(groups_of_.size()));
+      if (added) {
+        groups_of_.push_back(groups_of_[before]);
+        groups_of_.back().push_back(group);
+      }
+      set_of_[e] = at->second;
+    }
+  }
+
+  const Mesh& mesh_;
+  std::vector<Index> set_of_;                            // by element
+  std::vector<std::vector<std::size_t>> groups_of_{{}};  // by set, ascending
+};
+
+/// Each element's value of a field, numbered.
+struct NumberedValues {
+  std::vector<Index> of_element;
+  std::vector<double> values;  // ascending
+
+  explicit NumberedValues(const Field& field) : values(field.values) {
+    std::ranges::sort(values);
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    of_element.reserve(field.values.size());
+    for (const double value : field.values)
+      of_element.push_back(static_cast<Index>(std::ranges::lower_bound(values, value) - values.begin()));
+  }
+};
+
+bool all_same(const std::vector<Index>& labels) { return std::ranges::adjacent_find(labels, std::not_equal_to<>()) == labels.end(); }
+
+bool is_string(const Group& group) { return group.dimension == 0 && group.role.ends_with("boundary"); }
+/// MEDIT's RequiredVertices and RequiredEdges, in whatever case.
+bool is_required(const Group& group) {
+  constexpr std::string_view kBegins = "required";
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return group.role == "mark" && group.name.size() >= kBegins.size() &&
+         std::equal(kBegins.begin(), kBegins.end(), group.name.begin(), [&](char a, char b) { return a == small(b); });
+}
+
+}  // namespace
+
+/// Fills in the members of Interfaces.
+class Interfaces::Finder {
+ public:
+  Finder(Interfaces& found, const Mesh& mesh, const Topology& topology)
+      : found_(found), mesh_(mesh), topology_(topology), reason_(mesh.positions.size(), kNoIndex) {}
+
+  void find() {
+    between_groups();
+    between_values();
+    named(HeldBy::Faces, NamedKind::Faces, [](const Group& g) { return g.dimension == 2 && g.faces.size() > 0; });
+    named(HeldBy::Lines, NamedKind::Lines, [](const Group& g) { return g.dimension == 1; });
+    for (const Group& group : mesh_.groups)
+      if (is_string(group)) hold_all(HeldBy::Strings, group);
+    named(HeldBy::Points, NamedKind::Points, [](const Group& g) { return g.dimension == 0 && !is_string(g); });
+    finish();
+  }
+
+ private:
+  [[nodiscard]] bool inside(Index v) const { return topology_.boundary()[v] == 0 && !topology_.star(v).empty(); }
+  [[nodiscard]] bool held(Index v) const { return reason_[v] != kNoIndex; }
+  Index add_reason(std::string text) {
+    found_.reasons_.push_back(std::move(text));
+    return static_cast<Index>(found_.reasons_.size() - 1);
+  }
+  void hold(HeldBy by, Index vertex, Index reason) {
+    reason_[vertex] = reason;
+    ++found_.counts_[static_cast<std::size_t>(by)];
+  }
+
+  void between_groups() {
+    if (std::ranges::none_of(mesh_.groups, &Group::of_elements)) return;
+    const Memberships memberships(mesh_);
+    if (all_same(memberships.sets())) return;
+    told_apart_ = true;
+    found_.between_groups_ = between(HeldBy::Groups, memberships.sets(), [&](const Labels& sets) { return memberships.names(sets); });
+  }
+
+  void between_values() {
+    for (const Naming naming : {Naming::Materials, Naming::Geometry}) {
+      if (naming == Naming::Geometry && told_apart_) return;
+      for (const Field& field : mesh_.fields) {
+        if (naming_of(field) != naming) continue;
+        const NumberedValues numbered(field);
+        if (numbered.values.size() < 2) continue;
+        told_apart_ = true;
+        const Index pairs = between(HeldBy::Values, numbered.of_element, [&](const Labels& labels) {
+          std::vector<std::string> names;
+          for (const Index label : labels)
+            names.push_back(fmt::format("{}{}", names.empty() ? field.name + " " : "", numbered.values[label]));
+          return names;
+        });
+        if (pairs == 0) continue;
+        found_.between_values_ += pairs;
+        found_.value_names_ += (found_.value_names_.empty() ? "" : " and ") + field.name;
+      }
+    }
+  }
+
+  /// Holds the vertices whose elements have different labels; returns how many pairs of labels meet along more than single points.
+  template <class Names>
+  Index between(HeldBy by, const std::vector<Index>& label_of, const Names& names) {
+    std::map<Labels, Index> reasons;
+    Labels labels;
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+      if (!inside(v) || held(v)) continue;
+      labels.clear();
+      for (const Incidence& at : topology_.star(v)) {
+        const Index label = label_of[at.element];
+        if (std::ranges::find(labels, label) == labels.end()) labels.push_back(label);
+      }
+      if (labels.size() < 2) continue;
+      std::ranges::sort(labels);
+      auto known = reasons.find(labels);
+      if (known == reasons.end())
+        known =
+            reasons
+                .emplace(labels, add_reason(fmt::format("it lies on the interface between {}, which stays", first_listed(names(labels)))))
+                .first;
+      hold(by, v, known->second);
+    }
+    const auto pairs = std::ranges::count_if(reasons, [](const auto& one) { return one.first.size() == 2; });
+    return reasons.empty() ? 0 : std::max<Index>(1, static_cast<Index>(pairs));
+  }
+
+  static std::string sentence_of(HeldBy by, const Group& group) {
+    const std::string name = quoted(group.name);
+    if (by == HeldBy::Faces) return fmt::format("it lies on a face of {}, which stays", name);
+    if (by == HeldBy::Lines) return fmt::format("it lies on the line {}, which stays", name);
+    if (by == HeldBy::Strings) return fmt::format("it lies on {}, which stays", name);
+    return fmt::format("it is one of the points {}, which stay", name);
+  }
+
+  void hold_all(HeldBy by, const Group& group, NamedList* list = nullptr) {
+    Index reason = kNoIndex;
+    for (const Index v : group.vertices()) {
+      if (!inside(v) || held(v)) continue;
+      if (list != nullptr && list->surrounds(v)) {
+        listed_.resize(reason_.size(), 0);
+        listed_[v] = 1;
+        continue;
+      }
+      if (reason == kNoIndex) reason = add_reason(sentence_of(by, group));
+      hold(by, v, reason);
+    }
+  }
+
+  /// Holds what groups of one kind name, but for lists of all that there is.
+  template <class Is>
+  void named(HeldBy by, NamedKind kind, const Is& is) {
+    std::vector<const Group*> groups;
+    for (const Group& group : mesh_.groups)
+      if (is(group)) groups.push_back(&group);
+    if (groups.empty()) return;
+    NamedList list(kind, groups, mesh_, topology_);
+    for (const Group* group : groups) hold_all(by, *group, is_required(*group) ? nullptr : &list);
+  }
+
+  void finish() {
+    for (Index v = 0; v < listed_.size(); ++v) found_.listed_ += listed_[v] != 0 && !held(v) ? 1 : 0;
+    if (found_.count() == 0) return;
+    found_.all_ = true;
+    for (Index v = 0; v < mesh_.vertex_count() && found_.all_; ++v) found_.all_ = !inside(v) || held(v);
+    found_.reason_ = std::move(reason_);
+  }
+
+  Interfaces& found_;
+  const Mesh& mesh_;
+  const Topology& topology_;
+  std::vector<Index> reason_;
+  std::vector<std::uint8_t> listed_;  // by vertex: named in a list of all there is; empty without any
+  bool told_apart_ = false;           // do groups or values tell elements apart?
+};
+
+Interfaces::Interfaces(const Mesh& mesh, const Topology& topology) {
+  const bool names_elements = std::ranges::any_of(mesh.fields, [](const Field& f) { return naming_of(f) != Naming::Nothing; });
+  if (!mesh.groups.empty() || names_elements) Finder(*this, mesh, topology).find();
+}
+
+Index Interfaces::count() const noexcept { return std::accumulate(counts_.begin(), counts_.end(), Index{0}); }
+
+std::string Interfaces::sentence(std::string_view way_out) const {
+  std::vector<std::string> parts;
+  const auto add = [&](HeldBy by, const std::string& where) {
+    const Index n = count(by);
+    if (n == 0) return;
+    parts.push_back(fmt::format("{} {}", parts.empty() ? counted(n, "vertex", "vertices") : grouped(n), where));
+  };
+  const auto interfaces = [](Index n) { return n == 1 ? std::string("the interface") : grouped(n) + " interfaces"; };
+  add(HeldBy::Groups, fmt::format("on {} between groups", interfaces(between_groups_)));
+  add(HeldBy::Values, fmt::format("on {} between values of {}", interfaces(between_values_), value_names_));
+  add(HeldBy::Faces, "on faces that the file names");
+  add(HeldBy::Lines, "on lines that the file names");
+  add(HeldBy::Strings, "on boundary strings");
+  add(HeldBy::Points, "named by the file as points");
+  std::string text;
+  if (!parts.empty()) {
+    text = fmt::format("{} {} ({} {})", listed(parts), count() == 1 ? "stays" : "stay", way_out, count() == 1 ? "moves it" : "moves them");
+    if (all_) text += "; no vertex is left to move";
+  }
+  if (listed_ == 0) return text;
+  return fmt::format("{}{} named only in lists of all lines, faces or points there are; such lists hold nothing",
+                     text.empty() ? "" : text + "; ", counted(listed_, "vertex is", "vertices are"));
+}
+
+std::string_view name(InterfaceRule rule) noexcept { return rule == InterfaceRule::Fixed ? "fixed" : "free"; }
+
+InterfaceRule parse_interface_rule(std::string_view word) {
+  for (const InterfaceRule rule : {InterfaceRule::Fixed, InterfaceRule::Free})
+    if (word == name(rule)) return rule;
+  throw UsageError(fmt::format("interfaces are fixed or free, not '{}'", word));
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,63 @@
+#pragma once
+// The vertices inside a mesh that keep their place because the file gives them a meaning: those between materials, on lines, faces and
+// strings that it names, and points that it names.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/mesh/mesh.h"
+
+namespace dmoscope {
+
+class Topology;
+
+/// What becomes of a mesh's interfaces when it is smoothed.
+enum class InterfaceRule : std::uint8_t { Fixed, Free };
+[[nodiscard]] std::string_view name(InterfaceRule rule) noexcept;  // "fixed"
+/// Throws UsageError for a word that is none.
+[[nodiscard]] InterfaceRule parse_interface_rule(std::string_view word);
+
+/// Why a vertex is held; where several reasons are, the first of these.
+enum class HeldBy : std::uint8_t { Groups, Values, Faces, Lines, Strings, Points };
+inline constexpr std::size_t kHeldByCount = 6;
+
+/// Held is a vertex off the boundary
+/// - whose elements do not all belong to the same groups of elements (Groups);
+/// - whose elements carry different numbers of a field that names materials, see materials.h (Values);
+/// - of a face in a volume, or of a line, that the file names: Gmsh's and MEDIT's cells of fewer dimensions, SU2's markers, ridges (Faces,
+///   Lines). But not where faces or lines are named together with all around them: those list what there is, see named_lists.h;
+/// - of a boundary string of a fort.14, baffles and weirs among them (Strings);
+/// - that the file names as a point: required vertices, corners (Points). Likewise not inside sets of points that fill an area or volume,
+///   unless the file says that they are required.
+class Interfaces {
+ public:
+  /// None.
+  Interfaces() = default;
+  Interfaces(const Mesh& mesh, const Topology& topology);
+
+  [[nodiscard]] bool any() const noexcept { return !reason_.empty(); }
+  [[nodiscard]] bool holds(Index vertex) const noexcept { return any() && reason_[vertex] != kNoIndex; }
+  /// "it lies on the interface between "steel" and "air", which stays"; empty for a vertex that is not held.
+  [[nodiscard]] std::string why(Index vertex) const { return holds(vertex) ? reasons_[reason_[vertex]] : std::string(); }
+  /// Held vertices, each counted once.
+  [[nodiscard]] Index count(HeldBy by) const noexcept { return counts_[static_cast<std::size_t>(by)]; }
+  [[nodiscard]] Index count() const noexcept;
+  /// "1,024 vertices on 2 interfaces between groups and 12 on lines stay (--interfaces free moves them)"; empty where nothing is held or
+  /// passed over. `way_out`: what the person here can say, "--interfaces free".
+  [[nodiscard]] std::string sentence(std::string_view way_out) const;
+
+ private:
+  class Finder;
+
+  std::vector<Index> reason_;  // of every vertex, into reasons_; kNoIndex: not held. Empty where none is held
+  std::vector<std::string> reasons_;
+  std::array<Index, kHeldByCount> counts_{};
+  Index between_groups_ = 0, between_values_ = 0;  // how many pairs of materials meet
+  std::string value_names_;                        // "mat_id", "mat_id and region"
+  Index listed_ = 0;                               // vertices named in lists alone, which are not held
+  bool all_ = false;                               // no vertex is left to move
+};
+
+}  // namespace dmoscope

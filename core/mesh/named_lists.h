@@ -1,0 +1,42 @@
+#pragma once
+// Tells lines, faces and points that a file names for their own sake from lists of all the edges, faces or vertices there are: those name
+// a vertex together with everything around it.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/mesh/topology.h"
+
+namespace dmoscope {
+
+enum class NamedKind : std::uint8_t { Faces, Lines, Points };
+
+/// All that groups of one kind name in a mesh, which must outlive it.
+class NamedList {
+ public:
+  /// `groups`: of vertices (Points), edges (Lines) or faces of a volume (Faces).
+  NamedList(NamedKind kind, std::span<const Group* const> groups, const Mesh& mesh, const Topology& topology);
+  /// Is everything of this kind at the vertex, and at all vertices of its elements, named? Where lines cross, all edges of a vertex may be
+  /// named, but not those of its neighbours.
+  [[nodiscard]] bool surrounds(Index vertex);
+
+ private:
+  using Key = std::array<Index, 4>;  // ascending, the rest kNoIndex
+  [[nodiscard]] bool full(Index vertex);
+  [[nodiscard]] bool all_named_at(Index vertex) const;
+  [[nodiscard]] bool named(std::span<const Index> corners) const;
+  [[nodiscard]] static Key key_of(std::span<const Index> corners);
+  void add(std::span<const Index> corners) { keys_.push_back(key_of(corners)); }
+  void add(const Group& group);
+
+  NamedKind kind_;
+  const Mesh& mesh_;
+  const Topology& topology_;
+  std::vector<Key> keys_;              // of all that is named, ascending
+  std::vector<std::uint8_t> named_;    // points: by vertex
+  std::vector<std::uint8_t> is_full_;  // by vertex: 0 not asked yet, 1 no, 2 yes
+};
+
+}  // namespace dmoscope

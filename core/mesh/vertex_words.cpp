@@ -1,0 +1,262 @@
+#include "core/mesh/vertex_words.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/mesh/group_facts.h"
+
+namespace dmoscope {
+namespace {
+
+template <class Number>
+std::optional<Number> number_in(std::string_view word) {
+  Number value{};
+  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc{} || stop != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+std::vector<std::string_view> split(std::string_view text) {
+  std::vector<std::string_view> words;
+  while (true) {
+    const std::size_t comma = text.find(',');
+    words.push_back(text.substr(0, comma));
+    if (comma == std::string_view::npos) return words;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+/// "inlet, wall and 7 more".
+std::string some_of(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 12;
+  const std::vector<std::string> first(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(std::min(kMost, names.size())));
+  const std::string more = names.size() > kMost ? fmt::format(" and {} more", names.size() - kMost) : "";
+  return fmt::format("{}{}", fmt::join(first, ", "), more);
+}
+
+/// One word, looked up in one mesh.
+class Word {
+ public:
+  Word(const Mesh& mesh, std::string_view word) : mesh_(mesh), word_(word) {}
+
+  std::vector<Index> vertices() {
+    const std::size_t colon = word_.find(':');
+    const std::string_view head = word_.substr(0, colon == std::string_view::npos ? 0 : colon);
+    const std::string_view rest = word_.substr(colon == std::string_view::npos ? 0 : colon + 1);
+    if (head == "vertices") {
+      list(rest);
+    } else if (head == "box") {
+      box(rest);
+    } else if (head == "group") {
+      groups(rest, "");
+    } else if (head == "points" || head == "lines" || head == "faces" || head == "elements") {
+      groups(rest, head);
+    } else if (head == "data" || head == "point-data" || head == "cell-data") {
+      data(rest, head);
+    } else {
+      bare();
+    }
+    std::ranges::sort(found_);
+    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
+    return std::move(found_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw UsageError(fmt::format("{}: {}", word_, what)); }
+  [[noreturn]] void fail_choice(const std::vector<std::string>& choices) const {
+    fail(fmt::format("this can mean more than one thing; write '{}'", fmt::join(choices, "' or '")));
+  }
+
+  // --- By number ---
+
+  static bool looks_like_list(std::string_view text) {
+    return !text.empty() && text.find_first_not_of("0123456789,-") == std::string_view::npos;
+  }
+
+  Index id(std::string_view text) const {
+    const auto value = number_in<std::uint64_t>(text);
+    if (!value) fail("no list of vertices like 3,7-9");
+    if (*value >= mesh_.vertex_count())
+      fail(fmt::format("there is no vertex {} (the mesh has {}, counted from 0)", *value, mesh_.vertex_count()));
+    return static_cast<Index>(*value);
+  }
+
+  void list(std::string_view text) {
+    for (const std::string_view part : split(text)) {
+      const std::size_t dash = part.find('-');
+      const Index first = id(part.substr(0, dash));
+      const Index last = dash == std::string_view::npos ? first : id(part.substr(dash + 1));
+      if (last < first) fail(fmt::format("the range {} runs backwards", part));
+      for (Index v = first; v <= last; ++v) found_.push_back(v);
+    }
+  }
+
+  // --- By group ---
+
+  /// Groups of this name, or else of this number; of one kind of members where `of` says so.
+  [[nodiscard]] std::vector<const Group*> groups_called(std::string_view name, std::string_view of) const {
+    std::vector<const Group*> called, numbered;
+    const auto number = number_in<int>(name);
+    for (const Group& group : mesh_.groups) {
+      if (!of.empty() && members_of(group) != of) continue;
+      if (group.name == name) called.push_back(&group);
+      if (number && number_of(group) == number) numbered.push_back(&group);
+    }
+    return called.empty() ? numbered : called;
+  }
+
+  /// "group:wall", or with the kind of members where groups of several kinds are called so.
+  [[nodiscard]] static std::vector<std::string> ways_to_say(const std::vector<const Group*>& groups) {
+    std::vector<std::string> precise, short_ones;
+    for (const Group* group : groups) {
+      const std::string one = fmt::format("{}:{}", members_of(*group), group->name);
+      if (std::ranges::find(precise, one) != precise.end()) continue;
+      precise.push_back(one);
+      short_ones.push_back("group:" + group->name);
+    }
+    return precise.size() == 1 ? short_ones : precise;
+  }
+
+  void groups(std::string_view name, std::string_view of) {
+    const auto called = groups_called(name, of);
+    if (called.empty()) {
+      std::vector<std::string> names;
+      for (const Group& group : mesh_.groups)
+        if (of.empty() || members_of(group) == of) names.push_back(group.name);
+      const std::string what = of.empty() ? "groups" : fmt::format("groups of {}", of);
+      fail(names.empty() ? fmt::format("the mesh has no {}", what) : fmt::format("no such group; the mesh's {}: {}", what, some_of(names)));
+    }
+    const auto ways = ways_to_say(called);
+    if (ways.size() > 1) fail_choice(ways);
+    for (const Group* group : called) {
+      const auto some = vertices_of(mesh_, *group);
+      found_.insert(found_.end(), some.begin(), some.end());
+    }
+  }
+
+  // --- By data ---
+
+  [[nodiscard]] std::vector<const Field*> fields_called(std::string_view name, std::string_view head) const {
+    std::vector<const Field*> called;
+    for (const Field& field : mesh_.fields) {
+      const bool of_cells = field.on == Field::On::Elements;
+      if (field.name == name && !(head == "point-data" && of_cells) && !(head == "cell-data" && !of_cells)) called.push_back(&field);
+    }
+    return called;
+  }
+
+  void data(std::string_view text, std::string_view head) {
+    const std::size_t equals = text.rfind('=');
+    if (equals == std::string_view::npos) fail("data are named as in mat_id=3 or mat_id=3,5");
+    const std::string_view name = text.substr(0, equals);
+    const auto called = fields_called(name, head);
+    if (called.empty()) {
+      std::vector<std::string> names;
+      for (const Field& field : mesh_.fields) names.push_back(field.name);
+      fail(names.empty() ? "the file has no data" : fmt::format("no such data; the file's are {}", some_of(names)));
+    }
+    if (called.size() > 1 && called[0]->on != called[1]->on)
+      fail_choice({fmt::format("point-data:{}", text), fmt::format("cell-data:{}", text)});
+    for (const std::string_view value : split(text.substr(equals + 1))) with_value(*called.front(), value);
+  }
+
+  void with_value(const Field& field, std::string_view text) {
+    const auto value = number_in<double>(text);
+    if (!value) fail(fmt::format("'{}' is no number", text));
+    if (field.components != 1) fail(fmt::format("{} has {} numbers for each, not one", field.name, field.components));
+    bool any = false;
+    for (Index at = 0; at < field.values.size(); ++at) {
+      if (field.values[at] != *value) continue;
+      any = true;
+      if (field.on == Field::On::Vertices) {
+        found_.push_back(at);
+      } else {
+        const auto corners = mesh_.elements.corners(at);
+        found_.insert(found_.end(), corners.begin(), corners.end());
+      }
+    }
+    if (any) return;
+    std::set<double> values;
+    for (const double one : field.values)
+      if (!std::isnan(one)) values.insert(one);
+    std::vector<std::string> there;
+    for (const double one : values) there.push_back(fmt::format("{}", one));
+    fail(fmt::format("{} is nowhere {}; it is {}", field.name, text, some_of(there)));
+  }
+
+  // --- By place ---
+
+  void box(std::string_view text) {
+    std::vector<double> limits;
+    for (const std::string_view part : split(text)) {
+      const auto value = number_in<double>(part);
+      if (!value || std::isnan(*value)) fail(fmt::format("'{}' is no number", part));
+      limits.push_back(*value);
+    }
+    if (limits.size() != 4 && limits.size() != 6) fail("a box is box:X0,Y0,X1,Y1 or box:X0,Y0,Z0,X1,Y1,Z1");
+    const std::size_t axes = limits.size() / 2;
+    for (std::size_t a = 0; a < axes; ++a)
+      if (limits[a + axes] < limits[a]) fail(fmt::format("the box ends at {} before it begins at {}", limits[a + axes], limits[a]));
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+      const Vec3& p = mesh_.positions[v];
+      const std::array<double, 3> at{p.x, p.y, p.z};
+      bool inside = true;
+      for (std::size_t a = 0; a < axes; ++a) inside = inside && at[a] >= limits[a] && at[a] <= limits[a + axes];
+      if (inside) found_.push_back(v);
+    }
+    if (found_.empty()) fail("no vertex lies in this box");
+  }
+
+  // --- Whatever it can mean ---
+
+  void bare() {
+    const std::size_t equals = word_.rfind('=');
+    const auto called = groups_called(word_, "");
+    const bool is_list = looks_like_list(word_);
+    const bool is_data = equals != std::string_view::npos && !fields_called(word_.substr(0, equals), "").empty();
+    std::vector<std::string> ways = called.empty() ? std::vector<std::string>{} : ways_to_say(called);
+    if (is_list) ways.push_back(fmt::format("vertices:{}", word_));
+    if (is_data) ways.push_back(fmt::format("data:{}", word_));
+    if (ways.size() > 1) fail_choice(ways);
+    if (is_list) return list(word_);
+    if (is_data) return data(word_, "");
+    if (!called.empty()) return groups(word_, "");
+    fail("neither a list of vertices like 3,7-9 nor " + groups_and_data());
+  }
+
+  [[nodiscard]] std::string groups_and_data() const {
+    std::vector<std::string> groups, fields;
+    for (const Group& group : mesh_.groups) groups.push_back(group.name);
+    for (const Field& field : mesh_.fields) fields.push_back(field.name);
+    std::string text = groups.empty() ? "a group of the mesh, which has none" : fmt::format("one of its groups ({})", some_of(groups));
+    if (!fields.empty()) text += fmt::format(" nor its data with a number, as in {}=3 (data: {})", fields.front(), some_of(fields));
+    return text;
+  }
+
+  const Mesh& mesh_;
+  std::string_view word_;
+  std::vector<Index> found_;
+};
+
+}  // namespace
+
+std::vector<Index> vertices_named(const Mesh& mesh, std::string_view word) { return Word(mesh, word).vertices(); }
+
+std::vector<Index> vertices_named(const Mesh& mesh, std::span<const std::string> words) {
+  std::vector<Index> all;
+  for (const std::string& word : words) {
+    const auto some = vertices_named(mesh, word);
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+}  // namespace dmoscope

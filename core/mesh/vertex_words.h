@@ -1,0 +1,33 @@
+#pragma once
+// Words by which a person names vertices of a mesh: by number, by group, by the data that the file carried, or by place.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/mesh/mesh.h"
+
+namespace dmoscope {
+
+/// How such words are written, in one line for --help.
+inline constexpr std::string_view kVertexWords =
+    "ids from 0 and ranges (3,7-9 or vertices:3,7-9), a group (its name or group:NAME), those with some number in the file's data "
+    "(mat_id=3,5, of elements or points), or those in a box (box:X0,Y0,X1,Y1 or box:X0,Y0,Z0,X1,Y1,Z1)";
+
+/// The vertices that one word names:
+///   vertices:3,7-9              by number from 0, and ranges
+///   group:NAME                  of a group by its name, or else by its number in the file; of elements all their corners. Where groups of
+///                               points, lines, faces and elements share a name: points:NAME, lines:NAME, faces:NAME, elements:NAME
+///   data:FIELD=3,5              whose number in a field is one of these, and the corners of such elements. Where points and cells have
+///                               fields of one name: point-data:FIELD=3, cell-data:FIELD=3
+///   box:X0,Y0,X1,Y1             with x and y (and, of six numbers, z) in these ranges, which belong to it
+/// and, without what stands before the colon, any of the first three that it can mean. Ascending, each once.
+/// Throws UsageError, which begins with the word, for one that means nothing or nothing that there is, naming what there is, and for one
+/// that can mean more than one thing, naming the choices.
+[[nodiscard]] std::vector<Index> vertices_named(const Mesh& mesh, std::string_view word);
+
+/// Of several words, together.
+[[nodiscard]] std::vector<Index> vertices_named(const Mesh& mesh, std::span<const std::string> words);
+
+}  // namespace dmoscope

@@ -1,0 +1,27 @@
+#pragma once
+// The groups of a mesh as the window lists them.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/mesh/group_facts.h"
+#include "render/colour_map.h"
+
+namespace dmoscope::ui {
+
+/// With more groups than this, those of one role and code are one category of colours (hundreds of islands).
+inline constexpr std::size_t kMostGroupCategories = 8;
+/// The category that a group belongs to; `many`: there are more than kMostGroupCategories groups.
+[[nodiscard]] std::string category_of(const Group& group, bool many);
+
+struct GroupLine {
+  GroupFacts facts;
+  std::string word;                   // by which `fix` knows it, "elements:steel"
+  std::optional<render::Rgb> colour;  // in the mesh coloured by group; none: it is not coloured
+};
+/// One for each of the mesh's groups, in their order.
+[[nodiscard]] std::vector<GroupLine> group_lines(const Mesh& mesh);
+
+}  // namespace dmoscope::ui

@@ -254,7 +254,7 @@ Notes write_stl(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positi
   TextWriter out(file, context);
   std::string name = mesh.title;
   for (char& c : name) {
-    if (c == '\n' || c == '\r') c = ' ';
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';  // a NUL would make it a binary file
   }
   out << "solid " << name << '\n';
   out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t e) {

@@ -22,7 +22,7 @@ void require_plot_target(const std::filesystem::path& path) {
   require_writable(path);
 }
 
-std::string plot_bytes(const std::filesystem::path& path, const Drawing& drawing) {
+std::string plot_bytes([[maybe_unused]] const std::filesystem::path& path, const Drawing& drawing) {
 #ifdef DMOSCOPE_HAVE_GUI
   if (path.extension() == ".png") return render::encode_png(render::picture_of(drawing));
 #endif

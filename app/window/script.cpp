@@ -19,7 +19,7 @@
 namespace dmoscope::app {
 namespace {
 
-void print(const Message& message) {
+void tell(const Message& message) {
   if (message.kind == Message::Kind::Info) print("{}\n", message.text);
   if (message.kind == Message::Kind::Warning) complain("warning: " + message.text);
   std::fflush(stdout);
@@ -55,7 +55,7 @@ int run_in_engine(const ScriptOptions& options) {
       if (!failure && ends_script(message, options.lines[k])) {
         failure = message;
       } else {
-        print(message);
+        tell(message);
       }
     }
     if (failure) return fail(options, k, *failure);
@@ -73,7 +73,7 @@ int run_in_window(Window& window, const ScriptOptions& options) {
       if (!failure && ends_script(message, options.lines[k])) {
         failure = message;
       } else {
-        print(message);
+        tell(message);
       }
     }
     if (failure) return fail(options, k, *failure);

@@ -209,14 +209,6 @@ Json json_of(Run& run, Progress& progress) {
   return json;
 }
 
-void require_finite(std::span<const Vec3> positions) {
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    const Vec3 p = positions[v];
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-      throw UsageError(fmt::format("the positions of a run are damaged: vertex {} is nowhere", v));
-  }
-}
-
 /// What the file says of the positions must be what they are, whatever it says.
 void require_record(const Run& run, const std::vector<IterationRecord>& records, std::uint64_t iteration, std::span<const Vec3> positions) {
   if (iteration >= records.size()) return;  // adopt() refuses that
@@ -250,7 +242,6 @@ std::shared_ptr<Run> to_run(const Json& json, const Session& session, const std:
     auto unpacked = unpack_positions(json.at("positions").get_ref<const std::string&>(), input->mesh.positions.size());
     if (!unpacked) throw UsageError("the positions of a run are damaged");
     positions = std::move(*unpacked);
-    require_finite(positions);
     for (Index v = 0; v < positions.size(); ++v)
       if (run->fixed()[v] != 0 && std::memcmp(&positions[v], &input->mesh.positions[v], sizeof(Vec3)) != 0)
         throw UsageError(fmt::format("vertex {} is fixed, but has moved", v));
@@ -335,6 +326,8 @@ Json parse(std::string_view text, const std::string& file) {
     const std::string_view before = text.substr(0, std::min<std::size_t>(text.size(), error.byte == 0 ? 0 : error.byte - 1));
     const auto line = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
     throw InputError(file, line, "this is no JSON, so no saved session");
+  } catch (const Json::exception&) {  // a number beyond all doubles
+    throw InputError(file, 0, "a number in it is too large for a saved session");
   }
 }
 

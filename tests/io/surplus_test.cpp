@@ -32,7 +32,7 @@ TEST(SurplusColumns, Fort14) {
   expect_refused("a.14", grid("2 1 1 0 5", "1 3 1 2 3"), 4, "too many");
   expect_refused("a.14", grid("2 1 0 5", "1 3 1 2 3 3"), 6, "too many");
   std::string boundary = grid("2 1 0 5", "1 3 1 2 3");
-  expect_refused("a.14", boundary.replace(boundary.find("\n2 = a"), 3, "\n2 3"), 11, "too many");
+  expect_refused("a.14", boundary.replace(boundary.find("\n2 = a"), 3, "\n2 3 "), 11, "too many");
 }
 
 TEST(SurplusColumns, Tetgen) {

@@ -27,7 +27,7 @@ TEST(TerminalText, ShowsWhatItMustNotObey) {
 }
 
 TEST(XmlText, StillKnowsItsLetters) {
-  EXPECT_EQ(xml_escaped("<\xc3\xbc&\xff\x1b\xef\xbf\xbf>"), "&lt;\xc3\xbc&amp;\xef\xbf\xbd\xef\xbf\xbd&gt;");
+  EXPECT_EQ(xml_escaped("<\xc3\xbc&\xff\x1b\xef\xbf\xbf>"), "&lt;\xc3\xbc&amp;\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd&gt;");
 }
 
 TEST(ByteSize, AsPeopleWriteIt) {

@@ -327,7 +327,7 @@ TEST_F(StateFile, OfBeforeThereWereChecksumsOpensWithANote) {
   moved[free].x = std::numeric_limits<double>::quiet_NaN();
   broken["runs"][0]["positions"] = pack_positions(moved);
   write(broken.dump());
-  EXPECT_THAT(refusal(), HasSubstr("nowhere"));
+  EXPECT_THAT(refusal(), HasSubstr("the positions of a run are damaged"));
 }
 
 TEST_F(StateFile, NothingTakesThePlaceOfAMeshThatIsOpen) {

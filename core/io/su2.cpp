@@ -14,6 +14,7 @@
 #include "core/base/memory.h"
 #include "core/io/boundary_strings.h"
 #include "core/io/format.h"
+#include "core/io/one_line.h"
 #include "core/io/text_writer.h"
 #include "core/io/tokenizer.h"
 
@@ -369,7 +370,7 @@ Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions,
   note_dropped(mesh, {}, kept, su2_format().info.title, notes);
 
   TextWriter out(file, context);
-  if (!mesh.title.empty()) out << "% " << mesh.title << '\n';
+  if (!mesh.title.empty()) out << "% " << one_line(mesh.title) << '\n';
   out << "NDIME= " << (volume ? 3 : 2) << "\nNELEM= " << mesh.elements.size() << '\n';
   out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t i) {
     std::array<Index, 8> buffer{};

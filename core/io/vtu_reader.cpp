@@ -99,24 +99,15 @@ class VtuReader {
     return *array;
   }
 
-  /// Numbers take 8 bytes each here. Text is no shorter than that; all else may become a thousand times as large, and arrays may share
-  /// their data.
-  void take_memory(const VtuArray& array, std::size_t count) {
-    if (!array.ascii && !budget_.take(std::uint64_t{8} * count))
-      document_.fail(array.node, fmt::format("the file's arrays unpack to {}", UnpackBudget::advice()));
-  }
-
   std::vector<double> numbers(const VtuArray& array, std::size_t count) {
-    take_memory(array, count);
     std::size_t end = array.begin;
-    std::vector<double> values = vtu_numbers(document_, array, count, end);
+    std::vector<double> values = vtu_numbers(document_, array, count, end, budget_);
     if (array.appended) others_.push_back({array.begin, end, false});
     return values;
   }
   std::vector<std::int64_t> wholes(const VtuArray& array, std::size_t count) {
-    take_memory(array, count);
     std::size_t end = array.begin;
-    std::vector<std::int64_t> values = vtu_wholes(document_, array, count, end);
+    std::vector<std::int64_t> values = vtu_wholes(document_, array, count, end, budget_);
     if (array.appended) others_.push_back({array.begin, end, false});
     return values;
   }
@@ -128,8 +119,7 @@ class VtuReader {
     if (array.components != 3) document_.fail(node, fmt::format("points have 3 coordinates, not {}", array.components));
     std::vector<std::uint64_t> places;
     std::size_t end = array.begin;
-    take_memory(array, 3 * count);
-    const std::vector<double> values = vtu_numbers(document_, array, 3 * count, end, &places);
+    const std::vector<double> values = vtu_numbers(document_, array, 3 * count, end, budget_, &places);
     if (mesh_.positions.empty()) reserve_large(mesh_.positions, count);
     for (std::size_t v = 0; v < count; ++v) {
       const Vec3 p{values[3 * v], values[3 * v + 1], values[3 * v + 2]};

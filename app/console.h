@@ -1,20 +1,50 @@
 #pragma once
-// What a person at a terminal sees while a verb works, and how Ctrl+C reaches the work.
+// What a person at a terminal sees, and how Ctrl+C reaches the work. All that the program prints goes through here, so that nothing in a
+// file or a name can give the terminal orders.
 
 #include <functional>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <type_traits>
+
+#include <fmt/format.h>
 
 #include "core/base/progress.h"
+#include "core/base/terminal_text.h"
 
 namespace dmoscope::app {
 
-/// From now on SIGINT and SIGTERM wait for a Watch in this thread and in all threads it starts afterwards.
+/// From now on the signals that ask a program to end (SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU) wait for a Watch in this thread and in all
+/// threads it starts afterwards, but for those that whoever started the program has it ignore (nohup).
 void block_interrupts();
 
-/// Writes "dmoscope: TEXT" and a line feed to standard error.
-void complain(std::string_view text);
+/// A file that grows too large for its limit is an error like a full disk, and no signal that ends the program.
+void ignore_file_limit_signal();
+
+/// Writes "dmoscope: TEXT" and a line feed to standard error; `hint`: another line after it.
+void complain(std::string_view text, std::string_view hint = {});
+
+/// Writes to standard output what was made for it: lines of the program's own, with what others wrote in them.
+void print_lines(std::string_view text);
+
+/// A word as a line shows it; all that is no text as it is.
+template <class Thing>
+using Shown = std::conditional_t<std::is_convertible_v<const Thing&, std::string_view>, std::string, Thing>;
+
+template <class Thing>
+[[nodiscard]] Shown<Thing> shown(const Thing& thing) {
+  if constexpr (std::is_convertible_v<const Thing&, std::string_view>)
+    return terminal_line(thing);
+  else
+    return thing;
+}
+
+/// fmt::print to standard output, but each word that is filled in stays on its line.
+template <class... Things>
+void print(fmt::format_string<const Shown<Things>&...> format, const Things&... things) {
+  print_lines(fmt::format(format, static_cast<const Shown<Things>&>(shown(things))...));
+}
 
 /// Hands standard output what was printed. Throws OutputError when it does not take it, now or before.
 void flush_output();
@@ -34,13 +64,14 @@ class Watch {
   [[nodiscard]] Progress& progress() noexcept { return own_; }
 
  private:
-  void watch(const std::stop_token& stop);
+  void watch();
   void draw(bool& drawn) const;
 
   Progress own_;
   const Progress& shown_;
   std::function<void()> cancel_;
-  std::jthread thread_;  // last: everything above exists before it starts
+  int signals_ = -1, wake_ = -1;  // descriptors: the signals that wait, and the end of the watch
+  std::jthread thread_;           // last: everything above exists before it starts
 };
 
 }  // namespace dmoscope::app

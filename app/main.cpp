@@ -50,7 +50,7 @@ int guarded(const Action& action) {
 int print_requested(const CLI::App& app, const CLI::ParseError& error) {
   std::ostringstream text;
   app.exit(error, text, text);
-  fmt::print("{}", text.str());
+  print_lines(text.str());
   return 0;
 }
 
@@ -69,8 +69,8 @@ int run(int argc, char** argv) {
   app.add_flag("--man", man, "Print the man page in roff")->group("");
 
   Action action = [&files] { return open_window(files); };
-  add_smooth(app, action);
   const std::string command_line = shell_line(std::vector<std::string>(argv, argv + argc));
+  add_smooth(app, action, command_line);
   add_compare(app, action, command_line);
   add_quality(app, action);
   add_render(app, action);
@@ -85,12 +85,12 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return guarded([&app, &error] { return print_requested(app, error); });
-    complain(fmt::format("{}\nRun with --help for more information.", error.what()));
+    complain(error.what(), "Run with --help for more information.");
     return kWrongUsage;
   }
   if (man) {
     action = [&app] {
-      fmt::print("{}", man_page(app));
+      print_lines(man_page(app));
       return 0;
     };
   }
@@ -102,12 +102,13 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    dmoscope::app::ignore_file_limit_signal();
     const int code = dmoscope::app::run(argc, argv);
     // A full disk or closed pipe below standard output must not look like success; whoever failed already said why.
     if (code != dmoscope::app::kBadInputOrOutput) dmoscope::app::flush_output();
     return code;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "dmoscope: %s\n", error.what());
+    dmoscope::app::complain(error.what());
     return 3;
   }
 }

@@ -22,11 +22,13 @@ void require_plot_target(const std::filesystem::path& path) {
   require_writable(path);
 }
 
-void write_plot(const std::filesystem::path& path, const Drawing& drawing) {
+std::string plot_bytes([[maybe_unused]] const std::filesystem::path& path, const Drawing& drawing) {
 #ifdef DMOSCOPE_HAVE_GUI
-  if (path.extension() == ".png") return render::write_png(path, render::picture_of(drawing));
+  if (path.extension() == ".png") return render::encode_png(render::picture_of(drawing));
 #endif
-  write_file_atomically(path, svg_of(drawing));
+  return svg_of(drawing);
 }
+
+void write_plot(const std::filesystem::path& path, const Drawing& drawing) { write_file_atomically(path, plot_bytes(path, drawing)); }
 
 }  // namespace dmoscope::app

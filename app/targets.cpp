@@ -14,6 +14,7 @@ void require_writable(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
+  if (error == std::errc::too_many_symbolic_link_levels) throw OutputError(path.string(), error.message());
   if (fs::is_directory(status)) throw OutputError(path.string(), "is a folder");
   if (fs::exists(status)) {
     if (!fs::is_regular_file(status)) throw OutputError(path.string(), "is not a regular file");
@@ -35,15 +36,7 @@ void require_mesh_target(const std::filesystem::path& path) {
 }
 
 void require_another_file(const std::filesystem::path& path, std::string_view option, const std::filesystem::path& other) {
-  namespace fs = std::filesystem;
-  if (path.empty() || other.empty()) return;
-  std::error_code error;
-  // equivalent() follows links but needs both files; the absolute names also tell of one that is still to be made.
-  const bool same_file = fs::equivalent(path, other, error);
-  const fs::path first = fs::weakly_canonical(fs::absolute(follow_links(path)), error);
-  if (error && !same_file) return;
-  const fs::path second = fs::weakly_canonical(fs::absolute(follow_links(other)), error);
-  if (same_file || (!error && first == second)) {
+  if (same_file(path, other)) {
     throw UsageError(fmt::format("{} {}: this is the same file as {}, which it would overwrite", option, path.string(), other.string()));
   }
 }

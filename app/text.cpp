@@ -5,13 +5,29 @@
 
 #include <fmt/format.h>
 
+#include "app/console.h"
+
 namespace dmoscope::app {
 
 std::string brief(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : "-"; }
 
 Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-void print_json(const Json& object) { fmt::print("{}\n", object.dump(2, ' ', false, Json::error_handler_t::replace)); }
+void print_json(const Json& object) {
+  // All that a terminal obeys lies in strings: those of ASCII are escaped by the dump; the others stay the same string as \u0085.
+  const std::string text = object.dump(2, ' ', false, Json::error_handler_t::replace);
+  std::string escaped;
+  std::size_t done = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+    const bool control = byte(i) == 0xC2 && i + 1 < text.size() && byte(i + 1) < 0xA0;
+    if (!control && byte(i) != 0x7F) continue;
+    escaped += text.substr(done, i - done) + fmt::format("\\u{:04x}", control ? byte(i + 1) : byte(i));
+    i += control ? 1 : 0;
+    done = i + 1;
+  }
+  print_lines(escaped + text.substr(done) + '\n');
+}
 
 std::string text_table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
                        std::string_view alignment) {

@@ -23,6 +23,8 @@ add_library(dmoscope_settings INTERFACE)
 target_compile_options(dmoscope_settings INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wshadow -Wconversion -ffp-contract=off>)
 target_include_directories(dmoscope_settings INTERFACE ${PROJECT_SOURCE_DIR})
+# What functions of libraries are called by is settled before the program begins, and can then be written no more.
+target_link_options(dmoscope_settings INTERFACE -Wl,-z,relro,-z,now)
 if(DMOSCOPE_SANITIZE)
   # With a sanitizer g++ takes what is set for unset (its manual says so).
   target_compile_options(dmoscope_settings INTERFACE -fsanitize=${DMOSCOPE_SANITIZE} -fno-omit-frame-pointer

@@ -7,6 +7,7 @@
 #include <glad/gl.h>
 
 #include "core/base/error.h"
+#include "core/base/terminal_text.h"
 
 namespace dmoscope::render {
 namespace {
@@ -18,7 +19,7 @@ std::string text_of(GLenum what) {
 
 #ifndef NDEBUG
 void GLAD_API_PTR print_message(GLenum, GLenum, GLuint, GLenum severity, GLsizei, const GLchar* message, const void*) {
-  if (severity != GL_DEBUG_SEVERITY_NOTIFICATION) fmt::print(stderr, "OpenGL: {}\n", message);
+  if (severity != GL_DEBUG_SEVERITY_NOTIFICATION) fmt::print(stderr, "OpenGL: {}\n", terminal_line(message));
 }
 #endif
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/judged_run.h"
+#include "app/memory_limit.h"
 #include "app/verbs/run_options.h"
 
 namespace dmoscope::app {
@@ -19,6 +20,7 @@ struct CompareOptions {
   std::string judge;               // empty: the first run's metric
   Goal goal;
   std::uint64_t shuffles = 0;
+  MemoryLimit memory;
   bool json = false;
 };
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "app/console.h"
 #include "core/session/size_course.h"
 
 namespace dmoscope::app {
@@ -39,9 +40,8 @@ void print_aims(const Run& run) {
   if (!run.size_field()) return;
   const auto [before, after] = size_course_of(run);
   if (std::isnan(after.sizes)) return;  // one size for all
-  fmt::print("  {:<16} {:>10} -> {}    (correlation of local edge length and target size)\n", "size", brief(before.sizes),
-             brief(after.sizes));
-  fmt::print("  {:<16} {:>10} -> {}    (the same of their logarithms)\n", "log size", brief(before.logarithms), brief(after.logarithms));
+  print("  {:<16} {:>10} -> {}    (correlation of local edge length and target size)\n", "size", brief(before.sizes), brief(after.sizes));
+  print("  {:<16} {:>10} -> {}    (the same of their logarithms)\n", "log size", brief(before.logarithms), brief(after.logarithms));
 }
 
 }  // namespace dmoscope::app

@@ -82,8 +82,11 @@ void add_bench(CLI::App& app, Action& action) {
       ->excludes(plot)
       ->excludes(draw)
       ->excludes(combine);
+  add_memory_option(*verb, options->memory);
   verb->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
-  verb->callback([options, &action] { action = [options] { return bench(*options); }; });
+  verb->callback([options, &action] {
+    action = [options] { return within_memory(options->memory, options->file, [options] { return bench(*options); }); };
+  });
 }
 
 }  // namespace dmoscope::app

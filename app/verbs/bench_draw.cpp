@@ -53,17 +53,17 @@ Json json_of(const Row& row) {
 }
 
 void print_head() {
-  fmt::print("{}; {}, {}, commit {}\n\nAn iteration, its frame and its picture of 1280 x 800 pixels in turn; ms a frame.\n\n", processor(),
-             compiler(), DMOSCOPE_BUILD_TYPE, commit());
-  fmt::print("{:<16} {:>9}  {:<22} {:>8} {:>8} {:>8} {:>8}  {}\n", "mesh", "vertices", "path", "frames/s", "step", "frame", "drawing",
-             "bytes to the host");
+  print("{}; {}, {}, commit {}\n\nAn iteration, its frame and its picture of 1280 x 800 pixels in turn; ms a frame.\n\n", processor(),
+        compiler(), DMOSCOPE_BUILD_TYPE, commit());
+  print("{:<16} {:>9}  {:<22} {:>8} {:>8} {:>8} {:>8}  {}\n", "mesh", "vertices", "path", "frames/s", "step", "frame", "drawing",
+        "bytes to the host");
 }
 
 void print_row(const Row& row) {
   const DrawFigure& f = row.figure;
-  fmt::print("{:<16} {:>9}  {:<22} {:>8.1f} {:>8.2f} {:>8.2f} {:>8.2f}  {}\n", row.mesh, row.vertices, f.path.name, f.frames_per_second(),
-             milliseconds(row, f.step_seconds), milliseconds(row, f.publish_seconds), milliseconds(row, f.draw_seconds),
-             f.backend == name(Backend::Cpu) ? "-" : fmt::format("{}", f.bytes_to_host));
+  print("{:<16} {:>9}  {:<22} {:>8.1f} {:>8.2f} {:>8.2f} {:>8.2f}  {}\n", row.mesh, row.vertices, f.path.name, f.frames_per_second(),
+        milliseconds(row, f.step_seconds), milliseconds(row, f.publish_seconds), milliseconds(row, f.draw_seconds),
+        f.backend == name(Backend::Cpu) ? "-" : fmt::format("{}", f.bytes_to_host));
 }
 
 /// Steps and draws what is open in the session.

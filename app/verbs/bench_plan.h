@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/memory_limit.h"
 #include "core/quality/metric.h"
 #include "core/search/simd.h"
 #include "core/smooth/accelerator.h"
@@ -33,6 +34,7 @@ struct BenchOptions {
   std::uint64_t seek = 0;  // seeks to make instead; 0: none
   bool full = false;
   bool json = false;
+  MemoryLimit memory;
 };
 
 /// Meshes of one make-up, and the generator that makes them.

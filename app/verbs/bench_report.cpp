@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/console.h"
 #include "app/line_plot.h"
 #include "app/machine.h"
 
@@ -103,31 +104,31 @@ class PlotLook {
 }  // namespace
 
 void print_head(const BenchPlan& plan) {
-  fmt::print("{}, {}\n{}, {}, commit {}; flags {}\n\n", processor(), counted(cores(), "processor thread", "processor threads"), compiler(),
-             DMOSCOPE_BUILD_TYPE, commit(), compiler_flags());
+  print("{}, {}\n{}, {}, commit {}; flags {}\n\n", processor(), counted(cores(), "processor thread", "processor threads"), compiler(),
+        DMOSCOPE_BUILD_TYPE, commit(), compiler_flags());
   if (plan.acceleration.accelerator) {
-    fmt::print("{}: {}\n", plan.acceleration.accelerator->name(), plan.acceleration.accelerator->description());
+    print("{}: {}\n", plan.acceleration.accelerator->name(), plan.acceleration.accelerator->description());
   } else {
-    fmt::print("no cuda: {}\n", plan.acceleration.reason);
+    print("no cuda: {}\n", plan.acceleration.reason);
   }
-  fmt::print("Smoothing alone, {} from the input; median of {} (lowest to highest).\nRatio to {}.\n\n",
-             counted(plan.iterations, "iteration", "iterations"), counted(plan.repeats, "repeat", "repeats"), kReference);
-  fmt::print("{:<20} {:<16} {:>9} {:>9} {:>7} {:>9} {:>8} {:>16} {:>9} {:>7} {:>9} {:>9}{}\n", "mesh", "metric", "free", "simd", "threads",
-             "ms", "Mv/s", "spread", "ns/visit", "ratio", "it/s", "prepare",
-             plan.active > 0 ? fmt::format("  iteration {} against 1", plan.active) : "");
+  print("Smoothing alone, {} from the input; median of {} (lowest to highest).\nRatio to {}.\n\n",
+        counted(plan.iterations, "iteration", "iterations"), counted(plan.repeats, "repeat", "repeats"), kReference);
+  print("{:<20} {:<16} {:>9} {:>9} {:>7} {:>9} {:>8} {:>16} {:>9} {:>7} {:>9} {:>9}{}\n", "mesh", "metric", "free", "simd", "threads", "ms",
+        "Mv/s", "spread", "ns/visit", "ratio", "it/s", "prepare",
+        plan.active > 0 ? fmt::format("  iteration {} against 1", plan.active) : "");
 }
 
 void print_rows(const std::vector<Measurement>& figures) {
   for (const Measurement& f : figures) {
     const std::string spread = fmt::format("{:.3g} to {:.3g}", rate(f, f.seconds.highest), rate(f, f.seconds.lowest));
-    fmt::print("{:<20} {:<16} {:>9} {:>9} {:>7} {:>9.3f} {:>8.4g} {:>16} {:>9.1f} {:>7.2f} {:>9.4g} {:>6.1f} ms", f.mesh, aims(f), f.free,
-               f.reference ? "double" : executor_name(f), f.threads, 1e3 * f.seconds.median, rate(f, f.seconds.median), spread,
-               f.ns_per_visit(), f.ratio(), f.iterations_per_second(), 1e3 * f.prepare_seconds.median);
+    print("{:<20} {:<16} {:>9} {:>9} {:>7} {:>9.3f} {:>8.4g} {:>16} {:>9.1f} {:>7.2f} {:>9.4g} {:>6.1f} ms", f.mesh, aims(f), f.free,
+          f.reference ? "double" : executor_name(f), f.threads, 1e3 * f.seconds.median, rate(f, f.seconds.median), spread, f.ns_per_visit(),
+          f.ratio(), f.iterations_per_second(), 1e3 * f.prepare_seconds.median);
     if (f.settling) {
-      fmt::print("  {:.3f} ms against {:.3f} ms, {:.2f} x", 1e3 * f.settling->seconds, 1e3 * f.settling->first_seconds,
-                 f.settling->first_seconds / f.settling->seconds);
+      print("  {:.3f} ms against {:.3f} ms, {:.2f} x", 1e3 * f.settling->seconds, 1e3 * f.settling->first_seconds,
+            f.settling->first_seconds / f.settling->seconds);
     }
-    fmt::print("\n");
+    print("\n");
   }
   std::fflush(stdout);
 }

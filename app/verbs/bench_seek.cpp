@@ -49,10 +49,10 @@ void bench_seeking(const BenchPlan& plan, const std::filesystem::path& file, std
       meshes.push_back(fmt::format("generate {} {}", elements.generator, size));
   Json rows = Json::array();
   if (!json) {
-    fmt::print("{}; {}, {}, commit {}\n\nSeeks to random ones of {} iterations; ms, median and worst of {}.\n\n", processor(), compiler(),
-               DMOSCOPE_BUILD_TYPE, commit(), kIterations, seeks);
-    fmt::print("{:<24} {:>9} {:>9} {:>17} {:>17} {:>17} {:>9}\n", "mesh", "vertices", "kept every", "seek", "drawing", "seek and drawing",
-               "in frames");
+    print("{}; {}, {}, commit {}\n\nSeeks to random ones of {} iterations; ms, median and worst of {}.\n\n", processor(), compiler(),
+          DMOSCOPE_BUILD_TYPE, commit(), kIterations, seeks);
+    print("{:<24} {:>9} {:>9} {:>17} {:>17} {:>17} {:>9}\n", "mesh", "vertices", "kept every", "seek", "drawing", "seek and drawing",
+          "in frames");
   }
   for (const std::string& mesh : meshes) {
     Engine engine(*std::ranges::max_element(plan.threads), plan.acceleration, plan.cpu ? Backend::Cpu : Backend::Cuda);
@@ -72,9 +72,9 @@ void bench_seeking(const BenchPlan& plan, const std::filesystem::path& file, std
                       {"seek_and_draw", json_of(drawn)},
                       {"renderer", figure.renderer}});
     } else {
-      fmt::print("{:<24} {:>9} {:>10} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f} {:>9.2f}\n", mesh,
-                 view->input->mesh.vertex_count(), note.empty() ? "1" : "more", seek.median, seek.worst, frame.median, frame.worst,
-                 drawn.median, drawn.worst, drawn.median / frame.median);
+      print("{:<24} {:>9} {:>10} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f} {:>9.2f}\n", mesh, view->input->mesh.vertex_count(),
+            note.empty() ? "1" : "more", seek.median, seek.worst, frame.median, frame.worst, drawn.median, drawn.worst,
+            drawn.median / frame.median);
     }
   }
   if (json) print_json({{"commit", commit()}, {"build", DMOSCOPE_BUILD_TYPE}, {"processor", processor()}, {"seeking", std::move(rows)}});

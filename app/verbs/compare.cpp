@@ -10,12 +10,14 @@
 #include "app/comparison/report.h"
 #include "app/console.h"
 #include "app/plot_file.h"
+#include "app/provenance.h"
 #include "app/targets.h"
 #include "app/verbs/goal_options.h"
 #include "app/verbs/input_report.h"
 #include "app/verbs/option_checks.h"
 #include "app/verbs/verbs.h"
 #include "core/base/error.h"
+#include "core/io/atomic_file.h"
 #include "core/io/mesh_io.h"
 
 namespace dmoscope::app {
@@ -52,13 +54,15 @@ void refuse_early(const CompareOptions& options) {
 void write_files(const Comparison& comparison, const ComparisonFacts& facts, const Progress& progress) {
   const CompareOptions& options = facts.options;
   const std::string report = options.report.empty() ? std::string() : html_of(comparison, facts, progress);  // the part that takes long
-  if (!options.stats.empty()) write_file_atomically(options.stats, statistics_csv(comparison));
-  if (!options.table.empty()) write_file_atomically(options.table, table_csv(comparison));
+  AtomicFiles files;  // all are on the disk before the first takes its place
+  if (!options.stats.empty()) files.add(options.stats, statistics_csv(comparison));
+  if (!options.table.empty()) files.add(options.table, table_csv(comparison));
   if (!options.plot.empty()) {
     const Drawing courses = stacked(draw(convergence_plot(comparison)), draw(mean_plot(comparison)));
-    write_plot(options.plot, stacked(courses, draw(sorted_plot(comparison))));
+    files.add(options.plot, plot_bytes(options.plot, stacked(courses, draw(sorted_plot(comparison)))));
   }
-  if (!options.report.empty()) write_file_atomically(options.report, report);
+  if (!options.report.empty()) files.add(options.report, report);
+  files.commit();
 }
 
 int compare(const CompareOptions& options, const std::string& command_line) {
@@ -70,7 +74,7 @@ int compare(const CompareOptions& options, const std::string& command_line) {
   Watch watch;
   Progress& progress = watch.progress();
   const auto pool = std::make_shared<ThreadPool>(options.run.threads);
-  const auto input = load_input(options.file, Need::Smoothing, {progress, pool.get()});
+  const auto input = load_input(options.file, Need::Smoothing, {progress, pool.get(), options.memory.bytes()});
   std::vector<std::string> warnings = tell_findings(*input);
   fit_to_mesh(plan, input, vertices_to_fix(input->mesh, options.run.fix));
   tell_interfaces(*input, plan.contenders.front().parameters, warnings);
@@ -83,10 +87,12 @@ int compare(const CompareOptions& options, const std::string& command_line) {
   const ComparisonFacts facts{options, pool->size(), command_line, std::move(warnings)};
   write_files(comparison, facts, progress);
   if (options.json) {
-    print_json(json_of(comparison, facts));
+    Json object = json_of(comparison, facts);
+    object["provenance"] = json_of(provenance_of(input->mesh, command_line));
+    print_json(object);
   } else {
-    fmt::print("{}", text_of(comparison));
-    for (const Target& target : targets_of(options)) fmt::print("wrote {}\n", target.path.string());
+    print_lines(text_of(comparison));
+    for (const Target& target : targets_of(options)) print("wrote {}\n", target.path.string());
   }
   bool reached = true;
   for (const auto* runs : {&comparison.runs, &comparison.shuffled}) {
@@ -132,10 +138,13 @@ void add_compare(CLI::App& app, Action& action, const std::string& command_line)
   verb->add_option("--plot", options->plot, "Draw how minimum and mean go, and the sorted qualities")->type_name("FILE.svg|.png");
   verb->add_option("--report", options->report, "Write a page with tables, plots and pictures that needs nothing else")
       ->type_name("FILE.html");
+  add_memory_option(*verb, options->memory);
   verb->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
   verb->callback([options, goal, command_line = &command_line, &action] {
     options->goal = goal_of(*goal);
-    action = [options, command_line] { return compare(*options, *command_line); };
+    action = [options, command_line] {
+      return within_memory(options->memory, options->file, [&] { return compare(*options, *command_line); });
+    };
   });
 }
 

@@ -35,8 +35,8 @@ int generate(const Options& options) {
   for (const std::string& sentence : write_mesh(options.output, mesh, mesh.positions, watch.progress())) {
     complain(fmt::format("{}: {}", options.output.string(), sentence));
   }
-  fmt::print("{}: {}, {}\n", options.output.string(), counted(mesh.vertex_count(), "vertex", "vertices"),
-             counted(mesh.elements.size(), "element", "elements"));
+  print("{}: {}, {}\n", options.output.string(), counted(mesh.vertex_count(), "vertex", "vertices"),
+        counted(mesh.elements.size(), "element", "elements"));
   return 0;
 }
 

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/console.h"
 #include "app/machine.h"
 #include "app/text.h"
 #include "app/verbs/mesh_info.h"
@@ -112,30 +113,30 @@ Json everything() {
 }
 
 void print_cuda(const gpu::Availability& cuda, const Acceleration& acceleration) {
-  fmt::print("  cuda   {}\n",
-             acceleration.accelerator ? "usable: " + acceleration.accelerator->description() : "not usable: " + acceleration.reason);
+  print("  cuda   {}\n",
+        acceleration.accelerator ? "usable: " + acceleration.accelerator->description() : "not usable: " + acceleration.reason);
   for (const gpu::Device& device : cuda.devices) {
-    fmt::print("         {} (compute capability {}.{}, {:.1f} GiB)\n", device.name, device.major, device.minor,
-               static_cast<double>(device.memory) / static_cast<double>(std::size_t{1} << 30U));
+    print("         {} (compute capability {}.{}, {:.1f} GiB)\n", device.name, device.major, device.minor,
+          static_cast<double>(device.memory) / static_cast<double>(std::size_t{1} << 30U));
   }
 }
 
 void print_for_a_person() {
   const Acceleration acceleration = gpu::make_accelerator();
   const OpenGl gl = headless_opengl(acceleration);
-  fmt::print("dmoscope {} ({}, {})\n\nbackends\n", DMOSCOPE_VERSION, DMOSCOPE_BUILD_TYPE, compiler());
-  fmt::print("  cpu    usable, {}\n", counted(std::thread::hardware_concurrency(), "processor thread", "processor threads"));
-  fmt::print("         SIMD {} (supported: {})\n", name(best_simd_level()), fmt::join(simd_names(), ", "));
+  print("dmoscope {} ({}, {})\n\nbackends\n", DMOSCOPE_VERSION, DMOSCOPE_BUILD_TYPE, compiler());
+  print("  cpu    usable, {}\n", counted(std::thread::hardware_concurrency(), "processor thread", "processor threads"));
+  print("         SIMD {} (supported: {})\n", name(best_simd_level()), fmt::join(simd_names(), ", "));
   print_cuda(gpu::availability(), acceleration);
-  fmt::print("\ndrawing\n  path   {}{}\n", gl.drawing.name, gl.drawing.reason.empty() ? "" : " (" + gl.drawing.reason + ")");
-  fmt::print("  opengl {}{}\n\nformats\n", gl.usable ? "" : "not usable: ", gl.text);
-  for (const FormatInfo& f : format_table()) fmt::print("  {:<16} {}; {}\n", f.extensions, f.title, f.doc);
-  fmt::print("\nmetrics\n");
-  for (const MetricInfo& m : metric_table()) fmt::print("  {:<16} {}\n", m.name, m.doc);
-  fmt::print("\nmethods\n");
-  for (const MethodInfo& m : method_table()) fmt::print("  {:<16} {}\n", m.name, m.doc);
-  fmt::print("\nsamples (dmoscope generate)\n");
-  for (const GeneratorInfo& g : generator_table()) fmt::print("  {:<16} {}\n", g.name, g.doc);
+  print("\ndrawing\n  path   {}{}\n", gl.drawing.name, gl.drawing.reason.empty() ? "" : " (" + gl.drawing.reason + ")");
+  print("  opengl {}{}\n\nformats\n", gl.usable ? "" : "not usable: ", gl.text);
+  for (const FormatInfo& f : format_table()) print("  {:<16} {}; {}\n", f.extensions, f.title, f.doc);
+  print("\nmetrics\n");
+  for (const MetricInfo& m : metric_table()) print("  {:<16} {}\n", m.name, m.doc);
+  print("\nmethods\n");
+  for (const MethodInfo& m : method_table()) print("  {:<16} {}\n", m.name, m.doc);
+  print("\nsamples (dmoscope generate)\n");
+  for (const GeneratorInfo& g : generator_table()) print("  {:<16} {}\n", g.name, g.doc);
 }
 
 }  // namespace

@@ -82,7 +82,8 @@ int paper(const Options& options, const std::string& command_line) {
   write_file_atomically(options.output / "index.html", page);
   write_figures(options.output, figures);
 
-  fmt::print("{}\nwrote {}\n", findings_text(figures), (options.output / "index.html").string());
+  print_lines(findings_text(figures));
+  print("\nwrote {}\n", (options.output / "index.html").string());
   bool all_hold = true;
   for (const Figure& figure : figures) {
     for (const Finding& f : figure.findings) {

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "app/console.h"
+#include "app/memory_limit.h"
 #include "app/targets.h"
 #include "app/text.h"
 #include "app/verbs/group_table.h"
@@ -31,6 +32,7 @@ struct Options {
   std::filesystem::path input, elements;
   std::string metric = "all";
   std::size_t worst = 0;
+  MemoryLimit memory;
   bool json = false;
 };
 
@@ -118,23 +120,23 @@ Json json_of(const Mesh& mesh, const Column& column, std::size_t worst) {
 }
 
 void print_table(const std::vector<Column>& columns) {
-  fmt::print("{:<16} {:>9} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11} {:>8}\n", "metric", "elements", "min", "1 %", "5 %", "50 %", "mean",
-             "acceptable", "below");
+  print("{:<16} {:>9} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11} {:>8}\n", "metric", "elements", "min", "1 %", "5 %", "50 %", "mean",
+        "acceptable", "below");
   for (const Column& column : columns) {
     if (!column.defined()) continue;
     const MetricInfo& metric = info(column.metric);
-    fmt::print("{:<16} {:>9} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11} {:>8}\n", metric.name, column.ascending.size(),
-               brief(column.percentile(0)), brief(column.percentile(1)), brief(column.percentile(5)), brief(column.percentile(50)),
-               brief(column.mean), brief(metric.acceptable), column.unacceptable);
+    print("{:<16} {:>9} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11} {:>8}\n", metric.name, column.ascending.size(),
+          brief(column.percentile(0)), brief(column.percentile(1)), brief(column.percentile(5)), brief(column.percentile(50)),
+          brief(column.mean), brief(metric.acceptable), column.unacceptable);
   }
 }
 
 void print_worst(const Mesh& mesh, const Column& column, std::size_t count) {
   if (count == 0 || !column.defined()) return;
-  fmt::print("\nworst of {}:\n{:>10} {:<14} {:>12}  centroid\n", info(column.metric).name, "element", "kind", "quality");
+  print("\nworst of {}:\n{:>10} {:<14} {:>12}  centroid\n", info(column.metric).name, "element", "kind", "quality");
   for (const Index e : worst_of(column, count)) {
     const Vec3 c = centroid(mesh, e);
-    fmt::print("{:>10} {:<14} {:>12}  {} {} {}\n", e, info(mesh.elements.kind(e)).name, brief(column.values[e]), c.x, c.y, c.z);
+    print("{:>10} {:<14} {:>12}  {} {} {}\n", e, info(mesh.elements.kind(e)).name, brief(column.values[e]), c.x, c.y, c.z);
   }
 }
 
@@ -144,7 +146,7 @@ int quality(const Options& options) {
   require_another_file(options.elements, "--elements", options.input);
 
   Watch watch;
-  const auto input = load_input(options.input, Need::QualityOnly, watch.progress());
+  const auto input = load_input(options.input, Need::QualityOnly, {watch.progress(), nullptr, options.memory.bytes()});
   const Mesh& mesh = input->mesh;
   const std::vector<std::string> warnings = tell_findings(*input);
   ThreadPool pool;
@@ -170,8 +172,8 @@ int quality(const Options& options) {
                 {"warnings", warnings}});
     return 0;
   }
-  fmt::print("{}: {}, {}, {} inverted\n\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
-             counted(mesh.elements.size(), "element", "elements"), grouped(inverted));
+  print("{}: {}, {}, {} inverted\n\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
+        counted(mesh.elements.size(), "element", "elements"), grouped(inverted));
   print_table(columns);
   for (const Column& column : columns) print_worst(mesh, column, options.worst);
   constexpr std::size_t kMostGroups = 20;
@@ -191,8 +193,11 @@ void add_quality(CLI::App& app, Action& action) {
       ->type_name("N");
   verb->add_option("--elements", options->elements, "Write the quality of every element; empty where a metric is not defined")
       ->type_name("FILE.csv");
+  add_memory_option(*verb, options->memory);
   verb->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
-  verb->callback([options, &action] { action = [options] { return quality(*options); }; });
+  verb->callback([options, &action] {
+    action = [options] { return within_memory(options->memory, options->input, [options] { return quality(*options); }); };
+  });
 }
 
 }  // namespace dmoscope::app

@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/memory_limit.h"
 #include "app/targets.h"
 #include "app/text.h"
 #include "app/verbs/option_checks.h"
@@ -33,6 +34,7 @@ constexpr int kLargestSide = 16384;
 
 struct Options {
   std::filesystem::path input, output;
+  MemoryLimit memory;
   std::string metric = "mean-ratio";
   std::string size = "1280x800";
   std::string colormap = "viridis";
@@ -114,7 +116,7 @@ int render(const Options& options) {
   const InsideLook inside{options.clip, view, options.from, options.perspective};
   require_sense(inside);
   Watch watch;
-  return render_picture(options.input, options.output, look, inside, watch.progress());
+  return render_picture(options.input, options.output, look, inside, {watch.progress(), nullptr, options.memory.bytes()});
 #else
   static_cast<void>(view), static_cast<void>(metric), static_cast<void>(width), static_cast<void>(height), static_cast<void>(range);
   throw UsageError("this program was built without OpenGL, so it makes no pictures");
@@ -153,8 +155,11 @@ void add_render(CLI::App& app, Action& action) {
   verb->add_option("--colormap", options->colormap, "Colour map")->type_name("NAME")->capture_default_str();
   verb->add_option("--range", options->range, "Qualities at the ends of the colour map (0:1 unless given)")->type_name("LO:HI");
   verb->add_flag("--transparent", options->transparent, "Leave the background transparent");
+  add_memory_option(*verb, options->memory);
   add_inside(*verb, *options);
-  verb->callback([options, &action] { action = [options] { return render(*options); }; });
+  verb->callback([options, &action] {
+    action = [options] { return within_memory(options->memory, options->input, [options] { return render(*options); }); };
+  });
 }
 
 }  // namespace dmoscope::app

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <istream>
@@ -15,10 +16,12 @@
 
 #include "app/acceleration.h"
 #include "app/console.h"
+#include "app/memory_limit.h"
 #include "app/verbs/run_options.h"
 #include "app/verbs/verbs.h"
 #include "core/base/error.h"
 #include "core/session/engine.h"
+#include "core/session/read_files.h"
 #include "core/session/session_commands.h"
 
 #ifdef DMOSCOPE_HAVE_GUI
@@ -32,6 +35,7 @@ struct Options {
   std::string file;
   std::string backend = "auto";
   bool headless = false;
+  MemoryLimit memory;
 };
 
 std::vector<std::string> lines_of(std::istream& stream) {
@@ -42,6 +46,10 @@ std::vector<std::string> lines_of(std::istream& stream) {
 
 std::vector<std::string> read_lines(const std::string& file) {
   if (file == "-") return lines_of(std::cin);
+  std::error_code unknown;
+  const auto type = std::filesystem::status(file, unknown).type();
+  if (type == std::filesystem::file_type::character || type == std::filesystem::file_type::block)  // which may never end
+    throw InputError(file, 0, "a device is no file that can be read");
   std::ifstream stream(file);
   std::vector<std::string> lines = lines_of(stream);
   // A folder opens but cannot be read.
@@ -80,14 +88,15 @@ int tell(const std::vector<Message>& messages, const std::string& name, std::siz
     if (message.kind == Message::Kind::Warning) {
       complain(message.text);
     } else {
-      fmt::print("{}\n", message.text);
+      print("{}\n", message.text);
       flush_output();
     }
   }
   return 0;
 }
 
-int run_on_session(const std::string& name, const std::vector<std::string>& lines, Backend backend) {
+int run_on_session(const std::string& name, const std::vector<std::string>& lines, const Options& options) {
+  const Backend backend = parse_backend(options.backend);
   block_interrupts();  // before the engine's threads start
   Engine engine(0, acceleration_for(backend), backend);
   // Ctrl+C may also come between two lines, when the engine has nothing to cancel.
@@ -96,6 +105,7 @@ int run_on_session(const std::string& name, const std::vector<std::string>& line
     interrupted = true;
     engine.cancel();
   });
+  if (options.memory.bytes() != 0) engine.post(fmt::format("max-memory {}", options.memory.bytes()));
   for (std::size_t i = 0; i < lines.size(); ++i) {
     engine.post(lines[i]);
     if (interrupted) engine.cancel();
@@ -109,18 +119,25 @@ int run_on_session(const std::string& name, const std::vector<std::string>& line
   return 0;
 }
 
+/// What would cost somebody a file is refused before the first line runs.
+void refuse_overwriting(const Options& options, const std::string& name, const std::vector<std::string>& lines) {
+  const Overwriting found = first_overwriting(options.file == "-" ? "" : options.file, lines);
+  if (found.line != 0) throw UsageError(fmt::format("{}:{}: {}", name, found.line, found.what));
+}
+
 int script(const Options& options) {
   const std::string name = options.file == "-" ? "standard input" : options.file;
-  const Backend backend = parse_backend(options.backend);
   const std::vector<std::string> lines = read_lines(options.file);
+  refuse_overwriting(options, name, lines);
   const Foreign foreign = first_foreign(name, lines);
-  if (foreign.line == 0) return run_on_session(name, lines, backend);
+  if (foreign.line == 0) return run_on_session(name, lines, options);
 #ifdef DMOSCOPE_HAVE_GUI
   ScriptOptions window;
   window.name = name;
   window.lines = lines;
   window.headless = options.headless;
-  window.backend = backend;
+  window.backend = parse_backend(options.backend);
+  window.most_memory = options.memory.bytes();
   return run_script(window);
 #else
   throw UsageError(fmt::format("{}:{}: unknown command '{}' (this program was built without the window and its commands)", name,
@@ -137,7 +154,9 @@ void add_script(CLI::App& app, Action& action) {
   verb->add_option("FILE", options->file, "Script to run; - reads standard input")->required();
   verb->add_flag("--headless", options->headless, "Draw without a screen; a script that only computes needs none anyway");
   add_backend_option(*verb, options->backend);
-  verb->callback([options, &action] { action = [options] { return script(*options); }; });
+  add_memory_option(*verb, options->memory);
+  verb->callback(
+      [options, &action] { action = [options] { return within_memory(options->memory, {}, [options] { return script(*options); }); }; });
 }
 
 }  // namespace dmoscope::app

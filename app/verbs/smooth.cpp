@@ -12,20 +12,24 @@
 
 #include "app/acceleration.h"
 #include "app/console.h"
+#include "app/memory_limit.h"
+#include "app/provenance.h"
 #include "app/targets.h"
 #include "app/text.h"
 #include "app/verbs/aims_report.h"
+#include "app/verbs/checkpoint.h"
 #include "app/verbs/goal_options.h"
 #include "app/verbs/input_report.h"
 #include "app/verbs/run_options.h"
 #include "app/verbs/untangling_hint.h"
 #include "app/verbs/verbs.h"
-#include "core/io/mesh_io.h"
+#include "core/io/atomic_file.h"
+#include "core/io/commented_mesh.h"
 #include "core/search/simd.h"
 #include "core/session/carry_on.h"
 #include "core/session/csv.h"
 #include "core/session/left_inverted.h"
-#include "core/session/run.h"
+#include "core/session/session.h"
 
 namespace dmoscope::app {
 namespace {
@@ -35,7 +39,11 @@ struct Options {
   RunOptions run;
   GoalOptions goal;
   std::string write = "best";
+  CheckpointOptions checkpoints;
+  MemoryLimit memory;
   bool json = false;
+  bool provenance = false;
+  std::string command_line;
 };
 
 std::string_view reason_name(StopReason reason) {
@@ -67,6 +75,7 @@ struct Result {
   double seconds;
   std::optional<LeftInverted> left;  // of what is written
   std::vector<std::string> warnings;
+  std::optional<Provenance> provenance{};
 
   [[nodiscard]] const IterationRecord& before() const { return run.history().records().front(); }
   /// What is written.
@@ -127,6 +136,7 @@ Json json_of(const Result& r) {
   object["seconds"] = r.seconds;
   object["vertices_per_second"] = json_number(r.visits_per_second());
   object["warnings"] = r.warnings;
+  if (r.provenance) object["provenance"] = json_of(*r.provenance);
   return object;
 }
 
@@ -134,18 +144,18 @@ void print_summary(const Result& r) {
   const Statistics& before = r.before().statistics;
   const Statistics& after = r.after().statistics;
   const Mesh& mesh = r.run.input().mesh;
-  fmt::print("{}: {}, {}, {} free; {}, {}\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
-             counted(mesh.elements.size(), "element", "elements"), grouped(r.run.visits_per_iteration()), r.run.title(), r.run.backend());
-  fmt::print("  {:<16} {:>10} -> {}\n", "minimum", brief(before.minimum), brief(after.minimum));
-  fmt::print("  {:<16} {:>10} -> {}\n", "movable minimum", brief(before.movable_minimum), brief(after.movable_minimum));
-  fmt::print("  {:<16} {:>10}    (elements whose corners are all fixed)\n", "ceiling", brief(after.ceiling));
-  fmt::print("  {:<16} {:>10} -> {}\n", "mean", brief(before.mean), brief(after.mean));
-  fmt::print("  {:<16} {:>10} -> {}\n", "inverted", grouped(before.inverted), grouped(after.inverted));
+  print("{}: {}, {}, {} free; {}, {}\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
+        counted(mesh.elements.size(), "element", "elements"), grouped(r.run.visits_per_iteration()), r.run.title(), r.run.backend());
+  print("  {:<16} {:>10} -> {}\n", "minimum", brief(before.minimum), brief(after.minimum));
+  print("  {:<16} {:>10} -> {}\n", "movable minimum", brief(before.movable_minimum), brief(after.movable_minimum));
+  print("  {:<16} {:>10}    (elements whose corners are all fixed)\n", "ceiling", brief(after.ceiling));
+  print("  {:<16} {:>10} -> {}\n", "mean", brief(before.mean), brief(after.mean));
+  print("  {:<16} {:>10} -> {}\n", "inverted", grouped(before.inverted), grouped(after.inverted));
   print_aims(r.run);
-  fmt::print("  {}\n", r.outcome.sentence());
-  fmt::print("  {} in {:.3f} s, {}vertices/s on {}\n", counted(r.outcome.iterations, "iteration", "iterations"), r.seconds,
-             with_prefix(r.visits_per_second()), on_cpu(r.run) ? counted(r.threads, "thread", "threads") : r.run.backend_reason());
-  fmt::print("  wrote {}\n", r.options.output.string());
+  print("  {}\n", r.outcome.sentence());
+  print("  {} in {:.3f} s, {}vertices/s on {}\n", counted(r.outcome.iterations, "iteration", "iterations"), r.seconds,
+        with_prefix(r.visits_per_second()), on_cpu(r.run) ? counted(r.threads, "thread", "threads") : r.run.backend_reason());
+  print("  wrote {}\n", r.options.output.string());
 }
 
 /// Everything that can be refused without reading the mesh.
@@ -156,12 +166,31 @@ void refuse_early(const Options& options) {
   require_another_file(options.stats, "--stats", options.input);
   require_another_file(options.stats, "--stats", options.output);
   if (!options.stats.empty()) require_writable(options.stats);
+  refuse_early(options.checkpoints, {options.input, options.output, options.stats});
 }
 
-void write_statistics(const std::filesystem::path& path, const Run& run) {
+std::string statistics(const Run& run) {
   const std::vector<std::string> titles{stats_label(run.parameters())};
   const std::vector<const std::vector<IterationRecord>*> records{&run.history().records()};
-  write_file_atomically(path, stats_csv(titles, records));
+  return stats_csv(titles, records);
+}
+
+/// The mesh and the statistics: none takes its place before both are on the disk. Returns what the mesh's format could not carry.
+std::vector<std::string> write_results(const Options& options, const Run& run, const std::optional<Provenance>& provenance,
+                                       const IoContext& context) {
+  AtomicFiles others;
+  if (!options.stats.empty()) others.add(options.stats, statistics(run));
+  const std::string comment = options.provenance ? comment_of(*provenance) : std::string();
+  std::vector<std::string> sentences = write_commented_mesh(options.output, run.input().mesh, run.positions(), context, comment);
+  others.commit();
+  return sentences;
+}
+
+/// A checkpoint beyond the goal's end is no way to it.
+void require_at_goal(const Run& run, const Outcome& outcome) {
+  if (run.moment().iteration == outcome.iterations) return;
+  throw UsageError(fmt::format("--resume: that run has come to iteration {} already, and what is asked for ends at {}",
+                               run.moment().iteration, outcome.iterations));
 }
 
 double smoothing_seconds(const Run& run) {
@@ -206,15 +235,21 @@ int smooth(const Options& options) {
   if (parameters.then_mean && options.goal.until_converged) parameters.then_mean->patience = options.goal.limits.patience;
   const Acceleration acceleration = acceleration_for(parameters.backend);
 
-  Watch watch;
-  Progress& progress = watch.progress();
-  const auto pool = std::make_shared<ThreadPool>(options.run.threads);
-  const auto input = load_input(options.input, Need::Smoothing, {progress, pool.get()});
+  block_interrupts();  // before the session's threads start
+  Session session(options.run.threads, acceleration, parameters.backend);
+  session.set_history_budget(0);  // no past positions: nobody asks for them here
+  Checkpoints checkpoints(session, options.checkpoints);
+  Progress progress;
+  const Watch watch(progress, [&] {
+    if (!checkpoints.end_soon()) progress.request_cancel();
+  });
+  const auto pool = session.pool();
+  const auto input = load_input(options.input, Need::Smoothing, {progress, pool.get(), options.memory.bytes()});
   std::vector<std::string> warnings = tell_findings(*input);
   parameters.fixed = vertices_to_fix(input->mesh, options.run.fix);
   tell_interfaces(*input, parameters, warnings);
 
-  Run run(input, std::move(parameters), pool, 0, acceleration);  // no past positions: nobody asks for them here
+  Run& run = begin_run(session, input, parameters, options.checkpoints, progress);
   const auto warn = [&warnings](std::string sentence) {
     complain(sentence);
     warnings.push_back(std::move(sentence));
@@ -222,24 +257,28 @@ int smooth(const Options& options) {
   if (std::string warning = run.take_warning(); !warning.empty()) warn(std::move(warning));
   if (run.size_field() && !run.size_field()->note().empty()) warn(run.size_field()->note());
   const auto smooth_all = [&] {  // from the input on: without history nothing else is left after a failure
-    const Outcome done =
-        options.goal.until_converged ? run.until_converged(options.goal.limits, progress) : run.iterate(options.goal.iterations, progress);
+    const auto after = [&](const Run&) { checkpoints.after_iteration(); };
+    const Outcome done = options.goal.until_converged ? run.until_converged_from_input(options.goal.limits, progress, after)
+                                                      : run.iterate_from_input(options.goal.iterations, progress, after);
     run.settle();
     return done;
   };
+  checkpoints.set_running(true);
   const Outcome outcome = carrying_on(run, smooth_all, warn);
+  checkpoints.set_running(false);
+  require_at_goal(run, outcome);
   const double seconds = smoothing_seconds(run);
   tell_missing_phase(run, outcome, warn);
   go_to_what_is_written(run, options, progress, warn);
   std::optional<LeftInverted> left = tell_left_inverted(run, input, pool, progress, warn);
 
-  for (std::string& sentence : write_mesh(options.output, input->mesh, run.positions(), {progress, pool.get()})) {
+  std::optional<Provenance> provenance;
+  if (options.json || options.provenance) provenance = provenance_of(input->mesh, options.command_line);
+  for (std::string& sentence : write_results(options, run, provenance, {progress, pool.get()})) {
     complain(fmt::format("{}: {}", options.output.string(), sentence));
     warnings.push_back(std::move(sentence));
   }
-  if (!options.stats.empty()) write_statistics(options.stats, run);
-
-  const Result result{options, run, pool->size(), outcome, seconds, std::move(left), std::move(warnings)};
+  const Result result{options, run, pool->size(), outcome, seconds, std::move(left), std::move(warnings), std::move(provenance)};
   if (options.json) {
     print_json(json_of(result));
   } else {
@@ -252,8 +291,9 @@ int smooth(const Options& options) {
 
 }  // namespace
 
-void add_smooth(CLI::App& app, Action& action) {
+void add_smooth(CLI::App& app, Action& action, const std::string& command_line) {
   auto options = std::make_shared<Options>();
+  options->command_line = command_line;
   CLI::App* verb = app.add_subcommand("smooth", "Smooth a mesh and write it");
   verb->add_option("IN", options->input, "Mesh to read")->required();
   verb->add_option("-o,--output", options->output, "Where to write it; the format is the extension's")->required()->type_name("OUT");
@@ -264,8 +304,14 @@ void add_smooth(CLI::App& app, Action& action) {
       ->type_name("best|last")
       ->capture_default_str();
   verb->add_option("--stats", options->stats, "Write the statistics of every iteration; row 0 is the input")->type_name("FILE.csv");
+  add_checkpoint_options(*verb, options->checkpoints);
+  add_memory_option(*verb, options->memory);
+  verb->add_flag("--provenance", options->provenance,
+                 "Say in a comment of the mesh written what made it: the input's hash, version, options; where the format has comments");
   verb->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
-  verb->callback([options, &action] { action = [options] { return smooth(*options); }; });
+  verb->callback([options, &action] {
+    action = [options] { return within_memory(options->memory, options->input, [options] { return smooth(*options); }); };
+  });
 }
 
 }  // namespace dmoscope::app

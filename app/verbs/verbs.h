@@ -15,8 +15,8 @@ namespace dmoscope::app {
 /// What the parsed command line asks for; returns the exit code, throws dmoscope::Error.
 using Action = std::function<int()>;
 
-void add_smooth(CLI::App& app, Action& action);
-/// `command_line`: as it was given, for its report.
+/// `command_line`: as it was given, for where results come from.
+void add_smooth(CLI::App& app, Action& action, const std::string& command_line);
 void add_compare(CLI::App& app, Action& action, const std::string& command_line);
 void add_quality(CLI::App& app, Action& action);
 void add_render(CLI::App& app, Action& action);

@@ -10,6 +10,7 @@
 #include <imgui.h>
 
 #include "app/acceleration.h"
+#include "app/console.h"
 #include "core/session/commands.h"
 #include "ui/file_browser.h"
 #include "ui/settings.h"
@@ -52,7 +53,7 @@ Desktop::Desktop(const WindowOptions& options)
 
 Desktop::~Desktop() {
   for (const std::string& trouble : {ui::save_settings(settings_, app_.state()), ui::save_recent(recent_, app_.state())}) {
-    if (!trouble.empty()) std::fprintf(stderr, "%s\n", trouble.c_str());
+    if (!trouble.empty()) complain(trouble);
   }
   app_.engine().cancel();
   app_.set_wake({});

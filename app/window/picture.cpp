@@ -82,8 +82,9 @@ std::string css_gradient(std::string_view colormap) {
 }
 
 int render_picture(const std::filesystem::path& input, const std::filesystem::path& output, const PictureLook& look,
-                   const InsideLook& inside, Progress& progress) {
-  const auto mesh = load_input(input, Need::QualityOnly, progress);
+                   const InsideLook& inside, const IoContext& context) {
+  const Progress& progress = context.progress;
+  const auto mesh = load_input(input, Need::QualityOnly, context);
   if (!mesh->is_volume() && inside.asked_for()) {
     throw UsageError(fmt::format("{}: only a mesh of volume elements has an inside to be seen", input.string()));
   }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/base/progress.h"
+#include "core/io/io_context.h"
 #include "core/session/input_mesh.h"
 
 namespace dmoscope::app {
@@ -38,6 +39,6 @@ struct PictureLook {
 /// Reads, draws, writes (all or nothing). Throws Error (bad input, no usable EGL, unwritable target, an inside asked for of a mesh that has
 /// none) and Cancelled. Returns 0.
 int render_picture(const std::filesystem::path& input, const std::filesystem::path& output, const PictureLook& look,
-                   const InsideLook& inside, Progress& progress);
+                   const InsideLook& inside, const IoContext& context);
 
 }  // namespace dmoscope::app

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "app/acceleration.h"
+#include "app/console.h"
 #include "app/window/desktop.h"
 #include "app/window/headless.h"
 #include "app/window/window.h"
@@ -18,9 +19,9 @@
 namespace dmoscope::app {
 namespace {
 
-void print(const Message& message) {
-  if (message.kind == Message::Kind::Info) std::printf("%s\n", message.text.c_str());
-  if (message.kind == Message::Kind::Warning) std::fprintf(stderr, "warning: %s\n", message.text.c_str());
+void tell(const Message& message) {
+  if (message.kind == Message::Kind::Info) print("{}\n", message.text);
+  if (message.kind == Message::Kind::Warning) complain("warning: " + message.text);
   std::fflush(stdout);
 }
 
@@ -38,12 +39,13 @@ bool ends_script(const Message& message, const std::string& line) {
 
 int fail(const ScriptOptions& options, std::size_t line, const Message& message) {
   std::fflush(stdout);
-  std::fprintf(stderr, "dmoscope: %s:%zu: %s\n", options.name.c_str(), line + 1, message.text.c_str());
+  complain(fmt::format("{}:{}: {}", options.name, line + 1, message.text));
   return std::max(1, message.exit_code);
 }
 
 int run_in_engine(const ScriptOptions& options) {
   Engine engine(options.threads, acceleration_for(options.backend), options.backend);
+  if (options.most_memory != 0) engine.post(fmt::format("max-memory {}", options.most_memory));
   for (std::size_t k = 0; k < options.lines.size(); ++k) {
     if (split_words(options.lines[k]).empty()) continue;
     engine.post(options.lines[k]);
@@ -53,7 +55,7 @@ int run_in_engine(const ScriptOptions& options) {
       if (!failure && ends_script(message, options.lines[k])) {
         failure = message;
       } else {
-        print(message);
+        tell(message);
       }
     }
     if (failure) return fail(options, k, *failure);
@@ -63,6 +65,7 @@ int run_in_engine(const ScriptOptions& options) {
 
 template <class Window>
 int run_in_window(Window& window, const ScriptOptions& options) {
+  if (options.most_memory != 0) (void)window.run(fmt::format("max-memory {}", options.most_memory));
   for (std::size_t k = 0; k < options.lines.size() && !window.quit(); ++k) {
     if (split_words(options.lines[k]).empty()) continue;
     std::optional<Message> failure = window.run(options.lines[k]);
@@ -70,7 +73,7 @@ int run_in_window(Window& window, const ScriptOptions& options) {
       if (!failure && ends_script(message, options.lines[k])) {
         failure = message;
       } else {
-        print(message);
+        tell(message);
       }
     }
     if (failure) return fail(options, k, *failure);

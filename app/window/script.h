@@ -1,6 +1,7 @@
 #pragma once
 // Scripts: command lines that drive the session and the window, with or without a screen.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct ScriptOptions {
   double scale = 1.0;              // of the interface
   unsigned threads = 0;
   Backend backend = Backend::Auto;
+  std::uint64_t most_memory = 0;  // bytes that a file may unpack to; 0: see UnpackBudget
 };
 
 /// Runs the lines one after another, each until it is done. What the session says goes to standard output, what goes wrong to

@@ -2,12 +2,14 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <new>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/io/commented_mesh.h"
 #include "core/io/format.h"
 #include "core/io/mesh_io.h"
 #include "core/io/patch_writer.h"
@@ -101,6 +103,14 @@ Notes write_anew(AtomicFile& file, const FormatHandler& handler, const Mesh& mes
   return notes;
 }
 
+/// Behind binary data nothing of another kind may stand.
+void add_comment(AtomicFile& file, const FormatHandler& handler, const Mesh& mesh, std::string_view comment, Notes& notes) {
+  const bool binary = can_patch(mesh, handler) && mesh.source->layout().binary && handler.info.name == "off";
+  const std::string text = binary ? std::string() : trailing_comment(handler.info.name, comment);
+  if (text.empty()) return notes.push_back(fmt::format("Where the mesh comes from was left out: {} has no comments.", handler.info.title));
+  file.write(text);
+}
+
 /// The file of a format with the coordinates, which `path` may name by its companion.
 std::filesystem::path main_path(const std::filesystem::path& path, const FormatHandler* handler) {
   if (handler == nullptr || handler->companion == nullptr) return path;
@@ -151,7 +161,9 @@ const FormatInfo* format_by_extension(std::string_view extension) {
   return handler == nullptr ? nullptr : &handler->info;
 }
 
-Mesh read_mesh(const std::filesystem::path& path, const IoContext& context) {
+namespace {
+
+Mesh read_whole_mesh(const std::filesystem::path& path, const IoContext& context) {
   Progress& progress = context.progress;
   progress.begin("reading " + path.filename().string());
   const FormatHandler* named = by_extension(path.extension().string());
@@ -177,8 +189,23 @@ Mesh read_mesh(const std::filesystem::path& path, const IoContext& context) {
   return mesh;
 }
 
+}  // namespace
+
+Mesh read_mesh(const std::filesystem::path& path, const IoContext& context) {
+  try {
+    return read_whole_mesh(path, context);
+  } catch (const std::bad_alloc&) {
+    throw InputError(path.string(), 0, "not enough memory for this mesh");
+  }
+}
+
 std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions,
                                     const IoContext& context) {
+  return write_commented_mesh(path, mesh, positions, context, {});
+}
+
+std::vector<std::string> write_commented_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions,
+                                              const IoContext& context, std::string_view comment) {
   Progress& progress = context.progress;
   progress.begin("writing " + path.filename().string());
   const FormatHandler* handler = by_extension(path.extension().string());
@@ -202,8 +229,13 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mes
     notes = write_anew(file, *handler, mesh, positions, context);
     if (second) handler->companion->write(*second, mesh, context);
   }
+  if (!comment.empty()) add_comment(file, *handler, mesh, comment, notes);
   progress.check();
   // Nothing can make two renames one; what can fail has been done by now.
+  if (second) second->finish();
+  file.finish();
+  for (const AtomicFile* one : {&file, second ? &*second : nullptr})
+    if (one != nullptr && !one->note().empty()) notes.push_back(fmt::format("{}: {}", one->path().filename().string(), one->note()));
   if (second) second->commit();
   file.commit();
   progress.set(1.0);

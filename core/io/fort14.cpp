@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -124,7 +125,7 @@ class Reader {
       p.y = tokens_.read_double("y coordinate");
       mesh_.positions.push_back(p);
       depth.values.push_back(tokens_.read_double("depth"));
-      tokens_.end_line();
+      tokens_.end_numbers_of("a vertex");
     }
     if (const auto twice = numbers_.finish()) {
       tokens_.fail_at(tokens_.line_at(source_.place(*twice)), fmt::format("vertex {} has the number of one before it", *twice + 1));
@@ -145,7 +146,7 @@ class Reader {
       const std::span<Index> used(corner.data(), static_cast<std::size_t>(corners));
       for (Index& c : used) c = numbers_.read(tokens_, "vertex index");
       add_element(mesh_, corners == 3 ? ElementKind::Triangle : ElementKind::Quadrilateral, used, source_);
-      tokens_.end_line();
+      tokens_.end_numbers_of("an element");
     }
   }
 
@@ -194,7 +195,7 @@ class Reader {
     for (std::size_t i = 0; i < size; ++i) {
       begin_line("vertex of an open boundary");
       group.members.push_back(numbers_.read(tokens_, "vertex index"));
-      tokens_.end_line();
+      tokens_.end_numbers_of("a vertex of a boundary");
     }
     mesh_.groups.push_back(std::move(group));
   }
@@ -230,13 +231,17 @@ Mesh read(SourceFile& source, const IoContext& context) { return Reader(source, 
 // --- Writing anew ---
 
 /// The field that becomes the depth: the one of that name, else the first with one number a vertex.
-std::optional<std::size_t> depth_field(const Mesh& mesh, Notes& notes) {
+/// Throws OutputError for a depth that cannot be read back: nan and inf are no numbers there.
+std::optional<std::size_t> depth_field(const AtomicFile& file, const Mesh& mesh, Notes& notes) {
   std::optional<std::size_t> chosen;
+  const auto finite = [](const Field& field) { return std::ranges::all_of(field.values, [](double v) { return std::isfinite(v); }); };
   for (std::size_t i = 0; i < mesh.fields.size(); ++i) {
     const Field& field = mesh.fields[i];
     if (field.on != Field::On::Vertices || field.components != 1) continue;
+    if (field.name == "depth" && !finite(field))
+      throw OutputError(file.path().string(), "the field \"depth\" has values that are no numbers, which this format cannot hold");
     if (field.name == "depth") return i;
-    if (!chosen) chosen = i;
+    if (!chosen && finite(field)) chosen = i;
   }
   if (chosen) {
     notes.push_back(fmt::format("Field \"{}\" was written as the depth.", mesh.fields[*chosen].name));
@@ -281,13 +286,16 @@ Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions,
   const std::string_view title = fort14_format().info.title;
   require_surface_elements(file, mesh, title);
   require_constant_z(file, positions, title, notes);
-  const std::optional<std::size_t> depth = depth_field(mesh, notes);
+  const std::optional<std::size_t> depth = depth_field(file, mesh, notes);
   const std::vector<std::size_t> kept = boundaries(mesh);
   const std::array<std::size_t, 1> kept_fields{depth.value_or(0)};
   note_dropped(mesh, std::span(kept_fields).first(depth ? 1 : 0), kept, title, notes);
 
   TextWriter out(file, context);
-  out << (mesh.title.empty() ? mesh.name : mesh.title) << '\n';
+  std::string name = mesh.title.empty() ? mesh.name : mesh.title;
+  std::ranges::replace_if(
+      name, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  out << name << '\n';
   out << mesh.elements.size() << ' ' << positions.size() << '\n';
   out.for_each(positions.size(), [&](TextBuffer& part, std::size_t v) {
     part << v + 1 << ' ' << positions[v].x << ' ' << positions[v].y << ' ' << (depth ? mesh.fields[*depth].values[v] : 0.0) << '\n';

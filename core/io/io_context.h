@@ -1,6 +1,8 @@
 #pragma once
 // What reading and writing need of their caller.
 
+#include <cstdint>
+
 #include "core/base/progress.h"
 #include "core/base/thread_pool.h"
 
@@ -8,9 +10,11 @@ namespace dmoscope {
 
 /// Who watches the work, and the threads that share it. The result is the same for any number of them.
 struct IoContext {
-  IoContext(Progress& watched, ThreadPool* threads = nullptr) : progress(watched), pool(threads) {}  // NOLINT(google-explicit-constructor)
+  IoContext(Progress& watched, ThreadPool* threads = nullptr, std::uint64_t memory = 0)  // NOLINT(google-explicit-constructor)
+      : progress(watched), pool(threads), most_memory(memory) {}
   Progress& progress;
-  ThreadPool* pool;  // null: the calling thread alone
+  ThreadPool* pool;           // null: the calling thread alone
+  std::uint64_t most_memory;  // bytes that a file may unpack to; 0: see UnpackBudget
 };
 
 }  // namespace dmoscope

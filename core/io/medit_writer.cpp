@@ -12,6 +12,7 @@
 #include "core/io/boundary_strings.h"
 #include "core/io/cell_table.h"
 #include "core/io/medit.h"
+#include "core/io/one_line.h"
 #include "core/io/text_writer.h"
 #include "core/io/tokenizer.h"
 
@@ -55,7 +56,7 @@ class MeditWriter {
     const bool volume = std::any_of(kinds.begin(), kinds.end(), [](ElementKind kind) { return info(kind).dimension == 3; });
     const bool flat = !volume && std::all_of(positions_.begin(), positions_.end(), [](Vec3 p) { return p.z == 0.0; });
     out_ << kMeditSignature << " 2\n";
-    if (!mesh_.title.empty()) out_ << "# " << mesh_.title << '\n';
+    if (!mesh_.title.empty()) out_ << "# " << one_line(mesh_.title) << '\n';
     out_ << "Dimension " << (flat ? 2 : 3) << '\n';
     vertices(flat);
     edges();

@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/io/format.h"
+#include "core/io/one_line.h"
 #include "core/io/text_writer.h"
 #include "core/io/tokenizer.h"
 
@@ -174,7 +175,7 @@ Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions,
   require_surface_elements(file, mesh, obj_format().info.title);
   note_dropped(mesh, {}, {}, obj_format().info.title, notes);
   TextWriter out(file, context);
-  if (!mesh.title.empty()) out << "# " << mesh.title << '\n';
+  if (!mesh.title.empty()) out << "# " << one_line(mesh.title) << '\n';
   out.for_each(positions.size(), [&](TextBuffer& part, std::size_t v) {
     part << "v " << positions[v].x << ' ' << positions[v].y << ' ' << positions[v].z << '\n';
   });

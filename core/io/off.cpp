@@ -13,6 +13,7 @@
 #include "core/io/binary.h"
 #include "core/io/format.h"
 #include "core/io/line_chunks.h"
+#include "core/io/one_line.h"
 #include "core/io/text_writer.h"
 #include "core/io/tokenizer.h"
 
@@ -271,7 +272,7 @@ Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions,
   note_dropped(mesh, {}, {}, off_format().info.title, notes);
   TextWriter out(file, context);
   out << "OFF\n";
-  if (!mesh.title.empty()) out << "# " << mesh.title << '\n';
+  if (!mesh.title.empty()) out << "# " << one_line(mesh.title) << '\n';
   out << positions.size() << ' ' << mesh.elements.size() << " 0\n";
   out.for_each(positions.size(),
                [&](TextBuffer& part, std::size_t v) { part << positions[v].x << ' ' << positions[v].y << ' ' << positions[v].z << '\n'; });

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -19,7 +20,9 @@ constexpr std::size_t kChunk = std::size_t{1} << 22;  // bytes between two looks
 /// An open file, closed when it goes.
 class Descriptor {
  public:
-  explicit Descriptor(const std::filesystem::path& path) : value_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  explicit Descriptor(const std::filesystem::path& path)
+      : value_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK))  // of a pipe: without waiting
+  {}
   ~Descriptor() {
     if (value_ >= 0) ::close(value_);
   }
@@ -33,6 +36,12 @@ class Descriptor {
 
 [[noreturn]] void fail(const std::filesystem::path& path, int error) {
   throw InputError(path.string(), 0, std::generic_category().message(error));
+}
+
+std::string_view kind_of(mode_t mode) {
+  if (S_ISFIFO(mode)) return "a pipe";
+  if (S_ISSOCK(mode)) return "a socket";
+  return "a device";
 }
 
 }  // namespace
@@ -56,7 +65,7 @@ std::span<char> FileBytes::room(std::size_t most) {
 }
 
 void SourceFile::add_only_in_file(std::string_view thing) {
-  if (std::find(only_in_file_.begin(), only_in_file_.end(), thing) == only_in_file_.end()) only_in_file_.emplace_back(thing);
+  if (met_only_in_file_.emplace(thing).second) only_in_file_.emplace_back(thing);
 }
 
 FileBytes read_whole_file(const std::filesystem::path& path, Progress& progress) {
@@ -65,8 +74,10 @@ FileBytes read_whole_file(const std::filesystem::path& path, Progress& progress)
   struct stat status {};
   if (::fstat(file.get(), &status) != 0) fail(path, errno);
   if (S_ISDIR(status.st_mode)) fail(path, EISDIR);
+  // Others may never end (/dev/zero), or keep us waiting for ever.
+  if (!S_ISREG(status.st_mode)) throw InputError(path.string(), 0, fmt::format("{} is no file that can be read", kind_of(status.st_mode)));
   FileBytes bytes;
-  // A regular file tells its size; a pipe does not, and a file may still grow: go on until nothing comes.
+  // A file tells its size; it may still grow: go on until nothing comes.
   (void)bytes.room(static_cast<std::size_t>(std::max<off_t>(status.st_size, 0)) + 1);
   for (;;) {
     progress.check();

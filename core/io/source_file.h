@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -122,10 +123,12 @@ class SourceFile {
   std::vector<Index> place_vertices_;
   std::string not_patchable_;
   std::vector<std::string> only_in_file_;
+  std::unordered_set<std::string> met_only_in_file_;  // the same, to be found at once
   std::vector<std::string> notes_;
 };
 
-/// Reads a whole file. Throws InputError with the system's reason (missing, a directory, no permission), Cancelled.
+/// Reads a whole file. Throws InputError with the system's reason (missing, a directory, no permission), and for what is no file: a pipe,
+/// a device. Throws Cancelled.
 [[nodiscard]] FileBytes read_whole_file(const std::filesystem::path& path, Progress& progress);
 
 }  // namespace dmoscope

@@ -17,6 +17,7 @@
 #include "core/base/rounding.h"
 #include "core/io/binary.h"
 #include "core/io/format.h"
+#include "core/io/one_line.h"
 #include "core/io/stl_facets.h"
 #include "core/io/text_writer.h"
 
@@ -252,10 +253,7 @@ Notes write_stl(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positi
                                                         info(kind).dimension == 2 ? ", PLY, OBJ or OFF" : " legacy"));
   }
   TextWriter out(file, context);
-  std::string name = mesh.title;
-  for (char& c : name) {
-    if (c == '\n' || c == '\r') c = ' ';
-  }
+  const std::string name = one_line(mesh.title);  // a NUL would make it a binary file
   out << "solid " << name << '\n';
   out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t e) {
     std::array<Index, 8> buffer{};

@@ -14,6 +14,7 @@
 #include "core/base/memory.h"
 #include "core/io/boundary_strings.h"
 #include "core/io/format.h"
+#include "core/io/one_line.h"
 #include "core/io/text_writer.h"
 #include "core/io/tokenizer.h"
 
@@ -152,6 +153,18 @@ class Reader {
     if (tokens_.at_end()) tokens_.fail_at_end(what);
   }
 
+  /// The end of an element's or a point's line, where its number may stand, on all lines or on none. A coordinate that is there twice
+  /// shifts those behind it: then there is one number too many, or one that is not whole.
+  void end_numbered(std::optional<bool>& numbered, std::string_view thing) {
+    const bool has = tokens_.more_on_line();
+    if (has) (void)tokens_.read_integer(fmt::format("the number of {}, or the end of the line", thing));
+    if (numbered.value_or(has) != has)
+      tokens_.fail(fmt::format("{} with {} number of its own, other than those before: is there a number too {}?", thing, has ? "a" : "no",
+                               has ? "many" : "few"));
+    numbered = has;
+    tokens_.end_line_of(thing);
+  }
+
   Index vertex() { return tokens_.read_index("vertex index", static_cast<std::size_t>(vertices_), "vertices"); }
 
   void elements() {
@@ -160,6 +173,7 @@ class Reader {
     const std::size_t count = tokens_.read_count("NELEM", kShortest);
     tokens_.end_line();
     mesh_.elements.reserve(count, 4 * count);
+    std::optional<bool> numbered;
     for (std::size_t e = 0; e < count; ++e) {
       begin_line("an element");
       const std::int64_t type = tokens_.read_integer("type of an element");
@@ -171,7 +185,7 @@ class Reader {
       const std::span<Index> used(corners.data(), info(*kind).corners);
       for (Index& c : used) c = vertex();
       add_element(mesh_, *kind, used, source_);
-      tokens_.end_line();
+      end_numbered(numbered, "an element");
     }
     foreign_ = false;
   }
@@ -184,6 +198,7 @@ class Reader {
     tokens_.end_line();  // a second count may follow: the points without those of neighbouring partitions
     reserve_large(mesh_.positions, count);
     source_.reserve_places(count);
+    std::optional<bool> numbered;
     for (std::size_t v = 0; v < count; ++v) {
       begin_line("x coordinate");
       source_.add_place(tokens_.offset());
@@ -192,7 +207,7 @@ class Reader {
       p.y = tokens_.read_double("y coordinate");
       if (dimension_ == 3) p.z = tokens_.read_double("z coordinate");
       mesh_.positions.push_back(p);
-      tokens_.end_line();
+      end_numbered(numbered, "a point");
     }
     foreign_ = false;
   }
@@ -204,10 +219,11 @@ class Reader {
     tokens_.end_line();
     MarkerElements found;
     for (std::size_t i = 0; i < count; ++i) {
+      std::optional<bool> numbered;  // points may have the number of a transformation where edges have none
       begin_line("an element of a marker");
       skip_send_recv();
       marker_element(found);
-      tokens_.end_line();
+      end_numbered(numbered, "an element of a marker");
     }
     add_marker(std::move(found));
     tag_.clear();
@@ -312,7 +328,7 @@ std::vector<Marker> markers_of(const Mesh& mesh, std::vector<std::size_t>& kept,
     kept.push_back(i);
     Marker marker{group.name, chain ? chain_edges(group) : group.members, group.faces.size() > 0 ? &group.faces : nullptr};
     std::replace_if(
-        marker.tag.begin(), marker.tag.end(), [](char c) { return c == ' ' || c == '\t' || c == '%'; }, '_');
+        marker.tag.begin(), marker.tag.end(), [](char c) { return c == ' ' || c == '\t' || c == '%' || c == '\n' || c == '\r'; }, '_');
     if (chain) {
       notes.push_back(
           fmt::format("The {} \"{}\" (type {}) was written as marker {} of its edges.", group.role, group.name, group.code, marker.tag));
@@ -354,7 +370,7 @@ Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions,
   note_dropped(mesh, {}, kept, su2_format().info.title, notes);
 
   TextWriter out(file, context);
-  if (!mesh.title.empty()) out << "% " << mesh.title << '\n';
+  if (!mesh.title.empty()) out << "% " << one_line(mesh.title) << '\n';
   out << "NDIME= " << (volume ? 3 : 2) << "\nNELEM= " << mesh.elements.size() << '\n';
   out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t i) {
     std::array<Index, 8> buffer{};

@@ -103,7 +103,7 @@ class TetgenReader {
       if (dimension_ == 3) p.z = tokens.read_double("z coordinate");
       mesh_.positions.push_back(p);
       for (Field& field : fields) field.values.push_back(value(tokens, field));
-      tokens.end_line();
+      tokens.end_line_of("a vertex");
     }
     end_of_file(tokens, "vertices");
     take(std::move(fields));
@@ -144,7 +144,7 @@ class TetgenReader {
       for (Index& c : used) c = tokens.read_index("vertex index", mesh_.positions.size(), "vertices", first_);
       add_element(mesh_, kind, used, file);
       for (Field& field : fields) field.values.push_back(value(tokens, field));
-      tokens.end_line();
+      tokens.end_line_of("an element");
     }
     end_of_file(tokens, "elements");
     take(std::move(fields));

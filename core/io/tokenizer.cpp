@@ -122,6 +122,18 @@ std::string_view Tokenizer::rest_of_line() {
   return text_.substr(begin, end - begin);
 }
 
+void Tokenizer::end_line_of(std::string_view thing) {
+  if (const std::string_view surplus = token_on_line(); !surplus.empty())
+    fail(fmt::format("{} is one number too many for {}", quote_token(surplus), thing));
+  end_line();
+}
+
+void Tokenizer::end_numbers_of(std::string_view thing) {
+  if (const std::string_view next = token_on_line(); !next.empty() && (plain_double(next) || foreign_double(next)))
+    fail(fmt::format("{} is one number too many for {}", quote_token(next), thing));
+  end_line();
+}
+
 std::string_view Tokenizer::read_token(std::string_view what) {
   const std::string_view found = syntax_.free_form ? token() : token_on_line();
   if (!found.empty()) return found;

@@ -82,6 +82,10 @@ class Tokenizer {
       (void)rest_of_line();
     }
   }
+  /// The same, but nothing else may be left than a comment: a number too many means that others stand where they do not belong.
+  void end_line_of(std::string_view thing);
+  /// The same where a remark may follow: it begins with no number.
+  void end_numbers_of(std::string_view thing);
   /// What is left of this line as it stands, comments and blanks included, without the line end; goes on to the next line.
   std::string_view rest_of_line();
 

@@ -169,6 +169,12 @@ std::vector<Value> ascii(const VtuDocument& document, const VtuArray& array, std
   return values;
 }
 
+/// Numbers take 8 bytes each here. What packed bytes unpack to may be a thousand times as many, and arrays may share their data.
+void take_memory(const VtuDocument& document, const VtuArray& array, std::size_t count, UnpackBudget& budget) {
+  if (!budget.take(std::uint64_t{8} * count))
+    document.fail(array.node, fmt::format("the file's arrays unpack to {}", UnpackBudget::advice()));
+}
+
 }  // namespace
 
 TextSyntax vtu_text_syntax() { return {.comment = '<', .comma_is_blank = false, .backslash_joins_lines = false, .free_form = true}; }
@@ -178,17 +184,19 @@ VtuData vtu_data(const VtuDocument& document, const VtuArray& array, std::size_t
 }
 
 std::vector<double> vtu_numbers(const VtuDocument& document, const VtuArray& array, std::size_t expected, std::size_t& end,
-                                std::vector<std::uint64_t>* places) {
+                                UnpackBudget& budget, std::vector<std::uint64_t>* places) {
   if (array.ascii) return ascii<double>(document, array, expected, places, any_double);
   const std::size_t size = size_of(array.type);
   const VtuData data = vtu_data(document, array, expected * size);
   end = data.end;
+  take_memory(document, array, expected, budget);
   std::vector<double> values(expected);
   for (std::size_t i = 0; i < expected; ++i) values[i] = load_scalar(data.bytes.data() + i * size, array.type, document.big_endian());
   return values;
 }
 
-std::vector<std::int64_t> vtu_wholes(const VtuDocument& document, const VtuArray& array, std::size_t expected, std::size_t& end) {
+std::vector<std::int64_t> vtu_wholes(const VtuDocument& document, const VtuArray& array, std::size_t expected, std::size_t& end,
+                                     UnpackBudget& budget) {
   if (!is_whole(array.type)) document.fail(array.node, "must be of a whole-number type");
   if (array.ascii) {
     return ascii<std::int64_t>(document, array, expected, nullptr, [](Tokenizer& tokens) { return tokens.read_integer("a whole number"); });
@@ -196,6 +204,7 @@ std::vector<std::int64_t> vtu_wholes(const VtuDocument& document, const VtuArray
   const std::size_t size = size_of(array.type);
   const VtuData data = vtu_data(document, array, expected * size);
   end = data.end;
+  take_memory(document, array, expected, budget);
   std::vector<std::int64_t> values(expected);
   for (std::size_t i = 0; i < expected; ++i) values[i] = load_whole(data.bytes.data() + i * size, array.type, document.big_endian());
   return values;

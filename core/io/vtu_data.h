@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/thread_pool.h"
+#include "core/io/unpack_budget.h"
 #include "core/io/vtu_document.h"
 
 namespace dmoscope {
@@ -28,12 +29,13 @@ struct VtuData {
 
 /// The numbers of an array, which may be infinite or NaN. Throws InputError unless there are `expected` of them. `places`: their offsets in
 /// the file, one each, where the array is ASCII.
-/// `end`: where the array ends in the file, if it is not ASCII.
+/// `end`: where the array ends in the file, if it is not ASCII. `budget`: what the numbers of arrays that are not ASCII take is taken from
+/// it.
 [[nodiscard]] std::vector<double> vtu_numbers(const VtuDocument& document, const VtuArray& array, std::size_t expected, std::size_t& end,
-                                              std::vector<std::uint64_t>* places = nullptr);
+                                              UnpackBudget& budget, std::vector<std::uint64_t>* places = nullptr);
 /// The same for whole numbers; those beyond 63 bits are -1.
 [[nodiscard]] std::vector<std::int64_t> vtu_wholes(const VtuDocument& document, const VtuArray& array, std::size_t expected,
-                                                   std::size_t& end);
+                                                   std::size_t& end, UnpackBudget& budget);
 
 /// How arrays are encoded that are not ASCII.
 struct VtuEncoding {

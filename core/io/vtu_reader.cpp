@@ -13,6 +13,7 @@
 #include "core/base/memory.h"
 #include "core/io/format.h"
 #include "core/io/tokenizer.h"
+#include "core/io/unpack_budget.h"
 #include "core/io/vtk_cells.h"
 #include "core/io/vtu.h"
 #include "core/io/vtu_data.h"
@@ -39,7 +40,11 @@ constexpr std::array kRoles{ActiveRole{"Scalars", "SCALARS"},
 
 class VtuReader {
  public:
-  VtuReader(SourceFile& source, Progress& progress) : source_(source), progress_(progress), document_(source, progress) {}
+  VtuReader(SourceFile& source, const IoContext& context)
+      : source_(source),
+        progress_(context.progress),
+        document_(source, context.progress),
+        budget_(source.bytes().size(), context.most_memory) {}
 
   Mesh read() {
     std::size_t pieces = 0;
@@ -96,13 +101,13 @@ class VtuReader {
 
   std::vector<double> numbers(const VtuArray& array, std::size_t count) {
     std::size_t end = array.begin;
-    std::vector<double> values = vtu_numbers(document_, array, count, end);
+    std::vector<double> values = vtu_numbers(document_, array, count, end, budget_);
     if (array.appended) others_.push_back({array.begin, end, false});
     return values;
   }
   std::vector<std::int64_t> wholes(const VtuArray& array, std::size_t count) {
     std::size_t end = array.begin;
-    std::vector<std::int64_t> values = vtu_wholes(document_, array, count, end);
+    std::vector<std::int64_t> values = vtu_wholes(document_, array, count, end, budget_);
     if (array.appended) others_.push_back({array.begin, end, false});
     return values;
   }
@@ -114,7 +119,7 @@ class VtuReader {
     if (array.components != 3) document_.fail(node, fmt::format("points have 3 coordinates, not {}", array.components));
     std::vector<std::uint64_t> places;
     std::size_t end = array.begin;
-    const std::vector<double> values = vtu_numbers(document_, array, 3 * count, end, &places);
+    const std::vector<double> values = vtu_numbers(document_, array, 3 * count, end, budget_, &places);
     if (mesh_.positions.empty()) reserve_large(mesh_.positions, count);
     for (std::size_t v = 0; v < count; ++v) {
       const Vec3 p{values[3 * v], values[3 * v + 1], values[3 * v + 2]};
@@ -222,10 +227,14 @@ class VtuReader {
   }
 
   void append(Field& field, const VtuArray& array, std::size_t rows) {
-    const std::vector<double> values = numbers(array, rows * array.components);
-    field.values.insert(field.values.end(), values.begin(), values.end());
+    std::vector<double> values = numbers(array, rows * array.components);
     const bool rounded =
         is_whole(array.type) && std::any_of(values.begin(), values.end(), [](double v) { return std::abs(v) >= kExactWhole; });
+    if (field.values.empty()) {
+      field.values = std::move(values);
+    } else {
+      field.values.insert(field.values.end(), values.begin(), values.end());
+    }
     if (rounded) {
       source_.add_note(fmt::format("Field \"{}\" has whole numbers beyond 2^53: other formats get them rounded.", field.name));
     }
@@ -306,6 +315,7 @@ class VtuReader {
   SourceFile& source_;
   Progress& progress_;
   VtuDocument document_;
+  UnpackBudget budget_;
   Mesh mesh_;
   VtkCells cells_;
   std::vector<std::uint8_t> kinds_;  // of each cell: ElementKind or kNoKind
@@ -325,7 +335,7 @@ bool recognises_vtu(std::string_view bytes) {
 
 }  // namespace
 
-Mesh read_vtu(SourceFile& source, const IoContext& context) { return VtuReader(source, context.progress).read(); }
+Mesh read_vtu(SourceFile& source, const IoContext& context) { return VtuReader(source, context).read(); }
 
 const FormatHandler& vtu_format() {
   static const FormatHandler handler{

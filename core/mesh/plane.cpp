@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -40,6 +41,14 @@ struct Box {
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
 };
+
+/// Of the box: neither under- nor overflows before the size itself does.
+double diagonal(const Box& box) {
+  const Vec3 d = box.high - box.low;
+  const double most = std::max({d.x, d.y, d.z});
+  if (!(most > 0.0) || !std::isfinite(most)) return most;
+  return most * length(Vec3{d.x / most, d.y / most, d.z / most});
+}
 
 /// Normal of the least-squares plane: the eigenvector of the smallest eigenvalue of a symmetric matrix, by cyclic Jacobi rotations.
 Vec3 smallest_eigenvector(Matrix3 a) {
@@ -153,7 +162,7 @@ Geometry classify(const Mesh& mesh) {
     if (used[v] != 0) box.add(mesh.positions[v]);
   }
   if (mesh.elements.size() == 0) return geometry;
-  geometry.size = length(box.high - box.low);
+  geometry.size = diagonal(box);
   const bool volume = std::ranges::any_of(mesh.elements.kinds(), [](ElementKind k) { return info(k).dimension == 3; });
   if (volume) geometry.shape = Shape::Volume;
 

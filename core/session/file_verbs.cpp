@@ -44,6 +44,7 @@ void generate(CommandContext& context, Arguments arguments) {
 void export_mesh(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
   const Run& run = context.session.active();
+  context.session.require_not_read(arguments[0], "export");
   for (std::string& note : write_mesh(arguments[0], run.input().mesh, run.positions(), context.progress))
     tell(context, std::move(note), Message::Kind::Warning);
   tell(context, fmt::format("wrote {}", arguments[0]));
@@ -54,6 +55,7 @@ void write_stats(CommandContext& context, Arguments arguments) {
   std::vector<std::string> titles;
   std::vector<const std::vector<IterationRecord>*> records;
   (void)context.session.active();
+  context.session.require_not_read(arguments[0], "stats");
   for (std::size_t i = 0; i < context.session.run_count(); ++i) {
     titles.push_back(stats_label(context.session.run(i).parameters()));
     records.push_back(&context.session.run(i).history().records());
@@ -74,6 +76,7 @@ void write_stats(CommandContext& context, Arguments arguments) {
 void write_elements(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
   const Run& run = context.session.active();
+  context.session.require_not_read(arguments[0], "elements");
   std::vector<Metric> metrics;
   for (const MetricInfo& entry : metric_table()) metrics.push_back(entry.metric);
   write_file_atomically(arguments[0], elements_csv(run.input().quality_context(), run.positions(), metrics));
@@ -82,14 +85,16 @@ void write_elements(CommandContext& context, Arguments arguments) {
 
 void save_session(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 2);
+  context.session.require_not_read(arguments[0], "save-state");
   save_state(arguments[0], context.session, arguments.size() > 1 ? arguments[1] : "", context.progress);
   tell(context, fmt::format("saved the session as {}", arguments[0]));
 }
 
 void open_session(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
-  open_state(arguments[0], context.session, context.progress);
+  const std::string note = open_state(arguments[0], context.session, context.progress);
   tell_report(context);
+  if (!note.empty()) tell(context, note, Message::Kind::Warning);
   tell(context, fmt::format("{} run{} as saved", context.session.run_count(), context.session.run_count() == 1 ? "" : "s"));
 }
 

@@ -91,12 +91,14 @@ MeshReport examine(const Mesh& mesh, const Geometry& geometry, const Topology& t
 
 void refuse_what_cannot_be_done(const Mesh& mesh, const Geometry& geometry, const std::string& file, Need need) {
   // Products of four lengths must stay finite and normal; of a volume, of eight.
-  const double largest = geometry.shape == Shape::Volume ? 1e36 : 1e75;
+  // What is smoothed may grow a little, where vertices lie outside of the boundary, and shall be read again.
+  const double possible = geometry.shape == Shape::Volume ? 1e36 : 1e75;
+  const double largest = need == Need::Smoothing ? 0.1 * possible : possible;
   if (mesh.elements.size() == 0) throw InputError(file, 0, "the mesh has no elements");
-  if (geometry.size > largest || (geometry.size > 0.0 && geometry.size < 1.0 / largest)) {
-    throw InputError(
-        file, 0,
-        fmt::format("the mesh is {:.4g} units large; sizes from {:g} to {:g} can be computed with", geometry.size, 1.0 / largest, largest));
+  if (geometry.size > largest || (geometry.size > 0.0 && geometry.size < 1.0 / possible)) {
+    throw InputError(file, 0,
+                     fmt::format("the mesh is {:.4g} units large; sizes from {:g} to {:g} can be computed with", geometry.size,
+                                 1.0 / possible, largest));
   }
   if (geometry.shape == Shape::Volume) {
     for (Index e = 0; e < mesh.elements.size(); ++e)

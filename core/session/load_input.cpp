@@ -1,3 +1,6 @@
+#include <new>
+
+#include "core/base/error.h"
 #include "core/io/mesh_io.h"
 #include "core/mesh/generate.h"
 #include "core/session/commands.h"
@@ -6,7 +9,11 @@
 namespace dmoscope {
 
 std::shared_ptr<const InputMesh> load_input(const std::filesystem::path& path, Need need, const IoContext& context) {
-  return prepare_input(read_mesh(path, context), path, need, context.progress);
+  try {
+    return prepare_input(read_mesh(path, context), path, need, context.progress);
+  } catch (const std::bad_alloc&) {
+    throw InputError(path.string(), 0, "not enough memory for this mesh");
+  }
 }
 
 std::shared_ptr<const InputMesh> generate_input(const std::string& line, Progress& progress) {

@@ -16,7 +16,7 @@ std::string Session::reload(Progress& progress) {
     ids.push_back(run->id());
   }
   const std::size_t was_active = active_index();
-  auto fresh = load_input(input()->path, Need::Smoothing, progress);
+  auto fresh = load_input(input()->path, Need::Smoothing, reading(progress));
   std::string note;
   if (fresh->mesh.vertex_count() != input()->mesh.vertex_count()) {
     for (RunParameters& one : parameters) {
@@ -29,7 +29,7 @@ std::string Session::reload(Progress& progress) {
     try {
       runs_[k == 0 ? change(parameters[k]) : add_run(parameters[k])]->set_id(ids[k]);
     } catch (const UsageError& error) {  // such as a metric that is not defined for the elements of now
-      note += (note.empty() ? "" : "\n") + std::string(error.what());
+      note += (note.empty() ? "" : "; ") + std::string(error.what());
     }
   }
   select(std::min(was_active, run_count() - 1));

@@ -186,6 +186,10 @@ class Run {
   /// Called after every iteration of the two calls below, on the calling thread.
   using AfterIteration = std::function<void(const Run&)>;
   Outcome iterate(std::uint64_t iterations, Progress& progress, const AfterIteration& after = {});
+  /// The two calls as if they had been made at the input and had come to where the run stands, the end of an iteration: they end where, and
+  /// as, they would have ended then. Of a run that was saved on its way (see adopt). What `after` would have heard it does not hear again.
+  Outcome iterate_from_input(std::uint64_t iterations, Progress& progress, const AfterIteration& after = {});
+  Outcome until_converged_from_input(const ConvergenceLimits& limits, Progress& progress, const AfterIteration& after = {});
   /// Why the last of these two calls stopped; none after any other step.
   [[nodiscard]] const std::optional<Outcome>& last_outcome() const noexcept { return last_outcome_; }
   Outcome until_converged(const ConvergenceLimits& limits, Progress& progress, const AfterIteration& after = {});
@@ -207,8 +211,9 @@ class Run {
   void visit_block(std::uint64_t count);
   void end_iteration();
   void record(const Place& done);
-  [[nodiscard]] bool attempts_to_untangle() const;
-  Outcome advance(const ConvergenceLimits& limits, bool stop_when_still, Progress& progress, const AfterIteration& after);
+  [[nodiscard]] bool attempts_to_untangle(std::uint64_t iteration) const;
+  Outcome advance(const ConvergenceLimits& limits, bool stop_when_still, std::uint64_t from, Progress& progress,
+                  const AfterIteration& after);
   template <class Body>
   auto asking_device(const Body& body) const;
   template <class Body>

@@ -170,60 +170,75 @@ void Run::put(std::span<const Vec3> positions, const Place& place) {
   brought_ = at_;
 }
 
-/// May a later iteration untangle what this one did not?
-bool Run::attempts_to_untangle() const {
+/// May an iteration after this one untangle what it did not?
+bool Run::attempts_to_untangle(std::uint64_t iteration) const {
   const auto& records = history_.records();
-  const std::uint64_t iteration = at_.moment.iteration;
   return records[iteration].statistics.inverted > 0 && method_info(parameters_.method).optimises &&
          iterations_since_untangled(records, iteration) < UntanglingPlan::kEnd;
 }
 
 Outcome Run::iterate(std::uint64_t iterations, Progress& progress, const AfterIteration& after) {
-  return advance({.patience = iterations, .max_iterations = iterations, .rise = ConvergenceLimits{}.rise}, false, progress, after);
+  return advance({.patience = iterations, .max_iterations = iterations, .rise = ConvergenceLimits{}.rise}, false, at_.moment.iteration,
+                 progress, after);
+}
+
+Outcome Run::iterate_from_input(std::uint64_t iterations, Progress& progress, const AfterIteration& after) {
+  return advance({.patience = iterations, .max_iterations = iterations, .rise = ConvergenceLimits{}.rise}, false, 0, progress, after);
+}
+
+Outcome Run::until_converged_from_input(const ConvergenceLimits& limits, Progress& progress, const AfterIteration& after) {
+  return advance(limits, true, 0, progress, after);
 }
 
 Outcome Run::until_converged(const ConvergenceLimits& limits, Progress& progress, const AfterIteration& after) {
-  return advance(limits, true, progress, after);
+  return advance(limits, true, at_.moment.iteration, progress, after);
 }
 
-Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, Progress& progress, const AfterIteration& after) {
+/// `from`: the iteration that counts as the begin; those behind it that were done before are gone through by their records.
+Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std::uint64_t from, Progress& progress,
+                     const AfterIteration& after) {
   Outcome outcome{.limits = limits};
   recover();
   // Where we stand now may be the midst of an iteration, of which the history has no record.
-  const Statistics start = recovering([this] { return statistics(); });
+  from = std::min(from, at_.moment.iteration);  // after a failure the run may stand before it
+  const Statistics start = from < at_.moment.iteration ? history_.records()[from].statistics : recovering([this] { return statistics(); });
+  std::uint64_t reached = from;
   double minimum = start.minimum, movable = start.movable_minimum, mean = start.mean;
   std::uint64_t since_rise = 0, quiet = 0;  // quiet: iterations in a row in which nothing moved
   bool stopped = false;
   while (!stopped && outcome.iterations < limits.max_iterations) {
     const bool whole = at_.moment.visits == 0;
-    {
+    const bool anew = reached == at_.moment.iteration;
+    if (anew) {
       const Progress::Part part(progress, outcome.iterations, limits.max_iterations);
       step(StepUnit::Iteration, progress);
     }
+    ++reached;
     ++outcome.iterations;
     ++since_rise;
-    const Statistics& now = history_.records()[at_.moment.iteration].statistics;
+    const IterationRecord record = history_.records()[reached];
+    const Statistics& now = record.statistics;
     // As differences: where nothing is movable both are infinite, and that is no rise.
     if (now.minimum - minimum >= limits.rise || now.movable_minimum - movable >= limits.rise) {
       since_rise = 0;
-      outcome.last_rise = at_.moment.iteration;
+      outcome.last_rise = reached;
       minimum = std::max(minimum, now.minimum);
       movable = std::max(movable, now.movable_minimum);
     }
     const auto since = mean_since();
-    const bool raising_mean = since && *since < at_.moment.iteration;
+    const bool raising_mean = since && *since < reached;
     if (raising_mean && (!outcome.mean_since || now.mean - mean >= limits.rise)) {
       outcome.mean_since = since;
       since_rise = 0;
       mean = now.mean;
     }
-    if (after) recovering([&] { after(*this); });
+    if (after && anew) recovering([&] { after(*this); });
     outcome.inverted = now.inverted;
     if (parameters_.then_mean && !raising_mean && now.inverted == 0) continue;  // the first phase's end is not the run's
     // The second phase searches as DMO does, whatever the method.
     auto needed = raising_mean ? 1 : still_iterations(method_info(parameters_.method), parameters_.options, input_->is_volume());
-    if (needed && attempts_to_untangle()) *needed += UntanglingPlan::kCycle;
-    quiet = whole && last_moved_ == 0 ? quiet + 1 : 0;
+    if (needed && attempts_to_untangle(reached)) *needed += UntanglingPlan::kCycle;
+    quiet = whole && record.moved == 0 ? quiet + 1 : 0;
     const bool still = needed && quiet >= *needed;
     stopped = stop_when_still && (still || since_rise >= limits.patience);
     if (stopped) outcome.reason = still ? StopReason::NothingMoved : StopReason::NoRise;

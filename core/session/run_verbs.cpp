@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/byte_size.h"
 #include "core/session/verbs.h"
 
 namespace dmoscope {
@@ -30,6 +31,10 @@ void set_threads(CommandContext& context, Arguments arguments) {
   const std::uint64_t threads = to_count(arguments[0]);
   if (threads > 1024) throw UsageError(fmt::format("threads must be 0 (all) to 1024, not {}", threads));
   context.session.set_threads(static_cast<unsigned>(threads));
+}
+void set_most_memory(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  context.session.set_most_memory(arguments[0] == "off" ? 0 : parse_byte_size(arguments[0]));
 }
 void set_history(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
@@ -102,6 +107,8 @@ std::span<const Verb> run_verbs() {
       {{"redo", "redo", "Does again what was undone."}, redo, false},
       {{"threads", "threads N", "Threads to smooth with; 0: all."}, set_threads},
       {{"history", "history MIB", "Memory for positions of past iterations, all runs together."}, set_history},
+      {{"max-memory", "max-memory SIZE|off", "How much a compressed file may unpack to (800M, 2G); off: 256M or 100 times its size."},
+       set_most_memory},
       {{"percentiles", "percentiles on|off", "Works out the 1st, 5th and 50th percentile of every iteration that is kept."},
        set_percentiles},
       {{"expect", "expect minimum|movable|mean|inverted|iteration|moved <|<=|==|>=|> VALUE", "Fails when it does not hold."}, expect},

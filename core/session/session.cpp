@@ -10,7 +10,9 @@ namespace dmoscope {
 Session::Session(unsigned threads, Acceleration acceleration, Backend backend)
     : pool_(std::make_shared<ThreadPool>(threads)), acceleration_(std::move(acceleration)), backend_(backend) {}
 
-void Session::open(const std::filesystem::path& path, Progress& progress) { replace_input(load_input(path, Need::Smoothing, progress)); }
+void Session::open(const std::filesystem::path& path, Progress& progress) {
+  replace_input(load_input(path, Need::Smoothing, reading(progress)));
+}
 
 void Session::open(Mesh mesh, Progress& progress) { replace_input(prepare_input(std::move(mesh), {}, Need::Smoothing, progress)); }
 
@@ -24,6 +26,7 @@ std::shared_ptr<Run> Session::make_run(std::shared_ptr<const InputMesh> input, R
 
 void Session::replace(std::shared_ptr<const InputMesh> input, std::vector<std::shared_ptr<Run>> runs, std::size_t active, Metric shown) {
   input_ = std::move(input);
+  if (!input_->path.empty()) read_files_.add(input_->mesh, input_->path);
   runs_ = std::move(runs);
   active_ = active;
   shown_ = shown;
@@ -50,6 +53,7 @@ void Session::replace_input(std::shared_ptr<const InputMesh> input) {
   parameters.combination.reset();          // its point, its field and its threshold are of the mesh before
   auto run = make_run(input, parameters);  // may throw: nothing has been replaced yet
   input_ = std::move(input);
+  if (!input_->path.empty()) read_files_.add(input_->mesh, input_->path);
   run->set_id(++last_id_);
   runs_.clear();
   runs_.push_back(std::move(run));

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/session/read_files.h"
 #include "core/session/run.h"
 #include "core/session/undo.h"
 
@@ -39,6 +40,12 @@ class Session {
   /// by hand, when there is another number of them now), else nothing. Throws UsageError for a mesh without a file; on any error the
   /// session stays as it was.
   [[nodiscard]] std::string reload(Progress& progress);
+  /// Throws UsageError when `verb` would write over a mesh that was opened in this session.
+  void require_not_read(const std::filesystem::path& target, std::string_view verb) const { read_files_.require_another(target, verb); }
+  /// Bytes that a file may unpack to from now on; 0: see UnpackBudget.
+  void set_most_memory(std::uint64_t bytes) noexcept { most_memory_ = bytes; }
+  /// How files are read for this session.
+  [[nodiscard]] IoContext reading(Progress& progress) const { return {progress, nullptr, most_memory_}; }
   [[nodiscard]] bool has_input() const noexcept { return input_ != nullptr; }
   /// Throws UsageError "no mesh is open".
   [[nodiscard]] const std::shared_ptr<const InputMesh>& input() const;
@@ -101,6 +108,8 @@ class Session {
   bool percentiles_ = false;
   std::string restored_view_;
   std::uint64_t restored_views_ = 0;
+  ReadFiles read_files_;
+  std::uint64_t most_memory_ = 0;
   std::uint64_t last_id_ = 0;  // of all runs there were
   UndoStack undo_;
 };

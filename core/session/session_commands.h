@@ -9,10 +9,9 @@
 //   order natural|shuffle:SEED | interfaces fixed|free | fix WORD... (see vertices_named) | unfix
 //   step vertex|class|iteration [COUNT] | back vertex|class|iteration [COUNT]
 //   run ITERATIONS | until-converged [PATIENCE [MAX]] | visit VERTEX|A-B... | seek ITERATION [VISITS [EDITS]] | reset
-//   add-run METHOD[:METRIC] | select-run K | remove-run K | undo | redo | threads N | history MIB | percentiles on|off
-//   expect minimum|movable|mean|inverted|iteration|moved  <|<=|==|>=|>  VALUE
-//   say TEXT
-//   each step|run|back|until-converged|seek|reset [N [MAX]] | compare methods|metrics [ITERATIONS] | compare orders N [ITERATIONS]
+//   add-run METHOD[:METRIC] | select-run K | remove-run K | undo | redo | threads N | history MIB | max-memory SIZE|off | percentiles
+//   on|off expect minimum|movable|mean|inverted|iteration|moved  <|<=|==|>=|>  VALUE say TEXT each step|run|back|until-converged|seek|reset
+//   [N [MAX]] | compare methods|metrics [ITERATIONS] | compare orders N [ITERATIONS]
 
 #include <functional>
 #include <vector>

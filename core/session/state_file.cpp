@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/fnv1a.h"
 #include "core/io/mesh_io.h"
 #include "core/io/source_file.h"
 #include "core/session/base64.h"
@@ -23,19 +24,52 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kFormat = "dmoscope session";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;  // 1: without checksums but that of the mesh
 
-/// Of positions and elements, FNV-1a.
+/// Of positions and elements.
 std::string checksum(const Mesh& mesh) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  const auto add = [&](std::uint64_t value) {
-    for (unsigned k = 0; k < 8; ++k) hash = (hash ^ (value >> 8U * k & 255U)) * 1099511628211ULL;
-  };
+  Fnv1a hash;
+  const auto add = [&](std::uint64_t value) { hash.add_number(value); };
   for (const Vec3& p : mesh.positions)
     for (const double coordinate : {p.x, p.y, p.z}) add(std::bit_cast<std::uint64_t>(coordinate));
   for (const ElementKind kind : mesh.elements.kinds()) add(static_cast<std::uint64_t>(kind));
   for (const Index corner : mesh.elements.all_corners()) add(corner);
-  return fmt::format("{:016x}", hash);
+  return hash.text();
+}
+
+/// Of each part of an object, to tell which is damaged: JSON's own form of it, which does not depend on how the file is laid out.
+Json checksums_of(const Json& object) {
+  Json sums = Json::object();
+  for (const auto& [key, part] : object.items()) {
+    if (key == "checksums" || key == "runs") continue;  // runs have their own
+    Fnv1a hash;
+    if (part.is_string()) {
+      hash.add_bytes(part.get_ref<const std::string&>());
+    } else {
+      hash.add_bytes(part.dump(-1, ' ', false, Json::error_handler_t::replace));
+    }
+    sums[key] = hash.text();
+  }
+  return sums;
+}
+
+/// Throws UsageError when a part of an object is not what was saved, lacks, or is one too many. `what`: "run 2", or empty for the session
+/// itself. A view is only looked at, and who shows it judges it: returns whether it, too, is what was saved.
+bool check_parts(const Json& object, const std::string& what) {
+  if (!object.contains("checksums"))
+    throw UsageError(fmt::format("{} is damaged: it has no checksums", what.empty() ? "the session" : what));
+  const Json found = checksums_of(object);
+  const Json& saved = object.at("checksums");
+  const std::string of = what.empty() ? std::string("the session is damaged: its") : fmt::format("{} is damaged: its", what);
+  bool view_as_saved = true;
+  for (const auto& [key, sum] : found.items()) {
+    if (saved.contains(key) && saved.at(key) == sum) continue;
+    if (key != "view") throw UsageError(fmt::format("{} {} {} not what was saved", of, key, key.ends_with('s') ? "are" : "is"));
+    view_as_saved = false;
+  }
+  for (const auto& [key, sum] : saved.items())
+    if (!found.contains(key)) throw UsageError(fmt::format("{} {} {} missing", of, key, key.ends_with('s') ? "are" : "is"));
+  return view_as_saved;
 }
 
 /// JSON has no number for what is not finite.
@@ -174,7 +208,24 @@ Json json_of(Run& run, Progress& progress) {
   for (const IterationRecord& record : run.history().records()) records.push_back(json_of(record));
   Json json{{"parameters", json_of(run.parameters())}, {"moment", json_of(run.moment())}, {"edits", edits}, {"records", records}};
   if (run.moment().iteration > 0) json["positions"] = packed_start(run, progress);
+  json["checksums"] = checksums_of(json);
   return json;
+}
+
+/// What the file says of the positions must be what they are, whatever it says.
+void require_record(const Run& run, const std::vector<IterationRecord>& records, std::uint64_t iteration, std::span<const Vec3> positions) {
+  if (iteration >= records.size()) return;  // adopt() refuses that
+  constexpr double kLastDigits = 1e-6;      // another version of this program, and a device, may round otherwise
+  const Statistics is = compute_statistics(run.input().quality_context(), positions, run.parameters().metric, run.immovable(), nullptr);
+  const Statistics& said = records[iteration].statistics;
+  const auto agree = [](double a, double b) {
+    return a == b || std::abs(a - b) <= kLastDigits * std::max({1.0, std::abs(a), std::abs(b)}) || (std::isnan(a) && std::isnan(b));
+  };
+  if (is.inverted == said.inverted && agree(is.minimum, said.minimum) && agree(is.mean, said.mean)) return;
+  throw UsageError(fmt::format(
+      "a run is damaged: at iteration {} its positions have minimum {:.6g}, mean {:.6g} and {} inverted, its record says {:.6g}, "
+      "{:.6g} and {}",
+      iteration, is.minimum, is.mean, is.inverted, said.minimum, said.mean, said.inverted));
 }
 
 /// A run as it is described, on a mesh.
@@ -198,6 +249,7 @@ std::shared_ptr<Run> to_run(const Json& json, const Session& session, const std:
       if (run->fixed()[v] != 0 && std::memcmp(&positions[v], &input->mesh.positions[v], sizeof(Vec3)) != 0)
         throw UsageError(fmt::format("vertex {} is fixed, but has moved", v));
   }
+  if (point.moment.iteration > 0) require_record(*run, point.records.whole(), point.moment.iteration, positions);
   run->adopt(point, positions, progress);
   return run;
 }
@@ -210,18 +262,22 @@ std::filesystem::path find_mesh(const std::filesystem::path& written, const std:
   return std::filesystem::exists(beside, ignored) ? beside : written;
 }
 
-std::shared_ptr<const InputMesh> to_input(const Json& json, const std::filesystem::path& state, Progress& progress) {
-  std::shared_ptr<const InputMesh> input;
+std::shared_ptr<const InputMesh> to_input(const Json& json, const std::filesystem::path& state, const IoContext& context,
+                                          std::shared_ptr<const InputMesh> input) {
+  Progress& progress = context.progress;
   std::string source;
-  if (json.contains("generate")) {
+  if (input) {
+    source = input->mesh.name;
+  } else if (json.contains("generate")) {
     source = json.at("generate").get<std::string>();
     input = generate_input(source, progress);
   } else {
     const std::filesystem::path path = find_mesh(json.at("path").get<std::string>(), state);
     source = path.string();
-    input = load_input(path, Need::Smoothing, progress);
+    input = load_input(path, Need::Smoothing, context);
   }
-  if (checksum(input->mesh) != json.at("checksum").get<std::string>())
+  if (to_whole(json.at("vertices")) != input->mesh.vertex_count() || to_whole(json.at("elements")) != input->mesh.elements.size() ||
+      checksum(input->mesh) != json.at("checksum").get<std::string>())
     throw UsageError(fmt::format("{} has changed since the session was saved: its positions or elements are others", source));
   return input;
 }
@@ -232,19 +288,26 @@ struct Opened {
   std::size_t active = 0;
   Metric shown = Metric::MeanRatio;
   std::string view;
+  std::string note;
 };
 
-Opened to_session(const Json& json, const std::filesystem::path& path, const Session& session, Progress& progress) {
+Opened to_session(const Json& json, const std::filesystem::path& path, const Session& session, Progress& progress,
+                  const std::shared_ptr<const InputMesh>& input) {
   if (!json.is_object() || json.value("format", "") != kFormat) throw UsageError("this is no saved session of dmoscope");
-  if (to_whole(json.at("version")) != kVersion)
-    throw UsageError(fmt::format("this session was saved in version {} of the format; this program reads version {}",
-                                 to_whole(json.at("version")), kVersion));
+  const std::uint64_t version = to_whole(json.at("version"));
+  if (version < 1 || version > kVersion)
+    throw UsageError(
+        fmt::format("this session was saved in version {} of the format; this program reads versions 1 to {}", version, kVersion));
   Opened opened;
-  opened.input = to_input(json.at("input"), path, progress);
+  const bool checked = version > 1 || json.contains("checksums");
+  if (!checked) opened.note = "this session was saved without checksums: damage to it may go unnoticed; save it again to have them";
+  if (checked && !check_parts(json, "")) opened.note = "the view was changed since the session was saved";
+  opened.input = to_input(json.at("input"), path, session.reading(progress), input);
   const Json& runs = json.at("runs");
   if (!runs.is_array() || runs.empty()) throw UsageError("the session has no runs");
   for (const Json& run : runs) {
     progress.check();
+    if (checked) (void)check_parts(run, fmt::format("run {}", opened.runs.size() + 1));
     opened.runs.push_back(to_run(run, session, opened.input, progress));
   }
   opened.active = to_whole(json.at("active"));
@@ -266,6 +329,8 @@ Json parse(std::string_view text, const std::string& file) {
     const std::string_view before = text.substr(0, std::min<std::size_t>(text.size(), error.byte == 0 ? 0 : error.byte - 1));
     const auto line = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
     throw InputError(file, line, "this is no JSON, so no saved session");
+  } catch (const Json::exception&) {  // a number beyond all doubles
+    throw InputError(file, 0, "a number in it is too large for a saved session");
   }
 }
 
@@ -292,6 +357,7 @@ void save_state(const std::filesystem::path& path, Session& session, const std::
     json["view"] = Json::parse(view, nullptr, false);
     if (json["view"].is_discarded()) throw UsageError("the view to be saved is no JSON");
   }
+  json["checksums"] = checksums_of(json);
   std::string text;
   try {
     text = json.dump(1) + "\n";
@@ -301,13 +367,14 @@ void save_state(const std::filesystem::path& path, Session& session, const std::
   write_file_atomically(path, text);
 }
 
-void open_state(const std::filesystem::path& path, Session& session, Progress& progress) {
+std::string open_state(const std::filesystem::path& path, Session& session, Progress& progress,
+                       const std::shared_ptr<const InputMesh>& input) {
   const std::string file = path.string();
   const FileBytes bytes = read_whole_file(path, progress);
   const Json json = parse(bytes.view(), file);
   Opened opened;
   try {
-    opened = to_session(json, path, session, progress);
+    opened = to_session(json, path, session, progress, input);
   } catch (const Json::exception&) {
     throw InputError(file, 0, "something is missing in this saved session, or is of another kind than it should be");
   } catch (const UsageError& error) {
@@ -315,6 +382,7 @@ void open_state(const std::filesystem::path& path, Session& session, Progress& p
   }
   session.replace(std::move(opened.input), std::move(opened.runs), opened.active, opened.shown);
   session.restore_view(std::move(opened.view));
+  return opened.note;
 }
 
 }  // namespace dmoscope

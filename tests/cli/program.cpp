@@ -11,6 +11,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -47,6 +48,11 @@ struct Pipe {
     const int output = open(call.output.c_str(), O_WRONLY | O_CLOEXEC);
     if (output < 0) _exit(126);
     dup2(output, STDOUT_FILENO);
+  }
+  for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM}) std::signal(signal, SIG_DFL);  // whatever started the tests ignores
+  if (call.file_limit > 0) {
+    const rlimit limit{call.file_limit, call.file_limit};
+    setrlimit(RLIMIT_FSIZE, &limit);
   }
   if (!call.display) {
     unsetenv("DISPLAY");
@@ -94,7 +100,7 @@ Output run(const Call& call) {
     if (ends[1].revents != 0) drain(err.read, output.err);
     const auto passed = Clock::now() - start;
     if (!interrupted && passed >= call.interrupt) {
-      kill(child, SIGINT);
+      kill(child, call.signal);
       interrupted = true;
     }
     if (!killed && passed >= call.limit) {

@@ -2,6 +2,7 @@
 // Runs the program as a person would and keeps what it says.
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,7 +21,9 @@ struct Call {
   std::string input;                       // standard input
   std::string output{};                    // where standard output goes instead of Output::out, "/dev/full"
   bool display = false;                    // keep DISPLAY and WAYLAND_DISPLAY?
-  std::chrono::milliseconds interrupt{0};  // > 0: send SIGINT after that long
+  std::chrono::milliseconds interrupt{0};  // > 0: send the signal after that long
+  int signal = 2;                          // SIGINT
+  std::uint64_t file_limit = 0;            // > 0: bytes that a file may have, as by ulimit -f
   std::chrono::seconds limit{300};
 };
 /// Never throws for what the program does; the program is killed at the limit.

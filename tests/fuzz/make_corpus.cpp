@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/io/mesh_io.h"
+#include "tests/fuzz/check_session.h"
 #include "tests/fuzz/samples.h"
 
 int main(int argc, char** argv) {
@@ -13,7 +14,10 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    for (const dmoscope::testing::Sample& sample : dmoscope::testing::samples()) {
+    std::vector<dmoscope::testing::Sample> samples = dmoscope::testing::samples();
+    samples.push_back({"saved", "session", dmoscope::testing::sample_session()});
+    samples.push_back({"verbs", "script", std::string(dmoscope::testing::kSampleScript)});
+    for (const dmoscope::testing::Sample& sample : samples) {
       const auto folder = std::filesystem::path(argv[1]) / sample.format;
       std::filesystem::create_directories(folder);
       dmoscope::write_file_atomically(folder / sample.name, sample.bytes);

@@ -52,7 +52,9 @@ struct Written {
 /// A file of this process alone, removed at the end of the program.
 inline const std::filesystem::path& scratch_path() {
   struct Scratch {
-    std::filesystem::path path = std::filesystem::temp_directory_path() / ("dmoscope-test-" + std::to_string(::getpid()));
+    // In memory where there is such a folder: what is written there is on no disk that would have to be waited for.
+    std::filesystem::path path = (std::filesystem::is_directory("/dev/shm") ? "/dev/shm" : std::filesystem::temp_directory_path()) /
+                                 std::filesystem::path("dmoscope-test-" + std::to_string(::getpid()));
     Scratch() = default;
     Scratch(const Scratch&) = delete;
     Scratch& operator=(const Scratch&) = delete;

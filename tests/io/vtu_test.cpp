@@ -351,6 +351,36 @@ TEST(ZlibBlocks, GivesExactlyWhatIsAskedOrNothing) {
   EXPECT_EQ(std::string(out.begin(), out.end()), "xhello, hello, hello");
 }
 
+TEST(Vtu, ArraysThatShareTheirDataTakeNoMoreMemoryThanIsFine) {
+  // 3072 bytes of data, that 40 arrays have in common: 983,040 bytes of numbers.
+  std::string text =
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt32\">\n<UnstructuredGrid>\n"
+      "<Piece NumberOfPoints=\"3\" NumberOfCells=\"1\">\n<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">"
+      "0 0 0 1 0 0 0 1 0</DataArray></Points>\n<Cells><DataArray type=\"Int64\" Name=\"connectivity\">0 1 2</DataArray>"
+      "<DataArray type=\"Int64\" Name=\"offsets\">3</DataArray><DataArray type=\"UInt8\" "
+      "Name=\"types\">5</DataArray></Cells>\n<PointData>\n";
+  for (int i = 0; i < 40; ++i)
+    text +=
+        "<DataArray type=\"UInt8\" Name=\"f" + std::to_string(i) + "\" NumberOfComponents=\"1024\" format=\"appended\" offset=\"0\"/>\n";
+  text += "</PointData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">_";
+  put<std::uint32_t>(text, false, {3072});
+  text += std::string(3072, '\7') + "</AppendedData>\n</VTKFile>\n";
+  Progress progress;
+  const auto read = [&](std::uint64_t most) {
+    SourceFile source("a.vtu", FileBytes(text));
+    return handler_of("vtu").read(source, {progress, nullptr, most});
+  };
+  EXPECT_EQ(read(983040).fields.size(), 40U);
+  EXPECT_EQ(read(0).fields.size(), 40U) << "a hundred times as large is fine, and 256 MiB always";
+  try {
+    (void)read(983039);
+    ADD_FAILURE() << "more than was said to be fine";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.line(), 46U);
+    EXPECT_THAT(error.what(), HasSubstr("--max-memory"));
+  }
+}
+
 TEST(Base64Reader, ReadsRunsOneAfterAnother) {
   // "a", "bcd" and "ef" (RFC 4648), each in a run of its own, with blanks within.
   Base64Reader reader("YQ==\n Ym\tNk ZWY=");

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,6 +26,14 @@ using Json = nlohmann::ordered_json;
 
 bool same_bits(std::span<const Vec3> a, std::span<const Vec3> b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
+}
+
+/// As it was saved before there were checksums, which would be the first to refuse.
+Json unsealed(Json json) {
+  json["version"] = 1;
+  json.erase("checksums");
+  for (Json& run : json["runs"]) run.erase("checksums");
+  return json;
 }
 
 class StateFile : public ::testing::Test {
@@ -144,7 +153,7 @@ TEST_F(StateFile, AFileOfBeforeMethodsHadOptionsStillOpens) {
   say("generate random 100");
   say("run 2");
   say("save-state " + file_.string());
-  Json json = Json::parse(text());
+  Json json = unsealed(Json::parse(text()));
   Json& parameters = json["runs"][0]["parameters"];
   for (const char* key : {"relaxation", "directions", "seed"}) EXPECT_EQ(parameters.erase(key), 1U) << key;
   write(json.dump());
@@ -176,7 +185,7 @@ TEST_F(StateFile, MalformedFilesAreRefusedWithAReason) {
   say("step vertex");
   say("save-state " + file_.string());
   const std::string good = text();
-  const Json json = Json::parse(good);
+  const Json json = unsealed(Json::parse(good));
   EXPECT_EQ(refusal(), "");
 
   write("");
@@ -230,7 +239,7 @@ TEST_F(StateFile, RefusesWhatCannotHaveBeen) {
   say("run 2");
   say("visit 0-99");
   say("save-state " + file_.string());
-  const Json json = Json::parse(text());
+  const Json json = unsealed(Json::parse(text()));
   const auto refused = [&](const char* pointer, const Json& value) {
     Json broken = json;
     broken[Json::json_pointer(pointer)] = value;
@@ -243,11 +252,130 @@ TEST_F(StateFile, RefusesWhatCannotHaveBeen) {
   EXPECT_THAT(refused("/runs/0/edits/0/at", Json{2, 0, 1}), HasSubstr("cannot be"));
   EXPECT_THAT(refused("/runs/0/edits/0/vertices", Json{1000000}), HasSubstr("1000000"));
   EXPECT_THAT(refused("/runs/0/positions", "AAAA"), HasSubstr("damaged"));
-  EXPECT_THAT(refused("/version", 2), HasSubstr("version 2"));
+  EXPECT_THAT(refused("/version", 3), HasSubstr("version 3"));
   EXPECT_THAT(refused("/active", 1), HasSubstr("run 1 is active"));
   std::vector<Vec3> moved(session_.input()->mesh.positions);
   for (Vec3& p : moved) p.x += 1.0;
   EXPECT_THAT(refused("/runs/0/positions", pack_positions(moved)), HasSubstr("is fixed, but has moved"));
+}
+
+TEST_F(StateFile, SaysWhatIsDamaged) {
+  say("generate random 100");
+  say("run 2");
+  say("visit 0-99");
+  say("add-run dmo:radius-ratio");
+  say("run 1");
+  say("save-state " + file_.string());
+  const Json json = Json::parse(text());
+  const auto refused = [&](const char* pointer, const Json& value) {
+    Json broken = json;
+    broken[Json::json_pointer(pointer)] = value;
+    write(broken.dump());
+    return refusal();
+  };
+  write(json.dump(4));
+  EXPECT_EQ(refusal(), "") << "how the file is laid out does not matter";
+  EXPECT_THAT(refused("/runs/1/positions", pack_positions(session_.input()->mesh.positions)), HasSubstr("run 2 is damaged: its positions"));
+  EXPECT_THAT(refused("/runs/0/parameters/grid", 9), HasSubstr("run 1 is damaged: its parameters"));
+  EXPECT_THAT(refused("/runs/0/records/1/2", 0.25), HasSubstr("run 1 is damaged: its records"));
+  EXPECT_THAT(refused("/runs/0/moment", Json{1, 0, 0}), HasSubstr("run 1 is damaged: its moment"));
+  EXPECT_THAT(refused("/runs/0/edits", Json::array()), HasSubstr("run 1 is damaged: its edits"));
+  EXPECT_THAT(refused("/active", 0), HasSubstr("its active"));
+  EXPECT_THAT(refused("/shown", "min-angle"), HasSubstr("its shown"));
+  EXPECT_THAT(refused("/input/elements", 7), HasSubstr("its input"));
+  EXPECT_THAT(refused("/version", 1), HasSubstr("its version"));
+  EXPECT_THAT(refused("/checksums", nullptr), HasSubstr("damaged"));
+  Json without = json;
+  without["runs"][0].erase("edits");
+  write(without.dump());
+  EXPECT_THAT(refusal(), HasSubstr("run 1 is damaged: its edits are missing"));
+}
+
+TEST_F(StateFile, NoChangedCharacterPasses) {
+  say("generate grid 16");
+  say("run 2");
+  say("save-state " + file_.string());
+  const std::string good = text();
+  Session whole(1);
+  (void)open_state(file_, whole, progress_);
+  for (std::size_t i = 0; i < good.size(); i += 7) {
+    std::string bad = good;
+    bad[i] = bad[i] == '4' ? '5' : '4';
+    if (Json::parse(bad, nullptr, false) == Json::parse(good)) continue;  // the last digit of a number, which is no other one
+    write(bad);
+    EXPECT_NE(refusal(), "") << i << ": " << good.substr(i - std::min<std::size_t>(i, 20), 40);
+  }
+}
+
+TEST_F(StateFile, OfBeforeThereWereChecksumsOpensWithANote) {
+  say("generate random 100");
+  say("run 2");
+  say("save-state " + file_.string());
+  Session other(1);
+  EXPECT_EQ(open_state(file_, other, progress_), "");
+  const Json json = unsealed(Json::parse(text()));
+  write(json.dump());
+  EXPECT_THAT(open_state(file_, other, progress_), HasSubstr("without checksums"));
+  // Even then the positions must have the quality that the record says.
+  std::vector<Vec3> moved(other.active().positions().begin(), other.active().positions().end());
+  const Index free = other.active().colouring().order.front();
+  moved[free].x += 0.01;
+  Json broken = json;
+  broken["runs"][0]["positions"] = pack_positions(moved);
+  write(broken.dump());
+  EXPECT_THAT(refusal(), HasSubstr("a run is damaged: at iteration 2 its positions have"));
+  moved[free].x = std::numeric_limits<double>::quiet_NaN();
+  broken["runs"][0]["positions"] = pack_positions(moved);
+  write(broken.dump());
+  EXPECT_THAT(refusal(), HasSubstr("the positions of a run are damaged"));
+}
+
+TEST_F(StateFile, NothingTakesThePlaceOfAMeshThatIsOpen) {
+  const auto mesh = folder_ / "mesh.node";
+  say("generate random 50");
+  say("export " + mesh.string());
+  say("open " + (folder_ / "mesh.ele").string());
+  const auto bytes = [](const std::filesystem::path& path) {
+    std::ifstream stream(path);
+    return std::string{std::istreambuf_iterator<char>(stream), {}};
+  };
+  const std::string before = bytes(mesh), elements = bytes(folder_ / "mesh.ele");
+  std::filesystem::create_symlink("mesh.node", folder_ / "link.csv");
+  for (const char* verb : {"stats", "elements", "export", "save-state"})
+    for (const char* name : {"mesh.node", "mesh.ele", "./mesh.ele", "link.csv"})
+      EXPECT_THROW(say(std::string(verb) + " " + (folder_ / name).string()), UsageError) << verb << " " << name;
+  say("generate grid 16");
+  EXPECT_THROW(say("stats " + mesh.string()), UsageError) << "it was opened before";
+  EXPECT_EQ(bytes(mesh), before);
+  EXPECT_EQ(bytes(folder_ / "mesh.ele"), elements);
+  say("save-state " + file_.string());
+  say("open-state " + file_.string());
+  EXPECT_NO_THROW(say("save-state " + file_.string())) << "a session may be saved again";
+}
+
+TEST_F(StateFile, ARunGoesOnFromItsFileAsIfItHadNotStopped) {
+  for (const bool until_converged : {false, true}) {
+    constexpr ConvergenceLimits kLimits{.patience = 4, .max_iterations = 60, .rise = 1e-3};
+    const auto go = [&](dmoscope::Run& run, const dmoscope::Run::AfterIteration& after) {
+      return until_converged ? run.until_converged_from_input(kLimits, progress_, after) : run.iterate_from_input(12, progress_, after);
+    };
+    say("generate random 200 3");
+    say("then mean 5");
+    const Outcome whole = go(session_.active(), [&](const dmoscope::Run& run) {
+      if (run.moment() == Moment{6}) save_state(file_, session_, {}, progress_);
+    });
+    Session other(1);
+    other.set_history_budget(0);
+    (void)open_state(file_, other, progress_, session_.input());
+    ASSERT_EQ(other.active().moment(), Moment{6});
+    EXPECT_EQ(other.input(), session_.input());
+    std::uint64_t heard = 0;
+    const Outcome resumed = go(other.active(), [&](const dmoscope::Run&) { ++heard; });
+    EXPECT_EQ(resumed.sentence(), whole.sentence());
+    EXPECT_EQ(resumed.iterations, whole.iterations);
+    EXPECT_EQ(heard, whole.iterations - 6);
+    EXPECT_TRUE(same_bits(other.active().positions(), session_.active().positions()));
+  }
 }
 
 TEST_F(StateFile, ACancelledOpeningLeavesTheSession) {

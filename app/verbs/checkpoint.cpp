@@ -1,0 +1,85 @@
+#include "app/verbs/checkpoint.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/console.h"
+#include "app/targets.h"
+#include "core/session/state_file.h"
+
+namespace dmoscope::app {
+
+void add_checkpoint_options(CLI::App& verb, CheckpointOptions& options) {
+  constexpr double kLongest = 1e9;
+  auto* file = verb.add_option("--checkpoint", options.file,
+                               "Save the run there every now and then, and at a signal that ends it, to go on with --resume");
+  file->type_name("FILE");
+  verb.add_option("--checkpoint-every", options.every, "Seconds between two checkpoints; 0: one after every iteration")
+      ->check(CLI::Range(0.0, kLongest))
+      ->needs(file)
+      ->type_name("SECONDS")
+      ->capture_default_str();
+  verb.add_option("--resume", options.resume,
+                  "Go on with what --checkpoint saved, by the same options; the result is the same, bit for bit, as without the break")
+      ->type_name("FILE");
+}
+
+void refuse_early(const CheckpointOptions& options, std::initializer_list<std::filesystem::path> others) {
+  if (options.file.empty()) return;
+  for (const std::filesystem::path& other : others) require_another_file(options.file, "--checkpoint", other);
+  require_writable(options.file);
+}
+
+namespace {
+
+void refuse_another_run(const Run& run, RunParameters wanted, const std::filesystem::path& file) {
+  wanted.search.simd = run.parameters().search.simd;  // the same bits by any
+  if (run.parameters() == wanted) return;
+  throw UsageError(fmt::format("--resume {}: give the options that this run was begun with ({})", file.string(), run.title()));
+}
+
+}  // namespace
+
+Run& begin_run(Session& session, const std::shared_ptr<const InputMesh>& input, const RunParameters& parameters,
+               const CheckpointOptions& options, Progress& progress) {
+  if (options.resume.empty()) {
+    session.replace(input, {session.make_run(input, parameters)}, 0, parameters.metric);
+    return session.active();
+  }
+  if (const std::string note = open_state(options.resume, session, progress, input); !note.empty())
+    complain(fmt::format("{}: {}", options.resume.string(), note));
+  if (session.run_count() != 1)
+    throw UsageError(fmt::format("--resume {}: a session of several runs is no checkpoint", options.resume.string()));
+  refuse_another_run(session.active(), parameters, options.resume);
+  return session.active();
+}
+
+bool Checkpoints::end_soon() noexcept {
+  if (!running_) return false;
+  ending_ = true;
+  return true;
+}
+
+void Checkpoints::after_iteration() {
+  if (!running_) return;
+  const bool due = std::chrono::duration<double>(Clock::now() - last_).count() >= options_.every;
+  if (!due && !ending_) return;
+  try {
+    save();
+  } catch (const OutputError& error) {
+    complain(fmt::format("no checkpoint: {}", error.what()));
+  }
+  if (!ending_) return;
+  throw Cancelled();
+}
+
+void Checkpoints::save() {
+  Progress unwatched;
+  save_state(options_.file, session_, {}, unwatched);
+  last_ = Clock::now();
+  if (ending_)
+    complain(fmt::format("{}: saved at iteration {}; --resume goes on from there", options_.file.string(),
+                         session_.active().moment().iteration));
+}
+
+}  // namespace dmoscope::app

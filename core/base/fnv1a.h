@@ -1,0 +1,30 @@
+#pragma once
+// A short hash of bytes (FNV-1a, 64 bits): finds damage, proves nothing against somebody who wants to deceive.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace dmoscope {
+
+class Fnv1a {
+ public:
+  void add_bytes(std::string_view bytes) noexcept {
+    for (const char byte : bytes) add(static_cast<unsigned char>(byte));
+  }
+  /// Its eight bytes, the lowest first.
+  void add_number(std::uint64_t value) noexcept {
+    for (unsigned k = 0; k < 8; ++k) add(value >> 8U * k & 255U);
+  }
+  /// 16 digits.
+  [[nodiscard]] std::string text() const { return fmt::format("{:016x}", hash_); }
+
+ private:
+  void add(std::uint64_t byte) noexcept { hash_ = (hash_ ^ byte) * 1099511628211ULL; }
+
+  std::uint64_t hash_ = 14695981039346656037ULL;
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,52 @@
+#include "core/io/litter.h"
+
+#include <algorithm>
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace dmoscope {
+namespace {
+
+constexpr std::string_view kBegin = ".dmoscope-";
+constexpr std::string_view kEnd = ".tmp";
+
+bool is_number(std::string_view text) noexcept {
+  return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// The lock goes with the process that held it, however it ended. It is held here while the file is removed, so that no process can
+/// just then take a file of this name for its own.
+void remove_if_dead(int folder, const char* name) noexcept {
+  const int descriptor = ::openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) return;
+  struct stat status {};
+  if (::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+    (void)::unlinkat(folder, name, 0);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+std::string litter_name(pid_t process, unsigned number) { return fmt::format("{}{}-{}{}", kBegin, process, number, kEnd); }
+
+bool is_litter_name(std::string_view name) noexcept {
+  if (!name.starts_with(kBegin) || !name.ends_with(kEnd) || name.size() < kBegin.size() + kEnd.size()) return false;
+  const std::string_view numbers = name.substr(kBegin.size(), name.size() - kBegin.size() - kEnd.size());
+  const std::size_t dash = numbers.find('-');
+  return dash != std::string_view::npos && is_number(numbers.substr(0, dash)) && is_number(numbers.substr(dash + 1));
+}
+
+void remove_litter(const std::filesystem::path& folder) noexcept {
+  DIR* const entries = ::opendir(folder.empty() ? "." : folder.c_str());
+  if (entries == nullptr) return;
+  while (const dirent* entry = ::readdir(entries))
+    if (is_litter_name(entry->d_name)) remove_if_dead(::dirfd(entries), entry->d_name);
+  ::closedir(entries);
+}
+
+}  // namespace dmoscope

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kInt = 4;   // bytes
 constexpr std::size_t kSize = 8;  // bytes
+constexpr int kAnyDimension = -1;
 
 struct HigherOrder {
   std::int64_t first, last;  // types
@@ -34,9 +35,15 @@ constexpr std::array kHigherOrder{
 void GmshCells::physical_names() {
   const std::size_t count = in_.words.count("the number of physical names", 5.0);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::int64_t dimension = in_.words.integer("the dimension of a physical group");
-    const std::int64_t number = in_.words.integer("the number of a physical group");
-    if (dimension < 0 || dimension > 3) in_.words.fail(fmt::format("a physical group of {} dimensions", dimension));
+    std::int64_t dimension = in_.words.integer("the dimension of a physical group");
+    std::int64_t number = dimension;
+    // Old files leave the dimension out, and Gmsh writes it as -1 when it saves such a file again: the name is of whatever has the number.
+    if (in_.words.peek_word().starts_with('"')) {
+      dimension = kAnyDimension;
+    } else {
+      number = in_.words.integer("the number of a physical group");
+    }
+    if (dimension < kAnyDimension || dimension > 3) in_.words.fail(fmt::format("a physical group of {} dimensions", dimension));
     if (!std::in_range<int>(number)) in_.words.fail(fmt::format("the number of a physical group is too large: {}", number));
     std::string_view name = in_.words.rest_of_line();
     if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
@@ -215,7 +222,8 @@ std::vector<OriginLabels> GmshCells::labels() const {
     if (in_.version != 2 && entity != entity_physical_.end()) physical = entity->second;
     OriginLabels& made = labels.emplace_back();
     for (const int number : physical) {
-      const auto name = names_.find({origin.dimension, std::abs(number)});
+      auto name = names_.find({origin.dimension, std::abs(number)});
+      if (name == names_.end()) name = names_.find({kAnyDimension, std::abs(number)});
       const bool named = name != names_.end();
       made.labels.push_back({named ? name->second : fmt::format("physical {}", number), std::string(kGmshPhysical), number});
     }

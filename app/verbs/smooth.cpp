@@ -139,7 +139,7 @@ void print_summary(const Result& r) {
 
 /// Everything that can be refused without reading the mesh.
 void refuse_early(const Options& options) {
-  require_mesh_target(options.output);
+  require_mesh_target(options.output, options.input);
   require_another_file(options.stats, "--stats", options.input);
   require_another_file(options.stats, "--stats", options.output);
   if (!options.stats.empty()) require_writable(options.stats);

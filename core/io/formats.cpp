@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/io/foreign_format.h"
 #include "core/io/format.h"
 #include "core/io/mesh_io.h"
 #include "core/io/patch_writer.h"
@@ -51,15 +52,30 @@ std::string known_formats() {
   return result;
 }
 
+bool is_certain(const FormatHandler& handler, std::string_view bytes) { return handler.recognises != nullptr && handler.recognises(bytes); }
+
 const FormatHandler& format_of(const std::filesystem::path& path, std::string_view bytes) {
-  const FormatHandler* named = by_extension(path.extension().string());
-  const auto certain = [bytes](const FormatHandler* handler) { return handler->recognises != nullptr && handler->recognises(bytes); };
-  if (named != nullptr && certain(named)) return *named;
+  const std::string extension = path.extension().string();
+  const FormatHandler* named = by_extension(extension);
+  if (named != nullptr && is_certain(*named, bytes)) return *named;
   for (const FormatHandler* handler : handlers()) {
-    if (certain(handler)) return *handler;
+    if (is_certain(*handler, bytes)) return *handler;
   }
-  if (named == nullptr) throw InputError(path.string(), 0, "unknown format; known are " + known_formats());
-  return *named;
+  if (named != nullptr) return *named;
+  const std::string foreign = foreign_format(bytes, extension);
+  throw InputError(path.string(), 0, foreign.empty() ? "unknown format; known are " + known_formats() : foreign);
+}
+
+/// Reads by a handler. An error in a file that is of another format altogether says which.
+Mesh read_by(const FormatHandler& handler, SourceFile& source, const IoContext& context) {
+  try {
+    return handler.read(source, context);
+  } catch (const InputError&) {
+    if (is_certain(handler, source.bytes())) throw;
+    const std::string foreign = foreign_format(source.bytes(), source.path().extension().string());
+    if (foreign.empty()) throw;
+    throw InputError(source.path().string(), 0, foreign);
+  }
 }
 
 /// Things of one kind that a format cannot carry: one sentence for all of them.
@@ -88,9 +104,22 @@ bool can_patch(const Mesh& mesh, const FormatHandler& handler) {
   return mesh.source && mesh.source->format() == handler.info.name && mesh.source->not_patchable().empty();
 }
 
+/// Solids that were turned over after reading.
+std::size_t turned_solids(const Mesh& mesh) {
+  std::size_t turned = 0;
+  for (std::size_t e = 0; e < mesh.flipped.size(); ++e) {
+    if (mesh.flipped[e] != 0 && info(mesh.elements.kind(static_cast<Index>(e))).dimension == 3) ++turned;
+  }
+  return turned;
+}
+
 Notes write_anew(AtomicFile& file, const FormatHandler& handler, const Mesh& mesh, std::span<const Vec3> positions,
                  const IoContext& context) {
   Notes notes = handler.write(file, mesh, positions, context);
+  if (const std::size_t turned = turned_solids(mesh); turned > 0) {
+    notes.push_back(turned == 1 ? "1 element that was wound inside out was written the right way round."
+                                : fmt::format("{} elements that were wound inside out were written the right way round.", turned));
+  }
   if (!mesh.source) return notes;
   if (mesh.source->format() == handler.info.name) {
     notes.push_back(fmt::format("The file was made anew: {}.", mesh.source->not_patchable()));
@@ -151,6 +180,12 @@ const FormatInfo* format_by_extension(std::string_view extension) {
   return handler == nullptr ? nullptr : &handler->info;
 }
 
+void require_known_format(const std::filesystem::path& path, Progress& progress) {
+  if (by_extension(path.extension().string()) != nullptr) return;
+  const FileBytes bytes = read_whole_file(path, progress);
+  (void)format_of(path, bytes.view());
+}
+
 Mesh read_mesh(const std::filesystem::path& path, const IoContext& context) {
   Progress& progress = context.progress;
   progress.begin("reading " + path.filename().string());
@@ -166,7 +201,7 @@ Mesh read_mesh(const std::filesystem::path& path, const IoContext& context) {
     const std::filesystem::path second = companion_path(main, *handler.companion);
     source->set_companion(std::make_shared<SourceFile>(second, read_whole_file(second, progress)));
   }
-  Mesh mesh = handler.read(*source, context);
+  Mesh mesh = read_by(handler, *source, context);
   if (mesh.positions.empty()) throw InputError(path.string(), 0, "the file holds no vertices");
   if (mesh.elements.size() == 0) throw InputError(path.string(), 0, "the file holds no elements");
   mesh.name = path.filename().string();
@@ -219,7 +254,7 @@ void add_element(Mesh& mesh, ElementKind kind, std::span<const Index> corners, c
 
 std::span<const Index> file_corners(const Mesh& mesh, Index element, std::array<Index, 8>& buffer) {
   const std::span<const Index> corners = mesh.elements.corners(element);
-  if (mesh.flipped.empty() || mesh.flipped[element] == 0) return corners;
+  if (mesh.flipped.empty() || mesh.flipped[element] == 0 || info(mesh.elements.kind(element)).dimension == 3) return corners;
   std::copy(corners.begin(), corners.end(), buffer.begin());
   flip_corners(mesh.elements.kind(element), buffer.data());
   return {buffer.data(), corners.size()};

@@ -27,9 +27,13 @@ struct FormatInfo {
 /// elements in the file's order; nothing is normalised. Throws InputError (file and line), Cancelled.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, const IoContext& context);
 
+/// Throws InputError where read_mesh() would not know what format the file is, with the same words; Cancelled.
+void require_known_format(const std::filesystem::path& path, Progress& progress);
+
 /// Writes `mesh` with `positions` in place of its own (mesh.positions.size() of them) to `path`, format by extension.
 /// When mesh.source is of that format, its bytes are written again and only the coordinates whose bits changed are replaced;
-/// otherwise the file is made anew, in the file's own winding (mesh.flipped undone). Written beside the target and renamed: on any
+/// otherwise the file is made anew: elements of the plane in the winding that they came in (mesh.flipped undone), solids as the format
+/// wants them. Written beside the target and renamed: on any
 /// failure the old file stands. A format of two files (.node, .ele) is read and written as both, whichever is named. Returns one sentence
 /// for each thing the format could not carry. Throws OutputError, UsageError (unknown extension), Cancelled.
 std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions,

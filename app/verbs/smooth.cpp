@@ -14,11 +14,13 @@
 #include "app/targets.h"
 #include "app/text.h"
 #include "app/verbs/aims_report.h"
+#include "app/verbs/declared_floats.h"
 #include "app/verbs/goal_options.h"
 #include "app/verbs/input_report.h"
 #include "app/verbs/run_options.h"
 #include "app/verbs/verbs.h"
 #include "core/io/mesh_io.h"
+#include "core/io/source_file.h"
 #include "core/search/simd.h"
 #include "core/session/carry_on.h"
 #include "core/session/csv.h"
@@ -157,6 +159,11 @@ double smoothing_seconds(const Run& run) {
   return seconds;
 }
 
+bool keeps_the_format(const Options& options, const Mesh& mesh) {
+  const FormatInfo* format = format_by_extension(options.output.extension().string());
+  return mesh.source && format != nullptr && format->name == mesh.source->format();
+}
+
 int smooth(const Options& options) {
   refuse_early(options);
   RunParameters parameters = parameters_of(options.run);
@@ -187,6 +194,10 @@ int smooth(const Options& options) {
   for (std::string& sentence : write_mesh(options.output, input->mesh, run.positions(), {progress, pool.get()})) {
     complain(fmt::format("{}: {}", options.output.string(), sentence));
     warnings.push_back(std::move(sentence));
+  }
+  if (keeps_the_format(options, input->mesh)) {
+    const std::string seen = seen_as_floats(*input, run.positions(), run.parameters().metric, pool.get());
+    if (!seen.empty()) warn(fmt::format("{}: {}", options.output.string(), seen));
   }
   if (!options.stats.empty()) write_statistics(options.stats, run);
 

@@ -150,12 +150,12 @@ class VtkReader {
   void set_layout(ScalarType type, std::size_t first, std::size_t n) {
     CoordinateLayout layout;
     layout.syntax.free_form = true;
+    layout.scalar.fill(type == ScalarType::Float32 ? CoordinateScalar::Float32 : CoordinateScalar::Float64);
     if (values_.binary) {
       const auto size = static_cast<std::uint32_t>(size_of(type));
       layout.binary = true;
       layout.big_endian = true;
       layout.at = {0, size, 2 * size};
-      layout.scalar.fill(type == ScalarType::Float32 ? CoordinateScalar::Float32 : CoordinateScalar::Float64);
       source_.set_uniform_places(first, std::size_t{3} * size, n);
     }
     source_.set_layout(layout);

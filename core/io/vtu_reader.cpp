@@ -258,7 +258,7 @@ class VtuReader {
     layout.big_endian = document_.big_endian();
     const auto size = static_cast<std::uint32_t>(size_of(first.type));
     if (layout.binary) layout.at = {0, size, 2 * size};
-    layout.scalar.fill(layout.binary && first.type == ScalarType::Float32 ? CoordinateScalar::Float32 : CoordinateScalar::Float64);
+    layout.scalar.fill(first.type == ScalarType::Float32 ? CoordinateScalar::Float32 : CoordinateScalar::Float64);
     source_.set_layout(layout);
     for (const PointArray& some : points_) {
       if (is_whole(some.array.type)) source_.set_not_patchable("its points are whole numbers");

@@ -27,7 +27,7 @@ void require_writable(const std::filesystem::path& path) {
 }
 
 void require_mesh_target(const std::filesystem::path& path, const std::filesystem::path& input) {
-  const std::string extension = path.extension().string();
+  const std::string extension = mesh_extension(path);
   if (format_by_extension(extension) != nullptr) return require_writable(path);
   if (!input.empty()) {
     Progress unwatched;

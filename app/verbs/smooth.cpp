@@ -160,7 +160,7 @@ double smoothing_seconds(const Run& run) {
 }
 
 bool keeps_the_format(const Options& options, const Mesh& mesh) {
-  const FormatInfo* format = format_by_extension(options.output.extension().string());
+  const FormatInfo* format = format_by_extension(mesh_extension(options.output));
   return mesh.source && format != nullptr && format->name == mesh.source->format();
 }
 

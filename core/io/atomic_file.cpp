@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "core/base/error.h"
+#include "core/io/gzip.h"
 #include "core/io/mesh_io.h"
 
 namespace dmoscope {
@@ -68,7 +69,19 @@ void AtomicFile::discard() noexcept {
   temporary_.clear();
 }
 
+void AtomicFile::pack() {
+  packer_ = std::make_unique<GzipPacker>([this](std::string_view packed) { write_plain(packed); });
+}
+
 void AtomicFile::write(std::string_view bytes) {
+  if (packer_) {
+    packer_->add(bytes);
+  } else {
+    write_plain(bytes);
+  }
+}
+
+void AtomicFile::write_plain(std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
@@ -78,6 +91,7 @@ void AtomicFile::write(std::string_view bytes) {
 }
 
 void AtomicFile::commit() {
+  if (packer_) packer_->finish();
   const int closed = ::close(descriptor_);  // some file systems tell only now that the disk is full
   descriptor_ = -1;
   if (closed != 0 && errno != EINTR) fail(errno);

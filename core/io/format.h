@@ -55,6 +55,7 @@ struct FormatHandler {
 [[nodiscard]] const FormatHandler& su2_format();
 [[nodiscard]] const FormatHandler& gmsh_format();
 [[nodiscard]] const FormatHandler& medit_format();
+[[nodiscard]] const FormatHandler& meshb_format();
 [[nodiscard]] const FormatHandler& tetgen_format();
 
 /// All of them, in the order of format_table().

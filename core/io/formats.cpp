@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/io/foreign_format.h"
 #include "core/io/format.h"
+#include "core/io/gzip.h"
 #include "core/io/mesh_io.h"
 #include "core/io/patch_writer.h"
 #include "core/io/tokenizer.h"
@@ -22,7 +23,8 @@ const std::vector<const FormatHandler*>& handlers() {
 #ifdef DMOSCOPE_VTU
                                                        &vtu_format(),
 #endif
-                                                       &fort14_format(), &su2_format(), &gmsh_format(), &medit_format(), &tetgen_format()};
+                                                       &fort14_format(), &su2_format(), &gmsh_format(), &medit_format(), &meshb_format(),
+                                                       &tetgen_format()};
   return table;
 }
 
@@ -54,8 +56,15 @@ std::string known_formats() {
 
 bool is_certain(const FormatHandler& handler, std::string_view bytes) { return handler.recognises != nullptr && handler.recognises(bytes); }
 
+constexpr std::string_view kPacked = ".gz";
+
+FileBytes read_unpacked(const std::filesystem::path& path, Progress& progress) {
+  FileBytes bytes = read_whole_file(path, progress);
+  return is_gzip(bytes.view()) ? gunzipped(path, bytes.view(), progress) : std::move(bytes);
+}
+
 const FormatHandler& format_of(const std::filesystem::path& path, std::string_view bytes) {
-  const std::string extension = path.extension().string();
+  const std::string extension = mesh_extension(path);
   const FormatHandler* named = by_extension(extension);
   if (named != nullptr && is_certain(*named, bytes)) return *named;
   for (const FormatHandler* handler : handlers()) {
@@ -72,7 +81,7 @@ Mesh read_by(const FormatHandler& handler, SourceFile& source, const IoContext& 
     return handler.read(source, context);
   } catch (const InputError&) {
     if (is_certain(handler, source.bytes())) throw;
-    const std::string foreign = foreign_format(source.bytes(), source.path().extension().string());
+    const std::string foreign = foreign_format(source.bytes(), mesh_extension(source.path()));
     if (foreign.empty()) throw;
     throw InputError(source.path().string(), 0, foreign);
   }
@@ -180,23 +189,30 @@ const FormatInfo* format_by_extension(std::string_view extension) {
   return handler == nullptr ? nullptr : &handler->info;
 }
 
+std::string mesh_extension(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  return gzip_is_here() && equal_ignoring_case(extension, kPacked) ? path.stem().extension().string() : extension;
+}
+
 void require_known_format(const std::filesystem::path& path, Progress& progress) {
-  if (by_extension(path.extension().string()) != nullptr) return;
-  const FileBytes bytes = read_whole_file(path, progress);
+  if (by_extension(mesh_extension(path)) != nullptr) return;
+  const FileBytes bytes = read_unpacked(path, progress);
   (void)format_of(path, bytes.view());
 }
 
 Mesh read_mesh(const std::filesystem::path& path, const IoContext& context) {
   Progress& progress = context.progress;
   progress.begin("reading " + path.filename().string());
-  const FormatHandler* named = by_extension(path.extension().string());
+  const FormatHandler* named = by_extension(mesh_extension(path));
   const std::filesystem::path main = main_path(path, named);
   if (main != path) require_both(path, named);
-  auto source = std::make_shared<SourceFile>(main, read_whole_file(main, progress));
+  auto source = std::make_shared<SourceFile>(main, read_unpacked(main, progress));
   if (source->bytes().empty()) throw InputError(main.string(), 0, "the file is empty");
   const FormatHandler& handler = format_of(main, source->bytes());
   source->set_format(handler.info.name);
   if (handler.companion != nullptr) {
+    if (equal_ignoring_case(main.extension().string(), kPacked))
+      throw InputError(path.string(), 0, "files in pairs are read unpacked alone");
     require_both(path, &handler);
     const std::filesystem::path second = companion_path(main, *handler.companion);
     source->set_companion(std::make_shared<SourceFile>(second, read_whole_file(second, progress)));
@@ -216,17 +232,20 @@ std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mes
                                     const IoContext& context) {
   Progress& progress = context.progress;
   progress.begin("writing " + path.filename().string());
-  const FormatHandler* handler = by_extension(path.extension().string());
+  const std::string extension = mesh_extension(path);
+  const FormatHandler* handler = by_extension(extension);
   if (handler == nullptr) {
-    throw UsageError(fmt::format("{}: unknown extension {}; known formats are {}", path.string(), quote_token(path.extension().string()),
-                                 known_formats()));
+    throw UsageError(fmt::format("{}: unknown extension {}; known formats are {}", path.string(), quote_token(extension), known_formats()));
   }
+  const bool packed = path.extension().string() != extension;
+  if (packed && handler->companion != nullptr) throw OutputError(path.string(), "files in pairs are written unpacked alone");
   if (positions.size() != mesh.positions.size()) {
     throw UsageError(fmt::format("{}: {} positions for {} vertices", path.string(), positions.size(), mesh.positions.size()));
   }
   require_finite(path, positions);
   const std::filesystem::path main = main_path(path, handler);
   AtomicFile file(main);
+  if (packed) file.pack();
   std::optional<AtomicFile> second;
   if (handler->companion != nullptr) second.emplace(companion_path(main, *handler->companion));
   Notes notes;

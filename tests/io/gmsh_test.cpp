@@ -51,6 +51,22 @@ TEST(Gmsh, NamesWithoutADimensionAreOfWhateverHasTheNumber) {
   }
 }
 
+/// As Gmsh writes it: two partitions of one surface, with a line between them that is no line of the mesh.
+TEST(Gmsh, PartitionsArePutTogether) {
+  const std::string text = dmoscope::testing::gmsh_4_partitioned();
+  const Mesh mesh = read_bytes("a.msh", text);
+  expect_consistent(mesh);
+  EXPECT_THAT(list(mesh.elements.all_corners()), ElementsAre(0, 1, 2, 0, 2, 3));
+  ASSERT_EQ(mesh.groups.size(), 2U) << "no group for what lies between the partitions";
+  EXPECT_THAT(group(mesh, "plate").members, ElementsAre(0, 1));
+  EXPECT_EQ(group(mesh, "plate").code, 5);
+  EXPECT_THAT(group(mesh, "entity 7").members, ElementsAre(0, 1));
+  EXPECT_THAT(mesh.source->only_in_file(), ::testing::IsSupersetOf(std::vector<std::string>{
+                                               "the partitions of its elements", "the interfaces of its partitions", "$GhostElements"}));
+  EXPECT_EQ(written("a.msh", mesh), text);
+  expect_truncation_safe("a.msh", text);
+}
+
 TEST(Gmsh, Version2WithGapsInItsNumbers) {
   const Mesh mesh = read_bytes("a.msh", dmoscope::testing::gmsh_2_ascii());
   expect_consistent(mesh);
@@ -298,7 +314,7 @@ TEST(Gmsh, Malformed) {
       {head + nodes + "$NodeData\n1\n\"a\"\n1\n0\n3\n0\n1\n1\n9 1\n$EndNodeData\n", 19, "values of node 9, which"},
       {head + nodes + "$NodeData\n1\n\"a\"\n1\n0\n3\n0\n99999\n1\n1 1\n$EndNodeData\n", 17, "99999 components"},
       {head + nodes + "$ElementData\n1\n\"a\"\n1\n0\n3\n0\n1\n0\n$EndElementData\n", 10, "$ElementData before $Elements"},
-      {four + "$PartitionedEntities\n2\n", 4, "partitioned meshes are not read"},
+      {four + "$PartitionedEntities\n2\n", 5, "the file ends"},
       {four + "$Nodes\n1 1 1 3\n4 1 0 1\n1\n0 0 0\n", 6, "an entity of 4 dimensions"},
       {four + "$Nodes\n1 3 1 3\n2 1 0 9\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n", 6, "but only"},
       {four + "$Nodes\n1 3 1 3\n2 1 0 2\n1\n2\n0 0 0\n1 0 0\n$EndNodes\n", 10, "2 nodes in the blocks, but $Nodes says 3"},

@@ -100,6 +100,54 @@ TEST(Vtk, DataOfAnUnknownTypeArePassedOver) {
   }
 }
 
+TEST(Vtk, StructuredGridsBecomeHexahedraAndQuadrilaterals) {
+  const Mesh grid = read_bytes("vtk", vtk_structured_grid());
+  ASSERT_EQ(grid.elements.size(), 2U);
+  EXPECT_EQ(grid.elements.kind(0), ElementKind::Hexahedron);
+  // Points run along x, then y, then z.
+  EXPECT_THAT(corners(grid, 0), ElementsAre(0, 1, 4, 3, 6, 7, 10, 9));
+  EXPECT_THAT(corners(grid, 1), ElementsAre(1, 2, 5, 4, 7, 8, 11, 10));
+  EXPECT_EQ(grid.positions[4], (Vec3{1, 1.5, 0}));
+  EXPECT_THAT(field(grid, "id").values, ElementsAre(4, 7));
+  EXPECT_EQ(field(grid, "depth").values.size(), 12U);
+  EXPECT_EQ(write_again(grid, grid.positions).bytes, vtk_structured_grid()) << "its points are listed: they are replaced in place";
+
+  const Mesh upright = read_bytes("vtk", vtk_rectilinear());
+  EXPECT_THAT(upright.positions, ElementsAre(Vec3{0, 5, 0}, Vec3{1, 5, 0}, Vec3{3, 5, 0}, Vec3{0, 5, 2}, Vec3{1, 5, 2}, Vec3{3, 5, 2}));
+  ASSERT_EQ(upright.elements.size(), 2U);
+  EXPECT_THAT(corners(upright, 1), ElementsAre(1, 2, 5, 4));
+  EXPECT_THAT(field(upright, "mark").values, ElementsAre('a', 'b', 'c', 'd', 'e', 'f'));
+  EXPECT_THAT(upright.source->not_patchable(), HasSubstr("regular grid"));
+
+  const Mesh image = read_bytes("vtk", vtk_image());
+  ASSERT_EQ(image.elements.size(), 4U);
+  EXPECT_EQ(image.positions[0], (Vec3{1, 2, 3}));
+  EXPECT_EQ(image.positions[8], (Vec3{2, 4, 3}));
+  EXPECT_THAT(corners(image, 2), ElementsAre(3, 4, 7, 6));
+  EXPECT_THAT(field(image, "id").values, ElementsAre(4, 7, 8, 9));
+}
+
+TEST(Vtk, StructuredGridsThatAreNoneAreRefused) {
+  const auto refusal = [](std::string bytes, const std::string& from, const std::string& to) -> std::string {
+    bytes.replace(bytes.find(from), from.size(), to);
+    try {
+      (void)read_bytes("vtk", bytes);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "was read";
+  };
+  EXPECT_THAT(refusal(vtk_image(), "3 3 1", "9 1 1"), HasSubstr("no cells of two or three dimensions"));
+  EXPECT_THAT(refusal(vtk_image(), "3 3 1", "3 0 1"), HasSubstr("without points"));
+  EXPECT_THAT(refusal(vtk_image(), "3 3 1", "100000 100000 100"), HasSubstr("more than its file can be about"));
+  EXPECT_THAT(refusal(vtk_image(), "3 3 1", "4294967295 4294967295 2"), HasSubstr("can hold"));
+  EXPECT_THAT(refusal(vtk_image(), "3 3 1", "4 3 1"), HasSubstr("CELL_DATA 4"));
+  EXPECT_THAT(refusal(vtk_structured_grid(), "3 2 2", "3 2 3"), HasSubstr("there are 4 cells"));
+  EXPECT_THAT(refusal(vtk_structured_grid(), "DIMENSIONS 3 2 2\n", ""), HasSubstr("there are 0 cells"));
+  EXPECT_THAT(refusal(vtk_rectilinear(), "Z_COORDINATES 2", "Z_COORDINATES 1"), HasSubstr("1 coordinates"));
+  EXPECT_THAT(refusal(vtk_rectilinear(), "DIMENSIONS 3 1 2", "DIMENSIONS 3 2 2"), HasSubstr("1 coordinates"));
+}
+
 TEST(Vtk, PolydataInTheLayoutOfVersion5) {
   const Mesh mesh = read_bytes("vtk", vtk_poly_ascii());
   ASSERT_EQ(mesh.elements.size(), 3U);
@@ -280,7 +328,8 @@ TEST(Vtk, RefusesMalformedFilesWithTheLine) {
       {"# vtk DataFile", "# vkt DataFile", 1, "begins with"},
       {"Version 3.0", "Version 9.0", 1, "not known"},
       {"ASCII", "ASKII", 3, "ASKII"},
-      {"UNSTRUCTURED_GRID", "RECTILINEAR_GRID", 4, "RECTILINEAR_GRID"},
+      {"UNSTRUCTURED_GRID", "RECTILINEAR_GRID", 5, "POINTS"},
+      {"UNSTRUCTURED_GRID", "FIELD_GRID", 4, "FIELD_GRID"},
       {"POINTS 6", "POINTS -6", 5, "negative"},
       {"POINTS 6", "POINTS 99999999", 5, "bytes of the file are left"},
       {"POINTS 6 double", "POINTS 6 quadruple", 5, "quadruple"},

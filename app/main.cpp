@@ -68,7 +68,11 @@ int run(int argc, char** argv) {
   bool man = false;
   app.add_flag("--man", man, "Print the man page in roff")->group("");
 
-  Action action = [&files] { return open_window(files); };
+  Action action = [&files, &app] {
+    std::vector<std::string> verbs;
+    for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
+    return open_window(files, verbs);
+  };
   const std::string command_line = shell_line(std::vector<std::string>(argv, argv + argc));
   add_smooth(app, action, command_line);
   add_compare(app, action, command_line);

@@ -27,9 +27,13 @@ void require_writable(const std::filesystem::path& path) {
   }
 }
 
-void require_mesh_target(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
+void require_mesh_target(const std::filesystem::path& path, const std::filesystem::path& input) {
+  const std::string extension = mesh_extension(path);
   if (format_by_extension(extension) != nullptr) return require_writable(path);
+  if (!input.empty()) {
+    Progress unwatched;
+    require_known_format(input, unwatched);
+  }
   std::string known;
   for (const FormatInfo& format : format_table()) known += fmt::format("{}{}", known.empty() ? "" : " ", format.extensions);
   throw UsageError(fmt::format("{}: no mesh format has the extension '{}' (known: {})", path.string(), extension, known));

@@ -13,7 +13,8 @@ void require_writable(const std::filesystem::path& path);
 /// empty path is no file.
 void require_another_file(const std::filesystem::path& path, std::string_view option, const std::filesystem::path& other);
 
-/// require_writable, and UsageError when no mesh format has this extension.
-void require_mesh_target(const std::filesystem::path& path);
+/// require_writable, and UsageError when no mesh format has this extension. `input`: what is to be read; where its own format is unknown
+/// as well, that is what is said (InputError): whoever keeps the extension has nothing to mend in the output.
+void require_mesh_target(const std::filesystem::path& path, const std::filesystem::path& input = {});
 
 }  // namespace dmoscope::app

@@ -1,5 +1,6 @@
 // dmoscope convert: reads one format, writes another; every vertex stays.
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -11,6 +12,9 @@
 #include "app/targets.h"
 #include "app/verbs/verbs.h"
 #include "core/io/mesh_io.h"
+#include "core/io/source_file.h"
+#include "core/mesh/faces.h"
+#include "core/mesh/volume.h"
 
 namespace dmoscope::app {
 namespace {
@@ -20,10 +24,24 @@ struct Options {
   MemoryLimit memory;
 };
 
+bool becomes_another_format(const std::filesystem::path& output, const Mesh& mesh) {
+  const FormatInfo* format = format_by_extension(mesh_extension(output));
+  return mesh.source == nullptr || format == nullptr || format->name != mesh.source->format();
+}
+
+/// Programs disagree on how VTK's wedges are wound, and what is inside out is of no use in the other format.
+void turn_solids(Mesh& mesh, Progress& progress) {
+  const auto kinds = mesh.elements.kinds();
+  const auto solid = [](ElementKind kind) { return info(kind).dimension == 3; };
+  if (kinds.empty() || !std::all_of(kinds.begin(), kinds.end(), solid)) return;
+  normalise_orientation(mesh, FaceNeighbours(mesh, &progress));
+}
+
 int convert(const Options& options) {
-  require_mesh_target(options.output);
+  require_mesh_target(options.output, options.input);
   Watch watch;
-  const Mesh mesh = read_mesh(options.input, {watch.progress(), nullptr, options.memory.bytes()});
+  Mesh mesh = read_mesh(options.input, {watch.progress(), nullptr, options.memory.bytes()});
+  if (becomes_another_format(options.output, mesh)) turn_solids(mesh, watch.progress());
   for (const std::string& sentence : write_mesh(options.output, mesh, mesh.positions, watch.progress())) {
     complain(fmt::format("{}: {}", options.output.string(), sentence));
   }

@@ -16,6 +16,7 @@
 #include "app/memory_limit.h"
 #include "app/targets.h"
 #include "app/text.h"
+#include "app/verbs/declared_floats.h"
 #include "app/verbs/group_table.h"
 #include "app/verbs/input_report.h"
 #include "app/verbs/option_checks.h"
@@ -148,7 +149,7 @@ int quality(const Options& options) {
   Watch watch;
   const auto input = load_input(options.input, Need::QualityOnly, {watch.progress(), nullptr, options.memory.bytes()});
   const Mesh& mesh = input->mesh;
-  const std::vector<std::string> warnings = tell_findings(*input);
+  std::vector<std::string> warnings = tell_findings(*input);
   ThreadPool pool;
   std::vector<Column> columns;
   for (const Metric metric : metrics) {
@@ -159,6 +160,13 @@ int quality(const Options& options) {
     throw UsageError(fmt::format("{} is defined for no element of {}", options.metric, mesh.name));
   }
   if (!options.elements.empty()) write_file_atomically(options.elements, elements_csv(input->quality_context(), mesh.positions, metrics));
+  for (const Column& column : columns) {
+    std::string seen = column.defined() ? seen_as_floats(*input, mesh.positions, column.metric, &pool) : std::string();
+    if (seen.empty()) continue;
+    complain(fmt::format("{}: {}, {}", mesh.name, info(column.metric).name, seen));
+    warnings.push_back(std::move(seen));
+    break;  // one metric says it
+  }
   const std::size_t inverted = count_inverted(*input);
   if (options.json) {
     Json list = Json::array();

@@ -18,6 +18,7 @@
 #include "app/text.h"
 #include "app/verbs/aims_report.h"
 #include "app/verbs/checkpoint.h"
+#include "app/verbs/declared_floats.h"
 #include "app/verbs/goal_options.h"
 #include "app/verbs/input_report.h"
 #include "app/verbs/run_options.h"
@@ -25,6 +26,8 @@
 #include "app/verbs/verbs.h"
 #include "core/io/atomic_file.h"
 #include "core/io/commented_mesh.h"
+#include "core/io/mesh_io.h"
+#include "core/io/source_file.h"
 #include "core/search/simd.h"
 #include "core/session/carry_on.h"
 #include "core/session/csv.h"
@@ -162,7 +165,7 @@ void print_summary(const Result& r) {
 void refuse_early(const Options& options) {
   if (options.write != "best" && options.write != "last")
     throw UsageError(fmt::format("--write knows 'best' and 'last', not '{}'", options.write));
-  require_mesh_target(options.output);
+  require_mesh_target(options.output, options.input);
   require_another_file(options.stats, "--stats", options.input);
   require_another_file(options.stats, "--stats", options.output);
   if (!options.stats.empty()) require_writable(options.stats);
@@ -229,6 +232,11 @@ void tell_missing_phase(const Run& run, const Outcome& outcome, const Warn& warn
                             : "the mean was not raised: that begins once the minimum rises no more, or nothing moves (--until-converged)");
 }
 
+bool keeps_the_format(const Options& options, const Mesh& mesh) {
+  const FormatInfo* format = format_by_extension(mesh_extension(options.output));
+  return mesh.source && format != nullptr && format->name == mesh.source->format();
+}
+
 int smooth(const Options& options) {
   refuse_early(options);
   RunParameters parameters = parameters_of(options.run);
@@ -277,6 +285,10 @@ int smooth(const Options& options) {
   for (std::string& sentence : write_results(options, run, provenance, {progress, pool.get()})) {
     complain(fmt::format("{}: {}", options.output.string(), sentence));
     warnings.push_back(std::move(sentence));
+  }
+  if (keeps_the_format(options, input->mesh)) {
+    const std::string seen = seen_as_floats(*input, run.positions(), run.parameters().metric, pool.get());
+    if (!seen.empty()) warn(fmt::format("{}: {}", options.output.string(), seen));
   }
   const Result result{options, run, pool->size(), outcome, seconds, std::move(left), std::move(warnings), std::move(provenance)};
   if (options.json) {

@@ -27,7 +27,7 @@ void add_bench(CLI::App& app, Action& action);
 void add_paper(CLI::App& app, Action& action, const std::string& command_line);
 void add_info(CLI::App& app, Action& action);
 
-/// No verb: opens the window on the files.
-int open_window(const std::vector<std::filesystem::path>& files);
+/// No verb: opens the window on the files. `verbs`: all there are, for whoever has no screen.
+int open_window(const std::vector<std::filesystem::path>& files, const std::vector<std::string>& verbs);
 
 }  // namespace dmoscope::app

@@ -1,6 +1,7 @@
 // No verb: the window.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/verbs/verbs.h"
 #include "core/base/error.h"
@@ -14,8 +15,9 @@
 namespace dmoscope::app {
 namespace {
 
-constexpr std::string_view kVerbs =
-    "verbs that need no screen: smooth, quality, render, convert, generate, script, bench, info (dmoscope --help)";
+std::string hint(const std::vector<std::string>& verbs) {
+  return fmt::format("verbs that need no screen: {} (dmoscope --help)", fmt::join(verbs, ", "));
+}
 
 #ifdef DMOSCOPE_HAVE_GUI
 bool has_display() {
@@ -28,28 +30,29 @@ bool has_display() {
 #endif
 
 /// A mistyped verb must not open an empty window.
-void require_files(const std::vector<std::filesystem::path>& files) {
+void require_files(const std::vector<std::filesystem::path>& files, const std::vector<std::string>& verbs) {
   for (const auto& file : files) {
     std::error_code error;
     if (!std::filesystem::exists(file, error)) {
-      throw InputError(file.string(), 0, fmt::format("there is no such file and no such verb; {}", kVerbs));
+      throw InputError(file.string(), 0, fmt::format("there is no such file and no such verb; {}", hint(verbs)));
     }
   }
 }
 
 }  // namespace
 
-int open_window(const std::vector<std::filesystem::path>& files) {
-  require_files(files);
+int open_window(const std::vector<std::filesystem::path>& files, const std::vector<std::string>& verbs) {
+  require_files(files, verbs);
 #ifdef DMOSCOPE_HAVE_GUI
   if (!has_display()) {
-    throw UsageError(fmt::format("there is no display (neither DISPLAY nor WAYLAND_DISPLAY is set), so no window can open; {}", kVerbs));
+    throw UsageError(
+        fmt::format("there is no display (neither DISPLAY nor WAYLAND_DISPLAY is set), so no window can open; {}", hint(verbs)));
   }
   WindowOptions options;
   options.files = files;
   return run_window(options);
 #else
-  throw UsageError(fmt::format("this program was built without the window; {}", kVerbs));
+  throw UsageError(fmt::format("this program was built without the window; {}", hint(verbs)));
 #endif
 }
 

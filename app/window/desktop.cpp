@@ -21,7 +21,7 @@ void require_display() {
   if (render::has_display()) return;
   throw Error(
       "no display: neither DISPLAY nor WAYLAND_DISPLAY is set, so no window can be opened. Without one there are "
-      "dmoscope smooth, quality, render, convert, generate, script --headless, bench and info.");
+      "dmoscope smooth, compare, quality, render, convert, generate, script --headless, bench, paper and info.");
 }
 
 Desktop::Desktop(const WindowOptions& options)

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "core/base/error.h"
+#include "core/io/gzip.h"
 #include "core/io/kept_attributes.h"
 #include "core/io/litter.h"
 #include "core/io/mesh_io.h"
@@ -107,7 +108,19 @@ void AtomicFile::discard() noexcept {
   temporary_.clear();
 }
 
+void AtomicFile::pack() {
+  packer_ = std::make_unique<GzipPacker>([this](std::string_view packed) { write_plain(packed); });
+}
+
 void AtomicFile::write(std::string_view bytes) {
+  if (packer_) {
+    packer_->add(bytes);
+  } else {
+    write_plain(bytes);
+  }
+}
+
+void AtomicFile::write_plain(std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
@@ -117,6 +130,8 @@ void AtomicFile::write(std::string_view bytes) {
 }
 
 void AtomicFile::finish() {
+  if (packer_) packer_->finish();
+  packer_.reset();
   if (!temporary_.empty() && ::fsync(descriptor_) != 0 && !cannot_sync(errno)) fail(errno);
 }
 

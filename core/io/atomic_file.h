@@ -9,6 +9,8 @@
 
 namespace dmoscope {
 
+class GzipPacker;
+
 /// Where a path leads when symbolic links are followed, the last one even if it dangles. Of a loop: some link in it.
 [[nodiscard]] std::filesystem::path follow_links(const std::filesystem::path& path);
 
@@ -27,6 +29,8 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
+  /// From now on what is written is packed by gzip on its way. Call it before the first write(), and only where gzip_is_here().
+  void pack();
   /// Appends bytes. Throws OutputError (disk full).
   void write(std::string_view bytes);
   /// Waits until what was written is on the disk; nothing can be written afterwards. All that can fail but the renaming has been done then.
@@ -40,6 +44,7 @@ class AtomicFile {
   [[nodiscard]] const std::string& note() const noexcept { return note_; }
 
  private:
+  void write_plain(std::string_view bytes);
   void open_temporary();
   void discard() noexcept;
   [[noreturn]] void fail(int error) const;
@@ -49,6 +54,7 @@ class AtomicFile {
   std::filesystem::path temporary_;  // empty: written straight, or committed
   std::string note_;
   int descriptor_ = -1;
+  std::unique_ptr<GzipPacker> packer_;  // null: bytes are written as they are
 };
 
 /// Several files that are written before the first of them takes its name: on a full disk all of them are as they were.

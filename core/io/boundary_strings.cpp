@@ -1,6 +1,12 @@
 #include "core/io/boundary_strings.h"
 
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <string>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace dmoscope {
 namespace {
@@ -27,12 +33,38 @@ std::vector<Index> chain_edges(const Group& group) {
   return edges;
 }
 
+void note_boundary_strings(std::span<const Group* const> strings, std::string_view written_as, std::string_view written_as_many,
+                           Notes& notes) {
+  std::vector<std::string_view> roles;
+  for (const Group* group : strings) {
+    if (std::ranges::find(roles, group->role) == roles.end()) roles.emplace_back(group->role);
+  }
+  for (const std::string_view role : roles) {
+    std::vector<const Group*> alike;
+    std::ranges::copy_if(strings, std::back_inserter(alike), [&](const Group* group) { return group->role == role; });
+    const Group& first = *alike.front();
+    if (alike.size() == 1) {
+      notes.push_back(fmt::format("The {} \"{}\" (type {}) was written as a {} of its edges.", role, first.name, first.code, written_as));
+      continue;
+    }
+    std::set<int> types;
+    for (const Group* group : alike) types.insert(group->code);
+    // Both roles end in "boundary".
+    notes.push_back(fmt::format("{} {}ies (\"{}\" to \"{}\", of type{} {}) were written as {} of their edges.", alike.size(),
+                                role.substr(0, role.size() - 1), first.name, alike.back()->name, types.size() == 1 ? "" : "s",
+                                fmt::join(types, ", "), written_as_many));
+  }
+}
+
 std::vector<Group> groups_with_edges(const Mesh& mesh, std::string_view written_as, Notes& notes) {
   std::vector<Group> groups = mesh.groups;
+  std::vector<const Group*> strings;
+  for (const Group& group : mesh.groups) {
+    if (is_boundary_string(group) && group.members.size() >= 2) strings.push_back(&group);
+  }
+  note_boundary_strings(strings, written_as, fmt::format("{}s", written_as), notes);
   for (Group& group : groups) {
     if (!is_boundary_string(group) || group.members.size() < 2) continue;
-    notes.push_back(
-        fmt::format("The {} \"{}\" (type {}) was written as a {} of its edges.", group.role, group.name, group.code, written_as));
     group.members = chain_edges(group);
     group.dimension = 1;
     group.code = 0;  // types repeat: as numbers they would mean nothing

@@ -55,6 +55,7 @@ struct FormatHandler {
 [[nodiscard]] const FormatHandler& su2_format();
 [[nodiscard]] const FormatHandler& gmsh_format();
 [[nodiscard]] const FormatHandler& medit_format();
+[[nodiscard]] const FormatHandler& meshb_format();
 [[nodiscard]] const FormatHandler& tetgen_format();
 
 /// All of them, in the order of format_table().
@@ -63,7 +64,8 @@ struct FormatHandler {
 /// Appends an element. Throws InputError when the corners of all elements would no longer be counted by an Index.
 void add_element(Mesh& mesh, ElementKind kind, std::span<const Index> corners, const SourceFile& source);
 
-/// The corners of an element in the file's own winding (Mesh::flipped undone); `buffer` holds them where they differ.
+/// The corners of an element for a file that is made anew, in our order. Those of the plane go out in the winding that they came in
+/// (Mesh::flipped undone; `buffer` holds them where they differ), solids the right way round: inside out they are of no use to anybody.
 [[nodiscard]] std::span<const Index> file_corners(const Mesh& mesh, Index element, std::array<Index, 8>& buffer);
 
 /// Throws OutputError if the mesh has an element of three dimensions: "... holds only triangles and quadrilaterals".

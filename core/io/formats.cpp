@@ -10,7 +10,9 @@
 
 #include "core/base/error.h"
 #include "core/io/commented_mesh.h"
+#include "core/io/foreign_format.h"
 #include "core/io/format.h"
+#include "core/io/gzip.h"
 #include "core/io/mesh_io.h"
 #include "core/io/patch_writer.h"
 #include "core/io/tokenizer.h"
@@ -23,7 +25,8 @@ const std::vector<const FormatHandler*>& handlers() {
 #ifdef DMOSCOPE_VTU
                                                        &vtu_format(),
 #endif
-                                                       &fort14_format(), &su2_format(), &gmsh_format(), &medit_format(), &tetgen_format()};
+                                                       &fort14_format(), &su2_format(), &gmsh_format(), &medit_format(), &meshb_format(),
+                                                       &tetgen_format()};
   return table;
 }
 
@@ -53,15 +56,37 @@ std::string known_formats() {
   return result;
 }
 
+bool is_certain(const FormatHandler& handler, std::string_view bytes) { return handler.recognises != nullptr && handler.recognises(bytes); }
+
+constexpr std::string_view kPacked = ".gz";
+
+FileBytes read_unpacked(const std::filesystem::path& path, Progress& progress) {
+  FileBytes bytes = read_whole_file(path, progress);
+  return is_gzip(bytes.view()) ? gunzipped(path, bytes.view(), progress) : std::move(bytes);
+}
+
 const FormatHandler& format_of(const std::filesystem::path& path, std::string_view bytes) {
-  const FormatHandler* named = by_extension(path.extension().string());
-  const auto certain = [bytes](const FormatHandler* handler) { return handler->recognises != nullptr && handler->recognises(bytes); };
-  if (named != nullptr && certain(named)) return *named;
+  const std::string extension = mesh_extension(path);
+  const FormatHandler* named = by_extension(extension);
+  if (named != nullptr && is_certain(*named, bytes)) return *named;
   for (const FormatHandler* handler : handlers()) {
-    if (certain(handler)) return *handler;
+    if (is_certain(*handler, bytes)) return *handler;
   }
-  if (named == nullptr) throw InputError(path.string(), 0, "unknown format; known are " + known_formats());
-  return *named;
+  if (named != nullptr) return *named;
+  const std::string foreign = foreign_format(bytes, extension);
+  throw InputError(path.string(), 0, foreign.empty() ? "unknown format; known are " + known_formats() : foreign);
+}
+
+/// Reads by a handler. An error in a file that is of another format altogether says which.
+Mesh read_by(const FormatHandler& handler, SourceFile& source, const IoContext& context) {
+  try {
+    return handler.read(source, context);
+  } catch (const InputError&) {
+    if (is_certain(handler, source.bytes())) throw;
+    const std::string foreign = foreign_format(source.bytes(), mesh_extension(source.path()));
+    if (foreign.empty()) throw;
+    throw InputError(source.path().string(), 0, foreign);
+  }
 }
 
 /// Things of one kind that a format cannot carry: one sentence for all of them.
@@ -90,9 +115,22 @@ bool can_patch(const Mesh& mesh, const FormatHandler& handler) {
   return mesh.source && mesh.source->format() == handler.info.name && mesh.source->not_patchable().empty();
 }
 
+/// Solids that were turned over after reading.
+std::size_t turned_solids(const Mesh& mesh) {
+  std::size_t turned = 0;
+  for (std::size_t e = 0; e < mesh.flipped.size(); ++e) {
+    if (mesh.flipped[e] != 0 && info(mesh.elements.kind(static_cast<Index>(e))).dimension == 3) ++turned;
+  }
+  return turned;
+}
+
 Notes write_anew(AtomicFile& file, const FormatHandler& handler, const Mesh& mesh, std::span<const Vec3> positions,
                  const IoContext& context) {
   Notes notes = handler.write(file, mesh, positions, context);
+  if (const std::size_t turned = turned_solids(mesh); turned > 0) {
+    notes.push_back(turned == 1 ? "1 element that was wound inside out was written the right way round."
+                                : fmt::format("{} elements that were wound inside out were written the right way round.", turned));
+  }
   if (!mesh.source) return notes;
   if (mesh.source->format() == handler.info.name) {
     notes.push_back(fmt::format("The file was made anew: {}.", mesh.source->not_patchable()));
@@ -161,24 +199,37 @@ const FormatInfo* format_by_extension(std::string_view extension) {
   return handler == nullptr ? nullptr : &handler->info;
 }
 
+std::string mesh_extension(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  return gzip_is_here() && equal_ignoring_case(extension, kPacked) ? path.stem().extension().string() : extension;
+}
+
+void require_known_format(const std::filesystem::path& path, Progress& progress) {
+  if (by_extension(mesh_extension(path)) != nullptr) return;
+  const FileBytes bytes = read_unpacked(path, progress);
+  (void)format_of(path, bytes.view());
+}
+
 namespace {
 
 Mesh read_whole_mesh(const std::filesystem::path& path, const IoContext& context) {
   Progress& progress = context.progress;
   progress.begin("reading " + path.filename().string());
-  const FormatHandler* named = by_extension(path.extension().string());
+  const FormatHandler* named = by_extension(mesh_extension(path));
   const std::filesystem::path main = main_path(path, named);
   if (main != path) require_both(path, named);
-  auto source = std::make_shared<SourceFile>(main, read_whole_file(main, progress));
+  auto source = std::make_shared<SourceFile>(main, read_unpacked(main, progress));
   if (source->bytes().empty()) throw InputError(main.string(), 0, "the file is empty");
   const FormatHandler& handler = format_of(main, source->bytes());
   source->set_format(handler.info.name);
   if (handler.companion != nullptr) {
+    if (equal_ignoring_case(main.extension().string(), kPacked))
+      throw InputError(path.string(), 0, "files in pairs are read unpacked alone");
     require_both(path, &handler);
     const std::filesystem::path second = companion_path(main, *handler.companion);
     source->set_companion(std::make_shared<SourceFile>(second, read_whole_file(second, progress)));
   }
-  Mesh mesh = handler.read(*source, context);
+  Mesh mesh = read_by(handler, *source, context);
   if (mesh.positions.empty()) throw InputError(path.string(), 0, "the file holds no vertices");
   if (mesh.elements.size() == 0) throw InputError(path.string(), 0, "the file holds no elements");
   mesh.name = path.filename().string();
@@ -208,17 +259,20 @@ std::vector<std::string> write_commented_mesh(const std::filesystem::path& path,
                                               const IoContext& context, std::string_view comment) {
   Progress& progress = context.progress;
   progress.begin("writing " + path.filename().string());
-  const FormatHandler* handler = by_extension(path.extension().string());
+  const std::string extension = mesh_extension(path);
+  const FormatHandler* handler = by_extension(extension);
   if (handler == nullptr) {
-    throw UsageError(fmt::format("{}: unknown extension {}; known formats are {}", path.string(), quote_token(path.extension().string()),
-                                 known_formats()));
+    throw UsageError(fmt::format("{}: unknown extension {}; known formats are {}", path.string(), quote_token(extension), known_formats()));
   }
+  const bool packed = path.extension().string() != extension;
+  if (packed && handler->companion != nullptr) throw OutputError(path.string(), "files in pairs are written unpacked alone");
   if (positions.size() != mesh.positions.size()) {
     throw UsageError(fmt::format("{}: {} positions for {} vertices", path.string(), positions.size(), mesh.positions.size()));
   }
   require_finite(path, positions);
   const std::filesystem::path main = main_path(path, handler);
   AtomicFile file(main);
+  if (packed) file.pack();
   std::optional<AtomicFile> second;
   if (handler->companion != nullptr) second.emplace(companion_path(main, *handler->companion));
   Notes notes;
@@ -251,7 +305,7 @@ void add_element(Mesh& mesh, ElementKind kind, std::span<const Index> corners, c
 
 std::span<const Index> file_corners(const Mesh& mesh, Index element, std::array<Index, 8>& buffer) {
   const std::span<const Index> corners = mesh.elements.corners(element);
-  if (mesh.flipped.empty() || mesh.flipped[element] == 0) return corners;
+  if (mesh.flipped.empty() || mesh.flipped[element] == 0 || info(mesh.elements.kind(element)).dimension == 3) return corners;
   std::copy(corners.begin(), corners.end(), buffer.begin());
   flip_corners(mesh.elements.kind(element), buffer.data());
   return {buffer.data(), corners.size()};

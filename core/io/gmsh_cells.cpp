@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kInt = 4;   // bytes
 constexpr std::size_t kSize = 8;  // bytes
+constexpr int kAnyDimension = -1;
 
 struct HigherOrder {
   std::int64_t first, last;  // types
@@ -34,9 +35,15 @@ constexpr std::array kHigherOrder{
 void GmshCells::physical_names() {
   const std::size_t count = in_.words.count("the number of physical names", 5.0);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::int64_t dimension = in_.words.integer("the dimension of a physical group");
-    const std::int64_t number = in_.words.integer("the number of a physical group");
-    if (dimension < 0 || dimension > 3) in_.words.fail(fmt::format("a physical group of {} dimensions", dimension));
+    std::int64_t dimension = in_.words.integer("the dimension of a physical group");
+    std::int64_t number = dimension;
+    // Old files leave the dimension out, and Gmsh writes it as -1 when it saves such a file again: the name is of whatever has the number.
+    if (in_.words.peek_word().starts_with('"')) {
+      dimension = kAnyDimension;
+    } else {
+      number = in_.words.integer("the number of a physical group");
+    }
+    if (dimension < kAnyDimension || dimension > 3) in_.words.fail(fmt::format("a physical group of {} dimensions", dimension));
     if (!std::in_range<int>(number)) in_.words.fail(fmt::format("the number of a physical group is too large: {}", number));
     std::string_view name = in_.words.rest_of_line();
     if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
@@ -59,13 +66,56 @@ void GmshCells::entity(int dimension) {
   const int tag = in_.whole("the number of an entity");
   const int corners = dimension == 0 ? 3 : 6;
   for (int k = 0; k < corners; ++k) (void)in_.real("the bounds of an entity");
-  const std::size_t groups = in_.count("the number of physical groups of an entity", 2.0, kInt);
-  std::vector<int> physical(groups);
-  for (int& number : physical) number = in_.whole("a physical group");
-  if (groups > 0) entity_physical_[{dimension, tag}] = std::move(physical);
+  std::vector<int> physical = read_physical();
+  if (!physical.empty()) entity_physical_[{dimension, tag}] = std::move(physical);
   if (dimension == 0) return;
   const std::size_t bounds = in_.count("the number of entities that bound one", 2.0, kInt);
   for (std::size_t i = 0; i < bounds; ++i) (void)in_.whole("an entity that bounds one");
+}
+
+std::vector<int> GmshCells::read_physical() {
+  std::vector<int> physical(in_.count("the number of physical groups of an entity", 2.0, kInt));
+  for (int& number : physical) number = in_.whole("a physical group");
+  return physical;
+}
+
+/// The elements of a partitioned mesh are in parts of the entities: they are put together again.
+void GmshCells::partitioned_entities() {
+  in_.begin_data();
+  (void)in_.size("the number of partitions");
+  const std::size_t ghosts = in_.count("the number of ghost entities", 4.0, 2 * kInt);
+  for (std::size_t i = 0; i < ghosts; ++i) {
+    (void)in_.whole("the number of a ghost entity");
+    (void)in_.whole("a partition");
+  }
+  std::array<std::size_t, 4> counts{};
+  for (std::size_t& n : counts) n = in_.count("the number of entities", 10.0, 36.0);
+  for (int dimension = 0; dimension < 4; ++dimension) {
+    for (std::size_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i) partitioned_entity(dimension);
+  }
+  source_.add_only_in_file("the partitions of its elements");
+}
+
+void GmshCells::partitioned_entity(int dimension) {
+  const int tag = in_.whole("the number of an entity");
+  const int whole_dimension = in_.whole("the dimension of an entity");
+  const int whole = in_.whole("the number of an entity");
+  const std::size_t partitions = in_.count("the number of partitions of an entity", 2.0, kInt);
+  for (std::size_t i = 0; i < partitions; ++i) (void)in_.whole("a partition");
+  const int corners = dimension == 0 ? 3 : 6;
+  for (int k = 0; k < corners; ++k) (void)in_.real("the bounds of an entity");
+  std::vector<int> physical = read_physical();
+  whole_[{dimension, tag}] = {whole_dimension, whole};
+  if (!physical.empty() && whole_dimension == dimension) entity_physical_.try_emplace({dimension, whole}, std::move(physical));
+  if (dimension == 0) return;
+  const std::size_t bounds = in_.count("the number of entities that bound one", 2.0, kInt);
+  for (std::size_t i = 0; i < bounds; ++i) (void)in_.whole("an entity that bounds one");
+}
+
+/// The entity, by dimension and number, of which this one is a part: itself in a mesh without partitions.
+std::pair<int, int> GmshCells::whole_of(int dimension, int entity) const {
+  const auto found = whole_.find({dimension, entity});
+  return found == whole_.end() ? std::pair(dimension, entity) : found->second;
 }
 
 void GmshCells::elements(const GmshTags& nodes) {
@@ -172,7 +222,8 @@ void GmshCells::elements_4(const GmshTags& nodes) {
   (void)in_.size("the largest number of an element");
   cells_.reserve_more(count, 4 * count);
   for (std::size_t b = 0; b < blocks; ++b) block_4(nodes, count);
-  if (cells_.size() != count) in_.words.fail(fmt::format("{} elements in the blocks, but $Elements says {}", cells_.size(), count));
+  const std::size_t found = cells_.size() + skipped_;
+  if (found != count) in_.words.fail(fmt::format("{} elements in the blocks, but $Elements says {}", found, count));
 }
 
 void GmshCells::block_4(const GmshTags& nodes, std::size_t count) {
@@ -184,22 +235,30 @@ void GmshCells::block_4(const GmshTags& nodes, std::size_t count) {
   const std::size_t corners = corners_of(of_type);
   const std::size_t each = kSize * (1 + corners);
   const std::size_t number = in_.count("a number of elements", 2.0 * static_cast<double>(1 + corners), static_cast<double>(each));
-  if (number > count - cells_.size()) in_.words.fail(fmt::format("more elements in the blocks than the {} that $Elements says", count));
-  const std::uint32_t origin = origin_of(dimension, 0, entity);
+  if (number > count - cells_.size() - skipped_)
+    in_.words.fail(fmt::format("more elements in the blocks than the {} that $Elements says", count));
+  const auto [whole_dimension, whole] = whole_of(dimension, entity);
+  // What lies between two partitions belongs to an entity of more dimensions, and is none of the mesh's own.
+  const bool kept = whole_dimension == dimension;
+  if (!kept) source_.add_only_in_file("the interfaces of its partitions");
+  const std::uint32_t origin = kept ? origin_of(dimension, 0, whole) : 0;
+  skipped_ += kept ? 0 : number;
   std::array<Index, 8> of_cell{};
   if (!in_.binary) {
     for (std::size_t e = 0; e < number; ++e) {
-      tags_.add(in_.size("the number of an element"));
+      const std::int64_t own_tag = in_.size("the number of an element");
       for (std::size_t k = 0; k < corners; ++k) {
         const std::int64_t tag = in_.words.integer("a node of an element");
         of_cell[k] = node(tag, nodes, in_.words.token());
       }
+      if (!kept) continue;
+      tags_.add(own_tag);
       cells_.add(of_type, of_cell.data(), origin);
     }
     return;
   }
   const char* at = in_.words.block(number * each, "elements").data();
-  for (std::size_t e = 0; e < number; ++e, at += each) {
+  for (std::size_t e = 0; e < number && kept; ++e, at += each) {
     tags_.add(in_.size_at(at));
     for (std::size_t k = 0; k < corners; ++k) of_cell[k] = node(in_.size_at(at + kSize * (1 + k)), nodes, in_.words.token());
     cells_.add(of_type, of_cell.data(), origin);
@@ -215,7 +274,8 @@ std::vector<OriginLabels> GmshCells::labels() const {
     if (in_.version != 2 && entity != entity_physical_.end()) physical = entity->second;
     OriginLabels& made = labels.emplace_back();
     for (const int number : physical) {
-      const auto name = names_.find({origin.dimension, std::abs(number)});
+      auto name = names_.find({origin.dimension, std::abs(number)});
+      if (name == names_.end()) name = names_.find({kAnyDimension, std::abs(number)});
       const bool named = name != names_.end();
       made.labels.push_back({named ? name->second : fmt::format("physical {}", number), std::string(kGmshPhysical), number});
     }

@@ -22,6 +22,7 @@ class GmshCells {
   // What follows the word that begins the section.
   void physical_names();
   void entities();
+  void partitioned_entities();
   void elements(const GmshTags& nodes);
 
   [[nodiscard]] bool elements_read() const noexcept { return elements_read_; }
@@ -43,6 +44,9 @@ class GmshCells {
   void elements_4(const GmshTags& nodes);
   void block_4(const GmshTags& nodes, std::size_t count);
   void entity(int dimension);
+  void partitioned_entity(int dimension);
+  std::vector<int> read_physical();
+  [[nodiscard]] std::pair<int, int> whole_of(int dimension, int entity) const;
   CellShape shape(std::int64_t type) const;
   Index node(std::int64_t tag, const GmshTags& nodes, std::size_t place) const;
   std::uint32_t origin_of(int dimension, int physical, int entity);
@@ -59,6 +63,8 @@ class GmshCells {
   std::uint32_t last_origin_ = 0;
   std::map<std::pair<int, int>, std::string> names_;                 // of physical groups, by dimension and number
   std::map<std::pair<int, int>, std::vector<int>> entity_physical_;  // by dimension and entity
+  std::map<std::pair<int, int>, std::pair<int, int>> whole_;         // of an entity of a partition: what it is a part of, likewise
+  std::size_t skipped_ = 0;                                          // elements that are no cells: between two partitions
   bool elements_read_ = false;
 };
 

@@ -44,7 +44,7 @@ class GmshReader {
     } else if (!known) {
       return skip(name);
     } else if (name == "$PartitionedEntities") {
-      words().fail("partitioned meshes are not read: save the mesh without its partitions");
+      cells_.partitioned_entities();
     } else if (name == "$PhysicalNames") {
       cells_.physical_names();
     } else if (name == "$Entities") {

@@ -65,6 +65,7 @@ class MeditWriter {
     marks();
     out_ << "End\n";
     out_.finish();
+    note_names();
     note_dropped(mesh_, kept_fields_, kept_groups_, medit_format().info.title, notes_);
     return std::move(notes_);
   }
@@ -73,11 +74,21 @@ class MeditWriter {
   void keep(std::size_t group) {
     kept_groups_.push_back(group);
     const Group& g = groups_[group];
-    const std::string plain = fmt::format("reference {}", numbers_[group]);
-    if (mark_of(g).empty() && g.name != plain) {
-      notes_.push_back(
-          fmt::format("The {} \"{}\" has {} in the file; MEDIT holds no names.", g.role.empty() ? "group" : g.role, g.name, plain));
+    if (mark_of(g).empty() && g.name != fmt::format("reference {}", numbers_[group])) unnamed_.push_back(group);
+  }
+
+  /// One sentence for all: what has become of the groups' names.
+  void note_names() {
+    constexpr std::size_t kMostNamed = 32;
+    if (unnamed_.empty()) return;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(unnamed_.size(), kMostNamed); ++i) {
+      const Group& g = groups_[unnamed_[i]];
+      list +=
+          fmt::format("{}{} \"{}\" has reference {}", i == 0 ? "" : ", ", g.role.empty() ? "group" : g.role, g.name, numbers_[unnamed_[i]]);
     }
+    if (unnamed_.size() > kMostNamed) list += fmt::format(" and {} more have others", unnamed_.size() - kMostNamed);
+    notes_.push_back(fmt::format("MEDIT holds no names: {}.", list));
   }
 
   /// The references that a field holds; `otherwise` where there is none.
@@ -207,6 +218,7 @@ class MeditWriter {
   std::vector<int> numbers_;                                     // of groups
   std::map<std::pair<Index, Index>, std::size_t> edge_numbers_;  // the first of each, smaller vertex first
   std::vector<std::size_t> kept_fields_, kept_groups_;
+  std::vector<std::size_t> unnamed_;  // groups whose names are not in the file
 };
 
 }  // namespace

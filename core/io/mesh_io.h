@@ -23,13 +23,21 @@ struct FormatInfo {
 /// The format with this extension (".off", whatever its case), null if there is none.
 [[nodiscard]] const FormatInfo* format_by_extension(std::string_view extension);
 
-/// Reads a mesh, format by content where that is certain, else by extension. Positions are the file's exact doubles, vertices and
-/// elements in the file's order; nothing is normalised. Throws InputError (file and line), Cancelled.
+/// The extension that tells the format of a file: ".vtk" of a.vtk and of a.vtk.gz.
+[[nodiscard]] std::string mesh_extension(const std::filesystem::path& path);
+
+/// Reads a mesh, which may be packed by gzip, format by content where that is certain, else by extension. Positions are the file's exact
+/// doubles, vertices and elements in the file's order; nothing is normalised. Throws InputError (file and line), Cancelled.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, const IoContext& context);
 
-/// Writes `mesh` with `positions` in place of its own (mesh.positions.size() of them) to `path`, format by extension.
+/// Throws InputError where read_mesh() would not know what format the file is, with the same words; Cancelled.
+void require_known_format(const std::filesystem::path& path, Progress& progress);
+
+/// Writes `mesh` with `positions` in place of its own (mesh.positions.size() of them) to `path`, format by extension,
+/// packed by gzip where its name ends with .gz.
 /// When mesh.source is of that format, its bytes are written again and only the coordinates whose bits changed are replaced;
-/// otherwise the file is made anew, in the file's own winding (mesh.flipped undone). Written beside the target and renamed: on any
+/// otherwise the file is made anew: elements of the plane in the winding that they came in (mesh.flipped undone), solids as the format
+/// wants them. Written beside the target and renamed: on any
 /// failure the old file stands. A format of two files (.node, .ele) is read and written as both, whichever is named. Returns one sentence
 /// for each thing the format could not carry. Throws OutputError, UsageError (unknown extension), Cancelled.
 std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions,

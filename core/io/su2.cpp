@@ -1,5 +1,5 @@
-// The native mesh format of SU2: KEY= value sections in any order, elements by VTK's numbers for their kinds, markers.
-// https://su2code.github.io/docs_v7/Mesh-File/
+// The native mesh format of SU2: KEY= value sections in any order, elements by VTK's numbers for their kinds and with its order of corners,
+// markers. https://su2code.github.io/docs_v7/Mesh-File/
 
 #include <algorithm>
 #include <array>
@@ -17,6 +17,7 @@
 #include "core/io/one_line.h"
 #include "core/io/text_writer.h"
 #include "core/io/tokenizer.h"
+#include "core/io/vtk_order.h"
 
 namespace dmoscope {
 namespace {
@@ -184,6 +185,7 @@ class Reader {
       std::array<Index, 8> corners{};
       const std::span<Index> used(corners.data(), info(*kind).corners);
       for (Index& c : used) c = vertex();
+      exchange_vtk_order(*kind, used.data());
       add_element(mesh_, *kind, used, source_);
       end_numbered(numbered, "an element");
     }
@@ -321,20 +323,19 @@ struct Marker {
 /// The groups that SU2 can hold; `kept` gets their numbers.
 std::vector<Marker> markers_of(const Mesh& mesh, std::vector<std::size_t>& kept, Notes& notes) {
   std::vector<Marker> markers;
+  std::vector<const Group*> strings;
   for (std::size_t i = 0; i < mesh.groups.size(); ++i) {
     const Group& group = mesh.groups[i];
-    const bool chain = group.dimension == 0 && (group.role == "open boundary" || group.role == "land boundary");
+    const bool chain = is_boundary_string(group);
     if (group.dimension != 1 && !chain && group.faces.size() == 0) continue;
     kept.push_back(i);
     Marker marker{group.name, chain ? chain_edges(group) : group.members, group.faces.size() > 0 ? &group.faces : nullptr};
     std::replace_if(
         marker.tag.begin(), marker.tag.end(), [](char c) { return c == ' ' || c == '\t' || c == '%' || c == '\n' || c == '\r'; }, '_');
-    if (chain) {
-      notes.push_back(
-          fmt::format("The {} \"{}\" (type {}) was written as marker {} of its edges.", group.role, group.name, group.code, marker.tag));
-    }
+    if (chain) strings.push_back(&group);
     markers.push_back(std::move(marker));
   }
+  note_boundary_strings(strings, "marker", "markers", notes);
   return markers;
 }
 
@@ -376,7 +377,7 @@ Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions,
     std::array<Index, 8> buffer{};
     const auto e = static_cast<Index>(i);
     part << kTypes[static_cast<std::size_t>(mesh.elements.kind(e))] << ' ';
-    for (const Index c : file_corners(mesh, e, buffer)) part << c << ' ';
+    for (const Index c : vtk_corners(mesh, e, buffer)) part << c << ' ';
     part << e << '\n';
   });
   write_points(out, positions, volume);

@@ -64,7 +64,20 @@ std::string VtkAttributes::name() { return vtk_decoded(values_.in.word("the name
 
 VtkType VtkAttributes::type(std::string& word) {
   word = std::string(values_.in.peek_word());
-  return values_.type();
+  return values_.any_type();
+}
+
+/// FreeFem joins the type and the number of components: "int1".
+VtkType VtkAttributes::type_of_scalars(const std::string& name, std::string& word, std::size_t& components) {
+  VtkType kind = type(word);
+  if (kind.kind != VtkType::Kind::Unknown || word.size() < 2 || word.back() < '1' || word.back() > '4') return kind;
+  const std::string_view known = std::string_view(word).substr(0, word.size() - 1);
+  if (!scalar_of_word(known, kind.scalar)) return kind;
+  kind.kind = VtkType::Kind::Scalar;
+  components = static_cast<std::size_t>(word.back() - '0');
+  source_.add_note(fmt::format("The data type {} of field \"{}\" was read as {} {}.", quote_token(word), name, known, components));
+  word = known;
+  return kind;
 }
 
 std::size_t VtkAttributes::components(std::size_t most) {
@@ -75,6 +88,11 @@ std::size_t VtkAttributes::components(std::size_t most) {
 
 void VtkAttributes::append(std::string name, std::string_view role, std::string_view type_word, const VtkType& type, std::size_t components,
                            std::size_t tuples, double scale) {
+  if (type.kind == VtkType::Kind::Unknown) {
+    values_.skip_unknown(components * tuples, fmt::format("\"{}\"", name));
+    source_.add_note(fmt::format("Field \"{}\" was passed over: its data type {} is not known.", name, quote_token(type_word)));
+    return source_.add_only_in_file(fmt::format("field \"{}\"", name));
+  }
   Field field;
   field.name = std::move(name);
   field.on = on_;
@@ -98,8 +116,8 @@ void VtkAttributes::append(std::string name, std::string_view role, std::string_
 void VtkAttributes::scalars() {
   std::string word;
   const std::string called = name();
-  const VtkType kind = type(word);
   std::size_t n = 1;
+  const VtkType kind = type_of_scalars(called, word, n);
   const std::string_view given = values_.in.word_on_line();
   if (!given.empty()) {
     const auto [end, error] = std::from_chars(given.data(), given.data() + given.size(), n);
@@ -171,7 +189,7 @@ void VtkAttributes::field_array() {
   if (kind.kind == VtkType::Kind::String) {
     values_.skip_strings(n * tuples);
     source_.add_only_in_file(fmt::format("strings \"{}\"", called));
-  } else if (begun_ && tuples == count_ && n >= 1 && n <= 1024) {
+  } else if (kind.kind == VtkType::Kind::Unknown || (begun_ && tuples == count_ && n >= 1 && n <= 1024)) {
     append(called, "FIELD", word, kind, n, tuples);
   } else {
     values_.numbers(kind, n * tuples, "a value of the data", [](double, std::size_t) {});

@@ -35,6 +35,7 @@ class VtkAttributes {
   void append(std::string name, std::string_view role, std::string_view type_word, const VtkType& type, std::size_t components,
               std::size_t tuples, double scale = 1.0);
   VtkType type(std::string& word);
+  VtkType type_of_scalars(const std::string& name, std::string& word, std::size_t& components);
   std::size_t components(std::size_t most);
 
   VtkValues& values_;

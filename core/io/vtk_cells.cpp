@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/io/format.h"
+#include "core/io/vtk_order.h"
 
 namespace dmoscope {
 namespace {
@@ -161,6 +162,7 @@ VtkElement element_of_vtk_cell(std::int64_t type, std::span<Index> corners) {
   }
   if (type == 8 || type == 11) std::swap(corners[2], corners[3]);
   if (type == 11) std::swap(corners[6], corners[7]);
+  exchange_vtk_order(kind, corners.data());
   return {kind, {}, false};
 }
 

@@ -29,8 +29,8 @@ struct VtkElement {
   std::string fault;                // not empty: why the cell cannot be read
   bool fault_of_type = false;       // the fault is the type itself, not the number of corners
 };
-/// The element that a cell of VTK's type `type` with `corners` is. `corners` are reordered from pixels and voxels to quadrilaterals and
-/// hexahedra.
+/// The element that a cell of VTK's type `type` with `corners` is. `corners` are brought into our order: from pixels and voxels to
+/// quadrilaterals and hexahedra, and see vtk_order.h.
 [[nodiscard]] VtkElement element_of_vtk_cell(std::int64_t type, std::span<Index> corners);
 
 /// What stands for a kind of element where a cell is none.

@@ -14,6 +14,7 @@
 #include "core/io/format.h"
 #include "core/io/vtk_attributes.h"
 #include "core/io/vtk_cells.h"
+#include "core/io/vtk_structured.h"
 #include "core/io/vtk_values.h"
 
 namespace dmoscope {
@@ -33,7 +34,15 @@ class VtkReader {
   }
 
  private:
-  enum class Dataset { None, UnstructuredGrid, PolyData };
+  enum class Dataset { None, UnstructuredGrid, PolyData, StructuredGrid, RectilinearGrid, StructuredPoints };
+  struct DatasetName {
+    std::string_view word;
+    Dataset dataset;
+  };
+  static constexpr std::array kDatasets{DatasetName{"UNSTRUCTURED_GRID", Dataset::UnstructuredGrid},
+                                        DatasetName{"POLYDATA", Dataset::PolyData}, DatasetName{"STRUCTURED_GRID", Dataset::StructuredGrid},
+                                        DatasetName{"RECTILINEAR_GRID", Dataset::RectilinearGrid},
+                                        DatasetName{"STRUCTURED_POINTS", Dataset::StructuredPoints}};
 
   MixedInput& in() { return values_.in; }
 
@@ -65,9 +74,11 @@ class VtkReader {
       values_.skip_metadata();
     } else if (is("POINT_DATA")) {
       data_begun_ = true;
+      make_points();
       attributes_.begin(Field::On::Vertices, mesh_.positions.size(), "POINT_DATA");
     } else if (is("CELL_DATA")) {
       data_begun_ = true;
+      make_points();
       attributes_.begin(Field::On::Elements, cell_count(), "CELL_DATA");
     } else if (!attributes_.read(keyword) && !geometry(keyword)) {
       in().fail("unknown keyword " + quote_token(keyword));
@@ -77,26 +88,30 @@ class VtkReader {
   void dataset() {
     if (dataset_ != Dataset::None) in().fail("a second DATASET: a file has one");
     const std::string_view kind = in().word("the kind of dataset");
-    if (equal_ignoring_case(kind, "UNSTRUCTURED_GRID")) {
-      dataset_ = Dataset::UnstructuredGrid;
-    } else if (equal_ignoring_case(kind, "POLYDATA")) {
-      dataset_ = Dataset::PolyData;
-    } else {
-      in().fail(fmt::format("dataset {} is not supported: UNSTRUCTURED_GRID and POLYDATA are", quote_token(kind)));
+    const auto* const found = std::ranges::find_if(kDatasets, [&](const DatasetName& d) { return equal_ignoring_case(kind, d.word); });
+    if (found == kDatasets.end()) {
+      in().fail(
+          fmt::format("dataset {} is not supported: UNSTRUCTURED_GRID, POLYDATA, STRUCTURED_GRID, RECTILINEAR_GRID and "
+                      "STRUCTURED_POINTS are",
+                      quote_token(kind)));
     }
+    dataset_ = found->dataset;
   }
 
   bool geometry(const std::string& keyword) {
     const auto is = [&](std::string_view word) { return equal_ignoring_case(keyword, word); };
     const bool grid = dataset_ == Dataset::UnstructuredGrid;
     const bool poly = dataset_ == Dataset::PolyData;
-    const bool known = is("POINTS") || (grid && (is("CELLS") || is("CELL_TYPES"))) ||
+    if (structured() && dataset_ != Dataset::StructuredGrid) return implicit_geometry(keyword);
+    const bool known = is("POINTS") || (grid && (is("CELLS") || is("CELL_TYPES"))) || (structured() && is("DIMENSIONS")) ||
                        (poly && (is("POLYGONS") || is("VERTICES") || is("LINES") || is("TRIANGLE_STRIPS")));
     if (!known) return false;
     if (dataset_ == Dataset::None) in().fail(keyword + " before DATASET");
     if (data_begun_) in().fail(keyword + " after the data of points or cells");
     if (is("POINTS")) {
       points();
+    } else if (is("DIMENSIONS")) {
+      dimensions();
     } else if (!points_read_) {
       in().fail(keyword + " before POINTS");
     } else if (is("CELLS") || is("POLYGONS")) {
@@ -112,6 +127,73 @@ class VtkReader {
       read_cells(is("VERTICES") ? vertices_ : lines_, keyword);
     }
     return true;
+  }
+
+  [[nodiscard]] bool structured() const noexcept { return dataset_ >= Dataset::StructuredGrid; }
+
+  void dimensions() {
+    if (size_) in().fail("a second DIMENSIONS");
+    VtkGridSize size;
+    for (std::size_t& n : size.points) n = in().count("a number of points", 0.0);
+    // A grid whose points are not listed may have more of them than its file has bytes, but not by orders of magnitude.
+    constexpr std::size_t kAlways = 1'000'000;
+    const std::string fault = size.fault(std::min<std::size_t>(kNoIndex / 8, kAlways + source_.bytes().size()));
+    if (!fault.empty()) in().fail(fault);
+    size_ = size;
+  }
+
+  /// Of RECTILINEAR_GRID the coordinates along each axis, of STRUCTURED_POINTS where the first point is and how far the next.
+  bool implicit_geometry(const std::string& keyword) {
+    const auto is = [&](std::string_view word) { return equal_ignoring_case(keyword, word); };
+    const bool uniform = dataset_ == Dataset::StructuredPoints;
+    if (is("DIMENSIONS")) {
+      dimensions();
+    } else if (uniform && is("ORIGIN")) {
+      for (double& x : origin_) x = in().coordinate();
+    } else if (uniform && (is("SPACING") || is("ASPECT_RATIO"))) {
+      for (double& x : spacing_) x = in().coordinate();
+    } else if (!uniform && (is("X_COORDINATES") || is("Y_COORDINATES") || is("Z_COORDINATES"))) {
+      axis_coordinates(static_cast<std::size_t>((keyword[0] | 0x20) - 'x'));
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  void axis_coordinates(std::size_t axis) {
+    if (!size_) in().fail("coordinates before DIMENSIONS");
+    const std::size_t n = in().count("a number of coordinates", values_.binary ? 1.0 : 2.0);
+    if (n != size_->points[axis]) in().fail(fmt::format("{} coordinates, but DIMENSIONS says {}", n, size_->points[axis]));
+    const VtkType type = values_.type();
+    if (type.kind != VtkType::Kind::Scalar) in().fail("coordinates must be of a number type");
+    coordinates_[axis].clear();
+    values_.numbers(type, n, "a coordinate", [&](double value, std::size_t place) {
+      if (!std::isfinite(value)) in().fail_at(place, "a coordinate is not a finite number");
+      coordinates_[axis].push_back(value);
+    });
+  }
+
+  /// Makes the points that the file does not list. Done once, when all of the geometry has been read.
+  void make_points() {
+    if (!structured() || dataset_ == Dataset::StructuredGrid || points_read_) return;
+    if (!size_) in().fail("the file has no DIMENSIONS");
+    const auto at = [&](std::size_t axis, std::size_t i) {
+      if (dataset_ == Dataset::StructuredPoints) return origin_[axis] + spacing_[axis] * static_cast<double>(i);
+      if (coordinates_[axis].empty()) in().fail(fmt::format("the file has no {}_COORDINATES", "XYZ"[axis]));
+      return coordinates_[axis][i];
+    };
+    reserve_large(mesh_.positions, size_->point_count());
+    for (std::size_t k = 0; k < size_->points[2]; ++k) {
+      for (std::size_t j = 0; j < size_->points[1]; ++j) {
+        for (std::size_t i = 0; i < size_->points[0]; ++i) {
+          const Vec3 p{at(0, i), at(1, j), at(2, k)};
+          if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) in().fail("a point of the grid is not finite");
+          mesh_.positions.push_back(p);
+        }
+      }
+    }
+    points_read_ = true;
+    source_.set_not_patchable("the points of a regular grid are not listed in it");
   }
 
   void read_cells(std::optional<VtkCells>& cells, const std::string& keyword) {
@@ -150,12 +232,12 @@ class VtkReader {
   void set_layout(ScalarType type, std::size_t first, std::size_t n) {
     CoordinateLayout layout;
     layout.syntax.free_form = true;
+    layout.scalar.fill(type == ScalarType::Float32 ? CoordinateScalar::Float32 : CoordinateScalar::Float64);
     if (values_.binary) {
       const auto size = static_cast<std::uint32_t>(size_of(type));
       layout.binary = true;
       layout.big_endian = true;
       layout.at = {0, size, 2 * size};
-      layout.scalar.fill(type == ScalarType::Float32 ? CoordinateScalar::Float32 : CoordinateScalar::Float64);
       source_.set_uniform_places(first, std::size_t{3} * size, n);
     }
     source_.set_layout(layout);
@@ -184,12 +266,15 @@ class VtkReader {
   }
 
   [[nodiscard]] std::size_t cell_count() const {
+    if (structured()) return size_ ? size_->cell_count() : 0;
     return (cells_ ? cells_->size() : 0) + (vertices_ ? vertices_->size() : 0) + (lines_ ? lines_->size() : 0);
   }
 
   void finish() {
     if (dataset_ == Dataset::None) in().fail_at(source_.bytes().size(), "the file has no DATASET");
+    make_points();
     if (!points_read_) in().fail_at(source_.bytes().size(), "the file has no POINTS");
+    if (structured()) return finish_structured();
     if (dataset_ == Dataset::PolyData) {
       if (!cells_) in().fail_at(source_.bytes().size(), "the file has no POLYGONS");
       for (std::size_t c = 0; c < cells_->size(); ++c) add_kind(7, cells_->places[c]);
@@ -201,6 +286,15 @@ class VtkReader {
       if (field.on == Field::On::Elements && rows_.size() != cell_count()) keep_rows(field, rows_);
       mesh_.fields.push_back(std::move(field));
     }
+  }
+
+  void finish_structured() {
+    if (!size_) in().fail_at(source_.bytes().size(), "the file has no DIMENSIONS");
+    if (mesh_.positions.size() != size_->point_count()) {
+      in().fail_at(source_.bytes().size(), fmt::format("{} points, but DIMENSIONS says {}", mesh_.positions.size(), size_->point_count()));
+    }
+    add_structured_cells(mesh_, source_, *size_);
+    for (Field& field : attributes_.fields()) mesh_.fields.push_back(std::move(field));
   }
 
   void add_elements() {
@@ -221,8 +315,12 @@ class VtkReader {
   std::optional<VtkCells> cells_;     // CELLS or POLYGONS
   std::optional<VtkCells> vertices_;  // of POLYDATA
   std::optional<VtkCells> lines_;     // of POLYDATA
-  std::vector<std::uint8_t> kinds_;   // of each of cells_: ElementKind or kNoKind
-  std::vector<std::size_t> rows_;     // of each element: its row of cell data
+  // Of structured grids:
+  std::optional<VtkGridSize> size_;
+  std::array<double, 3> origin_{0.0, 0.0, 0.0}, spacing_{1.0, 1.0, 1.0};
+  std::array<std::vector<double>, 3> coordinates_;  // along each axis
+  std::vector<std::uint8_t> kinds_;                 // of each of cells_: ElementKind or kNoKind
+  std::vector<std::size_t> rows_;                   // of each element: its row of cell data
 };
 
 bool recognises_vtk(std::string_view bytes) { return equal_ignoring_case(bytes.substr(0, kSignature.size()), kSignature); }
@@ -233,7 +331,8 @@ Mesh read_vtk(SourceFile& source, const IoContext& context) { return VtkReader(s
 
 const FormatHandler& vtk_format() {
   static const FormatHandler handler{
-      .info = {"vtk", "VTK legacy", ".vtk", "2D and 3D elements, point and cell data; ASCII and binary, POLYDATA and UNSTRUCTURED_GRID"},
+      .info = {"vtk", "VTK legacy", ".vtk",
+               "2D and 3D elements, point and cell data; ASCII and binary; POLYDATA, UNSTRUCTURED_GRID, and structured grids"},
       .recognises = recognises_vtk,
       .read = read_vtk,
       .write = write_vtk};

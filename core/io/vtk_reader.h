@@ -1,5 +1,6 @@
 #pragma once
-// VTK legacy files, versions 1.0 to 5.1, ASCII and BINARY: POLYDATA and UNSTRUCTURED_GRID.
+// VTK legacy files, versions 1.0 to 5.1, ASCII and BINARY: POLYDATA, UNSTRUCTURED_GRID, and structured grids,
+// whose cells become quadrilaterals or hexahedra.
 // Format: "The VTK User's Guide", VTK File Formats; https://docs.vtk.org/en/latest/vtk_file_formats/vtk_legacy_file_format.html
 
 #include <span>

@@ -5,6 +5,13 @@
 namespace dmoscope {
 
 VtkType VtkValues::type() {
+  const std::string word(in.peek_word());
+  const VtkType found = any_type();
+  if (found.kind == VtkType::Kind::Unknown) in.fail("unknown data type " + quote_token(word));
+  return found;
+}
+
+VtkType VtkValues::any_type() {
   const std::string_view word = in.word("a data type");
   VtkType found;
   if (equal_ignoring_case(word, "bit")) {
@@ -13,7 +20,7 @@ VtkType VtkValues::type() {
   } else if (equal_ignoring_case(word, "string") || equal_ignoring_case(word, "variant")) {
     found.kind = VtkType::Kind::String;
   } else if (!scalar_of_word(word, found.scalar)) {
-    in.fail("unknown data type " + quote_token(word));
+    found.kind = VtkType::Kind::Unknown;
   }
   return found;
 }
@@ -21,7 +28,7 @@ VtkType VtkValues::type() {
 double VtkValues::least_bytes(const VtkType& type) const noexcept {
   if (!binary) return 2.0;
   if (type.kind == VtkType::Kind::Bit) return 0.125;
-  return type.kind == VtkType::Kind::String ? 1.0 : static_cast<double>(size_of(type.scalar));
+  return type.kind == VtkType::Kind::String || type.kind == VtkType::Kind::Unknown ? 1.0 : static_cast<double>(size_of(type.scalar));
 }
 
 std::size_t VtkValues::count(std::string_view what, const VtkType& type) { return in.count(what, least_bytes(type)); }
@@ -29,6 +36,12 @@ std::size_t VtkValues::count(std::string_view what, const VtkType& type) { retur
 std::string_view VtkValues::block(std::size_t n, std::size_t bytes_each, std::string_view what) {
   if (!in.rest_of_line().empty()) in.fail(fmt::format("something stands between the header of {} and its data", what));
   return in.block(n * bytes_each, what);
+}
+
+void VtkValues::skip_unknown(std::size_t n, std::string_view what) {
+  if (binary) in.fail(fmt::format("{} is of a type that is not known, so that in a binary file nobody can tell where it ends", what));
+  in.need(n, 2.0, what);
+  for (std::size_t i = 0; i < n; ++i) in.word(what);
 }
 
 void VtkValues::skip_strings(std::size_t n) {

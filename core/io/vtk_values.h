@@ -11,9 +11,10 @@
 
 namespace dmoscope {
 
-/// What VTK calls a data type. Bits are packed eight to a byte in binary files; strings and variants are skipped only.
+/// What VTK calls a data type. Bits are packed eight to a byte in binary files; strings and variants are skipped only, and so is what VTK
+/// does not know.
 struct VtkType {
-  enum class Kind : std::uint8_t { Scalar, Bit, String };
+  enum class Kind : std::uint8_t { Scalar, Bit, String, Unknown };
   Kind kind = Kind::Scalar;
   ScalarType scalar = ScalarType::Float64;
 };
@@ -24,6 +25,8 @@ class VtkValues {
 
   /// Takes the word for a data type. Throws InputError for one that VTK does not know.
   VtkType type();
+  /// The same, but the kind is Unknown for a word that VTK does not know.
+  VtkType any_type();
   /// Takes a count of values of `type` that start on the next line, checked against what is left of the file.
   std::size_t count(std::string_view what, const VtkType& type);
   /// Bytes that one value needs at least in this file.
@@ -34,6 +37,8 @@ class VtkValues {
   /// n whole numbers, exactly.
   template <class Each>
   void wholes(const VtkType& type, std::size_t n, std::string_view what, Each&& each);
+  /// Skips n values of a type that is not known, which `what` names. Throws InputError in a binary file: nothing tells their size.
+  void skip_unknown(std::size_t n, std::string_view what);
   /// Skips n strings.
   void skip_strings(std::size_t n);
   /// Skips a METADATA block, whose word was taken: everything up to an empty line.

@@ -10,6 +10,7 @@
 #include "core/io/text_writer.h"
 #include "core/io/vtk_attributes.h"
 #include "core/io/vtk_cells.h"
+#include "core/io/vtk_order.h"
 #include "core/io/vtk_reader.h"
 
 namespace dmoscope {
@@ -58,7 +59,7 @@ class VtkWriter {
     out_ << "CELLS " << n << ' ' << n + mesh_.elements.all_corners().size() << '\n';
     out_.for_each(n, [this](TextBuffer& part, std::size_t e) {
       std::array<Index, 8> buffer{};
-      const std::span<const Index> corners = file_corners(mesh_, static_cast<Index>(e), buffer);
+      const std::span<const Index> corners = vtk_corners(mesh_, static_cast<Index>(e), buffer);
       part << corners.size();
       for (const Index corner : corners) part << ' ' << corner;
       part << '\n';

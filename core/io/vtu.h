@@ -1,6 +1,6 @@
 #pragma once
-// VTU files: VTK's XML UnstructuredGrid. ASCII, base64 (inline or appended) and raw appended data, uncompressed or zlib, either byte order,
-// sizes of 32 or 64 bits.
+// VTU files: VTK's XML UnstructuredGrid; and its structured grids (.vts, .vtr, .vti), which are read alone. ASCII, base64 (inline or
+// appended) and raw appended data, uncompressed or zlib, either byte order, sizes of 32 or 64 bits.
 
 #include <span>
 #include <string>

@@ -110,7 +110,11 @@ void VtuDocument::attributes(pugi::xml_node file) {
   if (type == "PUnstructuredGrid") {
     fail(file, "this file (PVTU) only names the pieces of a mesh: open those, or save it as one VTU file");
   }
-  if (type != "UnstructuredGrid") fail(file, fmt::format("a dataset of type {} is not read: UnstructuredGrid is", quote_token(type)));
+  structured_ = type == "StructuredGrid" || type == "RectilinearGrid" || type == "ImageData";
+  if (type != "UnstructuredGrid" && !structured_) {
+    fail(file, fmt::format("a dataset of type {} is not read: UnstructuredGrid, StructuredGrid, RectilinearGrid and ImageData are",
+                           quote_token(type)));
+  }
   const std::string_view order = file.attribute("byte_order").value();
   if (!order.empty() && order != "LittleEndian" && order != "BigEndian")
     fail(file, fmt::format("byte_order {} is not known", quote_token(order)));
@@ -120,8 +124,8 @@ void VtuDocument::attributes(pugi::xml_node file) {
     fail(file, fmt::format("header_type {} is not known", quote_token(header)));
   header_ = header == "UInt64" ? ScalarType::UInt64 : ScalarType::UInt32;
   compressor_ = file.attribute("compressor").value();
-  grid_ = file.child("UnstructuredGrid");
-  if (!grid_) fail(file, "UnstructuredGrid is missing");
+  grid_ = file.child(file.attribute("type").value());
+  if (!grid_) fail(file, fmt::format("{} is missing", type));
 }
 
 std::size_t VtuDocument::count(pugi::xml_node node, const char* attribute, std::size_t most) const {

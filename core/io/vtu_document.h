@@ -36,6 +36,8 @@ class VtuDocument {
   VtuDocument(const SourceFile& source, Progress& progress);
 
   [[nodiscard]] pugi::xml_node grid() const noexcept { return grid_; }
+  /// Is it one of the grids whose cells are not listed (.vts, .vtr, .vti)?
+  [[nodiscard]] bool structured() const noexcept { return structured_; }
   [[nodiscard]] bool big_endian() const noexcept { return big_endian_; }
   [[nodiscard]] ScalarType header() const noexcept { return header_; }
   [[nodiscard]] bool compressed() const noexcept { return !compressor_.empty(); }
@@ -78,6 +80,7 @@ class VtuDocument {
   std::string xml_;  // parsed in place
   pugi::xml_document document_;
   pugi::xml_node grid_;
+  bool structured_ = false;
   bool big_endian_ = false;
   ScalarType header_ = ScalarType::UInt32;
   std::string compressor_;

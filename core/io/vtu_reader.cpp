@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "core/io/tokenizer.h"
 #include "core/io/unpack_budget.h"
 #include "core/io/vtk_cells.h"
+#include "core/io/vtk_structured.h"
 #include "core/io/vtu.h"
 #include "core/io/vtu_data.h"
 #include "core/io/vtu_document.h"
@@ -66,6 +68,10 @@ class VtuReader {
     }
     if (document_.xml().find("<!--") != std::string_view::npos) source_.add_only_in_file("comments");
     layout();
+    if (document_.structured()) {
+      for (Field& field : fields_) mesh_.fields.push_back(std::move(field));
+      return std::move(mesh_);
+    }
     const std::vector<std::size_t> rows = add_vtk_elements(mesh_, source_, cells_, kinds_, 0);
     for (Field& field : fields_) {
       if (field.on == Field::On::Elements && rows.size() != kinds_.size()) keep_rows(field, rows);
@@ -75,7 +81,96 @@ class VtuReader {
   }
 
  private:
+  /// "0 2 0 1 3 3": the first and the last point along x, y and z.
+  std::array<std::int64_t, 6> extent(pugi::xml_node piece) {
+    const pugi::xml_attribute given = piece.attribute("Extent") ? piece.attribute("Extent") : document_.grid().attribute("WholeExtent");
+    const std::vector<double> numbers = several(piece, given.value(), 6);
+    std::array<std::int64_t, 6> found{};
+    for (std::size_t i = 0; i < 6; ++i) {
+      if (numbers[i] != std::nearbyint(numbers[i]) || std::abs(numbers[i]) > 1e9)
+        document_.fail(piece, "an extent that is no whole number");
+      found[i] = static_cast<std::int64_t>(numbers[i]);
+    }
+    return found;
+  }
+
+  std::vector<double> several(pugi::xml_node node, const char* text, std::size_t count) {
+    Progress unwatched;
+    Tokenizer tokens(text, document_.file(), {}, unwatched);
+    std::vector<double> numbers;
+    while (!tokens.at_end() && numbers.size() < count) {
+      const std::string_view word = tokens.token();
+      double value = 0.0;
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+      if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) break;
+      numbers.push_back(value);
+    }
+    if (numbers.size() != count) document_.fail(node, fmt::format("{} is no list of {} numbers", quote_token(text), count));
+    return numbers;
+  }
+
+  /// The one piece of a grid whose cells are not listed.
+  void structured_piece(pugi::xml_node node) {
+    if (pieces_read_) document_.fail(node, "structured grids of several pieces are not read: save it as one, or as an unstructured grid");
+    constexpr std::size_t kAlways = 1'000'000, kTimes = 256;  // what is packed may be of more points than the file has bytes
+    const std::array<std::int64_t, 6> range = extent(node);
+    VtkGridSize size;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (range[2 * axis + 1] < range[2 * axis]) document_.fail(node, "a grid without points");
+      size.points[axis] = static_cast<std::size_t>(range[2 * axis + 1] - range[2 * axis] + 1);
+    }
+    const std::string fault = size.fault(std::min<std::size_t>(kNoIndex / 8, kAlways + kTimes * source_.bytes().size()));
+    if (!fault.empty()) document_.fail(node, fault);
+    if (node.child("Points")) {
+      points(node, size.point_count());
+    } else {
+      implicit_points(node, size, range);
+    }
+    add_structured_cells(mesh_, source_, size);
+    source_.set_not_patchable("structured grids are written as unstructured ones");
+    attributes(node.child("PointData"), Field::On::Vertices, size.point_count());
+    attributes(node.child("CellData"), Field::On::Elements, size.cell_count());
+    pieces_read_ = true;
+  }
+
+  /// Of RectilinearGrid the coordinates along each axis, of ImageData the origin and the spacing.
+  void implicit_points(pugi::xml_node node, const VtkGridSize& size, const std::array<std::int64_t, 6>& range) {
+    std::array<std::vector<double>, 3> along;
+    const pugi::xml_node grid = document_.grid();
+    if (std::string_view(grid.name()) == "RectilinearGrid") {
+      std::size_t axis = 0;
+      for (const pugi::xml_node array : node.child("Coordinates").children("DataArray")) {
+        if (axis < 3) along[axis] = numbers(geometry(array), size.points[axis]);
+        ++axis;
+      }
+      if (axis != 3) document_.fail(node, "Coordinates need three arrays");
+    } else {
+      if (grid.attribute("Direction") &&
+          several(grid, grid.attribute("Direction").value(), 9) != std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 1}) {
+        document_.fail(grid, "an image that is turned (Direction) is not read: save it as a structured or unstructured grid");
+      }
+      const auto origin = several(grid, grid.attribute("Origin").as_string("0 0 0"), 3);
+      const auto spacing = several(grid, grid.attribute("Spacing").as_string("1 1 1"), 3);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::int64_t i = range[2 * axis]; i <= range[2 * axis + 1]; ++i) {
+          along[axis].push_back(origin[axis] + spacing[axis] * static_cast<double>(i));
+        }
+      }
+    }
+    reserve_large(mesh_.positions, size.point_count());
+    for (const double z : along[2]) {
+      for (const double y : along[1]) {
+        for (const double x : along[0]) mesh_.positions.push_back({x, y, z});
+      }
+    }
+    const auto finite = [](double x) { return std::isfinite(x); };
+    for (const auto& list : along) {
+      if (!std::ranges::all_of(list, finite)) document_.fail(node, "a coordinate is not a finite number");
+    }
+  }
+
   void piece(pugi::xml_node node) {
+    if (document_.structured()) return structured_piece(node);
     const std::size_t point_count = document_.count(node, "NumberOfPoints", kNoIndex - 1 - mesh_.positions.size());
     const std::size_t cell_count = document_.count(node, "NumberOfCells", kNoIndex - 1 - kinds_.size());
     if (point_count == 0 && cell_count == 0) return;  // a process that had nothing
@@ -267,7 +362,7 @@ class VtuReader {
     layout.big_endian = document_.big_endian();
     const auto size = static_cast<std::uint32_t>(size_of(first.type));
     if (layout.binary) layout.at = {0, size, 2 * size};
-    layout.scalar.fill(layout.binary && first.type == ScalarType::Float32 ? CoordinateScalar::Float32 : CoordinateScalar::Float64);
+    layout.scalar.fill(first.type == ScalarType::Float32 ? CoordinateScalar::Float32 : CoordinateScalar::Float64);
     source_.set_layout(layout);
     for (const PointArray& some : points_) {
       if (is_whole(some.array.type)) source_.set_not_patchable("its points are whole numbers");

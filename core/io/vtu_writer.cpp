@@ -13,6 +13,7 @@
 #include "core/io/text_writer.h"
 #include "core/io/tokenizer.h"
 #include "core/io/vtk_cells.h"
+#include "core/io/vtk_order.h"
 #include "core/io/vtu.h"
 #include "core/io/vtu_data.h"
 
@@ -94,7 +95,7 @@ class VtuWriter {
     corners.reserve(mesh_.elements.all_corners().size());
     std::array<Index, 8> buffer{};
     for (Index e = 0; e < n; ++e) {
-      const auto own = file_corners(mesh_, e, buffer);
+      const auto own = vtk_corners(mesh_, e, buffer);
       corners.insert(corners.end(), own.begin(), own.end());
     }
     const auto offsets = mesh_.elements.offsets();

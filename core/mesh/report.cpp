@@ -31,8 +31,8 @@ std::vector<std::string> MeshReport::sentences() const {
       "faces are shared by more than two elements, or by an element and its duplicate; their corners stay fixed");
   add(all, unused_vertices, "vertex belongs to no element", "vertices belong to no element");
   if (volume)
-    add(all, flipped_elements, "element is wound inside out; it is turned over here and written back as it was",
-        "elements are wound inside out; they are turned over here and written back as they were");
+    add(all, flipped_elements, "element is wound inside out; it is turned over here, and its file gets it back as it was",
+        "elements are wound inside out; they are turned over here, and their file gets them back as they were");
   else
     add(all, flipped_elements, "element is wound clockwise; it is turned over here and written back as it was",
         "elements are wound clockwise; they are turned over here and written back as they were");

@@ -64,6 +64,21 @@ TEST(BadInput, UnknownFormat) {
   expect_refused(folder.file("letter.txt", "Dear mesh,\n"), false);
 }
 
+/// Whoever keeps the extension has nothing to mend in the output.
+TEST(BadInput, UnknownFormatIsNotBlamedOnTheOutput) {
+  const Folder folder;
+  const std::string in = folder.file("a.unv", "    -1\n   164\n"), out = folder / "b.unv";
+  for (const auto& arguments : {std::vector<std::string>{"smooth", in, "-o", out}, {"convert", in, out}}) {
+    const Output output = run(arguments);
+    EXPECT_EQ(output.code, 3);
+    EXPECT_THAT(output.err, HasSubstr(in + ": this is an I-deas universal file"));
+    EXPECT_THAT(output.err, ::testing::Not(HasSubstr(out)));
+  }
+  const Output output = run({"convert", folder.file("good.off", kTriangles), out});
+  EXPECT_EQ(output.code, 2);
+  EXPECT_THAT(output.err, HasSubstr(out));
+}
+
 TEST(BadInput, MalformedRealFiles) {
   for (const char* name : {"ocean/admesh_Mixed_Test.14", "quad/unstrquad.vtk"}) {
     const std::string path = shared_mesh(name);

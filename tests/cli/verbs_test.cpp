@@ -359,7 +359,28 @@ TEST(Script, UnknownCommandsAreToldBeforeAnythingIsNeeded) {
 TEST(Window, AFileThatIsNotThereIsToldBeforeTheDisplay) {
   const Output output = run({"bogus"});
   EXPECT_EQ(output.code, 3);
-  EXPECT_THAT(output.err, AllOf(HasSubstr("bogus"), HasSubstr("no such file and no such verb"), ::testing::Not(HasSubstr("DISPLAY"))));
+  EXPECT_THAT(output.err, AllOf(HasSubstr("bogus"), HasSubstr("no such file and no such verb"), HasSubstr("compare"), HasSubstr("paper"),
+                                ::testing::Not(HasSubstr("DISPLAY"))));
+}
+
+/// Two triangles far from the origin, where floats lie 1/16 apart: a tip 1/64 beside the middle of its base is above it for them.
+TEST(Quality, TextThatDeclaresFloatsIsJudgedByItsDigitsAndSaysWhatOthersSee) {
+  const Folder folder;
+  const auto bytes = [](const char* type) {
+    return std::string("# vtk DataFile Version 3.0\nfar\nASCII\nDATASET POLYDATA\nPOINTS 4 ") + type +
+           "\n1000000 0 0\n1000001 0 0\n1000000.515625 0.5 0\n1000000.5 -0.5 0\nPOLYGONS 2 8\n3 0 1 2\n3 0 3 1\n";
+  };
+  const std::string floats = folder.file("floats.vtk", bytes("float")), doubles = folder.file("doubles.vtk", bytes("double"));
+  const Output as_floats = run({"quality", floats, "--metric", "mean-ratio"}),
+               as_doubles = run({"quality", doubles, "--metric", "mean-ratio"});
+  EXPECT_THAT(as_floats.err, HasSubstr("its points are declared as float"));
+  EXPECT_EQ(as_doubles.err, "");
+  // 4 sqrt(3) times the area of 1/4, by the sum of the squared sides: 2 with the tip above the middle, 2 + 2/64^2 beside it.
+  EXPECT_THAT(as_floats.err, HasSubstr("sees a minimum of 0.866 and 0 inverted (here 0.8658 and 0)"));
+  const std::string out = folder / "out.vtk";
+  const Output smoothed = run({"smooth", floats, "-o", out, "--iterations", "1"});
+  EXPECT_EQ(read_file(out), bytes("float")) << "no vertex is free, and the characters stay";
+  EXPECT_THAT(smoothed.err, HasSubstr(out + ": its points are declared as float"));
 }
 
 }  // namespace

@@ -78,6 +78,32 @@ inline std::string vtk_volume() {
          "3\n12 14 9\n";
 }
 
+/// Two cubes side by side.
+inline std::string vtk_structured_grid() {
+  return "# vtk DataFile Version 3.0\ngrid\nASCII\nDATASET STRUCTURED_GRID\nDIMENSIONS 3 2 2\nPOINTS 12 float\n0 0 0 1 0 0 2 0 0\n0 1 0 1 "
+         "1.50 0 2 1 "
+         "0\n0 0 1 1 0 1 2 0 1\n0 1 1 1 1 1 2 1 1\nCELL_DATA 2\nSCALARS id int\nLOOKUP_TABLE default\n4 7\nPOINT_DATA 12\nSCALARS depth "
+         "double\n"
+         "LOOKUP_TABLE default\n1 2 3 4 5 6 7 8 9 10 11 12\n";
+}
+
+/// Two rectangles that stand upright, y = 5.
+inline std::string vtk_rectilinear() {
+  std::string s = "# vtk DataFile Version 4.2\ngrid\nBINARY\nDATASET RECTILINEAR_GRID\nDIMENSIONS 3 1 2\nX_COORDINATES 3 float\n";
+  put<float>(s, true, {0, 1, 3});
+  s += "\nY_COORDINATES 1 double\n";
+  put<double>(s, true, {5});
+  s += "\nZ_COORDINATES 2 int\n";
+  put<std::int32_t>(s, true, {0, 2});
+  s += "\nPOINT_DATA 6\nSCALARS mark unsigned_char\nLOOKUP_TABLE default\nabcdef\n";
+  return s;
+}
+
+inline std::string vtk_image() {
+  return "# vtk DataFile Version 2.0\nimage\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 3 3 1\nORIGIN 1 2 3\nASPECT_RATIO 0.5 1 2\n"
+         "CELL_DATA 4\nSCALARS id int\nLOOKUP_TABLE default\n4 7 8 9\n";
+}
+
 inline std::string ply_ascii() {
   return "ply\nformat ascii 1.0\ncomment a small mesh\nelement vertex 6\nproperty uchar red\nproperty double y\nproperty float x\nproperty "
          "double z\n"
@@ -137,6 +163,57 @@ inline std::string medit_ascii() {
          "Corners\n1\n4\nRidges\n1\n2\nNormals\n1\n0 0 1\nEnd\n";
 }
 
+/// The same as medit_ascii() as one of the four binary versions.
+inline std::string medit_binary(int version, bool big) {
+  std::string s;
+  std::size_t link = 0;  // where the place of the next keyword stands
+  const auto whole = [&](std::initializer_list<std::int64_t> numbers) {
+    for (const std::int64_t n : numbers)
+      version == 4 ? put<std::int64_t>(s, big, {n}) : put<std::int32_t>(s, big, {static_cast<std::int32_t>(n)});
+  };
+  const auto close = [&] {
+    std::string place;
+    if (version >= 3) {
+      put<std::int64_t>(place, big, {static_cast<std::int64_t>(s.size())});
+    } else {
+      put<std::int32_t>(place, big, {static_cast<std::int32_t>(s.size())});
+    }
+    if (link > 0) s.replace(link, place.size(), place);
+  };
+  const auto keyword = [&](std::int32_t code) {
+    close();
+    put<std::int32_t>(s, big, {code});
+    link = s.size();
+    s.append(version >= 3 ? 8 : 4, '\0');
+  };
+  put<std::int32_t>(s, big, {1, version});
+  keyword(3);
+  put<std::int32_t>(s, big, {3});
+  keyword(4);
+  whole({5});
+  const double xyz[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1.5, 0}, {0, 0, 1}, {1, 1, 1}};
+  const std::int64_t references[5] = {1, 1, 2, 0, 0};
+  for (int v = 0; v < 5; ++v) {
+    for (const double x : xyz[v]) version == 1 ? put<float>(s, big, {static_cast<float>(x)}) : put<double>(s, big, {x});
+    whole({references[v]});
+  }
+  keyword(6);
+  whole({2, 1, 3, 2, 7, 2, 3, 5, 7});
+  keyword(5);
+  whole({2, 1, 2, 3, 2, 3, 3});
+  keyword(8);
+  whole({2, 1, 2, 3, 4, 1, 2, 3, 4, 5, 0});
+  keyword(13);
+  whole({1, 4});
+  keyword(14);
+  whole({1, 2});
+  keyword(60);
+  whole({1, 0});
+  keyword(54);
+  s.replace(link, s.size() - link, s.size() - link, '\0');
+  return s;
+}
+
 // Two tetrahedra with a triangle, a line and a point of their boundary; the numbers of the nodes have gaps and are in no order.
 inline std::string gmsh_2_ascii() {
   return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 7 \"outer wall\"\n3 1 \"rock\"\n$EndPhysicalNames\n"
@@ -171,6 +248,16 @@ inline std::string gmsh_4_ascii() {
          "$Entities\n1 1 2 0\n1 0 0 0 0\n1 0 0 0 1 0 0 1 6 2 1 -1\n1 0 0 0 1 1 0 2 5 8 1 1\n2 0 0 0 1 1 0 1 5 0\n$EndEntities\n"
          "$Nodes\n3 5 1 9\n0 1 0 1\n9\n0 0 0\n1 1 1 1\n2\n1.0 0 0 0.5\n2 1 0 3\n3\n4\n1\n1 1 0\n0 1.50 0\n2 0.5 0\n$EndNodes\n"
          "$Elements\n4 5 1 5\n0 1 15 1\n1 9\n1 1 1 1\n2 9 2\n2 1 2 2\n3 9 2 3\n4 9 3 4\n2 2 2 1\n5 2 1 3\n$EndElements\n";
+}
+
+inline std::string gmsh_4_partitioned() {
+  return "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 5 \"plate\"\n$EndPhysicalNames\n"
+         "$Entities\n0 1 1 0\n7 0 0 0 1 0 0 0 0\n1 0 0 0 1 1 0 1 5 1 7\n$EndEntities\n"
+         "$PartitionedEntities\n2\n1\n4 1\n0 2 2 0\n8 1 7 1 1 0 0 0 1 0 0 0 0\n9 2 1 2 1 2 0 0 0 1 1 0 0 0\n"
+         "2 2 1 1 1 0 0 0 1 1 0 1 5 1 8\n3 2 1 1 2 0 0 0 1 1 0 1 5 1 9\n$EndPartitionedEntities\n"
+         "$Nodes\n2 4 1 4\n2 2 0 3\n1\n2\n3\n0 0 0\n1 0 0\n1 1.50 0\n2 3 0 1\n4\n0 1 0\n$EndNodes\n"
+         "$Elements\n4 4 1 4\n1 8 1 1\n1 1 2\n1 9 1 1\n2 1 3\n2 2 2 1\n3 1 2 3\n2 3 2 1\n4 1 3 4\n$EndElements\n"
+         "$GhostElements\n1\n4 2 1 1\n$EndGhostElements\n";
 }
 
 inline std::string gmsh_4_binary(bool big) {
@@ -220,6 +307,9 @@ inline std::vector<Sample> samples() {
       {"binary", "vtk", vtk_binary(false)},
       {"offsets", "vtk", vtk_binary(true)},
       {"volume", "vtk", vtk_volume()},
+      {"structured", "vtk", vtk_structured_grid()},
+      {"rectilinear", "vtk", vtk_rectilinear()},
+      {"image", "vtk", vtk_image()},
       {"depth", "fort14",
        "grid\n2 4\n1 0.0 0.0 10.5\n2 1.0 0 11\n3 1 1 12.\n4 0 1 1.3D1\n1 3 1 2 3\n2 3 1 3 4\n1\n2\n2\n1\n2\n1\n2\n2 0\n3\n4\n"},
       {"marker", "su2",
@@ -232,12 +322,17 @@ inline std::vector<Sample> samples() {
       {"2_little", "gmsh", gmsh_2_binary(false)},
       {"2_big", "gmsh", gmsh_2_binary(true)},
       {"4_ascii", "gmsh", gmsh_4_ascii()},
+      {"4_partitioned", "gmsh", gmsh_4_partitioned()},
       {"4_little", "gmsh", gmsh_4_binary(false)},
       {"4_big", "gmsh", gmsh_4_binary(true)},
       {"triangle", "tetgen",
        "# Triangle\n4 2 1 1\n0 0 0 0.5 1\n1 1 0 0.25 1\n2 1 1 1e-3 1 # corner\n3 0 1.50 0 0\n\x1e\n2 3 0\n0 0 1 2\n1 0 2 3\n"},
       {"tetgen", "tetgen", "5 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1.0\n5 1 1 1\n\x1e\n2 4 1\n1 1 2 3 4 7\n2 2 3 4 5 -8.5\n# end\n"},
       {"volume", "medit", medit_ascii()},
+      {"1_little", "meshb", medit_binary(1, false)},
+      {"2_big", "meshb", medit_binary(2, true)},
+      {"3_little", "meshb", medit_binary(3, false)},
+      {"4_big", "meshb", medit_binary(4, true)},
       {"planar", "medit",
        "MeshVersionFormatted 1\nDimension 2\nTriangles 2 1 2 3 5 1 3 4 0\nEdges 1 1 2 4\nQuadrilaterals 1\n2 5 6 3 5\n"
        "Vertices 6\n0 0 0\n1 0 0\n1 1 0\n0 1.50 0\n2 0 0\n2 1e0 0\nRequiredVertices 1 1\nEnd\n"},

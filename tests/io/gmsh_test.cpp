@@ -35,6 +35,38 @@ Mesh stripped(Mesh mesh) {
   return mesh;
 }
 
+/// Old files give names to numbers alone; saved again by Gmsh such names have the dimension -1.
+TEST(Gmsh, NamesWithoutADimensionAreOfWhateverHasTheNumber) {
+  for (const char* const dimension : {"", "-1 "}) {
+    const std::string d(dimension);
+    const Mesh mesh =
+        read_bytes("a.msh", "$MeshFormat\n2.0 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n" + d + "1 \"left wall\"\n" + d +
+                                "2 \"steel\"\n2 3 \"glass\"\n$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n"
+                                "$EndNodes\n$Elements\n3\n1 1 2 1 1 4 1\n2 2 2 2 1 1 2 3\n3 2 2 3 1 1 3 4\n$EndElements\n");
+    EXPECT_EQ(group(mesh, "left wall").dimension, 1);
+    EXPECT_THAT(group(mesh, "left wall").members, ElementsAre(3, 0));
+    EXPECT_THAT(group(mesh, "steel").members, ElementsAre(0));
+    EXPECT_EQ(group(mesh, "steel").code, 2);
+    EXPECT_THAT(group(mesh, "glass").members, ElementsAre(1));
+  }
+}
+
+/// As Gmsh writes it: two partitions of one surface, with a line between them that is no line of the mesh.
+TEST(Gmsh, PartitionsArePutTogether) {
+  const std::string text = dmoscope::testing::gmsh_4_partitioned();
+  const Mesh mesh = read_bytes("a.msh", text);
+  expect_consistent(mesh);
+  EXPECT_THAT(list(mesh.elements.all_corners()), ElementsAre(0, 1, 2, 0, 2, 3));
+  ASSERT_EQ(mesh.groups.size(), 2U) << "no group for what lies between the partitions";
+  EXPECT_THAT(group(mesh, "plate").members, ElementsAre(0, 1));
+  EXPECT_EQ(group(mesh, "plate").code, 5);
+  EXPECT_THAT(group(mesh, "entity 7").members, ElementsAre(0, 1));
+  EXPECT_THAT(mesh.source->only_in_file(), ::testing::IsSupersetOf(std::vector<std::string>{
+                                               "the partitions of its elements", "the interfaces of its partitions", "$GhostElements"}));
+  EXPECT_EQ(written("a.msh", mesh), text);
+  expect_truncation_safe("a.msh", text);
+}
+
 TEST(Gmsh, Version2WithGapsInItsNumbers) {
   const Mesh mesh = read_bytes("a.msh", dmoscope::testing::gmsh_2_ascii());
   expect_consistent(mesh);
@@ -276,12 +308,13 @@ TEST(Gmsh, Malformed) {
       {head + nodes + "$Elements\n1\n1 1 2 0 1 1 2\n$EndElements\n", 13, "no elements of two or three dimensions"},
       {head + nodes + "junk\n", 10, "expected a section such as $Nodes, got \"junk\""},
       {head + nodes + "$Notes\njunk\n", 11, "$EndNotes"},
+      {head + "$PhysicalNames\n1\n-2 1 \"a\"\n$EndPhysicalNames\n", 6, "a physical group of -2 dimensions"},
       {head + "$PhysicalNames\n1\n4 1 \"a\"\n$EndPhysicalNames\n", 6, "a physical group of 4 dimensions"},
       {head + nodes + "$NodeData\n1\n\"a\"\n1\n0\n2\n0\n1\n", 15, "3 integer tags"},
       {head + nodes + "$NodeData\n1\n\"a\"\n1\n0\n3\n0\n1\n1\n9 1\n$EndNodeData\n", 19, "values of node 9, which"},
       {head + nodes + "$NodeData\n1\n\"a\"\n1\n0\n3\n0\n99999\n1\n1 1\n$EndNodeData\n", 17, "99999 components"},
       {head + nodes + "$ElementData\n1\n\"a\"\n1\n0\n3\n0\n1\n0\n$EndElementData\n", 10, "$ElementData before $Elements"},
-      {four + "$PartitionedEntities\n2\n", 4, "partitioned meshes are not read"},
+      {four + "$PartitionedEntities\n2\n", 5, "the file ends"},
       {four + "$Nodes\n1 1 1 3\n4 1 0 1\n1\n0 0 0\n", 6, "an entity of 4 dimensions"},
       {four + "$Nodes\n1 3 1 3\n2 1 0 9\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n", 6, "but only"},
       {four + "$Nodes\n1 3 1 3\n2 1 0 2\n1\n2\n0 0 0\n1 0 0\n$EndNodes\n", 10, "2 nodes in the blocks, but $Nodes says 3"},

@@ -158,7 +158,8 @@ std::vector<Index> corners_of_kind(const Mesh& mesh, ElementKind kind) {
   return {};
 }
 
-TEST(WriteMesh, EveryFormatUndoesTheFlipOfEveryKind) {
+/// But for solids: those go out as they are here, with a word.
+TEST(WriteMesh, EveryFormatUndoesTheFlipOfEveryKindOfThePlane) {
   int kinds_written = 0;
   for (const int dimension : {2, 3}) {
     const Mesh mesh = one_of_each_kind(dimension);
@@ -173,14 +174,15 @@ TEST(WriteMesh, EveryFormatUndoesTheFlipOfEveryKind) {
       name += format.extensions.substr(0, format.extensions.find(' '));
       Progress progress;
       try {
-        (void)write_mesh(folder / name, turned, turned.positions, progress);
+        const auto notes = write_mesh(folder / name, turned, turned.positions, progress);
+        if (dimension == 3) EXPECT_THAT(notes, testing::Contains(HasSubstr("4 elements that were wound inside out")));
       } catch (const OutputError&) {
         continue;  // cannot hold these kinds
       }
       const Mesh again = read_mesh(folder / name, progress);
       EXPECT_EQ(again.elements.size(), mesh.elements.size());
       for (const ElementKind kind : mesh.elements.kinds()) {
-        EXPECT_EQ(corners_of_kind(again, kind), corners_of_kind(mesh, kind)) << info(kind).name;
+        EXPECT_EQ(corners_of_kind(again, kind), corners_of_kind(dimension == 2 ? mesh : turned, kind)) << info(kind).name;
         ++kinds_written;
       }
     }

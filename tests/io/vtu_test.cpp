@@ -73,7 +73,7 @@ TEST(Vtu, EveryEncodingGivesTheSameMesh) {
     EXPECT_THAT(corners(mesh, 1), ElementsAre(4, 5, 6, 7, 8));
     EXPECT_THAT(corners(mesh, 2), ElementsAre(1, 2, 5, 9));
     EXPECT_THAT(corners(mesh, 3), ElementsAre(0, 1, 2, 3, 4, 5, 6, 7)) << "a voxel";
-    EXPECT_THAT(corners(mesh, 4), ElementsAre(0, 1, 2, 4, 5, 6));
+    EXPECT_THAT(corners(mesh, 4), ElementsAre(0, 2, 1, 4, 6, 5)) << "a wedge, in our order";
     ASSERT_EQ(mesh.fields.size(), 3U);
     EXPECT_EQ(mesh.fields[0].name, "depth");
     EXPECT_EQ(mesh.fields[0].type, "Float32");
@@ -155,6 +155,44 @@ TEST(Vtu, AsciiChangesNothingButTheMovedNumbers) {
   std::vector<Vec3> positions = mesh.positions;
   positions[9].y = 0.1;
   EXPECT_EQ(write_again(mesh, positions).bytes, with(bytes, "2.0 2.0 0.25 0.5\n", "2.0 2.0 0.1 0.5\n"));
+}
+
+std::string structured(const std::string& type, const std::string& grid, const std::string& piece) {
+  return "<VTKFile type=\"" + type + "\" byte_order=\"LittleEndian\"><" + type + " " + grid + "><Piece " + piece + "</Piece></" + type +
+         "></VTKFile>";
+}
+
+TEST(Vtu, StructuredGridsBecomeHexahedraAndQuadrilaterals) {
+  const std::string points =
+      "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\">0 0 0 1 0 0 2 0 0 0 1 0 1 1.5 0 2 1 0 0 0 1 1 0 1 2 0 1 0 1 1 1 1 1 2 "
+      "1 1"
+      "</DataArray></Points><CellData><DataArray type=\"Int32\" Name=\"id\">4 7</DataArray></CellData>";
+  const Mesh grid = read_bytes("vtu", structured("StructuredGrid", "WholeExtent=\"0 2 0 1 0 1\"", "Extent=\"0 2 0 1 0 1\">" + points));
+  ASSERT_EQ(grid.elements.size(), 2U);
+  EXPECT_EQ(grid.elements.kind(1), ElementKind::Hexahedron);
+  EXPECT_THAT(corners(grid, 1), ElementsAre(1, 2, 5, 4, 7, 8, 11, 10));
+  EXPECT_EQ(grid.positions[4], (Vec3{1, 1.5, 0}));
+  EXPECT_THAT(grid.fields[0].values, ElementsAre(4, 7));
+  EXPECT_THAT(grid.source->not_patchable(), HasSubstr("unstructured"));
+
+  const std::string axes =
+      "<Coordinates><DataArray type=\"Float32\">0 1 3</DataArray><DataArray type=\"Float64\">5</DataArray><DataArray type=\"Int8\">0 "
+      "2</DataArray></Coordinates>";
+  const Mesh upright = read_bytes("vtu", structured("RectilinearGrid", "WholeExtent=\"0 2 0 0 3 4\"", "Extent=\"0 2 0 0 3 4\">" + axes));
+  EXPECT_EQ(upright.positions[5], (Vec3{3, 5, 2}));
+  EXPECT_THAT(corners(upright, 1), ElementsAre(1, 2, 5, 4));
+
+  const Mesh image = read_bytes(
+      "vtu", structured("ImageData", "WholeExtent=\"1 3 0 1 0 0\" Origin=\"1 2 3\" Spacing=\"0.5 1 2\"", "Extent=\"1 3 0 1 0 0\">"));
+  EXPECT_EQ(image.positions[0], (Vec3{1.5, 2, 3})) << "the extent begins at 1";
+  EXPECT_EQ(image.positions[5], (Vec3{2.5, 3, 3}));
+  EXPECT_EQ(image.elements.size(), 2U);
+
+  for (const char* extent : {"0 100000 0 100000 0 9", "0 2 0 1", "0 2 0 1 0 x", "0 2 1 0 0 1", "0 2 0 0 0 0", "0 1e300 0 1 0 1"}) {
+    const std::string bad = std::string("Extent=\"") + extent + "\">";
+    EXPECT_THROW((void)read_bytes("vtu", structured("ImageData", "", bad)), InputError) << extent;
+  }
+  EXPECT_THROW((void)read_bytes("vtu", structured("StructuredGrid", "", "Extent=\"0 2 0 1 0 2\">" + points)), InputError);
 }
 
 TEST(Vtu, NumbersThatTouchTheirTagsAreReplaced) {

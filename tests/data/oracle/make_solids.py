@@ -96,7 +96,9 @@ def main():
         f.write(f"# vtk DataFile Version 3.0\nwedges and pyramids by make_solids.py\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {len(points)} double\n")
         f.writelines(" ".join(repr(float(x)) for x in p) + "\n" for p in points)
         f.write(f"CELLS {len(cells)} {sum(len(c) + 1 for _, c in cells)}\n")
-        f.writelines(f"{len(c)} " + " ".join(map(str, c)) + "\n" for _, c in cells)
+        # VTK winds a wedge the other way round than the definitions above.
+        order = {"wedge": (0, 2, 1, 3, 5, 4), "pyramid": range(5)}
+        f.writelines(f"{len(c)} " + " ".join(str(c[i]) for i in order[kind]) + "\n" for kind, c in cells)
         f.write(f"CELL_TYPES {len(cells)}\n")
         f.writelines({"wedge": "13\n", "pyramid": "14\n"}[kind] for kind, _ in cells)
     (here / "solids.exact.csv").write_text("\n".join(rows) + "\n")

@@ -1,0 +1,195 @@
+#include "core/io/foreign_format.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/io/mesh_io.h"
+#include "core/io/tokenizer.h"
+
+namespace dmoscope {
+namespace {
+
+constexpr std::size_t kLook = 65536;  // bytes
+
+/// What the tests below look at.
+struct Head {
+  std::string_view bytes;               // the first of the file
+  std::string_view extension;           // ".msh"
+  std::vector<std::string_view> lines;  // that are not empty, without surrounding blanks; the first of them
+
+  explicit Head(std::string_view file, std::string_view of) : bytes(file.substr(0, kLook)), extension(of) {
+    constexpr std::size_t kMostLines = 4096;
+    std::string_view rest = bytes;
+    while (!rest.empty() && lines.size() < kMostLines) {
+      const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
+      const std::string_view line = trimmed(rest.substr(0, end));
+      if (!line.empty()) lines.push_back(line);
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+  }
+  [[nodiscard]] std::string_view line(std::size_t i) const { return i < lines.size() ? lines[i] : std::string_view(); }
+  /// Does one of the lines begin so, whatever the case?
+  [[nodiscard]] bool has_line(std::string_view begin) const {
+    return std::ranges::any_of(lines, [&](std::string_view line) { return equal_ignoring_case(line.substr(0, begin.size()), begin); });
+  }
+  [[nodiscard]] bool is(std::string_view one) const { return equal_ignoring_case(extension, one); }
+};
+
+bool begins(std::string_view text, std::string_view with) { return equal_ignoring_case(text.substr(0, with.size()), with); }
+
+/// The words of a line.
+std::vector<std::string_view> words(std::string_view line) {
+  std::vector<std::string_view> found;
+  for (;;) {
+    line = trimmed(line);
+    if (line.empty()) return found;
+    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
+    found.push_back(line.substr(0, end));
+    line.remove_prefix(end);
+  }
+}
+
+std::optional<long> whole(std::string_view word) {
+  long value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+bool all_whole(std::span<const std::string_view> some) {
+  return std::ranges::all_of(some, [](std::string_view word) { return whole(word).value_or(-1) >= 0; });
+}
+
+/// "112 178 44": vertices, triangles, edges; then x, y and a label a line.
+bool is_freefem(const Head& h) {
+  if (!h.is(".msh") && !h.is(".mesh")) return false;
+  const auto counts = words(h.line(0)), vertex = words(h.line(1));
+  return counts.size() == 3 && all_whole(counts) && (vertex.size() == 3 || vertex.size() == 4) && whole(vertex.back()).has_value();
+}
+
+bool is_unv(const Head& h) {
+  constexpr std::array<long, 9> kDatasets{15, 55, 58, 151, 164, 781, 2411, 2412, 2420};
+  return h.line(0) == "-1" && std::ranges::find(kDatasets, whole(h.line(1)).value_or(-1)) != kDatasets.end();
+}
+
+bool is_tecplot(const Head& h) {
+  if (h.bytes.starts_with("#!TDV")) return true;
+  const auto sets = [&](std::string_view word) {
+    return begins(h.line(0), word) && trimmed(h.line(0).substr(word.size())).starts_with('=');
+  };
+  return sets("TITLE") || sets("VARIABLES") || (begins(h.line(0), "ZONE ") && h.line(0).find('=') != std::string_view::npos);
+}
+
+/// AVS UCD: behind comments, five counts.
+bool is_ucd(const Head& h) {
+  if (!h.is(".inp") && !h.is(".avs")) return false;
+  for (const std::string_view line : h.lines) {
+    if (line.starts_with('#')) continue;
+    const auto counts = words(line);
+    return counts.size() == 5 && all_whole(counts);
+  }
+  return false;
+}
+
+bool is_gid(const Head& h) {
+  return std::ranges::any_of(h.lines, [](std::string_view line) {
+    const auto some = words(line);
+    return some.size() >= 3 && equal_ignoring_case(some[0], "MESH") &&
+           std::ranges::any_of(some, [](std::string_view word) { return equal_ignoring_case(word, "ElemType"); });
+  });
+}
+
+bool is_nastran(const Head& h) {
+  return h.has_line("BEGIN BULK") || h.has_line("GRID,") || h.has_line("GRID*") ||
+         (h.has_line("GRID ") && (h.has_line("C") || h.has_line("$")));
+}
+
+bool is_fluent(const Head& h) {
+  const std::string_view first = h.line(0);
+  return first.size() > 2 && first.front() == '(' && first[1] >= '0' && first[1] <= '9';
+}
+
+bool is_hdf5(const Head& h) { return h.bytes.starts_with("\x89HDF\r\n\x1a\n"); }
+bool is_netcdf(const Head& h) { return h.bytes.starts_with("CDF\x01") || h.bytes.starts_with("CDF\x02") || h.bytes.starts_with("CDF\x05"); }
+
+constexpr std::string_view kMeshio = "convert it with meshio to .vtu";
+
+struct Foreign {
+  std::string_view name;  // "an MFEM mesh"
+  std::string_view advice;
+  bool (*is)(const Head&);
+  std::string_view read_as = {};  // the extension of a reader that may be there, which has told what is wrong by itself
+};
+
+constexpr std::array kForeign{
+    Foreign{"an MFEM mesh", "save it from MFEM as VTK (Mesh::PrintVTK)", [](const Head& h) { return begins(h.line(0), "MFEM "); }},
+    Foreign{"a FreeFem mesh", "save it from FreeFem as MEDIT: savemesh(Th, \"name.mesh\")", is_freefem},
+    Foreign{"a GiD mesh", "export it from GiD as VTK or MEDIT", is_gid},
+    Foreign{"a Fluent mesh (ANSYS)", "convert it with ParaView or meshio to .vtu", is_fluent},
+    Foreign{"an ANSYS archive (CDB)", "export it from ANSYS as Fluent or CGNS, and convert that with meshio to .vtu",
+            [](const Head& h) { return h.has_line("/PREP7") || h.has_line("/COM,ANSYS") || h.has_line("NBLOCK,"); }},
+    Foreign{"a CGNS file", "convert it with ParaView or meshio to .vtu",
+            [](const Head& h) { return (is_hdf5(h) && h.is(".cgns")) || h.bytes.starts_with("@(#)ADF Database"); }, ".cgns"},
+    Foreign{"a MED file (Salome)", kMeshio, [](const Head& h) { return is_hdf5(h) && h.is(".med"); }},
+    Foreign{"an Exodus file", kMeshio, [](const Head& h) { return is_hdf5(h) && (h.is(".e") || h.is(".exo") || h.is(".ex2")); }, ".e"},
+    Foreign{"an HDF5 file (CGNS, Exodus, MED, Fluent and others are such)", "convert it with ParaView or meshio to .vtu", is_hdf5},
+    Foreign{"an Exodus file (NetCDF)", kMeshio,
+            [](const Head& h) {
+              return is_netcdf(h) && (h.is(".e") || h.is(".exo") || h.is(".ex2") || h.bytes.find("num_el_blk") != std::string_view::npos);
+            },
+            ".e"},
+    Foreign{"a NetCDF file (Exodus, UGRID and others are such)", "convert it with ParaView or meshio to .vtu", is_netcdf},
+    Foreign{"a Tecplot file", "convert it with ParaView or meshio to .vtu", is_tecplot},
+    Foreign{"an I-deas universal file (UNV)", "open it in Gmsh or Salome and save it as .msh or .med", is_unv},
+    Foreign{"an LS-DYNA keyword file", "convert it with LS-PrePost to Nastran, and that with meshio to .vtu",
+            [](const Head& h) { return h.has_line("*KEYWORD"); }},
+    Foreign{"an Abaqus input file", kMeshio,
+            [](const Head& h) { return h.has_line("*HEADING") || h.has_line("*NODE") || h.has_line("*PART"); }, ".inp"},
+    Foreign{"an AVS UCD file", kMeshio, is_ucd},
+    Foreign{"a Nastran bulk data file", kMeshio, is_nastran, ".bdf"},
+    Foreign{"an SMS 2dm mesh", "export it from SMS as fort.14 (ADCIRC)", [](const Head& h) { return begins(h.line(0), "MESH2D"); }, ".2dm"},
+    Foreign{"a Netgen mesh", "export it from Netgen as Gmsh2",
+            [](const Head& h) {
+              return begins(h.line(0), "mesh3d") || begins(h.line(0), "mesh2d") || begins(h.line(0), "# Generated by NETGEN");
+            }},
+    Foreign{"a COMSOL mesh", "export it from COMSOL as Nastran, and convert that with meshio to .vtu",
+            [](const Head& h) { return begins(h.line(0), "# Created by COMSOL"); }},
+    Foreign{"an XDMF file", kMeshio, [](const Head& h) { return h.bytes.find("<Xdmf") != std::string_view::npos; }, ".xdmf"},
+    Foreign{"a DOLFIN XML mesh", kMeshio, [](const Head& h) { return h.bytes.find("<dolfin") != std::string_view::npos; }},
+    Foreign{"an OpenFOAM file", "convert the case with foamToVTK",
+            [](const Head& h) { return std::ranges::find(h.lines, std::string_view("FoamFile")) != h.lines.end(); }},
+    Foreign{"a Gmsh geometry, from which a mesh is yet to be made", "run gmsh -2 or gmsh -3 on it",
+            [](const Head& h) { return h.is(".geo") || h.is(".geo_unrolled"); }},
+    Foreign{"an outline, from which a mesh is yet to be made", "run triangle or tetgen on it",
+            [](const Head& h) { return h.is(".poly") || h.is(".smesh"); }},
+    Foreign{"a CAD geometry (STEP), from which a mesh is yet to be made", "mesh it with Gmsh",
+            [](const Head& h) { return begins(h.line(0), "ISO-10303-21"); }},
+    Foreign{"packed by zip", "unpack it first", [](const Head& h) { return h.bytes.starts_with("PK\x03\x04"); }},
+    Foreign{"packed by bzip2", "unpack it first", [](const Head& h) { return h.bytes.starts_with("BZh"); }},
+    Foreign{"packed by xz", "unpack it first",
+            [](const Head& h) {
+              return h.bytes.starts_with(
+                  "\xfd"
+                  "7zXZ");
+            }},
+    Foreign{"packed by zstd", "unpack it first", [](const Head& h) { return h.bytes.starts_with("\x28\xb5\x2f\xfd"); }},
+};
+
+}  // namespace
+
+std::string foreign_format(std::string_view bytes, std::string_view extension) {
+  const Head head(bytes, extension);
+  for (const Foreign& foreign : kForeign) {
+    if (!foreign.read_as.empty() && format_by_extension(foreign.read_as) != nullptr) continue;
+    if (foreign.is(head)) return fmt::format("this is {}, which is not read here: {}", foreign.name, foreign.advice);
+  }
+  return {};
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,13 @@
+#pragma once
+// Files of formats that are not read here, by what they begin with: whoever opens one is told what it is and what to do with it.
+
+#include <string>
+#include <string_view>
+
+namespace dmoscope {
+
+/// What a file is that no reader took, and how to get a mesh from it that one takes: "this is an MFEM mesh, which is not read: save it
+/// ..." Empty if nobody knows. `extension`: ".msh", whatever its case. Looks at the first 64 kB only.
+[[nodiscard]] std::string foreign_format(std::string_view bytes, std::string_view extension);
+
+}  // namespace dmoscope

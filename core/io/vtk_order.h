@@ -1,0 +1,33 @@
+#pragma once
+// The order of an element's corners in VTK's formats and those that borrow its numbering (SU2), beside ours. They differ for wedges
+// alone: by VTK's definition the triangle (0, 1, 2) looks away from (3, 4, 5), with Gmsh, MEDIT and here it looks towards it.
+// https://vtk.org/doc/nightly/html/classvtkWedge.html
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+
+#include "core/io/format.h"
+#include "core/mesh/mesh.h"
+
+namespace dmoscope {
+
+/// From VTK's order to ours, or back: its own inverse. `c`: info(kind).corners of them.
+constexpr void exchange_vtk_order(ElementKind kind, Index* c) noexcept {
+  if (kind != ElementKind::Wedge) return;
+  std::swap(c[1], c[2]);
+  std::swap(c[4], c[5]);
+}
+
+/// file_corners() in VTK's order.
+[[nodiscard]] inline std::span<const Index> vtk_corners(const Mesh& mesh, Index element, std::array<Index, 8>& buffer) {
+  const std::span<const Index> ours = file_corners(mesh, element, buffer);
+  const ElementKind kind = mesh.elements.kind(element);
+  if (kind != ElementKind::Wedge) return ours;
+  if (ours.data() != buffer.data()) std::copy(ours.begin(), ours.end(), buffer.begin());
+  exchange_vtk_order(kind, buffer.data());
+  return {buffer.data(), ours.size()};
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,98 @@
+// Files packed by gzip: read by their content, written where the name says so, and no bombs.
+
+#include "core/io/gzip.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/io/mesh_io.h"
+#include "core/io/source_file.h"
+#include "tests/io/files.h"
+
+namespace dmoscope::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr std::string_view kOff = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1.50 0\n3 0 1 2\n";
+/// The same, packed by Python's gzip.
+constexpr char kPackedBytes[] =
+    "\x1f\x8b\x08\x00\x00\x00\x00\x00\x02\xff\xf3\x77\x73\xe3\x32\x56\x30\x54\x30\xe0\x32\x50\x00\x42\x2e\x43\x30\x69\xa0\x60\xa8\x67\x0a"
+    "\x62\x18\x03\xb9\x86\x0a\x46\x5c\x00\xcc\x8d\x0c\x6a\x27\x00\x00\x00";
+constexpr std::string_view kPacked(kPackedBytes, sizeof kPackedBytes - 1);
+
+std::string packed(std::string_view bytes) {
+  std::string result;
+  GzipPacker packer([&](std::string_view part) { result += part; });
+  packer.add(bytes);
+  packer.finish();
+  return result;
+}
+
+std::string unpacked(std::string_view bytes) {
+  Progress progress;
+  return std::string(gunzipped("a.gz", bytes, progress).view());
+}
+
+class Gzip : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!gzip_is_here()) GTEST_SKIP() << "this build has no zlib";
+  }
+};
+
+TEST_F(Gzip, IsReadWhateverTheName) {
+  for (const char* name : {"a.off.gz", "a.OFF.GZ", "a.off", "a.vtk", "a.gz", "a"}) {
+    const Mesh mesh = read_bytes(name, kPacked);
+    EXPECT_EQ(mesh.name, name);
+    EXPECT_EQ(mesh.positions[2], (Vec3{0, 1.5, 0}));
+    EXPECT_EQ(mesh.elements.size(), 1U);
+    EXPECT_EQ(written("b.off", mesh), kOff) << "its characters are kept";
+  }
+  expect_refused("a.off.gz", packed("OFF\n3 1 0\n0 0 0\n1 x 0\n0 1 0\n3 0 1 2\n"), 4, "x");
+  expect_refused("a.bdf.gz", packed("BZh"), 0, "packed by bzip2");
+}
+
+TEST_F(Gzip, IsWrittenWhereTheNameSaysSo) {
+  Mesh mesh = read_bytes("a.off", kOff);
+  const std::string bytes = written("b.off.gz", mesh);
+  EXPECT_TRUE(is_gzip(bytes));
+  EXPECT_EQ(unpacked(bytes), kOff);
+  EXPECT_EQ(written("c.off.gz", mesh), bytes) << "no time and no name is in it";
+  mesh.positions[1].x = 2;
+  mesh.source.reset();
+  EXPECT_EQ(read_bytes("d.vtk.gz", written("d.vtk.gz", mesh)).positions[1].x, 2.0);
+}
+
+TEST_F(Gzip, JoinedFilesAndLongOnesComeWhole) {
+  EXPECT_EQ(unpacked(std::string(kPacked) + std::string(kPacked) + std::string(512, '\0')), std::string(kOff) + std::string(kOff));
+  std::string text;
+  for (std::uint32_t i = 0; i < 300'000; ++i) text += std::to_string(i * 2654435761U) + '\n';
+  EXPECT_EQ(unpacked(packed(text)), text);
+  EXPECT_EQ(unpacked(packed("")), "");
+}
+
+TEST_F(Gzip, DamagedOnesAreRefused) {
+  for (std::size_t end = 3; end < kPacked.size(); ++end) {
+    EXPECT_THROW((void)unpacked(kPacked.substr(0, end)), InputError) << end;
+  }
+  std::string damaged(kPacked);
+  damaged[20] = static_cast<char>(damaged[20] ^ 0x10);
+  EXPECT_THROW((void)unpacked(damaged), InputError);
+  expect_refused("a.off.gz", kPacked.substr(0, 40), 0, "truncated");
+  expect_refused("a.node.gz", packed("3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n"), 0, "in pairs");
+}
+
+TEST_F(Gzip, BombsAreRefused) {
+  const std::string bomb = packed(std::string(std::size_t{40} << 20, ' '));
+  EXPECT_LT(bomb.size(), 60'000U);
+  expect_refused("a.off.gz", bomb, 0, "which no mesh does");
+}
+
+}  // namespace
+}  // namespace dmoscope::test

@@ -17,7 +17,7 @@ struct Generator {
   std::size_t smallest, largest;  // range of size
 };
 
-constexpr std::size_t kGenerators = 12;
+constexpr std::size_t kGenerators = 14;
 constexpr std::array<GeneratorInfo, kGenerators> kInfos{{
     {"coast", "an irregular coastline with islands and an open sea; triangles graded from fine at the coast to coarse offshore", 4000},
     {"block", "fifteen blocks of triangles that meet in irregular vertices, smoothly distorted", 2500},
@@ -27,6 +27,8 @@ constexpr std::array<GeneratorInfo, kGenerators> kInfos{{
     {"mixed", "layers of quadrilaterals over a wall with a bump, triangles above", 2500},
     {"tangled", "quadrilaterals and triangles with some vertices thrown out of place, so that elements are inverted", 600},
     {"grid", "square lattice with random diagonals, jittered; of any size", 10000},
+    {"wrapped", "the coast in degrees of longitude and latitude, across the meridian of 180", 4000},
+    {"globe", "a band around the Earth in degrees of longitude and latitude, quadrilaterals and triangles, jittered", 2500},
     {"tetrahedra", "a cube of tetrahedra, six a cell, jittered inside", 2000},
     {"hexahedra", "a cube of hexahedra, jittered inside", 2000},
     {"solids", "a cube of hexahedra, wedges, pyramids and tetrahedra, jittered inside", 2000},
@@ -42,6 +44,8 @@ constexpr std::array<Generator, kGenerators> kMakers{{
     {generators::mixed, 50, 5000000},
     {generators::tangled, 25, 5000000},
     {generators::grid, 9, 10000000},
+    {generators::wrapped, 300, 20000},
+    {generators::globe, 36, 5000000},
     {generators::tetrahedra, 27, 5000000},
     {generators::hexahedra, 27, 5000000},
     {generators::solids, 27, 5000000},

@@ -142,6 +142,23 @@ TEST(Smooth, JsonHasTheDocumentedKeys) {
   EXPECT_EQ(judged["metrics"][0]["minimum"], json["after"]["minimum"]);
 }
 
+TEST(Smooth, AcrossTheMeridianElementsAreJudgedUnwrappedAndReadAgainTheSame) {
+  const Folder folder;
+  for (const auto& [kind, extension] : {std::pair{"wrapped", ".14"}, {"globe", ".vtk"}})
+    for (const char* metric : {"mean-ratio", "min-angle"}) {
+      const std::string in = folder / (std::string("in") + extension), out = folder / (std::string("out") + extension);
+      ASSERT_EQ(run({"generate", kind, "-o", in, "--size", "600", "--seed", "4"}).code, 0);
+      const auto json = smooth(in, out, {"--iterations", "5", "--metric", metric});
+      EXPECT_EQ(json["before"]["inverted"], 0) << kind;
+      EXPECT_EQ(json["after"]["inverted"], 0) << kind;
+      EXPECT_GT(json["after"]["minimum"], json["before"]["minimum"]) << kind;
+      EXPECT_THAT(json["warnings"].dump(), HasSubstr("elements cross the meridian of 180 degrees and are judged unwrapped"));
+      const auto judged = json_of(run({"quality", out, "--metric", metric, "--json"}));
+      EXPECT_EQ(judged["inverted"], 0) << kind;
+      for (const char* key : {"minimum", "mean"}) EXPECT_EQ(judged["metrics"][0][key], json["after"][key]) << kind << ' ' << key;
+    }
+}
+
 TEST(Smooth, SummaryForAPersonNamesWhatCounts) {
   const Folder folder;
   const Output output = run({"smooth", sample("coast.14"), "-o", folder / "out.14", "--iterations", "1"});

@@ -156,6 +156,13 @@ TEST(Smooth, AcrossTheMeridianElementsAreJudgedUnwrappedAndReadAgainTheSame) {
       const auto judged = json_of(run({"quality", out, "--metric", metric, "--json"}));
       EXPECT_EQ(judged["inverted"], 0) << kind;
       for (const char* key : {"minimum", "mean"}) EXPECT_EQ(judged["metrics"][0][key], json["after"][key]) << kind << ' ' << key;
+      // The middles of its elements lie where they are: none of the piece's near 0.
+      const auto all = json_of(run({"quality", in, "--metric", metric, "--worst", "10000", "--json"}))["metrics"][0]["worst"];
+      for (const auto& element : all) {
+        const double x = element["centroid"][0];
+        EXPECT_LE(std::abs(x), 180.0) << kind;
+        EXPECT_TRUE(std::abs(x) > 150.0 || std::string_view(kind) == "globe") << element["element"];
+      }
     }
 }
 

@@ -105,9 +105,9 @@ TEST(Seam, NothingIsRuinedByAnyMethodOrderOrNumberOfThreads) {
         const double before = run.statistics().minimum;
         run.iterate(4, progress, [&](const dmoscope::Run& now) {
           EXPECT_EQ(now.statistics().inverted, inverted_unwrapped(mesh->mesh, now.positions()));
-          if (method_info(way.method).optimises) EXPECT_EQ(now.statistics().inverted, 0U);
+          EXPECT_TRUE(now.statistics().inverted == 0U || !method_info(way.method).optimises);
         });
-        if (method_info(way.method).optimises) EXPECT_GT(run.statistics().minimum, before);
+        EXPECT_TRUE(run.statistics().minimum > before || !method_info(way.method).optimises);
         for (const Vec3& p : run.positions()) EXPECT_TRUE(p.x >= west && p.x <= west + 360.0) << p.x;
         if (first.empty()) first.assign(run.positions().begin(), run.positions().end());
         EXPECT_TRUE(same_bits(first, run.positions()));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/layout.h"
 #include "ui/cells_taken.h"
 
 namespace dmoscope::ui {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/session/patch.h"
+#include "render/layout.h"
 
 namespace dmoscope::ui {
 

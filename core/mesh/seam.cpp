@@ -20,6 +20,7 @@ constexpr double kCircle = 360.0, kHalf = 180.0, kPole = 90.0;
 constexpr double kFarthest = 720.0;  // no longitude is written with more
 constexpr double kRounding = 1e-9;   // degrees by which a file's numbers may lie beyond
 constexpr double kFarMore = 2.0;     // see find_seam()
+constexpr double kWidest = 90.0;     // degrees that an element on the Earth may have, unwrapped
 
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
@@ -33,10 +34,12 @@ struct Range {
 
 struct Box {
   Range x, y;
+  /// Looks no further once something lies beyond the poles, as it does in most meshes.
   explicit Box(const Mesh& mesh) {
     for (const Index v : mesh.elements.all_corners()) {
       x.add(mesh.positions[v].x);
       y.add(mesh.positions[v].y);
+      if (!y.within(-kPole, kPole)) return;
     }
   }
 };
@@ -63,7 +66,7 @@ double west_of(const Range& x) {
   return x.low;
 }
 
-/// Is every corner positive, in the winding `sign`, and the element no wider than half the circle? Differences as `plane` takes them.
+/// Is every corner positive, in the winding `sign`, and the element not too wide? Differences as `plane` takes them.
 bool is_sound(const Mesh& mesh, Index e, const Plane& plane, double sign) {
   const auto c = mesh.elements.corners(e);
   const std::size_t n = c.size();
@@ -73,7 +76,7 @@ bool is_sound(const Mesh& mesh, Index e, const Plane& plane, double sign) {
     at[i] = plane.offset(mesh.positions[c[i]], mesh.positions[c[0]]);
     x.add(at[i].x);
   }
-  if (plane.period > 0.0 && x.width() > kHalf) return false;
+  if (plane.period > 0.0 && x.width() > kWidest) return false;
   for (std::size_t i = 0; i < n; ++i)
     if (!(sign * cross(at[(i + 1) % n] - at[i], at[(i + n - 1) % n] - at[i]) > 0.0)) return false;
   return true;

@@ -106,6 +106,9 @@ TEST(Seam, WhatIsMerelyWideStaysAsItIs) {
   for (Index e = 0; e < wide.elements.size(); ++e) wide.elements.flip(e);
   EXPECT_EQ(prepared(wide)->geometry.plane.period, 0.0);
   EXPECT_EQ(prepared(make({{-170, -80, 0}, {170, -80, 0}, {0, -60, 0}}, {{0, 1, 2}}))->geometry.plane.period, 0.0);
+  // All elements are, and wound clockwise: unwrapped they would be counter-clockwise, but still wider than any on the Earth.
+  const Mesh coarse = make({{-100, -50, 0}, {100, -50, 0}, {100, 50, 0}, {-100, 50, 0}}, {{0, 2, 1}, {0, 3, 2}});
+  EXPECT_EQ(prepared(coarse)->geometry.plane.period, 0.0);
   // No element wider than half the circle.
   Mesh fine = lattice(36, 16, 2);
   for (Vec3& p : fine.positions) p = {10.0 * p.x - 180.0, 10.0 * p.y - 80.0, 0.0};

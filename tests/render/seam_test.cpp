@@ -47,6 +47,12 @@ TEST_F(WithContext, WhatLiesAcrossTheSeamDoesNotCoverTheRest) {
     EXPECT_TRUE(near_colour(image.at(static_cast<int>(at.x), static_cast<int>(at.y)), sample(ColourMap::Viridis, 0.25)));
   }
   EXPECT_EQ(scene->pick(camera, kViewport, pixel(-15.0, 11.0)).element, 5U);
+  {
+    MeshScene plain;
+    plain.set_mesh(mesh, Plane{});
+    plain.update(mesh.positions, quality, inverted);
+    EXPECT_EQ(plain.pick(camera, kViewport, pixel(-15.0, 11.0)).element, 11U) << "taken plainly it covers all";
+  }
   // Its edges are the boundary's, too: without them the rims are those of the others, which end at 150 degrees.
   style.boundary = true;
   style.boundary_width = 3.0F;

@@ -13,6 +13,7 @@ void View::apply(const Program& program) const {
   program.set("u_offset_low", offset_low);
   program.set("u_zoom", zoom);
   program.set("u_viewport", viewport);
+  program.set("u_widest", widest);
 }
 
 ElementPainter::ElementPainter()

@@ -18,6 +18,7 @@ struct View {
   Vec2<float> offset_high, offset_low;  // the camera's centre less the layout's origin
   float zoom = 1.0F;                    // pixels a unit
   Vec2<float> viewport;
+  float widest = 1e30F;     // pixels; see Layout::widest
   Vec2<float> hatch_phase;  // of rising and falling stripes, in periods
   void apply(const Program& program) const;
 };

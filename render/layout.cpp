@@ -23,7 +23,7 @@ std::uint32_t spread(std::uint32_t v) {
 
 std::vector<Vec2<double>> project(std::span<const Vec3> positions, const Plane& plane) {
   std::vector<Vec2<double>> points(positions.size());
-  std::transform(positions.begin(), positions.end(), points.begin(), [&](const Vec3& p) { return plane.project(p); });
+  std::transform(positions.begin(), positions.end(), points.begin(), [&](const Vec3& p) { return plane.place(p); });
   return points;
 }
 
@@ -82,6 +82,13 @@ std::vector<std::array<Index, 2>> boundary_edges(const Mesh& mesh) {
 
 }  // namespace
 
+bool Layout::is_across(std::span<const Index> corners, std::span<const Vec2<double>> points) const noexcept {
+  if (!(plane.period > 0.0)) return false;
+  double low = points[corners[0]].x, high = low;
+  for (const Index v : corners.subspan(1)) low = std::min(low, points[v].x), high = std::max(high, points[v].x);
+  return high - low > widest();
+}
+
 std::shared_ptr<const Layout> build_layout(const Mesh& mesh, const Plane& plane) {
   for (const ElementKind kind : mesh.elements.kinds()) {
     if (info(kind).dimension != 2)
@@ -114,7 +121,7 @@ Placement::Placement(std::shared_ptr<const Layout> layout) : layout_(std::move(l
 
 void Placement::move(std::span<const Vec3> positions) {
   if (positions.size() != points_.size()) throw UsageError("as many positions as the mesh has vertices are needed");
-  std::transform(positions.begin(), positions.end(), points_.begin(), [&](const Vec3& p) { return layout_->plane.project(p); });
+  std::transform(positions.begin(), positions.end(), points_.begin(), [&](const Vec3& p) { return layout_->plane.place(p); });
   fit_boxes();
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -34,6 +35,11 @@ struct Batch {
   [[nodiscard]] DrawRange block(Index b) const noexcept { return {b * kBlock, std::min(size(), (b + 1) * kBlock)}; }
 };
 
+/// Where a picture shows a position that belongs to one at `other`: of a mesh that wraps they are together, if beyond the picture's end.
+[[nodiscard]] inline Vec2<double> place_near(const Plane& plane, Vec3 position, Vec3 other) {
+  return plane.period > 0.0 ? plane.place(other) + plane.offset(position, other) : plane.place(position);
+}
+
 struct Layout {
   Plane plane;
   Vec2<double> origin;  // middle of the bounding box at build: what positions on the OpenGL side are relative to
@@ -43,6 +49,9 @@ struct Layout {
   std::vector<std::array<Index, 2>> boundary_edges;  // edges with exactly one element
 
   [[nodiscard]] Index element_count() const noexcept { return static_cast<Index>(slots.size()); }
+  /// What is wider lies across the seam of a mesh that wraps, from one end of the picture to the other, and is left out of it.
+  [[nodiscard]] double widest() const noexcept { return plane.period > 0.0 ? 0.5 * plane.period : std::numeric_limits<double>::infinity(); }
+  [[nodiscard]] bool is_across(std::span<const Index> corners, std::span<const Vec2<double>> points) const noexcept;
   [[nodiscard]] std::span<const Index> corners_of_element(Index element) const noexcept {
     const Index slot = slots[element], triangles = batches[0].size();
     return slot < triangles ? batches[0].corners_of(slot) : batches[1].corners_of(slot - triangles);

@@ -25,6 +25,7 @@ View make_view(const Layout& layout, const Camera2D& camera, Vec2<double> viewpo
                      static_cast<float>(offset.y - static_cast<double>(view.offset_high.y))};
   view.zoom = static_cast<float>(1.0 / camera.units_per_pixel);
   view.viewport = {static_cast<float>(viewport.x), static_cast<float>(viewport.y)};
+  view.widest = static_cast<float>(std::min(layout.widest() / camera.units_per_pixel, 1e30));
   // The stripes move with the mesh, so that tiles of a picture fit together.
   const double period = camera.units_per_pixel * static_cast<double>(kHatchPeriod * scale);
   const auto phase = [&](double along) { return static_cast<float>(along / period - std::floor(along / period)); };
@@ -143,7 +144,7 @@ std::vector<Vec2<double>> MeshScene::Impl::points_of(std::span<const Index> vert
   if (placement_current) {
     for (const Index v : vertices) points.push_back(placement.points()[v]);
   } else if (!vertices.empty()) {
-    for (const Vec3& position : device.positions(vertices)) points.push_back(placement.layout().plane.project(position));
+    for (const Vec3& position : device.positions(vertices)) points.push_back(placement.layout().plane.place(position));
   }
   return points;
 }

@@ -36,7 +36,14 @@ void MeshScene::Impl::gather_mesh_marks(const Camera2D& camera, const Style& sty
   const std::size_t corner_count = vertices.size();
   std::copy_if(wanted.vertices.begin(), wanted.vertices.end(), std::back_inserter(vertices),
                [&](Index v) { return v < layout.vertex_count; });
-  const std::vector<Vec2<double>> points = points_of(vertices);
+  std::vector<Vec2<double>> points = points_of(vertices);
+  // One that lies across the seam of a mesh that wraps is outlined at the end of the picture where its first corner is.
+  std::size_t first = 0;
+  for (const auto& shape : shapes) {
+    for (std::size_t k = first + 1; k < first + shape.size() && layout.plane.period > 0.0; ++k)
+      points[k] = points[first] + layout.plane.offset(layout.plane.lift(points[k]), layout.plane.lift(points[first]));
+    first += shape.size();
+  }
   std::span<const Vec2<double>> rest(points.data(), corner_count);
   for (std::size_t k = 0; k < outlined; ++k) {
     outline(rest.first(shapes[k].size()), camera, style);

@@ -38,7 +38,7 @@ Pick MeshScene::pick(const Camera2D& camera, Vec2<double> viewport, Vec2<double>
             result.vertex = v;
           }
         }
-        if (!contains(corners, s.placement.points(), point)) continue;
+        if (s.placement.layout().is_across(corners, s.placement.points()) || !contains(corners, s.placement.points(), point)) continue;
         const bool inverted = element < s.shades.size() && s.shades[element] == kInvertedShade;
         if (on_top && !inverted) continue;  // the later one covers the earlier one, but no inverted one
         result.element = element;
@@ -154,6 +154,7 @@ std::vector<Label> MeshScene::labels(const Camera2D& camera, Vec2<double> viewpo
         const Index element = elements.order[drawn];
         if (s.hidden(element)) continue;
         const auto corners = elements.corners_of(drawn);
+        if (s.placement.layout().is_across(corners, points)) continue;
         if (wish.elements) {
           const Room room = room_of(corners, points);
           const double half = 0.5 * std::hypot(label_width(element, wish), wish.line_height);

@@ -23,6 +23,8 @@ constexpr std::array kActions{
     Action{"sample-mixed", "File", "Sample: mixed", "", "generate mixed"},
     Action{"sample-tangled", "File", "Sample: tangled", "", "generate tangled"},
     Action{"sample-grid", "File", "Sample: grid", "", "generate grid"},
+    Action{"sample-wrapped", "File", "Sample: wrapped", "", "generate wrapped"},
+    Action{"sample-globe", "File", "Sample: globe", "", "generate globe"},
     Action{"sample-tetrahedra", "File", "Sample: tetrahedra", "", "generate tetrahedra", Needs::Nothing, true},
     Action{"sample-hexahedra", "File", "Sample: hexahedra", "", "generate hexahedra"},
     Action{"sample-solids", "File", "Sample: solids", "", "generate solids"},

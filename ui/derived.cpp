@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/mesh/seam.h"
 #include "ui/format.h"
 #include "ui/panels/panels.h"
 #include "ui/view_geometry.h"
@@ -24,6 +25,8 @@ void refresh_input(Derived& derived, const Frame& frame) {
   derived.mesh_facts = frame.input->report.sentences();
   derived.interfaces = frame.input->interfaces.sentence("'interfaces free'");
   derived.groups = group_lines(frame.input->mesh);
+  std::string left_out = left_out_of_pictures(frame.input->report.seam_elements, frame.input->geometry.plane);
+  if (!left_out.empty()) derived.mesh_facts.push_back(std::move(left_out));
   derived.kinds.fill(0);
   for (const ElementKind kind : frame.input->mesh.elements.kinds()) ++derived.kinds[static_cast<std::size_t>(kind)];
 }

@@ -113,10 +113,11 @@ void by_inverted(Work& work) {
 
 /// Of one or several elements.
 struct Edges {
+  Plane plane{};  // which says how far two positions are apart
   double sum = 0.0;
   std::size_t count = 0;
   void add(Vec3 a, Vec3 b) {
-    sum += length(b - a);
+    sum += length(plane.difference(b, a));
     ++count;
   }
   /// Each edge of a volume element twice, as it is one of two faces.
@@ -130,8 +131,8 @@ struct Edges {
   [[nodiscard]] double mean() const { return count == 0 ? 0.0 : sum / static_cast<double>(count); }
 };
 
-double mean_edge(const Mesh& mesh) {
-  Edges edges;
+double mean_edge(const Mesh& mesh, const Plane& plane) {
+  Edges edges{plane};
   for (Index e = 0; e < mesh.elements.size(); ++e) edges.add_element(mesh.elements, mesh.positions, e);
   return edges.mean();
 }
@@ -148,10 +149,10 @@ void find_range(Work& work) {
 
 void by_displacement(Work& work) {
   const auto& now = work.request.frame->positions;
-  const double unit = mean_edge(work.mesh);
+  const double unit = mean_edge(work.mesh, work.request.frame->input->geometry.plane);
   std::vector<float> moved(now.size());
   for (std::size_t v = 0; v < now.size(); ++v) {
-    const double way = length(now[v] - work.mesh.positions[v]);
+    const double way = length(work.request.frame->input->geometry.plane.difference(now[v], work.mesh.positions[v]));
     moved[v] = static_cast<float>(unit > 0.0 ? way / unit : way);
   }
   work.shading.values.resize(work.mesh.elements.size());
@@ -175,7 +176,7 @@ double size_of_element(const Frame& frame, Index e) {
   const Plane& plane = frame.input->geometry.plane;
   double twice = 0.0;
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-    twice += cross(plane.project(at[corners[i]] - at[corners[0]]), plane.project(at[corners[i + 1]] - at[corners[0]]));
+    twice += cross(plane.offset(at[corners[i]], at[corners[0]]), plane.offset(at[corners[i + 1]], at[corners[0]]));
   }
   return std::abs(twice) / 2;
 }

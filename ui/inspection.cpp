@@ -68,7 +68,7 @@ std::vector<std::array<Index, 2>> edges_of(const InputMesh& input, Index vertex)
 void gather_star(Inspection& inspection, const Frame& frame, Index vertex) {
   const InputMesh& input = *frame.input;
   const Vec3 origin = frame.positions[vertex];
-  const auto away = [&](Index v) { return frame.positions[v] - origin; };
+  const auto away = [&](Index v) { return input.geometry.plane.difference(frame.positions[v], origin); };
   const auto relative = [&](Index v) { return input.geometry.plane.project(away(v)); };
   for (const Incidence& incidence : input.topology.star(vertex))
     for (const Index corner : input.mesh.elements.corners(incidence.element))
@@ -84,7 +84,7 @@ void gather_star(Inspection& inspection, const Frame& frame, Index vertex) {
     for (const Index corner : corners) inspection.space_box.include(away(corner));
     return;
   }
-  inspection.origin = input.geometry.plane.project(origin);
+  inspection.origin = input.geometry.plane.place(origin);
   for (const auto& [a, b] : edges_of(input, vertex)) inspection.edges.push_back({relative(a), relative(b)});
   inspection.box.include(Vec2<double>{0, 0});
   for (const Index corner : corners) inspection.box.include(relative(corner));
@@ -147,7 +147,7 @@ void sample_field(Inspection& inspection, const SessionView& session) {
     return std::max(8, static_cast<int>(std::lround(static_cast<double>(kFieldSamples) * length / longest)));
   };
   const Index vertex = inspection.key.vertex;
-  const Vec3 moved_in_space = frame.positions[vertex] - inspection.visit()->from;
+  const Vec3 moved_in_space = frame.input->geometry.plane.difference(frame.positions[vertex], inspection.visit()->from);
   const Vec2<double> moved = flat(moved_in_space);
   const int columns = samples(high.x - low.x), rows = samples(high.y - low.y);
   FieldPicture picture;

@@ -19,7 +19,7 @@ std::vector<Index> vertices_in(const Frame& frame, Vec2<double> a, Vec2<double> 
   const auto [low_y, high_y] = std::minmax(a.y, b.y);
   std::vector<Index> found;
   for (Index v = 0; v < frame.vertex_count(); ++v) {
-    const Vec2<double> p = frame.input->geometry.plane.project(frame.positions[v]);
+    const Vec2<double> p = frame.input->geometry.plane.place(frame.positions[v]);
     if (p.x >= low_x && p.x <= high_x && p.y >= low_y && p.y <= high_y) found.push_back(v);
   }
   return found;

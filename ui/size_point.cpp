@@ -35,7 +35,7 @@ std::string size_point_command(const ViewState& state, const Plane& plane, Vec2<
 void add_size_point(render::Marks& marks, const RunView& run, const Plane& plane, render::Rgba ink, render::Rgba casing) {
   const Vec3* point = size_point_of(run);
   if (point == nullptr) return;
-  const Vec2<double> at = plane.project(*point);
+  const Vec2<double> at = plane.place(*point);
   marks.dots.push_back({at, 17.0F, casing, render::DotShape::Diamond});
   marks.dots.push_back({at, 12.0F, ink, render::DotShape::Diamond});
 }

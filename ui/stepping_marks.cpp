@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/layout.h"
 #include "ui/cells_taken.h"
 
 namespace dmoscope::ui {
@@ -23,7 +24,7 @@ double edge_at(const InputMesh& input, std::span<const Vec3> positions, Index ve
   if (star.empty()) return 0.0;
   const auto corners = input.mesh.elements.corners(star.front().element);
   double sum = 0.0;
-  for (const Index corner : corners) sum += length(positions[corner] - positions[vertex]);
+  for (const Index corner : corners) sum += length(input.geometry.plane.difference(positions[corner], positions[vertex]));
   return sum / static_cast<double>(corners.size() - 1);
 }
 
@@ -38,11 +39,11 @@ void add_dots(render::Marks& marks, const MarkView& view, const InputMesh& input
   const render::Bounds2 window = view.window();
   std::vector<Index> seen;
   for (const Index v : vertices)
-    if (holds(window, plane.project(positions[v]))) seen.push_back(v);
+    if (holds(window, plane.place(positions[v]))) seen.push_back(v);
   const std::size_t stride = (seen.size() + kMostMarks - 1) / kMostMarks;
   for (std::size_t i = 0; i < seen.size(); i += stride) {
     const double room = 0.3 * edge_at(input, positions, seen[i]) / view.units(1.0);
-    marks.dots.push_back({plane.project(positions[seen[i]]), static_cast<float>(std::clamp(room, 2.0, diameter)), colour});
+    marks.dots.push_back({plane.place(positions[seen[i]]), static_cast<float>(std::clamp(room, 2.0, diameter)), colour});
   }
 }
 
@@ -50,17 +51,17 @@ Displacements::Displacements(const Plane& plane, std::span<const Vec3> from, std
   const std::size_t count = std::min(from.size(), to.size());
   double longest = 0.0;
   for (std::size_t v = 0; v < count; ++v) {
-    const Vec3 way = to[v] - from[v];
+    const Vec3 way = plane.difference(to[v], from[v]);
     longest = std::max(longest, dot(way, way));
   }
   longest_ = std::sqrt(longest);
   if (!(longest_ > 0.0) || !std::isfinite(longest_)) return;
   for (std::size_t v = 0; v < count; ++v) {
-    const Vec3 way = to[v] - from[v];
+    const Vec3 way = plane.difference(to[v], from[v]);
     const double square = dot(way, way);
     if (!(square > 0.0)) continue;
     const auto halvings = static_cast<std::size_t>(0.5 * std::log2(longest / square));
-    by_length_[std::min(halvings, kBuckets - 1)].push_back({plane.project(from[v]), plane.project(way)});
+    by_length_[std::min(halvings, kBuckets - 1)].push_back({plane.place(from[v]), plane.project(way)});
   }
 }
 
@@ -114,14 +115,14 @@ void add_ghost(render::Marks& marks, const MarkView& view, const Mesh& mesh, con
   const render::Bounds2 window = view.window();
   const double least = view.units(1.0), shortest = view.units(8.0);
   std::vector<render::OverlayLine> inner;
-  const auto moved = [&](Index v) { return length_of(plane.project(to[v] - from[v])) >= least; };
+  const auto moved = [&](Index v) { return length_of(plane.offset(to[v], from[v])) >= least; };
   for (const Index e : elements) {
     const auto corners = mesh.elements.corners(e);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Index a = corners[i], b = corners[(i + 1) % corners.size()];
       // The neighbour has it the other way round; an edge without one is the boundary, which stays.
       if (a > b || !(moved(a) || moved(b))) continue;
-      const Vec2<double> p = plane.project(from[a]), q = plane.project(from[b]);
+      const Vec2<double> p = plane.place(from[a]), q = render::place_near(plane, from[b], from[a]);
       if (length_of(q - p) < shortest || !meets(window, p, q)) continue;
       marks.lines.push_back({p, q, 2.6F, casing});
       inner.push_back({p, q, 1.0F, ink});

@@ -123,7 +123,7 @@ void SteppingView::add_next_class(const ViewState& state, const SessionView& ses
   if (next.vertices.empty()) return;
   const render::Rgba accent = solid(palette(state.theme).run(frame.run));
   add_dots(marks_, view, *frame.input, frame.positions, next.vertices, accent, 8.0);
-  const Vec2<double> first = frame.input->geometry.plane.project(frame.positions[next.vertices.front()]);
+  const Vec2<double> first = frame.input->geometry.plane.place(frame.positions[next.vertices.front()]);
   marks_.dots.push_back({first, 20.0F, accent, render::DotShape::Ring});
 }
 

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "core/mesh/edges.h"
 #include "core/mesh/faces.h"
 #include "core/mesh/generate.h"
 #include "core/mesh/orientation.h"
+#include "core/mesh/seam.h"
 #include "core/mesh/volume.h"
 #include "core/quality/quality.h"
 #include "render/orbit_camera.h"
@@ -62,21 +64,31 @@ void add_skin(Thumbnail& out, Mesh& mesh, const Geometry& geometry, render::Colo
   for (const auto& [depth, polygon] : faces) out.polygons.push_back(polygon);
 }
 
+/// Does the element lie across the seam of a mesh that wraps? It is not drawn then.
+bool is_wide(std::span<const Vec2<double>> points, std::span<const Index> corners, const Plane& plane) {
+  return plane.period > 0.0 &&
+         std::ranges::any_of(corners, [&](Index v) { return std::abs(points[v].x - points[corners[0]].x) > 0.5 * plane.period; });
+}
+
 Thumbnail make_one(const GeneratorInfo& generator, std::size_t size_wanted, render::ColourMap map) {
   Thumbnail out{std::string(generator.name), std::string(generator.doc), {}};
   Progress progress;
   Mesh mesh = generate_mesh(generator.name, size_wanted, 1, progress);
-  const Geometry geometry = classify(mesh);
+  Geometry geometry = classify(mesh);
   if (mesh.positions.empty()) return out;
   if (geometry.shape == Shape::Volume) {
     add_skin(out, mesh, geometry, map);
     return out;
   }
+  EdgeSurvey edges;
+  Progress unwatched;
+  const Topology topology(mesh, edges, unwatched);
+  find_seam(mesh, topology, edges, geometry);
   normalise_orientation(mesh, geometry.plane);
   double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
   std::vector<Vec2<double>> points;
   for (const Vec3& position : mesh.positions) {
-    const Vec2<double> p = geometry.plane.project(position);
+    const Vec2<double> p = geometry.plane.place(position);
     points.push_back(p);
     low[0] = std::min(low[0], p.x);
     low[1] = std::min(low[1], p.y);
@@ -88,7 +100,7 @@ Thumbnail make_one(const GeneratorInfo& generator, std::size_t size_wanted, rend
   const render::ColourScale colours{map};
   for (Index e = 0; e < mesh.elements.size(); ++e) {
     const auto corners = mesh.elements.corners(e);
-    if (corners.size() > 4) continue;
+    if (corners.size() > 4 || is_wide(points, corners, geometry.plane)) continue;
     Thumbnail::Polygon polygon;
     polygon.count = static_cast<int>(corners.size());
     for (std::size_t k = 0; k < corners.size(); ++k) {

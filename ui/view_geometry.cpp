@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/session/patch.h"
+#include "render/layout.h"
 
 namespace dmoscope::ui {
 
@@ -11,14 +12,16 @@ namespace {
 
 render::Bounds2 box_of(const Frame& frame, std::span<const Index> vertices) {
   render::Bounds2 box;
-  for (const Vec3& position : positions_of(frame, vertices)) box.include(frame.input->geometry.plane.project(position));
+  const Plane& plane = frame.input->geometry.plane;
+  const std::vector<Vec3> positions = positions_of(frame, vertices);
+  for (const Vec3& position : positions) box.include(render::place_near(plane, position, positions[0]));
   return box;
 }
 
 }  // namespace
 
 Vec2<double> plane_point(const Frame& frame, Index vertex) {
-  return frame.input->geometry.plane.project(positions_of(frame, {&vertex, 1}).front());
+  return frame.input->geometry.plane.place(positions_of(frame, {&vertex, 1}).front());
 }
 
 render::Bounds2 element_box(const Frame& frame, Index element) { return box_of(frame, frame.input->mesh.elements.corners(element)); }

@@ -31,7 +31,7 @@ render::Bounds2 input_box(const InputMesh& input) {
     for (const Vec3& position : input.mesh.positions) box.include(Vec2<double>{dot(position, camera.right), dot(position, camera.up)});
     return box;
   }
-  for (const Vec3& position : input.mesh.positions) box.include(input.geometry.plane.project(position));
+  for (const Vec3& position : input.mesh.positions) box.include(input.geometry.plane.place(position));
   return box;
 }
 

@@ -25,6 +25,7 @@
 #include "core/io/mesh_io.h"
 #include "core/session/csv.h"
 #include "core/session/input_mesh.h"
+#include "core/smooth/displace.h"
 
 namespace dmoscope::app {
 namespace {
@@ -78,11 +79,18 @@ std::size_t count_inverted(const InputMesh& input) {
   return inverted;
 }
 
-Vec3 centroid(const Mesh& mesh, Index element) {
-  const auto corners = mesh.elements.corners(element);
-  Vec3 sum;
-  for (const Index corner : corners) sum = sum + mesh.positions[corner];
-  return (1.0 / static_cast<double>(corners.size())) * sum;
+Vec3 centroid(const InputMesh& input, Index element) {
+  const Plane& plane = input.geometry.plane;
+  const auto corners = input.mesh.elements.corners(element);
+  const Vec3 first = input.mesh.positions[corners[0]];
+  Vec3 sum;  // of a mesh that wraps: as seen from the first corner
+  for (const Index corner : corners) {
+    const Vec3 at = input.mesh.positions[corner];
+    sum = sum + (plane.period > 0.0 ? first + plane.difference(at, first) : at);
+  }
+  Vec3 middle = (1.0 / static_cast<double>(corners.size())) * sum;
+  if (plane.period > 0.0) middle.x = settled(middle.x, plane.west, plane.period, false);
+  return middle;
 }
 
 std::vector<Metric> wanted_metrics(const std::string& name) {
@@ -97,7 +105,7 @@ std::vector<Index> worst_of(const Column& column, std::size_t count) {
   return {column.ascending.begin(), end};
 }
 
-Json json_of(const Mesh& mesh, const Column& column, std::size_t worst) {
+Json json_of(const InputMesh& input, const Column& column, std::size_t worst) {
   const MetricInfo& metric = info(column.metric);
   Json object{{"metric", metric.name}, {"elements", column.ascending.size()}};
   if (!column.defined()) return object;
@@ -110,9 +118,9 @@ Json json_of(const Mesh& mesh, const Column& column, std::size_t worst) {
   object["below_acceptable"] = column.unacceptable;
   Json list = Json::array();
   for (const Index e : worst_of(column, worst)) {
-    const Vec3 c = centroid(mesh, e);
+    const Vec3 c = centroid(input, e);
     list.push_back({{"element", e},
-                    {"kind", info(mesh.elements.kind(e)).name},
+                    {"kind", info(input.mesh.elements.kind(e)).name},
                     {"quality", json_number(column.values[e])},
                     {"centroid", {json_number(c.x), json_number(c.y), json_number(c.z)}}});
   }
@@ -132,12 +140,12 @@ void print_table(const std::vector<Column>& columns) {
   }
 }
 
-void print_worst(const Mesh& mesh, const Column& column, std::size_t count) {
+void print_worst(const InputMesh& input, const Column& column, std::size_t count) {
   if (count == 0 || !column.defined()) return;
   print("\nworst of {}:\n{:>10} {:<14} {:>12}  centroid\n", info(column.metric).name, "element", "kind", "quality");
   for (const Index e : worst_of(column, count)) {
-    const Vec3 c = centroid(mesh, e);
-    print("{:>10} {:<14} {:>12}  {} {} {}\n", e, info(mesh.elements.kind(e)).name, brief(column.values[e]), c.x, c.y, c.z);
+    const Vec3 c = centroid(input, e);
+    print("{:>10} {:<14} {:>12}  {} {} {}\n", e, info(input.mesh.elements.kind(e)).name, brief(column.values[e]), c.x, c.y, c.z);
   }
 }
 
@@ -170,7 +178,7 @@ int quality(const Options& options) {
   const std::size_t inverted = count_inverted(*input);
   if (options.json) {
     Json list = Json::array();
-    for (const Column& column : columns) list.push_back(json_of(mesh, column, options.worst));
+    for (const Column& column : columns) list.push_back(json_of(*input, column, options.worst));
     print_json({{"input", options.input.string()},
                 {"vertices", mesh.vertex_count()},
                 {"elements", mesh.elements.size()},
@@ -183,7 +191,7 @@ int quality(const Options& options) {
   print("{}: {}, {}, {} inverted\n\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
         counted(mesh.elements.size(), "element", "elements"), grouped(inverted));
   print_table(columns);
-  for (const Column& column : columns) print_worst(mesh, column, options.worst);
+  for (const Column& column : columns) print_worst(*input, column, options.worst);
   constexpr std::size_t kMostGroups = 20;
   print_groups(mesh, kMostGroups);
   return 0;

@@ -5,10 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "app/console.h"
 #include "app/window/picture_parts.h"
 #include "app/window/volume_picture.h"
 #include "core/base/error.h"
 #include "core/io/mesh_io.h"
+#include "core/mesh/seam.h"
 #include "core/quality/quality.h"
 #include "render/context.h"
 #include "render/scene.h"
@@ -88,6 +90,8 @@ int render_picture(const std::filesystem::path& input, const std::filesystem::pa
   if (!mesh->is_volume() && inside.asked_for()) {
     throw UsageError(fmt::format("{}: only a mesh of volume elements has an inside to be seen", input.string()));
   }
+  if (const std::string left_out = left_out_of_pictures(mesh->report.seam_elements, mesh->geometry.plane); !left_out.empty())
+    complain(fmt::format("{}: {}", mesh->mesh.name, left_out));
   const std::span<const Vec3> positions = mesh->mesh.positions;
   write_file_atomically(output, mesh->is_volume() ? volume_picture_png(*mesh, positions, look, inside, progress)
                                                   : picture_png(*mesh, positions, look, progress));

@@ -82,7 +82,7 @@ class Look {
       search_for_both();
     else if (parameters_.precision == Precision::Double || !search_fast())
       search_plainly();
-    trace_.step = mesh_.frame.project(trace_.to - trace_.from);
+    trace_.step = mesh_.frame.offset(trace_.to, trace_.from);
     if (trace_.end == VisitEnd::Moved) trace_.after = star_state<M>(mesh_, positions_, trace_.vertex, trace_.to);
     add_elements();
     return std::move(trace_);

@@ -27,6 +27,8 @@ struct Request {
 [[nodiscard]] Mesh mixed(const Request& request);
 [[nodiscard]] Mesh tangled(const Request& request);
 [[nodiscard]] Mesh grid(const Request& request);
+[[nodiscard]] Mesh wrapped(const Request& request);
+[[nodiscard]] Mesh globe(const Request& request);
 [[nodiscard]] Mesh tetrahedra(const Request& request);
 [[nodiscard]] Mesh hexahedra(const Request& request);
 [[nodiscard]] Mesh solids(const Request& request);

@@ -26,11 +26,11 @@ NodalField::NodalField(const Mesh& mesh, const Topology& topology, const Plane& 
   set_width(extent > 0.0 ? extent / cells : 1.0);
   while (is_crowded()) set_width(2.0 * width_);
   elements_ = fill([this](const auto& put) {
-    for (Index e = 0; e < mesh_.elements.size(); ++e) {
-      const CellBox box = cells_of(e);
-      for (int j = box.bottom; j <= box.top; ++j)
-        for (int i = box.left; i <= box.right; ++i) put(cell(i, j), e);
-    }
+    for (Index e = 0; e < mesh_.elements.size(); ++e)
+      for_images(e, [&](const CellBox& box) {
+        for (int j = box.bottom; j <= box.top; ++j)
+          for (int i = box.left; i <= box.right; ++i) put(cell(i, j), e);
+      });
   });
   vertices_ = fill([this](const auto& put) {
     for (Index v = 0; v < mesh_.vertex_count(); ++v)
@@ -39,6 +39,14 @@ NodalField::NodalField(const Mesh& mesh, const Topology& topology, const Plane& 
 }
 
 NodalField::Point NodalField::flat(Index vertex) const { return plane_.project(mesh_.positions[vertex] - origin_); }
+
+/// Of a mesh that wraps: where the vertex is seen from `p`.
+NodalField::Point NodalField::flat_near(Index vertex, Point p) const {
+  Point at = flat(vertex);
+  if (plane_.period > 0.0 && at.x - p.x > 0.5 * plane_.period) at.x -= plane_.period;
+  if (plane_.period > 0.0 && p.x - at.x > 0.5 * plane_.period) at.x += plane_.period;
+  return at;
+}
 
 int NodalField::column(double x) const { return static_cast<int>(std::clamp((x - low_.x) / width_, 0.0, columns_ - 1.0)); }
 int NodalField::row(double y) const { return static_cast<int>(std::clamp((y - low_.y) / width_, 0.0, rows_ - 1.0)); }
@@ -58,19 +66,34 @@ bool NodalField::is_crowded() const {
   if (cells <= kMostCellsAnElement) return false;
   const std::size_t most = kMostCellsAnElement * mesh_.elements.size() + cells;
   std::size_t count = 0;
-  for (Index e = 0; e < mesh_.elements.size() && count <= most; ++e) count += cells_of(e).count();
+  for (Index e = 0; e < mesh_.elements.size() && count <= most; ++e) for_images(e, [&](const CellBox& box) { count += box.count(); });
   return count > most;
 }
 
-NodalField::CellBox NodalField::cells_of(Index element) const {
+/// The element as its first corner sees it, moved by `shift` along x.
+NodalField::CellBox NodalField::cells_of(Index element, double shift) const {
   const auto corners = mesh_.elements.corners(element);
-  Point low = flat(corners[0]), high = low;
+  const Point first = flat(corners[0]);
+  Point low = first, high = low;
   for (const Index corner : corners.subspan(1)) {
-    const Point p = flat(corner);
+    const Point p = flat_near(corner, first);
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
-  return {column(low.x), row(low.y), column(high.x), row(high.y)};
+  return {column(low.x + shift), row(low.y), column(high.x + shift), row(high.y)};
+}
+
+/// Calls visit(cells) for the element and, where it lies across the seam, for what the other side sees of it.
+template <class Visit>
+void NodalField::for_images(Index element, const Visit& visit) const {
+  visit(cells_of(element));
+  if (!(plane_.period > 0.0)) return;
+  const auto corners = mesh_.elements.corners(element);
+  const double first = flat(corners[0]).x;
+  for (const Index corner : corners.subspan(1)) {
+    const double away = flat(corner).x - first;
+    if (std::abs(away) > 0.5 * plane_.period) return visit(cells_of(element, away > 0.0 ? plane_.period : -plane_.period));
+  }
 }
 
 /// for_members(put) calls put(cell, member) for every member in ascending order; it is asked twice.
@@ -88,7 +111,7 @@ NodalField::Cells NodalField::fill(const ForMembers& for_members) const {
 
 /// Nothing where `p` lies outside.
 std::optional<double> NodalField::in_triangle(Index a, Index b, Index c, Point p) const {
-  const Point at_a = flat(a), ab = flat(b) - at_a, ac = flat(c) - at_a, ap = p - at_a;
+  const Point at_a = flat_near(a, p), ab = flat_near(b, p) - at_a, ac = flat_near(c, p) - at_a, ap = p - at_a;
   const double area = cross(ab, ac);
   if (area == 0.0) return std::nullopt;
   const double at_b = cross(ap, ac) / area, at_c = cross(ab, ap) / area;
@@ -103,11 +126,19 @@ std::optional<double> NodalField::in_element(Index element, Point p) const {
   return corners.size() == 4 ? in_triangle(corners[0], corners[2], corners[3], p) : std::nullopt;
 }
 
-/// The vertex nearest to `p`, among equals the first: looks at rings of cells around it, until what is left is farther away.
+/// The vertex nearest to `p`, among equals the first.
 Index NodalField::nearest(Point p) const {
-  const int column_of_p = column(p.x), row_of_p = row(p.y);
   Index best = kNoIndex;
   double least = HUGE_VAL;
+  look_around(p, best, least);
+  if (plane_.period > 0.0)
+    for (const double shift : {-plane_.period, plane_.period}) look_around({p.x + shift, p.y}, best, least);
+  return best;
+}
+
+/// Looks at rings of cells around `p` for a vertex nearer than `least`, until what is left is farther away.
+void NodalField::look_around(Point p, Index& best, double& least) const {
+  const int column_of_p = column(p.x), row_of_p = row(p.y);
   const auto look = [&](int i, int j) {
     if (i < 0 || i >= columns_ || j < 0 || j >= rows_) return;
     for (const Index v : vertices_.of(cell(i, j))) {
@@ -128,7 +159,6 @@ Index NodalField::nearest(Point p) const {
     for (int j = row_of_p - ring + 1; j < row_of_p + ring; ++j)
       for (const int i : {column_of_p - ring, column_of_p + ring}) look(i, j);
   }
-  return best;
 }
 
 double NodalField::at(Index near, Vec3 place) const {

@@ -43,10 +43,13 @@ class NodalField {
     }
   };
   [[nodiscard]] Point flat(Index vertex) const;
+  [[nodiscard]] Point flat_near(Index vertex, Point p) const;
   [[nodiscard]] int column(double x) const;
   [[nodiscard]] int row(double y) const;
   [[nodiscard]] std::size_t cell(int i, int j) const;
-  [[nodiscard]] CellBox cells_of(Index element) const;
+  [[nodiscard]] CellBox cells_of(Index element, double shift = 0.0) const;
+  template <class Visit>
+  void for_images(Index element, const Visit& visit) const;
   [[nodiscard]] bool is_crowded() const;
   void set_width(double width);
   template <class ForMembers>
@@ -54,6 +57,7 @@ class NodalField {
   [[nodiscard]] std::optional<double> in_element(Index element, Point p) const;
   [[nodiscard]] std::optional<double> in_triangle(Index a, Index b, Index c, Point p) const;
   [[nodiscard]] Index nearest(Point p) const;
+  void look_around(Point p, Index& best, double& least) const;
 
   const Mesh& mesh_;
   const Topology& topology_;

@@ -9,9 +9,10 @@
 namespace dmoscope {
 namespace {
 
-double signed_area(const Mesh& mesh, const Plane& plane, Index e) { return 0.5 * dot(area_vector(mesh, e), plane.normal); }
+double signed_area(const Mesh& mesh, const Plane& plane, Index e) { return 0.5 * dot(area_vector(mesh, e, plane), plane.normal); }
 
-/// For every element whether it is wound against the first one of its component. Counts the edges where that is impossible.
+}  // namespace
+
 std::vector<std::uint8_t> relate_windings(const Mesh& mesh, const Topology& topology, Index& contradictions) {
   WindingSets sets(mesh.elements.size());
   for_each_edge(mesh, topology, [&](Edge, std::span<const EdgeSide> sides) {
@@ -28,8 +29,6 @@ std::vector<std::uint8_t> relate_windings(const Mesh& mesh, const Topology& topo
   for (Index e = 0; e < mesh.elements.size(); ++e) against[e] = sets.find(e).against;
   return against;
 }
-
-}  // namespace
 
 OrientationReport normalise_orientation(Mesh& mesh, const Plane& plane) {
   EdgeSurvey edges;

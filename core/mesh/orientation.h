@@ -1,6 +1,9 @@
 #pragma once
 // One winding for the whole mesh. Real files mix windings (SU2 above all).
 
+#include <cstdint>
+#include <vector>
+
 #include "core/mesh/mesh.h"
 #include "core/mesh/plane.h"
 
@@ -14,6 +17,9 @@ struct OrientationReport {
   Index flipped = 0;         // elements whose winding was reversed
   Index contradictions = 0;  // edges across which no consistent winding exists (non-orientable or non-manifold)
 };
+
+/// For every element whether it is wound against the first one of its component. Counts the edges where that is impossible.
+[[nodiscard]] std::vector<std::uint8_t> relate_windings(const Mesh& mesh, const Topology& topology, Index& contradictions);
 
 /// Makes the winding of planar elements consistent inside each edge-connected component (neighbours across a
 /// manifold edge run it in opposite directions), and then positive for the majority of its elements. A tangled element

@@ -147,10 +147,10 @@ void fit(const Mesh& mesh, const std::vector<std::uint8_t>& used, const Box& box
 
 }  // namespace
 
-Vec3 area_vector(const Mesh& mesh, Index element) {
+Vec3 area_vector(const Mesh& mesh, Index element, const Plane& plane) {
   const auto c = mesh.elements.corners(element);
-  const auto& p = mesh.positions;
-  return c.size() == 3 ? cross(p[c[1]] - p[c[0]], p[c[2]] - p[c[0]]) : cross(p[c[2]] - p[c[0]], p[c[3]] - p[c[1]]);
+  const auto way = [&](std::size_t from, std::size_t to) { return plane.difference(mesh.positions[c[to]], mesh.positions[c[from]]); };
+  return c.size() == 3 ? cross(way(0, 1), way(0, 2)) : cross(way(0, 2), way(1, 3));
 }
 
 Geometry classify(const Mesh& mesh) {

@@ -9,17 +9,45 @@
 
 namespace dmoscope {
 
+/// The way from `origin` to `at` on a circle, of which both are less than `period` apart, where it is not the plain difference. The one
+/// farther from 0 goes round: near the seam that rounds nothing. Always inlined: code for different processors shares it.
+[[gnu::always_inline]] [[nodiscard]] DMOSCOPE_ANYWHERE inline double way_round(double at, double origin, double period) {
+  const double round = at > origin ? period : -period;
+  return at * at > origin * origin ? (at - round) - origin : at - (origin + round);
+}
+
 /// An orthonormal frame (u, v, normal). For a plane z = const u = x and v = y exactly, so nothing is rounded;
 /// likewise (y, z) for x = const and (z, x) for y = const.
+/// Of a mesh in longitude and latitude that wraps (see seam.h) x goes round: positions that are a period apart are one place, and
+/// differences are the shortest ones. All judging goes through differences, so elements are judged unwrapped wherever they lie.
 struct Plane {
   Vec3 u{1, 0, 0}, v{0, 1, 0}, normal{0, 0, 1};
+  double period = 0.0;  // 360 of a mesh that wraps, whose u is x; 0 of any other
+  double west = 0.0;    // where the file has its seam: x lies in [west, west + period]
+  double cut = 0.0;     // where a picture has it
+  /// The shortest way from `origin` to `at`.
+  [[nodiscard]] DMOSCOPE_ANYWHERE Vec3 difference(Vec3 at, Vec3 origin) const {
+    Vec3 way = at - origin;
+    if (period > 0.0 && (way.x > 0.5 * period || way.x < -0.5 * period)) way.x = way_round(at.x, origin.x, period);
+    return way;
+  }
   /// Coordinates in the plane of a difference of two positions. Only differences: offsets keep their digits far from the origin.
   [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<double> project(Vec3 difference) const { return {dot(difference, u), dot(difference, v)}; }
+  /// From `origin` to `at`, in the plane.
+  [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<double> offset(Vec3 at, Vec3 origin) const { return project(difference(at, origin)); }
+  /// Where a picture shows a position: what lies west of the cut comes after all the rest.
+  [[nodiscard]] Vec2<double> place(Vec3 position) const {
+    Vec2<double> p = project(position);
+    if (period > 0.0 && position.x < cut) p.x += period;
+    return p;
+  }
   [[nodiscard]] DMOSCOPE_ANYWHERE Vec3 lift(Vec2<double> offset) const { return offset.x * u + offset.y * v; }
 };
 
 /// What a volume mesh has in a plane's place: all of space, whose offsets are the differences of positions themselves.
 struct Space {
+  [[nodiscard]] DMOSCOPE_ANYWHERE Vec3 difference(Vec3 at, Vec3 origin) const { return at - origin; }
+  [[nodiscard]] DMOSCOPE_ANYWHERE Vec3 offset(Vec3 at, Vec3 origin) const { return at - origin; }
   [[nodiscard]] DMOSCOPE_ANYWHERE Vec3 project(Vec3 difference) const { return difference; }
   [[nodiscard]] DMOSCOPE_ANYWHERE Vec3 lift(Vec3 offset) const { return offset; }
 };
@@ -52,7 +80,8 @@ struct Geometry {
 };
 
 /// Twice the area vector of a triangle or quadrilateral: normal to it, counter-clockwise seen from its tip. Volume elements: meaningless.
-[[nodiscard]] Vec3 area_vector(const Mesh& mesh, Index element);
+/// `plane`: what says which way differences go.
+[[nodiscard]] Vec3 area_vector(const Mesh& mesh, Index element, const Plane& plane = {});
 
 /// Planar when no used vertex lies farther than 1e-6 * size from the best plane. The normal's largest component is positive.
 /// Volume as soon as one element is three-dimensional. Never throws; an empty mesh is planar with z normal.

@@ -19,6 +19,10 @@ void add(std::vector<std::string>& sentences, Index count, const char* one, cons
 
 std::vector<std::string> MeshReport::sentences() const {
   std::vector<std::string> all = file_notes;
+  if (seam_elements > 0)
+    all.push_back(fmt::format("{} the meridian of {:g} degrees and {} judged unwrapped",
+                              seam_elements == 1 ? "1 element crosses" : fmt::format("{} elements cross", seam_elements), seam,
+                              seam_elements == 1 ? "is" : "are"));
   add(all, inverted_elements, "element is inverted", "elements are inverted");
   if (volume)
     add(all, degenerate_elements, "element has no volume", "elements have no volume");

@@ -20,7 +20,9 @@ struct MeshReport {
   Index boundary_loops = 0;                // closed boundary curves (edges.h)
   Index components = 0;
   Index flipped_elements = 0;
-  bool volume = false;  // the elements are solids
+  Index seam_elements = 0;  // of a mesh in longitude and latitude that wraps (seam.h): elements that cross its seam,
+  double seam = 0.0;        // which is this meridian, degrees
+  bool volume = false;      // the elements are solids
   /// One clear sentence a finding, e.g. "2 vertices belong to no element (first: 17)". Ids are 0-based.
   [[nodiscard]] std::vector<std::string> sentences() const;
 };

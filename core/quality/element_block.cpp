@@ -53,6 +53,7 @@ class Differences {
   Differences(const Plane& plane, const Axes& axes) : plane_(plane), axes_(axes) {}
 
   void gather(const Index* corners, std::span<const Vec3> positions, std::size_t count) {
+    if (plane_.period > 0.0) return gather_shortest(corners, positions, count);
     for (std::size_t i = 0; i < count; ++i, corners += kCorners) {
       const Vec3& origin = positions[corners[0]];
       for (std::size_t k = 0; k < kOthers; ++k) {
@@ -80,6 +81,17 @@ class Differences {
 
  private:
   static constexpr std::size_t kOthers = kCorners - 1;
+
+  /// Of a mesh that wraps: its u is x and its v is y.
+  void gather_shortest(const Index* corners, std::span<const Vec3> positions, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i, corners += kCorners)
+      for (std::size_t k = 0; k < kOthers; ++k) {
+        const Vec3 way = plane_.difference(positions[corners[k + 1]], positions[corners[0]]);
+        at_[0][k][i] = way.x;
+        at_[1][k][i] = way.y;
+        if constexpr (!kAligned) at_[2][k][i] = way.z;
+      }
+  }
 
   /// See Plane::project: times 1 and plus 0 change at most a zero's sign.
   [[nodiscard]] Vec2<Real> project(std::size_t k, std::size_t i) const {

@@ -31,9 +31,9 @@ template <class At, class Visitor>
 DMOSCOPE_ANYWHERE auto visit_planar(const Plane& plane, std::span<const Index> corners, At at, Visitor visitor) {
   using V = Vec2<double>;
   const Vec3 origin = at(corners[0]);
-  const V b = plane.project(at(corners[1]) - origin), c = plane.project(at(corners[2]) - origin);
+  const V b = plane.offset(at(corners[1]), origin), c = plane.offset(at(corners[2]), origin);
   if (corners.size() == 3) return visitor(formulas::Triangle<V>({}, b, c));
-  return visitor(formulas::Quadrilateral<V>({}, b, c, plane.project(at(corners[3]) - origin)));
+  return visitor(formulas::Quadrilateral<V>({}, b, c, plane.offset(at(corners[3]), origin)));
 }
 
 /// The shape of a volume element; its kind follows from the number of its corners. Edges are differences of positions: nothing is lost far

@@ -101,7 +101,7 @@ class MeshStar {
     return std::is_same_v<Frame, Plane> ? length * length : length * length * length;
   }
   [[nodiscard]] DMOSCOPE_ANYWHERE Offset offset(std::span<const Index> corners, std::size_t corner) const {
-    return mesh_.frame.project(positions_[corners[corner]] - origin_);
+    return mesh_.frame.offset(positions_[corners[corner]], origin_);
   }
   [[nodiscard]] DMOSCOPE_ANYWHERE P2 scaled(P2 p) const { return {p.x * inverse_, p.y * inverse_}; }
   [[nodiscard]] DMOSCOPE_ANYWHERE Vec3 scaled(Vec3 p) const { return {p.x * inverse_, p.y * inverse_, p.z * inverse_}; }

@@ -12,6 +12,7 @@
 #include "core/io/source_file.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/orientation.h"
+#include "core/mesh/seam.h"
 #include "core/mesh/volume.h"
 #include "core/session/volume_input.h"
 
@@ -23,41 +24,42 @@ constexpr Index kCheckEvery = 1U << 16U;  // elements between two looks for a ca
 bool planar(const Mesh& mesh, Index e) { return info(mesh.elements.kind(e)).dimension == 2; }
 
 /// A corner twice, or no corner whose two edges span more area than rounding makes of a straight line.
-bool degenerate(const Mesh& mesh, Index e) {
+bool degenerate(const Mesh& mesh, const Plane& plane, Index e) {
   constexpr double kRounding = 1e-15;
   const auto c = mesh.elements.corners(e);
   const std::size_t n = c.size();
+  const auto way = [&](std::size_t from, std::size_t to) { return plane.difference(mesh.positions[c[to]], mesh.positions[c[from]]); };
   double extent = 0.0;  // edges are divided by it: nothing over- or underflows, whatever the mesh's units
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < n; ++j) {
       if (c[i] == c[j]) return true;
     }
-    const Vec3 edge = mesh.positions[c[(i + 1) % n]] - mesh.positions[c[i]];
+    const Vec3 edge = way(i, (i + 1) % n);
     extent = std::max({extent, std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)});
   }
   if (extent == 0.0) return true;
   double largest = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec3 a = (1.0 / extent) * (mesh.positions[c[(i + 1) % n]] - mesh.positions[c[i]]);
-    const Vec3 b = (1.0 / extent) * (mesh.positions[c[(i + n - 1) % n]] - mesh.positions[c[i]]);
+    const Vec3 a = (1.0 / extent) * way(i, (i + 1) % n);
+    const Vec3 b = (1.0 / extent) * way(i, (i + n - 1) % n);
     largest = std::max(largest, length(cross(a, b)));
   }
   return largest <= kRounding;
 }
 
 /// Is an element of a planar mesh neither degenerate nor inverted, by so much more than rounding that nobody needs to look closer?
-bool clearly_positive(const Mesh& mesh, Vec3 normal, Index e) {
+bool clearly_positive(const Mesh& mesh, const Plane& plane, Index e) {
   constexpr double kClear = 1e-9;
   constexpr double kSmallest = 1e-280;  // below, products lose digits
   const auto c = mesh.elements.corners(e);
   const std::size_t n = c.size();
-  Vec3 before = mesh.positions[c[0]] - mesh.positions[c[n - 1]];
+  Vec3 before = plane.difference(mesh.positions[c[0]], mesh.positions[c[n - 1]]);
   double extent = 0.0;
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec3 edge = mesh.positions[c[i + 1 < n ? i + 1 : 0]] - mesh.positions[c[i]];
+    const Vec3 edge = plane.difference(mesh.positions[c[i + 1 < n ? i + 1 : 0]], mesh.positions[c[i]]);
     extent = std::max({extent, std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)});
-    smallest = std::min(smallest, dot(cross(before, edge), normal));
+    smallest = std::min(smallest, dot(cross(before, edge), plane.normal));
     before = edge;
   }
   return extent * extent > kSmallest && smallest > kClear * extent * extent;
@@ -75,8 +77,8 @@ MeshReport examine(const Mesh& mesh, const Geometry& geometry, const Topology& t
       progress.check();
       progress.set(static_cast<double>(e) / mesh.elements.size());
     }
-    if (!planar(mesh, e) || (geometry.shape == Shape::Planar && clearly_positive(mesh, geometry.plane.normal, e))) continue;
-    if (degenerate(mesh, e)) {
+    if (!planar(mesh, e) || (geometry.shape == Shape::Planar && clearly_positive(mesh, geometry.plane, e))) continue;
+    if (degenerate(mesh, geometry.plane, e)) {
       report.degenerate_elements.push_back(e);
     } else if (!(smallest_jacobian(context, mesh.positions, e) > 0.0)) {
       report.inverted_elements.push_back(e);
@@ -85,6 +87,8 @@ MeshReport examine(const Mesh& mesh, const Geometry& geometry, const Topology& t
   report.non_manifold_edges = static_cast<Index>(edges.non_manifold.size());
   report.boundary_loops = count_boundary_loops(mesh, topology, edges);
   report.components = edges.components;
+  report.seam_elements = count_seam_elements(mesh, geometry.plane);
+  report.seam = meridian_of_seam(geometry.plane);
   report.flipped_elements = static_cast<Index>(std::ranges::count_if(mesh.flipped, [](std::uint8_t f) { return f != 0; }));
   return report;
 }
@@ -117,7 +121,7 @@ void refuse_what_cannot_be_done(const Mesh& mesh, const Geometry& geometry, cons
 /// Area or volume, at least 0.
 double measure(const Mesh& mesh, const Geometry& geometry, Index e) {
   if (geometry.shape == Shape::Volume) return std::abs(signed_volume(mesh, e));
-  const Vec3 twice = area_vector(mesh, e);
+  const Vec3 twice = area_vector(mesh, e, geometry.plane);
   return 0.5 * (geometry.shape == Shape::Planar ? std::abs(dot(twice, geometry.plane.normal)) : length(twice));
 }
 
@@ -209,7 +213,7 @@ std::shared_ptr<const InputMesh> prepare_volume(Mesh mesh, const Geometry& geome
 
 std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path path, Need need, Progress& progress,
                                                std::string generator) {
-  const Geometry geometry = classify(mesh);
+  Geometry geometry = classify(mesh);
   refuse_what_cannot_be_done(mesh, geometry, path.empty() ? (mesh.name.empty() ? "mesh" : mesh.name) : path.string(), need);
   progress.check();
 
@@ -219,6 +223,7 @@ std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path 
   Topology topology(mesh, edges, progress);
   progress.check();
   progress.set(0.5);
+  find_seam(mesh, topology, edges, geometry);
   if (geometry.shape == Shape::Planar && normalise_orientation(mesh, geometry.plane, topology, edges).flipped > 0) topology.follow(mesh);
   progress.check();
 

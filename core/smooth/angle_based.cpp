@@ -59,7 +59,7 @@ class AngleBased {
     for (const Incidence& at : mesh_.view.star(vertex)) {
       const auto corners = mesh_.view.corners_of(at.element);
       const Index from = corners[(at.corner + 1) % corners.size()], to = corners[(at.corner + corners.size() - 1) % corners.size()];
-      ring.push_back({from, to, mesh_.view.frame.project(positions[from] - origin), mesh_.view.frame.project(positions[to] - origin)});
+      ring.push_back({from, to, mesh_.view.frame.offset(positions[from], origin), mesh_.view.frame.offset(positions[to], origin)});
     }
   }
 

@@ -91,7 +91,7 @@ DensityTarget<Plane> density_target(const SizeField& size, const PlanarView& mes
   double weights = 0.0, lengths = 0.0;
   std::size_t count = 0;
   for_edge_neighbours(mesh, vertex, [&](Index other) {
-    const Vec2<double> edge = mesh.frame.project(positions[other] - here);
+    const Vec2<double> edge = mesh.frame.offset(positions[other], here);
     const double weight = 1.0 / size.at(other, positions[other]);
     sum = {sum.x + weight * edge.x, sum.y + weight * edge.y};
     weights += weight;
@@ -157,7 +157,7 @@ template <class Frame>
 double CombinedSearch<Frame>::second(PositionView positions, Index vertex, Vec3 place) const {
   if constexpr (std::is_same_v<Frame, Plane>) {
     if (const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&aims_.second))
-      return density_target(**size, mesh_.view, positions, vertex).density(mesh_.view.frame.project(place - positions[vertex]));
+      return density_target(**size, mesh_.view, positions, vertex).density(mesh_.view.frame.offset(place, positions[vertex]));
   }
   if (const auto* metric = std::get_if<Metric>(&aims_.second))
     return metric_functions<Frame>(*metric).state(mesh_.view, positions, vertex, place).quality;

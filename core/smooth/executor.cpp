@@ -21,6 +21,7 @@ std::string obstacle(const Acceleration& acceleration, const SmoothingTask& task
   if (task.combination) return "combined metrics run on the CPU alone";
   if (task.then_mean) return "the phase that raises the mean runs on the CPU alone";
   if (task.search.precision == Precision::Double && !task.input->is_volume()) return "the search in double runs on the CPU alone";
+  if (task.input->geometry.plane.period > 0.0) return "meshes that go round in longitude run on the CPU alone";
   if (task.search.simd) return "SIMD instructions were asked for, which are the CPU's";
   return acceleration.accelerator ? std::string() : acceleration.reason;
 }

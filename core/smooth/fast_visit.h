@@ -181,7 +181,7 @@ class FastVisit {
     const float extent = size.x + size.y;
     Outcome outcome;
     outcome.ready = objective(star)({0.0F, 0.0F}) > visit_rules::kLeastRank && extent > visit_rules::kSmallestExtent &&
-                    extent < visit_rules::kLargestExtent;
+                    extent < task_.frame.largest_extent;
     if constexpr (kBlind)
       if (shape_.quadrilaterals > 0) outcome.ready = outcome.ready && corners(star) > visit_rules::kLeastCorner * extent * extent;
     if (!outcome.ready) return outcome;

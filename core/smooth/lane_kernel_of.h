@@ -189,7 +189,7 @@ class Kernel {
     Vec2<F> size = box();
     const F extent = size.x + size.y;
     auto ready = (objective({F(0.0F), F(0.0F)}) > F(visit_rules::kLeastRank)) & (extent > F(visit_rules::kSmallestExtent)) &
-                 (extent < F(visit_rules::kLargestExtent));
+                 (extent < F(task_.frame.largest_extent));
     if constexpr (kBlind)
       ready = ready & (visit_rules::smallest_corner(star, {F(0.0F), F(0.0F)}) > F(visit_rules::kLeastCorner) * extent * extent);
     size = {select(ready, size.x, F(0.0F)), select(ready, size.y, F(0.0F))};

@@ -10,28 +10,30 @@ namespace {
 using Room = std::vector<Index>;  // the neighbours
 
 /// From a free vertex to the mean of its edge neighbours.
+template <class Frame>
 class WayToMean {
  public:
-  WayToMean(PositionView positions, Index vertex) : positions_(positions), origin_(positions[vertex]) {}
+  WayToMean(const Frame& frame, PositionView positions, Index vertex) : frame_(frame), positions_(positions), origin_(positions[vertex]) {}
   void operator()(Index other) {
-    sum_ = sum_ + (positions_[other] - origin_);
+    sum_ = sum_ + frame_.difference(positions_[other], origin_);
     count_ += 1.0;
   }
   [[nodiscard]] Vec3 way() const { return 1.0 / count_ * sum_; }
 
  private:
+  const Frame& frame_;
   PositionView positions_;
   Vec3 origin_, sum_{};
   double count_ = 0.0;
 };
 
 Vec3 way_to_mean(const PlanarView& mesh, PositionView positions, Index vertex, Room& /*room*/) {
-  WayToMean mean(positions, vertex);
+  WayToMean mean(mesh.frame, positions, vertex);
   for_edge_neighbours(mesh, vertex, [&](Index other) { mean(other); });
   return mean.way();
 }
 Vec3 way_to_mean(const VolumeView& mesh, PositionView positions, Index vertex, Room& room) {
-  WayToMean mean(positions, vertex);
+  WayToMean mean(mesh.frame, positions, vertex);
   gather_edge_neighbours(mesh, vertex, room);
   for (const Index other : room) mean(other);
   return mean.way();

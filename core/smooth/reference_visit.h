@@ -96,7 +96,10 @@ template <Metric M, class StarT, class Point, class Team = Solo, class Trace = N
 template <class Frame>
 [[nodiscard]] DMOSCOPE_ANYWHERE Vec3 displaced(const Frame& frame, Vec3 place, OffsetIn<Frame, double> offset, bool single) {
   const Vec3 step = frame.lift(offset);
-  return {displaced(place.x, step.x, single), displaced(place.y, step.y, single), displaced(place.z, step.z, single)};
+  Vec3 to{displaced(place.x, step.x, single), displaced(place.y, step.y, single), displaced(place.z, step.z, single)};
+  if constexpr (std::is_same_v<Frame, Plane>)
+    if (frame.period > 0.0) to.x = settled(to.x, frame.west, frame.period, single);
+  return to;
 }
 
 }  // namespace dmoscope

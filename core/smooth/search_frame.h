@@ -24,6 +24,11 @@ struct SearchFrame {
   int u_axis, v_axis;     // the coordinates they are, or -1 where the plane is parallel to no coordinate plane
   double scale, inverse;  // a power of two about as large as an edge, and 1 / scale
   bool single_precision;  // see Mesh
+  double period, west;    // see Plane
+  /// Width plus height of the star's bounding box above which the search in float is not to be trusted, in units of `scale`: floats cannot
+  /// hold more; and a star of a mesh that wraps whose offsets are so large, taken plainly, lies across the seam.
+  float largest_extent;
+  static constexpr float kLargestExtent = 0x1p20F;
 
   /// From `origin` to `at`, in the plane and in mesh units. Axes: u_axis and v_axis are coordinates.
   template <bool Axes>
@@ -45,11 +50,20 @@ struct SearchFrame {
       to.target[u_axis] = displaced(at[u_axis], along_u, single_precision);
       to.target[v_axis] = displaced(at[v_axis], along_v, single_precision);
       to.step = {to.target[u_axis] - at[u_axis], to.target[v_axis] - at[v_axis]};
+      if (period > 0.0) settle(at, to);
       return to;
     }
     for (int i = 0; i < 3; ++i) to.target[i] = displaced(at[i], along_u * u[i] + along_v * v[i], single_precision);
     to.step = offset<false>(to.target, at);
     return to;
+  }
+
+ private:
+  /// Of a mesh that wraps, whose u is x.
+  [[gnu::always_inline]] DMOSCOPE_ANYWHERE void settle(const double* at, Displacement& to) const {
+    const double plain = to.target[0];
+    to.target[0] = settled(plain, west, period, single_precision);
+    if (to.target[0] != plain) to.step.x = way_round(to.target[0], at[0], period);
   }
 };
 
@@ -58,8 +72,19 @@ struct SearchFrame {
   const PlaneAxes axes(plane);
   const double edge = input.geometry.size / std::sqrt(1.0 + input.mesh.elements.size());
   const double scale = edge > 0.0 && std::isfinite(edge) ? std::exp2(std::ilogb(edge)) : 1.0;
-  return {{plane.u.x, plane.u.y, plane.u.z}, {plane.v.x, plane.v.y, plane.v.z}, axes.u, axes.v, scale, 1.0 / scale,
-          input.mesh.single_precision};
+  const double half = 0.5 * plane.period / scale;
+  const float largest = plane.period > 0.0 && half < static_cast<double>(SearchFrame::kLargestExtent) ? static_cast<float>(half)
+                                                                                                      : SearchFrame::kLargestExtent;
+  return {{plane.u.x, plane.u.y, plane.u.z},
+          {plane.v.x, plane.v.y, plane.v.z},
+          axes.u,
+          axes.v,
+          scale,
+          1.0 / scale,
+          input.mesh.single_precision,
+          plane.period,
+          plane.west,
+          largest};
 }
 
 }  // namespace dmoscope

@@ -86,7 +86,7 @@ double SizeField::at(Index vertex, Vec3 place) const {
   using Kind = SizeFunction::Kind;
   if (function_.kind == Kind::Constant) return 1.0;
   if (function_.kind == Kind::Field) return field_->at(vertex, place);
-  const Vec2<double> away = input_->geometry.plane.project(place - function_.point);
+  const Vec2<double> away = input_->geometry.plane.offset(place, function_.point);
   const double distance = std::max(std::sqrt(dot(away, away)), least_distance_);
   return function_.kind == Kind::Distance ? distance : 1.0 / distance;
 }
@@ -95,7 +95,7 @@ double local_edge_length(const PlanarView& mesh, PositionView positions, Index v
   double sum = 0.0;
   std::size_t count = 0;
   for_edge_neighbours(mesh, vertex, [&](Index other) {
-    const Vec2<double> edge = mesh.frame.project(positions[other] - positions[vertex]);
+    const Vec2<double> edge = mesh.frame.offset(positions[other], positions[vertex]);
     sum += std::sqrt(dot(edge, edge));
     ++count;
   });

@@ -10,8 +10,8 @@ namespace dmoscope::visit_rules {
 
 /// A star below this rank, the inverted ones' included, is the reference's; formulas::rank_doubt relies on it.
 inline constexpr float kLeastRank = 1e-4F;
-/// Width plus height of the star's bounding box that floats can hold, in units of SearchFrame::scale.
-inline constexpr float kSmallestExtent = 0x1p-20F, kLargestExtent = 0x1p20F;
+/// Width plus height of the star's bounding box that floats can hold, in units of SearchFrame::scale; see SearchFrame::largest_extent, too.
+inline constexpr float kSmallestExtent = 0x1p-20F;
 /// The smallest corner Jacobian of a star whose metric is blind, over the square of its extent: at first, and after a move.
 inline constexpr float kLeastCorner = 1e-5F;
 inline constexpr double kSoundCorner = 1e-9;

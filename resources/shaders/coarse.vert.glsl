@@ -15,9 +15,12 @@ void main() {
   uint base = drawn * u_corner_count;
   vec2 corner[4];
   vec2 middle = vec2(0.0);
+  float west = 1e30, east = -1e30;
   for (uint i = 0u; i < u_corner_count; ++i) {
     corner[i] = to_pixels(positions[corners[base + i]]);
     middle += corner[i];
+    west = min(west, corner[i].x);
+    east = max(east, corner[i].x);
   }
   middle /= float(u_corner_count);
   float area = 0.0;
@@ -44,6 +47,6 @@ void main() {
     v_fill = fill_of(element).rgb;
   }
   gl_Position = to_clip(middle, worst ? -0.5 : counting ? 0.0 : 0.5);
-  if (!counting && u_others != 0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // nothing is drawn
+  if ((!counting && u_others != 0) || east - west > u_widest) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // nothing is drawn
   gl_PointSize = clamp(1.7 * sqrt(abs(area) * float(u_stride)) + 0.5, 1.0, 64.0);
 }

@@ -3,6 +3,7 @@ uniform vec2 u_offset_high;  // the camera's centre relative to the scene's, in 
 uniform vec2 u_offset_low;
 uniform float u_zoom;      // pixels a unit of the plane
 uniform vec2 u_viewport;   // pixels
+uniform float u_widest;    // pixels; what is wider lies across the seam of a mesh that wraps, and is not drawn
 
 vec2 to_pixels(vec2 point) {
   precise vec2 coarse = point - u_offset_high;

@@ -66,6 +66,12 @@ void main() {
   uint element = order[u_first + uint(gl_PrimitiveIDIn)];
   bool counting = counts(element);
   if (!counting && u_others == 1) return;
+  float west = min(v_pixels[0].x, min(v_pixels[1].x, v_pixels[2].x)), east = max(v_pixels[0].x, max(v_pixels[1].x, v_pixels[2].x));
+#ifdef QUADRILATERALS
+  west = min(west, v_pixels[3].x);
+  east = max(east, v_pixels[3].x);
+#endif
+  if (east - west > u_widest) return;
 #ifdef QUADRILATERALS
   float area = 0.5 * abs(turn(v_pixels[0], v_pixels[1], v_pixels[2]) + turn(v_pixels[0], v_pixels[2], v_pixels[3]));
 #else

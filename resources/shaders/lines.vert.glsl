@@ -27,6 +27,7 @@ void main() {
   float across = corner == 0u || corner == 1u || corner == 4u ? -1.0 : 1.0;
 #ifdef BOUNDARY
   vec2 a = to_pixels(positions[edges[index].x]), b = to_pixels(positions[edges[index].y]);
+  if (abs(b.x - a.x) > u_widest) a = b = vec2(1e9);  // nothing is drawn
   v_colour = u_colour;
   // Coasts of islands smaller than their line would be blots.
   float room = smoothstep(0.3, 5.0, distance(a, b));

@@ -142,6 +142,31 @@ TEST(Smooth, JsonHasTheDocumentedKeys) {
   EXPECT_EQ(judged["metrics"][0]["minimum"], json["after"]["minimum"]);
 }
 
+TEST(Smooth, AcrossTheMeridianElementsAreJudgedUnwrappedAndReadAgainTheSame) {
+  const Folder folder;
+  for (const auto& [kind, extension] : {std::pair{"wrapped", ".14"}, {"globe", ".vtk"}})
+    for (const char* metric : {"mean-ratio", std::string_view(kind) == "globe" ? "scaled-jacobian" : "min-angle"}) {
+      const std::string in = folder / (std::string("in") + extension), out = folder / (std::string("out") + extension);
+      ASSERT_EQ(run({"generate", kind, "-o", in, "--size", "600", "--seed", "4"}).code, 0);
+      const auto json = smooth(in, out, {"--iterations", "5", "--metric", metric});
+      EXPECT_EQ(json["before"]["inverted"], 0) << kind;
+      EXPECT_EQ(json["after"]["inverted"], 0) << kind;
+      EXPECT_GT(json["after"]["minimum"], json["before"]["minimum"]) << kind;
+      EXPECT_THAT(json["warnings"].dump(), HasSubstr("elements cross the meridian of 180 degrees and are judged unwrapped"));
+      const auto judged = json_of(run({"quality", out, "--metric", metric, "--json"}));
+      EXPECT_EQ(judged["inverted"], 0) << kind;
+      EXPECT_EQ(judged["metrics"][0]["minimum"], json["after"]["minimum"]) << kind;
+      EXPECT_NEAR(judged["metrics"][0]["mean"].get<double>(), json["after"]["mean"].get<double>(), 1e-12) << kind;
+      // The middles of its elements lie where they are: none of the piece's near 0.
+      const auto all = json_of(run({"quality", in, "--metric", metric, "--worst", "10000", "--json"}))["metrics"][0]["worst"];
+      for (const auto& element : all) {
+        const double x = element["centroid"][0];
+        EXPECT_LE(std::abs(x), 180.0) << kind;
+        EXPECT_TRUE(std::abs(x) > 150.0 || std::string_view(kind) == "globe") << element["element"];
+      }
+    }
+}
+
 TEST(Smooth, SummaryForAPersonNamesWhatCounts) {
   const Folder folder;
   const Output output = run({"smooth", sample("coast.14"), "-o", folder / "out.14", "--iterations", "1"});

@@ -79,6 +79,25 @@ TEST(ElementBlock, HasTheVeryBitsOfEachElementInAnyPlane) {
   }
 }
 
+/// In degrees, across the meridian of 180.
+Mesh across_the_seam(Mesh mesh) {
+  for (Vec3& p : mesh.positions) {
+    p = {170.0 + 20.0 * p.x, 30.0 * p.y, 0.0};
+    if (p.x > 180.0) p.x -= 360.0;
+  }
+  return mesh;
+}
+
+TEST(ElementBlock, HasTheVeryBitsOfEachElementAcrossASeam) {
+  for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals, Cells::Mixed}) {
+    const auto mesh = input(across_the_seam(lattice(24, 0.4, 11, cells)));
+    ASSERT_GT(mesh->report.seam_elements, 20U);
+    expect_the_very_bits(*mesh);
+    for (Index e = 0; e < mesh->mesh.elements.size(); ++e)
+      ASSERT_LT(std::abs(smallest_jacobian(mesh->quality_context(), mesh->mesh.positions, e)), 4.0) << "as small as it is unwrapped";
+  }
+}
+
 TEST(ElementBlock, HasTheVeryBitsOfEachElementOfACurvedSurface) {
   const auto mesh = input(curved(tangled(Cells::Mixed)), Need::QualityOnly);
   ASSERT_EQ(mesh->geometry.shape, Shape::Surface);

@@ -24,7 +24,8 @@ Combination with(const Combination& combination, const SizeFunction& size) { ret
 /// In the middle of the mesh, where no point was chosen yet.
 Vec3 middle(const InputMesh& input) {
   Vec3 sum{};
-  for (const Vec3& p : input.mesh.positions) sum = sum + p;
+  const Plane& plane = input.geometry.plane;
+  for (const Vec3& p : input.mesh.positions) sum = sum + (plane.period > 0.0 ? plane.lift(plane.place(p)) : p);
   return (1.0 / std::max<double>(1.0, static_cast<double>(input.mesh.positions.size()))) * sum;
 }
 

@@ -56,6 +56,7 @@ struct FormatHandler {
 [[nodiscard]] const FormatHandler& gmsh_format();
 [[nodiscard]] const FormatHandler& medit_format();
 [[nodiscard]] const FormatHandler& tetgen_format();
+[[nodiscard]] const FormatHandler& abaqus_format();
 
 /// All of them, in the order of format_table().
 [[nodiscard]] std::span<const FormatHandler* const> format_handlers();

@@ -21,7 +21,8 @@ const std::vector<const FormatHandler*>& handlers() {
 #ifdef DMOSCOPE_VTU
                                                        &vtu_format(),
 #endif
-                                                       &fort14_format(), &su2_format(), &gmsh_format(), &medit_format(), &tetgen_format()};
+                                                       &fort14_format(), &su2_format(), &gmsh_format(), &medit_format(), &tetgen_format(),
+                                                       &abaqus_format()};
   return table;
 }
 

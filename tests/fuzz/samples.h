@@ -204,6 +204,22 @@ inline std::string gmsh_4_binary(bool big) {
   return s + "\n$EndElements\n";
 }
 
+inline std::string abaqus_volume() {
+  return "*Heading\ntwo solids\n** a comment\n*Part, name=P\n*Node, nset=All\n1, 0., 0., 0.\n2,1.,0,0\n3, 1., 1.50, 0.\n4, 0, 1, 0\n"
+         "11, 0., 0., 1e0\n12, 1., 0., 1.\n13, 1., 1., 1., 0., 0., 1.\n14, 0., 1., 1.\n20, .5, .5, 2.\n*Element, type=C3D8R, elset=Box\n"
+         "1, 1, 2, 3, 4,\n11, 12, 13, 14\n*ELEMENT, TYPE=C3D5\n7, 11, 12, 13, 14, 20\n*Element, type=SFM3D4, elset=skin\n8, 1, 4, 3, 2\n"
+         "*Element, type=MASS\n9, 20\n*Nset, nset=Tip\n20, 3\n*Elset, elset=More, generate\n1, 7, 6\n*Elset, elset=more\nBox, 8\n"
+         "*Surface, type=ELEMENT, name=Top\nBox, S3\n7, S2\n*End Part\n*Assembly, name=A\n*Instance, name=P-1, part=P\n*End Instance\n"
+         "*Nset, nset=Root, instance=P-1\n1, 2\n*End Assembly\n*Material, name=steel\n*Elastic\n2e5, .3\n";
+}
+
+inline std::string abaqus_planar() {
+  return "*NODE\r\n1, 0, 0\r\n2, 1, 0\r\n3, 1, 1.\r\n4, 0, 1.50\r\n5, 2, 0\r\n6, 2, 1e0\r\n*ELEMENT, TYPE=CPS3, ELSET=\"a set\"\r\n1, 1, "
+         "2, 3\r\n"
+         "2, 1, 3, 4\r\n*ELEMENT, TYPE=CPE4R,\r\nELSET=right\r\n3, 2, 5, 6, 3\r\n*ELEMENT, TYPE=T2D2\r\n4, 1, 2\r\n"
+         "*SURFACE, NAME=edge\r\n1, S1\r\nright, S2\r\n*SURFACE, NAME=n, TYPE=NODE\r\n5, 1.\r\n";
+}
+
 /// At least one file of each format that format_table() names; of a format of two files, both, the byte 0x1e between them.
 inline std::vector<Sample> samples() {
   std::vector<Sample> all{
@@ -241,6 +257,8 @@ inline std::vector<Sample> samples() {
       {"planar", "medit",
        "MeshVersionFormatted 1\nDimension 2\nTriangles 2 1 2 3 5 1 3 4 0\nEdges 1 1 2 4\nQuadrilaterals 1\n2 5 6 3 5\n"
        "Vertices 6\n0 0 0\n1 0 0\n1 1 0\n0 1.50 0\n2 0 0\n2 1e0 0\nRequiredVertices 1 1\nEnd\n"},
+      {"volume", "abaqus", abaqus_volume()},
+      {"planar", "abaqus", abaqus_planar()},
   };
   if (format_by_extension(".vtu") != nullptr) {  // not in every build
     for (const auto& [name, bytes] : vtu_samples()) all.push_back({std::string(name), "vtu", std::string(bytes)});

@@ -28,6 +28,8 @@ class DataLines {
     numbers_.seek(begin_, number_);
     return true;
   }
+  /// Goes on with the line that begins at byte `offset`, whose number is `line`.
+  void seek(std::size_t offset, std::size_t line) noexcept { lines_.seek(offset, line); }
   /// The line as it stands, without its end.
   [[nodiscard]] std::string_view line() const noexcept { return line_; }
   /// 1-based.
@@ -49,6 +51,7 @@ class DataLines {
   /// A number that a thing is called by: from 1 to 2^31 - 1.
   [[nodiscard]] std::int32_t label(std::string_view field, std::string_view what) const;
   [[noreturn]] void fail(const std::string& what) const { numbers_.fail(what); }
+  [[noreturn]] void fail_on(std::size_t line, const std::string& what) const { numbers_.fail_at(line, what); }
   /// The line of a byte, counted from the begin.
   [[nodiscard]] std::size_t line_at(std::size_t offset) const noexcept { return numbers_.line_at(offset); }
   [[noreturn]] void fail_at(std::size_t offset, const std::string& what) const { numbers_.fail_at(line_at(offset), what); }

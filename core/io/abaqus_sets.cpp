@@ -222,8 +222,9 @@ void AbaqusSet::tidy() {
   std::vector<std::size_t> order(ranges_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return ranges_[a] < ranges_[b]; });
-  const auto same = std::ranges::unique(order, [&](std::size_t a, std::size_t b) { return ranges_[a] == ranges_[b]; });
-  order.erase(same.begin(), same.end());
+  // Not std::ranges::unique: clang 14 cannot compile it.
+  const auto same = std::unique(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ranges_[a] == ranges_[b]; });
+  order.erase(same, order.end());
   std::ranges::sort(order);
   std::vector<Range> kept(order.size());
   std::ranges::transform(order, kept.begin(), [&](std::size_t i) { return ranges_[i]; });

@@ -40,8 +40,10 @@ std::vector<std::optional<ElementSide>> sides_of(const Mesh& mesh, const std::ve
   for (Index e = 0; e < mesh.elements.size(); ++e) {
     for (Index s = 0; s < side_count(mesh.elements.kind(e)); ++s) {
       const Corners side = vertices_of_side(mesh.elements, {e, s});
-      const auto [first, last] = std::ranges::equal_range(order, sorted(side), {}, [&](Index i) { return keys[i]; });
-      for (auto at = first; at != last; ++at) {
+      const Corners key = sorted(side);
+      // Not std::ranges::equal_range: clang 14 cannot compile it.
+      auto at = std::ranges::lower_bound(order, key, {}, [&](Index i) { return keys[i]; });
+      for (; at != order.end() && keys[*at] == key; ++at) {
         const bool same = same_winding(wanted[*at], side);
         if (found[*at] && (outward[*at] != 0 || !same)) continue;
         found[*at] = ElementSide{e, s};

@@ -140,10 +140,5 @@ TEST(Nastran, Refused) {
   for (const auto& bad : table) expect_refused("a.bdf", bad.text, bad.line, bad.words);
 }
 
-TEST(Nastran, EveryBeginning) {
-  expect_truncation_safe("a.bdf", testing::nastran_volume());
-  expect_truncation_safe("a.bdf", testing::nastran_planar());
-}
-
 }  // namespace
 }  // namespace dmoscope::test

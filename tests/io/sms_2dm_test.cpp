@@ -101,7 +101,5 @@ TEST(Sms2dm, Refused) {
   for (const auto& bad : table) expect_refused("a.2dm", bad.text, bad.line, bad.words);
 }
 
-TEST(Sms2dm, EveryBeginning) { expect_truncation_safe("a.2dm", testing::sms_2dm()); }
-
 }  // namespace
 }  // namespace dmoscope::test

@@ -111,7 +111,5 @@ TEST(Xdmf, Refused) {
   for (const auto& bad : table) expect_refused("a.xdmf", bad.text, bad.line, bad.words);
 }
 
-TEST(Xdmf, EveryBeginning) { expect_truncation_safe("a.xdmf", testing::xdmf_mixed()); }
-
 }  // namespace
 }  // namespace dmoscope::test

@@ -57,6 +57,10 @@ struct FormatHandler {
 [[nodiscard]] const FormatHandler& medit_format();
 [[nodiscard]] const FormatHandler& meshb_format();
 [[nodiscard]] const FormatHandler& tetgen_format();
+[[nodiscard]] const FormatHandler& abaqus_format();
+[[nodiscard]] const FormatHandler& sms_2dm_format();
+[[nodiscard]] const FormatHandler& nastran_format();
+[[nodiscard]] const FormatHandler& xdmf_format();  // needs pugixml: not in every build
 
 /// All of them, in the order of format_table().
 [[nodiscard]] std::span<const FormatHandler* const> format_handlers();

@@ -21,12 +21,14 @@ namespace dmoscope {
 namespace {
 
 const std::vector<const FormatHandler*>& handlers() {
-  static const std::vector<const FormatHandler*> table{&off_format(),    &obj_format(), &ply_format(),  &stl_format(),   &vtk_format(),
+  static const std::vector<const FormatHandler*> table{&off_format(),    &obj_format(),    &ply_format(),     &stl_format(),
+                                                       &vtk_format(),
 #ifdef DMOSCOPE_VTU
-                                                       &vtu_format(),
+                                                       &vtu_format(),    &xdmf_format(),
 #endif
-                                                       &fort14_format(), &su2_format(), &gmsh_format(), &medit_format(), &meshb_format(),
-                                                       &tetgen_format()};
+                                                       &fort14_format(), &su2_format(),    &gmsh_format(),    &medit_format(),
+                                                       &meshb_format(),  &tetgen_format(), &abaqus_format(),  &sms_2dm_format(),
+                                                       &nastran_format()};
   return table;
 }
 
@@ -51,7 +53,7 @@ std::string known_formats() {
     result += fmt::format("{}{} ({})", result.empty() ? "" : ", ", handler->info.name, handler->info.extensions);
   }
 #ifndef DMOSCOPE_VTU
-  result += "; VTU is left out of this build of the program, which was made without zlib or pugixml";
+  result += "; VTU and XDMF are left out of this build of the program, which was made without zlib or pugixml";
 #endif
   return result;
 }

@@ -230,7 +230,10 @@ Mesh read(SourceFile& source, const IoContext& context) { return Reader(source, 
 
 // --- Writing anew ---
 
-/// The field that becomes the depth: the one of that name, else the first with one number a vertex.
+/// A depth counts downwards, an elevation (of a 2dm file) upwards.
+bool is_elevation(const Field& field) { return field.role == "elevation"; }
+
+/// The field that becomes the depth: the one of that name, else an elevation, else the first with one number a vertex.
 /// Throws OutputError for a depth that cannot be read back: nan and inf are no numbers there.
 std::optional<std::size_t> depth_field(const AtomicFile& file, const Mesh& mesh, Notes& notes) {
   std::optional<std::size_t> chosen;
@@ -241,10 +244,12 @@ std::optional<std::size_t> depth_field(const AtomicFile& file, const Mesh& mesh,
     if (field.name == "depth" && !finite(field))
       throw OutputError(file.path().string(), "the field \"depth\" has values that are no numbers, which this format cannot hold");
     if (field.name == "depth") return i;
-    if (!chosen && finite(field)) chosen = i;
+    if (!finite(field)) continue;
+    if (!chosen || (is_elevation(field) && !is_elevation(mesh.fields[*chosen]))) chosen = i;
   }
   if (chosen) {
-    notes.push_back(fmt::format("Field \"{}\" was written as the depth.", mesh.fields[*chosen].name));
+    notes.push_back(fmt::format("Field \"{}\" was written as the depth{}.", mesh.fields[*chosen].name,
+                                is_elevation(mesh.fields[*chosen]) ? ", with its sign turned" : ""));
   } else {
     notes.emplace_back("The mesh has no depth: 0 was written for every vertex.");
   }
@@ -291,6 +296,11 @@ Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions,
   const std::array<std::size_t, 1> kept_fields{depth.value_or(0)};
   note_dropped(mesh, std::span(kept_fields).first(depth ? 1 : 0), kept, title, notes);
 
+  const auto depth_of = [&](std::size_t v) {
+    const double value = depth ? mesh.fields[*depth].values[v] : 0.0;
+    return depth && is_elevation(mesh.fields[*depth]) && value != 0.0 ? -value : value;
+  };
+
   TextWriter out(file, context);
   std::string name = mesh.title.empty() ? mesh.name : mesh.title;
   std::ranges::replace_if(
@@ -298,7 +308,7 @@ Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions,
   out << name << '\n';
   out << mesh.elements.size() << ' ' << positions.size() << '\n';
   out.for_each(positions.size(), [&](TextBuffer& part, std::size_t v) {
-    part << v + 1 << ' ' << positions[v].x << ' ' << positions[v].y << ' ' << (depth ? mesh.fields[*depth].values[v] : 0.0) << '\n';
+    part << v + 1 << ' ' << positions[v].x << ' ' << positions[v].y << ' ' << depth_of(v) << '\n';
   });
   out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t e) {
     std::array<Index, 8> buffer{};

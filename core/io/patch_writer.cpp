@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/io/binary.h"
+#include "core/io/field_number.h"
 #include "core/io/source_file.h"
 #include "core/io/text_writer.h"
 #include "core/io/tokenizer.h"
@@ -76,7 +77,7 @@ class Patcher {
       for (; next <= layout_.at[c]; ++next) token = tokens_.token();
       if (same_bits(before[c], after[c])) continue;
       copy_until(tokens_.offset_of(token));
-      out_ << after[c];
+      put_text(after[c]);
       copied_ += token.size();
     }
   }
@@ -92,6 +93,16 @@ class Patcher {
         put(to_float(after[c], source_.vertex_at(i)));
       }
     }
+  }
+
+  void put_text(double value) {
+    if (layout_.width == 0) {
+      out_ << value;
+      return;
+    }
+    const FieldNumber number = number_in_field(value, layout_.width, ExponentStyle::Letter);
+    if (number.value != value) ++rounded_;
+    out_ << number.text;
   }
 
   float to_float(double value, std::size_t vertex) {
@@ -145,6 +156,10 @@ std::vector<std::string> write_patched(AtomicFile& file, const Mesh& mesh, std::
   });
   out.bytes(source.bytes().substr(copied));
   if (rounded == 0) return {};
+  if (!source.layout().binary) {
+    return {fmt::format("{} moved coordinates were rounded to the {} characters that the format has for a number.", rounded.load(),
+                        source.layout().width)};
+  }
   return {fmt::format("{} moved coordinates were rounded to 32-bit floats, which is what the file holds.", rounded.load())};
 }
 

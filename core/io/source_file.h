@@ -31,6 +31,7 @@ struct CoordinateLayout {
   /// Where x, y and z are, from the vertex's place on. Text: how many tokens come before it; binary: how many bytes.
   std::array<std::uint32_t, 3> at{0, 1, 2};
   TextSyntax syntax;                                                 // text: what separates the tokens
+  std::uint8_t width = 0;                                            // text: the most characters that the format has for a number; 0: any
   std::array<CoordinateScalar, 3> scalar{CoordinateScalar::Float64,  // of x, y, z; text: what the file declares, the digits may be more
                                          CoordinateScalar::Float64, CoordinateScalar::Float64};
   bool big_endian = false;  // binary

@@ -291,6 +291,67 @@ inline std::string gmsh_4_binary(bool big) {
   return s + "\n$EndElements\n";
 }
 
+inline std::string abaqus_volume() {
+  return "*Heading\ntwo solids\n** a comment\n*Part, name=P\n*Node, nset=All\n1, 0., 0., 0.\n2,1.,0,0\n3, 1., 1.50, 0.\n4, 0, 1, 0\n"
+         "11, 0., 0., 1e0\n12, 1., 0., 1.\n13, 1., 1., 1., 0., 0., 1.\n14, 0., 1., 1.\n20, .5, .5, 2.\n*Element, type=C3D8R, elset=Box\n"
+         "1, 1, 2, 3, 4,\n11, 12, 13, 14\n*ELEMENT, TYPE=C3D5\n7, 11, 12, 13, 14, 20\n*Element, type=SFM3D4, elset=skin\n8, 1, 4, 3, 2\n"
+         "*Element, type=MASS\n9, 20\n*Nset, nset=Tip\n20, 3\n*Elset, elset=More, generate\n1, 7, 6\n*Elset, elset=more\nBox, 8\n"
+         "*Surface, type=ELEMENT, name=Top\nBox, S3\n7, S2\n*End Part\n*Assembly, name=A\n*Instance, name=P-1, part=P\n*End Instance\n"
+         "*Nset, nset=Root, instance=P-1\n1, 2\n*End Assembly\n*Material, name=steel\n*Elastic\n2e5, .3\n";
+}
+
+inline std::string abaqus_planar() {
+  return "*NODE\r\n1, 0, 0\r\n2, 1, 0\r\n3, 1, 1.\r\n4, 0, 1.50\r\n5, 2, 0\r\n6, 2, 1e0\r\n*ELEMENT, TYPE=CPS3, ELSET=\"a set\"\r\n1, 1, "
+         "2, 3\r\n"
+         "2, 1, 3, 4\r\n*ELEMENT, TYPE=CPE4R,\r\nELSET=right\r\n3, 2, 5, 6, 3\r\n*ELEMENT, TYPE=T2D2\r\n4, 1, 2\r\n"
+         "*SURFACE, NAME=edge\r\n1, S1\r\nright, S2\r\n*SURFACE, NAME=n, TYPE=NODE\r\n5, 1.\r\n";
+}
+
+// One of each way to write a card: free, free and large, small, large, tabs, with a line that goes on.
+inline std::string nastran_volume() {
+  return "$ a comment\nSOL 101\nCEND\nTITLE = two solids\nBEGIN BULK\n$HMNAME PROP                   7\"rock\"2\n"
+         "GRID,1,,0.,0.,0.\nGRID,2,0,1.,0.,0.,0,123\nGRID           3              1.    1.50      0.\n"
+         "GRID*                  4                              0.              1.*       \n*                     0.               0\n"
+         "GRID*,11,,0.,0.,\n*,1.\nGRID\t12\t\t1.\t0.\t1.+0\nGRID          13        1.0000001.0000001.000000\nGRID,14,,0.,1.,1.0D0\n"
+         "GRID,20,,5.-1,.5,2.\nCHEXA          1       7       1       2       3       4      11      12+A\n+A            13      14\n"
+         "CPYRAM,2,7,11,12,13,14,20\nCQUAD4         5       9       1       4       3       2\nCBAR,6,3,1,2,0.,0.,1.\nPLOTEL,9,3,4\n"
+         "PSOLID,7,1\nMAT1,1,2.+5,,.3\nENDDATA\n";
+}
+
+inline std::string nastran_planar() {
+  return "GRID,1,,0,0\r\nGRID,2,,1.,0.\r\nGRID,3,,1.,1.\r\nGRID,4,,0.,1.50\r\nGRID,5,,2.,0.\r\nGRID,6,,2.,1.,0.25\r\n"
+         "CTRIA3,1,1,1,2,3\r\nCTRIA3,2,1,1,3,4\r\nCQUAD4,3,,2,5,6,3\r\nCROD,4,2,1,2\r\n";
+}
+
+inline std::string sms_2dm() {
+  return "MESH2D\nMESHNAME \"a square\"\nNUM_MATERIALS_PER_ELEM 1\nE3T 1 1 2 3 1\nE3T 2 1 3 4 2\nE4Q 9 2 5 6 3 1\nE2L 10 1 2 4\n"
+         "ND 1 0.0 0.0 -10.5\nND 2 1.0 0 -11\nND 3 1 1 12.\nND 4 0 1.50 1.3e1\nND 5 2 0 0\nND 6 2 1 0\nNS 1 2\nNS -5 3 \"sea side\"\nNS 4 "
+         "3 -6\n"
+         "NS -6 7\nBEGPARAMDEF\nGM  \"Mesh\"\nENDPARAMDEF\nBEG2DMBC\nMAT  2 \"reed bed\"\nEND2DMBC\n";
+}
+
+// A hexahedron below a pyramid, a quadrilateral and a point beside them.
+inline std::string xdmf_mixed() {
+  return "<?xml version=\"1.0\" ?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n<Xdmf Version=\"3.0\">\n<!-- two solids -->\n<Domain>\n"
+         "<Grid Name=\"two &amp; more\" GridType=\"Uniform\">\n<Geometry GeometryType=\"XYZ\"><DataItem DataType=\"Float\" Dimensions=\"9 "
+         "3\" "
+         "Format=\"XML\" Precision=\"8\">0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1.50\n0 1 1\n.5 5e-1 2</DataItem></Geometry>\n"
+         "<Topology TopologyType=\"Mixed\" NumberOfElements=\"4\"><DataItem DataType=\"Int\" Dimensions=\"23\" Format=\"XML\">9 0 1 2 3 4 "
+         "5 6 7\n"
+         "5 0 3 2 1 1 1 8\n7 4 5 6 7 8</DataItem></Topology>\n<Attribute Name=\"depth\" AttributeType=\"Scalar\" Center=\"Node\">"
+         "<DataItem Dimensions=\"9\">1 2 3 4 5 6 7 nan 9</DataItem></Attribute>\n<Attribute Name=\"flow\" Center=\"Cell\"><DataItem "
+         "NumberType=\"Int\" Precision=\"8\" Dimensions=\"4 2\">1 2 3 4 5 6 7 8</DataItem></Attribute>\n<Set Name=\"top\" SetType=\"Node\">"
+         "<DataItem Dimensions=\"2\">8 7</DataItem></Set>\n<Set Name=\"tip\" SetType=\"Cell\"><DataItem>1 3</DataItem></Set>\n"
+         "<Information Name=\"x\"/></Grid></Domain></Xdmf>\n";
+}
+
+inline std::string xdmf_planar() {
+  return "<Xdmf>\n<Domain><Grid GridType=\"Collection\"><Grid><Topology Type=\"Triangle\" Dimensions=\"2\" BaseOffset=\"1\">\n<DataItem>1 "
+         "2 3 1 3 "
+         "4</DataItem></Topology><Geometry Type=\"XY\"><DataItem>\n0 0\n1 0\n1 1\n0 "
+         "1.50\n</DataItem></Geometry></Grid></Grid></Domain></Xdmf>";
+}
+
 /// At least one file of each format that format_table() names; of a format of two files, both, the byte 0x1e between them.
 inline std::vector<Sample> samples() {
   std::vector<Sample> all{
@@ -336,8 +397,15 @@ inline std::vector<Sample> samples() {
       {"planar", "medit",
        "MeshVersionFormatted 1\nDimension 2\nTriangles 2 1 2 3 5 1 3 4 0\nEdges 1 1 2 4\nQuadrilaterals 1\n2 5 6 3 5\n"
        "Vertices 6\n0 0 0\n1 0 0\n1 1 0\n0 1.50 0\n2 0 0\n2 1e0 0\nRequiredVertices 1 1\nEnd\n"},
+      {"volume", "abaqus", abaqus_volume()},
+      {"planar", "abaqus", abaqus_planar()},
+      {"strings", "2dm", sms_2dm()},
+      {"volume", "nastran", nastran_volume()},
+      {"planar", "nastran", nastran_planar()},
   };
   if (format_by_extension(".vtu") != nullptr) {  // not in every build
+    all.push_back({"mixed", "xdmf", xdmf_mixed()});
+    all.push_back({"planar", "xdmf", xdmf_planar()});
     for (const auto& [name, bytes] : vtu_samples()) all.push_back({std::string(name), "vtu", std::string(bytes)});
   }
   return all;

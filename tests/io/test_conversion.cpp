@@ -15,6 +15,15 @@
 namespace dmoscope::testing {
 namespace {
 
+/// Faces of the same vertices in the same order; formats that name them as sides of elements begin with another corner.
+bool same_faces(const ElementTable& a, const ElementTable& b) {
+  if (a.size() != b.size()) return false;
+  for (Index f = 0; f < a.size(); ++f) {
+    if (!std::ranges::is_permutation(a.corners(f), b.corners(f))) return false;
+  }
+  return true;
+}
+
 TEST(Conversion, EverySampleToEveryFormat) {
   int converted = 0;
   for (const Sample& sample : samples()) {
@@ -37,7 +46,8 @@ TEST(Conversion, EverySampleToEveryFormat) {
         EXPECT_FALSE(written.notes.empty());
         continue;
       }
-      EXPECT_NO_THROW(check_same(mesh, mesh.positions, again, format.name != "stl", again.source->layout().components == 3));
+      EXPECT_NO_THROW(
+          check_same(mesh, narrowed(format.name, mesh.positions), again, format.name != "stl", again.source->layout().components == 3));
       for (const Field& field : mesh.fields) {
         bool named = false;
         for (const std::string& note : written.notes) named = named || note.find(field.name) != std::string::npos;
@@ -53,8 +63,7 @@ TEST(Conversion, EverySampleToEveryFormat) {
         bool named = false;
         for (const std::string& note : written.notes) named = named || note.find(group.name) != std::string::npos;
         bool kept = false;
-        for (const Group& other : again.groups)
-          kept = kept || (other.members == group.members && std::ranges::equal(other.faces.all_corners(), group.faces.all_corners()));
+        for (const Group& other : again.groups) kept = kept || (other.members == group.members && same_faces(other.faces, group.faces));
         EXPECT_TRUE(named || kept) << "group " << group.name << " is lost without a word";
       }
     }

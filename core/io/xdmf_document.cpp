@@ -1,0 +1,141 @@
+#include "core/io/xdmf_document.h"
+
+#include <algorithm>
+#include <limits>
+#include <new>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/io/tokenizer.h"
+
+namespace dmoscope {
+namespace {
+
+/// A number that may be infinite or NaN.
+double any_double(Tokenizer& tokens) {
+  double value = 0.0;
+  std::size_t begin = 0;
+  if (tokens.take_double(value, begin)) return value;
+  const std::string_view token = tokens.read_token("a number");
+  std::string_view letters = token;
+  const bool negative = letters.starts_with('-');
+  if (negative || letters.starts_with('+')) letters.remove_prefix(1);
+  if (equal_ignoring_case(letters, "nan")) return std::numeric_limits<double>::quiet_NaN();
+  if (equal_ignoring_case(letters, "inf") || equal_ignoring_case(letters, "infinity")) {
+    return negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+  }
+  return tokens.parse_double(token, "a number");
+}
+
+}  // namespace
+
+TextSyntax xdmf_text_syntax() { return {.comment = '<', .comma_is_blank = false, .backslash_joins_lines = false, .free_form = true}; }
+
+XdmfDocument::XdmfDocument(const SourceFile& source, Progress& progress) : source_(source), progress_(progress), xml_(source.bytes()) {
+  // Nothing that would change the text: its places in the file are needed.
+  const pugi::xml_parse_result result =
+      document_.load_buffer_inplace(xml_.data(), xml_.size(), pugi::parse_minimal | pugi::parse_escapes, pugi::encoding_utf8);
+  if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
+  if (!result) {
+    fail_at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)),
+            fmt::format("not well-formed XML: {}", result.description()));
+  }
+  if (!document_.child("Xdmf")) fail_at(0, "an XDMF file holds an element Xdmf, this one does not");
+}
+
+pugi::xml_node XdmfDocument::grid() const {
+  pugi::xml_node parent = document_.child("Xdmf").child("Domain");
+  if (!parent) fail(document_.child("Xdmf"), "no Domain");
+  for (;;) {
+    const pugi::xml_node grid = parent.child("Grid");
+    if (!grid) fail(parent, "no Grid");
+    if (grid.next_sibling("Grid")) {
+      const auto count = std::distance(parent.children("Grid").begin(), parent.children("Grid").end());
+      fail(parent, fmt::format("{} grids (time steps, or pieces of a mesh): one is read; save it as a file of its own", count));
+    }
+    const std::string_view type = grid.attribute("GridType").value();
+    if (type.empty() || equal_ignoring_case(type, "Uniform")) return grid;
+    if (!equal_ignoring_case(type, "Collection") && !equal_ignoring_case(type, "Tree")) {
+      fail(grid, fmt::format("GridType {} is not read: Uniform is", quote_token(type)));
+    }
+    parent = grid;
+  }
+}
+
+pugi::xml_node XdmfDocument::item(pugi::xml_node of) const {
+  const pugi::xml_node found = of.child("DataItem");
+  if (!found) fail(of, "no DataItem");
+  if (found.next_sibling("DataItem")) fail(of, "several DataItems, where one is read");
+  return found;
+}
+
+std::string_view XdmfDocument::attribute(pugi::xml_node node, const char* name, const char* other_name) {
+  const std::string_view found = node.attribute(name).value();
+  return found.empty() ? std::string_view(node.attribute(other_name).value()) : found;
+}
+
+template <class Value, class Read>
+std::vector<Value> XdmfDocument::values(pugi::xml_node item, std::vector<std::uint64_t>* places, Read read) const {
+  const std::string_view type = item.attribute("ItemType").value();
+  if (!type.empty() && !equal_ignoring_case(type, "Uniform"))
+    fail(item, fmt::format("ItemType {} is not read: Uniform is", quote_token(type)));
+  if (item.attribute("Reference")) fail(item, "references to other elements are not read");
+  const std::string_view format = item.attribute("Format").value();
+  if (!format.empty() && !equal_ignoring_case(format, "XML")) {
+    fail(item, fmt::format("its numbers are in another file ({}), which is not read: save the mesh with its numbers in the XML, or as VTU",
+                           quote_token(format)));
+  }
+  std::size_t begin = 0, end = 0;
+  for (const pugi::xml_node child : item) {
+    if (child.type() != pugi::node_pcdata && child.type() != pugi::node_cdata) fail(item, "something else stands among its numbers");
+    if (end != 0) fail(item, "its numbers are in several parts");
+    begin = static_cast<std::size_t>(std::max<std::ptrdiff_t>(child.offset_debug(), 0));
+    end = std::min(source_.bytes().find('<', begin), source_.bytes().size());
+  }
+  Tokenizer tokens(source_.bytes().substr(0, end), source_.path().string(), xdmf_text_syntax(), progress_);
+  tokens.seek(begin, line_at(begin));
+  std::vector<Value> found;
+  while (!tokens.at_end()) {
+    if (places != nullptr) places->push_back(tokens.offset());
+    found.push_back(read(tokens));
+  }
+  std::size_t expected = 1;
+  Progress unwatched;
+  Tokenizer sizes(item.attribute("Dimensions").value(), source_.path().string(), {}, unwatched);
+  while (!sizes.at_end()) {
+    std::int64_t size = -1;
+    std::size_t at = 0;
+    if (!sizes.take_integer(size, at) || size < 0 || (size > 0 && expected > source_.bytes().size() / static_cast<std::size_t>(size))) {
+      fail(item, fmt::format("Dimensions {} are no sizes of what it holds", quote_token(item.attribute("Dimensions").value())));
+    }
+    expected *= static_cast<std::size_t>(size);
+  }
+  if (item.attribute("Dimensions") && found.size() != expected) {
+    fail(item, fmt::format("{} numbers, but its Dimensions say {}", found.size(), expected));
+  }
+  return found;
+}
+
+std::vector<double> XdmfDocument::numbers(pugi::xml_node item, std::vector<std::uint64_t>* places) const {
+  return values<double>(item, places, any_double);
+}
+
+std::vector<std::int64_t> XdmfDocument::wholes(pugi::xml_node item) const {
+  return values<std::int64_t>(item, nullptr, [](Tokenizer& tokens) { return tokens.read_integer("a whole number"); });
+}
+
+void XdmfDocument::fail(pugi::xml_node node, const std::string& what) const {
+  fail_at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0)), fmt::format("{}: {}", node.name(), what));
+}
+
+void XdmfDocument::fail_at(std::size_t offset, const std::string& what) const {
+  throw InputError(source_.path().string(), line_at(std::min(offset, source_.bytes().size())), what);
+}
+
+std::size_t XdmfDocument::line_at(std::size_t offset) const {
+  Progress unwatched;
+  return Tokenizer(source_.bytes(), {}, {}, unwatched).line_at(offset);
+}
+
+}  // namespace dmoscope

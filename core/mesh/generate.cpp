@@ -17,7 +17,7 @@ struct Generator {
   std::size_t smallest, largest;  // range of size
 };
 
-constexpr std::size_t kGenerators = 14;
+constexpr std::size_t kGenerators = 16;
 constexpr std::array<GeneratorInfo, kGenerators> kInfos{{
     {"coast", "an irregular coastline with islands and an open sea; triangles graded from fine at the coast to coarse offshore", 4000},
     {"block", "fifteen blocks of triangles that meet in irregular vertices, smoothly distorted", 2500},

@@ -51,6 +51,9 @@ Run& begin_run(Session& session, const std::shared_ptr<const InputMesh>& input, 
   if (session.run_count() != 1)
     throw UsageError(fmt::format("--resume {}: a session of several runs is no checkpoint", options.resume.string()));
   refuse_another_run(session.active(), parameters, options.resume);
+  const Run& run = session.active();
+  if (!run.edits().all().empty() || !run.moment().is_iteration_end() || run.history().records().size() != run.moment().iteration + 1)
+    throw UsageError(fmt::format("--resume {}: it was stepped by hand, which is no checkpoint", options.resume.string()));
   return session.active();
 }
 
@@ -75,8 +78,8 @@ void Checkpoints::after_iteration() {
 
 void Checkpoints::save() {
   Progress unwatched;
+  last_ = Clock::now();  // also of one that fails: the next try is not at once
   save_state(options_.file, session_, {}, unwatched);
-  last_ = Clock::now();
   if (ending_)
     complain(fmt::format("{}: saved at iteration {}; --resume goes on from there", options_.file.string(),
                          session_.active().moment().iteration));

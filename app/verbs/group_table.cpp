@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "app/console.h"
 #include "core/mesh/group_facts.h"
 #include "core/mesh/materials.h"
 
@@ -28,9 +29,8 @@ void print_groups(const Mesh& mesh, std::size_t most) {
                     group.number ? std::to_string(*group.number) : "-", group.name, std::string(group.of), grouped(group.members),
                     grouped(group.vertices)});
   }
-  fmt::print("\n{}", text_table({"group", "dimension", "id", "name", "of", "count", "vertices"}, rows, "lrrllrr"));
-  if (groups.size() > most)
-    fmt::print("and {} (dmoscope info FILE lists all)\n", counted(groups.size() - most, "more group", "more groups"));
+  print_lines("\n" + text_table({"group", "dimension", "id", "name", "of", "count", "vertices"}, rows, "lrrllrr"));
+  if (groups.size() > most) print("and {} (dmoscope info FILE lists all)\n", counted(groups.size() - most, "more group", "more groups"));
 }
 
 void print_fields(const Mesh& mesh) {
@@ -40,7 +40,7 @@ void print_fields(const Mesh& mesh) {
     rows.push_back({field.name, std::string(place_of(field)), std::to_string(field.components), field.type,
                     names_materials(field) ? "names materials" : ""});
   }
-  fmt::print("\n{}", text_table({"data", "of", "numbers", "type", ""}, rows, "llrll"));
+  print_lines("\n" + text_table({"data", "of", "numbers", "type", ""}, rows, "llrll"));
 }
 
 Json json_of_groups(const Mesh& mesh) {

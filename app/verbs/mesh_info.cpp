@@ -52,12 +52,12 @@ void tell_mesh(const std::filesystem::path& file, bool json) {
     if (counts[k] == 0) continue;
     kinds += (kinds.empty() ? "" : ", ") + counted(counts[k], kElementKinds[k].name, kElementKinds[k].plural);
   }
-  fmt::print("{}: {}, {}\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"), kinds);
-  if (!mesh.title.empty()) fmt::print("{}\n", mesh.title);
+  print("{}: {}, {}\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"), kinds);
+  if (!mesh.title.empty()) print("{}\n", mesh.title);
   print_groups(mesh, std::numeric_limits<std::size_t>::max());
   print_fields(mesh);
   if (const std::string sentence = input->interfaces.sentence("--interfaces free"); !sentence.empty())
-    fmt::print("\nwhen it is smoothed, {}\n", sentence);
+    print("\nwhen it is smoothed, {}\n", sentence);
 }
 
 }  // namespace dmoscope::app

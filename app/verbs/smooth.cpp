@@ -220,7 +220,10 @@ std::optional<LeftInverted> tell_left_inverted(const Run& run, const std::shared
   std::optional<LeftInverted> left = find_left_inverted(run);
   if (!left) return left;
   warn(left->sentence());
-  if (std::string hint = untangling_hint(run, input, pool, progress); !hint.empty()) warn(std::move(hint));
+  try {
+    if (std::string hint = untangling_hint(run, input, pool, progress); !hint.empty()) warn(std::move(hint));
+  } catch (const Cancelled&) {  // what was asked for has been written
+  }
   return left;
 }
 
@@ -272,13 +275,13 @@ int smooth(const Options& options) {
     return done;
   };
   checkpoints.set_running(true);
-  const Outcome outcome = carrying_on(run, smooth_all, warn);
+  Outcome outcome = carrying_on(run, smooth_all, warn);
   checkpoints.set_running(false);
   require_at_goal(run, outcome);
   const double seconds = smoothing_seconds(run);
   tell_missing_phase(run, outcome, warn);
   go_to_what_is_written(run, options, progress, warn);
-  std::optional<LeftInverted> left = tell_left_inverted(run, input, pool, progress, warn);
+  outcome.inverted = run.history().records()[run.moment().iteration].statistics.inverted;
 
   std::optional<Provenance> provenance;
   if (options.json || options.provenance) provenance = provenance_of(input->mesh, options.command_line);
@@ -290,6 +293,7 @@ int smooth(const Options& options) {
     const std::string seen = seen_as_floats(*input, run.positions(), run.parameters().metric, pool.get());
     if (!seen.empty()) warn(fmt::format("{}: {}", options.output.string(), seen));
   }
+  std::optional<LeftInverted> left = tell_left_inverted(run, input, pool, progress, warn);
   const Result result{options, run, pool->size(), outcome, seconds, std::move(left), std::move(warnings), std::move(provenance)};
   if (options.json) {
     print_json(json_of(result));

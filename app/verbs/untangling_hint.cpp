@@ -10,11 +10,14 @@ namespace dmoscope::app {
 std::string untangling_hint(const Run& run, std::shared_ptr<const InputMesh> input, std::shared_ptr<ThreadPool> pool, Progress& progress) {
   constexpr std::uint64_t kMostVisits = 2'000'000, kMostIterations = 100;
   const std::uint64_t iterations = std::min(kMostIterations, kMostVisits / std::max<std::uint64_t>(run.visits_per_iteration(), 1));
-  Index fewest = run.history().records().back().statistics.inverted;
+  Index fewest = run.history().records()[run.moment().iteration].statistics.inverted;
   std::string hint;
   for (const std::string_view method : {"dmo", "laplace", "angle-based"}) {
     if (method == run.parameters().method || (input->is_volume() && method_info(method).planar_only)) continue;
-    RunParameters parameters{.method = std::string(method), .metric = run.parameters().metric, .fixed = run.parameters().fixed};
+    RunParameters parameters = run.parameters();
+    parameters.method = method;
+    parameters.combination.reset();
+    parameters.then_mean.reset();
     parameters.backend = Backend::Cpu;
     Run other(input, std::move(parameters), pool, 0);
     for (std::uint64_t i = 1; i <= iterations && fewest > 0; ++i) {

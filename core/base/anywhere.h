@@ -5,8 +5,10 @@
 /// same: where such a function calls one that is the host's, nvcc drops the code without a word; from a marked one it is an error.
 #if defined(__CUDACC__)
 #define DMOSCOPE_ANYWHERE __host__ __device__ constexpr
+#define DMOSCOPE_INLINE __forceinline__
 #else
 #define DMOSCOPE_ANYWHERE constexpr
+#define DMOSCOPE_INLINE  // put into a device's code where it is called: a call would keep in memory what is in registers else
 #endif
 
 /// For loops over a few numbers that a GPU's lane must keep in registers: there only indices known to the compiler do. Elsewhere the

@@ -188,9 +188,9 @@ template <class Real, class Point, class Team>
 /// centred on the best position so far, `omega` times 2 / (n - 1) as large as the one before (paper eq. 5). `start`: where that is better
 /// than the current position, the first grid is centred there. Point: of the plane or of space.
 template <class Real, class ObjectiveAt, class Point = Vec2<Real>, class Trace = NoTrace, class Team = Solo>
-[[nodiscard]] DMOSCOPE_ANYWHERE Candidate<Real, Point> grid_search(const ObjectiveAt& objective, Point box,
-                                                                   const SearchParameters& parameters, Trace&& trace = {},
-                                                                   const Team& team = {}, const Point* start = nullptr) {
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Candidate<Real, Point> grid_search(const ObjectiveAt& objective, Point box,
+                                                                                   const SearchParameters& parameters, Trace&& trace = {},
+                                                                                   const Team& team = {}, const Point* start = nullptr) {
   using scalar::select;
   Candidate<Real, Point> best{{}, objective(Point{})};
   trace.begin(best.objective);

@@ -18,10 +18,10 @@ namespace dmoscope {
 
 /// How the visits of an iteration treat stars with inverted elements.
 struct Untangling {
-  /// Whether sound elements of such a star may get worse, though not inverted, for the sake of the inverted ones; else the sound ones are
-  /// raised and no inverted one may get worse.
+  /// Whether sound elements of such a star may get worse, though no more of them inverted, for the sake of the inverted ones; else the
+  /// sound ones are raised and no inverted one may get worse.
   bool attempt = true;
-  /// The least metric of the mesh when the iteration began: no element may fall below it, or below what its star had.
+  /// The least metric of the elements that can move when the iteration began: no element may fall below it, or below what its star had.
   double floor = -std::numeric_limits<double>::infinity();
   friend bool operator==(const Untangling&, const Untangling&) = default;
 };
@@ -163,7 +163,7 @@ class UntanglingObjective {
  public:
   static constexpr double kForbidden = -1e9;
 
-  DMOSCOPE_ANYWHERE UntanglingObjective(StarT star, const Untangling& rule) : star_(star), rule_(rule) {
+  DMOSCOPE_INLINE DMOSCOPE_ANYWHERE UntanglingObjective(StarT star, const Untangling& rule) : star_(star), rule_(rule) {
     int element = 0;
     star_.template for_each<kOthers>([&](const auto& each) {
       const auto shape = each.with(Point{});
@@ -180,7 +180,7 @@ class UntanglingObjective {
   /// Is an element inverted where the vertex stands now, by a corner that changes with it?
   [[nodiscard]] DMOSCOPE_ANYWHERE bool tangled() const { return !(jacobian_ > 0.0 && quality_ > 0.0); }
 
-  [[nodiscard]] DMOSCOPE_ANYWHERE double operator()(Point p) const { return rule_.attempt ? attempt(p) : hold(p); }
+  [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double operator()(Point p) const { return rule_.attempt ? attempt(p) : hold(p); }
 
  private:
   static constexpr bool kOthers = formulas::kDefinedForOthers<M, Point>;
@@ -189,7 +189,7 @@ class UntanglingObjective {
   static DMOSCOPE_ANYWHERE double bounded(double a) { return a / (1.0 - a); }
 
   /// The metrics of sound elements are needed only where all are sound: they cost most.
-  [[nodiscard]] DMOSCOPE_ANYWHERE double attempt(Point p) const {
+  [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double attempt(Point p) const {
     UntanglingMean mean[2];
     double least = kMost;
     int count = 0;
@@ -214,7 +214,7 @@ class UntanglingObjective {
     return bounded(scalar::min(mean[0].value() - UntanglingMean::kEnough, 0.0));
   }
 
-  [[nodiscard]] DMOSCOPE_ANYWHERE double hold(Point p) const {
+  [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double hold(Point p) const {
     double sound = kMost, around = kMost, quality = kMost;
     int element = 0, count = 0;
     bool allowed = true;
@@ -242,7 +242,7 @@ class UntanglingObjective {
     if (InvertedSet::keeps(i)) return inverted_.has(i);
     return corner_jacobians(each.with(Point{}), each.kMoving, [](double) {}).whole <= 0.0;
   }
-  [[nodiscard]] DMOSCOPE_ANYWHERE double least_metric(Point p) const {
+  [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double least_metric(Point p) const {
     double quality = kMost;
     star_.template for_each<kOthers>(
         [&](const auto& each) { quality = scalar::min(quality, formulas::metric_around<M>(each.with(p), each.kMoving)); });

@@ -202,6 +202,7 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
   // Where we stand now may be the midst of an iteration, of which the history has no record.
   from = std::min(from, at_.moment.iteration);  // after a failure the run may stand before it
   const Statistics start = from < at_.moment.iteration ? history_.records()[from].statistics : recovering([this] { return statistics(); });
+  outcome.inverted = start.inverted;
   std::uint64_t reached = from;
   double minimum = start.minimum, movable = start.movable_minimum, mean = start.mean;
   std::uint64_t since_rise = 0, quiet = 0;  // quiet: iterations in a row in which nothing moved

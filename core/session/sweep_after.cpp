@@ -18,7 +18,7 @@ Sweep sweep_after(std::span<const IterationRecord> records, std::uint64_t iterat
   const std::uint64_t since = iterations_since_untangled(records, iteration);
   const std::uint64_t in_cycle = since % UntanglingPlan::kCycle;
   sweep.untangling.attempt = since < UntanglingPlan::kEnd && in_cycle >= 1 && in_cycle <= UntanglingPlan::kAttempt;
-  sweep.untangling.floor = now.minimum;
+  sweep.untangling.floor = now.movable_minimum;
   return sweep;
 }
 

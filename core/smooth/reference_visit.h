@@ -33,7 +33,8 @@ struct StarState {
 
 /// With the vertex at `place`. Frame: Plane or Space.
 template <Metric M, class Frame>
-[[nodiscard]] DMOSCOPE_ANYWHERE StarState star_state(const MeshView<Frame>& mesh, PositionView positions, Index vertex, Vec3 place) {
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE StarState star_state(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
+                                                                     Vec3 place) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   StarState state{kInfinity, kInfinity, 0.0, 0, kInfinity};
   UntanglingMean mean;
@@ -58,7 +59,8 @@ template <Metric M, class Frame>
 
 /// Is every element of the star that is sound where the vertex stands sound with it at `target`, too?
 template <class Frame>
-[[nodiscard]] DMOSCOPE_ANYWHERE bool keeps_sound(const MeshView<Frame>& mesh, PositionView positions, Index vertex, Vec3 target) {
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE bool keeps_sound(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
+                                                                 Vec3 target) {
   for (const Incidence& incidence : mesh.star(vertex)) {
     const auto is_inverted = [&](Vec3 place) {
       const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
@@ -72,8 +74,8 @@ template <class Frame>
 
 /// Exactly: would the vertex gain by standing at `target`? A search may be in float and in other rounding than the statistics.
 template <Metric M, class Frame>
-[[nodiscard]] DMOSCOPE_ANYWHERE bool gains_at(const MeshView<Frame>& mesh, PositionView positions, Index vertex, Vec3 target,
-                                              const Untangling& rule) {
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE bool gains_at(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
+                                                              Vec3 target, const Untangling& rule) {
   const StarState before = star_state<M>(mesh, positions, vertex, positions[vertex]);
   if (!star_state<M>(mesh, positions, vertex, target).better_than(before, rule)) return false;
   return rule.attempt || before.jacobian > 0.0 || keeps_sound(mesh, positions, vertex, target);
@@ -82,8 +84,8 @@ template <Metric M, class Frame>
 /// The untangling objective costs more and is needed only where an element of the star is inverted now. Returns the offset, in units of the
 /// star's scale. Point: of the plane or of space.
 template <Metric M, class StarT, class Point, class Team = Solo, class Trace = NoTrace>
-[[nodiscard]] DMOSCOPE_ANYWHERE Point search_star(const StarT& star, Point box, const SearchParameters& parameters, const Untangling& rule,
-                                                  const Team& team = {}, Trace&& trace = {}) {
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Point search_star(const StarT& star, Point box, const SearchParameters& parameters,
+                                                                  const Untangling& rule, const Team& team = {}, Trace&& trace = {}) {
   const UntanglingObjective<M, StarT, Point> untangling(star, rule);
   if (untangling.tangled()) {
     const Point middle = middle_of<Point>(star);

@@ -89,8 +89,8 @@ TEST(Script, OverwritesNeitherItsMeshesNorItself) {
   const Folder folder;
   const std::string mesh = folder.file("mm.off", kTriangles), script = folder / "s.txt";
   fs::create_symlink("mm.off", folder / "link.csv");
-  for (const std::string line : {"stats " + mesh, "elements " + mesh, "export " + mesh, "save-state " + mesh,
-                                 "stats " + (folder / "link.csv"), "screenshot --window " + mesh, "stats " + script}) {
+  for (const std::string& line : {"stats " + mesh, "elements " + mesh, "export " + mesh, "save-state " + mesh,
+                                  "stats " + (folder / "link.csv"), "screenshot --window " + mesh, "stats " + script}) {
     const std::string text = "export \"" + (folder / "first.off") + "\"\nopen \"" + mesh + "\"\n" + line + "\n";
     const Output output = run({"script", folder.file("s.txt", text)});
     EXPECT_EQ(output.code, 2) << line << output.err;

@@ -175,7 +175,9 @@ TEST(WriteMesh, EveryFormatUndoesTheFlipOfEveryKindOfThePlane) {
       Progress progress;
       try {
         const auto notes = write_mesh(folder / name, turned, turned.positions, progress);
-        if (dimension == 3) EXPECT_THAT(notes, testing::Contains(HasSubstr("4 elements that were wound inside out")));
+        if (dimension == 3) {
+          EXPECT_THAT(notes, testing::Contains(HasSubstr("4 elements that were wound inside out")));
+        }
       } catch (const OutputError&) {
         continue;  // cannot hold these kinds
       }

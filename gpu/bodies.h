@@ -25,7 +25,7 @@ inline DMOSCOPE_LANE void move(const Task& task, Index rank, const double* targe
 template <Metric M>
 struct ExactVisit {
   template <class Team>
-  static DMOSCOPE_LANE void run(const Task& task, Deferred d, const Team& team) {
+  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void run(const Task& task, Deferred d, const Team& team) {
     if (!d.has_target) search(task, d, team);
     if (team.lane() == 0) judge(task, d);
   }
@@ -33,7 +33,7 @@ struct ExactVisit {
  private:
   /// Fills the target.
   template <class Team>
-  static DMOSCOPE_LANE void search(const Task& task, Deferred& d, const Team& team) {
+  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void search(const Task& task, Deferred& d, const Team& team) {
     const PositionView positions = positions_of(task);
     const Index vertex = task.vertex_of_rank[d.rank];
     const MeshStar<Plane> star(task.mesh, positions, vertex);
@@ -44,7 +44,7 @@ struct ExactVisit {
     d = {d.rank, true, {to.x, to.y, to.z}};
   }
 
-  static DMOSCOPE_LANE void judge(const Task& task, const Deferred& d) {
+  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void judge(const Task& task, const Deferred& d) {
     const Vec3 target{d.target[0], d.target[1], d.target[2]};
     if (d.has_target && gains_at<M>(task.mesh, positions_of(task), task.vertex_of_rank[d.rank], target, task.untangling))
       move(task, d.rank, d.target);
@@ -57,7 +57,7 @@ struct ExactVisit {
 template <Metric M, Stars S, bool AtOnce = false>
 struct Visit {
   template <class Team>
-  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& team) {
+  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& team) {
     const auto rank = static_cast<Index>(task.first + i);
     if (!is_set(task.awake + rank)) return;
     const StarShape shape = task.shapes[rank];
@@ -87,7 +87,7 @@ struct Visit {
 template <Metric M>
 struct Settle {
   template <class Team>
-  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t count, const Team& team) {
+  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t count, const Team& team) {
     const std::size_t all = *task.deferred_count;
     for (std::size_t k = i; k < all; k += count) ExactVisit<M>::run(task, task.deferred[k], team);
   }

@@ -33,7 +33,7 @@ struct VisitSolid {
     return search_star<M>(star, star.star().box(), task.parameters, task.untangling, team);
   }
 
-  static DMOSCOPE_LANE void judge(const Task& task, Index rank, Vec3 offset) {
+  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void judge(const Task& task, Index rank, Vec3 offset) {
     const VolumeView mesh = volume_of(task);
     const PositionView positions = positions_of(task);
     const Index vertex = task.vertex_of_rank[rank];

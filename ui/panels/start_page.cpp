@@ -77,7 +77,7 @@ void draw_start_page(PanelContext& context, const Rect& rect) {
   const float width = columns * card + (columns - 1) * gap;
   const float header = 9.2F * em, each = (rect.h - header - 1.5F * em) / rows;
   const float below = ImGui::GetTextLineHeight() + context.px(8) + ImGui::GetStyle().ItemSpacing.y;
-  const CardSize size{std::clamp(each - below, 2.0F * em, card), card};
+  const CardSize size{std::clamp(each - below, 1.4F * em, card), card};
   const float line = ImGui::GetTextLineHeightWithSpacing();
   const float recent = context.state.recent_files.empty()
                            ? 0.0F

@@ -2,7 +2,7 @@
 #
 #   DMOSCOPE_CUDA_ARCHITECTURES  all      machine code for every GPU from compute capability 7.5 to 12.0 that the toolkit knows, and
 #                                         PTX of the newest, from which drivers make code for later ones (the default)
-#                                native   machine code for this machine's GPUs (where none is found, 9.0) and PTX of the oldest: quick to build
+#                                native   machine code for this machine's GPUs, where there are any, and PTX of the oldest: quick to build
 #                                a list   as CMake's CUDA_ARCHITECTURES, e.g. 90-real;75-virtual
 set(DMOSCOPE_CUDA_ARCHITECTURES "all" CACHE STRING "What the CUDA code is compiled for: all, native, or a list such as 90-real;75-virtual")
 set(DMOSCOPE_USES_CUDA OFF)
@@ -27,9 +27,6 @@ endfunction()
 function(dmoscope_native_architectures output)
   execute_process(COMMAND nvidia-smi --query-gpu=compute_cap --format=csv,noheader OUTPUT_VARIABLE shown ERROR_QUIET)
   string(REGEX MATCHALL "[0-9]+\\.[0-9]+" found "${shown}")
-  if(NOT found)
-    set(found 9.0)
-  endif()
   list(TRANSFORM found REPLACE "\\." "")
   list(REMOVE_DUPLICATES found)
   list(TRANSFORM found APPEND "-real")

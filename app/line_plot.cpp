@@ -23,7 +23,7 @@ constexpr double kLeft = 70.0, kTop = 92.0, kBottom = 84.0, kGap = 24.0;
 constexpr double kRow = 21.0, kSample = 34.0, kText = 12.0;
 constexpr double kWidthOfALetter = 0.62 * kText;  // of DejaVu Sans, generously: other fonts are narrower
 
-std::string short_number(double value) {
+std::string axis_number(double value) {
   if (value >= 1e6) return fmt::format("{:g} M", value / 1e6);
   return value >= 1e3 ? fmt::format("{:g} k", value / 1e3) : fmt::format("{:g}", value);
 }
@@ -109,7 +109,7 @@ Frame frame_of(const LinePlot& plot) {
 }
 
 void draw_axes(Drawing& drawing, const LinePlot& plot, const Frame& f) {
-  f.x.for_ticks(short_number, [&](double x, const std::string& label) {
+  f.x.for_ticks(axis_number, [&](double x, const std::string& label) {
     drawing.rules.push_back({{{x, f.top}, {x, f.bottom}}, label.empty() ? kFineGrid : kGrid, 1.0});
     if (!label.empty()) drawing.labels.push_back({{x, f.bottom + 18.0}, label, kText, kInk, Drawing::Anchor::Middle});
   });

@@ -30,13 +30,13 @@ std::optional<Outline> outline_of(std::span<const Vec3> polygon, const Projectio
 }
 
 /// The mean of a polygon's corners, and how far it is from its border; 0 where it lies outside.
-struct Room {
+struct LabelRoom {
   Vec2<double> point;
   double radius = 0.0;
 };
 
-Room room_of(std::span<const Vec2<double>> corners) {
-  Room room{{0, 0}, INFINITY};
+LabelRoom room_of(std::span<const Vec2<double>> corners) {
+  LabelRoom room{{0, 0}, INFINITY};
   for (const Vec2<double>& p : corners) room.point = room.point + p;
   room.point = {room.point.x / static_cast<double>(corners.size()), room.point.y / static_cast<double>(corners.size())};
   double side = 0.0;  // of the first edge
@@ -56,9 +56,9 @@ class CellLabels {
   void consider(Index cell, std::span<const Vec3> polygon) {
     const auto outline = outline_of(polygon, depths_.projection());
     if (!outline) return;
-    const Room room = room_of(outline->corners);
+    const LabelRoom room = room_of(outline->corners);
     if (0.5 * std::hypot(label_width(cell, wish_), wish_.line_height) > room.radius || !depths_.shows(outline->on_it)) return;
-    Room& best = rooms_[cell];
+    LabelRoom& best = rooms_[cell];
     if (room.radius > best.radius) best = room;
   }
   void add(std::vector<Label>& labels) const {
@@ -68,7 +68,7 @@ class CellLabels {
  private:
   const DepthMap& depths_;
   const LabelWish& wish_;
-  std::map<Index, Room> rooms_;
+  std::map<Index, LabelRoom> rooms_;
 };
 
 void add_cells(const SeenFaces& seen, const DepthMap& depths, const LabelWish& wish, std::vector<Label>& labels) {

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+
+#include "ui/format.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -194,12 +195,6 @@ constexpr std::array kActions{
     Action{"about", "Help", "About", "", "dialog about"},
 };
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
-
 }  // namespace
 
 std::span<const Action> actions() { return kActions; }
@@ -264,7 +259,7 @@ std::string title_of(const Action& action, const Situation& now) {
 }
 
 std::vector<std::string> search_words(std::string_view query) {
-  const std::string wanted = lower(query);
+  const std::string wanted = lower_case(query);
   std::vector<std::string> words;
   for (std::size_t at = 0; at < wanted.size();) {
     const std::size_t end = std::min(wanted.find(' ', at), wanted.size());
@@ -275,7 +270,7 @@ std::vector<std::string> search_words(std::string_view query) {
 }
 
 bool holds_all(std::string_view text, std::span<const std::string> words) {
-  const std::string low = lower(text);
+  const std::string low = lower_case(text);
   return std::all_of(words.begin(), words.end(), [&](const std::string& word) { return low.find(word) != std::string::npos; });
 }
 
@@ -287,8 +282,8 @@ std::vector<const Action*> search_actions(std::string_view query) {
     for (const std::string_view part : {action.title, action.menu, action.command, action.id}) text.append(part).append("\n");
     if (holds_all(text, words)) found.push_back(&action);
   }
-  const std::string wanted = lower(query);
-  std::stable_partition(found.begin(), found.end(), [&](const Action* action) { return lower(action->title).starts_with(wanted); });
+  const std::string wanted = lower_case(query);
+  std::stable_partition(found.begin(), found.end(), [&](const Action* action) { return lower_case(action->title).starts_with(wanted); });
   return found;
 }
 

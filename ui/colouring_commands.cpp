@@ -91,7 +91,7 @@ void add_colour_verbs(CommandTable& table, ViewState& state, const CommandHost& 
             });
 }
 
-void add_selection_verbs(CommandTable& table, ViewState& state, const CommandHost& host) {
+void add_filter_verbs(CommandTable& table, ViewState& state, const CommandHost& host) {
   table.add({"filter", "filter off|LOW HIGH", "only elements of these qualities count (inverted ones when LOW is 0 or less)"},
             [&state](Arguments words) {
               if (words.size() == 1 && words[0] == "off") {
@@ -165,7 +165,7 @@ void add_label_verbs(CommandTable& table, ViewState& state) {
 
 void add_colouring_verbs(CommandTable& table, ViewState& state, const CommandHost& host) {
   add_colour_verbs(table, state, host);
-  add_selection_verbs(table, state, host);
+  add_filter_verbs(table, state, host);
   add_label_verbs(table, state);
 }
 

@@ -1,27 +1,17 @@
 #include "ui/file_browser.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 
 #include <fmt/format.h>
 
 #include "core/io/mesh_io.h"
 #include "core/session/commands.h"
+#include "ui/format.h"
 
 namespace dmoscope::ui {
-namespace {
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
-
-}  // namespace
-
 bool is_mesh_name(std::string_view name) {
-  const std::string small = lower(name);
+  const std::string small = lower_case(name);
   for (const FormatInfo& format : format_table()) {
     std::string_view extensions = format.extensions;
     while (!extensions.empty()) {
@@ -34,7 +24,9 @@ bool is_mesh_name(std::string_view name) {
   return false;
 }
 
-bool is_session_name(std::string_view name) { return name.size() > kSessionExtension.size() && lower(name).ends_with(kSessionExtension); }
+bool is_session_name(std::string_view name) {
+  return name.size() > kSessionExtension.size() && lower_case(name).ends_with(kSessionExtension);
+}
 
 std::string open_command(const std::string& file) {
   return fmt::format("{} {}", is_session_name(file) ? "open-session" : "open", quote_word(file));
@@ -58,7 +50,7 @@ std::vector<FolderEntry> list_folder(const std::filesystem::path& folder, bool a
   if (code) error = folder.string() + ": " + code.message();
   std::sort(entries.begin(), entries.end(), [](const FolderEntry& a, const FolderEntry& b) {
     if (a.folder != b.folder) return a.folder;
-    const std::string x = lower(a.name), y = lower(b.name);
+    const std::string x = lower_case(a.name), y = lower_case(b.name);
     return x != y ? x < y : a.name < b.name;
   });
   return entries;

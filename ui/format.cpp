@@ -24,6 +24,12 @@ std::string count(std::uint64_t value) { return grouped(value); }
 
 std::string rate(double value) { return std::isfinite(value) ? with_prefix(value) : "–"; }
 
+std::string lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
 std::string without_middle(std::string_view text, std::size_t letters) {
   if (text.size() <= letters) return std::string(text);
   const auto inside = [&](std::size_t at) { return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U; };

@@ -18,6 +18,8 @@ namespace dmoscope::ui {
 [[nodiscard]] std::string count(std::uint64_t value);
 /// "1.61 M" for rates: three digits and a prefix.
 [[nodiscard]] std::string rate(double value);
+/// ASCII letters made small, to compare what people type.
+[[nodiscard]] std::string lower_case(std::string_view text);
 /// At most so many letters (bytes of UTF-8) of a text, "…" in place of its middle: "mean-r…-area".
 [[nodiscard]] std::string without_middle(std::string_view text, std::size_t letters);
 /// "0.041 → 0.734": how well sizes are met, at the input and now; "–" where there are none.

@@ -49,7 +49,7 @@ class SpacePen {
   const InspectionLook& look_;
 };
 
-render::Rgba opaque(render::Rgb colour) { return {colour.r, colour.g, colour.b, 255}; }
+render::Rgba opaque_colour(render::Rgb colour) { return {colour.r, colour.g, colour.b, 255}; }
 
 /// In pixels at scale 1. Other than in a plane all of a grid's slices lie over each other: dots are smaller, that more of them is seen.
 double spacing_of(const SolidLevel& level, const InspectionLook& look) {
@@ -69,11 +69,11 @@ void add_candidates(SpacePen& pen, const SolidLevel& level, const GridSlice& sli
     const double quality = level.quality[static_cast<std::size_t>(index)];
     const float size = slice.place(index) ? 1.0F : kElsewhere;
     if (is_valid(quality)) {
-      pen.dot(level.at(index), size * candidate_diameter(spacing, part_of(valid, quality)), opaque(pen.look().colours.colour(quality)),
-              DotShape::Round);
+      pen.dot(level.at(index), size * candidate_diameter(spacing, part_of(valid, quality)),
+              opaque_colour(pen.look().colours.colour(quality)), DotShape::Round);
     } else {
       const double part = kLargestCross * part_of(invalid, quality);
-      pen.dot(level.at(index), size * candidate_diameter(spacing, part), opaque(kInvalidCandidate), DotShape::Cross);
+      pen.dot(level.at(index), size * candidate_diameter(spacing, part), opaque_colour(kInvalidCandidate), DotShape::Cross);
     }
   }
 }

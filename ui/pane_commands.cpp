@@ -23,7 +23,7 @@ void set_pane(ViewState& state, Arguments words) {
   pane.chosen = pane.content.kind != PaneContent::Kind::Free;
 }
 
-void set_camera(ViewState& state, Arguments words) {
+void set_pane_camera(ViewState& state, Arguments words) {
   need(words, 4, 4);
   const std::size_t pane = to_pane(state, words[0]);
   const render::Camera2D camera{{to_number(words[1]), to_number(words[2])}, to_number(words[3])};
@@ -55,7 +55,7 @@ void add_pane_verbs(CommandTable& table, ViewState& state) {
               state.link_cameras(linked);
             });
   table.add({"pane-camera", "pane-camera K X Y UNITS-PER-PIXEL", "as camera, for one viewport while they are not linked"},
-            [&state](Arguments words) { set_camera(state, words); });
+            [&state](Arguments words) { set_pane_camera(state, words); });
   table.add({"split", "split X", "where the handle of the split view is, 0 (left) to 1"}, [&state](Arguments words) {
     need(words, 1, 1);
     const double at = to_number(words[0]);

@@ -13,7 +13,7 @@ namespace dmoscope::ui {
 
 namespace {
 
-using Kind = PaneContent::Kind;
+using ContentKind = PaneContent::Kind;
 
 }  // namespace
 
@@ -42,7 +42,7 @@ void Panes::set_layout(PaneLayout wanted) {
 
 bool Panes::shows(std::size_t pane, std::uint64_t id) const {
   const PaneContent& content = panes[pane].content;
-  return (content.kind == Kind::Active && id == active_id) || content == PaneContent{Kind::Run, id, std::nullopt};
+  return (content.kind == ContentKind::Active && id == active_id) || content == PaneContent{ContentKind::Run, id, std::nullopt};
 }
 
 std::size_t Panes::follow(const SessionView& session) {
@@ -54,19 +54,19 @@ std::size_t Panes::follow(const SessionView& session) {
   }
   const std::uint64_t active = session.active < session.runs.size() ? session.runs[session.active].id : 0;
   for (Pane& pane : panes) {
-    if (pane.content.kind != Kind::Run || std::ranges::find(run_ids, pane.content.run) != run_ids.end()) continue;
+    if (pane.content.kind != ContentKind::Run || std::ranges::find(run_ids, pane.content.run) != run_ids.end()) continue;
     pane.content = {};
     pane.chosen = false;
   }
   const bool other_run = active_id != active;
   active_id = active;
   if (one()) {
-    if (!panes[0].chosen) panes[0].content = {Kind::Active, 0, std::nullopt};
+    if (!panes[0].chosen) panes[0].content = {ContentKind::Active, 0, std::nullopt};
     return 0;
   }
   fill(count());
   const PaneContent& focused = panes[focus].content;
-  const bool of_another = focused.kind == Kind::Run && !focused.iteration && focused.run != active;
+  const bool of_another = focused.kind == ContentKind::Run && !focused.iteration && focused.run != active;
   return other_run || of_another ? pane_of_active() : focus;
 }
 
@@ -76,24 +76,24 @@ void Panes::fill(std::size_t visible) {
     for (std::size_t k = 0; k < visible; ++k) found = found || shows(k, id);
     return found;
   };
-  const auto vacant = [&](Pane& pane) { return !pane.chosen && pane.content.kind != Kind::Run; };
+  const auto vacant = [&](Pane& pane) { return !pane.chosen && pane.content.kind != ContentKind::Run; };
   const auto end = panes.begin() + static_cast<std::ptrdiff_t>(visible);
   for (const std::uint64_t id : run_ids) {
     if (shown(id)) continue;
     const auto at = std::find_if(panes.begin(), end, vacant);
     if (at == end) break;
-    at->content = {Kind::Run, id, std::nullopt};
+    at->content = {ContentKind::Run, id, std::nullopt};
   }
   if (active_id != 0 && !shown(active_id)) {
     for (auto at = end; at != panes.begin();) {
       if ((--at)->chosen) continue;
-      at->content = {Kind::Run, active_id, std::nullopt};
+      at->content = {ContentKind::Run, active_id, std::nullopt};
       break;
     }
   }
-  const bool has_input = std::any_of(panes.begin(), end, [](const Pane& pane) { return pane.content.kind == Kind::Input; });
-  const auto at = std::find_if(panes.begin(), end, [](const Pane& pane) { return !pane.chosen && pane.content.kind == Kind::Free; });
-  if (!has_input && !run_ids.empty() && at != end) at->content = {Kind::Input, 0, std::nullopt};
+  const bool has_input = std::any_of(panes.begin(), end, [](const Pane& pane) { return pane.content.kind == ContentKind::Input; });
+  const auto at = std::find_if(panes.begin(), end, [](const Pane& pane) { return !pane.chosen && pane.content.kind == ContentKind::Free; });
+  if (!has_input && !run_ids.empty() && at != end) at->content = {ContentKind::Input, 0, std::nullopt};
 }
 
 std::size_t Panes::pane_of_active() const {
@@ -104,19 +104,19 @@ std::size_t Panes::pane_of_active() const {
 
 std::string Panes::words(const PaneContent& content) const {
   switch (content.kind) {
-    case Kind::Active:
+    case ContentKind::Active:
       return "active";
-    case Kind::Input:
+    case ContentKind::Input:
       return "input";
-    case Kind::MarkA:
+    case ContentKind::MarkA:
       return "mark a";
-    case Kind::MarkB:
+    case ContentKind::MarkB:
       return "mark b";
-    case Kind::Run: {
+    case ContentKind::Run: {
       const auto place = std::ranges::find(run_ids, content.run) - run_ids.begin() + 1;
       return content.iteration ? fmt::format("run {} {}", place, *content.iteration) : fmt::format("run {}", place);
     }
-    case Kind::Free:
+    case ContentKind::Free:
       break;
   }
   return "auto";
@@ -125,14 +125,14 @@ std::string Panes::words(const PaneContent& content) const {
 PaneContent Panes::parse(const std::vector<std::string>& words) const {
   const std::string& first = words.empty() ? std::string() : words[0];
   if (words.size() == 1 && first == "auto") return {};
-  if (words.size() == 1 && first == "active") return {Kind::Active, 0, std::nullopt};
-  if (words.size() == 1 && first == "input") return {Kind::Input, 0, std::nullopt};
+  if (words.size() == 1 && first == "active") return {ContentKind::Active, 0, std::nullopt};
+  if (words.size() == 1 && first == "input") return {ContentKind::Input, 0, std::nullopt};
   if (words.size() == 2 && first == "mark" && (words[1] == "a" || words[1] == "b"))
-    return {words[1] == "a" ? Kind::MarkA : Kind::MarkB, 0, std::nullopt};
+    return {words[1] == "a" ? ContentKind::MarkA : ContentKind::MarkB, 0, std::nullopt};
   if (first == "run" && (words.size() == 2 || words.size() == 3)) {
     const std::uint64_t number = to_count(words[1], 1);
     if (number > run_ids.size()) throw UsageError(fmt::format("there is no run {}; the session has {}", number, run_ids.size()));
-    PaneContent content{Kind::Run, run_ids[number - 1], std::nullopt};
+    PaneContent content{ContentKind::Run, run_ids[number - 1], std::nullopt};
     if (words.size() == 3) {
       content.iteration = to_count(words[2]);
       if (*content.iteration > reached[number - 1])

@@ -19,12 +19,12 @@ DrawingColour mixed(render::Rgb colour, render::Rgb background, double strength)
   return {channel(colour.r, background.r), channel(colour.g, background.g), channel(colour.b, background.b)};
 }
 
-struct Frame {
+struct PlotFrame {
   double left, top, right, bottom;
 };
 
 /// The part of the stretch from a to b inside the frame (Liang and Barsky). False: there is none.
-bool clip(Point& a, Point& b, const Frame& f) {
+bool clip(Point& a, Point& b, const PlotFrame& f) {
   const double dx = b.x - a.x, dy = b.y - a.y;
   double t0 = 0.0, t1 = 1.0;
   const auto cut = [&](double step, double room) {  // step * t <= room
@@ -41,7 +41,7 @@ bool clip(Point& a, Point& b, const Frame& f) {
 }
 
 /// The stretches of a line that lie inside the frame.
-std::vector<Points> clipped(const Points& points, const Frame& frame) {
+std::vector<Points> clipped(const Points& points, const PlotFrame& frame) {
   std::vector<Points> parts;
   bool joined = false;  // the last part ends where the next stretch begins
   for (std::size_t k = 1; k < points.size(); ++k) {
@@ -57,7 +57,7 @@ std::vector<Points> clipped(const Points& points, const Frame& frame) {
   return parts;
 }
 
-bool inside(Point p, const Frame& f) { return p.x >= f.left && p.x <= f.right && p.y >= f.top && p.y <= f.bottom; }
+bool inside(Point p, const PlotFrame& f) { return p.x >= f.left && p.x <= f.right && p.y >= f.top && p.y <= f.bottom; }
 
 /// Draws the series of one plot.
 class SeriesDrawer {
@@ -68,7 +68,7 @@ class SeriesDrawer {
   void draw(const Series& one) {
     if (one.strip && !layout_.strip) return;
     const Axis& y = one.strip ? *layout_.strip : layout_.y;
-    const Frame frame{layout_.left, y.to, layout_.right, y.from};
+    const PlotFrame frame{layout_.left, y.to, layout_.right, y.from};
     if (one.kind == Series::Kind::Bars) {
       draw_bars(one, y, frame);
     } else if (one.kind == Series::Kind::Steps) {
@@ -79,14 +79,14 @@ class SeriesDrawer {
   }
 
  private:
-  void add_line(const Series& one, const Points& points, const Frame& frame) {
+  void add_line(const Series& one, const Points& points, const PlotFrame& frame) {
     for (Points& part : clipped(points, frame)) {
       drawing_.lines.push_back(
           {std::move(part), mixed(one.colour, ink_.background, one.strength), one.width * unit_, one.dash * unit_, full_name(plot_, one)});
     }
   }
 
-  void draw_line(const Series& one, const Axis& y, const Frame& frame) {
+  void draw_line(const Series& one, const Axis& y, const PlotFrame& frame) {
     std::vector<double> values = one.y;
     for (double& value : values) value = can_show(y.kind, value) ? value : NAN;
     const auto columns = static_cast<std::size_t>(std::max(1.0, (frame.right - frame.left) / std::min(1.0, unit_)));
@@ -108,7 +108,7 @@ class SeriesDrawer {
     return middle >= plot_.brush->first && middle <= plot_.brush->second;
   }
 
-  void draw_bars(const Series& one, const Axis& y, const Frame& f) {
+  void draw_bars(const Series& one, const Axis& y, const PlotFrame& f) {
     for (std::size_t k = 0; k < one.x.size(); ++k) {
       if (!(one.y[k] > 0.0) || !can_show(y.kind, one.y[k])) continue;
       Point from{std::clamp(layout_.x.place(one.x[k]), f.left, f.right), std::clamp(y.place(one.y[k]), f.top, f.bottom)};
@@ -119,7 +119,7 @@ class SeriesDrawer {
     }
   }
 
-  void draw_steps(const Series& one, const Axis& y, const Frame& frame) {
+  void draw_steps(const Series& one, const Axis& y, const PlotFrame& frame) {
     Points points;
     for (std::size_t k = 0; k < one.x.size(); ++k) {
       const double left = layout_.x.place(one.x[k]), right = layout_.x.place(one.x[k] + one.bar_width);

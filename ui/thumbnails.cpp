@@ -17,7 +17,7 @@ namespace dmoscope::ui {
 namespace {
 
 /// About how many vertices, tried in this order: some generators need more to make anything.
-constexpr std::size_t kSizes[] = {180, 600, 1500};
+constexpr std::size_t kSideLengths[] = {180, 600, 1500};
 
 /// Darker, as a face that looks away from the light.
 render::Rgb lit(render::Rgb ink, double light) {
@@ -121,7 +121,7 @@ std::vector<Thumbnail> make_thumbnails(render::ColourMap map) {
   std::vector<Thumbnail> out;
   for (const GeneratorInfo& generator : generator_table()) {
     Thumbnail sample{std::string(generator.name), std::string(generator.doc), {}};
-    for (const std::size_t size : kSizes) {
+    for (const std::size_t size : kSideLengths) {
       try {
         sample = make_one(generator, size, map);
         break;

@@ -8,7 +8,7 @@
 
 namespace dmoscope::ui {
 
-using Kind = PaneContent::Kind;
+using ContentKind = PaneContent::Kind;
 
 namespace {
 
@@ -17,8 +17,8 @@ constexpr unsigned kMostThreads = 8;
 
 /// What the session is asked for to show this; nothing for what is there anyway.
 std::optional<Watch> watch_of(const PaneContent& content) {
-  if (content.kind == Kind::Input) return Watch{};
-  if (content.kind == Kind::Run) return Watch{content.run, content.iteration};
+  if (content.kind == ContentKind::Input) return Watch{};
+  if (content.kind == ContentKind::Run) return Watch{content.run, content.iteration};
   return std::nullopt;
 }
 
@@ -89,17 +89,17 @@ void Viewports::show_content(const ViewState& state, std::size_t pane) {
     show(pane, session_->frame, active, timeline.shown_mark() == nullptr ? "" : timeline.shown == Shown::A ? "A" : "B", {});
     return;
   }
-  if (content.kind == Kind::MarkA || content.kind == Kind::MarkB) {
-    const bool a = content.kind == Kind::MarkA;
+  if (content.kind == ContentKind::MarkA || content.kind == ContentKind::MarkB) {
+    const bool a = content.kind == ContentKind::MarkA;
     show_mark(pane, marked_[a ? 0 : 1], a ? "A" : "B");
     return;
   }
-  if (content.kind == Kind::Free) {
+  if (content.kind == ContentKind::Free) {
     show(pane, nullptr, active, {}, "free: a new run comes here");
     return;
   }
   const Watch what = *watch_of(content);
-  const std::string name = content.kind == Kind::Input ? "input" : "";
+  const std::string name = content.kind == ContentKind::Input ? "input" : "";
   const auto place = static_cast<std::size_t>(std::ranges::find(state.panes.run_ids, content.run) - state.panes.run_ids.begin());
   const std::size_t run = place < session_->runs.size() ? place : active;
   const auto at = std::ranges::find(session_->watched, what, &WatchedFrame::what);
@@ -159,8 +159,8 @@ std::vector<Watch> Viewports::wanted(const ViewState& state) const {
 /// What differences are taken from; null while it is not there.
 std::shared_ptr<const Frame> Viewports::reference(const ViewState& state) const {
   const PaneContent& content = state.colouring.reference;
-  if (content.kind == Kind::MarkA) return state.timeline.a.frame;
-  if (content.kind == Kind::MarkB) return state.timeline.b.frame;
+  if (content.kind == ContentKind::MarkA) return state.timeline.a.frame;
+  if (content.kind == ContentKind::MarkB) return state.timeline.b.frame;
   const auto what = watch_of(content);
   if (!what) return nullptr;
   const auto at = std::ranges::find(session_->watched, *what, &WatchedFrame::what);
@@ -288,8 +288,8 @@ PaneFacts Viewports::facts_of_pane(ViewState& state, std::size_t pane, const Rec
   facts.removed = facts.session->active >= session_->runs.size();
   facts.name = shown_[pane].name;
   facts.why_not = shown_[pane].why_not;
-  const Kind kind = state.panes.panes[pane].content.kind;
-  facts.of_run = kind == Kind::Run || kind == Kind::Active || (view.frame() != nullptr && kind != Kind::Input);
+  const ContentKind kind = state.panes.panes[pane].content.kind;
+  facts.of_run = kind == ContentKind::Run || kind == ContentKind::Active || (view.frame() != nullptr && kind != ContentKind::Input);
   facts.colours = view.colours();
   facts.labels = view.labels();
   // Of a volume labels are in pixels already.

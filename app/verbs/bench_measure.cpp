@@ -13,7 +13,7 @@
 namespace dmoscope::app {
 namespace {
 
-constexpr std::uint64_t kSeed = 1;
+constexpr std::uint64_t kMeshSeed = 1;
 /// How much the reference, which is slow, has to do: in a volume a visit costs some hundred times as much.
 struct ReferenceWork {
   std::uint64_t visits;  // at most about so many, and on meshes of no more free vertices
@@ -26,7 +26,7 @@ ReferenceWork reference_work(const BenchElements& elements) {
 using SharedInput = std::shared_ptr<const InputMesh>;
 
 SharedInput generate(const BenchElements& elements, std::size_t size, Progress& progress) {
-  Mesh mesh = generate_mesh(elements.generator, size, kSeed, progress);
+  Mesh mesh = generate_mesh(elements.generator, size, kMeshSeed, progress);
   mesh.name = fmt::format("{} {}", elements.generator, size);
   return prepare_input(std::move(mesh), {}, Need::Smoothing, progress);
 }

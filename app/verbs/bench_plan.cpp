@@ -12,6 +12,7 @@
 #include "app/acceleration.h"
 #include "app/machine.h"
 #include "app/text.h"
+#include "app/verbs/run_options.h"
 #include "core/base/error.h"
 
 namespace dmoscope::app {
@@ -19,7 +20,6 @@ namespace {
 
 constexpr std::size_t kSmallest = 100;
 constexpr std::size_t kFullSize = 10'000'000;
-constexpr unsigned kMostThreads = 1024;
 
 /// Peak memory of the whole process a vertex of the largest mesh, and a reserve: 220 measured with each kind of planar
 /// elements, 600 with tetrahedra.

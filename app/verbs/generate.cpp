@@ -21,14 +21,14 @@
 namespace dmoscope::app {
 namespace {
 
-struct Options {
+struct GenerateOptions {
   std::string kind;
   std::filesystem::path output;
   std::size_t size = 0;
   std::uint64_t seed = 1;
 };
 
-int generate(const Options& options) {
+int generate(const GenerateOptions& options) {
   require_mesh_target(options.output);
   Watch watch;
   const Mesh mesh = generate_mesh(options.kind, options.size, options.seed, watch.progress());
@@ -52,7 +52,7 @@ std::string list_of_kinds() {
 }  // namespace
 
 void add_generate(CLI::App& app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<GenerateOptions>();
   CLI::App* verb = app.add_subcommand("generate", "Make a sample mesh");
   verb->add_option("KIND", options->kind, "One of " + names_of(generator_table()))->required();
   verb->add_option("-o,--output", options->output, "Where to write it; the format is the extension's")->required()->type_name("OUT");

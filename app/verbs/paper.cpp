@@ -24,9 +24,7 @@
 namespace dmoscope::app {
 namespace {
 
-constexpr std::uint64_t kMostThreads = 1024;
-
-struct Options {
+struct PaperOptions {
   std::filesystem::path meshes, output;
   std::vector<std::string> only;
   std::string backend = "auto";
@@ -58,7 +56,7 @@ void make_output(const std::filesystem::path& folder, const std::vector<Experime
   }
 }
 
-int paper(const Options& options, const std::string& command_line) {
+int paper(const PaperOptions& options, const std::string& command_line) {
   const std::vector<Experiment> wanted = chosen(options.only);
   const Extent extent = options.quick ? Extent::Quick : options.full ? Extent::Full : Extent::Usual;
   const Acceleration acceleration = acceleration_for(parse_backend(options.backend));
@@ -99,7 +97,7 @@ int paper(const Options& options, const std::string& command_line) {
 }  // namespace
 
 void add_paper(CLI::App& app, Action& action, const std::string& command_line) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PaperOptions>();
   CLI::App* verb = app.add_subcommand("paper", "Do the experiments of the paper again, and compare");
   verb->add_option("--meshes", options->meshes, "Folder in or below which the paper's meshes are: east.14, bahamas.14, shashkov.vtk")
       ->type_name("DIR");

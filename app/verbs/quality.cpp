@@ -30,7 +30,7 @@
 namespace dmoscope::app {
 namespace {
 
-struct Options {
+struct QualityOptions {
   std::filesystem::path input, elements;
   std::string metric = "all";
   std::size_t worst = 0;
@@ -149,7 +149,7 @@ void print_worst(const InputMesh& input, const Column& column, std::size_t count
   }
 }
 
-int quality(const Options& options) {
+int quality(const QualityOptions& options) {
   const std::vector<Metric> metrics = wanted_metrics(options.metric);
   if (!options.elements.empty()) require_writable(options.elements);
   require_another_file(options.elements, "--elements", options.input);
@@ -200,7 +200,7 @@ int quality(const Options& options) {
 }  // namespace
 
 void add_quality(CLI::App& app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<QualityOptions>();
   CLI::App* verb = app.add_subcommand("quality", "Judge the elements of a mesh");
   verb->add_option("FILE", options->input, "Mesh to read")->required();
   verb->add_option("--metric", options->metric, "all, or one of " + names_of(metric_table()))->type_name("NAME|all")->capture_default_str();

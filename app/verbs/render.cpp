@@ -32,7 +32,7 @@ namespace {
 
 constexpr int kLargestSide = 16384;
 
-struct Options {
+struct RenderOptions {
   std::filesystem::path input, output;
   MemoryLimit memory;
   std::string metric = "mean-ratio";
@@ -78,7 +78,7 @@ std::optional<std::pair<double, double>> parse_range(const std::string& text) {
 }
 
 /// What is seen of a volume mesh, its clip plane apart.
-InsideView inside_view(const Options& options) {
+InsideView inside_view(const RenderOptions& options) {
   InsideView view;
   view.clip.mode = parse_clip_mode(options.clip_mode);
   if (options.clip.empty() && view.clip.mode != ClipPlane::Mode::Crinkle) throw UsageError("--clip-mode: there is no --clip");
@@ -97,7 +97,7 @@ InsideView inside_view(const Options& options) {
   return view;
 }
 
-int render(const Options& options) {
+int render(const RenderOptions& options) {
   const Metric metric = parse_metric(options.metric);
   const auto [width, height] = parse_size(options.size);
   const auto range = parse_range(options.range);
@@ -123,8 +123,8 @@ int render(const Options& options) {
 #endif
 }
 
-/// Options of volume meshes.
-void add_inside(CLI::App& verb, Options& options) {
+/// RenderOptions of volume meshes.
+void add_inside(CLI::App& verb, RenderOptions& options) {
   const auto option = [&verb](const char* name, auto& value, const char* type, const char* doc) {
     return verb.add_option(name, value, doc)->type_name(type)->group("Volume meshes");
   };
@@ -146,7 +146,7 @@ void add_inside(CLI::App& verb, Options& options) {
 }  // namespace
 
 void add_render(CLI::App& app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RenderOptions>();
   CLI::App* verb = app.add_subcommand("render", "Make a picture of a mesh; needs no screen");
   verb->add_option("FILE", options->input, "Mesh to read")->required();
   verb->add_option("-o,--output", options->output, "Picture to write")->required()->type_name("SHOT.png");

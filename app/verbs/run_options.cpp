@@ -17,8 +17,6 @@
 namespace dmoscope::app {
 namespace {
 
-constexpr unsigned kMostThreads = 1024;
-
 void require_method(const std::string& name) {
   const auto known = [&name](const MethodInfo& method) { return method.name == name; };
   if (std::none_of(method_table().begin(), method_table().end(), known)) {

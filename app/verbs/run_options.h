@@ -12,6 +12,8 @@ class App;
 
 namespace dmoscope::app {
 
+inline constexpr unsigned kMostThreads = 1024;
+
 struct RunOptions {
   std::string method = "dmo";
   std::string metric = "mean-ratio";

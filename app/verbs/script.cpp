@@ -31,7 +31,7 @@
 namespace dmoscope::app {
 namespace {
 
-struct Options {
+struct ScriptVerbOptions {
   std::string file;
   std::string backend = "auto";
   bool headless = false;
@@ -95,7 +95,7 @@ int tell(const std::vector<Message>& messages, const std::string& name, std::siz
   return 0;
 }
 
-int run_on_session(const std::string& name, const std::vector<std::string>& lines, const Options& options) {
+int run_on_session(const std::string& name, const std::vector<std::string>& lines, const ScriptVerbOptions& options) {
   const Backend backend = parse_backend(options.backend);
   block_interrupts();  // before the engine's threads start
   Engine engine(0, acceleration_for(backend), backend);
@@ -120,12 +120,12 @@ int run_on_session(const std::string& name, const std::vector<std::string>& line
 }
 
 /// What would cost somebody a file is refused before the first line runs.
-void refuse_overwriting(const Options& options, const std::string& name, const std::vector<std::string>& lines) {
+void refuse_overwriting(const ScriptVerbOptions& options, const std::string& name, const std::vector<std::string>& lines) {
   const Overwriting found = first_overwriting(options.file == "-" ? "" : options.file, lines);
   if (found.line != 0) throw UsageError(fmt::format("{}:{}: {}", name, found.line, found.what));
 }
 
-int script(const Options& options) {
+int script(const ScriptVerbOptions& options) {
   const std::string name = options.file == "-" ? "standard input" : options.file;
   const std::vector<std::string> lines = read_lines(options.file);
   refuse_overwriting(options, name, lines);
@@ -148,7 +148,7 @@ int script(const Options& options) {
 }  // namespace
 
 void add_script(CLI::App& app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ScriptVerbOptions>();
   CLI::App* verb = app.add_subcommand(
       "script", "Run a file of commands, which the manual page and the palette (Ctrl+P) list; stops at the first that fails");
   verb->add_option("FILE", options->file, "Script to run; - reads standard input")->required();

@@ -37,7 +37,7 @@
 namespace dmoscope::app {
 namespace {
 
-struct Options {
+struct SmoothOptions {
   std::filesystem::path input, output, stats;
   RunOptions run;
   GoalOptions goal;
@@ -71,7 +71,7 @@ Json json_of(const Statistics& s) {
 
 /// What came of it, as both the person and --json are told.
 struct Result {
-  const Options& options;
+  const SmoothOptions& options;
   const Run& run;
   unsigned threads;
   Outcome outcome;
@@ -162,7 +162,7 @@ void print_summary(const Result& r) {
 }
 
 /// Everything that can be refused without reading the mesh.
-void refuse_early(const Options& options) {
+void refuse_early(const SmoothOptions& options) {
   if (options.write != "best" && options.write != "last")
     throw UsageError(fmt::format("--write knows 'best' and 'last', not '{}'", options.write));
   require_mesh_target(options.output, options.input);
@@ -179,7 +179,7 @@ std::string statistics(const Run& run) {
 }
 
 /// The mesh and the statistics: none takes its place before both are on the disk. Returns what the mesh's format could not carry.
-std::vector<std::string> write_results(const Options& options, const Run& run, const std::optional<Provenance>& provenance,
+std::vector<std::string> write_results(const SmoothOptions& options, const Run& run, const std::optional<Provenance>& provenance,
                                        const IoContext& context) {
   AtomicFiles others;
   if (!options.stats.empty()) others.add(options.stats, statistics(run));
@@ -204,7 +204,7 @@ double smoothing_seconds(const Run& run) {
 
 /// Goes to the iteration that is written; says so where it is not the last.
 template <class Warn>
-void go_to_what_is_written(Run& run, const Options& options, Progress& progress, const Warn& warn) {
+void go_to_what_is_written(Run& run, const SmoothOptions& options, Progress& progress, const Warn& warn) {
   const std::uint64_t last = run.history().records().size() - 1, best = best_iteration(run);
   if (options.write == "last" || best == last) return;
   run.seek({best}, progress);
@@ -235,12 +235,12 @@ void tell_missing_phase(const Run& run, const Outcome& outcome, const Warn& warn
                             : "the mean was not raised: that begins once the minimum rises no more, or nothing moves (--until-converged)");
 }
 
-bool keeps_the_format(const Options& options, const Mesh& mesh) {
+bool keeps_the_format(const SmoothOptions& options, const Mesh& mesh) {
   const FormatInfo* format = format_by_extension(mesh_extension(options.output));
   return mesh.source && format != nullptr && format->name == mesh.source->format();
 }
 
-int smooth(const Options& options) {
+int smooth(const SmoothOptions& options) {
   refuse_early(options);
   RunParameters parameters = parameters_of(options.run);
   if (parameters.then_mean && options.goal.until_converged) parameters.then_mean->patience = options.goal.limits.patience;
@@ -308,7 +308,7 @@ int smooth(const Options& options) {
 }  // namespace
 
 void add_smooth(CLI::App& app, Action& action, const std::string& command_line) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SmoothOptions>();
   options->command_line = command_line;
   CLI::App* verb = app.add_subcommand("smooth", "Smooth a mesh and write it");
   verb->add_option("IN", options->input, "Mesh to read")->required();

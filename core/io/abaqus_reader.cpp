@@ -17,7 +17,7 @@
 namespace dmoscope {
 namespace {
 
-constexpr TextSyntax kSyntax{.comma_is_blank = true};
+constexpr TextSyntax kAbaqusSyntax{.comma_is_blank = true};
 
 struct Family {
   std::string_view prefix;  // before the number of nodes
@@ -350,7 +350,7 @@ class AbaqusReader {
   void finish() {
     CoordinateLayout layout;
     layout.components = coordinates_ == 2 ? 2 : 3;
-    layout.syntax = kSyntax;
+    layout.syntax = kAbaqusSyntax;
     layout.width = kAbaqusNumber;
     source_.set_layout(layout);
     numbered_.finish(mesh_);
@@ -387,7 +387,7 @@ class AbaqusReader {
 };
 
 /// The first keyword is one that Abaqus' files begin with.
-bool recognises(std::string_view bytes) {
+bool recognises_abaqus(std::string_view bytes) {
   constexpr std::array<std::string_view, 7> kFirst{"HEADING", "NODE", "PART", "PREPRINT", "ELEMENT", "NSET", "INCLUDE"};
   while (!bytes.empty()) {
     const std::size_t end = std::min(bytes.find_first_of("\r\n"), bytes.size());
@@ -429,7 +429,7 @@ Mesh read_abaqus(SourceFile& source, const IoContext& context) { return AbaqusRe
 const FormatHandler& abaqus_format() {
   static const FormatHandler handler{
       {"abaqus", "Abaqus", ".inp", "2D and 3D elements, node sets, element sets, surfaces; files of one part; also CalculiX's"},
-      recognises,
+      recognises_abaqus,
       read_abaqus,
       write_abaqus};
   return handler;

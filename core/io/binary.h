@@ -86,4 +86,7 @@ class BinaryReader {
   std::size_t next_report_ = 0;
 };
 
+/// From here on, not every whole number is a double.
+inline constexpr double kExactWhole = 9007199254740992.0;
+
 }  // namespace dmoscope

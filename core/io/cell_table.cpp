@@ -71,7 +71,7 @@ class Groups {
 /// Of what kind a group's members are; numbers are given within a kind.
 enum class MemberKind : std::uint8_t { Vertices, Edges, Faces, Elements };
 
-MemberKind members_of(const Group& group) {
+MemberKind member_kind_of(const Group& group) {
   if (group.dimension < 2) return group.dimension == 0 ? MemberKind::Vertices : MemberKind::Edges;
   return group.of_elements() ? MemberKind::Elements : MemberKind::Faces;
 }
@@ -130,12 +130,12 @@ std::vector<int> numbers_of_groups(std::span<const Group> groups) {
   std::vector<int> numbers(groups.size(), 0);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const Group& group = groups[i];
-    if (group.code > 0 && used[static_cast<std::size_t>(members_of(group))].insert(group.code).second) numbers[i] = group.code;
+    if (group.code > 0 && used[static_cast<std::size_t>(member_kind_of(group))].insert(group.code).second) numbers[i] = group.code;
   }
   std::array<int, 4> next{1, 1, 1, 1};
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (numbers[i] != 0) continue;
-    const auto kind = static_cast<std::size_t>(members_of(groups[i]));
+    const auto kind = static_cast<std::size_t>(member_kind_of(groups[i]));
     while (!used[kind].insert(next[kind]).second) ++next[kind];
     numbers[i] = next[kind];
   }

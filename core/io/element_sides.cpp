@@ -10,7 +10,7 @@ namespace {
 
 using Corners = std::array<Index, 4>;  // the rest is kNoIndex
 
-Corners sorted(Corners corners) {
+Corners in_order(Corners corners) {
   std::ranges::sort(corners);
   return corners;
 }
@@ -31,7 +31,7 @@ bool same_winding(const Corners& a, const Corners& b) {
 
 std::vector<std::optional<ElementSide>> sides_of(const Mesh& mesh, const std::vector<Corners>& wanted) {
   std::vector<Corners> keys(wanted.size());
-  std::ranges::transform(wanted, keys.begin(), sorted);
+  std::ranges::transform(wanted, keys.begin(), in_order);
   std::vector<Index> order(wanted.size());
   std::iota(order.begin(), order.end(), Index{0});
   std::ranges::sort(order, {}, [&](Index i) { return keys[i]; });
@@ -40,7 +40,7 @@ std::vector<std::optional<ElementSide>> sides_of(const Mesh& mesh, const std::ve
   for (Index e = 0; e < mesh.elements.size(); ++e) {
     for (Index s = 0; s < side_count(mesh.elements.kind(e)); ++s) {
       const Corners side = vertices_of_side(mesh.elements, {e, s});
-      const Corners key = sorted(side);
+      const Corners key = in_order(side);
       // Not std::ranges::equal_range: clang 14 cannot compile it.
       auto at = std::ranges::lower_bound(order, key, {}, [&](Index i) { return keys[i]; });
       for (; at != order.end() && keys[*at] == key; ++at) {

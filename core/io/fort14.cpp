@@ -22,7 +22,7 @@ namespace dmoscope {
 namespace {
 
 // Fortran's list-directed input; whatever follows the numbers of a line is a remark.
-constexpr TextSyntax kSyntax{.comma_is_blank = true};
+constexpr TextSyntax kFort14Syntax{.comma_is_blank = true};
 constexpr std::string_view kOpen = "open boundary";
 constexpr std::string_view kLand = "land boundary";
 
@@ -83,10 +83,11 @@ class NodeNumbers {
 
 class Reader {
  public:
-  Reader(SourceFile& source, Progress& progress) : source_(source), tokens_(source.bytes(), source.path().string(), kSyntax, progress) {
+  Reader(SourceFile& source, Progress& progress)
+      : source_(source), tokens_(source.bytes(), source.path().string(), kFort14Syntax, progress) {
     CoordinateLayout layout;
     layout.components = 2;
-    layout.syntax = kSyntax;
+    layout.syntax = kFort14Syntax;
     source.set_layout(layout);
   }
 
@@ -226,7 +227,7 @@ class Reader {
   NodeNumbers numbers_;
 };
 
-Mesh read(SourceFile& source, const IoContext& context) { return Reader(source, context.progress).read(); }
+Mesh read_fort14(SourceFile& source, const IoContext& context) { return Reader(source, context.progress).read(); }
 
 // --- Writing anew ---
 
@@ -286,7 +287,7 @@ void write_boundaries(TextWriter& out, const Mesh& mesh, std::span<const std::si
   }
 }
 
-Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
+Notes write_fort14(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
   Notes notes;
   const std::string_view title = fort14_format().info.title;
   require_surface_elements(file, mesh, title);
@@ -329,8 +330,8 @@ const FormatHandler& fort14_format() {
   static const FormatHandler handler{
       {"fort14", "ADCIRC fort.14", ".14 .grd", "x, y and depth, triangles and quadrilaterals, open and land boundaries"},
       nullptr,
-      read,
-      write};
+      read_fort14,
+      write_fort14};
   return handler;
 }
 

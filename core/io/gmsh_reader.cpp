@@ -16,9 +16,9 @@
 namespace dmoscope {
 namespace {
 
-constexpr std::string_view kFormat = "$MeshFormat";
-constexpr std::size_t kReal = 8;  // bytes
-constexpr std::size_t kPoint = 3 * kReal;
+constexpr std::string_view kFormatSection = "$MeshFormat";
+constexpr std::size_t kRealBytes = 8;  // bytes
+constexpr std::size_t kPointBytes = 3 * kRealBytes;
 
 class GmshReader {
  public:
@@ -39,7 +39,7 @@ class GmshReader {
     const bool known = name == "$PhysicalNames" || name == "$Entities" || name == "$Nodes" || name == "$Elements" || name == "$NodeData" ||
                        name == "$ElementData" || name == "$PartitionedEntities";
     if (known && in_.version == 0) words().fail(name + " before $MeshFormat");
-    if (name == kFormat) {
+    if (name == kFormatSection) {
       format();
     } else if (!known) {
       return skip(name);
@@ -103,7 +103,7 @@ class GmshReader {
     if (in_.binary) {
       layout.binary = true;
       layout.big_endian = in_.big_endian;
-      layout.at = {0, kReal, 2 * kReal};
+      layout.at = {0, kRealBytes, 2 * kRealBytes};
     }
     source_.set_layout(layout);
   }
@@ -141,7 +141,7 @@ class GmshReader {
 
   /// x, y and z that begin at `bytes`, which is byte `place` of the file.
   void binary_point(const char* bytes, std::size_t place) {
-    const Vec3 p{in_.real_at(bytes), in_.real_at(bytes + kReal), in_.real_at(bytes + 2 * kReal)};
+    const Vec3 p{in_.real_at(bytes), in_.real_at(bytes + kRealBytes), in_.real_at(bytes + 2 * kRealBytes)};
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
       words().fail_at(place, fmt::format("a coordinate of node {} of $Nodes is not a finite number", mesh_.positions.size() + 1));
     }
@@ -150,7 +150,7 @@ class GmshReader {
   }
 
   void nodes_2() {
-    constexpr std::size_t kNode = 4 + kPoint;
+    constexpr std::size_t kNode = 4 + kPointBytes;
     const std::size_t count = words().count("the number of nodes", in_.binary ? static_cast<double>(kNode) : 8.0);
     reserve(count);
     if (!in_.binary) {
@@ -172,7 +172,7 @@ class GmshReader {
   void nodes_4() {
     in_.begin_data();
     const std::size_t blocks = in_.count("the number of blocks of nodes", 8.0, 20.0);
-    const std::size_t count = in_.count("the number of nodes", 8.0, static_cast<double>(8 + kPoint));
+    const std::size_t count = in_.count("the number of nodes", 8.0, static_cast<double>(8 + kPointBytes));
     (void)in_.size("the smallest number of a node");
     (void)in_.size("the largest number of a node");
     reserve(count);
@@ -190,7 +190,7 @@ class GmshReader {
     if (parametric != 0 && parametric != 1) words().fail(fmt::format("expected 0 or 1 for parametric coordinates, got {}", parametric));
     const std::size_t more = parametric == 1 ? static_cast<std::size_t>(dimension) : 0;  // numbers behind x, y and z
     if (more > 0) source_.add_only_in_file("the parametric coordinates of its nodes");
-    const std::size_t each = kPoint + more * kReal;
+    const std::size_t each = kPointBytes + more * kRealBytes;
     const std::size_t number = in_.count("a number of nodes", 8.0, static_cast<double>(8 + each));
     if (number > count - mesh_.positions.size()) words().fail(fmt::format("more nodes in the blocks than the {} that $Nodes says", count));
     if (!in_.binary) {
@@ -225,7 +225,7 @@ class GmshReader {
   bool nodes_read_ = false;
 };
 
-bool recognises(std::string_view bytes) { return bytes.starts_with(kFormat) || bytes.starts_with("$NOD"); }
+bool recognises_gmsh(std::string_view bytes) { return bytes.starts_with(kFormatSection) || bytes.starts_with("$NOD"); }
 
 }  // namespace
 
@@ -234,7 +234,7 @@ Mesh read_gmsh(SourceFile& source, const IoContext& context) { return GmshReader
 const FormatHandler& gmsh_format() {
   static const FormatHandler handler{
       {"gmsh", "Gmsh", ".msh", "2D and 3D elements, physical groups, data; versions 2.2 and 4.1, ASCII and binary; made anew: 2.2 ASCII"},
-      recognises,
+      recognises_gmsh,
       read_gmsh,
       write_gmsh};
   return handler;

@@ -13,9 +13,9 @@ namespace dmoscope {
 namespace {
 
 constexpr std::string_view kBegin = ".dmoscope-";
-constexpr std::string_view kEnd = ".tmp";
+constexpr std::string_view kLitterEnd = ".tmp";
 
-bool is_number(std::string_view text) noexcept {
+bool all_digits(std::string_view text) noexcept {
   return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
@@ -32,13 +32,13 @@ void remove_if_dead(int folder, const char* name) noexcept {
 
 }  // namespace
 
-std::string litter_name(pid_t process, unsigned number) { return fmt::format("{}{}-{}{}", kBegin, process, number, kEnd); }
+std::string litter_name(pid_t process, unsigned number) { return fmt::format("{}{}-{}{}", kBegin, process, number, kLitterEnd); }
 
 bool is_litter_name(std::string_view name) noexcept {
-  if (!name.starts_with(kBegin) || !name.ends_with(kEnd) || name.size() < kBegin.size() + kEnd.size()) return false;
-  const std::string_view numbers = name.substr(kBegin.size(), name.size() - kBegin.size() - kEnd.size());
+  if (!name.starts_with(kBegin) || !name.ends_with(kLitterEnd) || name.size() < kBegin.size() + kLitterEnd.size()) return false;
+  const std::string_view numbers = name.substr(kBegin.size(), name.size() - kBegin.size() - kLitterEnd.size());
   const std::size_t dash = numbers.find('-');
-  return dash != std::string_view::npos && is_number(numbers.substr(0, dash)) && is_number(numbers.substr(dash + 1));
+  return dash != std::string_view::npos && all_digits(numbers.substr(0, dash)) && all_digits(numbers.substr(dash + 1));
 }
 
 void remove_litter(const std::filesystem::path& folder) noexcept {

@@ -18,7 +18,7 @@
 namespace dmoscope {
 namespace {
 
-constexpr TextSyntax kSyntax{.comment = '#', .comma_is_blank = false, .backslash_joins_lines = false, .free_form = true};
+constexpr TextSyntax kMeditSyntax{.comment = '#', .comma_is_blank = false, .backslash_joins_lines = false, .free_form = true};
 
 bool is_letter(char c) noexcept { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
@@ -35,7 +35,7 @@ bool is_higher_order(std::string_view keyword) {
 class MeditReader {
  public:
   MeditReader(SourceFile& source, Progress& progress)
-      : source_(source), progress_(progress), tokens_(source.bytes(), source.path().string(), kSyntax, progress), contents_(source) {}
+      : source_(source), progress_(progress), tokens_(source.bytes(), source.path().string(), kMeditSyntax, progress), contents_(source) {}
 
   Mesh read() {
     const std::string_view first = tokens_.token();
@@ -97,7 +97,7 @@ class MeditReader {
     if (dimension_ != 2 && dimension_ != 3) tokens_.fail(fmt::format("Dimension {}: only 2 and 3 dimensions are read", dimension_));
     CoordinateLayout layout;
     layout.components = dimension_;
-    layout.syntax = kSyntax;
+    layout.syntax = kMeditSyntax;
     source_.set_layout(layout);
   }
 
@@ -130,7 +130,7 @@ class MeditReader {
   /// How many vertices the file has: elements may come before them.
   std::size_t vertex_count() {
     if (vertex_count_) return *vertex_count_;
-    Tokenizer ahead(source_.bytes(), source_.path().string(), kSyntax, progress_);
+    Tokenizer ahead(source_.bytes(), source_.path().string(), kMeditSyntax, progress_);
     ahead.seek(tokens_.offset(), tokens_.line());
     while (!ahead.at_end()) {
       if (equal_ignoring_case(ahead.token(), "Vertices")) {
@@ -182,14 +182,14 @@ class MeditReader {
   std::vector<std::string> met_;  // sections, in whatever case they were written
 };
 
-bool recognises(std::string_view bytes) {
+bool recognises_medit(std::string_view bytes) {
   constexpr std::size_t kLook = 65536;  // bytes in which comments end
   Progress unwatched;
-  Tokenizer tokens(bytes.substr(0, kLook), {}, kSyntax, unwatched);
+  Tokenizer tokens(bytes.substr(0, kLook), {}, kMeditSyntax, unwatched);
   return equal_ignoring_case(tokens.token(), kMeditSignature);
 }
 
-Mesh read(SourceFile& source, const IoContext& context) { return MeditReader(source, context.progress).read(); }
+Mesh read_medit(SourceFile& source, const IoContext& context) { return MeditReader(source, context.progress).read(); }
 
 }  // namespace
 
@@ -200,8 +200,8 @@ bool is_medit_edge_mark(std::string_view keyword) noexcept {
 const FormatHandler& medit_format() {
   static const FormatHandler handler{
       {"medit", "MEDIT", ".mesh", "2D and 3D elements, references, corners, ridges, required vertices and edges; ASCII"},
-      recognises,
-      read,
+      recognises_medit,
+      read_medit,
       write_medit};
   return handler;
 }

@@ -21,8 +21,8 @@ namespace dmoscope {
 namespace {
 
 constexpr std::int32_t kDimension = 3, kVertices = 4, kEnd = 54;
-constexpr std::array<std::int32_t, 5> kHigherOrder{24, 25, 27, 30,
-                                                   33};  // TrianglesP2, EdgesP2, QuadrilateralsQ2, TetrahedraP2, HexahedraQ2
+constexpr std::array<std::int32_t, 5> kHigherOrderKeys{24, 25, 27, 30,
+                                                       33};  // TrianglesP2, EdgesP2, QuadrilateralsQ2, TetrahedraP2, HexahedraQ2
 
 struct MarkSection {
   std::int32_t code;
@@ -32,7 +32,7 @@ constexpr std::array kMarkSections{MarkSection{13, "Corners"}, MarkSection{14, "
                                    MarkSection{16, "RequiredEdges"}};
 
 /// The number 1 in either byte order, then a version of 1 to 4.
-bool recognises(std::string_view bytes) {
+bool recognises_meshb(std::string_view bytes) {
   constexpr std::string_view kLittle("\x01\0\0\0", 4);
   constexpr std::string_view kBig("\0\0\0\x01", 4);
   if (bytes.size() < 8) return false;
@@ -51,7 +51,8 @@ class MeshbReader {
         contents_(source) {}
 
   Mesh read() {
-    if (!recognises(source_.bytes())) in_.fail("a binary MEDIT file begins with the number 1 and a version of 1 to 4, this one does not");
+    if (!recognises_meshb(source_.bytes()))
+      in_.fail("a binary MEDIT file begins with the number 1 and a version of 1 to 4, this one does not");
     in_.skip(4, "the head");
     version_ = in_.read<std::int32_t>("the version");
     while (in_.remaining() > 0 && section()) {
@@ -108,7 +109,7 @@ class MeshbReader {
   }
 
   bool contents_of(std::int32_t code) {
-    if (std::ranges::find(kHigherOrder, code) != kHigherOrder.end()) {
+    if (std::ranges::find(kHigherOrderKeys, code) != kHigherOrderKeys.end()) {
       in_.fail(fmt::format("elements of higher order (keyword {}), of which only the linear ones are read: export linear elements", code));
     }
     const auto cells = std::ranges::find(kMeditCells, code, &MeditCells::code);
@@ -194,9 +195,9 @@ class MeshbReader {
   std::vector<std::int32_t> met_;
 };
 
-Mesh read(SourceFile& source, const IoContext& context) { return MeshbReader(source, context.progress).read(); }
+Mesh read_meshb(SourceFile& source, const IoContext& context) { return MeshbReader(source, context.progress).read(); }
 
-Notes write(AtomicFile& file, const Mesh&, std::span<const Vec3>, const IoContext&) {
+Notes write_meshb(AtomicFile& file, const Mesh&, std::span<const Vec3>, const IoContext&) {
   throw OutputError(file.path().string(), "binary MEDIT files are written only where one was read: write it as .mesh");
 }
 
@@ -205,9 +206,9 @@ Notes write(AtomicFile& file, const Mesh&, std::span<const Vec3>, const IoContex
 const FormatHandler& meshb_format() {
   static const FormatHandler handler{
       {"meshb", "MEDIT binary", ".meshb", "as MEDIT, versions 1 to 4, either byte order; only written where it was read"},
-      recognises,
-      read,
-      write};
+      recognises_meshb,
+      read_meshb,
+      write_meshb};
   return handler;
 }
 

@@ -19,47 +19,47 @@
 namespace dmoscope {
 namespace {
 
-struct ElementCard {
+struct CellCard {
   std::string_view name;
   std::optional<CellShape> shape;  // nothing: of higher order
   bool has_property = true;
 };
-constexpr std::array kElementCards{ElementCard{"CTRIA3", CellShape::Triangle},
-                                   ElementCard{"CTRIAR", CellShape::Triangle},
-                                   ElementCard{"CTRAX3", CellShape::Triangle},
-                                   ElementCard{"CPLSTN3", CellShape::Triangle},
-                                   ElementCard{"CPLSTS3", CellShape::Triangle},
-                                   ElementCard{"CQUAD4", CellShape::Quadrilateral},
-                                   ElementCard{"CQUADR", CellShape::Quadrilateral},
-                                   ElementCard{"CSHEAR", CellShape::Quadrilateral},
-                                   ElementCard{"CQUADX4", CellShape::Quadrilateral},
-                                   ElementCard{"CPLSTN4", CellShape::Quadrilateral},
-                                   ElementCard{"CPLSTS4", CellShape::Quadrilateral},
-                                   ElementCard{"CTETRA", CellShape::Tetrahedron},
-                                   ElementCard{"CPYRAM", CellShape::Pyramid},
-                                   ElementCard{"CPYRA", CellShape::Pyramid},
-                                   ElementCard{"CPENTA", CellShape::Wedge},
-                                   ElementCard{"CHEXA", CellShape::Hexahedron},
-                                   ElementCard{"CROD", CellShape::Line},
-                                   ElementCard{"CTUBE", CellShape::Line},
-                                   ElementCard{"CBAR", CellShape::Line},
-                                   ElementCard{"CBEAM", CellShape::Line},
-                                   ElementCard{"CONROD", CellShape::Line, false},
-                                   ElementCard{"PLOTEL", CellShape::Line, false},
-                                   ElementCard{"CTRIA6", std::nullopt},
-                                   ElementCard{"CQUAD8", std::nullopt},
-                                   ElementCard{"CQUAD", std::nullopt},
-                                   ElementCard{"CTRIAX6", std::nullopt},
-                                   ElementCard{"CTRAX6", std::nullopt},
-                                   ElementCard{"CQUADX", std::nullopt},
-                                   ElementCard{"CQUADX8", std::nullopt},
-                                   ElementCard{"CTRIAX", std::nullopt},
-                                   ElementCard{"CPLSTN6", std::nullopt},
-                                   ElementCard{"CPLSTN8", std::nullopt},
-                                   ElementCard{"CPLSTS6", std::nullopt},
-                                   ElementCard{"CPLSTS8", std::nullopt}};
+constexpr std::array kCellCards{CellCard{"CTRIA3", CellShape::Triangle},
+                                CellCard{"CTRIAR", CellShape::Triangle},
+                                CellCard{"CTRAX3", CellShape::Triangle},
+                                CellCard{"CPLSTN3", CellShape::Triangle},
+                                CellCard{"CPLSTS3", CellShape::Triangle},
+                                CellCard{"CQUAD4", CellShape::Quadrilateral},
+                                CellCard{"CQUADR", CellShape::Quadrilateral},
+                                CellCard{"CSHEAR", CellShape::Quadrilateral},
+                                CellCard{"CQUADX4", CellShape::Quadrilateral},
+                                CellCard{"CPLSTN4", CellShape::Quadrilateral},
+                                CellCard{"CPLSTS4", CellShape::Quadrilateral},
+                                CellCard{"CTETRA", CellShape::Tetrahedron},
+                                CellCard{"CPYRAM", CellShape::Pyramid},
+                                CellCard{"CPYRA", CellShape::Pyramid},
+                                CellCard{"CPENTA", CellShape::Wedge},
+                                CellCard{"CHEXA", CellShape::Hexahedron},
+                                CellCard{"CROD", CellShape::Line},
+                                CellCard{"CTUBE", CellShape::Line},
+                                CellCard{"CBAR", CellShape::Line},
+                                CellCard{"CBEAM", CellShape::Line},
+                                CellCard{"CONROD", CellShape::Line, false},
+                                CellCard{"PLOTEL", CellShape::Line, false},
+                                CellCard{"CTRIA6", std::nullopt},
+                                CellCard{"CQUAD8", std::nullopt},
+                                CellCard{"CQUAD", std::nullopt},
+                                CellCard{"CTRIAX6", std::nullopt},
+                                CellCard{"CTRAX6", std::nullopt},
+                                CellCard{"CQUADX", std::nullopt},
+                                CellCard{"CQUADX8", std::nullopt},
+                                CellCard{"CTRIAX", std::nullopt},
+                                CellCard{"CPLSTN6", std::nullopt},
+                                CellCard{"CPLSTN8", std::nullopt},
+                                CellCard{"CPLSTS6", std::nullopt},
+                                CellCard{"CPLSTS8", std::nullopt}};
 
-std::string in_capitals(std::string_view text) {
+std::string words_in_capitals(std::string_view text) {
   std::string result(trimmed(text));
   for (char& c : result) {
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
@@ -68,7 +68,7 @@ std::string in_capitals(std::string_view text) {
 }
 
 bool begins_bulk(std::string_view line) {
-  const std::string words = in_capitals(line.substr(0, 80));
+  const std::string words = words_in_capitals(line.substr(0, 80));
   return words.starts_with("BEGIN") && words.find("BULK") != std::string::npos;
 }
 
@@ -99,7 +99,7 @@ class NastranReader {
       }
       const std::string_view line = trimmed(lines.line());
       const std::size_t equals = line.find('=');
-      if (title.empty() && equals != std::string_view::npos && in_capitals(line.substr(0, equals)) == "TITLE") {
+      if (title.empty() && equals != std::string_view::npos && words_in_capitals(line.substr(0, equals)) == "TITLE") {
         title = trimmed(line.substr(equals + 1));
       }
     }
@@ -122,9 +122,8 @@ class NastranReader {
   void card() {
     const std::string& name = cards_.name();
     if (name == "GRID") return node();
-    const auto* const element =
-        std::find_if(kElementCards.begin(), kElementCards.end(), [&](const ElementCard& card) { return card.name == name; });
-    if (element != kElementCards.end()) return cell(*element);
+    const auto* const element = std::find_if(kCellCards.begin(), kCellCards.end(), [&](const CellCard& card) { return card.name == name; });
+    if (element != kCellCards.end()) return cell(*element);
     if (name == "GRDSET" && cards_.number_or_zero(1, "a coordinate system") != 0) refuse_system("GRDSET");
     if (name.starts_with("INCLUDE")) cards_.fail("INCLUDE: files in several parts are not read; put all into one");
     say_other(name);
@@ -153,7 +152,7 @@ class NastranReader {
     numbered_.add_node(number, p, cards_.begin());
   }
 
-  void cell(const ElementCard& card) {
+  void cell(const CellCard& card) {
     constexpr std::string_view kLinear = "only elements without nodes beyond their corners are read";
     if (!card.shape) cards_.fail(fmt::format("{} is an element of higher order: {}", card.name, kLinear));
     const std::int32_t number = cards_.label(0, "the number of an element");
@@ -206,7 +205,7 @@ class NastranReader {
 };
 
 /// Has it a line BEGIN BULK, or is its first card one that only Nastran has?
-bool recognises(std::string_view bytes) {
+bool recognises_nastran(std::string_view bytes) {
   constexpr std::size_t kLook = 65536;
   bytes = bytes.substr(0, kLook);
   bool first = true;
@@ -217,7 +216,7 @@ bool recognises(std::string_view bytes) {
     const std::string_view words = trimmed(line);
     if (first && !words.empty() && words.front() != '$') {
       first = false;
-      const std::string card = in_capitals(line.substr(0, 8));
+      const std::string card = words_in_capitals(line.substr(0, 8));
       const std::string_view number = trimmed(line.substr(std::min<std::size_t>(line.size(), 8), 8));
       if (card.starts_with("GRID,") || card.starts_with("GRID*,")) return true;
       // A word alone may be any file's title.
@@ -235,7 +234,7 @@ Mesh read_nastran(SourceFile& source, const IoContext& context) { return Nastran
 const FormatHandler& nastran_format() {
   static const FormatHandler handler{
       {"nastran", "Nastran", ".bdf .nas .dat", "2D and 3D elements and their properties; free, small and large fields; made anew: large"},
-      recognises,
+      recognises_nastran,
       read_nastran,
       write_nastran,
       patch_nastran};

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/same_bits.h"
 #include "core/io/boundary_strings.h"
 #include "core/io/cell_table.h"
 #include "core/io/field_number.h"
@@ -24,8 +25,6 @@ namespace {
 constexpr std::array<std::string_view, kCellShapeCount> kCards{"", "CROD", "CTRIA3", "CQUAD4", "CTETRA", "CHEXA", "CPENTA", "CPYRAM"};
 constexpr std::size_t kSmall = 8;
 constexpr std::size_t kMostNumber = 99999999;  // in a small field
-
-bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
 /// A GRID card in large fields, on two lines. `fields`: the number, CP, x, y, z, CD, PS and SEID.
 void put_grid(TextBuffer& out, const std::array<std::string, 8>& fields, std::string_view line_end) {

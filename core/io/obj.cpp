@@ -18,7 +18,7 @@
 namespace dmoscope {
 namespace {
 
-constexpr TextSyntax kSyntax{.comment = '#', .backslash_joins_lines = true};
+constexpr TextSyntax kObjSyntax{.comment = '#', .backslash_joins_lines = true};
 
 /// Statements that Mesh has no room for, and what a person calls them.
 struct Statement {
@@ -34,11 +34,12 @@ constexpr std::array<Statement, 8> kKept{{{"vt", "texture coordinates"},
                                           {"usemtl", "materials"},
                                           {"mtllib", "materials"}}};
 
-class Reader {
+class ObjReader {
  public:
-  Reader(SourceFile& source, Progress& progress) : source_(source), tokens_(source.bytes(), source.path().string(), kSyntax, progress) {
+  ObjReader(SourceFile& source, Progress& progress)
+      : source_(source), tokens_(source.bytes(), source.path().string(), kObjSyntax, progress) {
     CoordinateLayout layout;
-    layout.syntax = kSyntax;
+    layout.syntax = kObjSyntax;
     source.set_layout(layout);
   }
 
@@ -168,9 +169,9 @@ class Reader {
   std::size_t points_ = 0;
 };
 
-Mesh read(SourceFile& source, const IoContext& context) { return Reader(source, context.progress).read(); }
+Mesh read_obj(SourceFile& source, const IoContext& context) { return ObjReader(source, context.progress).read(); }
 
-Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
+Notes write_obj(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
   Notes notes;
   require_surface_elements(file, mesh, obj_format().info.title);
   note_dropped(mesh, {}, {}, obj_format().info.title, notes);
@@ -192,7 +193,8 @@ Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions,
 }  // namespace
 
 const FormatHandler& obj_format() {
-  static const FormatHandler handler{{"obj", "Wavefront OBJ", ".obj", "positions, triangles and quadrilaterals"}, nullptr, read, write};
+  static const FormatHandler handler{
+      {"obj", "Wavefront OBJ", ".obj", "positions, triangles and quadrilaterals"}, nullptr, read_obj, write_obj};
   return handler;
 }
 

@@ -43,7 +43,7 @@ std::optional<Header> parse_header(std::string_view word) {
 }
 
 /// The word at the very begin, with a count or BINARY after it: "OFF coast" may be the title of another format's file.
-bool recognises(std::string_view bytes) {
+bool recognises_off(std::string_view bytes) {
   const std::string_view word = bytes.substr(0, bytes.substr(0, 16).find_first_of(" \t\r\n#"));
   if (!parse_header(word)) return false;
   Progress unwatched;
@@ -239,7 +239,7 @@ void read_binary(BinaryReader reader, const Header& header, SourceFile& source, 
   if (reader.remaining() != 0) source.add_only_in_file("what follows the last face");
 }
 
-Mesh read(SourceFile& source, const IoContext& context) {
+Mesh read_off(SourceFile& source, const IoContext& context) {
   Progress& progress = context.progress;
   Tokenizer tokens(source.bytes(), source.path().string(), {.comment = '#'}, progress);
   Mesh mesh;
@@ -266,7 +266,7 @@ Mesh read(SourceFile& source, const IoContext& context) {
   return mesh;
 }
 
-Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
+Notes write_off(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
   Notes notes;
   require_surface_elements(file, mesh, off_format().info.title);
   note_dropped(mesh, {}, {}, off_format().info.title, notes);
@@ -291,7 +291,7 @@ Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions,
 
 const FormatHandler& off_format() {
   static const FormatHandler handler{
-      {"off", "OFF", ".off", "positions, triangles and quadrilaterals; ASCII and binary"}, recognises, read, write};
+      {"off", "OFF", ".off", "positions, triangles and quadrilaterals; ASCII and binary"}, recognises_off, read_off, write_off};
   return handler;
 }
 

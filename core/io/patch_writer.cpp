@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/same_bits.h"
 #include "core/io/binary.h"
 #include "core/io/field_number.h"
 #include "core/io/source_file.h"
@@ -22,8 +23,6 @@ namespace {
 using Coordinates = std::array<double, 3>;
 
 Coordinates coordinates(Vec3 p) { return {p.x, p.y, p.z}; }
-
-bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
 /// Copies a part of the source and replaces in it, place after place.
 class Patcher {

@@ -25,8 +25,8 @@
 namespace dmoscope {
 namespace {
 
-constexpr TextSyntax kSyntax{};
-constexpr std::string_view kSignature = "MESH2D";
+constexpr TextSyntax k2dmSyntax{};
+constexpr std::string_view k2dmSignature = "MESH2D";
 constexpr std::string_view kString = "nodestring", kMaterial = "material", kElevation = "elevation";
 
 struct ElementCard {
@@ -39,7 +39,7 @@ constexpr std::array kElementCards{
     ElementCard{"E9Q", std::nullopt}};
 constexpr std::array<std::string_view, 4> kSolidCards{"E4T", "E5P", "E6W", "E8H"};
 
-std::optional<int> whole(std::string_view token) {
+std::optional<int> whole_number(std::string_view token) {
   int value = 0;
   const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
   if (error != std::errc() || end != token.data() + token.size()) return std::nullopt;
@@ -52,17 +52,17 @@ std::string_view without_quotes(std::string_view text) {
   return text;
 }
 
-class Reader {
+class Sms2dmReader {
  public:
-  Reader(SourceFile& source, Progress& progress)
-      : source_(source), tokens_(source.bytes(), source.path().string(), kSyntax, progress), numbered_(source) {
+  Sms2dmReader(SourceFile& source, Progress& progress)
+      : source_(source), tokens_(source.bytes(), source.path().string(), k2dmSyntax, progress), numbered_(source) {
     CoordinateLayout layout;
     layout.components = 2;
     source.set_layout(layout);
   }
 
   Mesh read() {
-    if (tokens_.token() != kSignature) tokens_.fail(fmt::format("a 2dm file begins with {}", kSignature));
+    if (tokens_.token() != k2dmSignature) tokens_.fail(fmt::format("a 2dm file begins with {}", k2dmSignature));
     tokens_.end_line();
     while (!tokens_.at_end()) {
       const std::size_t begin = tokens_.offset();
@@ -133,7 +133,7 @@ class Reader {
     for (std::size_t m = 0; tokens_.more_on_line(); ++m) {
       if (materials_ && m >= *materials_) tokens_.fail(fmt::format("an element has {} materials: there is more on this line", *materials_));
       const std::string_view token = tokens_.token_on_line();
-      const std::optional<int> value = whole(token);
+      const std::optional<int> value = whole_number(token);
       if (m == 0 && value) {
         material = *value;
       } else {
@@ -154,7 +154,7 @@ class Reader {
   }
 
   void material_name() {
-    const std::optional<int> number = whole(tokens_.token_on_line());
+    const std::optional<int> number = whole_number(tokens_.token_on_line());
     const std::string_view name = without_quotes(tokens_.rest_of_line());
     if (number && !name.empty()) names_[*number] = name;
   }
@@ -176,7 +176,7 @@ class Reader {
     string_.clear();
     const std::size_t offset = tokens_.offset();
     const std::size_t line = tokens_.line();
-    if (const std::optional<int> number = whole(tokens_.token_on_line())) {
+    if (const std::optional<int> number = whole_number(tokens_.token_on_line())) {
       string.number = *number;
     } else {
       tokens_.seek(offset, line);
@@ -250,10 +250,11 @@ class Reader {
   std::size_t unnumbered_ = 0;
 };
 
-Mesh read(SourceFile& source, const IoContext& context) { return Reader(source, context.progress).read(); }
+Mesh read_2dm(SourceFile& source, const IoContext& context) { return Sms2dmReader(source, context.progress).read(); }
 
-bool recognises(std::string_view bytes) {
-  return bytes.starts_with(kSignature) && bytes.size() > kSignature.size() && static_cast<unsigned char>(bytes[kSignature.size()]) <= ' ';
+bool recognises_2dm(std::string_view bytes) {
+  return bytes.starts_with(k2dmSignature) && bytes.size() > k2dmSignature.size() &&
+         static_cast<unsigned char>(bytes[k2dmSignature.size()]) <= ' ';
 }
 
 // --- Writing anew ---
@@ -272,7 +273,7 @@ class Writer {
 
   Notes write() {
     const std::vector<int> materials = numbers_of_elements(mesh_, numbers_, title(), notes_);
-    out_ << kSignature << '\n';
+    out_ << k2dmSignature << '\n';
     if (!mesh_.title.empty()) out_ << "MESHNAME \"" << in_quotes(mesh_.title) << "\"\n";
     out_.for_each(mesh_.elements.size(), [&](TextBuffer& part, std::size_t i) {
       const auto e = static_cast<Index>(i);
@@ -389,15 +390,17 @@ class Writer {
   std::vector<std::size_t> kept_fields_, kept_groups_;
 };
 
-Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
+Notes write_2dm(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
   return Writer(file, mesh, positions, context).write();
 }
 
 }  // namespace
 
 const FormatHandler& sms_2dm_format() {
-  static const FormatHandler handler{
-      {"2dm", "SMS 2dm", ".2dm", "x, y and elevation, triangles and quadrilaterals, materials, nodestrings"}, recognises, read, write};
+  static const FormatHandler handler{{"2dm", "SMS 2dm", ".2dm", "x, y and elevation, triangles and quadrilaterals, materials, nodestrings"},
+                                     recognises_2dm,
+                                     read_2dm,
+                                     write_2dm};
   return handler;
 }
 

@@ -15,6 +15,7 @@
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/base/rounding.h"
+#include "core/base/same_bits.h"
 #include "core/io/binary.h"
 #include "core/io/format.h"
 #include "core/io/one_line.h"
@@ -23,9 +24,6 @@
 
 namespace dmoscope {
 namespace {
-
-bool same_bits(double a, double b) noexcept { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
-bool same_bits(Vec3 a, Vec3 b) noexcept { return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z); }
 
 /// Numbers positions in order of first appearance. Positions are the same when they compare equal: -0.0 is 0.0.
 class Welder {
@@ -73,7 +71,7 @@ Vec3 corner_of(const StlFacet& facet, std::size_t corner) {
 }
 
 /// Unit normal of a triangle, 0 0 0 when it has no area.
-Vec3 unit_normal(Vec3 a, Vec3 b, Vec3 c) {
+Vec3 facet_normal(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 u = b - a;
   const Vec3 v = c - a;
   // Scaled first, so that neither tiny nor huge triangles lose their normal.
@@ -173,7 +171,7 @@ class StlPatcher {
     const auto moved = [this](Index v) { return !same_bits(mesh_.positions[v], positions_[v]); };
     if (!moved(vertices[0]) && !moved(vertices[1]) && !moved(vertices[2])) return;
     moved_ = true;
-    const Vec3 normal = unit_normal(positions_[vertices[0]], positions_[vertices[1]], positions_[vertices[2]]);
+    const Vec3 normal = facet_normal(positions_[vertices[0]], positions_[vertices[1]], positions_[vertices[2]]);
     replace(facet, 0, normal);
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 before = mesh_.positions[vertices[k]];
@@ -258,7 +256,7 @@ Notes write_stl(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positi
   out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t e) {
     std::array<Index, 8> buffer{};
     const std::span<const Index> corners = file_corners(mesh, static_cast<Index>(e), buffer);
-    const Vec3 normal = unit_normal(positions[corners[0]], positions[corners[1]], positions[corners[2]]);
+    const Vec3 normal = facet_normal(positions[corners[0]], positions[corners[1]], positions[corners[2]]);
     part << "  facet normal " << normal.x << ' ' << normal.y << ' ' << normal.z << "\n    outer loop\n";
     for (const Index v : corners) {
       part << "      vertex " << positions[v].x << ' ' << positions[v].y << ' ' << positions[v].z << '\n';

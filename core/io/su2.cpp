@@ -22,15 +22,15 @@
 namespace dmoscope {
 namespace {
 
-constexpr TextSyntax kSyntax{.comment = '%'};
-constexpr std::string_view kMarker = "marker";
+constexpr TextSyntax kSu2Syntax{.comment = '%'};
+constexpr std::string_view kSu2Marker = "marker";
 constexpr std::int64_t kVertexType = 1;
 constexpr std::int64_t kLineType = 3;
 
 /// VTK's number for each ElementKind.
 constexpr std::array<std::int64_t, kElementKindCount> kTypes{5, 9, 10, 12, 13, 14};
 
-std::optional<ElementKind> kind_of(std::int64_t type) {
+std::optional<ElementKind> kind_of_su2(std::int64_t type) {
   const auto* found = std::find(kTypes.begin(), kTypes.end(), type);
   if (found == kTypes.end()) return std::nullopt;
   return static_cast<ElementKind>(found - kTypes.begin());
@@ -67,19 +67,19 @@ std::optional<std::size_t> find_key(std::string_view text, std::string_view key)
   return std::nullopt;
 }
 
-bool recognises(std::string_view bytes) {
+bool recognises_su2(std::string_view bytes) {
   constexpr std::size_t kLook = 65536;  // bytes in which comments end and the first key must come
   Progress unwatched;
-  Tokenizer tokens(bytes.substr(0, kLook), {}, kSyntax, unwatched);
+  Tokenizer tokens(bytes.substr(0, kLook), {}, kSu2Syntax, unwatched);
   if (tokens.at_end()) return false;
   const std::string_view key = read_key(tokens);
   return key == "NDIME" || key == "NZONE" || key == "NELEM" || key == "NPOIN";
 }
 
-class Reader {
+class Su2Reader {
  public:
-  Reader(SourceFile& source, Progress& progress)
-      : source_(source), progress_(progress), tokens_(source.bytes(), source.path().string(), kSyntax, progress) {}
+  Su2Reader(SourceFile& source, Progress& progress)
+      : source_(source), progress_(progress), tokens_(source.bytes(), source.path().string(), kSu2Syntax, progress) {}
 
   Mesh read() {
     const std::int64_t dimension = value_of("NDIME");
@@ -92,7 +92,7 @@ class Reader {
     vertices_ = find_key(source_.bytes(), "NPOIN") ? std::max<std::int64_t>(value_of("NPOIN"), 0) : kNoIndex;
     CoordinateLayout layout;
     layout.components = dimension_;
-    layout.syntax = kSyntax;
+    layout.syntax = kSu2Syntax;
     source_.set_layout(layout);
     while (!tokens_.at_end()) section();
     finish();
@@ -103,7 +103,7 @@ class Reader {
   std::int64_t value_of(std::string_view key) {
     const std::optional<std::size_t> at = find_key(source_.bytes(), key);
     if (!at) throw InputError(source_.path().string(), 0, fmt::format("{}= is missing", key));
-    Tokenizer tokens(source_.bytes(), source_.path().string(), kSyntax, progress_);
+    Tokenizer tokens(source_.bytes(), source_.path().string(), kSu2Syntax, progress_);
     tokens.seek(*at, tokens.line_at(*at));
     (void)read_key(tokens);
     return tokens.read_integer(key);
@@ -178,7 +178,7 @@ class Reader {
     for (std::size_t e = 0; e < count; ++e) {
       begin_line("an element");
       const std::int64_t type = tokens_.read_integer("type of an element");
-      const std::optional<ElementKind> kind = kind_of(type);
+      const std::optional<ElementKind> kind = kind_of_su2(type);
       if (!kind || info(*kind).dimension > dimension_) {
         tokens_.fail(fmt::format("element of type {} in {} dimensions is not read", type, dimension_));
       }
@@ -253,7 +253,7 @@ class Reader {
 
   void marker_element(MarkerElements& found) {
     const std::int64_t type = tokens_.read_integer("type of an element");
-    const std::optional<ElementKind> kind = kind_of(type);
+    const std::optional<ElementKind> kind = kind_of_su2(type);
     if (type == kVertexType) {
       found.points.push_back(vertex());
     } else if (type == kLineType) {
@@ -272,7 +272,7 @@ class Reader {
   /// Group has room for one kind of members: those of fewest dimensions beside others stay in the file alone.
   void add_marker(MarkerElements found) {
     ++markers_;
-    Group group{.name = tag_, .role = std::string(kMarker), .code = 0, .dimension = 1, .members = {}};
+    Group group{.name = tag_, .role = std::string(kSu2Marker), .code = 0, .dimension = 1, .members = {}};
     if (found.faces.size() > 0) {
       group.dimension = 2;
       group.faces = std::move(found.faces);
@@ -309,7 +309,7 @@ class Reader {
   std::size_t markers_expected_ = 0;
 };
 
-Mesh read(SourceFile& source, const IoContext& context) { return Reader(source, context.progress).read(); }
+Mesh read_su2(SourceFile& source, const IoContext& context) { return Su2Reader(source, context.progress).read(); }
 
 // --- Writing anew ---
 
@@ -361,7 +361,7 @@ void write_marker(TextWriter& out, const Marker& marker) {
   }
 }
 
-Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
+Notes write_su2(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
   Notes notes;
   const auto kinds = mesh.elements.kinds();
   const bool volume = std::any_of(kinds.begin(), kinds.end(), [](ElementKind kind) { return info(kind).dimension == 3; });
@@ -390,7 +390,8 @@ Notes write(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions,
 }  // namespace
 
 const FormatHandler& su2_format() {
-  static const FormatHandler handler{{"su2", "SU2", ".su2", "positions, elements of all kinds, markers"}, recognises, read, write};
+  static const FormatHandler handler{
+      {"su2", "SU2", ".su2", "positions, elements of all kinds, markers"}, recognises_su2, read_su2, write_su2};
   return handler;
 }
 

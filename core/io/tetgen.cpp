@@ -19,7 +19,7 @@
 namespace dmoscope {
 namespace {
 
-constexpr TextSyntax kSyntax{.comment = '#'};
+constexpr TextSyntax kTetgenSyntax{.comment = '#'};
 constexpr std::string_view kMarker = "boundary marker";
 constexpr std::string_view kAttribute = "attribute";
 constexpr std::int64_t kMostAttributes = 1024;
@@ -74,7 +74,7 @@ class TetgenReader {
   }
 
   void nodes() {
-    Tokenizer tokens(source_.bytes(), source_.path().string(), kSyntax, progress_);
+    Tokenizer tokens(source_.bytes(), source_.path().string(), kTetgenSyntax, progress_);
     if (tokens.at_end()) tokens.fail_at_end("the number of vertices");
     const std::int64_t declared = tokens.read_integer("number of vertices");
     dimension_ = tokens.more_on_line() ? static_cast<int>(tokens.read_integer("dimension")) : 3;
@@ -87,7 +87,7 @@ class TetgenReader {
     tokens.end_line();
     CoordinateLayout layout;
     layout.components = dimension_;
-    layout.syntax = kSyntax;
+    layout.syntax = kTetgenSyntax;
     source_.set_layout(layout);
     reserve_large(mesh_.positions, count);
     source_.reserve_places(count);
@@ -118,7 +118,7 @@ class TetgenReader {
   }
 
   void elements(const SourceFile& file) {
-    Tokenizer tokens(file.bytes(), file.path().string(), kSyntax, progress_);
+    Tokenizer tokens(file.bytes(), file.path().string(), kTetgenSyntax, progress_);
     if (tokens.at_end()) tokens.fail_at_end("the number of elements");
     const std::int64_t declared = tokens.read_integer("number of elements");
     const ElementKind kind = dimension_ == 2 ? ElementKind::Triangle : ElementKind::Tetrahedron;
@@ -160,19 +160,19 @@ class TetgenReader {
   std::int64_t first_ = 1;  // number of the first vertex
 };
 
-Mesh read(SourceFile& source, const IoContext& context) { return TetgenReader(source, context.progress).read(); }
+Mesh read_tetgen(SourceFile& source, const IoContext& context) { return TetgenReader(source, context.progress).read(); }
 
 // --- Writing anew: everything counts from 1 ---
 
 /// One column of an attribute: values[row * stride] from `first` on.
-struct Column {
+struct ValueColumn {
   const Field* field;
   std::size_t component;
   [[nodiscard]] double at(std::size_t row) const { return field->values[row * static_cast<std::size_t>(field->components) + component]; }
 };
 
 struct Columns {
-  std::vector<Column> attributes;
+  std::vector<ValueColumn> attributes;
   const Field* marker = nullptr;
   std::vector<std::size_t> kept;  // fields
 };
@@ -208,7 +208,7 @@ Columns columns_of(const Mesh& mesh, Field::On on) {
 /// Says under which number each named attribute is found.
 void note_names(const Columns& columns, Notes& notes) {
   for (std::size_t k = 0; k < columns.attributes.size(); ++k) {
-    const Column& column = columns.attributes[k];
+    const ValueColumn& column = columns.attributes[k];
     if (column.component != 0 || column.field->name == fmt::format("{} {}", kAttribute, k + 1)) continue;
     notes.push_back(fmt::format("Field \"{}\" was written as {} {} of the {}; .node and .ele files hold no names.", column.field->name,
                                 kAttribute, k + 1, column.field->on == Field::On::Vertices ? "vertices" : "elements"));
@@ -245,7 +245,7 @@ Notes write_nodes(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> posi
   out.for_each(positions.size(), [&](TextBuffer& part, std::size_t v) {
     part << v + 1 << ' ' << positions[v].x << ' ' << positions[v].y;
     if (volume) part << ' ' << positions[v].z;
-    for (const Column& column : columns.attributes) part << ' ' << column.at(v);
+    for (const ValueColumn& column : columns.attributes) part << ' ' << column.at(v);
     if (columns.marker != nullptr) part << ' ' << static_cast<std::int64_t>(columns.marker->values[v]);
     part << '\n';
   });
@@ -261,7 +261,7 @@ void write_elements(AtomicFile& file, const Mesh& mesh, const IoContext& context
     std::array<Index, 8> buffer{};
     part << e + 1;
     for (const Index c : file_corners(mesh, static_cast<Index>(e), buffer)) part << ' ' << c + 1;
-    for (const Column& column : columns.attributes) part << ' ' << column.at(e);
+    for (const ValueColumn& column : columns.attributes) part << ' ' << column.at(e);
     part << '\n';
   });
   out.finish();
@@ -274,7 +274,7 @@ const FormatHandler& tetgen_format() {
   static const FormatHandler handler{.info = {"tetgen", "Triangle and TetGen", ".node .ele",
                                               "triangles or tetrahedra, attributes, boundary markers; two files, either names both"},
                                      .recognises = nullptr,
-                                     .read = read,
+                                     .read = read_tetgen,
                                      .write = write_nodes,
                                      .patch = nullptr,
                                      .companion = &elements};

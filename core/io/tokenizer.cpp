@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -271,6 +272,21 @@ bool equal_ignoring_case(std::string_view a, std::string_view b) noexcept {
     if (lower(a[i]) != lower(b[i])) return false;
   }
   return true;
+}
+
+double any_double(Tokenizer& tokens) {
+  double value = 0.0;
+  std::size_t begin = 0;
+  if (tokens.take_double(value, begin)) return value;
+  const std::string_view token = tokens.read_token("a number");
+  std::string_view letters = token;
+  const bool negative = letters.starts_with('-');
+  if (negative || letters.starts_with('+')) letters.remove_prefix(1);
+  if (equal_ignoring_case(letters, "nan")) return std::numeric_limits<double>::quiet_NaN();
+  if (equal_ignoring_case(letters, "inf") || equal_ignoring_case(letters, "infinity")) {
+    return negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+  }
+  return tokens.parse_double(token, "a number");
 }
 
 }  // namespace dmoscope

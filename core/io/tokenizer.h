@@ -199,4 +199,7 @@ class Tokenizer {
 /// Do two words agree but for the case of their letters (ASCII)?
 [[nodiscard]] bool equal_ignoring_case(std::string_view a, std::string_view b) noexcept;
 
+/// The next number, which may be infinite or NaN. Throws InputError where there is none.
+[[nodiscard]] double any_double(Tokenizer& tokens);
+
 }  // namespace dmoscope

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "core/io/binary.h"
+
 namespace dmoscope {
 namespace {
 
@@ -19,9 +21,6 @@ struct FixedAttribute {
 constexpr std::array kFixed{FixedAttribute{"VECTORS", 3},   FixedAttribute{"NORMALS", 3},    FixedAttribute{"TENSORS", 9},
                             FixedAttribute{"TENSORS6", 6},  FixedAttribute{"GLOBAL_IDS", 1}, FixedAttribute{"PEDIGREE_IDS", 1},
                             FixedAttribute{"EDGE_FLAGS", 1}};
-
-/// Beyond this, whole numbers in a double are no longer exact.
-constexpr double kExactWhole = 9007199254740992.0;
 
 }  // namespace
 

@@ -11,7 +11,7 @@
 namespace dmoscope {
 namespace {
 
-const VtkType kInt{VtkType::Kind::Scalar, ScalarType::Int32};
+const VtkType kInt32{VtkType::Kind::Scalar, ScalarType::Int32};
 
 Index checked_corner(const VtkValues& values, std::int64_t corner, std::size_t points, std::size_t place) {
   if (corner < 0 || static_cast<std::uint64_t>(corner) >= points) {
@@ -29,7 +29,7 @@ VtkCells read_counted(VtkValues& values, const std::string& keyword, std::size_t
   found.places.reserve(cells);
   found.corners.reserve(size >= cells ? size - cells : 0);
   std::size_t remaining = 0;  // corners that the current cell still lacks
-  values.wholes(kInt, size, keyword, [&](std::int64_t value, std::size_t place) {
+  values.wholes(kInt32, size, keyword, [&](std::int64_t value, std::size_t place) {
     if (remaining > 0) {
       found.corners.push_back(checked_corner(values, value, points, place));
       if (--remaining == 0) found.offsets.push_back(static_cast<Index>(found.corners.size()));
@@ -103,14 +103,14 @@ constexpr std::array<std::string_view, 17> kSecondOrder{"quadratic edge",
                                                         "triquadratic pyramid"};
 constexpr std::array<std::string_view, 6> kParametric{"parametric curve",         "parametric surface",     "parametric triangle",
                                                       "parametric quadrilateral", "parametric tetrahedron", "parametric hexahedron"};
-constexpr std::array<std::string_view, 8> kHigherOrder{"higher-order edge",    "higher-order triangle",    "higher-order quadrilateral",
-                                                       "higher-order polygon", "higher-order tetrahedron", "higher-order wedge",
-                                                       "higher-order pyramid", "higher-order hexahedron"};
+constexpr std::array<std::string_view, 8> kHigherOrderCells{
+    "higher-order edge",        "higher-order triangle", "higher-order quadrilateral", "higher-order polygon",
+    "higher-order tetrahedron", "higher-order wedge",    "higher-order pyramid",       "higher-order hexahedron"};
 constexpr std::array<std::string_view, 14> kLagrange{
     "Lagrange curve",     "Lagrange triangle", "Lagrange quadrilateral", "Lagrange tetrahedron", "Lagrange hexahedron",
     "Lagrange wedge",     "Lagrange pyramid",  "Bezier curve",           "Bezier triangle",      "Bezier quadrilateral",
     "Bezier tetrahedron", "Bezier hexahedron", "Bezier wedge",           "Bezier pyramid"};
-constexpr std::array kHigherTypes{TypeNames{21, kSecondOrder}, TypeNames{51, kParametric}, TypeNames{60, kHigherOrder},
+constexpr std::array kHigherTypes{TypeNames{21, kSecondOrder}, TypeNames{51, kParametric}, TypeNames{60, kHigherOrderCells},
                                   TypeNames{68, kLagrange}};
 
 /// Why a cell of this type cannot be read.

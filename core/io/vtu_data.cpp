@@ -134,22 +134,6 @@ class ArrayDecoder {
   VtuData data_;
 };
 
-/// A number that may be infinite or NaN.
-double any_double(Tokenizer& tokens) {
-  double value = 0.0;
-  std::size_t begin = 0;
-  if (tokens.take_double(value, begin)) return value;
-  const std::string_view token = tokens.read_token("a number");
-  std::string_view letters = token;
-  const bool negative = letters.starts_with('-');
-  if (negative || letters.starts_with('+')) letters.remove_prefix(1);
-  if (equal_ignoring_case(letters, "nan")) return std::numeric_limits<double>::quiet_NaN();
-  if (equal_ignoring_case(letters, "inf") || equal_ignoring_case(letters, "infinity")) {
-    return negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
-  }
-  return tokens.parse_double(token, "a number");
-}
-
 template <class Value, class Read>
 std::vector<Value> ascii(const VtuDocument& document, const VtuArray& array, std::size_t expected, std::vector<std::uint64_t>* places,
                          Read read) {

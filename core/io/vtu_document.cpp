@@ -50,7 +50,7 @@ std::size_t tag_end(std::string_view bytes, std::size_t begin) {
   return std::string_view::npos;
 }
 
-std::optional<std::uint64_t> whole(std::string_view text) {
+std::optional<std::uint64_t> unsigned_number(std::string_view text) {
   text = trimmed(text);
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -130,7 +130,7 @@ void VtuDocument::attributes(pugi::xml_node file) {
 
 std::size_t VtuDocument::count(pugi::xml_node node, const char* attribute, std::size_t most) const {
   const std::string_view text = node.attribute(attribute).value();
-  const std::optional<std::uint64_t> value = whole(text);
+  const std::optional<std::uint64_t> value = unsigned_number(text);
   if (!value) fail(node, fmt::format("{}={} is no count", attribute, quote_token(text)));
   if (*value > most) fail(node, fmt::format("{} is {}: {} at most are possible", attribute, *value, most));
   return static_cast<std::size_t>(*value);
@@ -149,7 +149,7 @@ std::optional<VtuArray> VtuDocument::array(pugi::xml_node node) const {
   }
   const std::string_view format = node.attribute("format").value();
   if (format == "appended") {
-    const std::optional<std::uint64_t> offset = whole(node.attribute("offset").value());
+    const std::optional<std::uint64_t> offset = unsigned_number(node.attribute("offset").value());
     if (!offset) fail(node, "appended data without an offset");
     if (!has_appended_) fail(node, "appended data, but the file has no AppendedData");
     if (*offset > appended_end_ - appended_begin_) fail(node, fmt::format("offset {} lies beyond the appended data", *offset));
@@ -182,7 +182,7 @@ std::vector<VtuDocument::Appended> VtuDocument::appended() const {
   std::vector<Appended> found;
   const auto gather = [&](pugi::xml_node node) {
     if (std::string_view(node.attribute("format").value()) != "appended") return;
-    const std::optional<std::uint64_t> offset = whole(node.attribute("offset").value());
+    const std::optional<std::uint64_t> offset = unsigned_number(node.attribute("offset").value());
     if (offset) found.push_back({node, static_cast<std::size_t>(*offset), appended_begin_ + static_cast<std::size_t>(*offset)});
   };
   for (pugi::xml_node node = document_.first_child(); node;) {  // all elements, without recursion

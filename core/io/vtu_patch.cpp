@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/same_bits.h"
 #include "core/io/format.h"
 #include "core/io/patch_writer.h"
 #include "core/io/text_writer.h"
@@ -17,11 +18,6 @@
 
 namespace dmoscope {
 namespace {
-
-bool same_bits(Vec3 a, Vec3 b) {
-  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
-  return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
-}
 
 /// Encodes the points anew that are base64 or compressed, and moves the offsets of what comes behind them in appended data.
 class VtuPatcher {

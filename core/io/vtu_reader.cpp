@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/base/memory.h"
+#include "core/io/binary.h"
 #include "core/io/format.h"
 #include "core/io/tokenizer.h"
 #include "core/io/unpack_budget.h"
@@ -23,9 +24,6 @@
 
 namespace dmoscope {
 namespace {
-
-/// Beyond this, whole numbers in a double are no longer exact.
-constexpr double kExactWhole = 9007199254740992.0;
 
 /// The attribute of PointData and CellData that names the array which has a role, and the role's name in VTK legacy files.
 struct ActiveRole {

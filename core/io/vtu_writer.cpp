@@ -21,7 +21,7 @@ namespace dmoscope {
 namespace {
 
 constexpr bool kBigEndian = std::endian::native == std::endian::big;
-constexpr std::size_t kBlock = std::size_t{1} << 18;  // bytes that are compressed together
+constexpr std::size_t kBlockBytes = std::size_t{1} << 18;  // bytes that are compressed together
 
 /// VTU's word for a type of number.
 std::string_view vtu_word(ScalarType type) {
@@ -37,7 +37,7 @@ class VtuWriter {
         mesh_(mesh),
         positions_(positions),
         context_(context),
-        encoding_{kBigEndian, ScalarType::UInt64, true, false, kBlock} {}
+        encoding_{kBigEndian, ScalarType::UInt64, true, false, kBlockBytes} {}
 
   Notes write() {
     xml_ = fmt::format(

@@ -1,7 +1,6 @@
 #include "core/io/xdmf_document.h"
 
 #include <algorithm>
-#include <limits>
 #include <new>
 
 #include <fmt/format.h>
@@ -10,26 +9,6 @@
 #include "core/io/tokenizer.h"
 
 namespace dmoscope {
-namespace {
-
-/// A number that may be infinite or NaN.
-double any_double(Tokenizer& tokens) {
-  double value = 0.0;
-  std::size_t begin = 0;
-  if (tokens.take_double(value, begin)) return value;
-  const std::string_view token = tokens.read_token("a number");
-  std::string_view letters = token;
-  const bool negative = letters.starts_with('-');
-  if (negative || letters.starts_with('+')) letters.remove_prefix(1);
-  if (equal_ignoring_case(letters, "nan")) return std::numeric_limits<double>::quiet_NaN();
-  if (equal_ignoring_case(letters, "inf") || equal_ignoring_case(letters, "infinity")) {
-    return negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
-  }
-  return tokens.parse_double(token, "a number");
-}
-
-}  // namespace
-
 TextSyntax xdmf_text_syntax() { return {.comment = '<', .comma_is_blank = false, .backslash_joins_lines = false, .free_form = true}; }
 
 XdmfDocument::XdmfDocument(const SourceFile& source, Progress& progress) : source_(source), progress_(progress), xml_(source.bytes()) {

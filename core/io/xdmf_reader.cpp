@@ -239,7 +239,7 @@ class XdmfReader {
   bool passed_over_ = false;  // cells: data and sets of cells mean others than ours
 };
 
-bool recognises(std::string_view bytes) {
+bool recognises_xdmf(std::string_view bytes) {
   constexpr std::size_t kLook = 4096;
   const std::string_view head = bytes.substr(0, kLook);
   return trimmed(head).starts_with('<') && head.find("<Xdmf") != std::string_view::npos;
@@ -252,7 +252,7 @@ Mesh read_xdmf(SourceFile& source, const IoContext& context) { return XdmfReader
 const FormatHandler& xdmf_format() {
   static const FormatHandler handler{
       {"xdmf", "XDMF", ".xdmf .xmf", "2D and 3D elements, attributes of nodes and cells, sets; numbers in the XML"},
-      recognises,
+      recognises_xdmf,
       read_xdmf,
       write_xdmf};
   return handler;

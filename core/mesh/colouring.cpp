@@ -24,21 +24,21 @@ std::uint32_t spread_bits(std::uint32_t x) {
 }
 
 /// A vertex with what it is sorted by.
-struct Keyed {
+struct KeyedVertex {
   std::uint32_t key;
   Index vertex;
 };
 
 /// By the key, stably; digit by digit.
-void radix_sort(std::vector<Keyed>& items, unsigned bits) {
+void radix_sort(std::vector<KeyedVertex>& items, unsigned bits) {
   constexpr unsigned kDigit = 11;
-  std::vector<Keyed> other(items.size());
+  std::vector<KeyedVertex> other(items.size());
   for (unsigned shift = 0; shift < bits; shift += kDigit) {
     std::vector<std::size_t> start((std::size_t{1} << kDigit) + 1, 0);
-    const auto digit = [shift](const Keyed& item) { return item.key >> shift & ((1U << kDigit) - 1U); };
-    for (const Keyed& item : items) ++start[digit(item) + 1];
+    const auto digit = [shift](const KeyedVertex& item) { return item.key >> shift & ((1U << kDigit) - 1U); };
+    for (const KeyedVertex& item : items) ++start[digit(item) + 1];
     std::partial_sum(start.begin(), start.end(), start.begin());
-    for (const Keyed& item : items) other[start[digit(item)]++] = item;
+    for (const KeyedVertex& item : items) other[start[digit(item)]++] = item;
     items.swap(other);
   }
 }
@@ -46,7 +46,7 @@ void radix_sort(std::vector<Keyed>& items, unsigned bits) {
 constexpr std::size_t kStretch = 4096;  // vertices: some 200 KB with their rings
 
 /// The items' vertices by the size of their stars, stably.
-void sort_by_star(std::span<const Keyed> items, const Topology& topology, std::span<Index> sorted) {
+void sort_by_star(std::span<const KeyedVertex> items, const Topology& topology, std::span<Index> sorted) {
   constexpr std::size_t kLargest = 63;  // larger ones count as this
   std::array<std::uint8_t, kStretch> star;
   std::array<std::size_t, kLargest + 2> start{};
@@ -154,7 +154,7 @@ void arrange_classes(Colouring& colouring, const Mesh& mesh, const Plane* plane,
   for_chunks(pool, colouring.class_count(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t c = first; c < last; ++c) {
       const std::span<Index> members(colouring.order.data() + colouring.class_offsets[c], colouring.members(static_cast<Index>(c)).size());
-      std::vector<Keyed> items(members.size());
+      std::vector<KeyedVertex> items(members.size());
       for (std::size_t i = 0; i < members.size(); ++i) items[i] = {curve.key(members[i]), members[i]};
       radix_sort(items, 32);
       for (std::size_t begin = 0; begin < items.size(); begin += kStretch)

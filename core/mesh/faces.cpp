@@ -16,7 +16,7 @@ constexpr std::array<LocalFace, 6> kHexahedron{
 constexpr std::array<LocalFace, 5> kWedge{{{3, {0, 2, 1}}, {3, {3, 4, 5}}, {4, {0, 1, 4, 3}}, {4, {1, 2, 5, 4}}, {4, {2, 0, 3, 5}}}};
 constexpr std::array<LocalFace, 5> kPyramid{{{4, {0, 3, 2, 1}}, {3, {0, 1, 4}}, {3, {1, 2, 4}}, {3, {2, 3, 4}}, {3, {3, 0, 4}}}};
 
-constexpr Index kCheckEvery = 1U << 16U;
+constexpr Index kFacesBetweenLooks = 1U << 16U;
 
 using Corners = std::array<Index, 4>;
 
@@ -27,7 +27,7 @@ Corners sorted(Corners corners) {
 }
 
 /// A face, where it is.
-struct Keyed {
+struct KeyedFace {
   Corners key;
   std::uint32_t place;  // into across_
   Index element;
@@ -73,7 +73,7 @@ FaceNeighbours::FaceNeighbours(const Mesh& mesh, Progress* progress) {
   const auto lowest = [&](ElementFace f) { return std::ranges::min(vertices_of(elements, f)); };
   const auto for_all = [&](auto&& visit) {
     for (Index e = 0; e < count; ++e) {
-      if (progress != nullptr && e % kCheckEvery == 0) progress->check();
+      if (progress != nullptr && e % kFacesBetweenLooks == 0) progress->check();
       const auto faces = static_cast<Index>(faces_of(elements.kind(e)).size());
       for (Index f = 0; f < faces; ++f) visit(ElementFace{e, f});
     }
@@ -84,12 +84,12 @@ FaceNeighbours::FaceNeighbours(const Mesh& mesh, Progress* progress) {
   for_all([&](ElementFace f) { order[first[lowest(f) + 1]++] = f; });
 
   std::vector<std::uint8_t> shared_by_many;  // by place; only where there is one
-  std::vector<Keyed> bucket;
+  std::vector<KeyedFace> bucket;
   for (std::size_t v = 0; v + 1 < first.size(); ++v) {
     bucket.clear();
     for (std::uint32_t i = first[v]; i < first[v + 1]; ++i)
       bucket.push_back({sorted(vertices_of(elements, order[i])), offsets_[order[i].element] + order[i].face, order[i].element});
-    std::ranges::stable_sort(bucket, {}, &Keyed::key);
+    std::ranges::stable_sort(bucket, {}, &KeyedFace::key);
     for (std::size_t i = 0, end = 0; i < bucket.size(); i = end) {
       while (end < bucket.size() && bucket[end].key == bucket[i].key) ++end;
       ++face_count_;

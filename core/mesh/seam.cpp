@@ -32,10 +32,10 @@ struct Range {
   [[nodiscard]] bool within(double a, double b) const { return low >= a - kRounding && high <= b + kRounding; }
 };
 
-struct Box {
+struct Degrees {
   Range x, y;
   /// Looks no further once something lies beyond the poles, as it does in most meshes.
-  explicit Box(const Mesh& mesh) {
+  explicit Degrees(const Mesh& mesh) {
     for (const Index v : mesh.elements.all_corners()) {
       x.add(mesh.positions[v].x);
       y.add(mesh.positions[v].y);
@@ -55,7 +55,7 @@ bool is_wide(const Mesh& mesh, Index e) {
   return is_wide(mesh, e, [](double x) { return x; });
 }
 
-bool is_in_degrees(const Box& box) {
+bool is_in_degrees(const Degrees& box) {
   return box.y.within(-kPole, kPole) && box.x.width() > kHalf && box.x.width() <= kCircle + kRounding &&
          box.x.within(-kFarthest, kFarthest);
 }
@@ -132,7 +132,7 @@ double find_cut(const Mesh& mesh, double plain, double& width) {
 void find_seam(const Mesh& mesh, const Topology& topology, const EdgeSurvey& edges, Geometry& geometry) {
   const Plane plain = geometry.plane;
   if (geometry.shape != Shape::Planar || !(plain.u == Vec3{1, 0, 0}) || !(plain.v == Vec3{0, 1, 0})) return;
-  const Box box(mesh);
+  const Degrees box(mesh);
   if (!is_in_degrees(box)) return;
   std::vector<Index> wide;
   for (Index e = 0; e < mesh.elements.size(); ++e)

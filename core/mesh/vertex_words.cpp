@@ -41,9 +41,9 @@ std::string some_of(const std::vector<std::string>& names) {
 }
 
 /// One word, looked up in one mesh.
-class Word {
+class VertexWord {
  public:
-  Word(const Mesh& mesh, std::string_view word) : mesh_(mesh), word_(word) {}
+  VertexWord(const Mesh& mesh, std::string_view word) : mesh_(mesh), word_(word) {}
 
   std::vector<Index> vertices() {
     const std::size_t colon = word_.find(':');
@@ -246,7 +246,7 @@ class Word {
 
 }  // namespace
 
-std::vector<Index> vertices_named(const Mesh& mesh, std::string_view word) { return Word(mesh, word).vertices(); }
+std::vector<Index> vertices_named(const Mesh& mesh, std::string_view word) { return VertexWord(mesh, word).vertices(); }
 
 std::vector<Index> vertices_named(const Mesh& mesh, std::span<const std::string> words) {
   std::vector<Index> all;

@@ -11,8 +11,7 @@ namespace dmoscope {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kGrain = 8192;
+constexpr std::size_t kElementsAtOnce = 8192;
 
 template <Metric M>
 double quality_of(const QualityContext& context, PositionView positions, Index element) {
@@ -31,7 +30,7 @@ double smallest_jacobian(const QualityContext& context, PositionView positions, 
 
 void element_qualities(const QualityContext& context, std::span<const Vec3> positions, Metric metric, ThreadPool* pool,
                        std::span<double> out) {
-  for_chunks(pool, out.size(), kGrain, [&](std::size_t first, std::size_t last) {
+  for_chunks(pool, out.size(), kElementsAtOnce, [&](std::size_t first, std::size_t last) {
     for_blocks(context, positions, metric, first, last,
                [&](const ElementBlock& block) { std::ranges::copy(block.qualities(), out.begin() + block.first); });
   });
@@ -40,7 +39,7 @@ void element_qualities(const QualityContext& context, std::span<const Vec3> posi
 double vertex_quality(const QualityContext& context, const Topology& topology, std::span<const Vec3> positions, Metric metric,
                       Index vertex) {
   return formulas::with_metric(metric, [&]<Metric M>() {
-    double least = kInfinity;
+    double least = std::numeric_limits<double>::infinity();
     for (const Incidence& incidence : topology.star(vertex)) least = std::min(least, quality_of<M>(context, positions, incidence.element));
     return least;
   });
@@ -48,11 +47,12 @@ double vertex_quality(const QualityContext& context, const Topology& topology, s
 
 std::vector<Index> immovable_elements(const Mesh& mesh, std::span<const std::uint8_t> fixed, ThreadPool* pool) {
   const std::size_t count = mesh.elements.size();
-  std::vector<std::vector<Index>> found((count + kGrain - 1) / kGrain);
-  for_chunks(pool, count, kGrain, [&](std::size_t first, std::size_t last) {
+  std::vector<std::vector<Index>> found((count + kElementsAtOnce - 1) / kElementsAtOnce);
+  for_chunks(pool, count, kElementsAtOnce, [&](std::size_t first, std::size_t last) {
     for (std::size_t e = first; e < last; ++e) {
       const auto corners = mesh.elements.corners(static_cast<Index>(e));
-      if (std::ranges::all_of(corners, [&](Index v) { return fixed[v] != 0; })) found[first / kGrain].push_back(static_cast<Index>(e));
+      if (std::ranges::all_of(corners, [&](Index v) { return fixed[v] != 0; }))
+        found[first / kElementsAtOnce].push_back(static_cast<Index>(e));
     }
   });
   std::vector<Index> all;
@@ -64,9 +64,9 @@ Statistics compute_statistics(const QualityContext& context, std::span<const Vec
                               std::span<const Index> immovable, ThreadPool* pool) {
   const std::size_t count = context.mesh.elements.size();
   constexpr std::size_t kStretch = Tally::kStretch;
-  static_assert(kGrain % kStretch == 0);
+  static_assert(kElementsAtOnce % kStretch == 0);
   std::vector<Tally> tallies((count + kStretch - 1) / kStretch);
-  for_chunks(pool, count, kGrain, [&](std::size_t first, std::size_t last) {
+  for_chunks(pool, count, kElementsAtOnce, [&](std::size_t first, std::size_t last) {
     for (std::size_t begin = first; begin < last; begin += kStretch) {
       Tally tally;  // here and not in the vector: threads would take its memory from each other with every block
       for_blocks(context, positions, metric, begin, std::min(begin + kStretch, last),

@@ -13,7 +13,7 @@ namespace dmoscope {
 
 namespace {
 
-constexpr std::size_t kGrain = std::size_t{1} << 16U;
+constexpr std::size_t kVerticesAtOnce = std::size_t{1} << 16U;
 
 History::Kept copy_of(std::uint64_t iteration, std::span<const Vec3> positions, ThreadPool* pool) {
   const std::size_t count = positions.size();
@@ -21,7 +21,7 @@ History::Kept copy_of(std::uint64_t iteration, std::span<const Vec3> positions, 
   const std::shared_ptr<Vec3> copy(std::allocator<Vec3>().allocate(count),
                                    [count](Vec3* p) { std::allocator<Vec3>().deallocate(p, count); });
   advise_large_pages(copy.get(), positions.size_bytes());
-  for_chunks(pool, count, kGrain, [&](std::size_t first, std::size_t last) {
+  for_chunks(pool, count, kVerticesAtOnce, [&](std::size_t first, std::size_t last) {
     std::uninitialized_copy(positions.begin() + static_cast<std::ptrdiff_t>(first), positions.begin() + static_cast<std::ptrdiff_t>(last),
                             copy.get() + first);
   });

@@ -19,9 +19,9 @@
 namespace dmoscope {
 namespace {
 
-constexpr Index kCheckEvery = 1U << 16U;  // elements between two looks for a cancel
+constexpr Index kElementsBetweenLooks = 1U << 16U;  // elements between two looks for a cancel
 
-bool planar(const Mesh& mesh, Index e) { return info(mesh.elements.kind(e)).dimension == 2; }
+bool is_planar(const Mesh& mesh, Index e) { return info(mesh.elements.kind(e)).dimension == 2; }
 
 /// A corner twice, or no corner whose two edges span more area than rounding makes of a straight line.
 bool degenerate(const Mesh& mesh, const Plane& plane, Index e) {
@@ -73,11 +73,11 @@ MeshReport examine(const Mesh& mesh, const Geometry& geometry, const Topology& t
   report.duplicate_elements = edges.duplicates;
   const QualityContext context{mesh, geometry};
   for (Index e = 0; e < mesh.elements.size(); ++e) {
-    if (e % kCheckEvery == 0) {
+    if (e % kElementsBetweenLooks == 0) {
       progress.check();
       progress.set(static_cast<double>(e) / mesh.elements.size());
     }
-    if (!planar(mesh, e) || (geometry.shape == Shape::Planar && clearly_positive(mesh, geometry.plane, e))) continue;
+    if (!is_planar(mesh, e) || (geometry.shape == Shape::Planar && clearly_positive(mesh, geometry.plane, e))) continue;
     if (degenerate(mesh, geometry.plane, e)) {
       report.degenerate_elements.push_back(e);
     } else if (!(smallest_jacobian(context, mesh.positions, e) > 0.0)) {
@@ -106,7 +106,7 @@ void refuse_what_cannot_be_done(const Mesh& mesh, const Geometry& geometry, cons
   }
   if (geometry.shape == Shape::Volume) {
     for (Index e = 0; e < mesh.elements.size(); ++e)
-      if (planar(mesh, e))
+      if (is_planar(mesh, e))
         throw InputError(file, 0,
                          fmt::format("the mesh mixes volume elements with {} (element {})", info(mesh.elements.kind(e)).plural, e));
   }
@@ -151,7 +151,7 @@ std::vector<double> reference_measures(const Mesh& mesh, const Geometry& geometr
   // First around each vertex, then over the corners of each element: linear whatever the valence.
   auto around = large_vector<double>(mesh.positions.size());
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    if (v % kCheckEvery == 0) progress.check();
+    if (v % kElementsBetweenLooks == 0) progress.check();
     const auto star = topology.star(v);
     for (const Incidence& incidence : star) around[v] += reference[incidence.element];
     if (!star.empty()) around[v] /= static_cast<double>(star.size());

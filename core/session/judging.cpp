@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kWorst = 100;
 
-constexpr std::size_t kGrain = std::size_t{1} << 15U;
+constexpr std::size_t kElementsJudgedAtOnce = std::size_t{1} << 15U;
 
 /// A histogram that is being filled.
 class Bins {
@@ -81,8 +81,8 @@ void judge_elements(Frame& frame, std::span<const Index> immovable, ThreadPool* 
   const std::size_t count = frame.input->mesh.elements.size();
   frame.quality = large_vector<float>(count);
   frame.inverted = large_vector<std::uint8_t>(count);
-  std::vector<Part> parts((count + kGrain - 1) / kGrain);
-  for_chunks(pool, count, kGrain, [&](std::size_t first, std::size_t last) {
+  std::vector<Part> parts((count + kElementsJudgedAtOnce - 1) / kElementsJudgedAtOnce);
+  for_chunks(pool, count, kElementsJudgedAtOnce, [&](std::size_t first, std::size_t last) {
     Part part;
     for_blocks(frame.input->quality_context(), frame.positions, frame.shown, first, last, [&](const ElementBlock& block) {
       part.tally.add(block, immovable);
@@ -94,7 +94,7 @@ void judge_elements(Frame& frame, std::span<const Index> immovable, ThreadPool* 
         part.worst.offer({block.first + static_cast<Index>(i), q, block.jacobian[i] <= 0.0});
       }
     });
-    parts[first / kGrain] = std::move(part);
+    parts[first / kElementsJudgedAtOnce] = std::move(part);
   });
   Part whole;
   for (const Part& part : parts) {
@@ -109,13 +109,13 @@ void judge_elements(Frame& frame, std::span<const Index> immovable, ThreadPool* 
 
 Histogram histogram_of(const InputMesh& input, Metric metric, ThreadPool* pool) {
   const std::size_t count = input.mesh.elements.size();
-  std::vector<Bins> parts((count + kGrain - 1) / kGrain);
-  for_chunks(pool, count, kGrain, [&](std::size_t first, std::size_t last) {
+  std::vector<Bins> parts((count + kElementsJudgedAtOnce - 1) / kElementsJudgedAtOnce);
+  for_chunks(pool, count, kElementsJudgedAtOnce, [&](std::size_t first, std::size_t last) {
     Bins bins;
     for_blocks(input.quality_context(), input.mesh.positions, metric, first, last, [&](const ElementBlock& block) {
       for (const double q : block.qualities()) bins.add(q);
     });
-    parts[first / kGrain] = bins;
+    parts[first / kElementsJudgedAtOnce] = bins;
   });
   Bins whole;
   for (const Bins& part : parts) whole.add(part);

@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view kFormat = "dmoscope session";
+constexpr std::string_view kSessionFormat = "dmoscope session";
 constexpr int kVersion = 2;  // 1: without checksums but that of the mesh
 
 /// Of positions and elements.
@@ -72,8 +72,10 @@ bool check_parts(const Json& object, const std::string& what) {
   return view_as_saved;
 }
 
-/// JSON has no number for what is not finite.
-Json number(double value) { return std::isnan(value) ? Json("nan") : std::isinf(value) ? Json(value > 0 ? "inf" : "-inf") : Json(value); }
+/// JSON has no number_in_json for what is not finite.
+Json number_in_json(double value) {
+  return std::isnan(value) ? Json("nan") : std::isinf(value) ? Json(value > 0 ? "inf" : "-inf") : Json(value);
+}
 
 double to_double(const Json& json) {
   if (json.is_number()) return json.get<double>();
@@ -81,11 +83,11 @@ double to_double(const Json& json) {
   if (word == "inf") return std::numeric_limits<double>::infinity();
   if (word == "-inf") return -std::numeric_limits<double>::infinity();
   if (word == "nan") return std::numeric_limits<double>::quiet_NaN();
-  throw UsageError(fmt::format("'{}' is no number", word));
+  throw UsageError(fmt::format("'{}' is no number_in_json", word));
 }
 
 std::uint64_t to_whole(const Json& json) {
-  if (!json.is_number_unsigned()) throw UsageError("a whole number is expected where there is none");
+  if (!json.is_number_unsigned()) throw UsageError("a whole number_in_json is expected where there is none");
   return json.get<std::uint64_t>();
 }
 
@@ -171,8 +173,14 @@ RunParameters to_parameters(const Json& json) {
 /// [minimum, mean, movable minimum, ceiling, worst element, inverted, moved, seconds]
 Json json_of(const IterationRecord& r) {
   const Statistics& s = r.statistics;
-  return {number(s.minimum), number(s.mean), number(s.movable_minimum), number(s.ceiling), s.worst_element,
-          s.inverted,        r.moved,        number(r.seconds)};
+  return {number_in_json(s.minimum),
+          number_in_json(s.mean),
+          number_in_json(s.movable_minimum),
+          number_in_json(s.ceiling),
+          s.worst_element,
+          s.inverted,
+          r.moved,
+          number_in_json(r.seconds)};
 }
 
 IterationRecord to_record(const Json& json, std::uint64_t iteration) {
@@ -293,7 +301,7 @@ struct Opened {
 
 Opened to_session(const Json& json, const std::filesystem::path& path, const Session& session, Progress& progress,
                   const std::shared_ptr<const InputMesh>& input) {
-  if (!json.is_object() || json.value("format", "") != kFormat) throw UsageError("this is no saved session of dmoscope");
+  if (!json.is_object() || json.value("format", "") != kSessionFormat) throw UsageError("this is no saved session of dmoscope");
   const std::uint64_t version = to_whole(json.at("version"));
   if (version < 1 || version > kVersion)
     throw UsageError(
@@ -329,8 +337,8 @@ Json parse(std::string_view text, const std::string& file) {
     const std::string_view before = text.substr(0, std::min<std::size_t>(text.size(), error.byte == 0 ? 0 : error.byte - 1));
     const auto line = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
     throw InputError(file, line, "this is no JSON, so no saved session");
-  } catch (const Json::exception&) {  // a number beyond all doubles
-    throw InputError(file, 0, "a number in it is too large for a saved session");
+  } catch (const Json::exception&) {  // a number_in_json beyond all doubles
+    throw InputError(file, 0, "a number_in_json in it is too large for a saved session");
   }
 }
 
@@ -346,7 +354,7 @@ void save_state(const std::filesystem::path& path, Session& session, const std::
   } else {
     throw UsageError("this mesh came from no file and no generator: export it and open it first");
   }
-  Json json{{"format", kFormat}, {"version", kVersion}, {"input", source}, {"runs", Json::array()}};
+  Json json{{"format", kSessionFormat}, {"version", kVersion}, {"input", source}, {"runs", Json::array()}};
   for (std::size_t i = 0; i < session.run_count(); ++i) {
     progress.check();
     json["runs"].push_back(json_of(session.run(i), progress));

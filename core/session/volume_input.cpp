@@ -12,7 +12,7 @@ namespace dmoscope {
 
 namespace {
 
-constexpr Index kCheckEvery = 1U << 14U;  // elements between two looks for a cancel
+constexpr Index kCellsBetweenLooks = 1U << 14U;  // elements between two looks for a cancel
 
 /// A corner twice, or no volume but what rounding makes of a flat element.
 bool degenerate(const Mesh& mesh, Index e) {
@@ -33,7 +33,7 @@ std::vector<Index> duplicates(const Mesh& mesh, const Topology& topology, Progre
   const ElementTable& elements = mesh.elements;
   std::vector<Index> found;
   for (Index e = 0; e < elements.size(); ++e) {
-    if (e % kCheckEvery == 0) progress.check();
+    if (e % kCellsBetweenLooks == 0) progress.check();
     // At the corner of the smallest star: a hub of all elements must not be looked at from each.
     const auto star = topology.star(std::ranges::min(elements.corners(e), {}, [&](Index v) { return topology.star(v).size(); }));
     const auto twin = [&](const Incidence& at) {
@@ -55,7 +55,7 @@ MeshReport examine_volume(const Mesh& mesh, const Geometry& geometry, const Topo
   report.duplicate_elements = duplicates(mesh, topology, progress);
   const QualityContext context{mesh, geometry};
   for (Index e = 0; e < mesh.elements.size(); ++e) {
-    if (e % kCheckEvery == 0) {
+    if (e % kCellsBetweenLooks == 0) {
       progress.check();
       progress.set(static_cast<double>(e) / mesh.elements.size());
     }

@@ -15,7 +15,7 @@ namespace {
 constexpr double kActive = 3e-5;  // above the least
 constexpr double kLeastStep = 1e-6, kLeastGain = 1e-6, kLongestStep = 1.0;
 constexpr double kNearEstimate = 0.9;
-constexpr int kRounds = 20;
+constexpr int kSteps = 20;
 
 /// What one of the functions is at a place, and how it rises there. V: Vec2<double> or Vec3.
 template <class V>
@@ -93,7 +93,7 @@ class Ascent {
 
   [[nodiscard]] V from(V place) const {
     double worth = worth_(place);
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kSteps; ++round) {
       const double least = look_at(place);
       if (room_.active.empty()) break;  // nothing here has a value
       const V direction = steepest(room_.active);

@@ -11,7 +11,7 @@ namespace dmoscope {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> kNames{"auto", "cpu", "cuda"};  // in the order of Backend
+constexpr std::array<std::string_view, 3> kBackendNames{"auto", "cpu", "cuda"};  // in the order of Backend
 
 [[noreturn]] void refuse(const std::string& why) { throw UsageError(fmt::format("the cuda backend cannot be used: {}", why)); }
 
@@ -35,12 +35,12 @@ Executor on_device(const Accelerator& accelerator, const SmoothingTask& task) {
 
 }  // namespace
 
-std::string_view name(Backend backend) { return kNames[static_cast<std::size_t>(backend)]; }
+std::string_view name(Backend backend) { return kBackendNames[static_cast<std::size_t>(backend)]; }
 
 Backend parse_backend(std::string_view word) {
-  const auto found = std::ranges::find(kNames, word);
-  if (found == kNames.end()) throw UsageError(fmt::format("unknown backend '{}' (known: {})", word, fmt::join(kNames, ", ")));
-  return static_cast<Backend>(found - kNames.begin());
+  const auto found = std::ranges::find(kBackendNames, word);
+  if (found == kBackendNames.end()) throw UsageError(fmt::format("unknown backend '{}' (known: {})", word, fmt::join(kBackendNames, ", ")));
+  return static_cast<Backend>(found - kBackendNames.begin());
 }
 
 void require_backend(Backend wanted, const Acceleration& acceleration) {

@@ -10,7 +10,8 @@ namespace dmoscope {
 
 namespace {
 
-constexpr LineStretch kReach{-4.0, 4.0};  // in units of the star's scale, in which its other vertices are less than 2 away along each axis
+constexpr LineStretch kSpaceReach{-4.0,
+                                  4.0};  // in units of the star's scale, in which its other vertices are less than 2 away along each axis
 
 class SolidDvr {
  public:
@@ -36,9 +37,9 @@ class SolidDvr {
  private:
   /// Of a star with inverted elements: where none is any more, or, if there is no such place, where DMO would say that they are less so.
   static double best_on_line(std::span<const LineCorner> corners) {
-    if (least_jacobian(corners, 0.0) > 0.0 || least_jacobian(corners, best_jacobian(corners, kReach)) > 0.0)
-      return best_rank(corners, kReach);
-    return best_untangling(corners, kReach);
+    if (least_jacobian(corners, 0.0) > 0.0 || least_jacobian(corners, best_jacobian(corners, kSpaceReach)) > 0.0)
+      return best_rank(corners, kSpaceReach);
+    return best_untangling(corners, kSpaceReach);
   }
 
   RuleMesh<Space> mesh_;

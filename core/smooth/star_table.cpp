@@ -13,7 +13,7 @@ namespace dmoscope {
 
 namespace {
 
-constexpr std::size_t kGrain = 8192;  // vertices a chunk
+constexpr std::size_t kStarsAtOnce = 8192;  // vertices a chunk
 
 /// What one chunk of vertices makes; `first` of its shapes counts from the chunk's own beginning. No ranks: vertices stand for them.
 class Chunk {
@@ -109,9 +109,9 @@ StarTable build_star_table(const Mesh& mesh, const Topology& topology, const Col
   table.shapes = large_vector<StarShape>(visits.size() + 1);
 
   // In the mesh's order, in which a star's elements lie together in memory, and from there to each one's place.
-  std::vector<std::vector<Index>> chunks((rank.size() + kGrain - 1) / kGrain);
+  std::vector<std::vector<Index>> chunks((rank.size() + kStarsAtOnce - 1) / kStarsAtOnce);
   auto sizes = large_vector<std::uint32_t>(visits.size());
-  for_chunks(pool, rank.size(), kGrain, [&](std::size_t first, std::size_t last) {
+  for_chunks(pool, rank.size(), kStarsAtOnce, [&](std::size_t first, std::size_t last) {
     Chunk chunk(mesh, topology, rank);
     chunk.others.reserve((last - first) * 7);  // most stars are fans of six
     for (std::size_t v = first; v < last; ++v) {
@@ -120,7 +120,7 @@ StarTable build_star_table(const Mesh& mesh, const Topology& topology, const Col
       table.shapes[rank[v]] = shape;
       sizes[rank[v]] = static_cast<std::uint32_t>(chunk.others.size()) - shape.first;
     }
-    chunks[first / kGrain] = std::move(chunk.others);
+    chunks[first / kStarsAtOnce] = std::move(chunk.others);
   });
 
   std::uint64_t end = 0;
@@ -129,8 +129,8 @@ StarTable build_star_table(const Mesh& mesh, const Topology& topology, const Col
     throw UsageError("the mesh is too large to be smoothed: its stars have 2^32 corners or more");
   table.shapes.back().first = static_cast<std::uint32_t>(end);
   table.others = large_vector<Index>(end);
-  for_chunks(pool, rank.size(), kGrain, [&](std::size_t first, std::size_t last) {
-    std::vector<Index>& chunk = chunks[first / kGrain];
+  for_chunks(pool, rank.size(), kStarsAtOnce, [&](std::size_t first, std::size_t last) {
+    std::vector<Index>& chunk = chunks[first / kStarsAtOnce];
     auto from = chunk.cbegin();
     for (std::size_t v = first; v < last; ++v) {
       if (rank[v] >= visits.size()) continue;

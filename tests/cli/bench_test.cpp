@@ -11,7 +11,7 @@
 namespace dmoscope::test {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -29,25 +29,25 @@ Output bench(std::vector<std::string> options) {
   return run(options);
 }
 
-json bench_json(std::vector<std::string> options) {
+Json bench_json(std::vector<std::string> options) {
   options.emplace_back("--json");
   return json_of(bench(std::move(options)));
 }
 
-std::string name_of(const json& figure) {
+std::string name_of(const Json& figure) {
   return figure["mesh"].get<std::string>() + ' ' + figure["metric"].get<std::string>() + ' ' + figure["simd"].get<std::string>() + ' ' +
          figure["precision"].get<std::string>() + ' ' + std::to_string(figure["threads"].get<int>());
 }
 
-std::vector<std::string> names_of(const json& bench) {
+std::vector<std::string> names_of(const Json& bench) {
   std::vector<std::string> names;
-  for (const json& figure : bench["figures"]) names.push_back(name_of(figure));
+  for (const Json& figure : bench["figures"]) names.push_back(name_of(figure));
   return names;
 }
 
 /// Every number of a figure that follows from others does so; `reference` is the one before it that it is compared with.
-void expect_consistent(const json& figure, const json& reference) {
-  const json& seconds = figure["seconds"];
+void expect_consistent(const Json& figure, const Json& reference) {
+  const Json& seconds = figure["seconds"];
   EXPECT_GT(seconds["lowest"], 0.0);
   EXPECT_LE(seconds["lowest"], seconds["median"]);
   EXPECT_LE(seconds["median"], seconds["highest"]);
@@ -65,7 +65,7 @@ void expect_consistent(const json& figure, const json& reference) {
 }
 
 TEST(Bench, JsonTellsTheMachineTheBuildAndEveryFigure) {
-  const json all = bench_json({"--sizes", "200,1e3", "--repeats", "3", "--iterations", "2", "--threads", "1,2"});
+  const Json all = bench_json({"--sizes", "200,1e3", "--repeats", "3", "--iterations", "2", "--threads", "1,2"});
   for (const char* key : {"version", "commit", "date", "machine", "build", "cuda", "simd", "repeats", "reference", "figures"}) {
     EXPECT_TRUE(all.contains(key)) << key;
   }
@@ -80,7 +80,7 @@ TEST(Bench, JsonTellsTheMachineTheBuildAndEveryFigure) {
                                          "grid 200 mean-ratio " + best + " float 2", "grid 1000 mean-ratio scalar double 1",
                                          "grid 1000 mean-ratio " + best + " float 1", "grid 1000 mean-ratio " + best + " float 2"));
   for (std::size_t i = 0; i < all["figures"].size(); ++i) {
-    const json& figure = all["figures"][i];
+    const Json& figure = all["figures"][i];
     EXPECT_EQ(figure["reference"], i % 3 == 0);
     EXPECT_EQ(figure["elements"], "triangles");
     EXPECT_EQ(figure["method"], "dmo");
@@ -94,9 +94,9 @@ TEST(Bench, JsonTellsTheMachineTheBuildAndEveryFigure) {
 }
 
 TEST(Bench, MeasuresTwoAims) {
-  const json all = bench_json({"--sizes", "200", "--repeats", "1", "--threads", "1", "--combine", "mean-ratio:0.6:min-angle"});
+  const Json all = bench_json({"--sizes", "200", "--repeats", "1", "--threads", "1", "--combine", "mean-ratio:0.6:min-angle"});
   ASSERT_EQ(all["figures"].size(), 2U);
-  for (const json& figure : all["figures"]) {
+  for (const Json& figure : all["figures"]) {
     EXPECT_EQ(figure["combination"], "mean-ratio:0.6:min-angle");
     EXPECT_EQ(figure["precision"], "double");
     expect_consistent(figure, all["figures"][0]);
@@ -106,8 +106,8 @@ TEST(Bench, MeasuresTwoAims) {
 }
 
 TEST(Bench, MeasuresEveryMetricKindOfElementsAndLevelThatThereIs) {
-  const json info = json_of(run({"info", "--json"}));
-  const json all = bench_json({"--sizes", "100", "--metric", "all", "--elements", "all", "--simd", "all", "--threads", "1"});
+  const Json info = json_of(run({"info", "--json"}));
+  const Json all = bench_json({"--sizes", "100", "--metric", "all", "--elements", "all", "--simd", "all", "--threads", "1"});
   std::vector<std::string> expected;
   const std::pair<const char*, std::vector<const char*>> meshes[]{{"grid 100", {"triangle"}},
                                                                   {"quads 100", {"quadrilateral"}},
@@ -116,14 +116,14 @@ TEST(Bench, MeasuresEveryMetricKindOfElementsAndLevelThatThereIs) {
                                                                   {"hexahedra 100", {"hexahedron"}},
                                                                   {"solids 100", {"tetrahedron", "hexahedron", "wedge", "pyramid"}}};
   for (const auto& entry : meshes) {
-    for (const json& metric : info["metrics"]) {
+    for (const Json& metric : info["metrics"]) {
       const auto defined_for = [&metric](const char* kind) {
-        return std::ranges::find(metric["elements"], json(kind)) != metric["elements"].end();
+        return std::ranges::find(metric["elements"], Json(kind)) != metric["elements"].end();
       };
       if (!std::ranges::all_of(entry.second, defined_for)) continue;
       const std::string start = std::string(entry.first) + ' ' + metric["name"].get<std::string>() + ' ';
       expected.push_back(start + "scalar double 1");
-      for (const json& level : info["simd"]["levels"]) expected.push_back(start + level.get<std::string>() + " float 1");
+      for (const Json& level : info["simd"]["levels"]) expected.push_back(start + level.get<std::string>() + " float 1");
     }
   }
   EXPECT_THAT(names_of(all), UnorderedElementsAreArray(expected));
@@ -134,24 +134,24 @@ TEST(Bench, ListsHaveNoEntryTwiceAndPairsThatCannotBeAreLeftOut) {
       bench_json({"--sizes", "200,2e2", "--threads", "1,1", "--simd", "auto,baseline,auto", "--metric", "mean-ratio,mean-ratio"})["figures"]
           .size(),
       bench_json({"--sizes", "200", "--threads", "1"})["simd"]["levels"].size() > 1 ? 3U : 2U);
-  const json some =
+  const Json some =
       bench_json({"--sizes", "200", "--threads", "1", "--metric", "min-angle,mean-ratio", "--elements", "triangles,quadrilaterals"});
   std::set<std::string> pairs;
-  for (const json& figure : some["figures"])
+  for (const Json& figure : some["figures"])
     pairs.insert(figure["elements"].get<std::string>() + ' ' + figure["metric"].get<std::string>());
   EXPECT_THAT(pairs, ElementsAre("quadrilaterals mean-ratio", "triangles mean-ratio", "triangles min-angle"));
 }
 
 TEST(Bench, MeasuresTheBackendsAskedForOrRefusesThemWithTheReason) {
-  const json info = json_of(run({"info", "--json"}));
-  const json& cuda = info["backends"][1];
-  const auto backends = [](const json& all) {
+  const Json info = json_of(run({"info", "--json"}));
+  const Json& cuda = info["backends"][1];
+  const auto backends = [](const Json& all) {
     std::set<std::string> names;
-    for (const json& figure : all["figures"])
+    for (const Json& figure : all["figures"])
       if (figure["reference"] == false) names.insert(figure["backend"].get<std::string>());
     return names;
   };
-  const json automatic = bench_json({"--sizes", "200", "--threads", "1", "--backend", "auto"});
+  const Json automatic = bench_json({"--sizes", "200", "--threads", "1", "--backend", "auto"});
   const Output by_name = bench({"--sizes", "200", "--threads", "1", "--backend", "cuda", "--json"});
   EXPECT_THAT(backends(bench_json({"--sizes", "200", "--threads", "1", "--backend", "cpu"})), ElementsAre("cpu"));
   EXPECT_EQ(automatic["cuda"]["measured"], cuda["usable"]);
@@ -168,10 +168,10 @@ TEST(Bench, MeasuresTheBackendsAskedForOrRefusesThemWithTheReason) {
 }
 
 TEST(Bench, ComparesALateIterationWithTheFirst) {
-  const json all = bench_json({"--sizes", "200", "--threads", "1", "--iterations", "2", "--active", "5"});
+  const Json all = bench_json({"--sizes", "200", "--threads", "1", "--iterations", "2", "--active", "5"});
   ASSERT_EQ(all["figures"].size(), 2U);
   EXPECT_FALSE(all["figures"][0].contains("settling"));
-  const json& settling = all["figures"][1]["settling"];
+  const Json& settling = all["figures"][1]["settling"];
   EXPECT_EQ(all["figures"][1]["iterations"], 2);
   EXPECT_EQ(settling["iteration"], 5);
   EXPECT_DOUBLE_EQ(settling["ratio"], settling["first_seconds"].get<double>() / settling["seconds"].get<double>());
@@ -180,9 +180,9 @@ TEST(Bench, ComparesALateIterationWithTheFirst) {
 }
 
 TEST(Bench, TakesAMeshOfOnesOwn) {
-  const json small = bench_json({sample("annulus.off"), "--threads", "1"});
+  const Json small = bench_json({sample("annulus.off"), "--threads", "1"});
   ASSERT_EQ(small["figures"].size(), 2U);
-  for (const json& figure : small["figures"]) {
+  for (const Json& figure : small["figures"]) {
     EXPECT_EQ(figure["mesh"], "annulus.off");
     EXPECT_EQ(figure["elements"], "triangles");
     expect_consistent(figure, small["figures"][0]);
@@ -193,9 +193,9 @@ TEST(Bench, TakesAMeshOfOnesOwn) {
 TEST(Bench, TheReferenceOfALargeMeshIsMeasuredOnASmallerOne) {
   const Folder folder;
   ASSERT_EQ(run({"generate", "grid", "-o", folder / "large.off", "--size", "22500"}).code, 0);
-  const json large = bench_json({folder / "large.off", "--threads", "1", "--iterations", "3"});
+  const Json large = bench_json({folder / "large.off", "--threads", "1", "--iterations", "3"});
   ASSERT_EQ(large["figures"].size(), 2U);
-  const json& reference = large["figures"][0];
+  const Json& reference = large["figures"][0];
   EXPECT_EQ(reference["mesh"], "grid 10000");
   EXPECT_EQ(reference["free"], 98 * 98);
   EXPECT_EQ(reference["iterations"], 2);  // of 9604 visits each: not more than 20000
@@ -205,9 +205,9 @@ TEST(Bench, TheReferenceOfALargeMeshIsMeasuredOnASmallerOne) {
 }
 
 TEST(Bench, TheReferenceOfAVolumeIsSmallerStill) {
-  const json all = bench_json({"--sizes", "3375", "--elements", "tetrahedra", "--threads", "1", "--iterations", "2"});
+  const Json all = bench_json({"--sizes", "3375", "--elements", "tetrahedra", "--threads", "1", "--iterations", "2"});
   ASSERT_EQ(all["figures"].size(), 2U);
-  const json& reference = all["figures"][0];
+  const Json& reference = all["figures"][0];
   EXPECT_EQ(reference["mesh"], "tetrahedra 2000");
   EXPECT_EQ(reference["iterations"], 1);
   EXPECT_LT(reference["free"], 2000);
@@ -265,7 +265,7 @@ TEST(Bench, RefusesWhatItCannotMeasure) {
       {sample("mixed.vtk"), "--metric", "min-angle"},
       {triangle},
   };
-  const json levels = json_of(run({"info", "--json"}))["simd"]["levels"];
+  const Json levels = json_of(run({"info", "--json"}))["simd"]["levels"];
   for (const char* level : {"avx2", "avx512"}) {
     if (std::find(levels.begin(), levels.end(), level) == levels.end()) wrong.push_back({"--sizes", "200", "--simd", level});
   }
@@ -328,7 +328,7 @@ std::vector<std::string> texts_of(const std::string& xml, const std::string& wan
 
 TEST(Bench, PlotHasALineASeries) {
   const Folder folder;
-  const json all = bench_json(
+  const Json all = bench_json(
       {"--sizes", "200,300", "--threads", "1,2", "--simd", "baseline", "--metric", "mean-ratio,max-angle", "--plot", folder / "plot.svg"});
   const std::string svg = read_file(folder / "plot.svg");
   const std::vector<std::string> texts = texts_of(svg, "text");
@@ -367,9 +367,9 @@ TEST(Bench, PngWhereThereIsAWindow) {
 
 TEST(Simd, ResultIsTheSameForAnyLevel) {
   const Folder folder;
-  const json levels = json_of(run({"info", "--json"}))["simd"]["levels"];
+  const Json levels = json_of(run({"info", "--json"}))["simd"]["levels"];
   ASSERT_EQ(run({"smooth", sample("mixed.vtk"), "-o", folder / "auto.vtk", "--iterations", "5"}).code, 0);
-  for (const json& level : levels) {
+  for (const Json& level : levels) {
     const std::string out = folder / (level.get<std::string>() + ".vtk");
     ASSERT_EQ(run({"smooth", sample("mixed.vtk"), "-o", out, "--iterations", "5", "--simd", level}).code, 0) << level;
     EXPECT_TRUE(read_file(out) == read_file(folder / "auto.vtk")) << level;

@@ -13,7 +13,7 @@
 namespace dmoscope::test {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -26,7 +26,7 @@ Output compare(std::vector<std::string> options) {
   return run(options);
 }
 
-json compare_json(std::vector<std::string> options) {
+Json compare_json(std::vector<std::string> options) {
   options.emplace_back("--json");
   const Output output = compare(std::move(options));
   EXPECT_EQ(output.code, 0) << output.err;
@@ -55,11 +55,11 @@ double mean(const std::vector<double>& values) {
 
 TEST(Compare, RowsAreThoseOfSmoothJudgedByOneMetric) {
   const std::string in = sample("annulus.off");
-  const json all = compare_json({in, "--run", "dmo:radius-ratio", "--run", "dmo:min-angle", "--judge", "mean-ratio", "--iterations", "4"});
+  const Json all = compare_json({in, "--run", "dmo:radius-ratio", "--run", "dmo:min-angle", "--judge", "mean-ratio", "--iterations", "4"});
   EXPECT_EQ(all["judged_by"], "mean-ratio");
   ASSERT_EQ(all["runs"].size(), 2U);
   for (const auto& [row, metric] : {std::pair{0, "radius-ratio"}, {1, "min-angle"}}) {
-    const json& figure = all["runs"][static_cast<std::size_t>(row)];
+    const Json& figure = all["runs"][static_cast<std::size_t>(row)];
     const std::vector<double> qualities = smoothed(in, {"--metric", metric, "--iterations", "4"}, "mean-ratio");
     const auto count = static_cast<double>(qualities.size());
     EXPECT_EQ(figure["run"], std::string("dmo:") + metric);
@@ -130,7 +130,7 @@ TEST(Compare, TheReportSaysWhatWasSearched) {
 
 TEST(Compare, OrdersLieAsFarApartAsTheirSortedQualities) {
   const std::string in = sample("random.off");
-  const json orders = compare_json({in, "--run", "dmo", "--iterations", "5", "--shuffles", "2"})["orders"];
+  const Json orders = compare_json({in, "--run", "dmo", "--iterations", "5", "--shuffles", "2"})["orders"];
   ASSERT_EQ(orders.size(), 1U);
   std::vector<std::vector<double>> curves;
   for (const char* order : {"natural", "shuffle:1", "shuffle:2"})
@@ -150,34 +150,34 @@ TEST(Compare, OrdersLieAsFarApartAsTheirSortedQualities) {
 }
 
 TEST(Compare, EveryLeavesOutWhatCannotBeAndSaysWhy) {
-  const json all = compare_json({sample("quads.vtk"), "--every", "metric", "--iterations", "1"});
+  const Json all = compare_json({sample("quads.vtk"), "--every", "metric", "--iterations", "1"});
   ASSERT_GE(all["runs"].size(), 2U);
   ASSERT_GE(all["left_out"].size(), 1U);
-  for (const json& left : all["left_out"]) EXPECT_THAT(left["reason"].get<std::string>(), HasSubstr("quadrilateral"));
-  const json info = json_of(run({"info", "--json"}));
+  for (const Json& left : all["left_out"]) EXPECT_THAT(left["reason"].get<std::string>(), HasSubstr("quadrilateral"));
+  const Json info = json_of(run({"info", "--json"}));
   EXPECT_EQ(all["runs"].size() + all["left_out"].size(), info["metrics"].size());
-  const json methods = compare_json({sample("annulus.off"), "--every", "method", "--iterations", "1"});
+  const Json methods = compare_json({sample("annulus.off"), "--every", "method", "--iterations", "1"});
   EXPECT_EQ(methods["runs"].size() + methods["left_out"].size(), info["methods"].size());
 }
 
-std::vector<std::string> names(const json& all) {
+std::vector<std::string> names(const Json& all) {
   std::vector<std::string> names;
-  for (const json& figure : all["runs"]) names.push_back(figure["run"]);
+  for (const Json& figure : all["runs"]) names.push_back(figure["run"]);
   return names;
 }
 
 TEST(Compare, RunsMayHaveOtherAims) {
   const std::string in = sample("annulus.off");
-  const json aims =
+  const Json aims =
       compare_json({in, "--run", "dmo", "--run", "dmo,then mean", "--run", "laplace:min-angle,then mean", "--iterations", "4"});
   EXPECT_THAT(names(aims), ElementsAre("dmo:mean-ratio", "dmo:mean-ratio, then mean", "laplace:min-angle, then mean"));
   const std::vector<std::string> combine{"--combine", "mean-ratio:0.3:density", "--size-function", "h1:0,0", "--iterations", "4"};
   std::vector<std::string> options{in, "--run", "dmo", "--run", "dmo, alone"};
   options.insert(options.end(), combine.begin(), combine.end());
-  const json combined = compare_json(options);
+  const Json combined = compare_json(options);
   EXPECT_THAT(names(combined), ElementsAre(HasSubstr("density h1"), "dmo:mean-ratio"));
   const Folder folder;
-  const json alone = json_of(run({"smooth", in, "-o", folder / "o.off", "--combine", "mean-ratio:0.3:density", "--size-function", "h1:0,0",
+  const Json alone = json_of(run({"smooth", in, "-o", folder / "o.off", "--combine", "mean-ratio:0.3:density", "--size-function", "h1:0,0",
                                   "--iterations", "4", "--json"}))["combination"]["size_correlation"];
   EXPECT_NEAR(combined["runs"][0]["input_size_correlation"], alone["before"], 1e-12);
   EXPECT_NEAR(combined["runs"][0]["size_correlation"], alone["after"], 1e-12);
@@ -187,7 +187,7 @@ TEST(Compare, RunsMayHaveOtherAims) {
   EXPECT_NEAR(combined["runs"][1]["min_quality"], smoothed(in, {"--iterations", "4"}, "mean-ratio").front(), 1e-12);
   options = {in, "--every", "method"};
   options.insert(options.end(), combine.begin(), combine.end());
-  const json every = compare_json(options);
+  const Json every = compare_json(options);
   EXPECT_THAT(names(every)[0], HasSubstr("density h1"));
   EXPECT_THAT(names(every), ::testing::Contains("laplace:mean-ratio"));
   EXPECT_TRUE(every["left_out"].empty());
@@ -292,8 +292,8 @@ TEST(Compare, AnOutcomeThatIsNotReachedIsCodeOneAndToldOf) {
 TEST(Compare, AnOrderThatDoesNotConvergeCountsToo) {
   const std::vector<std::string> asked{sample("random.off"), "--run", "dmo", "--shuffles", "3", "--until-converged", "--patience", "5"};
   std::vector<std::uint64_t> needed;
-  const json all = compare_json(asked);
-  for (const json& one : all["runs"]) needed.push_back(one["iterations"]);
+  const Json all = compare_json(asked);
+  for (const Json& one : all["runs"]) needed.push_back(one["iterations"]);
   ASSERT_EQ(needed.size(), 4U);
   ASSERT_LT(needed[0], *std::ranges::max_element(needed)) << "or there is nothing to see here";
   std::vector<std::string> short_of = asked;
@@ -308,7 +308,7 @@ TEST(Compare, VerticesAreKeptInEveryRun) {
   const std::string in = sample("annulus.off");
   const auto smooth =
       json_of(run({"smooth", in, "-o", Folder() / "s.off", "--fix", "200-300", "--iterations", "2", "--backend", "cpu", "--json"}));
-  const json all = compare_json({in, "--run", "dmo", "--fix", "200-300", "--iterations", "2"});
+  const Json all = compare_json({in, "--run", "dmo", "--fix", "200-300", "--iterations", "2"});
   EXPECT_EQ(all["free"], smooth["free"]);
   EXPECT_EQ(all["runs"][0]["mean_quality"], smooth["after"]["mean"]);
   EXPECT_NE(compare_json({in, "--run", "dmo", "--iterations", "2"})["free"], smooth["free"]);

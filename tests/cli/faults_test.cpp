@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 namespace fs = std::filesystem;
 
-constexpr const char* kTriangles = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
+constexpr const char* kTwoTriangles = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
 
 std::vector<std::string> names_in(const std::string& folder) {
   std::vector<std::string> names;
@@ -42,7 +42,7 @@ TEST(Terminal, NothingInFilesOrNamesReachesItRaw) {
   const std::string escape =
       "\x1b]0;owned\x07\x1b[31m\xc2\x9b"
       "2J\x7f";
-  const std::string named = folder.file("a" + escape + ".off", kTriangles);
+  const std::string named = folder.file("a" + escape + ".off", kTwoTriangles);
   const std::string vtu = "<VTKFile type=\"UnstructuredGrid\" compressor=\"" + escape.substr(1, 8) +
                           "\xc2\x9b\"><UnstructuredGrid><Piece NumberOfPoints=\"1\" " +
                           "NumberOfCells=\"1\"><Points><DataArray type=\"Float32\" Name=\"\xc2\x9b\x7f\" NumberOfComponents=\"3\" "
@@ -87,7 +87,7 @@ TEST(Terminal, EverythingIsPrintedInOnePlace) {
 
 TEST(Script, OverwritesNeitherItsMeshesNorItself) {
   const Folder folder;
-  const std::string mesh = folder.file("mm.off", kTriangles), script = folder / "s.txt";
+  const std::string mesh = folder.file("mm.off", kTwoTriangles), script = folder / "s.txt";
   fs::create_symlink("mm.off", folder / "link.csv");
   for (const std::string& line : {"stats " + mesh, "elements " + mesh, "export " + mesh, "save-state " + mesh,
                                   "stats " + (folder / "link.csv"), "screenshot --window " + mesh, "stats " + script}) {
@@ -96,7 +96,7 @@ TEST(Script, OverwritesNeitherItsMeshesNorItself) {
     EXPECT_EQ(output.code, 2) << line << output.err;
     EXPECT_THAT(output.err, HasSubstr("s.txt:3: ")) << line;
     EXPECT_THAT(output.err, HasSubstr("would overwrite")) << line;
-    EXPECT_EQ(read_file(mesh), kTriangles);
+    EXPECT_EQ(read_file(mesh), kTwoTriangles);
     EXPECT_EQ(read_file(script), text);
     EXPECT_FALSE(exists(folder / "first.off")) << "refused before the first line ran";
   }
@@ -117,11 +117,11 @@ TEST(BadOutput, AFileThatGrowsTooLargeIsAnErrorLikeAFullDisk) {
 
 TEST(BadOutput, TheMeshStaysWhereTheStatisticsCannotBeWritten) {
   const Folder folder;
-  const std::string mesh = folder.file("out.off", kTriangles);
+  const std::string mesh = folder.file("out.off", kTwoTriangles);
   Call call;  // the mesh fits, 3000 iterations' statistics do not
-  call.arguments = {"smooth", folder.file("in.off", kTriangles), "-o", mesh, "--stats", folder / "s.csv", "--iterations", "3000"};
+  call.arguments = {"smooth", folder.file("in.off", kTwoTriangles), "-o", mesh, "--stats", folder / "s.csv", "--iterations", "3000"};
   call.file_limit = 20000;
-  const std::string before = "OFF\n# the old one\n" + std::string(kTriangles).substr(4);
+  const std::string before = "OFF\n# the old one\n" + std::string(kTwoTriangles).substr(4);
   std::ofstream(mesh, std::ios::binary) << before;
   const Output output = run(call);
   EXPECT_EQ(output.code, 3) << output.err;
@@ -171,7 +171,7 @@ TEST(MaxMemory, NamesTheFileThatNeedsMore) {
   GTEST_SKIP() << "a sanitizer takes more memory than can be limited";
 #endif
   const Folder folder;
-  const std::string mesh = folder.file("mesh.off", kTriangles), large = folder.file("large.off", kTriangles);
+  const std::string mesh = folder.file("mesh.off", kTwoTriangles), large = folder.file("large.off", kTwoTriangles);
   fs::resize_file(large, std::uint64_t{3} << 30U);  // of which nothing is on the disk
   EXPECT_EQ(run({"quality", mesh, "--max-memory", "1G"}).code, 0);
   const Output output = run({"quality", large, "--max-memory", "16M"});
@@ -285,7 +285,7 @@ TEST(Build, TheProgramMovesAboutAndItsTablesCannotBeWritten) {
 
 TEST(Provenance, SaysWhichFileWhichProgramAndWhatItWasTold) {
   const Folder folder;
-  const std::string in = folder.file("in.off", kTriangles), out = folder / "out.off";
+  const std::string in = folder.file("in.off", kTwoTriangles), out = folder / "out.off";
   const Output output = run({"smooth", in, "-o", out, "--iterations", "2", "--json", "--provenance"});
   ASSERT_EQ(output.code, 0) << output.err;
   const auto provenance = json_of(output)["provenance"];

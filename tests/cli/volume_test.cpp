@@ -10,10 +10,10 @@
 namespace dmoscope::test {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 using ::testing::HasSubstr;
 
-double minimum(const json& report, const char* when) { return report[when]["minimum"].get<double>(); }
+double minimum(const Json& report, const char* when) { return report[when]["minimum"].get<double>(); }
 
 /// The lines of a file that are no positions: from the first that has one of the words on, to the end.
 std::vector<std::string> lines_from(const std::string& path, const std::string& word) {
@@ -27,14 +27,14 @@ TEST(Volumes, ComeOutOfEveryFormatWithTheirElementsAndBetter) {
   const Folder folder;
   const std::string source = folder / "solids.vtk";
   ASSERT_EQ(run({"generate", "solids", "-o", source, "--size", "200"}).code, 0);
-  const json whole = json_of(run({"quality", source, "--json"}));
+  const Json whole = json_of(run({"quality", source, "--json"}));
   for (const char* format : {"vtk", "vtu", "msh", "mesh", "su2"}) {
     const std::string in = folder / (std::string("in.") + format), out = folder / (std::string("out.") + format);
     const Output converted = run({"convert", source, in});
     ASSERT_EQ(converted.code, 0) << format << converted.err;
-    const json report = smooth(in, out, {"--iterations", "3"});
+    const Json report = smooth(in, out, {"--iterations", "3"});
     EXPECT_GT(minimum(report, "after"), minimum(report, "before")) << format;
-    const json before = json_of(run({"quality", in, "--json"})), after = json_of(run({"quality", out, "--json"}));
+    const Json before = json_of(run({"quality", in, "--json"})), after = json_of(run({"quality", out, "--json"}));
     EXPECT_EQ(before["elements"], whole["elements"]) << format;
     EXPECT_EQ(after["elements"], whole["elements"]) << format;
     EXPECT_EQ(after["inverted"], 0) << format;
@@ -62,13 +62,13 @@ TEST(Volumes, RealMixedMeshesKeepAllButTheirPositions) {
     if (in.empty()) GTEST_SKIP() << "no shared meshes beside this checkout";
     const Folder folder;
     const std::string out = folder / ("out" + in.substr(in.rfind('.')));
-    const json report = smooth(in, out, {"--iterations", "5"});
+    const Json report = smooth(in, out, {"--iterations", "5"});
     EXPECT_GT(minimum(report, "after"), minimum(report, "before"));
     EXPECT_EQ(lines_from(in, real.elements), lines_from(out, real.elements)) << real.file;
   }
   const std::string knowles = shared_mesh("mixed3d/su2_MixElemsKnowles.su2");
   const Folder folder;
-  const json report = smooth(knowles, folder / "out.su2", {"--iterations", "1"});
+  const Json report = smooth(knowles, folder / "out.su2", {"--iterations", "1"});
   EXPECT_NEAR(minimum(report, "before"), 0.90053, 1e-5) << "wedges of two kinds of corners, all the rest perfect or 0.952";
   const auto before = lines_of(read_file(knowles)), after = lines_of(read_file(folder / "out.su2"));
   const auto points = std::ranges::find_if(before, [](const std::string& line) { return line.starts_with("NPOIN"); });

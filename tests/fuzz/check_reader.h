@@ -21,10 +21,10 @@ inline void require(bool holds, const char* what) {
   if (!holds) throw std::logic_error(what);
 }
 
-inline bool same_bits(double a, double b) {
+inline bool same_values(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) || (std::isnan(a) && std::isnan(b));
 }
-inline bool same_bits(Vec3 a, Vec3 b) { return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z); }
+inline bool same_values(Vec3 a, Vec3 b) { return same_values(a.x, b.x) && same_values(a.y, b.y) && same_values(a.z, b.z); }
 
 inline void check_sound(const Mesh& mesh) {
   for (const Vec3 p : mesh.positions) require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), "position not finite");
@@ -75,7 +75,7 @@ inline void check_same(const Mesh& mesh, const std::vector<Vec3>& positions, con
       Vec3 p = positions[before];
       Vec3 q = other.positions[after];
       if (!with_z) p.z = q.z = 0.0;
-      require(vertices ? same_bits(p, q) : p == q, "position of a corner after writing");
+      require(vertices ? same_values(p, q) : p == q, "position of a corner after writing");
     }
   }
   if (!vertices) return;
@@ -83,7 +83,7 @@ inline void check_same(const Mesh& mesh, const std::vector<Vec3>& positions, con
     Vec3 p = positions[v];
     Vec3 q = other.positions[v];
     if (!with_z) p.z = q.z = 0.0;
-    require(same_bits(p, q), "position after writing");
+    require(same_values(p, q), "position after writing");
   }
 }
 
@@ -93,7 +93,7 @@ inline void check_same_data(const Mesh& mesh, const Mesh& other) {
   for (std::size_t i = 0; i < mesh.fields.size(); ++i) {
     require(mesh.fields[i].name == other.fields[i].name && mesh.fields[i].type == other.fields[i].type, "name and type of a field");
     for (std::size_t k = 0; k < mesh.fields[i].values.size(); ++k) {
-      require(same_bits(mesh.fields[i].values[k], other.fields[i].values[k]), "value of a field");
+      require(same_values(mesh.fields[i].values[k], other.fields[i].values[k]), "value of a field");
     }
   }
   for (std::size_t i = 0; i < mesh.groups.size(); ++i) {

@@ -15,7 +15,7 @@ using namespace testing;
 using dmoscope::testing::defined_for_all;
 using dmoscope::testing::kSanitized;
 
-std::shared_ptr<HostQueue> host(const HostDevice& device = {}) { return make_host_queue(device); }
+std::shared_ptr<HostQueue> solid_host(const HostDevice& device = {}) { return make_host_queue(device); }
 
 class SolidDeviceDmo : public ::testing::TestWithParam<Metric> {
  protected:
@@ -25,7 +25,7 @@ class SolidDeviceDmo : public ::testing::TestWithParam<Metric> {
       SCOPED_TRACE(solid.name);
       const Subject subject(solid.input);
       ASSERT_GT(subject.visits(), 0U);
-      expect_same_visits(host(), subject, GetParam(), parameters, iterations);
+      expect_same_visits(solid_host(), subject, GetParam(), parameters, iterations);
     }
   }
 };
@@ -48,7 +48,7 @@ TEST_P(SolidDeviceDmo, SameBitsOnSharedMeshes) {
   for (const auto& mesh : meshes) {
     if (!defined_for_all(GetParam(), mesh->mesh)) continue;
     SCOPED_TRACE(mesh->mesh.name);
-    expect_same_visits(host(), Subject(mesh), GetParam(), {}, 1);
+    expect_same_visits(solid_host(), Subject(mesh), GetParam(), {}, 1);
   }
 }
 
@@ -84,9 +84,9 @@ Subject jittered_solids() {
 TEST(SolidDeviceVisits, NeitherThreadsNorCutsChangeTheResult) {
   const Subject subject = jittered_solids();
   ThreadPool pool(4);
-  const auto whole = make_device_dmo(host(), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+  const auto whole = make_device_dmo(solid_host(), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
   const auto cut =
-      make_device_dmo(host({.pool = &pool}), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, &pool);
+      make_device_dmo(solid_host({.pool = &pool}), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, &pool);
   std::vector<Vec3> one = subject.input->mesh.positions, other = one;
   for (int iteration = 0; iteration < 3; ++iteration) {
     const std::uint64_t moved = whole->visit(0, subject.visits(), one, nullptr);
@@ -104,7 +104,7 @@ TEST(SolidDeviceVisits, NeitherThreadsNorCutsChangeTheResult) {
 /// Who draws takes a volume's positions from the host.
 TEST(SolidDeviceVisits, HasNoPicture) {
   const Subject subject = jittered_solids();
-  const auto smoother = make_device_dmo(host(), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+  const auto smoother = make_device_dmo(solid_host(), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
   std::vector<Vec3> positions = subject.input->mesh.positions;
   smoother->visit(0, subject.visits(), positions, nullptr);
   EXPECT_EQ(smoother->picture(Metric::MeanRatio), nullptr);

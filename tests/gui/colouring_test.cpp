@@ -16,8 +16,6 @@
 namespace dmoscope::ui {
 namespace {
 
-using render::Selection;
-
 /// A frame of a mesh with these qualities, nothing inverted.
 std::shared_ptr<Frame> frame_of(const std::shared_ptr<const InputMesh>& input, std::vector<float> quality, std::uint64_t serial,
                                 std::uint64_t input_serial = 1) {
@@ -357,7 +355,7 @@ TEST_F(ColourWindow, VerbsAreCheckedAndChangeWhatTheySay) {
   wanted.reversed = true;
   wanted.steps = 7;
   wanted.filter = {-0.5, 0.75};
-  wanted.others = Selection::Others::Outline;
+  wanted.others = render::Selection::Others::Outline;
   wanted.worst = 10;
   wanted.label_vertices = wanted.label_elements = true;
   wanted.isolated = Isolation{ColourBy::Kind, "quadrilateral"};

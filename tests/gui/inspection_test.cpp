@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/base/same_bits.h"
 #include "core/inspect/visit_trace.h"
 #include "core/quality/quality.h"
 #include "tests/gui/headless_test.h"
@@ -14,11 +15,10 @@
 namespace dmoscope::app {
 namespace {
 
-bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
-bool same(Vec3 a, Vec3 b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
-bool same(Vec2<double> a, Vec2<double> b) { return same(a.x, b.x) && same(a.y, b.y); }
-bool same(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) { return same(x, y); });
+using dmoscope::same_bits;
+bool same_bits(Vec2<double> a, Vec2<double> b) { return same_bits(a.x, b.x) && same_bits(a.y, b.y); }
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) { return same_bits(x, y); });
 }
 
 class Inspection : public HeadlessTest {
@@ -48,12 +48,12 @@ class Inspection : public HeadlessTest {
     good(move);
     const auto after = session()->frame;
     ASSERT_NE(before, after);
-    EXPECT_TRUE(same(before->positions[vertex], shown.from));
-    EXPECT_TRUE(same(after->positions[vertex], shown.to)) << shown.sentence();
-    EXPECT_EQ(!same(after->positions[vertex], before->positions[vertex]), shown.end == VisitEnd::Moved) << shown.sentence();
+    EXPECT_TRUE(same_bits(before->positions[vertex], shown.from));
+    EXPECT_TRUE(same_bits(after->positions[vertex], shown.to)) << shown.sentence();
+    EXPECT_EQ(!same_bits(after->positions[vertex], before->positions[vertex]), shown.end == VisitEnd::Moved) << shown.sentence();
     for (Index v = 0; v < before->vertex_count(); ++v) {
       if (v != vertex) {
-        ASSERT_TRUE(same(before->positions[v], after->positions[v])) << v;
+        ASSERT_TRUE(same_bits(before->positions[v], after->positions[v])) << v;
       }
     }
     moved_ += shown.end == VisitEnd::Moved ? 1 : 0;
@@ -66,13 +66,13 @@ class Inspection : public HeadlessTest {
     ASSERT_EQ(shown.levels.size(), own.levels.size());
     for (std::size_t i = 0; i < own.levels.size(); ++i) {
       const TracedLevel &a = shown.levels[i], &b = own.levels[i];
-      EXPECT_TRUE(same(a.centre, b.centre) && same(a.size, b.size));
+      EXPECT_TRUE(same_bits(a.centre, b.centre) && same_bits(a.size, b.size));
       ASSERT_EQ(a.offsets.size(), b.offsets.size());
-      for (std::size_t k = 0; k < b.offsets.size(); ++k) EXPECT_TRUE(same(a.offsets[k], b.offsets[k])) << k;
-      EXPECT_TRUE(same(a.values, b.values) && same(a.quality, b.quality));
+      for (std::size_t k = 0; k < b.offsets.size(); ++k) EXPECT_TRUE(same_bits(a.offsets[k], b.offsets[k])) << k;
+      EXPECT_TRUE(same_bits(a.values, b.values) && same_bits(a.quality, b.quality));
       EXPECT_EQ(a.best, b.best);
     }
-    EXPECT_TRUE(same(shown.to, own.to) && same(shown.found, own.found));
+    EXPECT_TRUE(same_bits(shown.to, own.to) && same_bits(shown.found, own.found));
   }
 
   /// The qualities of the candidates, by the judges of whole meshes.
@@ -89,7 +89,7 @@ class Inspection : public HeadlessTest {
           const double smallest = smallest_jacobian(input.quality_context(), positions, change.element);
           jacobian = std::min(jacobian, smallest / input.reference_measure[change.element]);
         }
-        EXPECT_TRUE(same(level.quality[k], jacobian > 0.0 ? quality : jacobian)) << k;
+        EXPECT_TRUE(same_bits(level.quality[k], jacobian > 0.0 ? quality : jacobian)) << k;
       }
   }
 

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/same_bits.h"
 #include "core/quality/quality.h"
 #include "tests/gui/headless_test.h"
 #include "ui/inspection_marks.h"
@@ -18,8 +19,6 @@
 namespace dmoscope::app {
 namespace {
 
-bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
-bool same(Vec3 a, Vec3 b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
 double along(int axis, Vec3 p) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
 TEST(GridSlice, LeadsToEachCandidateOfItsSliceAndBack) {
@@ -79,9 +78,9 @@ TEST_F(VolumeInspection, ShowsWhatAVisitDoes) {
         ASSERT_EQ(shown.levels[0].quality.size(), 512U);
         const auto before = session()->frame;
         good(fmt::format("visit {}", vertex));
-        EXPECT_TRUE(same(before->positions[vertex], shown.from));
-        EXPECT_TRUE(same(session()->frame->positions[vertex], shown.to)) << shown.sentence();
-        EXPECT_EQ(!same(shown.from, shown.to), shown.end == VisitEnd::Moved);
+        EXPECT_TRUE(same_bits(before->positions[vertex], shown.from));
+        EXPECT_TRUE(same_bits(session()->frame->positions[vertex], shown.to)) << shown.sentence();
+        EXPECT_EQ(!same_bits(shown.from, shown.to), shown.end == VisitEnd::Moved);
         moved += shown.end == VisitEnd::Moved ? 1 : 0;
       }
       EXPECT_GT(moved, 3);
@@ -171,11 +170,11 @@ TEST_F(VolumeInspection, TheKeyLeadsThroughTheLevelsToTheMove) {
   good("key L");
   EXPECT_TRUE(inspection().applied);
   EXPECT_EQ(run().moment.visits, 1U);
-  EXPECT_TRUE(same(session()->frame->positions[vertex], shown.to));
+  EXPECT_TRUE(same_bits(session()->frame->positions[vertex], shown.to));
   EXPECT_TRUE(picture() != pictures.back());
   good("level back");
   EXPECT_FALSE(inspection().applied);
-  EXPECT_TRUE(same(session()->frame->positions[vertex], shown.from));
+  EXPECT_TRUE(same_bits(session()->frame->positions[vertex], shown.from));
   good("inspect off");
   EXPECT_FALSE(look().solid.has_value());
 }

@@ -26,7 +26,7 @@ std::shared_ptr<Frame> frame_of(Mesh mesh) {
   return frame;
 }
 
-ElementColours colours_of(ColourBy by, const std::shared_ptr<Frame>& frame) {
+ElementColours volume_colours_of(ColourBy by, const std::shared_ptr<Frame>& frame) {
   return colour_elements({by, frame, nullptr, render::ColourMap::Viridis, false});
 }
 
@@ -43,7 +43,7 @@ Mesh a_cube_and_a_bar() {
 }
 
 TEST(VolumeColours, SizeIsVolumeOverItsMean) {
-  const ElementColours colours = colours_of(ColourBy::Size, frame_of(a_cube_and_a_bar()));
+  const ElementColours colours = volume_colours_of(ColourBy::Size, frame_of(a_cube_and_a_bar()));
   ASSERT_EQ(colours.shading->values.size(), 2U);
   EXPECT_NEAR(colours.shading->values[0], std::log10(1.0 / 1.5), 1e-6);
   EXPECT_NEAR(colours.shading->values[1], std::log10(2.0 / 1.5), 1e-6);
@@ -51,7 +51,7 @@ TEST(VolumeColours, SizeIsVolumeOverItsMean) {
 }
 
 TEST(VolumeColours, EdgeLengthIsTheMeanOfAnElementsTwelveEdges) {
-  const ElementColours colours = colours_of(ColourBy::EdgeLength, frame_of(a_cube_and_a_bar()));
+  const ElementColours colours = volume_colours_of(ColourBy::EdgeLength, frame_of(a_cube_and_a_bar()));
   ASSERT_EQ(colours.shading->values.size(), 2U);
   EXPECT_NEAR(colours.shading->values[0], 0.0, 1e-6);
   EXPECT_NEAR(colours.shading->values[1], std::log10((8.0 + 4.0 * 2.0) / 12.0), 1e-6);

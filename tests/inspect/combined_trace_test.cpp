@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/same_bits.h"
 #include "core/inspect/visit_trace.h"
 #include "core/session/run.h"
 #include "tests/support/meshes.h"
@@ -17,9 +18,6 @@ namespace dmoscope {
 namespace {
 
 using ::testing::HasSubstr;
-
-bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
-bool same(Vec3 a, Vec3 b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
 
 /// The least and the mean of a metric over the star of `vertex`, standing at `place`.
 std::pair<double, double> star_at(const InputMesh& input, std::vector<Vec3> positions, Metric metric, Index vertex, Vec3 place) {
@@ -48,7 +46,7 @@ void follow(dmoscope::Run& run, const Worth& worth) {
         trace_visit(input, positions, run.fixed(), run.parameters().metric, run.parameters().search, vertex, aims, run.sweep().untangling);
     const std::uint64_t steps = run.step(StepUnit::Vertex, progress);
     moved += steps;
-    ASSERT_TRUE(same(trace.to, run.positions()[vertex])) << vertex;
+    ASSERT_TRUE(same_bits(trace.to, run.positions()[vertex])) << vertex;
     ASSERT_EQ(trace.end == VisitEnd::Moved, steps == 1);
     ASSERT_TRUE(trace.combined);
     ASSERT_FALSE(trace.fast);
@@ -68,7 +66,7 @@ void follow(dmoscope::Run& run, const Worth& worth) {
       }
       ASSERT_EQ(level.best.has_value(), most > best);
       if (level.best) {
-        ASSERT_TRUE(same(level.values[static_cast<std::size_t>(*level.best)], most));
+        ASSERT_TRUE(same_bits(level.values[static_cast<std::size_t>(*level.best)], most));
       }
       best = most;
     }

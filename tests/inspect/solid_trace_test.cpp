@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/base/same_bits.h"
 #include "core/inspect/visit_trace.h"
 #include "core/mesh/generate.h"
 #include "core/mesh/random.h"
@@ -61,7 +62,7 @@ struct Wish {
 };
 
 /// Looks into a cube of candidates cost most of all that is done with a sanitizer: there every third visit is looked into.
-constexpr std::size_t kStride = testing::kSanitized ? 3 : 1;
+constexpr std::size_t kEvery = testing::kSanitized ? 3 : 1;
 
 /// Follows a run vertex by vertex, and looks into visits before they are made.
 class SolidFollower {
@@ -73,7 +74,7 @@ class SolidFollower {
     std::vector<Vec3> positions(run_.positions().begin(), run_.positions().end());
     for (int i = 0; i < iterations; ++i)
       for (const Index vertex : run_.colouring().order) {
-        if (made_++ % kStride != 0) {
+        if (made_++ % kEvery != 0) {
           run_.step(StepUnit::Vertex, progress_);
           positions[vertex] = run_.positions()[vertex];
           continue;
@@ -110,8 +111,8 @@ class SolidFollower {
   }
 
   void expect_as_stored(const SolidTrace& trace, std::uint64_t moved_now, Vec3 before) {
-    EXPECT_TRUE(testing::same_bits(std::vector{trace.from}, std::vector{before}));
-    EXPECT_TRUE(testing::same_bits(std::vector{trace.to}, std::vector{run_.positions()[trace.vertex]}));
+    EXPECT_TRUE(same_bits(std::vector{trace.from}, std::vector{before}));
+    EXPECT_TRUE(same_bits(std::vector{trace.to}, std::vector{run_.positions()[trace.vertex]}));
     EXPECT_EQ(trace.end == VisitEnd::Moved, moved_now == 1);
     EXPECT_NE(static_cast<int>(trace.end), static_cast<int>(VisitEnd::Fixed));
     EXPECT_TRUE(trace.step == trace.to - trace.from);

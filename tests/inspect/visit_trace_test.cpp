@@ -13,15 +13,13 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/base/same_bits.h"
 #include "core/mesh/generate.h"
 #include "core/session/run.h"
 #include "tests/smooth/zoo.h"
 
 namespace dmoscope {
 namespace {
-
-bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
-bool same(Vec3 a, Vec3 b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
 
 std::shared_ptr<const InputMesh> generated(std::string_view kind, std::size_t size) {
   Progress progress;
@@ -41,7 +39,7 @@ double quality_at(const InputMesh& input, std::vector<Vec3>& positions, Metric m
 }
 
 /// The bounding box of the other vertices of the star, in the plane; and where in space an offset in the plane leads.
-Vec2<double> box_of(const InputMesh& input, const std::vector<Vec3>& positions, Index vertex) {
+Vec2<double> plane_box_of(const InputMesh& input, const std::vector<Vec3>& positions, Index vertex) {
   const Plane& plane = input.geometry.plane;
   Vec2<double> low{1e300, 1e300}, high{-1e300, -1e300};
   for (const Incidence& at : input.topology.star(vertex))
@@ -115,17 +113,17 @@ class Follower {
 
   void expect_as_stored(const VisitTrace& trace, Index vertex, std::uint64_t moved, Vec3 before) {
     EXPECT_EQ(trace.vertex, vertex);
-    EXPECT_TRUE(same(trace.from, before));
-    EXPECT_TRUE(same(trace.to, run_.positions()[vertex]));
+    EXPECT_TRUE(same_bits(trace.from, before));
+    EXPECT_TRUE(same_bits(trace.to, run_.positions()[vertex]));
     EXPECT_EQ(trace.end == VisitEnd::Moved, moved == 1);
     EXPECT_NE(static_cast<int>(trace.end), static_cast<int>(VisitEnd::Fixed));
     const Vec2<double> step = run_.input().geometry.plane.project(trace.to - trace.from);
-    EXPECT_TRUE(same(trace.step.x, step.x) && same(trace.step.y, step.y));
+    EXPECT_TRUE(same_bits(trace.step.x, step.x) && same_bits(trace.step.y, step.y));
   }
 
   void expect_true_levels(const VisitTrace& trace, std::vector<Vec3>& positions) {
     const SearchParameters& s = search();
-    const Vec2<double> box = box_of(run_.input(), positions, trace.vertex);
+    const Vec2<double> box = plane_box_of(run_.input(), positions, trace.vertex);
     // What a float rounds of the largest number around.
     const double rounding = (trace.fast ? 1e-6 : 1e-14) * (std::fabs(box.x) + std::fabs(box.y));
     const auto close = [rounding](Vec2<double> a, Vec2<double> b) {
@@ -146,7 +144,7 @@ class Follower {
       ASSERT_EQ(level.values.size(), static_cast<std::size_t>(n * n));
       ASSERT_EQ(level.quality.size(), level.values.size());
       ASSERT_EQ(level.offsets.size(), level.values.size());
-      EXPECT_TRUE(same(level.centre.x, best_offset.x) && same(level.centre.y, best_offset.y)) << "on the best place so far";
+      EXPECT_TRUE(same_bits(level.centre.x, best_offset.x) && same_bits(level.centre.y, best_offset.y)) << "on the best place so far";
       EXPECT_TRUE(close(level.size, {omega * box.x, omega * box.y}));
       for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) {
@@ -175,11 +173,11 @@ class Follower {
       }
       omega *= 2.0 / (n - 1);
     }
-    EXPECT_TRUE(same(trace.found.x, best_offset.x) && same(trace.found.y, best_offset.y));
+    EXPECT_TRUE(same_bits(trace.found.x, best_offset.x) && same_bits(trace.found.y, best_offset.y));
     const bool found = trace.found.x != 0.0 || trace.found.y != 0.0;
     EXPECT_EQ(trace.end == VisitEnd::NothingFound, !found);
     if (trace.end == VisitEnd::Moved) {
-      EXPECT_TRUE(same(place_of(trace, trace.found), trace.to));
+      EXPECT_TRUE(same_bits(place_of(trace, trace.found), trace.to));
     }
   }
 
@@ -203,13 +201,13 @@ class Follower {
     for (std::size_t i = 0; i < star.size(); ++i) {
       const ElementChange& change = trace.elements[i];
       EXPECT_EQ(change.element, star[i].element);
-      EXPECT_TRUE(same(change.before, element_quality(context, positions, metric(), change.element)));
+      EXPECT_TRUE(same_bits(change.before, element_quality(context, positions, metric(), change.element)));
       EXPECT_EQ(change.inverted_before, smallest_jacobian(context, positions, change.element) <= 0.0);
-      EXPECT_TRUE(same(change.after, element_quality(context, run_.positions(), metric(), change.element)));
+      EXPECT_TRUE(same_bits(change.after, element_quality(context, run_.positions(), metric(), change.element)));
       EXPECT_EQ(change.inverted_after, smallest_jacobian(context, run_.positions(), change.element) <= 0.0);
     }
-    EXPECT_TRUE(same(quality_of(trace.before), quality_at(run_.input(), positions, metric(), trace.vertex, trace.from)));
-    EXPECT_TRUE(same(quality_of(trace.after), quality_at(run_.input(), positions, metric(), trace.vertex, trace.to)));
+    EXPECT_TRUE(same_bits(quality_of(trace.before), quality_at(run_.input(), positions, metric(), trace.vertex, trace.from)));
+    EXPECT_TRUE(same_bits(quality_of(trace.after), quality_at(run_.input(), positions, metric(), trace.vertex, trace.to)));
   }
 
   Progress progress_;
@@ -304,7 +302,7 @@ TEST(VisitTrace, OfAFixedVertexHasNoLevels) {
   EXPECT_EQ(static_cast<int>(trace.end), static_cast<int>(VisitEnd::Fixed));
   EXPECT_TRUE(trace.levels.empty());
   EXPECT_EQ(trace.elements.size(), input->topology.star(1).size());
-  EXPECT_TRUE(same(trace.from, trace.to));
+  EXPECT_TRUE(same_bits(trace.from, trace.to));
   EXPECT_EQ(trace.sentence(), "fixed: it is not searched");
 }
 

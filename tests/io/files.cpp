@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 
+#include "core/base/same_bits.h"
 #include "core/io/mesh_io.h"
 
 namespace dmoscope::test {
@@ -76,11 +77,6 @@ void expect_truncation_safe(std::string_view name, std::string_view bytes) {
     } catch (const InputError&) {
     }
   }
-}
-
-bool same_bits(Vec3 a, Vec3 b) {
-  const auto bits = [](double d) { return std::bit_cast<std::uint64_t>(d); };
-  return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
 }
 
 void expect_same_positions(std::span<const Vec3> expected, std::span<const Vec3> found) {

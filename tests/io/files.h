@@ -31,6 +31,11 @@ void put(const std::filesystem::path& path, std::string_view bytes);
 /// Expects InputError at this line (from 1; 0: none) with these words in it.
 void expect_refused(std::string_view name, std::string_view bytes, std::size_t line, std::string_view words);
 
+[[nodiscard]] inline std::vector<Index> corners(const Mesh& mesh, Index element) {
+  const auto own = mesh.elements.corners(element);
+  return {own.begin(), own.end()};
+}
+
 /// Is every corner and every member of a group a vertex or element of the mesh, and has every field its size?
 void expect_consistent(const Mesh& mesh);
 
@@ -38,7 +43,6 @@ void expect_consistent(const Mesh& mesh);
 void expect_truncation_safe(std::string_view name, std::string_view bytes);
 
 /// Bitwise: -0.0 is not 0.0.
-[[nodiscard]] bool same_bits(Vec3 a, Vec3 b);
 void expect_same_positions(std::span<const Vec3> expected, std::span<const Vec3> found);
 void expect_same_elements(const Mesh& expected, const Mesh& found);
 

@@ -19,7 +19,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr std::string_view kOff = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1.50 0\n3 0 1 2\n";
+constexpr std::string_view kPlainOff = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1.50 0\n3 0 1 2\n";
 /// The same, packed by Python's gzip.
 constexpr char kPackedBytes[] =
     "\x1f\x8b\x08\x00\x00\x00\x00\x00\x02\xff\xf3\x77\x73\xe3\x32\x56\x30\x54\x30\xe0\x32\x50\x00\x42\x2e\x43\x30\x69\xa0\x60\xa8\x67\x0a"
@@ -52,17 +52,17 @@ TEST_F(Gzip, IsReadWhateverTheName) {
     EXPECT_EQ(mesh.name, name);
     EXPECT_EQ(mesh.positions[2], (Vec3{0, 1.5, 0}));
     EXPECT_EQ(mesh.elements.size(), 1U);
-    EXPECT_EQ(written("b.off", mesh), kOff) << "its characters are kept";
+    EXPECT_EQ(written("b.off", mesh), kPlainOff) << "its characters are kept";
   }
   expect_refused("a.off.gz", packed("OFF\n3 1 0\n0 0 0\n1 x 0\n0 1 0\n3 0 1 2\n"), 4, "x");
   expect_refused("a.bdf.gz", packed("BZh"), 0, "packed by bzip2");
 }
 
 TEST_F(Gzip, IsWrittenWhereTheNameSaysSo) {
-  Mesh mesh = read_bytes("a.off", kOff);
+  Mesh mesh = read_bytes("a.off", kPlainOff);
   const std::string bytes = written("b.off.gz", mesh);
   EXPECT_TRUE(is_gzip(bytes));
-  EXPECT_EQ(unpacked(bytes), kOff);
+  EXPECT_EQ(unpacked(bytes), kPlainOff);
   EXPECT_EQ(written("c.off.gz", mesh), bytes) << "no time and no name is in it";
   mesh.positions[1].x = 2;
   mesh.source.reset();
@@ -70,7 +70,8 @@ TEST_F(Gzip, IsWrittenWhereTheNameSaysSo) {
 }
 
 TEST_F(Gzip, JoinedFilesAndLongOnesComeWhole) {
-  EXPECT_EQ(unpacked(std::string(kPacked) + std::string(kPacked) + std::string(512, '\0')), std::string(kOff) + std::string(kOff));
+  EXPECT_EQ(unpacked(std::string(kPacked) + std::string(kPacked) + std::string(512, '\0')),
+            std::string(kPlainOff) + std::string(kPlainOff));
   std::string text;
   for (std::uint32_t i = 0; i < 300'000; ++i) text += std::to_string(i * 2654435761U) + '\n';
   EXPECT_EQ(unpacked(packed(text)), text);

@@ -37,8 +37,6 @@ constexpr std::string_view kAll =
     "f 6 1 2\n"
     "v 9 9 9\n";
 
-std::vector<Index> corners(const Mesh& mesh, Index e) { return {mesh.elements.corners(e).begin(), mesh.elements.corners(e).end()}; }
-
 TEST(Obj, AllThatRealFilesHold) {
   const Mesh mesh = read_bytes("a.obj", kAll);
   ASSERT_EQ(mesh.positions.size(), 6U);

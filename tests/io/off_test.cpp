@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/same_bits.h"
 #include "core/io/mesh_io.h"
 #include "core/io/source_file.h"
 #include "tests/io/files.h"
@@ -15,8 +16,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-std::vector<Index> corners(const Mesh& mesh, Index e) { return {mesh.elements.corners(e).begin(), mesh.elements.corners(e).end()}; }
 
 constexpr std::string_view kPlain = "OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0.5 -0.0\n4 0 1 2 3\n3 1 4 2\n";
 

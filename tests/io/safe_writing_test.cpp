@@ -27,7 +27,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 namespace fs = std::filesystem;
 
-constexpr std::string_view kOff = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+constexpr std::string_view kOneTriangle = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
@@ -107,14 +107,14 @@ TEST(AtomicFiles, NoneIsReplacedWhereOneCannotBeWritten) {
 
 TEST(WriteMesh, SaysThatOtherNamesOfAFileKeepTheOldOne) {
   const TemporaryFolder folder;
-  put(folder / "a.off", kOff);
+  put(folder / "a.off", kOneTriangle);
   fs::create_hard_link(folder / "a.off", folder / "b.off");
   Progress progress;
   const Mesh mesh = read_mesh(folder / "a.off", progress);
   std::vector<Vec3> moved = mesh.positions;
   moved[0].x = 0.25;
   EXPECT_THAT(write_mesh(folder / "a.off", mesh, moved, progress), Contains(HasSubstr("2 names (hard links)")));
-  EXPECT_EQ(get(folder / "b.off"), kOff);
+  EXPECT_EQ(get(folder / "b.off"), kOneTriangle);
   EXPECT_THAT(write_mesh(folder / "a.off", mesh, moved, progress), Not(Contains(HasSubstr("names"))));
 }
 
@@ -183,7 +183,7 @@ TEST(WriteMesh, FieldsWithoutANumberAreRefusedDroppedInWordsOrReadBack) {
 }
 
 TEST(WriteMesh, TitlesThatNoFileHasAreReadBack) {
-  Mesh mesh = read_bytes("a.off", kOff);
+  Mesh mesh = read_bytes("a.off", kOneTriangle);
   mesh.source.reset();
   mesh.title = std::string("solid\0\r\n\x1b[31m", 13);
   mesh.name = "a\nb.off";
@@ -205,7 +205,7 @@ TEST(WriteMesh, TitlesThatNoFileHasAreReadBack) {
 }
 
 TEST(WriteMesh, ACommentStandsWhereAFormatHasThemAndIsReadOver) {
-  const Mesh original = read_bytes("a.off", kOff);
+  const Mesh original = read_bytes("a.off", kOneTriangle);
   for (const FormatInfo& format : format_table()) {
     if (format.name == "meshb") continue;  // it is not made anew
     const std::string name = "a" + std::string(format.extensions.substr(0, format.extensions.find(' ')));

@@ -16,7 +16,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-void expect_the_mesh(const Mesh& mesh) {
+void expect_the_2dm_mesh(const Mesh& mesh) {
   expect_consistent(mesh);
   EXPECT_EQ(mesh.title, "a square");
   EXPECT_THAT(std::vector<Index>(mesh.elements.all_corners().begin(), mesh.elements.all_corners().end()),
@@ -30,7 +30,7 @@ void expect_the_mesh(const Mesh& mesh) {
 
 TEST(Sms2dm, MaterialsAndNodestrings) {
   const Mesh mesh = read_bytes("a.2dm", testing::sms_2dm());
-  expect_the_mesh(mesh);
+  expect_the_2dm_mesh(mesh);
   ASSERT_EQ(mesh.groups.size(), 6U);
   EXPECT_EQ(mesh.groups[0].name, "material 1");
   EXPECT_THAT(mesh.groups[0].members, ElementsAre(0, 2));
@@ -57,7 +57,7 @@ TEST(Sms2dm, MadeAnewItHoldsTheSame) {
   std::vector<std::string> notes;
   const Mesh again = read_bytes("b.2dm", written("b.2dm", mesh, mesh.positions, &notes));
   EXPECT_THAT(notes, ElementsAre());
-  expect_the_mesh(again);
+  expect_the_2dm_mesh(again);
   ASSERT_EQ(again.groups.size(), mesh.groups.size());
   for (const Group& group : mesh.groups) {
     const auto same = [&](const Group& other) { return other.dimension == group.dimension && other.members == group.members; };

@@ -17,10 +17,10 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 const std::string kElements = "NELEM= 2\n9 0 1 2 3 0\n5 1 4 2 1\n";
-const std::string kPoints = "NPOIN= 5 5\n0 0 0\n1.0 0 1\n1 1 2\n0 1 3\n2 0.5 4\n";
+const std::string kSu2Points = "NPOIN= 5 5\n0 0 0\n1.0 0 1\n1 1 2\n0 1 3\n2 0.5 4\n";
 const std::string kMarkers = "NMARK= 2\nMARKER_TAG= wall\nMARKER_ELEMS= 2\n3 0 1\n3 1 4 0\nMARKER_TAG= far\nMARKER_ELEMS= 1\n3 4 2\n";
 
-void expect_the_mesh(const Mesh& mesh) {
+void expect_the_su2_mesh(const Mesh& mesh) {
   ASSERT_EQ(mesh.positions.size(), 5U);
   EXPECT_EQ(mesh.positions[4], (Vec3{2, 0.5, 0}));
   EXPECT_THAT(std::vector<ElementKind>(mesh.elements.kinds().begin(), mesh.elements.kinds().end()),
@@ -36,22 +36,22 @@ void expect_the_mesh(const Mesh& mesh) {
 }
 
 TEST(Su2, SectionsInAnyOrder) {
-  std::array<std::string, 4> sections{"NDIME= 2\n", kElements, kPoints, kMarkers};
+  std::array<std::string, 4> sections{"NDIME= 2\n", kElements, kSu2Points, kMarkers};
   std::sort(sections.begin(), sections.end());
   do {
-    expect_the_mesh(read_bytes("a.su2", sections[0] + "% comment\n" + sections[1] + sections[2] + "\n" + sections[3]));
+    expect_the_su2_mesh(read_bytes("a.su2", sections[0] + "% comment\n" + sections[1] + sections[2] + "\n" + sections[3]));
   } while (std::next_permutation(sections.begin(), sections.end()));
 }
 
 TEST(Su2, KeysWithAndWithoutBlanks) {
-  std::string text = "NDIME =2\n" + kElements + kPoints + kMarkers;
+  std::string text = "NDIME =2\n" + kElements + kSu2Points + kMarkers;
   for (const auto& [from, to] : {std::pair<std::string, std::string>{"NELEM= ", "NELEM="},
                                  {"NPOIN= ", "  NPOIN\t=\t"},
                                  {"NMARK= ", "NMARK = "},
                                  {"MARKER_TAG= wall", "MARKER_TAG=wall % name"}}) {
     text.replace(text.find(from), from.size(), to);
   }
-  expect_the_mesh(read_bytes("a.su2", text));
+  expect_the_su2_mesh(read_bytes("a.su2", text));
   expect_patched("a.su2", text, false);
 }
 
@@ -105,7 +105,7 @@ TEST(Su2, EdgesAndPointsBesideTheFacesOfAMarkerAreNamed) {
 }
 
 TEST(Su2, WhatWeDoNotKnowIsKept) {
-  const std::string text = "NZONE= 1\nNDIME= 2\n" + kElements + kPoints +
+  const std::string text = "NZONE= 1\nNDIME= 2\n" + kElements + kSu2Points +
                            "NMARK= 1\nMARKER_TAG= SEND_RECEIVE\nMARKER_ELEMS= 2\nSEND_RECV= -1\n1 3 0\n1 4 0\n"
                            "NPERIODIC= 1\nPERIODIC_INDEX= 0\nPERIODIC_CENTER= 0 0 0\nFFD_NBOX= 1\n0.0 1.0\nfree text\n";
   const Mesh mesh = read_bytes("a.su2", text);
@@ -117,7 +117,7 @@ TEST(Su2, WhatWeDoNotKnowIsKept) {
 }
 
 TEST(Su2, EveryByteButTheMovedStays) {
-  const std::string text = "% c\nNDIME= 2\n" + kPoints + kElements + kMarkers + "% end";
+  const std::string text = "% c\nNDIME= 2\n" + kSu2Points + kElements + kMarkers + "% end";
   expect_patched("a.su2", text, false);
   std::string crlf;
   for (const char c : text) crlf += c == '\n' ? "\r\n" : std::string(1, c);
@@ -168,15 +168,15 @@ TEST(Su2, Malformed) {
 }
 
 TEST(Su2, EveryBeginning) {
-  expect_truncation_safe("a.su2", "NDIME= 2\n" + kElements + kPoints + kMarkers);
-  expect_truncation_safe("a.su2", kMarkers + kPoints + kElements + "NDIME= 2");
+  expect_truncation_safe("a.su2", "NDIME= 2\n" + kElements + kSu2Points + kMarkers);
+  expect_truncation_safe("a.su2", kMarkers + kSu2Points + kElements + "NDIME= 2");
 }
 
 TEST(Su2, MadeAnewFromAnotherSource) {
-  Mesh mesh = read_bytes("a.su2", "NDIME= 2\n" + kElements + kPoints + kMarkers);
+  Mesh mesh = read_bytes("a.su2", "NDIME= 2\n" + kElements + kSu2Points + kMarkers);
   mesh.source.reset();
   std::vector<std::string> notes;
-  expect_the_mesh(read_bytes("b.su2", written("b.su2", mesh, mesh.positions, &notes)));
+  expect_the_su2_mesh(read_bytes("b.su2", written("b.su2", mesh, mesh.positions, &notes)));
   EXPECT_TRUE(notes.empty());
 }
 

@@ -54,7 +54,7 @@ TEST(Conversion, EverySampleToEveryFormat) {
         bool kept = false;
         for (const Field& other : again.fields) {
           bool same = other.on == field.on && other.values.size() == field.values.size();
-          for (std::size_t i = 0; same && i < other.values.size(); ++i) same = same_bits(other.values[i], field.values[i]);
+          for (std::size_t i = 0; same && i < other.values.size(); ++i) same = same_values(other.values[i], field.values[i]);
           kept = kept || same;
         }
         EXPECT_TRUE(named || kept) << "field " << field.name << " is lost without a word";

@@ -15,17 +15,15 @@
 #include "core/io/mesh_io.h"
 #include "tests/fuzz/check_reader.h"
 #include "tests/fuzz/samples.h"
+#include "tests/io/files.h"
 
 namespace dmoscope::testing {
 namespace {
 
+using test::corners;
+
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-std::vector<Index> corners(const Mesh& mesh, Index e) {
-  const auto c = mesh.elements.corners(e);
-  return {c.begin(), c.end()};
-}
 
 const Field& field(const Mesh& mesh, std::string_view name) {
   for (const Field& f : mesh.fields) {
@@ -281,7 +279,7 @@ TEST(Vtk, NewFileKeepsRandomDoublesAndFieldsBitwise) {
   mesh.flipped[4] = 1;
 
   const Mesh again = read_bytes("vtk", write_anew("vtk", mesh, mesh.positions).bytes);
-  for (std::size_t v = 0; v < 300; ++v) EXPECT_TRUE(same_bits(again.positions[v], mesh.positions[v])) << v;
+  for (std::size_t v = 0; v < 300; ++v) EXPECT_TRUE(testing::same_values(again.positions[v], mesh.positions[v])) << v;
   EXPECT_EQ(field(again, "water depth").values, depth.values);
   EXPECT_EQ(field(again, "flow").values, flow.values);
   EXPECT_EQ(field(again, "flow").components, 5);
@@ -317,14 +315,14 @@ TEST(Vtk, StringsMetadataAndFileDataArePassedOver) {
   EXPECT_THAT(mesh.source->only_in_file(), ::testing::Contains(HasSubstr("names")));
 }
 
-struct Malformed {
+struct MalformedVtk {
   std::string from, to;
   std::size_t line;
   std::string says;
 };
 
 TEST(Vtk, RefusesMalformedFilesWithTheLine) {
-  const std::vector<Malformed> cases{
+  const std::vector<MalformedVtk> cases{
       {"# vtk DataFile", "# vkt DataFile", 1, "begins with"},
       {"Version 3.0", "Version 9.0", 1, "not known"},
       {"ASCII", "ASKII", 3, "ASKII"},
@@ -352,7 +350,7 @@ TEST(Vtk, RefusesMalformedFilesWithTheLine) {
       {"SCALARS id int", "SCALARZ id int", 27, "SCALARZ"},
       {"5 6 7 8\n", "5 6 7\n", 32, "file ends"},
   };
-  for (const Malformed& one : cases) {
+  for (const MalformedVtk& one : cases) {
     std::string bytes = vtk_ascii();
     const std::size_t at = bytes.find(one.from);
     ASSERT_NE(at, std::string::npos) << one.from;

@@ -31,11 +31,6 @@ std::string sample(std::string_view name) {
 
 bool in_pieces(std::string_view name) { return name.starts_with("pieces"); }
 
-std::vector<Index> corners(const Mesh& mesh, Index e) {
-  const auto c = mesh.elements.corners(e);
-  return {c.begin(), c.end()};
-}
-
 /// `text` with the first `from` replaced.
 std::string with(std::string text, std::string_view from, std::string_view to) {
   const std::size_t at = text.find(from);

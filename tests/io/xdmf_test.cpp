@@ -19,7 +19,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 std::string grid(const std::string& inside) { return "<Xdmf><Domain><Grid>\n" + inside + "</Grid></Domain></Xdmf>\n"; }
-const std::string kPoints = "<Geometry GeometryType=\"XYZ\"><DataItem>0 0 0 1 0 0 0 1 0</DataItem></Geometry>\n";
+const std::string kGeometry = "<Geometry GeometryType=\"XYZ\"><DataItem>0 0 0 1 0 0 0 1 0</DataItem></Geometry>\n";
 const std::string kTriangle = "<Topology TopologyType=\"Triangle\"><DataItem>0 1 2</DataItem></Topology>\n";
 
 TEST(Xdmf, MixedWithAttributesAndSets) {
@@ -94,19 +94,20 @@ TEST(Xdmf, Refused) {
       {"<Xdmf><Domain></Xdmf>", 1, "not well-formed XML"},
       {"<Xdmf>\n</Xdmf>", 1, "no Domain"},
       {"<Xdmf><Domain>\n<Grid/><Grid/></Domain></Xdmf>", 1, "2 grids"},
-      {grid(kPoints), 1, "no Topology"},
-      {grid(kPoints + "<Topology TopologyType=\"Tri_6\"><DataItem>0 1 2 0 1 2</DataItem></Topology>"), 3, "of higher order"},
-      {grid(kPoints + "<Topology TopologyType=\"2DSMesh\"><DataItem>0</DataItem></Topology>"), 3,
+      {grid(kGeometry), 1, "no Topology"},
+      {grid(kGeometry + "<Topology TopologyType=\"Tri_6\"><DataItem>0 1 2 0 1 2</DataItem></Topology>"), 3, "of higher order"},
+      {grid(kGeometry + "<Topology TopologyType=\"2DSMesh\"><DataItem>0</DataItem></Topology>"), 3,
        "is not read: save the mesh as unstructured"},
-      {grid(kPoints + "<Topology TopologyType=\"Triangle\"><DataItem>0 1 3</DataItem></Topology>"), 3, "point 3 out of range"},
-      {grid(kPoints + "<Topology TopologyType=\"Triangle\"><DataItem>0 1</DataItem></Topology>"), 3, "2 numbers are no elements"},
-      {grid(kPoints + "<Topology TopologyType=\"Mixed\"><DataItem>36 0 1 2 0 1 2</DataItem></Topology>"), 3, "type 36 is of higher order"},
-      {grid(kPoints + "<Topology TopologyType=\"Mixed\"><DataItem>4 0 1</DataItem></Topology>"), 3, "cut off"},
+      {grid(kGeometry + "<Topology TopologyType=\"Triangle\"><DataItem>0 1 3</DataItem></Topology>"), 3, "point 3 out of range"},
+      {grid(kGeometry + "<Topology TopologyType=\"Triangle\"><DataItem>0 1</DataItem></Topology>"), 3, "2 numbers are no elements"},
+      {grid(kGeometry + "<Topology TopologyType=\"Mixed\"><DataItem>36 0 1 2 0 1 2</DataItem></Topology>"), 3,
+       "type 36 is of higher order"},
+      {grid(kGeometry + "<Topology TopologyType=\"Mixed\"><DataItem>4 0 1</DataItem></Topology>"), 3, "cut off"},
       {grid("<Geometry GeometryType=\"XYZ\"><DataItem Format=\"HDF\">a.h5:/x</DataItem></Geometry>" + kTriangle), 2,
        "in another file (\"HDF\")"},
       {grid("<Geometry GeometryType=\"XYZ\"><DataItem Dimensions=\"4 3\">0 0 0</DataItem></Geometry>" + kTriangle), 2, "3 numbers, but"},
       {grid("<Geometry GeometryType=\"XYZ\"><DataItem>0 0 x</DataItem></Geometry>" + kTriangle), 2, "expected a number, got \"x\""},
-      {grid(kPoints + kTriangle + "<Attribute Name=\"a\"><DataItem>1 2</DataItem></Attribute>"), 4, "2 numbers for 3 points"},
+      {grid(kGeometry + kTriangle + "<Attribute Name=\"a\"><DataItem>1 2</DataItem></Attribute>"), 4, "2 numbers for 3 points"},
   }};
   for (const auto& bad : table) expect_refused("a.xdmf", bad.text, bad.line, bad.words);
 }

@@ -9,7 +9,7 @@
 namespace dmoscope::render {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
 std::shared_ptr<Shading> shading(Shading::By by, std::vector<float> values, std::vector<Rgb> palette = {}) {
   return std::make_shared<Shading>(Shading{by, std::move(values), false, std::move(palette)});
@@ -36,7 +36,7 @@ TEST_F(WithContext, CategoriesHaveThePalettesColoursAndInvertedElementsTheirOwn)
   Image image = picture(unit_camera(), flat_style());
   EXPECT_TRUE(near_colour(image.at(60, 60), kBlue, 0));
   EXPECT_TRUE(near_colour(image.at(150, 65), kRed, 0));
-  scene->set_shading(shading(Shading::By::Elements, {-1.0F, kNan}, {kRed, kBlue}));
+  scene->set_shading(shading(Shading::By::Elements, {-1.0F, kNoValue}, {kRed, kBlue}));
   image = picture(unit_camera(), flat_style());
   EXPECT_TRUE(near_colour(image.at(60, 60), flat_style().neutral_colour, 0)) << "of no category";
   int grey = 0;

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/same_bits.h"
 #include "core/session/engine.h"
 #include "core/session/run.h"
 #include "tests/support/fake_accelerator.h"
@@ -26,15 +27,11 @@ using testing::lattice;
 using Positions = std::vector<Vec3>;
 
 Positions copy(const dmoscope::Run& run) { return {run.positions().begin(), run.positions().end()}; }
-bool same_bits(const Positions& a, const Positions& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
-}
-
 const std::shared_ptr<const InputMesh>& mesh() {
   static const auto shared = input(lattice(20, 0.45, 5));
   return shared;
 }
-dmoscope::Run make_run(RunParameters parameters = {}, std::size_t budget = std::size_t{1} << 28U, Acceleration device = {}) {
+dmoscope::Run edited_run(RunParameters parameters = {}, std::size_t budget = std::size_t{1} << 28U, Acceleration device = {}) {
   return {mesh(), std::move(parameters), std::make_shared<ThreadPool>(2), budget, std::move(device)};
 }
 
@@ -69,7 +66,7 @@ TEST(Edits, AreTheVisitsOfASmootherThatKnowsOnlyThose) {
   RunParameters in_double;
   in_double.search.precision = Precision::Double;
   for (const RunParameters& parameters : {RunParameters{}, in_double}) {
-    dmoscope::Run run = make_run(parameters);
+    dmoscope::Run run = edited_run(parameters);
     run.iterate(1, progress);
     run.step(StepUnit::Vertex, progress);
     const auto vertices = some_vertices(run, 60, 7);
@@ -121,7 +118,7 @@ TEST(Edits, AnyMomentOfThePathIsFoundAgainBitForBit) {
   std::vector<std::pair<Moment, Positions>> first;
   for (const std::size_t budget : {std::size_t{1} << 28U, std::size_t{0}}) {
     for (const bool accelerated : {false, true}) {
-      dmoscope::Run run = make_run({}, budget, accelerated ? acceleration(device) : Acceleration{});
+      dmoscope::Run run = edited_run({}, budget, accelerated ? acceleration(device) : Acceleration{});
       ASSERT_EQ(run.backend(), accelerated ? "cuda" : "cpu");
       const auto trail = tour(run, progress);
       if (first.empty()) first = trail;
@@ -145,7 +142,7 @@ TEST(Edits, AnyMomentOfThePathIsFoundAgainBitForBit) {
 
 TEST(Edits, BackGoesOverThemAsOverOtherSteps) {
   Progress progress;
-  dmoscope::Run run = make_run();
+  dmoscope::Run run = edited_run();
   run.iterate(1, progress);
   const Positions at_end = copy(run);
   run.visit_vertices(std::vector<Index>{30}, progress);
@@ -173,7 +170,7 @@ TEST(Edits, BackGoesOverThemAsOverOtherSteps) {
 
 TEST(Edits, ForgetTheFutureOfBefore) {
   Progress progress;
-  dmoscope::Run run = make_run();
+  dmoscope::Run run = edited_run();
   run.iterate(6, progress);
   run.seek({2, 5}, progress);
   run.visit_vertices(std::vector<Index>{50, 51}, progress);
@@ -181,7 +178,7 @@ TEST(Edits, ForgetTheFutureOfBefore) {
   EXPECT_EQ(run.history().nearest(6).iteration, 2U);
   run.iterate(4, progress);
   const Positions with_edit = copy(run);
-  dmoscope::Run fresh = make_run();
+  dmoscope::Run fresh = edited_run();
   fresh.seek({2, 5}, progress);
   fresh.visit_vertices(std::vector<Index>{51, 50, 51}, progress);
   fresh.iterate(4, progress);
@@ -193,14 +190,14 @@ TEST(Edits, ForgetTheFutureOfBefore) {
   run.reset(progress);
   EXPECT_TRUE(run.edits().all().empty());
   run.iterate(6, progress);
-  dmoscope::Run plain = make_run();
+  dmoscope::Run plain = edited_run();
   plain.iterate(6, progress);
   EXPECT_TRUE(same_bits(copy(run), copy(plain))) << "after a reset no edit is left";
 }
 
 TEST(Edits, StatisticsAndRecordsAreOfTheirMoments) {
   Progress progress;
-  dmoscope::Run run = make_run();
+  dmoscope::Run run = edited_run();
   run.iterate(2, progress);
   const Statistics recorded = run.statistics();
   run.visit_vertices(some_vertices(run, 100, 4), progress);
@@ -240,7 +237,7 @@ TEST(Edits, ManyAreSeveral) {
 
 TEST(Edits, RefuseWhatCannotBeVisitedAndDoNothing) {
   Progress progress;
-  dmoscope::Run run = make_run({.fixed = {45}});
+  dmoscope::Run run = edited_run({.fixed = {45}});
   for (const auto& [vertex, why] : {std::pair<Index, const char*>{0, "boundary"}, {45, "by hand"}, {100000, "441 vertices"}}) {
     try {
       run.visit_vertices(std::vector<Index>{46, vertex}, progress);

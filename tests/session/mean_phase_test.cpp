@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/same_bits.h"
 #include "core/session/run.h"
 #include "core/session/session_commands.h"
 #include "core/session/state_file.h"
@@ -22,10 +23,6 @@ using testing::Cells;
 using ::testing::HasSubstr;
 using testing::input;
 using testing::lattice;
-
-bool same_bits(std::span<const Vec3> a, std::span<const Vec3> b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
-}
 
 /// Records with these minima, of which the movable ones are the same; some vertex moved in each.
 std::vector<IterationRecord> records(std::initializer_list<double> minima) {

@@ -1,4 +1,4 @@
-// The table of runs: what its cells say against sums and sorting done here, its order, its text.
+// The table of runs: what its cells tell against sums and sorting done here, its order, its text.
 
 #include "core/session/run_table.h"
 
@@ -74,16 +74,16 @@ TEST(RunTable, IterationsThatTheRunHasGoneBackFromDoNotCount) {
   EXPECT_TRUE(std::isnan(input.vertices_per_second)) << "nothing has been visited";
 }
 
-void say(Engine& engine, const std::string& line) {
+void tell(Engine& engine, const std::string& line) {
   engine.post(line);
   engine.wait_idle();
 }
 
 TEST(RunTable, APublishedRunHasTheSameRow) {
   Engine engine(2);
-  say(engine, "generate random 400");
-  say(engine, "run 3");
-  say(engine, "show radius-ratio");
+  tell(engine, "generate random 400");
+  tell(engine, "run 3");
+  tell(engine, "show radius-ratio");
   const auto view = engine.view();
   const RunRow shown = row_of(view->runs[0], Metric::RadiusRatio);
   // The same run done apart.
@@ -103,10 +103,10 @@ TEST(RunTable, APublishedRunHasTheSameRow) {
 
 TEST(RunTable, TheInputIsJudgedByAnyMetricOnceNothingRuns) {
   Engine engine(2);
-  say(engine, "generate random 400");
-  say(engine, "run 2");
+  tell(engine, "generate random 400");
+  tell(engine, "run 2");
   for (const Metric metric : {Metric::MeanRatio, Metric::RadiusRatio}) {
-    say(engine, std::string("show ") + std::string(info(metric).name));
+    tell(engine, std::string("show ") + std::string(info(metric).name));
     const auto view = engine.view();
     ASSERT_TRUE(view->input_summary);
     EXPECT_EQ(view->input_summary->metric, metric);
@@ -146,9 +146,9 @@ double correlation_with_distance(const InputMesh& input, std::span<const Vec3> p
 
 TEST(RunTable, ARunWithASizeFunctionSaysHowWellSizesAreMet) {
   Engine engine(2);
-  say(engine, "generate random 400");
-  say(engine, "combine mean-ratio:0.3:density h1:0,0");
-  say(engine, "run 4");
+  tell(engine, "generate random 400");
+  tell(engine, "combine mean-ratio:0.3:density h1:0,0");
+  tell(engine, "run 4");
   const auto view = engine.view();
   const RunRow row = row_of(view->runs[0], view->shown);
   const double before = correlation_with_distance(*view->input, view->input->mesh.positions, {});
@@ -156,12 +156,12 @@ TEST(RunTable, ARunWithASizeFunctionSaysHowWellSizesAreMet) {
   EXPECT_NEAR(row.input_size_correlation, before, 1e-9);
   EXPECT_NEAR(row.size_correlation, after, 1e-9);
   EXPECT_GT(after, before);
-  say(engine, "back");
+  tell(engine, "back");
   const auto earlier = engine.view();
   const RunRow back = row_of(earlier->runs[0], earlier->shown);
   EXPECT_NEAR(back.size_correlation, correlation_with_distance(*earlier->input, earlier->frame->positions, {}), 1e-9);
   EXPECT_EQ(back.input_size_correlation, row.input_size_correlation);
-  say(engine, "combine mean-ratio:0.3:density constant");
+  tell(engine, "combine mean-ratio:0.3:density constant");
   EXPECT_TRUE(std::isnan(row_of(engine.view()->runs[1], view->shown).size_correlation)) << "one size for all";
   EXPECT_TRUE(has_values(std::vector{row}, run_column("size_correlation")));
   EXPECT_FALSE(has_values(std::vector{RunRow{}}, run_column("size_correlation")));

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/same_bits.h"
 #include "core/session/base64.h"
 #include "core/session/engine.h"
 #include "core/session/session_commands.h"
@@ -23,10 +24,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using Json = nlohmann::ordered_json;
-
-bool same_bits(std::span<const Vec3> a, std::span<const Vec3> b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
-}
 
 /// As it was saved before there were checksums, which would be the first to refuse.
 Json unsealed(Json json) {

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/same_bits.h"
 #include "core/session/carry_on.h"
 #include "core/session/engine.h"
 #include "core/session/run.h"
@@ -24,33 +25,30 @@ using testing::lattice;
 
 constexpr std::size_t kPlenty = std::size_t{1} << 28U;
 
-std::vector<Vec3> copy(const dmoscope::Run& run) { return {run.positions().begin(), run.positions().end()}; }
-bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
-}
+std::vector<Vec3> positions_now(const dmoscope::Run& run) { return {run.positions().begin(), run.positions().end()}; }
 bool same_bits(const Statistics& a, const Statistics& b) {
   return a.minimum == b.minimum && a.mean == b.mean && a.movable_minimum == b.movable_minimum && a.ceiling == b.ceiling &&
          a.worst_element == b.worst_element && a.inverted == b.inverted;
 }
 
-const std::shared_ptr<const InputMesh>& mesh() {
+const std::shared_ptr<const InputMesh>& rough_lattice() {
   static const auto shared = input(lattice(30, 0.45, 31));
   return shared;
 }
-dmoscope::Run make_run(RunParameters parameters, Acceleration acceleration, std::size_t budget = kPlenty) {
-  return {mesh(), std::move(parameters), std::make_shared<ThreadPool>(2), budget, std::move(acceleration)};
+dmoscope::Run run_with(RunParameters parameters, Acceleration acceleration, std::size_t budget = kPlenty) {
+  return {rough_lattice(), std::move(parameters), std::make_shared<ThreadPool>(2), budget, std::move(acceleration)};
 }
 dmoscope::Run on_device(const std::shared_ptr<FakeDevice>& device, std::size_t budget = kPlenty) {
-  return make_run({.backend = Backend::Cuda}, acceleration(device), budget);
+  return run_with({.backend = Backend::Cuda}, acceleration(device), budget);
 }
-dmoscope::Run on_cpu(std::size_t budget = kPlenty) { return make_run({.backend = Backend::Cpu}, {}, budget); }
+dmoscope::Run on_cpu(std::size_t budget = kPlenty) { return run_with({.backend = Backend::Cpu}, {}, budget); }
 
 /// Positions at the end of each iteration, the input first.
 std::vector<std::vector<Vec3>> states_on_cpu(std::uint64_t iterations) {
   Progress progress;
   dmoscope::Run run = on_cpu();
-  std::vector<std::vector<Vec3>> states{copy(run)};
-  run.iterate(iterations, progress, [&](const dmoscope::Run& now) { states.push_back(copy(now)); });
+  std::vector<std::vector<Vec3>> states{positions_now(run)};
+  run.iterate(iterations, progress, [&](const dmoscope::Run& now) { states.push_back(positions_now(now)); });
   return states;
 }
 
@@ -61,11 +59,11 @@ TEST(Backend, NamesReadBack) {
 
 TEST(Backend, AutoTakesTheAcceleratorWhereItCan) {
   const auto device = std::make_shared<FakeDevice>();
-  dmoscope::Run run = make_run({}, acceleration(device));
+  dmoscope::Run run = run_with({}, acceleration(device));
   EXPECT_EQ(run.backend(), "cuda");
   EXPECT_EQ(run.backend_sentence(), "cuda: Fake H1");
   EXPECT_EQ(run.take_warning(), "");
-  EXPECT_EQ(make_run({.backend = Backend::Cpu}, acceleration(device)).backend_sentence(), "cpu, 2 threads");
+  EXPECT_EQ(run_with({.backend = Backend::Cpu}, acceleration(device)).backend_sentence(), "cpu, 2 threads");
 }
 
 TEST(Backend, AutoTakesTheCpuForWhatADeviceCannotDoAndSaysWhy) {
@@ -74,21 +72,21 @@ TEST(Backend, AutoTakesTheCpuForWhatADeviceCannotDoAndSaysWhy) {
   in_double.search.precision = Precision::Double;
   in_lanes.search.simd = best_simd_level();
   for (const auto& [parameters, reason] : {std::pair{in_double, "double"}, std::pair{in_lanes, "SIMD"}}) {
-    dmoscope::Run run = make_run(parameters, acceleration(device));
+    dmoscope::Run run = run_with(parameters, acceleration(device));
     EXPECT_EQ(run.backend(), "cpu");
     EXPECT_THAT(run.backend_reason(), HasSubstr(reason));
     EXPECT_EQ(run.take_warning(), "") << "nothing went wrong";
     RunParameters insisting = parameters;
     insisting.backend = Backend::Cuda;
-    EXPECT_THROW(make_run(insisting, acceleration(device)), UsageError);
+    EXPECT_THROW(run_with(insisting, acceleration(device)), UsageError);
   }
 }
 
 TEST(Backend, WithoutAnAcceleratorTheReasonIsGiven) {
   const Acceleration none{nullptr, "built without a CUDA toolkit"};
-  EXPECT_EQ(make_run({}, none).backend_sentence(), "cpu, 2 threads (no cuda: built without a CUDA toolkit)");
+  EXPECT_EQ(run_with({}, none).backend_sentence(), "cpu, 2 threads (no cuda: built without a CUDA toolkit)");
   try {
-    (void)make_run({.backend = Backend::Cuda}, none);
+    (void)run_with({.backend = Backend::Cuda}, none);
     FAIL() << "there is no cuda";
   } catch (const UsageError& error) {
     EXPECT_THAT(error.what(), HasSubstr("built without a CUDA toolkit"));
@@ -98,7 +96,7 @@ TEST(Backend, WithoutAnAcceleratorTheReasonIsGiven) {
 TEST(Backend, ADeviceThatCannotBeMadeUseOfIsAWarningForAutoAndAnErrorByName) {
   const auto device = std::make_shared<FakeDevice>();
   device->fail_to_make = true;
-  dmoscope::Run run = make_run({}, acceleration(device));
+  dmoscope::Run run = run_with({}, acceleration(device));
   EXPECT_EQ(run.backend(), "cpu");
   EXPECT_THAT(run.take_warning(), AllOf(HasSubstr("3 GiB asked for, 2 GiB free"), HasSubstr("smoothing on the CPU")));
   EXPECT_EQ(run.take_warning(), "") << "told once";
@@ -114,7 +112,7 @@ TEST(Accelerated, EveryStepGivesTheBitsOfTheCpu) {
     action(near);
     ASSERT_EQ(far.moment(), near.moment());
     EXPECT_TRUE(same_bits(far.statistics(), near.statistics()));
-    EXPECT_TRUE(same_bits(copy(far), copy(near)));
+    EXPECT_TRUE(same_bits(positions_now(far), positions_now(near)));
   };
   step([&](dmoscope::Run& run) { run.iterate(3, progress); });
   step([&](dmoscope::Run& run) { run.step(StepUnit::Class, progress); });
@@ -198,7 +196,7 @@ TEST(History, KeepsFewPositionsOfAFarRunAndComputesTheOthersAgain) {
   EXPECT_THAT(run.history().sentence(), HasSubstr("computed again when asked for"));
   for (const std::uint64_t iteration : {7U, 0U, 12U, 3U}) {
     run.seek({iteration, 0}, progress);
-    EXPECT_TRUE(same_bits(copy(run), states[iteration])) << iteration;
+    EXPECT_TRUE(same_bits(positions_now(run), states[iteration])) << iteration;
   }
 }
 
@@ -239,14 +237,14 @@ TEST_P(Failure, WhileSteppingLeavesTheLastPositionsOfTheHostAndGoesOnOnTheCpu) {
   const std::uint64_t stands = asked ? fails_at - 1 : 0;
   EXPECT_EQ(run.moment(), (Moment{stands, 0}));
   EXPECT_EQ(run.history().records().size(), stands + 1);
-  EXPECT_TRUE(same_bits(copy(run), states[stands]));
+  EXPECT_TRUE(same_bits(positions_now(run), states[stands]));
   EXPECT_EQ(run.backend(), "cpu");
   EXPECT_THAT(run.backend_reason(), HasSubstr("the fake device was lost"));
   EXPECT_EQ(run.take_warning(), "") << "the error said it";
 
   run.iterate(8 - stands, progress);
   EXPECT_EQ(run.moment(), (Moment{8, 0}));
-  EXPECT_TRUE(same_bits(copy(run), states[8]));
+  EXPECT_TRUE(same_bits(positions_now(run), states[8]));
   dmoscope::Run whole = on_cpu();
   whole.iterate(8, progress);
   for (std::size_t i = 0; i <= 8; ++i) {
@@ -265,13 +263,13 @@ TEST(Accelerated, AFailureInTheMidstOfAnIterationGoesOnFromThePositionsBroughtTh
     each->step(StepUnit::Class, progress);
   }
   const Moment stands = run.moment();
-  EXPECT_TRUE(same_bits(copy(run), copy(near)));
+  EXPECT_TRUE(same_bits(positions_now(run), positions_now(near)));
   device->fail_at_visit = device->visits + 1;
   EXPECT_THROW(run.step(StepUnit::Vertex, progress), DeviceError);
   EXPECT_EQ(run.moment(), stands);
   for (dmoscope::Run* each : {&run, &near}) each->step(StepUnit::Iteration, progress);
   EXPECT_EQ(run.moment(), (Moment{3, 0}));
-  EXPECT_TRUE(same_bits(copy(run), copy(near)));
+  EXPECT_TRUE(same_bits(positions_now(run), positions_now(near)));
   EXPECT_EQ(run.history().records()[3].moved, near.history().records()[3].moved);
 }
 
@@ -293,9 +291,9 @@ TEST(Accelerated, AFailureWhileCopyingGoesBackToPositionsThatWereKept) {
   run.recover();
   EXPECT_THAT(run.take_warning(), HasSubstr("lost while copying"));
   EXPECT_EQ(run.moment(), (Moment{kept, 0}));
-  EXPECT_TRUE(same_bits(copy(run), states[kept]));
+  EXPECT_TRUE(same_bits(positions_now(run), states[kept]));
   run.iterate(5 - kept, progress);
-  EXPECT_TRUE(same_bits(copy(run), states[5]));
+  EXPECT_TRUE(same_bits(positions_now(run), states[5]));
 }
 
 TEST(Accelerated, AFailureWhileGoingOverThePastAgainGoesBackToTheLastThatWasKept) {
@@ -310,7 +308,7 @@ TEST(Accelerated, AFailureWhileGoingOverThePastAgainGoesBackToTheLastThatWasKept
   device->fail_at_visit = device->visits + 1;
   EXPECT_THROW(run.iterate(1, progress), DeviceError);
   EXPECT_EQ(run.moment(), (Moment{3, 0}));
-  EXPECT_TRUE(same_bits(copy(run), states[3]));
+  EXPECT_TRUE(same_bits(positions_now(run), states[3]));
 }
 
 TEST(Accelerated, WorkThatDidNotAskForTheDeviceCarriesOnWithoutIt) {
@@ -318,7 +316,7 @@ TEST(Accelerated, WorkThatDidNotAskForTheDeviceCarriesOnWithoutIt) {
   for (const Backend backend : {Backend::Auto, Backend::Cuda}) {
     const auto device = std::make_shared<FakeDevice>();
     device->fail_at_visit = 3;
-    dmoscope::Run run = make_run({.backend = backend}, acceleration(device), 0);
+    dmoscope::Run run = run_with({.backend = backend}, acceleration(device), 0);
     std::vector<std::string> told;
     const auto work = [&] { return run.iterate(5, progress); };
     const auto tell = [&](std::string sentence) { told.push_back(std::move(sentence)); };
@@ -331,7 +329,7 @@ TEST(Accelerated, WorkThatDidNotAskForTheDeviceCarriesOnWithoutIt) {
     ASSERT_EQ(told.size(), 1U);
     EXPECT_THAT(told[0], HasSubstr("the fake device was lost"));
     EXPECT_EQ(run.moment(), (Moment{5, 0}));
-    EXPECT_TRUE(same_bits(copy(run), states_on_cpu(5)[5]));
+    EXPECT_TRUE(same_bits(positions_now(run), states_on_cpu(5)[5]));
   }
 }
 
@@ -345,7 +343,7 @@ TEST(Accelerated, AnObserverThatMeetsTheFailureEndsTheStepWithIt) {
   EXPECT_EQ(run.backend(), "cpu");
   EXPECT_EQ(run.moment(), Moment{});
   run.iterate(2, progress);
-  EXPECT_TRUE(same_bits(copy(run), states_on_cpu(2)[2]));
+  EXPECT_TRUE(same_bits(positions_now(run), states_on_cpu(2)[2]));
 }
 
 TEST(Session, BackendIsACommandAndEveryRunSaysWhatItRunsOn) {

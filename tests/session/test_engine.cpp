@@ -17,7 +17,7 @@
 namespace dmoscope {
 namespace {
 
-std::vector<Message> say(Engine& engine, const std::string& line) {
+std::vector<Message> messages_of(Engine& engine, const std::string& line) {
   engine.post(line);
   engine.wait_idle();
   return engine.take_messages();
@@ -44,11 +44,11 @@ TEST(Words, SplitAndQuoteAreInverse) {
 TEST(Engine, StepsSwitchesMetricAndKeepsTheOldRun) {
   Engine engine(2);
   EXPECT_EQ(engine.view()->input, nullptr);
-  EXPECT_TRUE(fails(say(engine, "step iteration"), 2, "no mesh is open"));
-  EXPECT_FALSE(errors(say(engine, "generate quads 400")));
+  EXPECT_TRUE(fails(messages_of(engine, "step iteration"), 2, "no mesh is open"));
+  EXPECT_FALSE(errors(messages_of(engine, "generate quads 400")));
   const auto start = engine.view();
   ASSERT_NE(start->frame, nullptr);
-  EXPECT_FALSE(errors(say(engine, "step iteration 3")));
+  EXPECT_FALSE(errors(messages_of(engine, "step iteration 3")));
   const auto stepped = engine.view();
   EXPECT_EQ(stepped->runs[0].moment.iteration, 3U);
   EXPECT_EQ(stepped->runs[0].records.size(), 4U);
@@ -56,24 +56,24 @@ TEST(Engine, StepsSwitchesMetricAndKeepsTheOldRun) {
   EXPECT_GT(stepped->frame->serial, start->frame->serial);
   EXPECT_EQ(stepped->frame->input_serial, start->frame->input_serial);
 
-  EXPECT_FALSE(errors(say(engine, "show scaled-jacobian")));
+  EXPECT_FALSE(errors(messages_of(engine, "show scaled-jacobian")));
   EXPECT_EQ(engine.view()->frame->shown, Metric::ScaledJacobian);
   EXPECT_EQ(engine.view()->runs.size(), 1U) << "showing another metric changes no run";
-  EXPECT_FALSE(errors(say(engine, "metric scaled-jacobian")));
+  EXPECT_FALSE(errors(messages_of(engine, "metric scaled-jacobian")));
   const auto switched = engine.view();
   EXPECT_EQ(switched->runs.size(), 2U) << "a run that has moved is kept beside the new one";
   EXPECT_EQ(switched->active, 1U);
   EXPECT_EQ(switched->frame->moment, Moment{});
-  EXPECT_FALSE(errors(say(engine, "select-run 1")));
+  EXPECT_FALSE(errors(messages_of(engine, "select-run 1")));
   EXPECT_EQ(engine.view()->frame->moment.iteration, 3U);
-  EXPECT_FALSE(errors(say(engine, "metric mean-ratio")));
+  EXPECT_FALSE(errors(messages_of(engine, "metric mean-ratio")));
 }
 
 TEST(Engine, ParametersOfAnUntouchedRunChangeInPlace) {
   Engine engine(1);
-  say(engine, "generate random 100");
+  messages_of(engine, "generate random 100");
   for (const char* line : {"grid 9", "levels 4", "omega 0.6", "precision double", "order shuffle:3", "metric radius-ratio"})
-    EXPECT_FALSE(errors(say(engine, line))) << line;
+    EXPECT_FALSE(errors(messages_of(engine, line))) << line;
   const auto view = engine.view();
   ASSERT_EQ(view->runs.size(), 1U);
   const RunParameters& parameters = view->runs[0].parameters;
@@ -84,15 +84,15 @@ TEST(Engine, ParametersOfAnUntouchedRunChangeInPlace) {
 
 TEST(Engine, ErrorsCarryExitCodesAndLeaveTheSessionAlone) {
   Engine engine(1);
-  say(engine, "generate random 100");
+  messages_of(engine, "generate random 100");
   const auto before = engine.view()->frame;
-  EXPECT_TRUE(fails(say(engine, "open /nonexistent/mesh.off"), 3, "/nonexistent/mesh.off"));
-  EXPECT_TRUE(fails(say(engine, "step sideways"), 2, "usage: step vertex|class|iteration [COUNT]"));
-  EXPECT_TRUE(fails(say(engine, "grid 1000"), 2, "2 to 64"));
-  EXPECT_TRUE(fails(say(engine, "nonsense"), 2, "unknown command"));
-  EXPECT_TRUE(fails(say(engine, "expect minimum > 2"), 1, "expected minimum > 2"));
-  EXPECT_FALSE(errors(say(engine, "expect inverted == 0")));
-  EXPECT_TRUE(fails(say(engine, "remove-run 1"), 2, "last run"));
+  EXPECT_TRUE(fails(messages_of(engine, "open /nonexistent/mesh.off"), 3, "/nonexistent/mesh.off"));
+  EXPECT_TRUE(fails(messages_of(engine, "step sideways"), 2, "usage: step vertex|class|iteration [COUNT]"));
+  EXPECT_TRUE(fails(messages_of(engine, "grid 1000"), 2, "2 to 64"));
+  EXPECT_TRUE(fails(messages_of(engine, "nonsense"), 2, "unknown command"));
+  EXPECT_TRUE(fails(messages_of(engine, "expect minimum > 2"), 1, "expected minimum > 2"));
+  EXPECT_FALSE(errors(messages_of(engine, "expect inverted == 0")));
+  EXPECT_TRUE(fails(messages_of(engine, "remove-run 1"), 2, "last run"));
   EXPECT_EQ(engine.view()->frame->input, before->input);
 }
 
@@ -111,7 +111,7 @@ TEST(Engine, EveryVerbIsDocumentedAndKnown) {
 
 TEST(Engine, CancelStopsLongWorkQuicklyAndDropsTheQueue) {
   Engine engine(2);
-  say(engine, "generate grid 40000");
+  messages_of(engine, "generate grid 40000");
   engine.post("run 100000");
   engine.post("metric nonsense");
   while (engine.view()->runs.empty() || engine.view()->runs[0].moment == Moment{})
@@ -125,19 +125,19 @@ TEST(Engine, CancelStopsLongWorkQuicklyAndDropsTheQueue) {
   }
   EXPECT_TRUE(cancelled);
   EXPECT_LT(engine.view()->runs[0].moment.iteration, 100000U);
-  EXPECT_FALSE(errors(say(engine, "step class"))) << "the run goes on from where it stands";
+  EXPECT_FALSE(errors(messages_of(engine, "step class"))) << "the run goes on from where it stands";
 }
 
 TEST(Engine, ExportWritesWhatIsShownAndStatsAreATable) {
   const auto folder = std::filesystem::temp_directory_path() / "dmoscope_test_engine";
   std::filesystem::create_directories(folder);
   Engine engine(1);
-  say(engine, "generate annulus 500");
-  say(engine, "run 2");
+  messages_of(engine, "generate annulus 500");
+  messages_of(engine, "run 2");
   const auto view = engine.view();
-  EXPECT_FALSE(errors(say(engine, "export " + quote_word((folder / "a b.off").string()))));
-  EXPECT_FALSE(errors(say(engine, "stats " + quote_word((folder / "s.csv").string()))));
-  EXPECT_FALSE(errors(say(engine, "open " + quote_word((folder / "a b.off").string()))));
+  EXPECT_FALSE(errors(messages_of(engine, "export " + quote_word((folder / "a b.off").string()))));
+  EXPECT_FALSE(errors(messages_of(engine, "stats " + quote_word((folder / "s.csv").string()))));
+  EXPECT_FALSE(errors(messages_of(engine, "open " + quote_word((folder / "a b.off").string()))));
   EXPECT_EQ(engine.view()->frame->positions, view->frame->positions) << "exact doubles through a text file";
   std::ifstream stream(folder / "s.csv");
   std::string line;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/same_bits.h"
 #include "core/session/run.h"
 #include "tests/support/meshes.h"
 
@@ -13,30 +14,26 @@ namespace {
 using testing::input;
 using testing::lattice;
 
-std::vector<Vec3> copy(const dmoscope::Run& run) { return {run.positions().begin(), run.positions().end()}; }
-bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
-}
-
-dmoscope::Run make_run(std::size_t budget = std::size_t{1} << 28U, Index n = 16) {
+std::vector<Vec3> positions_of(const dmoscope::Run& run) { return {run.positions().begin(), run.positions().end()}; }
+dmoscope::Run lattice_run(std::size_t budget = std::size_t{1} << 28U, Index n = 16) {
   return {input(lattice(n, 0.45, 31)), {}, std::make_shared<ThreadPool>(2), budget};
 }
 
 TEST(Run, BackUndoesEveryKindOfStepBitForBit) {
   Progress progress;
-  dmoscope::Run run = make_run();
+  dmoscope::Run run = lattice_run();
   run.iterate(2, progress);
   for (const StepUnit unit : {StepUnit::Vertex, StepUnit::Class, StepUnit::Iteration}) {
-    std::vector<std::vector<Vec3>> trail{copy(run)};
+    std::vector<std::vector<Vec3>> trail{positions_of(run)};
     const Moment start = run.moment();
     const int steps = unit == StepUnit::Vertex ? 300 : 9;  // more than one iteration's vertices (15 * 15)
     for (int i = 0; i < steps; ++i) {
       run.step(unit, progress);
-      trail.push_back(copy(run));
+      trail.push_back(positions_of(run));
     }
     for (int i = steps; i-- > 0;) {
       EXPECT_TRUE(run.back(unit, progress));
-      EXPECT_TRUE(same_bits(copy(run), trail[static_cast<std::size_t>(i)])) << static_cast<int>(unit) << " " << i;
+      EXPECT_TRUE(same_bits(positions_of(run), trail[static_cast<std::size_t>(i)])) << static_cast<int>(unit) << " " << i;
     }
     EXPECT_EQ(run.moment(), start);
   }
@@ -44,7 +41,7 @@ TEST(Run, BackUndoesEveryKindOfStepBitForBit) {
 
 TEST(Run, BackFromTheMidstGoesToTheStartOfWhatIsUnderWay) {
   Progress progress;
-  dmoscope::Run run = make_run();
+  dmoscope::Run run = lattice_run();
   run.step(StepUnit::Class, progress);
   const Moment class_start = run.moment();
   run.step(StepUnit::Vertex, progress);
@@ -59,12 +56,12 @@ TEST(Run, BackFromTheMidstGoesToTheStartOfWhatIsUnderWay) {
 
 TEST(Run, StepReportsWhatMovedAndIterationsRecordTheSum) {
   Progress progress;
-  dmoscope::Run run = make_run();
+  dmoscope::Run run = lattice_run();
   std::uint64_t moved = 0;
   while (run.moment().iteration == 0) {
-    const auto before = copy(run);
+    const auto before = positions_of(run);
     const std::uint64_t reported = run.step(StepUnit::Vertex, progress);
-    EXPECT_EQ(reported, same_bits(before, copy(run)) ? 0U : 1U);
+    EXPECT_EQ(reported, same_bits(before, positions_of(run)) ? 0U : 1U);
     moved += reported;
   }
   EXPECT_EQ(run.history().records()[1].moved, moved);
@@ -73,42 +70,42 @@ TEST(Run, StepReportsWhatMovedAndIterationsRecordTheSum) {
 
 TEST(History, KeepsWithinItsBudgetAndStillReachesEveryIteration) {
   Progress progress;
-  dmoscope::Run rich = make_run();
-  std::vector<std::vector<Vec3>> states{copy(rich)};
-  rich.iterate(20, progress, [&](const dmoscope::Run& run) { states.push_back(copy(run)); });
+  dmoscope::Run rich = lattice_run();
+  std::vector<std::vector<Vec3>> states{positions_of(rich)};
+  rich.iterate(20, progress, [&](const dmoscope::Run& run) { states.push_back(positions_of(run)); });
   EXPECT_TRUE(rich.history().sentence().empty());
 
   const std::size_t budget = 5 * 17 * 17 * sizeof(Vec3);
-  dmoscope::Run poor = make_run(budget);
+  dmoscope::Run poor = lattice_run(budget);
   poor.iterate(20, progress);
   EXPECT_LE(poor.history().bytes(), budget);
   EXPECT_FALSE(poor.history().sentence().empty()) << "the budget was met: it must be said";
   EXPECT_EQ(poor.history().records().size(), 21U) << "statistics of every iteration are kept";
   for (const std::uint64_t iteration : {13U, 7U, 19U, 0U, 20U, 1U}) {
     poor.seek({iteration, 0}, progress);
-    EXPECT_TRUE(same_bits(copy(poor), states[iteration])) << iteration;
+    EXPECT_TRUE(same_bits(positions_of(poor), states[iteration])) << iteration;
   }
 }
 
 TEST(History, WithoutABudgetOnlyTheInputItselfIsKept) {
   Progress progress;
-  dmoscope::Run run = make_run(0);
+  dmoscope::Run run = lattice_run(0);
   EXPECT_TRUE(run.history().sentence().empty());
-  std::vector<std::vector<Vec3>> states{copy(run)};
-  run.iterate(5, progress, [&](const dmoscope::Run& now) { states.push_back(copy(now)); });
+  std::vector<std::vector<Vec3>> states{positions_of(run)};
+  run.iterate(5, progress, [&](const dmoscope::Run& now) { states.push_back(positions_of(now)); });
   EXPECT_EQ(run.history().bytes(), 0U);
   EXPECT_EQ(run.history().nearest(5).iteration, 0U);
   EXPECT_EQ(run.history().nearest(5).positions.data(), run.input().mesh.positions.data()) << "shared, not copied";
   EXPECT_FALSE(run.history().sentence().empty());
   for (const std::uint64_t iteration : {4U, 0U, 2U, 5U}) {
     run.seek({iteration, 0}, progress);
-    EXPECT_TRUE(same_bits(copy(run), states[iteration])) << iteration;
+    EXPECT_TRUE(same_bits(positions_of(run), states[iteration])) << iteration;
   }
 }
 
 TEST(Run, StatisticsAreThoseOfTheMomentWhereverItStands) {
   Progress progress;
-  dmoscope::Run run = make_run();
+  dmoscope::Run run = lattice_run();
   const auto expect_right = [&] {
     const Statistics now = run.statistics();
     const Statistics fresh = compute_statistics(run.input().quality_context(), run.positions(), Metric::MeanRatio, run.fixed(), nullptr);
@@ -131,7 +128,7 @@ TEST(Run, StatisticsAreThoseOfTheMomentWhereverItStands) {
 
 TEST(Run, UntilConvergedSaysWhyItStopped) {
   Progress progress;
-  dmoscope::Run run = make_run();
+  dmoscope::Run run = lattice_run();
   const Outcome outcome = run.until_converged({.patience = 30, .max_iterations = 5000, .rise = 1e-6}, progress);
   EXPECT_NE(outcome.reason, StopReason::IterationLimit);
   EXPECT_GT(outcome.last_rise, 0U);
@@ -146,7 +143,7 @@ TEST(Run, UntilConvergedSaysWhyItStopped) {
     EXPECT_LT(records[i].statistics.minimum, records[outcome.last_rise].statistics.minimum + 1e-6);
   }
   EXPECT_TRUE(run.last_outcome().has_value());
-  dmoscope::Run limited = make_run();
+  dmoscope::Run limited = lattice_run();
   EXPECT_EQ(limited.until_converged({.max_iterations = 1}, progress).reason, StopReason::IterationLimit);
 }
 
@@ -167,19 +164,19 @@ TEST(Run, AMeshWithNothingFreeConvergesAtOnce) {
 
 TEST(Run, CancelLeavesAnExactMoment) {
   Progress progress;
-  dmoscope::Run run = make_run(std::size_t{1} << 28U, 200);  // several blocks an iteration
+  dmoscope::Run run = lattice_run(std::size_t{1} << 28U, 200);  // several blocks an iteration
   int blocks = 0;
   run.set_observer([&](const dmoscope::Run&) {
     if (++blocks == 2) progress.request_cancel();
   });
   EXPECT_THROW(run.iterate(10, progress), Cancelled);
   const Moment stopped = run.moment();
-  const auto at_cancel = copy(run);
+  const auto at_cancel = positions_of(run);
   progress.clear_cancel();
   run.set_observer({});
-  dmoscope::Run other = make_run(std::size_t{1} << 28U, 200);
+  dmoscope::Run other = lattice_run(std::size_t{1} << 28U, 200);
   other.seek(stopped, progress);
-  EXPECT_TRUE(same_bits(copy(other), at_cancel));
+  EXPECT_TRUE(same_bits(positions_of(other), at_cancel));
 }
 
 TEST(Run, WrongParametersAreRefused) {

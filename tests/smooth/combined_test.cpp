@@ -11,10 +11,12 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/same_bits.h"
 #include "core/mesh/generate.h"
 #include "core/mesh/random.h"
 #include "core/session/run.h"
 #include "core/smooth/dmo.h"
+#include "tests/smooth/promises.h"
 #include "tests/support/meshes.h"
 
 namespace dmoscope {
@@ -25,13 +27,7 @@ using testing::input;
 using testing::lattice;
 using Point = Vec2<double>;
 
-bool same_bits(std::span<const Vec3> a, std::span<const Vec3> b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
-}
-
-dmoscope::Run make_run(const std::shared_ptr<const InputMesh>& mesh, RunParameters parameters, unsigned threads = 1) {
-  return {mesh, std::move(parameters), std::make_shared<ThreadPool>(threads), std::size_t{1} << 28U};
-}
+using testing::make_run;
 
 RunParameters combined(double threshold, std::variant<Metric, SizeFunction> second) {
   RunParameters parameters;

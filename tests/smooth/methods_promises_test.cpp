@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/same_bits.h"
 #include "tests/smooth/promises.h"
 
 namespace dmoscope {
@@ -16,7 +17,6 @@ using testing::input;
 using testing::kBudget;
 using testing::lattice;
 using testing::make_run;
-using testing::same_bits;
 using testing::Specimen;
 
 std::vector<MethodInfo> others() {

@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/same_bits.h"
 #include "core/session/run.h"
 #include "core/smooth/dmo.h"
 #include "tests/smooth/zoo.h"
@@ -22,10 +23,6 @@ inline constexpr std::size_t kBudget = std::size_t{1} << 28U;
 
 inline dmoscope::Run make_run(const std::shared_ptr<const InputMesh>& mesh, RunParameters parameters, unsigned threads = 1) {
   return {mesh, std::move(parameters), std::make_shared<ThreadPool>(threads), kBudget};
-}
-
-inline bool same_bits(std::span<const Vec3> a, std::span<const Vec3> b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
 }
 
 /// A visit left the star no worse, and better if its vertex moved; which it did within its plane.

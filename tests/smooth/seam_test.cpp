@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/same_bits.h"
 #include "core/mesh/generate.h"
 #include "core/mesh/nodal_field.h"
 #include "tests/smooth/promises.h"
@@ -15,7 +16,6 @@ namespace {
 
 using testing::input;
 using testing::make_run;
-using testing::same_bits;
 
 Mesh generated(std::string_view kind, std::size_t size, std::uint64_t seed) {
   Progress progress;

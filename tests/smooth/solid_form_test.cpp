@@ -9,12 +9,12 @@
 namespace dmoscope {
 namespace {
 
-Vec3 random_point(Random& random, double size) {
+Vec3 random_point(dmoscope::Random& random, double size) {
   return {random.between(-size, size), random.between(-size, size), random.between(-size, size)};
 }
 
 TEST(SolidForm, OfATetrahedronIsItsRank) {
-  Random random(3);
+  dmoscope::Random random(3);
   for (int trial = 0; trial < 300; ++trial) {
     const Vec3 b = random_point(random, 1), c = random_point(random, 1), d = random_point(random, 1), p = random_point(random, 0.5);
     const double rank = formulas::rank<Metric::MeanRatio>(formulas::Tetrahedron<Vec3>(p, b, c, d));
@@ -25,7 +25,7 @@ TEST(SolidForm, OfATetrahedronIsItsRank) {
 /// An ideal element with its corner `moving` at the origin and all others jolted.
 template <class Solid>
 void expect_least_form_to_be_the_rank(const Solid& ideal) {
-  Random random(4);
+  dmoscope::Random random(4);
   for (Index moving = 0; moving < ideal.at.size(); ++moving)
     for (int trial = 0; trial < 100; ++trial) {
       Solid solid = ideal;

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/same_bits.h"
 #include "core/session/run.h"
 #include "core/smooth/dmo.h"
 #include "core/smooth/lane_kernel.h"
@@ -25,7 +26,6 @@ using testing::input;
 using testing::kBudget;
 using testing::lattice;
 using testing::make_run;
-using testing::same_bits;
 using testing::Specimen;
 using testing::title;
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/same_bits.h"
 #include "core/mesh/generate.h"
 #include "core/mesh/random.h"
 #include "core/session/input_mesh.h"
@@ -17,7 +18,6 @@ using testing::expect_promise_one;
 using testing::input;
 using testing::kBudget;
 using testing::make_run;
-using testing::same_bits;
 using testing::Specimen;
 
 /// Small cubes of every kind of element, sound and with vertices thrown far out of place.

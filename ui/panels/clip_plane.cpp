@@ -18,7 +18,7 @@ struct Handle {
   Vec2<double> along;  // pixels that a step of 1 of the plane's offset makes there; y downwards
 };
 
-struct Drawing {
+struct PlaneDrawing {
   render::Projection projection;
   Vec2<double> viewport;
   ImVec2 origin;
@@ -29,7 +29,7 @@ struct Drawing {
   }
 };
 
-Drawing drawing_of(const PanelContext& context, const PaneFacts& pane) {
+PlaneDrawing drawing_of(const PanelContext& context, const PaneFacts& pane) {
   const ViewState& state = context.state;
   return {state.orbit.projection(state.viewport, pane.box), state.viewport, {pane.rect.x, pane.rect.y}};
 }
@@ -79,7 +79,7 @@ Vec3 middle_of(const ClipPlane& plane, const render::Bounds3& box) {
 
 std::optional<Handle> handle_of(const PanelContext& context, const PaneFacts& pane) {
   const ClipPlane& plane = context.state.inside.clip;
-  const Drawing drawing = drawing_of(context, pane);
+  const PlaneDrawing drawing = drawing_of(context, pane);
   const Vec3 middle = middle_of(plane, pane.box);
   const double size = length(plane.normal), step = 0.01 * std::max(pane.box.radius(), 1e-150);
   const Vec3 unit = 1.0 / size * plane.normal;
@@ -150,7 +150,7 @@ void handle_clip_plane(PanelContext& context, const PaneFacts& pane) {
 
 void draw_clip_plane(const PanelContext& context, const PaneFacts& pane) {
   if (!has_plane(context, pane)) return;
-  const Drawing drawing = drawing_of(context, pane);
+  const PlaneDrawing drawing = drawing_of(context, pane);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImU32 ink = colour(context.palette.accent), casing = colour(context.palette.background, 0.7F);
   std::vector<ImVec2> outline;

@@ -11,7 +11,7 @@
 namespace dmoscope::ui {
 namespace {
 
-using Kind = SizeFunction::Kind;
+using SizeKind = SizeFunction::Kind;
 
 void say(PanelContext& context, Metric first, const Combination& combination) {
   const SizeFunction* size = combination.size();
@@ -77,8 +77,8 @@ void draw_size_course(PanelContext& context, const RunView& run) {
 void draw_size(PanelContext& context, const RunView& run, const SizeFunction& size) {
   const RunParameters& p = run.parameters;
   labelled(context, "size", "how large elements shall be, up to a common factor");
-  const bool open =
-      ImGui::BeginCombo("##size", size.kind == Kind::Field ? size.field.c_str() : to_text(size).substr(0, to_text(size).find(':')).c_str());
+  const bool open = ImGui::BeginCombo(
+      "##size", size.kind == SizeKind::Field ? size.field.c_str() : to_text(size).substr(0, to_text(size).find(':')).c_str());
   context.items.record_last("size-function");
   if (open) {
     const auto choice = [&](const char* name, const SizeFunction& wanted, const char* tip) {
@@ -90,14 +90,14 @@ void draw_size(PanelContext& context, const RunView& run, const SizeFunction& si
     const InputMesh& input = *context.session.input;
     const Vec3 point = size.has_point() ? size.point : middle(input);
     choice("constant", {}, "the same everywhere");
-    choice("h1", {Kind::Distance, point, {}}, "grows with the distance to a point (paper, eq. 12)");
-    choice("h2", {Kind::InverseDistance, point, {}}, "falls with the distance to a point (paper, eq. 13)");
+    choice("h1", {SizeKind::Distance, point, {}}, "grows with the distance to a point (paper, eq. 12)");
+    choice("h2", {SizeKind::InverseDistance, point, {}}, "falls with the distance to a point (paper, eq. 13)");
     for (const std::string& field : scalar_fields(input.mesh))
-      choice(field.c_str(), {Kind::Field, {}, field}, "a nodal field of the file, where the vertex stands");
+      choice(field.c_str(), {SizeKind::Field, {}, field}, "a nodal field of the file, where the vertex stands");
     ImGui::EndCombo();
   }
   if (size.has_point()) draw_point(context, size);
-  if (size.kind != Kind::Constant) draw_size_course(context, run);
+  if (size.kind != SizeKind::Constant) draw_size_course(context, run);
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ void draw_lines(PanelContext& context, const std::vector<const LogLine*>& lines)
   seen = lines.size();
 }
 
-void draw_filter(PanelContext& context) {
+void draw_log_filter(PanelContext& context) {
   LogWidgets& widgets = context.widgets.log;
   ImGui::SetNextItemWidth(18 * context.em());
   if (context.widgets.dialog_opened) ImGui::SetKeyboardFocusHere();
@@ -95,7 +95,7 @@ void draw_filter(PanelContext& context) {
 
 void draw_log_dialog(PanelContext& context) {
   if (!begin_dialog(context, "Log", 60, 40)) return;
-  draw_filter(context);
+  draw_log_filter(context);
   const std::vector<const LogLine*> lines = wanted_lines(context);
   ImGui::BeginChild("lines", {0, -2 * ImGui::GetFrameHeightWithSpacing()});
   draw_lines(context, lines);

@@ -10,7 +10,7 @@ namespace dmoscope::gpu::ptx {
 namespace {
 
 using State = Lane::State;
-constexpr std::size_t kBlockSize = 128;
+constexpr std::size_t kThreads = 128;
 
 bool shuffles(const Lane& lane) { return lane.state() == State::AtButterfly || lane.state() == State::AtIndexedShuffle; }
 bool is_member(std::uint32_t members, std::size_t lane) { return (members >> lane & 1U) != 0; }
@@ -26,7 +26,7 @@ void run_blocks(const Entry& entry, const GlobalMemory& global, const std::vecto
   Warp warp;
   for (std::size_t k = 0; k < blocks; ++k) {
     const std::size_t block = schedule.backwards ? blocks - 1 - k : k;
-    for (std::size_t first = 0; first < kBlockSize; first += Warp::kSize)
+    for (std::size_t first = 0; first < kThreads; first += Warp::kSize)
       warp.run(entry, global, parameters, static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(first), schedule);
   }
 }

@@ -1,4 +1,4 @@
-#include "app/verbs/declared_floats.h"
+#include "core/session/declared_floats.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "core/io/mesh_io.h"
 #include "core/io/source_file.h"
 #include "core/quality/quality.h"
 
-namespace dmoscope::app {
+namespace dmoscope {
 namespace {
 
 bool declares_floats(const Mesh& mesh) {
@@ -39,4 +40,11 @@ std::string seen_as_floats(const InputMesh& input, std::span<const Vec3> positio
                      floats.minimum, floats.inverted, digits.minimum, digits.inverted);
 }
 
-}  // namespace dmoscope::app
+std::string written_as_floats(const std::filesystem::path& path, const InputMesh& input, std::span<const Vec3> positions, Metric metric,
+                              ThreadPool* pool) {
+  const FormatInfo* format = format_by_extension(mesh_extension(path));
+  if (!input.mesh.source || format == nullptr || format->name != input.mesh.source->format()) return {};
+  return seen_as_floats(input, positions, metric, pool);
+}
+
+}  // namespace dmoscope

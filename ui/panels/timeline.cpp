@@ -66,6 +66,8 @@ void draw_timeline(PanelContext& context) {
   action_button(context, "timeline-forward", "▶");
   ImGui::SameLine(0, small);
   action_button(context, "timeline-last", "▶|");
+  ImGui::SameLine(0, small);
+  action_button(context, "best", "Best");
   ImGui::SameLine();
   const std::string label = label_of(context, last);
   const float label_width = ImGui::CalcTextSize("iteration 00,000 of 00,000").x;

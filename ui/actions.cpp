@@ -53,7 +53,7 @@ constexpr std::array kActions{
     Action{"timeline-forward", "Run", "Timeline: later", "]", "timeline forward", Needs::MeshAndIdle},
     Action{"timeline-first", "Run", "Timeline: input", "Home", "timeline first", Needs::MeshAndIdle},
     Action{"timeline-last", "Run", "Timeline: latest", "End", "timeline last", Needs::MeshAndIdle},
-    Action{"best", "Run", "Timeline: best, by inverted, minimum, mean", "Alt+B", "best", Needs::Better},
+    Action{"best", "Run", "Timeline: best, by inverted, minimum, mean", "Shift+End", "best", Needs::Better},
     Action{"play", "Run", "Play the history", "P", "play toggle", Needs::Mesh, true},
     Action{"play-iterations", "Run", "Step iterations until stopped", "Shift+P", "play-steps iteration", Needs::Mesh},
     Action{"play-classes", "Run", "Step colour classes until stopped", "", "play-steps class", Needs::Mesh},

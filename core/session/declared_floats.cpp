@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/rounding.h"
 #include "core/io/mesh_io.h"
 #include "core/io/source_file.h"
 #include "core/quality/quality.h"
@@ -19,8 +20,6 @@ bool declares_floats(const Mesh& mesh) {
   return !layout.binary && std::ranges::find(layout.scalar, CoordinateScalar::Float32) != layout.scalar.end();
 }
 
-double as_float(double value) { return static_cast<double>(static_cast<float>(value)); }
-
 }  // namespace
 
 std::string seen_as_floats(const InputMesh& input, std::span<const Vec3> positions, Metric metric, ThreadPool* pool) {
@@ -28,7 +27,7 @@ std::string seen_as_floats(const InputMesh& input, std::span<const Vec3> positio
   const std::string word = "its points are declared as float, but judged by their digits";
   std::vector<Vec3> rounded(positions.begin(), positions.end());
   for (Vec3& p : rounded) {
-    p = {as_float(p.x), as_float(p.y), as_float(p.z)};
+    p = {nearest_float(p.x), nearest_float(p.y), nearest_float(p.z)};
     if (!std::isfinite(p.x + p.y + p.z)) return word + "; a program that takes the word cannot hold them";
   }
   const std::span<const Index> none;

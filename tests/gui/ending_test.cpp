@@ -119,7 +119,7 @@ TEST_F(Ending, WhatEndsWorseThanItsBestOffersThat) {
   good("click best");
   EXPECT_EQ(run().moment, (Moment{best}));
   good("timeline last");
-  good("key Alt+B");
+  good("key Shift+End");
   EXPECT_EQ(run().moment, (Moment{best}));
 }
 

@@ -54,6 +54,7 @@ constexpr std::array kActions{
     Action{"timeline-forward", "Run", "Timeline: later", "]", "timeline forward", Needs::MeshAndIdle},
     Action{"timeline-first", "Run", "Timeline: input", "Home", "timeline first", Needs::MeshAndIdle},
     Action{"timeline-last", "Run", "Timeline: latest", "End", "timeline last", Needs::MeshAndIdle},
+    Action{"best", "Run", "Timeline: best, by inverted, minimum, mean", "Shift+End", "best", Needs::Better},
     Action{"play", "Run", "Play the history", "P", "play toggle", Needs::Mesh, true},
     Action{"play-iterations", "Run", "Step iterations until stopped", "Shift+P", "play-steps iteration", Needs::Mesh},
     Action{"play-classes", "Run", "Step colour classes until stopped", "", "play-steps class", Needs::Mesh},
@@ -134,6 +135,7 @@ constexpr std::array kActions{
     Action{"scale-one", "View", "Interface at its usual size", "Ctrl+0", "scale 1"},
     Action{"unfold-left", "View", "Narrow window: runs over the mesh", "", "unfold left toggle"},
     Action{"unfold-right", "View", "Narrow window: inspector over the mesh", "", "unfold right toggle"},
+    Action{"notice-off", "View", "Hide what is said of the run's end", "", "notice off"},
     Action{"log", "View", "Log of commands and messages…", "F6", "dialog log", Needs::Nothing, true},
 
     Action{"plot-convergence", "Plot", "Convergence", "Alt+1", "plot convergence"},
@@ -249,6 +251,8 @@ bool enabled(const Action& action, const Situation& now) {
       return now.mesh && now.volume;
     case Needs::Planar:
       return now.mesh && !now.volume;
+    case Needs::Better:
+      return now.mesh && !now.busy && now.better;
   }
   return false;
 }

@@ -11,7 +11,7 @@
 namespace dmoscope::ui {
 
 /// What must be so for an action to be possible.
-enum class Needs { Nothing, Mesh, Idle, MeshAndIdle, Work, SeveralRuns, Picked, Selected, Undo, Redo, Volume, Planar };
+enum class Needs { Nothing, Mesh, Idle, MeshAndIdle, Work, SeveralRuns, Picked, Selected, Undo, Redo, Volume, Planar, Better };
 
 struct Action {
   std::string_view id;       // "step-iteration"; also the name of its items
@@ -39,6 +39,7 @@ struct Situation {
   bool selected = false;       // at least one vertex; see Selection
   std::string undo{}, redo{};  // what they are about ("run 10"); empty: nothing
   bool volume = false;         // the mesh is one of volume elements
+  bool better = false;         // the active run does not stand at its best iteration
 };
 [[nodiscard]] bool enabled(const Action& action, const Situation& situation);
 /// The title, with what undo and redo are about: "Undo run 10".

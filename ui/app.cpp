@@ -11,6 +11,7 @@
 #include "ui/derived.h"
 #include "ui/inspection_commands.h"
 #include "ui/plot_save.h"
+#include "ui/situation.h"
 #include "ui/view_geometry.h"
 #include "ui/view_lines.h"
 
@@ -19,6 +20,15 @@ namespace {
 
 constexpr double kRestAfter = 0.25;  // seconds without movement until full detail comes back
 constexpr double kForever = std::numeric_limits<double>::infinity();
+
+/// What side panels that lie over the meshes leave of them.
+Rect uncovered(const Layout& layout) {
+  Rect rect = layout.viewport;
+  if (!layout.folded) return rect;
+  rect.w = std::max(0.0F, rect.w - layout.left.w - layout.right.w);
+  rect.x += layout.left.w;
+  return rect;
+}
 
 }  // namespace
 
@@ -153,6 +163,9 @@ void App::notice_new_input() {
     state_.inside = {};
     state_.orbit.look_from(render::ViewPreset::Isometric);
     state_.selection.clear();
+    state_.colouring.isolated.reset();  // a category of another mesh would leave nothing of this one
+    if (state_.colouring.by == ColourBy::Group && frame != nullptr && frame->input->mesh.groups.empty())
+      state_.colouring.by = ColourBy::Quality;
     state_.inspection.open = state_.inspection.playing = false;
   }
   if (!again) state_.requests.fit = state_.requests.fit_all = true;
@@ -197,10 +210,7 @@ void App::handle_shortcuts() {
     if (!hit) continue;
     // With the keyboard in the widgets, Space presses the one that has the focus.
     if (chord->code == key::kSpace && io.NavVisible) continue;
-    if (enabled(action, {session_->input != nullptr, activity_.busy, state_.picked.kind != Picked::Kind::None, session_->runs.size(),
-                         !state_.selection.empty(), session_->undo_label, session_->redo_label, state_.is_volume})) {
-      submit(action.command);
-    }
+    if (enabled(action, situation_of(*session_, state_, activity_.busy))) submit(action.command);
     return;
   }
 }
@@ -214,10 +224,10 @@ void App::draw_side(PanelContext& context, const char* name, const Rect& rect, b
   if (overlay) ImGui::PopStyleVar();
   if (left) {
     draw_runs(context);
+    draw_groups(context);
     ImGui::Dummy({0, context.px(4)});
     draw_parameters(context);
     draw_colours(context);
-    draw_groups(context);
   } else {
     draw_inside(context);
     if (state_.inspection.open) draw_inspection(context);
@@ -231,10 +241,14 @@ void App::draw_panels(PanelContext& context) {
   const float menu = draw_menu(context);
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   state_.window_size = {static_cast<int>(screen.x), static_cast<int>(screen.y)};
-  const Layout layout = compute_layout(state_.panels, screen.x, screen.y, context.em(), menu);
+  Panels panels = state_.panels;
+  constexpr float kLowWindow = 46.0F;  // with nothing to plot yet, the start page needs the room more
+  if (!session_->input && screen.y < kLowWindow * context.em()) panels.bottom = false;
+  const Layout layout = compute_layout(panels, screen.x, screen.y, context.em(), menu);
   update_viewports(context, layout.viewport);
   draw_toolbar(context, layout.toolbar);
   draw_viewports(context, layout.viewport);
+  draw_notice(context, uncovered(layout));
   if (!layout.folded) {
     draw_side(context, "left", layout.left, false, true);
     draw_side(context, "right", layout.right, false, false);

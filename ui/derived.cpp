@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/mesh/group_facts.h"
 #include "core/mesh/seam.h"
 #include "ui/format.h"
 #include "ui/panels/panels.h"
@@ -23,12 +24,30 @@ constexpr Index kMostSorted = 65536;
 void refresh_input(Derived& derived, const Frame& frame) {
   derived.metrics = usable_metrics(frame.input->mesh);
   derived.mesh_facts = frame.input->report.sentences();
-  derived.interfaces = frame.input->interfaces.sentence("'interfaces free'");
+  derived.interfaces = frame.input->interfaces.sentence("interfaces: free");
+  const Index held = frame.input->interfaces.count();
+  derived.free_interfaces = held == 0 ? std::string()
+                                      : fmt::format("{} on interfaces may move (interfaces: fixed keeps {})",
+                                                    counted(held, "vertex", "vertices"), held == 1 ? "it" : "them");
   derived.groups = group_lines(frame.input->mesh);
   std::string left_out = left_out_of_pictures(frame.input->report.seam_elements, frame.input->geometry.plane);
   if (!left_out.empty()) derived.mesh_facts.push_back(std::move(left_out));
   derived.kinds.fill(0);
   for (const ElementKind kind : frame.input->mesh.elements.kinds()) ++derived.kinds[static_cast<std::size_t>(kind)];
+}
+
+/// Which groups stay because somebody said so.
+void refresh_fixed_groups(Derived& derived, const Frame& frame, std::span<const Index> fixed) {
+  derived.groups_fixed_by.assign(fixed.begin(), fixed.end());
+  derived.groups_fixed.assign(frame.input->mesh.groups.size(), false);
+  if (fixed.empty()) return;
+  std::vector<bool> stays(frame.vertex_count(), false);
+  for (const Index v : fixed)
+    if (v < stays.size()) stays[v] = true;
+  for (std::size_t g = 0; g < derived.groups_fixed.size(); ++g) {
+    const std::vector<Index> vertices = vertices_of(frame.input->mesh, frame.input->mesh.groups[g]);
+    derived.groups_fixed[g] = !vertices.empty() && std::ranges::all_of(vertices, [&](Index v) { return stays[v]; });
+  }
 }
 
 /// Elements that have a quality.
@@ -167,9 +186,14 @@ void refresh(Derived& derived, const ViewState& state, const SessionView& sessio
   }
   if (derived.input_serial != frame->input_serial) {
     refresh_input(derived, *frame);
+    refresh_fixed_groups(derived, *frame, {});
     derived.colouring.seen.clear();
     derived.colouring.owns.clear();
     derived.input_serial = frame->input_serial;
+  }
+  if (session.active < session.runs.size()) {
+    const std::vector<Index>& fixed = session.runs[session.active].parameters.fixed;
+    if (derived.groups_fixed_by != fixed) refresh_fixed_groups(derived, *frame, fixed);
   }
   const bool new_frame = derived.frame_serial != frame->serial;
   derived.frame_serial = frame->serial;

@@ -22,7 +22,10 @@ struct Derived {
   std::vector<Metric> metrics;          // defined for every element
   std::vector<std::string> mesh_facts;  // sentences of the report
   std::string interfaces;               // what stays where the active run's interfaces are fixed; empty for nothing
+  std::string free_interfaces;          // what may move where they are free
   std::vector<GroupLine> groups;
+  std::vector<bool> groups_fixed;      // one of each: whether all its vertices are among groups_fixed_by
+  std::vector<Index> groups_fixed_by;  // what the active run's user has fixed
   std::array<std::size_t, kElementKindCount> kinds{};
   std::vector<double> sorted_now, sorted_before;  // a sample of the shown quality, ascending; filled when its plot is open. Of a light
                                                   // frame, now: as far as the histogram tells

@@ -15,6 +15,7 @@
 #include "ui/input_commands.h"
 #include "ui/inside_commands.h"
 #include "ui/inspection_commands.h"
+#include "ui/notice.h"
 #include "ui/pane_commands.h"
 #include "ui/plot_commands.h"
 #include "ui/selection_commands.h"
@@ -257,6 +258,7 @@ CommandTable view_commands(ViewState& state, const CommandHost& host) {
   add_inside_verbs(table, state, host);
   add_timeline_verbs(table, state, host);
   add_file_verbs(table, state, host);
+  add_notice_verb(table, state, host);
   add_selection_verbs(table, state, host);
   add_stepping_verbs(table, state);
   add_size_point_verbs(table, state, host);

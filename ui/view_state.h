@@ -136,8 +136,9 @@ struct ViewState {
   // Log
   std::deque<LogEntry> log;  // newest last, at most 200
   std::uint64_t log_serial = 0;
-  CommandLog commands;     // and messages, all of them
-  std::string error_text;  // of the error dialog
+  CommandLog commands;           // and messages, all of them
+  std::string error_text;        // of the error dialog
+  std::string dismissed_notice;  // Notice::key of the one that a person took away
 
   // Remembered
   std::vector<std::string> recent_files;  // newest first, at most 10

@@ -16,7 +16,6 @@
 #include "app/memory_limit.h"
 #include "app/targets.h"
 #include "app/text.h"
-#include "app/verbs/declared_floats.h"
 #include "app/verbs/group_table.h"
 #include "app/verbs/input_report.h"
 #include "app/verbs/option_checks.h"
@@ -24,6 +23,7 @@
 #include "core/base/thread_pool.h"
 #include "core/io/mesh_io.h"
 #include "core/session/csv.h"
+#include "core/session/declared_floats.h"
 #include "core/session/input_mesh.h"
 #include "core/smooth/displace.h"
 

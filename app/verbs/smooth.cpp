@@ -18,11 +18,9 @@
 #include "app/text.h"
 #include "app/verbs/aims_report.h"
 #include "app/verbs/checkpoint.h"
-#include "app/verbs/declared_floats.h"
 #include "app/verbs/goal_options.h"
 #include "app/verbs/input_report.h"
 #include "app/verbs/run_options.h"
-#include "app/verbs/untangling_hint.h"
 #include "app/verbs/verbs.h"
 #include "core/io/atomic_file.h"
 #include "core/io/commented_mesh.h"
@@ -31,8 +29,10 @@
 #include "core/search/simd.h"
 #include "core/session/carry_on.h"
 #include "core/session/csv.h"
+#include "core/session/declared_floats.h"
 #include "core/session/left_inverted.h"
 #include "core/session/session.h"
+#include "core/session/untangling_hint.h"
 
 namespace dmoscope::app {
 namespace {
@@ -209,8 +209,8 @@ void go_to_what_is_written(Run& run, const SmoothOptions& options, Progress& pro
   if (options.write == "last" || best == last) return;
   run.seek({best}, progress);
   run.settle();
-  warn(fmt::format("{} may make elements worse: written is {}, the best it passed through, not iteration {} (--write last: the last)",
-                   run.parameters().method, best == 0 ? "the input itself" : fmt::format("iteration {}", best), last));
+  warn(fmt::format("{} {}: written is {}, the best it passed through, not iteration {} (--write last: the last)", run.parameters().method,
+                   kMayMakeWorse, iteration_name(best), last));
 }
 
 /// Says what stays inverted, where to look and, if one does, which method gets further.
@@ -221,7 +221,8 @@ std::optional<LeftInverted> tell_left_inverted(const Run& run, const std::shared
   if (!left) return left;
   warn(left->sentence());
   try {
-    if (std::string hint = untangling_hint(run, input, pool, progress); !hint.empty()) warn(std::move(hint));
+    if (const auto hint = untangling_hint(run, input, pool, progress))
+      warn(fmt::format("{}: try --method {}", hint->sentence(), hint->method));
   } catch (const Cancelled&) {  // what was asked for has been written
   }
   return left;
@@ -233,11 +234,6 @@ void tell_missing_phase(const Run& run, const Outcome& outcome, const Warn& warn
   if (!run.parameters().then_mean || run.mean_since()) return;
   warn(outcome.inverted > 0 ? "the mean was not raised: that begins once no element is inverted"
                             : "the mean was not raised: that begins once the minimum rises no more, or nothing moves (--until-converged)");
-}
-
-bool keeps_the_format(const SmoothOptions& options, const Mesh& mesh) {
-  const FormatInfo* format = format_by_extension(mesh_extension(options.output));
-  return mesh.source && format != nullptr && format->name == mesh.source->format();
 }
 
 int smooth(const SmoothOptions& options) {
@@ -289,10 +285,8 @@ int smooth(const SmoothOptions& options) {
     complain(fmt::format("{}: {}", options.output.string(), sentence));
     warnings.push_back(std::move(sentence));
   }
-  if (keeps_the_format(options, input->mesh)) {
-    const std::string seen = seen_as_floats(*input, run.positions(), run.parameters().metric, pool.get());
-    if (!seen.empty()) warn(fmt::format("{}: {}", options.output.string(), seen));
-  }
+  const std::string seen = written_as_floats(options.output, *input, run.positions(), run.parameters().metric, pool.get());
+  if (!seen.empty()) warn(fmt::format("{}: {}", options.output.string(), seen));
   std::optional<LeftInverted> left = tell_left_inverted(run, input, pool, progress, warn);
   const Result result{options, run, pool->size(), outcome, seconds, std::move(left), std::move(warnings), std::move(provenance)};
   if (options.json) {

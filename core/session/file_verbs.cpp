@@ -5,6 +5,7 @@
 #include "core/base/number_text.h"
 #include "core/io/mesh_io.h"
 #include "core/session/csv.h"
+#include "core/session/declared_floats.h"
 #include "core/session/state_file.h"
 #include "core/session/verbs.h"
 
@@ -47,6 +48,9 @@ void export_mesh(CommandContext& context, Arguments arguments) {
   context.session.require_not_read(arguments[0], "export");
   for (std::string& note : write_mesh(arguments[0], run.input().mesh, run.positions(), context.progress))
     tell(context, std::move(note), Message::Kind::Warning);
+  const std::string seen =
+      written_as_floats(arguments[0], run.input(), run.positions(), run.parameters().metric, context.session.pool().get());
+  if (!seen.empty()) tell(context, fmt::format("{}: {}", arguments[0], seen), Message::Kind::Warning);
   tell(context, fmt::format("wrote {}", arguments[0]));
 }
 

@@ -49,6 +49,7 @@ RunView view_of(Run& run, bool percentiles) {
   view.edits_done = run.edits().done_by(run.moment());
   view.history_note = run.history().sentence();
   if (run.last_outcome()) view.last_outcome = run.last_outcome()->sentence();
+  view.best_iteration = best_iteration(run);
   return view;
 }
 
@@ -212,10 +213,13 @@ bool FrameBuilder::work_at_rest(Session& session, std::span<const Watch> watched
     return known == nullptr || known->frame->device ? nullptr : known->frame.get();
   };
   found = summaries_.find(session, whole, go_on) || found;
+  found = endings_.find(session, go_on) || found;
   for (std::size_t i = 0; session.percentiles() && i < session.run_count(); ++i)
     if (session.run(i).find_percentiles([&](double) { return go_on(); })) found = true;
   return found;
 }
+
+bool FrameBuilder::work_long_at_rest(Session& session, const std::function<bool()>& go_on) { return endings_.find_hint(session, go_on); }
 
 std::shared_ptr<const SessionView> FrameBuilder::build(Session& session, FrameDetail detail, std::span<const Watch> watched) {
   auto view = std::make_shared<SessionView>();
@@ -231,6 +235,7 @@ std::shared_ptr<const SessionView> FrameBuilder::build(Session& session, FrameDe
   for (std::size_t i = 0; i < session.run_count(); ++i) {
     view->runs.push_back(view_of(session.run(i), session.percentiles()));
     view->runs.back().summary = summaries_.of(session, i);
+    view->runs.back().ending = endings_.of(session, i);
   }
   view->input_summary = summaries_.of_input(session);
   for (Known& known : known_) known.wanted = false;

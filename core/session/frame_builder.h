@@ -27,6 +27,8 @@ class FrameBuilder {
   /// no longer kept, and what views show besides frames, percentiles and summaries of all runs. Returns whether there is something new to
   /// show. Throws DeviceError.
   bool work_at_rest(Session& session, std::span<const Watch> watched, const std::function<bool()>& go_on);
+  /// The same of what takes seconds and comes after all else.
+  bool work_long_at_rest(Session& session, const std::function<bool()>& go_on);
 
  private:
   /// What a frame is of: as long as it is the same, so is the frame.
@@ -65,6 +67,7 @@ class FrameBuilder {
   Histogram before_;          // of before_metric_ at the input
   std::vector<Known> known_;  // frames of the last view, and what was worked out at rest since
   Summaries summaries_;
+  Endings endings_;
 };
 
 /// A frame of any run, for its qualities alone.

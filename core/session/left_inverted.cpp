@@ -55,4 +55,14 @@ std::uint64_t best_iteration(const Run& run) {
   return best;
 }
 
+std::string iteration_name(std::uint64_t iteration) {
+  return iteration == 0 ? std::string("the input itself") : fmt::format("iteration {}", iteration);
+}
+
+std::string worse_than_best(const RunParameters& parameters, std::uint64_t best, std::uint64_t last) {
+  if (best == last || method_info(parameters.method).optimises) return {};
+  return fmt::format("{} {}: the best it passed through is {}, not iteration {}", parameters.method, kMayMakeWorse, iteration_name(best),
+                     last);
+}
+
 }  // namespace dmoscope

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/session/run.h"
 
@@ -27,5 +28,15 @@ struct LeftInverted {
 /// method that does not optimise then greatest mean; among equals the last. Of a run for two aims, which gives up some of the first for the
 /// second, the last.
 [[nodiscard]] std::uint64_t best_iteration(const Run& run);
+
+/// What is said of the methods that do not optimise, wherever they are chosen or told of.
+inline constexpr std::string_view kMayMakeWorse = "may make elements worse";
+
+/// "the input itself" of 0, else "iteration 12"
+[[nodiscard]] std::string iteration_name(std::uint64_t iteration);
+
+/// "laplace may make elements worse: the best it passed through is iteration 2, not iteration 202"; empty of a method that optimises, and
+/// where the best is the last.
+[[nodiscard]] std::string worse_than_best(const RunParameters& parameters, std::uint64_t best, std::uint64_t last);
 
 }  // namespace dmoscope

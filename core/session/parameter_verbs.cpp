@@ -1,5 +1,8 @@
 // The session's verbs: parameters of the active run, and the metric that is shown.
 
+#include <algorithm>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "core/mesh/vertex_words.h"
@@ -88,8 +91,10 @@ void set_interfaces(CommandContext& context, Arguments arguments) {
   tell_interfaces(context);
 }
 void unfix(CommandContext& context, Arguments arguments) {
-  require(arguments, 0, 0);
-  change_run(context, [&](RunParameters& p) { p.fixed.clear(); });
+  if (arguments.empty()) return change_run(context, [](RunParameters& p) { p.fixed.clear(); });
+  std::vector<Index> vertices = vertices_named(context.session.input()->mesh, arguments);
+  std::ranges::sort(vertices);
+  change_run(context, [&](RunParameters& p) { std::erase_if(p.fixed, [&](Index v) { return std::ranges::binary_search(vertices, v); }); });
 }
 
 }  // namespace
@@ -116,7 +121,8 @@ std::span<const Verb> parameter_verbs() {
       {{"fix", "fix VERTEX|A-B|group:NAME|FIELD=VALUE|box:X0,Y0,X1,Y1...",
         "Fixes vertices besides the boundary: by number, by a group's name, by data of the file, or in a box."},
        fix},
-      {{"unfix", "unfix", "Frees all that was fixed by hand."}, unfix},
+      {{"unfix", "unfix [VERTEX|A-B|group:NAME|FIELD=VALUE|box:X0,Y0,X1,Y1...]", "Frees what was fixed by hand: all, or these vertices."},
+       unfix},
   };
   return table;
 }

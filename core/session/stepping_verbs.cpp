@@ -31,9 +31,17 @@ void back(CommandContext& context, Arguments arguments) {
   for (std::uint64_t i = 0; i < count && context.session.active().back(unit, context.progress); ++i) {
   }
 }
+/// Says what a person should know of a run that has come to its end.
+void tell_ending(CommandContext& context, const Run& run, const Outcome& outcome) {
+  if (outcome.inverted > 0)
+    if (const auto left = find_left_inverted(run)) tell(context, left->sentence(), Message::Kind::Warning);
+  const std::string worse = worse_than_best(run.parameters(), best_iteration(run), run.moment().iteration);
+  if (!worse.empty()) tell(context, worse + " ('best' goes there)", Message::Kind::Warning);
+}
 void run(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
-  context.session.active().iterate(to_count(arguments[0]), context.progress);
+  Run& active = context.session.active();
+  tell_ending(context, active, active.iterate(to_count(arguments[0]), context.progress));
 }
 void until_converged(CommandContext& context, Arguments arguments) {
   require(arguments, 0, 2);
@@ -41,15 +49,16 @@ void until_converged(CommandContext& context, Arguments arguments) {
   if (!arguments.empty()) limits.patience = to_count(arguments[0], 1);
   if (arguments.size() > 1) limits.max_iterations = to_count(arguments[1], 1);
   Run& active = context.session.active();
-  tell(context, active.until_converged(limits, context.progress).sentence());
-  if (const auto left = find_left_inverted(active)) tell(context, left->sentence(), Message::Kind::Warning);
+  const Outcome outcome = active.until_converged(limits, context.progress);
+  tell(context, outcome.sentence());
+  tell_ending(context, active, outcome);
 }
 void best(CommandContext& context, Arguments arguments) {
   require(arguments, 0, 0);
   Run& active = context.session.active();
   const std::uint64_t iteration = best_iteration(active);
   active.seek({iteration}, context.progress);
-  tell(context, fmt::format("the best iteration is {}", iteration));
+  tell(context, iteration == 0 ? "the input itself is the best" : fmt::format("the best iteration is {}", iteration));
 }
 /// Those among `vertices` that may move; tells of the others, which stay where they are.
 std::vector<Index> free_among(CommandContext& context, const Run& run, const std::vector<Index>& vertices) {

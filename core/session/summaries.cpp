@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/session/declared_floats.h"
 #include "core/session/frame_builder.h"
 
 namespace dmoscope {
@@ -50,7 +51,8 @@ bool Summaries::find_input(Session& session) {
   const std::vector<Index> immovable = immovable_elements(input.mesh, standing_vertices(input, input_rule_), session.pool().get());
   of_input_ = std::make_shared<const InputSummary>(
       InputSummary{session.shown(), compute_statistics(context, input.mesh.positions, session.shown(), immovable, session.pool().get()),
-                   compute_percentiles(context, input.mesh.positions, session.shown(), session.pool().get())});
+                   compute_percentiles(context, input.mesh.positions, session.shown(), session.pool().get()),
+                   seen_as_floats(input, input.mesh.positions, session.shown(), session.pool().get())});
   input_ = session.input();
   return true;
 }

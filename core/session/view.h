@@ -8,6 +8,7 @@
 
 #include "core/base/shared_vector.h"
 #include "core/session/device_picture.h"
+#include "core/session/endings.h"
 #include "core/session/percentiles.h"
 #include "core/session/session.h"
 #include "core/session/size_course.h"
@@ -62,6 +63,7 @@ struct InputSummary {
   Metric metric = Metric::MeanRatio;
   Statistics statistics;
   Percentiles percentiles;
+  std::string as_floats{};  // see seen_as_floats
 };
 
 struct RunView {
@@ -83,6 +85,10 @@ struct RunView {
   std::size_t edits = 0, edits_done = 0;      // all of its path, and those up to its moment; see edit.h
   std::string history_note;                   // History::sentence()
   std::string last_outcome;                   // why it last stopped, may be empty
+  std::uint64_t best_iteration = 0;           // see best_iteration()
+  std::shared_ptr<const RunEnding> ending{};  // see Endings
+  /// Whether there is no better iteration to go to.
+  [[nodiscard]] bool at_best() const noexcept { return moment == Moment{best_iteration}; }
 };
 
 /// What there is of a Watch.

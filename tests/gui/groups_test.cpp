@@ -27,6 +27,26 @@ TEST_F(GroupsInTheWindow, AreFixedAndLookedAtAlone) {
   EXPECT_EQ(state().colouring.isolated->name, "outer");
   good("click group-isolate:outer");
   EXPECT_FALSE(state().colouring.isolated.has_value());
+  good("fix 0");
+  good("click group-fix:inner");
+  EXPECT_EQ(parameters().fixed, std::vector<Index>{0}) << "a second click gives that group back and nothing else";
+}
+
+TEST_F(GroupsInTheWindow, OfAnotherMeshDoNotHideThisOne) {
+  good("generate nested 100");
+  good("color-by group");
+  good("isolate group inner");
+  good("generate grid 100");
+  EXPECT_FALSE(state().colouring.isolated.has_value());
+  EXPECT_EQ(state().colouring.by, ui::ColourBy::Quality) << "there are no groups to colour by";
+}
+
+TEST_F(GroupsInTheWindow, ManyLeaveTheParametersInSight) {
+  good("open " + std::string(DMOSCOPE_SOURCE_DIR) + "/resources/samples/coast.14");
+  ASSERT_EQ(session()->input->mesh.groups.size(), 11U);
+  const auto& boxes = window_->app().items().boxes();
+  EXPECT_TRUE(boxes.contains("group-fix:land boundary 3"));
+  EXPECT_LT(boxes.at("method")[3], 400.0F);
 }
 
 TEST_F(GroupsInTheWindow, InterfacesAreGivenBackThere) {

@@ -10,6 +10,7 @@
 #include "tests/support/sanitized.h"
 #include "ui/actions.h"
 #include "ui/palette_entries.h"
+#include "ui/situation.h"
 #include "ui/view_commands.h"
 #include "ui/view_json.h"
 
@@ -60,7 +61,7 @@ class Menus : public HeadlessTest {
       run("type " + quote_word(action.title));
     }
     const auto view = window_->app().engine().view();
-    const ui::Situation now{true, false, true, view->runs.size(), false, view->undo_label, view->redo_label};
+    const ui::Situation now = ui::situation_of(*view, state(), false);
     const auto entries = ui::palette_entries(action.title, now, window_->app().commands().commands());
     const std::string title = fmt::format("{}: {}", action.menu, ui::title_of(action, now));
     const auto at = std::ranges::find(entries, title, &ui::PaletteEntry::title);

@@ -38,7 +38,7 @@ TEST_F(SmallWindow, FoldedPanelsOpenAndCloseAndTakeNothingFromOthers) {
 }
 
 TEST_F(SmallWindow, AllSamplesAreInSight) {
-  const float bottom = box("plot-convergence")[1];
+  const float bottom = box("status-backend")[1];
   for (const GeneratorInfo& sample : generator_table()) {
     const std::string name(sample.name);
     const auto& card = box("sample:" + name);

@@ -41,9 +41,8 @@ void draw_mesh(PanelContext& context, const Frame& frame) {
   }
   if (const RunView* run = context.run()) value_row(context, "free", count(run->free_vertices), {}, {}, "vertices that may move");
   std::vector<std::string> facts = context.derived.mesh_facts;
-  const RunView* active = context.run();
-  const bool fixed = active != nullptr && active->parameters.interfaces == InterfaceRule::Fixed;
-  if (fixed && !context.derived.interfaces.empty()) facts.push_back(context.derived.interfaces);
+  const auto& judged = context.session.input_summary;
+  if (judged && !judged->as_floats.empty()) facts.push_back(judged->as_floats);
   if (!facts.empty()) dim_text(context, "found in the input:");
   for (const std::string& fact : facts) {
     ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.warning));
@@ -52,6 +51,10 @@ void draw_mesh(PanelContext& context, const Frame& frame) {
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
   }
+  const RunView* active = context.run();
+  const bool fixed = active != nullptr && active->parameters.interfaces == InterfaceRule::Fixed;
+  const std::string& interfaces = fixed ? context.derived.interfaces : context.derived.free_interfaces;
+  if (!interfaces.empty()) dim_text(context, interfaces);
 }
 
 void draw_statistics(PanelContext& context, const char* title, Metric metric, const Statistics& statistics) {

@@ -203,6 +203,8 @@ void draw_colour_bar(PanelContext& context, const Rect& rect);
 [[nodiscard]] float colour_bar_height(const PanelContext& context, const Rect& rect);
 /// The ids on the mesh.
 void draw_labels(PanelContext& context, const PaneFacts& pane);
+/// Over the meshes: what is to be said of the run that has come to its end, if anything.
+void draw_notice(PanelContext& context, const Rect& rect);
 void draw_start_page(PanelContext& context, const Rect& rect);
 /// `timeline_only`: there is no room for more.
 void draw_plots(PanelContext& context, const Rect& rect, bool timeline_only);

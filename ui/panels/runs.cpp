@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/session/left_inverted.h"
 #include "ui/format.h"
 #include "ui/panels/panels.h"
 
@@ -83,9 +84,20 @@ void draw_method(PanelContext& context, const RunParameters& parameters) {
       context.send(fmt::format("method {}", method.name));
     }
     context.items.record_last(fmt::format("method:{}", method.name));
-    next_item_tooltip(std::string(method.doc));
+    next_item_tooltip(method.optimises ? std::string(method.doc) : fmt::format("{}; {}", method.doc, kMayMakeWorse));
   }
   ImGui::EndCombo();
+}
+
+/// Of a method that promises nothing.
+void draw_method_note(PanelContext& context, const RunParameters& parameters) {
+  if (method_info(parameters.method).optimises) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.warning));
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(fmt::format("{}; Best goes back to the best iteration", kMayMakeWorse).c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  context.items.record_last("method-note");
 }
 
 /// Sends `command X` when another number was entered.
@@ -166,6 +178,8 @@ void draw_interfaces(PanelContext& context, const RunParameters& parameters) {
   labelled(context, "interfaces", "whether what lies between materials, and on lines, faces and points that the file names, stays");
   const bool open = ImGui::BeginCombo("##interfaces", std::string(name(parameters.interfaces)).c_str());
   context.items.record_last("interfaces");
+  const bool fixed = parameters.interfaces == InterfaceRule::Fixed;
+  next_item_tooltip(fixed ? context.derived.interfaces : context.derived.free_interfaces);
   if (!open) return;
   for (const InterfaceRule rule : {InterfaceRule::Fixed, InterfaceRule::Free}) {
     const std::string word(name(rule));
@@ -226,6 +240,7 @@ void draw_parameters(PanelContext& context) {
   const RunParameters& parameters = run->parameters;
   ImGui::BeginDisabled(context.activity.busy);
   draw_method(context, parameters);
+  draw_method_note(context, parameters);
   if (method_info(parameters.method).optimises)
     labelled(context, "optimises", "the metric whose minimum over each star the method raises");
   else

@@ -29,6 +29,9 @@ void draw_card(PanelContext& context, const Thumbnail& sample, const CardSize& s
   const ImU32 edge = IM_COL32(0, 0, 0, 110);
   constexpr std::size_t kMostEdged = 800;  // with more elements the edges would hide the colours
   const bool edges = sample.polygons.size() <= kMostEdged && side > 4.0F * context.em();
+  // The soft rim of a filled polygon sticks out of sharp corners, too; the edges are soft enough.
+  const ImDrawListFlags flags = list.Flags;
+  if (edges) list.Flags &= ~ImDrawListFlags_AntiAliasedFill;
   for (const Thumbnail::Polygon& polygon : sample.polygons) {
     ImVec2 corners[4];
     for (int k = 0; k < polygon.count; ++k) {
@@ -36,8 +39,10 @@ void draw_card(PanelContext& context, const Thumbnail& sample, const CardSize& s
       corners[k] = {left + corner[0] * inner, at.y + pad + corner[1] * inner};
     }
     list.AddConvexPolyFilled(corners, polygon.count, colour(polygon.colour));
-    if (edges) list.AddPolyline(corners, polygon.count, edge, ImDrawFlags_Closed, 1.0F);
+    // Edge by edge: the joints of a polyline stick out of sharp corners.
+    for (int k = 0; edges && k < polygon.count; ++k) list.AddLine(corners[k], corners[(k + 1) % polygon.count], edge, 1.0F);
   }
+  list.Flags = flags;
   const std::string name = fit_text(sample.name, width);
   list.AddText({at.x + (width - ImGui::CalcTextSize(name.c_str()).x) / 2, at.y + side}, colour(context.palette.text), name.c_str());
   ImGui::PopID();
@@ -70,9 +75,12 @@ void draw_start_page(PanelContext& context, const Rect& rect) {
   const auto& samples = context.widgets.thumbnails;
   const float em = context.em(), gap = context.px(10);
   // Cards in one row, or in two and more where there is no room, as large as the space allows: a low window gets small pictures.
-  const float room = rect.w - 4 * em, most = std::max(1.0F, std::floor((room + gap) / (5.5F * em + gap)));
+  float least = 5.5F * em;  // each name whole
+  for (const Thumbnail& sample : samples) least = std::max(least, ImGui::CalcTextSize(sample.name.c_str()).x + context.px(4));
+  const float room = rect.w - 4 * em, most = std::max(1.0F, std::floor((room + gap) / (least + gap)));
   const auto total = static_cast<float>(samples.size());
-  const float columns = total <= most ? total : std::min(most, std::ceil(total / 2.0F)), rows = std::ceil(total / columns);
+  const float columns_wanted = total <= most ? total : std::min(most, std::ceil(total / 2.0F));
+  const float rows = std::ceil(total / columns_wanted), columns = std::ceil(total / rows);
   const float card = std::clamp((room - (columns - 1) * gap) / columns, 4.5F * em, 8.0F * em);
   const float width = columns * card + (columns - 1) * gap;
   const float header = 9.2F * em, each = (rect.h - header - 1.5F * em) / rows;

@@ -41,7 +41,9 @@ void draw_slider(PanelContext& context, std::uint64_t last, float width) {
   ImGui::BeginDisabled(!possible);
   // A slider of real numbers: its grab stays small however short the history is.
   float position = run == nullptr ? 0.0F : static_cast<float>(run->moment.iteration);
+  ImGui::PushAllowKeyboardFocus(false);  // Tab, which has a meaning of its own, would make a text field of it
   ImGui::SliderFloat("##timeline", &position, 0.0F, std::max(1.0F, static_cast<float>(last)), "", ImGuiSliderFlags_AlwaysClamp);
+  ImGui::PopAllowKeyboardFocus();
   const auto at = static_cast<std::uint64_t>(std::llround(position));
   context.items.record_last("timeline");
   draw_marks(context, static_cast<float>(last));
@@ -66,6 +68,8 @@ void draw_timeline(PanelContext& context) {
   action_button(context, "timeline-forward", "▶");
   ImGui::SameLine(0, small);
   action_button(context, "timeline-last", "▶|");
+  ImGui::SameLine(0, small);
+  action_button(context, "best", "Best");
   ImGui::SameLine();
   const std::string label = label_of(context, last);
   const float label_width = ImGui::CalcTextSize("iteration 00,000 of 00,000").x;

@@ -5,19 +5,11 @@
 
 #include "ui/format.h"
 #include "ui/panels/panels.h"
+#include "ui/situation.h"
 
 namespace dmoscope::ui {
 
-Situation PanelContext::situation() const {
-  return {session.input != nullptr,
-          activity.busy,
-          state.picked.kind != Picked::Kind::None,
-          session.runs.size(),
-          !state.selection.empty(),
-          session.undo_label,
-          session.redo_label,
-          state.is_volume};
-}
+Situation PanelContext::situation() const { return situation_of(session, state, activity.busy); }
 
 void begin_panel(const char* name, const Rect& rect, bool overlay, bool scrolls) {
   ImGui::SetNextWindowPos({rect.x, rect.y});

@@ -1,4 +1,4 @@
-#include "app/verbs/declared_floats.h"
+#include "core/session/declared_floats.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "core/base/rounding.h"
+#include "core/io/mesh_io.h"
 #include "core/io/source_file.h"
 #include "core/quality/quality.h"
 
-namespace dmoscope::app {
+namespace dmoscope {
 namespace {
 
 bool declares_floats(const Mesh& mesh) {
@@ -18,8 +20,6 @@ bool declares_floats(const Mesh& mesh) {
   return !layout.binary && std::ranges::find(layout.scalar, CoordinateScalar::Float32) != layout.scalar.end();
 }
 
-double as_float(double value) { return static_cast<double>(static_cast<float>(value)); }
-
 }  // namespace
 
 std::string seen_as_floats(const InputMesh& input, std::span<const Vec3> positions, Metric metric, ThreadPool* pool) {
@@ -27,7 +27,7 @@ std::string seen_as_floats(const InputMesh& input, std::span<const Vec3> positio
   const std::string word = "its points are declared as float, but judged by their digits";
   std::vector<Vec3> rounded(positions.begin(), positions.end());
   for (Vec3& p : rounded) {
-    p = {as_float(p.x), as_float(p.y), as_float(p.z)};
+    p = {nearest_float(p.x), nearest_float(p.y), nearest_float(p.z)};
     if (!std::isfinite(p.x + p.y + p.z)) return word + "; a program that takes the word cannot hold them";
   }
   const std::span<const Index> none;
@@ -39,4 +39,11 @@ std::string seen_as_floats(const InputMesh& input, std::span<const Vec3> positio
                      floats.minimum, floats.inverted, digits.minimum, digits.inverted);
 }
 
-}  // namespace dmoscope::app
+std::string written_as_floats(const std::filesystem::path& path, const InputMesh& input, std::span<const Vec3> positions, Metric metric,
+                              ThreadPool* pool) {
+  const FormatInfo* format = format_by_extension(mesh_extension(path));
+  if (!input.mesh.source || format == nullptr || format->name != input.mesh.source->format()) return {};
+  return seen_as_floats(input, positions, metric, pool);
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,62 @@
+#include "core/session/endings.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/error.h"
+
+namespace dmoscope {
+
+const Endings::Known* Endings::find_known(Session& session, std::size_t index) const {
+  const Run& run = session.run(index);
+  if (!run.last_outcome() || run.last_outcome()->inverted == 0) return nullptr;
+  const auto at = std::ranges::find_if(known_, [&](const Known& known) {
+    return known.run.lock() == session.identity(index).lock() && known.path == run.path() && known.moment == run.moment();
+  });
+  return at == known_.end() ? nullptr : &*at;
+}
+
+std::shared_ptr<const RunEnding> Endings::of(Session& session, std::size_t index) const {
+  const Known* known = find_known(session, index);
+  return known == nullptr ? nullptr : known->ending;
+}
+
+bool Endings::find(Session& session, const std::function<bool()>& go_on) {
+  std::vector<Known> all;
+  bool found = false;
+  for (std::size_t i = 0; i < session.run_count(); ++i) {
+    const Run& run = session.run(i);
+    if (!run.last_outcome() || run.last_outcome()->inverted == 0) continue;
+    if (const Known* known = find_known(session, i)) {
+      all.push_back(*known);
+    } else if (go_on()) {
+      const auto left = find_left_inverted(run);
+      if (!left) continue;
+      all.push_back({session.identity(i), run.path(), run.moment(), std::make_shared<const RunEnding>(RunEnding{*left}), false});
+      found = true;
+    }
+  }
+  known_ = std::move(all);
+  return found;
+}
+
+bool Endings::find_hint(Session& session, const std::function<bool()>& go_on) {
+  if (!session.has_input()) return false;
+  const std::size_t active = session.active_index();
+  const Known* there = find_known(session, active);
+  if (there == nullptr || there->tried || !go_on()) return false;
+  Known& known = known_[static_cast<std::size_t>(there - known_.data())];
+  known.tried = true;
+  Progress unwatched;
+  try {
+    auto hint = untangling_hint(session.run(active), session.input(), session.pool(), unwatched, go_on);
+    if (!hint) return false;
+    known.ending = std::make_shared<const RunEnding>(RunEnding{known.ending->left, std::move(hint)});
+  } catch (const Cancelled&) {
+    known.tried = false;
+    return false;
+  }
+  return true;
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,44 @@
+#pragma once
+// What a person should know of runs that came to their end with elements inverted, worked out once for each end.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/session/left_inverted.h"
+#include "core/session/session.h"
+#include "core/session/untangling_hint.h"
+
+namespace dmoscope {
+
+struct RunEnding {
+  LeftInverted left;
+  std::optional<UntanglingHint> hint{};
+};
+
+/// The endings of a session's runs.
+class Endings {
+ public:
+  /// Of a run as it stands; null where it has not come to an end, where no element is inverted, and while it has not been worked out.
+  [[nodiscard]] std::shared_ptr<const RunEnding> of(Session& session, std::size_t run) const;
+  /// Works out where to look, of those that are missing, asking `go_on` before each. Returns whether there are new ones. Throws
+  /// DeviceError.
+  bool find(Session& session, const std::function<bool()>& go_on);
+  /// Tries whether another method gets further than the active run, once where `go_on` lets it come to its end. Returns whether one does.
+  bool find_hint(Session& session, const std::function<bool()>& go_on);
+
+ private:
+  struct Known {
+    std::weak_ptr<const Run> run;
+    std::uint64_t path = 0;
+    Moment moment;
+    std::shared_ptr<const RunEnding> ending;
+    bool tried = false;  // other methods
+  };
+  [[nodiscard]] const Known* find_known(Session& session, std::size_t run) const;
+  std::vector<Known> known_;
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,157 @@
+// What the window says of a run that has come to its end, and what it offers: elements that stay inverted, and better iterations.
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "tests/gui/headless_test.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/actions.h"
+#include "ui/notice.h"
+#include "ui/situation.h"
+
+namespace dmoscope::app {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class Ending : public HeadlessTest {
+ protected:
+  [[nodiscard]] bool has_item(const std::string& name) { return window_->app().items().boxes().contains(name); }
+  [[nodiscard]] ui::Notice notice() { return ui::notice_of(*session()); }
+  [[nodiscard]] RunView run() { return session()->runs.at(session()->active); }
+  [[nodiscard]] bool best_is_possible() { return ui::enabled(*ui::find_action("best"), ui::situation_of(*session(), state(), false)); }
+  /// Nine cells of two triangles, the corner of the first of which lies beyond the other two of its triangle: all three are fixed.
+  void open_hopeless() {
+    std::string text = "OFF\n16 18 0\n0.9 0.9 0\n";
+    for (int v = 1; v < 16; ++v) text += fmt::format("{} {} 0\n", v % 4, v / 4);
+    for (int cell = 0; cell < 9; ++cell) {
+      const int a = cell % 3 + 4 * (cell / 3);
+      text += fmt::format("3 {} {} {}\n3 {} {} {}\n", a, a + 1, a + 4, a + 1, a + 5, a + 4);
+    }
+    const std::filesystem::path file = folder_ / "hopeless.off";
+    std::ofstream(file) << text;
+    good("open " + file.string());
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(Ending, LeftInvertedIsSaidWithPlacesToGoTo) {
+  open_hopeless();
+  EXPECT_TRUE(notice().empty()) << "no run has come to its end yet";
+  good("run 3");
+  const ui::Notice said = notice();
+  ASSERT_FALSE(said.empty());
+  EXPECT_THAT(said.sentences, ElementsAre("1 element stays inverted. Look at element 0 and at vertex 0 at (0.9, 0.9, 0); it lies on the "
+                                          "boundary, which stays."))
+      << "and no method gets further";
+  good("click notice:vertex");
+  EXPECT_EQ(state().picked, (ui::Picked{ui::Picked::Kind::Vertex, 0}));
+  good("click notice:element");
+  EXPECT_EQ(state().picked, (ui::Picked{ui::Picked::Kind::Element, 0}));
+  good("step iteration");
+  EXPECT_TRUE(notice().empty()) << "that is no run's end";
+  EXPECT_FALSE(has_item("notice:vertex"));
+}
+
+TEST_F(Ending, IsHiddenUntilAnotherRunEnds) {
+  open_hopeless();
+  good("run 2");
+  EXPECT_TRUE(has_item("notice-off"));
+  good("click notice-off");
+  EXPECT_FALSE(has_item("notice:vertex"));
+  good("notice on");
+  EXPECT_TRUE(has_item("notice:vertex"));
+  good("notice off");
+  good("run 1");
+  EXPECT_TRUE(has_item("notice:vertex"));
+}
+
+TEST_F(Ending, AMethodThatGetsFurtherIsOffered) {
+  good("generate tangled");
+  good("method dvr");
+  good("run 1");
+  ASSERT_GT(session()->frame->statistics.inverted, 0U);
+  const auto ending = run().ending;
+  ASSERT_TRUE(ending && ending->hint);
+  EXPECT_LT(ending->hint->left, ending->left.count);
+  EXPECT_THAT(notice().sentences[1], HasSubstr(ending->hint->method + " leaves "));
+  const std::string method = ending->hint->method;
+  const std::uint64_t iterations = ending->hint->iterations;
+  const Index left = ending->hint->left;
+  good("click notice:method");
+  EXPECT_EQ(run().parameters.method, method);
+  EXPECT_EQ(session()->runs.size(), 2U);
+  good("run " + std::to_string(iterations));
+  EXPECT_EQ(session()->frame->statistics.inverted, left) << "as was promised";
+}
+
+TEST_F(Ending, WhatEndsWorseThanItsBestOffersThat) {
+  good("generate tangled");
+  EXPECT_FALSE(has_item("method-note"));
+  good("method laplace");
+  EXPECT_TRUE(has_item("method-note"));
+  good("run 60");
+  // The best by the very numbers.
+  std::uint64_t best = 0;
+  const RunView now = run();
+  for (std::uint64_t i = 1; i < now.records.size(); ++i) {
+    const Statistics &a = now.records[i].statistics, &b = now.records[best].statistics;
+    if (a.inverted < b.inverted || (a.inverted == b.inverted && a.minimum > b.minimum)) best = i;
+  }
+  ASSERT_LT(best, 60U);
+  EXPECT_EQ(now.best_iteration, best);
+  ASSERT_FALSE(notice().empty());
+  EXPECT_EQ(notice().sentences.back(),
+            "laplace may make elements worse: the best it passed through is iteration " + std::to_string(best) + ", not iteration 60.");
+  EXPECT_TRUE(best_is_possible());
+  good("click notice:best");
+  EXPECT_EQ(run().moment, (Moment{best}));
+  EXPECT_TRUE(notice().empty());
+  EXPECT_FALSE(best_is_possible());
+  good("timeline last");
+  EXPECT_TRUE(best_is_possible());
+  good("click best");
+  EXPECT_EQ(run().moment, (Moment{best}));
+  good("timeline last");
+  good("key Shift+End");
+  EXPECT_EQ(run().moment, (Moment{best}));
+}
+
+TEST_F(Ending, WhatOptimisesEndsAtItsBest) {
+  good("generate grid 200");
+  EXPECT_FALSE(best_is_possible());
+  good("run 5");
+  EXPECT_TRUE(notice().empty());
+  EXPECT_FALSE(best_is_possible());
+  good("seek 2");
+  EXPECT_TRUE(best_is_possible());
+}
+
+TEST_F(Ending, WhatFloatsWouldShowIsANoteOnTheMesh) {
+  // Far from the origin floats lie 1/16 apart: a tip 1/64 beside the middle of its base is above it for them. 4 sqrt(3) times the area of
+  // 1/4, by the sum of the squared sides: 2 with the tip above the middle, 2 + 2/64^2 beside it.
+  const std::filesystem::path file = folder_ / "floats.vtk";
+  std::ofstream(file) << "# vtk DataFile Version 3.0\nfar\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n1000000 0 0\n1000001 0 0\n"
+                         "1000000.515625 0.5 0\n1000000.5 -0.5 0\nPOLYGONS 2 8\n3 0 1 2\n3 0 3 1\n";
+  good("open " + file.string());
+  const auto summary = session()->input_summary;
+  ASSERT_TRUE(summary);
+  EXPECT_THAT(summary->as_floats, HasSubstr("its points are declared as float"));
+  EXPECT_THAT(summary->as_floats, HasSubstr("sees a minimum of 0.866 and 0 inverted (here 0.8658 and 0)"));
+  const std::filesystem::path copy = folder_ / "copy.vtk";
+  good("export " + copy.string());
+  const bool told =
+      std::ranges::any_of(window_->said(), [](const Message& m) { return m.text.find("declared as float") != std::string::npos; });
+  EXPECT_TRUE(told);
+  good("generate grid 100");
+  EXPECT_THAT(session()->input_summary->as_floats, IsEmpty());
+}
+
+}  // namespace
+}  // namespace dmoscope::app

@@ -46,7 +46,7 @@ class VtuReader {
       : source_(source),
         progress_(context.progress),
         document_(source, context.progress),
-        budget_(source.bytes().size(), context.most_memory) {}
+        budget_(source.size_on_disk(), context.most_memory) {}
 
   Mesh read() {
     std::size_t pieces = 0;

@@ -3,6 +3,7 @@
 #include "core/io/gzip.h"
 
 #include <cstdint>
+#include <random>
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,8 @@
 #include "core/base/error.h"
 #include "core/io/mesh_io.h"
 #include "core/io/source_file.h"
+#include "tests/fuzz/check_gzip.h"
+#include "tests/fuzz/samples.h"
 #include "tests/io/files.h"
 #include "tests/support/temporary_folder.h"
 
@@ -88,6 +91,20 @@ TEST_F(Gzip, DamagedOnesAreRefused) {
   EXPECT_THROW((void)unpacked(damaged), InputError);
   expect_refused("a.off.gz", kPacked.substr(0, 40), 0, "truncated");
   expect_refused("a.node.gz", packed("3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n"), 0, "in pairs");
+}
+
+TEST_F(Gzip, TheFuzzersSamplesHold) {
+  for (const bool joined : {false, true}) {
+    const std::string bytes = dmoscope::testing::gzip_off(joined);
+    EXPECT_TRUE(dmoscope::testing::check_gzip(bytes));
+    EXPECT_EQ(unpacked(bytes), kOff);
+    std::mt19937_64 random(7);
+    for (int i = 0; i < 1000; ++i) {
+      std::string mutant = bytes;
+      mutant[random() % mutant.size()] = static_cast<char>(random());
+      EXPECT_NO_THROW((void)dmoscope::testing::check_gzip(mutant)) << i;
+    }
+  }
 }
 
 TEST_F(Gzip, BombsAreRefused) {

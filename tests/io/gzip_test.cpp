@@ -134,9 +134,9 @@ TEST_F(Gzip, WhatItMayUnpackToCanBeSaid) {
   EXPECT_THROW(require_known_format(folder / "a", {progress, nullptr, std::uint64_t{2} << 20U}), InputError);
 }
 
-#ifdef DMOSCOPE_VTU
 // Otherwise a hundred times of a hundred times: 36 MB of zeros that gzip packs to 36 kB, and that take 8 bytes each as numbers.
 TEST_F(Gzip, WhatAPackedFileBecomesIsMeasuredByTheFileItself) {
+  if (format_by_extension(".vtu") == nullptr) GTEST_SKIP() << "this build has no VTU";
   constexpr std::uint32_t kBytes = 36U << 20U;
   std::string file =
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt32\">\n<UnstructuredGrid>\n"
@@ -149,7 +149,6 @@ TEST_F(Gzip, WhatAPackedFileBecomesIsMeasuredByTheFileItself) {
   file += std::string(kBytes, '\0') + "</AppendedData>\n</VTKFile>\n";
   expect_refused("a.vtu.gz", packed(file), 4, "arrays unpack to more than");
 }
-#endif
 
 }  // namespace
 }  // namespace dmoscope::test

@@ -35,6 +35,13 @@ namespace {
 void refuse_another_run(const Run& run, RunParameters wanted, const std::filesystem::path& file) {
   wanted.search.simd = run.parameters().search.simd;  // the same bits by any
   if (run.parameters() == wanted) return;
+  RunParameters but_fixed = wanted;
+  but_fixed.fixed = run.parameters().fixed;
+  if (run.parameters() == but_fixed)
+    throw UsageError(
+        fmt::format("--resume {}: --fix names other vertices ({}) than when this run was begun ({}): its words, or the groups "
+                    "and data of the mesh that they name, have changed",
+                    file.string(), wanted.fixed.size(), run.parameters().fixed.size()));
   throw UsageError(fmt::format("--resume {}: give the options that this run was begun with ({})", file.string(), run.title()));
 }
 

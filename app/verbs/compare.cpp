@@ -12,6 +12,7 @@
 #include "app/plot_file.h"
 #include "app/provenance.h"
 #include "app/targets.h"
+#include "app/verbs/declared_floats.h"
 #include "app/verbs/goal_options.h"
 #include "app/verbs/input_report.h"
 #include "app/verbs/option_checks.h"
@@ -83,6 +84,8 @@ int compare(const CompareOptions& options, const std::string& command_line) {
     complain(sentence);
     warnings.push_back(std::move(sentence));
   };
+  if (const std::string seen = seen_as_floats(*input, input->mesh.positions, plan.judge, pool.get()); !seen.empty())
+    warn(fmt::format("{}: {}, {}", input->mesh.name, info(plan.judge).name, seen));
   const Comparison comparison = run_all(plan, input, options.goal, options.shuffles, {pool, plan.acceleration, progress, warn});
   const ComparisonFacts facts{options, pool->size(), command_line, std::move(warnings)};
   write_files(comparison, facts, progress);

@@ -146,7 +146,7 @@ std::vector<int> numbers_of_elements(const Mesh& mesh, std::span<const int> numb
   std::vector<int> of_elements(mesh.elements.size(), 0);
   for (std::size_t i = 0; i < mesh.groups.size(); ++i) {
     const Group& group = mesh.groups[i];
-    if (!group.of_elements()) continue;
+    if (!group.of_elements() || numbers[i] == 0) continue;
     std::size_t lost = 0;
     for (const Index e : group.members) {
       if (of_elements[e] == 0) {

@@ -81,6 +81,7 @@ struct OriginLabels {
 /// elements), else one that is free.
 [[nodiscard]] std::vector<int> numbers_of_groups(std::span<const Group> groups);
 /// The number of each element's group, 0 without one; the first where there are several, and the notes say so.
+/// Groups of number 0 are left out.
 [[nodiscard]] std::vector<int> numbers_of_elements(const Mesh& mesh, std::span<const int> numbers, std::string_view format_title,
                                                    Notes& notes);
 

@@ -61,9 +61,11 @@ bool is_certain(const FormatHandler& handler, std::string_view bytes) { return h
 
 constexpr std::string_view kPacked = ".gz";
 
-FileBytes read_unpacked(const std::filesystem::path& path, Progress& progress) {
-  FileBytes bytes = read_whole_file(path, progress);
-  return is_gzip(bytes.view()) ? gunzipped(path, bytes.view(), progress) : std::move(bytes);
+/// Its bytes, unpacked. `size`: of the file itself.
+FileBytes read_unpacked(const std::filesystem::path& path, const IoContext& context, std::size_t& size) {
+  FileBytes bytes = read_whole_file(path, context.progress);
+  size = bytes.view().size();
+  return is_gzip(bytes.view()) ? gunzipped(path, bytes.view(), context) : std::move(bytes);
 }
 
 const FormatHandler& format_of(const std::filesystem::path& path, std::string_view bytes) {
@@ -205,9 +207,10 @@ std::string mesh_extension(const std::filesystem::path& path) {
   return gzip_is_here() && equal_ignoring_case(extension, kPacked) ? path.stem().extension().string() : extension;
 }
 
-void require_known_format(const std::filesystem::path& path, Progress& progress) {
+void require_known_format(const std::filesystem::path& path, const IoContext& context) {
   if (by_extension(mesh_extension(path)) != nullptr) return;
-  const FileBytes bytes = read_unpacked(path, progress);
+  std::size_t size = 0;
+  const FileBytes bytes = read_unpacked(path, context, size);
   (void)format_of(path, bytes.view());
 }
 
@@ -219,7 +222,10 @@ Mesh read_whole_mesh(const std::filesystem::path& path, const IoContext& context
   const FormatHandler* named = by_extension(mesh_extension(path));
   const std::filesystem::path main = main_path(path, named);
   if (main != path) require_both(path, named);
-  auto source = std::make_shared<SourceFile>(main, read_unpacked(main, progress));
+  std::size_t size = 0;
+  FileBytes unpacked = read_unpacked(main, context, size);
+  auto source = std::make_shared<SourceFile>(main, std::move(unpacked));
+  source->set_size_on_disk(size);
   if (source->bytes().empty()) throw InputError(main.string(), 0, "the file is empty");
   const FormatHandler& handler = format_of(main, source->bytes());
   source->set_format(handler.info.name);

@@ -209,16 +209,19 @@ class Reader {
     group.code = static_cast<int>(type);
     tokens_.end_line();
     const WeirColumns columns = weir_columns(group.code);
-    if (is_weir(group.code)) source_.add_only_in_file("heights, coefficients and opposite sides of the weirs");
+    if (is_weir(group.code)) source_.add_only_in_file("heights, coefficients and pairs of vertices of the weirs");
+    // A weir has two banks; the file lists both in one string, the farther one beside the nearer.
+    Group far_side{.name = group.name + ", far side", .role = group.role, .code = group.code, .dimension = 0, .members = {}};
     group.members.reserve(size);
     for (std::size_t i = 0; i < size; ++i) {
       begin_line("vertex of a land boundary");
       group.members.push_back(numbers_.read(tokens_, "vertex index"));
-      if (columns.pair) (void)numbers_.read(tokens_, "vertex index");
+      if (columns.pair) far_side.members.push_back(numbers_.read(tokens_, "vertex index"));
       for (int n = 0; n < columns.numbers; ++n) (void)tokens_.read_double("height or coefficient of a weir");
       tokens_.end_line();
     }
     mesh_.groups.push_back(std::move(group));
+    if (columns.pair) mesh_.groups.push_back(std::move(far_side));
   }
 
   SourceFile& source_;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/io/unpack_budget.h"
 
 #ifdef DMOSCOPE_VTU  // zlib is there, then
 #include <zlib.h>
@@ -66,22 +67,19 @@ class Unpacker {
 
 bool gzip_is_here() noexcept { return true; }
 
-FileBytes gunzipped(const std::filesystem::path& path, std::string_view packed, Progress& progress) {
-  constexpr std::size_t kAlways = std::size_t{16} << 20, kTimes = 256;
-  const std::size_t most = kAlways + kTimes * packed.size();
+FileBytes gunzipped(const std::filesystem::path& path, std::string_view packed, const IoContext& context) {
+  UnpackBudget budget(packed.size(), context.most_memory);
   const auto fail = [&](const std::string& what) { throw InputError(path.string(), 0, what); };
   Unpacker unpacker(packed);
   FileBytes bytes;
   for (;;) {
-    progress.check();
+    context.progress.check();
     std::span<char> room = bytes.room(0);
     if (room.empty()) room = bytes.room(std::max(bytes.view().size(), kPiece));
     std::size_t got = 0;
     const Unpacker::Step step = unpacker.step(room, got);
     bytes.took(got);
-    if (bytes.view().size() > most) {
-      fail(fmt::format("packed by gzip, its {} bytes unpack to more than {}, which no mesh does: unpack it first", packed.size(), most));
-    }
+    if (!budget.take(got)) fail(fmt::format("packed by gzip, its {} bytes unpack to {}", packed.size(), UnpackBudget::advice()));
     if (step == Unpacker::Step::Done) return bytes;
     if (step == Unpacker::Step::Truncated) fail("packed by gzip, but truncated");
     if (step == Unpacker::Step::Damaged) fail("packed by gzip, but damaged");
@@ -123,7 +121,7 @@ void GzipPacker::run(std::string_view bytes, bool last) {
 
 bool gzip_is_here() noexcept { return false; }
 
-FileBytes gunzipped(const std::filesystem::path& path, std::string_view, Progress&) {
+FileBytes gunzipped(const std::filesystem::path& path, std::string_view, const IoContext&) {
   throw InputError(path.string(), 0, "packed by gzip, which this build of the program, made without zlib, cannot read: unpack it first");
 }
 

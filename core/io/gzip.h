@@ -6,7 +6,7 @@
 #include <memory>
 #include <string_view>
 
-#include "core/base/progress.h"
+#include "core/io/io_context.h"
 #include "core/io/source_file.h"
 
 namespace dmoscope {
@@ -15,9 +15,9 @@ namespace dmoscope {
 [[nodiscard]] bool gzip_is_here() noexcept;
 [[nodiscard]] bool is_gzip(std::string_view bytes) noexcept;
 
-/// What the bytes unpack to; `path` is what errors call them. Some kilobytes may unpack to gigabytes: beyond 16 MB and 256 times their
-/// own size they are refused. Throws InputError (damaged, truncated, too large, no zlib), Cancelled.
-[[nodiscard]] FileBytes gunzipped(const std::filesystem::path& path, std::string_view packed, Progress& progress);
+/// What the bytes unpack to; `path` is what errors call them. Some kilobytes may unpack to gigabytes: what is more than an UnpackBudget
+/// with context.most_memory has is refused. Throws InputError (damaged, truncated, too large, no zlib), Cancelled.
+[[nodiscard]] FileBytes gunzipped(const std::filesystem::path& path, std::string_view packed, const IoContext& context);
 
 /// Packs bytes as they come. The same bytes give the same file: no name and no time are in it.
 class GzipPacker {

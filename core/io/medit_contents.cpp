@@ -27,17 +27,20 @@ std::uint32_t MeditContents::origin_of(int reference) {
   return last_origin_ = at->second;
 }
 
+void MeditContents::fail_mark(const MeditMarks& marks, std::size_t i, std::size_t things, std::string_view what) const {
+  throw InputError(source_.path().string(), marks.lines.empty() ? 0 : marks.lines[i],
+                   fmt::format("{} {} out of range (the file has {} {})", marks.keyword, marks.numbers[i], things, what));
+}
+
 void MeditContents::make_group(const MeditMarks& marks) {
-  const bool of_edges = is_medit_edge_mark(marks.keyword);
+  const CellShape shape = medit_mark(marks.keyword)->of;
+  if (shape >= CellShape::Triangle) return make_face_group(marks, shape);
+  const bool of_edges = shape == CellShape::Line;
   const std::size_t things = of_edges ? edges_.size() / 2 : mesh.positions.size();
   Group group{.name = marks.keyword, .role = std::string(kMeditMark), .code = 0, .dimension = of_edges ? 1 : 0, .members = {}};
   for (std::size_t i = 0; i < marks.numbers.size(); ++i) {
     const std::int64_t number = marks.numbers[i];
-    if (number < 1 || static_cast<std::uint64_t>(number) > things) {
-      throw InputError(
-          source_.path().string(), marks.lines.empty() ? 0 : marks.lines[i],
-          fmt::format("{} {} out of range (the file has {} {})", marks.keyword, number, things, of_edges ? "edges" : "vertices"));
-    }
+    if (number < 1 || static_cast<std::uint64_t>(number) > things) fail_mark(marks, i, things, of_edges ? "edges" : "vertices");
     const auto at = static_cast<std::size_t>(number - 1);
     if (of_edges) {
       group.members.insert(group.members.end(), {edges_[2 * at], edges_[2 * at + 1]});
@@ -46,6 +49,33 @@ void MeditContents::make_group(const MeditMarks& marks) {
     }
   }
   if (!group.members.empty()) mesh.groups.push_back(std::move(group));
+}
+
+/// Faces of a volume, or elements where these are the mesh.
+void MeditContents::make_face_group(const MeditMarks& marks, CellShape shape) {
+  std::vector<std::size_t> begins;  // of the cells of this shape: their first corners
+  std::vector<Index> places;        // and which cells they are
+  std::size_t corner = 0;
+  for (std::size_t c = 0; c < cells_.size(); corner += corners_of(cells_.shape(c)), ++c) {
+    if (cells_.shape(c) != shape) continue;
+    begins.push_back(corner);
+    places.push_back(static_cast<Index>(c));
+  }
+  Group group{.name = marks.keyword, .role = std::string(kMeditMark), .code = 0, .dimension = 2, .members = {}};
+  const bool of_elements = cells_.dimension() == 2;
+  for (std::size_t i = 0; i < marks.numbers.size(); ++i) {
+    const std::int64_t number = marks.numbers[i];
+    if (number < 1 || static_cast<std::uint64_t>(number) > begins.size()) fail_mark(marks, i, begins.size(), info(*kind_of(shape)).plural);
+    const auto at = static_cast<std::size_t>(number - 1);
+    if (!of_elements) {
+      group.faces.add(*kind_of(shape), cells_.all_corners().subspan(begins[at], corners_of(shape)));
+    } else if (rows_.empty()) {
+      group.members.push_back(places[at]);
+    } else {
+      group.members.push_back(static_cast<Index>(std::ranges::lower_bound(rows_, places[at]) - rows_.begin()));
+    }
+  }
+  if (!group.members.empty() || group.faces.size() > 0) mesh.groups.push_back(std::move(group));
 }
 
 void MeditContents::add_field(Field::On on, std::vector<double> values) {
@@ -68,11 +98,11 @@ void MeditContents::split() {
   if (many) {
     for (OriginLabels& labels : labels_) labels.of_elements = false;
   }
-  const std::vector<Index> rows = split_cells(cells_, labels_, mesh, source_);
+  rows_ = split_cells(cells_, labels_, mesh, source_);
   if (!many) return;
   std::vector<double> values(mesh.elements.size());
   for (Index e = 0; e < mesh.elements.size(); ++e) {
-    values[e] = labels_[cells_.origin(rows.empty() ? e : rows[e])].labels.front().code;
+    values[e] = labels_[cells_.origin(rows_.empty() ? e : rows_[e])].labels.front().code;
   }
   add_field(Field::On::Elements, std::move(values));
 }

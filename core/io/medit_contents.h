@@ -32,7 +32,7 @@ inline constexpr std::array kMeditCells{
     MeditCells{"Pyramids", 49, CellShape::Pyramid},
 };
 
-/// Corners, Ridges, ...: numbers of vertices or edges, which may come before these.
+/// Corners, Ridges, ...: numbers of vertices, edges or faces, which may come before these.
 struct MeditMarks {
   std::string keyword;
   std::vector<std::int64_t> numbers;  // from 1
@@ -47,7 +47,7 @@ class MeditContents {
   void reserve_cells(CellShape shape, std::size_t count);
   void add_cell(CellShape shape, const Index* corners, int reference);
   void add_marks(MeditMarks marks) { marks_.push_back(std::move(marks)); }
-  /// Throws InputError (a mark of a vertex or edge that is not there).
+  /// Throws InputError (a mark of a vertex, edge or face that is not there).
   [[nodiscard]] Mesh finish();
 
   Mesh mesh;
@@ -56,12 +56,15 @@ class MeditContents {
  private:
   std::uint32_t origin_of(int reference);
   void make_group(const MeditMarks& marks);
+  void make_face_group(const MeditMarks& marks, CellShape shape);
+  [[noreturn]] void fail_mark(const MeditMarks& marks, std::size_t i, std::size_t things, std::string_view what) const;
   void add_field(Field::On on, std::vector<double> values);
   void split();
 
   SourceFile& source_;
   CellTable cells_;
   std::vector<Index> edges_;  // two vertices each
+  std::vector<Index> rows_;   // the cell that each element was; empty: every cell is one
   std::vector<OriginLabels> labels_;
   std::unordered_map<int, std::uint32_t> origins_;  // by reference
   std::uint32_t last_origin_ = 0;

@@ -77,7 +77,7 @@ class MeditReader {
       tokens_.fail(fmt::format("{} are elements of higher order, of which only the linear ones are read: export linear elements", keyword));
     }
     const auto same = [&](std::string_view word) { return equal_ignoring_case(keyword, word); };
-    return same("Dimension") || same("Vertices") || std::any_of(kMeditMarks.begin(), kMeditMarks.end(), same) ||
+    return same("Dimension") || same("Vertices") || medit_mark(keyword) != nullptr ||
            std::any_of(kMeditCells.begin(), kMeditCells.end(), [&](const MeditCells& s) { return same(s.keyword); });
   }
 
@@ -153,7 +153,7 @@ class MeditReader {
     }
   }
 
-  /// Corners, Ridges, ...: numbers of vertices or edges, which may come later.
+  /// Corners, Ridges, ...: numbers of vertices, edges or faces, which may come later.
   void marks(std::string_view keyword) {
     const std::size_t count = tokens_.read_count(fmt::format("number of {}", keyword), 2);
     MeditMarks marks{std::string(keyword), {}, {}};
@@ -193,13 +193,15 @@ Mesh read_medit(SourceFile& source, const IoContext& context) { return MeditRead
 
 }  // namespace
 
-bool is_medit_edge_mark(std::string_view keyword) noexcept {
-  return equal_ignoring_case(keyword, "Ridges") || equal_ignoring_case(keyword, "RequiredEdges");
+const MeditMark* medit_mark(std::string_view keyword) noexcept {
+  const auto* const found =
+      std::ranges::find_if(kMeditMarks, [&](const MeditMark& mark) { return equal_ignoring_case(mark.keyword, keyword); });
+  return found == kMeditMarks.end() ? nullptr : found;
 }
 
 const FormatHandler& medit_format() {
   static const FormatHandler handler{
-      {"medit", "MEDIT", ".mesh", "2D and 3D elements, references, corners, ridges, required vertices and edges; ASCII"},
+      {"medit", "MEDIT", ".mesh", "2D and 3D elements, references, corners, ridges, required vertices, edges and faces; ASCII"},
       recognises_medit,
       read_medit,
       write_medit};

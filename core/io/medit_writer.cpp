@@ -28,13 +28,24 @@ struct ReferencedCells {
   std::vector<int> references;
 };
 
-/// The keyword of kMeditMarks that a group stands for; empty if none.
-std::string_view mark_of(const Group& group) {
-  if (group.role != kMeditMark) return {};
-  for (const std::string_view keyword : kMeditMarks) {
-    if (group.name == keyword && (is_medit_edge_mark(keyword) ? 1 : 0) == group.dimension) return keyword;
-  }
-  return {};
+/// The one of kMeditMarks that a group stands for; null if none.
+const MeditMark* mark_of(const Group& group, const Mesh& mesh) {
+  if (group.role != kMeditMark) return nullptr;
+  const MeditMark* mark = medit_mark(group.name);
+  if (mark == nullptr || dimension_of(mark->of) != group.dimension) return nullptr;
+  if (group.dimension < 2) return mark;
+  const auto of_kind = [&](ElementKind kind) { return shape_of(kind) == mark->of; };
+  const bool all = std::ranges::all_of(group.faces.kinds(), of_kind) &&
+                   (!group.of_elements() || std::ranges::all_of(group.members, of_kind, [&](Index e) { return mesh.elements.kind(e); }));
+  return all ? mark : nullptr;
+}
+
+/// Its corners in ascending order.
+std::array<Index, 4> face_key(std::span<const Index> corners) {
+  std::array<Index, 4> key{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
+  std::ranges::copy(corners, key.begin());
+  std::ranges::sort(key);
+  return key;
 }
 
 class MeditWriter {
@@ -48,6 +59,8 @@ class MeditWriter {
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       // Cells without a reference are a group when they are no elements: they get none again.
       if (groups_[i].role == kMeditReference && groups_[i].code == 0) numbers_[i] = 0;
+      marks_.push_back(mark_of(groups_[i], mesh));
+      if (marks_[i] != nullptr) numbers_[i] = 0;
     }
   }
 
@@ -74,7 +87,7 @@ class MeditWriter {
   void keep(std::size_t group) {
     kept_groups_.push_back(group);
     const Group& g = groups_[group];
-    if (mark_of(g).empty() && g.name != fmt::format("reference {}", numbers_[group])) unnamed_.push_back(group);
+    if (marks_[group] == nullptr && g.name != fmt::format("reference {}", numbers_[group])) unnamed_.push_back(group);
   }
 
   /// One sentence for all: what has become of the groups' names.
@@ -137,12 +150,13 @@ class MeditWriter {
     };
     for (std::size_t i = 0; i < groups_.size(); ++i) {
       const Group& group = groups_[i];
-      if (group.dimension != 1 || !mark_of(group).empty()) continue;
+      if (group.dimension != 1 || marks_[i] != nullptr) continue;
       for (std::size_t k = 0; k + 1 < group.members.size(); k += 2) add(group, k, numbers_[i]);
       keep(i);
     }
-    for (const Group& group : groups_) {
-      if (group.dimension != 1 || mark_of(group).empty()) continue;
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      const Group& group = groups_[i];
+      if (group.dimension != 1 || marks_[i] == nullptr) continue;
       for (std::size_t k = 0; k + 1 < group.members.size(); k += 2) {
         if (!edge_numbers_.contains(std::minmax(group.members[k], group.members[k + 1]))) add(group, k, 0);
       }
@@ -152,11 +166,22 @@ class MeditWriter {
 
   void faces() {
     std::array<ReferencedCells, 2> faces;
+    const auto add_face = [&](const ElementTable& of_group, Index f, int reference) {
+      ReferencedCells& cells = faces[static_cast<std::size_t>(of_group.kind(f))];
+      face_numbers_.try_emplace(face_key(of_group.corners(f)), cells.references.size());
+      add(cells, of_group.corners(f), reference);
+    };
     for (std::size_t i = 0; i < groups_.size(); ++i) {
       const ElementTable& of_group = groups_[i].faces;
-      if (of_group.size() == 0) continue;
-      for (Index f = 0; f < of_group.size(); ++f) add(faces[static_cast<std::size_t>(of_group.kind(f))], of_group.corners(f), numbers_[i]);
+      if (of_group.size() == 0 || marks_[i] != nullptr) continue;
+      for (Index f = 0; f < of_group.size(); ++f) add_face(of_group, f, numbers_[i]);
       keep(i);
+    }
+    for (std::size_t i = 0; i < groups_.size(); ++i) {  // and then those that only a mark names
+      const ElementTable& of_group = groups_[i].faces;
+      if (marks_[i] == nullptr) continue;
+      for (Index f = 0; f < of_group.size(); ++f)
+        if (!face_numbers_.contains(face_key(of_group.corners(f)))) add_face(of_group, f, 0);
     }
     section(kKeywords[0], 3, faces[0]);
     section(kKeywords[1], 4, faces[1]);
@@ -174,7 +199,7 @@ class MeditWriter {
     if (fields == kept_fields_.size()) {
       references = numbers_of_elements(mesh_, numbers_, medit_format().info.title, notes_);
       for (std::size_t i = 0; i < groups_.size(); ++i) {
-        if (groups_[i].of_elements()) keep(i);
+        if (groups_[i].of_elements() && marks_[i] == nullptr) keep(i);
       }
     }
     std::array<ReferencedCells, kElementKindCount> by_kind;
@@ -185,6 +210,7 @@ class MeditWriter {
       ReferencedCells& cells = by_kind[static_cast<std::size_t>(kind)];
       if (cells.references.empty()) order.push_back(kind);
       in_order = in_order && order.back() == kind;
+      element_numbers_.push_back(cells.references.size());
       std::array<Index, 8> buffer{};
       add(cells, file_corners(mesh_, e, buffer), references[e]);
     }
@@ -197,17 +223,27 @@ class MeditWriter {
 
   void marks() {
     for (std::size_t i = 0; i < groups_.size(); ++i) {
-      const Group& group = groups_[i];
-      const std::string_view keyword = mark_of(group);
-      if (keyword.empty()) continue;
-      const std::size_t each = group.dimension == 1 ? 2 : 1;
-      out_ << keyword << '\n' << group.members.size() / each << '\n';
-      for (std::size_t k = 0; k + each <= group.members.size(); k += each) {
-        const std::size_t number = each == 1 ? group.members[k] : edge_numbers_.at(std::minmax(group.members[k], group.members[k + 1]));
-        out_ << number + 1 << '\n';
-      }
+      if (marks_[i] == nullptr) continue;
+      const std::vector<std::size_t> numbers = numbers_in_sections(groups_[i]);
+      out_ << marks_[i]->keyword << '\n' << numbers.size() << '\n';
+      for (const std::size_t number : numbers) out_ << number + 1 << '\n';
       kept_groups_.push_back(i);
     }
+  }
+
+  /// From 0: which vertices, edges, faces or elements of their kind the members are in this file.
+  [[nodiscard]] std::vector<std::size_t> numbers_in_sections(const Group& group) const {
+    std::vector<std::size_t> numbers;
+    if (group.dimension == 0) numbers.assign(group.members.begin(), group.members.end());
+    if (group.dimension == 1) {
+      for (std::size_t k = 0; k + 1 < group.members.size(); k += 2)
+        numbers.push_back(edge_numbers_.at(std::minmax(group.members[k], group.members[k + 1])));
+    }
+    if (group.of_elements()) {
+      for (const Index e : group.members) numbers.push_back(element_numbers_[e]);
+    }
+    for (Index f = 0; f < group.faces.size(); ++f) numbers.push_back(face_numbers_.at(face_key(group.faces.corners(f))));
+    return numbers;
   }
 
   TextWriter out_;
@@ -217,6 +253,9 @@ class MeditWriter {
   std::vector<Group> groups_;                                    // the mesh's, boundary strings by their edges
   std::vector<int> numbers_;                                     // of groups
   std::map<std::pair<Index, Index>, std::size_t> edge_numbers_;  // the first of each, smaller vertex first
+  std::map<std::array<Index, 4>, std::size_t> face_numbers_;     // likewise, by ascending corners
+  std::vector<std::size_t> element_numbers_;                     // of each element among those of its kind
+  std::vector<const MeditMark*> marks_;                          // of each group; null: it is none
   std::vector<std::size_t> kept_fields_, kept_groups_;
   std::vector<std::size_t> unnamed_;  // groups whose names are not in the file
 };

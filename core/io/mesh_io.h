@@ -31,7 +31,7 @@ struct FormatInfo {
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, const IoContext& context);
 
 /// Throws InputError where read_mesh() would not know what format the file is, with the same words; Cancelled.
-void require_known_format(const std::filesystem::path& path, Progress& progress);
+void require_known_format(const std::filesystem::path& path, const IoContext& context);
 
 /// Writes `mesh` with `positions` in place of its own (mesh.positions.size() of them) to `path`, format by extension,
 /// packed by gzip where its name ends with .gz.

@@ -15,6 +15,7 @@
 #include "core/base/memory.h"
 #include "core/io/binary.h"
 #include "core/io/format.h"
+#include "core/io/medit.h"
 #include "core/io/medit_contents.h"
 
 namespace dmoscope {
@@ -23,13 +24,6 @@ namespace {
 constexpr std::int32_t kDimension = 3, kVertices = 4, kEnd = 54;
 constexpr std::array<std::int32_t, 5> kHigherOrderKeys{24, 25, 27, 30,
                                                        33};  // TrianglesP2, EdgesP2, QuadrilateralsQ2, TetrahedraP2, HexahedraQ2
-
-struct MarkSection {
-  std::int32_t code;
-  std::string_view keyword;
-};
-constexpr std::array kMarkSections{MarkSection{13, "Corners"}, MarkSection{14, "Ridges"}, MarkSection{15, "RequiredVertices"},
-                                   MarkSection{16, "RequiredEdges"}};
 
 /// The number 1 in either byte order, then a version of 1 to 4.
 bool recognises_meshb(std::string_view bytes) {
@@ -113,8 +107,8 @@ class MeshbReader {
       in_.fail(fmt::format("elements of higher order (keyword {}), of which only the linear ones are read: export linear elements", code));
     }
     const auto cells = std::ranges::find(kMeditCells, code, &MeditCells::code);
-    const auto marks = std::ranges::find(kMarkSections, code, &MarkSection::code);
-    const bool known = code == kDimension || code == kVertices || cells != kMeditCells.end() || marks != kMarkSections.end();
+    const auto marks = std::ranges::find(kMeditMarks, code, &MeditMark::code);
+    const bool known = code == kDimension || code == kVertices || cells != kMeditCells.end() || marks != kMeditMarks.end();
     if (!known) return false;
     if (std::ranges::find(met_, code) != met_.end()) in_.fail(fmt::format("keyword {} a second time", code));
     met_.push_back(code);

@@ -65,10 +65,13 @@ class FileBytes {
 /// open, and would show a file that another program is just writing anew.
 class SourceFile {
  public:
-  SourceFile(std::filesystem::path path, FileBytes bytes) : path_(std::move(path)), bytes_(std::move(bytes)) {}
+  SourceFile(std::filesystem::path path, FileBytes bytes)
+      : path_(std::move(path)), bytes_(std::move(bytes)), size_on_disk_(bytes_.view().size()) {}
 
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
   [[nodiscard]] std::string_view bytes() const noexcept { return bytes_.view(); }
+  /// Of the file itself, which may be packed by gzip: what its contents may become in memory is measured by that.
+  [[nodiscard]] std::size_t size_on_disk() const noexcept { return size_on_disk_; }
   /// FormatInfo::name of the format that it was read as.
   [[nodiscard]] std::string_view format() const noexcept { return format_; }
   [[nodiscard]] const CoordinateLayout& layout() const noexcept { return layout_; }
@@ -92,6 +95,7 @@ class SourceFile {
   [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return notes_; }
 
   // For readers.
+  void set_size_on_disk(std::size_t size) { size_on_disk_ = size; }
   void set_format(std::string_view name) { format_ = name; }
   void set_companion(std::shared_ptr<const SourceFile> file) { companion_ = std::move(file); }
   void set_layout(const CoordinateLayout& layout) { layout_ = layout; }
@@ -114,6 +118,7 @@ class SourceFile {
  private:
   std::filesystem::path path_;
   FileBytes bytes_;
+  std::size_t size_on_disk_;
   std::string format_;
   std::shared_ptr<const SourceFile> companion_;
   CoordinateLayout layout_;

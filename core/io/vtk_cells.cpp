@@ -146,56 +146,93 @@ VtkCells read_vtk_cells(VtkValues& values, const std::string& keyword, std::size
 
 VtkElement element_of_vtk_cell(std::int64_t type, std::span<Index> corners) {
   // Of the types up to 14; -1: no element, -2: see below.
-  constexpr static std::array<int, 15> kinds{-1, -1, -1, -1, -1, 0, -2, -2, 1, 1, 2, 3, 3, 4, 5};
+  constexpr static std::array<int, 15> kinds{-1, kVertexCell, kVertexCell, kLineCell, kLineCell, 0, -2, -2, 1, 1, 2, 3, 3, 4, 5};
   const int known = type >= 0 && type < static_cast<std::int64_t>(kinds.size()) ? kinds[static_cast<std::size_t>(type)] : -2;
-  if (known == -1) return {};  // empty cell, vertices, lines
+  if (known == -1) return {};  // an empty cell
+  if (known == kVertexCell || known == kLineCell) return {static_cast<std::uint8_t>(known), {}, false};
   if (type == 7) {
-    if (corners.size() == 3) return {ElementKind::Triangle, {}, false};
-    if (corners.size() == 4) return {ElementKind::Quadrilateral, {}, false};
-    return {{}, fmt::format("a polygon of {} corners: only those of 3 and 4 can be smoothed", corners.size()), false};
+    if (corners.size() == 3) return {static_cast<std::uint8_t>(ElementKind::Triangle), {}, false};
+    if (corners.size() == 4) return {static_cast<std::uint8_t>(ElementKind::Quadrilateral), {}, false};
+    return {kNoKind, fmt::format("a polygon of {} corners: only those of 3 and 4 can be smoothed", corners.size()), false};
   }
-  if (known == -2) return {{}, unsupported(type), true};
+  if (known == -2) return {kNoKind, unsupported(type), true};
   const auto kind = static_cast<ElementKind>(known);
   if (corners.size() != info(kind).corners) {
-    return {
-        {}, fmt::format("a cell of type {} ({}) has {} corners, not {}", type, info(kind).name, info(kind).corners, corners.size()), false};
+    return {kNoKind,
+            fmt::format("a cell of type {} ({}) has {} corners, not {}", type, info(kind).name, info(kind).corners, corners.size()), false};
   }
   if (type == 8 || type == 11) std::swap(corners[2], corners[3]);
   if (type == 11) std::swap(corners[6], corners[7]);
   exchange_vtk_order(kind, corners.data());
-  return {kind, {}, false};
+  return {static_cast<std::uint8_t>(kind), {}, false};
 }
 
+namespace {
+
+/// Cells of fewer dimensions than the elements, as the groups that they become.
+class LowCells {
+ public:
+  void add(std::uint8_t kind, std::span<const Index> corners) {
+    if (kind == kVertexCell) {
+      ++counts_[0];
+      vertices_.members.insert(vertices_.members.end(), corners.begin(), corners.end());
+    } else if (kind == kLineCell) {
+      ++counts_[1];
+      for (std::size_t i = 0; i + 1 < corners.size(); ++i) lines_.members.insert(lines_.members.end(), {corners[i], corners[i + 1]});
+    } else if (kind != kNoKind) {
+      ++counts_[2];
+      faces_.faces.add(static_cast<ElementKind>(kind), corners);
+    }
+  }
+  void add(std::uint8_t kind, const VtkCells* cells) {
+    for (std::size_t c = 0; cells != nullptr && c < cells->size(); ++c) add(kind, cells->of(c));
+  }
+
+  void finish(Mesh& mesh, SourceFile& source) {
+    const std::array<std::string_view, 3> what{"vertices", "lines", "faces of the volume mesh"};
+    const std::array<Group*, 3> groups{&vertices_, &lines_, &faces_};
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      if (counts_[i] > 0) source.add_note(fmt::format("Cells that are no elements here: {} {}.", counts_[i], what[i]));
+      if (!groups[i]->vertices().empty()) mesh.groups.push_back(std::move(*groups[i]));
+    }
+  }
+
+ private:
+  Group vertices_{.name = "vertex cells", .role = std::string(kVtkCells), .code = 0, .dimension = 0, .members = {}};
+  Group lines_{.name = "line cells", .role = std::string(kVtkCells), .code = 0, .dimension = 1, .members = {}};
+  Group faces_{.name = "face cells", .role = std::string(kVtkCells), .code = 0, .dimension = 2, .members = {}};
+  std::array<std::size_t, 3> counts_{};
+};
+
+}  // namespace
+
 std::vector<std::size_t> add_vtk_elements(Mesh& mesh, SourceFile& source, const VtkCells& cells, std::span<const std::uint8_t> kinds,
-                                          std::size_t low) {
-  const bool volume = std::any_of(kinds.begin(), kinds.end(),
-                                  [](std::uint8_t kind) { return kind != kNoKind && info(static_cast<ElementKind>(kind)).dimension == 3; });
-  std::size_t faces = 0;
+                                          const VtkCells* vertices, const VtkCells* lines) {
+  const auto is_element = [](std::uint8_t kind) { return kind < kElementKindCount; };
+  const bool volume = std::any_of(kinds.begin(), kinds.end(), [&](std::uint8_t kind) {
+    return is_element(kind) && info(static_cast<ElementKind>(kind)).dimension == 3;
+  });
+  LowCells low;
+  low.add(kVertexCell, vertices);
+  low.add(kLineCell, lines);
   std::vector<std::size_t> rows;
   mesh.elements.reserve(kinds.size(), cells.corners.size());
   rows.reserve(kinds.size());
   for (std::size_t c = 0; c < kinds.size(); ++c) {
-    const bool element = kinds[c] != kNoKind;
     const auto kind = static_cast<ElementKind>(kinds[c]);
-    if (!element || (volume && info(kind).dimension == 2)) {
-      ++(element ? faces : low);
+    if (!is_element(kinds[c]) || (volume && info(kind).dimension == 2)) {
+      low.add(kinds[c], cells.of(c));
       continue;
     }
-    const Index from = cells.offsets[c];
-    add_element(mesh, kind, std::span(cells.corners).subspan(from, cells.offsets[c + 1] - from), source);
+    add_element(mesh, kind, cells.of(c), source);
     rows.push_back(c);
   }
-  const auto skipped = [&source](std::size_t count, std::string_view what) {
-    if (count == 0) return;
-    source.add_note(fmt::format("Cells that are no elements here: {} {}.", count, what));
-    source.add_only_in_file(fmt::format("{} {}", count, what));
-  };
-  skipped(low, "vertices and lines");
-  skipped(faces, "faces of the volume mesh");
+  low.finish(mesh, source);
   return rows;
 }
 
-void keep_rows(Field& field, std::span<const std::size_t> rows) {
+void keep_rows(Field& field, std::span<const std::size_t> rows, SourceFile& source) {
+  source.add_only_in_file("data of cells that are no elements");
   const auto n = static_cast<std::size_t>(field.components);
   std::vector<double> kept;
   kept.reserve(rows.size() * n);

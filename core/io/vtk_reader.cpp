@@ -262,7 +262,7 @@ class VtkReader {
     const std::span<Index> corners = std::span(cells.corners).subspan(cells.offsets[c], cells.offsets[c + 1] - cells.offsets[c]);
     const VtkElement element = element_of_vtk_cell(type, corners);
     if (!element.fault.empty()) in().fail_at(element.fault_of_type ? type_place : cells.places[c], element.fault);
-    kinds_.push_back(element.kind ? static_cast<std::uint8_t>(*element.kind) : kNoKind);
+    kinds_.push_back(element.kind);
   }
 
   [[nodiscard]] std::size_t cell_count() const {
@@ -283,7 +283,7 @@ class VtkReader {
     }
     add_elements();
     for (Field& field : attributes_.fields()) {
-      if (field.on == Field::On::Elements && rows_.size() != cell_count()) keep_rows(field, rows_);
+      if (field.on == Field::On::Elements && rows_.size() != cell_count()) keep_rows(field, rows_, source_);
       mesh_.fields.push_back(std::move(field));
     }
   }
@@ -300,7 +300,7 @@ class VtkReader {
   void add_elements() {
     // Cell data of POLYDATA have the rows of vertices and lines first.
     const std::size_t before = (vertices_ ? vertices_->size() : 0) + (lines_ ? lines_->size() : 0);
-    rows_ = add_vtk_elements(mesh_, source_, *cells_, kinds_, before);
+    rows_ = add_vtk_elements(mesh_, source_, *cells_, kinds_, vertices_ ? &*vertices_ : nullptr, lines_ ? &*lines_ : nullptr);
     for (std::size_t& row : rows_) row += before;
   }
 
@@ -319,7 +319,7 @@ class VtkReader {
   std::optional<VtkGridSize> size_;
   std::array<double, 3> origin_{0.0, 0.0, 0.0}, spacing_{1.0, 1.0, 1.0};
   std::array<std::vector<double>, 3> coordinates_;  // along each axis
-  std::vector<std::uint8_t> kinds_;                 // of each of cells_: ElementKind or kNoKind
+  std::vector<std::uint8_t> kinds_;                 // of each of cells_: VtkElement::kind
   std::vector<std::size_t> rows_;                   // of each element: its row of cell data
 };
 

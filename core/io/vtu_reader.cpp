@@ -44,7 +44,7 @@ class VtuReader {
       : source_(source),
         progress_(context.progress),
         document_(source, context.progress),
-        budget_(source.bytes().size(), context.most_memory) {}
+        budget_(source.size_on_disk(), context.most_memory) {}
 
   Mesh read() {
     std::size_t pieces = 0;
@@ -70,9 +70,9 @@ class VtuReader {
       for (Field& field : fields_) mesh_.fields.push_back(std::move(field));
       return std::move(mesh_);
     }
-    const std::vector<std::size_t> rows = add_vtk_elements(mesh_, source_, cells_, kinds_, 0);
+    const std::vector<std::size_t> rows = add_vtk_elements(mesh_, source_, cells_, kinds_);
     for (Field& field : fields_) {
-      if (field.on == Field::On::Elements && rows.size() != kinds_.size()) keep_rows(field, rows);
+      if (field.on == Field::On::Elements && rows.size() != kinds_.size()) keep_rows(field, rows, source_);
       mesh_.fields.push_back(std::move(field));
     }
     return std::move(mesh_);
@@ -269,7 +269,7 @@ class VtuReader {
       if (!element.fault.empty()) {
         document_.fail(element.fault_of_type ? type_array.node : connectivity.node, fmt::format("cell {}: {}", c, element.fault));
       }
-      kinds_.push_back(element.kind ? static_cast<std::uint8_t>(*element.kind) : kNoKind);
+      kinds_.push_back(element.kind);
       cells_.offsets.push_back(static_cast<Index>(end));
     }
   }
@@ -411,7 +411,7 @@ class VtuReader {
   UnpackBudget budget_;
   Mesh mesh_;
   VtkCells cells_;
-  std::vector<std::uint8_t> kinds_;  // of each cell: ElementKind or kNoKind
+  std::vector<std::uint8_t> kinds_;  // of each cell: VtkElement::kind
   std::vector<Field> fields_;        // with a row for each cell
   std::vector<PointArray> points_;   // of each piece that has any
   std::vector<Range> others_;        // where the appended arrays lie that are no points

@@ -39,12 +39,23 @@ std::string first_listed(std::vector<std::string> names) {
 
 std::string quoted(const std::string& name) { return fmt::format("\"{}\"", name); }
 
+bool is_string(const Group& group) { return group.dimension == 0 && group.role.ends_with("boundary"); }
+/// MEDIT's RequiredVertices, RequiredEdges, RequiredTriangles and RequiredQuadrilaterals, in whatever case.
+bool is_required(const Group& group) {
+  constexpr std::string_view kBegins = "required";
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return group.role == "mark" && group.name.size() >= kBegins.size() &&
+         std::equal(kBegins.begin(), kBegins.end(), group.name.begin(), [&](char a, char b) { return a == small(b); });
+}
+/// Does a group of elements tell them apart? Required ones are of the same material as others.
+bool is_material(const Group& group) { return group.of_elements() && !is_required(group); }
+
 /// The set of groups that each element belongs to, numbered.
 class Memberships {
  public:
   explicit Memberships(const Mesh& mesh) : mesh_(mesh), set_of_(mesh.elements.size(), 0) {
     for (std::size_t g = 0; g < mesh.groups.size(); ++g)
-      if (mesh.groups[g].of_elements()) add(g);
+      if (is_material(mesh.groups[g])) add(g);
   }
   [[nodiscard]] const std::vector<Index>& sets() const noexcept { return set_of_; }
   /// What tells these sets apart, one name for each: their groups but for those that all of them share.
@@ -102,15 +113,6 @@ struct NumberedValues {
 
 bool all_same(const std::vector<Index>& labels) { return std::ranges::adjacent_find(labels, std::not_equal_to<>()) == labels.end(); }
 
-bool is_string(const Group& group) { return group.dimension == 0 && group.role.ends_with("boundary"); }
-/// MEDIT's RequiredVertices and RequiredEdges, in whatever case.
-bool is_required(const Group& group) {
-  constexpr std::string_view kBegins = "required";
-  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  return group.role == "mark" && group.name.size() >= kBegins.size() &&
-         std::equal(kBegins.begin(), kBegins.end(), group.name.begin(), [&](char a, char b) { return a == small(b); });
-}
-
 }  // namespace
 
 /// Fills in the members of Interfaces.
@@ -123,6 +125,8 @@ class Interfaces::Finder {
     between_groups();
     between_values();
     named(HeldBy::Faces, NamedKind::Faces, [](const Group& g) { return g.dimension == 2 && g.faces.size() > 0; });
+    for (const Group& group : mesh_.groups)
+      if (group.of_elements() && is_required(group)) hold_corners(group);
     named(HeldBy::Lines, NamedKind::Lines, [](const Group& g) { return g.dimension == 1; });
     for (const Group& group : mesh_.groups)
       if (is_string(group)) hold_all(HeldBy::Strings, group);
@@ -143,7 +147,7 @@ class Interfaces::Finder {
   }
 
   void between_groups() {
-    if (std::ranges::none_of(mesh_.groups, &Group::of_elements)) return;
+    if (std::ranges::none_of(mesh_.groups, is_material)) return;
     const Memberships memberships(mesh_);
     if (all_same(memberships.sets())) return;
     told_apart_ = true;
@@ -216,6 +220,18 @@ class Interfaces::Finder {
       }
       if (reason == kNoIndex) reason = add_reason(sentence_of(by, group));
       hold(by, v, reason);
+    }
+  }
+
+  /// Holds the vertices of elements that shall stay as they are.
+  void hold_corners(const Group& group) {
+    Index reason = kNoIndex;
+    for (const Index e : group.members) {
+      for (const Index v : mesh_.elements.corners(e)) {
+        if (!inside(v) || held(v)) continue;
+        if (reason == kNoIndex) reason = add_reason(sentence_of(HeldBy::Faces, group));
+        hold(HeldBy::Faces, v, reason);
+      }
     }
   }
 

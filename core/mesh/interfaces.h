@@ -26,8 +26,9 @@ inline constexpr std::size_t kHeldByCount = 6;
 /// Held is a vertex off the boundary
 /// - whose elements do not all belong to the same groups of elements (Groups);
 /// - whose elements carry different numbers of a field that names materials, see materials.h (Values);
-/// - of a face in a volume, or of a line, that the file names: Gmsh's and MEDIT's cells of fewer dimensions, SU2's markers, ridges (Faces,
-///   Lines). But not where faces or lines are named together with all around them: those list what there is, see named_lists.h;
+/// - of a face in a volume, or of a line, that the file names: Gmsh's, MEDIT's and VTK's cells of fewer dimensions, SU2's markers, ridges,
+///   and of elements that MEDIT calls required (Faces, Lines). But not where faces or lines are named together with all around them: those
+///   list what there is, see named_lists.h;
 /// - of a boundary string of a fort.14, baffles and weirs among them (Strings);
 /// - that the file names as a point: required vertices, corners (Points). Likewise not inside sets of points that fill an area or volume,
 ///   unless the file says that they are required.

@@ -214,7 +214,6 @@ class UntanglingObjective {
     return bounded(scalar::min(mean[0].value() - UntanglingMean::kEnough, 0.0));
   }
 
-  /// Jacobians first: most places that are not allowed are told by them, for a fraction of what the metrics cost.
   [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double hold(Point p) const {
     double sound = kMost, around = kMost, quality = kMost;
     int element = 0, count = 0;
@@ -222,20 +221,16 @@ class UntanglingObjective {
     star_.template for_each<kOthers>([&](const auto& each) {
       const int i = element++;
       if (!allowed) return;
-      const auto jacobian = corner_jacobians(each.with(p), each.kMoving, [](double) {});
+      const auto shape = each.with(p);
+      const auto jacobian = corner_jacobians(shape, each.kMoving, [](double) {});
       const bool is_inverted = jacobian.whole <= 0.0;
-      allowed = !is_inverted || was_inverted(i, each);
+      if (is_inverted && !was_inverted(i, each)) allowed = false;
+      const double value = formulas::metric_around<M>(shape, each.kMoving);
+      if (value < floor_) allowed = false;
       count += is_inverted ? 1 : 0;
       around = scalar::min(around, jacobian.around);
-    });
-    if (!allowed) return kForbidden;
-    star_.template for_each<kOthers>([&](const auto& each) {
-      if (!allowed) return;
-      const auto shape = each.with(p);
-      const double value = formulas::metric_around<M>(shape, each.kMoving);
-      allowed = !(value < floor_);
       quality = scalar::min(quality, value);
-      if (corner_jacobians(shape, each.kMoving, [](double) {}).whole > 0.0) sound = scalar::min(sound, value);
+      if (!is_inverted) sound = scalar::min(sound, value);
     });
     if (!allowed) return kForbidden;
     if (around > 0.0 && quality > 0.0) return quality;

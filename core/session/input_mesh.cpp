@@ -100,9 +100,9 @@ void refuse_what_cannot_be_done(const Mesh& mesh, const Geometry& geometry, cons
   const double largest = need == Need::Smoothing ? 0.1 * possible : possible;
   if (mesh.elements.size() == 0) throw InputError(file, 0, "the mesh has no elements");
   if (geometry.size > largest || (geometry.size > 0.0 && geometry.size < 1.0 / possible)) {
-    throw InputError(file, 0,
-                     fmt::format("the mesh is {:.4g} units large; sizes from {:g} to {:g} can be computed with", geometry.size,
-                                 1.0 / possible, largest));
+    const std::string size = std::isfinite(geometry.size) ? fmt::format("{:.4g}", geometry.size) : std::string("more than 1e+308");
+    throw InputError(
+        file, 0, fmt::format("the mesh is {} units large; sizes from {:g} to {:g} can be computed with", size, 1.0 / possible, largest));
   }
   if (geometry.shape == Shape::Volume) {
     for (Index e = 0; e < mesh.elements.size(); ++e)

@@ -15,6 +15,7 @@
 #include "core/io/mesh_io.h"
 #include "core/io/source_file.h"
 #include "core/session/base64.h"
+#include "core/session/input_marks.h"
 #include "core/session/session_commands.h"
 
 namespace dmoscope {
@@ -216,6 +217,8 @@ Json json_of(Run& run, Progress& progress) {
   for (const IterationRecord& record : run.history().records()) records.push_back(json_of(record));
   Json json{{"parameters", json_of(run.parameters())}, {"moment", json_of(run.moment())}, {"edits", edits}, {"records", records}};
   if (run.moment().iteration > 0) json["positions"] = packed_start(run, progress);
+  json["standing"] = standing_mark(run.input(), run.parameters().interfaces);
+  if (const std::string size = size_mark(run.input(), run.size_field().get()); !size.empty()) json["size"] = size;
   json["checksums"] = checksums_of(json);
   return json;
 }
@@ -236,9 +239,25 @@ void require_record(const Run& run, const std::vector<IterationRecord>& records,
       iteration, is.minimum, is.mean, is.inverted, said.minimum, said.mean, said.inverted));
 }
 
+/// Other vertices that stand, or other sizes wanted, would lead the run elsewhere. `then`: the data_marks() of when it was saved. A file of
+/// before there were these says nothing of them.
+void require_same_data(const Json& json, const Run& run, const std::vector<DataMark>& then) {
+  const InputMesh& input = run.input();
+  if (json.contains("standing") && json.at("standing") != standing_mark(input, run.parameters().interfaces)) {
+    const std::string what = changed_data(then, data_marks(input.mesh));
+    throw UsageError(fmt::format("{} has changed since this was saved: other vertices keep their place now ({})", input.mesh.name,
+                                 what.empty() ? "this version of the program holds others" : what));
+  }
+  if (json.contains("size") && json.at("size") != size_mark(input, run.size_field().get()))
+    throw UsageError(fmt::format("{} has changed since this was saved: the sizes wanted, its field \"{}\", are others", input.mesh.name,
+                                 run.size_field()->function().field));
+}
+
 /// A run as it is described, on a mesh.
-std::shared_ptr<Run> to_run(const Json& json, const Session& session, const std::shared_ptr<const InputMesh>& input, Progress& progress) {
+std::shared_ptr<Run> to_run(const Json& json, const Session& session, const std::shared_ptr<const InputMesh>& input,
+                            const std::vector<DataMark>& data, Progress& progress) {
   auto run = session.make_run(input, to_parameters(json.at("parameters")));
+  require_same_data(json, *run, data);
   RunPoint point;
   point.moment = to_moment(json.at("moment"));
   std::vector<Edit> edits;
@@ -284,10 +303,21 @@ std::shared_ptr<const InputMesh> to_input(const Json& json, const std::filesyste
     source = path.string();
     input = load_input(path, Need::Smoothing, context);
   }
+  if (json.contains("single") && json.at("single") != input->mesh.single_precision)
+    throw UsageError(fmt::format("{} has changed since the session was saved: it holds {}-bit coordinates now", source,
+                                 input->mesh.single_precision ? 32 : 64));
   if (to_whole(json.at("vertices")) != input->mesh.vertex_count() || to_whole(json.at("elements")) != input->mesh.elements.size() ||
       checksum(input->mesh) != json.at("checksum").get<std::string>())
     throw UsageError(fmt::format("{} has changed since the session was saved: its positions or elements are others", source));
   return input;
+}
+
+/// What the file says of the mesh's groups and fields; nothing in one of before it did.
+std::vector<DataMark> to_data_marks(const Json& input) {
+  std::vector<DataMark> marks;
+  if (!input.contains("data")) return marks;
+  for (const Json& mark : input.at("data")) marks.emplace_back(mark.at(0).get<std::string>(), mark.at(1).get<std::string>());
+  return marks;
 }
 
 struct Opened {
@@ -311,12 +341,13 @@ Opened to_session(const Json& json, const std::filesystem::path& path, const Ses
   if (!checked) opened.note = "this session was saved without checksums: damage to it may go unnoticed; save it again to have them";
   if (checked && !check_parts(json, "")) opened.note = "the view was changed since the session was saved";
   opened.input = to_input(json.at("input"), path, session.reading(progress), input);
+  const std::vector<DataMark> data = to_data_marks(json.at("input"));
   const Json& runs = json.at("runs");
   if (!runs.is_array() || runs.empty()) throw UsageError("the session has no runs");
   for (const Json& run : runs) {
     progress.check();
     if (checked) (void)check_parts(run, fmt::format("run {}", opened.runs.size() + 1));
-    opened.runs.push_back(to_run(run, session, opened.input, progress));
+    opened.runs.push_back(to_run(run, session, opened.input, data, progress));
   }
   opened.active = to_whole(json.at("active"));
   if (opened.active >= runs.size()) throw UsageError(fmt::format("run {} is active, but there are {}", opened.active, runs.size()));
@@ -347,6 +378,9 @@ Json parse(std::string_view text, const std::string& file) {
 void save_state(const std::filesystem::path& path, Session& session, const std::string& view, Progress& progress) {
   const InputMesh& input = *session.input();
   Json source{{"vertices", input.mesh.vertex_count()}, {"elements", input.mesh.elements.size()}, {"checksum", checksum(input.mesh)}};
+  source["single"] = input.mesh.single_precision;
+  // To be able to say what it was where other vertices keep their place one day.
+  for (const DataMark& mark : data_marks(input.mesh)) source["data"].push_back({mark.first, mark.second});
   if (!input.generator.empty()) {
     source["generate"] = input.generator;
   } else if (!input.path.empty()) {

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include <elf.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -259,6 +260,64 @@ TEST(Checkpoint, GoesOnToTheSameBits) {
   }
   EXPECT_EQ(run({"smooth", sample("coast.14"), "-o", folder / "x.14", "--resume", folder / "none"}).code, 3);
   EXPECT_EQ(run({"smooth", sample("coast.14"), "-o", folder / "x.14", "--checkpoint", folder / "x.14"}).code, 2);
+}
+
+TEST(Checkpoint, IsRefusedWhereGroupsOrSizesOfTheInputHaveChanged) {
+  const Folder folder;
+  // A grid of 6 x 6 squares in triangles; a nodestring through the middle (vertices 21, 22 ... from 1), and an elevation.
+  const auto mesh = [](const std::string& string, double high) {
+    std::string text = "MESH2D\n";
+    for (int y = 0, e = 0; y < 6; ++y)
+      for (int x = 0; x < 6; ++x) {
+        const int a = y * 7 + x + 1;
+        text += fmt::format("E3T {} {} {} {} 1\nE3T {} {} {} {} 1\n", e + 1, a, a + 1, a + 8, e + 2, a, a + 8, a + 7);
+        e += 2;
+      }
+    for (int v = 0; v < 49; ++v)
+      text += fmt::format("ND {} {} {} {}\n", v + 1, v % 7 + 0.3 * ((v * 5) % 7 < 3 && v % 7 > 0 && v % 7 < 6 ? 1 : 0), v / 7,
+                          v == 24 ? high : 1.0 + v % 5);
+    return text + string;
+  };
+  const std::string path = folder / "m.2dm", state = folder / "state";
+  const auto put = [&](const std::string& bytes) { std::ofstream(path) << bytes; };
+  const auto smooth = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"smooth", path, "--combine", "mean-ratio:0.3:density", "--size-function", "field:elevation"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  };
+  const std::string inner = "NS 23 24 -25\n";
+  put(mesh(inner, 3));
+  ASSERT_EQ(smooth({"-o", folder / "whole.2dm", "--iterations", "9"}).code, 0);
+  ASSERT_EQ(smooth({"-o", folder / "some.2dm", "--iterations", "4", "--checkpoint", state, "--checkpoint-every", "0"}).code, 0);
+  const std::string later = folder / "later.2dm";
+  const auto resume = [&] { return smooth({"-o", later, "--iterations", "9", "--resume", state}); };
+  EXPECT_EQ(resume().code, 0);
+  EXPECT_EQ(read_file(later), read_file(folder / "whole.2dm"));
+  EXPECT_NE(read_file(later), read_file(folder / "some.2dm"));
+  fs::remove(later);
+  put(mesh("NS 24 25 -26\n", 3));
+  Output refused = resume();
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_THAT(refused.err, HasSubstr("other vertices keep their place now"));
+  EXPECT_THAT(refused.err, HasSubstr("has changed)"));
+  put(mesh(inner, 3.5));
+  refused = resume();
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_THAT(refused.err, HasSubstr("the sizes wanted, its field \"elevation\", are others"));
+  EXPECT_FALSE(exists(later));
+
+  put(mesh(inner, 3));
+  ASSERT_EQ(
+      smooth({"-o", folder / "s.2dm", "--iterations", "4", "--checkpoint", state, "--checkpoint-every", "0", "--fix", "elevation=2"}).code,
+      0);
+  put(mesh(inner, 2));
+  refused = smooth({"-o", later, "--iterations", "9", "--resume", state, "--fix", "elevation=2"});
+  EXPECT_NE(refused.code, 0);
+  EXPECT_FALSE(exists(later));
+  put(mesh(inner, 3));
+  refused = smooth({"-o", later, "--iterations", "9", "--resume", state, "--fix", "elevation=3"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--fix names other vertices"));
 }
 
 TEST(Build, TheProgramMovesAboutAndItsTablesCannotBeWritten) {

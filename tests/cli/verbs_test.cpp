@@ -381,6 +381,17 @@ TEST(Quality, TextThatDeclaresFloatsIsJudgedByItsDigitsAndSaysWhatOthersSee) {
   const Output smoothed = run({"smooth", floats, "-o", out, "--iterations", "1"});
   EXPECT_EQ(read_file(out), bytes("float")) << "no vertex is free, and the characters stay";
   EXPECT_THAT(smoothed.err, HasSubstr(out + ": its points are declared as float"));
+  const std::string sentence =
+      "its points are declared as float, but judged by their digits; a program that takes the word sees a minimum of 0.866 "
+      "and 0 inverted (here 0.8658 and 0)";
+  const auto compare = [](const std::string& mesh) {
+    return run({"compare", mesh, "--run", "laplace", "--run", "dmo", "--iterations", "1", "--json"});
+  };
+  const Output compared = compare(floats);
+  EXPECT_THAT(compared.err, HasSubstr("floats.vtk: mean-ratio, " + sentence));
+  EXPECT_THAT(as_floats.err, HasSubstr("floats.vtk: mean-ratio, " + sentence));
+  EXPECT_THAT(json_of(compared)["warnings"].dump(), HasSubstr(sentence));
+  EXPECT_THAT(compare(doubles).err, ::testing::Not(HasSubstr("declared as float")));
 }
 
 }  // namespace

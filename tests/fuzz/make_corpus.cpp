@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   }
   try {
     std::vector<dmoscope::testing::Sample> samples = dmoscope::testing::samples();
+    for (const bool joined : {false, true}) samples.push_back({joined ? "joined" : "named", "gzip", dmoscope::testing::gzip_off(joined)});
     samples.push_back({"saved", "session", dmoscope::testing::sample_session()});
     samples.push_back({"verbs", "script", std::string(dmoscope::testing::kSampleScript)});
     for (const dmoscope::testing::Sample& sample : samples) {

@@ -352,6 +352,46 @@ inline std::string xdmf_planar() {
          "1.50\n</DataItem></Geometry></Grid></Grid></Domain></Xdmf>";
 }
 
+/// VTK XML's grids whose cells are not listed, `kind` and `grid` being its dataset: two squares side by side. `where`: what holds the
+/// points.
+inline std::string vtk_xml_grid(const std::string& kind, const std::string& grid, const std::string& where) {
+  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + kind + "\" version=\"0.1\" byte_order=\"LittleEndian\">\n<" + kind +
+         " WholeExtent=\"0 2 0 1 0 0\"" + grid + ">\n<Piece Extent=\"0 2 0 1 0 0\">\n" + where +
+         "<PointData Scalars=\"depth\"><DataArray type=\"Float64\" Name=\"depth\" format=\"ascii\">1 2 3 4 5 6.25</DataArray></PointData>\n"
+         "<CellData><DataArray type=\"Int32\" Name=\"id\" format=\"ascii\">7 8</DataArray></CellData>\n</Piece>\n</" +
+         kind + ">\n</VTKFile>\n";
+}
+
+inline std::string vts_ascii() {
+  return vtk_xml_grid("StructuredGrid", "",
+                      "<Points><DataArray type=\"Float32\" Name=\"Points\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 2 0 0 "
+                      "0 1.50 0 1 1 0 2 1 0</DataArray></Points>\n");
+}
+/// The points in base64, as Python's struct and base64 pack them: their size in four bytes is in front.
+inline std::string vts_base64() {
+  return vtk_xml_grid(
+      "StructuredGrid", "",
+      "<Points><DataArray type=\"Float32\" Name=\"Points\" NumberOfComponents=\"3\" format=\"binary\">"
+      "SAAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAEAAAAAAAAAAAAAAAAAAAMA/AAAAAAAAgD8AAIA/AAAAAAAAAEAAAIA/AAAAAA==</DataArray></Points>\n");
+}
+inline std::string vtr_ascii() {
+  const auto axis = [](const std::string& numbers) { return "<DataArray type=\"Float64\" format=\"ascii\">" + numbers + "</DataArray>"; };
+  return vtk_xml_grid("RectilinearGrid", "", "<Coordinates>" + axis("0 1 3") + axis("0 1.50") + axis("5") + "</Coordinates>\n");
+}
+inline std::string vti_ascii() { return vtk_xml_grid("ImageData", " Origin=\"1 2 3\" Spacing=\"0.5 1 2\"", ""); }
+
+/// Packed by Python's gzip: a triangle as OFF with the file's name in the head; the same in two files that were joined, zeros behind them.
+inline std::string gzip_off(bool joined) {
+  using namespace std::string_view_literals;
+  constexpr std::string_view kNamed =
+      "\037\213\010\010\000\000\000\000\002\377a.off\000\363ws\3432V0T0\3402P\000B.C0i\240`\250g\012b\030\003\271\206\012F\134\000\314\215\014j'\000\000\000"sv;
+  constexpr std::string_view kHalf =
+      "\037\213\010\000\000\000\000\000\002\377\363ws\3432V0T0\3402P\000B. K\001\000lJ\305I\024\000\000\000"sv;
+  constexpr std::string_view kRest =
+      "\037\213\010\000\000\000\000\000\002\3773\3402P0\32435P0\3402V\0002\025\214\270\000\314\010 \251\023\000\000\000"sv;
+  return joined ? std::string(kHalf) + std::string(kRest) + std::string(20, '\0') : std::string(kNamed);
+}
+
 /// At least one file of each format that format_table() names; of a format of two files, both, the byte 0x1e between them.
 inline std::vector<Sample> samples() {
   std::vector<Sample> all{
@@ -404,6 +444,10 @@ inline std::vector<Sample> samples() {
       {"planar", "nastran", nastran_planar()},
   };
   if (format_by_extension(".vtu") != nullptr) {  // not in every build
+    all.push_back({"structured", "vtu", vts_ascii()});
+    all.push_back({"structured_base64", "vtu", vts_base64()});
+    all.push_back({"rectilinear", "vtu", vtr_ascii()});
+    all.push_back({"image", "vtu", vti_ascii()});
     all.push_back({"mixed", "xdmf", xdmf_mixed()});
     all.push_back({"planar", "xdmf", xdmf_planar()});
     for (const auto& [name, bytes] : vtu_samples()) all.push_back({std::string(name), "vtu", std::string(bytes)});

@@ -38,7 +38,7 @@ TEST(Fort14, GridDepthAndBoundaries) {
   EXPECT_EQ(mesh.fields[0].name, "depth");
   EXPECT_EQ(mesh.fields[0].role, "depth");
   EXPECT_THAT(mesh.fields[0].values, ElementsAre(10.5, -3, 0, 7));
-  ASSERT_EQ(mesh.groups.size(), 3U);
+  ASSERT_EQ(mesh.groups.size(), 4U);
   EXPECT_EQ(mesh.groups[0].role, "open boundary");
   EXPECT_EQ(mesh.groups[0].code, 0);
   EXPECT_THAT(mesh.groups[0].members, ElementsAre(0, 1));
@@ -47,6 +47,8 @@ TEST(Fort14, GridDepthAndBoundaries) {
   EXPECT_THAT(mesh.groups[1].members, ElementsAre(1, 2, 3));
   EXPECT_EQ(mesh.groups[2].code, 24);
   EXPECT_THAT(mesh.groups[2].members, ElementsAre(3, 0));
+  EXPECT_EQ(mesh.groups[3].name, "land boundary 2, far side");
+  EXPECT_THAT(mesh.groups[3].members, ElementsAre(0, 3));
 }
 
 TEST(Fort14, EndsWhereItMay) {
@@ -54,7 +56,7 @@ TEST(Fort14, EndsWhereItMay) {
   EXPECT_EQ(read_bytes("a.14", kGrid + "0\n").groups.size(), 0U);
   EXPECT_EQ(read_bytes("a.14", kGrid + "0\n0\n").groups.size(), 0U);
   EXPECT_EQ(read_bytes("a.14", kGrid + kOpen).groups.size(), 1U);
-  EXPECT_EQ(read_bytes("a.grd", kGrid + kOpen + kLand).groups.size(), 3U);
+  EXPECT_EQ(read_bytes("a.grd", kGrid + kOpen + kLand).groups.size(), 4U);
   const Mesh more = read_bytes("a.14", kGrid + kOpen + kLand + "0 ! generic\nanything\n");
   EXPECT_THAT(more.source->notes(), ElementsAre(HasSubstr("goes on")));
 }
@@ -70,6 +72,12 @@ TEST(Fort14, ColumnsOfWeirs) {
                            "5\n1 2 5 1 1 0.5 0.1", "25\n1 2 5 1 1 0.5 0.1 2.0"}) {
     const Mesh mesh = read_bytes("a.14", kGrid + "0\n0\n1\n1\n1 " + land + "\n");
     EXPECT_THAT(mesh.groups.at(0).members, ElementsAre(0)) << land;
+    const bool two_banks = std::string(land).find("\n1 2 ") != std::string::npos;
+    ASSERT_EQ(mesh.groups.size(), two_banks ? 2U : 1U) << land;
+    if (!two_banks) continue;
+    EXPECT_EQ(mesh.groups[1].name, "land boundary 1, far side");
+    EXPECT_EQ(mesh.groups[1].code, mesh.groups[0].code);
+    EXPECT_THAT(mesh.groups[1].members, ElementsAre(1)) << land;
   }
 }
 

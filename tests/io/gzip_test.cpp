@@ -3,6 +3,7 @@
 #include "core/io/gzip.h"
 
 #include <cstdint>
+#include <random>
 #include <string>
 #include <string_view>
 
@@ -12,11 +13,15 @@
 #include "core/base/error.h"
 #include "core/io/mesh_io.h"
 #include "core/io/source_file.h"
+#include "tests/fuzz/check_gzip.h"
+#include "tests/fuzz/samples.h"
 #include "tests/io/files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace dmoscope::test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr std::string_view kPlainOff = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1.50 0\n3 0 1 2\n";
@@ -89,10 +94,64 @@ TEST_F(Gzip, DamagedOnesAreRefused) {
   expect_refused("a.node.gz", packed("3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n"), 0, "in pairs");
 }
 
+TEST_F(Gzip, TheFuzzersSamplesHold) {
+  for (const bool joined : {false, true}) {
+    const std::string bytes = dmoscope::testing::gzip_off(joined);
+    EXPECT_TRUE(dmoscope::testing::check_gzip(bytes));
+    EXPECT_EQ(unpacked(bytes), kOff);
+    std::mt19937_64 random(7);
+    for (int i = 0; i < 1000; ++i) {
+      std::string mutant = bytes;
+      mutant[random() % mutant.size()] = static_cast<char>(random());
+      EXPECT_NO_THROW((void)dmoscope::testing::check_gzip(mutant)) << i;
+    }
+  }
+}
+
 TEST_F(Gzip, BombsAreRefused) {
-  const std::string bomb = packed(std::string(std::size_t{40} << 20, ' '));
-  EXPECT_LT(bomb.size(), 60'000U);
-  expect_refused("a.off.gz", bomb, 0, "which no mesh does");
+  const std::string bomb = packed(std::string(std::size_t{257} << 20, ' '));
+  EXPECT_LT(bomb.size(), 300'000U);
+  expect_refused("a.off.gz", bomb, 0, "--max-memory SIZE");
+}
+
+TEST_F(Gzip, WhatItMayUnpackToCanBeSaid) {
+  const std::string blanks = packed(std::string(kOff) + std::string(std::size_t{3} << 20, ' '));
+  const TemporaryFolder folder;
+  Progress progress;
+  for (const char* name : {"a.off.gz", "a"}) {  // the latter is looked into to learn its format
+    const auto path = folder / name;
+    put(path, blanks);
+    for (const std::uint64_t fine : {std::uint64_t{0}, std::uint64_t{4} << 20U}) {
+      EXPECT_EQ(read_mesh(path, {progress, nullptr, fine}).elements.size(), 1U);
+      EXPECT_NO_THROW(require_known_format(path, {progress, nullptr, fine}));
+    }
+    try {
+      (void)read_mesh(path, {progress, nullptr, std::uint64_t{2} << 20U});
+      ADD_FAILURE() << "3 MB are more than 2";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), AllOf(HasSubstr(path.string()), HasSubstr("packed by gzip"), HasSubstr("--max-memory SIZE")));
+    }
+  }
+  EXPECT_THROW(require_known_format(folder / "a", {progress, nullptr, std::uint64_t{2} << 20U}), InputError);
+}
+
+// Otherwise a hundred times of a hundred times: 36 MB of zeros that gzip packs to 36 kB, and that take 8 bytes each as numbers.
+TEST_F(Gzip, WhatAPackedFileBecomesIsMeasuredByTheFileItself) {
+  if (format_by_extension(".vtu") == nullptr) GTEST_SKIP() << "this build has no VTU";
+  constexpr std::uint32_t kBytes = 36U << 20U;
+  std::string file =
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt32\">\n<UnstructuredGrid>\n"
+      "<Piece NumberOfPoints=\"36864\" NumberOfCells=\"1\">\n<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" "
+      "format=\"ascii\">";
+  for (int v = 0; v < 36864; ++v) file += "0 0 0 ";
+  file +=
+      "</DataArray></Points>\n<Cells><DataArray type=\"Int64\" Name=\"connectivity\">0 1 2</DataArray>"
+      "<DataArray type=\"Int64\" Name=\"offsets\">3</DataArray><DataArray type=\"UInt8\" Name=\"types\">5</DataArray></Cells>\n"
+      "<PointData><DataArray type=\"UInt8\" Name=\"f\" NumberOfComponents=\"1024\" format=\"appended\" offset=\"0\"/></PointData>\n"
+      "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">_";
+  for (unsigned shift = 0; shift < 32; shift += 8) file += static_cast<char>(kBytes >> shift & 255U);
+  file += std::string(kBytes, '\0') + "</AppendedData>\n</VTKFile>\n";
+  expect_refused("a.vtu.gz", packed(file), 6, "arrays unpack to more than");
 }
 
 }  // namespace

@@ -105,6 +105,48 @@ TEST(Medit, MadeAnewItHoldsTheSame) {
   EXPECT_THAT(notes, ElementsAre());
 }
 
+TEST(Medit, RequiredFacesAreAGroupAndWrittenAnew) {
+  const std::string text = kHead + kVertices + kTetrahedra + kTriangles + "RequiredTriangles\n2\n2\n1\nEnd\n";
+  Mesh mesh = read_bytes("a.mesh", text);
+  const auto required = [](const Mesh& m) {
+    const Group* found = group(m, "RequiredTriangles", 2);
+    EXPECT_NE(found, nullptr);
+    return found == nullptr ? std::vector<Index>()
+                            : std::vector<Index>(found->faces.all_corners().begin(), found->faces.all_corners().end());
+  };
+  EXPECT_THAT(required(mesh), ElementsAre(1, 2, 4, 0, 2, 1));
+  expect_patched("a.mesh", text, true);
+  mesh.source.reset();
+  std::vector<std::string> notes;
+  const std::string anew = written("b.mesh", mesh, mesh.positions, &notes);
+  EXPECT_THAT(notes, ElementsAre());
+  EXPECT_THAT(anew, HasSubstr("Triangles\n3\n")) << "none a second time";
+  EXPECT_THAT(required(read_bytes("b.mesh", anew)), ElementsAre(1, 2, 4, 0, 2, 1));
+  mesh.groups = {*group(mesh, "RequiredTriangles", 2)};  // faces that no other group has
+  EXPECT_THAT(required(read_bytes("b.mesh", written("b.mesh", mesh))), ElementsAre(1, 2, 4, 0, 2, 1));
+  expect_refused("a.mesh", kHead + kVertices + kTetrahedra + kTriangles + "RequiredTriangles\n1\n4\nEnd\n", 21,
+                 "RequiredTriangles 4 out of range");
+}
+
+TEST(Medit, RequiredElementsOfAPlanarMeshAreAGroup) {
+  const std::string text =
+      "MeshVersionFormatted 2\nDimension 2\nVertices\n6\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n2 1 0\nEdges\n1\n1 2 0\nTriangles\n2\n1 2 3 "
+      "1\n1 3 4 2\nQuadrilaterals 1\n2 5 6 3 1\nRequiredQuadrilaterals 1 1\nRequiredTriangles\n1\n2\nEnd\n";
+  Mesh mesh = read_bytes("a.mesh", text);
+  for (int pass = 0; pass < 2; ++pass) {
+    ASSERT_NE(group(mesh, "RequiredTriangles", 2), nullptr);
+    EXPECT_THAT(group(mesh, "RequiredTriangles", 2)->members, ElementsAre(1));
+    ASSERT_NE(group(mesh, "RequiredQuadrilaterals", 2), nullptr);
+    EXPECT_THAT(group(mesh, "RequiredQuadrilaterals", 2)->members, ElementsAre(2));
+    ASSERT_NE(group(mesh, "reference 2", 2), nullptr);
+    EXPECT_THAT(group(mesh, "reference 2", 2)->members, ElementsAre(1));
+    mesh.source.reset();
+    std::vector<std::string> notes;
+    mesh = read_bytes("b.mesh", written("b.mesh", mesh, mesh.positions, &notes));
+    EXPECT_THAT(notes, ElementsAre());
+  }
+}
+
 TEST(Medit, PlanarFilesHoldNoZ) {
   const std::string text =
       "MeshVersionFormatted 2\nDimension 2\nVertices\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 5\nEdges\n1\n1 2 3\nTriangles\n2\n1 2 3 1\n1 3 4 "

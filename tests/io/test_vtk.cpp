@@ -52,7 +52,29 @@ TEST(Vtk, CellDataLoseTheRowsOfSkippedCells) {
   // The third cell is a line.
   EXPECT_THAT(field(mesh, "id").values, ElementsAre(7, 8, 10));
   EXPECT_THAT(field(mesh, "pair of").values, ElementsAre(1, 2, 3, 4, 7, 8));
-  EXPECT_THAT(mesh.source->notes(), ElementsAre(HasSubstr("1 vertices and lines")));
+  EXPECT_THAT(mesh.source->notes(), ElementsAre("Cells that are no elements here: 1 lines."));
+  EXPECT_THAT(mesh.source->only_in_file(), ElementsAre("data of cells that are no elements"));
+  ASSERT_EQ(mesh.groups.size(), 1U);
+  EXPECT_EQ(mesh.groups[0].dimension, 1);
+  EXPECT_THAT(mesh.groups[0].members, ElementsAre(0, 1));
+}
+
+TEST(Vtk, VerticesAndChainsOfLinesArePutIntoGroups) {
+  const std::string head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET ";
+  const std::string points = "POINTS 4 float\n0 0 0 1 0 0 1 1 0 0 1 0\n";
+  for (const std::string& text :
+       {head + "UNSTRUCTURED_GRID\n" + points + "CELLS 6 21\n3 0 1 2\n3 0 2 1\n4 3 2 0 1\n2 1 3\n2 2 0\n1 3\nCELL_TYPES 6\n5 0 4 3 2 1\n",
+        head + "POLYDATA\n" + points + "VERTICES 2 5\n2 2 0\n1 3\nLINES 2 8\n4 3 2 0 1\n2 1 3\nPOLYGONS 1 4\n3 0 1 2\n"}) {
+    const Mesh mesh = read_bytes("vtk", text);
+    ASSERT_EQ(mesh.groups.size(), 2U);
+    EXPECT_EQ(mesh.elements.size(), 1U);
+    EXPECT_EQ(mesh.groups[0].name, "vertex cells");
+    EXPECT_EQ(mesh.groups[0].dimension, 0);
+    EXPECT_THAT(mesh.groups[0].members, ElementsAre(2, 0, 3));
+    EXPECT_EQ(mesh.groups[1].name, "line cells");
+    EXPECT_EQ(mesh.groups[1].dimension, 1);
+    EXPECT_THAT(mesh.groups[1].members, ElementsAre(3, 2, 2, 0, 0, 1, 1, 3));
+  }
 }
 
 std::string with_cell_data(const std::string& data) {
@@ -168,12 +190,15 @@ TEST(Vtk, BinaryOfBothLayouts) {
   }
 }
 
-TEST(Vtk, VolumeMeshLosesItsFaces) {
+TEST(Vtk, FacesOfAVolumeMeshAreAGroup) {
   const Mesh mesh = read_bytes("vtk", vtk_volume());
   ASSERT_EQ(mesh.elements.size(), 2U);
   EXPECT_EQ(mesh.elements.kind(0), ElementKind::Hexahedron);
   EXPECT_EQ(mesh.elements.kind(1), ElementKind::Pyramid);
   EXPECT_THAT(mesh.source->notes(), ElementsAre(HasSubstr("1 faces of the volume mesh")));
+  ASSERT_EQ(mesh.groups.size(), 1U);
+  EXPECT_THAT(std::vector<Index>(mesh.groups[0].faces.all_corners().begin(), mesh.groups[0].faces.all_corners().end()),
+              ElementsAre(0, 1, 2, 3));
 }
 
 /// All volume cells of both layouts; the voxel, numbered row by row, is the cube that is also given as a hexahedron.
@@ -207,7 +232,7 @@ TEST(Vtk, VolumeCellsOfBothBinaryLayouts) {
     EXPECT_THAT(corners(mesh, 1), ElementsAre(0, 1, 2, 3, 4, 5, 6, 7));
     EXPECT_THAT(corners(mesh, 3), ElementsAre(0, 2, 1, 4, 6, 5)) << "a wedge, in our order";
     EXPECT_THAT(corners(mesh, 4), ElementsAre(4, 5, 6, 7, 8));
-    EXPECT_THAT(mesh.source->only_in_file(), ElementsAre(HasSubstr("1 vertices and lines"), HasSubstr("1 faces of the volume")));
+    EXPECT_THAT(mesh.source->notes(), ElementsAre(HasSubstr("1 lines"), HasSubstr("1 faces of the volume")));
     // Written again, the voxel, the face and the line are what they were.
     std::vector<Vec3> positions = mesh.positions;
     positions[8].z = 3.0;
@@ -302,7 +327,7 @@ TEST(Vtk, FieldsComeThroughANewFile) {
 TEST(Vtk, NewFileNamesTheGroupsThatItDrops) {
   Mesh mesh = read_bytes("vtk", vtk_ascii());
   mesh.groups.push_back({.name = "wall", .role = "marker", .code = 0, .dimension = 1, .members = {0, 1}});
-  EXPECT_THAT(write_anew("vtk", mesh, mesh.positions).notes, ElementsAre(HasSubstr("wall")));
+  EXPECT_THAT(write_anew("vtk", mesh, mesh.positions).notes, ElementsAre(HasSubstr("\"line cells\""), HasSubstr("wall")));
 }
 
 TEST(Vtk, StringsMetadataAndFileDataArePassedOver) {

@@ -79,7 +79,13 @@ TEST(Vtu, EveryEncodingGivesTheSameMesh) {
     EXPECT_EQ(mesh.fields[1].values[29], 6.25);
     EXPECT_EQ(mesh.fields[2].type, "Int32");
     EXPECT_THAT(mesh.fields[2].values, ElementsAre(7, 9, 11, 12, 2147483647)) << "without the rows of the line and the face";
-    EXPECT_THAT(mesh.source->only_in_file(), ElementsAre(HasSubstr("1 vertices and lines"), HasSubstr("1 faces of the volume")));
+    EXPECT_THAT(mesh.source->notes(), ElementsAre(HasSubstr("1 lines"), HasSubstr("1 faces of the volume")));
+    EXPECT_THAT(mesh.source->only_in_file(), ElementsAre("data of cells that are no elements"));
+    ASSERT_EQ(mesh.groups.size(), 2U);
+    EXPECT_THAT(mesh.groups[0].members, ElementsAre(0, 1)) << "the line";
+    EXPECT_EQ(mesh.groups[0].dimension, 1);
+    EXPECT_THAT(std::vector<Index>(mesh.groups[1].faces.all_corners().begin(), mesh.groups[1].faces.all_corners().end()),
+                ElementsAre(0, 1, 2, 3));
     EXPECT_TRUE(mesh.source->not_patchable().empty());
   }
   EXPECT_EQ(seen, 7);
@@ -218,7 +224,7 @@ TEST(Vtu, MadeAnewInTheDefaultEncoding) {
   std::vector<Vec3> positions = mesh.positions;
   for (Vec3& p : positions) p = {p.x / 3, p.y / 7, p.z / 11};
   const Written written = write_anew("vtu", mesh, positions);
-  EXPECT_TRUE(written.notes.empty());
+  EXPECT_THAT(written.notes, ElementsAre(HasSubstr("\"line cells\", \"face cells\"")));
   EXPECT_THAT(written.bytes, HasSubstr("header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\""));
   EXPECT_THAT(written.bytes, HasSubstr("<AppendedData encoding=\"raw\">"));
   EXPECT_THAT(written.bytes, HasSubstr("<PointData Scalars=\"depth\" Vectors=\"flow\">"));

@@ -213,6 +213,72 @@ TEST(InterfacesInFiles, LinesAndPointsOfGmshAndMedit) {
     EXPECT_EQ(loaded("a.mesh", medit + mark + " 1\n5\nEnd\n")->interfaces.why(4), "it is one of the points \"" + mark + "\", which stay");
 }
 
+/// 4 x 4 squares; in the middle the vertex 12, between 7, 11, 13 and 17.
+std::string medit_squares() {
+  std::string text = "MeshVersionFormatted 2\nDimension 2\nVertices 25\n";
+  for (int v = 0; v < 25; ++v) text += std::to_string(v % 5) + " " + std::to_string(v / 5) + " 0\n";
+  text += "Quadrilaterals 16\n";
+  for (int e = 0; e < 16; ++e) {
+    const int a = e / 4 * 5 + e % 4 + 1;
+    text += std::to_string(a) + " " + std::to_string(a + 1) + " " + std::to_string(a + 6) + " " + std::to_string(a + 5) + " 0\n";
+  }
+  return text;
+}
+
+TEST(InterfacesInFiles, RequiredElementsOfMeditKeepTheirVertices) {
+  EXPECT_FALSE(loaded("a.mesh", medit_squares() + "End\n")->interfaces.any());
+  const auto input = loaded("a.mesh", medit_squares() + "RequiredQuadrilaterals 1\n6\nEnd\n");  // 7 8 13 12 of the file, from 1
+  for (Index v = 0; v < 25; ++v) EXPECT_EQ(input->interfaces.holds(v), v == 6 || v == 7 || v == 11 || v == 12) << v;
+  EXPECT_EQ(input->interfaces.why(6), "it lies on a face of \"RequiredQuadrilaterals\", which stays");
+  EXPECT_EQ(input->interfaces.sentence("x"), "4 vertices on faces that the file names stay (x moves them)");
+  EXPECT_EQ(input->interfaces.count(HeldBy::Groups), 0U) << "they are no material of their own";
+}
+
+/// 2 x 2 x 2 hexahedra and, of VTK's cells, one more; the vertex 13 is in the middle.
+std::string vtk_cubes(const std::string& cell, int size, int type) {
+  std::string text = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 27 double\n";
+  for (int v = 0; v < 27; ++v) text += std::to_string(v % 3) + " " + std::to_string(v / 3 % 3) + " " + std::to_string(v / 9) + "\n";
+  text += "CELLS 9 " + std::to_string(72 + 1 + size) + "\n";
+  for (int e = 0; e < 8; ++e) {
+    const int a = e % 2 + e / 2 % 2 * 3 + e / 4 * 9;
+    text += "8";
+    for (const int step : {0, 1, 4, 3, 9, 10, 13, 12}) text += " " + std::to_string(a + step);
+    text += "\n";
+  }
+  text += std::to_string(size) + " " + cell + "\nCELL_TYPES 9\n12 12 12 12 12 12 12 12 " + std::to_string(type) + "\n";
+  return text;
+}
+
+TEST(InterfacesInFiles, CellsOfFewerDimensionsInVtk) {
+  const auto sentence = [](const std::string& name, const std::string& text) {
+    const std::string whole = loaded(name, text)->interfaces.sentence("x");
+    return whole.substr(0, whole.find("; no vertex is left"));
+  };
+  EXPECT_EQ(sentence("a.vtk", vtk_cubes("10 13 16", 3, 5)), "1 vertex on faces that the file names stays (x moves it)");
+  EXPECT_EQ(sentence("a.vtk", vtk_cubes("12 13", 2, 3)), "1 vertex on lines that the file names stays (x moves it)");
+  EXPECT_EQ(sentence("a.vtk", vtk_cubes("4 13 22", 3, 4)), "1 vertex on lines that the file names stays (x moves it)");
+  EXPECT_EQ(sentence("a.vtk", vtk_cubes("13", 1, 1)), "1 vertex named by the file as points stays (x moves it)");
+  EXPECT_EQ(sentence("a.vtk", vtk_cubes("0 1 4 3", 4, 9)), "") << "a face of the boundary holds nothing";
+
+  // In a planar mesh the lines are between, and triangles are elements.
+  std::string planar = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 5 double\n0 0 0 2 0 0 2 2 0 0 2 0 1 1 0\n";
+  const std::string triangles = "POLYGONS 4 16\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n";
+  EXPECT_EQ(sentence("a.vtk", planar + triangles), "");
+  EXPECT_EQ(sentence("a.vtk", planar + "LINES 1 4\n3 0 4 2\n" + triangles), "1 vertex on lines that the file names stays (x moves it)");
+  // A vertex cell for every point, as viewers write them, names nothing.
+  EXPECT_EQ(sentence("a.vtk", planar + "VERTICES 1 6\n5 0 1 2 3 4\n" + triangles),
+            "1 vertex is named only in lists of all lines, faces or points there are; such lists hold nothing");
+
+  const std::string vtu =
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
+      "<Piece NumberOfPoints=\"5\" NumberOfCells=\"5\">\n<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">"
+      "0 0 0 2 0 0 2 2 0 0 2 0 1 1 0</DataArray></Points>\n<Cells><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">"
+      "0 1 4 1 2 4 2 3 4 3 0 4 1 4</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">3 6 9 12 14</DataArray>"
+      "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">5 5 5 5 "
+      "3</DataArray></Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  EXPECT_EQ(sentence("a.vtu", vtu), "1 vertex on lines that the file names stays (x moves it)");
+}
+
 TEST(InterfacesInFiles, WeirsAndOpenBoundariesOfFort14AndMarkersOfSu2) {
   std::string grid = "t\n4 9\n";
   for (int v = 0; v < 9; ++v) grid += std::to_string(v + 1) + " " + std::to_string(v % 3) + " " + std::to_string(v / 3) + " 5\n";
@@ -220,6 +286,12 @@ TEST(InterfacesInFiles, WeirsAndOpenBoundariesOfFort14AndMarkersOfSu2) {
   EXPECT_EQ(loaded("a.14", grid + "1\n2\n2\n2\n5\n0\n0\n")->interfaces.why(4), "it lies on \"open boundary 1\", which stays");
   EXPECT_EQ(loaded("a.14", grid + "0\n0\n1\n2\n2 13\n2 1.5 1.0\n5 1.5 1.0\n")->interfaces.why(4),
             "it lies on \"land boundary 1\", which stays");
+
+  for (const std::string weir : {"4\n2 5 1.5 1 1\n", "24\n2 5 1.5 1 1\n", "5\n2 5 1.5 1 1 1 1 1\n", "25\n2 5 1.5 1 1 1 1 1\n"}) {
+    const auto input = loaded("a.14", grid + "0\n0\n1\n2\n1 " + weir);
+    EXPECT_EQ(input->interfaces.why(4), "it lies on \"land boundary 1, far side\", which stays") << weir;
+    EXPECT_THAT(input->interfaces.sentence("x"), ::testing::StartsWith("1 vertex on boundary strings stays (x moves it)"));
+  }
 
   std::string su2 = "NDIME= 2\nNELEM= 4\n9 0 1 4 3\n9 1 2 5 4\n9 3 4 7 6\n9 4 5 8 7\nNPOIN= 9\n";
   for (int v = 0; v < 9; ++v) su2 += std::to_string(v % 3) + " " + std::to_string(v / 3) + "\n";

@@ -2,6 +2,7 @@
 
 #include "core/session/state_file.h"
 
+#include <bit>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +16,7 @@
 #include "core/base/same_bits.h"
 #include "core/session/base64.h"
 #include "core/session/engine.h"
+#include "core/session/input_marks.h"
 #include "core/session/session_commands.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
@@ -22,6 +24,7 @@
 namespace dmoscope {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using Json = nlohmann::ordered_json;
 
@@ -135,6 +138,90 @@ TEST_F(StateFile, FindsTheMeshAgainAndRefusesAnother) {
   EXPECT_EQ(refusal(), "");
   say("export " + (elsewhere / "mesh.off").string());  // smoothed: other positions
   EXPECT_THAT(refusal(), HasSubstr("has changed since the session was saved"));
+}
+
+/// Two rows of squares, each of two triangles; elements of the lower row are material `lower`, of the upper one `upper`, but for the last.
+std::string two_rows(int lower, int upper, int last, const char* points, double depth = 4.0) {
+  std::string text = "# vtk DataFile Version 3.0\nrows\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 15 double\n";
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 5; ++x) text += std::to_string(x) + (y == 1 && x == 2 ? " 1.3 0\n" : " " + std::to_string(y) + " 0\n");
+  text += "CELLS 16 64\n";
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 4; ++x) {
+      const auto at = [&](int i, int j) { return std::to_string((y + j) * 5 + x + i) + " "; };
+      text += "3 " + at(0, 0) + at(1, 0) + at(1, 1) + "\n3 " + at(0, 0) + at(1, 1) + at(0, 1) + "\n";
+    }
+  text += "CELL_TYPES 16\n";
+  for (int e = 0; e < 16; ++e) text += "5\n";
+  text += std::string("CELL_DATA 16\nSCALARS mat_id int\nLOOKUP_TABLE default\n");
+  for (int e = 0; e < 16; ++e) text += std::to_string(e == 15 ? last : e < 8 ? lower : upper) + "\n";
+  text += std::string("POINT_DATA 15\nSCALARS ") + points + " double\nLOOKUP_TABLE default\n";
+  for (int v = 0; v < 15; ++v) text += std::to_string(v == 7 ? depth : 1.0 + v % 3) + "\n";
+  return text;
+}
+
+TEST_F(StateFile, RefusesAMeshWhoseMaterialsHoldOtherVertices) {
+  const auto mesh = folder_ / "mesh.vtk";
+  const auto put = [&](const std::string& bytes) { std::ofstream(mesh) << bytes; };
+  put(two_rows(1, 1, 1, "depth"));
+  say("open " + mesh.string());
+  say("run 2");
+  say("save-state " + file_.string());
+  EXPECT_EQ(refusal(), "");
+  put(two_rows(1, 1, 1, "depth", 8.0));
+  EXPECT_EQ(refusal(), "") << "a field that nothing reads may change";
+  put(two_rows(3, 3, 3, "depth"));
+  EXPECT_EQ(refusal(), "") << "the number of a material alone holds nothing";
+  put(two_rows(1, 2, 2, "depth"));
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("other vertices keep their place now"), HasSubstr("field \"mat_id\" has changed")));
+  say("interfaces free");
+  say("run 2");
+  say("save-state " + file_.string());
+  put(two_rows(1, 1, 1, "depth"));
+  EXPECT_EQ(refusal(), "") << "where interfaces are free it does not matter";
+}
+
+TEST_F(StateFile, RefusesAMeshThatWantsOtherSizes) {
+  const auto mesh = folder_ / "mesh.vtk";
+  const auto put = [&](const std::string& bytes) { std::ofstream(mesh) << bytes; };
+  put(two_rows(1, 1, 1, "depth"));
+  say("open " + mesh.string());
+  say("combine mean-ratio:0.2:density field:depth");
+  say("run 2");
+  say("save-state " + file_.string());
+  EXPECT_EQ(refusal(), "");
+  put(two_rows(2, 2, 2, "depth"));
+  EXPECT_EQ(refusal(), "");
+  put(two_rows(1, 1, 1, "depth", 4.5));
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("sizes wanted"), HasSubstr("\"depth\"")));
+}
+
+TEST_F(StateFile, RefusesTheSameNumbersIn32Bits) {
+  const auto mesh = folder_ / "mesh.off";
+  const auto put = [&](const std::string& bytes) { std::ofstream(mesh, std::ios::binary) << bytes; };
+  put("OFF\n5 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.5 0.25 0\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n");
+  say("open " + mesh.string());
+  say("run 1");
+  say("save-state " + file_.string());
+  EXPECT_EQ(refusal(), "");
+  std::string binary = "OFF BINARY\n";
+  const auto add = [&](std::uint32_t bits) {
+    for (int shift = 24; shift >= 0; shift -= 8) binary += static_cast<char>(bits >> shift & 255U);
+  };
+  for (const std::uint32_t n : {5U, 4U, 0U}) add(n);
+  for (const float x : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 1.F, 1.F, 0.F, 0.F, 1.F, 0.F, 0.5F, 0.25F, 0.F}) add(std::bit_cast<std::uint32_t>(x));
+  for (const std::uint32_t n : {3U, 0U, 1U, 4U, 0U, 3U, 1U, 2U, 4U, 0U, 3U, 2U, 3U, 4U, 0U, 3U, 3U, 0U, 4U, 0U}) add(n);
+  put(binary);
+  EXPECT_THAT(refusal(), HasSubstr("32-bit coordinates now"));
+}
+
+TEST(InputMarks, SayWhatDiffers) {
+  const std::vector<DataMark> then{{"group \"a\"", "1"}, {"group \"b\"", "2"}, {"group \"c\"", "3"}, {"group \"a\"", "4"}};
+  EXPECT_EQ(changed_data(then, then), "");
+  EXPECT_EQ(changed_data(then, {{"group \"a\"", "4"}, {"group \"c\"", "5"}, {"group \"a\"", "1"}, {"field \"d\"", "6"}}),
+            "group \"b\" is gone, group \"c\" has changed, field \"d\" is new");
+  EXPECT_EQ(changed_data({}, {{"a", "1"}, {"b", "1"}, {"c", "1"}, {"d", "1"}, {"e", "1"}, {"f", "1"}}),
+            "a is new, b is new, c is new, d is new and 2 more");
 }
 
 TEST_F(StateFile, NobodyCouldFindAMeshThatCameFromNowhere) {

@@ -1,0 +1,28 @@
+#pragma once
+// What of an input mesh a run depends on besides positions and elements, as short hashes: a run that is gone on with must find it again.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/session/input_mesh.h"
+#include "core/smooth/size_field.h"
+
+namespace dmoscope {
+
+/// Of the vertices that keep their place whatever a person fixes.
+[[nodiscard]] std::string standing_mark(const InputMesh& input, InterfaceRule rule);
+
+/// Of the nodal field that a size function reads; empty where it reads none.
+[[nodiscard]] std::string size_mark(const InputMesh& input, const SizeField* size);
+
+/// What a thing of the file is called, as a person reads it (group "steel", field "mat_id"), and its hash.
+using DataMark = std::pair<std::string, std::string>;
+
+/// Of all that can hold vertices: groups, and the fields that name materials; in the mesh's order.
+[[nodiscard]] std::vector<DataMark> data_marks(const Mesh& mesh);
+
+/// What differs: `group "steel" has changed, field "mat_id" is gone`; of much the first few. Empty where nothing does.
+[[nodiscard]] std::string changed_data(const std::vector<DataMark>& then, const std::vector<DataMark>& now);
+
+}  // namespace dmoscope

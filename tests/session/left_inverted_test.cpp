@@ -1,0 +1,149 @@
+// What is said of elements that stay inverted, which state is the best of a run, and by what rule each iteration is done: told from
+// records alone.
+
+#include "core/session/left_inverted.h"
+
+#include <tuple>
+
+#include <gmock/gmock.h>
+
+#include "core/session/sweep_after.h"
+#include "tests/session/spoken_session.h"
+#include "tests/support/meshes.h"
+
+namespace dmoscope {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Squares of side 4 side by side, each of four triangles around a vertex of its own, which comes first; it stands at `middles`, seen from
+/// the lower left corner.
+Mesh fans(const std::vector<Vec3>& middles) {
+  Mesh mesh;
+  for (const Vec3& middle : middles) {
+    const auto first = static_cast<Index>(mesh.positions.size());
+    const double x = 10.0 * (first / 5U);
+    for (const Vec3& p : {middle, Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{4, 4, 0}, Vec3{0, 4, 0}}) mesh.positions.push_back({x + p.x, p.y, 0});
+    for (Index i = 0; i < 4; ++i) testing::add(mesh, {first + 1 + i, first + 1 + (i + 1) % 4, first});
+  }
+  return mesh;
+}
+
+using LeftInvertedTest = testing::SpokenSession;
+
+TEST_F(LeftInvertedTest, TheMostInvertedElementAndAFixedVertexAreNamed) {
+  session_.open(fans({{5, 2, 0}, {2, 2, 0}, {-3, 2, 0}, {2, -1, 0}}), progress_);
+  const auto found = find_left_inverted(session_.active());
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->count, 3U);
+  EXPECT_EQ(found->element, 11U) << "3 beyond the left side of the third square";
+  EXPECT_EQ(found->vertex, 2U) << "all have one inverted element: of these the first that is fixed, not the free one before it";
+  EXPECT_EQ(found->around, 1U);
+  EXPECT_EQ(found->place, (Vec3{4, 0, 0}));
+  EXPECT_EQ(found->why_fixed, "it lies on the boundary, which stays");
+  EXPECT_EQ(found->sentence(),
+            "3 elements stay inverted. Look at element 11 and at vertex 2 at (4, 0, 0), which is in 1 of them; it lies on the boundary, "
+            "which stays.");
+  session_.open(fans({{2, 2, 0}}), progress_);
+  EXPECT_FALSE(find_left_inverted(session_.active()));
+}
+
+TEST_F(LeftInvertedTest, AVertexOfMoreOfThemComesBeforeAFixedOne) {
+  session_.open(fans({{5, 5, 0}}), progress_);  // beyond a corner: both triangles there are inverted
+  const auto found = find_left_inverted(session_.active());
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->count, 2U);
+  EXPECT_EQ(found->around, 2U);
+  EXPECT_EQ(found->vertex, 3U) << "the corner, which is fixed, before the middle, which is not, of as many";
+  session_.open(fans({{5, 2, 0}}), progress_);
+  EXPECT_EQ(find_left_inverted(session_.active())->sentence(),
+            "1 element stays inverted. Look at element 1 and at vertex 2 at (4, 0, 0); it lies on the boundary, which stays.");
+}
+
+class BestIteration : public testing::SpokenSession {
+ protected:
+  /// The last of those that are best by these values.
+  template <class Worth>
+  std::uint64_t best_by(const Worth& worth) {
+    const auto& records = session_.active().history().records();
+    std::uint64_t best = 0;
+    for (std::uint64_t i = 1; i < records.size(); ++i)
+      if (worth(records[i].statistics) >= worth(records[best].statistics)) best = i;
+    return best;
+  }
+  std::uint64_t last() { return session_.active().history().records().size() - 1; }
+};
+
+TEST_F(BestIteration, IsTheLastAmongEqualsAndTheMeanCountsForSomeMethodsAlone) {
+  int mean_would_differ = 0, equals = 0, before_the_end = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    for (const std::string method : {"dmo", "laplace"}) {
+      SCOPED_TRACE(method + " " + std::to_string(seed));
+      session_.open(testing::lattice(4, 0.45, seed), progress_);
+      say("method " + method);
+      say("run 30");
+      const auto plain = [](const Statistics& s) { return std::tuple(-static_cast<double>(s.inverted), s.minimum, s.movable_minimum); };
+      const auto with_mean = [&](const Statistics& s) { return std::tuple_cat(plain(s), std::tuple(s.mean)); };
+      const std::uint64_t expected = method == "dmo" ? best_by(plain) : best_by(with_mean);
+      EXPECT_EQ(best_iteration(session_.active()), expected);
+      if (method == "dmo" && best_by(with_mean) != expected) ++mean_would_differ;
+      const auto& records = session_.active().history().records();
+      if (expected > 0 && plain(records[expected].statistics) == plain(records[expected - 1].statistics)) ++equals;
+      if (expected != last()) ++before_the_end;
+    }
+  }
+  EXPECT_GT(mean_would_differ, 0) << "else this test shows less than it says";
+  EXPECT_GT(equals, 0);
+  EXPECT_GT(before_the_end, 0);
+}
+
+TEST_F(BestIteration, OfTwoAimsIsTheLast) {
+  int others_are_better = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    session_.open(testing::lattice(5, 0.4, seed), progress_);
+    say("combine mean-ratio:0.2:min-angle");
+    say("run 20");
+    EXPECT_EQ(best_iteration(session_.active()), last());
+    if (best_by([](const Statistics& s) { return s.minimum; }) != last()) ++others_are_better;
+  }
+  EXPECT_GT(others_are_better, 0) << "else this test shows less than it says";
+}
+
+std::vector<IterationRecord> records_with(const std::vector<Index>& inverted) {
+  std::vector<IterationRecord> records;
+  for (std::size_t i = 0; i < inverted.size(); ++i) {
+    IterationRecord record{i, {}, 1, 0.0};
+    record.statistics.inverted = inverted[i];
+    record.statistics.movable_minimum = -1.0 - static_cast<double>(i);
+    records.push_back(record);
+  }
+  return records;
+}
+
+TEST(SweepAfter, AttemptsComeInTheSecondToSixthIterationOfTwoCyclesAndThenNoMore) {
+  const std::vector<IterationRecord> records = records_with(std::vector<Index>(90, 3));
+  for (std::uint64_t i = 0; i < records.size(); ++i) {
+    const Sweep sweep = sweep_after(records, i, {});
+    EXPECT_EQ(sweep.untangling.attempt, (i >= 1 && i <= 5) || (i >= 26 && i <= 30)) << i;
+    EXPECT_EQ(sweep.untangling.floor, -1.0 - static_cast<double>(i));
+    EXPECT_EQ(sweep.iteration, i);
+  }
+}
+
+TEST(SweepAfter, CountsAnewWhenFewerAreInvertedAndNotWhenAsManyOrMore) {
+  const std::vector<IterationRecord> records = records_with({5, 5, 5, 4, 4, 6, 6, 1, 0, 0});
+  const std::vector<std::uint64_t> since{0, 1, 2, 0, 1, 2, 3, 0, 0, 1};
+  for (std::uint64_t i = 0; i < records.size(); ++i) EXPECT_EQ(iterations_since_untangled(records, i), since[i]) << i;
+  EXPECT_EQ(iterations_since_untangled(records_with(std::vector<Index>(90, 3)), 80), 50U) << "it looks no further";
+  EXPECT_EQ(sweep_after(records, 9, {}).untangling, Untangling{}) << "nothing is inverted";
+}
+
+TEST(SweepAfter, TheFloorOfTheMeanIsTheMinimumFromTheVeryIterationOn) {
+  const std::vector<IterationRecord> records = records_with({0, 0, 0, 0});
+  EXPECT_EQ(sweep_after(records, 1, 2).floor, Sweep{}.floor);
+  EXPECT_EQ(sweep_after(records, 2, 2).floor, -3.0);
+  EXPECT_EQ(sweep_after(records, 3, 2).floor, -4.0);
+}
+
+}  // namespace
+}  // namespace dmoscope

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
 #include <new>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 #include <hdf5.h>
 
 #include "core/base/error.h"
+#include "core/io/mesh_io.h"
 #include "core/io/tokenizer.h"
 #include "core/io/unpack_budget.h"
 
@@ -37,6 +41,26 @@ class H5Id {
  private:
   hid_t id_;
   herr_t (*close_)(hid_t);
+};
+
+/// A name for a file in the system's folder for such, in a folder of its own; both go with it.
+class ScratchFile {
+ public:
+  ScratchFile() {
+    std::string name = (std::filesystem::temp_directory_path() / "dmoscope-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw OutputError(name, "no folder for temporary files can be made");
+    folder_ = name;
+  }
+  ~ScratchFile() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  [[nodiscard]] std::filesystem::path path() const { return folder_ / "mesh.h5"; }
+
+ private:
+  std::filesystem::path folder_;
 };
 
 struct NumberType {
@@ -87,36 +111,32 @@ class Hdf5File::Library {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are told by ourselves
     (void)H5Lunregister(H5L_TYPE_EXTERNAL);       // no other files
     (void)H5PLset_loading_state(0);               // no filters from elsewhere
-    open(bytes, H5F_ACC_RDONLY);
+    open(bytes);
   }
-  ~Library() { close(); }
+  ~Library() { (void)close(); }
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
-  /// Opens the bytes anew.
-  void open(std::string_view bytes, unsigned flags) {
-    close();
+  /// Opens a file on disk instead, to be changed.
+  void reopen(const std::filesystem::path& path) {
+    (void)close();
+    file_ = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  }
+  /// All that was written is in the file then. False where that failed.
+  [[nodiscard]] bool close() noexcept {
+    const bool closed = file_ < 0 || H5Fclose(file_) >= 0;
+    file_ = H5I_INVALID_HID;
+    return closed;
+  }
+  [[nodiscard]] hid_t file() const noexcept { return file_; }
+
+ private:
+  void open(std::string_view bytes) {
     const H5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     constexpr std::size_t kGrowth = 1U << 20U;
     if (H5Pset_fapl_core(access, kGrowth, 0) < 0 || H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) < 0) return;
     // The library copies it: nothing is written there.
     if (H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size()) < 0) throw std::bad_alloc();
-    file_ = H5Fopen("image", flags, access);
-  }
-  [[nodiscard]] hid_t file() const noexcept { return file_; }
-
-  /// The bytes of the file as it is now; empty where that failed.
-  [[nodiscard]] std::string image() const {
-    if (H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0) return {};
-    const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
-    if (size <= 0) return {};
-    std::string bytes(static_cast<std::size_t>(size), '\0');
-    return H5Fget_file_image(file_, bytes.data(), bytes.size()) == size ? bytes : std::string();
-  }
-
- private:
-  void close() noexcept {
-    if (file_ >= 0) H5Fclose(file_);
-    file_ = H5I_INVALID_HID;
+    file_ = H5Fopen("image", H5F_ACC_RDONLY, access);
   }
   /// Several files may be open in one thread.
   static std::recursive_mutex& mutex() {
@@ -326,31 +346,36 @@ std::vector<std::string> Hdf5File::children(const std::string& group) {
 
 std::string Hdf5File::replaced(std::span<const ArrayValues> arrays) {
   std::string whole(bytes());
-  bool by_library = false;  // some arrays are packed, or in pieces
-  std::vector<std::optional<std::uint64_t>> places;
+  bool packed = false;  // or in pieces
   for (const ArrayValues& values : arrays) {
     const std::vector<double> before = numbers(values.name);
     if (before.size() != values.values.size()) fail(fmt::format("array {}: it changed while it was read", shown_name(values.name)));
-    places.push_back(Array(*this, values.name).place(bytes(), before));
-    by_library = by_library || !places.back();
-  }
-  if (by_library) library_->open(bytes(), H5F_ACC_RDWR);
-  for (std::size_t i = 0; i < arrays.size(); ++i) {
-    const Array array(*this, arrays[i].name);
-    const std::vector<double>& values = arrays[i].values;
-    if (by_library) {
-      if (H5Dwrite(array.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) array.fail("it cannot be written");
-      continue;
-    }
+    const Array array(*this, values.name);
+    const std::optional<std::uint64_t> place = array.place(bytes(), before);
+    packed = packed || !place;
+    if (!place) continue;
     const FileType& type = array.number();
     const std::size_t each = size_of(type.scalar);
-    for (std::size_t v = 0; v < values.size(); ++v) {
-      store_scalar(whole.data() + *places[i] + v * each, type.scalar, type.big_endian, values[v]);
+    for (std::size_t v = 0; v < before.size(); ++v) {
+      store_scalar(whole.data() + *place + v * each, type.scalar, type.big_endian, values.values[v]);
     }
   }
-  if (by_library) whole = library_->image();
-  if (whole.empty()) fail("it cannot be written again by HDF5's library");
-  return whole;
+  return packed ? replaced_by_library(whole, arrays) : whole;
+}
+
+/// On disk: what the library gives as an image of a file in its memory has a wrong checksum (1.10.8, superblocks 2 and 3).
+std::string Hdf5File::replaced_by_library(std::string_view whole, std::span<const ArrayValues> arrays) {
+  const ScratchFile scratch;
+  write_file_atomically(scratch.path(), whole);
+  library_->reopen(scratch.path());
+  if (library_->file() < 0) fail("it cannot be written again: HDF5's library opens it for reading only");
+  for (const ArrayValues& values : arrays) {
+    const Array array(*this, values.name);
+    if (H5Dwrite(array.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.values.data()) < 0)
+      array.fail("it cannot be written");
+  }
+  if (!library_->close()) fail("it cannot be written again by HDF5's library");
+  return std::string(read_whole_file(scratch.path(), context_.progress).view());
 }
 
 }  // namespace dmoscope

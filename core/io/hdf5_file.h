@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -39,6 +38,7 @@ class Hdf5File final : public ArrayFile {
  private:
   class Library;
   class Array;
+  std::string replaced_by_library(std::string_view whole, std::span<const ArrayValues> arrays);
 
   std::unique_ptr<Library> library_;
   const IoContext& context_;

@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kMutantsPerFormat = 1000;  // and of each of its samples:
 constexpr int kMutantsPerSample = 200;
+constexpr std::size_t kMostCuts = 5000;  // of a sample
 
 /// One to three bytes flipped, inserted, deleted, or replaced by what upsets parsers most.
 std::string mutated(std::string bytes, std::mt19937_64& random) {
@@ -61,7 +62,8 @@ TEST(Mutations, SamplesAreValid) {
 
 TEST(Mutations, TruncatedAnywhereIsRefusedOrSound) {
   for (const Sample& sample : samples()) {
-    for (std::size_t size = 0; size < sample.bytes.size(); ++size) {
+    const std::size_t step = 1 + sample.bytes.size() / kMostCuts;
+    for (std::size_t size = 0; size < sample.bytes.size(); size += step) {
       SCOPED_TRACE(sample.format + " " + sample.name + " cut to " + std::to_string(size));
       ASSERT_NO_THROW(check_reader(sample.format, sample.bytes.substr(0, size)));
     }

@@ -94,13 +94,15 @@ std::string CoordinateArrays::replaced(ArrayFile& file, std::span<const Vec3> be
     ArrayValues values{array.name, file.numbers(array.name)};
     bool any = false;
     for_each_number(array, [&](std::size_t i, std::size_t vertex, int axis) {
-      const double value = coordinate_of(moved[vertex], axis);
+      double value = coordinate_of(moved[vertex], axis);
       if (equal_bits(value, coordinate_of(before[vertex], axis)) || i >= values.values.size()) return;
-      if (array.type == ScalarType::Float32) {
+      // A vertex may be in several arrays, of floats and of doubles: it is at the same place in all of them.
+      if (layout.scalar[static_cast<std::size_t>(axis)] == CoordinateScalar::Float32) {
         if (!std::isfinite(static_cast<float>(value))) {
           throw OutputError(target, fmt::format("coordinate {} of vertex {} is too large for a 32-bit float", value, vertex));
         }
         if (static_cast<double>(static_cast<float>(value)) != value) ++rounded;
+        value = static_cast<double>(static_cast<float>(value));
       }
       values.values[i] = value;
       any = true;

@@ -38,6 +38,7 @@ class NetcdfClassic::Header {
     strides();
     if (streaming) into_.records_ = into_.record_stride_ == 0 ? 0 : (size_ - std::min(size_, first_record_)) / into_.record_stride_;
     if (into_.record_stride_ == 0) into_.records_ = 0;
+    require_apart();
     if (into_.record_stride_ > 0 && into_.records_ > size_ / into_.record_stride_) in_.fail("truncated: records are missing at its end");
     for (auto& [name, variable] : into_.variables_) {
       if (variable.of_records) variable.info.sizes.front() = into_.records_;
@@ -138,6 +139,24 @@ class NetcdfClassic::Header {
       if (one.of_records) into_.record_stride_ = one.record_bytes;  // one alone is not padded
     }
   }
+
+  /// Each variable has bytes of its own: what is written to one must change no other, nor the header.
+  void require_apart() {
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> ranges;
+    for (const auto& [called, one] : into_.variables_) {
+      if (one.record_bytes == 0 || one.begin > size_) continue;  // what lies beyond the file is told when it is read
+      if (!one.of_records && into_.records_ > 0 && one.begin + one.record_bytes > first_record_) overlap();
+      ranges.emplace_back(one.begin, one.begin + one.record_bytes);
+    }
+    std::ranges::sort(ranges);
+    std::uint64_t end = in_.offset();
+    for (const auto& [first, last] : ranges) {
+      if (first < end) overlap();
+      end = last;
+    }
+    if (into_.records_ > 1 && end > first_record_ && end - first_record_ > into_.record_stride_) overlap();
+  }
+  [[noreturn]] void overlap() const { in_.fail("damaged: two of its variables lie at the same place"); }
 
   NetcdfClassic& into_;
   Progress unwatched_;

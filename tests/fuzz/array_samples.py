@@ -171,7 +171,7 @@ def numbers_of_xdmf():
 
 
 exodus("solids.e", "NETCDF3_CLASSIC", SOLIDS,
-       [(7, "wood", "WEDGE6", [WEDGE]), (9, "", "HEX8", [CUBE]), (11, "rest", "TETRA", [TETRAHEDRON]), (12, "tip", "PYRAMID5", [PYRAMID]),
+       [(7, "wood", "WEDGE", [WEDGE]), (9, "", "HEX", [CUBE]), (11, "rest", "TETRA", [TETRAHEDRON]), (12, "tip", "PYRAMID", [PYRAMID]),
         (13, "rods", "BEAM", [[2, 7], [8, 15]])],
        [(3, "corners", [1, 23])], [(5, "skin", [1, 1, 2, 3, 4], [4, 5, 1, 3, 5]), (6, "", [2], [6])], steps=3)
 exodus("plane.e", "NETCDF3_64BIT_DATA", [(0, 0), (1, 0), (1, 1), (0, 1.5), (2, 0), (2, 1)],

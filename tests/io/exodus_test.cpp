@@ -214,7 +214,10 @@ TEST(Exodus, Refused) {
 TEST(Exodus, AnIndependentReaderFindsWhatWasWrittenAgain) {
   const TemporaryFolder folder;
   std::vector<std::filesystem::path> paths{folder / "a.e"};
-  const Mesh mesh = read_bytes("a.e", testing::exodus_solids());
+  // meshio cannot hold results that only some blocks have: they get names that nobody knows.
+  std::string bytes = replaced_text(testing::exodus_solids(), "name_elem_var", "nobodys_thing");
+  bytes = replaced_text(bytes, "vals_elem_var1eb1", "nobodys_numbers_1");
+  const Mesh mesh = read_bytes("a.e", bytes);
   std::vector<Vec3> positions = mesh.positions;
   for (Vec3& p : positions) p = {2.0 * p.x, 2.0 * p.y, 2.0 * p.z};
   put(paths[0], written("a.e", mesh, positions));

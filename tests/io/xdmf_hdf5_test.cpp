@@ -22,13 +22,13 @@ using ::testing::DoubleEq;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string item(const std::string& dimensions, const std::string& place) {
-  return "<DataItem Dimensions=\"" + dimensions + "\" Format=\"HDF\">\n  " + place + "\n</DataItem>";
+std::string item(const std::string& dimensions, const std::string& place, const std::string& type = "Float\" Precision=\"8") {
+  return "<DataItem Dimensions=\"" + dimensions + "\" NumberType=\"" + type + "\" Format=\"HDF\">\n  " + place + "\n</DataItem>";
 }
 
 const std::string kSolids = "<?xml version=\"1.0\"?>\n<Xdmf><Domain><Grid><Geometry GeometryType=\"XYZ\">" +
                             item("23 3", "numbers.h5:/points") + "</Geometry>\n<Topology TopologyType=\"Mixed\" NumberOfElements=\"2\">" +
-                            item("16", "numbers.h5:/mesh/cells") + "</Topology></Grid></Domain></Xdmf>\n";
+                            item("16", "numbers.h5:/mesh/cells", "Int\" Precision=\"4") + "</Topology></Grid></Domain></Xdmf>\n";
 const std::string kFlat = "<Xdmf><Domain><Grid><Geometry GeometryType=\"XY\">" + item("4 2", "numbers.h5:/flat") +
                           "</Geometry>\n<Topology TopologyType=\"Triangle\">" + item("2 3", "numbers.h5:/triangles") +
                           "</Topology><Attribute Name=\"depth\" Center=\"Node\">" + item("4", "numbers.h5:/depth") +

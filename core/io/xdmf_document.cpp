@@ -104,14 +104,17 @@ std::optional<XdmfDocument::Elsewhere> XdmfDocument::elsewhere(pugi::xml_node it
   }
   const pugi::xml_node text = item.first_child();
   const std::string_view words = trimmed(text.value());
-  const std::size_t colon = words.rfind(":/");
-  if (text.type() != pugi::node_pcdata || colon == std::string_view::npos || colon == 0) {
+  const std::size_t colon = words.rfind(':');
+  if (text.type() != pugi::node_pcdata || colon == std::string_view::npos || colon == 0 || colon + 1 == words.size()) {
     fail(item, fmt::format("{} is no place in an HDF5 file, such as mesh.h5:/points", quote_token(words)));
   }
   const auto start = static_cast<std::size_t>(std::max<std::ptrdiff_t>(text.offset_debug(), 0));
   const std::size_t begin = std::min(source_.bytes().find_first_not_of(" \t\r\n", start), source_.bytes().size());
-  const std::size_t end = std::min(source_.bytes().find(":/", begin), source_.bytes().size());
-  return Elsewhere{std::string(words.substr(0, colon)), std::string(words.substr(colon + 1)), begin, end};
+  const std::size_t tag = std::min(source_.bytes().find('<', begin), source_.bytes().size());
+  const std::size_t end = std::max(begin, std::min(source_.bytes().rfind(':', tag), tag));
+  std::string array(words.substr(colon + 1));
+  if (array.front() != '/') array.insert(0, 1, '/');  // as FEniCS writes it
+  return Elsewhere{std::string(words.substr(0, colon)), std::move(array), begin, end};
 }
 
 std::vector<XdmfDocument::Elsewhere> XdmfDocument::all_elsewhere() const {

@@ -26,10 +26,10 @@ std::string item(const std::string& dimensions, const std::string& place, const 
   return "<DataItem Dimensions=\"" + dimensions + "\" NumberType=\"" + type + "\" Format=\"HDF\">\n  " + place + "\n</DataItem>";
 }
 
-const std::string kSolids = "<?xml version=\"1.0\"?>\n<Xdmf><Domain><Grid><Geometry GeometryType=\"XYZ\">" +
+const std::string kSolids = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain><Grid><Geometry GeometryType=\"XYZ\">" +
                             item("23 3", "numbers.h5:/points") + "</Geometry>\n<Topology TopologyType=\"Mixed\" NumberOfElements=\"2\">" +
                             item("16", "numbers.h5:/mesh/cells", "Int\" Precision=\"4") + "</Topology></Grid></Domain></Xdmf>\n";
-const std::string kFlat = "<Xdmf><Domain><Grid><Geometry GeometryType=\"XY\">" + item("4 2", "numbers.h5:/flat") +
+const std::string kFlat = "<Xdmf Version=\"3.0\"><Domain><Grid><Geometry GeometryType=\"XY\">" + item("4 2", "numbers.h5:/flat") +
                           "</Geometry>\n<Topology TopologyType=\"Triangle\">" + item("2 3", "numbers.h5:/triangles") +
                           "</Topology><Attribute Name=\"depth\" Center=\"Node\">" + item("4", "numbers.h5:/depth") +
                           "</Attribute></Grid></Domain></Xdmf>\n";
@@ -70,6 +70,19 @@ TEST_F(XdmfHdf5, PackedFloatsOfThePlane) {
   EXPECT_EQ(mesh.positions[3], (Vec3{0, 1.5, 0}));
   EXPECT_THAT(std::vector<Index>(mesh.elements.all_corners().begin(), mesh.elements.all_corners().end()), ElementsAre(0, 1, 2, 0, 2, 3));
   EXPECT_THAT(mesh.fields.at(0).values, ElementsAre(1, 2, 3, 4.5));
+}
+
+/// As FEniCS writes checkpoints: no slash, and attributes of several items.
+TEST_F(XdmfHdf5, PlacesWithoutASlashAndFiniteElementFunctions) {
+  std::string xml = kFlat;
+  xml.replace(xml.find("numbers.h5:/flat"), 16, "numbers.h5:flat");
+  xml.insert(xml.find("</Attribute>"), item("4", "numbers.h5:depth"));
+  const Mesh mesh = read(xml);
+  EXPECT_EQ(mesh.positions[3], (Vec3{0, 1.5, 0}));
+  EXPECT_TRUE(mesh.fields.empty());
+  EXPECT_THAT(mesh.source->only_in_file(), Contains("further attributes"));
+  (void)write_mesh(folder_ / "b.xdmf", mesh, mesh.positions, progress_);
+  EXPECT_THAT(get(folder_ / "b.xdmf"), HasSubstr("b.h5:flat"));
 }
 
 TEST_F(XdmfHdf5, WrittenAgainUnderItsOwnNameBothFilesAreReplaced) {

@@ -102,7 +102,7 @@ TEST(Xdmf, Refused) {
       {grid(kPoints + "<Topology TopologyType=\"Triangle\"><DataItem>0 1</DataItem></Topology>"), 3, "2 numbers are no elements"},
       {grid(kPoints + "<Topology TopologyType=\"Mixed\"><DataItem>36 0 1 2 0 1 2</DataItem></Topology>"), 3, "type 36 is of higher order"},
       {grid(kPoints + "<Topology TopologyType=\"Mixed\"><DataItem>4 0 1</DataItem></Topology>"), 3, "cut off"},
-      {grid("<Geometry GeometryType=\"XYZ\"><DataItem Format=\"HDF\">a.h5:x</DataItem></Geometry>" + kTriangle), 2,
+      {grid("<Geometry GeometryType=\"XYZ\"><DataItem Format=\"HDF\">a.h5</DataItem></Geometry>" + kTriangle), 2,
        "is no place in an HDF5 file"},
       {grid("<Geometry GeometryType=\"XYZ\"><DataItem Dimensions=\"4 3\">0 0 0</DataItem></Geometry>" + kTriangle), 2, "3 numbers, but"},
       {grid("<Geometry GeometryType=\"XYZ\"><DataItem>0 0 x</DataItem></Geometry>" + kTriangle), 2, "expected a number, got \"x\""},

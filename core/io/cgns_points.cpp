@@ -22,6 +22,10 @@ std::vector<CgnsNode> CgnsTree::children(const std::string& path) const {
     std::string at = (path == "/" ? "" : path) + "/" + name;
     if (name.starts_with(' ')) continue;  // arrays, and what HDF5 needs
     std::string label = file_.attribute(at, "label");
+    if (label.empty() && !file_.opens(at)) {
+      file_.fail(fmt::format("{}: damaged, or a link into another file, which is not read: join them with cgnscompress or h5repack",
+                             quote_token(at)));
+    }
     if (!label.empty()) nodes.push_back({std::move(at), name, std::move(label)});
   }
   return nodes;

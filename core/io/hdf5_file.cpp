@@ -344,6 +344,8 @@ std::vector<std::string> Hdf5File::children(const std::string& group) {
   return names;
 }
 
+bool Hdf5File::opens(const std::string& name) const { return H5Id(H5Oopen(library_->file(), name.c_str(), H5P_DEFAULT), H5Oclose).valid(); }
+
 std::string Hdf5File::replaced(std::span<const ArrayValues> arrays) {
   std::string whole(bytes());
   bool packed = false;  // or in pieces

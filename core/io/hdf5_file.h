@@ -34,6 +34,8 @@ class Hdf5File final : public ArrayFile {
   /// The names of what a group holds, in the order in which it was made where the file knows it, else sorted. Empty where there is no such
   /// group.
   [[nodiscard]] std::vector<std::string> children(const std::string& group);
+  /// Is there a group or an array behind this name? False for links into other files.
+  [[nodiscard]] bool opens(const std::string& name) const;
 
  private:
   class Library;

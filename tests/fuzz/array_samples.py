@@ -161,6 +161,12 @@ def structured():
     f.close()
 
 
+def linked():
+    f, base = cgns("linked.cgns", [3, 3])
+    base["Zone"] = h5py.ExternalLink("solids.cgns", "/Base/Zone")
+    f.close()
+
+
 def numbers_of_xdmf():
     with h5py.File(path("numbers.h5"), "w") as f:
         f["points"] = numpy.array(SOLIDS, dtype="f8")
@@ -181,6 +187,7 @@ exodus("plane4.e", "NETCDF4", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1.5, 0)], [(
        [(4, "top", [1, 1], [1, 3])], zlib=True)
 unstructured()
 structured()
+linked()
 numbers_of_xdmf()
 for name in ("solids.cgns", "zones.cgns"):
     words = subprocess.run(["cgnscheck", path(name)], capture_output=True, text=True).stdout
@@ -222,9 +229,10 @@ for name, file, what in [
         ("exodus_netcdf4", "plane4.e", "netCDF-4, packed: a shell"),
         ("cgns_solids", "solids.cgns", "the same solids as exodus_solids, in an unstructured zone"),
         ("cgns_zones", "zones.cgns", "two structured zones of the plane that share an edge: floats, and packed doubles"),
+        ("cgns_linked", "linked.cgns", "a zone that is a link into another file"),
         ("xdmf_numbers", "numbers.h5", "HDF5: what XDMF files refer to")]:
     text = base64.b64encode(open(path(file), "rb").read()).decode()
     text = re.sub(r"A{6,}", lambda run: f"[{len(run.group())}]", text)
     print(f"/// {what[0].upper()}{what[1:]}.\ninline std::string {name}() {{\n  return array_file(")
-    print("\n".join(f'    "{text[i:i + 130]}"' for i in range(0, len(text), 130)) + ");\n}\n")
+    print("\n".join(f'    "{text[i:i + 138]}"' for i in range(0, len(text), 138)) + ");\n}\n")
 print("}  // namespace dmoscope::testing")

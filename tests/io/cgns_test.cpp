@@ -125,6 +125,20 @@ TEST(Cgns, Refused) {
   expect_refused("a.cgns", testing::xdmf_numbers(), 0, "this is an HDF5 file");
 }
 
+/// Nothing but the file itself is opened, and what is not read is told.
+TEST(Cgns, LinksIntoOtherFilesAreRefused) {
+  const TemporaryFolder folder;
+  put(folder / "solids.cgns", testing::cgns_solids());
+  put(folder / "linked.cgns", testing::cgns_linked());
+  Progress progress;
+  try {
+    (void)read_mesh(folder / "linked.cgns", progress);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("\"/Base/Zone\": damaged, or a link into another file"));
+  }
+}
+
 /// A file says how large it is; arrays that are more than it can be are no reason to take all memory.
 TEST(Cgns, ABudgetBoundsWhatIsUnpacked) {
   const TemporaryFolder folder;

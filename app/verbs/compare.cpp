@@ -12,7 +12,6 @@
 #include "app/plot_file.h"
 #include "app/provenance.h"
 #include "app/targets.h"
-#include "app/verbs/declared_floats.h"
 #include "app/verbs/goal_options.h"
 #include "app/verbs/input_report.h"
 #include "app/verbs/option_checks.h"
@@ -20,6 +19,7 @@
 #include "core/base/error.h"
 #include "core/io/atomic_file.h"
 #include "core/io/mesh_io.h"
+#include "core/session/declared_floats.h"
 
 namespace dmoscope::app {
 namespace {

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/io/array_file.h"
 #include "core/io/mesh_io.h"
 #include "core/io/tokenizer.h"
 
@@ -115,8 +116,8 @@ bool is_fluent(const Head& h) {
   return first.size() > 2 && first.front() == '(' && first[1] >= '0' && first[1] <= '9';
 }
 
-bool is_hdf5(const Head& h) { return h.bytes.starts_with("\x89HDF\r\n\x1a\n"); }
-bool is_netcdf(const Head& h) { return h.bytes.starts_with("CDF\x01") || h.bytes.starts_with("CDF\x02") || h.bytes.starts_with("CDF\x05"); }
+bool begins_hdf5(const Head& h) { return is_hdf5(h.bytes); }
+bool begins_netcdf(const Head& h) { return is_netcdf_classic(h.bytes); }
 
 constexpr std::string_view kMeshio = "convert it with meshio to .vtu";
 
@@ -134,17 +135,12 @@ constexpr std::array kForeign{
     Foreign{"a Fluent mesh (ANSYS)", "convert it with ParaView or meshio to .vtu", is_fluent},
     Foreign{"an ANSYS archive (CDB)", "export it from ANSYS as Fluent or CGNS, and convert that with meshio to .vtu",
             [](const Head& h) { return h.has_line("/PREP7") || h.has_line("/COM,ANSYS") || h.has_line("NBLOCK,"); }},
-    Foreign{"a CGNS file", "convert it with ParaView or meshio to .vtu",
-            [](const Head& h) { return (is_hdf5(h) && h.is(".cgns")) || h.bytes.starts_with("@(#)ADF Database"); }, ".cgns"},
-    Foreign{"a MED file (Salome)", kMeshio, [](const Head& h) { return is_hdf5(h) && h.is(".med"); }},
-    Foreign{"an Exodus file", kMeshio, [](const Head& h) { return is_hdf5(h) && (h.is(".e") || h.is(".exo") || h.is(".ex2")); }, ".e"},
-    Foreign{"an HDF5 file (CGNS, Exodus, MED, Fluent and others are such)", "convert it with ParaView or meshio to .vtu", is_hdf5},
-    Foreign{"an Exodus file (NetCDF)", kMeshio,
-            [](const Head& h) {
-              return is_netcdf(h) && (h.is(".e") || h.is(".exo") || h.is(".ex2") || h.bytes.find("num_el_blk") != std::string_view::npos);
-            },
-            ".e"},
-    Foreign{"a NetCDF file (Exodus, UGRID and others are such)", "convert it with ParaView or meshio to .vtu", is_netcdf},
+    Foreign{"a CGNS file", "this build of the program was made without HDF5; convert it with ParaView or cgns_to_vtk",
+            [](const Head& h) { return (begins_hdf5(h) && h.is(".cgns")) || h.bytes.starts_with("@(#)ADF Database"); }, ".cgns"},
+    Foreign{"a MED file (Salome)", kMeshio, [](const Head& h) { return begins_hdf5(h) && h.is(".med"); }},
+    Foreign{"an HDF5 file (MED, Fluent and others are such; of XDMF, open the .xdmf file)", "convert it with ParaView or meshio to .vtu",
+            begins_hdf5},
+    Foreign{"a NetCDF file (UGRID and others are such)", "convert it with ParaView or meshio to .vtu", begins_netcdf},
     Foreign{"a Tecplot file", "convert it with ParaView or meshio to .vtu", is_tecplot},
     Foreign{"an I-deas universal file (UNV)", "open it in Gmsh or Salome and save it as .msh or .med", is_unv},
     Foreign{"an LS-DYNA keyword file", "convert it with LS-PrePost to Nastran, and that with meshio to .vtu",

@@ -61,6 +61,8 @@ struct FormatHandler {
 [[nodiscard]] const FormatHandler& sms_2dm_format();
 [[nodiscard]] const FormatHandler& nastran_format();
 [[nodiscard]] const FormatHandler& xdmf_format();  // needs pugixml: not in every build
+[[nodiscard]] const FormatHandler& exodus_format();
+[[nodiscard]] const FormatHandler& cgns_format();  // needs HDF5: not in every build
 
 /// All of them, in the order of format_table().
 [[nodiscard]] std::span<const FormatHandler* const> format_handlers();

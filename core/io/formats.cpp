@@ -22,12 +22,16 @@ namespace {
 
 const std::vector<const FormatHandler*>& handlers() {
   static const std::vector<const FormatHandler*> table{
-      &off_format(),    &obj_format(),    &ply_format(),     &stl_format(),    &vtk_format(),
+      &off_format(),    &obj_format(),    &ply_format(),     &stl_format(),     &vtk_format(),
 #ifdef DMOSCOPE_VTU
       &vtu_format(),    &xdmf_format(),
 #endif
-      &fort14_format(), &su2_format(),    &gmsh_format(),    &medit_format(),  &meshb_format(),
-      &tetgen_format(), &abaqus_format(), &sms_2dm_format(), &nastran_format()};
+      &fort14_format(), &su2_format(),    &gmsh_format(),    &medit_format(),   &meshb_format(),
+      &tetgen_format(), &abaqus_format(), &sms_2dm_format(), &nastran_format(), &exodus_format(),
+#ifdef DMOSCOPE_HDF5
+      &cgns_format(),
+#endif
+  };
   return table;
 }
 
@@ -53,6 +57,9 @@ std::string known_formats() {
   }
 #ifndef DMOSCOPE_VTU
   result += "; VTU and XDMF are left out of this build of the program, which was made without zlib or pugixml";
+#endif
+#ifndef DMOSCOPE_HDF5
+  result += "; CGNS, and Exodus and XDMF in HDF5, are left out of this build of the program, which was made without HDF5";
 #endif
   return result;
 }

@@ -12,7 +12,11 @@ class UnpackBudget {
  public:
   /// `most`: bytes that somebody said are fine; 0: nobody did. Then a file may become a hundred times as large, and 256 MiB in any case:
   /// real ones, even those of constant fields, stay far below.
-  UnpackBudget(std::size_t file_bytes, std::uint64_t most) noexcept : left_(most != 0 ? most : std::max(kAlways, kTimes * file_bytes)) {}
+  UnpackBudget(std::size_t file_bytes, std::uint64_t most) noexcept : left_(UnpackBudget::most(file_bytes, most)) {}
+  /// The bytes that such a file may become.
+  [[nodiscard]] static constexpr std::uint64_t most(std::size_t file_bytes, std::uint64_t most) noexcept {
+    return most != 0 ? most : std::max(kAlways, kTimes * file_bytes);
+  }
   /// False: that is more than is left.
   [[nodiscard]] bool take(std::uint64_t bytes) noexcept {
     if (bytes > left_) return false;

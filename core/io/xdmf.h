@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <string_view>
 
+#include "core/io/array_patch.h"
 #include "core/io/cell_table.h"
 #include "core/io/format.h"
+#include "core/io/xdmf_document.h"
 
 namespace dmoscope {
 
@@ -21,5 +23,13 @@ inline constexpr std::array<std::string_view, kCellShapeCount> kXdmfNames{"Polyv
 Mesh read_xdmf(SourceFile& source, const IoContext& context);
 /// See FormatHandler. Throws OutputError, Cancelled.
 Notes write_xdmf(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
+
+/// See FormatHandler. Where the numbers are in an HDF5 file, that is written beside the XML, under its own name or, where the XML has
+/// another name than the one that was read, under that one with .h5. Throws OutputError, Cancelled.
+Notes patch_xdmf(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
+
+/// The points of a DataItem whose numbers are in an HDF5 file, into `positions`. Throws InputError.
+[[nodiscard]] CoordinateArrays read_xdmf_points(const XdmfDocument& document, pugi::xml_node item, bool plane,
+                                                std::vector<Vec3>& positions);
 
 }  // namespace dmoscope

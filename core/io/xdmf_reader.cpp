@@ -19,7 +19,7 @@ constexpr std::string_view kLinear = "only elements without nodes beyond their c
 
 class XdmfReader {
  public:
-  XdmfReader(SourceFile& source, Progress& progress) : source_(source), document_(source, progress) {}
+  XdmfReader(SourceFile& source, const IoContext& context) : source_(source), document_(source, context) {}
 
   Mesh read() {
     const pugi::xml_node grid = document_.grid();
@@ -41,6 +41,7 @@ class XdmfReader {
         source_.add_only_in_file("further elements of its XML");
       }
     }
+    keep_files(grid.child("Geometry"));
     if (source_.bytes().find("<!--") != std::string_view::npos) source_.add_only_in_file("comments");
     return std::move(mesh_);
   }
@@ -61,6 +62,7 @@ class XdmfReader {
     }
     const std::size_t each = plane ? 2 : 3;
     const pugi::xml_node item = document_.item(geometry);
+    if (document_.elsewhere(item)) return points_elsewhere(item, plane);
     std::vector<std::uint64_t> places;
     const std::vector<double> values = document_.numbers(item, &places);
     if (values.size() % each != 0) document_.fail(item, fmt::format("{} numbers are no points of {} coordinates", values.size(), each));
@@ -79,6 +81,25 @@ class XdmfReader {
       }
       mesh_.positions.push_back(p);
       source_.add_place(places[v * each]);
+    }
+  }
+
+  void points_elsewhere(pugi::xml_node item, bool plane) {
+    const CoordinateArrays coordinates = read_xdmf_points(document_, item, plane, mesh_.positions);
+    CoordinateLayout layout;
+    if (!coordinates.describe(layout)) source_.set_not_patchable("its coordinates are whole numbers");
+    source_.set_layout(layout);
+  }
+
+  /// A file is written again with the one beside it that has all its numbers.
+  void keep_files(pugi::xml_node points) {
+    if (document_.files().empty()) return;
+    const auto all = document_.all_elsewhere();
+    const bool one = std::ranges::all_of(all, [&](const auto& place) { return place.file == all.front().file; });
+    if (!one || !document_.elsewhere(document_.item(points))) {
+      source_.set_not_patchable("its numbers are in several files");
+    } else {
+      source_.set_companion(document_.files().begin()->second);
     }
   }
 
@@ -175,6 +196,8 @@ class XdmfReader {
     const std::string name = node.attribute("Name").value();
     const pugi::xml_node item = node.child("DataItem");
     const std::string_view type = XdmfDocument::attribute(item, "NumberType", "DataType");
+    // Of finite elements, as FEniCS writes them: several items.
+    if (item.next_sibling("DataItem")) return source_.add_only_in_file("further attributes");
     const bool text = equal_ignoring_case(type, "String") || equal_ignoring_case(type, "Char");
     if ((!of_points && !equal_ignoring_case(centre, "Cell")) || text || (passed_over_ && !of_points)) {
       return source_.add_only_in_file("further attributes");
@@ -247,14 +270,19 @@ bool recognises_xdmf(std::string_view bytes) {
 
 }  // namespace
 
-Mesh read_xdmf(SourceFile& source, const IoContext& context) { return XdmfReader(source, context.progress).read(); }
+Mesh read_xdmf(SourceFile& source, const IoContext& context) { return XdmfReader(source, context).read(); }
 
 const FormatHandler& xdmf_format() {
-  static const FormatHandler handler{
-      {"xdmf", "XDMF", ".xdmf .xmf", "2D and 3D elements, attributes of nodes and cells, sets; numbers in the XML"},
-      recognises_xdmf,
-      read_xdmf,
-      write_xdmf};
+  static const FormatHandler handler{{"xdmf", "XDMF", ".xdmf .xmf",
+                                      "2D and 3D elements, attributes of nodes and cells, sets; numbers in the XML"
+#ifdef DMOSCOPE_HDF5
+                                      " or in an HDF5 file"
+#endif
+                                     },
+                                     recognises,
+                                     read_xdmf,
+                                     write_xdmf,
+                                     patch_xdmf};
   return handler;
 }
 

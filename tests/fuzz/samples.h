@@ -8,6 +8,7 @@
 
 #include "core/io/binary.h"
 #include "core/io/mesh_io.h"
+#include "tests/fuzz/array_samples.h"
 #include "tests/fuzz/vtu_samples.h"
 
 namespace dmoscope::testing {
@@ -442,7 +443,14 @@ inline std::vector<Sample> samples() {
       {"strings", "2dm", sms_2dm()},
       {"volume", "nastran", nastran_volume()},
       {"planar", "nastran", nastran_planar()},
+      {"solids", "exodus", exodus_solids()},
+      {"plane", "exodus", exodus_plane()},
   };
+  if (format_by_extension(".cgns") != nullptr) {  // not in every build
+    all.push_back({"netcdf4", "exodus", exodus_netcdf4()});
+    all.push_back({"solids", "cgns", cgns_solids()});
+    all.push_back({"zones", "cgns", cgns_zones()});
+  }
   if (format_by_extension(".vtu") != nullptr) {  // not in every build
     all.push_back({"structured", "vtu", vts_ascii()});
     all.push_back({"structured_base64", "vtu", vts_base64()});

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/progress.h"
+#include "core/io/mesh_io.h"
 #include "core/mesh/mesh.h"
 #include "tests/support/temporary_folder.h"
 
@@ -27,6 +28,11 @@ void put(const std::filesystem::path& path, std::string_view bytes);
 [[nodiscard]] std::string written(std::string_view name, const Mesh& mesh, std::span<const Vec3> positions,
                                   std::vector<std::string>* notes = nullptr);
 [[nodiscard]] inline std::string written(std::string_view name, const Mesh& mesh) { return written(name, mesh, mesh.positions); }
+
+/// Is there a file of this format for a mesh that was read from another one?
+[[nodiscard]] inline bool is_made_anew(const FormatInfo& format) {
+  return format.name != "meshb" && format.name != "exodus" && format.name != "cgns";
+}
 
 /// Expects InputError at this line (from 1; 0: none) with these words in it.
 void expect_refused(std::string_view name, std::string_view bytes, std::size_t line, std::string_view words);

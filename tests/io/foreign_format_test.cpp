@@ -84,6 +84,7 @@ TEST(ForeignFormat, LeavesToReadersWhatIsTheirs) {
 
 TEST(ForeignFormat, IsNoneOfTheSamples) {
   for (const auto& sample : dmoscope::testing::samples()) {
+    if (sample.format == "exodus" || sample.format == "cgns") continue;  // known by their content, before anybody is asked
     for (const char* extension : {".vtk", ".off", ".node", ".14", ".su2", ".vtu", ".dat", ""}) {
       EXPECT_EQ(foreign_format(sample.bytes, extension), "") << sample.format << " " << sample.name;
     }

@@ -341,7 +341,9 @@ TEST_P(FormatTable, KeepsTheFieldsThatItSaysAndNamesOthersAsDropped) {
       return f.on == field.on && f.values == field.values;
     });
     EXPECT_EQ(is, should) << field.name << ": " << row_->fields << said;
-    if (!should) EXPECT_THAT(said, HasSubstr(field.name)) << "dropped without a word";
+    if (!should) {
+      EXPECT_THAT(said, HasSubstr(field.name)) << "dropped without a word";
+    }
   }
 }
 
@@ -404,7 +406,9 @@ TEST_P(FormatTable, KeepsTheGroupsThatItSaysAndNamesOthersAsDropped) {
         std::ranges::any_of(again.groups, [&](const Group& g) { return g.dimension == dimension && g.members == group.members; });
     const bool should = std::ranges::find(said, dimension) != said.end();
     EXPECT_EQ(is, should) << row_->groups << ::testing::PrintToString(notes);
-    if (!should) EXPECT_THAT(::testing::PrintToString(notes), HasSubstr("chosen")) << "dropped without a word";
+    if (!should) {
+      EXPECT_THAT(::testing::PrintToString(notes), HasSubstr("chosen")) << "dropped without a word";
+    }
   }
 }
 

@@ -11,12 +11,14 @@
 #include "core/io/mesh_io.h"
 #include "tests/fuzz/check_reader.h"
 #include "tests/fuzz/samples.h"
+#include "tests/support/sanitized.h"
 
 namespace dmoscope::testing {
 namespace {
 
 constexpr int kMutantsPerFormat = 1000;  // and of each of its samples:
 constexpr int kMutantsPerSample = 200;
+constexpr std::size_t kMostCuts = 5000;  // of a sample
 
 /// One to three bytes flipped, inserted, deleted, or replaced by what upsets parsers most.
 std::string mutated(std::string bytes, std::mt19937_64& random) {
@@ -61,7 +63,8 @@ TEST(Mutations, SamplesAreValid) {
 
 TEST(Mutations, TruncatedAnywhereIsRefusedOrSound) {
   for (const Sample& sample : samples()) {
-    for (std::size_t size = 0; size < sample.bytes.size(); ++size) {
+    const std::size_t step = 1 + sample.bytes.size() / kMostCuts;
+    for (std::size_t size = 0; size < sample.bytes.size(); size += step) {
       SCOPED_TRACE(sample.format + " " + sample.name + " cut to " + std::to_string(size));
       ASSERT_NO_THROW(check_reader(sample.format, sample.bytes.substr(0, size)));
     }
@@ -72,6 +75,8 @@ TEST(Mutations, DamagedIsRefusedOrSound) {
   std::map<std::string, int> samples_of;
   for (const Sample& sample : samples()) ++samples_of[sample.format];
   for (const Sample& sample : samples()) {
+    // HDF5's library has faults of its own with damaged structure (docs/formats.md), at which a sanitizer ends the program.
+    if (kSanitized && sample.bytes.starts_with("\x89HDF")) continue;
     std::mt19937_64 random(20181018);
     int read = 0;
     const int mutants = std::max(kMutantsPerSample, kMutantsPerFormat / samples_of[sample.format] + 1);

@@ -1,0 +1,117 @@
+#include "core/io/array_patch.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/io/tokenizer.h"
+
+namespace dmoscope {
+namespace {
+
+double& coordinate_of(Vec3& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+double coordinate_of(const Vec3& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+bool equal_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+
+/// Calls each(number in the array, vertex, axis) for all its numbers.
+template <class Each>
+void for_each_number(const CoordinateArray& array, Each&& each) {
+  const auto n = static_cast<std::size_t>(array.axis < 0 ? array.components : 1);
+  for (std::size_t i = 0; i < array.count; ++i) {
+    const std::size_t vertex = array.vertices.empty() ? array.first + i : array.vertices[i];
+    for (std::size_t c = 0; c < n; ++c) {
+      each(array.by_axis ? c * array.count + i : i * n + c, vertex, array.axis < 0 ? static_cast<int>(c) : array.axis);
+    }
+  }
+}
+
+}  // namespace
+
+bool same_positions(std::span<const Vec3> a, std::span<const Vec3> b) noexcept {
+  return std::ranges::equal(
+      a, b, [](const Vec3& p, const Vec3& q) { return equal_bits(p.x, q.x) && equal_bits(p.y, q.y) && equal_bits(p.z, q.z); });
+}
+
+void CoordinateArrays::read(ArrayFile& file, CoordinateArray array, std::span<Vec3> positions) {
+  const std::optional<ArrayInfo> info = file.find(array.name);
+  if (!info) file.fail(fmt::format("the file has no array {}", quote_token(array.name)));
+  array.type = info->type;
+  const std::uint64_t expected = std::uint64_t{array.count} * static_cast<std::uint64_t>(array.axis < 0 ? array.components : 1);
+  if (info->count() != expected) {
+    file.fail(fmt::format("array {}: {} numbers, but {} belong there", quote_token(array.name), info->count(), expected));
+  }
+  const std::vector<double> values = file.numbers(array.name);
+  for_each_number(array, [&](std::size_t i, std::size_t vertex, int axis) {
+    if (!std::isfinite(values[i])) {
+      file.fail(fmt::format("array {}: number {} (from 0) is not finite, which a coordinate must be", quote_token(array.name), i));
+    }
+    coordinate_of(positions[vertex], axis) = values[i];
+  });
+  arrays_.push_back(std::move(array));
+}
+
+bool CoordinateArrays::describe(CoordinateLayout& layout) const {
+  layout.binary = true;
+  layout.components = 0;
+  for (const CoordinateArray& array : arrays_) {
+    if (is_whole(array.type)) return false;
+    const int first = array.axis < 0 ? 0 : array.axis;
+    const int last = array.axis < 0 ? array.components - 1 : array.axis;
+    for (int axis = first; axis <= last; ++axis) {
+      if (array.type == ScalarType::Float32) layout.scalar[static_cast<std::size_t>(axis)] = CoordinateScalar::Float32;
+    }
+    layout.components = std::max(layout.components, last + 1);
+  }
+  return true;
+}
+
+void CoordinateArrays::renumber(std::span<const Index> vertex_of) {
+  for (CoordinateArray& array : arrays_) {
+    if (array.vertices.empty()) {
+      array.vertices.resize(array.count);
+      for (Index i = 0; i < array.count; ++i) array.vertices[i] = array.first + i;
+    }
+    for (Index& vertex : array.vertices) vertex = vertex_of[vertex];
+  }
+}
+
+std::string CoordinateArrays::replaced(ArrayFile& file, std::span<const Vec3> before, std::span<const Vec3> moved,
+                                       const std::string& target, Notes& notes) const {
+  CoordinateLayout layout;
+  (void)describe(layout);
+  for (std::size_t v = 0; v < moved.size() && layout.components == 2; ++v) {
+    if (moved[v].z != 0.0) throw OutputError(target, fmt::format("vertex {} has z = {}, but the file holds only x and y", v, moved[v].z));
+  }
+  std::vector<ArrayValues> changed;
+  std::size_t rounded = 0;
+  for (const CoordinateArray& array : arrays_) {
+    ArrayValues values{array.name, file.numbers(array.name)};
+    bool any = false;
+    for_each_number(array, [&](std::size_t i, std::size_t vertex, int axis) {
+      double value = coordinate_of(moved[vertex], axis);
+      if (equal_bits(value, coordinate_of(before[vertex], axis)) || i >= values.values.size()) return;
+      // A vertex may be in several arrays, of floats and of doubles: it is at the same place in all of them.
+      if (layout.scalar[static_cast<std::size_t>(axis)] == CoordinateScalar::Float32) {
+        if (!std::isfinite(static_cast<float>(value))) {
+          throw OutputError(target, fmt::format("coordinate {} of vertex {} is too large for a 32-bit float", value, vertex));
+        }
+        if (static_cast<double>(static_cast<float>(value)) != value) ++rounded;
+        value = static_cast<double>(static_cast<float>(value));
+      }
+      values.values[i] = value;
+      any = true;
+    });
+    if (any) changed.push_back(std::move(values));
+  }
+  if (rounded > 0)
+    notes.push_back(fmt::format("{} moved coordinates were rounded to 32-bit floats, which is what the file holds.", rounded));
+  return file.replaced(changed);
+}
+
+}  // namespace dmoscope

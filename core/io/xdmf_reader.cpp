@@ -279,7 +279,7 @@ const FormatHandler& xdmf_format() {
                                       " or in an HDF5 file"
 #endif
                                      },
-                                     recognises,
+                                     recognises_xdmf,
                                      read_xdmf,
                                      write_xdmf,
                                      patch_xdmf};

@@ -14,10 +14,12 @@
 #include "core/io/zlib_blocks.h"
 #include "tests/fuzz/check_reader.h"
 #include "tests/fuzz/samples.h"
+#include "tests/io/files.h"
 
 namespace dmoscope::testing {
 namespace {
 
+using test::corners;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;

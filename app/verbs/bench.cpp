@@ -22,7 +22,7 @@ namespace dmoscope::app {
 namespace {
 
 constexpr std::uint64_t kMostRepeats = 1000;
-constexpr std::uint64_t kMostIterations = 100'000;
+constexpr std::uint64_t kMostTimed = 100'000;
 
 int bench(const BenchOptions& options) {
   const BenchPlan plan = plan_of(options);
@@ -73,12 +73,12 @@ void add_bench(CLI::App& app, Action& action) {
     return verb->add_option(option, value, doc)->transform(whole_number(least, most))->type_name("N");
   };
   count("--repeats", options->repeats, 1, kMostRepeats, "Repeats of every measurement, in turn with the others")->capture_default_str();
-  count("--iterations", options->iterations, 1, kMostIterations, "Iterations to time, from the input on")->capture_default_str();
-  count("--active", options->active, 2, kMostIterations, "Also compare the time of iteration N with that of the first");
-  auto* draw = count("--draw", options->draw, 1, kMostIterations, "Draw this many iterations as they are made, without a window, instead");
+  count("--iterations", options->iterations, 1, kMostTimed, "Iterations to time, from the input on")->capture_default_str();
+  count("--active", options->active, 2, kMostTimed, "Also compare the time of iteration N with that of the first");
+  auto* draw = count("--draw", options->draw, 1, kMostTimed, "Draw this many iterations as they are made, without a window, instead");
   auto* plot = verb->add_option("--plot", options->plot, "Draw visits a second over sizes")->type_name("FILE.svg|.png");
   draw->excludes(plot)->excludes(combine);
-  count("--seek", options->seek, 1, kMostIterations, "Seek so often among 200 iterations, without and with drawing, instead")
+  count("--seek", options->seek, 1, kMostTimed, "Seek so often among 200 iterations, without and with drawing, instead")
       ->excludes(plot)
       ->excludes(draw)
       ->excludes(combine);

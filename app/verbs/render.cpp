@@ -123,7 +123,7 @@ int render(const RenderOptions& options) {
 #endif
 }
 
-/// RenderOptions of volume meshes.
+/// Options of volume meshes.
 void add_inside(CLI::App& verb, RenderOptions& options) {
   const auto option = [&verb](const char* name, auto& value, const char* type, const char* doc) {
     return verb.add_option(name, value, doc)->type_name(type)->group("Volume meshes");

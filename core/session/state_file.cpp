@@ -73,7 +73,7 @@ bool check_parts(const Json& object, const std::string& what) {
   return view_as_saved;
 }
 
-/// JSON has no number_in_json for what is not finite.
+/// JSON has no number for what is not finite.
 Json number_in_json(double value) {
   return std::isnan(value) ? Json("nan") : std::isinf(value) ? Json(value > 0 ? "inf" : "-inf") : Json(value);
 }
@@ -84,11 +84,11 @@ double to_double(const Json& json) {
   if (word == "inf") return std::numeric_limits<double>::infinity();
   if (word == "-inf") return -std::numeric_limits<double>::infinity();
   if (word == "nan") return std::numeric_limits<double>::quiet_NaN();
-  throw UsageError(fmt::format("'{}' is no number_in_json", word));
+  throw UsageError(fmt::format("'{}' is no number", word));
 }
 
 std::uint64_t to_whole(const Json& json) {
-  if (!json.is_number_unsigned()) throw UsageError("a whole number_in_json is expected where there is none");
+  if (!json.is_number_unsigned()) throw UsageError("a whole number is expected where there is none");
   return json.get<std::uint64_t>();
 }
 
@@ -368,8 +368,8 @@ Json parse(std::string_view text, const std::string& file) {
     const std::string_view before = text.substr(0, std::min<std::size_t>(text.size(), error.byte == 0 ? 0 : error.byte - 1));
     const auto line = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
     throw InputError(file, line, "this is no JSON, so no saved session");
-  } catch (const Json::exception&) {  // a number_in_json beyond all doubles
-    throw InputError(file, 0, "a number_in_json in it is too large for a saved session");
+  } catch (const Json::exception&) {  // a number beyond all doubles
+    throw InputError(file, 0, "a number in it is too large for a saved session");
   }
 }
 

@@ -192,7 +192,24 @@ IterationRecord to_record(const Json& json, std::uint64_t iteration) {
   return record;
 }
 
-/// The positions at the end of the iteration in which the run stands; brings the run there and back.
+/// What is recorded of an iteration must be true of its positions.
+void require_record(const Run& run, const std::vector<IterationRecord>& records, std::uint64_t iteration, std::span<const Vec3> positions) {
+  if (iteration >= records.size()) return;  // adopt() refuses that
+  constexpr double kLastDigits = 1e-6;      // another version of this program, and a device, may round otherwise
+  const Statistics is = compute_statistics(run.input().quality_context(), positions, run.parameters().metric, run.immovable(), nullptr);
+  const Statistics& said = records[iteration].statistics;
+  const auto agree = [](double a, double b) {
+    return a == b || std::abs(a - b) <= kLastDigits * std::max({1.0, std::abs(a), std::abs(b)}) || (std::isnan(a) && std::isnan(b));
+  };
+  if (is.inverted == said.inverted && agree(is.minimum, said.minimum) && agree(is.mean, said.mean)) return;
+  throw UsageError(fmt::format(
+      "a run is damaged: at iteration {} its positions have minimum {:.6g}, mean {:.6g} and {} inverted, its record says {:.6g}, "
+      "{:.6g} and {}",
+      iteration, is.minimum, is.mean, is.inverted, said.minimum, said.mean, said.inverted));
+}
+
+/// The positions at the end of the iteration in which the run stands; brings the run there and back. Throws UsageError where, computed
+/// again, they are not those of the record, as in a run that an older version of this program made: what was written would not open.
 std::string packed_start(Run& run, Progress& progress) {
   const RunPoint here = run.point();
   if (here.moment.is_iteration_end()) return pack_positions(run.positions());
@@ -201,6 +218,7 @@ std::string packed_start(Run& run, Progress& progress) {
   std::string text;
   try {
     run.seek({here.moment.iteration}, progress);
+    require_record(run, here.records.whole(), here.moment.iteration, run.positions());
     text = pack_positions(run.positions());
   } catch (...) {
     run.go_to(here, unwatched);
@@ -221,22 +239,6 @@ Json json_of(Run& run, Progress& progress) {
   if (const std::string size = size_mark(run.input(), run.size_field().get()); !size.empty()) json["size"] = size;
   json["checksums"] = checksums_of(json);
   return json;
-}
-
-/// What the file says of the positions must be what they are, whatever it says.
-void require_record(const Run& run, const std::vector<IterationRecord>& records, std::uint64_t iteration, std::span<const Vec3> positions) {
-  if (iteration >= records.size()) return;  // adopt() refuses that
-  constexpr double kLastDigits = 1e-6;      // another version of this program, and a device, may round otherwise
-  const Statistics is = compute_statistics(run.input().quality_context(), positions, run.parameters().metric, run.immovable(), nullptr);
-  const Statistics& said = records[iteration].statistics;
-  const auto agree = [](double a, double b) {
-    return a == b || std::abs(a - b) <= kLastDigits * std::max({1.0, std::abs(a), std::abs(b)}) || (std::isnan(a) && std::isnan(b));
-  };
-  if (is.inverted == said.inverted && agree(is.minimum, said.minimum) && agree(is.mean, said.mean)) return;
-  throw UsageError(fmt::format(
-      "a run is damaged: at iteration {} its positions have minimum {:.6g}, mean {:.6g} and {} inverted, its record says {:.6g}, "
-      "{:.6g} and {}",
-      iteration, is.minimum, is.mean, is.inverted, said.minimum, said.mean, said.inverted));
 }
 
 /// Other vertices that stand, or other sizes wanted, would lead the run elsewhere. `then`: the data_marks() of when it was saved. A file of

@@ -414,6 +414,21 @@ TEST_F(StateFile, OfBeforeThereWereChecksumsOpensWithANote) {
   EXPECT_THAT(refusal(), HasSubstr("the positions of a run are damaged"));
 }
 
+TEST_F(StateFile, ARunThatCannotBeComputedAgainIsNotSavedAsIfItCould) {
+  say("generate random 100");
+  say("run 2");
+  say("step vertex 3");
+  say("save-state " + file_.string());
+  Json json = unsealed(Json::parse(text()));
+  json["runs"][0]["parameters"]["grid"] = 5;  // as if another version had searched otherwise
+  write(json.dump());
+  Session other(1);
+  other.set_history_budget(0);
+  open_state(file_, other, progress_);
+  EXPECT_THROW(save_state(file_, other, {}, progress_), UsageError);
+  EXPECT_EQ(text(), json.dump()) << "what is there stays";
+}
+
 TEST_F(StateFile, NothingTakesThePlaceOfAMeshThatIsOpen) {
   const auto mesh = folder_ / "mesh.node";
   say("generate random 50");

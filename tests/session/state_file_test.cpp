@@ -16,7 +16,6 @@
 #include "core/base/same_bits.h"
 #include "core/session/base64.h"
 #include "core/session/engine.h"
-#include "core/session/input_marks.h"
 #include "core/session/session_commands.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
@@ -213,15 +212,6 @@ TEST_F(StateFile, RefusesTheSameNumbersIn32Bits) {
   for (const std::uint32_t n : {3U, 0U, 1U, 4U, 0U, 3U, 1U, 2U, 4U, 0U, 3U, 2U, 3U, 4U, 0U, 3U, 3U, 0U, 4U, 0U}) add(n);
   put(binary);
   EXPECT_THAT(refusal(), HasSubstr("32-bit coordinates now"));
-}
-
-TEST(InputMarks, SayWhatDiffers) {
-  const std::vector<DataMark> then{{"group \"a\"", "1"}, {"group \"b\"", "2"}, {"group \"c\"", "3"}, {"group \"a\"", "4"}};
-  EXPECT_EQ(changed_data(then, then), "");
-  EXPECT_EQ(changed_data(then, {{"group \"a\"", "4"}, {"group \"c\"", "5"}, {"group \"a\"", "1"}, {"field \"d\"", "6"}}),
-            "group \"b\" is gone, group \"c\" has changed, field \"d\" is new");
-  EXPECT_EQ(changed_data({}, {{"a", "1"}, {"b", "1"}, {"c", "1"}, {"d", "1"}, {"e", "1"}, {"f", "1"}}),
-            "a is new, b is new, c is new, d is new and 2 more");
 }
 
 TEST_F(StateFile, NobodyCouldFindAMeshThatCameFromNowhere) {
@@ -488,28 +478,6 @@ TEST_F(StateFile, ACancelledOpeningLeavesTheSession) {
   EXPECT_THROW(say("open-state " + file_.string()), Cancelled);
   progress_.clear_cancel();
   EXPECT_EQ(session_.input(), grid);
-}
-
-TEST(Base64, IsThatOfTheStandard) {
-  const auto encode = [](std::string_view text) {
-    return to_base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});  // NOLINT
-  };
-  // RFC 4648, section 10.
-  const std::pair<const char*, const char*> known[] = {
-      {"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
-  for (const auto& [plain, coded] : known) {
-    EXPECT_EQ(encode(plain), coded);
-    const auto back = from_base64(coded);
-    ASSERT_TRUE(back.has_value());
-    EXPECT_EQ(std::string(back->begin(), back->end()), plain);
-  }
-  for (const char* bad : {"Z", "Zg=", "Z===", "====", "Zg==Zg==", "Zm9\n", "Zm9v    "}) EXPECT_FALSE(from_base64(bad).has_value()) << bad;
-  const std::vector<Vec3> positions{{1.0 / 3.0, -0.0, 5e-324}, {1e308, -2.5, 3.0}};
-  const auto back = unpack_positions(pack_positions(positions), 2);
-  ASSERT_TRUE(back.has_value());
-  EXPECT_TRUE(same_bits(*back, positions));
-  EXPECT_FALSE(unpack_positions(pack_positions(positions), 3).has_value());
-  EXPECT_FALSE(unpack_positions(pack_positions(std::vector<Vec3>{{HUGE_VAL, 0, 0}}), 1).has_value());
 }
 
 }  // namespace

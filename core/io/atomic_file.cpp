@@ -91,9 +91,11 @@ void AtomicFile::open_temporary() {
       temporary_.clear();
       fail(error);
     }
-    // Whoever cleans up takes a file that nobody has locked for litter, and this one was not for a moment.
+    // Whoever cleans up takes a file that nobody has locked for litter, and this one was not for a moment: who has locked it by now is
+    // about to remove it, which is waited for, and then it has no name.
     struct stat status {};
-    (void)::flock(descriptor_, LOCK_EX | LOCK_NB);  // where there are no locks, nobody cleans up
+    while (::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
+    }  // where there are no locks, nobody cleans up
     if (::fstat(descriptor_, &status) == 0 && status.st_nlink > 0) return;
     ::close(descriptor_);
   }

@@ -19,13 +19,14 @@ bool all_digits(std::string_view text) noexcept {
   return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// The lock goes with the process that held it, however it ended. It is held here while the file is removed, so that no process can
-/// just then take a file of this name for its own.
+/// The lock goes with the process that held it, however it ended. It is held here while the file is removed: a process that has just made
+/// it, and has not locked it yet, waits and sees that it is gone. A name that by now is another file's is left alone.
 void remove_if_dead(int folder, const char* name) noexcept {
   const int descriptor = ::openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return;
-  struct stat status {};
-  if (::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+  struct stat opened {}, named {};
+  if (::fstat(descriptor, &opened) == 0 && S_ISREG(opened.st_mode) && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 &&
+      ::fstatat(folder, name, &named, AT_SYMLINK_NOFOLLOW) == 0 && named.st_ino == opened.st_ino && named.st_dev == opened.st_dev)
     (void)::unlinkat(folder, name, 0);
   ::close(descriptor);
 }

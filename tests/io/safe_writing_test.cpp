@@ -1,7 +1,9 @@
 // Files are replaced whole, with what belongs to them, and what killed processes left is cleaned up.
 
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <thread>
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -57,6 +59,22 @@ TEST(AtomicFile, CleansWhatDeadProcessesLeftAndNothingElse) {
   EXPECT_EQ(names_in(folder.path()), expected);
   EXPECT_EQ(get(folder / "slow.txt"), "slow");
   EXPECT_TRUE(is_litter_name(litter_name(123, 4)));
+}
+
+TEST(AtomicFile, IsNotTakenForLitterByThoseWhoCleanUpMeanwhile) {
+  const TemporaryFolder folder;
+  std::atomic<bool> over{false};
+  const auto clean = [&] {
+    while (!over) remove_litter(folder.path());
+  };
+  std::jthread first(clean), second(clean);
+  int lost = 0;
+  for (int i = 0; i < 8000; ++i) {
+    const AtomicFile file(folder / "a.txt");
+    if (fs::is_empty(folder.path())) ++lost;
+  }
+  over = true;
+  EXPECT_EQ(lost, 0);
 }
 
 TEST(AtomicFile, RefusesALoopOfLinks) {

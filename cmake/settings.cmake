@@ -75,9 +75,15 @@ endif()
 set(DMOSCOPE_PRECOMPILED <algorithm> <array> <cmath> <filesystem> <functional> <map> <memory> <optional> <span> <string> <string_view>
   <vector> <fmt/format.h>)
 
-# dmoscope_room(NAME): a static library of all sources below the current folder.
+# dmoscope_room(NAME [FOLDER...]): a static library of all sources below the folders, or below the current one.
 function(dmoscope_room name)
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp *.h)
+  set(patterns *.cpp *.h)
+  if(ARGN)
+    list(TRANSFORM ARGN APPEND /*.cpp OUTPUT_VARIABLE patterns)
+    list(TRANSFORM ARGN APPEND /*.h OUTPUT_VARIABLE headers)
+    list(APPEND patterns ${headers})
+  endif()
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${patterns})
   add_library(${name} STATIC ${sources})
   target_link_libraries(${name} PUBLIC dmoscope_settings)
   target_compile_options(${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:${DMOSCOPE_HARDENED}>)

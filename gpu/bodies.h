@@ -65,7 +65,8 @@ struct Visit {
       if (in_registers<M>(shape, task.parameters) != (S == Stars::Fans)) return;
     using Search = FastVisit<M, Team, S, Task>;
     typename Search::Outcome outcome;
-    if (S == Stars::Fans || shape.kind != StarShape::Kind::Alone) outcome = Search(task, rank, team).run();
+    const bool in_lanes = S == Stars::Fans || shape.kind != StarShape::Kind::Alone;
+    if (in_lanes && !task.untangling.repair) outcome = Search(task, rank, team).run();
     const double* to = outcome.to.target;
     const Deferred deferred{rank, outcome.ready, {to[0], to[1], to[2]}};
     if constexpr (AtOnce)

@@ -26,7 +26,7 @@ struct VisitSolid {
   /// The offset of the best candidate in units of the star's scale; 0 where none is better than the vertex's own place.
   template <class Team>
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE Vec3 search(const Task& task, const ListedStar& star, const Team& team) {
-    if (task.parameters.precision == Precision::Float && star.fits()) {
+    if (task.parameters.precision == Precision::Float && !task.untangling.repair && star.fits()) {
       const SolidFound found = SolidRankSearch<M, Team>(star.star(), task.parameters, team).run();
       if (found.ready) return {found.offset.x, found.offset.y, found.offset.z};
     }

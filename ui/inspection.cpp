@@ -31,11 +31,11 @@ Inspection::Key key_of(const SessionView& session, Index vertex) {
 }
 
 /// What visits of the frame are part of: it may be a mark, and the run stand elsewhere. Throws UsageError when that is not known any more.
-Sweep sweep_of(const RunView& run, const Moment& shown) {
+Sweep sweep_of(const RunView& run, const Moment& shown, const InputMesh& input) {
   if (shown == run.moment) return run.sweep;
   if (shown.iteration >= run.records.size())
     throw UsageError("The run has no record of this iteration any more, nor the floor that its visits keep to.");
-  return sweep_after(run.records.whole(), shown.iteration, run.mean_since);
+  return sweep_after(run.records.whole(), shown.iteration, run.mean_since, input.has_strays);
 }
 
 /// Of the star, each once.
@@ -223,7 +223,7 @@ Inspection inspect(const SessionView& session, Index vertex) {
   }
   try {
     gather_star(inspection, frame, vertex);
-    const Sweep sweep = sweep_of(run, frame.moment);
+    const Sweep sweep = sweep_of(run, frame.moment, *frame.input);
     const auto aims = aims_of_visit(run.parameters.metric, run.parameters.combination, run.size, sweep);
     if (!aims && !method_info(run.parameters.method).searches_grid) inspection.other_method = run.parameters.method;
     const auto trace = [&](auto traced) {

@@ -52,6 +52,10 @@ std::string stuck_sentence(const Inspection& inspection) {
   if (trace.end == VisitEnd::Moved) return {};
   if (trace.end == VisitEnd::Fixed)
     return "It is fixed: no search moves it, and what its elements can become depends on their other corners.";
+  if (trace.end == VisitEnd::Waits)
+    return "It waits: none of its elements is inverted, and this iteration only takes back vertices whose place alone is wrong, to where "
+           "all "
+           "their elements are sound.";
   std::string text = trace.end == VisitEnd::NotConfirmed ? "The search found a candidate, but judged exactly it gains nothing."
                      : trace.combined
                          ? fmt::format("No candidate is better than where it stands by what the search compares: {}.", trace.value_phrase)

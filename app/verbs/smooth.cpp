@@ -31,6 +31,7 @@
 #include "core/session/csv.h"
 #include "core/session/declared_floats.h"
 #include "core/session/left_inverted.h"
+#include "core/session/mean_given_up.h"
 #include "core/session/session.h"
 #include "core/session/untangling_hint.h"
 
@@ -156,6 +157,8 @@ void print_summary(const Result& r) {
   print("  {:<16} {:>10} -> {}\n", "inverted", grouped(before.inverted), grouped(after.inverted));
   print_aims(r.run);
   print("  {}\n", r.outcome.sentence());
+  if (const std::string fell = r.options.goal.until_converged ? mean_given_up(r.run) : ""; !fell.empty())
+    print("  {} (--then mean)\n", fell);
   print("  {} in {:.3f} s, {}vertices/s on {}\n", counted(r.outcome.iterations, "iteration", "iterations"), r.seconds,
         with_prefix(r.visits_per_second()), on_cpu(r.run) ? counted(r.threads, "thread", "threads") : r.run.backend_reason());
   print("  wrote {}\n", r.options.output.string());

@@ -47,6 +47,7 @@ std::string both_phrase(const Aims& aims) {
 
 std::string untangling_phrase(bool volume, const Untangling& rule) {
   const char* of = volume ? "corners'" : "elements'";
+  if (rule.repair) return fmt::format("least of the {} Jacobians, squeezed into -1 to 0; once all are positive the ", of);
   if (rule.attempt)
     return fmt::format(
         "mean of the {} Jacobians less 0.2, each taken up to 0.2, squeezed into -1 to 0 (-1e9 where more elements would be inverted, the "
@@ -78,6 +79,8 @@ class Look {
   Trace run(bool fixed) {
     if (fixed)
       trace_.end = VisitEnd::Fixed;
+    else if (untangling_.repair && trace_.before.jacobian > 0.0)
+      trace_.end = VisitEnd::Waits;
     else if (aims_)
       search_for_both();
     else if (parameters_.precision == Precision::Double || !search_fast())
@@ -270,6 +273,8 @@ std::string VisitSummary::sentence() const {
       return "stays: no candidate is better than where it stands";
     case VisitEnd::NotConfirmed:
       return "stays: the best candidate gains nothing when judged exactly";
+    case VisitEnd::Waits:
+      return "waits: none of its elements is inverted, and this iteration only takes back vertices whose place alone is wrong";
     case VisitEnd::Fixed:
       break;
   }

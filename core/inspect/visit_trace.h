@@ -51,7 +51,8 @@ enum class VisitEnd {
   Moved,         // the vertex gains
   NothingFound,  // no candidate is better than where it stands
   NotConfirmed,  // the search found one, but judged exactly it gains nothing
-  Fixed          // it may not move, and was not searched
+  Fixed,         // it may not move, and was not searched
+  Waits          // its star is sound, and this iteration moves no such vertex: see Untangling::repair
 };
 
 /// What came of a visit, wherever its candidates lie.

@@ -5,7 +5,8 @@
 // everywhere (a cube of 125, 36 of them inverted, ended with 3). So it must not fall, and what rises is a mean over all corners, in which
 // those that are good enough count no more. Nor may the number of inverted elements rise, or a metric fall below the worst of the whole
 // mesh: where a fixed vertex makes untangling impossible, neighbours would hand on the damage for ever. For the same reason attempts are
-// limited in time: between them the sound elements of a star are raised as if the inverted ones were not there.
+// limited in time: between them the sound elements of a star are raised as if the inverted ones were not there. And before all else those
+// vertices go home whose place alone is wrong: while they stand far away their neighbours must not follow them.
 
 #include <cstdint>
 #include <limits>
@@ -18,11 +19,14 @@ namespace dmoscope {
 
 /// How the visits of an iteration treat stars with inverted elements.
 struct Untangling {
+  /// Whether nothing moves but vertices of inverted elements that make all of their star sound, its least metric at least kRepaired.
+  bool repair = false;
   /// Whether sound elements of such a star may get worse, though no more of them inverted, for the sake of the inverted ones; else the
   /// sound ones are raised and no inverted one may get worse.
   bool attempt = true;
   /// The least metric of the elements that can move when the iteration began: no element may fall below it, or below what its star had.
   double floor = -std::numeric_limits<double>::infinity();
+  static constexpr double kRepaired = 0.2;
   friend bool operator==(const Untangling&, const Untangling&) = default;
 };
 
@@ -154,8 +158,9 @@ class InvertedSet {
 };
 
 /// The worth of a star with its vertex at a place. Positive is the least metric where no corner that changes with the vertex is inverted.
-/// Else, of a place that is allowed: in an attempt, the mean put between -1 and 0; without one, (least metric of the sound elements - 1) /
-/// 2 less the number of the inverted ones. A place that is not allowed: kForbidden.
+/// Else in a repair the least Jacobian, put between -1 and 0: of simplices it has one summit. Else, of a place that is allowed: in an
+/// attempt, the mean put between -1 and 0; without one, (least metric of the sound elements - 1) / 2 less the number of the inverted ones.
+/// A place that is not allowed: kForbidden.
 ///   allowed in an attempt: no more inverted elements, the least Jacobian not below that of the own place, no metric below the floor;
 ///   without one: what is sound stays sound, and the least metric of all does not fall.
 template <Metric M, class StarT, class Point>
@@ -180,13 +185,24 @@ class UntanglingObjective {
   /// Is an element inverted where the vertex stands now, by a corner that changes with it?
   [[nodiscard]] DMOSCOPE_ANYWHERE bool tangled() const { return !(jacobian_ > 0.0 && quality_ > 0.0); }
 
-  [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double operator()(Point p) const { return rule_.attempt ? attempt(p) : hold(p); }
+  [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double operator()(Point p) const {
+    if (rule_.repair) return repair(p);
+    return rule_.attempt ? attempt(p) : hold(p);
+  }
 
  private:
   static constexpr bool kOthers = formulas::kDefinedForOthers<M, Point>;
   static constexpr double kMost = std::numeric_limits<double>::max();
   /// From (-infinity, 0] to (-1, 0].
   static DMOSCOPE_ANYWHERE double bounded(double a) { return a / (1.0 - a); }
+
+  [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double repair(Point p) const {
+    double least = kMost;
+    star_.template for_each<kOthers>([&](const auto& each) {
+      least = scalar::min(least, corner_jacobians(each.with(p), each.kMoving, [](double) {}).around / each.reference);
+    });
+    return least > 0.0 ? scalar::max(least_metric(p), 0.0) : bounded(least);
+  }
 
   /// The metrics of sound elements are needed only where all are sound: they cost most.
   [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double attempt(Point p) const {

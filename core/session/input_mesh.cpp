@@ -165,6 +165,29 @@ std::vector<double> reference_measures(const Mesh& mesh, const Geometry& geometr
   return reference;
 }
 
+/// Does a vertex lie outside the box of the others of its star? In a sound star it never does.
+bool is_stray(const Mesh& mesh, const Geometry& geometry, const Topology& topology, Index vertex) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vec3 low{kInfinity, kInfinity, kInfinity}, high = -1.0 * low;
+  for (const Incidence& at : topology.star(vertex)) {
+    for (const Index other : mesh.elements.corners(at.element)) {
+      if (other == vertex) continue;
+      const Vec3 way = geometry.plane.difference(mesh.positions[other], mesh.positions[vertex]);
+      low = {std::min(low.x, way.x), std::min(low.y, way.y), std::min(low.z, way.z)};
+      high = {std::max(high.x, way.x), std::max(high.y, way.y), std::max(high.z, way.z)};
+    }
+  }
+  return low.x > 0.0 || low.y > 0.0 || low.z > 0.0 || high.x < 0.0 || high.y < 0.0 || high.z < 0.0;
+}
+
+/// See InputMesh::has_strays.
+bool find_strays(const Mesh& mesh, const Geometry& geometry, const Topology& topology, const MeshReport& report) {
+  return std::ranges::any_of(report.inverted_elements, [&](Index e) {
+    return std::ranges::any_of(mesh.elements.corners(e),
+                               [&](Index v) { return topology.boundary()[v] == 0 && is_stray(mesh, geometry, topology, v); });
+  });
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> standing_vertices(const InputMesh& input, InterfaceRule rule) {
@@ -192,8 +215,10 @@ std::shared_ptr<const InputMesh> assemble(Mesh mesh, Geometry geometry, Topology
   progress.check();
   Interfaces interfaces(mesh, topology);
   progress.check();
+  const bool has_strays = find_strays(mesh, geometry, topology, report);
   return std::make_shared<const InputMesh>(InputMesh{std::move(mesh), geometry, std::move(topology), std::move(faces), std::move(report),
-                                                     std::move(path), std::move(reference), std::move(generator), std::move(interfaces)});
+                                                     std::move(path), std::move(reference), std::move(generator), std::move(interfaces),
+                                                     has_strays});
 }
 
 std::shared_ptr<const InputMesh> prepare_volume(Mesh mesh, const Geometry& geometry, std::filesystem::path path, Progress& progress,

@@ -30,6 +30,7 @@ struct InputMesh {
                                           // or |volume| in their stars, at input; of a volume the Jacobian of an ideal element of that size
   std::string generator{};                // "coast 4000 1": the words that make this mesh again; empty for any other
   Interfaces interfaces{};
+  bool has_strays = false;  // a vertex of an inverted element, off the boundary, that lies outside the box of its star's other vertices
   [[nodiscard]] QualityContext quality_context() const { return {mesh, geometry}; }
   [[nodiscard]] bool is_volume() const noexcept { return geometry.shape == Shape::Volume; }
   /// Of a planar mesh (Plane) or of a volume (Space).

@@ -162,7 +162,7 @@ void Run::forget_after(std::uint64_t iteration) {
   turn_.forget_after(iteration);
 }
 
-Sweep Run::sweep() const { return sweep_after(history_.records(), at_.moment.iteration, mean_since()); }
+Sweep Run::sweep() const { return sweep_after(history_.records(), at_.moment.iteration, mean_since(), input_->has_strays); }
 
 std::uint64_t Run::ask_smoother(std::uint64_t first, std::uint64_t count) {
   if (const Sweep now = sweep(); begun_ != now) {

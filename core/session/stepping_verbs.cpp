@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/session/left_inverted.h"
+#include "core/session/mean_given_up.h"
 #include "core/session/verbs.h"
 
 namespace dmoscope {
@@ -52,6 +53,7 @@ void until_converged(CommandContext& context, Arguments arguments) {
   const Outcome outcome = active.until_converged(limits, context.progress);
   tell(context, outcome.sentence());
   tell_ending(context, active, outcome);
+  if (const std::string fell = mean_given_up(active); !fell.empty()) tell(context, fell + " ('then mean')");
 }
 void best(CommandContext& context, Arguments arguments) {
   require(arguments, 0, 0);

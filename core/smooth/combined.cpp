@@ -112,7 +112,7 @@ CombinedSearch<Frame>::CombinedSearch(const InputMesh& input, Aims aims, const S
 
 template <class Frame>
 typename CombinedSearch<Frame>::Found CombinedSearch<Frame>::search(const Room& star, PositionView positions, Index vertex) const {
-  if (kernel_ != nullptr && !is_tangled(star)) {
+  if (kernel_ != nullptr && !mesh_.untangling.repair && !is_tangled(star)) {
     const AimsFound<Frame> found = kernel_(task_of(star, positions, vertex));
     if (found.ready) return {found.offset, false};
   }
@@ -176,7 +176,7 @@ bool CombinedSearch<Frame>::gains(PositionView positions, Index vertex, Vec3 tar
     // Raising the mean lowers neither the minimum nor the mean, not even for the sake of untangling.
     return !aims_.raise_mean() || (after.quality >= before.quality && second_rises());
   }
-  if (!(after.jacobian > 0.0)) return false;
+  if (mesh_.untangling.repair || !(after.jacobian > 0.0)) return false;
   if (!aims_.beyond(before.quality)) return after.quality > before.quality;
   return aims_.beyond(after.quality) && second_rises();
 }

@@ -127,6 +127,7 @@ class CombinedSearch {
   [[nodiscard]] Found search_plainly(const Room& star, PositionView positions, Index vertex, Trace&& trace = {}) const {
     const StarViewIn<Frame, double> view(star);
     const bool untangling = is_tangled(star);
+    if (mesh_.untangling.repair && !untangling) return {};
     const CombinedObjective<Frame> objective(aims_, untangling ? std::optional(mesh_.untangling) : std::nullopt, view,
                                              density_of(star, positions, vertex));
     const Offset middle = untangling ? middle_of<Offset>(view) : Offset{};

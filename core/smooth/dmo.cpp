@@ -66,7 +66,9 @@ class LaneDmo final : public Smoother {
     std::atomic<std::uint64_t> moved{0};
     stored_ = false;
     for_classes(*colouring_, first, count, [&](std::uint64_t from, std::uint64_t to) {
-      const auto chunk = [&](std::size_t begin, std::size_t end) { moved += kernel_(task_, from + begin, from + end); };
+      const auto chunk = [&](std::size_t begin, std::size_t end) {
+        moved += untangling_.repair ? repair(from + begin, from + end) : kernel_(task_, from + begin, from + end);
+      };
       for_chunks(pool, to - from, kLaneGrain, std::cref(chunk));  // by reference: a function object of this size would be allocated
     });
     return moved;
@@ -105,6 +107,13 @@ class LaneDmo final : public Smoother {
       return target.has_value();
     };
     return task;
+  }
+
+  /// Lanes are for sound stars, which wait.
+  std::uint64_t repair(std::uint64_t first, std::uint64_t last) {
+    std::uint64_t moved = 0;
+    for (std::uint64_t rank = first; rank < last; ++rank) moved += task_.visit_alone(this, static_cast<Index>(rank)) ? 1U : 0U;
+    return moved;
   }
 
   void load(std::span<const Vec3> positions, ThreadPool* pool) {

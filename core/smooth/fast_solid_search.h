@@ -57,7 +57,7 @@ class FastSolidSearch {
   std::optional<Vec3> target(PositionView positions, Index vertex, SolidRoom& room) const {
     const MeshStar star(mesh_.view, positions, vertex);
     gather_star(star, room.exact);
-    const SolidFound found = find(room, parameters_.levels);
+    const SolidFound found = mesh_.untangling.repair ? SolidFound{} : find(room, parameters_.levels);
     if (!found.ready) return target_by_plain_search(positions, vertex, room.exact);
     const Vec3 offset{found.offset.x, found.offset.y, found.offset.z};
     if (offset == Vec3{}) return std::nullopt;

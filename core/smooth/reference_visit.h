@@ -23,6 +23,7 @@ struct StarState {
   double sound = 0.0;       // least metric of those that are not inverted
   /// Strictly better: what a move must be (promise 1).
   [[nodiscard]] DMOSCOPE_ANYWHERE bool better_than(const StarState& other, const Untangling& rule = {}) const noexcept {
+    if (rule.repair) return !(other.jacobian > 0.0) && jacobian > 0.0 && inverted < other.inverted && quality >= Untangling::kRepaired;
     if (other.jacobian > 0.0) return jacobian > 0.0 && quality > other.quality;
     if (inverted > other.inverted || quality < scalar::min(other.quality, rule.attempt ? rule.floor : other.quality)) return false;
     if (jacobian > 0.0) return true;
@@ -81,12 +82,14 @@ template <Metric M, class Frame>
   return rule.attempt || before.jacobian > 0.0 || keeps_sound(mesh, positions, vertex, target);
 }
 
-/// The untangling objective costs more and is needed only where an element of the star is inverted now. Returns the offset, in units of the
+/// The untangling objective costs more and is needed only where an element of the star is inverted now; in a repair nothing else is looked
+/// at. Returns the offset, in units of the
 /// star's scale. Point: of the plane or of space.
 template <Metric M, class StarT, class Point, class Team = Solo, class Trace = NoTrace>
 [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Point search_star(const StarT& star, Point box, const SearchParameters& parameters,
                                                                   const Untangling& rule, const Team& team = {}, Trace&& trace = {}) {
   const UntanglingObjective<M, StarT, Point> untangling(star, rule);
+  if (rule.repair && !untangling.tangled()) return {};
   if (untangling.tangled()) {
     const Point middle = middle_of<Point>(star);
     return grid_search<double>(untangling, box, parameters, trace, team, &middle).offset;

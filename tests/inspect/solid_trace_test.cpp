@@ -80,8 +80,13 @@ class SolidFollower {
           continue;
         }
         const SolidTrace trace = look(positions, vertex);
+        const bool repair = run_.sweep().untangling.repair;
         const std::uint64_t steps = run_.step(StepUnit::Vertex, progress_);
         expect_as_stored(trace, steps, positions[vertex]);
+        if (trace.end == VisitEnd::Waits) {
+          EXPECT_TRUE(repair && trace.before.jacobian > 0.0 && trace.levels.empty());
+          continue;
+        }
         expect_true_levels(trace, positions);
         expect_true_elements(trace, positions);
         if (::testing::Test::HasFailure()) {
@@ -89,10 +94,11 @@ class SolidFollower {
           return;
         }
         positions[vertex] = run_.positions()[vertex];
+        untangling += trace.untangling ? 1U : 0U;
+        if (repair) continue;  // most stars wait
         ++visits;
         moved += steps;
         fast += trace.fast ? 1U : 0U;
-        untangling += trace.untangling ? 1U : 0U;
       }
   }
 
@@ -242,7 +248,8 @@ TEST_P(SolidTraces, OfTangledStars) {
   for (const Precision precision : {Precision::Float, Precision::Double}) {
     SCOPED_TRACE(name_of(precision));
     SolidFollower follower(input, {.search = {.precision = precision}});
-    follower.follow(2);
+    follower.follow(7);  // the first few may be repairs
+    if (HasFailure()) return;
     EXPECT_GT(follower.moved, follower.visits / 4);
     EXPECT_GT(follower.untangling, follower.visits / 8);
   }

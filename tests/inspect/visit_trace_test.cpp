@@ -82,14 +82,20 @@ class Follower {
         std::vector<Vec3> positions(run_.positions().begin(), run_.positions().end());
         const VisitTrace trace =
             trace_visit(run_.input(), positions, run_.fixed(), metric(), search(), vertex, {}, run_.sweep().untangling);
+        const bool repair = run_.sweep().untangling.repair;
         const std::uint64_t moved = run_.step(StepUnit::Vertex, progress_);
         expect_as_stored(trace, vertex, moved, positions[vertex]);
+        if (trace.end == VisitEnd::Waits) {
+          EXPECT_TRUE(repair && trace.before.jacobian > 0.0 && trace.levels.empty());
+          continue;
+        }
         expect_true_levels(trace, positions);
         expect_true_elements(trace, positions);
         if (::testing::Test::HasFailure()) {
           ADD_FAILURE() << info(metric()).name << ", vertex " << vertex << ", iteration " << i << ": " << trace.sentence();
           return;
         }
+        if (repair) continue;  // most stars wait
         ++visits_;
         moved_ += moved;
         fast_ += trace.fast ? 1U : 0U;
@@ -222,7 +228,7 @@ void expect_true_traces(const std::shared_ptr<const InputMesh>& input, Metric me
                         std::size_t stride = 1) {
   if (!testing::defined_for_all(metric, input->mesh)) return;
   Follower follower(input, metric, search, stride);
-  follower.follow(iterations);
+  follower.follow(iterations + (input->has_strays ? 1 : 0));  // the first is a repair
   EXPECT_GT(follower.moved(), follower.visits() / 20);
   if (search.precision == Precision::Double) {
     EXPECT_EQ(follower.fast(), 0U);

@@ -123,11 +123,21 @@ std::vector<IterationRecord> records_with(const std::vector<Index>& inverted) {
 TEST(SweepAfter, AttemptsComeInTheSecondToSixthIterationOfTwoCyclesAndThenNoMore) {
   const std::vector<IterationRecord> records = records_with(std::vector<Index>(90, 3));
   for (std::uint64_t i = 0; i < records.size(); ++i) {
-    const Sweep sweep = sweep_after(records, i, {});
+    const Sweep sweep = sweep_after(records, i, {}, false);
     EXPECT_EQ(sweep.untangling.attempt, (i >= 1 && i <= 5) || (i >= 26 && i <= 30)) << i;
     EXPECT_EQ(sweep.untangling.floor, -1.0 - static_cast<double>(i));
     EXPECT_EQ(sweep.iteration, i);
   }
+}
+
+TEST(SweepAfter, OfAMeshWithStraysBeginsWithRepairsWhileEachLeavesFewerInverted) {
+  const std::vector<IterationRecord> records = records_with({9, 8, 7, 7, 6, 5, 4}), falling = records_with({9, 8, 7, 6, 5, 4, 3, 2});
+  for (std::uint64_t i = 0; i < records.size(); ++i) {
+    EXPECT_EQ(sweep_after(records, i, {}, true).untangling.repair, i < 3) << i;
+    EXPECT_FALSE(sweep_after(records, i, {}, false).untangling.repair);
+    EXPECT_EQ(sweep_after(falling, i, {}, true).untangling.repair, i < 5) << i;
+  }
+  EXPECT_FALSE(sweep_after(records_with({0}), 0, {}, true).untangling.repair) << "nothing is inverted";
 }
 
 TEST(SweepAfter, CountsAnewWhenFewerAreInvertedAndNotWhenAsManyOrMore) {
@@ -135,14 +145,14 @@ TEST(SweepAfter, CountsAnewWhenFewerAreInvertedAndNotWhenAsManyOrMore) {
   const std::vector<std::uint64_t> since{0, 1, 2, 0, 1, 2, 3, 0, 0, 1};
   for (std::uint64_t i = 0; i < records.size(); ++i) EXPECT_EQ(iterations_since_untangled(records, i), since[i]) << i;
   EXPECT_EQ(iterations_since_untangled(records_with(std::vector<Index>(90, 3)), 80), 50U) << "it looks no further";
-  EXPECT_EQ(sweep_after(records, 9, {}).untangling, Untangling{}) << "nothing is inverted";
+  EXPECT_EQ(sweep_after(records, 9, {}, false).untangling, Untangling{}) << "nothing is inverted";
 }
 
 TEST(SweepAfter, TheFloorOfTheMeanIsTheMinimumFromTheVeryIterationOn) {
   const std::vector<IterationRecord> records = records_with({0, 0, 0, 0});
-  EXPECT_EQ(sweep_after(records, 1, 2).floor, Sweep{}.floor);
-  EXPECT_EQ(sweep_after(records, 2, 2).floor, -3.0);
-  EXPECT_EQ(sweep_after(records, 3, 2).floor, -4.0);
+  EXPECT_EQ(sweep_after(records, 1, 2, false).floor, Sweep{}.floor);
+  EXPECT_EQ(sweep_after(records, 2, 2, false).floor, -3.0);
+  EXPECT_EQ(sweep_after(records, 3, 2, false).floor, -4.0);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ std::vector<std::vector<Vec3>> always_awake(const dmoscope::Run& run) {
   std::vector<Vec3> positions = after[0];
   std::vector<IterationRecord> records{run.history().records()[0]};
   for (std::uint64_t iteration = 0; iteration < kMostIterations; ++iteration) {
-    smoother->begin(sweep_after(records, iteration, {}));
+    smoother->begin(sweep_after(records, iteration, {}, mesh->has_strays));
     for (Index c = 0; c < colouring->class_count(); ++c) {
       const std::uint64_t first = colouring->class_offsets[c], count = colouring->class_offsets[c + 1] - first;
       smoother->positions_replaced();

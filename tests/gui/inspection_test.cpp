@@ -113,12 +113,12 @@ TEST_F(Inspection, ShowsWhatAVisitOfAnyVertexDoes) {
   for (const char* metric : {"mean-ratio", "min-angle", "radius-ratio"}) {
     good(fmt::format("metric {}", metric));
     moved_ = 0;
-    for (std::size_t i = 0; i < 12 && !HasFailure(); ++i) {
+    for (std::size_t i = 0; i < (testing::kSanitized ? 5 : 12) && !HasFailure(); ++i) {
       const auto& order = run().colouring->order;
       const Index vertex = order[(i * 7919 + 13) % order.size()];
       expect_the_truth(vertex, fmt::format("visit {}", vertex));
     }
-    EXPECT_GT(moved_, 3) << metric;
+    EXPECT_GT(moved_, testing::kSanitized ? 0 : 3) << metric;
   }
 }
 

@@ -76,12 +76,13 @@ class Menus : public HeadlessTest {
 };
 
 TEST_F(Menus, EveryActionIsReachedByScriptPaletteAndKeyAlike) {
-  // A frame a letter: with a sanitizer the palette is opened for some alone.
-  constexpr std::size_t kStride = testing::kSanitized ? 6 : 1;
+  // A frame a letter: with a sanitizer some actions alone are tried, and the palette is opened for some of these.
+  constexpr std::size_t kTried = testing::kSanitized ? 5 : 1, kStride = testing::kSanitized ? 20 : 1;
   std::size_t count = 0;
   for (const ui::Action& action : ui::actions()) {
     SCOPED_TRACE(std::string(action.id));
-    const bool by_hand = count++ % kStride == 0;
+    if (count++ % kTried != 0) continue;
+    const bool by_hand = (count - 1) % kStride == 0;
     // Stepping by itself goes on as long as it is let: where it comes to is a matter of time.
     const bool endless = action.command.starts_with("play-steps");
     begin();

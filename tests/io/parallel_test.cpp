@@ -14,6 +14,7 @@
 #include "core/mesh/generate.h"
 #include "core/mesh/random.h"
 #include "tests/io/files.h"
+#include "tests/support/sanitized.h"
 
 namespace dmoscope::test {
 namespace {
@@ -21,10 +22,11 @@ namespace {
 using testing::HasSubstr;
 
 /// Some hundred thousand lines: many chunks of whatever is done in chunks.
+constexpr std::size_t kLarge = testing::kSanitized ? 25000 : 60000;
 const Mesh& large() {
   static const Mesh mesh = [] {
     Progress progress;
-    return generate_mesh("mixed", 60000, 3, progress);
+    return generate_mesh("mixed", kLarge, 3, progress);
   }();
   return mesh;
 }
@@ -78,7 +80,7 @@ TEST(Threads, NameTheFirstWrongVertexAndKeepTheOldFile) {
   const TemporaryFolder folder;
   put(folder / "a.14", "old");
   std::vector<Vec3> positions = mesh.positions;
-  positions[59000].z = positions[40000].z = positions[20001].z = 1.0;
+  positions[kLarge - 1000].z = positions[22000].z = positions[20001].z = 1.0;
   Progress progress;
   for (const unsigned threads : {1U, 2U, 5U}) {
     ThreadPool pool(threads);
@@ -134,7 +136,7 @@ TEST(Threads, FindTheFirstErrorOfTheFile) {
     return "";
   };
   const auto vertices = large().positions.size();
-  for (const std::size_t line : {std::size_t{5}, std::size_t{30000}, vertices, vertices + 20, vertices + 40000}) {
+  for (const std::size_t line : {std::size_t{5}, vertices / 2, vertices, vertices + 20, vertices + kLarge / 2}) {
     put(folder / "a.off", with_line(with_line(text, line, "0 x 1"), line + 30, "3 0"));
     EXPECT_THAT(complaint({progress, &pool}), HasSubstr("a.off:" + std::to_string(line) + ": ")) << line;
     EXPECT_EQ(complaint({progress, &pool}), complaint(progress));

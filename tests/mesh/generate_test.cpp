@@ -9,6 +9,7 @@
 
 #include "core/quality/quality.h"
 #include "core/session/input_mesh.h"
+#include "tests/support/sanitized.h"
 
 namespace dmoscope {
 namespace {
@@ -41,7 +42,8 @@ void expect_valid(const Mesh& mesh, bool tangled) {
 
 TEST(Generate, EveryKindIsValidForSeveralSizesAndSeeds) {
   for (const GeneratorInfo& kind : generator_table()) {
-    for (const std::size_t size : {std::size_t{0}, std::size_t{300}, std::size_t{1500}}) {
+    for (const std::size_t size : {std::size_t{300}, std::size_t{1500}, std::size_t{0}}) {
+      if (testing::kSanitized && size != 300) continue;
       for (const std::uint64_t seed : {0U, 1U, 77U}) {
         SCOPED_TRACE(std::string(kind.name) + " " + std::to_string(size) + " seed " + std::to_string(seed));
         const Mesh mesh = generated(kind.name, size, seed);

@@ -18,6 +18,7 @@
 #include "core/session/engine.h"
 #include "core/session/session_commands.h"
 #include "tests/support/meshes.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/temporary_folder.h"
 
 namespace dmoscope {
@@ -280,7 +281,9 @@ TEST_F(StateFile, MalformedFilesAreRefusedWithAReason) {
   const Json flat = json.flatten();
   const std::vector<Json> wrong{Json(), Json(-1), Json(1e300), Json("x"), Json::array(), Json::object(), Json(18446744073709551615ULL)};
   std::size_t refused = 0, tried = 0;
+  std::size_t number = 0;
   for (const auto& item : flat.items()) {
+    if (testing::kSanitized && number++ % 4 != 0) continue;
     if (item.key().find("/records/") != std::string::npos && item.key().find("/records/1") == std::string::npos) continue;
     for (const Json& value : wrong) {
       Json broken = json;

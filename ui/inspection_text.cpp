@@ -11,7 +11,7 @@ std::string level_label(const InspectionState& state, const Inspection& inspecti
   if (inspection.visit() == nullptr) return {};
   const VisitSummary& trace = *inspection.visit();
   const std::size_t levels = inspection.level_count();
-  if (levels == 0) return "fixed";
+  if (levels == 0) return trace.end == VisitEnd::Waits ? "waits" : "fixed";
   if (state.applied) {
     if (trace.end != VisitEnd::Moved) return fmt::format("stays · {}", short_number(quality_of(trace.before)));
     return fmt::format("moved · {} → {}", short_number(quality_of(trace.before)), short_number(quality_of(trace.after)));
@@ -100,6 +100,7 @@ std::string candidate_text(const Inspection& inspection, int number, int index) 
 }
 
 std::string search_phrase(const VisitSummary& trace) {
+  if (trace.end == VisitEnd::Fixed || trace.end == VisitEnd::Waits) return "not searched";
   std::string text = trace.fast ? "fast search in float" : "plain search in double";
   if (trace.untangling) text += ", untangling";
   return text;

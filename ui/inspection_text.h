@@ -26,7 +26,7 @@ namespace dmoscope::ui {
 /// A candidate in some lines: which, where, what it is worth.
 [[nodiscard]] std::string candidate_text(const Inspection& inspection, int level, int index);
 
-/// Where the trace is from: "float, fast search", "double, plain search, untangling".
+/// Where the trace is from: "fast search in float", "plain search in double, untangling", "not searched".
 [[nodiscard]] std::string search_phrase(const VisitSummary& visit);
 
 /// Columns level,index,i,j,u,v,value,quality,chosen; u and v: offset from the vertex in the plane, mesh units. `level`: from 1; 0: all.

@@ -1,4 +1,4 @@
-// One reader (DMOSCOPE_FUZZ_FORMAT) against whatever libFuzzer thinks of.
+// The reader of the format that the environment names (DMOSCOPE_FUZZ_FORMAT) against whatever libFuzzer thinks of.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,9 +9,23 @@
 
 #include "tests/fuzz/check_reader.h"
 
+namespace {
+std::string format;
+}
+
+extern "C" int LLVMFuzzerInitialize(int* /*count*/, char*** /*arguments*/) {
+  const char* name = std::getenv("DMOSCOPE_FUZZ_FORMAT");
+  if (name == nullptr) {
+    std::fprintf(stderr, "DMOSCOPE_FUZZ_FORMAT names no format\n");
+    std::exit(1);
+  }
+  format = name;
+  return 0;
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    dmoscope::testing::check_reader(DMOSCOPE_FUZZ_FORMAT, std::string(reinterpret_cast<const char*>(data), size));
+    dmoscope::testing::check_reader(format, std::string(reinterpret_cast<const char*>(data), size));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     std::abort();

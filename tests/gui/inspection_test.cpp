@@ -1,6 +1,7 @@
 // What grid inspection shows of a vertex of a real mesh is what the smoother then does to it, bit for bit.
 #include <bit>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 
 #include <fmt/format.h>
@@ -10,6 +11,9 @@
 #include "core/inspect/visit_trace.h"
 #include "core/quality/quality.h"
 #include "tests/gui/headless_test.h"
+#include "tests/support/sanitized.h"
+#include "tests/support/temporary_folder.h"
+#include "ui/inspection_text.h"
 #include "ui/view_commands.h"
 
 namespace dmoscope::app {
@@ -120,6 +124,46 @@ TEST_F(Inspection, ShowsWhatAVisitOfAnyVertexDoes) {
     }
     EXPECT_GT(moved_, testing::kSanitized ? 0 : 3) << metric;
   }
+}
+
+/// Sixteen squares of two triangles, their middle vertex far out.
+class InspectionOfAStray : public HeadlessTest {
+ protected:
+  static constexpr Index kStray = 12;
+  void open_it() {
+    std::string text = "OFF\n25 32 0\n";
+    for (Index v = 0; v < 25; ++v) text += v == kStray ? "40 -3 0\n" : fmt::format("{} {} 0\n", v % 5, v / 5);
+    for (int cell = 0; cell < 16; ++cell) {
+      const int a = cell % 4 + 5 * (cell / 4);
+      text += fmt::format("3 {} {} {}\n3 {} {} {}\n", a, a + 1, a + 5, a + 1, a + 6, a + 5);
+    }
+    const std::filesystem::path file = folder_ / "stray.off";
+    std::ofstream(file) << text;
+    good("open " + file.string());
+    good("inspect on");
+  }
+  [[nodiscard]] const ui::Inspection& look(Index vertex) {
+    good(fmt::format("pick vertex {}", vertex));
+    return window_->app().inspection();
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(InspectionOfAStray, NeighboursAreSaidToWaitAndNotToBeFixed) {
+  open_it();
+  const auto before = session()->frame;
+  const Index sound = 18;  // in no element of the stray one
+  const ui::Inspection& inspection = look(sound);
+  ASSERT_NE(inspection.visit(), nullptr) << inspection.trouble;
+  EXPECT_EQ(inspection.visit()->end, VisitEnd::Waits);
+  EXPECT_EQ(ui::level_label(state().inspection, inspection), "waits");
+  EXPECT_EQ(ui::search_phrase(*inspection.visit()), "not searched");
+  EXPECT_EQ(ui::stuck_sentence(inspection).substr(0, 8), "It waits");
+  EXPECT_EQ(look(kStray).visit()->end, VisitEnd::Moved);
+  good("step iteration");
+  const auto after = session()->frame;
+  for (Index v = 0; v < 25; ++v) EXPECT_EQ(same_bits(before->positions[v], after->positions[v]), v != kStray) << v;
+  EXPECT_EQ(look(sound).level_count(), 3U) << "the next iteration searches again";
 }
 
 }  // namespace

@@ -16,9 +16,9 @@
 namespace dmoscope::testing {
 namespace {
 
-constexpr int kMutantsPerFormat = kSanitized ? 300 : 1000;  // and of each of its samples:
-constexpr int kMutantsPerSample = kSanitized ? 60 : 200;
-constexpr std::size_t kMostCuts = kSanitized ? 500 : 5000;  // of a sample
+constexpr int kMutantsPerFormat = 1000;  // and of each of its samples:
+constexpr int kMutantsPerSample = 200;
+constexpr std::size_t kMostCuts = kSanitized ? 1000 : 5000;  // of a sample
 
 /// One to three bytes flipped, inserted, deleted, or replaced by what upsets parsers most.
 std::string mutated(std::string bytes, std::mt19937_64& random) {

@@ -50,6 +50,7 @@ App::App(Options options)
   host_.item = [this](const std::string& name) { return items_.find(name); };
   commands_ = view_commands(state_, host_);
   activity_.renderer = options_.renderer;
+  widgets_.sample_pictures = options_.sample_pictures;
 }
 
 App::~App() = default;

@@ -27,6 +27,7 @@ class App {
     std::string renderer;             // what draws
     std::string no_interop;           // why the accelerator cannot write what is drawn; empty where it can
     bool software_renderer = false;
+    bool sample_pictures = true;  // on the start page
     bool wait_for_scene = false;  // big meshes are made ready for drawing before a frame goes on (headless)
   };
 

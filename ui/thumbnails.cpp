@@ -117,11 +117,12 @@ Thumbnail make_one(const GeneratorInfo& generator, std::size_t size_wanted, rend
 
 }  // namespace
 
-std::vector<Thumbnail> make_thumbnails(render::ColourMap map) {
+std::vector<Thumbnail> make_thumbnails(render::ColourMap map, bool pictures) {
   std::vector<Thumbnail> out;
   for (const GeneratorInfo& generator : generator_table()) {
     Thumbnail sample{std::string(generator.name), std::string(generator.doc), {}};
     for (const std::size_t size : kSideLengths) {
+      if (!pictures) break;
       try {
         sample = make_one(generator, size, map);
         break;

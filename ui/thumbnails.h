@@ -21,7 +21,7 @@ struct Thumbnail {
   std::vector<Polygon> polygons;
 };
 
-/// One for each generator; without polygons where a generator makes nothing that small.
-[[nodiscard]] std::vector<Thumbnail> make_thumbnails(render::ColourMap map);
+/// One for each generator; without polygons where a generator makes nothing that small, or `pictures` are not wanted: they take some 0.1 s.
+[[nodiscard]] std::vector<Thumbnail> make_thumbnails(render::ColourMap map, bool pictures = true);
 
 }  // namespace dmoscope::ui

@@ -26,6 +26,7 @@ HeadlessWindow::HeadlessWindow(const Options& options)
   ui::App::Options app = app_options(options.threads, options.backend, acceleration_, *context_);
   if (options.no_interop) app.no_interop = *options.no_interop;
   app.wait_for_scene = true;
+  app.sample_pictures = options.sample_pictures;
   app_ = std::make_unique<ui::App>(std::move(app));
   app_->state().scale = options.scale;
   app_->set_listener([this](const Message& message) {

@@ -24,6 +24,7 @@ class HeadlessWindow {
     Backend backend = Backend::Auto;
     std::optional<Acceleration> acceleration{};  // none: this machine's
     std::optional<std::string> no_interop{};     // why that cannot write what is drawn; none: what this machine says
+    bool sample_pictures = true;                 // see ui::App::Options
   };
   /// Throws Error where no OpenGL without a screen can be had.
   explicit HeadlessWindow(const Options& options);

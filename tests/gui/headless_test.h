@@ -13,11 +13,12 @@ namespace dmoscope::app {
 class HeadlessTest : public testing::Test {
  protected:
   void SetUp() override { open(); }
-  /// A fresh window instead of the one before; skips the test where there is no OpenGL.
+  /// A fresh window instead of the one before, whose start page has no pictures; skips the test where there is no OpenGL.
   void open(int width = 1280, int height = 800, Backend backend = Backend::Auto) {
     window_.reset();
     try {
-      window_ = std::make_unique<HeadlessWindow>(HeadlessWindow::Options{width, height, 1.0, 1, backend});
+      window_ = std::make_unique<HeadlessWindow>(
+          HeadlessWindow::Options{.width = width, .height = height, .threads = 1, .backend = backend, .sample_pictures = false});
     } catch (const Error& error) {
       GTEST_SKIP() << "no OpenGL without a screen: " << error.what();
     }

@@ -99,6 +99,7 @@ struct WidgetState {
   InsideGrip inside_grip;
   std::size_t worst_cells = 50;       // how many "only the worst" means
   std::vector<Thumbnail> thumbnails;  // of the samples, made when the start page is first shown
+  bool sample_pictures = true;        // with pictures
   int screenshot_width = 0, screenshot_height = 0, screenshot_supersample = 2;
   bool screenshot_transparent = false, screenshot_window = false;
   int palette_selected = 0;

@@ -71,7 +71,8 @@ void draw_recent_files(PanelContext& context, const Rect& rect, float width) {
 }  // namespace
 
 void draw_start_page(PanelContext& context, const Rect& rect) {
-  if (context.widgets.thumbnails.empty()) context.widgets.thumbnails = make_thumbnails(context.state.colour_map);
+  if (context.widgets.thumbnails.empty())
+    context.widgets.thumbnails = make_thumbnails(context.state.colour_map, context.widgets.sample_pictures);
   const auto& samples = context.widgets.thumbnails;
   const float em = context.em(), gap = context.px(10);
   // Cards in one row, or in two and more where there is no room, as large as the space allows: a low window gets small pictures.

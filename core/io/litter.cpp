@@ -24,7 +24,8 @@ bool all_digits(std::string_view text) noexcept {
 void remove_if_dead(int folder, const char* name) noexcept {
   const int descriptor = ::openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return;
-  struct stat opened {}, named {};
+  struct stat opened {
+  }, named{};
   if (::fstat(descriptor, &opened) == 0 && S_ISREG(opened.st_mode) && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 &&
       ::fstatat(folder, name, &named, AT_SYMLINK_NOFOLLOW) == 0 && named.st_ino == opened.st_ino && named.st_dev == opened.st_dev)
     (void)::unlinkat(folder, name, 0);

@@ -26,6 +26,16 @@ TEST_P(DeviceDmo, SameBitsOnTheZoo) {
   }
 }
 
+TEST_P(DeviceDmo, SameBitsInRepairs) {
+  for (auto& specimen : dmoscope::testing::zoo()) {
+    if (!defined_for_all(GetParam(), specimen.mesh)) continue;
+    SCOPED_TRACE(specimen.name);
+    Progress progress;
+    const Subject subject(prepare_input(std::move(specimen.mesh), {}, Need::Smoothing, progress));
+    expect_same_visits(host(), subject, GetParam(), specimen.search, 1, nullptr, {.untangling = {.repair = true}});
+  }
+}
+
 TEST_P(DeviceDmo, SameBitsOnTheBundledMeshes) {
   const auto meshes = bundled_meshes();
   ASSERT_FALSE(meshes.empty());

@@ -75,10 +75,12 @@ inline void expect_same_statistics(Smoother& device, const Subject& subject, Met
 
 /// Iterations on both, compared after each, bit for bit, with their statistics.
 inline void expect_same_visits(const std::shared_ptr<Queue>& queue, const Subject& subject, Metric metric,
-                               const SearchParameters& parameters, int iterations, ThreadPool* pool = nullptr) {
+                               const SearchParameters& parameters, int iterations, ThreadPool* pool = nullptr, const Sweep& sweep = {}) {
   const auto cpu = make_smoother({.input = subject.input, .colouring = subject.colouring, .metric = metric, .search = parameters});
   const auto device = make_device_dmo(queue, subject.input, subject.colouring, metric, parameters, subject.immovable, pool);
   EXPECT_FALSE(device->statistics().has_value()) << "nothing was visited yet";
+  cpu->begin(sweep);
+  device->begin(sweep);
   std::vector<Vec3> expected = subject.input->mesh.positions, found = expected;
   for (int i = 1; i <= iterations; ++i) {
     SCOPED_TRACE("iteration " + std::to_string(i));

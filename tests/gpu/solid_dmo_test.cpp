@@ -33,6 +33,13 @@ class SolidDeviceDmo : public ::testing::TestWithParam<Metric> {
 /// 27 vertices that may move, or eight.
 TEST_P(SolidDeviceDmo, SameBitsInFloat) { expect_same({}, kSanitized ? 64 : 125, 3); }
 TEST_P(SolidDeviceDmo, SameBitsInDouble) { expect_same({.precision = Precision::Double}, 64, kSanitized ? 1 : 2); }
+TEST_P(SolidDeviceDmo, SameBitsInRepairs) {
+  for (const Solid& solid : solids(64)) {
+    if (!defined_for_all(GetParam(), solid.input->mesh)) continue;
+    SCOPED_TRACE(solid.name);
+    expect_same_visits(solid_host(), Subject(solid.input), GetParam(), {}, 1, nullptr, {.untangling = {.repair = true}});
+  }
+}
 /// 7 and 2 candidates an axis are not a whole number of what a lane ranks at a time.
 TEST_P(SolidDeviceDmo, SameBitsWithOtherGrids) {
   for (const Precision precision : {Precision::Float, Precision::Double}) {

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/gui/headless_test.h"
+#include "tests/gui/squares.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/actions.h"
 #include "ui/notice.h"
@@ -28,14 +29,8 @@ class Ending : public HeadlessTest {
   [[nodiscard]] bool best_is_possible() { return ui::enabled(*ui::find_action("best"), ui::situation_of(*session(), state(), false)); }
   /// Nine cells of two triangles, the corner of the first of which lies beyond the other two of its triangle: all three are fixed.
   void open_hopeless() {
-    std::string text = "OFF\n16 18 0\n0.9 0.9 0\n";
-    for (int v = 1; v < 16; ++v) text += fmt::format("{} {} 0\n", v % 4, v / 4);
-    for (int cell = 0; cell < 9; ++cell) {
-      const int a = cell % 3 + 4 * (cell / 3);
-      text += fmt::format("3 {} {} {}\n3 {} {} {}\n", a, a + 1, a + 4, a + 1, a + 5, a + 4);
-    }
     const std::filesystem::path file = folder_ / "hopeless.off";
-    std::ofstream(file) << text;
+    std::ofstream(file) << squares_with(3, 0, "0.9 0.9 0");
     good("open " + file.string());
   }
   test::TemporaryFolder folder_;

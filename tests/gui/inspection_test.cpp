@@ -11,6 +11,7 @@
 #include "core/inspect/visit_trace.h"
 #include "core/quality/quality.h"
 #include "tests/gui/headless_test.h"
+#include "tests/gui/squares.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/inspection_text.h"
@@ -131,14 +132,8 @@ class InspectionOfAStray : public HeadlessTest {
  protected:
   static constexpr Index kStray = 12;
   void open_it() {
-    std::string text = "OFF\n25 32 0\n";
-    for (Index v = 0; v < 25; ++v) text += v == kStray ? "40 -3 0\n" : fmt::format("{} {} 0\n", v % 5, v / 5);
-    for (int cell = 0; cell < 16; ++cell) {
-      const int a = cell % 4 + 5 * (cell / 4);
-      text += fmt::format("3 {} {} {}\n3 {} {} {}\n", a, a + 1, a + 5, a + 1, a + 6, a + 5);
-    }
     const std::filesystem::path file = folder_ / "stray.off";
-    std::ofstream(file) << text;
+    std::ofstream(file) << squares_with(4, kStray, "40 -3 0");
     good("open " + file.string());
     good("inspect on");
   }

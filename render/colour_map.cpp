@@ -48,9 +48,17 @@ std::span<const Rgb> controls(ColourMap map) {
   return kViridis;
 }
 
+/// Linear light of a channel of sRGB.
 double decode(std::uint8_t value) {
-  const double c = value / 255.0;
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  static const std::array<double, 256> kLinear = [] {
+    std::array<double, 256> table{};
+    for (std::size_t i = 0; i < table.size(); ++i) {
+      const double c = static_cast<double>(i) / 255.0;
+      table[i] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+    }
+    return table;
+  }();
+  return kLinear[value];
 }
 
 double encode(double linear) { return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055; }
@@ -113,6 +121,18 @@ Rgb from_oklab(Oklab colour) {
 
 namespace {
 
+/// A map's control colours in OKLab.
+std::span<const Oklab> control_path(ColourMap map) {
+  static const auto kPaths = [] {
+    std::array<std::vector<Oklab>, kTable.size()> paths;
+    for (std::size_t i = 0; i < kTable.size(); ++i)
+      for (const Rgb colour : controls(kTable[i].map)) paths[i].push_back(to_oklab(colour));
+    return paths;
+  }();
+  const auto found = std::find_if(kTable.begin(), kTable.end(), [&](const ColourMapInfo& info) { return info.map == map; });
+  return kPaths[static_cast<std::size_t>(found - kTable.begin())];
+}
+
 /// Both ends are as light and as strong as each other, and far apart for every kind of colour vision.
 Rgb sample_diverging(double t) {
   constexpr Oklab kMiddle{0.96, 0.0, 0.005}, kBelow{0.60, 0.105, 0.125}, kAbove{0.60, -0.055, -0.125};
@@ -129,18 +149,14 @@ Rgb sample(ColourMap map, double t) {
   t = std::clamp(t, 0.0, 1.0);
   if (t == 0.0) return colours.front();
   if (t == 1.0) return colours.back();
-  const double first = to_oklab(colours.front()).l, last = to_oklab(colours.back()).l, lightness = first + t * (last - first);
+  const std::span<const Oklab> path = control_path(map);
+  const double lightness = path.front().l + t * (path.back().l - path.front().l);
   // Where the path of the control colours has this lightness, there are hue and chroma read.
-  Oklab low = to_oklab(colours.front());
-  for (std::size_t i = 1; i < colours.size(); ++i) {
-    const Oklab high = to_oklab(colours[i]);
-    if (lightness <= high.l || i + 1 == colours.size()) {
-      const double u = (lightness - low.l) / (high.l - low.l);
-      return from_oklab({lightness, low.a + u * (high.a - low.a), low.b + u * (high.b - low.b)});
-    }
-    low = high;
-  }
-  return colours.back();
+  std::size_t end = 1;
+  while (end + 1 < path.size() && lightness > path[end].l) ++end;
+  const Oklab &low = path[end - 1], &high = path[end];
+  const double u = (lightness - low.l) / (high.l - low.l);
+  return from_oklab({lightness, low.a + u * (high.a - low.a), low.b + u * (high.b - low.b)});
 }
 
 double ColourScale::position(double quality) const {

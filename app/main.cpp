@@ -1,4 +1,4 @@
-// The program: parses the command line, runs one verb, and turns every error into a message and an exit code.
+// The program: parses the command line, runs one subcommand, and turns every error into a message and an exit code.
 
 #include <cstdio>
 #include <exception>
@@ -11,10 +11,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/console.h"
+#include "app/common/console.h"
+#include "app/common/text.h"
 #include "app/man_page.h"
-#include "app/text.h"
-#include "app/verbs/verbs.h"
+#include "app/subcommands/subcommands.h"
 #include "core/base/error.h"
 
 namespace dmoscope::app {
@@ -55,12 +55,13 @@ int print_requested(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("See, compare and run Discrete Mesh Optimization: smooth a planar mesh so that its worst element gets as good as it can.",
+  CLI::App app("See, compare and run Discrete Mesh Optimization: smooth a mesh so that its worst element gets as good as it can.",
                "dmoscope");
   app.set_version_flag("--version", std::string("dmoscope ") + DMOSCOPE_VERSION);
   app.require_subcommand(0, 1);
   app.footer(
-      "Without a verb the window opens on the files. Exit codes: 0 done; 1 ran but did not reach what was asked; 2 wrong usage; 3 bad "
+      "Without a subcommand the window opens on the files. Exit codes: 0 done; 1 ran but did not reach what was asked; 2 wrong usage; 3 "
+      "bad "
       "input or output.");
 
   std::vector<std::filesystem::path> files;
@@ -69,9 +70,9 @@ int run(int argc, char** argv) {
   app.add_flag("--man", man, "Print the man page in roff")->group("");
 
   Action action = [&files, &app] {
-    std::vector<std::string> verbs;
-    for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
-    return open_window(files, verbs);
+    std::vector<std::string> subcommands;
+    for (const CLI::App* subcommand : app.get_subcommands({})) subcommands.push_back(subcommand->get_name());
+    return open_window(files, subcommands);
   };
   const std::string command_line = shell_line(std::vector<std::string>(argv, argv + argc));
   add_smooth(app, action, command_line);

@@ -3,13 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "core/commands/session_commands.h"
 #include "core/io/mesh_io.h"
 #include "core/mesh/generate.h"
 #include "core/quality/metric.h"
-#include "core/session/run.h"
-#include "core/session/session_commands.h"
+#include "core/run/run.h"
 #ifdef DMOSCOPE_HAVE_GUI
-#include "ui/view_commands.h"
+#include "core/smooth/execution/method_table.h"
+#include "ui/commands/view_commands.h"
 #endif
 
 namespace dmoscope::app {
@@ -52,13 +53,13 @@ void add_options(std::string& page, const CLI::App& app) {
   }
 }
 
-void add_verbs(std::string& page, const CLI::App& app) {
+void add_subcommands(std::string& page, const CLI::App& app) {
   page += ".SH VERBS\n";
-  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (verb->get_group().empty()) continue;
-    page += fmt::format(".SS dmoscope {}\n{}\n", roff(verb->get_name()), roff(verb->get_description()));
-    add_options(page, *verb);
-    if (!verb->get_footer().empty()) page += ".PP\n" + roff(verb->get_footer()) + "\n";
+  for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (subcommand->get_group().empty()) continue;
+    page += fmt::format(".SS dmoscope {}\n{}\n", roff(subcommand->get_name()), roff(subcommand->get_description()));
+    add_options(page, *subcommand);
+    if (!subcommand->get_footer().empty()) page += ".PP\n" + roff(subcommand->get_footer()) + "\n";
   }
 }
 
@@ -80,7 +81,7 @@ void add_tables(std::string& page) {
   for (const CommandInfo& command : session_commands()) page += item(command.usage, command.doc);
 #ifdef DMOSCOPE_HAVE_GUI
   page += ".PP\nThe window's own, which script \\-\\-headless plays without a screen:\n";
-  for (const CommandInfo& command : ui::view_verbs()) page += item(command.usage, command.doc);
+  for (const CommandInfo& command : ui::view_command_infos()) page += item(command.usage, command.doc);
 #endif
 }
 
@@ -93,7 +94,7 @@ std::string man_page(const CLI::App& app) {
   page += ".SH DESCRIPTION\n" + roff(app.get_description()) + "\n.PP\n" + roff(app.get_footer()) + "\n";
   page += ".SH OPTIONS\n";
   add_options(page, app);
-  add_verbs(page, app);
+  add_subcommands(page, app);
   add_tables(page);
   page +=
       ".SH EXIT STATUS\n.TP\n0\ndone\n.TP\n1\nran but did not reach what was asked, or was cancelled\n.TP\n2\nwrong usage\n.TP\n3\nbad "

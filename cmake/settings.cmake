@@ -81,8 +81,8 @@ endif()
 set(DMOSCOPE_PRECOMPILED <algorithm> <array> <cmath> <filesystem> <functional> <map> <memory> <optional> <span> <string> <string_view>
   <vector> <fmt/format.h>)
 
-# dmoscope_room(NAME [FOLDER...]): a static library of all sources below the folders, or below the current one.
-function(dmoscope_room name)
+# dmoscope_module(NAME [FOLDER...]): a static library of all sources below the folders, or below the current one.
+function(dmoscope_module name)
   set(patterns *.cpp *.h)
   if(ARGN)
     list(TRANSFORM ARGN APPEND /*.cpp OUTPUT_VARIABLE patterns)

@@ -15,7 +15,6 @@ namespace {
 class CudaAccelerator final : public Accelerator {
  public:
   explicit CudaAccelerator(int device) : device_(device), first_(make_cuda_queue(device)) {}
-  std::string name() const override { return "cuda"; }
   int number() const noexcept override { return device_; }
   std::string description() const override { return first_->description(); }
   std::unique_ptr<Smoother> make_dmo(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring, Metric metric,

@@ -1,7 +1,7 @@
 #pragma once
 // DMO on a CUDA device, as the program hands it to a session.
 
-#include "core/smooth/accelerator.h"
+#include "core/smooth/execution/accelerator.h"
 
 namespace dmoscope::gpu {
 

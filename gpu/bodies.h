@@ -3,7 +3,7 @@
 
 #include "core/quality/element_shape.h"
 #include "core/quality/tally.h"
-#include "core/smooth/fast_visit.h"
+#include "core/smooth/kernels/fast_visit.h"
 #include "core/smooth/reference_visit.h"
 #include "gpu/lane.h"
 #include "gpu/task.h"

@@ -19,9 +19,9 @@ using Launcher = void (*)(const Task& task, std::size_t count, cudaStream_t stre
 /// Of the kinds of work that depend on a metric: Visit, VisitInTeam, Settle, Judge.
 template <Metric M>
 [[nodiscard]] Launcher metric_launcher(Work work);
-/// Of those of volumes: VisitSolid, JudgeSolid.
+/// Of those of volumes: VisitVolume, JudgeVolume.
 template <Metric M>
-[[nodiscard]] Launcher solid_launcher(Work work);
+[[nodiscard]] Launcher volume_launcher(Work work);
 /// Of the others.
 [[nodiscard]] Launcher plain_launcher(Work work);
 

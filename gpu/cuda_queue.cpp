@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/quality/formulas.h"
-#include "core/quality/solids.h"
+#include "core/quality/volumes.h"
 #include "gpu/cuda_error.h"
 #include "gpu/cuda_launch.h"
 #include "gpu/gl_interop.h"
@@ -233,7 +233,7 @@ class CudaQueue final : public Queue {
 
   static Launcher launcher(Work work, Metric metric) {
     if (const Launcher plain = plain_launcher(work)) return plain;
-    if (is_of_solids(work)) return formulas::with_solid_metric(metric, [work]<Metric M>() { return solid_launcher<M>(work); });
+    if (is_of_solids(work)) return formulas::with_volume_metric(metric, [work]<Metric M>() { return volume_launcher<M>(work); });
     return formulas::with_planar_metric(metric, [work]<Metric M>() { return metric_launcher<M>(work); });
   }
 

@@ -71,7 +71,7 @@ class DeviceDmo final : public Smoother {
     stale_ = true;
     visited_ = false;
   }
-  bool positions_are_far() const noexcept override { return true; }
+  bool positions_on_device() const noexcept override { return true; }
 
   std::optional<Statistics> statistics() override {
     if (stale_ || !visited_) return std::nullopt;
@@ -115,7 +115,7 @@ class DeviceDmo final : public Smoother {
 
   void launch_visits(Index colour, std::size_t count) {
     if (mesh_.is_volume()) {
-      queue_->launch(Work::VisitSolid, metric_, task_, count);
+      queue_->launch(Work::VisitVolume, metric_, task_, count);
       return;
     }
     const DeviceMesh::ClassStars& stars = mesh_.stars_of_class(colour);
@@ -140,7 +140,7 @@ class DeviceDmo final : public Smoother {
     task_.deferred_count = counts_.data() + 1;
     if (colouring_->order.empty()) return;
     if (mesh_.is_volume()) {
-      queue_->launch(Work::VisitSolid, metric_, task_, 1);
+      queue_->launch(Work::VisitVolume, metric_, task_, 1);
       return;
     }
     for (const Work work : {Work::VisitInTeam, Work::VisitOthers, Work::Settle}) queue_->launch(work, metric_, task_, 1);

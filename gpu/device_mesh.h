@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "core/input/input_mesh.h"
 #include "core/mesh/colouring.h"
-#include "core/session/input_mesh.h"
 #include "gpu/queue.h"
 #include "gpu/task.h"
 

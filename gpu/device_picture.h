@@ -5,7 +5,7 @@
 #include <mutex>
 #include <vector>
 
-#include "core/session/device_picture.h"
+#include "core/run/device_picture.h"
 #include "gpu/device_mesh.h"
 
 namespace dmoscope::gpu {

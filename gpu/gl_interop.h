@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "core/session/device_picture.h"
+#include "core/run/device_picture.h"
 
 struct CUstream_st;  // cudaStream_t is a pointer to it
 struct CUevent_st;   // cudaEvent_t

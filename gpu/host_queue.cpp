@@ -9,7 +9,7 @@
 
 #include "core/base/error.h"
 #include "gpu/bodies.h"
-#include "gpu/solid_bodies.h"
+#include "gpu/volume_bodies.h"
 
 namespace dmoscope::gpu {
 
@@ -36,8 +36,8 @@ Lanes lanes_of(Work work) {
       return run_lanes<bodies::Settle<M>>;
     case Work::Judge:
       return run_lanes<bodies::Judge<M>>;
-    case Work::VisitSolid:
-    case Work::JudgeSolid:
+    case Work::VisitVolume:
+    case Work::JudgeVolume:
       break;  // see solid_lanes_of()
     case Work::Sum:
       return run_lanes<bodies::Sum>;
@@ -65,11 +65,11 @@ Lanes lanes_of(Work work) {
 
 template <Metric M>
 Lanes solid_lanes_of(Work work) {
-  return work == Work::VisitSolid ? run_lanes<bodies::VisitSolid<M>> : run_lanes<bodies::JudgeSolid<M>>;
+  return work == Work::VisitVolume ? run_lanes<bodies::VisitVolume<M>> : run_lanes<bodies::JudgeVolume<M>>;
 }
 
 Lanes lanes_of(Work work, Metric metric) {
-  if (is_of_solids(work)) return formulas::with_solid_metric(metric, [work]<Metric M>() { return solid_lanes_of<M>(work); });
+  if (is_of_solids(work)) return formulas::with_volume_metric(metric, [work]<Metric M>() { return solid_lanes_of<M>(work); });
   return formulas::with_planar_metric(metric, [work]<Metric M>() { return lanes_of<M>(work); });
 }
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/quality/metric.h"
-#include "core/session/device_picture.h"
+#include "core/run/device_picture.h"
 #include "gpu/work.h"
 
 namespace dmoscope::gpu {

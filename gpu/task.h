@@ -4,14 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/base/anywhere.h"
+#include "core/base/host_device.h"
 #include "core/mesh/mesh_view.h"
 #include "core/mesh/position_view.h"
+#include "core/run/summary.h"
 #include "core/search/parameters.h"
 #include "core/search/untangling.h"
-#include "core/session/summary.h"
-#include "core/smooth/search_frame.h"
-#include "core/smooth/star_table.h"
+#include "core/smooth/kernels/search_frame.h"
+#include "core/smooth/kernels/star_table.h"
 
 namespace dmoscope::gpu {
 

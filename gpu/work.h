@@ -8,9 +8,9 @@ enum class Work {
   VisitOthers,  // the same, where it is not
   VisitInTeam,  // all stars, one vertex a team of lanes, settled at once: for classes too small to fill the device
   Settle,       // what the first two deferred, shared among all teams
-  VisitSolid,   // of a volume, one vertex a team of lanes: rank first + i
+  VisitVolume,  // of a volume, one vertex a team of lanes: rank first + i
   Judge,        // one element a lane: its quality and whether it is inverted
-  JudgeSolid,   // the same of a volume
+  JudgeVolume,  // the same of a volume
   Sum,          // one part of the statistics a lane
   Total,        // one sum of all parts a lane
   Conclude,     // one lane: the statistics
@@ -23,7 +23,7 @@ enum class Work {
   Pick,         // one of some vertices a lane: positions -> picked
 };
 
-/// Of volumes, whose metrics are formulas::with_solid_metric()'s.
-[[nodiscard]] constexpr bool is_of_solids(Work work) { return work == Work::VisitSolid || work == Work::JudgeSolid; }
+/// Of volumes, whose metrics are formulas::with_volume_metric()'s.
+[[nodiscard]] constexpr bool is_of_solids(Work work) { return work == Work::VisitVolume || work == Work::JudgeVolume; }
 
 }  // namespace dmoscope::gpu

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/session/device_picture.h"
+#include "core/run/device_picture.h"
 #include "render/element_painter.h"
 
 namespace dmoscope::render {

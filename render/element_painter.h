@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "render/draw_order.h"
 #include "render/fill.h"
 #include "render/gl.h"
-#include "render/layout.h"
 #include "render/shading.h"
 #include "render/style.h"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/inside/inside.h"
+#include "core/clipping/clipping.h"
 
 namespace dmoscope::render {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/session/summary.h"
+#include "core/run/summary.h"
 
 namespace dmoscope::render {
 namespace {

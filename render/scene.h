@@ -11,7 +11,7 @@
 #include "core/base/vec.h"
 #include "core/mesh/mesh.h"
 #include "core/mesh/plane.h"
-#include "core/session/view.h"
+#include "core/view/view.h"
 #include "render/camera.h"
 #include "render/framebuffer.h"
 #include "render/shading.h"
@@ -68,9 +68,9 @@ class MeshScene {
   MeshScene& operator=(MeshScene&&) noexcept;
 
   /// Shows a frame: uploads topology when frame->input_serial differs from the last one's, positions and qualities in place when
-  /// frame->serial does; otherwise costs nothing. Those of a light frame are written by its device, or where that fails brought through the
-  /// host, from then on until another mesh is shown. Null shows nothing. With Loading::Background the ordering of a big new mesh is
-  /// done on a thread of its own, and the scene shows nothing of it until a later call. Returns whether `frame` is on show now.
+  /// frame->serial does; otherwise costs nothing. Those of a device-resident frame are written by its device, or where that fails brought
+  /// through the host, from then on until another mesh is shown. Null shows nothing. With Loading::Background the ordering of a big new
+  /// mesh is done on a thread of its own, and the scene shows nothing of it until a later call. Returns whether `frame` is on show now.
   bool show(std::shared_ptr<const Frame> frame, Loading loading = Loading::Wait);
 
   /// What lives on a device is brought through the host from now on; `why`: for device_trouble(), empty: no longer.
@@ -117,8 +117,8 @@ class MeshScene {
   bool draw_slice(Framebuffer& target, const Camera2D& camera, const Style& style, SliceProgress& progress, Index most);
 
   /// What is at `pixel` (of a viewport of that size) by geometry in double, not by colours. `radius`: how far a vertex may be, in pixels.
-  /// Milliseconds even for millions of elements; of a light frame once a frame as long as it takes to bring all of it to the host, and
-  /// nothing when the device does not give it.
+  /// Milliseconds even for millions of elements; of a device-resident frame once a frame as long as it takes to bring all of it to the
+  /// host, and nothing when the device does not give it.
   [[nodiscard]] Pick pick(const Camera2D& camera, Vec2<double> viewport, Vec2<double> pixel, double radius = 8.0) const;
   /// All vertices of elements within `radius` pixels of `pixel`, ascending; at the cost of pick().
   [[nodiscard]] std::vector<Index> vertices_near(const Camera2D& camera, Vec2<double> viewport, Vec2<double> pixel, double radius) const;

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "core/session/input_mesh.h"
+#include "core/input/input_mesh.h"
 #include "render/device_feed.h"
+#include "render/draw_order.h"
 #include "render/element_painter.h"
-#include "render/layout.h"
 #include "render/mark_painter.h"
 #include "render/scene.h"
 

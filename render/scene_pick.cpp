@@ -98,13 +98,13 @@ std::optional<std::vector<Index>> MeshScene::elements_in_view(const Camera2D& ca
 namespace {
 
 /// Where an element's label belongs, and how far that is from the nearest edge; nothing for an element that is too thin for words.
-struct Room {
+struct Scratch {
   Vec2<double> point;
   double radius = 0.0;
 };
 
-Room room_of(std::span<const Index> corners, std::span<const Vec2<double>> points) {
-  Room room{{0, 0}, INFINITY};
+Scratch room_of(std::span<const Index> corners, std::span<const Vec2<double>> points) {
+  Scratch room{{0, 0}, INFINITY};
   if (corners.size() == 3) {
     const Vec2<double> a = points[corners[0]], b = points[corners[1]], c = points[corners[2]];
     const auto length = [](Vec2<double> d) { return std::hypot(d.x, d.y); };
@@ -156,7 +156,7 @@ std::vector<Label> MeshScene::labels(const Camera2D& camera, Vec2<double> viewpo
         const auto corners = elements.corners_of(drawn);
         if (s.placement.layout().is_across(corners, points)) continue;
         if (wish.elements) {
-          const Room room = room_of(corners, points);
+          const Scratch room = room_of(corners, points);
           const double half = 0.5 * std::hypot(label_width(element, wish), wish.line_height);
           if (inside(window, room.point) && fits(half, room.radius)) labels.push_back({room.point, element, false});
         }

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "core/inside/inside.h"
+#include "core/clipping/clipping.h"
 #include "render/orbit_camera.h"
 #include "render/scene.h"
 
@@ -16,8 +16,8 @@ namespace dmoscope::render {
 struct SeenFaces {
   const ElementTable& elements;
   std::span<const Vec3> positions;
-  const InsideFaces& faces;
-  const InsideView& view;
+  const ClippedFaces& faces;
+  const ClippingView& view;
   std::span<const std::uint8_t> cells{}, vertices{};  // 1 for those that are not taken away; empty: not known, so none is
   [[nodiscard]] bool has_cell(Index cell) const { return cells.empty() || cells[cell] != 0; }
   [[nodiscard]] bool has_vertex(Index vertex) const;

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/session/input_mesh.h"
-#include "core/session/summary.h"
+#include "core/input/input_mesh.h"
+#include "core/run/summary.h"
 #include "render/depth_map.h"
 #include "render/draw_state.h"
 #include "render/face_painter.h"
@@ -27,12 +27,12 @@ struct VolumeScene::Impl {
   MarkPainter marks;
   std::shared_ptr<const void> mesh_owner, state_owner;
   const ElementTable* elements = nullptr;
-  std::unique_ptr<Inside> inside;
+  std::unique_ptr<Clipping> inside;
   CellState state;
-  InsideView view;
+  ClippingView view;
   Selection selection;
   std::shared_ptr<const Shading> shading;
-  InsideFaces nothing;
+  ClippedFaces nothing;
   std::vector<std::uint8_t> used;  // vertices that are corners of elements
   Bounds3 bounds;
   Vec3 origin;  // positions on the OpenGL side are relative to it: the middle of the bounds
@@ -42,7 +42,7 @@ struct VolumeScene::Impl {
   std::vector<FacePainter::Point> points;
   std::vector<FaceRecord> records;
 
-  [[nodiscard]] const InsideFaces& seen() const noexcept { return inside ? inside->faces() : nothing; }
+  [[nodiscard]] const ClippedFaces& seen() const noexcept { return inside ? inside->faces() : nothing; }
   [[nodiscard]] SeenFaces seen_faces() const { return {*elements, state.positions, seen(), view, inside->visible(), {}}; }
   [[nodiscard]] SeenFaces seen_vertices();
   [[nodiscard]] const DepthMap* depth_map(const OrbitCamera& camera, Vec2<double> viewport);
@@ -86,7 +86,7 @@ bool VolumeScene::show(std::shared_ptr<const Frame> frame) {
   }
   if (frame->device) return false;
   if (s.input != frame->input) {
-    const InsideView wanted = s.view;
+    const ClippingView wanted = s.view;
     set_mesh(frame->input->mesh.elements, frame->input->faces, frame->input);
     s.view = wanted;
     s.input = frame->input;
@@ -104,7 +104,7 @@ void VolumeScene::set_mesh(const ElementTable& elements, const FaceNeighbours& f
   }
   Impl& s = *impl_;
   s.forget();
-  s.inside = std::make_unique<Inside>(elements, faces);
+  s.inside = std::make_unique<Clipping>(elements, faces);
   s.elements = &elements;
   s.mesh_owner = std::move(owner);
   const auto corners = elements.all_corners();
@@ -178,7 +178,7 @@ void VolumeScene::Impl::upload_means() {
 }
 
 void VolumeScene::Impl::upload_faces() {
-  const InsideFaces& faces = seen();
+  const ClippedFaces& faces = seen();
   if (std::exchange(uploaded_faces, faces.faces_revision) != faces.faces_revision) {
     records_of(*elements, faces.faces, records, pool);
     painter.upload_faces(records);
@@ -194,7 +194,7 @@ void VolumeScene::Impl::upload_faces() {
   if (view.shrink < 1.0 && std::exchange(means_of, updates) != updates) upload_means();
 }
 
-void VolumeScene::set_view(const InsideView& view) {
+void VolumeScene::set_view(const ClippingView& view) {
   Impl& s = *impl_;
   if (s.view == view) return;
   if (s.state.serial > 0) s.inside->update(view, s.state, s.pool);
@@ -203,7 +203,7 @@ void VolumeScene::set_view(const InsideView& view) {
   ++s.revision;
 }
 
-const InsideView& VolumeScene::view() const noexcept { return impl_->view; }
+const ClippingView& VolumeScene::view() const noexcept { return impl_->view; }
 
 void VolumeScene::set_shading(std::shared_ptr<const Shading> shading) {
   Impl& s = *impl_;
@@ -279,7 +279,7 @@ std::vector<Label> VolumeScene::labels(const OrbitCamera& camera, Vec2<double> v
 void VolumeScene::set_pool(ThreadPool* pool) noexcept { impl_->pool = pool; }
 bool VolumeScene::empty() const noexcept { return impl_->elements == nullptr; }
 std::uint64_t VolumeScene::revision() const noexcept { return impl_->revision; }
-const InsideFaces& VolumeScene::faces() const noexcept { return impl_->seen(); }
+const ClippedFaces& VolumeScene::faces() const noexcept { return impl_->seen(); }
 const Bounds3& VolumeScene::bounds() const noexcept { return impl_->bounds; }
 
 void VolumeScene::fit(OrbitCamera& camera, Vec2<double> viewport, const PicturePart& room) const {

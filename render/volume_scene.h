@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/inside/inside.h"
+#include "core/clipping/clipping.h"
 #include "render/framebuffer.h"
 #include "render/orbit_camera.h"
 #include "render/scene.h"
@@ -56,8 +56,8 @@ class VolumeScene {
   VolumeScene(VolumeScene&&) noexcept;
   VolumeScene& operator=(VolumeScene&&) noexcept;
 
-  /// Shows a frame as MeshScene does; its input must be a volume. The view stays, also when another mesh comes. A light frame (one whose
-  /// positions stay on a device) is not shown: what was on show stays, and false comes back.
+  /// Shows a frame as MeshScene does; its input must be a volume. The view stays, also when another mesh comes. A device-resident frame
+  /// (one whose positions stay on a device) is not shown: what was on show stays, and false comes back.
   bool show(std::shared_ptr<const Frame> frame);
 
   /// The same in two steps, for meshes without a session. Shows another mesh, all of it. Both must live until the next call; `owner` is
@@ -67,8 +67,8 @@ class VolumeScene {
   /// Uploads positions and qualities in place; faces only where a view depends on these. Throws UsageError for sizes that do not fit.
   void update(const CellState& state, std::shared_ptr<const void> owner = {});
   /// What is seen of it; the same again costs nothing. Throws UsageError, see VisibleCells; what was seen before is seen then.
-  void set_view(const InsideView& view);
-  [[nodiscard]] const InsideView& view() const noexcept;
+  void set_view(const ClippingView& view);
+  [[nodiscard]] const ClippingView& view() const noexcept;
   /// Shown instead of quality, by elements; null: quality. Forgotten with another mesh. Throws UsageError when values are not one an
   /// element.
   void set_shading(std::shared_ptr<const Shading> shading);
@@ -82,7 +82,7 @@ class VolumeScene {
   /// Grows with every change of what is drawn, camera, style and marks apart.
   [[nodiscard]] std::uint64_t revision() const noexcept;
   /// What is seen: faces, cuts, number of cells.
-  [[nodiscard]] const InsideFaces& faces() const noexcept;
+  [[nodiscard]] const ClippedFaces& faces() const noexcept;
   /// Whether a cell, or some cell around a vertex, is seen: not taken away, though others may hide it. True where there is none such.
   [[nodiscard]] bool sees_cell(Index cell) const;
   [[nodiscard]] bool sees_vertex(Index vertex) const;

@@ -33,6 +33,29 @@ breach "ui knows no program and no GPU backend" "${include}(app|gpu)/" ui
 breach "ui calls no OpenGL, CUDA or GLFW" "${include}(glad|GL|EGL|GLFW|${cuda})|(^|[^A-Za-z0-9_:])(gl[A-Z][A-Za-z0-9]+|glfw[A-Z][A-Za-z0-9]+|egl[A-Z][A-Za-z0-9]+)\(" ui
 breach "only gpu includes CUDA" "${include}${cuda}" app tests
 
+breach "ui's state, analysis and commands know no ImGui" "${include}${imgui}" ui/state ui/analysis ui/commands
+
+# layers ROOM FOLDER...: within a room, sources include headers of their own folder and of those named before it. "." is the room itself.
+layers() {
+  local room=$1 found
+  shift
+  found=$(find "$room" -name '*.cpp' -o -name '*.h' -o -name '*.cu' -o -name '*.cuh' | sort | xargs awk -v room="$room" -v order="$*" '
+    function folder(file) { sub(/\/[^\/]*$/, "", file); return file == room ? "." : substr(file, length(room) + 2) }
+    BEGIN { n = split(order, names, " "); for (i = 1; i <= n; ++i) rank[names[i]] = i }
+    FNR == 1 && !(folder(FILENAME) in rank) { print FILENAME ":1: its folder has no place in the order" }
+    $0 ~ "^[[:space:]]*#[[:space:]]*include[[:space:]]*\"" room "/" {
+      split($0, part, "\"")
+      if (rank[folder(part[2])] > rank[folder(FILENAME)]) print FILENAME ":" FNR ": " folder(FILENAME) " is below " folder(part[2]) ": " part[2]
+    }')
+  [[ -z $found ]] && return 0
+  failed=1
+  printf 'The order of the folders in %s:\n%s\n' "$room" "$found"
+}
+layers core base drawing numeric mesh io clipping quality search input smooth smooth/kernels smooth/methods smooth/execution inspect run session view \
+  commands engine
+layers ui state analysis commands toolkit plots viewports panels .
+layers app common window pictures pages comparison paper subcommands .
+
 # One name, one type: two headers of a program that define the same name make it call one's functions on the other's objects.
 twice=$(find core gpu render ui app -name '*.h' -print0 | xargs -0 awk '
   FNR == 1 { space = "" }
@@ -49,7 +72,7 @@ fi
 
 # Code compiled for one kind of processor must share no compiled copy with the rest: every function that the linker could take for
 # another's carries its packs' architecture (xsimd) in its name. $1: the build folder.
-for object in ${1:+"$1"/core/CMakeFiles/dmoscope_core.dir/smooth/{aims,lane,solid}_kernel_avx*.o}; do
+for object in ${1:+"$1"/core/CMakeFiles/dmoscope_core.dir/smooth/kernels/{composite,lane,volume}_kernel_avx*.o}; do
   [[ -f $object ]] || continue
   shared=$(nm "$object" | awk '$2 == "W" && $3 !~ /avx2|avx512/ && $3 !~ /^DW\.ref\./ {print $3}' | c++filt)
   [[ -z $shared ]] && continue

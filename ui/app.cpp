@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 
 #include "core/quality/quality.h"
-#include "ui/derived.h"
-#include "ui/inspection_commands.h"
-#include "ui/plot_save.h"
-#include "ui/situation.h"
-#include "ui/view_geometry.h"
-#include "ui/view_lines.h"
+#include "ui/analysis/derived.h"
+#include "ui/commands/inspection_commands.h"
+#include "ui/commands/view_to_commands.h"
+#include "ui/plots/plot_save.h"
+#include "ui/state/situation.h"
+#include "ui/state/view_geometry.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -134,10 +134,10 @@ void App::update_backend() {
     activity_.backend = session_->runs[session_->active].backend;
     activity_.backend_reason = session_->runs[session_->active].backend_reason;
   } else if (acceleration.accelerator) {
-    activity_.backend = acceleration.accelerator->name();
+    activity_.backend = acceleration.accelerator->backend();
     activity_.backend_reason = acceleration.accelerator->description();
   } else {
-    activity_.backend = name(Backend::Cpu);
+    activity_.backend = Backend::Cpu;
     activity_.backend_reason = "no cuda: " + acceleration.reason;
   }
 }
@@ -230,7 +230,7 @@ void App::draw_side(PanelContext& context, const char* name, const Rect& rect, b
     draw_parameters(context);
     draw_colours(context);
   } else {
-    draw_inside(context);
+    draw_clipping(context);
     if (state_.inspection.open) draw_inspection(context);
     draw_inspector(context);
     draw_worst(context);

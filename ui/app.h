@@ -8,13 +8,13 @@
 #include <string>
 #include <string_view>
 
-#include "core/session/engine.h"
+#include "core/engine/engine.h"
 #include "render/screenshot.h"
-#include "ui/file_watch.h"
+#include "ui/commands/view_commands.h"
 #include "ui/panels/panels.h"
-#include "ui/view_commands.h"
-#include "ui/view_state.h"
-#include "ui/viewports.h"
+#include "ui/state/view_state.h"
+#include "ui/toolkit/file_watch.h"
+#include "ui/viewports/viewports.h"
 
 namespace dmoscope::ui {
 

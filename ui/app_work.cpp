@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "ui/app.h"
-#include "ui/view_json.h"
+#include "ui/commands/view_json.h"
 
 namespace dmoscope::ui {
 
@@ -38,20 +38,10 @@ void App::cancel() {
 
 void App::post_by_itself(const std::string& line) { state_.commands.posted(line, engine_.post(line)); }
 
-namespace {
-
-/// The view saved with the session that was opened last, and its serial.
-template <class View>
-std::pair<std::string, std::uint64_t> restored(const View& view) {
-  if constexpr (requires { view.restored_serial; }) return {view.restored_view, view.restored_serial};
-  return {};
-}
-
-}  // namespace
-
 /// After a session was opened: the view that was saved with it.
 void App::take_restored_view() {
-  const auto [view, serial] = restored(*session_);
+  const std::string& view = session_->restored_view;
+  const std::uint64_t serial = session_->restored_serial;
   if (serial == seen_restored_) return;
   seen_restored_ = serial;
   if (view.empty()) return;

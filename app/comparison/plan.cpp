@@ -4,8 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "app/acceleration.h"
+#include "app/common/acceleration.h"
 #include "core/base/error.h"
+#include "core/smooth/execution/method_table.h"
 
 namespace dmoscope::app {
 
@@ -43,7 +44,7 @@ Contender parse_spec(const std::string& spec, const RunOptions& open) {
   }
   chosen.method = words[0];
   if (words.size() > 1) chosen.metric = words[1];
-  if (words.size() > 2) chosen.backend = words[2];
+  if (words.size() > 2) chosen.parameters["backend"] = words[2];
   try {
     Contender contender{{}, parameters_of(chosen)};
     if (words.size() > 1 && contender.parameters.metric != parse_metric(chosen.metric))
@@ -70,7 +71,7 @@ void add_every(ComparisonPlan& plan, const std::string& what, const RunOptions& 
   if (what == "method") {
     // A combination is dmo's; the others are there to compare it with.
     for (const MethodInfo& method : method_table())
-      add(fmt::format("{}{}", method.name, !open.combine.empty() && method.name != "dmo" ? ",alone" : ""));
+      add(fmt::format("{}{}", method.name, !open.combine.empty() && !method.combines ? ",alone" : ""));
   } else if (what == "metric") {
     if (!open.combine.empty()) throw UsageError("--every metric: with --combine all runs have its metrics");
     for (const MetricInfo& metric : metric_table()) add(fmt::format("{}:{}", open.method, metric.name));

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "app/judged_run.h"
-#include "app/memory_limit.h"
-#include "app/verbs/run_options.h"
+#include "app/common/judged_run.h"
+#include "app/common/memory_limit.h"
+#include "app/common/run_options.h"
 
 namespace dmoscope::app {
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "app/machine.h"
+#include "app/common/machine.h"
 #include "app/pages/page.h"
 #include "core/session/csv.h"
 
@@ -57,7 +57,7 @@ Json json_of(const JudgedRun& run) {
               {"metric", info(p.metric).name},
               {"backend", run.row.backend},
               {"backend_reason", run.backend_reason},
-              {"order", p.order.seed ? fmt::format("shuffle:{}", *p.order.seed) : "natural"},
+              {"order", to_text(p.order)},
               {"iterations", run.row.iterations},
               {"converged", run.outcome.reason != StopReason::IterationLimit},
               {"outcome", run.outcome.sentence()}};
@@ -156,9 +156,10 @@ void add_settings(Page& page, const Comparison& comparison, const ComparisonFact
       {"search of dmo", fmt::format("{0} x {0}{1} candidates, {2}, first grid {3:g} of the star's box, in {4}", search.grid_points,
                                     comparison.input->is_volume() ? fmt::format(" x {}", search.grid_points) : "",
                                     counted(static_cast<std::uint64_t>(search.levels), "level", "levels"), search.omega,
-                                    options.run.combine.empty() ? options.run.precision : "double")},
-      {"order", options.run.order + (options.shuffles > 0 ? fmt::format(", and {} shuffled ones", options.shuffles) : "")}};
-  list.emplace_back("interfaces", options.run.interfaces);
+                                    options.run.combine.empty() ? name(search.precision) : "double")},
+      {"order",
+       options.run.parameters.at("order") + (options.shuffles > 0 ? fmt::format(", and {} shuffled ones", options.shuffles) : "")}};
+  list.emplace_back("interfaces", options.run.parameters.at("interfaces"));
   if (!options.run.fix.empty()) list.emplace_back("kept where they are", fmt::format("{}", fmt::join(options.run.fix, "; ")));
   for (auto& fact : machine_facts(facts.threads)) list.push_back(std::move(fact));
   page.heading("Settings");

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "app/common/text.h"
 #include "app/comparison/results.h"
-#include "app/text.h"
 
 namespace dmoscope::app {
 

@@ -4,18 +4,18 @@
 
 #include <fmt/format.h>
 
-#include "app/text.h"
-#include "core/session/summaries.h"
+#include "app/common/text.h"
+#include "core/view/summaries.h"
 
 namespace dmoscope::app {
 
 namespace {
 
-constexpr std::size_t kCurvePoints = 1500;
+constexpr std::size_t kReportPoints = 1500;
 constexpr std::uint64_t kFewIterations = 100;  // up to so many there is a linear axis, and the input on it
 
 std::vector<float> thinned(std::span<const double> qualities) {
-  return sorted_choice(std::vector<float>(qualities.begin(), qualities.end()), kCurvePoints);
+  return sorted_choice(std::vector<float>(qualities.begin(), qualities.end()), kReportPoints);
 }
 
 std::vector<double> input_qualities(const InputMesh& input, Metric judge, ThreadPool* pool) {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "app/common/judged_run.h"
+#include "app/common/line_plot.h"
 #include "app/comparison/order_spread.h"
 #include "app/comparison/plan.h"
-#include "app/judged_run.h"
-#include "app/line_plot.h"
 
 namespace dmoscope::app {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/mesh_picture.h"
+#include "app/pictures/mesh_picture.h"
 #include "core/drawing/drawing.h"
 
 namespace dmoscope::app {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/line_plot.h"
-#include "app/mesh_picture.h"
+#include "app/common/line_plot.h"
+#include "app/pictures/mesh_picture.h"
 
 namespace dmoscope::app {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/judged_run.h"
+#include "app/common/judged_run.h"
 #include "app/paper/figure.h"
 
 namespace dmoscope::app {

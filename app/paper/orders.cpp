@@ -7,7 +7,7 @@
 
 #include "app/comparison/results.h"
 #include "app/paper/lab.h"
-#include "core/session/summaries.h"
+#include "core/view/summaries.h"
 
 namespace dmoscope::app {
 
@@ -111,8 +111,7 @@ void two_orders(Lab& lab, Figure& figure) {
     return;
   }
   const auto caption = [](const JudgedRun& run) {
-    return fmt::format("12: order {}, minimum {:.4f}",
-                       run.parameters.order.seed ? fmt::format("shuffle:{}", *run.parameters.order.seed) : "natural", run.after.minimum);
+    return fmt::format("12: order {}, minimum {:.4f}", to_text(run.parameters.order), run.after.minimum);
   };
   figure.check(input->mesh.name, "difference of their minima", std::abs(first->after.minimum - second->after.minimum),
                Claim::at_most("approximately the same", kAlike));

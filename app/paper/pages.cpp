@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "app/common/text.h"
 #include "app/comparison/report.h"
 #include "app/pages/page.h"
-#include "app/text.h"
 #include "core/base/csv_text.h"
 #include "core/base/error.h"
 #include "core/io/mesh_io.h"

@@ -9,11 +9,11 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "app/acceleration.h"
-#include "app/console.h"
-#include "core/session/commands.h"
-#include "ui/file_browser.h"
-#include "ui/settings.h"
+#include "app/common/acceleration.h"
+#include "app/common/console.h"
+#include "core/commands/commands.h"
+#include "ui/commands/settings.h"
+#include "ui/toolkit/file_browser.h"
 
 namespace dmoscope::app {
 

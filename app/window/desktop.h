@@ -18,7 +18,7 @@
 
 namespace dmoscope::app {
 
-/// Throws Error, which names the verbs that need no screen, when there is no display.
+/// Throws Error, which names the subcommands that need no screen, when there is no display.
 void require_display();
 
 class Desktop {

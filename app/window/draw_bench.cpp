@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "app/window/bench_stage.h"
-#include "core/session/frame_builder.h"
+#include "core/view/frame_builder.h"
 
 namespace dmoscope::app {
 namespace {

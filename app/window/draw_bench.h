@@ -5,8 +5,8 @@
 #include <string>
 
 #include "core/base/progress.h"
-#include "core/session/drawing_path.h"
 #include "core/session/session.h"
+#include "core/view/drawing_path.h"
 
 namespace dmoscope::app {
 
@@ -19,7 +19,8 @@ struct DrawSubject {
 
 /// Seconds are sums over all frames.
 struct DrawFigure {
-  std::string backend, renderer;
+  Backend backend = Backend::Cpu;
+  std::string renderer;
   DrawingPath path;
   std::uint64_t frames = 0;
   double seconds = 0.0;          // by the clock, from the first step to the last picture being there

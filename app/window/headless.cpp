@@ -5,7 +5,7 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
-#include "app/acceleration.h"
+#include "app/common/acceleration.h"
 #include "app/window/interop.h"
 
 namespace dmoscope::app {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "core/smooth/accelerator.h"
+#include "core/smooth/execution/accelerator.h"
 #include "render/context.h"
 
 namespace dmoscope::app {

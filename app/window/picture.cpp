@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "app/console.h"
+#include "app/common/console.h"
 #include "app/window/picture_parts.h"
 #include "app/window/volume_picture.h"
 #include "core/base/error.h"
@@ -14,7 +14,7 @@
 #include "core/quality/quality.h"
 #include "render/context.h"
 #include "render/scene.h"
-#include "ui/format.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::app {
 

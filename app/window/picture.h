@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "core/base/progress.h"
+#include "core/input/input_mesh.h"
 #include "core/io/io_context.h"
-#include "core/session/input_mesh.h"
 
 namespace dmoscope::app {
 

@@ -7,14 +7,14 @@
 
 #include <fmt/format.h>
 
-#include "app/acceleration.h"
-#include "app/console.h"
+#include "app/common/acceleration.h"
+#include "app/common/console.h"
 #include "app/window/desktop.h"
 #include "app/window/headless.h"
 #include "app/window/window.h"
-#include "core/session/commands.h"
-#include "core/session/engine.h"
-#include "ui/view_commands.h"
+#include "core/commands/commands.h"
+#include "core/engine/engine.h"
+#include "ui/commands/view_commands.h"
 
 namespace dmoscope::app {
 namespace {
@@ -25,14 +25,14 @@ void tell(const Message& message) {
   std::fflush(stdout);
 }
 
-/// True when some line needs the window: any verb that is not the session's (an unknown one is then refused with all names).
+/// True when some line needs the window: any subcommand that is not the session's (an unknown one is then refused with all names).
 bool needs_window(const std::vector<std::string>& lines) {
   return std::any_of(lines.begin(), lines.end(),
                      [](const std::string& line) { return !split_words(line).empty() && !ui::is_session_command(line); });
 }
 
 /// Does the script end with this message? A cancelled line ends it as an error does, unless the script cancels its own work by a
-/// verb of the window.
+/// subcommand of the window.
 bool ends_script(const Message& message, const std::string& line) {
   return message.kind == Message::Kind::Error || (message.exit_code != 0 && ui::is_session_command(line));
 }
@@ -101,7 +101,7 @@ int run_on_screen(const ScriptOptions& options) {
 
 int run_script(const ScriptOptions& options) {
   ui::ViewState state;
-  const ui::CommandHost host;  // the verbs are only looked up
+  const ui::CommandHost host;  // the subcommands are only looked up
   const CommandTable view = ui::view_commands(state, host);
   for (std::size_t k = 0; k < options.lines.size(); ++k) {
     try {

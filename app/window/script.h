@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/smooth/accelerator.h"
+#include "core/smooth/execution/accelerator.h"
 
 namespace dmoscope::app {
 
@@ -22,7 +22,7 @@ struct ScriptOptions {
 
 /// Runs the lines one after another, each until it is done. What the session says goes to standard output, what goes wrong to
 /// standard error as "dmoscope: name:LINE: what". Stops at the first failing line and returns its exit code; 0 when all went well.
-/// A script without view verbs needs no OpenGL.
+/// A script without view subcommands needs no OpenGL.
 int run_script(const ScriptOptions& options);
 
 }  // namespace dmoscope::app

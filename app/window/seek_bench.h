@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/progress.h"
-#include "core/session/engine.h"
+#include "core/engine/engine.h"
 
 namespace dmoscope::app {
 

@@ -5,7 +5,7 @@
 
 #include <imgui.h>
 
-#include "ui/view_state.h"
+#include "ui/state/view_state.h"
 
 namespace dmoscope::app {
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "app/window/picture_parts.h"
-#include "core/inside/clip_words.h"
+#include "core/clipping/clip_to_text.h"
 #include "render/context.h"
 #include "render/screenshot.h"
-#include "ui/format.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::app {
 namespace {
@@ -33,7 +33,7 @@ std::string volume_picture_png(const InputMesh& input, std::span<const Vec3> pos
   scene.set_pool(&pool);
   scene.set_mesh(input.mesh.elements, input.faces);
   scene.update({positions, judged.quality, judged.inverted, 1});
-  InsideView view = inside.view;
+  ClippingView view = inside.view;
   if (!inside.clip.empty()) {
     view.clip = parse_clip(inside.clip, scene.bounds().low, scene.bounds().high);
     view.clip.mode = inside.view.clip.mode;

@@ -5,18 +5,18 @@
 #include <string>
 
 #include "app/window/picture.h"
-#include "core/inside/inside_view.h"
+#include "core/clipping/clipped_view.h"
 
 namespace dmoscope::app {
 
 /// What is seen of a volume mesh, and from where.
 struct InsideLook {
   std::string clip;          // see parse_clip; empty: no plane
-  InsideView view{};         // its plane: the mode alone
+  ClippingView view{};       // its plane: the mode alone
   std::string from = "iso";  // see view_preset_table
   bool perspective = false;
   /// Whether anything of it is not the default.
-  [[nodiscard]] bool asked_for() const { return !clip.empty() || view != InsideView{} || from != "iso" || perspective; }
+  [[nodiscard]] bool asked_for() const { return !clip.empty() || view != ClippingView{} || from != "iso" || perspective; }
 };
 
 /// Throws UsageError for words that mean nothing, before anything is read.

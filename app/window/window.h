@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/smooth/accelerator.h"
+#include "core/smooth/execution/accelerator.h"
 
 namespace dmoscope::app {
 
@@ -16,7 +16,7 @@ struct WindowOptions {
   bool scripted = false;                     // settings are neither read nor written, and the mouse is the script's
 };
 
-/// Opens the window and returns when it is closed (0). Throws Error with a clear sentence (and names the verbs that need no
+/// Opens the window and returns when it is closed (0). Throws Error with a clear sentence (and names the subcommands that need no
 /// screen) when there is no display or OpenGL is too old.
 int run_window(const WindowOptions& options);
 

@@ -28,7 +28,6 @@ class Progress {
   }
   void request_cancel() noexcept { cancel_ = true; }
   void clear_cancel() noexcept { cancel_ = false; }
-  [[nodiscard]] bool cancel_requested() const noexcept { return cancel_; }
   /// Throws Cancelled when a cancel was requested. Call it at least every 50 ms of work.
   void check() const {
     if (cancel_) throw Cancelled();

@@ -3,7 +3,7 @@
 
 #include <type_traits>
 
-#include "core/base/anywhere.h"
+#include "core/base/host_device.h"
 
 namespace dmoscope {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/base/anywhere.h"
+#include "core/base/host_device.h"
 
 namespace dmoscope {
 

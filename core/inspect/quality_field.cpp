@@ -28,7 +28,7 @@ StarIn<Frame, double> star_of(const InputMesh& input, PositionView positions, In
   return star;
 }
 
-/// With the vertex at `p`, in units of the star's scale. View: of a Star or SolidStar.
+/// With the vertex at `p`, in units of the star's scale. View: of a Star or VolumeStar.
 template <Metric M, class View, class Offset>
 StarState state_at(const View& star, Offset p) {
   StarState state{kInfinity, kInfinity};
@@ -80,10 +80,10 @@ QualityField sample_quality(const InputMesh& input, PositionView positions, Metr
 QualityField sample_slice(const InputMesh& input, PositionView positions, Metric metric, Index vertex, const StarSlice& slice,
                           Vec2<double> low, Vec2<double> high, int columns, int rows, ThreadPool* pool) {
   QualityField field = empty_field(low, high, columns, rows);
-  const SolidStar<double> star = star_of<Space>(input, positions, vertex);
+  const VolumeStar<double> star = star_of<Space>(input, positions, vertex);
   const bool defined = defined_around(input, metric, vertex);
   const auto offset = [&slice](Vec2<double> at) { return slice.lift(at); };
-  formulas::with_solid_metric(metric, [&]<Metric M>() { fill<M, Space>(star, defined, pool, offset, field); });
+  formulas::with_volume_metric(metric, [&]<Metric M>() { fill<M, Space>(star, defined, pool, offset, field); });
   return field;
 }
 

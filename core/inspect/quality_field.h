@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "core/input/input_mesh.h"
 #include "core/mesh/position_view.h"
 #include "core/quality/metric.h"
-#include "core/session/input_mesh.h"
 
 namespace dmoscope {
 

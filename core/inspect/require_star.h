@@ -1,7 +1,7 @@
 #pragma once
 // What whoever looks into a star asks for first.
 
-#include "core/session/input_mesh.h"
+#include "core/input/input_mesh.h"
 
 namespace dmoscope {
 

@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/inspect/lone_task.h"
 #include "core/inspect/recorder.h"
 #include "core/inspect/require_star.h"
-#include "core/smooth/fast_solid_search.h"
+#include "core/inspect/single_vertex_task.h"
+#include "core/smooth/methods/fast_volume_search.h"
 
 namespace dmoscope {
 
@@ -38,11 +38,11 @@ std::string rank_phrase(Metric metric) {
 }
 
 /// "mean ratio up to 0.7, beyond it 0.7 + density"
-std::string both_phrase(const Aims& aims) {
-  const auto* metric = std::get_if<Metric>(&aims.second);
-  const std::string second = metric != nullptr ? metric_phrase(*metric) : aims.raise_mean() ? "mean of the star" : "density";
-  return fmt::format("{} {} {:.6g}, {} {:.6g} + {}", metric_phrase(aims.first), aims.raise_mean() ? "below" : "up to", aims.threshold,
-                     aims.raise_mean() ? "from there on" : "beyond it", aims.threshold, second);
+std::string both_phrase(const CompositeObjective& composite) {
+  const auto* metric = std::get_if<Metric>(&composite.second);
+  const std::string second = metric != nullptr ? metric_phrase(*metric) : composite.raise_mean() ? "mean of the star" : "density";
+  return fmt::format("{} {} {:.6g}, {} {:.6g} + {}", metric_phrase(composite.first), composite.raise_mean() ? "below" : "up to",
+                     composite.threshold, composite.raise_mean() ? "from there on" : "beyond it", composite.threshold, second);
 }
 
 std::string untangling_phrase(bool volume, const Untangling& rule) {
@@ -66,9 +66,14 @@ class Look {
   using Offset = OffsetIn<Frame, double>;
   using Trace = VisitTraceIn<Offset>;
 
-  Look(const InputMesh& input, PositionView positions, const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims,
-       const Untangling& untangling)
-      : input_(input), mesh_(input.view<Frame>()), positions_(positions), parameters_(parameters), aims_(aims), untangling_(untangling) {
+  Look(const InputMesh& input, PositionView positions, const SearchParameters& parameters, Index vertex,
+       const std::optional<CompositeObjective>& composite, const Untangling& untangling)
+      : input_(input),
+        mesh_(input.view<Frame>()),
+        positions_(positions),
+        parameters_(parameters),
+        composite_(composite),
+        untangling_(untangling) {
     trace_.vertex = vertex;
     trace_.metric = M;
     trace_.from = trace_.to = positions[vertex];
@@ -81,7 +86,7 @@ class Look {
       trace_.end = VisitEnd::Fixed;
     else if (untangling_.repair && trace_.before.jacobian > 0.0)
       trace_.end = VisitEnd::Waits;
-    else if (aims_)
+    else if (composite_)
       search_for_both();
     else if (parameters_.precision == Precision::Double || !search_fast())
       search_plainly();
@@ -95,17 +100,17 @@ class Look {
   /// As the fast smoothers do it: false where the star is the plain search's.
   bool search_fast() {
     if constexpr (kVolume)
-      return search_by_solid_kernel();
+      return search_by_volume_kernel();
     else
       return search_by_lanes();
   }
 
   /// As LaneDmo does it.
   bool search_by_lanes() {
-    const LoneTask task(input_, positions_, parameters_, trace_.vertex);
+    const SingleVertexTask task(input_, positions_, parameters_, trace_.vertex);
     if (task.shapes->kind == StarShape::Kind::Alone) return false;
     Recorder<Offset> recorder(task.frame.scale);
-    const auto outcome = FastVisit<M, Solo, Stars::All, LoneTask>(task, 0, Solo{}).run(recorder);
+    const auto outcome = FastVisit<M, Solo, Stars::All, SingleVertexTask>(task, 0, Solo{}).run(recorder);
     if (!outcome.ready) return false;
     trace_.fast = true;
     trace_.value_phrase = rank_phrase(M);
@@ -123,15 +128,15 @@ class Look {
   }
 
   /// As SolidDmo does it. What the kernel chose in a level is what it finds in so many levels and not in one less.
-  bool search_by_solid_kernel() {
-    SolidRoom room;
+  bool search_by_volume_kernel() {
+    VolumeScratch room;
     gather_star(MeshStar(mesh_, positions_, trace_.vertex), room.exact);
-    const FastSolidSearch<M> search(input_, parameters_);
+    const FastVolumeSearch<M> search(input_, parameters_);
     if (!search.find(room, 0).ready) return false;
     trace_.fast = true;
     trace_.value_phrase = metric_phrase(M);
-    const SolidStarView<double> star(room.exact);
-    const Objective<M, false, double, Value::Metric, SolidStarView<double>> objective(star);
+    const VolumeStarView<double> star(room.exact);
+    const Objective<M, false, double, Value::Metric, VolumeStarView<double>> objective(star);
     Recorder<Offset> recorder(room.exact.scale);
     recorder.begin(objective(Vec3{}));
     const Vec3Of<float> box = in_float::narrow(room.exact.box);
@@ -168,16 +173,16 @@ class Look {
     end(target, gains(target));
   }
 
-  /// As RuleSmoother does it with a CombinedSearch.
+  /// As RuleSmoother does it with a CompositeRule.
   void search_for_both() {
     StarIn<Frame, double> star;
     gather_star(MeshStar(mesh_, positions_, trace_.vertex), star);
     Recorder<Offset> recorder(star.scale);
-    CombinedSearch<Frame> search(input_, *aims_, parameters_);
+    CompositeRule<Frame> search(input_, *composite_, parameters_);
     search.begin({.untangling = untangling_});
     trace_.combined = true;
     trace_.untangling = search.search_plainly(star, positions_, trace_.vertex, recorder).untangling;
-    trace_.value_phrase = (trace_.untangling ? untangling_phrase(kVolume, untangling_) : "") + both_phrase(*aims_);
+    trace_.value_phrase = (trace_.untangling ? untangling_phrase(kVolume, untangling_) : "") + both_phrase(*composite_);
     const auto place = [this](Offset offset) { return stored(offset); };
     take(std::move(recorder), place);
     const Vec3 target = place(trace_.found);
@@ -237,7 +242,7 @@ class Look {
   MeshView<Frame> mesh_;
   PositionView positions_;
   const SearchParameters& parameters_;
-  const std::optional<Aims>& aims_;
+  const std::optional<CompositeObjective>& composite_;
   const Untangling& untangling_;
   Trace trace_;
 };
@@ -282,18 +287,19 @@ std::string VisitSummary::sentence() const {
 }
 
 VisitTrace trace_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
-                       const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims, const Untangling& untangling) {
+                       const SearchParameters& parameters, Index vertex, const std::optional<CompositeObjective>& composite,
+                       const Untangling& untangling) {
   const bool is_fixed = require_traceable(input, Shape::Planar, fixed, metric, parameters, vertex);
   return formulas::with_planar_metric(
-      metric, [&]<Metric M>() { return Look<M, Plane>(input, positions, parameters, vertex, aims, untangling).run(is_fixed); });
+      metric, [&]<Metric M>() { return Look<M, Plane>(input, positions, parameters, vertex, composite, untangling).run(is_fixed); });
 }
 
-SolidTrace trace_solid_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
-                             const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims,
-                             const Untangling& untangling) {
+VolumeTrace trace_volume_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
+                               const SearchParameters& parameters, Index vertex, const std::optional<CompositeObjective>& composite,
+                               const Untangling& untangling) {
   const bool is_fixed = require_traceable(input, Shape::Volume, fixed, metric, parameters, vertex);
-  return formulas::with_solid_metric(
-      metric, [&]<Metric M>() { return Look<M, Space>(input, positions, parameters, vertex, aims, untangling).run(is_fixed); });
+  return formulas::with_volume_metric(
+      metric, [&]<Metric M>() { return Look<M, Space>(input, positions, parameters, vertex, composite, untangling).run(is_fixed); });
 }
 
 }  // namespace dmoscope

@@ -9,16 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "core/input/input_mesh.h"
 #include "core/mesh/position_view.h"
 #include "core/search/parameters.h"
-#include "core/session/input_mesh.h"
-#include "core/smooth/combined.h"
+#include "core/smooth/methods/composite_dmo.h"
 
 namespace dmoscope {
 
 /// What the candidates of one level are worth, whether they lie in a plane or in space.
 struct LevelValues {
-  int points = 0;               // an axis
+  int points = 0;               // per axis
   std::vector<double> values;   // of each candidate: what the search compared (see VisitSummary::value_phrase)
   std::vector<double> quality;  // likewise: the star's quality with the vertex there, by the statistics' formulas: see quality_of()
   std::optional<int> best;      // the candidate that this level chose; none: no candidate was better than what was found before
@@ -34,7 +34,7 @@ struct TracedLevelIn : LevelValues {
   [[nodiscard]] Offset at(int index) const { return offsets[static_cast<std::size_t>(index)]; }
 };
 using TracedLevel = TracedLevelIn<Vec2<double>>;
-using SolidLevel = TracedLevelIn<Vec3>;
+using VolumeLevel = TracedLevelIn<Vec3>;
 
 /// A star in one number: its least metric, or the least normalised Jacobian (<= 0) where an element is inverted.
 [[nodiscard]] inline double quality_of(const StarState& state) { return state.jacobian > 0.0 ? state.quality : state.jacobian; }
@@ -84,21 +84,21 @@ struct VisitTraceIn : VisitSummary {
   std::vector<TracedLevelIn<Offset>> levels;  // empty for a fixed vertex
 };
 using VisitTrace = VisitTraceIn<Vec2<double>>;  // in the mesh's plane
-using SolidTrace = VisitTraceIn<Vec3>;          // in a volume
+using VolumeTrace = VisitTraceIn<Vec3>;         // in a volume
 
 /// What DMO with these parameters does to `vertex` where the mesh's vertices stand at `positions`: the very templates of the smoother,
 /// asked for their trace, so that `to` has the bits that the smoother would store. Costs as much as the star is large, whatever the mesh.
 /// `fixed`: one a vertex, as Run::fixed. Throws UsageError for a mesh that is not planar, a vertex that does not exist, parameters out of
-/// range, or a metric that is not defined for its star. `aims`: of a visit that has two, see aims_of_visit; then its first is `metric`.
-/// `untangling`: of the iteration, as Run::sweep() has it.
+/// range, or a metric that is not defined for its star. `aims`: of a visit that has two, see composite_objective_of_visit; then its first
+/// is `metric`. `untangling`: of the iteration, as Run::sweep() has it.
 [[nodiscard]] VisitTrace trace_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
-                                     const SearchParameters& parameters, Index vertex, const std::optional<Aims>& aims = {},
-                                     const Untangling& untangling = {});
+                                     const SearchParameters& parameters, Index vertex,
+                                     const std::optional<CompositeObjective>& composite = {}, const Untangling& untangling = {});
 
 /// The same of a volume mesh. The fast search tells of each level only which candidate it chose, having compared ranks in float: the values
 /// are the metric in double, so that among nearly equal ones the chosen one need not be the first of the largest.
-[[nodiscard]] SolidTrace trace_solid_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed,
-                                           Metric metric, const SearchParameters& parameters, Index vertex,
-                                           const std::optional<Aims>& aims = {}, const Untangling& untangling = {});
+[[nodiscard]] VolumeTrace trace_volume_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed,
+                                             Metric metric, const SearchParameters& parameters, Index vertex,
+                                             const std::optional<CompositeObjective>& composite = {}, const Untangling& untangling = {});
 
 }  // namespace dmoscope

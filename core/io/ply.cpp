@@ -371,7 +371,7 @@ bool recognises_ply(std::string_view bytes) { return bytes.starts_with("ply\n") 
 
 const FormatHandler& ply_format() {
   static const FormatHandler handler{
-      .info = {"ply", "PLY", ".ply", "triangles and quadrilaterals with one number a property; ASCII and binary"},
+      .info = {"ply", "PLY", ".ply", "triangles and quadrilaterals with one number per property; ASCII and binary"},
       .recognises = recognises_ply,
       .read = read_ply,
       .write = write_ply};

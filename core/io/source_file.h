@@ -45,7 +45,7 @@ class FileBytes {
   [[nodiscard]] std::string_view view() const noexcept { return {data_.get(), size_}; }
 
   // For filling it.
-  /// Room behind the bytes, `most` at least; what is in it is left to chance.
+  /// Scratch behind the bytes, `most` at least; what is in it is left to chance.
   [[nodiscard]] std::span<char> room(std::size_t most);
   /// So many bytes were put into the room.
   void took(std::size_t count) noexcept { size_ += count; }

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "core/base/anywhere.h"
+#include "core/base/host_device.h"
 #include "core/mesh/plane.h"
 #include "core/mesh/topology.h"
 

@@ -3,7 +3,7 @@
 
 #include <type_traits>
 
-#include "core/base/anywhere.h"
+#include "core/base/host_device.h"
 #include "core/base/vec.h"
 #include "core/mesh/mesh.h"
 

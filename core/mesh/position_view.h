@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/base/anywhere.h"
+#include "core/base/host_device.h"
 #include "core/base/vec.h"
 
 namespace dmoscope {

@@ -1,6 +1,6 @@
 #include "core/quality/element_block.h"
 
-#include "core/search/pack.h"
+#include "core/numeric/pack.h"
 // After the packs:
 #include "core/quality/element_shape.h"
 

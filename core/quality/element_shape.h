@@ -4,10 +4,10 @@
 #include <limits>
 #include <span>
 
-#include "core/base/anywhere.h"
+#include "core/base/host_device.h"
 #include "core/quality/formulas.h"
 #include "core/quality/quality.h"
-#include "core/quality/solids.h"
+#include "core/quality/volumes.h"
 
 namespace dmoscope {
 
@@ -39,7 +39,7 @@ DMOSCOPE_ANYWHERE auto visit_planar(const Plane& plane, std::span<const Index> c
 /// The shape of a volume element; its kind follows from the number of its corners. Edges are differences of positions: nothing is lost far
 /// from the origin, and what does not hang on a corner keeps its bits when that moves.
 template <class At, class Visitor>
-DMOSCOPE_ANYWHERE auto visit_solid(std::span<const Index> corners, At at, Visitor visitor) {
+DMOSCOPE_ANYWHERE auto visit_volume(std::span<const Index> corners, At at, Visitor visitor) {
   using V = Vec3;
   const auto corner = [&](std::size_t i) { return at(corners[i]); };
   switch (corners.size()) {
@@ -61,7 +61,7 @@ DMOSCOPE_ANYWHERE auto visit_shape(const Plane& plane, std::span<const Index> co
 }
 template <class At, class Visitor>
 DMOSCOPE_ANYWHERE auto visit_shape(const Space& /*space*/, std::span<const Index> corners, At at, Visitor visitor) {
-  return visit_solid(corners, at, visitor);
+  return visit_volume(corners, at, visitor);
 }
 
 /// The shape of a triangle or quadrilateral of a curved mesh.
@@ -84,7 +84,7 @@ template <class Visitor>
 [[nodiscard]] auto visit_element(const QualityContext& context, PositionView positions, Index element, Visitor visitor) {
   const auto corners = context.mesh.elements.corners(element);
   const auto at = [&](Index vertex) { return positions[vertex]; };
-  if (info(context.mesh.elements.kind(element)).dimension == 3) return visit_solid(corners, at, visitor);
+  if (info(context.mesh.elements.kind(element)).dimension == 3) return visit_volume(corners, at, visitor);
   if (context.geometry.shape == Shape::Planar) return visit_planar(context.geometry.plane, corners, at, visitor);
   return visit_surface(context.geometry, corners, positions, visitor);
 }

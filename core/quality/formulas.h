@@ -9,10 +9,10 @@
 #include <numbers>
 #include <utility>
 
-#include "core/base/anywhere.h"
+#include "core/base/host_device.h"
 #include "core/base/vec.h"
+#include "core/numeric/scalar.h"
 #include "core/quality/metric.h"
-#include "core/quality/scalar.h"
 
 namespace dmoscope::formulas {
 
@@ -138,7 +138,7 @@ DMOSCOPE_ANYWHERE RealOf<V> rank(const Quadrilateral<V>& q) {
     return metric<M>(q);
 }
 
-/// What these are of an element of which corner `moving` moves: all of a simplex; of other solids (solids.h) only the corners that change,
+/// What these are of an element of which corner `moving` moves: all of a simplex; of other solids (volumes.h) only the corners that change,
 /// for the others tell nothing of where it should be, and where one of them is the worst they would hold it. Of a quadrilateral all, too.
 template <Metric M, class Shape>
 DMOSCOPE_ANYWHERE auto metric_around(const Shape& shape, Index /*moving*/) {

@@ -6,9 +6,9 @@
 #include <limits>
 #include <type_traits>
 
-#include "core/base/anywhere.h"
+#include "core/base/host_device.h"
 #include "core/quality/formulas.h"
-#include "core/quality/solids.h"
+#include "core/quality/volumes.h"
 #include "core/search/parameters.h"
 #include "core/search/star.h"
 #include "core/search/team.h"
@@ -43,7 +43,7 @@ class Worth {
   static constexpr bool kOthers = formulas::kDefinedForOthers<M, Point>;
 
   DMOSCOPE_ANYWHERE Worth() : quality_(scalar::constant<Real>(std::numeric_limits<float>::max())), jacobian_(quality_) {}
-  /// Element: of a Star or SolidStar.
+  /// Element: of a Star or VolumeStar.
   template <class Element>
   DMOSCOPE_ANYWHERE void take(const Element& element, Point p) {
     using scalar::min;
@@ -117,7 +117,7 @@ template <class Condition, class Real>
   return {select(condition, yes.x, no.x), select(condition, yes.y, no.y), select(condition, yes.z, no.z)};
 }
 
-/// One level's grid of n points an axis: candidate (i, j) or (i, j, k), each from 0 to n - 1, is centre + ((i, j, k) / (n - 1) - 1/2) *
+/// One level's grid of n points per axis: candidate (i, j) or (i, j, k), each from 0 to n - 1, is centre + ((i, j, k) / (n - 1) - 1/2) *
 /// size; its index is i * n + j, or (i * n + j) * n + k.
 template <class Real, class Point = Vec2<Real>>
 struct CandidateGrid {

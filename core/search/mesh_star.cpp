@@ -11,7 +11,7 @@ struct Gatherer {
 };
 
 struct SolidGatherer {
-  SolidStar<double>& out;
+  VolumeStar<double>& out;
   void operator()(const StarTetrahedron<double>& t) const { out.tetrahedra.push_back(t); }
   void operator()(const StarHexahedron<double>& h) const { out.hexahedra.push_back(h); }
   void operator()(const StarWedge<double>& w) const { out.wedges.push_back(w); }
@@ -29,7 +29,7 @@ void gather_star(const MeshStar<Plane>& star, Star<double>& out) {
   star.for_each<true>(Gatherer{out});
 }
 
-void gather_star(const MeshStar<Space>& star, SolidStar<double>& out) {
+void gather_star(const MeshStar<Space>& star, VolumeStar<double>& out) {
   out.for_each_list([](auto& list) { list.clear(); });
   out.box = star.box();
   out.scale = star.scale();

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/base/anywhere.h"
+#include "core/base/host_device.h"
 #include "core/mesh/mesh_view.h"
 #include "core/mesh/position_view.h"
-#include "core/quality/scalar.h"
+#include "core/numeric/scalar.h"
 #include "core/search/star.h"
 
 namespace dmoscope {
@@ -66,7 +66,7 @@ class MeshStar {
       if constexpr (std::is_same_v<Frame, Plane>)
         visit_planar_element<Others>(corners, at.corner, reference, f);
       else
-        visit_solid_element<Others>(corners, at.corner, reference, f);
+        visit_volume_element<Others>(corners, at.corner, reference, f);
     }
   }
 
@@ -119,7 +119,7 @@ class MeshStar {
   }
 
   template <bool Others, class F>
-  DMOSCOPE_ANYWHERE void visit_solid_element(std::span<const Index> corners, Index corner, double reference, F& f) const {
+  DMOSCOPE_ANYWHERE void visit_volume_element(std::span<const Index> corners, Index corner, double reference, F& f) const {
     const auto at = [&](Index i) { return scaled(offset(corners, i)); };
     if (corners.size() == 4) {
       f(StarTetrahedron<double>{at(turned::tetrahedron(corner, 1)), at(turned::tetrahedron(corner, 2)), at(turned::tetrahedron(corner, 3)),
@@ -151,6 +151,6 @@ class MeshStar {
 
 /// Fills `out` (its vectors are reused). A star shrunk to a point has an empty box.
 void gather_star(const MeshStar<Plane>& star, Star<double>& out);
-void gather_star(const MeshStar<Space>& star, SolidStar<double>& out);
+void gather_star(const MeshStar<Space>& star, VolumeStar<double>& out);
 
 }  // namespace dmoscope

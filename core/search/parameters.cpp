@@ -2,16 +2,25 @@
 
 #include <fmt/format.h>
 
-#include "core/base/error.h"
+#include "core/base/words.h"
 
 namespace dmoscope {
 
+std::string_view name(Precision precision) { return precision == Precision::Float ? "float" : "double"; }
+
+Precision parse_precision(std::string_view word) {
+  if (word == "float") return Precision::Float;
+  if (word == "double") return Precision::Double;
+  throw WrongArguments(fmt::format("'{}' is no precision: float or double", word));
+}
+
 void validate(const SearchParameters& parameters) {
-  if (parameters.grid_points < 2 || parameters.grid_points > 64)
-    throw UsageError(fmt::format("grid points must be 2 to 64, not {}", parameters.grid_points));
-  if (parameters.levels < 1 || parameters.levels > 16) throw UsageError(fmt::format("levels must be 1 to 16, not {}", parameters.levels));
-  if (!(parameters.omega > 0.0 && parameters.omega <= 2.0))
-    throw UsageError(fmt::format("omega must be above 0 and at most 2, not {}", parameters.omega));
+  if (parameters.grid_points < kLeastGridPoints || parameters.grid_points > kMostGridPoints)
+    throw UsageError(fmt::format("grid points must be {} to {}, not {}", kLeastGridPoints, kMostGridPoints, parameters.grid_points));
+  if (parameters.levels < kLeastLevels || parameters.levels > kMostLevels)
+    throw UsageError(fmt::format("levels must be {} to {}, not {}", kLeastLevels, kMostLevels, parameters.levels));
+  if (!(parameters.omega > 0.0 && parameters.omega <= kMostOmega))
+    throw UsageError(fmt::format("omega must be above 0 and at most {}, not {}", kMostOmega, parameters.omega));
   if (parameters.simd && *parameters.simd > best_simd_level())
     throw UsageError(fmt::format("this processor has no {}", name(*parameters.simd)));
 }

@@ -2,18 +2,27 @@
 // Parameters of the grid search (paper, Algorithm 2).
 
 #include <optional>
+#include <string_view>
 
-#include "core/search/simd.h"
+#include "core/numeric/simd.h"
 
 namespace dmoscope {
 
 /// The scalar the search computes with. Whatever it finds is confirmed in double before a vertex moves.
 enum class Precision { Float, Double };
 
+/// "float" or "double".
+[[nodiscard]] std::string_view name(Precision precision);
+/// Throws UsageError.
+[[nodiscard]] Precision parse_precision(std::string_view word);
+
+inline constexpr int kLeastGridPoints = 2, kMostGridPoints = 64, kLeastLevels = 1, kMostLevels = 16;
+inline constexpr double kMostOmega = 2.0;
+
 struct SearchParameters {
-  int grid_points = 8;  // n: candidates an axis, 2 to 64
-  int levels = 3;       // 1 to 16
-  double omega = 0.5;   // first grid: this times the bounding box of the star's other vertices, in (0, 2]
+  int grid_points = 8;  // n: candidates per axis
+  int levels = 3;
+  double omega = 0.5;  // first grid: this times the bounding box of the star's other vertices, above 0
   Precision precision = Precision::Float;
   std::optional<SimdLevel> simd{};  // none: the best of this processor; the result is the same for any
   friend bool operator==(const SearchParameters&, const SearchParameters&) = default;

@@ -2,7 +2,7 @@
 // Metrics of ratio form: at a candidate p of a star's vertex each element's metric is the least of a few fractions N(p) / S(p) with N
 // affine in p and S(p) = s0 + sx x + sy y + s2 |p|^2 > 0.
 
-#include "core/base/anywhere.h"
+#include "core/base/host_device.h"
 #include "core/quality/formulas.h"
 #include "core/search/star.h"
 

@@ -10,7 +10,7 @@
 
 #include <array>
 
-#include "core/base/anywhere.h"
+#include "core/base/host_device.h"
 #include "core/search/grid_search.h"
 #include "core/search/ratio_form.h"
 #include "core/search/team.h"
@@ -70,7 +70,7 @@ enum class Tables { Full, Rows, None };
 template <class R, std::size_t Forms = 0, Tables Kept = Tables::Full, class Team = Solo>
 class RatioSearch {
  public:
-  static constexpr std::size_t kPoints = 8;  // candidates an axis: the one size this search is made for
+  static constexpr std::size_t kPoints = 8;  // candidates per axis: the one size this search is made for
   static constexpr std::size_t kMaxForms = Forms == 0 ? 48 : Forms;
   using FormSpan = std::span<RatioForm<R>, Forms == 0 ? std::dynamic_extent : Forms>;
 

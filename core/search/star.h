@@ -8,10 +8,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/base/anywhere.h"
+#include "core/base/host_device.h"
 #include "core/base/vec.h"
 #include "core/mesh/plane.h"
-#include "core/quality/solids.h"
+#include "core/quality/volumes.h"
 
 namespace dmoscope {
 
@@ -130,7 +130,7 @@ struct StarTip {
 
 /// The star of a vertex of a volume, in units of `scale`, its largest offset.
 template <class Real>
-struct SolidStar {
+struct VolumeStar {
   std::vector<StarTetrahedron<Real>> tetrahedra;
   std::vector<StarHexahedron<Real>> hexahedra;
   std::vector<StarWedge<Real>> wedges;
@@ -181,9 +181,9 @@ struct SolidLists {
 };
 
 template <class Real>
-class SolidStarView {
+class VolumeStarView {
  public:
-  SolidStarView(const SolidStar<Real>& star) : star_(&star) {}  // NOLINT(google-explicit-constructor): a view of it
+  VolumeStarView(const VolumeStar<Real>& star) : star_(&star) {}  // NOLINT(google-explicit-constructor): a view of it
   /// Calls f with each tetrahedron and, unless told that f does not take them, with each other solid.
   template <bool Others, class F>
   void for_each(F f) const {
@@ -197,7 +197,7 @@ class SolidStarView {
   }
 
  private:
-  const SolidStar<Real>* star_;
+  const VolumeStar<Real>* star_;
 };
 
 template <class T>
@@ -209,16 +209,16 @@ template <class Real>
   return {list_of(star.triangles), list_of(star.quadrilaterals)};
 }
 template <class Real>
-[[nodiscard]] SolidLists<Real> lists_of(const SolidStar<Real>& star) {
+[[nodiscard]] SolidLists<Real> lists_of(const VolumeStar<Real>& star) {
   return {list_of(star.tetrahedra), list_of(star.hexahedra), list_of(star.wedges), list_of(star.pyramids), list_of(star.tips)};
 }
 
 /// What a star is in a frame.
 template <class Frame, class Real>
-using StarIn = std::conditional_t<std::is_same_v<Frame, Plane>, Star<Real>, SolidStar<Real>>;
+using StarIn = std::conditional_t<std::is_same_v<Frame, Plane>, Star<Real>, VolumeStar<Real>>;
 template <class Frame, class Real>
 using StarListsIn = std::conditional_t<std::is_same_v<Frame, Plane>, PlanarLists<Real>, SolidLists<Real>>;
 template <class Frame, class Real>
-using StarViewIn = std::conditional_t<std::is_same_v<Frame, Plane>, StarView<Real>, SolidStarView<Real>>;
+using StarViewIn = std::conditional_t<std::is_same_v<Frame, Plane>, StarView<Real>, VolumeStarView<Real>>;
 
 }  // namespace dmoscope

@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/base/anywhere.h"
-#include "core/quality/solids.h"
+#include "core/base/host_device.h"
+#include "core/quality/volumes.h"
 #include "core/search/grid_search.h"
 
 namespace dmoscope {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/session/run.h"
+#include "core/run/run.h"
 
 namespace dmoscope {
 

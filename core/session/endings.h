@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/session/left_inverted.h"
+#include "core/run/left_inverted.h"
+#include "core/run/untangling_hint.h"
 #include "core/session/session.h"
-#include "core/session/untangling_hint.h"
 
 namespace dmoscope {
 

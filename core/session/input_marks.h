@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/session/input_mesh.h"
+#include "core/input/input_mesh.h"
 #include "core/smooth/size_field.h"
 
 namespace dmoscope {

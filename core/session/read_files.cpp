@@ -6,26 +6,26 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/words.h"
 #include "core/io/atomic_file.h"
 #include "core/io/source_file.h"
-#include "core/session/commands.h"
 
 namespace dmoscope {
 namespace {
 
-/// Verbs whose first word that is no option names a file; the window's are among them.
+/// Commands whose first word that is no option names a file; the window's are among them.
 constexpr std::array<std::string_view, 2> kReading{"open", "open-state"};
 constexpr std::array<std::string_view, 8> kWriting{"export",     "stats",     "elements",    "save-state",
                                                    "screenshot", "plot-save", "save-script", "export-trace"};
 constexpr std::string_view kSaveSession = "save-session", kOpenSession = "open-session";
 
 template <class Names>
-bool among(const Names& names, std::string_view verb) {
-  return std::ranges::find(names, verb) != names.end();
+bool among(const Names& names, std::string_view command) {
+  return std::ranges::find(names, command) != names.end();
 }
 
 struct FileLine {
-  std::string verb, file;
+  std::string command, file;
 };
 
 /// Empty for a line that names no file, and for one that the script will end at.
@@ -52,10 +52,10 @@ void ReadFiles::add(const Mesh& mesh, const std::filesystem::path& path) {
   if (mesh.source->companion() != nullptr) note(mesh.source->companion()->path());
 }
 
-void ReadFiles::require_another(const std::filesystem::path& target, std::string_view verb) const {
+void ReadFiles::require_another(const std::filesystem::path& target, std::string_view command) const {
   for (const std::filesystem::path& file : files_)
     if (same_file(target, file))
-      throw UsageError(fmt::format("{} {}: this is a mesh that was opened here, which it would overwrite: write to another file", verb,
+      throw UsageError(fmt::format("{} {}: this is a mesh that was opened here, which it would overwrite: write to another file", command,
                                    target.string()));
 }
 
@@ -64,21 +64,21 @@ Overwriting first_overwriting(const std::filesystem::path& script, std::span<con
   std::vector<std::filesystem::path> sessions;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const FileLine line = file_line(lines[i]);
-    const bool saves_session = line.verb == "save-state" || line.verb == kSaveSession;
-    if (among(kReading, line.verb) || line.verb == kOpenSession) {
+    const bool saves_session = line.command == "save-state" || line.command == kSaveSession;
+    if (among(kReading, line.command) || line.command == kOpenSession) {
       // A session may be saved over what it was opened from; a mesh may not.
-      if (line.verb == "open")
+      if (line.command == "open")
         read.emplace_back(line.file, i + 1);
       else
         sessions.emplace_back(line.file);
     }
-    if (!among(kWriting, line.verb) && !saves_session) continue;
+    if (!among(kWriting, line.command) && !saves_session) continue;
     for (const auto& [file, where] : read)
       if (same_file(file, line.file))
-        return {i + 1, fmt::format("{} {} would overwrite {}", line.verb, line.file,
+        return {i + 1, fmt::format("{} {} would overwrite {}", line.command, line.file,
                                    where == 0 ? std::string("this script") : fmt::format("the mesh that line {} opens", where))};
     if (!saves_session && std::ranges::any_of(sessions, [&](const auto& file) { return same_file(file, line.file); }))
-      return {i + 1, fmt::format("{} {} would overwrite a session that is opened", line.verb, line.file)};
+      return {i + 1, fmt::format("{} {} would overwrite a session that is opened", line.command, line.file)};
   }
   return {};
 }

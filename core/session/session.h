@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "core/run/run.h"
 #include "core/session/read_files.h"
-#include "core/session/run.h"
 #include "core/session/undo.h"
 
 namespace dmoscope {
@@ -40,8 +40,10 @@ class Session {
   /// by hand, when there is another number of them now), else nothing. Throws UsageError for a mesh without a file; on any error the
   /// session stays as it was.
   [[nodiscard]] std::string reload(Progress& progress);
-  /// Throws UsageError when `verb` would write over a mesh that was opened in this session.
-  void require_not_read(const std::filesystem::path& target, std::string_view verb) const { read_files_.require_another(target, verb); }
+  /// Throws UsageError when `command` would write over a mesh that was opened in this session.
+  void require_not_read(const std::filesystem::path& target, std::string_view command) const {
+    read_files_.require_another(target, command);
+  }
   /// Bytes that a file may unpack to from now on; 0: see UnpackBudget.
   void set_most_memory(std::uint64_t bytes) noexcept { most_memory_ = bytes; }
   /// How files are read for this session.

@@ -14,9 +14,9 @@
 #include "core/base/fnv1a.h"
 #include "core/io/mesh_io.h"
 #include "core/io/source_file.h"
-#include "core/session/base64.h"
 #include "core/session/input_marks.h"
-#include "core/session/session_commands.h"
+#include "core/session/parameter_json.h"
+#include "core/session/position_text.h"
 
 namespace dmoscope {
 
@@ -98,12 +98,6 @@ Index to_index(const Json& json) {
   return static_cast<Index>(value);
 }
 
-int to_int(const Json& json) {
-  const std::uint64_t value = to_whole(json);
-  if (value > 1000000) throw UsageError(fmt::format("{} is too large", value));
-  return static_cast<int>(value);
-}
-
 std::vector<Index> to_indices(const Json& json) {
   if (!json.is_array()) throw UsageError("a list of vertices is expected where there is none");
   std::vector<Index> indices;
@@ -119,48 +113,30 @@ Moment to_moment(const Json& json) {
 }
 
 Json json_of(const RunParameters& p) {
-  Json json{{"method", p.method},
-            {"metric", info(p.metric).name},
-            {"grid", p.search.grid_points},
-            {"levels", p.search.levels},
-            {"omega", p.search.omega},
-            {"precision", p.search.precision == Precision::Double ? "double" : "float"},
-            {"relaxation", p.options.relaxation},
-            {"directions", name(p.options.directions)},
-            {"seed", p.options.seed},
-            {"order", p.order.seed ? fmt::format("shuffle:{}", *p.order.seed) : "natural"},
-            {"fixed", p.fixed},
-            {"interfaces", name(p.interfaces)},
-            {"backend", name(p.backend)}};
+  Json json{{"method", p.method}, {"metric", info(p.metric).name}, {"fixed", p.fixed}};
+  for (const ParameterInfo& row : parameter_table())
+    if (row.in_session) json[std::string(row.name)] = parameter_json(row, p);
   if (p.combination) json["combination"] = to_text(p.metric, *p.combination);
   if (p.combination && p.combination->size() != nullptr) json["size_function"] = to_text(*p.combination->size());
   if (p.then_mean) json["then_mean"] = {{"patience", p.then_mean->patience}, {"rise", p.then_mean->rise}};
   return json;
 }
 
-/// A file of before there were these has none.
-MethodOptions to_options(const Json& json) {
-  MethodOptions options;
-  if (json.contains("relaxation")) options.relaxation = to_double(json.at("relaxation"));
-  if (json.contains("directions")) options.directions = parse_directions(json.at("directions").get<std::string>());
-  if (json.contains("seed")) options.seed = to_whole(json.at("seed"));
-  return options;
-}
-
 RunParameters to_parameters(const Json& json) {
   RunParameters p;
   p.method = json.at("method").get<std::string>();
   p.metric = parse_metric(json.at("metric").get<std::string>());
-  p.search.grid_points = to_int(json.at("grid"));
-  p.search.levels = to_int(json.at("levels"));
-  p.search.omega = to_double(json.at("omega"));
-  p.search.precision = parse_precision(json.at("precision").get<std::string>());
-  p.options = to_options(json);
-  p.order = parse_order(json.at("order").get<std::string>());
   p.fixed = to_indices(json.at("fixed"));
-  // In a file of before there was this word they moved.
-  p.interfaces = json.contains("interfaces") ? parse_interface_rule(json.at("interfaces").get<std::string>()) : InterfaceRule::Free;
-  p.backend = parse_backend(json.at("backend").get<std::string>());
+  for (const ParameterInfo& row : parameter_table()) {
+    if (!row.in_session) continue;
+    const std::string key(row.name);
+    if (!row.before.empty() && !json.contains(key)) {
+      row.from_text(p, std::string(row.before));
+    } else {
+      const Json& value = json.at(key);
+      row.from_text(p, value.is_string() ? value.get<std::string>() : value.dump());
+    }
+  }
   if (json.contains("combination"))
     std::tie(p.metric, p.combination) = parse_combination(json.at("combination").get<std::string>(), json.value("size_function", ""));
   if (json.contains("then_mean")) {
@@ -211,7 +187,7 @@ void require_record(const Run& run, const std::vector<IterationRecord>& records,
 /// The positions at the end of the iteration in which the run stands; brings the run there and back. Throws UsageError where, computed
 /// again, they are not those of the record, as in a run that an older version of this program made: what was written would not open.
 std::string packed_start(Run& run, Progress& progress) {
-  const RunPoint here = run.point();
+  const RunSnapshot here = run.point();
   if (here.moment.is_iteration_end()) return pack_positions(run.positions());
   if (run.history().kept(here.moment.iteration)) return pack_positions(run.history().nearest(here.moment.iteration).positions);
   Progress unwatched;  // the way back is not for cancelling
@@ -260,7 +236,7 @@ std::shared_ptr<Run> to_run(const Json& json, const Session& session, const std:
                             const std::vector<DataMark>& data, Progress& progress) {
   auto run = session.make_run(input, to_parameters(json.at("parameters")));
   require_same_data(json, *run, data);
-  RunPoint point;
+  RunSnapshot point;
   point.moment = to_moment(json.at("moment"));
   std::vector<Edit> edits;
   if (!json.at("edits").is_array() || !json.at("records").is_array()) throw UsageError("edits and records are lists");

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/session/run.h"
+#include "core/run/run.h"
 
 namespace dmoscope {
 
@@ -16,7 +16,7 @@ namespace dmoscope {
 struct SessionPoint {
   struct Standing {
     std::shared_ptr<Run> run;
-    RunPoint point;
+    RunSnapshot point;
   };
   std::shared_ptr<const InputMesh> input;
   std::vector<Standing> runs;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/base/anywhere.h"
+#include "core/base/host_device.h"
 #include "core/base/rounding.h"
 
 namespace dmoscope {

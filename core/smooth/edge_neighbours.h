@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/mesh/mesh_view.h"
-#include "core/quality/solids.h"
+#include "core/quality/volumes.h"
 
 namespace dmoscope {
 

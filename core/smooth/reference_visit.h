@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "core/base/anywhere.h"
+#include "core/base/host_device.h"
 #include "core/quality/element_shape.h"
 #include "core/search/grid_search.h"
 #include "core/search/mesh_star.h"

@@ -6,10 +6,10 @@
 #include <span>
 #include <string>
 
+#include "core/input/input_mesh.h"
 #include "core/mesh/nodal_field.h"
 #include "core/mesh/position_view.h"
-#include "core/session/input_mesh.h"
-#include "core/smooth/combination.h"
+#include "core/smooth/composite_objective.h"
 
 namespace dmoscope {
 

@@ -38,7 +38,7 @@ class Smoother {
   /// of its neighbours whatever the number of threads, and moves those that gain; returns how many moved. The stretch may begin and end in
   /// the midst of classes and span any number of them, up to the whole order. The result depends neither on the pool nor on how an
   /// iteration is cut into calls. `positions`: of the whole mesh, and the ones that the last call left, unless positions_replaced() was
-  /// called in between; what moved may be missing from them until store(), and is where positions_are_far(). Throws DeviceError; the
+  /// called in between; what moved may be missing from them until store(), and is where positions_on_device(). Throws DeviceError; the
   /// smoother is of no use any more then.
   virtual std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) = 0;
   /// Brings `positions` up to date with all visits so far. Throws DeviceError, with `positions` in any state.
@@ -48,7 +48,7 @@ class Smoother {
 
   /// Whether positions lie far from the host, on a device: store() and each call of visit() are dear then, so a run asks for neither more
   /// often than it must, and visit() never writes to `positions`.
-  [[nodiscard]] virtual bool positions_are_far() const noexcept { return false; }
+  [[nodiscard]] virtual bool positions_on_device() const noexcept { return false; }
   /// Statistics of the metric that is optimised after all visits so far, found without bringing the positions to the host: the very bits of
   /// compute_statistics(). None where that cannot be, and while there was no visit since the start or since positions_replaced(). Throws
   /// DeviceError.
@@ -57,30 +57,5 @@ class Smoother {
   /// host. Throws DeviceError.
   [[nodiscard]] virtual std::shared_ptr<const DevicePicture> picture([[maybe_unused]] Metric shown) { return nullptr; }
 };
-
-struct MethodInfo {
-  std::string_view name, doc;
-  bool optimises = true;         // the metric; else it only judges what the method does
-  bool mean_ratio_only = false;  // it can optimise no other metric
-  bool planar_only = false;      // not of volumes
-  bool searches_grid = false;    // reads SearchParameters
-  bool relaxes = false;          // reads MethodOptions::relaxation
-  bool has_directions = false;   // reads MethodOptions::directions and seed
-};
-/// The methods this version has.
-[[nodiscard]] std::span<const MethodInfo> method_table();
-/// Throws UsageError that lists the known ones.
-[[nodiscard]] const MethodInfo& method_info(std::string_view name);
-
-/// After how many iterations in a row in which no vertex moved none will move any more; none: one can never tell. A method that looks along
-/// one direction an iteration may find nothing there, and something along the next. `volume`: whether it looks in space.
-[[nodiscard]] std::optional<std::uint64_t> still_iterations(const MethodInfo& method, const MethodOptions& options, bool volume);
-
-/// Throws UsageError for an unknown method, for parameters out of range, for a metric that is not defined for the mesh or not for the
-/// method, or for a combination that is not possible. Of the task's pointers only `input` is read.
-void require_possible(const SmoothingTask& task);
-
-/// Makes the smoother for a task on the CPU. Throws as require_possible does.
-[[nodiscard]] std::unique_ptr<Smoother> make_smoother(const SmoothingTask& task);
 
 }  // namespace dmoscope

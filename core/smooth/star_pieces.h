@@ -2,7 +2,7 @@
 // The smooth functions of which the quality of a star is the least: one a triangle or tetrahedron, one a corner of any other element.
 
 #include "core/quality/formulas.h"
-#include "core/quality/solids.h"
+#include "core/quality/volumes.h"
 #include "core/search/star.h"
 
 namespace dmoscope {
@@ -33,9 +33,9 @@ constexpr void for_moving_corners(const formulas::CorneredSolid<V, Ideal, N, Cor
 /// told to leave them out, corner.template operator()<Ideal>(u, v, w, their determinant, reference measure) for each corner of the other
 /// solids that changes with the vertex's place: the rest tells nothing of where it should be.
 template <bool Others, class R, class Take, class TakeCorner>
-constexpr void for_solids(const SolidStar<double>& star, Vec3Of<R> p, const Take& tetrahedron, const TakeCorner& corner) {
+constexpr void for_solids(const VolumeStar<double>& star, Vec3Of<R> p, const Take& tetrahedron, const TakeCorner& corner) {
   using V = Vec3Of<R>;
-  SolidStarView<double>(star).for_each<Others>([&]<class Element>(const Element& element) {
+  VolumeStarView<double>(star).for_each<Others>([&]<class Element>(const Element& element) {
     if constexpr (std::is_same_v<Element, StarTetrahedron<double>>) {
       tetrahedron(element.with(p), element.reference);
     } else {
@@ -79,7 +79,7 @@ constexpr void for_jacobians(const Star<double>& star, Vec2<R> p, const F& f) {
 
 /// Likewise of a volume; only of what changes with the vertex's place.
 template <Metric M, class R, class F>
-constexpr void for_qualities(const SolidStar<double>& star, Vec3Of<R> p, const F& f) {
+constexpr void for_qualities(const VolumeStar<double>& star, Vec3Of<R> p, const F& f) {
   using V = Vec3Of<R>;
   star_pieces::for_solids<formulas::kDefinedForCorners<M>>(
       star, p, [&](const formulas::Tetrahedron<V>& t, double /*reference*/) { f(formulas::metric<M>(t)); },
@@ -88,7 +88,7 @@ constexpr void for_qualities(const SolidStar<double>& star, Vec3Of<R> p, const F
       });
 }
 template <class R, class F>
-constexpr void for_jacobians(const SolidStar<double>& star, Vec3Of<R> p, const F& f) {
+constexpr void for_jacobians(const VolumeStar<double>& star, Vec3Of<R> p, const F& f) {
   using V = Vec3Of<R>;
   star_pieces::for_solids<true>(
       star, p, [&f](const formulas::Tetrahedron<V>& t, double reference) { f(t.six_volume / R(reference)); },

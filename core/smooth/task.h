@@ -8,11 +8,11 @@
 #include <string_view>
 
 #include "core/base/thread_pool.h"
+#include "core/input/input_mesh.h"
 #include "core/mesh/colouring.h"
 #include "core/quality/metric.h"
 #include "core/search/parameters.h"
-#include "core/session/input_mesh.h"
-#include "core/smooth/combination.h"
+#include "core/smooth/composite_objective.h"
 
 namespace dmoscope {
 

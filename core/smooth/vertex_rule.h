@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <concepts>
 #include <memory>
 #include <optional>
 #include <span>
@@ -48,7 +49,7 @@ struct RuleMesh {
 /// Calls f.template operator()<M, Frame>() with the metric and the frame of a mesh.
 template <class F>
 decltype(auto) with_metric_and_frame(const InputMesh& input, Metric metric, F&& f) {
-  if (input.is_volume()) return formulas::with_solid_metric(metric, [&]<Metric M>() { return f.template operator()<M, Space>(); });
+  if (input.is_volume()) return formulas::with_volume_metric(metric, [&]<Metric M>() { return f.template operator()<M, Space>(); });
   return formulas::with_planar_metric(metric, [&]<Metric M>() { return f.template operator()<M, Plane>(); });
 }
 
@@ -63,14 +64,18 @@ void for_classes(const Colouring& colouring, std::uint64_t first, std::uint64_t 
   }
 }
 
-/// A rule says where one vertex goes, from the positions alone and, if it has a begin(const Sweep&), the iteration:
-///   struct Room;  what it works in, kept from one vertex to the next; no result may depend on what is left there
-///   std::optional<Vec3> target(PositionView positions, Index vertex, Room& room) const;  nowhere: it stays
-///   static constexpr bool kDependsOnStarAlone = true;  if it has that: the target hangs on nothing but the positions of the vertices of
-///     the star and Sweep::untangling, so that a vertex of whose star nothing has moved since it stayed is not visited again
-///   static constexpr std::size_t kGrain = ...;  if it has that: how many vertices a thread takes at once, if not 128
-/// It is applied class after class by many threads.
+/// A rule says where one vertex goes, from the positions alone and, if it has a begin(const Sweep&), the iteration. Nowhere: it stays.
+/// Rule::Scratch is what it works in, kept from one vertex to the next; no result may depend on what is left there. Besides it may have
+/// - static constexpr bool kDependsOnStarAlone = true: the target hangs on nothing but the positions of the vertices of the star and
+///   Sweep::untangling, so that a vertex of whose star nothing has moved since it stayed is not visited again;
+/// - static constexpr std::size_t kGrain: how many vertices a thread takes at once, if not 128.
 template <class Rule>
+concept VertexRule = requires(const Rule& rule, PositionView positions, Index vertex, typename Rule::Scratch& scratch) {
+  { rule.target(positions, vertex, scratch) } -> std::same_as<std::optional<Vec3>>;
+};
+
+/// Applies a rule class after class, by many threads.
+template <VertexRule Rule>
 class RuleSmoother final : public Smoother {
  public:
   RuleSmoother(const SmoothingTask& task, Rule rule) : input_(task.input), colouring_(task.colouring), rule_(std::move(rule)) {
@@ -89,7 +94,7 @@ class RuleSmoother final : public Smoother {
     for_classes(*colouring_, first, count, [&](std::uint64_t from, std::uint64_t to) {
       const auto vertices = std::span(colouring_->order).subspan(from, to - from);
       for_chunks(pool, vertices.size(), grain(), [&](std::size_t begin, std::size_t end) {
-        thread_local typename Rule::Room room;  // kept: stepping allocates nothing
+        thread_local typename Rule::Scratch room;  // kept: stepping allocates nothing
         std::uint64_t here = 0;
         for (const Index vertex : vertices.subspan(begin, end - begin)) here += visit(vertex, positions, room) ? 1U : 0U;
         moved += here;
@@ -108,7 +113,7 @@ class RuleSmoother final : public Smoother {
   }
   static constexpr bool kSleeps = requires { requires Rule::kDependsOnStarAlone; };
 
-  bool visit(Index vertex, std::span<Vec3> positions, typename Rule::Room& room) {
+  bool visit(Index vertex, std::span<Vec3> positions, typename Rule::Scratch& room) {
     if constexpr (kSleeps)
       if (awake_[vertex] == 0) return false;
     const std::optional<Vec3> target = rule_.target(positions, vertex, room);
@@ -134,7 +139,7 @@ class RuleSmoother final : public Smoother {
   Untangling untangling_{};          // by which those asleep stay
 };
 
-template <class Rule>
+template <VertexRule Rule>
 [[nodiscard]] std::unique_ptr<Smoother> make_rule_smoother(const SmoothingTask& task, Rule rule) {
   return std::make_unique<RuleSmoother<Rule>>(task, std::move(rule));
 }

@@ -19,7 +19,7 @@ double number(const nlohmann::json& json) { return json.is_number() ? json.get<d
   const std::string path = shared_mesh(name); \
   if (path.empty()) GTEST_SKIP() << "the shared meshes are not here"
 
-TEST(Aims, JsonTellsOfThem) {
+TEST(CompositeObjective, JsonTellsOfThem) {
   const Folder folder;
   const std::string coast = sample("coast.14");
   const auto plain = smooth(coast, folder / "a.14", {"--iterations", "1"});
@@ -45,7 +45,7 @@ TEST(Aims, JsonTellsOfThem) {
   for (const char* word : {"mean-ratio > 0.5 · density h1", "log size", "correlation"}) EXPECT_THAT(person.out, HasSubstr(word));
 }
 
-TEST(Aims, WrongFieldsAreUsage) {
+TEST(CompositeObjective, WrongFieldsAreUsage) {
   const Folder folder;
   const Output output =
       run({"smooth", sample("coast.14"), "-o", folder / "out.14", "--combine", "mean-ratio:0.7:density", "--size-function", "field:salt"});
@@ -54,7 +54,7 @@ TEST(Aims, WrongFieldsAreUsage) {
   EXPECT_FALSE(exists(folder / "out.14"));
 }
 
-TEST(Aims, ThreadsDoNotMatter) {
+TEST(CompositeObjective, ThreadsDoNotMatter) {
   const Folder folder;
   const std::vector<std::vector<std::string>> kinds{
       {"--then", "mean", "--iterations", "12"},
@@ -68,7 +68,7 @@ TEST(Aims, ThreadsDoNotMatter) {
   }
 }
 
-TEST(Aims, TheMeanOfEastRisesAndItsMinimumStays) {
+TEST(CompositeObjective, TheMeanOfEastRisesAndItsMinimumStays) {
   REQUIRE_SHARED(east, "ocean/east.14");
   const Folder folder;
   const auto alone = smooth(east, folder / "alone.14", {"--iterations", "10"});
@@ -84,7 +84,7 @@ TEST(Aims, TheMeanOfEastRisesAndItsMinimumStays) {
   }
 }
 
-TEST(Aims, TheMeanOfBahamasRisesUntilConverged) {
+TEST(CompositeObjective, TheMeanOfBahamasRisesUntilConverged) {
   REQUIRE_SHARED(bahamas, "ocean/bahamas.14");
   const Folder folder;
   const auto json = smooth(bahamas, folder / "out.14", {"--then", "mean", "--until-converged", "--patience", "20"});
@@ -95,7 +95,7 @@ TEST(Aims, TheMeanOfBahamasRisesUntilConverged) {
   EXPECT_EQ(json["mean_since"], as_long["mean_since"]) << "when the phase begins does not depend on when the run is to stop";
 }
 
-TEST(Aims, AMetricIsNotCombinedWithItself) {
+TEST(CompositeObjective, AMetricIsNotCombinedWithItself) {
   const Folder folder;
   const Output output =
       run({"smooth", sample("annulus.off"), "-o", folder / "out.off", "--combine", "mean-ratio:0.7:mean-ratio", "--iterations", "1"});
@@ -105,7 +105,7 @@ TEST(Aims, AMetricIsNotCombinedWithItself) {
 }
 
 /// The paper's Fig. 9.
-TEST(Aims, TheSizesOfBahamasFollowTheDistance) {
+TEST(CompositeObjective, TheSizesOfBahamasFollowTheDistance) {
   REQUIRE_SHARED(bahamas, "ocean/bahamas.14");
   const Folder folder;
   for (const auto& [size, plain, logarithmic] : {std::tuple{"h1:39143,52462", 0.4, 0.65}, {"h2:39143,52462", 0.55, 0.3}}) {

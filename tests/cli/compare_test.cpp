@@ -168,9 +168,9 @@ std::vector<std::string> names(const Json& all) {
 
 TEST(Compare, RunsMayHaveOtherAims) {
   const std::string in = sample("annulus.off");
-  const Json aims =
+  const Json composite =
       compare_json({in, "--run", "dmo", "--run", "dmo,then mean", "--run", "laplace:min-angle,then mean", "--iterations", "4"});
-  EXPECT_THAT(names(aims), ElementsAre("dmo:mean-ratio", "dmo:mean-ratio, then mean", "laplace:min-angle, then mean"));
+  EXPECT_THAT(names(composite), ElementsAre("dmo:mean-ratio", "dmo:mean-ratio, then mean", "laplace:min-angle, then mean"));
   const std::vector<std::string> combine{"--combine", "mean-ratio:0.3:density", "--size-function", "h1:0,0", "--iterations", "4"};
   std::vector<std::string> options{in, "--run", "dmo", "--run", "dmo, alone"};
   options.insert(options.end(), combine.begin(), combine.end());

@@ -1,6 +1,6 @@
 // dmoscope smooth --simd: the same file, byte for byte, with any vector instructions.
 
-#include "core/search/simd.h"
+#include "core/numeric/simd.h"
 
 #include <string>
 #include <vector>

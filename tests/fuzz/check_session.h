@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/commands/session_commands.h"
 #include "core/io/mesh_io.h"
-#include "core/session/session_commands.h"
 #include "core/session/state_file.h"
 #include "tests/fuzz/memory_files.h"
 

@@ -89,7 +89,7 @@ TEST_P(CudaSolidDmo, SameBitsOnTheSharedMeshes) {
     expect_same_visits(queue, Subject(mesh), GetParam(), {}, 2);
   }
 }
-INSTANTIATE_TEST_SUITE_P(CudaMetrics, CudaSolidDmo, every_solid_metric(), name_of_metric);
+INSTANTIATE_TEST_SUITE_P(CudaMetrics, CudaSolidDmo, every_volume_metric(), name_of_metric);
 
 INSTANTIATE_TEST_SUITE_P(CudaMetrics, CudaDmo, every_metric(), name_of_metric);
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/input/input_mesh.h"
 #include "core/io/mesh_io.h"
 #include "core/mesh/plane.h"
-#include "core/session/input_mesh.h"
 #include "tests/support/sanitized.h"
 
 namespace dmoscope::gpu::testing {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <thread>
 
-#include "core/session/device_picture.h"
-#include "core/session/frame_builder.h"
+#include "core/run/device_picture.h"
+#include "core/view/frame_builder.h"
 #include "gpu/host_queue.h"
 #include "tests/gpu/same_bits.h"
 #include "tests/smooth/zoo.h"

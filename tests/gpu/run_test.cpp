@@ -1,6 +1,6 @@
 // Runs on a device, with the host in the device's place: what a person steps, goes back in and compares is the same as on the processor.
 
-#include "core/session/run.h"
+#include "core/run/run.h"
 
 #include "core/mesh/generate.h"
 #include "gpu/host_queue.h"
@@ -14,7 +14,6 @@ using namespace testing;
 
 class HostAccelerator final : public Accelerator {
  public:
-  std::string name() const override { return "cuda"; }
   std::string description() const override { return queue->description(); }
   std::unique_ptr<Smoother> make_dmo(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring, Metric metric,
                                      const SearchParameters& parameters, std::span<const Index> immovable,
@@ -54,8 +53,8 @@ struct Pair {
 
 TEST(DeviceRun, StepsGoBackAndSeekAlike) {
   Pair pair(dmoscope::testing::lattice(20, 0.35, 95));
-  EXPECT_EQ(pair.device.backend(), "cuda");
-  EXPECT_EQ(pair.cpu.backend(), "cpu");
+  EXPECT_EQ(pair.device.backend(), Backend::Cuda);
+  EXPECT_EQ(pair.cpu.backend(), Backend::Cpu);
   const auto both = [&](const auto& act) {
     act(pair.cpu);
     act(pair.device);
@@ -92,7 +91,7 @@ TEST(DeviceRun, OfAVolumeIsAlikeInEitherPrecision) {
   for (const Precision precision : {Precision::Float, Precision::Double}) {
     Progress progress;
     Pair pair(generate_mesh("solids", 125, 9, progress), Metric::MeanRatio, {.levels = 2, .precision = precision});
-    EXPECT_EQ(pair.device.backend(), "cuda");
+    EXPECT_EQ(pair.device.backend(), Backend::Cuda);
     const auto both = [&](const auto& act) {
       act(pair.cpu);
       act(pair.device);
@@ -112,7 +111,7 @@ TEST(DeviceRun, GoesOnWithoutItsDevice) {
   (void)pair.device.positions();
   pair.accelerator->queue->lose_after(5);
   EXPECT_THROW(pair.device.iterate(4, pair.progress), DeviceError);
-  EXPECT_EQ(pair.device.backend(), "cpu");
+  EXPECT_EQ(pair.device.backend(), Backend::Cpu);
   pair.device.seek({6, 0}, pair.progress);
   pair.cpu.iterate(6, pair.progress);
   pair.expect_same_place();

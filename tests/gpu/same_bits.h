@@ -13,7 +13,8 @@
 
 #include "core/mesh/colouring.h"
 #include "core/quality/quality.h"
-#include "core/smooth/dmo.h"
+#include "core/smooth/execution/method_table.h"
+#include "core/smooth/methods/dmo.h"
 #include "gpu/device_dmo.h"
 
 namespace dmoscope::gpu::testing {
@@ -45,7 +46,7 @@ struct Subject {
   return ::testing::ValuesIn(all);
 }
 /// For those of volumes.
-[[nodiscard]] inline auto every_solid_metric() {
+[[nodiscard]] inline auto every_volume_metric() {
   std::vector<Metric> all;
   for (const MetricInfo& entry : metric_table())
     if (entry.defined_for(ElementKind::Tetrahedron)) all.push_back(entry.metric);

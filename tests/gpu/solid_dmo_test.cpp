@@ -1,7 +1,7 @@
 // DMO of volumes on a device, with the host in the device's place: the very bits of the processor, in either precision.
 
 #include "gpu/host_queue.h"
-#include "gpu/solid_star.h"
+#include "gpu/volume_star.h"
 #include "tests/gpu/meshes.h"
 #include "tests/gpu/same_bits.h"
 #include "tests/gpu/solids.h"
@@ -15,7 +15,7 @@ using namespace testing;
 using dmoscope::testing::defined_for_all;
 using dmoscope::testing::kSanitized;
 
-std::shared_ptr<HostQueue> solid_host(const HostDevice& device = {}) { return make_host_queue(device); }
+std::shared_ptr<HostQueue> volume_host(const HostDevice& device = {}) { return make_host_queue(device); }
 
 class SolidDeviceDmo : public ::testing::TestWithParam<Metric> {
  protected:
@@ -25,7 +25,7 @@ class SolidDeviceDmo : public ::testing::TestWithParam<Metric> {
       SCOPED_TRACE(solid.name);
       const Subject subject(solid.input);
       ASSERT_GT(subject.visits(), 0U);
-      expect_same_visits(solid_host(), subject, GetParam(), parameters, iterations);
+      expect_same_visits(volume_host(), subject, GetParam(), parameters, iterations);
     }
   }
 };
@@ -37,10 +37,10 @@ TEST_P(SolidDeviceDmo, SameBitsInRepairs) {
   for (const Solid& solid : solids(64)) {
     if (!defined_for_all(GetParam(), solid.input->mesh)) continue;
     SCOPED_TRACE(solid.name);
-    expect_same_visits(solid_host(), Subject(solid.input), GetParam(), {}, 1, nullptr, {.untangling = {.repair = true}});
+    expect_same_visits(volume_host(), Subject(solid.input), GetParam(), {}, 1, nullptr, {.untangling = {.repair = true}});
   }
 }
-/// 7 and 2 candidates an axis are not a whole number of what a lane ranks at a time.
+/// 7 and 2 candidates per axis are not a whole number of what a lane ranks at a time.
 TEST_P(SolidDeviceDmo, SameBitsWithOtherGrids) {
   for (const Precision precision : {Precision::Float, Precision::Double}) {
     expect_same({.grid_points = 7, .levels = 2, .omega = 1.25, .precision = precision}, 64, 2);
@@ -55,26 +55,26 @@ TEST_P(SolidDeviceDmo, SameBitsOnSharedMeshes) {
   for (const auto& mesh : meshes) {
     if (!defined_for_all(GetParam(), mesh->mesh)) continue;
     SCOPED_TRACE(mesh->mesh.name);
-    expect_same_visits(solid_host(), Subject(mesh), GetParam(), {}, 1);
+    expect_same_visits(volume_host(), Subject(mesh), GetParam(), {}, 1);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Metrics, SolidDeviceDmo, every_solid_metric(), name_of_metric);
+INSTANTIATE_TEST_SUITE_P(Metrics, SolidDeviceDmo, every_volume_metric(), name_of_metric);
 
-/// A mean over a star's elements depends on their order: list after list, as SolidStarView has them, whatever the mesh's.
-TEST(SolidDeviceStar, HasItsElementsListAfterList) {
+/// A mean over a star's elements depends on their order: list after list, as VolumeStarView has them, whatever the mesh's.
+TEST(VolumeDeviceStar, HasItsElementsListAfterList) {
   const auto solid = solids(216)[9].input;  // "solids, tangled": they have all lists
   std::size_t mixed = 0;
   for (Index vertex = 0; vertex < solid->mesh.vertex_count(); ++vertex) {
     if (solid->topology.star(vertex).empty()) continue;
     const PositionView positions(solid->mesh.positions);
-    SolidStar<double> expected;
+    VolumeStar<double> expected;
     gather_star(MeshStar<Space>(solid->view<Space>(), positions, vertex), expected);
     using Seen = std::pair<unsigned, double>;  // its list and its reference
     std::vector<Seen> there, here;
     const ListedStar star(solid->view<Space>(), positions, vertex);
     star.for_each<true>([&here](const auto& e) { here.emplace_back(kListOf<std::remove_cvref_t<decltype(e)>>, e.reference); });
-    SolidStarView<double>(expected).for_each<true>(
+    VolumeStarView<double>(expected).for_each<true>(
         [&there](const auto& e) { there.emplace_back(kListOf<std::remove_cvref_t<decltype(e)>>, e.reference); });
     ASSERT_EQ(here, there) << vertex;
     if (here.front().first != here.back().first) ++mixed;
@@ -91,9 +91,9 @@ Subject jittered_solids() {
 TEST(SolidDeviceVisits, NeitherThreadsNorCutsChangeTheResult) {
   const Subject subject = jittered_solids();
   ThreadPool pool(4);
-  const auto whole = make_device_dmo(solid_host(), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+  const auto whole = make_device_dmo(volume_host(), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
   const auto cut =
-      make_device_dmo(solid_host({.pool = &pool}), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, &pool);
+      make_device_dmo(volume_host({.pool = &pool}), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, &pool);
   std::vector<Vec3> one = subject.input->mesh.positions, other = one;
   for (int iteration = 0; iteration < 3; ++iteration) {
     const std::uint64_t moved = whole->visit(0, subject.visits(), one, nullptr);
@@ -111,7 +111,7 @@ TEST(SolidDeviceVisits, NeitherThreadsNorCutsChangeTheResult) {
 /// Who draws takes a volume's positions from the host.
 TEST(SolidDeviceVisits, HasNoPicture) {
   const Subject subject = jittered_solids();
-  const auto smoother = make_device_dmo(solid_host(), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+  const auto smoother = make_device_dmo(volume_host(), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
   std::vector<Vec3> positions = subject.input->mesh.positions;
   smoother->visit(0, subject.visits(), positions, nullptr);
   EXPECT_EQ(smoother->picture(Metric::MeanRatio), nullptr);

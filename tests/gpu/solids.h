@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/input/input_mesh.h"
 #include "core/mesh/generate.h"
 #include "core/mesh/random.h"
-#include "core/session/input_mesh.h"
 
 namespace dmoscope::gpu::testing {
 

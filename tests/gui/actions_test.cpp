@@ -1,16 +1,16 @@
-#include "ui/actions.h"
+#include "ui/state/actions.h"
 
 #include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
 
-#include "core/session/commands.h"
-#include "core/session/session_commands.h"
-#include "ui/layout.h"
-#include "ui/palette_entries.h"
-#include "ui/theme.h"
-#include "ui/view_commands.h"
+#include "core/commands/commands.h"
+#include "core/commands/session_commands.h"
+#include "ui/commands/view_commands.h"
+#include "ui/state/palette_entries.h"
+#include "ui/toolkit/layout.h"
+#include "ui/toolkit/theme.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -80,11 +80,11 @@ TEST(Actions, AreFoundByWordsInAnyOrder) {
 }
 
 TEST(Palette, ListsEveryActionAndEveryVerbOfBothTables) {
-  const std::vector<PaletteEntry> all = palette_entries("", {}, view_verbs());
+  const std::vector<PaletteEntry> all = palette_entries("", {}, view_command_infos());
   const auto lists = [&](std::string_view title) {
     return std::any_of(all.begin(), all.end(), [&](const PaletteEntry& entry) { return entry.title == title; });
   };
-  EXPECT_EQ(all.size(), actions().size() + view_verbs().size() + session_commands().size());
+  EXPECT_EQ(all.size(), actions().size() + view_command_infos().size() + session_commands().size());
   EXPECT_TRUE(lists("Run: Next iteration"));
   EXPECT_TRUE(lists("colormap NAME|next"));
   EXPECT_TRUE(lists("step vertex|class|iteration [COUNT]"));
@@ -93,7 +93,7 @@ TEST(Palette, ListsEveryActionAndEveryVerbOfBothTables) {
 TEST(Palette, ACommandWithItsWordsRunsAsTyped) {
   // "Run 10 iterations" and "Zoom in" (zoom 1.25) hold these words too.
   for (const char* line : {"run 1", "zoom 1", "step iteration 2", "goto vertex 3"}) {
-    const std::vector<PaletteEntry> found = palette_entries(line, {.mesh = true}, view_verbs());
+    const std::vector<PaletteEntry> found = palette_entries(line, {.mesh = true}, view_command_infos());
     ASSERT_FALSE(found.empty()) << line;
     EXPECT_EQ(found.front().command, line);
     EXPECT_TRUE(found.front().complete);
@@ -101,11 +101,11 @@ TEST(Palette, ACommandWithItsWordsRunsAsTyped) {
 }
 
 TEST(Palette, AVerbAloneAsksForItsWords) {
-  const std::vector<PaletteEntry> found = palette_entries("screensh", {.mesh = true}, view_verbs());
+  const std::vector<PaletteEntry> found = palette_entries("screensh", {.mesh = true}, view_command_infos());
   const auto at = std::find_if(found.begin(), found.end(), [](const PaletteEntry& entry) { return entry.command == "screenshot "; });
   ASSERT_NE(at, found.end());
   EXPECT_FALSE(at->complete);
-  EXPECT_TRUE(palette_entries("no such thing", {}, view_verbs()).empty());
+  EXPECT_TRUE(palette_entries("no such thing", {}, view_command_infos()).empty());
 }
 
 TEST(Actions, AreOnlyPossibleWhenTheyMakeSense) {

@@ -8,9 +8,9 @@
 #include "tests/gui/headless_test.h"
 #include "tests/gui/plots.h"
 #include "tests/support/meshes.h"
-#include "ui/element_colours.h"
-#include "ui/plot_drawing.h"
-#include "ui/size_point.h"
+#include "ui/analysis/element_colours.h"
+#include "ui/commands/size_point.h"
+#include "ui/plots/plot_drawing.h"
 
 namespace dmoscope::app {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "tests/gui/headless_test.h"
 #include "tests/support/meshes.h"
-#include "ui/derived.h"
-#include "ui/element_colours.h"
-#include "ui/format.h"
+#include "ui/analysis/derived.h"
+#include "ui/analysis/element_colours.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::ui {
 namespace {

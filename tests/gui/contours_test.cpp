@@ -1,5 +1,5 @@
 // Contours against shapes whose places are known.
-#include "ui/contours.h"
+#include "ui/analysis/contours.h"
 
 #include <cmath>
 #include <limits>

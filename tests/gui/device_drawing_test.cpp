@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "app/window/interop.h"
-#include "core/session/frame_builder.h"
 #include "core/session/session.h"
+#include "core/view/frame_builder.h"
 #include "gpu/accelerator.h"
 #include "render/framebuffer.h"
 #include "render/scene.h"

@@ -10,9 +10,9 @@
 #include "tests/gui/headless_test.h"
 #include "tests/gui/squares.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/actions.h"
-#include "ui/notice.h"
-#include "ui/situation.h"
+#include "ui/commands/notice.h"
+#include "ui/state/actions.h"
+#include "ui/state/situation.h"
 
 namespace dmoscope::app {
 namespace {

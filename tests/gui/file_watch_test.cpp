@@ -1,4 +1,4 @@
-#include "ui/file_watch.h"
+#include "ui/toolkit/file_watch.h"
 
 #include <chrono>
 #include <fstream>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ui/recent_files.h"
+#include "ui/toolkit/recent_files.h"
 
 namespace dmoscope::ui {
 namespace {

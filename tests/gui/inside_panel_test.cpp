@@ -14,7 +14,7 @@
 #include "tests/gui/headless_test.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/volume_grids.h"
-#include "ui/command_log.h"
+#include "ui/state/command_log.h"
 
 namespace dmoscope::app {
 namespace {
@@ -32,7 +32,7 @@ class InsidePanel : public HeadlessTest {
     write_mesh(folder_.path() / "block.vtk", mesh, mesh.positions, progress);
     good("open \"" + (folder_.path() / "block.vtk").string() + "\"");
   }
-  [[nodiscard]] const InsideView& inside() { return state().inside; }
+  [[nodiscard]] const ClippingView& inside() { return state().inside; }
   [[nodiscard]] std::array<float, 4> box(const std::string& item) { return window_->app().items().find(item); }
   [[nodiscard]] bool has(const std::string& item) { return window_->app().items().boxes().contains(item); }
   /// From the middle of an item.
@@ -80,7 +80,7 @@ TEST_F(InsidePanel, EveryWidgetDoesWhatItsCommandDoes) {
   good("click from:+x");
   EXPECT_NEAR(state().orbit.back().x, 1.0, 1e-12);
   good("click inside:all");
-  EXPECT_EQ(inside(), InsideView{});
+  EXPECT_EQ(inside(), ClippingView{});
 }
 
 TEST_F(InsidePanel, KeysAndMenusReachIt) {
@@ -97,7 +97,7 @@ TEST_F(InsidePanel, KeysAndMenusReachIt) {
   good("key E");
   EXPECT_LT(inside().shrink, 1.0);
   good("key Z");
-  EXPECT_EQ(inside(), InsideView{});
+  EXPECT_EQ(inside(), ClippingView{});
   good("key Alt+Z");
   EXPECT_NEAR(state().orbit.back().z, 1.0, 1e-12);
   good("click menu:View");

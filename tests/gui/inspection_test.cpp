@@ -14,8 +14,8 @@
 #include "tests/gui/squares.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/inspection_text.h"
-#include "ui/view_commands.h"
+#include "ui/analysis/inspection_text.h"
+#include "ui/commands/view_commands.h"
 
 namespace dmoscope::app {
 namespace {

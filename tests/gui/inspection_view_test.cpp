@@ -9,9 +9,9 @@
 
 #include "core/quality/quality.h"
 #include "tests/gui/headless_test.h"
-#include "ui/inspection_marks.h"
-#include "ui/inspection_text.h"
-#include "ui/view_commands.h"
+#include "ui/analysis/inspection_text.h"
+#include "ui/commands/view_commands.h"
+#include "ui/viewports/inspection_marks.h"
 
 namespace dmoscope::app {
 namespace {

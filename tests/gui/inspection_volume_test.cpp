@@ -12,9 +12,9 @@
 #include "core/base/same_bits.h"
 #include "core/quality/quality.h"
 #include "tests/gui/headless_test.h"
-#include "ui/inspection_marks.h"
-#include "ui/inspection_text.h"
-#include "ui/view_commands.h"
+#include "ui/analysis/inspection_text.h"
+#include "ui/commands/view_commands.h"
+#include "ui/viewports/inspection_marks.h"
 
 namespace dmoscope::app {
 namespace {
@@ -72,7 +72,7 @@ TEST_F(VolumeInspection, ShowsWhatAVisitDoes) {
         const Index vertex = order[(i * 7919 + 13) % order.size()];
         good(fmt::format("pick vertex {}", vertex));
         ASSERT_TRUE(look().solid.has_value()) << look().trouble;
-        const SolidTrace shown = *look().solid;
+        const VolumeTrace shown = *look().solid;
         ASSERT_EQ(shown.vertex, vertex);
         ASSERT_EQ(shown.levels.size(), 3U);
         ASSERT_EQ(shown.levels[0].quality.size(), 512U);
@@ -96,7 +96,7 @@ TEST_F(VolumeInspection, EveryLevelShowsAllItsCandidatesAndWhichInvert) {
   std::vector<Vec3> positions = view->frame->positions;
   for (int level = 1; level <= 3; ++level) {
     good(fmt::format("level {}", level));
-    const SolidLevel& shown = look().solid->levels[static_cast<std::size_t>(level - 1)];
+    const VolumeLevel& shown = look().solid->levels[static_cast<std::size_t>(level - 1)];
     std::size_t inverting = 0;
     for (int index = 0; index < 512; ++index) {
       positions[vertex] = view->frame->positions[vertex] + shown.at(index);
@@ -124,7 +124,7 @@ TEST_F(VolumeInspection, TheSliceIsThatOfTheChosenCandidateUntilAnotherIsWanted)
   good("generate hexahedra 216 3");
   good("inspect-worst");
   ASSERT_TRUE(look().solid.has_value());
-  const SolidLevel& level = look().solid->levels[0];
+  const VolumeLevel& level = look().solid->levels[0];
   ASSERT_TRUE(level.best.has_value());
   for (const int axis : {0, 1, 2}) {
     good(fmt::format("grid-slice {}", "xyz"[axis]));
@@ -166,7 +166,7 @@ TEST_F(VolumeInspection, TheKeyLeadsThroughTheLevelsToTheMove) {
     pictures.push_back(picture());
     EXPECT_TRUE(pictures[pictures.size() - 2] != pictures.back()) << level;
   }
-  const SolidTrace shown = *look().solid;
+  const VolumeTrace shown = *look().solid;
   good("key L");
   EXPECT_TRUE(inspection().applied);
   EXPECT_EQ(run().moment.visits, 1U);

@@ -7,8 +7,8 @@
 #include "app/window/headless.h"
 #include "tests/support/fake_accelerator.h"
 #include "tests/support/meshes.h"
-#include "ui/derived.h"
-#include "ui/facts.h"
+#include "ui/analysis/derived.h"
+#include "ui/analysis/facts.h"
 
 namespace dmoscope::app {
 namespace {

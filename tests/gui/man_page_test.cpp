@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "ui/view_commands.h"
+#include "ui/commands/view_commands.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -22,7 +22,7 @@ std::string man_page() {
 TEST(ManPage, ListsTheVerbsOfTheWindow) {
   const std::string page = man_page();
   ASSERT_TRUE(page.starts_with(".TH DMOSCOPE"));
-  for (const CommandInfo& verb : view_verbs()) {
+  for (const CommandInfo& verb : view_command_infos()) {
     std::string roff;
     for (const char c : verb.usage) roff += c == '-' ? std::string("\\-") : std::string(1, c);
     EXPECT_NE(page.find("\\fB" + roff + "\\fR"), std::string::npos) << verb.usage;

@@ -8,11 +8,11 @@
 
 #include "tests/gui/headless_test.h"
 #include "tests/support/sanitized.h"
-#include "ui/actions.h"
-#include "ui/palette_entries.h"
-#include "ui/situation.h"
-#include "ui/view_commands.h"
-#include "ui/view_json.h"
+#include "ui/commands/view_commands.h"
+#include "ui/commands/view_json.h"
+#include "ui/state/actions.h"
+#include "ui/state/palette_entries.h"
+#include "ui/state/situation.h"
 
 namespace dmoscope::app {
 namespace {

@@ -7,9 +7,9 @@
 #include "render/image.h"
 #include "tests/gui/headless_test.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/element_colours.h"
-#include "ui/view_json.h"
-#include "ui/view_lines.h"
+#include "ui/analysis/element_colours.h"
+#include "ui/commands/view_json.h"
+#include "ui/commands/view_to_commands.h"
 
 namespace dmoscope::app {
 namespace {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/gui/plots.h"
-#include "ui/plot_drawing.h"
-#include "ui/plot_save.h"
+#include "ui/plots/plot_drawing.h"
+#include "ui/plots/plot_save.h"
 
 namespace dmoscope::ui {
 namespace {

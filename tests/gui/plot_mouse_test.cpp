@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/gui/plots.h"
-#include "ui/plot_drawing.h"
-#include "ui/plot_interaction.h"
+#include "ui/plots/plot_drawing.h"
+#include "ui/plots/plot_interaction.h"
 
 namespace dmoscope::ui {
 namespace {

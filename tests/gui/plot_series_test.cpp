@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/gui/plots.h"
-#include "ui/plot_drawing.h"
+#include "ui/plots/plot_drawing.h"
 
 namespace dmoscope::ui {
 namespace {

@@ -9,7 +9,7 @@
 #include "render/image.h"
 #include "tests/gui/headless_test.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/format.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::app {
 namespace {

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/session/engine.h"
-#include "ui/derived.h"
-#include "ui/plot_series.h"
+#include "core/engine/engine.h"
+#include "ui/analysis/derived.h"
+#include "ui/plots/plot_series.h"
 
 namespace dmoscope::ui {
 

@@ -9,7 +9,7 @@
 #include "render/image.h"
 #include "tests/gui/headless_test.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/command_log.h"
+#include "ui/state/command_log.h"
 
 namespace dmoscope::app {
 namespace {

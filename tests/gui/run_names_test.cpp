@@ -1,12 +1,12 @@
 // What runs are called in legends and over viewports, and what is left of a plot whose legend has many of them.
 
-#include "ui/run_names.h"
+#include "ui/state/run_names.h"
 
 #include <set>
 
 #include "tests/gui/headless_test.h"
-#include "ui/format.h"
-#include "ui/viewports.h"
+#include "ui/state/format.h"
+#include "ui/viewports/viewports.h"
 
 namespace dmoscope::app {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "tests/gui/headless_test.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/run_rows.h"
+#include "ui/plots/run_rows.h"
 
 namespace dmoscope::app {
 namespace {

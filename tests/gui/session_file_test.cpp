@@ -9,7 +9,7 @@
 #include "render/image.h"
 #include "tests/gui/headless_test.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/view_commands.h"
+#include "ui/commands/view_commands.h"
 
 namespace dmoscope::app {
 namespace {

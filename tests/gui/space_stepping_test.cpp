@@ -8,8 +8,8 @@
 #include "tests/gui/headless_test.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/volume_grids.h"
-#include "ui/space_stepping_marks.h"
-#include "ui/theme.h"
+#include "ui/toolkit/theme.h"
+#include "ui/viewports/volume_stepping_marks.h"
 
 namespace dmoscope::ui {
 namespace {

@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/session/engine.h"
+#include "core/engine/engine.h"
 #include "render/context.h"
 #include "tests/gui/headless_test.h"
 #include "tests/support/meshes.h"
-#include "ui/selection_commands.h"
-#include "ui/stepping_marks.h"
-#include "ui/stepping_view.h"
+#include "ui/commands/selection_commands.h"
+#include "ui/viewports/stepping_marks.h"
+#include "ui/viewports/stepping_view.h"
 
 namespace dmoscope::ui {
 namespace {

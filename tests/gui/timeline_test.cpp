@@ -1,5 +1,5 @@
 // Marks A and B, playing, and pictures of a run.
-#include "ui/timeline.h"
+#include "ui/state/timeline.h"
 
 #include <filesystem>
 #include <memory>
@@ -8,7 +8,7 @@
 
 #include "render/image.h"
 #include "tests/gui/headless_test.h"
-#include "ui/sequence.h"
+#include "ui/state/sequence.h"
 
 namespace dmoscope::app {
 namespace {
@@ -73,7 +73,7 @@ TEST_F(Timeline, MarksGoWithTheirMeshAndNoneIsSaidCalmly) {
   EXPECT_EQ(window_->app().state().timeline.a.frame, nullptr);
   good("flip");
   EXPECT_EQ(window_->app().state().dialog, ui::Dialog::None);
-  EXPECT_NE(window_->app().state().log.back().message.text.find("nothing is marked"), std::string::npos);
+  EXPECT_NE(window_->app().state().log.back().text.find("nothing is marked"), std::string::npos);
   EXPECT_TRUE(window_->run("flip b").has_value());
 }
 
@@ -149,7 +149,7 @@ TEST_F(Timeline, ASequenceIsAPictureOfEveryIterationAskedFor) {
   EXPECT_TRUE(fs::exists(folder / "frame-0001.png"));
   EXPECT_FALSE(fs::exists(folder / "frame-0002.png"));  // of the older sequence
   EXPECT_EQ(render::read_png(folder / "frame-0000.png").width, 1280);
-  const std::string& said = window_->app().state().log.back().message.text;
+  const std::string& said = window_->app().state().log.back().text;
   EXPECT_NE(said.find("ffmpeg -framerate 10 "), std::string::npos) << said;
 }
 

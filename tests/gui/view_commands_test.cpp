@@ -1,4 +1,4 @@
-#include "ui/view_commands.h"
+#include "ui/commands/view_commands.h"
 
 #include <filesystem>
 #include <fstream>
@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "core/session/engine.h"
-#include "ui/file_browser.h"
-#include "ui/format.h"
-#include "ui/settings.h"
+#include "core/engine/engine.h"
+#include "ui/commands/settings.h"
+#include "ui/state/format.h"
+#include "ui/toolkit/file_browser.h"
 
 namespace dmoscope::ui {
 namespace {

@@ -6,12 +6,12 @@
 #include <gtest/gtest.h>
 
 #include "core/base/progress.h"
+#include "core/input/input_mesh.h"
 #include "core/mesh/generate.h"
-#include "core/session/input_mesh.h"
-#include "core/session/view.h"
+#include "core/view/view.h"
 #include "tests/support/volume_grids.h"
-#include "ui/element_colours.h"
-#include "ui/thumbnails.h"
+#include "ui/analysis/element_colours.h"
+#include "ui/toolkit/thumbnails.h"
 
 namespace dmoscope::ui {
 namespace {

@@ -10,7 +10,7 @@
 #include "tests/gui/headless_test.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/volume_grids.h"
-#include "ui/actions.h"
+#include "ui/state/actions.h"
 
 namespace dmoscope::app {
 namespace {
@@ -38,7 +38,7 @@ TEST_F(VolumeWindow, IsSeenFromEverySideAndInside) {
     EXPECT_TRUE(pictures.back() != pictures[pictures.size() - 2]) << line;
   }
   good("show-all");
-  EXPECT_EQ(state().inside, InsideView{});
+  EXPECT_EQ(state().inside, ClippingView{});
 }
 
 TEST_F(VolumeWindow, ADragTurnsItAndAClickPicks) {

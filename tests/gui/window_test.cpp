@@ -49,7 +49,7 @@ TEST_F(Window, TheBackendIsChosenInTheParametersAndARefusalIsSaid) {
   good("click backend");
   good("click backend:cpu");
   EXPECT_EQ(session()->runs[0].parameters.backend, Backend::Cpu);
-  EXPECT_EQ(session()->runs[0].backend, "cpu");
+  EXPECT_EQ(session()->runs[0].backend, Backend::Cpu);
   EXPECT_EQ(session()->runs[0].backend_reason, "");
   good("click backend");
   const auto failure = window_->run("click backend:cuda");

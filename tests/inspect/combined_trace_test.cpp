@@ -11,7 +11,7 @@
 
 #include "core/base/same_bits.h"
 #include "core/inspect/visit_trace.h"
-#include "core/session/run.h"
+#include "core/run/run.h"
 #include "tests/support/meshes.h"
 
 namespace dmoscope {
@@ -40,10 +40,11 @@ void follow(dmoscope::Run& run, const Worth& worth) {
   for (std::uint64_t i = run.visits_per_iteration(); i > 0; --i) {
     const Index vertex = run.colouring().order[run.moment().visits];
     const std::vector<Vec3> positions(run.positions().begin(), run.positions().end());
-    const auto aims = aims_of_visit(run.parameters().metric, run.parameters().combination, run.size_field(), run.sweep());
-    ASSERT_TRUE(aims);
-    const VisitTrace trace =
-        trace_visit(input, positions, run.fixed(), run.parameters().metric, run.parameters().search, vertex, aims, run.sweep().untangling);
+    const auto composite =
+        composite_objective_of_visit(run.parameters().metric, run.parameters().combination, run.size_field(), run.sweep());
+    ASSERT_TRUE(composite);
+    const VisitTrace trace = trace_visit(input, positions, run.fixed(), run.parameters().metric, run.parameters().search, vertex, composite,
+                                         run.sweep().untangling);
     const std::uint64_t steps = run.step(StepUnit::Vertex, progress);
     moved += steps;
     ASSERT_TRUE(same_bits(trace.to, run.positions()[vertex])) << vertex;
@@ -59,10 +60,10 @@ void follow(dmoscope::Run& run, const Worth& worth) {
         const auto slot = static_cast<std::size_t>(k);
         const auto [least, mean] = star_at(input, positions, run.parameters().metric, vertex, place);
         most = std::max(most, level.values[slot]);
-        if (least <= 0.0 || std::abs(least - aims->threshold) < 1e-9) continue;
-        const bool is_beyond = least > aims->threshold;
+        if (least <= 0.0 || std::abs(least - composite->threshold) < 1e-9) continue;
+        const bool is_beyond = least > composite->threshold;
         beyond += is_beyond ? 1U : 0U;
-        ASSERT_NEAR(level.values[slot], is_beyond ? aims->threshold + worth(positions, vertex, place, mean) : least, 1e-9) << vertex;
+        ASSERT_NEAR(level.values[slot], is_beyond ? composite->threshold + worth(positions, vertex, place, mean) : least, 1e-9) << vertex;
       }
       ASSERT_EQ(level.best.has_value(), most > best);
       if (level.best) {
@@ -79,7 +80,7 @@ dmoscope::Run make_run(const std::shared_ptr<const InputMesh>& mesh, RunParamete
   return {mesh, std::move(parameters), std::make_shared<ThreadPool>(1), std::size_t{1} << 28U};
 }
 
-TEST(CombinedTrace, OfTwoMetrics) {
+TEST(CompositeTrace, OfTwoMetrics) {
   const auto mesh = testing::input(testing::lattice(9, 0.3, 3));
   RunParameters parameters;
   parameters.combination = Combination{0.6, Metric::MinAngle};
@@ -89,7 +90,7 @@ TEST(CombinedTrace, OfTwoMetrics) {
   });
 }
 
-TEST(CombinedTrace, OfDensity) {
+TEST(CompositeTrace, OfDensity) {
   const auto mesh = testing::input(testing::lattice(9, 0.3, 4));
   const Vec3 point{0.3, 0.3, 0.0};
   RunParameters parameters;
@@ -111,7 +112,7 @@ TEST(CombinedTrace, OfDensity) {
   });
 }
 
-TEST(CombinedTrace, OfTheMeanAboveTheFloor) {
+TEST(CompositeTrace, OfTheMeanAboveTheFloor) {
   const auto mesh = testing::input(testing::lattice(9, 0.3, 5));
   RunParameters parameters;
   parameters.then_mean = MeanPhase{.patience = 2};
@@ -121,14 +122,15 @@ TEST(CombinedTrace, OfTheMeanAboveTheFloor) {
   follow(run, [](const std::vector<Vec3>&, Index, Vec3, double mean) { return mean; });
 }
 
-TEST(CombinedTrace, SaysWhatItsValuesAre) {
+TEST(CompositeTrace, SaysWhatItsValuesAre) {
   const auto mesh = testing::input(testing::lattice(9, 0.2, 5));
   const Index vertex = 55;
-  const auto look = [&](const Aims& aims) {
-    return trace_visit(*mesh, mesh->mesh.positions, mesh->topology.boundary(), aims.first, {}, vertex, aims).value_phrase;
+  const auto look = [&](const CompositeObjective& composite) {
+    return trace_visit(*mesh, mesh->mesh.positions, mesh->topology.boundary(), composite.first, {}, vertex, composite).value_phrase;
   };
-  EXPECT_EQ(look(aims_of(Metric::MeanRatio, {0.7, Metric::MinAngle}, nullptr)), "mean ratio up to 0.7, beyond it 0.7 + minimum angle");
-  EXPECT_EQ(look(aims_of(Metric::MeanRatio, {0.7}, std::make_shared<const SizeField>(mesh, SizeFunction{}))),
+  EXPECT_EQ(look(composite_objective(Metric::MeanRatio, {0.7, Metric::MinAngle}, nullptr)),
+            "mean ratio up to 0.7, beyond it 0.7 + minimum angle");
+  EXPECT_EQ(look(composite_objective(Metric::MeanRatio, {0.7}, std::make_shared<const SizeField>(mesh, SizeFunction{}))),
             "mean ratio up to 0.7, beyond it 0.7 + density");
   EXPECT_THAT(look(raise_mean_above(Metric::MeanRatio, 0.25)), HasSubstr("from there on 0.25 + mean of the star"));
 }

@@ -14,7 +14,7 @@
 #include "core/inspect/visit_trace.h"
 #include "core/mesh/generate.h"
 #include "core/mesh/random.h"
-#include "core/session/run.h"
+#include "core/run/run.h"
 #include "tests/smooth/promises.h"
 #include "tests/smooth/zoo.h"
 #include "tests/support/moving_quality.h"
@@ -65,9 +65,9 @@ struct Wish {
 constexpr std::size_t kEvery = testing::kSanitized ? 3 : 1;
 
 /// Follows a run vertex by vertex, and looks into visits before they are made.
-class SolidFollower {
+class VolumeFollower {
  public:
-  SolidFollower(std::shared_ptr<const InputMesh> input, const Wish& wish)
+  VolumeFollower(std::shared_ptr<const InputMesh> input, const Wish& wish)
       : wish_(wish), run_(testing::make_run(std::move(input), parameters_of(wish))) {}
 
   void follow(int iterations) {
@@ -79,7 +79,7 @@ class SolidFollower {
           positions[vertex] = run_.positions()[vertex];
           continue;
         }
-        const SolidTrace trace = look(positions, vertex);
+        const VolumeTrace trace = look(positions, vertex);
         const bool repair = run_.sweep().untangling.repair;
         const std::uint64_t steps = run_.step(StepUnit::Vertex, progress_);
         expect_as_stored(trace, steps, positions[vertex]);
@@ -111,13 +111,14 @@ class SolidFollower {
     if (wish.second) parameters.combination = Combination{.threshold = 0.4, .second = *wish.second};
     return parameters;
   }
-  [[nodiscard]] SolidTrace look(const std::vector<Vec3>& positions, Index vertex) const {
-    std::optional<Aims> aims;
-    if (wish_.second) aims = Aims{wish_.metric, 0.4, *wish_.second};
-    return trace_solid_visit(run_.input(), positions, run_.fixed(), wish_.metric, wish_.search, vertex, aims, run_.sweep().untangling);
+  [[nodiscard]] VolumeTrace look(const std::vector<Vec3>& positions, Index vertex) const {
+    std::optional<CompositeObjective> composite;
+    if (wish_.second) composite = CompositeObjective{wish_.metric, 0.4, *wish_.second};
+    return trace_volume_visit(run_.input(), positions, run_.fixed(), wish_.metric, wish_.search, vertex, composite,
+                              run_.sweep().untangling);
   }
 
-  void expect_as_stored(const SolidTrace& trace, std::uint64_t moved_now, Vec3 before) {
+  void expect_as_stored(const VolumeTrace& trace, std::uint64_t moved_now, Vec3 before) {
     EXPECT_TRUE(same_bits(std::vector{trace.from}, std::vector{before}));
     EXPECT_TRUE(same_bits(std::vector{trace.to}, std::vector{run_.positions()[trace.vertex]}));
     EXPECT_EQ(trace.end == VisitEnd::Moved, moved_now == 1);
@@ -125,7 +126,7 @@ class SolidFollower {
     EXPECT_TRUE(trace.step == trace.to - trace.from);
   }
 
-  void expect_true_levels(const SolidTrace& trace, std::vector<Vec3>& positions) {
+  void expect_true_levels(const VolumeTrace& trace, std::vector<Vec3>& positions) {
     const SearchParameters& s = wish_.search;
     const Vec3 box = box_of(run_.input(), positions, trace.vertex);
     const double rounding = (trace.fast ? 1e-6 : 1e-14) * (box.x + box.y + box.z);
@@ -134,7 +135,7 @@ class SolidFollower {
     EXPECT_TRUE(trace.start == Vec3{} || trace.untangling);
     Vec3 reached = trace.start;
     double worth = trace.value_at_start, omega = s.omega;
-    for (const SolidLevel& level : trace.levels) {
+    for (const VolumeLevel& level : trace.levels) {
       const int n = s.grid_points;
       ASSERT_EQ(level.points, n);
       for (const std::size_t size : {level.values.size(), level.quality.size(), level.offsets.size()})
@@ -155,7 +156,7 @@ class SolidFollower {
     EXPECT_EQ(trace.end == VisitEnd::NothingFound, trace.found == Vec3{});
   }
 
-  void expect_true_candidate(const SolidTrace& trace, const SolidLevel& level, int index, std::vector<Vec3>& positions) const {
+  void expect_true_candidate(const VolumeTrace& trace, const VolumeLevel& level, int index, std::vector<Vec3>& positions) const {
     const auto slot = static_cast<std::size_t>(index);
     Vec3 place = trace.from + level.at(index);
     if (run_.input().mesh.single_precision) place = rounded(place);
@@ -172,7 +173,7 @@ class SolidFollower {
   }
 
   /// The largest value; by the fast search up to a float's rounding.
-  void expect_true_choice(const SolidTrace& trace, const SolidLevel& level, Vec3& reached, double& worth) const {
+  void expect_true_choice(const VolumeTrace& trace, const VolumeLevel& level, Vec3& reached, double& worth) const {
     const double rounding = trace.fast ? 1e-4 : 0.0;
     const auto largest = std::ranges::max_element(level.values);
     if (!level.best) {
@@ -190,7 +191,7 @@ class SolidFollower {
     reached = level.at(*level.best);
   }
 
-  void expect_true_elements(const SolidTrace& trace, const std::vector<Vec3>& positions) const {
+  void expect_true_elements(const VolumeTrace& trace, const std::vector<Vec3>& positions) const {
     const auto star = run_.input().topology.star(trace.vertex);
     ASSERT_EQ(trace.elements.size(), star.size());
     const QualityContext context = run_.input().quality_context();
@@ -234,7 +235,7 @@ TEST_P(SolidTraces, OfSoundStarsByEveryMetric) {
     if (!testing::defined_for_all(entry.metric, input->mesh)) continue;
     for (const Precision precision : {Precision::Float, Precision::Double}) {
       SCOPED_TRACE(std::string(entry.name) + name_of(precision));
-      SolidFollower follower(input, {.metric = entry.metric, .search = {.precision = precision}});
+      VolumeFollower follower(input, {.metric = entry.metric, .search = {.precision = precision}});
       follower.follow(1);
       if (HasFailure()) return;
       EXPECT_GT(follower.moved, follower.visits / 3) << "or there is little to follow";
@@ -248,7 +249,7 @@ TEST_P(SolidTraces, OfTangledStars) {
   const auto input = testing::input(tangled(generated(GetParam())));
   for (const Precision precision : {Precision::Float, Precision::Double}) {
     SCOPED_TRACE(name_of(precision));
-    SolidFollower follower(input, {.search = {.precision = precision}});
+    VolumeFollower follower(input, {.search = {.precision = precision}});
     follower.follow(7);  // the first few may be repairs
     if (HasFailure()) return;
     EXPECT_GT(follower.moved, follower.visits / 4);
@@ -265,14 +266,14 @@ TEST_P(SolidTraces, OfOtherGridsAndOfMeshesInHardPlaces) {
     for (const Precision precision : {Precision::Float, Precision::Double}) {
       SCOPED_TRACE(std::string(mesh.single_precision ? "single precision" : "far") + name_of(precision));
       const auto input = testing::input(mesh);
-      SolidFollower(input, {.search = {.grid_points = 5, .levels = 2, .omega = 0.7, .precision = precision}}).follow(1);
-      SolidFollower(input, {.search = {.precision = precision}}).follow(1);
+      VolumeFollower(input, {.search = {.grid_points = 5, .levels = 2, .omega = 0.7, .precision = precision}}).follow(1);
+      VolumeFollower(input, {.search = {.precision = precision}}).follow(1);
       if (HasFailure()) return;
     }
 }
 
 TEST_P(SolidTraces, OfTwoAims) {
-  SolidFollower follower(testing::input(generated(GetParam())), {.second = Metric::Condition});
+  VolumeFollower follower(testing::input(generated(GetParam())), {.second = Metric::Condition});
   follower.follow(1);
   EXPECT_GT(follower.moved, follower.visits / 4);
   EXPECT_EQ(follower.fast, 0U);
@@ -280,7 +281,7 @@ TEST_P(SolidTraces, OfTwoAims) {
 
 INSTANTIATE_TEST_SUITE_P(VisitTrace, SolidTraces, ::testing::Values("tetrahedra", "hexahedra", "solids"));
 
-TEST(SolidTrace, AVertexInTheMiddleOfAnOctahedronStaysAndOneAsideGoesThere) {
+TEST(VolumeTrace, AVertexInTheMiddleOfAnOctahedronStaysAndOneAsideGoesThere) {
   const auto octahedron = [](Vec3 hub) {
     Mesh mesh;
     mesh.positions = {hub, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -292,33 +293,33 @@ TEST(SolidTrace, AVertexInTheMiddleOfAnOctahedronStaysAndOneAsideGoesThere) {
     return testing::input(std::move(mesh));
   };
   const auto look = [](const std::shared_ptr<const InputMesh>& input, Precision precision) {
-    return trace_solid_visit(*input, input->mesh.positions, input->topology.boundary(), Metric::MeanRatio, {.precision = precision}, 0);
+    return trace_volume_visit(*input, input->mesh.positions, input->topology.boundary(), Metric::MeanRatio, {.precision = precision}, 0);
   };
   for (const Precision precision : {Precision::Float, Precision::Double}) {
     EXPECT_EQ(look(octahedron({}), precision).sentence(), "stays: no candidate is better than where it stands");
-    const SolidTrace aside = look(octahedron({0.4, -0.2, 0.3}), precision);
+    const VolumeTrace aside = look(octahedron({0.4, -0.2, 0.3}), precision);
     EXPECT_EQ(aside.sentence().substr(0, 34), "moved: worst element of its star 0");
     EXPECT_EQ(aside.fast, precision == Precision::Float);
     EXPECT_EQ(aside.value_phrase, "mean ratio");
     EXPECT_LT(length(aside.to), 0.05);
     // The octants of a regular octahedron: 12 (3 V)^(2/3) / sum of squared edges, with V = 1/6, edges 1, 1, 1 and three of sqrt 2.
     EXPECT_NEAR(look(octahedron({}), precision).before.quality, 12 * std::pow(0.5, 2.0 / 3.0) / 9, 1e-12);
-    const SolidTrace outside = look(octahedron({1.4, 0.1, 0.05}), precision);
+    const VolumeTrace outside = look(octahedron({1.4, 0.1, 0.05}), precision);
     EXPECT_EQ(outside.sentence().substr(0, 20), "moved: untangled its");
     EXPECT_TRUE(outside.untangling);
     EXPECT_FALSE(outside.fast);
   }
   const auto input = octahedron({});
-  const SolidTrace fixed = trace_solid_visit(*input, input->mesh.positions, input->topology.boundary(), Metric::MeanRatio, {}, 1);
+  const VolumeTrace fixed = trace_volume_visit(*input, input->mesh.positions, input->topology.boundary(), Metric::MeanRatio, {}, 1);
   EXPECT_EQ(static_cast<int>(fixed.end), static_cast<int>(VisitEnd::Fixed));
   EXPECT_TRUE(fixed.levels.empty());
   EXPECT_EQ(fixed.elements.size(), 4U);
 }
 
-TEST(SolidTrace, RefusesWhatCannotBeSearched) {
+TEST(VolumeTrace, RefusesWhatCannotBeSearched) {
   const auto input = testing::input(generated("hexahedra"));
   const auto look = [](const InputMesh& mesh, Index vertex, Metric metric, SearchParameters search) {
-    return trace_solid_visit(mesh, mesh.mesh.positions, mesh.topology.boundary(), metric, search, vertex);
+    return trace_volume_visit(mesh, mesh.mesh.positions, mesh.topology.boundary(), metric, search, vertex);
   };
   EXPECT_THROW((void)look(*input, input->mesh.vertex_count(), Metric::MeanRatio, {}), UsageError);
   EXPECT_THROW((void)look(*input, 0, Metric::RadiusRatio, {}), UsageError) << "a tetrahedron's";

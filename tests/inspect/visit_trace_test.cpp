@@ -15,7 +15,7 @@
 #include "core/base/error.h"
 #include "core/base/same_bits.h"
 #include "core/mesh/generate.h"
-#include "core/session/run.h"
+#include "core/run/run.h"
 #include "tests/smooth/zoo.h"
 #include "tests/support/sanitized.h"
 

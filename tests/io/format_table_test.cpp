@@ -1,4 +1,4 @@
-// docs/formats.md says what is kept: each row of its table is taken at its word, cell by cell, with a file of that row.
+// docs/user/formats.md says what is kept: each row of its table is taken at its word, cell by cell, with a file of that row.
 
 #include <algorithm>
 #include <fstream>
@@ -32,7 +32,7 @@ std::string without_blanks(const std::string& text) {
 
 std::vector<DocumentedRow> documented_rows() {
   std::vector<DocumentedRow> rows;
-  std::ifstream file(std::string(DMOSCOPE_SOURCE_DIR) + "/docs/formats.md");
+  std::ifstream file(std::string(DMOSCOPE_SOURCE_DIR) + "/docs/user/formats.md");
   for (std::string line; std::getline(file, line);) {
     if (!line.starts_with("| ") || line.starts_with("| format |")) continue;
     std::vector<std::string> cells;
@@ -110,7 +110,7 @@ class FormatTable : public ::testing::TestWithParam<Backing> {
  protected:
   void SetUp() override {
     row_ = row_of(GetParam());
-    ASSERT_NE(row_, nullptr) << "no such row in docs/formats.md: " << GetParam().format << ", " << GetParam().variant;
+    ASSERT_NE(row_, nullptr) << "no such row in docs/user/formats.md: " << GetParam().format << ", " << GetParam().variant;
     if (std::ranges::none_of(format_table(), [](const FormatInfo& f) { return f.name == GetParam().name; }))
       GTEST_SKIP() << "this build lacks the format";
   }

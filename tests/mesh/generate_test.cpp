@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/input/input_mesh.h"
 #include "core/quality/quality.h"
-#include "core/session/input_mesh.h"
 #include "tests/support/sanitized.h"
 
 namespace dmoscope {

@@ -1,4 +1,4 @@
-#include "core/session/input_mesh.h"
+#include "core/input/input_mesh.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

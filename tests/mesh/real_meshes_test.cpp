@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/session/input_mesh.h"
+#include "core/input/input_mesh.h"
 
 namespace dmoscope {
 namespace {

@@ -9,8 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/input/input_mesh.h"
 #include "core/mesh/generate.h"
-#include "core/session/input_mesh.h"
 #include "tests/mesh/meshes.h"
 
 namespace dmoscope {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/session/run.h"
+#include "core/run/run.h"
 #include "tests/support/sanitized.h"
 
 namespace dmoscope {

@@ -1,4 +1,4 @@
-#include "core/quality/arc_tangent.h"
+#include "core/numeric/arc_tangent.h"
 
 #include <cmath>
 #include <limits>

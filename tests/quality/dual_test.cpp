@@ -1,6 +1,6 @@
 // Gradients by dual numbers against differences of high order, and by hand.
 
-#include "core/quality/dual.h"
+#include "core/numeric/dual.h"
 
 #include <array>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/quality/formulas.h"
-#include "core/quality/solids.h"
+#include "core/quality/volumes.h"
 #include "tests/support/meshes.h"
 
 namespace dmoscope {
@@ -119,7 +119,7 @@ TEST(Dual, GivesTheGradientOfEveryMetricOfSolids) {
     for (int trial = 0; trial < 100; ++trial) {
       std::array<Vec3, 8> p{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
       for (Vec3& q : p) q = q + Vec3{random(-0.2, 0.2), random(-0.2, 0.2), random(-0.2, 0.2)};
-      formulas::with_solid_metric(entry.metric, [&]<Metric M>() {
+      formulas::with_volume_metric(entry.metric, [&]<Metric M>() {
         constexpr std::array<std::size_t, 4> kCorners{0, 1, 3, 4};
         tetrahedra += expect_solid_gradient<M, formulas::Tetrahedron>(p, kCorners[static_cast<std::size_t>(trial % 4)]);
         if constexpr (formulas::kDefinedForCorners<M>)

@@ -1,6 +1,4 @@
 // The metrics of solids against elementary geometry in long double, and what must hold of all of them.
-#include "core/quality/solids.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/mesh/random.h"
+#include "core/quality/volumes.h"
 
 namespace dmoscope {
 namespace {
@@ -27,11 +26,11 @@ constexpr Metric kOfTetrahedra[] = {Metric::MeanRatio,      Metric::RadiusRatio,
                                     Metric::ScaledJacobian, Metric::AspectRatio, Metric::Condition};
 
 double value(Metric metric, const Tetrahedron<Vec3>& t) {
-  return formulas::with_solid_metric(metric, [&]<Metric M>() { return formulas::metric<M>(t); });
+  return formulas::with_volume_metric(metric, [&]<Metric M>() { return formulas::metric<M>(t); });
 }
 template <class Solid>
 double corner_value(Metric metric, const Solid& s) {
-  return formulas::with_solid_metric(metric, [&]<Metric M>() {
+  return formulas::with_volume_metric(metric, [&]<Metric M>() {
     if constexpr (formulas::kDefinedForCorners<M>)
       return formulas::metric<M>(s);
     else
@@ -136,7 +135,7 @@ TEST(Solids, RanksRiseWithTheMetric) {
     std::vector<std::pair<double, double>> all;
     for (int trial = 0; trial < 300; ++trial) {
       const Tetrahedron<Vec3> t(random_point(random), random_point(random), random_point(random), random_point(random));
-      all.emplace_back(value(metric, t), formulas::with_solid_metric(metric, [&]<Metric M>() { return formulas::rank<M>(t); }));
+      all.emplace_back(value(metric, t), formulas::with_volume_metric(metric, [&]<Metric M>() { return formulas::rank<M>(t); }));
     }
     std::ranges::sort(all);
     for (std::size_t i = 1; i < all.size(); ++i) {

@@ -3,7 +3,7 @@
 #include <thread>
 
 #include "core/base/progress.h"
-#include "core/session/input_mesh.h"
+#include "core/input/input_mesh.h"
 #include "fixture.h"
 
 namespace dmoscope::render {

@@ -43,7 +43,7 @@ void VolumeSpeed::measure(ThreadPool* pool) {
     std::printf("%-44s median %7.1f  longest %7.1f ms  (%zu faces)\n", what, times[times.size() / 2], times.back(),
                 space.faces().faces.size());
   };
-  InsideView view;
+  ClippingView view;
   std::uint64_t serial = 0;
   tell("vertices moved", 5, 1.0, [&](int) {
     space.update({mesh.positions, quality, {}, ++serial});

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/session/input_mesh.h"
+#include "core/input/input_mesh.h"
 #include "render/face_records.h"
 #include "render/live_picture.h"
 #include "render/screenshot.h"
@@ -87,7 +87,7 @@ TEST_F(VolumePicture, TheNearCellsHideTheFarOnes) {
 
 TEST_F(VolumePicture, AClipPlaneUncoversWhatLiesBehind) {
   for (const auto mode : {ClipPlane::Mode::Crinkle, ClipPlane::Mode::Cut}) {
-    InsideView view;
+    ClippingView view;
     view.clip = {.on = true, .normal = {1, 0, 0}, .offset = 0.5, .flip = false, .mode = mode};
     space->set_view(view);
     EXPECT_TRUE(near_colour(at(shot(), {0.5, 0.25, 0.25}), of_quality(0.1)));
@@ -126,7 +126,7 @@ TEST_F(VolumePicture, PositionsAndQualitiesAreChangedInPlace) {
 }
 
 TEST_F(VolumePicture, ShrunkCellsLeaveRoomBetweenThem) {
-  InsideView view;
+  ClippingView view;
   view.shrink = 0.5;
   space->set_view(view);
   const Image image = shot();
@@ -145,7 +145,7 @@ TEST_F(VolumePicture, WhatIsNotChosenFades) {
 }
 
 TEST_F(VolumePicture, TheRestOfTheWorstIsAGhost) {
-  InsideView view;
+  ClippingView view;
   view.worst = 1;
   view.ghost = true;
   space->set_view(view);
@@ -190,7 +190,7 @@ TEST_F(VolumePicture, TheMouseFindsWhatIsSeen) {
     EXPECT_EQ(pick({1, -0.04, 0.0}).vertex, 2U);  // beside the mesh, the front one
   }
   camera.perspective = false;
-  InsideView view;
+  ClippingView view;
   view.clip = {.on = true, .normal = {1, 0, 0}, .offset = 0.3, .flip = false, .mode = ClipPlane::Mode::Cut};
   space->set_view(view);
   EXPECT_EQ(pick({1, 0.25, 0.25}).element, 0U);
@@ -216,7 +216,7 @@ TEST_F(VolumePicture, OfCutsInOnePlaceTheInvertedOneIsSeen) {
     const std::vector<std::uint8_t> bad{static_cast<std::uint8_t>(first ? 1 : 0), static_cast<std::uint8_t>(first ? 0 : 1)};
     space->set_mesh(twice.elements, neighbours);
     space->update({twice.positions, good, bad, 1});
-    InsideView view;
+    ClippingView view;
     view.clip = {.on = true, .normal = {1, 0.1, 0}, .offset = 0.4, .flip = false, .mode = ClipPlane::Mode::Cut};
     space->set_view(view);
     const Image image = shot();
@@ -260,7 +260,7 @@ TEST_F(VolumePicture, MarksOfWhatWasTakenAwayAreFaint) {
     return light;
   };
   EXPECT_GT(most_light(), 240);
-  InsideView view;
+  ClippingView view;
   view.clip = {.on = true, .normal = {1, 0, 0}, .offset = 0.5, .flip = false, .mode = ClipPlane::Mode::Crinkle};
   space->set_view(view);
   EXPECT_FALSE(space->sees_cell(7));
@@ -299,7 +299,7 @@ TEST_F(VolumePicture, NothingHidesTheVerticesOfTheSidesThatAreSeen) {
   expect_unhidden("all", 2, true);
   const auto unhidden = space->unhidden(camera, kViewport);
   EXPECT_EQ(unhidden->edges.size(), 30U);  // 12 a side, two of them shared by each two sides
-  InsideView view;
+  ClippingView view;
   view.clip = {.on = true, .normal = {1, 0, 0}, .offset = 0.5, .flip = false, .mode = ClipPlane::Mode::Crinkle};
   space->set_view(view);
   expect_unhidden("whole cells", 1, true);
@@ -406,7 +406,7 @@ TEST_F(VolumePicture, ALivePictureComesToRestAtTheFullOne) {
   good[5] = 0.1F;
   space->set_mesh(fine.elements, neighbours);
   space->update({fine.positions, good, {}, 1});
-  InsideView view;
+  ClippingView view;
   view.clip = {.on = true, .normal = {1, 0.2, 0}, .offset = 0.5, .flip = false, .mode = ClipPlane::Mode::Cut};
   view.ghost = true;
   space->set_view(view);
@@ -438,7 +438,7 @@ TEST_F(VolumePicture, AFrameIsShownAndTheViewStays) {
   frame->positions = mesh.positions;
   frame->quality = quality;
   frame->inverted = inverted;
-  InsideView view;
+  ClippingView view;
   view.clip = {.on = true, .normal = {1, 0, 0}, .offset = 0.5};
   ASSERT_TRUE(space->show(frame));
   space->set_view(view);
@@ -465,10 +465,10 @@ TEST_F(VolumePicture, WhatDoesNotFitIsRefused) {
   std::vector<float> few(3);
   EXPECT_THROW(space->update({mesh.positions, few, {}, 1}), UsageError);
   EXPECT_THROW(space->update({std::span(mesh.positions).first(5), quality, {}, 1}), UsageError);
-  InsideView view;
+  ClippingView view;
   view.shrink = 2.0;
   EXPECT_THROW(space->set_view(view), UsageError);
-  EXPECT_EQ(space->view(), InsideView{});
+  EXPECT_EQ(space->view(), ClippingView{});
   const Mesh flat = triangle_and_quadrilateral();
   const FaceNeighbours none(flat);
   EXPECT_THROW(space->set_mesh(flat.elements, none), UsageError);

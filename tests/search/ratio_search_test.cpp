@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/search/pack.h"
+#include "core/numeric/pack.h"
 // After the packs:
 #include "core/search/grid_search.h"
 #include "core/search/ratio_search.h"

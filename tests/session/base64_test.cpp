@@ -1,7 +1,5 @@
 // Base64 against RFC 4648, and positions packed in it.
 
-#include "core/session/base64.h"
-
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -11,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/same_bits.h"
+#include "core/session/position_text.h"
 
 namespace dmoscope {
 namespace {

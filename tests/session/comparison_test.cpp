@@ -9,8 +9,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/session/command_end.h"
-#include "core/session/engine.h"
+#include "core/engine/command_end.h"
+#include "core/engine/engine.h"
+#include "core/smooth/execution/method_table.h"
 #include "tests/session/spoken_session.h"
 
 namespace dmoscope {

@@ -10,8 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "core/base/same_bits.h"
-#include "core/session/engine.h"
-#include "core/session/run.h"
+#include "core/engine/engine.h"
+#include "core/run/run.h"
+#include "core/smooth/execution/method_table.h"
 #include "tests/support/fake_accelerator.h"
 #include "tests/support/meshes.h"
 
@@ -119,7 +120,7 @@ TEST(Edits, AnyMomentOfThePathIsFoundAgainBitForBit) {
   for (const std::size_t budget : {std::size_t{1} << 28U, std::size_t{0}}) {
     for (const bool accelerated : {false, true}) {
       dmoscope::Run run = edited_run({}, budget, accelerated ? acceleration(device) : Acceleration{});
-      ASSERT_EQ(run.backend(), accelerated ? "cuda" : "cpu");
+      ASSERT_EQ(run.backend(), accelerated ? Backend::Cuda : Backend::Cpu);
       const auto trail = tour(run, progress);
       if (first.empty()) first = trail;
       ASSERT_EQ(trail.size(), first.size());

@@ -9,7 +9,7 @@
 
 #include "core/io/mesh_io.h"
 #include "core/mesh/generate.h"
-#include "core/session/frame_builder.h"
+#include "core/view/frame_builder.h"
 #include "tests/session/spoken_session.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/session/engine.h"
-#include "core/session/patch.h"
+#include "core/engine/engine.h"
+#include "core/view/patch.h"
 #include "tests/support/fake_accelerator.h"
 #include "tests/support/meshes.h"
 
@@ -47,7 +47,7 @@ TEST(LiveFrames, StayOnTheDeviceAndTheLastOneIsWhole) {
   const auto start = engine.view();
   ASSERT_NE(start->frame, nullptr);
   EXPECT_EQ(start->frame->device, nullptr) << "nothing runs";
-  EXPECT_EQ(start->runs[0].backend, "cuda");
+  EXPECT_EQ(start->runs[0].backend, Backend::Cuda);
 
   const auto live = view_while_running(engine, [](const Frame& frame) {
     return frame.device != nullptr && frame.moment.visits == 0;  // a slow machine may be seen in the midst of an iteration
@@ -97,7 +97,7 @@ TEST(LiveFrames, ASnapshotThatFailsBecomesAWholeFrameWithTheReason) {
   EXPECT_EQ(live->frame->device, nullptr);
   EXPECT_EQ(live->frame->device_trouble, "no memory for a snapshot");
   EXPECT_EQ(live->frame->positions.size(), live->frame->vertex_count());
-  EXPECT_EQ(live->runs[0].backend, "cuda") << "the run goes on where it is";
+  EXPECT_EQ(live->runs[0].backend, Backend::Cuda) << "the run goes on where it is";
   EXPECT_EQ(engine.view()->frame->device_trouble, "");
 }
 
@@ -115,7 +115,7 @@ TEST(LiveFrames, ADeviceLostAtTheEndLeavesAFrameOfTheHost) {
   EXPECT_TRUE(said);
   const auto end = engine.view();
   EXPECT_EQ(end->frame->device, nullptr);
-  EXPECT_EQ(end->runs[0].backend, "cpu");
+  EXPECT_EQ(end->runs[0].backend, Backend::Cpu);
   EXPECT_EQ(end->frame->moment, end->runs[0].moment);
   const Statistics& recorded = end->runs[0].records.at(end->frame->moment.iteration).statistics;
   EXPECT_EQ(

@@ -1,6 +1,6 @@
 // What max-min costs the mean is said, and what is said holds.
 
-#include "core/session/mean_given_up.h"
+#include "core/run/mean_given_up.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // The phase that raises the mean: when it begins, what it keeps, and that a run goes over its beginning both ways with the same bits.
 
-#include "core/session/mean_phase.h"
+#include "core/run/mean_phase.h"
 
 #include <cstring>
 #include <limits>
@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/same_bits.h"
-#include "core/session/run.h"
-#include "core/session/session_commands.h"
+#include "core/commands/session_commands.h"
+#include "core/run/run.h"
 #include "core/session/state_file.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
@@ -36,17 +36,17 @@ std::vector<IterationRecord> records(std::initializer_list<double> minima) {
   return all;
 }
 
-TEST(PhaseTurn, AMethodOfDirectionsIsNotAtRestWhileAnotherOneIsLeft) {
+TEST(PhaseSwitchDetector, AMethodOfDirectionsIsNotAtRestWhileAnotherOneIsLeft) {
   std::vector<IterationRecord> rising = records({0.1, 0.2, 0.3, 0.4, 0.5});
   for (const std::size_t i : {1UL, 3UL, 4UL}) rising[i].moved = 0;
   const MeanPhase patient{.patience = 4};
-  EXPECT_EQ(PhaseTurn().find(patient, rising, 1), 1U);
-  EXPECT_EQ(PhaseTurn().find(patient, rising, 2), 4U);
-  EXPECT_EQ(PhaseTurn().find(patient, rising, std::nullopt), std::nullopt);
+  EXPECT_EQ(PhaseSwitchDetector().find(patient, rising, 1), 1U);
+  EXPECT_EQ(PhaseSwitchDetector().find(patient, rising, 2), 4U);
+  EXPECT_EQ(PhaseSwitchDetector().find(patient, rising, std::nullopt), std::nullopt);
 }
 
 /// A vertex that stands right along x and wrong along y: the first sweep finds nothing to do.
-TEST(PhaseTurn, DvrAlongTheAxesGoesOnAfterASweepThatFoundNothing) {
+TEST(PhaseSwitchDetector, DvrAlongTheAxesGoesOnAfterASweepThatFoundNothing) {
   Mesh mesh;
   mesh.positions = {{1, 0, 0},  {0.5, 0.8660254, 0}, {-0.5, 0.8660254, 0}, {-1, 0, 0}, {-0.5, -0.8660254, 0}, {0.5, -0.8660254, 0},
                     {0, 0.3, 0}};
@@ -61,27 +61,27 @@ TEST(PhaseTurn, DvrAlongTheAxesGoesOnAfterASweepThatFoundNothing) {
   EXPECT_GT(run.statistics().minimum, 0.9999);
 }
 
-TEST(PhaseTurn, ComesWhenTheMinimumHasNotRisenForSoLong) {
+TEST(PhaseSwitchDetector, ComesWhenTheMinimumHasNotRisenForSoLong) {
   const auto rising = records({0.1, 0.2, 0.3, 0.4});
-  EXPECT_EQ(PhaseTurn().find({.patience = 2}, rising), std::nullopt);
+  EXPECT_EQ(PhaseSwitchDetector().find({.patience = 2}, rising), std::nullopt);
   const auto rested = records({0.1, 0.2, 0.2, 0.3, 0.3, 0.3, 0.4});
-  EXPECT_EQ(PhaseTurn().find({.patience = 1}, rested), 2U);
-  EXPECT_EQ(PhaseTurn().find({.patience = 2}, rested), 5U);
-  EXPECT_EQ(PhaseTurn().find({.patience = 3}, rested), std::nullopt);
+  EXPECT_EQ(PhaseSwitchDetector().find({.patience = 1}, rested), 2U);
+  EXPECT_EQ(PhaseSwitchDetector().find({.patience = 2}, rested), 5U);
+  EXPECT_EQ(PhaseSwitchDetector().find({.patience = 3}, rested), std::nullopt);
 }
 
-TEST(PhaseTurn, AStillIterationEndsThePhaseAndAMovableMinimumDelaysIt) {
+TEST(PhaseSwitchDetector, AStillIterationEndsThePhaseAndAMovableMinimumDelaysIt) {
   auto still = records({0.1, 0.2, 0.3});
   still[1].moved = 0;
-  EXPECT_EQ(PhaseTurn().find({.patience = 5}, still), 1U);
+  EXPECT_EQ(PhaseSwitchDetector().find({.patience = 5}, still), 1U);
   auto movable = records({0.1, 0.1, 0.1, 0.1, 0.1});
   for (std::size_t i = 0; i < 3; ++i) movable[i].statistics.movable_minimum = 0.2 + 0.1 * static_cast<double>(i);
   movable[3].statistics.movable_minimum = movable[4].statistics.movable_minimum = 0.4;
-  EXPECT_EQ(PhaseTurn().find({.patience = 1}, movable), 3U);
+  EXPECT_EQ(PhaseSwitchDetector().find({.patience = 1}, movable), 3U);
 }
 
-TEST(PhaseTurn, FollowsAnotherPath) {
-  PhaseTurn turn;
+TEST(PhaseSwitchDetector, FollowsAnotherPath) {
+  PhaseSwitchDetector turn;
   EXPECT_EQ(turn.find({.patience = 2}, records({0.1, 0.2, 0.2, 0.2})), 3U);
   turn.forget_after(3);
   EXPECT_EQ(turn.find({.patience = 2}, records({0.1, 0.2, 0.2, 0.2})), 3U);
@@ -92,17 +92,17 @@ TEST(PhaseTurn, FollowsAnotherPath) {
   EXPECT_EQ(turn.find({.patience = 2}, records({0.1, 0.2, 0.3, 0.3, 0.3})), 4U);
 }
 
-TEST(PhaseTurn, DoesNotComeWhileElementsAreInverted) {
+TEST(PhaseSwitchDetector, DoesNotComeWhileElementsAreInverted) {
   auto tangled = records({-0.3, -0.3, -0.3, -0.3, 0.1, 0.1, 0.1});
   for (std::size_t i = 0; i < 4; ++i) tangled[i].statistics.inverted = 2;
   tangled[2].moved = 0;  // nor where nothing moves
-  EXPECT_EQ(PhaseTurn().find({.patience = 2}, tangled), 6U);
+  EXPECT_EQ(PhaseSwitchDetector().find({.patience = 2}, tangled), 6U);
 }
 
 /// What rises little by little rises: a first phase alone would go on, too.
-TEST(PhaseTurn, AddsUpSmallRises) {
+TEST(PhaseSwitchDetector, AddsUpSmallRises) {
   const auto slow = records({0.1, 0.1 + 4e-7, 0.1 + 8e-7, 0.1 + 12e-7, 0.1 + 16e-7, 0.1 + 20e-7, 0.1 + 20e-7, 0.1 + 20e-7});
-  EXPECT_EQ(PhaseTurn().find({.patience = 3}, slow), 6U) << "the last rise of 1e-6 is in iteration 3";
+  EXPECT_EQ(PhaseSwitchDetector().find({.patience = 3}, slow), 6U) << "the last rise of 1e-6 is in iteration 3";
 }
 
 RunParameters two_phases(std::uint64_t patience = 2) {

@@ -1,6 +1,6 @@
 // Percentiles and summaries: against sorting, for every run, at rest.
 
-#include "core/session/percentiles.h"
+#include "core/run/percentiles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/session/engine.h"
-#include "core/session/summaries.h"
+#include "core/engine/engine.h"
+#include "core/view/summaries.h"
 #include "tests/support/meshes.h"
 
 namespace dmoscope {

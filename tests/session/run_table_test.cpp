@@ -1,6 +1,6 @@
 // The table of runs: what its cells tell against sums and sorting done here, its order, its text.
 
-#include "core/session/run_table.h"
+#include "core/view/run_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/session/engine.h"
+#include "core/engine/engine.h"
 #include "tests/support/meshes.h"
 
 namespace dmoscope {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/session/session_commands.h"
+#include "core/commands/session_commands.h"
 
 namespace dmoscope::testing {
 

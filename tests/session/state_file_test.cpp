@@ -14,9 +14,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/same_bits.h"
-#include "core/session/base64.h"
-#include "core/session/engine.h"
-#include "core/session/session_commands.h"
+#include "core/commands/session_commands.h"
+#include "core/engine/engine.h"
+#include "core/session/position_text.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/temporary_folder.h"

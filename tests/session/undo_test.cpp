@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/session/engine.h"
-#include "core/session/session_commands.h"
+#include "core/commands/session_commands.h"
+#include "core/engine/engine.h"
 #include "tests/session/spoken_session.h"
 #include "tests/support/fake_accelerator.h"
 #include "tests/support/meshes.h"
@@ -336,7 +336,7 @@ class DeviceUndo : public Undo {
 
 TEST_F(DeviceUndo, ARetiredRunLeavesTheDeviceAndComesBack) {
   say("generate random 200");
-  ASSERT_EQ(session_.active().backend(), "cuda");
+  ASSERT_EQ(session_.active().backend(), Backend::Cuda);
   say("run 2");
   say("add-run dmo:radius-ratio");
   say("remove-run 1");

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/session/engine.h"
-#include "core/session/frame_builder.h"
-#include "core/session/past.h"
+#include "core/engine/engine.h"
+#include "core/session/recompute.h"
+#include "core/view/frame_builder.h"
 #include "tests/support/fake_accelerator.h"
 #include "tests/support/meshes.h"
 

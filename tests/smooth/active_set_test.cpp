@@ -8,8 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "core/base/same_bits.h"
-#include "core/session/run.h"
-#include "core/session/sweep_after.h"
+#include "core/run/run.h"
+#include "core/run/sweep_after.h"
+#include "core/smooth/execution/method_table.h"
 #include "tests/smooth/zoo.h"
 
 namespace dmoscope {

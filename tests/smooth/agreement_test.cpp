@@ -12,7 +12,8 @@
 
 #include "core/base/error.h"
 #include "core/mesh/colouring.h"
-#include "core/smooth/dmo.h"
+#include "core/smooth/execution/method_table.h"
+#include "core/smooth/methods/dmo.h"
 #include "tests/support/sanitized.h"
 
 namespace dmoscope {

@@ -1,8 +1,6 @@
 // The search for two aims by packs of candidates finds what the plain one finds, to the bit, by any instructions; and speaks for every star
 // that it is meant for.
 
-#include "core/smooth/aims_kernel.h"
-
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -11,7 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "core/search/mesh_star.h"
-#include "core/smooth/combined.h"
+#include "core/smooth/kernels/composite_kernel.h"
+#include "core/smooth/methods/composite_dmo.h"
 #include "tests/smooth/zoo.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/volume_grids.h"
@@ -23,21 +22,21 @@ using testing::kSanitized;
 using testing::Specimen;
 
 /// Some of everything: each metric of the mesh as the first aim, and as the second one the mean, the next metric, and density.
-std::vector<Aims> kinds_of_aims(const std::shared_ptr<const InputMesh>& mesh) {
+std::vector<CompositeObjective> kinds_of_aims(const std::shared_ptr<const InputMesh>& mesh) {
   std::vector<Metric> metrics;
   for (const MetricInfo& entry : metric_table()) {
     bool defined = true;
     for (Index e = 0; defined && e < mesh->mesh.elements.size(); ++e) defined = entry.defined_for(mesh->mesh.elements.kind(e));
     if (defined) metrics.push_back(entry.metric);
   }
-  std::vector<Aims> all;
+  std::vector<CompositeObjective> all;
   for (std::size_t i = 0; i < metrics.size(); ++i) {
     all.push_back(raise_mean_above(metrics[i], 0.25));
-    all.push_back(aims_of(metrics[i], {0.3, metrics[(i + 1) % metrics.size()]}, nullptr));
+    all.push_back(composite_objective(metrics[i], {0.3, metrics[(i + 1) % metrics.size()]}, nullptr));
   }
   if (!mesh->is_volume()) {
     const SizeFunction h1{SizeFunction::Kind::Distance, mesh->mesh.positions[0] + Vec3{0.2, 0.1, 0.0}, {}};
-    all.push_back(aims_of(metrics[0], Combination{0.3, h1}, std::make_shared<const SizeField>(mesh, h1)));
+    all.push_back(composite_objective(metrics[0], Combination{0.3, h1}, std::make_shared<const SizeField>(mesh, h1)));
   }
   return all;
 }
@@ -59,12 +58,12 @@ struct Count {
 };
 
 template <class Frame>
-void compare(const Specimen& specimen, const std::shared_ptr<const InputMesh>& mesh, const Aims& aims, Count& count) {
-  std::vector<CombinedSearch<Frame>> searches;
+void compare(const Specimen& specimen, const std::shared_ptr<const InputMesh>& mesh, const CompositeObjective& composite, Count& count) {
+  std::vector<CompositeRule<Frame>> searches;
   SearchParameters parameters = specimen.search;
   for (const SimdLevel level : supported_simd_levels()) {
     parameters.simd = level;
-    searches.emplace_back(*mesh, aims, parameters);
+    searches.emplace_back(*mesh, composite, parameters);
   }
   const std::vector<Vec3>& positions = mesh->mesh.positions;
   StarIn<Frame, double> star;
@@ -84,7 +83,7 @@ void compare(const Specimen& specimen, const std::shared_ptr<const InputMesh>& m
   }
 }
 
-TEST(AimsKernel, FindsWhatThePlainSearchFinds) {
+TEST(CompositeKernel, FindsWhatThePlainSearchFinds) {
   Count count;
   std::size_t turn = 0;
   const std::size_t every = kSanitized ? 4 : 2;
@@ -92,7 +91,7 @@ TEST(AimsKernel, FindsWhatThePlainSearchFinds) {
     ++turn;
     if (kSanitized && turn % 5 != 0 && specimen.name.find("volume") == std::string::npos) continue;
     const auto mesh = testing::input(specimen.mesh);
-    const std::vector<Aims> all = kinds_of_aims(mesh);
+    const std::vector<CompositeObjective> all = kinds_of_aims(mesh);
     for (std::size_t i = 0; i < all.size(); ++i) {
       if ((i + turn) % every != 0) continue;  // each kind of aims on some of the meshes
       if (mesh->is_volume())
@@ -107,7 +106,7 @@ TEST(AimsKernel, FindsWhatThePlainSearchFinds) {
 }
 
 /// The floor of the phase that raises the mean is mostly the least of some star: that star is not below it.
-TEST(AimsKernel, AStarAtTheFloorIsBeyondIt) {
+TEST(CompositeKernel, AStarAtTheFloorIsBeyondIt) {
   const auto mesh = testing::input(testing::lattice(9, 0.35, 46));
   int moved = 0;
   Star<double> star;
@@ -116,7 +115,7 @@ TEST(AimsKernel, AStarAtTheFloorIsBeyondIt) {
     gather_star(MeshStar(mesh->view<Plane>(), mesh->mesh.positions, v), star);
     const double least = metric_functions<Plane>(Metric::MeanRatio).least_at(star, {});
     if (!(least > 0.0)) continue;
-    const CombinedSearch<Plane> search(*mesh, raise_mean_above(Metric::MeanRatio, least), {});
+    const CompositeRule<Plane> search(*mesh, raise_mean_above(Metric::MeanRatio, least), {});
     const auto fast = search.search(star, mesh->mesh.positions, v), plain = search.search_plainly(star, mesh->mesh.positions, v);
     EXPECT_EQ(std::memcmp(&fast.offset, &plain.offset, sizeof(plain.offset)), 0) << v;
     moved += plain.offset == Vec2<double>{} ? 0 : 1;
@@ -136,11 +135,11 @@ Star<double> wheel(int spokes) {
   return star;
 }
 
-TEST(AimsKernel, SpeaksForSoundStarsUpToItsLimits) {
+TEST(CompositeKernel, SpeaksForSoundStarsUpToItsLimits) {
   for (const SimdLevel level : supported_simd_levels()) {
-    const auto kernel = aims_kernel<Plane>(level, Metric::MeanRatio);
+    const auto kernel = composite_kernel<Plane>(level, Metric::MeanRatio);
     const auto ready = [&](const Star<double>& star, int points) {
-      AimsSearch<Plane> task;
+      CompositeSearch<Plane> task;
       task.star = lists_of(star);
       task.box = star.box;
       task.points = points;
@@ -151,8 +150,8 @@ TEST(AimsKernel, SpeaksForSoundStarsUpToItsLimits) {
     const auto most = static_cast<int>(kMaxSimplices);
     for (const int spokes : {3, 6, most}) EXPECT_TRUE(ready(wheel(spokes), 8)) << spokes;
     EXPECT_FALSE(ready(wheel(most + 1), 8));
-    for (const int points : {2, 3, kMaxAimsPoints}) EXPECT_TRUE(ready(wheel(6), points)) << points;
-    EXPECT_FALSE(ready(wheel(6), kMaxAimsPoints + 1));
+    for (const int points : {2, 3, kMaxCompositePoints}) EXPECT_TRUE(ready(wheel(6), points)) << points;
+    EXPECT_FALSE(ready(wheel(6), kMaxCompositePoints + 1));
     Star<double> inverted = wheel(6);
     std::swap(inverted.triangles[2].b, inverted.triangles[2].c);
     EXPECT_FALSE(ready(inverted, 8));

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/mesh/colouring.h"
+#include "core/smooth/execution/method_table.h"
 #include "core/smooth/smoother.h"
 #include "tests/support/meshes.h"
 

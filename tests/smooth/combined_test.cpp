@@ -1,7 +1,5 @@
 // Two aims at once: the search against one written apart, what its optimum is, and what it promises.
 
-#include "core/smooth/combined.h"
-
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -14,8 +12,9 @@
 #include "core/base/same_bits.h"
 #include "core/mesh/generate.h"
 #include "core/mesh/random.h"
-#include "core/session/run.h"
-#include "core/smooth/dmo.h"
+#include "core/run/run.h"
+#include "core/smooth/methods/composite_dmo.h"
+#include "core/smooth/methods/dmo.h"
 #include "tests/smooth/promises.h"
 #include "tests/support/meshes.h"
 
@@ -111,9 +110,9 @@ Point best_place(const Plain& mesh, Index vertex, const std::function<Worth(Poin
 
 /// Compares the search with the one above for every free vertex without inverted elements; returns how many had a best place beyond the
 /// threshold, and below.
-std::pair<int, int> compare(const InputMesh& mesh, const Aims& aims, const SecondAim& second) {
+std::pair<int, int> compare(const InputMesh& mesh, const CompositeObjective& composite, const SecondAim& second) {
   const Plain plain{mesh, mesh.mesh.positions};
-  const CombinedSearch<Plane> search(mesh, aims, {});
+  const CompositeRule<Plane> search(mesh, composite, {});
   Star<double> room;
   std::pair<int, int> counts{};
   for (Index v = 0; v < mesh.mesh.vertex_count(); ++v) {
@@ -122,7 +121,7 @@ std::pair<int, int> compare(const InputMesh& mesh, const Aims& aims, const Secon
     for (const auto& triangle : plain.star(v, {mesh.mesh.positions[v].x, mesh.mesh.positions[v].y}))
       tangled |= Plain::area(triangle) <= 0.0;
     if (tangled) continue;
-    const auto worth_at = [&](Point p) { return worth(plain, v, p, aims.threshold, aims.raise_mean(), second); };
+    const auto worth_at = [&](Point p) { return worth(plain, v, p, composite.threshold, composite.raise_mean(), second); };
     const Point expected = best_place(plain, v, worth_at);
     const Vec3 here = mesh.mesh.positions[v];
     const Vec3 found = search.target(mesh.mesh.positions, v, room).value_or(here);
@@ -133,19 +132,19 @@ std::pair<int, int> compare(const InputMesh& mesh, const Aims& aims, const Secon
   return counts;
 }
 
-TEST(CombinedSearch, FindsTheBestInTheOrderOfTheTwoAims) {
+TEST(CompositeRule, FindsTheBestInTheOrderOfTheTwoAims) {
   const auto mesh = input(lattice(12, 0.35, 5));
   const auto least_angle = [](const std::vector<Plain::Corners>& star, Point) {
     double least = INFINITY;
     for (const auto& triangle : star) least = std::min(least, Plain::min_angle(triangle));
     return least;
   };
-  const auto [beyond, below] = compare(*mesh, aims_of(Metric::MeanRatio, {0.7, Metric::MinAngle}, nullptr), least_angle);
+  const auto [beyond, below] = compare(*mesh, composite_objective(Metric::MeanRatio, {0.7, Metric::MinAngle}, nullptr), least_angle);
   EXPECT_GT(beyond, 20);
   EXPECT_GT(below, 5);
 }
 
-TEST(CombinedSearch, RaisesTheMeanAboveTheFloor) {
+TEST(CompositeRule, RaisesTheMeanAboveTheFloor) {
   const auto mesh = input(lattice(12, 0.35, 6));
   const auto mean = [](const std::vector<Plain::Corners>& star, Point) {
     double sum = 0.0;
@@ -157,7 +156,7 @@ TEST(CombinedSearch, RaisesTheMeanAboveTheFloor) {
   EXPECT_GT(below, 5);
 }
 
-TEST(CombinedSearch, GoesForTheWeightedMeanOfTheNeighbours) {
+TEST(CompositeRule, GoesForTheWeightedMeanOfTheNeighbours) {
   const auto mesh = input(lattice(12, 0.35, 7));
   const Vec3 point{0.3, 0.4, 0.0};
   const auto size = std::make_shared<const SizeField>(mesh, SizeFunction{SizeFunction::Kind::Distance, point, {}});
@@ -171,13 +170,13 @@ TEST(CombinedSearch, GoesForTheWeightedMeanOfTheNeighbours) {
     }
     return -std::hypot(at.x - x / weights, at.y - y / weights);
   };
-  const auto [beyond, below] = compare(*mesh, aims_of(Metric::MeanRatio, Combination{0.6}, size), density);
+  const auto [beyond, below] = compare(*mesh, composite_objective(Metric::MeanRatio, Combination{0.6}, size), density);
   EXPECT_GT(beyond, 20);
   EXPECT_GT(below, 5);
 }
 
 /// Whether a vertex may go, by the words of promise 1, for places near and far, inside of its ring and outside.
-void expect_gains_as_promised(const Aims& aims, const SecondAim& second) {
+void expect_gains_as_promised(const CompositeObjective& composite, const SecondAim& second) {
   Random random(17);
   int allowed = 0, refused_below = 0, refused_tangled = 0;
   for (int trial = 0; trial < 20000; ++trial) {
@@ -207,13 +206,13 @@ void expect_gains_as_promised(const Aims& aims, const SecondAim& second) {
       return found;
     };
     const At before = look(here), after = look(there);
-    const auto beyond = [&](double q) { return aims.raise_mean() ? q > 0.0 && q >= aims.threshold : q > aims.threshold; };
+    const auto beyond = [&](double q) { return composite.raise_mean() ? q > 0.0 && q >= composite.threshold : q > composite.threshold; };
     const bool rises = after.second > before.second;
     bool expected = after.jacobian > 0.0 && (beyond(before.first) ? beyond(after.first) && rises : after.first > before.first);
     if (before.jacobian <= 0.0)
       expected = after.jacobian > before.jacobian && after.inverted <= before.inverted &&
-                 (!aims.raise_mean() || (after.first >= before.first && rises));
-    const bool gains = CombinedSearch<Plane>(*wheel, aims, {}).gains(wheel->mesh.positions, 0, there);
+                 (!composite.raise_mean() || (after.first >= before.first && rises));
+    const bool gains = CompositeRule<Plane>(*wheel, composite, {}).gains(wheel->mesh.positions, 0, there);
     EXPECT_EQ(gains, expected) << trial;
     allowed += gains ? 1 : 0;
     refused_below += beyond(before.first) && rises && !beyond(after.first) ? 1 : 0;
@@ -221,11 +220,11 @@ void expect_gains_as_promised(const Aims& aims, const SecondAim& second) {
   }
   EXPECT_GT(allowed, 200);
   EXPECT_GT(refused_below, 2);
-  EXPECT_TRUE(!aims.raise_mean() || refused_tangled > 20);
+  EXPECT_TRUE(!composite.raise_mean() || refused_tangled > 20);
 }
 
-TEST(CombinedSearch, AVertexGainsAsPromised) {
-  expect_gains_as_promised(aims_of(Metric::MeanRatio, {0.5, Metric::MinAngle}, nullptr),
+TEST(CompositeRule, AVertexGainsAsPromised) {
+  expect_gains_as_promised(composite_objective(Metric::MeanRatio, {0.5, Metric::MinAngle}, nullptr),
                            [](const std::vector<Plain::Corners>& star, Point) {
                              double least = INFINITY;
                              for (const auto& triangle : star) least = std::min(least, Plain::min_angle(triangle));
@@ -238,11 +237,11 @@ TEST(CombinedSearch, AVertexGainsAsPromised) {
   });
 }
 
-TEST(Aims, TheThresholdItselfIsNotBeyondButTheFloorIs) {
-  const Aims both = aims_of(Metric::MeanRatio, {0.7, Metric::MinAngle}, nullptr);
+TEST(CompositeObjective, TheThresholdItselfIsNotBeyondButTheFloorIs) {
+  const CompositeObjective both = composite_objective(Metric::MeanRatio, {0.7, Metric::MinAngle}, nullptr);
   EXPECT_FALSE(both.beyond(0.7)) << "eq. (8)";
   EXPECT_TRUE(both.beyond(std::nextafter(0.7, 1.0)));
-  const Aims mean = raise_mean_above(Metric::MeanRatio, 0.7);
+  const CompositeObjective mean = raise_mean_above(Metric::MeanRatio, 0.7);
   EXPECT_TRUE(mean.beyond(0.7)) << "or the star that sets the floor could not rise";
   EXPECT_FALSE(mean.beyond(std::nextafter(0.7, 0.0)));
   EXPECT_FALSE(raise_mean_above(Metric::MeanRatio, -0.3).beyond(0.0)) << "inverted";

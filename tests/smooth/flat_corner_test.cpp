@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/session/run.h"
-#include "core/smooth/dmo.h"
+#include "core/run/run.h"
+#include "core/smooth/methods/dmo.h"
 #include "tests/smooth/zoo.h"
 
 namespace dmoscope {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/same_bits.h"
+#include "core/smooth/execution/method_table.h"
 #include "tests/smooth/promises.h"
 
 namespace dmoscope {

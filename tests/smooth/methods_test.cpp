@@ -8,7 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "core/inspect/quality_field.h"
-#include "core/smooth/dvr.h"
+#include "core/smooth/execution/method_table.h"
+#include "core/smooth/methods/dvr.h"
 #include "tests/smooth/promises.h"
 
 namespace dmoscope {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/smooth/execution/method_table.h"
 #include "tests/smooth/promises.h"
 #include "tests/smooth/tangled_zoo.h"
 

@@ -9,6 +9,7 @@
 #include "core/base/same_bits.h"
 #include "core/mesh/generate.h"
 #include "core/mesh/nodal_field.h"
+#include "core/smooth/execution/method_table.h"
 #include "tests/smooth/promises.h"
 
 namespace dmoscope {

@@ -1,10 +1,9 @@
 // The forms that the fast search has instead of elements are worth what the elements are, wherever the vertex stands.
 
-#include "core/smooth/solid_form.h"
-
 #include <gtest/gtest.h>
 
 #include "core/mesh/random.h"
+#include "core/smooth/kernels/volume_form.h"
 
 namespace dmoscope {
 namespace {
@@ -13,7 +12,7 @@ Vec3 random_point(dmoscope::Random& random, double size) {
   return {random.between(-size, size), random.between(-size, size), random.between(-size, size)};
 }
 
-TEST(SolidForm, OfATetrahedronIsItsRank) {
+TEST(VolumeForm, OfATetrahedronIsItsRank) {
   dmoscope::Random random(3);
   for (int trial = 0; trial < 300; ++trial) {
     const Vec3 b = random_point(random, 1), c = random_point(random, 1), d = random_point(random, 1), p = random_point(random, 0.5);
@@ -43,7 +42,7 @@ void expect_least_form_to_be_the_rank(const Solid& ideal) {
       EXPECT_EQ(count, ideal.at.size() == 5 && moving < 4 ? 3U : 4U) << "corners that have an edge to corner " << moving;
     }
 }
-TEST(SolidForm, OfTheCornersOfAnyOtherSolidAreItsRank) {
+TEST(VolumeForm, OfTheCornersOfAnyOtherSolidAreItsRank) {
   expect_least_form_to_be_the_rank(
       formulas::Hexahedron<Vec3>{{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}}});
   const double height = std::sqrt(0.75);

@@ -1,6 +1,6 @@
 // The table of stars against the elements themselves.
 
-#include "core/smooth/star_table.h"
+#include "core/smooth/kernels/star_table.h"
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,6 @@
 // Two smoothers in one: going from a phase to the other either way, nothing that one has done is lost to the other.
 
-#include "core/smooth/then_mean.h"
+#include "core/smooth/methods/then_mean.h"
 
 #include <cstring>
 #include <memory>
@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/mesh/colouring.h"
+#include "core/smooth/execution/method_table.h"
 #include "tests/support/meshes.h"
 
 namespace dmoscope {

@@ -3,10 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "core/base/same_bits.h"
+#include "core/input/input_mesh.h"
 #include "core/mesh/generate.h"
 #include "core/mesh/random.h"
-#include "core/session/input_mesh.h"
-#include "core/smooth/solid_dvr.h"
+#include "core/smooth/execution/method_table.h"
+#include "core/smooth/methods/volume_dvr.h"
 #include "tests/smooth/promises.h"
 #include "tests/support/volume_grids.h"
 
@@ -223,7 +224,7 @@ struct OnLines {
 /// The next visits of dvr, of the first class.
 void expect_best_on_lines(dmoscope::Run& run, const std::string& what, OnLines& count) {
   const bool repair = run.sweep().untangling.repair;
-  const Vec3 d = solid_dvr_direction(run.parameters().options, run.moment().iteration);
+  const Vec3 d = volume_dvr_direction(run.parameters().options, run.moment().iteration);
   Progress progress;
   for (const Index hub : run.colouring().members(0)) {
     const Vec3 old = run.positions()[hub];
@@ -268,16 +269,16 @@ TEST(Volume, DvrDirectionsAreOfLengthOneAndGoEverywhereAlike) {
   double squares[3] = {};
   constexpr int kCount = 4000;
   for (std::uint64_t i = 0; i < kCount; ++i) {
-    const Vec3 d = solid_dvr_direction({.seed = 5}, i);
+    const Vec3 d = volume_dvr_direction({.seed = 5}, i);
     EXPECT_NEAR(length(d), 1.0, 1e-15);
-    EXPECT_EQ(d, solid_dvr_direction({.seed = 5}, i));
+    EXPECT_EQ(d, volume_dvr_direction({.seed = 5}, i));
     squares[0] += d.x * d.x, squares[1] += d.y * d.y, squares[2] += d.z * d.z;
   }
   for (const double sum : squares) EXPECT_NEAR(sum / kCount, 1.0 / 3.0, 0.02);
   const MethodOptions axes{.directions = Directions::Axes};
-  EXPECT_EQ(solid_dvr_direction(axes, 3), (Vec3{1, 0, 0}));
-  EXPECT_EQ(solid_dvr_direction(axes, 4), (Vec3{0, 1, 0}));
-  EXPECT_EQ(solid_dvr_direction(axes, 5), (Vec3{0, 0, 1}));
+  EXPECT_EQ(volume_dvr_direction(axes, 3), (Vec3{1, 0, 0}));
+  EXPECT_EQ(volume_dvr_direction(axes, 4), (Vec3{0, 1, 0}));
+  EXPECT_EQ(volume_dvr_direction(axes, 5), (Vec3{0, 0, 1}));
   EXPECT_EQ(still_iterations(method_info("dvr"), axes, true), 3U);
   EXPECT_EQ(still_iterations(method_info("dvr"), axes, false), 2U);
 }

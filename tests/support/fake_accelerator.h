@@ -10,7 +10,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/smooth/accelerator.h"
+#include "core/smooth/execution/accelerator.h"
+#include "core/smooth/execution/method_table.h"
 #include "tests/support/fake_picture.h"
 
 namespace dmoscope::testing {
@@ -59,7 +60,7 @@ class FakeSmoother final : public Smoother {
     std::ranges::copy(on_device_, positions.begin());
   }
   void positions_replaced() override { stale_ = true; }
-  [[nodiscard]] bool positions_are_far() const noexcept override { return true; }
+  [[nodiscard]] bool positions_on_device() const noexcept override { return true; }
   [[nodiscard]] std::shared_ptr<const DevicePicture> picture(Metric shown) override {
     if (stale_ || !device_->pictures) return nullptr;
     if (!device_->pictures->can_snapshot) throw DeviceError("no memory for a snapshot");
@@ -86,7 +87,6 @@ class FakeSmoother final : public Smoother {
 class FakeAccelerator final : public Accelerator {
  public:
   explicit FakeAccelerator(std::shared_ptr<FakeDevice> device = std::make_shared<FakeDevice>()) : device_(std::move(device)) {}
-  [[nodiscard]] std::string name() const override { return "cuda"; }
   [[nodiscard]] std::string description() const override { return "Fake H1"; }
   [[nodiscard]] std::unique_ptr<Smoother> make_dmo(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring,
                                                    Metric metric, const SearchParameters& parameters, std::span<const Index> immovable,

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/session/device_picture.h"
-#include "core/session/frame_builder.h"
-#include "core/session/input_mesh.h"
+#include "core/input/input_mesh.h"
+#include "core/run/device_picture.h"
+#include "core/view/frame_builder.h"
 
 namespace dmoscope::testing {
 

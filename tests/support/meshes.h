@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/session/input_mesh.h"
+#include "core/input/input_mesh.h"
 
 namespace dmoscope::testing {
 

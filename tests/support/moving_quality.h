@@ -7,9 +7,9 @@
 #include <limits>
 #include <span>
 
+#include "core/input/input_mesh.h"
 #include "core/quality/quality.h"
-#include "core/quality/solids.h"
-#include "core/session/input_mesh.h"
+#include "core/quality/volumes.h"
 
 namespace dmoscope::testing {
 
@@ -54,7 +54,7 @@ inline double moving_quality(const InputMesh& input, PositionView positions, Met
     const auto corners = input.mesh.elements.corners(element);
     const ElementKind kind = input.mesh.elements.kind(element);
     if (kind == ElementKind::Tetrahedron) return element_quality(input.quality_context(), positions, metric, element);
-    return formulas::with_solid_metric(metric, [&]<Metric M>() {
+    return formulas::with_volume_metric(metric, [&]<Metric M>() {
       if constexpr (formulas::kDefinedForCorners<M>) {
         if (kind == ElementKind::Hexahedron) return least_moving_corner<M, formulas::HexahedronCorners>(corners, kind, positions, vertex);
         if (kind == ElementKind::Wedge) return least_moving_corner<M, formulas::WedgeCorners>(corners, kind, positions, vertex);

@@ -31,8 +31,8 @@ void end_stroke(PanelContext& context) {
     if (brush.kind == StrokeKind::Select && !context.state.selection.empty()) context.send("select none");
     return;
   }
-  constexpr const char* kVerbs[] = {"select vertex ", "select add ", "select remove "};  // in the order of StrokeKind
-  context.send(kVerbs[static_cast<int>(brush.kind)] + ids);
+  constexpr const char* kCommands[] = {"select vertex ", "select add ", "select remove "};  // in the order of StrokeKind
+  context.send(kCommands[static_cast<int>(brush.kind)] + ids);
 }
 
 void draw_cursor(const PanelContext& context, Vec2<double> at, const Rect& rect, double radius) {

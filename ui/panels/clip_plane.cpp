@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "ui/inside_text.h"
+#include "ui/commands/clipping_text.h"
 #include "ui/panels/panels.h"
 
 namespace dmoscope::ui {
@@ -107,7 +107,7 @@ std::optional<Handle> handle_of(const PanelContext& context, const PaneFacts& pa
 
 void drag(PanelContext& context, const PaneFacts& pane, const Handle& handle) {
   InsideGrip& grip = context.widgets.inside_grip;
-  InsideView& view = context.state.inside;
+  ClippingView& view = context.state.inside;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const Vec2<double> at{static_cast<double>(mouse.x), static_cast<double>(mouse.y)};
   if (ImGui::IsItemActivated()) grip = {true, view, at};

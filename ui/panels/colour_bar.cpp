@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "core/drawing/ticks.h"
-#include "ui/derived.h"
-#include "ui/format.h"
+#include "ui/analysis/derived.h"
 #include "ui/panels/panels.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::ui {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "ui/element_colours.h"
-#include "ui/format.h"
+#include "ui/analysis/element_colours.h"
 #include "ui/panels/panels.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::ui {
 namespace {

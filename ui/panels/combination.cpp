@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 
+#include "core/smooth/execution/method_table.h"
 #include "core/smooth/size_field.h"
-#include "ui/format.h"
+#include "ui/commands/size_point.h"
 #include "ui/panels/panels.h"
-#include "ui/size_point.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -102,7 +103,7 @@ void draw_size(PanelContext& context, const RunView& run, const SizeFunction& si
 
 }  // namespace
 
-void draw_aims(PanelContext& context, const RunView& run) {
+void draw_composite(PanelContext& context, const RunView& run) {
   const RunParameters& p = run.parameters;
   if (!p.combination) {
     bool then_mean = p.then_mean.has_value();
@@ -110,7 +111,7 @@ void draw_aims(PanelContext& context, const RunView& run) {
     context.items.record_last("then-mean");
     next_item_tooltip("once the minimum has converged, raises the mean quality, with the minimum as floor");
   }
-  if (p.method != "dmo" || p.then_mean) return;
+  if (!method_info(p.method).combines || p.then_mean) return;
   bool combined = p.combination.has_value();
   if (ImGui::Checkbox("combine", &combined)) {
     if (combined)

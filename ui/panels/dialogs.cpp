@@ -214,7 +214,8 @@ void draw_about_dialog(PanelContext& context) {
   dim_text(context, "MIT licence. Made with Dear ImGui, GLFW, GLAD, OpenMesh, FreeType, pugixml, zlib, DejaVu fonts.");
   ImGui::Spacing();
   dim_text(context, context.activity.renderer);
-  dim_text(context, context.activity.backend + (context.activity.backend_reason.empty() ? "" : ": " + context.activity.backend_reason));
+  dim_text(context, std::string(name(context.activity.backend)) +
+                        (context.activity.backend_reason.empty() ? "" : ": " + context.activity.backend_reason));
   ImGui::PopTextWrapPos();
   ImGui::Spacing();
   close_button(context);

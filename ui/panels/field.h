@@ -4,9 +4,9 @@
 #include <functional>
 
 #include "render/colour_map.h"
-#include "ui/inspection.h"
+#include "ui/analysis/inspection.h"
 #include "ui/panels/panels.h"
-#include "ui/theme.h"
+#include "ui/toolkit/theme.h"
 
 namespace dmoscope::ui {
 

@@ -1,8 +1,8 @@
 // Over the mesh: the quality around the inspected vertex.
-#include "ui/derived.h"
-#include "ui/inspection_marks.h"
+#include "ui/analysis/derived.h"
 #include "ui/panels/field.h"
 #include "ui/panels/panels.h"
+#include "ui/viewports/inspection_marks.h"
 
 namespace dmoscope::ui {
 namespace {

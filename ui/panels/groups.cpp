@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "core/session/commands.h"
-#include "ui/format.h"
+#include "core/commands/commands.h"
 #include "ui/panels/panels.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::ui {
 namespace {

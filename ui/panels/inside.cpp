@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "core/quality/quality.h"
-#include "ui/format.h"
-#include "ui/inside_text.h"
+#include "ui/commands/clipping_text.h"
 #include "ui/panels/panels.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -25,7 +25,7 @@ const PaneFacts* active_pane(const PanelContext& context) {
 template <class Show, class Line>
 void hold(PanelContext& context, bool changed, Show show, Line line) {
   InsideGrip& grip = context.widgets.inside_grip;
-  InsideView& view = context.state.inside;
+  ClippingView& view = context.state.inside;
   if (ImGui::IsItemActivated()) grip = {true, view, {}};
   if (changed) {
     show(view);
@@ -86,7 +86,7 @@ void draw_clip(PanelContext& context, const render::Bounds3& box) {
     const bool moved = slider("place", fraction, 0.0, 1.0, "%.3f");
     context.items.record_last("inside:place");
     hold(
-        context, moved, [&](InsideView& view) { view.clip.offset = side > 0.0 ? low + fraction * span : high - fraction * span; },
+        context, moved, [&](ClippingView& view) { view.clip.offset = side > 0.0 ? low + fraction * span : high - fraction * span; },
         [&] { return clip_command(clip, box); });
     labelled(context, "cells", "at the plane");
     const bool cut = clip.mode == ClipPlane::Mode::Cut;
@@ -100,7 +100,7 @@ void draw_clip(PanelContext& context, const render::Bounds3& box) {
 }
 
 void draw_peel(PanelContext& context) {
-  InsideView& view = context.state.inside;
+  ClippingView& view = context.state.inside;
   labelled(context, "layers off", "so many layers of cells are taken off the boundary   Y, Shift+Y; Ctrl+click to type");
   int layers = static_cast<int>(std::min<Index>(view.peel, 1'000'000));
   const float button = ImGui::GetFrameHeight(), gap = context.px(4);
@@ -108,7 +108,7 @@ void draw_peel(PanelContext& context) {
   const bool moved = ImGui::SliderInt("##peel", &layers, 0, std::max(20, layers));
   context.items.record_last("inside:peel");
   hold(
-      context, moved, [&](InsideView& shown) { shown.peel = static_cast<Index>(std::max(layers, 0)); },
+      context, moved, [&](ClippingView& shown) { shown.peel = static_cast<Index>(std::max(layers, 0)); },
       [&] { return fmt::format("peel {}", view.peel); });
   ImGui::SameLine(0, gap);
   ImGui::BeginDisabled(view.peel == 0);
@@ -122,7 +122,7 @@ void draw_peel(PanelContext& context) {
 
 /// Which qualities are seen: two sliders, each off at its end.
 void draw_qualities(PanelContext& context) {
-  InsideView& view = context.state.inside;
+  ClippingView& view = context.state.inside;
   const MetricInfo& metric = info(context.session.shown);
   const double low = std::max(0.0, metric.lowest), high = metric.highest;
   const std::string tip = fmt::format("of the shown metric, {}; at its end: off", metric_phrase(context.session.shown));
@@ -132,7 +132,7 @@ void draw_qualities(PanelContext& context) {
   context.items.record_last("inside:hide-better");
   const auto peel_to = [high](double value) { return value < high ? std::optional(static_cast<float>(value)) : std::nullopt; };
   hold(
-      context, moved, [&](InsideView& shown) { shown.peel_quality = peel_to(most); },
+      context, moved, [&](ClippingView& shown) { shown.peel_quality = peel_to(most); },
       [&] { return view.peel_quality ? fmt::format("peel-quality {:.4g}", *view.peel_quality) : std::string("peel-quality off"); });
 
   labelled(context, "hide worse", ("takes cells of a lower quality away, and inverted ones; " + tip).c_str());
@@ -143,7 +143,7 @@ void draw_qualities(PanelContext& context) {
   context.items.record_last("inside:hide-worse");
   hold(
       context, moved,
-      [&](InsideView& shown) {
+      [&](ClippingView& shown) {
         shown.isolate = least > low ? std::optional(std::pair{static_cast<float>(least), upper}) : std::nullopt;
       },
       [&] {
@@ -159,7 +159,7 @@ void draw_qualities(PanelContext& context) {
 }
 
 void draw_worst_cells(PanelContext& context) {
-  const InsideView& view = context.state.inside;
+  const ClippingView& view = context.state.inside;
   std::size_t& wanted = context.widgets.worst_cells;
   if (view.worst > 0) wanted = view.worst;
   labelled(context, "only worst", "only so many of the worst cells are seen, in a faint boundary of the rest   Q");
@@ -179,7 +179,7 @@ void draw_worst_cells(PanelContext& context) {
 }
 
 void draw_looks(PanelContext& context) {
-  InsideView& view = context.state.inside;
+  ClippingView& view = context.state.inside;
   labelled(context, "faint rest", "the boundary of what was taken away is seen faintly   Alt+Q");
   bool ghost = view.ghost;
   if (ImGui::Checkbox("##ghost-rest", &ghost)) context.send(ghost ? "ghost-rest on" : "ghost-rest off");
@@ -189,7 +189,7 @@ void draw_looks(PanelContext& context) {
   const bool moved = slider("shrink", shrink, 0.1, 1.0, "%.2f");
   context.items.record_last("inside:shrink");
   hold(
-      context, moved, [&](InsideView& shown) { shown.shrink = std::clamp(shrink, 0.1, 1.0); },
+      context, moved, [&](ClippingView& shown) { shown.shrink = std::clamp(shrink, 0.1, 1.0); },
       [&] { return fmt::format("shrink {:.3g}", view.shrink); });
 }
 
@@ -221,7 +221,7 @@ void draw_from(PanelContext& context) {
 
 }  // namespace
 
-void draw_inside(PanelContext& context) {
+void draw_clipping(PanelContext& context) {
   const PaneFacts* pane = active_pane(context);
   if (!context.state.is_volume || pane == nullptr) return;
   heading(context, "Inside");
@@ -245,7 +245,7 @@ void draw_inside(PanelContext& context) {
   // What is isolated of the histogram takes cells away, too.
   const ColouringState& colouring = context.state.colouring;
   const bool isolated = colouring.filter && colouring.others == render::Selection::Others::Hide;
-  ImGui::BeginDisabled(context.state.inside == InsideView{} && !isolated);
+  ImGui::BeginDisabled(context.state.inside == ClippingView{} && !isolated);
   if (ImGui::Button("Show all cells")) {
     context.send("show-all");
     if (isolated) context.send("filter off");

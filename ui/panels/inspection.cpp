@@ -5,12 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "ui/derived.h"
-#include "ui/format.h"
-#include "ui/inspection_marks.h"
-#include "ui/inspection_text.h"
+#include "ui/analysis/derived.h"
+#include "ui/analysis/inspection_text.h"
 #include "ui/panels/field.h"
 #include "ui/panels/panels.h"
+#include "ui/state/format.h"
+#include "ui/viewports/inspection_marks.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -278,7 +278,7 @@ void draw_elements(PanelContext& context, const VisitSummary& trace) {
 void draw_slice_candidates(const PanelContext& context, const Inspection& inspection, const ToWindow& at) {
   const InspectionState& state = context.state.inspection;
   if (state.applied || state.level < 1 || inspection.level_count() == 0) return;
-  const SolidLevel& level = inspection.solid->levels[static_cast<std::size_t>(state.level - 1)];
+  const VolumeLevel& level = inspection.solid->levels[static_cast<std::size_t>(state.level - 1)];
   const GridSlice slice = shown_slice(state, inspection, state.level);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   for (int column = 0; column < level.points; ++column)
@@ -316,7 +316,7 @@ void draw_field_marks(const PanelContext& context, const Inspection& inspection,
   } else {  // their shadows in the plane of the slice
     const StarSlice& plane = inspection.field_slice;
     for (const auto& [a, b] : inspection.space_edges) edge(plane.project(a), plane.project(b), 0.5F);
-    for (const SolidLevel& level : inspection.solid->levels)
+    for (const VolumeLevel& level : inspection.solid->levels)
       rectangle(plane.project(level.centre - 0.5 * level.size), plane.project(level.centre + 0.5 * level.size));
     step = plane.project(inspection.solid->step);
     draw_slice_candidates(context, inspection, at);

@@ -8,8 +8,8 @@
 
 #include "core/mesh/volume.h"
 #include "core/quality/quality.h"
-#include "ui/format.h"
 #include "ui/panels/panels.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::ui {
 namespace {

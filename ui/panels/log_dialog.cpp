@@ -5,7 +5,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "core/session/commands.h"
+#include "core/commands/commands.h"
 #include "ui/panels/panels.h"
 
 namespace dmoscope::ui {

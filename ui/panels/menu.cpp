@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/mesh/generate.h"
-#include "ui/colouring_commands.h"
+#include "ui/commands/colouring_commands.h"
 #include "ui/panels/panels.h"
 
 namespace dmoscope::ui {
@@ -14,7 +14,7 @@ namespace {
 
 /// Of the actions of a volume's inside.
 bool inside_checked(const ViewState& state, std::string_view id) {
-  const InsideView& view = state.inside;
+  const ClippingView& view = state.inside;
   if (id == "inside-clip") return view.clip.on;
   if (id == "inside-flip") return view.clip.flip;
   if (id == "inside-cut") return view.clip.mode == ClipPlane::Mode::Cut;

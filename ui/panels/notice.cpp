@@ -1,5 +1,5 @@
 // Over the meshes: what a person should know of the run that has come to its end.
-#include "ui/notice.h"
+#include "ui/commands/notice.h"
 
 #include <algorithm>
 

@@ -1,12 +1,12 @@
-// Ctrl+P: every action, every verb, and any line of the command language.
+// Ctrl+P: every action, every command, and any line of the command language.
 #include <algorithm>
 
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "ui/palette_entries.h"
 #include "ui/panels/panels.h"
+#include "ui/state/palette_entries.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -33,7 +33,7 @@ void draw_palette_dialog(PanelContext& context) {
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
   context.items.record_last("palette:text");
   if (before != widgets.palette_text) widgets.palette_selected = 0;
-  const std::vector<PaletteEntry> entries = palette_entries(widgets.palette_text, context.situation(), context.verbs);
+  const std::vector<PaletteEntry> entries = palette_entries(widgets.palette_text, context.situation(), context.commands);
   const int moved = move_selection(widgets.palette_selected, static_cast<int>(entries.size()));
   const bool scroll = moved != widgets.palette_selected;
   widgets.palette_selected = moved;

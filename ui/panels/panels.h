@@ -11,20 +11,20 @@
 #include <tuple>
 #include <vector>
 
-#include "core/session/commands.h"
-#include "core/session/drawing_path.h"
-#include "core/session/view.h"
-#include "ui/actions.h"
-#include "ui/derived.h"
-#include "ui/file_browser.h"
-#include "ui/inspection.h"
-#include "ui/items.h"
-#include "ui/layout.h"
-#include "ui/recent_files.h"
-#include "ui/theme.h"
-#include "ui/thumbnails.h"
-#include "ui/view_state.h"
-#include "ui/viewports.h"
+#include "core/commands/commands.h"
+#include "core/view/drawing_path.h"
+#include "core/view/view.h"
+#include "ui/analysis/derived.h"
+#include "ui/analysis/inspection.h"
+#include "ui/state/actions.h"
+#include "ui/state/view_state.h"
+#include "ui/toolkit/file_browser.h"
+#include "ui/toolkit/items.h"
+#include "ui/toolkit/layout.h"
+#include "ui/toolkit/recent_files.h"
+#include "ui/toolkit/theme.h"
+#include "ui/toolkit/thumbnails.h"
+#include "ui/viewports/viewports.h"
 
 namespace dmoscope::ui {
 
@@ -37,7 +37,7 @@ struct Activity {
   double progress = 0.0;           // 0 to 1
   double busy_seconds = 0.0;       // since it began
   double frames_per_second = 0.0;  // while something moves, else 0
-  std::string backend;             // what smooths: "cpu" or "cuda"
+  Backend backend = Backend::Cpu;  // what smooths
   std::string backend_reason;      // which device, or why not cuda
   DrawingPath drawing;             // how it gets to the screen, as far as is known
   std::string renderer;            // "OpenGL 4.5, ..."
@@ -54,7 +54,7 @@ struct RangeGrip {
 /// A part of the view of a volume's inside while the mouse holds it: shown at once, and told as one command when it is let go.
 struct InsideGrip {
   bool held = false;
-  InsideView before;        // when it was taken
+  ClippingView before;      // when it was taken
   Vec2<double> pressed_at;  // pixels, of the clip plane's handle
 };
 
@@ -90,7 +90,7 @@ struct WidgetState {
   std::shared_ptr<PlotCache> plot;  // as drawn last
   PlotDialog plot_dialog;
   std::string export_name, screenshot_name = "dmoscope.png";
-  std::string palette_text, find_text, find_error;
+  std::string palette_text, find_text;
   LogWidgets log;
   SequenceWidgets sequence;
   std::string session_name;
@@ -128,7 +128,7 @@ struct PanelContext {
   std::function<std::pair<Index, Index>(std::size_t, Vec2<double>)> pick;  // vertex and element at a pixel of a viewport
   std::function<std::vector<Index>(std::size_t, Vec2<double>, double)> vertices_near;  // the same, within so many pixels
   std::span<const PaneFacts> panes;                                                    // the viewports
-  const std::vector<CommandInfo>& verbs;                                               // of the window, for the palette
+  const std::vector<CommandInfo>& commands;                                            // of the window, for the palette
   double now = 0.0;                                                                    // seconds
 
   [[nodiscard]] float em() const { return ImGui::GetFontSize(); }
@@ -162,10 +162,6 @@ void integer(PanelContext& context, const char* item, int value, int least, int 
 void metric_combo(PanelContext& context, const char* item, Metric current, const char* command);
 /// Text cut with "…" so that it is at most `width` pixels wide.
 [[nodiscard]] std::string fit_text(const std::string& text, float width);
-/// "Mean ratio" of a metric.
-[[nodiscard]] std::string metric_title(Metric metric);
-/// "mean ratio"
-[[nodiscard]] std::string metric_phrase(Metric metric);
 
 // one file each
 float draw_menu(PanelContext& context);  // returns its height
@@ -173,12 +169,12 @@ void draw_toolbar(PanelContext& context, const Rect& rect);
 void draw_runs(PanelContext& context);
 void draw_parameters(PanelContext& context);
 /// Of the active run, as a part of its parameters: a second phase, and a second aim.
-void draw_aims(PanelContext& context, const RunView& run);
+void draw_composite(PanelContext& context, const RunView& run);
 void draw_colours(PanelContext& context);
 /// The mesh's groups; nothing of a mesh without any.
 void draw_groups(PanelContext& context);
 /// What is seen of a volume mesh, and from where; nothing of another one.
-void draw_inside(PanelContext& context);
+void draw_clipping(PanelContext& context);
 /// The clip plane in a viewport: what of it takes the mouse, to be called before whatever lies below it; and its picture.
 void handle_clip_plane(PanelContext& context, const PaneFacts& pane);
 void draw_clip_plane(const PanelContext& context, const PaneFacts& pane);

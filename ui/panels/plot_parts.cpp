@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <imgui_stdlib.h>
 
-#include "ui/plot_series.h"
-#include "ui/plot_widget.h"
+#include "ui/plots/plot_series.h"
+#include "ui/plots/plot_widget.h"
 
 namespace dmoscope::ui {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "ui/format.h"
 #include "ui/panels/plot_parts.h"
-#include "ui/run_rows.h"
+#include "ui/plots/run_rows.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::ui {
 namespace {

@@ -4,9 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "core/session/left_inverted.h"
-#include "ui/format.h"
+#include "core/run/left_inverted.h"
+#include "core/smooth/execution/method_table.h"
 #include "ui/panels/panels.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -108,58 +109,46 @@ void real(PanelContext& context, const char* item, double value) {
   if (ImGui::IsItemDeactivatedAfterEdit() && edited != value) context.send(fmt::format("{} {}", item, full_number(edited)));
 }
 
-void draw_search(PanelContext& context, const RunParameters& parameters) {
-  labelled(context, "grid points", "candidates an axis of the search grid, 2 to 64");
-  integer(context, "grid", parameters.search.grid_points, 2, 64, "grid");
-  labelled(context, "levels", "how often the grid is refined around the best candidate, 1 to 16");
-  integer(context, "levels", parameters.search.levels, 1, 16, "levels");
-  labelled(context, "omega", "size of the first grid in bounding boxes of the star, above 0, up to 2");
-  real(context, "omega", parameters.search.omega);
-
-  labelled(context, "precision", "scalar of the search; what it finds is confirmed in double before a vertex moves");
-  const bool single = parameters.search.precision == Precision::Float;
-  const bool open = ImGui::BeginCombo("##precision", single ? "float" : "double");
-  context.items.record_last("precision");
-  if (open) {
-    if (ImGui::Selectable("float", single)) context.send("precision float");
-    if (ImGui::Selectable("double", !single)) context.send("precision double");
-    ImGui::EndCombo();
+/// What may be chosen, one of a few words.
+void choice(PanelContext& context, const ParameterInfo& row, const std::string& now) {
+  const std::string item(row.name);
+  const bool open = ImGui::BeginCombo(("##" + item).c_str(), now.c_str());
+  context.items.record_last(item);
+  if (!open) return;
+  for (const std::string_view word : row.choices) {
+    if (ImGui::Selectable(std::string(word).c_str(), word == now)) context.send(fmt::format("{} {}", item, word));
+    context.items.record_last(fmt::format("{}:{}", item, word));
   }
+  ImGui::EndCombo();
 }
 
-/// Along which lines dvr goes.
-void draw_directions(PanelContext& context, const MethodOptions& options) {
-  labelled(context, "directions", "of the lines along which vertices go, one an iteration: at random, or the axes by turns");
-  const bool open = ImGui::BeginCombo("##directions", std::string(name(options.directions)).c_str());
-  context.items.record_last("directions");
-  if (open) {
-    for (const Directions directions : {Directions::Random, Directions::Axes}) {
-      const std::string word(name(directions));
-      if (ImGui::Selectable(word.c_str(), directions == options.directions)) context.send("directions " + word);
-      context.items.record_last("directions:" + word);
-    }
-    ImGui::EndCombo();
+void draw_parameter(PanelContext& context, const ParameterInfo& row, const RunParameters& parameters) {
+  const std::string item(row.name), now = row.to_text(parameters);
+  std::string hint = row.help();
+  if (row.kind == ParameterKind::Whole && row.most < kLargestSeed) hint += fmt::format(". {} to {}", row.least, row.most);
+  if (row.kind == ParameterKind::Real) hint += fmt::format(". Above {}, up to {}", row.least, row.most);
+  labelled(context, std::string(row.title).c_str(), hint.c_str());
+  if (row.kind == ParameterKind::Whole) {
+    const int most = static_cast<int>(std::min<double>(row.most, kLargestSeed));
+    integer(context, item.c_str(), static_cast<int>(std::min<std::uint64_t>(to_count(now), kLargestSeed)), static_cast<int>(row.least),
+            most, item.c_str());
+  } else if (row.kind == ParameterKind::Real) {
+    real(context, item.c_str(), to_number(now));
+  } else {
+    choice(context, row, now);
   }
-  if (options.directions != Directions::Random) return;
-  labelled(context, "seed", "of the random directions");
-  integer(context, "directions-seed", static_cast<int>(std::min<std::uint64_t>(options.seed, kLargestSeed)), 0, kLargestSeed, "seed");
 }
 
 /// What the run's method can be told, and nothing else.
 void draw_options(PanelContext& context, const RunParameters& parameters) {
-  const MethodInfo& method = method_info(parameters.method);
-  if (method.searches_grid) draw_search(context, parameters);
-  if (method.relaxes) {
-    labelled(context, "relaxation", "the share of the way to the new place that is gone, above 0, up to 1");
-    real(context, "relaxation", parameters.options.relaxation);
-  }
-  if (method.has_directions) draw_directions(context, parameters.options);
+  for (const ParameterInfo& row : parameter_table())
+    if (row.in_session && row.reader != nullptr && row.read_by(parameters)) draw_parameter(context, row, parameters);
 }
 
 void draw_backend(PanelContext& context, const RunView& run) {
   labelled(context, "backend", "what smooths: the processor, a CUDA device, or the best there is (auto)");
   const Backend chosen = run.parameters.backend;
-  const std::string shown = chosen == Backend::Auto ? fmt::format("auto: {}", run.backend) : std::string(name(chosen));
+  const std::string shown = chosen == Backend::Auto ? fmt::format("auto: {}", name(run.backend)) : std::string(name(chosen));
   const bool open = ImGui::BeginCombo("##backend", shown.c_str());
   context.items.record_last("backend");
   next_item_tooltip(run.backend_reason);
@@ -246,7 +235,7 @@ void draw_parameters(PanelContext& context) {
   else
     labelled(context, "judged by", "the metric of the run's statistics; the method goes by none");
   metric_combo(context, "metric", parameters.metric, "metric");
-  draw_aims(context, *run);
+  draw_composite(context, *run);
   draw_options(context, parameters);
   draw_interfaces(context, parameters);
   draw_order(context, parameters);

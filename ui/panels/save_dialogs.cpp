@@ -6,8 +6,8 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "core/commands/commands.h"
 #include "core/io/mesh_io.h"
-#include "core/session/commands.h"
 #include "ui/panels/panels.h"
 
 namespace dmoscope::ui {
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kVerbs[] = {"export", "stats", "elements"};
+constexpr const char* kCommands[] = {"export", "stats", "elements"};
 
 std::string default_name(const PanelContext& context, int what) {
   const Frame* frame = context.frame();
@@ -97,7 +97,7 @@ void draw_export_dialog(PanelContext& context) {
   context.items.record_last("dialog:close");
   if ((go || entered) && !widgets.export_name.empty()) {
     context.state.dialog = Dialog::None;
-    context.send(fmt::format("{} {}", kVerbs[widgets.export_what], quote_word(widgets.export_name)));
+    context.send(fmt::format("{} {}", kCommands[widgets.export_what], quote_word(widgets.export_name)));
   }
   end_dialog();
 }

@@ -5,9 +5,9 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "core/session/commands.h"
-#include "ui/format.h"
+#include "core/commands/commands.h"
 #include "ui/panels/panels.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::ui {
 namespace {

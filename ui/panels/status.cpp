@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "ui/format.h"
 #include "ui/panels/panels.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -105,8 +105,8 @@ void draw_status(PanelContext& context, const Rect& rect) {
   ImGui::PopStyleVar();
   const Activity& activity = context.activity;
   const unsigned threads = context.session.threads;
-  const bool on_cpu = activity.backend == name(Backend::Cpu);
-  std::string backend = on_cpu ? activity.backend : activity.drawing.sentence();
+  const bool on_cpu = activity.backend == Backend::Cpu;
+  std::string backend = on_cpu ? std::string(name(activity.backend)) : activity.drawing.sentence();
   if (on_cpu && context.session.input) backend += fmt::format(", {} thread{}", threads, threads == 1 ? "" : "s");
   ImGui::TextUnformatted(fit_text(backend, 24 * context.em()).c_str());
   context.items.record_last("status-backend");
@@ -125,7 +125,7 @@ void draw_status(PanelContext& context, const Rect& rect) {
   }
   draw_progress(context);
   if (!context.state.log.empty()) {
-    const Message& message = context.state.log.back().message;
+    const Message& message = context.state.log.back();
     std::string text = message.text.substr(0, message.text.find('\n'));
     ImGui::SameLine(0, context.px(16));
     const float room = ImGui::GetContentRegionAvail().x;
@@ -139,7 +139,7 @@ void draw_status(PanelContext& context, const Rect& rect) {
       std::string recent;
       for (std::size_t k = context.state.log.size() - std::min<std::size_t>(8, context.state.log.size()); k < context.state.log.size();
            ++k) {
-        recent += (recent.empty() ? "" : "\n") + context.state.log[k].message.text;
+        recent += (recent.empty() ? "" : "\n") + context.state.log[k].text;
       }
       next_item_tooltip(recent + "\n(click shows the log)");
       if (ImGui::IsItemClicked()) context.send("dialog log");

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "ui/format.h"
 #include "ui/panels/panels.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::ui {
 namespace {

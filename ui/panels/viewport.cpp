@@ -6,10 +6,10 @@
 #include <fmt/ranges.h>
 
 #include "core/drawing/ticks.h"
-#include "ui/format.h"
-#include "ui/inspection_text.h"
+#include "ui/analysis/inspection_text.h"
+#include "ui/commands/size_point.h"
 #include "ui/panels/panels.h"
-#include "ui/size_point.h"
+#include "ui/state/format.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -120,7 +120,7 @@ class SeenInSpace {
 /// The candidate of a volume under the mouse: of the slice that the maps show, and only where none of these is there of the others.
 void read_candidate_in_space(PanelContext& context, const PaneFacts& pane) {
   InspectionState& state = context.state.inspection;
-  const SolidLevel& level = context.inspection.solid->levels[static_cast<std::size_t>(state.level - 1)];
+  const VolumeLevel& level = context.inspection.solid->levels[static_cast<std::size_t>(state.level - 1)];
   const GridSlice slice = shown_slice(state, context.inspection, state.level);
   const SeenInSpace seen(context.state, context.inspection);
   const Vec2<double> mouse = mouse_in(pane.rect);

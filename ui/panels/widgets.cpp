@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "ui/format.h"
 #include "ui/panels/panels.h"
-#include "ui/situation.h"
+#include "ui/state/format.h"
+#include "ui/state/situation.h"
 
 namespace dmoscope::ui {
 
@@ -153,16 +153,6 @@ std::string fit_text(const std::string& text, float width) {
     if (ImGui::CalcTextSize((cut + "…").c_str()).x <= width) break;
   }
   return cut + "…";
-}
-
-std::string metric_title(Metric metric) { return std::string(info(metric).title); }
-
-std::string metric_phrase(Metric metric) {
-  std::string title = metric_title(metric);
-  if (title.size() > 1 && std::islower(static_cast<unsigned char>(title[1])) != 0) {
-    title[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(title[0])));
-  }
-  return title;
 }
 
 }  // namespace dmoscope::ui

@@ -1,6 +1,6 @@
 // The smoother on what nvcc made of the kernels: the processor's bits, although no GPU is at hand.
 
-#include "core/session/device_picture.h"
+#include "core/run/device_picture.h"
 #include "gpu/bodies.h"
 #include "gpu/host_queue.h"
 #include "tests/gpu/ptx/operations.h"
@@ -90,7 +90,7 @@ TEST_P(PtxSolidDmo, SameBitsInDouble) {
   expect_same({.grid_points = 6, .precision = Precision::Double}, {.together = true, .backwards = true});
 }
 
-INSTANTIATE_TEST_SUITE_P(Metrics, PtxSolidDmo, every_solid_metric(), name_of_metric);
+INSTANTIATE_TEST_SUITE_P(Metrics, PtxSolidDmo, every_volume_metric(), name_of_metric);
 
 /// What is drawn, made by the kernels and by their source compiled for the host.
 class PtxPicture : public PtxTest {};

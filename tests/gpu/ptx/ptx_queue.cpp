@@ -14,7 +14,7 @@
 #include "core/base/error.h"
 #include "core/quality/formulas.h"
 #include "gpu/bodies.h"
-#include "gpu/solid_bodies.h"
+#include "gpu/volume_bodies.h"
 
 namespace dmoscope::gpu::ptx {
 
@@ -55,8 +55,8 @@ Kernels::Name name_for(Work work) {
       return in_team<bodies::Settle<M>>();
     case Work::Judge:
       return solo<bodies::Judge<M>>();
-    case Work::VisitSolid:
-    case Work::JudgeSolid:
+    case Work::VisitVolume:
+    case Work::JudgeVolume:
       break;  // see solid_name_for()
     case Work::Sum:
       return solo<bodies::Sum>();
@@ -84,7 +84,7 @@ Kernels::Name name_for(Work work) {
 
 template <Metric M>
 Kernels::Name solid_name_for(Work work) {
-  return work == Work::VisitSolid ? in_team<bodies::VisitSolid<M>>() : solo<bodies::JudgeSolid<M>>();
+  return work == Work::VisitVolume ? in_team<bodies::VisitVolume<M>>() : solo<bodies::JudgeVolume<M>>();
 }
 
 class Recorded final : public Queue::Recording {
@@ -201,7 +201,7 @@ const Entry& Kernels::find(Work work, Metric metric) {
 }
 
 Kernels::Name Kernels::name_of(Work work, Metric metric) {
-  if (is_of_solids(work)) return formulas::with_solid_metric(metric, [work]<Metric M>() { return solid_name_for<M>(work); });
+  if (is_of_solids(work)) return formulas::with_volume_metric(metric, [work]<Metric M>() { return solid_name_for<M>(work); });
   return formulas::with_planar_metric(metric, [work]<Metric M>() { return name_for<M>(work); });
 }
 

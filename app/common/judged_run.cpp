@@ -1,0 +1,52 @@
+#include "app/common/judged_run.h"
+
+#include <algorithm>
+
+#include "core/run/retry_on_cpu.h"
+
+namespace dmoscope::app {
+
+JudgedRun run_judged(std::string name, std::shared_ptr<const InputMesh> input, RunParameters parameters, Metric judge, const Goal& goal,
+                     const Workshop& workshop) {
+  require_defined(judge, input->mesh);
+  ThreadPool* const pool = workshop.pool.get();
+  const QualityContext context = input->quality_context();
+  const bool own = judge == parameters.metric;
+  Run run(input, std::move(parameters), workshop.pool, 0, workshop.acceleration);  // no past positions: nobody asks for them here
+  if (std::string warning = run.take_warning(); !warning.empty()) workshop.warn(std::move(warning));
+  if (run.size_field() && !run.size_field()->note().empty()) workshop.warn(run.size_field()->note());
+
+  std::vector<Statistics> judged;
+  const auto judge_now = [&](const Run& now) {
+    judged.push_back(compute_statistics(context, now.positions(), judge, now.immovable(), pool));
+  };
+  const auto smooth_all = [&] {
+    run.reset(workshop.progress);  // after a failure it stands where its positions were last asked for
+    judged.clear();
+    if (!own) judge_now(run);
+    const Run::AfterIteration after = own ? Run::AfterIteration{} : judge_now;
+    Outcome outcome = goal.until_converged ? run.until_converged(*goal.until_converged, workshop.progress, after)
+                                           : run.iterate(goal.iterations, workshop.progress, after);
+    run.sync_to_host();
+    return outcome;
+  };
+
+  JudgedRun done;
+  done.outcome = retry_on_cpu(run, smooth_all, workshop.warn);
+  done.name = std::move(name);
+  done.parameters = run.parameters();
+  done.backend_reason = run.backend_reason();
+  done.free = run.visits_per_iteration();
+  done.row = row_of(run, judge, pool);
+  done.row.title = done.name;
+  done.records = run.history().records();
+  for (std::size_t i = 0; i < judged.size(); ++i) done.records[i].statistics = judged[i];
+  done.after = done.records.back().statistics;
+  done.positions.assign(run.positions().begin(), run.positions().end());
+  done.qualities.resize(input->mesh.elements.size());
+  element_qualities(context, done.positions, judge, pool, done.qualities);
+  std::ranges::sort(done.qualities);
+  return done;
+}
+
+}  // namespace dmoscope::app

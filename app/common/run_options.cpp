@@ -1,0 +1,114 @@
+#include "app/common/run_options.h"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/common/option_checks.h"
+#include "app/common/text.h"
+#include "core/base/error.h"
+#include "core/commands/session_commands.h"
+#include "core/mesh/vertex_words.h"
+#include "core/quality/metric.h"
+#include "core/smooth/execution/method_table.h"
+
+namespace dmoscope::app {
+namespace {
+
+void require_method(const std::string& name) {
+  const auto known = [&name](const MethodInfo& method) { return method.name == name; };
+  if (std::none_of(method_table().begin(), method_table().end(), known)) {
+    throw UsageError(fmt::format("unknown method '{}' (known: {})", name, names_of(method_table())));
+  }
+}
+
+/// Refuses what is no number.
+CLI::Validator real_number() {
+  return CLI::Validator(
+      [](const std::string& word) {
+        try {
+          static_cast<void>(to_number(word));
+          return std::string();
+        } catch (const UsageError& error) {
+          return std::string(error.what());
+        }
+      },
+      "");
+}
+
+void add_parameter(CLI::App& subcommand, const ParameterInfo& row, std::string& value) {
+  CLI::Option* option = subcommand.add_option(fmt::format("--{}", row.name), value, row.help())->type_name(std::string(row.type));
+  option->capture_default_str();
+  if (row.kind == ParameterKind::Whole) {
+    constexpr double kAny = static_cast<double>(std::numeric_limits<std::uint64_t>::max());
+    option->transform(whole_number(static_cast<std::uint64_t>(row.least),
+                                   row.most < kAny ? static_cast<std::uint64_t>(row.most) : std::numeric_limits<std::uint64_t>::max()));
+  }
+  if (row.kind == ParameterKind::Real) option->check(real_number());
+}
+
+}  // namespace
+
+std::map<std::string, std::string, std::less<>> usual_parameters() {
+  std::map<std::string, std::string, std::less<>> values;
+  for (const ParameterInfo& row : parameter_table()) values.emplace(row.name, row.to_text(RunParameters{}));
+  return values;
+}
+
+void add_backend_option(CLI::App& subcommand, std::string& backend) {
+  subcommand.add_option("--backend", backend, "What smooths: cpu, cuda, or auto: cuda where it can be used")
+      ->type_name("NAME")
+      ->capture_default_str();
+}
+
+void add_run_options(CLI::App& subcommand, RunOptions& options) {
+  subcommand.add_option("--method", options.method, "Method: " + names_of(method_table()))->type_name("NAME")->capture_default_str();
+  auto* metric = subcommand.add_option("--metric", options.metric, "Metric to optimise: " + names_of(metric_table()))->type_name("NAME");
+  metric->capture_default_str();
+  auto* combine =
+      subcommand.add_option("--combine", options.combine,
+                            "Two aims: the metric FIRST up to THRESHOLD, and beyond it SECOND: another metric, or density, which "
+                            "adapts the sizes of elements");
+  combine->type_name("FIRST:THRESHOLD:SECOND")->excludes(metric);
+  subcommand
+      .add_option("--size-function", options.size_function,
+                  "Of --combine with density, the size that elements shall have: h1:X,Y (grows with the distance to a point), h2:X,Y "
+                  "(falls with it), constant, or field:NAME (a nodal field of the file)")
+      ->type_name("SIZE")
+      ->needs(combine);
+  subcommand
+      .add_option("--then", options.then, "What follows once the minimum has converged: mean (raises the mean, with the minimum as floor)")
+      ->type_name("mean")
+      ->excludes(combine);
+  subcommand.add_option("--threads", options.threads, "Threads; 0: one a processor thread. The result is the same for any")
+      ->transform(whole_number(0, kMostThreads))
+      ->type_name("N")
+      ->capture_default_str();
+  for (const ParameterInfo& row : parameter_table()) add_parameter(subcommand, row, options.parameters.at(std::string(row.name)));
+  subcommand.add_option("--fix", options.fix, fmt::format("Vertices to keep where they are besides the boundary: {}", kVertexWords))
+      ->type_name("VERTICES")
+      ->take_all()
+      ->expected(1);
+}
+
+RunParameters parameters_of(const RunOptions& options) {
+  RunParameters parameters;
+  require_method(options.method);
+  parameters.method = options.method;
+  parameters.metric = parse_metric(options.metric);
+  if (!options.combine.empty())
+    std::tie(parameters.metric, parameters.combination) = parse_combination(options.combine, options.size_function);
+  if (!options.then.empty()) {
+    if (options.then != "mean") throw UsageError(fmt::format("--then knows 'mean' alone, not '{}'", options.then));
+    parameters.then_mean.emplace();
+  }
+  for (const ParameterInfo& row : parameter_table()) row.from_text(parameters, options.parameters.at(std::string(row.name)));
+  validate(parameters.search);
+  validate(parameters.options);
+  return parameters;
+}
+
+}  // namespace dmoscope::app

@@ -1,0 +1,42 @@
+#pragma once
+// The options that say how a run smooths, shared by the subcommands that smooth.
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/run/run.h"
+
+namespace CLI {
+class App;
+}
+
+namespace dmoscope::app {
+
+inline constexpr unsigned kMostThreads = 1024;
+
+/// The defaults.
+[[nodiscard]] std::map<std::string, std::string, std::less<>> usual_parameters();
+
+struct RunOptions {
+  std::string method = "dmo";
+  std::string metric = "mean-ratio";
+  std::string combine;        // FIRST:THRESHOLD:SECOND; empty: one metric alone
+  std::string size_function;  // of a combination with density; empty: constant
+  std::string then;           // "mean" or empty
+  unsigned threads = 0;
+  std::vector<std::string> fix;                                                     // for vertices_to_fix()
+  std::map<std::string, std::string, std::less<>> parameters = usual_parameters();  // of parameter_table(): name, value
+};
+
+/// Declares --backend.
+void add_backend_option(CLI::App& subcommand, std::string& backend);
+
+/// Declares --method, --metric, --combine, --size-function, --then, --threads, --fix, and an option for every row of parameter_table().
+void add_run_options(CLI::App& subcommand, RunOptions& options);
+
+/// The parameters without the fixed set, which needs the mesh. Throws UsageError for names that do not exist and values out of range.
+[[nodiscard]] RunParameters parameters_of(const RunOptions& options);
+
+}  // namespace dmoscope::app

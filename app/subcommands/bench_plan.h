@@ -1,0 +1,73 @@
+#pragma once
+// What `dmoscope bench` is asked to measure, read from its options and checked before anything is generated.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/common/memory_limit.h"
+#include "core/numeric/simd.h"
+#include "core/quality/metric.h"
+#include "core/smooth/composite_objective.h"
+#include "core/smooth/execution/accelerator.h"
+
+namespace dmoscope::app {
+
+/// The options as given; the lists are separated by commas.
+struct BenchOptions {
+  std::filesystem::path file, plot;
+  std::string sizes = "1e4,1e5,1e6";
+  std::string threads = "1,0";
+  std::string metric = "mean-ratio";
+  std::string combine;  // FIRST:THRESHOLD:SECOND; empty: one metric alone
+  std::string elements = "triangles";
+  std::string simd = "auto";
+  std::string backend = "auto";
+  std::size_t repeats = 5;
+  std::uint64_t iterations = 4;
+  std::uint64_t active = 0;
+  std::uint64_t draw = 0;  // frames to draw instead; 0: none
+  std::uint64_t seek = 0;  // seeks to make instead; 0: none
+  bool full = false;
+  bool json = false;
+  MemoryLimit memory;
+};
+
+/// Meshes of one make-up, and the generator that makes them.
+struct BenchElements {
+  std::string_view name;       // "triangles"
+  std::string_view generator;  // "grid"
+  std::size_t largest;         // size, in vertices
+  KindSet kinds;               // of their elements
+  [[nodiscard]] bool solid() const noexcept {
+    return (kinds & (kind_set(ElementKind::Tetrahedron) | kind_set(ElementKind::Hexahedron))) != 0;
+  }
+  [[nodiscard]] bool suits(const MetricInfo& metric) const noexcept { return (metric.kinds & kinds) == kinds; }
+};
+/// triangles, quadrilaterals, mixed; tetrahedra, hexahedra, solids.
+[[nodiscard]] std::span<const BenchElements> bench_elements();
+
+/// The options understood; no list has the same entry twice.
+struct BenchPlan {
+  std::vector<std::size_t> sizes;            // of the meshes to generate, in vertices; empty when a file is given
+  std::vector<BenchElements> elements;       // of the meshes to generate
+  std::vector<Metric> metrics;               // left out where a mesh has elements they are not defined for
+  std::optional<Combination> combination{};  // of the one metric with a second aim
+  bool all_metrics;                          // asked for as "all", not by their names
+  bool cpu = true;                           // whether to measure it, besides the reference
+  Acceleration acceleration{};               // what to measure besides the CPU, or why nothing is
+  std::vector<SimdLevel> levels;             // of this processor
+  std::vector<unsigned> threads;             // at least 1 each
+  std::size_t repeats;                       // of every measurement
+  std::uint64_t iterations;                  // timed, from the input on
+  std::uint64_t active;                      // the iteration whose time is compared with the first's; 0: none
+};
+
+/// Throws UsageError for what does not exist, is out of range, fits no other choice, or needs more memory than there is.
+[[nodiscard]] BenchPlan plan_of(const BenchOptions& options);
+
+}  // namespace dmoscope::app

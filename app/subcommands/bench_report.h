@@ -1,0 +1,21 @@
+#pragma once
+// What `dmoscope bench` tells: a table for a person, one JSON object, a plot.
+
+#include <vector>
+
+#include "app/common/line_plot.h"
+#include "app/common/text.h"
+#include "app/subcommands/bench_measure.h"
+
+namespace dmoscope::app {
+
+/// What the figures depend on, and what the columns are; then print_rows() as they come.
+void print_head(const BenchPlan& plan);
+void print_rows(const std::vector<Measurement>& figures);
+
+[[nodiscard]] Json json_of(const BenchPlan& plan, const std::vector<Measurement>& figures);
+
+/// Vertex visits a second over the mesh's size, a line a series.
+[[nodiscard]] LinePlot plot_of(const std::vector<Measurement>& figures);
+
+}  // namespace dmoscope::app

@@ -1,0 +1,57 @@
+#pragma once
+// Long runs of `dmoscope smooth` that are saved on their way and gone on with another time.
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+#include "core/session/session.h"
+
+namespace CLI {
+class App;
+}
+
+namespace dmoscope::app {
+
+struct CheckpointOptions {
+  std::filesystem::path file;    // where to save; empty: nowhere
+  std::filesystem::path resume;  // what to go on with; empty: the run begins at the input
+  double every = 60.0;           // seconds
+};
+
+/// Declares --checkpoint, --checkpoint-every and --resume.
+void add_checkpoint_options(CLI::App& subcommand, CheckpointOptions& options);
+
+/// Everything about them that can be refused without reading the mesh. `others`: files that the subcommand reads or writes.
+void refuse_early(const CheckpointOptions& options, std::initializer_list<std::filesystem::path> others);
+
+/// The session's only run: a fresh one, or the one that was saved, with these parameters all the same. Throws InputError for a damaged
+/// file, UsageError for one of another mesh or with other parameters.
+Run& begin_run(Session& session, const std::shared_ptr<const InputMesh>& input, const RunParameters& parameters,
+               const CheckpointOptions& options, Progress& progress);
+
+/// Saves a session at the end of an iteration, every now and then and when somebody wants the run to end. A disk that is full meanwhile is
+/// complained of, and the run goes on.
+class Checkpoints {
+ public:
+  Checkpoints(Session& session, const CheckpointOptions& options) : session_(session), options_(options) {}
+
+  /// Of a signal, from any thread: true where a checkpoint follows, after which the run is cancelled.
+  [[nodiscard]] bool end_soon() noexcept;
+  /// From now on, or from now on no more, iterations come to an end at which can be saved.
+  void set_running(bool running) noexcept { running_ = running && !options_.file.empty(); }
+  /// To be called after every iteration. Throws Cancelled.
+  void after_iteration();
+
+ private:
+  void save();
+
+  using Clock = std::chrono::steady_clock;
+  Session& session_;
+  const CheckpointOptions& options_;
+  Clock::time_point last_ = Clock::now();
+  std::atomic<bool> running_{false}, ending_{false};
+};
+
+}  // namespace dmoscope::app

@@ -1,0 +1,64 @@
+// dmoscope convert: reads one format, writes another; every vertex stays.
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/common/console.h"
+#include "app/common/memory_limit.h"
+#include "app/common/output_checks.h"
+#include "app/subcommands/subcommands.h"
+#include "core/io/mesh_io.h"
+#include "core/io/source_file.h"
+#include "core/mesh/faces.h"
+#include "core/mesh/volume.h"
+
+namespace dmoscope::app {
+namespace {
+
+struct Options {
+  std::filesystem::path input, output;
+  MemoryLimit memory;
+};
+
+bool becomes_another_format(const std::filesystem::path& output, const Mesh& mesh) {
+  const FormatInfo* format = format_by_extension(mesh_extension(output));
+  return mesh.source == nullptr || format == nullptr || format->name != mesh.source->format();
+}
+
+/// Programs disagree on how VTK's wedges are wound, and what is inside out is of no use in the other format.
+void turn_solids(Mesh& mesh, Progress& progress) {
+  const auto kinds = mesh.elements.kinds();
+  const auto solid = [](ElementKind kind) { return info(kind).dimension == 3; };
+  if (kinds.empty() || !std::all_of(kinds.begin(), kinds.end(), solid)) return;
+  normalise_orientation(mesh, FaceNeighbours(mesh, &progress));
+}
+
+int convert(const Options& options) {
+  require_mesh_target(options.output, options.input);
+  Watch watch;
+  Mesh mesh = read_mesh(options.input, {watch.progress(), nullptr, options.memory.bytes()});
+  if (becomes_another_format(options.output, mesh)) turn_solids(mesh, watch.progress());
+  for (const std::string& sentence : write_mesh(options.output, mesh, mesh.positions, watch.progress())) {
+    complain(fmt::format("{}: {}", options.output.string(), sentence));
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* subcommand = app.add_subcommand("convert", "Write a mesh in another format; says what that format cannot carry");
+  subcommand->add_option("IN", options->input, "Mesh to read")->required();
+  subcommand->add_option("OUT", options->output, "Where to write it; the format is the extension's")->required();
+  add_memory_option(*subcommand, options->memory);
+  subcommand->callback([options, &action] {
+    action = [options] { return within_memory(options->memory, options->input, [options] { return convert(*options); }); };
+  });
+}
+
+}  // namespace dmoscope::app

@@ -1,0 +1,70 @@
+#include "app/subcommands/group_table.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "app/common/console.h"
+#include "core/mesh/group_facts.h"
+#include "core/mesh/materials.h"
+
+namespace dmoscope::app {
+
+namespace {
+
+std::string_view place_of(const Field& field) { return field.on == Field::On::Elements ? "elements" : "points"; }
+bool names_materials(const Field& field) { return naming_of(field) != Naming::Nothing; }
+
+Json json_of(const std::optional<int>& number) { return number ? Json(*number) : Json(nullptr); }
+
+}  // namespace
+
+void print_groups(const Mesh& mesh, std::size_t most) {
+  const std::vector<GroupFacts> groups = facts_of_groups(mesh);
+  if (groups.empty()) return;
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t g = 0; g < std::min(most, groups.size()); ++g) {
+    const GroupFacts& group = groups[g];
+    rows.push_back({group.type ? fmt::format("{} (type {})", group.kind, *group.type) : group.kind, std::to_string(group.dimension),
+                    group.number ? std::to_string(*group.number) : "-", group.name, std::string(group.of), grouped(group.members),
+                    grouped(group.vertices)});
+  }
+  print_lines("\n" + text_table({"group", "dimension", "id", "name", "of", "count", "vertices"}, rows, "lrrllrr"));
+  if (groups.size() > most) print("and {} (dmoscope info FILE lists all)\n", counted(groups.size() - most, "more group", "more groups"));
+}
+
+void print_fields(const Mesh& mesh) {
+  if (mesh.fields.empty()) return;
+  std::vector<std::vector<std::string>> rows;
+  for (const Field& field : mesh.fields) {
+    rows.push_back({field.name, std::string(place_of(field)), std::to_string(field.components), field.type,
+                    names_materials(field) ? "names materials" : ""});
+  }
+  print_lines("\n" + text_table({"data", "of", "numbers", "type", ""}, rows, "llrll"));
+}
+
+Json json_of_groups(const Mesh& mesh) {
+  Json list = Json::array();
+  for (const GroupFacts& group : facts_of_groups(mesh)) {
+    list.push_back({{"kind", group.kind},
+                    {"dimension", group.dimension},
+                    {"id", json_of(group.number)},
+                    {"type", json_of(group.type)},
+                    {"name", group.name},
+                    {"members", group.of},
+                    {"count", group.members},
+                    {"vertices", group.vertices}});
+  }
+  return list;
+}
+
+Json json_of_fields(const Mesh& mesh) {
+  Json list = Json::array();
+  for (const Field& field : mesh.fields) {
+    list.push_back(
+        {{"name", field.name}, {"of", place_of(field)}, {"components", field.components}, {"names_materials", names_materials(field)}});
+  }
+  return list;
+}
+
+}  // namespace dmoscope::app

@@ -1,0 +1,166 @@
+// dmoscope info: what this program is and what it can use here; or what is in a mesh file.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/common/console.h"
+#include "app/common/machine.h"
+#include "app/common/text.h"
+#include "app/subcommands/mesh_info.h"
+#include "app/subcommands/subcommands.h"
+#include "core/base/error.h"
+#include "core/io/mesh_io.h"
+#include "core/mesh/generate.h"
+#include "core/numeric/simd.h"
+#include "core/quality/metric.h"
+#include "core/run/run.h"
+#include "core/view/drawing_path.h"
+#include "gpu/accelerator.h"
+#include "gpu/device.h"
+
+#ifdef DMOSCOPE_HAVE_GUI
+#include "app/window/interop.h"
+#include "core/smooth/execution/method_table.h"
+#endif
+
+namespace dmoscope::app {
+namespace {
+
+struct OpenGl {
+  bool usable = false;
+  std::string text;     // what draws, or why nothing does
+  DrawingPath drawing;  // of what runs compute
+};
+
+OpenGl headless_opengl(const Acceleration& acceleration) {
+  const auto path = [&](const std::string& obstacle) {
+    if (!acceleration.accelerator) return drawing_path(Backend::Cpu, "no cuda: " + acceleration.reason, obstacle);
+    return drawing_path(acceleration.accelerator->backend(), acceleration.accelerator->description(), obstacle);
+  };
+#ifdef DMOSCOPE_HAVE_GUI
+  try {
+    const auto context = headless_context_for(acceleration);
+    return {true, context->description(), path(no_interop(acceleration, *context))};
+  } catch (const Error& error) {
+    return {false, error.what(), path(error.what())};
+  }
+#else
+  const std::string reason = "built without OpenGL";
+  return {false, reason, path(reason)};
+#endif
+}
+
+Json json_of(const gpu::Availability& cuda, const Acceleration& acceleration) {
+  Json devices = Json::array();
+  for (const gpu::Device& device : cuda.devices) {
+    devices.push_back(
+        {{"name", device.name}, {"compute_capability", fmt::format("{}.{}", device.major, device.minor)}, {"memory", device.memory}});
+  }
+  return {{"name", "cuda"},
+          {"usable", acceleration.accelerator != nullptr},
+          {"built", cuda.built},
+          {"reason", acceleration.reason},
+          {"description", acceleration.accelerator ? acceleration.accelerator->description() : std::string()},
+          {"devices", std::move(devices)}};
+}
+
+std::vector<std::string_view> simd_names() {
+  std::vector<std::string_view> names;
+  for (const SimdLevel level : supported_simd_levels()) names.push_back(name(level));
+  return names;
+}
+
+Json everything() {
+  const Acceleration acceleration = gpu::make_accelerator();
+  const OpenGl gl = headless_opengl(acceleration);
+  const unsigned threads = std::thread::hardware_concurrency();
+  const auto elements_of = [](const MetricInfo& metric) {
+    Json kinds = Json::array();
+    for (std::size_t k = 0; k < kElementKindCount; ++k)
+      if (metric.defined_for(static_cast<ElementKind>(k))) kinds.push_back(kElementKinds[k].name);
+    return kinds;
+  };
+  Json object{{"version", DMOSCOPE_VERSION}, {"build", DMOSCOPE_BUILD_TYPE}, {"compiler", compiler()}, {"threads", threads}};
+  object["backends"] = {{{"name", "cpu"}, {"usable", true}, {"threads", threads}, {"simd", name(best_simd_level())}},
+                        json_of(gpu::availability(), acceleration)};
+  object["simd"] = {{"levels", simd_names()}, {"used", name(best_simd_level())}};
+  object["opengl"] = {{"usable", gl.usable}, {"description", gl.text}};
+  object["drawing"] = {{"path", gl.drawing.name}, {"reason", gl.drawing.reason}};
+  for (const FormatInfo& f : format_table()) {
+    object["formats"].push_back({{"name", f.name}, {"title", f.title}, {"extensions", f.extensions}, {"doc", f.doc}});
+  }
+  for (const MetricInfo& m : metric_table()) {
+    object["metrics"].push_back({{"name", m.name},
+                                 {"title", m.title},
+                                 {"elements", elements_of(m)},
+                                 {"lowest", m.lowest},
+                                 {"highest", m.highest},
+                                 {"acceptable", m.acceptable},
+                                 {"formula", m.formula},
+                                 {"doc", m.doc}});
+  }
+  for (const MethodInfo& m : method_table()) object["methods"].push_back({{"name", m.name}, {"doc", m.doc}});
+  for (const GeneratorInfo& g : generator_table()) {
+    object["generators"].push_back({{"name", g.name}, {"doc", g.doc}, {"default_size", g.default_size}});
+  }
+  return object;
+}
+
+void print_cuda(const gpu::Availability& cuda, const Acceleration& acceleration) {
+  print("  cuda   {}\n",
+        acceleration.accelerator ? "usable: " + acceleration.accelerator->description() : "not usable: " + acceleration.reason);
+  for (const gpu::Device& device : cuda.devices) {
+    print("         {} (compute capability {}.{}, {:.1f} GiB)\n", device.name, device.major, device.minor,
+          static_cast<double>(device.memory) / static_cast<double>(std::size_t{1} << 30U));
+  }
+}
+
+void print_for_a_person() {
+  const Acceleration acceleration = gpu::make_accelerator();
+  const OpenGl gl = headless_opengl(acceleration);
+  print("dmoscope {} ({}, {})\n\nbackends\n", DMOSCOPE_VERSION, DMOSCOPE_BUILD_TYPE, compiler());
+  print("  cpu    usable, {}\n", counted(std::thread::hardware_concurrency(), "processor thread", "processor threads"));
+  print("         SIMD {} (supported: {})\n", name(best_simd_level()), fmt::join(simd_names(), ", "));
+  print_cuda(gpu::availability(), acceleration);
+  print("\ndrawing\n  path   {}{}\n", gl.drawing.name, gl.drawing.reason.empty() ? "" : " (" + gl.drawing.reason + ")");
+  print("  opengl {}{}\n\nformats\n", gl.usable ? "" : "not usable: ", gl.text);
+  for (const FormatInfo& f : format_table()) print("  {:<16} {}; {}\n", f.extensions, f.title, f.doc);
+  print("\nmetrics\n");
+  for (const MetricInfo& m : metric_table()) print("  {:<16} {}\n", m.name, m.doc);
+  print("\nmethods\n");
+  for (const MethodInfo& m : method_table()) print("  {:<16} {}\n", m.name, m.doc);
+  print("\nsamples (dmoscope generate)\n");
+  for (const GeneratorInfo& g : generator_table()) print("  {:<16} {}\n", g.name, g.doc);
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Action& action) {
+  auto json = std::make_shared<bool>(false);
+  auto file = std::make_shared<std::filesystem::path>();
+  CLI::App* subcommand =
+      app.add_subcommand("info", "Version, backends and devices, formats, metrics, methods and samples; or what is in a mesh");
+  subcommand->add_option("FILE", *file, "Mesh whose elements, groups and data to list");
+  subcommand->add_flag("--json", *json, "Print one JSON object and nothing else on standard output");
+  subcommand->callback([json, file, &action] {
+    action = [json, file] {
+      if (!file->empty()) {
+        tell_mesh(*file, *json);
+      } else if (*json) {
+        print_json(everything());
+      } else {
+        print_for_a_person();
+      }
+      return 0;
+    };
+  });
+}
+
+}  // namespace dmoscope::app

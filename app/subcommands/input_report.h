@@ -1,0 +1,20 @@
+#pragma once
+// What a subcommand tells about the mesh it read: the findings, and the set of vertices a person named.
+
+#include <string>
+#include <vector>
+
+#include "core/run/run.h"
+
+namespace dmoscope::app {
+
+/// Sentences about the mesh, the orientation's first; each also goes to standard error.
+std::vector<std::string> tell_findings(const InputMesh& input);
+
+/// What stays on interfaces, if anything does by these parameters: to standard error and to `warnings`.
+void tell_interfaces(const InputMesh& input, const RunParameters& parameters, std::vector<std::string>& warnings);
+
+/// What the words of --fix name, see vertices_named(). Sorted, each once. Throws UsageError.
+[[nodiscard]] std::vector<Index> vertices_to_fix(const Mesh& mesh, const std::vector<std::string>& words);
+
+}  // namespace dmoscope::app

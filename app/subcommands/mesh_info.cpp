@@ -1,0 +1,63 @@
+#include "app/subcommands/mesh_info.h"
+
+#include <array>
+#include <limits>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "app/common/console.h"
+#include "app/common/text.h"
+#include "app/subcommands/group_table.h"
+#include "app/subcommands/input_report.h"
+
+namespace dmoscope::app {
+
+namespace {
+
+std::array<std::size_t, kElementKindCount> count_kinds(const Mesh& mesh) {
+  std::array<std::size_t, kElementKindCount> counts{};
+  for (const ElementKind kind : mesh.elements.kinds()) ++counts[static_cast<std::size_t>(kind)];
+  return counts;
+}
+
+Json json_of(const InputMesh& input, const std::filesystem::path& file, const std::vector<std::string>& warnings) {
+  const Mesh& mesh = input.mesh;
+  const auto counts = count_kinds(mesh);
+  Json kinds = Json::object();
+  for (std::size_t k = 0; k < kElementKindCount; ++k)
+    if (counts[k] > 0) kinds[std::string(kElementKinds[k].plural)] = counts[k];
+  return {{"input", file.string()},
+          {"title", mesh.title},
+          {"vertices", mesh.vertex_count()},
+          {"elements", mesh.elements.size()},
+          {"kinds", std::move(kinds)},
+          {"groups", json_of_groups(mesh)},
+          {"data", json_of_fields(mesh)},
+          {"held_on_interfaces", input.interfaces.count()},
+          {"warnings", warnings}};
+}
+
+}  // namespace
+
+void tell_mesh(const std::filesystem::path& file, bool json) {
+  Watch watch;
+  const auto input = load_input(file, Need::QualityOnly, watch.progress());
+  const Mesh& mesh = input->mesh;
+  const std::vector<std::string> warnings = tell_findings(*input);
+  if (json) return print_json(json_of(*input, file, warnings));
+  std::string kinds;
+  const auto counts = count_kinds(mesh);
+  for (std::size_t k = 0; k < kElementKindCount; ++k) {
+    if (counts[k] == 0) continue;
+    kinds += (kinds.empty() ? "" : ", ") + counted(counts[k], kElementKinds[k].name, kElementKinds[k].plural);
+  }
+  print("{}: {}, {}\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"), kinds);
+  if (!mesh.title.empty()) print("{}\n", mesh.title);
+  print_groups(mesh, std::numeric_limits<std::size_t>::max());
+  print_fields(mesh);
+  if (const std::string sentence = input->interfaces.sentence("--interfaces free"); !sentence.empty())
+    print("\nwhen it is smoothed, {}\n", sentence);
+}
+
+}  // namespace dmoscope::app

@@ -1,0 +1,221 @@
+// dmoscope quality: judges a mesh without changing it.
+
+#include "core/quality/quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/common/console.h"
+#include "app/common/memory_limit.h"
+#include "app/common/option_checks.h"
+#include "app/common/output_checks.h"
+#include "app/common/text.h"
+#include "app/subcommands/group_table.h"
+#include "app/subcommands/input_report.h"
+#include "app/subcommands/subcommands.h"
+#include "core/base/thread_pool.h"
+#include "core/input/declared_floats.h"
+#include "core/input/input_mesh.h"
+#include "core/io/mesh_io.h"
+#include "core/session/csv.h"
+#include "core/smooth/displace.h"
+
+namespace dmoscope::app {
+namespace {
+
+struct QualityOptions {
+  std::filesystem::path input, elements;
+  std::string metric = "all";
+  std::size_t worst = 0;
+  MemoryLimit memory;
+  bool json = false;
+};
+
+/// One metric over all elements of the mesh.
+struct Column {
+  Metric metric;
+  std::vector<double> values;    // one an element, NaN where not defined
+  std::vector<Index> ascending;  // elements with a value, worst first, the lowest index first among equals
+  double mean = 0.0;
+  std::size_t unacceptable = 0;
+
+  [[nodiscard]] bool defined() const noexcept { return !ascending.empty(); }
+  /// Nearest-rank percentile of the defined values.
+  [[nodiscard]] double percentile(double p) const {
+    const auto rank = static_cast<std::size_t>(std::ceil(p / 100.0 * static_cast<double>(ascending.size())));
+    return values[ascending[std::max<std::size_t>(rank, 1) - 1]];
+  }
+};
+
+Column judge(const InputMesh& input, Metric metric, ThreadPool& pool) {
+  Column column{metric, std::vector<double>(input.mesh.elements.size()), {}};
+  element_qualities(input.quality_context(), input.mesh.positions, metric, &pool, column.values);
+  double sum = 0.0;
+  for (Index e = 0; e < input.mesh.elements.size(); ++e) {
+    const double q = column.values[e];
+    if (std::isnan(q)) continue;
+    column.ascending.push_back(e);
+    sum += q;
+    if (q < info(metric).acceptable) ++column.unacceptable;
+  }
+  std::stable_sort(column.ascending.begin(), column.ascending.end(),
+                   [&column](Index a, Index b) { return column.values[a] < column.values[b]; });
+  if (column.defined()) column.mean = sum / static_cast<double>(column.ascending.size());
+  return column;
+}
+
+std::size_t count_inverted(const InputMesh& input) {
+  std::size_t inverted = 0;
+  for (Index e = 0; e < input.mesh.elements.size(); ++e) {
+    if (!(smallest_jacobian(input.quality_context(), input.mesh.positions, e) > 0.0)) ++inverted;
+  }
+  return inverted;
+}
+
+Vec3 centroid(const InputMesh& input, Index element) {
+  const Plane& plane = input.geometry.plane;
+  const auto corners = input.mesh.elements.corners(element);
+  const Vec3 first = input.mesh.positions[corners[0]];
+  Vec3 sum;  // of a mesh that wraps: as seen from the first corner
+  for (const Index corner : corners) {
+    const Vec3 at = input.mesh.positions[corner];
+    sum = sum + (plane.period > 0.0 ? first + plane.difference(at, first) : at);
+  }
+  Vec3 middle = (1.0 / static_cast<double>(corners.size())) * sum;
+  if (plane.period > 0.0) middle.x = settled(middle.x, plane.west, plane.period, false);
+  return middle;
+}
+
+std::vector<Metric> wanted_metrics(const std::string& name) {
+  if (name != "all") return {parse_metric(name)};
+  std::vector<Metric> metrics;
+  for (const MetricInfo& metric : metric_table()) metrics.push_back(metric.metric);
+  return metrics;
+}
+
+std::vector<Index> worst_of(const Column& column, std::size_t count) {
+  const auto end = column.ascending.begin() + static_cast<std::ptrdiff_t>(std::min(count, column.ascending.size()));
+  return {column.ascending.begin(), end};
+}
+
+Json json_of(const InputMesh& input, const Column& column, std::size_t worst) {
+  const MetricInfo& metric = info(column.metric);
+  Json object{{"metric", metric.name}, {"elements", column.ascending.size()}};
+  if (!column.defined()) return object;
+  object["minimum"] = json_number(column.percentile(0));
+  object["mean"] = json_number(column.mean);
+  object["percentile_1"] = json_number(column.percentile(1));
+  object["percentile_5"] = json_number(column.percentile(5));
+  object["percentile_50"] = json_number(column.percentile(50));
+  object["acceptable"] = metric.acceptable;
+  object["below_acceptable"] = column.unacceptable;
+  Json list = Json::array();
+  for (const Index e : worst_of(column, worst)) {
+    const Vec3 c = centroid(input, e);
+    list.push_back({{"element", e},
+                    {"kind", info(input.mesh.elements.kind(e)).name},
+                    {"quality", json_number(column.values[e])},
+                    {"centroid", {json_number(c.x), json_number(c.y), json_number(c.z)}}});
+  }
+  if (worst > 0) object["worst"] = std::move(list);
+  return object;
+}
+
+void print_table(const std::vector<Column>& columns) {
+  print("{:<16} {:>9} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11} {:>8}\n", "metric", "elements", "min", "1 %", "5 %", "50 %", "mean",
+        "acceptable", "below");
+  for (const Column& column : columns) {
+    if (!column.defined()) continue;
+    const MetricInfo& metric = info(column.metric);
+    print("{:<16} {:>9} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11} {:>8}\n", metric.name, column.ascending.size(),
+          brief(column.percentile(0)), brief(column.percentile(1)), brief(column.percentile(5)), brief(column.percentile(50)),
+          brief(column.mean), brief(metric.acceptable), column.unacceptable);
+  }
+}
+
+void print_worst(const InputMesh& input, const Column& column, std::size_t count) {
+  if (count == 0 || !column.defined()) return;
+  print("\nworst of {}:\n{:>10} {:<14} {:>12}  centroid\n", info(column.metric).name, "element", "kind", "quality");
+  for (const Index e : worst_of(column, count)) {
+    const Vec3 c = centroid(input, e);
+    print("{:>10} {:<14} {:>12}  {} {} {}\n", e, info(input.mesh.elements.kind(e)).name, brief(column.values[e]), c.x, c.y, c.z);
+  }
+}
+
+int quality(const QualityOptions& options) {
+  const std::vector<Metric> metrics = wanted_metrics(options.metric);
+  if (!options.elements.empty()) require_writable(options.elements);
+  require_another_file(options.elements, "--elements", options.input);
+
+  Watch watch;
+  const auto input = load_input(options.input, Need::QualityOnly, {watch.progress(), nullptr, options.memory.bytes()});
+  const Mesh& mesh = input->mesh;
+  std::vector<std::string> warnings = tell_findings(*input);
+  ThreadPool pool;
+  std::vector<Column> columns;
+  for (const Metric metric : metrics) {
+    watch.progress().check();
+    columns.push_back(judge(*input, metric, pool));
+  }
+  if (options.metric != "all" && !columns.front().defined() && mesh.elements.size() > 0) {
+    throw UsageError(fmt::format("{} is defined for no element of {}", options.metric, mesh.name));
+  }
+  if (!options.elements.empty()) write_file_atomically(options.elements, elements_csv(input->quality_context(), mesh.positions, metrics));
+  for (const Column& column : columns) {
+    std::string seen = column.defined() ? seen_as_floats(*input, mesh.positions, column.metric, &pool) : std::string();
+    if (seen.empty()) continue;
+    complain(fmt::format("{}: {}, {}", mesh.name, info(column.metric).name, seen));
+    warnings.push_back(std::move(seen));
+    break;  // one metric says it
+  }
+  const std::size_t inverted = count_inverted(*input);
+  if (options.json) {
+    Json list = Json::array();
+    for (const Column& column : columns) list.push_back(json_of(*input, column, options.worst));
+    print_json({{"input", options.input.string()},
+                {"vertices", mesh.vertex_count()},
+                {"elements", mesh.elements.size()},
+                {"inverted", inverted},
+                {"metrics", std::move(list)},
+                {"groups", json_of_groups(mesh)},
+                {"warnings", warnings}});
+    return 0;
+  }
+  print("{}: {}, {}, {} inverted\n\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
+        counted(mesh.elements.size(), "element", "elements"), grouped(inverted));
+  print_table(columns);
+  for (const Column& column : columns) print_worst(*input, column, options.worst);
+  constexpr std::size_t kMostGroups = 20;
+  print_groups(mesh, kMostGroups);
+  return 0;
+}
+
+}  // namespace
+
+void add_quality(CLI::App& app, Action& action) {
+  auto options = std::make_shared<QualityOptions>();
+  CLI::App* subcommand = app.add_subcommand("quality", "Judge the elements of a mesh");
+  subcommand->add_option("FILE", options->input, "Mesh to read")->required();
+  subcommand->add_option("--metric", options->metric, "all, or one of " + names_of(metric_table()))
+      ->type_name("NAME|all")
+      ->capture_default_str();
+  subcommand->add_option("--worst", options->worst, "List the N worst elements of each metric")
+      ->transform(whole_number(0, kNoIndex))
+      ->type_name("N");
+  subcommand->add_option("--elements", options->elements, "Write the quality of every element; empty where a metric is not defined")
+      ->type_name("FILE.csv");
+  add_memory_option(*subcommand, options->memory);
+  subcommand->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
+  subcommand->callback([options, &action] {
+    action = [options] { return within_memory(options->memory, options->input, [options] { return quality(*options); }); };
+  });
+}
+
+}  // namespace dmoscope::app

@@ -1,0 +1,167 @@
+// dmoscope render: a picture of a mesh coloured by quality, without a window.
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/common/memory_limit.h"
+#include "app/common/option_checks.h"
+#include "app/common/output_checks.h"
+#include "app/common/text.h"
+#include "app/subcommands/subcommands.h"
+#include "core/base/error.h"
+#include "core/clipping/clip_to_text.h"
+#include "core/quality/metric.h"
+
+#ifdef DMOSCOPE_HAVE_GUI
+#include "app/common/console.h"
+#include "app/window/picture.h"
+#include "app/window/volume_picture.h"
+#endif
+
+namespace dmoscope::app {
+namespace {
+
+constexpr int kLargestSide = 16384;
+
+struct RenderOptions {
+  std::filesystem::path input, output;
+  MemoryLimit memory;
+  std::string metric = "mean-ratio";
+  std::string size = "1280x800";
+  std::string colormap = "viridis";
+  std::string range;
+  bool transparent = false;
+  std::string clip, clip_mode = "crinkle", isolate, from = "iso";
+  std::uint64_t peel = 0, worst = 0;
+  std::optional<float> peel_quality;
+  double shrink = 1.0;
+  bool perspective = false;
+};
+
+/// Two numbers with `separator` between them and nothing else; none where the text is something else.
+template <class Number>
+std::optional<std::pair<Number, Number>> parse_pair(std::string_view text, char separator) {
+  std::pair<Number, Number> result{};
+  const char* end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, result.first);
+  if (first.ec != std::errc{} || first.ptr == end || *first.ptr != separator) return std::nullopt;
+  const auto second = std::from_chars(first.ptr + 1, end, result.second);
+  if (second.ec != std::errc{} || second.ptr != end) return std::nullopt;
+  return result;
+}
+
+std::pair<int, int> parse_size(const std::string& text) {
+  const auto size = parse_pair<int>(text, 'x');
+  const auto fits = [](int side) { return side >= 1 && side <= kLargestSide; };
+  if (!size || !fits(size->first) || !fits(size->second)) {
+    throw UsageError(fmt::format("--size {}: expected WIDTHxHEIGHT in pixels, each 1 to {}", text, kLargestSide));
+  }
+  return *size;
+}
+
+std::optional<std::pair<double, double>> parse_range(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const auto range = parse_pair<double>(text, ':');
+  if (!range || !std::isfinite(range->first) || !std::isfinite(range->second) || !(range->first < range->second)) {
+    throw UsageError(fmt::format("--range {}: expected LOW:HIGH, two qualities with LOW < HIGH", text));
+  }
+  return range;
+}
+
+/// What is seen of a volume mesh, its clip plane apart.
+ClippingView inside_view(const RenderOptions& options) {
+  ClippingView view;
+  view.clip.mode = parse_clip_mode(options.clip_mode);
+  if (options.clip.empty() && view.clip.mode != ClipPlane::Mode::Crinkle) throw UsageError("--clip-mode: there is no --clip");
+  view.peel = static_cast<Index>(options.peel);
+  view.peel_quality = options.peel_quality;
+  if (!options.isolate.empty()) {
+    view.isolate = parse_pair<float>(options.isolate, ':');
+    if (!view.isolate || !(view.isolate->first <= view.isolate->second)) {
+      throw UsageError(fmt::format("--isolate {}: expected LOW:HIGH, two qualities with LOW <= HIGH", options.isolate));
+    }
+  }
+  view.worst = options.worst;
+  view.ghost = options.worst > 0;
+  view.shrink = options.shrink;
+  if (!(view.shrink > 0.0 && view.shrink <= 1.0)) throw UsageError("--shrink: expected a factor greater than 0 and at most 1");
+  return view;
+}
+
+int render(const RenderOptions& options) {
+  const Metric metric = parse_metric(options.metric);
+  const auto [width, height] = parse_size(options.size);
+  const auto range = parse_range(options.range);
+  const ClippingView view = inside_view(options);
+  if (options.output.extension() != ".png") throw UsageError(fmt::format("{}: pictures are written as .png", options.output.string()));
+  require_another_file(options.output, "-o", options.input);
+  require_writable(options.output);
+#ifdef DMOSCOPE_HAVE_GUI
+  PictureLook look;
+  look.metric = metric;
+  look.width = width;
+  look.height = height;
+  look.colormap = options.colormap;
+  look.range = range;
+  look.transparent = options.transparent;
+  const InsideLook inside{options.clip, view, options.from, options.perspective};
+  require_sense(inside);
+  Watch watch;
+  return render_picture(options.input, options.output, look, inside, {watch.progress(), nullptr, options.memory.bytes()});
+#else
+  static_cast<void>(view), static_cast<void>(metric), static_cast<void>(width), static_cast<void>(height), static_cast<void>(range);
+  throw UsageError("this program was built without OpenGL, so it makes no pictures");
+#endif
+}
+
+/// Options of volume meshes.
+void add_inside(CLI::App& subcommand, RenderOptions& options) {
+  const auto option = [&subcommand](const char* name, auto& value, const char* type, const char* doc) {
+    return subcommand.add_option(name, value, doc)->type_name(type)->group("Volume meshes");
+  };
+  option(
+      "--clip", options.clip, "PLANE",
+      "Take away what lies beyond a plane: x, y or z, half-way through the mesh or at :FRACTION (0 to 1), -x, -y, -z: the other side; or "
+      "NX,NY,NZ:OFFSET");
+  option("--clip-mode", options.clip_mode, "MODE", "crinkle: whole elements, cut: cut through")->capture_default_str();
+  option("--peel", options.peel, "N", "Take so many layers of elements off the boundary")->transform(whole_number(0, 0xfffffffe));
+  option("--peel-quality", options.peel_quality, "Q", "Take elements of a higher quality away");
+  option("--isolate", options.isolate, "LO:HI", "Only elements of a quality in this range");
+  option("--worst", options.worst, "N", "Only the N worst elements, in a faint boundary of the rest")
+      ->transform(whole_number(1, 0xfffffffe));
+  option("--shrink", options.shrink, "F", "Draw every element F times as large")->capture_default_str();
+  option("--view", options.from, "VIEW", "Look from: iso, +x, -x, +y, -y, +z, -z")->capture_default_str();
+  subcommand.add_flag("--perspective", options.perspective, "What is farther away looks smaller")->group("Volume meshes");
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Action& action) {
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App* subcommand = app.add_subcommand("render", "Make a picture of a mesh; needs no screen");
+  subcommand->add_option("FILE", options->input, "Mesh to read")->required();
+  subcommand->add_option("-o,--output", options->output, "Picture to write")->required()->type_name("SHOT.png");
+  subcommand->add_option("--metric", options->metric, "Metric shown: " + names_of(metric_table()))
+      ->type_name("NAME")
+      ->capture_default_str();
+  subcommand->add_option("--size", options->size, "Pixels")->type_name("WxH")->capture_default_str();
+  subcommand->add_option("--colormap", options->colormap, "Colour map")->type_name("NAME")->capture_default_str();
+  subcommand->add_option("--range", options->range, "Qualities at the ends of the colour map (0:1 unless given)")->type_name("LO:HI");
+  subcommand->add_flag("--transparent", options->transparent, "Leave the background transparent");
+  add_memory_option(*subcommand, options->memory);
+  add_inside(*subcommand, *options);
+  subcommand->callback([options, &action] {
+    action = [options] { return within_memory(options->memory, options->input, [options] { return render(*options); }); };
+  });
+}
+
+}  // namespace dmoscope::app

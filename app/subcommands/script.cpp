@@ -1,0 +1,162 @@
+// dmoscope script: runs a file of commands, with or without the window.
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <istream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/common/acceleration.h"
+#include "app/common/console.h"
+#include "app/common/memory_limit.h"
+#include "app/common/run_options.h"
+#include "app/subcommands/subcommands.h"
+#include "core/base/error.h"
+#include "core/commands/session_commands.h"
+#include "core/engine/engine.h"
+#include "core/session/read_files.h"
+
+#ifdef DMOSCOPE_HAVE_GUI
+#include "app/window/script.h"
+#endif
+
+namespace dmoscope::app {
+namespace {
+
+struct ScriptSubcommandOptions {
+  std::string file;
+  std::string backend = "auto";
+  bool headless = false;
+  MemoryLimit memory;
+};
+
+std::vector<std::string> lines_of(std::istream& stream) {
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(std::move(line));
+  return lines;
+}
+
+std::vector<std::string> read_lines(const std::string& file) {
+  if (file == "-") return lines_of(std::cin);
+  std::error_code unknown;
+  const auto type = std::filesystem::status(file, unknown).type();
+  if (type == std::filesystem::file_type::character || type == std::filesystem::file_type::block)  // which may never end
+    throw InputError(file, 0, "a device is no file that can be read");
+  std::ifstream stream(file);
+  std::vector<std::string> lines = lines_of(stream);
+  // A folder opens but cannot be read.
+  if (!stream.is_open() || stream.bad()) throw InputError(file, 0, "cannot be read");
+  return lines;
+}
+
+/// The first subcommand of `lines` that the session does not know, with its line; 0 when it knows them all.
+struct Foreign {
+  std::size_t line = 0;
+  std::string subcommand;
+};
+Foreign first_foreign(const std::string& name, const std::vector<std::string>& lines) {
+  const auto& known = session_commands();
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    std::vector<std::string> words;
+    try {
+      words = split_words(lines[i]);
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("{}:{}: {}", name, i + 1, error.what()));
+    }
+    if (words.empty()) continue;
+    const auto matches = [&words](const CommandInfo& command) { return command.name == words.front(); };
+    if (std::none_of(known.begin(), known.end(), matches)) return {i + 1, words.front()};
+  }
+  return {};
+}
+
+/// Prints what the engine said; the exit code of the first line that failed or was cancelled, 0 without one.
+int tell(const std::vector<Message>& messages, const std::string& name, std::size_t line) {
+  for (const Message& message : messages) {
+    if (message.kind == Message::Kind::Error || message.exit_code != 0) {
+      complain(fmt::format("{}:{}: {}", name, line, message.text));
+      return message.exit_code == 0 ? 3 : message.exit_code;
+    }
+    if (message.kind == Message::Kind::Warning) {
+      complain(message.text);
+    } else {
+      print("{}\n", message.text);
+      flush_output();
+    }
+  }
+  return 0;
+}
+
+int run_on_session(const std::string& name, const std::vector<std::string>& lines, const ScriptSubcommandOptions& options) {
+  const Backend backend = parse_backend(options.backend);
+  block_interrupts();  // before the engine's threads start
+  Engine engine(0, acceleration_for(backend), backend);
+  // Ctrl+C may also come between two lines, when the engine has nothing to cancel.
+  std::atomic<bool> interrupted{false};
+  const Watch watch(engine.progress(), [&engine, &interrupted] {
+    interrupted = true;
+    engine.cancel();
+  });
+  if (options.memory.bytes() != 0) engine.post(fmt::format("max-memory {}", options.memory.bytes()));
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    engine.post(lines[i]);
+    if (interrupted) engine.cancel();
+    engine.wait_idle();
+    if (const int code = tell(engine.take_messages(), name, i + 1); code != 0) return code;
+    if (interrupted) {
+      complain(fmt::format("{}:{}: cancelled", name, i + 1));
+      return Cancelled().exit_code();
+    }
+  }
+  return 0;
+}
+
+/// What would cost somebody a file is refused before the first line runs.
+void refuse_overwriting(const ScriptSubcommandOptions& options, const std::string& name, const std::vector<std::string>& lines) {
+  const Overwriting found = first_overwriting(options.file == "-" ? "" : options.file, lines);
+  if (found.line != 0) throw UsageError(fmt::format("{}:{}: {}", name, found.line, found.what));
+}
+
+int script(const ScriptSubcommandOptions& options) {
+  const std::string name = options.file == "-" ? "standard input" : options.file;
+  const std::vector<std::string> lines = read_lines(options.file);
+  refuse_overwriting(options, name, lines);
+  const Foreign foreign = first_foreign(name, lines);
+  if (foreign.line == 0) return run_on_session(name, lines, options);
+#ifdef DMOSCOPE_HAVE_GUI
+  ScriptOptions window;
+  window.name = name;
+  window.lines = lines;
+  window.headless = options.headless;
+  window.backend = parse_backend(options.backend);
+  window.most_memory = options.memory.bytes();
+  return run_script(window);
+#else
+  throw UsageError(fmt::format("{}:{}: unknown command '{}' (this program was built without the window and its commands)", name,
+                               foreign.line, foreign.subcommand));
+#endif
+}
+
+}  // namespace
+
+void add_script(CLI::App& app, Action& action) {
+  auto options = std::make_shared<ScriptSubcommandOptions>();
+  CLI::App* subcommand = app.add_subcommand(
+      "script", "Run a file of commands, which the manual page and the palette (Ctrl+P) list; stops at the first that fails");
+  subcommand->add_option("FILE", options->file, "Script to run; - reads standard input")->required();
+  subcommand->add_flag("--headless", options->headless, "Draw without a screen; a script that only computes needs none anyway");
+  add_backend_option(*subcommand, options->backend);
+  add_memory_option(*subcommand, options->memory);
+  subcommand->callback(
+      [options, &action] { action = [options] { return within_memory(options->memory, {}, [options] { return script(*options); }); }; });
+}
+
+}  // namespace dmoscope::app

@@ -1,0 +1,330 @@
+// dmoscope smooth: reads a mesh, smooths it, writes it.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/common/acceleration.h"
+#include "app/common/console.h"
+#include "app/common/goal_options.h"
+#include "app/common/memory_limit.h"
+#include "app/common/output_checks.h"
+#include "app/common/provenance.h"
+#include "app/common/run_options.h"
+#include "app/common/text.h"
+#include "app/subcommands/checkpoint.h"
+#include "app/subcommands/input_report.h"
+#include "app/subcommands/objective_report.h"
+#include "app/subcommands/subcommands.h"
+#include "core/input/declared_floats.h"
+#include "core/io/atomic_file.h"
+#include "core/io/commented_mesh.h"
+#include "core/io/mesh_io.h"
+#include "core/io/source_file.h"
+#include "core/numeric/simd.h"
+#include "core/run/left_inverted.h"
+#include "core/run/mean_given_up.h"
+#include "core/run/retry_on_cpu.h"
+#include "core/run/untangling_hint.h"
+#include "core/session/csv.h"
+#include "core/session/parameter_json.h"
+#include "core/session/session.h"
+#include "core/smooth/execution/method_table.h"
+
+namespace dmoscope::app {
+namespace {
+
+struct SmoothOptions {
+  std::filesystem::path input, output, stats;
+  RunOptions run;
+  GoalOptions goal;
+  std::string write = "best";
+  CheckpointOptions checkpoints;
+  MemoryLimit memory;
+  bool json = false;
+  bool provenance = false;
+  std::string command_line;
+};
+
+std::string_view reason_name(StopReason reason) {
+  switch (reason) {
+    case StopReason::NothingMoved:
+      return "nothing-moved";
+    case StopReason::NoRise:
+      return "no-rise";
+    case StopReason::IterationLimit:
+      return "iteration-limit";
+  }
+  return "unknown";
+}
+
+Json json_of(const Statistics& s) {
+  return {{"minimum", json_number(s.minimum)},
+          {"mean", json_number(s.mean)},
+          {"movable_minimum", json_number(s.movable_minimum)},
+          {"ceiling", json_number(s.ceiling)},
+          {"inverted", s.inverted}};
+}
+
+/// What came of it, as both the person and --json are told.
+struct Result {
+  const SmoothOptions& options;
+  const Run& run;
+  unsigned threads;
+  Outcome outcome;
+  double seconds;
+  std::optional<LeftInverted> left;  // of what is written
+  std::vector<std::string> warnings;
+  std::optional<Provenance> provenance{};
+
+  [[nodiscard]] const IterationRecord& before() const { return run.history().records().front(); }
+  /// What is written.
+  [[nodiscard]] const IterationRecord& after() const { return run.history().records()[run.moment().iteration]; }
+  [[nodiscard]] double visits_per_second() const {
+    const auto visits = static_cast<double>(outcome.iterations * run.visits_per_iteration());
+    return seconds > 0.0 ? visits / seconds : 0.0;
+  }
+};
+
+bool on_cpu(const Run& run) { return run.backend() == Backend::Cpu; }
+
+/// By packs: the grid search alone can do that.
+bool in_packs(const RunParameters& p) { return method_info(p.method).searches_grid && p.search.precision == Precision::Float; }
+
+/// What the search computed with; null on a device.
+Json simd_name(const Run& run) {
+  const RunParameters& p = run.parameters();
+  if (!on_cpu(run)) return nullptr;
+  return in_packs(p) ? name(p.search.simd.value_or(best_simd_level())) : "scalar";
+}
+
+Json json_of(const Result& r) {
+  const RunParameters& p = r.run.parameters();
+  const Mesh& mesh = r.run.input().mesh;
+  Json object;
+  object["input"] = r.options.input.string();
+  object["output"] = r.options.output.string();
+  object["vertices"] = mesh.vertex_count();
+  object["elements"] = mesh.elements.size();
+  object["free"] = r.run.visits_per_iteration();
+  object["method"] = p.method;
+  object["metric"] = info(p.metric).name;
+  object["backend"] = name(r.run.backend());
+  object["backend_reason"] = r.run.backend_reason();
+  object["threads"] = r.threads;
+  object["simd"] = simd_name(r.run);
+  nlohmann::ordered_json parameters;
+  for (const ParameterInfo& row : parameter_table())
+    if (row.in_session) parameters[std::string(row.name)] = parameter_json(row, p);
+  parameters["precision"] = in_packs(p) && !p.combination ? "float" : "double";  // what was computed with
+  parameters["fixed_by_user"] = p.fixed.size();
+  object["parameters"] = std::move(parameters);
+  object["held_on_interfaces"] = p.interfaces == InterfaceRule::Fixed ? r.run.input().interfaces.count() : 0;
+  object["iterations"] = r.outcome.iterations;
+  object["stopped"] = reason_name(r.outcome.reason);
+  object["last_rise"] = r.outcome.last_rise;
+  object["written_iteration"] = r.after().iteration;
+  object["left_inverted"] = nullptr;
+  if (r.left) object["left_inverted"] = {{"count", r.left->count}, {"element", r.left->element}, {"vertex", r.left->vertex}};
+  object["before"] = json_of(r.before().statistics);
+  object["after"] = json_of(r.after().statistics);
+  add_composite(object, r.run);
+  object["seconds"] = r.seconds;
+  object["vertices_per_second"] = json_number(r.visits_per_second());
+  object["warnings"] = r.warnings;
+  if (r.provenance) object["provenance"] = json_of(*r.provenance);
+  return object;
+}
+
+void print_summary(const Result& r) {
+  const Statistics& before = r.before().statistics;
+  const Statistics& after = r.after().statistics;
+  const Mesh& mesh = r.run.input().mesh;
+  print("{}: {}, {}, {} free; {}, {}\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
+        counted(mesh.elements.size(), "element", "elements"), grouped(r.run.visits_per_iteration()), r.run.title(), name(r.run.backend()));
+  print("  {:<16} {:>10} -> {}\n", "minimum", brief(before.minimum), brief(after.minimum));
+  print("  {:<16} {:>10} -> {}\n", "movable minimum", brief(before.movable_minimum), brief(after.movable_minimum));
+  print("  {:<16} {:>10}    (elements whose corners are all fixed)\n", "ceiling", brief(after.ceiling));
+  print("  {:<16} {:>10} -> {}\n", "mean", brief(before.mean), brief(after.mean));
+  print("  {:<16} {:>10} -> {}\n", "inverted", grouped(before.inverted), grouped(after.inverted));
+  print_composite(r.run);
+  print("  {}\n", r.outcome.sentence());
+  if (const std::string fell = r.options.goal.until_converged ? mean_given_up(r.run) : ""; !fell.empty())
+    print("  {} (--then mean)\n", fell);
+  print("  {} in {:.3f} s, {}vertices/s on {}\n", counted(r.outcome.iterations, "iteration", "iterations"), r.seconds,
+        with_prefix(r.visits_per_second()), on_cpu(r.run) ? counted(r.threads, "thread", "threads") : r.run.backend_reason());
+  print("  wrote {}\n", r.options.output.string());
+}
+
+/// Everything that can be refused without reading the mesh.
+void refuse_early(const SmoothOptions& options) {
+  if (options.write != "best" && options.write != "last")
+    throw UsageError(fmt::format("--write knows 'best' and 'last', not '{}'", options.write));
+  require_mesh_target(options.output, options.input);
+  require_another_file(options.stats, "--stats", options.input);
+  require_another_file(options.stats, "--stats", options.output);
+  if (!options.stats.empty()) require_writable(options.stats);
+  refuse_early(options.checkpoints, {options.input, options.output, options.stats});
+}
+
+std::string statistics(const Run& run) {
+  const std::vector<std::string> titles{stats_label(run.parameters())};
+  const std::vector<const std::vector<IterationRecord>*> records{&run.history().records()};
+  return stats_csv(titles, records);
+}
+
+/// The mesh and the statistics: none takes its place before both are on the disk. Returns what the mesh's format could not carry.
+std::vector<std::string> write_results(const SmoothOptions& options, const Run& run, const std::optional<Provenance>& provenance,
+                                       const IoContext& context) {
+  AtomicFiles others;
+  if (!options.stats.empty()) others.add(options.stats, statistics(run));
+  const std::string comment = options.provenance ? comment_of(*provenance) : std::string();
+  std::vector<std::string> sentences = write_commented_mesh(options.output, run.input().mesh, run.positions(), context, comment);
+  others.commit();
+  return sentences;
+}
+
+/// A checkpoint beyond the goal's end is no way to it.
+void require_at_goal(const Run& run, const Outcome& outcome) {
+  if (run.moment().iteration == outcome.iterations) return;
+  throw UsageError(fmt::format("--resume: that run has come to iteration {} already, and what is asked for ends at {}",
+                               run.moment().iteration, outcome.iterations));
+}
+
+double smoothing_seconds(const Run& run) {
+  double seconds = 0.0;
+  for (const IterationRecord& record : run.history().records()) seconds += record.seconds;
+  return seconds;
+}
+
+/// Goes to the iteration that is written; says so where it is not the last.
+template <class Warn>
+void go_to_what_is_written(Run& run, const SmoothOptions& options, Progress& progress, const Warn& warn) {
+  const std::uint64_t last = run.history().records().size() - 1, best = best_iteration(run);
+  if (options.write == "last" || best == last) return;
+  run.seek({best}, progress);
+  run.sync_to_host();
+  warn(fmt::format("{} {}: written is {}, the best it passed through, not iteration {} (--write last: the last)", run.parameters().method,
+                   kMayMakeWorse, iteration_name(best), last));
+}
+
+/// Says what stays inverted, where to look and, if one does, which method gets further.
+template <class Warn>
+std::optional<LeftInverted> tell_left_inverted(const Run& run, const std::shared_ptr<const InputMesh>& input,
+                                               const std::shared_ptr<ThreadPool>& pool, Progress& progress, const Warn& warn) {
+  std::optional<LeftInverted> left = find_left_inverted(run);
+  if (!left) return left;
+  warn(left->sentence());
+  try {
+    if (const auto hint = untangling_hint(run, input, pool, progress))
+      warn(fmt::format("{}: try --method {}", hint->sentence(), hint->method));
+  } catch (const Cancelled&) {  // what was asked for has been written
+  }
+  return left;
+}
+
+/// Of --then mean, where the second phase never began.
+template <class Warn>
+void tell_missing_phase(const Run& run, const Outcome& outcome, const Warn& warn) {
+  if (!run.parameters().then_mean || run.mean_since()) return;
+  warn(outcome.inverted > 0 ? "the mean was not raised: that begins once no element is inverted"
+                            : "the mean was not raised: that begins once the minimum rises no more, or nothing moves (--until-converged)");
+}
+
+int smooth(const SmoothOptions& options) {
+  refuse_early(options);
+  RunParameters parameters = parameters_of(options.run);
+  if (parameters.then_mean && options.goal.until_converged) parameters.then_mean->patience = options.goal.limits.patience;
+  const Acceleration acceleration = acceleration_for(parameters.backend);
+
+  block_interrupts();  // before the session's threads start
+  Session session(options.run.threads, acceleration, parameters.backend);
+  session.set_history_budget(0);  // no past positions: nobody asks for them here
+  Checkpoints checkpoints(session, options.checkpoints);
+  Progress progress;
+  const Watch watch(progress, [&] {
+    if (!checkpoints.end_soon()) progress.request_cancel();
+  });
+  const auto pool = session.pool();
+  const auto input = load_input(options.input, Need::Smoothing, {progress, pool.get(), options.memory.bytes()});
+  std::vector<std::string> warnings = tell_findings(*input);
+  parameters.fixed = vertices_to_fix(input->mesh, options.run.fix);
+  tell_interfaces(*input, parameters, warnings);
+
+  Run& run = begin_run(session, input, parameters, options.checkpoints, progress);
+  const auto warn = [&warnings](std::string sentence) {
+    complain(sentence);
+    warnings.push_back(std::move(sentence));
+  };
+  if (std::string warning = run.take_warning(); !warning.empty()) warn(std::move(warning));
+  if (run.size_field() && !run.size_field()->note().empty()) warn(run.size_field()->note());
+  const auto smooth_all = [&] {  // from the input on: without history nothing else is left after a failure
+    const auto after = [&](const Run&) { checkpoints.after_iteration(); };
+    const Outcome done = options.goal.until_converged ? run.until_converged_from_input(options.goal.limits, progress, after)
+                                                      : run.iterate_from_input(options.goal.iterations, progress, after);
+    run.sync_to_host();
+    return done;
+  };
+  checkpoints.set_running(true);
+  Outcome outcome = retry_on_cpu(run, smooth_all, warn);
+  checkpoints.set_running(false);
+  require_at_goal(run, outcome);
+  const double seconds = smoothing_seconds(run);
+  tell_missing_phase(run, outcome, warn);
+  go_to_what_is_written(run, options, progress, warn);
+  outcome.inverted = run.history().records()[run.moment().iteration].statistics.inverted;
+
+  std::optional<Provenance> provenance;
+  if (options.json || options.provenance) provenance = provenance_of(input->mesh, options.command_line);
+  for (std::string& sentence : write_results(options, run, provenance, {progress, pool.get()})) {
+    complain(fmt::format("{}: {}", options.output.string(), sentence));
+    warnings.push_back(std::move(sentence));
+  }
+  const std::string seen = written_as_floats(options.output, *input, run.positions(), run.parameters().metric, pool.get());
+  if (!seen.empty()) warn(fmt::format("{}: {}", options.output.string(), seen));
+  std::optional<LeftInverted> left = tell_left_inverted(run, input, pool, progress, warn);
+  const Result result{options, run, pool->size(), outcome, seconds, std::move(left), std::move(warnings), std::move(provenance)};
+  if (options.json) {
+    print_json(json_of(result));
+  } else {
+    print_summary(result);
+  }
+  const bool reached = !options.goal.until_converged || outcome.reason != StopReason::IterationLimit;
+  if (!reached) complain(fmt::format("not converged: {}", outcome.sentence()));
+  return reached && !result.left ? 0 : 1;
+}
+
+}  // namespace
+
+void add_smooth(CLI::App& app, Action& action, const std::string& command_line) {
+  auto options = std::make_shared<SmoothOptions>();
+  options->command_line = command_line;
+  CLI::App* subcommand = app.add_subcommand("smooth", "Smooth a mesh and write it");
+  subcommand->add_option("IN", options->input, "Mesh to read")->required();
+  subcommand->add_option("-o,--output", options->output, "Where to write it; the format is the extension's")->required()->type_name("OUT");
+  add_run_options(*subcommand, options->run);
+  add_goal_options(*subcommand, options->goal);
+  subcommand
+      ->add_option("--write", options->write,
+                   "What is written: best (by inverted elements, minimum and mean; of an optimising method the last) or last")
+      ->type_name("best|last")
+      ->capture_default_str();
+  subcommand->add_option("--stats", options->stats, "Write the statistics of every iteration; row 0 is the input")->type_name("FILE.csv");
+  add_checkpoint_options(*subcommand, options->checkpoints);
+  add_memory_option(*subcommand, options->memory);
+  subcommand->add_flag(
+      "--provenance", options->provenance,
+      "Say in a comment of the mesh written what made it: the input's hash, version, options; where the format has comments");
+  subcommand->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
+  subcommand->callback([options, &action] {
+    action = [options] { return within_memory(options->memory, options->input, [options] { return smooth(*options); }); };
+  });
+}
+
+}  // namespace dmoscope::app

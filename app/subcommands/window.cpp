@@ -1,0 +1,59 @@
+// No subcommand: the window.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/subcommands/subcommands.h"
+#include "core/base/error.h"
+
+#ifdef DMOSCOPE_HAVE_GUI
+#include <cstdlib>
+
+#include "app/window/window.h"
+#endif
+
+namespace dmoscope::app {
+namespace {
+
+std::string hint(const std::vector<std::string>& subcommands) {
+  return fmt::format("subcommands that need no screen: {} (dmoscope --help)", fmt::join(subcommands, ", "));
+}
+
+#ifdef DMOSCOPE_HAVE_GUI
+bool has_display() {
+  const auto is_set = [](const char* name) {
+    const char* value = std::getenv(name);
+    return value != nullptr && *value != '\0';
+  };
+  return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
+}
+#endif
+
+/// A mistyped subcommand must not open an empty window.
+void require_files(const std::vector<std::filesystem::path>& files, const std::vector<std::string>& subcommands) {
+  for (const auto& file : files) {
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) {
+      throw InputError(file.string(), 0, fmt::format("there is no such file and no such subcommand; {}", hint(subcommands)));
+    }
+  }
+}
+
+}  // namespace
+
+int open_window(const std::vector<std::filesystem::path>& files, const std::vector<std::string>& subcommands) {
+  require_files(files, subcommands);
+#ifdef DMOSCOPE_HAVE_GUI
+  if (!has_display()) {
+    throw UsageError(
+        fmt::format("there is no display (neither DISPLAY nor WAYLAND_DISPLAY is set), so no window can open; {}", hint(subcommands)));
+  }
+  WindowOptions options;
+  options.files = files;
+  return run_window(options);
+#else
+  throw UsageError(fmt::format("this program was built without the window; {}", hint(subcommands)));
+#endif
+}
+
+}  // namespace dmoscope::app

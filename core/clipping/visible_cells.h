@@ -1,0 +1,64 @@
+#pragma once
+// Which cells of a volume mesh are seen.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/thread_pool.h"
+#include "core/clipping/clipped_view.h"
+#include "core/mesh/faces.h"
+
+namespace dmoscope {
+
+/// Where the vertices are and how good the cells.
+struct CellState {
+  std::span<const Vec3> positions;
+  std::span<const float> quality;          // one a cell, NaN: not defined
+  std::span<const std::uint8_t> inverted;  // one a cell, or empty: none is
+  std::uint64_t serial = 0;                // differs whenever anything of the above does
+};
+
+/// How many cells lie between each cell and the boundary, counted through faces: 0 for those with a face on it, kNoIndex for those from
+/// which no path leads there. Linear in the number of cells.
+[[nodiscard]] std::vector<Index> layers_of(const ElementTable& elements, const FaceNeighbours& faces);
+
+/// Cells in chunks, each with the cells that changed and, in cut mode, those that the plane passes through.
+struct CellChunk {
+  static constexpr std::size_t kCells = 16384;
+  std::vector<Index> changed, crossed;
+  std::size_t visible = 0;
+};
+
+/// Keeps what does not depend on a plane that is dragged, so that this costs one pass over one number a cell.
+class VisibleCells {
+ public:
+  /// Both must outlive it.
+  VisibleCells(const ElementTable& elements, const FaceNeighbours& faces);
+  /// Finds out anew which cells are seen. Throws UsageError for a view or a state that does not fit: a normal without direction or numbers
+  /// that are none, not as many qualities as cells.
+  void update(const ClippingView& view, const CellState& state, ThreadPool* pool);
+  /// One a cell: 1 where it is seen.
+  [[nodiscard]] std::span<const std::uint8_t> visible() const noexcept { return visible_; }
+  /// Of the last update, in ascending order of cells.
+  [[nodiscard]] std::span<const CellChunk> chunks() const noexcept { return chunks_; }
+  [[nodiscard]] std::size_t changed_count() const noexcept;
+  [[nodiscard]] std::size_t visible_count() const noexcept;
+
+ private:
+  void measure(Vec3 normal, const CellState& state, ThreadPool* pool);
+  void rank_worst(std::size_t count, const CellState& state);
+  const ElementTable& elements_;
+  const FaceNeighbours& faces_;
+  std::vector<std::uint8_t> visible_;
+  std::vector<CellChunk> chunks_;
+  std::vector<Index> layers_;  // empty until they are asked for
+  std::vector<double> heights_, low_, high_;
+  Vec3 measured_normal_{};  // {0, 0, 0}: none
+  std::uint64_t measured_serial_ = 0;
+  std::vector<std::uint8_t> among_worst_;
+  std::size_t ranked_count_ = 0;  // 0: none
+  std::uint64_t ranked_serial_ = 0;
+};
+
+}  // namespace dmoscope

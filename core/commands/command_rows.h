@@ -1,0 +1,38 @@
+#pragma once
+// What the files of the session's commands share. Only session_commands.cpp and those files need it.
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/commands/session_commands.h"
+
+namespace dmoscope {
+
+struct CommandRow {
+  CommandInfo info;
+  std::function<void(CommandContext&, Arguments)> handler;
+  bool remembered = true;  // what it changes can be undone
+};
+
+/// Meshes and files; parameters of the active run; its second aims; its steps; runs and the session; all runs at once.
+[[nodiscard]] std::span<const CommandRow> file_commands();
+[[nodiscard]] std::span<const CommandRow> parameter_commands();
+[[nodiscard]] std::span<const CommandRow> objective_commands();
+[[nodiscard]] std::span<const CommandRow> stepping_commands();
+[[nodiscard]] std::span<const CommandRow> run_commands();
+[[nodiscard]] std::span<const CommandRow> comparison_commands();
+
+void tell(CommandContext& context, std::string text, Message::Kind kind = Message::Kind::Info);
+
+/// Says what the active run holds on interfaces, if anything.
+void tell_interfaces(CommandContext& context);
+
+/// Changes the active run's parameters; says so when that made a new run beside the old one.
+void change_run(CommandContext& context, const std::function<void(RunParameters&)>& edit);
+
+/// The vertices that words such as "7" or "10-20" name, in their order. Throws WrongArguments, and UsageError for one that does not exist.
+[[nodiscard]] std::vector<Index> to_vertices(Arguments words, const Mesh& mesh);
+
+}  // namespace dmoscope

@@ -1,0 +1,28 @@
+#include "core/commands/commands.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace dmoscope {
+
+void CommandTable::add(CommandInfo info, Handler handler) {
+  infos_.push_back(std::move(info));
+  handlers_.push_back(std::move(handler));
+}
+
+bool CommandTable::knows(std::string_view name) const { return std::ranges::find(infos_, name, &CommandInfo::name) != infos_.end(); }
+
+void CommandTable::execute(std::string_view line) const {
+  const std::vector<std::string> words = split_words(line);
+  if (words.empty()) return;
+  const auto found = std::ranges::find(infos_, words.front(), &CommandInfo::name);
+  if (found == infos_.end()) throw UsageError(fmt::format("unknown command '{}'", words.front()));
+  try {
+    handlers_[static_cast<std::size_t>(found - infos_.begin())](Arguments(words).subspan(1));
+  } catch (const WrongArguments& wrong) {
+    throw UsageError(fmt::format("{}; usage: {}", wrong.what(), found->usage));
+  }
+}
+
+}  // namespace dmoscope

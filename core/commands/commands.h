@@ -1,0 +1,36 @@
+#pragma once
+// The command language: one table of commands behind every button, key, palette entry, script line and test.
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/words.h"
+
+namespace dmoscope {
+
+struct CommandInfo {
+  std::string name;   // first word, "step"
+  std::string usage;  // "step vertex|class|iteration [COUNT]"
+  std::string doc;    // one line
+};
+
+/// Commands and what they do. Each room that has commands fills in its own table.
+class CommandTable {
+ public:
+  using Handler = std::function<void(Arguments)>;
+  void add(CommandInfo info, Handler handler);
+  [[nodiscard]] const std::vector<CommandInfo>& commands() const noexcept { return infos_; }
+  [[nodiscard]] bool knows(std::string_view name) const;
+  /// Runs one line; an empty one (or a comment) does nothing. Throws UsageError for an unknown command or wrong arguments
+  /// (with the command's usage), and whatever the handler throws.
+  void execute(std::string_view line) const;
+
+ private:
+  std::vector<CommandInfo> infos_;
+  std::vector<Handler> handlers_;
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,185 @@
+// The session's commands about all runs at once: steps of every run, and runs that differ in one thing.
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/commands/command_rows.h"
+#include "core/smooth/execution/method_table.h"
+
+namespace dmoscope {
+
+namespace {
+
+constexpr std::uint64_t kMostOrders = 200;
+constexpr std::uint64_t kUsualIterations = 20;  // of runs that are to be compared, where nobody said how many
+
+/// What a device still has of each run is brought to the host, so that a failure later takes nothing away.
+template <class Body>
+void for_runs(CommandContext& context, const Body& body) {
+  const std::size_t count = context.session.run_count();
+  for (std::size_t k = 0; k < count; ++k) {
+    const Progress::Part part(context.progress, k, count);
+    body(context.session.run(k));
+    context.session.run(k).sync_to_host();
+  }
+}
+
+std::uint64_t count_or(Arguments arguments, std::size_t index, std::uint64_t otherwise) {
+  return arguments.size() > index ? to_count(arguments[index]) : otherwise;
+}
+
+/// By turns, so that all of them are seen to go on.
+void iterate_each(CommandContext& context, std::uint64_t iterations) {
+  for (std::uint64_t i = 0; i < iterations; ++i) {
+    const Progress::Part part(context.progress, i, iterations);
+    for_runs(context, [&](Run& run) { run.step(StepUnit::Iteration, context.progress); });
+  }
+}
+
+void each(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 3);
+  (void)context.session.active();
+  const std::string& what = arguments[0];
+  if (what == "step" || what == "run") {
+    require(arguments, what == "run" ? 2 : 1, 2);
+    iterate_each(context, count_or(arguments, 1, 1));
+  } else if (what == "back") {
+    require(arguments, 1, 1);
+    for_runs(context, [&](Run& run) { run.back(StepUnit::Iteration, context.progress); });
+  } else if (what == "until-converged") {
+    ConvergenceLimits limits;
+    limits.patience = arguments.size() > 1 ? to_count(arguments[1], 1) : limits.patience;
+    limits.max_iterations = arguments.size() > 2 ? to_count(arguments[2], 1) : limits.max_iterations;
+    for_runs(context, [&](Run& run) {
+      tell(context, fmt::format("{}: {}", run.title(), run.until_converged(limits, context.progress).sentence()));
+    });
+  } else if (what == "seek") {
+    require(arguments, 2, 2);
+    const std::uint64_t iteration = to_count(arguments[1]);
+    for_runs(context, [&](Run& run) { run.seek({iteration}, context.progress); });
+  } else if (what == "reset") {
+    require(arguments, 1, 1);
+    std::size_t k = 0;
+    for_runs(context, [&](Run& run) {
+      run.reset(context.progress);
+      for (const std::string& line :
+           {fmt::format("select-run {}", ++k), std::string("reset"), fmt::format("select-run {}", context.session.active_index() + 1)})
+        context.done.push_back(line);
+    });
+  } else {
+    throw WrongArguments(fmt::format("'{}' is nothing that every run can do", what));
+  }
+}
+
+bool has_run(Session& session, const RunParameters& parameters) {
+  for (std::size_t k = 0; k < session.run_count(); ++k)
+    if (session.run(k).parameters() == parameters) return true;
+  return false;
+}
+
+/// Adds those runs that the session does not have yet, all or none, and leaves the active run the active one. A run that cannot be is left
+/// out, and told of, with the reason.
+void add_missing(CommandContext& context, const std::vector<RunParameters>& wanted) {
+  Session& session = context.session;
+  const std::size_t active = session.active_index(), before = session.run_count();
+  try {
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      context.progress.check();
+      context.progress.set(static_cast<double>(i) / static_cast<double>(wanted.size()));
+      if (has_run(session, wanted[i])) continue;
+      try {
+        session.add_run(wanted[i]);
+      } catch (const UsageError& error) {
+        tell(context, fmt::format("left out: {}", error.what()), Message::Kind::Warning);
+      }
+    }
+  } catch (...) {
+    while (session.run_count() > before) session.remove_run(session.run_count() - 1);
+    session.select(active);
+    throw;
+  }
+  session.select(active);
+}
+
+/// Takes every run that is not as far yet to the end of an iteration, by turns.
+void bring_to(CommandContext& context, std::uint64_t iteration) {
+  std::uint64_t least = iteration;
+  for (std::size_t k = 0; k < context.session.run_count(); ++k) least = std::min(least, context.session.run(k).moment().iteration);
+  for (std::uint64_t i = least; i < iteration; ++i) {
+    const Progress::Part part(context.progress, i - least, iteration - least);
+    for_runs(context, [&](Run& run) {
+      if (run.moment().iteration <= i) run.step(StepUnit::Iteration, context.progress);
+    });
+  }
+}
+
+std::vector<RunParameters> every_method(const RunParameters& like) {
+  std::vector<RunParameters> wanted;
+  for (const MethodInfo& method : method_table()) {
+    wanted.push_back(like);
+    wanted.back().method = method.name;
+    if (method.name != like.method) wanted.back().combination.reset();  // which is a method's own
+  }
+  return wanted;
+}
+
+std::vector<RunParameters> every_metric(const RunParameters& like, const Mesh& mesh) {
+  std::vector<RunParameters> wanted;
+  for (const MetricInfo& metric : metric_table()) {
+    const bool defined = std::ranges::all_of(mesh.elements.kinds(), [&](ElementKind kind) { return metric.defined_for(kind); });
+    if (!defined) continue;
+    wanted.push_back(like);
+    wanted.back().metric = metric.metric;
+  }
+  return wanted;
+}
+
+std::vector<RunParameters> orders(const RunParameters& like, std::uint64_t count) {
+  if (count > kMostOrders) throw UsageError(fmt::format("at most {} orders can be compared at once, not {}", kMostOrders, count));
+  std::vector<RunParameters> wanted;
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    wanted.push_back(like);
+    wanted.back().order.seed = seed;
+  }
+  return wanted;
+}
+
+void compare(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 3);
+  const Run& active = context.session.active();
+  const RunParameters like = active.parameters();
+  const bool of_orders = arguments[0] == "orders";
+  require(arguments, of_orders ? 2 : 1, of_orders ? 3 : 2);
+  std::vector<RunParameters> wanted;
+  std::string added = "compare " + arguments[0];
+  if (arguments[0] == "methods") {
+    wanted = every_method(like);
+  } else if (arguments[0] == "metrics") {
+    wanted = every_metric(like, active.input().mesh);
+  } else if (of_orders) {
+    wanted = orders(like, to_count(arguments[1], 1));
+    added += ' ' + arguments[1];
+  } else {
+    throw WrongArguments(fmt::format("'{}' is nothing that runs are compared by", arguments[0]));
+  }
+  const std::uint64_t reached = active.moment().iteration;
+  const std::uint64_t iterations = count_or(arguments, of_orders ? 2 : 1, reached > 0 ? reached : kUsualIterations);
+  add_missing(context, wanted);
+  context.done.push_back(added + " 0");
+  bring_to(context, iterations);
+}
+
+}  // namespace
+
+std::span<const CommandRow> comparison_commands() {
+  static const std::vector<CommandRow> table{
+      {{"each", "each step|run|back|until-converged|seek|reset [N [MAX]]", "Does that with every run, iterations by turns."}, each},
+      {{"compare", "compare methods|metrics [ITERATIONS] | compare orders N [ITERATIONS]",
+        "Adds runs like the active one by every method, for every metric, or in N shuffled orders, and takes all to the same iteration."},
+       compare},
+  };
+  return table;
+}
+
+}  // namespace dmoscope

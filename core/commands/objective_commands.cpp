@@ -1,0 +1,69 @@
+// The session's commands: what the active run aims at besides its metric's minimum.
+
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "core/commands/command_rows.h"
+
+namespace dmoscope {
+
+namespace {
+
+/// What is to be known of the size function that was chosen.
+void tell_note(CommandContext& context) {
+  const auto& size = context.session.active().size_field();
+  if (size && !size->note().empty()) tell(context, size->note(), Message::Kind::Warning);
+}
+
+void combine(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 2);
+  if (arguments[0] == "off") {
+    require(arguments, 1, 1);
+    change_run(context, [](RunParameters& p) { p.combination.reset(); });
+    return;
+  }
+  auto parsed = parse_combination(arguments[0], arguments.size() > 1 ? arguments[1] : "");
+  const bool follows = context.session.shown() == context.session.active().parameters().metric;
+  change_run(context, [&](RunParameters& p) { std::tie(p.metric, p.combination) = std::move(parsed); });
+  if (follows) context.session.show(context.session.active().parameters().metric);
+  tell_note(context);
+}
+
+void set_size_point(CommandContext& context, Arguments arguments) {
+  require(arguments, 2, 3);
+  const double z = arguments.size() > 2 ? to_number(arguments[2]) : 0.0;
+  const Vec3 point{to_number(arguments[0]), to_number(arguments[1]), z};
+  const auto& combination = context.session.active().parameters().combination;
+  const SizeFunction* size = combination ? combination->size() : nullptr;
+  if (size == nullptr || !size->has_point())
+    throw UsageError("the active run has no size function with a point: see combine, with h1 or h2");
+  change_run(context, [&](RunParameters& p) { std::get<SizeFunction>(p.combination->second).point = point; });
+}
+
+void then(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 2);
+  std::optional<MeanPhase> phase;
+  if (arguments[0] == "mean") {
+    phase.emplace();
+    if (arguments.size() > 1) phase->patience = to_count(arguments[1], 1);
+  } else if (arguments[0] != "nothing" || arguments.size() > 1) {
+    throw WrongArguments(fmt::format("'{}' is nothing that can follow: mean or nothing", arguments.back()));
+  }
+  change_run(context, [&](RunParameters& p) { p.then_mean = phase; });
+}
+
+}  // namespace
+
+std::span<const CommandRow> objective_commands() {
+  static const std::vector<CommandRow> table{
+      {{"combine", "combine FIRST:THRESHOLD:SECOND [SIZE]|off",
+        "Raises the metric FIRST up to THRESHOLD, beyond it SECOND: a metric, or density by SIZE (h1:X,Y, h2:X,Y, constant, field:NAME)."},
+       combine},
+      {{"size-point", "size-point X Y [Z]", "Moves the point of the size function h1 or h2."}, set_size_point},
+      {{"then", "then mean [PATIENCE]|nothing", "Raises the mean once the minimum has converged, with the minimum as floor."}, then},
+  };
+  return table;
+}
+
+}  // namespace dmoscope

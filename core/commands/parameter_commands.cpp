@@ -1,0 +1,98 @@
+// The session's commands: parameters of the active run, and the metric that is shown.
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/commands/command_rows.h"
+#include "core/mesh/vertex_words.h"
+#include "core/smooth/execution/method_table.h"
+
+namespace dmoscope {
+
+namespace {
+
+void set_metric(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  const Metric metric = parse_metric(arguments[0]);
+  const bool follows = context.session.shown() == context.session.active().parameters().metric;
+  change_run(context, [&](RunParameters& p) { p.metric = metric; });
+  if (follows) context.session.show(metric);  // what is shown follows what is optimised until it was chosen apart
+}
+void show_metric(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  context.session.show(parse_metric(arguments[0]));
+}
+void set_method(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  const RunParameters& now = context.session.active().parameters();
+  const bool drops = now.combination && method_info(arguments[0]).name != now.method;
+  change_run(context, [&](RunParameters& p) {
+    p.method = arguments[0];
+    if (drops) p.combination.reset();  // which is a method's own
+  });
+  if (drops) tell(context, "the second aim is dmo's: this run has none");
+}
+/// Sets a parameter of the table.
+void set(const ParameterInfo& row, CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  RunParameters checked;
+  row.from_text(checked, arguments[0]);  // what is no such value changes nothing
+  change_run(context, [&](RunParameters& p) { row.from_text(p, arguments[0]); });
+}
+void set_backend(CommandContext& context, Arguments arguments) {
+  set(parameter_info("backend"), context, arguments);
+  tell(context, context.session.active().backend_sentence());
+}
+void set_interfaces(CommandContext& context, Arguments arguments) {
+  set(parameter_info("interfaces"), context, arguments);
+  tell_interfaces(context);
+}
+
+/// A command for every row of the table; two tell more.
+void add_parameters(std::vector<CommandRow>& table) {
+  for (const ParameterInfo& row : parameter_table()) {
+    if (!row.in_session) continue;
+    CommandRow command{{std::string(row.name), fmt::format("{} {}", row.name, row.type), row.help() + "."},
+                       [&row](CommandContext& context, Arguments arguments) { set(row, context, arguments); }};
+    if (row.name == "backend") command.handler = set_backend;
+    if (row.name == "interfaces") command.handler = set_interfaces;
+    table.push_back(std::move(command));
+  }
+}
+
+void fix(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, arguments.size());
+  const std::vector<Index> vertices = vertices_named(context.session.input()->mesh, arguments);
+  change_run(context, [&](RunParameters& p) { p.fixed.insert(p.fixed.end(), vertices.begin(), vertices.end()); });
+}
+void unfix(CommandContext& context, Arguments arguments) {
+  if (arguments.empty()) return change_run(context, [](RunParameters& p) { p.fixed.clear(); });
+  std::vector<Index> vertices = vertices_named(context.session.input()->mesh, arguments);
+  std::ranges::sort(vertices);
+  change_run(context, [&](RunParameters& p) { std::erase_if(p.fixed, [&](Index v) { return std::ranges::binary_search(vertices, v); }); });
+}
+
+}  // namespace
+
+std::span<const CommandRow> parameter_commands() {
+  static const std::vector<CommandRow> table = [] {
+    std::vector<CommandRow> rows{
+        {{"metric", "metric NAME", "Chooses the metric that is optimised."}, set_metric},
+        {{"show", "show NAME", "Chooses the metric that is shown."}, show_metric},
+        {{"method", "method NAME", "Chooses the smoothing method."}, set_method},
+    };
+    add_parameters(rows);
+    rows.push_back({{"fix", "fix VERTEX|A-B|group:NAME|FIELD=VALUE|box:X0,Y0,X1,Y1...",
+                     "Fixes vertices besides the boundary: by number, by a group's name, by data of the file, or in a box."},
+                    fix});
+    rows.push_back(
+        {{"unfix", "unfix [VERTEX|A-B|group:NAME|FIELD=VALUE|box:X0,Y0,X1,Y1...]", "Frees what was fixed by hand: all, or these vertices."},
+         unfix});
+    return rows;
+  }();
+  return table;
+}
+
+}  // namespace dmoscope

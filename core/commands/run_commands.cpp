@@ -1,0 +1,120 @@
+// The session's commands: the runs, the session, and what scripts need.
+
+#include <fmt/format.h>
+
+#include "core/base/byte_size.h"
+#include "core/commands/command_rows.h"
+
+namespace dmoscope {
+
+namespace {
+
+void add_run(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  RunParameters parameters = context.session.active().parameters();
+  const std::size_t colon = arguments[0].find(':');
+  parameters.method = arguments[0].substr(0, colon);
+  if (parameters.method != context.session.active().parameters().method) parameters.combination.reset();  // which is a method's own
+  if (colon != std::string::npos) parameters.metric = parse_metric(arguments[0].substr(colon + 1));
+  context.session.add_run(std::move(parameters));
+}
+void select_run(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  context.session.select(to_count(arguments[0], 1) - 1);
+}
+void remove_run(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  context.session.remove_run(to_count(arguments[0], 1) - 1);
+}
+void set_threads(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  const std::uint64_t threads = to_count(arguments[0]);
+  if (threads > 1024) throw UsageError(fmt::format("threads must be 0 (all) to 1024, not {}", threads));
+  context.session.set_threads(static_cast<unsigned>(threads));
+}
+void set_most_memory(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  context.session.set_most_memory(arguments[0] == "off" ? 0 : parse_byte_size(arguments[0]));
+}
+void set_history(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  context.session.set_history_budget(to_count(arguments[0]) << 20U);
+}
+
+double quantity(Run& run, const std::string& name) {
+  if (name == "iteration") return static_cast<double>(run.moment().iteration);
+  if (name == "moved") return static_cast<double>(run.history().records().at(run.moment().iteration).moved);
+  const Statistics statistics = run.statistics();
+  if (name == "minimum") return statistics.minimum;
+  if (name == "movable") return statistics.movable_minimum;
+  if (name == "mean") return statistics.mean;
+  if (name == "inverted") return statistics.inverted;
+  throw WrongArguments(fmt::format("'{}' is nothing that can be expected", name));
+}
+
+void expect(CommandContext& context, Arguments arguments) {
+  require(arguments, 3, 3);
+  const double value = quantity(context.session.active(), arguments[0]);
+  const double bound = to_number(arguments[2]);
+  const std::string& relation = arguments[1];
+  bool holds = false;
+  if (relation == "<")
+    holds = value < bound;
+  else if (relation == "<=")
+    holds = value <= bound;
+  else if (relation == "==")
+    holds = value == bound;
+  else if (relation == ">=")
+    holds = value >= bound;
+  else if (relation == ">")
+    holds = value > bound;
+  else
+    throw WrongArguments(fmt::format("'{}' is no comparison", relation));
+  if (!holds) throw NotReached(fmt::format("expected {} {} {}, but it is {}", arguments[0], relation, arguments[2], value));
+}
+
+void say(CommandContext& context, Arguments arguments) {
+  std::string text;
+  for (const std::string& word : arguments) {
+    if (!text.empty()) text += ' ';
+    text += word;
+  }
+  tell(context, std::move(text));
+}
+
+void set_percentiles(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  if (arguments[0] != "on" && arguments[0] != "off") throw WrongArguments(fmt::format("'{}' is neither on nor off", arguments[0]));
+  context.session.set_percentiles(arguments[0] == "on");
+}
+void undo(CommandContext& context, Arguments arguments) {
+  require(arguments, 0, 0);
+  tell(context, fmt::format("undid: {}", context.session.undo(context.progress)));
+}
+void redo(CommandContext& context, Arguments arguments) {
+  require(arguments, 0, 0);
+  tell(context, fmt::format("redid: {}", context.session.redo(context.progress)));
+}
+
+}  // namespace
+
+std::span<const CommandRow> run_commands() {
+  static const std::vector<CommandRow> table{
+      {{"add-run", "add-run METHOD[:METRIC]", "Adds a run beside the others."}, add_run},
+      {{"select-run", "select-run K", "Makes run K (from 1) the active one."}, select_run},
+      {{"remove-run", "remove-run K", "Removes run K."}, remove_run},
+      {{"undo", "undo", "Undoes the last command that changed mesh or runs."}, undo, false},
+      {{"redo", "redo", "Does again what was undone."}, redo, false},
+      {{"threads", "threads N", "Threads to smooth with; 0: all."}, set_threads},
+      {{"history", "history MIB", "Memory for positions of past iterations, all runs together."}, set_history},
+      {{"max-memory", "max-memory SIZE|off", "How much a compressed file may unpack to (800M, 2G); off: 256M or 100 times its size."},
+       set_most_memory},
+      {{"percentiles", "percentiles on|off", "Works out the 1st, 5th and 50th percentile of every iteration that is kept."},
+       set_percentiles},
+      {{"expect", "expect minimum|movable|mean|inverted|iteration|moved <|<=|==|>=|> VALUE", "Fails when it does not hold."}, expect},
+      {{"say", "say TEXT", "Writes a line to the log."}, say},
+  };
+  return table;
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,118 @@
+#include "core/commands/session_commands.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "core/commands/command_rows.h"
+
+namespace dmoscope {
+
+namespace {
+
+/// What the runs have to tell of their backends.
+void tell_warnings(CommandContext& context) {
+  for (std::size_t i = 0; i < context.session.run_count(); ++i)
+    if (std::string warning = context.session.run(i).take_warning(); !warning.empty())
+      tell(context, std::move(warning), Message::Kind::Warning);
+}
+
+/// Calls `take` with every command, theme after theme.
+template <class Take>
+void for_command_rows(const Take& take) {
+  for (const std::span<const CommandRow> theme :
+       {file_commands(), parameter_commands(), objective_commands(), stepping_commands(), run_commands(), comparison_commands()})
+    for (const CommandRow& command : theme) take(command);
+}
+
+/// What a person reads of a command: "visit 12 13 14…".
+std::string label_of(const std::string& command, Arguments arguments) {
+  constexpr std::size_t kLongest = 48;
+  std::string label = command;
+  for (const std::string& word : arguments) {
+    if (label.size() + word.size() > kLongest) return label + " …";
+    label += ' ' + word;
+  }
+  return label;
+}
+
+/// Whatever `work` changes can be undone, even when it fails half-way.
+template <class Work>
+void remembering(Session& session, std::string label, const Work& work) {
+  const SessionPoint before = session.point();
+  try {
+    work();
+  } catch (...) {
+    session.remember(std::move(label), before);
+    throw;
+  }
+  session.remember(std::move(label), before);
+}
+
+/// The vertices "A-B" names, or the one.
+std::pair<std::uint64_t, std::uint64_t> to_range(const std::string& word) {
+  const std::size_t dash = word.find('-');
+  if (dash == std::string::npos) return {to_count(word), to_count(word)};
+  const std::pair range{to_count(word.substr(0, dash)), to_count(word.substr(dash + 1))};
+  if (range.first > range.second) throw WrongArguments(fmt::format("'{}' ends before it begins", word));
+  return range;
+}
+
+}  // namespace
+
+void tell(CommandContext& context, std::string text, Message::Kind kind) { context.say({kind, std::move(text), 0}); }
+
+void tell_interfaces(CommandContext& context) {
+  const Run& run = context.session.active();
+  if (run.parameters().interfaces == InterfaceRule::Free) return;
+  std::string sentence = run.input().interfaces.sentence("'interfaces free'");
+  if (!sentence.empty()) tell(context, std::move(sentence), Message::Kind::Warning);
+}
+
+void change_run(CommandContext& context, const std::function<void(RunParameters&)>& edit) {
+  RunParameters parameters = context.session.active().parameters();
+  edit(parameters);
+  const std::size_t before = context.session.run_count();
+  const std::size_t index = context.session.change(std::move(parameters));
+  if (context.session.run_count() > before)
+    tell(context, fmt::format("run {}: {}, from the input; the run before is kept", index + 1, context.session.active().title()));
+}
+
+std::vector<Index> to_vertices(Arguments words, const Mesh& mesh) {
+  std::vector<Index> vertices;
+  for (const std::string& word : words) {
+    const auto [first, last] = to_range(word);
+    if (last >= mesh.vertex_count()) throw UsageError(fmt::format("there is no vertex {}: the mesh has {}", last, mesh.vertex_count()));
+    for (std::uint64_t v = first; v <= last; ++v) vertices.push_back(static_cast<Index>(v));
+  }
+  return vertices;
+}
+
+const std::vector<CommandInfo>& session_commands() {
+  static const std::vector<CommandInfo> infos = [] {
+    std::vector<CommandInfo> list;
+    for_command_rows([&](const CommandRow& command) { list.push_back(command.info); });
+    return list;
+  }();
+  return infos;
+}
+
+void add_session_commands(CommandTable& table, CommandContext& context) {
+  for_command_rows([&](const CommandRow& command) {
+    table.add(command.info, [&context, command](Arguments arguments) {
+      const auto carry_out = [&] {
+        command.handler(context, arguments);
+        if (context.session.has_input())
+          context.session.active().sync_to_host();  // a device that fails later takes nothing of what was asked for
+      };
+      if (command.remembered) {
+        remembering(context.session, label_of(command.info.name, arguments), carry_out);
+      } else {
+        carry_out();
+      }
+      tell_warnings(context);
+    });
+  });
+}
+
+}  // namespace dmoscope

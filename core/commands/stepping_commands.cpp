@@ -1,0 +1,124 @@
+// The session's commands: steps of the active run, forwards and back.
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/commands/command_rows.h"
+#include "core/run/left_inverted.h"
+#include "core/run/mean_given_up.h"
+
+namespace dmoscope {
+
+namespace {
+
+StepUnit to_unit(const std::string& word) {
+  if (word == "vertex") return StepUnit::Vertex;
+  if (word == "class") return StepUnit::Class;
+  if (word == "iteration") return StepUnit::Iteration;
+  throw WrongArguments(fmt::format("'{}' is no unit of stepping", word));
+}
+
+void step(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 2);
+  const StepUnit unit = to_unit(arguments[0]);
+  const std::uint64_t count = arguments.size() > 1 ? to_count(arguments[1]) : 1;
+  for (std::uint64_t i = 0; i < count; ++i) context.session.active().step(unit, context.progress);
+}
+void back(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 2);
+  const StepUnit unit = to_unit(arguments[0]);
+  const std::uint64_t count = arguments.size() > 1 ? to_count(arguments[1]) : 1;
+  for (std::uint64_t i = 0; i < count && context.session.active().back(unit, context.progress); ++i) {
+  }
+}
+/// Says what a person should know of a run that has come to its end.
+void tell_ending(CommandContext& context, const Run& run, const Outcome& outcome) {
+  if (outcome.inverted > 0)
+    if (const auto left = find_left_inverted(run)) tell(context, left->sentence(), Message::Kind::Warning);
+  const std::string worse = worse_than_best(run.parameters(), best_iteration(run), run.moment().iteration);
+  if (!worse.empty()) tell(context, worse + " ('best' goes there)", Message::Kind::Warning);
+}
+void run(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  Run& active = context.session.active();
+  tell_ending(context, active, active.iterate(to_count(arguments[0]), context.progress));
+}
+void until_converged(CommandContext& context, Arguments arguments) {
+  require(arguments, 0, 2);
+  ConvergenceLimits limits;
+  if (!arguments.empty()) limits.patience = to_count(arguments[0], 1);
+  if (arguments.size() > 1) limits.max_iterations = to_count(arguments[1], 1);
+  Run& active = context.session.active();
+  const Outcome outcome = active.until_converged(limits, context.progress);
+  tell(context, outcome.sentence());
+  tell_ending(context, active, outcome);
+  if (const std::string fell = mean_given_up(active); !fell.empty()) tell(context, fell + " ('then mean')");
+}
+void best(CommandContext& context, Arguments arguments) {
+  require(arguments, 0, 0);
+  Run& active = context.session.active();
+  const std::uint64_t iteration = best_iteration(active);
+  active.seek({iteration}, context.progress);
+  tell(context, iteration == 0 ? "the input itself is the best" : fmt::format("the best iteration is {}", iteration));
+}
+/// Those among `vertices` that may move; tells of the others, which stay where they are.
+std::vector<Index> free_among(CommandContext& context, const Run& run, const std::vector<Index>& vertices) {
+  constexpr std::size_t kNamed = 8;
+  std::vector<Index> free, fixed;
+  for (const Index vertex : vertices) (run.why_fixed(vertex).empty() ? free : fixed).push_back(vertex);
+  if (fixed.empty()) return free;
+  if (fixed.size() == 1 && free.empty())
+    throw UsageError(fmt::format("vertex {} cannot be visited: {}", fixed[0], run.why_fixed(fixed[0])));
+  const std::string named =
+      fmt::format("{}{}", fmt::join(fixed.begin(), fixed.begin() + static_cast<std::ptrdiff_t>(std::min(fixed.size(), kNamed)), ", "),
+                  fixed.size() > kNamed ? ", …" : "");
+  if (free.empty()) throw UsageError(fmt::format("all {} vertices are fixed: {}", fixed.size(), named));
+  tell(
+      context,
+      fmt::format("{} of {} vertices {} fixed and not visited: {}", fixed.size(), vertices.size(), fixed.size() == 1 ? "is" : "are", named),
+      Message::Kind::Warning);
+  return free;
+}
+
+void visit(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, arguments.size());
+  Run& run = context.session.active();
+  const std::vector<Index> vertices = free_among(context, run, to_vertices(arguments, run.input().mesh));
+  const std::uint64_t moved = run.visit_vertices(vertices, context.progress);
+  tell(context, vertices.size() == 1 ? fmt::format("vertex {} {}", vertices[0], moved == 0 ? "stays: no candidate is better" : "moved")
+                                     : fmt::format("{} of {} vertices moved", moved, vertices.size()));
+}
+void seek(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 3);
+  const auto part = [&](std::size_t i) { return arguments.size() > i ? to_count(arguments[i]) : 0; };
+  context.session.active().seek({part(0), part(1), part(2)}, context.progress);
+}
+void reset(CommandContext& context, Arguments arguments) {
+  require(arguments, 0, 0);
+  Run& active = context.session.active();
+  const std::size_t edits = active.edits().all().size();
+  active.reset(context.progress);
+  if (edits > 0) tell(context, fmt::format("{} visit{} of chosen vertices forgotten", edits, edits == 1 ? "" : "s"));
+}
+
+}  // namespace
+
+std::span<const CommandRow> stepping_commands() {
+  static const std::vector<CommandRow> table{
+      {{"step", "step vertex|class|iteration [COUNT]", "Steps forwards."}, step},
+      {{"back", "back vertex|class|iteration [COUNT]", "Steps back."}, back},
+      {{"run", "run ITERATIONS", "Runs that many iterations."}, run},
+      {{"until-converged", "until-converged [PATIENCE [MAX]]", "Runs until nothing moves or no minimum rises any more."}, until_converged},
+      {{"visit", "visit VERTEX|A-B...", "Visits these vertices now, out of their turn."}, visit},
+      {{"seek", "seek ITERATION [VISITS [EDITS]]", "Goes to any iteration, or into its midst."}, seek},
+      {{"look-at", "look-at ITERATION [VISITS [EDITS]]", "Goes there as seek does, but for a look: undo knows nothing of it."},
+       seek,
+       false},
+      {{"best", "best", "Goes to the best iteration that the run passed through: by inverted elements, minimum and mean."}, best},
+      {{"reset", "reset", "Goes back to the input; visits of chosen vertices are forgotten."}, reset},
+  };
+  return table;
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,255 @@
+#include "core/engine/engine.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+
+namespace dmoscope {
+
+std::chrono::steady_clock::duration publication_pause(bool light, std::chrono::steady_clock::duration cost) {
+  constexpr std::chrono::milliseconds kWhole{100}, kLight{12};
+  constexpr int kShare = 5;
+  return std::max<std::chrono::steady_clock::duration>(light ? kLight : kWhole, kShare * cost);
+}
+
+Engine::Engine(unsigned threads, Acceleration acceleration, Backend backend)
+    : session_(threads, std::move(acceleration), backend),
+      context_{session_, progress_, [this](Message message) { say(std::move(message)); }},
+      view_(std::make_shared<SessionView>()) {
+  add_session_commands(commands_, context_);
+  thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
+}
+
+Engine::~Engine() {
+  cancel();
+  thread_.request_stop();
+}
+
+std::uint64_t Engine::post(std::string command_line) {
+  std::uint64_t id = 0;
+  {
+    const std::scoped_lock lock(mutex_);
+    id = ++last_id_;
+    queue_.push_back({id, std::move(command_line)});
+  }
+  changed_.notify_all();
+  return id;
+}
+
+std::size_t Engine::pending() const {
+  const std::scoped_lock lock(mutex_);
+  return queue_.size() + (working_ ? 1 : 0);
+}
+
+void Engine::watch(std::vector<Watch> watched) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (watched_ == watched) return;
+    watched_ = std::move(watched);
+    watch_new_ = true;
+  }
+  changed_.notify_all();
+}
+
+std::vector<Watch> Engine::watched() const {
+  const std::scoped_lock lock(mutex_);
+  return watched_;
+}
+
+void Engine::wait_idle() {
+  std::unique_lock lock(mutex_);
+  ++waiting_;
+  changed_.notify_all();
+  changed_.wait(lock, [&] { return queue_.empty() && !watch_new_ && !working_ && !resting_; });
+  --waiting_;
+}
+
+void Engine::cancel() {
+  {
+    const std::scoped_lock lock(mutex_);
+    for (const Posted& command : queue_) ends_.push_back({command.id, CommandEnd::Kind::Dropped});
+    queue_.clear();
+    if (working_) progress_.request_cancel();
+  }
+  changed_.notify_all();
+}
+
+std::string Engine::current_command() const {
+  const std::scoped_lock lock(mutex_);
+  return current_.line;
+}
+
+std::shared_ptr<const SessionView> Engine::view() {
+  const std::scoped_lock lock(mutex_);
+  taken_ = true;
+  return view_;
+}
+
+std::vector<Message> Engine::take_messages() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(messages_, {});
+}
+
+std::vector<CommandEnd> Engine::take_ends() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(ends_, {});
+}
+
+void Engine::set_wake(std::function<void()> wake) {
+  const std::scoped_lock lock(mutex_);
+  wake_ = std::move(wake);
+}
+
+void Engine::work(const std::stop_token& stop) {
+  constexpr std::chrono::milliseconds kQuiet{60};
+  std::unique_lock lock(mutex_);
+  while (changed_.wait(lock, stop, [&] { return !queue_.empty() || watch_new_; })) {
+    resting_ = true;  // also while a view of what is newly watched is made
+    if (queue_.empty()) {
+      lock.unlock();
+      publish_at_rest();
+    } else {
+      work_off(lock);
+    }
+    lock.lock();
+    // Whoever drags along the timeline asks for the next at once, and shall not wait for what nobody looks at.
+    changed_.wait_for(lock, stop, kQuiet, [&] { return !queue_.empty() || watch_new_ || waiting_ > 0; });
+    lock.unlock();
+    rest(stop);
+    lock.lock();
+    resting_ = false;
+    changed_.notify_all();
+  }
+}
+
+/// The first command of the queue; `lock` is held before and not after.
+void Engine::work_off(std::unique_lock<std::mutex>& lock) {
+  current_ = std::move(queue_.front());
+  queue_.pop_front();
+  working_ = true;
+  progress_.clear_cancel();
+  lock.unlock();
+  const CommandEnd end = run_one(current_);
+  publish_at_rest();
+  lock.lock();
+  working_ = false;
+  current_ = {};
+  ends_.push_back(end);
+  changed_.notify_all();
+  const auto wake = wake_;
+  lock.unlock();
+  if (wake) wake();  // idle now: the last look at progress
+}
+
+CommandEnd Engine::run_one(const Posted& command) {
+  const auto moment = [this] { return session_.has_input() ? session_.active().moment() : Moment{}; };
+  progress_.begin(command.line);
+  context_.done.clear();
+  session_.observe([this](const Run& run) {
+    try {
+      publish_if_due();
+    } catch (const DeviceError&) {
+      if (&run == &session_.active()) throw;  // another run's device fails: that one hears of it when it is asked next
+    }
+  });
+  const Moment before = moment();
+  const SessionPoint point = session_.point();
+  CommandEnd end{command.id, execute(command.line)};
+  end.at = moment();
+  end.moved = end.at != before;
+  if (end.kind != CommandEnd::Kind::Done) end.again = commands_from(session_, point, context_.done);
+  return end;
+}
+
+CommandEnd::Kind Engine::execute(const std::string& line) {
+  using Kind = CommandEnd::Kind;
+  try {
+    commands_.execute(line);
+    return Kind::Done;
+  } catch (const Cancelled& cancelled) {
+    say({Message::Kind::Warning, "cancelled: " + line, cancelled.exit_code()});
+    return Kind::Cancelled;
+  } catch (const Error& error) {
+    say({Message::Kind::Error, error.what(), error.exit_code()});
+  } catch (const std::bad_alloc&) {
+    say({Message::Kind::Error, "not enough memory for: " + line, 3});
+  } catch (const std::exception& unforeseen) {  // a person's session must outlive our mistakes
+    say({Message::Kind::Error, line + ": " + unforeseen.what(), 3});
+  }
+  return Kind::Failed;
+}
+
+void Engine::publish_if_due() {
+  if (!taken_ || std::chrono::steady_clock::now() < next_publication_) return;
+  publish(FrameDetail::Live);
+}
+
+/// Never throws: what cannot be shown is said, and what was published before stays.
+void Engine::publish_at_rest() {
+  try {
+    try {
+      publish(FrameDetail::Whole);
+    } catch (const DeviceError&) {  // the run goes on from where the host knows it
+      session_.active().recover();
+      say({Message::Kind::Warning, session_.active().take_warning(), 0});
+      publish(FrameDetail::Whole);
+    }
+  } catch (const Error& error) {
+    say({Message::Kind::Error, fmt::format("what is reached cannot be shown: {}", error.what()), error.exit_code()});
+  } catch (const std::bad_alloc&) {
+    say({Message::Kind::Error, "not enough memory to show what is reached", 3});
+  }
+}
+
+/// Works out what views show besides frames, until somebody asks for something. Never throws.
+void Engine::rest(const std::stop_token& stop) {
+  const auto go_on = [&] {
+    const std::scoped_lock lock(mutex_);
+    return !stop.stop_requested() && queue_.empty() && !watch_new_;
+  };
+  try {
+    if (frames_.work_at_rest(session_, watched(), go_on)) publish(FrameDetail::Whole);
+    if (frames_.work_long_at_rest(session_, go_on)) publish(FrameDetail::Whole);
+  } catch (const Error& error) {
+    say({Message::Kind::Warning, error.what(), 0});
+  } catch (const std::bad_alloc&) {
+    say({Message::Kind::Warning, "not enough memory to compare the runs", 0});
+  }
+}
+
+void Engine::publish(FrameDetail detail) {
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<Watch> watched;
+  {
+    const std::scoped_lock lock(mutex_);
+    watched = watched_;
+    watch_new_ = false;
+  }
+  auto view = frames_.build(session_, detail, watched);
+  const auto end = std::chrono::steady_clock::now();
+  const bool light = view->frame && view->frame->device;
+  next_publication_ = end + publication_pause(light, end - start);
+  std::function<void()> wake;
+  {
+    const std::scoped_lock lock(mutex_);
+    view_ = std::move(view);
+    taken_ = false;
+    wake = wake_;
+  }
+  if (wake) wake();
+}
+
+void Engine::say(Message message) {
+  std::function<void()> wake;
+  {
+    const std::scoped_lock lock(mutex_);
+    messages_.push_back(std::move(message));
+    wake = wake_;
+  }
+  if (wake) wake();
+}
+
+}  // namespace dmoscope

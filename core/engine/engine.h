@@ -1,0 +1,106 @@
+#pragma once
+// A session on a thread of its own. Whoever drives it (window, script, test) posts command lines and reads views; nobody else
+// touches the session, so nothing that takes long can block the window.
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/commands/session_commands.h"
+#include "core/engine/command_end.h"
+#include "core/view/frame_builder.h"
+#include "core/view/view.h"
+
+namespace dmoscope {
+
+/// How long a worker that took `cost` to publish goes on before it publishes again: so long that publishing takes at most a sixth of its
+/// time, and that a screen can show all there is (60 a second of light frames, 10 of whole ones).
+[[nodiscard]] std::chrono::steady_clock::duration publication_pause(bool light, std::chrono::steady_clock::duration cost);
+
+class Engine {
+ public:
+  /// See Session.
+  explicit Engine(unsigned threads = 0, Acceleration acceleration = {}, Backend backend = Backend::Auto);
+  /// Cancels what runs, drops what waits, joins.
+  ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  /// Queues one command line of the table in commands.h. Returns at once the command's number (1, 2, ...); whatever goes wrong becomes a
+  /// Message.
+  std::uint64_t post(std::string command_line);
+  /// Commands posted and not yet finished, the one at work included.
+  [[nodiscard]] std::size_t pending() const;
+  [[nodiscard]] bool busy() const { return pending() != 0; }
+  /// What views show besides the active run from now on: see SessionView::watched. Returns at once; a new view follows.
+  void watch(std::vector<Watch> watched);
+  /// Blocks until nothing is pending and all is worked out that is while the session rests (for scripts and tests; the window never calls
+  /// it).
+  void wait_idle();
+  /// Cancels the command at work and drops the waiting ones.
+  void cancel();
+  [[nodiscard]] const Progress& progress() const noexcept { return progress_; }
+  /// What runs now, as typed; empty when idle.
+  [[nodiscard]] std::string current_command() const;
+
+  /// The latest state; never null. While a command goes on new frames are published (of a run on a device light ones, see Frame), each
+  /// publication_pause() after the one before and only once that was taken by view(); at its end a whole one.
+  [[nodiscard]] std::shared_ptr<const SessionView> view();
+  /// Messages since the last call, oldest first.
+  [[nodiscard]] std::vector<Message> take_messages();
+  /// How the commands ended that did since the last call, in the order in which they did.
+  [[nodiscard]] std::vector<CommandEnd> take_ends();
+  /// Called from the worker whenever a view or message is new (the window wakes its event loop with it). Set before the first post.
+  void set_wake(std::function<void()> wake);
+
+ private:
+  void work(const std::stop_token& stop);
+  void work_off(std::unique_lock<std::mutex>& lock);
+  struct Posted {
+    std::uint64_t id = 0;
+    std::string line;
+  };
+  [[nodiscard]] CommandEnd run_one(const Posted& command);
+  [[nodiscard]] CommandEnd::Kind execute(const std::string& line);
+  void publish(FrameDetail detail);
+  void publish_if_due();
+  void publish_at_rest();
+  void rest(const std::stop_token& stop);
+  [[nodiscard]] std::vector<Watch> watched() const;
+  void say(Message message);
+
+  Progress progress_;
+  Session session_;  // touched by the worker alone
+  CommandContext context_;
+  CommandTable commands_;
+  std::function<void()> wake_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::deque<Posted> queue_;
+  Posted current_;
+  std::uint64_t last_id_ = 0;
+  std::vector<CommandEnd> ends_;
+  std::vector<Watch> watched_;
+  bool watch_new_ = false;  // there is no view with them yet
+  bool working_ = false;
+  bool resting_ = false;  // works out what nobody waits for
+  int waiting_ = 0;       // in wait_idle()
+  std::vector<Message> messages_;
+  std::shared_ptr<const SessionView> view_;
+  std::atomic<bool> taken_{true};
+  FrameBuilder frames_;
+  std::chrono::steady_clock::time_point next_publication_;
+  std::jthread thread_;  // last: everything above exists before it starts
+};
+
+}  // namespace dmoscope

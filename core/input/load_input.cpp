@@ -1,0 +1,27 @@
+#include <new>
+
+#include "core/base/error.h"
+#include "core/base/words.h"
+#include "core/input/input_mesh.h"
+#include "core/io/mesh_io.h"
+#include "core/mesh/generate.h"
+
+namespace dmoscope {
+
+std::shared_ptr<const InputMesh> load_input(const std::filesystem::path& path, Need need, const IoContext& context) {
+  try {
+    return prepare_input(read_mesh(path, context), path, need, context.progress);
+  } catch (const std::bad_alloc&) {
+    throw InputError(path.string(), 0, "not enough memory for this mesh");
+  }
+}
+
+std::shared_ptr<const InputMesh> generate_input(const std::string& line, Progress& progress) {
+  const std::vector<std::string> words = split_words(line);
+  if (words.empty() || words.size() > 3) throw UsageError("a sample is KIND [SIZE [SEED]]");
+  const std::size_t size = words.size() > 1 ? to_count(words[1]) : 0;
+  const std::uint64_t seed = words.size() > 2 ? to_count(words[2]) : 1;
+  return prepare_input(generate_mesh(words[0], size, seed, progress), {}, Need::Smoothing, progress, line);
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,44 @@
+#pragma once
+// How many visits a run makes between two looks at the cancel request and at who wants to see how far it is.
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+namespace dmoscope {
+
+/// So many that a block takes some 20 ms, judged by the slower ones of late. The result of a run does not depend on it.
+class BlockPlan {
+ public:
+  /// `far`: see Smoother::positions_on_device; there a block is as much as fits the time, so a whole iteration of most meshes.
+  explicit BlockPlan(bool far = false) : most_(far ? kMostFar : kMost), visits_(far ? kMostFar : kFirst), warming_up_(far) {}
+
+  /// Visits of the next block, at least 1; an iteration may have fewer left.
+  [[nodiscard]] std::uint64_t visits() const noexcept { return visits_; }
+
+  /// `visits` took `seconds`.
+  void learn(std::uint64_t visits, double seconds) {
+    if (std::exchange(warming_up_, false)) return;  // a device's first call also brings it positions and code
+    visit_seconds_ = std::max(seconds / static_cast<double>(visits), kForgetting * visit_seconds_);
+    const auto most = static_cast<double>(most_);
+    visits_ = static_cast<std::uint64_t>(std::clamp(kSeconds / std::max(visit_seconds_, kSeconds / most), 1.0, most));
+  }
+
+ private:
+  static constexpr double kSeconds = 0.02;
+  /// Before anything is known of what visits take.
+  static constexpr std::uint64_t kFirst = 2048;
+  /// Visits to vertices at rest cost next to nothing, and the next may be to others.
+  static constexpr std::uint64_t kMost = std::uint64_t{1} << 20U;
+  /// Where a call is dear and a visit is not: far more than an iteration of any mesh.
+  static constexpr std::uint64_t kMostFar = std::uint64_t{1} << 40U;
+  /// How fast slow visits of the past are forgotten, block by block.
+  static constexpr double kForgetting = 0.75;
+
+  std::uint64_t most_;
+  std::uint64_t visits_;
+  bool warming_up_;
+  double visit_seconds_ = 0.0;
+};
+
+}  // namespace dmoscope

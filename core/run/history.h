@@ -1,0 +1,88 @@
+#pragma once
+// What a run keeps of its past: statistics of every iteration, and positions within a memory budget.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/shared_vector.h"
+#include "core/quality/quality.h"
+#include "core/run/moment.h"
+#include "core/run/percentiles.h"
+
+namespace dmoscope {
+
+struct IterationRecord {
+  std::uint64_t iteration = 0;  // 0 is the input
+  Statistics statistics;
+  std::uint64_t moved = 0;
+  double seconds = 0.0;  // this iteration's smoothing alone
+};
+
+/// Positions that lie far from the host (on a device) are worth bringing only to keep them where that takes but a modest share of the time:
+/// `bringing` seconds, when the smoothing since positions were last kept took `since`.
+[[nodiscard]] constexpr bool worth_downloading(double bringing, double since) noexcept {
+  constexpr double kShare = 0.2;
+  return bringing < kShare * since;
+}
+
+class History {
+ public:
+  explicit History(std::size_t budget_bytes) : budget_(budget_bytes) {}
+
+  /// Records iteration 0. Its positions are shared, never copied, whatever the budget.
+  void record_input(const IterationRecord& record, std::shared_ptr<const std::vector<Vec3>> positions);
+  /// Records the end of the next iteration. One that has a record already keeps it (a repeated iteration gives the same bits).
+  void record(const IterationRecord& record);
+  /// Whether keep() would keep the positions of this iteration: those of multiples of stride() are kept, where the budget has room for any.
+  [[nodiscard]] bool wants(std::uint64_t iteration) const;
+  /// Keeps positions, unless they are kept already or not wanted. When the budget is full the stride doubles and positions in between are
+  /// let go: those iterations are computed again when asked for. `pool`: for the copy, may be null.
+  void keep(std::uint64_t iteration, std::span<const Vec3> positions, ThreadPool* pool);
+  /// Takes back records of the same path that were forgotten.
+  void restore_records(const SharedVector<IterationRecord>& records);
+  /// Keeps positions that were kept elsewhere, whether or not there is room for them.
+  void hold(std::uint64_t iteration, std::span<const Vec3> positions, ThreadPool* pool);
+  /// Forgets all that came after an iteration.
+  void forget_after(std::uint64_t iteration);
+  [[nodiscard]] const std::vector<IterationRecord>& records() const noexcept { return records_.values(); }
+  [[nodiscard]] SharedVector<IterationRecord> shared_records() const { return records_.share(); }
+
+  /// Of the records, as far as anybody worked them out; may be shorter.
+  [[nodiscard]] const std::vector<Percentiles>& percentiles() const noexcept { return percentiles_.values(); }
+  [[nodiscard]] SharedVector<Percentiles> shared_percentiles() const { return percentiles_.share(); }
+  /// Of a recorded iteration.
+  void note_percentiles(std::uint64_t iteration, const Percentiles& percentiles);
+
+  struct Kept {
+    std::uint64_t iteration;
+    std::span<const Vec3> positions;
+    std::shared_ptr<const void> owner;  // of the positions
+  };
+  /// The latest kept positions at or before `iteration`. The input (iteration 0) is always kept.
+  [[nodiscard]] const Kept& nearest(std::uint64_t iteration) const;
+  [[nodiscard]] bool kept(std::uint64_t iteration) const { return nearest(iteration).iteration == iteration; }
+
+  void set_budget(std::size_t bytes);
+  [[nodiscard]] std::size_t budget() const noexcept { return budget_; }
+  /// Of the positions kept, without the input's.
+  [[nodiscard]] std::size_t bytes() const noexcept;
+  /// Every how many iterations positions are kept: 1 until the budget is first met.
+  [[nodiscard]] std::uint64_t stride() const noexcept { return stride_; }
+  /// Empty while every iteration is kept; else a sentence that says which are, and that the others are computed again on demand.
+  [[nodiscard]] std::string sentence() const;
+
+ private:
+  void thin(std::size_t needed);
+  std::size_t budget_;
+  std::size_t size_ = 0;  // bytes of the positions of one iteration
+  std::uint64_t stride_ = 1;
+  GrowingVector<IterationRecord> records_;
+  GrowingVector<Percentiles> percentiles_;
+  std::vector<Kept> kept_;
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,70 @@
+#include "core/run/left_inverted.h"
+
+#include <tuple>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/smooth/execution/method_table.h"
+
+namespace dmoscope {
+
+std::string LeftInverted::sentence() const {
+  std::string text = count == 1 ? "1 element stays inverted. " : fmt::format("{} elements stay inverted. ", count);
+  text += fmt::format("Look at element {} and at vertex {} at ({:.10g}, {:.10g}, {:.10g})", element, vertex, place.x, place.y, place.z);
+  if (count > 1) text += fmt::format(", which is in {} of them", around);
+  return why_fixed.empty() ? text + "." : fmt::format("{}; {}.", text, why_fixed);
+}
+
+std::optional<LeftInverted> find_left_inverted(const Run& run) {
+  const InputMesh& input = run.input();
+  const QualityContext context = input.quality_context();
+  const auto positions = run.positions();
+  LeftInverted found;
+  double least = 0.0;
+  std::vector<Index> around(positions.size());
+  for (Index e = 0; e < input.mesh.elements.size(); ++e) {
+    const double jacobian = smallest_jacobian(context, positions, e) / input.reference_measure[e];
+    if (!(jacobian <= 0.0)) continue;
+    if (found.count++ == 0 || jacobian < least) {
+      least = jacobian;
+      found.element = e;
+    }
+    for (const Index v : input.mesh.elements.corners(e)) ++around[v];
+  }
+  if (found.count == 0) return std::nullopt;
+  const auto rank = [&](Index v) { return std::tuple(around[v], run.fixed()[v]); };
+  found.vertex = 0;
+  for (Index v = 1; v < around.size(); ++v)
+    if (rank(v) > rank(found.vertex)) found.vertex = v;
+  found.around = around[found.vertex];
+  found.place = positions[found.vertex];
+  found.why_fixed = run.why_fixed(found.vertex);
+  return found;
+}
+
+std::uint64_t best_iteration(const Run& run) {
+  const auto& records = run.history().records();
+  if (run.parameters().combination) return records.size() - 1;
+  const bool optimises = method_info(run.parameters().method).optimises;
+  const auto worth = [optimises](const IterationRecord& record) {
+    const Statistics& s = record.statistics;
+    return std::tuple(-static_cast<double>(s.inverted), s.minimum, s.movable_minimum, optimises ? 0.0 : s.mean);
+  };
+  std::uint64_t best = 0;
+  for (std::uint64_t i = 1; i < records.size(); ++i)
+    if (!(worth(records[i]) < worth(records[best]))) best = i;
+  return best;
+}
+
+std::string iteration_name(std::uint64_t iteration) {
+  return iteration == 0 ? std::string("the input itself") : fmt::format("iteration {}", iteration);
+}
+
+std::string worse_than_best(const RunParameters& parameters, std::uint64_t best, std::uint64_t last) {
+  if (best == last || method_info(parameters.method).optimises) return {};
+  return fmt::format("{} {}: the best it passed through is {}, not iteration {}", parameters.method, kMayMakeWorse, iteration_name(best),
+                     last);
+}
+
+}  // namespace dmoscope

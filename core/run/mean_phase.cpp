@@ -1,0 +1,34 @@
+#include "core/run/mean_phase.h"
+
+#include <algorithm>
+
+namespace dmoscope {
+
+std::optional<std::uint64_t> PhaseSwitchDetector::find(const MeanPhase& phase, std::span<const IterationRecord> records,
+                                                       std::optional<std::uint64_t> still) {
+  if (records.empty()) return std::nullopt;
+  if (seen_ == 0) highest_ = records.front().statistics.movable_minimum;
+  for (std::uint64_t i = seen_ + 1; !turn_ && i < records.size(); ++i) {
+    seen_ = i;
+    const Statistics& now = records[i].statistics;
+    // As a difference: where nothing is movable both are infinite, and that is no rise.
+    if (now.movable_minimum - highest_ >= phase.rise) {
+      highest_ = now.movable_minimum;
+      last_rise_ = i;
+    }
+    if (now.inverted > 0) {
+      last_rise_ = i;
+      continue;
+    }
+    const auto rests = [](const IterationRecord& record) { return record.moved == 0; };
+    const bool at_rest = still && i >= *still && std::ranges::all_of(records.subspan(i + 1 - *still, *still), rests);
+    if (at_rest || i - last_rise_ >= phase.patience) turn_ = i;
+  }
+  return turn_;
+}
+
+void PhaseSwitchDetector::forget_after(std::uint64_t iteration) {
+  if (iteration < seen_) *this = {};
+}
+
+}  // namespace dmoscope

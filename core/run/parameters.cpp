@@ -1,0 +1,175 @@
+#include "core/run/parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/words.h"
+
+namespace dmoscope {
+
+namespace {
+
+int to_int(const std::string& word) {
+  const std::uint64_t value = to_count(word);
+  if (value > 1000000) throw WrongArguments(fmt::format("'{}' is too large", word));
+  return static_cast<int>(value);
+}
+
+using P = RunParameters;
+using Word = const std::string&;
+
+constexpr std::array<std::string_view, 2> kPrecisions{"float", "double"}, kDirections{"random", "axes"}, kInterfaces{"fixed", "free"};
+constexpr std::array<std::string_view, 3> kBackends{"auto", "cpu", "cuda"};
+
+const std::array kTable{
+    ParameterInfo{.name = "grid",
+                  .title = "grid points",
+                  .type = "N",
+                  .doc = "Candidates per axis of the grid (the paper: 8)",
+                  .kind = ParameterKind::Whole,
+                  .least = kLeastGridPoints,
+                  .most = kMostGridPoints,
+                  .reader = &MethodInfo::searches_grid,
+                  .to_text = [](const P& p) { return std::to_string(p.search.grid_points); },
+                  .from_text = [](P& p, Word word) { p.search.grid_points = to_int(word); },
+                  .in_title = [](const P& p) { return fmt::format("grid {}", p.search.grid_points); }},
+    ParameterInfo{.name = "levels",
+                  .title = "levels",
+                  .type = "N",
+                  .doc = "Grids per visit, each finer than the one before (the paper: 3)",
+                  .kind = ParameterKind::Whole,
+                  .least = kLeastLevels,
+                  .most = kMostLevels,
+                  .reader = &MethodInfo::searches_grid,
+                  .to_text = [](const P& p) { return std::to_string(p.search.levels); },
+                  .from_text = [](P& p, Word word) { p.search.levels = to_int(word); },
+                  .in_title = [](const P& p) { return fmt::format("levels {}", p.search.levels); }},
+    ParameterInfo{.name = "omega",
+                  .title = "omega",
+                  .type = "X",
+                  .doc = "Size of the first grid in bounding boxes of the star's other vertices (the paper: 0.5)",
+                  .kind = ParameterKind::Real,
+                  .most = kMostOmega,
+                  .reader = &MethodInfo::searches_grid,
+                  .to_text = [](const P& p) { return fmt::format("{}", p.search.omega); },
+                  .from_text = [](P& p, Word word) { p.search.omega = to_number(word); },
+                  .in_title = [](const P& p) { return fmt::format("omega {:g}", p.search.omega); }},
+    ParameterInfo{.name = "precision",
+                  .title = "precision",
+                  .type = "float|double",
+                  .doc = "Scalar of the search; moves are always confirmed in double",
+                  .kind = ParameterKind::Choice,
+                  .choices = kPrecisions,
+                  .reader = &MethodInfo::searches_grid,
+                  .to_text = [](const P& p) { return std::string(name(p.search.precision)); },
+                  .from_text = [](P& p, Word word) { p.search.precision = parse_precision(word); },
+                  .in_title = [](const P& p) { return std::string(name(p.search.precision)); }},
+    ParameterInfo{
+        .name = "simd",
+        .title = "SIMD",
+        .type = "LEVEL",
+        .doc = "Vector instructions: auto, baseline, avx2 or avx512. The result is the same for any",
+        .reader = &MethodInfo::searches_grid,
+        .to_text = [](const P& p) { return std::string(p.search.simd ? name(*p.search.simd) : "auto"); },
+        .from_text = [](P& p, Word word) { p.search.simd = word == "auto" ? std::nullopt : std::optional(parse_simd_level(word)); },
+        .in_session = false},
+    ParameterInfo{.name = "relaxation",
+                  .title = "relaxation",
+                  .type = "X",
+                  .doc = "Share of the way to the new place that a vertex goes, above 0, up to 1",
+                  .kind = ParameterKind::Real,
+                  .most = 1.0,
+                  .reader = &MethodInfo::relaxes,
+                  .to_text = [](const P& p) { return fmt::format("{}", p.options.relaxation); },
+                  .from_text = [](P& p, Word word) { p.options.relaxation = to_number(word); },
+                  .in_title = [](const P& p) { return fmt::format("relaxation {}", p.options.relaxation); },
+                  .before = "1"},
+    ParameterInfo{.name = "directions",
+                  .title = "directions",
+                  .type = "random|axes",
+                  .doc = "Directions of the lines along which vertices move, one per iteration: at random, or the axes in turn",
+                  .kind = ParameterKind::Choice,
+                  .choices = kDirections,
+                  .reader = &MethodInfo::has_directions,
+                  .to_text = [](const P& p) { return std::string(name(p.options.directions)); },
+                  .from_text = [](P& p, Word word) { p.options.directions = parse_directions(word); },
+                  .in_title = [](const P&) { return std::string("along the axes"); },
+                  .before = "random"},
+    ParameterInfo{.name = "seed",
+                  .title = "seed",
+                  .type = "N",
+                  .doc = "Seed of the random directions",
+                  .kind = ParameterKind::Whole,
+                  .most = static_cast<double>(std::numeric_limits<std::uint64_t>::max()),
+                  .reader = &MethodInfo::has_directions,
+                  .condition = [](const P& p) { return p.options.directions == Directions::Random; },
+                  .to_text = [](const P& p) { return std::to_string(p.options.seed); },
+                  .from_text = [](P& p, Word word) { p.options.seed = to_count(word); },
+                  .in_title = [](const P& p) { return fmt::format("directions {}", p.options.seed); },
+                  .before = "1"},
+    ParameterInfo{.name = "order",
+                  .title = "order",
+                  .type = "natural|shuffle:SEED",
+                  .doc = "Order in which vertices are coloured and visited",
+                  .to_text = [](const P& p) { return to_text(p.order); },
+                  .from_text = [](P& p, Word word) { p.order = parse_order(word); },
+                  .in_title = [](const P& p) { return to_text(p.order); }},
+    ParameterInfo{.name = "interfaces",
+                  .title = "interfaces",
+                  .type = "fixed|free",
+                  .doc = "Whether vertices stay that lie between groups of elements (or between values of material, region, mat_id and the "
+                         "like), or on inner lines and faces, boundary strings and points that the file names",
+                  .kind = ParameterKind::Choice,
+                  .choices = kInterfaces,
+                  .to_text = [](const P& p) { return std::string(name(p.interfaces)); },
+                  .from_text = [](P& p, Word word) { p.interfaces = parse_interface_rule(word); },
+                  .in_title = [](const P& p) { return fmt::format("interfaces {}", name(p.interfaces)); },
+                  .before = "free"},
+    ParameterInfo{.name = "backend",
+                  .title = "backend",
+                  .type = "auto|cpu|cuda",
+                  .doc = "What smooths: the CPU, a CUDA device, or (auto) a CUDA device where it can be used",
+                  .kind = ParameterKind::Choice,
+                  .choices = kBackends,
+                  .to_text = [](const P& p) { return std::string(name(p.backend)); },
+                  .from_text = [](P& p, Word word) { p.backend = parse_backend(word); }},
+};
+
+}  // namespace
+
+bool ParameterInfo::read_by(const RunParameters& parameters) const {
+  if (reader != nullptr && !(method_info(parameters.method).*reader)) return false;
+  return condition == nullptr || condition(parameters);
+}
+
+std::string ParameterInfo::help() const {
+  std::vector<std::string_view> readers;
+  for (const MethodInfo& method : method_table())
+    if (reader == nullptr || method.*reader) readers.push_back(method.name);
+  return readers.size() == method_table().size() ? std::string(doc) : fmt::format("{}. For {}", doc, fmt::join(readers, ", "));
+}
+
+std::span<const ParameterInfo> parameter_table() { return kTable; }
+
+const ParameterInfo& parameter_info(std::string_view name) {
+  const auto found = std::ranges::find(kTable, name, &ParameterInfo::name);
+  if (found == kTable.end()) throw UsageError(fmt::format("there is no parameter '{}'", name));
+  return *found;
+}
+
+std::string other_than_usual(const RunParameters& parameters) {
+  const RunParameters usual;
+  const SizeFunction* size = parameters.combination ? parameters.combination->size() : nullptr;
+  std::string text;
+  if (size != nullptr && size->has_point()) text += fmt::format(", at {:g} {:g}", size->point.x, size->point.y);
+  for (const ParameterInfo& row : kTable)
+    if (row.in_title != nullptr && row.read_by(parameters) && row.to_text(parameters) != row.to_text(usual))
+      text += ", " + row.in_title(parameters);
+  return text;
+}
+
+}  // namespace dmoscope

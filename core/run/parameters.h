@@ -1,0 +1,66 @@
+#pragma once
+// What a run can be told, and the table of it: command line, commands, session files, titles and the window's panel loop over the rows. To
+// add a parameter is a field where it is read, and a row.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/mesh/interfaces.h"
+#include "core/quality/metric.h"
+#include "core/run/mean_phase.h"
+#include "core/run/visit_order.h"
+#include "core/search/parameters.h"
+#include "core/smooth/execution/accelerator.h"
+#include "core/smooth/execution/method_table.h"
+
+namespace dmoscope {
+
+struct RunParameters {
+  std::string method = "dmo";
+  Metric metric = Metric::MeanRatio;
+  SearchParameters search{};
+  MethodOptions options{};
+  std::optional<Combination> combination{};  // of `metric`, the first, with a second aim
+  std::optional<MeanPhase> then_mean{};      // a second phase
+  VisitOrder order{};
+  std::vector<Index> fixed{};  // the user's fixed set, besides boundary and unused vertices and, as `interfaces` says, those on interfaces
+  InterfaceRule interfaces = InterfaceRule::Fixed;
+  Backend backend = Backend::Auto;
+  friend bool operator==(const RunParameters&, const RunParameters&) = default;
+};
+
+enum class ParameterKind { Whole, Real, Choice, Text };
+
+struct ParameterInfo {
+  std::string_view name;   // of its command, its option ("--name") and its key in session files: "grid"
+  std::string_view title;  // in the window: "grid points"
+  std::string_view type;   // in help: "N", "float|double"
+  std::string_view doc;    // one sentence, without a point
+  ParameterKind kind = ParameterKind::Text;
+  double least = 0.0, most = 0.0;                     // of numbers; of Real, `least` is not among them
+  std::span<const std::string_view> choices{};        // of Choice
+  bool MethodInfo::*reader = nullptr;                 // the methods that read it; null: all
+  bool (*condition)(const RunParameters&) = nullptr;  // besides: whether it is read now; null: always
+  std::string (*to_text)(const RunParameters&);
+  /// Throws UsageError for what is no such value. The range is checked where it is read.
+  void (*from_text)(RunParameters&, const std::string&);
+  std::string (*in_title)(const RunParameters&) = nullptr;  // what a run's title says where it is not the default; null: nothing
+  std::string_view before{};                                // its value in session files of before it was there; empty: all files have it
+  bool in_session = true;                                   // a command, and saved; else an option of the command line alone
+
+  [[nodiscard]] bool read_by(const RunParameters& parameters) const;
+  /// The doc, with the methods that read it where not all do.
+  [[nodiscard]] std::string help() const;
+};
+/// All that can be said in one word; method, metric, objectives and fixed vertices have words of their own.
+[[nodiscard]] std::span<const ParameterInfo> parameter_table();
+/// Throws UsageError.
+[[nodiscard]] const ParameterInfo& parameter_info(std::string_view name);
+
+/// What tells a run from others by the same method and aims: ", grid 16, shuffle:3"; empty where nothing does.
+[[nodiscard]] std::string other_than_usual(const RunParameters& parameters);
+
+}  // namespace dmoscope

@@ -1,0 +1,60 @@
+#pragma once
+// Where a run's positions are: on the host, and, while a device smooths, newer ones there.
+
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/base/stopwatch.h"
+#include "core/mesh/mesh.h"
+#include "core/run/moment.h"
+
+namespace dmoscope {
+
+/// A moment, with what the iteration under way has come to.
+struct RunProgress {
+  Moment moment{};
+  std::uint64_t moved = 0;
+  double seconds = 0.0;  // of smoothing
+};
+
+/// The host's copy of a run's positions, and which moment it shows. A smoother that keeps positions on a device runs ahead of it until
+/// download().
+class PositionBuffer {
+ public:
+  /// Positions of the run's first moment.
+  explicit PositionBuffer(std::vector<Vec3> positions) : host_(std::move(positions)) {}
+
+  /// The host's copy, whichever moment it shows.
+  [[nodiscard]] std::span<Vec3> host() noexcept { return host_; }
+  [[nodiscard]] std::span<const Vec3> host() const noexcept { return host_; }
+  /// What the host's copy shows; none: a download failed in its midst, and the copy is of no use.
+  [[nodiscard]] const std::optional<RunProgress>& host_shows() const noexcept { return shows_; }
+  [[nodiscard]] bool host_is_at(const Moment& moment) const noexcept { return shows_ && shows_->moment == moment; }
+  /// Seconds that the last download took.
+  [[nodiscard]] double download_seconds() const noexcept { return download_seconds_; }
+
+  /// Makes the host's copy that of `now`, by `store(positions)`, unless it is already. Throws what `store` throws.
+  template <class Store>
+  void download(const RunProgress& now, const Store& store) {
+    if (host_is_at(now.moment)) return;
+    const Stopwatch watch;
+    shows_.reset();
+    store(std::span<Vec3>(host_));
+    shows_ = now;
+    download_seconds_ = watch.seconds();
+  }
+  /// Replaces the host's copy.
+  void assign(std::span<const Vec3> positions, const RunProgress& shows) {
+    host_.assign(positions.begin(), positions.end());
+    shows_ = shows;
+  }
+
+ private:
+  std::vector<Vec3> host_;
+  std::optional<RunProgress> shows_ = RunProgress{};
+  double download_seconds_ = 0.0;
+};
+
+}  // namespace dmoscope

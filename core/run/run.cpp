@@ -1,0 +1,219 @@
+#include "core/run/run.h"
+
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "core/base/memory.h"
+#include "core/base/stopwatch.h"
+#include "core/run/sweep_after.h"
+#include "core/smooth/execution/method_table.h"
+
+namespace dmoscope {
+
+namespace {
+
+std::vector<std::uint8_t> fixed_vertices(const InputMesh& input, const RunParameters& parameters) {
+  std::vector<std::uint8_t> fixed = standing_vertices(input, parameters.interfaces);
+  for (const Index v : parameters.fixed) {
+    if (v >= fixed.size()) throw UsageError(fmt::format("fixed vertex {} does not exist: the mesh has {} vertices", v, fixed.size()));
+    fixed[v] = 1;
+  }
+  return fixed;
+}
+
+std::vector<Index> free_vertices(std::span<const std::uint8_t> fixed, const VisitOrder& order) {
+  std::vector<Index> free;
+  for (Index v = 0; v < fixed.size(); ++v)
+    if (fixed[v] == 0) free.push_back(v);
+  return order.seed ? shuffled(free, *order.seed) : free;
+}
+
+std::shared_ptr<const Colouring> make_colouring(const InputMesh& input, std::span<const Index> free, ThreadPool* pool) {
+  Colouring colouring = colour_vertices(input.mesh, input.topology, free);
+  arrange_classes(colouring, input.mesh, input.is_volume() ? nullptr : &input.geometry.plane, input.topology, pool);
+  return std::make_shared<const Colouring>(std::move(colouring));
+}
+
+std::shared_ptr<const SizeField> make_size_field(const std::shared_ptr<const InputMesh>& input,
+                                                 const std::optional<Combination>& combination) {
+  const SizeFunction* function = combination ? combination->size() : nullptr;
+  if (input->is_volume()) return nullptr;  // refused by require_possible()
+  return function != nullptr ? std::make_shared<const SizeField>(input, *function) : nullptr;
+}
+
+std::vector<Vec3> working_copy(std::span<const Vec3> positions) {
+  std::vector<Vec3> copy;
+  reserve_large(copy, positions.size());
+  copy.assign(positions.begin(), positions.end());
+  return copy;
+}
+
+}  // namespace
+
+Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::shared_ptr<ThreadPool> pool, std::size_t history_bytes,
+         Acceleration acceleration)
+    : input_(std::move(input)),
+      parameters_(std::move(parameters)),
+      pool_(std::move(pool)),
+      acceleration_(std::move(acceleration)),
+      fixed_(std::make_shared<const std::vector<std::uint8_t>>(fixed_vertices(*input_, parameters_))),
+      colouring_(make_colouring(*input_, free_vertices(fixed(), parameters_.order), pool_.get())),
+      immovable_(immovable_elements(input_->mesh, fixed(), pool_.get())),
+      size_(make_size_field(input_, parameters_.combination)),
+      executor_(make_executor(parameters_.backend, acceleration_, task())),
+      positions_(working_copy(input_->mesh.positions)),
+      blocks_(executor_.smoother->positions_on_device()),
+      history_(history_bytes) {
+  history_.record_input({0, statistics(), 0, 0.0}, {input_, &input_->mesh.positions});
+}
+
+Run::~Run() = default;
+Run::Run(Run&&) noexcept = default;
+Run& Run::operator=(Run&&) noexcept = default;
+
+std::string Run::title() const {
+  const RunParameters& p = parameters_;
+  std::string title = fmt::format("{} · {}", p.method, p.combination ? phrase(p.metric, *p.combination) : std::string(info(p.metric).name));
+  if (p.then_mean) title += ", then mean";
+  return title + other_than_usual(p);
+}
+
+std::string Run::backend_sentence() const {
+  if (executor_.backend != Backend::Cpu) return fmt::format("{}: {}", name(executor_.backend), executor_.reason);
+  const unsigned threads = pool_->size();
+  const std::string cpu = fmt::format("{}, {} thread{}", name(executor_.backend), threads, threads == 1 ? "" : "s");
+  return executor_.reason.empty() ? cpu : fmt::format("{} ({})", cpu, executor_.reason);
+}
+
+SmoothingTask Run::task() const {
+  return {parameters_.method,
+          input_,
+          colouring_,
+          parameters_.metric,
+          parameters_.search,
+          parameters_.options,
+          parameters_.combination,
+          size_,
+          parameters_.then_mean.has_value(),
+          immovable_,
+          pool_.get()};
+}
+
+void Run::download() const {
+  positions_.download(at_, [this](std::span<Vec3> host) { asking_device([&] { executor_.smoother->store(host, pool_.get()); }); });
+}
+
+std::span<const Vec3> Run::positions() const {
+  download();
+  return positions_.host();
+}
+
+Statistics Run::statistics() const {
+  const std::uint64_t iteration = at_.moment.iteration;
+  if (at_.moment.is_iteration_end() && iteration < history_.records().size()) return history_.records()[iteration].statistics;
+  if (executor_.smoother)
+    if (const auto found = asking_device([this] { return executor_.smoother->statistics(); })) return *found;
+  return compute_statistics(input_->quality_context(), positions(), parameters_.metric, immovable_, pool_.get());
+}
+
+std::shared_ptr<const DevicePicture> Run::picture(Metric shown) const {
+  return executor_.smoother ? executor_.smoother->picture(shown) : nullptr;
+}
+
+std::optional<std::uint64_t> Run::mean_since() const {
+  if (!parameters_.then_mean) return std::nullopt;
+  return turn_.find(*parameters_.then_mean, history_.records(),
+                    still_iterations(method_info(parameters_.method), parameters_.options, input_->is_volume()));
+}
+
+void Run::forget_after(std::uint64_t iteration) {
+  history_.forget_after(iteration);
+  turn_.forget_after(iteration);
+}
+
+Sweep Run::sweep() const { return sweep_after(history_.records(), at_.moment.iteration, mean_since(), input_->has_strays); }
+
+std::uint64_t Run::ask_smoother(std::uint64_t first, std::uint64_t count) {
+  if (const Sweep now = sweep(); begun_ != now) {
+    executor_.smoother->begin(now);
+    begun_ = now;
+  }
+  return executor_.smoother->visit(first, count, positions_.host(), pool_.get());
+}
+
+void Run::sync_to_host() {
+  recover();
+  recovering([this] { download(); });
+  keep();
+}
+
+bool Run::find_percentiles(const std::function<bool(double)>& go_on) {
+  bool found = false;
+  const std::size_t count = history_.records().size();
+  for (std::uint64_t iteration = 0; iteration < count; ++iteration) {
+    if (iteration < history_.percentiles().size() && history_.percentiles()[iteration].known()) continue;
+    const bool here = at_.moment == Moment{iteration};
+    if (!here && !history_.kept(iteration)) continue;
+    if (!go_on(static_cast<double>(iteration) / static_cast<double>(count))) break;
+    const auto where = here ? positions() : history_.nearest(iteration).positions;
+    history_.note_percentiles(iteration, compute_percentiles(input_->quality_context(), where, parameters_.metric, pool_.get()));
+    found = true;
+  }
+  return found;
+}
+
+void Run::rest() {
+  sync_to_host();
+  executor_.smoother.reset();
+}
+
+void Run::ensure_smoother() {
+  if (executor_.smoother) return;
+  if (executor_.backend == Backend::Cpu) {  // also where a device failed before
+    executor_.smoother = make_smoother(task());
+  } else {
+    executor_ = make_executor(parameters_.backend, acceleration_, task());
+  }
+  blocks_ = BlockPlan(executor_.smoother->positions_on_device());
+  begun_.reset();
+}
+
+RunSnapshot Run::point() const { return {at_.moment, edits_.share(), history_.shared_records(), last_outcome_, path_}; }
+
+void Run::recover() {
+  if (failure_.empty()) return;
+  executor_ = executor_after_failure(fmt::format("{} failed: {}", name(executor_.backend), failure_), task());
+  failure_.clear();
+  begun_.reset();
+  blocks_ = BlockPlan(executor_.smoother->positions_on_device());
+  const History::Kept& kept = history_.nearest(at_.moment.iteration);
+  const Moment of_history{kept.iteration};
+  if (!positions_.host_shows() || positions_.host_shows()->moment < of_history) positions_.assign(kept.positions, {of_history});
+  at_ = *positions_.host_shows();
+  forget_after(at_.moment.iteration);
+  ++path_;  // the CPU's last bits may be others
+  const auto& [iteration, visits, edits] = at_.moment;
+  executor_.warning = fmt::format("{}; the run is back at iteration {}{}, and the CPU can go on from there", executor_.reason, iteration,
+                                  visits + edits == 0 ? "" : fmt::format(" and {} visits", visits + edits));
+}
+
+void Run::record(const RunProgress& done) {
+  const std::uint64_t iteration = at_.moment.iteration;
+  if (iteration < history_.records().size()) return;  // been here before
+  history_.record({iteration, statistics(), done.moved, done.seconds});
+  unkept_seconds_ += done.seconds;
+  const bool dear = executor_.smoother->positions_on_device() && !worth_downloading(positions_.download_seconds(), unkept_seconds_);
+  if (!history_.wants(iteration) || dear) return;
+  download();
+  keep();
+}
+
+/// Keeps the positions of an iteration's end, where the host has them anyway.
+void Run::keep() {
+  if (!at_.moment.is_iteration_end() || !positions_.host_is_at(at_.moment)) return;
+  history_.keep(at_.moment.iteration, positions_.host(), pool_.get());
+  unkept_seconds_ = 0.0;
+}
+
+}  // namespace dmoscope

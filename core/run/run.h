@@ -1,0 +1,242 @@
+#pragma once
+// A run: one method, metric and set of parameters on the input mesh, with its own positions and history.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/progress.h"
+#include "core/base/shared_vector.h"
+#include "core/base/thread_pool.h"
+#include "core/input/input_mesh.h"
+#include "core/mesh/colouring.h"
+#include "core/quality/quality.h"
+#include "core/run/block_plan.h"
+#include "core/run/edit.h"
+#include "core/run/history.h"
+#include "core/run/mean_phase.h"
+#include "core/run/parameters.h"
+#include "core/run/position_buffer.h"
+#include "core/search/parameters.h"
+#include "core/smooth/execution/executor.h"
+#include "core/smooth/size_field.h"
+
+namespace dmoscope {
+
+enum class StepUnit { Vertex, Class, Iteration };
+
+/// When "until converged" stops.
+struct ConvergenceLimits {
+  std::uint64_t patience = 200;  // iterations without a rise of either minimum by `rise`
+  std::uint64_t max_iterations = 10000;
+  double rise = 1e-6;
+};
+enum class StopReason { NothingMoved, NoRise, IterationLimit };
+struct Outcome {
+  StopReason reason = StopReason::IterationLimit;
+  std::uint64_t iterations = 0;               // done by this call
+  std::uint64_t last_rise = 0;                // iteration in which a minimum last rose by limits.rise; 0: never
+  std::optional<std::uint64_t> mean_since{};  // the iteration after which the mean was raised, where that phase was reached
+  Index inverted = 0;                         // elements, at the end
+  ConvergenceLimits limits;
+  /// "converged: no vertex moved any more; the minimum last rose in iteration 9"
+  [[nodiscard]] std::string sentence() const;
+};
+
+/// Where a run stands, and on which path.
+struct RunSnapshot {
+  Moment moment{};
+  SharedVector<Edit> edits{};
+  SharedVector<IterationRecord> records{};
+  std::optional<Outcome> outcome{};
+  std::uint64_t path = 0;  // Run::path()
+};
+
+class Run {
+ public:
+  /// Throws UsageError for parameters out of range, an unknown method, a metric not defined for the mesh, or a backend that cannot do it;
+  /// DeviceError when the backend asked for by name fails.
+  Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::shared_ptr<ThreadPool> pool, std::size_t history_bytes,
+      Acceleration acceleration = {});
+  ~Run();
+  Run(Run&&) noexcept;
+  Run& operator=(Run&&) noexcept;
+
+  /// Which of a session's runs it is, given by the session: it stays when the parameters of an untouched run change or its mesh is read
+  /// again. 0: none of them.
+  [[nodiscard]] std::uint64_t id() const noexcept { return id_; }
+  void set_id(std::uint64_t id) noexcept { id_ = id; }
+  [[nodiscard]] const InputMesh& input() const noexcept { return *input_; }
+  [[nodiscard]] const RunParameters& parameters() const noexcept { return parameters_; }
+  [[nodiscard]] std::string title() const;  // "dmo · mean-ratio"
+  /// The iteration at whose end the phase that raises the mean begins, where there is one and as far as is known.
+  [[nodiscard]] std::optional<std::uint64_t> mean_since() const;
+  /// What the next visits are part of.
+  [[nodiscard]] Sweep sweep() const;
+  /// Of a combination with a size function; else null.
+  [[nodiscard]] const std::shared_ptr<const SizeField>& size_field() const noexcept { return size_; }
+  /// What smooths, whatever was asked for: never Backend::Auto.
+  [[nodiscard]] Backend backend() const noexcept { return executor_.backend; }
+  /// On a device: which; on the CPU: why not cuda, empty where it was not wanted.
+  [[nodiscard]] const std::string& backend_reason() const noexcept { return executor_.reason; }
+  /// Both together: "cuda: NVIDIA H200, ...", "cpu, 8 threads (no cuda: built without a CUDA toolkit)".
+  [[nodiscard]] std::string backend_sentence() const;
+  /// What a person should be told about the backend since the last call; usually empty.
+  [[nodiscard]] std::string take_warning() { return std::exchange(executor_.warning, {}); }
+
+  /// As they are now; brings them up to date first, so only on the thread that steps. What it returned before a step is out of date.
+  /// Throws DeviceError; see recover().
+  [[nodiscard]] std::span<const Vec3> positions() const;
+  [[nodiscard]] const Moment& moment() const noexcept { return at_.moment; }
+  /// Statistics of the optimised metric at this very moment. Throws DeviceError; see recover().
+  [[nodiscard]] Statistics statistics() const;
+  /// Where the positions live on a device, as Smoother::picture; else null. Throws DeviceError, which need not mean that the device is
+  /// lost.
+  [[nodiscard]] std::shared_ptr<const DevicePicture> picture(Metric shown) const;
+  /// Brings the positions to the host, where they are kept for the history: nothing can take them away then.
+  void sync_to_host();
+  /// After a DeviceError of one of the above: goes back to the last moment whose positions the host has, and on from there on the CPU. All
+  /// that changes the run does so by itself when a device fails it, before it throws the DeviceError. Without a failure: does nothing.
+  void recover();
+  [[nodiscard]] const Colouring& colouring() const noexcept { return *colouring_; }
+  [[nodiscard]] const std::shared_ptr<const Colouring>& shared_colouring() const noexcept { return colouring_; }
+  /// 1 where a vertex may not move: boundary, unused, on an interface that is fixed, or the user's.
+  [[nodiscard]] std::span<const std::uint8_t> fixed() const noexcept { return fixed_; }
+  [[nodiscard]] const SharedVector<std::uint8_t>& shared_fixed() const noexcept { return fixed_; }
+  /// "it lies on the boundary, which stays"; empty for a free vertex.
+  [[nodiscard]] std::string why_fixed(Index vertex) const;
+  /// The elements all of whose corners are fixed, ascending: see compute_statistics.
+  [[nodiscard]] std::span<const Index> immovable() const noexcept { return immovable_; }
+  [[nodiscard]] std::uint64_t visits_per_iteration() const noexcept { return colouring_->order.size(); }
+  [[nodiscard]] const History& history() const noexcept { return history_; }
+  void set_history_budget(std::size_t bytes) { history_.set_budget(bytes); }
+  void set_pool(std::shared_ptr<ThreadPool> pool) { pool_ = std::move(pool); }
+
+  /// One vertex, one colour class (the rest of it when in its midst), or one iteration (likewise) forwards. Edits on the way are done
+  /// again; one is a step like a vertex. Returns vertices moved, not counting those that edits moved. On Cancelled the run stands at an
+  /// exact moment between two visits; nothing is lost. On DeviceError (here and in all below) the run has recovered: see there.
+  std::uint64_t step(StepUnit unit, Progress& progress);
+  /// The reverse: to the previous vertex, class start or iteration start. At the input: does nothing, returns false.
+  bool back(StepUnit unit, Progress& progress);
+  /// To any moment, past or future: restores the nearest kept positions before it and repeats the visits from there (the same bits).
+  /// Throws UsageError for more visits or edits than there are.
+  void seek(const Moment& wanted, Progress& progress);
+
+  /// Visits these free vertices now, out of their turn, each once, in the order in which an iteration visits them; returns how many moved.
+  /// That is an edit (or several, where they are many): it belongs to the run's path from now on, and what came after this moment so far
+  /// is forgotten. Throws UsageError, with nothing done, for a vertex that is fixed or does not exist. On Cancelled nothing is done.
+  std::uint64_t visit_vertices(std::span<const Index> vertices, Progress& progress);
+  [[nodiscard]] const Edits& edits() const noexcept { return edits_; }
+  /// Back to the input, and the edits are forgotten.
+  void reset(Progress& progress);
+  [[nodiscard]] RunSnapshot point() const;
+  /// Goes to where this run stood, whatever became of its path since then. On Cancelled the run stands at an exact moment of that path.
+  void go_to(const RunSnapshot& point, Progress& progress);
+  /// Gives up what only smoothing needs, some of it on a device; who smooths next makes it again.
+  void rest();
+
+  /// Works out the percentiles (of the optimised metric) of those recorded iterations that lack them and whose positions are known, asking
+  /// `go_on`, which gets the share that is done, before each. Returns whether there are new ones.
+  bool find_percentiles(const std::function<bool(double)>& go_on);
+
+  /// Takes over what is known of a path from elsewhere, with the positions at the end of iteration point.moment.iteration, and goes to its
+  /// moment. Of a run that is fresh. Throws UsageError for edits or moments that this run cannot have.
+  void adopt(const RunSnapshot& point, std::span<const Vec3> positions, Progress& progress);
+
+  /// Changes whenever a moment may show other positions than it did before: same run, same path, same moment, same bits.
+  [[nodiscard]] std::uint64_t path() const noexcept { return path_; }
+
+  /// Called between two blocks of visits, on the thread that steps, at least every 100 ms or so: to publish what there is to see.
+  void set_observer(std::function<void(const Run&)> observer) { observer_ = std::move(observer); }
+
+  /// Called after every iteration of the two calls below, on the calling thread.
+  using AfterIteration = std::function<void(const Run&)>;
+  Outcome iterate(std::uint64_t iterations, Progress& progress, const AfterIteration& after = {});
+  /// The two calls as if they had been made at the input and had come to where the run stands, the end of an iteration: they end where, and
+  /// as, they would have ended then. Of a run that was saved on its way (see adopt). What `after` would have heard it does not hear again.
+  Outcome iterate_from_input(std::uint64_t iterations, Progress& progress, const AfterIteration& after = {});
+  Outcome until_converged_from_input(const ConvergenceLimits& limits, Progress& progress, const AfterIteration& after = {});
+  /// Why the last of these two calls stopped; none after any other step.
+  [[nodiscard]] const std::optional<Outcome>& last_outcome() const noexcept { return last_outcome_; }
+  Outcome until_converged(const ConvergenceLimits& limits, Progress& progress, const AfterIteration& after = {});
+
+ private:
+  [[nodiscard]] SmoothingTask task() const;
+  void ensure_smoother();
+  void download() const;
+  void keep();
+  void walk_to(const Moment& target, Progress& progress);
+  [[nodiscard]] Moment moment_before(StepUnit unit) const;
+  void restore(std::uint64_t iteration);
+  void forget_after(std::uint64_t iteration);
+  std::uint64_t ask_smoother(std::uint64_t first, std::uint64_t count);
+  void put(std::span<const Vec3> positions, const RunProgress& place);
+  void visit(std::uint64_t count, Progress& progress);
+  [[nodiscard]] std::vector<Index> ranks_of(std::span<const Index> vertices);
+  std::uint64_t do_edit(std::span<const Index> vertices);
+  void visit_block(std::uint64_t count);
+  void end_iteration();
+  void record(const RunProgress& done);
+  [[nodiscard]] bool attempts_to_untangle(std::uint64_t iteration) const;
+  Outcome advance(const ConvergenceLimits& limits, bool stop_when_still, std::uint64_t from, Progress& progress,
+                  const AfterIteration& after);
+  template <class Body>
+  auto asking_device(const Body& body) const;
+  template <class Body>
+  auto recovering(const Body& body);
+
+  std::uint64_t id_ = 0;
+  std::shared_ptr<const InputMesh> input_;
+  RunParameters parameters_;
+  std::shared_ptr<ThreadPool> pool_;
+  Acceleration acceleration_;
+  SharedVector<std::uint8_t> fixed_;
+  std::shared_ptr<const Colouring> colouring_;
+  std::vector<Index> immovable_;
+  std::shared_ptr<const SizeField> size_;
+  Executor executor_;  // its smoother is null while the run rests
+  RunProgress at_;
+  mutable PositionBuffer positions_;  // positions() downloads
+  mutable std::string failure_;       // of the device, until recover()
+  double unkept_seconds_ = 0.0;       // of smoothing since positions were last kept
+  std::uint64_t last_moved_ = 0;      // in the iteration last ended
+  BlockPlan blocks_;
+  History history_;
+  mutable PhaseSwitchDetector turn_;
+  std::optional<Sweep> begun_;  // what the smoother was told last
+  Edits edits_;
+  std::uint64_t path_ = 0;
+  std::vector<Index> rank_of_;  // of every vertex in the colouring's order; empty until there is an edit
+  std::function<void(const Run&)> observer_;
+  std::optional<Outcome> last_outcome_;
+};
+
+/// Does what may ask a device; a failure is remembered for recover().
+template <class Body>
+auto Run::asking_device(const Body& body) const {
+  try {
+    return body();
+  } catch (const DeviceError& error) {
+    failure_ = error.what();
+    throw;
+  }
+}
+
+/// Does what may ask a device; after a failure the run has recovered, and the error says so.
+template <class Body>
+auto Run::recovering(const Body& body) {
+  try {
+    return body();
+  } catch (const DeviceError&) {
+    recover();
+    throw DeviceError(take_warning());
+  }
+}
+
+}  // namespace dmoscope

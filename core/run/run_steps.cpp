@@ -1,0 +1,251 @@
+// How a run goes along its path: steps, seeks, and runs of iterations.
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/stopwatch.h"
+#include "core/run/run.h"
+#include "core/run/sweep_after.h"
+#include "core/smooth/execution/method_table.h"
+
+namespace dmoscope {
+
+std::string Outcome::sentence() const {
+  std::string rose =
+      last_rise == 0 ? "the minimum rose in none of these iterations" : fmt::format("the minimum last rose in iteration {}", last_rise);
+  if (inverted > 0) rose += fmt::format("; {} element{} still inverted", inverted, inverted == 1 ? " is" : "s are");
+  if (mean_since) rose += fmt::format("; the mean was raised from iteration {} on", *mean_since + 1);
+  switch (reason) {
+    case StopReason::NothingMoved:
+      return fmt::format("converged: no vertex moved any more; {}", rose);
+    case StopReason::NoRise:
+      return fmt::format("converged: neither the minimum nor {} rose by {} in {} iterations; {}",
+                         mean_since ? "the mean" : "the movable minimum", limits.rise, limits.patience, rose);
+    case StopReason::IterationLimit:
+      break;
+  }
+  return fmt::format("stopped at the iteration limit; {}", rose);
+}
+
+void Run::visit(std::uint64_t count, Progress& progress) {
+  const auto whole = static_cast<double>(visits_per_iteration());
+  while (count > 0) {
+    progress.check();
+    const std::uint64_t block = std::min({count, visits_per_iteration() - at_.moment.visits, blocks_.visits()});
+    recovering([&] { visit_block(block); });
+    count -= block;
+    const double done = at_.moment.visits == 0 ? 1.0 : static_cast<double>(at_.moment.visits) / whole;
+    progress.set(done);
+    if (observer_) recovering([this] { observer_(*this); });
+  }
+}
+
+void Run::visit_block(std::uint64_t count) {
+  const Stopwatch watch;
+  at_.moved += asking_device([&] { return ask_smoother(at_.moment.visits, count); });
+  const double seconds = watch.seconds();
+  at_.seconds += seconds;
+  blocks_.learn(count, seconds);
+  at_.moment.visits += count;
+  at_.moment.edits = 0;
+  if (at_.moment.visits == visits_per_iteration()) end_iteration();
+}
+
+void Run::end_iteration() {
+  RunProgress done = std::exchange(at_, {{at_.moment.iteration + 1}});
+  if (!executor_.smoother->positions_on_device()) {  // where they are near, storing them is part of the smoothing
+    download();
+    done.seconds += positions_.download_seconds();
+  }
+  record(done);
+  last_moved_ = done.moved;
+}
+
+void Run::walk_to(const Moment& target, Progress& progress) {
+  const std::uint64_t whole = visits_per_iteration();
+  last_outcome_.reset();
+  keep();
+  ensure_smoother();
+  while (at_.moment < target) {
+    const Moment& now = at_.moment;
+    progress.check();
+    if (whole == 0) {  // nothing is free: an iteration visits nobody
+      recovering([this] { end_iteration(); });
+    } else if (const Edit* edit = edits_.at(now)) {
+      recovering([&] { do_edit(edit->vertices); });
+    } else {
+      std::uint64_t stop = now.iteration < target.iteration ? whole : target.visits;
+      if (const Edit* next = edits_.after(now); next != nullptr && next->at.iteration == now.iteration)
+        stop = std::min(stop, next->at.visits);
+      visit(stop - now.visits, progress);
+    }
+  }
+}
+
+std::uint64_t Run::step(StepUnit unit, Progress& progress) {
+  recover();
+  const RunProgress before = at_;
+  Moment target{at_.moment.iteration + 1};
+  if (visits_per_iteration() > 0 && unit == StepUnit::Vertex) {
+    if (edits_.at(at_.moment) != nullptr) {
+      target = at_.moment;
+      ++target.edits;
+    } else {
+      target = {at_.moment.iteration, at_.moment.visits + 1};
+    }
+  } else if (visits_per_iteration() > 0 && unit == StepUnit::Class) {
+    target = {at_.moment.iteration, *std::ranges::upper_bound(colouring_->class_offsets, at_.moment.visits)};
+  }
+  walk_to(target, progress);
+  return (at_.moment.iteration > before.moment.iteration ? last_moved_ : at_.moved) - before.moved;
+}
+
+Moment Run::moment_before(StepUnit unit) const {
+  const std::uint64_t whole = visits_per_iteration();
+  Moment target = at_.moment;
+  // The end of an iteration is the same place as the start of the next; from there "back" goes into the iteration before.
+  if (target.is_iteration_end()) target = {target.iteration - 1, whole};
+  if (unit == StepUnit::Iteration || whole == 0) return {target.iteration};
+  if (unit == StepUnit::Vertex) {
+    if (target.edits > 0) return {target.iteration, target.visits, target.edits - 1};
+    --target.visits;
+    return {target.iteration, target.visits, edits_.count_at(target)};
+  }
+  const auto& starts = colouring_->class_offsets;
+  const auto here = target.edits > 0 ? std::ranges::upper_bound(starts, target.visits) : std::ranges::lower_bound(starts, target.visits);
+  return {target.iteration, *std::prev(here)};
+}
+
+bool Run::back(StepUnit unit, Progress& progress) {
+  recover();
+  if (at_.moment == Moment{}) return false;
+  seek(moment_before(unit), progress);
+  return true;
+}
+
+void Run::seek(const Moment& wanted, Progress& progress) {
+  const std::uint64_t whole = visits_per_iteration();
+  if (wanted.visits > whole) throw UsageError(fmt::format("an iteration has {} visits, not {}", whole, wanted.visits));
+  const bool at_end = wanted.visits == whole && wanted.visits > 0;  // which is the start of the next
+  const Moment target = at_end ? Moment{wanted.iteration + 1, 0, wanted.edits} : wanted;
+  if (const std::uint64_t edits = edits_.count_at(target); target.edits > edits)
+    throw UsageError(fmt::format("there {} {} visit{} of chosen vertices at that moment, not {}", edits == 1 ? "was" : "were", edits,
+                                 edits == 1 ? "" : "s", target.edits));
+  last_outcome_.reset();
+  recover();
+  keep();
+  if (target == at_.moment) return;
+  if (target < at_.moment || history_.nearest(target.iteration).iteration > at_.moment.iteration) restore(target.iteration);
+  walk_to(target, progress);
+}
+
+void Run::go_to(const RunSnapshot& point, Progress& progress) {
+  recover();
+  keep();
+  const std::vector<Edit>&mine = edits_.all(), &theirs = point.edits.whole();
+  const auto [a, b] = std::mismatch(mine.begin(), mine.end(), theirs.begin(), theirs.end());
+  if (a != mine.end() || b != theirs.end()) {
+    const Moment parting = a == mine.end() ? b->at : b == theirs.end() ? a->at : std::min(a->at, b->at);
+    forget_after(parting.iteration);
+    if (parting < at_.moment) restore(parting.iteration);
+    edits_.replace(point.edits);
+    ++path_;
+  }
+  history_.restore_records(point.records);
+  seek(point.moment, progress);
+  last_outcome_ = point.outcome;
+}
+
+/// Goes to the last kept positions that are no later than the end of `iteration`.
+void Run::restore(std::uint64_t iteration) {
+  const History::Kept& kept = history_.nearest(iteration);
+  put(kept.positions, {{kept.iteration}});
+}
+
+/// Stands at a place whose positions are these.
+void Run::put(std::span<const Vec3> positions, const RunProgress& place) {
+  positions_.assign(positions, place);
+  if (executor_.smoother) executor_.smoother->positions_replaced();
+  at_ = place;
+}
+
+/// May an iteration after this one untangle what it did not?
+bool Run::attempts_to_untangle(std::uint64_t iteration) const {
+  const auto& records = history_.records();
+  return records[iteration].statistics.inverted > 0 && method_info(parameters_.method).optimises &&
+         iterations_since_untangled(records, iteration) < UntanglingPlan::kEnd;
+}
+
+Outcome Run::iterate(std::uint64_t iterations, Progress& progress, const AfterIteration& after) {
+  return advance({.patience = iterations, .max_iterations = iterations, .rise = ConvergenceLimits{}.rise}, false, at_.moment.iteration,
+                 progress, after);
+}
+
+Outcome Run::iterate_from_input(std::uint64_t iterations, Progress& progress, const AfterIteration& after) {
+  return advance({.patience = iterations, .max_iterations = iterations, .rise = ConvergenceLimits{}.rise}, false, 0, progress, after);
+}
+
+Outcome Run::until_converged_from_input(const ConvergenceLimits& limits, Progress& progress, const AfterIteration& after) {
+  return advance(limits, true, 0, progress, after);
+}
+
+Outcome Run::until_converged(const ConvergenceLimits& limits, Progress& progress, const AfterIteration& after) {
+  return advance(limits, true, at_.moment.iteration, progress, after);
+}
+
+/// `from`: the iteration that counts as the begin; those behind it that were done before are gone through by their records.
+Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std::uint64_t from, Progress& progress,
+                     const AfterIteration& after) {
+  Outcome outcome{.limits = limits};
+  recover();
+  // Where we stand now may be the midst of an iteration, of which the history has no record.
+  from = std::min(from, at_.moment.iteration);  // after a failure the run may stand before it
+  const Statistics start = from < at_.moment.iteration ? history_.records()[from].statistics : recovering([this] { return statistics(); });
+  outcome.inverted = start.inverted;
+  std::uint64_t reached = from;
+  double minimum = start.minimum, movable = start.movable_minimum, mean = start.mean;
+  std::uint64_t since_rise = 0, quiet = 0;  // quiet: iterations in a row in which nothing moved
+  bool stopped = false;
+  while (!stopped && outcome.iterations < limits.max_iterations) {
+    const bool whole = at_.moment.visits == 0;
+    const bool anew = reached == at_.moment.iteration;
+    if (anew) {
+      const Progress::Part part(progress, outcome.iterations, limits.max_iterations);
+      step(StepUnit::Iteration, progress);
+    }
+    ++reached;
+    ++outcome.iterations;
+    ++since_rise;
+    const IterationRecord record = history_.records()[reached];
+    const Statistics& now = record.statistics;
+    // As differences: where nothing is movable both are infinite, and that is no rise.
+    if (now.minimum - minimum >= limits.rise || now.movable_minimum - movable >= limits.rise) {
+      since_rise = 0;
+      outcome.last_rise = reached;
+      minimum = std::max(minimum, now.minimum);
+      movable = std::max(movable, now.movable_minimum);
+    }
+    const auto since = mean_since();
+    const bool raising_mean = since && *since < reached;
+    if (raising_mean && (!outcome.mean_since || now.mean - mean >= limits.rise)) {
+      outcome.mean_since = since;
+      since_rise = 0;
+      mean = now.mean;
+    }
+    if (after && anew) recovering([&] { after(*this); });
+    outcome.inverted = now.inverted;
+    if (parameters_.then_mean && !raising_mean && now.inverted == 0) continue;  // the first phase's end is not the run's
+    // The second phase searches as DMO does, whatever the method.
+    auto needed = raising_mean ? 1 : still_iterations(method_info(parameters_.method), parameters_.options, input_->is_volume());
+    if (needed && attempts_to_untangle(reached)) *needed += UntanglingPlan::kCycle;
+    quiet = whole && record.moved == 0 ? quiet + 1 : 0;
+    const bool still = needed && quiet >= *needed;
+    stopped = stop_when_still && (still || since_rise >= limits.patience);
+    if (stopped) outcome.reason = still ? StopReason::NothingMoved : StopReason::NoRise;
+  }
+  last_outcome_ = outcome;
+  return outcome;
+}
+
+}  // namespace dmoscope

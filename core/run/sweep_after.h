@@ -1,0 +1,30 @@
+#pragma once
+// What visits are part of: told by the records of the iterations before them alone, so that an iteration done again has the same bits.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "core/run/history.h"
+#include "core/smooth/smoother.h"
+
+namespace dmoscope {
+
+/// How often and how long visits try to untangle what the last iterations did not: see Untangling. Counted from the input or from the last
+/// iteration that left fewer inverted elements than it found.
+struct UntanglingPlan {
+  static constexpr std::uint64_t kRepairs = 5;  // iterations at the very first, as long as each leaves fewer inverted elements
+  static constexpr std::uint64_t kAttempt = 5;  // iterations of an attempt, after one in which only sound moves may untangle
+  static constexpr std::uint64_t kCycle = 25;   // from one attempt to the next; in between sound elements recover
+  static constexpr std::uint64_t kEnd = 50;     // no more attempts from here on
+};
+
+/// Of the iteration after records[iteration], which must exist. `mean_since`: see Run::mean_since(); `strays`: whether the input has any,
+/// see InputMesh, so that a run of it begins with repairs.
+[[nodiscard]] Sweep sweep_after(std::span<const IterationRecord> records, std::uint64_t iteration, std::optional<std::uint64_t> mean_since,
+                                bool strays);
+
+/// Iterations since the number of inverted elements last fell, at the end of `iteration`: at most UntanglingPlan::kEnd.
+[[nodiscard]] std::uint64_t iterations_since_untangled(std::span<const IterationRecord> records, std::uint64_t iteration);
+
+}  // namespace dmoscope

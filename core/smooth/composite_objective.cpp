@@ -1,0 +1,124 @@
+#include "core/smooth/composite_objective.h"
+
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+
+namespace dmoscope {
+
+namespace {
+
+constexpr std::string_view kDensity = "density";
+constexpr std::string_view kSizes = "h1:X,Y (the distance to a point), h2:X,Y (its inverse), constant, or field:NAME";
+
+[[noreturn]] void refuse_size(std::string_view text) { throw UsageError(fmt::format("'{}' is no size function: it is {}", text, kSizes)); }
+
+bool read_number(std::string_view word, double& value) {
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc{} && end == word.data() + word.size() && std::isfinite(value);
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t at = text.find(separator); at != std::string_view::npos; at = text.find(separator)) {
+    parts.push_back(text.substr(0, at));
+    text.remove_prefix(at + 1);
+  }
+  parts.push_back(text);
+  return parts;
+}
+
+Vec3 parse_point(std::string_view coordinates, std::string_view text) {
+  const auto words = split(coordinates, ',');
+  double values[3]{};
+  if (words.size() < 2 || words.size() > 3) refuse_size(text);
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (!read_number(words[i], values[i])) refuse_size(text);
+  return {values[0], values[1], values[2]};
+}
+
+std::string_view short_name(SizeFunction::Kind kind) {
+  switch (kind) {
+    case SizeFunction::Kind::Distance:
+      return "h1";
+    case SizeFunction::Kind::InverseDistance:
+      return "h2";
+    case SizeFunction::Kind::Field:
+      return "field";
+    case SizeFunction::Kind::Constant:
+      break;
+  }
+  return "constant";
+}
+
+}  // namespace
+
+std::string to_text(const SizeFunction& size) {
+  const std::string_view kind = short_name(size.kind);
+  if (size.kind == SizeFunction::Kind::Field) return fmt::format("{}:{}", kind, size.field);
+  if (!size.has_point()) return std::string(kind);
+  const auto& [x, y, z] = size.point;
+  return z == 0.0 ? fmt::format("{}:{},{}", kind, x, y) : fmt::format("{}:{},{},{}", kind, x, y, z);
+}
+
+SizeFunction parse_size_function(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  const std::string_view kind = text.substr(0, colon);
+  const std::string_view rest = colon == std::string_view::npos ? std::string_view{} : text.substr(colon + 1);
+  using Kind = SizeFunction::Kind;
+  if (text == "constant") return {};
+  if (kind == "h1") return {Kind::Distance, parse_point(rest, text), {}};
+  if (kind == "h2") return {Kind::InverseDistance, parse_point(rest, text), {}};
+  if (kind == "field" && !rest.empty()) return {Kind::Field, {}, std::string(rest)};
+  refuse_size(text);
+}
+
+std::string to_text(Metric first, const Combination& combination) {
+  const auto* metric = std::get_if<Metric>(&combination.second);
+  return fmt::format("{}:{}:{}", info(first).name, combination.threshold, metric != nullptr ? info(*metric).name : kDensity);
+}
+
+std::pair<Metric, Combination> parse_combination(std::string_view text, std::string_view size) {
+  const auto parts = split(text, ':');
+  if (parts.size() != 3)
+    throw UsageError(fmt::format("'{}' is no combination: it is FIRST:THRESHOLD:SECOND, such as mean-ratio:0.7:density", text));
+  Combination combination;
+  const Metric first = parse_metric(parts[0]);
+  if (!read_number(parts[1], combination.threshold)) throw UsageError(fmt::format("the threshold '{}' is no number", parts[1]));
+  if (parts[2] == kDensity) {
+    if (!size.empty()) combination.second = parse_size_function(size);
+  } else {
+    if (!size.empty()) throw UsageError(fmt::format("a size function is for density alone, not for {}", parts[2]));
+    try {
+      combination.second = parse_metric(parts[2]);
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("{}; or {}", error.what(), kDensity));
+    }
+  }
+  validate(first, combination);
+  return {first, std::move(combination)};
+}
+
+std::string phrase(Metric first, const Combination& combination) {
+  const std::string start = fmt::format("{} > {}", info(first).name, combination.threshold);
+  const SizeFunction* size = combination.size();
+  if (size == nullptr) return fmt::format("{} · {}", start, info(std::get<Metric>(combination.second)).name);
+  return fmt::format("{} · {} {}", start, kDensity, size->kind == SizeFunction::Kind::Field ? size->field : short_name(size->kind));
+}
+
+void validate(Metric first, const Combination& combination) {
+  if (!(combination.threshold > 0.0 && combination.threshold < 1.0))
+    throw UsageError(fmt::format("the threshold of a combination must be above 0 and below 1, not {}", combination.threshold));
+  if (const auto* second = std::get_if<Metric>(&combination.second); second != nullptr && *second == first)
+    throw UsageError(
+        fmt::format("{0} cannot be combined with itself: beyond the threshold another metric counts, or {1}", info(first).name, kDensity));
+  if (const SizeFunction* size = combination.size();
+      size != nullptr && !(std::isfinite(size->point.x) && std::isfinite(size->point.y) && std::isfinite(size->point.z)))
+    throw UsageError("the point of a size function must be finite");
+}
+
+}  // namespace dmoscope

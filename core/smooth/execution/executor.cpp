@@ -1,0 +1,76 @@
+#include "core/smooth/execution/executor.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/smooth/execution/method_table.h"
+
+namespace dmoscope {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> kBackendNames{"auto", "cpu", "cuda"};  // in the order of Backend
+
+[[noreturn]] void refuse(const std::string& why) { throw UsageError(fmt::format("the cuda backend cannot be used: {}", why)); }
+
+/// Why no accelerator does this; empty when one can.
+std::string obstacle(const Acceleration& acceleration, const SmoothingTask& task) {
+  if (!method_info(task.method).accelerated) return fmt::format("{} runs on the CPU alone", task.method);
+  if (task.combination) return "combined metrics run on the CPU alone";
+  if (task.then_mean) return "the phase that raises the mean runs on the CPU alone";
+  if (task.search.precision == Precision::Double && !task.input->is_volume()) return "the search in double runs on the CPU alone";
+  if (task.input->geometry.plane.period > 0.0) return "meshes that go round in longitude run on the CPU alone";
+  if (task.search.simd) return "SIMD instructions were asked for, which are the CPU's";
+  return acceleration.accelerator ? std::string() : acceleration.reason;
+}
+
+Executor on_cpu(const SmoothingTask& task, std::string reason) { return {make_smoother(task), Backend::Cpu, std::move(reason), {}}; }
+
+Executor on_device(const Accelerator& accelerator, const SmoothingTask& task) {
+  auto smoother = accelerator.make_dmo(task.input, task.colouring, task.metric, task.search, task.immovable, task.pool);
+  return {std::move(smoother), accelerator.backend(), accelerator.description(), {}};
+}
+
+}  // namespace
+
+std::string_view name(Backend backend) { return kBackendNames[static_cast<std::size_t>(backend)]; }
+
+Backend parse_backend(std::string_view word) {
+  const auto found = std::ranges::find(kBackendNames, word);
+  if (found == kBackendNames.end()) throw UsageError(fmt::format("unknown backend '{}' (known: {})", word, fmt::join(kBackendNames, ", ")));
+  return static_cast<Backend>(found - kBackendNames.begin());
+}
+
+void require_backend(Backend wanted, const Acceleration& acceleration) {
+  if (wanted == Backend::Cuda && !acceleration.accelerator) refuse(acceleration.reason);
+}
+
+void require_executable(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task) {
+  require_possible(task);
+  if (wanted != Backend::Cuda) return;
+  if (const std::string why_not = obstacle(acceleration, task); !why_not.empty()) refuse(why_not);
+}
+
+Executor make_executor(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task) {
+  require_executable(wanted, acceleration, task);
+  if (wanted == Backend::Cpu) return on_cpu(task, {});
+  if (wanted == Backend::Cuda) return on_device(*acceleration.accelerator, task);
+  const std::string why_not = obstacle(acceleration, task);
+  if (!why_not.empty()) return on_cpu(task, fmt::format("no {}: {}", name(Backend::Cuda), why_not));
+  try {
+    return on_device(*acceleration.accelerator, task);
+  } catch (const DeviceError& error) {
+    return executor_after_failure(fmt::format("{} failed: {}", name(acceleration.accelerator->backend()), error.what()), task);
+  }
+}
+
+Executor executor_after_failure(const std::string& why, const SmoothingTask& task) {
+  Executor executor = on_cpu(task, why);
+  executor.warning = fmt::format("{}; smoothing on the CPU", why);
+  return executor;
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,32 @@
+#pragma once
+// Which of the backends does a run's smoothing, and why.
+
+#include <memory>
+#include <string>
+
+#include "core/smooth/execution/accelerator.h"
+
+namespace dmoscope {
+
+/// A smoother, and what it runs on.
+struct Executor {
+  std::unique_ptr<Smoother> smoother;
+  Backend backend = Backend::Cpu;  // never Auto
+  std::string reason;              // accelerator: what it is; cpu: why nothing faster ("no cuda: ..."), empty where nothing else was wanted
+  std::string warning;             // for a person: an accelerator should have been used and failed; usually empty
+};
+
+/// Throws UsageError with the reason when `wanted` names a backend that is not there.
+void require_backend(Backend wanted, const Acceleration& acceleration);
+
+/// Throws the UsageError that make_executor would throw. Of the task's pointers only `input` is read.
+void require_executable(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task);
+
+/// Throws UsageError as make_smoother does, and with the reason when `wanted` cannot be; DeviceError when `wanted` fails. For
+/// Backend::Auto a device's failure is no error: the CPU does the work, with a warning.
+[[nodiscard]] Executor make_executor(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task);
+
+/// On the CPU, since the accelerator of before failed: `why`.
+[[nodiscard]] Executor executor_after_failure(const std::string& why, const SmoothingTask& task);
+
+}  // namespace dmoscope

@@ -1,0 +1,105 @@
+#include "core/smooth/execution/method_table.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/smooth/methods/active_set_ascent.h"
+#include "core/smooth/methods/angle_based.h"
+#include "core/smooth/methods/composite_dmo.h"
+#include "core/smooth/methods/dmo.h"
+#include "core/smooth/methods/dvr.h"
+#include "core/smooth/methods/laplace.h"
+#include "core/smooth/methods/pattern_search.h"
+#include "core/smooth/methods/then_mean.h"
+
+namespace dmoscope {
+
+namespace {
+constexpr std::array<MethodInfo, 7> kMethods{
+    {{.name = "dmo",
+      .doc = "Discrete mesh optimization: best candidate of a grid, three levels (Zint and Grosso 2018)",
+      .make = make_dmo_smoother,
+      .untangles = true,
+      .combines = true,
+      .accelerated = true,
+      .searches_grid = true},
+     {.name = "laplace",
+      .doc = "Laplacian smoothing: to the mean of the edge neighbours, whatever becomes of the elements",
+      .make = make_laplace_smoother,
+      .optimises = false,
+      .untangles = true,
+      .relaxes = true},
+     {.name = "smart-laplace",
+      .doc = "Laplacian smoothing, only where the vertex gains (Freitag 1997)",
+      .make = make_smart_laplace_smoother,
+      .relaxes = true},
+     {.name = "angle-based",
+      .doc = "Angle-based smoothing: to the mean of the places that halve the ring's angles, whatever becomes of the elements (Zhou and "
+             "Shimada 2000)",
+      .make = make_angle_based_smoother,
+      .optimises = false,
+      .planar_only = true,
+      .untangles = true,
+      .relaxes = true},
+     {.name = "dvr",
+      .doc = "Directional vertex relaxation: to the best place on a line, one direction an iteration (Rangarajan and Lew 2017)",
+      .make = make_dvr_smoother,
+      .mean_ratio_only = true,
+      .has_directions = true},
+     {.name = "pattern-search",
+      .doc = "Compass search: the best of four steps, which grow or shrink (Park and Shontz 2010)",
+      .make = make_pattern_search_smoother},
+     {.name = "active-set",
+      .doc = "Active-set ascent: along the steepest way on which none of the worst elements loses (Freitag, Jones and Plassmann 1995)",
+      .make = make_active_set_smoother}}};
+
+void require_possible(const Combination& combination, const SmoothingTask& task) {
+  validate(task.metric, combination);
+  if (!method_info(task.method).combines) throw UsageError(fmt::format("metrics are combined by dmo alone, not by {}", task.method));
+  if (task.then_mean) throw UsageError("a combination has a second aim of its own, which a phase that raises the mean would undo");
+  if (combination.size() != nullptr && task.input->is_volume())
+    throw UsageError("sizes are of planar meshes in this version, and the mesh is a volume");
+  if (const auto* second = std::get_if<Metric>(&combination.second)) require_defined(*second, task.input->mesh);
+}
+
+}  // namespace
+
+std::span<const MethodInfo> method_table() { return kMethods; }
+
+const MethodInfo& method_info(std::string_view name) {
+  const auto found = std::ranges::find(kMethods, name, &MethodInfo::name);
+  if (found != kMethods.end()) return *found;
+  std::string known;
+  for (const MethodInfo& entry : kMethods) known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
+  throw UsageError(fmt::format("unknown method '{}'; known are {}", name, known));
+}
+
+std::optional<std::uint64_t> still_iterations(const MethodInfo& method, const MethodOptions& options, bool volume) {
+  if (!method.has_directions) return 1;
+  const std::uint64_t axes = volume ? 3 : 2;
+  return options.directions == Directions::Axes ? std::optional(axes) : std::nullopt;
+}
+
+void require_possible(const SmoothingTask& task) {
+  const MethodInfo& method = method_info(task.method);
+  validate(task.search);
+  validate(task.options);
+  require_defined(task.metric, task.input->mesh);
+  if (method.mean_ratio_only && task.metric != Metric::MeanRatio)
+    throw UsageError(fmt::format("{} optimises the mean ratio alone, not {}", method.name, info(task.metric).name));
+  if (method.planar_only && task.input->is_volume()) throw UsageError(fmt::format("{} is defined for planar meshes alone", method.name));
+  if (task.combination) require_possible(*task.combination, task);
+}
+
+std::unique_ptr<Smoother> make_smoother(const SmoothingTask& task) {
+  require_possible(task);
+  if (task.combination) return make_composite_smoother(task);
+  auto smoother = method_info(task.method).make(task);
+  return task.then_mean ? then_mean(std::move(smoother), task) : std::move(smoother);
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,43 @@
+#pragma once
+// Every smoothing method: what it is called, what it can do, and what makes it. To add a method is a row here and a source in methods/.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "core/smooth/smoother.h"
+
+namespace dmoscope {
+
+struct MethodInfo {
+  std::string_view name, doc;
+  std::unique_ptr<Smoother> (*make)(const SmoothingTask&);
+  bool optimises = true;         // the metric; else it only judges what the method does
+  bool mean_ratio_only = false;  // it can optimise no other metric
+  bool planar_only = false;      // not of volumes
+  bool untangles = false;        // worth a try where another leaves elements inverted
+  bool combines = false;         // it can optimise a composite objective
+  bool accelerated = false;      // accelerators can do it
+  bool searches_grid = false;    // reads SearchParameters
+  bool relaxes = false;          // reads MethodOptions::relaxation
+  bool has_directions = false;   // reads MethodOptions::directions and seed
+};
+/// The methods this version has.
+[[nodiscard]] std::span<const MethodInfo> method_table();
+/// Throws UsageError that lists the known ones.
+[[nodiscard]] const MethodInfo& method_info(std::string_view name);
+
+/// After how many iterations in a row in which no vertex moved none will move any more; none: one can never tell. A method that looks along
+/// one direction an iteration may find nothing there, and something along the next. `volume`: whether it looks in space.
+[[nodiscard]] std::optional<std::uint64_t> still_iterations(const MethodInfo& method, const MethodOptions& options, bool volume);
+
+/// Throws UsageError for an unknown method, for parameters out of range, for a metric that is not defined for the mesh or not for the
+/// method, or for a combination that is not possible. Of the task's pointers only `input` is read.
+void require_possible(const SmoothingTask& task);
+
+/// Makes the smoother for a task on the CPU. Throws as require_possible does.
+[[nodiscard]] std::unique_ptr<Smoother> make_smoother(const SmoothingTask& task);
+
+}  // namespace dmoscope

@@ -1,0 +1,261 @@
+#pragma once
+// The one definition of the kernel for two aims. Only the composite_kernel_*.cpp, each compiled for one kind of processor, include it; see
+// lane_kernel_impl.h for what that asks of the code.
+
+#include <array>
+#include <limits>
+
+#include "core/numeric/pack.h"
+// After the packs:
+#include "core/search/grid_search.h"
+#include "core/smooth/kernels/composite_kernel.h"
+
+namespace dmoscope::composite {
+
+/// Calls f.template operator()<M>() with a metric of the frame.
+template <class Frame, class F>
+[[gnu::always_inline]] inline decltype(auto) with_metric_of(Metric metric, F f) {
+  if constexpr (std::is_same_v<Frame, Plane>)
+    return formulas::with_planar_metric(metric, f);
+  else
+    return formulas::with_volume_metric(metric, f);
+}
+
+/// What Objective asks of a star.
+template <class Frame>
+struct Lists {
+  const StarListsIn<Frame, double>* star;
+  template <bool Others, class F>
+  void for_each(F f) const {
+    for (std::size_t i = 0; i < star->simplices.size; ++i) f(star->simplices.data[i]);
+    if constexpr (Others) star->for_others(f);
+  }
+};
+
+/// What is kept of one metric from a pack of places to the next.
+template <class D>
+struct Sieve {
+  Sieve(std::size_t simplices, bool with_others) : keeps_others(with_others) {
+    for (std::size_t i = 0; i < simplices; ++i) order[i] = static_cast<std::uint16_t>(i);
+  }
+  /// The one that decided is likely to decide the next.
+  void to_front(std::size_t i) {
+    const std::uint16_t k = order[i];
+    for (; i > 0; --i) order[i] = order[i - 1];
+    order[0] = k;
+  }
+  std::uint16_t order[kMaxSimplices];  // of the simplices
+  bool keeps_others;
+  // Of the elements with the vertex at the places that were looked at last:
+  std::array<D, kMaxSimplices> quality;
+  std::array<D, kMaxOthers> others;
+};
+
+/// `least`: of the simplices.
+template <Metric M, class Frame, class D, class Hopeful>
+D least_of_others(const StarListsIn<Frame, double>& star, const OffsetIn<Frame, D>& p, Sieve<D>& sieve, D least, const Hopeful& hopeful) {
+  using scalar::min;
+  bool goes_on = true;
+  std::size_t k = 0;
+  star.for_others([&](const auto& element) {
+    if (!goes_on) return;
+    const auto shape = element.with(p);
+    if (sieve.keeps_others) {
+      const auto found = formulas::metric_whole_and_around<M>(shape, element.kMoving);
+      sieve.others[k++] = found.whole;
+      least = min(least, found.around);
+    } else {
+      least = min(least, formulas::metric_around<M>(shape, element.kMoving));
+    }
+    goes_on = hopeful(least);
+  });
+  return least;
+}
+
+/// The least of a metric with the vertex at each of the places, as Objective finds it; where no slot is hopeful any more, hopeful(least so
+/// far), whatever it is then.
+template <Metric M, class Frame, class D, class Hopeful>
+D least_at(const StarListsIn<Frame, double>& star, const OffsetIn<Frame, D>& p, Sieve<D>& sieve, const Hopeful& hopeful) {
+  using Point = OffsetIn<Frame, D>;
+  using scalar::min;
+  D least(static_cast<double>(std::numeric_limits<float>::max()));
+  for (std::size_t i = 0; i < star.simplices.size; ++i) {
+    const std::size_t k = sieve.order[i];
+    sieve.quality[k] = formulas::metric<M>(star.simplices.data[k].with(p));
+    least = min(least, sieve.quality[k]);
+    if (!hopeful(least)) {
+      sieve.to_front(i);
+      return least;
+    }
+  }
+  if constexpr (!formulas::kSignTellsInversion<M, Point>)
+    return Objective<M, false, D, Value::Metric, Lists<Frame>>({&star})(p);
+  else if constexpr (formulas::kDefinedForOthers<M, Point>)
+    least = least_of_others<M, Frame, D>(star, p, sieve, least, hopeful);
+  return least;
+}
+
+/// Of a second metric `threshold` plus the least, and anything not above `best` in a slot where that is not. A function for each, so that
+/// there need be no kernel for each pair.
+template <class Frame, class D>
+using SecondMetric = D (*)(const StarListsIn<Frame, double>& star, const OffsetIn<Frame, D>& p, Sieve<D>& sieve, D threshold, D best);
+template <Metric M, class Frame, class D>
+D second_metric(const StarListsIn<Frame, double>& star, const OffsetIn<Frame, D>& p, Sieve<D>& sieve, D threshold, D best) {
+  return threshold + least_at<M, Frame, D>(star, p, sieve, [&](D least) { return xsimd::any(threshold + least > best); });
+}
+
+/// M: the first metric; D: pack of doubles, a candidate a slot.
+template <Metric M, class Frame, class D>
+class Kernel {
+ public:
+  static CompositeFound<Frame> run(const CompositeSearch<Frame>& task) {
+    std::size_t others = 0;
+    task.star.for_others([&others](const auto&) { ++others; });
+    if (task.star.simplices.size > kMaxSimplices || others > kMaxOthers || task.points > kMaxCompositePoints) return {};
+    Kernel kernel(task);
+    return kernel.search();
+  }
+
+ private:
+  using Task = CompositeSearch<Frame>;
+  using Second = typename Task::Second;
+  using Point = OffsetIn<Frame, D>;
+  static constexpr bool kSpace = std::is_same_v<Frame, Space>;
+  static constexpr std::size_t kWidth = D::size;
+  static constexpr std::size_t kMaxPoints = kMaxCompositePoints;
+  static constexpr std::size_t kMaxPlane = kMaxPoints * kMaxPoints + kWidth;
+
+  explicit Kernel(const Task& task)
+      : task_(task), first_(task.star.simplices.size, task.second == Second::Mean), second_(task.star.simplices.size, false) {
+    if (task.second == Second::Metric)
+      second_metric_ =
+          with_metric_of<Frame>(task.metric, []<Metric Other>() -> SecondMetric<Frame, D> { return &second_metric<Other, Frame, D>; });
+    const auto n = static_cast<std::size_t>(task_.points);
+    for (std::size_t i = 0; i < n; ++i) part_[i] = static_cast<double>(i) / static_cast<double>(n - 1) - 0.5;
+  }
+
+  CompositeFound<Frame> search() {
+    CompositeFound<Frame> found;
+    best_ = worth(Point{}, D(-1.0)).get(0);
+    found.ready = best_ > 0.0;
+    if (!found.ready) return found;
+    double omega = task_.omega;
+    for (int level = 0; level < task_.levels; ++level) {
+      search_level(omega);
+      omega *= 2.0 / (task_.points - 1);
+    }
+    if constexpr (kSpace)
+      found.offset = {at_[2], at_[0], at_[1]};
+    else
+      found.offset = {at_[0], at_[1]};
+    return found;
+  }
+
+  [[nodiscard]] auto beyond(D least) const {
+    const D threshold(task_.threshold);
+    return task_.inclusive ? (least > D(0.0)) & (least >= threshold) : least > threshold;
+  }
+
+  /// What CompositeScore says of each of the places; in a slot that is not above `best`, which is positive or below all, anything that
+  /// is not.
+  D worth(const Point& p, D best) {
+    const D least = least_at<M, Frame, D>(task_.star, p, first_, [&](D so_far) { return xsimd::any((so_far > best) | beyond(so_far)); });
+    const auto is_beyond = beyond(least);
+    return xsimd::any(is_beyond) ? xsimd::select(is_beyond, worth_beyond(p, best), least) : least;
+  }
+  D worth_beyond(const Point& p, D best) {
+    const D threshold(task_.threshold);
+    if (task_.second == Second::Metric) return second_metric_(task_.star, p, second_, threshold, best);
+    if (task_.second == Second::Mean) return threshold + mean(p);
+    if (!(task_.edge > 0.0)) return threshold;
+    const Point away = p - point_of<D>(task_.wanted);
+    return threshold + D(1.0) / (D(1.0) + dot(away, away) / D(task_.edge * task_.edge));
+  }
+  /// Over all elements, as they were found just before.
+  [[nodiscard]] D mean(const Point& p) const {
+    const std::size_t simplices = task_.star.simplices.size;
+    D sum(0.0);
+    for (std::size_t i = 0; i < simplices; ++i) sum = sum + first_.quality[i];
+    std::size_t others = 0;
+    if constexpr (formulas::kDefinedForOthers<M, Point>) {
+      task_.star.for_others([&](const auto& element) {
+        // Objective, which speaks for blind metrics, keeps none.
+        sum = sum + (formulas::kSignTellsInversion<M, Point> ? first_.others[others] : formulas::metric<M>(element.with(p)));
+        ++others;
+      });
+    }
+    return sum / D(static_cast<double>(simplices + others));
+  }
+
+  /// Where the candidates of a level stand along its last two axes, in the order of their indices: as CandidateGrid has it.
+  void set_plane(double width0, double width1) {
+    const double centre0 = at_[0], centre1 = at_[1];
+    const auto n = static_cast<std::size_t>(task_.points);
+    std::size_t c = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double first = centre0 + width0 * part_[i];
+      for (std::size_t j = 0; j < n; ++j, ++c) {
+        plane_[0][c] = first;
+        plane_[1][c] = centre1 + width1 * part_[j];
+      }
+    }
+    for (; c % kWidth != 0; ++c) {  // once more the last, which cannot be better than itself
+      plane_[0][c] = plane_[0][n * n - 1];
+      plane_[1][c] = plane_[1][n * n - 1];
+    }
+  }
+
+  void search_level(double omega) {
+    if constexpr (kSpace) {
+      const double centre = at_[2], width = task_.box.x * omega;
+      set_plane(task_.box.y * omega, task_.box.z * omega);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(task_.points); ++i) search_plane(centre + width * part_[i]);
+    } else {
+      set_plane(task_.box.x * omega, task_.box.y * omega);
+      search_plane(0.0);
+    }
+  }
+
+  /// `x`: in space, the first coordinate of all of these candidates.
+  void search_plane(double x) {
+    const std::size_t candidates = static_cast<std::size_t>(task_.points) * static_cast<std::size_t>(task_.points);
+    for (std::size_t c = 0; c < candidates; c += kWidth) {
+      const D first = D::load_aligned(plane_[0] + c), second = D::load_aligned(plane_[1] + c);
+      D value;
+      if constexpr (kSpace)
+        value = worth({D(x), first, second}, D(best_));
+      else
+        value = worth({first, second}, D(best_));
+      if (xsimd::any(value > D(best_))) take_best(value, c, x);
+    }
+  }
+
+  /// Among equals the candidate of lowest index.
+  void take_best(D value, std::size_t c, double x) {
+    alignas(64) double values[kWidth];
+    value.store_aligned(values);
+    for (std::size_t k = 0; k < kWidth; ++k) {
+      if (!(values[k] > best_)) continue;
+      best_ = values[k];
+      at_[0] = plane_[0][c + k];
+      at_[1] = plane_[1][c + k];
+      at_[2] = x;
+    }
+  }
+
+  const Task& task_;
+  Sieve<D> first_, second_;  // of the two metrics
+  SecondMetric<Frame, D> second_metric_ = nullptr;
+  double best_ = 0.0;               // worth
+  double at_[3] = {0.0, 0.0, 0.0};  // where: along the last two axes, and in space along the first
+  double part_[kMaxPoints];         // an axis' candidates, as parts of the grid's size
+  alignas(64) double plane_[2][kMaxPlane];
+};
+
+/// The kernel for the first metric with this translation unit's widest packs.
+template <class Frame, class D>
+CompositeKernel<Frame> kernel_for(Metric first) {
+  return with_metric_of<Frame>(first, []<Metric M>() -> CompositeKernel<Frame> { return &Kernel<M, Frame, D>::run; });
+}
+
+}  // namespace dmoscope::composite

@@ -1,0 +1,40 @@
+#pragma once
+// Visits many vertices at once, one a slot of a pack: the same code compiled for several processors, chosen at run time.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/quality/metric.h"
+#include "core/search/parameters.h"
+#include "core/smooth/kernels/search_frame.h"
+#include "core/smooth/kernels/star_table.h"
+
+namespace dmoscope {
+
+/// All a kernel needs to know, as plain data. Ranks: see StarTable.
+struct LaneTask {
+  const StarShape* shapes;
+  const Index* others;
+  double* ranked;       // 3 a rank: the positions
+  std::uint8_t* awake;  // one a rank: has its star changed since it was last found at its best?
+  SearchFrame frame;
+  SearchParameters parameters;
+
+  void* owner;  // for the two below
+  /// Exactly: would the vertex of this rank gain by standing at `position` (3 coordinates)? Leaves it where it is.
+  bool (*gains)(void* owner, Index rank, const double* position);
+  /// The reference's visit of the vertex of this rank; true if it moved.
+  bool (*visit_alone)(void* owner, Index rank);
+};
+
+/// Visits the ranks [first, last), no two of which share an element, as far as they are awake, and wakes their neighbours where they
+/// move. Returns how many moved.
+using LaneKernel = std::uint64_t (*)(const LaneTask& task, std::size_t first, std::size_t last);
+
+/// The kernel for a metric. `level` must be one of supported_simd_levels(). All give the same bits.
+[[nodiscard]] LaneKernel lane_kernel(SimdLevel level, Metric metric);
+
+/// Visits a call of a kernel should make: enough to fill its lanes, few enough to share among threads.
+inline constexpr std::size_t kLaneGrain = 1024;
+
+}  // namespace dmoscope

@@ -1,0 +1,7 @@
+#include "core/smooth/kernels/volume_kernel_impl.h"
+
+namespace dmoscope {
+
+VolumeKernel volume_kernel_baseline(Metric metric) { return solids::kernel_for<Pack<float>>(metric); }
+
+}  // namespace dmoscope

@@ -1,7 +1,0 @@
-#include "core/smooth/lane_kernel_of.h"
-
-namespace dmoscope {
-
-LaneKernel lane_kernel_baseline(Metric metric) { return lanes::kernel_for<Pack<float>, Pack<double>>(metric); }
-
-}  // namespace dmoscope

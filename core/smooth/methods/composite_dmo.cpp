@@ -1,0 +1,206 @@
+#include "core/smooth/methods/composite_dmo.h"
+
+#include <array>
+
+#include "core/smooth/edge_neighbours.h"
+
+namespace dmoscope {
+
+namespace {
+
+template <Metric M, class Frame>
+double mean_of_star(const MeshView<Frame>& mesh, PositionView positions, Index vertex, Vec3 place) {
+  const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
+  double sum = 0.0;
+  for (const Incidence& incidence : mesh.star(vertex))
+    visit_shape(mesh.frame, mesh.corners_of(incidence.element), at, [&sum](const auto& shape) { sum += evaluate<M>(shape); });
+  return sum / static_cast<double>(mesh.star(vertex).size());
+}
+
+template <Metric M, class Frame>
+double least_at(const StarViewIn<Frame, double>& star, OffsetIn<Frame, double> p) {
+  return Objective<M, false, double, Value::Metric, StarViewIn<Frame, double>>(star)(p);
+}
+
+template <Metric M, class Frame>
+bool is_tangled(const StarViewIn<Frame, double>& star) {
+  return UntanglingObjective<M, StarViewIn<Frame, double>, OffsetIn<Frame, double>>(star, {}).tangled();
+}
+
+template <Metric M, class Frame>
+double untangling_at(const StarViewIn<Frame, double>& star, const Untangling& rule, OffsetIn<Frame, double> p) {
+  return UntanglingObjective<M, StarViewIn<Frame, double>, OffsetIn<Frame, double>>(star, rule)(p);
+}
+
+template <Metric M, class Frame>
+double mean_at(const StarViewIn<Frame, double>& star, OffsetIn<Frame, double> p) {
+  double sum = 0.0, count = 0.0;
+  star.template for_each<true>([&](const auto& element) {
+    sum += evaluate<M>(element.with(p));
+    count += 1.0;
+  });
+  return sum / count;
+}
+
+template <Metric M, class Frame>
+MetricFunctions<Frame> functions_of() {
+  return {star_state<M, Frame>, mean_of_star<M, Frame>, least_at<M, Frame>,
+          mean_at<M, Frame>,    is_tangled<M, Frame>,   untangling_at<M, Frame>};
+}
+
+template <class Frame>
+std::array<MetricFunctions<Frame>, kMetricCount> make_table() {
+  std::array<MetricFunctions<Frame>, kMetricCount> table{};
+  for (const MetricInfo& entry : metric_table()) {
+    auto& functions = table[static_cast<std::size_t>(entry.metric)];
+    if constexpr (std::is_same_v<Frame, Plane>)
+      functions = formulas::with_planar_metric(entry.metric, []<Metric M>() { return functions_of<M, Plane>(); });
+    else
+      functions = formulas::with_volume_metric(entry.metric, []<Metric M>() { return functions_of<M, Space>(); });
+  }
+  return table;
+}
+
+}  // namespace
+
+template <class Frame>
+const MetricFunctions<Frame>& metric_functions(Metric metric) {
+  static const auto table = make_table<Frame>();
+  return table[static_cast<std::size_t>(metric)];
+}
+template const MetricFunctions<Plane>& metric_functions<Plane>(Metric);
+template const MetricFunctions<Space>& metric_functions<Space>(Metric);
+
+CompositeObjective composite_objective(Metric first, const Combination& combination, std::shared_ptr<const SizeField> size) {
+  if (size) return {first, combination.threshold, std::move(size)};
+  return {first, combination.threshold, std::get<Metric>(combination.second)};
+}
+
+CompositeObjective raise_mean_above(Metric metric, double floor) { return {metric, floor > 0.0 ? floor : 0.0, MeanOfStar{}}; }
+
+std::optional<CompositeObjective> composite_objective_of_visit(Metric metric, const std::optional<Combination>& combination,
+                                                               const std::shared_ptr<const SizeField>& size, const Sweep& sweep) {
+  if (sweep.floor) return raise_mean_above(metric, *sweep.floor);
+  if (combination) return composite_objective(metric, *combination, size);
+  return std::nullopt;
+}
+
+DensityTarget<Plane> density_target(const SizeField& size, const PlanarView& mesh, PositionView positions, Index vertex) {
+  const Vec3 here = positions[vertex];
+  Vec2<double> sum{};
+  double weights = 0.0, lengths = 0.0;
+  std::size_t count = 0;
+  for_edge_neighbours(mesh, vertex, [&](Index other) {
+    const Vec2<double> edge = mesh.frame.offset(positions[other], here);
+    const double weight = 1.0 / size.at(other, positions[other]);
+    sum = {sum.x + weight * edge.x, sum.y + weight * edge.y};
+    weights += weight;
+    lengths += std::sqrt(dot(edge, edge));
+    ++count;
+  });
+  if (count == 0) return {};
+  return {{sum.x / weights, sum.y / weights}, lengths / static_cast<double>(count)};
+}
+
+template <class Frame>
+CompositeRule<Frame>::CompositeRule(const InputMesh& input, CompositeObjective composite, const SearchParameters& parameters)
+    : mesh_(input),
+      composite_(std::move(composite)),
+      parameters_(parameters),
+      kernel_(parameters.precision == Precision::Double
+                  ? nullptr
+                  : composite_kernel<Frame>(parameters.simd.value_or(best_simd_level()), composite_.first)) {}
+
+template <class Frame>
+typename CompositeRule<Frame>::Found CompositeRule<Frame>::search(const Scratch& star, PositionView positions, Index vertex) const {
+  if (kernel_ != nullptr && !mesh_.untangling.repair && !is_tangled(star)) {
+    const CompositeFound<Frame> found = kernel_(task_of(star, positions, vertex));
+    if (found.ready) return {found.offset, false};
+  }
+  return search_plainly(star, positions, vertex);
+}
+
+template <class Frame>
+CompositeSearch<Frame> CompositeRule<Frame>::task_of(const Scratch& star, PositionView positions, Index vertex) const {
+  CompositeSearch<Frame> task;
+  task.star = lists_of(star);
+  task.box = star.box;
+  task.points = parameters_.grid_points;
+  task.levels = parameters_.levels;
+  task.omega = parameters_.omega;
+  task.threshold = composite_.threshold;
+  task.inclusive = composite_.raise_mean();
+  if (const auto* metric = std::get_if<Metric>(&composite_.second)) {
+    task.second = CompositeSearch<Frame>::Second::Metric;
+    task.metric = *metric;
+  } else if (!composite_.raise_mean()) {
+    task.second = CompositeSearch<Frame>::Second::Density;
+    const DensityTarget<Frame> target = density_of(star, positions, vertex);
+    task.wanted = target.offset;
+    task.edge = target.edge;
+  }
+  return task;
+}
+
+template <class Frame>
+DensityTarget<Frame> CompositeRule<Frame>::density_of(const Scratch& star, PositionView positions, Index vertex) const {
+  const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&composite_.second);
+  if (size == nullptr) return {};
+  if constexpr (std::is_same_v<Frame, Plane>) {
+    const DensityTarget<Plane> found = density_target(**size, mesh_.view, positions, vertex);
+    return {times(found.offset, 1.0 / star.scale), found.edge / star.scale};
+  }
+  return {};  // sizes are of planar meshes: see require_possible()
+}
+
+/// The second aim with the vertex at `place`.
+template <class Frame>
+double CompositeRule<Frame>::second(PositionView positions, Index vertex, Vec3 place) const {
+  if constexpr (std::is_same_v<Frame, Plane>) {
+    if (const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&composite_.second))
+      return density_target(**size, mesh_.view, positions, vertex).density(mesh_.view.frame.offset(place, positions[vertex]));
+  }
+  if (const auto* metric = std::get_if<Metric>(&composite_.second))
+    return metric_functions<Frame>(*metric).state(mesh_.view, positions, vertex, place).quality;
+  return metric_functions<Frame>(composite_.first).mean(mesh_.view, positions, vertex, place);
+}
+
+template <class Frame>
+bool CompositeRule<Frame>::gains(PositionView positions, Index vertex, Vec3 target) const {
+  const auto state = metric_functions<Frame>(composite_.first).state;
+  const Vec3 here = positions[vertex];
+  const StarState before = state(mesh_.view, positions, vertex, here), after = state(mesh_.view, positions, vertex, target);
+  const auto second_rises = [&] { return second(positions, vertex, target) > second(positions, vertex, here); };
+  if (!(before.jacobian > 0.0)) {
+    if (!after.better_than(before, mesh_.untangling)) return false;
+    if (!mesh_.untangling.attempt && !keeps_sound(mesh_.view, positions, vertex, target)) return false;
+    // Raising the mean lowers neither the minimum nor the mean, not even for the sake of untangling.
+    return !composite_.raise_mean() || (after.quality >= before.quality && second_rises());
+  }
+  if (mesh_.untangling.repair || !(after.jacobian > 0.0)) return false;
+  if (!composite_.beyond(before.quality)) return after.quality > before.quality;
+  return composite_.beyond(after.quality) && second_rises();
+}
+
+template <class Frame>
+std::optional<Vec3> CompositeRule<Frame>::target(PositionView positions, Index vertex, Scratch& star) const {
+  gather_star(MeshStar(mesh_.view, positions, vertex), star);
+  const Offset found = search(star, positions, vertex).offset;
+  if (found == Offset{}) return std::nullopt;
+  const auto target = mesh_.moved(positions[vertex], times(found, star.scale));
+  return target && gains(positions, vertex, *target) ? target : std::nullopt;
+}
+
+template class CompositeRule<Plane>;
+template class CompositeRule<Space>;
+
+std::unique_ptr<Smoother> make_composite_smoother(const SmoothingTask& task, CompositeObjective composite) {
+  if (task.input->is_volume()) return make_rule_smoother(task, CompositeRule<Space>(*task.input, std::move(composite), task.search));
+  return make_rule_smoother(task, CompositeRule<Plane>(*task.input, std::move(composite), task.search));
+}
+
+std::unique_ptr<Smoother> make_composite_smoother(const SmoothingTask& task) {
+  return make_composite_smoother(task, composite_objective(task.metric, *task.combination, task.size));
+}
+
+}  // namespace dmoscope

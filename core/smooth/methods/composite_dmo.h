@@ -1,0 +1,162 @@
+#pragma once
+// The search for two aims at once (see composite_objective.h): the very grid search, with an objective that goes on beyond a threshold.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "core/smooth/kernels/composite_kernel.h"
+#include "core/smooth/size_field.h"
+#include "core/smooth/vertex_rule.h"
+
+namespace dmoscope {
+
+/// The second aim of the phase that raises the mean: the mean quality of the star, by the first metric.
+struct MeanOfStar {};
+
+/// Of two places the better one for a vertex is, in this order: while an element of its star is inverted, the one where it is
+/// less so (see UntanglingObjective); while its least first metric is not beyond the threshold, that of greater least first metric; that of
+/// greater second aim. Beyond: above the threshold; or, for the mean, not below it, so that a star whose least is the floor keeps its place
+/// unless its mean rises.
+struct CompositeObjective {
+  Metric first = Metric::MeanRatio;
+  double threshold = 0.7;  // at least 0
+  std::variant<Metric, std::shared_ptr<const SizeField>, MeanOfStar> second = MeanOfStar{};
+
+  [[nodiscard]] bool raise_mean() const noexcept { return std::holds_alternative<MeanOfStar>(second); }
+  [[nodiscard]] bool beyond(double least) const noexcept {
+    return raise_mean() ? least > 0.0 && least >= threshold : least > threshold;  // with inverted elements it is never beyond
+  }
+};
+
+/// What a combination aims at; `size`: its size function, null where the second aim is a metric.
+[[nodiscard]] CompositeObjective composite_objective(Metric first, const Combination& combination, std::shared_ptr<const SizeField> size);
+/// What a phase that raises the mean aims at.
+[[nodiscard]] CompositeObjective raise_mean_above(Metric metric, double floor);
+
+/// The two aims that a visit of dmo has; none: one metric alone.
+[[nodiscard]] std::optional<CompositeObjective> composite_objective_of_visit(Metric metric, const std::optional<Combination>& combination,
+                                                                             const std::shared_ptr<const SizeField>& size,
+                                                                             const Sweep& sweep);
+
+/// What is needed of a metric, so that any two can be combined without a template for each pair. Frame: Plane or Space.
+template <class Frame>
+struct MetricFunctions {
+  using View = StarViewIn<Frame, double>;
+  using Offset = OffsetIn<Frame, double>;
+  // By the statistics' formulas, with the vertex at a place.
+  StarState (*state)(const MeshView<Frame>&, PositionView, Index vertex, Vec3 place);
+  double (*mean)(const MeshView<Frame>&, PositionView, Index vertex, Vec3 place);
+  // By the search's, with the vertex at an offset.
+  double (*least_at)(const View&, Offset);
+  double (*mean_at)(const View&, Offset);
+  bool (*is_tangled)(const View&);
+  double (*untangling_at)(const View&, const Untangling&, Offset);
+};
+template <class Frame>
+[[nodiscard]] const MetricFunctions<Frame>& metric_functions(Metric metric);
+
+/// Where a vertex would stand for the sake of density (paper eq. 7), and what other places are worth (eq. 6, but bounded and free of
+/// scale).
+template <class Frame>
+struct DensityTarget {
+  using Offset = OffsetIn<Frame, double>;
+  Offset offset;      // from where the vertex stands
+  double edge = 0.0;  // mean edge of the star
+  /// 1 / (1 + d^2 / h^2); `at`: relative to where the vertex stands.
+  [[nodiscard]] double density(Offset at) const noexcept {
+    const Offset away = at - offset;
+    return edge > 0.0 ? 1.0 / (1.0 + dot(away, away) / (edge * edge)) : 0.0;
+  }
+};
+/// The mean of the edge neighbours, weighted by the inverse of the size where each stands now.
+[[nodiscard]] DensityTarget<Plane> density_target(const SizeField& size, const PlanarView& mesh, PositionView positions, Index vertex);
+
+/// What the grid search maximises, as the paper's eq. (8) has it: the least first metric (or, untangling, what is raised while an element
+/// is inverted, which is <= 0); beyond the threshold that plus the second aim, which is positive.
+template <class Frame>
+class CompositeScore {
+ public:
+  using View = StarViewIn<Frame, double>;
+  using Offset = OffsetIn<Frame, double>;
+  /// `untangling`: of a star with inverted elements; else none.
+  CompositeScore(const CompositeObjective& composite, const std::optional<Untangling>& untangling, View star,
+                 const DensityTarget<Frame>& target)
+      : composite_(composite), star_(star), target_(target), untangling_(untangling), first_(metric_functions<Frame>(composite.first)) {
+    second_ = first_.mean_at;
+    if (const auto* metric = std::get_if<Metric>(&composite.second)) second_ = metric_functions<Frame>(*metric).least_at;
+    if (std::holds_alternative<std::shared_ptr<const SizeField>>(composite.second)) second_ = nullptr;
+  }
+  [[nodiscard]] double operator()(Offset p) const {
+    const double least = untangling_ ? first_.untangling_at(star_, *untangling_, p) : first_.least_at(star_, p);
+    if (!composite_.beyond(least)) return least;
+    return composite_.threshold + (second_ != nullptr ? second_(star_, p) : target_.density(p));
+  }
+
+ private:
+  const CompositeObjective& composite_;
+  View star_;
+  DensityTarget<Frame> target_;  // in units of the star's scale
+  std::optional<Untangling> untangling_;
+  const MetricFunctions<Frame>& first_;
+  double (*second_)(const View&, Offset);  // null: the density
+};
+
+/// One vertex's visit: a rule for RuleSmoother. The mesh must outlive it.
+template <class Frame>
+class CompositeRule {
+ public:
+  using Scratch = StarIn<Frame, double>;
+  using Offset = OffsetIn<Frame, double>;
+  /// The visit of a vertex hangs on nothing but where the vertices of its elements stand: see RuleSmoother.
+  static constexpr bool kDependsOnStarAlone = true;
+  static constexpr std::size_t kGrain = std::is_same_v<Frame, Plane> ? 32 : 1;  // in space a visit may take half a millisecond
+  CompositeRule(const InputMesh& input, CompositeObjective composite, const SearchParameters& parameters);
+  void begin(const Sweep& sweep) { mesh_.untangling = sweep.untangling; }
+
+  /// What was found: the offset in units of the star's scale, and whether an element was inverted.
+  struct Found {
+    Offset offset;
+    bool untangling = false;
+  };
+  /// By packs of candidates where that can be, else, and where the precision asked for is double, the plain search; both compute in double
+  /// and find the same.
+  [[nodiscard]] Found search(const Scratch& star, PositionView positions, Index vertex) const;
+  /// `trace`: see grid_search.
+  template <class Trace = NoTrace>
+  [[nodiscard]] Found search_plainly(const Scratch& star, PositionView positions, Index vertex, Trace&& trace = {}) const {
+    const StarViewIn<Frame, double> view(star);
+    const bool untangling = is_tangled(star);
+    if (mesh_.untangling.repair && !untangling) return {};
+    const CompositeScore<Frame> objective(composite_, untangling ? std::optional(mesh_.untangling) : std::nullopt, view,
+                                          density_of(star, positions, vertex));
+    const Offset middle = untangling ? middle_of<Offset>(view) : Offset{};
+    return {grid_search<double>(objective, star.box, parameters_, trace, Solo{}, untangling ? &middle : nullptr).offset, untangling};
+  }
+  /// Judged by the statistics' own formulas: does the vertex gain by standing at `target`?
+  [[nodiscard]] bool gains(PositionView positions, Index vertex, Vec3 target) const;
+  /// Where the vertex goes, if it gains there.
+  [[nodiscard]] std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& star) const;
+
+ private:
+  [[nodiscard]] bool is_tangled(const Scratch& star) const {
+    return metric_functions<Frame>(composite_.first).is_tangled(StarViewIn<Frame, double>(star));
+  }
+  [[nodiscard]] CompositeSearch<Frame> task_of(const Scratch& star, PositionView positions, Index vertex) const;
+  [[nodiscard]] DensityTarget<Frame> density_of(const Scratch& star, PositionView positions, Index vertex) const;
+  [[nodiscard]] double second(PositionView positions, Index vertex, Vec3 place) const;
+
+  RuleMesh<Frame> mesh_;
+  CompositeObjective composite_;
+  SearchParameters parameters_;
+  CompositeKernel<Frame> kernel_;  // null: the plain search alone
+};
+
+/// For any aims.
+[[nodiscard]] std::unique_ptr<Smoother> make_composite_smoother(const SmoothingTask& task, CompositeObjective composite);
+/// See make_smoother, which checks the arguments.
+[[nodiscard]] std::unique_ptr<Smoother> make_composite_smoother(const SmoothingTask& task);
+
+}  // namespace dmoscope

@@ -1,0 +1,84 @@
+#include "core/smooth/methods/laplace.h"
+
+#include "core/smooth/edge_neighbours.h"
+#include "core/smooth/vertex_rule.h"
+
+namespace dmoscope {
+
+namespace {
+
+using Scratch = std::vector<Index>;  // the neighbours
+
+/// From a free vertex to the mean of its edge neighbours.
+template <class Frame>
+class WayToMean {
+ public:
+  WayToMean(const Frame& frame, PositionView positions, Index vertex) : frame_(frame), positions_(positions), origin_(positions[vertex]) {}
+  void operator()(Index other) {
+    sum_ = sum_ + frame_.difference(positions_[other], origin_);
+    count_ += 1.0;
+  }
+  [[nodiscard]] Vec3 way() const { return 1.0 / count_ * sum_; }
+
+ private:
+  const Frame& frame_;
+  PositionView positions_;
+  Vec3 origin_, sum_{};
+  double count_ = 0.0;
+};
+
+Vec3 way_to_mean(const PlanarView& mesh, PositionView positions, Index vertex, Scratch& /*room*/) {
+  WayToMean mean(mesh.frame, positions, vertex);
+  for_edge_neighbours(mesh, vertex, [&](Index other) { mean(other); });
+  return mean.way();
+}
+Vec3 way_to_mean(const VolumeView& mesh, PositionView positions, Index vertex, Scratch& room) {
+  WayToMean mean(mesh.frame, positions, vertex);
+  gather_edge_neighbours(mesh, vertex, room);
+  for (const Index other : room) mean(other);
+  return mean.way();
+}
+
+template <class Frame>
+class Laplace {
+ public:
+  using Scratch = dmoscope::Scratch;
+  explicit Laplace(const SmoothingTask& task) : mesh_(*task.input), relaxation_(task.options.relaxation) {}
+
+  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& room) const {
+    return mesh_.moved(positions[vertex], step(positions, vertex, room));
+  }
+
+ protected:
+  [[nodiscard]] OffsetIn<Frame, double> step(PositionView positions, Index vertex, Scratch& room) const {
+    return times(mesh_.view.frame.project(way_to_mean(mesh_.view, positions, vertex, room)), relaxation_);
+  }
+
+  RuleMesh<Frame> mesh_;
+  double relaxation_;
+};
+
+template <Metric M, class Frame>
+class SmartLaplace : private Laplace<Frame> {
+ public:
+  using typename Laplace<Frame>::Scratch;
+  using Laplace<Frame>::Laplace;
+  void begin(const Sweep& sweep) { this->mesh_.untangling = sweep.untangling; }
+  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& room) const {
+    return this->mesh_.template moved_if_gaining<M>(positions, vertex, this->step(positions, vertex, room));
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Smoother> make_laplace_smoother(const SmoothingTask& task) {
+  if (task.input->is_volume()) return make_rule_smoother(task, Laplace<Space>(task));
+  return make_rule_smoother(task, Laplace<Plane>(task));
+}
+
+std::unique_ptr<Smoother> make_smart_laplace_smoother(const SmoothingTask& task) {
+  return with_metric_and_frame(*task.input, task.metric,
+                               [&]<Metric M, class Frame>() { return make_rule_smoother(task, SmartLaplace<M, Frame>(task)); });
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,59 @@
+#include "core/smooth/methods/then_mean.h"
+
+#include <utility>
+
+#include "core/smooth/methods/composite_dmo.h"
+
+namespace dmoscope {
+
+namespace {
+
+class ThenMean final : public Smoother {
+ public:
+  ThenMean(std::unique_ptr<Smoother> first, SmoothingTask task) : first_(std::move(first)), task_(std::move(task)) {}
+
+  void begin(const Sweep& sweep) override {
+    if (!sweep.floor) {
+      second_.reset();
+      first_->begin(sweep);
+    } else if (!second_ || floor_ != *sweep.floor) {
+      second_ = make_composite_smoother(task_, raise_mean_above(task_.metric, *sweep.floor));
+      floor_ = *sweep.floor;
+    }
+  }
+  std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
+    if (second_) {
+      store(positions, pool);
+      moved_on_ = true;
+      return second_->visit(first, count, positions, pool);
+    }
+    if (moved_on_) first_->positions_replaced();
+    moved_on_ = false;
+    unstored_ = true;
+    return first_->visit(first, count, positions, pool);
+  }
+  void store(std::span<Vec3> positions, ThreadPool* pool) override {
+    if (unstored_) first_->store(positions, pool);
+    unstored_ = false;
+  }
+  void positions_replaced() override {
+    first_->positions_replaced();
+    if (second_) second_->positions_replaced();
+    unstored_ = moved_on_ = false;
+  }
+
+ private:
+  std::unique_ptr<Smoother> first_, second_;  // the second where the mean is raised now
+  SmoothingTask task_;
+  double floor_ = 0.0;     // of the second
+  bool unstored_ = false;  // `first_` has visits that are not stored
+  bool moved_on_ = false;  // positions are others than `first_` knows
+};
+
+}  // namespace
+
+std::unique_ptr<Smoother> then_mean(std::unique_ptr<Smoother> first, const SmoothingTask& task) {
+  return std::make_unique<ThenMean>(std::move(first), task);
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,248 @@
+#include "core/view/frame_builder.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/memory.h"
+#include "core/session/recompute.h"
+
+namespace dmoscope {
+
+namespace {
+
+/// Takes what a device knows of the run as it stands, if it lives on one. False: it must come from the host.
+bool take_picture(Frame& frame, const Run& run) {
+  try {
+    frame.device = run.picture(frame.shown);
+  } catch (const DeviceError& error) {
+    frame.device_trouble = error.what();
+  }
+  if (!frame.device) return false;
+  const ElementSummary& summary = frame.device->summary();
+  frame.shown_statistics = summary.statistics;
+  frame.now = summary.histogram;
+  frame.worst = summary.worst;
+  return true;
+}
+
+RunView view_of(Run& run, bool percentiles) {
+  RunView view;
+  view.id = run.id();
+  view.title = run.title();
+  view.parameters = run.parameters();
+  view.backend = run.backend();
+  view.backend_reason = run.backend_reason();
+  view.moment = run.moment();
+  view.sweep = run.sweep();
+  view.mean_since = run.mean_since();
+  view.size = run.size_field();
+  view.visits_per_iteration = run.visits_per_iteration();
+  view.colouring = run.shared_colouring();
+  view.free_vertices = static_cast<Index>(run.visits_per_iteration());
+  view.fixed = run.shared_fixed();
+  view.records = run.history().shared_records();
+  if (percentiles) view.percentiles = run.history().shared_percentiles();
+  view.edits = run.edits().all().size();
+  view.edits_done = run.edits().done_by(run.moment());
+  view.history_note = run.history().sentence();
+  if (run.last_outcome()) view.last_outcome = run.last_outcome()->sentence();
+  view.best_iteration = best_iteration(run);
+  return view;
+}
+
+}  // namespace
+
+Frame judged(Session& session, std::size_t index) {
+  const Run& run = session.run(index);
+  Frame frame;
+  frame.input = session.input();
+  frame.moment = run.moment();
+  frame.shown = session.shown();
+  frame.positions.assign(run.positions().begin(), run.positions().end());
+  judge_elements(frame, run.immovable(), session.pool().get());
+  return frame;
+}
+
+void FrameBuilder::refresh_input(Session& session) {
+  const Metric shown = session.shown();
+  const bool same_input = input_ == session.input();
+  if (same_input && before_metric_ == shown && input_serial_ > 0) return;
+  if (!same_input) ++input_serial_;
+  input_ = session.input();
+  before_metric_ = shown;
+  before_ = histogram_of(*input_, shown, session.pool().get());
+}
+
+bool FrameBuilder::FrameKey::is(const FrameKey& other) const {
+  const bool same_run = index == Frame::kNoRun || (!run.expired() && run.lock() == other.run.lock());
+  return same_run && index == other.index && path == other.path && moment == other.moment && shown == other.shown &&
+         interfaces == other.interfaces;
+}
+
+FrameBuilder::FrameKey FrameBuilder::key_of(Session& session, std::size_t index) {
+  const Run& run = session.run(index);
+  return {session.identity(index), index, run.path(), run.moment(), session.shown(), {}};
+}
+
+FrameBuilder::FrameKey FrameBuilder::key_of(Session& session, std::size_t index, std::uint64_t iteration) {
+  FrameKey key = key_of(session, index);
+  key.moment = {iteration};
+  return key;
+}
+
+FrameBuilder::Known* FrameBuilder::find(const Session& session, const FrameKey& key) {
+  const auto at = std::ranges::find_if(known_, [&](const Known& one) { return one.frame->input == session.input() && key.is(one.key); });
+  if (at == known_.end()) return nullptr;
+  at->wanted = true;
+  return &*at;
+}
+
+std::shared_ptr<const Frame> FrameBuilder::keep(FrameKey key, std::shared_ptr<const Frame> frame) {
+  std::erase_if(known_, [&](const Known& one) { return key.is(one.key); });
+  known_.push_back({std::move(key), frame});
+  return frame;
+}
+
+/// A frame that lacks nothing but its positions and what they tell.
+std::shared_ptr<Frame> FrameBuilder::begin(Session& session, const FrameKey& key) {
+  refresh_input(session);
+  auto frame = std::make_shared<Frame>();
+  frame->serial = ++serial_;
+  frame->input_serial = input_serial_;
+  frame->input = input_;
+  frame->run = key.index;
+  frame->moment = key.moment;
+  frame->shown = key.shown;
+  frame->before = before_;
+  return frame;
+}
+
+std::shared_ptr<const Frame> FrameBuilder::standing(Session& session, std::size_t index, FrameDetail detail) {
+  FrameKey key = key_of(session, index);
+  const Known* known = find(session, key);
+  if (known != nullptr && (detail == FrameDetail::Live || !known->frame->device)) return known->frame;
+  const Run& run = session.run(index);
+  auto frame = begin(session, key);
+  if (run.input().is_volume() && run.backend() != Backend::Cpu) frame->device_trouble = "volumes are drawn from the host";
+  if (detail == FrameDetail::Whole || !take_picture(*frame, run)) {
+    const auto positions = run.positions();
+    reserve_large(frame->positions, positions.size());
+    frame->positions.assign(positions.begin(), positions.end());
+    judge_elements(*frame, run.immovable(), session.pool().get());
+  }
+  frame->statistics = frame->shown == run.parameters().metric ? frame->shown_statistics : run.statistics();
+  return keep(std::move(key), std::move(frame));
+}
+
+/// A run that is not the active one. Where its device fails it, it goes on from where the host knows it, once nothing runs.
+WatchedFrame FrameBuilder::watch_standing(Session& session, const Watch& what, std::size_t index, FrameDetail detail) {
+  try {
+    return {what, standing(session, index, detail), {}};
+  } catch (const DeviceError& error) {
+    if (detail == FrameDetail::Live) return {what, nullptr, error.what()};
+  }
+  session.run(index).recover();
+  return {what, standing(session, index, detail), {}};
+}
+
+std::shared_ptr<const Frame> FrameBuilder::past(Session& session, std::size_t index, std::uint64_t iteration,
+                                                std::span<const Vec3> positions) {
+  FrameKey key = key_of(session, index, iteration);
+  const Run& run = session.run(index);
+  auto frame = begin(session, key);
+  frame->positions.assign(positions.begin(), positions.end());
+  judge_elements(*frame, run.immovable(), session.pool().get());
+  frame->statistics = run.history().records()[iteration].statistics;
+  return keep(std::move(key), std::move(frame));
+}
+
+std::shared_ptr<const Frame> FrameBuilder::input_frame(Session& session) {
+  FrameKey key;
+  key.shown = session.shown();
+  key.interfaces = session.active().parameters().interfaces;
+  if (const Known* known = find(session, key)) return known->frame;
+  auto frame = begin(session, key);
+  frame->positions = session.input()->mesh.positions;
+  const std::vector<std::uint8_t> standing = standing_vertices(*input_, key.interfaces);
+  judge_elements(*frame, immovable_elements(input_->mesh, standing, session.pool().get()), session.pool().get());
+  frame->statistics = frame->shown_statistics;
+  return keep(std::move(key), std::move(frame));
+}
+
+WatchedFrame FrameBuilder::watch(Session& session, const Watch& what, FrameDetail detail) {
+  if (what.run == Watch::kInput) return {what, input_frame(session), {}};
+  const auto place = session.place_of(what.run);
+  if (!place) return {what, nullptr, "this run is no more"};
+  Run& run = session.run(*place);
+  if (!what.iteration || run.moment() == Moment{*what.iteration}) {
+    if (*place == session.active_index()) return {what, standing(session, *place, detail), {}};
+    return watch_standing(session, what, *place, detail);
+  }
+  const std::uint64_t iteration = *what.iteration;
+  if (iteration >= run.history().records().size())
+    return {what, nullptr, fmt::format("the run has not come to iteration {} yet", iteration)};
+  if (const Known* known = find(session, key_of(session, *place, iteration))) return {what, known->frame, {}};
+  if (run.history().kept(iteration)) return {what, past(session, *place, iteration, run.history().nearest(iteration).positions), {}};
+  return {what, nullptr, fmt::format("iteration {} is no longer kept: it is computed again when the runs rest", iteration)};
+}
+
+bool FrameBuilder::find_past(Session& session, std::span<const Watch> watched, const std::function<bool()>& go_on) {
+  bool found = false;
+  for (const Watch& what : watched) {
+    const auto place = what.iteration ? session.place_of(what.run) : std::nullopt;
+    if (!place || *what.iteration >= session.run(*place).history().records().size()) continue;
+    if (session.run(*place).moment() == Moment{*what.iteration} || find(session, key_of(session, *place, *what.iteration))) continue;
+    const auto positions = positions_at(session, session.run(*place), *what.iteration, go_on);
+    if (!positions) break;
+    (void)past(session, *place, *what.iteration, *positions);
+    found = true;
+  }
+  return found;
+}
+
+bool FrameBuilder::work_at_rest(Session& session, std::span<const Watch> watched, const std::function<bool()>& go_on) {
+  if (!session.has_input()) return false;
+  const Known* active = find(session, key_of(session, session.active_index()));
+  if (active == nullptr || active->frame->device) return false;
+  bool found = find_past(session, watched, go_on);
+  const auto whole = [&](std::size_t run) -> const Frame* {
+    const Known* known = find(session, key_of(session, run));
+    return known == nullptr || known->frame->device ? nullptr : known->frame.get();
+  };
+  found = summaries_.find(session, whole, go_on) || found;
+  found = endings_.find(session, go_on) || found;
+  for (std::size_t i = 0; session.percentiles() && i < session.run_count(); ++i)
+    if (session.run(i).find_percentiles([&](double) { return go_on(); })) found = true;
+  return found;
+}
+
+bool FrameBuilder::work_long_at_rest(Session& session, const std::function<bool()>& go_on) { return endings_.find_hint(session, go_on); }
+
+std::shared_ptr<const SessionView> FrameBuilder::build(Session& session, FrameDetail detail, std::span<const Watch> watched) {
+  auto view = std::make_shared<SessionView>();
+  view->shown = session.shown();
+  view->threads = session.pool()->size();
+  if (!session.has_input()) return view;
+  if (const UndoEntry* entry = session.undo_stack().to_undo()) view->undo_label = entry->label;
+  if (const UndoEntry* entry = session.undo_stack().to_redo()) view->redo_label = entry->label;
+  view->restored_view = session.restored_view();
+  view->restored_serial = session.restored_views();
+  view->input = session.input();
+  view->active = session.active_index();
+  for (std::size_t i = 0; i < session.run_count(); ++i) {
+    view->runs.push_back(view_of(session.run(i), session.percentiles()));
+    view->runs.back().summary = summaries_.of(session, i);
+    view->runs.back().ending = endings_.of(session, i);
+  }
+  view->input_summary = summaries_.of_input(session);
+  for (Known& known : known_) known.wanted = false;
+  view->frame = standing(session, session.active_index(), detail);
+  for (const Watch& what : watched) view->watched.push_back(watch(session, what, detail));
+  std::erase_if(known_, [](const Known& known) { return !known.wanted; });
+  return view;
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,76 @@
+#pragma once
+// Makes the immutable pictures of a session that the engine publishes.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/session/session.h"
+#include "core/view/judging.h"
+#include "core/view/summaries.h"
+#include "core/view/view.h"
+
+namespace dmoscope {
+
+/// Whole: everything is in the frame. Live: what lives on a device stays there, see Frame.
+enum class FrameDetail { Whole, Live };
+
+class FrameBuilder {
+ public:
+  /// The session as it stands, with a frame of its active run, and what is watched besides. Qualities are computed with the session's
+  /// pool. Throws DeviceError for the active run.
+  [[nodiscard]] std::shared_ptr<const SessionView> build(Session& session, FrameDetail detail = FrameDetail::Whole,
+                                                         std::span<const Watch> watched = {});
+  /// Works out what takes long and nobody waits for, as long as `go_on`, which is asked every now and then, says so: what is watched but
+  /// no longer kept, and what views show besides frames, percentiles and summaries of all runs. Returns whether there is something new to
+  /// show. Throws DeviceError.
+  bool work_at_rest(Session& session, std::span<const Watch> watched, const std::function<bool()>& go_on);
+  /// The same of what takes seconds and comes after all else.
+  bool work_long_at_rest(Session& session, const std::function<bool()>& go_on);
+
+ private:
+  /// What a frame is of: as long as it is the same, so is the frame.
+  struct FrameKey {
+    std::weak_ptr<const Run> run;  // none: the input
+    std::size_t index = Frame::kNoRun;
+    std::uint64_t path = 0;
+    Moment moment;
+    Metric shown = Metric::MeanRatio;
+    InterfaceRule interfaces = InterfaceRule::Fixed;  // of the input: what stays there, as for the active run
+    [[nodiscard]] bool is(const FrameKey& other) const;
+  };
+  struct Known {
+    FrameKey key;
+    std::shared_ptr<const Frame> frame;
+    bool wanted = true;  // in the view that is being built
+  };
+  static FrameKey key_of(Session& session, std::size_t run);
+  /// Of the positions that the run had at the end of an iteration.
+  static FrameKey key_of(Session& session, std::size_t run, std::uint64_t iteration);
+  [[nodiscard]] Known* find(const Session& session, const FrameKey& key);
+  std::shared_ptr<const Frame> keep(FrameKey key, std::shared_ptr<const Frame> frame);
+  [[nodiscard]] std::shared_ptr<Frame> begin(Session& session, const FrameKey& key);
+  std::shared_ptr<const Frame> standing(Session& session, std::size_t run, FrameDetail detail);
+  [[nodiscard]] WatchedFrame watch_standing(Session& session, const Watch& what, std::size_t run, FrameDetail detail);
+  std::shared_ptr<const Frame> past(Session& session, std::size_t run, std::uint64_t iteration, std::span<const Vec3> positions);
+  std::shared_ptr<const Frame> input_frame(Session& session);
+  [[nodiscard]] WatchedFrame watch(Session& session, const Watch& what, FrameDetail detail);
+  bool find_past(Session& session, std::span<const Watch> watched, const std::function<bool()>& go_on);
+  void refresh_input(Session& session);
+
+  std::uint64_t serial_ = 0;
+  std::uint64_t input_serial_ = 0;
+  std::shared_ptr<const InputMesh> input_;  // of the frames so far
+  Metric before_metric_ = Metric::MeanRatio;
+  Histogram before_;          // of before_metric_ at the input
+  std::vector<Known> known_;  // frames of the last view, and what was worked out at rest since
+  Summaries summaries_;
+  Endings endings_;
+};
+
+/// A frame of any run, for its qualities alone.
+[[nodiscard]] Frame judged(Session& session, std::size_t run);
+
+}  // namespace dmoscope

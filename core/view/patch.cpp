@@ -1,0 +1,36 @@
+#include "core/view/patch.h"
+
+#include <algorithm>
+
+namespace dmoscope {
+
+std::vector<Vec3> positions_of(const Frame& frame, std::span<const Index> vertices) {
+  if (frame.device) return frame.device->positions(vertices);
+  std::vector<Vec3> positions;
+  positions.reserve(vertices.size());
+  for (const Index vertex : vertices) positions.push_back(frame.positions[vertex]);
+  return positions;
+}
+
+Patch patch_of(const Frame& frame, std::span<const Index> elements) {
+  const ElementTable& all = frame.input->mesh.elements;
+  Patch patch{{}, {}, frame.input->geometry};
+  for (const Index element : elements) {
+    const auto corners = all.corners(element);
+    patch.vertices.insert(patch.vertices.end(), corners.begin(), corners.end());
+  }
+  std::ranges::sort(patch.vertices);
+  // Not std::ranges::unique: clang 14 does not compile this library's.
+  patch.vertices.erase(std::unique(patch.vertices.begin(), patch.vertices.end()), patch.vertices.end());
+  std::vector<Index> renamed;
+  for (const Index element : elements) {
+    renamed.clear();
+    for (const Index corner : all.corners(element))
+      renamed.push_back(static_cast<Index>(std::ranges::lower_bound(patch.vertices, corner) - patch.vertices.begin()));
+    patch.mesh.elements.add(all.kind(element), renamed);
+  }
+  patch.mesh.positions = positions_of(frame, patch.vertices);
+  return patch;
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,91 @@
+#include "core/view/summaries.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/input/declared_floats.h"
+#include "core/view/frame_builder.h"
+
+namespace dmoscope {
+
+std::vector<float> sorted_choice(std::vector<float> values, std::size_t most) {
+  std::erase_if(values, [](float q) { return std::isnan(q); });
+  std::sort(values.begin(), values.end());
+  if (values.size() <= most) return values;
+  std::vector<float> chosen(most);
+  for (std::size_t i = 0; i < most; ++i) chosen[i] = values[i * (values.size() - 1) / (most - 1)];
+  return chosen;
+}
+
+RunSummary summary_of(const Frame& frame) {
+  RunSummary summary{frame.shown, frame.moment, frame.shown_statistics, frame.now, 0, {}, {}};
+  summary.elements = static_cast<std::size_t>(std::ranges::count_if(frame.quality, [](float q) { return !std::isnan(q); }));
+  summary.sorted = sorted_choice(frame.quality, Summaries::kMostSorted);
+  return summary;
+}
+
+bool Summaries::fits(const Known& known, Session& session, std::size_t index) {
+  const auto run = session.identity(index).lock();
+  return known.run.lock() == run && known.path == run->path() && known.summary->moment == run->moment() &&
+         known.summary->metric == session.shown();
+}
+
+std::shared_ptr<const RunSummary> Summaries::of(Session& session, std::size_t run) const {
+  for (const Known& known : known_)
+    if (fits(known, session, run)) return known.summary;
+  return nullptr;
+}
+
+std::shared_ptr<const InputSummary> Summaries::of_input(Session& session) const {
+  const bool same = of_input_ && of_input_->metric == session.shown() && input_.lock() == session.input() &&
+                    input_rule_ == session.active().parameters().interfaces;
+  return same ? of_input_ : nullptr;
+}
+
+bool Summaries::find_input(Session& session) {
+  if (of_input(session)) return false;
+  const InputMesh& input = *session.input();
+  const QualityContext context = input.quality_context();
+  input_rule_ = session.active().parameters().interfaces;
+  const std::vector<Index> immovable = immovable_elements(input.mesh, standing_vertices(input, input_rule_), session.pool().get());
+  of_input_ = std::make_shared<const InputSummary>(
+      InputSummary{session.shown(), compute_statistics(context, input.mesh.positions, session.shown(), immovable, session.pool().get()),
+                   compute_percentiles(context, input.mesh.positions, session.shown(), session.pool().get()),
+                   seen_as_floats(input, input.mesh.positions, session.shown(), session.pool().get())});
+  input_ = session.input();
+  return true;
+}
+
+SizeCourse Summaries::sizes_of(Session& session, std::size_t index, std::span<const Vec3> positions) const {
+  const auto run = session.identity(index).lock();
+  if (!run->size_field()) return {};
+  SizeCourse sizes;
+  // What the mesh was at the input stays, wherever the run goes.
+  const auto before = std::ranges::find_if(known_, [&](const Known& one) { return one.run.lock() == run; });
+  sizes.before = before != known_.end() ? before->summary->sizes.before : size_correlation_at_input(*run);
+  sizes.after = size_correlation(*run->size_field(), run->input(), positions, run->colouring().order);
+  return sizes;
+}
+
+bool Summaries::find(Session& session, const std::function<const Frame*(std::size_t)>& whole, const std::function<bool()>& go_on) {
+  std::vector<Known> known;
+  bool found = go_on() && find_input(session);
+  for (std::size_t i = 0; i < session.run_count(); ++i) {
+    auto summary = of(session, i);
+    if (!summary && go_on()) {
+      const Frame* there = whole(i);
+      const Frame made = there != nullptr ? Frame{} : judged(session, i);
+      const Frame& frame = there != nullptr ? *there : made;
+      RunSummary found_now = summary_of(frame);
+      found_now.sizes = sizes_of(session, i, frame.positions);
+      summary = std::make_shared<const RunSummary>(std::move(found_now));
+      found = true;
+    }
+    if (summary) known.push_back({session.identity(i), session.run(i).path(), std::move(summary)});
+  }
+  known_ = std::move(known);
+  return found;
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,48 @@
+#pragma once
+// How every run fares by the metric that is shown, worked out once for each moment.
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/view/view.h"
+
+namespace dmoscope {
+
+/// A summary of a frame that is whole.
+[[nodiscard]] RunSummary summary_of(const Frame& frame);
+
+/// The values at the ranks of an even choice of at most `most` (at least 2): of all of them in ascending order, the first and the last
+/// included. NaN is left out.
+[[nodiscard]] std::vector<float> sorted_choice(std::vector<float> values, std::size_t most);
+
+/// Summaries of a session's runs.
+class Summaries {
+ public:
+  static constexpr std::size_t kMostSorted = 65536;
+
+  /// Of a run as it stands, by the metric the session shows; null while it has not been worked out.
+  [[nodiscard]] std::shared_ptr<const RunSummary> of(Session& session, std::size_t run) const;
+  /// Of the input, likewise.
+  [[nodiscard]] std::shared_ptr<const InputSummary> of_input(Session& session) const;
+  /// Works out those that are missing, asking `go_on` before each. `whole`: the frame of a run as it stands where there is one, else null.
+  /// Returns whether there are new ones.
+  bool find(Session& session, const std::function<const Frame*(std::size_t)>& whole, const std::function<bool()>& go_on);
+
+ private:
+  struct Known {
+    std::weak_ptr<const Run> run;
+    std::uint64_t path = 0;
+    std::shared_ptr<const RunSummary> summary;
+  };
+  [[nodiscard]] SizeCourse sizes_of(Session& session, std::size_t run, std::span<const Vec3> positions) const;
+  bool find_input(Session& session);
+  [[nodiscard]] static bool fits(const Known& known, Session& session, std::size_t run);
+  std::vector<Known> known_;  // one a run
+  std::weak_ptr<const InputMesh> input_;
+  std::shared_ptr<const InputSummary> of_input_;     // of input_
+  InterfaceRule input_rule_ = InterfaceRule::Fixed;  // of of_input_: what stays there, as for the active run
+};
+
+}  // namespace dmoscope

@@ -1,5 +1,0 @@
-#include "gpu/cuda_launch_solid.cuh"
-
-namespace dmoscope::gpu {
-template Launcher solid_launcher<Metric::Condition>(Work work);
-}

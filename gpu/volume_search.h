@@ -1,0 +1,132 @@
+#pragma once
+// The fast search of a volume's star by lanes: the bits of core/smooth/kernels/volume_kernel_impl.h, which has packs of candidates.
+
+#include "core/search/grid_search.h"
+#include "core/smooth/kernels/volume_form.h"
+#include "gpu/lane.h"
+#include "gpu/volume_star.h"
+
+namespace dmoscope::gpu {
+
+[[nodiscard]] DMOSCOPE_ANYWHERE Vec3Of<float> narrow(Vec3 p) {
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+[[nodiscard]] DMOSCOPE_ANYWHERE StarTetrahedron<float> narrow(const StarTetrahedron<double>& t) {
+  return {narrow(t.b), narrow(t.c), narrow(t.d), 1.0F};
+}
+[[nodiscard]] DMOSCOPE_ANYWHERE StarTip<float> narrow(const StarTip<double>& t) {
+  return {{narrow(t.base[0]), narrow(t.base[1]), narrow(t.base[2]), narrow(t.base[3])}, 1.0F};
+}
+template <class Narrow, class Wide>
+[[nodiscard]] DMOSCOPE_ANYWHERE Narrow narrow_others(const Wide& wide) {
+  Narrow result{};
+  for (std::size_t i = 0; i < Wide::kOthers; ++i) result.others[i] = narrow(wide.others[i]);
+  result.reference = 1.0F;
+  return result;
+}
+[[nodiscard]] DMOSCOPE_ANYWHERE StarHexahedron<float> narrow(const StarHexahedron<double>& h) {
+  return narrow_others<StarHexahedron<float>>(h);
+}
+[[nodiscard]] DMOSCOPE_ANYWHERE StarWedge<float> narrow(const StarWedge<double>& w) { return narrow_others<StarWedge<float>>(w); }
+[[nodiscard]] DMOSCOPE_ANYWHERE StarPyramid<float> narrow(const StarPyramid<double>& p) { return narrow_others<StarPyramid<float>>(p); }
+
+/// The lanes of a team share the columns of the grid; some candidates of a column are ranked at a time, so that an element is read once for
+/// them all.
+template <Metric M, class Team>
+class VolumeRankSearch {
+ public:
+  DMOSCOPE_ANYWHERE VolumeRankSearch(const MeshStar<Space>& star, const SearchParameters& parameters, const Team& team)
+      : star_(star), parameters_(parameters), team_(team), box_(narrow(star.box())) {}
+
+  [[nodiscard]] DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE VolumeFound run() {
+    Found best = rank({});
+    if (!(best.objective > solids::kLeastRank)) return {};
+    double omega = parameters_.omega;
+    for (int level = 0; level < parameters_.levels; ++level) {
+      best = search(best, static_cast<float>(omega));
+      omega *= 2.0 / (parameters_.grid_points - 1);
+    }
+    return {true, best.offset};
+  }
+
+ private:
+  using Point = Vec3Of<float>;
+  using Found = Candidate<float, Point>;
+  using Form = solids::MeanRatioForm<float>;
+  static constexpr bool kCorners = formulas::kDefinedForCorners<M>;
+  static constexpr int kAtOnce = 4;
+
+  /// Some candidates, and the least rank of the star with its vertex there.
+  struct Some {
+    Point at[kAtOnce];
+    float worth[kAtOnce];
+  };
+
+  DMOSCOPE_ANYWHERE Found rank(Point p) const {
+    Some some;
+    DMOSCOPE_UNROLL
+    for (Point& at : some.at) at = p;
+    rank(some);
+    return {p, some.worth[0]};
+  }
+  DMOSCOPE_ANYWHERE void rank(Some& some) const {
+    DMOSCOPE_UNROLL
+    for (float& worth : some.worth) worth = std::numeric_limits<float>::max();
+    star_.template for_each<kCorners>([&some](const auto& element) { lower(some, narrow(element)); });
+  }
+  static DMOSCOPE_ANYWHERE void lower(Some& some, const StarTetrahedron<float>& t) {
+    if constexpr (M == Metric::MeanRatio) {
+      lower(some, solids::tetrahedron_form(t.b, t.c, t.d));
+    } else {
+      DMOSCOPE_UNROLL
+      for (int i = 0; i < kAtOnce; ++i) some.worth[i] = scalar::min(some.worth[i], formulas::rank<M>(t.with(some.at[i])));
+    }
+  }
+  template <class Element>
+  static DMOSCOPE_ANYWHERE void lower(Some& some, const Element& element) {
+    if constexpr (M == Metric::MeanRatio) {
+      solids::for_corner_forms(element.with(Point{}), element.kMoving, [&some](const Form& form) { lower(some, form); });
+    } else {
+      DMOSCOPE_UNROLL
+      for (int i = 0; i < kAtOnce; ++i)
+        some.worth[i] = scalar::min(some.worth[i], formulas::rank_around<M>(element.with(some.at[i]), element.kMoving));
+    }
+  }
+  static DMOSCOPE_ANYWHERE void lower(Some& some, const Form& form) {
+    DMOSCOPE_UNROLL
+    for (int i = 0; i < kAtOnce; ++i) {
+      const Point p = some.at[i];
+      some.worth[i] = scalar::min(some.worth[i], solids::rank_of(form, p, dot(p, p)));
+    }
+  }
+
+  /// One level, around the best so far: among equals the candidate of lowest index.
+  DMOSCOPE_ANYWHERE Found search(Found best, float omega) const {
+    const CandidateGrid<float, Point> grid{best.offset, times(box_, omega), parameters_.grid_points};
+    const int n = grid.points;
+    int index = -1;
+    for (int column = static_cast<int>(team_.lane()); column < n * n; column += static_cast<int>(Team::kSize)) {
+      for (int k = 0; k < n; k += kAtOnce) {
+        Some some;
+        DMOSCOPE_UNROLL
+        for (int i = 0; i < kAtOnce; ++i) some.at[i] = grid.at(column / n, column % n, k + i < n ? k + i : n - 1);  // the last once more
+        rank(some);
+        DMOSCOPE_UNROLL
+        for (int i = 0; i < kAtOnce; ++i) {
+          if (!(some.worth[i] > best.objective)) continue;
+          best = {some.at[i], some.worth[i]};
+          index = column * n + k + i;
+        }
+      }
+    }
+    if constexpr (Team::kSize > 1) best = best_of_team(team_, best, index);
+    return best;
+  }
+
+  const MeshStar<Space>& star_;
+  const SearchParameters& parameters_;
+  const Team& team_;
+  Point box_;
+};
+
+}  // namespace dmoscope::gpu

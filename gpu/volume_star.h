@@ -1,0 +1,64 @@
+#pragma once
+// The star of a volume's vertex as a lane sees it.
+
+#include <cstdint>
+#include <type_traits>
+
+#include "core/search/mesh_star.h"
+#include "core/smooth/kernels/volume_kernel.h"
+
+namespace dmoscope::gpu {
+
+/// Which of VolumeStar's lists an element is in.
+template <class Element>
+inline constexpr unsigned kListOf = 0;
+template <class Real>
+inline constexpr unsigned kListOf<StarHexahedron<Real>> = 1;
+template <class Real>
+inline constexpr unsigned kListOf<StarWedge<Real>> = 2;
+template <class Real>
+inline constexpr unsigned kListOf<StarPyramid<Real>> = 3;
+template <class Real>
+inline constexpr unsigned kListOf<StarTip<Real>> = 4;
+
+/// Straight from the mesh, as a lane has no memory for lists, and still list after list as VolumeStarView has them: a mean over the
+/// elements is summed in that order.
+class ListedStar {
+ public:
+  DMOSCOPE_ANYWHERE ListedStar(const VolumeView& mesh, PositionView positions, Index vertex) : star_(mesh, positions, vertex) {
+    std::size_t sizes[kLists] = {};
+    star_.for_each<true>([&sizes](const auto& element) { ++sizes[list_of(element)]; });
+    for (unsigned list = 0; list < kLists; ++list) {
+      if (sizes[list] > 0) lists_ |= 1U << list;
+      if (sizes[list] > kMaxSolids) fits_ = false;
+    }
+  }
+
+  [[nodiscard]] DMOSCOPE_ANYWHERE const MeshStar<Space>& star() const { return star_; }
+  /// Has no list more elements than the fast search takes?
+  [[nodiscard]] DMOSCOPE_ANYWHERE bool fits() const { return fits_; }
+
+  /// See VolumeStarView.
+  template <bool Others, class F>
+  DMOSCOPE_ANYWHERE void for_each(F f) const {
+    for (unsigned list = 0; list < (Others ? kLists : 1U); ++list) {
+      if ((lists_ >> list & 1U) == 0) continue;
+      star_.for_each<Others>([&f, list](const auto& element) {
+        if (list_of(element) == list) f(element);
+      });
+    }
+  }
+
+ private:
+  static constexpr unsigned kLists = 5;
+  template <class Element>
+  [[nodiscard]] static DMOSCOPE_ANYWHERE unsigned list_of(const Element& /*element*/) {
+    return kListOf<Element>;
+  }
+
+  MeshStar<Space> star_;
+  unsigned lists_ = 0;  // one bit a list: has it elements?
+  bool fits_ = true;
+};
+
+}  // namespace dmoscope::gpu

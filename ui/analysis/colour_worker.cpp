@@ -1,0 +1,57 @@
+#include "ui/analysis/colour_worker.h"
+
+#include <chrono>
+#include <utility>
+
+namespace dmoscope::ui {
+namespace {
+
+constexpr Index kBigMesh = 100'000;  // elements whose colours take long enough to be felt
+
+}  // namespace
+
+void ColourWorker::take() {
+  if (pending_.valid() && pending_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) colours_ = pending_.get();
+}
+
+void ColourWorker::update(const ViewState& state, const SessionView& session, std::shared_ptr<const Frame> reference) {
+  take();
+  const ColourBy by = state.colouring.by;
+  const Frame* frame = session.frame.get();
+  const bool comparable = frame != nullptr && reference && !reference->device && reference->input == frame->input;
+  const bool possible =
+      frame != nullptr && by != ColourBy::Quality && !(frame->device && needs_positions(by)) && (by != ColourBy::Difference || comparable);
+  if (!possible) {
+    colours_.reset();  // what is pending ends soon, and then is dropped here
+    key_.reset();
+    return;
+  }
+  const bool by_class = by == ColourBy::Class, ordered = by == ColourBy::Valence;
+  const RunView& run = session.runs[session.active];
+  ColourRequest request{by,
+                        session.frame,
+                        by_class ? run.colouring : nullptr,
+                        state.colour_map,
+                        state.colouring.reversed,
+                        by == ColourBy::SizeOverTarget ? run.size : nullptr,
+                        by == ColourBy::Difference ? std::move(reference) : nullptr};
+  const Key key{by,
+                frame->input_serial,
+                needs_positions(by) ? frame->serial : 0,
+                request.reference ? request.reference->serial : 0,
+                by_class ? static_cast<const void*>(request.classes.get()) : request.size.get(),
+                ordered ? static_cast<int>(request.map) : 0,
+                ordered && request.reversed};
+  if (colours_ && (colours_->by != by || colours_->input_serial != frame->input_serial)) colours_.reset();
+  if (key_ == key || pending_.valid()) return;
+  key_ = key;
+  classes_ = request.classes;
+  const auto work = [request = std::move(request)] { return std::make_shared<const ElementColours>(colour_elements(request)); };
+  if (frame->element_count() < kBigMesh) {
+    colours_ = work();
+  } else {
+    pending_ = std::async(std::launch::async, work);
+  }
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,58 @@
+#pragma once
+// Values worked out from a frame once, not at every drawing.
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/screenshot.h"
+#include "ui/analysis/colour_facts.h"
+#include "ui/analysis/facts.h"
+#include "ui/analysis/group_list.h"
+#include "ui/state/view_state.h"
+
+namespace dmoscope::ui {
+
+/// Values worked out once a frame serial, not once a drawing.
+struct Derived {
+  std::uint64_t input_serial = 0, frame_serial = 0;
+  std::vector<Metric> metrics;          // defined for every element
+  std::vector<std::string> mesh_facts;  // sentences of the report
+  std::string interfaces;               // what stays where the active run's interfaces are fixed; empty for nothing
+  std::string free_interfaces;          // what may move where they are free
+  std::vector<GroupLine> groups;
+  std::vector<bool> groups_fixed;      // one of each: whether all its vertices are among groups_fixed_by
+  std::vector<Index> groups_fixed_by;  // what the active run's user has fixed
+  std::array<std::size_t, kElementKindCount> kinds{};
+  std::vector<double> sorted_now, sorted_before;  // a sample of the shown quality, ascending; filled when its plot is open. Of a light
+                                                  // frame, now: as far as the histogram tells
+  std::pair<std::uint64_t, Metric> sorted_before_key{0, Metric::MeanRatio};  // input_serial and metric of sorted_before
+  std::size_t outside_low = 0,
+              outside_high = 0;  // elements outside the colours' range, inverted ones not counted; 0 for a device-resident frame
+  bool undefined = false;        // some element's shown quality is NaN
+  PickedFacts facts;             // of what is picked
+  std::pair<std::uint64_t, Picked> facts_key;  // frame serial and what was picked when they were read
+  std::pair<double, double> range{0.0, 1.0};   // of the colours of quality
+  ColourFacts colouring;
+};
+
+/// Brings `derived` up to date with the session's frame and the view's colour range, plot and selection; cheap when nothing changed.
+/// `frames`: all on show, over which colours range; none: the session's alone.
+void refresh(Derived& derived, const ViewState& state, const SessionView& session,
+             std::span<const std::shared_ptr<const Frame>> frames = {});
+/// Which elements count, of one frame.
+void refresh_members(ColourFacts& facts, const ViewState& state, const SessionView& session);
+
+/// How a quality becomes a colour now: in the mesh, the bar, legends and heat maps alike.
+[[nodiscard]] render::ColourScale colour_scale(const ViewState& state, const Derived& derived);
+/// The same for what the elements are coloured by now, where those are no categories.
+[[nodiscard]] render::ColourScale shown_scale(const ViewState& state, const Derived& derived);
+/// Which elements count now.
+[[nodiscard]] render::Selection selection_of(const ViewState& state, const Derived& derived);
+/// What a picture tells about its colours.
+[[nodiscard]] render::Legend legend_of(const ViewState& state, const Derived& derived, const Frame& frame);
+
+}  // namespace dmoscope::ui

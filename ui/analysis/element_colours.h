@@ -1,0 +1,76 @@
+#pragma once
+// Works out what elements are coloured by instead of their quality, and which of them count. No ImGui, no OpenGL.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/view/view.h"
+#include "render/colour_map.h"
+#include "render/shading.h"
+#include "ui/state/colouring_state.h"
+
+namespace dmoscope::ui {
+
+struct Category {
+  std::string name;
+  render::Rgb colour;
+  std::size_t count = 0;  // elements or vertices
+};
+
+/// What the elements of one frame are coloured by.
+struct ElementColours {
+  ColourBy by = ColourBy::Quality;
+  std::uint64_t input_serial = 0;
+  std::shared_ptr<const render::Shading> shading;
+  std::string title;                      // "area / mean area"
+  std::string common_title;               // the same for all frames on show together
+  std::string counted;                    // what the categories count: "elements", "vertices"
+  std::vector<Category> categories;       // empty: values
+  std::pair<double, double> range{0, 1};  // of the values
+  bool logarithmic = false;               // the values are powers of ten
+  bool centred = false;                   // 0 is the middle of the range, which a map with a middle shows
+  bool has_values = true;                 // any element; else `note` says why none has
+  bool diverging = false;                 // the values are differences
+  std::size_t better = 0, worse = 0;      // of differences: elements above and below 0
+  std::string note;                       // what is to be known about it, may be empty
+};
+
+struct ColourRequest {
+  ColourBy by = ColourBy::Kind;
+  std::shared_ptr<const Frame> frame;
+  std::shared_ptr<const Colouring> classes;            // for ColourBy::Class
+  render::ColourMap map = render::ColourMap::Viridis;  // of ordered categories
+  bool reversed = false;
+  std::shared_ptr<const SizeField> size{};   // for ColourBy::SizeOverTarget; null: the run has none
+  std::shared_ptr<const Frame> reference{};  // for ColourBy::Difference: whole, of the same input
+};
+
+/// Whether it depends on where the vertices are, so that it is worked out for every frame, and cannot be for a light one.
+[[nodiscard]] constexpr bool needs_positions(ColourBy by) {
+  return by == ColourBy::Displacement || by == ColourBy::Size || by == ColourBy::EdgeLength || by == ColourBy::SizeOverTarget ||
+         by == ColourBy::Difference;
+}
+
+/// Why the elements of a mesh cannot be coloured so; none where they can.
+[[nodiscard]] std::optional<std::string> why_not_drawn(ColourBy by, const InputMesh& input);
+
+/// Takes some 20 ms a million elements, on any thread. `by` must not be ColourBy::Quality.
+[[nodiscard]] ElementColours colour_elements(const ColourRequest& request);
+
+/// A colour-blind safe colour for the k-th of some things without an order (Okabe and Ito 2008; lighter, then darker ones from the eighth
+/// on).
+[[nodiscard]] render::Rgb category_colour(std::size_t k);
+
+/// Whether `isolation` names something of this mesh; else why not.
+[[nodiscard]] std::optional<std::string> why_unknown(const Isolation& isolation, const InputMesh& input);
+
+/// Of a vertex' own category (valence, colour class, boundary) the elements around it are members. Null: all elements count.
+[[nodiscard]] std::shared_ptr<const std::vector<std::uint8_t>> members_of(const ColouringState& state, const Frame& frame,
+                                                                          const Colouring* classes);
+
+}  // namespace dmoscope::ui

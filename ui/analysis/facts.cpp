@@ -1,0 +1,58 @@
+#include "ui/analysis/facts.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/base/error.h"
+#include "core/view/patch.h"
+
+namespace dmoscope::ui {
+namespace {
+
+void read_vertex(PickedFacts& facts, const Frame& frame, Index vertex) {
+  std::vector<Index> elements;
+  for (const Incidence& incidence : frame.input->topology.star(vertex)) elements.push_back(incidence.element);
+  const Patch patch = patch_of(frame, elements);
+  const auto own = std::ranges::lower_bound(patch.vertices, vertex);
+  facts.at = own != patch.vertices.end() && *own == vertex ? patch.mesh.positions[static_cast<std::size_t>(own - patch.vertices.begin())]
+                                                           : positions_of(frame, {&vertex, 1}).front();
+  facts.now = facts.before = std::numeric_limits<double>::infinity();
+  const InputMesh& input = *frame.input;
+  for (Index k = 0; k < elements.size(); ++k) {
+    const double now = patch.quality(frame.shown, k);
+    facts.star.push_back({elements[k], now, patch.inverted(k)});
+    facts.now = std::min(facts.now, now);
+    facts.before = std::min(facts.before, element_quality(input.quality_context(), input.mesh.positions, frame.shown, elements[k]));
+  }
+}
+
+void read_element(PickedFacts& facts, const Frame& frame, Index element) {
+  const Patch patch = patch_of(frame, {&element, 1});
+  const InputMesh& input = *frame.input;
+  facts.inverted = patch.inverted(0);
+  for (const MetricInfo& metric : metric_table()) {
+    facts.metrics.push_back(
+        {&metric, patch.quality(metric.metric, 0), element_quality(input.quality_context(), input.mesh.positions, metric.metric, element)});
+  }
+}
+
+}  // namespace
+
+PickedFacts facts_of(const Frame& frame, const Picked& picked) {
+  PickedFacts facts;
+  try {
+    if (picked.kind == Picked::Kind::Vertex && picked.id < frame.vertex_count()) {
+      read_vertex(facts, frame, picked.id);
+      facts.picked = picked;
+    } else if (picked.kind == Picked::Kind::Element && picked.id < frame.element_count()) {
+      read_element(facts, frame, picked.id);
+      facts.picked = picked;
+    }
+  } catch (const DeviceError& error) {
+    facts = {};
+    facts.trouble = error.what();
+  }
+  return facts;
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,194 @@
+#include "ui/commands/colouring_commands.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/input/input_mesh.h"
+#include "ui/analysis/element_colours.h"
+#include "ui/commands/command_words.h"
+#include "ui/state/view_geometry.h"
+
+namespace dmoscope::ui {
+namespace {
+
+constexpr int kMostWorst = 100;  // as many as a frame lists
+
+ColourBy parse_by(const std::string& word) {
+  std::string names;
+  for (const ColourByInfo& one : kColourBys) {
+    if (one.name == word) return one.by;
+    names += (names.empty() ? "" : ", ") + std::string(one.name);
+  }
+  unexpected(word, "one of " + names);
+}
+
+PaneContent parse_reference(const ViewState& state, Arguments words) {
+  const PaneContent content = state.panes.parse({words.begin(), words.end()});
+  using Kind = PaneContent::Kind;
+  const bool usable = content.kind == Kind::Input || (content.kind == Kind::Run && !content.iteration) || content.kind == Kind::MarkA ||
+                      content.kind == Kind::MarkB;
+  if (!usable) throw UsageError("differences are taken from input, run N, mark a or mark b");
+  const Timeline& timeline = state.timeline;
+  if ((content.kind == Kind::MarkA && !timeline.a.frame) || (content.kind == Kind::MarkB && !timeline.b.frame))
+    throw UsageError(fmt::format("{} is not marked: mark {}", content.kind == Kind::MarkA ? "A" : "B", words[1]));
+  return content;
+}
+
+std::pair<double, double> parse_range(Arguments words) {
+  require(words, 2, 2);
+  const double low = to_number(words[0]), high = to_number(words[1]);
+  if (!(high > low)) throw UsageError("the second quality must be greater than the first");
+  return {low, high};
+}
+
+void add_colour_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
+  table.add({"colormap", "colormap NAME|next", "colours of quality"}, [&state](Arguments words) {
+    require(words, 1, 1);
+    const auto maps = render::colour_map_table();
+    if (words[0] == "next") {
+      const auto at = std::find_if(maps.begin(), maps.end(), [&](const auto& map) { return map.map == state.colour_map; });
+      state.colour_map = at == maps.end() || at + 1 == maps.end() ? maps.front().map : (at + 1)->map;
+    } else {
+      state.colour_map = render::colour_map_from_name(words[0]);
+    }
+  });
+  table.add({"reverse-colors", "reverse-colors [on|off|toggle]", "the colour map from its other end"}, [&state](Arguments words) {
+    require(words, 0, 1);
+    state.colouring.reversed = switched(words, 0, state.colouring.reversed);
+  });
+  table.add({"color-steps", "color-steps N", "so many colours of equal width, 2 to 64; 0: without steps"}, [&state](Arguments words) {
+    require(words, 1, 1);
+    const std::uint64_t steps = to_count(words[0]);
+    if (steps == 1 || steps > 64) throw UsageError("the steps are 2 to 64, or 0 for none");
+    state.colouring.steps = static_cast<int>(steps);
+  });
+  table.add({"range", "range fixed|auto|expanding|LOW HIGH",
+             "qualities that the colours span: 0 to 1, the mesh's own, all seen since it was opened, or given"},
+            [&state](Arguments words) {
+              if (words.size() == 1) {
+                state.range_mode = choose(words[0], kRangeModes);
+                return;
+              }
+              const auto range = parse_range(words);
+              state.range_mode = RangeMode::Given;
+              state.range_low = range.first;
+              state.range_high = range.second;
+            });
+  table.add({"color-by",
+             "color-by quality|kind|group|valence|class|displacement|size|edge-length|size-over-target|inverted|difference [input|run "
+             "N|mark a|b]",
+             "what the elements' colours tell; difference: quality less that of the input, of a run or of a mark"},
+            [&state, &host](Arguments words) {
+              require(words, 1, 4);
+              const ColourBy by = parse_by(words[0]);
+              const auto view = host.session();
+              if (by == ColourBy::Group && view && view->input && view->input->mesh.groups.empty()) {
+                throw UsageError("the mesh has no groups or markers");
+              }
+              if (const auto why = view && view->input ? why_not_drawn(by, *view->input) : std::nullopt) throw UsageError(*why);
+              if (by != ColourBy::Difference) require(words, 1, 1);
+              if (by == ColourBy::Difference && words.size() > 1) state.colouring.reference = parse_reference(state, words.subspan(1));
+              state.colouring.by = by;
+            });
+}
+
+void add_filter_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
+  table.add({"filter", "filter off|LOW HIGH", "only elements of these qualities count (inverted ones when LOW is 0 or less)"},
+            [&state](Arguments words) {
+              if (words.size() == 1 && words[0] == "off") {
+                state.colouring.filter.reset();
+              } else {
+                state.colouring.filter = parse_range(words);
+              }
+            });
+  table.add({"filter-mode", "filter-mode fade|isolate|only-outline", "how elements that do not count are drawn: grey, not, as outlines"},
+            [&state](Arguments words) {
+              require(words, 1, 1);
+              state.colouring.others = choose(words[0], kFilterModes);
+            });
+  table.add({"isolate", "isolate kind|group|valence|class|inverted NAME  or  isolate off", "only elements of this category count"},
+            [&state, &host](Arguments words) {
+              if (words.size() == 1 && words[0] == "off") {
+                state.colouring.isolated.reset();
+                return;
+              }
+              if (words.empty()) throw UsageError("expected what and its name, or off");
+              Isolation isolation{parse_by(words[0]), {}};
+              if (!has_categories(isolation.by))
+                throw UsageError(words[0] + " has no categories; filter LOW HIGH takes a range of quality");
+              require(words, isolation.by == ColourBy::Inverted ? 1 : 2, 2);
+              isolation.name = words.size() > 1 ? words[1] : "inverted";
+              const auto view = host.session();
+              if (!view || !view->input) throw UsageError("no mesh is open");
+              if (const auto why = why_unknown(isolation, *view->input)) throw UsageError(*why);
+              state.colouring.isolated = std::move(isolation);
+            });
+  table.add({"worst-view", "worst-view N|off|toggle", "only the N worst elements count, 1 to 100"}, [&state](Arguments words) {
+    require(words, 1, 1);
+    constexpr int kUsual = 10;
+    if (words[0] == "off" || words[0] == "toggle") {
+      state.colouring.worst = words[0] == "off" || state.colouring.worst > 0 ? 0 : kUsual;
+      return;
+    }
+    const std::uint64_t count = to_count(words[0], 1);
+    if (count > kMostWorst) throw UsageError("the worst 100 elements are known, not more");
+    state.colouring.worst = static_cast<int>(count);
+  });
+  table.add({"fit-worst", "fit-worst", "moves the view to the worst elements: those of worst-view, or 10"},
+            [&state, &host](Arguments words) {
+              require(words, 0, 0);
+              const auto view = host.session();
+              if (!view || !view->frame || view->frame->worst.empty()) throw UsageError("no worst elements are known");
+              const Frame& frame = *view->frame;
+              const std::size_t wanted = state.colouring.worst > 0 ? static_cast<std::size_t>(state.colouring.worst) : 10;
+              render::Bounds2 box;
+              for (std::size_t k = 0; k < std::min(wanted, frame.worst.size()); ++k)
+                box.include(element_box(frame, frame.worst[k].element));
+              const double margin = 0.2 * std::min(state.viewport.x, state.viewport.y);
+              state.camera = render::Camera2D::fit(box, state.viewport, margin);
+            });
+}
+
+void add_label_commands(CommandTable& table, ViewState& state) {
+  table.add({"labels", "labels off|vertices|elements|both|next", "ids, where there is room for them"}, [&state](Arguments words) {
+    require(words, 1, 1);
+    ColouringState& s = state.colouring;
+    static constexpr std::array<std::pair<std::string_view, int>, 5> kinds{
+        {{"off", 0}, {"vertices", 1}, {"elements", 2}, {"both", 3}, {"next", 4}}};
+    int kind = choose(words[0], kinds);
+    if (kind == 4) kind = ((s.label_vertices ? 1 : 0) + (s.label_elements ? 2 : 0) + 1) % 4;
+    s.label_vertices = kind % 2 == 1;
+    s.label_elements = kind >= 2;
+  });
+}
+
+}  // namespace
+
+void add_colouring_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
+  add_colour_commands(table, state, host);
+  add_filter_commands(table, state, host);
+  add_label_commands(table, state);
+}
+
+std::optional<bool> colouring_checked(const ViewState& state, std::string_view id) {
+  const ColouringState& colouring = state.colouring;
+  for (const auto& [name, mode] : kRangeModes) {
+    if (id.starts_with("range-") && id.substr(6) == name) return state.range_mode == mode;
+  }
+  for (const ColourByInfo& one : kColourBys) {
+    if (id.starts_with("color-by-") && id.substr(9) == one.name) return colouring.by == one.by;
+  }
+  for (const auto& [name, mode] : kFilterModes) {
+    if (id.starts_with("others-") && id.substr(7) == name) return colouring.others == mode;
+  }
+  if (id == "reverse-colors") return colouring.reversed;
+  if (id == "worst-view") return colouring.worst > 0;
+  if (id == "labels-vertices") return colouring.label_vertices && !colouring.label_elements;
+  if (id == "labels-elements") return colouring.label_elements && !colouring.label_vertices;
+  if (id == "labels-both") return colouring.label_vertices && colouring.label_elements;
+  if (id == "labels-off") return !colouring.label_vertices && !colouring.label_elements;
+  return std::nullopt;
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,39 @@
+#pragma once
+// How handlers of the window's commands read their words. Only for sources of this room.
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/commands/commands.h"
+
+namespace dmoscope::ui {
+
+[[noreturn]] inline void unexpected(const std::string& word, std::string_view expected) {
+  throw UsageError(fmt::format("\"{}\": expected {}", word, expected));
+}
+
+/// on, off or toggle (also: no word).
+inline bool switched(Arguments words, std::size_t at, bool now) {
+  if (words.size() <= at || words[at] == "toggle") return !now;
+  if (words[at] == "on") return true;
+  if (words[at] == "off") return false;
+  unexpected(words[at], "on, off or toggle");
+}
+
+/// The value of a name; throws UsageError that lists the names.
+template <class Value, std::size_t N>
+Value choose(const std::string& word, const std::array<std::pair<std::string_view, Value>, N>& choices) {
+  std::string names;
+  for (const auto& [name, value] : choices) {
+    if (name == word) return value;
+    if (!names.empty()) names += ", ";
+    names += name;
+  }
+  unexpected(word, "one of " + names);
+}
+
+}  // namespace dmoscope::ui

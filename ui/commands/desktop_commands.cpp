@@ -1,0 +1,68 @@
+#include "ui/commands/desktop_commands.h"
+
+#include <algorithm>
+
+#include "core/io/mesh_io.h"
+#include "ui/commands/command_words.h"
+#include "ui/commands/view_json.h"
+#include "ui/commands/view_to_commands.h"
+
+namespace dmoscope::ui {
+namespace {
+
+void set_panel_size(Panels& panels, const std::string& which, double em) {
+  static constexpr std::array<std::pair<std::string_view, double Panels::*>, 3> sizes{
+      {{"left", &Panels::left_width}, {"right", &Panels::right_width}, {"bottom", &Panels::bottom_height}}};
+  constexpr double kLeast = 6.0, kMost = 60.0;
+  panels.*choose(which, sizes) = std::clamp(em, kLeast, kMost);
+}
+
+void set_camera(ViewState& state, Arguments words) {
+  require(words, 3, 3);
+  const render::Camera2D camera{{to_number(words[0]), to_number(words[1])}, to_number(words[2])};
+  if (!(camera.units_per_pixel > 0.0)) throw UsageError("units per pixel must be greater than 0");
+  state.camera = camera;
+  state.requests.fit = false;
+}
+
+void add_session_file_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
+  table.add({"save-session", "save-session FILE", "writes runs, histories and the view, to go on from there another time"},
+            [&state, &host](Arguments words) {
+              require(words, 1, 1);
+              host.post(fmt::format("save-state {} {}", quote_word(words[0]), quote_word(view_json(state))));
+            });
+  table.add({"open-session", "open-session FILE", "opens what save-session wrote"}, [&host](Arguments words) {
+    require(words, 1, 1);
+    host.post("open-state " + quote_word(words[0]));
+  });
+}
+
+}  // namespace
+
+void add_desktop_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
+  table.add({"camera", "camera X Y UNITS-PER-PIXEL", "looks at that point of the mesh's plane, so close"},
+            [&state](Arguments words) { set_camera(state, words); });
+  table.add({"panel-size", "panel-size left|right|bottom EM", "width or height of a panel, in heights of the interface's font"},
+            [&state](Arguments words) {
+              require(words, 2, 2);
+              set_panel_size(state.panels, words[0], to_number(words[1]));
+            });
+  table.add({"unfold", "unfold left|right [on|off|toggle]", "in a narrow window: shows a side panel over the mesh"},
+            [&state](Arguments words) {
+              require(words, 1, 2);
+              static constexpr std::array<std::pair<std::string_view, bool Panels::*>, 2> names{
+                  {{"left", &Panels::left_over}, {"right", &Panels::right_over}}};
+              bool Panels::*panel = choose(words[0], names);
+              state.panels.*panel = switched(words, 1, state.panels.*panel);
+            });
+  if (is_session_command("save-state")) add_session_file_commands(table, state, host);
+  table.add({"save-script", "save-script FILE", "writes what was done so far as a script that does it again"},
+            [&state, &host](Arguments words) {
+              require(words, 1, 1);
+              const auto view = host.session();
+              write_file_atomically(words[0], state.commands.script(view_lines(state, view && view->frame)));
+              add_message(state, {Message::Kind::Info, "wrote " + words[0], 0});
+            });
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,26 @@
+#pragma once
+// Commands that look into a visit, on plain state.
+
+#include <limits>
+#include <string>
+
+#include "ui/analysis/inspection.h"
+#include "ui/commands/view_commands.h"
+
+namespace dmoscope::ui {
+
+///   inspect [on|off|toggle] | inspect vertex ID | inspect element ID | inspect-next | inspect-worst
+///   level next|back|N|all | play-levels [on|off|toggle] | apply-move | inspect-zoom [on|off|toggle]
+///   field [on|off|toggle] | field-in-view [on|off|toggle] | inspect-alone [on|off|toggle] | grid-slice x|y|z|N|next|back|best
+///   level-range view|level | copy-level [N] | export-trace FILE.csv
+void add_inspection_commands(CommandTable& table, ViewState& state, const CommandHost& host);
+
+/// What playing the levels asks for now: a command line, empty: none yet; and after how many seconds there may be another one.
+struct LevelTurn {
+  std::string line;
+  double wait = std::numeric_limits<double>::infinity();
+};
+/// `now`: seconds of the window. Whoever runs the line notes in the state since when its level is shown, and plays on until it is applied.
+[[nodiscard]] LevelTurn play_levels(ViewState& state, bool busy, double now);
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,52 @@
+#include "ui/commands/notice.h"
+
+#include <fmt/format.h>
+
+#include "core/run/left_inverted.h"
+#include "ui/commands/command_words.h"
+#include "ui/state/format.h"
+
+namespace dmoscope::ui {
+namespace {
+
+void tell_left_inverted(Notice& notice, const RunEnding& ending) {
+  const LeftInverted& left = ending.left;
+  notice.sentences.push_back(left.sentence());
+  notice.offers.push_back({"notice:element", fmt::format("Show element {}", count(left.element)),
+                           fmt::format("goto element {}", left.element), "the most inverted one: picks it and moves the view there"});
+  notice.offers.push_back({"notice:vertex", fmt::format("Show vertex {}", count(left.vertex)), fmt::format("goto vertex {}", left.vertex),
+                           "the vertex of most of them: picks it and moves the view there"});
+  if (!ending.hint) return;
+  notice.sentences.push_back(ending.hint->sentence() + ".");
+  notice.offers.push_back({"notice:method", "Try " + ending.hint->method, "method " + ending.hint->method,
+                           "a new run by this method, beside this one; Run starts it"});
+}
+
+}  // namespace
+
+Notice notice_of(const SessionView& session) {
+  Notice notice;
+  if (session.active >= session.runs.size()) return notice;
+  const RunView& run = session.runs[session.active];
+  if (run.last_outcome.empty()) return notice;
+  notice.key = fmt::format("{} {} {}", run.id, run.moment.iteration, run.last_outcome);
+  if (run.ending) tell_left_inverted(notice, *run.ending);
+  const std::string worse = worse_than_best(run.parameters, run.best_iteration, run.moment.iteration);
+  if (worse.empty()) return notice;
+  notice.sentences.push_back(worse + ".");
+  notice.offers.push_back({"notice:best", fmt::format("Go to {}", iteration_name(run.best_iteration)), "best",
+                           "the best by inverted elements, minimum and mean; the run's later iterations stay on the timeline"});
+  return notice;
+}
+
+void add_notice_command(CommandTable& table, ViewState& state, const CommandHost& host) {
+  table.add({"notice", "notice off|on", "takes away what is said of the run's end, until another one ends; or shows it again"},
+            [&state, &host](Arguments words) {
+              require(words, 1, 1);
+              const bool on = switched(words, 0, true);
+              const auto view = host.session();
+              state.dismissed_notice = on || !view ? std::string() : notice_of(*view).key;
+            });
+}
+
+}  // namespace dmoscope::ui

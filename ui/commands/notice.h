@@ -1,0 +1,32 @@
+#pragma once
+// What a person should know when a run has come to its end, and what can be done about it.
+
+#include <string>
+#include <vector>
+
+#include "core/view/view.h"
+#include "ui/commands/view_commands.h"
+
+namespace dmoscope::ui {
+
+struct Offer {
+  std::string id;       // of its item: "best"
+  std::string label;    // "Go to iteration 2"
+  std::string command;  // one line
+  std::string tooltip;
+};
+
+struct Notice {
+  std::string key;  // the end that it is about; the same as more becomes known of it
+  std::vector<std::string> sentences;
+  std::vector<Offer> offers;
+  [[nodiscard]] bool empty() const noexcept { return sentences.empty(); }
+};
+
+/// Of the active run: elements that stay inverted, and that it has passed through a better iteration. Empty where neither is so.
+[[nodiscard]] Notice notice_of(const SessionView& session);
+
+/// `notice off|on`: takes away the one that is on show, until another run ends; shows it again.
+void add_notice_command(CommandTable& table, ViewState& state, const CommandHost& host);
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,67 @@
+#include "ui/commands/pane_commands.h"
+
+#include <algorithm>
+
+#include "ui/commands/command_words.h"
+
+namespace dmoscope::ui {
+namespace {
+
+std::size_t to_pane(const ViewState& state, const std::string& word) {
+  const std::uint64_t number = to_count(word, 1);
+  const std::size_t count = state.panes.count();
+  if (number > count)
+    throw UsageError(
+        fmt::format("there is no pane {}: {} shown now (viewports)", number, count == 1 ? "one is" : fmt::format("{} are", count)));
+  return number - 1;
+}
+
+void set_pane(ViewState& state, Arguments words) {
+  require(words, 2, 4);
+  Pane& pane = state.panes.panes[to_pane(state, words[0])];
+  pane.content = state.panes.parse({words.begin() + 1, words.end()});
+  pane.chosen = pane.content.kind != PaneContent::Kind::Free;
+}
+
+void set_pane_camera(ViewState& state, Arguments words) {
+  require(words, 4, 4);
+  const std::size_t pane = to_pane(state, words[0]);
+  const render::Camera2D camera{{to_number(words[1]), to_number(words[2])}, to_number(words[3])};
+  if (!(camera.units_per_pixel > 0.0)) throw UsageError("units per pixel must be greater than 0");
+  state.camera_of(pane) = camera;
+}
+
+}  // namespace
+
+void add_pane_commands(CommandTable& table, ViewState& state) {
+  table.add({"viewports", "viewports 1|2|4|split", "one mesh, or several side by side, or two over each other with a handle between them"},
+            [&state](Arguments words) {
+              require(words, 1, 1);
+              state.set_layout(choose(words[0], kPaneLayouts));
+            });
+  table.add({"pane", "pane K active|run N [ITERATION]|input|mark a|b|auto",
+             "what viewport K shows: a run as it stands or at an iteration, the input, a mark; auto: what is not shown elsewhere"},
+            [&state](Arguments words) { set_pane(state, words); });
+  table.add({"focus-pane", "focus-pane K", "makes viewport K the active one, which the camera's commands are about"},
+            [&state](Arguments words) {
+              require(words, 1, 1);
+              state.focus_pane(to_pane(state, words[0]));
+            });
+  table.add({"link-cameras", "link-cameras [on|off|toggle]", "all viewports look at the same place, or each for itself"},
+            [&state](Arguments words) {
+              require(words, 0, 1);
+              const bool linked = switched(words, 0, state.panes.linked);
+              if (!linked && state.is_volume) throw UsageError("of a volume mesh all viewports share one camera");
+              state.link_cameras(linked);
+            });
+  table.add({"pane-camera", "pane-camera K X Y UNITS-PER-PIXEL", "as camera, for one viewport while they are not linked"},
+            [&state](Arguments words) { set_pane_camera(state, words); });
+  table.add({"split", "split X", "where the handle of the split view is, 0 (left) to 1"}, [&state](Arguments words) {
+    require(words, 1, 1);
+    const double at = to_number(words[0]);
+    if (!(at >= 0.0 && at <= 1.0)) throw UsageError("the handle goes from 0 to 1");
+    state.panes.split = at;
+  });
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,168 @@
+#include "ui/commands/plot_commands.h"
+
+#include "core/view/run_table.h"
+#include "ui/commands/command_words.h"
+
+namespace dmoscope::ui {
+namespace {
+
+ValueAxis next_axis(PlotTab tab, ValueAxis axis) {
+  do {
+    axis = static_cast<ValueAxis>((static_cast<std::size_t>(axis) + 1) % kValueAxes.size());
+  } while (!offers(tab, axis));
+  return axis;
+}
+
+void choose_axis(ViewState& state, ValueAxis axis) {
+  if (!offers(state.plot, axis)) throw UsageError("log-distance is for plots of quality: convergence and sorted");
+  PlotView& view = state.plot_view();
+  if (view.axis != axis) view.y_range.reset();
+  view.axis = axis;
+}
+
+std::pair<double, double> parse_range(const std::string& low, const std::string& high) {
+  const std::pair range{to_number(low), to_number(high)};
+  if (!(range.second > range.first)) throw UsageError("the second value must be greater than the first");
+  return range;
+}
+
+void zoom_plot(ViewState& state, Arguments words) {
+  PlotView& view = state.plot_view();
+  if (words.size() == 1 && words[0] == "all") {
+    view.x_range.reset();
+    view.y_range.reset();
+    return;
+  }
+  require(words, 2, 5);
+  if (words[0] == "box") {
+    require(words, 5, 5);
+    const auto x = parse_range(words[1], words[2]), y = parse_range(words[3], words[4]);
+    view.x_range = x;
+    view.y_range = y;
+    return;
+  }
+  static constexpr std::array<std::pair<std::string_view, std::optional<std::pair<double, double>> PlotView::*>, 2> axes{
+      {{"x", &PlotView::x_range}, {"y", &PlotView::y_range}}};
+  auto& range = view.*choose(words[0], axes);
+  if (words.size() == 2 && words[1] == "all") {
+    range.reset();
+  } else {
+    require(words, 3, 3);
+    range = parse_range(words[1], words[2]);
+  }
+}
+
+void switch_series(ViewState& state, Arguments words) {
+  require(words, 1, 2);
+  PlotView& view = state.plot_view();
+  const std::string before = std::exchange(view.isolated, {});
+  if (words[0] == "all") {
+    if (words.size() > 1 && words[1] != "on") unexpected(words[1], "on");
+    view.hidden.clear();
+  } else if (words.size() > 1 && words[1] == "only") {
+    view.isolated = words[0];
+    view.hidden.erase(words[0]);
+  } else if (!before.empty() && (words.size() == 1 || words[1] == "toggle")) {
+    // Back to all that was there before one was isolated.
+  } else if (switched(words, 1, !view.hidden.contains(words[0]))) {
+    view.hidden.erase(words[0]);
+  } else {
+    view.hidden.insert(words[0]);
+  }
+}
+
+void sort_runs(ViewState& state, Arguments words) {
+  require(words, 1, 2);
+  static constexpr std::array<std::pair<std::string_view, bool>, 2> ways{{{"ascending", false}, {"descending", true}}};
+  const bool descending = words.size() > 1 && choose(words[1], ways);
+  state.plot_options.sorted_by = words[0] == "off" ? std::string() : std::string(run_column(words[0]).name);
+  state.plot_options.descending = descending;
+}
+
+PlotSave parse_save(Arguments words) {
+  PlotSave save;
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    const auto value = [&]() -> const std::string& {
+      if (++k >= words.size()) throw UsageError(words[k - 1] + ": a value is missing");
+      return words[k];
+    };
+    if (words[k] == "--size") {
+      std::tie(save.width, save.height) = parse_size(value());
+      if (save.width < 200 || save.height < 120 || save.width > 16384 || save.height > 16384)
+        throw UsageError("a plot's picture is 200x120 to 16384x16384");
+    } else if (words[k] == "--scale") {
+      const std::uint64_t scale = to_count(value(), 1);
+      if (scale > 8) throw UsageError("--scale goes from 1 to 8");
+      save.scale = static_cast<int>(scale);
+    } else if (save.path.empty() && !words[k].starts_with("--")) {
+      save.path = words[k];
+    } else {
+      unexpected(words[k], "one file and options");
+    }
+  }
+  const std::string extension = save.path.extension().string();
+  if (extension != ".csv" && extension != ".svg" && extension != ".png") throw UsageError("a plot is saved as .csv, .svg or .png");
+  return save;
+}
+
+}  // namespace
+
+void rename_runs(PlotView& view, const std::map<std::string, std::string>& changed) {
+  // All at once: one run may have now the name that another one had.
+  std::set<std::string> hidden;
+  for (const std::string& name : view.hidden) {
+    const auto at = changed.find(name);
+    const std::string& now = at == changed.end() ? name : at->second;
+    if (!now.empty()) hidden.insert(now);
+  }
+  view.hidden = std::move(hidden);
+  if (const auto at = changed.find(view.isolated); at != changed.end()) view.isolated = at->second;
+}
+
+void add_plot_commands(CommandTable& table, ViewState& state) {
+  table.add({"plot", "plot convergence|histogram|sorted|moved|time|runs", "which plot is shown, or the table of runs"},
+            [&state](Arguments words) {
+              require(words, 1, 1);
+              state.plot = choose(words[0], kPlotTabs);
+            });
+  table.add({"axis", "axis linear|log|log-distance|next", "the shown plot's value axis; log-distance: by the logarithm of 1 - quality"},
+            [&state](Arguments words) {
+              require(words, 1, 1);
+              choose_axis(state, words[0] == "next" ? next_axis(state.plot, state.plot_view().axis) : choose(words[0], kValueAxes));
+            });
+  table.add({"log-scale", "log-scale [on|off|toggle]", "the shown plot's value axis, logarithmic or linear"}, [&state](Arguments words) {
+    require(words, 0, 1);
+    choose_axis(state, switched(words, 0, state.plot_view().axis == ValueAxis::Log) ? ValueAxis::Log : ValueAxis::Linear);
+  });
+  table.add({"plot-x", "plot-x iteration|seconds|toggle", "what runs along the plots of a run's course"}, [&state](Arguments words) {
+    require(words, 1, 1);
+    static constexpr std::array<std::pair<std::string_view, bool>, 2> names{{{"iteration", false}, {"seconds", true}}};
+    const bool before = state.plot_options.by_seconds;
+    state.plot_options.by_seconds = words[0] == "toggle" ? !before : choose(words[0], names);
+    if (state.plot_options.by_seconds == before) return;
+    for (const auto& [name, tab] : kPlotTabs) {
+      if (over_iterations(tab)) state.plots[static_cast<std::size_t>(tab)].x_range.reset();
+    }
+  });
+  table.add({"plot-zoom", "plot-zoom all | x|y LOW HIGH | x|y all | box X0 X1 Y0 Y1", "the part of the plot that is shown"},
+            [&state](Arguments words) { zoom_plot(state, words); });
+  table.add({"plot-series", "plot-series NAME [on|off|toggle|only]  or  plot-series all",
+             "shows or hides a run or a quantity of the plot's legend"},
+            [&state](Arguments words) { switch_series(state, words); });
+  table.add({"sort-runs", "sort-runs COLUMN [ascending|descending] | sort-runs off", "the order of the table of runs"},
+            [&state](Arguments words) { sort_runs(state, words); });
+  table.add({"plot-bins", "plot-bins 16|32|64", "bars of the histogram"}, [&state](Arguments words) {
+    require(words, 1, 1);
+    static constexpr std::array<std::pair<std::string_view, int>, 3> counts{{{"16", 16}, {"32", 32}, {"64", 64}}};
+    state.plot_options.bins = choose(words[0], counts);
+  });
+  table.add({"plot-copy", "plot-copy", "the plotted numbers, or the table of runs, as comma separated values, on the clipboard"},
+            [&state](Arguments words) {
+              require(words, 0, 0);
+              state.requests.plots.push_back({});
+            });
+  table.add({"plot-save", "plot-save FILE.csv|.svg|.png [--size WxH] [--scale N]", "writes the plot as it is seen, on white"},
+            [&state](Arguments words) { state.requests.plots.push_back(parse_save(words)); });
+}
+
+}  // namespace dmoscope::ui

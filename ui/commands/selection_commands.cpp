@@ -1,0 +1,109 @@
+#include "ui/commands/selection_commands.h"
+
+#include <algorithm>
+
+#include "ui/commands/command_words.h"
+
+namespace dmoscope::ui {
+namespace {
+
+const SessionView& open_session(const std::shared_ptr<const SessionView>& view) {
+  if (!view || !view->frame) throw UsageError("no mesh is open");
+  return *view;
+}
+
+/// The vertices within a box of the plane.
+std::vector<Index> vertices_in(const Frame& frame, Vec2<double> a, Vec2<double> b) {
+  if (frame.device) throw UsageError("the vertices are on their way: select when the run rests");
+  const auto [low_x, high_x] = std::minmax(a.x, b.x);
+  const auto [low_y, high_y] = std::minmax(a.y, b.y);
+  std::vector<Index> found;
+  for (Index v = 0; v < frame.vertex_count(); ++v) {
+    const Vec2<double> p = frame.input->geometry.plane.place(frame.positions[v]);
+    if (p.x >= low_x && p.x <= high_x && p.y >= low_y && p.y <= high_y) found.push_back(v);
+  }
+  return found;
+}
+
+void select(ViewState& state, const CommandHost& host, Arguments words) {
+  require(words, 1, words.size() + 1);
+  const std::string& how = words[0];
+  const Arguments rest = words.subspan(1);
+  if (how == "none") {
+    require(words, 1, 1);
+    state.selection.clear();
+    return;
+  }
+  const auto view = host.session();
+  const Frame& frame = *open_session(view).frame;
+  if (how == "all-in") {
+    require(words, 5, 5);
+    if (host.busy()) throw UsageError("the run is at work: wait until it rests, or cancel it");
+    state.selection.assign(vertices_in(frame, {to_number(words[1]), to_number(words[2])}, {to_number(words[3]), to_number(words[4])}));
+    return;
+  }
+  require(words, 2, words.size());
+  std::vector<Index> vertices = parse_id_ranges(rest, frame.vertex_count());
+  if (how == "vertex") {
+    state.selection.assign(std::move(vertices));
+  } else if (how == "add") {
+    state.selection.add(vertices);
+  } else if (how == "remove") {
+    state.selection.remove(std::move(vertices));
+  } else {
+    unexpected(how, "vertex, add, remove, none or all-in");
+  }
+}
+
+/// Those that may be moved; throws UsageError where there is none.
+std::vector<Index> free_of(const ViewState& state, const SessionView& view) {
+  const RunView& run = view.runs[view.active];
+  std::vector<Index> free;
+  for (const Index v : state.selection.vertices())
+    if (v >= run.fixed.size() || run.fixed[v] == 0) free.push_back(v);
+  if (state.selection.empty()) throw UsageError("no vertices are selected: paint some with the brush, or type 'select vertex ID...'");
+  if (free.empty()) throw UsageError("all selected vertices are fixed");
+  return free;
+}
+
+}  // namespace
+
+void add_selection_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
+  table.add({"select", "select vertex|add|remove ID|A-B...  or  select none  or  select all-in X0 Y0 X1 Y1",
+             "the vertices to smooth or to fix; all-in: those in a box of the plane"},
+            [&state, &host](Arguments words) { select(state, host, words); });
+  table.add({"brush", "brush [on|off|toggle]", "dragging selects vertices; with Shift it adds, with Ctrl it removes"},
+            [&state](Arguments words) {
+              require(words, 0, 1);
+              const bool on = switched(words, 0, state.brush.on);
+              if (on && state.is_volume) throw UsageError("the brush is of planar meshes: select vertices of a volume mesh by their ids");
+              state.brush.on = on;
+            });
+  table.add({"brush-radius", "brush-radius PIXELS|up|down", "how wide the brush is, 2 to 200 at scale 1"}, [&state](Arguments words) {
+    require(words, 1, 1);
+    const double radius = words[0] == "up"     ? state.brush.radius * 1.25
+                          : words[0] == "down" ? state.brush.radius / 1.25
+                                               : to_number(words[0]);
+    if (!(radius > 0.0)) throw UsageError("the radius must be greater than 0");
+    state.brush.radius = std::clamp(radius, 2.0, 200.0);
+  });
+  table.add({"smooth-selected", "smooth-selected", "visits the free ones of the selected vertices, each once"},
+            [&state, &host](Arguments words) {
+              require(words, 0, 0);
+              const auto view = host.session();
+              host.post("visit " + id_ranges(free_of(state, open_session(view))));
+            });
+  table.add({"fix-selected", "fix-selected", "fixes the selected vertices"}, [&state, &host](Arguments words) {
+    require(words, 0, 0);
+    const auto view = host.session();
+    std::string list = id_ranges(free_of(state, open_session(view)));
+    std::ranges::replace(list, ' ', ',');
+    host.post("fix vertices:" + list);  // a number alone may also be a group's
+  });
+  table.add({"click-smooths", "click-smooths [on|off|toggle]", "a click on a free vertex visits it"}, [&state](Arguments words) {
+    require(words, 0, 1);
+    state.stepping.click_smooths = switched(words, 0, state.stepping.click_smooths);
+  });
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,161 @@
+#include "ui/commands/settings.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/io/mesh_io.h"
+
+namespace dmoscope::ui {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kThemeNames[] = {"dark", "light", "contrast"};
+
+void take(const json& from, const char* name, bool& value) {
+  const auto at = from.find(name);
+  if (at != from.end() && at->is_boolean()) value = at->get<bool>();
+}
+
+void take(const json& from, const char* name, double& value, double least, double most) {
+  const auto at = from.find(name);
+  if (at == from.end() || !at->is_number()) return;
+  const double read = at->get<double>();
+  if (read >= least && read <= most) value = read;
+}
+
+/// A file of ours where XDG wants it: `variable`, else `fallback` in the home.
+std::filesystem::path xdg_path(const char* variable, const char* fallback, const char* name) {
+  if (const char* folder = std::getenv(variable); folder != nullptr && *folder != '\0') {
+    return std::filesystem::path(folder) / "dmoscope" / name;
+  }
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') {
+    return std::filesystem::path(home) / fallback / "dmoscope" / name;
+  }
+  return {};
+}
+
+void take_recent(const json& files, ViewState& state) {
+  constexpr std::size_t kMost = 10;
+  state.recent_files.clear();
+  for (const json& file : files) {
+    if (file.is_string() && state.recent_files.size() < kMost) state.recent_files.push_back(file.get<std::string>());
+  }
+}
+
+/// The file's text; none where there is no such file.
+std::optional<std::string> read_text(const std::filesystem::path& path) {
+  if (path.empty()) return std::nullopt;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return std::nullopt;
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string save_text(const std::filesystem::path& path, const std::string& text, const char* what) {
+  if (path.empty()) return {};
+  try {
+    std::filesystem::create_directories(path.parent_path());
+    write_file_atomically(path, text);
+    return {};
+  } catch (const std::exception& error) {
+    return fmt::format("{} not saved: {}", what, error.what());
+  }
+}
+
+}  // namespace
+
+std::filesystem::path settings_path() { return xdg_path("XDG_CONFIG_HOME", ".config", "settings.json"); }
+
+std::filesystem::path recent_path() { return xdg_path("XDG_STATE_HOME", ".local/state", "recent.json"); }
+
+std::string settings_text(const ViewState& state) {
+  const Panels& panels = state.panels;
+  json out = {{"theme", kThemeNames[static_cast<int>(state.theme)]},
+              {"scale", state.scale / state.monitor_scale},
+              {"colormap", render::name(state.colour_map)},
+              {"reversed", state.colouring.reversed},
+              {"steps", state.colouring.steps},
+              {"wireframe", state.wireframe},
+              {"panels",
+               {{"left", panels.left},
+                {"right", panels.right},
+                {"bottom", panels.bottom},
+                {"left_width", panels.left_width},
+                {"right_width", panels.right_width},
+                {"bottom_height", panels.bottom_height}}}};
+  return out.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+bool apply_settings(const std::string& text, ViewState& state) {
+  const json in = json::parse(text, nullptr, false);
+  if (!in.is_object()) return false;
+  if (const auto at = in.find("theme"); at != in.end() && at->is_string()) {
+    for (int k = 0; k < 3; ++k) {
+      if (at->get<std::string>() == kThemeNames[k]) state.theme = static_cast<Theme>(k);
+    }
+  }
+  double scale = state.scale / state.monitor_scale;
+  take(in, "scale", scale, 0.125, 4.0);
+  state.scale = std::clamp(scale * state.monitor_scale, 0.5, 4.0);
+  take(in, "reversed", state.colouring.reversed);
+  double steps = state.colouring.steps;
+  take(in, "steps", steps, 0.0, 64.0);
+  state.colouring.steps = steps == 1.0 ? 0 : static_cast<int>(steps);
+  take(in, "wireframe", state.wireframe);
+  if (const auto at = in.find("colormap"); at != in.end() && at->is_string()) {
+    for (const auto& map : render::colour_map_table()) {
+      if (map.name == at->get<std::string>()) state.colour_map = map.map;
+    }
+  }
+  if (const auto at = in.find("recent"); at != in.end() && at->is_array()) take_recent(*at, state);  // of older versions
+  if (const auto at = in.find("panels"); at != in.end() && at->is_object()) {
+    take(*at, "left", state.panels.left);
+    take(*at, "right", state.panels.right);
+    take(*at, "bottom", state.panels.bottom);
+    take(*at, "left_width", state.panels.left_width, 8.0, 60.0);
+    take(*at, "right_width", state.panels.right_width, 8.0, 60.0);
+    take(*at, "bottom_height", state.panels.bottom_height, 6.0, 60.0);
+  }
+  return true;
+}
+
+void load_settings(const std::filesystem::path& path, ViewState& state) {
+  const auto text = read_text(path);
+  if (text && !apply_settings(*text, state))
+    add_message(state, {Message::Kind::Warning, "settings ignored, not a JSON object: " + path.string(), 0});
+}
+
+std::string save_settings(const std::filesystem::path& path, const ViewState& state) {
+  return save_text(path, settings_text(state), "settings");
+}
+
+std::string recent_text(const ViewState& state) {
+  return json(state.recent_files).dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+bool apply_recent(const std::string& text, ViewState& state) {
+  const json in = json::parse(text, nullptr, false);
+  if (!in.is_array()) return false;
+  take_recent(in, state);
+  return true;
+}
+
+void load_recent(const std::filesystem::path& path, ViewState& state) {
+  const auto text = read_text(path);
+  if (text && !apply_recent(*text, state))
+    add_message(state, {Message::Kind::Warning, "recent files ignored, not a JSON array: " + path.string(), 0});
+}
+
+std::string save_recent(const std::filesystem::path& path, const ViewState& state) {
+  return save_text(path, recent_text(state), "recent files");
+}
+
+}  // namespace dmoscope::ui

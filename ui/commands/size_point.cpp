@@ -1,0 +1,43 @@
+#include "ui/commands/size_point.h"
+
+#include <fmt/format.h>
+
+#include "ui/commands/command_words.h"
+#include "ui/state/format.h"
+
+namespace dmoscope::ui {
+
+const Vec3* size_point_of(const RunView& run) {
+  const auto& combination = run.parameters.combination;
+  const SizeFunction* size = combination ? combination->size() : nullptr;
+  return size != nullptr && size->has_point() ? &size->point : nullptr;
+}
+
+void add_size_point_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
+  table.add({"place-size-point", "place-size-point [on|off|toggle]", "the next click in the view places the point of the size function"},
+            [&state, &host](Arguments words) {
+              require(words, 0, 1);
+              const bool on = switched(words, 0, state.placing_size_point);
+              const auto view = host.session();
+              if (on && (!view || view->runs.empty() || size_point_of(view->runs[view->active]) == nullptr))
+                throw UsageError("the active run has no size function with a point: see combine, with h1 or h2");
+              state.placing_size_point = on;
+            });
+}
+
+std::string size_point_command(const ViewState& state, const Plane& plane, Vec2<double> pixel) {
+  const Vec3 point = plane.lift(state.camera.to_plane(pixel, state.viewport));
+  std::string command = fmt::format("size-point {} {}", full_number(point.x), full_number(point.y));
+  if (point.z != 0.0) command += ' ' + full_number(point.z);
+  return command;
+}
+
+void add_size_point(render::Marks& marks, const RunView& run, const Plane& plane, render::Rgba ink, render::Rgba casing) {
+  const Vec3* point = size_point_of(run);
+  if (point == nullptr) return;
+  const Vec2<double> at = plane.place(*point);
+  marks.dots.push_back({at, 17.0F, casing, render::DotShape::Diamond});
+  marks.dots.push_back({at, 12.0F, ink, render::DotShape::Diamond});
+}
+
+}  // namespace dmoscope::ui

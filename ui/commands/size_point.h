@@ -1,0 +1,24 @@
+#pragma once
+// The point of a run's size function: placed with the mouse, and marked on the mesh. Plain state; no ImGui, no OpenGL.
+
+#include <string>
+
+#include "core/view/view.h"
+#include "render/style.h"
+#include "ui/commands/view_commands.h"
+
+namespace dmoscope::ui {
+
+///   place-size-point [on|off|toggle]
+void add_size_point_commands(CommandTable& table, ViewState& state, const CommandHost& host);
+
+/// The point of the run's size function; null: it has none.
+[[nodiscard]] const Vec3* size_point_of(const RunView& run);
+
+/// The session's command that puts the point to where the viewport has a pixel.
+[[nodiscard]] std::string size_point_command(const ViewState& state, const Plane& plane, Vec2<double> pixel);
+
+/// A diamond at the point of the run's size function.
+void add_size_point(render::Marks& marks, const RunView& run, const Plane& plane, render::Rgba ink, render::Rgba casing);
+
+}  // namespace dmoscope::ui

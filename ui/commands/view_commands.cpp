@@ -1,0 +1,308 @@
+#include "ui/commands/view_commands.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/quality/quality.h"
+#include "ui/commands/clipping_commands.h"
+#include "ui/commands/colouring_commands.h"
+#include "ui/commands/command_words.h"
+#include "ui/commands/desktop_commands.h"
+#include "ui/commands/file_commands.h"
+#include "ui/commands/input_commands.h"
+#include "ui/commands/inspection_commands.h"
+#include "ui/commands/notice.h"
+#include "ui/commands/pane_commands.h"
+#include "ui/commands/plot_commands.h"
+#include "ui/commands/selection_commands.h"
+#include "ui/commands/size_point.h"
+#include "ui/commands/stepping_commands.h"
+#include "ui/commands/timeline_commands.h"
+#include "ui/state/view_geometry.h"
+
+namespace dmoscope::ui {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Theme>, 3> kThemes{
+    {{"dark", Theme::Dark}, {"light", Theme::Light}, {"contrast", Theme::Contrast}}};
+constexpr auto kDialogs = std::to_array<std::pair<std::string_view, Dialog>>({{"none", Dialog::None},
+                                                                              {"open", Dialog::Open},
+                                                                              {"export", Dialog::Export},
+                                                                              {"screenshot", Dialog::Screenshot},
+                                                                              {"find", Dialog::Find},
+                                                                              {"palette", Dialog::Palette},
+                                                                              {"keys", Dialog::Keys},
+                                                                              {"about", Dialog::About},
+                                                                              {"error", Dialog::Error},
+                                                                              {"log", Dialog::Log},
+                                                                              {"sequence", Dialog::Sequence},
+                                                                              {"plot", Dialog::Plot},
+                                                                              {"save-session", Dialog::SaveSession}});
+
+const InputMesh& input_of(const CommandHost& host) {
+  const auto view = host.session();
+  if (!view || !view->input) throw UsageError("no mesh is open");
+  return *view->input;
+}
+
+Picked parse_pick(const CommandHost& host, Arguments words) {
+  if (words.size() == 1 && words[0] == "none") return {};
+  require(words, 2, 2);
+  static constexpr std::array<std::pair<std::string_view, Picked::Kind>, 2> kinds{
+      {{"vertex", Picked::Kind::Vertex}, {"element", Picked::Kind::Element}}};
+  Picked picked{choose(words[0], kinds), kNoIndex};
+  const Mesh& mesh = input_of(host).mesh;
+  const std::uint64_t id = to_count(words[1]);
+  const std::uint64_t size = picked.kind == Picked::Kind::Vertex ? mesh.vertex_count() : mesh.elements.size();
+  if (id >= size)
+    throw UsageError(fmt::format("there is no {} {}: the mesh has {} (0 to {})", words[0], id, size, size == 0 ? 0 : size - 1));
+  picked.id = static_cast<Index>(id);
+  return picked;
+}
+
+void add_camera_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
+  table.add({"pick", "pick vertex|element ID  or  pick none", "selects a vertex or an element"},
+            [&state, &host](Arguments words) { state.picked = parse_pick(host, words); });
+  table.add({"goto", "goto vertex|element ID", "selects it and moves the view there"}, [&state, &host](Arguments words) {
+    const Picked picked = parse_pick(host, words);
+    if (picked.kind == Picked::Kind::None) throw UsageError("expected vertex or element");
+    state.picked = picked;
+    const auto view = host.session();
+    if (view->frame) look_at_picked(state, *view->frame);
+  });
+  table.add({"fit", "fit", "shows the whole mesh"}, [&state](Arguments words) {
+    require(words, 0, 0);
+    state.requests.fit = true;
+  });
+  table.add({"zoom", "zoom FACTOR", "makes everything FACTOR times as big around the middle"}, [&state](Arguments words) {
+    require(words, 1, 1);
+    const double factor = to_number(words[0]);
+    if (!(factor > 0.0)) throw UsageError("the factor must be greater than 0");
+    const Vec2<double> middle{state.viewport.x / 2, state.viewport.y / 2};
+    state.camera.zoom_at(middle, state.viewport, factor);
+    state.orbit.zoom_at(middle, state.viewport, factor);
+  });
+  table.add({"pan", "pan DX DY", "moves the picture by pixels"}, [&state](Arguments words) {
+    require(words, 2, 2);
+    const Vec2<double> pixels{to_number(words[0]), to_number(words[1])};
+    state.camera.pan(pixels);
+    state.orbit.pan(pixels, state.viewport);
+  });
+}
+
+void add_look_commands(CommandTable& table, ViewState& state) {
+  table.add({"wireframe", "wireframe [on|off|toggle]", "edges of the elements"}, [&state](Arguments words) {
+    require(words, 0, 1);
+    state.wireframe = switched(words, 0, state.wireframe);
+  });
+  table.add({"vertices", "vertices [on|off|toggle]", "dots: free vertices round, fixed ones square"}, [&state](Arguments words) {
+    require(words, 0, 1);
+    state.vertices = switched(words, 0, state.vertices);
+  });
+  table.add({"worst", "worst [on|off|toggle]", "ring around the worst element"}, [&state](Arguments words) {
+    require(words, 0, 1);
+    state.worst_marker = switched(words, 0, state.worst_marker);
+  });
+  table.add({"theme", "theme dark|light|contrast|next", "colours of the interface"}, [&state](Arguments words) {
+    require(words, 1, 1);
+    state.theme = words[0] == "next" ? static_cast<Theme>((static_cast<int>(state.theme) + 1) % 3) : choose(words[0], kThemes);
+  });
+  table.add({"scale", "scale FACTOR|up|down", "size of the interface over what the monitor asks for"}, [&state](Arguments words) {
+    require(words, 1, 1);
+    const double wanted = words[0] == "up"     ? state.scale * 1.125
+                          : words[0] == "down" ? state.scale / 1.125
+                                               : to_number(words[0]) * state.monitor_scale;
+    if (!(wanted > 0.0)) throw UsageError("the scale must be greater than 0");
+    state.scale = std::clamp(wanted, 0.5, 4.0);
+  });
+}
+
+void add_panel_commands(CommandTable& table, ViewState& state) {
+  table.add({"size", "size WIDTH HEIGHT", "size of the window in pixels"}, [&state](Arguments words) {
+    require(words, 2, 2);
+    state.window_size = parse_size(words[0] + "x" + words[1]);
+    state.requests.size = state.window_size;
+  });
+  table.add({"full-screen", "full-screen [on|off|toggle]", "the whole monitor"}, [&state](Arguments words) {
+    require(words, 0, 1);
+    state.full_screen = switched(words, 0, state.full_screen);
+    state.requests.full_screen = state.full_screen;
+  });
+  table.add({"panel", "panel left|right|bottom [on|off|toggle]", "shows or hides a panel"}, [&state](Arguments words) {
+    require(words, 1, 2);
+    static constexpr std::array<std::pair<std::string_view, bool Panels::*>, 3> names{
+        {{"left", &Panels::left}, {"right", &Panels::right}, {"bottom", &Panels::bottom}}};
+    bool Panels::*panel = choose(words[0], names);
+    state.panels.*panel = switched(words, 1, state.panels.*panel);
+  });
+  table.add({"dialog", "dialog NAME|none", "opens or closes a dialog"}, [&state](Arguments words) {
+    require(words, 1, 1);
+    state.dialog = choose(words[0], kDialogs);
+  });
+}
+
+void add_output_commands(CommandTable& table, ViewState& state) {
+  table.add({"screenshot", "screenshot FILE [--size WxH] [--supersample N] [--transparent] [--window]",
+             "writes a PNG of the mesh, or of the whole window"},
+            [&state](Arguments words) {
+              ScreenshotOptions shot;
+              for (std::size_t k = 0; k < words.size(); ++k) {
+                const auto value = [&]() -> const std::string& {
+                  if (++k >= words.size()) throw UsageError(words[k - 1] + ": a value is missing");
+                  return words[k];
+                };
+                if (words[k] == "--size") {
+                  std::tie(shot.width, shot.height) = parse_size(value());
+                } else if (words[k] == "--supersample") {
+                  const std::uint64_t n = to_count(value(), 1);
+                  if (n > 8) throw UsageError("--supersample goes from 1 to 8");
+                  shot.supersample = static_cast<int>(n);
+                } else if (words[k] == "--transparent") {
+                  shot.transparent = true;
+                } else if (words[k] == "--window") {
+                  shot.window = true;
+                } else if (shot.path.empty() && !words[k].starts_with("--")) {
+                  shot.path = words[k];
+                } else {
+                  unexpected(words[k], "one file and options");
+                }
+              }
+              if (shot.path.empty()) throw UsageError("a file name is missing");
+              state.requests.screenshots.push_back(std::move(shot));
+            });
+  table.add({"copy", "copy TEXT", "puts a text on the clipboard"}, [&state](Arguments words) {
+    require(words, 1, 1);
+    state.requests.clipboard = words[0];
+  });
+  table.add({"quit", "quit", "closes the window"}, [&state](Arguments words) {
+    require(words, 0, 0);
+    state.requests.quit = true;
+  });
+}
+
+void seek_in_timeline(const CommandHost& host, const std::string& where) {
+  const auto view = host.session();
+  if (!view || view->runs.empty()) throw UsageError("no mesh is open");
+  const RunView& run = view->runs[view->active];
+  const std::uint64_t last = run.records.empty() ? 0 : run.records.back().iteration;
+  const std::uint64_t now = run.moment.iteration;
+  std::uint64_t target = now;
+  if (where == "first") {
+    target = 0;
+  } else if (where == "last") {
+    target = last;
+  } else if (where == "back") {
+    target = !run.moment.is_iteration_end() || now == 0 ? now : now - 1;
+  } else if (where == "forward") {
+    target = std::min(now + 1, last);
+  } else {
+    unexpected(where, "back, forward, first or last");
+  }
+  if (target != now || !run.moment.is_iteration_end()) host.post(fmt::format("seek {}", target));
+}
+
+void add_session_shortcuts(CommandTable& table, ViewState& state, const CommandHost& host) {
+  table.add({"run-pause", "run-pause", "runs until converged, or stops what runs or plays"}, [&state, &host](Arguments words) {
+    require(words, 0, 0);
+    if (state.timeline.play.kind != Playback::Kind::Off) {
+      state.timeline.play.kind = Playback::Kind::Off;
+    } else if (host.busy()) {
+      host.cancel();
+    } else {
+      host.post("until-converged");
+    }
+  });
+  table.add({"cancel", "cancel", "stops what runs and forgets what waits"}, [&host](Arguments words) {
+    require(words, 0, 0);
+    host.cancel();
+  });
+  table.add({"timeline", "timeline back|forward|first|last", "shows another iteration of the history"}, [&host](Arguments words) {
+    require(words, 1, 1);
+    seek_in_timeline(host, words[0]);
+  });
+  table.add({"next-run", "next-run", "selects the next run"}, [&host](Arguments words) {
+    require(words, 0, 0);
+    const auto view = host.session();
+    if (view && view->runs.size() > 1) host.post(fmt::format("select-run {}", (view->active + 1) % view->runs.size() + 1));
+  });
+  table.add({"next-metric", "next-metric", "shows the next metric that is defined for the mesh"}, [&host](Arguments words) {
+    require(words, 0, 0);
+    const auto view = host.session();
+    if (!view || !view->input) throw UsageError("no mesh is open");
+    const auto metrics = usable_metrics(view->input->mesh);
+    const auto at = std::find(metrics.begin(), metrics.end(), view->shown);
+    if (metrics.empty()) return;
+    host.post(fmt::format("show {}", info(at == metrics.end() || at + 1 == metrics.end() ? metrics.front() : *(at + 1)).name));
+  });
+  (void)state;
+}
+
+}  // namespace
+
+CommandTable view_commands(ViewState& state, const CommandHost& host) {
+  CommandTable table;
+  add_camera_commands(table, state, host);
+  add_look_commands(table, state);
+  add_colouring_commands(table, state, host);
+  add_panel_commands(table, state);
+  add_output_commands(table, state);
+  add_plot_commands(table, state);
+  add_input_commands(table, state, host);
+  add_inspection_commands(table, state, host);
+  add_session_shortcuts(table, state, host);
+  add_desktop_commands(table, state, host);
+  add_clipping_commands(table, state, host);
+  add_timeline_commands(table, state, host);
+  add_file_commands(table, state, host);
+  add_notice_command(table, state, host);
+  add_selection_commands(table, state, host);
+  add_stepping_commands(table, state);
+  add_size_point_commands(table, state, host);
+  add_pane_commands(table, state);
+  return table;
+}
+
+std::vector<CommandInfo> view_command_infos() {
+  ViewState state;
+  const CommandHost host;
+  return view_commands(state, host).commands();
+}
+
+bool is_session_command(std::string_view line) {
+  const auto words = split_words(line);
+  if (words.empty()) return false;
+  const auto& commands = session_commands();
+  return std::any_of(commands.begin(), commands.end(), [&](const CommandInfo& command) { return command.name == words[0]; });
+}
+
+void dispatch(const CommandTable& view, const CommandHost& host, std::string_view line) {
+  const auto words = split_words(line);
+  if (words.empty()) return;
+  if (is_session_command(line)) {
+    host.post(std::string(line));
+  } else {
+    view.execute(line);
+  }
+}
+
+std::pair<int, int> parse_size(const std::string& word) {
+  constexpr int kLargest = 32768;
+  const auto cross = word.find('x');
+  std::array<int, 2> size{};
+  if (cross != std::string::npos) {
+    const std::array<std::string_view, 2> parts{std::string_view(word).substr(0, cross), std::string_view(word).substr(cross + 1)};
+    bool good = true;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto [end, error] = std::from_chars(parts[k].data(), parts[k].data() + parts[k].size(), size[k]);
+      good = good && error == std::errc() && end == parts[k].data() + parts[k].size() && size[k] >= 1 && size[k] <= kLargest;
+    }
+    if (good) return {size[0], size[1]};
+  }
+  throw UsageError(fmt::format("\"{}\": expected a size such as 1280x800, each from 1 to {}", word, kLargest));
+}
+
+}  // namespace dmoscope::ui

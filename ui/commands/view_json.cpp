@@ -1,0 +1,381 @@
+#include "ui/commands/view_json.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+#include "core/commands/commands.h"
+#include "core/view/run_table.h"
+
+namespace dmoscope::ui {
+namespace {
+
+using nlohmann::json;
+
+/// Writes members. It and Reader offer the same, so that one description of the view serves both ways.
+class Writer {
+ public:
+  [[nodiscard]] const json& result() const noexcept { return json_; }
+  void flag(const char* name, bool value) { json_[name] = value; }
+  void number(const char* name, double value, double /*least*/, double /*most*/) { json_[name] = value; }
+  template <class Count>
+  void count(const char* name, Count value, std::uint64_t /*most*/) {
+    json_[name] = static_cast<std::uint64_t>(value);
+  }
+  template <class Value, class Choices>
+  void choice(const char* name, Value value, const Choices& choices) {
+    for (const auto& [word, one] : choices) {
+      if (one == value) json_[name] = word;
+    }
+  }
+  void range(const char* name, const std::optional<std::pair<double, double>>& value) {
+    json_[name] = value ? json{value->first, value->second} : json();
+  }
+  void vector(const char* name, const Vec3& value) { json_[name] = {value.x, value.y, value.z}; }
+  void words(const char* name, const std::set<std::string>& value) { json_[name] = value; }
+  void ids(const char* name, const Selection& value) { json_[name] = id_ranges(value.vertices()); }
+  void content(const char* name, const PaneContent& value, const Panes& panes) { json_[name] = panes.words(value); }
+  template <class Body>
+  void object(const char* name, Body body) {
+    Writer inner;
+    body(inner);
+    json_[name] = inner.json_;
+  }
+
+ private:
+  json json_ = json::object();
+};
+
+/// Reads members; throws UsageError with the whole name of one that is wrong. `vertices`: of the mesh.
+class Reader {
+ public:
+  Reader(const json& from, std::string path, Index vertices) : json_(from), path_(std::move(path)), vertices_(vertices) {
+    if (!json_.is_object()) throw UsageError(path_ + ": expected an object");
+  }
+  void flag(const char* name, bool& value) {
+    if (const json* at = find(name)) value = at->is_boolean() ? at->get<bool>() : (wrong(name, "true or false"), false);
+  }
+  void number(const char* name, double& value, double least, double most) {
+    const json* at = find(name);
+    if (at == nullptr) return;
+    const double read = at->is_number() ? at->get<double>() : NAN;
+    if (!(read >= least && read <= most)) wrong(name, fmt::format("a number from {} to {}", least, most));
+    value = read;
+  }
+  template <class Count>
+  void count(const char* name, Count& value, std::uint64_t most) {
+    const json* at = find(name);
+    if (at == nullptr) return;
+    if (!at->is_number_unsigned() || at->get<std::uint64_t>() > most) wrong(name, fmt::format("a whole number from 0 to {}", most));
+    value = static_cast<Count>(at->get<std::uint64_t>());
+  }
+  template <class Value, class Choices>
+  void choice(const char* name, Value& value, const Choices& choices) {
+    const json* at = find(name);
+    if (at == nullptr) return;
+    std::string names;
+    for (const auto& [word, one] : choices) {
+      names += (names.empty() ? "" : ", ") + std::string(word);
+      if (!at->is_string() || at->get<std::string>() != word) continue;
+      value = one;
+      return;
+    }
+    wrong(name, "one of " + names);
+  }
+  void range(const char* name, std::optional<std::pair<double, double>>& value) {
+    const json* at = find(name);
+    if (at == nullptr) return;
+    if (at->is_null()) {
+      value.reset();
+      return;
+    }
+    const bool pair = at->is_array() && at->size() == 2 && (*at)[0].is_number() && (*at)[1].is_number();
+    const double low = pair ? (*at)[0].get<double>() : NAN, high = pair ? (*at)[1].get<double>() : NAN;
+    if (!(low < high)) wrong(name, "null, or two numbers of which the second is greater");
+    value = {low, high};
+  }
+  void vector(const char* name, Vec3& value) {
+    const json* at = find(name);
+    if (at == nullptr) return;
+    const bool three = at->is_array() && at->size() == 3 && std::ranges::all_of(*at, [](const json& one) { return one.is_number(); });
+    if (!three) wrong(name, "three numbers");
+    value = {(*at)[0].get<double>(), (*at)[1].get<double>(), (*at)[2].get<double>()};
+  }
+  void words(const char* name, std::set<std::string>& value) {
+    const json* at = find(name);
+    if (at == nullptr) return;
+    std::set<std::string> read;
+    for (const json& word : at->is_array() ? *at : json{1}) {
+      if (!word.is_string()) wrong(name, "an array of words");
+      read.insert(word.get<std::string>());
+    }
+    value = std::move(read);
+  }
+  /// As "3-7 9".
+  void ids(const char* name, Selection& value) {
+    const json* at = find(name);
+    if (at == nullptr) return;
+    if (!at->is_string()) wrong(name, "numbers and ranges, such as \"3-7 9\"");
+    try {
+      value.assign(parse_id_ranges(split_words(at->get<std::string>()), vertices_));
+    } catch (const UsageError& error) {
+      wrong(name, error.what());
+    }
+  }
+  /// Runs by their numbers.
+  void content(const char* name, PaneContent& value, const Panes& panes) {
+    const json* at = find(name);
+    if (at == nullptr) return;
+    if (!at->is_string()) wrong(name, "what is shown, such as \"run 2\"");
+    try {
+      value = panes.parse(split_words(at->get<std::string>()));
+    } catch (const UsageError& error) {
+      wrong(name, error.what());
+    }
+  }
+  template <class Body>
+  void object(const char* name, Body body) {
+    const json* at = find(name);
+    if (at == nullptr) return;
+    Reader inner(*at, path_ + "." + name, vertices_);
+    body(inner);
+  }
+
+ private:
+  [[nodiscard]] const json* find(const char* name) const {
+    const auto at = json_.find(name);
+    return at == json_.end() ? nullptr : &*at;
+  }
+  [[noreturn]] void wrong(const char* name, const std::string& expected) const {
+    throw UsageError(fmt::format("{}.{}: expected {}", path_, name, expected));
+  }
+
+  const json& json_;
+  std::string path_;
+  Index vertices_;
+};
+
+constexpr double kFar = 1e300;
+
+std::vector<std::pair<std::string_view, std::string>> sortable_columns() {
+  std::vector<std::pair<std::string_view, std::string>> choices{{"off", ""}};
+  for (const RunColumn& column : run_columns()) choices.emplace_back(column.name, column.name);
+  return choices;
+}
+
+constexpr std::array<std::pair<std::string_view, int>, 3> kBins{{{"16", 16}, {"32", 32}, {"64", 64}}};
+constexpr std::array<std::pair<std::string_view, Picked::Kind>, 3> kPicks{
+    {{"none", Picked::Kind::None}, {"vertex", Picked::Kind::Vertex}, {"element", Picked::Kind::Element}}};
+
+constexpr std::array<std::pair<std::string_view, RangeMode>, 4> kEveryRangeMode{
+    {kRangeModes[0], kRangeModes[1], kRangeModes[2], {"given", RangeMode::Given}}};
+/// Those that need nothing but the run; what another one showed is not saved.
+constexpr std::array<std::pair<std::string_view, Reference>, 2> kLastingReferences{{{"off", Reference::None}, {"input", Reference::Input}}};
+
+std::vector<std::pair<std::string_view, ColourBy>> colour_by_names() {
+  std::vector<std::pair<std::string_view, ColourBy>> names;
+  for (const ColourByInfo& one : kColourBys) names.emplace_back(one.name, one.by);
+  return names;
+}
+
+std::vector<std::pair<std::string_view, render::ColourMap>> colour_map_names() {
+  std::vector<std::pair<std::string_view, render::ColourMap>> names;
+  for (const render::ColourMapInfo& map : render::colour_map_table()) names.emplace_back(map.name, map.map);
+  return names;
+}
+
+// State is const where it is written.
+
+template <class Archive, class Panels>
+void describe_panels(Archive& archive, Panels& panels) {
+  archive.flag("left", panels.left);
+  archive.flag("right", panels.right);
+  archive.flag("bottom", panels.bottom);
+  archive.number("left_width", panels.left_width, 6.0, 60.0);
+  archive.number("right_width", panels.right_width, 6.0, 60.0);
+  archive.number("bottom_height", panels.bottom_height, 6.0, 60.0);
+}
+
+template <class Archive, class State>
+void describe_plots(Archive& archive, State& state) {
+  archive.choice("shown", state.plot, kPlotTabs);
+  archive.flag("by_seconds", state.plot_options.by_seconds);
+  archive.choice("bins", state.plot_options.bins, kBins);
+  archive.choice("runs_sorted_by", state.plot_options.sorted_by, sortable_columns());
+  archive.flag("runs_descending", state.plot_options.descending);
+  for (const auto& [name, tab] : kPlotTabs) {
+    auto& view = state.plots[static_cast<std::size_t>(tab)];
+    archive.object(std::string(name).c_str(), [&view](auto& plot) {
+      plot.choice("axis", view.axis, kValueAxes);
+      plot.range("x_range", view.x_range);
+      plot.range("y_range", view.y_range);
+      plot.words("hidden", view.hidden);
+    });
+  }
+}
+
+template <class Archive, class Camera>
+void describe_camera(Archive& archive, Camera& camera) {
+  archive.number("x", camera.centre.x, -kFar, kFar);
+  archive.number("y", camera.centre.y, -kFar, kFar);
+  archive.number("units_per_pixel", camera.units_per_pixel, 1e-300, kFar);
+}
+
+constexpr std::array<std::pair<std::string_view, ClipPlane::Mode>, 2> kClipModes{
+    {{"crinkle", ClipPlane::Mode::Crinkle}, {"cut", ClipPlane::Mode::Cut}}};
+
+/// What is seen of a volume mesh. Qualities in double, as the numbers of JSON are.
+template <class Archive, class View>
+void describe_inside(Archive& archive, View& view) {
+  archive.object("clip", [&view](auto& clip) {
+    clip.flag("on", view.clip.on);
+    clip.vector("normal", view.clip.normal);
+    clip.number("offset", view.clip.offset, -kFar, kFar);
+    clip.flag("flip", view.clip.flip);
+    clip.choice("mode", view.clip.mode, kClipModes);
+  });
+  archive.count("peel", view.peel, kNoIndex - 1);
+  std::optional<std::pair<double, double>> keep;
+  if (view.isolate) keep = *view.isolate;
+  bool by_quality = view.peel_quality.has_value();
+  double quality = by_quality ? static_cast<double>(*view.peel_quality) : 1.0;
+  archive.flag("peel_by_quality", by_quality);
+  archive.number("peel_quality", quality, -kFar, kFar);
+  archive.range("keep_quality", keep);
+  archive.count("worst", view.worst, kNoIndex);
+  archive.flag("ghost", view.ghost);
+  archive.number("shrink", view.shrink, 1e-6, 1.0);
+  if constexpr (!std::is_const_v<View>) {
+    view.peel_quality = by_quality ? std::optional(static_cast<float>(quality)) : std::nullopt;
+    view.isolate.reset();
+    if (keep) view.isolate = std::pair{static_cast<float>(keep->first), static_cast<float>(keep->second)};
+  }
+}
+
+template <class Archive, class State>
+void describe_volume(Archive& archive, State& state) {
+  archive.vector("centre", state.orbit.centre);
+  archive.number("height", state.orbit.height, 1e-150, 1e150);
+  archive.vector("right", state.orbit.right);
+  archive.vector("up", state.orbit.up);
+  archive.flag("perspective", state.orbit.perspective);
+  archive.flag("trackball", state.trackball);
+  archive.object("inside", [&state](auto& inside) { describe_inside(inside, state.inside); });
+}
+
+template <class Archive, class Panes>
+void describe_panes(Archive& archive, Panes& panes) {
+  archive.choice("layout", panes.layout, kPaneLayouts);
+  archive.flag("linked", panes.linked);
+  archive.number("split", panes.split, 0.0, 1.0);
+  archive.count("active", panes.focus, Panes::kMost - 1);
+  for (std::size_t k = 0; k < Panes::kMost; ++k) {
+    auto& pane = panes.panes[k];
+    archive.object(fmt::format("pane{}", k + 1).c_str(), [&pane, &panes](auto& one) {
+      one.content("shows", pane.content, panes);
+      one.flag("chosen", pane.chosen);
+      one.object("camera", [&pane](auto& camera) { describe_camera(camera, pane.camera); });
+    });
+  }
+}
+
+template <class Archive, class State>
+void describe_colouring(Archive& archive, State& state) {
+  auto& colouring = state.colouring;
+  archive.content("reference", colouring.reference, state.panes);
+  archive.choice("by", colouring.by, colour_by_names());
+  archive.choice("range_mode", state.range_mode, kEveryRangeMode);
+  archive.number("range_low", state.range_low, -kFar, kFar);
+  archive.number("range_high", state.range_high, -kFar, kFar);
+  archive.flag("reversed", colouring.reversed);
+  archive.count("steps", colouring.steps, 64);
+  archive.range("filter", colouring.filter);
+  archive.choice("filter_mode", colouring.others, kFilterModes);
+  archive.count("worst", colouring.worst, 100);
+  archive.flag("label_vertices", colouring.label_vertices);
+  archive.flag("label_elements", colouring.label_elements);
+}
+
+template <class Archive, class State>
+void describe_stepping(Archive& archive, State& state) {
+  archive.flag("next_class", state.stepping.next_class);
+  archive.choice("arrows", state.stepping.arrows, kLastingReferences);
+  archive.number("arrow_scale", state.stepping.arrow_scale, 0.0, kFar);
+  archive.choice("ghost", state.stepping.ghost, kLastingReferences);
+  archive.flag("click_smooths", state.stepping.click_smooths);
+}
+
+/// The one description of the view.
+template <class Archive, class State>
+void describe(Archive& archive, State& state) {
+  archive.object("camera", [&state](auto& camera) { describe_camera(camera, state.camera); });
+  archive.object("volume", [&state](auto& volume) { describe_volume(volume, state); });
+  archive.object("viewports", [&state](auto& viewports) { describe_panes(viewports, state.panes); });
+  archive.flag("wireframe", state.wireframe);
+  archive.flag("vertices", state.vertices);
+  archive.flag("worst_marker", state.worst_marker);
+  archive.choice("colormap", state.colour_map, colour_map_names());
+  archive.object("colours", [&state](auto& colours) { describe_colouring(colours, state); });
+  archive.object("stepping", [&state](auto& stepping) { describe_stepping(stepping, state); });
+  archive.ids("selection", state.selection);
+  archive.object("panels", [&state](auto& panels) { describe_panels(panels, state.panels); });
+  archive.object("plots", [&state](auto& plots) { describe_plots(plots, state); });
+  archive.object("inspection", [&state](auto& inspection) {
+    inspection.flag("open", state.inspection.open);
+    inspection.count("level", state.inspection.level, 16);
+    inspection.flag("all_levels", state.inspection.all_levels);
+    inspection.flag("zoom", state.inspection.zoom);
+    inspection.flag("field", state.inspection.field);
+    inspection.flag("field_in_view", state.inspection.field_in_view);
+    inspection.flag("alone", state.inspection.alone);
+    inspection.count("slice_axis", state.inspection.slice_axis, 2);
+  });
+  archive.number("speed", state.timeline.play.speed, Playback::kSlowest, Playback::kFastest);
+  archive.object("picked", [&state](auto& picked) {
+    picked.choice("kind", state.picked.kind, kPicks);
+    picked.count("id", state.picked.id, kNoIndex);
+  });
+}
+
+void check(const ViewState& state, const Mesh* mesh) {
+  if (!(state.range_low < state.range_high)) throw UsageError("view.colours.range_high: it must be greater than range_low");
+  if (!state.orbit.is_valid()) throw UsageError("view.volume.right, up: expected directions of length 1 and at right angles");
+  const double normal = length(state.inside.clip.normal);
+  if (!(normal > 0.0) || !std::isfinite(normal)) throw UsageError("view.volume.inside.clip.normal: expected a direction");
+  const auto [kind, id] = state.picked;
+  if (kind == Picked::Kind::None) return;
+  const std::uint64_t size = mesh == nullptr ? 0 : kind == Picked::Kind::Vertex ? mesh->vertex_count() : mesh->elements.size();
+  if (id >= size) throw UsageError(fmt::format("view.picked.id: there is no {}, the mesh has {}", id, size));
+}
+
+}  // namespace
+
+std::string view_json(const ViewState& state) {
+  Writer writer;
+  describe(writer, state);
+  return writer.result().dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+void apply_view_json(std::string_view text, ViewState& state, const Mesh* mesh) {
+  const json in = json::parse(text, nullptr, false);
+  if (in.is_discarded()) throw UsageError("view: this is not JSON");
+  ViewState next = state;
+  Reader reader(in, "view", mesh == nullptr ? 0 : mesh->vertex_count());
+  describe(reader, next);
+  check(next, mesh);
+  next.panes.focus = std::min(next.panes.focus, next.panes.count() - 1);
+  state = std::move(next);
+  state.requests.fit = false;
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,54 @@
+#include "ui/commands/view_to_commands.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "ui/commands/clipping_text.h"
+
+namespace dmoscope::ui {
+
+std::vector<std::string> view_lines(const ViewState& state, bool with_camera) {
+  const auto on = [](bool value) { return value ? "on" : "off"; };
+  const Panels& panels = state.panels;
+  std::vector<std::string> lines;
+  if (state.window_size.first > 0) lines.push_back(fmt::format("size {} {}", state.window_size.first, state.window_size.second));
+  lines.push_back(fmt::format("scale {}", state.scale));
+  lines.push_back(fmt::format("theme {}", theme_name(state.theme)));
+  lines.push_back(fmt::format("panel left {}", on(panels.left)));
+  lines.push_back(fmt::format("panel right {}", on(panels.right)));
+  lines.push_back(fmt::format("panel bottom {}", on(panels.bottom)));
+  lines.push_back(fmt::format("panel-size left {}", panels.left_width));
+  lines.push_back(fmt::format("panel-size right {}", panels.right_width));
+  lines.push_back(fmt::format("panel-size bottom {}", panels.bottom_height));
+  lines.push_back(fmt::format("unfold left {}", on(panels.left_over)));
+  lines.push_back(fmt::format("unfold right {}", on(panels.right_over)));
+  lines.push_back(fmt::format("colormap {}", render::name(state.colour_map)));
+  lines.push_back(fmt::format("reverse-colors {}", on(state.colouring.reversed)));
+  lines.push_back(fmt::format("color-steps {}", state.colouring.steps));
+  lines.push_back(fmt::format("wireframe {}", on(state.wireframe)));
+  const PlotView& plot = state.plots[static_cast<std::size_t>(state.plot)];
+  for (const auto& [axis, range] : {std::pair{"x", plot.x_range}, {"y", plot.y_range}})
+    lines.push_back(range ? fmt::format("plot-zoom {} {} {}", axis, range->first, range->second) : fmt::format("plot-zoom {} all", axis));
+  const Panes& panes = state.panes;
+  for (const auto& [name, layout] : kPaneLayouts)
+    if (panes.layout == layout) lines.push_back(fmt::format("viewports {}", name));
+  lines.push_back(fmt::format("link-cameras {}", on(panes.linked)));
+  lines.push_back(fmt::format("split {}", panes.split));
+  for (std::size_t k = 0; k < panes.count() && !panes.one(); ++k) {
+    const Pane& pane = panes.panes[k];
+    lines.push_back(fmt::format("pane {} {}", k + 1, pane.chosen ? panes.words(pane.content) : "auto"));
+    if (panes.linked || k == panes.focus || !with_camera) continue;
+    lines.push_back(fmt::format("pane-camera {} {} {} {}", k + 1, pane.camera.centre.x, pane.camera.centre.y, pane.camera.units_per_pixel));
+  }
+  if (!panes.one()) lines.push_back(fmt::format("focus-pane {}", panes.focus + 1));
+  if (state.is_volume) {
+    for (std::string& line : inside_lines(state, with_camera)) lines.push_back(std::move(line));
+    return lines;
+  }
+  const render::Camera2D& camera = state.camera;
+  if (with_camera) lines.push_back(fmt::format("camera {} {} {}", camera.centre.x, camera.centre.y, camera.units_per_pixel));
+  return lines;
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,23 @@
+#pragma once
+// A plot as a drawing: the inside for the window, or the whole as a picture for a file.
+
+#include "core/drawing/drawing.h"
+#include "ui/plots/plot_layout.h"
+#include "ui/toolkit/theme.h"
+
+namespace dmoscope::ui {
+
+struct PlotInk {
+  render::Rgb background, text, dim, grid, accent;
+};
+[[nodiscard]] PlotInk ink_of(const Palette& palette);
+
+/// Grid, ticks, series, brush and marks, at the places of `layout`. `font`: height of the ticks' labels; `unit`: of all other lengths, such
+/// as the lines' widths.
+void draw_clipping(Drawing& drawing, const Plot& plot, const PlotView& view, const PlotLayout& layout, const PlotInk& ink, double font,
+                   double unit);
+
+/// The plot as it is seen, with title, legend of what is visible, and axes' titles, for white paper. Lengths in units; text is 12 high.
+[[nodiscard]] Drawing whole_plot(const Plot& plot, const PlotView& view, double width, double height, const PlotInk& ink);
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,23 @@
+#pragma once
+// A plot in the window, drawn with ImGui's draw lists.
+
+#include "ui/plots/plot_drawing.h"
+#include "ui/plots/plot_interaction.h"
+#include "ui/toolkit/items.h"
+
+namespace dmoscope::ui {
+
+/// A plot as the window drew it last; made again when its keys change.
+struct PlotCache {
+  std::string plot_key, drawing_key;
+  Plot plot;
+  Drawing drawing;
+  std::optional<PlotLayout> layout;
+  PlotDrag drag;
+};
+
+/// Draws cache.plot into the space that is left, with its legend above, and reads what the mouse points at. Returns what a person does with
+/// it. Records the items "plot", its inside, "plot-y", the value axis' labels, and "legend:NAME".
+PlotOutcome draw_plot(PlotCache& cache, const PlotView& view, const Palette& palette, double scale, Items& items);
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,55 @@
+#pragma once
+// Everything a person can do by menu, key, tool bar or palette, in one table.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ui/state/keys.h"
+
+namespace dmoscope::ui {
+
+/// What must be so for an action to be possible.
+enum class Needs { Nothing, Mesh, Idle, MeshAndIdle, Work, SeveralRuns, Picked, Selected, Undo, Redo, Volume, Planar, Better };
+
+struct Action {
+  std::string_view id;       // "step-iteration"; also the name of its items
+  std::string_view menu;     // "Run"
+  std::string_view title;    // "Next iteration"
+  std::string_view key;      // "N", empty when it has none
+  std::string_view command;  // one line of the command language
+  Needs needs = Needs::Nothing;
+  bool separator = false;  // a line above it in the menu
+};
+
+/// All actions, in the order of the menus.
+[[nodiscard]] std::span<const Action> actions();
+/// Null for an unknown id.
+[[nodiscard]] const Action* find_action(std::string_view id);
+/// The action of a key; null when it has none.
+[[nodiscard]] const Action* action_of(const KeyChord& chord);
+/// Menu names in order.
+[[nodiscard]] std::vector<std::string_view> menu_names();
+
+/// What the needs are judged by.
+struct Situation {
+  bool mesh = false, busy = false, picked = false;
+  std::size_t runs = 0;
+  bool selected = false;       // at least one vertex; see Selection
+  std::string undo{}, redo{};  // what they are about ("run 10"); empty: nothing
+  bool volume = false;         // the mesh is one of volume elements
+  bool better = false;         // the active run does not stand at its best iteration
+};
+[[nodiscard]] bool enabled(const Action& action, const Situation& situation);
+/// The title, with what undo and redo are about: "Undo run 10".
+[[nodiscard]] std::string title_of(const Action& action, const Situation& situation);
+
+/// Actions whose title, menu or command holds all words of `query` (case-insensitive), best first: titles that begin with it.
+[[nodiscard]] std::vector<const Action*> search_actions(std::string_view query);
+
+/// The words of a search, in small letters, and whether a text holds all of them (case-insensitive).
+[[nodiscard]] std::vector<std::string> search_words(std::string_view query);
+[[nodiscard]] bool holds_all(std::string_view text, std::span<const std::string> words);
+
+}  // namespace dmoscope::ui

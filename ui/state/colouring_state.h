@@ -1,0 +1,75 @@
+#pragma once
+// How elements are coloured, which of them count, and what is written on them, as plain data.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "render/shading.h"
+#include "ui/state/panes.h"
+
+namespace dmoscope::ui {
+
+/// How the range of the quality's colours is chosen: 0 to 1; the shown qualities' own minimum and maximum; the same, but it also holds all
+/// that was seen since the input was opened; or given.
+enum class RangeMode { Fixed, Auto, Expanding, Given };
+inline constexpr std::array<std::pair<std::string_view, RangeMode>, 3> kRangeModes{
+    {{"fixed", RangeMode::Fixed}, {"auto", RangeMode::Auto}, {"expanding", RangeMode::Expanding}}};
+
+/// What the elements' colours tell.
+enum class ColourBy { Quality, Kind, Group, Valence, Class, Displacement, Size, Inverted, EdgeLength, SizeOverTarget, Difference };
+struct ColourByInfo {
+  ColourBy by;
+  std::string_view name, title, doc;
+};
+inline constexpr std::array<ColourByInfo, 11> kColourBys{{
+    {ColourBy::Quality, "quality", "Quality", "of the shown metric"},
+    {ColourBy::Kind, "kind", "Kind of element", "triangle or quadrilateral"},
+    {ColourBy::Group, "group", "Group", "boundaries, markers and element groups that the file carried"},
+    {ColourBy::Valence, "valence", "Valence", "around each vertex: how many elements it has"},
+    {ColourBy::Class, "class", "Colour class", "around each free vertex: which vertices move at once"},
+    {ColourBy::Displacement, "displacement", "Displacement", "how far the corner that moved most is from where it was in the input"},
+    {ColourBy::Size, "size", "Size", "area relative to the mean, logarithmic"},
+    {ColourBy::Inverted, "inverted", "Inverted", "nothing but the inverted elements"},
+    {ColourBy::EdgeLength, "edge-length", "Edge length", "mean length of the edges around an element's corners, logarithmic"},
+    {ColourBy::SizeOverTarget, "size-over-target", "Size over target",
+     "edge length over the size that the run's size function wants, logarithmic; 1: as large as the rest of the mesh allows"},
+    {ColourBy::Difference, "difference", "Difference", "quality less that of the input, or of another run or a mark"},
+}};
+[[nodiscard]] constexpr const ColourByInfo& info(ColourBy by) { return kColourBys[static_cast<std::size_t>(by)]; }
+
+/// Whether the colours are those of categories, whose elements can be looked at alone.
+[[nodiscard]] constexpr bool has_categories(ColourBy by) {
+  return by != ColourBy::Quality && by != ColourBy::Displacement && by != ColourBy::Size && by != ColourBy::EdgeLength &&
+         by != ColourBy::SizeOverTarget && by != ColourBy::Difference;
+}
+
+inline constexpr std::array<std::pair<std::string_view, render::Selection::Others>, 3> kFilterModes{
+    {{"fade", render::Selection::Others::Fade},
+     {"isolate", render::Selection::Others::Hide},
+     {"only-outline", render::Selection::Others::Outline}}};
+
+/// One category looked at alone: `name` as in the legend, or the name or role of a group.
+struct Isolation {
+  ColourBy by = ColourBy::Kind;
+  std::string name;
+  friend bool operator==(const Isolation&, const Isolation&) = default;
+};
+
+struct ColouringState {
+  ColourBy by = ColourBy::Quality;
+  PaneContent reference{PaneContent::Kind::Input, 0, std::nullopt};  // of ColourBy::Difference: input, a run as it stands or a mark
+  bool reversed = false;
+  int steps = 0;                                                       // see render::ColourScale
+  std::optional<std::pair<double, double>> filter;                     // qualities that count, from and to
+  render::Selection::Others others = render::Selection::Others::Fade;  // how elements that do not count are drawn
+  int worst = 0;                                                       // only so many of the worst elements count; 0: all
+  std::optional<Isolation> isolated;
+  bool label_vertices = false, label_elements = false;
+  std::optional<std::pair<double, double>> held_range;  // of the colours while a handle of the bar is held; set by the drawing code
+  friend bool operator==(const ColouringState&, const ColouringState&) = default;
+};
+
+}  // namespace dmoscope::ui

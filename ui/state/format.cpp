@@ -1,0 +1,70 @@
+#include "ui/state/format.h"
+
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace dmoscope::ui {
+
+std::string short_number(double value) {
+  if (!std::isfinite(value)) return "–";
+  return four_digits(value);
+}
+
+std::string full_number(double value) {
+  if (std::isnan(value)) return "not defined";
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
+  return {text.data(), end.ptr};
+}
+
+std::string count(std::uint64_t value) { return grouped(value); }
+
+std::string rate(double value) { return std::isfinite(value) ? with_prefix(value) : "–"; }
+
+std::string lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+std::string without_middle(std::string_view text, std::size_t letters) {
+  if (text.size() <= letters) return std::string(text);
+  const auto inside = [&](std::size_t at) { return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U; };
+  std::size_t end = (letters + 1) / 2, rest = text.size() - letters / 2;
+  while (inside(end)) --end;
+  while (inside(rest)) ++rest;
+  return std::string(text.substr(0, end)) + "…" + std::string(text.substr(rest));
+}
+
+std::string size_course_text(double before, double after) {
+  return std::isfinite(after) ? fmt::format("{:.3f} → {:.3f}", before, after) : "–";
+}
+
+std::string size_course_details(const SizeCourse& sizes) {
+  return fmt::format("sizes: {} → {}\ntheir logarithms: {} → {}", full_number(sizes.before.sizes), full_number(sizes.after.sizes),
+                     full_number(sizes.before.logarithms), full_number(sizes.after.logarithms));
+}
+
+std::string duration(double seconds) {
+  if (!std::isfinite(seconds)) return "–";
+  if (seconds >= 100.0) return fmt::format("{:.0f} s", seconds);
+  if (seconds >= 1.0) return fmt::format("{:.3g} s", seconds);
+  if (seconds >= 1e-3) return fmt::format("{:.3g} ms", seconds * 1e3);
+  return fmt::format("{:.3g} µs", seconds * 1e6);
+}
+
+std::string metric_title(Metric metric) { return std::string(info(metric).title); }
+
+std::string metric_phrase(Metric metric) {
+  std::string title = metric_title(metric);
+  if (title.size() > 1 && std::islower(static_cast<unsigned char>(title[1])) != 0) {
+    title[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(title[0])));
+  }
+  return title;
+}
+
+}  // namespace dmoscope::ui

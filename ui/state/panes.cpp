@@ -1,0 +1,177 @@
+#include "ui/state/panes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/commands/commands.h"
+
+namespace dmoscope::ui {
+
+namespace {
+
+using ContentKind = PaneContent::Kind;
+
+}  // namespace
+
+std::size_t pane_count(PaneLayout layout) {
+  switch (layout) {
+    case PaneLayout::One:
+      return 1;
+    case PaneLayout::Four:
+      return 4;
+    case PaneLayout::Two:
+    case PaneLayout::Split:
+      break;
+  }
+  return 2;
+}
+
+void Panes::set_layout(PaneLayout wanted) {
+  layout = wanted;
+  for (Pane& pane : panes)
+    if (!pane.chosen) pane.content = {};
+  if (one()) {  // always a way back to the run that commands are about
+    panes[0].content = {};
+    panes[0].chosen = false;
+  }
+}
+
+bool Panes::shows(std::size_t pane, std::uint64_t id) const {
+  const PaneContent& content = panes[pane].content;
+  return (content.kind == ContentKind::Active && id == active_id) || content == PaneContent{ContentKind::Run, id, std::nullopt};
+}
+
+std::size_t Panes::follow(const SessionView& session) {
+  run_ids.clear();
+  reached.clear();
+  for (const RunView& run : session.runs) {
+    run_ids.push_back(run.id);
+    reached.push_back(run.records.empty() ? 0 : run.records.back().iteration);
+  }
+  const std::uint64_t active = session.active < session.runs.size() ? session.runs[session.active].id : 0;
+  for (Pane& pane : panes) {
+    if (pane.content.kind != ContentKind::Run || std::ranges::find(run_ids, pane.content.run) != run_ids.end()) continue;
+    pane.content = {};
+    pane.chosen = false;
+  }
+  const bool other_run = active_id != active;
+  active_id = active;
+  if (one()) {
+    if (!panes[0].chosen) panes[0].content = {ContentKind::Active, 0, std::nullopt};
+    return 0;
+  }
+  fill(count());
+  const PaneContent& focused = panes[focus].content;
+  const bool of_another = focused.kind == ContentKind::Run && !focused.iteration && focused.run != active;
+  return other_run || of_another ? pane_of_active() : focus;
+}
+
+void Panes::fill(std::size_t visible) {
+  const auto shown = [&](std::uint64_t id) {
+    bool found = false;
+    for (std::size_t k = 0; k < visible; ++k) found = found || shows(k, id);
+    return found;
+  };
+  const auto vacant = [&](Pane& pane) { return !pane.chosen && pane.content.kind != ContentKind::Run; };
+  const auto end = panes.begin() + static_cast<std::ptrdiff_t>(visible);
+  for (const std::uint64_t id : run_ids) {
+    if (shown(id)) continue;
+    const auto at = std::find_if(panes.begin(), end, vacant);
+    if (at == end) break;
+    at->content = {ContentKind::Run, id, std::nullopt};
+  }
+  if (active_id != 0 && !shown(active_id)) {
+    for (auto at = end; at != panes.begin();) {
+      if ((--at)->chosen) continue;
+      at->content = {ContentKind::Run, active_id, std::nullopt};
+      break;
+    }
+  }
+  const bool has_input = std::any_of(panes.begin(), end, [](const Pane& pane) { return pane.content.kind == ContentKind::Input; });
+  const auto at = std::find_if(panes.begin(), end, [](const Pane& pane) { return !pane.chosen && pane.content.kind == ContentKind::Free; });
+  if (!has_input && !run_ids.empty() && at != end) at->content = {ContentKind::Input, 0, std::nullopt};
+}
+
+std::size_t Panes::pane_of_active() const {
+  for (std::size_t k = 0; k < count(); ++k)
+    if (shows(k, active_id)) return k;
+  return focus;
+}
+
+std::string Panes::words(const PaneContent& content) const {
+  switch (content.kind) {
+    case ContentKind::Active:
+      return "active";
+    case ContentKind::Input:
+      return "input";
+    case ContentKind::MarkA:
+      return "mark a";
+    case ContentKind::MarkB:
+      return "mark b";
+    case ContentKind::Run: {
+      const auto place = std::ranges::find(run_ids, content.run) - run_ids.begin() + 1;
+      return content.iteration ? fmt::format("run {} {}", place, *content.iteration) : fmt::format("run {}", place);
+    }
+    case ContentKind::Free:
+      break;
+  }
+  return "auto";
+}
+
+PaneContent Panes::parse(const std::vector<std::string>& words) const {
+  const std::string& first = words.empty() ? std::string() : words[0];
+  if (words.size() == 1 && first == "auto") return {};
+  if (words.size() == 1 && first == "active") return {ContentKind::Active, 0, std::nullopt};
+  if (words.size() == 1 && first == "input") return {ContentKind::Input, 0, std::nullopt};
+  if (words.size() == 2 && first == "mark" && (words[1] == "a" || words[1] == "b"))
+    return {words[1] == "a" ? ContentKind::MarkA : ContentKind::MarkB, 0, std::nullopt};
+  if (first == "run" && (words.size() == 2 || words.size() == 3)) {
+    const std::uint64_t number = to_count(words[1], 1);
+    if (number > run_ids.size()) throw UsageError(fmt::format("there is no run {}; the session has {}", number, run_ids.size()));
+    PaneContent content{ContentKind::Run, run_ids[number - 1], std::nullopt};
+    if (words.size() == 3) {
+      content.iteration = to_count(words[2]);
+      if (*content.iteration > reached[number - 1])
+        throw UsageError(fmt::format("run {} has no iteration {}: it has come to {}", number, grouped(*content.iteration),
+                                     grouped(reached[number - 1])));
+    }
+    return content;
+  }
+  throw UsageError("expected active, run N, run N ITERATION, input, mark a, mark b or auto");
+}
+
+std::vector<Rect> pane_rects(PaneLayout layout, const Rect& area, float gap, double aspect, float title) {
+  const auto size = [&](float columns, float rows) {
+    return Rect{0, 0, std::max(0.0F, std::floor((area.w - (columns - 1) * gap) / columns)),
+                std::max(0.0F, std::floor((area.h - (rows - 1) * gap) / rows))};
+  };
+  const auto mesh_height = [&](const Rect& pane) {
+    return std::min(static_cast<double>(pane.w) / aspect, static_cast<double>(pane.h - title));
+  };
+  float columns = layout == PaneLayout::Four ? 2 : 1, rows = columns;
+  if (layout == PaneLayout::Two) columns = 2;
+  const float all = columns * rows;
+  if (all > 1) {  // other ways only where they are clearly better
+    constexpr double kClearly = 1.15;
+    double best = kClearly * mesh_height(size(columns, rows));
+    for (const auto& [across, down] : {std::pair{all, 1.0F}, {1.0F, all}}) {
+      if (!(mesh_height(size(across, down)) > best)) continue;
+      best = mesh_height(size(across, down));
+      columns = across;
+      rows = down;
+    }
+  }
+  const Rect pane = size(columns, rows);
+  std::vector<Rect> rects;
+  for (float row = 0; row < rows; ++row)
+    for (float column = 0; column < columns; ++column)
+      rects.push_back({area.x + column * (pane.w + gap), area.y + row * (pane.h + gap), pane.w, pane.h});
+  if (layout == PaneLayout::Split) rects.push_back(rects.front());
+  return rects;
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,19 @@
+#include "ui/state/situation.h"
+
+namespace dmoscope::ui {
+
+Situation situation_of(const SessionView& session, const ViewState& state, bool busy) {
+  Situation now;
+  now.mesh = session.input != nullptr;
+  now.busy = busy;
+  now.picked = state.picked.kind != Picked::Kind::None;
+  now.runs = session.runs.size();
+  now.selected = !state.selection.empty();
+  now.undo = session.undo_label;
+  now.redo = session.redo_label;
+  now.volume = state.is_volume;
+  now.better = session.active < session.runs.size() && !session.runs[session.active].at_best();
+  return now;
+}
+
+}  // namespace dmoscope::ui

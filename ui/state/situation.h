@@ -1,0 +1,12 @@
+#pragma once
+// What of the session and the view decides which actions are possible.
+
+#include "core/view/view.h"
+#include "ui/state/actions.h"
+#include "ui/state/view_state.h"
+
+namespace dmoscope::ui {
+
+[[nodiscard]] Situation situation_of(const SessionView& session, const ViewState& state, bool busy);
+
+}  // namespace dmoscope::ui

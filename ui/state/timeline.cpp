@@ -1,0 +1,79 @@
+#include "ui/state/timeline.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "ui/state/format.h"
+
+namespace dmoscope::ui {
+
+const Mark* Timeline::shown_mark() const noexcept {
+  if (shown == Shown::A && a.frame) return &a;
+  if (shown == Shown::B && b.frame) return &b;
+  return nullptr;
+}
+
+void Timeline::flip() {
+  const Shown other = shown == Shown::A ? Shown::B : Shown::A;
+  const auto is_set = [this](Shown which) { return (which == Shown::A ? a : b).frame != nullptr; };
+  if (is_set(other)) {
+    shown = other;
+  } else if (shown == Shown::Now && is_set(Shown::B)) {
+    shown = Shown::B;
+  } else {
+    shown = Shown::Now;
+  }
+}
+
+Mark mark_of(const SessionView& session) {
+  if (!session.frame || session.active >= session.runs.size()) throw UsageError("no mesh is open");
+  if (session.frame->device) throw UsageError("pause first: while it runs, this state is on the device alone");
+  return {session.frame, session.runs[session.active].title};
+}
+
+void drop_stale_marks(Timeline& timeline, const SessionView& session) {
+  const std::uint64_t input = session.frame ? session.frame->input_serial : 0;
+  for (Mark* mark : {&timeline.a, &timeline.b}) {
+    if (mark->frame && mark->frame->input_serial != input) *mark = {};
+  }
+  if (timeline.shown_mark() == nullptr) timeline.shown = Shown::Now;
+}
+
+std::string mark_text(std::string_view letter, const Frame& frame) {
+  std::string text = fmt::format("{} · it {}", letter, count(frame.moment.iteration));
+  if (frame.moment.visits > 0) text += fmt::format(" + {} visits", count(frame.moment.visits));
+  if (frame.moment.edits > 0) text += fmt::format(" + {}", counted(frame.moment.edits, "edit", "edits"));
+  return text;
+}
+
+std::optional<std::string> next_command(Playback& play, const SessionView& session, double now) {
+  if (play.kind == Playback::Kind::Off || session.active >= session.runs.size()) {
+    play.kind = Playback::Kind::Off;
+    return std::nullopt;
+  }
+  if (now < play.due) return std::nullopt;
+  const double interval = 1.0 / play.speed;
+  play.due = std::max(play.due + interval, now);  // what could not be shown in time is not made up for
+  switch (play.kind) {
+    case Playback::Kind::Vertex:
+      return "step vertex";
+    case Playback::Kind::Class:
+      return "step class";
+    case Playback::Kind::Iteration:
+      return "step iteration";
+    case Playback::Kind::History:
+    case Playback::Kind::Off:
+      break;
+  }
+  const RunView& run = session.runs[session.active];
+  const std::uint64_t last = run.records.empty() ? 0 : run.records.back().iteration;
+  const bool restart = std::exchange(play.from_start, false) && run.moment.iteration >= last;
+  if (last > 0 && restart) return "seek 0";
+  if (run.moment.iteration < last) return fmt::format("seek {}", run.moment.iteration + 1);
+  play.kind = Playback::Kind::Off;
+  return std::nullopt;
+}
+
+}  // namespace dmoscope::ui

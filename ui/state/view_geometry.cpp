@@ -1,0 +1,78 @@
+#include "ui/state/view_geometry.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/view/patch.h"
+#include "render/draw_order.h"
+
+namespace dmoscope::ui {
+
+namespace {
+
+render::Bounds2 box_of(const Frame& frame, std::span<const Index> vertices) {
+  render::Bounds2 box;
+  const Plane& plane = frame.input->geometry.plane;
+  const std::vector<Vec3> positions = positions_of(frame, vertices);
+  for (const Vec3& position : positions) box.include(render::place_near(plane, position, positions[0]));
+  return box;
+}
+
+}  // namespace
+
+Vec2<double> plane_point(const Frame& frame, Index vertex) {
+  return frame.input->geometry.plane.place(positions_of(frame, {&vertex, 1}).front());
+}
+
+render::Bounds2 element_box(const Frame& frame, Index element) { return box_of(frame, frame.input->mesh.elements.corners(element)); }
+
+render::Bounds2 star_box(const Frame& frame, Index vertex) {
+  std::vector<Index> vertices{vertex};
+  for (const Incidence& incidence : frame.input->topology.star(vertex)) {
+    const auto corners = frame.input->mesh.elements.corners(incidence.element);
+    vertices.insert(vertices.end(), corners.begin(), corners.end());
+  }
+  return box_of(frame, vertices);
+}
+
+void look_at_picked(ViewState& state, const Frame& frame) {
+  // About a tenth of the view's side: what is picked can be read, and its neighbourhood is seen.
+  constexpr double kSurroundings = 6.0;
+  const Picked& picked = state.picked;
+  if (picked.kind == Picked::Kind::None) return;
+  const bool vertex = picked.kind == Picked::Kind::Vertex;
+  if (frame.input->is_volume()) {
+    render::Bounds3 box;
+    const auto include = [&](Index element) {
+      for (const Index v : frame.input->mesh.elements.corners(element)) box.include(frame.positions[v]);
+    };
+    if (vertex) {
+      for (const Incidence& incidence : frame.input->topology.star(picked.id)) include(incidence.element);
+    } else {
+      include(picked.id);
+    }
+    state.orbit.orbit_about(vertex ? frame.positions[picked.id] : box.centre());
+    state.orbit.height = kSurroundings * std::max(box.radius(), 1e-9 * frame.input->geometry.size);
+    return;
+  }
+  const render::Bounds2 box = vertex ? star_box(frame, picked.id) : element_box(frame, picked.id);
+  const double extent = std::max({box.size().x, box.size().y, 1e-9 * frame.input->geometry.size});
+  state.camera.look_at(vertex ? plane_point(frame, picked.id) : box.centre(), (vertex ? 0.5 : 1.0) * kSurroundings * extent,
+                       state.viewport);
+}
+
+std::vector<Metric> usable_metrics(const Mesh& mesh) {
+  std::array<bool, kElementKindCount> present{};
+  for (const ElementKind kind : mesh.elements.kinds()) present[static_cast<std::size_t>(kind)] = true;
+  std::vector<Metric> metrics;
+  for (const MetricInfo& metric : metric_table()) {
+    bool defined = true;
+    for (std::size_t kind = 0; kind < kElementKindCount; ++kind) {
+      defined = defined && (!present[kind] || metric.defined_for(static_cast<ElementKind>(kind)));
+    }
+    if (defined) metrics.push_back(metric.metric);
+  }
+  return metrics;
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,24 @@
+#pragma once
+// Where things of a frame are in the plane, and what can be shown of a mesh.
+
+#include <vector>
+
+#include "core/view/view.h"
+#include "render/camera.h"
+#include "ui/state/view_state.h"
+
+namespace dmoscope::ui {
+
+/// A vertex in coordinates of the mesh's plane. Throws DeviceError.
+[[nodiscard]] Vec2<double> plane_point(const Frame& frame, Index vertex);
+/// Box of an element, or of the star of a vertex. Throw DeviceError.
+[[nodiscard]] render::Bounds2 element_box(const Frame& frame, Index element);
+[[nodiscard]] render::Bounds2 star_box(const Frame& frame, Index vertex);
+
+/// Moves the camera to what is picked, close enough to read it. Does nothing when nothing is picked. Throws DeviceError.
+void look_at_picked(ViewState& state, const Frame& frame);
+
+/// Metrics defined for every element of the mesh.
+[[nodiscard]] std::vector<Metric> usable_metrics(const Mesh& mesh);
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,115 @@
+#include "ui/state/view_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dmoscope::ui {
+
+namespace {
+
+/// The upper end of the highest bin that is not empty.
+double highest_of(const Histogram& histogram) {
+  if (histogram.above > 0) return histogram.highest;
+  const auto last = std::find_if(histogram.counts.rbegin(), histogram.counts.rend(), [](Index count) { return count > 0; });
+  const auto bins = static_cast<double>(histogram.counts.rend() - last);
+  return histogram.lowest + bins * (histogram.highest - histogram.lowest) / static_cast<double>(Histogram::kBins);
+}
+
+}  // namespace
+
+std::string_view theme_name(Theme theme) {
+  switch (theme) {
+    case Theme::Dark:
+      return "dark";
+    case Theme::Light:
+      return "light";
+    case Theme::Contrast:
+      break;
+  }
+  return "contrast";
+}
+
+std::optional<std::pair<double, double>> own_range(const Frame& frame) {
+  double low = INFINITY, high = -INFINITY;
+  if (frame.device) {
+    low = frame.shown_statistics.minimum;
+    high = highest_of(frame.now);
+  }
+  for (const float q : frame.quality) {
+    if (!std::isfinite(q)) continue;
+    low = std::min(low, static_cast<double>(q));
+    high = std::max(high, static_cast<double>(q));
+  }
+  low = std::max(low, 0.0);  // inverted elements have their own colour
+  return high >= low ? std::optional(std::pair{low, high}) : std::nullopt;
+}
+
+std::pair<double, double> colour_range(const ViewState& state, std::optional<std::pair<double, double>> own,
+                                       std::optional<std::pair<double, double>> seen) {
+  if (state.colouring.held_range) return *state.colouring.held_range;
+  if (state.range_mode == RangeMode::Given) return {state.range_low, state.range_high};
+  const auto wanted = state.range_mode == RangeMode::Auto ? own : state.range_mode == RangeMode::Expanding ? seen : std::nullopt;
+  return wanted && wanted->second > wanted->first ? *wanted : std::pair{0.0, 1.0};
+}
+
+void ViewState::link_cameras(bool linked) {
+  if (panes.linked && !linked) {
+    for (Pane& pane : panes.panes) pane.camera = camera;
+  }
+  panes.linked = linked;
+}
+
+void ViewState::focus_pane(std::size_t pane) {
+  if (!panes.linked && pane != panes.focus) {
+    panes.panes[panes.focus].camera = camera;
+    camera = panes.panes[pane].camera;
+  }
+  panes.focus = pane;
+}
+
+void ViewState::follow(const SessionView& session) {
+  is_volume = session.input && session.input->is_volume();
+  focus_pane(panes.follow(session));
+  PaneContent& reference = colouring.reference;
+  using Kind = PaneContent::Kind;
+  const bool gone = (reference.kind == Kind::Run && std::ranges::find(panes.run_ids, reference.run) == panes.run_ids.end()) ||
+                    (reference.kind == Kind::MarkA && !timeline.a.frame) || (reference.kind == Kind::MarkB && !timeline.b.frame);
+  if (gone) reference = {Kind::Input, 0, std::nullopt};
+  if (const auto changed = run_names.follow(session); !changed.empty())
+    for (PlotView& view : plots) rename_runs(view, changed);
+}
+
+void ViewState::set_layout(PaneLayout layout) {
+  focus_pane(std::min(panes.focus, pane_count(layout) - 1));
+  panes.set_layout(layout);
+}
+
+void move_to_monitor(ViewState& state, double monitor_scale) {
+  if (!(monitor_scale > 0.0) || monitor_scale == state.monitor_scale) return;
+  state.scale = std::clamp(state.scale * monitor_scale / state.monitor_scale, 0.5, 4.0);
+  state.monitor_scale = monitor_scale;
+}
+
+void add_message(ViewState& state, Message message) {
+  constexpr std::size_t kMost = 200;
+  if (message.kind == Message::Kind::Error) {
+    if (state.dialog == Dialog::Error && !state.error_text.empty()) {
+      state.error_text += "\n\n" + message.text;
+    } else {
+      state.error_text = message.text;
+      state.dialog = Dialog::Error;
+    }
+  }
+  state.commands.say(message);
+  state.log.push_back(std::move(message));
+  while (state.log.size() > kMost) state.log.pop_front();
+}
+
+void remember_file(ViewState& state, const std::string& path) {
+  constexpr std::size_t kMost = 10;
+  std::erase(state.recent_files, path);
+  state.recent_files.insert(state.recent_files.begin(), path);
+  if (state.recent_files.size() > kMost) state.recent_files.resize(kMost);
+}
+
+}  // namespace dmoscope::ui

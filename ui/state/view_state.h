@@ -1,0 +1,173 @@
+#pragma once
+// What the window shows, as plain data: no ImGui, no OpenGL. Commands change it, panels draw it, tests read it.
+
+#include <array>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/clipping/clipped_view.h"
+#include "core/engine/engine.h"
+#include "core/view/view.h"
+#include "render/camera.h"
+#include "render/colour_map.h"
+#include "render/orbit_camera.h"
+#include "ui/state/colouring_state.h"
+#include "ui/state/command_log.h"
+#include "ui/state/inspection_state.h"
+#include "ui/state/keys.h"
+#include "ui/state/panes.h"
+#include "ui/state/plot_state.h"
+#include "ui/state/run_names.h"
+#include "ui/state/selection.h"
+#include "ui/state/sequence.h"
+#include "ui/state/stepping_state.h"
+#include "ui/state/timeline.h"
+
+namespace dmoscope::ui {
+
+enum class Theme { Dark, Light, Contrast };
+/// "dark", "light", "contrast"
+[[nodiscard]] std::string_view theme_name(Theme theme);
+enum class Dialog { None, Open, Export, Screenshot, Find, Palette, Keys, About, Error, Log, Sequence, Plot, SaveSession };
+
+/// What a person picked.
+struct Picked {
+  enum class Kind { None, Vertex, Element };
+  Kind kind = Kind::None;
+  Index id = kNoIndex;
+  friend bool operator==(const Picked&, const Picked&) = default;
+};
+
+/// Which panels are there. The side panels give way to the mesh in a small window and then open over it.
+struct Panels {
+  bool left = true;                                                    // runs and parameters
+  bool right = true;                                                   // inspector and worst elements
+  bool bottom = true;                                                  // plots and timeline
+  bool left_over = false, right_over = false;                          // opened over the mesh where the window is too small for both
+  double left_width = 17.0, right_width = 22.0, bottom_height = 15.0;  // in heights of the interface's font
+};
+
+struct ScreenshotOptions {
+  std::filesystem::path path;
+  int width = 0, height = 0;  // 0: as on screen
+  int supersample = 2;
+  bool transparent = false;
+  bool window = false;  // the whole interface instead of the mesh
+  bool quiet = false;   // one of many: only what goes wrong is said
+};
+
+/// Input that a script plays through the window's own event handling, one a frame.
+struct SimulatedInput {
+  enum class Kind { Move, Press, Release, Wheel, KeyDown, KeyUp, Text };
+  Kind kind = Kind::Move;
+  float x = 0, y = 0;  // pixels; amount for Wheel in y
+  int button = 0;
+  KeyChord chord;
+  std::string text;
+};
+
+/// Wishes of commands to whoever runs the event loop; each is taken once.
+struct Requests {
+  bool quit = false;
+  bool fit = false;
+  bool fit_all = false;  // with it: the viewports under cameras of their own, too
+  std::optional<bool> full_screen;
+  std::optional<std::pair<int, int>> size;
+  std::deque<ScreenshotOptions> screenshots;
+  bool screenshot_failed = false;  // since somebody set it to false
+  std::deque<PlotSave> plots;
+  std::deque<SimulatedInput> input;
+  std::optional<std::string> clipboard;
+};
+
+struct ViewState {
+  // Camera and picture
+  render::Camera2D camera;  // of the active pane, and of all while they are linked
+  Panes panes;
+  render::OrbitCamera orbit;              // of volume meshes, in all panes
+  bool trackball = false;                 // a drag rolls them as a ball instead of turning them about the upright axis
+  ClippingView inside;                    // what is seen of them
+  bool is_volume = false;                 // such a mesh is on show; set by follow()
+  Vec2<double> viewport{800, 600};        // pixels of a pane, set by the drawing code
+  std::pair<int, int> window_size{0, 0};  // likewise; 0: not known yet
+  bool wireframe = true;
+  bool vertices = false;
+  bool worst_marker = true;
+  render::ColourMap colour_map = render::ColourMap::Viridis;
+  RangeMode range_mode = RangeMode::Fixed;
+  double range_low = 0.0, range_high = 1.0;  // for RangeMode::Given
+  ColouringState colouring;
+
+  // Interface
+  Theme theme = Theme::Dark;
+  double scale = 1.0;          // of text and widgets
+  double monitor_scale = 1.0;  // what of that is the monitor's; 1 for scripts, so that they draw the same everywhere
+  Panels panels;
+  Dialog dialog = Dialog::None;
+  PlotTab plot = PlotTab::Convergence;
+  std::array<PlotView, kPlotTabs.size()> plots;
+  PlotOptions plot_options;
+  KnownRunNames run_names;  // that the plots' legends had last
+  bool full_screen = false;
+
+  // Selection
+  Picked picked;
+  Selection selection;
+  Brush brush;
+  SteppingState stepping;
+  InspectionState inspection;
+  bool placing_size_point = false;  // the next click in the view places the point of the size function
+
+  // Time
+  Timeline timeline;
+  std::optional<Sequence> sequence;  // of pictures that are being taken
+  bool watch_file = false;           // read the mesh again whenever its file is written anew
+
+  // Log
+  std::deque<Message> log;       // newest last, at most 200
+  CommandLog commands;           // and messages, all of them
+  std::string error_text;        // of the error dialog
+  std::string dismissed_notice;  // Notice::key of the one that a person took away
+
+  // Remembered
+  std::vector<std::string> recent_files;  // newest first, at most 10
+
+  Requests requests;
+
+  /// Of a pane.
+  [[nodiscard]] render::Camera2D& camera_of(std::size_t pane) {
+    return panes.linked || pane == panes.focus ? camera : panes.panes[pane].camera;
+  }
+  /// All panes under one camera, that of the active one; or each under its own, from where it is.
+  void link_cameras(bool linked);
+  /// Makes a pane the active one.
+  void focus_pane(std::size_t pane);
+  /// Brings panes, what differences are taken from, and the runs' names up to date with the session.
+  void follow(const SessionView& session);
+  /// See Panes::set_layout.
+  void set_layout(PaneLayout layout);
+
+  [[nodiscard]] PlotView& plot_view() { return plots[static_cast<std::size_t>(plot)]; }
+};
+
+/// The lowest and the highest quality of the shown metric, inverted elements apart; of a device-resident frame as far as its histogram
+/// tells. None where no element has one.
+[[nodiscard]] std::optional<std::pair<double, double>> own_range(const Frame& frame);
+/// Range of qualities that the colours span now. `own`: see own_range; `seen`: what all the frames so far had, for RangeMode::Expanding.
+[[nodiscard]] std::pair<double, double> colour_range(const ViewState& state, std::optional<std::pair<double, double>> own,
+                                                     std::optional<std::pair<double, double>> seen = {});
+
+/// The window has come to a monitor with another scale: what a person chose over it stays.
+void move_to_monitor(ViewState& state, double monitor_scale);
+
+/// Adds a line to the log; an error also opens the error dialog (unless one is open, then it is appended there).
+void add_message(ViewState& state, Message message);
+
+/// Puts a file at the front of the recent ones.
+void remember_file(ViewState& state, const std::string& path);
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,73 @@
+#include "ui/toolkit/file_browser.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "core/commands/commands.h"
+#include "core/io/mesh_io.h"
+#include "ui/state/format.h"
+
+namespace dmoscope::ui {
+bool is_mesh_name(std::string_view name) {
+  const std::string small = lower_case(name);
+  for (const FormatInfo& format : format_table()) {
+    std::string_view extensions = format.extensions;
+    while (!extensions.empty()) {
+      const std::size_t blank = std::min(extensions.find(' '), extensions.size());
+      const std::string_view extension = extensions.substr(0, blank);
+      if (!extension.empty() && small.size() > extension.size() && small.ends_with(extension)) return true;
+      extensions.remove_prefix(std::min(blank + 1, extensions.size()));
+    }
+  }
+  return false;
+}
+
+bool is_session_name(std::string_view name) {
+  return name.size() > kSessionExtension.size() && lower_case(name).ends_with(kSessionExtension);
+}
+
+std::string open_command(const std::string& file) {
+  return fmt::format("{} {}", is_session_name(file) ? "open-session" : "open", quote_word(file));
+}
+
+std::vector<FolderEntry> list_folder(const std::filesystem::path& folder, bool all, std::string& error) {
+  std::vector<FolderEntry> entries;
+  error.clear();
+  std::error_code code;
+  std::filesystem::directory_iterator at(folder, std::filesystem::directory_options::skip_permission_denied, code);
+  for (const std::filesystem::directory_iterator end; !code && at != end; at.increment(code)) {
+    FolderEntry entry{at->path().filename().string(), false, 0};
+    if (entry.name.empty() || entry.name.front() == '.') continue;
+    std::error_code ignored;
+    entry.folder = at->is_directory(ignored);
+    if (!entry.folder && !all && !is_mesh_name(entry.name) && !is_session_name(entry.name)) continue;
+    if (!entry.folder) entry.bytes = at->file_size(ignored);
+    if (ignored) entry.bytes = 0;
+    entries.push_back(std::move(entry));
+  }
+  if (code) error = folder.string() + ": " + code.message();
+  std::sort(entries.begin(), entries.end(), [](const FolderEntry& a, const FolderEntry& b) {
+    if (a.folder != b.folder) return a.folder;
+    const std::string x = lower_case(a.name), y = lower_case(b.name);
+    return x != y ? x < y : a.name < b.name;
+  });
+  return entries;
+}
+
+std::string byte_size(std::uintmax_t bytes) {
+  const double value = static_cast<double>(bytes);
+  if (value >= 1e9) return fmt::format("{:.1f} GB", value / 1e9);
+  if (value >= 1e6) return fmt::format("{:.1f} MB", value / 1e6);
+  if (value >= 1e3) return fmt::format("{:.1f} kB", value / 1e3);
+  return fmt::format("{} B", bytes);
+}
+
+std::string parent_folder(const std::string& folder) {
+  std::filesystem::path path(folder);
+  if (!path.has_filename()) path = path.parent_path();  // a slash at the end
+  return path.has_parent_path() ? path.parent_path().string() : folder;
+}
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,21 @@
+#pragma once
+// Which part of the window each panel gets.
+
+#include "ui/state/layout_rect.h"
+#include "ui/state/view_state.h"
+
+namespace dmoscope::ui {
+
+struct Layout {
+  Rect toolbar, left, viewport, right, bottom, status;
+  Rect left_strip, right_strip;  // instead of the panels where the window is too small
+  bool folded = false;           // side panels are strips, and open over the mesh
+  bool timeline_only = false;    // too low for the plots
+  bool bottom_folded = false;    // too low for the timeline, too
+};
+
+/// All in pixels. `em`: the interface font's height; `menu`: the menu bar's. The mesh keeps at least 24 em of width; widths and
+/// heights of the panels are limited so that it does.
+[[nodiscard]] Layout compute_layout(const Panels& panels, float width, float height, float em, float menu);
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,51 @@
+#pragma once
+// Colours, fonts and spacing of the interface.
+
+#include <array>
+
+#include <imgui.h>
+
+#include "render/image.h"
+#include "render/style.h"
+#include "ui/state/view_state.h"
+
+namespace dmoscope::ui {
+
+/// All colours that panels draw with.
+struct Palette {
+  render::Rgb background;  // behind the mesh
+  render::Rgb panel, raised, line;
+  render::Rgb text, dim;
+  render::Rgb accent, on_accent;
+  render::Rgb good, warning, error;
+  render::Rgb grid;  // of plots
+  std::array<render::Rgb, 16> runs;
+  /// Of run k, from 0.
+  [[nodiscard]] render::Rgb run(std::size_t k) const { return runs[k % runs.size()]; }
+};
+[[nodiscard]] const Palette& palette(Theme theme);
+
+/// WCAG 2 contrast of two colours, 1 to 21.
+[[nodiscard]] double contrast(render::Rgb a, render::Rgb b);
+
+[[nodiscard]] ImU32 colour(render::Rgb rgb, float alpha = 1.0F);
+[[nodiscard]] ImVec4 colour_vector(render::Rgb rgb, float alpha = 1.0F);
+
+/// Fonts of one scale: body, headings and large titles. Owned by ImGui's atlas.
+struct Fonts {
+  ImFont* body = nullptr;
+  ImFont* bold = nullptr;
+  ImFont* large = nullptr;
+};
+
+/// Builds the atlas anew: DejaVu Sans 15 px times `scale` with Greek and mathematical characters through FreeType, or ImGui's own
+/// font where DejaVu is not installed. The event loop uploads the texture afterwards.
+[[nodiscard]] Fonts build_fonts(double scale);
+
+/// Sets ImGui's colours and spacing, everything sized from the font.
+void apply_style(Theme theme, double scale);
+
+/// How the mesh is drawn in this theme.
+[[nodiscard]] render::Style scene_style(const ViewState& state);
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,107 @@
+#pragma once
+// One viewport: what it shows, drawn into a picture of its own.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/live_picture.h"
+#include "render/scene.h"
+#include "ui/analysis/colour_facts.h"
+#include "ui/analysis/colour_worker.h"
+#include "ui/analysis/derived.h"
+#include "ui/analysis/inspection.h"
+#include "ui/state/view_state.h"
+#include "ui/viewports/stepping_view.h"
+
+namespace dmoscope::ui {
+
+/// What all viewports have in common.
+struct Scenery {
+  const ViewState& state;
+  const Derived& derived;
+  const Inspection& inspection;
+};
+
+class PaneView {
+ public:
+  /// What it shows from now on: a session with this viewport's frame and run in place of the active ones. Its frame is null when it shows
+  /// nothing.
+  void show(std::shared_ptr<const SessionView> session) { session_ = std::move(session); }
+  [[nodiscard]] const std::shared_ptr<const SessionView>& session() const noexcept { return session_; }
+  [[nodiscard]] const Frame* frame() const noexcept { return session_ ? session_->frame.get() : nullptr; }
+
+  /// What its elements are coloured by. `reference`: what differences are taken from; `like`: a
+  /// viewport that has worked out the same already, or null.
+  void update_colours(const ViewState& state, std::shared_ptr<const Frame> reference, const PaneView* like);
+  [[nodiscard]] const std::shared_ptr<const ElementColours>& colours() const noexcept { return colours_; }
+  void update_stepping(bool busy);
+  [[nodiscard]] const SteppingView& stepping() const noexcept { return stepping_; }
+
+  /// Brings the mesh to OpenGL; false while that goes on in the background.
+  bool bring(render::Loading loading);
+  struct Wish {
+    render::Camera2D camera;
+    bool inspected = false;  // marks of the search that is looked into belong here
+    double detail = 1.0;
+    bool refine = true;
+  };
+  /// Draws it as far as a moment goes; of the size state.viewport.
+  void draw(const Scenery& scenery, const Wish& wish);
+  /// All that is marked, in a picture of another size perhaps.
+  [[nodiscard]] render::Marks marks(const Scenery& scenery, const MarkView& view, bool inspected);
+  /// The same of a volume mesh.
+  [[nodiscard]] render::SpaceMarks space_marks(const Scenery& scenery, Vec2<double> viewport, bool inspected);
+  /// What of the marks is faint, since it was taken away, and what is shown of stepping; in words.
+  [[nodiscard]] std::string note(const ViewState& state) const;
+  /// Threads for finding what is seen of a volume; null: the caller's alone.
+  void set_pool(ThreadPool* pool) noexcept { pool_ = pool; }
+
+  [[nodiscard]] render::MeshScene& scene() noexcept { return scene_; }
+  [[nodiscard]] bool is_volume() const noexcept { return frame() != nullptr && frame()->input->is_volume(); }
+  /// Of a volume mesh; null until the first one.
+  [[nodiscard]] render::VolumeScene* volume() noexcept { return volume_ ? &volume_->scene : nullptr; }
+  [[nodiscard]] const render::VolumeScene* volume() const noexcept { return volume_ ? &volume_->scene : nullptr; }
+  /// Faces or elements there are to draw.
+  [[nodiscard]] std::size_t drawn_count() const noexcept;
+  /// What lies at a pixel of its picture.
+  [[nodiscard]] render::Pick pick(const ViewState& state, const render::Camera2D& camera, Vec2<double> pixel, double radius) const;
+  [[nodiscard]] unsigned texture() const noexcept { return is_volume() && volume_ ? volume_->picture.texture() : picture_.texture(); }
+  [[nodiscard]] bool complete() const noexcept { return is_volume() && volume_ ? volume_->picture.complete() : picture_.complete(); }
+  [[nodiscard]] bool current() const noexcept { return current_; }
+  [[nodiscard]] bool settled() const noexcept { return current_ && complete() && worker_.settled(); }
+  [[nodiscard]] bool colours_settled() const noexcept { return worker_.settled(); }
+  /// Ids on the mesh, and whether there would be some but for lack of room.
+  [[nodiscard]] const std::vector<render::Label>& labels() const noexcept { return labels_; }
+  [[nodiscard]] bool labels_lack_room() const noexcept { return labels_lack_room_; }
+
+ private:
+  struct Volume {
+    render::VolumeScene scene;
+    render::LiveVolumePicture picture;
+  };
+  void draw_volume(const Scenery& scenery, const Wish& wish);
+  void select(const Scenery& scenery);
+  void find_labels(const Scenery& scenery, const render::Camera2D& camera);
+  [[nodiscard]] bool marks_worst(const ViewState& state, bool inspecting) const;
+
+  std::shared_ptr<const SessionView> session_;
+  render::MeshScene scene_;
+  render::LivePicture picture_;
+  std::unique_ptr<Volume> volume_;  // from the first volume mesh on
+  ThreadPool* pool_ = nullptr;
+  SteppingView stepping_;
+  ColourWorker worker_;
+  std::shared_ptr<const ElementColours> colours_;
+  ColourFacts members_;  // where its frame is not the active one's
+  std::vector<render::Label> labels_;
+  bool labels_lack_room_ = false;
+  bool current_ = true;
+  std::uint64_t fixed_serial_ = 0;
+};
+
+/// How the mesh is drawn now.
+[[nodiscard]] render::Style picture_style(const ViewState& state, const Derived& derived);
+
+}  // namespace dmoscope::ui

@@ -138,26 +138,26 @@ void draw_find_dialog(PanelContext& context) {
   if (!begin_dialog(context, dialog_title(Dialog::Find), 26)) return;
   WidgetState& widgets = context.widgets;
   const Frame* frame = context.frame();
-  if (ImGui::RadioButton("vertex", widgets.find_kind == 0)) widgets.find_kind = 0;
+  if (ImGui::RadioButton("vertex", widgets.find.kind == 0)) widgets.find.kind = 0;
   ImGui::SameLine();
-  if (ImGui::RadioButton("element", widgets.find_kind == 1)) widgets.find_kind = 1;
+  if (ImGui::RadioButton("element", widgets.find.kind == 1)) widgets.find.kind = 1;
   if (frame != nullptr) {
-    const auto size = widgets.find_kind == 0 ? frame->vertex_count() : frame->element_count();
+    const auto size = widgets.find.kind == 0 ? frame->vertex_count() : frame->element_count();
     ImGui::SameLine(0, context.px(16));
     dim_text(context, fmt::format("id from 0 to {}", size == 0 ? 0 : size - 1), false);
   }
   if (context.widgets.dialog_opened) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
   const bool entered =
-      ImGui::InputText("##id", &widgets.find_text, ImGuiInputTextFlags_CharsDecimal | ImGuiInputTextFlags_EnterReturnsTrue);
+      ImGui::InputText("##id", &widgets.find.text, ImGuiInputTextFlags_CharsDecimal | ImGuiInputTextFlags_EnterReturnsTrue);
   context.items.record_last("find:id");
   const bool go = ImGui::Button("Go there");
   context.items.record_last("find:go");
   ImGui::SameLine();
   close_button(context, "Cancel");
-  if ((entered || go) && !widgets.find_text.empty()) {
+  if ((entered || go) && !widgets.find.text.empty()) {
     context.state.dialog = Dialog::None;
-    context.send(fmt::format("goto {} {}", widgets.find_kind == 0 ? "vertex" : "element", widgets.find_text));
+    context.send(fmt::format("goto {} {}", widgets.find.kind == 0 ? "vertex" : "element", widgets.find.text));
   }
   end_dialog();
 }

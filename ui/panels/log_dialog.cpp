@@ -34,7 +34,7 @@ render::Rgb ink_of(const PanelContext& context, const LogLine& line) {
 }
 
 std::vector<const LogLine*> wanted_lines(const PanelContext& context) {
-  const LogWidgets& widgets = context.widgets.log;
+  const LogDialog& widgets = context.widgets.log;
   const std::vector<std::string> words = search_words(widgets.filter);
   std::vector<const LogLine*> lines;
   for (const LogLine& line : context.state.commands.lines()) {
@@ -78,7 +78,7 @@ void draw_lines(PanelContext& context, const std::vector<const LogLine*>& lines)
 }
 
 void draw_log_filter(PanelContext& context) {
-  LogWidgets& widgets = context.widgets.log;
+  LogDialog& widgets = context.widgets.log;
   ImGui::SetNextItemWidth(18 * context.em());
   if (context.widgets.dialog_opened) ImGui::SetKeyboardFocusHere();
   ImGui::InputTextWithHint("##filter", "filter", &widgets.filter);
@@ -100,7 +100,7 @@ void draw_log_dialog(PanelContext& context) {
   ImGui::BeginChild("lines", {0, -2 * ImGui::GetFrameHeightWithSpacing()});
   draw_lines(context, lines);
   ImGui::EndChild();
-  LogWidgets& widgets = context.widgets.log;
+  LogDialog& widgets = context.widgets.log;
   const bool save = ImGui::Button("Save as script");
   context.items.record_last("log:save");
   next_item_tooltip("a script that does the same again: dmoscope script FILE");

@@ -18,10 +18,10 @@ void enter_folder(WidgetState& widgets, const fs::path& folder) {
   std::error_code ignored;
   fs::path whole = fs::absolute(folder, ignored).lexically_normal();
   if (!whole.has_filename() && whole.has_parent_path() && whole != whole.root_path()) whole = whole.parent_path();
-  widgets.open_folder = whole.string();
-  widgets.open_text = widgets.open_folder;
-  widgets.open_selected = -1;
-  widgets.open_entries = list_folder(whole, widgets.show_all_files, widgets.open_error);
+  widgets.open.folder = whole.string();
+  widgets.open.text = widgets.open.folder;
+  widgets.open.selected = -1;
+  widgets.open.entries = list_folder(whole, widgets.open.all_files, widgets.open.error);
 }
 
 void open_file(PanelContext& context, const fs::path& file) {
@@ -37,43 +37,43 @@ void go_to(PanelContext& context, const fs::path& path) {
   } else if (fs::exists(path, ignored)) {
     open_file(context, path);
   } else {
-    context.widgets.open_error = path.string() + ": there is no such file or folder";
+    context.widgets.open.error = path.string() + ": there is no such file or folder";
   }
 }
 
 void draw_entries(PanelContext& context) {
   WidgetState& widgets = context.widgets;
-  const int size = static_cast<int>(widgets.open_entries.size());
+  const int size = static_cast<int>(widgets.open.entries.size());
   int chosen = -1;
   bool scroll = false;
   if (!ImGui::GetIO().WantTextInput) {
-    const int before = widgets.open_selected;
-    if (ImGui::IsKeyPressed(key::kDown)) widgets.open_selected = std::min(widgets.open_selected + 1, size - 1);
-    if (ImGui::IsKeyPressed(key::kUp)) widgets.open_selected = std::max(widgets.open_selected - 1, 0);
-    scroll = before != widgets.open_selected;
-    if (ImGui::IsKeyPressed(key::kEnter, false) && widgets.open_selected >= 0) chosen = widgets.open_selected;
+    const int before = widgets.open.selected;
+    if (ImGui::IsKeyPressed(key::kDown)) widgets.open.selected = std::min(widgets.open.selected + 1, size - 1);
+    if (ImGui::IsKeyPressed(key::kUp)) widgets.open.selected = std::max(widgets.open.selected - 1, 0);
+    scroll = before != widgets.open.selected;
+    if (ImGui::IsKeyPressed(key::kEnter, false) && widgets.open.selected >= 0) chosen = widgets.open.selected;
     if (ImGui::IsKeyPressed(key::kBackspace, false)) {
-      enter_folder(widgets, parent_folder(widgets.open_folder));
+      enter_folder(widgets, parent_folder(widgets.open.folder));
       return;
     }
   }
   ImGuiListClipper clipper;
   clipper.Begin(size);
-  if (scroll && widgets.open_selected >= 0) clipper.ForceDisplayRangeByIndices(widgets.open_selected, widgets.open_selected + 1);
+  if (scroll && widgets.open.selected >= 0) clipper.ForceDisplayRangeByIndices(widgets.open.selected, widgets.open.selected + 1);
   while (clipper.Step()) {
     for (int k = clipper.DisplayStart; k < clipper.DisplayEnd; ++k) {
-      const FolderEntry& entry = widgets.open_entries[static_cast<std::size_t>(k)];
+      const FolderEntry& entry = widgets.open.entries[static_cast<std::size_t>(k)];
       ImGui::PushID(k);
       const ImVec2 at = ImGui::GetCursorScreenPos();
       const float width = ImGui::GetContentRegionAvail().x;
       constexpr ImGuiSelectableFlags kFlags = ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups;
-      if (ImGui::Selectable("##entry", k == widgets.open_selected, kFlags)) {
+      if (ImGui::Selectable("##entry", k == widgets.open.selected, kFlags)) {
         if (entry.folder || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) chosen = k;
-        widgets.open_selected = k;
-        if (!entry.folder) widgets.open_text = (fs::path(widgets.open_folder) / entry.name).string();
+        widgets.open.selected = k;
+        if (!entry.folder) widgets.open.text = (fs::path(widgets.open.folder) / entry.name).string();
       }
       context.items.record_last("entry:" + entry.name);
-      if (scroll && k == widgets.open_selected) ImGui::SetScrollHereY();
+      if (scroll && k == widgets.open.selected) ImGui::SetScrollHereY();
       ImDrawList& list = *ImGui::GetWindowDrawList();
       const std::string name = entry.folder ? "▸ " + entry.name + "/" : "   " + entry.name;
       list.AddText(at, colour(entry.folder ? context.palette.accent : context.palette.text),
@@ -86,10 +86,10 @@ void draw_entries(PanelContext& context) {
       ImGui::PopID();
     }
   }
-  if (size == 0 && widgets.open_error.empty()) {
-    dim_text(context, widgets.show_all_files ? "an empty folder" : "no meshes here; \"all files\" shows the rest");
+  if (size == 0 && widgets.open.error.empty()) {
+    dim_text(context, widgets.open.all_files ? "an empty folder" : "no meshes here; \"all files\" shows the rest");
   }
-  if (chosen >= 0) go_to(context, fs::path(widgets.open_folder) / widgets.open_entries[static_cast<std::size_t>(chosen)].name);
+  if (chosen >= 0) go_to(context, fs::path(widgets.open.folder) / widgets.open.entries[static_cast<std::size_t>(chosen)].name);
 }
 
 void draw_recent_column(PanelContext& context) {
@@ -112,19 +112,19 @@ void draw_open_dialog(PanelContext& context) {
   WidgetState& widgets = context.widgets;
   if (widgets.dialog_opened) {
     std::error_code ignored;
-    const bool known = !widgets.open_folder.empty() && fs::is_directory(widgets.open_folder, ignored);
-    enter_folder(widgets, known ? fs::path(widgets.open_folder) : fs::current_path(ignored));
+    const bool known = !widgets.open.folder.empty() && fs::is_directory(widgets.open.folder, ignored);
+    enter_folder(widgets, known ? fs::path(widgets.open.folder) : fs::current_path(ignored));
   }
-  if (ImGui::Button("↑ up")) enter_folder(widgets, parent_folder(widgets.open_folder));
+  if (ImGui::Button("↑ up")) enter_folder(widgets, parent_folder(widgets.open.folder));
   context.items.record_last("open:up");
   next_item_tooltip("the folder above   Backspace");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
-  const bool entered = ImGui::InputText("##path", &widgets.open_text, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = ImGui::InputText("##path", &widgets.open.text, ImGuiInputTextFlags_EnterReturnsTrue);
   context.items.record_last("open:path");
-  if (!widgets.open_error.empty()) {
+  if (!widgets.open.error.empty()) {
     ImGui::PushTextWrapPos(0);
-    ImGui::TextColored(colour_vector(context.palette.error), "%s", widgets.open_error.c_str());
+    ImGui::TextColored(colour_vector(context.palette.error), "%s", widgets.open.error.c_str());
     ImGui::PopTextWrapPos();
   }
   const float bottom = ImGui::GetFrameHeightWithSpacing() + context.px(4);
@@ -143,9 +143,9 @@ void draw_open_dialog(PanelContext& context) {
   if (ImGui::Button("Cancel")) context.state.dialog = Dialog::None;
   context.items.record_last("dialog:close");
   ImGui::SameLine(0, context.px(24));
-  if (ImGui::Checkbox("all files", &widgets.show_all_files)) enter_folder(widgets, widgets.open_folder);
+  if (ImGui::Checkbox("all files", &widgets.open.all_files)) enter_folder(widgets, widgets.open.folder);
   context.items.record_last("open:all");
-  if ((entered || open) && !widgets.open_text.empty()) go_to(context, widgets.open_text);
+  if ((entered || open) && !widgets.open.text.empty()) go_to(context, widgets.open.text);
   end_dialog();
 }
 

@@ -23,22 +23,22 @@ void draw_palette_dialog(PanelContext& context) {
   if (!begin_dialog(context, "All commands", 44, 32)) return;
   WidgetState& widgets = context.widgets;
   if (widgets.dialog_opened) {
-    widgets.palette_text.clear();
-    widgets.palette_selected = 0;
+    widgets.palette.text.clear();
+    widgets.palette.selected = 0;
   }
   if (widgets.dialog_opened || ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
-  const std::string before = widgets.palette_text;
-  const bool entered = ImGui::InputTextWithHint("##command", "type to search, or a command such as: step class 3", &widgets.palette_text,
+  const std::string before = widgets.palette.text;
+  const bool entered = ImGui::InputTextWithHint("##command", "type to search, or a command such as: step class 3", &widgets.palette.text,
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
   context.items.record_last("palette:text");
-  if (before != widgets.palette_text) widgets.palette_selected = 0;
-  const std::vector<PaletteEntry> entries = palette_entries(widgets.palette_text, context.situation(), context.commands);
-  const int moved = move_selection(widgets.palette_selected, static_cast<int>(entries.size()));
-  const bool scroll = moved != widgets.palette_selected;
-  widgets.palette_selected = moved;
+  if (before != widgets.palette.text) widgets.palette.selected = 0;
+  const std::vector<PaletteEntry> entries = palette_entries(widgets.palette.text, context.situation(), context.commands);
+  const int moved = move_selection(widgets.palette.selected, static_cast<int>(entries.size()));
+  const bool scroll = moved != widgets.palette.selected;
+  widgets.palette.selected = moved;
 
-  int chosen = entered && !entries.empty() ? widgets.palette_selected : -1;
+  int chosen = entered && !entries.empty() ? widgets.palette.selected : -1;
   ImGui::BeginChild("list");
   for (int k = 0; k < static_cast<int>(entries.size()); ++k) {
     const PaletteEntry& entry = entries[static_cast<std::size_t>(k)];
@@ -46,9 +46,9 @@ void draw_palette_dialog(PanelContext& context) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x;
     const ImGuiSelectableFlags flags = entry.possible ? ImGuiSelectableFlags_DontClosePopups : ImGuiSelectableFlags_Disabled;
-    if (ImGui::Selectable("##entry", k == widgets.palette_selected, flags)) chosen = k;
+    if (ImGui::Selectable("##entry", k == widgets.palette.selected, flags)) chosen = k;
     context.items.record_last(fmt::format("palette:{}", k));
-    if (scroll && k == widgets.palette_selected) ImGui::SetScrollHereY();
+    if (scroll && k == widgets.palette.selected) ImGui::SetScrollHereY();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float alpha = entry.possible ? 1.0F : 0.45F;
     const std::string title = fit_text(entry.title, 0.62F * width);
@@ -65,14 +65,14 @@ void draw_palette_dialog(PanelContext& context) {
   if (chosen >= 0 && entries[static_cast<std::size_t>(chosen)].possible) {
     const PaletteEntry& entry = entries[static_cast<std::size_t>(chosen)];
     if (!entry.complete) {
-      widgets.palette_text = entry.command;
+      widgets.palette.text = entry.command;
       return;
     }
     context.state.dialog = Dialog::None;
     context.send(entry.command);
-  } else if (entered && entries.empty() && !widgets.palette_text.empty()) {
+  } else if (entered && entries.empty() && !widgets.palette.text.empty()) {
     context.state.dialog = Dialog::None;
-    context.send(widgets.palette_text);
+    context.send(widgets.palette.text);
   }
 }
 

@@ -68,15 +68,15 @@ void draw_export_dialog(PanelContext& context) {
   if (!begin_dialog(context, "Export", 44)) return;
   WidgetState& widgets = context.widgets;
   if (widgets.dialog_opened) {
-    widgets.export_what = 0;
-    widgets.export_name = default_name(context, 0);
+    widgets.exporting.what = 0;
+    widgets.exporting.name = default_name(context, 0);
   }
   constexpr const char* kWhat[] = {"mesh as it is now", "statistics of all runs", "quality of every element"};
   for (int k = 0; k < 3; ++k) {
     if (k > 0) ImGui::SameLine(0, context.px(16));
-    if (ImGui::RadioButton(kWhat[k], widgets.export_what == k)) {
-      widgets.export_what = k;
-      widgets.export_name = default_name(context, k);
+    if (ImGui::RadioButton(kWhat[k], widgets.exporting.what == k)) {
+      widgets.exporting.what = k;
+      widgets.exporting.name = default_name(context, k);
     }
   }
   ImGui::AlignTextToFramePadding();
@@ -85,26 +85,26 @@ void draw_export_dialog(PanelContext& context) {
   ImGui::SetNextItemWidth(-1);
   if (widgets.dialog_opened) ImGui::SetKeyboardFocusHere();
   if (widgets.dialog_opened) ImGui::SetKeyboardFocusHere();
-  const bool entered = ImGui::InputText("##file", &widgets.export_name, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = ImGui::InputText("##file", &widgets.exporting.name, ImGuiInputTextFlags_EnterReturnsTrue);
   context.items.record_last("export:file");
-  if (widgets.export_what == 0) draw_formats(context, widgets.export_name);
-  say_if_replaced(context, widgets.export_name);
+  if (widgets.exporting.what == 0) draw_formats(context, widgets.exporting.name);
+  say_if_replaced(context, widgets.exporting.name);
   ImGui::Spacing();
   const bool go = ImGui::Button("Export");
   context.items.record_last("export:go");
   ImGui::SameLine();
   if (ImGui::Button("Cancel")) context.state.dialog = Dialog::None;
   context.items.record_last("dialog:close");
-  if ((go || entered) && !widgets.export_name.empty()) {
+  if ((go || entered) && !widgets.exporting.name.empty()) {
     context.state.dialog = Dialog::None;
-    context.send(fmt::format("{} {}", kCommands[widgets.export_what], quote_word(widgets.export_name)));
+    context.send(fmt::format("{} {}", kCommands[widgets.exporting.what], quote_word(widgets.exporting.name)));
   }
   end_dialog();
 }
 
 void draw_save_session_dialog(PanelContext& context) {
   if (!begin_dialog(context, "Save the session", 44)) return;
-  std::string& name = context.widgets.session_name;
+  std::string& name = context.widgets.save_session.name;
   if (context.widgets.dialog_opened) {
     if (name.empty()) name = fs::path(default_name(context, 1)).replace_filename("session").string() + std::string(kSessionExtension);
     ImGui::SetKeyboardFocusHere();
@@ -137,8 +137,8 @@ void draw_screenshot_dialog(PanelContext& context) {
   if (!begin_dialog(context, "Screenshot", 40)) return;
   WidgetState& widgets = context.widgets;
   if (widgets.dialog_opened) {
-    widgets.screenshot_width = static_cast<int>(context.state.viewport.x);
-    widgets.screenshot_height = static_cast<int>(context.state.viewport.y);
+    widgets.screenshot.width = static_cast<int>(context.state.viewport.x);
+    widgets.screenshot.height = static_cast<int>(context.state.viewport.y);
   }
   const auto label = [&](const char* text) {
     ImGui::AlignTextToFramePadding();
@@ -147,41 +147,41 @@ void draw_screenshot_dialog(PanelContext& context) {
     ImGui::SetNextItemWidth(-1);
   };
   label("file (.png)");
-  const bool entered = ImGui::InputText("##file", &widgets.screenshot_name, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = ImGui::InputText("##file", &widgets.screenshot.name, ImGuiInputTextFlags_EnterReturnsTrue);
   context.items.record_last("screenshot:file");
   label("what");
-  if (ImGui::RadioButton("the mesh", !widgets.screenshot_window)) widgets.screenshot_window = false;
+  if (ImGui::RadioButton("the mesh", !widgets.screenshot.window)) widgets.screenshot.window = false;
   ImGui::SameLine();
-  if (ImGui::RadioButton("the whole window", widgets.screenshot_window)) widgets.screenshot_window = true;
-  if (!widgets.screenshot_window) {
-    int size[2] = {widgets.screenshot_width, widgets.screenshot_height};
+  if (ImGui::RadioButton("the whole window", widgets.screenshot.window)) widgets.screenshot.window = true;
+  if (!widgets.screenshot.window) {
+    int size[2] = {widgets.screenshot.width, widgets.screenshot.height};
     label("size, pixels");
     if (ImGui::InputInt2("##size", size)) {
-      widgets.screenshot_width = std::clamp(size[0], 1, 32768);
-      widgets.screenshot_height = std::clamp(size[1], 1, 32768);
+      widgets.screenshot.width = std::clamp(size[0], 1, 32768);
+      widgets.screenshot.height = std::clamp(size[1], 1, 32768);
     }
     label("supersample");
-    ImGui::SliderInt("##supersample", &widgets.screenshot_supersample, 1, 8, "%d", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderInt("##supersample", &widgets.screenshot.supersample, 1, 8, "%d", ImGuiSliderFlags_AlwaysClamp);
     next_item_tooltip("samples a pixel: smoother edges");
     label("background");
-    ImGui::Checkbox("transparent", &widgets.screenshot_transparent);
+    ImGui::Checkbox("transparent", &widgets.screenshot.transparent);
   }
-  say_if_replaced(context, widgets.screenshot_name);
+  say_if_replaced(context, widgets.screenshot.name);
   ImGui::Spacing();
   const bool go = ImGui::Button("Save");
   context.items.record_last("screenshot:go");
   ImGui::SameLine();
   if (ImGui::Button("Cancel")) context.state.dialog = Dialog::None;
   context.items.record_last("dialog:close");
-  if ((go || entered) && !widgets.screenshot_name.empty()) {
+  if ((go || entered) && !widgets.screenshot.name.empty()) {
     context.state.dialog = Dialog::None;
-    std::string line = fmt::format("screenshot {}", quote_word(widgets.screenshot_name));
-    if (widgets.screenshot_window) {
+    std::string line = fmt::format("screenshot {}", quote_word(widgets.screenshot.name));
+    if (widgets.screenshot.window) {
       line += " --window";
     } else {
-      line += fmt::format(" --size {}x{} --supersample {}", widgets.screenshot_width, widgets.screenshot_height,
-                          widgets.screenshot_supersample);
-      if (widgets.screenshot_transparent) line += " --transparent";
+      line += fmt::format(" --size {}x{} --supersample {}", widgets.screenshot.width, widgets.screenshot.height,
+                          widgets.screenshot.supersample);
+      if (widgets.screenshot.transparent) line += " --transparent";
     }
     context.send(line);
   }

@@ -24,7 +24,7 @@ std::uint64_t last_iteration(const PanelContext& context) {
   return run == nullptr || run->records.empty() ? 0 : run->records.back().iteration;
 }
 
-std::string command_of(const SequenceWidgets& widgets) {
+std::string command_of(const SequenceDialog& widgets) {
   std::string line =
       fmt::format("sequence {} --from {} --to {} --every {}", quote_word(widgets.folder), widgets.from, widgets.to, widgets.every);
   if (widgets.window) {
@@ -35,7 +35,7 @@ std::string command_of(const SequenceWidgets& widgets) {
   return line + (widgets.overwrite ? " --overwrite" : "");
 }
 
-void draw_choices(PanelContext& context, SequenceWidgets& widgets) {
+void draw_choices(PanelContext& context, SequenceDialog& widgets) {
   const int last = static_cast<int>(std::min<std::uint64_t>(last_iteration(context), 1'000'000'000));
   int range[2] = {widgets.from, widgets.to};
   label(context, "iterations");
@@ -68,7 +68,7 @@ void draw_choices(PanelContext& context, SequenceWidgets& widgets) {
 
 void draw_sequence_dialog(PanelContext& context) {
   if (!begin_dialog(context, "Pictures of a run", 40)) return;
-  SequenceWidgets& widgets = context.widgets.sequence;
+  SequenceDialog& widgets = context.widgets.sequence;
   if (context.widgets.dialog_opened) {
     widgets.from = 0;
     widgets.to = static_cast<int>(std::min<std::uint64_t>(last_iteration(context), 1'000'000'000));

@@ -1,0 +1,85 @@
+#pragma once
+// The dialogs, and what each keeps between frames.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "ui/toolkit/file_browser.h"
+
+namespace dmoscope::ui {
+
+struct PanelContext;
+
+struct OpenDialog {
+  std::string folder, text, error;
+  std::vector<FolderEntry> entries;
+  int selected = -1;
+  bool all_files = false;
+};
+void draw_open_dialog(PanelContext& context);
+
+struct ExportDialog {
+  int what = 0;
+  std::string name;
+};
+void draw_export_dialog(PanelContext& context);
+
+struct ScreenshotDialog {
+  std::string name = "dmoscope.png";
+  int width = 0, height = 0, supersample = 2;
+  bool transparent = false, window = false;
+};
+void draw_screenshot_dialog(PanelContext& context);
+
+struct PaletteDialog {
+  std::string text;
+  int selected = 0;
+};
+void draw_palette_dialog(PanelContext& context);
+
+struct FindDialog {
+  std::string text;
+  int kind = 0;  // 0: a vertex, 1: an element
+};
+void draw_find_dialog(PanelContext& context);
+
+struct LogDialog {
+  std::string filter, script_name = "session.txt";
+  bool commands = true, messages = true;
+  std::size_t seen = 0;  // lines there were in the last frame
+};
+void draw_log_dialog(PanelContext& context);
+
+/// Of a sequence of pictures.
+struct SequenceDialog {
+  std::string folder = "pictures";
+  int from = 0, to = 0, every = 1, width = 0, height = 0;
+  bool window = false, overwrite = false;
+};
+void draw_sequence_dialog(PanelContext& context);
+
+/// Saves a plot.
+struct PlotDialog {
+  std::string name = "plot.svg";
+  int width = 800, height = 450, scale = 2;
+};
+void draw_plot_dialog(PanelContext& context);
+
+struct SaveSessionDialog {
+  std::string name;
+};
+void draw_save_session_dialog(PanelContext& context);
+
+void draw_keys_dialog(PanelContext& context);
+void draw_about_dialog(PanelContext& context);
+void draw_error_dialog(PanelContext& context);
+
+/// The one that is open, if any.
+void draw_dialogs(PanelContext& context);
+
+/// Begins a modal window of the open dialog; false when it is closed. Escape closes it.
+bool begin_dialog(PanelContext& context, const char* title, float width_em, float height_em = 0);
+void end_dialog();
+
+}  // namespace dmoscope::ui

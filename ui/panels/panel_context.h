@@ -1,0 +1,116 @@
+#pragma once
+// What panels read, what they keep between frames, and how they send commands.
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "core/commands/commands.h"
+#include "core/view/drawing_path.h"
+#include "core/view/view.h"
+#include "ui/analysis/derived.h"
+#include "ui/analysis/inspection.h"
+#include "ui/panels/dialogs.h"
+#include "ui/state/actions.h"
+#include "ui/state/view_state.h"
+#include "ui/toolkit/file_browser.h"
+#include "ui/toolkit/items.h"
+#include "ui/toolkit/layout.h"
+#include "ui/toolkit/recent_files.h"
+#include "ui/toolkit/theme.h"
+#include "ui/toolkit/thumbnails.h"
+#include "ui/viewports/viewports.h"
+
+namespace dmoscope::ui {
+
+/// What the engine and the machine are doing, as of this frame.
+struct Activity {
+  bool busy = false;
+  std::size_t pending = 0;
+  std::string command;  // at work, as typed
+  std::string progress_label;
+  double progress = 0.0;           // 0 to 1
+  double busy_seconds = 0.0;       // since it began
+  double frames_per_second = 0.0;  // while something moves, else 0
+  Backend backend = Backend::Cpu;  // what smooths
+  std::string backend_reason;      // which device, or why not cuda
+  DrawingPath drawing;             // how it gets to the screen, as far as is known
+  std::string renderer;            // "OpenGL 4.5, ..."
+  bool reduced = false;            // the mesh is drawn with fewer elements just now
+};
+
+/// A handle of the colour bar while it is held.
+struct RangeGrip {
+  int held = -1;                           // 0: the lower end, 1: the upper one
+  std::pair<double, double> before{0, 1};  // the range when it was taken
+  float pressed_at = 0;                    // pixels
+};
+
+/// A part of the view of a volume's inside while the mouse holds it: shown at once, and told as one command when it is let go.
+struct InsideGrip {
+  bool held = false;
+  ClippingView before;      // when it was taken
+  Vec2<double> pressed_at;  // pixels, of the clip plane's handle
+};
+
+struct PlotCache;
+
+/// State that only widgets need between frames.
+struct WidgetState {
+  OpenDialog open;
+  ExportDialog exporting;
+  ScreenshotDialog screenshot;
+  PaletteDialog palette;
+  FindDialog find;
+  LogDialog log;
+  SequenceDialog sequence;
+  PlotDialog plot_dialog;
+  SaveSessionDialog save_session;
+  Dialog dialog_shown = Dialog::None;  // in the last frame
+  bool dialog_opened = false;          // in this frame
+  std::shared_ptr<PlotCache> plot;     // as drawn last
+  RecentFiles recent;
+  RangeGrip range_grip;
+  InsideGrip inside_grip;
+  std::size_t worst_cells = 50;                            // how many "only the worst" means
+  std::vector<Thumbnail> thumbnails;                       // of the samples, made when the start page is first shown
+  bool sample_pictures = true;                             // with pictures
+  bool dragged = false;                                    // the button held in the viewport has moved
+  std::size_t menu_pane = 0, brush_pane = 0;               // viewport whose menu is open; in which the brush paints
+  std::pair<Index, Index> under_menu{kNoIndex, kNoIndex};  // vertex and element where the menu was opened
+  PickedFacts vertex_under_menu, element_under_menu;       // and what there is to copy of them
+  double moved_at = -1e9;                                  // when the view last moved
+};
+
+struct PanelContext {
+  ViewState& state;
+  WidgetState& widgets;
+  const SessionView& session;
+  const Activity& activity;
+  const Derived& derived;
+  const Inspection& inspection;
+  const Palette& palette;
+  const Fonts& fonts;
+  Items& items;
+  std::function<void(const std::string&)> send;                            // one command line; errors become messages
+  std::function<std::optional<Vec3>(std::size_t, Vec2<double>)> point_at;  // of a volume mesh, what is seen at a pixel of a viewport
+  std::function<std::pair<Index, Index>(std::size_t, Vec2<double>)> pick;  // vertex and element at a pixel of a viewport
+  std::function<std::vector<Index>(std::size_t, Vec2<double>, double)> vertices_near;  // the same, within so many pixels
+  std::span<const PaneFacts> panes;                                                    // the viewports
+  const std::vector<CommandInfo>& commands;                                            // of the window, for the palette
+  double now = 0.0;                                                                    // seconds
+
+  [[nodiscard]] float em() const { return ImGui::GetFontSize(); }
+  [[nodiscard]] float px(float at_scale_one) const { return at_scale_one * static_cast<float>(state.scale); }
+  [[nodiscard]] const Frame* frame() const { return session.frame.get(); }
+  [[nodiscard]] const RunView* run() const { return session.runs.empty() ? nullptr : &session.runs[session.active]; }
+  [[nodiscard]] Situation situation() const;
+};
+
+}  // namespace dmoscope::ui

@@ -1,0 +1,36 @@
+#pragma once
+// What panels are made of.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "ui/panels/panel_context.h"
+
+namespace dmoscope::ui {
+
+/// `overlay`: above the other panels. `scrolls`: with a scroll bar where the contents need one.
+void begin_panel(const char* name, const Rect& rect, bool overlay = false, bool scrolls = false);
+void end_panel();
+void heading(const PanelContext& context, const char* text);
+void dim_text(const PanelContext& context, const std::string& text, bool wrap = true);
+/// "label            value", value right-aligned with its full precision as tooltip.
+void value_row(const PanelContext& context, const char* label, const std::string& text, const std::string& full = {},
+               std::optional<render::Rgb> ink = {}, const char* tooltip = nullptr);
+void number_row(const PanelContext& context, const char* label, double value, const char* tooltip = nullptr);
+void metric_tooltip(const PanelContext& context, const MetricInfo& metric);
+/// A button for an action, with tooltip and key; records the item under the action's id.
+bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary = false);
+void next_item_tooltip(const std::string& text);
+/// Text on a plate in the panel's colour is readable on any mesh.
+void draw_plate(const PanelContext& context, ImVec2 low, ImVec2 high);
+/// A row "label [widget]" whose widget, drawn next, fills the right part.
+void labelled(const PanelContext& context, const char* label, const char* tooltip);
+/// An integer that is sent as "COMMAND value" once editing is done; as one word where the command ends with ':'.
+void integer(PanelContext& context, const char* item, int value, int least, int most, const char* command);
+/// Metric chooser that sends "COMMAND name".
+void metric_combo(PanelContext& context, const char* item, Metric current, const char* command);
+/// Text cut with "…" so that it is at most `width` pixels wide.
+[[nodiscard]] std::string fit_text(const std::string& text, float width);
+
+}  // namespace dmoscope::ui

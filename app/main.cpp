@@ -59,10 +59,6 @@ int run(int argc, char** argv) {
                "dmoscope");
   app.set_version_flag("--version", std::string("dmoscope ") + DMOSCOPE_VERSION);
   app.require_subcommand(0, 1);
-  app.footer(
-      "Without a subcommand the window opens on the files. Exit codes: 0 done; 1 ran but did not reach what was asked; 2 wrong usage; 3 "
-      "bad "
-      "input or output.");
 
   std::vector<std::filesystem::path> files;
   app.add_option("FILE", files, "Meshes to open in the window");
@@ -85,6 +81,10 @@ int run(int argc, char** argv) {
   add_bench(app, action);
   add_paper(app, action, command_line);
   add_info(app, action);
+  // Last: subcommands would take it over.
+  app.footer(
+      "Without a subcommand the window opens on the files. Exit codes: 0 done; 1 ran but did not reach what was asked; 2 wrong usage; "
+      "3 bad input or output.");
 
   try {
     app.parse(argc, argv);

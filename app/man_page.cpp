@@ -54,7 +54,7 @@ void add_options(std::string& page, const CLI::App& app) {
 }
 
 void add_subcommands(std::string& page, const CLI::App& app) {
-  page += ".SH VERBS\n";
+  page += ".SH SUBCOMMANDS\n";
   for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; })) {
     if (subcommand->get_group().empty()) continue;
     page += fmt::format(".SS dmoscope {}\n{}\n", roff(subcommand->get_name()), roff(subcommand->get_description()));
@@ -90,7 +90,7 @@ void add_tables(std::string& page) {
 std::string man_page(const CLI::App& app) {
   std::string page = fmt::format(".TH DMOSCOPE 1 \"\" \"dmoscope {}\" \"User Commands\"\n", DMOSCOPE_VERSION);
   page += ".SH NAME\ndmoscope \\- see, compare and run Discrete Mesh Optimization\n";
-  page += ".SH SYNOPSIS\n\\fBdmoscope\\fR [\\fIFILE\\fR...]\n.br\n\\fBdmoscope\\fR \\fIVERB\\fR [\\fIOPTION\\fR...]\n";
+  page += ".SH SYNOPSIS\n\\fBdmoscope\\fR [\\fIFILE\\fR...]\n.br\n\\fBdmoscope\\fR \\fISUBCOMMAND\\fR [\\fIOPTION\\fR...]\n";
   page += ".SH DESCRIPTION\n" + roff(app.get_description()) + "\n.PP\n" + roff(app.get_footer()) + "\n";
   page += ".SH OPTIONS\n";
   add_options(page, app);

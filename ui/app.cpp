@@ -41,7 +41,7 @@ App::App(Options options)
   host_.post = [this](const std::string& line) {
     if (state_.sequence) end_sequence("the sequence of pictures ended early: another command came", Message::Kind::Warning);
     if (std::exchange(state_.timeline.shown, Shown::Now) != Shown::Now)
-      add_message(state_, {Message::Kind::Info, "a mark was shown; commands are about the mesh as it is now", 0});
+      add_message(state_, {Message::Kind::Info, "left the mark: commands apply to the current mesh", 0});
     state_.timeline.play.kind = Playback::Kind::Off;
     post_by_itself(line);
   };

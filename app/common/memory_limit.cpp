@@ -37,9 +37,10 @@ std::uint64_t MemoryLimit::bytes() const { return text.empty() ? 0 : parse_byte_
 
 void add_memory_option(CLI::App& subcommand, MemoryLimit& limit) {
   subcommand
-      .add_option("--max-memory", limit.text,
-                  "Take no more memory than this (800M, 2G); it also says how much a compressed file may unpack to, else 256M or a hundred "
-                  "times its size")
+      .add_option(
+          "--max-memory", limit.text,
+          "Memory limit, such as 800M or 2G. Also limits how far a compressed file may unpack (otherwise 256M or 100 times its size, "
+          "whichever is more)")
       ->type_name("SIZE");
 }
 

@@ -75,15 +75,14 @@ void add_run_options(CLI::App& subcommand, RunOptions& options) {
   combine->type_name("FIRST:THRESHOLD:SECOND")->excludes(metric);
   subcommand
       .add_option("--size-function", options.size_function,
-                  "Of --combine with density, the size that elements shall have: h1:X,Y (grows with the distance to a point), h2:X,Y "
+                  "Desired element size, for --combine with density: h1:X,Y (grows with the distance to a point), h2:X,Y "
                   "(falls with it), constant, or field:NAME (a nodal field of the file)")
       ->type_name("SIZE")
       ->needs(combine);
-  subcommand
-      .add_option("--then", options.then, "What follows once the minimum has converged: mean (raises the mean, with the minimum as floor)")
+  subcommand.add_option("--then", options.then, "After the minimum has converged: mean (raise the mean without lowering the minimum)")
       ->type_name("mean")
       ->excludes(combine);
-  subcommand.add_option("--threads", options.threads, "Threads; 0: one a processor thread. The result is the same for any")
+  subcommand.add_option("--threads", options.threads, "Number of threads; 0 uses every processor thread. The result does not depend on it")
       ->transform(whole_number(0, kMostThreads))
       ->type_name("N")
       ->capture_default_str();

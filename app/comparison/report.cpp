@@ -264,8 +264,9 @@ std::string table_csv(const Comparison& comparison) {
 
 std::string html_of(const Comparison& comparison, const ComparisonFacts& facts, const Progress& progress) {
   Page page(fmt::format("{}: {} compared", comparison.input->mesh.name, counted(comparison.runs.size(), "run", "runs")));
-  page.paragraph(fmt::format("{}. All qualities are by {}: 1 is the ideal element, 0 or less an inverted one. A click on a head sorts.",
-                             goal_sentence(facts.options.goal), info(comparison.judge).name));
+  page.paragraph(
+      fmt::format("{}. All qualities are by {}: 1 is the ideal element, 0 or less an inverted one. Click a column heading to sort.",
+                  goal_sentence(facts.options.goal), info(comparison.judge).name));
   std::vector<std::string> head, hints;
   for (const RunColumn* column : shown_columns(shown_rows(comparison))) {
     head.emplace_back(column->title);

@@ -61,7 +61,7 @@ void throughput(Lab& lab, Figure& figure) {
   LinePlot plot;
   plot.title = "Smoothed vertices a second";
   plot.x_title = "vertices";
-  plot.y_title = "million vertex visits a second";
+  plot.y_title = "million vertex visits per second";
   plot.note = fmt::format("the first two iterations; {} threads", lab.workshop().pool->size());
   for (std::size_t k = 0; k < all.size(); ++k) plot.series.push_back({.name = all[k].name, .colour = k, .values = all[k].speeds});
   figure.plots.emplace_back("speed", std::move(plot));

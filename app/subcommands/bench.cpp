@@ -67,7 +67,7 @@ void add_bench(CLI::App& app, Action& action) {
   auto* combine =
       subcommand->add_option("--combine", options->combine, "Two aims instead, in volumes two metrics; see dmoscope smooth --help");
   combine->type_name("FIRST:THRESHOLD:SECOND")->excludes(metric);
-  list("--threads", options->threads, "N,N,...", "Numbers of threads; 0: one a processor thread");
+  list("--threads", options->threads, "N,N,...", "Numbers of threads; 0 uses every processor thread");
   list("--simd", options->simd, "LEVEL,LEVEL,...", "Vector instructions: all, or some of auto, baseline, avx2, avx512");
   list("--backend", options->backend, "NAME,NAME,...", "Backends: cpu, cuda, or auto: cpu, and cuda where it can be used");
   const auto count = [subcommand](const char* option, auto& value, std::uint64_t least, std::uint64_t most, const char* doc) {
@@ -77,9 +77,9 @@ void add_bench(CLI::App& app, Action& action) {
   count("--iterations", options->iterations, 1, kMostTimed, "Iterations to time, from the input on")->capture_default_str();
   count("--active", options->active, 2, kMostTimed, "Also compare the time of iteration N with that of the first");
   auto* draw = count("--draw", options->draw, 1, kMostTimed, "Draw this many iterations as they are made, without a window, instead");
-  auto* plot = subcommand->add_option("--plot", options->plot, "Draw visits a second over sizes")->type_name("FILE.svg|.png");
+  auto* plot = subcommand->add_option("--plot", options->plot, "Draw visits per second over sizes")->type_name("FILE.svg|.png");
   draw->excludes(plot)->excludes(combine);
-  count("--seek", options->seek, 1, kMostTimed, "Seek so often among 200 iterations, without and with drawing, instead")
+  count("--seek", options->seek, 1, kMostTimed, "Number of seeks among 200 iterations, without and with drawing, instead")
       ->excludes(plot)
       ->excludes(draw)
       ->excludes(combine);

@@ -161,7 +161,7 @@ LinePlot plot_of(const std::vector<Measurement>& figures) {
       fmt::format("{}, {}; {}, {}; dmoscope {}, commit {}", processor(), counted(cores(), "processor thread", "processor threads"),
                   compiler(), DMOSCOPE_BUILD_TYPE, DMOSCOPE_VERSION, commit());
   plot.x_title = "vertices";
-  plot.y_title = "million vertex visits a second";
+  plot.y_title = "million vertex visits per second";
   plot.note =
       "plain double: the scalar search on one thread; for meshes of more than 20 k free vertices measured on one of 10 k (volumes: 2 k)";
   PlotLook look(figures);

@@ -15,7 +15,7 @@ void add_checkpoint_options(CLI::App& subcommand, CheckpointOptions& options) {
                                      "Save the run there every now and then, and at a signal that ends it, to go on with --resume");
   file->type_name("FILE");
   subcommand.add_option("--checkpoint-every", options.every, "Seconds between two checkpoints; 0: one after every iteration")
-      ->check(CLI::Range(0.0, kLongest))
+      ->check(CLI::Range(0.0, kLongest).description(""))
       ->needs(file)
       ->type_name("SECONDS")
       ->capture_default_str();

@@ -121,7 +121,7 @@ void add_compare(CLI::App& app, Action& action, const std::string& command_line)
   subcommand->add_option("FILE", options->file, "Mesh to read")->required();
   subcommand
       ->add_option("--run", options->runs,
-                   "A run: METHOD[:METRIC[:BACKEND]], with ',alone' without what --combine or --then say, with ',then mean' as by "
+                   "A run: METHOD[:METRIC[:BACKEND]], append ',alone' to ignore --combine and --then, or ',then mean' as by "
                    "--then; may be given again")
       ->type_name("SPEC")
       ->expected(1)

@@ -43,8 +43,7 @@ int generate(const GenerateOptions& options) {
 std::string list_of_kinds() {
   std::string text = "Kinds:";
   for (const GeneratorInfo& generator : generator_table()) {
-    text +=
-        fmt::format("\n  {:<9} {} (about {} vertices unless --size says otherwise)", generator.name, generator.doc, generator.default_size);
+    text += fmt::format("\n  {:<9} {} (about {} vertices)", generator.name, generator.doc, generator.default_size);
   }
   return text;
 }

@@ -108,7 +108,7 @@ void add_paper(CLI::App& app, Action& action, const std::string& command_line) {
   subcommand->add_flag("--full", options->full, "As many as in the paper: an hour")->excludes(quick);
   subcommand->add_option("--only", options->only, "One figure, such as 4a; may be given again")->type_name("NAME")->expected(1)->take_all();
   add_backend_option(*subcommand, options->backend);
-  subcommand->add_option("--threads", options->threads, "Threads; 0: one a processor thread")
+  subcommand->add_option("--threads", options->threads, "Number of threads; 0 uses every processor thread")
       ->transform(whole_number(0, kMostThreads))
       ->type_name("N")
       ->capture_default_str();

@@ -210,7 +210,7 @@ void go_to_what_is_written(Run& run, const SmoothOptions& options, Progress& pro
   if (options.write == "last" || best == last) return;
   run.seek({best}, progress);
   run.sync_to_host();
-  warn(fmt::format("{} {}: written is {}, the best it passed through, not iteration {} (--write last: the last)", run.parameters().method,
+  warn(fmt::format("{} {}. Wrote {}, the best one, instead of iteration {} (--write last writes the last)", run.parameters().method,
                    kMayMakeWorse, iteration_name(best), last));
 }
 
@@ -233,8 +233,8 @@ std::optional<LeftInverted> tell_left_inverted(const Run& run, const std::shared
 template <class Warn>
 void tell_missing_phase(const Run& run, const Outcome& outcome, const Warn& warn) {
   if (!run.parameters().then_mean || run.mean_since()) return;
-  warn(outcome.inverted > 0 ? "the mean was not raised: that begins once no element is inverted"
-                            : "the mean was not raised: that begins once the minimum rises no more, or nothing moves (--until-converged)");
+  warn(outcome.inverted > 0 ? "the mean was not raised: that begins only once no element is inverted"
+                            : "the mean was not raised, because the minimum had not converged yet (add --until-converged)");
 }
 
 int smooth(const SmoothOptions& options) {

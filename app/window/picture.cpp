@@ -88,7 +88,7 @@ int render_picture(const std::filesystem::path& input, const std::filesystem::pa
   const Progress& progress = context.progress;
   const auto mesh = load_input(input, Need::QualityOnly, context);
   if (!mesh->is_volume() && inside.asked_for()) {
-    throw UsageError(fmt::format("{}: only a mesh of volume elements has an inside to be seen", input.string()));
+    throw UsageError(fmt::format("{}: this option works only on volume meshes", input.string()));
   }
   if (const std::string left_out = left_out_of_pictures(mesh->report.seam_elements, mesh->geometry.plane); !left_out.empty())
     complain(fmt::format("{}: {}", mesh->mesh.name, left_out));

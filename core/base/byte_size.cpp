@@ -21,7 +21,7 @@ std::uint64_t parse_byte_size(std::string_view word) {
   const bool known = plain || (power > 0 && (unit.size() == 1 || unit.substr(1) == "b" || unit.substr(1) == "ib"));
   const unsigned shift = plain ? 0 : 10U * static_cast<unsigned>(power);
   if (error != std::errc{} || !known || value == 0 || value > std::numeric_limits<std::uint64_t>::max() >> shift)
-    throw UsageError(fmt::format("'{}' is no amount of memory, such as 800M or 2G", word));
+    throw UsageError(fmt::format("'{}' is not an amount of memory, such as 800M or 2G", word));
   return value << shift;
 }
 

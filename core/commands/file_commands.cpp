@@ -46,12 +46,12 @@ void export_mesh(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
   const Run& run = context.session.active();
   context.session.require_not_read(arguments[0], "export");
-  for (std::string& note : write_mesh(arguments[0], run.input().mesh, run.positions(), context.progress))
-    tell(context, std::move(note), Message::Kind::Warning);
+  std::vector<std::string> notes = write_mesh(arguments[0], run.input().mesh, run.positions(), context.progress);
   const std::string seen =
       written_as_floats(arguments[0], run.input(), run.positions(), run.parameters().metric, context.session.pool().get());
-  if (!seen.empty()) tell(context, fmt::format("{}: {}", arguments[0], seen), Message::Kind::Warning);
+  if (!seen.empty()) notes.push_back(fmt::format("{}: {}", arguments[0], seen));
   tell(context, fmt::format("wrote {}", arguments[0]));
+  for (std::string& note : notes) tell(context, std::move(note), Message::Kind::Warning);  // last, where the status bar shows it
 }
 
 void write_stats(CommandContext& context, Arguments arguments) {

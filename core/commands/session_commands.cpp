@@ -75,7 +75,7 @@ void change_run(CommandContext& context, const std::function<void(RunParameters&
   const std::size_t before = context.session.run_count();
   const std::size_t index = context.session.change(std::move(parameters));
   if (context.session.run_count() > before)
-    tell(context, fmt::format("run {}: {}, from the input; the run before is kept", index + 1, context.session.active().title()));
+    tell(context, fmt::format("started run {}: {}, from the input; the run before is kept", index + 1, context.session.active().title()));
 }
 
 std::vector<Index> to_vertices(Arguments words, const Mesh& mesh) {

@@ -155,7 +155,7 @@ Notes write_anew(AtomicFile& file, const FormatHandler& handler, const Mesh& mes
 void add_comment(AtomicFile& file, const FormatHandler& handler, const Mesh& mesh, std::string_view comment, Notes& notes) {
   const bool binary = can_patch(mesh, handler) && mesh.source->layout().binary && handler.info.name == "off";
   const std::string text = binary ? std::string() : trailing_comment(handler.info.name, comment);
-  if (text.empty()) return notes.push_back(fmt::format("Where the mesh comes from was left out: {} has no comments.", handler.info.title));
+  if (text.empty()) return notes.push_back(fmt::format("Provenance was not written: {} has no comments.", handler.info.title));
   file.write(text);
 }
 

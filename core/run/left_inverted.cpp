@@ -63,8 +63,7 @@ std::string iteration_name(std::uint64_t iteration) {
 
 std::string worse_than_best(const RunParameters& parameters, std::uint64_t best, std::uint64_t last) {
   if (best == last || method_info(parameters.method).optimises) return {};
-  return fmt::format("{} {}: the best it passed through is {}, not iteration {}", parameters.method, kMayMakeWorse, iteration_name(best),
-                     last);
+  return fmt::format("{} {}: the best iteration was {}, not iteration {}", parameters.method, kMayMakeWorse, iteration_name(best), last);
 }
 
 }  // namespace dmoscope

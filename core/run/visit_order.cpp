@@ -12,7 +12,7 @@ VisitOrder parse_order(std::string_view word) {
   constexpr std::string_view prefix = "shuffle:";
   if (word == "natural") return {};
   if (word.starts_with(prefix)) return {to_count(std::string(word.substr(prefix.size())))};
-  throw WrongArguments(fmt::format("'{}' is no order: natural or shuffle:SEED", word));
+  throw WrongArguments(fmt::format("'{}' is not an order: choose natural or shuffle:SEED", word));
 }
 
 }  // namespace dmoscope

@@ -11,7 +11,7 @@ std::string_view name(Precision precision) { return precision == Precision::Floa
 Precision parse_precision(std::string_view word) {
   if (word == "float") return Precision::Float;
   if (word == "double") return Precision::Double;
-  throw WrongArguments(fmt::format("'{}' is no precision: float or double", word));
+  throw WrongArguments(fmt::format("'{}' is not a precision: choose float or double", word));
 }
 
 void validate(const SearchParameters& parameters) {

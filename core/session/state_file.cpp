@@ -345,7 +345,7 @@ Json parse(std::string_view text, const std::string& file) {
   } catch (const Json::parse_error& error) {
     const std::string_view before = text.substr(0, std::min<std::size_t>(text.size(), error.byte == 0 ? 0 : error.byte - 1));
     const auto line = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
-    throw InputError(file, line, "this is no JSON, so no saved session");
+    throw InputError(file, line, "this is not a saved session: it is not JSON");
   } catch (const Json::exception&) {  // a number beyond all doubles
     throw InputError(file, 0, "a number in it is too large for a saved session");
   }

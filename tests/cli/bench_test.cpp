@@ -337,7 +337,7 @@ TEST(Bench, PlotHasALineASeries) {
       EXPECT_EQ(std::count(texts.begin(), texts.end(), std::string(metric) + series), 1) << metric << series;
     }
   }
-  EXPECT_THAT(texts, ::testing::IsSupersetOf({"vertices", "million vertex visits a second"}));
+  EXPECT_THAT(texts, ::testing::IsSupersetOf({"vertices", "million vertex visits per second"}));
   // A dot for every figure, and one a series in the legend.
   std::size_t dots = 0;
   for (std::size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) ++dots;

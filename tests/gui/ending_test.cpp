@@ -103,7 +103,7 @@ TEST_F(Ending, WhatEndsWorseThanItsBestOffersThat) {
   EXPECT_EQ(now.best_iteration, best);
   ASSERT_FALSE(notice().empty());
   EXPECT_EQ(notice().sentences.back(),
-            "laplace may make elements worse: the best it passed through is iteration " + std::to_string(best) + ", not iteration 60.");
+            "laplace may make elements worse: the best iteration was iteration " + std::to_string(best) + ", not iteration 60.");
   EXPECT_TRUE(best_is_possible());
   good("click notice:best");
   EXPECT_EQ(run().moment, (Moment{best}));

@@ -135,6 +135,7 @@ TEST_F(ViewCommands, ScreenshotsKnowTheirOptions) {
   EXPECT_TRUE(shot.transparent);
   EXPECT_THROW(run("screenshot"), UsageError);
   EXPECT_THROW(run("screenshot x.png --size 0x7"), UsageError);
+  EXPECT_THROW(run("screenshot x.jpg"), UsageError) << "its bytes would be a PNG's";
   EXPECT_THROW(run("screenshot x.png --size 12"), UsageError);
   EXPECT_THROW(run("screenshot x.png --supersample 9"), UsageError);
   EXPECT_THROW(run("screenshot x.png y.png"), UsageError);

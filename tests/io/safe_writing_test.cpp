@@ -236,7 +236,7 @@ TEST(WriteMesh, ACommentStandsWhereAFormatHasThemAndIsReadOver) {
       const auto notes = write_commented_mesh(folder / name, mesh, mesh.positions, progress, "made--by a\ntest $End");
       const bool has = !trailing_comment(format.name, "x").empty();
       const std::string bytes = get(folder / name);
-      EXPECT_EQ(has, notes.empty() || notes.back().find("Where the mesh comes from") == std::string::npos);
+      EXPECT_EQ(has, notes.empty() || notes.back().find("Provenance was not written") == std::string::npos);
       std::size_t found = 0;
       for (std::size_t at = bytes.find("by a test"); at != std::string::npos; at = bytes.find("by a test", at + 1)) ++found;
       EXPECT_EQ(found, has ? static_cast<std::size_t>(round) : 0U);

@@ -264,7 +264,7 @@ TEST_F(StateFile, MalformedFilesAreRefusedWithAReason) {
   EXPECT_EQ(refusal(), "");
 
   write("");
-  EXPECT_THAT(refusal(), HasSubstr("session.json:1: this is no JSON"));
+  EXPECT_THAT(refusal(), HasSubstr("session.json:1: this is not a saved session: it is not JSON"));
   write("{\n\"format\": 1,,\n");
   EXPECT_THAT(refusal(), HasSubstr("session.json:2: "));
   write(std::string(100000, '['));

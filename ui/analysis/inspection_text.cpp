@@ -56,7 +56,7 @@ std::string stuck_sentence(const Inspection& inspection) {
     return "It waits: none of its elements is inverted, and this iteration only takes back vertices whose place alone is wrong, to where "
            "all "
            "their elements are sound.";
-  std::string text = trace.end == VisitEnd::NotConfirmed ? "The search found a candidate, but judged exactly it gains nothing."
+  std::string text = trace.end == VisitEnd::NotConfirmed ? "The search found a candidate, but the exact check shows no gain."
                      : trace.combined
                          ? fmt::format("No candidate is better than where it stands by what the search compares: {}.", trace.value_phrase)
                          : "No candidate is better than where it stands.";
@@ -66,7 +66,7 @@ std::string stuck_sentence(const Inspection& inspection) {
     constexpr double kNothing = 1e-6;  // a gap that no one would see
     text += inspection.optimum->quality - trace.before.quality < kNothing
                 ? " There is no better place for this vertex: only its neighbours can change that."
-                : " What is left to the best possible lies between the candidates.";
+                : " The best position lies between the candidates.";
   }
   return text;
 }

@@ -172,6 +172,9 @@ void add_output_commands(CommandTable& table, ViewState& state) {
                 }
               }
               if (shot.path.empty()) throw UsageError("a file name is missing");
+              for (const std::string_view other : {".jpg", ".jpeg", ".gif", ".bmp", ".tif", ".tiff", ".webp", ".svg", ".pdf"})
+                if (shot.path.extension() == other)
+                  throw UsageError(fmt::format("{}: screenshots are written as .png", shot.path.string()));
               state.requests.screenshots.push_back(std::move(shot));
             });
   table.add({"copy", "copy TEXT", "puts a text on the clipboard"}, [&state](Arguments words) {

@@ -181,7 +181,7 @@ void draw_element(PanelContext& context, const Frame& frame, Index element) {
     if (ImGui::SmallButton(id.c_str())) context.send(fmt::format("pick vertex {}", corner));
     next_item_tooltip("select this vertex");
   }
-  if (ImGui::SmallButton("Why is it so? Look at its worst corner")) context.send(fmt::format("inspect element {}", element));
+  if (ImGui::SmallButton("Inspect its worst corner")) context.send(fmt::format("inspect element {}", element));
   context.items.record_last("why");
   next_item_tooltip("looks into the search of its worst free corner");
   draw_metric_table(context);

@@ -66,7 +66,7 @@ void draw_run_row(PanelContext& context, std::size_t k) {
     }
     // In the midst of an iteration, and after edits, the record is of another moment.
     const Frame* frame = context.frame();
-    const bool shown = frame != nullptr && frame->run == k && active;
+    const bool shown = frame != nullptr && frame->run == k && active && frame->moment == run.moment;  // not a mark of before
     const Statistics& statistics = shown ? frame->statistics : record->statistics;
     const std::string facts = fmt::format("min {}  mean {}", short_number(statistics.minimum), short_number(statistics.mean));
     list.AddText({text, at.y + height - line + 1.5F * pad}, colour(context.palette.dim),

@@ -203,7 +203,7 @@ void draw_vertex_entries(PanelContext& context, Index vertex) {
 
 void draw_element_entries(PanelContext& context, Index element) {
   if (ImGui::MenuItem(fmt::format("Select element {}", element).c_str())) context.send(fmt::format("pick element {}", element));
-  if (ImGui::MenuItem(fmt::format("Why is element {} so? Look at its worst corner", element).c_str()))
+  if (ImGui::MenuItem(fmt::format("Inspect the worst corner of element {}", element).c_str()))
     context.send(fmt::format("inspect element {}", element));
   if (ImGui::MenuItem(fmt::format("Go to element {}", element).c_str())) context.send(fmt::format("goto element {}", element));
   copy_entry(context, "element id", fmt::format("{}", element), fmt::format("{}", element));

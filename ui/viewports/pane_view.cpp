@@ -114,7 +114,7 @@ std::string PaneView::note(const ViewState& state) const {
   if (picked.kind == Picked::Kind::Element && !scene.sees_cell(picked.id)) add(fmt::format("element {}", picked.id));
   if (picked.kind == Picked::Kind::Vertex && !scene.sees_vertex(picked.id)) add(fmt::format("vertex {}", picked.id));
   if (faint.empty()) return text;
-  return "taken away, so marked faintly: " + faint + (text.empty() ? "" : " · ") + text;
+  return "hidden, so marked faintly: " + faint + (text.empty() ? "" : " · ") + text;
 }
 
 void PaneView::draw_volume(const Scenery& scenery, const Wish& wish) {

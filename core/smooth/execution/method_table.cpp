@@ -19,7 +19,7 @@
 namespace dmoscope {
 
 namespace {
-constexpr std::array<MethodInfo, 7> kMethods{
+constexpr auto kMethods = std::to_array<MethodInfo>(
     {{.name = "dmo",
       .doc = "Discrete mesh optimization: best candidate of a grid, three levels (Zint and Grosso 2018)",
       .make = make_dmo_smoother,
@@ -55,11 +55,11 @@ constexpr std::array<MethodInfo, 7> kMethods{
       .make = make_pattern_search_smoother},
      {.name = "active-set",
       .doc = "Active-set ascent: along the steepest way on which none of the worst elements loses (Freitag, Jones and Plassmann 1995)",
-      .make = make_active_set_smoother}}};
+      .make = make_active_set_smoother}});
 
 void require_possible(const Combination& combination, const SmoothingTask& task) {
   validate(task.metric, combination);
-  if (!method_info(task.method).combines) throw UsageError(fmt::format("metrics are combined by dmo alone, not by {}", task.method));
+  if (!method_info(task.method).combines) throw UsageError(fmt::format("only dmo combines metrics, not {}", task.method));
   if (task.then_mean) throw UsageError("a combination has a second aim of its own, which a phase that raises the mean would undo");
   if (combination.size() != nullptr && task.input->is_volume())
     throw UsageError("sizes are of planar meshes in this version, and the mesh is a volume");
@@ -90,8 +90,8 @@ void require_possible(const SmoothingTask& task) {
   validate(task.options);
   require_defined(task.metric, task.input->mesh);
   if (method.mean_ratio_only && task.metric != Metric::MeanRatio)
-    throw UsageError(fmt::format("{} optimises the mean ratio alone, not {}", method.name, info(task.metric).name));
-  if (method.planar_only && task.input->is_volume()) throw UsageError(fmt::format("{} is defined for planar meshes alone", method.name));
+    throw UsageError(fmt::format("{} optimises only the mean ratio, not {}", method.name, info(task.metric).name));
+  if (method.planar_only && task.input->is_volume()) throw UsageError(fmt::format("{} is defined only for planar meshes", method.name));
   if (task.combination) require_possible(*task.combination, task);
 }
 

@@ -8,7 +8,7 @@
 namespace dmoscope::render {
 
 /// A context that everything in this room draws with. It must be current on the calling thread whenever an object of this room
-/// that owns OpenGL things (Framebuffer, MeshScene, ...) is made, used or destroyed, and it must outlive them.
+/// that owns OpenGL things (Framebuffer, PlanarScene, ...) is made, used or destroyed, and it must outlive them.
 class Context {
  public:
   Context() = default;

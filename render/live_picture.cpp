@@ -6,9 +6,8 @@
 
 namespace dmoscope::render {
 
-template <class Scene, class Camera, class Marked>
-void LivePictureOf<Scene, Camera, Marked>::update(Scene& scene, const Wish& wish) {
-  const Key key{wish.width, wish.height, wish.camera, wish.style, wish.detail, scene.revision()};
+void LivePicture::update(Scene& scene, const Wish& wish) {
+  const Key key{&scene, wish.width, wish.height, wish.camera, wish.style, wish.detail, scene.revision()};
   bool drawn = false;
   if (key_ != key) {
     key_.reset();
@@ -27,8 +26,7 @@ void LivePictureOf<Scene, Camera, Marked>::update(Scene& scene, const Wish& wish
   scene.draw_marks(shown_, wish.camera, wish.style, marks_);
 }
 
-template <class Scene, class Camera, class Marked>
-void LivePictureOf<Scene, Camera, Marked>::refine(Scene& scene, const Wish& wish) {
+void LivePicture::refine(Scene& scene, const Wish& wish) {
   constexpr double kMoment = 0.08;  // seconds
   finer_.resize(wish.width, wish.height);
   const auto begin = std::chrono::steady_clock::now();
@@ -43,8 +41,5 @@ void LivePictureOf<Scene, Camera, Marked>::refine(Scene& scene, const Wish& wish
   }
   if (complete_) std::swap(base_, finer_);
 }
-
-template class LivePictureOf<MeshScene, Camera2D, Marks>;
-template class LivePictureOf<VolumeScene, OrbitCamera, SpaceMarks>;
 
 }  // namespace dmoscope::render

@@ -5,25 +5,25 @@
 
 #include "render/framebuffer.h"
 #include "render/scene.h"
-#include "render/volume_scene.h"
 
 namespace dmoscope::render {
 
 /// Elements are drawn again only when something about them changed; marks cost only themselves. Where drawing all of a big mesh takes long,
 /// a coarse picture comes first, and a full one is drawn beside it slice by slice until it takes its place.
-template <class Scene, class Camera, class Marked>
-class LivePictureOf {
+class LivePicture {
  public:
   struct Wish {
     int width = 1, height = 1;
     Camera camera;
     Style style;
-    Marked marks;
-    double detail = 1.0;  // what can be drawn in a moment, see the scene's draw()
+    SceneMarks marks;
+    double detail = 1.0;  // what can be drawn in a moment, see Scene::draw_elements
     bool refine = true;   // go on towards the full picture
   };
   /// Brings the picture up to date, as far as a moment goes. Throws Error.
   void update(Scene& scene, const Wish& wish);
+  /// Draws anew next time, whatever the scene says of itself.
+  void forget() { key_.reset(); }
   /// Whether every element in view is drawn.
   [[nodiscard]] bool complete() const noexcept { return complete_; }
   /// See Framebuffer::texture.
@@ -32,6 +32,7 @@ class LivePictureOf {
 
  private:
   struct Key {
+    const Scene* scene;
     int width, height;
     Camera camera;
     Style style;
@@ -43,13 +44,10 @@ class LivePictureOf {
 
   Framebuffer base_{1, 1}, finer_{1, 1}, shown_{1, 1};
   std::optional<Key> key_;  // of base_
-  Marked marks_;            // on shown_
+  SceneMarks marks_;        // on shown_
   SliceProgress progress_;  // of finer_
   Index slice_ = 50'000;    // elements that are drawn in a moment
   bool complete_ = true;
 };
-
-using LivePicture = LivePictureOf<MeshScene, Camera2D, Marks>;
-using LiveVolumePicture = LivePictureOf<VolumeScene, OrbitCamera, SpaceMarks>;
 
 }  // namespace dmoscope::render

@@ -1,23 +1,28 @@
 #pragma once
-// A planar mesh on the OpenGL side: its topology once, its positions and qualities again whenever they change.
+// What every mesh on the OpenGL side offers, planar or volume: it is shown, coloured, drawn in one go or bit by bit, and picked from.
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
-#include <string>
+#include <variant>
 #include <vector>
 
 #include "core/base/vec.h"
 #include "core/mesh/mesh.h"
-#include "core/mesh/plane.h"
 #include "core/view/view.h"
 #include "render/camera.h"
 #include "render/framebuffer.h"
+#include "render/orbit_camera.h"
 #include "render/shading.h"
+#include "render/space_marks.h"
 #include "render/style.h"
 
 namespace dmoscope::render {
+
+/// Camera2D: of a planar mesh; OrbitCamera: of a volume.
+using Camera = std::variant<Camera2D, OrbitCamera>;
+/// Likewise.
+using SceneMarks = std::variant<Marks, SpaceMarks>;
 
 /// What lies under a pixel.
 struct Pick {
@@ -44,94 +49,53 @@ struct SliceProgress {
   Index drawn = 0;  // elements in view that are done
 };
 
-/// How the positions and colours on show came to OpenGL.
-enum class Source {
-  Host,        // the frame had them
-  Device,      // the device that has them wrote them itself
-  HostCopy,    // the same through the host, see MeshScene::device_trouble
-  Unreachable  // not at all: the device tells nothing any more, and no element is drawn
-};
-
 /// Whether to wait until a big mesh is made ready for drawing.
 enum class Loading { Wait, Background };
 
-/// Share of the elements worth drawing, (0, 1]: 1 except on software OpenGL while something moves (a drag, a run that is drawn
-/// live), where it is what keeps a frame below about 100 ms.
-[[nodiscard]] double suggested_detail(std::size_t element_count, bool is_software, bool moving);
-
-/// Draws and picks. Needs a current context in every member function but pick, bounds and the other questions.
-class MeshScene {
+/// A mesh that is drawn. Functions that take a camera or marks throw std::bad_variant_access for those of the other kind of mesh.
+class Scene {
  public:
-  MeshScene();
-  ~MeshScene();
-  MeshScene(MeshScene&&) noexcept;
-  MeshScene& operator=(MeshScene&&) noexcept;
+  virtual ~Scene() = default;
 
-  /// Shows a frame: uploads topology when frame->input_serial differs from the last one's, positions and qualities in place when
-  /// frame->serial does; otherwise costs nothing. Those of a device-resident frame are written by its device, or where that fails brought
-  /// through the host, from then on until another mesh is shown. Null shows nothing. With Loading::Background the ordering of a big new
-  /// mesh is done on a thread of its own, and the scene shows nothing of it until a later call. Returns whether `frame` is on show now.
-  bool show(std::shared_ptr<const Frame> frame, Loading loading = Loading::Wait);
-
-  /// What lives on a device is brought through the host from now on; `why`: for device_trouble(), empty: no longer.
-  void draw_through_host(std::string why);
-
-  /// The same in two steps, for meshes without a session. Elements of `mesh` must be triangles and quadrilaterals (else
-  /// UsageError); the mesh is not kept.
-  void set_mesh(const Mesh& mesh, const Plane& plane);
-  /// positions: one a vertex. quality and inverted: one an element, as in Frame; inverted may be empty (none).
-  void update(std::span<const Vec3> positions, std::span<const float> quality, std::span<const std::uint8_t> inverted);
-
-  /// Which vertices are fixed (RunView::fixed), for Style::vertices; empty: all free. Forgotten when another mesh is shown.
-  void set_fixed(std::span<const std::uint8_t> fixed);
-
-  /// What is shown instead of quality; null: quality. Forgotten when another mesh is shown. Throws UsageError when it does not have as many
-  /// values as the mesh has elements or vertices.
-  void set_shading(std::shared_ptr<const Shading> shading);
+  /// Shows a frame: topology when frame->input_serial differs from the last one's, positions and qualities in place when frame->serial
+  /// does; otherwise costs nothing. Null shows nothing. Returns whether `frame` is on show now.
+  virtual bool show(std::shared_ptr<const Frame> frame, Loading loading = Loading::Wait) = 0;
+  /// What is shown instead of quality; null: quality. Forgotten when another mesh is shown. Throws UsageError for other than one value per
+  /// element or vertex.
+  virtual void set_shading(std::shared_ptr<const Shading> shading) = 0;
   /// Which elements count; forgotten when another mesh is shown. Throws UsageError when the members are not as many as the elements.
-  void set_selection(const Selection& selection);
+  virtual void set_selection(const Selection& selection) = 0;
 
   /// Grows with every change of what is drawn, camera, style and marks apart.
-  [[nodiscard]] std::uint64_t revision() const noexcept;
-  [[nodiscard]] bool empty() const noexcept;
-  [[nodiscard]] Index element_count() const noexcept;
-  /// Box of the vertices used by elements, in the plane; empty when nothing is shown. That of the positions shown last, or while light
-  /// frames are shown of those that were last on the host.
-  [[nodiscard]] const Bounds2& bounds() const noexcept;
-  [[nodiscard]] Source source() const noexcept;
-  /// Why what lives on a device is drawn through the host, or not at all; empty when nothing speaks against drawing it there.
-  [[nodiscard]] const std::string& device_trouble() const noexcept;
+  [[nodiscard]] virtual std::uint64_t revision() const noexcept = 0;
+  [[nodiscard]] virtual bool empty() const noexcept = 0;
+  /// Elements, or faces, there are to draw.
+  [[nodiscard]] virtual std::size_t drawn_count() const noexcept = 0;
+  /// Share of `count` of them worth drawing, (0, 1]: 1 except on software OpenGL while something moves (a drag, a run that is drawn live),
+  /// where it is what keeps a frame below about 100 ms.
+  [[nodiscard]] virtual double suggested_detail(std::size_t count, bool is_software, bool moving) const noexcept = 0;
 
-  /// Clears `target` and draws all of it. detail in (0, 1]: below 1, when more than that share of the elements is in view, each
-  /// of an evenly spread subset stands for its neighbours as a small square (a group with an inverted element shows it),
-  /// and the wireframe is left out: the same picture for the same detail, coarser. Throws Error.
-  void draw(Framebuffer& target, const Camera2D& camera, const Style& style, const Marks& marks = {}, double detail = 1.0);
-
-  /// The same in two steps: clears `target` and draws all but the marks, and draws these over it. Returns whether every element in view was
-  /// drawn. Throws Error.
-  bool draw_elements(Framebuffer& target, const Camera2D& camera, const Style& style, double detail = 1.0);
-  void draw_marks(Framebuffer& target, const Camera2D& camera, const Style& style, const Marks& marks);
-
+  /// Clears `target` and draws all but the marks. detail in (0, 1]: below 1 a coarser picture of that share. Returns whether all in view
+  /// was drawn. Throws Error.
+  virtual bool draw_elements(Framebuffer& target, const Camera& camera, const Style& style, double detail = 1.0) = 0;
+  /// Draws marks over it.
+  virtual void draw_marks(Framebuffer& target, const Camera& camera, const Style& style, const SceneMarks& marks) = 0;
   /// draw_elements at full detail, bit by bit: at most `most` elements more, and waits until they are drawn. Camera, style and revision()
   /// must be those of the slices before. Returns whether it was the last slice. Throws Error.
-  bool draw_slice(Framebuffer& target, const Camera2D& camera, const Style& style, SliceProgress& progress, Index most);
+  virtual bool draw_slice(Framebuffer& target, const Camera& camera, const Style& style, SliceProgress& progress, Index most) = 0;
+  /// Draws all at full detail: the picture is `viewport` pixels large, and the target gets that part of it. Throws Error.
+  virtual void draw_part(Framebuffer& target, const Camera& camera, const Style& style, const SceneMarks& marks, Vec2<double> viewport,
+                         const PicturePart& part) = 0;
 
   /// What is at `pixel` (of a viewport of that size) by geometry in double, not by colours. `radius`: how far a vertex may be, in pixels.
-  /// Milliseconds even for millions of elements; of a device-resident frame once a frame as long as it takes to bring all of it to the
-  /// host, and nothing when the device does not give it.
-  [[nodiscard]] Pick pick(const Camera2D& camera, Vec2<double> viewport, Vec2<double> pixel, double radius = 8.0) const;
-  /// All vertices of elements within `radius` pixels of `pixel`, ascending; at the cost of pick().
-  [[nodiscard]] std::vector<Index> vertices_near(const Camera2D& camera, Vec2<double> viewport, Vec2<double> pixel, double radius) const;
-  /// The elements in view and some around it, in no order; none when they are more than `most`, or stand on a device.
-  [[nodiscard]] std::optional<std::vector<Index>> elements_in_view(const Camera2D& camera, Vec2<double> viewport, std::size_t most) const;
+  [[nodiscard]] virtual Pick pick(const Camera& camera, Vec2<double> viewport, Vec2<double> pixel, double radius = 8.0) const = 0;
+  /// The ids that have room in a viewport of that size. None when there are more than wish.most, or too much is in view to look at it all.
+  [[nodiscard]] virtual std::vector<Label> labels(const Camera& camera, Vec2<double> viewport, const LabelWish& wish) const = 0;
 
-  /// The ids that have room in a viewport of that size: of an element inside of it, of a vertex between it and its neighbours. None when
-  /// there are more than wish.most, and none while too much is in view to look at it all.
-  [[nodiscard]] std::vector<Label> labels(const Camera2D& camera, Vec2<double> viewport, const LabelWish& wish) const;
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+ protected:
+  Scene() = default;
+  Scene(Scene&&) noexcept = default;
+  Scene& operator=(Scene&&) noexcept = default;
 };
 
 }  // namespace dmoscope::render

@@ -72,20 +72,13 @@ Rendered draw_tiles(const Shot& shot, const Style& style, const Draw& draw) {
 
 }  // namespace
 
-Rendered render_image(MeshScene& scene, const Camera2D& camera, const Style& style, const Marks& marks, const Shot& shot) {
-  return draw_tiles(shot, style, [&](Framebuffer& target, const Style& fine, const PicturePart& tile) {
-    Camera2D part = camera;
-    part.centre = camera.to_plane({(tile.low.x + tile.high.x) / 2.0, (tile.low.y + tile.high.y) / 2.0}, mesh_viewport(shot));
-    part.units_per_pixel = camera.units_per_pixel / shot.supersample;
-    scene.draw(target, part, fine, marks, 1.0);
-  });
-}
-
-Rendered render_image(VolumeScene& scene, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks, const Shot& shot) {
+Rendered render_image(Scene& scene, const Camera& camera, const Style& style, const SceneMarks& marks, const Shot& shot) {
   const auto fine_pixels = static_cast<double>(shot.supersample);
   const auto scaled = [&](Vec2<double> p) { return Vec2<double>{p.x * fine_pixels, p.y * fine_pixels}; };
-  return draw_tiles(shot, style, [&](Framebuffer& target, const Style& fine, const PicturePart& tile) {
-    scene.draw_part(target, camera, fine, marks, scaled(mesh_viewport(shot)), {scaled(tile.low), scaled(tile.high)});
+  Camera fine = camera;  // an OrbitCamera is about the whole viewport, however many pixels it has
+  if (auto* planar = std::get_if<Camera2D>(&fine)) planar->units_per_pixel /= fine_pixels;
+  return draw_tiles(shot, style, [&](Framebuffer& target, const Style& fine_style, const PicturePart& tile) {
+    scene.draw_part(target, fine, fine_style, marks, scaled(mesh_viewport(shot)), {scaled(tile.low), scaled(tile.high)});
   });
 }
 

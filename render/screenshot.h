@@ -7,7 +7,6 @@
 
 #include "render/image.h"
 #include "render/scene.h"
-#include "render/volume_scene.h"
 
 namespace dmoscope::render {
 
@@ -50,9 +49,6 @@ struct Rendered {
 
 /// Draws the scene at full detail, supersampled, in tiles where OpenGL's limits ask for it. `camera` is for mesh_viewport(shot).
 /// Style::scale is multiplied by shot.scale. Throws UsageError for sizes out of range (1 to 32768), Error.
-[[nodiscard]] Rendered render_image(MeshScene& scene, const Camera2D& camera, const Style& style, const Marks& marks, const Shot& shot);
-/// The same of a volume mesh.
-[[nodiscard]] Rendered render_image(VolumeScene& scene, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks,
-                                    const Shot& shot);
+[[nodiscard]] Rendered render_image(Scene& scene, const Camera& camera, const Style& style, const SceneMarks& marks, const Shot& shot);
 
 }  // namespace dmoscope::render

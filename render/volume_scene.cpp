@@ -78,7 +78,7 @@ VolumeScene::~VolumeScene() = default;
 VolumeScene::VolumeScene(VolumeScene&&) noexcept = default;
 VolumeScene& VolumeScene::operator=(VolumeScene&&) noexcept = default;
 
-bool VolumeScene::show(std::shared_ptr<const Frame> frame) {
+bool VolumeScene::show(std::shared_ptr<const Frame> frame, Loading /*loading*/) {
   Impl& s = *impl_;
   if (!frame) {
     s.forget();
@@ -270,7 +270,8 @@ std::optional<Unhidden> VolumeScene::unhidden(const OrbitCamera& camera, Vec2<do
   return unhidden_of(impl_->seen_faces(), *depths);
 }
 
-std::vector<Label> VolumeScene::labels(const OrbitCamera& camera, Vec2<double> viewport, const LabelWish& wish) const {
+std::vector<Label> VolumeScene::labels(const Camera& seen_from, Vec2<double> viewport, const LabelWish& wish) const {
+  const OrbitCamera& camera = std::get<OrbitCamera>(seen_from);
   if (!(wish.vertices || wish.elements)) return {};
   const DepthMap* depths = impl_->depth_map(camera, viewport);
   return depths == nullptr ? std::vector<Label>{} : labels_of(impl_->seen_faces(), *depths, wish);
@@ -346,7 +347,8 @@ void VolumeScene::draw(Framebuffer& target, const OrbitCamera& camera, const Sty
   draw_marks(target, camera, style, marks);
 }
 
-bool VolumeScene::draw_elements(Framebuffer& target, const OrbitCamera& camera, const Style& style, double detail) {
+bool VolumeScene::draw_elements(Framebuffer& target, const Camera& seen_from, const Style& style, double detail) {
+  const OrbitCamera& camera = std::get<OrbitCamera>(seen_from);
   const TargetGuard guard;
   clear(target, style);
   Impl& s = *impl_;
@@ -367,7 +369,8 @@ bool VolumeScene::draw_elements(Framebuffer& target, const OrbitCamera& camera, 
   return stride <= 1;
 }
 
-bool VolumeScene::draw_slice(Framebuffer& target, const OrbitCamera& camera, const Style& style, SliceProgress& progress, Index most) {
+bool VolumeScene::draw_slice(Framebuffer& target, const Camera& seen_from, const Style& style, SliceProgress& progress, Index most) {
+  const OrbitCamera& camera = std::get<OrbitCamera>(seen_from);
   const TargetGuard guard;
   const bool first = !std::exchange(progress.begun, true);
   if (first) clear(target, style);
@@ -388,15 +391,17 @@ bool VolumeScene::draw_slice(Framebuffer& target, const OrbitCamera& camera, con
   return last;
 }
 
-void VolumeScene::draw_marks(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks) {
+void VolumeScene::draw_marks(Framebuffer& target, const Camera& seen_from, const Style& style, const SceneMarks& marks) {
+  const OrbitCamera& camera = std::get<OrbitCamera>(seen_from);
   const TargetGuard guard;
   target.bind();
   const Vec2<double> viewport = size_of(target);
-  impl_->draw_marks(Impl::Stage(*impl_, camera, style, viewport, all_of(viewport)), marks);
+  impl_->draw_marks(Impl::Stage(*impl_, camera, style, viewport, all_of(viewport)), std::get<SpaceMarks>(marks));
 }
 
-void VolumeScene::draw_part(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks,
+void VolumeScene::draw_part(Framebuffer& target, const Camera& seen_from, const Style& style, const SceneMarks& marks,
                             Vec2<double> viewport, const PicturePart& part) {
+  const OrbitCamera& camera = std::get<OrbitCamera>(seen_from);
   const TargetGuard guard;
   clear(target, style);
   Impl& s = *impl_;
@@ -407,10 +412,11 @@ void VolumeScene::draw_part(Framebuffer& target, const OrbitCamera& camera, cons
   s.painter.draw_ghost(stage.view, style);
   s.painter.draw_faces(stage.view, stage.look, 0, s.painter.face_count());
   s.painter.draw_cuts(stage.view, style);
-  s.draw_marks(stage, marks);
+  s.draw_marks(stage, std::get<SpaceMarks>(marks));
 }
 
-Pick VolumeScene::pick(const OrbitCamera& camera, Vec2<double> viewport, Vec2<double> pixel, double radius) const {
+Pick VolumeScene::pick(const Camera& seen_from, Vec2<double> viewport, Vec2<double> pixel, double radius) const {
+  const OrbitCamera& camera = std::get<OrbitCamera>(seen_from);
   const Impl& s = *impl_;
   if (s.elements == nullptr || s.bounds.empty()) return {};
   return render::pick(s.seen_faces(), s.bounds, camera, viewport, pixel, radius);
@@ -425,7 +431,7 @@ std::optional<Vec3> VolumeScene::point_at(const OrbitCamera& camera, Vec2<double
   return ray.from + hit->along * ray.direction;
 }
 
-double suggested_face_detail(std::size_t face_count, bool is_software, bool moving) {
+double VolumeScene::suggested_detail(std::size_t face_count, bool is_software, bool moving) const noexcept {
   // Faces that llvmpipe on two cores draws well within 100 ms.
   constexpr double kAffordable = 60'000.0;
   if (!is_software || !moving || face_count == 0) return 1.0;

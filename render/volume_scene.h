@@ -15,33 +15,6 @@
 
 namespace dmoscope::render {
 
-/// A dot and a line in the space of the mesh (a candidate of the grid, its box).
-struct SpaceDot {
-  Vec3 point;
-  float diameter = 6.0F;  // pixels at scale 1
-  Rgba colour{255, 255, 255, 255};
-  DotShape shape = DotShape::Round;
-  friend bool operator==(const SpaceDot&, const SpaceDot&) = default;
-};
-struct SpaceLine {
-  Vec3 from, to;
-  float width = 1.5F;  // pixels at scale 1
-  Rgba colour{255, 255, 255, 255};
-  friend bool operator==(const SpaceLine&, const SpaceLine&) = default;
-};
-
-/// What is marked over the picture; nothing hides it.
-struct SpaceMarks {
-  std::vector<Index> cells;     // all their edges
-  std::vector<Index> vertices;  // dots
-  std::optional<Index> worst;   // cell with a ring around it
-  std::vector<SpaceLine> lines;
-  std::vector<SpaceDot> dots;          // the nearest on top
-  bool triad = true;                   // the axes, in the right lower corner
-  bool faint_where_taken_away = true;  // marks of cells and vertices of which nothing is seen
-  friend bool operator==(const SpaceMarks&, const SpaceMarks&) = default;
-};
-
 /// What nothing hides of what is seen: its vertices, ascending, and edges between two of them, each once.
 struct Unhidden {
   std::vector<Index> vertices;
@@ -49,16 +22,16 @@ struct Unhidden {
 };
 
 /// Draws and picks. Only draw() and what uploads (set_mesh, update, set_view, set_shading) need a current context.
-class VolumeScene {
+class VolumeScene final : public Scene {
  public:
   VolumeScene();
-  ~VolumeScene();
+  ~VolumeScene() override;
   VolumeScene(VolumeScene&&) noexcept;
   VolumeScene& operator=(VolumeScene&&) noexcept;
 
-  /// Shows a frame as MeshScene does; its input must be a volume. The view stays, also when another mesh comes. A device-resident frame
+  /// Shows a frame as PlanarScene does; its input must be a volume. The view stays, also when another mesh comes. A device-resident frame
   /// (one whose positions stay on a device) is not shown: what was on show stays, and false comes back.
-  bool show(std::shared_ptr<const Frame> frame);
+  bool show(std::shared_ptr<const Frame> frame, Loading loading = Loading::Wait) override;
 
   /// The same in two steps, for meshes without a session. Shows another mesh, all of it. Both must live until the next call; `owner` is
   /// kept until then. Throws UsageError when an element is not of a volume.
@@ -71,18 +44,20 @@ class VolumeScene {
   [[nodiscard]] const ClippingView& view() const noexcept;
   /// Shown instead of quality, by elements; null: quality. Forgotten with another mesh. Throws UsageError when values are not one an
   /// element.
-  void set_shading(std::shared_ptr<const Shading> shading);
+  void set_shading(std::shared_ptr<const Shading> shading) override;
   /// Cells that do not count are faded, or hidden as far as faces are drawn; what takes cells away is the view. Forgotten with another
   /// mesh. Throws UsageError when the members are not as many as the elements.
-  void set_selection(const Selection& selection);
+  void set_selection(const Selection& selection) override;
   /// Threads for finding what is seen; null: the caller's alone.
   void set_pool(ThreadPool* pool) noexcept;
 
-  [[nodiscard]] bool empty() const noexcept;
+  [[nodiscard]] bool empty() const noexcept override;
   /// Grows with every change of what is drawn, camera, style and marks apart.
-  [[nodiscard]] std::uint64_t revision() const noexcept;
+  [[nodiscard]] std::uint64_t revision() const noexcept override;
   /// What is seen: faces, cuts, number of cells.
   [[nodiscard]] const ClippedFaces& faces() const noexcept;
+  [[nodiscard]] std::size_t drawn_count() const noexcept override { return faces().faces.size(); }
+  [[nodiscard]] double suggested_detail(std::size_t count, bool is_software, bool moving) const noexcept override;
   /// Whether a cell, or some cell around a vertex, is seen: not taken away, though others may hide it. True where there is none such.
   [[nodiscard]] bool sees_cell(Index cell) const;
   [[nodiscard]] bool sees_vertex(Index vertex) const;
@@ -91,7 +66,7 @@ class VolumeScene {
   /// The ids that have room in a viewport of that size: of a cell within one of its faces, of a vertex between it and its neighbours, where
   /// nothing hides them and no other stands. Their points are in pixels from the middle of the viewport, y up. None when they are more than
   /// wish.most, and none while there are too many faces.
-  [[nodiscard]] std::vector<Label> labels(const OrbitCamera& camera, Vec2<double> viewport, const LabelWish& wish) const;
+  [[nodiscard]] std::vector<Label> labels(const Camera& camera, Vec2<double> viewport, const LabelWish& wish) const override;
   /// Of all vertices of elements, whatever is seen of them.
   [[nodiscard]] const Bounds3& bounds() const noexcept;
   /// Moves a camera so that it shows all of these, as large as can be within that part of a viewport; see OrbitCamera::fit.
@@ -100,18 +75,15 @@ class VolumeScene {
   /// Clears `target` and draws. `detail` in (0, 1]: below 1 a square stands for each of that share of the faces and its neighbours. Throws
   /// Error.
   void draw(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks = {}, double detail = 1.0);
-  /// The same at full detail: the picture is `viewport` pixels large, and the target gets that part of it.
-  void draw_part(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks, Vec2<double> viewport,
-                 const PicturePart& part);
-
-  /// As those of MeshScene: draw() in two steps, and its first one in slices of at most `most` faces.
-  bool draw_elements(Framebuffer& target, const OrbitCamera& camera, const Style& style, double detail = 1.0);
-  void draw_marks(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks);
-  bool draw_slice(Framebuffer& target, const OrbitCamera& camera, const Style& style, SliceProgress& progress, Index most);
+  bool draw_elements(Framebuffer& target, const Camera& camera, const Style& style, double detail = 1.0) override;
+  void draw_marks(Framebuffer& target, const Camera& camera, const Style& style, const SceneMarks& marks) override;
+  bool draw_slice(Framebuffer& target, const Camera& camera, const Style& style, SliceProgress& progress, Index most) override;
+  void draw_part(Framebuffer& target, const Camera& camera, const Style& style, const SceneMarks& marks, Vec2<double> viewport,
+                 const PicturePart& part) override;
 
   /// What of what is seen lies at `pixel`: the element of the nearest face or cut there, and of its corners the nearest within `radius`; of
   /// an empty place the nearest vertex of a visible face. By geometry in double. Some 10 ns a face.
-  [[nodiscard]] Pick pick(const OrbitCamera& camera, Vec2<double> viewport, Vec2<double> pixel, double radius = 8.0) const;
+  [[nodiscard]] Pick pick(const Camera& camera, Vec2<double> viewport, Vec2<double> pixel, double radius = 8.0) const override;
   /// The point of the mesh that is seen at `pixel`, to orbit about; none where nothing is.
   [[nodiscard]] std::optional<Vec3> point_at(const OrbitCamera& camera, Vec2<double> viewport, Vec2<double> pixel) const;
 
@@ -119,8 +91,5 @@ class VolumeScene {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// Share of the faces worth drawing while something moves: 1 except on software OpenGL, where a frame is to stay below about 100 ms.
-[[nodiscard]] double suggested_face_detail(std::size_t face_count, bool is_software, bool moving);
 
 }  // namespace dmoscope::render

@@ -147,7 +147,7 @@ void App::update_drawing() {
   const Frame* frame = session_->frame.get();
   const bool snapshot_failed = frame != nullptr && !frame->device_trouble.empty();
   activity_.drawing = drawing_path(activity_.backend, activity_.backend_reason,
-                                   snapshot_failed ? frame->device_trouble : viewports_.active().scene().device_trouble());
+                                   snapshot_failed ? frame->device_trouble : viewports_.active().planar().device_trouble());
 }
 
 void App::notice_new_input() {

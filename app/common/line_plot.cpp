@@ -35,7 +35,7 @@ class Axis {
  public:
   Axis(AxisKind kind, double lowest, double highest, double start, double end)
       : kind_(kind), low_(along(lowest)), high_(along(highest)), start_(start), end_(end) {
-    // Scratch at both ends. Of a logarithmic axis at least a decade, so that there are two labels even for a single value; of a linear one
+    // Room at both ends. Of a logarithmic axis at least a decade, so that there are two labels even for a single value; of a linear one
     // at least something.
     const double span = high_ - low_;
     const double least = kind == AxisKind::Logarithmic ? 0.5 * (1.0 - span) : span > 0.0 ? 0.0 : std::max(0.5 * std::abs(low_), 1e-3);

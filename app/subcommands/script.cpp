@@ -57,10 +57,10 @@ std::vector<std::string> read_lines(const std::string& file) {
   return lines;
 }
 
-/// The first subcommand of `lines` that the session does not know, with its line; 0 when it knows them all.
+/// The first command of `lines` that the session does not know, with its line; 0 when it knows them all.
 struct Foreign {
   std::size_t line = 0;
-  std::string subcommand;
+  std::string command;
 };
 Foreign first_foreign(const std::string& name, const std::vector<std::string>& lines) {
   const auto& known = session_commands();
@@ -141,7 +141,7 @@ int script(const ScriptSubcommandOptions& options) {
   return run_script(window);
 #else
   throw UsageError(fmt::format("{}:{}: unknown command '{}' (this program was built without the window and its commands)", name,
-                               foreign.line, foreign.subcommand));
+                               foreign.line, foreign.command));
 #endif
 }
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "app/window/interop.h"
-#include "render/scene.h"
+#include "render/planar_scene.h"
 
 namespace dmoscope::app {
 
@@ -26,12 +26,12 @@ class BenchStage {
     context_->finish();
   }
   [[nodiscard]] const render::Context& context() const { return *context_; }
-  [[nodiscard]] const render::MeshScene& scene() const { return scene_; }
+  [[nodiscard]] const render::PlanarScene& scene() const { return scene_; }
 
  private:
   std::unique_ptr<render::Context> context_;
   render::Framebuffer picture_;
-  render::MeshScene scene_;
+  render::PlanarScene scene_;
   render::Camera2D camera_;
   bool first_ = true;
 };

@@ -13,7 +13,7 @@
 #include "core/mesh/seam.h"
 #include "core/quality/quality.h"
 #include "render/context.h"
-#include "render/scene.h"
+#include "render/planar_scene.h"
 #include "ui/state/format.h"
 
 namespace dmoscope::app {
@@ -64,7 +64,7 @@ std::string picture_png(const InputMesh& input, std::span<const Vec3> positions,
   if (input.is_volume()) return volume_picture_png(input, positions, look, {}, progress);
   const JudgedElements judged = judge(input, positions, look.metric, progress);
   const auto context = render::create_headless_context();
-  render::MeshScene scene;
+  render::PlanarScene scene;
   scene.set_mesh(input.mesh, input.geometry.plane);
   scene.update(positions, judged.quality, judged.inverted);
   const render::Shot shot = shot_of(input, judged, look);

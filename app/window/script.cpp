@@ -25,14 +25,14 @@ void tell(const Message& message) {
   std::fflush(stdout);
 }
 
-/// True when some line needs the window: any subcommand that is not the session's (an unknown one is then refused with all names).
+/// True when some line needs the window: any command that is not the session's (an unknown one is then refused with all names).
 bool needs_window(const std::vector<std::string>& lines) {
   return std::any_of(lines.begin(), lines.end(),
                      [](const std::string& line) { return !split_words(line).empty() && !ui::is_session_command(line); });
 }
 
 /// Does the script end with this message? A cancelled line ends it as an error does, unless the script cancels its own work by a
-/// subcommand of the window.
+/// command of the window.
 bool ends_script(const Message& message, const std::string& line) {
   return message.kind == Message::Kind::Error || (message.exit_code != 0 && ui::is_session_command(line));
 }

@@ -6,6 +6,7 @@
 #include "core/clipping/clip_to_text.h"
 #include "render/context.h"
 #include "render/screenshot.h"
+#include "render/volume_scene.h"
 #include "ui/state/format.h"
 
 namespace dmoscope::app {
@@ -47,7 +48,7 @@ std::string volume_picture_png(const InputMesh& input, std::span<const Vec3> pos
   const Vec2<double> viewport = render::mesh_viewport(shot);
   constexpr double kMargin = 24.0;  // pixels
   scene.fit(camera, viewport, {{kMargin, kMargin}, {viewport.x - kMargin, viewport.y - kMargin}});
-  return render::encode_png(render::render_image(scene, camera, style_of(look), {}, shot).image);
+  return render::encode_png(render::render_image(scene, camera, style_of(look), render::SpaceMarks{}, shot).image);
 }
 
 }  // namespace dmoscope::app

@@ -80,7 +80,7 @@ const std::array kTable{
     ParameterInfo{.name = "relaxation",
                   .title = "relaxation",
                   .type = "X",
-                  .doc = "Share of the way to the new place that a vertex goes, above 0, up to 1",
+                  .doc = "Share of the way to the new place that a vertex goes",
                   .kind = ParameterKind::Real,
                   .most = 1.0,
                   .reader = &MethodInfo::relaxes,
@@ -110,7 +110,8 @@ const std::array kTable{
                   .to_text = [](const P& p) { return std::to_string(p.options.seed); },
                   .from_text = [](P& p, Word word) { p.options.seed = to_count(word); },
                   .in_title = [](const P& p) { return fmt::format("directions {}", p.options.seed); },
-                  .before = "1"},
+                  .before = "1",
+                  .item = "directions-seed"},
     ParameterInfo{.name = "order",
                   .title = "order",
                   .type = "natural|shuffle:SEED",
@@ -147,10 +148,14 @@ bool ParameterInfo::read_by(const RunParameters& parameters) const {
 }
 
 std::string ParameterInfo::help() const {
+  constexpr double kAny = 1e9;  // more is no limit that a person meets
+  std::string text(doc);
+  if (kind == ParameterKind::Whole && most < kAny) text += fmt::format(", {} to {}", least, most);
+  if (kind == ParameterKind::Real) text += fmt::format(", above {}, up to {}", least, most);
   std::vector<std::string_view> readers;
   for (const MethodInfo& method : method_table())
     if (reader == nullptr || method.*reader) readers.push_back(method.name);
-  return readers.size() == method_table().size() ? std::string(doc) : fmt::format("{}. For {}", doc, fmt::join(readers, ", "));
+  return readers.size() == method_table().size() ? text : fmt::format("{}. For {}", text, fmt::join(readers, ", "));
 }
 
 std::span<const ParameterInfo> parameter_table() { return kTable; }

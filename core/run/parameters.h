@@ -49,10 +49,11 @@ struct ParameterInfo {
   void (*from_text)(RunParameters&, const std::string&);
   std::string (*in_title)(const RunParameters&) = nullptr;  // what a run's title says where it is not the default; null: nothing
   std::string_view before{};                                // its value in session files of before it was there; empty: all files have it
+  std::string_view item{};                                  // of its widget in the window, where that is not the name
   bool in_session = true;                                   // a command, and saved; else an option of the command line alone
 
   [[nodiscard]] bool read_by(const RunParameters& parameters) const;
-  /// The doc, with the methods that read it where not all do.
+  /// The doc, with the range of a number and, where not all do, the methods that read it.
   [[nodiscard]] std::string help() const;
 };
 /// All that can be said in one word; method, metric, objectives and fixed vertices have words of their own.

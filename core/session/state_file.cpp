@@ -134,7 +134,10 @@ RunParameters to_parameters(const Json& json) {
       row.from_text(p, std::string(row.before));
     } else {
       const Json& value = json.at(key);
-      row.from_text(p, value.is_string() ? value.get<std::string>() : value.dump());
+      const bool wants_number = row.kind == ParameterKind::Whole || row.kind == ParameterKind::Real;
+      if (wants_number ? !value.is_number() : !value.is_string())
+        throw UsageError(fmt::format("the parameter {} is expected as a {}", key, wants_number ? "number" : "word"));
+      row.from_text(p, wants_number ? value.dump() : value.get<std::string>());
     }
   }
   if (json.contains("combination"))

@@ -9,7 +9,7 @@
 #include "core/view/frame_builder.h"
 #include "gpu/accelerator.h"
 #include "render/framebuffer.h"
-#include "render/scene.h"
+#include "render/planar_scene.h"
 
 namespace dmoscope::app {
 namespace {
@@ -60,7 +60,7 @@ class CudaDrawing : public testing::Test {
 };
 
 TEST_F(CudaDrawing, ThePictureOfALightFrameIsThatOfTheWholeOne) {
-  render::MeshScene scene;
+  render::PlanarScene scene;
   scene.draw_through_host(no_interop(acceleration, *context));
   render::Framebuffer target(640, 640);
   const auto picture = [&](const std::shared_ptr<const Frame>& frame) {

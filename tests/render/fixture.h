@@ -13,7 +13,7 @@
 #include "core/mesh/plane.h"
 #include "render/context.h"
 #include "render/framebuffer.h"
-#include "render/scene.h"
+#include "render/planar_scene.h"
 
 namespace dmoscope::render {
 
@@ -82,7 +82,7 @@ class WithContext : public ::testing::Test {
       GTEST_SKIP() << error.what();
     }
     target = std::make_unique<Framebuffer>(static_cast<int>(kWidth), static_cast<int>(kHeight));
-    scene = std::make_unique<MeshScene>();
+    scene = std::make_unique<PlanarScene>();
   }
   void TearDown() override {
     scene.reset();
@@ -100,7 +100,7 @@ class WithContext : public ::testing::Test {
 
   std::unique_ptr<Context> context;
   std::unique_ptr<Framebuffer> target;
-  std::unique_ptr<MeshScene> scene;
+  std::unique_ptr<PlanarScene> scene;
 };
 
 inline ::testing::AssertionResult near_colour(Rgba got, Rgb wanted, int tolerance = 3) {

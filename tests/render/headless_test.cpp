@@ -68,7 +68,7 @@ TEST(Headless, TheDevicePlatformDrawsWhatSurfacelessDraws) {
     if (!context) GTEST_SKIP() << "EGL here has no " << way;
     EXPECT_THAT(context->description(), HasSubstr(way[0] == 'd' ? "EGL device 0" : "surfaceless EGL"));
     Framebuffer target(static_cast<int>(kWidth), static_cast<int>(kHeight));
-    MeshScene scene;
+    PlanarScene scene;
     const Mesh mesh = triangle_and_quadrilateral();
     scene.set_mesh(mesh, Plane{});
     scene.update(mesh.positions, std::vector<float>{0.25F, 0.8F}, {});

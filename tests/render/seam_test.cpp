@@ -48,7 +48,7 @@ TEST_F(WithContext, WhatLiesAcrossTheSeamDoesNotCoverTheRest) {
   }
   EXPECT_EQ(scene->pick(camera, kViewport, pixel(-15.0, 11.0)).element, 5U);
   {
-    MeshScene plain;
+    PlanarScene plain;
     plain.set_mesh(mesh, Plane{});
     plain.update(mesh.positions, quality, inverted);
     EXPECT_EQ(plain.pick(camera, kViewport, pixel(-15.0, 11.0)).element, 11U) << "taken plainly it covers all";

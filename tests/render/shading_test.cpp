@@ -228,20 +228,20 @@ TEST_F(WithContext, ALivePictureComesToRestAtTheFullOneWhateverHappensOnTheWay) 
   live.update(*scene, wish);
   settle();
   ASSERT_TRUE(live.complete());
-  wish.marks.dots.push_back({scene->bounds().centre(), 12.0F, {1, 2, 3, 255}, DotShape::Round});
+  std::get<Marks>(wish.marks).dots.push_back({scene->bounds().centre(), 12.0F, {1, 2, 3, 255}, DotShape::Round});
   live.update(*scene, wish);
   EXPECT_TRUE(live.complete()) << "marks ask for no new elements";
   Framebuffer copy(200, 120);
-  scene->draw(copy, wish.camera, wish.style, wish.marks);
+  scene->draw(copy, std::get<Camera2D>(wish.camera), wish.style, std::get<Marks>(wish.marks));
   const Image wanted = copy.read_pixels();
   EXPECT_TRUE(near_colour(wanted.at(100, 60), {1, 2, 3}));
   EXPECT_EQ(live.picture().rgba, wanted.rgba);
-  wish.camera.pan({7, 3});
+  std::get<Camera2D>(wish.camera).pan({7, 3});
   live.update(*scene, wish);
   EXPECT_FALSE(live.complete());
   EXPECT_GT(settle(), 0);
   // Close up all are drawn at once.
-  wish.camera.look_at({20, 20}, 10, kViewport);
+  std::get<Camera2D>(wish.camera).look_at({20, 20}, 10, kViewport);
   live.update(*scene, wish);
   EXPECT_TRUE(live.complete());
 }

@@ -377,7 +377,7 @@ TEST_F(VolumePicture, TilesMakeTheSamePictureAsOne) {
     for (const double top : {0.0, 50.0}) {
       const PicturePart part{{left, top}, {left == 0.0 ? 80.0 : kWidth, top == 0.0 ? 50.0 : kHeight}};
       Framebuffer tile(static_cast<int>(part.high.x - part.low.x), static_cast<int>(part.high.y - part.low.y));
-      space->draw_part(tile, camera, Style::dark(), {}, kViewport, part);
+      space->draw_part(tile, camera, Style::dark(), SpaceMarks{}, kViewport, part);
       const Image piece = tile.read_pixels();
       for (int y = 0; y < piece.height; ++y) {
         for (int x = 0; x < piece.width; ++x) pieced.set(x + static_cast<int>(left), y + static_cast<int>(top), piece.at(x, y));
@@ -410,8 +410,8 @@ TEST_F(VolumePicture, ALivePictureComesToRestAtTheFullOne) {
   view.clip = {.on = true, .normal = {1, 0.2, 0}, .offset = 0.5, .flip = false, .mode = ClipPlane::Mode::Cut};
   view.ghost = true;
   space->set_view(view);
-  LiveVolumePicture live;
-  LiveVolumePicture::Wish wish{static_cast<int>(kWidth), static_cast<int>(kHeight), camera, Style::dark(), {}, 0.25, true};
+  LivePicture live;
+  LivePicture::Wish wish{static_cast<int>(kWidth), static_cast<int>(kHeight), camera, Style::dark(), SpaceMarks{}, 0.25, true};
   live.update(*space, wish);
   EXPECT_FALSE(live.complete());
   for (int turn = 0; turn < 100 && !live.complete(); ++turn) live.update(*space, wish);
@@ -419,13 +419,13 @@ TEST_F(VolumePicture, ALivePictureComesToRestAtTheFullOne) {
   plain.triad = true;
   EXPECT_TRUE(compare(live.picture(), shot(Style::dark())).alike(0.0005));
   // Another camera: a coarse picture at once, and no full one while it moves.
-  wish.camera.turn({5, 3}, kViewport);
+  std::get<OrbitCamera>(wish.camera).turn({5, 3}, kViewport);
   wish.refine = false;
   for (int turn = 0; turn < 5; ++turn) live.update(*space, wish);
   EXPECT_FALSE(live.complete());
   wish.refine = true;
   for (int turn = 0; turn < 100 && !live.complete(); ++turn) live.update(*space, wish);
-  camera = wish.camera;
+  camera = std::get<OrbitCamera>(wish.camera);
   EXPECT_TRUE(compare(live.picture(), shot(Style::dark())).alike(0.0005));
 }
 

@@ -123,15 +123,12 @@ void choice(PanelContext& context, const ParameterInfo& row, const std::string& 
 }
 
 void draw_parameter(PanelContext& context, const ParameterInfo& row, const RunParameters& parameters) {
-  const std::string item(row.name), now = row.to_text(parameters);
-  std::string hint = row.help();
-  if (row.kind == ParameterKind::Whole && row.most < kLargestSeed) hint += fmt::format(". {} to {}", row.least, row.most);
-  if (row.kind == ParameterKind::Real) hint += fmt::format(". Above {}, up to {}", row.least, row.most);
-  labelled(context, std::string(row.title).c_str(), hint.c_str());
+  const std::string command(row.name), item(row.item.empty() ? row.name : row.item), now = row.to_text(parameters);
+  labelled(context, std::string(row.title).c_str(), row.help().c_str());
   if (row.kind == ParameterKind::Whole) {
     const int most = static_cast<int>(std::min<double>(row.most, kLargestSeed));
     integer(context, item.c_str(), static_cast<int>(std::min<std::uint64_t>(to_count(now), kLargestSeed)), static_cast<int>(row.least),
-            most, item.c_str());
+            most, command.c_str());
   } else if (row.kind == ParameterKind::Real) {
     real(context, item.c_str(), to_number(now));
   } else {

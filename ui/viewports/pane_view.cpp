@@ -51,24 +51,27 @@ void PaneView::update_stepping(bool busy) { stepping_.update(*session_, busy); }
 
 bool PaneView::bring(render::Loading loading) {
   if (is_volume()) {
-    if (!volume_) volume_ = std::make_unique<Volume>();
-    scene_.show(nullptr);
-    volume_->scene.set_pool(pool_);
-    volume_->scene.show(session_->frame);
+    if (!volume_) {
+      volume_ = std::make_unique<render::VolumeScene>();
+      picture_.forget();
+    }
+    planar_.show(nullptr);
+    volume_->set_pool(pool_);
+    volume_->show(session_->frame);
     return current_ = true;
   }
   volume_.reset();
-  current_ = scene_.show(session_->frame, loading);
+  current_ = planar_.show(session_->frame, loading);
   return current_;
 }
 
-std::size_t PaneView::drawn_count() const noexcept {
-  return is_volume() && volume_ ? volume_->scene.faces().faces.size() : scene_.element_count();
+render::Camera PaneView::seen_from(const ViewState& state, const render::Camera2D& camera) const {
+  if (is_volume()) return state.orbit;
+  return camera;
 }
 
 render::Pick PaneView::pick(const ViewState& state, const render::Camera2D& camera, Vec2<double> pixel, double radius) const {
-  return is_volume() && volume_ ? volume_->scene.pick(state.orbit, state.viewport, pixel, radius)
-                                : scene_.pick(camera, state.viewport, pixel, radius);
+  return scene().pick(seen_from(state, camera), state.viewport, pixel, radius);
 }
 
 bool PaneView::marks_worst(const ViewState& state, bool inspecting) const {
@@ -99,14 +102,14 @@ render::SpaceMarks PaneView::space_marks(const Scenery& scenery, Vec2<double> vi
     add_inspection_marks(marks, state.inspection, scenery.inspection,
                          inspection_look(of_quality, palette(state.theme).accent, units, state.scale));
   }
-  if (!searching) stepping_.add_space_marks(marks, state, *session_, volume_->scene, viewport);
+  if (!searching) stepping_.add_space_marks(marks, state, *session_, *volume_, viewport);
   return marks;
 }
 
 std::string PaneView::note(const ViewState& state) const {
   std::string text = stepping_.note(state, *session_);
   if (!is_volume() || !volume_ || state.inspection.open) return text;
-  const render::VolumeScene& scene = volume_->scene;
+  const render::VolumeScene& scene = *volume_;
   std::string faint;
   const auto add = [&faint](const std::string& what) { faint += (faint.empty() ? "" : " and ") + what; };
   if (marks_worst(state, false) && !scene.sees_cell(frame()->worst.front().element)) add("the worst element");
@@ -117,9 +120,9 @@ std::string PaneView::note(const ViewState& state) const {
   return "hidden, so marked faintly: " + faint + (text.empty() ? "" : " · ") + text;
 }
 
-void PaneView::draw_volume(const Scenery& scenery, const Wish& wish) {
+void PaneView::update_volume(const Scenery& scenery, const Wish& wish) {
   const ViewState& state = scenery.state;
-  render::VolumeScene& scene = volume_->scene;
+  render::VolumeScene& scene = *volume_;
   const bool by_elements = colours_ && colours_->shading && colours_->shading->by == render::Shading::By::Elements;
   scene.set_shading(by_elements ? colours_->shading : nullptr);
   // What is isolated of the histogram is taken out of the volume; what is merely chosen keeps its place, and the rest fades.
@@ -134,10 +137,6 @@ void PaneView::draw_volume(const Scenery& scenery, const Wish& wish) {
   }
   scene.set_selection(selection);
   scene.set_view(view);
-  find_labels(scenery, wish.camera);
-  const auto w = static_cast<int>(std::lround(state.viewport.x)), h = static_cast<int>(std::lround(state.viewport.y));
-  volume_->picture.update(scene, {w, h, state.orbit, picture_style(state, scenery.derived),
-                                  space_marks(scenery, state.viewport, wish.inspected), wish.detail, wish.refine});
 }
 
 void PaneView::select(const Scenery& scenery) {
@@ -146,7 +145,7 @@ void PaneView::select(const Scenery& scenery) {
     refresh_members(members_, scenery.state, *session_);
     selection.members = members_.members;
   }
-  scene_.set_selection(selection);
+  planar_.set_selection(selection);
 }
 
 void PaneView::find_labels(const Scenery& scenery, const render::Camera2D& camera) {
@@ -155,25 +154,35 @@ void PaneView::find_labels(const Scenery& scenery, const render::Camera2D& camer
   // As they are drawn: digits of DejaVu Sans are 0.64 em wide.
   const render::LabelWish wish{colouring.label_vertices, colouring.label_elements, 0.8 * 0.64 * em, em, 400};
   const Vec2<double> viewport = scenery.state.viewport;
-  labels_ = is_volume() ? volume_->scene.labels(scenery.state.orbit, viewport, wish) : scene_.labels(camera, viewport, wish);
+  labels_ = scene().labels(seen_from(scenery.state, camera), viewport, wish);
   labels_lack_room_ = (wish.vertices || wish.elements) && labels_.empty();
 }
 
-void PaneView::draw(const Scenery& scenery, const Wish& wish) {
-  if (is_volume()) return draw_volume(scenery, wish);
-  const ViewState& state = scenery.state;
+void PaneView::update_planar(const Scenery& scenery) {
   const RunView& run = session_->runs[session_->active];
   if (fixed_serial_ != frame()->serial && run.fixed.size() == frame()->vertex_count()) {
-    scene_.set_fixed(run.fixed);
+    planar_.set_fixed(run.fixed);
     fixed_serial_ = frame()->serial;
   }
-  scene_.set_shading(current_ && colours_ ? colours_->shading : nullptr);
+  planar_.set_shading(current_ && colours_ ? colours_->shading : nullptr);
   if (current_) select(scenery);
+}
+
+void PaneView::draw(const Scenery& scenery, const Wish& wish) {
+  const ViewState& state = scenery.state;
+  if (is_volume()) {
+    update_volume(scenery, wish);
+  } else {
+    update_planar(scenery);
+  }
   find_labels(scenery, wish.camera);
+  const auto marked = [&]() -> render::SceneMarks {
+    if (is_volume()) return space_marks(scenery, state.viewport, wish.inspected);
+    return marks(scenery, {wish.camera, state.viewport, state.scale}, wish.inspected);
+  };
   const auto w = static_cast<int>(std::lround(state.viewport.x)), h = static_cast<int>(std::lround(state.viewport.y));
-  const MarkView view{wish.camera, state.viewport, state.scale};
-  picture_.update(
-      scene_, {w, h, wish.camera, picture_style(state, scenery.derived), marks(scenery, view, wish.inspected), wish.detail, wish.refine});
+  picture_.update(scene(),
+                  {w, h, seen_from(state, wish.camera), picture_style(state, scenery.derived), marked(), wish.detail, wish.refine});
 }
 
 render::Marks PaneView::marks(const Scenery& scenery, const MarkView& view, bool inspected) {
@@ -190,8 +199,9 @@ render::Marks PaneView::marks(const Scenery& scenery, const MarkView& view, bool
     marks.vertices = {picked.id};
   }
   if (marks_worst(state, inspecting)) marks.worst = frame()->worst.front().element;
-  stepping_.add_marks(marks, state, *session_, view,
-                      [this](const MarkView& seen, std::size_t most) { return scene_.elements_in_view(seen.camera, seen.viewport, most); });
+  stepping_.add_marks(marks, state, *session_, view, [this](const MarkView& seen, std::size_t most) {
+    return planar_.elements_in_view(seen.camera, seen.viewport, most);
+  });
   const render::Style plain = scene_style(state);
   if (inspecting) {
     render::Style of_quality = plain;

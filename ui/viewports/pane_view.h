@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "render/live_picture.h"
-#include "render/scene.h"
+#include "render/planar_scene.h"
+#include "render/volume_scene.h"
 #include "ui/analysis/colour_facts.h"
 #include "ui/analysis/colour_worker.h"
 #include "ui/analysis/derived.h"
@@ -58,17 +59,25 @@ class PaneView {
   /// Threads for finding what is seen of a volume; null: the caller's alone.
   void set_pool(ThreadPool* pool) noexcept { pool_ = pool; }
 
-  [[nodiscard]] render::MeshScene& scene() noexcept { return scene_; }
+  /// The scene of the mesh that it shows.
+  [[nodiscard]] render::Scene& scene() noexcept { return is_volume() && volume_ ? static_cast<render::Scene&>(*volume_) : planar_; }
+  [[nodiscard]] const render::Scene& scene() const noexcept {
+    return is_volume() && volume_ ? static_cast<const render::Scene&>(*volume_) : planar_;
+  }
+  /// Of planar meshes.
+  [[nodiscard]] render::PlanarScene& planar() noexcept { return planar_; }
+  /// From where its mesh is seen; `camera`: of a planar one.
+  [[nodiscard]] render::Camera seen_from(const ViewState& state, const render::Camera2D& camera) const;
   [[nodiscard]] bool is_volume() const noexcept { return frame() != nullptr && frame()->input->is_volume(); }
   /// Of a volume mesh; null until the first one.
-  [[nodiscard]] render::VolumeScene* volume() noexcept { return volume_ ? &volume_->scene : nullptr; }
-  [[nodiscard]] const render::VolumeScene* volume() const noexcept { return volume_ ? &volume_->scene : nullptr; }
+  [[nodiscard]] render::VolumeScene* volume() noexcept { return volume_.get(); }
+  [[nodiscard]] const render::VolumeScene* volume() const noexcept { return volume_.get(); }
   /// Faces or elements there are to draw.
-  [[nodiscard]] std::size_t drawn_count() const noexcept;
+  [[nodiscard]] std::size_t drawn_count() const noexcept { return scene().drawn_count(); }
   /// What lies at a pixel of its picture.
   [[nodiscard]] render::Pick pick(const ViewState& state, const render::Camera2D& camera, Vec2<double> pixel, double radius) const;
-  [[nodiscard]] unsigned texture() const noexcept { return is_volume() && volume_ ? volume_->picture.texture() : picture_.texture(); }
-  [[nodiscard]] bool complete() const noexcept { return is_volume() && volume_ ? volume_->picture.complete() : picture_.complete(); }
+  [[nodiscard]] unsigned texture() const noexcept { return picture_.texture(); }
+  [[nodiscard]] bool complete() const noexcept { return picture_.complete(); }
   [[nodiscard]] bool current() const noexcept { return current_; }
   [[nodiscard]] bool settled() const noexcept { return current_ && complete() && worker_.settled(); }
   [[nodiscard]] bool colours_settled() const noexcept { return worker_.settled(); }
@@ -77,19 +86,16 @@ class PaneView {
   [[nodiscard]] bool labels_lack_room() const noexcept { return labels_lack_room_; }
 
  private:
-  struct Volume {
-    render::VolumeScene scene;
-    render::LiveVolumePicture picture;
-  };
-  void draw_volume(const Scenery& scenery, const Wish& wish);
+  void update_planar(const Scenery& scenery);
+  void update_volume(const Scenery& scenery, const Wish& wish);
   void select(const Scenery& scenery);
   void find_labels(const Scenery& scenery, const render::Camera2D& camera);
   [[nodiscard]] bool marks_worst(const ViewState& state, bool inspecting) const;
 
   std::shared_ptr<const SessionView> session_;
-  render::MeshScene scene_;
+  render::PlanarScene planar_;
   render::LivePicture picture_;
-  std::unique_ptr<Volume> volume_;  // from the first volume mesh on
+  std::unique_ptr<render::VolumeScene> volume_;  // from the first volume mesh on
   ThreadPool* pool_ = nullptr;
   SteppingView stepping_;
   ColourWorker worker_;

@@ -73,16 +73,17 @@ render::Image Viewports::picture_of(std::size_t pane, const Scenery& scenery, co
   look.transparent = shot.transparent;
   const Vec2<double> digit = render::label_digit(shot.scale), viewport = render::mesh_viewport(shot);
   const render::LabelWish wish{state.colouring.label_vertices, state.colouring.label_elements, digit.x, digit.y, 400};
-  if (view.is_volume()) {
-    const render::SpaceMarks marks = view.space_marks(scenery, viewport, facts_[pane].inspected);
-    render::Image image = render::render_image(*view.volume(), state.orbit, look, marks, shot).image;
-    render::draw_labels(image, view.volume()->labels(state.orbit, viewport, wish), {}, viewport, look, shot.scale);
-    return image;
-  }
-  const render::Camera2D camera = facts_[pane].camera.for_viewport(state.viewport, viewport);
-  const render::Marks marks = view.marks(scenery, {camera, viewport, state.scale}, facts_[pane].inspected);
-  render::Image image = render::render_image(view.scene(), camera, look, marks, shot).image;
-  render::draw_labels(image, view.scene().labels(camera, viewport, wish), camera, viewport, look, shot.scale);
+  const render::Camera2D planar = facts_[pane].camera.for_viewport(state.viewport, viewport);
+  const bool inspected = facts_[pane].inspected;
+  const render::Camera camera = view.seen_from(state, planar);
+  const auto marked = [&]() -> render::SceneMarks {
+    if (view.is_volume()) return view.space_marks(scenery, viewport, inspected);
+    return view.marks(scenery, {planar, viewport, state.scale}, inspected);
+  };
+  render::Image image = render::render_image(view.scene(), camera, look, marked(), shot).image;
+  // Of a volume labels are in pixels already.
+  render::draw_labels(image, view.scene().labels(camera, viewport, wish), view.is_volume() ? render::Camera2D{} : planar, viewport, look,
+                      shot.scale);
   return image;
 }
 

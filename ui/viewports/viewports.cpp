@@ -40,7 +40,7 @@ render::Bounds2 input_box(const InputMesh& input) {
 Viewports::Viewports(Options options) : options_(std::move(options)), session_(std::make_shared<SessionView>()) {
   views_[0] = std::make_unique<PaneView>();
   views_[0]->show(session_);
-  views_[0]->scene().draw_through_host(options_.no_interop);
+  views_[0]->planar().draw_through_host(options_.no_interop);
 }
 
 void Viewports::show(std::size_t pane, std::shared_ptr<const Frame> frame, std::size_t run, std::string name, std::string why_not,
@@ -127,7 +127,7 @@ void Viewports::follow(const ViewState& state, const std::shared_ptr<const Sessi
     }
     if (!views_[k]) {
       views_[k] = std::make_unique<PaneView>();
-      views_[k]->scene().draw_through_host(options_.no_interop);
+      views_[k]->planar().draw_through_host(options_.no_interop);
     }
     show_content(state, k);
     const auto& frame = shown_[k].frame;
@@ -214,7 +214,7 @@ bool Viewports::fit(ViewState& state, double em) {
     fitted_orbit_ = state.orbit;
     return true;
   }
-  render::Bounds2 bounds = views_[focus_]->scene().bounds();
+  render::Bounds2 bounds = views_[focus_]->planar().bounds();
   if (bounds.empty()) bounds = input_box(*session_->frame->input);  // it shows nothing
   render::Camera2D camera = render::Camera2D::fit(bounds, free, margin);
   camera.pan({0.0, (top - bottom) / 2});
@@ -260,8 +260,7 @@ bool Viewports::draw(ViewState& state, const Derived& derived, const Inspection&
   std::size_t elements = 0;
   for (std::size_t k = 0; k < count_; ++k)
     if (views_[k]->frame() != nullptr) elements += views_[k]->drawn_count();
-  const double detail = volume ? render::suggested_face_detail(elements, options_.software_renderer, true)
-                               : render::suggested_detail(elements, options_.software_renderer, true);
+  const double detail = views_[focus_]->scene().suggested_detail(elements, options_.software_renderer, true);
   bool refine = !turn.moving && !turn.live;
   for (std::size_t k = 0; k < count_; ++k) {
     PaneView& view = *views_[k];
@@ -317,7 +316,7 @@ std::optional<Vec3> Viewports::point_at(const ViewState& state, std::size_t pane
 }
 
 std::vector<Index> Viewports::vertices_near(const ViewState& state, std::size_t pane, Vec2<double> pixel, double radius) const {
-  return views_[pane]->scene().vertices_near(facts_[pane].camera, state.viewport, pixel, radius);
+  return views_[pane]->planar().vertices_near(facts_[pane].camera, state.viewport, pixel, radius);
 }
 
 bool Viewports::settled() const noexcept { return !loading_ && !refining_ && colours_settled(); }

@@ -85,7 +85,7 @@ class Viewports {
     fitted_orbit_.reset();
   }
   [[nodiscard]] std::span<const PaneFacts> facts() const noexcept { return facts_; }
-  /// See MeshScene.
+  /// See PlanarScene.
   [[nodiscard]] render::Pick pick(const ViewState& state, std::size_t pane, Vec2<double> pixel) const;
   /// The point of a volume mesh that is seen there; none where nothing is.
   [[nodiscard]] std::optional<Vec3> point_at(const ViewState& state, std::size_t pane, Vec2<double> pixel) const;

@@ -148,7 +148,7 @@ TEST_P(PtxText, KernelsAreWhole) {
   for (const EntryText& text : kernels->texts()) {
     const Entry entry = decode(text);
     const bool is_visit =
-        entry.name.find("bodies5Visit") != std::string::npos || entry.name.find("bodies10VisitSolid") != std::string::npos;
+        entry.name.find("bodies5Visit") != std::string::npos || entry.name.find("bodies11VisitVolume") != std::string::npos;
     visits += is_visit ? 1 : 0;
     EXPECT_GT(entry.code.size(), is_visit ? 500U : 10U) << entry.name;
     for (std::size_t i = 0; i < entry.code.size(); ++i)

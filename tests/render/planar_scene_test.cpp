@@ -1,9 +1,8 @@
-#include "render/scene.h"
-
 #include <limits>
 
 #include "fixture.h"
 #include "render/gl.h"
+#include "render/scene.h"
 
 namespace dmoscope::render {
 namespace {
@@ -260,12 +259,12 @@ TEST_F(WithContext, ErrorsNameTheCall) {
   }
 }
 
-TEST(SuggestedDetail, ReducesOnlyInSoftwareWhileMoving) {
-  EXPECT_EQ(suggested_detail(2'700'000, false, true), 1.0);
-  EXPECT_EQ(suggested_detail(2'700'000, true, false), 1.0);
-  EXPECT_EQ(suggested_detail(1'000, true, true), 1.0);
-  EXPECT_LT(suggested_detail(2'700'000, true, true), 0.1);
-  EXPECT_EQ(suggested_detail(0, true, true), 1.0);
+TEST_F(WithContext, SuggestsLessDetailOnlyInSoftwareWhileMoving) {
+  EXPECT_EQ(scene->suggested_detail(2'700'000, false, true), 1.0);
+  EXPECT_EQ(scene->suggested_detail(2'700'000, true, false), 1.0);
+  EXPECT_EQ(scene->suggested_detail(1'000, true, true), 1.0);
+  EXPECT_LT(scene->suggested_detail(2'700'000, true, true), 0.1);
+  EXPECT_EQ(scene->suggested_detail(0, true, true), 1.0);
 }
 
 }  // namespace

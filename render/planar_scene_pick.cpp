@@ -5,11 +5,12 @@
 
 #include "core/base/error.h"
 #include "render/labels.h"
-#include "render/scene_impl.h"
+#include "render/planar_scene_impl.h"
 
 namespace dmoscope::render {
 
-Pick MeshScene::pick(const Camera2D& camera, Vec2<double> viewport, Vec2<double> pixel, double radius) const {
+Pick PlanarScene::pick(const Camera& seen_from, Vec2<double> viewport, Vec2<double> pixel, double radius) const {
+  const Camera2D& camera = std::get<Camera2D>(seen_from);
   Pick result;
   Impl& s = *impl_;
   if (empty() || s.source == Source::Unreachable) return result;
@@ -50,7 +51,7 @@ Pick MeshScene::pick(const Camera2D& camera, Vec2<double> viewport, Vec2<double>
   return result;
 }
 
-std::vector<Index> MeshScene::vertices_near(const Camera2D& camera, Vec2<double> viewport, Vec2<double> pixel, double radius) const {
+std::vector<Index> PlanarScene::vertices_near(const Camera2D& camera, Vec2<double> viewport, Vec2<double> pixel, double radius) const {
   std::vector<Index> found;
   Impl& s = *impl_;
   if (empty() || s.source == Source::Unreachable) return found;
@@ -79,7 +80,7 @@ std::vector<Index> MeshScene::vertices_near(const Camera2D& camera, Vec2<double>
   return found;
 }
 
-std::optional<std::vector<Index>> MeshScene::elements_in_view(const Camera2D& camera, Vec2<double> viewport, std::size_t most) const {
+std::optional<std::vector<Index>> PlanarScene::elements_in_view(const Camera2D& camera, Vec2<double> viewport, std::size_t most) const {
   const Impl& s = *impl_;
   std::vector<Index> found;
   if (empty()) return found;
@@ -98,13 +99,13 @@ std::optional<std::vector<Index>> MeshScene::elements_in_view(const Camera2D& ca
 namespace {
 
 /// Where an element's label belongs, and how far that is from the nearest edge; nothing for an element that is too thin for words.
-struct Scratch {
+struct FreeSpace {
   Vec2<double> point;
   double radius = 0.0;
 };
 
-Scratch room_of(std::span<const Index> corners, std::span<const Vec2<double>> points) {
-  Scratch room{{0, 0}, INFINITY};
+FreeSpace room_of(std::span<const Index> corners, std::span<const Vec2<double>> points) {
+  FreeSpace room{{0, 0}, INFINITY};
   if (corners.size() == 3) {
     const Vec2<double> a = points[corners[0]], b = points[corners[1]], c = points[corners[2]];
     const auto length = [](Vec2<double> d) { return std::hypot(d.x, d.y); };
@@ -131,7 +132,8 @@ bool inside(const Bounds2& box, Vec2<double> point) {
 
 }  // namespace
 
-std::vector<Label> MeshScene::labels(const Camera2D& camera, Vec2<double> viewport, const LabelWish& wish) const {
+std::vector<Label> PlanarScene::labels(const Camera& seen_from, Vec2<double> viewport, const LabelWish& wish) const {
+  const Camera2D& camera = std::get<Camera2D>(seen_from);
   Impl& s = *impl_;
   constexpr Index kMostInView = 40'000;  // as blocks tell: few of them are looked at however big the mesh is
   if (empty() || s.source == Source::Unreachable || !(wish.vertices || wish.elements)) return {};
@@ -156,7 +158,7 @@ std::vector<Label> MeshScene::labels(const Camera2D& camera, Vec2<double> viewpo
         const auto corners = elements.corners_of(drawn);
         if (s.placement.layout().is_across(corners, points)) continue;
         if (wish.elements) {
-          const Scratch room = room_of(corners, points);
+          const FreeSpace room = room_of(corners, points);
           const double half = 0.5 * std::hypot(label_width(element, wish), wish.line_height);
           if (inside(window, room.point) && fits(half, room.radius)) labels.push_back({room.point, element, false});
         }

@@ -12,11 +12,11 @@
 #include "render/draw_order.h"
 #include "render/element_painter.h"
 #include "render/mark_painter.h"
-#include "render/scene.h"
+#include "render/planar_scene.h"
 
 namespace dmoscope::render {
 
-struct MeshScene::Impl {
+struct PlanarScene::Impl {
   Placement placement;
   bool placement_current = true;  // false: what is on show stands on a device, and the placement is an older one's
   Source source = Source::Host;

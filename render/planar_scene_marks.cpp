@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "core/base/error.h"
-#include "render/scene_impl.h"
+#include "render/planar_scene_impl.h"
 
 namespace dmoscope::render {
 namespace {
@@ -13,7 +13,7 @@ constexpr std::size_t kMostDots = 20'000;  // beyond, dots would hide the mesh a
 
 }  // namespace
 
-void MeshScene::Impl::outline(std::span<const Vec2<double>> corners, const Camera2D& camera, const Style& style) {
+void PlanarScene::Impl::outline(std::span<const Vec2<double>> corners, const Camera2D& camera, const Style& style) {
   for (const bool casing : {true, false}) {
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Vec2<double> a = place(corners[i], camera), b = place(corners[(i + 1) % corners.size()], camera);
@@ -23,7 +23,7 @@ void MeshScene::Impl::outline(std::span<const Vec2<double>> corners, const Camer
 }
 
 /// Marks of elements and vertices; their places are asked for all together.
-void MeshScene::Impl::gather_mesh_marks(const Camera2D& camera, const Style& style, const Marks& wanted) {
+void PlanarScene::Impl::gather_mesh_marks(const Camera2D& camera, const Style& style, const Marks& wanted) {
   const Layout& layout = placement.layout();
   std::vector<std::span<const Index>> shapes;  // outlined elements, and last the worst
   for (const Index e : wanted.elements) {
@@ -61,7 +61,7 @@ void MeshScene::Impl::gather_mesh_marks(const Camera2D& camera, const Style& sty
   }
 }
 
-void MeshScene::Impl::gather_marks(const Camera2D& camera, const Style& style, const Marks& wanted) {
+void PlanarScene::Impl::gather_marks(const Camera2D& camera, const Style& style, const Marks& wanted) {
   try {
     if (!placement.empty() && source != Source::Unreachable) gather_mesh_marks(camera, style, wanted);
   } catch (const DeviceError&) {  // unmarked; the next frame finds out what is the matter
@@ -74,7 +74,7 @@ void MeshScene::Impl::gather_marks(const Camera2D& camera, const Style& style, c
   }
 }
 
-void MeshScene::Impl::gather_vertices(const Camera2D& camera, const Style& style, const Bounds2& window) {
+void PlanarScene::Impl::gather_vertices(const Camera2D& camera, const Style& style, const Bounds2& window) {
   try {
     place_all();
   } catch (const DeviceError&) {  // no dots; the next frame finds out what is the matter

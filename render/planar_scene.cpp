@@ -1,4 +1,4 @@
-#include "render/scene.h"
+#include "render/planar_scene.h"
 
 #include <algorithm>
 #include <chrono>
@@ -10,7 +10,7 @@
 
 #include "core/base/error.h"
 #include "render/draw_state.h"
-#include "render/scene_impl.h"
+#include "render/planar_scene_impl.h"
 
 namespace dmoscope::render {
 namespace {
@@ -35,13 +35,13 @@ View make_view(const Layout& layout, const Camera2D& camera, Vec2<double> viewpo
 
 }  // namespace
 
-MeshScene::MeshScene() : impl_(std::make_unique<Impl>()) {}
-MeshScene::~MeshScene() = default;
-MeshScene::MeshScene(MeshScene&&) noexcept = default;
-MeshScene& MeshScene::operator=(MeshScene&&) noexcept = default;
+PlanarScene::PlanarScene() : impl_(std::make_unique<Impl>()) {}
+PlanarScene::~PlanarScene() = default;
+PlanarScene::PlanarScene(PlanarScene&&) noexcept = default;
+PlanarScene& PlanarScene::operator=(PlanarScene&&) noexcept = default;
 
 /// Whether the layout of the frame's mesh is on the OpenGL side now.
-bool MeshScene::Impl::prepare(const Frame& wanted, Loading loading) {
+bool PlanarScene::Impl::prepare(const Frame& wanted, Loading loading) {
   if (has_input && input_serial == wanted.input_serial && !placement.empty()) return true;
   const bool background = loading == Loading::Background && wanted.input->mesh.elements.size() > kBigMesh;
   if (!pending.valid() || pending_serial != wanted.input_serial) {
@@ -61,7 +61,7 @@ bool MeshScene::Impl::prepare(const Frame& wanted, Loading loading) {
   return true;
 }
 
-bool MeshScene::show(std::shared_ptr<const Frame> frame, Loading loading) {
+bool PlanarScene::show(std::shared_ptr<const Frame> frame, Loading loading) {
   Impl& s = *impl_;
   const bool ready = frame && s.prepare(*frame, loading);
   if (!ready) {
@@ -85,22 +85,22 @@ bool MeshScene::show(std::shared_ptr<const Frame> frame, Loading loading) {
   return true;
 }
 
-void MeshScene::draw_through_host(std::string why) { impl_->device.never_direct(std::move(why)); }
+void PlanarScene::draw_through_host(std::string why) { impl_->device.never_direct(std::move(why)); }
 
-void MeshScene::set_mesh(const Mesh& mesh, const Plane& plane) {
+void PlanarScene::set_mesh(const Mesh& mesh, const Plane& plane) {
   auto layout = build_layout(mesh, plane);
   impl_->adopt(std::move(layout));
   impl_->frame.reset();
   impl_->has_input = false;
 }
 
-void MeshScene::update(std::span<const Vec3> positions, std::span<const float> quality, std::span<const std::uint8_t> inverted) {
+void PlanarScene::update(std::span<const Vec3> positions, std::span<const float> quality, std::span<const std::uint8_t> inverted) {
   if (impl_->placement.empty()) throw UsageError("there is no mesh to update");
   impl_->upload(positions, quality, inverted);
 }
 
-void MeshScene::Impl::upload(std::span<const Vec3> positions, std::span<const float> quality,
-                             std::span<const std::uint8_t> inverted_flags) {
+void PlanarScene::Impl::upload(std::span<const Vec3> positions, std::span<const float> quality,
+                               std::span<const std::uint8_t> inverted_flags) {
   const Index count = placement.layout().element_count();
   if (quality.size() != count || (!inverted_flags.empty() && inverted_flags.size() != count)) {
     throw UsageError("as many qualities as the mesh has elements are needed");
@@ -122,7 +122,7 @@ void MeshScene::Impl::upload(std::span<const Vec3> positions, std::span<const fl
   ++revision;
 }
 
-void MeshScene::Impl::show_device(const Frame& light) {
+void PlanarScene::Impl::show_device(const Frame& light) {
   if (placement.bounds().empty()) placement.move(light.input->mesh.positions);  // something to fit the view to
   placement_current = false;
   const bool shown = device.show(light.device, elements, placement.layout());
@@ -130,7 +130,7 @@ void MeshScene::Impl::show_device(const Frame& light) {
   ++revision;
 }
 
-void MeshScene::Impl::place_all() {
+void PlanarScene::Impl::place_all() {
   if (placement_current) return;
   const DeviceFeed::HostCopy& copy = device.host_copy(placement.layout());
   placement.move(copy.points);
@@ -138,7 +138,7 @@ void MeshScene::Impl::place_all() {
   placement_current = true;
 }
 
-std::vector<Vec2<double>> MeshScene::Impl::points_of(std::span<const Index> vertices) const {
+std::vector<Vec2<double>> PlanarScene::Impl::points_of(std::span<const Index> vertices) const {
   std::vector<Vec2<double>> points;
   points.reserve(vertices.size());
   if (placement_current) {
@@ -150,18 +150,18 @@ std::vector<Vec2<double>> MeshScene::Impl::points_of(std::span<const Index> vert
 }
 
 /// Everything while nobody here knows where the elements are.
-std::vector<DrawRange> MeshScene::Impl::visible(std::size_t batch, const Bounds2& window) const {
+std::vector<DrawRange> PlanarScene::Impl::visible(std::size_t batch, const Bounds2& window) const {
   if (placement_current) return placement.visible(batch, window);
   const Index all = placement.layout().batches[batch].size();
   return all == 0 ? std::vector<DrawRange>{} : std::vector<DrawRange>{{0, all}};
 }
 
-void MeshScene::set_fixed(std::span<const std::uint8_t> fixed) {
+void PlanarScene::set_fixed(std::span<const std::uint8_t> fixed) {
   impl_->fixed.assign(fixed.begin(), fixed.end());
   ++impl_->revision;
 }
 
-void MeshScene::set_shading(std::shared_ptr<const Shading> shading) {
+void PlanarScene::set_shading(std::shared_ptr<const Shading> shading) {
   Impl& s = *impl_;
   if (s.shading == shading) return;
   if (shading) {
@@ -174,7 +174,7 @@ void MeshScene::set_shading(std::shared_ptr<const Shading> shading) {
   ++s.revision;
 }
 
-void MeshScene::set_selection(const Selection& selection) {
+void PlanarScene::set_selection(const Selection& selection) {
   Impl& s = *impl_;
   if (s.selection == selection) return;
   if (selection.members && selection.members->size() != element_count()) {
@@ -185,15 +185,15 @@ void MeshScene::set_selection(const Selection& selection) {
   ++s.revision;
 }
 
-std::uint64_t MeshScene::revision() const noexcept { return impl_->revision; }
+std::uint64_t PlanarScene::revision() const noexcept { return impl_->revision; }
 
-bool MeshScene::empty() const noexcept { return impl_->placement.empty() || impl_->placement.layout().element_count() == 0; }
-Index MeshScene::element_count() const noexcept { return impl_->placement.empty() ? 0 : impl_->placement.layout().element_count(); }
-const Bounds2& MeshScene::bounds() const noexcept { return impl_->placement.bounds(); }
-Source MeshScene::source() const noexcept { return impl_->source; }
-const std::string& MeshScene::device_trouble() const noexcept { return impl_->device.trouble(); }
+bool PlanarScene::empty() const noexcept { return impl_->placement.empty() || impl_->placement.layout().element_count() == 0; }
+Index PlanarScene::element_count() const noexcept { return impl_->placement.empty() ? 0 : impl_->placement.layout().element_count(); }
+const Bounds2& PlanarScene::bounds() const noexcept { return impl_->placement.bounds(); }
+Source PlanarScene::source() const noexcept { return impl_->source; }
+const std::string& PlanarScene::device_trouble() const noexcept { return impl_->device.trouble(); }
 
-MeshScene::Impl::InView MeshScene::Impl::in_view(const Bounds2& window) const {
+PlanarScene::Impl::InView PlanarScene::Impl::in_view(const Bounds2& window) const {
   InView seen{{visible(0, window), visible(1, window)}, 0};
   for (const auto& list : seen.ranges) {
     for (const DrawRange& range : list) seen.count += range.last - range.first;
@@ -201,12 +201,13 @@ MeshScene::Impl::InView MeshScene::Impl::in_view(const Bounds2& window) const {
   return seen;
 }
 
-void MeshScene::draw(Framebuffer& target, const Camera2D& camera, const Style& style, const Marks& marks, double detail) {
+void PlanarScene::draw(Framebuffer& target, const Camera2D& camera, const Style& style, const Marks& marks, double detail) {
   draw_elements(target, camera, style, detail);
   draw_marks(target, camera, style, marks);
 }
 
-bool MeshScene::draw_elements(Framebuffer& target, const Camera2D& camera, const Style& style, double detail) {
+bool PlanarScene::draw_elements(Framebuffer& target, const Camera& seen_from, const Style& style, double detail) {
+  const Camera2D& camera = std::get<Camera2D>(seen_from);
   const TargetGuard guard;
   clear(target, style);
   Impl& s = *impl_;
@@ -230,7 +231,8 @@ bool MeshScene::draw_elements(Framebuffer& target, const Camera2D& camera, const
   return stride <= 1;
 }
 
-bool MeshScene::draw_slice(Framebuffer& target, const Camera2D& camera, const Style& style, SliceProgress& progress, Index most) {
+bool PlanarScene::draw_slice(Framebuffer& target, const Camera& seen_from, const Style& style, SliceProgress& progress, Index most) {
+  const Camera2D& camera = std::get<Camera2D>(seen_from);
   const TargetGuard guard;
   if (!std::exchange(progress.begun, true)) clear(target, style);
   target.bind();
@@ -261,22 +263,37 @@ bool MeshScene::draw_slice(Framebuffer& target, const Camera2D& camera, const St
   return last;
 }
 
-void MeshScene::Impl::draw_over(const View& view, const Camera2D& camera, const Style& style, const Bounds2* vertices_of) {
+void PlanarScene::Impl::draw_over(const View& view, const Camera2D& camera, const Style& style, const Bounds2* vertices_of) {
   begin_marks();
   if (style.boundary) elements.draw_boundary(view, style);
   if (style.vertices && vertices_of != nullptr) gather_vertices(camera, style, *vertices_of);
   marks.flush(view, style.scale);
 }
 
-void MeshScene::draw_marks(Framebuffer& target, const Camera2D& camera, const Style& style, const Marks& marks) {
+void PlanarScene::draw_part(Framebuffer& target, const Camera& camera, const Style& style, const SceneMarks& marks, Vec2<double> viewport,
+                            const PicturePart& part) {
+  Camera2D of_part = std::get<Camera2D>(camera);
+  of_part.centre = of_part.to_plane({(part.low.x + part.high.x) / 2.0, (part.low.y + part.high.y) / 2.0}, viewport);
+  draw(target, of_part, style, std::get<Marks>(marks));
+}
+
+void PlanarScene::draw_marks(Framebuffer& target, const Camera& seen_from, const Style& style, const SceneMarks& marks) {
+  const Camera2D& camera = std::get<Camera2D>(seen_from);
   const TargetGuard guard;
   target.bind();
   Impl& s = *impl_;
   const Layout nothing;
   const View view = make_view(s.placement.empty() ? nothing : s.placement.layout(), camera, size_of(target), style.scale);
-  s.gather_marks(camera, style, marks);
+  s.gather_marks(camera, style, std::get<Marks>(marks));
   begin_marks();
   s.marks.flush(view, style.scale);
+}
+
+double PlanarScene::suggested_detail(std::size_t element_count, bool is_software, bool moving) const noexcept {
+  // Elements that llvmpipe on two cores draws as squares well within 100 ms.
+  constexpr double kAffordable = 150'000.0;
+  if (!is_software || !moving || element_count == 0) return 1.0;
+  return std::min(1.0, kAffordable / static_cast<double>(element_count));
 }
 
 }  // namespace dmoscope::render

@@ -151,27 +151,37 @@ void App::update_drawing() {
 }
 
 void App::notice_new_input() {
+  const MeshChange change = meshes_.follow(*session_);
   const Frame* frame = session_->frame.get();
-  const std::uint64_t serial = frame == nullptr ? 0 : frame->input_serial;
-  if (serial == seen_input_) return;
-  seen_input_ = serial;
-  const bool again = frame != nullptr && !frame->input->path.empty() && frame->input->path == seen_path_;
-  seen_path_ = frame == nullptr ? std::filesystem::path() : frame->input->path;
-  const bool same_ids = again && seen_sizes_ == std::pair{frame->vertex_count(), frame->element_count()};
-  seen_sizes_ = frame == nullptr ? std::pair<Index, Index>{} : std::pair{frame->vertex_count(), frame->element_count()};
-  if (!same_ids) {  // a file read again keeps what is picked and where one looks
-    state_.picked = {};
-    state_.inside = {};
-    state_.orbit.look_from(render::ViewPreset::Isometric);
+  if (change == MeshChange::None) return;
+  const bool stays = change == MeshChange::ReadAgain || change == MeshChange::Switched;  // what is picked and where one looks
+  if (!stays || !meshes_.same_ids()) {
+    state_.picked = change == MeshChange::Switched ? std::exchange(state_.pick_on_switch, {}) : Picked{};
     state_.selection.clear();
     state_.colouring.isolated.reset();  // a category of another mesh would leave nothing of this one
-    if (state_.colouring.by == ColourBy::Group && frame != nullptr && frame->input->mesh.groups.empty())
-      state_.colouring.by = ColourBy::Quality;
     state_.inspection.open = state_.inspection.playing = false;
   }
-  if (!again) state_.requests.fit = state_.requests.fit_all = true;
-  for (PlotView& plot : state_.plots) plot.x_range = plot.y_range = {};
-  if (frame != nullptr && !frame->input->path.empty()) remember_file(state_, frame->input->path.string());
+  if (state_.colouring.by == ColourBy::Group && frame != nullptr && frame->input->mesh.groups.empty())
+    state_.colouring.by = ColourBy::Quality;
+  state_.pick_on_switch = {};
+  if (change == MeshChange::Opened || (change == MeshChange::ReadAgain && !meshes_.same_ids())) {
+    state_.inside = {};
+    state_.orbit.look_from(render::ViewPreset::Isometric);
+  }
+  if (change == MeshChange::Beside) show_beside();
+  if (!stays) state_.requests.fit = state_.requests.fit_all = true;
+  if (change != MeshChange::Switched)
+    for (PlotView& plot : state_.plots) plot.x_range = plot.y_range = {};
+  if (!stays && frame != nullptr && !frame->input->path.empty()) remember_file(state_, frame->input->path.string());
+}
+
+/// Meshes that lie at the same place are looked at under one camera, others each under its own.
+void App::show_beside() {
+  if (state_.panes.one()) state_.set_layout(PaneLayout::Two);
+  state_.follow(*session_);  // which mesh comes into which viewport
+  if (state_.is_volume) return;
+  const auto alike = [&](const InputView& mesh) { return cover_alike(*mesh.input, *session_->input); };
+  if (!std::ranges::all_of(session_->meshes, alike)) state_.link_cameras(false);
 }
 
 /// Of several viewports the colour bar has a place of its own below them, of one it lies on the mesh.

@@ -12,6 +12,7 @@
 #include "render/screenshot.h"
 #include "ui/commands/view_commands.h"
 #include "ui/panels/panels.h"
+#include "ui/state/mesh_change.h"
 #include "ui/state/view_state.h"
 #include "ui/toolkit/file_watch.h"
 #include "ui/viewports/viewports.h"
@@ -96,6 +97,7 @@ class App {
   void update_backend();
   void update_drawing();
   void notice_new_input();
+  void show_beside();
   void update_derived();
   double play_on(bool busy, double now);
   [[nodiscard]] std::vector<Rect> pane_places(PanelContext& context, const Rect& rect);
@@ -132,10 +134,9 @@ class App {
   std::optional<Theme> styled_theme_;
   double busy_since_ = -1.0, last_draw_ = -1.0, frame_interval_ = 0.0;
   double redraw_in_ = 0.0;
-  std::uint64_t seen_input_ = 0, seen_restored_ = 0;
-  std::filesystem::path seen_path_;
-  std::pair<Index, Index> seen_sizes_;  // vertices and elements
-  std::unique_ptr<FileWatch> watch_;    // last: it wakes others
+  std::uint64_t seen_restored_ = 0;
+  MeshWatch meshes_;
+  std::unique_ptr<FileWatch> watch_;  // last: it wakes others
 };
 
 }  // namespace dmoscope::ui

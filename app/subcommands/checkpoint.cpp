@@ -51,7 +51,7 @@ void refuse_another_run(const Run& run, RunParameters wanted, const std::filesys
 Run& begin_run(Session& session, const std::shared_ptr<const InputMesh>& input, const RunParameters& parameters,
                const CheckpointOptions& options, Progress& progress) {
   if (options.resume.empty()) {
-    session.replace(input, {session.make_run(input, parameters)}, 0, parameters.metric);
+    session.replace({session.make_run(input, parameters)}, 0, parameters.metric);
     return session.active();
   }
   if (const std::string note = open_state(options.resume, session, progress, input); !note.empty())

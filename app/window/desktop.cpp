@@ -46,9 +46,11 @@ Desktop::Desktop(const WindowOptions& options)
   });
   const render::Extent size = window_->framebuffer_size();
   state.window_size = {size.width, size.height};
-  const auto open = [this](const std::filesystem::path& file) { app_.submit(ui::open_command(file.string())); };
-  window_->on_drop([open](const std::vector<std::filesystem::path>& files) { std::for_each(files.begin(), files.end(), open); });
-  std::for_each(options_.files.begin(), options_.files.end(), open);
+  const auto open = [this](const std::vector<std::filesystem::path>& files) {
+    for (const std::string& command : ui::open_commands(files)) app_.submit(command);
+  };
+  window_->on_drop(open);
+  open(options_.files);
 }
 
 Desktop::~Desktop() {

@@ -9,7 +9,7 @@
 namespace dmoscope::app {
 
 struct WindowOptions {
-  std::vector<std::filesystem::path> files;  // opened at the start, the last one stays
+  std::vector<std::filesystem::path> files;  // opened at the start, beside each other
   unsigned threads = 0;                      // of the smoothing; 0: one a hardware thread
   Backend backend = Backend::Auto;           // of the first run
   double scale = 0.0;                        // of the interface; 0: as saved, else as the monitor says

@@ -27,6 +27,12 @@ void open(CommandContext& context, Arguments arguments) {
   tell_report(context);
 }
 
+void open_beside(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  context.session.open_beside(std::filesystem::path(arguments[0]), context.progress);
+  tell_report(context);
+}
+
 void reload(CommandContext& context, Arguments arguments) {
   require(arguments, 0, 0);
   const std::string note = context.session.reload(context.progress);
@@ -60,8 +66,10 @@ void write_stats(CommandContext& context, Arguments arguments) {
   std::vector<const std::vector<IterationRecord>*> records;
   (void)context.session.active();
   context.session.require_not_read(arguments[0], "stats");
+  const bool several = context.session.inputs().size() > 1;
   for (std::size_t i = 0; i < context.session.run_count(); ++i) {
-    titles.push_back(stats_label(context.session.run(i).parameters()));
+    const std::string label = stats_label(context.session.run(i).parameters());
+    titles.push_back(several ? fmt::format("{}:{}", context.session.run(i).input().mesh.name, label) : label);
     records.push_back(&context.session.run(i).history().records());
   }
   std::vector<SharedVector<Percentiles>> percentiles;
@@ -107,7 +115,8 @@ void open_session(CommandContext& context, Arguments arguments) {
 std::span<const CommandRow> file_commands() {
   static const std::vector<CommandRow> table{
       {{"open", "open FILE", "Opens a mesh and starts a run on it."}, open},
-      {{"reload", "reload", "Reads the mesh's file again; the runs keep their parameters and start anew."}, reload},
+      {{"open-beside", "open-beside FILE", "Opens a mesh beside those that are open, and starts a run on it."}, open_beside},
+      {{"reload", "reload", "Reads the active mesh's file again; its runs keep their parameters and start anew."}, reload},
       {{"generate", "generate KIND [SIZE [SEED]]", "Makes a sample mesh and starts a run on it."}, generate},
       {{"export", "export FILE", "Writes the active run's mesh; the extension chooses the format."}, export_mesh},
       {{"save-state", "save-state FILE [VIEW-JSON]", "Saves mesh, runs and where they stand; the view goes along."}, save_session},

@@ -73,6 +73,7 @@ class Run {
   [[nodiscard]] std::uint64_t id() const noexcept { return id_; }
   void set_id(std::uint64_t id) noexcept { id_ = id; }
   [[nodiscard]] const InputMesh& input() const noexcept { return *input_; }
+  [[nodiscard]] const std::shared_ptr<const InputMesh>& shared_input() const noexcept { return input_; }
   [[nodiscard]] const RunParameters& parameters() const noexcept { return parameters_; }
   [[nodiscard]] std::string title() const;  // "dmo · mean-ratio"
   /// The iteration at whose end the phase that raises the mean begins, where there is one and as far as is known.

@@ -49,7 +49,7 @@ bool Endings::find_hint(Session& session, const std::function<bool()>& go_on) {
   known.tried = true;
   Progress unwatched;
   try {
-    auto hint = untangling_hint(session.run(active), session.input(), session.pool(), unwatched, go_on);
+    auto hint = untangling_hint(session.run(active), session.run(active).shared_input(), session.pool(), unwatched, go_on);
     if (!hint) return false;
     known.ending = std::make_shared<const RunEnding>(RunEnding{known.ending->left, std::move(hint)});
   } catch (const Cancelled&) {

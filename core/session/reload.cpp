@@ -1,5 +1,7 @@
 // Reading the mesh's file again.
 
+#include <algorithm>
+#include <string_view>
 #include <vector>
 
 #include "core/base/error.h"
@@ -8,31 +10,45 @@
 namespace dmoscope {
 
 std::string Session::reload(Progress& progress) {
-  if (input()->path.empty()) throw UsageError("this mesh was made here: there is no file to read again");
-  std::vector<RunParameters> parameters;
-  std::vector<std::uint64_t> ids;
-  for (const auto& run : runs_) {
-    parameters.push_back(run->parameters());
-    ids.push_back(run->id());
-  }
-  const std::size_t was_active = active_index();
-  auto fresh = load_input(input()->path, Need::Smoothing, reading(progress));
+  const std::shared_ptr<const InputMesh> stale = input();
+  if (stale->path.empty()) throw UsageError("this mesh was made here: there is no file to read again");
+  const auto fresh = load_input(stale->path, Need::Smoothing, reading(progress));
+  const bool same_vertices = fresh->mesh.vertex_count() == stale->mesh.vertex_count();
   std::string note;
-  if (fresh->mesh.vertex_count() != input()->mesh.vertex_count()) {
-    for (RunParameters& one : parameters) {
-      if (!one.fixed.empty()) note = "the file has another number of vertices now: what was fixed by hand is free again";
-      one.fixed.clear();
+  const auto add_note = [&note](std::string_view sentence) {
+    if (note.find(sentence) == std::string::npos) note += (note.empty() ? "" : "; ") + std::string(sentence);
+  };
+  std::vector<std::shared_ptr<Run>> runs;
+  std::size_t active = 0;
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    std::shared_ptr<Run> run = runs_[i];
+    if (run->shared_input() == stale) {
+      RunParameters parameters = run->parameters();
+      if (!same_vertices && !parameters.fixed.empty()) {
+        add_note("the file has another number of vertices now: what was fixed by hand is free again");
+        parameters.fixed.clear();
+      }
+      try {
+        run = make_run(fresh, std::move(parameters));
+        run->set_id(runs_[i]->id());
+      } catch (const UsageError& error) {  // such as a metric that is not defined for the elements of now
+        add_note(error.what());
+        continue;
+      }
     }
+    if (i <= active_) active = runs.size();
+    runs.push_back(std::move(run));
   }
-  replace_input(std::move(fresh));  // with one fresh run; may throw, with nothing replaced yet
-  for (std::size_t k = 0; k < parameters.size(); ++k) {
-    try {
-      runs_[k == 0 ? change(parameters[k]) : add_run(parameters[k])]->set_id(ids[k]);
-    } catch (const UsageError& error) {  // such as a metric that is not defined for the elements of now
-      note += (note.empty() ? "" : "; ") + std::string(error.what());
-    }
+  const bool none_left = std::ranges::none_of(runs, [&](const auto& run) { return run->shared_input() == fresh; });
+  if (none_left) {
+    runs.push_back(first_run(fresh));
+    runs.back()->set_id(++last_id_);
+    active = runs.size() - 1;
   }
-  select(std::min(was_active, run_count() - 1));
+  read_files_.add(fresh->mesh, fresh->path);
+  runs_ = std::move(runs);
+  activate(active);
+  share_history();
   return note;
 }
 

@@ -7,6 +7,14 @@
 
 namespace dmoscope {
 
+namespace {
+
+bool defined_for_all(Metric metric, const Mesh& mesh) {
+  return std::ranges::all_of(mesh.elements.kinds(), [&](ElementKind kind) { return info(metric).defined_for(kind); });
+}
+
+}  // namespace
+
 Session::Session(unsigned threads, Acceleration acceleration, Backend backend)
     : pool_(std::make_shared<ThreadPool>(threads)), acceleration_(std::move(acceleration)), backend_(backend) {}
 
@@ -24,13 +32,13 @@ std::shared_ptr<Run> Session::make_run(std::shared_ptr<const InputMesh> input, R
   return run;
 }
 
-void Session::replace(std::shared_ptr<const InputMesh> input, std::vector<std::shared_ptr<Run>> runs, std::size_t active, Metric shown) {
-  input_ = std::move(input);
-  if (!input_->path.empty()) read_files_.add(input_->mesh, input_->path);
+void Session::replace(std::vector<std::shared_ptr<Run>> runs, std::size_t active, Metric shown) {
   runs_ = std::move(runs);
-  active_ = active;
-  shown_ = shown;
+  for (const auto& input : inputs())
+    if (!input->path.empty()) read_files_.add(input->mesh, input->path);
   for (const auto& run : runs_) run->set_id(++last_id_);
+  activate(active);
+  shown_ = shown;
   share_history();
 }
 
@@ -39,26 +47,53 @@ void Session::restore_view(std::string json) {
   ++restored_views_;
 }
 
-void Session::replace_input(std::shared_ptr<const InputMesh> input) {
+std::shared_ptr<Run> Session::first_run(const std::shared_ptr<const InputMesh>& input) const {
   RunParameters parameters{.backend = backend_};
   if (!runs_.empty()) {
     parameters = runs_[active_]->parameters();
     parameters.fixed.clear();
     parameters.interfaces = InterfaceRule::Fixed;  // who freed those of one mesh has not seen the next one's
   }
-  const auto usable = [&mesh = input->mesh](Metric metric) {  // not `input`: it is moved from below
-    return std::ranges::all_of(mesh.elements.kinds(), [&](ElementKind kind) { return info(metric).defined_for(kind); });
-  };
-  if (!usable(parameters.metric)) parameters.metric = Metric::MeanRatio;
-  parameters.combination.reset();          // its point, its field and its threshold are of the mesh before
-  auto run = make_run(input, parameters);  // may throw: nothing has been replaced yet
-  input_ = std::move(input);
-  if (!input_->path.empty()) read_files_.add(input_->mesh, input_->path);
+  if (!defined_for_all(parameters.metric, input->mesh)) parameters.metric = Metric::MeanRatio;
+  parameters.combination.reset();  // its point, its field and its threshold are of the mesh before
+  return make_run(input, std::move(parameters));
+}
+
+void Session::replace_input(std::shared_ptr<const InputMesh> input) {
+  auto run = first_run(input);  // may throw: nothing has been replaced yet
+  if (!input->path.empty()) read_files_.add(input->mesh, input->path);
   run->set_id(++last_id_);
   runs_.clear();
   runs_.push_back(std::move(run));
-  active_ = 0;
-  if (!usable(shown_)) shown_ = parameters.metric;
+  activate(0);
+}
+
+void Session::open_beside(const std::filesystem::path& path, Progress& progress) {
+  auto input = load_input(path, Need::Smoothing, reading(progress));
+  if (!has_input()) return replace_input(std::move(input));
+  if (const bool volume = input_->is_volume(); input->is_volume() != volume)
+    throw UsageError(fmt::format("{} is a {} mesh, and cannot be shown beside a {} one: open it by itself", input->mesh.name,
+                                 volume ? "planar" : "volume", volume ? "volume" : "planar"));
+  auto run = first_run(input);
+  if (!input->path.empty()) read_files_.add(input->mesh, input->path);
+  run->set_id(++last_id_);
+  runs_.push_back(std::move(run));
+  activate(runs_.size() - 1);
+  share_history();
+}
+
+/// Makes a run the active one. The metric that is shown stays where its mesh has it.
+void Session::activate(std::size_t index) {
+  active_ = index;
+  input_ = runs_[index]->shared_input();
+  if (!defined_for_all(shown_, input_->mesh)) shown_ = runs_[index]->parameters().metric;
+}
+
+std::vector<std::shared_ptr<const InputMesh>> Session::inputs() const {
+  std::vector<std::shared_ptr<const InputMesh>> inputs;
+  for (const auto& run : runs_)
+    if (std::ranges::find(inputs, run->shared_input()) == inputs.end()) inputs.push_back(run->shared_input());
+  return inputs;
 }
 
 const std::shared_ptr<const InputMesh>& Session::input() const {
@@ -79,13 +114,13 @@ std::optional<std::size_t> Session::place_of(std::uint64_t id) const {
 
 void Session::select(std::size_t index) {
   (void)run(index);
-  active_ = index;
+  activate(index);
 }
 
 std::size_t Session::add_run(RunParameters parameters) {
   runs_.push_back(make_run(input(), std::move(parameters)));
   runs_.back()->set_id(++last_id_);
-  active_ = runs_.size() - 1;
+  activate(runs_.size() - 1);
   share_history();
   return active_;
 }
@@ -94,7 +129,7 @@ void Session::remove_run(std::size_t index) {
   (void)run(index);
   if (runs_.size() == 1) throw UsageError("the last run cannot be removed");
   runs_.erase(runs_.begin() + static_cast<std::ptrdiff_t>(index));
-  if (active_ > index || active_ == runs_.size()) --active_;
+  activate(active_ > index || active_ == runs_.size() ? active_ - 1 : active_);
   share_history();
 }
 

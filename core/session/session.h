@@ -1,5 +1,5 @@
 #pragma once
-// A session: one input mesh and the runs on it. Plain state; engine.h gives it a thread of its own.
+// A session: meshes and the runs on them. Plain state; engine.h gives it a thread of its own.
 
 #include <cstddef>
 #include <filesystem>
@@ -28,17 +28,20 @@ class Session {
   void open(Mesh mesh, Progress& progress);
   /// The same with a sample, see generate_input.
   void generate(const std::string& words, Progress& progress);
-  /// The same with runs of their own, at least one.
-  void replace(std::shared_ptr<const InputMesh> input, std::vector<std::shared_ptr<Run>> runs, std::size_t active, Metric shown);
+  /// Opens another mesh beside those that are open, with a fresh run on it, which becomes the active one. On any error the session stays as
+  /// it was. The first mesh is opened as open() does it. Throws UsageError for a planar mesh beside a volume one, and the reverse.
+  void open_beside(const std::filesystem::path& path, Progress& progress);
+  /// The same with these runs, at least one, and their meshes.
+  void replace(std::vector<std::shared_ptr<Run>> runs, std::size_t active, Metric shown);
   /// A run with this session's threads and devices, which is none of its runs.
   [[nodiscard]] std::shared_ptr<Run> make_run(std::shared_ptr<const InputMesh> input, RunParameters parameters) const;
   /// JSON that whoever shows the session saved with it, to be shown again; and how often there was some.
   void restore_view(std::string json);
   [[nodiscard]] const std::string& restored_view() const noexcept { return restored_view_; }
   [[nodiscard]] std::uint64_t restored_views() const noexcept { return restored_views_; }
-  /// Reads the mesh's file again: fresh runs with the parameters that the runs have. Returns what could not be kept (such as vertices fixed
-  /// by hand, when there is another number of them now), else nothing. Throws UsageError for a mesh without a file; on any error the
-  /// session stays as it was.
+  /// Reads the file of the active run's mesh again: fresh runs with the parameters that its runs have. Returns what could not be kept (such
+  /// as vertices fixed by hand, when there is another number of them now), else nothing. Throws UsageError for a mesh without a file; on
+  /// any error the session stays as it was.
   [[nodiscard]] std::string reload(Progress& progress);
   /// Throws UsageError when `command` would write over a mesh that was opened in this session.
   void require_not_read(const std::filesystem::path& target, std::string_view command) const {
@@ -49,8 +52,10 @@ class Session {
   /// How files are read for this session.
   [[nodiscard]] IoContext reading(Progress& progress) const { return {progress, nullptr, most_memory_}; }
   [[nodiscard]] bool has_input() const noexcept { return input_ != nullptr; }
-  /// Throws UsageError "no mesh is open".
+  /// The active run's mesh. Throws UsageError "no mesh is open".
   [[nodiscard]] const std::shared_ptr<const InputMesh>& input() const;
+  /// The meshes that are open, in the order of their first runs.
+  [[nodiscard]] std::vector<std::shared_ptr<const InputMesh>> inputs() const;
 
   [[nodiscard]] std::size_t run_count() const noexcept { return runs_.size(); }
   [[nodiscard]] Run& run(std::size_t index);
@@ -61,7 +66,7 @@ class Session {
   [[nodiscard]] std::size_t active_index() const noexcept { return active_; }
   [[nodiscard]] Run& active() { return run(active_); }
   void select(std::size_t index);
-  /// Adds a run and makes it active; returns its index.
+  /// Adds a run on the active run's mesh and makes it active; returns its index.
   std::size_t add_run(RunParameters parameters);
   /// Removes a run; the last one cannot be removed (UsageError).
   void remove_run(std::size_t index);
@@ -93,7 +98,9 @@ class Session {
   [[nodiscard]] const std::shared_ptr<ThreadPool>& pool() const noexcept { return pool_; }
 
  private:
+  [[nodiscard]] std::shared_ptr<Run> first_run(const std::shared_ptr<const InputMesh>& input) const;
   void replace_input(std::shared_ptr<const InputMesh> input);
+  void activate(std::size_t index);
   void share_history();
   void go_to(const SessionPoint& point, bool with_shown, Progress& progress);
   void rest_retired_runs();
@@ -102,7 +109,7 @@ class Session {
   Acceleration acceleration_;
   Backend backend_;
   std::size_t history_bytes_ = kDefaultHistoryBytes;
-  std::shared_ptr<const InputMesh> input_;
+  std::shared_ptr<const InputMesh> input_;  // of the active run
   std::vector<std::shared_ptr<Run>> runs_;
   std::function<void(const Run&)> observer_;
   std::size_t active_ = 0;

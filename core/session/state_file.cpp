@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -25,7 +26,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kSessionFormat = "dmoscope session";
-constexpr int kVersion = 2;  // 1: without checksums but that of the mesh
+constexpr int kVersion = 3;  // 1: without checksums but that of the mesh; 3: several meshes
+constexpr int kVersionOfOneMesh = 2;
 
 /// Of positions and elements.
 std::string checksum(const Mesh& mesh) {
@@ -207,7 +209,8 @@ std::string packed_start(Run& run, Progress& progress) {
   return text;
 }
 
-Json json_of(Run& run, Progress& progress) {
+/// `mesh`: the place of its mesh among several.
+Json json_of(Run& run, std::optional<std::ptrdiff_t> mesh, Progress& progress) {
   Json edits = Json::array();
   for (const Edit& edit : run.edits().all()) edits.push_back({{"at", json_of(edit.at)}, {"vertices", edit.vertices}});
   Json records = Json::array();
@@ -216,6 +219,7 @@ Json json_of(Run& run, Progress& progress) {
   if (run.moment().iteration > 0) json["positions"] = packed_start(run, progress);
   json["standing"] = standing_mark(run.input(), run.parameters().interfaces);
   if (const std::string size = size_mark(run.input(), run.size_field().get()); !size.empty()) json["size"] = size;
+  if (mesh) json["mesh"] = *mesh;
   json["checksums"] = checksums_of(json);
   return json;
 }
@@ -301,8 +305,28 @@ std::vector<DataMark> to_data_marks(const Json& input) {
   return marks;
 }
 
-struct Opened {
+struct OpenedMesh {
   std::shared_ptr<const InputMesh> input;
+  std::vector<DataMark> data;
+};
+
+/// The meshes of a saved session: one as "input", several as "inputs". `input`: see open_state().
+std::vector<OpenedMesh> to_meshes(const Json& json, const std::filesystem::path& path, const IoContext& context,
+                                  const std::shared_ptr<const InputMesh>& input) {
+  if (!json.contains("inputs")) return {{to_input(json.at("input"), path, context, input), to_data_marks(json.at("input"))}};
+  if (input) throw UsageError("this session has several meshes, where one of a single mesh is expected");
+  const Json& described = json.at("inputs");
+  if (!described.is_array() || described.empty()) throw UsageError("the session has no meshes");
+  std::vector<OpenedMesh> meshes;
+  for (const Json& mesh : described) {
+    meshes.push_back({to_input(mesh, path, context, nullptr), to_data_marks(mesh)});
+    if (meshes.back().input->is_volume() != meshes.front().input->is_volume())
+      throw UsageError("its meshes are planar and volume ones, which cannot be shown beside each other");
+  }
+  return meshes;
+}
+
+struct Opened {
   std::vector<std::shared_ptr<Run>> runs;
   std::size_t active = 0;
   Metric shown = Metric::MeanRatio;
@@ -321,14 +345,15 @@ Opened to_session(const Json& json, const std::filesystem::path& path, const Ses
   const bool checked = version > 1 || json.contains("checksums");
   if (!checked) opened.note = "this session was saved without checksums: damage to it may go unnoticed; save it again to have them";
   if (checked && !check_parts(json, "")) opened.note = "the view was changed since the session was saved";
-  opened.input = to_input(json.at("input"), path, session.reading(progress), input);
-  const std::vector<DataMark> data = to_data_marks(json.at("input"));
+  const std::vector<OpenedMesh> meshes = to_meshes(json, path, session.reading(progress), input);
   const Json& runs = json.at("runs");
   if (!runs.is_array() || runs.empty()) throw UsageError("the session has no runs");
   for (const Json& run : runs) {
     progress.check();
     if (checked) (void)check_parts(run, fmt::format("run {}", opened.runs.size() + 1));
-    opened.runs.push_back(to_run(run, session, opened.input, data, progress));
+    const std::uint64_t mesh = run.contains("mesh") ? to_whole(run.at("mesh")) : 0;
+    if (mesh >= meshes.size()) throw UsageError(fmt::format("a run is on mesh {}, but there are {}", mesh, meshes.size()));
+    opened.runs.push_back(to_run(run, session, meshes[mesh].input, meshes[mesh].data, progress));
   }
   opened.active = to_whole(json.at("active"));
   if (opened.active >= runs.size()) throw UsageError(fmt::format("run {} is active, but there are {}", opened.active, runs.size()));
@@ -356,8 +381,10 @@ Json parse(std::string_view text, const std::string& file) {
 
 }  // namespace
 
-void save_state(const std::filesystem::path& path, Session& session, const std::string& view, Progress& progress) {
-  const InputMesh& input = *session.input();
+namespace {
+
+/// What a session says of a mesh, to find it again. Throws UsageError for one that cannot be found again.
+Json json_of(const InputMesh& input) {
   Json source{{"vertices", input.mesh.vertex_count()}, {"elements", input.mesh.elements.size()}, {"checksum", checksum(input.mesh)}};
   source["single"] = input.mesh.single_precision;
   // To be able to say what it was where other vertices keep their place one day.
@@ -369,10 +396,26 @@ void save_state(const std::filesystem::path& path, Session& session, const std::
   } else {
     throw UsageError("this mesh came from no file and no generator: export it and open it first");
   }
-  Json json{{"format", kSessionFormat}, {"version", kVersion}, {"input", source}, {"runs", Json::array()}};
+  return source;
+}
+
+}  // namespace
+
+void save_state(const std::filesystem::path& path, Session& session, const std::string& view, Progress& progress) {
+  (void)session.input();  // there is one
+  const auto inputs = session.inputs();
+  const bool several = inputs.size() > 1;
+  Json json{{"format", kSessionFormat}, {"version", several ? kVersion : kVersionOfOneMesh}};
+  if (several) {
+    for (const auto& input : inputs) json["inputs"].push_back(json_of(*input));
+  } else {
+    json["input"] = json_of(*inputs.front());
+  }
+  json["runs"] = Json::array();
   for (std::size_t i = 0; i < session.run_count(); ++i) {
     progress.check();
-    json["runs"].push_back(json_of(session.run(i), progress));
+    const auto mesh = std::ranges::find(inputs, session.run(i).shared_input()) - inputs.begin();
+    json["runs"].push_back(json_of(session.run(i), several ? std::optional(mesh) : std::nullopt, progress));
   }
   json["active"] = session.active_index();
   json["shown"] = info(session.shown()).name;
@@ -403,7 +446,7 @@ std::string open_state(const std::filesystem::path& path, Session& session, Prog
   } catch (const UsageError& error) {
     throw InputError(file, 0, error.what());
   }
-  session.replace(std::move(opened.input), std::move(opened.runs), opened.active, opened.shown);
+  session.replace(std::move(opened.runs), opened.active, opened.shown);
   session.restore_view(std::move(opened.view));
   return opened.note;
 }

@@ -33,7 +33,7 @@ bool SessionPoint::same_state(const SessionPoint& other) const {
   const auto same = [](const Standing& a, const Standing& b) {
     return a.run == b.run && a.point.moment == b.point.moment && a.point.path == b.point.path;
   };
-  return input == other.input && std::equal(runs.begin(), runs.end(), other.runs.begin(), other.runs.end(), same);
+  return std::equal(runs.begin(), runs.end(), other.runs.begin(), other.runs.end(), same);
 }
 
 void UndoStack::record(std::string label, const SessionPoint& before, const SessionPoint& after) {
@@ -62,11 +62,13 @@ void UndoStack::bound(const SessionPoint& now) {
 }
 
 std::size_t UndoStack::retired_inputs(const SessionPoint& now) const {
-  std::vector<std::shared_ptr<const InputMesh>> inputs;
+  std::vector<std::shared_ptr<const InputMesh>> open, retired;
+  for (const SessionPoint::Standing& standing : now.runs) add_new(open, standing.run->shared_input());
   for_points(entries_, [&](const SessionPoint& point) {
-    if (point.input != now.input) add_new(inputs, point.input);
+    for (const SessionPoint::Standing& standing : point.runs)
+      if (std::ranges::find(open, standing.run->shared_input()) == open.end()) add_new(retired, standing.run->shared_input());
   });
-  return inputs.size();
+  return retired.size();
 }
 
 std::vector<std::shared_ptr<Run>> UndoStack::retired_runs(const SessionPoint& now) const {

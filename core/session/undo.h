@@ -12,18 +12,18 @@
 
 namespace dmoscope {
 
-/// Where a session stands. Keeps its runs and its mesh alive.
+/// Where a session stands. Keeps its runs and their meshes alive.
 struct SessionPoint {
   struct Standing {
     std::shared_ptr<Run> run;
     RunSnapshot point;
   };
-  std::shared_ptr<const InputMesh> input;
+  std::shared_ptr<const InputMesh> input;  // of the active run; null: no mesh is open
   std::vector<Standing> runs;
   std::size_t active = 0;
   Metric shown = Metric::MeanRatio;
 
-  /// Whether mesh, runs and their moments are the same; which run is active and what is shown does not count.
+  /// Whether runs and their moments are the same; which run is active and what is shown does not count.
   [[nodiscard]] bool same_state(const SessionPoint& other) const;
 };
 

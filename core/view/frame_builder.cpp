@@ -31,6 +31,7 @@ bool take_picture(Frame& frame, const Run& run) {
 RunView view_of(Run& run, bool percentiles) {
   RunView view;
   view.id = run.id();
+  view.input = run.shared_input();
   view.title = run.title();
   view.parameters = run.parameters();
   view.backend = run.backend();
@@ -58,7 +59,7 @@ RunView view_of(Run& run, bool percentiles) {
 Frame judged(Session& session, std::size_t index) {
   const Run& run = session.run(index);
   Frame frame;
-  frame.input = session.input();
+  frame.input = run.shared_input();
   frame.moment = run.moment();
   frame.shown = session.shown();
   frame.positions.assign(run.positions().begin(), run.positions().end());
@@ -66,14 +67,19 @@ Frame judged(Session& session, std::size_t index) {
   return frame;
 }
 
-void FrameBuilder::refresh_input(Session& session) {
-  const Metric shown = session.shown();
-  const bool same_input = input_ == session.input();
-  if (same_input && before_metric_ == shown && input_serial_ > 0) return;
-  if (!same_input) ++input_serial_;
-  input_ = session.input();
-  before_metric_ = shown;
-  before_ = histogram_of(*input_, shown, session.pool().get());
+const FrameBuilder::InputFacts& FrameBuilder::facts_of(Session& session, const std::shared_ptr<const InputMesh>& input) {
+  auto facts = std::ranges::find(inputs_, input, &InputFacts::input);
+  const bool known = facts != inputs_.end();
+  if (!known) {
+    const auto open = session.inputs();
+    std::erase_if(inputs_, [&](const InputFacts& one) { return std::ranges::find(open, one.input) == open.end(); });
+    inputs_.push_back({input, ++input_serial_, session.shown(), {}});
+    facts = inputs_.end() - 1;
+  }
+  if (known && facts->metric == session.shown()) return *facts;
+  facts->metric = session.shown();
+  facts->before = histogram_of(*input, facts->metric, session.pool().get());
+  return *facts;
 }
 
 bool FrameBuilder::FrameKey::is(const FrameKey& other) const {
@@ -93,8 +99,14 @@ FrameBuilder::FrameKey FrameBuilder::key_of(Session& session, std::size_t index,
   return key;
 }
 
-FrameBuilder::Known* FrameBuilder::find(const Session& session, const FrameKey& key) {
-  const auto at = std::ranges::find_if(known_, [&](const Known& one) { return one.frame->input == session.input() && key.is(one.key); });
+/// The mesh that frames with this key are of.
+const std::shared_ptr<const InputMesh>& FrameBuilder::input_of(Session& session, const FrameKey& key) {
+  return key.index == Frame::kNoRun ? session.input() : session.run(key.index).shared_input();
+}
+
+FrameBuilder::Known* FrameBuilder::find(Session& session, const FrameKey& key) {
+  const auto& input = input_of(session, key);
+  const auto at = std::ranges::find_if(known_, [&](const Known& one) { return one.frame->input == input && key.is(one.key); });
   if (at == known_.end()) return nullptr;
   at->wanted = true;
   return &*at;
@@ -108,15 +120,15 @@ std::shared_ptr<const Frame> FrameBuilder::keep(FrameKey key, std::shared_ptr<co
 
 /// A frame that lacks nothing but its positions and what they tell.
 std::shared_ptr<Frame> FrameBuilder::begin(Session& session, const FrameKey& key) {
-  refresh_input(session);
+  const InputFacts& facts = facts_of(session, input_of(session, key));
   auto frame = std::make_shared<Frame>();
   frame->serial = ++serial_;
-  frame->input_serial = input_serial_;
-  frame->input = input_;
+  frame->input_serial = facts.serial;
+  frame->input = facts.input;
   frame->run = key.index;
   frame->moment = key.moment;
   frame->shown = key.shown;
-  frame->before = before_;
+  frame->before = facts.before;
   return frame;
 }
 
@@ -166,8 +178,8 @@ std::shared_ptr<const Frame> FrameBuilder::input_frame(Session& session) {
   if (const Known* known = find(session, key)) return known->frame;
   auto frame = begin(session, key);
   frame->positions = session.input()->mesh.positions;
-  const std::vector<std::uint8_t> standing = standing_vertices(*input_, key.interfaces);
-  judge_elements(*frame, immovable_elements(input_->mesh, standing, session.pool().get()), session.pool().get());
+  const std::vector<std::uint8_t> standing = standing_vertices(*frame->input, key.interfaces);
+  judge_elements(*frame, immovable_elements(frame->input->mesh, standing, session.pool().get()), session.pool().get());
   frame->statistics = frame->shown_statistics;
   return keep(std::move(key), std::move(frame));
 }
@@ -221,6 +233,13 @@ bool FrameBuilder::work_at_rest(Session& session, std::span<const Watch> watched
 
 bool FrameBuilder::work_long_at_rest(Session& session, const std::function<bool()>& go_on) { return endings_.find_hint(session, go_on); }
 
+void FrameBuilder::add_meshes(Session& session, SessionView& view) {
+  for (const auto& input : session.inputs())
+    view.meshes.push_back({input, facts_of(session, input).serial, summaries_.of_input(session, input)});
+  const auto active = std::ranges::find(view.meshes, view.input, &InputView::input);
+  view.input_summary = active->summary;
+}
+
 std::shared_ptr<const SessionView> FrameBuilder::build(Session& session, FrameDetail detail, std::span<const Watch> watched) {
   auto view = std::make_shared<SessionView>();
   view->shown = session.shown();
@@ -237,10 +256,10 @@ std::shared_ptr<const SessionView> FrameBuilder::build(Session& session, FrameDe
     view->runs.back().summary = summaries_.of(session, i);
     view->runs.back().ending = endings_.of(session, i);
   }
-  view->input_summary = summaries_.of_input(session);
   for (Known& known : known_) known.wanted = false;
   view->frame = standing(session, session.active_index(), detail);
   for (const Watch& what : watched) view->watched.push_back(watch(session, what, detail));
+  add_meshes(session, *view);
   std::erase_if(known_, [](const Known& known) { return !known.wanted; });
   return view;
 }

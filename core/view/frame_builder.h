@@ -46,10 +46,18 @@ class FrameBuilder {
     std::shared_ptr<const Frame> frame;
     bool wanted = true;  // in the view that is being built
   };
+  /// What all frames of a mesh have in common.
+  struct InputFacts {
+    std::shared_ptr<const InputMesh> input;
+    std::uint64_t serial = 0;
+    Metric metric = Metric::MeanRatio;
+    Histogram before;  // of the metric
+  };
+  static const std::shared_ptr<const InputMesh>& input_of(Session& session, const FrameKey& key);
   static FrameKey key_of(Session& session, std::size_t run);
   /// Of the positions that the run had at the end of an iteration.
   static FrameKey key_of(Session& session, std::size_t run, std::uint64_t iteration);
-  [[nodiscard]] Known* find(const Session& session, const FrameKey& key);
+  [[nodiscard]] Known* find(Session& session, const FrameKey& key);
   std::shared_ptr<const Frame> keep(FrameKey key, std::shared_ptr<const Frame> frame);
   [[nodiscard]] std::shared_ptr<Frame> begin(Session& session, const FrameKey& key);
   std::shared_ptr<const Frame> standing(Session& session, std::size_t run, FrameDetail detail);
@@ -58,14 +66,13 @@ class FrameBuilder {
   std::shared_ptr<const Frame> input_frame(Session& session);
   [[nodiscard]] WatchedFrame watch(Session& session, const Watch& what, FrameDetail detail);
   bool find_past(Session& session, std::span<const Watch> watched, const std::function<bool()>& go_on);
-  void refresh_input(Session& session);
+  const InputFacts& facts_of(Session& session, const std::shared_ptr<const InputMesh>& input);
+  void add_meshes(Session& session, SessionView& view);
 
   std::uint64_t serial_ = 0;
   std::uint64_t input_serial_ = 0;
-  std::shared_ptr<const InputMesh> input_;  // of the frames so far
-  Metric before_metric_ = Metric::MeanRatio;
-  Histogram before_;          // of before_metric_ at the input
-  std::vector<Known> known_;  // frames of the last view, and what was worked out at rest since
+  std::vector<InputFacts> inputs_;  // of the meshes that are open
+  std::vector<Known> known_;        // frames of the last view, and what was worked out at rest since
   Summaries summaries_;
   Endings endings_;
 };

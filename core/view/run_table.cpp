@@ -16,7 +16,7 @@ namespace dmoscope {
 
 namespace {
 
-constexpr std::array<RunColumn, 16> kColumns{{
+constexpr std::array<RunColumn, 17> kColumns{{
     {"run", "run", "the run", &RunRow::title},
     {"method", "method", "what smooths", &RunRow::method},
     {"metric", "metric", "the metric that the run optimises", &RunRow::metric},
@@ -36,12 +36,13 @@ constexpr std::array<RunColumn, 16> kColumns{{
      "at the input: correlation of local edge length and target size, of runs that have one", &RunRow::input_size_correlation},
     {"size_correlation", "size corr.", "correlation of local edge length and target size, of runs that have one: 1 when they go together",
      &RunRow::size_correlation},
+    {"mesh", "mesh", "the mesh that the run is on, where several are open", &RunRow::mesh},
 }};
 
 /// Whether there is something to sort by.
 bool has_value(const std::variant<std::string_view, double>& cell) {
-  const double* number = std::get_if<double>(&cell);
-  return number == nullptr || std::isfinite(*number);
+  if (const auto* word = std::get_if<std::string_view>(&cell)) return !word->empty();
+  return std::isfinite(std::get<double>(cell));
 }
 
 void judge(RunRow& row, const Statistics& statistics) {

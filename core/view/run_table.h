@@ -21,6 +21,7 @@ struct RunRow {
   std::size_t run = 0;                         // its place among the runs, from 0, where whoever made the row has set it
   std::string title, method, metric, backend;  // metric: the one the run optimises
   std::string judged;                          // the metric that the qualities below are of
+  std::string mesh;                            // its name, where whoever made the row has set it: of several meshes
   std::uint64_t iterations = 0;                // whole ones, up to where the run stands
   double minimum = kUnknown, movable_minimum = kUnknown, mean = kUnknown;
   double p1 = kUnknown, p5 = kUnknown;  // see Percentiles

@@ -37,24 +37,39 @@ std::shared_ptr<const RunSummary> Summaries::of(Session& session, std::size_t ru
   return nullptr;
 }
 
-std::shared_ptr<const InputSummary> Summaries::of_input(Session& session) const {
-  const bool same = of_input_ && of_input_->metric == session.shown() && input_.lock() == session.input() &&
-                    input_rule_ == session.active().parameters().interfaces;
-  return same ? of_input_ : nullptr;
+InterfaceRule Summaries::rule_of(Session& session, const std::shared_ptr<const InputMesh>& input) {
+  std::size_t run = session.active_index();
+  for (std::size_t i = 0; session.run(run).shared_input() != input; ++i) run = i;
+  return session.run(run).parameters().interfaces;
 }
 
-bool Summaries::find_input(Session& session) {
-  if (of_input(session)) return false;
-  const InputMesh& input = *session.input();
-  const QualityContext context = input.quality_context();
-  input_rule_ = session.active().parameters().interfaces;
-  const std::vector<Index> immovable = immovable_elements(input.mesh, standing_vertices(input, input_rule_), session.pool().get());
-  of_input_ = std::make_shared<const InputSummary>(
-      InputSummary{session.shown(), compute_statistics(context, input.mesh.positions, session.shown(), immovable, session.pool().get()),
-                   compute_percentiles(context, input.mesh.positions, session.shown(), session.pool().get()),
-                   seen_as_floats(input, input.mesh.positions, session.shown(), session.pool().get())});
-  input_ = session.input();
-  return true;
+std::shared_ptr<const InputSummary> Summaries::of_input(Session& session, const std::shared_ptr<const InputMesh>& input) const {
+  const auto known = std::ranges::find_if(inputs_, [&](const KnownInput& one) {
+    return one.input.lock() == input && one.summary->metric == session.shown() && one.rule == rule_of(session, input);
+  });
+  return known == inputs_.end() ? nullptr : known->summary;
+}
+
+bool Summaries::find_inputs(Session& session, const std::function<bool()>& go_on) {
+  bool found = false;
+  std::vector<KnownInput> known;
+  ThreadPool* pool = session.pool().get();
+  for (const auto& input : session.inputs()) {
+    const InterfaceRule rule = rule_of(session, input);
+    auto summary = of_input(session, input);
+    if (!summary && go_on()) {
+      const QualityContext context = input->quality_context();
+      const std::span<const Vec3> positions = input->mesh.positions;
+      const std::vector<Index> immovable = immovable_elements(input->mesh, standing_vertices(*input, rule), pool);
+      summary = std::make_shared<const InputSummary>(InputSummary{
+          session.shown(), compute_statistics(context, positions, session.shown(), immovable, pool),
+          compute_percentiles(context, positions, session.shown(), pool), seen_as_floats(*input, positions, session.shown(), pool)});
+      found = true;
+    }
+    if (summary) known.push_back({input, rule, std::move(summary)});
+  }
+  inputs_ = std::move(known);
+  return found;
 }
 
 SizeCourse Summaries::sizes_of(Session& session, std::size_t index, std::span<const Vec3> positions) const {
@@ -70,7 +85,7 @@ SizeCourse Summaries::sizes_of(Session& session, std::size_t index, std::span<co
 
 bool Summaries::find(Session& session, const std::function<const Frame*(std::size_t)>& whole, const std::function<bool()>& go_on) {
   std::vector<Known> known;
-  bool found = go_on() && find_input(session);
+  bool found = find_inputs(session, go_on);
   for (std::size_t i = 0; i < session.run_count(); ++i) {
     auto summary = of(session, i);
     if (!summary && go_on()) {

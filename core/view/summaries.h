@@ -24,8 +24,8 @@ class Summaries {
 
   /// Of a run as it stands, by the metric the session shows; null while it has not been worked out.
   [[nodiscard]] std::shared_ptr<const RunSummary> of(Session& session, std::size_t run) const;
-  /// Of the input, likewise.
-  [[nodiscard]] std::shared_ptr<const InputSummary> of_input(Session& session) const;
+  /// Of a mesh as it was read, likewise.
+  [[nodiscard]] std::shared_ptr<const InputSummary> of_input(Session& session, const std::shared_ptr<const InputMesh>& input) const;
   /// Works out those that are missing, asking `go_on` before each. `whole`: the frame of a run as it stands where there is one, else null.
   /// Returns whether there are new ones.
   bool find(Session& session, const std::function<const Frame*(std::size_t)>& whole, const std::function<bool()>& go_on);
@@ -37,12 +37,16 @@ class Summaries {
     std::shared_ptr<const RunSummary> summary;
   };
   [[nodiscard]] SizeCourse sizes_of(Session& session, std::size_t run, std::span<const Vec3> positions) const;
-  bool find_input(Session& session);
+  struct KnownInput {
+    std::weak_ptr<const InputMesh> input;
+    InterfaceRule rule = InterfaceRule::Fixed;  // what stays there, as for its run that is active, or its first one
+    std::shared_ptr<const InputSummary> summary;
+  };
+  bool find_inputs(Session& session, const std::function<bool()>& go_on);
+  [[nodiscard]] static InterfaceRule rule_of(Session& session, const std::shared_ptr<const InputMesh>& input);
   [[nodiscard]] static bool fits(const Known& known, Session& session, std::size_t run);
-  std::vector<Known> known_;  // one a run
-  std::weak_ptr<const InputMesh> input_;
-  std::shared_ptr<const InputSummary> of_input_;     // of input_
-  InterfaceRule input_rule_ = InterfaceRule::Fixed;  // of of_input_: what stays there, as for the active run
+  std::vector<Known> known_;        // one a run
+  std::vector<KnownInput> inputs_;  // one a mesh
 };
 
 }  // namespace dmoscope

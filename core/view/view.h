@@ -19,7 +19,7 @@ namespace dmoscope {
 /// What whoever shows a session wants to see of it besides the active run.
 struct Watch {
   static constexpr std::uint64_t kInput = 0;
-  std::uint64_t run = kInput;                // RunView::id, or the input
+  std::uint64_t run = kInput;                // RunView::id, or the input of the active run
   std::optional<std::uint64_t> iteration{};  // at the end of which; none: as the run stands
   friend bool operator==(const Watch&, const Watch&) = default;
 };
@@ -66,8 +66,16 @@ struct InputSummary {
   std::string as_floats{};  // see seen_as_floats
 };
 
+/// A mesh that is open.
+struct InputView {
+  std::shared_ptr<const InputMesh> input;
+  std::uint64_t serial = 0;                     // Frame::input_serial of its frames
+  std::shared_ptr<const InputSummary> summary;  // by the metric that is shown; null until it has been worked out, as those of runs
+};
+
 struct RunView {
-  std::uint64_t id = 0;  // which run it is, whatever its place in the list; see Run::id
+  std::uint64_t id = 0;                    // which run it is, whatever its place in the list; see Run::id
+  std::shared_ptr<const InputMesh> input;  // its mesh
   std::string title;
   RunParameters parameters;
   Backend backend = Backend::Cpu;  // see Run
@@ -100,17 +108,20 @@ struct WatchedFrame {
 };
 
 struct SessionView {
-  std::shared_ptr<const InputMesh> input;  // null: nothing is open
+  std::shared_ptr<const InputMesh> input;  // of the active run; null: nothing is open
+  std::vector<InputView> meshes;           // that are open, in the order of their first runs
   std::vector<RunView> runs;
   std::size_t active = 0;
   Metric shown = Metric::MeanRatio;
-  std::shared_ptr<const InputSummary> input_summary;  // by the metric that is shown; null until it has been worked out, as those of runs
+  std::shared_ptr<const InputSummary> input_summary;  // of the active run's mesh, see InputView
   unsigned threads = 1;
   std::string restored_view;           // the JSON that was saved with the session that was opened last; see save-state
   std::uint64_t restored_serial = 0;   // grows with every session opened: "must the view be restored?"
   std::string undo_label, redo_label;  // the commands that undo and redo are about ("run 10"); empty: there is none
   std::shared_ptr<const Frame> frame;  // of the active run; null when nothing is open
   std::vector<WatchedFrame> watched;   // what Engine::watch asked for, in its order
+  /// Whether runs are on different meshes, so that they are told apart by those, too.
+  [[nodiscard]] bool several_meshes() const noexcept { return meshes.size() > 1; }
 };
 
 }  // namespace dmoscope

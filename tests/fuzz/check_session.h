@@ -93,7 +93,7 @@ inline std::string sample_session() {
   CommandContext context{session, progress, [](const Message&) {}};
   CommandTable commands;
   add_session_commands(commands, context);
-  session.replace(fuzz_mesh(), {session.make_run(fuzz_mesh(), {})}, 0, Metric::MeanRatio);
+  session.replace({session.make_run(fuzz_mesh(), {})}, 0, Metric::MeanRatio);
   for (const char* line : {"run 2", "visit 0-39", "step vertex 3", "add-run dvr:radius-ratio", "order shuffle:4", "fix 3", "run 1"}) {
     try {
       commands.execute(line);
@@ -118,7 +118,7 @@ inline void check_script(std::string_view text) {
   CommandContext context{session, progress, [](const Message&) {}};
   CommandTable commands;
   add_session_commands(commands, context);
-  session.replace(fuzz_mesh(), {session.make_run(fuzz_mesh(), {})}, 0, Metric::MeanRatio);
+  session.replace({session.make_run(fuzz_mesh(), {})}, 0, Metric::MeanRatio);
   constexpr int kMostBlocks = 200, kMostLines = 40;
   int lines = 0;
   while (!text.empty() && lines++ < kMostLines) {

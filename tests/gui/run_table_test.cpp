@@ -76,8 +76,9 @@ TEST_F(RunTable, AllRowsAreJudgedByTheMetricThatIsShown) {
 }
 
 TEST_F(RunTable, TheInputStandsAboveTheRuns) {
-  const auto row = ui::input_row(*session());
-  ASSERT_TRUE(row.has_value());
+  const auto inputs = ui::input_rows(*session());
+  ASSERT_EQ(inputs.size(), 1U);
+  const RunRow& row = inputs.front();
   double least = 1.0, sum = 0.0;
   const InputMesh& input = *session()->input;
   for (Index e = 0; e < input.mesh.elements.size(); ++e) {
@@ -85,21 +86,21 @@ TEST_F(RunTable, TheInputStandsAboveTheRuns) {
     least = std::min(least, quality);
     sum += quality;
   }
-  EXPECT_DOUBLE_EQ(row->minimum, least);
-  EXPECT_NEAR(row->mean, sum / static_cast<double>(input.mesh.elements.size()), 1e-12);
-  EXPECT_EQ(row->iterations, 0U);
-  EXPECT_TRUE(std::isnan(row->seconds));
-  EXPECT_FALSE(std::isnan(row->p1)) << "whether or not percentiles of every iteration are asked for";
-  EXPECT_LE(row->minimum, row->p1);
-  EXPECT_LE(row->p1, row->p5);
+  EXPECT_DOUBLE_EQ(row.minimum, least);
+  EXPECT_NEAR(row.mean, sum / static_cast<double>(input.mesh.elements.size()), 1e-12);
+  EXPECT_EQ(row.iterations, 0U);
+  EXPECT_TRUE(std::isnan(row.seconds));
+  EXPECT_FALSE(std::isnan(row.p1)) << "whether or not percentiles of every iteration are asked for";
+  EXPECT_LE(row.minimum, row.p1);
+  EXPECT_LE(row.p1, row.p5);
   good("show mean-ratio-area");
   for (int k = 0; k < 2; ++k) good("remove-run 1");  // the runs by both metrics of that shape
   good("show mean-ratio");
   good("wait");
-  const auto unused = ui::input_row(*session());
-  ASSERT_TRUE(unused.has_value()) << "although no run optimises that";
-  EXPECT_DOUBLE_EQ(unused->minimum, least);
-  EXPECT_EQ(unused->p5, row->p5);
+  const auto unused = ui::input_rows(*session());
+  ASSERT_EQ(unused.size(), 1U) << "although no run optimises that";
+  EXPECT_DOUBLE_EQ(unused.front().minimum, least);
+  EXPECT_EQ(unused.front().p5, row.p5);
 }
 
 TEST_F(RunTable, HasColumnsOfSizesWhereARunHasASizeFunction) {
@@ -131,7 +132,7 @@ TEST_F(RunTable, IsSavedAndCopiedAsItStands) {
   std::ostringstream text;
   text << std::ifstream(file).rdbuf();
   std::vector<RunRow> expected = rows();
-  expected.insert(expected.begin(), *ui::input_row(*session()));
+  expected.insert(expected.begin(), ui::input_rows(*session()).front());
   EXPECT_EQ(text.str(), run_table_csv(expected)) << "the input above the runs, as it is seen";
   good("plot-copy");
   EXPECT_EQ(window_->clipboard(), text.str());

@@ -228,8 +228,8 @@ TEST(RunTable, CsvReadsBackAndQuotesWhatItMust) {
   std::getline(text, line);
   EXPECT_EQ(header,
             "run,method,metric,backend,judged_by,iterations,min_quality,movable_minimum,mean_quality,p1,p5,inverted,seconds,"
-            "vertices_per_second,input_size_correlation,size_correlation");
-  EXPECT_EQ(line, "\"density 0,7 \"\"h1\"\"\",,,,,12,0.3333333333333333,,,,,0,0,,,");
+            "vertices_per_second,input_size_correlation,size_correlation,mesh");
+  EXPECT_EQ(line, "\"density 0,7 \"\"h1\"\"\",,,,,12,0.3333333333333333,,,,,0,0,,,,");
   EXPECT_FALSE(std::getline(text, rest));
 }
 

@@ -18,9 +18,9 @@ void ColourWorker::update(const ViewState& state, const SessionView& session, st
   take();
   const ColourBy by = state.colouring.by;
   const Frame* frame = session.frame.get();
-  const bool comparable = frame != nullptr && reference && !reference->device && reference->input == frame->input;
-  const bool possible =
-      frame != nullptr && by != ColourBy::Quality && !(frame->device && needs_positions(by)) && (by != ColourBy::Difference || comparable);
+  const bool has_reference = frame != nullptr && reference && !reference->device;
+  const bool possible = frame != nullptr && by != ColourBy::Quality && !(frame->device && needs_positions(by)) &&
+                        (by != ColourBy::Difference || has_reference);
   if (!possible) {
     colours_.reset();  // what is pending ends soon, and then is dropped here
     key_.reset();
@@ -35,6 +35,7 @@ void ColourWorker::update(const ViewState& state, const SessionView& session, st
                         state.colouring.reversed,
                         by == ColourBy::SizeOverTarget ? run.size : nullptr,
                         by == ColourBy::Difference ? std::move(reference) : nullptr};
+  if (request.reference) request.comparable = comparable_(frame->input, request.reference->input);
   const Key key{by,
                 frame->input_serial,
                 needs_positions(by) ? frame->serial : 0,

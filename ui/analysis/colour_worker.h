@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/view/view.h"
+#include "ui/analysis/comparable.h"
 #include "ui/analysis/element_colours.h"
 #include "ui/state/view_state.h"
 
@@ -29,6 +30,7 @@ class ColourWorker {
   using Key = std::tuple<ColourBy, std::uint64_t, std::uint64_t, std::uint64_t, const void*, int, bool>;
   void take();
 
+  Comparable comparable_;
   std::optional<Key> key_;  // of what was asked for last
   std::shared_ptr<const ElementColours> colours_;
   std::future<std::shared_ptr<const ElementColours>> pending_;

@@ -284,7 +284,14 @@ std::string name_of(const Frame& frame) {
 
 void by_difference(Work& work) {
   const Frame &frame = *work.request.frame, &reference = *work.request.reference;
-  const QualityContext context = frame.input->quality_context();
+  if (!work.request.comparable) {
+    work.shading.values.assign(work.mesh.elements.size(), std::numeric_limits<float>::quiet_NaN());
+    work.out.title = work.out.common_title = "difference";
+    work.out.note = fmt::format("{} has other elements than {}: nothing to compare", frame.input->mesh.name, reference.input->mesh.name);
+    work.out.has_values = false;
+    return;
+  }
+  const QualityContext context = reference.input->quality_context();
   const bool same_metric = reference.shown == frame.shown;
   work.shading.values.resize(frame.quality.size());
   double most = 0.0;
@@ -302,7 +309,8 @@ void by_difference(Work& work) {
   if (most == 0.0) most = kLeast;  // all is the same, which must not widen the range of the viewports beside it
   work.out.range = {-most, most};
   work.out.diverging = work.out.centred = true;
-  const std::string metric(info(frame.shown).title), of = name_of(reference);
+  const std::string metric(info(frame.shown).title);
+  const std::string of = reference.input == frame.input ? name_of(reference) : name_of(reference) + " of " + reference.input->mesh.name;
   work.out.title = fmt::format("{}: {} minus {}", metric, name_of(frame), of);
   work.out.common_title = fmt::format("{}: each minus {}", metric, of);
 }

@@ -47,7 +47,8 @@ struct ColourRequest {
   render::ColourMap map = render::ColourMap::Viridis;  // of ordered categories
   bool reversed = false;
   std::shared_ptr<const SizeField> size{};   // for ColourBy::SizeOverTarget; null: the run has none
-  std::shared_ptr<const Frame> reference{};  // for ColourBy::Difference: whole, of the same input
+  std::shared_ptr<const Frame> reference{};  // for ColourBy::Difference: whole
+  bool comparable = true;                    // the reference has the same elements
 };
 
 /// Whether it depends on where the vertices are, so that it is worked out for every frame, and cannot be for a light one.

@@ -14,12 +14,15 @@ namespace {
 
 constexpr std::string_view kSizes = "size_correlation";  // with the input's before it, in one column
 
+constexpr const char* kMesh = "mesh";  // of several
+
 struct ShownColumn {
   const char* column;
   const char* title;   // short: many have to stand side by side
   bool large_is_best;  // the best one is set off
 };
-constexpr std::array<ShownColumn, 12> kColumns{{{"run", "run", false},
+constexpr std::array<ShownColumn, 13> kColumns{{{"run", "run", false},
+                                                {kMesh, "mesh", false},
                                                 {"iterations", "iterations", false},
                                                 {"min_quality", "minimum", true},
                                                 {"movable_minimum", "movable", true},
@@ -32,10 +35,11 @@ constexpr std::array<ShownColumn, 12> kColumns{{{"run", "run", false},
                                                 {"vertices_per_second", "vertices/s", false},
                                                 {"backend", "backend", false}}};
 
-/// That of sizes only where a run has a size function.
+/// That of sizes only where a run has a size function, that of meshes only where there are several.
 std::vector<ShownColumn> shown_columns(const std::vector<RunRow>& rows) {
   std::vector<ShownColumn> shown(kColumns.begin(), kColumns.end());
   if (!has_values(rows, run_column(kSizes))) std::erase_if(shown, [](const ShownColumn& one) { return one.column == kSizes; });
+  if (!has_values(rows, run_column(kMesh))) std::erase_if(shown, [](const ShownColumn& one) { return one.column == kMesh; });
   return shown;
 }
 
@@ -105,18 +109,20 @@ void draw_run(PanelContext& context, const RunRow& row) {
 }
 
 /// What all runs began with, above them whatever they are sorted by.
-void draw_input(PanelContext& context, const std::vector<ShownColumn>& columns) {
-  const std::optional<RunRow> row = input_row(context.session);
-  if (!row) return;
-  ImGui::TableNextRow();
-  for (const ShownColumn& shown : columns) {
-    const RunColumn& column = run_column(shown.column);
-    ImGui::TableNextColumn();
-    if (&shown == &columns.front()) {
-      ImGui::SetCursorPosX(ImGui::GetCursorPosX() + context.px(10));
-      dim_text(context, row->title, false);
-    } else if (!column.is_word()) {
-      draw_number(context, *row, column, RunRow::kUnknown);
+void draw_inputs(PanelContext& context, const std::vector<ShownColumn>& columns) {
+  for (const RunRow& row : input_rows(context.session)) {
+    ImGui::TableNextRow();
+    for (const ShownColumn& shown : columns) {
+      const RunColumn& column = run_column(shown.column);
+      ImGui::TableNextColumn();
+      if (&shown == &columns.front()) {
+        ImGui::SetCursorPosX(ImGui::GetCursorPosX() + context.px(10));
+        dim_text(context, row.title, false);
+      } else if (column.is_word()) {
+        dim_text(context, cell_text(row, column), false);
+      } else {
+        draw_number(context, row, column, RunRow::kUnknown);
+      }
     }
   }
 }
@@ -145,7 +151,7 @@ void draw_run_table(PanelContext& context) {
   std::vector<double> best(columns.size());
   for (std::size_t k = 0; k < columns.size(); ++k)
     best[k] = columns[k].large_is_best ? best_of(rows, run_column(columns[k].column)) : RunRow::kUnknown;
-  draw_input(context, columns);
+  draw_inputs(context, columns);
   for (const RunRow& row : rows) {
     ImGui::TableNextRow();
     ImGui::PushID(static_cast<int>(row.run));

@@ -158,6 +158,20 @@ void read_candidate(PanelContext& context, const PaneFacts& pane) {
   if (state.hovered && !ImGui::IsAnyMouseDown()) next_item_tooltip(candidate_text(context.inspection, state.level, state.hovered->index));
 }
 
+/// Of a mesh that is not the active one: first it becomes that.
+void pick_on_other_mesh(PanelContext& context, const PaneFacts& pane, Index vertex, Index element) {
+  const auto run = std::ranges::find(context.session.runs, pane.session->input, &RunView::input);
+  if (run == context.session.runs.end()) return;
+  const bool has_run = pane.run() != nullptr && pane.run()->input == pane.session->input;
+  const std::size_t place = has_run ? pane.session->active : static_cast<std::size_t>(run - context.session.runs.begin());
+  context.send(fmt::format("select-run {}", place + 1));
+  if (vertex != kNoIndex && !ImGui::GetIO().KeyAlt) {
+    context.state.pick_on_switch = {Picked::Kind::Vertex, vertex};
+  } else if (element != kNoIndex) {
+    context.state.pick_on_switch = {Picked::Kind::Element, element};
+  }
+}
+
 void pick_at(PanelContext& context, const PaneFacts& pane, Vec2<double> pixel) {
   ViewState& state = context.state;
   if (state.placing_size_point) {
@@ -169,6 +183,7 @@ void pick_at(PanelContext& context, const PaneFacts& pane, Vec2<double> pixel) {
     return;
   }
   const auto [vertex, element] = context.pick(pane.number, pixel);
+  if (pane.session->input != context.session.input) return pick_on_other_mesh(context, pane, vertex, element);
   if (vertex != kNoIndex && !ImGui::GetIO().KeyAlt) {
     context.send(fmt::format("pick vertex {}", vertex));
     const RunView* run = context.run();

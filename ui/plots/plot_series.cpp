@@ -64,7 +64,7 @@ class Builder {
         plot_.empty_text = "the table of runs is no plot";
         break;
     }
-    if (session_.input) plot_.title = session_.input->mesh.name + " · " + plot_.title;
+    if (session_.input && !session_.several_meshes()) plot_.title = session_.input->mesh.name + " · " + plot_.title;
     if (plot_.axis == ValueAxis::LogDistance) plot_.y_title = "1 − " + plot_.y_title;
     return std::move(plot_);
   }
@@ -126,8 +126,7 @@ class Builder {
     for (std::size_t k = 0; k < session_.runs.size(); ++k)
       if (const auto since = session_.runs[k].mean_since) mark(k, {*since}, several_ ? fmt::format("{} mean", k + 1) : "mean");
     for (const auto& [its, label] : {std::pair{&state_.timeline.a, "A"}, {&state_.timeline.b, "B"}}) {
-      if (its->frame && session_.frame && its->frame->input_serial == session_.frame->input_serial)
-        mark(its->frame->run, its->frame->moment, label);
+      if (its->frame && session_.frame) mark(its->frame->run, its->frame->moment, label);
     }
   }
 

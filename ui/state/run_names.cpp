@@ -7,13 +7,14 @@ namespace dmoscope::ui {
 namespace {
 
 /// What a run may differ in from others by its method.
-using Parts = std::array<std::string, 3>;
+using Parts = std::array<std::string, 4>;
 
-Parts parts_of(const RunParameters& p) {
+Parts parts_of(const RunView& run) {
+  const RunParameters& p = run.parameters;
   std::string aim = p.combination ? phrase(p.metric, *p.combination) : std::string(info(p.metric).name);
   std::string others = other_than_usual(p);
   if (others.starts_with(", ")) others.erase(0, 2);
-  return {std::move(aim), p.then_mean ? "then mean" : "", std::move(others)};
+  return {std::move(aim), p.then_mean ? "then mean" : "", std::move(others), run.input ? run.input->mesh.name : std::string()};
 }
 
 RunName name_among(const SessionView& session, const std::vector<Parts>& parts, std::size_t k) {
@@ -31,7 +32,7 @@ RunName name_among(const SessionView& session, const std::vector<Parts>& parts, 
 
 std::vector<Parts> parts_of(const SessionView& session) {
   std::vector<Parts> parts;
-  for (const RunView& run : session.runs) parts.push_back(parts_of(run.parameters));
+  for (const RunView& run : session.runs) parts.push_back(parts_of(run));
   return parts;
 }
 

@@ -34,9 +34,8 @@ Mark mark_of(const SessionView& session) {
 }
 
 void drop_stale_marks(Timeline& timeline, const SessionView& session) {
-  const std::uint64_t input = session.frame ? session.frame->input_serial : 0;
   for (Mark* mark : {&timeline.a, &timeline.b}) {
-    if (mark->frame && mark->frame->input_serial != input) *mark = {};
+    if (mark->frame && std::ranges::find(session.meshes, mark->frame->input_serial, &InputView::serial) == session.meshes.end()) *mark = {};
   }
   if (timeline.shown_mark() == nullptr) timeline.shown = Shown::Now;
 }

@@ -116,6 +116,7 @@ struct ViewState {
 
   // Selection
   Picked picked;
+  Picked pick_on_switch;  // of another open mesh, which is about to become the active one
   Selection selection;
   Brush brush;
   SteppingState stepping;

@@ -32,6 +32,15 @@ std::string open_command(const std::string& file) {
   return fmt::format("{} {}", is_session_name(file) ? "open-session" : "open", quote_word(file));
 }
 
+std::vector<std::string> open_commands(const std::vector<std::filesystem::path>& files) {
+  std::vector<std::string> commands;
+  for (const std::filesystem::path& file : files) {
+    const std::string name = file.string();
+    commands.push_back(commands.empty() || is_session_name(name) ? open_command(name) : "open-beside " + quote_word(name));
+  }
+  return commands;
+}
+
 std::vector<FolderEntry> list_folder(const std::filesystem::path& folder, bool all, std::string& error) {
   std::vector<FolderEntry> entries;
   error.clear();

@@ -22,6 +22,8 @@ inline constexpr std::string_view kSessionExtension = ".dmoscope";
 [[nodiscard]] bool is_session_name(std::string_view name);
 /// The command that opens a mesh or a session, by its name.
 [[nodiscard]] std::string open_command(const std::string& file);
+/// The commands that open several files: a mesh after another is opened beside it.
+[[nodiscard]] std::vector<std::string> open_commands(const std::vector<std::filesystem::path>& files);
 
 /// Folders first, then files, each by name without regard to case; hidden ones left out. Files that are no meshes only when
 /// `all`. On failure returns what could be read and puts a sentence into `error`, which is cleared otherwise.

@@ -74,6 +74,16 @@ render::Pick PaneView::pick(const ViewState& state, const render::Camera2D& came
   return scene().pick(seen_from(state, camera), state.viewport, pixel, radius);
 }
 
+bool PaneView::is_active_mesh(const Scenery& scenery) const {
+  const Mesh& mesh = frame()->input->mesh;
+  return frame()->input.get() == scenery.active ||
+         (scenery.active != nullptr && scenery.active->mesh.vertex_count() == mesh.vertex_count() &&
+          scenery.active->mesh.elements.size() == mesh.elements.size());
+}
+
+/// Nothing on another mesh than the one that the pick is of.
+Picked PaneView::picked_here(const Scenery& scenery) const { return is_active_mesh(scenery) ? scenery.state.picked : Picked{}; }
+
 bool PaneView::marks_worst(const ViewState& state, bool inspecting) const {
   return state.worst_marker && !frame()->worst.empty() && !inspecting;
 }
@@ -83,7 +93,7 @@ render::SpaceMarks PaneView::space_marks(const Scenery& scenery, Vec2<double> vi
   render::SpaceMarks marks;
   const bool inspecting = inspected && state.inspection.open, searching = is_searching(scenery, inspected);
   marks.faint_where_taken_away = !searching;  // all cells give way to the search, and what it is of stays plain
-  const Picked& picked = state.picked;
+  const Picked picked = picked_here(scenery);
   if (picked.kind == Picked::Kind::Element && picked.id < frame()->element_count()) marks.cells = {picked.id};
   if (picked.kind == Picked::Kind::Vertex && picked.id < frame()->vertex_count()) {
     for (const Incidence& incidence : searching ? std::span<const Incidence>{} : frame()->input->topology.star(picked.id))
@@ -91,7 +101,7 @@ render::SpaceMarks PaneView::space_marks(const Scenery& scenery, Vec2<double> vi
     marks.vertices = {picked.id};
   }
   constexpr std::size_t kMostDots = 20'000;  // more of them cover the mesh
-  if (!state.selection.empty() && state.selection.vertices().size() <= kMostDots)
+  if (is_active_mesh(scenery) && !state.selection.empty() && state.selection.vertices().size() <= kMostDots)
     for (const Index v : state.selection.vertices())
       if (v < frame()->vertex_count()) marks.vertices.push_back(v);
   if (marks_worst(state, inspecting)) marks.worst = frame()->worst.front().element;
@@ -189,7 +199,7 @@ render::Marks PaneView::marks(const Scenery& scenery, const MarkView& view, bool
   const ViewState& state = scenery.state;
   render::Marks marks;
   if (frame() == nullptr) return marks;
-  const Picked& picked = state.picked;
+  const Picked picked = picked_here(scenery);
   if (picked.kind == Picked::Kind::Element && picked.id < frame()->element_count()) marks.elements = {picked.id};
   const bool inspecting = inspected && state.inspection.open;
   const bool searching = inspecting && scenery.inspection.trace && !state.inspection.applied;

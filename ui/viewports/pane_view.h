@@ -23,6 +23,7 @@ struct Scenery {
   const ViewState& state;
   const Derived& derived;
   const Inspection& inspection;
+  const InputMesh* active = nullptr;  // that picks and selections are of
 };
 
 class PaneView {
@@ -66,6 +67,7 @@ class PaneView {
   }
   /// Of planar meshes.
   [[nodiscard]] render::PlanarScene& planar() noexcept { return planar_; }
+  [[nodiscard]] const render::PlanarScene& planar() const noexcept { return planar_; }
   /// From where its mesh is seen; `camera`: of a planar one.
   [[nodiscard]] render::Camera seen_from(const ViewState& state, const render::Camera2D& camera) const;
   [[nodiscard]] bool is_volume() const noexcept { return frame() != nullptr && frame()->input->is_volume(); }
@@ -90,6 +92,9 @@ class PaneView {
   void update_volume(const Scenery& scenery, const Wish& wish);
   void select(const Scenery& scenery);
   void find_labels(const Scenery& scenery, const render::Camera2D& camera);
+  /// Whether it shows the active mesh, or one whose ids mean the same.
+  [[nodiscard]] bool is_active_mesh(const Scenery& scenery) const;
+  [[nodiscard]] Picked picked_here(const Scenery& scenery) const;
   [[nodiscard]] bool marks_worst(const ViewState& state, bool inspecting) const;
 
   std::shared_ptr<const SessionView> session_;

@@ -89,7 +89,7 @@ render::Image Viewports::picture_of(std::size_t pane, const Scenery& scenery, co
 
 render::Image Viewports::picture(const ViewState& state, const Derived& derived, const Inspection& inspection, render::Shot shot) {
   const Frame& frame = *session_->frame;
-  const Scenery scenery{state, derived, inspection};
+  const Scenery scenery{state, derived, inspection, session_->input.get()};
   render::Legend legend = legend_of(state, derived, frame);
   if (layout_ == PaneLayout::One) {
     const RunView& run = session_->runs[session_->active];

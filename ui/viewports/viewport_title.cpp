@@ -58,6 +58,8 @@ std::vector<TitlePiece> title_of(const PaneFacts& pane, Metric shown) {
   if (difference) pieces.push_back({difference_words(*pane.colours), Role::Plain, 1});
   if (pane.colours && pane.colours->by == ColourBy::SizeOverTarget && !pane.colours->has_values)
     pieces.push_back({"no target size", Role::Warning, 1});
+  if (pane.colours && pane.colours->by == ColourBy::Difference && !pane.colours->has_values)
+    pieces.push_back({"other elements: no difference", Role::Warning, 1});
   const bool other_metric = frame->shown != shown;
   if (other_metric || (of_run && frame->shown != pane.run()->parameters.metric))
     pieces.push_back({fmt::format("shown: {}", metric_phrase(frame->shown)), Role::Warning, other_metric ? 1 : 6});

@@ -37,6 +37,16 @@ render::Bounds2 input_box(const InputMesh& input) {
 
 }  // namespace
 
+bool cover_alike(const InputMesh& a, const InputMesh& b) {
+  if (&a == &b) return true;
+  const render::Bounds2 one = input_box(a), other = input_box(b);
+  render::Bounds2 both = one;
+  both.include(other);
+  constexpr double kAlike = 0.6;  // of what both take together
+  const auto is_alike = [](double a_size, double b_size, double size) { return std::min(a_size, b_size) >= kAlike * size; };
+  return is_alike(one.size().x, other.size().x, both.size().x) && is_alike(one.size().y, other.size().y, both.size().y);
+}
+
 Viewports::Viewports(Options options) : options_(std::move(options)), session_(std::make_shared<SessionView>()) {
   views_[0] = std::make_unique<PaneView>();
   views_[0]->show(session_);
@@ -57,6 +67,11 @@ void Viewports::show(std::size_t pane, std::shared_ptr<const Frame> frame, std::
         other->runs[run] = *own;
       }
       other->active = run;
+      if (frame) {
+        other->input = frame->input;
+      } else if (run < other->runs.size() && other->runs[run].input) {
+        other->input = other->runs[run].input;
+      }
       view = std::move(other);
     }
     shown = {session_, std::move(view), std::move(frame), run, {}, {}};
@@ -214,16 +229,33 @@ bool Viewports::fit(ViewState& state, double em) {
     fitted_orbit_ = state.orbit;
     return true;
   }
-  render::Bounds2 bounds = views_[focus_]->planar().bounds();
-  if (bounds.empty()) bounds = input_box(*session_->frame->input);  // it shows nothing
-  render::Camera2D camera = render::Camera2D::fit(bounds, free, margin);
-  camera.pan({0.0, (top - bottom) / 2});
+  const auto camera_for = [&](const render::Bounds2& box) {
+    render::Camera2D camera = render::Camera2D::fit(box, free, margin);
+    camera.pan({0.0, (top - bottom) / 2});
+    return camera;
+  };
+  render::Bounds2 bounds = box_of_pane(focus_);
+  const auto shows_another = [&](std::size_t k) { return k < count_ && views_[k]->session()->input != session_->input; };
+  for (std::size_t k = 0; k < count_ && state.panes.linked; ++k)
+    if (shows_another(k)) bounds.include(box_of_pane(k));
+  const render::Camera2D camera = camera_for(bounds);
   const bool all = std::exchange(state.requests.fit_all, false);
-  for (Pane& pane : state.panes.panes)
-    if (all || pane.camera == fitted_) pane.camera = camera;
+  for (std::size_t k = 0; k < Panes::kMost; ++k) {
+    Pane& pane = state.panes.panes[k];
+    const bool other_mesh = shows_another(k);
+    if (all || (pane.camera == fitted_ && !other_mesh)) pane.camera = other_mesh ? camera_for(box_of_pane(k)) : camera;
+  }
   state.camera = camera;
   fitted_ = camera;
   return true;
+}
+
+/// Of the planar mesh that a viewport shows; before it is ready to be drawn, of its input.
+render::Bounds2 Viewports::box_of_pane(std::size_t pane) const {
+  const PaneView& view = *views_[pane];
+  const bool ready = view.frame() != nullptr && view.current();
+  const render::Bounds2 bounds = ready ? view.planar().bounds() : render::Bounds2{};
+  return bounds.empty() && view.session()->input ? input_box(*view.session()->input) : bounds;
 }
 
 /// Whether a volume that was fitted is to be fitted anew: nobody has moved it, but the viewport or the kind of projection is another.
@@ -255,7 +287,7 @@ bool Viewports::draw(ViewState& state, const Derived& derived, const Inspection&
   }
   const bool fitted = fit(state, turn.em);
   facts_.clear();
-  const Scenery scenery{state, derived, inspection};
+  const Scenery scenery{state, derived, inspection, session_->input.get()};
   // All viewports together are drawn within a moment; full pictures come one after the other.
   std::size_t elements = 0;
   for (std::size_t k = 0; k < count_; ++k)

@@ -50,6 +50,9 @@ struct TitlePiece {
 /// "dmo", "mean ratio", "it 12", "min 0.31", "3 inverted" ... `shown`: the metric that colours tell.
 [[nodiscard]] std::vector<TitlePiece> title_of(const PaneFacts& pane, Metric shown);
 
+/// Whether two planar meshes lie at about the same place, so that one camera suits both.
+[[nodiscard]] bool cover_alike(const InputMesh& a, const InputMesh& b);
+
 class Viewports {
  public:
   struct Options {
@@ -121,6 +124,7 @@ class Viewports {
   void show_content(const ViewState& state, std::size_t pane);
   void show_mark(std::size_t pane, const Marked& mark, const char* letter);
   bool fit(ViewState& state, double em);
+  [[nodiscard]] render::Bounds2 box_of_pane(std::size_t pane) const;
   [[nodiscard]] bool keeps_fit(const render::OrbitCamera& now, bool resized) const;
   [[nodiscard]] bool inspected(const ViewState& state, std::size_t pane) const;
   void measure();

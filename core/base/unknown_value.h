@@ -1,0 +1,28 @@
+#pragma once
+// The one sentence about a word from a person that the program does not know.
+
+#include <optional>
+#include <ranges>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dmoscope {
+
+/// The known word that `word` is most likely meant to be: at most one letter in three is wrong, missing, too many or swapped with its
+/// neighbour; case does not matter. None where no word is that close, or several equally close.
+[[nodiscard]] std::optional<std::string_view> closest_word(std::string_view word, std::span<const std::string_view> known);
+
+/// "unknown metric 'skewness'; known are mean-ratio, min-angle", and where one of them is close "; did you mean mean-ratio?".
+[[nodiscard]] std::string unknown_value(std::string_view kind, std::string_view word, std::span<const std::string_view> known);
+
+/// The same with the names of a table's rows.
+template <std::ranges::input_range Table>
+[[nodiscard]] std::string unknown_row(std::string_view kind, std::string_view word, const Table& table) {
+  std::vector<std::string_view> names;
+  for (const auto& row : table) names.push_back(row.name);
+  return unknown_value(kind, word, names);
+}
+
+}  // namespace dmoscope

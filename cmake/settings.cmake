@@ -45,7 +45,7 @@ endif()
 # For targets whose code is nobody's inner loop, and long for its templates: what the compiler makes of them takes most of its time, of
 # AddressSanitizer's checks in them twice as much as without optimisation.
 set(DMOSCOPE_COLD_CODE -O1)
-set(DMOSCOPE_DRAWING_CODE "")  # of the rooms of the window: people wait for it, tests do not
+set(DMOSCOPE_DRAWING_CODE "")  # of the window's modules: people wait for it, tests do not
 if(DMOSCOPE_SANITIZE MATCHES "address")
   set(DMOSCOPE_COLD_CODE -O0)
   set(DMOSCOPE_DRAWING_CODE -O0)
@@ -58,7 +58,7 @@ if(DMOSCOPE_PORTABLE)
   set(CMAKE_BUILD_WITH_INSTALL_RPATH ON)
 endif()
 
-# Neighbouring sources of a room are compiled together, which takes a quarter of the time: most of it goes into headers. So what is in a
+# Neighbouring sources of a module are compiled together, which takes a quarter of the time: most of it goes into headers. So what is in a
 # source's anonymous namespace is named apart from what its neighbours have there. -DCMAKE_UNITY_BUILD=OFF compiles each for itself.
 if(NOT DEFINED CMAKE_UNITY_BUILD)
   set(CMAKE_UNITY_BUILD ON)

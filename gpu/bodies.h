@@ -13,7 +13,7 @@ namespace dmoscope::gpu::bodies {
 
 inline constexpr std::size_t kParts = Tally::kLanes, kStretch = Tally::kStretch;
 
-/// Where the vertex stands from now on; it stays awake itself.
+/// Moves the vertex and wakes its neighbours; it stays awake itself.
 inline DMOSCOPE_LANE void move(const Task& task, Index rank, const double* target) {
   task.ranked[rank] = {target[0], target[1], target[2]};
   const std::uint32_t end = task.shapes[rank + 1].first;
@@ -53,7 +53,7 @@ struct ExactVisit {
   }
 };
 
-/// Every body has run(task, i, count, team): lane (or team) i of `count`. AtOnce: what the fast search leaves is settled here and now.
+/// Every body has run(task, i, count, team): lane (or team) i of `count`. AtOnce: what the fast search leaves is settled in the same lane.
 template <Metric M, Stars S, bool AtOnce = false>
 struct Visit {
   template <class Team>
@@ -109,7 +109,7 @@ struct Judge {
   }
 };
 
-/// What elements or parts of them come to, one after the other. Every comparison with NaN is false: it is left out of minimum, sum and
+/// Statistics of elements or of parts, added one after the other. Every comparison with NaN is false: it is left out of minimum, sum and
 /// count.
 class PartSum {
  public:

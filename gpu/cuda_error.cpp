@@ -11,8 +11,8 @@ namespace {
 
 /// "/home/me/dmoscope/gpu/queue.cu" -> "gpu/queue.cu"
 std::string_view below_root(std::string_view file) {
-  const std::size_t room = file.rfind("gpu/");
-  return room == std::string_view::npos ? file : file.substr(room);
+  const std::size_t below = file.rfind("gpu/");
+  return below == std::string_view::npos ? file : file.substr(below);
 }
 
 std::string sentence(int code) {

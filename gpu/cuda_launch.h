@@ -1,6 +1,6 @@
 #pragma once
-// From kinds of work to kernels. Plain C++ for who launches; cuda_launch.cuh defines it, metric by metric, so that they compile side by
-// side.
+// From kinds of work to kernels. Plain C++ for the callers; cuda_launch.cuh defines it, metric by metric, so that the parts compile
+// side by side.
 
 #include <cstddef>
 
@@ -16,13 +16,13 @@ struct Task;
 /// Starts the kernel on `stream` of the current device, for lanes or teams 0 to count - 1; count > 0. Throws CudaError.
 using Launcher = void (*)(const Task& task, std::size_t count, cudaStream_t stream);
 
-/// Of the kinds of work that depend on a metric: Visit, VisitInTeam, Settle, Judge.
+/// Launches work that depends on a metric: Visit, VisitInTeam, Settle, Judge.
 template <Metric M>
 [[nodiscard]] Launcher metric_launcher(Work work);
-/// Of those of volumes: VisitVolume, JudgeVolume.
+/// Launches work on volumes: VisitVolume, JudgeVolume.
 template <Metric M>
 [[nodiscard]] Launcher volume_launcher(Work work);
-/// Of the others.
+/// Launches all other work.
 [[nodiscard]] Launcher plain_launcher(Work work);
 
 }  // namespace dmoscope::gpu

@@ -23,7 +23,7 @@ class DeviceMesh {
   /// All that a kernel needs of the mesh.
   [[nodiscard]] const Task& task() const noexcept { return task_; }
   [[nodiscard]] bool is_volume() const noexcept { return is_volume_; }
-  /// Has a class of a planar mesh stars that are Stars::Fans to a metric of ratio form, and has it others?
+  /// Whether a class of a planar mesh has stars that are Stars::Fans, for a metric of ratio form, and whether it has others.
   struct ClassStars {
     bool fans = false, others = false;
   };
@@ -31,11 +31,11 @@ class DeviceMesh {
   /// By vertices: where positions come from and go to.
   [[nodiscard]] const Buffer<Vec3>& positions() const noexcept { return positions_; }
 
-  /// Nobody needs a visit.
+  /// Puts all vertices to sleep: none needs a visit.
   void put_to_sleep() const { awake_.clear(); }
   /// Finds every element's quality at the positions as they are now, and the statistics.
   void judge(Metric metric);
-  /// Of the last judge(): the very bits of compute_statistics().
+  /// Statistics of the last judge(), with the same bits as compute_statistics().
   [[nodiscard]] Statistics statistics() const;
 
  private:

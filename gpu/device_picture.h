@@ -15,7 +15,7 @@ class Pictures : public std::enable_shared_from_this<Pictures> {
  public:
   explicit Pictures(std::shared_ptr<Queue> maker) : maker_(std::move(maker)), reader_(maker_->sibling()) {}
 
-  /// Of the mesh as it is now; judges it by `shown`. On the thread that steps. Throws DeviceError.
+  /// A picture of the mesh as it is now, judged by `shown`. To be called on the thread that steps. Throws DeviceError.
   [[nodiscard]] std::shared_ptr<const DevicePicture> make(DeviceMesh& mesh, Metric shown);
 
  private:

@@ -17,7 +17,7 @@
 #include <cuda_gl_interop.h>
 #else
 enum cudaGLDeviceList { cudaGLDeviceListAll = 1 };
-extern "C" cudaError_t cudaGLGetDevices(unsigned int* count, int* devices, unsigned int room, enum cudaGLDeviceList list);
+extern "C" cudaError_t cudaGLGetDevices(unsigned int* count, int* devices, unsigned int capacity, enum cudaGLDeviceList list);
 extern "C" cudaError_t cudaGraphicsGLRegisterBuffer(struct cudaGraphicsResource** resource, unsigned int buffer, unsigned int flags);
 #endif
 

@@ -38,7 +38,7 @@ Lanes lanes_of(Work work) {
       return run_lanes<bodies::Judge<M>>;
     case Work::VisitVolume:
     case Work::JudgeVolume:
-      break;  // see solid_lanes_of()
+      break;  // see volume_lanes_of()
     case Work::Sum:
       return run_lanes<bodies::Sum>;
     case Work::Total:
@@ -64,12 +64,12 @@ Lanes lanes_of(Work work) {
 }
 
 template <Metric M>
-Lanes solid_lanes_of(Work work) {
+Lanes volume_lanes_of(Work work) {
   return work == Work::VisitVolume ? run_lanes<bodies::VisitVolume<M>> : run_lanes<bodies::JudgeVolume<M>>;
 }
 
 Lanes lanes_of(Work work, Metric metric) {
-  if (is_of_solids(work)) return formulas::with_volume_metric(metric, [work]<Metric M>() { return solid_lanes_of<M>(work); });
+  if (is_of_solids(work)) return formulas::with_volume_metric(metric, [work]<Metric M>() { return volume_lanes_of<M>(work); });
   return formulas::with_planar_metric(metric, [work]<Metric M>() { return lanes_of<M>(work); });
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The host in the place of a device: runs the kernels' bodies lane by lane, so that all that is built on a Queue can be proved without a
+// The host in the place of a device: runs the kernels' bodies lane by lane, so that everything built on a Queue can be tested without a
 // GPU. No backend for users: the processor's own lanes are far faster.
 
 #include <memory>

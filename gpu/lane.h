@@ -1,5 +1,5 @@
 #pragma once
-// What a device and the host in its place do each in its own way.
+// What a device does in another way than the host that stands in for it.
 
 #include <cstdint>
 
@@ -10,7 +10,7 @@
 #define DMOSCOPE_LANE
 #endif
 
-/// Put into a device's code where it is called, however long it is: a call would keep in memory what is in registers else.
+/// Put into a device's code where it is called, however long it is: a call would put into memory what registers hold otherwise.
 #if defined(__CUDACC__)
 #define DMOSCOPE_LANE_INLINE __forceinline__
 #else

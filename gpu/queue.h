@@ -19,9 +19,9 @@ namespace dmoscope::gpu {
 
 struct Task;
 
-/// Of a device, shared by its queues.
+/// What was done on a device; shared by its queues.
 struct Counters {
-  std::atomic<std::uint64_t> bytes_to_host{0};  // of positions and element values, as those count who download them
+  std::atomic<std::uint64_t> bytes_to_host{0};  // of positions and element values, counted by the code that downloads them
   std::atomic<std::uint64_t> bytes_allocated{0};
 };
 

@@ -39,17 +39,17 @@ struct Task {
   std::size_t vertex_count = 0, element_count = 0;
 
   Vec3* ranked = nullptr;         // the positions
-  std::uint8_t* awake = nullptr;  // one a rank: has its star changed since it was last found at its best?
+  std::uint8_t* awake = nullptr;  // one per rank: has its star changed since it was last found at its best?
   SearchFrame frame{};
   SearchParameters parameters;
   Untangling untangling{};
 
-  // A class's deferred visits: room for as many as the largest class has, and how many there are.
+  // A class's deferred visits: space for as many as the largest class has, and how many there are.
   Deferred* deferred = nullptr;
   std::uint32_t* deferred_count = nullptr;
   std::uint32_t* moved = nullptr;  // of the vertices visited since it was last set to 0
 
-  // Statistics: one an element; kParts a stretch of kStretch elements, and behind them their totals; the result.
+  // Statistics: one per element; kParts per stretch of kStretch elements, and behind them their totals; the result.
   double* quality = nullptr;                // NaN where the metric is not defined
   std::uint8_t* inverted = nullptr;         // 1 where a corner Jacobian is <= 0
   const std::uint8_t* immovable = nullptr;  // 1 where all corners are fixed
@@ -58,7 +58,7 @@ struct Task {
 
   Vec3* positions = nullptr;  // by vertices: what is copied from and to the host, or a picture's
 
-  // Of a picture. counts: one for each place of histogram_slot().
+  // For a picture. counts: one for each place of histogram_slot().
   float* shades = nullptr;
   std::uint32_t* counts = nullptr;
   Vec2<double> origin{};

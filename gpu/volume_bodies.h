@@ -10,7 +10,7 @@
 
 namespace dmoscope::gpu::bodies {
 
-/// A visit of rank first + i: the fast search and, where that cannot speak for the star or the search is to be in double, the plain one.
+/// A visit of rank first + i: the fast search and, where that cannot handle the star or the search is to be in double, the plain one.
 template <Metric M>
 struct VisitVolume {
   template <class Team>
@@ -64,9 +64,9 @@ struct JudgeVolume {
     const PositionView positions = positions_of(task);
     visit_volume(
         volume_of(task).corners_of(element), [&](Index v) { return positions[v]; },
-        [&](const auto& solid) {
-          task.quality[element] = evaluate<M>(solid);
-          task.inverted[element] = formulas::smallest_jacobian(solid) <= 0.0 ? 1 : 0;
+        [&](const auto& shape) {
+          task.quality[element] = evaluate<M>(shape);
+          task.inverted[element] = formulas::smallest_jacobian(shape) <= 0.0 ? 1 : 0;
         });
   }
 };

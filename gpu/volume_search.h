@@ -40,7 +40,7 @@ class VolumeRankSearch {
 
   [[nodiscard]] DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE VolumeFound run() {
     Found best = rank({});
-    if (!(best.objective > solids::kLeastRank)) return {};
+    if (!(best.objective > volumes::kLeastRank)) return {};
     double omega = parameters_.omega;
     for (int level = 0; level < parameters_.levels; ++level) {
       best = search(best, static_cast<float>(omega));
@@ -52,7 +52,7 @@ class VolumeRankSearch {
  private:
   using Point = Vec3Of<float>;
   using Found = Candidate<float, Point>;
-  using Form = solids::MeanRatioForm<float>;
+  using Form = volumes::MeanRatioForm<float>;
   static constexpr bool kCorners = formulas::kDefinedForCorners<M>;
   static constexpr int kAtOnce = 4;
 
@@ -76,7 +76,7 @@ class VolumeRankSearch {
   }
   static DMOSCOPE_ANYWHERE void lower(Some& some, const StarTetrahedron<float>& t) {
     if constexpr (M == Metric::MeanRatio) {
-      lower(some, solids::tetrahedron_form(t.b, t.c, t.d));
+      lower(some, volumes::tetrahedron_form(t.b, t.c, t.d));
     } else {
       DMOSCOPE_UNROLL
       for (int i = 0; i < kAtOnce; ++i) some.worth[i] = scalar::min(some.worth[i], formulas::rank<M>(t.with(some.at[i])));
@@ -85,7 +85,7 @@ class VolumeRankSearch {
   template <class Element>
   static DMOSCOPE_ANYWHERE void lower(Some& some, const Element& element) {
     if constexpr (M == Metric::MeanRatio) {
-      solids::for_corner_forms(element.with(Point{}), element.kMoving, [&some](const Form& form) { lower(some, form); });
+      volumes::for_corner_forms(element.with(Point{}), element.kMoving, [&some](const Form& form) { lower(some, form); });
     } else {
       DMOSCOPE_UNROLL
       for (int i = 0; i < kAtOnce; ++i)
@@ -96,7 +96,7 @@ class VolumeRankSearch {
     DMOSCOPE_UNROLL
     for (int i = 0; i < kAtOnce; ++i) {
       const Point p = some.at[i];
-      some.worth[i] = scalar::min(some.worth[i], solids::rank_of(form, p, dot(p, p)));
+      some.worth[i] = scalar::min(some.worth[i], volumes::rank_of(form, p, dot(p, p)));
     }
   }
 

@@ -5,10 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include "core/base/error.h"
+#include "core/base/unknown_value.h"
 
 namespace dmoscope::render {
 namespace {
@@ -87,12 +85,9 @@ std::string_view name(ColourMap map) {
 }
 
 ColourMap colour_map_from_name(std::string_view name) {
-  std::vector<std::string_view> names;
-  for (const ColourMapInfo& info : kTable) {
+  for (const ColourMapInfo& info : kTable)
     if (info.name == name) return info.map;
-    names.push_back(info.name);
-  }
-  throw UsageError(fmt::format("there is no colour map '{}'; there are: {}", name, fmt::join(names, ", ")));
+  throw UsageError(unknown_row("colour map", name, kTable));
 }
 
 Oklab to_oklab(Rgb colour) {

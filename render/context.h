@@ -7,7 +7,7 @@
 
 namespace dmoscope::render {
 
-/// A context that everything in this room draws with. It must be current on the calling thread whenever an object of this room
+/// A context that everything in this module draws with. It must be current on the calling thread whenever an object of this module
 /// that owns OpenGL things (Framebuffer, PlanarScene, ...) is made, used or destroyed, and it must outlive them.
 class Context {
  public:

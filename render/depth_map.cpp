@@ -101,8 +101,8 @@ bool DepthMap::shows(Vec3 point) const {
   const auto at = corner(point);
   if (!at || at->x < 0.0 || at->y < 0.0 || at->x >= width_ || at->y >= height_) return false;
   const int column = static_cast<int>(at->x), row = static_cast<int>(at->y);
-  // Of a face that is seen obliquely some pixel beside the point is as far away as the point itself. Where nothing is tells nothing: it
-  // may be beside what hides the point.
+  // On a face that is seen obliquely, some pixel beside the point's own is as far away as the point. Empty pixels prove nothing: they may
+  // be beside what hides the point.
   bool all_empty = true;
   for (int y = std::max(0, row - 1); y <= std::min(height_ - 1, row + 1); ++y) {
     for (int x = std::max(0, column - 1); x <= std::min(width_ - 1, column + 1); ++x) {

@@ -1,5 +1,5 @@
 #pragma once
-// What of a volume mesh hides what, found without OpenGL. Only for sources of this room.
+// Which parts of a volume mesh hide others, found without OpenGL. Only for sources of this module.
 
 #include <span>
 #include <vector>

@@ -23,7 +23,7 @@ struct DrawRange {
 
 /// All elements of one kind, in drawing order (along a Morton curve over the positions the mesh came with).
 struct Batch {
-  static constexpr Index kBlock = 1024;  // elements a block; the last has fewer
+  static constexpr Index kBlock = 1024;  // elements per block; the last has fewer
   Index corner_count = 3;
   std::vector<Index> order;    // drawn index to element
   std::vector<Index> corners;  // of the drawn elements, corner_count each
@@ -58,7 +58,7 @@ struct Layout {
   }
 };
 
-/// Builds the layout; about 0.3 s a million elements, on any thread. Throws UsageError when an element is not a triangle or a
+/// Builds the layout; about 0.3 s per million elements, on any thread. Throws UsageError when an element is not a triangle or a
 /// quadrilateral.
 [[nodiscard]] std::shared_ptr<const Layout> build_layout(const Mesh& mesh, const Plane& plane);
 
@@ -75,7 +75,7 @@ class Placement {
   [[nodiscard]] bool empty() const noexcept { return layout_ == nullptr; }
   /// Plane coordinates of all vertices.
   [[nodiscard]] std::span<const Vec2<double>> points() const noexcept { return points_; }
-  /// Of all vertices that elements use.
+  /// Bounds of all vertices that elements use.
   [[nodiscard]] const Bounds2& bounds() const noexcept { return bounds_; }
   [[nodiscard]] const Bounds2& block_bounds(std::size_t batch, Index block) const noexcept { return block_bounds_[batch][block]; }
   /// Ranges of drawn elements whose blocks meet `window`, joined where they touch.

@@ -1,5 +1,5 @@
 #pragma once
-// What drawing changes of OpenGL's state. Only for sources of this room.
+// What drawing changes of OpenGL's state. Only for sources of this module.
 
 #include "core/base/vec.h"
 #include "render/framebuffer.h"

@@ -6,7 +6,7 @@
 
 namespace dmoscope::render {
 
-/// The drawing on white, `scale` pixels a unit (1 to 8). Needs no OpenGL. Throws Error when the system's font is missing.
+/// The drawing on white, `scale` pixels per unit (1 to 8). Needs no OpenGL. Throws Error when the system's font is missing.
 [[nodiscard]] Image picture_of(const Drawing& drawing, int scale = 2);
 
 }  // namespace dmoscope::render

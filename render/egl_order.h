@@ -1,5 +1,5 @@
 #pragma once
-// Which of EGL's ways to OpenGL without a window are tried, and in which order. No EGL. Only for sources of this room.
+// Which of EGL's ways to OpenGL without a window are tried, and in which order. No EGL. Only for sources of this module.
 
 #include <optional>
 #include <span>

@@ -1,5 +1,5 @@
 #pragma once
-// Elements on the OpenGL side. Only for sources of this room.
+// Elements on the OpenGL side. Only for sources of this module.
 
 #include <array>
 #include <span>
@@ -16,7 +16,7 @@ namespace dmoscope::render {
 /// A camera as the shaders take it.
 struct View {
   Vec2<float> offset_high, offset_low;  // the camera's centre less the layout's origin
-  float zoom = 1.0F;                    // pixels a unit
+  float zoom = 1.0F;                    // pixels per unit
   Vec2<float> viewport;
   float widest = 1e30F;     // pixels; see Layout::widest
   Vec2<float> hatch_phase;  // of rising and falling stripes, in periods
@@ -31,7 +31,7 @@ class ElementPainter {
   void upload_topology(const Layout& layout);
   /// Relative to the layout's origin, in place.
   void upload_points(std::span<const Vec2<float>> points);
-  /// One an element, in place: see shade_of.
+  /// One per element, in place: see shade_of.
   void upload_shades(std::span<const float> shades);
   /// The buffers of the two, for others to write: new ones with every upload_topology, the same ones until then.
   [[nodiscard]] GLuint point_buffer() const noexcept { return points_.id(); }

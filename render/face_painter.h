@@ -1,5 +1,5 @@
 #pragma once
-// Faces of volume elements on the OpenGL side. Only for sources of this room.
+// Faces of volume elements on the OpenGL side. Only for sources of this module.
 
 #include <array>
 #include <optional>
@@ -29,7 +29,7 @@ class FacePainter {
   using Point = std::array<float, 3>;
   void upload_points(std::span<const Point> points) { points_.write(points); }
   void upload_shades(std::span<const float> shades) { shades_.write(shades); }
-  /// Of the corners of all elements; needed while they are shrunk.
+  /// The mean of each element's corners; needed while elements are drawn shrunk.
   void upload_means(std::span<const Point> means) { means_.write(means); }
   void upload_faces(std::span<const FaceRecord> faces) { upload(faces_, faces); }
   void upload_ghost(std::span<const FaceRecord> faces) { upload(ghost_, faces); }

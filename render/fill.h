@@ -1,5 +1,5 @@
 #pragma once
-// The colours of elements on the OpenGL side: what resources/shaders/fill.glsl reads. Only for sources of this room.
+// The colours of elements on the OpenGL side: what resources/shaders/fill.glsl reads. Only for sources of this module.
 
 #include <optional>
 
@@ -24,7 +24,7 @@ class Fill {
   /// What is shown instead of quality; null: quality.
   void set_shading(const Shading* shading);
   void set_selection(const Selection& selection);
-  /// For the programs that include fill.glsl. `shades`: one an element, see shade_of; `order`: the elements as they are drawn.
+  /// For the programs that include fill.glsl. `shades`: one per element, see shade_of; `order`: the elements as they are drawn.
   void bind(const Program& program, const Style& style, const Buffer& shades, const Buffer& order) const;
   /// Values by vertex and the palette for the shaders of edges; `instead`: what to bind where edges have no categories. Their number.
   [[nodiscard]] int bind_edges(const Buffer& instead) const;

@@ -1,5 +1,5 @@
 #pragma once
-// Thin owners of OpenGL objects; every call that can fail is checked. Only for sources of this room.
+// Thin owners of OpenGL objects; every call that can fail is checked. Only for sources of this module.
 
 #include <array>
 #include <cstddef>
@@ -62,7 +62,7 @@ struct DeleteProgram {
 /// A buffer that grows when it must and is otherwise written in place.
 class Buffer {
  public:
-  /// Allocates anew, and forgets what was there, unless there is room for `bytes` already.
+  /// Allocates again, losing the content, unless `bytes` fit already.
   void reserve(std::size_t bytes);
   /// Replaces the first bytes by `data`; memory is allocated anew only when it does not fit.
   void write(std::span<const std::byte> data);

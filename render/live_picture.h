@@ -1,5 +1,5 @@
 #pragma once
-// The picture of a scene that a person looks at: never drawn longer than a moment at a time, and never without need.
+// The picture of a scene that a person looks at: drawn in short slices, and only when something changed.
 
 #include <optional>
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/unknown_value.h"
 
 namespace dmoscope::render {
 namespace {
@@ -63,12 +64,9 @@ void Bounds3::include(Vec3 p) noexcept {
 std::span<const ViewPresetInfo> view_preset_table() { return kPresets; }
 
 ViewPreset view_preset_from_name(std::string_view name) {
-  std::string names;
-  for (const ViewPresetInfo& preset : kPresets) {
+  for (const ViewPresetInfo& preset : kPresets)
     if (preset.name == name) return preset.preset;
-    names += (names.empty() ? "" : ", ") + std::string(preset.name);
-  }
-  throw UsageError("there is no view '" + std::string(name) + "'; there are: " + names);
+  throw UsageError(unknown_row("view", name, kPresets));
 }
 
 std::optional<Vec2<double>> Projection::place(Vec3 point) const {

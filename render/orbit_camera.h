@@ -16,7 +16,7 @@ struct Bounds3 {
   Vec3 low{0, 0, 0}, high{-1, -1, -1};
   [[nodiscard]] bool empty() const noexcept { return high.x < low.x; }
   [[nodiscard]] Vec3 centre() const noexcept { return low + 0.5 * (high - low); }
-  /// Of the ball around the box; 0 when it is empty.
+  /// Radius of the ball around the box; 0 when it is empty.
   [[nodiscard]] double radius() const noexcept { return empty() ? 0.0 : 0.5 * length(high - low); }
   void include(Vec3 point) noexcept;
 };
@@ -45,7 +45,7 @@ struct PicturePart {
 /// From the mesh to a picture.
 class Projection {
  public:
-  /// Of positions less origin(), to clip coordinates; column after column.
+  /// Maps positions relative to origin() to clip coordinates; column after column.
   [[nodiscard]] const std::array<double, 16>& matrix() const noexcept { return matrix_; }
   [[nodiscard]] Vec3 origin() const noexcept { return origin_; }
   [[nodiscard]] Vec2<double> viewport() const noexcept { return viewport_; }  // of the part, pixels
@@ -86,7 +86,7 @@ struct OrbitCamera {
   void fit(std::span<const Vec3> points, Vec2<double> viewport, const PicturePart& room);
   /// The same of the corners of a box, with `margin` pixels around it.
   void fit(const Bounds3& bounds, Vec2<double> viewport, double margin = 24.0);
-  /// Turns by a drag of so many pixels: sideways about the z axis, which stays upright, and up and down until straight above or below.
+  /// Turns by a drag of a number of pixels: sideways about the z axis, which stays upright, and up and down until straight above or below.
   void turn(Vec2<double> pixels, Vec2<double> viewport);
   /// Turns by a drag from one pixel to another as if the mesh were a ball that fills the viewport.
   void roll(Vec2<double> from, Vec2<double> to, Vec2<double> viewport);
@@ -97,7 +97,7 @@ struct OrbitCamera {
   void orbit_about(Vec3 point) { centre = point; }
 
   [[nodiscard]] ViewRay ray(Vec2<double> pixel, Vec2<double> viewport) const;
-  /// Of positions relative to the centre of `bounds`, which all lie within the range of depths. `part`: none for the whole viewport.
+  /// Projects positions relative to the centre of `bounds`, all of which has a depth in range. `part`: none for the whole viewport.
   [[nodiscard]] Projection projection(Vec2<double> viewport, const Bounds3& bounds, const std::optional<PicturePart>& part = {}) const;
 };
 

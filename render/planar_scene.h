@@ -41,7 +41,7 @@ class PlanarScene final : public Scene {
   /// The same in two steps, for meshes without a session. Elements of `mesh` must be triangles and quadrilaterals (else
   /// UsageError); the mesh is not kept.
   void set_mesh(const Mesh& mesh, const Plane& plane);
-  /// positions: one a vertex. quality and inverted: one an element, as in Frame; inverted may be empty (none).
+  /// positions: one per vertex. quality and inverted: one per element, as in Frame; inverted may be empty (none).
   void update(std::span<const Vec3> positions, std::span<const float> quality, std::span<const std::uint8_t> inverted);
 
   /// Which vertices are fixed (RunView::fixed), for Style::vertices; empty: all free. Forgotten when another mesh is shown.
@@ -91,7 +91,7 @@ class PlanarScene final : public Scene {
   /// The elements in view and some around it, in no order; none when they are more than `most`, or stand on a device.
   [[nodiscard]] std::optional<std::vector<Index>> elements_in_view(const Camera2D& camera, Vec2<double> viewport, std::size_t most) const;
 
-  /// The ids that have room in a viewport of that size: of an element inside of it, of a vertex between it and its neighbours. None when
+  /// The ids that have space in a viewport of that size: of an element inside of it, of a vertex between it and its neighbours. None when
   /// there are more than wish.most, and none while too much is in view to look at it all.
   [[nodiscard]] std::vector<Label> labels(const Camera& camera, Vec2<double> viewport, const LabelWish& wish) const override;
 

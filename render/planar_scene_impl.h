@@ -24,7 +24,7 @@ struct PlanarScene::Impl {
   DeviceFeed device;  // after the painter, whose buffers it knows
   MarkPainter marks;
   std::vector<std::uint8_t> fixed;
-  std::vector<float> shades;  // one an element, see shade_of; as old as the placement
+  std::vector<float> shades;  // one per element, see shade_of; as old as the placement
   std::vector<Vec2<float>> point_scratch;
   std::shared_ptr<const Shading> shading;
   Selection selection;

@@ -31,7 +31,7 @@ struct Pick {
   double vertex_distance = 0.0;  // pixels; meaningful when there is a vertex
 };
 
-/// Ids worth writing: what there is room for.
+/// Which ids are to be written, where there is space for them.
 struct Label {
   Vec2<double> point;  // of the plane, where the middle of the text belongs
   Index id = kNoIndex;
@@ -40,7 +40,7 @@ struct Label {
 struct LabelWish {
   bool vertices = false, elements = false;
   double digit_width = 8.0, line_height = 15.0;  // of the text, pixels
-  std::size_t most = 400;                        // more would be a carpet: then there are none
+  std::size_t most = 400;                        // where there would be more, none are shown
 };
 
 /// How far a picture that is drawn in slices has come.
@@ -89,7 +89,7 @@ class Scene {
 
   /// What is at `pixel` (of a viewport of that size) by geometry in double, not by colours. `radius`: how far a vertex may be, in pixels.
   [[nodiscard]] virtual Pick pick(const Camera& camera, Vec2<double> viewport, Vec2<double> pixel, double radius = 8.0) const = 0;
-  /// The ids that have room in a viewport of that size. None when there are more than wish.most, or too much is in view to look at it all.
+  /// The ids that have space in a viewport of that size. None when there are more than wish.most, or too much is in view to look at it all.
   [[nodiscard]] virtual std::vector<Label> labels(const Camera& camera, Vec2<double> viewport, const LabelWish& wish) const = 0;
 
  protected:

@@ -33,7 +33,7 @@ struct Legend {
 
 struct Shot {
   int width = 1280, height = 800;  // of the picture that comes out, legend included
-  int supersample = 2;             // n x n samples a pixel, 1 to 8
+  int supersample = 2;             // n x n samples per pixel, 1 to 8
   bool transparent = false;
   std::optional<Legend> legend;
   float scale = 1.0F;  // of text and line widths

@@ -14,8 +14,8 @@ namespace dmoscope::render {
 /// Values to colour by. Inverted elements keep their own colour whatever the others are coloured by.
 struct Shading {
   enum class By {
-    Elements,  // one value an element
-    Vertices   // one a vertex; each part of an element has the colour of the corner that is nearest
+    Elements,  // one value per element
+    Vertices   // one per vertex; each part of an element has the colour of the corner that is nearest
   };
   By by = By::Elements;
   std::vector<float> values;  // NaN: not defined. With a palette: index of a category, or -1 for none
@@ -27,7 +27,7 @@ struct Shading {
 struct Selection {
   enum class Others { Fade, Hide, Outline };
   std::optional<std::pair<float, float>> quality;            // from, to; inverted elements count when `from` is 0 or less
-  std::shared_ptr<const std::vector<std::uint8_t>> members;  // one an element, 0: does not count; null: all do
+  std::shared_ptr<const std::vector<std::uint8_t>> members;  // one per element, 0: does not count; null: all do
   Others others = Others::Fade;                              // how the others are drawn; hidden ones are not picked, either
   [[nodiscard]] bool all() const noexcept { return !quality && !members; }
   friend bool operator==(const Selection&, const Selection&) = default;

@@ -20,7 +20,7 @@ struct Style {
   bool boundary = true;  // edges that have one element
   float boundary_width = 1.6F;
   Rgba boundary_colour{0xe6, 0xe9, 0xee, 255};
-  bool vertices = false;  // dots for free (round) and fixed (square) vertices, once there is room for them
+  bool vertices = false;  // dots for free (round) and fixed (square) vertices, once there is space for them
   Rgba free_colour{0xff, 0xff, 0xff, 255};
   Rgba fixed_colour{0xff, 0xb0, 0x3a, 255};
   Rgba vertex_casing_colour{0x10, 0x12, 0x16, 230};

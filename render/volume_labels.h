@@ -1,5 +1,5 @@
 #pragma once
-// What of a volume mesh can be written and drawn at, because nothing hides it. Only for sources of this room.
+// Where labels and marks of a volume mesh can be put because nothing hides the place. Only for sources of this module.
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 #pragma once
-// What is marked over the picture of a volume mesh. Only for sources of this room.
+// What is marked over the picture of a volume mesh. Only for sources of this module.
 
 #include "render/mark_painter.h"
 #include "render/volume_pick.h"

@@ -48,7 +48,7 @@ void take_nearest(const SeenFaces& seen, const DrawnFace& corners, const Project
     const double distance = std::hypot(place->x - at.x, place->y - at.y);
     if (distance > radius) continue;
     const double far = projection.depth(corners.points[i]);
-    // Of vertices behind each other the front one.
+    // Of several vertices behind each other take the front one.
     constexpr double kSame = 0.5;  // pixels
     const bool better =
         pick.vertex == kNoIndex || distance < pick.vertex_distance - kSame || (distance < pick.vertex_distance + kSame && far < depth);

@@ -1,5 +1,5 @@
 #pragma once
-// What of a volume mesh lies under a pixel. No OpenGL.
+// Which part of a volume mesh lies under a pixel. No OpenGL.
 
 #include <array>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace dmoscope::render {
 
-/// What is seen of a mesh.
+/// The part of a mesh that is seen.
 struct SeenFaces {
   const ElementTable& elements;
   std::span<const Vec3> positions;

@@ -295,7 +295,7 @@ void VolumeScene::fit(OrbitCamera& camera, Vec2<double> viewport, const PictureP
 
 namespace {
 
-/// Of the whole of a target.
+/// The part that is the whole of a target.
 PicturePart all_of(Vec2<double> viewport) { return {{0, 0}, viewport}; }
 
 }  // namespace

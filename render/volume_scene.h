@@ -15,7 +15,7 @@
 
 namespace dmoscope::render {
 
-/// What nothing hides of what is seen: its vertices, ascending, and edges between two of them, each once.
+/// The visible part that nothing hides: its vertices, ascending, and the edges between two of them, each once.
 struct Unhidden {
   std::vector<Index> vertices;
   std::vector<std::array<Index, 2>> edges;
@@ -36,14 +36,14 @@ class VolumeScene final : public Scene {
   /// The same in two steps, for meshes without a session. Shows another mesh, all of it. Both must live until the next call; `owner` is
   /// kept until then. Throws UsageError when an element is not of a volume.
   void set_mesh(const ElementTable& elements, const FaceNeighbours& faces, std::shared_ptr<const void> owner = {});
-  /// Where vertices and how good cells are. What `state` views must live until the next call or another mesh; `owner` is kept until then.
-  /// Uploads positions and qualities in place; faces only where a view depends on these. Throws UsageError for sizes that do not fit.
+  /// Takes positions and qualities. What `state` views must live until the next call or another mesh; `owner` is kept until then. Uploads
+  /// both in place; faces only where a view depends on these. Throws UsageError for sizes that do not fit.
   void update(const CellState& state, std::shared_ptr<const void> owner = {});
-  /// What is seen of it; the same again costs nothing. Throws UsageError, see VisibleCells; what was seen before is seen then.
+  /// Chooses what is seen; the same view again costs nothing. Throws UsageError, see VisibleCells; what was seen before is seen then.
   void set_view(const ClippingView& view);
   [[nodiscard]] const ClippingView& view() const noexcept;
-  /// Shown instead of quality, by elements; null: quality. Forgotten with another mesh. Throws UsageError when values are not one an
-  /// element.
+  /// Shown instead of quality, by elements; null: quality. Forgotten with another mesh. Throws UsageError unless there is one value
+  /// per element.
   void set_shading(std::shared_ptr<const Shading> shading) override;
   /// Cells that do not count are faded, or hidden as far as faces are drawn; what takes cells away is the view. Forgotten with another
   /// mesh. Throws UsageError when the members are not as many as the elements.
@@ -63,11 +63,11 @@ class VolumeScene final : public Scene {
   [[nodiscard]] bool sees_vertex(Index vertex) const;
   /// None while more faces are drawn than can be looked through in a moment.
   [[nodiscard]] std::optional<Unhidden> unhidden(const OrbitCamera& camera, Vec2<double> viewport) const;
-  /// The ids that have room in a viewport of that size: of a cell within one of its faces, of a vertex between it and its neighbours, where
-  /// nothing hides them and no other stands. Their points are in pixels from the middle of the viewport, y up. None when they are more than
-  /// wish.most, and none while there are too many faces.
+  /// The ids that have space in a viewport of that size: of a cell within one of its faces, of a vertex between it and its neighbours,
+  /// where nothing hides them and no other stands. Their points are in pixels from the middle of the viewport, y up. None when they are
+  /// more than wish.most, and none while there are too many faces.
   [[nodiscard]] std::vector<Label> labels(const Camera& camera, Vec2<double> viewport, const LabelWish& wish) const override;
-  /// Of all vertices of elements, whatever is seen of them.
+  /// Bounds of all vertices of elements, visible or not.
   [[nodiscard]] const Bounds3& bounds() const noexcept;
   /// Moves a camera so that it shows all of these, as large as can be within that part of a viewport; see OrbitCamera::fit.
   void fit(OrbitCamera& camera, Vec2<double> viewport, const PicturePart& room) const;
@@ -81,8 +81,8 @@ class VolumeScene final : public Scene {
   void draw_part(Framebuffer& target, const Camera& camera, const Style& style, const SceneMarks& marks, Vec2<double> viewport,
                  const PicturePart& part) override;
 
-  /// What of what is seen lies at `pixel`: the element of the nearest face or cut there, and of its corners the nearest within `radius`; of
-  /// an empty place the nearest vertex of a visible face. By geometry in double. Some 10 ns a face.
+  /// What lies at `pixel`: the element of the nearest face or cut there, and of its corners the nearest within `radius`; of
+  /// an empty place the nearest vertex of a visible face. By geometry in double. Some 10 ns per face.
   [[nodiscard]] Pick pick(const Camera& camera, Vec2<double> viewport, Vec2<double> pixel, double radius = 8.0) const override;
   /// The point of the mesh that is seen at `pixel`, to orbit about; none where nothing is.
   [[nodiscard]] std::optional<Vec3> point_at(const OrbitCamera& camera, Vec2<double> viewport, Vec2<double> pixel) const;

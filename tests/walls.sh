@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The walls between the rooms: what each folder must not include or call. Prints every breach as file:line.
+# The walls between the modules: what each folder must not include or call. Prints every breach as file:line.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -24,7 +24,7 @@ opengl='(glad|GL|GLES[0-9]?|EGL|GLFW|glfw)[/0-9]'
 imgui='(imgui|backends/imgui|misc/)'
 cuda='(cuda|cuda_runtime|cuda_runtime_api|device_launch_parameters)'
 
-breach "core knows no other room" "${include}(gpu|render|ui|app)/" core
+breach "core knows no other module" "${include}(gpu|render|ui|app)/" core
 breach "core knows no OpenGL, ImGui or CUDA" "${include}(${opengl}|${imgui}|${cuda})" core
 breach "gpu knows neither the screen nor the program" "${include}(render|ui|app)/" gpu
 breach "render knows no interface, program or GPU backend" "${include}(ui|app|gpu)/" render
@@ -35,21 +35,21 @@ breach "only gpu includes CUDA" "${include}${cuda}" app tests
 
 breach "ui's state, analysis and commands know no ImGui" "${include}${imgui}" ui/state ui/analysis ui/commands
 
-# layers ROOM FOLDER...: within a room, sources include headers of their own folder and of those named before it. "." is the room itself.
+# layers MODULE FOLDER...: within a module, sources include headers of their own folder and of those named before it. "." is the module itself.
 layers() {
-  local room=$1 found
+  local module=$1 found
   shift
-  found=$(find "$room" -name '*.cpp' -o -name '*.h' -o -name '*.cu' -o -name '*.cuh' | sort | xargs awk -v room="$room" -v order="$*" '
-    function folder(file) { sub(/\/[^\/]*$/, "", file); return file == room ? "." : substr(file, length(room) + 2) }
+  found=$(find "$module" -name '*.cpp' -o -name '*.h' -o -name '*.cu' -o -name '*.cuh' | sort | xargs awk -v module="$module" -v order="$*" '
+    function folder(file) { sub(/\/[^\/]*$/, "", file); return file == module ? "." : substr(file, length(module) + 2) }
     BEGIN { n = split(order, names, " "); for (i = 1; i <= n; ++i) rank[names[i]] = i }
     FNR == 1 && !(folder(FILENAME) in rank) { print FILENAME ":1: its folder has no place in the order" }
-    $0 ~ "^[[:space:]]*#[[:space:]]*include[[:space:]]*\"" room "/" {
+    $0 ~ "^[[:space:]]*#[[:space:]]*include[[:space:]]*\"" module "/" {
       split($0, part, "\"")
       if (rank[folder(part[2])] > rank[folder(FILENAME)]) print FILENAME ":" FNR ": " folder(FILENAME) " is below " folder(part[2]) ": " part[2]
     }')
   [[ -z $found ]] && return 0
   failed=1
-  printf 'The order of the folders in %s:\n%s\n' "$room" "$found"
+  printf 'The order of the folders in %s:\n%s\n' "$module" "$found"
 }
 layers core base drawing numeric mesh io clipping quality search input smooth smooth/kernels smooth/methods smooth/execution inspect run session view \
   commands engine

@@ -12,7 +12,7 @@
 namespace dmoscope {
 
 [[nodiscard]] std::string to_base64(std::span<const std::uint8_t> bytes);
-/// None for what is no base64.
+/// None where the text is not base64.
 [[nodiscard]] std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text);
 
 /// Reads base64 piece by piece. Blanks and line ends between the digits are passed over, and where one run of base64 ends with its padding

@@ -16,7 +16,7 @@ class Error : public std::runtime_error {
   [[nodiscard]] virtual int exit_code() const noexcept { return 3; }
 };
 
-/// What a file holds is wrong. what() is "file:line: what is wrong" (line 0: "file: what is wrong").
+/// A file's content is wrong. what() is "file:line: what is wrong" (line 0: "file: what is wrong").
 class InputError : public Error {
  public:
   InputError(std::string file, std::size_t line, const std::string& what)
@@ -43,8 +43,8 @@ class UsageError : public Error {
   [[nodiscard]] int exit_code() const noexcept override { return 2; }
 };
 
-/// A device (GPU) failed or has not what was asked of it, such as memory: what() says what failed and, for memory, how much was asked for
-/// and how much is free.
+/// A device (GPU) failed or lacks what was asked of it, such as memory. what() says what failed and, for memory, how much was asked for and
+/// how much is free.
 class DeviceError : public Error {
  public:
   using Error::Error;
@@ -57,7 +57,7 @@ class NotReached : public Error {
   [[nodiscard]] int exit_code() const noexcept override { return 1; }
 };
 
-/// The person cancelled long work; whatever was being built is discarded, whatever stood before still stands.
+/// The person cancelled long work: what was being built is discarded, and what was there before is unchanged.
 class Cancelled : public Error {
  public:
   Cancelled() : Error("cancelled") {}

@@ -1,5 +1,5 @@
 #pragma once
-// A short hash of bytes (FNV-1a, 64 bits): finds damage, proves nothing against somebody who wants to deceive.
+// A short hash of bytes (FNV-1a, 64 bits): finds damage, but no intended forgery.
 
 #include <cstdint>
 #include <string>

@@ -10,15 +10,15 @@
 
 namespace dmoscope {
 
-/// A finite number in four significant digits, those that are 0 too, so that a column of them lines up: "0.7000", "4728", "1.235e+06".
+/// A finite number with four significant digits, trailing zeros included, so that a column of them lines up: "0.7000", "4728", "1.235e+06".
 [[nodiscard]] inline std::string four_digits(double value) {
   if (value == 0.0) return "0.000";
-  // From the thousands on the four digits need no point, after which fmt would put a 0 that is not known.
+  // From 1000 on four digits need no decimal point; fmt would add one and a zero that is not significant.
   std::string text = fmt::format("{:#.4g}", value);
   return text.find('e') == std::string::npos && std::abs(value) >= 999.95 ? fmt::format("{:.4g}", value) : text;
 }
 
-/// Thousands apart: "1,334,112".
+/// A count with thousands separators: "1,334,112".
 [[nodiscard]] inline std::string grouped(std::uint64_t value) {
   std::string text = std::to_string(value);
   for (std::size_t left = text.size(); left > 3;) text.insert(left -= 3, 1, ',');
@@ -30,7 +30,7 @@ namespace dmoscope {
   return fmt::format("{} {}", grouped(value), value == 1 ? one : many);
 }
 
-/// Three digits and a prefix, for what stands before a unit: "1.61 M", "73.4 k", "12 ".
+/// Three digits and an SI prefix, to stand before a unit: "1.61 M", "73.4 k", "12 ".
 [[nodiscard]] inline std::string with_prefix(double value) {
   if (value >= 1e9) return fmt::format("{:.3g} G", value / 1e9);
   if (value >= 1e6) return fmt::format("{:.3g} M", value / 1e6);

@@ -1,5 +1,5 @@
 #pragma once
-// How long work tells how far it is, and how it learns that it shall stop.
+// Long work reports its progress here, and learns here that it shall stop.
 
 #include <atomic>
 #include <cstdint>
@@ -33,7 +33,7 @@ class Progress {
     if (cancel_) throw Cancelled();
   }
 
-  /// While it lives, what is set() is a share of one of `all` equal parts of the work, the one after `done` of them. Parts nest. Made and
+  /// While it lives, set() counts within one of `all` equal parts of the work, the one after the first `done`. Parts nest. Made and
   /// destroyed by the thread that works, while no other one reports.
   class Part {
    public:

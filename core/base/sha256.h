@@ -6,7 +6,7 @@
 
 namespace dmoscope {
 
-/// Of these bytes, 64 lower-case hexadecimal digits: what `sha256sum` prints.
+/// The SHA-256 hash of these bytes as 64 lower-case hexadecimal digits, as `sha256sum` prints it.
 [[nodiscard]] std::string sha256(std::string_view bytes);
 
 }  // namespace dmoscope

@@ -6,8 +6,8 @@
 
 namespace dmoscope {
 
-/// The text with all that a terminal would obey or that would turn the reading direction written as \x1b or \u{202e}, bytes that are no
-/// UTF-8 as \xff: control characters of both kinds, tabulators and line ends among them.
+/// The text with control characters (tabs and line ends too) and marks that turn the reading direction written as \x1b or \u{202e}, and
+/// bytes that are not UTF-8 as \xff.
 [[nodiscard]] std::string terminal_line(std::string_view text);
 
 /// The same for several lines: line ends stay.

@@ -15,7 +15,7 @@ namespace dmoscope {
 /// Between loops that follow each other closely its threads stay awake, some 50 us long; then they sleep.
 class ThreadPool {
  public:
-  /// `threads` 0: one a hardware thread.
+  /// `threads` 0: one per hardware thread.
   explicit ThreadPool(unsigned threads = 0);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;

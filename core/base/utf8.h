@@ -7,7 +7,7 @@
 
 namespace dmoscope {
 
-/// How many bytes the letter takes that `text`, which is not empty, begins with, and which it is; 0: it is no UTF-8.
+/// The first letter of `text`, which is not empty, and how many bytes it takes; 0 bytes: it is not UTF-8.
 [[nodiscard]] inline std::size_t utf8_letter(std::string_view text, std::uint32_t& code) noexcept {
   const auto bits = [&text](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
   const std::uint32_t first = bits(0);

@@ -6,8 +6,8 @@
 
 namespace dmoscope {
 
-/// The text with what has a meaning in markup written as entities, between tags and within quotes alike; control characters, which XML does
-/// not have, are left out, and bytes that are no UTF-8 become U+FFFD.
+/// Escapes the text for use between tags and within quotes. Control characters, which XML does not allow, are left out; bytes that are not
+/// UTF-8 become U+FFFD.
 [[nodiscard]] std::string xml_escaped(std::string_view text);
 
 }  // namespace dmoscope

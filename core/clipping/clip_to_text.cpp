@@ -1,11 +1,13 @@
 #include "core/clipping/clip_to_text.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
 
 #include "core/base/error.h"
+#include "core/base/unknown_value.h"
 
 namespace dmoscope {
 namespace {
@@ -73,7 +75,7 @@ ClipPlane parse_clip(std::string_view words, Vec3 low, Vec3 high) {
 ClipPlane::Mode parse_clip_mode(std::string_view word) {
   if (word == "crinkle") return ClipPlane::Mode::Crinkle;
   if (word == "cut") return ClipPlane::Mode::Cut;
-  throw UsageError("clip mode '" + std::string(word) + "': expected crinkle or cut");
+  throw UsageError(unknown_value("clip mode", word, std::array<std::string_view, 2>{"crinkle", "cut"}));
 }
 
 }  // namespace dmoscope

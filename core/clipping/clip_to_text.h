@@ -7,8 +7,8 @@
 
 namespace dmoscope {
 
-/// "x", "y" or "z", or with a minus before it: across that axis half-way from `low` to `high`, or with ":FRACTION" (0 to 1) elsewhere; what
-/// has more of it is taken away, with a minus what has less. Or "NX,NY,NZ:OFFSET": ClipPlane's numbers. The plane is on. Throws UsageError.
+/// "x", "y" or "z": a plane across that axis, half-way from `low` to `high` or at ":FRACTION" (0 to 1). The side of greater coordinates is
+/// taken away; with a minus before the letter the other side. Or "NX,NY,NZ:OFFSET": ClipPlane's numbers. It is on. Throws UsageError.
 [[nodiscard]] ClipPlane parse_clip(std::string_view words, Vec3 low, Vec3 high);
 
 /// "crinkle" or "cut". Throws UsageError.

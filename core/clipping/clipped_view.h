@@ -30,7 +30,7 @@ struct ClippingView {
   Index peel = 0;                                  // layers of cells taken off the boundary
   std::optional<float> peel_quality;               // cells of a higher quality are taken away; inverted ones and undefined ones stay
   std::optional<std::pair<float, float>> isolate;  // cells within the range stay; inverted ones when it begins at 0 or below
-  std::size_t worst = 0;                           // > 0: only so many cells of the lowest quality of the whole mesh stay
+  std::size_t worst = 0;                           // > 0: only this many cells of the lowest quality of the whole mesh stay
   bool ghost = false;                              // the boundary of what was taken away is shown faintly
   double shrink = 1.0;                             // (0, 1]: every cell is drawn that large about its vertices' mean
   friend bool operator==(const ClippingView&, const ClippingView&) = default;

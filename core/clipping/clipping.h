@@ -21,16 +21,16 @@ struct ClippedFaces {
   std::uint64_t cuts_revision = 0;   // grows when `cuts` may have changed
 };
 
-/// What of a mesh is seen. 3.4 bytes a cell and what a clip plane needs: 16 a cell and 8 a vertex.
+/// Which part of a mesh is seen. Takes 3.4 bytes per cell; a clip plane needs 16 more per cell and 8 per vertex.
 class Clipping {
  public:
   /// Both must outlive it.
   Clipping(const ElementTable& elements, const FaceNeighbours& faces);
-  /// Costs little where little changes: a plane that is dragged a pass over one number a cell, and the cells whose side changed; nothing
-  /// when view and state are those of before. `pool` may be null. Throws UsageError, see VisibleCells; what was there stays then.
+  /// Costs little where little changes: dragging a plane takes a pass over one number per cell, and work on the cells whose side changed.
+  /// Costs nothing while view and state stay. `pool` may be null. Throws UsageError, see VisibleCells; then nothing changes.
   const ClippedFaces& update(const ClippingView& view, const CellState& state, ThreadPool* pool = nullptr);
   [[nodiscard]] const ClippedFaces& faces() const noexcept { return result_; }
-  /// One a cell: 1 where it is seen.
+  /// One per cell: 1 where it is seen.
   [[nodiscard]] std::span<const std::uint8_t> visible() const noexcept { return cells_.visible(); }
 
  private:
@@ -43,7 +43,7 @@ class Clipping {
   const ElementTable& elements_;
   const FaceNeighbours& faces_;
   VisibleCells cells_;
-  std::vector<std::uint8_t> open_;  // a bit a face that is to be drawn
+  std::vector<std::uint8_t> open_;  // a bit per face that is to be drawn
   std::vector<std::size_t> counts_;
   std::vector<PlaneCuts> cut_parts_;  // a chunk each
   ClippedFaces result_;

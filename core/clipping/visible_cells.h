@@ -14,8 +14,8 @@ namespace dmoscope {
 /// Where the vertices are and how good the cells.
 struct CellState {
   std::span<const Vec3> positions;
-  std::span<const float> quality;          // one a cell, NaN: not defined
-  std::span<const std::uint8_t> inverted;  // one a cell, or empty: none is
+  std::span<const float> quality;          // one per cell, NaN: not defined
+  std::span<const std::uint8_t> inverted;  // one per cell, or empty: none is
   std::uint64_t serial = 0;                // differs whenever anything of the above does
 };
 
@@ -30,17 +30,17 @@ struct CellChunk {
   std::size_t visible = 0;
 };
 
-/// Keeps what does not depend on a plane that is dragged, so that this costs one pass over one number a cell.
+/// Keeps what does not depend on a plane that is dragged, so that this costs one pass over one number per cell.
 class VisibleCells {
  public:
   /// Both must outlive it.
   VisibleCells(const ElementTable& elements, const FaceNeighbours& faces);
-  /// Finds out anew which cells are seen. Throws UsageError for a view or a state that does not fit: a normal without direction or numbers
-  /// that are none, not as many qualities as cells.
+  /// Finds out which cells are seen now. Throws UsageError for a view or a state that does not fit: a normal of length 0, NaN, or a number
+  /// of qualities other than that of cells.
   void update(const ClippingView& view, const CellState& state, ThreadPool* pool);
-  /// One a cell: 1 where it is seen.
+  /// One per cell: 1 where it is seen.
   [[nodiscard]] std::span<const std::uint8_t> visible() const noexcept { return visible_; }
-  /// Of the last update, in ascending order of cells.
+  /// The chunks as of the last update, in ascending order of cells.
   [[nodiscard]] std::span<const CellChunk> chunks() const noexcept { return chunks_; }
   [[nodiscard]] std::size_t changed_count() const noexcept;
   [[nodiscard]] std::size_t visible_count() const noexcept;

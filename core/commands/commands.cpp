@@ -4,7 +4,20 @@
 
 #include <fmt/format.h>
 
+#include "core/base/unknown_value.h"
+
 namespace dmoscope {
+namespace {
+
+/// There are too many commands to list; the help lists them.
+std::string unknown_command(std::string_view word, const std::vector<CommandInfo>& known) {
+  std::vector<std::string_view> names;
+  for (const CommandInfo& command : known) names.push_back(command.name);
+  const auto guess = closest_word(word, names);
+  return fmt::format("unknown command '{}'{}", word, guess ? fmt::format("; did you mean {}?", *guess) : std::string());
+}
+
+}  // namespace
 
 void CommandTable::add(CommandInfo info, Handler handler) {
   infos_.push_back(std::move(info));
@@ -17,7 +30,7 @@ void CommandTable::execute(std::string_view line) const {
   const std::vector<std::string> words = split_words(line);
   if (words.empty()) return;
   const auto found = std::ranges::find(infos_, words.front(), &CommandInfo::name);
-  if (found == infos_.end()) throw UsageError(fmt::format("unknown command '{}'", words.front()));
+  if (found == infos_.end()) throw UsageError(unknown_command(words.front(), infos_));
   try {
     handlers_[static_cast<std::size_t>(found - infos_.begin())](Arguments(words).subspan(1));
   } catch (const WrongArguments& wrong) {

@@ -17,7 +17,7 @@ struct CommandInfo {
   std::string doc;    // one line
 };
 
-/// Commands and what they do. Each room that has commands fills in its own table.
+/// Commands and what they do. Each module that has commands fills its own table.
 class CommandTable {
  public:
   using Handler = std::function<void(Arguments)>;

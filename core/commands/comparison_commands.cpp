@@ -1,9 +1,12 @@
 // The session's commands about all runs at once: steps of every run, and runs that differ in one thing.
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include <fmt/format.h>
 
+#include "core/base/unknown_value.h"
 #include "core/commands/command_rows.h"
 #include "core/smooth/execution/method_table.h"
 
@@ -68,7 +71,8 @@ void each(CommandContext& context, Arguments arguments) {
         context.done.push_back(line);
     });
   } else {
-    throw WrongArguments(fmt::format("'{}' is nothing that every run can do", what));
+    constexpr std::array<std::string_view, 6> kSteps{"step", "run", "until-converged", "back", "seek", "reset"};
+    throw WrongArguments(unknown_value("step of every run", what, kSteps));
   }
 }
 
@@ -161,7 +165,7 @@ void compare(CommandContext& context, Arguments arguments) {
     wanted = orders(like, to_count(arguments[1], 1));
     added += ' ' + arguments[1];
   } else {
-    throw WrongArguments(fmt::format("'{}' is nothing that runs are compared by", arguments[0]));
+    throw WrongArguments(unknown_value("comparison", arguments[0], std::array<std::string_view, 3>{"methods", "metrics", "orders"}));
   }
   const std::uint64_t reached = active.moment().iteration;
   const std::uint64_t iterations = count_or(arguments, of_orders ? 2 : 1, reached > 0 ? reached : kUsualIterations);

@@ -1,9 +1,12 @@
 // The session's commands: what the active run aims at besides its metric's minimum.
 
+#include <array>
+#include <string_view>
 #include <tuple>
 
 #include <fmt/format.h>
 
+#include "core/base/unknown_value.h"
 #include "core/commands/command_rows.h"
 
 namespace dmoscope {
@@ -48,7 +51,7 @@ void then(CommandContext& context, Arguments arguments) {
     phase.emplace();
     if (arguments.size() > 1) phase->patience = to_count(arguments[1], 1);
   } else if (arguments[0] != "nothing" || arguments.size() > 1) {
-    throw WrongArguments(fmt::format("'{}' is nothing that can follow: mean or nothing", arguments.back()));
+    throw WrongArguments(unknown_value("second phase", arguments.back(), std::array<std::string_view, 2>{"mean", "nothing"}));
   }
   change_run(context, [&](RunParameters& p) { p.then_mean = phase; });
 }

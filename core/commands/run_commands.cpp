@@ -1,8 +1,12 @@
 // The session's commands: the runs, the session, and what scripts need.
 
+#include <array>
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "core/base/byte_size.h"
+#include "core/base/unknown_value.h"
 #include "core/commands/command_rows.h"
 
 namespace dmoscope {
@@ -49,7 +53,8 @@ double quantity(Run& run, const std::string& name) {
   if (name == "movable") return statistics.movable_minimum;
   if (name == "mean") return statistics.mean;
   if (name == "inverted") return statistics.inverted;
-  throw WrongArguments(fmt::format("'{}' is nothing that can be expected", name));
+  constexpr std::array<std::string_view, 6> kQuantities{"iteration", "moved", "minimum", "movable", "mean", "inverted"};
+  throw WrongArguments(unknown_value("quantity", name, kQuantities));
 }
 
 void expect(CommandContext& context, Arguments arguments) {
@@ -69,7 +74,7 @@ void expect(CommandContext& context, Arguments arguments) {
   else if (relation == ">")
     holds = value > bound;
   else
-    throw WrongArguments(fmt::format("'{}' is no comparison", relation));
+    throw WrongArguments(unknown_value("comparison", relation, std::array<std::string_view, 5>{"<", "<=", "==", ">=", ">"}));
   if (!holds) throw NotReached(fmt::format("expected {} {} {}, but it is {}", arguments[0], relation, arguments[2], value));
 }
 

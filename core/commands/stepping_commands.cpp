@@ -1,9 +1,12 @@
 // The session's commands: steps of the active run, forwards and back.
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include <fmt/format.h>
 
+#include "core/base/unknown_value.h"
 #include "core/commands/command_rows.h"
 #include "core/run/left_inverted.h"
 #include "core/run/mean_given_up.h"
@@ -16,7 +19,7 @@ StepUnit to_unit(const std::string& word) {
   if (word == "vertex") return StepUnit::Vertex;
   if (word == "class") return StepUnit::Class;
   if (word == "iteration") return StepUnit::Iteration;
-  throw WrongArguments(fmt::format("'{}' is no unit of stepping", word));
+  throw WrongArguments(unknown_value("unit", word, std::array<std::string_view, 3>{"vertex", "class", "iteration"}));
 }
 
 void step(CommandContext& context, Arguments arguments) {

@@ -11,8 +11,8 @@ struct DrawingColour {
   std::uint8_t r = 0, g = 0, b = 0;
 };
 
-/// Lengths are in units of which one is about a pixel of a screen; x to the right, y downwards, from the left upper corner. The lists lie
-/// over each other in the order in which they stand here.
+/// One unit of length is about a pixel of a screen; x to the right, y downwards, from the left upper corner. The lists are drawn over each
+/// other in their order here.
 struct Drawing {
   struct Point {
     double x = 0.0, y = 0.0;

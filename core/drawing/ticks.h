@@ -22,7 +22,7 @@ struct Tick {
 
 /// Powers of ten inside [lowest, highest] (every k-th when there are more than `most`), with unlabelled ticks at 2..9 between them
 /// where they are few; over less than two decades also labels at 2 and 5, and where fewer than two labels would be inside, as
-/// many as it takes. Both bounds must be > 0, else empty.
+/// many as needed. Both bounds must be > 0, else empty.
 [[nodiscard]] std::vector<Tick> log_ticks(double lowest, double highest, int most);
 
 struct PlotPoint {
@@ -32,7 +32,7 @@ struct PlotPoint {
 using Stroke = std::vector<PlotPoint>;
 
 /// What has to be drawn of a series over x in [lowest, highest], `columns` pixels wide: in each pixel column the first, smallest,
-/// largest and last point, so that no peak is lost and a stroke has at most 4 points a column. A NaN (or infinite) y is a gap.
+/// largest and last point, so that no peak is lost and a stroke has at most 4 points per column. A NaN (or infinite) y is a gap.
 /// One point beyond either end is kept, so that lines reach the frame. x must ascend; x.size() == y.size().
 [[nodiscard]] std::vector<Stroke> decimate(std::span<const double> x, std::span<const double> y, double lowest, double highest,
                                            std::size_t columns);

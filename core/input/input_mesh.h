@@ -33,7 +33,7 @@ struct InputMesh {
   bool has_strays = false;  // a vertex of an inverted element, off the boundary, that lies outside the box of its star's other vertices
   [[nodiscard]] QualityContext quality_context() const { return {mesh, geometry}; }
   [[nodiscard]] bool is_volume() const noexcept { return geometry.shape == Shape::Volume; }
-  /// Of a planar mesh (Plane) or of a volume (Space).
+  /// The mesh as kernels read it. Frame: Plane for a planar mesh, Space for a volume mesh.
   template <class Frame>
   [[nodiscard]] MeshView<Frame> view() const {
     MeshView<Frame> view{topology.star_offsets().data(),     topology.incidences().data(), mesh.elements.offsets().data(),

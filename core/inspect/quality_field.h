@@ -1,6 +1,6 @@
 #pragma once
-// The quality of a star as a function of where its vertex stands (paper, Fig. 1), sampled densely; and for the triangles' mean ratio the
-// best place there is.
+// The quality of a star as a function of where its vertex stands (paper, Fig. 1), sampled densely; and for the mean ratio of
+// triangles the best place.
 
 #include <optional>
 #include <vector>
@@ -40,7 +40,7 @@ struct StarSlice {
   friend bool operator==(const StarSlice&, const StarSlice&) = default;
 };
 
-/// Of a volume in a slice: `low` to `high` are in its plane; otherwise as sample_quality().
+/// The same for a slice through a volume mesh: `low` to `high` are in the slice's plane. Else as sample_quality().
 [[nodiscard]] QualityField sample_slice(const InputMesh& input, PositionView positions, Metric metric, Index vertex, const StarSlice& slice,
                                         Vec2<double> low, Vec2<double> high, int columns, int rows, ThreadPool* pool = nullptr);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a search tells of itself, kept.
+// Records what a search reports while it runs.
 
 #include <optional>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace dmoscope {
 
-/// Keeps what a search tells, in mesh units: a trace for grid_search(). Offset: Vec2<double> or Vec3.
+/// A trace for grid_search(): records what the search reports, in mesh units. Offset: Vec2<double> or Vec3.
 template <class Offset>
 class Recorder {
  public:

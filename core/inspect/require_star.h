@@ -1,5 +1,5 @@
 #pragma once
-// What whoever looks into a star asks for first.
+// Checks before looking into a star.
 
 #include "core/input/input_mesh.h"
 

@@ -127,19 +127,19 @@ class Look {
     return true;
   }
 
-  /// As SolidDmo does it. What the kernel chose in a level is what it finds in so many levels and not in one less.
+  /// As FastVolumeSearch does it. What the kernel chose in level L is what it finds in L levels and does not find in L - 1.
   bool search_by_volume_kernel() {
-    VolumeScratch room;
-    gather_star(MeshStar(mesh_, positions_, trace_.vertex), room.exact);
+    VolumeScratch scratch;
+    gather_star(MeshStar(mesh_, positions_, trace_.vertex), scratch.exact);
     const FastVolumeSearch<M> search(input_, parameters_);
-    if (!search.find(room, 0).ready) return false;
+    if (!search.find(scratch, 0).ready) return false;
     trace_.fast = true;
     trace_.value_phrase = metric_phrase(M);
-    const VolumeStarView<double> star(room.exact);
+    const VolumeStarView<double> star(scratch.exact);
     const Objective<M, false, double, Value::Metric, VolumeStarView<double>> objective(star);
-    Recorder<Offset> recorder(room.exact.scale);
+    Recorder<Offset> recorder(scratch.exact.scale);
     recorder.begin(objective(Vec3{}));
-    const Vec3Of<float> box = in_float::narrow(room.exact.box);
+    const Vec3Of<float> box = in_float::narrow(scratch.exact.box);
     Vec3Of<float> centre{};
     double omega = parameters_.omega;
     for (int level = 1; level <= parameters_.levels; ++level) {
@@ -147,7 +147,7 @@ class Look {
       recorder.level(grid);
       for (int i = 0; i < grid.points; ++i)
         grid.for_slice(i, [&](int index, Vec3Of<float> p) { recorder.candidate(index, p, objective(Vec3{p.x, p.y, p.z})); });
-      const Vec3Of<float> found = search.find(room, level).offset;
+      const Vec3Of<float> found = search.find(scratch, level).offset;
       if (!(found == centre)) recorder.choose(found);
       centre = found;
       omega *= 2.0 / (parameters_.grid_points - 1);

@@ -59,12 +59,12 @@ enum class VisitEnd {
 struct VisitSummary {
   Index vertex = kNoIndex;
   Metric metric = Metric::MeanRatio;
-  bool fast = false;        // searched in float by the fast search; else in double by the plain one
-  bool combined = false;    // for two aims: values beyond a threshold are the threshold plus the second aim
-  bool by_corners = false;  // the star has solids judged corner by corner: of those what the vertex changes counts, in `before` and `after`
-  bool untangling = false;  // an element was inverted, so that came first, see UntanglingObjective
-  std::string value_phrase;     // what LevelValues::values are: "mean ratio", "squared sine of the smallest angle", ...
-  double value_here = 0.0;      // likewise, of the place where it stood: what a candidate had to exceed
+  bool fast = false;         // searched in float by the fast search; else in double by the plain one
+  bool combined = false;     // for two aims: values beyond a threshold are the threshold plus the second aim
+  bool by_corners = false;   // volume elements are judged corner by corner: `before` and `after` count the corners that the vertex changes
+  bool untangling = false;   // an element was inverted, so that came first, see UntanglingObjective
+  std::string value_phrase;  // what LevelValues::values are: "mean ratio", "squared sine of the smallest angle", ...
+  double value_here = 0.0;   // likewise, of the place where it stood: what a candidate had to exceed
   double value_at_start = 0.0;  // likewise, of where the first grid is centred: the same place but in a tangled star
   Vec3 from, to;                // where it stood and stands after the visit; the same unless it moved
   StarState before, after;
@@ -86,17 +86,17 @@ struct VisitTraceIn : VisitSummary {
 using VisitTrace = VisitTraceIn<Vec2<double>>;  // in the mesh's plane
 using VolumeTrace = VisitTraceIn<Vec3>;         // in a volume
 
-/// What DMO with these parameters does to `vertex` where the mesh's vertices stand at `positions`: the very templates of the smoother,
-/// asked for their trace, so that `to` has the bits that the smoother would store. Costs as much as the star is large, whatever the mesh.
-/// `fixed`: one a vertex, as Run::fixed. Throws UsageError for a mesh that is not planar, a vertex that does not exist, parameters out of
+/// What DMO with these parameters does to `vertex` while the mesh's vertices are at `positions`. Runs the smoother's own templates with a
+/// trace, so `to` has the bits that the smoother would store. Costs as much as the star is large, whatever the mesh.
+/// `fixed`: one per vertex, as Run::fixed. Throws UsageError for a mesh that is not planar, a vertex that does not exist, parameters out of
 /// range, or a metric that is not defined for its star. `aims`: of a visit that has two, see composite_objective_of_visit; then its first
 /// is `metric`. `untangling`: of the iteration, as Run::sweep() has it.
 [[nodiscard]] VisitTrace trace_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
                                      const SearchParameters& parameters, Index vertex,
                                      const std::optional<CompositeObjective>& composite = {}, const Untangling& untangling = {});
 
-/// The same of a volume mesh. The fast search tells of each level only which candidate it chose, having compared ranks in float: the values
-/// are the metric in double, so that among nearly equal ones the chosen one need not be the first of the largest.
+/// The same for a volume mesh. The fast search compares ranks in float and reports only which candidate it chose in each level. The values
+/// here are the metric in double, so among nearly equal candidates the chosen one need not be the first of the largest.
 [[nodiscard]] VolumeTrace trace_volume_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed,
                                              Metric metric, const SearchParameters& parameters, Index vertex,
                                              const std::optional<CompositeObjective>& composite = {}, const Untangling& untangling = {});

@@ -14,7 +14,7 @@ namespace dmoscope {
 inline constexpr std::size_t kAbaqusNumber = 20;  // the most characters of a real number; CalculiX cuts longer ones
 inline constexpr std::string_view kAbaqusNodeSet = "node set", kAbaqusElementSet = "element set", kAbaqusSurface = "surface";
 
-/// What an element type's name ("C3D8R", "S4") says. Neither a shape nor a higher order: a type that is none of a mesh's elements.
+/// What an element type's name ("C3D8R", "S4") says. With neither a shape nor a higher order the type is no element of a mesh.
 struct AbaqusType {
   std::optional<CellShape> shape;
   bool higher_order = false;

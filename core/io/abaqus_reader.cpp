@@ -293,7 +293,7 @@ class AbaqusReader {
     element_.reset();
   }
 
-  /// Masses are points, trusses and beams lines; what else is no triangle, quadrilateral or solid is passed over.
+  /// Masses are points, trusses and beams lines; what else is no triangle, quadrilateral or volume element is passed over.
   void end_other_element() {
     if (nodes_.size() == 1) return add_element(CellShape::Point);
     if (nodes_.size() == 2) return add_element(CellShape::Line);
@@ -374,7 +374,7 @@ class AbaqusReader {
   std::size_t coordinates_ = 0;  // of a node: 2 or 3
   std::vector<std::string> types_, other_;
   std::string passed_over_;
-  // Of the block:
+  // State of the block that is being read:
   AbaqusSet* set_ = nullptr;
   AbaqusSets::Of of_ = AbaqusSets::Of::Nodes;
   bool generate_ = false;

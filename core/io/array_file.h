@@ -1,5 +1,5 @@
 #pragma once
-// Files that are a set of named arrays: netCDF and HDF5, of which Exodus II, CGNS and XDMF make use.
+// Files that are a set of named arrays: netCDF and HDF5, on which Exodus II, CGNS and XDMF are built.
 
 #include <cstdint>
 #include <memory>

@@ -26,17 +26,17 @@ struct CoordinateArray {
   ScalarType type = ScalarType::Float64;
 };
 
-/// What arrays have of coordinates, and how their numbers are kept.
+/// The coordinates that arrays hold, and how their numbers are stored.
 class CoordinateArrays {
  public:
-  /// Reads an array's numbers into `positions`, which has room for them. Throws InputError: not as many numbers as it should have, one that
+  /// Reads an array's numbers into `positions`, which is large enough. Throws InputError: not as many numbers as it should have, one that
   /// is not finite.
   void read(ArrayFile& file, CoordinateArray array, std::span<Vec3> positions);
   /// What SourceFile::layout() should say. A whole-number type cannot be written again: false.
   [[nodiscard]] bool describe(CoordinateLayout& layout) const;
 
-  /// The file's bytes with what `moved` has otherwise than `before`; `notes` say what was rounded. `target` is what errors call the file
-  /// that is written. Throws OutputError (z of a file that has none; too large for a float).
+  /// The file's bytes with the coordinates in which `moved` differs from `before`; `notes` say what was rounded. `target` is what errors
+  /// call the file that is written. Throws OutputError (z of a file that has none; too large for a float).
   [[nodiscard]] std::string replaced(ArrayFile& file, std::span<const Vec3> before, std::span<const Vec3> moved, const std::string& target,
                                      Notes& notes) const;
   /// The vertices have other numbers: vertex_of[the number so far].

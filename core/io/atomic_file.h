@@ -18,9 +18,9 @@ class GzipPacker;
 [[nodiscard]] bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// A file being written. Until commit() the target is as it was; without commit() the temporary file is removed.
-/// An existing target keeps its permissions and, where the system lets us, its owner, group and extended attributes; a symbolic link stays
-/// one, and what it points to is replaced; what is no regular file (a pipe, /dev/null) is written straight. What processes that were
-/// killed left in the target's folder is removed: a temporary file that nobody writes any more is one that nobody has locked.
+/// An existing target keeps its permissions and, where the system allows it, its owner, group and extended attributes; a symbolic link
+/// stays one, and what it points to is replaced; a target that is no regular file (a pipe, /dev/null) is written directly. Temporary files
+/// that killed processes left in the target's folder are removed: those that no process has locked.
 class AtomicFile {
  public:
   /// Throws OutputError with the system's reason: a directory, a loop of links, a folder that is missing or may not be written.
@@ -33,7 +33,7 @@ class AtomicFile {
   void pack();
   /// Appends bytes. Throws OutputError (disk full).
   void write(std::string_view bytes);
-  /// Waits until what was written is on the disk; nothing can be written afterwards. All that can fail but the renaming has been done then.
+  /// Waits until what was written is on the disk; nothing can be written afterwards. Then only renaming is left that could fail.
   /// Throws OutputError.
   void finish();
   /// Makes what was written the target, for good: it is on the disk before it takes the name. Throws OutputError.

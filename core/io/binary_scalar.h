@@ -24,7 +24,7 @@ void store_scalar(char* bytes, ScalarType type, bool big_endian, double value) n
 [[nodiscard]] bool holds_exactly(ScalarType type, double value) noexcept;
 
 /// The type that a file's word means, in VTK's or PLY's language ("unsigned_char", "uchar", "float32", "vtktypeint64", ...).
-/// Returns false for a word of neither. VTK's "long" is 64 bits wide.
+/// Returns false for any other word. VTK's "long" is 64 bits wide.
 [[nodiscard]] bool scalar_of_word(std::string_view word, ScalarType& type) noexcept;
 [[nodiscard]] std::string_view vtk_word(ScalarType type) noexcept;
 /// PLY's word; 64-bit whole numbers, which PLY lacks, give "double".

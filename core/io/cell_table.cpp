@@ -68,7 +68,7 @@ class Groups {
   std::map<int, std::size_t> rests_;  // by dimension: what had no room
 };
 
-/// Of what kind a group's members are; numbers are given within a kind.
+/// The kind of a group's members; groups are numbered within a kind.
 enum class MemberKind : std::uint8_t { Vertices, Edges, Faces, Elements };
 
 MemberKind member_kind_of(const Group& group) {

@@ -1,5 +1,5 @@
 #pragma once
-// Writing a mesh with a word on where it comes from.
+// Writes a mesh with a comment that says where it comes from.
 
 #include <span>
 #include <string>

@@ -20,14 +20,14 @@ inline constexpr std::string_view kExodusBlock = "element block";
 inline constexpr std::string_view kExodusNodeSet = "node set";
 inline constexpr std::string_view kExodusSideSet = "side set";
 
-/// The shape that a block's word for its elements means ("HEX8", "tri") with so many nodes; nothing for what is not read: elements of
-/// higher order, polyhedra.
+/// The shape that a block's word for its elements ("HEX8", "tri") means with this number of nodes; nothing for what is not read: elements
+/// of higher order, polyhedra.
 [[nodiscard]] std::optional<CellShape> exodus_shape(std::string_view word, std::uint64_t nodes) noexcept;
 
 /// A side of an element, from 1 as in the file, by the element's own corners from 0, outward; 2 to 4 of them. Empty where it has no such
 /// side. `space`: the file's coordinates, 2 or 3; in space a shell's first two sides are its front and its back.
 [[nodiscard]] std::span<const Index> exodus_side(CellShape shape, bool shell, int space, std::int64_t side) noexcept;
-/// Is it a word for shells, whose sides are faces, too?
+/// Does the word mean shells, which have faces among their sides?
 [[nodiscard]] bool is_exodus_shell(std::string_view word) noexcept;
 
 /// The coordinates of the file into `positions`, which gets its size. Throws InputError.

@@ -56,7 +56,7 @@ class ExodusReader {
     return found;
   }
 
-  /// The strings of an array, one a row.
+  /// The strings of an array, one per row.
   std::vector<std::string> strings(const std::string& array) const {
     std::vector<std::string> rows;
     const auto info = file_->find(array);

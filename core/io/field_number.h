@@ -1,5 +1,5 @@
 #pragma once
-// Numbers for formats that have only so many characters for one.
+// Numbers for formats whose fields have a fixed width.
 
 #include <cstddef>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// Files of formats that are not read here, by what they begin with: whoever opens one is told what it is and what to do with it.
+// Files of formats that are not read here, recognised by how they begin, so that a message can say what the file is and what to do with it.
 
 #include <string>
 #include <string_view>

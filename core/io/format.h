@@ -71,7 +71,7 @@ struct FormatHandler {
 void add_element(Mesh& mesh, ElementKind kind, std::span<const Index> corners, const SourceFile& source);
 
 /// The corners of an element for a file that is made anew, in our order. Those of the plane go out in the winding that they came in
-/// (Mesh::flipped undone; `buffer` holds them where they differ), solids the right way round: inside out they are of no use to anybody.
+/// (Mesh::flipped undone; `buffer` holds them where they differ), volume elements the right way round: inside out they are of no use.
 [[nodiscard]] std::span<const Index> file_corners(const Mesh& mesh, Index element, std::array<Index, 8>& buffer);
 
 /// Throws OutputError if the mesh has an element of three dimensions: "... holds only triangles and quadrilaterals".

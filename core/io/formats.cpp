@@ -125,8 +125,8 @@ bool can_patch(const Mesh& mesh, const FormatHandler& handler) {
   return mesh.source && mesh.source->format() == handler.info.name && mesh.source->not_patchable().empty();
 }
 
-/// Solids that were turned over after reading.
-std::size_t turned_solids(const Mesh& mesh) {
+/// Volume elements that were turned over after reading.
+std::size_t turned_volumes(const Mesh& mesh) {
   std::size_t turned = 0;
   for (std::size_t e = 0; e < mesh.flipped.size(); ++e) {
     if (mesh.flipped[e] != 0 && info(mesh.elements.kind(static_cast<Index>(e))).dimension == 3) ++turned;
@@ -137,7 +137,7 @@ std::size_t turned_solids(const Mesh& mesh) {
 Notes write_anew(AtomicFile& file, const FormatHandler& handler, const Mesh& mesh, std::span<const Vec3> positions,
                  const IoContext& context) {
   Notes notes = handler.write(file, mesh, positions, context);
-  if (const std::size_t turned = turned_solids(mesh); turned > 0) {
+  if (const std::size_t turned = turned_volumes(mesh); turned > 0) {
     notes.push_back(turned == 1 ? "1 element that was wound inside out was written the right way round."
                                 : fmt::format("{} elements that were wound inside out were written the right way round.", turned));
   }
@@ -276,7 +276,7 @@ std::vector<std::string> write_commented_mesh(const std::filesystem::path& path,
   const std::string extension = mesh_extension(path);
   const FormatHandler* handler = by_extension(extension);
   if (handler == nullptr) {
-    throw UsageError(fmt::format("{}: unknown extension {}; known formats are {}", path.string(), quote_token(extension), known_formats()));
+    throw UsageError(fmt::format("{}: unknown extension {}; known are {}", path.string(), quote_token(extension), known_formats()));
   }
   const bool packed = path.extension().string() != extension;
   if (packed && handler->companion != nullptr) throw OutputError(path.string(), "files in pairs are written unpacked alone");

@@ -237,7 +237,7 @@ Mesh read_fort14(SourceFile& source, const IoContext& context) { return Reader(s
 /// A depth counts downwards, an elevation (of a 2dm file) upwards.
 bool is_elevation(const Field& field) { return field.role == "elevation"; }
 
-/// The field that becomes the depth: the one of that name, else an elevation, else the first with one number a vertex.
+/// The field that becomes the depth: the one of that name, else an elevation, else the first with one number per vertex.
 /// Throws OutputError for a depth that cannot be read back: nan and inf are no numbers there.
 std::optional<std::size_t> depth_field(const AtomicFile& file, const Mesh& mesh, Notes& notes) {
   std::optional<std::size_t> chosen;

@@ -35,7 +35,7 @@ class GmshData {
 
   GmshInput& in_;
   SourceFile& source_;
-  std::size_t room_;           // for so many values more: data of a few nodes must not make us hold many times what the file is worth
+  std::size_t room_;           // values that may still be read: data of a few nodes must not take many times the file's size in memory
   std::vector<Field> fields_;  // a row for each node or element of the file
 };
 

@@ -22,7 +22,7 @@ class GmshInput {
   /// A size_t of version 4.1.
   [[nodiscard]] std::int64_t size(std::string_view what);
   [[nodiscard]] double real(std::string_view what);
-  /// A size_t, with room in what is left of the file for so many things: `text` or `bytes` bytes each. Throws InputError.
+  /// A count (size_t) of things that the rest of the file can hold, each of `text` or `bytes` bytes. Throws InputError.
   [[nodiscard]] std::size_t count(std::string_view what, double text, double bytes);
   /// Numbers of a block that words.block() gave.
   [[nodiscard]] int int_at(const char* bytes) const noexcept { return load_number<std::int32_t>(bytes, big_endian); }

@@ -1,8 +1,8 @@
 #pragma once
 // HDF5 files, in memory: arrays and groups by their path ("/Base/Zone"). Needs HDF5's C library, which is not in every build.
 //
-// The library is not made for several threads: one file at a time is open in the whole program, others wait. Nothing is read but the
-// bytes that are given: links into other files, arrays kept in other files, and filters that would have to be loaded are refused.
+// The library is not made for several threads: one file at a time is open in the whole program, others wait. Only the given bytes are
+// read: links into other files, arrays kept in other files, and filters that would have to be loaded are refused.
 
 #include <cstdint>
 #include <memory>

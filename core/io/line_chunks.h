@@ -20,12 +20,12 @@ struct LineChunk {
 /// The next chunks of about `size` bytes each, at most `most` of them. Fewer, or none, where lines do not end with a line feed.
 [[nodiscard]] std::vector<LineChunk> next_chunks(std::string_view text, std::size_t begin, std::size_t size, std::size_t most);
 
-/// Parses lines from `tokens` on in chunks, one a thread at a time, for as long as all is well:
+/// Parses lines from `tokens` on in chunks, one per thread at a time, for as long as all is well:
 ///
 /// - parse(Tokenizer&, Part&) takes all lines of a chunk. Its Tokenizer ends where the chunk ends; offsets are those of the text.
 /// - take(Part&) adds what a chunk gave, chunk after chunk; false if it must not (it has more than is wanted).
 ///
-/// Stops before the first chunk with an error or one that was not taken, and leaves `tokens` there: who goes on line by line from
+/// Stops before the first chunk with an error or one that was not taken, and leaves `tokens` there: a reader that goes on line by line from
 /// there meets the error where it is, and finds where the lines of this kind end. Does nothing without threads to share the work.
 /// Throws Cancelled.
 template <class Part, class Parse, class Take>

@@ -1,4 +1,4 @@
-// Reads MEDIT's ASCII format: a keyword, a count, and so many lines, in any order; every thing with a reference number.
+// Reads MEDIT's ASCII format: a keyword, a count, and that number of lines, in any order; everything with a reference number.
 // https://www.ljll.fr/frey/publications/RT-0253.pdf, and what mmg and tetgen add to it.
 
 #include <algorithm>

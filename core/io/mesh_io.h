@@ -1,5 +1,5 @@
 #pragma once
-// Reading and writing meshes: one reader/writer a format, behind one table.
+// Reading and writing meshes: one reader and writer per format, behind one table.
 
 #include <filesystem>
 #include <span>
@@ -36,10 +36,10 @@ void require_known_format(const std::filesystem::path& path, const IoContext& co
 /// Writes `mesh` with `positions` in place of its own (mesh.positions.size() of them) to `path`, format by extension,
 /// packed by gzip where its name ends with .gz.
 /// When mesh.source is of that format, its bytes are written again and only the coordinates whose bits changed are replaced;
-/// otherwise the file is made anew: elements of the plane in the winding that they came in (mesh.flipped undone), solids as the format
-/// wants them. Written beside the target and renamed: on any
-/// failure the old file stands. A format of two files (.node, .ele) is read and written as both, whichever is named. Returns one sentence
-/// for each thing the format could not carry. Throws OutputError, UsageError (unknown extension), Cancelled.
+/// otherwise the file is made anew: elements of the plane in the winding that they came in (mesh.flipped undone), volume elements as the
+/// format wants them. Written beside the target and renamed: on any failure the old file stands. A format of two files (.node, .ele) is
+/// read and written as both, whichever is named. Returns one sentence for each thing the format could not carry. Throws OutputError,
+/// UsageError (unknown extension), Cancelled.
 std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions,
                                     const IoContext& context);
 

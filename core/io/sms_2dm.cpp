@@ -37,7 +37,7 @@ constexpr std::array kElementCards{
     ElementCard{"E2L", CellShape::Line}, ElementCard{"E3T", CellShape::Triangle}, ElementCard{"E4Q", CellShape::Quadrilateral},
     ElementCard{"E3L", std::nullopt},    ElementCard{"E6T", std::nullopt},        ElementCard{"E8Q", std::nullopt},
     ElementCard{"E9Q", std::nullopt}};
-constexpr std::array<std::string_view, 4> kSolidCards{"E4T", "E5P", "E6W", "E8H"};
+constexpr std::array<std::string_view, 4> kVolumeCards{"E4T", "E5P", "E6W", "E8H"};
 
 std::optional<int> whole_number(std::string_view token) {
   int value = 0;
@@ -84,8 +84,8 @@ class Sms2dmReader {
       nodestring();
     } else if (element != kElementCards.end()) {
       cell(*element, begin);
-    } else if (std::find(kSolidCards.begin(), kSolidCards.end(), card) != kSolidCards.end()) {
-      tokens_.fail(fmt::format("{} is a solid: of these files only the planar ones are read", card));
+    } else if (std::find(kVolumeCards.begin(), kVolumeCards.end(), card) != kVolumeCards.end()) {
+      tokens_.fail(fmt::format("{} is a volume element: of these files only the planar ones are read", card));
     } else if (card == "MESHNAME") {
       mesh_.title = without_quotes(tokens_.rest_of_line());
     } else if (card == "NUM_MATERIALS_PER_ELEM") {

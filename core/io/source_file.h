@@ -45,9 +45,9 @@ class FileBytes {
   [[nodiscard]] std::string_view view() const noexcept { return {data_.get(), size_}; }
 
   // For filling it.
-  /// Scratch behind the bytes, `most` at least; what is in it is left to chance.
+  /// Uninitialised space behind the bytes, at least `most` of it.
   [[nodiscard]] std::span<char> room(std::size_t most);
-  /// So many bytes were put into the room.
+  /// Counts `count` bytes of that space as the file's, after they were filled.
   void took(std::size_t count) noexcept { size_ += count; }
 
  private:
@@ -61,7 +61,7 @@ class FileBytes {
 
 /// A file as it was read. A reader fills in the layout, the places and what only the file holds; afterwards nothing changes it.
 ///
-/// The file is read whole into memory of our own: a mapping would crash the program when somebody truncates the file while it is
+/// The file is read whole into memory of our own: a mapping would crash the program when the file is truncated while it is
 /// open, and would show a file that another program is just writing anew.
 class SourceFile {
  public:
@@ -70,7 +70,7 @@ class SourceFile {
 
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
   [[nodiscard]] std::string_view bytes() const noexcept { return bytes_.view(); }
-  /// Of the file itself, which may be packed by gzip: what its contents may become in memory is measured by that.
+  /// Bytes of the file itself, which gzip may have packed; UnpackBudget derives from them how much memory the contents may take.
   [[nodiscard]] std::size_t size_on_disk() const noexcept { return size_on_disk_; }
   /// FormatInfo::name of the format that it was read as.
   [[nodiscard]] std::string_view format() const noexcept { return format_; }
@@ -79,7 +79,7 @@ class SourceFile {
   /// The second file of a format that has two (see CompanionFile in format.h); null for all others.
   [[nodiscard]] const SourceFile* companion() const noexcept { return companion_.get(); }
 
-  /// How many places hold coordinates: one a vertex, but more where a format repeats its vertices (STL).
+  /// How many places hold coordinates: one per vertex, but more where a format repeats its vertices (STL).
   [[nodiscard]] std::size_t place_count() const noexcept { return stride_ != 0 ? uniform_count_ : places_.size(); }
   /// Byte offset of a place. Ascending.
   [[nodiscard]] std::uint64_t place(std::size_t i) const noexcept { return stride_ != 0 ? first_ + i * stride_ : places_[i]; }
@@ -94,7 +94,7 @@ class SourceFile {
   /// One sentence for each thing that the reader passed over and a person may miss ("3 line elements (l) are not shown").
   [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return notes_; }
 
-  // For readers.
+  // For readers of formats.
   void set_size_on_disk(std::size_t size) { size_on_disk_ = size; }
   void set_format(std::string_view name) { format_ = name; }
   void set_companion(std::shared_ptr<const SourceFile> file) { companion_ = std::move(file); }
@@ -108,7 +108,7 @@ class SourceFile {
     stride_ = stride;
     uniform_count_ = count;
   }
-  /// One vertex a place, where that is not the i-th vertex at the i-th place.
+  /// One vertex per place, where that is not the i-th vertex at the i-th place.
   void set_place_vertices(std::vector<Index> vertices) { place_vertices_ = std::move(vertices); }
   void set_not_patchable(std::string why) { not_patchable_ = std::move(why); }
   /// Adds a thing once, however often it is met.

@@ -7,10 +7,10 @@
 
 namespace dmoscope {
 
-/// Of one file that is read; what it unpacks to is taken from it piece by piece, before the memory is.
+/// How many bytes a file may unpack to. Each piece is taken from the budget before its memory is allocated.
 class UnpackBudget {
  public:
-  /// `most`: bytes that somebody said are fine; 0: nobody did. Then a file may become a hundred times as large, and 256 MiB in any case:
+  /// `most`: the limit that the user gave; 0: none. Then a file may become a hundred times as large, and 256 MiB in any case:
   /// real ones, even those of constant fields, stay far below.
   UnpackBudget(std::size_t file_bytes, std::uint64_t most) noexcept : left_(UnpackBudget::most(file_bytes, most)) {}
   /// The bytes that such a file may become.

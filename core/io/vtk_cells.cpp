@@ -145,7 +145,7 @@ VtkCells read_vtk_cells(VtkValues& values, const std::string& keyword, std::size
 }
 
 VtkElement element_of_vtk_cell(std::int64_t type, std::span<Index> corners) {
-  // Of the types up to 14; -1: no element, -2: see below.
+  // Element kinds of the cell types 0 to 14; -1: no element, -2: see below.
   constexpr static std::array<int, 15> kinds{-1, kVertexCell, kVertexCell, kLineCell, kLineCell, 0, -2, -2, 1, 1, 2, 3, 3, 4, 5};
   const int known = type >= 0 && type < static_cast<std::int64_t>(kinds.size()) ? kinds[static_cast<std::size_t>(type)] : -2;
   if (known == -1) return {};  // an empty cell

@@ -142,7 +142,7 @@ class VtkReader {
     size_ = size;
   }
 
-  /// Of RECTILINEAR_GRID the coordinates along each axis, of STRUCTURED_POINTS where the first point is and how far the next.
+  /// Reads the coordinates along each axis (RECTILINEAR_GRID), or the first point and the spacing (STRUCTURED_POINTS).
   bool implicit_geometry(const std::string& keyword) {
     const auto is = [&](std::string_view word) { return equal_ignoring_case(keyword, word); };
     const bool uniform = dataset_ == Dataset::StructuredPoints;
@@ -315,7 +315,7 @@ class VtkReader {
   std::optional<VtkCells> cells_;     // CELLS or POLYGONS
   std::optional<VtkCells> vertices_;  // of POLYDATA
   std::optional<VtkCells> lines_;     // of POLYDATA
-  // Of structured grids:
+  // For structured grids:
   std::optional<VtkGridSize> size_;
   std::array<double, 3> origin_{0.0, 0.0, 0.0}, spacing_{1.0, 1.0, 1.0};
   std::array<std::vector<double>, 3> coordinates_;  // along each axis

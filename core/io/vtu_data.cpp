@@ -36,7 +36,7 @@ class EncodedBytes {
     at_ += count;
     return text_.substr(at_ - count, count);
   }
-  /// At most so many bytes are left.
+  /// At most this many bytes are left.
   [[nodiscard]] std::size_t left() const noexcept { return base64_ ? text_.size() - reader_.position() : text_.size() - at_; }
   [[nodiscard]] std::size_t position() const noexcept { return base64_ ? reader_.position() : at_; }
   /// Makes what was taken last the caller's own.

@@ -131,7 +131,7 @@ class VtuReader {
     pieces_read_ = true;
   }
 
-  /// Of RectilinearGrid the coordinates along each axis, of ImageData the origin and the spacing.
+  /// Reads the coordinates along each axis (RectilinearGrid), or the origin and the spacing (ImageData).
   void implicit_points(pugi::xml_node node, const VtkGridSize& size, const std::array<std::int64_t, 6>& range) {
     std::array<std::vector<double>, 3> along;
     const pugi::xml_node grid = document_.grid();

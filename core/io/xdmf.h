@@ -13,8 +13,8 @@
 
 namespace dmoscope {
 
-/// XDMF's number of each CellShape in a mixed topology, and its name of a topology. It says nothing of how the corners of solids are
-/// wound: they are taken as they are, as most programs that write such files do.
+/// XDMF's number of each CellShape in a mixed topology, and its name of a topology. It says nothing of how the corners of volume elements
+/// are wound: they are taken as they are, as most programs that write such files do.
 inline constexpr std::array<std::int64_t, kCellShapeCount> kXdmfTypes{1, 2, 4, 5, 6, 9, 8, 7};
 inline constexpr std::array<std::string_view, kCellShapeCount> kXdmfNames{"Polyvertex",  "Polyline",   "Triangle", "Quadrilateral",
                                                                           "Tetrahedron", "Hexahedron", "Wedge",    "Pyramid"};

@@ -36,7 +36,7 @@ class XdmfDocument {
   /// The numbers of a DataItem; `places`: their offsets in the file. Throws InputError: no inline XML, no numbers, not as many as it says.
   [[nodiscard]] std::vector<double> numbers(pugi::xml_node item, std::vector<std::uint64_t>* places = nullptr) const;
   [[nodiscard]] std::vector<std::int64_t> wholes(pugi::xml_node item) const;
-  /// Throws InputError unless an item's Dimensions say so many numbers, or nothing.
+  /// Throws InputError unless an item's Dimensions give this number of values, or nothing.
   void require_expected(pugi::xml_node item, std::size_t found) const;
   /// Nothing where the numbers are in the XML. Throws InputError for a binary file, and for words that are no place.
   [[nodiscard]] std::optional<Elsewhere> elsewhere(pugi::xml_node item) const;

@@ -196,7 +196,7 @@ class XdmfReader {
     const std::string name = node.attribute("Name").value();
     const pugi::xml_node item = node.child("DataItem");
     const std::string_view type = XdmfDocument::attribute(item, "NumberType", "DataType");
-    // Of finite elements, as FEniCS writes them: several items.
+    // Several items: a field of finite elements, as FEniCS writes them.
     if (item.next_sibling("DataItem")) return source_.add_only_in_file("further attributes");
     const bool text = equal_ignoring_case(type, "String") || equal_ignoring_case(type, "Char");
     if ((!of_points && !equal_ignoring_case(centre, "Cell")) || text || (passed_over_ && !of_points)) {

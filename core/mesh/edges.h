@@ -84,7 +84,7 @@ void for_each_edge(const Mesh& mesh, const Topology& topology, Visit&& visit) {
   }
 }
 
-/// What all that look at the edges once want to know.
+/// What one walk over all edges finds.
 struct EdgeSurvey {
   struct BoundaryEdge {
     Edge edge;

@@ -1,5 +1,5 @@
 #pragma once
-// The faces of volume elements, and who lies on their other side.
+// The faces of volume elements, and the neighbours across them.
 
 #include <array>
 #include <span>

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/unknown_value.h"
 #include "core/mesh/generators.h"
 
 namespace dmoscope {
@@ -50,10 +51,10 @@ constexpr std::array<Generator, kGenerators> kMakers{{
     {generators::globe, 36, 5000000},
     {generators::tetrahedra, 27, 5000000},
     {generators::hexahedra, 27, 5000000},
-    {generators::solids, 27, 5000000},
-    {generators::tangled_solids, 125, 5000000},
+    {generators::mixed_volumes, 27, 5000000},
+    {generators::tangled_volumes, 125, 5000000},
     {generators::nested, 25, 5000000},
-    {generators::nested_solids, 64, 5000000},
+    {generators::nested_volumes, 64, 5000000},
 }};
 
 }  // namespace
@@ -61,12 +62,8 @@ constexpr std::array<Generator, kGenerators> kMakers{{
 std::span<const GeneratorInfo> generator_table() { return kInfos; }
 
 Mesh generate_mesh(std::string_view name, std::size_t size, std::uint64_t seed, Progress& progress) {
-  std::string names;
   for (std::size_t i = 0; i < kGenerators; ++i) {
-    if (kInfos[i].name != name) {
-      names += (names.empty() ? "" : ", ") + std::string(kInfos[i].name);
-      continue;
-    }
+    if (kInfos[i].name != name) continue;
     const std::size_t wanted = size == 0 ? kInfos[i].default_size : size;
     if (wanted < kMakers[i].smallest || wanted > kMakers[i].largest) {
       throw UsageError(
@@ -80,7 +77,7 @@ Mesh generate_mesh(std::string_view name, std::size_t size, std::uint64_t seed, 
     mesh.title = fmt::format("dmoscope {} with {} vertices, seed {}", name, mesh.positions.size(), seed);
     return mesh;
   }
-  throw UsageError(fmt::format("there is no generator \"{}\"; there are {}", name, names));
+  throw UsageError(unknown_row("sample", name, kInfos));
 }
 
 }  // namespace dmoscope

@@ -57,7 +57,7 @@ Mesh nested(const Request& request) {
   return mesh;
 }
 
-Mesh nested_solids(const Request& request) {
+Mesh nested_volumes(const Request& request) {
   Mesh mesh = tetrahedra(request);
   const auto lines = static_cast<Index>(std::lround(std::cbrt(static_cast<double>(mesh.positions.size()))));
   const Inner inner(lines - 1);

@@ -31,10 +31,10 @@ struct Request {
 [[nodiscard]] Mesh globe(const Request& request);
 [[nodiscard]] Mesh tetrahedra(const Request& request);
 [[nodiscard]] Mesh hexahedra(const Request& request);
-[[nodiscard]] Mesh solids(const Request& request);
-[[nodiscard]] Mesh tangled_solids(const Request& request);
+[[nodiscard]] Mesh mixed_volumes(const Request& request);
+[[nodiscard]] Mesh tangled_volumes(const Request& request);
 [[nodiscard]] Mesh nested(const Request& request);
-[[nodiscard]] Mesh nested_solids(const Request& request);
+[[nodiscard]] Mesh nested_volumes(const Request& request);
 
 /// Cosine and sine of an angle in turns, from additions and multiplications alone: the same bits with every mathematics library.
 [[nodiscard]] double cos_turns(double turns);

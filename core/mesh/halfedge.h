@@ -1,7 +1,7 @@
 #pragma once
 // OpenMesh's half-edge structure in memory, for what needs order: rings and boundary loops of a picked place, manifold checks.
 // It takes about a second per million vertices to build: make it when asked for. What every load needs (boundary, components, number
-// of boundary curves, odd edges) comes from edges.h; the tests hold the two against each other.
+// of boundary curves, odd edges) comes from edges.h; the tests compare the two.
 
 #include <memory>
 #include <optional>

@@ -1,6 +1,7 @@
 #include "core/mesh/interfaces.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/base/unknown_value.h"
 #include "core/mesh/materials.h"
 #include "core/mesh/named_lists.h"
 #include "core/mesh/topology.h"
@@ -298,7 +300,7 @@ std::string_view name(InterfaceRule rule) noexcept { return rule == InterfaceRul
 InterfaceRule parse_interface_rule(std::string_view word) {
   for (const InterfaceRule rule : {InterfaceRule::Fixed, InterfaceRule::Free})
     if (word == name(rule)) return rule;
-  throw UsageError(fmt::format("interfaces are fixed or free, not '{}'", word));
+  throw UsageError(unknown_value("rule for interfaces", word, std::array{name(InterfaceRule::Fixed), name(InterfaceRule::Free)}));
 }
 
 }  // namespace dmoscope

@@ -16,7 +16,7 @@ class Topology;
 /// What becomes of a mesh's interfaces when it is smoothed.
 enum class InterfaceRule : std::uint8_t { Fixed, Free };
 [[nodiscard]] std::string_view name(InterfaceRule rule) noexcept;  // "fixed"
-/// Throws UsageError for a word that is none.
+/// Throws UsageError for an unknown word.
 [[nodiscard]] InterfaceRule parse_interface_rule(std::string_view word);
 
 /// Why a vertex is held; where several reasons are, the first of these.
@@ -27,8 +27,8 @@ inline constexpr std::size_t kHeldByCount = 6;
 /// - whose elements do not all belong to the same groups of elements (Groups);
 /// - whose elements carry different numbers of a field that names materials, see materials.h (Values);
 /// - of a face in a volume, or of a line, that the file names: Gmsh's, MEDIT's and VTK's cells of fewer dimensions, SU2's markers, ridges,
-///   and of elements that MEDIT calls required (Faces, Lines). But not where faces or lines are named together with all around them: those
-///   list what there is, see named_lists.h;
+///   and of elements that MEDIT calls required (Faces, Lines). Faces or lines that are named together with all around them do not count:
+///   such a list merely enumerates everything, see named_lists.h;
 /// - of a boundary string of a fort.14, baffles and weirs among them (Strings);
 /// - that the file names as a point: required vertices, corners (Points). Likewise not inside sets of points that fill an area or volume,
 ///   unless the file says that they are required.

@@ -11,7 +11,7 @@ namespace dmoscope {
 /// which each stands for less than two elements on average.
 enum class Naming {
   Nothing,
-  Materials,  // one whole number an element, under a name that programs use for materials: "mat_id", "gmsh:physical", "MaterialIds"
+  Materials,  // one whole number per element, under a name that programs use for materials: "mat_id", "gmsh:physical", "MaterialIds"
   Geometry,   // likewise for parts of the geometry that was meshed: "gmsh:geometrical", "CellEntityIds". Such parts may be there for the
               // mesher's sake alone, so they count only where nothing else tells elements apart
 };

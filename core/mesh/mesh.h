@@ -136,7 +136,7 @@ struct Mesh {
   ElementTable elements;
   std::vector<Field> fields;
   std::vector<Group> groups;
-  /// Elements whose winding was reversed after reading (see orientation.h); empty if none, else one entry an element.
+  /// Elements whose winding was reversed after reading (see orientation.h); empty if none, else one entry per element.
   std::vector<std::uint8_t> flipped;
   /// The file holds 32-bit coordinates: moved vertices are put on such, so that what is judged is what will be written.
   bool single_precision = false;

@@ -1,6 +1,6 @@
 #pragma once
-// Tells lines, faces and points that a file names for their own sake from lists of all the edges, faces or vertices there are: those name
-// a vertex together with everything around it.
+// Tells lines, faces and points that a file names on purpose from lists that enumerate all edges, faces or vertices of a mesh: such a list
+// names a vertex together with everything around it.
 
 #include <array>
 #include <cstdint>

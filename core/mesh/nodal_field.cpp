@@ -40,7 +40,7 @@ NodalField::NodalField(const Mesh& mesh, const Topology& topology, const Plane& 
 
 NodalField::Point NodalField::flat(Index vertex) const { return plane_.project(mesh_.positions[vertex] - origin_); }
 
-/// Of a mesh that wraps: where the vertex is seen from `p`.
+/// The same, and on a mesh that wraps: the copy of the vertex that is nearest to `p`.
 NodalField::Point NodalField::flat_near(Index vertex, Point p) const {
   Point at = flat(vertex);
   if (plane_.period > 0.0 && at.x - p.x > 0.5 * plane_.period) at.x -= plane_.period;
@@ -151,7 +151,7 @@ void NodalField::look_around(Point p, Index& best, double& least) const {
     }
   };
   for (int ring = 0; ring < std::max(columns_, rows_); ++ring) {
-    // Measured from the place in the grid that is nearest to p, nothing in this ring is nearer than so many cells less one.
+    // Measured from the place in the grid that is nearest to p, nothing in ring r is nearer than r - 1 cells.
     const double reach = (ring - 1) * width_;
     if (best != kNoIndex && ring > 0 && reach * reach > least) break;
     for (int i = column_of_p - ring; i <= column_of_p + ring; ++i)

@@ -18,7 +18,7 @@ namespace dmoscope {
 /// The mesh is that of the positions given, wherever its vertices go later. Mesh and topology must outlive it.
 class NodalField {
  public:
-  /// `values`: one a vertex.
+  /// `values`: one per vertex.
   NodalField(const Mesh& mesh, const Topology& topology, const Plane& plane, std::vector<double> values);
 
   /// At a place. `near`: a vertex; where the place lies in its star, as it mostly does, nothing is searched. The same for every call.

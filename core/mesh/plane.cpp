@@ -42,7 +42,7 @@ struct Box {
   }
 };
 
-/// Of the box: neither under- nor overflows before the size itself does.
+/// The box's diagonal. Squares neither underflow nor overflow unless the length itself does.
 double diagonal(const Box& box) {
   const Vec3 d = box.high - box.low;
   const double most = std::max({d.x, d.y, d.z});

@@ -18,8 +18,8 @@ namespace dmoscope {
 
 /// An orthonormal frame (u, v, normal). For a plane z = const u = x and v = y exactly, so nothing is rounded;
 /// likewise (y, z) for x = const and (z, x) for y = const.
-/// Of a mesh in longitude and latitude that wraps (see seam.h) x goes round: positions that are a period apart are one place, and
-/// differences are the shortest ones. All judging goes through differences, so elements are judged unwrapped wherever they lie.
+/// On a mesh in longitude and latitude that wraps (see seam.h) x is periodic: positions a period apart are the same place, and differences
+/// are the shortest ones. All judging goes through differences, so elements are judged unwrapped wherever they lie.
 struct Plane {
   Vec3 u{1, 0, 0}, v{0, 1, 0}, normal{0, 0, 1};
   double period = 0.0;  // 360 of a mesh that wraps, whose u is x; 0 of any other

@@ -1,5 +1,5 @@
 #pragma once
-// What is odd about a mesh.
+// What a person should know about a mesh as it was read.
 
 #include <string>
 #include <vector>
@@ -22,7 +22,7 @@ struct MeshReport {
   Index flipped_elements = 0;
   Index seam_elements = 0;  // of a mesh in longitude and latitude that wraps (seam.h): elements that cross its seam,
   double seam = 0.0;        // which is this meridian, degrees
-  bool volume = false;      // the elements are solids
+  bool volume = false;      // the mesh is a volume mesh
   /// One clear sentence a finding, e.g. "2 vertices belong to no element (first: 17)". Ids are 0-based.
   [[nodiscard]] std::vector<std::string> sentences() const;
 };

@@ -13,9 +13,9 @@ class Topology;
 struct EdgeSurvey;
 
 /// Recognises such a mesh and then sets the period of its plane, its file's range (west), where a picture cuts it, and the size of a piece
-/// that does not go all around. It is one when x fits a circle of 360 degrees and y lies within [-90, 90], and far more of the elements
-/// that are wider than half the circle become sound by unwrapping than cease to be: positive in their neighbours' winding, and no wider
-/// than a quarter. A mesh that is merely wide stays as it is.
+/// that does not go all around. A mesh wraps when x fits a circle of 360 degrees, y lies within [-90, 90], and unwrapping mends far more of
+/// the elements that are wider than half the circle than it breaks. Sound: positive in the winding of the neighbours, and no wider than a
+/// quarter of the circle. A mesh that is merely wide stays as it is.
 void find_seam(const Mesh& mesh, const Topology& topology, const EdgeSurvey& edges, Geometry& geometry);
 
 /// The elements that are wider than half the period as their corners stand; 0 of a mesh that does not wrap.

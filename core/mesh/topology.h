@@ -1,5 +1,5 @@
 #pragma once
-// Who touches whom: vertex stars in CSR, and the boundary.
+// Vertex stars in CSR form, and the boundary.
 
 #include <span>
 #include <string>
@@ -26,7 +26,7 @@ class Topology {
   explicit Topology(const Mesh& mesh);
   /// The same, and what was found on the way. Throws Cancelled.
   Topology(const Mesh& mesh, EdgeSurvey& found, Progress& progress);
-  /// Of a volume mesh.
+  /// Topology of a volume mesh.
   Topology(const Mesh& mesh, const FaceNeighbours& faces);
   /// The winding of elements was reversed since: their corners have other places now. Edges and boundary stay.
   void follow(const Mesh& mesh);

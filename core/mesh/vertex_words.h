@@ -23,11 +23,11 @@ inline constexpr std::string_view kVertexWords =
 ///                               fields of one name: point-data:FIELD=3, cell-data:FIELD=3
 ///   box:X0,Y0,X1,Y1             with x and y (and, of six numbers, z) in these ranges, which belong to it
 /// and, without what stands before the colon, any of the first three that it can mean. Ascending, each once.
-/// Throws UsageError, which begins with the word, for one that means nothing or nothing that there is, naming what there is, and for one
-/// that can mean more than one thing, naming the choices.
+/// Throws UsageError, which begins with the word: for one that means nothing in this mesh, with a list of what the mesh has, and for one
+/// that can mean more than one thing, with the choices.
 [[nodiscard]] std::vector<Index> vertices_named(const Mesh& mesh, std::string_view word);
 
-/// Of several words, together.
+/// The vertices that any of several words names.
 [[nodiscard]] std::vector<Index> vertices_named(const Mesh& mesh, std::span<const std::string> words);
 
 }  // namespace dmoscope

@@ -8,8 +8,8 @@
 
 namespace dmoscope {
 
-/// Of a volume element, negative where it is inside out: what its faces enclose, each fanned from the mean of its corners (exact for a
-/// trilinear hexahedron). Cubic mesh units.
+/// What the faces of a volume element enclose, in cubic mesh units; negative where it is inside out. Each face is a fan around the mean of
+/// its corners, which is exact for a trilinear hexahedron.
 [[nodiscard]] double signed_volume(const Mesh& mesh, Index element);
 /// The same with the vertices elsewhere.
 [[nodiscard]] double signed_volume(const ElementTable& elements, std::span<const Vec3> positions, Index element);

@@ -1,5 +1,5 @@
 #pragma once
-// Who is wound against whom, and which way a component of elements should go. For those that normalise orientation.
+// Which elements are wound against each other, and which winding a component should get. Used to normalise orientation.
 
 #include <cstdint>
 #include <numeric>

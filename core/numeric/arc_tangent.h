@@ -38,7 +38,7 @@ template <class R>
   const bool steep = height > width;
   const double large = steep ? height : width, small = steep ? width : height;
   const double r = large == 0.0 ? 0.0 : small / large;
-  const int nearest = r > 0.0 ? static_cast<int>(r * 8.0 + 0.5) : 0;  // NaN: none, and goes on as it is
+  const int nearest = r > 0.0 ? static_cast<int>(r * 8.0 + 0.5) : 0;  // a NaN passes through
   constexpr auto known_angles = KnownAngles::kTable;                  // a GPU knows the table's content, not its place
   double angle = angle_from_known(r, nearest * 0.125, known_angles[static_cast<std::size_t>(nearest)]);
   if (steep) angle = kPi / 2.0 - angle;

@@ -68,7 +68,7 @@ using Dual = DualOf<Vec2<double>>;  // in a plane
 using SolidDual = DualOf<Vec3>;     // in space
 using LineDual = DualOf<double>;    // on a line
 
-/// The point that the derivatives are by.
+/// The point that derivatives are taken by.
 [[nodiscard]] constexpr Vec2<Dual> variable(Vec2<double> p) { return {{p.x, {1, 0}}, {p.y, {0, 1}}}; }
 [[nodiscard]] constexpr Vec3Of<SolidDual> variable(Vec3 p) { return {{p.x, {1, 0, 0}}, {p.y, {0, 1, 0}}, {p.z, {0, 0, 1}}}; }
 

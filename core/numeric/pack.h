@@ -3,9 +3,9 @@
 // slots gets exactly the bits that a plain float or double gets there: only operations that IEEE 754 defines are used, and no fused
 // multiply-add changes a rounding.
 //
-// xsimd because it was the fastest of those in Debian on the search's inner loop (ns a visit, AVX-512 / AVX2 / SSE2, g++ 12): xsimd
-// 103 / 189 / 348, std::experimental::simd 279 / 521 / 952; Highway 1.0.3 does not accept g++ 12's flags for these processors. And its
-// types carry their architecture, so that code compiled for one can never be linked in place of another's.
+// xsimd was chosen because it was the fastest library in Debian on the search's inner loop (ns a visit, AVX-512 / AVX2 / SSE2, g++ 12):
+// xsimd 103 / 189 / 348, std::experimental::simd 279 / 521 / 952; Highway 1.0.3 does not accept g++ 12's flags for these processors. And
+// its types carry their architecture, so that code compiled for one can never be linked in place of another's.
 
 #include <xsimd/xsimd.hpp>
 

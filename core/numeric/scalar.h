@@ -26,7 +26,7 @@ template <std::floating_point R>
 [[nodiscard]] DMOSCOPE_ANYWHERE R select(bool condition, R yes, R no) {
   return condition ? yes : no;
 }
-/// Which zero it is where both are one, and what becomes of NaN, differs between processors: nothing may depend on it.
+/// Which zero is returned where both are zero, and what happens to NaN, differs between processors: nothing may depend on it.
 template <std::floating_point R>
 [[nodiscard]] DMOSCOPE_ANYWHERE R min(R a, R b) {
 #if defined(__CUDA_ARCH__)
@@ -67,7 +67,7 @@ template <class R>
   }
   return root;
 }
-/// The same bits on every processor, which the library's is not. To a few units in the last place; infinities and NaN are not for it.
+/// The cube root, with the same bits on every processor, unlike the library's. Right to a few last places; not for infinities and NaN.
 [[nodiscard]] DMOSCOPE_ANYWHERE double cube_root(double a) {
   const double size = a < 0.0 ? -a : a;
   if (!(size > 0.0)) return a;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/unknown_value.h"
 
 namespace dmoscope {
 
@@ -43,7 +44,7 @@ std::string_view name(SimdLevel level) { return kNames[static_cast<std::size_t>(
 
 SimdLevel parse_simd_level(std::string_view text) {
   const auto found = std::ranges::find(kNames, text);
-  if (found == kNames.end()) throw UsageError(fmt::format("unknown SIMD level '{}'; known are {}", text, fmt::join(kNames, ", ")));
+  if (found == kNames.end()) throw UsageError(unknown_value("SIMD level", text, kNames));
   const SimdLevel level = kAll[static_cast<std::size_t>(found - kNames.begin())];
   if (level > best_simd_level())
     throw UsageError(fmt::format("this processor has no {}; its highest SIMD level is {}", text, name(best_simd_level())));

@@ -82,7 +82,7 @@ class Differences {
  private:
   static constexpr std::size_t kOthers = kCorners - 1;
 
-  /// Of a mesh that wraps: its u is x and its v is y.
+  /// For a mesh that wraps, where u is x and v is y.
   void gather_shortest(const Index* corners, std::span<const Vec3> positions, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i, corners += kCorners)
       for (std::size_t k = 0; k < kOthers; ++k) {

@@ -1,5 +1,5 @@
 #pragma once
-// Quality of many elements at once: the very bits of element_quality() and smallest_jacobian(), at the speed of memory.
+// Quality of many elements at once: the same bits as element_quality() and smallest_jacobian(), at the speed of memory.
 
 #include <array>
 #include <span>

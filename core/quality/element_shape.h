@@ -37,7 +37,7 @@ DMOSCOPE_ANYWHERE auto visit_planar(const Plane& plane, std::span<const Index> c
 }
 
 /// The shape of a volume element; its kind follows from the number of its corners. Edges are differences of positions: nothing is lost far
-/// from the origin, and what does not hang on a corner keeps its bits when that moves.
+/// from the origin, and what does not depend on a corner keeps its bits when that corner moves.
 template <class At, class Visitor>
 DMOSCOPE_ANYWHERE auto visit_volume(std::span<const Index> corners, At at, Visitor visitor) {
   using V = Vec3;
@@ -89,8 +89,8 @@ template <class Visitor>
   return visit_surface(context.geometry, corners, positions, visitor);
 }
 
-/// The metric of a triangle or quadrilateral of vectors V; NaN where it is not defined. Never -0, of which double and packs of it choose
-/// otherwise between equals.
+/// The metric of a triangle or quadrilateral of vectors V; NaN where it is not defined. Never -0: double and packs of it would choose
+/// differently between -0 and 0.
 template <Metric M, class V>
 [[nodiscard]] DMOSCOPE_ANYWHERE formulas::RealOf<V> evaluate(const formulas::Triangle<V>& t) {
   if constexpr (formulas::kDefinedForTriangles<M, V>)
@@ -122,7 +122,7 @@ template <Metric M, class V, class Ideal, std::size_t N, class Corners>
     return formulas::RealOf<V>(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// Of an element of which corner `moving` moves: see formulas::metric_around.
+/// The quality that matters while corner `moving` moves: see formulas::metric_around.
 template <Metric M, class Shape>
 [[nodiscard]] DMOSCOPE_ANYWHERE auto evaluate_around(const Shape& shape, Index /*moving*/) {
   return evaluate<M>(shape);

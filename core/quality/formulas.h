@@ -138,8 +138,8 @@ DMOSCOPE_ANYWHERE RealOf<V> rank(const Quadrilateral<V>& q) {
     return metric<M>(q);
 }
 
-/// What these are of an element of which corner `moving` moves: all of a simplex; of other solids (volumes.h) only the corners that change,
-/// for the others tell nothing of where it should be, and where one of them is the worst they would hold it. Of a quadrilateral all, too.
+/// The metric while corner `moving` of an element moves. Simplices and quadrilaterals: the whole metric. Other volume elements (volumes.h):
+/// only the corners that change; the others say nothing about where the vertex should be, and the worst of them would hold it in place.
 template <Metric M, class Shape>
 DMOSCOPE_ANYWHERE auto metric_around(const Shape& shape, Index /*moving*/) {
   return metric<M>(shape);
@@ -317,7 +317,7 @@ struct Formula<Metric::Condition> {
 };
 
 /// By how much another rank in double must differ from `rank` (from 1e-4 on) for it to be certain which element is better. Rectangularity's
-/// polynomial errs by less than 5e-8 an angle, which changes its square by less than 1e-7 of the root; the others err by a few roundings.
+/// polynomial errs by less than 5e-8 per angle, which changes its square by less than 1e-7 of the root; the others err by a few roundings.
 template <Metric M>
 [[gnu::always_inline]] DMOSCOPE_ANYWHERE double rank_doubt(double rank) {
   if constexpr (M == Metric::Rectangularity)
@@ -360,7 +360,7 @@ decltype(auto) with_planar_metric(Metric metric, F&& f) {
   }
   return f.template operator()<Metric::MeanRatio>();
 }
-/// Of all.
+/// Calls f with any metric.
 template <class F>
 decltype(auto) with_metric(Metric metric, F&& f) {
   if (metric == Metric::Condition) return f.template operator()<Metric::Condition>();

@@ -8,16 +8,17 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/unknown_value.h"
 
 namespace dmoscope {
 
 namespace {
 constexpr KindSet kTriangles = kind_set(ElementKind::Triangle), kQuadrilaterals = kind_set(ElementKind::Quadrilateral),
                   kTetrahedra = kind_set(ElementKind::Tetrahedron),
-                  kOtherSolids = kind_set(ElementKind::Hexahedron) | kind_set(ElementKind::Wedge) | kind_set(ElementKind::Pyramid);
+                  kOtherVolumes = kind_set(ElementKind::Hexahedron) | kind_set(ElementKind::Wedge) | kind_set(ElementKind::Pyramid);
 
 constexpr std::array<MetricInfo, kMetricCount> kTable{{
-    {Metric::MeanRatio, "mean-ratio", "Mean ratio", kTriangles | kQuadrilaterals | kTetrahedra | kOtherSolids, -1.0, 1.0, 0.3,
+    {Metric::MeanRatio, "mean-ratio", "Mean ratio", kTriangles | kQuadrilaterals | kTetrahedra | kOtherVolumes, -1.0, 1.0, 0.3,
      "triangle: 4√3 A / Σ l²;  quadrilateral: 2 min aᵢ / (lᵢ² + lᵢ₋₁²);  tetrahedron: 12 (3V)^⅔ / Σ l²;  hexahedron, wedge, pyramid: "
      "3 min det(Aᵢ)^⅔ / |Aᵢ|², Aᵢ a corner's Jacobian against the ideal one",
      "Shape; the paper's metric (eq. 4). Elements with other than simplex corners by their least corner (Knupp)."},
@@ -34,15 +35,15 @@ constexpr std::array<MetricInfo, kMetricCount> kTable{{
     {Metric::Rectangularity, "rectangularity", "Rectangularity", kTriangles, -1.0, 1.0, 0.5,
      "sign(A) maxᵢ (1 − |π/2 − θᵢ| / (π/2)) (1 − |eᵢⱼ − eᵢₖ| / max(eᵢⱼ, eᵢₖ))",
      "One right angle with equal legs (paper eq. 9, 10). Not quasiconcave."},
-    {Metric::ScaledJacobian, "scaled-jacobian", "Scaled Jacobian", kTriangles | kQuadrilaterals | kTetrahedra | kOtherSolids, -1.0, 1.0,
+    {Metric::ScaledJacobian, "scaled-jacobian", "Scaled Jacobian", kTriangles | kQuadrilaterals | kTetrahedra | kOtherVolumes, -1.0, 1.0,
      0.5,
      "triangle: (2/√3) 2A / largest product of two edges;  quadrilateral: min aᵢ / (lᵢ lᵢ₋₁);  tetrahedron: √2 6V / largest product of "
      "three edges at a corner;  hexahedron: least corner determinant of unit edges (wedge: × 2/√3, pyramid's base: × √2)",
-     "Sine of the worst corner, or its solid counterpart (Verdict)."},
+     "Sine of the worst corner, or its counterpart in a volume (Verdict)."},
     {Metric::AspectRatio, "aspect-ratio", "Aspect ratio", kTriangles | kTetrahedra, -1.0, 1.0, 0.3,
      "triangle: 4√3 A / (lmax Σ l);  tetrahedron: sign(V) 2√6 r / lmax", "Longest edge against the inradius (Verdict's value inverted)."},
-    {Metric::Condition, "condition", "Condition", kQuadrilaterals | kTetrahedra | kOtherSolids, -1.0, 1.0, 0.3,
-     "quadrilateral: the mean ratio;  solids: least 3 det(Aᵢ) / (|Aᵢ| |adj Aᵢ|), Aᵢ a corner's Jacobian against the ideal one",
+    {Metric::Condition, "condition", "Condition", kQuadrilaterals | kTetrahedra | kOtherVolumes, -1.0, 1.0, 0.3,
+     "quadrilateral: the mean ratio;  volumes: least 3 det(Aᵢ) / (|Aᵢ| |adj Aᵢ|), Aᵢ a corner's Jacobian against the ideal one",
      "Inverse of the worst corner's condition number (Knupp; Verdict's value inverted), signed."},
 }};
 }  // namespace
@@ -63,9 +64,7 @@ const MetricInfo& info(Metric metric) { return kTable[static_cast<std::size_t>(m
 Metric parse_metric(std::string_view name) {
   for (const MetricInfo& entry : kTable)
     if (entry.name == name) return entry.metric;
-  std::string known;
-  for (const MetricInfo& entry : kTable) known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
-  throw UsageError(fmt::format("unknown metric '{}'; known are {}", name, known));
+  throw UsageError(unknown_row("metric", name, kTable));
 }
 
 void require_defined(Metric metric, const Mesh& mesh) {

@@ -25,8 +25,8 @@ struct QualityContext {
 /// Quality of one element with the mesh's vertices at `positions`. NaN where the metric is not defined for its kind.
 [[nodiscard]] double element_quality(const QualityContext& context, PositionView positions, Metric metric, Index element);
 
-/// Smallest signed corner Jacobian of an element: twice the corner triangle's area, six times the volume of a solid's corner tetrahedron
-/// (mesh units squared, cubed). Inverted means <= 0.
+/// Smallest signed corner Jacobian of an element: twice the corner triangle's area, six times the volume of a volume element's corner
+/// tetrahedron (mesh units squared, cubed). Inverted means <= 0.
 [[nodiscard]] double smallest_jacobian(const QualityContext& context, PositionView positions, Index element);
 
 /// Quality of every element, out.size() == mesh.elements.size().
@@ -47,7 +47,7 @@ struct Statistics {
   Index inverted = 0;              // elements with a corner Jacobian <= 0, whatever the metric
 };
 
-/// The elements whose corners are all fixed, ascending. `fixed`: one entry a vertex, non-zero where it may not move.
+/// The elements whose corners are all fixed, ascending. `fixed`: one entry per vertex, non-zero where it may not move.
 [[nodiscard]] std::vector<Index> immovable_elements(const Mesh& mesh, std::span<const std::uint8_t> fixed, ThreadPool* pool);
 
 /// `immovable`: see immovable_elements. The same bits for any pool (nullptr: this thread alone).

@@ -12,8 +12,8 @@ namespace dmoscope {
 /// What some of the elements add to the statistics.
 class Tally {
  public:
-  /// Sums are of every fourth element, so that no addition waits for the one before, and of stretches of as many elements: who wants the
-  /// same bits adds in the same order.
+  /// Four interleaved sums (element i adds to sum i mod 4), so that no addition waits for the one before, over stretches of this many
+  /// elements. Whoever needs the same bits must add in the same order.
   static constexpr std::size_t kLanes = 4, kStretch = 1024;
 
   /// `immovable`: ascending, at least those elements of the block whose corners are all fixed (see immovable_elements).

@@ -49,7 +49,7 @@ struct PyramidCorner {
     return {u, v, scalar::constant<RealOf<V>>(0.5 * std::numbers::sqrt2) * (w + w - u - v)};
   }
 };
-/// Of the tetrahedron with equal edges.
+/// A corner of the tetrahedron with equal edges.
 struct TetrahedronCorner {
   static constexpr double kDeterminant = std::numbers::sqrt2;
   template <class V>
@@ -159,7 +159,7 @@ DMOSCOPE_ANYWHERE RealOf<V> smallest_jacobian_around(const CorneredSolid<V, Idea
 }
 
 /// One specialisation a metric: tetrahedron(...) and corner<Ideal>(u, v, w, jacobian), whose least over the corners is the value of all
-/// other solids; where defined. rank_...: see rank().
+/// other volume elements; where defined. rank_...: see rank().
 template <Metric M>
 struct SolidFormula;
 
@@ -335,7 +335,7 @@ DMOSCOPE_ANYWHERE WholeAndAround<RealOf<V>> metric_whole_and_around(const Corner
   return s.least_whole_and_around(
       moving, [](V u, V v, V w, RealOf<V> jacobian) { return SolidFormula<M>::template corner<Ideal>(u, v, w, jacobian); });
 }
-/// Of what is judged as a whole.
+/// The same for shapes that are judged as a whole.
 template <Metric M, class Shape>
 DMOSCOPE_ANYWHERE auto metric_whole_and_around(const Shape& shape, Index /*moving*/) {
   const auto value = metric<M>(shape);

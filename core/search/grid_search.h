@@ -19,7 +19,7 @@ namespace dmoscope {
 enum class Value { Metric, Rank };
 
 namespace formulas {
-/// Does the metric judge other elements of the frame than simplices, and is its sign theirs?
+/// Does the metric judge elements of the frame other than simplices, and does its sign say whether they are inverted?
 template <Metric M, class Point>
 inline constexpr bool kDefinedForOthers = kDefinedForQuadrilaterals<M, Point>;
 template <Metric M, class Real>
@@ -34,8 +34,8 @@ inline constexpr bool kSignTellsInversion<M, Vec3Of<Real>> = true;
 /// A star without inverted elements: the least metric (paper eq. 1); a candidate that inverts one is <= 0 and never wins.
 /// Otherwise (Untangling): the smallest corner Jacobian over its element's reference measure while it is <= 0, and the least metric
 /// once all are positive; every valid candidate is above every invalid one, since valid elements have positive metrics.
-/// Of solids that are judged corner by corner those corners count that the vertex changes (formulas::metric_around): what is best by them
-/// is best by all.
+/// Where volume elements are judged corner by corner, only the corners that the vertex changes count (formulas::metric_around): what is
+/// best by them is best by all.
 /// Point: Vec2<Real> in a plane, Vec3Of<Real> in space.
 template <Metric M, bool Untangling, class Real, Value V, class Point>
 class Worth {
@@ -163,7 +163,7 @@ struct NoTrace {
   template <class Real, class Point>
   DMOSCOPE_ANYWHERE void found(const Candidate<Real, Point>& /*best*/) {}
 };
-/// Does somebody look? A search that needs no candidate's value for itself finds them only then.
+/// Is there a trace that records? A search that does not need every candidate's value computes them only then.
 template <class Trace>
 inline constexpr bool kTraced = !std::is_same_v<std::remove_cvref_t<Trace>, NoTrace>;
 

@@ -15,7 +15,7 @@ namespace dmoscope {
 
 namespace turned {
 
-/// The corners of a solid, turned so that corner `c` is the first and the solid stays positive; a pyramid's tip stays the last.
+/// The corners of a volume element, turned so that corner `c` is the first and it stays positive; a pyramid's tip stays the last.
 [[nodiscard]] DMOSCOPE_ANYWHERE Index tetrahedron(Index c, Index i) { return c ^ i; }
 [[nodiscard]] DMOSCOPE_ANYWHERE Index pyramid(Index c, Index i) { return i < 4 ? (c + i) % 4 : 4; }
 [[nodiscard]] DMOSCOPE_ANYWHERE Index wedge(Index c, Index i) {
@@ -31,8 +31,8 @@ namespace turned {
 
 }  // namespace turned
 
-/// Reads the mesh anew at every look, so that it needs no memory, whatever the star's size: for a GPU's lanes. gather_star() copies it for
-/// those who look often. Frame: Plane or Space.
+/// Reads the mesh whenever it is used, so that it needs no memory, whatever the star's size: for a GPU's lanes. gather_star() makes a copy
+/// for code that reads a star often. Frame: Plane or Space.
 template <class Frame>
 class MeshStar {
  public:
@@ -57,7 +57,7 @@ class MeshStar {
   /// In mesh units: the largest offset lies in [1, 2) of it.
   [[nodiscard]] DMOSCOPE_ANYWHERE double scale() const { return scale_; }
 
-  /// See StarView; in the order of the elements. Others: those that are no simplices, too.
+  /// See StarView; in the order of the elements. Others: also elements that are no simplices.
   template <bool Others, class F>
   DMOSCOPE_ANYWHERE void for_each(F f) const {
     for (const Incidence& at : mesh_.star(vertex_)) {
@@ -71,7 +71,7 @@ class MeshStar {
   }
 
  private:
-  /// Of offsets.
+  /// Bounding box of offsets.
   struct Box {
     Offset low{}, high{};
     bool empty = true;
@@ -96,7 +96,7 @@ class MeshStar {
     const double power = std::ldexp(1.0, std::ilogb(extent));
     return std::is_same_v<Frame, Plane> || !(power >= std::numeric_limits<double>::min()) ? power : extent;
   }
-  /// Of an area or a volume, where lengths are `length` times as large.
+  /// The factor of areas or volumes where lengths grow by the factor `length`.
   static DMOSCOPE_ANYWHERE double measure_of(double length) {
     return std::is_same_v<Frame, Plane> ? length * length : length * length * length;
   }

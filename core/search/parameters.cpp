@@ -1,7 +1,10 @@
 #include "core/search/parameters.h"
 
+#include <array>
+
 #include <fmt/format.h>
 
+#include "core/base/unknown_value.h"
 #include "core/base/words.h"
 
 namespace dmoscope {
@@ -11,7 +14,7 @@ std::string_view name(Precision precision) { return precision == Precision::Floa
 Precision parse_precision(std::string_view word) {
   if (word == "float") return Precision::Float;
   if (word == "double") return Precision::Double;
-  throw WrongArguments(fmt::format("'{}' is not a precision: choose float or double", word));
+  throw WrongArguments(unknown_value("precision", word, std::array{name(Precision::Float), name(Precision::Double)}));
 }
 
 void validate(const SearchParameters& parameters) {

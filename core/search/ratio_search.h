@@ -22,7 +22,7 @@ template <class R>
 struct LeastMargins {
   R m0, m1, m2, m3, m4, m5, m6, m7;
 
-  /// Of the first element: its part of each row plus its part of the column.
+  /// Margins of the first element: its part of each row plus its part of the column.
   DMOSCOPE_ANYWHERE LeastMargins(const std::array<R, 8>& row, R column)
       : m0(sum(row[0], column)),
         m1(sum(row[1], column)),
@@ -65,8 +65,8 @@ struct LeastMargins {
 /// registers and little cache, computes the columns' parts again, and the rows' too where the number of elements is not known beforehand.
 enum class Tables { Full, Rows, None };
 
-/// Searches one star, or one a slot where R is a pack. Large: keep one and use it again. Forms: their number where it is known beforehand,
-/// else 0. What it finds does not depend on Tables and Team.
+/// Searches one star, or one per slot where R is a pack. Large: keep one and use it again. Forms: their number where it is known
+/// beforehand, else 0. What it finds does not depend on Tables and Team.
 template <class R, std::size_t Forms = 0, Tables Kept = Tables::Full, class Team = Solo>
 class RatioSearch {
  public:
@@ -225,7 +225,7 @@ class RatioSearch {
     }
   }
 
-  /// Of a column's candidates. On a GPU without the memory that an index known only at run time would need.
+  /// The offset of a column's candidates. On a GPU computed: an index that is known only at run time would put the table into local memory.
   [[nodiscard]] DMOSCOPE_ANYWHERE R column_offset(std::size_t i) const {
     if constexpr (Kept == Tables::Full) {
       return x_[i];

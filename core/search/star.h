@@ -93,8 +93,8 @@ struct StarTetrahedron {
     return formulas::Tetrahedron<Vec3Of<R>>(p, point_of<R>(b), point_of<R>(c), point_of<R>(d));
   }
 };
-/// Any other incident solid (formulas::Hexahedron and so on), turned so that the vertex is its first corner, or the last of a pyramid: its
-/// other corners in order.
+/// Any other incident volume element (formulas::Hexahedron and so on), turned so that the vertex is its first corner, or the last of a
+/// pyramid: its other corners in order.
 template <template <class> class SolidT, std::size_t N, class Real>
 struct StarSolid {
   static constexpr Index kMoving = 0;
@@ -139,7 +139,7 @@ struct VolumeStar {
   Vec3Of<Real> box;
   double scale = 1.0;
 
-  /// Of the star or of each of its lists in turn.
+  /// Calls f with each of the star's lists in turn.
   template <class F>
   void for_each_list(F f) {
     f(tetrahedra), f(hexahedra), f(wedges), f(pyramids), f(tips);
@@ -184,7 +184,7 @@ template <class Real>
 class VolumeStarView {
  public:
   VolumeStarView(const VolumeStar<Real>& star) : star_(&star) {}  // NOLINT(google-explicit-constructor): a view of it
-  /// Calls f with each tetrahedron and, unless told that f does not take them, with each other solid.
+  /// Calls f with each tetrahedron and, unless told that f does not take them, with each other element.
   template <bool Others, class F>
   void for_each(F f) const {
     for (const auto& t : star_->tetrahedra) f(t);

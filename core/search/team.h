@@ -1,5 +1,5 @@
 #pragma once
-// Who searches a star together: one lane alone, or lanes that share the columns of the candidate grid. All lanes of a team run the same
+// A team searches a star together: one lane alone, or lanes that share the columns of the candidate grid. All lanes of a team run the same
 // code on the same values and differ only in the columns they look at, so that a team finds, bit for bit, what one lane alone finds.
 
 #include "core/base/host_device.h"

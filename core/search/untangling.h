@@ -1,12 +1,12 @@
 #pragma once
 // What is maximised in a star that has inverted elements, and what such a star must keep (promise 1).
 //
-// The least Jacobian alone does not do: it stalls where several corners hold each other, and in a hexahedron that is not far from
+// The least Jacobian alone is not enough: it stalls where several corners hold each other, and in a hexahedron that is not far from
 // everywhere (a cube of 125, 36 of them inverted, ended with 3). So it must not fall, and what rises is a mean over all corners, in which
-// those that are good enough count no more. Nor may the number of inverted elements rise, or a metric fall below the worst of the whole
-// mesh: where a fixed vertex makes untangling impossible, neighbours would hand on the damage for ever. For the same reason attempts are
-// limited in time: between them the sound elements of a star are raised as if the inverted ones were not there. And before all else those
-// vertices go home whose place alone is wrong: while they stand far away their neighbours must not follow them.
+// a corner that is good enough gains nothing more. Nor may the number of inverted elements rise, or a metric fall below the worst of the
+// whole mesh: where a fixed vertex makes untangling impossible, neighbours would pass the damage on for ever. For the same reason attempts
+// are limited in time: between them the sound elements of a star are raised as if the inverted ones were not there. Before all this a
+// repair brings back vertices that are far from their star: their neighbours must not follow them.
 
 #include <cstdint>
 #include <limits>
@@ -157,10 +157,10 @@ class InvertedSet {
   std::uint64_t bits_ = 0;
 };
 
-/// The worth of a star with its vertex at a place. Positive is the least metric where no corner that changes with the vertex is inverted.
-/// Else in a repair the least Jacobian, put between -1 and 0: of simplices it has one summit. Else, of a place that is allowed: in an
-/// attempt, the mean put between -1 and 0; without one, (least metric of the sound elements - 1) / 2 less the number of the inverted ones.
-/// A place that is not allowed: kForbidden.
+/// The worth of a star with its vertex at a place. Where no corner that changes with the vertex is inverted: the least metric, positive.
+/// Else in a repair: the least Jacobian, mapped into (-1, 0]; for simplices it has a single maximum. Else at an allowed place: in an
+/// attempt the mean, mapped into (-1, 0]; without one (least metric of the sound elements - 1) / 2, less the number of inverted ones.
+/// Elsewhere: kForbidden.
 ///   allowed in an attempt: no more inverted elements, the least Jacobian not below that of the own place, no metric below the floor;
 ///   without one: what is sound stays sound, and the least metric of all does not fall.
 template <Metric M, class StarT, class Point>

@@ -14,12 +14,12 @@ namespace dmoscope {
 [[nodiscard]] std::string stats_label(const RunParameters& parameters);
 
 /// Columns run,iteration,min_quality,mean_quality,inverted,moved,seconds,movable_minimum; row 0 of a run is the input. Values
-/// that do not exist (infinite movable minimum) are empty. With `percentiles`, one list a run, also p1,p5,p50. Numbers are the shortest
+/// that do not exist (infinite movable minimum) are empty. With `percentiles`, one list per run, also p1,p5,p50. Numbers are the shortest
 /// that read back as the same double.
 [[nodiscard]] std::string stats_csv(std::span<const std::string> titles, std::span<const std::vector<IterationRecord>* const> records,
                                     std::span<const SharedVector<Percentiles>> percentiles = {});
 
-/// Columns element,kind, then one a metric under its name; empty where a metric is not defined for the element's kind.
+/// Columns element,kind, then one per metric under its name; empty where a metric is not defined for the element's kind.
 [[nodiscard]] std::string elements_csv(const QualityContext& context, std::span<const Vec3> positions, std::span<const Metric> metrics);
 
 }  // namespace dmoscope

@@ -21,7 +21,7 @@ struct RunEnding {
 /// The endings of a session's runs.
 class Endings {
  public:
-  /// Of a run as it stands; null where it has not come to an end, where no element is inverted, and while it has not been worked out.
+  /// The ending of a run; null while the run has not ended, while this is not worked out yet, and where no element is inverted.
   [[nodiscard]] std::shared_ptr<const RunEnding> of(Session& session, std::size_t run) const;
   /// Works out where to look, of those that are missing, asking `go_on` before each. Returns whether there are new ones. Throws
   /// DeviceError.

@@ -1,5 +1,5 @@
 #pragma once
-// What of an input mesh a run depends on besides positions and elements, as short hashes: a run that is gone on with must find it again.
+// Hashes of what a run depends on besides positions and elements. A run that is continued must find the same in its input mesh.
 
 #include <string>
 #include <utility>
@@ -10,16 +10,16 @@
 
 namespace dmoscope {
 
-/// Of the vertices that keep their place whatever a person fixes.
+/// Hash of the vertices that stay in place whatever a person fixes.
 [[nodiscard]] std::string standing_mark(const InputMesh& input, InterfaceRule rule);
 
-/// Of the nodal field that a size function reads; empty where it reads none.
+/// Hash of the nodal field that a size function reads; empty where it reads none.
 [[nodiscard]] std::string size_mark(const InputMesh& input, const SizeField* size);
 
 /// What a thing of the file is called, as a person reads it (group "steel", field "mat_id"), and its hash.
 using DataMark = std::pair<std::string, std::string>;
 
-/// Of all that can hold vertices: groups, and the fields that name materials; in the mesh's order.
+/// Marks of all data that can fix vertices: groups, and fields that name materials; in the mesh's order.
 [[nodiscard]] std::vector<DataMark> data_marks(const Mesh& mesh);
 
 /// What differs: `group "steel" has changed, field "mat_id" is gone`; of much the first few. Empty where nothing does.

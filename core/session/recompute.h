@@ -1,5 +1,5 @@
 #pragma once
-// Positions that a run had and its history no longer keeps.
+// Computes positions again that a run's history no longer keeps.
 
 #include <cstdint>
 #include <functional>

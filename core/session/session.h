@@ -83,7 +83,7 @@ class Session {
   std::string redo(Progress& progress);
   [[nodiscard]] const UndoStack& undo_stack() const noexcept { return undo_; }
 
-  /// Metric shown in colours, histogram and worst list; apart from the one a run optimises.
+  /// Metric shown in colours, histogram and worst list; apart from the one that a run optimises.
   [[nodiscard]] Metric shown() const noexcept { return shown_; }
   /// Throws UsageError when the metric is defined for none of the elements.
   void show(Metric metric);
@@ -93,7 +93,7 @@ class Session {
   /// For all runs together; divided evenly.
   void set_history_budget(std::size_t bytes);
   void set_threads(unsigned threads);
-  /// Of all runs, and of those that are added later; see Run::set_observer.
+  /// Observes all runs, also those that are added later; see Run::set_observer.
   void observe(std::function<void(const Run&)> observer);
   [[nodiscard]] const std::shared_ptr<ThreadPool>& pool() const noexcept { return pool_; }
 

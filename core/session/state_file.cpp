@@ -29,7 +29,7 @@ constexpr std::string_view kSessionFormat = "dmoscope session";
 constexpr int kVersion = 3;  // 1: without checksums but that of the mesh; 3: several meshes
 constexpr int kVersionOfOneMesh = 2;
 
-/// Of positions and elements.
+/// Checksum of positions and elements.
 std::string checksum(const Mesh& mesh) {
   Fnv1a hash;
   const auto add = [&](std::uint64_t value) { hash.add_number(value); };
@@ -40,7 +40,8 @@ std::string checksum(const Mesh& mesh) {
   return hash.text();
 }
 
-/// Of each part of an object, to tell which is damaged: JSON's own form of it, which does not depend on how the file is laid out.
+/// One checksum for each part of an object, to tell which part is damaged. Taken from the part's compact JSON, so that the file's layout
+/// does not matter.
 Json checksums_of(const Json& object) {
   Json sums = Json::object();
   for (const auto& [key, part] : object.items()) {
@@ -297,7 +298,7 @@ std::shared_ptr<const InputMesh> to_input(const Json& json, const std::filesyste
   return input;
 }
 
-/// What the file says of the mesh's groups and fields; nothing in one of before it did.
+/// The marks of the mesh's groups and fields in the file; nothing in an older file, which has none.
 std::vector<DataMark> to_data_marks(const Json& input) {
   std::vector<DataMark> marks;
   if (!input.contains("data")) return marks;

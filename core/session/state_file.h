@@ -18,7 +18,7 @@ void save_state(const std::filesystem::path& path, Session& session, const std::
 /// for. Every part of the file has a checksum, and the quality that it says of the positions must be theirs. On any error, and on
 /// Cancelled, the session stays as it was. Throws InputError that names file and line for what is no state file, is damaged (and which part
 /// of it) or does not fit together, and for a mesh that has changed since; UsageError; DeviceError. Returns a sentence where a person
-/// should know more: a file of before there were checksums; else nothing. `input`: the mesh where it was read already, so that it need not
+/// should know more: an old file, without checksums; else nothing. `input`: the mesh where it was read already, so that it need not
 /// be again; null: the file says where it is.
 std::string open_state(const std::filesystem::path& path, Session& session, Progress& progress,
                        const std::shared_ptr<const InputMesh>& input = nullptr);

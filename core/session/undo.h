@@ -1,6 +1,6 @@
 #pragma once
 // Undo and redo. What a command changed is remembered as where the session stood before and after it; paths are followed again bit for
-// bit, so that is all there is to remember.
+// bit, so nothing else is needed.
 
 #include <cstddef>
 #include <memory>
@@ -36,7 +36,7 @@ struct UndoEntry {
 class UndoStack {
  public:
   static constexpr std::size_t kMostEntries = 100;
-  /// Meshes, and runs, that nothing but undo knows of any more.
+  /// Meshes and runs that only undo still refers to.
   static constexpr std::size_t kMostInputs = 3, kMostRuns = 12;
 
   /// Remembers what a command did, unless it changed nothing or there was no mesh before; what was undone cannot be redone any more.

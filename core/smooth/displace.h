@@ -13,7 +13,7 @@ namespace dmoscope {
   return single_precision ? nearest_float(sum) : sum;
 }
 
-/// x, less or more a period where it left [west, west + period]: a vertex that moved across the seam stands where its file has it.
+/// x, shifted by a period where it left [west, west + period], so that a vertex that moved across the seam stays in its file's range.
 [[gnu::always_inline]] DMOSCOPE_ANYWHERE double settled(double x, double west, double period, bool single_precision) {
   if (x >= west && x <= west + period) return x;
   const double moved = x < west ? x + period : x - period;

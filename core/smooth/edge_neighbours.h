@@ -20,7 +20,7 @@ void for_edge_neighbours(const PlanarView& mesh, Index vertex, const Visit& visi
   }
 }
 
-/// Calls visit(corner) for the other end of each edge that leaves a solid's corner.
+/// Calls visit(corner) for the other end of each edge that leaves a volume element's corner.
 template <class Visit>
 void for_edges_of_corner(std::size_t corners, Index corner, const Visit& visit) {
   const auto by_table = [&](const auto& table) {

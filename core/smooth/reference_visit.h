@@ -1,6 +1,6 @@
 #pragma once
-// One vertex's visit in double by the plain search, judged by the statistics' own formulas: what the fast search is compared with, and
-// falls back to. For any processor.
+// One vertex's visit in double by the plain search, judged by the statistics' own formulas. The fast search is compared with it and falls
+// back to it. For any processor.
 
 #include <limits>
 

@@ -59,7 +59,7 @@ void SizeField::read_field() {
   const auto found = std::ranges::find_if(mesh.fields, [&](const Field& field) { return is_scalar(field) && field.name == name; });
   if (found == mesh.fields.end()) {
     const auto known = scalar_fields(mesh);
-    throw UsageError(known.empty() ? fmt::format("the mesh has no nodal field '{}', nor any other with one number a vertex", name)
+    throw UsageError(known.empty() ? fmt::format("the mesh has no nodal field '{}', nor any other with one number per vertex", name)
                                    : fmt::format("the mesh has no nodal field '{}'; it has {}", name, fmt::join(known, ", ")));
   }
   std::vector<double> sizes = found->values;

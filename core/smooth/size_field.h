@@ -21,7 +21,7 @@ class SizeField {
   /// h > 0, up to a factor, where `vertex` stands when it is at `place`.
   [[nodiscard]] double at(Index vertex, Vec3 place) const;
   [[nodiscard]] const SizeFunction& function() const noexcept { return function_; }
-  /// What is to be known of it ("depth is not positive at 12 vertices: ..."), usually empty.
+  /// A note for the person ("depth is not positive at 12 vertices: ..."), usually empty.
   [[nodiscard]] const std::string& note() const noexcept { return note_; }
 
  private:
@@ -34,13 +34,13 @@ class SizeField {
   std::string note_;
 };
 
-/// The names of the nodal fields that can be a size function: those with one number a vertex.
+/// The names of the nodal fields that can be a size function: those with one number per vertex.
 [[nodiscard]] std::vector<std::string> scalar_fields(const Mesh& mesh);
 
 /// Mean length of the edges at a vertex; 0 for one of no element.
 [[nodiscard]] double local_edge_length(const PlanarView& mesh, PositionView positions, Index vertex);
 
-/// How the local edge lengths go with the target sizes over some vertices: Pearson's correlation of the two, and of their logarithms,
+/// How well local edge lengths follow the target sizes over some vertices: Pearson's correlation of the two, and of their logarithms,
 /// which tells more where sizes span decades. NaN where either does not vary.
 struct SizeCorrelation {
   double sizes = std::numeric_limits<double>::quiet_NaN(), logarithms = std::numeric_limits<double>::quiet_NaN();

@@ -32,11 +32,11 @@ class Smoother {
   Smoother(const Smoother&) = delete;
   Smoother& operator=(const Smoother&) = delete;
   virtual ~Smoother() = default;
-  /// Said before visits of another iteration, or of another phase, than those before.
+  /// To be called before the first visit of another iteration or phase.
   virtual void begin([[maybe_unused]] const Sweep& sweep) {}
   /// Visits the vertices [first, first + count) of the colouring's order, class after class, so that each sees the old or the new positions
-  /// of its neighbours whatever the number of threads, and moves those that gain; returns how many moved. The stretch may begin and end in
-  /// the midst of classes and span any number of them, up to the whole order. The result depends neither on the pool nor on how an
+  /// of its neighbours whatever the number of threads, and moves those that gain; returns how many moved. The stretch may begin and end
+  /// within classes and span any number of them, up to the whole order. The result depends neither on the pool nor on how an
   /// iteration is cut into calls. `positions`: of the whole mesh, and the ones that the last call left, unless positions_replaced() was
   /// called in between; what moved may be missing from them until store(), and is where positions_on_device(). Throws DeviceError; the
   /// smoother is of no use any more then.
@@ -49,8 +49,8 @@ class Smoother {
   /// Whether positions lie far from the host, on a device: store() and each call of visit() are dear then, so a run asks for neither more
   /// often than it must, and visit() never writes to `positions`.
   [[nodiscard]] virtual bool positions_on_device() const noexcept { return false; }
-  /// Statistics of the metric that is optimised after all visits so far, found without bringing the positions to the host: the very bits of
-  /// compute_statistics(). None where that cannot be, and while there was no visit since the start or since positions_replaced(). Throws
+  /// Statistics of the metric that is optimised after all visits so far, found without bringing the positions to the host: the same bits as
+  /// compute_statistics(). None where that is impossible, and before the first visit since the start or since positions_replaced(). Throws
   /// DeviceError.
   [[nodiscard]] virtual std::optional<Statistics> statistics() { return std::nullopt; }
   /// A snapshot of the positions as they are now, where they live on a device and `shown` can be judged there; null: nowhere but on the

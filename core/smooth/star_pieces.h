@@ -1,5 +1,5 @@
 #pragma once
-// The smooth functions of which the quality of a star is the least: one a triangle or tetrahedron, one a corner of any other element.
+// The smooth functions of which the quality of a star is the least: one per triangle or tetrahedron, one per corner of any other element.
 
 #include "core/quality/formulas.h"
 #include "core/quality/volumes.h"
@@ -22,8 +22,8 @@ constexpr void for_corners(const StarQuadrilateral<double>& q, Vec2<R> p, const 
 
 /// Calls f.template operator()<Ideal>(u, v, w, their determinant) with the edges of every corner that changes when `moving` moves.
 template <class V, class Ideal, std::size_t N, class Corners, class F>
-constexpr void for_moving_corners(const formulas::CorneredSolid<V, Ideal, N, Corners>& solid, Index moving, const F& f) {
-  (void)solid.least_around(moving, [&f](V u, V v, V w, formulas::RealOf<V> jacobian) {
+constexpr void for_moving_corners(const formulas::CorneredSolid<V, Ideal, N, Corners>& element, Index moving, const F& f) {
+  (void)element.least_around(moving, [&f](V u, V v, V w, formulas::RealOf<V> jacobian) {
     f.template operator()<Ideal>(u, v, w, jacobian);
     return jacobian;
   });
@@ -31,7 +31,7 @@ constexpr void for_moving_corners(const formulas::CorneredSolid<V, Ideal, N, Cor
 
 /// Calls tetrahedron(formulas::Tetrahedron, reference measure) for each tetrahedron of a volume's star with its vertex at `p` and, unless
 /// told to leave them out, corner.template operator()<Ideal>(u, v, w, their determinant, reference measure) for each corner of the other
-/// solids that changes with the vertex's place: the rest tells nothing of where it should be.
+/// volume elements that changes with the vertex's place; the other corners say nothing about where it should be.
 template <bool Others, class R, class Take, class TakeCorner>
 constexpr void for_solids(const VolumeStar<double>& star, Vec3Of<R> p, const Take& tetrahedron, const TakeCorner& corner) {
   using V = Vec3Of<R>;

@@ -1,8 +1,11 @@
 #include "core/smooth/task.h"
 
+#include <array>
+
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/unknown_value.h"
 
 namespace dmoscope {
 
@@ -11,7 +14,7 @@ std::string_view name(Directions directions) { return directions == Directions::
 Directions parse_directions(std::string_view word) {
   for (const Directions directions : {Directions::Random, Directions::Axes})
     if (word == name(directions)) return directions;
-  throw UsageError(fmt::format("'{}' names no directions: {} or {}", word, name(Directions::Random), name(Directions::Axes)));
+  throw UsageError(unknown_value("directions", word, std::array{name(Directions::Random), name(Directions::Axes)}));
 }
 
 void validate(const MethodOptions& options) {

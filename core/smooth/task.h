@@ -18,7 +18,7 @@ namespace dmoscope {
 
 class SizeField;
 
-/// Along which directions dvr relaxes: one a sweep for all vertices, drawn at random from a seed; or the axes of the mesh's plane, or of
+/// Along which directions dvr relaxes: one per sweep for all vertices, drawn at random from a seed; or the axes of the mesh's plane, or of
 /// space, by turns.
 enum class Directions { Random, Axes };
 /// "random" or "axes".

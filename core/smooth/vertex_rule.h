@@ -1,5 +1,5 @@
 #pragma once
-// Methods that treat one vertex after the other by a rule, on the processor and in double: what they share.
+// Shared by methods that move one vertex after the other by a rule, on the CPU and in double.
 
 #include <algorithm>
 #include <atomic>
@@ -66,8 +66,8 @@ void for_classes(const Colouring& colouring, std::uint64_t first, std::uint64_t 
 
 /// A rule says where one vertex goes, from the positions alone and, if it has a begin(const Sweep&), the iteration. Nowhere: it stays.
 /// Rule::Scratch is what it works in, kept from one vertex to the next; no result may depend on what is left there. Besides it may have
-/// - static constexpr bool kDependsOnStarAlone = true: the target hangs on nothing but the positions of the vertices of the star and
-///   Sweep::untangling, so that a vertex of whose star nothing has moved since it stayed is not visited again;
+/// - static constexpr bool kDependsOnStarAlone = true: the target depends only on the positions of the star's vertices and on
+///   Sweep::untangling; so a vertex that stayed is not visited again until a vertex of its star moves;
 /// - static constexpr std::size_t kGrain: how many vertices a thread takes at once, if not 128.
 template <class Rule>
 concept VertexRule = requires(const Rule& rule, PositionView positions, Index vertex, typename Rule::Scratch& scratch) {

@@ -7,7 +7,7 @@
 #include "gpu/task.h"
 #include "tests/gpu/meshes.h"
 #include "tests/gpu/same_bits.h"
-#include "tests/gpu/solids.h"
+#include "tests/gpu/volumes.h"
 #include "tests/smooth/zoo.h"
 
 namespace dmoscope::gpu {
@@ -70,17 +70,17 @@ TEST_P(CudaDmo, SameBitsOnALargeMesh) {
   }
 }
 
-class CudaSolidDmo : public CudaTest {};
+class CudaVolumeDmo : public CudaTest {};
 
-TEST_P(CudaSolidDmo, SameBits) {
+TEST_P(CudaVolumeDmo, SameBits) {
   for (const Precision precision : {Precision::Float, Precision::Double})
-    for (const Solid& solid : solids(512)) {
-      if (!defined_for_all(GetParam(), solid.input->mesh)) continue;
-      SCOPED_TRACE(solid.name);
-      expect_same_visits(queue, Subject(solid.input), GetParam(), {.precision = precision}, 2);
+    for (const VolumeSample& sample : volume_samples(512)) {
+      if (!defined_for_all(GetParam(), sample.input->mesh)) continue;
+      SCOPED_TRACE(sample.name);
+      expect_same_visits(queue, Subject(sample.input), GetParam(), {.precision = precision}, 2);
     }
 }
-TEST_P(CudaSolidDmo, SameBitsOnTheSharedMeshes) {
+TEST_P(CudaVolumeDmo, SameBitsOnTheSharedMeshes) {
   const auto meshes = shared_volumes(30000);
   if (meshes.empty()) GTEST_SKIP() << "no shared meshes here";
   for (const auto& mesh : meshes) {
@@ -89,7 +89,7 @@ TEST_P(CudaSolidDmo, SameBitsOnTheSharedMeshes) {
     expect_same_visits(queue, Subject(mesh), GetParam(), {}, 2);
   }
 }
-INSTANTIATE_TEST_SUITE_P(CudaMetrics, CudaSolidDmo, every_volume_metric(), name_of_metric);
+INSTANTIATE_TEST_SUITE_P(CudaMetrics, CudaVolumeDmo, every_volume_metric(), name_of_metric);
 
 INSTANTIATE_TEST_SUITE_P(CudaMetrics, CudaDmo, every_metric(), name_of_metric);
 

@@ -112,8 +112,8 @@ step configure 60 cmake --preset gpu-bench -DDMOSCOPE_TESTS=ON ${shared:+"-DDMOS
 [[ $status -eq 0 ]] || told configure "$(outcome)"
 # -k 0: what can be built is, so that the steps below have something to try.
 targets=(dmoscope test_gpu)
-for room in mesh quality search smooth session io cli; do
-  if grep -qsE '^TEST.*\(Cuda' "tests/$room"/*.cpp; then targets+=("test_$room"); fi
+for folder in mesh quality search smooth session io cli; do
+  if grep -qsE '^TEST.*\(Cuda' "tests/$folder"/*.cpp; then targets+=("test_$folder"); fi
 done
 step build 300 cmake --build "$build" --target "${targets[@]}" -- -k 0
 told "build" "$(outcome)"

@@ -25,7 +25,7 @@ class PanesTest : public HeadlessTest {
     return words;
   }
   [[nodiscard]] ui::Items::Box box(const std::string& name) { return window_->app().items().find(name); }
-  /// From the middle of an item by so many pixels.
+  /// Drags from the middle of an item by a number of pixels.
   void drag(const std::string& item, float dx, float dy) {
     const auto at = box(item);
     const float x = (at[0] + at[2]) / 2, y = (at[1] + at[3]) / 2;

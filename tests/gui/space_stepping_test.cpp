@@ -48,7 +48,7 @@ TEST(SpaceArrows, LeadFromWhereVerticesWereLongestFirstWhereThereIsRoom) {
   EXPECT_NEAR(marks.lines[1].to.y, 0.5 - 0.07, 1e-12);
   EXPECT_NEAR(std::abs(marks.lines[1].to.z), 0.035, 1e-12);
   EXPECT_NEAR(marks.lines[1].to.z, -marks.lines[2].to.z, 1e-12);
-  // Of some vertices alone.
+  // Arrows for some vertices alone.
   marks = {};
   EXPECT_EQ(add_space_arrows(marks, seen_from_x(), kFrom, to, std::vector<Index>{3}, 2.0, {}, {}).drawn, 1U);
   EXPECT_NEAR(marks.lines[0].to.z, 3.4, 1e-12);

@@ -229,7 +229,7 @@ TEST(QualityField, NothingIsInvertedExactlyInTheKernel) {
   }
 }
 
-/// Of a volume, where the offset along the axis is the same all over.
+/// Samples a slice of a volume mesh; the offset along its axis is the same everywhere.
 TEST(QualityField, OfASliceHasAtEachSampleWhatTheJudgesOfMeshesSay) {
   Progress progress;
   for (const char* kind : {"tetrahedra", "hexahedra", "solids"}) {

@@ -383,7 +383,7 @@ std::vector<int> groups_in(const std::string& cell) {
       {"boundary markers, as fields", {}},
       {"node sets, element sets, surfaces", {0, 1, 2}},
       {"materials, nodestrings", {1, 2}},
-      {"properties, also of shells and bars beside solids", {1, 2}},
+      {"properties, also of shells and bars beside volume elements", {1, 2}},
       {"sets of nodes and cells", {0, 2}},
   };
   const auto found = kept.find(cell);

@@ -28,7 +28,7 @@ Mesh solids(bool pyramid) {
   return mesh;
 }
 
-TEST(Independent, SolidsOfFormatsWithGmshsOrder) {
+TEST(Independent, VolumesOfFormatsWithGmshsOrder) {
   const TemporaryFolder folder;
   std::vector<std::filesystem::path> paths;
   for (const std::string name : {"a.inp", "a.bdf", "a.xdmf"}) {

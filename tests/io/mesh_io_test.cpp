@@ -158,7 +158,7 @@ std::vector<Index> corners_of_kind(const Mesh& mesh, ElementKind kind) {
   return {};
 }
 
-/// But for solids: those go out as they are here, with a word.
+/// But for volume elements: those go out as they are here, with a word.
 TEST(WriteMesh, EveryFormatUndoesTheFlipOfEveryKindOfThePlane) {
   int kinds_written = 0;
   for (const int dimension : {2, 3}) {

@@ -87,7 +87,7 @@ TEST(Sms2dm, Refused) {
   const std::array<Bad, 12> table{{
       {"ND 1 0 0 0\n", 1, "begins with MESH2D"},
       {nodes + "E6T 1 1 2 3 1 2 3 1\n", 5, "E6T is an element of higher order"},
-      {nodes + "E8H 1 1 2 3 1 2 3 1 1\n", 5, "E8H is a solid"},
+      {nodes + "E8H 1 1 2 3 1 2 3 1 1\n", 5, "E8H is a volume element"},
       {nodes + "E3T 1 1 2 4 1\n", 5, "element 1 names node 4, which the file does not have"},
       {nodes + "E3T 1 1 2\n", 5, "expected the number of a node, but the line ends"},
       {nodes + "E3T 1 1 2 3 1\nE3T 1 1 2 3 1\n", 6, "element 1 a second time"},

@@ -1,4 +1,4 @@
-// Faces against what is known of solids: they are closed, face outwards, and enclose the element's volume.
+// Faces against what is known of volume elements: they are closed, face outwards, and enclose the element's volume.
 #include "core/mesh/faces.h"
 
 #include <numeric>

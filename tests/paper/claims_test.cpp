@@ -157,7 +157,7 @@ TEST(Paper, DensityFollowsTheSizeFunctionAboveTheThreshold) {
   const Input mesh = bahamas ? bahamas : stand_in("annulus 1000 1");
   const Vec3 point = mesh->mesh.positions[mesh->mesh.vertex_count() / 2];
   const auto mean_edge_near = [&](std::span<const Vec3> positions, bool near) {
-    // Of the elements nearer to the point than most, or further.
+    // The mean over the elements that are nearer to the point than most, or further.
     std::vector<std::pair<double, double>> all;
     const auto length = [](const Vec3& d) { return std::sqrt(dot(d, d)); };
     for (Index e = 0; e < mesh->mesh.elements.size(); ++e) {

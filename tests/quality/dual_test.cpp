@@ -79,26 +79,26 @@ TEST(Dual, GivesTheGradientOfEveryMetricAtEveryCornerOfEveryElement) {
   }
 }
 
-/// A solid with one corner at p, in any scalar.
-template <class R, class Solid>
-Solid with(const std::array<Vec3, 8>& corners, std::size_t moving, Vec3Of<R> p) {
+/// A volume element with one corner at p, in any scalar.
+template <class R, class Element>
+Element with(const std::array<Vec3, 8>& corners, std::size_t moving, Vec3Of<R> p) {
   const auto at = [&](std::size_t i) {
     const Vec3 c = corners[i];
     return i == moving ? p : Vec3Of<R>{R(c.x), R(c.y), R(c.z)};
   };
-  if constexpr (std::is_same_v<Solid, formulas::Tetrahedron<Vec3Of<R>>>) {
-    return Solid(at(0), at(1), at(3), at(4));
+  if constexpr (std::is_same_v<Element, formulas::Tetrahedron<Vec3Of<R>>>) {
+    return Element(at(0), at(1), at(3), at(4));
   } else {
-    Solid solid{};
-    for (std::size_t i = 0; i < solid.at.size(); ++i) solid.at[i] = at(i);
-    return solid;
+    Element element{};
+    for (std::size_t i = 0; i < element.at.size(); ++i) element.at[i] = at(i);
+    return element;
   }
 }
 
-template <Metric M, template <class> class Solid>
-int expect_solid_gradient(const std::array<Vec3, 8>& corners, std::size_t moving) {
+template <Metric M, template <class> class Element>
+int expect_volume_gradient(const std::array<Vec3, 8>& corners, std::size_t moving) {
   const Vec3 p = corners[moving];
-  const auto quality = [&]<class R>(Vec3Of<R> q) { return formulas::metric<M>(with<R, Solid<Vec3Of<R>>>(corners, moving, q)); };
+  const auto quality = [&]<class R>(Vec3Of<R> q) { return formulas::metric<M>(with<R, Element<Vec3Of<R>>>(corners, moving, q)); };
   const SolidDual exact = quality(variable(p));
   EXPECT_EQ(exact.value, quality(p)) << info(M).name << ": the same value as in double";
   const auto by = [&](Vec3 axis) { return derivative([&](double h) { return quality(p + h * axis); }); };
@@ -110,7 +110,7 @@ int expect_solid_gradient(const std::array<Vec3, 8>& corners, std::size_t moving
   return 1;
 }
 
-TEST(Dual, GivesTheGradientOfEveryMetricOfSolids) {
+TEST(Dual, GivesTheGradientOfEveryMetricOfVolumes) {
   testing::Random random(12);
   for (const MetricInfo& entry : metric_table()) {
     if (!entry.defined_for(ElementKind::Tetrahedron)) continue;
@@ -121,9 +121,9 @@ TEST(Dual, GivesTheGradientOfEveryMetricOfSolids) {
       for (Vec3& q : p) q = q + Vec3{random(-0.2, 0.2), random(-0.2, 0.2), random(-0.2, 0.2)};
       formulas::with_volume_metric(entry.metric, [&]<Metric M>() {
         constexpr std::array<std::size_t, 4> kCorners{0, 1, 3, 4};
-        tetrahedra += expect_solid_gradient<M, formulas::Tetrahedron>(p, kCorners[static_cast<std::size_t>(trial % 4)]);
+        tetrahedra += expect_volume_gradient<M, formulas::Tetrahedron>(p, kCorners[static_cast<std::size_t>(trial % 4)]);
         if constexpr (formulas::kDefinedForCorners<M>)
-          hexahedra += expect_solid_gradient<M, formulas::Hexahedron>(p, static_cast<std::size_t>(trial % 8));
+          hexahedra += expect_volume_gradient<M, formulas::Hexahedron>(p, static_cast<std::size_t>(trial % 8));
       });
     }
     EXPECT_GT(tetrahedra, 70) << entry.name;

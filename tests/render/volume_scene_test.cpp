@@ -160,7 +160,7 @@ TEST_F(VolumePicture, TheRestOfTheWorstIsAGhost) {
   EXPECT_EQ(at(shot(), {1, 0.75, 0.75}).r, 0x1b);
 }
 
-/// Of a quadrilateral its four edges are drawn, not the diagonal of its triangles.
+/// A quadrilateral's four edges are drawn, not the diagonal of its triangles.
 TEST_F(VolumePicture, TheWireframeIsOfFaces) {
   Style style = flat_style();
   style.wireframe = true;
@@ -298,7 +298,7 @@ TEST_F(VolumePicture, NothingHidesTheVerticesOfTheSidesThatAreSeen) {
   };
   expect_unhidden("all", 2, true);
   const auto unhidden = space->unhidden(camera, kViewport);
-  EXPECT_EQ(unhidden->edges.size(), 30U);  // 12 a side, two of them shared by each two sides
+  EXPECT_EQ(unhidden->edges.size(), 30U);  // 12 per side, two of them shared by each two sides
   ClippingView view;
   view.clip = {.on = true, .normal = {1, 0, 0}, .offset = 0.5, .flip = false, .mode = ClipPlane::Mode::Crinkle};
   space->set_view(view);

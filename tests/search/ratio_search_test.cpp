@@ -214,7 +214,7 @@ TEST(RatioSearch, BoxesWithoutWidthOrHeight) {
   }
 }
 
-/// Of two candidates that mirror each other the one of the lower index is wanted.
+/// Among two candidates that mirror each other the one with the lower index wins.
 TEST(RatioSearch, TiesGoToTheLowestIndex) {
   Random random(76);
   for (int trial = 0; trial < 100; ++trial) {

@@ -217,7 +217,7 @@ TEST(MeanPhase, UntilConvergedGoesThroughBoth) {
   EXPECT_TRUE(all.back().moved == 0 || last_rise < 1e-6) << "while it rises there is no end: " << last_rise;
 }
 
-/// Of random directions one can never tell that nothing will move any more; the second phase looks all around.
+/// Random directions never prove that nothing will move any more; the second phase looks all around.
 TEST(MeanPhase, NothingMovesAnyMoreAlsoAfterDvr) {
   Mesh mesh;  // whose only free vertex stands in the middle already
   mesh.positions = {{1, 0, 0}, {0.5, 0.75, 0}, {-0.5, 0.75, 0}, {-1, 0, 0}, {-0.5, -0.75, 0}, {0.5, -0.75, 0}, {0, 0, 0}};

@@ -32,9 +32,9 @@ TEST(Percentiles, AreThoseOfCounting) {
   for (const std::size_t count : {1U, 2U, 3U, 19U, 20U, 21U, 99U, 100U, 101U, 500U}) {
     std::vector<double> values;
     for (std::size_t i = 0; i < count; ++i) values.push_back(std::floor(random(-5, 40)) / 8);  // with ties
-    std::vector<double> room = values;
-    room.push_back(std::nan(""));
-    const Percentiles found = percentiles_of(room);
+    std::vector<double> scratch = values;
+    scratch.push_back(std::nan(""));
+    const Percentiles found = percentiles_of(scratch);
     EXPECT_EQ(found.p1, by_counting(values, 0.01)) << count;
     EXPECT_EQ(found.p5, by_counting(values, 0.05)) << count;
     EXPECT_EQ(found.p50, by_counting(values, 0.5)) << count;

@@ -22,12 +22,12 @@ void* allocate_if_possible(std::size_t size, std::size_t alignment) noexcept {
   return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
 }
 void* allocate(std::size_t size, std::size_t alignment) {
-  void* const room = allocate_if_possible(size, alignment);
-  if (room == nullptr) throw std::bad_alloc();
-  return room;
+  void* const block = allocate_if_possible(size, alignment);
+  if (block == nullptr) throw std::bad_alloc();
+  return block;
 }
 /// Not inlined: g++ 12 would take free() for a mistake where it sees operator new.
-[[gnu::noinline]] void release(void* room) noexcept { std::free(room); }
+[[gnu::noinline]] void release(void* block) noexcept { std::free(block); }
 }  // namespace
 
 void* operator new(std::size_t size) { return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__); }
@@ -36,10 +36,10 @@ void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   return allocate_if_possible(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
 }
 void* operator new(std::size_t size, std::align_val_t alignment) { return allocate(size, static_cast<std::size_t>(alignment)); }
-void operator delete(void* room) noexcept { release(room); }
-void operator delete(void* room, std::size_t) noexcept { release(room); }
-void operator delete(void* room, std::align_val_t) noexcept { release(room); }
-void operator delete(void* room, std::size_t, std::align_val_t) noexcept { release(room); }
+void operator delete(void* block) noexcept { release(block); }
+void operator delete(void* block, std::size_t) noexcept { release(block); }
+void operator delete(void* block, std::align_val_t) noexcept { release(block); }
+void operator delete(void* block, std::size_t, std::align_val_t) noexcept { release(block); }
 
 namespace dmoscope {
 namespace {

@@ -113,7 +113,7 @@ Point best_place(const Plain& mesh, Index vertex, const std::function<Worth(Poin
 std::pair<int, int> compare(const InputMesh& mesh, const CompositeObjective& composite, const SecondAim& second) {
   const Plain plain{mesh, mesh.mesh.positions};
   const CompositeRule<Plane> search(mesh, composite, {});
-  Star<double> room;
+  Star<double> scratch;
   std::pair<int, int> counts{};
   for (Index v = 0; v < mesh.mesh.vertex_count(); ++v) {
     if (mesh.topology.boundary()[v] != 0) continue;
@@ -124,7 +124,7 @@ std::pair<int, int> compare(const InputMesh& mesh, const CompositeObjective& com
     const auto worth_at = [&](Point p) { return worth(plain, v, p, composite.threshold, composite.raise_mean(), second); };
     const Point expected = best_place(plain, v, worth_at);
     const Vec3 here = mesh.mesh.positions[v];
-    const Vec3 found = search.target(mesh.mesh.positions, v, room).value_or(here);
+    const Vec3 found = search.target(mesh.mesh.positions, v, scratch).value_or(here);
     EXPECT_NEAR(found.x, expected.x, 1e-9) << v;
     EXPECT_NEAR(found.y, expected.y, 1e-9) << v;
     ++(worth_at(expected).first == 1 ? counts.first : counts.second);

@@ -39,7 +39,7 @@ Mesh wheel(Index spokes, Vec3 hub, Vec3 centre = {}, bool quadrilaterals = false
   return mesh;
 }
 
-/// Where the hub stands after so many visits.
+/// Where the hub is after a number of visits.
 Vec3 hub_after(const Mesh& mesh, RunParameters parameters, std::uint64_t visits = 1) {
   dmoscope::Run run = make_run(input(mesh), std::move(parameters));
   Progress progress;
@@ -260,7 +260,7 @@ TEST(ActiveSetAscent, ComesNearTheExactOptimum) {
   EXPECT_LT(largest, 0.01);
 }
 
-/// Of a regular ring the middle is best by every metric that asks for equal angles or sides.
+/// In a regular ring the middle is best by every metric that asks for equal angles or sides.
 TEST(Optimisers, FindTheMiddleOfARegularRing) {
   for (const char* method : {"pattern-search", "active-set"})
     for (const MetricInfo& entry : metric_table()) {

@@ -36,7 +36,7 @@ double mean_edge(const InputMesh& mesh, std::span<const Vec3> positions, Index v
   return sum / count;
 }
 
-/// Of a vertex none of whose elements is inverted.
+/// The best place for a vertex none of whose elements is inverted.
 Vec3 best_by_definition(const InputMesh& mesh, std::vector<Vec3> positions, Index vertex) {
   const auto worth = [&](const Vec3& place) {
     positions[vertex] = place;

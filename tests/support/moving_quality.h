@@ -13,7 +13,7 @@
 
 namespace dmoscope::testing {
 
-/// The solids that three edges span.
+/// The volume elements that three edges span.
 struct Spanned {
   Vec3 a, u, v, w;
   [[nodiscard]] formulas::Hexahedron<Vec3> hexahedron() const {
@@ -23,8 +23,8 @@ struct Spanned {
   [[nodiscard]] formulas::Pyramid<Vec3> pyramid() const { return {{a, a + u, a + u + v, a + v, a + w}}; }
 };
 
-/// Of one corner. Its edges' scaled Jacobian hangs on their lengths alone, which an affine wedge or pyramid has different elsewhere: that
-/// of a hexahedron, over the ideal corner's.
+/// The quality of one corner, as that of an affine element which the corner spans. The scaled Jacobian depends on the edges' lengths, and
+/// those of an affine wedge or pyramid differ elsewhere; so it is taken of the hexahedron, over the value at the ideal corner.
 template <Metric M>
 double corner_quality(const Spanned& corner, ElementKind kind) {
   constexpr bool kOfLengths = M == Metric::ScaledJacobian;
@@ -47,8 +47,8 @@ double least_moving_corner(std::span<const Index> corners, ElementKind kind, Pos
   return least;
 }
 
-/// The least metric of the star over what `vertex` changes: tetrahedra, and the corners of other solids at it or at the end of an edge from
-/// it, and of pyramids with the tip. The metric must be defined for all of them.
+/// The least metric of the star over what `vertex` changes: tetrahedra, and the corners of other volume elements at it or at the end of an
+/// edge from it, and of pyramids with the tip. The metric must be defined for all of them.
 inline double moving_quality(const InputMesh& input, PositionView positions, Metric metric, Index vertex) {
   const auto of_element = [&](Index element) {
     const auto corners = input.mesh.elements.corners(element);

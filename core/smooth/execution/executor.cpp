@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/unknown_value.h"
 #include "core/smooth/execution/method_table.h"
 
 namespace dmoscope {
@@ -40,7 +41,7 @@ std::string_view name(Backend backend) { return kBackendNames[static_cast<std::s
 
 Backend parse_backend(std::string_view word) {
   const auto found = std::ranges::find(kBackendNames, word);
-  if (found == kBackendNames.end()) throw UsageError(fmt::format("unknown backend '{}' (known: {})", word, fmt::join(kBackendNames, ", ")));
+  if (found == kBackendNames.end()) throw UsageError(unknown_value("backend", word, kBackendNames));
   return static_cast<Backend>(found - kBackendNames.begin());
 }
 

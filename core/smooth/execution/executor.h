@@ -12,7 +12,7 @@ namespace dmoscope {
 struct Executor {
   std::unique_ptr<Smoother> smoother;
   Backend backend = Backend::Cpu;  // never Auto
-  std::string reason;              // accelerator: what it is; cpu: why nothing faster ("no cuda: ..."), empty where nothing else was wanted
+  std::string reason;              // accelerator: its description; cpu: why no accelerator, empty where none was wanted
   std::string warning;             // for a person: an accelerator should have been used and failed; usually empty
 };
 
@@ -26,7 +26,7 @@ void require_executable(Backend wanted, const Acceleration& acceleration, const 
 /// Backend::Auto a device's failure is no error: the CPU does the work, with a warning.
 [[nodiscard]] Executor make_executor(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task);
 
-/// On the CPU, since the accelerator of before failed: `why`.
+/// An executor on the CPU after an accelerator failed; `why`: its error.
 [[nodiscard]] Executor executor_after_failure(const std::string& why, const SmoothingTask& task);
 
 }  // namespace dmoscope

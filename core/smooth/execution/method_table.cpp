@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/unknown_value.h"
 #include "core/smooth/methods/active_set_ascent.h"
 #include "core/smooth/methods/angle_based.h"
 #include "core/smooth/methods/composite_dmo.h"
@@ -73,9 +74,7 @@ std::span<const MethodInfo> method_table() { return kMethods; }
 const MethodInfo& method_info(std::string_view name) {
   const auto found = std::ranges::find(kMethods, name, &MethodInfo::name);
   if (found != kMethods.end()) return *found;
-  std::string known;
-  for (const MethodInfo& entry : kMethods) known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
-  throw UsageError(fmt::format("unknown method '{}'; known are {}", name, known));
+  throw UsageError(unknown_row("method", name, kMethods));
 }
 
 std::optional<std::uint64_t> still_iterations(const MethodInfo& method, const MethodOptions& options, bool volume) {

@@ -46,7 +46,7 @@ struct Sieve {
   }
   std::uint16_t order[kMaxSimplices];  // of the simplices
   bool keeps_others;
-  // Of the elements with the vertex at the places that were looked at last:
+  // Values of the elements with the vertex at the places that were looked at last:
   std::array<D, kMaxSimplices> quality;
   std::array<D, kMaxOthers> others;
 };
@@ -95,8 +95,8 @@ D least_at(const StarListsIn<Frame, double>& star, const OffsetIn<Frame, D>& p, 
   return least;
 }
 
-/// Of a second metric `threshold` plus the least, and anything not above `best` in a slot where that is not. A function for each, so that
-/// there need be no kernel for each pair.
+/// `threshold` plus the least value of the second metric; in slots where that does not exceed `best`, any value that does not either. One
+/// function for each metric, so that no kernel is needed for each pair of metrics.
 template <class Frame, class D>
 using SecondMetric = D (*)(const StarListsIn<Frame, double>& star, const OffsetIn<Frame, D>& p, Sieve<D>& sieve, D threshold, D best);
 template <Metric M, class Frame, class D>
@@ -104,7 +104,7 @@ D second_metric(const StarListsIn<Frame, double>& star, const OffsetIn<Frame, D>
   return threshold + least_at<M, Frame, D>(star, p, sieve, [&](D least) { return xsimd::any(threshold + least > best); });
 }
 
-/// M: the first metric; D: pack of doubles, a candidate a slot.
+/// M: the first metric; D: pack of doubles, a candidate per slot.
 template <Metric M, class Frame, class D>
 class Kernel {
  public:

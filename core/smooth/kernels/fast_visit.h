@@ -1,6 +1,6 @@
 #pragma once
-// One vertex's visit by the fast search: what the processor's lanes do (core/smooth/kernels/lane_kernel_impl.h), for a vertex alone: for
-// one lane of a GPU or a team of them, and for those who look into a visit. The same bits.
+// One vertex's visit by the fast search: what the processor's lanes do (core/smooth/kernels/lane_kernel_impl.h), but for one vertex:
+// for one lane of a GPU or a team of them, and for inspecting a visit. The same bits.
 
 #include <array>
 
@@ -35,8 +35,8 @@ template <Metric M>
   return kIsRatio<M> && shape.kind == StarShape::Kind::Fan && shape.triangles >= 4 && shape.triangles <= 7 && parameters.grid_points == 8;
 }
 
-/// Of a team's lanes only the first learns the verdict. Task: anything with the `shapes`, `others` and `ranked` positions (Vec3) of a
-/// StarTable, a `frame` and search `parameters`.
+/// One vertex's visit by a team of lanes; only the first lane learns the verdict. Task: anything with the `shapes`, `others` and `ranked`
+/// positions (Vec3) of a StarTable, a `frame` and search `parameters`.
 template <Metric M, class Team, Stars S, class Task>
 class FastVisit {
  public:

@@ -1,5 +1,5 @@
 #pragma once
-// Visits many vertices at once, one a slot of a pack: the same code compiled for several processors, chosen at run time.
+// Visits many vertices at once, one per slot of a pack: the same code compiled for several processors, chosen at run time.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace dmoscope {
 struct LaneTask {
   const StarShape* shapes;
   const Index* others;
-  double* ranked;       // 3 a rank: the positions
-  std::uint8_t* awake;  // one a rank: has its star changed since it was last found at its best?
+  double* ranked;       // 3 per rank: the positions
+  std::uint8_t* awake;  // one per rank: has its star changed since it was last found at its best?
   SearchFrame frame;
   SearchParameters parameters;
 

@@ -253,8 +253,8 @@ class Kernel {
 
   void judge() {
     for (std::size_t slot = 0; slot < kWidth; slot += kHalf) {
-      Elements<D> room;
-      const StarView<D> star = elements<D>([this, slot](std::size_t i) { return exact_point(i, slot); }, room);
+      Elements<D> scratch;
+      const StarView<D> star = elements<D>([this, slot](std::size_t i) { return exact_point(i, slot); }, scratch);
       const Objective<M, false, D, Value::Rank> objective(star);
       objective({D(0.0), D(0.0)}).store_aligned(before_ + slot);
       const Vec2<D> step{D::load_aligned(step_x_ + slot), D::load_aligned(step_y_ + slot)};
@@ -272,7 +272,7 @@ class Kernel {
     return verdict == Verdict::Move || (verdict == Verdict::MoveIfExact && task_.gains(task_.owner, rank_[slot], to_[slot].target));
   }
 
-  /// Of a vertex that moved; it stays awake itself.
+  /// Wakes the neighbours of a vertex that moved; it stays awake itself.
   void wake_neighbours(Index rank) {
     const std::uint32_t end = task_.shapes[rank + 1].first;
     for (std::uint32_t i = task_.shapes[rank].first; i < end; ++i) set_awake(task_.others[i], true);

@@ -41,7 +41,7 @@ struct SearchFrame {
     }
   }
 
-  /// Of a vertex at `at`, by an offset in units of `scale`.
+  /// Where a vertex at `at` comes to by an offset in units of `scale`, and the step to there.
   [[gnu::always_inline]] [[nodiscard]] DMOSCOPE_ANYWHERE Displacement displace(const double* at, float x, float y) const {
     const double along_u = static_cast<double>(x) * scale, along_v = static_cast<double>(y) * scale;
     Displacement to{};
@@ -59,7 +59,7 @@ struct SearchFrame {
   }
 
  private:
-  /// Of a mesh that wraps, whose u is x.
+  /// Brings x back into its range on a mesh that wraps, whose u is x.
   [[gnu::always_inline]] DMOSCOPE_ANYWHERE void settle(const double* at, Displacement& to) const {
     const double plain = to.target[0];
     to.target[0] = settled(plain, west, period, single_precision);

@@ -29,7 +29,7 @@ struct StarTable {
   /// rank -> vertex of the mesh: first the free ones in the order of the visits, then all others.
   std::vector<Index> vertex_of_rank;
   std::vector<Index> rank_of_vertex;  // its inverse
-  /// One a visit, and one more that ends the last.
+  /// One per visit, and one more that ends the last.
   std::vector<StarShape> shapes;
   std::vector<Index> others;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// When the fast search in float may speak for a star, and when its finding must be judged exactly: the same rules for the processor's
+// When the result of the fast search in float is used for a star, and when it must be judged exactly: the same rules for the processor's
 // lanes and a GPU's.
 
 #include "core/base/host_device.h"

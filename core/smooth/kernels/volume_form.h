@@ -5,17 +5,17 @@
 #include "core/base/host_device.h"
 #include "core/quality/volumes.h"
 
-namespace dmoscope::solids {
+namespace dmoscope::volumes {
 
-/// The mean ratio of a tetrahedron or of a corner of another solid as the vertex moves, as its rank (its cube, formulas::rank): v |v| /
-/// s^3. The determinant v is affine in the vertex's place p, the squared norm s affine plus `square` |p|^2. R: float or a pack of it.
+/// The mean ratio of a tetrahedron or of a corner of another volume element as the vertex moves, as its rank (its cube, formulas::rank): v
+/// |v| / s^3. The determinant v is affine in the vertex's place p, the squared norm s affine plus `square` |p|^2. R: float or a pack of it.
 template <class R>
 struct MeanRatioForm {
   R v0, vx, vy, vz;
   R s0, sx, sy, sz, square;
 };
 
-/// Of the tetrahedron of the vertex and b, c, d.
+/// The form of the tetrahedron of the vertex and b, c, d.
 template <class R>
 [[nodiscard]] DMOSCOPE_ANYWHERE MeanRatioForm<R> tetrahedron_form(Vec3Of<R> b, Vec3Of<R> c, Vec3Of<R> d) {
   // det(b - p, c - p, d - p) = det(b, c, d) - p . ((b x c) + (c x d) + (d x b)).
@@ -28,8 +28,8 @@ template <class R>
   return {unit * formulas::determinant(b, c, d), less * n.x, less * n.y, less * n.z, squares, two * sum.x, two * sum.y, two * sum.z, R(3)};
 }
 
-/// Of a corner with the edges u, v and w where the vertex is at the origin. `with`: what each gains by every step of the vertex: 1 if it
-/// leads to it, -1 if it comes from it, else 0.
+/// The form of a corner whose edges are u, v and w while the vertex is at the origin. `with`: by what factor each edge follows the vertex:
+/// 1 if it leads to the vertex, -1 if it comes from it, else 0.
 template <class Ideal, class R>
 [[nodiscard]] DMOSCOPE_ANYWHERE MeanRatioForm<R> corner_form(Vec3Of<R> u, Vec3Of<R> v, Vec3Of<R> w, Vec3Of<R> with) {
   using Point = Vec3Of<R>;
@@ -44,14 +44,14 @@ template <class Ideal, class R>
 }
 /// Calls f with the form of each corner that changes when corner `moving`, which is at the origin, moves.
 template <class Point, class Ideal, std::size_t N, class Corners, class F>
-DMOSCOPE_ANYWHERE void for_corner_forms(const formulas::CorneredSolid<Point, Ideal, N, Corners>& solid, Index moving, F f) {
+DMOSCOPE_ANYWHERE void for_corner_forms(const formulas::CorneredSolid<Point, Ideal, N, Corners>& element, Index moving, F f) {
   using R = formulas::RealOf<Point>;
   for (std::size_t i = 0; i < Corners::kTable.size(); ++i) {
     const formulas::CornerTable c = formulas::row_of<Corners>(i);
     const auto share = [&](std::size_t edge) { return c[0] == moving ? R(-1) : c[edge] == moving ? R(1) : R(0); };
     if (c[0] != moving && c[1] != moving && c[2] != moving && c[3] != moving) continue;
-    const Point a = solid.at[c[0]];
-    f(corner_form<Ideal>(solid.at[c[1]] - a, solid.at[c[2]] - a, solid.at[c[3]] - a, Point{share(1), share(2), share(3)}));
+    const Point a = element.at[c[0]];
+    f(corner_form<Ideal>(element.at[c[1]] - a, element.at[c[2]] - a, element.at[c[3]] - a, Point{share(1), share(2), share(3)}));
   }
 }
 
@@ -72,4 +72,4 @@ template <class F, class R>
 /// Below this rank the search is the reference's, since floats do not tell such elements apart.
 inline constexpr float kLeastRank = 1e-6F;
 
-}  // namespace dmoscope::solids
+}  // namespace dmoscope::volumes

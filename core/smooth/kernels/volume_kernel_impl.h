@@ -11,9 +11,9 @@
 #include "core/smooth/kernels/volume_form.h"
 #include "core/smooth/kernels/volume_kernel.h"
 
-namespace dmoscope::solids {
+namespace dmoscope::volumes {
 
-/// F: pack of floats, a candidate a slot.
+/// F: pack of floats, a candidate per slot.
 template <Metric M, class F>
 class Kernel {
  public:
@@ -52,7 +52,7 @@ class Kernel {
     if constexpr (kForms) {
       for (std::size_t i = 0; i < task_.star.simplices.size; ++i) {
         const StarTetrahedron<float>& t = task_.star.simplices.data[i];
-        take(solids::tetrahedron_form(point_of<F>(t.b), point_of<F>(t.c), point_of<F>(t.d)));
+        take(volumes::tetrahedron_form(point_of<F>(t.b), point_of<F>(t.c), point_of<F>(t.d)));
       }
       const Point origin{F(0), F(0), F(0)};
       task_.star.for_others([&](const auto& element) {
@@ -175,4 +175,4 @@ VolumeKernel kernel_for(Metric metric) {
   return formulas::with_volume_metric(metric, []<Metric M>() -> VolumeKernel { return &Kernel<M, F>::run; });
 }
 
-}  // namespace dmoscope::solids
+}  // namespace dmoscope::volumes

@@ -89,15 +89,15 @@ template <class Frame, class ForPieces, class Worth>
 class Ascent {
  public:
   using V = OffsetIn<Frame, double>;
-  Ascent(AscentScratch<Frame>& room, const ForPieces& for_pieces, const Worth& worth)
-      : room_(room), for_pieces_(for_pieces), worth_(worth) {}
+  Ascent(AscentScratch<Frame>& scratch, const ForPieces& for_pieces, const Worth& worth)
+      : scratch_(scratch), for_pieces_(for_pieces), worth_(worth) {}
 
   [[nodiscard]] V from(V place) const {
     double worth = worth_(place);
     for (int round = 0; round < kSteps; ++round) {
       const double least = look_at(place);
-      if (room_.active.empty()) break;  // nothing here has a value
-      const V direction = steepest(room_.active);
+      if (scratch_.active.empty()) break;  // nothing here has a value
+      const V direction = steepest(scratch_.active);
       const double rate = norm(direction);
       if (!(rate > 0.0)) break;  // an equilibrium
       const V unit = times(direction, 1.0 / rate);
@@ -113,17 +113,17 @@ class Ascent {
  private:
   /// Gathers the pieces and those that are active; returns the least.
   double look_at(V place) const {
-    room_.pieces.clear();
-    room_.active.clear();
+    scratch_.pieces.clear();
+    scratch_.active.clear();
     double least = std::numeric_limits<double>::infinity();
     for_pieces_(variable(place), [&](const auto& q) {
       least = std::min(least, q.value);
-      room_.pieces.push_back({q.value, q.by});
+      scratch_.pieces.push_back({q.value, q.by});
     });
-    for (const Piece<V>& piece : room_.pieces) {
+    for (const Piece<V>& piece : scratch_.pieces) {
       // The corner across a quadrilateral never changes: one that is only near the least bounds the gain, but is no reason to stay.
       const bool constant = piece.gradient == V{};
-      if (piece.value <= least + (constant ? 0.0 : kActive)) room_.active.push_back(piece.gradient);
+      if (piece.value <= least + (constant ? 0.0 : kActive)) scratch_.active.push_back(piece.gradient);
     }
     return least;
   }
@@ -131,7 +131,7 @@ class Ascent {
   /// How far until another piece would be as low as the active ones, if all were linear.
   [[nodiscard]] double next_activation(double least, V unit, double rate) const {
     double nearest = kLongestStep;
-    for (const Piece<V>& piece : room_.pieces) {
+    for (const Piece<V>& piece : scratch_.pieces) {
       const double slower = rate - dot(piece.gradient, unit);
       if (piece.value > least + kActive && slower > 0.0) nearest = std::min(nearest, (piece.value - least) / slower);
     }
@@ -151,7 +151,7 @@ class Ascent {
     return best;
   }
 
-  AscentScratch<Frame>& room_;
+  AscentScratch<Frame>& scratch_;
   const ForPieces& for_pieces_;
   const Worth& worth_;
 };
@@ -163,19 +163,19 @@ class ActiveSet {
   explicit ActiveSet(const SmoothingTask& task) : mesh_(*task.input) {}
 
   void begin(const Sweep& sweep) { mesh_.untangling = sweep.untangling; }
-  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& room) const {
-    gather_star(MeshStar(mesh_.view, positions, vertex), room.star);
-    const V found = search(room);
+  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const {
+    gather_star(MeshStar(mesh_.view, positions, vertex), scratch.star);
+    const V found = search(scratch);
     if (found == V{}) return std::nullopt;
-    return mesh_.template moved_if_gaining<M>(positions, vertex, found, room.star.scale);
+    return mesh_.template moved_if_gaining<M>(positions, vertex, found, scratch.star.scale);
   }
 
  private:
   using V = OffsetIn<Frame, double>;
 
-  /// Of a star with inverted elements first the least Jacobian.
-  static V search(Scratch& room) {
-    const auto& star = room.star;
+  /// Raises the least quality; in a star with inverted elements the least Jacobian first.
+  static V search(Scratch& scratch) {
+    const auto& star = scratch.star;
     const auto jacobians = [&star](auto p, const auto& f) { for_jacobians(star, p, f); };
     const auto least_jacobian = [&star](V p) {
       double least = std::numeric_limits<double>::infinity();
@@ -183,11 +183,11 @@ class ActiveSet {
       return least;
     };
     V place{};
-    if (!(least_jacobian(place) > 0.0)) place = Ascent(room, jacobians, least_jacobian).from(place);
+    if (!(least_jacobian(place) > 0.0)) place = Ascent(scratch, jacobians, least_jacobian).from(place);
     if (!(least_jacobian(place) > 0.0)) return place;
     using View = StarViewIn<Frame, double>;
     const auto qualities = [&star](auto p, const auto& f) { for_qualities<M>(star, p, f); };
-    return Ascent(room, qualities, Objective<M, false, double, Value::Metric, View>{View(star)}).from(place);
+    return Ascent(scratch, qualities, Objective<M, false, double, Value::Metric, View>{View(star)}).from(place);
   }
 
   RuleMesh<Frame> mesh_;

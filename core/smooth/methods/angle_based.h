@@ -1,6 +1,6 @@
 #pragma once
 // Angle-based smoothing (Zhou and Shimada 2000): each vertex goes to the mean of the places at which it halves the angles of the ring of
-// its edge neighbours, one place an angle, whatever becomes of the elements.
+// its edge neighbours, one place per angle, whatever becomes of the elements.
 
 #include <memory>
 

@@ -16,10 +16,10 @@ namespace dmoscope {
 /// The second aim of the phase that raises the mean: the mean quality of the star, by the first metric.
 struct MeanOfStar {};
 
-/// Of two places the better one for a vertex is, in this order: while an element of its star is inverted, the one where it is
-/// less so (see UntanglingObjective); while its least first metric is not beyond the threshold, that of greater least first metric; that of
-/// greater second aim. Beyond: above the threshold; or, for the mean, not below it, so that a star whose least is the floor keeps its place
-/// unless its mean rises.
+/// What a visit with two aims maximises. Which of two places is better for a vertex is decided in this order. While an element of the star
+/// is inverted: where it is less so (see UntanglingObjective). While the star's least first metric is not beyond the threshold: where that
+/// is greater. Then: where the second aim is greater. Beyond means above the threshold; for the mean, not below it, so that a star whose
+/// least is the floor stays unless its mean rises.
 struct CompositeObjective {
   Metric first = Metric::MeanRatio;
   double threshold = 0.7;  // at least 0
@@ -110,7 +110,7 @@ class CompositeRule {
  public:
   using Scratch = StarIn<Frame, double>;
   using Offset = OffsetIn<Frame, double>;
-  /// The visit of a vertex hangs on nothing but where the vertices of its elements stand: see RuleSmoother.
+  /// The visit of a vertex depends only on the positions of its elements' vertices: see RuleSmoother.
   static constexpr bool kDependsOnStarAlone = true;
   static constexpr std::size_t kGrain = std::is_same_v<Frame, Plane> ? 32 : 1;  // in space a visit may take half a millisecond
   CompositeRule(const InputMesh& input, CompositeObjective composite, const SearchParameters& parameters);

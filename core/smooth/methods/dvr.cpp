@@ -50,12 +50,12 @@ class Dvr {
     mesh_.untangling = sweep.untangling;
   }
 
-  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& room) const {
-    gather_star(MeshStar(mesh_.view, positions, vertex), room.star);
-    const bool valid = is_valid(room.star);
-    const double t = valid ? best_quality(room) : best_jacobian(room);
+  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const {
+    gather_star(MeshStar(mesh_.view, positions, vertex), scratch.star);
+    const bool valid = is_valid(scratch.star);
+    const double t = valid ? best_quality(scratch) : best_jacobian(scratch);
     if (t == 0.0) return std::nullopt;
-    const double length = t * room.star.scale;
+    const double length = t * scratch.star.scale;
     return mesh_.moved_if_gaining<Metric::MeanRatio>(positions, vertex, {length * direction_.x, length * direction_.y});
   }
 
@@ -66,27 +66,27 @@ class Dvr {
     return valid;
   }
 
-  /// Of a valid star: on the stretch of the line on which it stays so.
-  double best_quality(Scratch& room) const {
-    room.fractions.clear();
+  /// The best place for a valid star, on the stretch of the line where it stays valid.
+  double best_quality(Scratch& scratch) const {
+    scratch.fractions.clear();
     double low = -kReach, high = kReach;
-    for_corners(room.star, [&](const RatioForm<double>& form, double /*measure*/) {
+    for_corners(scratch.star, [&](const RatioForm<double>& form, double /*measure*/) {
       const LineFraction q = on_line(form, direction_);
       if (q.a < 0.0) high = std::min(high, -q.b / q.a);
       if (q.a > 0.0) low = std::max(low, -q.b / q.a);
-      room.fractions.push_back(q);
+      scratch.fractions.push_back(q);
     });
-    return room.fractions.empty() ? 0.0 : maximise_least(room.fractions, low, high);
+    return scratch.fractions.empty() ? 0.0 : maximise_least(scratch.fractions, low, high);
   }
 
-  /// Of a star with inverted elements: first the smallest Jacobian over its reference measure.
-  double best_jacobian(Scratch& room) const {
-    room.fractions.clear();
-    for_corners(room.star, [&](const RatioForm<double>& form, double measure) {
+  /// The best place for a star with inverted elements: where the smallest Jacobian over its reference measure is greatest.
+  double best_jacobian(Scratch& scratch) const {
+    scratch.fractions.clear();
+    for_corners(scratch.star, [&](const RatioForm<double>& form, double measure) {
       const LineFraction q = on_line(form, direction_);
-      room.fractions.push_back({q.a, q.b, 0.0, 0.0, measure});
+      scratch.fractions.push_back({q.a, q.b, 0.0, 0.0, measure});
     });
-    return room.fractions.empty() ? 0.0 : maximise_least(room.fractions, -kReach, kReach);
+    return scratch.fractions.empty() ? 0.0 : maximise_least(scratch.fractions, -kReach, kReach);
   }
 
   RuleMesh<Plane> mesh_;

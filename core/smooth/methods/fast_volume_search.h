@@ -23,8 +23,8 @@ inline StarTetrahedron<float> narrow(const StarTetrahedron<double>& t) { return 
 inline StarTip<float> narrow(const StarTip<double>& t) {
   return {{narrow(t.base[0]), narrow(t.base[1]), narrow(t.base[2]), narrow(t.base[3])}, 1.0F};
 }
-template <class Narrow, template <class> class Solid, std::size_t N>
-Narrow narrow_others(const StarSolid<Solid, N, double>& s) {
+template <class Narrow, template <class> class Element, std::size_t N>
+Narrow narrow_others(const StarSolid<Element, N, double>& s) {
   Narrow result{};
   for (std::size_t i = 0; i < N; ++i) result.others[i] = narrow(s.others[i]);
   result.reference = 1.0F;
@@ -42,7 +42,7 @@ void narrow_list(const std::vector<From>& from, std::vector<To>& to) {
 
 }  // namespace in_float
 
-/// The fast search for a vertex, and the plain one where the fast one cannot speak for its star: elements that are inverted or nearly, or
+/// The fast search for a vertex, and the plain one for stars that the fast one cannot handle: with inverted or nearly inverted elements, or
 /// too many. The mesh must outlive it.
 template <Metric M>
 class FastVolumeSearch {
@@ -54,20 +54,20 @@ class FastVolumeSearch {
       : mesh_(input), parameters_(parameters), kernel_(volume_kernel(parameters.simd.value_or(best_simd_level()), M)) {}
 
   void begin(const Sweep& sweep) { mesh_.untangling = sweep.untangling; }
-  std::optional<Vec3> target(PositionView positions, Index vertex, VolumeScratch& room) const {
+  std::optional<Vec3> target(PositionView positions, Index vertex, VolumeScratch& scratch) const {
     const MeshStar star(mesh_.view, positions, vertex);
-    gather_star(star, room.exact);
-    const VolumeFound found = mesh_.untangling.repair ? VolumeFound{} : find(room, parameters_.levels);
-    if (!found.ready) return target_by_plain_search(positions, vertex, room.exact);
+    gather_star(star, scratch.exact);
+    const VolumeFound found = mesh_.untangling.repair ? VolumeFound{} : find(scratch, parameters_.levels);
+    if (!found.ready) return target_by_plain_search(positions, vertex, scratch.exact);
     const Vec3 offset{found.offset.x, found.offset.y, found.offset.z};
     if (offset == Vec3{}) return std::nullopt;
-    return mesh_.template moved_if_gaining<M>(positions, vertex, offset, room.exact.scale);
+    return mesh_.template moved_if_gaining<M>(positions, vertex, offset, scratch.exact.scale);
   }
 
-  /// What the kernel finds in that many levels of the star that room.exact is; fewer are the beginning of more. Not ready where the star is
-  /// the plain search's.
-  [[nodiscard]] VolumeFound find(VolumeScratch& room, int levels) const {
-    return fits(room.exact) ? kernel_(search_of(room, levels)) : VolumeFound{};
+  /// What the kernel finds within `levels` levels for the star in scratch.exact; a search of fewer levels begins like one of more. Not
+  /// ready where the plain search has to do it.
+  [[nodiscard]] VolumeFound find(VolumeScratch& scratch, int levels) const {
+    return fits(scratch.exact) ? kernel_(search_of(scratch, levels)) : VolumeFound{};
   }
 
  private:
@@ -77,15 +77,15 @@ class FastVolumeSearch {
     return fits;
   }
 
-  [[nodiscard]] VolumeSearch search_of(VolumeScratch& room, int levels) const {
-    in_float::narrow_list(room.exact.tetrahedra, room.fast.tetrahedra);
-    in_float::narrow_list(room.exact.hexahedra, room.fast.hexahedra);
-    in_float::narrow_list(room.exact.wedges, room.fast.wedges);
-    in_float::narrow_list(room.exact.pyramids, room.fast.pyramids);
-    in_float::narrow_list(room.exact.tips, room.fast.tips);
+  [[nodiscard]] VolumeSearch search_of(VolumeScratch& scratch, int levels) const {
+    in_float::narrow_list(scratch.exact.tetrahedra, scratch.fast.tetrahedra);
+    in_float::narrow_list(scratch.exact.hexahedra, scratch.fast.hexahedra);
+    in_float::narrow_list(scratch.exact.wedges, scratch.fast.wedges);
+    in_float::narrow_list(scratch.exact.pyramids, scratch.fast.pyramids);
+    in_float::narrow_list(scratch.exact.tips, scratch.fast.tips);
     VolumeSearch search;
-    search.star = lists_of(room.fast);
-    search.box = in_float::narrow(room.exact.box);
+    search.star = lists_of(scratch.fast);
+    search.box = in_float::narrow(scratch.exact.box);
     search.points = parameters_.grid_points;
     search.levels = levels;
     search.omega = parameters_.omega;

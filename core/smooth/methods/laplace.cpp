@@ -27,15 +27,15 @@ class WayToMean {
   double count_ = 0.0;
 };
 
-Vec3 way_to_mean(const PlanarView& mesh, PositionView positions, Index vertex, Scratch& /*room*/) {
+Vec3 way_to_mean(const PlanarView& mesh, PositionView positions, Index vertex, Scratch& /*scratch*/) {
   WayToMean mean(mesh.frame, positions, vertex);
   for_edge_neighbours(mesh, vertex, [&](Index other) { mean(other); });
   return mean.way();
 }
-Vec3 way_to_mean(const VolumeView& mesh, PositionView positions, Index vertex, Scratch& room) {
+Vec3 way_to_mean(const VolumeView& mesh, PositionView positions, Index vertex, Scratch& scratch) {
   WayToMean mean(mesh.frame, positions, vertex);
-  gather_edge_neighbours(mesh, vertex, room);
-  for (const Index other : room) mean(other);
+  gather_edge_neighbours(mesh, vertex, scratch);
+  for (const Index other : scratch) mean(other);
   return mean.way();
 }
 
@@ -45,13 +45,13 @@ class Laplace {
   using Scratch = dmoscope::Scratch;
   explicit Laplace(const SmoothingTask& task) : mesh_(*task.input), relaxation_(task.options.relaxation) {}
 
-  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& room) const {
-    return mesh_.moved(positions[vertex], step(positions, vertex, room));
+  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const {
+    return mesh_.moved(positions[vertex], step(positions, vertex, scratch));
   }
 
  protected:
-  [[nodiscard]] OffsetIn<Frame, double> step(PositionView positions, Index vertex, Scratch& room) const {
-    return times(mesh_.view.frame.project(way_to_mean(mesh_.view, positions, vertex, room)), relaxation_);
+  [[nodiscard]] OffsetIn<Frame, double> step(PositionView positions, Index vertex, Scratch& scratch) const {
+    return times(mesh_.view.frame.project(way_to_mean(mesh_.view, positions, vertex, scratch)), relaxation_);
   }
 
   RuleMesh<Frame> mesh_;
@@ -64,8 +64,8 @@ class SmartLaplace : private Laplace<Frame> {
   using typename Laplace<Frame>::Scratch;
   using Laplace<Frame>::Laplace;
   void begin(const Sweep& sweep) { this->mesh_.untangling = sweep.untangling; }
-  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& room) const {
-    return this->mesh_.template moved_if_gaining<M>(positions, vertex, this->step(positions, vertex, room));
+  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const {
+    return this->mesh_.template moved_if_gaining<M>(positions, vertex, this->step(positions, vertex, scratch));
   }
 };
 

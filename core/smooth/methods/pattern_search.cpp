@@ -13,7 +13,7 @@ constexpr double kFirst = 0.25, kLast = 1e-3;  // step, in mean edges
 constexpr double kGrow = 1.5, kShrink = 0.25, kBacktrack = 0.9;
 constexpr int kMostPolls = 100;
 
-/// Of lengths.
+/// Mean of lengths.
 class Mean {
  public:
   template <class Point>
@@ -27,7 +27,7 @@ class Mean {
   double sum_ = 0.0, count_ = 0.0;
 };
 
-/// Of the edges that leave the vertex; an edge counts once for each of its elements.
+/// Mean length of the edges at the vertex; an edge counts once for each of its elements.
 double mean_edge(const Star<double>& star) {
   Mean mean;
   for (const StarTriangle<double>& t : star.triangles) mean.add(t.b), mean.add(t.c);
@@ -38,8 +38,8 @@ double mean_edge(const VolumeStar<double>& star) {
   Mean mean;
   for (const auto& t : star.tetrahedra) mean.add(t.b), mean.add(t.c), mean.add(t.d);
   const auto add = [&mean](const auto& list, std::initializer_list<std::size_t> ends) {
-    for (const auto& solid : list)
-      for (const std::size_t i : ends) mean.add(solid.others[i - 1]);
+    for (const auto& element : list)
+      for (const std::size_t i : ends) mean.add(element.others[i - 1]);
   };
   add(star.hexahedra, {1, 3, 4});
   add(star.wedges, {1, 2, 3});

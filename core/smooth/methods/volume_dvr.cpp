@@ -26,16 +26,17 @@ class VolumeDvr {
     mesh_.untangling = sweep.untangling;
   }
 
-  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& room) const {
-    gather_star(MeshStar(mesh_.view, positions, vertex), room.star);
-    corners_on_line(room.star, direction_, room.corners);
-    const double t = best_on_line(room.corners);
+  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const {
+    gather_star(MeshStar(mesh_.view, positions, vertex), scratch.star);
+    corners_on_line(scratch.star, direction_, scratch.corners);
+    const double t = best_on_line(scratch.corners);
     if (t == 0.0) return std::nullopt;
-    return mesh_.moved_if_gaining<Metric::MeanRatio>(positions, vertex, times(direction_, t), room.star.scale);
+    return mesh_.moved_if_gaining<Metric::MeanRatio>(positions, vertex, times(direction_, t), scratch.star.scale);
   }
 
  private:
-  /// Of a star with inverted elements: where none is any more, or, if there is no such place, where DMO would say that they are less so.
+  /// The best place on the line. A star with inverted elements goes where none is inverted; if there is no such place, where DMO's measure
+  /// of inversion is best.
   static double best_on_line(std::span<const LineCorner> corners) {
     if (least_jacobian(corners, 0.0) > 0.0 || least_jacobian(corners, best_jacobian(corners, kSpaceReach)) > 0.0)
       return best_rank(corners, kSpaceReach);

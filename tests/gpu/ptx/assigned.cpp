@@ -8,7 +8,7 @@ namespace dmoscope::gpu::ptx {
 
 namespace {
 
-using Set = std::vector<std::uint64_t>;  // a bit a slot
+using Set = std::vector<std::uint64_t>;  // a bit per slot
 
 void remove(Set& set, Slot slot) { set[slot / 64] &= ~(std::uint64_t{1} << slot % 64); }
 void add(Set& set, Slot slot) { set[slot / 64] |= std::uint64_t{1} << slot % 64; }

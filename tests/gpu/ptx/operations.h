@@ -13,10 +13,10 @@ struct Operation {
   std::uint8_t written = 0, used = 0, copied = 0;  // see Instruction
 };
 
-/// Of an opcode whose operands are registers and constants alone, such as "add.rn.f32".
+/// The operation of an opcode whose operands are only registers and constants, such as "add.rn.f32".
 [[nodiscard]] std::optional<Operation> find_operation(std::string_view opcode);
 
-/// Of "ld.global.v2.f32", "st.local.u8", "atom.global.add.u32": what is done for each element of the vector.
+/// An access to memory ("ld.global.v2.f32", "st.local.u8", "atom.global.add.u32"): what is done for each element of the vector.
 struct Access {
   Operation operation;    // slots: register, address[, register]; of a store: address, register
   std::size_t size = 0;   // bytes of an element

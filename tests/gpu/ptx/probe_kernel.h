@@ -37,7 +37,7 @@ void run_probe(const std::string& body, const std::array<In, N>& in, std::array<
   Warp().run(entry, global, parameters, 0, 0, schedule);
 }
 
-/// Of one instruction: what it makes of the operands.
+/// What one instruction computes from the operands.
 template <class R, class... A>
 R result(const std::string& opcode, A... operands) {
   alignas(8) std::array<std::uint64_t, 4> in{}, out{};

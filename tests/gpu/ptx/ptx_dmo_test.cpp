@@ -6,7 +6,7 @@
 #include "tests/gpu/ptx/operations.h"
 #include "tests/gpu/ptx/ptx_queue.h"
 #include "tests/gpu/same_bits.h"
-#include "tests/gpu/solids.h"
+#include "tests/gpu/volumes.h"
 #include "tests/smooth/zoo.h"
 
 namespace dmoscope::gpu::ptx {
@@ -74,23 +74,23 @@ TEST_P(PtxDmo, SameBitsAlone) {
 INSTANTIATE_TEST_SUITE_P(Metrics, PtxDmo, every_metric(), name_of_metric);
 
 /// Volumes, always in teams.
-class PtxSolidDmo : public PtxTest {
+class PtxVolumeDmo : public PtxTest {
  protected:
   void expect_same(const SearchParameters& parameters, Schedule schedule) {
-    for (const Solid& solid : solids(64)) {
-      if (!defined_for_all(GetParam(), solid.input->mesh)) continue;
-      SCOPED_TRACE(solid.name);
-      expect_same_visits(teams(schedule), Subject(solid.input), GetParam(), parameters, 2);
+    for (const VolumeSample& sample : volume_samples(64)) {
+      if (!defined_for_all(GetParam(), sample.input->mesh)) continue;
+      SCOPED_TRACE(sample.name);
+      expect_same_visits(teams(schedule), Subject(sample.input), GetParam(), parameters, 2);
     }
   }
 };
 
-TEST_P(PtxSolidDmo, SameBitsInFloat) { expect_same({}, {}); }
-TEST_P(PtxSolidDmo, SameBitsInDouble) {
+TEST_P(PtxVolumeDmo, SameBitsInFloat) { expect_same({}, {}); }
+TEST_P(PtxVolumeDmo, SameBitsInDouble) {
   expect_same({.grid_points = 6, .precision = Precision::Double}, {.together = true, .backwards = true});
 }
 
-INSTANTIATE_TEST_SUITE_P(Metrics, PtxSolidDmo, every_volume_metric(), name_of_metric);
+INSTANTIATE_TEST_SUITE_P(Metrics, PtxVolumeDmo, every_volume_metric(), name_of_metric);
 
 /// What is drawn, made by the kernels and by their source compiled for the host.
 class PtxPicture : public PtxTest {};

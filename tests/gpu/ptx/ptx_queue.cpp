@@ -57,7 +57,7 @@ Kernels::Name name_for(Work work) {
       return solo<bodies::Judge<M>>();
     case Work::VisitVolume:
     case Work::JudgeVolume:
-      break;  // see solid_name_for()
+      break;  // see volume_name_for()
     case Work::Sum:
       return solo<bodies::Sum>();
     case Work::Total:
@@ -83,7 +83,7 @@ Kernels::Name name_for(Work work) {
 }
 
 template <Metric M>
-Kernels::Name solid_name_for(Work work) {
+Kernels::Name volume_name_for(Work work) {
   return work == Work::VisitVolume ? in_team<bodies::VisitVolume<M>>() : solo<bodies::JudgeVolume<M>>();
 }
 
@@ -201,7 +201,7 @@ const Entry& Kernels::find(Work work, Metric metric) {
 }
 
 Kernels::Name Kernels::name_of(Work work, Metric metric) {
-  if (is_of_solids(work)) return formulas::with_volume_metric(metric, [work]<Metric M>() { return solid_name_for<M>(work); });
+  if (is_of_solids(work)) return formulas::with_volume_metric(metric, [work]<Metric M>() { return volume_name_for<M>(work); });
   return formulas::with_planar_metric(metric, [work]<Metric M>() { return name_for<M>(work); });
 }
 

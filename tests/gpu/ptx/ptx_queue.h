@@ -26,7 +26,7 @@ class Kernels {
     std::string text;  // as a compiler prints it
     std::size_t team = 1;
   };
-  /// Of the kernel that does some work, as gpu/cuda_launch.cuh chooses it.
+  /// The name of the kernel that does some work, chosen as gpu/cuda_launch.cuh does.
   [[nodiscard]] static Name name_of(Work work, Metric metric);
 
  private:

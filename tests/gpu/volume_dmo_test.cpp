@@ -4,7 +4,7 @@
 #include "gpu/volume_star.h"
 #include "tests/gpu/meshes.h"
 #include "tests/gpu/same_bits.h"
-#include "tests/gpu/solids.h"
+#include "tests/gpu/volumes.h"
 #include "tests/smooth/zoo.h"
 #include "tests/support/sanitized.h"
 
@@ -17,13 +17,13 @@ using dmoscope::testing::kSanitized;
 
 std::shared_ptr<HostQueue> volume_host(const HostDevice& device = {}) { return make_host_queue(device); }
 
-class SolidDeviceDmo : public ::testing::TestWithParam<Metric> {
+class VolumeDeviceDmo : public ::testing::TestWithParam<Metric> {
  protected:
   void expect_same(const SearchParameters& parameters, std::size_t size, int iterations) {
-    for (const Solid& solid : solids(size)) {
-      if (!defined_for_all(GetParam(), solid.input->mesh)) continue;
-      SCOPED_TRACE(solid.name);
-      const Subject subject(solid.input);
+    for (const VolumeSample& sample : volume_samples(size)) {
+      if (!defined_for_all(GetParam(), sample.input->mesh)) continue;
+      SCOPED_TRACE(sample.name);
+      const Subject subject(sample.input);
       ASSERT_GT(subject.visits(), 0U);
       expect_same_visits(volume_host(), subject, GetParam(), parameters, iterations);
     }
@@ -31,17 +31,17 @@ class SolidDeviceDmo : public ::testing::TestWithParam<Metric> {
 };
 
 /// 27 vertices that may move, or eight.
-TEST_P(SolidDeviceDmo, SameBitsInFloat) { expect_same({}, kSanitized ? 64 : 125, 3); }
-TEST_P(SolidDeviceDmo, SameBitsInDouble) { expect_same({.precision = Precision::Double}, 64, kSanitized ? 1 : 2); }
-TEST_P(SolidDeviceDmo, SameBitsInRepairs) {
-  for (const Solid& solid : solids(64)) {
-    if (!defined_for_all(GetParam(), solid.input->mesh)) continue;
-    SCOPED_TRACE(solid.name);
-    expect_same_visits(volume_host(), Subject(solid.input), GetParam(), {}, 1, nullptr, {.untangling = {.repair = true}});
+TEST_P(VolumeDeviceDmo, SameBitsInFloat) { expect_same({}, kSanitized ? 64 : 125, 3); }
+TEST_P(VolumeDeviceDmo, SameBitsInDouble) { expect_same({.precision = Precision::Double}, 64, kSanitized ? 1 : 2); }
+TEST_P(VolumeDeviceDmo, SameBitsInRepairs) {
+  for (const VolumeSample& sample : volume_samples(64)) {
+    if (!defined_for_all(GetParam(), sample.input->mesh)) continue;
+    SCOPED_TRACE(sample.name);
+    expect_same_visits(volume_host(), Subject(sample.input), GetParam(), {}, 1, nullptr, {.untangling = {.repair = true}});
   }
 }
 /// 7 and 2 candidates per axis are not a whole number of what a lane ranks at a time.
-TEST_P(SolidDeviceDmo, SameBitsWithOtherGrids) {
+TEST_P(VolumeDeviceDmo, SameBitsWithOtherGrids) {
   for (const Precision precision : {Precision::Float, Precision::Double}) {
     expect_same({.grid_points = 7, .levels = 2, .omega = 1.25, .precision = precision}, 64, 2);
     expect_same({.grid_points = 2, .levels = 5, .precision = precision}, 64, 2);
@@ -49,7 +49,7 @@ TEST_P(SolidDeviceDmo, SameBitsWithOtherGrids) {
 }
 
 /// Small ones: the host is slow in a device's place.
-TEST_P(SolidDeviceDmo, SameBitsOnSharedMeshes) {
+TEST_P(VolumeDeviceDmo, SameBitsOnSharedMeshes) {
   const auto meshes = shared_volumes(kSanitized ? 400 : 1000);
   if (meshes.empty()) GTEST_SKIP() << "no shared meshes here";
   for (const auto& mesh : meshes) {
@@ -59,20 +59,20 @@ TEST_P(SolidDeviceDmo, SameBitsOnSharedMeshes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Metrics, SolidDeviceDmo, every_volume_metric(), name_of_metric);
+INSTANTIATE_TEST_SUITE_P(Metrics, VolumeDeviceDmo, every_volume_metric(), name_of_metric);
 
 /// A mean over a star's elements depends on their order: list after list, as VolumeStarView has them, whatever the mesh's.
 TEST(VolumeDeviceStar, HasItsElementsListAfterList) {
-  const auto solid = solids(216)[9].input;  // "solids, tangled": they have all lists
+  const auto input = volume_samples(216)[9].input;  // "solids, tangled": they have all lists
   std::size_t mixed = 0;
-  for (Index vertex = 0; vertex < solid->mesh.vertex_count(); ++vertex) {
-    if (solid->topology.star(vertex).empty()) continue;
-    const PositionView positions(solid->mesh.positions);
+  for (Index vertex = 0; vertex < input->mesh.vertex_count(); ++vertex) {
+    if (input->topology.star(vertex).empty()) continue;
+    const PositionView positions(input->mesh.positions);
     VolumeStar<double> expected;
-    gather_star(MeshStar<Space>(solid->view<Space>(), positions, vertex), expected);
+    gather_star(MeshStar<Space>(input->view<Space>(), positions, vertex), expected);
     using Seen = std::pair<unsigned, double>;  // its list and its reference
     std::vector<Seen> there, here;
-    const ListedStar star(solid->view<Space>(), positions, vertex);
+    const ListedStar star(input->view<Space>(), positions, vertex);
     star.for_each<true>([&here](const auto& e) { here.emplace_back(kListOf<std::remove_cvref_t<decltype(e)>>, e.reference); });
     VolumeStarView<double>(expected).for_each<true>(
         [&there](const auto& e) { there.emplace_back(kListOf<std::remove_cvref_t<decltype(e)>>, e.reference); });
@@ -82,14 +82,14 @@ TEST(VolumeDeviceStar, HasItsElementsListAfterList) {
   EXPECT_GT(mixed, 0U);
 }
 
-Subject jittered_solids() {
+Subject jittered_volumes() {
   Progress progress;
-  return Subject(solid_input(tangled(generate_mesh("solids", 216, 7, progress), 0.4)));
+  return Subject(volume_input_of(tangled(generate_mesh("solids", 216, 7, progress), 0.4)));
 }
 
 /// However many lanes work at once, and however an iteration is cut into calls.
-TEST(SolidDeviceVisits, NeitherThreadsNorCutsChangeTheResult) {
-  const Subject subject = jittered_solids();
+TEST(VolumeDeviceVisits, NeitherThreadsNorCutsChangeTheResult) {
+  const Subject subject = jittered_volumes();
   ThreadPool pool(4);
   const auto whole = make_device_dmo(volume_host(), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
   const auto cut =
@@ -109,8 +109,8 @@ TEST(SolidDeviceVisits, NeitherThreadsNorCutsChangeTheResult) {
 }
 
 /// Who draws takes a volume's positions from the host.
-TEST(SolidDeviceVisits, HasNoPicture) {
-  const Subject subject = jittered_solids();
+TEST(VolumeDeviceVisits, HasNoPicture) {
+  const Subject subject = jittered_volumes();
   const auto smoother = make_device_dmo(volume_host(), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
   std::vector<Vec3> positions = subject.input->mesh.positions;
   smoother->visit(0, subject.visits(), positions, nullptr);

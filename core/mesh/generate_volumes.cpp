@@ -59,7 +59,8 @@ class Block {
 bool cut_into_wedges(Index i, Index j) { return (i / 2 + j / 2) % 3 == 1; }
 bool cut_into_pyramids(Index i, Index j, Index k) { return !cut_into_wedges(i, j) && (i / 2 + j / 2 + k / 2) % 2 == 1; }
 
-/// Of a cell six pyramids around its middle; those whose other side is such a cell, too, are cut in two along the same diagonal.
+/// Adds a cell as six pyramids around its middle. Where the neighbour is such a cell, too, the pyramid is cut in two tetrahedra, on both
+/// sides along the same diagonal.
 void add_pyramids(Mesh& mesh, const Block& block, Index i, Index j, Index k) {
   const std::array<Index, 8> c = block.cell(i, j, k);
   Vec3 middle;
@@ -111,7 +112,7 @@ Mesh hexahedra(const Request& request) {
   return mesh;
 }
 
-Mesh solids(const Request& request) {
+Mesh mixed_volumes(const Request& request) {
   const Block block(request.size);
   Mesh mesh;
   mesh.positions = block.positions(0.15, request.seed);
@@ -129,9 +130,9 @@ Mesh solids(const Request& request) {
   return mesh;
 }
 
-Mesh tangled_solids(const Request& request) {
+Mesh tangled_volumes(const Request& request) {
   const Block block(request.size);
-  Mesh mesh = solids(request);
+  Mesh mesh = mixed_volumes(request);
   std::vector<Index> inner;
   const Index n = block.cells();
   for (Index k = 1; k < n; ++k)

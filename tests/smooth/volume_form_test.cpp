@@ -1,9 +1,10 @@
 // The forms that the fast search has instead of elements are worth what the elements are, wherever the vertex stands.
 
+#include "core/smooth/kernels/volume_form.h"
+
 #include <gtest/gtest.h>
 
 #include "core/mesh/random.h"
-#include "core/smooth/kernels/volume_form.h"
 
 namespace dmoscope {
 namespace {
@@ -17,32 +18,32 @@ TEST(VolumeForm, OfATetrahedronIsItsRank) {
   for (int trial = 0; trial < 300; ++trial) {
     const Vec3 b = random_point(random, 1), c = random_point(random, 1), d = random_point(random, 1), p = random_point(random, 0.5);
     const double rank = formulas::rank<Metric::MeanRatio>(formulas::Tetrahedron<Vec3>(p, b, c, d));
-    EXPECT_NEAR(solids::rank_of(solids::tetrahedron_form(b, c, d), p, dot(p, p)), rank, 1e-12);
+    EXPECT_NEAR(volumes::rank_of(volumes::tetrahedron_form(b, c, d), p, dot(p, p)), rank, 1e-12);
   }
 }
 
 /// An ideal element with its corner `moving` at the origin and all others jolted.
-template <class Solid>
-void expect_least_form_to_be_the_rank(const Solid& ideal) {
+template <class Element>
+void expect_least_form_to_be_the_rank(const Element& ideal) {
   dmoscope::Random random(4);
   for (Index moving = 0; moving < ideal.at.size(); ++moving)
     for (int trial = 0; trial < 100; ++trial) {
-      Solid solid = ideal;
-      for (Vec3& corner : solid.at) corner = corner - ideal.at[moving] + random_point(random, 0.3);
-      solid.at[moving] = {};
+      Element element = ideal;
+      for (Vec3& corner : element.at) corner = corner - ideal.at[moving] + random_point(random, 0.3);
+      element.at[moving] = {};
       const Vec3 p = random_point(random, 0.3);
       double least = std::numeric_limits<double>::infinity();
       std::size_t count = 0;
-      solids::for_corner_forms(solid, moving, [&](const solids::MeanRatioForm<double>& form) {
-        least = std::min(least, solids::rank_of(form, p, dot(p, p)));
+      volumes::for_corner_forms(element, moving, [&](const volumes::MeanRatioForm<double>& form) {
+        least = std::min(least, volumes::rank_of(form, p, dot(p, p)));
         ++count;
       });
-      solid.at[moving] = p;
+      element.at[moving] = p;
       EXPECT_NEAR(least, formulas::rank_around<Metric::MeanRatio>(solid, moving), 1e-12) << "corner " << moving;
       EXPECT_EQ(count, ideal.at.size() == 5 && moving < 4 ? 3U : 4U) << "corners that have an edge to corner " << moving;
     }
 }
-TEST(VolumeForm, OfTheCornersOfAnyOtherSolidAreItsRank) {
+TEST(VolumeForm, OfTheCornersOfAnyOtherElementAreItsRank) {
   expect_least_form_to_be_the_rank(
       formulas::Hexahedron<Vec3>{{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}}});
   const double height = std::sqrt(0.75);

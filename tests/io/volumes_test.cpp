@@ -1,5 +1,5 @@
-// Every kind of solid from every format that holds it to every other: each format has its own rule for how corners are numbered, and a
-// file that breaks it is inside out for its readers.
+// Every kind of volume element from every format that holds it to every other: each format has its own rule for how corners are numbered,
+// and a file that breaks it is inside out for its readers.
 
 #include <array>
 #include <string>
@@ -85,7 +85,7 @@ std::vector<double> volumes(const Mesh& mesh) {
   return of_all;
 }
 
-TEST(Solids, ArePositiveHereAndByTheRuleOfEveryFormat) {
+TEST(VolumeElements, ArePositiveHereAndByTheRuleOfEveryFormat) {
   const auto all = files();
   for (const HandWritten& from : all) {
     SCOPED_TRACE(from.name);
@@ -103,7 +103,7 @@ TEST(Solids, ArePositiveHereAndByTheRuleOfEveryFormat) {
   }
 }
 
-TEST(Solids, AnIndependentReaderFindsThemWoundAsEachFormatSays) {
+TEST(VolumeElements, AnIndependentReaderFindsThemWoundAsEachFormatSays) {
   const TemporaryFolder folder;
   std::vector<std::filesystem::path> paths;
   for (const HandWritten& from : files()) {
@@ -130,7 +130,7 @@ TEST(Solids, AnIndependentReaderFindsThemWoundAsEachFormatSays) {
 
 /// A cube of two wedges: in VTK's own order nothing is inside out; in Gmsh's, as many programs write them, both are, and only then the
 /// program says so.
-TEST(Solids, AreInsideOutOnlyWhereTheyAre) {
+TEST(VolumeElements, AreInsideOutOnlyWhereTheyAre) {
   const std::string head = "NDIME= 3\nNPOIN= 8\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\nNELEM= 2\n";
   const auto flipped = [&](const std::string& elements) {
     Mesh mesh = read_bytes("a.su2", head + elements);

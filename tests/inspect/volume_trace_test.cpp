@@ -227,9 +227,9 @@ Mesh tangled(Mesh mesh) {
 
 const char* name_of(Precision precision) { return precision == Precision::Float ? ", float" : ", double"; }
 
-class SolidTraces : public ::testing::TestWithParam<const char*> {};
+class VolumeTraces : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(SolidTraces, OfSoundStarsByEveryMetric) {
+TEST_P(VolumeTraces, OfSoundStarsByEveryMetric) {
   const auto input = testing::input(generated(GetParam()));
   for (const MetricInfo& entry : metric_table()) {
     if (!testing::defined_for_all(entry.metric, input->mesh)) continue;
@@ -245,7 +245,7 @@ TEST_P(SolidTraces, OfSoundStarsByEveryMetric) {
   }
 }
 
-TEST_P(SolidTraces, OfTangledStars) {
+TEST_P(VolumeTraces, OfTangledStars) {
   const auto input = testing::input(tangled(generated(GetParam())));
   for (const Precision precision : {Precision::Float, Precision::Double}) {
     SCOPED_TRACE(name_of(precision));
@@ -257,7 +257,7 @@ TEST_P(SolidTraces, OfTangledStars) {
   }
 }
 
-TEST_P(SolidTraces, OfOtherGridsAndOfMeshesInHardPlaces) {
+TEST_P(VolumeTraces, OfOtherGridsAndOfMeshesInHardPlaces) {
   Mesh far = generated(GetParam()), single = far;
   for (Vec3& p : far.positions) p = p + Vec3{1e6, -1e6, 1e6};
   for (Vec3& p : single.positions) p = rounded(p);
@@ -272,14 +272,14 @@ TEST_P(SolidTraces, OfOtherGridsAndOfMeshesInHardPlaces) {
     }
 }
 
-TEST_P(SolidTraces, OfTwoAims) {
+TEST_P(VolumeTraces, OfTwoAims) {
   VolumeFollower follower(testing::input(generated(GetParam())), {.second = Metric::Condition});
   follower.follow(1);
   EXPECT_GT(follower.moved, follower.visits / 4);
   EXPECT_EQ(follower.fast, 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(VisitTrace, SolidTraces, ::testing::Values("tetrahedra", "hexahedra", "solids"));
+INSTANTIATE_TEST_SUITE_P(VisitTrace, VolumeTraces, ::testing::Values("tetrahedra", "hexahedra", "solids"));
 
 TEST(VolumeTrace, AVertexInTheMiddleOfAnOctahedronStaysAndOneAsideGoesThere) {
   const auto octahedron = [](Vec3 hub) {

@@ -1,4 +1,6 @@
-// The metrics of solids against elementary geometry in long double, and what must hold of all of them.
+// The metrics of volume elements against elementary geometry in long double, and what must hold of all of them.
+#include "core/quality/volumes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -6,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "core/mesh/random.h"
-#include "core/quality/volumes.h"
 
 namespace dmoscope {
 namespace {
@@ -28,8 +29,8 @@ constexpr Metric kOfTetrahedra[] = {Metric::MeanRatio,      Metric::RadiusRatio,
 double value(Metric metric, const Tetrahedron<Vec3>& t) {
   return formulas::with_volume_metric(metric, [&]<Metric M>() { return formulas::metric<M>(t); });
 }
-template <class Solid>
-double corner_value(Metric metric, const Solid& s) {
+template <class Element>
+double corner_value(Metric metric, const Element& s) {
   return formulas::with_volume_metric(metric, [&]<Metric M>() {
     if constexpr (formulas::kDefinedForCorners<M>)
       return formulas::metric<M>(s);
@@ -38,7 +39,7 @@ double corner_value(Metric metric, const Solid& s) {
   });
 }
 
-TEST(Solids, IdealElementsAreWorthOne) {
+TEST(VolumeElements, IdealElementsAreWorthOne) {
   for (const Metric metric : kOfTetrahedra) EXPECT_NEAR(value(metric, kRegular), 1.0, 1e-14) << info(metric).name;
   for (const Metric metric : kOfCorners) {
     EXPECT_NEAR(corner_value(metric, kCube), 1.0, 1e-14) << info(metric).name;
@@ -49,7 +50,7 @@ TEST(Solids, IdealElementsAreWorthOne) {
 
 Vec3 random_point(Random& random) { return {random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)}; }
 
-TEST(Solids, ATetrahedronIsAsGoodFromEveryCornerAndAsBadInsideOut) {
+TEST(VolumeElements, ATetrahedronIsAsGoodFromEveryCornerAndAsBadInsideOut) {
   Random random(7);
   for (int trial = 0; trial < 200; ++trial) {
     const Vec3 a = random_point(random), b = random_point(random), c = random_point(random), d = random_point(random);
@@ -64,7 +65,7 @@ TEST(Solids, ATetrahedronIsAsGoodFromEveryCornerAndAsBadInsideOut) {
   }
 }
 
-TEST(Solids, ScaledAndTurnedAnElementIsWorthTheSame) {
+TEST(VolumeElements, ScaledAndTurnedAnElementIsWorthTheSame) {
   const auto moved = [](Vec3 p, double scale) {  // turned by a rotation with rational entries
     return scale * Vec3{(2 * p.x - 2 * p.y + p.z) / 3, (2 * p.x + p.y - 2 * p.z) / 3, (p.x + 2 * p.y + 2 * p.z) / 3};
   };
@@ -83,7 +84,7 @@ TEST(Solids, ScaledAndTurnedAnElementIsWorthTheSame) {
 }
 
 /// Insphere and circumsphere by the faces' areas and Cayley and Menger's determinant in long double.
-TEST(Solids, RadiiOfATetrahedronByOtherWays) {
+TEST(VolumeElements, RadiiOfATetrahedronByOtherWays) {
   using Wide = long double;
   Random random(9);
   for (int trial = 0; trial < 200; ++trial) {
@@ -111,7 +112,7 @@ TEST(Solids, RadiiOfATetrahedronByOtherWays) {
   }
 }
 
-TEST(Solids, OneTurnedCornerMakesAnElementNegative) {
+TEST(VolumeElements, OneTurnedCornerMakesAnElementNegative) {
   Hexahedron<Vec3> h = kCube;
   h.at[6] = {0.2, 0.2, 0.2};  // beyond the plane of its neighbours
   for (const Metric metric : kOfCorners) EXPECT_LT(corner_value(metric, h), 0.0) << info(metric).name;
@@ -120,7 +121,7 @@ TEST(Solids, OneTurnedCornerMakesAnElementNegative) {
   EXPECT_GT(formulas::smallest_jacobian_around(h, 0), 0.0) << "corner 0 has no edge to corner 6";
 }
 
-TEST(Solids, DegenerateOnesAreWorthNothing) {
+TEST(VolumeElements, DegenerateOnesAreWorthNothing) {
   const Tetrahedron<Vec3> point({}, {}, {}, {}), flat({}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0});
   for (const Metric metric : kOfTetrahedra) {
     EXPECT_EQ(value(metric, point), 0.0) << info(metric).name;
@@ -129,7 +130,7 @@ TEST(Solids, DegenerateOnesAreWorthNothing) {
 }
 
 /// What the fast search compares is an increasing function of the metric, 0 where it is 0.
-TEST(Solids, RanksRiseWithTheMetric) {
+TEST(VolumeElements, RanksRiseWithTheMetric) {
   Random random(10);
   for (const Metric metric : kOfTetrahedra) {
     std::vector<std::pair<double, double>> all;

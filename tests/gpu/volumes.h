@@ -12,19 +12,19 @@
 
 namespace dmoscope::gpu::testing {
 
-struct Solid {
+struct VolumeSample {
   std::string name;
   std::shared_ptr<const InputMesh> input;
 };
 
-[[nodiscard]] inline std::shared_ptr<const InputMesh> solid_input(Mesh mesh) {
+[[nodiscard]] inline std::shared_ptr<const InputMesh> volume_input_of(Mesh mesh) {
   Progress progress;
   return prepare_input(std::move(mesh), {}, Need::Smoothing, progress);
 }
 
 /// Vertices that may move, some of them, thrown far out of place.
 [[nodiscard]] inline Mesh tangled(Mesh mesh, double throw_by) {
-  const auto input = solid_input(mesh);
+  const auto input = volume_input_of(mesh);
   dmoscope::Random random(6);
   for (Index v = 0; v < mesh.vertex_count(); ++v)
     if (input->topology.boundary()[v] == 0 && random.below(3) == 0)
@@ -50,11 +50,11 @@ struct Solid {
 }
 
 /// About `size` vertices each.
-[[nodiscard]] inline std::vector<Solid> solids(std::size_t size) {
-  std::vector<Solid> all;
+[[nodiscard]] inline std::vector<VolumeSample> volume_samples(std::size_t size) {
+  std::vector<VolumeSample> all;
   Progress progress;
   for (const char* kind : {"tetrahedra", "hexahedra", "solids"}) {
-    const auto add = [&](const char* what, Mesh mesh) { all.push_back({std::string(kind) + what, solid_input(std::move(mesh))}); };
+    const auto add = [&](const char* what, Mesh mesh) { all.push_back({std::string(kind) + what, volume_input_of(std::move(mesh))}); };
     const Mesh mesh = generate_mesh(kind, size, 5, progress);
     add("", mesh);
     add(", tangled", tangled(mesh, 1.0));
@@ -66,8 +66,8 @@ struct Solid {
     single.single_precision = true;
     add(", single precision", single);
   }
-  all.push_back({"as many as the fast search takes", solid_input(ball(48, {0.3, 0.1, -0.2}))});
-  all.push_back({"more than the fast search takes", solid_input(ball(49, {0.3, 0.1, -0.2}))});
+  all.push_back({"as many as the fast search takes", volume_input_of(ball(48, {0.3, 0.1, -0.2}))});
+  all.push_back({"more than the fast search takes", volume_input_of(ball(49, {0.3, 0.1, -0.2}))});
   return all;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The man page, made from the very tables and options the program runs on.
+// The man page, made from the program's own tables and options.
 
 #include <string>
 

@@ -19,16 +19,16 @@ namespace dmoscope::app {
 /// threads it starts afterwards, but for those that whoever started the program has it ignore (nohup).
 void block_interrupts();
 
-/// A file that grows too large for its limit is an error like a full disk, and no signal that ends the program.
+/// Makes a file that grows beyond the process's limit an error like a full disk, instead of a signal that ends the program.
 void ignore_file_limit_signal();
 
 /// Writes "dmoscope: TEXT" and a line feed to standard error; `hint`: another line after it.
 void complain(std::string_view text, std::string_view hint = {});
 
-/// Writes to standard output what was made for it: lines of the program's own, with what others wrote in them.
+/// Writes lines to standard output that the program composed, possibly with texts of others in them.
 void print_lines(std::string_view text);
 
-/// A word as a line shows it; all that is no text as it is.
+/// Text as one line shows it, see terminal_line(); other things as they are.
 template <class Thing>
 using Shown = std::conditional_t<std::is_convertible_v<const Thing&, std::string_view>, std::string, Thing>;
 
@@ -40,22 +40,22 @@ template <class Thing>
     return thing;
 }
 
-/// fmt::print to standard output, but each word that is filled in stays on its line.
+/// fmt::print to standard output; text that is filled in cannot leave its line.
 template <class... Things>
 void print(fmt::format_string<const Shown<Things>&...> format, const Things&... things) {
   print_lines(fmt::format(format, static_cast<const Shown<Things>&>(shown(things))...));
 }
 
-/// Hands standard output what was printed. Throws OutputError when it does not take it, now or before.
+/// Flushes standard output. Throws OutputError when that fails, or when an earlier write failed.
 void flush_output();
 
 /// Shows, on a terminal, one rewritten line of progress for work of more than 0.2 s, and turns the first Ctrl+C into a cancel;
 /// the second ends the process at once.
 class Watch {
  public:
-  /// Watches its own progress(), which a cancel is requested of.
+  /// Watches its own progress(); Ctrl+C requests a cancel there.
   Watch();
-  /// Watches somebody else's progress; `cancel` is called from the watching thread.
+  /// Watches the progress of another owner; `cancel` is called from the watching thread.
   Watch(const Progress& shown, std::function<void()> cancel);
   ~Watch();
   Watch(const Watch&) = delete;

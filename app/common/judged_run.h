@@ -1,5 +1,5 @@
 #pragma once
-// A run from the input on, done and judged by a metric of one's choice.
+// A run from the input on, done and judged by any metric.
 
 #include <functional>
 #include <memory>
@@ -43,8 +43,8 @@ struct Workshop {
   std::function<void(std::string)> warn;
 };
 
-/// Throws what Run does, and UsageError when the judge is not defined for the mesh. A device that fails where nobody asked for it by name
-/// is told of, and the CPU does the work.
+/// Throws what Run does, and UsageError when the judge is not defined for the mesh. Where a device fails that was not
+/// asked for by name, a message says so and the CPU does the work.
 [[nodiscard]] JudgedRun run_judged(std::string name, std::shared_ptr<const InputMesh> input, RunParameters parameters, Metric judge,
                                    const Goal& goal, const Workshop& workshop);
 

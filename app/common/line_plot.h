@@ -1,5 +1,5 @@
 #pragma once
-// A plot of several series over logarithmic or linear axes, one line a series, with a legend beside it.
+// A plot of several series over logarithmic or linear axes, one line per series, with a legend beside it.
 
 #include <cstddef>
 #include <optional>

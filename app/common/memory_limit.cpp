@@ -46,7 +46,7 @@ void add_memory_option(CLI::App& subcommand, MemoryLimit& limit) {
 
 int within_memory(const MemoryLimit& limit, const std::filesystem::path& file, const std::function<int()>& work) {
   if (const std::uint64_t most = limit.bytes(); most != 0) {
-    // Of data alone: what a driver reserves of addresses and never touches is no memory.
+    // Limits data alone: addresses that a driver reserves and never touches are no memory.
     rlimit now{};
     if (getrlimit(RLIMIT_DATA, &now) != 0) throw std::system_error(errno, std::generic_category(), "--max-memory");
     now.rlim_cur = std::min<rlim_t>(most + room_for_stacks(), now.rlim_max);

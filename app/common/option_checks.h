@@ -10,8 +10,8 @@
 
 namespace dmoscope::app {
 
-/// A transform for counts: a whole number from `least` to `most` in plain digits. The parser itself would turn -1 into the largest
-/// number there is, 010 into 8, and numbers too large into others.
+/// A transform for counts: a whole number from `least` to `most` in plain digits. The parser alone would turn -1 into the largest
+/// number, read 010 as 8, and wrap numbers that are too large.
 [[nodiscard]] inline CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
   return CLI::Validator(
       [least, most](std::string& word) {

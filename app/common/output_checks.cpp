@@ -36,7 +36,7 @@ void require_mesh_target(const std::filesystem::path& path, const std::filesyste
   }
   std::string known;
   for (const FormatInfo& format : format_table()) known += fmt::format("{}{}", known.empty() ? "" : " ", format.extensions);
-  throw UsageError(fmt::format("{}: no mesh format has the extension '{}' (known: {})", path.string(), extension, known));
+  throw UsageError(fmt::format("{}: unknown extension '{}'; known are {}", path.string(), extension, known));
 }
 
 void require_another_file(const std::filesystem::path& path, std::string_view option, const std::filesystem::path& other) {

@@ -14,7 +14,7 @@ void require_writable(const std::filesystem::path& path);
 void require_another_file(const std::filesystem::path& path, std::string_view option, const std::filesystem::path& other);
 
 /// require_writable, and UsageError when no mesh format has this extension. `input`: what is to be read; where its own format is unknown
-/// as well, that is what is said (InputError): whoever keeps the extension has nothing to mend in the output.
+/// as well, that is reported instead (InputError), since the output's extension is then not what has to be corrected.
 void require_mesh_target(const std::filesystem::path& path, const std::filesystem::path& input = {});
 
 }  // namespace dmoscope::app

@@ -15,7 +15,7 @@ struct Provenance {
   std::string command_line;  // as a shell takes it
 };
 
-/// Of a mesh that was read from a file.
+/// Where a mesh that was read from a file comes from.
 [[nodiscard]] Provenance provenance_of(const Mesh& mesh, std::string command_line);
 
 /// {"program": ..., "version": ..., "commit": ..., "input_sha256": ..., "command": ...}

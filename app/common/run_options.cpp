@@ -1,7 +1,8 @@
 #include "app/common/run_options.h"
 
-#include <algorithm>
+#include <array>
 #include <limits>
+#include <string_view>
 #include <tuple>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +11,7 @@
 #include "app/common/option_checks.h"
 #include "app/common/text.h"
 #include "core/base/error.h"
+#include "core/base/unknown_value.h"
 #include "core/commands/session_commands.h"
 #include "core/mesh/vertex_words.h"
 #include "core/quality/metric.h"
@@ -17,13 +19,6 @@
 
 namespace dmoscope::app {
 namespace {
-
-void require_method(const std::string& name) {
-  const auto known = [&name](const MethodInfo& method) { return method.name == name; };
-  if (std::none_of(method_table().begin(), method_table().end(), known)) {
-    throw UsageError(fmt::format("unknown method '{}' (known: {})", name, names_of(method_table())));
-  }
-}
 
 /// Refuses what is no number.
 CLI::Validator real_number() {
@@ -95,13 +90,14 @@ void add_run_options(CLI::App& subcommand, RunOptions& options) {
 
 RunParameters parameters_of(const RunOptions& options) {
   RunParameters parameters;
-  require_method(options.method);
+  static_cast<void>(method_info(options.method));
   parameters.method = options.method;
   parameters.metric = parse_metric(options.metric);
   if (!options.combine.empty())
     std::tie(parameters.metric, parameters.combination) = parse_combination(options.combine, options.size_function);
   if (!options.then.empty()) {
-    if (options.then != "mean") throw UsageError(fmt::format("--then knows 'mean' alone, not '{}'", options.then));
+    if (options.then != "mean")
+      throw UsageError("--then: " + unknown_value("second phase", options.then, std::array<std::string_view, 1>{"mean"}));
     parameters.then_mean.emplace();
   }
   for (const ParameterInfo& row : parameter_table()) row.from_text(parameters, options.parameters.at(std::string(row.name)));

@@ -19,7 +19,7 @@ struct OrderSpread {
   std::size_t elements = 0;
 };
 
-/// Gathers sorted qualities, one curve an order.
+/// Gathers sorted qualities, one curve per order.
 class OrderCurves {
  public:
   /// `sorted`: ascending, the same number of elements for all.

@@ -24,7 +24,7 @@ struct CompareOptions {
   bool json = false;
 };
 
-/// A run that was asked for by name, which must be possible, or by --every, which leaves out what is not.
+/// A run that was asked for: by name, then it must be possible; or by --every, which leaves out impossible runs.
 struct Contender {
   std::string name;  // "dmo:mean-ratio"; no two have the same
   RunParameters parameters;

@@ -9,7 +9,7 @@
 
 namespace dmoscope::app {
 
-/// What is told besides the results.
+/// What is reported besides the results.
 struct ComparisonFacts {
   const CompareOptions& options;
   unsigned threads;

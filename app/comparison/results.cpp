@@ -12,7 +12,7 @@ namespace dmoscope::app {
 namespace {
 
 constexpr std::size_t kReportPoints = 1500;
-constexpr std::uint64_t kFewIterations = 100;  // up to so many there is a linear axis, and the input on it
+constexpr std::uint64_t kFewIterations = 100;  // up to this many the axis is linear and shows the input
 
 std::vector<float> thinned(std::span<const double> qualities) {
   return sorted_choice(std::vector<float>(qualities.begin(), qualities.end()), kReportPoints);

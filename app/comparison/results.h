@@ -1,5 +1,5 @@
 #pragma once
-// What came of a comparison.
+// The results of a comparison.
 
 #include <functional>
 #include <memory>
@@ -26,7 +26,7 @@ struct Comparison {
   std::uint64_t free = 0;           // vertices
   std::vector<JudgedRun> runs;      // as they were asked for; their qualities are given up for the curves
   std::vector<JudgedRun> shuffled;  // the same in other orders; without positions
-  std::vector<OrderSpread> orders;  // one a run, where orders were shuffled
+  std::vector<OrderSpread> orders;  // one per run, where orders were shuffled
   std::vector<SortedCurve> curves;  // of all of them
   std::vector<float> input_curve;
   Percentiles input_percentiles;
@@ -37,11 +37,11 @@ struct Comparison {
 [[nodiscard]] Comparison run_all(const ComparisonPlan& plan, std::shared_ptr<const InputMesh> input, const Goal& goal,
                                  std::uint64_t shuffles, const Workshop& workshop);
 
-/// The minimum over the iterations, a line a run.
+/// The minimum over the iterations, a line per run.
 [[nodiscard]] LinePlot convergence_plot(const Comparison& comparison);
 /// The mean over the iterations, which what raises the minimum may lower; says since when it was itself raised.
 [[nodiscard]] LinePlot mean_plot(const Comparison& comparison);
-/// The qualities of all elements, worst first, a line a run and order; the input's in grey.
+/// The qualities of all elements, worst first, a line per run and order; the input's in grey.
 [[nodiscard]] LinePlot sorted_plot(const Comparison& comparison);
 
 /// "quality by mean-ratio": what the axis of a plot of qualities says.

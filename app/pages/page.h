@@ -28,8 +28,8 @@ class Page {
   void paragraph(std::string_view text);
   /// Names and what they are.
   void facts(const std::vector<std::pair<std::string, std::string>>& facts);
-  /// Its rows can be sorted by a click on a head. `hints`: a line on each head, may be empty; `kept`: so many rows stay on
-  /// top, however the others are sorted.
+  /// A table whose rows are sorted by a click on a head. `hints`: a line on each head, may be empty; `kept`: this many rows stay
+  /// on top however the others are sorted.
   void table(const std::vector<std::string>& head, const std::vector<std::string>& hints, const std::vector<std::vector<PageCell>>& rows,
              std::size_t kept = 0);
   /// The drawing itself, as SVG.

@@ -1,5 +1,5 @@
 #pragma once
-// What one experiment of the paper came to.
+// The findings of one experiment of the paper.
 
 #include <limits>
 #include <optional>
@@ -60,7 +60,7 @@ struct Figure {
 
   /// Adds a row: does ours hold?
   void check(std::string mesh, std::string what, double ours, Claim claim);
-  /// Adds a row of which nothing is claimed. `paper`: may be empty.
+  /// Adds a row that claims nothing. `paper`: may be empty.
   void tell(std::string mesh, std::string what, double ours, std::string paper, std::string why);
   /// Adds a row for what could not be done.
   void lack(std::string mesh, std::string what, Verdict verdict, std::string why);

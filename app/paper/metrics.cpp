@@ -130,7 +130,7 @@ void mean_phase(Lab& lab, Figure& figure) {
   const auto iterations = lab.choose<std::uint64_t>(40, 100, 300);
   if (const auto input = lab.mesh("east.14", figure)) raise(input, iterations, 0.953);
   if (const auto input = lab.mesh("bahamas.14", figure)) raise(input, iterations, 0.978);
-  // Of this one the minimum rises for some 90 iterations, before which there is no second phase.
+  // Here the minimum rises for some 90 iterations; the second phase begins only after them.
   raise(lab.stand_in("annulus 2500 1"), std::max<std::uint64_t>(100, iterations), std::nullopt);
 }
 

@@ -9,7 +9,7 @@
 
 namespace dmoscope::app {
 
-/// A line a finding.
+/// One line per finding.
 [[nodiscard]] std::string findings_text(const std::vector<Figure>& figures);
 /// Columns figure,mesh,what,paper,ours,difference,tolerance,verdict,why.
 [[nodiscard]] std::string findings_csv(const std::vector<Figure>& figures);

@@ -1,5 +1,5 @@
 #pragma once
-// `dmoscope bench --draw N`: an iteration and its picture in turn, N times.
+// `dmoscope bench --draw N`: N times an iteration and then its picture.
 
 #include <filesystem>
 

@@ -16,11 +16,11 @@ namespace {
 constexpr std::uint64_t kMeshSeed = 1;
 /// How much the reference, which is slow, has to do: in a volume a visit costs some hundred times as much.
 struct ReferenceWork {
-  std::uint64_t visits;  // at most about so many, and on meshes of no more free vertices
+  std::uint64_t visits;  // at most about this many, on meshes with no more free vertices than that
   std::size_t size;      // of what is generated in place of a larger mesh
 };
 ReferenceWork reference_work(const BenchElements& elements) {
-  return elements.solid() ? ReferenceWork{2'000, 2'000} : ReferenceWork{20'000, 10'000};
+  return elements.volume() ? ReferenceWork{2'000, 2'000} : ReferenceWork{20'000, 10'000};
 }
 
 using SharedInput = std::shared_ptr<const InputMesh>;
@@ -39,7 +39,7 @@ std::uint64_t free_vertices(const InputMesh& input) {
   return free;
 }
 
-/// Of a mesh that has any: the first that has at least its kinds.
+/// The first row of bench_elements() that has all kinds of the mesh's elements; the last row where none has.
 const BenchElements& elements_of(const Mesh& mesh) {
   unsigned kinds = 0;
   for (const ElementKind kind : mesh.elements.kinds()) kinds |= kind_set(kind);

@@ -17,7 +17,7 @@
 
 namespace dmoscope::app {
 
-/// Of one measurement's repeats.
+/// Statistics over one measurement's repeats.
 struct Spread {
   double median = 0.0, lowest = 0.0, highest = 0.0;
 };
@@ -66,7 +66,7 @@ using TakeFigures = std::function<void(const std::vector<Measurement>&)>;
 
 /// Measures the plan on `file`, or where that is empty on generated meshes, one after the other. Throws Error and Cancelled.
 ///
-/// The reference of every ratio is the plain scalar search in double on one thread. It is slow and its cost a visit does not depend on
+/// The reference of every ratio is the plain scalar search in double on one thread. It is slow and its cost per visit does not depend on
 /// the mesh's size, so where a mesh has more than 20,000 free vertices (a volume 2,000) it is measured on a generated one of 10,000 (2,000)
 /// with the same kinds of elements. The repeats of all measurements of a mesh, the references included, take turns: a neighbour's noise
 /// hits all alike.

@@ -14,6 +14,7 @@
 #include "app/common/run_options.h"
 #include "app/common/text.h"
 #include "core/base/error.h"
+#include "core/base/unknown_value.h"
 
 namespace dmoscope::app {
 namespace {
@@ -27,14 +28,14 @@ constexpr std::uint64_t kBytesPerVertex = 400, kBytesPerVolumeVertex = 1000;
 
 constexpr KindSet kTriangles = kind_set(ElementKind::Triangle), kQuadrilaterals = kind_set(ElementKind::Quadrilateral),
                   kTetrahedra = kind_set(ElementKind::Tetrahedron), kHexahedra = kind_set(ElementKind::Hexahedron),
-                  kSolids = static_cast<KindSet>(kTetrahedra | kHexahedra | kind_set(ElementKind::Wedge) | kind_set(ElementKind::Pyramid)),
+                  kVolumes = static_cast<KindSet>(kTetrahedra | kHexahedra | kind_set(ElementKind::Wedge) | kind_set(ElementKind::Pyramid)),
                   kPlanar = kTriangles | kQuadrilaterals;
 constexpr std::array<BenchElements, 6> kElements{{{"triangles", "grid", kFullSize, kTriangles},
                                                   {"quadrilaterals", "quads", 5'000'000, kQuadrilaterals},
                                                   {"mixed", "mixed", 5'000'000, kPlanar},
                                                   {"tetrahedra", "tetrahedra", 5'000'000, kTetrahedra},
                                                   {"hexahedra", "hexahedra", 5'000'000, kHexahedra},
-                                                  {"solids", "solids", 5'000'000, kSolids}}};
+                                                  {"solids", "solids", 5'000'000, kVolumes}}};
 
 std::vector<std::string_view> words_of(std::string_view list) {
   std::vector<std::string_view> words;
@@ -46,7 +47,7 @@ std::vector<std::string_view> words_of(std::string_view list) {
   }
 }
 
-/// One entry a word of the list, each once.
+/// One entry per word of the list, each once.
 template <class Parse>
 auto parse_list(std::string_view list, Parse parse) {
   std::vector<decltype(parse(list))> entries;
@@ -94,9 +95,7 @@ std::vector<BenchElements> parse_elements(const std::string& list) {
   if (list == "all") return {kElements.begin(), kElements.end()};
   const auto place = [](std::string_view word) {
     const auto found = std::ranges::find(kElements, word, &BenchElements::name);
-    if (found == kElements.end()) {
-      throw UsageError(fmt::format("--elements: there is no '{}' (known: {}, all)", word, names_of(kElements)));
-    }
+    if (found == kElements.end()) throw UsageError("--elements: " + unknown_row("name", word, kElements));
     return static_cast<std::size_t>(found - kElements.begin());
   };
   std::vector<BenchElements> elements;
@@ -121,7 +120,7 @@ void combine(BenchPlan& plan, const std::string& text) {
   if (plan.acceleration.accelerator) plan.acceleration = {nullptr, "combined metrics run on the CPU alone"};
 }
 
-/// Names that stand for something to measure must not vanish without a word: each has to fit one of the others.
+/// A name that stands for something to measure must not be dropped silently: each has to fit one of the others.
 void require_partners(const BenchPlan& plan, bool all_elements) {
   const Metric* second = plan.combination ? std::get_if<Metric>(&plan.combination->second) : nullptr;
   const auto fit = [second](const BenchElements& elements, Metric metric) {
@@ -143,8 +142,8 @@ void require_sizes(const BenchPlan& plan) {
     if (largest <= elements.largest) continue;
     throw UsageError(fmt::format("meshes of {} are made with up to {} vertices, not {}", elements.name, elements.largest, largest));
   }
-  const bool solid = std::ranges::any_of(plan.elements, &BenchElements::solid);
-  const std::uint64_t needed = (solid ? kBytesPerVolumeVertex : kBytesPerVertex) * largest;
+  const bool volume = std::ranges::any_of(plan.elements, &BenchElements::volume);
+  const std::uint64_t needed = (volume ? kBytesPerVolumeVertex : kBytesPerVertex) * largest;
   const std::optional<std::uint64_t> available = available_memory();
   if (!available || needed <= *available) return;
   throw UsageError(fmt::format("a mesh of {} vertices takes about {:.1f} GB of memory and {:.1f} GB are free: choose smaller --sizes",

@@ -43,7 +43,7 @@ struct BenchElements {
   std::string_view generator;  // "grid"
   std::size_t largest;         // size, in vertices
   KindSet kinds;               // of their elements
-  [[nodiscard]] bool solid() const noexcept {
+  [[nodiscard]] bool volume() const noexcept {
     return (kinds & (kind_set(ElementKind::Tetrahedron) | kind_set(ElementKind::Hexahedron))) != 0;
   }
   [[nodiscard]] bool suits(const MetricInfo& metric) const noexcept { return (metric.kinds & kinds) == kinds; }

@@ -109,7 +109,7 @@ void print_head(const BenchPlan& plan) {
   if (plan.acceleration.accelerator) {
     print("{}: {}\n", name(plan.acceleration.accelerator->backend()), plan.acceleration.accelerator->description());
   } else {
-    print("no cuda: {}\n", plan.acceleration.reason);
+    print("CUDA is not usable: {}\n", plan.acceleration.reason);
   }
   print("Smoothing alone, {} from the input; median of {} (lowest to highest).\nRatio to {}.\n\n",
         counted(plan.iterations, "iteration", "iterations"), counted(plan.repeats, "repeat", "repeats"), kReference);

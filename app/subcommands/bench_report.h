@@ -15,7 +15,7 @@ void print_rows(const std::vector<Measurement>& figures);
 
 [[nodiscard]] Json json_of(const BenchPlan& plan, const std::vector<Measurement>& figures);
 
-/// Vertex visits a second over the mesh's size, a line a series.
+/// Vertex visits per second over the mesh's size, one line per series.
 [[nodiscard]] LinePlot plot_of(const std::vector<Measurement>& figures);
 
 }  // namespace dmoscope::app

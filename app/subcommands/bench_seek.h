@@ -8,7 +8,7 @@
 
 namespace dmoscope::app {
 
-/// Prints one row a mesh. Throws UsageError where the program was built without OpenGL, Error and Cancelled.
+/// Prints one row per mesh. Throws UsageError where the program was built without OpenGL, Error and Cancelled.
 void bench_seeking(const BenchPlan& plan, const std::filesystem::path& file, std::uint64_t seeks, bool json, Progress& progress);
 
 }  // namespace dmoscope::app

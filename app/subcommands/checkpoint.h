@@ -1,5 +1,5 @@
 #pragma once
-// Long runs of `dmoscope smooth` that are saved on their way and gone on with another time.
+// Long runs of `dmoscope smooth` that are saved on their way and continued another time.
 
 #include <atomic>
 #include <chrono>
@@ -23,7 +23,7 @@ struct CheckpointOptions {
 /// Declares --checkpoint, --checkpoint-every and --resume.
 void add_checkpoint_options(CLI::App& subcommand, CheckpointOptions& options);
 
-/// Everything about them that can be refused without reading the mesh. `others`: files that the subcommand reads or writes.
+/// Refuses what is wrong with them as far as that needs no mesh. `others`: files that the subcommand reads or writes.
 void refuse_early(const CheckpointOptions& options, std::initializer_list<std::filesystem::path> others);
 
 /// The session's only run: a fresh one, or the one that was saved, with these parameters all the same. Throws InputError for a damaged
@@ -31,15 +31,15 @@ void refuse_early(const CheckpointOptions& options, std::initializer_list<std::f
 Run& begin_run(Session& session, const std::shared_ptr<const InputMesh>& input, const RunParameters& parameters,
                const CheckpointOptions& options, Progress& progress);
 
-/// Saves a session at the end of an iteration, every now and then and when somebody wants the run to end. A disk that is full meanwhile is
-/// complained of, and the run goes on.
+/// Saves a session at the end of an iteration: at regular times, and when the run is asked to end. If the disk is full a message says so,
+/// and the run goes on.
 class Checkpoints {
  public:
   Checkpoints(Session& session, const CheckpointOptions& options) : session_(session), options_(options) {}
 
-  /// Of a signal, from any thread: true where a checkpoint follows, after which the run is cancelled.
+  /// Called for a signal, from any thread. True where a checkpoint follows, after which the run is cancelled.
   [[nodiscard]] bool end_soon() noexcept;
-  /// From now on, or from now on no more, iterations come to an end at which can be saved.
+  /// Says whether iterations are running, at whose ends the session can be saved.
   void set_running(bool running) noexcept { running_ = running && !options_.file.empty(); }
   /// To be called after every iteration. Throws Cancelled.
   void after_iteration();

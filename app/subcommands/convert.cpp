@@ -10,6 +10,7 @@
 #include "app/common/console.h"
 #include "app/common/memory_limit.h"
 #include "app/common/output_checks.h"
+#include "app/common/text.h"
 #include "app/subcommands/subcommands.h"
 #include "core/io/mesh_io.h"
 #include "core/io/source_file.h"
@@ -30,10 +31,10 @@ bool becomes_another_format(const std::filesystem::path& output, const Mesh& mes
 }
 
 /// Programs disagree on how VTK's wedges are wound, and what is inside out is of no use in the other format.
-void turn_solids(Mesh& mesh, Progress& progress) {
+void turn_volumes(Mesh& mesh, Progress& progress) {
   const auto kinds = mesh.elements.kinds();
-  const auto solid = [](ElementKind kind) { return info(kind).dimension == 3; };
-  if (kinds.empty() || !std::all_of(kinds.begin(), kinds.end(), solid)) return;
+  const auto is_volume = [](ElementKind kind) { return info(kind).dimension == 3; };
+  if (kinds.empty() || !std::all_of(kinds.begin(), kinds.end(), is_volume)) return;
   normalise_orientation(mesh, FaceNeighbours(mesh, &progress));
 }
 
@@ -41,10 +42,12 @@ int convert(const Options& options) {
   require_mesh_target(options.output, options.input);
   Watch watch;
   Mesh mesh = read_mesh(options.input, {watch.progress(), nullptr, options.memory.bytes()});
-  if (becomes_another_format(options.output, mesh)) turn_solids(mesh, watch.progress());
+  if (becomes_another_format(options.output, mesh)) turn_volumes(mesh, watch.progress());
   for (const std::string& sentence : write_mesh(options.output, mesh, mesh.positions, watch.progress())) {
     complain(fmt::format("{}: {}", options.output.string(), sentence));
   }
+  print("wrote {} ({}, {})\n", options.output.string(), counted(mesh.vertex_count(), "vertex", "vertices"),
+        counted(mesh.elements.size(), "element", "elements"));
   return 0;
 }
 

@@ -35,7 +35,7 @@ int generate(const GenerateOptions& options) {
   for (const std::string& sentence : write_mesh(options.output, mesh, mesh.positions, watch.progress())) {
     complain(fmt::format("{}: {}", options.output.string(), sentence));
   }
-  print("{}: {}, {}\n", options.output.string(), counted(mesh.vertex_count(), "vertex", "vertices"),
+  print("wrote {} ({}, {})\n", options.output.string(), counted(mesh.vertex_count(), "vertex", "vertices"),
         counted(mesh.elements.size(), "element", "elements"));
   return 0;
 }

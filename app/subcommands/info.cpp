@@ -113,13 +113,21 @@ Json everything() {
   return object;
 }
 
+std::string not_usable(const Acceleration& acceleration) { return "not usable: " + acceleration.reason; }
+
 void print_cuda(const gpu::Availability& cuda, const Acceleration& acceleration) {
-  print("  cuda   {}\n",
-        acceleration.accelerator ? "usable: " + acceleration.accelerator->description() : "not usable: " + acceleration.reason);
+  print("  cuda   {}\n", acceleration.accelerator ? "usable: " + acceleration.accelerator->description() : not_usable(acceleration));
   for (const gpu::Device& device : cuda.devices) {
     print("         {} (compute capability {}.{}, {:.1f} GiB)\n", device.name, device.major, device.minor,
           static_cast<double>(device.memory) / static_cast<double>(std::size_t{1} << 30U));
   }
+}
+
+/// How a run's mesh comes to the screen, and why not faster.
+std::string path_sentence(const DrawingPath& path, const Acceleration& acceleration) {
+  if (!acceleration.accelerator) return "from the processor's memory, since CUDA is " + not_usable(acceleration);
+  if (path.reason.empty()) return "written by the CUDA device";
+  return "copied from the CUDA device through the processor's memory: " + path.reason;
 }
 
 void print_for_a_person() {
@@ -129,7 +137,7 @@ void print_for_a_person() {
   print("  cpu    usable, {}\n", counted(std::thread::hardware_concurrency(), "processor thread", "processor threads"));
   print("         SIMD {} (supported: {})\n", name(best_simd_level()), fmt::join(simd_names(), ", "));
   print_cuda(gpu::availability(), acceleration);
-  print("\ndrawing\n  path   {}{}\n", gl.drawing.name, gl.drawing.reason.empty() ? "" : " (" + gl.drawing.reason + ")");
+  print("\ndrawing\n  path   {}\n", path_sentence(gl.drawing, acceleration));
   print("  opengl {}{}\n\nformats\n", gl.usable ? "" : "not usable: ", gl.text);
   for (const FormatInfo& f : format_table()) print("  {:<16} {}; {}\n", f.extensions, f.title, f.doc);
   print("\nmetrics\n");

@@ -19,6 +19,7 @@
 #include "app/paper/pages.h"
 #include "app/subcommands/subcommands.h"
 #include "core/base/error.h"
+#include "core/base/unknown_value.h"
 #include "core/io/mesh_io.h"
 
 namespace dmoscope::app {
@@ -36,9 +37,9 @@ std::vector<Experiment> chosen(const std::vector<std::string>& only) {
   std::vector<Experiment> all = experiments();
   for (const std::string& id : only) {
     if (std::ranges::find(all, id, &Experiment::id) != all.end()) continue;
-    std::string known;
-    for (const Experiment& e : all) known += fmt::format("{}{}", known.empty() ? "" : ", ", e.id);
-    throw UsageError(fmt::format("--only {}: there is no such figure (known: {})", id, known));
+    std::vector<std::string_view> known;
+    for (const Experiment& e : all) known.push_back(e.id);
+    throw UsageError("--only: " + unknown_value("figure", id, known));
   }
   if (!only.empty()) std::erase_if(all, [&](const Experiment& e) { return std::ranges::find(only, e.id) == only.end(); });
   return all;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,7 @@ struct QualityOptions {
 /// One metric over all elements of the mesh.
 struct Column {
   Metric metric;
-  std::vector<double> values;    // one an element, NaN where not defined
+  std::vector<double> values;    // one per element, NaN where not defined
   std::vector<Index> ascending;  // elements with a value, worst first, the lowest index first among equals
   double mean = 0.0;
   std::size_t unacceptable = 0;
@@ -140,13 +141,39 @@ void print_table(const std::vector<Column>& columns) {
   }
 }
 
+/// Coordinates of places in a mesh, to six digits of the mesh's size; far from the origin that is more digits of the coordinate. Without z
+/// where all of the mesh has the same. --json has all digits.
+class PlaceText {
+ public:
+  explicit PlaceText(const InputMesh& input) {
+    const double size = input.geometry.size;
+    const double decimals = size > 0.0 && std::isfinite(size) ? 5.0 - std::floor(std::log10(size)) : kMostDecimals + 1;
+    if (decimals <= kMostDecimals && decimals > -kMostDecimals) decimals_ = std::max(0, static_cast<int>(decimals));
+    const PlaneAxes axes(input.geometry.plane);
+    flat_ = input.geometry.shape == Shape::Planar && axes.u == 0 && axes.v == 1;
+  }
+  [[nodiscard]] std::string operator()(Vec3 p) const {
+    std::string text = fmt::format("{:>13} {:>13}", coordinate(p.x), coordinate(p.y));
+    return flat_ ? text : text + fmt::format(" {:>13}", coordinate(p.z));
+  }
+  [[nodiscard]] std::string head() const { return fmt::format("{:>13} {:>13}{}", "x", "y", flat_ ? "" : fmt::format(" {:>13}", "z")); }
+
+ private:
+  static constexpr double kMostDecimals = 9.0;
+  [[nodiscard]] std::string coordinate(double x) const {
+    return decimals_ && std::isfinite(x) ? fmt::format("{:.{}f}", x, *decimals_) : brief(x);
+  }
+  std::optional<int> decimals_;  // none: such numbers are written with an exponent
+  bool flat_ = false;
+};
+
 void print_worst(const InputMesh& input, const Column& column, std::size_t count) {
   if (count == 0 || !column.defined()) return;
-  print("\nworst of {}:\n{:>10} {:<14} {:>12}  centroid\n", info(column.metric).name, "element", "kind", "quality");
-  for (const Index e : worst_of(column, count)) {
-    const Vec3 c = centroid(input, e);
-    print("{:>10} {:<14} {:>12}  {} {} {}\n", e, info(input.mesh.elements.kind(e)).name, brief(column.values[e]), c.x, c.y, c.z);
-  }
+  const PlaceText place(input);
+  print("\nworst of {}, with the mean of their corners:\n{:>10} {:<14} {:>12} {}\n", info(column.metric).name, "element", "kind", "quality",
+        place.head());
+  for (const Index e : worst_of(column, count))
+    print("{:>10} {:<14} {:>12} {}\n", e, info(input.mesh.elements.kind(e)).name, brief(column.values[e]), place(centroid(input, e)));
 }
 
 int quality(const QualityOptions& options) {

@@ -116,7 +116,9 @@ int render(const RenderOptions& options) {
   const InsideLook inside{options.clip, view, options.from, options.perspective};
   require_sense(inside);
   Watch watch;
-  return render_picture(options.input, options.output, look, inside, {watch.progress(), nullptr, options.memory.bytes()});
+  const int code = render_picture(options.input, options.output, look, inside, {watch.progress(), nullptr, options.memory.bytes()});
+  if (code == 0) print("wrote {} ({} x {} pixels)\n", options.output.string(), width, height);
+  return code;
 #else
   static_cast<void>(view), static_cast<void>(metric), static_cast<void>(width), static_cast<void>(height), static_cast<void>(range);
   throw UsageError("this program was built without OpenGL, so it makes no pictures");

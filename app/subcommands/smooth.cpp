@@ -1,10 +1,12 @@
 // dmoscope smooth: reads a mesh, smooths it, writes it.
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -22,6 +24,7 @@
 #include "app/subcommands/input_report.h"
 #include "app/subcommands/objective_report.h"
 #include "app/subcommands/subcommands.h"
+#include "core/base/unknown_value.h"
 #include "core/input/declared_floats.h"
 #include "core/io/atomic_file.h"
 #include "core/io/commented_mesh.h"
@@ -165,7 +168,7 @@ void print_summary(const Result& r) {
 /// Everything that can be refused without reading the mesh.
 void refuse_early(const SmoothOptions& options) {
   if (options.write != "best" && options.write != "last")
-    throw UsageError(fmt::format("--write knows 'best' and 'last', not '{}'", options.write));
+    throw UsageError("--write: " + unknown_value("moment", options.write, std::array<std::string_view, 2>{"best", "last"}));
   require_mesh_target(options.output, options.input);
   require_another_file(options.stats, "--stats", options.input);
   require_another_file(options.stats, "--stats", options.output);
@@ -229,7 +232,7 @@ std::optional<LeftInverted> tell_left_inverted(const Run& run, const std::shared
   return left;
 }
 
-/// Of --then mean, where the second phase never began.
+/// Warns where --then mean was asked for and the second phase never began.
 template <class Warn>
 void tell_missing_phase(const Run& run, const Outcome& outcome, const Warn& warn) {
   if (!run.parameters().then_mean || run.mean_since()) return;

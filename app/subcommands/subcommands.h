@@ -1,5 +1,5 @@
 #pragma once
-// The subcommands of the command line, one source a subcommand. Each declares its options and says what to do once they are parsed.
+// The subcommands of the command line, one source each. Each declares its options and says what to do once they are parsed.
 
 #include <filesystem>
 #include <functional>

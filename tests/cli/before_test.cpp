@@ -1,4 +1,4 @@
-// Files of before still work: sessions, a checkpoint, scripts and command lines of an earlier version, in tests/data/before.
+// Files of earlier versions still work: sessions, a checkpoint, scripts and command lines, in tests/data/before.
 
 #include <filesystem>
 #include <fstream>
@@ -42,7 +42,7 @@ class FilesOfBefore : public ::testing::Test {
   std::filesystem::path copy_ = folder_ / "before";
 };
 
-/// values.csv has what the program of before said of every run, there and two iterations later.
+/// values.csv has what the earlier program reported for every run, there and two iterations later.
 class SessionsOfBefore : public FilesOfBefore {
  protected:
   [[nodiscard]] std::vector<std::string> names() const {

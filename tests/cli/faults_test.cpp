@@ -73,8 +73,8 @@ TEST(Terminal, NothingInFilesOrNamesReachesItRaw) {
 }
 
 TEST(Terminal, EverythingIsPrintedInOnePlace) {
-  for (const char* room : {"/app", "/core", "/gpu", "/render", "/ui"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(std::string(DMOSCOPE_SOURCE_DIR) + room)) {
+  for (const char* module : {"/app", "/core", "/gpu", "/render", "/ui"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(std::string(DMOSCOPE_SOURCE_DIR) + module)) {
       const std::string path = entry.path().string();
       if (!path.ends_with(".cpp") && !path.ends_with(".h")) continue;
       if (path.ends_with("app/common/console.cpp") || path.ends_with("app/common/console.h")) continue;
@@ -192,7 +192,7 @@ pid_t start(std::vector<std::string> arguments) {
   _exit(127);
 }
 
-// Of how many kills is DMOSCOPE_KILLS's business where somebody wants to know more: DMOSCOPE_KILLS=60.
+// DMOSCOPE_KILLS says how often the program is killed, where more certainty is wanted: DMOSCOPE_KILLS=60.
 TEST(Kill, LeavesTheOldFileOrTheNewOneAndNoLitterAfterTheNextSave) {
   const char* const wanted = std::getenv("DMOSCOPE_KILLS");
   const int kills = wanted != nullptr ? std::atoi(wanted) : 20;

@@ -1,7 +1,9 @@
 // Every verb once, and what is wrong usage.
 
 #include <cmath>
+#include <iterator>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -269,6 +271,34 @@ TEST(Quality, TableAndJsonAgree) {
   EXPECT_LE(first["percentile_5"], first["percentile_50"]);
 }
 
+/// The words of the first row below "worst of".
+std::vector<std::string> worst_row(const std::string& mesh) {
+  const Output output = run({"quality", mesh, "--metric", "mean-ratio", "--worst", "1"});
+  const auto lines = lines_of(output.out);
+  for (std::size_t i = 0; i + 2 < lines.size(); ++i) {
+    if (!lines[i].starts_with("worst of")) continue;
+    std::istringstream row(lines[i + 2]);
+    return {std::istream_iterator<std::string>(row), {}};
+  }
+  return {};
+}
+
+TEST(Quality, PlacesOfTheWorstHaveSixDigitsOfTheMeshAndJsonAll) {
+  using ::testing::ElementsAre;
+  const Folder folder;
+  const std::string flat = folder.file("flat.off", "OFF\n4 2 0\n0 0 0.1\n1 0 0.1\n1 1 0.1\n0.25 1 0.1\n3 0 1 2\n3 0 2 3\n");
+  EXPECT_THAT(worst_row(flat), ElementsAre("1", "triangle", "0.716711", "0.41667", "0.66667")) << "z is the same everywhere";
+  const auto json = json_of(run({"quality", flat, "--worst", "1", "--json"}));
+  EXPECT_NEAR(json["metrics"][0]["worst"][0]["centroid"][0].get<double>(), 1.25 / 3, 1e-15);
+  EXPECT_NEAR(json["metrics"][0]["worst"][0]["centroid"][2].get<double>(), 0.1, 1e-15);
+  const std::string far = folder.file("far.off", "OFF\n3 1 0\n4000000 0 0\n4000100 0 0\n4000000 100 0\n3 0 1 2\n");
+  EXPECT_THAT(worst_row(far), ElementsAre("0", "triangle", ::testing::_, "4000033.333", "33.333")) << "six digits would be 4.00003e+06";
+  const std::string upright = folder.file("upright.off", "OFF\n3 1 0\n0 0 0\n0 1 0\n0 0 1\n3 0 1 2\n");
+  EXPECT_THAT(worst_row(upright), ElementsAre("0", "triangle", ::testing::_, "0.00000", "0.33333", "0.33333")) << "another plane";
+  const std::string tiny = folder.file("tiny.off", "OFF\n3 1 0\n0 0 0\n3e-12 0 0\n0 3e-12 0\n3 0 1 2\n");
+  EXPECT_THAT(worst_row(tiny), ElementsAre("0", "triangle", ::testing::_, "1e-12", "1e-12"));
+}
+
 TEST(Quality, ElementsFileHasOneRowAnElementAndBlanksWhereUndefined) {
   const Folder folder;
   ASSERT_EQ(run({"quality", sample("mixed.vtk"), "--elements", folder / "q.csv"}).code, 0);
@@ -304,6 +334,26 @@ TEST(Convert, ThereAndBackKeepsEveryCoordinate) {
       ASSERT_TRUE(xa == xb && ya == yb) << extension << ": " << before[i] << " became " << after[i];
     }
   }
+}
+
+TEST(Wrote, IsSaidByAllThatWriteAMeshOrAPicture) {
+  const Folder folder;
+  const std::string off = folder / "a.off", picture = folder / "a.png";
+  const std::string path = folder / "a.vtk";
+  EXPECT_EQ(run({"convert", folder.file("t.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"), path}).out,
+            "wrote " + path + " (3 vertices, 1 element)\n");
+  EXPECT_THAT(run({"generate", "grid", "-o", off, "--size", "100"}).out, ::testing::StartsWith("wrote " + off + " ("));
+  const Output drawn = run({"render", off, "-o", picture, "--size", "64x48"});
+  if (drawn.code == 3 && drawn.err.find("EGL") != std::string::npos) GTEST_SKIP() << drawn.err;
+  if (drawn.err.find("without OpenGL") != std::string::npos) GTEST_SKIP() << drawn.err;
+  EXPECT_EQ(drawn.out, "wrote " + picture + " (64 x 48 pixels)\n");
+}
+
+TEST(Info, SaysInOneSentenceWhyCudaIsNotUsed) {
+  if (json_of(run({"info", "--json"}))["backends"][1]["usable"] == true) GTEST_SKIP() << "CUDA is used here";
+  const std::string text = run({"info"}).out;
+  EXPECT_THAT(text, HasSubstr("path   from the processor's memory, since CUDA is not usable: "));
+  EXPECT_THAT(text, ::testing::Not(HasSubstr("no cuda")));
 }
 
 TEST(Convert, SaysWhatIsLost) {

@@ -34,11 +34,11 @@ std::size_t edits_between(std::string_view a, std::string_view b) {
 std::optional<std::string_view> closest_word(std::string_view word, std::span<const std::string_view> known) {
   constexpr std::size_t kLongest = 64;  // longer ones are no slip of a finger
   if (word.size() > kLongest) return std::nullopt;
-  std::size_t least = word.size() / 3 + 1;  // one too many
+  std::size_t least = word.size() / 4 + 1;  // one too many
   std::vector<std::string_view> closest;
   for (const std::string_view candidate : known) {
     const std::size_t edits = edits_between(word, candidate);
-    if (edits > word.size() / 3 || edits > least) continue;
+    if (edits > word.size() / 4 || edits > least) continue;
     if (edits < least) closest.clear();
     least = edits;
     closest.push_back(candidate);

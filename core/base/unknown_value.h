@@ -10,7 +10,7 @@
 
 namespace dmoscope {
 
-/// The known word that `word` is most likely meant to be: at most one letter in three is wrong, missing, too many or swapped with its
+/// The known word that `word` is most likely meant to be: at most one letter in four is wrong, missing, too many or swapped with its
 /// neighbour; case does not matter. None where no word is that close, or several equally close.
 [[nodiscard]] std::optional<std::string_view> closest_word(std::string_view word, std::span<const std::string_view> known);
 

@@ -158,8 +158,8 @@ void print_summary(const Result& r) {
   print("  {:<16} {:>10} -> {}\n", "inverted", grouped(before.inverted), grouped(after.inverted));
   print_composite(r.run);
   print("  {}\n", r.outcome.sentence());
-  if (const std::string fell = r.options.goal.until_converged ? mean_given_up(r.run) : ""; !fell.empty())
-    print("  {} (--then mean)\n", fell);
+  const std::string fell = mean_given_up(r.run.parameters(), r.run.history().records(), r.run.moment().iteration);
+  if (r.options.goal.until_converged && !fell.empty()) print("  {} (--then mean)\n", fell);
   print("  {} in {:.3f} s, {}vertices/s on {}\n", counted(r.outcome.iterations, "iteration", "iterations"), r.seconds,
         with_prefix(r.visits_per_second()), on_cpu(r.run) ? counted(r.threads, "thread", "threads") : r.run.backend_reason());
   print("  wrote {}\n", r.options.output.string());
@@ -209,12 +209,16 @@ double smoothing_seconds(const Run& run) {
 /// Goes to the iteration that is written; says so where it is not the last.
 template <class Warn>
 void go_to_what_is_written(Run& run, const SmoothOptions& options, Progress& progress, const Warn& warn) {
-  const std::uint64_t last = run.history().records().size() - 1, best = best_iteration(run);
-  if (options.write == "last" || best == last) return;
-  run.seek({best}, progress);
+  const bool optimises = method_info(run.parameters().method).optimises;
+  // A number of iterations that was asked for is done, where it makes nothing worse.
+  if (options.write == "last" || (optimises && !options.goal.until_converged)) return;
+  const std::uint64_t ended = run.moment().iteration;
+  run.end_at_best(progress);
   run.sync_to_host();
+  const std::uint64_t best = run.moment().iteration;
+  if (optimises || best == ended) return;
   warn(fmt::format("{} {}. Wrote {}, the best one, instead of iteration {} (--write last writes the last)", run.parameters().method,
-                   kMayMakeWorse, iteration_name(best), last));
+                   kMayMakeWorse, iteration_name(best), ended));
 }
 
 /// Says what stays inverted, where to look and, if one does, which method gets further.
@@ -281,7 +285,7 @@ int smooth(const SmoothOptions& options) {
   const double seconds = smoothing_seconds(run);
   tell_missing_phase(run, outcome, warn);
   go_to_what_is_written(run, options, progress, warn);
-  outcome.inverted = run.history().records()[run.moment().iteration].statistics.inverted;
+  if (run.last_outcome()) outcome = *run.last_outcome();
 
   std::optional<Provenance> provenance;
   if (options.json || options.provenance) provenance = provenance_of(input->mesh, options.command_line);
@@ -315,7 +319,8 @@ void add_smooth(CLI::App& app, Action& action, const std::string& command_line) 
   add_goal_options(*subcommand, options->goal);
   subcommand
       ->add_option("--write", options->write,
-                   "What is written: best (by inverted elements, minimum and mean; of an optimising method the last) or last")
+                   "What is written: best (by inverted elements, then minimum, then mean; of an optimising method with --iterations the "
+                   "last) or last")
       ->type_name("best|last")
       ->capture_default_str();
   subcommand->add_option("--stats", options->stats, "Write the statistics of every iteration; row 0 is the input")->type_name("FILE.csv");

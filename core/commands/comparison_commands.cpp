@@ -55,7 +55,9 @@ void each(CommandContext& context, Arguments arguments) {
     limits.patience = arguments.size() > 1 ? to_count(arguments[1], 1) : limits.patience;
     limits.max_iterations = arguments.size() > 2 ? to_count(arguments[2], 1) : limits.max_iterations;
     for_runs(context, [&](Run& run) {
-      tell(context, fmt::format("{}: {}", run.title(), run.until_converged(limits, context.progress).sentence()));
+      (void)run.until_converged(limits, context.progress);
+      run.end_at_best(context.progress);
+      tell(context, fmt::format("{}: {}", run.title(), run.last_outcome()->sentence()));
     });
   } else if (what == "seek") {
     require(arguments, 2, 2);

@@ -39,8 +39,8 @@ void back(CommandContext& context, Arguments arguments) {
 void tell_ending(CommandContext& context, const Run& run, const Outcome& outcome) {
   if (outcome.inverted > 0)
     if (const auto left = find_left_inverted(run)) tell(context, left->sentence(), Message::Kind::Warning);
-  const std::string worse = worse_than_best(run.parameters(), best_iteration(run), run.moment().iteration);
-  if (!worse.empty()) tell(context, worse + " ('best' goes there)", Message::Kind::Warning);
+  const std::string worse = worse_than_best(run.parameters(), outcome.best.value_or(best_iteration(run)), outcome.ended);
+  if (!worse.empty()) tell(context, outcome.best ? worse : worse + " ('best' goes there)", Message::Kind::Warning);
 }
 void run(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
@@ -53,10 +53,25 @@ void until_converged(CommandContext& context, Arguments arguments) {
   if (!arguments.empty()) limits.patience = to_count(arguments[0], 1);
   if (arguments.size() > 1) limits.max_iterations = to_count(arguments[1], 1);
   Run& active = context.session.active();
-  const Outcome outcome = active.until_converged(limits, context.progress);
+  (void)active.until_converged(limits, context.progress);
+  active.end_at_best(context.progress);
+  const Outcome outcome = *active.last_outcome();
+  const auto& records = active.history().records();
   tell(context, outcome.sentence());
+  tell(context, course_text(records, active.moment().iteration));
   tell_ending(context, active, outcome);
-  if (const std::string fell = mean_given_up(active); !fell.empty()) tell(context, fell + " ('then mean')");
+  const std::string fell = mean_given_up(active.parameters(), records, active.moment().iteration);
+  if (!fell.empty()) tell(context, fell + " ('then mean')");
+}
+void raise_mean(CommandContext& context, Arguments arguments) {
+  require(arguments, 0, 2);
+  MeanPhase phase;
+  if (!arguments.empty()) phase.patience = to_count(arguments[0], 1);
+  if (!context.session.active().parameters().then_mean) {
+    change_run(context, [&](RunParameters& p) { p.then_mean = phase; });
+    context.done.push_back(fmt::format("then mean {}", phase.patience));
+  }
+  until_converged(context, arguments);
 }
 void best(CommandContext& context, Arguments arguments) {
   require(arguments, 0, 0);
@@ -112,7 +127,12 @@ std::span<const CommandRow> stepping_commands() {
       {{"step", "step vertex|class|iteration [COUNT]", "Steps forwards."}, step},
       {{"back", "back vertex|class|iteration [COUNT]", "Steps back."}, back},
       {{"run", "run ITERATIONS", "Runs that many iterations."}, run},
-      {{"until-converged", "until-converged [PATIENCE [MAX]]", "Runs until nothing moves or no minimum rises any more."}, until_converged},
+      {{"until-converged", "until-converged [PATIENCE [MAX]]",
+        "Runs until nothing moves or no minimum rises any more, and goes back to the best iteration."},
+       until_converged},
+      {{"raise-mean", "raise-mean [PATIENCE [MAX]]",
+        "Then mean and until-converged in one: as a new run beside the active one, where that has moved without a second phase."},
+       raise_mean},
       {{"visit", "visit VERTEX|A-B...", "Visits these vertices now, out of their turn."}, visit},
       {{"seek", "seek ITERATION [VISITS [EDITS]]", "Goes to any iteration, or into its midst."}, seek},
       {{"look-at", "look-at ITERATION [VISITS [EDITS]]", "Goes there as seek does, but for a look: undo knows nothing of it."},

@@ -43,19 +43,7 @@ std::optional<LeftInverted> find_left_inverted(const Run& run) {
   return found;
 }
 
-std::uint64_t best_iteration(const Run& run) {
-  const auto& records = run.history().records();
-  if (run.parameters().combination) return records.size() - 1;
-  const bool optimises = method_info(run.parameters().method).optimises;
-  const auto worth = [optimises](const IterationRecord& record) {
-    const Statistics& s = record.statistics;
-    return std::tuple(-static_cast<double>(s.inverted), s.minimum, s.movable_minimum, optimises ? 0.0 : s.mean);
-  };
-  std::uint64_t best = 0;
-  for (std::uint64_t i = 1; i < records.size(); ++i)
-    if (!(worth(records[i]) < worth(records[best]))) best = i;
-  return best;
-}
+std::uint64_t best_iteration(const Run& run) { return best_iteration(run.parameters(), run.history().records()); }
 
 std::string iteration_name(std::uint64_t iteration) {
   return iteration == 0 ? std::string("the input itself") : fmt::format("iteration {}", iteration);

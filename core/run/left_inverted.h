@@ -24,9 +24,7 @@ struct LeftInverted {
 /// None where no element is inverted. Brings the positions; costs a look at each element.
 [[nodiscard]] std::optional<LeftInverted> find_left_inverted(const Run& run);
 
-/// The best iteration that a run passed through: fewest inverted elements, then greatest minimum, then greatest movable minimum; of a
-/// method that does not optimise then greatest mean; among equals the last. Of a run for two aims, which gives up some of the first for the
-/// second, the last.
+/// The best iteration that a run passed through: see BestState.
 [[nodiscard]] std::uint64_t best_iteration(const Run& run);
 
 /// What is said of the methods that do not optimise, wherever they are chosen or told of.

@@ -17,6 +17,7 @@
 #include "core/input/input_mesh.h"
 #include "core/mesh/colouring.h"
 #include "core/quality/quality.h"
+#include "core/run/best_state.h"
 #include "core/run/block_plan.h"
 #include "core/run/edit.h"
 #include "core/run/history.h"
@@ -35,15 +36,17 @@ enum class StepUnit { Vertex, Class, Iteration };
 struct ConvergenceLimits {
   std::uint64_t patience = 200;  // iterations without a rise of either minimum by `rise`
   std::uint64_t max_iterations = 10000;
-  double rise = 1e-6;
+  double rise = kLeastRise;
 };
 enum class StopReason { NothingMoved, NoRise, IterationLimit };
 struct Outcome {
   StopReason reason = StopReason::IterationLimit;
   std::uint64_t iterations = 0;               // done by this call
+  std::uint64_t ended = 0;                    // the iteration that it ended with
   std::uint64_t last_rise = 0;                // iteration in which a minimum last rose by limits.rise; 0: never
   std::optional<std::uint64_t> mean_since{};  // the iteration after which the mean was raised, where that phase was reached
   Index inverted = 0;                         // elements, at the end
+  std::optional<std::uint64_t> best{};        // the iteration that end_at_best() went back to
   ConvergenceLimits limits;
   /// "converged: no vertex moved any more; the minimum last rose in iteration 9"
   [[nodiscard]] std::string sentence() const;
@@ -166,6 +169,8 @@ class Run {
   /// Why the last of these two calls stopped; none after any other step.
   [[nodiscard]] const std::optional<Outcome>& last_outcome() const noexcept { return last_outcome_; }
   Outcome until_converged(const ConvergenceLimits& limits, Progress& progress, const AfterIteration& after = {});
+  /// After one of these: goes back to the best iteration (see BestState), where that is not the last; last_outcome() says so.
+  void end_at_best(Progress& progress);
 
  private:
   [[nodiscard]] SmoothingTask task() const;
@@ -184,6 +189,7 @@ class Run {
   void visit_block(std::uint64_t count);
   void end_iteration();
   void record(const RunProgress& done);
+  void copy_unkept(std::vector<Vec3>& copy) const;
   [[nodiscard]] bool attempts_to_untangle(std::uint64_t iteration) const;
   Outcome advance(const ConvergenceLimits& limits, bool stop_when_still, std::uint64_t from, Progress& progress,
                   const AfterIteration& after);

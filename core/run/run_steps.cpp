@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/stopwatch.h"
+#include "core/run/left_inverted.h"
 #include "core/run/run.h"
 #include "core/run/sweep_after.h"
 #include "core/smooth/execution/method_table.h"
@@ -16,6 +17,7 @@ std::string Outcome::sentence() const {
       last_rise == 0 ? "the minimum rose in none of these iterations" : fmt::format("the minimum last rose in iteration {}", last_rise);
   if (inverted > 0) rose += fmt::format("; {} element{} still inverted", inverted, inverted == 1 ? " is" : "s are");
   if (mean_since) rose += fmt::format("; the mean was raised from iteration {} on", *mean_since + 1);
+  if (best) rose += fmt::format("; back at {}, the best one", iteration_name(*best));
   switch (reason) {
     case StopReason::NothingMoved:
       return fmt::format("converged: no vertex moved any more; {}", rose);
@@ -194,6 +196,24 @@ Outcome Run::until_converged(const ConvergenceLimits& limits, Progress& progress
   return advance(limits, true, at_.moment.iteration, progress, after);
 }
 
+void Run::end_at_best(Progress& progress) {
+  if (!last_outcome_) return;
+  Outcome outcome = *last_outcome_;
+  const std::uint64_t best = best_iteration(parameters_, std::span(history_.records()).first(outcome.ended + 1));
+  if (best == outcome.ended) return;
+  seek({best}, progress);
+  outcome.best = best;
+  outcome.inverted = history_.records()[best].statistics.inverted;
+  last_outcome_ = outcome;
+}
+
+/// The positions at the end of an iteration, where the host has them and the history does not; else none.
+void Run::copy_unkept(std::vector<Vec3>& copy) const {
+  copy.clear();
+  if (history_.kept(at_.moment.iteration) || !positions_.host_is_at(at_.moment)) return;
+  copy.assign(positions_.host().begin(), positions_.host().end());
+}
+
 /// `from`: the iteration that counts as the begin; those behind it that were done before are gone through by their records.
 Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std::uint64_t from, Progress& progress,
                      const AfterIteration& after) {
@@ -207,6 +227,9 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
   double minimum = start.minimum, movable = start.movable_minimum, mean = start.mean;
   std::uint64_t since_rise = 0, quiet = 0;  // quiet: iterations in a row in which nothing moved
   bool stopped = false;
+  BestState best(parameters_);
+  for (const IterationRecord& record : std::span(history_.records()).first(from + 1)) best.take(record);
+  std::vector<Vec3> positions_of_best;  // where the history has no room for them, so that nobody need compute them again
   while (!stopped && outcome.iterations < limits.max_iterations) {
     const bool whole = at_.moment.visits == 0;
     const bool anew = reached == at_.moment.iteration;
@@ -219,6 +242,8 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
     ++since_rise;
     const IterationRecord record = history_.records()[reached];
     const Statistics& now = record.statistics;
+    best.take(record);
+    if (anew && stop_when_still && best.iteration() == reached) copy_unkept(positions_of_best);
     // As differences: where nothing is movable both are infinite, and that is no rise.
     if (now.minimum - minimum >= limits.rise || now.movable_minimum - movable >= limits.rise) {
       since_rise = 0;
@@ -244,6 +269,8 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
     stopped = stop_when_still && (still || since_rise >= limits.patience);
     if (stopped) outcome.reason = still ? StopReason::NothingMoved : StopReason::NoRise;
   }
+  if (!positions_of_best.empty() && best.iteration() != reached) history_.hold(best.iteration(), positions_of_best, pool_.get());
+  outcome.ended = reached;
   last_outcome_ = outcome;
   return outcome;
 }

@@ -50,6 +50,7 @@ RunView view_of(Run& run, bool percentiles) {
   view.edits_done = run.edits().done_by(run.moment());
   view.history_note = run.history().sentence();
   if (run.last_outcome()) view.last_outcome = run.last_outcome()->sentence();
+  if (run.last_outcome() && run.last_outcome()->best) view.ended = run.last_outcome()->ended;
   view.best_iteration = best_iteration(run);
   return view;
 }

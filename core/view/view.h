@@ -94,6 +94,7 @@ struct RunView {
   std::size_t edits = 0, edits_done = 0;      // all of its path, and those up to its moment; see edit.h
   std::string history_note;                   // History::sentence()
   std::string last_outcome;                   // why it last stopped, may be empty
+  std::optional<std::uint64_t> ended{};       // the iteration that it ended with before it went back to the best, where it did
   std::uint64_t best_iteration = 0;           // see best_iteration()
   std::shared_ptr<const RunEnding> ending{};  // see Endings
   /// Whether there is no better iteration to go to.

@@ -229,6 +229,27 @@ TEST(Smooth, SaysWhyItDidNotConverge) {
   EXPECT_THAT(output.err, HasSubstr("not converged"));
 }
 
+/// The minimum rises no more, and the mean falls: what is written is where it was greatest.
+TEST(Smooth, UntilConvergedWritesTheBestByMinimumThenMean) {
+  const Folder folder;
+  const auto best = smooth(sample("random.off"), folder / "best.off", {"--until-converged", "--stats", folder / "s.csv"});
+  const auto last = smooth(sample("random.off"), folder / "last.off", {"--until-converged", "--write", "last"});
+  const Table table = read_table(folder / "s.csv");
+  const std::size_t written = best["written_iteration"], ended = best["iterations"];
+  ASSERT_LT(written, ended) << "else this test shows nothing";
+  EXPECT_EQ(last["written_iteration"], ended);
+  EXPECT_GT(best["after"]["minimum"].get<double>(), last["after"]["minimum"].get<double>() - 1e-6);
+  EXPECT_GT(best["after"]["mean"], last["after"]["mean"]);
+  for (std::size_t i = best["last_rise"]; i < table.rows.size(); ++i)
+    EXPECT_LE(table.number(i, "mean_quality"), best["after"]["mean"].get<double>()) << i;
+  EXPECT_NE(read_file(folder / "best.off"), read_file(folder / "last.off"));
+  // A number that is asked for is done; and those iterations are the same.
+  const auto counted = smooth(sample("random.off"), folder / "counted.off", {"--iterations", std::to_string(written)});
+  EXPECT_EQ(read_file(folder / "counted.off"), read_file(folder / "best.off"));
+  smooth(sample("random.off"), folder / "all.off", {"--iterations", std::to_string(ended)});
+  EXPECT_EQ(read_file(folder / "all.off"), read_file(folder / "last.off"));
+}
+
 TEST(Smooth, RefusesSurfaces) {
   const Folder folder;
   const std::string corner = folder.file("corner.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 2 3\n3 0 3 1\n");

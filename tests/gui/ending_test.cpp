@@ -128,6 +128,39 @@ TEST_F(Ending, WhatOptimisesEndsAtItsBest) {
   EXPECT_TRUE(best_is_possible());
 }
 
+TEST_F(Ending, WhatTheMeanLostIsSaidAndGotBackByOneClick) {
+  good("generate random 400");
+  good("until-converged");
+  const RunView ended = run();
+  const Statistics &input = ended.records.front().statistics, lost = ended.records[ended.moment.iteration].statistics;
+  ASSERT_LT(lost.mean, input.mean) << "else this test shows nothing";
+  ASSERT_FALSE(notice().empty());
+  EXPECT_EQ(notice().sentences[0], fmt::format("Minimum {} -> {}, mean {} -> {}.", four_digits(input.minimum), four_digits(lost.minimum),
+                                               four_digits(input.mean), four_digits(lost.mean)));
+  EXPECT_THAT(notice().sentences[1], HasSubstr("The mean fell from "));
+  ASSERT_LT(ended.moment.iteration + 1, ended.records.size()) << "it has gone back";
+  EXPECT_THAT(notice().sentences[2], HasSubstr("went on to iteration " + std::to_string(ended.records.size() - 1)));
+  good("click notice:raise-mean");
+  ASSERT_EQ(session()->runs.size(), 2U);
+  EXPECT_TRUE(run().parameters.then_mean);
+  const Statistics raised = run().records[run().moment.iteration].statistics;
+  EXPECT_GT(raised.mean, lost.mean + 0.005);
+  EXPECT_GT(raised.minimum, lost.minimum - 1e-6);
+  EXPECT_TRUE(notice().empty()) << "there is no more to be had";
+}
+
+TEST_F(Ending, LaplaceIsToldWhatItMadeWorse) {
+  good("generate random 400");
+  good("method laplace");
+  good("run 30");
+  const Statistics &input = run().records.front().statistics, now = run().records[30].statistics;
+  ASSERT_LT(now.minimum, input.minimum) << "else this test shows nothing";
+  EXPECT_THAT(notice().sentences, ::testing::Contains(HasSubstr("laplace made elements worse: ")));
+  good("until-converged 3 20");
+  EXPECT_THAT(notice().sentences.back(), HasSubstr("the run is back there."));
+  EXPECT_FALSE(has_item("notice:best"));
+}
+
 TEST_F(Ending, WhatFloatsWouldShowIsANoteOnTheMesh) {
   // Far from the origin floats lie 1/16 apart: a tip 1/64 beside the middle of its base is above it for them. 4 sqrt(3) times the area of
   // 1/4, by the sum of the squared sides: 2 with the tip above the middle, 2 + 2/64^2 beside it.

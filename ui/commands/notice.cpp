@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/run/left_inverted.h"
+#include "core/run/mean_given_up.h"
 #include "ui/commands/command_words.h"
 #include "ui/state/format.h"
 
@@ -22,6 +23,40 @@ void tell_left_inverted(Notice& notice, const RunEnding& ending) {
                            "a new run by this method, beside this one; Run starts it"});
 }
 
+std::string as_sentence(std::string text) {
+  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') text.front() = static_cast<char>(text.front() - 'a' + 'A');
+  return text + ".";
+}
+
+/// Of a method that promises nothing.
+void tell_worse(Notice& notice, const RunView& run) {
+  const std::uint64_t at = run.moment.iteration;
+  if (const std::string worse = made_worse(run.parameters, run.records.whole(), at); !worse.empty())
+    notice.sentences.push_back(worse + ".");
+  const std::string worse = worse_than_best(run.parameters, run.best_iteration, run.ended.value_or(at));
+  if (worse.empty()) return;
+  notice.sentences.push_back(worse + (run.ended ? "; the run is back there." : "."));
+  if (run.ended) return;
+  notice.offers.push_back({"notice:best", fmt::format("Go to {}", iteration_name(run.best_iteration)), "best",
+                           "the best by inverted elements, minimum and mean; the run's later iterations stay on the timeline"});
+}
+
+/// What raising the worst element cost the others.
+void tell_mean_given_up(Notice& notice, const RunView& run) {
+  const std::string fell = mean_given_up(run.parameters, run.records.whole(), run.moment.iteration);
+  if (fell.empty()) return;
+  notice.sentences.push_back(as_sentence(course_text(run.records.whole(), run.moment.iteration)));
+  notice.sentences.push_back(as_sentence(fell));
+  if (run.ended)
+    notice.sentences.push_back(
+        fmt::format("The run went on to iteration {} and is back at {}, the best one: from there on the minimum rose "
+                    "no more, and the mean fell.",
+                    count(*run.ended), count(run.moment.iteration)));
+  notice.offers.push_back({"notice:raise-mean", "Raise the mean", "raise-mean",
+                           "then mean: a new run beside this one, which raises the mean once the minimum has converged, and keeps the "
+                           "minimum; it starts at once"});
+}
+
 }  // namespace
 
 Notice notice_of(const SessionView& session) {
@@ -31,11 +66,8 @@ Notice notice_of(const SessionView& session) {
   if (run.last_outcome.empty()) return notice;
   notice.key = fmt::format("{} {} {}", run.id, run.moment.iteration, run.last_outcome);
   if (run.ending) tell_left_inverted(notice, *run.ending);
-  const std::string worse = worse_than_best(run.parameters, run.best_iteration, run.moment.iteration);
-  if (worse.empty()) return notice;
-  notice.sentences.push_back(worse + ".");
-  notice.offers.push_back({"notice:best", fmt::format("Go to {}", iteration_name(run.best_iteration)), "best",
-                           "the best by inverted elements, minimum and mean; the run's later iterations stay on the timeline"});
+  tell_worse(notice, run);
+  tell_mean_given_up(notice, run);
   return notice;
 }
 

@@ -23,7 +23,8 @@ struct Notice {
   [[nodiscard]] bool empty() const noexcept { return sentences.empty(); }
 };
 
-/// Of the active run: elements that stay inverted, and that it has passed through a better iteration. Empty where neither is so.
+/// Of the active run: elements that stay inverted, that it has passed through a better iteration, and what the mean lost. Empty where
+/// nothing of this is so.
 [[nodiscard]] Notice notice_of(const SessionView& session);
 
 /// `notice off|on`: takes away the one that is on show, until another run ends; shows it again.

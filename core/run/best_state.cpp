@@ -1,0 +1,50 @@
+#include "core/run/best_state.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "core/smooth/execution/method_table.h"
+
+namespace dmoscope {
+
+BestState::BestState(const RunParameters& parameters)
+    : rule_(parameters.combination                     ? Rule::Last
+            : method_info(parameters.method).optimises ? Rule::MinimumThenMean
+                                                       : Rule::Values) {}
+
+void BestState::take(const IterationRecord& record) {
+  if (!first_ && !is_better(record.statistics)) return;
+  if (first_) std::tie(minimum_, movable_) = std::tuple(record.statistics.minimum, record.statistics.movable_minimum);
+  first_ = false;
+  best_ = record.iteration;
+  statistics_ = record.statistics;
+}
+
+bool BestState::rises(const Statistics& now) const {
+  if (now.inverted != statistics_.inverted) return now.inverted < statistics_.inverted;
+  // As differences: where nothing is movable both are infinite, and that is no rise.
+  return now.minimum - minimum_ >= kLeastRise || now.movable_minimum - movable_ >= kLeastRise;
+}
+
+bool BestState::is_better(const Statistics& now) {
+  if (rule_ == Rule::Last) return true;
+  if (rule_ == Rule::MinimumThenMean) {
+    if (!rises(now))
+      return now.inverted == statistics_.inverted && !(now.minimum < minimum_) && !(now.movable_minimum < movable_) &&
+             !(now.mean < statistics_.mean);
+    const bool untangled = now.inverted < statistics_.inverted;
+    minimum_ = untangled ? now.minimum : std::max(minimum_, now.minimum);
+    movable_ = untangled ? now.movable_minimum : std::max(movable_, now.movable_minimum);
+    return true;
+  }
+  const auto worth = [](const Statistics& s) { return std::tuple(-static_cast<double>(s.inverted), s.minimum, s.movable_minimum, s.mean); };
+  return !(worth(now) < worth(statistics_));
+}
+
+std::uint64_t best_iteration(const RunParameters& parameters, std::span<const IterationRecord> records) {
+  BestState best(parameters);
+  for (const IterationRecord& record : records) best.take(record);
+  return best.iteration();
+}
+
+}  // namespace dmoscope

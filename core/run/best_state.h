@@ -1,0 +1,43 @@
+#pragma once
+// Which of the iterations that a run passes through is the best.
+
+#include <cstdint>
+#include <span>
+
+#include "core/run/history.h"
+#include "core/run/parameters.h"
+
+namespace dmoscope {
+
+/// What counts as a rise of a quality over iterations: smaller ones are no reason to go on, nor to give up any of the mean.
+inline constexpr double kLeastRise = 1e-6;
+
+/// The best iteration, from records that are told one after another, the input's first.
+/// - Of a method that optimises: of those since an element was last untangled or a minimum last rose by kLeastRise, the one of greatest
+/// mean.
+///   The minimum does not rise noticeably any more there, but goes on to cost the mean.
+/// - Of another method: fewest inverted elements, then greatest minimum, then greatest movable minimum, then greatest mean.
+/// - Of a run for two aims, which gives up some of the first for the second: the last.
+/// Among equals the last.
+class BestState {
+ public:
+  explicit BestState(const RunParameters& parameters);
+  void take(const IterationRecord& record);
+  [[nodiscard]] std::uint64_t iteration() const noexcept { return best_; }
+
+ private:
+  enum class Rule { MinimumThenMean, Values, Last };
+  [[nodiscard]] bool is_better(const Statistics& now);
+  [[nodiscard]] bool rises(const Statistics& now) const;
+
+  Rule rule_;
+  bool first_ = true;
+  std::uint64_t best_ = 0;
+  Statistics statistics_;                 // of the best
+  double minimum_ = 0.0, movable_ = 0.0;  // Rule::MinimumThenMean: at the last rise
+};
+
+/// Of all these records, which must not be empty.
+[[nodiscard]] std::uint64_t best_iteration(const RunParameters& parameters, std::span<const IterationRecord> records);
+
+}  // namespace dmoscope

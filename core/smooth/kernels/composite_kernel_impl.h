@@ -32,6 +32,25 @@ struct Lists {
   }
 };
 
+/// The least of a metric over the corners that stay as they are when corner `moving` moves: found once for all places.
+template <Metric M, class V, class Ideal, std::size_t N, class Corners>
+formulas::RealOf<V> least_elsewhere(const formulas::CorneredSolid<V, Ideal, N, Corners>& solid, Index moving) {
+  using scalar::min;
+  auto least = scalar::constant<formulas::RealOf<V>>(HUGE_VAL);
+  for (std::size_t i = 0; i < Corners::kTable.size(); ++i) {
+    const formulas::CornerTable c = formulas::row_of<Corners>(i);
+    if (c[0] == moving || c[1] == moving || c[2] == moving || c[3] == moving) continue;
+    const V a = solid.at[c[0]], u = solid.at[c[1]] - a, v = solid.at[c[2]] - a, w = solid.at[c[3]] - a;
+    least = min(least, formulas::SolidFormula<M>::template corner<Ideal>(u, v, w, formulas::determinant(u, v, w)));
+  }
+  return least;
+}
+/// Is an element judged by its corners, of which some stay?
+template <class Shape>
+inline constexpr bool kHasCorners = requires(const Shape& shape) {
+  least_elsewhere<Metric::MeanRatio>(shape, Index{});
+};
+
 /// What is kept of one metric from a pack of places to the next.
 template <class D>
 struct Sieve {
@@ -49,7 +68,19 @@ struct Sieve {
   // Values of the elements with the vertex at the places that were looked at last:
   std::array<D, kMaxSimplices> quality;
   std::array<D, kMaxOthers> others;
+  std::array<D, kMaxOthers> elsewhere;  // of their corners that stay
 };
+
+/// Finds what stays of the elements that are no simplices.
+template <Metric M, class Frame, class D>
+void find_elsewhere(const StarListsIn<Frame, double>& star, Sieve<D>& sieve) {
+  std::size_t k = 0;
+  star.for_others([&](const auto& element) {
+    const auto shape = element.with(OffsetIn<Frame, D>{});
+    if constexpr (kHasCorners<std::remove_cvref_t<decltype(shape)>>) sieve.elsewhere[k] = least_elsewhere<M>(shape, element.kMoving);
+    ++k;
+  });
+}
 
 /// `least`: of the simplices.
 template <Metric M, class Frame, class D, class Hopeful>
@@ -60,7 +91,12 @@ D least_of_others(const StarListsIn<Frame, double>& star, const OffsetIn<Frame, 
   star.for_others([&](const auto& element) {
     if (!goes_on) return;
     const auto shape = element.with(p);
-    if (sieve.keeps_others) {
+    if constexpr (kHasCorners<std::remove_cvref_t<decltype(shape)>>) {
+      const D around = formulas::metric_around<M>(shape, element.kMoving);
+      if (sieve.keeps_others) sieve.others[k] = min(sieve.elsewhere[k], around);
+      ++k;
+      least = min(least, around);
+    } else if (sieve.keeps_others) {
       const auto found = formulas::metric_whole_and_around<M>(shape, element.kMoving);
       sieve.others[k++] = found.whole;
       least = min(least, found.around);
@@ -130,6 +166,8 @@ class Kernel {
     if (task.second == Second::Metric)
       second_metric_ =
           with_metric_of<Frame>(task.metric, []<Metric Other>() -> SecondMetric<Frame, D> { return &second_metric<Other, Frame, D>; });
+    if constexpr (formulas::kSignTellsInversion<M, Point> && formulas::kDefinedForOthers<M, Point>)
+      if (first_.keeps_others) find_elsewhere<M, Frame>(task.star, first_);
     const auto n = static_cast<std::size_t>(task_.points);
     for (std::size_t i = 0; i < n; ++i) part_[i] = static_cast<double>(i) / static_cast<double>(n - 1) - 0.5;
   }

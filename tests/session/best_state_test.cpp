@@ -123,7 +123,7 @@ TEST_F(EndAtBest, LaterIterationsOfBeforeDoNotCount) {
 }
 
 TEST_F(EndAtBest, LaplaceIsToldToHaveMadeElementsWorse) {
-  open();
+  say("generate coast");
   say("method laplace");
   say("until-converged 5 50");
   ASSERT_TRUE(run().last_outcome()->best);

@@ -41,9 +41,11 @@ void iterate_each(CommandContext& context, std::uint64_t iterations) {
 }
 
 void each(CommandContext& context, Arguments arguments) {
-  require(arguments, 1, 3);
+  require(arguments, 1, 4);
   (void)context.session.active();
   const std::string& what = arguments[0];
+  const bool to_best = what == "until-converged" && arguments.size() > 1 && arguments[1] == "best";
+  if (!to_best) require(arguments, 1, 3);
   if (what == "step" || what == "run") {
     require(arguments, what == "run" ? 2 : 1, 2);
     iterate_each(context, count_or(arguments, 1, 1));
@@ -52,11 +54,12 @@ void each(CommandContext& context, Arguments arguments) {
     for_runs(context, [&](Run& run) { run.back(StepUnit::Iteration, context.progress); });
   } else if (what == "until-converged") {
     ConvergenceLimits limits;
-    limits.patience = arguments.size() > 1 ? to_count(arguments[1], 1) : limits.patience;
-    limits.max_iterations = arguments.size() > 2 ? to_count(arguments[2], 1) : limits.max_iterations;
+    const Arguments numbers = arguments.subspan(to_best ? 2 : 1);
+    if (!numbers.empty()) limits.patience = to_count(numbers[0], 1);
+    if (numbers.size() > 1) limits.max_iterations = to_count(numbers[1], 1);
     for_runs(context, [&](Run& run) {
       (void)run.until_converged(limits, context.progress);
-      run.end_at_best(context.progress);
+      if (to_best) run.end_at_best(context.progress);
       tell(context, fmt::format("{}: {}", run.title(), run.last_outcome()->sentence()));
     });
   } else if (what == "seek") {
@@ -180,7 +183,7 @@ void compare(CommandContext& context, Arguments arguments) {
 
 std::span<const CommandRow> comparison_commands() {
   static const std::vector<CommandRow> table{
-      {{"each", "each step|run|back|until-converged|seek|reset [N [MAX]]", "Does that with every run, iterations by turns."}, each},
+      {{"each", "each step|run|back|until-converged [best]|seek|reset [N [MAX]]", "Does that with every run, iterations by turns."}, each},
       {{"compare", "compare methods|metrics [ITERATIONS] | compare orders N [ITERATIONS]",
         "Adds runs like the active one by every method, for every metric, or in N shuffled orders, and takes all to the same iteration."},
        compare},

@@ -48,13 +48,15 @@ void run(CommandContext& context, Arguments arguments) {
   tell_ending(context, active, active.iterate(to_count(arguments[0]), context.progress));
 }
 void until_converged(CommandContext& context, Arguments arguments) {
+  const bool to_best = !arguments.empty() && arguments[0] == "best";
+  if (to_best) arguments = arguments.subspan(1);
   require(arguments, 0, 2);
   ConvergenceLimits limits;
   if (!arguments.empty()) limits.patience = to_count(arguments[0], 1);
   if (arguments.size() > 1) limits.max_iterations = to_count(arguments[1], 1);
   Run& active = context.session.active();
   (void)active.until_converged(limits, context.progress);
-  active.end_at_best(context.progress);
+  if (to_best) active.end_at_best(context.progress);
   const Outcome outcome = *active.last_outcome();
   const auto& records = active.history().records();
   tell(context, outcome.sentence());
@@ -71,7 +73,9 @@ void raise_mean(CommandContext& context, Arguments arguments) {
     change_run(context, [&](RunParameters& p) { p.then_mean = phase; });
     context.done.push_back(fmt::format("then mean {}", phase.patience));
   }
-  until_converged(context, arguments);
+  std::vector<std::string> words{"best"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  until_converged(context, words);
 }
 void best(CommandContext& context, Arguments arguments) {
   require(arguments, 0, 0);
@@ -127,8 +131,8 @@ std::span<const CommandRow> stepping_commands() {
       {{"step", "step vertex|class|iteration [COUNT]", "Steps forwards."}, step},
       {{"back", "back vertex|class|iteration [COUNT]", "Steps back."}, back},
       {{"run", "run ITERATIONS", "Runs that many iterations."}, run},
-      {{"until-converged", "until-converged [PATIENCE [MAX]]",
-        "Runs until nothing moves or no minimum rises any more, and goes back to the best iteration."},
+      {{"until-converged", "until-converged [best] [PATIENCE [MAX]]",
+        "Runs until nothing moves or no minimum rises any more; with best, goes back to the best iteration then."},
        until_converged},
       {{"raise-mean", "raise-mean [PATIENCE [MAX]]",
         "Then mean and until-converged in one: as a new run beside the active one, where that has moved without a second phase."},

@@ -130,7 +130,7 @@ TEST_F(Ending, WhatOptimisesEndsAtItsBest) {
 
 TEST_F(Ending, WhatTheMeanLostIsSaidAndGotBackByOneClick) {
   good("generate random 400");
-  good("until-converged");
+  good("until-converged best");
   const RunView ended = run();
   const Statistics &input = ended.records.front().statistics, lost = ended.records[ended.moment.iteration].statistics;
   ASSERT_LT(lost.mean, input.mean) << "else this test shows nothing";
@@ -156,7 +156,7 @@ TEST_F(Ending, LaplaceIsToldWhatItMadeWorse) {
   good("method laplace");
   good("run 30");
   EXPECT_THAT(notice().sentences, ::testing::Contains("laplace made elements worse: 2 are inverted now, 0 before."));
-  good("until-converged 3 20");
+  good("until-converged best 3 20");
   EXPECT_THAT(notice().sentences.back(), HasSubstr("the run is back there."));
   EXPECT_FALSE(has_item("notice:best"));
 }

@@ -117,7 +117,7 @@ TEST_F(ViewCommands, GoToPutsTheElementInTheMiddle) {
 
 TEST_F(ViewCommands, SpaceRunsOrStops) {
   run("run-pause");
-  EXPECT_EQ(posted_, std::vector<std::string>{"until-converged"});
+  EXPECT_EQ(posted_, std::vector<std::string>{"until-converged best"});
   busy_ = true;
   run("run-pause");
   EXPECT_TRUE(cancelled_);

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "core/base/same_bits.h"
+#include "core/run/left_inverted.h"
 #include "core/run/run.h"
 #include "tests/session/spoken_session.h"
 #include "tests/support/meshes.h"
@@ -68,7 +69,7 @@ class EndAtBest : public testing::SpokenSession {
 
 TEST_F(EndAtBest, AConvergedRunGoesBackAndSaysSo) {
   open();
-  say("until-converged");
+  say("until-converged best");
   const std::uint64_t last = run().history().records().size() - 1, best = best_iteration(run().parameters(), run().history().records());
   ASSERT_LT(best, last) << "else this test shows nothing";
   EXPECT_EQ(run().moment(), (Moment{best}));
@@ -114,18 +115,26 @@ TEST_F(EndAtBest, ANumberOfIterationsThatWasAskedForIsDone) {
   EXPECT_FALSE(run().last_outcome()->best);
 }
 
+TEST_F(EndAtBest, WhoDoesNotAskForTheBestStaysAtTheEnd) {
+  open();
+  say("until-converged");
+  EXPECT_EQ(run().moment(), (Moment{run().history().records().size() - 1}));
+  say("each until-converged best");
+  EXPECT_EQ(run().moment(), (Moment{best_iteration(run())}));
+}
+
 TEST_F(EndAtBest, LaterIterationsOfBeforeDoNotCount) {
   open();
   say("run 30");
   say("seek 2");
-  say("until-converged 1 3");
+  say("until-converged best 1 3");
   EXPECT_LE(run().moment(), (Moment{5}));
 }
 
 TEST_F(EndAtBest, LaplaceIsToldToHaveMadeElementsWorse) {
   say("generate coast");
   say("method laplace");
-  say("until-converged 5 50");
+  say("until-converged best 5 50");
   ASSERT_TRUE(run().last_outcome()->best);
   EXPECT_THAT(messages_, ::testing::Contains(HasSubstr("laplace may make elements worse: the best iteration was ")));
   EXPECT_THAT(messages_, ::testing::Each(Not(HasSubstr("('best' goes there)")))) << "it has gone there";

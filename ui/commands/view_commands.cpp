@@ -216,7 +216,7 @@ void add_session_shortcuts(CommandTable& table, ViewState& state, const CommandH
     } else if (host.busy()) {
       host.cancel();
     } else {
-      host.post("until-converged");
+      host.post("until-converged best");
     }
   });
   table.add({"cancel", "cancel", "stops what runs and forgets what waits"}, [&host](Arguments words) {

@@ -41,7 +41,7 @@ constexpr std::array kActions{
 
     Action{"run-pause", "Run", "Run / pause", "Space", "run-pause", Needs::Mesh},
     Action{"run-10", "Run", "Run 10 iterations", "Shift+N", "run 10", Needs::MeshAndIdle},
-    Action{"until-converged", "Run", "Until converged", "U", "until-converged", Needs::MeshAndIdle},
+    Action{"until-converged", "Run", "Until converged", "U", "until-converged best", Needs::MeshAndIdle},
     Action{"cancel", "Run", "Cancel", "Shift+Escape", "cancel", Needs::Work},
     Action{"step-iteration", "Run", "Next iteration", "N", "step iteration", Needs::MeshAndIdle, true},
     Action{"step-class", "Run", "Next colour class", "C", "step class", Needs::MeshAndIdle},
@@ -72,7 +72,7 @@ constexpr std::array kActions{
     Action{"every-order", "Compare", "Same run, 10 shuffled orders", "", "compare orders 10", Needs::MeshAndIdle},
     Action{"each-step", "Compare", "Every run: next iteration", "Ctrl+N", "each step", Needs::MeshAndIdle, true},
     Action{"each-10", "Compare", "Every run: 10 iterations", "Ctrl+Shift+N", "each run 10", Needs::MeshAndIdle},
-    Action{"each-converged", "Compare", "Every run: until converged", "Ctrl+U", "each until-converged", Needs::MeshAndIdle},
+    Action{"each-converged", "Compare", "Every run: until converged", "Ctrl+U", "each until-converged best", Needs::MeshAndIdle},
     Action{"each-back", "Compare", "Every run: back one iteration", "Ctrl+B", "each back", Needs::MeshAndIdle},
     Action{"each-reset", "Compare", "Every run: reset to the input", "Ctrl+R", "each reset", Needs::MeshAndIdle},
     Action{"viewports-1", "Compare", "One viewport", "1", "viewports 1", Needs::Nothing, true},

@@ -16,6 +16,7 @@
 #include "app/subcommands/bench_plan.h"
 #include "app/subcommands/bench_report.h"
 #include "app/subcommands/bench_seek.h"
+#include "app/subcommands/bench_window.h"
 #include "app/subcommands/subcommands.h"
 
 namespace dmoscope::app {
@@ -35,6 +36,10 @@ int bench(const BenchOptions& options) {
   }
   if (options.seek > 0) {
     bench_seeking(plan, options.file, options.seek, options.json, watch.progress());
+    return 0;
+  }
+  if (options.window) {
+    bench_window(plan, options.file, options.json, watch.progress());
     return 0;
   }
   std::vector<Measurement> figures;
@@ -79,9 +84,12 @@ void add_bench(CLI::App& app, Action& action) {
   auto* draw = count("--draw", options->draw, 1, kMostTimed, "Draw this many iterations as they are made, without a window, instead");
   auto* plot = subcommand->add_option("--plot", options->plot, "Draw visits per second over sizes")->type_name("FILE.svg|.png");
   draw->excludes(plot)->excludes(combine);
-  count("--seek", options->seek, 1, kMostTimed, "Number of seeks among 200 iterations, without and with drawing, instead")
+  auto* seek = count("--seek", options->seek, 1, kMostTimed, "Number of seeks among 200 iterations, without and with drawing, instead");
+  seek->excludes(plot)->excludes(draw)->excludes(combine);
+  subcommand->add_flag("--window", options->window, "Open the first mesh in the window, off screen: time, memory, answers; instead")
       ->excludes(plot)
       ->excludes(draw)
+      ->excludes(seek)
       ->excludes(combine);
   add_memory_option(*subcommand, options->memory);
   subcommand->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");

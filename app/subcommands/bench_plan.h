@@ -32,6 +32,7 @@ struct BenchOptions {
   std::uint64_t active = 0;
   std::uint64_t draw = 0;  // frames to draw instead; 0: none
   std::uint64_t seek = 0;  // seeks to make instead; 0: none
+  bool window = false;     // open a mesh in the window instead
   bool full = false;
   bool json = false;
   MemoryLimit memory;

@@ -25,7 +25,7 @@ HeadlessWindow::HeadlessWindow(const Options& options)
   set_up_input();
   ui::App::Options app = app_options(options.threads, options.backend, acceleration_, *context_);
   if (options.no_interop) app.no_interop = *options.no_interop;
-  app.wait_for_scene = true;
+  app.wait_for_scene = !options.as_on_screen;
   app.sample_pictures = options.sample_pictures;
   app_ = std::make_unique<ui::App>(std::move(app));
   app_->state().scale = options.scale;
@@ -33,11 +33,12 @@ HeadlessWindow::HeadlessWindow(const Options& options)
     said_.push_back(message);
     if (message.kind == Message::Kind::Error && !failure_) failure_ = message;
   });
-  settle();
+  if (!options.as_on_screen) settle();
 }
 
 HeadlessWindow::~HeadlessWindow() {
   app_.reset();
+  screen_.reset();
   interface_.reset();
 }
 
@@ -88,6 +89,14 @@ void HeadlessWindow::frame() {
   ImGui::Render();
   now_ += static_cast<double>(passed);
   take_wishes();
+}
+
+void HeadlessWindow::present() {
+  if (!screen_) screen_.emplace(width_, height_);
+  screen_->resize(width_, height_);
+  screen_->clear({0, 0, 0, 255});
+  interface_->draw();
+  context_->finish();
 }
 
 void HeadlessWindow::take_wishes() {

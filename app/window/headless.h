@@ -10,6 +10,7 @@
 #include "app/window/platform.h"
 #include "app/window/simulated_input.h"
 #include "render/context.h"
+#include "render/framebuffer.h"
 #include "ui/app.h"
 
 namespace dmoscope::app {
@@ -25,6 +26,7 @@ class HeadlessWindow {
     std::optional<Acceleration> acceleration{};  // none: this machine's
     std::optional<std::string> no_interop{};     // why that cannot write what is drawn; none: what this machine says
     bool sample_pictures = true;                 // see ui::App::Options
+    bool as_on_screen = false;                   // nothing is waited for: neither the first frames nor a big mesh to be made ready
   };
   /// Throws Error where no OpenGL without a screen can be had.
   explicit HeadlessWindow(const Options& options);
@@ -33,6 +35,8 @@ class HeadlessWindow {
   [[nodiscard]] ui::App& app() noexcept { return *app_; }
   /// Draws one frame after playing at most one simulated input. The clock goes on by 1/60 s a frame, whatever it takes.
   void frame();
+  /// Draws the interface of the frame before as a screen would get it, and waits until it is there.
+  void present();
   /// Frames until input, session, scene and interface have come to rest.
   void settle();
   /// Executes one line as a script does, then settles. Returns the first error that came of it: of the line itself (thrown
@@ -52,6 +56,7 @@ class HeadlessWindow {
   Acceleration acceleration_;
   std::unique_ptr<render::Context> context_;
   std::unique_ptr<Interface> interface_;
+  std::optional<render::Framebuffer> screen_;  // of present()
   std::unique_ptr<ui::App> app_;
   SimulatedInput simulated_;
   int width_, height_;

@@ -329,6 +329,7 @@ PaneFacts Viewports::facts_of_pane(ViewState& state, std::size_t pane, const Rec
   facts.focus = pane == focus_;
   facts.inspected = inspected(state, pane);
   facts.reduced = view.frame() != nullptr && !view.complete();
+  facts.current = view.current();
   facts.lacks_room = view.labels_lack_room();
   if (const render::VolumeScene* volume = view.volume(); volume != nullptr && view.is_volume()) {
     facts.cells_seen = volume->faces().visible_cells;

@@ -32,6 +32,7 @@ struct PaneFacts {
   bool focus = false;                     // the active one
   bool inspected = false;                 // where the search that is looked into is shown
   bool reduced = false;                   // drawn with fewer elements just now
+  bool current = false;                   // its mesh is drawn; else it is still made ready for that
   bool lacks_room = false;                // for labels
   std::optional<std::size_t> cells_seen;  // of a volume mesh, of all its elements
   render::Bounds3 box;                    // of it

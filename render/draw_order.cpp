@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/memory.h"
+#include "core/base/radix_sort.h"
 
 namespace dmoscope::render {
 namespace {
@@ -34,9 +36,13 @@ Bounds2 used_bounds(const Mesh& mesh, std::span<const Vec2<double>> points) {
 }
 
 /// Elements sorted along a Morton curve through their first corners' middles; ties by element, so that it is the same everywhere.
-std::vector<std::pair<std::uint32_t, Index>> curve_order(const Mesh& mesh, std::span<const Vec2<double>> points, const Bounds2& bounds) {
+struct KeyedElement {
+  std::uint32_t key;
+  Index element;
+};
+std::vector<KeyedElement> curve_order(const Mesh& mesh, std::span<const Vec2<double>> points, const Bounds2& bounds) {
   const double size = std::max({bounds.size().x, bounds.size().y, 1e-300});
-  std::vector<std::pair<std::uint32_t, Index>> keys(mesh.elements.size());
+  auto keys = large_vector<KeyedElement>(mesh.elements.size());
   for (Index e = 0; e < mesh.elements.size(); ++e) {
     const auto corners = mesh.elements.corners(e);
     Vec2<double> middle{0, 0};
@@ -45,18 +51,24 @@ std::vector<std::pair<std::uint32_t, Index>> curve_order(const Mesh& mesh, std::
     const auto cell = [&](double v) { return static_cast<std::uint32_t>(std::clamp(v * scale, 0.0, 65535.0)); };
     keys[e] = {spread(cell(middle.x)) | (spread(cell(middle.y)) << 1U), e};
   }
-  std::sort(keys.begin(), keys.end());
+  radix_sort(keys, 32, [](const KeyedElement& item) { return item.key; });
   return keys;
 }
 
-/// Edges with one element. Edges are gathered at their lower vertex, where each has only a few companions.
-std::vector<std::array<Index, 2>> boundary_edges(const Mesh& mesh) {
+/// Edges with one element. Edges are gathered at their lower vertex, where each has only a few companions. `may_end`: one a vertex, 0
+/// where no such edge ends; empty: they may end anywhere.
+std::vector<std::array<Index, 2>> boundary_edges(const Mesh& mesh, std::span<const std::uint8_t> may_end) {
+  const auto ends = [&](Index v) { return may_end.empty() || may_end[v] != 0; };
   const auto for_edges = [&](auto&& visit) {
     for (Index e = 0; e < mesh.elements.size(); ++e) {
       const auto corners = mesh.elements.corners(e);
-      for (std::size_t i = 0; i < corners.size(); ++i) {
-        const auto [low, high] = std::minmax(corners[i], corners[(i + 1) % corners.size()]);
-        if (low != high) visit(low, high);
+      Index other = corners.back();
+      bool other_ends = ends(other);
+      for (const Index corner : corners) {
+        const bool this_ends = ends(corner);
+        if (this_ends && other_ends && corner != other) visit(std::min(corner, other), std::max(corner, other));
+        other = corner;
+        other_ends = this_ends;
       }
     }
   };
@@ -89,7 +101,7 @@ bool Layout::is_across(std::span<const Index> corners, std::span<const Vec2<doub
   return high - low > widest();
 }
 
-std::shared_ptr<const Layout> build_layout(const Mesh& mesh, const Plane& plane) {
+std::shared_ptr<const Layout> build_layout(const Mesh& mesh, const Plane& plane, std::span<const std::uint8_t> boundary) {
   for (const ElementKind kind : mesh.elements.kinds()) {
     if (info(kind).dimension != 2)
       throw UsageError(std::string("only triangles and quadrilaterals can be drawn, not ") + std::string(info(kind).plural));
@@ -103,6 +115,12 @@ std::shared_ptr<const Layout> build_layout(const Mesh& mesh, const Plane& plane)
   layout->slots.resize(mesh.elements.size());
   layout->batches[1].corner_count = 4;
   const auto keys = curve_order(mesh, points, bounds);
+  std::array<std::size_t, 2> counts{};
+  for (const ElementKind kind : mesh.elements.kinds()) ++counts[kind == ElementKind::Triangle ? 0 : 1];
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    reserve_large(layout->batches[i].order, counts[i]);
+    reserve_large(layout->batches[i].corners, counts[i] * layout->batches[i].corner_count);
+  }
   for (const auto& [key, element] : keys) {
     Batch& batch = layout->batches[mesh.elements.kind(element) == ElementKind::Triangle ? 0 : 1];
     layout->slots[element] = batch.size();
@@ -111,7 +129,7 @@ std::shared_ptr<const Layout> build_layout(const Mesh& mesh, const Plane& plane)
     batch.corners.insert(batch.corners.end(), corners.begin(), corners.end());
   }
   for (const Index element : layout->batches[1].order) layout->slots[element] += layout->batches[0].size();
-  layout->boundary_edges = boundary_edges(mesh);
+  layout->boundary_edges = boundary_edges(mesh, boundary);
   return layout;
 }
 

@@ -1,5 +1,9 @@
 #include "render/element_painter.h"
 
+#include <utility>
+
+#include "core/run/summary.h"
+
 namespace dmoscope::render {
 namespace {
 
@@ -30,6 +34,7 @@ void ElementPainter::upload_topology(const Layout& layout) {
   shades_ = Buffer();
   edges_ = Buffer();
   colouring_.reset();
+  odd_ = Odd::Unknown;
   points_.reserve(layout.vertex_count * sizeof(Vec2<float>));
   shades_.reserve(layout.element_count() * sizeof(float));
   for (std::size_t i = 0; i < elements_.size(); ++i) {
@@ -52,6 +57,22 @@ void ElementPainter::upload_topology(const Layout& layout) {
 
 void ElementPainter::upload_points(std::span<const Vec2<float>> points) { points_.write(points); }
 void ElementPainter::upload_shades(std::span<const float> shades) { shades_.write(shades); }
+
+void ElementPainter::mark_inverted(const Layout& layout, std::span<const float> shades) {
+  odd_ = shades.empty() ? Odd::Unknown : Odd::None;
+  constexpr Index kTogether = 32;  // elements a bit
+  const Index triangles = layout.batches[0].size();
+  std::array<std::vector<std::uint32_t>, 2> bits;
+  for (Index e = 0; e < shades.size(); ++e) {
+    if (shades[e] != kInvertedShade) continue;
+    if (std::exchange(odd_, Odd::Some) == Odd::None)
+      for (std::size_t i = 0; i < bits.size(); ++i) bits[i].assign(layout.batches[i].size() / (kTogether * 32) + 1, 0);
+    const Index slot = layout.slots[e], block = (slot < triangles ? slot : slot - triangles) / kTogether;
+    bits[slot < triangles ? 0 : 1][block / 32] |= std::uint32_t{1} << (block % 32);
+  }
+  if (odd_ != Odd::Some) return;
+  for (std::size_t i = 0; i < bits.size(); ++i) elements_[i].odd.write(std::span<const std::uint32_t>(bits[i]));
+}
 
 void ElementPainter::draw(const View& view, const Style& style, std::size_t batch, std::span<const DrawRange> ranges) {
   if (ranges.empty()) return;
@@ -89,6 +110,10 @@ void ElementPainter::draw_coarse(const View& view, const Style& style, std::size
   colouring_.bind(coarse_, style, shades_, elements_[batch].order);
   points_.bind_storage(0);
   elements_[batch].corners.bind_storage(3);
+  // Where a selection makes elements count or not every one is to be asked.
+  const Odd odd = colouring_.selects() ? Odd::Unknown : odd_;
+  (odd == Odd::Some ? elements_[batch].odd : shades_).bind_storage(7);
+  coarse_.set("u_look", odd == Odd::None ? 0 : odd == Odd::Some ? 1 : 2);
   coarse_.set("u_stride", stride);
   coarse_.set("u_corner_count", batch == 0 ? 3U : 4U);
   DMOSCOPE_GL(glBindVertexArray(nothing_.id()));

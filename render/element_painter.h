@@ -33,6 +33,8 @@ class ElementPainter {
   void upload_points(std::span<const Vec2<float>> points);
   /// One per element, in place: see shade_of.
   void upload_shades(std::span<const float> shades);
+  /// Which elements are inverted, of those shades; empty: nobody here knows, any may be.
+  void mark_inverted(const Layout& layout, std::span<const float> shades);
   /// The buffers of the two, for others to write: new ones with every upload_topology, the same ones until then.
   [[nodiscard]] GLuint point_buffer() const noexcept { return points_.id(); }
   [[nodiscard]] GLuint shade_buffer() const noexcept { return shades_.id(); }
@@ -49,13 +51,16 @@ class ElementPainter {
  private:
   struct Elements {
     Buffer order, corners;
+    Buffer odd;  // a bit for every 32 drawn elements, see coarse.vert.glsl
     Handle<DeleteVertexArray> array;
   };
+  enum class Odd { None, Some, Unknown };       // elements that are inverted
   std::array<std::array<Program, 2>, 2> fill_;  // one colour an element, or by corners; of triangles, of quadrilaterals
   Program coarse_, boundary_;
   std::array<Elements, 2> elements_;
   Buffer points_, shades_, edges_;
   GLsizei edge_count_ = 0;
+  Odd odd_ = Odd::Unknown;
   Fill colouring_;
   Handle<DeleteVertexArray> nothing_;  // for shaders that read their vertices from buffers
 };

@@ -28,6 +28,8 @@ class Fill {
   void bind(const Program& program, const Style& style, const Buffer& shades, const Buffer& order) const;
   /// Values by vertex and the palette for the shaders of edges; `instead`: what to bind where edges have no categories. Their number.
   [[nodiscard]] int bind_edges(const Buffer& instead) const;
+  /// Whether some elements may not count.
+  [[nodiscard]] bool selects() const noexcept { return !selection_.all(); }
   [[nodiscard]] bool by_vertices() const noexcept { return by_ == Shading::By::Vertices; }
 
  private:

@@ -27,7 +27,7 @@ void LivePicture::update(Scene& scene, const Wish& wish) {
 }
 
 void LivePicture::refine(Scene& scene, const Wish& wish) {
-  constexpr double kMoment = 0.08;  // seconds
+  constexpr double kMoment = 0.03;  // seconds; an input waits so long for its frame
   finer_.resize(wish.width, wish.height);
   const auto begin = std::chrono::steady_clock::now();
   const Index before = progress_.drawn;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/memory.h"
 #include "render/draw_state.h"
 #include "render/planar_scene_impl.h"
 
@@ -52,7 +53,7 @@ bool PlanarScene::Impl::prepare(const Frame& wanted, Loading loading) {
     }
     pending_serial = wanted.input_serial;
     pending = std::async(background ? std::launch::async : std::launch::deferred,
-                         [input = wanted.input] { return build_layout(input->mesh, input->geometry.plane); });
+                         [input = wanted.input] { return build_layout(input->mesh, input->geometry.plane, input->topology.boundary()); });
   }
   if (background && pending.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) return false;
   adopt(pending.get());
@@ -111,20 +112,24 @@ void PlanarScene::Impl::upload(std::span<const Vec3> positions, std::span<const 
   placement.move(positions);
   const Vec2<double> origin = placement.layout().origin;
   const auto points = placement.points();
-  point_scratch.resize(points.size());
-  std::transform(points.begin(), points.end(), point_scratch.begin(), [&](const Vec2<double>& p) {
-    return Vec2<float>{static_cast<float>(p.x - origin.x), static_cast<float>(p.y - origin.y)};
-  });
-  elements.upload_points(point_scratch);
+  {
+    auto relative = large_vector<Vec2<float>>(points.size());
+    std::transform(points.begin(), points.end(), relative.begin(), [&](const Vec2<double>& p) {
+      return Vec2<float>{static_cast<float>(p.x - origin.x), static_cast<float>(p.y - origin.y)};
+    });
+    elements.upload_points(relative);
+  }
   shades.resize(count);
   for (Index e = 0; e < count; ++e) shades[e] = shade_of(quality[e], !inverted_flags.empty() && inverted_flags[e] != 0);
   elements.upload_shades(shades);
+  elements.mark_inverted(placement.layout(), shades);
   ++revision;
 }
 
 void PlanarScene::Impl::show_device(const Frame& light) {
   if (placement.bounds().empty()) placement.move(light.input->mesh.positions);  // something to fit the view to
   placement_current = false;
+  elements.mark_inverted(placement.layout(), {});
   const bool shown = device.show(light.device, elements, placement.layout());
   source = !shown ? Source::Unreachable : device.direct() ? Source::Device : Source::HostCopy;
   ++revision;

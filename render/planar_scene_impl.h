@@ -25,7 +25,6 @@ struct PlanarScene::Impl {
   MarkPainter marks;
   std::vector<std::uint8_t> fixed;
   std::vector<float> shades;  // one per element, see shade_of; as old as the placement
-  std::vector<Vec2<float>> point_scratch;
   std::shared_ptr<const Shading> shading;
   Selection selection;
   std::uint64_t revision = 0;

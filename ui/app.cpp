@@ -201,7 +201,7 @@ void App::update_viewports(PanelContext& context, const Rect& rect) {
   const std::vector<Rect> places = pane_places(context, rect);
   if (viewports_.draw(state_, derived_, inspection_, places, {static_cast<double>(context.em()), moved, live}))
     state_.commands.keep_look(look());
-  if (viewports_.loading()) redraw_in_ = 0.05;
+  if (viewports_.loading()) redraw_in_ = 0.1;
   activity_.reduced = viewports_.refining();
   if (viewports_.refining() && !activity_.busy) redraw_in_ = moved || live ? std::min(redraw_in_, kRestAfter) : 0.0;
   context.panes = viewports_.facts();

@@ -32,10 +32,10 @@ struct WindowFigure {
   WindowCost rest;   // until nothing is to be done any more
   /// From the input to the end of the frame that shows what it did; the mean of some.
   WindowCost zoom, pan, pick, fit;
-  WindowCost zoom_in_midst;  // while the full picture is being drawn
-  double longest = 0.0;      // answer of all these by the clock, seconds
-  WindowCost iteration;      // one, until it is seen
-  WindowCost run;            // all of them, with the window drawn meanwhile
+  WindowCost zoom_in_midst;                     // while the full picture is being drawn
+  double longest = 0.0;                         // answer of all these by the clock, seconds
+  WindowCost iteration;                         // one, until it is seen
+  WindowCost run;                               // all of them, with the window drawn meanwhile
   std::size_t memory_open = 0, memory_run = 0;  // the most so far, bytes: at rest after opening, and after the iterations
 };
 

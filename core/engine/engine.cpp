@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/returned_memory.h"
 
 namespace dmoscope {
 
@@ -19,6 +20,7 @@ Engine::Engine(unsigned threads, Acceleration acceleration, Backend backend)
     : session_(threads, std::move(acceleration), backend),
       context_{session_, progress_, [this](Message message) { say(std::move(message)); }},
       view_(std::make_shared<SessionView>()) {
+  return_large_memory();
   add_session_commands(commands_, context_);
   thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
 }
@@ -79,7 +81,7 @@ void Engine::cancel() {
 
 std::string Engine::current_command() const {
   const std::scoped_lock lock(mutex_);
-  return current_.line;
+  return !working_ && !queue_.empty() ? queue_.front().line : current_.line;
 }
 
 std::shared_ptr<const SessionView> Engine::view() {

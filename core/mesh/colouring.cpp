@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/base/radix_sort.h"
 #include "core/base/thread_pool.h"
 #include "core/mesh/random.h"
 
@@ -28,20 +29,6 @@ struct KeyedVertex {
   std::uint32_t key;
   Index vertex;
 };
-
-/// By the key, stably; digit by digit.
-void radix_sort(std::vector<KeyedVertex>& items, unsigned bits) {
-  constexpr unsigned kDigit = 11;
-  std::vector<KeyedVertex> other(items.size());
-  for (unsigned shift = 0; shift < bits; shift += kDigit) {
-    std::vector<std::size_t> start((std::size_t{1} << kDigit) + 1, 0);
-    const auto digit = [shift](const KeyedVertex& item) { return item.key >> shift & ((1U << kDigit) - 1U); };
-    for (const KeyedVertex& item : items) ++start[digit(item) + 1];
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    for (const KeyedVertex& item : items) other[start[digit(item)]++] = item;
-    items.swap(other);
-  }
-}
 
 constexpr std::size_t kStretch = 4096;  // vertices: some 200 KB with their rings
 
@@ -156,7 +143,7 @@ void arrange_classes(Colouring& colouring, const Mesh& mesh, const Plane* plane,
       const std::span<Index> members(colouring.order.data() + colouring.class_offsets[c], colouring.members(static_cast<Index>(c)).size());
       std::vector<KeyedVertex> items(members.size());
       for (std::size_t i = 0; i < members.size(); ++i) items[i] = {curve.key(members[i]), members[i]};
-      radix_sort(items, 32);
+      radix_sort(items, 32, [](const KeyedVertex& item) { return item.key; });
       for (std::size_t begin = 0; begin < items.size(); begin += kStretch)
         sort_by_star(std::span(items).subspan(begin, std::min(kStretch, items.size() - begin)), topology, members.subspan(begin));
     }

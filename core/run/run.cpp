@@ -7,6 +7,7 @@
 #include "core/base/memory.h"
 #include "core/base/stopwatch.h"
 #include "core/run/sweep_after.h"
+#include "core/smooth/execution/choose_executor.h"
 #include "core/smooth/execution/method_table.h"
 
 namespace dmoscope {
@@ -61,9 +62,9 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
       colouring_(make_colouring(*input_, free_vertices(fixed(), parameters_.order), pool_.get())),
       immovable_(immovable_elements(input_->mesh, fixed(), pool_.get())),
       size_(make_size_field(input_, parameters_.combination)),
-      executor_(make_executor(parameters_.backend, acceleration_, task())),
+      executor_(choose_executor(parameters_.backend, acceleration_, task())),
       positions_(working_copy(input_->mesh.positions)),
-      blocks_(executor_.smoother->positions_on_device()),
+      blocks_(executor_.smoother && executor_.smoother->positions_on_device()),
       history_(history_bytes) {
   history_.record_input({0, statistics(), 0, 0.0}, {input_, &input_->mesh.positions});
 }

@@ -13,6 +13,14 @@ bool defined_for_all(Metric metric, const Mesh& mesh) {
   return std::ranges::all_of(mesh.elements.kinds(), [&](ElementKind kind) { return info(metric).defined_for(kind); });
 }
 
+/// Bytes for past positions, of the budget that somebody chose. The default is the most: of it a mesh takes as much as some iterations'
+/// positions need, and small ones a quarter.
+std::size_t history_for(const InputMesh& input, std::size_t budget) {
+  constexpr std::size_t kIterations = 4;
+  if (budget != Session::kDefaultHistoryBytes) return budget;
+  return std::clamp(kIterations * input.mesh.positions.size() * sizeof(Vec3), budget / 4, budget);
+}
+
 }  // namespace
 
 Session::Session(unsigned threads, Acceleration acceleration, Backend backend)
@@ -27,7 +35,8 @@ void Session::open(Mesh mesh, Progress& progress) { replace_input(prepare_input(
 void Session::generate(const std::string& words, Progress& progress) { replace_input(generate_input(words, progress)); }
 
 std::shared_ptr<Run> Session::make_run(std::shared_ptr<const InputMesh> input, RunParameters parameters) const {
-  auto run = std::make_shared<Run>(std::move(input), std::move(parameters), pool_, history_bytes_, acceleration_);
+  const std::size_t history = history_for(*input, history_bytes_);
+  auto run = std::make_shared<Run>(std::move(input), std::move(parameters), pool_, history, acceleration_);
   run->set_observer(observer_);
   return run;
 }
@@ -157,7 +166,7 @@ void Session::set_history_budget(std::size_t bytes) {
 }
 
 void Session::share_history() {
-  for (const auto& run : runs_) run->set_history_budget(history_bytes_ / runs_.size());
+  for (const auto& run : runs_) run->set_history_budget(history_for(run->input(), history_bytes_) / runs_.size());
 }
 
 void Session::set_threads(unsigned threads) {
@@ -217,7 +226,7 @@ void Session::go_to(const SessionPoint& point, bool with_shown, Progress& progre
 void Session::rest_retired_runs() {
   const auto retired = undo_.retired_runs(point());
   for (const auto& run : retired) {
-    run->set_history_budget(history_bytes_ / retired.size());
+    run->set_history_budget(history_for(run->input(), history_bytes_) / retired.size());
     try {
       run->rest();
     } catch (const DeviceError&) {     // it has recovered, and goes on on the CPU

@@ -2,13 +2,22 @@
 #include "fill.glsl"
 layout(std430, binding = 0) readonly buffer Positions { vec2 positions[]; };
 layout(std430, binding = 3) readonly buffer Corners { uint corners[]; };
+layout(std430, binding = 7) readonly buffer Odd { uint odd[]; };  // a bit for every 32 drawn elements: whether any is inverted
+uniform int u_look;  // through all the elements that a square stands for: 0 no, 1 where some are odd, 2 yes
 uniform uint u_first;
 uniform uint u_last;
 uniform uint u_stride;
 uniform uint u_corner_count;
-uniform int u_others;          // elements that do not count: 0 faded, 1 hidden, 2 outlined
+uniform int u_others;  // elements that do not count: 0 faded, 1 hidden, 2 outlined
 uniform vec4 u_faded_colour;
 flat out vec3 v_fill;
+
+bool to_look_through(uint first, uint last) {
+  if (u_look != 1) return u_look == 2;
+  for (uint block = first / 32u; block <= (last - 1u) / 32u; ++block)
+    if ((odd[block / 32u] >> (block % 32u) & 1u) != 0u) return true;
+  return false;
+}
 
 void main() {
   uint drawn = u_first + uint(gl_VertexID) * u_stride;
@@ -31,11 +40,13 @@ void main() {
   // An inverted element must not vanish among its neighbours, nor one that counts among those that do not.
   uint chosen = drawn;
   bool counting = counts(order[drawn]), worst = counting && inverted(order[drawn]);
-  for (uint i = 1u; i < u_stride && drawn + i < u_last && !worst; ++i) {
-    uint element = order[drawn + i];
+  uint last = min(drawn + u_stride, u_last);
+  if (!to_look_through(drawn, last)) last = drawn;
+  for (uint other = drawn + 1u; other < last && !worst; ++other) {
+    uint element = order[other];
     if (!counts(element)) continue;
     worst = inverted(element);
-    if (!counting || worst) chosen = drawn + i;
+    if (!counting || worst) chosen = other;
     counting = true;
   }
   uint element = order[chosen];

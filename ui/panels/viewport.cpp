@@ -9,6 +9,7 @@
 #include "ui/analysis/inspection_text.h"
 #include "ui/commands/size_point.h"
 #include "ui/panels/panels.h"
+#include "ui/panels/reading_page.h"
 #include "ui/state/format.h"
 
 namespace dmoscope::ui {
@@ -403,6 +404,7 @@ void draw_pane(PanelContext& context, const PaneFacts& pane) {
   if (clip.empty()) return;
   ImGui::PushClipRect({clip.x, clip.y}, {clip.x + clip.w, clip.y + clip.h}, true);
   if (pane.frame() != nullptr) draw_labels(context, pane);
+  if (pane.frame() != nullptr && !pane.current) draw_preparing(context, pane);
   if (pane.frame() != nullptr && !pane.frame()->input->is_volume()) draw_field_in_view(context, pane);
   draw_clip_plane(context, pane);
   if (pane.frame() != nullptr && pane.inspected) draw_level_label(context, pane);
@@ -426,7 +428,12 @@ void draw_viewports(PanelContext& context, const Rect& rect) {
   ImGui::PopStyleColor();
   ImGui::PopStyleVar();
   if (context.frame() == nullptr) {
-    draw_start_page(context, rect);
+    const auto reading = context.activity.busy ? being_read(context.activity.command) : std::nullopt;
+    if (reading) {
+      draw_reading_page(context, rect, *reading);
+    } else {
+      draw_start_page(context, rect);
+    }
     end_panel();
     return;
   }

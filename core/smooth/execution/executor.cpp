@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/unknown_value.h"
+#include "core/smooth/execution/choose_executor.h"
 #include "core/smooth/execution/method_table.h"
 
 namespace dmoscope {
@@ -28,7 +29,11 @@ std::string obstacle(const Acceleration& acceleration, const SmoothingTask& task
   return acceleration.accelerator ? std::string() : acceleration.reason;
 }
 
-Executor on_cpu(const SmoothingTask& task, std::string reason) { return {make_smoother(task), Backend::Cpu, std::move(reason), {}}; }
+enum class OnCpu { Made, Later };  // its smoother
+
+Executor on_cpu(const SmoothingTask& task, OnCpu when, std::string reason) {
+  return {when == OnCpu::Made ? make_smoother(task) : nullptr, Backend::Cpu, std::move(reason), {}};
+}
 
 Executor on_device(const Accelerator& accelerator, const SmoothingTask& task) {
   auto smoother = accelerator.make_dmo(task.input, task.colouring, task.metric, task.search, task.immovable, task.pool);
@@ -55,23 +60,37 @@ void require_executable(Backend wanted, const Acceleration& acceleration, const 
   if (const std::string why_not = obstacle(acceleration, task); !why_not.empty()) refuse(why_not);
 }
 
-Executor make_executor(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task) {
-  require_executable(wanted, acceleration, task);
-  if (wanted == Backend::Cpu) return on_cpu(task, {});
-  if (wanted == Backend::Cuda) return on_device(*acceleration.accelerator, task);
-  const std::string why_not = obstacle(acceleration, task);
-  if (!why_not.empty()) return on_cpu(task, fmt::format("no {}: {}", name(Backend::Cuda), why_not));
-  try {
-    return on_device(*acceleration.accelerator, task);
-  } catch (const DeviceError& error) {
-    return executor_after_failure(fmt::format("{} failed: {}", name(acceleration.accelerator->backend()), error.what()), task);
-  }
-}
+namespace {
 
-Executor executor_after_failure(const std::string& why, const SmoothingTask& task) {
-  Executor executor = on_cpu(task, why);
+Executor after_failure(const std::string& why, const SmoothingTask& task, OnCpu when) {
+  Executor executor = on_cpu(task, when, why);
   executor.warning = fmt::format("{}; smoothing on the CPU", why);
   return executor;
 }
+
+Executor executor_for(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task, OnCpu when) {
+  require_executable(wanted, acceleration, task);
+  if (wanted == Backend::Cpu) return on_cpu(task, when, {});
+  if (wanted == Backend::Cuda) return on_device(*acceleration.accelerator, task);
+  const std::string why_not = obstacle(acceleration, task);
+  if (!why_not.empty()) return on_cpu(task, when, fmt::format("no {}: {}", name(Backend::Cuda), why_not));
+  try {
+    return on_device(*acceleration.accelerator, task);
+  } catch (const DeviceError& error) {
+    return after_failure(fmt::format("{} failed: {}", name(acceleration.accelerator->backend()), error.what()), task, when);
+  }
+}
+
+}  // namespace
+
+Executor make_executor(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task) {
+  return executor_for(wanted, acceleration, task, OnCpu::Made);
+}
+
+Executor choose_executor(Backend wanted, const Acceleration& acceleration, const SmoothingTask& task) {
+  return executor_for(wanted, acceleration, task, OnCpu::Later);
+}
+
+Executor executor_after_failure(const std::string& why, const SmoothingTask& task) { return after_failure(why, task, OnCpu::Made); }
 
 }  // namespace dmoscope

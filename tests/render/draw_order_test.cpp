@@ -1,0 +1,47 @@
+// A mesh put in order for drawing.
+#include "render/draw_order.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/mesh/topology.h"
+#include "fixture.h"
+
+namespace dmoscope::render {
+namespace {
+
+TEST(DrawOrder, HasEveryElementOnceWithItsCornersAndItsSlot) {
+  const Mesh mesh = wavy_sheet(70, 40);
+  const auto layout = build_layout(mesh, Plane{});
+  std::vector<Index> seen;
+  for (const Batch& batch : layout->batches) {
+    for (Index drawn = 0; drawn < batch.size(); ++drawn) {
+      const Index element = batch.order[drawn];
+      seen.push_back(element);
+      EXPECT_TRUE(std::ranges::equal(batch.corners_of(drawn), mesh.elements.corners(element)));
+      EXPECT_TRUE(std::ranges::equal(layout->corners_of_element(element), mesh.elements.corners(element)));
+    }
+  }
+  std::ranges::sort(seen);
+  std::vector<Index> all(mesh.elements.size());
+  std::iota(all.begin(), all.end(), 0U);
+  EXPECT_EQ(seen, all);
+}
+
+TEST(DrawOrder, FindsTheSameBoundaryWhereItIsKnownAtWhichVerticesItRuns) {
+  Mesh mesh = wavy_sheet(30, 20);
+  // An element apart from the others, and a third one on an edge.
+  const Index loose = mesh.vertex_count();
+  for (const Vec3 p : {Vec3{50, 0, 0}, Vec3{51, 0, 0}, Vec3{50, 1, 0}}) mesh.positions.push_back(p);
+  const Index apart[] = {loose, loose + 1, loose + 2}, third[] = {40, 41, loose};
+  mesh.elements.add(ElementKind::Triangle, apart);
+  mesh.elements.add(ElementKind::Triangle, third);
+  const Topology topology(mesh);
+  const auto known = build_layout(mesh, Plane{}, topology.boundary())->boundary_edges;
+  const auto found = build_layout(mesh, Plane{})->boundary_edges;
+  EXPECT_EQ(known, found);
+  EXPECT_EQ(found.size(), 2U * (30 + 20) + 3 + 2);
+}
+
+}  // namespace
+}  // namespace dmoscope::render

@@ -12,6 +12,8 @@ namespace dmoscope::render {
 namespace {
 
 constexpr std::array kTable{
+    ColourMapInfo{ColourMap::Beacon, "beacon",
+                  "bright orange for bad, calm blue for good; for every kind of colour vision and any background"},
     ColourMapInfo{ColourMap::Viridis, "viridis", "purple, blue, green, yellow; for every kind of colour vision"},
     ColourMapInfo{ColourMap::Cividis, "cividis", "blue to yellow; nearly the same picture for red-green blindness"},
     ColourMapInfo{ColourMap::Magma, "magma", "black, purple, orange, cream"},
@@ -20,6 +22,10 @@ constexpr std::array kTable{
 
 // Control colours, equally spaced in the maps as their authors published them (viridis and magma: van der Walt and Smith 2015;
 // cividis: Nuñez, Anderton and Renslow 2018). Their lightness rises from one to the next.
+// Beacon is our own: from blue by way of green to orange, so that yellow against blue, which every eye tells apart, rises with lightness;
+// neither so dark nor so light that it would sink into the background of any theme. Its low end is the last of these.
+constexpr std::array kBeacon{Rgb{0x23, 0x4f, 0x9b}, Rgb{0x17, 0x6d, 0x9b}, Rgb{0x22, 0x8a, 0x8f},
+                             Rgb{0x7c, 0x9e, 0x69}, Rgb{0xc7, 0xa3, 0x36}, Rgb{0xfd, 0xa5, 0x12}};
 constexpr std::array kViridis{Rgb{0x44, 0x01, 0x54}, Rgb{0x48, 0x24, 0x75}, Rgb{0x41, 0x44, 0x87}, Rgb{0x35, 0x5f, 0x8d},
                               Rgb{0x2a, 0x78, 0x8e}, Rgb{0x21, 0x91, 0x8c}, Rgb{0x22, 0xa8, 0x84}, Rgb{0x44, 0xbf, 0x70},
                               Rgb{0x7a, 0xd1, 0x51}, Rgb{0xbd, 0xdf, 0x26}, Rgb{0xfd, 0xe7, 0x25}};
@@ -33,6 +39,8 @@ constexpr std::array kGrey{Rgb{0x18, 0x18, 0x18}, Rgb{0xf4, 0xf4, 0xf4}};
 
 std::span<const Rgb> controls(ColourMap map) {
   switch (map) {
+    case ColourMap::Beacon:
+      return kBeacon;
     case ColourMap::Cividis:
       return kCividis;
     case ColourMap::Magma:
@@ -141,7 +149,7 @@ Rgb sample_diverging(double t) {
 Rgb sample(ColourMap map, double t) {
   if (map == ColourMap::OrangeBlue) return sample_diverging(std::clamp(t, 0.0, 1.0));
   const std::span<const Rgb> colours = controls(map);
-  t = std::clamp(t, 0.0, 1.0);
+  t = std::clamp(low_is_bright(map) ? 1.0 - t : t, 0.0, 1.0);
   if (t == 0.0) return colours.front();
   if (t == 1.0) return colours.back();
   const std::span<const Oklab> path = control_path(map);

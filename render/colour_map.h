@@ -1,5 +1,5 @@
 #pragma once
-// Colours of quality: perceptually uniform, colour-blind safe maps, dark for low to bright for high.
+// Colours of quality: perceptually uniform, colour-blind safe maps.
 
 #include <optional>
 #include <span>
@@ -10,8 +10,8 @@
 
 namespace dmoscope::render {
 
-/// The last is of differences: from orange (below) through white to blue; not among those of quality.
-enum class ColourMap { Viridis, Cividis, Magma, Grey, OrangeBlue };
+/// OrangeBlue is of differences: from orange (below) through white to blue; not among those of quality.
+enum class ColourMap { Beacon, Viridis, Cividis, Magma, Grey, OrangeBlue };
 
 struct ColourMapInfo {
   ColourMap map;
@@ -24,8 +24,11 @@ struct ColourMapInfo {
 /// Throws UsageError that lists the names.
 [[nodiscard]] ColourMap colour_map_from_name(std::string_view name);
 
-/// Colour at t in [0, 1] (clamped). OKLab lightness rises linearly with t; hue and chroma follow the map's control colours. Of OrangeBlue
-/// it rises so up to the middle and falls as much from there.
+/// Whether it is the low values that are bright: those of quality that are sought.
+[[nodiscard]] constexpr bool low_is_bright(ColourMap map) { return map == ColourMap::Beacon; }
+
+/// Colour at t in [0, 1] (clamped). OKLab lightness rises linearly with t, or falls so where the low is bright; hue and chroma follow the
+/// map's control colours. Of OrangeBlue it rises so up to the middle and falls as much from there.
 [[nodiscard]] Rgb sample(ColourMap map, double t);
 
 /// Colour of inverted elements, drawn with hatching: far from every colour of every map.

@@ -63,6 +63,7 @@ void FacePainter::prepare(const Program& program, const Faces& faces, const Buff
   program.set("u_to_clip_space", view.to_clip_space);
   set_four(program, "u_eye", view.eye);
   set_four(program, "u_light", view.light);
+  program.set("u_shading", look.style.shading ? 1.0F : 0.0F);
   set_four(program, "u_plane", look.plane.value_or(std::array{0.0F, 0.0F, 0.0F, 1.0F}));
   program.set("u_shrink", static_cast<float>(look.shrink));
   program.set("u_hatch_period", kHatchPeriod * look.style.scale);

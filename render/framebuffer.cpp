@@ -43,7 +43,7 @@ Framebuffer& Framebuffer::operator=(Framebuffer&& other) noexcept {
 void Framebuffer::release() noexcept {
   if (framebuffer_ != 0) glDeleteFramebuffers(1, &framebuffer_);
   if (colour_ != 0) glDeleteTextures(1, &colour_);
-  if (depth_ != 0) glDeleteRenderbuffers(1, &depth_);
+  if (depth_ != 0) glDeleteTextures(1, &depth_);
   framebuffer_ = colour_ = depth_ = 0;
 }
 
@@ -58,11 +58,13 @@ void Framebuffer::create() {
   glTextureParameteri(colour_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTextureParameteri(colour_, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTextureParameteri(colour_, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  DMOSCOPE_GL(glCreateRenderbuffers(1, &depth_));
-  DMOSCOPE_GL(glNamedRenderbufferStorage(depth_, GL_DEPTH_COMPONENT24, width_, height_));
+  DMOSCOPE_GL(glCreateTextures(GL_TEXTURE_2D, 1, &depth_));
+  DMOSCOPE_GL(glTextureStorage2D(depth_, 1, GL_DEPTH_COMPONENT24, width_, height_));
+  glTextureParameteri(depth_, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(depth_, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   DMOSCOPE_GL(glCreateFramebuffers(1, &framebuffer_));
   DMOSCOPE_GL(glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT0, colour_, 0));
-  DMOSCOPE_GL(glNamedFramebufferRenderbuffer(framebuffer_, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_));
+  DMOSCOPE_GL(glNamedFramebufferTexture(framebuffer_, GL_DEPTH_ATTACHMENT, depth_, 0));
   const GLenum status = glCheckNamedFramebufferStatus(framebuffer_, GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
     throw Error(fmt::format("OpenGL: framebuffer {} x {} is not complete (0x{:04x})", width_, height_, status));
@@ -103,6 +105,11 @@ void Framebuffer::copy_from(const Framebuffer& other) {
   DMOSCOPE_GL(glCopyImageSubData(other.colour_, GL_TEXTURE_2D, 0, 0, 0, 0, colour_, GL_TEXTURE_2D, 0, 0, 0, 0, width_, height_, 1));
 }
 
+void Framebuffer::copy_middle_of(const Framebuffer& larger) {
+  const int x = (larger.width_ - width_) / 2, y = (larger.height_ - height_) / 2;
+  DMOSCOPE_GL(glCopyImageSubData(larger.colour_, GL_TEXTURE_2D, 0, x, y, 0, colour_, GL_TEXTURE_2D, 0, 0, 0, 0, width_, height_, 1));
+}
+
 Image Framebuffer::read_pixels() const {
   Image image(width_, height_);
   const std::size_t row = std::size_t{4} * static_cast<std::size_t>(width_);
@@ -128,11 +135,10 @@ Image Framebuffer::read_pixels() const {
 }
 
 int Framebuffer::largest_size() {
-  GLint texture = 0, renderbuffer = 0, viewport[2] = {0, 0};
+  GLint texture = 0, viewport[2] = {0, 0};
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
-  glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &renderbuffer);
   glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
-  return std::min({texture, renderbuffer, viewport[0], viewport[1]});
+  return std::min({texture, viewport[0], viewport[1]});
 }
 
 }  // namespace dmoscope::render

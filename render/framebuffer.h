@@ -20,6 +20,8 @@ class Framebuffer {
   /// OpenGL's name of the colour texture, for ImGui::Image: reinterpret_cast<ImTextureID>(std::uintptr_t{texture()}), with
   /// uv0 = (0, 1) and uv1 = (1, 0), because its first row is the bottom one.
   [[nodiscard]] unsigned texture() const noexcept { return colour_; }
+  /// Likewise of the depths, as they lie in OpenGL's buffer: 0 to 1, where nothing was drawn 1.
+  [[nodiscard]] unsigned depth_texture() const noexcept { return depth_; }
   /// Draws go here, all of it is the viewport.
   void bind();
   /// Draws go to the window's own framebuffer again (0).
@@ -28,6 +30,8 @@ class Framebuffer {
   void clear(Rgba colour);
   /// Takes the size and the colours of another one; depth is left as it is.
   void copy_from(const Framebuffer& other);
+  /// Takes the colours of the middle of a larger one.
+  void copy_middle_of(const Framebuffer& larger);
   /// The picture, with straight alpha. Waits for OpenGL.
   [[nodiscard]] Image read_pixels() const;
   /// The largest width and height OpenGL allows here.

@@ -52,6 +52,9 @@ struct DeleteVertexArray {
 struct DeleteTexture {
   void operator()(GLuint id) const { glDeleteTextures(1, &id); }
 };
+struct DeleteFramebuffer {
+  void operator()(GLuint id) const { glDeleteFramebuffers(1, &id); }
+};
 struct DeleteShader {
   void operator()(GLuint id) const { glDeleteShader(id); }
 };

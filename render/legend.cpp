@@ -123,13 +123,22 @@ class LegendPainter {
     const int size = std::min(std::clamp(image_.width * 2 / 5, m_.px(80), m_.px(420)), image_.width - 2 * margin);
     draw_bar(image_, style_, x_, row(), size, height());
     const ColourScale& scale = style_.colours;
+    const float small = 0.92F * m_.text();
+    const auto wide = [&](const std::string& words) { return font_ ? font_->width(words, small) : 0; };
+    const auto write = [&](int left, const std::string& words) {
+      if (font_) font_->draw(image_, left, row() + height() + m_.px(16), words, small, ink_);
+    };
+    // The ends are said whatever they are; other numbers where there is room between them.
+    const auto end = [&](double value) { return fmt::format("{:.4g}", legend.logarithmic ? std::pow(10.0, value) : value); };
+    const std::string low = end(scale.low), high = end(scale.high);
+    const int low_ends = x_ + wide(low) + m_.px(8), high_begins = x_ + size - wide(high);
+    write(x_, low);
+    write(high_begins, high);
     for (const BarTick& tick : bar_ticks(legend, scale)) {
       const int x = x_ + static_cast<int>(std::lround((tick.value - scale.low) / (scale.high - scale.low) * (size - 1)));
       fill(image_, x, row() + height(), std::max(1, m_.px(1)), m_.px(4), ink_);
-      if (!font_) continue;
-      const float small = 0.92F * m_.text();
-      font_->draw(image_, std::max(m_.px(2), x - font_->width(tick.label, small) / 2), row() + height() + m_.px(16), tick.label, small,
-                  ink_);
+      const int left = x - wide(tick.label) / 2;
+      if (left >= low_ends && left + wide(tick.label) + m_.px(8) <= high_begins) write(left, tick.label);
     }
     x_ += size + m_.px(20);
   }

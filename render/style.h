@@ -9,6 +9,9 @@
 
 namespace dmoscope::render {
 
+/// The share of a colour that occlusion takes away at most.
+inline constexpr float kMostDarkened = 0.2F;
+
 /// Widths are in pixels at scale 1; `scale` multiplies them all (HiDPI, supersampling).
 struct Style {
   ColourScale colours;
@@ -20,6 +23,8 @@ struct Style {
   bool boundary = true;  // edges that have one element
   float boundary_width = 1.6F;
   Rgba boundary_colour{0xe6, 0xe9, 0xee, 255};
+  bool shading = false;   // faces of volumes by a light, too: their colours are then darker or lighter than their values say
+  bool occlusion = true;  // volumes darker in corners and along edges, by kMostDarkened at most
   bool vertices = false;  // dots for free (round) and fixed (square) vertices, once there is space for them
   Rgba free_colour{0xff, 0xff, 0xff, 255};
   Rgba fixed_colour{0xff, 0xb0, 0x3a, 255};

@@ -11,6 +11,7 @@
 #include "render/depth_map.h"
 #include "render/draw_state.h"
 #include "render/face_painter.h"
+#include "render/occlusion.h"
 #include "render/volume_labels.h"
 #include "render/volume_marks.h"
 #include "render/volume_pick.h"
@@ -24,6 +25,8 @@ FacePainter::Point point_of(Vec3 p) { return {static_cast<float>(p.x), static_ca
 
 struct VolumeScene::Impl {
   FacePainter painter;
+  OcclusionPainter occlusion;
+  std::optional<Framebuffer> wider;  // than a part of a picture, as far as occlusion looks around
   MarkPainter marks;
   std::shared_ptr<const void> mesh_owner, state_owner;
   const ElementTable* elements = nullptr;
@@ -70,6 +73,8 @@ struct VolumeScene::Impl {
   }
   [[nodiscard]] Vec3 relative(Vec3 p) const { return p - origin; }
   struct Stage;
+  void draw_whole(const Stage& stage);
+  void darken(Framebuffer& target, const Stage& stage, int reach) const;
   void draw_marks(const Stage& stage, const SpaceMarks& wanted);
 };
 
@@ -309,6 +314,7 @@ struct VolumeScene::Impl::Stage {
   SpaceView view;
   FacePainter::Look look;
   Vec2<double> triad;  // middle of the axes, pixels from the middle of the part
+  Vec2<double> whole;  // pixels of the picture that it may be a part of
 };
 
 VolumeScene::Impl::Stage::Stage(const Impl& scene, const OrbitCamera& seen_by, const Style& in_style, Vec2<double> viewport,
@@ -317,7 +323,8 @@ VolumeScene::Impl::Stage::Stage(const Impl& scene, const OrbitCamera& seen_by, c
       style(in_style),
       projection(camera.projection(viewport, scene.bounds, part)),
       view(camera, projection),
-      look{.style = style, .shrink = scene.view.shrink, .plane = {}} {
+      look{.style = style, .shrink = scene.view.shrink, .plane = {}},
+      whole(viewport) {
   // The stripes stand still in the picture, so that its parts fit together.
   const double period = static_cast<double>(kHatchPeriod * style.scale), margin = kTriadMargin * static_cast<double>(style.scale);
   const Vec2<double> middle{0.5 * (part.low.x + part.high.x - viewport.x), -0.5 * (part.low.y + part.high.y - viewport.y)};
@@ -340,6 +347,23 @@ void VolumeScene::Impl::draw_marks(const Stage& stage, const SpaceMarks& wanted)
   View flat;
   flat.viewport = stage.view.viewport;
   marks.flush(flat, stage.style.scale);
+}
+
+/// All that is seen, at full detail.
+void VolumeScene::Impl::draw_whole(const Stage& stage) {
+  painter.fill().set_colours(stage.style.colours);
+  begin_elements();
+  painter.draw_ghost(stage.view, stage.style);
+  painter.draw_faces(stage.view, stage.look, 0, painter.face_count());
+  painter.draw_cuts(stage.view, stage.style);
+}
+
+/// Where it is wanted, and depths tell the places of pixels apart.
+void VolumeScene::Impl::darken(Framebuffer& target, const Stage& stage, int reach) const {
+  constexpr double kDepths = 16'777'216.0, kStepsAPixel = 16.0;  // of 24 bits
+  const double pixel = stage.camera.height / std::max(1.0, stage.whole.y);
+  if (stage.style.occlusion && pixel * kDepths > kStepsAPixel * 2.0 * bounds.radius())
+    occlusion.darken(target, stage.projection, reach, stage.style);
 }
 
 void VolumeScene::draw(Framebuffer& target, const OrbitCamera& camera, const Style& style, const SpaceMarks& marks, double detail) {
@@ -366,6 +390,7 @@ bool VolumeScene::draw_elements(Framebuffer& target, const Camera& seen_from, co
     s.painter.draw_faces(stage.view, stage.look, 0, s.painter.face_count());
   }
   s.painter.draw_cuts(stage.view, style);
+  if (stride <= 1) s.darken(target, stage, OcclusionPainter::reach(viewport, style));
   return stride <= 1;
 }
 
@@ -387,6 +412,7 @@ bool VolumeScene::draw_slice(Framebuffer& target, const Camera& seen_from, const
   progress.drawn += count;
   const bool last = progress.drawn >= s.painter.face_count();
   if (last) s.painter.draw_cuts(stage.view, style);
+  if (last) s.darken(target, stage, OcclusionPainter::reach(viewport, style));
   glFinish();
   return last;
 }
@@ -407,11 +433,21 @@ void VolumeScene::draw_part(Framebuffer& target, const Camera& seen_from, const 
   Impl& s = *impl_;
   if (s.elements == nullptr || s.bounds.empty()) return;
   const Impl::Stage stage(s, camera, style, viewport, part);
-  s.painter.fill().set_colours(style.colours);
-  begin_elements();
-  s.painter.draw_ghost(stage.view, style);
-  s.painter.draw_faces(stage.view, stage.look, 0, s.painter.face_count());
-  s.painter.draw_cuts(stage.view, style);
+  if (style.occlusion) {
+    // Parts look beyond their borders, so that they fit together.
+    const int reach = OcclusionPainter::reach(viewport, style), margin = reach + 2;
+    const Vec2<double> around{static_cast<double>(margin), static_cast<double>(margin)};
+    const Impl::Stage wide(s, camera, style, viewport, {part.low - around, part.high + around});
+    if (!s.wider) s.wider.emplace(1, 1);
+    s.wider->resize(target.width() + 2 * margin, target.height() + 2 * margin);
+    clear(*s.wider, style);
+    s.draw_whole(wide);
+    s.darken(*s.wider, wide, reach);
+    target.copy_middle_of(*s.wider);
+    target.bind();
+  } else {
+    s.draw_whole(stage);
+  }
   s.draw_marks(stage, std::get<SpaceMarks>(marks));
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/quality/quality.h"
 #include "ui/analysis/derived.h"
+#include "ui/analysis/element_colours.h"
 #include "ui/commands/inspection_commands.h"
 #include "ui/commands/view_to_commands.h"
 #include "ui/plots/plot_save.h"
@@ -159,6 +160,7 @@ void App::notice_new_input() {
     state_.picked = change == MeshChange::Switched ? std::exchange(state_.pick_on_switch, {}) : Picked{};
     state_.selection.clear();
     state_.colouring.isolated.reset();  // a category of another mesh would leave nothing of this one
+    if (!stays && frame != nullptr && tells_nothing(state_.colouring.by, *frame)) state_.colouring.by = ColourBy::Quality;
     state_.inspection.open = state_.inspection.playing = false;
   }
   if (state_.colouring.by == ColourBy::Group && frame != nullptr && frame->input->mesh.groups.empty())
@@ -284,7 +286,11 @@ void App::draw(double now) {
   viewports_.follow(state_, session_);
   engine_.watch(viewports_.wanted(state_));
   update_derived();
-  if (state_.timeline.shown == Shown::Now) viewports_.update_stepping(busy);
+  double fades_in = kForever;
+  if (state_.timeline.shown == Shown::Now) {
+    viewports_.update_stepping(busy);
+    fades_in = steps_.follow(state_, *session_, busy, now);
+  }
   refresh(inspection_, state_, *session_, busy);
   const double play_in = play_on(busy, now);
   for (Message& message : serve_plot_requests(state_, *session_, {derived_.sorted_before, derived_.sorted_now})) {
@@ -323,7 +329,7 @@ void App::draw(double now) {
   advance_playback(now);
   advance_sequence();
   watch_file();
-  redraw_in_ = std::min(redraw_in_, play_in);
+  redraw_in_ = std::min({redraw_in_, play_in, fades_in});
   if (state_.inspection.hovered != hovered) redraw_in_ = 0.0;  // the mesh is marked in the next frame
 }
 

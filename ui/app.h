@@ -10,6 +10,7 @@
 
 #include "core/engine/engine.h"
 #include "render/screenshot.h"
+#include "ui/analysis/step_report.h"
 #include "ui/commands/view_commands.h"
 #include "ui/panels/panels.h"
 #include "ui/state/mesh_change.h"
@@ -129,6 +130,7 @@ class App {
   Flipped flipped_;  // what shown_view() made last
 
   Viewports viewports_;
+  StepWatch steps_;
 
   double styled_scale_ = 0.0;
   std::optional<Theme> styled_theme_;

@@ -37,8 +37,9 @@ struct RenderOptions {
   MemoryLimit memory;
   std::string metric = "mean-ratio";
   std::string size = "1280x800";
-  std::string colormap = "viridis";
-  std::string range;
+  std::string colormap = "beacon";
+  std::string range = "input";
+  bool shading = false, no_occlusion = false;
   bool transparent = false;
   std::string clip, clip_mode = "crinkle", isolate, from = "iso";
   std::uint64_t peel = 0, worst = 0;
@@ -68,13 +69,38 @@ std::pair<int, int> parse_size(const std::string& text) {
   return *size;
 }
 
-std::optional<std::pair<double, double>> parse_range(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  const auto range = parse_pair<double>(text, ':');
-  if (!range || !std::isfinite(range->first) || !std::isfinite(range->second) || !(range->first < range->second)) {
-    throw UsageError(fmt::format("--range {}: expected LOW:HIGH, two qualities with LOW < HIGH", text));
+/// The words of the window's command `range`; of a single mesh some of them mean the same.
+struct RangeWish {
+  enum class Spans { All, Own, Percentiles } spans = Spans::All;
+  std::pair<double, double> percent{2.0, 98.0};
+  std::optional<std::pair<double, double>> given;
+};
+
+RangeWish parse_range(const std::string& text) {
+  constexpr std::string_view kPercentile = "percentile";
+  RangeWish wish;
+  if (text == "input") return wish;
+  if (text == "fixed") {
+    wish.given = {0.0, 1.0};
+    return wish;
   }
-  return range;
+  if (text == "auto" || text == "expanding") {
+    wish.spans = RangeWish::Spans::Own;
+    return wish;
+  }
+  const bool percentile = text.starts_with(kPercentile);
+  if (percentile) wish.spans = RangeWish::Spans::Percentiles;
+  if (text == kPercentile) return wish;
+  const auto range = parse_pair<double>(percentile ? text.substr(std::min(text.size(), kPercentile.size() + 1)) : text, ':');
+  const bool good = range && std::isfinite(range->first) && std::isfinite(range->second) && range->first < range->second;
+  if (!good || (percentile && (text[kPercentile.size()] != ':' || range->first < 0.0 || range->second > 100.0))) {
+    throw UsageError(
+        fmt::format("--range {}: expected input, fixed, auto, expanding, percentile, percentile:LOW:HIGH, or LOW:HIGH, two qualities with "
+                    "LOW < HIGH",
+                    text));
+  }
+  (percentile ? wish.percent : wish.given.emplace()) = *range;
+  return wish;
 }
 
 /// What is seen of a volume mesh, its clip plane apart.
@@ -111,7 +137,12 @@ int render(const RenderOptions& options) {
   look.width = width;
   look.height = height;
   look.colormap = options.colormap;
-  look.range = range;
+  look.range = range.given;
+  if (range.spans == RangeWish::Spans::Own) look.spans = PictureLook::Spans::Own;
+  if (range.spans == RangeWish::Spans::Percentiles) look.spans = PictureLook::Spans::Percentiles;
+  look.percent = range.percent;
+  look.shading = options.shading;
+  look.occlusion = !options.no_occlusion;
   look.transparent = options.transparent;
   const InsideLook inside{options.clip, view, options.from, options.perspective};
   require_sense(inside);
@@ -120,7 +151,7 @@ int render(const RenderOptions& options) {
   if (code == 0) print("wrote {} ({} x {} pixels)\n", options.output.string(), width, height);
   return code;
 #else
-  static_cast<void>(view), static_cast<void>(metric), static_cast<void>(width), static_cast<void>(height), static_cast<void>(range);
+  static_cast<void>(view), static_cast<void>(metric), static_cast<void>(width), static_cast<void>(height), static_cast<void>(range.given);
   throw UsageError("this program was built without OpenGL, so it makes no pictures");
 #endif
 }
@@ -143,6 +174,8 @@ void add_inside(CLI::App& subcommand, RenderOptions& options) {
   option("--shrink", options.shrink, "F", "Draw every element F times as large")->capture_default_str();
   option("--view", options.from, "VIEW", "Look from: iso, +x, -x, +y, -y, +z, -z")->capture_default_str();
   subcommand.add_flag("--perspective", options.perspective, "What is farther away looks smaller")->group("Volume meshes");
+  subcommand.add_flag("--shading", options.shading, "Lit by a lamp, too, which changes what the colours tell")->group("Volume meshes");
+  subcommand.add_flag("--no-occlusion", options.no_occlusion, "Not darker in corners and along edges")->group("Volume meshes");
 }
 
 }  // namespace
@@ -157,7 +190,12 @@ void add_render(CLI::App& app, Action& action) {
       ->capture_default_str();
   subcommand->add_option("--size", options->size, "Pixels")->type_name("WxH")->capture_default_str();
   subcommand->add_option("--colormap", options->colormap, "Colour map")->type_name("NAME")->capture_default_str();
-  subcommand->add_option("--range", options->range, "Qualities at the ends of the colour map (0:1 unless given)")->type_name("LO:HI");
+  subcommand
+      ->add_option("--range", options->range,
+                   "Qualities at the ends of the colour map: input (the mesh's own, rounded outwards), fixed (0 to 1), auto (its own), "
+                   "percentile[:LO:HI] (2:98 unless given), LO:HI")
+      ->type_name("RANGE")
+      ->capture_default_str();
   subcommand->add_flag("--transparent", options->transparent, "Leave the background transparent");
   add_memory_option(*subcommand, options->memory);
   add_inside(*subcommand, *options);

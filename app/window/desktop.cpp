@@ -34,6 +34,7 @@ Desktop::Desktop(const WindowOptions& options)
     ui::move_to_monitor(state, static_cast<double>(window_->content_scale()));
     settings_ = ui::settings_path();
     recent_ = ui::recent_path();
+    state.stepping.flash = ui::Flash::On;  // unless the settings say otherwise; pictures of scripts stay the same whenever they are taken
     ui::load_settings(settings_, state);
     ui::load_recent(recent_, state);
   }

@@ -12,6 +12,7 @@
 #include "core/io/mesh_io.h"
 #include "core/mesh/seam.h"
 #include "core/quality/quality.h"
+#include "core/view/input_spread.h"
 #include "render/context.h"
 #include "render/planar_scene.h"
 #include "ui/state/format.h"
@@ -35,12 +36,30 @@ JudgedElements judge(const InputMesh& input, std::span<const Vec3> positions, Me
   return judged;
 }
 
-render::Style style_of(const PictureLook& look) {
+namespace {
+
+std::pair<double, double> range_of(const PictureLook& look, const JudgedElements& judged) {
+  if (look.range) return *look.range;
+  InputSpread spread;
+  for (std::size_t e = 0; e < judged.quality.size(); ++e)
+    if (judged.inverted[e] == 0) spread.add(static_cast<double>(judged.quality[e]));
+  const bool all = look.spans != PictureLook::Spans::Percentiles;
+  const auto range = all ? spread.range() : spread.percentiles(look.percent.first, look.percent.second);
+  if (!range) return {0.0, 1.0};
+  if (look.spans != PictureLook::Spans::Own) return tidy_range(*range);
+  return range->second > range->first ? *range : std::pair{0.0, 1.0};
+}
+
+}  // namespace
+
+render::Style style_of(const PictureLook& look, const JudgedElements& judged) {
   render::Style style = look.transparent ? render::Style::light() : render::Style::dark();
   style.transparent = look.transparent;
   style.wireframe = look.wireframe;
   style.colours.map = render::colour_map_from_name(look.colormap);
-  if (look.range) std::tie(style.colours.low, style.colours.high) = *look.range;
+  style.shading = look.shading;
+  style.occlusion = look.occlusion;
+  std::tie(style.colours.low, style.colours.high) = range_of(look, judged);
   return style;
 }
 
@@ -69,7 +88,7 @@ std::string picture_png(const InputMesh& input, std::span<const Vec3> positions,
   scene.update(positions, judged.quality, judged.inverted);
   const render::Shot shot = shot_of(input, judged, look);
   const render::Camera2D camera = render::Camera2D::fit(scene.bounds(), render::mesh_viewport(shot));
-  return render::encode_png(render::render_image(scene, camera, style_of(look), {}, shot).image);
+  return render::encode_png(render::render_image(scene, camera, style_of(look, judged), {}, shot).image);
 }
 
 std::string css_gradient(std::string_view colormap) {

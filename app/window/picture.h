@@ -20,8 +20,14 @@ struct InsideLook;
 struct PictureLook {
   Metric metric = Metric::MeanRatio;
   int width = 1280, height = 800;  // pixels
-  std::string colormap = "viridis";
-  std::optional<std::pair<double, double>> range;  // of quality; none: 0 to 1
+  std::string colormap = "beacon";
+  /// Of quality, unless `range` is given. Inverted elements apart; all but Own rounded outwards.
+  enum class Spans { All, Own, Percentiles };
+  Spans spans = Spans::All;
+  std::pair<double, double> percent{2.0, 98.0};
+  std::optional<std::pair<double, double>> range;
+  bool shading = false;   // volumes lit by a lamp, too
+  bool occlusion = true;  // volumes darker in corners and along edges
   bool transparent = false;
   bool wireframe = true;
   bool colour_bar = true;

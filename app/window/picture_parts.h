@@ -20,7 +20,7 @@ struct JudgedElements {
 /// With the mesh's vertices at `positions`. Throws UsageError for a metric that there is not for such elements, and Cancelled.
 [[nodiscard]] JudgedElements judge(const InputMesh& input, std::span<const Vec3> positions, Metric metric, const Progress& progress);
 
-[[nodiscard]] render::Style style_of(const PictureLook& look);
+[[nodiscard]] render::Style style_of(const PictureLook& look, const JudgedElements& judged);
 [[nodiscard]] render::Shot shot_of(const InputMesh& input, const JudgedElements& judged, const PictureLook& look);
 
 }  // namespace dmoscope::app

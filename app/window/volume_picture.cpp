@@ -48,7 +48,7 @@ std::string volume_picture_png(const InputMesh& input, std::span<const Vec3> pos
   const Vec2<double> viewport = render::mesh_viewport(shot);
   constexpr double kMargin = 24.0;  // pixels
   scene.fit(camera, viewport, {{kMargin, kMargin}, {viewport.x - kMargin, viewport.y - kMargin}});
-  return render::encode_png(render::render_image(scene, camera, style_of(look), render::SpaceMarks{}, shot).image);
+  return render::encode_png(render::render_image(scene, camera, style_of(look, judged), render::SpaceMarks{}, shot).image);
 }
 
 }  // namespace dmoscope::app

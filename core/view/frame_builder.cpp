@@ -79,7 +79,7 @@ const FrameBuilder::InputFacts& FrameBuilder::facts_of(Session& session, const s
   }
   if (known && facts->metric == session.shown()) return *facts;
   facts->metric = session.shown();
-  facts->before = histogram_of(*input, facts->metric, session.pool().get());
+  facts->before = std::make_shared<const InputSpread>(spread_of(*input, facts->metric, session.pool().get()));
   return *facts;
 }
 
@@ -129,7 +129,8 @@ std::shared_ptr<Frame> FrameBuilder::begin(Session& session, const FrameKey& key
   frame->run = key.index;
   frame->moment = key.moment;
   frame->shown = key.shown;
-  frame->before = facts.before;
+  frame->before = facts.before->histogram;
+  frame->input_spread = facts.before;
   return frame;
 }
 

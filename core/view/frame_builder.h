@@ -51,7 +51,7 @@ class FrameBuilder {
     std::shared_ptr<const InputMesh> input;
     std::uint64_t serial = 0;
     Metric metric = Metric::MeanRatio;
-    Histogram before;  // of the metric
+    std::shared_ptr<const InputSpread> before;  // of the metric
   };
   static const std::shared_ptr<const InputMesh>& input_of(Session& session, const FrameKey& key);
   static FrameKey key_of(Session& session, std::size_t run);

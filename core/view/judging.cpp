@@ -107,19 +107,31 @@ void judge_elements(Frame& frame, std::span<const Index> immovable, ThreadPool* 
   frame.worst = whole.worst.take();
 }
 
-Histogram histogram_of(const InputMesh& input, Metric metric, ThreadPool* pool) {
-  const std::size_t count = input.mesh.elements.size();
-  std::vector<Bins> parts((count + kElementsJudgedAtOnce - 1) / kElementsJudgedAtOnce);
-  for_chunks(pool, count, kElementsJudgedAtOnce, [&](std::size_t first, std::size_t last) {
+InputSpread spread_of(const InputMesh& input, Metric metric, ThreadPool* pool) {
+  struct Stretch {
     Bins bins;
+    InputSpread spread;
+  };
+  const std::size_t count = input.mesh.elements.size();
+  std::vector<Stretch> parts((count + kElementsJudgedAtOnce - 1) / kElementsJudgedAtOnce);
+  for_chunks(pool, count, kElementsJudgedAtOnce, [&](std::size_t first, std::size_t last) {
+    Stretch& part = parts[first / kElementsJudgedAtOnce];
     for_blocks(input.quality_context(), input.mesh.positions, metric, first, last, [&](const ElementBlock& block) {
-      for (const double q : block.qualities()) bins.add(q);
+      for (std::size_t i = 0; i < block.count; ++i) {
+        const double q = block.quality[i];
+        part.bins.add(q);
+        if (block.jacobian[i] > 0.0 && !(q < 0.0)) part.spread.add(q);
+      }
     });
-    parts[first / kElementsJudgedAtOnce] = bins;
   });
-  Bins whole;
-  for (const Bins& part : parts) whole.add(part);
-  return whole.histogram();
+  Bins bins;
+  InputSpread whole;
+  for (const Stretch& part : parts) {
+    bins.add(part.bins);
+    whole.add(part.spread);
+  }
+  whole.histogram = bins.histogram();
+  return whole;
 }
 
 Histogram make_histogram(std::span<const double> qualities) {

@@ -14,7 +14,7 @@ namespace dmoscope {
 void judge_elements(Frame& frame, std::span<const Index> immovable, ThreadPool* pool);
 
 /// Of a metric at the input.
-[[nodiscard]] Histogram histogram_of(const InputMesh& input, Metric metric, ThreadPool* pool);
+[[nodiscard]] InputSpread spread_of(const InputMesh& input, Metric metric, ThreadPool* pool);
 
 /// Counts of `qualities` between 0, below which elements are inverted, and 1, the ideal element; NaN is left out.
 [[nodiscard]] Histogram make_histogram(std::span<const double> qualities);

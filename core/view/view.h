@@ -13,6 +13,7 @@
 #include "core/run/summary.h"
 #include "core/session/endings.h"
 #include "core/session/session.h"
+#include "core/view/input_spread.h"
 
 namespace dmoscope {
 
@@ -37,12 +38,13 @@ struct Frame {
   std::shared_ptr<const DevicePicture> device;  // null: all of it is here
   std::string device_trouble;                   // why there is none although the run lives on a device; empty when there is no such reason
   std::vector<Vec3> positions;
-  std::vector<float> quality;          // of the shown metric, one an element; NaN where it is not defined
-  std::vector<std::uint8_t> inverted;  // one an element, 1 where a corner Jacobian is <= 0
-  Statistics shown_statistics;         // of the shown metric
-  Statistics statistics;               // of the metric the run optimises
-  Histogram before, now;               // of the shown metric: at the input, and here
-  std::vector<RankedElement> worst;    // of the shown metric, worst first, at most 100
+  std::vector<float> quality;                         // of the shown metric, one an element; NaN where it is not defined
+  std::vector<std::uint8_t> inverted;                 // one an element, 1 where a corner Jacobian is <= 0
+  Statistics shown_statistics;                        // of the shown metric
+  Statistics statistics;                              // of the metric the run optimises
+  Histogram before, now;                              // of the shown metric: at the input, and here
+  std::shared_ptr<const InputSpread> input_spread{};  // of the shown metric
+  std::vector<RankedElement> worst;                   // of the shown metric, worst first, at most 100
   [[nodiscard]] Index vertex_count() const noexcept { return input->mesh.vertex_count(); }
   [[nodiscard]] Index element_count() const noexcept { return static_cast<Index>(input->mesh.elements.size()); }
 };

@@ -59,5 +59,5 @@ void main() {
   }
   gl_Position = to_clip(middle, worst ? -0.5 : counting ? 0.0 : 0.5);
   if ((!counting && u_others != 0) || east - west > u_widest) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // nothing is drawn
-  gl_PointSize = clamp(1.7 * sqrt(abs(area) * float(u_stride)) + 0.5, 1.0, 64.0);
+  gl_PointSize = clamp(1.7 * sqrt(abs(area) * float(u_stride)) + 0.5, 1.0, worst ? 8.0 : 64.0);  // a large inverted one buries no other
 }

@@ -25,8 +25,15 @@ void main() {
     plain = colour_of(away.x == nearest ? g_values.x : away.y == nearest ? g_values.y : away.z == nearest ? g_values.z : g_values.w);
   }
 #endif
-  vec3 fill = hatched(plain, pixel, g_wire_and_size.y);
   float nearest = min(g_distance.x, min(g_distance.y, g_distance.z));
+  if (plain.a == 1.0) {
+    // What is inverted lies over others: between its stripes and its outline they stay to be seen. Where it is small it is all colour.
+    float solid = 1.0 - smoothstep(0.6, 1.6, g_wire_and_size.y / u_hatch_period);
+    if (nearest > 2.0 * u_wire_half_width + 0.5 && max(solid, stripes(pixel)) < 0.5) discard;
+    colour = vec4(plain.rgb, 1.0);
+    return;
+  }
+  vec3 fill = hatched(plain, pixel, g_wire_and_size.y);
   float line = clamp(u_wire_half_width + 0.5 - nearest, 0.0, 1.0) * min(1.0, 2.0 * u_wire_half_width + 0.5) * g_wire_and_size.x;
   colour = plain.a == 3.0 ? mix(u_hollow_fill, vec4(u_hollow_colour.rgb, 1.0), line)
                           : vec4(mix(fill, u_wire_colour.rgb, line * u_wire_colour.a), 1.0);

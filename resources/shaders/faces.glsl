@@ -9,6 +9,7 @@ layout(std430, binding = 4) readonly buffer Means { float means[]; };  // of an 
 uniform mat4 u_to_clip_space;
 uniform vec4 u_eye;     // where it is, 1; or the direction towards it, 0
 uniform vec4 u_light;   // the direction towards it
+uniform float u_shading; // 1: faces are lit; 0: their colours tell their values alone
 uniform vec4 u_plane;   // clip plane: normal, offset; what is beyond is not drawn
 uniform float u_shrink; // about the means; 1: not at all
 
@@ -34,6 +35,7 @@ bool looks_away(vec3 a, vec3 b, vec3 c, vec3 d) {
 
 // A light beside the eye: faces that are turned away are darker, none is dark.
 float brightness(vec3 normal, vec3 middle) {
+  if (u_shading == 0.0) return 1.0;
   vec3 to_eye = towards_eye(middle);
   float size = length(normal);
   vec3 towards = size > 0.0 ? normal / size : to_eye;

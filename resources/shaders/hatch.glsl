@@ -2,6 +2,12 @@
 uniform float u_hatch_period;     // pixels
 uniform vec2 u_hatch_phase;       // of the rising and of the falling stripes, periods
 
+// Whether a pixel belongs to a rising stripe, 0 or 1: about a third do.
+float stripes(vec2 pixel) {
+  float along = (pixel.x - pixel.y) / u_hatch_period + u_hatch_phase.x;
+  return abs(fract(along) - 0.5) < 0.17 ? 1.0 : 0.0;
+}
+
 // fill: rgb; 1 inverted, 2 not defined, else plain. pixel: relative to the middle of the viewport. size: of the element, pixels.
 vec3 hatched(vec4 fill, vec2 pixel, float size) {
   if (fill.a != 1.0 && fill.a != 2.0) return fill.rgb;

@@ -1,5 +1,7 @@
 #include "render/colour_map.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -31,15 +33,82 @@ Lab oklab(Rgb c) {
 }
 double distance(Lab a, Lab b) { return std::hypot(a.l - b.l, a.a - b.a, a.b - b.b); }
 
-TEST(ColourMap, LightnessRisesEvenly) {
+TEST(ColourMap, LightnessChangesEvenly) {
   for (const ColourMapInfo& info : colour_map_table()) {
     const double first = oklab(sample(info.map, 0.0)).l, last = oklab(sample(info.map, 1.0)).l;
-    EXPECT_GT(last - first, 0.5) << info.name;
+    // Where the low is bright, colours keep away from the darkest and the lightest, which backgrounds have.
+    EXPECT_GT(low_is_bright(info.map) ? first - last : last - first, low_is_bright(info.map) ? 0.33 : 0.5) << info.name;
     for (int i = 0; i <= 100; ++i) {
       // 8 bits a channel round lightness, most of all where it is dark.
       EXPECT_NEAR(oklab(sample(info.map, i / 100.0)).l, first + i / 100.0 * (last - first), 0.012) << info.name << " at " << i;
     }
   }
+}
+
+/// A colour as eyes see it that lack a kind of cones (Machado, Oliveira and Fernandes 2009, severity 1), on linear light.
+using Vision = std::array<std::array<double, 3>, 3>;
+constexpr Vision kProtanopia{{{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}};
+constexpr Vision kDeuteranopia{{{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}};
+constexpr Vision kTritanopia{{{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.303900}}};
+
+Rgb seen_by(const Vision& vision, Rgb c) {
+  const auto linear = [](int v) {
+    const double x = v / 255.0;
+    return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+  };
+  const std::array light{linear(c.r), linear(c.g), linear(c.b)};
+  std::array<std::uint8_t, 3> bytes{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double v = std::clamp(vision[i][0] * light[0] + vision[i][1] * light[1] + vision[i][2] * light[2], 0.0, 1.0);
+    bytes[i] = static_cast<std::uint8_t>(std::lround(255.0 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055)));
+  }
+  return {bytes[0], bytes[1], bytes[2]};
+}
+
+TEST(Beacon, TellsValuesApartForEveryColourVision) {
+  constexpr int kSteps = 20;
+  for (const Vision& vision : {kProtanopia, kDeuteranopia, kTritanopia}) {
+    std::array<Lab, kSteps + 1> seen{};
+    for (int i = 0; i <= kSteps; ++i)
+      seen[static_cast<std::size_t>(i)] = oklab(seen_by(vision, sample(ColourMap::Beacon, 1.0 * i / kSteps)));
+    for (std::size_t i = 0; i < kSteps; ++i) EXPECT_GT(seen[i].l, seen[i + 1].l) << "the worse is the brighter, at " << i;
+    for (std::size_t i = 0; i <= kSteps; ++i) {
+      // A just noticeable difference is about 0.02.
+      for (std::size_t j = i + 4; j <= kSteps; ++j) EXPECT_GT(distance(seen[i], seen[j]), 0.04) << i << " and " << j;
+      EXPECT_GT(distance(seen[i], oklab(seen_by(vision, kInvertedColour))), 0.12) << "inverted, at " << i;
+    }
+    EXPECT_GT(distance(seen.front(), seen.back()), 0.3);
+  }
+}
+
+TEST(Beacon, TheBadIsBrightAndWarmAndTheGoodIsCalm) {
+  const Lab bad = oklab(sample(ColourMap::Beacon, 0.0)), good = oklab(sample(ColourMap::Beacon, 1.0));
+  EXPECT_GT(bad.l, good.l + 0.33);
+  EXPECT_GT(bad.b, 0.12) << "yellow and orange";
+  EXPECT_GT(bad.a, 0.0) << "on the red side";
+  EXPECT_LT(good.b, -0.1) << "blue";
+}
+
+TEST(Beacon, SinksIntoNoBackground) {
+  const auto luminance = [](Rgb c) {
+    const auto linear = [](int v) {
+      const double x = v / 255.0;
+      return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+    };
+    return 0.2126 * linear(c.r) + 0.7152 * linear(c.g) + 0.0722 * linear(c.b);
+  };
+  const auto contrast = [&](Rgb a, Rgb b) {
+    const double x = luminance(a) + 0.05, y = luminance(b) + 0.05;
+    return std::max(x, y) / std::min(x, y);
+  };
+  constexpr Rgb kDark{0x1b, 0x1e, 0x23}, kLight{0xf4, 0xf5, 0xf7}, kBlack{0, 0, 0}, kWhite{255, 255, 255};
+  double worst_of_viridis = 21.0;
+  for (int i = 0; i <= 256; ++i) {
+    for (const Rgb background : {kDark, kLight, kBlack, kWhite})
+      EXPECT_GT(contrast(sample(ColourMap::Beacon, i / 256.0), background), 1.75) << i;
+    worst_of_viridis = std::min(worst_of_viridis, contrast(sample(ColourMap::Viridis, i / 256.0), kDark));
+  }
+  EXPECT_LT(worst_of_viridis, 1.3) << "which is why it is not the default";
 }
 
 TEST(ColourMap, ChangesSmoothly) {

@@ -65,10 +65,11 @@ inline Mesh wavy_sheet(int columns, int rows) {
   return mesh;
 }
 
-/// No lines at all: every pixel inside an element has the element's colour.
+/// No lines at all: every pixel inside an element has the element's colour, and it alone.
 inline Style flat_style() {
   Style style = Style::dark();
   style.wireframe = false;
+  style.occlusion = false;
   style.boundary = false;
   return style;
 }

@@ -1,3 +1,4 @@
+#include <array>
 #include <limits>
 
 #include "fixture.h"
@@ -265,6 +266,46 @@ TEST_F(WithContext, SuggestsLessDetailOnlyInSoftwareWhileMoving) {
   EXPECT_EQ(scene->suggested_detail(1'000, true, true), 1.0);
   EXPECT_LT(scene->suggested_detail(2'700'000, true, true), 0.1);
   EXPECT_EQ(scene->suggested_detail(0, true, true), 1.0);
+}
+
+TEST_F(WithContext, InvertedElementsDoNotBuryTheRest) {
+  // A sheet of 8 x 4 quadrilaterals, and over all of it three inverted triangles.
+  Mesh mesh;
+  for (int j = 0; j <= 4; ++j)
+    for (int i = 0; i <= 8; ++i) mesh.positions.push_back({i * 20.0 - 80.0, j * 20.0 - 40.0, 0.0});
+  for (Index j = 0; j < 4; ++j)
+    for (Index i = 0; i < 8; ++i) {
+      const Index a = j * 9 + i;
+      mesh.elements.add(ElementKind::Quadrilateral, std::array<Index, 4>{a, a + 1, a + 10, a + 9});
+    }
+  std::vector<float> quality(32, 0.5F);
+  std::vector<std::uint8_t> inverted(32, 0);
+  for (int k = 0; k < 3; ++k) {
+    const auto first = static_cast<Index>(mesh.positions.size());
+    for (const Vec3 p : {Vec3{-90, -50, 0}, Vec3{0, 400, 0}, Vec3{90, -50, 0}}) mesh.positions.push_back(p);
+    mesh.elements.add(ElementKind::Triangle, std::array<Index, 3>{first, first + 1, first + 2});
+    quality.push_back(-0.5F);
+    inverted.push_back(1);
+  }
+  scene->set_mesh(mesh, Plane{});
+  scene->update(mesh.positions, quality, inverted);
+  const Image image = picture(unit_camera(), flat_style());
+  int magenta = 0, of_the_rest = 0, others = 0;
+  for (int y = 25; y < 95; ++y)
+    for (int x = 40; x < 160; ++x) {
+      if (near_colour(image.at(x, y), kInvertedColour, 2)) {
+        ++magenta;
+      } else if (near_colour(image.at(x, y), sample(ColourMap::Viridis, 0.5), 2)) {
+        ++of_the_rest;
+      } else {
+        ++others;
+      }
+    }
+  const int all = 70 * 120;
+  EXPECT_EQ(others, 0);
+  EXPECT_GT(magenta, all / 8) << "they are marked";
+  EXPECT_LT(magenta, all / 2) << "three of them no more than one";
+  EXPECT_GT(of_the_rest, all / 2);
 }
 
 }  // namespace

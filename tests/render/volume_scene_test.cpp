@@ -59,13 +59,13 @@ class VolumePicture : public WithContext {
     const auto place = camera.projection(kViewport, space->bounds()).place(point);
     return image.at(static_cast<int>(0.5 * kWidth + place->x), static_cast<int>(0.5 * kHeight - place->y));
   }
-  /// A colour as it is shown of a face that looks along +x, towards the eye: the light comes from over the left shoulder.
-  static Rgb lit(Rgb colour) {
+  /// Of a face that looks along +x, towards the eye, where there is a lamp: its light comes from over the left shoulder.
+  static Rgb by_lamp(Rgb colour) {
     const double brightness = 0.70 + 0.30 / std::sqrt(1.0 + 0.45 * 0.45 + 0.3 * 0.3);
     const auto channel = [&](std::uint8_t c) { return static_cast<std::uint8_t>(std::lround(brightness * c)); };
     return {channel(colour.r), channel(colour.g), channel(colour.b)};
   }
-  static Rgb of_quality(double q) { return lit(flat_style().colours.colour(q)); }
+  static Rgb of_quality(double q) { return flat_style().colours.colour(q); }
 
   Mesh mesh = test::volume_grid(2, test::Fill::Hexahedra);
   FaceNeighbours faces{mesh};
@@ -75,6 +75,78 @@ class VolumePicture : public WithContext {
   OrbitCamera camera;
   SpaceMarks plain;
 };
+
+TEST_F(VolumePicture, ColoursTellTheirValuesAloneUnlessALampIsAskedFor) {
+  Style lamp = flat_style();
+  lamp.shading = true;
+  EXPECT_TRUE(near_colour(at(shot(lamp), {1, 0.25, 0.25}), by_lamp(of_quality(0.2))));
+  // From a corner three sides are seen; each face has the colour of its own cell, whichever way it looks.
+  camera.look_from(ViewPreset::Isometric);
+  camera.fit(space->bounds(), kViewport, 10.0);
+  const Image image = shot();
+  for (const Vec3 point : {Vec3{1, 0.75, 0.75}, Vec3{0.75, 0.75, 1}}) EXPECT_TRUE(near_colour(at(image, point), of_quality(0.8), 1));
+  EXPECT_TRUE(near_colour(at(image, {0.75, 0.25, 1}), of_quality(0.6), 1));
+}
+
+TEST_F(VolumePicture, OcclusionDarkensCornersAndEdgesALittle) {
+  std::ranges::fill(quality, 0.5F);
+  show();
+  ClippingView inside;
+  inside.isolate = {0.0F, 1.0F};
+  camera.look_from(ViewPreset::Isometric);
+  camera.fit(space->bounds(), kViewport, 10.0);
+  // One cell of eight is gone: where it was there is a corner.
+  quality[7] = 2.0F;
+  show();
+  space->set_view(inside);
+  Style style = flat_style();
+  const Rgb plain_colour = of_quality(0.5);
+  const Image without = shot(style);
+  style.occlusion = true;
+  const Image with = shot(style);
+  const auto share = [&](Rgb c) { return static_cast<double>(c.g) / plain_colour.g; };
+  int darker = 0, mesh_pixels = 0;
+  for (int y = 0; y < with.height; ++y)
+    for (int x = 0; x < with.width; ++x) {
+      const Rgba a = without.at(x, y), b = with.at(x, y);
+      if (!near_colour(a, plain_colour, 2)) {
+        EXPECT_EQ(a, b) << "the background stays, at " << x << ' ' << y;
+        continue;
+      }
+      ++mesh_pixels;
+      darker += b.g < a.g ? 1 : 0;
+      EXPECT_GE(share({b.r, b.g, b.b}), 1.0 - static_cast<double>(kMostDarkened) - 0.01) << x << ' ' << y;
+      EXPECT_LE(b.g, a.g);
+      // All channels by one share: the hue stays.
+      EXPECT_NEAR(static_cast<double>(b.r) / std::max(1, static_cast<int>(plain_colour.r)), share({b.r, b.g, b.b}), 0.03);
+    }
+  EXPECT_GT(darker, mesh_pixels / 50);
+  EXPECT_LT(darker, mesh_pixels) << "faces keep their colour away from edges";
+  EXPECT_LT(share(at(with, {0.52, 0.52, 0.52})), 0.95) << "in the corner";
+  EXPECT_GT(share(at(with, {1, 0.25, 0.25})), 0.99) << "in the middle of a face";
+  EXPECT_EQ(with.rgba, shot(style).rgba) << "nothing by chance";
+}
+
+TEST_F(VolumePicture, OcclusionFitsTogetherInParts) {
+  camera.look_from(ViewPreset::Isometric);
+  Style style = flat_style();
+  style.occlusion = true;
+  const Vec2<double> whole{400, 240};
+  camera.fit(space->bounds(), whole, 10.0);
+  const auto part = [&](double left, double right) {
+    target->resize(static_cast<int>(right - left), 240);
+    space->draw_part(*target, camera, style, plain, whole, {{left, 0}, {right, 240}});
+    return target->read_pixels();
+  };
+  const Image all = part(0, 400), left = part(0, 190), right = part(190, 400);
+  int wrong = 0;
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 400; ++x) {
+      const Rgba expected = all.at(x, y), found = x < 190 ? left.at(x, y) : right.at(x - 190, y);
+      wrong += std::abs(expected.r - found.r) + std::abs(expected.g - found.g) + std::abs(expected.b - found.b) > 6 ? 1 : 0;
+    }
+  EXPECT_LT(wrong, 40) << "of 96,000 pixels; rounding moves an edge here and there";
+}
 
 TEST_F(VolumePicture, TheNearCellsHideTheFarOnes) {
   const Image image = shot();
@@ -140,7 +212,7 @@ TEST_F(VolumePicture, WhatIsNotChosenFades) {
   selection.quality = std::pair{0.5F, 1.0F};
   space->set_selection(selection);
   const Image image = shot();
-  EXPECT_TRUE(near_colour(at(image, {1, 0.25, 0.25}), lit(flat_style().faded_colour)));
+  EXPECT_TRUE(near_colour(at(image, {1, 0.25, 0.25}), flat_style().faded_colour));
   EXPECT_TRUE(near_colour(at(image, {1, 0.25, 0.75}), of_quality(0.6)));
 }
 

@@ -27,8 +27,8 @@ struct ColourFacts {
   // What the above was worked out for
   using MembersKey = std::tuple<std::optional<Isolation>, int, std::uint64_t, std::uint64_t, const Colouring*>;
   std::optional<MembersKey> members_key;
-  using RangeKey = std::tuple<RangeMode, double, double, std::optional<std::pair<double, double>>, std::optional<std::pair<double, double>>,
-                              const std::vector<std::uint8_t>*>;
+  using RangeKey = std::tuple<RangeMode, double, double, double, double, std::optional<std::pair<double, double>>,
+                              std::optional<std::pair<double, double>>, const std::vector<std::uint8_t>*>;
   std::optional<RangeKey> range_key;
 };
 

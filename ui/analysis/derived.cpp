@@ -105,12 +105,14 @@ bool refresh_own(ColourFacts& facts, std::span<const std::shared_ptr<const Frame
 
 void refresh_range(Derived& derived, const ViewState& state, const Frame& frame, bool new_frame) {
   ColourFacts& facts = derived.colouring;
-  const ColourFacts::RangeKey key{state.range_mode,           state.range_low,        state.range_high,
-                                  state.colouring.held_range, state.colouring.filter, facts.members.get()};
+  const ColourFacts::RangeKey key{state.range_mode,        state.range_low,          state.range_high,
+                                  state.range_low_percent, state.range_high_percent, state.colouring.held_range,
+                                  state.colouring.filter,  facts.members.get()};
   if (!new_frame && facts.range_key == key) return;
   facts.range_key = key;
   const auto seen = facts.seen.find(frame.shown);
-  derived.range = colour_range(state, facts.own, seen == facts.seen.end() ? std::nullopt : std::optional(seen->second));
+  derived.range =
+      colour_range(state, facts.own, seen == facts.seen.end() ? std::nullopt : std::optional(seen->second), frame.input_spread.get());
   count_elements(derived, state, frame);
 }
 
@@ -215,7 +217,11 @@ render::ColourScale colour_scale(const ViewState& state, const Derived& derived)
 render::ColourScale shown_scale(const ViewState& state, const Derived& derived) {
   render::ColourScale scale = colour_scale(state, derived);
   const ColourFacts& facts = derived.colouring;
-  if (facts.colours) std::tie(scale.low, scale.high) = facts.values_range.value_or(facts.colours->range);
+  if (facts.colours) {
+    std::tie(scale.low, scale.high) = facts.values_range.value_or(facts.colours->range);
+    // Of quality the low is what is sought, of other values the high.
+    if (render::low_is_bright(scale.map)) scale.reversed = !scale.reversed;
+  }
   if (facts.colours && facts.colours->centred) {
     scale.map = render::ColourMap::OrangeBlue;
     scale.reversed = false;

@@ -448,6 +448,27 @@ std::optional<std::string> why_not_drawn(ColourBy by, const InputMesh& input) {
   return std::nullopt;
 }
 
+bool tells_nothing(ColourBy by, const Frame& opened) {
+  const InputMesh& input = *opened.input;
+  if (why_not_drawn(by, input)) return true;
+  switch (by) {
+    case ColourBy::Group:
+      return input.mesh.groups.empty();
+    case ColourBy::Kind: {
+      const auto kinds = input.mesh.elements.kinds();
+      return std::ranges::all_of(kinds, [&](ElementKind kind) { return kind == kinds.front(); });
+    }
+    case ColourBy::Inverted:
+      return opened.shown_statistics.inverted == 0;
+    case ColourBy::Displacement:
+    case ColourBy::Difference:
+    case ColourBy::SizeOverTarget:
+      return opened.moment == Moment{};  // nothing has moved, and no run has a size function yet
+    default:
+      return false;
+  }
+}
+
 std::optional<std::string> why_unknown(const Isolation& isolation, const InputMesh& input) {
   const auto among = [&](const std::vector<std::string>& names, const char* what) -> std::optional<std::string> {
     if (std::find(names.begin(), names.end(), isolation.name) != names.end()) return std::nullopt;

@@ -60,6 +60,9 @@ struct ColourRequest {
 /// Why the elements of a mesh cannot be coloured so; none where they can.
 [[nodiscard]] std::optional<std::string> why_not_drawn(ColourBy by, const InputMesh& input);
 
+/// Whether colours would be the same all over a mesh that has just been opened, or cannot be drawn at all.
+[[nodiscard]] bool tells_nothing(ColourBy by, const Frame& opened);
+
 /// Takes some 20 ms a million elements, on any thread. `by` must not be ColourBy::Quality.
 [[nodiscard]] ElementColours colour_elements(const ColourRequest& request);
 

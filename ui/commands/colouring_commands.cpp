@@ -1,6 +1,7 @@
 #include "ui/commands/colouring_commands.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -42,6 +43,34 @@ std::pair<double, double> parse_range(Arguments words) {
   return {low, high};
 }
 
+void set_range(ViewState& state, Arguments words) {
+  require(words, 1, 3);
+  if (words[0] == info(RangeMode::Percentile).name) {
+    if (words.size() > 1) {
+      const auto [low, high] = parse_range(words.subspan(1));
+      if (!(low >= 0.0 && high <= 100.0)) throw UsageError("percentiles are from 0 to 100");
+      state.range_low_percent = low;
+      state.range_high_percent = high;
+    }
+    state.range_mode = RangeMode::Percentile;
+    return;
+  }
+  if (words.size() > 1) {
+    std::tie(state.range_low, state.range_high) = parse_range(words);
+    state.range_mode = RangeMode::Given;
+    return;
+  }
+  std::string names;
+  for (const RangeModeInfo& one : kRangeModes) {
+    if (one.mode == RangeMode::Given) continue;
+    names += (names.empty() ? "" : ", ") + std::string(one.name);
+    if (one.name != words[0]) continue;
+    state.range_mode = one.mode;
+    return;
+  }
+  unexpected(words[0], "one of " + names + ", or two qualities");
+}
+
 void add_colour_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
   table.add({"colormap", "colormap NAME|next", "colours of quality"}, [&state](Arguments words) {
     require(words, 1, 1);
@@ -57,24 +86,27 @@ void add_colour_commands(CommandTable& table, ViewState& state, const CommandHos
     require(words, 0, 1);
     state.colouring.reversed = switched(words, 0, state.colouring.reversed);
   });
+  table.add({"shading", "shading [on|off|toggle]", "volumes lit by a lamp, too, which changes what their colours tell"},
+            [&state](Arguments words) {
+              require(words, 0, 1);
+              state.shading = switched(words, 0, state.shading);
+            });
+  table.add({"occlusion", "occlusion [on|off|toggle]", "volumes a little darker in corners and along edges, which shows their form"},
+            [&state](Arguments words) {
+              require(words, 0, 1);
+              state.occlusion = switched(words, 0, state.occlusion);
+            });
   table.add({"color-steps", "color-steps N", "so many colours of equal width, 2 to 64; 0: without steps"}, [&state](Arguments words) {
     require(words, 1, 1);
     const std::uint64_t steps = to_count(words[0]);
     if (steps == 1 || steps > 64) throw UsageError("the steps are 2 to 64, or 0 for none");
     state.colouring.steps = static_cast<int>(steps);
   });
-  table.add({"range", "range fixed|auto|expanding|LOW HIGH",
-             "qualities that the colours span: 0 to 1, the mesh's own, all seen since it was opened, or given"},
-            [&state](Arguments words) {
-              if (words.size() == 1) {
-                state.range_mode = choose(words[0], kRangeModes);
-                return;
-              }
-              const auto range = parse_range(words);
-              state.range_mode = RangeMode::Given;
-              state.range_low = range.first;
-              state.range_high = range.second;
-            });
+  table.add(
+      {"range", "range input|fixed|auto|expanding|percentile [LOW HIGH]  or  range LOW HIGH",
+       "qualities that the colours span: the input's, 0 to 1, the mesh's own, all seen since it was opened, between two percentiles of "
+       "the input (2 98), or given"},
+      [&state](Arguments words) { set_range(state, words); });
   table.add({"color-by",
              "color-by quality|kind|group|valence|class|displacement|size|edge-length|size-over-target|inverted|difference [input|run "
              "N|mark a|b]",
@@ -173,9 +205,11 @@ void add_colouring_commands(CommandTable& table, ViewState& state, const Command
 
 std::optional<bool> colouring_checked(const ViewState& state, std::string_view id) {
   const ColouringState& colouring = state.colouring;
-  for (const auto& [name, mode] : kRangeModes) {
-    if (id.starts_with("range-") && id.substr(6) == name) return state.range_mode == mode;
+  for (const RangeModeInfo& one : kRangeModes) {
+    if (id.starts_with("range-") && id.substr(6) == one.name) return state.range_mode == one.mode;
   }
+  if (id == "shading") return state.shading;
+  if (id == "occlusion") return state.occlusion;
   for (const ColourByInfo& one : kColourBys) {
     if (id.starts_with("color-by-") && id.substr(9) == one.name) return colouring.by == one.by;
   }

@@ -30,6 +30,26 @@ void take(const json& from, const char* name, double& value, double least, doubl
   if (read >= least && read <= most) value = read;
 }
 
+/// Two numbers of which the second is greater, else those that are.
+void take_pair(const json& from, const char* low_name, const char* high_name, double& low, double& high, double least, double most) {
+  double read_low = low, read_high = high;
+  take(from, low_name, read_low, least, most);
+  take(from, high_name, read_high, least, most);
+  if (!(read_low < read_high)) return;
+  low = read_low;
+  high = read_high;
+}
+
+void take_range(const json& from, ViewState& state) {
+  constexpr double kFarthest = 1e300;
+  take_pair(from, "low", "high", state.range_low, state.range_high, -kFarthest, kFarthest);
+  take_pair(from, "low_percent", "high_percent", state.range_low_percent, state.range_high_percent, 0.0, 100.0);
+  const auto mode = from.find("mode");
+  if (mode == from.end() || !mode->is_string()) return;
+  for (const RangeModeInfo& one : kRangeModes)
+    if (one.name == mode->get<std::string>()) state.range_mode = one.mode;
+}
+
 /// A file of ours where XDG wants it: `variable`, else `fallback` in the home.
 std::filesystem::path xdg_path(const char* variable, const char* fallback, const char* name) {
   if (const char* folder = std::getenv(variable); folder != nullptr && *folder != '\0') {
@@ -83,6 +103,15 @@ std::string settings_text(const ViewState& state) {
               {"colormap", render::name(state.colour_map)},
               {"reversed", state.colouring.reversed},
               {"steps", state.colouring.steps},
+              {"range",
+               {{"mode", info(state.range_mode).name},
+                {"low", state.range_low},
+                {"high", state.range_high},
+                {"low_percent", state.range_low_percent},
+                {"high_percent", state.range_high_percent}}},
+              {"flash", state.stepping.flash != Flash::Off},
+              {"shading", state.shading},
+              {"occlusion", state.occlusion},
               {"wireframe", state.wireframe},
               {"panels",
                {{"left", panels.left},
@@ -110,6 +139,12 @@ bool apply_settings(const std::string& text, ViewState& state) {
   take(in, "steps", steps, 0.0, 64.0);
   state.colouring.steps = steps == 1.0 ? 0 : static_cast<int>(steps);
   take(in, "wireframe", state.wireframe);
+  bool flash = state.stepping.flash != Flash::Off;
+  take(in, "flash", flash);
+  state.stepping.flash = flash ? Flash::On : Flash::Off;
+  take(in, "shading", state.shading);
+  take(in, "occlusion", state.occlusion);
+  if (const auto at = in.find("range"); at != in.end() && at->is_object()) take_range(*at, state);
   if (const auto at = in.find("colormap"); at != in.end() && at->is_string()) {
     for (const auto& map : render::colour_map_table()) {
       if (map.name == at->get<std::string>()) state.colour_map = map.map;

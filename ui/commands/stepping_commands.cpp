@@ -21,6 +21,12 @@ Reference chosen(Arguments words, Reference now) {
 }  // namespace
 
 void add_stepping_commands(CommandTable& table, ViewState& state) {
+  table.add({"flash", "flash off|on|hold|toggle", "shows what a step has moved: for a moment, or until the next step"},
+            [&state](Arguments words) {
+              require(words, 1, 1);
+              Flash& flash = state.stepping.flash;
+              flash = words[0] == "toggle" ? (flash == Flash::Off ? Flash::On : Flash::Off) : choose(words[0], kFlashes);
+            });
   table.add({"next-class", "next-class [on|off|toggle]", "dots on the vertices of the colour class that moves next"},
             [&state](Arguments words) {
               require(words, 0, 1);

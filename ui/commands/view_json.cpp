@@ -177,8 +177,11 @@ constexpr std::array<std::pair<std::string_view, int>, 3> kBins{{{"16", 16}, {"3
 constexpr std::array<std::pair<std::string_view, Picked::Kind>, 3> kPicks{
     {{"none", Picked::Kind::None}, {"vertex", Picked::Kind::Vertex}, {"element", Picked::Kind::Element}}};
 
-constexpr std::array<std::pair<std::string_view, RangeMode>, 4> kEveryRangeMode{
-    {kRangeModes[0], kRangeModes[1], kRangeModes[2], {"given", RangeMode::Given}}};
+std::vector<std::pair<std::string_view, RangeMode>> range_mode_names() {
+  std::vector<std::pair<std::string_view, RangeMode>> names;
+  for (const RangeModeInfo& one : kRangeModes) names.emplace_back(one.name, one.mode);
+  return names;
+}
 /// Those that need nothing but the run; what another one showed is not saved.
 constexpr std::array<std::pair<std::string_view, Reference>, 2> kLastingReferences{{{"off", Reference::None}, {"input", Reference::Input}}};
 
@@ -294,9 +297,11 @@ void describe_colouring(Archive& archive, State& state) {
   auto& colouring = state.colouring;
   archive.content("reference", colouring.reference, state.panes);
   archive.choice("by", colouring.by, colour_by_names());
-  archive.choice("range_mode", state.range_mode, kEveryRangeMode);
+  archive.choice("range_mode", state.range_mode, range_mode_names());
   archive.number("range_low", state.range_low, -kFar, kFar);
   archive.number("range_high", state.range_high, -kFar, kFar);
+  archive.number("range_low_percent", state.range_low_percent, 0.0, 100.0);
+  archive.number("range_high_percent", state.range_high_percent, 0.0, 100.0);
   archive.flag("reversed", colouring.reversed);
   archive.count("steps", colouring.steps, 64);
   archive.range("filter", colouring.filter);
@@ -324,6 +329,8 @@ void describe(Archive& archive, State& state) {
   archive.flag("wireframe", state.wireframe);
   archive.flag("vertices", state.vertices);
   archive.flag("worst_marker", state.worst_marker);
+  archive.flag("shading", state.shading);
+  archive.flag("occlusion", state.occlusion);
   archive.choice("colormap", state.colour_map, colour_map_names());
   archive.object("colours", [&state](auto& colours) { describe_colouring(colours, state); });
   archive.object("stepping", [&state](auto& stepping) { describe_stepping(stepping, state); });
@@ -349,6 +356,8 @@ void describe(Archive& archive, State& state) {
 
 void check(const ViewState& state, const Mesh* mesh) {
   if (!(state.range_low < state.range_high)) throw UsageError("view.colours.range_high: it must be greater than range_low");
+  if (!(state.range_low_percent < state.range_high_percent))
+    throw UsageError("view.colours.range_high_percent: it must be greater than range_low_percent");
   if (!state.orbit.is_valid()) throw UsageError("view.volume.right, up: expected directions of length 1 and at right angles");
   const double normal = length(state.inside.clip.normal);
   if (!(normal > 0.0) || !std::isfinite(normal)) throw UsageError("view.volume.inside.clip.normal: expected a direction");

@@ -7,6 +7,16 @@
 #include "ui/commands/clipping_text.h"
 
 namespace dmoscope::ui {
+namespace {
+
+std::string range_line(const ViewState& state) {
+  if (state.range_mode == RangeMode::Given) return fmt::format("range {} {}", state.range_low, state.range_high);
+  const std::string_view name = info(state.range_mode).name;
+  if (state.range_mode != RangeMode::Percentile) return fmt::format("range {}", name);
+  return fmt::format("range {} {} {}", name, state.range_low_percent, state.range_high_percent);
+}
+
+}  // namespace
 
 std::vector<std::string> view_lines(const ViewState& state, bool with_camera) {
   const auto on = [](bool value) { return value ? "on" : "off"; };
@@ -24,6 +34,10 @@ std::vector<std::string> view_lines(const ViewState& state, bool with_camera) {
   lines.push_back(fmt::format("unfold left {}", on(panels.left_over)));
   lines.push_back(fmt::format("unfold right {}", on(panels.right_over)));
   lines.push_back(fmt::format("colormap {}", render::name(state.colour_map)));
+  // Of whoever runs the script the settings may say otherwise, and what they had before is to be had again.
+  lines.push_back(range_line(state));
+  lines.push_back(fmt::format("shading {}", on(state.shading)));
+  lines.push_back(fmt::format("occlusion {}", on(state.occlusion)));
   lines.push_back(fmt::format("reverse-colors {}", on(state.colouring.reversed)));
   lines.push_back(fmt::format("color-steps {}", state.colouring.steps));
   lines.push_back(fmt::format("wireframe {}", on(state.wireframe)));

@@ -25,11 +25,22 @@ struct Swatch {
 struct BarLayout {
   Rect plate;
   std::string title, right;  // of the first line
+  std::string mode;          // at its end: how the range is chosen, which opens a menu; empty: there is none
+  float mode_left = 0, mode_width = 0;
   bool has_bar = true;
   float left = 0, top = 0, width = 0, bar_top = 0, bar = 0;  // of the bar
   std::vector<Swatch> swatches;                              // of the categories, or beside the bar
   std::size_t entries = 0;                                   // the first so many are categories
 };
+
+std::string percentile_title(const ViewState& state) {
+  return fmt::format("{:.4g} to {:.4g} % of the elements", state.range_low_percent, state.range_high_percent);
+}
+
+std::string range_title(const ViewState& state) {
+  if (state.range_mode != RangeMode::Percentile) return std::string(info(state.range_mode).title);
+  return fmt::format("{:.4g} to {:.4g} %", state.range_low_percent, state.range_high_percent);
+}
 
 std::string outside_text(const render::Legend& legend) {
   std::string text;
@@ -62,6 +73,8 @@ BarLayout lay_out(const PanelContext& context, const Rect& rect) {
   layout.bar = std::round(0.8F * line);
   layout.title = legend.title;
   layout.right = layout.has_bar ? outside_text(legend) : std::string();
+  if (layout.has_bar && !context.derived.colouring.colours) layout.mode = fmt::format("range: {} ▾", range_title(context.state));
+  layout.mode_width = layout.mode.empty() ? 0 : ImGui::CalcTextSize(layout.mode.c_str()).x;
   for (std::size_t k = 0; k < std::min(kMostEntries, legend.categories.size()); ++k) {
     const render::LegendEntry& entry = legend.categories[k];
     layout.swatches.push_back({fmt::format("{}: {}", entry.name, count(entry.count)), entry.colour});
@@ -90,7 +103,8 @@ BarLayout lay_out(const PanelContext& context, const Rect& rect) {
     height = second + layout.bar + 1.15F * line + 0.6F * pad;
     arrange(layout.swatches, inner + layout.width + 1.5F * pad, second - 0.1F * line, widest + inner, layout.bar, pad, line);
     right = inner + layout.width;
-    const float words = ImGui::CalcTextSize(layout.title.c_str()).x + ImGui::CalcTextSize(layout.right.c_str()).x + 2 * pad;
+    const float words =
+        ImGui::CalcTextSize(layout.title.c_str()).x + ImGui::CalcTextSize(layout.right.c_str()).x + layout.mode_width + 5 * pad;
     if (words > layout.width) right = std::min(widest + inner, inner + words);
   } else {
     height = second + arrange(layout.swatches, inner, second, widest + inner, layout.bar, pad, line) + 0.9F * pad;
@@ -100,6 +114,7 @@ BarLayout lay_out(const PanelContext& context, const Rect& rect) {
   const float plate_width = std::min(rect.w - 2 * pad, right + inner);
   layout.plate = {rect.x + pad, rect.y + rect.h - pad - height, plate_width, height};
   layout.left = layout.plate.x + inner;
+  layout.mode_left = layout.plate.x + plate_width - inner - layout.mode_width;
   layout.top = layout.plate.y + first;
   layout.bar_top = layout.plate.y + second;
   return layout;
@@ -141,6 +156,39 @@ void hold_handle(PanelContext& context, int end, float width) {
   }
 }
 
+/// What the range can be, one click away.
+void draw_range_menu(PanelContext& context) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(10), context.px(8)});
+  if (ImGui::BeginPopup("range menu")) {
+    dim_text(context, "the colours span", false);
+    for (const RangeModeInfo& one : kRangeModes) {
+      if (one.mode == RangeMode::Given) continue;
+      const bool percentile = one.mode == RangeMode::Percentile;
+      const std::string title = percentile ? percentile_title(context.state) : std::string(one.title);
+      if (ImGui::MenuItem(title.c_str(), nullptr, context.state.range_mode == one.mode)) context.send(fmt::format("range {}", one.name));
+      context.items.record_last(fmt::format("range-menu:{}", one.name));
+      next_item_tooltip(std::string(one.doc));
+    }
+    ImGui::Separator();
+    dim_text(context, "from, to", false);
+    ImGui::SetNextItemWidth(11 * context.em());
+    double range[2] = {context.derived.range.first, context.derived.range.second};
+    ImGui::InputScalarN("##given", ImGuiDataType_Double, range, 2, nullptr, nullptr, "%.4g");
+    if (ImGui::IsItemDeactivatedAfterEdit()) context.send(fmt::format("range {} {}", full_number(range[0]), full_number(range[1])));
+    context.items.record_last("range-menu:given");
+    ImGui::EndPopup();
+  }
+  ImGui::PopStyleVar();
+}
+
+void handle_mode(PanelContext& context, const BarLayout& layout) {
+  ImGui::SetCursorScreenPos({layout.mode_left, layout.top});
+  if (ImGui::InvisibleButton("range:mode", {std::max(1.0F, layout.mode_width), ImGui::GetTextLineHeight()})) ImGui::OpenPopup("range menu");
+  context.items.record_last("range:mode");
+  next_item_tooltip(std::string(info(context.state.range_mode).doc) + " · click: other ranges");
+  draw_range_menu(context);
+}
+
 void handle_bar(PanelContext& context, const BarLayout& layout) {
   const float reach = context.px(7);
   static constexpr std::array<const char*, 2> names{"range:low", "range:high"};
@@ -162,6 +210,20 @@ void handle_bar(PanelContext& context, const BarLayout& layout) {
   context.items.record_last("range:bar");
   reset = reset || (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left));
   if (reset) context.send("range fixed");
+  handle_mode(context, layout);
+}
+
+/// The numbers at both ends, whatever they are. Returns where there is room between them.
+std::pair<float, float> draw_ends(const PanelContext& context, const BarLayout& layout, bool logarithmic, std::pair<double, double> range) {
+  const auto text = [&](double value) { return fmt::format("{:.4g}", logarithmic ? std::pow(10.0, value) : value); };
+  const std::string low = text(range.first), high = text(range.second);
+  const float left = layout.left - context.px(2), right = layout.left + layout.width + context.px(2);
+  const float y = layout.bar_top + layout.bar + context.px(3), gap = context.px(8);
+  const float low_width = ImGui::CalcTextSize(low.c_str()).x, high_width = ImGui::CalcTextSize(high.c_str()).x;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddText({left, y}, colour(context.palette.text), low.c_str());
+  list.AddText({right - high_width, y}, colour(context.palette.text), high.c_str());
+  return {left + low_width + gap, right - high_width - gap};
 }
 
 void draw_bar(const PanelContext& context, const BarLayout& layout) {
@@ -197,10 +259,12 @@ void draw_bar(const PanelContext& context, const BarLayout& layout) {
   std::vector<Tick> ticks = logarithmic ? log_ticks(std::pow(10.0, low), std::pow(10.0, high), most) : linear_ticks(low, high, most);
   // One number alone, such as the 0 of a difference, would not say how far the colours reach.
   for (int more = most + 1; !logarithmic && ticks.size() < 2 && more <= 4 * most; ++more) ticks = linear_ticks(low, high, more);
+  const auto [least, largest] = draw_ends(context, layout, logarithmic, {low, high});
   for (const Tick& tick : ticks) {
     const float x = at(logarithmic ? std::log10(tick.value) : tick.value);
     list.AddLine({x, bottom}, {x, bottom + context.px(3)}, colour(context.palette.text), 1.0F);
     const float half = ImGui::CalcTextSize(tick.label.c_str()).x / 2;
+    if (x - half < least || x + half > largest) continue;  // the ends are said already
     list.AddText({x - half, bottom + context.px(3)}, colour(context.palette.text), tick.label.c_str());
   }
   if (!by_quality) return;
@@ -256,13 +320,16 @@ void draw_colour_bar(PanelContext& context, const Rect& rect) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const Rect& plate = layout.plate;
   draw_plate(context, {plate.x, plate.y}, {plate.x + plate.w, plate.y + plate.h});
-  const std::string title = fit_text(layout.title, plate.w - (layout.left - plate.x) * 2);
+  const float taken = layout.mode.empty() ? 0 : layout.mode_width + context.px(16);
+  const std::string title = fit_text(layout.title, plate.w - (layout.left - plate.x) * 2 - taken);
   list.AddText({layout.left, layout.top}, colour(context.palette.text), title.c_str());
   if (!layout.right.empty()) {
-    const float at = std::max(layout.left + layout.width - ImGui::CalcTextSize(layout.right.c_str()).x,
-                              layout.left + ImGui::CalcTextSize(title.c_str()).x + context.px(16));
+    const float end = layout.mode.empty() ? layout.left + layout.width : layout.mode_left - context.px(16);
+    const float at =
+        std::max(end - ImGui::CalcTextSize(layout.right.c_str()).x, layout.left + ImGui::CalcTextSize(title.c_str()).x + context.px(16));
     list.AddText({at, layout.top}, colour(context.palette.dim), layout.right.c_str());
   }
+  if (!layout.mode.empty()) list.AddText({layout.mode_left, layout.top}, colour(context.palette.accent), layout.mode.c_str());
   if (layout.has_bar) draw_bar(context, layout);
   const auto& isolated = context.state.colouring.isolated;
   for (std::size_t k = 0; k < layout.swatches.size(); ++k) {

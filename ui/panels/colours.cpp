@@ -72,28 +72,45 @@ void draw_map(PanelContext& context) {
 }
 
 void draw_range(PanelContext& context) {
-  static constexpr std::array<std::pair<std::string_view, RangeMode>, 3> kModes = kRangeModes;
   labelled(context, "range", "qualities that the colours span; the ends of the colour bar can be dragged");
   const bool given = context.state.range_mode == RangeMode::Given;
-  static constexpr std::array<const char*, 4> kTitles{"0 to 1", "the mesh's own", "all seen so far", "given"};
-  const bool open = ImGui::BeginCombo("##range", kTitles[static_cast<std::size_t>(context.state.range_mode)]);
+  const bool open = ImGui::BeginCombo("##range", info(context.state.range_mode).title.data());
   context.items.record_last("range");
   if (open) {
-    for (std::size_t k = 0; k < kModes.size(); ++k) {
-      if (ImGui::Selectable(kTitles[k], context.state.range_mode == kModes[k].second))
-        context.send(fmt::format("range {}", kModes[k].first));
-      context.items.record_last(fmt::format("range:{}", kModes[k].first));
-    }
-    next_item_tooltip("grows with what the shown metric has had since the input was opened, and never shrinks");
     const auto now = context.derived.range;
-    if (ImGui::Selectable(kTitles[3], given)) context.send(fmt::format("range {} {}", full_number(now.first), full_number(now.second)));
+    for (const RangeModeInfo& one : kRangeModes) {
+      if (ImGui::Selectable(one.title.data(), one.mode == context.state.range_mode))
+        context.send(one.mode == RangeMode::Given ? fmt::format("range {} {}", full_number(now.first), full_number(now.second))
+                                                  : fmt::format("range {}", one.name));
+      context.items.record_last(fmt::format("range:{}", one.name));
+      next_item_tooltip(std::string(one.doc));
+    }
     ImGui::EndCombo();
+  }
+  if (context.state.range_mode == RangeMode::Percentile) {
+    double percent[2] = {context.state.range_low_percent, context.state.range_high_percent};
+    labelled(context, "per cent", "elements of the input that the colours leave out below, and those up to which they reach");
+    ImGui::InputScalarN("##percent", ImGuiDataType_Double, percent, 2, nullptr, nullptr, "%.4g");
+    context.items.record_last("range-percent");
+    if (ImGui::IsItemDeactivatedAfterEdit())
+      context.send(fmt::format("range percentile {} {}", full_number(percent[0]), full_number(percent[1])));
   }
   if (!given) return;
   double range[2] = {context.state.range_low, context.state.range_high};
   labelled(context, "from, to", "lowest and highest quality of the colours");
   ImGui::InputScalarN("##given", ImGuiDataType_Double, range, 2, nullptr, nullptr, "%.4g");
   if (ImGui::IsItemDeactivatedAfterEdit()) context.send(fmt::format("range {} {}", full_number(range[0]), full_number(range[1])));
+}
+
+/// What shows the form of a volume besides its edges.
+void draw_depth(PanelContext& context) {
+  const auto check = [&](const char* label, const char* command, const char* tooltip, bool now) {
+    labelled(context, label, tooltip);
+    if (ImGui::Checkbox(fmt::format("##{}", command).c_str(), &now)) context.send(fmt::format("{} {}", command, now ? "on" : "off"));
+    context.items.record_last(command);
+  };
+  check("corners", "occlusion", "a little darker in corners and along edges, by a fifth at most", context.state.occlusion);
+  check("light", "shading", "lit by a lamp: shows the form, but changes what the colours tell", context.state.shading);
 }
 
 void draw_filter(PanelContext& context) {
@@ -146,6 +163,7 @@ void draw_colours(PanelContext& context) {
   metric_combo(context, "shown", context.session.shown, "show");
   draw_map(context);
   draw_range(context);
+  if (context.state.is_volume) draw_depth(context);
   labelled(context, "labels", "ids, where there is room for them and nothing hides what they name");
   static constexpr std::array<std::pair<std::string_view, int>, 4> kLabels{{{"off", 0}, {"vertices", 1}, {"elements", 2}, {"both", 3}}};
   const ColouringState& state = context.state.colouring;

@@ -124,8 +124,10 @@ void draw_status(PanelContext& context, const Rect& rect) {
     dim_text(context, fmt::format("{:.0f} frames/s", activity.frames_per_second), false);
   }
   draw_progress(context);
-  if (!context.state.log.empty()) {
-    const Message& message = context.state.log.back();
+  const StepNews& news = context.state.stepping.news;
+  const bool of_step = !news.sentence.empty() && news.messages == context.state.messages;
+  if (of_step || !context.state.log.empty()) {
+    const Message message = of_step ? Message{Message::Kind::Info, news.sentence, 0} : context.state.log.back();
     std::string text = message.text.substr(0, message.text.find('\n'));
     ImGui::SameLine(0, context.px(16));
     const float room = ImGui::GetContentRegionAvail().x;
@@ -136,7 +138,7 @@ void draw_status(PanelContext& context, const Rect& rect) {
                               : message.kind == Message::Kind::Warning ? context.palette.warning
                                                                        : context.palette.text;
       ImGui::TextColored(colour_vector(ink), "%s", text.c_str());
-      std::string recent;
+      std::string recent = of_step ? news.sentence : std::string();
       for (std::size_t k = context.state.log.size() - std::min<std::size_t>(8, context.state.log.size()); k < context.state.log.size();
            ++k) {
         recent += (recent.empty() ? "" : "\n") + context.state.log[k].text;

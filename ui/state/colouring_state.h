@@ -12,11 +12,23 @@
 
 namespace dmoscope::ui {
 
-/// How the range of the quality's colours is chosen: 0 to 1; the shown qualities' own minimum and maximum; the same, but it also holds all
-/// that was seen since the input was opened; or given.
-enum class RangeMode { Fixed, Auto, Expanding, Given };
-inline constexpr std::array<std::pair<std::string_view, RangeMode>, 3> kRangeModes{
-    {{"fixed", RangeMode::Fixed}, {"auto", RangeMode::Auto}, {"expanding", RangeMode::Expanding}}};
+/// How the range of the quality's colours is chosen: the input's, rounded outwards, which stays through a run; 0 to 1; the shown qualities'
+/// own minimum and maximum; the same, but it also holds all that was seen since the input was opened; what lies between two percentiles of
+/// the input, rounded outwards; or given.
+enum class RangeMode { Input, Fixed, Auto, Expanding, Percentile, Given };
+struct RangeModeInfo {
+  RangeMode mode;
+  std::string_view name, title, doc;
+};
+inline constexpr std::array<RangeModeInfo, 6> kRangeModes{{
+    {RangeMode::Input, "input", "the input's", "from the worst to the best sound element of the input, rounded; stays through a run"},
+    {RangeMode::Fixed, "fixed", "0 to 1", "from degenerate to ideal"},
+    {RangeMode::Auto, "auto", "the mesh's own", "from the worst to the best element as the mesh stands"},
+    {RangeMode::Expanding, "expanding", "growing", "all that was seen since the mesh was opened; never shrinks"},
+    {RangeMode::Percentile, "percentile", "percentiles", "leaves the input's extremes out, rounded; stays through a run"},
+    {RangeMode::Given, "given", "given", "two numbers; the ends of the colour bar can be dragged"},
+}};
+[[nodiscard]] constexpr const RangeModeInfo& info(RangeMode mode) { return kRangeModes[static_cast<std::size_t>(mode)]; }
 
 /// What the elements' colours tell.
 enum class ColourBy { Quality, Kind, Group, Valence, Class, Displacement, Size, Inverted, EdgeLength, SizeOverTarget, Difference };

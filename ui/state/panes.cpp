@@ -64,8 +64,11 @@ std::size_t Panes::follow(const SessionView& session) {
     if (!panes[0].chosen) panes[0].content = {ContentKind::Active, 0, std::nullopt};
     return 0;
   }
+  const PaneContent before = panes[focus].content;
   fill(count());
   const PaneContent& focused = panes[focus].content;
+  // Commands are about the run beside it.
+  if (focused.kind == ContentKind::Input && focused != before) return pane_of_active();
   const bool of_another = focused.kind == ContentKind::Run && !focused.iteration && focused.run != active;
   return other_run || of_another ? pane_of_active() : focus;
 }
@@ -77,6 +80,13 @@ void Panes::fill(std::size_t visible) {
     return found;
   };
   const auto vacant = [&](Pane& pane) { return !pane.chosen && pane.content.kind != ContentKind::Run; };
+  const auto is_ours = [](const Pane& pane) { return !pane.chosen && !pane.content.iteration; };
+  if (visible == 2 && run_ids.size() == 1 && is_ours(panes[0]) && is_ours(panes[1])) {
+    // Before on the left, after on the right.
+    panes[0].content = {ContentKind::Input, 0, std::nullopt};
+    panes[1].content = {ContentKind::Run, run_ids.front(), std::nullopt};
+    return;
+  }
   const auto end = panes.begin() + static_cast<std::ptrdiff_t>(visible);
   for (const std::uint64_t id : run_ids) {
     if (shown(id)) continue;
@@ -91,9 +101,16 @@ void Panes::fill(std::size_t visible) {
       break;
     }
   }
+  if (visible == 2 && are_reversed(panes[0], panes[1])) std::swap(panes[0].content, panes[1].content);
   const bool has_input = std::any_of(panes.begin(), end, [](const Pane& pane) { return pane.content.kind == ContentKind::Input; });
   const auto at = std::find_if(panes.begin(), end, [](const Pane& pane) { return !pane.chosen && pane.content.kind == ContentKind::Free; });
   if (!has_input && !run_ids.empty() && at != end) at->content = {ContentKind::Input, 0, std::nullopt};
+}
+
+/// Whether both were filled by themselves, and show runs in the other order than that of the list.
+bool Panes::are_reversed(const Pane& left, const Pane& right) const {
+  const auto is_run = [](const Pane& pane) { return !pane.chosen && pane.content.kind == ContentKind::Run && !pane.content.iteration; };
+  return is_run(left) && is_run(right) && std::ranges::find(run_ids, left.content.run) > std::ranges::find(run_ids, right.content.run);
 }
 
 std::size_t Panes::pane_of_active() const {

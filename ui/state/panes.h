@@ -52,8 +52,10 @@ struct Panes {
   /// Panes that nobody chose are filled anew. The active pane must be among those that stay.
   void set_layout(PaneLayout wanted);
   /// Brings the panes up to date with the runs there are. What is no more leaves its pane free. A single pane shows the active run; of
-  /// several, those that nobody chose show the runs in their order, the last one in any case the active one; then one the input. Returns
-  /// which pane should be the active one: the one of the active run where that has changed, else the one that is.
+  /// several, those that nobody chose show the runs in their order, the last one in any case the active one; then one the input. Of two, of
+  /// which nobody chose one, and a single run the left one shows the input, the right one the run: before and after. Returns which pane
+  /// should be the active one: the one of the active run where that has changed or the input has come to where one was, else the one that
+  /// is.
   [[nodiscard]] std::size_t follow(const SessionView& session);
   /// Whether a pane shows a run (the active one when `id` is that one's) as it stands.
   [[nodiscard]] bool shows(std::size_t pane, std::uint64_t id) const;
@@ -66,6 +68,7 @@ struct Panes {
 
  private:
   void fill(std::size_t panes);
+  [[nodiscard]] bool are_reversed(const Pane& left, const Pane& right) const;
   [[nodiscard]] std::size_t pane_of_active() const;
 };
 

@@ -45,10 +45,17 @@ std::optional<std::pair<double, double>> own_range(const Frame& frame) {
 }
 
 std::pair<double, double> colour_range(const ViewState& state, std::optional<std::pair<double, double>> own,
-                                       std::optional<std::pair<double, double>> seen) {
+                                       std::optional<std::pair<double, double>> seen, const InputSpread* input) {
   if (state.colouring.held_range) return *state.colouring.held_range;
   if (state.range_mode == RangeMode::Given) return {state.range_low, state.range_high};
-  const auto wanted = state.range_mode == RangeMode::Auto ? own : state.range_mode == RangeMode::Expanding ? seen : std::nullopt;
+  std::optional<std::pair<double, double>> wanted;
+  if (state.range_mode == RangeMode::Auto) wanted = own;
+  if (state.range_mode == RangeMode::Expanding) wanted = seen;
+  if (state.range_mode == RangeMode::Input && input != nullptr) wanted = input->range();
+  if (state.range_mode == RangeMode::Percentile && input != nullptr)
+    wanted = input->percentiles(state.range_low_percent, state.range_high_percent);
+  const bool tidied = state.range_mode == RangeMode::Input || state.range_mode == RangeMode::Percentile;
+  if (wanted && tidied) return tidy_range(*wanted);
   return wanted && wanted->second > wanted->first ? *wanted : std::pair{0.0, 1.0};
 }
 
@@ -100,6 +107,7 @@ void add_message(ViewState& state, Message message) {
       state.dialog = Dialog::Error;
     }
   }
+  ++state.messages;
   state.commands.say(message);
   state.log.push_back(std::move(message));
   while (state.log.size() > kMost) state.log.pop_front();

@@ -97,9 +97,12 @@ struct ViewState {
   bool wireframe = true;
   bool vertices = false;
   bool worst_marker = true;
-  render::ColourMap colour_map = render::ColourMap::Viridis;
-  RangeMode range_mode = RangeMode::Fixed;
-  double range_low = 0.0, range_high = 1.0;  // for RangeMode::Given
+  bool shading = false;   // volumes' faces by a light, too: it changes what colours tell
+  bool occlusion = true;  // volumes are darker in their corners and along their edges
+  render::ColourMap colour_map = render::ColourMap::Beacon;
+  RangeMode range_mode = RangeMode::Input;
+  double range_low = 0.0, range_high = 1.0;                   // for RangeMode::Given
+  double range_low_percent = 2.0, range_high_percent = 98.0;  // for RangeMode::Percentile
   ColouringState colouring;
 
   // Interface
@@ -130,6 +133,7 @@ struct ViewState {
 
   // Log
   std::deque<Message> log;       // newest last, at most 200
+  std::uint64_t messages = 0;    // how many there have been
   CommandLog commands;           // and messages, all of them
   std::string error_text;        // of the error dialog
   std::string dismissed_notice;  // Notice::key of the one that a person took away
@@ -158,9 +162,11 @@ struct ViewState {
 /// The lowest and the highest quality of the shown metric, inverted elements apart; of a device-resident frame as far as its histogram
 /// tells. None where no element has one.
 [[nodiscard]] std::optional<std::pair<double, double>> own_range(const Frame& frame);
-/// Range of qualities that the colours span now. `own`: see own_range; `seen`: what all the frames so far had, for RangeMode::Expanding.
+/// Range of qualities that the colours span now. `own`: see own_range; `seen`: what all the frames so far had, for RangeMode::Expanding;
+/// `input`: null: not known.
 [[nodiscard]] std::pair<double, double> colour_range(const ViewState& state, std::optional<std::pair<double, double>> own,
-                                                     std::optional<std::pair<double, double>> seen = {});
+                                                     std::optional<std::pair<double, double>> seen = {},
+                                                     const InputSpread* input = nullptr);
 
 /// The window has come to a monitor with another scale: what a person chose over it stays.
 void move_to_monitor(ViewState& state, double monitor_scale);

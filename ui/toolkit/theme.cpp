@@ -245,6 +245,8 @@ render::Style scene_style(const ViewState& state) {
   style.background = palette(state.theme).background;
   style.wireframe = state.wireframe;
   style.vertices = state.vertices;
+  style.shading = state.shading;
+  style.occlusion = state.occlusion;
   style.scale = static_cast<float>(state.scale);
   style.colours.map = state.colour_map;
   return style;

@@ -9,6 +9,7 @@
 #include "ui/commands/size_point.h"
 #include "ui/toolkit/theme.h"
 #include "ui/viewports/inspection_marks.h"
+#include "ui/viewports/inverted_marks.h"
 
 namespace dmoscope::ui {
 
@@ -209,6 +210,11 @@ render::Marks PaneView::marks(const Scenery& scenery, const MarkView& view, bool
     marks.vertices = {picked.id};
   }
   if (marks_worst(state, inspecting)) marks.worst = frame()->worst.front().element;
+  if (inverted_of_ != frame()->serial) {
+    inverted_ = inverted_elements(*frame());
+    inverted_of_ = frame()->serial;
+  }
+  if (!searching) add_inverted(marks, view, *frame(), inverted_);
   stepping_.add_marks(marks, state, *session_, view, [this](const MarkView& seen, std::size_t most) {
     return planar_.elements_in_view(seen.camera, seen.viewport, most);
   });

@@ -110,6 +110,8 @@ class PaneView {
   bool labels_lack_room_ = false;
   bool current_ = true;
   std::uint64_t fixed_serial_ = 0;
+  std::vector<Index> inverted_;  // elements of the frame of this serial
+  std::uint64_t inverted_of_ = 0;
 };
 
 /// How the mesh is drawn now.

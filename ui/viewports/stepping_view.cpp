@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "ui/state/format.h"
+#include "ui/viewports/step_flash.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -65,10 +66,10 @@ std::string SteppingView::key(const ViewState& state, const Frame& frame, const 
   const SteppingState& s = state.stepping;
   const Brush& brush = state.brush;
   const auto serial = [](const std::shared_ptr<const Frame>& of) { return of ? of->serial : 0; };
-  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {}", frame.serial, serial(previous_), serial(state.timeline.a.frame),
-                     serial(state.timeline.b.frame), view, static_cast<int>(state.theme), s.next_class, static_cast<int>(s.arrows),
-                     s.arrow_scale, static_cast<int>(s.ghost), state.selection.serial(), brush.painting, static_cast<int>(brush.kind),
-                     brush.stroke.serial());
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", s.flash_level, s.news.serial, frame.serial, serial(previous_),
+                     serial(state.timeline.a.frame), serial(state.timeline.b.frame), view, static_cast<int>(state.theme), s.next_class,
+                     static_cast<int>(s.arrows), s.arrow_scale, static_cast<int>(s.ghost), state.selection.serial(), brush.painting,
+                     static_cast<int>(brush.kind), brush.stroke.serial());
 }
 
 void SteppingView::add_marks(render::Marks& marks, const ViewState& state, const SessionView& session, const MarkView& view,
@@ -108,6 +109,7 @@ void SteppingView::make_marks(const ViewState& state, const SessionView& session
     arrows_left_out_ = add_arrows(marks_, view, moved_, factor_, solid(colours.run(frame.run)), solid(colours.background, 230));
   }
   if (state.stepping.next_class) add_next_class(state, session, view);
+  if (state.stepping.news.serial == frame.serial) add_flash(marks_, view, state, frame);
   add_selection(state, frame, view);
 }
 
@@ -131,7 +133,8 @@ void SteppingView::add_space_marks(render::SpaceMarks& marks, const ViewState& s
                                    const render::VolumeScene& scene, Vec2<double> viewport) {
   const Frame* frame = session.frame.get();
   const SteppingState& s = state.stepping;
-  if (frame == nullptr || frame->device || !(s.next_class || s.arrows != Reference::None || s.ghost != Reference::None)) return;
+  const bool flashes = s.flash_level > 0 && frame != nullptr && s.news.serial == frame->serial;
+  if (frame == nullptr || frame->device || !(flashes || s.next_class || s.arrows != Reference::None || s.ghost != Reference::None)) return;
   const render::OrbitCamera& camera = state.orbit;
   const Vec3 &c = camera.centre, &r = camera.right, &u = camera.up;
   std::string wanted = key(state, *frame,
@@ -168,6 +171,7 @@ void SteppingView::make_space_marks(const ViewState& state, const SessionView& s
     arrows_drawn_ = added.drawn;
     arrows_left_out_ = added.left_out;
   }
+  if (state.stepping.news.serial == frame.serial) add_space_flash(space_marks_, view, state, frame, unhidden->vertices);
   const NextClass next = state.stepping.next_class ? class_of(session) : NextClass{};
   if (!next.vertices.empty() && next.vertices.size() <= kMostMarks) {
     add_space_dots(space_marks_, frame.positions, next.vertices, unhidden->vertices, accent, 8.0F);

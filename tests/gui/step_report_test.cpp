@@ -1,0 +1,134 @@
+// What a step did, in words and for a moment in the picture.
+#include "ui/analysis/step_report.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/gui/headless_test.h"
+#include "ui/state/format.h"
+
+namespace dmoscope::ui {
+namespace {
+
+class StepWindow : public app::HeadlessTest {
+ protected:
+  [[nodiscard]] const StepNews& news() { return state().stepping.news; }
+  [[nodiscard]] static float worst_around(const Frame& frame, Index vertex) {
+    float worst = INFINITY;
+    for (Index e = 0; e < frame.element_count(); ++e)
+      for (const Index corner : frame.input->mesh.elements.corners(e))
+        if (corner == vertex) worst = std::min(worst, frame.quality[e]);
+    return worst;
+  }
+  [[nodiscard]] static std::string course(const char* what, double a, double b) {
+    const std::string from = short_number(a), to = short_number(b);
+    return from == to ? fmt::format("{} unchanged {}", what, to) : fmt::format("{} {} → {}", what, from, to);
+  }
+};
+
+TEST_F(StepWindow, AVertexSaysHowFarItMovedAndWhatThatGained) {
+  good("generate annulus 400");
+  bool moved = false, stayed = false;
+  for (int step = 0; step < 60 && !(moved && stayed); ++step) {
+    const std::shared_ptr<const Frame> before = session()->frame;
+    const Index visited = session()->runs[0].colouring->order[static_cast<std::size_t>(before->moment.visits)];
+    good("step vertex");
+    const std::shared_ptr<const Frame> after = session()->frame;
+    const Vec3 way = after->positions[visited] - before->positions[visited];
+    const std::string minimum = course("minimum", before->shown_statistics.minimum, after->shown_statistics.minimum);
+    if (way.x == 0.0 && way.y == 0.0) {
+      stayed = true;
+      EXPECT_EQ(news().sentence, fmt::format("vertex {} stays: no place is better; {}", visited, minimum));
+      EXPECT_EQ(news().vertex, visited);
+      EXPECT_TRUE(news().moved.empty());
+      continue;
+    }
+    moved = true;
+    EXPECT_EQ(news().moved, std::vector<Index>{visited});
+    EXPECT_TRUE(news().sentence.starts_with(fmt::format("vertex {} moved by ", visited))) << news().sentence;
+    EXPECT_NE(news().sentence.find(" % of its edges; "), std::string::npos) << news().sentence;
+    const std::string own = course("its worst element", static_cast<double>(worst_around(*before, visited)),
+                                   static_cast<double>(worst_around(*after, visited)));
+    EXPECT_TRUE(news().sentence.ends_with(own + "; " + minimum)) << news().sentence << "\n" << own << "\n" << minimum;
+    EXPECT_EQ(news().elements.size(), after->input->topology.star(visited).size());
+  }
+  EXPECT_TRUE(moved);
+}
+
+TEST_F(StepWindow, AClassAndAnIterationSayHowManyMoved) {
+  good("generate annulus 400");
+  const auto input = session()->frame;
+  good("step class");
+  const Index classes = session()->runs[0].colouring->class_count();
+  EXPECT_TRUE(news().sentence.starts_with(fmt::format("class 1 of {}: ", classes))) << news().sentence;
+  good("step iteration");
+  good("reset");
+  EXPECT_EQ(news().sentence, "") << "that was no step forwards";
+  const auto before = session()->frame;
+  good("step iteration");
+  const auto after = session()->frame;
+  std::size_t moved = 0;
+  for (std::size_t v = 0; v < after->positions.size(); ++v) moved += length(after->positions[v] - before->positions[v]) > 0.0 ? 1 : 0;
+  EXPECT_EQ(news().sentence, fmt::format("iteration 1: {} of {} moved; {}; {}", count(moved),
+                                         counted(session()->runs[0].free_vertices, "vertex", "vertices"),
+                                         course("minimum", before->shown_statistics.minimum, after->shown_statistics.minimum),
+                                         course("mean", before->shown_statistics.mean, after->shown_statistics.mean)));
+  good("back iteration");
+  EXPECT_EQ(news().sentence, "");
+}
+
+TEST_F(StepWindow, TheStatusBarSaysItUntilSomethingElseIsSaid) {
+  good("generate annulus 400");
+  good("step iteration");
+  EXPECT_EQ(news().messages, state().messages) << "it is the newest";
+  add_message(state(), {Message::Kind::Info, "something else", 0});
+  EXPECT_NE(news().messages, state().messages);
+}
+
+TEST_F(StepWindow, AFlashIsForAMomentAndOnlyWhereItIsAskedFor) {
+  good("generate annulus 400");
+  EXPECT_EQ(state().stepping.flash, Flash::Off) << "pictures of scripts are the same at any time";
+  ViewState clock;
+  clock.stepping.flash = Flash::On;
+  StepWatch watch;
+  SessionView view = *session();
+  (void)watch.follow(clock, view, false, 10.0);
+  good("step vertex");
+  view = *session();
+  double now = 20.0;
+  double wait = watch.follow(clock, view, false, now);
+  EXPECT_EQ(clock.stepping.flash_level, kFlashLevels);
+  int before = kFlashLevels, changes = 0;
+  while (wait < 1e9 && now < 30.0) {
+    now += wait + 1e-6;
+    wait = watch.follow(clock, view, false, now);
+    EXPECT_LE(clock.stepping.flash_level, before);
+    before = clock.stepping.flash_level;
+    ++changes;
+  }
+  EXPECT_EQ(clock.stepping.flash_level, 0);
+  EXPECT_GT(now, 20.5);
+  EXPECT_LT(now, 23.0);
+  EXPECT_LT(changes, 3 * kFlashLevels) << "drawn anew only when it changes";
+}
+
+TEST_F(StepWindow, HeldItIsInThePicture) {
+  for (const char* mesh : {"generate annulus 400", "generate solids 64"}) {
+    good(mesh);
+    good("flash off");
+    good("worst off");
+    good("step iteration");
+    const render::Image plain = window_->app().mesh_picture({});
+    good("flash hold");
+    const render::Image held = window_->app().mesh_picture({});
+    EXPECT_NE(plain.rgba, held.rgba) << mesh;
+    EXPECT_EQ(held.rgba, window_->app().mesh_picture({}).rgba);
+    good("flash off");
+    EXPECT_EQ(plain.rgba, window_->app().mesh_picture({}).rgba);
+  }
+}
+
+}  // namespace
+}  // namespace dmoscope::ui

@@ -1,0 +1,30 @@
+#pragma once
+// What a step did: who moved how far, and what it gained. Plain data; no ImGui, no OpenGL.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/view/view.h"
+#include "ui/state/view_state.h"
+
+namespace dmoscope::ui {
+
+/// From one moment of a run to a later one, both whole frames of one input by one metric; none where that is not so. `run`: as it stands
+/// at the later one.
+[[nodiscard]] std::optional<StepNews> report_step(const Frame& before, const Frame& after, const RunView& run);
+
+/// Notices when a step of the active run has ended.
+class StepWatch {
+ public:
+  /// Once a frame. `busy`: more is to come. `now`: seconds of any steady clock. Returns after which time the picture changes by itself.
+  double follow(ViewState& state, const SessionView& session, bool busy, double now);
+
+ private:
+  std::shared_ptr<const Frame> rest_;  // where the last command ended
+  std::uint64_t run_ = 0;              // of which run
+  std::uint64_t messages_ = 0;         // that there were then
+};
+
+}  // namespace dmoscope::ui

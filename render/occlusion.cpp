@@ -70,7 +70,8 @@ void OcclusionPainter::darken(Framebuffer& target, const Projection& projection,
   program_.set("u_viewport", Vec2<float>{static_cast<float>(target.width()), static_cast<float>(target.height())});
   program_.set("u_from_clip_space", from_clip_space);
   program_.set("u_reach", static_cast<float>(reach));
-  program_.set("u_line", 1.5F * style.scale);
+  program_.set("u_line", 1.25F * style.scale);
+  program_.set("u_line_strength", kEdgeDarkened);
   program_.set("u_most", kMostDarkened);
   DMOSCOPE_GL(glBindVertexArray(nothing_.id()));
   DMOSCOPE_GL(glDrawArrays(GL_TRIANGLES, 0, 3));

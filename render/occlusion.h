@@ -14,7 +14,8 @@ class OcclusionPainter {
   /// How far around a pixel it looks, in whole pixels: so much wider a part of a picture must be drawn to fit its neighbours. `viewport`:
   /// of the whole picture.
   [[nodiscard]] static int reach(Vec2<double> viewport, const Style& style);
-  /// Darkens the colours of `target` by its depths, by kMostDarkened at most; the background stays. `projection`: that it was drawn with.
+  /// Darkens the colours of `target` by its depths, in corners by kMostDarkened at most, along sharp edges by kEdgeDarkened; the background
+  /// stays. `projection`: that it was drawn with.
   void darken(Framebuffer& target, const Projection& projection, int reach, const Style& style) const;
 
  private:

@@ -9,8 +9,8 @@
 
 namespace dmoscope::render {
 
-/// The share of a colour that occlusion takes away at most.
-inline constexpr float kMostDarkened = 0.2F;
+/// The share of a colour that occlusion takes away at most: in corners, and of the lines, two or three pixels wide, along sharp edges.
+inline constexpr float kMostDarkened = 0.2F, kEdgeDarkened = 0.5F;
 
 /// Widths are in pixels at scale 1; `scale` multiplies them all (HiDPI, supersampling).
 struct Style {
@@ -24,7 +24,7 @@ struct Style {
   float boundary_width = 1.6F;
   Rgba boundary_colour{0xe6, 0xe9, 0xee, 255};
   bool shading = false;   // faces of volumes by a light, too: their colours are then darker or lighter than their values say
-  bool occlusion = true;  // volumes darker in corners and along edges, by kMostDarkened at most
+  bool occlusion = true;  // volumes darker in corners, by kMostDarkened at most, and lines along sharp edges
   bool vertices = false;  // dots for free (round) and fixed (square) vertices, once there is space for them
   Rgba free_colour{0xff, 0xff, 0xff, 255};
   Rgba fixed_colour{0xff, 0xb0, 0x3a, 255};

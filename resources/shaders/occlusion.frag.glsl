@@ -4,7 +4,8 @@ uniform sampler2D u_depth;
 uniform mat4 u_from_clip_space;
 uniform float u_reach;  // pixels around that count
 uniform float u_line;   // pixels: how wide edges are
-uniform float u_most;   // share that is taken away at most
+uniform float u_most;   // share that corners take away at most
+uniform float u_line_strength;  // and sharp edges
 layout(location = 0) out vec4 colour;
 
 const int kAround = 20, kNear = 8;
@@ -52,6 +53,7 @@ void main() {
     vec3 way = point_at(vec2(at), there) - here;
     edge += max(-dot(outwards, way) * inversesqrt(max(dot(way, way), 1e-30)) - 0.15, 0.0);
   }
-  float taken = clamp(2.6 * closed / all + 2.6 * edge / float(kNear), 0.0, 1.0);
-  colour = vec4(vec3(1.0 - u_most * taken), 1.0);
+  // Faces keep most of their colour; a sharp edge is a line, as those of elements are.
+  float taken = clamp(2.6 * closed / all, 0.0, 1.0), line = smoothstep(0.14, 0.26, edge / float(kNear));
+  colour = vec4(vec3((1.0 - u_most * taken) * (1.0 - u_line_strength * line)), 1.0);
 }

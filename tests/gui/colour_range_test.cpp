@@ -128,7 +128,7 @@ TEST_F(ResetColours, WhatTellsNothingOfANewMeshGivesWayToItsQuality) {
 }
 
 TEST_F(ResetColours, TheFileReadAgainKeepsThem) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   good("generate mixed");
   good(fmt::format("export {}", (folder.path() / "mesh.off").string()));
   good(fmt::format("open {}", (folder.path() / "mesh.off").string()));

@@ -313,6 +313,7 @@ class ColourWindow : public app::HeadlessTest {
 
 TEST_F(ColourWindow, HandlesOfTheBarSetTheRangeAndADoubleClickResetsIt) {
   good("generate annulus");
+  good("range fixed");
   const auto low = middle("range:low"), high = middle("range:high");
   const float width = high.first - low.first;
   const auto camera = state().camera;
@@ -320,7 +321,7 @@ TEST_F(ColourWindow, HandlesOfTheBarSetTheRangeAndADoubleClickResetsIt) {
   EXPECT_EQ(state().range_mode, RangeMode::Given);
   EXPECT_NEAR(state().range_low, 0.25, 0.006);
   EXPECT_EQ(state().range_high, 1.0);
-  EXPECT_EQ(logged("range "), 1U) << "one command, at release";
+  EXPECT_EQ(logged("range "), 2U) << "after that of before one command, at release";
   EXPECT_FALSE(state().colouring.held_range.has_value());
   drag(high, {high.first - 0.5F * width, high.second});
   EXPECT_NEAR(state().range_high, 0.625, 0.008) << "half of what the bar spans now";

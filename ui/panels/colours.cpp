@@ -109,7 +109,7 @@ void draw_depth(PanelContext& context) {
     if (ImGui::Checkbox(fmt::format("##{}", command).c_str(), &now)) context.send(fmt::format("{} {}", command, now ? "on" : "off"));
     context.items.record_last(command);
   };
-  check("corners", "occlusion", "a little darker in corners and along edges, by a fifth at most", context.state.occlusion);
+  check("corners", "occlusion", "a little darker in corners, by a fifth at most, with lines along sharp edges", context.state.occlusion);
   check("light", "shading", "lit by a lamp: shows the form, but changes what the colours tell", context.state.shading);
 }
 

@@ -39,9 +39,9 @@ void outline_element(render::Marks& marks, const Frame& frame, Index element, co
 
 }  // namespace
 
-void add_flash(render::Marks& marks, const MarkView& view, const ViewState& state, const Frame& frame) {
+double add_flash(render::Marks& marks, const MarkView& view, const ViewState& state, const Frame& frame) {
   const StepNews& news = state.stepping.news;
-  if (state.stepping.flash_level <= 0) return;
+  if (state.stepping.flash_level <= 0) return 0.0;
   const FlashInk ink = flash_ink(state);
   const Plane& plane = frame.input->geometry.plane;
   for (const Index e : news.elements) outline_element(marks, frame, e, ink);
@@ -49,23 +49,25 @@ void add_flash(render::Marks& marks, const MarkView& view, const ViewState& stat
   if (news.vertex < frame.vertex_count()) ring(news.vertex);
   if (news.moved.size() <= kFewRings) {
     std::ranges::for_each(news.moved, ring);
-  } else {
-    add_dots(marks, view, *frame.input, frame.positions, news.moved, ink.ink, 5.0);
+  } else if (news.moved.size() > kMostArrowed) {
+    add_dots(marks, view, *frame.input, frame.positions, news.moved, ink.ink, 4.0);
   }
-  if (!news.before || news.moved.empty() || news.moved.size() > kMostArrowed) return;
+  if (!news.before || news.moved.empty() || news.moved.size() > kMostArrowed) return 0.0;
   std::vector<Vec3> from, to;
   for (const Index v : news.moved) {
     from.push_back(news.before->positions[v]);
     to.push_back(frame.positions[v]);
   }
   const Displacements moved(plane, from, to);
-  add_arrows(marks, view, moved, arrow_factor(view, moved, 0.0), ink.ink, ink.casing);
+  const double factor = arrow_factor(view, moved, 0.0);
+  add_arrows(marks, view, moved, factor, ink.ink, ink.casing);
+  return factor;
 }
 
-void add_space_flash(render::SpaceMarks& marks, const SpaceMarkView& view, const ViewState& state, const Frame& frame,
-                     std::span<const Index> unhidden) {
+double add_space_flash(render::SpaceMarks& marks, const SpaceMarkView& view, const ViewState& state, const Frame& frame,
+                       std::span<const Index> unhidden) {
   const StepNews& news = state.stepping.news;
-  if (state.stepping.flash_level <= 0) return;
+  if (state.stepping.flash_level <= 0) return 0.0;
   const FlashInk ink = flash_ink(state);
   std::vector<Index> seen;
   std::ranges::set_intersection(news.moved, unhidden, std::back_inserter(seen));
@@ -76,10 +78,11 @@ void add_space_flash(render::SpaceMarks& marks, const SpaceMarkView& view, const
   if (few) std::ranges::for_each(shown, ring);
   for (std::size_t k = 0; !few && k < std::min(shown.size(), kMostMarks); ++k)
     marks.dots.push_back({frame.positions[shown[k]], 5.0F, ink.ink, render::DotShape::Round});
-  if (!news.before || shown.empty()) return;
+  if (!news.before || shown.empty()) return 0.0;
   const std::span<const Vec3> from = news.before->positions;
   const double factor = space_arrow_factor(view, from, frame.positions, shown, 0.0);
   add_space_arrows(marks, view, from, frame.positions, shown, factor, ink.ink, ink.casing);
+  return factor;
 }
 
 }  // namespace dmoscope::ui

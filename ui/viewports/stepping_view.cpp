@@ -109,7 +109,7 @@ void SteppingView::make_marks(const ViewState& state, const SessionView& session
     arrows_left_out_ = add_arrows(marks_, view, moved_, factor_, solid(colours.run(frame.run)), solid(colours.background, 230));
   }
   if (state.stepping.next_class) add_next_class(state, session, view);
-  if (state.stepping.news.serial == frame.serial) add_flash(marks_, view, state, frame);
+  flash_factor_ = state.stepping.news.serial == frame.serial ? add_flash(marks_, view, state, frame) : 0.0;
   add_selection(state, frame, view);
 }
 
@@ -171,7 +171,8 @@ void SteppingView::make_space_marks(const ViewState& state, const SessionView& s
     arrows_drawn_ = added.drawn;
     arrows_left_out_ = added.left_out;
   }
-  if (state.stepping.news.serial == frame.serial) add_space_flash(space_marks_, view, state, frame, unhidden->vertices);
+  const bool flashes = state.stepping.news.serial == frame.serial;
+  flash_factor_ = flashes ? add_space_flash(space_marks_, view, state, frame, unhidden->vertices) : 0.0;
   const NextClass next = state.stepping.next_class ? class_of(session) : NextClass{};
   if (!next.vertices.empty() && next.vertices.size() <= kMostMarks) {
     add_space_dots(space_marks_, frame.positions, next.vertices, unhidden->vertices, accent, 8.0F);
@@ -197,6 +198,7 @@ std::string SteppingView::note(const ViewState& state, const SessionView& sessio
   if (!state.selection.empty()) add(fmt::format("{} selected", count(state.selection.vertices().size())));
   if (state.brush.on && !state.is_volume) add("brush");
   if (s.click_smooths) add("a click smooths");
+  if (s.flash_level > 0 && flash_factor_ > 0.0) add(fmt::format("moved just now, arrows × {:.3g}", flash_factor_));
   if (state.is_volume && too_many_faces_ && (s.next_class || s.arrows != Reference::None || s.ghost != Reference::None)) {
     add("too many faces for arrows, ghosts and classes");
     return text;

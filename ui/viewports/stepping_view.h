@@ -53,6 +53,7 @@ class SteppingView {
   bool ghost_too_fine_ = false;
   bool too_many_faces_ = false;   // of a volume
   std::size_t arrows_drawn_ = 0;  // likewise
+  double flash_factor_ = 0.0;     // by which the arrows of the last step are too long; 0: there are none
 };
 
 }  // namespace dmoscope::ui

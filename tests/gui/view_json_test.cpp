@@ -77,7 +77,7 @@ TEST(ViewJson, WhatMakesNoSenseIsNamedAndChangesNothing) {
       {R"({"wireframe": false, "camera": 3})", "view.camera: "},
       {R"({"wireframe": false, "camera": {"units_per_pixel": 0}})", "view.camera.units_per_pixel: "},
       {R"({"wireframe": false, "camera": {"x": "left"}})", "view.camera.x: "},
-      {R"({"wireframe": false, "colormap": "rainbow"})", "view.colormap: expected one of viridis"},
+      {R"({"wireframe": false, "colormap": "rainbow"})", "view.colormap: expected one of beacon"},
       {R"({"wireframe": false, "volume": {"centre": [1, 2]}})", "view.volume.centre: "},
       {R"({"wireframe": false, "volume": {"up": [1, 0, 0]}})", "view.volume.right, up: "},
       {R"({"wireframe": false, "volume": {"inside": {"shrink": 0}}})", "view.volume.inside.shrink: "},

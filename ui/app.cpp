@@ -80,7 +80,7 @@ void App::submit(std::string_view line) {
   }
 }
 
-std::string App::title() const { return session_->input ? session_->input->mesh.name + " – dmoscope" : "dmoscope"; }
+std::string App::title() const { return window_title(*session_); }
 
 bool App::prepare() {
   const bool fonts = styled_scale_ != state_.scale;
@@ -223,7 +223,7 @@ void App::handle_shortcuts() {
     if (!hit) continue;
     // With the keyboard in the widgets, Space presses the one that has the focus.
     if (chord->code == key::kSpace && io.NavVisible) continue;
-    if (enabled(action, situation_of(*session_, state_, activity_.busy))) submit(action.command);
+    if (enabled(action, situation_of(*session_, state_, activity_.busy))) submit_by_person(action.command);
     return;
   }
 }
@@ -283,6 +283,7 @@ void App::draw(double now) {
   take_news(now);
   notice_new_input();
   take_restored_view();
+  keep_safe(busy, now);
   viewports_.follow(state_, session_);
   engine_.watch(viewports_.wanted(state_));
   update_derived();
@@ -309,7 +310,7 @@ void App::draw(double now) {
       palette(state_.theme),
       fonts_,
       items_,
-      [this](const std::string& line) { submit(line); },
+      [this](const std::string& line) { submit_by_person(line); },
       [this](std::size_t pane, Vec2<double> pixel) { return viewports_.point_at(state_, pane, pixel); },
       [this](std::size_t pane, Vec2<double> pixel) {
         const render::Pick pick = viewports_.pick(state_, pane, pixel);

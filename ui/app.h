@@ -61,6 +61,10 @@ class App {
   void execute(std::string_view line);
   /// The same; errors become messages.
   void submit(std::string_view line);
+  /// A line of a person: where it would give up what is in no file, the question is put instead.
+  void submit_by_person(std::string_view line);
+  /// What is saved by itself goes along with the view as it is now.
+  void update_autosaved_view();
   /// Called with every message of the session, besides the log.
   /// `wake` ends the event loop's waiting; called from any thread when there is something new.
   void set_wake(const std::function<void()>& wake);
@@ -94,6 +98,7 @@ class App {
   void advance_sequence();
   void end_sequence(const std::string& outcome, Message::Kind kind);
   void watch_file();
+  void keep_safe(bool busy, double now);
   void cancel();
   void update_backend();
   void update_drawing();
@@ -136,6 +141,7 @@ class App {
   std::optional<Theme> styled_theme_;
   double busy_since_ = -1.0, last_draw_ = -1.0, frame_interval_ = 0.0;
   double redraw_in_ = 0.0;
+  double view_kept_at_ = 0.0;
   std::uint64_t seen_restored_ = 0;
   MeshWatch meshes_;
   std::unique_ptr<FileWatch> watch_;  // last: it wakes others

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "ui/app.h"
+#include "ui/commands/unsaved_commands.h"
 #include "ui/commands/view_json.h"
 
 namespace dmoscope::ui {
@@ -109,6 +110,22 @@ void App::advance_sequence() {
   state_.requests.screenshot_failed = false;
   state_.requests.screenshots.push_back({sequence.next_file(), options.width, options.height, 2, false, options.window, true});
   sequence.phase = Sequence::Phase::Shot;
+}
+
+void App::submit_by_person(std::string_view line) {
+  if (!ask_before(state_, *session_, engine_.current_command(), line)) submit(line);
+}
+
+void App::update_autosaved_view() { engine_.set_autosaved_view(view_json(state_)); }
+
+/// What a person is asked about what is, or was, in no file.
+void App::keep_safe(bool busy, double now) {
+  if (const std::string line = go_on_leaving(state_, *session_, busy); !line.empty()) submit(line);
+  if (!state_.recoverable.empty() && state_.dialog == Dialog::None) state_.dialog = Dialog::Recover;
+  constexpr double kSeconds = 5.0;
+  if (!engine_.autosaves() || now - view_kept_at_ < kSeconds) return;
+  view_kept_at_ = now;
+  update_autosaved_view();
 }
 
 void App::watch_file() {

@@ -64,7 +64,11 @@ void flush_output() {
 
 Watch::Watch() : Watch(own_, [this] { own_.request_cancel(); }) {}
 
-Watch::Watch(const Progress& shown, std::function<void()> cancel) : shown_(shown), cancel_(std::move(cancel)) {
+Watch::Watch(const Progress& shown, std::function<void()> cancel) : Watch(shown, std::move(cancel), false) {}
+
+Watch::Watch(std::function<void()> cancel) : Watch(own_, std::move(cancel), true) {}
+
+Watch::Watch(const Progress& shown, std::function<void()> cancel, bool quiet) : shown_(shown), cancel_(std::move(cancel)), quiet_(quiet) {
   block_interrupts();
   const sigset_t set = interrupts();
   signals_ = opened(signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
@@ -89,7 +93,7 @@ void Watch::draw(bool& drawn) const {
 }
 
 void Watch::watch() {
-  const bool terminal = isatty(STDERR_FILENO) == 1;
+  const bool terminal = !quiet_ && isatty(STDERR_FILENO) == 1;
   std::array<pollfd, 2> events{{{signals_, POLLIN, 0}, {wake_, POLLIN, 0}}};
   bool drawn = false;
   bool asked = false;

@@ -57,6 +57,8 @@ class Watch {
   Watch();
   /// Watches the progress of another owner; `cancel` is called from the watching thread.
   Watch(const Progress& shown, std::function<void()> cancel);
+  /// Shows nothing.
+  explicit Watch(std::function<void()> cancel);
   ~Watch();
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
@@ -64,12 +66,14 @@ class Watch {
   [[nodiscard]] Progress& progress() noexcept { return own_; }
 
  private:
+  Watch(const Progress& shown, std::function<void()> cancel, bool quiet);
   void watch();
   void draw(bool& drawn) const;
 
   Progress own_;
   const Progress& shown_;
   std::function<void()> cancel_;
+  const bool quiet_;
   int signals_ = -1, wake_ = -1;  // descriptors: the signals that wait, and the end of the watch
   std::jthread thread_;           // last: everything above exists before it starts
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -30,14 +32,8 @@ Desktop::Desktop(const WindowOptions& options)
       input_(window_->handle()),
       app_(app_options(options.threads, options.backend, acceleration_for(options.backend), *window_)) {
   ui::ViewState& state = app_.state();
-  if (!options_.scripted) {
-    ui::move_to_monitor(state, static_cast<double>(window_->content_scale()));
-    settings_ = ui::settings_path();
-    recent_ = ui::recent_path();
-    state.stepping.flash = ui::Flash::On;  // unless the settings say otherwise; pictures of scripts stay the same whenever they are taken
-    ui::load_settings(settings_, state);
-    ui::load_recent(recent_, state);
-  }
+  if (!options_.scripted) begin_as_remembered();
+  begin_autosave();
   if (options_.scale > 0.0) state.scale = options_.scale;
   app_.set_wake([] { render::Window::wake(); });
   app_.set_listener([this](const Message& message) {
@@ -47,28 +43,98 @@ Desktop::Desktop(const WindowOptions& options)
   });
   const render::Extent size = window_->framebuffer_size();
   state.window_size = {size.width, size.height};
-  const auto open = [this](const std::vector<std::filesystem::path>& files) {
-    for (const std::string& command : ui::open_commands(files)) app_.submit(command);
-  };
-  window_->on_drop(open);
-  open(options_.files);
+  window_->on_drop([this](const std::vector<std::filesystem::path>& files) { open(files, true); });
+  open(options_.files, false);
+}
+
+/// The first in the place of what is open, the others beside it.
+void Desktop::open(const std::vector<std::filesystem::path>& files, bool by_person) {
+  for (const std::string& command : ui::open_commands(files)) {
+    if (!by_person) {
+      app_.submit(command);
+    } else if (app_.state().leaving) {
+      ui::add_message(app_.state(), {Message::Kind::Warning, command + ": waits for the question to be answered; drop it again", 0});
+    } else {
+      app_.submit_by_person(command);
+    }
+  }
+}
+
+/// Settings, the window's size among them.
+void Desktop::begin_as_remembered() {
+  ui::ViewState& state = app_.state();
+  ui::move_to_monitor(state, static_cast<double>(window_->content_scale()));
+  state.stepping.flash = ui::Flash::On;  // unless the settings say otherwise; pictures of scripts stay the same whenever they are taken
+  settings_.begin(ui::settings_path(), ui::recent_path(), state);
+  state.asks_unsaved = true;
+  if (state.place.width <= 0) return;
+  int x = 0, y = 0, width = state.place.width, height = state.place.height;
+  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor(); monitor != nullptr) glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
+  // The monitor may be a smaller one than last time.
+  glfwSetWindowSize(window_->handle(), std::min(state.place.width, width), std::min(state.place.height, height));
+  if (state.place.maximised) glfwMaximizeWindow(window_->handle());
+}
+
+/// A person's window saves by itself; DMOSCOPE_AUTOSAVE says every how many seconds (0: never), and asks a script's for it.
+void Desktop::begin_autosave() {
+  AutosaveOptions options{ui::autosave_folder()};
+  const char* wish = std::getenv("DMOSCOPE_AUTOSAVE");
+  if (options.folder.empty() || (options_.scripted && wish == nullptr)) return;
+  if (wish != nullptr) {
+    constexpr double kMost = 1e6, kThousand = 1e3;
+    const double seconds = std::strtod(wish, nullptr);
+    if (!(seconds > 0.0)) return;
+    options.every = std::chrono::milliseconds(std::max(1L, std::lround(std::min(seconds, kMost) * kThousand)));
+  }
+  if (!options_.scripted) app_.state().recoverable = find_recoverable(options.folder);
+  try {
+    app_.engine().autosave(std::move(options));
+  } catch (const Error& error) {
+    ui::add_message(app_.state(), {Message::Kind::Warning, fmt::format("nothing is saved by itself: {}", error.what()), 0});
+  }
 }
 
 Desktop::~Desktop() {
-  for (const std::string& trouble : {ui::save_settings(settings_, app_.state()), ui::save_recent(recent_, app_.state())}) {
-    if (!trouble.empty()) complain(trouble);
-  }
+  if (!options_.scripted)
+    for (const std::string& trouble : settings_.write(app_.state())) complain(trouble);
   app_.engine().cancel();
+  if (options_.scripted && std::uncaught_exceptions() == 0) app_.engine().end_autosave();
   app_.set_wake({});
 }
 
 double Desktop::now() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 
 void Desktop::run_until_closed() {
-  while (!quit()) {
+  while (!app_.state().requests.quit && !ending_) {
     wait();
+    if (window_->should_close()) ask_to_close();
     frame();
   }
+  app_.engine().cancel();
+  if (!ending_) return app_.engine().end_autosave();
+  constexpr std::chrono::seconds kPatience{10};
+  app_.update_autosaved_view();
+  (void)app_.engine().autosave_now(kPatience);  // else what was saved before is there
+}
+
+void Desktop::end_soon() {
+  ending_ = true;
+  render::Window::wake();
+}
+
+void Desktop::ask_to_close() {
+  window_->set_should_close(false);
+  if (glfwGetWindowAttrib(window_->handle(), GLFW_ICONIFIED) == GLFW_TRUE) glfwRestoreWindow(window_->handle());
+  app_.submit_by_person("quit");
+  frames_left_ = 4;
+}
+
+void Desktop::notice_place() {
+  GLFWwindow* window = window_->handle();
+  if (window_->full_screen() || glfwGetWindowAttrib(window, GLFW_ICONIFIED) == GLFW_TRUE) return;
+  ui::WindowPlace& place = app_.state().place;
+  place.maximised = glfwGetWindowAttrib(window, GLFW_MAXIMIZED) == GLFW_TRUE;
+  if (!place.maximised || place.width == 0) glfwGetWindowSize(window, &place.width, &place.height);
 }
 
 /// Sleeps until something happens. An event is followed by a few frames: ImGui needs two to settle, hovering some more.
@@ -80,7 +146,7 @@ void Desktop::wait() {
     window_->wait_events(0.0);
     return;
   }
-  const double before = now(), most = std::min(app_.redraw_in(), ImGui::GetIO().WantTextInput ? kCaretBlink : INFINITY);
+  const double before = now(), most = std::min({app_.redraw_in(), settings_in_, ImGui::GetIO().WantTextInput ? kCaretBlink : INFINITY});
   window_->wait_events(most);
   if (now() - before < most) frames_left_ = kFramesAfterEvent;
 }
@@ -111,6 +177,9 @@ void Desktop::frame() {
   interface_.draw();
   window_->swap();
   take_wishes(size);
+  if (options_.scripted) return;
+  notice_place();
+  settings_in_ = settings_.look(app_.state(), now());
 }
 
 void Desktop::take_wishes(render::Extent size) {

@@ -1,7 +1,9 @@
 #pragma once
 // The window on a screen: the App, GLFW's events, and frames drawn when there is something new to see.
 
+#include <atomic>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -15,6 +17,7 @@
 #include "app/window/simulated_input.h"
 #include "app/window/window.h"
 #include "ui/app.h"
+#include "ui/commands/settings_keeper.h"
 
 namespace dmoscope::app {
 
@@ -29,8 +32,10 @@ class Desktop {
   Desktop(const Desktop&) = delete;
   Desktop& operator=(const Desktop&) = delete;
 
-  /// The event loop.
+  /// The event loop. A person who closes the window is asked about what is in no file.
   void run_until_closed();
+  /// From any thread, of a signal: the loop ends, and what is in no file is there for the next start.
+  void end_soon();
   /// Executes one line as a script does, then handles events until all has come to rest. Returns the first error that came of
   /// it: of the line itself, of the session, of a screenshot, or that somebody closed the window.
   [[nodiscard]] std::optional<Message> run(std::string_view line);
@@ -40,6 +45,11 @@ class Desktop {
 
  private:
   [[nodiscard]] double now() const;
+  void open(const std::vector<std::filesystem::path>& files, bool by_person);
+  void begin_as_remembered();
+  void begin_autosave();
+  void notice_place();
+  void ask_to_close();
   void wait();
   void frame();
   void take_wishes(render::Extent size);
@@ -53,7 +63,9 @@ class Desktop {
   Interface interface_;
   GlfwInput input_;
   ui::App app_;
-  std::filesystem::path settings_, recent_;  // empty: neither read nor written
+  ui::SettingsKeeper settings_;
+  double settings_in_ = INFINITY;  // seconds until they may have to be written
+  std::atomic<bool> ending_{false};
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::string title_;
   int frames_left_ = 4;

@@ -1,12 +1,17 @@
 // The session's commands: meshes and files.
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/base/number_text.h"
 #include "core/commands/command_rows.h"
 #include "core/input/declared_floats.h"
+#include "core/io/atomic_file.h"
 #include "core/io/mesh_io.h"
+#include "core/io/source_file.h"
 #include "core/session/csv.h"
+#include "core/session/original_copy.h"
 #include "core/session/state_file.h"
 
 namespace dmoscope {
@@ -48,16 +53,51 @@ void generate(CommandContext& context, Arguments arguments) {
   tell_report(context);
 }
 
+/// The active run's mesh; says so, and what else a person should know.
+void write_active(CommandContext& context, const std::string& file, const std::string& said) {
+  const Run& run = context.session.active();
+  std::vector<std::string> notes = write_mesh(file, run.input().mesh, run.positions(), context.progress);
+  const std::string seen = written_as_floats(file, run.input(), run.positions(), run.parameters().metric, context.session.pool().get());
+  if (!seen.empty()) notes.push_back(fmt::format("{}: {}", file, seen));
+  context.session.note_exported(file);
+  tell(context, said);
+  for (std::string& note : notes) tell(context, std::move(note), Message::Kind::Warning);  // last, where the status bar shows it
+}
+
 void export_mesh(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
-  const Run& run = context.session.active();
+  (void)context.session.active();
   context.session.require_not_read(arguments[0], "export");
-  std::vector<std::string> notes = write_mesh(arguments[0], run.input().mesh, run.positions(), context.progress);
-  const std::string seen =
-      written_as_floats(arguments[0], run.input(), run.positions(), run.parameters().metric, context.session.pool().get());
-  if (!seen.empty()) notes.push_back(fmt::format("{}: {}", arguments[0], seen));
-  tell(context, fmt::format("wrote {}", arguments[0]));
-  for (std::string& note : notes) tell(context, std::move(note), Message::Kind::Warning);  // last, where the status bar shows it
+  write_active(context, arguments[0], fmt::format("wrote {}", arguments[0]));
+}
+
+/// What an export to this file would take the place of, among the mesh's own files.
+std::vector<std::filesystem::path> files_of(const InputMesh& input) {
+  std::vector<std::filesystem::path> files;
+  if (!input.path.empty()) files.push_back(input.path);
+  if (input.mesh.source && input.mesh.source->companion() != nullptr) files.push_back(input.mesh.source->companion()->path());
+  return files;
+}
+
+void export_over(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  const InputMesh& input = context.session.active().input();
+  const std::vector<std::filesystem::path> files = files_of(input);
+  const auto is_target = [&](const std::filesystem::path& file) { return same_file(file, arguments[0]); };
+  if (std::ranges::none_of(files, is_target))
+    throw UsageError(fmt::format("{} is not the file that the mesh was read from: 'export' writes to another one", arguments[0]));
+  const std::vector<std::filesystem::path> copies = keep_originals(files);
+  const auto name = [](const std::filesystem::path& path) { return path.filename().string(); };
+  std::string kept = name(copies.front());
+  if (copies.size() > 1 && !copies[1].empty()) kept += " and " + name(copies[1]);
+  try {
+    write_active(context, arguments[0], fmt::format("wrote {}; what it held is kept beside it as {}", arguments[0], kept));
+  } catch (...) {
+    std::error_code ignored;
+    for (const std::filesystem::path& copy : copies) std::filesystem::remove(copy, ignored);
+    throw;
+  }
+  if (!copies.front().empty()) context.session.note_original(copies.front());
 }
 
 void write_stats(CommandContext& context, Arguments arguments) {
@@ -99,15 +139,33 @@ void save_session(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 2);
   context.session.require_not_read(arguments[0], "save-state");
   save_state(arguments[0], context.session, arguments.size() > 1 ? arguments[1] : "", context.progress);
+  context.session.note_saved(arguments[0]);
   tell(context, fmt::format("saved the session as {}", arguments[0]));
+}
+
+void open_saved(CommandContext& context, const std::string& file) {
+  const std::string note = open_state(file, context.session, context.progress);
+  tell_report(context);
+  if (!note.empty()) tell(context, note, Message::Kind::Warning);
+}
+
+std::string runs_as_saved(const Session& session) {
+  return fmt::format("{} run{} as saved", session.run_count(), session.run_count() == 1 ? "" : "s");
 }
 
 void open_session(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
-  const std::string note = open_state(arguments[0], context.session, context.progress);
-  tell_report(context);
-  if (!note.empty()) tell(context, note, Message::Kind::Warning);
-  tell(context, fmt::format("{} run{} as saved", context.session.run_count(), context.session.run_count() == 1 ? "" : "s"));
+  open_saved(context, arguments[0]);
+  context.session.note_saved(arguments[0]);
+  tell(context, runs_as_saved(context.session));
+}
+
+void recover(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  open_saved(context, arguments[0]);
+  context.recovered.emplace_back(arguments[0]);
+  tell(context, fmt::format("recovered {}, iteration {}; save it to keep it", runs_as_saved(context.session),
+                            context.session.active().moment().iteration));
 }
 
 }  // namespace
@@ -119,8 +177,11 @@ std::span<const CommandRow> file_commands() {
       {{"reload", "reload", "Reads the active mesh's file again; its runs keep their parameters and start anew."}, reload},
       {{"generate", "generate KIND [SIZE [SEED]]", "Makes a sample mesh and starts a run on it."}, generate},
       {{"export", "export FILE", "Writes the active run's mesh; the extension chooses the format."}, export_mesh},
+      {{"export-over", "export-over FILE", "Writes it over the file that it was read from, and keeps a copy of that beside it."},
+       export_over},
       {{"save-state", "save-state FILE [VIEW-JSON]", "Saves mesh, runs and where they stand; the view goes along."}, save_session},
       {{"open-state", "open-state FILE", "Opens what save-state saved."}, open_session},
+      {{"recover", "recover FILE", "Opens what was saved by itself; it counts as not saved."}, recover},
       {{"stats", "stats FILE.csv", "Writes the statistics of every iteration of every run."}, write_stats},
       {{"elements", "elements FILE.csv", "Writes every element's quality by every metric."}, write_elements},
   };

@@ -2,7 +2,9 @@
 // The session's commands: what the window's buttons, a script and the tests all say. The tables of *_commands.cpp are their list, and the
 // manual page prints it.
 
+#include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "core/base/progress.h"
@@ -17,7 +19,8 @@ struct CommandContext {
   Session& session;
   Progress& progress;
   std::function<void(Message)> say;
-  std::vector<std::string> done{};  // commands for what the one at work has done besides moving runs; see CommandEnd::again
+  std::vector<std::string> done{};                 // commands for what the one at work has done besides moving runs; see CommandEnd::again
+  std::vector<std::filesystem::path> recovered{};  // files whose session was opened by `recover`
 };
 
 /// The commands in the order of the list above, for help, palette and man page.

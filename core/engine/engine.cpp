@@ -100,6 +100,34 @@ std::vector<CommandEnd> Engine::take_ends() {
   return std::exchange(ends_, {});
 }
 
+void Engine::autosave(AutosaveOptions options) {
+  auto made = std::make_unique<Autosave>(std::move(options), [this](const std::string& trouble) {
+    say({Message::Kind::Warning, trouble, 0});
+  });
+  const std::scoped_lock lock(mutex_);
+  autosave_ = std::move(made);
+}
+
+void Engine::set_autosaved_view(std::string json) {
+  if (autosave_) autosave_->set_view(std::move(json));
+}
+
+bool Engine::autosave_now(std::chrono::milliseconds patience) {
+  if (!autosave_) return true;
+  const auto until = std::chrono::steady_clock::now() + patience;
+  {
+    std::unique_lock lock(mutex_);
+    safe_wanted_ = true;
+    changed_.notify_all();
+    if (!changed_.wait_until(lock, until, [&] { return !safe_wanted_; })) return false;
+  }
+  return autosave_->flush(std::chrono::duration_cast<std::chrono::milliseconds>(until - std::chrono::steady_clock::now()));
+}
+
+void Engine::end_autosave() {
+  if (autosave_) autosave_->end();
+}
+
 void Engine::set_wake(std::function<void()> wake) {
   const std::scoped_lock lock(mutex_);
   wake_ = std::move(wake);
@@ -108,7 +136,7 @@ void Engine::set_wake(std::function<void()> wake) {
 void Engine::work(const std::stop_token& stop) {
   constexpr std::chrono::milliseconds kQuiet{60};
   std::unique_lock lock(mutex_);
-  while (changed_.wait(lock, stop, [&] { return !queue_.empty() || watch_new_; })) {
+  while (wait_for_work(lock, stop)) {
     resting_ = true;  // also while a view of what is newly watched is made
     if (queue_.empty()) {
       lock.unlock();
@@ -118,13 +146,46 @@ void Engine::work(const std::stop_token& stop) {
     }
     lock.lock();
     // Whoever drags along the timeline asks for the next at once, and shall not wait for what nobody looks at.
-    changed_.wait_for(lock, stop, kQuiet, [&] { return !queue_.empty() || watch_new_ || waiting_ > 0; });
+    changed_.wait_for(lock, stop, kQuiet, [&] { return !queue_.empty() || watch_new_ || waiting_ > 0 || safe_wanted_; });
     lock.unlock();
     rest(stop);
     lock.lock();
     resting_ = false;
     changed_.notify_all();
   }
+}
+
+/// Until there is something to do, saving by itself what is to be saved meanwhile; false: the engine ends.
+bool Engine::wait_for_work(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
+  const auto wanted = [&] { return !queue_.empty() || watch_new_ || safe_wanted_; };
+  while (!stop.stop_requested()) {
+    const auto due = autosave_ ? autosave_->due(session_) : std::nullopt;
+    const bool woken = due ? changed_.wait_until(lock, stop, *due, wanted) : changed_.wait(lock, stop, wanted);
+    if (safe_wanted_) {
+      autosave_at_rest(lock, stop, true);
+      safe_wanted_ = false;
+      changed_.notify_all();
+    } else if (woken) {
+      return true;
+    } else if (due && !stop.stop_requested()) {
+      autosave_at_rest(lock, stop, false);
+    }
+  }
+  return false;
+}
+
+/// `lock` is held before and after. Never throws: what cannot be had now is tried again.
+void Engine::autosave_at_rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop, bool now) {
+  lock.unlock();
+  const auto go_on = [&] {
+    const std::scoped_lock asking(mutex_);
+    return !stop.stop_requested() && (now || (queue_.empty() && !watch_new_ && !safe_wanted_));
+  };
+  try {
+    if (autosave_) autosave_->at_rest(session_, now, go_on);
+  } catch (const std::exception&) {  // such as a device that fails, of which the next command hears
+  }
+  lock.lock();
 }
 
 /// The first command of the queue; `lock` is held before and not after.
@@ -153,6 +214,7 @@ CommandEnd Engine::run_one(const Posted& command) {
   session_.observe([this](const Run& run) {
     try {
       publish_if_due();
+      if (autosave_) autosave_->while_running(session_, run);
     } catch (const DeviceError&) {
       if (&run == &session_.active()) throw;  // another run's device fails: that one hears of it when it is asked next
     }
@@ -160,10 +222,22 @@ CommandEnd Engine::run_one(const Posted& command) {
   const Moment before = moment();
   const SessionPoint point = session_.point();
   CommandEnd end{command.id, execute(command.line)};
+  safeguard();
   end.at = moment();
   end.moved = end.at != before;
   if (end.kind != CommandEnd::Kind::Done) end.again = commands_from(session_, point, context_.done);
   return end;
+}
+
+/// After a command: what it came to is saved by itself where it is time, unless that would take long.
+void Engine::safeguard() {
+  const auto recovered = std::exchange(context_.recovered, {});
+  if (!autosave_) return;
+  try {
+    autosave_->supersede(recovered);
+    autosave_->at_rest(session_, false, {});
+  } catch (const std::exception&) {  // such as a device that fails, of which the next command hears
+  }
 }
 
 CommandEnd::Kind Engine::execute(const std::string& line) {
@@ -210,7 +284,7 @@ void Engine::publish_at_rest() {
 void Engine::rest(const std::stop_token& stop) {
   const auto go_on = [&] {
     const std::scoped_lock lock(mutex_);
-    return !stop.stop_requested() && queue_.empty() && !watch_new_;
+    return !stop.stop_requested() && queue_.empty() && !watch_new_ && !safe_wanted_;
   };
   try {
     if (frames_.work_at_rest(session_, watched(), go_on)) publish(FrameDetail::Whole);

@@ -16,6 +16,7 @@
 
 #include "core/base/progress.h"
 #include "core/commands/session_commands.h"
+#include "core/engine/autosave.h"
 #include "core/engine/command_end.h"
 #include "core/view/frame_builder.h"
 #include "core/view/view.h"
@@ -52,6 +53,16 @@ class Engine {
   /// What runs now, as typed; empty when idle.
   [[nodiscard]] std::string current_command() const;
 
+  /// From now on the session is saved by itself; see Autosave. Before the first post. Throws OutputError.
+  void autosave(AutosaveOptions options);
+  /// What goes along with it: see save_state. Without autosave() it is of no use.
+  void set_autosaved_view(std::string json);
+  [[nodiscard]] bool autosaves() const noexcept { return autosave_ != nullptr; }
+  /// Saves by itself at once, what there is to save, as soon as no command is at work, and waits for that; false: not within `patience`.
+  bool autosave_now(std::chrono::milliseconds patience);
+  /// A good end: what was saved by itself is removed.
+  void end_autosave();
+
   /// The latest state; never null. While a command goes on new frames are published (of a run on a device light ones, see Frame), each
   /// publication_pause() after the one before and only once that was taken by view(); at its end a whole one.
   [[nodiscard]] std::shared_ptr<const SessionView> view();
@@ -71,10 +82,13 @@ class Engine {
   };
   [[nodiscard]] CommandEnd run_one(const Posted& command);
   [[nodiscard]] CommandEnd::Kind execute(const std::string& line);
+  void safeguard();
   void publish(FrameDetail detail);
   void publish_if_due();
   void publish_at_rest();
   void rest(const std::stop_token& stop);
+  [[nodiscard]] bool wait_for_work(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
+  void autosave_at_rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop, bool now);
   [[nodiscard]] std::vector<Watch> watched() const;
   void say(Message message);
 
@@ -93,14 +107,16 @@ class Engine {
   std::vector<Watch> watched_;
   bool watch_new_ = false;  // there is no view with them yet
   bool working_ = false;
-  bool resting_ = false;  // works out what nobody waits for
-  int waiting_ = 0;       // in wait_idle()
+  bool safe_wanted_ = false;  // somebody waits in autosave_now()
+  bool resting_ = false;      // works out what nobody waits for
+  int waiting_ = 0;           // in wait_idle()
   std::vector<Message> messages_;
   std::shared_ptr<const SessionView> view_;
   std::atomic<bool> taken_{true};
   FrameBuilder frames_;
   std::chrono::steady_clock::time_point next_publication_;
-  std::jthread thread_;  // last: everything above exists before it starts
+  std::unique_ptr<Autosave> autosave_;  // null: nothing is saved by itself
+  std::jthread thread_;                 // last: everything above exists before it starts
 };
 
 }  // namespace dmoscope

@@ -41,15 +41,16 @@ FileLine file_line(std::string_view line) {
 
 }  // namespace
 
+void ReadFiles::add(const std::filesystem::path& path) {
+  const auto same = [&path](const std::filesystem::path& known) { return same_file(known, path); };
+  if (std::ranges::none_of(files_, same)) files_.push_back(std::filesystem::absolute(path));
+}
+
 void ReadFiles::add(const Mesh& mesh, const std::filesystem::path& path) {
-  const auto note = [this](const std::filesystem::path& file) {
-    const auto same = [&file](const std::filesystem::path& known) { return same_file(known, file); };
-    if (std::ranges::none_of(files_, same)) files_.push_back(std::filesystem::absolute(file));
-  };
-  note(path);
+  add(path);
   if (!mesh.source) return;
-  note(mesh.source->path());
-  if (mesh.source->companion() != nullptr) note(mesh.source->companion()->path());
+  add(mesh.source->path());
+  if (mesh.source->companion() != nullptr) add(mesh.source->companion()->path());
 }
 
 void ReadFiles::require_another(const std::filesystem::path& target, std::string_view command) const {

@@ -15,6 +15,7 @@ class ReadFiles {
  public:
   /// A mesh's own file, and its companion where the format has two.
   void add(const Mesh& mesh, const std::filesystem::path& path);
+  void add(const std::filesystem::path& path);
   /// Throws UsageError when `target`, which `command` ("stats") would write, is one of them, also through links. Sessions that are saved
   /// and `reload` need these files as they were.
   void require_another(const std::filesystem::path& target, std::string_view command) const;

@@ -105,6 +105,28 @@ std::vector<std::shared_ptr<const InputMesh>> Session::inputs() const {
   return inputs;
 }
 
+void Session::note_exported(const std::filesystem::path& file) {
+  saved_.written(file);
+  saved_.add(file, SavedMarks::Kind::Mesh, runs_.at(active_));
+}
+
+void Session::note_saved(const std::filesystem::path& file) {
+  saved_.written(file);
+  for (const auto& run : runs_) saved_.add(file, SavedMarks::Kind::Session, run);
+}
+
+std::filesystem::path Session::source_path(const std::shared_ptr<const InputMesh>& input) const {
+  for (const auto& [mesh, copy] : originals_)
+    if (mesh.lock() == input) return copy;
+  return input->path.empty() ? std::filesystem::path() : std::filesystem::absolute(input->path);
+}
+
+void Session::note_original(std::filesystem::path copy) {
+  std::erase_if(originals_, [&](const auto& one) { return one.first.expired() || one.first.lock() == input_; });
+  read_files_.add(copy);
+  originals_.emplace_back(input_, std::move(copy));
+}
+
 const std::shared_ptr<const InputMesh>& Session::input() const {
   if (!input_) throw UsageError("no mesh is open");
   return input_;

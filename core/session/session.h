@@ -11,6 +11,7 @@
 
 #include "core/run/run.h"
 #include "core/session/read_files.h"
+#include "core/session/saved_marks.h"
 #include "core/session/undo.h"
 
 namespace dmoscope {
@@ -47,6 +48,16 @@ class Session {
   void require_not_read(const std::filesystem::path& target, std::string_view command) const {
     read_files_.require_another(target, command);
   }
+  /// A file was written: with the active run's mesh, or with all runs as they stand (save_state).
+  void note_exported(const std::filesystem::path& file);
+  void note_saved(const std::filesystem::path& file);
+  /// Whether ending now would lose something of a run; see SavedMarks.
+  [[nodiscard]] bool would_lose(std::size_t run) const { return saved_.would_lose(*runs_.at(run)); }
+  /// Where a mesh is read from when the session is opened again: its file, or the copy of it that was kept when the file was written
+  /// over. Empty for a mesh of no file.
+  [[nodiscard]] std::filesystem::path source_path(const std::shared_ptr<const InputMesh>& input) const;
+  /// What the active mesh's file held when it was read is here from now on.
+  void note_original(std::filesystem::path copy);
   /// Bytes that a file may unpack to from now on; 0: see UnpackBudget.
   void set_most_memory(std::uint64_t bytes) noexcept { most_memory_ = bytes; }
   /// How files are read for this session.
@@ -118,6 +129,8 @@ class Session {
   std::string restored_view_;
   std::uint64_t restored_views_ = 0;
   ReadFiles read_files_;
+  SavedMarks saved_;
+  std::vector<std::pair<std::weak_ptr<const InputMesh>, std::filesystem::path>> originals_;  // see source_path()
   std::uint64_t most_memory_ = 0;
   std::uint64_t last_id_ = 0;  // of all runs there were
   UndoStack undo_;

@@ -192,35 +192,49 @@ void require_record(const Run& run, const std::vector<IterationRecord>& records,
 
 /// The positions at the end of the iteration in which the run stands; brings the run there and back. Throws UsageError where, computed
 /// again, they are not those of the record, as in a run that an older version of this program made: what was written would not open.
-std::string packed_start(Run& run, Progress& progress) {
+std::vector<Vec3> start_computed_again(Run& run, Progress& progress) {
   const RunSnapshot here = run.point();
-  if (here.moment.is_iteration_end()) return pack_positions(run.positions());
-  if (run.history().kept(here.moment.iteration)) return pack_positions(run.history().nearest(here.moment.iteration).positions);
   Progress unwatched;  // the way back is not for cancelling
-  std::string text;
+  std::vector<Vec3> start;
   try {
     run.seek({here.moment.iteration}, progress);
     require_record(run, here.records.whole(), here.moment.iteration, run.positions());
-    text = pack_positions(run.positions());
+    start.assign(run.positions().begin(), run.positions().end());
   } catch (...) {
     run.go_to(here, unwatched);
     throw;
   }
   run.go_to(here, unwatched);
-  return text;
+  return start;
 }
 
-/// `mesh`: the place of its mesh among several.
-Json json_of(Run& run, std::optional<std::ptrdiff_t> mesh, Progress& progress) {
+RunStanding standing_of_run(Run& run, std::span<const MeshStanding> meshes, Progress& progress) {
+  RunStanding standing = without_positions(run, meshes);
+  const Moment& at = run.moment();
+  if (at.iteration == 0) return standing;
+  if (at.is_iteration_end()) {
+    standing.start = run.positions();  // it is written before the run goes on
+  } else if (run.history().kept(at.iteration)) {
+    standing.start = run.history().nearest(at.iteration).positions;
+  } else {
+    const auto start = std::make_shared<const std::vector<Vec3>>(start_computed_again(run, progress));
+    standing.start = *start;
+    standing.owner = start;
+  }
+  return standing;
+}
+
+/// `several`: whether there are several meshes.
+Json json_of(const RunStanding& run, const InputMesh& input, bool several) {
   Json edits = Json::array();
-  for (const Edit& edit : run.edits().all()) edits.push_back({{"at", json_of(edit.at)}, {"vertices", edit.vertices}});
+  for (const Edit& edit : run.edits) edits.push_back({{"at", json_of(edit.at)}, {"vertices", edit.vertices}});
   Json records = Json::array();
-  for (const IterationRecord& record : run.history().records()) records.push_back(json_of(record));
-  Json json{{"parameters", json_of(run.parameters())}, {"moment", json_of(run.moment())}, {"edits", edits}, {"records", records}};
-  if (run.moment().iteration > 0) json["positions"] = packed_start(run, progress);
-  json["standing"] = standing_mark(run.input(), run.parameters().interfaces);
-  if (const std::string size = size_mark(run.input(), run.size_field().get()); !size.empty()) json["size"] = size;
-  if (mesh) json["mesh"] = *mesh;
+  for (const IterationRecord& record : run.records) records.push_back(json_of(record));
+  Json json{{"parameters", json_of(run.parameters)}, {"moment", json_of(run.moment)}, {"edits", edits}, {"records", records}};
+  if (run.moment.iteration > 0) json["positions"] = pack_positions(run.start);
+  json["standing"] = standing_mark(input, run.parameters.interfaces);
+  if (const std::string size = size_mark(input, run.size.get()); !size.empty()) json["size"] = size;
+  if (several) json["mesh"] = run.mesh;
   json["checksums"] = checksums_of(json);
   return json;
 }
@@ -385,15 +399,16 @@ Json parse(std::string_view text, const std::string& file) {
 namespace {
 
 /// What a session says of a mesh, to find it again. Throws UsageError for one that cannot be found again.
-Json json_of(const InputMesh& input) {
+Json json_of(const MeshStanding& mesh) {
+  const InputMesh& input = *mesh.input;
   Json source{{"vertices", input.mesh.vertex_count()}, {"elements", input.mesh.elements.size()}, {"checksum", checksum(input.mesh)}};
   source["single"] = input.mesh.single_precision;
   // To be able to say what it was where other vertices keep their place one day.
   for (const DataMark& mark : data_marks(input.mesh)) source["data"].push_back({mark.first, mark.second});
   if (!input.generator.empty()) {
     source["generate"] = input.generator;
-  } else if (!input.path.empty()) {
-    source["path"] = std::filesystem::absolute(input.path).string();
+  } else if (!mesh.source.empty()) {
+    source["path"] = mesh.source.string();
   } else {
     throw UsageError("this mesh came from no file and no generator: export it and open it first");
   }
@@ -404,22 +419,29 @@ Json json_of(const InputMesh& input) {
 
 void save_state(const std::filesystem::path& path, Session& session, const std::string& view, Progress& progress) {
   (void)session.input();  // there is one
-  const auto inputs = session.inputs();
-  const bool several = inputs.size() > 1;
-  Json json{{"format", kSessionFormat}, {"version", several ? kVersion : kVersionOfOneMesh}};
-  if (several) {
-    for (const auto& input : inputs) json["inputs"].push_back(json_of(*input));
-  } else {
-    json["input"] = json_of(*inputs.front());
-  }
-  json["runs"] = Json::array();
+  SessionStanding standing = without_runs(session);
   for (std::size_t i = 0; i < session.run_count(); ++i) {
     progress.check();
-    const auto mesh = std::ranges::find(inputs, session.run(i).shared_input()) - inputs.begin();
-    json["runs"].push_back(json_of(session.run(i), several ? std::optional(mesh) : std::nullopt, progress));
+    standing.runs.push_back(standing_of_run(session.run(i), standing.meshes, progress));
   }
-  json["active"] = session.active_index();
-  json["shown"] = info(session.shown()).name;
+  write_state(path, standing, view, progress);
+}
+
+void write_state(const std::filesystem::path& path, const SessionStanding& session, const std::string& view, Progress& progress) {
+  const bool several = session.meshes.size() > 1;
+  Json json{{"format", kSessionFormat}, {"version", several ? kVersion : kVersionOfOneMesh}};
+  if (several) {
+    for (const MeshStanding& mesh : session.meshes) json["inputs"].push_back(json_of(mesh));
+  } else {
+    json["input"] = json_of(session.meshes.front());
+  }
+  json["runs"] = Json::array();
+  for (const RunStanding& run : session.runs) {
+    progress.check();
+    json["runs"].push_back(json_of(run, *session.meshes[run.mesh].input, several));
+  }
+  json["active"] = session.active;
+  json["shown"] = info(session.shown).name;
   if (!view.empty()) {
     json["view"] = Json::parse(view, nullptr, false);
     if (json["view"].is_discarded()) throw UsageError("the view to be saved is no JSON");

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "core/session/session.h"
+#include "core/session/session_standing.h"
 
 namespace dmoscope {
 
@@ -13,6 +13,8 @@ namespace dmoscope {
 /// mesh is open, where nobody could find the mesh again (it came from no file and no generator), and for a view that is no JSON;
 /// OutputError.
 void save_state(const std::filesystem::path& path, Session& session, const std::string& view, Progress& progress);
+/// The same of a session as it stood; may be done on any thread.
+void write_state(const std::filesystem::path& path, const SessionStanding& session, const std::string& view, Progress& progress);
 
 /// Replaces mesh and runs by those of a file; every run stands at its moment, bit for bit. Earlier iterations are computed again when asked
 /// for. Every part of the file has a checksum, and the quality that it says of the positions must be theirs. On any error, and on

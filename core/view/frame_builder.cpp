@@ -255,6 +255,7 @@ std::shared_ptr<const SessionView> FrameBuilder::build(Session& session, FrameDe
   view->active = session.active_index();
   for (std::size_t i = 0; i < session.run_count(); ++i) {
     view->runs.push_back(view_of(session.run(i), session.percentiles()));
+    view->runs.back().unsaved = session.would_lose(i);
     view->runs.back().summary = summaries_.of(session, i);
     view->runs.back().ending = endings_.of(session, i);
   }

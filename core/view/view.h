@@ -94,6 +94,7 @@ struct RunView {
   SharedVector<Percentiles> percentiles;      // of the metric it optimises, one a record; empty while `percentiles` is off
   std::shared_ptr<const RunSummary> summary;  // null until it has been worked out, which is once the session is at rest
   std::size_t edits = 0, edits_done = 0;      // all of its path, and those up to its moment; see edit.h
+  bool unsaved = false;                       // ending now would lose something of it, see SavedMarks
   std::string history_note;                   // History::sentence()
   std::string last_outcome;                   // why it last stopped, may be empty
   std::optional<std::uint64_t> ended{};       // the iteration that it ended with before it went back to the best, where it did

@@ -61,12 +61,27 @@ std::filesystem::path xdg_path(const char* variable, const char* fallback, const
   return {};
 }
 
-void take_recent(const json& files, ViewState& state) {
-  constexpr std::size_t kMost = 10;
-  state.recent_files.clear();
+constexpr std::size_t kMostRecent = 10;
+
+/// Whole paths alone: older versions wrote them as they were typed, and nobody knows from which folder.
+void take_recent(const json& files, std::vector<std::string>& recent) {
   for (const json& file : files) {
-    if (file.is_string() && state.recent_files.size() < kMost) state.recent_files.push_back(file.get<std::string>());
+    if (!file.is_string() || recent.size() >= kMostRecent) continue;
+    std::string path = file.get<std::string>();
+    if (path.starts_with('/') && std::ranges::find(recent, path) == recent.end()) recent.push_back(std::move(path));
   }
+}
+
+void take_place(const json& in, WindowPlace& place) {
+  const auto at = in.find("window");
+  if (at == in.end() || !at->is_object()) return;
+  constexpr double kLeast = 200, kMost = 32768;
+  double width = place.width, height = place.height;
+  take(*at, "width", width, kLeast, kMost);
+  take(*at, "height", height, kLeast, kMost);
+  take(*at, "maximised", place.maximised);
+  place.width = static_cast<int>(width);
+  place.height = static_cast<int>(height);
 }
 
 /// The file's text; none where there is no such file.
@@ -96,6 +111,8 @@ std::filesystem::path settings_path() { return xdg_path("XDG_CONFIG_HOME", ".con
 
 std::filesystem::path recent_path() { return xdg_path("XDG_STATE_HOME", ".local/state", "recent.json"); }
 
+std::filesystem::path autosave_folder() { return xdg_path("XDG_STATE_HOME", ".local/state", "autosave"); }
+
 std::string settings_text(const ViewState& state) {
   const Panels& panels = state.panels;
   json out = {{"theme", kThemeNames[static_cast<int>(state.theme)]},
@@ -120,6 +137,8 @@ std::string settings_text(const ViewState& state) {
                 {"left_width", panels.left_width},
                 {"right_width", panels.right_width},
                 {"bottom_height", panels.bottom_height}}}};
+  if (const WindowPlace& place = state.place; place.width > 0)
+    out["window"] = {{"width", place.width}, {"height", place.height}, {"maximised", place.maximised}};
   return out.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
@@ -150,7 +169,11 @@ bool apply_settings(const std::string& text, ViewState& state) {
       if (map.name == at->get<std::string>()) state.colour_map = map.map;
     }
   }
-  if (const auto at = in.find("recent"); at != in.end() && at->is_array()) take_recent(*at, state);  // of older versions
+  if (const auto at = in.find("recent"); at != in.end() && at->is_array()) {  // of older versions
+    state.recent_files.clear();
+    take_recent(*at, state.recent_files);
+  }
+  take_place(in, state.place);
   if (const auto at = in.find("panels"); at != in.end() && at->is_object()) {
     take(*at, "left", state.panels.left);
     take(*at, "right", state.panels.right);
@@ -179,7 +202,8 @@ std::string recent_text(const ViewState& state) {
 bool apply_recent(const std::string& text, ViewState& state) {
   const json in = json::parse(text, nullptr, false);
   if (!in.is_array()) return false;
-  take_recent(in, state);
+  state.recent_files.clear();
+  take_recent(in, state.recent_files);
   return true;
 }
 
@@ -190,7 +214,13 @@ void load_recent(const std::filesystem::path& path, ViewState& state) {
 }
 
 std::string save_recent(const std::filesystem::path& path, const ViewState& state) {
-  return save_text(path, recent_text(state), "recent files");
+  ViewState merged;
+  merged.recent_files = state.recent_files;
+  if (const auto text = read_text(path)) {
+    const json there = json::parse(*text, nullptr, false);
+    if (there.is_array()) take_recent(there, merged.recent_files);
+  }
+  return save_text(path, recent_text(merged), "recent files");
 }
 
 }  // namespace dmoscope::ui

@@ -14,7 +14,10 @@ namespace dmoscope::ui {
 /// $XDG_STATE_HOME/dmoscope/recent.json, else ~/.local/state/dmoscope/recent.json; empty when neither is known.
 [[nodiscard]] std::filesystem::path recent_path();
 
-/// Theme, scale (over the monitor's), colour map and panels as JSON.
+/// Folder of what windows save by themselves: $XDG_STATE_HOME/dmoscope/autosave, else below ~/.local/state; empty when neither is known.
+[[nodiscard]] std::filesystem::path autosave_folder();
+
+/// Theme, scale (over the monitor's), colour map, panels and the window's place as JSON.
 [[nodiscard]] std::string settings_text(const ViewState& state);
 /// Takes over what is there and makes sense; anything else keeps its value. Returns false when the text is no JSON object.
 bool apply_settings(const std::string& text, ViewState& state);
@@ -22,7 +25,7 @@ bool apply_settings(const std::string& text, ViewState& state);
 /// Recent files as JSON, and back; false when the text is no JSON array.
 [[nodiscard]] std::string recent_text(const ViewState& state);
 bool apply_recent(const std::string& text, ViewState& state);
-/// As load_settings and save_settings.
+/// As load_settings and save_settings. What other windows have put there meanwhile stays, behind this one's.
 void load_recent(const std::filesystem::path& path, ViewState& state);
 std::string save_recent(const std::filesystem::path& path, const ViewState& state);
 

@@ -22,6 +22,7 @@
 #include "ui/commands/size_point.h"
 #include "ui/commands/stepping_commands.h"
 #include "ui/commands/timeline_commands.h"
+#include "ui/commands/unsaved_commands.h"
 #include "ui/state/view_geometry.h"
 
 namespace dmoscope::ui {
@@ -41,7 +42,9 @@ constexpr auto kDialogs = std::to_array<std::pair<std::string_view, Dialog>>({{"
                                                                               {"log", Dialog::Log},
                                                                               {"sequence", Dialog::Sequence},
                                                                               {"plot", Dialog::Plot},
-                                                                              {"save-session", Dialog::SaveSession}});
+                                                                              {"save-session", Dialog::SaveSession},
+                                                                              {"unsaved", Dialog::Unsaved},
+                                                                              {"recover", Dialog::Recover}});
 
 const InputMesh& input_of(const CommandHost& host) {
   const auto view = host.session();
@@ -266,6 +269,7 @@ CommandTable view_commands(ViewState& state, const CommandHost& host) {
   add_stepping_commands(table, state);
   add_size_point_commands(table, state, host);
   add_pane_commands(table, state);
+  add_unsaved_commands(table, state, host);
   return table;
 }
 

@@ -71,6 +71,10 @@ const char* dialog_title(Dialog dialog) {
       return "Save the plot";
     case Dialog::SaveSession:
       return "Save the session";
+    case Dialog::Unsaved:
+      return "Not saved";
+    case Dialog::Recover:
+      return "Recover";
     case Dialog::None:
       break;
   }
@@ -130,6 +134,12 @@ void draw_dialogs(PanelContext& context) {
       break;
     case Dialog::SaveSession:
       draw_save_session_dialog(context);
+      break;
+    case Dialog::Unsaved:
+      draw_unsaved_dialog(context);
+      break;
+    case Dialog::Recover:
+      draw_recover_dialog(context);
       break;
   }
 }

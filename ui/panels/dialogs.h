@@ -22,6 +22,7 @@ void draw_open_dialog(PanelContext& context);
 struct ExportDialog {
   int what = 0;
   std::string name;
+  bool over_input = false;  // it is asked whether the mesh's own file may be written over
 };
 void draw_export_dialog(PanelContext& context);
 
@@ -70,6 +71,14 @@ struct SaveSessionDialog {
   std::string name;
 };
 void draw_save_session_dialog(PanelContext& context);
+
+/// What is in no file is about to be given up.
+void draw_unsaved_dialog(PanelContext& context);
+
+struct RecoverDialog {
+  std::size_t chosen = 0;
+};
+void draw_recover_dialog(PanelContext& context);
 
 void draw_keys_dialog(PanelContext& context);
 void draw_about_dialog(PanelContext& context);

@@ -8,6 +8,7 @@
 
 #include "core/commands/commands.h"
 #include "ui/panels/panels.h"
+#include "ui/state/recent_labels.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -95,9 +96,11 @@ void draw_entries(PanelContext& context) {
 void draw_recent_column(PanelContext& context) {
   heading(context, "Recent");
   if (context.state.recent_files.empty()) dim_text(context, "nothing yet");
+  const std::vector<std::string> names = short_names(context.state.recent_files);
+  std::size_t at = 0;
   for (const RecentFile& file : context.widgets.recent.list(context.state.recent_files, context.now)) {
     ImGui::PushID(file.path.c_str());
-    const std::string name = fs::path(file.path).filename().string();
+    const std::string& name = names[at++];
     const ImGuiSelectableFlags flags = file.missing ? ImGuiSelectableFlags_Disabled : 0;
     if (ImGui::Selectable(fit_text(name, ImGui::GetContentRegionAvail().x).c_str(), false, flags)) open_file(context, file.path);
     next_item_tooltip(file.missing ? file.reason() : file.path);

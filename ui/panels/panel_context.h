@@ -72,6 +72,7 @@ struct WidgetState {
   SequenceDialog sequence;
   PlotDialog plot_dialog;
   SaveSessionDialog save_session;
+  RecoverDialog recover;
   Dialog dialog_shown = Dialog::None;  // in the last frame
   bool dialog_opened = false;          // in this frame
   std::shared_ptr<PlotCache> plot;     // as drawn last

@@ -7,7 +7,9 @@
 #include <imgui_stdlib.h>
 
 #include "core/commands/commands.h"
+#include "core/io/atomic_file.h"
 #include "core/io/mesh_io.h"
+#include "core/session/original_copy.h"
 #include "ui/panels/panels.h"
 
 namespace dmoscope::ui {
@@ -62,6 +64,34 @@ void say_if_replaced(PanelContext& context, const std::string& name) {
   }
 }
 
+/// Whether the export would take the place of the file that the mesh was read from, by whatever name.
+bool writes_over_input(const PanelContext& context) {
+  const ExportDialog& dialog = context.widgets.exporting;
+  const Frame* frame = context.frame();
+  return dialog.what == 0 && frame != nullptr && same_file(dialog.name, frame->input->path);
+}
+
+/// In the place of the dialog's buttons.
+void ask_over_input(PanelContext& context) {
+  ExportDialog& dialog = context.widgets.exporting;
+  const std::string copy = original_name(context.frame()->input->path, 1).filename().string();
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextColored(colour_vector(context.palette.warning),
+                     "This is the file that the mesh was read from. It will hold the smoothed mesh then; what it holds now is kept beside "
+                     "it as %s (or under the next number).",
+                     copy.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::Spacing();
+  const bool go = ImGui::Button("Write over it, keep a copy");
+  context.items.record_last("export:over");
+  ImGui::SameLine();
+  if (ImGui::Button("Back")) dialog.over_input = false;
+  context.items.record_last("export:back");
+  if (!go) return;
+  context.state.dialog = Dialog::None;
+  context.send("export-over " + quote_word(dialog.name));
+}
+
 }  // namespace
 
 void draw_export_dialog(PanelContext& context) {
@@ -70,6 +100,12 @@ void draw_export_dialog(PanelContext& context) {
   if (widgets.dialog_opened) {
     widgets.exporting.what = 0;
     widgets.exporting.name = default_name(context, 0);
+    widgets.exporting.over_input = false;
+  }
+  if (widgets.exporting.over_input) {
+    ask_over_input(context);
+    end_dialog();
+    return;
   }
   constexpr const char* kWhat[] = {"mesh as it is now", "statistics of all runs", "quality of every element"};
   for (int k = 0; k < 3; ++k) {
@@ -95,7 +131,9 @@ void draw_export_dialog(PanelContext& context) {
   ImGui::SameLine();
   if (ImGui::Button("Cancel")) context.state.dialog = Dialog::None;
   context.items.record_last("dialog:close");
-  if ((go || entered) && !widgets.exporting.name.empty()) {
+  if ((go || entered) && writes_over_input(context)) {
+    widgets.exporting.over_input = true;
+  } else if ((go || entered) && !widgets.exporting.name.empty()) {
     context.state.dialog = Dialog::None;
     context.send(fmt::format("{} {}", kCommands[widgets.exporting.what], quote_word(widgets.exporting.name)));
   }

@@ -29,7 +29,8 @@ constexpr auto kRecords = std::to_array<std::pair<std::string_view, Record>>({
     {"quit", Record::ToldOnly},         {"save-script", Record::ToldOnly},
     {"save-session", Record::ToldOnly}, {"play-levels", Record::Shortcut},
     {"copy-level", Record::Nothing},    {"place-size-point", Record::Nothing},
-    {"notice", Record::Nothing},
+    {"notice", Record::Nothing},        {"ask-unsaved", Record::Nothing},
+    {"answer", Record::Nothing},        {"recovery", Record::Nothing},
 });
 
 std::string clock_now() {

@@ -113,8 +113,11 @@ void add_message(ViewState& state, Message message) {
   while (state.log.size() > kMost) state.log.pop_front();
 }
 
-void remember_file(ViewState& state, const std::string& path) {
+void remember_file(ViewState& state, const std::string& file) {
   constexpr std::size_t kMost = 10;
+  std::error_code unknown;
+  const std::filesystem::path whole = std::filesystem::weakly_canonical(std::filesystem::absolute(file, unknown), unknown);
+  const std::string path = unknown ? file : whole.string();
   std::erase(state.recent_files, path);
   state.recent_files.insert(state.recent_files.begin(), path);
   if (state.recent_files.size() > kMost) state.recent_files.resize(kMost);

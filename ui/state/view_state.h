@@ -11,6 +11,7 @@
 
 #include "core/clipping/clipped_view.h"
 #include "core/engine/engine.h"
+#include "core/engine/safe_copy.h"
 #include "core/view/view.h"
 #include "render/camera.h"
 #include "render/colour_map.h"
@@ -26,13 +27,14 @@
 #include "ui/state/sequence.h"
 #include "ui/state/stepping_state.h"
 #include "ui/state/timeline.h"
+#include "ui/state/unsaved.h"
 
 namespace dmoscope::ui {
 
 enum class Theme { Dark, Light, Contrast };
 /// "dark", "light", "contrast"
 [[nodiscard]] std::string_view theme_name(Theme theme);
-enum class Dialog { None, Open, Export, Screenshot, Find, Palette, Keys, About, Error, Log, Sequence, Plot, SaveSession };
+enum class Dialog { None, Open, Export, Screenshot, Find, Palette, Keys, About, Error, Log, Sequence, Plot, SaveSession, Unsaved, Recover };
 
 /// What a person picked.
 struct Picked {
@@ -40,6 +42,13 @@ struct Picked {
   Kind kind = Kind::None;
   Index id = kNoIndex;
   friend bool operator==(const Picked&, const Picked&) = default;
+};
+
+/// Of the window on the desktop, in its coordinates; 0: not known.
+struct WindowPlace {
+  int width = 0, height = 0;  // while it is not maximised
+  bool maximised = false;
+  friend bool operator==(const WindowPlace&, const WindowPlace&) = default;
 };
 
 /// Which panels are there. The side panels give way to the mesh in a small window and then open over it.
@@ -116,6 +125,13 @@ struct ViewState {
   PlotOptions plot_options;
   KnownRunNames run_names;  // that the plots' legends had last
   bool full_screen = false;
+  WindowPlace place;
+
+  // What would be lost
+  bool asks_unsaved = false;              // before a person gives up what is in no file; scripts are not asked
+  std::optional<Leaving> leaving;         // what waits for the answer
+  std::vector<Recoverable> recoverable;   // what windows that came to no good end left, as long as a person has not said what becomes of it
+  std::optional<Recoverable> recovering;  // of these, what the session came of
 
   // Selection
   Picked picked;
@@ -174,7 +190,7 @@ void move_to_monitor(ViewState& state, double monitor_scale);
 /// Adds a line to the log; an error also opens the error dialog (unless one is open, then it is appended there).
 void add_message(ViewState& state, Message message);
 
-/// Puts a file at the front of the recent ones.
-void remember_file(ViewState& state, const std::string& path);
+/// Puts a file at the front of the recent ones, by its whole path.
+void remember_file(ViewState& state, const std::string& file);
 
 }  // namespace dmoscope::ui

@@ -1,0 +1,99 @@
+#!/usr/bin/env bash
+# nothing_lost.sh PROGRAM: windows of a person on a virtual display that end as nobody wished. One is killed (SIGKILL) in a long run, and the
+# next start recovers it; one gets SIGTERM; one is to be closed in the midst of a run, and asks. What was recovered must have the very
+# bits of the same iterations done elsewhere. Exits 77 (skipped) where there is no Xvfb or no xdotool.
+set -euo pipefail
+program=$1
+for tool in xvfb-run Xvfb xauth xdotool; do
+  command -v "$tool" >/dev/null || { echo "skipped: $tool is not installed"; exit 77; }
+done
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+export folder program XDG_CONFIG_HOME=$folder/config XDG_STATE_HOME=$folder/state DMOSCOPE_AUTOSAVE=1
+unset WAYLAND_DISPLAY
+"$program" generate coast --size 20000 -o "$folder/mesh.off" >/dev/null
+
+cat >"$folder/person.sh" <<'PERSON'
+set -euo pipefail
+kept=$XDG_STATE_HOME/dmoscope/autosave
+fail() { echo "$*"; [[ -z ${id:-} ]] || kill -9 "$id" 2>/dev/null || true; exit 1; }
+until_true() { for _ in $(seq 600); do eval "$1" && return 0; sleep 0.1; done; fail "not within a minute: $1"; }
+saved() { compgen -G "$kept/window-*.json" >/dev/null; }
+iteration() { sed -n 's/.*"iteration": \([0-9]*\).*/\1/p' "$1"; }
+title() { xdotool getwindowname "$window" 2>/dev/null || true; }
+press() { xdotool key --window 0 "$@"; sleep 0.4; }
+start() {  # opens a window; its process is $id, its window $window
+  "$program" "$@" & id=$!
+  window=$(timeout 60 xdotool search --sync --onlyvisible --pid "$id" --class dmoscope | head -n 1)
+  xdotool windowfocus "$window"
+  sleep 1
+}
+# The same iterations done elsewhere, without a window.
+elsewhere() { printf 'open "%s"\nrun %s\nexport "%s"\n' "$folder/mesh.off" "$1" "$2" | "$program" script - >/dev/null; }
+
+# Killed in a long run.
+start "$folder/mesh.off"
+until_true '[[ $(title) == "mesh"*" – dmoscope" ]]'
+press u
+until_true saved
+until_true '[[ $(title) == "• mesh"* ]]'
+sleep 2
+[[ $(ls "$kept"/window-*.lock | wc -l) -eq 1 ]] || fail "not one window's"
+kill -9 "$id"; wait "$id" 2>/dev/null || true
+n=$(iteration "$kept"/window-*.json)
+[[ $n -gt 0 ]] || fail "nothing was saved on the way"
+
+# The next start offers it; Enter takes it, and it is exported.
+start
+press Return
+until_true '[[ $(title) == "• mesh"* ]]'
+press ctrl+s
+press Return
+until_true '[[ -s $folder/mesh-smoothed.off ]]'
+until_true '[[ $(title) == "mesh"* ]]'
+elsewhere "$n" "$folder/elsewhere.off"
+cmp "$folder/mesh-smoothed.off" "$folder/elsewhere.off" || fail "iteration $n is another one"
+echo "killed in iteration $n or later: recovered bit for bit"
+press ctrl+q
+until_true '! kill -0 "$id" 2>/dev/null'
+wait "$id" || fail "the window ended with $?"
+[[ -z $(ls "$kept") ]] || fail "a good end left $(ls "$kept")"
+
+# SIGTERM.
+rm -f "$XDG_CONFIG_HOME/dmoscope/settings.json"
+start "$folder/mesh.off"
+until_true '[[ $(title) == "mesh"* ]]'
+press n n n w
+until_true '[[ $(title) == "• mesh"* ]]'
+kill -TERM "$id"
+until_true '! kill -0 "$id" 2>/dev/null'
+wait "$id" || fail "after SIGTERM the window ended with $?"
+n=$(iteration "$kept"/window-*.json)
+[[ $n -eq 3 ]] || fail "SIGTERM saved iteration $n"
+printf 'open-state "%s"\nexport "%s"\n' "$(ls "$kept"/window-*.dmoscope)" "$folder/term.off" | "$program" script - >/dev/null
+elsewhere 3 "$folder/three.off"
+cmp "$folder/term.off" "$folder/three.off" || fail "SIGTERM saved another mesh"
+grep -q '"wireframe": false' "$XDG_CONFIG_HOME/dmoscope/settings.json" || fail "SIGTERM lost the settings"
+grep -q "\"$folder/mesh.off\"" "$XDG_STATE_HOME/dmoscope/recent.json" || fail "the recent files have no whole path"
+echo "SIGTERM: iteration 3 is there bit for bit, settings are written"
+rm -f "$kept"/*
+
+# To be closed in the midst of a run.
+start "$folder/mesh.off"
+until_true '[[ $(title) == "mesh"* ]]'
+press u
+until_true '[[ $(title) == "• mesh"* ]]'
+press ctrl+q
+sleep 2
+kill -0 "$id" 2>/dev/null || fail "Ctrl+Q gave a run up without a question"
+press Escape
+kill -0 "$id" 2>/dev/null || fail "Escape did not stay"
+until_true saved
+n=$(iteration "$kept"/window-*.json)
+until_true '[[ $(iteration "$kept"/window-*.json) -gt $n ]]'
+echo "closed in the midst of a run: asked, and the run went on"
+kill -9 "$id"; wait "$id" 2>/dev/null || true
+PERSON
+status=0
+timeout 500 xvfb-run -a -s "-screen 0 1600x1000x24" bash "$folder/person.sh" || status=$?
+exit "$status"

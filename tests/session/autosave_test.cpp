@@ -1,0 +1,189 @@
+// What is saved by itself: in time, also during a run; found after a bad end, gone after a good one.
+#include "core/engine/autosave.h"
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "core/engine/engine.h"
+#include "tests/support/temporary_folder.h"
+
+namespace dmoscope {
+namespace {
+
+using namespace std::chrono_literals;
+
+class AutosaveTest : public ::testing::Test {
+ protected:
+  AutosaveTest() { open(); }
+  void open(std::chrono::milliseconds every = 20ms) {
+    engine_ = std::make_unique<Engine>(2U);
+    engine_->autosave({folder_.path(), every});
+  }
+  /// As a process that was killed leaves it.
+  void lose() { engine_.reset(); }
+  void good(const std::string& line) {
+    engine_->post(line);
+    engine_->wait_idle();
+    for (const Message& message : engine_->take_messages()) ASSERT_EQ(message.exit_code, 0) << line << ": " << message.text;
+  }
+  [[nodiscard]] std::vector<std::filesystem::path> files(const std::string& ending) const {
+    std::vector<std::filesystem::path> found;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+      if (entry.path().extension() == ending && !entry.path().filename().string().starts_with('.')) found.push_back(entry.path());
+    return found;
+  }
+  /// Patiently: nothing is said about how long it takes.
+  [[nodiscard]] static bool comes(const std::function<bool()>& what) {
+    for (int k = 0; k < 6000; ++k) {
+      if (what()) return true;
+      std::this_thread::sleep_for(10ms);
+    }
+    return false;
+  }
+  [[nodiscard]] bool saved(std::size_t count = 1) const {
+    return comes([&] { return files(".dmoscope").size() == count && files(".json").size() == count; });
+  }
+  [[nodiscard]] std::vector<Vec3> positions() { return engine_->view()->frame->positions; }
+
+  const test::TemporaryFolder folder_;
+  std::unique_ptr<Engine> engine_;
+};
+
+TEST_F(AutosaveTest, AtRestIsRecoveredBitForBit) {
+  good("generate coast 500");
+  good("run 3");
+  good("add-run laplace");
+  good("step class");
+  ASSERT_TRUE(saved());
+  ASSERT_TRUE(engine_->autosave_now(60s));
+  const std::vector<Vec3> before = positions();
+  EXPECT_TRUE(find_recoverable(folder_.path()).empty()) << "its window lives";
+  lose();
+  auto found = find_recoverable(folder_.path());
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_TRUE(found[0].mesh.starts_with("coast 500")) << found[0].mesh;
+  EXPECT_EQ(found[0].iteration, 0U);
+  EXPECT_EQ(found[0].runs, 2U);
+  EXPECT_GT(found[0].when, 0);
+  EXPECT_TRUE(find_recoverable(folder_.path()).empty()) << "two windows must not offer the same";
+  open();
+  good("recover " + found[0].names.session.string());
+  EXPECT_EQ(positions(), before);
+  EXPECT_EQ(engine_->view()->runs.size(), 2U);
+  EXPECT_TRUE(engine_->view()->runs[0].unsaved);
+  // Saved by itself again, the old file is not needed any more.
+  EXPECT_TRUE(comes([&] { return !std::filesystem::exists(found[0].names.session); }));
+  EXPECT_TRUE(saved());
+}
+
+TEST_F(AutosaveTest, ALongRunIsSavedOnItsWay) {
+  good("generate coast 2000");
+  engine_->post("run 1000000");
+  ASSERT_TRUE(saved());
+  ASSERT_TRUE(engine_->busy());
+  lose();
+  const auto found = find_recoverable(folder_.path());
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_GT(found[0].iteration, 0U);
+  open(1h);
+  good("recover " + found[0].names.session.string());
+  const std::vector<Vec3> recovered = positions();
+  const Moment at = engine_->view()->runs[0].moment;
+  EXPECT_TRUE(at.is_iteration_end());
+  good("generate coast 2000");
+  good("run " + std::to_string(at.iteration));
+  EXPECT_EQ(positions(), recovered);
+}
+
+TEST_F(AutosaveTest, InTheMidstOfAnIterationThatIsNoLongerKept) {
+  good("history 0");
+  good("generate coast 500");
+  good("run 5");
+  good("step class");
+  ASSERT_TRUE(engine_->autosave_now(60s));
+  const std::vector<Vec3> before = positions();
+  lose();
+  const auto found = find_recoverable(folder_.path());
+  ASSERT_EQ(found.size(), 1U);
+  open(1h);
+  good("recover " + found[0].names.session.string());
+  EXPECT_EQ(positions(), before);
+  EXPECT_EQ(engine_->view()->runs[0].moment.iteration, 5U);
+  EXPECT_GT(engine_->view()->runs[0].moment.visits, 0U);
+}
+
+TEST_F(AutosaveTest, WhatIsInAFileIsNotKeptBesides) {
+  good("generate coast 300");
+  good("run 2");
+  ASSERT_TRUE(saved());
+  good("export " + (folder_ / "a.off").string());
+  EXPECT_TRUE(comes([&] { return files(".dmoscope").empty() && files(".json").empty(); }));
+  good("run 1");
+  EXPECT_TRUE(saved());
+  good("reset");
+  EXPECT_TRUE(comes([&] { return files(".dmoscope").empty(); }));
+}
+
+TEST_F(AutosaveTest, AGoodEndLeavesNothing) {
+  good("generate coast 300");
+  good("run 2");
+  ASSERT_TRUE(saved());
+  engine_->end_autosave();
+  lose();
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
+TEST_F(AutosaveTest, AWindowThatDidNothingLeavesNothing) {
+  good("generate coast 300");
+  lose();
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
+TEST_F(AutosaveTest, AFolderThatIsGoneIsSaidOnceAndStopsNothing) {
+  good("generate coast 300");
+  std::filesystem::remove_all(folder_.path());
+  std::size_t said = 0;
+  for (int k = 0; k < 5; ++k) {
+    engine_->post("run 1");
+    engine_->wait_idle();
+    ASSERT_TRUE(engine_->autosave_now(60s));
+    for (const Message& message : engine_->take_messages())
+      if (message.text.find("not saved by itself") != std::string::npos) ++said;
+  }
+  EXPECT_EQ(said, 1U);
+  EXPECT_EQ(engine_->view()->runs[0].moment.iteration, 5U);
+  std::filesystem::create_directories(folder_.path());
+  EXPECT_TRUE(saved());  // and is made up for
+}
+
+TEST_F(AutosaveTest, AFileOfAPersonIsRecoveredAndStays) {
+  good("generate coast 300");
+  good("run 2");
+  const std::string own = (folder_ / "own.dmoscope").string();
+  good("save-state " + own);
+  good("recover " + own);
+  ASSERT_TRUE(engine_->autosave_now(60s));
+  EXPECT_EQ(files(".dmoscope").size(), 2U);
+  EXPECT_TRUE(std::filesystem::exists(own));
+}
+
+TEST_F(AutosaveTest, WhatIsToldOfItMayBeDamaged) {
+  good("generate coast 300");
+  good("run 2");
+  ASSERT_TRUE(saved());
+  lose();
+  std::ofstream(files(".json").front()) << "{ nothing";
+  const auto found = find_recoverable(folder_.path());
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_GT(found[0].when, 0);
+  EXPECT_EQ(found[0].mesh, "");
+}
+
+}  // namespace
+}  // namespace dmoscope

@@ -12,19 +12,35 @@
 namespace dmoscope::ui {
 namespace {
 
-/// A button that answers by a command; on a line of its own where there is no room beside the one before.
-void answer_button(PanelContext& context, const char* item, const char* label, const std::string& command, bool first = false) {
-  const float width = ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x;
-  if (!first) {
-    ImGui::SameLine();
-    if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
-  }
-  if (ImGui::Button(label)) context.send(command);
-  context.items.record_last(item);
-}
+/// The buttons of a question, each of which sends a command. Enter presses the one that has the focus, else the first.
+class Answers {
+ public:
+  explicit Answers(PanelContext& context)
+      : context_(context), enter_(ImGui::IsKeyPressed(key::kEnter, false) && !context.widgets.dialog_opened) {}
 
-/// Enter presses the first button, unless the keyboard has gone on to another one.
-bool entered() { return !ImGui::GetIO().NavVisible && ImGui::IsKeyPressed(key::kEnter, false); }
+  /// On a line of its own where there is no room beside the one before.
+  void add(const char* item, const char* label, const std::string& command) {
+    const float width = ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x;
+    if (!first_.empty()) {
+      ImGui::SameLine();
+      if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+    } else {
+      first_ = command;
+    }
+    if (ImGui::Button(label)) chosen_ = command;
+    if (enter_ && ImGui::IsItemFocused()) chosen_ = command;
+    context_.items.record_last(item);
+  }
+  void send() {
+    if (enter_ && chosen_.empty()) chosen_ = first_;
+    if (!chosen_.empty()) context_.send(chosen_);
+  }
+
+ private:
+  PanelContext& context_;
+  bool enter_;
+  std::string first_, chosen_;
+};
 
 std::string clock_text(std::int64_t when) {
   const auto time = static_cast<std::time_t>(when);
@@ -64,12 +80,12 @@ void draw_unsaved_dialog(PanelContext& context) {
   ImGui::PopTextWrapPos();
   context.items.record_last("unsaved:text");
   ImGui::Spacing();
-  if (context.widgets.dialog_opened) ImGui::SetKeyboardFocusHere();
-  answer_button(context, "unsaved:session", "Save session…", "answer session", true);
-  answer_button(context, "unsaved:export", "Export mesh…", "answer export");
-  answer_button(context, "unsaved:discard", "Discard", "answer discard");
-  answer_button(context, "unsaved:cancel", "Cancel", "answer cancel");
-  if (entered() && !context.widgets.dialog_opened) context.send("answer session");
+  Answers answers(context);
+  answers.add("unsaved:session", "Save session…", "answer session");
+  answers.add("unsaved:export", "Export mesh…", "answer export");
+  answers.add("unsaved:discard", "Discard", "answer discard");
+  answers.add("unsaved:cancel", "Cancel", "answer cancel");
+  answers.send();
   end_dialog();
 }
 
@@ -103,12 +119,12 @@ void draw_recover_dialog(PanelContext& context) {
   }
   ImGui::Spacing();
   const std::string place = std::to_string(chosen + 1);
-  if (context.widgets.dialog_opened) ImGui::SetKeyboardFocusHere();
-  answer_button(context, "recover:take", "Recover", "recovery take " + place, true);
-  answer_button(context, "recover:discard", "Discard", "recovery discard " + place);
-  answer_button(context, "recover:later", "Later", "recovery later");
+  Answers answers(context);
+  answers.add("recover:take", "Recover", "recovery take " + place);
+  answers.add("recover:discard", "Discard", "recovery discard " + place);
+  answers.add("recover:later", "Later", "recovery later");
   next_item_tooltip("the next start asks again");
-  if (entered() && !context.widgets.dialog_opened) context.send("recovery take " + place);
+  answers.send();
   end_dialog();
 }
 

@@ -11,10 +11,12 @@
 #include "ui/analysis/derived.h"
 #include "ui/analysis/element_colours.h"
 #include "ui/commands/inspection_commands.h"
+#include "ui/commands/tour_commands.h"
 #include "ui/commands/view_to_commands.h"
 #include "ui/plots/plot_save.h"
 #include "ui/state/situation.h"
 #include "ui/state/view_geometry.h"
+#include "ui/toolkit/tooltips.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -223,7 +225,9 @@ void App::handle_shortcuts() {
     if (!hit) continue;
     // With the keyboard in the widgets, Space presses the one that has the focus.
     if (chord->code == key::kSpace && io.NavVisible) continue;
-    if (enabled(action, situation_of(*session_, state_, activity_.busy))) submit_by_person(action.command);
+    const std::size_t over = widgets_.run_list.over;  // with the mouse on a run, its key is for that
+    const std::string command = action.key == "F2" && over > 0 ? fmt::format("begin-rename {}", over) : std::string(action.command);
+    if (enabled(action, situation_of(*session_, state_, activity_.busy))) submit_by_person(command);
     return;
   }
 }
@@ -233,8 +237,9 @@ void App::draw_side(PanelContext& context, const char* name, const Rect& rect, b
   // It comes to the front when it opens, and stays there, as the panels below never do. To focus it in every frame would take clicks and
   // dialogs away from everything else.
   if (overlay) ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0F);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(9), context.px(8)});  // these are narrow
   begin_panel(name, rect, overlay, true);
-  if (overlay) ImGui::PopStyleVar();
+  ImGui::PopStyleVar(overlay ? 2 : 1);
   if (left) {
     draw_runs(context);
     draw_groups(context);
@@ -274,6 +279,7 @@ void App::draw_panels(PanelContext& context) {
     draw_side(context, "right over", layout.right, true, false);
   }
   draw_status(context, layout.status);
+  draw_tour(context, layout);
   draw_dialogs(context);
 }
 
@@ -298,6 +304,7 @@ void App::draw(double now) {
     if (listener_) listener_(message);
     add_message(state_, std::move(message));
   }
+  state_.tour.follow(tour_facts(*session_, state_, busy));
   items_.begin_frame();
   handle_shortcuts();
   PanelContext context{
@@ -332,6 +339,7 @@ void App::draw(double now) {
   watch_file();
   redraw_in_ = std::min({redraw_in_, play_in, fades_in});
   if (state_.inspection.hovered != hovered) redraw_in_ = 0.0;  // the mesh is marked in the next frame
+  if (tooltip_unsettled()) redraw_in_ = 0.0;
 }
 
 /// Each level as a command of its own, so that what was seen can be repeated. Returns after which time there may be more.

@@ -48,6 +48,8 @@ void App::take_restored_view() {
   if (view.empty()) return;
   try {
     apply_view_json(view, state_, session_->input ? &session_->input->mesh : nullptr);
+    const auto former = state_.run_names.former();
+    for (PlotView& plot : state_.plots) rename_runs(plot, former);
     viewports_.forget_fit();
     state_.commands.keep_look(look());
   } catch (const UsageError& error) {

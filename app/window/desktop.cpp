@@ -67,6 +67,7 @@ void Desktop::begin_as_remembered() {
   state.stepping.flash = ui::Flash::On;  // unless the settings say otherwise; pictures of scripts stay the same whenever they are taken
   settings_.begin(ui::settings_path(), ui::recent_path(), state);
   state.asks_unsaved = true;
+  state.tour.offer = !state.tour.offered;
   if (state.place.width <= 0) return;
   int x = 0, y = 0, width = state.place.width, height = state.place.height;
   if (GLFWmonitor* monitor = glfwGetPrimaryMonitor(); monitor != nullptr) glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);

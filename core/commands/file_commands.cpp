@@ -108,9 +108,10 @@ void write_stats(CommandContext& context, Arguments arguments) {
   context.session.require_not_read(arguments[0], "stats");
   const bool several = context.session.inputs().size() > 1;
   for (std::size_t i = 0; i < context.session.run_count(); ++i) {
-    const std::string label = stats_label(context.session.run(i).parameters());
-    titles.push_back(several ? fmt::format("{}:{}", context.session.run(i).input().mesh.name, label) : label);
-    records.push_back(&context.session.run(i).history().records());
+    const Run& run = context.session.run(i);
+    const std::string label = run.given_name().empty() ? stats_label(run.parameters()) : run.given_name();
+    titles.push_back(several ? fmt::format("{}:{}", run.input().mesh.name, label) : label);
+    records.push_back(&run.history().records());
   }
   std::vector<SharedVector<Percentiles>> percentiles;
   for (std::size_t i = 0; context.session.percentiles() && i < context.session.run_count(); ++i) {

@@ -30,6 +30,10 @@ void remove_run(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
   context.session.remove_run(to_count(arguments[0], 1) - 1);
 }
+void rename_run(CommandContext& context, Arguments arguments) {
+  require(arguments, 2, 2);
+  context.session.rename_run(to_count(arguments[0], 1) - 1, arguments[1]);
+}
 void set_threads(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
   const std::uint64_t threads = to_count(arguments[0]);
@@ -108,6 +112,7 @@ std::span<const CommandRow> run_commands() {
       {{"add-run", "add-run METHOD[:METRIC]", "Adds a run beside the others."}, add_run},
       {{"select-run", "select-run K", "Makes run K (from 1) the active one."}, select_run},
       {{"remove-run", "remove-run K", "Removes run K."}, remove_run},
+      {{"rename-run", "rename-run K NAME", "Calls run K so in titles, legends and tables; \"\": by what it does again."}, rename_run},
       {{"undo", "undo", "Undoes the last command that changed mesh or runs."}, undo, false},
       {{"redo", "redo", "Does again what was undone."}, redo, false},
       {{"threads", "threads N", "Threads to smooth with; 0: all."}, set_threads},

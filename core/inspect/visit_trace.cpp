@@ -1,7 +1,6 @@
 #include "core/inspect/visit_trace.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -10,17 +9,12 @@
 #include "core/inspect/recorder.h"
 #include "core/inspect/require_star.h"
 #include "core/inspect/single_vertex_task.h"
+#include "core/quality/metric_phrase.h"
 #include "core/smooth/methods/fast_volume_search.h"
 
 namespace dmoscope {
 
 namespace {
-
-std::string metric_phrase(Metric metric) {
-  std::string title(info(metric).title);
-  title[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(title[0])));
-  return title;
-}
 
 /// What the fast search compares: formulas::rank.
 std::string rank_phrase(Metric metric) {

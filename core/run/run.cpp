@@ -6,6 +6,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/stopwatch.h"
+#include "core/quality/metric_phrase.h"
 #include "core/run/sweep_after.h"
 #include "core/smooth/execution/choose_executor.h"
 #include "core/smooth/execution/method_table.h"
@@ -74,8 +75,9 @@ Run::Run(Run&&) noexcept = default;
 Run& Run::operator=(Run&&) noexcept = default;
 
 std::string Run::title() const {
+  if (!given_name_.empty()) return given_name_;
   const RunParameters& p = parameters_;
-  std::string title = fmt::format("{} · {}", p.method, p.combination ? phrase(p.metric, *p.combination) : std::string(info(p.metric).name));
+  std::string title = fmt::format("{} · {}", p.method, p.combination ? phrase(p.metric, *p.combination) : metric_phrase(p.metric));
   if (p.then_mean) title += ", then mean";
   return title + other_than_usual(p);
 }

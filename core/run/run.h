@@ -75,10 +75,14 @@ class Run {
   /// again. 0: none of them.
   [[nodiscard]] std::uint64_t id() const noexcept { return id_; }
   void set_id(std::uint64_t id) noexcept { id_ = id; }
+  /// What a person called it, given by the session as the id is; empty: nothing.
+  [[nodiscard]] const std::string& given_name() const noexcept { return given_name_; }
+  void set_given_name(std::string name) noexcept { given_name_ = std::move(name); }
   [[nodiscard]] const InputMesh& input() const noexcept { return *input_; }
   [[nodiscard]] const std::shared_ptr<const InputMesh>& shared_input() const noexcept { return input_; }
   [[nodiscard]] const RunParameters& parameters() const noexcept { return parameters_; }
-  [[nodiscard]] std::string title() const;  // "dmo · mean-ratio"
+  /// Its name; where it has none, what it does: "dmo · mean ratio, grid 12".
+  [[nodiscard]] std::string title() const;
   /// The iteration at whose end the phase that raises the mean begins, where there is one and as far as is known.
   [[nodiscard]] std::optional<std::uint64_t> mean_since() const;
   /// What the next visits are part of.
@@ -199,6 +203,7 @@ class Run {
   auto recovering(const Body& body);
 
   std::uint64_t id_ = 0;
+  std::string given_name_;
   std::shared_ptr<const InputMesh> input_;
   RunParameters parameters_;
   std::shared_ptr<ThreadPool> pool_;

@@ -1,6 +1,7 @@
 // Reading the mesh's file again.
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -31,6 +32,7 @@ std::string Session::reload(Progress& progress) {
       try {
         run = make_run(fresh, std::move(parameters));
         run->set_id(runs_[i]->id());
+        run->set_given_name(runs_[i]->given_name());
       } catch (const UsageError& error) {  // such as a metric that is not defined for the elements of now
         add_note(error.what());
         continue;

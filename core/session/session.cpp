@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/session/run_name.h"
+
 namespace dmoscope {
 
 namespace {
@@ -164,13 +166,20 @@ void Session::remove_run(std::size_t index) {
   share_history();
 }
 
+void Session::rename_run(std::size_t index, std::string name) {
+  require_run_name(name);
+  run(index).set_given_name(std::move(name));
+}
+
 std::size_t Session::change(RunParameters parameters) {
   const Run& current = active();
   const bool untouched = current.moment() == Moment{} && current.history().records().size() == 1 && current.edits().all().empty();
   if (!untouched) return add_run(std::move(parameters));
   const std::uint64_t id = current.id();
+  const std::string name = current.given_name();
   runs_[active_] = make_run(input_, std::move(parameters));
   runs_[active_]->set_id(id);
+  runs_[active_]->set_given_name(name);
   share_history();
   return active_;
 }
@@ -203,7 +212,7 @@ void Session::observe(std::function<void(const Run&)> observer) {
 
 SessionPoint Session::point() const {
   SessionPoint point{input_, {}, active_, shown_};
-  for (const auto& run : runs_) point.runs.push_back({run, run->point()});
+  for (const auto& run : runs_) point.runs.push_back({run, run->point(), run->given_name()});
   return point;
 }
 
@@ -231,14 +240,17 @@ std::string Session::redo(Progress& progress) {
 /// `with_shown`: the metric that is shown, too; else that stays, where the mesh has it.
 void Session::go_to(const SessionPoint& point, bool with_shown, Progress& progress) {
   const std::unique_ptr<Session, void (*)(Session*)> at_the_end(this, [](Session* session) { session->rest_retired_runs(); });
-  for (const auto& [run, where] : point.runs) {
+  for (const auto& [run, where, name] : point.runs) {
     run->set_pool(pool_);
     run->go_to(where, progress);
   }
   const bool other_mesh = input_ != point.input;
   input_ = point.input;
   runs_.clear();
-  for (const auto& [run, where] : point.runs) runs_.push_back(run);
+  for (const auto& [run, where, name] : point.runs) {
+    runs_.push_back(run);
+    run->set_given_name(name);
+  }
   active_ = point.active;
   if (with_shown || other_mesh) shown_ = point.shown;
   share_history();

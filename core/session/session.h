@@ -81,6 +81,8 @@ class Session {
   std::size_t add_run(RunParameters parameters);
   /// Removes a run; the last one cannot be removed (UsageError).
   void remove_run(std::size_t index);
+  /// Calls a run so in titles, legends and tables; empty: by what it does, as before. Throws UsageError, see require_run_name.
+  void rename_run(std::size_t index, std::string name);
   /// Gives the active run other parameters: in place while it has not moved from the input, else as a new run beside it, so that
   /// nothing is lost. Returns the index of the run that has them.
   std::size_t change(RunParameters parameters);

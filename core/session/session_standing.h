@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/session/session.h"
@@ -19,6 +20,7 @@ struct RunStanding {
   SharedVector<Edit> edits;
   SharedVector<IterationRecord> records;
   std::shared_ptr<const SizeField> size;
+  std::string name;                   // see Run::given_name
   std::size_t mesh = 0;               // its place in SessionStanding::meshes
   std::span<const Vec3> start;        // positions at the end of iteration moment.iteration; empty at the input
   std::shared_ptr<const void> owner;  // of these

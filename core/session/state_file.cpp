@@ -18,6 +18,7 @@
 #include "core/session/input_marks.h"
 #include "core/session/parameter_json.h"
 #include "core/session/position_text.h"
+#include "core/session/run_name.h"
 
 namespace dmoscope {
 
@@ -231,6 +232,7 @@ Json json_of(const RunStanding& run, const InputMesh& input, bool several) {
   Json records = Json::array();
   for (const IterationRecord& record : run.records) records.push_back(json_of(record));
   Json json{{"parameters", json_of(run.parameters)}, {"moment", json_of(run.moment)}, {"edits", edits}, {"records", records}};
+  if (!run.name.empty()) json["name"] = run.name;
   if (run.moment.iteration > 0) json["positions"] = pack_positions(run.start);
   json["standing"] = standing_mark(input, run.parameters.interfaces);
   if (const std::string size = size_mark(input, run.size.get()); !size.empty()) json["size"] = size;
@@ -278,6 +280,11 @@ std::shared_ptr<Run> to_run(const Json& json, const Session& session, const std:
   }
   if (point.moment.iteration > 0) require_record(*run, point.records.whole(), point.moment.iteration, positions);
   run->adopt(point, positions, progress);
+  if (json.contains("name")) {
+    auto name = json.at("name").get<std::string>();
+    require_run_name(name);
+    run->set_given_name(std::move(name));
+  }
   return run;
 }
 

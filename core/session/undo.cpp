@@ -31,7 +31,7 @@ void add_new(std::vector<T>& list, const T& value) {
 
 bool SessionPoint::same_state(const SessionPoint& other) const {
   const auto same = [](const Standing& a, const Standing& b) {
-    return a.run == b.run && a.point.moment == b.point.moment && a.point.path == b.point.path;
+    return a.run == b.run && a.point.moment == b.point.moment && a.point.path == b.point.path && a.name == b.name;
   };
   return std::equal(runs.begin(), runs.end(), other.runs.begin(), other.runs.end(), same);
 }

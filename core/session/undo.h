@@ -17,13 +17,14 @@ struct SessionPoint {
   struct Standing {
     std::shared_ptr<Run> run;
     RunSnapshot point;
+    std::string name;
   };
   std::shared_ptr<const InputMesh> input;  // of the active run; null: no mesh is open
   std::vector<Standing> runs;
   std::size_t active = 0;
   Metric shown = Metric::MeanRatio;
 
-  /// Whether runs and their moments are the same; which run is active and what is shown does not count.
+  /// Whether runs, their names and their moments are the same; which run is active and what is shown does not count.
   [[nodiscard]] bool same_state(const SessionPoint& other) const;
 };
 

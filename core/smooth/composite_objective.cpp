@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/quality/metric_phrase.h"
 
 namespace dmoscope {
 
@@ -104,9 +105,9 @@ std::pair<Metric, Combination> parse_combination(std::string_view text, std::str
 }
 
 std::string phrase(Metric first, const Combination& combination) {
-  const std::string start = fmt::format("{} > {}", info(first).name, combination.threshold);
+  const std::string start = fmt::format("{} > {}", metric_phrase(first), combination.threshold);
   const SizeFunction* size = combination.size();
-  if (size == nullptr) return fmt::format("{} · {}", start, info(std::get<Metric>(combination.second)).name);
+  if (size == nullptr) return fmt::format("{} · {}", start, metric_phrase(std::get<Metric>(combination.second)));
   return fmt::format("{} · {} {}", start, kDensity, size->kind == SizeFunction::Kind::Field ? size->field : short_name(size->kind));
 }
 

@@ -32,6 +32,7 @@ RunView view_of(Run& run, bool percentiles) {
   RunView view;
   view.id = run.id();
   view.input = run.shared_input();
+  view.name = run.given_name();
   view.title = run.title();
   view.parameters = run.parameters();
   view.backend = run.backend();

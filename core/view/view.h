@@ -78,7 +78,8 @@ struct InputView {
 struct RunView {
   std::uint64_t id = 0;                    // which run it is, whatever its place in the list; see Run::id
   std::shared_ptr<const InputMesh> input;  // its mesh
-  std::string title;
+  std::string name;                        // see Run::given_name
+  std::string title;                       // see Run::title
   RunParameters parameters;
   Backend backend = Backend::Cpu;  // see Run
   std::string backend_reason;

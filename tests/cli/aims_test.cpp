@@ -42,7 +42,7 @@ TEST(CompositeObjective, JsonTellsOfThem) {
     for (const char* when : {"before", "after"}) EXPECT_TRUE(density["combination"][key][when].is_number()) << key << when;
   EXPECT_THAT(read_file(folder / "c.csv"), HasSubstr("\ndmo:mean-ratio:0.5:density:field,1,"));
   const Output person = run({"smooth", coast, "-o", folder / "d.14", "--combine", "mean-ratio:0.5:density", "--size-function", "h1:0,0"});
-  for (const char* word : {"mean-ratio > 0.5 · density h1", "log size", "correlation"}) EXPECT_THAT(person.out, HasSubstr(word));
+  for (const char* word : {"mean ratio > 0.5 · density h1", "log size", "correlation"}) EXPECT_THAT(person.out, HasSubstr(word));
 }
 
 TEST(CompositeObjective, WrongFieldsAreUsage) {

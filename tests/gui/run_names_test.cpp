@@ -27,27 +27,27 @@ TEST_F(RunNames, SayWhatTellsRunsApartAndNoMore) {
   good("add-run laplace");
   EXPECT_EQ(names(), (std::vector<std::string>{"1 dmo", "2 laplace"}));
   good("add-run dmo:min-angle");
-  EXPECT_EQ(names(), (std::vector<std::string>{"1 dmo mean-ratio", "2 laplace", "3 dmo min-angle"}));
+  EXPECT_EQ(names(), (std::vector<std::string>{"1 dmo · mean ratio", "2 laplace", "3 dmo · minimum angle"}));
   good("metric mean-ratio");
   good("order shuffle:7");
   good("then mean");
-  EXPECT_EQ(names(), (std::vector<std::string>{"1 dmo", "2 laplace", "3 dmo then mean, shuffle:7"}));
+  EXPECT_EQ(names(), (std::vector<std::string>{"1 dmo", "2 laplace", "3 dmo · then mean, shuffle:7"}));
 }
 
 TEST_F(RunNames, SearchesAndPlacesTellApart) {
   good("generate annulus 300");
   good("run 1");
   good("grid 12");
-  EXPECT_EQ(names(), (std::vector<std::string>{"1 dmo", "2 dmo grid 12"}));
-  EXPECT_EQ(session()->runs[1].title, "dmo · mean-ratio, grid 12") << "and in the list";
+  EXPECT_EQ(names(), (std::vector<std::string>{"1 dmo", "2 dmo · grid 12"}));
+  EXPECT_EQ(session()->runs[1].title, "dmo · mean ratio, grid 12") << "and in the list";
   good("grid 8");
   good("combine mean-ratio:0.7:density h1:2,3");
   good("run 1");
   good("size-point 4 5");
   const auto all = names();
   ASSERT_EQ(all.size(), 3U);
-  EXPECT_EQ(all[1], "2 dmo mean-ratio > 0.7 · density h1, at 2 3");
-  EXPECT_EQ(all[2], "3 dmo mean-ratio > 0.7 · density h1, at 4 5");
+  EXPECT_EQ(all[1], "2 dmo · mean ratio > 0.7 · density h1, at 2 3");
+  EXPECT_EQ(all[2], "3 dmo · mean ratio > 0.7 · density h1, at 4 5");
 }
 
 TEST_F(RunNames, ATitleWithoutRoomKeepsWhatDiffers) {
@@ -59,11 +59,11 @@ TEST_F(RunNames, ATitleWithoutRoomKeepsWhatDiffers) {
   std::erase_if(pieces, [](const ui::TitlePiece& piece) { return piece.rank > 0; });
   ASSERT_EQ(pieces.size(), 2U);
   EXPECT_EQ(pieces[0].text, "2");
-  EXPECT_EQ(pieces[1].text, "min-angle");
+  EXPECT_EQ(pieces[1].text, "· minimum angle");
   good("add-run laplace");
   good("select-run 2");
   pane.session = session();
-  EXPECT_EQ(ui::title_of(pane, Metric::MeanRatio).front().text, "2 dmo min-angle") << "where there are others, the method counts";
+  EXPECT_EQ(ui::title_of(pane, Metric::MeanRatio).front().text, "2 dmo · minimum angle") << "where there are others, the method counts";
 }
 
 TEST(WithoutMiddle, KeepsBothEndsAndWholeLetters) {
@@ -80,13 +80,13 @@ TEST_F(RunNames, ARunThatIsSwitchedOffStaysSoUnderAnotherName) {
   good("plot-series minimum off");
   good("add-run dmo:min-angle");
   using Names = std::set<std::string>;
-  EXPECT_EQ(state().plot_view().hidden, (Names{"1 dmo mean-ratio", "minimum"}));
+  EXPECT_EQ(state().plot_view().hidden, (Names{"1 dmo · mean ratio", "minimum"}));
   good("plot-series \"2 laplace\" off");
   good("remove-run 1");
   EXPECT_EQ(state().plot_view().hidden, (Names{"1 laplace", "minimum"})) << "not the run that was removed, nor the one now in its place";
   good("plot-series \"1 laplace\" only");
   good("add-run laplace:min-angle");
-  EXPECT_EQ(state().plot_view().isolated, "1 laplace mean-ratio");
+  EXPECT_EQ(state().plot_view().isolated, "1 laplace · mean ratio");
 }
 
 TEST_F(RunNames, ManyOfThemLeaveThePlotItsRoom) {
@@ -95,11 +95,11 @@ TEST_F(RunNames, ManyOfThemLeaveThePlotItsRoom) {
   good("plot sorted");
   const auto plot = box("plot");
   EXPECT_GT(plot[3] - plot[1], 80.0F) << "of a panel of some 200";
-  EXPECT_FALSE(window_->run("click \"legend:20 dmo shuffle:19\"") == std::nullopt) << "has no room";
+  EXPECT_FALSE(window_->run("click \"legend:20 dmo · shuffle:19\"") == std::nullopt) << "has no room";
   good("click legend-more");
-  good("click \"legend:20 dmo shuffle:19\"");
+  good("click \"legend:20 dmo · shuffle:19\"");
   const ui::PlotView& view = state().plot_view();
-  EXPECT_TRUE(view.hidden.contains("20 dmo shuffle:19"));
+  EXPECT_TRUE(view.hidden.contains("20 dmo · shuffle:19"));
 }
 
 }  // namespace

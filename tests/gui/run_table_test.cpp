@@ -54,7 +54,8 @@ TEST_F(RunTable, StandsInTheOrderThatAClickOnAColumnAsksFor) {
   EXPECT_EQ(order(), as_made);
   good("sort-runs run descending");
   const auto named = rows();
-  for (std::size_t k = 1; k < named.size(); ++k) EXPECT_GE(named[k - 1].title, named[k].title);
+  const auto without_number = [](const RunRow& row) { return row.title.substr(row.title.find(' ')); };
+  for (std::size_t k = 1; k < named.size(); ++k) EXPECT_GE(without_number(named[k - 1]), without_number(named[k]));
   EXPECT_TRUE(window_->run("sort-runs beauty").has_value());
   EXPECT_TRUE(window_->run("sort-runs run sideways").has_value());
   good("sort-runs off");

@@ -73,8 +73,8 @@ TEST_F(Comparison, EveryRunConvergesAndSaysHow) {
   messages_.clear();
   say("each until-converged 5 100");
   ASSERT_EQ(messages_.size(), 2U);
-  EXPECT_THAT(messages_[0], HasSubstr("dmo · mean-ratio: converged"));
-  EXPECT_THAT(messages_[1], HasSubstr("dmo · radius-ratio: converged"));
+  EXPECT_THAT(messages_[0], HasSubstr("dmo · mean ratio: converged"));
+  EXPECT_THAT(messages_[1], HasSubstr("dmo · radius ratio: converged"));
   for (std::size_t k = 0; k < 2; ++k) EXPECT_TRUE(session_.run(k).last_outcome().has_value());
 }
 

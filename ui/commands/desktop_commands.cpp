@@ -10,11 +10,12 @@
 namespace dmoscope::ui {
 namespace {
 
-void set_panel_size(Panels& panels, const std::string& which, double em) {
-  static constexpr std::array<std::pair<std::string_view, double Panels::*>, 3> sizes{
-      {{"left", &Panels::left_width}, {"right", &Panels::right_width}, {"bottom", &Panels::bottom_height}}};
-  constexpr double kLeast = 6.0, kMost = 60.0;
-  panels.*choose(which, sizes) = std::clamp(em, kLeast, kMost);
+void set_panel_size(Panels& panels, const std::string& which, const std::string& em) {
+  static constexpr std::array<std::pair<std::string_view, double Panels::*>, 4> sizes{
+      {{"left", &Panels::left_width}, {"right", &Panels::right_width}, {"bottom", &Panels::bottom_height}, {"runs", &Panels::runs_height}}};
+  double Panels::*size = choose(which, sizes);
+  constexpr double kLeast = 4.0, kMost = 60.0;
+  panels.*size = em == "default" ? Panels{}.*size : std::clamp(to_number(em), which == "runs" ? kLeast : 6.0, kMost);
 }
 
 void set_camera(ViewState& state, Arguments words) {
@@ -42,10 +43,11 @@ void add_session_file_commands(CommandTable& table, ViewState& state, const Comm
 void add_desktop_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
   table.add({"camera", "camera X Y UNITS-PER-PIXEL", "looks at that point of the mesh's plane, so close"},
             [&state](Arguments words) { set_camera(state, words); });
-  table.add({"panel-size", "panel-size left|right|bottom EM", "width or height of a panel, in heights of the interface's font"},
+  table.add({"panel-size", "panel-size left|right|bottom|runs EM|default",
+             "width or height of a panel, or of the list of runs, in heights of the interface's font"},
             [&state](Arguments words) {
               require(words, 2, 2);
-              set_panel_size(state.panels, words[0], to_number(words[1]));
+              set_panel_size(state.panels, words[0], words[1]);
             });
   table.add({"unfold", "unfold left|right [on|off|toggle]", "in a narrow window: shows a side panel over the mesh"},
             [&state](Arguments words) {

@@ -21,6 +21,18 @@ void set_pane(ViewState& state, Arguments words) {
   Pane& pane = state.panes.panes[to_pane(state, words[0])];
   pane.content = state.panes.parse({words.begin() + 1, words.end()});
   pane.chosen = pane.content.kind != PaneContent::Kind::Free;
+  if (pane.content.kind == PaneContent::Kind::Run) state.panes.hide_run(pane.content.run, false);  // who asks for it wants to see it
+}
+
+void hide_runs(Panes& panes, Arguments words) {
+  require(words, 1, 2);
+  if (words[0] == "none" || words[0] == "others") {
+    require(words, 1, 1);
+    for (const std::uint64_t id : panes.run_ids) panes.hide_run(id, words[0] == "others" && id != panes.active_id);
+    return;
+  }
+  const PaneContent run = panes.parse({"run", words[0]});
+  panes.hide_run(run.run, switched(words, 1, panes.hidden_runs.contains(run.run)));
 }
 
 void set_pane_camera(ViewState& state, Arguments words) {
@@ -56,6 +68,17 @@ void add_pane_commands(CommandTable& table, ViewState& state) {
             });
   table.add({"pane-camera", "pane-camera K X Y UNITS-PER-PIXEL", "as camera, for one viewport while they are not linked"},
             [&state](Arguments words) { set_pane_camera(state, words); });
+  table.add({"hide-run", "hide-run K|others [on|off|toggle]  or  hide-run none",
+             "takes a run, or all but the active one, out of plots and viewports; none: all are there again"},
+            [&state](Arguments words) { hide_runs(state.panes, words); });
+  table.add({"begin-rename", "begin-rename [K]", "lets a person type another name for run K, or the active one, into the list of runs"},
+            [&state](Arguments words) {
+              require(words, 0, 1);
+              const Panes& panes = state.panes;
+              if (panes.run_ids.empty()) throw UsageError("no mesh is open");
+              state.renaming_run = words.empty() ? panes.active_id : panes.parse({"run", words[0]}).run;
+              state.panels.left = state.panels.left_over = true;  // where the list is
+            });
   table.add({"split", "split X", "where the handle of the split view is, 0 (left) to 1"}, [&state](Arguments words) {
     require(words, 1, 1);
     const double at = to_number(words[0]);

@@ -56,18 +56,19 @@ void switch_series(ViewState& state, Arguments words) {
   require(words, 1, 2);
   PlotView& view = state.plot_view();
   const std::string before = std::exchange(view.isolated, {});
-  if (words[0] == "all") {
+  const std::string name = state.run_names.of_now(words[0]);
+  if (name == "all") {
     if (words.size() > 1 && words[1] != "on") unexpected(words[1], "on");
     view.hidden.clear();
   } else if (words.size() > 1 && words[1] == "only") {
-    view.isolated = words[0];
-    view.hidden.erase(words[0]);
+    view.isolated = name;
+    view.hidden.erase(name);
   } else if (!before.empty() && (words.size() == 1 || words[1] == "toggle")) {
     // Back to all that was there before one was isolated.
-  } else if (switched(words, 1, !view.hidden.contains(words[0]))) {
-    view.hidden.erase(words[0]);
+  } else if (switched(words, 1, !view.hidden.contains(name))) {
+    view.hidden.erase(name);
   } else {
-    view.hidden.insert(words[0]);
+    view.hidden.insert(name);
   }
 }
 

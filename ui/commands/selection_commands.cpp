@@ -1,6 +1,7 @@
 #include "ui/commands/selection_commands.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "ui/commands/command_words.h"
 
@@ -66,6 +67,17 @@ std::vector<Index> free_of(const ViewState& state, const SessionView& view) {
   return free;
 }
 
+/// One thing at a time, the latest first: what the mouse is to do, then what is picked.
+void leave(ViewState& state) {
+  if (std::exchange(state.placing_size_point, false)) return;
+  if (state.renaming_run) return state.renaming_run.reset();
+  if (std::exchange(state.brush.on, false)) {
+    state.brush.painting = false;
+    return;
+  }
+  state.picked = {};
+}
+
 }  // namespace
 
 void add_selection_commands(CommandTable& table, ViewState& state, const CommandHost& host) {
@@ -78,6 +90,11 @@ void add_selection_commands(CommandTable& table, ViewState& state, const Command
               const bool on = switched(words, 0, state.brush.on);
               if (on && state.is_volume) throw UsageError("the brush is of planar meshes: select vertices of a volume mesh by their ids");
               state.brush.on = on;
+            });
+  table.add({"leave", "leave", "ends what the mouse is doing besides picking, such as brushing; else clears the selection"},
+            [&state](Arguments words) {
+              require(words, 0, 0);
+              leave(state);
             });
   table.add({"brush-radius", "brush-radius PIXELS|up|down", "how wide the brush is, 2 to 200 at scale 1"}, [&state](Arguments words) {
     require(words, 1, 1);

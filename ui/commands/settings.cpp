@@ -50,6 +50,15 @@ void take_range(const json& from, ViewState& state) {
     if (one.name == mode->get<std::string>()) state.range_mode = one.mode;
 }
 
+constexpr int kLayout = 2;  // 1, which was not written: wider side panels
+
+/// Settings have always held the panels' sizes, also where nobody had chosen them.
+void forget_old_defaults(Panels& panels) {
+  constexpr double kLeftWidth = 17.0, kRightWidth = 22.0;
+  if (panels.left_width == kLeftWidth) panels.left_width = Panels{}.left_width;
+  if (panels.right_width == kRightWidth) panels.right_width = Panels{}.right_width;
+}
+
 /// A file of ours where XDG wants it: `variable`, else `fallback` in the home.
 std::filesystem::path xdg_path(const char* variable, const char* fallback, const char* name) {
   if (const char* folder = std::getenv(variable); folder != nullptr && *folder != '\0') {
@@ -130,13 +139,16 @@ std::string settings_text(const ViewState& state) {
               {"shading", state.shading},
               {"occlusion", state.occlusion},
               {"wireframe", state.wireframe},
+              {"tour_offered", state.tour.offered},
               {"panels",
                {{"left", panels.left},
                 {"right", panels.right},
                 {"bottom", panels.bottom},
                 {"left_width", panels.left_width},
                 {"right_width", panels.right_width},
-                {"bottom_height", panels.bottom_height}}}};
+                {"bottom_height", panels.bottom_height},
+                {"runs_height", panels.runs_height},
+                {"layout", kLayout}}}};
   if (const WindowPlace& place = state.place; place.width > 0)
     out["window"] = {{"width", place.width}, {"height", place.height}, {"maximised", place.maximised}};
   return out.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
@@ -164,6 +176,7 @@ bool apply_settings(const std::string& text, ViewState& state) {
   take(in, "shading", state.shading);
   take(in, "occlusion", state.occlusion);
   if (const auto at = in.find("range"); at != in.end() && at->is_object()) take_range(*at, state);
+  take(in, "tour_offered", state.tour.offered);
   if (const auto at = in.find("colormap"); at != in.end() && at->is_string()) {
     for (const auto& map : render::colour_map_table()) {
       if (map.name == at->get<std::string>()) state.colour_map = map.map;
@@ -181,6 +194,8 @@ bool apply_settings(const std::string& text, ViewState& state) {
     take(*at, "left_width", state.panels.left_width, 8.0, 60.0);
     take(*at, "right_width", state.panels.right_width, 8.0, 60.0);
     take(*at, "bottom_height", state.panels.bottom_height, 6.0, 60.0);
+    take(*at, "runs_height", state.panels.runs_height, 4.0, 60.0);
+    if (!at->contains("layout")) forget_old_defaults(state.panels);
   }
   return true;
 }

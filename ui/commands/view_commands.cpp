@@ -22,6 +22,7 @@
 #include "ui/commands/size_point.h"
 #include "ui/commands/stepping_commands.h"
 #include "ui/commands/timeline_commands.h"
+#include "ui/commands/tour_commands.h"
 #include "ui/commands/unsaved_commands.h"
 #include "ui/state/view_geometry.h"
 
@@ -270,6 +271,7 @@ CommandTable view_commands(ViewState& state, const CommandHost& host) {
   add_size_point_commands(table, state, host);
   add_pane_commands(table, state);
   add_unsaved_commands(table, state, host);
+  add_tour_command(table, state);
   return table;
 }
 

@@ -45,6 +45,12 @@ class Writer {
   void words(const char* name, const std::set<std::string>& value) { json_[name] = value; }
   void ids(const char* name, const Selection& value) { json_[name] = id_ranges(value.vertices()); }
   void content(const char* name, const PaneContent& value, const Panes& panes) { json_[name] = panes.words(value); }
+  void runs(const char* name, const std::set<std::uint64_t>& ids, const Panes& panes) {
+    json numbers = json::array();
+    for (std::size_t k = 0; k < panes.run_ids.size(); ++k)
+      if (ids.contains(panes.run_ids[k])) numbers.push_back(k + 1);
+    json_[name] = std::move(numbers);
+  }
   template <class Body>
   void object(const char* name, Body body) {
     Writer inner;
@@ -143,6 +149,16 @@ class Reader {
       wrong(name, error.what());
     }
   }
+  void runs(const char* name, std::set<std::uint64_t>& ids, const Panes& panes) {
+    ids.clear();  // those of the runs there were; a view of before there were hidden ones hides none
+    const json* at = find(name);
+    if (at == nullptr) return;
+    for (const json& number : at->is_array() ? *at : json{0}) {
+      const std::uint64_t k = number.is_number_unsigned() ? number.get<std::uint64_t>() : 0;
+      if (k == 0 || k > panes.run_ids.size()) wrong(name, "an array of runs' numbers");
+      ids.insert(panes.run_ids[k - 1]);
+    }
+  }
   template <class Body>
   void object(const char* name, Body body) {
     const json* at = find(name);
@@ -207,6 +223,7 @@ void describe_panels(Archive& archive, Panels& panels) {
   archive.number("left_width", panels.left_width, 6.0, 60.0);
   archive.number("right_width", panels.right_width, 6.0, 60.0);
   archive.number("bottom_height", panels.bottom_height, 6.0, 60.0);
+  archive.number("runs_height", panels.runs_height, 4.0, 60.0);
 }
 
 template <class Archive, class State>
@@ -282,6 +299,7 @@ void describe_panes(Archive& archive, Panes& panes) {
   archive.flag("linked", panes.linked);
   archive.number("split", panes.split, 0.0, 1.0);
   archive.count("active", panes.focus, Panes::kMost - 1);
+  archive.runs("hidden", panes.hidden_runs, panes);
   for (std::size_t k = 0; k < Panes::kMost; ++k) {
     auto& pane = panes.panes[k];
     archive.object(fmt::format("pane{}", k + 1).c_str(), [&pane, &panes](auto& one) {

@@ -31,6 +31,7 @@ std::vector<std::string> view_lines(const ViewState& state, bool with_camera) {
   lines.push_back(fmt::format("panel-size left {}", panels.left_width));
   lines.push_back(fmt::format("panel-size right {}", panels.right_width));
   lines.push_back(fmt::format("panel-size bottom {}", panels.bottom_height));
+  lines.push_back(fmt::format("panel-size runs {}", panels.runs_height));
   lines.push_back(fmt::format("unfold left {}", on(panels.left_over)));
   lines.push_back(fmt::format("unfold right {}", on(panels.right_over)));
   lines.push_back(fmt::format("colormap {}", render::name(state.colour_map)));

@@ -31,7 +31,7 @@ Vec3 middle(const InputMesh& input) {
 }
 
 void draw_second(PanelContext& context, const RunParameters& p) {
-  labelled(context, "second aim", "what counts once the first metric is above its threshold");
+  labelled(context, "second aim", "what counts once the first metric is above its threshold", metric_combo_width(context));
   const auto* metric = std::get_if<Metric>(&p.combination->second);
   const bool open = ImGui::BeginCombo("##second", metric != nullptr ? metric_title(*metric).c_str() : "Density");
   context.items.record_last("second-aim");

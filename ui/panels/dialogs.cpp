@@ -179,7 +179,9 @@ void draw_keys_dialog(PanelContext& context) {
     ImGui::TableNextColumn();
     ImGui::TextColored(colour_vector(context.palette.accent), "%s", key.c_str());
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(fit_text(what, ImGui::GetContentRegionAvail().x).c_str());
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(what.c_str());
+    ImGui::PopTextWrapPos();
   };
   const auto table = [&](const char* name) {
     ImGui::Spacing();

@@ -1,9 +1,11 @@
 // Left: the groups that the file carried.
 #include <algorithm>
+#include <span>
 
 #include <fmt/format.h>
 
 #include "core/commands/commands.h"
+#include "ui/panels/icons.h"
 #include "ui/panels/panels.h"
 #include "ui/state/format.h"
 
@@ -18,16 +20,42 @@ std::string tooltip_of(const GroupFacts& group) {
   return text;
 }
 
-/// "land b… 12": names of a kind differ at their end, so they are cut in their midst. The count goes first where there is no room.
-std::string fit_name(const GroupFacts& group, float room) {
+/// What of a row there is room for, the same for all rows.
+struct RowLook {
+  float room = 0;      // of the names
+  bool words = false;  // buttons with words, not with icons
+  bool counts = false;
+};
+
+std::string counted_name(const GroupFacts& group) { return fmt::format("{}  {}", group.name, count(group.members)); }
+
+float words_width(const PanelContext& context) {
+  return ImGui::CalcTextSize("fixisolate").x + 4 * ImGui::GetStyle().FramePadding.x + context.px(14);
+}
+float icons_width(const PanelContext& context) { return 2 * ImGui::GetFrameHeight() + context.px(8); }
+
+RowLook look_of(const PanelContext& context, std::span<const GroupLine> lines, float width) {
+  float names = 0, with_counts = 0;
+  for (const GroupLine& line : lines) {
+    names = std::max(names, ImGui::CalcTextSize(line.facts.name.c_str()).x);
+    with_counts = std::max(with_counts, ImGui::CalcTextSize(counted_name(line.facts).c_str()).x);
+  }
+  const float beside_words = width - words_width(context), beside_icons = width - icons_width(context);
+  RowLook look{beside_words, true, with_counts <= beside_words};
+  if (names > beside_words) look = {beside_icons, false, with_counts <= beside_icons};
+  return look;
+}
+
+/// "land b… 12" where there is no room for all of it: names of a kind differ at their end, so they are cut in their midst.
+std::string fit_name(const GroupFacts& group, const RowLook& look) {
   const auto width = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
-  if (std::string whole = fmt::format("{}  {}", group.name, count(group.members)); width(whole) <= room) return whole;
-  if (width(group.name) <= room) return group.name;
+  if (look.counts) return counted_name(group);
+  if (width(group.name) <= look.room) return group.name;
   const std::size_t space = group.name.rfind(' ');
   constexpr std::size_t kLongestEnd = 6;
-  if (space == std::string::npos || group.name.size() - space > kLongestEnd) return fit_text(group.name, room);
+  if (space == std::string::npos || group.name.size() - space > kLongestEnd) return fit_text(group.name, look.room);
   const std::string end = group.name.substr(space);
-  return fit_text(group.name.substr(0, space), room - width(end)) + end;
+  return fit_text(group.name.substr(0, space), look.room - width(end)) + end;
 }
 
 /// A small button that is lit while what it does is in force.
@@ -38,29 +66,43 @@ bool switch_button(const PanelContext& context, const char* label, bool on) {
   return pressed;
 }
 
-void draw_line(PanelContext& context, const GroupLine& line, bool fixed) {
+struct GroupSwitch {
+  const char* word;
+  Icon icon;
+  std::string item, tooltip;
+  bool on;
+};
+
+bool draw_switch(PanelContext& context, const GroupSwitch& one, bool words) {
+  if (!words) return icon_button(context, one.item, one.icon, {ImGui::GetFrameHeight(), ImGui::GetTextLineHeight()}, one.tooltip, one.on);
+  const bool pressed = switch_button(context, one.word, one.on);
+  context.items.record_last(one.item);
+  next_item_tooltip(one.tooltip);
+  return pressed;
+}
+
+void draw_line(PanelContext& context, const GroupLine& line, bool fixed, const RowLook& look) {
   const GroupFacts& group = line.facts;
   const float side = 0.7F * ImGui::GetTextLineHeight();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float top = at.y + ImGui::GetStyle().FramePadding.y;
   if (line.colour) list.AddRectFilled({at.x, top}, {at.x + side, top + side}, colour(*line.colour), context.px(2));
-  const float buttons = ImGui::CalcTextSize("fixisolate").x + 4 * ImGui::GetStyle().FramePadding.x + context.px(14);
   const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
-  const float name = ImGui::GetCursorPosX() + side + context.px(6);
-  ImGui::SetCursorPosX(name);
-  ImGui::TextUnformatted(fit_name(group, right - buttons - name).c_str());
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + side + context.px(6));
+  ImGui::TextUnformatted(fit_name(group, look).c_str());
   next_item_tooltip(tooltip_of(group));
   ImGui::SameLine();
-  ImGui::SetCursorPosX(right - buttons + context.px(6));
-  if (switch_button(context, "fix", fixed)) context.send((fixed ? "unfix " : "fix ") + quote_word(line.word));
-  context.items.record_last("group-fix:" + group.name);
-  next_item_tooltip(fixed ? "its vertices stay; a click gives them back" : "keeps its vertices where they are");
-  ImGui::SameLine(0, context.px(4));
+  ImGui::SetCursorPosX(right - (look.words ? words_width(context) : icons_width(context)) + context.px(6));
+  const GroupSwitch fix{"fix", fixed ? Icon::Lock : Icon::LockOff, "group-fix:" + group.name,
+                        fixed ? "fixed: its vertices stay; a click gives them back" : "fix: keeps its vertices where they are", fixed};
+  if (draw_switch(context, fix, look.words)) context.send((fixed ? "unfix " : "fix ") + quote_word(line.word));
+  ImGui::SameLine(0, context.px(look.words ? 4 : 2));
   const bool alone = context.state.colouring.isolated == Isolation{ColourBy::Group, group.name};
-  if (switch_button(context, "isolate", alone)) context.send(alone ? "isolate off" : "isolate group " + quote_word(group.name));
-  context.items.record_last("group-isolate:" + group.name);
-  next_item_tooltip(alone ? "all elements count again" : "only its elements, or those around it, count");
+  const GroupSwitch isolate{"isolate", Icon::Eye, "group-isolate:" + group.name,
+                            alone ? "isolated; a click counts all elements again" : "isolate: only its elements, or those around it, count",
+                            alone};
+  if (draw_switch(context, isolate, look.words)) context.send(alone ? "isolate off" : "isolate group " + quote_word(group.name));
 }
 
 }  // namespace
@@ -76,9 +118,11 @@ void draw_groups(PanelContext& context) {
   const bool more = groups.size() > kMostShown, scrolls = static_cast<float>(groups.size()) > kMostRows;
   if (scrolls) ImGui::BeginChild("groups", {0, (kMostRows + 0.5F) * ImGui::GetTextLineHeightWithSpacing()});
   ImGui::BeginDisabled(context.activity.busy);
+  const float swatch = 0.7F * ImGui::GetTextLineHeight() + context.px(6);
+  const RowLook look = look_of(context, std::span(groups).first(shown), ImGui::GetContentRegionAvail().x - swatch);
   for (std::size_t g = 0; g < shown; ++g) {
     ImGui::PushID(static_cast<int>(g));
-    draw_line(context, groups[g], g < context.derived.groups_fixed.size() && context.derived.groups_fixed[g]);
+    draw_line(context, groups[g], g < context.derived.groups_fixed.size() && context.derived.groups_fixed[g], look);
     ImGui::PopID();
   }
   ImGui::EndDisabled();

@@ -198,6 +198,7 @@ void draw_why(PanelContext& context, const Frame& frame, Index element, int row,
   ImGui::SetCursorScreenPos({right - size.x, at.y});
   if (ImGui::InvisibleButton("##why", size)) context.send(fmt::format("inspect element {}", element));
   context.items.record_last(fmt::format("why:{}", row));
+  if (!fixed && !context.items.boxes().contains("why?")) context.items.record_last("why?");
   next_item_tooltip(fixed ? "All its corners are fixed: no smoothing can change it. It is part of the ceiling."
                           : "looks into the search of its worst free corner: what limits it, and how much is left");
   ImGui::GetWindowDrawList()->AddText({right - size.x, at.y},
@@ -206,6 +207,20 @@ void draw_why(PanelContext& context, const Frame& frame, Index element, int row,
                                                                     : context.palette.accent),
                                       label);
   ImGui::SetCursorScreenPos(back);
+}
+
+/// Of the qualities in the list; nearly always that of usual ones, so that nothing moves from step to step.
+float widest_number(const Frame& frame) {
+  float widest = ImGui::CalcTextSize("0.003610").x;
+  for (const RankedElement& ranked : frame.worst) widest = std::max(widest, ImGui::CalcTextSize(short_number(ranked.quality).c_str()).x);
+  return widest;
+}
+
+/// "element 1,234", or as much of that as there is room for.
+std::string id_text(Index element, float room) {
+  for (const std::string& text : {fmt::format("element {}", count(element)), count(element)})
+    if (ImGui::CalcTextSize(text.c_str()).x <= room) return text;
+  return std::to_string(element);
 }
 
 }  // namespace
@@ -249,7 +264,9 @@ void draw_worst(PanelContext& context) {
   heading(context, "Worst elements");
   ImGui::SameLine();
   dim_text(context, metric_phrase(frame->shown), false);
-  const float number_width = ImGui::CalcTextSize("0.00000").x;
+  const float number_width = widest_number(*frame);
+  const float rank_width = ImGui::CalcTextSize("000").x, gap = context.px(7);
+  const float why_width = std::max(ImGui::CalcTextSize("fixed").x, ImGui::CalcTextSize("why?").x);
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(frame->worst.size()));
   while (clipper.Step()) {
@@ -265,12 +282,13 @@ void draw_worst(PanelContext& context) {
       next_item_tooltip(full_number(ranked.quality) + "\nclick to go there");
       ImDrawList& list = *ImGui::GetWindowDrawList();
       const std::string rank = std::to_string(k + 1), number = short_number(ranked.quality);
-      list.AddText({at.x + 1.6F * context.em() - ImGui::CalcTextSize(rank.c_str()).x, at.y}, colour(context.palette.dim), rank.c_str());
-      list.AddText({at.x + 2.4F * context.em(), at.y}, colour(context.palette.text),
-                   fmt::format("element {}", count(ranked.element)).c_str());
+      const float number_left = at.x + width - number_width - context.px(4), why_left = number_left - why_width - 2 * gap;
+      list.AddText({at.x + rank_width - ImGui::CalcTextSize(rank.c_str()).x, at.y}, colour(context.palette.dim), rank.c_str());
+      const float id_left = at.x + rank_width + context.px(10);
+      list.AddText({id_left, at.y}, colour(context.palette.text), id_text(ranked.element, why_left - gap - id_left).c_str());
       list.AddText({at.x + width - ImGui::CalcTextSize(number.c_str()).x - context.px(4), at.y},
                    colour(ranked.inverted ? context.palette.error : context.palette.text), number.c_str());
-      draw_why(context, *frame, ranked.element, k, at, at.x + width - number_width - context.px(14));
+      draw_why(context, *frame, ranked.element, k, at, number_left - gap);
       ImGui::PopID();
     }
   }

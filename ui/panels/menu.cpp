@@ -180,7 +180,8 @@ void draw_toolbar(PanelContext& context, const Rect& rect) {
   const bool wide = rect.w > 66 * context.em();
   const bool middling = rect.w > 50 * context.em();
   const bool busy = context.activity.busy;
-  action_button(context, "run-pause", busy ? "❚❚ Pause" : "▶ Run", context.session.input != nullptr);
+  constexpr const char *kRun = "▶ Run", *kPause = "❚❚ Pause";
+  action_button(context, "run-pause", busy ? kPause : kRun, context.session.input != nullptr, widest_button({kRun, kPause}));
   ImGui::SameLine();
   action_button(context, "step-iteration", "Step");
   ImGui::SameLine();
@@ -198,7 +199,8 @@ void draw_toolbar(PanelContext& context, const Rect& rect) {
   gap(context);
   action_button(context, "fit", "Fit");
   ImGui::SameLine();
-  action_button(context, "wireframe", context.state.wireframe ? "Wires ✓" : "Wires");
+  constexpr const char *kWires = "Wires", *kWiresOn = "Wires ✓";
+  action_button(context, "wireframe", context.state.wireframe ? kWiresOn : kWires, false, widest_button({kWires, kWiresOn}));
   if (!context.derived.metrics.empty()) {
     const float width = 12 * context.em();
     const float label = ImGui::CalcTextSize("shown").x + context.px(8);

@@ -17,6 +17,24 @@ int move_selection(int selected, int size) {
   return std::clamp(selected, 0, std::max(0, size - 1));
 }
 
+/// Where an entry's detail stands from its upper left corner: at the right of the title, else below it. Nothing is cut.
+struct EntryLayout {
+  ImVec2 detail;
+  float wrap = 0, height = 0;
+};
+EntryLayout lay_out_entry(const PanelContext& context, const PaletteEntry& entry, float width) {
+  const float line = ImGui::GetTextLineHeight(), edge = context.px(8), indent = 1.2F * context.em();
+  const float title = ImGui::CalcTextSize(entry.title.c_str()).x, detail = ImGui::CalcTextSize(entry.detail.c_str()).x;
+  if (title + 2 * context.em() + detail + edge <= width) return {{width - detail - edge, 0}, 0, line};
+  EntryLayout layout;
+  layout.wrap = width - edge - indent;
+  const float below = ImGui::CalcTextSize(entry.title.c_str(), nullptr, false, layout.wrap).y;
+  layout.detail = {indent, below};
+  layout.height = below;
+  if (!entry.detail.empty()) layout.height += ImGui::CalcTextSize(entry.detail.c_str(), nullptr, false, layout.wrap).y;
+  return layout;
+}
+
 }  // namespace
 
 void draw_palette_dialog(PanelContext& context) {
@@ -46,16 +64,17 @@ void draw_palette_dialog(PanelContext& context) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x;
     const ImGuiSelectableFlags flags = entry.possible ? ImGuiSelectableFlags_DontClosePopups : ImGuiSelectableFlags_Disabled;
-    if (ImGui::Selectable("##entry", k == widgets.palette.selected, flags)) chosen = k;
+    const EntryLayout layout = lay_out_entry(context, entry, width);
+    if (ImGui::Selectable("##entry", k == widgets.palette.selected, flags, {0, layout.height})) chosen = k;
     context.items.record_last(fmt::format("palette:{}", k));
     if (scroll && k == widgets.palette.selected) ImGui::SetScrollHereY();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float alpha = entry.possible ? 1.0F : 0.45F;
-    const std::string title = fit_text(entry.title, 0.62F * width);
-    list.AddText(at, colour(context.palette.text, alpha), title.c_str());
-    const std::string detail = fit_text(entry.detail, width - ImGui::CalcTextSize(title.c_str()).x - 2 * context.em());
-    list.AddText({at.x + width - ImGui::CalcTextSize(detail.c_str()).x - context.px(8), at.y}, colour(context.palette.dim, alpha),
-                 detail.c_str());
+    const auto put = [&](ImVec2 where, render::Rgb ink, const std::string& text) {
+      list.AddText(context.fonts.body, context.em(), where, colour(ink, alpha), text.c_str(), nullptr, layout.wrap);
+    };
+    put(at, context.palette.text, entry.title);
+    put({at.x + layout.detail.x, at.y + layout.detail.y}, context.palette.dim, entry.detail);
     ImGui::PopID();
   }
   if (entries.empty()) dim_text(context, "nothing by that name; Enter tries it as a command");

@@ -5,6 +5,7 @@
 
 #include "ui/panels/panels.h"
 #include "ui/state/format.h"
+#include "ui/state/run_names.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -101,9 +102,9 @@ void handle_pane_title(PanelContext& context, const PaneFacts& pane) {
   context.items.record_last(fmt::format("pane-title:{}", pane.number + 1));
   const std::size_t run = run_to_select(context, pane);
   if (run > 0) {
-    next_item_tooltip(fmt::format("{}\nclick: makes this the active run (Tab: the next)", pane.run()->title));
+    next_item_tooltip(fmt::format("{}\nclick: makes this the active run (Tab: the next)", run_title(context.session, run - 1)));
   } else if (pane.run() != nullptr && pane.frame() != nullptr) {
-    next_item_tooltip(pane.name == "input" ? "the mesh as it was read" : pane.run()->title);
+    next_item_tooltip(pane.name == "input" ? "the mesh as it was read" : run_title(*pane.session, pane.session->active));
   }
   if (!clicked) return;
   if (!pane.focus) context.send(fmt::format("focus-pane {}", pane.number + 1));
@@ -150,7 +151,7 @@ void draw_pane_entries(PanelContext& context, const PaneFacts& pane) {
   entry("The active run", {Kind::Active, 0, std::nullopt}, true);
   for (std::size_t k = 0; k < context.session.runs.size(); ++k) {
     const RunView& run = context.session.runs[k];
-    entry(fmt::format("Run {}: {}", k + 1, run.title), {Kind::Run, run.id, std::nullopt}, true);
+    entry(run_title(context.session, k), {Kind::Run, run.id, std::nullopt}, true);
   }
   if (pane.frame() != nullptr && pane.frame()->run != Frame::kNoRun && pane.name.empty()) {
     const PaneContent pinned{Kind::Run, pane.run()->id, pane.frame()->moment.iteration};

@@ -59,6 +59,20 @@ struct InsideGrip {
   Vec2<double> pressed_at;  // pixels, of the clip plane's handle
 };
 
+/// An edge between panels while it is held.
+struct SplitterGrip {
+  double before = 0, pressed_at = 0;  // em, when it was taken; pixels
+  bool moved = false;
+};
+
+/// Of the list of runs.
+struct RunListState {
+  std::string name;           // that is being typed
+  std::uint64_t renamed = 0;  // whose; 0: none
+  std::uint64_t active = 0;   // RunView::id of the active run in the last frame
+  std::size_t over = 0;       // number of the run under the mouse in the last frame; 0: none
+};
+
 struct PlotCache;
 
 /// State that only widgets need between frames.
@@ -79,6 +93,8 @@ struct WidgetState {
   RecentFiles recent;
   RangeGrip range_grip;
   InsideGrip inside_grip;
+  SplitterGrip splitter_grip;
+  RunListState run_list;
   std::size_t worst_cells = 50;                            // how many "only the worst" means
   std::vector<Thumbnail> thumbnails;                       // of the samples, made when the start page is first shown
   bool sample_pictures = true;                             // with pictures

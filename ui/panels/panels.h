@@ -44,6 +44,8 @@ void draw_colour_bar(PanelContext& context, const Rect& rect);
 void draw_labels(PanelContext& context, const PaneFacts& pane);
 /// Over the meshes: what is to be said of the run that has come to its end, if anything.
 void draw_notice(PanelContext& context, const Rect& rect);
+/// The tour's card, or the offer of a tour, over all panels; last of these, since it looks for the control that it is about.
+void draw_tour(PanelContext& context, const Layout& layout);
 void draw_start_page(PanelContext& context, const Rect& rect);
 /// `timeline_only`: there is no room for more.
 void draw_plots(PanelContext& context, const Rect& rect, bool timeline_only);
@@ -51,5 +53,17 @@ void draw_timeline(PanelContext& context);
 void draw_status(PanelContext& context, const Rect& rect);
 void draw_strips(PanelContext& context, const Layout& layout);
 void draw_splitters(PanelContext& context, const Layout& layout);
+
+/// An edge that resizes what lies beside it when it is dragged; a double click gives it its usual size.
+struct SplitterEdge {
+  const char* panel;     // of the command panel-size
+  Rect rect;             // what takes the mouse
+  bool upright;          // it is dragged sideways
+  double direction;      // +1 where dragging right or down grows it, else -1
+  double Panels::*size;  // in em
+  double least, most;
+};
+/// The same within a window that is being drawn.
+void splitter_grip(PanelContext& context, const SplitterEdge& edge);
 
 }  // namespace dmoscope::ui

@@ -19,8 +19,10 @@ void draw_plots(PanelContext& context, const Rect& rect, bool timeline_only) {
   draw_plot_tabs(context);
   draw_plot_controls(context, rect);
   const float timeline = ImGui::GetFrameHeightWithSpacing();
+  // The keyboard goes into the table, not into plots, around which it would leave a frame.
+  const ImGuiWindowFlags keys = context.state.plot == PlotTab::Runs ? ImGuiWindowFlags_None : ImGuiWindowFlags_NoNav;
   ImGui::BeginChild("plot area", {0, std::max(1.0F, ImGui::GetContentRegionAvail().y - timeline)}, false,
-                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+                    keys | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
   if (context.state.plot == PlotTab::Runs) {
     draw_run_table(context);
   } else {

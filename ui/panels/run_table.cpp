@@ -104,8 +104,7 @@ void draw_run(PanelContext& context, const RunRow& row) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled({at.x, at.y + 0.15F * line}, {at.x + context.px(4), at.y + 0.9F * line}, colour(context.palette.run(row.run)),
                      context.px(2));
-  const std::string title = fmt::format("{}  {}", row.run + 1, row.title);
-  list.AddText({at.x + context.px(10), at.y}, colour(context.palette.text), title.c_str());
+  list.AddText({at.x + context.px(10), at.y}, colour(context.palette.text), row.title.c_str());
 }
 
 /// What all runs began with, above them whatever they are sorted by.
@@ -142,7 +141,7 @@ void draw_run_table(PanelContext& context) {
   for (const ShownColumn& shown : columns) {
     const bool title = &shown == &columns.front();
     ImGui::TableSetupColumn(shown.title, ImGuiTableColumnFlags_WidthFixed,
-                            title                    ? widest + 3 * context.em()
+                            title                    ? widest + 2 * context.em()
                             : shown.column == kSizes ? 7.5F * context.em()
                                                      : 6 * context.em());
   }

@@ -1,200 +1,147 @@
-// Left: the runs and the parameters of the active one.
+// Left: the runs, in a list that scrolls by itself and keeps its height, so that what is below it never moves.
 #include <algorithm>
-#include <array>
+#include <utility>
 
 #include <fmt/format.h>
+#include <imgui_stdlib.h>
 
-#include "core/run/left_inverted.h"
-#include "core/smooth/execution/method_table.h"
+#include "ui/panels/icons.h"
 #include "ui/panels/panels.h"
 #include "ui/state/format.h"
+#include "ui/state/run_names.h"
 
 namespace dmoscope::ui {
 namespace {
 
-constexpr int kLargestSeed = 1 << 30;  // that can be entered
-
-/// A title in one line, or, where it is too long, in two, the first of which ends with one of its parts.
-std::vector<std::string> in_lines(const std::string& title, float first_room, float room) {
-  const auto width = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
-  if (width(title) <= first_room) return {title};
-  std::size_t end = std::string::npos;
-  for (std::size_t at = title.find(' '); at != std::string::npos; at = title.find(' ', at + 1)) {
-    if (width(title.substr(0, at)) > first_room) break;
-    if (!title.substr(at).starts_with(" ·")) end = at;  // which would begin the second line
-  }
-  if (end == std::string::npos) return {fit_text(title, first_room)};
-  return {title.substr(0, end), fit_text(title.substr(end + 1), room)};
+/// Of the run's moment: in the midst of an iteration, and after edits, its last record is of another one.
+const Statistics* statistics_of(const PanelContext& context, std::size_t k) {
+  const RunView& run = context.session.runs[k];
+  const Frame* frame = context.frame();
+  if (frame != nullptr && frame->run == k && k == context.session.active && frame->moment == run.moment) return &frame->statistics;
+  if (run.records.empty()) return nullptr;
+  for (const IterationRecord& one : run.records)
+    if (one.iteration == run.moment.iteration) return &one.statistics;
+  return &run.records.back().statistics;
 }
 
-void draw_run_row(PanelContext& context, std::size_t k) {
+/// "it 12 · min 0.4284 · mean 0.7831"; what there is no room for is in the tooltip.
+std::string facts_of(const PanelContext& context, std::size_t k, float room) {
+  std::string text = fmt::format("it {}", count(context.session.runs[k].moment.iteration));
+  const Statistics* statistics = statistics_of(context, k);
+  if (statistics == nullptr) return fit_text(text, room);
+  for (const auto& [word, value] : {std::pair{"min", statistics->minimum}, {"mean", statistics->mean}}) {
+    const std::string longer = fmt::format("{} · {} {}", text, word, short_number(value));
+    if (ImGui::CalcTextSize(longer.c_str()).x > room) break;
+    text = longer;
+  }
+  return fit_text(text, room);
+}
+
+std::string tooltip_of(const PanelContext& context, std::size_t k) {
   const RunView& run = context.session.runs[k];
-  ImGui::PushID(static_cast<int>(k));
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float line = ImGui::GetTextLineHeight(), pad = context.px(4);
-  const float width = ImGui::GetContentRegionAvail().x;
-  const bool active = k == context.session.active;
-  const float bar = context.px(4);
-  const std::string iteration = fmt::format("it {}", count(run.moment.iteration));
-  const float iteration_width = ImGui::CalcTextSize(iteration.c_str()).x;
-  const std::vector<std::string> title = in_lines(run.title, width - iteration_width - bar - context.px(24), width - bar - context.px(12));
-  const float height = static_cast<float>(title.size() + 1) * line;
-  if (ImGui::Selectable("##run", active, 0, {0, height + 3 * pad})) context.send(fmt::format("select-run {}", k + 1));
-  context.items.record_last(fmt::format("run:{}", k));
-  std::string tip = run.title;
+  std::string tip = run_title(context.session, k);
+  if (const Statistics* statistics = statistics_of(context, k))
+    tip += fmt::format("\niteration {}: minimum {}, mean {}", count(run.moment.iteration), short_number(statistics->minimum),
+                       short_number(statistics->mean));
   if (!run.last_outcome.empty()) tip += "\n" + run.last_outcome;
   if (run.summary && run.summary->sizes.known())
     tip += "\ncorrelation of edge length and target size: " +
            size_course_text(run.summary->sizes.before.sizes, run.summary->sizes.after.sizes);
-  next_item_tooltip(tip);
-  if (ImGui::BeginPopupContextItem("run menu")) {
-    if (ImGui::MenuItem("Remove", nullptr, false, context.session.runs.size() > 1 && !context.activity.busy)) {
-      context.send(fmt::format("remove-run {}", k + 1));
-    }
-    ImGui::EndPopup();
+  return tip + "\ndouble click renames it";
+}
+
+bool is_hidden(const PanelContext& context, std::size_t k) { return context.state.panes.hidden_runs.contains(context.session.runs[k].id); }
+
+void draw_run_menu(PanelContext& context, std::size_t k) {
+  if (!ImGui::BeginPopupContextItem("run menu")) return;
+  const std::string number = std::to_string(k + 1);
+  if (ImGui::MenuItem("Rename…", "F2")) context.send("begin-rename " + number);
+  context.items.record_last("run-menu:rename");
+  if (ImGui::MenuItem(is_hidden(context, k) ? "Show in plots and viewports" : "Hide in plots and viewports"))
+    context.send("hide-run " + number);
+  context.items.record_last("run-menu:hide");
+  if (ImGui::MenuItem("Hide all but the active run")) context.send("hide-run others");
+  if (ImGui::MenuItem("Show all runs", nullptr, false, !context.state.panes.hidden_runs.empty())) context.send("hide-run none");
+  ImGui::Separator();
+  if (ImGui::MenuItem("Remove", nullptr, false, context.session.runs.size() > 1 && !context.activity.busy))
+    context.send("remove-run " + number);
+  context.items.record_last("run-menu:remove");
+  ImGui::EndPopup();
+}
+
+/// In place of the title. Enter, or a click elsewhere, takes the name; Escape leaves it as it was.
+void draw_name_field(PanelContext& context, std::size_t k, float width) {
+  RunListState& list = context.widgets.run_list;
+  const RunView& run = context.session.runs[k];
+  const bool begins = std::exchange(list.renamed, run.id) != run.id;
+  if (begins) {
+    list.name = run.title;
+    ImGui::SetKeyboardFocusHere();
+    ImGui::SetScrollHereY();
+  }
+  ImGui::SetNextItemWidth(width);
+  const bool entered = ImGui::InputText("##name", &list.name, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  context.items.record_last("run-name");
+  if (!entered && !ImGui::IsItemDeactivated()) return;
+  context.state.renaming_run.reset();
+  list.renamed = 0;
+  const bool changed = list.name != run.title && !ImGui::IsKeyPressed(key::kEscape, false);
+  if (changed) context.send(fmt::format("rename-run {} {}", k + 1, quote_word(list.name)));
+}
+
+void draw_row_buttons(PanelContext& context, std::size_t k, ImVec2 corner, float side) {
+  const std::string number = std::to_string(k + 1);
+  const bool hidden = is_hidden(context, k);
+  ImGui::SetCursorScreenPos(corner);
+  if (icon_button(context, "run-eye:" + number, hidden ? Icon::EyeOff : Icon::Eye, {side, side},
+                  hidden ? "shows it in plots and viewports again" : "hides it in plots and viewports"))
+    context.send("hide-run " + number);
+  ImGui::SetCursorScreenPos({corner.x, corner.y + side});
+  const bool possible = context.session.runs.size() > 1 && !context.activity.busy;
+  ImGui::BeginDisabled(!possible);
+  if (icon_button(context, "run-remove:" + number, Icon::Cross, {side, side},
+                  context.session.runs.size() > 1 ? "removes it; Ctrl+Z brings it back" : "the last run cannot be removed"))
+    context.send("remove-run " + number);
+  ImGui::EndDisabled();
+}
+
+void draw_run_row(PanelContext& context, std::size_t k, float width) {
+  const RunView& run = context.session.runs[k];
+  ImGui::PushID(static_cast<int>(k));
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float line = ImGui::GetTextLineHeight(), pad = context.px(3), side = line + pad;
+  const bool active = k == context.session.active, hidden = is_hidden(context, k);
+  const float bar = context.px(4), text = at.x + bar + context.px(6), room = at.x + width - side - context.px(2) - text;
+  if (context.state.renaming_run == run.id) {
+    ImGui::SetCursorScreenPos({text, at.y});
+    draw_name_field(context, k, room);
+    ImGui::SetCursorScreenPos(at);
+  } else {
+    const bool pressed = ImGui::Selectable("##run", active, ImGuiSelectableFlags_AllowItemOverlap, {width, 2 * side});
+    context.items.record_last(fmt::format("run:{}", k));
+    const bool on_text = ImGui::IsItemHovered() && ImGui::GetIO().MousePos.x < at.x + width - side;  // not on the buttons
+    if (on_text) context.widgets.run_list.over = k + 1;
+    const bool twice = on_text && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+    if (on_text) next_item_tooltip(tooltip_of(context, k));
+    draw_run_menu(context, k);
+    if (twice)
+      context.send(fmt::format("begin-rename {}", k + 1));
+    else if (pressed && !active)
+      context.send(fmt::format("select-run {}", k + 1));
   }
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled({at.x, at.y + pad}, {at.x + bar, at.y + height + 2 * pad}, colour(context.palette.run(k)), bar / 2);
-  const float text = at.x + bar + context.px(8);
-  for (std::size_t row = 0; row < title.size(); ++row)
-    list.AddText({text, at.y + pad + static_cast<float>(row) * line}, colour(context.palette.text), title[row].c_str());
-  list.AddText({at.x + width - iteration_width - pad, at.y + pad}, colour(context.palette.dim), iteration.c_str());
-  if (!run.records.empty()) {
-    const IterationRecord* record = &run.records.back();
-    for (const IterationRecord& one : run.records) {
-      if (one.iteration == run.moment.iteration) record = &one;
-    }
-    // In the midst of an iteration, and after edits, the record is of another moment.
-    const Frame* frame = context.frame();
-    const bool shown = frame != nullptr && frame->run == k && active && frame->moment == run.moment;  // not a mark of before
-    const Statistics& statistics = shown ? frame->statistics : record->statistics;
-    const std::string facts = fmt::format("min {}  mean {}", short_number(statistics.minimum), short_number(statistics.mean));
-    list.AddText({text, at.y + height - line + 1.5F * pad}, colour(context.palette.dim),
-                 fit_text(facts, width - bar - context.px(12)).c_str());
-  }
+  list.AddRectFilled({at.x, at.y + pad}, {at.x + bar, at.y + 2 * side - pad}, colour(context.palette.run(k), hidden ? 0.35F : 1.0F),
+                     bar / 2);
+  const render::Rgb ink = hidden ? context.palette.dim : context.palette.text;
+  if (context.state.renaming_run != run.id)
+    list.AddText({text, at.y + pad / 2}, colour(ink), fit_text(run_title(context.session, k), room).c_str());
+  list.AddText({text, at.y + side + pad / 2}, colour(context.palette.dim), facts_of(context, k, room).c_str());
+  draw_row_buttons(context, k, {at.x + width - side, at.y}, side);
+  ImGui::SetCursorScreenPos({at.x, at.y + 2 * side});
   ImGui::PopID();
 }
 
-void draw_method(PanelContext& context, const RunParameters& parameters) {
-  labelled(context, "method", "how vertices are moved");
-  const bool open = ImGui::BeginCombo("##method", parameters.method.c_str());
-  context.items.record_last("method");
-  if (!open) return;
-  for (const MethodInfo& method : method_table()) {
-    if (ImGui::Selectable(std::string(method.name).c_str(), method.name == parameters.method)) {
-      context.send(fmt::format("method {}", method.name));
-    }
-    context.items.record_last(fmt::format("method:{}", method.name));
-    next_item_tooltip(method.optimises ? std::string(method.doc) : fmt::format("{}; {}", method.doc, kMayMakeWorse));
-  }
-  ImGui::EndCombo();
-}
-
-/// Of a method that promises nothing.
-void draw_method_note(PanelContext& context, const RunParameters& parameters) {
-  if (method_info(parameters.method).optimises) return;
-  ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.warning));
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(fmt::format("{}; Best goes back to the best iteration", kMayMakeWorse).c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
-  context.items.record_last("method-note");
-}
-
-/// Sends `command X` when another number was entered.
-void real(PanelContext& context, const char* item, double value) {
-  double edited = value;
-  ImGui::InputDouble(fmt::format("##{}", item).c_str(), &edited, 0, 0, "%.4g");
-  context.items.record_last(item);
-  if (ImGui::IsItemDeactivatedAfterEdit() && edited != value) context.send(fmt::format("{} {}", item, full_number(edited)));
-}
-
-/// What may be chosen, one of a few words.
-void choice(PanelContext& context, const ParameterInfo& row, const std::string& now) {
-  const std::string item(row.name);
-  const bool open = ImGui::BeginCombo(("##" + item).c_str(), now.c_str());
-  context.items.record_last(item);
-  if (!open) return;
-  for (const std::string_view word : row.choices) {
-    if (ImGui::Selectable(std::string(word).c_str(), word == now)) context.send(fmt::format("{} {}", item, word));
-    context.items.record_last(fmt::format("{}:{}", item, word));
-  }
-  ImGui::EndCombo();
-}
-
-void draw_parameter(PanelContext& context, const ParameterInfo& row, const RunParameters& parameters) {
-  const std::string command(row.name), item(row.item.empty() ? row.name : row.item), now = row.to_text(parameters);
-  labelled(context, std::string(row.title).c_str(), row.help().c_str());
-  if (row.kind == ParameterKind::Whole) {
-    const int most = static_cast<int>(std::min<double>(row.most, kLargestSeed));
-    integer(context, item.c_str(), static_cast<int>(std::min<std::uint64_t>(to_count(now), kLargestSeed)), static_cast<int>(row.least),
-            most, command.c_str());
-  } else if (row.kind == ParameterKind::Real) {
-    real(context, item.c_str(), to_number(now));
-  } else {
-    choice(context, row, now);
-  }
-}
-
-/// What the run's method can be told, and nothing else.
-void draw_options(PanelContext& context, const RunParameters& parameters) {
-  for (const ParameterInfo& row : parameter_table())
-    if (row.in_session && row.reader != nullptr && row.read_by(parameters)) draw_parameter(context, row, parameters);
-}
-
-void draw_backend(PanelContext& context, const RunView& run) {
-  labelled(context, "backend", "what smooths: the processor, a CUDA device, or the best there is (auto)");
-  const Backend chosen = run.parameters.backend;
-  const std::string shown = chosen == Backend::Auto ? fmt::format("auto: {}", name(run.backend)) : std::string(name(chosen));
-  const bool open = ImGui::BeginCombo("##backend", shown.c_str());
-  context.items.record_last("backend");
-  next_item_tooltip(run.backend_reason);
-  if (!open) return;
-  for (const Backend backend : {Backend::Auto, Backend::Cpu, Backend::Cuda}) {
-    const std::string word(name(backend));
-    if (ImGui::Selectable(word.c_str(), backend == chosen)) context.send("backend " + word);
-    context.items.record_last("backend:" + word);
-  }
-  ImGui::EndCombo();
-}
-
-/// Of a mesh that has any.
-void draw_interfaces(PanelContext& context, const RunParameters& parameters) {
-  if (!context.session.input || !context.session.input->interfaces.any()) return;
-  labelled(context, "interfaces", "whether what lies between materials, and on lines, faces and points that the file names, stays");
-  const bool open = ImGui::BeginCombo("##interfaces", std::string(name(parameters.interfaces)).c_str());
-  context.items.record_last("interfaces");
-  const bool fixed = parameters.interfaces == InterfaceRule::Fixed;
-  next_item_tooltip(fixed ? context.derived.interfaces : context.derived.free_interfaces);
-  if (!open) return;
-  for (const InterfaceRule rule : {InterfaceRule::Fixed, InterfaceRule::Free}) {
-    const std::string word(name(rule));
-    if (ImGui::Selectable(word.c_str(), rule == parameters.interfaces)) context.send("interfaces " + word);
-    context.items.record_last("interfaces:" + word);
-  }
-  ImGui::EndCombo();
-}
-
-void draw_order(PanelContext& context, const RunParameters& parameters) {
-  labelled(context, "order", "in which order an iteration visits the vertices, before colouring");
-  const bool shuffled = parameters.order.seed.has_value();
-  const bool open = ImGui::BeginCombo("##order", shuffled ? "shuffled" : "natural");
-  context.items.record_last("order");
-  if (open) {
-    if (ImGui::Selectable("natural", !shuffled)) context.send("order natural");
-    if (ImGui::Selectable("shuffled", shuffled)) context.send("order shuffle:1");
-    ImGui::EndCombo();
-  }
-  if (!shuffled) return;
-  labelled(context, "seed", "of the shuffled order");
-  integer(context, "seed", static_cast<int>(*parameters.order.seed), 0, kLargestSeed, "order shuffle:");
-}
-
-}  // namespace
-
-void draw_runs(PanelContext& context) {
-  heading(context, "Runs");
-  ImGui::SameLine();
+void draw_add(PanelContext& context) {
   const char* add = "+ add";
   ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(add).x - 2 * ImGui::GetStyle().FramePadding.x);
   const RunView* run = context.run();
@@ -203,46 +150,49 @@ void draw_runs(PanelContext& context) {
   context.items.record_last("add-run");
   ImGui::EndDisabled();
   next_item_tooltip("another run on the same input, to compare with");
-  if (ImGui::BeginPopup("add run")) {
-    dim_text(context, "new run: metric to optimise", false);
-    for (const Metric metric : context.derived.metrics) {
-      if (ImGui::MenuItem(metric_title(metric).c_str())) {
-        context.send(fmt::format("add-run {}:{}", run->parameters.method, info(metric).name));
-      }
-    }
-    ImGui::EndPopup();
-  }
-  if (context.session.runs.empty()) dim_text(context, "none yet: open a mesh");
-  for (std::size_t k = 0; k < context.session.runs.size(); ++k) draw_run_row(context, k);
+  if (!ImGui::BeginPopup("add run")) return;
+  dim_text(context, "new run: metric to optimise", false);
+  for (const Metric metric : context.derived.metrics)
+    if (ImGui::MenuItem(metric_title(metric).c_str()))
+      context.send(fmt::format("add-run {}:{}", run->parameters.method, info(metric).name));
+  ImGui::EndPopup();
 }
 
-void draw_parameters(PanelContext& context) {
-  heading(context, "Parameters");
-  const RunView* run = context.run();
-  if (run == nullptr) {
-    dim_text(context, "of the run that is selected");
-    return;
+}  // namespace
+
+void draw_runs(PanelContext& context) {
+  const std::vector<RunView>& runs = context.session.runs;
+  heading(context, runs.size() > 1 ? fmt::format("Runs ({})", runs.size()).c_str() : "Runs");
+  ImGui::SameLine();
+  draw_add(context);
+  RunListState& state = context.widgets.run_list;
+  if (context.state.renaming_run && std::ranges::find(runs, *context.state.renaming_run, &RunView::id) == runs.end())
+    context.state.renaming_run.reset();
+  if (!context.state.renaming_run) state.renamed = 0;
+  const float height = static_cast<float>(context.state.panels.runs_height) * context.em();
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
+  ImGui::BeginChild("run list", {width, height});
+  context.items.record(
+      "run-list", {ImGui::GetWindowPos().x, ImGui::GetWindowPos().y, ImGui::GetWindowPos().x + width, ImGui::GetWindowPos().y + height});
+  state.over = 0;
+  if (runs.empty()) dim_text(context, "none yet: open a mesh");
+  // The bar of the list has its place whether or not it is there: no button moves when it comes.
+  const float row_width = width - ImGui::GetStyle().ScrollbarSize;
+  const std::uint64_t active = context.run() == nullptr ? 0 : context.run()->id;
+  const bool other = std::exchange(state.active, active) != active;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const float top = ImGui::GetCursorPosY();
+    draw_run_row(context, k, row_width);
+    const float bottom = ImGui::GetCursorPosY(), scroll = ImGui::GetScrollY();
+    if (other && runs[k].id == active && (top < scroll || bottom > scroll + height))
+      ImGui::SetScrollFromPosY(top - scroll + (bottom - top) / 2, 0.5F);
   }
-  const RunParameters& parameters = run->parameters;
-  ImGui::BeginDisabled(context.activity.busy);
-  draw_method(context, parameters);
-  draw_method_note(context, parameters);
-  if (method_info(parameters.method).optimises)
-    labelled(context, "optimises", "the metric whose minimum over each star the method raises");
-  else
-    labelled(context, "judged by", "the metric of the run's statistics; the method goes by none");
-  metric_combo(context, "metric", parameters.metric, "metric");
-  draw_composite(context, *run);
-  draw_options(context, parameters);
-  draw_interfaces(context, parameters);
-  draw_order(context, parameters);
-  draw_backend(context, *run);
-  labelled(context, "threads", "of this computer that smooth; the result does not depend on it");
-  integer(context, "threads", static_cast<int>(context.session.threads), 1, 1024, "threads");
-  ImGui::EndDisabled();
-  if (run->moment != Moment{} || run->edits > 0) {
-    dim_text(context, "A change starts a new run beside this one.");
-  }
+  ImGui::EndChild();
+  ImGui::PopStyleVar();
+  const ImVec2 below = ImGui::GetCursorScreenPos();
+  const float grip = context.px(6);
+  splitter_grip(context, {"runs", {below.x, below.y, width, grip}, false, 1, &Panels::runs_height, 4, 40});
 }
 
 }  // namespace dmoscope::ui

@@ -1,4 +1,4 @@
-// Status bar, the strips that stand for folded panels, and the splitters.
+// Status bar, and the strips that stand for folded panels.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -58,41 +58,6 @@ void strip(PanelContext& context, const char* side_name, const Rect& rect, const
   context.items.record_last(fmt::format("fold:{}", side_name));
   next_item_tooltip(tooltip);
   end_panel();
-}
-
-/// A narrow strip between two panels that changes `size` (in em) when dragged; `direction` is +1 where dragging right or down grows it.
-void splitter(PanelContext& context, const char* name, const Rect& rect, bool vertical, float direction, double& size, double least,
-              double most) {
-  ImGui::SetNextWindowPos({rect.x, rect.y});
-  ImGui::SetNextWindowSize({rect.w, rect.h});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4{0, 0, 0, 0});
-  // Above the panels whose edge it lies on.
-  ImGui::Begin(name, nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
-                   ImGuiWindowFlags_NoFocusOnAppearing);
-  ImGui::PopStyleColor();
-  ImGui::PopStyleVar(2);
-  ImGui::InvisibleButton("grip", {rect.w, rect.h});
-  context.items.record_last(name);
-  const bool live = ImGui::IsItemActive() || ImGui::IsItemHovered();
-  if (live) ImGui::SetMouseCursor(vertical ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
-  const ImVec2 delta = ImGui::GetIO().MouseDelta;
-  if (ImGui::IsItemActive()) {
-    const float move = vertical ? delta.x : delta.y;
-    size = std::clamp(size + static_cast<double>(direction * move / context.em()), least, most);
-  }
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float x = rect.x + rect.w / 2, y = rect.y + rect.h / 2;
-  const ImU32 ink = live ? colour(context.palette.accent) : colour(context.palette.line);
-  const float width = live ? context.px(2) : 1.0F;
-  if (vertical) {
-    list.AddLine({x, rect.y}, {x, rect.y + rect.h}, ink, width);
-  } else {
-    list.AddLine({rect.x, y}, {rect.x + rect.w, y}, ink, width);
-  }
-  ImGui::End();
 }
 
 }  // namespace
@@ -156,23 +121,6 @@ void draw_strips(PanelContext& context, const Layout& layout) {
   const Panels& panels = context.state.panels;
   strip(context, "left", layout.left_strip, "☰", "runs and parameters", panels.left_over);
   strip(context, "right", layout.right_strip, "ℹ", "inspector and worst elements", panels.right_over);
-}
-
-void draw_splitters(PanelContext& context, const Layout& layout) {
-  const float grip = context.px(6);
-  Panels& panels = context.state.panels;
-  if (!layout.folded && !layout.left.empty()) {
-    splitter(context, "splitter:left", {layout.left.x + layout.left.w - grip / 2, layout.left.y, grip, layout.left.h}, true, 1,
-             panels.left_width, 12, 40);
-  }
-  if (!layout.folded && !layout.right.empty()) {
-    splitter(context, "splitter:right", {layout.right.x - grip / 2, layout.right.y, grip, layout.right.h}, true, -1, panels.right_width, 13,
-             40);
-  }
-  if (!layout.bottom.empty() && !layout.timeline_only) {
-    splitter(context, "splitter:bottom", {layout.bottom.x, layout.bottom.y - grip / 2, layout.bottom.w, grip}, false, -1,
-             panels.bottom_height, 9, 40);
-  }
 }
 
 }  // namespace dmoscope::ui

@@ -63,7 +63,7 @@ void draw_timeline(PanelContext& context) {
   action_button(context, "timeline-back", "◀");
   ImGui::SameLine(0, small);
   const Playback& play = context.state.timeline.play;
-  action_button(context, "play", play.kind == Playback::Kind::Off ? "Play" : "Stop");
+  action_button(context, "play", play.kind == Playback::Kind::Off ? "Play" : "Stop", false, widest_button({"Play", "Stop"}));
   ImGui::SameLine(0, small);
   action_button(context, "timeline-forward", "▶");
   ImGui::SameLine(0, small);

@@ -11,6 +11,7 @@
 #include "ui/panels/panels.h"
 #include "ui/panels/reading_page.h"
 #include "ui/state/format.h"
+#include "ui/state/run_names.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -36,9 +37,7 @@ void draw_title(PanelContext& context, const PaneFacts& pane) {
   const Frame& frame = *pane.frame();
   const Rect& rect = pane.rect;
   const float pad = context.px(8), line = ImGui::GetTextLineHeight();
-  std::string title = fmt::format("{} · {}", run->parameters.method, metric_phrase(run->parameters.metric));
-  if (run->parameters.combination) title = run->title;
-  if (run->mean_since && *run->mean_since < frame.moment.iteration) title += ", then mean";
+  std::string title = run_title(context.session, context.session.active);
   const Mark* mark = context.state.timeline.shown_mark();
   if (mark != nullptr) title = fmt::format("{} · {}", context.state.timeline.shown == Shown::A ? "A" : "B", mark->title);
   std::string moment = fmt::format("it {}", count(frame.moment.iteration));
@@ -52,6 +51,7 @@ void draw_title(PanelContext& context, const PaneFacts& pane) {
 
   ImDrawList& list = *ImGui::GetWindowDrawList();
   ImGui::PushFont(context.fonts.bold);
+  title = fit_text(title, 0.6F * rect.w);
   const float title_width = ImGui::CalcTextSize(title.c_str()).x;
   ImGui::PopFont();
   const float moment_width = ImGui::CalcTextSize(moment.c_str()).x;

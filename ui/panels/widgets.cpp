@@ -83,7 +83,7 @@ void metric_tooltip(const PanelContext& context, const MetricInfo& metric) {
   ImGui::EndTooltip();
 }
 
-bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary) {
+bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary, float width) {
   const Action* action = find_action(id);
   const bool possible = enabled(*action, context.situation());
   if (!possible) ImGui::BeginDisabled();
@@ -93,7 +93,7 @@ bool action_button(PanelContext& context, std::string_view id, const char* label
     ImGui::PushStyleColor(ImGuiCol_ButtonActive, colour_vector(context.palette.accent, 0.7F));
     ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.on_accent));
   }
-  const bool pressed = ImGui::Button(label);
+  const bool pressed = ImGui::Button(label, {width, 0});
   if (primary) ImGui::PopStyleColor(4);
   context.items.record_last(id);
   if (!possible) ImGui::EndDisabled();
@@ -104,20 +104,59 @@ bool action_button(PanelContext& context, std::string_view id, const char* label
   return pressed;
 }
 
-void labelled(const PanelContext& context, const char* label, const char* tooltip) {
+float widest_button(std::initializer_list<const char*> labels) {
+  float widest = 0;
+  for (const char* label : labels) widest = std::max(widest, ImGui::CalcTextSize(label).x);
+  return widest + 2 * ImGui::GetStyle().FramePadding.x;
+}
+
+void labelled(const PanelContext& context, const char* label, const char* tooltip, float wanted) {
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
   ImGui::AlignTextToFramePadding();
   dim_text(context, label, false);
-  next_item_tooltip(tooltip);
   ImGui::SameLine();
-  const float at = ImGui::GetWindowContentRegionMax().x * 0.42F;
-  ImGui::SetCursorPosX(std::max(at, ImGui::GetCursorPosX()));
+  const float at = std::max(ImGui::GetWindowContentRegionMax().x * 0.42F, ImGui::GetCursorPosX());
+  const bool below = wanted > 0 && at + wanted > ImGui::GetWindowContentRegionMax().x;
+  if (below)
+    ImGui::NewLine();
+  else
+    ImGui::SetCursorPosX(at);
   ImGui::SetNextItemWidth(-1);
+  // The field answers as its label does; not while somebody types into it.
+  const float height = ImGui::GetFrameHeight() + (below ? ImGui::GetFrameHeightWithSpacing() : 0.0F);
+  const bool over = ImGui::IsMouseHoveringRect(corner, {corner.x + width, corner.y + height});
+  if (!over || !ImGui::IsWindowHovered() || ImGui::IsAnyItemActive()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(context.em() * 30);
+  ImGui::TextUnformatted(tooltip);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+float combo_width(float widest) { return widest + ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().FramePadding.x; }
+
+float metric_combo_width(const PanelContext& context) {
+  float widest = 0;
+  for (const Metric metric : context.derived.metrics)
+    widest = std::max(widest, ImGui::CalcTextSize(std::string(info(metric).title).c_str()).x);
+  return combo_width(widest);
 }
 
 void integer(PanelContext& context, const char* item, int value, int least, int most, const char* command) {
   int edited = value;
+  // Narrow gaps: digits need the room.
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemInnerSpacing, {context.px(2), context.px(4)});
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {context.px(5), context.px(4)});
   const bool entered = ImGui::InputInt(fmt::format("##{}", item).c_str(), &edited, 1, 1, ImGuiInputTextFlags_EnterReturnsTrue);
+  ImGui::PopStyleVar(2);
   context.items.record_last(item);
+  if (ImGui::IsItemVisible()) {
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    const float side = ImGui::GetFrameHeight();
+    context.items.record(fmt::format("{}+", item), {high.x - side, low.y, high.x, high.y});
+    context.items.record(fmt::format("{}-", item), {high.x - 2 * side - context.px(2), low.y, high.x - side - context.px(2), high.y});
+  }
   const bool stepped = edited != value && !ImGui::IsItemActive();
   if ((entered || stepped || ImGui::IsItemDeactivatedAfterEdit()) && edited != value) {
     const bool joined = std::string_view(command).ends_with(':');  // "shuffle:SEED" is one word

@@ -1,6 +1,7 @@
 #pragma once
 // What panels are made of.
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,12 +21,19 @@ void value_row(const PanelContext& context, const char* label, const std::string
 void number_row(const PanelContext& context, const char* label, double value, const char* tooltip = nullptr);
 void metric_tooltip(const PanelContext& context, const MetricInfo& metric);
 /// A button for an action, with tooltip and key; records the item under the action's id.
-bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary = false);
+/// `width`: in pixels, for labels that change; 0: as the label needs.
+bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary = false, float width = 0);
+/// Of a button whose label is one of these: what stands beside it stays where it is.
+[[nodiscard]] float widest_button(std::initializer_list<const char*> labels);
 void next_item_tooltip(const std::string& text);
 /// Text on a plate in the panel's colour is readable on any mesh.
 void draw_plate(const PanelContext& context, ImVec2 low, ImVec2 high);
-/// A row "label [widget]" whose widget, drawn next, fills the right part.
-void labelled(const PanelContext& context, const char* label, const char* tooltip);
+/// A row "label [widget]" whose widget, drawn next, fills the right part; where it wants more pixels than there are, a line of its own.
+/// The tooltip is of the whole row.
+void labelled(const PanelContext& context, const char* label, const char* tooltip, float wanted = 0);
+/// What a combo box wants whose widest entry is so wide.
+[[nodiscard]] float combo_width(float widest);
+[[nodiscard]] float metric_combo_width(const PanelContext& context);
 /// An integer that is sent as "COMMAND value" once editing is done; as one word where the command ends with ':'.
 void integer(PanelContext& context, const char* item, int value, int least, int most, const char* command);
 /// Metric chooser that sends "COMMAND name".

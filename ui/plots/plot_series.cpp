@@ -70,6 +70,11 @@ class Builder {
   }
 
  private:
+  /// Not those that a person took out.
+  [[nodiscard]] bool is_shown(std::size_t k) const { return !state_.panes.hidden_runs.contains(session_.runs[k].id); }
+
+  [[nodiscard]] bool shows_frame(const Frame& frame) const { return frame.run >= session_.runs.size() || is_shown(frame.run); }
+
   /// "2 laplace"; with more where another run has the same method.
   [[nodiscard]] std::string run_name(std::size_t k) const { return several_ ? names_[k].whole() : std::string(); }
 
@@ -86,6 +91,7 @@ class Builder {
 
   void add_runs_to_legend() {
     for (std::size_t k = 0; k < session_.runs.size(); ++k) {
+      if (!is_shown(k)) continue;
       plot_.legend.push_back({run_name(k), true, session_.runs[k].title, series_of_run(k, {})});
       plot_.legend.back().look.width = 4.0;
     }
@@ -112,8 +118,9 @@ class Builder {
     plot_.x_title = plot_.x_name;
     plot_.integer_x = !state_.plot_options.by_seconds;
     double longest = 0.0;
-    for (const RunView& run : session_.runs) {
-      const auto x = course(run);
+    for (std::size_t k = 0; k < session_.runs.size(); ++k) {
+      if (!is_shown(k)) continue;
+      const auto x = course(session_.runs[k]);
       if (!x.empty()) longest = std::max(longest, x.back());
     }
     plot_.x_range = Range{0.0, longest > 0.0 ? longest : 1.0};
@@ -131,7 +138,7 @@ class Builder {
   }
 
   void mark(std::size_t run, const Moment& moment, std::string label) {
-    if (run >= session_.runs.size()) return;
+    if (run >= session_.runs.size() || !is_shown(run)) return;
     const auto& records = session_.runs[run].records;
     if (records.size() > 1 && moment.iteration < records.size())
       plot_.marks.push_back({course(session_.runs[run])[moment.iteration], std::move(label)});
@@ -155,7 +162,9 @@ class Builder {
     if (session_.runs.empty()) return;
     plot_.y_title = metric_phrase(session_.runs[session_.active].parameters.metric);
     bool movable_differs = false, inverted = false;
-    for (const RunView& run : session_.runs) {
+    for (std::size_t k = 0; k < session_.runs.size(); ++k) {
+      if (!is_shown(k)) continue;
+      const RunView& run = session_.runs[k];
       if (run.parameters.metric != session_.runs[session_.active].parameters.metric) plot_.y_title = "quality, each run by its own metric";
       for (const IterationRecord& record : run.records) {
         movable_differs = movable_differs || record.statistics.movable_minimum != record.statistics.minimum;
@@ -164,6 +173,7 @@ class Builder {
     }
     plot_.title = fmt::format("{} by {}", plot_.y_title.substr(0, plot_.y_title.find(',')), plot_.x_name);
     for (std::size_t k = 0; k < session_.runs.size(); ++k) {
+      if (!is_shown(k)) continue;
       add_course(k, series_of_run(k, "minimum"), [](const IterationRecord& record) { return record.statistics.minimum; });
       add_to_legend(plot_.series.back(), "quality of the worst element");
       if (movable_differs) {
@@ -210,7 +220,7 @@ class Builder {
   /// Of the shown metric, of a run whose elements are not in the frame; null where it is not worked out yet.
   [[nodiscard]] const RunSummary* summary_of(std::size_t k) const {
     const RunSummary* summary = session_.runs[k].summary.get();
-    return k != session_.frame->run && summary != nullptr && summary->metric == session_.frame->shown ? summary : nullptr;
+    return k != session_.frame->run && is_shown(k) && summary != nullptr && summary->metric == session_.frame->shown ? summary : nullptr;
   }
 
   void build_moved() {
@@ -219,9 +229,11 @@ class Builder {
     plot_.title = "vertices moved by " + plot_.x_name;
     plot_.empty_text = "run to see how many vertices move";
     plot_.from_zero = true;
-    for (std::size_t k = 0; k < session_.runs.size(); ++k)
+    for (std::size_t k = 0; k < session_.runs.size(); ++k) {
+      if (!is_shown(k)) continue;
       add_course(
           k, series_of_run(k, {}), [](const IterationRecord& record) { return static_cast<double>(record.moved); }, 1);
+    }
   }
 
   void build_time() {
@@ -231,6 +243,7 @@ class Builder {
     plot_.from_zero = true;
     double longest = 0.0, whole = 0.0;
     for (std::size_t k = 0; k < session_.runs.size(); ++k) {
+      if (!is_shown(k)) continue;
       add_course(
           k, series_of_run(k, "an iteration"), [](const IterationRecord& record) { return record.seconds; }, 1);
       add_to_legend(plot_.series.back(), "smoothing alone");
@@ -278,7 +291,7 @@ class Builder {
     Series now = series_of_run(frame->run, moved ? "now" : several_ ? "now" : "input");
     now.kind = several_ ? Series::Kind::Steps : Series::Kind::Bars;
     now.strength = several_ ? 1.0 : 0.75;
-    add_histogram(std::move(now), frame->now);
+    if (shows_frame(*frame)) add_histogram(std::move(now), frame->now);
     for (std::size_t k = 0; k < session_.runs.size(); ++k) {
       const RunSummary* summary = summary_of(k);
       if (summary == nullptr) continue;
@@ -328,7 +341,7 @@ class Builder {
     before.name = "input";
     before.colour = palette_.dim;
     if (moved || several_) add_sorted(std::move(before), sorted_.before);
-    add_sorted(series_of_run(frame->run, moved || several_ ? "now" : "input"), sorted_.now);
+    if (shows_frame(*frame)) add_sorted(series_of_run(frame->run, moved || several_ ? "now" : "input"), sorted_.now);
     for (std::size_t k = 0; k < session_.runs.size(); ++k) {
       if (const RunSummary* summary = summary_of(k)) add_sorted(series_of_run(k, "now"), summary->sorted);
     }
@@ -357,6 +370,7 @@ std::string plot_key(const ViewState& state, const SessionView& session, const S
   if (const auto& filter = state.colouring.filter) fmt::format_to(std::back_inserter(key), " {}:{}", filter->first, filter->second);
   for (const Mark* mark : {&state.timeline.a, &state.timeline.b}) key += mark->frame ? fmt::format(" {}", mark->frame->serial) : " -";
   for (const RunView& run : session.runs) {
+    if (state.panes.hidden_runs.contains(run.id)) key += " -";
     fmt::format_to(std::back_inserter(key), " {} {} {} {}", run.title, run.records.size(), fmt::ptr(run.percentiles.data()),
                    fmt::ptr(run.summary.get()));
   }

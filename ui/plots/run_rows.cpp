@@ -3,6 +3,8 @@
 #include <iterator>
 #include <optional>
 
+#include "ui/state/run_names.h"
+
 namespace dmoscope::ui {
 namespace {
 
@@ -27,6 +29,7 @@ std::vector<RunRow> sorted_runs(const SessionView& session, const PlotOptions& o
     if (session.several_meshes()) rows.back().mesh = run.input->mesh.name;
   }
   if (!options.sorted_by.empty()) sort_rows(rows, run_column(options.sorted_by), options.descending);
+  for (RunRow& row : rows) row.title = run_title(session, row.run);
   return rows;
 }
 

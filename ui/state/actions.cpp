@@ -37,7 +37,9 @@ constexpr std::array kActions{
     Action{"undo", "Edit", "Undo", "Ctrl+Z", "undo", Needs::Undo},
     Action{"redo", "Edit", "Redo", "Ctrl+Y", "redo", Needs::Redo},
     Action{"find", "Edit", "Find vertex or element…", "Ctrl+F", "dialog find", Needs::Mesh, true},
-    Action{"pick-none", "Edit", "Clear selection", "Escape", "pick none", Needs::Picked},
+    Action{"leave", "Edit", "Leave the brush, or clear the selection", "Escape", "leave", Needs::Leavable},
+    Action{"pick-none", "Edit", "Clear selection", "", "pick none", Needs::Picked},
+    Action{"rename-run", "Edit", "Rename the run…", "Shift+F2", "begin-rename", Needs::Mesh, true},
 
     Action{"run-pause", "Run", "Run / pause", "Space", "run-pause", Needs::Mesh},
     Action{"run-10", "Run", "Run 10 iterations", "Shift+N", "run 10", Needs::MeshAndIdle},
@@ -198,6 +200,7 @@ constexpr std::array kActions{
     Action{"labels-next", "Colours", "Next labels", "I", "labels next", Needs::Mesh},
 
     Action{"palette", "Help", "All commands…", "Ctrl+P", "dialog palette"},
+    Action{"tour", "Help", "Tour: two minutes of guided steps", "", "tour on"},
     Action{"keys", "Help", "Keys", "F1", "dialog keys"},
     Action{"about", "Help", "About", "", "dialog about"},
 };
@@ -246,6 +249,8 @@ bool enabled(const Action& action, const Situation& now) {
       return now.mesh && !now.busy && now.runs > 1;
     case Needs::Picked:
       return now.picked;
+    case Needs::Leavable:
+      return now.picked || now.leavable;
     case Needs::Selected:
       return now.mesh && !now.busy && now.selected;
     case Needs::Undo:

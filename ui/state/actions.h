@@ -11,7 +11,7 @@
 namespace dmoscope::ui {
 
 /// What must be so for an action to be possible.
-enum class Needs { Nothing, Mesh, Idle, MeshAndIdle, Work, SeveralRuns, Picked, Selected, Undo, Redo, Volume, Planar, Better };
+enum class Needs { Nothing, Mesh, Idle, MeshAndIdle, Work, SeveralRuns, Picked, Selected, Undo, Redo, Volume, Planar, Better, Leavable };
 
 struct Action {
   std::string_view id;       // "step-iteration"; also the name of its items
@@ -40,6 +40,7 @@ struct Situation {
   std::string undo{}, redo{};  // what they are about ("run 10"); empty: nothing
   bool volume = false;         // the mesh is one of volume elements
   bool better = false;         // the active run does not stand at its best iteration
+  bool leavable = false;       // the mouse does something else than picking, such as brushing
 };
 [[nodiscard]] bool enabled(const Action& action, const Situation& situation);
 /// The title, with what undo and redo are about: "Undo run 10".

@@ -59,12 +59,4 @@ std::string duration(double seconds) {
 
 std::string metric_title(Metric metric) { return std::string(info(metric).title); }
 
-std::string metric_phrase(Metric metric) {
-  std::string title = metric_title(metric);
-  if (title.size() > 1 && std::islower(static_cast<unsigned char>(title[1])) != 0) {
-    title[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(title[0])));
-  }
-  return title;
-}
-
 }  // namespace dmoscope::ui

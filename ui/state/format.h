@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/base/number_text.h"
-#include "core/quality/metric.h"
+#include "core/quality/metric_phrase.h"
 #include "core/run/size_course.h"
 
 namespace dmoscope::ui {
@@ -29,8 +29,6 @@ namespace dmoscope::ui {
 [[nodiscard]] std::string size_course_details(const SizeCourse& sizes);
 /// "Mean ratio" of a metric.
 [[nodiscard]] std::string metric_title(Metric metric);
-/// "mean ratio"
-[[nodiscard]] std::string metric_phrase(Metric metric);
 /// "0.83 ms", "1.24 s".
 [[nodiscard]] std::string duration(double seconds);
 }  // namespace dmoscope::ui

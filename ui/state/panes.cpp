@@ -45,6 +45,19 @@ bool Panes::shows(std::size_t pane, std::uint64_t id) const {
   return (content.kind == ContentKind::Active && id == active_id) || content == PaneContent{ContentKind::Run, id, std::nullopt};
 }
 
+void Panes::hide_run(std::uint64_t id, bool hidden) {
+  if (!hidden) {
+    hidden_runs.erase(id);
+    return;
+  }
+  hidden_runs.insert(id);
+  for (Pane& pane : panes) {
+    if (pane.content.kind != ContentKind::Run || pane.content.run != id) continue;
+    pane.content = {};
+    pane.chosen = false;
+  }
+}
+
 std::size_t Panes::follow(const SessionView& session) {
   run_ids.clear();
   reached.clear();
@@ -53,6 +66,7 @@ std::size_t Panes::follow(const SessionView& session) {
     reached.push_back(run.records.empty() ? 0 : run.records.back().iteration);
   }
   const std::uint64_t active = session.active < session.runs.size() ? session.runs[session.active].id : 0;
+  std::erase_if(hidden_runs, [&](std::uint64_t id) { return std::ranges::find(run_ids, id) == run_ids.end(); });
   for (Pane& pane : panes) {
     if (pane.content.kind != ContentKind::Run || std::ranges::find(run_ids, pane.content.run) != run_ids.end()) continue;
     pane.content = {};
@@ -89,7 +103,7 @@ void Panes::fill(std::size_t visible) {
   }
   const auto end = panes.begin() + static_cast<std::ptrdiff_t>(visible);
   for (const std::uint64_t id : run_ids) {
-    if (shown(id)) continue;
+    if (shown(id) || (hidden_runs.contains(id) && id != active_id)) continue;
     const auto at = std::find_if(panes.begin(), end, vacant);
     if (at == end) break;
     at->content = {ContentKind::Run, id, std::nullopt};

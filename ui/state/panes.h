@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -46,6 +47,8 @@ struct Panes {
   std::vector<std::uint64_t> run_ids;  // of the session's runs, as followed last
   std::vector<std::uint64_t> reached;  // likewise: the last iteration that each has a record of
   std::uint64_t active_id = 0;         // likewise
+  /// Runs (RunView::id) that a person took out of viewports and plots. The active run's viewport stays: commands are about it.
+  std::set<std::uint64_t> hidden_runs;
 
   [[nodiscard]] std::size_t count() const { return pane_count(layout); }
   [[nodiscard]] bool one() const { return layout == PaneLayout::One; }
@@ -57,6 +60,8 @@ struct Panes {
   /// should be the active one: the one of the active run where that has changed or the input has come to where one was, else the one that
   /// is.
   [[nodiscard]] std::size_t follow(const SessionView& session);
+  /// Takes a run out of viewports and plots, or puts it back.
+  void hide_run(std::uint64_t id, bool hidden);
   /// Whether a pane shows a run (the active one when `id` is that one's) as it stands.
   [[nodiscard]] bool shows(std::size_t pane, std::uint64_t id) const;
 

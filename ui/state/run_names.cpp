@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/quality/metric_phrase.h"
+
 namespace dmoscope::ui {
 namespace {
 
@@ -11,22 +13,32 @@ using Parts = std::array<std::string, 4>;
 
 Parts parts_of(const RunView& run) {
   const RunParameters& p = run.parameters;
-  std::string aim = p.combination ? phrase(p.metric, *p.combination) : std::string(info(p.metric).name);
+  std::string aim = p.combination ? phrase(p.metric, *p.combination) : metric_phrase(p.metric);
   std::string others = other_than_usual(p);
   if (others.starts_with(", ")) others.erase(0, 2);
   return {std::move(aim), p.then_mean ? "then mean" : "", std::move(others), run.input ? run.input->mesh.name : std::string()};
 }
 
 RunName name_among(const SessionView& session, const std::vector<Parts>& parts, std::size_t k) {
-  const std::string& method = session.runs[k].parameters.method;
+  const RunView& run = session.runs[k];
+  const std::string& method = run.parameters.method;
   RunName name{std::to_string(k + 1), method};
-  for (const RunView& run : session.runs) name.one_method = name.one_method && run.parameters.method == method;
+  for (const RunView& other : session.runs) name.one_method = name.one_method && other.parameters.method == method;
+  std::string former_rest;
   for (std::size_t part = 0; part < parts[k].size(); ++part) {
     bool differs = false;
     for (std::size_t other = 0; other < parts.size() && !differs; ++other)
       differs = session.runs[other].parameters.method == method && parts[other][part] != parts[k][part];
-    if (differs && !parts[k][part].empty()) name.rest += (name.rest.empty() ? "" : ", ") + parts[k][part];
+    if (!differs || parts[k][part].empty()) continue;
+    const bool metric = part == 0 && !run.parameters.combination;
+    name.rest += (name.rest.empty() ? "" : ", ") + parts[k][part];
+    former_rest += (former_rest.empty() ? "" : ", ") + (metric ? std::string(info(run.parameters.metric).name) : parts[k][part]);
   }
+  name.formerly = name.number + " " + method + (former_rest.empty() ? "" : " " + former_rest);
+  if (run.name.empty()) return name;
+  name.method = run.name;
+  name.rest.clear();
+  name.given = true;
   return name;
 }
 
@@ -37,6 +49,11 @@ std::vector<Parts> parts_of(const SessionView& session) {
 }
 
 }  // namespace
+
+std::string run_title(const SessionView& session, std::size_t k) {
+  const std::string& title = session.runs[k].title;
+  return session.runs.size() > 1 ? std::to_string(k + 1) + " " + title : title;
+}
 
 RunName run_name(const SessionView& session, std::size_t k) { return name_among(session, parts_of(session), k); }
 
@@ -49,11 +66,14 @@ std::vector<RunName> run_names(const SessionView& session) {
 
 std::map<std::string, std::string> KnownRunNames::follow(const SessionView& session) {
   // As long as runs and titles are the same, so are the names.
-  const auto is_known = [](const RunView& run, const Known& known) { return run.id == known.id && run.title == known.title; };
+  const auto is_known = [](const RunView& run, const Known& known) {
+    return run.id == known.id && run.title == known.title && run.name == known.given;
+  };
   if (std::ranges::equal(session.runs, known_, is_known)) return {};
   const std::vector<RunName> names = run_names(session);
   std::vector<Known> now;
-  for (std::size_t k = 0; k < names.size(); ++k) now.push_back({session.runs[k].id, session.runs[k].title, names[k].whole()});
+  for (std::size_t k = 0; k < names.size(); ++k)
+    now.push_back({session.runs[k].id, session.runs[k].title, session.runs[k].name, names[k].whole(), names[k].formerly});
   std::map<std::string, std::string> changed;
   for (const Known& before : known_) {
     const auto at = std::ranges::find(now, before.id, &Known::id);
@@ -62,6 +82,19 @@ std::map<std::string, std::string> KnownRunNames::follow(const SessionView& sess
   }
   known_ = std::move(now);
   return changed;
+}
+
+std::map<std::string, std::string> KnownRunNames::former() const {
+  std::map<std::string, std::string> names;
+  for (const Known& one : known_)
+    if (one.formerly != one.name) names.emplace(one.formerly, one.name);
+  return names;
+}
+
+std::string KnownRunNames::of_now(const std::string& name) const {
+  if (std::ranges::find(known_, name, &Known::name) != known_.end()) return name;
+  const auto at = std::ranges::find(known_, name, &Known::formerly);
+  return at == known_.end() ? name : at->name;
 }
 
 }  // namespace dmoscope::ui

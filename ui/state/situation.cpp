@@ -13,6 +13,7 @@ Situation situation_of(const SessionView& session, const ViewState& state, bool 
   now.redo = session.redo_label;
   now.volume = state.is_volume;
   now.better = session.active < session.runs.size() && !session.runs[session.active].at_best();
+  now.leavable = state.brush.on || state.placing_size_point || state.renaming_run;
   return now;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "ui/state/format.h"
+#include "ui/state/run_names.h"
 
 namespace dmoscope::ui {
 
@@ -30,7 +31,7 @@ void Timeline::flip() {
 Mark mark_of(const SessionView& session) {
   if (!session.frame || session.active >= session.runs.size()) throw UsageError("no mesh is open");
   if (session.frame->device) throw UsageError("pause first: while it runs, this state is on the device alone");
-  return {session.frame, session.runs[session.active].title};
+  return {session.frame, run_title(session, session.active)};
 }
 
 void drop_stale_marks(Timeline& timeline, const SessionView& session) {

@@ -16,7 +16,7 @@ enum class Shown { Now, A, B };
 /// A moment that was marked, whole, so that it can be shown whatever the session does meanwhile.
 struct Mark {
   std::shared_ptr<const Frame> frame;  // null: not set
-  std::string title;                   // of its run: "dmo · mean-ratio"
+  std::string title;                   // of its run: "2 dmo · mean ratio"
 };
 
 struct Playback {

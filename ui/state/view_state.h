@@ -27,6 +27,7 @@
 #include "ui/state/sequence.h"
 #include "ui/state/stepping_state.h"
 #include "ui/state/timeline.h"
+#include "ui/state/tour.h"
 #include "ui/state/unsaved.h"
 
 namespace dmoscope::ui {
@@ -53,11 +54,13 @@ struct WindowPlace {
 
 /// Which panels are there. The side panels give way to the mesh in a small window and then open over it.
 struct Panels {
-  bool left = true;                                                    // runs and parameters
-  bool right = true;                                                   // inspector and worst elements
-  bool bottom = true;                                                  // plots and timeline
-  bool left_over = false, right_over = false;                          // opened over the mesh where the window is too small for both
-  double left_width = 17.0, right_width = 22.0, bottom_height = 15.0;  // in heights of the interface's font
+  bool left = true;                            // runs and parameters
+  bool right = true;                           // inspector and worst elements
+  bool bottom = true;                          // plots and timeline
+  bool left_over = false, right_over = false;  // opened over the mesh where the window is too small for both
+  // In heights of the interface's font. Together the sides leave two thirds of 1280 pixels to the mesh.
+  double left_width = 14.0, right_width = 15.6, bottom_height = 15.0;
+  double runs_height = 6.2;  // of the list of runs in the left panel
 };
 
 struct ScreenshotOptions {
@@ -140,7 +143,8 @@ struct ViewState {
   Brush brush;
   SteppingState stepping;
   InspectionState inspection;
-  bool placing_size_point = false;  // the next click in the view places the point of the size function
+  std::optional<std::uint64_t> renaming_run;  // RunView::id; its name is being typed in the list
+  bool placing_size_point = false;            // the next click in the view places the point of the size function
 
   // Time
   Timeline timeline;
@@ -153,6 +157,8 @@ struct ViewState {
   CommandLog commands;           // and messages, all of them
   std::string error_text;        // of the error dialog
   std::string dismissed_notice;  // Notice::key of the one that a person took away
+
+  Tour tour;
 
   // Remembered
   std::vector<std::string> recent_files;  // newest first, at most 10

@@ -30,7 +30,9 @@ std::vector<TitlePiece> title_of(const PaneFacts& pane, Metric shown) {
   if (!pane.name.empty()) pieces.push_back({pane.name, Role::Name, 0});
   if (of_run) {
     const RunView& run = *pane.run();
-    const RunName name = pane.removed ? RunName{{}, run.parameters.method} : run_name(*pane.session, pane.session->active);
+    RunName name = run_name(*pane.session, pane.session->active);
+    if (pane.removed) name = {{}, run.name.empty() ? run.parameters.method : run.name};
+    if (pane.session->runs.size() == 1) name.number.clear();
     if (name.number.empty()) {
       pieces.push_back({name.method, Role::Name, 0});
     } else if (name.rest.empty() || !name.one_method) {
@@ -39,15 +41,15 @@ std::vector<TitlePiece> title_of(const PaneFacts& pane, Metric shown) {
       // Where there is little room, what tells it from others is worth more than the method that all share.
       pieces.push_back({name.number, Role::Name, 0});
       pieces.push_back({name.method, Role::Name, 3});
-      pieces.push_back({name.rest, Role::Name, 0});
+      pieces.push_back({"· " + name.rest, Role::Name, 0});
     }
-    const bool aim_said = name.rest.starts_with(info(run.parameters.metric).name);
+    const bool aim_said = name.given || name.rest.starts_with(metric_phrase(run.parameters.metric));
     if (!aim_said)
-      pieces.push_back(
-          {run.parameters.combination ? phrase(run.parameters.metric, *run.parameters.combination) : metric_phrase(run.parameters.metric),
-           Role::Name, 5});
+      pieces.push_back({"· " + (run.parameters.combination ? phrase(run.parameters.metric, *run.parameters.combination)
+                                                           : metric_phrase(run.parameters.metric)),
+                        Role::Name, 5});
     const bool in_mean_phase = frame != nullptr && run.mean_since && *run.mean_since < frame->moment.iteration;
-    if (in_mean_phase && name.rest.find("then mean") == std::string::npos) pieces.push_back({"then mean", Role::Name, 4});
+    if (in_mean_phase && name.rest.find("then mean") == std::string::npos) pieces.push_back({"· then mean", Role::Name, 4});
   }
   if (frame == nullptr) return pieces;
   const bool difference = pane.colours && pane.colours->diverging;

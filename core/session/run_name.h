@@ -1,0 +1,12 @@
+#pragma once
+// Names that people give to runs.
+
+#include <string_view>
+
+namespace dmoscope {
+
+/// Throws UsageError for a name that is too long for lists and titles, has several lines, or is no UTF-8. An empty one is good: it takes
+/// the name away.
+void require_run_name(std::string_view name);
+
+}  // namespace dmoscope

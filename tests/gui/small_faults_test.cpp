@@ -1,0 +1,129 @@
+// Tooltips of the right size, entries that are not cut, and ways out.
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include "tests/gui/headless_test.h"
+#include "ui/state/palette_entries.h"
+#include "ui/state/situation.h"
+
+namespace dmoscope::app {
+namespace {
+
+class SmallFaults : public HeadlessTest {
+ protected:
+  [[nodiscard]] ui::Items::Box box(const std::string& item) { return window_->app().items().find(item); }
+  /// The mouse goes there, and the window is drawn for as long as it asks to be.
+  void rest_on(const std::string& item) {
+    const auto at = box(item);
+    state().requests.input.push_back({ui::SimulatedInput::Kind::Move, (at[0] + at[2]) / 2, (at[1] + at[3]) / 2, 0, {}, {}});
+    window_->frame();
+    for (int k = 0; k < 10 && window_->app().redraw_in() <= 0.0; ++k) window_->frame();
+  }
+  [[nodiscard]] static const ImGuiWindow* tooltip() {
+    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
+      if (window->Active && (window->Flags & ImGuiWindowFlags_Tooltip) != 0) return window;
+    return nullptr;
+  }
+  /// Its window is as large as what is in it.
+  static void expect_fits(const ImGuiWindow& window) {
+    EXPECT_FALSE(window.Hidden);
+    const ImVec2 end = window.DC.CursorMaxPos;
+    EXPECT_NEAR(window.Pos.y + window.Size.y - window.WindowPadding.y, end.y, 1.5F);
+    EXPECT_NEAR(window.Pos.x + window.Size.x - window.WindowPadding.x, end.x, 1.5F);
+  }
+};
+
+TEST_F(SmallFaults, TooltipsFitWhenTheMouseRests) {
+  good("generate annulus");
+  good("move 5 5");
+  for (const char* item : {"toolbar-shown", "fit", "metric", "run:0", "toolbar-shown"}) {
+    rest_on(item);
+    ASSERT_NE(tooltip(), nullptr) << item;
+    expect_fits(*tooltip());
+  }
+}
+
+TEST_F(SmallFaults, ParametersAnswerOnTheirFieldsToo) {
+  open(1280, 1400);
+  good("generate annulus");
+  for (const char* item : {"grid", "levels", "omega", "precision", "threads", "method"}) {
+    good("move 640 400");
+    EXPECT_EQ(tooltip(), nullptr);
+    rest_on(item);
+    EXPECT_NE(tooltip(), nullptr) << item;
+  }
+}
+
+TEST_F(SmallFaults, EscapeLeavesTheBrushBeforeItClearsTheSelection) {
+  good("generate annulus");
+  good("pick vertex 3");
+  good("key S");
+  ASSERT_TRUE(state().brush.on);
+  good("key Escape");
+  EXPECT_FALSE(state().brush.on);
+  EXPECT_EQ(state().picked.id, 3U);
+  good("key Escape");
+  EXPECT_EQ(state().picked.kind, ui::Picked::Kind::None);
+}
+
+TEST_F(SmallFaults, NoFrameStaysRoundThePlot) {
+  good("generate annulus");
+  good("run 3");
+  good("move 5 5");
+  const render::Image before = window_->picture();
+  const auto plot = box("plot");
+  good(fmt::format("right-click {} {}", plot[2] - 20, plot[1] + 5));
+  good("move 5 5");
+  good("key Alt+2");
+  good("key Alt+1");
+  good("key Down");
+  EXPECT_TRUE(render::compare(before, window_->picture()).alike());
+}
+
+TEST_F(SmallFaults, WhyAndTheNumberStandApart) {
+  good("generate annulus");
+  const auto why = box("why:0"), row = box("worst:0");
+  EXPECT_GE(row[2] - why[2], ImGui::CalcTextSize("0.003610").x + 8.0F) << "room for the longest number, and a gap";
+}
+
+TEST_F(SmallFaults, EntriesOfThePaletteAreWhole) {
+  good("generate annulus");
+  for (const char* scale : {"1", "1.5"}) {
+    good(std::string("scale ") + scale);
+    good("dialog palette");
+    good("type plot-");
+    const auto entries = ui::palette_entries("plot-", ui::situation_of(*session(), state(), false), window_->app().commands().commands());
+    const float em = 15.0F * static_cast<float>(state().scale);
+    std::size_t seen = 0, broken = 0;
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      const auto at = window_->app().items().boxes().find(fmt::format("palette:{}", k));
+      if (at == window_->app().items().boxes().end()) continue;
+      ++seen;
+      const auto& rect = at->second;
+      const float width = rect[2] - rect[0];
+      const float wanted = ImGui::CalcTextSize((entries[k].title + entries[k].detail).c_str()).x * em / ImGui::GetFontSize();
+      const bool two_lines = rect[3] - rect[1] > 1.8F * em;
+      if (wanted > width) {
+        EXPECT_TRUE(two_lines) << entries[k].title;
+        ++broken;
+      }
+    }
+    EXPECT_GT(seen, 5U);
+    EXPECT_GT(broken, 0U) << "this text is about long entries";
+    good("dialog none");
+  }
+}
+
+TEST_F(SmallFaults, GroupNamesAreWholeWhereThereIsRoom) {
+  good("open " + std::string(DMOSCOPE_SOURCE_DIR) + "/resources/samples/coast.14");
+  const auto fix = box("group-fix:land boundary 1");
+  const float name = fix[0] - 9.0F - 0.7F * 15.0F - 6.0F;
+  EXPECT_GE(name, ImGui::CalcTextSize("land boundary 10").x);
+}
+
+}  // namespace
+}  // namespace dmoscope::app

@@ -1,0 +1,181 @@
+// Left: the parameters of the active run.
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "core/run/left_inverted.h"
+#include "core/smooth/execution/method_table.h"
+#include "ui/panels/panels.h"
+#include "ui/state/format.h"
+
+namespace dmoscope::ui {
+namespace {
+
+constexpr int kLargestSeed = 1 << 30;  // that can be entered
+
+void draw_method(PanelContext& context, const RunParameters& parameters) {
+  float widest = 0;
+  for (const MethodInfo& method : method_table()) widest = std::max(widest, ImGui::CalcTextSize(std::string(method.name).c_str()).x);
+  labelled(context, "method", "how vertices are moved", combo_width(widest));
+  const bool open = ImGui::BeginCombo("##method", parameters.method.c_str());
+  context.items.record_last("method");
+  if (!open) return;
+  for (const MethodInfo& method : method_table()) {
+    if (ImGui::Selectable(std::string(method.name).c_str(), method.name == parameters.method)) {
+      context.send(fmt::format("method {}", method.name));
+    }
+    context.items.record_last(fmt::format("method:{}", method.name));
+    next_item_tooltip(method.optimises ? std::string(method.doc) : fmt::format("{}; {}", method.doc, kMayMakeWorse));
+  }
+  ImGui::EndCombo();
+}
+
+/// Of a method that promises nothing.
+void draw_method_note(PanelContext& context, const RunParameters& parameters) {
+  if (method_info(parameters.method).optimises) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.warning));
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(fmt::format("{}; Best goes back to the best iteration", kMayMakeWorse).c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  context.items.record_last("method-note");
+}
+
+/// Sends `command X` when another number was entered.
+void real(PanelContext& context, const char* item, double value) {
+  double edited = value;
+  ImGui::InputDouble(fmt::format("##{}", item).c_str(), &edited, 0, 0, "%.4g");
+  context.items.record_last(item);
+  if (ImGui::IsItemDeactivatedAfterEdit() && edited != value) context.send(fmt::format("{} {}", item, full_number(edited)));
+}
+
+/// What may be chosen, one of a few words.
+void choice(PanelContext& context, const ParameterInfo& row, const std::string& now) {
+  const std::string item(row.name);
+  const bool open = ImGui::BeginCombo(("##" + item).c_str(), now.c_str());
+  context.items.record_last(item);
+  if (!open) return;
+  for (const std::string_view word : row.choices) {
+    if (ImGui::Selectable(std::string(word).c_str(), word == now)) context.send(fmt::format("{} {}", item, word));
+    context.items.record_last(fmt::format("{}:{}", item, word));
+  }
+  ImGui::EndCombo();
+}
+
+void draw_parameter(PanelContext& context, const ParameterInfo& row, const RunParameters& parameters) {
+  const std::string command(row.name), item(row.item.empty() ? row.name : row.item), now = row.to_text(parameters);
+  float wanted = 0;
+  for (const std::string_view word : row.choices) wanted = std::max(wanted, combo_width(ImGui::CalcTextSize(std::string(word).c_str()).x));
+  labelled(context, std::string(row.title).c_str(), row.help().c_str(), wanted);
+  if (row.kind == ParameterKind::Whole) {
+    const int most = static_cast<int>(std::min<double>(row.most, kLargestSeed));
+    integer(context, item.c_str(), static_cast<int>(std::min<std::uint64_t>(to_count(now), kLargestSeed)), static_cast<int>(row.least),
+            most, command.c_str());
+  } else if (row.kind == ParameterKind::Real) {
+    real(context, item.c_str(), to_number(now));
+  } else {
+    choice(context, row, now);
+  }
+}
+
+/// What the run's method can be told, and nothing else.
+void draw_options(PanelContext& context, const RunParameters& parameters) {
+  for (const ParameterInfo& row : parameter_table())
+    if (row.in_session && row.reader != nullptr && row.read_by(parameters)) draw_parameter(context, row, parameters);
+}
+
+void draw_backend(PanelContext& context, const RunView& run) {
+  labelled(context, "backend", "what smooths: the processor, a CUDA device, or the best there is (auto)");
+  const Backend chosen = run.parameters.backend;
+  const std::string shown = chosen == Backend::Auto ? fmt::format("auto: {}", name(run.backend)) : std::string(name(chosen));
+  const bool open = ImGui::BeginCombo("##backend", shown.c_str());
+  context.items.record_last("backend");
+  next_item_tooltip(run.backend_reason);
+  if (!open) return;
+  for (const Backend backend : {Backend::Auto, Backend::Cpu, Backend::Cuda}) {
+    const std::string word(name(backend));
+    if (ImGui::Selectable(word.c_str(), backend == chosen)) context.send("backend " + word);
+    context.items.record_last("backend:" + word);
+  }
+  ImGui::EndCombo();
+}
+
+/// Of a mesh that has any.
+void draw_interfaces(PanelContext& context, const RunParameters& parameters) {
+  if (!context.session.input || !context.session.input->interfaces.any()) return;
+  labelled(context, "interfaces", "whether what lies between materials, and on lines, faces and points that the file names, stays");
+  const bool open = ImGui::BeginCombo("##interfaces", std::string(name(parameters.interfaces)).c_str());
+  context.items.record_last("interfaces");
+  const bool fixed = parameters.interfaces == InterfaceRule::Fixed;
+  next_item_tooltip(fixed ? context.derived.interfaces : context.derived.free_interfaces);
+  if (!open) return;
+  for (const InterfaceRule rule : {InterfaceRule::Fixed, InterfaceRule::Free}) {
+    const std::string word(name(rule));
+    if (ImGui::Selectable(word.c_str(), rule == parameters.interfaces)) context.send("interfaces " + word);
+    context.items.record_last("interfaces:" + word);
+  }
+  ImGui::EndCombo();
+}
+
+void draw_order(PanelContext& context, const RunParameters& parameters) {
+  labelled(context, "order", "in which order an iteration visits the vertices, before colouring");
+  const bool shuffled = parameters.order.seed.has_value();
+  const bool open = ImGui::BeginCombo("##order", shuffled ? "shuffled" : "natural");
+  context.items.record_last("order");
+  if (open) {
+    if (ImGui::Selectable("natural", !shuffled)) context.send("order natural");
+    if (ImGui::Selectable("shuffled", shuffled)) context.send("order shuffle:1");
+    ImGui::EndCombo();
+  }
+  if (!shuffled) return;
+  labelled(context, "seed", "of the shuffled order");
+  integer(context, "seed", static_cast<int>(*parameters.order.seed), 0, kLargestSeed, "order shuffle:");
+}
+
+/// In a place that is as high whatever it says: nothing below it moves.
+void draw_what_a_change_does(PanelContext& context, const RunView& run) {
+  const bool begun = run.moment != Moment{} || run.edits > 0 || run.records.size() > 1;
+  constexpr const char* kNew = "A change starts a new run.";
+  constexpr const char* kSame = "A change applies to this run.";
+  const float room = ImGui::GetContentRegionAvail().x, top = ImGui::GetCursorPosY();
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  float height = 0;
+  for (const char* text : {kNew, kSame}) height = std::max(height, ImGui::CalcTextSize(text, nullptr, false, room).y);
+  dim_text(context, begun ? kNew : kSame);
+  context.items.record("change-note", {corner.x, corner.y, corner.x + room, corner.y + height});
+  next_item_tooltip(begun ? "This run keeps what it has done; the new one begins at the input, beside it."
+                          : "It has not begun. Once it has, a change starts a new run beside it.");
+  ImGui::SetCursorPosY(top + height + ImGui::GetStyle().ItemSpacing.y);
+}
+
+}  // namespace
+
+void draw_parameters(PanelContext& context) {
+  heading(context, "Parameters");
+  const RunView* run = context.run();
+  if (run == nullptr) {
+    dim_text(context, "of the run that is selected");
+    return;
+  }
+  const RunParameters& parameters = run->parameters;
+  draw_what_a_change_does(context, *run);
+  ImGui::BeginDisabled(context.activity.busy);
+  draw_method(context, parameters);
+  draw_method_note(context, parameters);
+  if (method_info(parameters.method).optimises)
+    labelled(context, "optimises", "the metric whose minimum over each star the method raises", metric_combo_width(context));
+  else
+    labelled(context, "judged by", "the metric of the run's statistics; the method goes by none", metric_combo_width(context));
+  metric_combo(context, "metric", parameters.metric, "metric");
+  draw_composite(context, *run);
+  draw_options(context, parameters);
+  draw_interfaces(context, parameters);
+  draw_order(context, parameters);
+  draw_backend(context, *run);
+  labelled(context, "threads", "of this computer that smooth; the result does not depend on it");
+  integer(context, "threads", static_cast<int>(context.session.threads), 1, 1024, "threads");
+  ImGui::EndDisabled();
+}
+
+}  // namespace dmoscope::ui

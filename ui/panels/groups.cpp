@@ -32,7 +32,7 @@ std::string counted_name(const GroupFacts& group) { return fmt::format("{}  {}",
 float words_width(const PanelContext& context) {
   return ImGui::CalcTextSize("fixisolate").x + 4 * ImGui::GetStyle().FramePadding.x + context.px(14);
 }
-float icons_width(const PanelContext& context) { return 2 * ImGui::GetFrameHeight() + context.px(8); }
+float icons_width(const PanelContext& context) { return 2 * context.px(18) + context.px(8); }
 
 RowLook look_of(const PanelContext& context, std::span<const GroupLine> lines, float width) {
   float names = 0, with_counts = 0;
@@ -74,7 +74,7 @@ struct GroupSwitch {
 };
 
 bool draw_switch(PanelContext& context, const GroupSwitch& one, bool words) {
-  if (!words) return icon_button(context, one.item, one.icon, {ImGui::GetFrameHeight(), ImGui::GetTextLineHeight()}, one.tooltip, one.on);
+  if (!words) return icon_button(context, one.item, one.icon, {context.px(18), ImGui::GetTextLineHeight()}, one.tooltip, one.on);
   const bool pressed = switch_button(context, one.word, one.on);
   context.items.record_last(one.item);
   next_item_tooltip(one.tooltip);
@@ -97,7 +97,7 @@ void draw_line(PanelContext& context, const GroupLine& line, bool fixed, const R
   const GroupSwitch fix{"fix", fixed ? Icon::Lock : Icon::LockOff, "group-fix:" + group.name,
                         fixed ? "fixed: its vertices stay; a click gives them back" : "fix: keeps its vertices where they are", fixed};
   if (draw_switch(context, fix, look.words)) context.send((fixed ? "unfix " : "fix ") + quote_word(line.word));
-  ImGui::SameLine(0, context.px(look.words ? 4 : 2));
+  ImGui::SameLine(0, context.px(look.words ? 4 : 1));
   const bool alone = context.state.colouring.isolated == Isolation{ColourBy::Group, group.name};
   const GroupSwitch isolate{"isolate", Icon::Eye, "group-isolate:" + group.name,
                             alone ? "isolated; a click counts all elements again" : "isolate: only its elements, or those around it, count",

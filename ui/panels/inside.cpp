@@ -73,7 +73,7 @@ void draw_clip(PanelContext& context, const render::Bounds3& box) {
       context.send(fmt::format("clip {}:{:.4g}", axis_name(axis, looks_along(context.state.orbit, axis)),
                                clip.on && across ? std::clamp(across->fraction, 0.0, 1.0) : 0.5));
   }
-  ImGui::SameLine(0, context.px(5));
+  beside_or_below("flip", context.px(5));
   ImGui::BeginDisabled(!clip.on);
   const bool flipped = clip.on && across && across->flip;
   if (toggle_button(context, "inside:flip", "flip", flipped, "takes the other side away   Shift+J")) context.send("clip flip");

@@ -23,8 +23,12 @@ void wrapped(const std::string& text) {
 
 void draw_title(PanelContext& context) {
   const InspectionState& state = context.state.inspection;
-  heading(context, state.vertex == kNoIndex ? "Grid inspection" : fmt::format("Grid inspection · vertex {}", count(state.vertex)).c_str());
   const float button = ImGui::CalcTextSize("×").x + 2 * context.px(8);
+  const std::string vertex = fmt::format("Vertex {}", count(state.vertex)), whole = "Grid inspection · " + lower_case(vertex);
+  ImGui::PushFont(context.fonts.bold);
+  const bool room = ImGui::CalcTextSize(whole.c_str()).x + button + context.px(8) <= ImGui::GetContentRegionAvail().x;
+  ImGui::PopFont();
+  heading(context, state.vertex == kNoIndex ? "Grid inspection" : room ? whole.c_str() : vertex.c_str());
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - button);
   if (ImGui::SmallButton(" × ")) context.send("inspect off");
   context.items.record_last("inspect:close");
@@ -69,9 +73,10 @@ void draw_buttons(PanelContext& context) {
                                    : "Next level",
                 true);
   ImGui::EndDisabled();
-  ImGui::SameLine();
-  action_button(context, "play-levels", state.playing ? "❚❚" : "▶ Play");
-  ImGui::SameLine();
+  const char* play = state.playing ? "❚❚" : "▶ Play";
+  beside_or_below(play);
+  action_button(context, "play-levels", play);
+  beside_or_below("CSV");
   action_button(context, "copy-level", "CSV");
 }
 

@@ -121,8 +121,29 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
   }
 }
 
-/// Every metric of one element now and at the input; – where it is not defined for its kind. The names get what room the numbers
-/// leave, and a second line where that is too little.
+/// The same where there is no room for both numbers beside the names: the input's in a line below, where it is another one.
+void draw_metric_rows(PanelContext& context, const std::vector<PickedFacts::Row>& rows) {
+  const auto at_right = [&](double value, bool dim) {
+    const std::string text = dim ? "input " + short_number(value) : short_number(value), full = full_number(value);
+    ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(text.c_str()).x);
+    if (dim)
+      dim_text(context, text, false);
+    else
+      ImGui::TextUnformatted(text.c_str());
+    next_item_tooltip(full + "\n(click copies it)");
+    if (ImGui::IsItemClicked()) context.send("copy " + quote_word(full));
+  };
+  for (const PickedFacts::Row& row : rows) {
+    ImGui::TextUnformatted(std::string(row.metric->title).c_str());
+    metric_tooltip(context, *row.metric);
+    context.items.record_last(fmt::format("metric:{}", row.metric->name));
+    ImGui::SameLine();
+    at_right(row.now, false);
+    if (std::isfinite(row.before) && row.before != row.now) at_right(row.before, true);
+  }
+}
+
+/// Every metric of one element now and at the input; – where it is not defined for its kind.
 void draw_metric_table(PanelContext& context) {
   using Row = PickedFacts::Row;
   const std::vector<Row>& rows = context.derived.facts.metrics;
@@ -131,6 +152,10 @@ void draw_metric_table(PanelContext& context) {
     widths[0] = std::max(widths[0], ImGui::CalcTextSize(short_number(row.now).c_str()).x);
     widths[1] = std::max(widths[1], ImGui::CalcTextSize(short_number(row.before).c_str()).x);
   }
+  float names = 0;
+  for (const Row& row : rows) names = std::max(names, ImGui::CalcTextSize(std::string(row.metric->title).c_str()).x);
+  if (names + widths[0] + widths[1] + 6 * ImGui::GetStyle().CellPadding.x > ImGui::GetContentRegionAvail().x)
+    return draw_metric_rows(context, rows);
   if (!ImGui::BeginTable("metrics", 3, ImGuiTableFlags_RowBg)) return;
   ImGui::TableSetupColumn("metric", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("now", ImGuiTableColumnFlags_WidthFixed, widths[0]);
@@ -265,8 +290,11 @@ void draw_worst(PanelContext& context) {
   ImGui::SameLine();
   dim_text(context, metric_phrase(frame->shown), false);
   const float number_width = widest_number(*frame);
-  const float rank_width = ImGui::CalcTextSize("000").x, gap = context.px(7);
-  const float why_width = std::max(ImGui::CalcTextSize("fixed").x, ImGui::CalcTextSize("why?").x);
+  const float gap = context.px(7), why_width = std::max(ImGui::CalcTextSize("fixed").x, ImGui::CalcTextSize("why?").x);
+  // Their ranks stand before the ids where there is room for both.
+  const float beside_id = number_width + context.px(4) + why_width + 3 * gap;
+  const float ids = ImGui::CalcTextSize(count(frame->element_count()).c_str()).x, ranks = ImGui::CalcTextSize("000").x;
+  const bool ranked_rows = ranks + context.px(10) + ids + beside_id <= ImGui::GetContentRegionAvail().x;
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(frame->worst.size()));
   while (clipper.Step()) {
@@ -283,8 +311,8 @@ void draw_worst(PanelContext& context) {
       ImDrawList& list = *ImGui::GetWindowDrawList();
       const std::string rank = std::to_string(k + 1), number = short_number(ranked.quality);
       const float number_left = at.x + width - number_width - context.px(4), why_left = number_left - why_width - 2 * gap;
-      list.AddText({at.x + rank_width - ImGui::CalcTextSize(rank.c_str()).x, at.y}, colour(context.palette.dim), rank.c_str());
-      const float id_left = at.x + rank_width + context.px(10);
+      if (ranked_rows) list.AddText({at.x + ranks - ImGui::CalcTextSize(rank.c_str()).x, at.y}, colour(context.palette.dim), rank.c_str());
+      const float id_left = ranked_rows ? at.x + ranks + context.px(10) : at.x;
       list.AddText({id_left, at.y}, colour(context.palette.text), id_text(ranked.element, why_left - gap - id_left).c_str());
       list.AddText({at.x + width - ImGui::CalcTextSize(number.c_str()).x - context.px(4), at.y},
                    colour(ranked.inverted ? context.palette.error : context.palette.text), number.c_str());

@@ -38,15 +38,19 @@ float width_of(const PanelContext& context, const TitlePiece& piece) {
   return font->CalcTextSizeA(context.em(), FLT_MAX, 0.0F, piece.text.c_str()).x;
 }
 
+/// Between a piece and the one before it.
+float gap_before(const PanelContext& context, const TitlePiece& piece) { return context.px(piece.text.starts_with("· ") ? 5 : 9); }
+
 TitleLayout lay_out(const PanelContext& context, const PaneFacts& pane) {
   TitleLayout layout;
   layout.pieces = title_of(pane, context.session.shown);
   layout.swatch = pane.of_run && pane.run() != nullptr && !pane.removed;
-  const float pad = context.px(8), gap = context.px(9), line = ImGui::GetTextLineHeight();
+  const float pad = context.px(8), line = ImGui::GetTextLineHeight();
   const float room = pane.clip.w - 2 * pad;
   const auto width = [&] {
     float sum = 2 * pad + (layout.swatch ? context.px(14) : 0.0F);
-    for (const TitlePiece& piece : layout.pieces) sum += width_of(context, piece) + (&piece == &layout.pieces.front() ? 0.0F : gap);
+    for (const TitlePiece& piece : layout.pieces)
+      sum += width_of(context, piece) + (&piece == &layout.pieces.front() ? 0.0F : gap_before(context, piece));
     return sum;
   };
   while (layout.pieces.size() > 1 && width() > room) {
@@ -129,9 +133,10 @@ void draw_pane_title(PanelContext& context, const PaneFacts& pane) {
   }
   ImGui::PushClipRect({plate.x, plate.y}, {plate.x + plate.w - pad / 2, plate.y + plate.h}, true);
   for (const TitlePiece& piece : layout.pieces) {
+    if (&piece != &layout.pieces.front()) x += gap_before(context, piece);
     list.AddText(is_bold(piece) ? context.fonts.bold : context.fonts.body, context.em(), {x, y}, colour(ink_of(context, piece)),
                  piece.text.c_str());
-    x += width_of(context, piece) + context.px(9);
+    x += width_of(context, piece);
   }
   ImGui::PopClipRect();
 }

@@ -137,7 +137,7 @@ void draw_order(PanelContext& context, const RunParameters& parameters) {
 void draw_what_a_change_does(PanelContext& context, const RunView& run) {
   const bool begun = run.moment != Moment{} || run.edits > 0 || run.records.size() > 1;
   constexpr const char* kNew = "A change starts a new run.";
-  constexpr const char* kSame = "A change applies to this run.";
+  constexpr const char* kSame = "A change alters this run.";
   const float room = ImGui::GetContentRegionAvail().x, top = ImGui::GetCursorPosY();
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   float height = 0;

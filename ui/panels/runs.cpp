@@ -105,6 +105,13 @@ void draw_row_buttons(PanelContext& context, std::size_t k, ImVec2 corner, float
   ImGui::EndDisabled();
 }
 
+/// The whole title, or the short one of legends where there is no room for it.
+std::string title_within(const PanelContext& context, std::size_t k, float room) {
+  std::string title = run_title(context.session, k);
+  if (ImGui::CalcTextSize(title.c_str()).x <= room || context.session.runs.size() == 1) return fit_text(title, room);
+  return fit_text(run_name(context.session, k).whole(), room);
+}
+
 void draw_run_row(PanelContext& context, std::size_t k, float width) {
   const RunView& run = context.session.runs[k];
   ImGui::PushID(static_cast<int>(k));
@@ -133,8 +140,7 @@ void draw_run_row(PanelContext& context, std::size_t k, float width) {
   list.AddRectFilled({at.x, at.y + pad}, {at.x + bar, at.y + 2 * side - pad}, colour(context.palette.run(k), hidden ? 0.35F : 1.0F),
                      bar / 2);
   const render::Rgb ink = hidden ? context.palette.dim : context.palette.text;
-  if (context.state.renaming_run != run.id)
-    list.AddText({text, at.y + pad / 2}, colour(ink), fit_text(run_title(context.session, k), room).c_str());
+  if (context.state.renaming_run != run.id) list.AddText({text, at.y + pad / 2}, colour(ink), title_within(context, k, room).c_str());
   list.AddText({text, at.y + side + pad / 2}, colour(context.palette.dim), facts_of(context, k, room).c_str());
   draw_row_buttons(context, k, {at.x + width - side, at.y}, side);
   ImGui::SetCursorScreenPos({at.x, at.y + 2 * side});

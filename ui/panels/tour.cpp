@@ -42,7 +42,7 @@ void begin_card(const PanelContext& context, const Card& card, const Rect& rect)
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {context.px(12), context.px(12)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, context.px(6));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, context.px(1.5F));
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, colour_vector(context.palette.raised));
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, colour_vector(context.palette.panel));
   ImGui::PushStyleColor(ImGuiCol_Border, colour_vector(context.palette.accent));
   begin_panel("tour", rect, true);
   ImGui::PopStyleColor(2);
@@ -54,11 +54,19 @@ void begin_card(const PanelContext& context, const Card& card, const Rect& rect)
   ImGui::SetCursorPosY(card.height - context.px(12) - ImGui::GetFrameHeight());
 }
 
-void card_button(PanelContext& context, const char* item, const char* label, const std::string& command, const char* tooltip) {
-  const std::string id = item;
-  if (ImGui::Button(label)) context.send(command);
-  context.items.record_last(id);
+void card_button(PanelContext& context, const char* item, const char* label, const std::string& command, const char* tooltip,
+                 bool primary = false) {
+  if (primary) {
+    ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent));
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, colour_vector(context.palette.accent, 0.85F));
+    ImGui::PushStyleColor(ImGuiCol_ButtonActive, colour_vector(context.palette.accent, 0.7F));
+    ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.on_accent));
+  }
+  const bool pressed = ImGui::Button(label);
+  if (primary) ImGui::PopStyleColor(4);
+  context.items.record_last(item);
   next_item_tooltip(tooltip);
+  if (pressed) context.send(command);
 }
 
 void draw_control_frame(const PanelContext& context, const Items::Box& box) {
@@ -78,7 +86,7 @@ void draw_offer(PanelContext& context, const Rect& within) {
                             within);
   const float x = within.x + (within.w - card.width) / 2, y = within.y + (within.h - card.height) / 2;
   begin_card(context, card, {std::round(x), std::round(y), card.width, card.height});
-  card_button(context, "tour:take", "Take the tour", "tour on", "");
+  card_button(context, "tour:take", "Take the tour", "tour on", "", true);
   ImGui::SameLine();
   card_button(context, "tour:off", "No, thanks", "tour off", "");
   end_panel();
@@ -109,7 +117,7 @@ void draw_tour(PanelContext& context, const Layout& layout) {
   const bool last = tour.step + 1 == steps;
   ImGui::BeginDisabled(context.activity.busy && !last);
   card_button(context, "tour:next", last ? "Done" : "Next", last ? "tour off" : std::string(step.command),
-              last ? "ends the tour" : "does it for you");
+              last ? "ends the tour" : "does it for you", true);
   ImGui::EndDisabled();
   if (!last) {
     ImGui::SameLine();

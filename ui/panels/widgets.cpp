@@ -104,6 +104,11 @@ bool action_button(PanelContext& context, std::string_view id, const char* label
   return pressed;
 }
 
+void beside_or_below(const char* label, float gap) {
+  ImGui::SameLine(0, gap);
+  if (ImGui::GetContentRegionAvail().x < widest_button({label})) ImGui::NewLine();
+}
+
 float widest_button(std::initializer_list<const char*> labels) {
   float widest = 0;
   for (const char* label : labels) widest = std::max(widest, ImGui::CalcTextSize(label).x);
@@ -113,18 +118,20 @@ float widest_button(std::initializer_list<const char*> labels) {
 void labelled(const PanelContext& context, const char* label, const char* tooltip, float wanted) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
-  ImGui::AlignTextToFramePadding();
-  dim_text(context, label, false);
-  ImGui::SameLine();
-  const float at = std::max(ImGui::GetWindowContentRegionMax().x * 0.42F, ImGui::GetCursorPosX());
+  const float beside_label = ImGui::GetCursorPosX() + ImGui::CalcTextSize(label).x + ImGui::GetStyle().ItemSpacing.x;
+  const float at = std::max(ImGui::GetWindowContentRegionMax().x * 0.42F, beside_label);
   const bool below = wanted > 0 && at + wanted > ImGui::GetWindowContentRegionMax().x;
-  if (below)
-    ImGui::NewLine();
-  else
+  if (!below) ImGui::AlignTextToFramePadding();
+  dim_text(context, label, false);
+  if (below) {
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y / 2);
+  } else {
+    ImGui::SameLine();
     ImGui::SetCursorPosX(at);
+  }
   ImGui::SetNextItemWidth(-1);
   // The field answers as its label does; not while somebody types into it.
-  const float height = ImGui::GetFrameHeight() + (below ? ImGui::GetFrameHeightWithSpacing() : 0.0F);
+  const float height = ImGui::GetFrameHeight() + (below ? ImGui::GetTextLineHeightWithSpacing() : 0.0F);
   const bool over = ImGui::IsMouseHoveringRect(corner, {corner.x + width, corner.y + height});
   if (!over || !ImGui::IsWindowHovered() || ImGui::IsAnyItemActive()) return;
   ImGui::BeginTooltip();

@@ -23,6 +23,8 @@ void metric_tooltip(const PanelContext& context, const MetricInfo& metric);
 /// A button for an action, with tooltip and key; records the item under the action's id.
 /// `width`: in pixels, for labels that change; 0: as the label needs.
 bool action_button(PanelContext& context, std::string_view id, const char* label, bool primary = false, float width = 0);
+/// Beside the last item where a button with this label has room, else below it.
+void beside_or_below(const char* label, float gap = -1.0F);
 /// Of a button whose label is one of these: what stands beside it stays where it is.
 [[nodiscard]] float widest_button(std::initializer_list<const char*> labels);
 void next_item_tooltip(const std::string& text);

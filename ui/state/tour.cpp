@@ -35,7 +35,7 @@ constexpr std::array<TourStep, 7> kTourSteps{{
      {"run-pause"},
      stepped},
     {"Compare",
-     "The run is done. Press 2 to see the result beside the input. The menu Compare also runs other methods.",
+     "F shows the whole mesh. Press 2 to see the result beside the input. The menu Compare also runs other methods.",
      {},
      "viewports 2",
      {"menu:viewports-2", "menu:Compare"},

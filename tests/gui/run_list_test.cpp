@@ -144,7 +144,7 @@ TEST_F(RunList, AnEyeTakesARunOutOfPlotsAndViewports) {
   };
   EXPECT_THAT(shown(), ElementsAre("run 1", "run 2", "run 3", "input"));
   good("click run-eye:2");
-  EXPECT_THAT(shown(), ElementsAre("run 1", "input", "run 3", "auto"));
+  EXPECT_THAT(shown(), ElementsAre("run 1", "auto", "run 3", "input"));
   EXPECT_THAT(legend(), ElementsAre("1 dmo", "3 dvr"));
   for (const ui::Series& series : ui::build_plot(state(), *session(), {}, ui::palette(ui::Theme::Dark)).series)
     EXPECT_FALSE(series.run.starts_with("2 ")) << series.run;

@@ -112,7 +112,8 @@ TEST_F(RunTable, HasColumnsOfSizesWhereARunHasASizeFunction) {
   good("wait");
   good("click run-table:size_correlation");
   EXPECT_EQ(rows().front().run, session()->active) << "the only one that has a value";
-  good("generate annulus 300");  // one run alone, so that its parameters are in view
+  good("size 1280 1400");  // so that all parameters are in view
+  good("generate annulus 300");
   EXPECT_TRUE(window_->run("click run-table:size_correlation").has_value());
   good("combine mean-ratio:0.3:density h1:0,0");
   good("run 2");

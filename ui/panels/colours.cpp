@@ -115,7 +115,8 @@ void draw_depth(PanelContext& context) {
 
 void draw_filter(PanelContext& context) {
   const ColouringState& state = context.state.colouring;
-  labelled(context, "quality", "only elements from the first to the second quality count; inverted ones when the first is 0 or less");
+  labelled(context, "quality", "only elements from the first to the second quality count; inverted ones when the first is 0 or less",
+           11 * context.em());
   double range[2] = {state.filter ? state.filter->first : 0.0, state.filter ? state.filter->second : 1.0};
   const float clear = ImGui::CalcTextSize("off").x + 2 * ImGui::GetStyle().FramePadding.x;
   ImGui::SetNextItemWidth(std::max(6 * context.em(), ImGui::GetContentRegionAvail().x - clear - context.px(6)));
@@ -159,7 +160,7 @@ void draw_colours(PanelContext& context) {
   ImGui::Dummy({0, context.px(4)});
   heading(context, "Colours");
   draw_colour_by(context);
-  labelled(context, "metric", "of colours, histogram and worst list");
+  labelled(context, "metric", "of colours, histogram and worst list", metric_combo_width(context));
   metric_combo(context, "shown", context.session.shown, "show");
   draw_map(context);
   draw_range(context);

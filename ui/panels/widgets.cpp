@@ -129,16 +129,17 @@ void labelled(const PanelContext& context, const char* label, const char* toolti
     ImGui::SameLine();
     ImGui::SetCursorPosX(at);
   }
-  ImGui::SetNextItemWidth(-1);
   // The field answers as its label does; not while somebody types into it.
   const float height = ImGui::GetFrameHeight() + (below ? ImGui::GetTextLineHeightWithSpacing() : 0.0F);
   const bool over = ImGui::IsMouseHoveringRect(corner, {corner.x + width, corner.y + height});
-  if (!over || !ImGui::IsWindowHovered() || ImGui::IsAnyItemActive()) return;
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(context.em() * 30);
-  ImGui::TextUnformatted(tooltip);
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
+  if (over && ImGui::IsWindowHovered() && !ImGui::IsAnyItemActive()) {
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(context.em() * 30);
+    ImGui::TextUnformatted(tooltip);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+  }
+  ImGui::SetNextItemWidth(-1);  // last: the tooltip's window would take it
 }
 
 float combo_width(float widest) { return widest + ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().FramePadding.x; }

@@ -14,6 +14,7 @@ struct CommandRow {
   CommandInfo info;
   std::function<void(CommandContext&, Arguments)> handler;
   bool remembered = true;  // what it changes can be undone
+  CommandReach reach = CommandReach::Session;
 };
 
 /// Meshes and files; parameters of the active run; its second aims; its steps; runs and the session; all runs at once.

@@ -183,10 +183,15 @@ void compare(CommandContext& context, Arguments arguments) {
 
 std::span<const CommandRow> comparison_commands() {
   static const std::vector<CommandRow> table{
-      {{"each", "each step|run|back|until-converged [best]|seek|reset [N [MAX]]", "Does that with every run, iterations by turns."}, each},
+      {{"each", "each step|run|back|until-converged [best]|seek|reset [N [MAX]]", "Does that with every run, iterations by turns."},
+       each,
+       true,
+       CommandReach::Paths},
       {{"compare", "compare methods|metrics [ITERATIONS] | compare orders N [ITERATIONS]",
         "Adds runs like the active one by every method, for every metric, or in N shuffled orders, and takes all to the same iteration."},
-       compare},
+       compare,
+       true,
+       CommandReach::Paths},
   };
   return table;
 }

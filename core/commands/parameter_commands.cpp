@@ -22,7 +22,11 @@ void set_metric(CommandContext& context, Arguments arguments) {
 }
 void show_metric(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
-  context.session.show(parse_metric(arguments[0]));
+  if (arguments[0] == "next") {
+    context.session.show_next();
+  } else {
+    context.session.show(parse_metric(arguments[0]));
+  }
 }
 void set_method(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
@@ -80,7 +84,10 @@ std::span<const CommandRow> parameter_commands() {
   static const std::vector<CommandRow> table = [] {
     std::vector<CommandRow> rows{
         {{"metric", "metric NAME", "Chooses the metric that is optimised."}, set_metric},
-        {{"show", "show NAME", "Chooses the metric that is shown."}, show_metric},
+        {{"show", "show NAME|next", "Chooses the metric that is shown; next: of those that are defined for the mesh. Also while a run goes."},
+         show_metric,
+         true,
+         CommandReach::Look},
         {{"method", "method NAME", "Chooses the smoothing method."}, set_method},
     };
     add_parameters(rows);

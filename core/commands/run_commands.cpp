@@ -120,9 +120,14 @@ std::span<const CommandRow> run_commands() {
       {{"max-memory", "max-memory SIZE|off", "How much a compressed file may unpack to (800M, 2G); off: 256M or 100 times its size."},
        set_most_memory},
       {{"percentiles", "percentiles on|off", "Works out the 1st, 5th and 50th percentile of every iteration that is kept."},
-       set_percentiles},
-      {{"expect", "expect minimum|movable|mean|inverted|iteration|moved <|<=|==|>=|> VALUE", "Fails when it does not hold."}, expect},
-      {{"say", "say TEXT", "Writes a line to the log."}, say},
+       set_percentiles,
+       true,
+       CommandReach::Look},
+      {{"expect", "expect minimum|movable|mean|inverted|iteration|moved <|<=|==|>=|> VALUE", "Fails when it does not hold."},
+       expect,
+       true,
+       CommandReach::Paths},
+      {{"say", "say TEXT", "Writes a line to the log."}, say, true, CommandReach::Paths},
   };
   return table;
 }

@@ -1,6 +1,8 @@
 #include "core/commands/session_commands.h"
 
+#include <algorithm>
 #include <array>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -36,17 +38,22 @@ std::string label_of(const std::string& command, Arguments arguments) {
   return label;
 }
 
-/// Whatever `work` changes can be undone, even when it fails half-way.
+/// Whatever `work` changes can be undone, even when it fails half-way. `looks_apart`: what is shown is not its doing, and may have been
+/// changed while it was at work.
 template <class Work>
-void remembering(Session& session, std::string label, const Work& work) {
-  const SessionPoint before = session.point();
+void remembering(Session& session, std::string label, bool looks_apart, const Work& work) {
+  SessionPoint before = session.point();
+  const auto remember = [&] {
+    if (looks_apart) before.shown = session.shown();
+    session.remember(std::move(label), before);
+  };
   try {
     work();
   } catch (...) {
-    session.remember(std::move(label), before);
+    remember();
     throw;
   }
-  session.remember(std::move(label), before);
+  remember();
 }
 
 /// The vertices "A-B" names, or the one.
@@ -97,8 +104,24 @@ const std::vector<CommandInfo>& session_commands() {
   return infos;
 }
 
+CommandReach reach_of(std::string_view line) {
+  static const std::map<std::string, CommandReach, std::less<>> reaches = [] {
+    std::map<std::string, CommandReach, std::less<>> all;
+    for_command_rows([&](const CommandRow& command) { all.emplace(command.info.name, command.reach); });
+    return all;
+  }();
+  constexpr std::string_view kSpace = " \t";
+  line.remove_prefix(std::min(line.find_first_not_of(kSpace), line.size()));
+  const auto at = reaches.find(line.substr(0, line.find_first_of(kSpace)));
+  return at == reaches.end() ? CommandReach::Session : at->second;
+}
+
 void add_session_commands(CommandTable& table, CommandContext& context) {
   for_command_rows([&](const CommandRow& command) {
+    if (command.reach == CommandReach::Look) {  // a run may be in the midst of its visits
+      table.add(command.info, [&context, command](Arguments arguments) { command.handler(context, arguments); });
+      return;
+    }
     table.add(command.info, [&context, command](Arguments arguments) {
       const auto carry_out = [&] {
         command.handler(context, arguments);
@@ -106,7 +129,7 @@ void add_session_commands(CommandTable& table, CommandContext& context) {
           context.session.active().sync_to_host();  // a device that fails later takes nothing of what was asked for
       };
       if (command.remembered) {
-        remembering(context.session, label_of(command.info.name, arguments), carry_out);
+        remembering(context.session, label_of(command.info.name, arguments), command.reach == CommandReach::Paths, carry_out);
       } else {
         carry_out();
       }

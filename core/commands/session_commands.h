@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/progress.h"
@@ -22,6 +23,15 @@ struct CommandContext {
   std::vector<std::string> done{};                 // commands for what the one at work has done besides moving runs; see CommandEnd::again
   std::vector<std::filesystem::path> recovered{};  // files whose session was opened by `recover`
 };
+
+/// How much of a session a command may change, and so which others it may be carried out in the midst of.
+enum class CommandReach {
+  Session,  // mesh, runs, parameters: what was asked for before it comes before, what was asked for after it comes after
+  Paths,    // where runs stand, and which runs there are; neither the mesh nor what is shown of it
+  Look,     // only what is shown: carried out also between two blocks of visits of a command that changes paths
+};
+/// Of a command line; Session for one that is unknown.
+[[nodiscard]] CommandReach reach_of(std::string_view line);
 
 /// The commands in the order of the list above, for help, palette and man page.
 [[nodiscard]] const std::vector<CommandInfo>& session_commands();

@@ -127,23 +127,30 @@ void reset(CommandContext& context, Arguments arguments) {
 }  // namespace
 
 std::span<const CommandRow> stepping_commands() {
+  constexpr auto kPaths = CommandReach::Paths;
   static const std::vector<CommandRow> table{
-      {{"step", "step vertex|class|iteration [COUNT]", "Steps forwards."}, step},
-      {{"back", "back vertex|class|iteration [COUNT]", "Steps back."}, back},
-      {{"run", "run ITERATIONS", "Runs that many iterations."}, run},
+      {{"step", "step vertex|class|iteration [COUNT]", "Steps forwards."}, step, true, kPaths},
+      {{"back", "back vertex|class|iteration [COUNT]", "Steps back."}, back, true, kPaths},
+      {{"run", "run ITERATIONS", "Runs that many iterations."}, run, true, kPaths},
       {{"until-converged", "until-converged [best] [PATIENCE [MAX]]",
         "Runs until nothing moves or no minimum rises any more; with best, goes back to the best iteration then."},
-       until_converged},
+       until_converged,
+       true,
+       kPaths},
       {{"raise-mean", "raise-mean [PATIENCE [MAX]]",
         "Then mean and until-converged in one: as a new run beside the active one, where that has moved without a second phase."},
        raise_mean},
-      {{"visit", "visit VERTEX|A-B...", "Visits these vertices now, out of their turn."}, visit},
-      {{"seek", "seek ITERATION [VISITS [EDITS]]", "Goes to any iteration, or into its midst."}, seek},
+      {{"visit", "visit VERTEX|A-B...", "Visits these vertices now, out of their turn."}, visit, true, kPaths},
+      {{"seek", "seek ITERATION [VISITS [EDITS]]", "Goes to any iteration, or into its midst."}, seek, true, kPaths},
       {{"look-at", "look-at ITERATION [VISITS [EDITS]]", "Goes there as seek does, but for a look: undo knows nothing of it."},
        seek,
-       false},
-      {{"best", "best", "Goes to the best iteration that the run passed through: by inverted elements, minimum and mean."}, best},
-      {{"reset", "reset", "Goes back to the input; visits of chosen vertices are forgotten."}, reset},
+       false,
+       kPaths},
+      {{"best", "best", "Goes to the best iteration that the run passed through: by inverted elements, minimum and mean."},
+       best,
+       true,
+       kPaths},
+      {{"reset", "reset", "Goes back to the input; visits of chosen vertices are forgotten."}, reset, true, kPaths},
   };
   return table;
 }

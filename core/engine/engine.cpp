@@ -27,6 +27,10 @@ Engine::Engine(unsigned threads, Acceleration acceleration, Backend backend)
 
 Engine::~Engine() {
   cancel();
+  {
+    const std::scoped_lock lock(mutex_);
+    queue_.clear();
+  }
   thread_.request_stop();
 }
 
@@ -72,8 +76,13 @@ void Engine::wait_idle() {
 void Engine::cancel() {
   {
     const std::scoped_lock lock(mutex_);
+    std::deque<Posted> looks;
+    for (auto look = next_look(); look != queue_.end(); look = next_look()) {
+      looks.push_back(std::move(*look));
+      queue_.erase(look);
+    }
     for (const Posted& command : queue_) ends_.push_back({command.id, CommandEnd::Kind::Dropped});
-    queue_.clear();
+    queue_ = std::move(looks);
     if (working_) progress_.request_cancel();
   }
   changed_.notify_all();
@@ -193,12 +202,13 @@ void Engine::work_off(std::unique_lock<std::mutex>& lock) {
   current_ = std::move(queue_.front());
   queue_.pop_front();
   working_ = true;
+  looks_pass_ = reach_of(current_.line) == CommandReach::Paths;
   progress_.clear_cancel();
   lock.unlock();
   const CommandEnd end = run_one(current_);
   publish_at_rest();
   lock.lock();
-  working_ = false;
+  working_ = looks_pass_ = false;
   current_ = {};
   ends_.push_back(end);
   changed_.notify_all();
@@ -213,6 +223,7 @@ CommandEnd Engine::run_one(const Posted& command) {
   context_.done.clear();
   session_.observe([this](const Run& run) {
     try {
+      carry_out_looks();
       publish_if_due();
       if (autosave_) autosave_->while_running(session_, run);
     } catch (const DeviceError&) {
@@ -258,8 +269,46 @@ CommandEnd::Kind Engine::execute(const std::string& line) {
   return Kind::Failed;
 }
 
+/// The first of the queue that may be carried out in the midst of the command at work. Behind one that may change anything none may.
+/// `mutex_` is held.
+std::deque<Engine::Posted>::iterator Engine::next_look() {
+  if (working_ && !looks_pass_) return queue_.end();
+  for (auto command = queue_.begin(); command != queue_.end(); ++command) {
+    const CommandReach reach = reach_of(command->line);
+    if (reach == CommandReach::Look) return command;
+    if (reach == CommandReach::Session) break;
+  }
+  return queue_.end();
+}
+
+/// In the midst of the command at work. What they changed is published at once.
+void Engine::carry_out_looks() {
+  bool any = false;
+  for (;;) {
+    Posted look;
+    {
+      const std::scoped_lock lock(mutex_);
+      const auto next = next_look();
+      if (next == queue_.end()) break;
+      look = std::move(*next);
+      queue_.erase(next);
+    }
+    CommandEnd end{look.id, execute(look.line)};
+    end.at = session_.active().moment();
+    any = true;
+    const std::scoped_lock lock(mutex_);
+    ends_.push_back(std::move(end));
+  }
+  if (any) publish(FrameDetail::Live);
+}
+
 void Engine::publish_if_due() {
-  if (!taken_ || std::chrono::steady_clock::now() < next_publication_) return;
+  bool asked_for = false;  // something else is watched
+  {
+    const std::scoped_lock lock(mutex_);
+    asked_for = watch_new_;
+  }
+  if (!asked_for && (!taken_ || std::chrono::steady_clock::now() < next_publication_)) return;
   publish(FrameDetail::Live);
 }
 

@@ -37,7 +37,8 @@ class Engine {
   Engine& operator=(const Engine&) = delete;
 
   /// Queues one command line of the table in commands.h. Returns at once the command's number (1, 2, ...); whatever goes wrong becomes a
-  /// Message.
+  /// Message. One that changes only what is shown (CommandReach::Look) passes those that only change paths, also the one at work: it is
+  /// carried out, and a view with it published, after the block of visits under way.
   std::uint64_t post(std::string command_line);
   /// Commands posted and not yet finished, the one at work included.
   [[nodiscard]] std::size_t pending() const;
@@ -47,7 +48,7 @@ class Engine {
   /// Blocks until nothing is pending and all is worked out that is while the session rests (for scripts and tests; the window never calls
   /// it).
   void wait_idle();
-  /// Cancels the command at work and drops the waiting ones.
+  /// Cancels the command at work and drops the waiting ones, but for those that would have passed them (see post).
   void cancel();
   [[nodiscard]] const Progress& progress() const noexcept { return progress_; }
   /// What runs now, as typed; empty when idle.
@@ -83,6 +84,8 @@ class Engine {
   [[nodiscard]] CommandEnd run_one(const Posted& command);
   [[nodiscard]] CommandEnd::Kind execute(const std::string& line);
   void safeguard();
+  [[nodiscard]] std::deque<Posted>::iterator next_look();
+  void carry_out_looks();
   void publish(FrameDetail detail);
   void publish_if_due();
   void publish_at_rest();
@@ -108,6 +111,7 @@ class Engine {
   bool watch_new_ = false;  // there is no view with them yet
   bool working_ = false;
   bool safe_wanted_ = false;  // somebody waits in autosave_now()
+  bool looks_pass_ = false;   // the command at work only changes paths
   bool resting_ = false;      // works out what nobody waits for
   int waiting_ = 0;           // in wait_idle()
   std::vector<Message> messages_;

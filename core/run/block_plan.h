@@ -28,8 +28,8 @@ class BlockPlan {
   static constexpr double kSeconds = 0.02;
   /// Before anything is known of what visits take.
   static constexpr std::uint64_t kFirst = 2048;
-  /// Visits to vertices at rest cost next to nothing, and the next may be to others.
-  static constexpr std::uint64_t kMost = std::uint64_t{1} << 20U;
+  /// Visits to vertices at rest cost next to nothing, and the next may be to others: no more than are done before a person would wait.
+  static constexpr std::uint64_t kMost = std::uint64_t{1} << 18U;
   /// Where a call is dear and a visit is not: far more than an iteration of any mesh.
   static constexpr std::uint64_t kMostFar = std::uint64_t{1} << 40U;
   /// How fast slow visits of the past are forgotten, block by block.

@@ -1,6 +1,7 @@
 #include "core/session/session.h"
 
 #include <algorithm>
+#include <array>
 #include <new>
 
 #include <fmt/format.h>
@@ -189,6 +190,22 @@ void Session::show(Metric metric) {
   if (std::ranges::none_of(kinds, [&](ElementKind kind) { return info(metric).defined_for(kind); }))
     throw UsageError(fmt::format("{} is not defined for any element of this mesh", info(metric).name));
   shown_ = metric;
+}
+
+void Session::show_next() {
+  std::array<bool, kElementKindCount> present{};
+  for (const ElementKind kind : input()->mesh.elements.kinds()) present[static_cast<std::size_t>(kind)] = true;
+  const auto of_all = [&](const MetricInfo& metric) {
+    for (std::size_t kind = 0; kind < present.size(); ++kind)
+      if (present[kind] && !metric.defined_for(static_cast<ElementKind>(kind))) return false;
+    return true;
+  };
+  const auto table = metric_table();
+  const auto at = static_cast<std::size_t>(std::ranges::find(table, shown_, &MetricInfo::metric) - table.begin());
+  for (std::size_t k = 1; k < table.size(); ++k) {
+    const MetricInfo& next = table[(at + k) % table.size()];
+    if (of_all(next)) return show(next.metric);
+  }
 }
 
 void Session::set_history_budget(std::size_t bytes) {

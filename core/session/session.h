@@ -100,6 +100,8 @@ class Session {
   [[nodiscard]] Metric shown() const noexcept { return shown_; }
   /// Throws UsageError when the metric is defined for none of the elements.
   void show(Metric metric);
+  /// The next one in the table that is defined for all elements; after the last the first.
+  void show_next();
   /// Whether percentiles are worked out when the session is at rest.
   [[nodiscard]] bool percentiles() const noexcept { return percentiles_; }
   void set_percentiles(bool on) noexcept { percentiles_ = on; }

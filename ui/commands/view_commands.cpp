@@ -240,10 +240,7 @@ void add_session_shortcuts(CommandTable& table, ViewState& state, const CommandH
     require(words, 0, 0);
     const auto view = host.session();
     if (!view || !view->input) throw UsageError("no mesh is open");
-    const auto metrics = usable_metrics(view->input->mesh);
-    const auto at = std::find(metrics.begin(), metrics.end(), view->shown);
-    if (metrics.empty()) return;
-    host.post(fmt::format("show {}", info(at == metrics.end() || at + 1 == metrics.end() ? metrics.front() : *(at + 1)).name));
+    host.post("show next");  // not by name: of several presses in a row each goes one further
   });
   (void)state;
 }

@@ -19,7 +19,8 @@ struct IterationRecord {
   std::uint64_t iteration = 0;  // 0 is the input
   Statistics statistics;
   std::uint64_t moved = 0;
-  double seconds = 0.0;  // this iteration's smoothing alone
+  double seconds = 0.0;        // this iteration's smoothing alone
+  std::uint64_t searched = 0;  // vertices visited without those passed over, see Smoother::searched; 0 also where that is not known
 };
 
 /// Positions that lie far from the host (on a device) are worth bringing only to keep them where that takes but a modest share of the time:

@@ -16,7 +16,8 @@ namespace dmoscope {
 struct RunProgress {
   Moment moment{};
   std::uint64_t moved = 0;
-  double seconds = 0.0;  // of smoothing
+  double seconds = 0.0;        // of smoothing
+  std::uint64_t searched = 0;  // see IterationRecord
 };
 
 /// The host's copy of a run's positions, and which moment it shows. A smoother that keeps positions on a device runs ahead of it until

@@ -204,7 +204,7 @@ void Run::recover() {
 void Run::record(const RunProgress& done) {
   const std::uint64_t iteration = at_.moment.iteration;
   if (iteration < history_.records().size()) return;  // been here before
-  history_.record({iteration, statistics(), done.moved, done.seconds});
+  history_.record({iteration, statistics(), done.moved, done.seconds, done.searched});
   unkept_seconds_ += done.seconds;
   const bool dear = executor_.smoother->positions_on_device() && !worth_downloading(positions_.download_seconds(), unkept_seconds_);
   if (!history_.wants(iteration) || dear) return;

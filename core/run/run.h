@@ -24,6 +24,7 @@
 #include "core/run/mean_phase.h"
 #include "core/run/parameters.h"
 #include "core/run/position_buffer.h"
+#include "core/run/pursuit.h"
 #include "core/search/parameters.h"
 #include "core/smooth/execution/executor.h"
 #include "core/smooth/size_field.h"
@@ -175,6 +176,8 @@ class Run {
   Outcome until_converged(const ConvergenceLimits& limits, Progress& progress, const AfterIteration& after = {});
   /// After one of these: goes back to the best iteration (see BestState), where that is not the last; last_outcome() says so.
   void end_at_best(Progress& progress);
+  /// What the call of one of these four that is under way is after; none while none is.
+  [[nodiscard]] const std::optional<Pursuit>& pursuit() const noexcept { return pursuit_; }
 
  private:
   [[nodiscard]] SmoothingTask task() const;
@@ -227,6 +230,7 @@ class Run {
   std::vector<Index> rank_of_;  // of every vertex in the colouring's order; empty until there is an edit
   std::function<void(const Run&)> observer_;
   std::optional<Outcome> last_outcome_;
+  std::optional<Pursuit> pursuit_;
 };
 
 /// Does what may ask a device; a failure is remembered for recover().

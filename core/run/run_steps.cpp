@@ -1,6 +1,7 @@
 // How a run goes along its path: steps, seeks, and runs of iterations.
 
 #include <algorithm>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -44,10 +45,12 @@ void Run::visit(std::uint64_t count, Progress& progress) {
 }
 
 void Run::visit_block(std::uint64_t count) {
+  const auto searched = executor_.smoother->searched();
   const Stopwatch watch;
   at_.moved += asking_device([&] { return ask_smoother(at_.moment.visits, count); });
   const double seconds = watch.seconds();
   at_.seconds += seconds;
+  if (searched) at_.searched += executor_.smoother->searched().value_or(*searched) - *searched;
   blocks_.learn(count, seconds);
   at_.moment.visits += count;
   at_.moment.edits = 0;
@@ -230,9 +233,13 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
   BestState best(parameters_);
   for (const IterationRecord& record : std::span(history_.records()).first(from + 1)) best.take(record);
   std::vector<Vec3> positions_of_best;  // where the history has no room for them, so that nobody need compute them again
+  pursuit_ = Pursuit{from, from + limits.max_iterations, stop_when_still};
+  const std::unique_ptr<std::optional<Pursuit>, void (*)(std::optional<Pursuit>*)> at_the_end(&pursuit_, [](auto* mine) { mine->reset(); });
   while (!stopped && outcome.iterations < limits.max_iterations) {
     const bool whole = at_.moment.visits == 0;
     const bool anew = reached == at_.moment.iteration;
+    const bool first_phase = parameters_.then_mean && !outcome.mean_since && outcome.inverted == 0;
+    if (stop_when_still && !first_phase) pursuit_->patience_left = limits.patience - std::min(since_rise, limits.patience);
     if (anew) {
       const Progress::Part part(progress, outcome.iterations, limits.max_iterations);
       step(StepUnit::Iteration, progress);

@@ -41,6 +41,9 @@ class Smoother {
   /// called in between; what moved may be missing from them until store(), and is where positions_on_device(). Throws DeviceError; the
   /// smoother is of no use any more then.
   virtual std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) = 0;
+  /// How many vertices all visits so far have searched a better place for: not those that were passed over because nothing of their star
+  /// has moved since they stayed. None where nobody counts.
+  [[nodiscard]] virtual std::optional<std::uint64_t> searched() const noexcept { return std::nullopt; }
   /// Brings `positions` up to date with all visits so far. Throws DeviceError, with `positions` in any state.
   virtual void store(std::span<Vec3> positions, ThreadPool* pool) = 0;
   /// Forgets what was derived from the positions of the last visit, and what store() would bring.

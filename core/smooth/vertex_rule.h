@@ -90,18 +90,21 @@ class RuleSmoother final : public Smoother {
     untangling_ = sweep.untangling;
   }
   std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
-    std::atomic<std::uint64_t> moved{0};
+    std::atomic<std::uint64_t> moved{0}, searched{0};
     for_classes(*colouring_, first, count, [&](std::uint64_t from, std::uint64_t to) {
       const auto vertices = std::span(colouring_->order).subspan(from, to - from);
       for_chunks(pool, vertices.size(), grain(), [&](std::size_t begin, std::size_t end) {
         thread_local typename Rule::Scratch room;  // kept: stepping allocates nothing
-        std::uint64_t here = 0;
-        for (const Index vertex : vertices.subspan(begin, end - begin)) here += visit(vertex, positions, room) ? 1U : 0U;
+        std::uint64_t here = 0, passed_over = 0;
+        for (const Index vertex : vertices.subspan(begin, end - begin)) here += visit(vertex, positions, room, passed_over) ? 1U : 0U;
         moved += here;
+        searched += end - begin - passed_over;
       });
     });
+    searched_ += searched;
     return moved;
   }
+  [[nodiscard]] std::optional<std::uint64_t> searched() const noexcept override { return searched_; }
   void store(std::span<Vec3> /*positions*/, ThreadPool* /*pool*/) override {}  // they are always up to date
   void positions_replaced() override { std::ranges::fill(awake_, std::uint8_t{1}); }
 
@@ -113,9 +116,13 @@ class RuleSmoother final : public Smoother {
   }
   static constexpr bool kSleeps = requires { requires Rule::kDependsOnStarAlone; };
 
-  bool visit(Index vertex, std::span<Vec3> positions, typename Rule::Scratch& room) {
-    if constexpr (kSleeps)
-      if (awake_[vertex] == 0) return false;
+  bool visit(Index vertex, std::span<Vec3> positions, typename Rule::Scratch& room, [[maybe_unused]] std::uint64_t& passed_over) {
+    if constexpr (kSleeps) {
+      if (awake_[vertex] == 0) {
+        ++passed_over;
+        return false;
+      }
+    }
     const std::optional<Vec3> target = rule_.target(positions, vertex, room);
     if (!target || *target == positions[vertex]) {
       if constexpr (kSleeps) awake_[vertex] = 0;
@@ -137,6 +144,7 @@ class RuleSmoother final : public Smoother {
   Rule rule_;
   std::vector<std::uint8_t> awake_;  // by vertex; where one sleeps
   Untangling untangling_{};          // by which those asleep stay
+  std::uint64_t searched_ = 0;
 };
 
 template <VertexRule Rule>

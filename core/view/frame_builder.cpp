@@ -38,6 +38,7 @@ RunView view_of(Run& run, bool percentiles) {
   view.backend = run.backend();
   view.backend_reason = run.backend_reason();
   view.moment = run.moment();
+  view.pursuit = run.pursuit();
   view.sweep = run.sweep();
   view.mean_since = run.mean_since();
   view.size = run.size_field();

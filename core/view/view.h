@@ -84,6 +84,7 @@ struct RunView {
   Backend backend = Backend::Cpu;  // see Run
   std::string backend_reason;
   Moment moment;
+  std::optional<Pursuit> pursuit{};         // see Run
   Sweep sweep;                              // what the next visits are part of
   std::optional<std::uint64_t> mean_since;  // see Run
   std::shared_ptr<const SizeField> size;    // see Run::size_field

@@ -63,16 +63,21 @@ class LaneDmo final : public Smoother {
   }
   std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
     if (stale_) load(positions, pool);
-    std::atomic<std::uint64_t> moved{0};
+    std::atomic<std::uint64_t> moved{0}, searched{0};
     stored_ = false;
     for_classes(*colouring_, first, count, [&](std::uint64_t from, std::uint64_t to) {
       const auto chunk = [&](std::size_t begin, std::size_t end) {
+        // Those of one class do not wake each other, so who is awake now is who will be visited.
+        const auto here = std::span(awake_).subspan(from + begin, end - begin);
+        searched += untangling_.repair ? here.size() : static_cast<std::uint64_t>(std::ranges::count(here, std::uint8_t{1}));
         moved += untangling_.repair ? repair(from + begin, from + end) : kernel_(task_, from + begin, from + end);
       };
       for_chunks(pool, to - from, kLaneGrain, std::cref(chunk));  // by reference: a function object of this size would be allocated
     });
+    searched_ += searched;
     return moved;
   }
+  [[nodiscard]] std::optional<std::uint64_t> searched() const noexcept override { return searched_; }
   void store(std::span<Vec3> positions, ThreadPool* pool) override {
     if (stored_ || stale_) return;
     for_chunks(pool, positions.size(), kCopyGrain, [&](std::size_t first, std::size_t last) {
@@ -138,6 +143,7 @@ class LaneDmo final : public Smoother {
   LaneTask task_;
   bool stale_ = true;        // ranked_ is older than the run's positions
   bool stored_ = false;      // and these are as new as ranked_
+  std::uint64_t searched_ = 0;
   Untangling untangling_{};  // by which those asleep stay
 };
 

@@ -25,13 +25,14 @@ class ThenMean final : public Smoother {
     if (second_) {
       store(positions, pool);
       moved_on_ = true;
-      return second_->visit(first, count, positions, pool);
+      return count_searched(*second_, first, count, positions, pool);
     }
     if (moved_on_) first_->positions_replaced();
     moved_on_ = false;
     unstored_ = true;
-    return first_->visit(first, count, positions, pool);
+    return count_searched(*first_, first, count, positions, pool);
   }
+  [[nodiscard]] std::optional<std::uint64_t> searched() const noexcept override { return searched_; }
   void store(std::span<Vec3> positions, ThreadPool* pool) override {
     if (unstored_) first_->store(positions, pool);
     unstored_ = false;
@@ -43,11 +44,20 @@ class ThenMean final : public Smoother {
   }
 
  private:
+  std::uint64_t count_searched(Smoother& who, std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) {
+    const auto before = who.searched();
+    const std::uint64_t moved = who.visit(first, count, positions, pool);
+    const auto after = who.searched();
+    searched_ = searched_ && before && after ? std::optional(*searched_ + *after - *before) : std::nullopt;
+    return moved;
+  }
+
   std::unique_ptr<Smoother> first_, second_;  // the second where the mean is raised now
   SmoothingTask task_;
   double floor_ = 0.0;     // of the second
   bool unstored_ = false;  // `first_` has visits that are not stored
   bool moved_on_ = false;  // positions are others than `first_` knows
+  std::optional<std::uint64_t> searched_ = 0;
 };
 
 }  // namespace

@@ -1,0 +1,216 @@
+// What only changes what is shown passes a run that computes.
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "core/engine/engine.h"
+#include "tests/support/sanitized.h"
+
+namespace dmoscope {
+namespace {
+
+using std::chrono::steady_clock;
+constexpr std::chrono::seconds kPatience{120};
+
+class LiveLooks : public ::testing::Test {
+ protected:
+  void open(const char* mesh) {
+    engine.post(mesh);
+    engine.wait_idle();
+  }
+  /// Until a view is so; null when that takes too long, or when nothing is at work any more.
+  std::shared_ptr<const SessionView> wait_for(const std::function<bool(const SessionView&)>& wanted) {
+    std::shared_ptr<const SessionView> last;
+    for (const auto until = steady_clock::now() + kPatience; steady_clock::now() < until;) {
+      const bool busy = engine.busy();
+      const auto view = engine.view();
+      if (view != last) ++views;
+      last = view;
+      if (view->frame && wanted(*view)) return view;
+      if (!busy) return nullptr;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return nullptr;
+  }
+  bool begin_endless_run() {
+    run = engine.post("run 100000000");
+    return wait_for([](const SessionView& view) { return view.frame->moment > Moment{}; }) != nullptr;
+  }
+  std::vector<CommandEnd> stop() {
+    engine.cancel();
+    engine.wait_idle();
+    const std::vector<CommandEnd> last = engine.take_ends();
+    ends.insert(ends.end(), last.begin(), last.end());
+    return ends;
+  }
+  [[nodiscard]] CommandEnd::Kind how(std::uint64_t id) const { return std::ranges::find(ends, id, &CommandEnd::id)->kind; }
+
+  Engine engine{2};
+  std::uint64_t run = 0;
+  std::vector<CommandEnd> ends;
+  int views = 0;
+};
+
+TEST_F(LiveLooks, AnotherMetricIsShownWhileTheRunGoesOn) {
+  open(testing::kSanitized ? "generate random 20000" : "generate random 200000");
+  ASSERT_TRUE(begin_endless_run());
+  views = 0;
+  const std::uint64_t show = engine.post("show min-angle");
+  const auto seen = wait_for([](const SessionView& view) { return view.frame->shown == Metric::MinAngle; });
+  ASSERT_NE(seen, nullptr) << "not before the run's end";
+  EXPECT_TRUE(engine.busy());
+  EXPECT_LE(views, 3) << "the one that was there, one that was on its way, and this one";
+  EXPECT_EQ(seen->shown, Metric::MinAngle);
+  EXPECT_EQ(seen->runs[0].parameters.metric, Metric::MeanRatio) << "which the run still raises";
+  EXPECT_NE(seen->frame->shown_statistics.minimum, seen->frame->statistics.minimum);
+  ASSERT_TRUE(wait_for([&](const SessionView& view) { return view.frame->moment > seen->frame->moment; })) << "it still goes on";
+  stop();
+  EXPECT_EQ(how(show), CommandEnd::Kind::Done);
+  EXPECT_EQ(how(run), CommandEnd::Kind::Cancelled);
+  EXPECT_EQ(std::ranges::find(ends, show, &CommandEnd::id)->moved, false);
+}
+
+TEST_F(LiveLooks, PressesInARowEachGoOneFurther) {
+  open("generate random 5000");
+  ASSERT_TRUE(begin_endless_run());
+  for (int k = 0; k < 3; ++k) engine.post("show next");
+  Engine at_rest(1);
+  for (const char* line : {"generate random 100", "show next", "show next", "show next"}) at_rest.post(line);
+  at_rest.wait_idle();
+  const Metric third = at_rest.view()->shown;
+  EXPECT_NE(third, Metric::MeanRatio);
+  EXPECT_TRUE(wait_for([&](const SessionView& view) { return view.shown == third; }));
+  stop();
+}
+
+TEST_F(LiveLooks, WhatCannotBeShownIsSaidAtOnceAndStopsNothing) {
+  open("generate random 5000");
+  ASSERT_TRUE(begin_endless_run());
+  (void)engine.take_messages();
+  engine.post("show nonsense");
+  std::vector<Message> said;
+  for (const auto until = steady_clock::now() + kPatience; said.empty() && steady_clock::now() < until;) {
+    said = engine.take_messages();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].kind, Message::Kind::Error);
+  EXPECT_NE(said[0].text.find("nonsense"), std::string::npos);
+  EXPECT_TRUE(engine.busy());
+  stop();
+}
+
+TEST_F(LiveLooks, WaitForAMeshThatWasAskedForBefore) {
+  open("generate random 5000");
+  ASSERT_TRUE(begin_endless_run());
+  engine.post("step iteration");  // this one it may pass
+  engine.post("show min-angle");
+  engine.post("generate quads 100");
+  engine.post("show scaled-jacobian");
+  ASSERT_TRUE(wait_for([](const SessionView& view) { return view.shown == Metric::MinAngle; }));
+  const auto later = wait_for([moment = engine.view()->frame->moment](const SessionView& view) { return view.frame->moment > moment; });
+  ASSERT_NE(later, nullptr);
+  EXPECT_EQ(later->shown, Metric::MinAngle) << "scaled-jacobian was asked for of the mesh that comes next";
+  stop();
+}
+
+TEST_F(LiveLooks, CancelTakesBackNoLook) {
+  open("generate random 5000");
+  ASSERT_TRUE(begin_endless_run());
+  const std::uint64_t step = engine.post("step iteration");
+  const std::uint64_t show = engine.post("show min-angle");
+  stop();
+  EXPECT_EQ(how(show), CommandEnd::Kind::Done);
+  EXPECT_EQ(how(step), CommandEnd::Kind::Dropped);
+  EXPECT_EQ(engine.view()->frame->shown, Metric::MinAngle);
+}
+
+TEST_F(LiveLooks, UndoOfTheRunKeepsWhatIsShown) {
+  open("generate random 5000");
+  ASSERT_TRUE(begin_endless_run());
+  engine.post("show min-angle");
+  ASSERT_TRUE(wait_for([](const SessionView& view) { return view.shown == Metric::MinAngle; }));
+  stop();
+  ASSERT_FALSE(engine.view()->undo_label.empty());
+  engine.post("undo");
+  engine.wait_idle();
+  EXPECT_EQ(engine.view()->frame->moment, Moment{});
+  EXPECT_EQ(engine.view()->shown, Metric::MinAngle) << "it was not the run that changed it";
+}
+
+TEST_F(LiveLooks, WhatIsWatchedFromNowOnComesWhileTheRunGoesOn) {
+  open("generate random 20000");
+  ASSERT_TRUE(begin_endless_run());
+  engine.watch({{Watch::kInput, {}}});
+  views = 0;
+  const auto seen = wait_for([](const SessionView& view) { return !view.watched.empty(); });
+  ASSERT_NE(seen, nullptr);
+  EXPECT_TRUE(engine.busy());
+  EXPECT_LE(views, 3);
+  ASSERT_NE(seen->watched[0].frame, nullptr);
+  EXPECT_EQ(seen->watched[0].frame->moment, Moment{});
+  stop();
+}
+
+TEST(RunsInPursuit, TellHowFarTheyGoAndHowMuchPatienceIsLeft) {
+  Engine engine(1);
+  engine.post("generate random 3000");
+  engine.post("step iteration 2");
+  engine.post("until-converged 30 100000");
+  std::optional<Pursuit> seen;
+  std::uint64_t most = 0, least = 1000;
+  while (engine.busy()) {
+    const auto view = engine.view();
+    if (view->runs.empty() || !view->runs[0].pursuit) continue;
+    seen = view->runs[0].pursuit;
+    EXPECT_EQ(seen->from, 2U);
+    EXPECT_EQ(seen->last, 100002U);
+    EXPECT_TRUE(seen->until_converged);
+    ASSERT_TRUE(seen->patience_left);
+    most = std::max(most, *seen->patience_left);
+    least = std::min(least, *seen->patience_left);
+  }
+  EXPECT_LE(most, 30U);
+  engine.wait_idle();
+  EXPECT_FALSE(engine.view()->runs[0].pursuit) << "it has come to its end";
+}
+
+TEST(Searched, CountsNoVertexThatWasPassedOver) {
+  Engine engine(2);
+  engine.post("generate random 3000");
+  engine.post("until-converged");
+  engine.wait_idle();
+  const RunView& run = engine.view()->runs[0];
+  ASSERT_GT(run.records.size(), 5U);
+  EXPECT_EQ(run.records[1].searched, run.free_vertices) << "at first nobody is at rest";
+  for (std::size_t k = 1; k < run.records.size(); ++k) {
+    EXPECT_GE(run.records[k].searched, run.records[k].moved) << k;
+    EXPECT_LE(run.records[k].searched, run.free_vertices) << k;
+  }
+  EXPECT_LT(run.records.back().searched, run.free_vertices / 2) << "most are at rest in the end";
+}
+
+TEST(Searched, IsTheSameForEveryNumberOfThreadsAndBlocks) {
+  const auto counts = [](unsigned threads, const char* method, const char* steps) {
+    Engine engine(threads);
+    for (const std::string& line : {std::string("generate random 2000"), std::string(method), std::string(steps)}) engine.post(line);
+    engine.wait_idle();
+    std::vector<std::uint64_t> all;
+    for (const IterationRecord& record : engine.view()->runs[0].records) all.push_back(record.searched);
+    return all;
+  };
+  for (const char* method : {"method dmo", "method laplace", "precision double"}) {
+    const auto one = counts(1, method, "run 12");
+    EXPECT_EQ(one, counts(3, method, "run 12")) << method;
+    auto by_class = counts(1, method, "step class 90");
+    ASSERT_GT(by_class.size(), 6U);
+    by_class.resize(std::min(by_class.size(), one.size()));
+    EXPECT_EQ(std::vector(one.begin(), one.begin() + static_cast<std::ptrdiff_t>(by_class.size())), by_class) << method;
+  }
+}
+
+}  // namespace
+}  // namespace dmoscope

@@ -92,6 +92,29 @@ std::vector<Tick> log_ticks(double lowest, double highest, int most) {
   return every > 1 ? log_ticks(lowest, highest, decades) : ticks;
 }
 
+std::vector<Tick> log_ticks_from_zero(double lowest, double highest, double pivot, int most) {
+  if (!drawable(lowest, highest) || !(pivot > 0.0) || most < 1) return {};
+  const auto shape = [pivot](double value) { return std::log10(1.0 + value / pivot); };
+  const double gap = (shape(highest) - shape(lowest)) / (most + 1);
+  std::vector<Tick> ticks;
+  const auto offer = [&](double value) {
+    if (value < lowest - 1e-9 * highest || value > highest * (1.0 + 1e-9)) return;
+    const auto near = [&](const Tick& other) { return std::abs(shape(other.value) - shape(value)) < gap; };
+    if (std::ranges::none_of(ticks, near))
+      ticks.push_back({value, value >= 1e5 ? fmt::format("{:.0e}", value) : fmt::format("{:g}", value)});
+  };
+  offer(0.0);
+  const int first = static_cast<int>(std::floor(std::log10(pivot) + 1e-9)), last = static_cast<int>(std::ceil(std::log10(highest)));
+  for (const double digit : {1.0, 5.0, 2.0}) {
+    for (int power = first; power <= last; ++power) {
+      if (const double value = digit * std::pow(10.0, power); value >= pivot * (1.0 - 1e-9)) offer(value);
+    }
+  }
+  if (ticks.size() < 3) return {};
+  std::ranges::sort(ticks, {}, &Tick::value);
+  return ticks;
+}
+
 std::vector<Stroke> decimate(std::span<const double> x, std::span<const double> y, double lowest, double highest, std::size_t columns) {
   std::vector<Stroke> strokes;
   if (x.empty() || columns == 0 || !(highest >= lowest)) return strokes;

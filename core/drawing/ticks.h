@@ -25,6 +25,10 @@ struct Tick {
 /// many as needed. Both bounds must be > 0, else empty.
 [[nodiscard]] std::vector<Tick> log_ticks(double lowest, double highest, int most);
 
+/// Of an axis that is even in the logarithm of 1 + value / pivot, and so has 0: 0 and, from `pivot` on, as many of 1, 2 and 5 times a power
+/// of ten as have room, at most about `most`. Empty where there would be fewer than three.
+[[nodiscard]] std::vector<Tick> log_ticks_from_zero(double lowest, double highest, double pivot, int most);
+
 struct PlotPoint {
   double x, y;
 };

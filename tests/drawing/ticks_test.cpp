@@ -37,6 +37,22 @@ TEST(Ticks, LabelsAreDistinctAndEquallyLong) {
   EXPECT_EQ(linear_ticks(0, 1, 5)[1].label, "0.2");
 }
 
+TEST(Ticks, ALogarithmFromZeroHasZeroAndIsThinnedByRoom) {
+  const auto values = [](double low, double high, double pivot, int most) {
+    std::vector<double> all;
+    for (const Tick& tick : log_ticks_from_zero(low, high, pivot, most)) all.push_back(tick.value);
+    return all;
+  };
+  EXPECT_EQ(values(0, 220, 1, 14), (std::vector<double>{0, 1, 2, 5, 10, 20, 50, 100, 200}));
+  const auto few = values(0, 10'000, 1, 5);
+  EXPECT_LE(few.size(), 7U);
+  EXPECT_EQ(few.front(), 0.0);
+  EXPECT_TRUE(std::ranges::find(few, 1000.0) != few.end()) << "powers of ten before others";
+  EXPECT_TRUE(values(0, 1.2, 1, 12).empty()) << "too short: evenly, then";
+  EXPECT_TRUE(values(0, 10, 0, 12).empty());
+  for (const double value : values(0.0, 3.0, 0.01, 9)) EXPECT_TRUE(value == 0.0 || value >= 0.01);
+}
+
 TEST(Ticks, NothingForAnEmptyOrInfiniteRange) {
   EXPECT_TRUE(linear_ticks(1, 1, 5).empty());
   EXPECT_TRUE(linear_ticks(2, 1, 5).empty());

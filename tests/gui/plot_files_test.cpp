@@ -77,7 +77,7 @@ double by_labels(const std::vector<SvgText>& texts, const std::string& a, const 
 
 TEST(PlotSvg, HasEveryVisibleSeriesWithAllItsPointsWhereTheLabelsSay) {
   const SessionView session = session_of(2, 101);
-  const Plot plot = plot_of(session);
+  const Plot plot = even_plot_of(session);
   PlotView view;
   view.hidden = {"mean"};
   const auto [lines, texts] = read_svg(svg_of(whole_plot(plot, view, 900, 600, ink_of(colours()))));
@@ -106,7 +106,7 @@ TEST(PlotSvg, HasEveryVisibleSeriesWithAllItsPointsWhereTheLabelsSay) {
 
 TEST(PlotSvg, WhatIsZoomedAwayIsCutAtTheFrame) {
   const SessionView session = session_of(1, 101);
-  const Plot plot = plot_of(session);
+  const Plot plot = even_plot_of(session);
   PlotView view;
   view.x_range = Range{20.25, 60.75};
   view.y_range = Range{0.1295, 0.1505};  // the minimum there: iterations 30 to 50, and halfway to their neighbours

@@ -18,6 +18,7 @@ class PlotMice : public testing::Test {
  protected:
   void show(PlotTab tab) {
     state_.plot = tab;
+    state_.plot_options.x_axis = XAxis::Linear;
     if (tab == PlotTab::Histogram) held_ = smoothed("annulus", 1);
     plot_ = plot_of(state_, held_ ? *held_ : session_);
     lay();

@@ -65,6 +65,7 @@ TEST_F(PlotWindow, WhatCannotBeSavedIsAnErrorAndLeavesTheOldFile) {
 }
 
 TEST_F(PlotWindow, WheelBoxAndDoubleClickZoom) {
+  good("x-axis linear");
   good("generate annulus");
   good("run 20");
   good("wheel " + at(0.5, 0.5) + " 2");
@@ -80,6 +81,7 @@ TEST_F(PlotWindow, WheelBoxAndDoubleClickZoom) {
 }
 
 TEST_F(PlotWindow, AClickShowsThatIteration) {
+  good("x-axis linear");
   good("generate annulus");
   good("run 20");
   good("click " + at(0.25, 0.4));
@@ -139,6 +141,28 @@ TEST_F(PlotWindow, AxesAreChosenAndKeptByTab) {
   good("click plot-along");
   good("click \"plot-along:16 bars\"");
   EXPECT_EQ(window_->app().state().plot_options.bins, 16);
+}
+
+TEST_F(PlotWindow, ARightClickOffersWhatCanBeChosen) {
+  good("generate annulus");
+  good("run 8");
+  const ui::PlotOptions& options = window_->app().state().plot_options;
+  good("right-click " + at(0.5, 0.5));
+  good("click \"plot-menu:x: last change\"");
+  EXPECT_EQ(options.x_axis, ui::XAxis::Changes);
+  good("click plot-x");
+  good("click \"plot-x:x: linear\"");
+  EXPECT_EQ(options.x_axis, ui::XAxis::Linear);
+  good("plot histogram");
+  good("click plot-x");
+  good("click \"plot-x:0 to 1\"");
+  EXPECT_EQ(options.histogram_range, ui::HistogramRange::Whole);
+  good("right-click " + at(0.5, 0.5));
+  good("click \"plot-menu:its data\"");
+  EXPECT_EQ(options.histogram_range, ui::HistogramRange::Data);
+  good("right-click " + at(0.5, 0.5));
+  good("click plot-copy");
+  EXPECT_TRUE(window_->clipboard().starts_with("run,series,from,to,elements"));
 }
 
 TEST_F(PlotWindow, TheDialogSavesWhereItSays) {

@@ -145,8 +145,27 @@ void add_plot_commands(CommandTable& table, ViewState& state) {
       if (over_iterations(tab)) state.plots[static_cast<std::size_t>(tab)].x_range.reset();
     }
   });
-  table.add({"plot-zoom", "plot-zoom all | x|y LOW HIGH | x|y all | box X0 X1 Y0 Y1", "the part of the plot that is shown"},
-            [&state](Arguments words) { zoom_plot(state, words); });
+  table.add({"x-axis", "x-axis log|changes|linear|next",
+             "how iterations or seconds lie along the plots: by the logarithm, evenly up to the last visible change, or evenly"},
+            [&state](Arguments words) {
+              require(words, 1, 1);
+              XAxis& now = state.plot_options.x_axis;
+              const XAxis next = static_cast<XAxis>((static_cast<std::size_t>(now) + 1) % kXAxes.size());
+              now = words[0] == "next" ? next : choose(words[0], kXAxes);
+              for (const auto& [name, tab] : kPlotTabs)
+                if (over_iterations(tab)) state.plots[static_cast<std::size_t>(tab)].x_range.reset();
+            });
+  table.add({"histogram-range", "histogram-range data|whole|toggle", "whether the histogram begins where its elements are, or from 0 to 1"},
+            [&state](Arguments words) {
+              require(words, 1, 1);
+              HistogramRange& now = state.plot_options.histogram_range;
+              const HistogramRange other = now == HistogramRange::Data ? HistogramRange::Whole : HistogramRange::Data;
+              now = words[0] == "toggle" ? other : choose(words[0], kHistogramRanges);
+              state.plots[static_cast<std::size_t>(PlotTab::Histogram)].x_range.reset();
+            });
+  table.add(
+      {"plot-zoom", "plot-zoom all | x|y LOW HIGH | x|y all | box X0 X1 Y0 Y1", "the part of the plot that is shown; all: as at first"},
+      [&state](Arguments words) { zoom_plot(state, words); });
   table.add({"plot-series", "plot-series NAME [on|off|toggle|only]  or  plot-series all",
              "shows or hides a run or a quantity of the plot's legend"},
             [&state](Arguments words) { switch_series(state, words); });

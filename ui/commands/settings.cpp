@@ -1,6 +1,7 @@
 #include "ui/commands/settings.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <optional>
@@ -28,6 +29,19 @@ void take(const json& from, const char* name, double& value, double least, doubl
   if (at == from.end() || !at->is_number()) return;
   const double read = at->get<double>();
   if (read >= least && read <= most) value = read;
+}
+
+template <class Value, std::size_t N>
+void take(const json& from, const char* name, Value& value, const std::array<std::pair<std::string_view, Value>, N>& choices) {
+  const auto at = from.find(name);
+  if (at == from.end() || !at->is_string()) return;
+  for (const auto& [word, one] : choices)
+    if (word == at->get<std::string>()) value = one;
+}
+
+template <class Value, std::size_t N>
+std::string_view word_of(const std::array<std::pair<std::string_view, Value>, N>& choices, Value value) {
+  return std::ranges::find(choices, value, &std::pair<std::string_view, Value>::second)->first;
 }
 
 /// Two numbers of which the second is greater, else those that are.
@@ -140,6 +154,8 @@ std::string settings_text(const ViewState& state) {
               {"occlusion", state.occlusion},
               {"wireframe", state.wireframe},
               {"tour_offered", state.tour.offered},
+              {"x_axis", word_of(kXAxes, state.plot_options.x_axis)},
+              {"histogram_range", word_of(kHistogramRanges, state.plot_options.histogram_range)},
               {"panels",
                {{"left", panels.left},
                 {"right", panels.right},
@@ -182,6 +198,8 @@ bool apply_settings(const std::string& text, ViewState& state) {
       if (map.name == at->get<std::string>()) state.colour_map = map.map;
     }
   }
+  take(in, "x_axis", state.plot_options.x_axis, kXAxes);
+  take(in, "histogram_range", state.plot_options.histogram_range, kHistogramRanges);
   if (const auto at = in.find("recent"); at != in.end() && at->is_array()) {  // of older versions
     state.recent_files.clear();
     take_recent(*at, state.recent_files);

@@ -17,7 +17,7 @@ namespace dmoscope::ui {
 /// Folder of what windows save by themselves: $XDG_STATE_HOME/dmoscope/autosave, else below ~/.local/state; empty when neither is known.
 [[nodiscard]] std::filesystem::path autosave_folder();
 
-/// Theme, scale (over the monitor's), colour map, panels and the window's place as JSON.
+/// Theme, scale (over the monitor's), colour map, panels, how plots are laid, and the window's place as JSON.
 [[nodiscard]] std::string settings_text(const ViewState& state);
 /// Takes over what is there and makes sense; anything else keeps its value. Returns false when the text is no JSON object.
 bool apply_settings(const std::string& text, ViewState& state);

@@ -230,6 +230,8 @@ template <class Archive, class State>
 void describe_plots(Archive& archive, State& state) {
   archive.choice("shown", state.plot, kPlotTabs);
   archive.flag("by_seconds", state.plot_options.by_seconds);
+  archive.choice("x_axis", state.plot_options.x_axis, kXAxes);
+  archive.choice("histogram_range", state.plot_options.histogram_range, kHistogramRanges);
   archive.choice("bins", state.plot_options.bins, kBins);
   archive.choice("runs_sorted_by", state.plot_options.sorted_by, sortable_columns());
   archive.flag("runs_descending", state.plot_options.descending);

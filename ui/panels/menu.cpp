@@ -42,6 +42,9 @@ bool is_checked(const ViewState& state, std::string_view id) {
     if (id.starts_with("plot-") && id.substr(5) == name) return state.plot == tab;
   }
   if (id == "plot-seconds") return state.plot_options.by_seconds;
+  for (const auto& [name, axis] : kXAxes)
+    if (id.starts_with("x-axis-") && id.substr(7) == name) return state.plot_options.x_axis == axis;
+  if (id == "histogram-whole") return state.plot_options.histogram_range == HistogramRange::Whole;
   if (id == "inspect") return state.inspection.open;
   if (id == "play-levels") return state.inspection.playing;
   if (id == "level-all") return state.inspection.open && state.inspection.all_levels;

@@ -79,16 +79,51 @@ std::vector<Choice> along_choices(const ViewState& state) {
   return choices;
 }
 
-void draw_more_menu(PanelContext& context) {
-  if (ImGui::Button("…")) ImGui::OpenPopup("more of the plot");
-  context.items.record_last("plot-more");
-  if (!ImGui::BeginPopup("more of the plot")) return;
-  for (const char* id : {"plot-copy", "plot-save", "plot-all"}) {
+std::vector<Choice> x_choices(const ViewState& state) {
+  const PlotOptions& options = state.plot_options;
+  if (state.plot == PlotTab::Histogram) {
+    return {{"its data", "histogram-range data", "from the first bar to the last; what lies outside is said above",
+             options.histogram_range == HistogramRange::Data},
+            {"0 to 1", "histogram-range whole", "all qualities there can be", options.histogram_range == HistogramRange::Whole}};
+  }
+  if (!over_iterations(state.plot)) return {};
+  static constexpr std::array<const char*, 3> kTips{"0, 1, 2, 5, 10, …: the first iterations, in which most happens, have the room",
+                                                    "evenly, up to the last iteration in which a run still changed visibly",
+                                                    "all iterations, evenly"};
+  static constexpr std::array<const char*, 3> kLabels{"x: log", "x: last change", "x: linear"};
+  std::vector<Choice> choices;
+  for (std::size_t k = 0; k < kXAxes.size(); ++k)
+    choices.push_back({kLabels[k], fmt::format("x-axis {}", kXAxes[k].first), kTips[k], kXAxes[k].second == options.x_axis});
+  return choices;
+}
+
+void draw_choices(PanelContext& context, const char* item, const std::vector<Choice>& choices) {
+  for (const Choice& choice : choices) {
+    if (ImGui::MenuItem(choice.label.c_str(), nullptr, choice.chosen)) context.send(choice.command);
+    context.items.record_last(fmt::format("{}:{}", item, choice.label));
+    next_item_tooltip(choice.tip);
+  }
+  if (!choices.empty()) ImGui::Separator();
+}
+
+/// All that can be chosen of the plot. `item`: the name that its choices go by.
+void draw_plot_menu(PanelContext& context, const char* item) {
+  draw_choices(context, item, x_choices(context.state));
+  draw_choices(context, item, along_choices(context.state));
+  if (const auto axes = axis_choices(context.state); axes.size() > 1) draw_choices(context, item, axes);
+  for (const char* id : {"plot-all", "plot-copy", "plot-save"}) {
     const Action& action = *find_action(id);
     if (ImGui::MenuItem(std::string(action.title).c_str(), std::string(action.key).c_str(), false, enabled(action, context.situation())))
       context.send(std::string(action.command));
     context.items.record_last(id);
   }
+}
+
+void draw_more_menu(PanelContext& context) {
+  if (ImGui::Button("…")) ImGui::OpenPopup("more of the plot");
+  context.items.record_last("plot-more");
+  if (!ImGui::BeginPopup("more of the plot")) return;
+  draw_plot_menu(context, "plot-menu");
   ImGui::EndPopup();
 }
 
@@ -107,22 +142,26 @@ void draw_plot_tabs(PanelContext& context) {
 }
 
 void draw_plot_controls(PanelContext& context, const Rect& rect) {
-  const float gap = context.px(8);
-  auto axes = axis_choices(context.state);
-  if (axes.size() < 2) axes.clear();  // no choice
-  const auto along = along_choices(context.state);
-  const float boxes = (axes.empty() ? 0.0F : box_width(axes)) + (along.empty() ? 0.0F : box_width(along) + gap);
-  const float buttons = button_width("Copy data") + gap + button_width("Save…");
+  struct Box {
+    const char* item;
+    std::vector<Choice> choices;
+  };
+  std::vector<Box> boxes{
+      {"plot-x", x_choices(context.state)}, {"plot-axis", axis_choices(context.state)}, {"plot-along", along_choices(context.state)}};
+  std::erase_if(boxes, [](const Box& box) { return box.choices.size() < 2; });  // no choice
+  const float gap = context.px(8), buttons = button_width("Copy data") + gap + button_width("Save…");
   ImGui::SameLine();
-  const float room = rect.w - context.px(12) - ImGui::GetCursorPosX();
-  const bool roomy = room > boxes + gap + buttons;
-  ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), rect.w - context.px(12) - boxes - gap - (roomy ? buttons : button_width("…"))));
-  if (!axes.empty()) {
-    choice_box(context, "plot-axis", axes);
-    ImGui::SameLine(0, gap);
-  }
-  if (!along.empty()) {
-    choice_box(context, "plot-along", along);
+  const float start = ImGui::GetCursorPosX(), room = rect.w - context.px(12) - start;
+  const auto wide = [&](float last) {
+    float sum = last;
+    for (const Box& box : boxes) sum += box_width(box.choices) + gap;
+    return sum;
+  };
+  const bool roomy = room > wide(buttons);
+  while (!boxes.empty() && room < wide(button_width("…"))) boxes.erase(boxes.begin());  // they are in the menu, too
+  ImGui::SetCursorPosX(std::max(start, rect.w - context.px(12) - wide(roomy ? buttons : button_width("…"))));
+  for (const Box& box : boxes) {
+    choice_box(context, box.item, box.choices);
     ImGui::SameLine(0, gap);
   }
   if (!roomy) return draw_more_menu(context);
@@ -146,6 +185,10 @@ void draw_plot_area(PanelContext& context) {
   const RunView* run = context.run();
   if (outcome.clicked && over_iterations(state.plot) && run != nullptr && !context.activity.busy)
     context.send(fmt::format("seek {}", iteration_at(*run, state.plot_options.by_seconds, *outcome.clicked)));
+  if (outcome.menu) ImGui::OpenPopup("menu of the plot");
+  if (!ImGui::BeginPopup("menu of the plot")) return;
+  draw_plot_menu(context, "plot-menu");
+  ImGui::EndPopup();
 }
 
 void draw_plot_dialog(PanelContext& context) {

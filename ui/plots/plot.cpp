@@ -72,6 +72,8 @@ Range x_extent(const Plot& plot) {
   return {low, high};
 }
 
+Range x_seen(const Plot& plot, const PlotView& view) { return view.x_range ? *view.x_range : plot.x_home ? *plot.x_home : x_extent(plot); }
+
 bool can_show(ValueAxis axis, double value) {
   if (!std::isfinite(value)) return false;
   return axis == ValueAxis::Linear || (axis == ValueAxis::Log ? value > 0.0 : value < 1.0);

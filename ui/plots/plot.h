@@ -59,6 +59,8 @@ struct Plot {
   AxisUnit x_unit, y_unit, strip_unit;
   ValueAxis axis = ValueAxis::Linear;
   std::optional<Range> x_range;  // of all there is; none: from the series
+  std::optional<Range> x_home;   // of what is seen at first; none: all there is
+  double x_pivot = 0.0;          // x lies along the plot by the logarithm of 1 + x / this; 0: evenly
   std::vector<Series> series;
   std::vector<LegendEntry> legend;
   std::vector<PlotMark> marks;
@@ -75,6 +77,8 @@ struct Plot {
 
 /// All x of the plot, whatever is visible.
 [[nodiscard]] Range x_extent(const Plot& plot);
+/// The x that is seen: what was zoomed to, else what is seen at first.
+[[nodiscard]] Range x_seen(const Plot& plot, const PlotView& view);
 /// Where the axis can show a value: not NaN or infinite, > 0 for logarithmic ones, < 1 for log-distance.
 [[nodiscard]] bool can_show(ValueAxis axis, double value);
 /// Smallest and largest value that the visible series have over x in `x_range`, a little wider. `strip`: of the series in the strip.

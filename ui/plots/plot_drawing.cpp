@@ -90,10 +90,13 @@ class SeriesDrawer {
     std::vector<double> values = one.y;
     for (double& value : values) value = can_show(y.kind, value) ? value : NAN;
     const auto columns = static_cast<std::size_t>(std::max(1.0, (frame.right - frame.left) / std::min(1.0, unit_)));
-    for (const Stroke& stroke : decimate(one.x, values, layout_.x.low, layout_.x.high, columns)) {
+    const Axis& x = layout_.x;  // its columns are even in its shape
+    std::vector<double> along = one.x;
+    for (double& at : along) at = x.shape(at);
+    for (const Stroke& stroke : decimate(along, values, x.shape(x.low), x.shape(x.high), columns)) {
       Points points;
       points.reserve(stroke.size());
-      for (const PlotPoint& p : stroke) points.push_back({layout_.x.place(p.x), y.place(p.y)});
+      for (const PlotPoint& p : stroke) points.push_back({x.place_shaped(p.x), y.place(p.y)});
       if (points.size() > 1) {
         add_line(one, points, frame);
       } else if (inside(points[0], frame)) {
@@ -148,9 +151,16 @@ void draw_axes(Drawing& drawing, const Plot& plot, const PlotLayout& layout, con
   const auto across = [&](double y, DrawingColour colour) {
     drawing.rules.push_back({{{layout.left, y}, {layout.right, y}}, colour, unit});
   };
-  for (const PlacedTick& tick : place_ticks(layout.x, plot.x_unit, plot.integer_x, how_many(layout.right - layout.left, 6 * font))) {
+  const double room = layout.x.pivot > 0.0 ? 4.0 : 6.0;  // of a logarithm's labels most are short
+  for (const PlacedTick& tick : place_ticks(layout.x, plot.x_unit, plot.integer_x, how_many(layout.right - layout.left, room * font))) {
     drawing.rules.push_back({{{tick.place, layout.top}, {tick.place, layout.bottom}}, grid, unit});
-    drawing.labels.push_back({{tick.place, layout.bottom + 1.2 * font}, tick.label, font, dim, Drawing::Anchor::Middle});
+    const bool at_end = tick.place + 1.5 * font > layout.right;  // there is no room behind the end
+    drawing.labels.push_back(
+        {{at_end ? std::min(tick.place + 0.7 * font, layout.right + 0.7 * font) : tick.place, layout.bottom + 1.2 * font},
+         tick.label,
+         font,
+         dim,
+         at_end ? Drawing::Anchor::End : Drawing::Anchor::Middle});
   }
   const auto upright = [&](const Axis& axis, const AxisUnit& units, bool integer, double each) {
     double last = INFINITY;
@@ -166,7 +176,8 @@ void draw_axes(Drawing& drawing, const Plot& plot, const PlotLayout& layout, con
   upright(layout.y, plot.y_unit, false, 1.5);
   if (!layout.strip) return;
   upright(*layout.strip, plot.strip_unit, plot.strip_unit.name.empty(), 1.3);
-  drawing.labels.push_back({{layout.right, layout.strip->to - 0.35 * font}, plot.strip_title, font, dim, Drawing::Anchor::End});
+  drawing.labels.push_back(
+      {{layout.right - 0.5 * font, layout.strip->to - 0.35 * font}, plot.strip_title, font, dim, Drawing::Anchor::End});
 }
 
 void draw_brush(Drawing& drawing, const Plot& plot, const PlotLayout& layout, const PlotInk& colours, double unit) {

@@ -14,7 +14,14 @@ constexpr double kClick = 4.0;  // pixels at scale 1 that a click may move
 class Gesture {
  public:
   Gesture(const PlotMouse& mouse, PlotDrag& drag, const Plot& plot, const PlotView& view, const PlotLayout& layout, double scale)
-      : mouse_(mouse), drag_(drag), plot_(plot), view_(view), layout_(layout), scale_(scale), full_(x_extent(plot)) {}
+      : mouse_(mouse),
+        drag_(drag),
+        plot_(plot),
+        view_(view),
+        layout_(layout),
+        scale_(scale),
+        full_(x_extent(plot)),
+        home_(plot.x_home.value_or(full_)) {}
 
   PlotOutcome handle() {
     if (mouse_.over && mouse_.wheel != 0.0) zoom_by_wheel();
@@ -34,9 +41,10 @@ class Gesture {
   void zoom_x(Range range) {
     range.first = std::max(range.first, full_.first);
     range.second = std::min(range.second, full_.second);
-    if (range.first <= full_.first && range.second >= full_.second) {
+    const double hair = 1e-6 * (full_.second - full_.first);
+    if (std::abs(range.first - home_.first) < hair && std::abs(range.second - home_.second) < hair) {
       if (view_.x_range) send("plot-zoom x all");
-    } else if (range.second - range.first > 1e-6 * (full_.second - full_.first)) {
+    } else if (range.second - range.first > hair) {
       send(fmt::format("plot-zoom x {} {}", range.first, range.second));
     }
   }
@@ -72,6 +80,7 @@ class Gesture {
     drag_.x0 = drag_.x = mouse_.x;
     drag_.y0 = drag_.y = mouse_.y;
     drag_.moved = false;
+    drag_.right = mouse_.right_pressed;
   }
 
   void go_on() {
@@ -95,16 +104,17 @@ class Gesture {
 
   void pan(double dx, double dy) {
     if (view_.x_range && dx != 0.0) {
-      Range range = stretched(layout_.x, layout_.left, 1.0, dx);
-      const double width = range.second - range.first;
-      range.first = std::clamp(range.first, full_.first, std::max(full_.first, full_.second - width));
-      zoom_x({range.first, range.first + width});
+      const Axis& x = layout_.x;  // no further than to either end of all there is
+      const double least = std::min(0.0, x.to - x.place(full_.second)), most = std::max(0.0, x.from - x.place(full_.first));
+      zoom_x(stretched(x, layout_.left, 1.0, std::clamp(dx, least, most)));
     }
     if (view_.y_range && dy != 0.0) zoom_y(stretched(layout_.y, layout_.y.from, 1.0, dy));
   }
 
   void click(const PlotDrag& done) {
-    if (done.kind == PlotDrag::Kind::Brush) {
+    if (done.right) {
+      out_.menu = true;
+    } else if (done.kind == PlotDrag::Kind::Brush) {
       if (plot_.brush) send("filter off");
     } else if (done.kind == PlotDrag::Kind::Pan) {
       out_.clicked = layout_.x.value(done.x);
@@ -131,7 +141,7 @@ class Gesture {
   const PlotView& view_;
   const PlotLayout& layout_;
   double scale_;
-  Range full_;
+  Range full_, home_;
   PlotOutcome out_;
 };
 

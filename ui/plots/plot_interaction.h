@@ -26,15 +26,18 @@ struct PlotDrag {
   double x0 = 0.0, y0 = 0.0;  // where it was pressed
   double x = 0.0, y = 0.0;    // where it is
   bool moved = false;         // far enough to be no click
+  bool right = false;         // by the right button
 };
 
 struct PlotOutcome {
   std::vector<std::string> commands;
   std::optional<double> clicked;  // x of a click without a drag
+  bool menu = false;              // a right click without a drag
 };
 
 /// Wheel: zooms x, over the value axis' labels y. Left drag: brushes the histogram, else moves what is zoomed. Right drag, or left with
-/// Shift: zooms to a box, or to a stretch of x when it is flat. Twice: all of it. A click on the histogram clears the brush.
+/// Shift: zooms to a box, or to a stretch of x when it is flat. Twice: as it is seen at first. A click on the histogram clears the brush, a
+/// right click asks for the menu.
 [[nodiscard]] PlotOutcome handle_mouse(const PlotMouse& mouse, PlotDrag& drag, const Plot& plot, const PlotView& view,
                                        const PlotLayout& layout, double scale);
 

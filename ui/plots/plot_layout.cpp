@@ -18,20 +18,24 @@ Range usable(ValueAxis kind, Range range) {
 }  // namespace
 
 double Axis::shape(double value) const {
+  if (pivot > 0.0) return std::log10(std::max(1.0 + value / pivot, kLeast));
   if (kind == ValueAxis::Log) return std::log10(std::max(value, kLeast));
   return kind == ValueAxis::LogDistance ? -std::log10(std::max(1.0 - value, kLeast)) : value;
 }
 
-double Axis::place(double value) const { return from + (shape(value) - shape(low)) / (shape(high) - shape(low)) * (to - from); }
+double Axis::place(double value) const { return place_shaped(shape(value)); }
+
+double Axis::place_shaped(double shaped) const { return from + (shaped - shape(low)) / (shape(high) - shape(low)) * (to - from); }
 
 double Axis::value(double place) const {
   const double shaped = shape(low) + (place - from) / (to - from) * (shape(high) - shape(low));
+  if (pivot > 0.0) return pivot * (std::pow(10.0, shaped) - 1.0);
   if (kind == ValueAxis::Log) return std::pow(10.0, shaped);
   return kind == ValueAxis::LogDistance ? 1.0 - std::pow(10.0, -shaped) : shaped;
 }
 
 std::optional<PlotLayout> lay_out(const Plot& plot, const PlotView& view, const PlotArea& area) {
-  const Range x = view.x_range.value_or(x_extent(plot));
+  const Range x = x_seen(plot, view);
   const auto values = view.y_range ? view.y_range : value_range(plot, view, x);
   const auto strip = plot.strip_share > 0.0 ? value_range(plot, view, x, true) : std::nullopt;
   if (!values && !strip) return std::nullopt;
@@ -40,7 +44,7 @@ std::optional<PlotLayout> lay_out(const Plot& plot, const PlotView& view, const 
   layout.right = std::max(layout.left + 1.0, area.left + area.width - 0.8 * area.font);
   layout.top = area.top + 0.4 * area.font;
   layout.bottom = std::max(layout.top + 2.0, area.top + area.height - 1.45 * area.font);
-  layout.x = {x.first, x.second, layout.left, layout.right, ValueAxis::Linear};
+  layout.x = {x.first, x.second, layout.left, layout.right, ValueAxis::Linear, plot.x_pivot};
   double bottom = layout.bottom;
   if (strip) {
     const double gap = 1.2 * area.font, height = std::max(1.0, layout.bottom - layout.top - gap);
@@ -63,6 +67,7 @@ std::vector<PlacedTick> place_ticks(const Axis& axis, const AxisUnit& unit, bool
     case ValueAxis::Linear: {
       const double low = axis.low * f, high = axis.high * f;
       std::vector<Tick> ticks;
+      if (axis.pivot > 0.0) ticks = log_ticks_from_zero(low, high, axis.pivot * f, most);
       for (int n = most; n < most + 4 && ticks.size() < 2; ++n) ticks = integer ? integer_ticks(low, high, n) : linear_ticks(low, high, n);
       put(ticks, [f](double v) { return v / f; });
       break;

@@ -13,8 +13,10 @@ struct Axis {
   double low = 0.0, high = 1.0;  // values at the ends
   double from = 0.0, to = 1.0;   // their places
   ValueAxis kind = ValueAxis::Linear;
+  double pivot = 0.0;                              // of a linear one: even in the logarithm of 1 + value / this, unless 0
   [[nodiscard]] double shape(double value) const;  // in which the axis is even
   [[nodiscard]] double place(double value) const;
+  [[nodiscard]] double place_shaped(double shaped) const;  // of a value of that shape
   [[nodiscard]] double value(double place) const;
 };
 

@@ -48,7 +48,7 @@ void save_table(const PlotSave& save, ViewState& state, const SessionView& sessi
 std::string plot_csv(const Plot& plot, const PlotView& view) {
   const bool bars = plot.tab == PlotTab::Histogram;
   std::string text = bars ? "run,series,from,to,elements\n" : fmt::format("run,series,{},value\n", plot.x_name);
-  const Range range = view.x_range.value_or(x_extent(plot));
+  const Range range = x_seen(plot, view);
   for (const Series& one : plot.series) {
     if (!is_visible(plot, view, one)) continue;
     const std::string head = field(one.run) + ',' + field(one.name.empty() ? plot.y_title : one.name);

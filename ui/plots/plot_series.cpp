@@ -1,8 +1,10 @@
 #include "ui/plots/plot_series.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -30,6 +32,20 @@ std::vector<double> course_of(const RunView& run, bool by_seconds) {
 }
 
 constexpr double kThick = 2.2, kThin = 1.5;
+constexpr double kMuch = 0.9;  // of a range: to show so much of it alone is not worth while
+
+constexpr std::array<double Statistics::*, 3> kCourses{&Statistics::minimum, &Statistics::movable_minimum, &Statistics::mean};
+
+/// The last record in which a quantity is off its last value by more than `visible`; 0: none.
+std::size_t last_change_of(const SharedVector<IterationRecord>& records, double visible) {
+  for (std::size_t k = records.size(); k-- > 0;) {
+    const auto off = [&](double Statistics::*value) {
+      return std::abs(records[k].statistics.*value - records.back().statistics.*value) > visible;
+    };
+    if (std::ranges::any_of(kCourses, off)) return k;
+  }
+  return 0;
+}
 
 /// Builds one plot.
 class Builder {
@@ -128,6 +144,7 @@ class Builder {
       plot_.x_unit = time_unit(longest);
       plot_.x_title = "smoothing time, " + plot_.x_unit.name;
     }
+    lay_along(longest);
     if (session_.runs.empty()) return;
     mark(session_.active, session_.runs[session_.active].moment, {});
     for (std::size_t k = 0; k < session_.runs.size(); ++k)
@@ -135,6 +152,49 @@ class Builder {
     for (const auto& [its, label] : {std::pair{&state_.timeline.a, "A"}, {&state_.timeline.b, "B"}}) {
       if (its->frame && session_.frame) mark(its->frame->run, its->frame->moment, label);
     }
+  }
+
+  /// How the course lies along the plot, `longest` being its end.
+  void lay_along(double longest) {
+    if (!(longest > 0.0)) return;
+    if (state_.plot_options.x_axis == XAxis::Log) {
+      plot_.x_pivot = first_step();
+    } else if (state_.plot_options.x_axis == XAxis::Changes) {
+      const double until = last_change();
+      if (!(until > 0.0 && until < kMuch * longest)) return;
+      plot_.x_home = Range{0.0, until};
+      const std::string all = plot_.integer_x ? count(static_cast<std::uint64_t>(longest)) : short_number(longest * plot_.x_unit.factor);
+      plot_.x_title += fmt::format(", up to the last change; all: {}", all);
+    }
+  }
+
+  /// An iteration, or the seconds of the fastest first one.
+  [[nodiscard]] double first_step() const {
+    if (plot_.integer_x) return 1.0;
+    double least = INFINITY;
+    for (const RunView& run : session_.runs)
+      if (const auto x = course(run); x.size() > 1 && x[1] > 0.0) least = std::min(least, x[1]);
+    return std::isfinite(least) ? least : 0.0;
+  }
+
+  /// Some room behind the last place at which a run changed by more than a hundredth of what the plot of its qualities spans.
+  [[nodiscard]] double last_change() const {
+    double low = INFINITY, high = -INFINITY, last = 0.0;
+    for (const RunView& run : session_.runs) {
+      for (const IterationRecord& record : run.records) {
+        for (const double Statistics::*value : kCourses) {
+          if (!std::isfinite(record.statistics.*value)) continue;
+          low = std::min(low, record.statistics.*value);
+          high = std::max(high, record.statistics.*value);
+        }
+      }
+    }
+    if (!(high > low)) return 0.0;
+    for (const RunView& run : session_.runs) {
+      const auto x = course(run);
+      if (!x.empty()) last = std::max(last, x[std::min(last_change_of(run.records, 0.01 * (high - low)) + 1, x.size() - 1)]);
+    }
+    return 1.15 * last;
   }
 
   void mark(std::size_t run, const Moment& moment, std::string label) {
@@ -301,6 +361,41 @@ class Builder {
     }
     brush(*frame);
     if (frame->now.below > 0) plot_.y_title += fmt::format(" ({} below {:g})", count(frame->now.below), frame->now.lowest);
+    if (state_.plot_options.histogram_range == HistogramRange::Data) show_data_alone();
+  }
+
+  /// At first the histogram shows whole bars from where its elements begin to where they end. A few far down, no more than a thousandth,
+  /// are left out where all else gets much wider by that; how many is said.
+  void show_data_alone() {
+    constexpr double kFew = 1e-3, kWorthIt = 0.6, kFewestBars = 4.0;
+    const Range all = x_extent(plot_);
+    double low = all.second, low_of_most = all.second, high = all.first, width = 0.0;
+    for (const Series& one : plot_.series) {
+      const double few = kFew * std::accumulate(one.y.begin(), one.y.end(), 0.0);
+      double passed = 0.0;
+      for (std::size_t k = 0; k < one.y.size(); ++k) {
+        if (!(one.y[k] > 0.0)) continue;
+        low = std::min(low, one.x[k]);
+        passed += one.y[k];
+        if (passed > few) low_of_most = std::min(low_of_most, one.x[k]);
+        high = std::max(high, one.x[k] + one.bar_width);
+      }
+      width = one.bar_width;
+    }
+    if (!(high > low)) return;
+    const bool cut = high - low_of_most < kWorthIt * (high - low);
+    Range home{std::max(all.first, (cut ? low_of_most : low) - width), std::min(all.second, high + width)};
+    home.first = std::max(all.first, std::min(home.first, home.second - kFewestBars * width));
+    if (home.second - home.first > kMuch * (all.second - all.first)) return;
+    plot_.x_home = home;
+    if (!cut) return;
+    double left_out = 0.0;  // now
+    for (const Series& one : plot_.series) {
+      if (one.name == "input" && plot_.series.size() > 1) continue;
+      for (std::size_t k = 0; k < one.x.size() && one.x[k] + one.bar_width <= home.first + 1e-9; ++k) left_out += one.y[k];
+    }
+    if (left_out > 0.0)
+      plot_.y_title += fmt::format(" · {} below {:.3g}, left of what is shown", count(static_cast<std::uint64_t>(left_out)), home.first);
   }
 
   /// The filter is the histogram's brush; how many elements it leaves is said beside.
@@ -364,9 +459,11 @@ Plot build_plot(const ViewState& state, const SessionView& session, const Sorted
 
 std::string plot_key(const ViewState& state, const SessionView& session, const SortedQualities& sorted) {
   const PlotView& view = state.plots[static_cast<std::size_t>(state.plot)];
-  std::string key = fmt::format("{} {} {} {} {} {} {} {}", static_cast<int>(state.plot), static_cast<int>(view.axis),
-                                state.plot_options.by_seconds, state.plot_options.bins, session.frame ? session.frame->serial : 0,
-                                session.active, sorted.before.size(), sorted.now.size());
+  const PlotOptions& options = state.plot_options;
+  std::string key =
+      fmt::format("{} {} {} {} {} {} {} {} {} {}", static_cast<int>(state.plot), static_cast<int>(view.axis), options.by_seconds,
+                  options.bins, static_cast<int>(options.x_axis), static_cast<int>(options.histogram_range),
+                  session.frame ? session.frame->serial : 0, session.active, sorted.before.size(), sorted.now.size());
   if (const auto& filter = state.colouring.filter) fmt::format_to(std::back_inserter(key), " {}:{}", filter->first, filter->second);
   for (const Mark* mark : {&state.timeline.a, &state.timeline.b}) key += mark->frame ? fmt::format(" {}", mark->frame->serial) : " -";
   for (const RunView& run : session.runs) {

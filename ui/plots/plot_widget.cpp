@@ -269,6 +269,7 @@ class Widget {
     mouse.wheel = static_cast<double>(io.MouseWheel);
     PlotOutcome outcome = handle_mouse(mouse, cache_.drag, plot_, view_, layout, scale_);
     out_.clicked = outcome.clicked;
+    out_.menu = outcome.menu;
     std::move(outcome.commands.begin(), outcome.commands.end(), std::back_inserter(out_.commands));
   }
 

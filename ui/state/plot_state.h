@@ -37,11 +37,22 @@ inline constexpr std::array<std::pair<std::string_view, ValueAxis>, 3> kValueAxe
   return tab != PlotTab::Histogram && tab != PlotTab::Sorted && tab != PlotTab::Runs;
 }
 
+/// How iterations, or seconds, lie along the plots that have them. Log: by the logarithm of 1 + iteration, so that the first ones, in which
+/// most happens, have the room, and the input its place. Changes: evenly, up to the last change that could be seen.
+enum class XAxis { Log, Changes, Linear };
+inline constexpr std::array<std::pair<std::string_view, XAxis>, 3> kXAxes{
+    {{"log", XAxis::Log}, {"changes", XAxis::Changes}, {"linear", XAxis::Linear}}};
+
+/// What the histogram shows at first: where its elements are, or all from 0 to 1.
+enum class HistogramRange { Data, Whole };
+inline constexpr std::array<std::pair<std::string_view, HistogramRange>, 2> kHistogramRanges{
+    {{"data", HistogramRange::Data}, {"whole", HistogramRange::Whole}}};
+
 /// What is seen of one plot.
 struct PlotView {
   std::set<std::string> hidden;                               // what is switched off in the legend
   std::string isolated;                                       // of the runs, or of the quantities, only this one; empty: see hidden
-  std::optional<std::pair<double, double>> x_range, y_range;  // none: all of it
+  std::optional<std::pair<double, double>> x_range, y_range;  // none: as it is seen at first, see x_seen
   ValueAxis axis = ValueAxis::Linear;
   friend bool operator==(const PlotView&, const PlotView&) = default;
 };
@@ -55,6 +66,8 @@ struct PlotOptions {
   int bins = 64;            // of the histogram: 16, 32 or 64
   std::string sorted_by{};  // the column of the table of runs that they are sorted by, see run_columns(); empty: as they were made
   bool descending = false;  // likewise
+  XAxis x_axis = XAxis::Log;
+  HistogramRange histogram_range = HistogramRange::Data;
   friend bool operator==(const PlotOptions&, const PlotOptions&) = default;
 };
 

@@ -45,7 +45,7 @@ App::App(Options options)
     if (state_.sequence) end_sequence("the sequence of pictures ended early: another command came", Message::Kind::Warning);
     if (std::exchange(state_.timeline.shown, Shown::Now) != Shown::Now)
       add_message(state_, {Message::Kind::Info, "left the mark: commands apply to the current mesh", 0});
-    state_.timeline.play.kind = Playback::Kind::Off;
+    if (reach_of(line) != CommandReach::Look) state_.timeline.play.kind = Playback::Kind::Off;
     post_by_itself(line);
   };
   host_.busy = [this] { return engine_.busy(); };
@@ -70,6 +70,7 @@ void App::execute(std::string_view line) {
     throw;
   }
   state_.commands.end(look());
+  if (!is_session_command(line) && record_of(line.substr(0, line.find(' '))) == Record::Action) state_.result.succeeded();
 }
 
 void App::submit(std::string_view line) {
@@ -106,7 +107,10 @@ void App::take_news(double now) {
     if (listener_) listener_(message);
     add_message(state_, std::move(message));
   }
-  for (const CommandEnd& end : engine_.take_ends()) state_.commands.ended(end);
+  for (const CommandEnd& end : engine_.take_ends()) {
+    state_.result.ended(state_.commands.line_of(end.id), end);
+    state_.commands.ended(end);
+  }
   activity_.pending = engine_.pending();
   activity_.busy = activity_.pending != 0;
   activity_.command = engine_.current_command();
@@ -115,6 +119,8 @@ void App::take_news(double now) {
   if (!activity_.busy) busy_since_ = -1.0;
   if (activity_.busy && busy_since_ < 0.0) busy_since_ = now;
   activity_.busy_seconds = activity_.busy ? now - busy_since_ : 0.0;
+  pace_.note(now, activity_.busy ? work_done(run_at_work(*session_), activity_.command, activity_.progress) : std::nullopt);
+  activity_.seconds_left = pace_.seconds_left();
 
   const double interval = now - last_draw_;
   constexpr double kLongestInterval = 0.5;  // longer: nothing was to be drawn

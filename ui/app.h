@@ -14,6 +14,7 @@
 #include "ui/commands/view_commands.h"
 #include "ui/panels/panels.h"
 #include "ui/state/mesh_change.h"
+#include "ui/state/run_progress.h"
 #include "ui/state/view_state.h"
 #include "ui/toolkit/file_watch.h"
 #include "ui/viewports/viewports.h"
@@ -137,6 +138,7 @@ class App {
   Viewports viewports_;
   StepWatch steps_;
 
+  Pace pace_;
   double styled_scale_ = 0.0;
   std::optional<Theme> styled_theme_;
   double busy_since_ = -1.0, last_draw_ = -1.0, frame_interval_ = 0.0;

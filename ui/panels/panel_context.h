@@ -35,14 +35,15 @@ struct Activity {
   std::size_t pending = 0;
   std::string command;  // at work, as typed
   std::string progress_label;
-  double progress = 0.0;           // 0 to 1
-  double busy_seconds = 0.0;       // since it began
-  double frames_per_second = 0.0;  // while something moves, else 0
-  Backend backend = Backend::Cpu;  // what smooths
-  std::string backend_reason;      // which device, or why not cuda
-  DrawingPath drawing;             // how it gets to the screen, as far as is known
-  std::string renderer;            // "OpenGL 4.5, ..."
-  bool reduced = false;            // the mesh is drawn with fewer elements just now
+  double progress = 0.0;                 // 0 to 1
+  double busy_seconds = 0.0;             // since it began
+  std::optional<double> seconds_left{};  // of it, where that can be said
+  double frames_per_second = 0.0;        // while something moves, else 0
+  Backend backend = Backend::Cpu;        // what smooths
+  std::string backend_reason;            // which device, or why not cuda
+  DrawingPath drawing;                   // how it gets to the screen, as far as is known
+  std::string renderer;                  // "OpenGL 4.5, ..."
+  bool reduced = false;                  // the mesh is drawn with fewer elements just now
 };
 
 /// A handle of the colour bar while it is held.

@@ -5,16 +5,19 @@
 
 #include "ui/panels/panels.h"
 #include "ui/state/format.h"
+#include "ui/state/run_progress.h"
 
 namespace dmoscope::ui {
 namespace {
 
+/// Of the last iteration; of one that goes on the progress says it.
 std::string speed_sentence(const PanelContext& context) {
   const RunView* run = context.run();
   if (run == nullptr) return {};
+  std::string speed = speed_text(*run);
   for (auto record = run->records.rbegin(); record != run->records.rend(); ++record) {
     if (record->iteration == 0 || record->seconds <= 0.0) continue;
-    return fmt::format("{}v/s · {}/it", rate(static_cast<double>(run->free_vertices) / record->seconds), duration(record->seconds));
+    return speed + (speed.empty() ? "" : " · ") + duration(record->seconds) + "/it";
   }
   return {};
 }
@@ -31,17 +34,44 @@ void draw_sequence_progress(PanelContext& context, const Sequence& sequence) {
   context.items.record_last("cancel");
 }
 
+/// Of a run's iterations where they go, of other work how much is done.
+std::vector<std::string> progress_said(const PanelContext& context, const RunView* run) {
+  const Activity& activity = context.activity;
+  if (run != nullptr) return progress_parts(*run, activity.seconds_left);
+  const std::string& label = activity.progress_label.empty() ? activity.command : activity.progress_label;
+  std::vector<std::string> parts{fmt::format("{} {:.0f} %", fit_text(label, 16 * context.em()), 100.0 * activity.progress)};
+  if (activity.seconds_left) parts.push_back(time_left_text(*activity.seconds_left));
+  return parts;
+}
+
+/// As many of the parts as there is room for, the first at least.
+std::string fit_parts(const std::vector<std::string>& parts, float room) {
+  std::string text;
+  for (const std::string& part : parts) {
+    const std::string longer = text.empty() ? part : text + " · " + part;
+    if (!text.empty() && ImGui::CalcTextSize(longer.c_str()).x > room) break;
+    text = longer;
+  }
+  return text;
+}
+
 void draw_progress(PanelContext& context) {
   if (context.state.sequence) return draw_sequence_progress(context, *context.state.sequence);
   // Shorter work than this comes and goes before it could be read.
   constexpr double kShowAfter = 0.2;
   if (!context.activity.busy || context.activity.busy_seconds < kShowAfter) return;
   ImGui::SameLine(0, context.px(16));
-  const std::string& label = context.activity.progress_label.empty() ? context.activity.command : context.activity.progress_label;
   const auto fraction = static_cast<float>(context.activity.progress);
-  ImGui::ProgressBar(fraction, {8 * context.em(), ImGui::GetTextLineHeight()}, "");
-  ImGui::SameLine();
-  ImGui::TextUnformatted(fmt::format("{} {:.0f} %", fit_text(label, 16 * context.em()), 100.0 * context.activity.progress).c_str());
+  const RunView* run = run_at_work(context.session);
+  const bool endless = run != nullptr && run->pursuit->until_converged;
+  if (!endless) {  // a bar towards the most iterations there may be would say nothing
+    ImGui::ProgressBar(fraction, {8 * context.em(), ImGui::GetTextLineHeight()}, "");
+    ImGui::SameLine();
+  }
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize("Cancel").x - 4 * context.em();
+  ImGui::TextUnformatted(fit_parts(progress_said(context, run), room).c_str());
+  context.items.record_last("status-progress");
+  next_item_tooltip(fit_parts(progress_said(context, run), 1e9F) + "\n" + context.activity.command);
   ImGui::SameLine();
   if (ImGui::SmallButton("Cancel")) context.send("cancel");
   context.items.record_last("cancel");
@@ -79,10 +109,12 @@ void draw_status(PanelContext& context, const Rect& rect) {
   for (const std::string& line : {activity.backend_reason, on_cpu ? std::string() : activity.drawing.reason, activity.renderer})
     if (!line.empty()) more += (more.empty() ? "" : "\n") + line;
   next_item_tooltip(more);
-  if (const std::string speed = speed_sentence(context); !speed.empty()) {
+  const bool at_work = activity.busy && run_at_work(context.session) != nullptr;
+  if (const std::string speed = speed_sentence(context); !at_work && !speed.empty()) {
     ImGui::SameLine(0, context.px(16));
     dim_text(context, speed, false);
-    next_item_tooltip("vertices visited a second and time of the last iteration, smoothing alone");
+    context.items.record_last("status-speed");
+    next_item_tooltip("of the last iteration, smoothing alone: vertices searched a second, those passed over not counted, and its time");
   }
   if (activity.frames_per_second > 0.0) {
     ImGui::SameLine(0, context.px(16));
@@ -91,8 +123,8 @@ void draw_status(PanelContext& context, const Rect& rect) {
   draw_progress(context);
   const StepNews& news = context.state.stepping.news;
   const bool of_step = !news.sentence.empty() && news.messages == context.state.messages;
-  if (of_step || !context.state.log.empty()) {
-    const Message message = of_step ? Message{Message::Kind::Info, news.sentence, 0} : context.state.log.back();
+  if (const auto& result = context.state.result.newest(); of_step || result) {
+    const Message message = of_step ? Message{Message::Kind::Info, news.sentence, 0} : *result;
     std::string text = message.text.substr(0, message.text.find('\n'));
     ImGui::SameLine(0, context.px(16));
     const float room = ImGui::GetContentRegionAvail().x;

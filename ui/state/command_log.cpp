@@ -161,6 +161,12 @@ void CommandLog::end(const std::vector<std::string>& look) {
   if (noting_) look_ = look;
 }
 
+std::string_view CommandLog::line_of(std::uint64_t id) const {
+  for (std::size_t k = oldest_pending_; k < steps_.size(); ++k)
+    if (steps_[k].id == id && !steps_[k].ended) return steps_[k].line;
+  return {};
+}
+
 void CommandLog::ended(const CommandEnd& end) {
   const auto from = steps_.begin() + static_cast<std::ptrdiff_t>(oldest_pending_);
   const auto step = std::find_if(from, steps_.end(), [&](const Step& one) { return one.id == end.id; });

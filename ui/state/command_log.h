@@ -40,6 +40,8 @@ class CommandLog {
   /// The look is as a command that was noted brought it about, some frames later.
   void keep_look(const std::vector<std::string>& look) { look_ = look; }
   void ended(const CommandEnd& end);
+  /// What was posted as number `id`, while it has not ended; else empty.
+  [[nodiscard]] std::string_view line_of(std::uint64_t id) const;
   void say(const Message& message);
 
   [[nodiscard]] const std::deque<LogLine>& lines() const noexcept { return lines_; }

@@ -109,6 +109,7 @@ void add_message(ViewState& state, Message message) {
   }
   ++state.messages;
   state.commands.say(message);
+  state.result.say(message);
   state.log.push_back(std::move(message));
   while (state.log.size() > kMost) state.log.pop_front();
 }

@@ -22,6 +22,7 @@
 #include "ui/state/keys.h"
 #include "ui/state/panes.h"
 #include "ui/state/plot_state.h"
+#include "ui/state/result_line.h"
 #include "ui/state/run_names.h"
 #include "ui/state/selection.h"
 #include "ui/state/sequence.h"
@@ -155,6 +156,7 @@ struct ViewState {
   std::deque<Message> log;       // newest last, at most 200
   std::uint64_t messages = 0;    // how many there have been
   CommandLog commands;           // and messages, all of them
+  ResultLine result;             // what the status bar says
   std::string error_text;        // of the error dialog
   std::string dismissed_notice;  // Notice::key of the one that a person took away
 

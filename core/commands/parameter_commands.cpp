@@ -84,7 +84,7 @@ std::span<const CommandRow> parameter_commands() {
   static const std::vector<CommandRow> table = [] {
     std::vector<CommandRow> rows{
         {{"metric", "metric NAME", "Chooses the metric that is optimised."}, set_metric},
-        {{"show", "show NAME|next", "Chooses the metric that is shown; next: of those that are defined for the mesh. Also while a run goes."},
+        {{"show", "show NAME|next", "Chooses the metric that is shown, or the next one; also while a run goes."},
          show_metric,
          true,
          CommandReach::Look},

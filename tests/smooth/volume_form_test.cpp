@@ -39,7 +39,7 @@ void expect_least_form_to_be_the_rank(const Element& ideal) {
         ++count;
       });
       element.at[moving] = p;
-      EXPECT_NEAR(least, formulas::rank_around<Metric::MeanRatio>(solid, moving), 1e-12) << "corner " << moving;
+      EXPECT_NEAR(least, formulas::rank_around<Metric::MeanRatio>(element, moving), 1e-12) << "corner " << moving;
       EXPECT_EQ(count, ideal.at.size() == 5 && moving < 4 ? 3U : 4U) << "corners that have an edge to corner " << moving;
     }
 }

@@ -37,7 +37,8 @@ void LivePicture::refine(Scene& scene, const Wish& wish) {
   if (!complete_ && count > 0) {
     const double fitting = static_cast<double>(count) * kMoment / std::max(taken, 1e-6);
     slice_ = static_cast<Index>(std::clamp(fitting, 0.5 * static_cast<double>(slice_), 2.0 * static_cast<double>(slice_)));
-    slice_ = std::clamp<Index>(slice_, 2'000, 4'000'000);
+    // The clock also counts what other programs do: slices that shrank with it would never end on a busy machine.
+    slice_ = std::clamp<Index>(slice_, 20'000, 4'000'000);
   }
   if (complete_) std::swap(base_, finer_);
 }

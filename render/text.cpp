@@ -3,31 +3,43 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
+#include <string>
 #include <utility>
 
 #include <ft2build.h>
 #include FT_FREETYPE_H
+
+#include <fmt/format.h>
+
+#include "core/base/utf8.h"
 
 namespace dmoscope::render {
 namespace {
 
 constexpr const char* kFontFile = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
-/// Next code point of UTF-8 text; bytes that are no UTF-8 stand for themselves.
-char32_t next_code_point(std::string_view& text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(0);
-  const std::size_t length = first < 0x80 ? 1 : first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : first >= 0xc0 ? 2 : 1;
-  char32_t code = first;
-  if (length > 1 && text.size() >= length) {
-    code = first & (0xffU >> (length + 1));
-    for (std::size_t i = 1; i < length; ++i) code = (code << 6U) | (byte(i) & 0x3fU);
-    text.remove_prefix(length);
-  } else {
-    text.remove_prefix(1);
+/// Takes the next letter of UTF-8 text.
+std::uint32_t next_letter(std::string_view& text) {
+  std::uint32_t letter = 0;
+  const std::size_t size = utf8_letter(text, letter);
+  if (size == 0) letter = 0xFFFD;
+  text.remove_prefix(size == 0 ? 1 : size);
+  return letter;
+}
+
+/// The text, with "<U+4E2D>" for letters that the font lacks.
+std::string in_letters_of(FT_Face face, std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::string_view before = text;
+    const std::uint32_t letter = next_letter(text);
+    if (FT_Get_Char_Index(face, letter) == 0) {
+      out += fmt::format("<U+{:04X}>", letter);
+    } else {
+      out += before.substr(0, before.size() - text.size());
+    }
   }
-  return code;
+  return out;
 }
 
 }  // namespace
@@ -55,20 +67,24 @@ std::unique_ptr<Font> Font::load() {
   return std::unique_ptr<Font>(new Font(std::move(impl)));
 }
 
-int Font::width(std::string_view text, float pixels) const {
+int Font::width(std::string_view words, float pixels) const {
   impl_->set_size(pixels);
+  const std::string letters = in_letters_of(impl_->face, words);
+  std::string_view text = letters;
   FT_Pos pen = 0;
   while (!text.empty()) {
-    if (FT_Load_Char(impl_->face, next_code_point(text), FT_LOAD_TARGET_LIGHT) == 0) pen += impl_->face->glyph->advance.x;
+    if (FT_Load_Char(impl_->face, next_letter(text), FT_LOAD_TARGET_LIGHT) == 0) pen += impl_->face->glyph->advance.x;
   }
   return static_cast<int>((pen + 63) / 64);
 }
 
-void Font::draw(Image& image, int x, int baseline, std::string_view text, float pixels, Rgba colour) const {
+void Font::draw(Image& image, int x, int baseline, std::string_view words, float pixels, Rgba colour) const {
   impl_->set_size(pixels);
+  const std::string letters = in_letters_of(impl_->face, words);
+  std::string_view text = letters;
   FT_Pos pen = FT_Pos{x} * 64;
   while (!text.empty()) {
-    if (FT_Load_Char(impl_->face, next_code_point(text), FT_LOAD_RENDER | FT_LOAD_TARGET_LIGHT) != 0) continue;
+    if (FT_Load_Char(impl_->face, next_letter(text), FT_LOAD_RENDER | FT_LOAD_TARGET_LIGHT) != 0) continue;
     const FT_GlyphSlot glyph = impl_->face->glyph;
     const FT_Bitmap& bitmap = glyph->bitmap;
     Image cover(static_cast<int>(bitmap.width), static_cast<int>(bitmap.rows));

@@ -86,9 +86,11 @@ void App::submit(std::string_view line) {
 std::string App::title() const { return window_title(*session_); }
 
 bool App::prepare() {
-  const bool fonts = styled_scale_ != state_.scale;
+  const std::size_t letters = widgets_.glyphs.size();
+  const bool fonts = styled_scale_ != state_.scale || built_letters_ != letters;
   if (fonts) {
-    fonts_ = build_fonts(state_.scale);
+    fonts_ = build_fonts(state_.scale, widgets_.glyphs);
+    built_letters_ = letters;
     styled_scale_ = state_.scale;
   }
   if (fonts || styled_theme_ != state_.theme) {
@@ -182,6 +184,7 @@ void App::notice_new_input() {
   if (!stays) state_.requests.fit = state_.requests.fit_all = true;
   if (change != MeshChange::Switched)
     for (PlotView& plot : state_.plots) plot.x_range = plot.y_range = {};
+  if (frame != nullptr) note_letters(frame->input->mesh);
   if (!stays && frame != nullptr && !frame->input->path.empty()) remember_file(state_, frame->input->path.string());
 }
 
@@ -192,6 +195,12 @@ void App::show_beside() {
   if (state_.is_volume) return;
   const auto alike = [&](const InputView& mesh) { return cover_alike(*mesh.input, *session_->input); };
   if (!std::ranges::all_of(session_->meshes, alike)) state_.link_cameras(false);
+}
+
+/// Of names that are drawn where the book is not at hand.
+void App::note_letters(const Mesh& mesh) {
+  (void)widgets_.glyphs.shown(mesh.name);
+  for (const auto& group : mesh.groups) (void)widgets_.glyphs.shown(group.name);
 }
 
 /// Of several viewports the colour bar has a place of its own below them, of one it lies on the mesh.
@@ -215,27 +224,6 @@ void App::update_viewports(PanelContext& context, const Rect& rect) {
   activity_.reduced = viewports_.refining();
   if (viewports_.refining() && !activity_.busy) redraw_in_ = moved || live ? std::min(redraw_in_, kRestAfter) : 0.0;
   context.panes = viewports_.facts();
-}
-
-void App::handle_shortcuts() {
-  const ImGuiIO& io = ImGui::GetIO();
-  if (io.WantTextInput || state_.dialog != Dialog::None || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
-  const auto pressed = [](int code) { return code >= 0 && code < 512 && ImGui::IsKeyPressed(code, true); };
-  for (const Action& action : actions()) {
-    const auto chord = action.key.empty() ? std::nullopt : parse_key(action.key);
-    if (!chord || io.KeyCtrl != chord->ctrl || io.KeyAlt != chord->alt) continue;
-    bool hit = io.KeyShift == chord->shift && pressed(chord->code);
-    constexpr int kKeypadMinus = 333, kKeypadPlus = 334;
-    if (chord->code == '+') hit = pressed('=') || pressed(kKeypadPlus);
-    if (chord->code == '-') hit = hit || pressed(kKeypadMinus);
-    if (!hit) continue;
-    // With the keyboard in the widgets, Space presses the one that has the focus.
-    if (chord->code == key::kSpace && io.NavVisible) continue;
-    const std::size_t over = widgets_.run_list.over;  // with the mouse on a run, its key is for that
-    const std::string command = action.key == "F2" && over > 0 ? fmt::format("begin-rename {}", over) : std::string(action.command);
-    if (enabled(action, situation_of(*session_, state_, activity_.busy))) submit_by_person(command);
-    return;
-  }
 }
 
 void App::draw_side(PanelContext& context, const char* name, const Rect& rect, bool overlay, bool left) {
@@ -311,8 +299,8 @@ void App::draw(double now) {
     add_message(state_, std::move(message));
   }
   state_.tour.follow(tour_facts(*session_, state_, busy));
+  if (const int direction = std::exchange(focus_moves_, 0); direction != 0) items_.move_focus(direction);
   items_.begin_frame();
-  handle_shortcuts();
   PanelContext context{
       state_,
       widgets_,
@@ -336,6 +324,7 @@ void App::draw(double now) {
   // What a panel holds must stay alive until the frame is done, whatever its commands bring about.
   const std::shared_ptr<const SessionView> held = session_;
   const auto hovered = state_.inspection.hovered;
+  serve_chooser();
   draw_panels(context);
   if (activity_.busy) redraw_in_ = std::min(redraw_in_, 0.1);
   if (!viewports_.colours_settled()) redraw_in_ = std::min(redraw_in_, 0.02);
@@ -344,7 +333,8 @@ void App::draw(double now) {
   advance_sequence();
   watch_file();
   redraw_in_ = std::min({redraw_in_, play_in, fades_in});
-  if (state_.inspection.hovered != hovered) redraw_in_ = 0.0;  // the mesh is marked in the next frame
+  if (state_.inspection.hovered != hovered) redraw_in_ = 0.0;      // the mesh is marked in the next frame
+  if (widgets_.glyphs.size() != built_letters_) redraw_in_ = 0.0;  // with the letters that were met for the first time
   if (tooltip_unsettled()) redraw_in_ = 0.0;
 }
 

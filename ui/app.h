@@ -31,6 +31,7 @@ class App {
     std::string no_interop;           // why the accelerator cannot write what is drawn; empty where it can
     bool software_renderer = false;
     bool sample_pictures = true;  // on the start page
+    bool native_dialogs = false;  // the desktop's file dialogs may be shown
     bool wait_for_scene = false;  // big meshes are made ready for drawing before a frame goes on (headless)
   };
 
@@ -71,6 +72,15 @@ class App {
   void set_wake(const std::function<void()>& wake);
   void set_listener(std::function<void(const Message&)> listener) { listener_ = std::move(listener); }
 
+  /// A key is for commands: no field, dialog or menu has the keyboard.
+  [[nodiscard]] bool takes_commands() const;
+  /// Does what a key is for, where that is possible now. `repeated`: the key is being held.
+  void press(const KeyChord& chord, bool repeated = false);
+  /// As which letter ImGui gets one that is typed.
+  [[nodiscard]] char16_t shown_letter(char32_t letter) { return widgets_.glyphs.shown_letter(letter); }
+  /// With the next frame, the keyboard goes to the next control (1) or to the one before (-1).
+  void move_focus(int direction) noexcept { focus_moves_ = direction; }
+
   /// Before ImGui::NewFrame: builds fonts and style anew when theme or scale changed. True: upload the font texture again.
   bool prepare();
   /// Between ImGui::NewFrame and ImGui::Render. `now`: seconds on any steady clock. Draws the mesh into a texture of its own.
@@ -105,11 +115,15 @@ class App {
   void update_drawing();
   void notice_new_input();
   void show_beside();
+  [[nodiscard]] SaveRows* rows_of(Dialog dialog);
+  void take_chosen_file();
+  void serve_chooser();
+  void note_letters(const Mesh& mesh);
   void update_derived();
   double play_on(bool busy, double now);
   [[nodiscard]] std::vector<Rect> pane_places(PanelContext& context, const Rect& rect);
   void update_viewports(PanelContext& context, const Rect& rect);
-  void handle_shortcuts();
+  [[nodiscard]] bool waits_its_turn(const Action& action) const;
   void draw_panels(PanelContext& context);
   void draw_side(PanelContext& context, const char* name, const Rect& rect, bool overlay, bool left);
   [[nodiscard]] bool moving(double now) const;
@@ -137,12 +151,16 @@ class App {
 
   Viewports viewports_;
   StepWatch steps_;
+  FileChooser chooser_;
+  bool chooser_failed_ = false;  // it is not tried again
 
   Pace pace_;
   double styled_scale_ = 0.0;
+  std::size_t built_letters_ = 0;
   std::optional<Theme> styled_theme_;
   double busy_since_ = -1.0, last_draw_ = -1.0, frame_interval_ = 0.0;
   double redraw_in_ = 0.0;
+  int focus_moves_ = 0;
   double view_kept_at_ = 0.0;
   std::uint64_t seen_restored_ = 0;
   MeshWatch meshes_;

@@ -26,11 +26,18 @@ void require_display() {
       "dmoscope smooth, compare, quality, render, convert, generate, script --headless, bench, paper and info.");
 }
 
+namespace {
+
+ui::App::Options options_of(const WindowOptions& options, const render::Context& context) {
+  ui::App::Options app = app_options(options.threads, options.backend, acceleration_for(options.backend), context);
+  app.native_dialogs = !options.scripted;
+  return app;
+}
+
+}  // namespace
+
 Desktop::Desktop(const WindowOptions& options)
-    : options_(options),
-      window_(render::Window::create({})),
-      input_(window_->handle()),
-      app_(app_options(options.threads, options.backend, acceleration_for(options.backend), *window_)) {
+    : options_(options), window_(render::Window::create({})), input_(window_->handle(), keys_), app_(options_of(options, *window_)) {
   ui::ViewState& state = app_.state();
   if (!options_.scripted) begin_as_remembered();
   begin_autosave();
@@ -142,7 +149,7 @@ void Desktop::notice_place() {
 void Desktop::wait() {
   constexpr int kFramesAfterEvent = 4;
   constexpr double kCaretBlink = 0.25;
-  if (frames_left_ > 0 || input_.waiting()) {
+  if (frames_left_ > 0 || keys_.waiting()) {
     frames_left_ = std::max(0, frames_left_ - 1);
     window_->wait_events(0.0);
     return;
@@ -154,7 +161,8 @@ void Desktop::wait() {
 
 void Desktop::frame() {
   const render::Extent size = window_->framebuffer_size();
-  if (size.width == 0 || size.height == 0) return;
+  constexpr double kPauseOfNothingSeen = 0.1;
+  if (size.width == 0 || size.height == 0) return window_->wait_events(kPauseOfNothingSeen);
   if (!options_.scripted) ui::move_to_monitor(app_.state(), static_cast<double>(window_->content_scale()));
   if (app_.prepare()) interface_.upload_fonts();
   ImGui_ImplOpenGL3_NewFrame();
@@ -163,17 +171,17 @@ void Desktop::frame() {
     ImGuiIO& io = ImGui::GetIO();
     auto& input = app_.state().requests.input;
     if (!input.empty()) {
-      simulated_.play(input.front(), io);
+      simulated_.play(input.front(), io, keys_);
       input.pop_front();
     }
     simulated_.hold(io);
     constexpr float kPause = 0.5F;
     if (std::exchange(pause_, false)) io.DeltaTime += kPause;
   }
+  keys_.feed(ImGui::GetIO(), app_);
   ImGui::NewFrame();
   app_.draw(now());
   ImGui::Render();
-  input_.end_frame();
   render::Framebuffer::bind_default(size.width, size.height);
   interface_.draw();
   window_->swap();
@@ -221,7 +229,7 @@ void Desktop::settle() {
   const double begin = now();
   for (int rest = 0; rest < kRestFrames && !quit();) {
     const bool sized = has_wanted_size() || now() - begin > kPatience;
-    const bool quiet = sized && app_.state().requests.input.empty() && app_.settled();
+    const bool quiet = sized && app_.state().requests.input.empty() && !keys_.waiting() && app_.settled();
     if (app_.engine().busy()) {
       wait();
     } else {

@@ -61,6 +61,7 @@ class Desktop {
   WindowOptions options_;
   std::unique_ptr<render::Window> window_;
   Interface interface_;
+  KeyQueue keys_;
   GlfwInput input_;
   ui::App app_;
   ui::SettingsKeeper settings_;

@@ -1,6 +1,7 @@
 #include "app/window/glfw_input.h"
 
 #include <cfloat>
+#include <string_view>
 
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
@@ -9,23 +10,50 @@
 namespace dmoscope::app {
 namespace {
 
-void on_key(GLFWwindow* /*window*/, int key, int /*scancode*/, int action, int modifiers) {
-  if (action != GLFW_PRESS || key < 0 || key >= IM_ARRAYSIZE(ImGuiIO::KeysDown)) return;
-  static_cast<GlfwInput*>(ImGui::GetIO().UserData)->pressed({key, modifiers});
+KeyQueue& keys() { return *static_cast<KeyQueue*>(ImGui::GetIO().UserData); }
+
+/// Keys by what is written on them: GLFW numbers them by where they are on an American keyboard, whose Z is elsewhere on a German one.
+/// Digits stay where they are, as some keyboards have them on Shift.
+int code_of(int key, int scancode) {
+  if (key < 0 || key >= IM_ARRAYSIZE(ImGuiIO::KeysDown)) return 0;
+  if (key <= GLFW_KEY_SPACE || key >= GLFW_KEY_ESCAPE || (key >= GLFW_KEY_0 && key <= GLFW_KEY_9)) return key;
+  const char* name = glfwGetKeyName(key, scancode);
+  const std::string_view written = name == nullptr ? std::string_view() : name;
+  if (written.size() != 1 || written[0] <= ' ' || written[0] > '~') return key;
+  return written[0] >= 'a' && written[0] <= 'z' ? written[0] - 'a' + 'A' : written[0];
 }
 
-void set_modifiers(ImGuiIO& io, bool ctrl, bool shift, bool alt) {
-  io.KeyCtrl = ctrl;
-  io.KeyShift = shift;
-  io.KeyAlt = alt;
+void on_key(GLFWwindow* /*window*/, int key, int scancode, int action, int modifiers) {
+  const int code = code_of(key, scancode);
+  if (action == GLFW_RELEASE) return keys().release(code);
+  const ui::KeyChord chord{code, (modifiers & GLFW_MOD_CONTROL) != 0, (modifiers & GLFW_MOD_SHIFT) != 0, (modifiers & GLFW_MOD_ALT) != 0};
+  keys().press(chord, action == GLFW_REPEAT);
+}
+
+void on_character(GLFWwindow* /*window*/, unsigned character) { keys().character(character); }
+
+void on_mouse_button(GLFWwindow* window, int button, int action, int modifiers) {
+  if (action == GLFW_PRESS) keys().click();
+  ImGui_ImplGlfw_MouseButtonCallback(window, button, action, modifiers);
+}
+
+void on_focus(GLFWwindow* window, int focused) {
+  if (focused == GLFW_FALSE) keys().lose_focus();
+  ImGui_ImplGlfw_WindowFocusCallback(window, focused);
 }
 
 }  // namespace
 
-GlfwInput::GlfwInput(GLFWwindow* window) {
-  ImGui::GetIO().UserData = this;
-  glfwSetKeyCallback(window, on_key);  // ImGui's own callback calls it first
-  ImGui_ImplGlfw_InitForOpenGL(window, true);
+GlfwInput::GlfwInput(GLFWwindow* window, KeyQueue& keys) {
+  ImGui::GetIO().UserData = &keys;
+  ImGui_ImplGlfw_InitForOpenGL(window, false);
+  glfwSetKeyCallback(window, on_key);
+  glfwSetCharCallback(window, on_character);
+  glfwSetMouseButtonCallback(window, on_mouse_button);
+  glfwSetWindowFocusCallback(window, on_focus);
+  glfwSetCursorEnterCallback(window, ImGui_ImplGlfw_CursorEnterCallback);
+  glfwSetScrollCallback(window, ImGui_ImplGlfw_ScrollCallback);
+  glfwSetMonitorCallback(ImGui_ImplGlfw_MonitorCallback);
 }
 
 GlfwInput::~GlfwInput() { ImGui_ImplGlfw_Shutdown(); }
@@ -37,25 +65,6 @@ void GlfwInput::begin_frame(render::Extent size) {
   io.DisplaySize = {static_cast<float>(size.width), static_cast<float>(size.height)};
   io.DisplayFramebufferScale = {1.0F, 1.0F};
   if (io.MousePos.x > -FLT_MAX) io.MousePos = {io.MousePos.x * ratio.x, io.MousePos.y * ratio.y};
-
-  if (presses_.empty()) return;
-  const Press press = presses_.front();
-  presses_.pop_front();
-  if (io.KeysDown[press.key]) return;
-  io.KeysDown[press.key] = true;
-  held_ = press.key;
-  set_modifiers(io, (press.modifiers & GLFW_MOD_CONTROL) != 0, (press.modifiers & GLFW_MOD_SHIFT) != 0,
-                (press.modifiers & GLFW_MOD_ALT) != 0);
-}
-
-void GlfwInput::end_frame() {
-  if (!held_) return;
-  ImGuiIO& io = ImGui::GetIO();
-  io.KeysDown[*held_] = false;
-  held_.reset();
-  set_modifiers(io, io.KeysDown[GLFW_KEY_LEFT_CONTROL] || io.KeysDown[GLFW_KEY_RIGHT_CONTROL],
-                io.KeysDown[GLFW_KEY_LEFT_SHIFT] || io.KeysDown[GLFW_KEY_RIGHT_SHIFT],
-                io.KeysDown[GLFW_KEY_LEFT_ALT] || io.KeysDown[GLFW_KEY_RIGHT_ALT]);
 }
 
 }  // namespace dmoscope::app

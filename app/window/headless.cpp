@@ -27,6 +27,7 @@ HeadlessWindow::HeadlessWindow(const Options& options)
   if (options.no_interop) app.no_interop = *options.no_interop;
   app.wait_for_scene = !options.as_on_screen;
   app.sample_pictures = options.sample_pictures;
+  app.native_dialogs = options.native_dialogs;
   app_ = std::make_unique<ui::App>(std::move(app));
   app_->state().scale = options.scale;
   app_->set_listener([this](const Message& message) {
@@ -74,7 +75,7 @@ void HeadlessWindow::frame() {
   ImGuiIO& io = ImGui::GetIO();
   auto& input = app_->state().requests.input;
   if (!input.empty()) {
-    simulated_.play(input.front(), io);
+    simulated_.play(input.front(), io, keys_);
     input.pop_front();
   }
   simulated_.hold(io);
@@ -84,6 +85,7 @@ void HeadlessWindow::frame() {
   pause_ = false;
   io.DeltaTime = passed;
   ImGui_ImplOpenGL3_NewFrame();
+  keys_.feed(io, *app_);
   ImGui::NewFrame();
   app_->draw(now_);
   ImGui::Render();
@@ -117,7 +119,7 @@ void HeadlessWindow::settle() {
   int rest = 0;
   while (rest < kRestFrames) {
     app_->engine().wait_idle();
-    const bool quiet = app_->state().requests.input.empty() && app_->settled();
+    const bool quiet = app_->state().requests.input.empty() && !keys_.waiting() && app_->settled();
     frame();
     rest = quiet && !app_->engine().busy() ? rest + 1 : 0;
   }

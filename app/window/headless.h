@@ -25,6 +25,7 @@ class HeadlessWindow {
     Backend backend = Backend::Auto;
     std::optional<Acceleration> acceleration{};  // none: this machine's
     std::optional<std::string> no_interop{};     // why that cannot write what is drawn; none: what this machine says
+    bool native_dialogs = false;                 // see ui::App::Options
     bool sample_pictures = true;                 // see ui::App::Options
     bool as_on_screen = false;                   // nothing is waited for: neither the first frames nor a big mesh to be made ready
   };
@@ -47,6 +48,8 @@ class HeadlessWindow {
   /// The window's pixels as drawn last.
   [[nodiscard]] render::Image picture();
   [[nodiscard]] const std::string& clipboard() const noexcept { return clipboard_; }
+  /// What is typed into it comes with the next frames, as many keys between two as one likes.
+  [[nodiscard]] KeyQueue& keys() noexcept { return keys_; }
   [[nodiscard]] bool quit() const { return app_->state().requests.quit; }
 
  private:
@@ -58,6 +61,7 @@ class HeadlessWindow {
   std::unique_ptr<Interface> interface_;
   std::optional<render::Framebuffer> screen_;  // of present()
   std::unique_ptr<ui::App> app_;
+  KeyQueue keys_;
   SimulatedInput simulated_;
   int width_, height_;
   double now_ = 0.0;

@@ -5,7 +5,7 @@
 
 namespace dmoscope::app {
 
-void SimulatedInput::play(const ui::SimulatedInput& input, ImGuiIO& io) {
+void SimulatedInput::play(const ui::SimulatedInput& input, ImGuiIO& io, KeyQueue& keys) {
   using Kind = ui::SimulatedInput::Kind;
   switch (input.kind) {
     case Kind::Move:
@@ -15,21 +15,19 @@ void SimulatedInput::play(const ui::SimulatedInput& input, ImGuiIO& io) {
     case Kind::Release:
       mouse_ = {input.x, input.y};
       down_.at(static_cast<std::size_t>(input.button)) = input.kind == Kind::Press;
+      if (input.kind == Kind::Press) keys.click();
       break;
     case Kind::Wheel:
       io.MouseWheel = input.y;
       break;
     case Kind::KeyDown:
-    case Kind::KeyUp: {
-      const bool down = input.kind == Kind::KeyDown;
-      io.KeyCtrl = down && input.chord.ctrl;
-      io.KeyShift = down && input.chord.shift;
-      io.KeyAlt = down && input.chord.alt;
-      io.KeysDown[input.chord.code] = down;
+      keys.press(input.chord);
       break;
-    }
+    case Kind::KeyUp:
+      keys.release(input.chord.code);
+      break;
     case Kind::Text:
-      io.AddInputCharactersUTF8(input.text.c_str());
+      keys.text(input.text);
       break;
   }
 }

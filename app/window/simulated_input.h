@@ -1,10 +1,11 @@
 #pragma once
-// The mouse and keyboard of scripts, played through ImGui's own input.
+// The mouse and keyboard of scripts, played through the same queue as a person's.
 
 #include <array>
 
 #include <imgui.h>
 
+#include "app/window/key_queue.h"
 #include "ui/state/view_state.h"
 
 namespace dmoscope::app {
@@ -12,7 +13,7 @@ namespace dmoscope::app {
 class SimulatedInput {
  public:
   /// Plays one event; call hold afterwards.
-  void play(const ui::SimulatedInput& input, ImGuiIO& io);
+  void play(const ui::SimulatedInput& input, ImGuiIO& io, KeyQueue& keys);
   /// Puts the mouse where the script left it, whatever the platform says. Before every ImGui::NewFrame.
   void hold(ImGuiIO& io) const;
 

@@ -57,7 +57,7 @@ TEST(Actions, TheKeysThatPeopleAreToldOfWork) {
                                                         {"V", "step-vertex"},     {"R", "reset"},
                                                         {"U", "until-converged"}, {"F", "fit"},
                                                         {"W", "wireframe"},       {"M", "next-metric"},
-                                                        {"Tab", "next-run"},      {"Ctrl+O", "open"},
+                                                        {"Alt+N", "next-run"},    {"Ctrl+O", "open"},
                                                         {"Ctrl+S", "export"},     {"Ctrl+Shift+S", "screenshot"},
                                                         {"Ctrl+Z", "undo"},       {"Ctrl+F", "find"},
                                                         {"Ctrl+Y", "redo"},       {"Ctrl+Shift+Z", "redo"},

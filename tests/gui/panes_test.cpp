@@ -74,7 +74,7 @@ TEST_F(PanesTest, FillThemselvesWithTheRunsAndTheInput) {
   EXPECT_EQ(all(), (Words{"run 1", "run 2", "run 1 0", "run 3"}));
   good("viewports 2");
   EXPECT_EQ(all(), (Words{"run 1", "run 3"})) << "the active run is seen in any case";
-  good("key Tab");
+  good("key Alt+N");
   EXPECT_EQ(session()->active, 0U);
   EXPECT_EQ(state().panes.focus, 0U);
   good("viewports 1");

@@ -45,6 +45,11 @@ void add_file_commands(CommandTable& table, ViewState& state, const CommandHost&
     require(words, 0, 1);
     state.watch_file = switched(words, 0, state.watch_file);
   });
+  table.add({"native-dialogs", "native-dialogs [on|off|toggle]", "the desktop's own file dialogs where there are any (zenity, kdialog)"},
+            [&state](Arguments words) {
+              require(words, 0, 1);
+              state.native_dialogs = switched(words, 0, state.native_dialogs);
+            });
   table.add({"sequence", "sequence FOLDER [--from I] [--to J] [--every K] [--size WxH] [--window] [--overwrite]",
              "a picture of every iteration, for a video"},
             [&state, &host](Arguments words) {

@@ -156,6 +156,7 @@ std::string settings_text(const ViewState& state) {
               {"tour_offered", state.tour.offered},
               {"x_axis", word_of(kXAxes, state.plot_options.x_axis)},
               {"histogram_range", word_of(kHistogramRanges, state.plot_options.histogram_range)},
+              {"native_dialogs", state.native_dialogs},
               {"panels",
                {{"left", panels.left},
                 {"right", panels.right},
@@ -193,6 +194,7 @@ bool apply_settings(const std::string& text, ViewState& state) {
   take(in, "occlusion", state.occlusion);
   if (const auto at = in.find("range"); at != in.end() && at->is_object()) take_range(*at, state);
   take(in, "tour_offered", state.tour.offered);
+  take(in, "native_dialogs", state.native_dialogs);
   if (const auto at = in.find("colormap"); at != in.end() && at->is_string()) {
     for (const auto& map : render::colour_map_table()) {
       if (map.name == at->get<std::string>()) state.colour_map = map.map;

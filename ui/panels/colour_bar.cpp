@@ -77,7 +77,7 @@ BarLayout lay_out(const PanelContext& context, const Rect& rect) {
   layout.mode_width = layout.mode.empty() ? 0 : ImGui::CalcTextSize(layout.mode.c_str()).x;
   for (std::size_t k = 0; k < std::min(kMostEntries, legend.categories.size()); ++k) {
     const render::LegendEntry& entry = legend.categories[k];
-    layout.swatches.push_back({fmt::format("{}: {}", entry.name, count(entry.count)), entry.colour});
+    layout.swatches.push_back({fmt::format("{}: {}", context.shown(entry.name), count(entry.count)), entry.colour});
   }
   layout.entries = layout.swatches.size();
   if (legend.categories.size() > kMostEntries) {

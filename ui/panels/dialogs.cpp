@@ -237,7 +237,7 @@ void draw_about_dialog(PanelContext& context) {
 void draw_error_dialog(PanelContext& context) {
   if (!begin_dialog(context, dialog_title(Dialog::Error), 42)) return;
   ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(context.state.error_text.c_str());
+  ImGui::TextUnformatted(context.shown(context.state.error_text).c_str());
   ImGui::PopTextWrapPos();
   context.items.record_last("error:text");
   ImGui::Spacing();

@@ -2,10 +2,14 @@
 // The dialogs, and what each keeps between frames.
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "ui/state/save_target.h"
+#include "ui/state/view_state.h"
 #include "ui/toolkit/file_browser.h"
+#include "ui/toolkit/file_chooser.h"
 
 namespace dmoscope::ui {
 
@@ -13,21 +17,39 @@ struct PanelContext;
 
 struct OpenDialog {
   std::string folder, text, error;
+  std::string mesh;  // beside which it began
   std::vector<FolderEntry> entries;
   int selected = -1;
   bool all_files = false;
 };
 void draw_open_dialog(PanelContext& context);
 
+/// What every dialog that saves keeps: what was typed stays for the next time, for as long as the mesh is the same.
+struct SaveRows {
+  SaveTarget target;
+  std::string mesh;       // whose names are meant
+  bool browsing = false;  // in the dialog itself
+  int taken = 0;          // how often another name came from elsewhere
+  std::vector<FolderEntry> entries;
+  std::string listed, list_error;  // the folder of these
+};
+
+/// The desktop's file dialog: `usable` where there is one; wanted by a dialog of ours, or instead of that for opening.
+struct ChooserTurn {
+  bool usable = false, open = false;
+  std::optional<ChooserWish> wish;
+  Dialog asked_by = Dialog::None;
+};
+
 struct ExportDialog {
   int what = 0;
-  std::string name;
+  SaveRows save;
   bool over_input = false;  // it is asked whether the mesh's own file may be written over
 };
 void draw_export_dialog(PanelContext& context);
 
 struct ScreenshotDialog {
-  std::string name = "dmoscope.png";
+  SaveRows save;
   int width = 0, height = 0, supersample = 2;
   bool transparent = false, window = false;
 };
@@ -62,13 +84,13 @@ void draw_sequence_dialog(PanelContext& context);
 
 /// Saves a plot.
 struct PlotDialog {
-  std::string name = "plot.svg";
+  SaveRows save;
   int width = 800, height = 450, scale = 2;
 };
 void draw_plot_dialog(PanelContext& context);
 
 struct SaveSessionDialog {
-  std::string name;
+  SaveRows save;
 };
 void draw_save_session_dialog(PanelContext& context);
 

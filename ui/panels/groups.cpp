@@ -90,8 +90,8 @@ void draw_line(PanelContext& context, const GroupLine& line, bool fixed, const R
   if (line.colour) list.AddRectFilled({at.x, top}, {at.x + side, top + side}, colour(*line.colour), context.px(2));
   const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + side + context.px(6));
-  ImGui::TextUnformatted(fit_name(group, look).c_str());
-  next_item_tooltip(tooltip_of(group));
+  ImGui::TextUnformatted(context.shown(fit_name(group, look)).c_str());
+  next_item_tooltip(context.shown(tooltip_of(group)));
   ImGui::SameLine();
   ImGui::SetCursorPosX(right - (look.words ? words_width(context) : icons_width(context)) + context.px(6));
   const GroupSwitch fix{"fix", fixed ? Icon::Lock : Icon::LockOff, "group-fix:" + group.name,

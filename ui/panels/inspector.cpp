@@ -29,9 +29,9 @@ void draw_mesh(PanelContext& context, const Frame& frame) {
   const Mesh& mesh = frame.input->mesh;
   heading(context, "Mesh");
   ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(mesh.name.c_str());
+  ImGui::TextUnformatted(context.shown(mesh.name).c_str());
   ImGui::PopTextWrapPos();
-  if (!frame.input->path.empty()) next_item_tooltip(frame.input->path.string());
+  if (!frame.input->path.empty()) next_item_tooltip(context.shown(frame.input->path.string()));
   if (!mesh.title.empty() && mesh.title != mesh.name) dim_text(context, mesh.title);
   dim_text(context, kinds_sentence(context.derived));
   value_row(context, "vertices", count(mesh.vertex_count()));
@@ -47,7 +47,7 @@ void draw_mesh(PanelContext& context, const Frame& frame) {
   for (const std::string& fact : facts) {
     ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.warning));
     ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(fact.c_str());
+    ImGui::TextUnformatted(context.shown(fact).c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
   }

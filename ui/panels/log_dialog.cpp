@@ -52,12 +52,13 @@ void draw_line(PanelContext& context, const LogLine& line) {
   // Commands have a mark of their own: colour alone tells nobody.
   ImGui::TextColored(colour_vector(context.palette.accent), command ? "▸" : " ");
   ImGui::SameLine(7.0F * context.em());
-  const std::string text = line.text.substr(0, line.text.find('\n')) + state_word(line.state);
+  const std::string text = context.shown(line.text.substr(0, line.text.find('\n'))) + state_word(line.state);
   const std::string shown = fit_text(text, ImGui::GetContentRegionAvail().x);
   ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(ink_of(context, line)));
   if (ImGui::Selectable(shown.c_str(), false, ImGuiSelectableFlags_DontClosePopups)) context.state.requests.clipboard = line.text;
   ImGui::PopStyleColor();
-  next_item_tooltip((shown != text || line.text.find('\n') != std::string::npos ? line.text + "\n" : "") + "(click copies it)");
+  next_item_tooltip((shown != text || line.text.find('\n') != std::string::npos ? context.shown(line.text) + "\n" : "") +
+                    "(click copies it)");
 }
 
 void draw_lines(PanelContext& context, const std::vector<const LogLine*>& lines) {

@@ -62,6 +62,7 @@ bool is_checked(const ViewState& state, std::string_view id) {
   if (id == "panel-right") return state.panels.right;
   if (id == "panel-bottom") return state.panels.bottom;
   if (id == "watch") return state.watch_file;
+  if (id == "native-dialogs") return state.native_dialogs;
   if (id == "play") return state.timeline.play.kind == Playback::Kind::History;
   if (id == "play-iterations") return state.timeline.play.kind == Playback::Kind::Iteration;
   if (id == "play-classes") return state.timeline.play.kind == Playback::Kind::Class;
@@ -78,8 +79,8 @@ bool is_checked(const ViewState& state, std::string_view id) {
 void draw_recent(PanelContext& context) {
   if (!ImGui::BeginMenu("Recent", !context.state.recent_files.empty())) return;
   for (const RecentFile& file : context.widgets.recent.list(context.state.recent_files, context.now)) {
-    if (ImGui::MenuItem(file.path.c_str(), nullptr, false, !file.missing)) context.send(open_command(file.path));
-    next_item_tooltip(file.reason());
+    if (ImGui::MenuItem(context.shown(file.path).c_str(), nullptr, false, !file.missing)) context.send(open_command(file.path));
+    next_item_tooltip(context.shown(file.reason()));
   }
   ImGui::EndMenu();
 }

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
-#include <imgui_stdlib.h>
 
 #include "core/commands/commands.h"
 #include "ui/panels/panels.h"
+#include "ui/panels/save_rows.h"
 #include "ui/state/recent_labels.h"
 
 namespace dmoscope::ui {
@@ -31,8 +31,12 @@ void open_file(PanelContext& context, const fs::path& file) {
 }
 
 /// A folder is entered, a file opened; anything else gets a sentence.
-void go_to(PanelContext& context, const fs::path& path) {
+void go_to(PanelContext& context, const fs::path& named) {
   std::error_code ignored;
+  SaveTarget target;
+  target.folder = context.widgets.open.folder;
+  target.name = named.string();
+  const fs::path path = target.path();
   if (fs::is_directory(path, ignored)) {
     enter_folder(context.widgets, path);
   } else if (fs::exists(path, ignored)) {
@@ -76,7 +80,7 @@ void draw_entries(PanelContext& context) {
       context.items.record_last("entry:" + entry.name);
       if (scroll && k == widgets.open.selected) ImGui::SetScrollHereY();
       ImDrawList& list = *ImGui::GetWindowDrawList();
-      const std::string name = entry.folder ? "▸ " + entry.name + "/" : "   " + entry.name;
+      const std::string name = context.shown(entry.folder ? "▸ " + entry.name + "/" : "   " + entry.name);
       list.AddText(at, colour(entry.folder ? context.palette.accent : context.palette.text),
                    fit_text(name, width - 7 * context.em()).c_str());
       if (!entry.folder) {
@@ -93,6 +97,35 @@ void draw_entries(PanelContext& context) {
   if (chosen >= 0) go_to(context, fs::path(widgets.open.folder) / widgets.open.entries[static_cast<std::size_t>(chosen)].name);
 }
 
+void draw_places_column(PanelContext& context) {
+  heading(context, "Places");
+  const Frame* frame = context.frame();
+  const fs::path mesh = frame == nullptr ? fs::path() : frame->input->path;
+  constexpr std::size_t kMost = 8;
+  const std::vector<Place> all = places(mesh, context.state.recent_files);
+  for (std::size_t k = 0; k < std::min(all.size(), kMost); ++k) {
+    ImGui::PushID(static_cast<int>(k));
+    const std::string title = fit_text(context.shown(all[k].title), ImGui::GetContentRegionAvail().x);
+    if (ImGui::Selectable(title.c_str(), all[k].folder == context.widgets.open.folder, ImGuiSelectableFlags_DontClosePopups))
+      enter_folder(context.widgets, all[k].folder);
+    context.items.record_last(fmt::format("place:{}", k));
+    next_item_tooltip(context.shown(all[k].folder));
+    ImGui::PopID();
+  }
+  ImGui::Spacing();
+}
+
+/// Beside the open mesh; once that is known, where one was last.
+void begin_open(PanelContext& context) {
+  OpenDialog& open = context.widgets.open;
+  const Frame* frame = context.frame();
+  const std::string mesh = frame == nullptr ? std::string() : frame->input->path.string();
+  std::error_code ignored;
+  const bool known = !open.folder.empty() && open.mesh == mesh && fs::is_directory(open.folder, ignored);
+  open.mesh = mesh;
+  enter_folder(context.widgets, known ? fs::path(open.folder) : fs::path(first_folder(mesh)));
+}
+
 void draw_recent_column(PanelContext& context) {
   heading(context, "Recent");
   if (context.state.recent_files.empty()) dim_text(context, "nothing yet");
@@ -100,10 +133,10 @@ void draw_recent_column(PanelContext& context) {
   std::size_t at = 0;
   for (const RecentFile& file : context.widgets.recent.list(context.state.recent_files, context.now)) {
     ImGui::PushID(file.path.c_str());
-    const std::string& name = names[at++];
+    const std::string name = context.shown(names[at++]);
     const ImGuiSelectableFlags flags = file.missing ? ImGuiSelectableFlags_Disabled : 0;
     if (ImGui::Selectable(fit_text(name, ImGui::GetContentRegionAvail().x).c_str(), false, flags)) open_file(context, file.path);
-    next_item_tooltip(file.missing ? file.reason() : file.path);
+    next_item_tooltip(context.shown(file.missing ? file.reason() : file.path));
     ImGui::PopID();
   }
 }
@@ -113,26 +146,23 @@ void draw_recent_column(PanelContext& context) {
 void draw_open_dialog(PanelContext& context) {
   if (!begin_dialog(context, "Open a mesh", 56, 36)) return;
   WidgetState& widgets = context.widgets;
-  if (widgets.dialog_opened) {
-    std::error_code ignored;
-    const bool known = !widgets.open.folder.empty() && fs::is_directory(widgets.open.folder, ignored);
-    enter_folder(widgets, known ? fs::path(widgets.open.folder) : fs::current_path(ignored));
-  }
+  if (widgets.dialog_opened) begin_open(context);
   if (ImGui::Button("↑ up")) enter_folder(widgets, parent_folder(widgets.open.folder));
   context.items.record_last("open:up");
   next_item_tooltip("the folder above   Backspace");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
-  const bool entered = ImGui::InputText("##path", &widgets.open.text, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = path_field(context, "##path", widgets.open.text);
   context.items.record_last("open:path");
   if (!widgets.open.error.empty()) {
     ImGui::PushTextWrapPos(0);
-    ImGui::TextColored(colour_vector(context.palette.error), "%s", widgets.open.error.c_str());
+    ImGui::TextColored(colour_vector(context.palette.error), "%s", context.shown(widgets.open.error).c_str());
     ImGui::PopTextWrapPos();
   }
   const float bottom = ImGui::GetFrameHeightWithSpacing() + context.px(4);
   const float recent = 13 * context.em();
   ImGui::BeginChild("recent", {recent, -bottom});
+  draw_places_column(context);
   draw_recent_column(context);
   ImGui::EndChild();
   ImGui::SameLine(0, context.px(16));

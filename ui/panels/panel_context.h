@@ -18,8 +18,10 @@
 #include "ui/analysis/inspection.h"
 #include "ui/panels/dialogs.h"
 #include "ui/state/actions.h"
+#include "ui/state/glyph_book.h"
 #include "ui/state/view_state.h"
 #include "ui/toolkit/file_browser.h"
+#include "ui/toolkit/fonts.h"
 #include "ui/toolkit/items.h"
 #include "ui/toolkit/layout.h"
 #include "ui/toolkit/recent_files.h"
@@ -88,10 +90,12 @@ struct WidgetState {
   PlotDialog plot_dialog;
   SaveSessionDialog save_session;
   RecoverDialog recover;
+  ChooserTurn chooser;
   Dialog dialog_shown = Dialog::None;  // in the last frame
   bool dialog_opened = false;          // in this frame
   std::shared_ptr<PlotCache> plot;     // as drawn last
   RecentFiles recent;
+  GlyphBook glyphs;
   RangeGrip range_grip;
   InsideGrip inside_grip;
   SplitterGrip splitter_grip;
@@ -126,6 +130,8 @@ struct PanelContext {
 
   [[nodiscard]] float em() const { return ImGui::GetFontSize(); }
   [[nodiscard]] float px(float at_scale_one) const { return at_scale_one * static_cast<float>(state.scale); }
+  /// A text of others, such as a file's name, as ImGui can draw it.
+  [[nodiscard]] std::string shown(std::string_view text) const { return widgets.glyphs.shown(text); }
   [[nodiscard]] const Frame* frame() const { return session.frame.get(); }
   [[nodiscard]] const RunView* run() const { return session.runs.empty() ? nullptr : &session.runs[session.active]; }
   [[nodiscard]] Situation situation() const;

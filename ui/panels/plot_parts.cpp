@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include <fmt/format.h>
-#include <imgui_stdlib.h>
 
+#include "ui/panels/save_rows.h"
 #include "ui/plots/plot_series.h"
 #include "ui/plots/plot_widget.h"
 
@@ -191,6 +191,12 @@ void draw_plot_area(PanelContext& context) {
   ImGui::EndPopup();
 }
 
+/// The table of runs is one of numbers alone.
+static SaveEndings plot_endings(const PanelContext& context) {
+  if (context.state.plot == PlotTab::Runs) return {"the table of runs", {".csv"}};
+  return {"a plot", {".svg", ".png", ".csv"}};
+}
+
 void draw_plot_dialog(PanelContext& context) {
   if (!begin_dialog(context, "Save the plot", 40)) return;
   PlotDialog& dialog = context.widgets.plot_dialog;
@@ -200,17 +206,17 @@ void draw_plot_dialog(PanelContext& context) {
     ImGui::SameLine(8 * context.em());
     ImGui::SetNextItemWidth(-1);
   };
-  label("file");
-  if (context.widgets.dialog_opened) ImGui::SetKeyboardFocusHere();
-  const bool entered = ImGui::InputText("##file", &dialog.name, ImGuiInputTextFlags_EnterReturnsTrue);
-  context.items.record_last("plot:file");
+  const SaveForm form{dialog.save, plot_endings(context), Dialog::Plot, "plot", 8};
+  if (context.widgets.dialog_opened) begin_save(context, dialog.save, name_beside(context, "-plot", form.endings.endings.front()));
+  const bool entered = draw_save_rows(context, form);
+  std::string& name = dialog.save.target.name;
   label("as");
-  const std::string extension = std::filesystem::path(dialog.name).extension().string();
+  const std::string extension = std::filesystem::path(name).extension().string();
   static constexpr std::array<std::pair<const char*, const char*>, 3> kKinds{
       {{".svg", "drawing (SVG)"}, {".png", "picture (PNG)"}, {".csv", "numbers (CSV)"}}};
   for (const auto& [kind, title] : kKinds) {
     if (kind != kKinds[0].first) ImGui::SameLine(0, context.px(16));
-    if (ImGui::RadioButton(title, extension == kind)) dialog.name = std::filesystem::path(dialog.name).replace_extension(kind).string();
+    if (ImGui::RadioButton(title, extension == kind)) name = std::filesystem::path(name).replace_extension(kind).string();
     context.items.record_last(fmt::format("plot:{}", kind + 1));
   }
   if (extension != ".csv") {
@@ -229,18 +235,8 @@ void draw_plot_dialog(PanelContext& context) {
                      ImGuiSliderFlags_AlwaysClamp);
   }
   dim_text(context, "As it is seen: the tab, its ranges, its axes, and what the legend leaves on. Pictures are on white.");
-  std::error_code ignored;
-  if (std::filesystem::is_regular_file(dialog.name, ignored))
-    ImGui::TextColored(colour_vector(context.palette.warning), "This file is there already and will be replaced.");
-  ImGui::Spacing();
-  const bool go = ImGui::Button("Save");
-  context.items.record_last("plot:go");
-  ImGui::SameLine();
-  if (ImGui::Button("Cancel")) context.state.dialog = Dialog::None;
-  context.items.record_last("dialog:close");
-  if ((go || entered) && !dialog.name.empty()) {
-    context.state.dialog = Dialog::None;
-    std::string line = fmt::format("plot-save {}", quote_word(dialog.name));
+  if (draw_save_buttons(context, form, "Save", entered)) {
+    std::string line = fmt::format("plot-save {}", quote_word(dialog.save.target.path().string()));
     const int scale = extension == ".png" ? dialog.scale : 1;
     if (extension != ".csv") line += fmt::format(" --size {}x{}", dialog.width * scale, dialog.height * scale);
     if (extension == ".png") line += fmt::format(" --scale {}", scale);

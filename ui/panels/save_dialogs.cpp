@@ -4,13 +4,13 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
-#include <imgui_stdlib.h>
 
 #include "core/commands/commands.h"
 #include "core/io/atomic_file.h"
 #include "core/io/mesh_io.h"
 #include "core/session/original_copy.h"
 #include "ui/panels/panels.h"
+#include "ui/panels/save_rows.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -20,36 +20,32 @@ namespace fs = std::filesystem;
 constexpr const char* kCommands[] = {"export", "stats", "elements"};
 
 std::string default_name(const PanelContext& context, int what) {
-  const Frame* frame = context.frame();
-  if (frame == nullptr) return {};
-  fs::path path = frame->input->path;
-  std::error_code ignored;
-  if (path.empty()) path = fs::current_path(ignored) / (fs::path(frame->input->mesh.name).stem().string() + ".vtk");
-  const std::string stem = path.stem().string();
-  const std::string name = what == 0 ? stem + "-smoothed" + path.extension().string() : stem + (what == 1 ? "-stats.csv" : "-elements.csv");
-  return path.replace_filename(name).string();
+  return what == 0 ? name_beside(context, "-smoothed", {}) : name_beside(context, what == 1 ? "-stats" : "-elements", ".csv");
+}
+
+/// Meshes are packed by gzip where the name says so.
+SaveEndings endings_of(const PanelContext& context, int what) {
+  if (what != 0) return {what == 1 ? "a table of statistics" : "a table of elements", {".csv"}};
+  return {"a mesh", {mesh_extension(default_name(context, 0))}, true};
 }
 
 void draw_formats(PanelContext& context, std::string& name) {
-  const std::string now = fs::path(name).extension().string();
-  const FormatInfo* current = nullptr;
-  const auto has = [&](const FormatInfo& format) {
-    return fmt::format(" {} ", format.extensions).find(fmt::format(" {} ", now)) != std::string::npos;
-  };
-  for (const FormatInfo& format : format_table()) {
-    if (has(format)) current = &format;
-  }
+  const FormatInfo* current = format_by_extension(mesh_extension(name));
   ImGui::AlignTextToFramePadding();
   dim_text(context, "format", false);
   ImGui::SameLine(6 * context.em());
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::BeginCombo("##format", current == nullptr ? "by the file's name" : std::string(current->title).c_str())) {
+  const bool open = ImGui::BeginCombo("##format", current == nullptr ? "by the file's name" : std::string(current->title).c_str());
+  if (!open) context.items.record_last("export:format");
+  if (open) {
     for (const FormatInfo& format : format_table()) {
       const std::string label = fmt::format("{}   {}", format.title, format.extensions);
       if (ImGui::Selectable(label.c_str(), &format == current)) {
         const std::string extensions(format.extensions);
+        if (fs::path(name).extension() == ".gz") name = fs::path(name).replace_extension().string();
         name = fs::path(name).replace_extension(extensions.substr(0, extensions.find(' '))).string();
       }
+      context.items.record_last(fmt::format("export:{}", format.name));
       next_item_tooltip(std::string(format.doc));
     }
     ImGui::EndCombo();
@@ -57,18 +53,11 @@ void draw_formats(PanelContext& context, std::string& name) {
   if (current != nullptr) dim_text(context, std::string(current->doc));
 }
 
-void say_if_replaced(PanelContext& context, const std::string& name) {
-  std::error_code ignored;
-  if (!name.empty() && fs::exists(name, ignored)) {
-    ImGui::TextColored(colour_vector(context.palette.warning), "This file is there already and will be replaced.");
-  }
-}
-
 /// Whether the export would take the place of the file that the mesh was read from, by whatever name.
 bool writes_over_input(const PanelContext& context) {
   const ExportDialog& dialog = context.widgets.exporting;
   const Frame* frame = context.frame();
-  return dialog.what == 0 && frame != nullptr && same_file(dialog.name, frame->input->path);
+  return dialog.what == 0 && frame != nullptr && same_file(dialog.save.target.path(), frame->input->path);
 }
 
 /// In the place of the dialog's buttons.
@@ -89,140 +78,115 @@ void ask_over_input(PanelContext& context) {
   context.items.record_last("export:back");
   if (!go) return;
   context.state.dialog = Dialog::None;
-  context.send("export-over " + quote_word(dialog.name));
+  context.send("export-over " + quote_word(dialog.save.target.path().string()));
 }
 
 }  // namespace
 
 void draw_export_dialog(PanelContext& context) {
   if (!begin_dialog(context, "Export", 44)) return;
-  WidgetState& widgets = context.widgets;
-  if (widgets.dialog_opened) {
-    widgets.exporting.what = 0;
-    widgets.exporting.name = default_name(context, 0);
-    widgets.exporting.over_input = false;
-  }
-  if (widgets.exporting.over_input) {
+  ExportDialog& dialog = context.widgets.exporting;
+  if (context.widgets.dialog_opened) begin_save(context, dialog.save, default_name(context, dialog.what));
+  if (context.widgets.dialog_opened) dialog.over_input = false;
+  if (dialog.over_input) {
     ask_over_input(context);
     end_dialog();
     return;
   }
   constexpr const char* kWhat[] = {"mesh as it is now", "statistics of all runs", "quality of every element"};
   for (int k = 0; k < 3; ++k) {
-    if (k > 0) ImGui::SameLine(0, context.px(16));
-    if (ImGui::RadioButton(kWhat[k], widgets.exporting.what == k)) {
-      widgets.exporting.what = k;
-      widgets.exporting.name = default_name(context, k);
+    if (k > 0) {
+      ImGui::SameLine(0, context.px(16));
+      const float wanted = ImGui::CalcTextSize(kWhat[k]).x + ImGui::GetFrameHeight() + context.px(6);
+      if (ImGui::GetContentRegionAvail().x < wanted) ImGui::NewLine();
     }
+    if (ImGui::RadioButton(kWhat[k], dialog.what == k)) {
+      dialog.what = k;
+      dialog.save.target.name = default_name(context, k);
+      dialog.save.target.asked.clear();
+      dialog.save.target.trouble.clear();
+    }
+    context.items.record_last(fmt::format("export:{}", kCommands[k]));
   }
-  ImGui::AlignTextToFramePadding();
-  dim_text(context, "file", false);
-  ImGui::SameLine(6 * context.em());
-  ImGui::SetNextItemWidth(-1);
-  if (widgets.dialog_opened) ImGui::SetKeyboardFocusHere();
-  if (widgets.dialog_opened) ImGui::SetKeyboardFocusHere();
-  const bool entered = ImGui::InputText("##file", &widgets.exporting.name, ImGuiInputTextFlags_EnterReturnsTrue);
-  context.items.record_last("export:file");
-  if (widgets.exporting.what == 0) draw_formats(context, widgets.exporting.name);
-  say_if_replaced(context, widgets.exporting.name);
-  ImGui::Spacing();
-  const bool go = ImGui::Button("Export");
-  context.items.record_last("export:go");
-  ImGui::SameLine();
-  if (ImGui::Button("Cancel")) context.state.dialog = Dialog::None;
-  context.items.record_last("dialog:close");
-  if ((go || entered) && writes_over_input(context)) {
-    widgets.exporting.over_input = true;
-  } else if ((go || entered) && !widgets.exporting.name.empty()) {
-    context.state.dialog = Dialog::None;
-    context.send(fmt::format("{} {}", kCommands[widgets.exporting.what], quote_word(widgets.exporting.name)));
+  const SaveForm form{dialog.save, endings_of(context, dialog.what), Dialog::Export, "export"};
+  const bool entered = draw_save_rows(context, form);
+  if (dialog.what == 0) draw_formats(context, dialog.save.target.name);
+  if (draw_save_buttons(context, form, "Export", entered))
+    context.send(fmt::format("{} {}", kCommands[dialog.what], quote_word(dialog.save.target.path().string())));
+  // That it is the mesh's own file is asked in other words.
+  if (std::string& asked = dialog.save.target.asked; !asked.empty() && writes_over_input(context)) {
+    dialog.over_input = true;
+    asked.clear();
   }
   end_dialog();
 }
 
 void draw_save_session_dialog(PanelContext& context) {
   if (!begin_dialog(context, "Save the session", 44)) return;
-  std::string& name = context.widgets.save_session.name;
-  if (context.widgets.dialog_opened) {
-    if (name.empty()) name = fs::path(default_name(context, 1)).replace_filename("session").string() + std::string(kSessionExtension);
-    ImGui::SetKeyboardFocusHere();
-  }
+  SaveRows& rows = context.widgets.save_session.save;
+  const std::string ending(kSessionExtension);
+  if (context.widgets.dialog_opened) begin_save(context, rows, name_beside(context, {}, ending));
   dim_text(context,
            "The runs with their histories, where they stand, and the view. The mesh's own file stays where it is and is read again.");
   ImGui::Spacing();
-  ImGui::AlignTextToFramePadding();
-  dim_text(context, "file", false);
-  ImGui::SameLine(6 * context.em());
-  ImGui::SetNextItemWidth(-1);
-  const bool entered = ImGui::InputText("##file", &name, ImGuiInputTextFlags_EnterReturnsTrue);
-  context.items.record_last("session:file");
-  if (!name.empty() && !is_session_name(name)) dim_text(context, "without .dmoscope at its end the open dialog will not list it");
-  say_if_replaced(context, name);
-  ImGui::Spacing();
-  const bool go = ImGui::Button("Save");
-  context.items.record_last("session:go");
-  ImGui::SameLine();
-  if (ImGui::Button("Cancel")) context.state.dialog = Dialog::None;
-  context.items.record_last("dialog:close");
-  if ((go || entered) && !name.empty()) {
-    context.state.dialog = Dialog::None;
-    context.send("save-session " + quote_word(name));
-  }
+  const SaveForm form{rows, {"a session", {ending}}, Dialog::SaveSession, "session"};
+  const bool entered = draw_save_rows(context, form);
+  if (draw_save_buttons(context, form, "Save", entered)) context.send("save-session " + quote_word(rows.target.path().string()));
   end_dialog();
 }
 
-void draw_screenshot_dialog(PanelContext& context) {
-  if (!begin_dialog(context, "Screenshot", 40)) return;
-  WidgetState& widgets = context.widgets;
-  if (widgets.dialog_opened) {
-    widgets.screenshot.width = static_cast<int>(context.state.viewport.x);
-    widgets.screenshot.height = static_cast<int>(context.state.viewport.y);
-  }
+namespace {
+
+void draw_picture_choices(PanelContext& context, ScreenshotDialog& dialog) {
   const auto label = [&](const char* text) {
     ImGui::AlignTextToFramePadding();
     dim_text(context, text, false);
     ImGui::SameLine(8 * context.em());
     ImGui::SetNextItemWidth(-1);
   };
-  label("file (.png)");
-  const bool entered = ImGui::InputText("##file", &widgets.screenshot.name, ImGuiInputTextFlags_EnterReturnsTrue);
-  context.items.record_last("screenshot:file");
   label("what");
-  if (ImGui::RadioButton("the mesh", !widgets.screenshot.window)) widgets.screenshot.window = false;
+  if (ImGui::RadioButton("the mesh", !dialog.window)) dialog.window = false;
+  context.items.record_last("screenshot:mesh");
   ImGui::SameLine();
-  if (ImGui::RadioButton("the whole window", widgets.screenshot.window)) widgets.screenshot.window = true;
-  if (!widgets.screenshot.window) {
-    int size[2] = {widgets.screenshot.width, widgets.screenshot.height};
-    label("size, pixels");
-    if (ImGui::InputInt2("##size", size)) {
-      widgets.screenshot.width = std::clamp(size[0], 1, 32768);
-      widgets.screenshot.height = std::clamp(size[1], 1, 32768);
-    }
-    label("supersample");
-    ImGui::SliderInt("##supersample", &widgets.screenshot.supersample, 1, 8, "%d", ImGuiSliderFlags_AlwaysClamp);
-    next_item_tooltip("samples a pixel: smoother edges");
-    label("background");
-    ImGui::Checkbox("transparent", &widgets.screenshot.transparent);
+  if (ImGui::RadioButton("the whole window", dialog.window)) dialog.window = true;
+  context.items.record_last("screenshot:window");
+  if (dialog.window) return;
+  int size[2] = {dialog.width, dialog.height};
+  label("size, pixels");
+  if (ImGui::InputInt2("##size", size)) {
+    dialog.width = std::clamp(size[0], 1, 32768);
+    dialog.height = std::clamp(size[1], 1, 32768);
   }
-  say_if_replaced(context, widgets.screenshot.name);
-  ImGui::Spacing();
-  const bool go = ImGui::Button("Save");
-  context.items.record_last("screenshot:go");
-  ImGui::SameLine();
-  if (ImGui::Button("Cancel")) context.state.dialog = Dialog::None;
-  context.items.record_last("dialog:close");
-  if ((go || entered) && !widgets.screenshot.name.empty()) {
-    context.state.dialog = Dialog::None;
-    std::string line = fmt::format("screenshot {}", quote_word(widgets.screenshot.name));
-    if (widgets.screenshot.window) {
-      line += " --window";
-    } else {
-      line += fmt::format(" --size {}x{} --supersample {}", widgets.screenshot.width, widgets.screenshot.height,
-                          widgets.screenshot.supersample);
-      if (widgets.screenshot.transparent) line += " --transparent";
-    }
-    context.send(line);
+  label("supersample");
+  ImGui::SliderInt("##supersample", &dialog.supersample, 1, 8, "%d", ImGuiSliderFlags_AlwaysClamp);
+  context.items.record_last("screenshot:supersample");
+  next_item_tooltip("samples a pixel: smoother edges");
+  label("background");
+  ImGui::Checkbox("transparent", &dialog.transparent);
+  context.items.record_last("screenshot:transparent");
+}
+
+std::string command_of(const ScreenshotDialog& dialog) {
+  std::string line = fmt::format("screenshot {}", quote_word(dialog.save.target.path().string()));
+  if (dialog.window) return line + " --window";
+  line += fmt::format(" --size {}x{} --supersample {}", dialog.width, dialog.height, dialog.supersample);
+  return dialog.transparent ? line + " --transparent" : line;
+}
+
+}  // namespace
+
+void draw_screenshot_dialog(PanelContext& context) {
+  if (!begin_dialog(context, "Screenshot", 44)) return;
+  ScreenshotDialog& dialog = context.widgets.screenshot;
+  if (context.widgets.dialog_opened) {
+    begin_save(context, dialog.save, name_beside(context, {}, ".png"));
+    dialog.width = static_cast<int>(context.state.viewport.x);
+    dialog.height = static_cast<int>(context.state.viewport.y);
   }
+  const SaveForm form{dialog.save, {"a screenshot", {".png"}}, Dialog::Screenshot, "screenshot", 8};
+  const bool entered = draw_save_rows(context, form);
+  draw_picture_choices(context, dialog);
+  if (draw_save_buttons(context, form, "Save", entered)) context.send(command_of(dialog));
   end_dialog();
 }
 

@@ -61,9 +61,10 @@ void draw_recent_files(PanelContext& context, const Rect& rect, float width) {
     centred(rect, width);
     ImGui::PushID(file.path.c_str());
     const ImGuiSelectableFlags flags = file.missing ? ImGuiSelectableFlags_Disabled : 0;
-    if (ImGui::Selectable(fit_text(file.path, width).c_str(), false, flags, {width, 0})) context.send(open_command(file.path));
+    if (ImGui::Selectable(fit_text(context.shown(file.path), width).c_str(), false, flags, {width, 0}))
+      context.send(open_command(file.path));
     context.items.record_last(fmt::format("recent:{}", shown - 1));
-    next_item_tooltip(file.missing ? file.reason() : file.path);
+    next_item_tooltip(context.shown(file.missing ? file.reason() : file.path));
     ImGui::PopID();
   }
 }

@@ -125,7 +125,7 @@ void draw_status(PanelContext& context, const Rect& rect) {
   const bool of_step = !news.sentence.empty() && news.messages == context.state.messages;
   if (const auto& result = context.state.result.newest(); of_step || result) {
     const Message message = of_step ? Message{Message::Kind::Info, news.sentence, 0} : *result;
-    std::string text = message.text.substr(0, message.text.find('\n'));
+    std::string text = context.shown(message.text.substr(0, message.text.find('\n')));
     ImGui::SameLine(0, context.px(16));
     const float room = ImGui::GetContentRegionAvail().x;
     if (room > 4 * context.em()) {
@@ -140,7 +140,7 @@ void draw_status(PanelContext& context, const Rect& rect) {
            ++k) {
         recent += (recent.empty() ? "" : "\n") + context.state.log[k].text;
       }
-      next_item_tooltip(recent + "\n(click shows the log)");
+      next_item_tooltip(context.shown(recent) + "\n(click shows the log)");
       if (ImGui::IsItemClicked()) context.send("dialog log");
       context.items.record_last("status-message");
     }

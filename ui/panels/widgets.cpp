@@ -31,7 +31,7 @@ void heading(const PanelContext& context, const char* text) {
 void dim_text(const PanelContext& context, const std::string& text, bool wrap) {
   ImGui::PushStyleColor(ImGuiCol_Text, colour_vector(context.palette.dim));
   if (wrap) ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(text.c_str());
+  ImGui::TextUnformatted(context.shown(text).c_str());
   if (wrap) ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
 }
@@ -55,13 +55,13 @@ void value_row(const PanelContext& context, const char* label, const std::string
   dim_text(context, label, false);
   if (tooltip != nullptr) next_item_tooltip(tooltip);
   const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(label).x - context.px(8);
-  const std::string shown = fit_text(text, room);
+  const std::string shown = fit_text(context.shown(text), room);
   ImGui::SameLine();
   const float right = ImGui::GetWindowContentRegionMax().x;
   ImGui::SetCursorPosX(right - ImGui::CalcTextSize(shown.c_str()).x);
   ImGui::TextColored(colour_vector(ink.value_or(context.palette.text)), "%s", shown.c_str());
   const std::string& whole = full.empty() ? text : full;
-  next_item_tooltip(whole + "\n(click copies it)");
+  next_item_tooltip(context.shown(whole) + "\n(click copies it)");
   if (ImGui::IsItemClicked()) context.send("copy " + quote_word(whole));
 }
 
@@ -151,14 +151,24 @@ float metric_combo_width(const PanelContext& context) {
   return combo_width(widest);
 }
 
+/// Of InputInt, the part that is typed into.
+unsigned field_of(const std::string& label) {
+  ImGui::PushID(label.c_str());
+  const unsigned id = ImGui::GetID("");
+  ImGui::PopID();
+  return id;
+}
+
 void integer(PanelContext& context, const char* item, int value, int least, int most, const char* command) {
   int edited = value;
   // Narrow gaps: digits need the room.
   ImGui::PushStyleVar(ImGuiStyleVar_ItemInnerSpacing, {context.px(2), context.px(4)});
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {context.px(5), context.px(4)});
-  const bool entered = ImGui::InputInt(fmt::format("##{}", item).c_str(), &edited, 1, 1, ImGuiInputTextFlags_EnterReturnsTrue);
+  const std::string label = fmt::format("##{}", item);
+  const bool entered = ImGui::InputInt(label.c_str(), &edited, 1, 1, ImGuiInputTextFlags_EnterReturnsTrue);
   ImGui::PopStyleVar(2);
   context.items.record_last(item);
+  context.items.record_stop(field_of(label));
   if (ImGui::IsItemVisible()) {
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     const float side = ImGui::GetFrameHeight();

@@ -32,6 +32,7 @@ constexpr std::array kActions{
     Action{"sample-tangled-solids", "File", "Sample: tangled-solids", "", "generate tangled-solids"},
     Action{"sample-nested", "File", "Sample: nested", "", "generate nested"},
     Action{"sample-nested-solids", "File", "Sample: nested-solids", "", "generate nested-solids"},
+    Action{"native-dialogs", "File", "The desktop's file dialogs", "", "native-dialogs toggle", Needs::Nothing, true},
     Action{"quit", "File", "Quit", "Ctrl+Q", "quit", Needs::Nothing, true},
 
     Action{"undo", "Edit", "Undo", "Ctrl+Z", "undo", Needs::Undo},
@@ -67,7 +68,7 @@ constexpr std::array kActions{
     Action{"mark-b", "Run", "Mark what is shown as B", "Shift+B", "mark b", Needs::Mesh},
     Action{"flip", "Run", "Flip between A and B", "X", "flip", Needs::Mesh},
     Action{"flip-now", "Run", "Back to the current mesh", "Shift+X", "flip now", Needs::Mesh},
-    Action{"next-run", "Run", "Next run", "Tab", "next-run", Needs::SeveralRuns, true},
+    Action{"next-run", "Run", "Next run", "Alt+N", "next-run", Needs::SeveralRuns, true},
 
     Action{"every-method", "Compare", "Same metric, every method", "", "compare methods", Needs::MeshAndIdle},
     Action{"every-metric", "Compare", "Same mesh, every metric", "", "compare metrics", Needs::MeshAndIdle},

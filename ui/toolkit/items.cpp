@@ -1,12 +1,65 @@
 #include "ui/toolkit/items.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "core/base/error.h"
 
 namespace dmoscope::ui {
 
+namespace {
+
+/// Areas that the mouse alone uses: the mesh, a plot.
+constexpr float kWidestStop = 60.0F, kHighestStop = 12.0F;  // heights of the interface's font
+
+}  // namespace
+
+void Items::record_stop(unsigned id) {
+  const ImGuiContext& g = *ImGui::GetCurrentContext();
+  ImGuiWindow* window = g.CurrentWindow;
+  const ImGuiItemFlags flags = g.LastItemData.InFlags;
+  if (id == 0 || window->SkipItems || (flags & (ImGuiItemFlags_Disabled | ImGuiItemFlags_NoNav)) != 0) return;
+  if (window->DC.NavLayerCurrent != ImGuiNavLayer_Main) return;  // the menu bar has Alt
+  const ImRect& rect = g.LastItemData.Rect;
+  if (rect.GetWidth() > kWidestStop * g.FontSize || rect.GetHeight() > kHighestStop * g.FontSize) return;
+  stops_.push_back({window, id, {rect.Min.x, rect.Min.y, rect.Max.x, rect.Max.y}, (flags & ImGuiItemFlags_Inputable) != 0});
+}
+
+void Items::move_focus(int direction) const {
+  ImGuiContext& g = *ImGui::GetCurrentContext();
+  const ImGuiWindow* dialog = ImGui::GetTopMostPopupModal();
+  if (!g.OpenPopupStack.empty() && g.OpenPopupStack.back().Window != dialog) return;  // a menu has arrows
+  std::vector<Stop> ring;
+  std::ranges::copy_if(stops_, std::back_inserter(ring), [&](const Stop& stop) { return !dialog || stop.window->RootWindow == dialog; });
+  if (ring.empty()) return;
+  const unsigned now = g.ActiveId != 0 ? g.ActiveId : g.NavDisableHighlight ? 0 : g.NavId;
+  const auto at = std::ranges::find(ring, now, &Stop::id);
+  const auto size = static_cast<std::ptrdiff_t>(ring.size());
+  const std::ptrdiff_t last = at != ring.end() ? at - ring.begin() : direction > 0 ? size - 1 : 0;
+  const Stop& next = ring[static_cast<std::size_t>((last + direction + size) % size)];
+  ImGui::ClearActiveID();
+  ImGui::FocusWindow(next.window);
+  const ImVec2 corner = next.window->Pos;
+  const ImRect rect(next.box[0], next.box[1], next.box[2], next.box[3]);
+  ImGui::SetNavID(next.id, ImGuiNavLayer_Main, 0,
+                  {rect.Min.x - corner.x, rect.Min.y - corner.y, rect.Max.x - corner.x, rect.Max.y - corner.y});
+  g.NavDisableHighlight = false;
+  g.NavDisableMouseHover = true;
+  g.NavInputSource = ImGuiInputSource_Keyboard;
+  ImGui::ScrollToRect(next.window, rect, ImGuiScrollFlags_KeepVisibleEdgeY);
+  if (!next.takes_text) return;
+  ImGui::ActivateItem(next.id);
+  g.NavNextActivateFlags = ImGuiActivateFlags_PreferInput;  // of a slider, too: what is typed is its number
+}
+
 void Items::record_last(std::string_view name) {
+  record_stop(ImGui::GetItemID());
+  if (!stops_.empty() && stops_.back().id == ImGui::GetItemID())  // ImGui shows no ring round buttons that it does not draw itself
+    ImGui::RenderNavHighlight(ImGui::GetCurrentContext()->LastItemData.Rect, stops_.back().id);
   if (!ImGui::IsItemVisible()) return;  // scrolled out of its panel: something else is where it would be
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   record(name, {low.x, low.y, high.x, high.y});

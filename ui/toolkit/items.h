@@ -5,6 +5,9 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
+
+struct ImGuiWindow;
 
 namespace dmoscope::ui {
 
@@ -12,15 +15,30 @@ class Items {
  public:
   using Box = std::array<float, 4>;  // left, top, right, bottom in pixels
   /// Forgets all of the last frame.
-  void begin_frame() { boxes_.clear(); }
+  void begin_frame() {
+    boxes_.clear();
+    stops_.clear();
+  }
   void record(std::string_view name, const Box& box) { boxes_.insert_or_assign(std::string(name), box); }
   /// Records the item that ImGui drew last.
   void record_last(std::string_view name);
+  /// The item of ImGui with this id, in the window that is being drawn, takes the keyboard by Tab.
+  void record_stop(unsigned id);
+  /// Gives the keyboard to the control that was drawn after the one that has it, or before it (`direction` -1), round and round within the
+  /// dialog that is open, or else all panels; to a text field with its text selected. Between ImGui::NewFrame and ImGui::Render.
+  void move_focus(int direction) const;
   /// Throws UsageError that lists the known names.
   [[nodiscard]] const Box& find(const std::string& name) const;
   [[nodiscard]] const std::map<std::string, Box, std::less<>>& boxes() const noexcept { return boxes_; }
 
  private:
+  struct Stop {
+    ImGuiWindow* window;
+    unsigned id;
+    Box box;
+    bool takes_text;
+  };
+  std::vector<Stop> stops_;  // in the order they were drawn
   std::map<std::string, Box, std::less<>> boxes_;
 };
 

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-
-#include <imgui_freetype.h>
 
 namespace dmoscope::ui {
 namespace {
@@ -107,36 +104,6 @@ render::Rgb mix(render::Rgb a, render::Rgb b, double t) {
   return {channel(a.r, b.r), channel(a.g, b.g), channel(a.b, b.b)};
 }
 
-constexpr float kFontSize = 15.0F;
-
-/// Latin, Greek, punctuation, super- and subscripts, arrows, mathematical operators, shapes and a few symbols.
-constexpr ImWchar kGlyphs[] = {0x20,   0xff,   0x370,  0x3ff,  0x2000, 0x206f, 0x2070, 0x209f, 0x2100, 0x214f, 0x2190, 0x21ff,
-                               0x2200, 0x22ff, 0x2300, 0x23ff, 0x25a0, 0x25ff, 0x2600, 0x26ff, 0x2713, 0x2718, 0};
-
-std::filesystem::path font_file(const char* name) {
-  std::error_code none;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
-  const std::string carried = (program.parent_path().parent_path() / "share/fonts").string();  // of a bundle
-  for (const char* folder : {carried.c_str(), "/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/dejavu-sans-fonts",
-                             "/usr/share/fonts/dejavu", "/usr/share/fonts/TTF", "/usr/local/share/fonts/dejavu"}) {
-    const std::filesystem::path file = std::filesystem::path(folder) / name;
-    std::error_code ignored;
-    if (std::filesystem::exists(file, ignored)) return file;
-  }
-  return {};
-}
-
-ImFont* add_font(const char* name, float size) {
-  ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
-  const std::filesystem::path file = font_file(name);
-  if (!file.empty()) {
-    if (ImFont* font = atlas.AddFontFromFileTTF(file.c_str(), size, nullptr, kGlyphs)) return font;
-  }
-  ImFontConfig config;
-  config.SizePixels = size;
-  return atlas.AddFontDefault(&config);
-}
-
 void apply_colours(const Palette& p) {
   ImVec4* c = ImGui::GetStyle().Colors;
   const ImVec4 none{0, 0, 0, 0};
@@ -199,19 +166,6 @@ ImU32 colour(render::Rgb rgb, float alpha) {
 
 ImVec4 colour_vector(render::Rgb rgb, float alpha) {
   return {static_cast<float>(rgb.r) / 255.0F, static_cast<float>(rgb.g) / 255.0F, static_cast<float>(rgb.b) / 255.0F, alpha};
-}
-
-Fonts build_fonts(double scale) {
-  ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
-  atlas.Clear();
-  atlas.FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
-  const float size = std::round(kFontSize * static_cast<float>(scale));
-  Fonts fonts;
-  fonts.body = add_font("DejaVuSans.ttf", size);
-  fonts.bold = add_font("DejaVuSans-Bold.ttf", size);
-  fonts.large = add_font("DejaVuSans.ttf", std::round(1.5F * size));
-  ImGui::GetIO().FontDefault = fonts.body;
-  return fonts;
 }
 
 void apply_style(Theme theme, double scale) {

@@ -31,17 +31,6 @@ struct Palette {
 [[nodiscard]] ImU32 colour(render::Rgb rgb, float alpha = 1.0F);
 [[nodiscard]] ImVec4 colour_vector(render::Rgb rgb, float alpha = 1.0F);
 
-/// Fonts of one scale: body, headings and large titles. Owned by ImGui's atlas.
-struct Fonts {
-  ImFont* body = nullptr;
-  ImFont* bold = nullptr;
-  ImFont* large = nullptr;
-};
-
-/// Builds the atlas anew: DejaVu Sans 15 px times `scale` with Greek and mathematical characters through FreeType, or ImGui's own
-/// font where DejaVu is not installed. The event loop uploads the texture afterwards.
-[[nodiscard]] Fonts build_fonts(double scale);
-
 /// Sets ImGui's colours and spacing, everything sized from the font.
 void apply_style(Theme theme, double scale);
 

@@ -1,0 +1,196 @@
+#include "app/window/key_queue.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include <imgui_internal.h>
+
+namespace dmoscope::app {
+namespace {
+
+namespace key = ui::key;
+
+/// Frames after which it shows in ImGuiIO who has the keyboard; of a dialog that opens, at most.
+constexpr int kRest = 2, kRestForField = 8;
+constexpr int kKeypadFirst = 320, kKeypadLast = 334, kKeypadEnter = 335;
+
+bool is_modifier(int code) { return code >= key::kLeftShift && code <= key::kLeftShift + 7; }
+bool makes_text(int code) { return (code >= key::kSpace && code < key::kEscape) || (code >= kKeypadFirst && code <= kKeypadLast); }
+bool moves_focus(int code) { return code == key::kEnter || code == kKeypadEnter || code == key::kEscape || code == key::kSpace; }
+
+/// Keys that the control with the focus gets, where one is seen to have it.
+bool is_for_focus(const ui::KeyChord& chord) {
+  if (chord.ctrl || chord.alt) return false;
+  const int code = chord.code;
+  return code == key::kSpace || code == key::kEscape || code == key::kEnter || code == kKeypadEnter ||
+         (code >= key::kRight && code <= key::kEnd);
+}
+
+}  // namespace
+
+void KeyQueue::press(const ui::KeyChord& chord, bool repeated) {
+  if (is_modifier(chord.code)) {
+    const int which = (chord.code - key::kLeftShift) % 4;
+    (which == 0 ? shift_ : which == 1 ? ctrl_ : alt_) = true;
+    return;
+  }
+  events_.push_back({Event::Kind::Press, chord, repeated});
+}
+
+void KeyQueue::release(int code) {
+  if (is_modifier(code)) {
+    const int which = (code - key::kLeftShift) % 4;
+    (which == 0 ? shift_ : which == 1 ? ctrl_ : alt_) = false;
+    return;
+  }
+  events_.push_back({Event::Kind::Release, {code}});
+}
+
+void KeyQueue::character(char32_t character) {
+  if (!events_.empty() && events_.back().kind == Event::Kind::Press && events_.back().character == 0) {
+    events_.back().character = character;
+  } else {
+    events_.push_back({Event::Kind::Text, {}, false, character});
+  }
+}
+
+void KeyQueue::text(std::string_view utf8) {
+  while (!utf8.empty()) {
+    const auto first = static_cast<unsigned char>(utf8.front());
+    const std::size_t length = std::min<std::size_t>(first < 0x80 ? 1 : first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2, utf8.size());
+    char32_t code = length == 1 ? first : first & (0xffU >> (length + 1));
+    for (std::size_t k = 1; k < length; ++k) code = (code << 6U) | (static_cast<unsigned char>(utf8[k]) & 0x3fU);
+    utf8.remove_prefix(length);
+    events_.push_back({Event::Kind::Text, {}, false, code});
+  }
+}
+
+void KeyQueue::click() {
+  if (alt_) alt_used_ = true;
+  events_.push_back({Event::Kind::Click});
+}
+
+void KeyQueue::lose_focus() {
+  ctrl_ = shift_ = alt_ = false;
+  clear_keys_ = alt_used_ = true;
+}
+
+KeyQueue::Owner KeyQueue::owner(const ImGuiIO& io, const ui::App& app) {
+  if (io.WantTextInput) return Owner::Text;
+  return app.takes_commands() ? Owner::Commands : Owner::Widgets;
+}
+
+/// What came since the last frame was begun was typed while that frame was made, in sight of the one before it: it is for commands only
+/// where these had the keyboard in both.
+void KeyQueue::judge(const ui::App& app) {
+  const bool now = app.takes_commands();
+  for (Event& event : events_) {
+    if (std::exchange(event.judged, true)) continue;
+    event.for_commands = now && commands_before_;
+  }
+  commands_before_ = now;
+}
+
+void KeyQueue::feed(ImGuiIO& io, ui::App& app) {
+  judge(app);
+  if (io.WantTextInput && rest_ > kRest) rest_ = 0;  // the field that was waited for
+  Turn turn;
+  if (look_ > 0 && --look_ == 0 && !io.WantTextInput && !ImGui::IsAnyMouseDown()) ImGui::ClearActiveID();  // a slider: it has the ring
+  turn.resting = rest_ > 0;
+  if (turn.resting) --rest_;
+  if (std::exchange(clear_keys_, false)) std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
+  while (!turn.over && !events_.empty()) {
+    const Event event = events_.front();
+    if (event.kind == Event::Kind::Release) {
+      if (event.chord.code == turn.pressed) break;  // ImGui would never see it
+      if (io.KeysDown[event.chord.code]) turn.released = event.chord.code;
+      io.KeysDown[event.chord.code] = false;
+      events_.pop_front();
+      continue;
+    }
+    if (turn.resting || turn.pressed >= 0) break;
+    if (event.kind == Event::Kind::Click) {
+      events_.pop_front();
+      rest_ = kRest;
+      turn.over = true;
+    } else if (event.kind == Event::Kind::Text) {
+      events_.pop_front();
+      if (owner(io, app) == Owner::Text) io.AddInputCharacter(app.shown_letter(event.character));
+    } else {
+      play_press(event, io, app, turn);
+    }
+  }
+  set_modifiers(io, turn);
+}
+
+void KeyQueue::play_press(const Event& event, ImGuiIO& io, ui::App& app, Turn& turn) {
+  const ui::KeyChord& chord = event.chord;
+  if (chord.alt) alt_used_ = true;
+  const bool focus_moves = chord.code == key::kTab && !chord.ctrl && !chord.alt;
+  const Owner who = owner(io, app);
+  if (focus_moves && !(who == Owner::Commands && !event.for_commands)) {
+    events_.pop_front();
+    app.move_focus(chord.shift ? -1 : 1);
+    look_ = kRest + 1;
+    rest_ = kRest;
+    turn.over = true;
+    return;
+  }
+  switch (who) {
+    case Owner::Text:
+      if (event.character != 0) {
+        events_.pop_front();
+        return io.AddInputCharacter(app.shown_letter(event.character));
+      }
+      if (event.repeated || (makes_text(chord.code) && !chord.ctrl)) return events_.pop_front();  // ImGui repeats by itself
+      return give_key(event, io, turn);
+    case Owner::Widgets:
+      if (event.repeated || (makes_text(chord.code) && chord.code != key::kSpace)) return events_.pop_front();
+      return give_key(event, io, turn);
+    case Owner::Commands:
+      if (!event.for_commands) return events_.pop_front();
+      if (io.NavVisible && is_for_focus(chord)) {
+        if (event.repeated) return events_.pop_front();
+        return give_key(event, io, turn);
+      }
+      events_.pop_front();
+      if (event.repeated && !still_held(chord.code)) return;
+      app.press(chord, event.repeated);
+      if (app.takes_commands()) return;
+      rest_ = kRestForField;  // what follows is for the dialog that it opened
+      turn.over = true;
+  }
+}
+
+/// Repeats that a slow window comes to late count once, and not at all when the key was let go since.
+bool KeyQueue::still_held(int code) const {
+  return std::ranges::none_of(events_, [&](const Event& later) {
+    return later.chord.code == code && (later.kind == Event::Kind::Release || (later.kind == Event::Kind::Press && later.repeated));
+  });
+}
+
+void KeyQueue::give_key(const Event& event, ImGuiIO& io, Turn& turn) {
+  const int code = event.chord.code;
+  if (code == turn.released) {  // down again: ImGui must see it up in between
+    turn.over = true;
+    return;
+  }
+  turn.chord = event.chord;
+  turn.modifiers = &turn.chord;
+  turn.pressed = code;
+  io.KeysDown[code] = true;
+  if (moves_focus(code)) rest_ = kRest;
+  events_.pop_front();
+}
+
+void KeyQueue::set_modifiers(ImGuiIO& io, const Turn& turn) {
+  const ui::KeyChord held{0, ctrl_, shift_, alt_};
+  const ui::KeyChord& now = turn.modifiers == nullptr ? held : *turn.modifiers;
+  io.KeyCtrl = now.ctrl;
+  io.KeyShift = now.shift;
+  io.KeyAlt = now.alt;
+  io.KeySuper = std::exchange(alt_used_, false);  // ImGui opens the menus when Alt was pressed alone; another modifier tells it otherwise
+}
+
+}  // namespace dmoscope::app

@@ -1,0 +1,92 @@
+// The desktop's file dialog in place of our own, where there is one.
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "core/io/mesh_io.h"
+#include "ui/app.h"
+
+namespace dmoscope::ui {
+
+/// The target of a dialog that saves.
+SaveRows* App::rows_of(Dialog dialog) {
+  switch (dialog) {
+    case Dialog::Export:
+      return &widgets_.exporting.save;
+    case Dialog::Screenshot:
+      return &widgets_.screenshot.save;
+    case Dialog::Plot:
+      return &widgets_.plot_dialog.save;
+    case Dialog::SaveSession:
+      return &widgets_.save_session.save;
+    default:
+      return nullptr;
+  }
+}
+
+void App::take_chosen_file() {
+  const std::optional<ChooserOutcome> outcome = chooser_.take();
+  if (!outcome) return;
+  const Dialog asked_by = widgets_.chooser.asked_by;
+  SaveRows* rows = rows_of(asked_by);
+  switch (outcome->kind) {
+    case ChooserOutcome::Kind::Cancelled:
+      return;
+    case ChooserOutcome::Kind::Failed:
+      add_message(state_, {Message::Kind::Warning, outcome->trouble + "; this is dmoscope's own", 0});
+      chooser_failed_ = true;
+      if (rows != nullptr) {
+        rows->browsing = state_.dialog == asked_by;
+      } else if (state_.dialog == Dialog::None) {
+        state_.dialog = Dialog::Open;
+      }
+      return;
+    case ChooserOutcome::Kind::Chosen:
+      if (rows == nullptr) {
+        submit(open_command(outcome->path.string()));
+      } else {
+        rows->target.set_path(outcome->path);
+        ++rows->taken;
+        rows->target.replaced = rows->target.path().string();  // it has asked
+      }
+  }
+}
+
+/// Opens the desktop's dialog where ours was asked for, or one of ours wants it to look for a folder.
+void App::serve_chooser() {
+  ChooserTurn& turn = widgets_.chooser;
+  turn.usable = options_.native_dialogs && state_.native_dialogs && !chooser_failed_ && !chooser_program().empty();
+  take_chosen_file();
+  if (rows_of(turn.asked_by) != nullptr && chooser_.open() && state_.dialog != turn.asked_by) chooser_.cancel();  // its dialog is gone
+  if (turn.usable && state_.dialog == Dialog::Open && widgets_.dialog_shown != Dialog::Open) {
+    state_.dialog = Dialog::None;
+    const std::filesystem::path mesh = session_->input ? session_->input->path : std::filesystem::path();
+    ChooserWish wish{false, "Open a mesh", first_folder(mesh), {}, "meshes and sessions", {std::string(kSessionExtension)}};
+    for (const FormatInfo& format : format_table()) {
+      std::string_view rest = format.extensions;
+      while (!rest.empty()) {
+        const std::size_t end = std::min(rest.find(' '), rest.size());
+        for (const char* packed : {"", ".gz"}) wish.endings.push_back(std::string(rest.substr(0, end)) + packed);
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+      }
+    }
+    turn.wish = std::move(wish);
+    turn.asked_by = Dialog::Open;
+  }
+  if (!turn.wish) {
+    turn.open = chooser_.open();
+    return;
+  }
+  std::string trouble;
+  if (chooser_.begin(*std::exchange(turn.wish, std::nullopt), wake_, trouble)) {
+    add_message(state_, {Message::Kind::Info, "choose a file in the desktop's dialog", 0});
+  } else {
+    add_message(state_, {Message::Kind::Warning, trouble + "; this is dmoscope's own dialog", 0});
+    chooser_failed_ = true;
+    if (turn.asked_by == Dialog::Open) state_.dialog = Dialog::Open;
+    if (SaveRows* rows = rows_of(turn.asked_by)) rows->browsing = true;
+  }
+  turn.open = chooser_.open();
+}
+
+}  // namespace dmoscope::ui

@@ -73,7 +73,7 @@ TEST_F(Replay, ClicksKeysWheelAndDragsComeToTheSameMeshAndPicture) {
                            "key W",
                            "key D",
                            "key M",
-                           "click worst:1",
+                           "click worst:0",
                            "key Shift+M",
                            "drag splitter:left 330 400",
                            "drag 500 300 520 330",

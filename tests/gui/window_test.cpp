@@ -44,6 +44,7 @@ TEST_F(Window, StepsByKeyAndByButton) {
 }
 
 TEST_F(Window, TheBackendIsChosenInTheParametersAndARefusalIsSaid) {
+  open(1280, 1400);
   good("generate annulus");
   EXPECT_EQ(session()->runs[0].parameters.backend, Backend::Auto);
   good("click backend");

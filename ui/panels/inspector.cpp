@@ -278,7 +278,7 @@ void draw_inspector(PanelContext& context) {
   } else if (!facts.trouble.empty()) {
     dim_text(context, "What is picked cannot be read now: " + facts.trouble);
   } else {
-    dim_text(context, "Click a vertex or an element to read it (Alt: always the element).");
+    dim_text(context, "Click a vertex or an element (Alt: the element).");
   }
 }
 
@@ -306,11 +306,12 @@ void draw_worst(PanelContext& context) {
       const bool selected = context.state.picked == Picked{Picked::Kind::Element, ranked.element};
       if (ImGui::Selectable("##worst", selected, ImGuiSelectableFlags_AllowItemOverlap))
         context.send(fmt::format("goto element {}", ranked.element));
-      context.items.record_last(fmt::format("worst:{}", k));
+      const float number_left = at.x + width - number_width - context.px(4), why_left = number_left - why_width - 2 * gap;
+      if (ImGui::IsItemVisible())  // as far as a click goes there
+        context.items.record(fmt::format("worst:{}", k), {at.x, ImGui::GetItemRectMin().y, why_left, ImGui::GetItemRectMax().y});
       next_item_tooltip(full_number(ranked.quality) + "\nclick to go there");
       ImDrawList& list = *ImGui::GetWindowDrawList();
       const std::string rank = std::to_string(k + 1), number = short_number(ranked.quality);
-      const float number_left = at.x + width - number_width - context.px(4), why_left = number_left - why_width - 2 * gap;
       if (ranked_rows) list.AddText({at.x + ranks - ImGui::CalcTextSize(rank.c_str()).x, at.y}, colour(context.palette.dim), rank.c_str());
       const float id_left = ranked_rows ? at.x + ranks + context.px(10) : at.x;
       list.AddText({id_left, at.y}, colour(context.palette.text), id_text(ranked.element, why_left - gap - id_left).c_str());

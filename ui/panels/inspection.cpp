@@ -157,8 +157,9 @@ void draw_level(PanelContext& context, int number, float side) {
   const LevelValues& level = context.inspection.level(number);
   ImGui::BeginGroup();
   const bool shown = !state.applied && (state.all_levels || state.level == number);
-  const std::string best = level.best ? short_number(level.quality[static_cast<std::size_t>(*level.best)]) : "none better";
   const std::string name = fmt::format("{}", number);
+  std::string best = level.best ? short_number(level.quality[static_cast<std::size_t>(*level.best)]) : "none better";
+  if (!level.best && ImGui::CalcTextSize((name + "  " + best).c_str()).x > side) best = "none";
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddText(shown ? context.fonts.bold : context.fonts.body, context.em(), at,
@@ -187,7 +188,7 @@ void draw_level(PanelContext& context, int number, float side) {
 void draw_levels(PanelContext& context) {
   const auto levels = static_cast<int>(context.inspection.level_count());
   const float gap = context.px(8), room = ImGui::GetContentRegionAvail().x;
-  const int most = std::max(1, static_cast<int>((room + gap) / (5.2F * context.em() + gap)));
+  const int most = std::max(1, static_cast<int>((room + gap) / (4.1F * context.em() + gap)));
   const int rows = (levels + most - 1) / most, in_row = (levels + rows - 1) / rows;
   const float side = std::floor(std::min((room - gap * static_cast<float>(in_row - 1)) / static_cast<float>(in_row), 9.0F * context.em()));
   for (int number = 1; number <= levels; ++number) {

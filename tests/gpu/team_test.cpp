@@ -62,7 +62,7 @@ struct HostTask {
   }
 };
 
-bool same(const Displacement& a, const Displacement& b) {
+bool same_step(const Displacement& a, const Displacement& b) {
   for (int i = 0; i < 3; ++i)
     if (!testing::same(a.target[i], b.target[i])) return false;
   return true;
@@ -105,7 +105,7 @@ void expect_team_finds_the_same(const HostTask& host, const SearchParameters& pa
   for (Index rank = 0; rank < count; ++rank) {
     ASSERT_EQ(alone[rank].ready, together[rank].ready) << rank;
     ASSERT_EQ(static_cast<int>(alone[rank].verdict), static_cast<int>(together[rank].verdict)) << rank;
-    ASSERT_TRUE(same(alone[rank].to, together[rank].to)) << rank;
+    ASSERT_TRUE(same_step(alone[rank].to, together[rank].to)) << rank;
     moving += alone[rank].verdict == visit_rules::Verdict::Move ? 1U : 0U;
   }
   EXPECT_GT(moving, count / 4) << "most of these meshes' vertices have somewhere to go";

@@ -141,8 +141,8 @@ class LaneDmo final : public Smoother {
   std::vector<Vec3> ranked_;
   std::vector<std::uint8_t> awake_;
   LaneTask task_;
-  bool stale_ = true;        // ranked_ is older than the run's positions
-  bool stored_ = false;      // and these are as new as ranked_
+  bool stale_ = true;    // ranked_ is older than the run's positions
+  bool stored_ = false;  // and these are as new as ranked_
   std::uint64_t searched_ = 0;
   Untangling untangling_{};  // by which those asleep stay
 };

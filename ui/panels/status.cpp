@@ -22,11 +22,23 @@ std::string speed_sentence(const PanelContext& context) {
   return {};
 }
 
+/// In line with the text beside it, which ImGui's own bar would put lower.
+void draw_bar(const PanelContext& context, float fraction) {
+  const ImVec2 at = ImGui::GetCursorScreenPos(), size{8 * context.em(), ImGui::GetTextLineHeight()};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float round = ImGui::GetStyle().FrameRounding;
+  list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg), round);
+  const float width = std::clamp(fraction, 0.0F, 1.0F) * size.x;
+  if (width >= 1.0F)
+    list.AddRectFilled(at, {at.x + width, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_PlotHistogram), std::min(round, width / 2));
+  ImGui::Dummy(size);
+}
+
 /// Of pictures that are being taken; not in the pictures themselves.
 void draw_sequence_progress(PanelContext& context, const Sequence& sequence) {
   if (sequence.phase == Sequence::Phase::Clean) return;
   ImGui::SameLine(0, context.px(16));
-  ImGui::ProgressBar(static_cast<float>(sequence.progress()), {8 * context.em(), ImGui::GetTextLineHeight()}, "");
+  draw_bar(context, static_cast<float>(sequence.progress()));
   ImGui::SameLine();
   ImGui::TextUnformatted(fmt::format("picture {} of {}", sequence.done + 1, sequence.iterations.size()).c_str());
   ImGui::SameLine();
@@ -65,7 +77,7 @@ void draw_progress(PanelContext& context) {
   const RunView* run = run_at_work(context.session);
   const bool endless = run != nullptr && run->pursuit->until_converged;
   if (!endless) {  // a bar towards the most iterations there may be would say nothing
-    ImGui::ProgressBar(fraction, {8 * context.em(), ImGui::GetTextLineHeight()}, "");
+    draw_bar(context, fraction);
     ImGui::SameLine();
   }
   const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize("Cancel").x - 4 * context.em();

@@ -22,7 +22,7 @@ namespace dmoscope::ui {
 namespace {
 
 constexpr double kRestAfter = 0.25;  // seconds without movement until full detail comes back
-constexpr double kForever = std::numeric_limits<double>::infinity();
+constexpr double kNotByItself = std::numeric_limits<double>::infinity();
 
 /// What side panels that lie over the meshes leave of them.
 Rect uncovered(const Layout& layout) {
@@ -213,7 +213,7 @@ std::vector<Rect> App::pane_places(PanelContext& context, const Rect& rect) {
 }
 
 void App::update_viewports(PanelContext& context, const Rect& rect) {
-  redraw_in_ = kForever;
+  redraw_in_ = kNotByItself;
   const bool moved = moving(context.now);
   // A live run counts as movement: its next frame comes soon.
   const bool live = activity_.busy && activity_.busy_seconds > kRestAfter;
@@ -287,7 +287,7 @@ void App::draw(double now) {
   viewports_.follow(state_, session_);
   engine_.watch(viewports_.wanted(state_));
   update_derived();
-  double fades_in = kForever;
+  double fades_in = kNotByItself;
   if (state_.timeline.shown == Shown::Now) {
     viewports_.update_stepping(busy);
     fades_in = steps_.follow(state_, *session_, busy, now);

@@ -25,8 +25,15 @@ SessionStanding without_runs(const Session& session) {
 
 RunStanding without_positions(const Run& run, std::span<const MeshStanding> meshes) {
   const auto mesh = static_cast<std::size_t>(std::ranges::find(meshes, run.shared_input(), &MeshStanding::input) - meshes.begin());
-  return {run.parameters(),  run.moment(), run.edits().share(), run.history().shared_records(), run.size_field(),
-          run.given_name(), mesh,         {},                  {}};
+  return {run.parameters(),
+          run.moment(),
+          run.edits().share(),
+          run.history().shared_records(),
+          run.size_field(),
+          run.given_name(),
+          mesh,
+          {},
+          {}};
 }
 
 std::optional<SessionStanding> standing_of(Session& session, const std::function<bool()>& go_on) {

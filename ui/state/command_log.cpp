@@ -31,8 +31,7 @@ constexpr auto kRecords = std::to_array<std::pair<std::string_view, Record>>({
     {"copy-level", Record::Nothing},    {"place-size-point", Record::Nothing},
     {"notice", Record::Nothing},        {"ask-unsaved", Record::Nothing},
     {"answer", Record::Nothing},        {"recovery", Record::Nothing},
-    {"begin-rename", Record::Nothing},
-    {"tour", Record::Nothing},
+    {"begin-rename", Record::Nothing},  {"tour", Record::Nothing},
 });
 
 std::string clock_now() {

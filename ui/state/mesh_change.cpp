@@ -8,7 +8,8 @@ MeshChange MeshWatch::follow(const SessionView& session) {
   std::vector<Known> meshes;
   Known now;
   for (const InputView& mesh : session.meshes) {
-    meshes.push_back({mesh.serial, mesh.input->path, mesh.input->mesh.vertex_count(), static_cast<Index>(mesh.input->mesh.elements.size())});
+    meshes.push_back(
+        {mesh.serial, mesh.input->path, mesh.input->mesh.vertex_count(), static_cast<Index>(mesh.input->mesh.elements.size())});
     if (mesh.input == session.input) now = meshes.back();
   }
   const MeshChange change = now.serial == active_.serial ? MeshChange::None : change_to(now, meshes);

@@ -136,7 +136,7 @@ struct ViewState {
   std::optional<Leaving> leaving;         // what waits for the answer
   std::vector<Recoverable> recoverable;   // what windows that came to no good end left, as long as a person has not said what becomes of it
   std::optional<Recoverable> recovering;  // of these, what the session came of
-  bool native_dialogs = true;  // the desktop's file dialogs where there are any
+  bool native_dialogs = true;             // the desktop's file dialogs where there are any
 
   // Selection
   Picked picked;

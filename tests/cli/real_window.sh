@@ -9,7 +9,7 @@ for tool in xvfb-run Xvfb xauth; do
 done
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-export XDG_CONFIG_HOME=$folder
+export XDG_CONFIG_HOME=$folder XDG_STATE_HOME=$folder
 unset WAYLAND_DISPLAY
 
 fail() { echo "$*"; exit 1; }
@@ -67,6 +67,12 @@ for key in n space w space n ctrl+q; do
   xdotool key --window 0 "$key"
   sleep 0.3
 done
+sleep 1
+kill -0 "$id" 2>/dev/null || { echo "the window closed over an iteration that is in no file, without a question"; exit 1; }
+xdotool key --window 0 Escape  # the answer: no
+sleep 0.5
+xdotool key --window 0 r  # back at the input there is nothing to lose
+sleep 1
 for _ in $(seq 20); do
   sleep 0.5
   kill -0 "$id" 2>/dev/null || { wait "$id"; exit; }

@@ -60,9 +60,15 @@ TEST_F(RangeWindow, TheMenuOfTheBarOffersAllOthers) {
     good("click range:mode");
     good(fmt::format("click range-menu:{}", one.name));
     EXPECT_EQ(state().range_mode, one.mode) << one.name;
-    if (one.mode == RangeMode::Fixed) EXPECT_EQ(range(), (Pair{0.0, 1.0}));
-    if (one.mode == RangeMode::Auto || one.mode == RangeMode::Expanding) EXPECT_EQ(range(), own);
-    if (one.mode == RangeMode::Percentile) EXPECT_EQ(range(), tidy_range(*session()->frame->input_spread->percentiles(2, 98)));
+    if (one.mode == RangeMode::Fixed) {
+      EXPECT_EQ(range(), (Pair{0.0, 1.0}));
+    }
+    if (one.mode == RangeMode::Auto || one.mode == RangeMode::Expanding) {
+      EXPECT_EQ(range(), own);
+    }
+    if (one.mode == RangeMode::Percentile) {
+      EXPECT_EQ(range(), tidy_range(*session()->frame->input_spread->percentiles(2, 98)));
+    }
   }
   good("range percentile 10 60");
   EXPECT_EQ(range(), tidy_range(*session()->frame->input_spread->percentiles(10, 60)));

@@ -1,11 +1,14 @@
 // Meshes beside each other in the window: linked viewports, one table, differences, picks.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/quality/quality.h"
 #include "tests/gui/headless_test.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/analysis/comparable.h"
@@ -98,6 +101,33 @@ TEST_F(SeveralMeshesWindow, ToLookAtAnotherKeepsCamerasMarksAndSizes) {
   EXPECT_EQ(state().picked, ui::Picked{});
   good("open " + other_.string());
   EXPECT_FALSE(state().timeline.a.frame);
+}
+
+TEST_F(SeveralMeshesWindow, OneRangeOfColoursHoldsBothInputs) {
+  good("open-beside " + smoothed_.string());
+  const auto [low, high] = window_->app().colour_range();
+  double worst = 1.0;
+  for (const auto& mesh : session()->meshes) {
+    const QualityContext context = mesh.input->quality_context();
+    for (Index e = 0; e < mesh.input->mesh.elements.size(); ++e)
+      worst = std::min(worst, element_quality(context, mesh.input->mesh.positions, session()->shown, e));
+  }
+  EXPECT_LE(low, worst);
+  good("select-run 1");
+  EXPECT_EQ(window_->app().colour_range(), (std::pair{low, high})) << "whichever mesh commands are about";
+}
+
+TEST_F(SeveralMeshesWindow, TheMenuOpensBeside) {
+  good("key Ctrl+Shift+O");
+  ASSERT_EQ(state().dialog, ui::Dialog::Open);
+  good("double-click open:path");
+  good("key Ctrl+A");
+  good("type \"" + other_.string() + "\"");
+  good("key Enter");
+  good("wait");
+  ASSERT_EQ(session()->meshes.size(), 2U);
+  good("key Ctrl+O");
+  EXPECT_FALSE(state().opens_beside);
 }
 
 TEST_F(SeveralMeshesWindow, AtOtherPlacesEachIsSeenWhole) {

@@ -77,6 +77,7 @@ TEST_F(SmallFaults, NoFrameStaysRoundThePlot) {
   const render::Image before = window_->picture();
   const auto plot = box("plot");
   good(fmt::format("right-click {} {}", plot[2] - 20, plot[1] + 5));
+  good("key Escape");  // its menu
   good("move 5 5");
   good("key Alt+2");
   good("key Alt+1");

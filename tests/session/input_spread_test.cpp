@@ -59,7 +59,7 @@ TEST(TidyRange, IsRoundedOutwards) {
 }
 
 TEST(TidyRange, OfNextToNothingIsWidened) {
-  for (const Pair narrow : {Pair{1.0, 1.0}, {0.5, 0.5}, {0.0, 0.0}, {0.99999, 1.0}, {0.0, 1e-9}}) {
+  for (const Pair& narrow : {Pair{1.0, 1.0}, {0.5, 0.5}, {0.0, 0.0}, {0.99999, 1.0}, {0.0, 1e-9}}) {
     const auto [low, high] = tidy_range(narrow);
     EXPECT_LE(low, narrow.first);
     EXPECT_GE(high, narrow.second - 1e-6);

@@ -429,7 +429,7 @@ TEST(Combination, IsWrittenAsItIsRead) {
     EXPECT_EQ(to_text(parse_size_function(text)), text);
   const auto [metric, combination] = parse_combination("mean-ratio:0.7:density", "h2:1,2");
   EXPECT_EQ(*combination.size(), (SizeFunction{SizeFunction::Kind::InverseDistance, {1, 2, 0}, {}}));
-  EXPECT_EQ(phrase(metric, combination), "mean-ratio > 0.7 · density h2");
+  EXPECT_EQ(phrase(metric, combination), "mean ratio > 0.7 · density h2");
   for (const char* text : {"", "mean-ratio", "mean-ratio:0.7", "mean-ratio:x:density", "mean-ratio:0:density", "mean-ratio:nan:density",
                            "beauty:0.7:density", "mean-ratio:0.7:beauty", "mean-ratio:0.7:density:h1", "mean-ratio:0.7:mean-ratio"})
     EXPECT_THROW((void)parse_combination(text), UsageError) << text;

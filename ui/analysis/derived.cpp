@@ -103,7 +103,21 @@ bool refresh_own(ColourFacts& facts, std::span<const std::shared_ptr<const Frame
   return true;
 }
 
-void refresh_range(Derived& derived, const ViewState& state, const Frame& frame, bool new_frame) {
+/// How the inputs on show are spread, all meshes together, so that colours say the same in all viewports.
+std::shared_ptr<const InputSpread> spread_of_inputs(std::span<const std::shared_ptr<const Frame>> frames, const Frame& active) {
+  std::vector<std::shared_ptr<const InputSpread>> spreads{active.input_spread};
+  for (const auto& frame : frames)
+    if (frame->shown == active.shown && std::ranges::find(spreads, frame->input_spread) == spreads.end())
+      spreads.push_back(frame->input_spread);
+  std::erase(spreads, nullptr);
+  if (spreads.size() <= 1) return active.input_spread;
+  auto all = std::make_shared<InputSpread>();
+  for (const auto& spread : spreads) all->add(*spread);
+  return all;
+}
+
+void refresh_range(Derived& derived, const ViewState& state, const Frame& frame, std::span<const std::shared_ptr<const Frame>> frames,
+                   bool new_frame) {
   ColourFacts& facts = derived.colouring;
   const ColourFacts::RangeKey key{state.range_mode,        state.range_low,          state.range_high,
                                   state.range_low_percent, state.range_high_percent, state.colouring.held_range,
@@ -111,8 +125,8 @@ void refresh_range(Derived& derived, const ViewState& state, const Frame& frame,
   if (!new_frame && facts.range_key == key) return;
   facts.range_key = key;
   const auto seen = facts.seen.find(frame.shown);
-  derived.range =
-      colour_range(state, facts.own, seen == facts.seen.end() ? std::nullopt : std::optional(seen->second), frame.input_spread.get());
+  derived.range = colour_range(state, facts.own, seen == facts.seen.end() ? std::nullopt : std::optional(seen->second),
+                               spread_of_inputs(frames, frame).get());
   count_elements(derived, state, frame);
 }
 
@@ -200,7 +214,7 @@ void refresh(Derived& derived, const ViewState& state, const SessionView& sessio
   derived.frame_serial = frame->serial;
   refresh_members(derived.colouring, state, session);
   const bool new_range = refresh_own(derived.colouring, frames, *frame);
-  refresh_range(derived, state, *frame, new_frame || new_range);
+  refresh_range(derived, state, *frame, frames, new_frame || new_range);
   const std::pair facts_key{frame->serial, state.picked};
   if (derived.facts_key != facts_key) {
     derived.facts = facts_of(*frame, state.picked);

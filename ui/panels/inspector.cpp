@@ -73,7 +73,7 @@ void draw_statistics(PanelContext& context, const char* title, Metric metric, co
 }
 
 void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
-  heading(context, fmt::format("Vertex {}", count(vertex)).c_str());
+  heading(context, fmt::format("Vertex {}", vertex).c_str());
   const Topology& topology = frame.input->topology;
   const RunView* run = context.run();
   const PickedFacts& facts = context.derived.facts;
@@ -106,7 +106,7 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
     context.items.record_last(fmt::format("star:{}", element));
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float width = ImGui::GetContentRegionAvail().x, line = ImGui::GetTextLineHeight();
-    const std::string number = short_number(q), name = fmt::format("element {}", count(element));
+    const std::string number = short_number(q), name = fmt::format("element {}", element);
     list.AddText(cursor, colour(context.palette.text), name.c_str());
     const float left = cursor.x + 8.5F * context.em(), right = cursor.x + width - 4 * context.em();
     if (right > left + context.em()) {
@@ -192,7 +192,7 @@ void draw_metric_table(PanelContext& context) {
 }
 
 void draw_element(PanelContext& context, const Frame& frame, Index element) {
-  heading(context, fmt::format("Element {}", count(element)).c_str());
+  heading(context, fmt::format("Element {}", element).c_str());
   const ElementTable& elements = frame.input->mesh.elements;
   value_row(context, "kind", std::string(info(elements.kind(element)).name));
   if (context.derived.facts.inverted) value_row(context, "inverted", "yes", {}, context.palette.error);
@@ -243,7 +243,7 @@ float widest_number(const Frame& frame) {
 
 /// "element 1,234", or as much of that as there is room for.
 std::string id_text(Index element, float room) {
-  for (const std::string& text : {fmt::format("element {}", count(element)), count(element)})
+  for (const std::string& text : {fmt::format("element {}", element), count(element)})
     if (ImGui::CalcTextSize(text.c_str()).x <= room) return text;
   return std::to_string(element);
 }

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::array kActions{
     Action{"open", "File", "Open…", "Ctrl+O", "dialog open"},
+    Action{"open-beside", "File", "Open beside…", "Ctrl+Shift+O", "dialog open-beside", Needs::Mesh},
     Action{"export", "File", "Export mesh…", "Ctrl+S", "dialog export", Needs::Mesh},
     Action{"screenshot", "File", "Screenshot…", "Ctrl+Shift+S", "dialog screenshot", Needs::Mesh},
     Action{"save-session", "File", "Save the session…", "", "dialog save-session", Needs::Mesh},

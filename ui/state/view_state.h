@@ -124,6 +124,7 @@ struct ViewState {
   double monitor_scale = 1.0;  // what of that is the monitor's; 1 for scripts, so that they draw the same everywhere
   Panels panels;
   Dialog dialog = Dialog::None;
+  bool opens_beside = false;  // of Dialog::Open: another mesh beside those that are open
   PlotTab plot = PlotTab::Convergence;
   std::array<PlotView, kPlotTabs.size()> plots;
   PlotOptions plot_options;

@@ -32,11 +32,15 @@ std::string open_command(const std::string& file) {
   return fmt::format("{} {}", is_session_name(file) ? "open-session" : "open", quote_word(file));
 }
 
+std::string open_beside_command(const std::string& file) {
+  return is_session_name(file) ? open_command(file) : "open-beside " + quote_word(file);
+}
+
 std::vector<std::string> open_commands(const std::vector<std::filesystem::path>& files) {
   std::vector<std::string> commands;
   for (const std::filesystem::path& file : files) {
     const std::string name = file.string();
-    commands.push_back(commands.empty() || is_session_name(name) ? open_command(name) : "open-beside " + quote_word(name));
+    commands.push_back(commands.empty() ? open_command(name) : open_beside_command(name));
   }
   return commands;
 }

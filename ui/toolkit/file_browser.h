@@ -22,6 +22,8 @@ inline constexpr std::string_view kSessionExtension = ".dmoscope";
 [[nodiscard]] bool is_session_name(std::string_view name);
 /// The command that opens a mesh or a session, by its name.
 [[nodiscard]] std::string open_command(const std::string& file);
+/// The command that opens a mesh beside those that are open; a session in their place.
+[[nodiscard]] std::string open_beside_command(const std::string& file);
 /// The commands that open several files: a mesh after another is opened beside it.
 [[nodiscard]] std::vector<std::string> open_commands(const std::vector<std::filesystem::path>& files);
 

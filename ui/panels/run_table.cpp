@@ -136,12 +136,16 @@ void draw_run_table(PanelContext& context) {
   constexpr ImGuiTableFlags kFlags =
       ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_ScrollX | ImGuiTableFlags_SizingFixedFit;
   if (!ImGui::BeginTable("runs", static_cast<int>(columns.size()), kFlags)) return;
-  float widest = 0;
-  for (const RunRow& row : rows) widest = std::max(widest, ImGui::CalcTextSize(row.title.c_str()).x);
+  float widest = 0, widest_mesh = 0;
+  for (const RunRow& row : rows) {
+    widest = std::max(widest, ImGui::CalcTextSize(row.title.c_str()).x);
+    widest_mesh = std::max(widest_mesh, ImGui::CalcTextSize(row.mesh.c_str()).x);
+  }
   for (const ShownColumn& shown : columns) {
     const bool title = &shown == &columns.front();
     ImGui::TableSetupColumn(shown.title, ImGuiTableColumnFlags_WidthFixed,
                             title                    ? widest + 2 * context.em()
+                            : shown.column == kMesh  ? std::max(4 * context.em(), widest_mesh + context.em())
                             : shown.column == kSizes ? 7.5F * context.em()
                                                      : 6 * context.em());
   }

@@ -40,6 +40,7 @@ std::string facts_of(const PanelContext& context, std::size_t k, float room) {
 std::string tooltip_of(const PanelContext& context, std::size_t k) {
   const RunView& run = context.session.runs[k];
   std::string tip = run_title(context.session, k);
+  if (context.session.several_meshes()) tip += "\non " + context.session.runs[k].input->mesh.name;
   if (const Statistics* statistics = statistics_of(context, k))
     tip += fmt::format("\niteration {}: minimum {}, mean {}", count(run.moment.iteration), short_number(statistics->minimum),
                        short_number(statistics->mean));
@@ -105,10 +106,11 @@ void draw_row_buttons(PanelContext& context, std::size_t k, ImVec2 corner, float
   ImGui::EndDisabled();
 }
 
-/// The whole title, or the short one of legends where there is no room for it.
+/// The whole title; or the short one of legends where there is no room for it, and of several meshes, which it names.
 std::string title_within(const PanelContext& context, std::size_t k, float room) {
   std::string title = run_title(context.session, k);
-  if (ImGui::CalcTextSize(title.c_str()).x <= room || context.session.runs.size() == 1) return fit_text(title, room);
+  const bool fits = ImGui::CalcTextSize(title.c_str()).x <= room && !context.session.several_meshes();
+  if (fits || context.session.runs.size() == 1) return fit_text(title, room);
   return fit_text(run_name(context.session, k).whole(), room);
 }
 

@@ -38,10 +38,7 @@ std::vector<RunRow> input_rows(const SessionView& session) {
   for (const InputView& mesh : session.meshes) {
     std::optional<RunRow> row = input_row(session, mesh);
     if (!row) continue;
-    if (session.several_meshes()) {
-      row->mesh = mesh.input->mesh.name;
-      row->title = row->mesh + ", input";
-    }
+    if (session.several_meshes()) row->mesh = mesh.input->mesh.name;
     rows.push_back(std::move(*row));
   }
   return rows;

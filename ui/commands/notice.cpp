@@ -13,8 +13,8 @@ namespace {
 void tell_left_inverted(Notice& notice, const RunEnding& ending) {
   const LeftInverted& left = ending.left;
   notice.sentences.push_back(left.sentence());
-  notice.offers.push_back({"notice:element", fmt::format("Show element {}", count(left.element)),
-                           fmt::format("goto element {}", left.element), "the most inverted one: picks it and moves the view there"});
+  notice.offers.push_back({"notice:element", fmt::format("Show element {}", left.element), fmt::format("goto element {}", left.element),
+                           "the most inverted one: picks it and moves the view there"});
   notice.offers.push_back({"notice:vertex", fmt::format("Show vertex {}", count(left.vertex)), fmt::format("goto vertex {}", left.vertex),
                            "the vertex of most of them: picks it and moves the view there"});
   if (!ending.hint) return;

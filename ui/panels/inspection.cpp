@@ -251,7 +251,7 @@ void draw_elements(PanelContext& context, const VisitSummary& trace) {
   };
   float id_width = 0, number_width = 0;
   for (const ElementChange& change : trace.elements) {
-    id_width = std::max(id_width, ImGui::CalcTextSize(count(change.element).c_str()).x);
+    id_width = std::max(id_width, ImGui::CalcTextSize(fmt::to_string(change.element).c_str()).x);
     number_width = std::max(number_width, ImGui::CalcTextSize(numbers_of(change).c_str()).x);
   }
   for (const ElementChange& change : trace.elements) {
@@ -261,7 +261,7 @@ void draw_elements(PanelContext& context, const VisitSummary& trace) {
     const bool selected = context.state.picked == Picked{Picked::Kind::Element, change.element};
     if (ImGui::Selectable("##change", selected)) context.send(fmt::format("pick element {}", change.element));
     context.items.record_last(fmt::format("change:{}", change.element));
-    next_item_tooltip(fmt::format("element {}\nbefore {}{}\nafter {}{}", count(change.element), full_number(change.before),
+    next_item_tooltip(fmt::format("element {}\nbefore {}{}\nafter {}{}", change.element, full_number(change.before),
                                   change.inverted_before ? ", inverted" : "", full_number(change.after),
                                   change.inverted_after ? ", inverted" : ""));
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -269,7 +269,7 @@ void draw_elements(PanelContext& context, const VisitSummary& trace) {
     if (change.element == limit_before) marks += "▸";
     if (moved && change.element == limit_after) marks += "▹";
     list.AddText(at, colour(context.palette.text), marks.c_str());
-    const std::string id = count(change.element);
+    const std::string id = fmt::to_string(change.element);
     list.AddText({at.x + gutter + id_width - ImGui::CalcTextSize(id.c_str()).x, at.y}, colour(context.palette.text), id.c_str());
     const std::string numbers = numbers_of(change);
     list.AddText({at.x + width - ImGui::CalcTextSize(numbers.c_str()).x, at.y},

@@ -241,11 +241,10 @@ float widest_number(const Frame& frame) {
   return widest;
 }
 
-/// "element 1,234", or as much of that as there is room for.
+/// "element 1234", or as much of that as there is room for.
 std::string id_text(Index element, float room) {
-  for (const std::string& text : {fmt::format("element {}", element), count(element)})
-    if (ImGui::CalcTextSize(text.c_str()).x <= room) return text;
-  return std::to_string(element);
+  std::string text = fmt::format("element {}", element);
+  return ImGui::CalcTextSize(text.c_str()).x <= room ? text : fmt::to_string(element);
 }
 
 }  // namespace

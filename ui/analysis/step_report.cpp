@@ -96,7 +96,7 @@ std::vector<Index> elements_around(const Frame& frame, const std::vector<Index>&
   for (const Index v : vertices)
     for (const Incidence& incidence : frame.input->topology.star(v)) elements.push_back(incidence.element);
   std::ranges::sort(elements);
-  elements.erase(std::ranges::unique(elements).begin(), elements.end());
+  elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
   return elements;
 }
 

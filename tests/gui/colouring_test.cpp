@@ -9,6 +9,7 @@
 
 #include "tests/gui/headless_test.h"
 #include "tests/support/meshes.h"
+#include "ui/analysis/counting_elements.h"
 #include "ui/analysis/derived.h"
 #include "ui/analysis/element_colours.h"
 #include "ui/state/format.h"

@@ -9,6 +9,7 @@
 
 #include "core/mesh/group_facts.h"
 #include "core/mesh/seam.h"
+#include "ui/analysis/counting_elements.h"
 #include "ui/state/format.h"
 #include "ui/state/view_geometry.h"
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/input/input_mesh.h"
+#include "ui/analysis/counting_elements.h"
 #include "ui/analysis/element_colours.h"
 #include "ui/commands/command_words.h"
 #include "ui/state/view_geometry.h"

@@ -45,10 +45,12 @@ endif()
 # For targets whose code is nobody's inner loop, and long for its templates: what the compiler makes of them takes most of its time, of
 # AddressSanitizer's checks in them twice as much as without optimisation.
 set(DMOSCOPE_COLD_CODE -O1)
-set(DMOSCOPE_DRAWING_CODE "")  # of the window's modules: people wait for it, tests do not
+set(DMOSCOPE_DRAWING_CODE -O1)  # of the window's modules: the libraries that they call do the work
+set(DMOSCOPE_LOGIC_CODE -O2)     # of what the window shows: loops over all elements, which people wait for
 if(DMOSCOPE_SANITIZE MATCHES "address")
   set(DMOSCOPE_COLD_CODE -O0)
   set(DMOSCOPE_DRAWING_CODE -O0)
+  set(DMOSCOPE_LOGIC_CODE -O0)
 endif()
 if(DMOSCOPE_PORTABLE)
   # libstdc++ inside: one carried along could be too old for the drivers of the machine, which share it with the program. Old tags, for

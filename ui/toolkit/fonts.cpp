@@ -72,9 +72,9 @@ struct Face {
 };
 
 /// One build of the atlas. The ranges must outlive it.
-class Builder {
+class AtlasBuilder {
  public:
-  Builder(float size, std::span<const char16_t> letters)
+  AtlasBuilder(float size, std::span<const char16_t> letters)
       : faces_{{"DejaVuSans.ttf", size}, {"DejaVuSans-Bold.ttf", size}, {"DejaVuSans.ttf", std::round(1.5F * size)}},
         letters_(ranges_of(letters)) {
     atlas_.Clear();
@@ -165,7 +165,7 @@ Fonts build_fonts(double scale, const GlyphBook& book) {
   std::vector<Named> named;
   std::vector<float> widths;
   if (book.size() > 0) {  // to see what is missing, and how wide its name is
-    const Builder trial(size, letters);
+    const AtlasBuilder trial(size, letters);
     atlas.Build();
     for (std::size_t k = 0; k < trial.size(); ++k) {
       const ImFont& font = *trial.font(k);
@@ -175,7 +175,7 @@ Fonts build_fonts(double scale, const GlyphBook& book) {
     }
     for (const Named& one : named) widths.push_back(width_of(*trial.font(one.font), one.name));
   }
-  const Builder builder(size, letters);
+  const AtlasBuilder builder(size, letters);
   for (std::size_t k = 0; k < named.size(); ++k)
     reserve(atlas, builder.font(named[k].font), widths[k], builder.height(named[k].font), named[k]);
   atlas.Build();

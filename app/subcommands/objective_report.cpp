@@ -34,6 +34,8 @@ void add_composite(Json& object, const Run& run) {
   object["then"] = p.then_mean ? Json("mean") : Json(nullptr);
   const auto since = run.mean_since();
   object["mean_since"] = since ? Json(*since) : Json(nullptr);
+  const auto from = run.mean_from();
+  object["mean_from"] = from ? Json(*from) : Json(nullptr);
 }
 
 void print_composite(const Run& run) {

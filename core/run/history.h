@@ -38,6 +38,8 @@ class History {
   void record_input(const IterationRecord& record, std::shared_ptr<const std::vector<Vec3>> positions);
   /// Records the end of the next iteration. One that has a record already keeps it (a repeated iteration gives the same bits).
   void record(const IterationRecord& record);
+  /// Gives the last recorded iteration other statistics: the run goes from its end to another state.
+  void amend_last(const Statistics& statistics) { records_.change().back().statistics = statistics; }
   /// Whether keep() would keep the positions of this iteration: those of multiples of stride() are kept, where the budget has room for any.
   [[nodiscard]] bool wants(std::uint64_t iteration) const;
   /// Keeps positions, unless they are kept already or not wanted. When the budget is full the stride doubles and positions in between are

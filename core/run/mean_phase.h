@@ -14,6 +14,7 @@ namespace dmoscope {
 struct MeanPhase {
   std::uint64_t patience = 200;  // at least 1: iterations without a rise of the movable minimum by `rise`; or nothing moves any more
   double rise = 1e-6;
+  bool from_best = true;  // it begins with the best state of the first phase; else with the last, as in session files of before
   friend bool operator==(const MeanPhase&, const MeanPhase&) = default;
 };
 

@@ -66,7 +66,8 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
       executor_(choose_executor(parameters_.backend, acceleration_, task())),
       positions_(working_copy(input_->mesh.positions)),
       blocks_(executor_.smoother && executor_.smoother->positions_on_device()),
-      history_(history_bytes) {
+      history_(history_bytes),
+      first_phase_(parameters_) {
   history_.record_input({0, statistics(), 0, 0.0}, {input_, &input_->mesh.positions});
 }
 
@@ -130,9 +131,18 @@ std::optional<std::uint64_t> Run::mean_since() const {
                     still_iterations(method_info(parameters_.method), parameters_.options, input_->is_volume()));
 }
 
+std::optional<std::uint64_t> Run::mean_from() const {
+  const auto since = mean_since();
+  if (!since) return std::nullopt;
+  const auto& records = history_.records();
+  const auto best = mean_phase_start(parameters_, records, *since);
+  return best && same_state(records[*best].statistics, records[*since].statistics) ? best : std::nullopt;
+}
+
 void Run::forget_after(std::uint64_t iteration) {
   history_.forget_after(iteration);
   turn_.forget_after(iteration);
+  first_phase_.forget_after(iteration);
 }
 
 Sweep Run::sweep() const { return sweep_after(history_.records(), at_.moment.iteration, mean_since(), input_->has_strays); }
@@ -206,6 +216,15 @@ void Run::record(const RunProgress& done) {
   if (iteration < history_.records().size()) return;  // been here before
   history_.record({iteration, statistics(), done.moved, done.seconds, done.searched});
   unkept_seconds_ += done.seconds;
+  if (parameters_.then_mean) {
+    const auto since = mean_since();
+    if (since == iteration)
+      if (const auto best = mean_phase_start(parameters_, history_.records(), iteration)) {
+        history_.amend_last(history_.records()[*best].statistics);
+        return;  // begin_mean_phase() brings the positions
+      }
+    if (!since) first_phase_.take(history_.records(), positions());
+  }
   const bool dear = executor_.smoother->positions_on_device() && !worth_downloading(positions_.download_seconds(), unkept_seconds_);
   if (!history_.wants(iteration) || dear) return;
   download();

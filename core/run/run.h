@@ -22,6 +22,7 @@
 #include "core/run/edit.h"
 #include "core/run/history.h"
 #include "core/run/mean_phase.h"
+#include "core/run/mean_start.h"
 #include "core/run/parameters.h"
 #include "core/run/position_buffer.h"
 #include "core/run/pursuit.h"
@@ -46,6 +47,7 @@ struct Outcome {
   std::uint64_t ended = 0;                    // the iteration that it ended with
   std::uint64_t last_rise = 0;                // iteration in which a minimum last rose by limits.rise; 0: never
   std::optional<std::uint64_t> mean_since{};  // the iteration after which the mean was raised, where that phase was reached
+  std::optional<std::uint64_t> mean_from{};   // the iteration to which it went back for that, where that was not the last before
   Index inverted = 0;                         // elements, at the end
   std::optional<std::uint64_t> best{};        // the iteration that end_at_best() went back to
   ConvergenceLimits limits;
@@ -86,6 +88,8 @@ class Run {
   [[nodiscard]] std::string title() const;
   /// The iteration at whose end the phase that raises the mean begins, where there is one and as far as is known.
   [[nodiscard]] std::optional<std::uint64_t> mean_since() const;
+  /// The iteration to whose state the run goes back there, the best of the first phase; none where it goes on from the last.
+  [[nodiscard]] std::optional<std::uint64_t> mean_from() const;
   /// What the next visits are part of.
   [[nodiscard]] Sweep sweep() const;
   /// Of a combination with a size function; else null.
@@ -196,6 +200,7 @@ class Run {
   void visit_block(std::uint64_t count);
   void end_iteration();
   void record(const RunProgress& done);
+  void begin_mean_phase(Progress& progress);
   void copy_unkept(std::vector<Vec3>& copy) const;
   [[nodiscard]] bool attempts_to_untangle(std::uint64_t iteration) const;
   Outcome advance(const ConvergenceLimits& limits, bool stop_when_still, std::uint64_t from, Progress& progress,
@@ -224,6 +229,7 @@ class Run {
   BlockPlan blocks_;
   History history_;
   mutable PhaseSwitchDetector turn_;
+  BestPositions first_phase_;
   std::optional<Sweep> begun_;  // what the smoother was told last
   Edits edits_;
   std::uint64_t path_ = 0;

@@ -18,6 +18,7 @@ std::string Outcome::sentence() const {
       last_rise == 0 ? "the minimum rose in none of these iterations" : fmt::format("the minimum last rose in iteration {}", last_rise);
   if (inverted > 0) rose += fmt::format("; {} element{} still inverted", inverted, inverted == 1 ? " is" : "s are");
   if (mean_since) rose += fmt::format("; the mean was raised from iteration {} on", *mean_since + 1);
+  if (mean_from) rose += fmt::format(", which begins with the state of {}, the best one before", iteration_name(*mean_from));
   if (best) rose += fmt::format("; back at {}, the best one", iteration_name(*best));
   switch (reason) {
     case StopReason::NothingMoved:
@@ -37,11 +38,39 @@ void Run::visit(std::uint64_t count, Progress& progress) {
     progress.check();
     const std::uint64_t block = std::min({count, visits_per_iteration() - at_.moment.visits, blocks_.visits()});
     recovering([&] { visit_block(block); });
+    begin_mean_phase(progress);
     count -= block;
     const double done = at_.moment.visits == 0 ? 1.0 : static_cast<double>(at_.moment.visits) / whole;
     progress.set(done);
     if (observer_) recovering([this] { observer_(*this); });
   }
+}
+
+/// At the end of the first phase: goes to the state that the second begins from. After it the run stands there for good, whichever way it
+/// has come: the records alone tell which state that is.
+void Run::begin_mean_phase(Progress& progress) {
+  if (!parameters_.then_mean || !at_.moment.is_iteration_end() || mean_since() != at_.moment.iteration) return;
+  const auto best = mean_from();
+  if (!best) return;
+  const std::uint64_t turn = at_.moment.iteration;
+  std::vector<Vec3> positions;
+  if (const auto* found = first_phase_.find(*best)) {
+    positions = *found;
+  } else {
+    const History::Kept kept = history_.nearest(*best);
+    if (kept.iteration == *best) {
+      positions.assign(kept.positions.begin(), kept.positions.end());
+    } else {  // of a run that was read, or whose history had no room
+      const std::uint64_t moved = last_moved_;
+      restore(*best);
+      walk_to({*best}, progress);
+      last_moved_ = moved;
+      positions.assign(this->positions().begin(), this->positions().end());
+    }
+  }
+  put(positions, {{turn}});
+  history_.hold(turn, positions, pool_.get());
+  first_phase_.clear();
 }
 
 void Run::visit_block(std::uint64_t count) {
@@ -222,6 +251,9 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
                      const AfterIteration& after) {
   Outcome outcome{.limits = limits};
   recover();
+  // A second phase must not begin while the first may still gain. Where none has begun, the iterations so far are those of any patience.
+  if (stop_when_still && parameters_.then_mean && !mean_since())
+    parameters_.then_mean->patience = std::max(parameters_.then_mean->patience, limits.patience);
   // Where we stand now may be the midst of an iteration, of which the history has no record.
   from = std::min(from, at_.moment.iteration);  // after a failure the run may stand before it
   const Statistics start = from < at_.moment.iteration ? history_.records()[from].statistics : recovering([this] { return statistics(); });
@@ -261,6 +293,7 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
     const auto since = mean_since();
     const bool raising_mean = since && *since < reached;
     if (raising_mean && (!outcome.mean_since || now.mean - mean >= limits.rise)) {
+      if (!outcome.mean_since) outcome.mean_from = mean_from();
       outcome.mean_since = since;
       since_rise = 0;
       mean = now.mean;

@@ -122,7 +122,8 @@ Json json_of(const RunParameters& p) {
     if (row.in_session) json[std::string(row.name)] = parameter_json(row, p);
   if (p.combination) json["combination"] = to_text(p.metric, *p.combination);
   if (p.combination && p.combination->size() != nullptr) json["size_function"] = to_text(*p.combination->size());
-  if (p.then_mean) json["then_mean"] = {{"patience", p.then_mean->patience}, {"rise", p.then_mean->rise}};
+  if (p.then_mean)
+    json["then_mean"] = {{"patience", p.then_mean->patience}, {"rise", p.then_mean->rise}, {"from_best", p.then_mean->from_best}};
   return json;
 }
 
@@ -148,7 +149,7 @@ RunParameters to_parameters(const Json& json) {
     std::tie(p.metric, p.combination) = parse_combination(json.at("combination").get<std::string>(), json.value("size_function", ""));
   if (json.contains("then_mean")) {
     const Json& phase = json.at("then_mean");
-    p.then_mean = MeanPhase{to_whole(phase.at("patience")), to_double(phase.at("rise"))};
+    p.then_mean = MeanPhase{to_whole(phase.at("patience")), to_double(phase.at("rise")), phase.value("from_best", false)};
     if (p.then_mean->patience == 0) throw UsageError("a second phase needs a patience of at least 1");
   }
   return p;

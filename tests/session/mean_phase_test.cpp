@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -152,8 +153,94 @@ TEST_P(MeanPhaseOf, IsTheFirstPhaseBeforeItBegins) {
   const std::uint64_t since = go_beyond(two);
   Progress progress;
   one.iterate(since, progress);
+  two.seek({since - 1}, progress);
+  one.seek({since - 1}, progress);
+  EXPECT_TRUE(same_bits(one.positions(), two.positions()));
+}
+
+/// Meshes whose first phase goes beyond its best iteration.
+class MeanPhaseAfterWear : public ::testing::TestWithParam<Cells> {};
+INSTANTIATE_TEST_SUITE_P(Meshes, MeanPhaseAfterWear, ::testing::Values(Cells::Triangles, Cells::Mixed));
+
+/// The best of a first phase, told by plain loops: of the iterations since the minimum last rose by 1e-6, the one of greatest mean.
+std::uint64_t best_by_hand(std::span<const IterationRecord> all) {
+  std::size_t begin = 0;
+  for (std::size_t i = 1; i < all.size(); ++i)
+    if (all[i].statistics.movable_minimum - all[begin].statistics.movable_minimum >= 1e-6) begin = i;
+  std::size_t best = begin;
+  for (std::size_t i = begin; i < all.size(); ++i)
+    if (all[i].statistics.mean >= all[best].statistics.mean && all[i].statistics.movable_minimum >= all[begin].statistics.movable_minimum)
+      best = i;
+  return best;
+}
+
+TEST_P(MeanPhaseAfterWear, BeginsWithTheBestStateOfTheFirst) {
+  const auto mesh = input(lattice(14, 0.45, 8, GetParam()));
+  auto two = make_run(mesh, two_phases(40)), one = make_run(mesh, {}), poor = make_run(mesh, two_phases(40), 0, 2);
+  const std::uint64_t since = go_beyond(two);
+  Progress progress;
+  one.iterate(since, progress);
+  const std::uint64_t best = best_by_hand(one.history().records());
+  ASSERT_LT(best, since) << "else this test shows nothing";
+  EXPECT_EQ(two.mean_from(), best);
+  const Statistics there = one.history().records()[best].statistics, worn = one.history().records()[since].statistics;
+  ASSERT_GT(there.mean, worn.mean);
+  EXPECT_EQ(two.history().records()[since].statistics.mean, there.mean);
+  EXPECT_EQ(two.history().records()[since].statistics.minimum, there.minimum);
+  EXPECT_GE(two.history().records().back().statistics.minimum, there.minimum);
+  EXPECT_GE(two.history().records().back().statistics.mean, there.mean);
+  one.seek({best}, progress);
   two.seek({since}, progress);
   EXPECT_TRUE(same_bits(one.positions(), two.positions()));
+  // Over the end of the first phase and back, where nothing is kept, and with other threads.
+  poor.iterate(since + 3, progress);
+  two.seek({since + 3}, progress);
+  EXPECT_TRUE(same_bits(poor.positions(), two.positions()));
+  for (const Moment& moment : {Moment{since - 1}, {since}, {since + 1, 5}, {since - 1, 9}, {since + 3}}) poor.seek(moment, progress);
+  EXPECT_TRUE(same_bits(poor.positions(), two.positions()));
+  EXPECT_EQ(compute_statistics(mesh->quality_context(), poor.positions(), Metric::MeanRatio, poor.immovable(), nullptr).mean,
+            poor.history().records()[since + 3].statistics.mean);
+}
+
+/// Read in the first phase, after its best iteration: whose positions nobody has.
+TEST_P(MeanPhaseAfterWear, BeginsWithTheSameStateAfterItWasRead) {
+  const auto mesh = input(lattice(14, 0.45, 8, GetParam()));
+  auto whole = make_run(mesh, two_phases(40)), read = make_run(mesh, two_phases(40), 0);
+  const std::uint64_t since = go_beyond(whole), best = *whole.mean_from();
+  ASSERT_LT(best + 1, since - 1);
+  Progress progress;
+  whole.seek({since - 1}, progress);
+  RunSnapshot point = whole.point();
+  const std::vector<IterationRecord>& all = whole.history().records();
+  point.records = SharedVector<IterationRecord>(
+      std::make_shared<const std::vector<IterationRecord>>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(since)));
+  read.adopt(point, whole.positions(), progress);
+  ASSERT_FALSE(read.mean_since());
+  read.iterate(4, progress);
+  whole.seek({since + 3}, progress);
+  EXPECT_EQ(read.mean_from(), best);
+  EXPECT_TRUE(same_bits(read.positions(), whole.positions()));
+}
+
+TEST(MeanPhase, ACancelledWayToTheBestStateIsGoneAgain) {
+  const auto mesh = input(lattice(12, 0.3, 3));
+  auto whole = make_run(mesh, two_phases(40)), cancelled = make_run(mesh, two_phases(40), 0);
+  const std::uint64_t since = go_beyond(whole);
+  Progress progress;
+  cancelled.iterate(since + 2, progress);
+  cancelled.set_history_budget(0);  // lets go of what was held
+  bool was_there = false;
+  cancelled.set_observer([&](const dmoscope::Run& run) {
+    was_there = was_there || run.moment().iteration + 1 == since;
+    if (was_there && run.moment().iteration < 3) progress.request_cancel();
+  });
+  EXPECT_THROW(cancelled.seek({since}, progress), Cancelled);
+  ASSERT_TRUE(was_there);
+  cancelled.set_observer({});
+  progress.clear_cancel();
+  cancelled.seek({since + 2}, progress);
+  whole.seek({since + 2}, progress);
+  EXPECT_TRUE(same_bits(cancelled.positions(), whole.positions()));
 }
 
 TEST_P(MeanPhaseOf, HasTheSameBitsWhicheverWayItIsReached) {
@@ -226,7 +313,7 @@ TEST(MeanPhase, NothingMovesAnyMoreAlsoAfterDvr) {
   parameters.method = "dvr";
   auto run = make_run(input(std::move(mesh)), parameters);
   Progress progress;
-  const Outcome outcome = run.until_converged({.patience = 100, .max_iterations = 90}, progress);
+  const Outcome outcome = run.until_converged({.patience = 3, .max_iterations = 90}, progress);
   EXPECT_EQ(outcome.reason, StopReason::NothingMoved);
   EXPECT_TRUE(outcome.mean_since);
 }
@@ -240,6 +327,28 @@ struct Told {
   Told() { add_session_commands(commands, context); }
   void say(const std::string& line) { commands.execute(line); }
 };
+
+/// However little patience the phase has of its own: a run that converges gives up nothing that it would gain alone.
+TEST(MeanPhase, UntilConvergedDoesNotBeginItBeforeTheFirstHasConverged) {
+  Told alone, hasty, patient;
+  for (Told* told : {&alone, &hasty, &patient}) told->say("generate random 400");
+  alone.say("until-converged best 60");
+  const Statistics best = alone.session.active().statistics();
+  hasty.say("then mean 1");
+  hasty.say("run 150");
+  ASSERT_LT(hasty.session.active().statistics().minimum, best.minimum - 0.01) << "else this test shows nothing";
+  patient.say("then mean 1");
+  patient.say("until-converged 60");
+  const dmoscope::Run& run = patient.session.active();
+  ASSERT_TRUE(run.mean_since());
+  EXPECT_GE(*run.mean_since(), alone.session.active().last_outcome()->last_rise + 60);
+  EXPECT_GE(run.statistics().minimum, best.minimum);
+  EXPECT_GE(run.statistics().mean, best.mean);
+  // Once it has begun it stays where it began.
+  const std::uint64_t since = *run.mean_since();
+  patient.say("until-converged 100");
+  EXPECT_EQ(run.mean_since(), since);
+}
 
 TEST(MeanPhase, IsUndoneAndSaved) {
   const test::TemporaryFolder folder;
@@ -259,9 +368,18 @@ TEST(MeanPhase, IsUndoneAndSaved) {
   other.say("open-state " + file);
   EXPECT_EQ(other.session.active().parameters(), told.session.active().parameters());
   EXPECT_EQ(other.session.active().mean_since(), told.session.active().mean_since());
+  EXPECT_EQ(other.session.active().mean_from(), told.session.active().mean_from());
+  ASSERT_TRUE(told.session.active().mean_from()) << "else this test shows less";
   EXPECT_TRUE(same_bits(other.session.active().positions(), end));
-  told.say("run 2");
-  other.say("run 2");
+  // What was saved in the second phase has no positions of the first: they are computed again, and its beginning with them.
+  const std::uint64_t since = *told.session.active().mean_since();
+  for (const std::uint64_t iteration : {since, since - 1, since + 1}) {
+    for (Told* one : {&told, &other}) one->say(fmt::format("seek {}", iteration));
+    EXPECT_TRUE(same_bits(told.session.active().positions(), other.session.active().positions())) << iteration;
+  }
+  for (Told* one : {&told, &other}) one->say("undo");
+  EXPECT_EQ(told.session.active().moment(), Moment{since - 1});
+  for (Told* one : {&told, &other}) one->say("run 2");
   EXPECT_TRUE(same_bits(told.session.active().positions(), other.session.active().positions()));
   other.say("undo");
   other.say("then nothing");

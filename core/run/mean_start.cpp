@@ -1,0 +1,47 @@
+#include "core/run/mean_start.h"
+
+#include <algorithm>
+
+namespace dmoscope {
+
+bool same_state(const Statistics& a, const Statistics& b) {
+  return a.inverted == b.inverted && a.minimum == b.minimum && a.movable_minimum == b.movable_minimum && a.mean == b.mean;
+}
+
+std::optional<std::uint64_t> mean_phase_start(const RunParameters& parameters, std::span<const IterationRecord> records,
+                                              std::uint64_t turn) {
+  if (turn == 0 || !parameters.then_mean || !parameters.then_mean->from_best) return std::nullopt;
+  BestState best(parameters);
+  for (const IterationRecord& record : records.first(turn)) best.take(record);
+  const std::uint64_t before = best.iteration();
+  best.take(records[turn]);
+  // Among equals the one before, so that the answer stays the same once `turn` has its record.
+  if (best.iteration() == turn && !same_state(records[before].statistics, records[turn].statistics)) return std::nullopt;
+  const auto since = records.subspan(before + 1, turn - before);
+  if (std::ranges::all_of(since, [](const IterationRecord& record) { return record.moved == 0; })) return std::nullopt;
+  return before;
+}
+
+void BestPositions::take(std::span<const IterationRecord> records, std::span<const Vec3> positions) {
+  if (seen_ + 1 != records.size()) {
+    best_ = BestState(parameters_);
+    for (const IterationRecord& record : records.first(records.size() - 1)) best_.take(record);
+  }
+  best_.take(records.back());
+  seen_ = records.size();
+  if (best_.iteration() != records.back().iteration) return;
+  held_ = best_.iteration();
+  positions_.assign(positions.begin(), positions.end());
+}
+
+void BestPositions::forget_after(std::uint64_t iteration) {
+  seen_ = 0;
+  if (held_ && *held_ > iteration) clear();
+}
+
+void BestPositions::clear() {
+  held_.reset();
+  std::vector<Vec3>().swap(positions_);
+}
+
+}  // namespace dmoscope

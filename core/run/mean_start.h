@@ -1,0 +1,45 @@
+#pragma once
+// Which state the second phase of a run, which raises the mean, begins from.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/run/best_state.h"
+
+namespace dmoscope {
+
+/// The best iteration before `turn`, the last of the first phase: to its state the run goes back at the end of `turn`. None where that one
+/// is better than all before it, or where nothing has moved since. After its last rise the minimum has nothing to gain, and the mean falls:
+/// see BestState.
+[[nodiscard]] std::optional<std::uint64_t> mean_phase_start(const RunParameters& parameters, std::span<const IterationRecord> records,
+                                                            std::uint64_t turn);
+
+/// By their records: whether both are one state.
+[[nodiscard]] bool same_state(const Statistics& a, const Statistics& b);
+
+/// The positions of the best iteration so far, so that nobody need compute them again.
+class BestPositions {
+ public:
+  explicit BestPositions(const RunParameters& parameters) : best_(parameters), parameters_(parameters) {}
+  /// After each new record: `positions` are those of the last.
+  void take(std::span<const IterationRecord> records, std::span<const Vec3> positions);
+  /// None where they are not of that iteration.
+  [[nodiscard]] const std::vector<Vec3>* find(std::uint64_t iteration) const {
+    return held_ && *held_ == iteration ? &positions_ : nullptr;
+  }
+  /// The records after an iteration are of another path from now on.
+  void forget_after(std::uint64_t iteration);
+  /// They will not be asked for any more.
+  void clear();
+
+ private:
+  BestState best_;
+  RunParameters parameters_;
+  std::uint64_t seen_ = 0;  // records
+  std::optional<std::uint64_t> held_;
+  std::vector<Vec3> positions_;
+};
+
+}  // namespace dmoscope

@@ -6,6 +6,20 @@
 
 namespace dmoscope::app {
 
+namespace {
+
+/// What the run took counts whole, wherever it has gone back to.
+void count_all(RunRow& row, const Run& run) {
+  const auto& records = run.history().records();
+  row.iterations = records.size() - 1;
+  row.seconds = 0.0;
+  for (const IterationRecord& record : records) row.seconds += record.seconds;
+  const auto visits = static_cast<double>(row.iterations * run.visits_per_iteration());
+  row.vertices_per_second = row.seconds > 0.0 ? visits / row.seconds : RunRow::kUnknown;
+}
+
+}  // namespace
+
 JudgedRun run_judged(std::string name, std::shared_ptr<const InputMesh> input, RunParameters parameters, Metric judge, const Goal& goal,
                      const Workshop& workshop) {
   require_defined(judge, input->mesh);
@@ -27,6 +41,10 @@ JudgedRun run_judged(std::string name, std::shared_ptr<const InputMesh> input, R
     const Run::AfterIteration after = own ? Run::AfterIteration{} : judge_now;
     Outcome outcome = goal.until_converged ? run.until_converged(*goal.until_converged, workshop.progress, after)
                                            : run.iterate(goal.iterations, workshop.progress, after);
+    if (goal.until_converged) {
+      run.end_at_best(workshop.progress);
+      outcome = *run.last_outcome();
+    }
     run.sync_to_host();
     return outcome;
   };
@@ -39,9 +57,10 @@ JudgedRun run_judged(std::string name, std::shared_ptr<const InputMesh> input, R
   done.free = run.visits_per_iteration();
   done.row = row_of(run, judge, pool);
   done.row.title = done.name;
+  count_all(done.row, run);
   done.records = run.history().records();
   for (std::size_t i = 0; i < judged.size(); ++i) done.records[i].statistics = judged[i];
-  done.after = done.records.back().statistics;
+  done.after = done.records[run.moment().iteration].statistics;
   done.positions.assign(run.positions().begin(), run.positions().end());
   done.qualities.resize(input->mesh.elements.size());
   element_qualities(context, done.positions, judge, pool, done.qualities);

@@ -23,8 +23,8 @@ struct JudgedRun {
   RunParameters parameters;
   std::string backend_reason;  // see Run
   std::uint64_t free = 0;      // vertices that may move
-  RunRow row;                  // its title is `name`
-  Statistics after;            // by the judge
+  RunRow row;                  // its title is `name`; iterations and seconds are those of all that was done
+  Statistics after;            // by the judge, where the run stands: until converged, at its best iteration (see Run::end_at_best)
   Outcome outcome;
   std::vector<IterationRecord> records;  // their statistics are the judge's; the first is the input
   std::vector<double> qualities;         // of all elements by the judge, ascending

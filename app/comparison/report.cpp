@@ -28,6 +28,14 @@ std::vector<const JudgedRun*> every_run(const Comparison& comparison) {
   return runs;
 }
 
+/// How those runs ended that have gone back to an iteration before their last.
+std::vector<std::string> endings(const Comparison& comparison) {
+  std::vector<std::string> lines;
+  for (const JudgedRun* run : every_run(comparison))
+    if (run->outcome.best || run->outcome.mean_from) lines.push_back(fmt::format("{}: {}", run->name, run->outcome.sentence()));
+  return lines;
+}
+
 /// The input as a row beside the runs.
 RunRow input_row(const Comparison& comparison) {
   return row_of_input(comparison.judge, comparison.runs.front().before(), comparison.input_percentiles);
@@ -59,6 +67,7 @@ Json json_of(const JudgedRun& run) {
               {"backend_reason", run.backend_reason},
               {"order", to_text(p.order)},
               {"iterations", run.row.iterations},
+              {"judged_iteration", run.outcome.best.value_or(run.outcome.ended)},
               {"converged", run.outcome.reason != StopReason::IterationLimit},
               {"outcome", run.outcome.sentence()}};
   for (const RunColumn& column : run_columns()) {
@@ -171,8 +180,9 @@ void add_settings(Page& page, const Comparison& comparison, const ComparisonFact
 
 std::string goal_sentence(const Goal& goal) {
   if (!goal.until_converged) return counted(goal.iterations, "iteration", "iterations");
-  return fmt::format("until converged: no vertex moves, or no rise of the minimum by {:g} in {}; at most {}", goal.until_converged->rise,
-                     counted(goal.until_converged->patience, "iteration", "iterations"), goal.until_converged->max_iterations);
+  return fmt::format(
+      "until converged: no vertex moves, or no rise of the minimum by {:g} in {}; at most {}; then back at the best iteration",
+      goal.until_converged->rise, counted(goal.until_converged->patience, "iteration", "iterations"), goal.until_converged->max_iterations);
 }
 
 std::vector<std::pair<std::string, std::string>> machine_facts(unsigned threads) {
@@ -206,6 +216,9 @@ std::string text_of(const Comparison& comparison) {
       fmt::format("{}: {}, {}, {} free; qualities by {}\n\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
                   counted(mesh.elements.size(), "element", "elements"), grouped(comparison.free), info(comparison.judge).name);
   text += text_table(head, rows, alignment);
+  const std::vector<std::string> ends = endings(comparison);
+  if (!ends.empty()) text += '\n';
+  for (const std::string& line : ends) text += line + '\n';
   if (!comparison.orders.empty())
     text += fmt::format("\n{}, the natural one included:\n", counted(comparison.orders.front().orders, "order", "orders"));
   for (const OrderSpread& spread : comparison.orders) text += "  " + spread_sentence(spread) + '\n';
@@ -273,6 +286,7 @@ std::string html_of(const Comparison& comparison, const ComparisonFacts& facts, 
     hints.emplace_back(column->doc);
   }
   page.table(head, hints, page_rows(comparison), 1);  // the input, as in the window
+  for (const std::string& line : endings(comparison)) page.paragraph(line + ".");
   for (const LeftOut& left : comparison.left_out) page.paragraph(fmt::format("Left out: {}: {}", left.name, left.reason));
   page.heading("Convergence");
   page.plot(draw(convergence_plot(comparison)));

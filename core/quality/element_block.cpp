@@ -11,10 +11,6 @@ namespace {
 using Real = Pack<double>;
 constexpr std::size_t kWidth = Real::size;
 
-/// What is the same for double and for packs of it. The library's functions of angles are not.
-template <Metric M>
-constexpr bool kSameInPacks = M != Metric::MinAngle&& M != Metric::MaxAngle&& M != Metric::Rectangularity;
-
 struct Judged {
   double quality, jacobian;
 };
@@ -144,9 +140,9 @@ void judge(const QualityContext& context, std::span<const Vec3> positions, Eleme
     std::size_t last = first + 1;
     while (last < block.count && kinds[last] == kinds[first]) ++last;
     const bool planar = context.geometry.shape == Shape::Planar;
-    if (kSameInPacks<M> && planar && kinds[first] == ElementKind::Triangle)
+    if (planar && kinds[first] == ElementKind::Triangle)
       judge_in_packs<M, 3>(context, positions, block, first, last);
-    else if (kSameInPacks<M> && planar && kinds[first] == ElementKind::Quadrilateral)
+    else if (planar && kinds[first] == ElementKind::Quadrilateral)
       judge_in_packs<M, 4>(context, positions, block, first, last);
     else
       judge_one_by_one<M>(context, positions, block, first, last);

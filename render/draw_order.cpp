@@ -92,6 +92,21 @@ std::vector<std::array<Index, 2>> boundary_edges(const Mesh& mesh, std::span<con
   return edges;
 }
 
+/// A box is found from each of a block's vertices once; as corners they come up six times.
+void gather_block_vertices(Batch& batch, Index vertex_count) {
+  std::vector<Index> last_block(vertex_count, kNoIndex);
+  batch.block_begins.reserve(std::size_t{batch.block_count()} + 1);
+  for (Index b = 0; b < batch.block_count(); ++b) {
+    const DrawRange range = batch.block(b);
+    for (const Index v :
+         std::span(batch.corners)
+             .subspan(std::size_t{range.first} * batch.corner_count, std::size_t{range.last - range.first} * batch.corner_count))
+      if (std::exchange(last_block[v], b) != b) batch.block_vertices.push_back(v);
+    batch.block_begins.push_back(batch.block_vertices.size());
+  }
+  batch.block_vertices.shrink_to_fit();
+}
+
 }  // namespace
 
 bool Layout::is_across(std::span<const Index> corners, std::span<const Vec2<double>> points) const noexcept {
@@ -129,6 +144,8 @@ std::shared_ptr<const Layout> build_layout(const Mesh& mesh, const Plane& plane,
     batch.corners.insert(batch.corners.end(), corners.begin(), corners.end());
   }
   for (const Index element : layout->batches[1].order) layout->slots[element] += layout->batches[0].size();
+  for (Batch& batch : layout->batches)
+    if (batch.size() > 0) gather_block_vertices(batch, layout->vertex_count);
   layout->boundary_edges = boundary_edges(mesh, boundary);
   return layout;
 }
@@ -156,11 +173,10 @@ void Placement::fit_boxes() {
   for (std::size_t i = 0; i < block_bounds_.size(); ++i) {
     const Batch& batch = layout_->batches[i];
     for (Index b = 0; b < batch.block_count(); ++b) {
-      const DrawRange range = batch.block(b);
-      Vec2<double> low = points_[batch.corners_of(range.first)[0]], high = low;
-      const std::size_t end = std::size_t{range.last} * batch.corner_count;
-      for (std::size_t c = std::size_t{range.first} * batch.corner_count; c < end; ++c) {
-        const Vec2<double> p = points_[batch.corners[c]];
+      const std::span<const Index> vertices = batch.vertices_of_block(b);
+      Vec2<double> low = points_[vertices.front()], high = low;
+      for (const Index v : vertices) {
+        const Vec2<double> p = points_[v];
         low = {std::min(low.x, p.x), std::min(low.y, p.y)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y)};
       }

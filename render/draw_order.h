@@ -25,13 +25,18 @@ struct DrawRange {
 struct Batch {
   static constexpr Index kBlock = 1024;  // elements per block; the last has fewer
   Index corner_count = 3;
-  std::vector<Index> order;    // drawn index to element
-  std::vector<Index> corners;  // of the drawn elements, corner_count each
+  std::vector<Index> order;                  // drawn index to element
+  std::vector<Index> corners;                // of the drawn elements, corner_count each
+  std::vector<Index> block_vertices;         // the corners of each block's elements, every vertex once a block
+  std::vector<std::size_t> block_begins{0};  // where those of each block begin, and the end of the last
   [[nodiscard]] Index size() const noexcept { return static_cast<Index>(order.size()); }
   [[nodiscard]] std::span<const Index> corners_of(Index drawn) const noexcept {
     return {corners.data() + std::size_t{drawn} * corner_count, corner_count};
   }
   [[nodiscard]] Index block_count() const noexcept { return (size() + kBlock - 1) / kBlock; }
+  [[nodiscard]] std::span<const Index> vertices_of_block(Index b) const noexcept {
+    return std::span(block_vertices).subspan(block_begins[b], block_begins[b + 1] - block_begins[b]);
+  }
   [[nodiscard]] DrawRange block(Index b) const noexcept { return {b * kBlock, std::min(size(), (b + 1) * kBlock)}; }
 };
 

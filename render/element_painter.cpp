@@ -56,6 +56,9 @@ void ElementPainter::upload_topology(const Layout& layout) {
 }
 
 void ElementPainter::upload_points(std::span<const Vec2<float>> points) { points_.write(points); }
+void ElementPainter::upload_points(Index first, std::span<const Vec2<float>> points) {
+  points_.write_at(first * sizeof(Vec2<float>), std::as_bytes(points));
+}
 void ElementPainter::upload_shades(std::span<const float> shades) { shades_.write(shades); }
 
 void ElementPainter::mark_inverted(const Layout& layout, std::span<const float> shades) {

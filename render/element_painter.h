@@ -31,6 +31,8 @@ class ElementPainter {
   void upload_topology(const Layout& layout);
   /// Relative to the layout's origin, in place.
   void upload_points(std::span<const Vec2<float>> points);
+  /// The same of the vertices from `first` on.
+  void upload_points(Index first, std::span<const Vec2<float>> points);
   /// One per element, in place: see shade_of.
   void upload_shades(std::span<const float> shades);
   /// Which elements are inverted, of those shades; empty: nobody here knows, any may be.

@@ -85,6 +85,11 @@ void Buffer::write(std::span<const std::byte> data) {
   if (!data.empty()) DMOSCOPE_GL(glNamedBufferSubData(handle_.id(), 0, static_cast<GLsizeiptr>(data.size()), data.data()));
 }
 
+void Buffer::write_at(std::size_t offset, std::span<const std::byte> data) {
+  if (!data.empty())
+    DMOSCOPE_GL(glNamedBufferSubData(handle_.id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()), data.data()));
+}
+
 void Buffer::bind_storage(GLuint binding) const { DMOSCOPE_GL(glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, handle_.id())); }
 
 Program::Program(const Stages& stages, Defines defines) : program_(glCreateProgram()) {

@@ -69,6 +69,8 @@ class Buffer {
   void reserve(std::size_t bytes);
   /// Replaces the first bytes by `data`; memory is allocated anew only when it does not fit.
   void write(std::span<const std::byte> data);
+  /// Replaces the bytes from `offset` on; they must fit.
+  void write_at(std::size_t offset, std::span<const std::byte> data);
   template <class T>
   void write(std::span<const T> values) {
     write(std::as_bytes(values));

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/memory.h"
+#include "core/base/same_bits.h"
 #include "render/draw_state.h"
 #include "render/planar_scene_impl.h"
 
@@ -78,6 +78,8 @@ bool PlanarScene::show(std::shared_ptr<const Frame> frame, Loading loading) {
   if (!s.frame || s.frame->serial != frame->serial || s.frame->input_serial != frame->input_serial) {
     if (frame->device) {
       s.show_device(*frame);
+    } else if (s.stands_at(*frame)) {
+      s.upload_shades(frame->quality, frame->inverted);
     } else {
       s.upload(frame->positions, frame->quality, frame->inverted);
     }
@@ -109,16 +111,34 @@ void PlanarScene::Impl::upload(std::span<const Vec3> positions, std::span<const 
   device.clear();
   source = Source::Host;
   placement_current = true;
+  upload_points(positions);
+  upload_shades(quality, inverted_flags);
+}
+
+/// Whether these positions are on show: another metric changes colours alone.
+bool PlanarScene::Impl::stands_at(const Frame& wanted) const {
+  return source == Source::Host && placement_current && frame && !frame->device && frame->input_serial == wanted.input_serial &&
+         !wanted.positions.empty() && same_bits(frame->positions, wanted.positions);
+}
+
+/// Piece by piece: memory for all of it would be asked of the system and given back with every frame.
+void PlanarScene::Impl::upload_points(std::span<const Vec3> positions) {
+  constexpr std::size_t kPiece = std::size_t{1} << 14U;
   placement.move(positions);
   const Vec2<double> origin = placement.layout().origin;
   const auto points = placement.points();
-  {
-    auto relative = large_vector<Vec2<float>>(points.size());
-    std::transform(points.begin(), points.end(), relative.begin(), [&](const Vec2<double>& p) {
+  std::vector<Vec2<float>> relative(std::min(kPiece, points.size()));
+  for (std::size_t first = 0; first < points.size(); first += kPiece) {
+    const auto piece = points.subspan(first, std::min(kPiece, points.size() - first));
+    std::transform(piece.begin(), piece.end(), relative.begin(), [&](const Vec2<double>& p) {
       return Vec2<float>{static_cast<float>(p.x - origin.x), static_cast<float>(p.y - origin.y)};
     });
-    elements.upload_points(relative);
+    elements.upload_points(static_cast<Index>(first), std::span<const Vec2<float>>(relative).first(piece.size()));
   }
+}
+
+void PlanarScene::Impl::upload_shades(std::span<const float> quality, std::span<const std::uint8_t> inverted_flags) {
+  const Index count = placement.layout().element_count();
   shades.resize(count);
   for (Index e = 0; e < count; ++e) shades[e] = shade_of(quality[e], !inverted_flags.empty() && inverted_flags[e] != 0);
   elements.upload_shades(shades);
@@ -296,7 +316,7 @@ void PlanarScene::draw_marks(Framebuffer& target, const Camera& seen_from, const
 
 double PlanarScene::suggested_detail(std::size_t element_count, bool is_software, bool moving) const noexcept {
   // Elements that llvmpipe on two cores draws as squares well within 100 ms.
-  constexpr double kAffordable = 150'000.0;
+  constexpr double kAffordable = 75'000.0;
   if (!is_software || !moving || element_count == 0) return 1.0;
   return std::min(1.0, kAffordable / static_cast<double>(element_count));
 }

@@ -46,6 +46,9 @@ struct PlanarScene::Impl {
     ++revision;
   }
   bool prepare(const Frame& wanted, Loading loading);
+  [[nodiscard]] bool stands_at(const Frame& wanted) const;
+  void upload_points(std::span<const Vec3> positions);
+  void upload_shades(std::span<const float> quality, std::span<const std::uint8_t> inverted_flags);
   void upload(std::span<const Vec3> positions, std::span<const float> quality, std::span<const std::uint8_t> inverted_flags);
   void show_device(const Frame& light);
   /// Brings the placement up to date with what is on show. Throws DeviceError.

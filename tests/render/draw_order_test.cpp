@@ -28,6 +28,27 @@ TEST(DrawOrder, HasEveryElementOnceWithItsCornersAndItsSlot) {
   EXPECT_EQ(seen, all);
 }
 
+TEST(DrawOrder, BoxesOfBlocksAreThoseOfTheirElements) {
+  const Mesh mesh = wavy_sheet(70, 40);
+  const auto layout = build_layout(mesh, Plane{});
+  Placement placement(layout);
+  std::vector<Vec3> moved = mesh.positions;
+  for (std::size_t v = 0; v < moved.size(); ++v) moved[v].x += 0.1 * static_cast<double>(v % 7);
+  placement.move(moved);
+  Index blocks = 0;
+  for (std::size_t k = 0; k < layout->batches.size(); ++k) {
+    const Batch& batch = layout->batches[k];
+    for (Index b = 0; b < batch.block_count(); ++b, ++blocks) {
+      Bounds2 box;
+      for (Index drawn = batch.block(b).first; drawn < batch.block(b).last; ++drawn)
+        for (const Index v : mesh.elements.corners(batch.order[drawn])) box.include(Vec2<double>{moved[v].x, moved[v].y});
+      EXPECT_EQ(placement.block_bounds(k, b).low, box.low);
+      EXPECT_EQ(placement.block_bounds(k, b).high, box.high);
+    }
+  }
+  EXPECT_GT(blocks, 3U);
+}
+
 TEST(DrawOrder, FindsTheSameBoundaryWhereItIsKnownAtWhichVerticesItRuns) {
   Mesh mesh = wavy_sheet(30, 20);
   // An element apart from the others, and a third one on an edge.

@@ -39,6 +39,30 @@ TEST_F(WithContext, ShowsFramesAsTheyChange) {
   EXPECT_TRUE(scene->empty());
 }
 
+TEST_F(WithContext, FramesAtTheSamePlaceChangeTheirColoursAndOthersTheirPlace) {
+  const auto first = frame_of(triangle_and_quadrilateral(), 1, 0.3F);
+  auto second = std::make_shared<Frame>(*first);  // another metric, by which the quadrilateral is inverted
+  second->serial += 100;
+  second->quality = {0.9F, -0.5F};
+  second->inverted = {0, 1};
+  auto third = std::make_shared<Frame>(*second);  // and moved
+  third->serial += 100;
+  for (Vec3& position : third->positions) position.x += 40.0;
+  EXPECT_TRUE(scene->show(first));
+  const Bounds2 before = scene->bounds();
+  EXPECT_TRUE(scene->show(second));
+  EXPECT_EQ(scene->bounds().low, before.low);
+  EXPECT_TRUE(near_colour(picture(unit_camera(), flat_style()).at(60, 60), sample(ColourMap::Viridis, 0.9)));
+  const auto inverted = picture(unit_camera(), flat_style());
+  EXPECT_FALSE(near_colour(inverted.at(150, 60), sample(ColourMap::Viridis, 0.3)));
+  EXPECT_TRUE(scene->show(third));
+  EXPECT_EQ(scene->bounds().low, (before.low + Vec2<double>{40.0, 0.0}));
+  EXPECT_TRUE(near_colour(picture(unit_camera(), flat_style()).at(100, 60), sample(ColourMap::Viridis, 0.9))) << "where it came to";
+  EXPECT_EQ(picture(unit_camera(), flat_style()).at(30, 100), picture(unit_camera(), flat_style()).at(2, 2)) << "nothing is left behind";
+  EXPECT_TRUE(scene->show(first));
+  EXPECT_EQ(scene->bounds().low, before.low);
+}
+
 TEST_F(WithContext, BigMeshesAreMadeReadyInTheBackground) {
   const auto big = frame_of(wavy_sheet(320, 320), 3, 0.4F);
   ASSERT_GT(big->quality.size(), 100'000U);

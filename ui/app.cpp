@@ -40,6 +40,7 @@ App::App(Options options)
       engine_(options_.threads, options_.acceleration, options_.backend),
       session_(engine_.view()),
       viewports_({options_.no_interop, options_.software_renderer, options_.wait_for_scene}) {
+  engine_.give_way();
   host_.session = [this] { return session_; };
   host_.post = [this](const std::string& line) {
     if (state_.sequence) end_sequence("the sequence of pictures ended early: another command came", Message::Kind::Warning);

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/returned_memory.h"
+#include "core/engine/give_way.h"
 
 namespace dmoscope {
 
@@ -205,6 +206,7 @@ void Engine::work_off(std::unique_lock<std::mutex>& lock) {
   looks_pass_ = reach_of(current_.line) == CommandReach::Paths;
   progress_.clear_cancel();
   lock.unlock();
+  if (looks_pass_ && give_way_.exchange(false)) dmoscope::give_way(*session_.pool());
   const CommandEnd end = run_one(current_);
   publish_at_rest();
   lock.lock();
@@ -299,7 +301,9 @@ void Engine::carry_out_looks() {
     const std::scoped_lock lock(mutex_);
     ends_.push_back(std::move(end));
   }
-  if (any) publish(FrameDetail::Live);
+  if (!any) return;
+  publish(FrameDetail::Quick);
+  next_publication_ = std::chrono::steady_clock::now();  // what it left out follows as soon as it is taken
 }
 
 void Engine::publish_if_due() {

@@ -38,7 +38,8 @@ class Engine {
 
   /// Queues one command line of the table in commands.h. Returns at once the command's number (1, 2, ...); whatever goes wrong becomes a
   /// Message. One that changes only what is shown (CommandReach::Look) passes those that only change paths, also the one at work: it is
-  /// carried out, and a view with it published, after the block of visits under way.
+  /// carried out, and a view with it published, after the block of visits under way. Where it
+  /// is another metric, its statistics and the like follow with the next view (Frame::provisional).
   std::uint64_t post(std::string command_line);
   /// Commands posted and not yet finished, the one at work included.
   [[nodiscard]] std::size_t pending() const;
@@ -53,6 +54,9 @@ class Engine {
   [[nodiscard]] const Progress& progress() const noexcept { return progress_; }
   /// What runs now, as typed; empty when idle.
   [[nodiscard]] std::string current_command() const;
+
+  /// From the next command that smooths on whatever computes gives way to the program's other threads, see give_way(ThreadPool&): for a window.
+  void give_way() { give_way_ = true; }
 
   /// From now on the session is saved by itself; see Autosave. Before the first post. Throws OutputError.
   void autosave(AutosaveOptions options);
@@ -117,6 +121,7 @@ class Engine {
   std::vector<Message> messages_;
   std::shared_ptr<const SessionView> view_;
   std::atomic<bool> taken_{true};
+  std::atomic<bool> give_way_{false};
   FrameBuilder frames_;
   std::chrono::steady_clock::time_point next_publication_;
   std::unique_ptr<Autosave> autosave_;  // null: nothing is saved by itself

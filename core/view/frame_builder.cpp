@@ -70,19 +70,23 @@ Frame judged(Session& session, std::size_t index) {
   return frame;
 }
 
-const FrameBuilder::InputFacts& FrameBuilder::facts_of(Session& session, const std::shared_ptr<const InputMesh>& input) {
+FrameBuilder::InputFacts& FrameBuilder::facts_of(Session& session, const std::shared_ptr<const InputMesh>& input) {
   auto facts = std::ranges::find(inputs_, input, &InputFacts::input);
-  const bool known = facts != inputs_.end();
-  if (!known) {
-    const auto open = session.inputs();
-    std::erase_if(inputs_, [&](const InputFacts& one) { return std::ranges::find(open, one.input) == open.end(); });
-    inputs_.push_back({input, ++input_serial_, session.shown(), {}});
-    facts = inputs_.end() - 1;
-  }
-  if (known && facts->metric == session.shown()) return *facts;
-  facts->metric = session.shown();
-  facts->before = std::make_shared<const InputSpread>(spread_of(*input, facts->metric, session.pool().get()));
-  return *facts;
+  if (facts != inputs_.end()) return *facts;
+  const auto open = session.inputs();
+  std::erase_if(inputs_, [&](const InputFacts& one) { return std::ranges::find(open, one.input) == open.end(); });
+  inputs_.push_back({input, ++input_serial_, {}});
+  return inputs_.back();
+}
+
+/// Of the metric that is shown; null where it is not known and `detail` leaves no time for it.
+std::shared_ptr<const InputSpread> FrameBuilder::spread_at(Session& session, InputFacts& facts, FrameDetail detail) {
+  const auto known = facts.before.find(session.shown());
+  if (known != facts.before.end()) return known->second;
+  if (detail == FrameDetail::Quick) return nullptr;
+  auto spread = std::make_shared<const InputSpread>(spread_of(*facts.input, session.shown(), session.pool().get()));
+  facts.before.emplace(session.shown(), spread);
+  return spread;
 }
 
 bool FrameBuilder::FrameKey::is(const FrameKey& other) const {
@@ -107,10 +111,10 @@ const std::shared_ptr<const InputMesh>& FrameBuilder::input_of(Session& session,
   return key.index == Frame::kNoRun ? session.input() : session.run(key.index).shared_input();
 }
 
-FrameBuilder::Known* FrameBuilder::find(Session& session, const FrameKey& key) {
+FrameBuilder::Known* FrameBuilder::find(Session& session, const FrameKey& key, FrameDetail detail) {
   const auto& input = input_of(session, key);
   const auto at = std::ranges::find_if(known_, [&](const Known& one) { return one.frame->input == input && key.is(one.key); });
-  if (at == known_.end()) return nullptr;
+  if (at == known_.end() || (at->frame->provisional && detail != FrameDetail::Quick)) return nullptr;
   at->wanted = true;
   return &*at;
 }
@@ -122,8 +126,8 @@ std::shared_ptr<const Frame> FrameBuilder::keep(FrameKey key, std::shared_ptr<co
 }
 
 /// A frame that lacks nothing but its positions and what they tell.
-std::shared_ptr<Frame> FrameBuilder::begin(Session& session, const FrameKey& key) {
-  const InputFacts& facts = facts_of(session, input_of(session, key));
+std::shared_ptr<Frame> FrameBuilder::begin(Session& session, const FrameKey& key, FrameDetail detail) {
+  InputFacts& facts = facts_of(session, input_of(session, key));
   auto frame = std::make_shared<Frame>();
   frame->serial = ++serial_;
   frame->input_serial = facts.serial;
@@ -131,17 +135,18 @@ std::shared_ptr<Frame> FrameBuilder::begin(Session& session, const FrameKey& key
   frame->run = key.index;
   frame->moment = key.moment;
   frame->shown = key.shown;
-  frame->before = facts.before->histogram;
-  frame->input_spread = facts.before;
+  frame->input_spread = spread_at(session, facts, detail);
+  frame->provisional = frame->input_spread == nullptr;
+  if (frame->input_spread) frame->before = frame->input_spread->histogram;
   return frame;
 }
 
 std::shared_ptr<const Frame> FrameBuilder::standing(Session& session, std::size_t index, FrameDetail detail) {
   FrameKey key = key_of(session, index);
-  const Known* known = find(session, key);
-  if (known != nullptr && (detail == FrameDetail::Live || !known->frame->device)) return known->frame;
+  const Known* known = find(session, key, detail);
+  if (known != nullptr && (detail != FrameDetail::Whole || !known->frame->device)) return known->frame;
   const Run& run = session.run(index);
-  auto frame = begin(session, key);
+  auto frame = begin(session, key, detail);
   if (run.input().is_volume() && run.backend() != Backend::Cpu) frame->device_trouble = "volumes are drawn from the host";
   if (detail == FrameDetail::Whole || !take_picture(*frame, run)) {
     const auto positions = run.positions();
@@ -149,7 +154,13 @@ std::shared_ptr<const Frame> FrameBuilder::standing(Session& session, std::size_
     frame->positions.assign(positions.begin(), positions.end());
     judge_elements(*frame, run.immovable(), session.pool().get());
   }
-  frame->statistics = frame->shown == run.parameters().metric ? frame->shown_statistics : run.statistics();
+  if (frame->shown == run.parameters().metric) {
+    frame->statistics = frame->shown_statistics;
+  } else if (detail != FrameDetail::Quick) {
+    frame->statistics = run.statistics();
+  } else {
+    frame->provisional = true;
+  }
   return keep(std::move(key), std::move(frame));
 }
 
@@ -158,29 +169,29 @@ WatchedFrame FrameBuilder::watch_standing(Session& session, const Watch& what, s
   try {
     return {what, standing(session, index, detail), {}};
   } catch (const DeviceError& error) {
-    if (detail == FrameDetail::Live) return {what, nullptr, error.what()};
+    if (detail != FrameDetail::Whole) return {what, nullptr, error.what()};
   }
   session.run(index).recover();
   return {what, standing(session, index, detail), {}};
 }
 
 std::shared_ptr<const Frame> FrameBuilder::past(Session& session, std::size_t index, std::uint64_t iteration,
-                                                std::span<const Vec3> positions) {
+                                                std::span<const Vec3> positions, FrameDetail detail) {
   FrameKey key = key_of(session, index, iteration);
   const Run& run = session.run(index);
-  auto frame = begin(session, key);
+  auto frame = begin(session, key, detail);
   frame->positions.assign(positions.begin(), positions.end());
   judge_elements(*frame, run.immovable(), session.pool().get());
   frame->statistics = run.history().records()[iteration].statistics;
   return keep(std::move(key), std::move(frame));
 }
 
-std::shared_ptr<const Frame> FrameBuilder::input_frame(Session& session) {
+std::shared_ptr<const Frame> FrameBuilder::input_frame(Session& session, FrameDetail detail) {
   FrameKey key;
   key.shown = session.shown();
   key.interfaces = session.active().parameters().interfaces;
-  if (const Known* known = find(session, key)) return known->frame;
-  auto frame = begin(session, key);
+  if (const Known* known = find(session, key, detail)) return known->frame;
+  auto frame = begin(session, key, detail);
   frame->positions = session.input()->mesh.positions;
   const std::vector<std::uint8_t> standing = standing_vertices(*frame->input, key.interfaces);
   judge_elements(*frame, immovable_elements(frame->input->mesh, standing, session.pool().get()), session.pool().get());
@@ -189,7 +200,7 @@ std::shared_ptr<const Frame> FrameBuilder::input_frame(Session& session) {
 }
 
 WatchedFrame FrameBuilder::watch(Session& session, const Watch& what, FrameDetail detail) {
-  if (what.run == Watch::kInput) return {what, input_frame(session), {}};
+  if (what.run == Watch::kInput) return {what, input_frame(session, detail), {}};
   const auto place = session.place_of(what.run);
   if (!place) return {what, nullptr, "this run is no more"};
   Run& run = session.run(*place);
@@ -200,8 +211,9 @@ WatchedFrame FrameBuilder::watch(Session& session, const Watch& what, FrameDetai
   const std::uint64_t iteration = *what.iteration;
   if (iteration >= run.history().records().size())
     return {what, nullptr, fmt::format("the run has not come to iteration {} yet", iteration)};
-  if (const Known* known = find(session, key_of(session, *place, iteration))) return {what, known->frame, {}};
-  if (run.history().kept(iteration)) return {what, past(session, *place, iteration, run.history().nearest(iteration).positions), {}};
+  if (const Known* known = find(session, key_of(session, *place, iteration), detail)) return {what, known->frame, {}};
+  if (run.history().kept(iteration))
+    return {what, past(session, *place, iteration, run.history().nearest(iteration).positions, detail), {}};
   return {what, nullptr, fmt::format("iteration {} is no longer kept: it is computed again when the runs rest", iteration)};
 }
 
@@ -213,7 +225,7 @@ bool FrameBuilder::find_past(Session& session, std::span<const Watch> watched, c
     if (session.run(*place).moment() == Moment{*what.iteration} || find(session, key_of(session, *place, *what.iteration))) continue;
     const auto positions = positions_at(session, session.run(*place), *what.iteration, go_on);
     if (!positions) break;
-    (void)past(session, *place, *what.iteration, *positions);
+    (void)past(session, *place, *what.iteration, *positions, FrameDetail::Whole);
     found = true;
   }
   return found;

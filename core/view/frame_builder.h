@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <vector>
@@ -14,8 +15,9 @@
 
 namespace dmoscope {
 
-/// Whole: everything is in the frame. Live: what lives on a device stays there, see Frame.
-enum class FrameDetail { Whole, Live };
+/// Whole: everything is in the frame. Live: what lives on a device stays there, see Frame. Quick: likewise, and what would take another
+/// look at all elements is left to the next frame, see Frame::provisional.
+enum class FrameDetail { Whole, Live, Quick };
 
 class FrameBuilder {
  public:
@@ -50,23 +52,25 @@ class FrameBuilder {
   struct InputFacts {
     std::shared_ptr<const InputMesh> input;
     std::uint64_t serial = 0;
-    Metric metric = Metric::MeanRatio;
-    std::shared_ptr<const InputSpread> before;  // of the metric
+    std::map<Metric, std::shared_ptr<const InputSpread>> before;  // of the metrics shown so far
   };
   static const std::shared_ptr<const InputMesh>& input_of(Session& session, const FrameKey& key);
   static FrameKey key_of(Session& session, std::size_t run);
   /// Of the positions that the run had at the end of an iteration.
   static FrameKey key_of(Session& session, std::size_t run, std::uint64_t iteration);
-  [[nodiscard]] Known* find(Session& session, const FrameKey& key);
+  /// Provisional ones only where `detail` says so.
+  [[nodiscard]] Known* find(Session& session, const FrameKey& key, FrameDetail detail = FrameDetail::Whole);
   std::shared_ptr<const Frame> keep(FrameKey key, std::shared_ptr<const Frame> frame);
-  [[nodiscard]] std::shared_ptr<Frame> begin(Session& session, const FrameKey& key);
+  [[nodiscard]] std::shared_ptr<Frame> begin(Session& session, const FrameKey& key, FrameDetail detail);
   std::shared_ptr<const Frame> standing(Session& session, std::size_t run, FrameDetail detail);
   [[nodiscard]] WatchedFrame watch_standing(Session& session, const Watch& what, std::size_t run, FrameDetail detail);
-  std::shared_ptr<const Frame> past(Session& session, std::size_t run, std::uint64_t iteration, std::span<const Vec3> positions);
-  std::shared_ptr<const Frame> input_frame(Session& session);
+  std::shared_ptr<const Frame> past(Session& session, std::size_t run, std::uint64_t iteration, std::span<const Vec3> positions,
+                                    FrameDetail detail);
+  std::shared_ptr<const Frame> input_frame(Session& session, FrameDetail detail);
   [[nodiscard]] WatchedFrame watch(Session& session, const Watch& what, FrameDetail detail);
   bool find_past(Session& session, std::span<const Watch> watched, const std::function<bool()>& go_on);
-  const InputFacts& facts_of(Session& session, const std::shared_ptr<const InputMesh>& input);
+  InputFacts& facts_of(Session& session, const std::shared_ptr<const InputMesh>& input);
+  std::shared_ptr<const InputSpread> spread_at(Session& session, InputFacts& facts, FrameDetail detail);
   void add_meshes(Session& session, SessionView& view);
 
   std::uint64_t serial_ = 0;

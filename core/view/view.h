@@ -45,6 +45,9 @@ struct Frame {
   Histogram before, now;                              // of the shown metric: at the input, and here
   std::shared_ptr<const InputSpread> input_spread{};  // of the shown metric
   std::vector<RankedElement> worst;                   // of the shown metric, worst first, at most 100
+  /// Published at once after another metric was asked for: `statistics`, `before` and `input_spread` are not known yet. One that has them
+  /// follows.
+  bool provisional = false;
   [[nodiscard]] Index vertex_count() const noexcept { return input->mesh.vertex_count(); }
   [[nodiscard]] Index element_count() const noexcept { return static_cast<Index>(input->mesh.elements.size()); }
 };

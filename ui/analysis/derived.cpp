@@ -110,8 +110,8 @@ std::shared_ptr<const InputSpread> spread_of_inputs(std::span<const std::shared_
   for (const auto& frame : frames)
     if (frame->shown == active.shown && std::ranges::find(spreads, frame->input_spread) == spreads.end())
       spreads.push_back(frame->input_spread);
-  std::erase(spreads, nullptr);
-  if (spreads.size() <= 1) return active.input_spread;
+  if (std::ranges::find(spreads, nullptr) != spreads.end()) return nullptr;
+  if (spreads.size() == 1) return active.input_spread;
   auto all = std::make_shared<InputSpread>();
   for (const auto& spread : spreads) all->add(*spread);
   return all;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -56,6 +57,9 @@ void draw_mesh(PanelContext& context, const Frame& frame) {
   const std::string& interfaces = fixed ? context.derived.interfaces : context.derived.free_interfaces;
   if (!interfaces.empty()) dim_text(context, interfaces);
 }
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr Statistics kNotKnownYet{kUnknown, kUnknown, kUnknown, kUnknown};
 
 void draw_statistics(PanelContext& context, const char* title, Metric metric, const Statistics& statistics) {
   ImGui::Dummy({0, context.px(2)});
@@ -259,13 +263,13 @@ void draw_inspector(PanelContext& context) {
   draw_mesh(context, *frame);
   const RunView* run = context.run();
   const Metric optimised = run != nullptr ? run->parameters.metric : frame->shown;
-  const Statistics& statistics = frame->statistics;
-  value_row(context, "inverted", count(statistics.inverted), {},
-            statistics.inverted != 0 ? std::optional(context.palette.error) : std::nullopt, "elements with a corner Jacobian of 0 or less");
+  const Index inverted = frame->shown_statistics.inverted;  // whatever the metric
+  value_row(context, "inverted", count(inverted), {}, inverted != 0 ? std::optional(context.palette.error) : std::nullopt,
+            "elements with a corner Jacobian of 0 or less");
   if (optimised == frame->shown) {
     draw_statistics(context, "Quality", frame->shown, frame->shown_statistics);
   } else {
-    draw_statistics(context, "Optimised", optimised, statistics);
+    draw_statistics(context, "Optimised", optimised, frame->provisional ? kNotKnownYet : frame->statistics);
     draw_statistics(context, "Shown", frame->shown, frame->shown_statistics);
   }
   const PickedFacts& facts = context.derived.facts;  // of what was picked when this drawing began

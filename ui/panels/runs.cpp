@@ -17,7 +17,8 @@ namespace {
 const Statistics* statistics_of(const PanelContext& context, std::size_t k) {
   const RunView& run = context.session.runs[k];
   const Frame* frame = context.frame();
-  if (frame != nullptr && frame->run == k && k == context.session.active && frame->moment == run.moment) return &frame->statistics;
+  if (frame != nullptr && frame->run == k && k == context.session.active && frame->moment == run.moment && !frame->provisional)
+    return &frame->statistics;
   if (run.records.empty()) return nullptr;
   for (const IterationRecord& one : run.records)
     if (one.iteration == run.moment.iteration) return &one.statistics;

@@ -347,7 +347,7 @@ class Builder {
     before.colour = palette_.dim;
     before.kind = Series::Kind::Bars;
     before.strength = 0.5;
-    if (moved || several_) add_histogram(std::move(before), frame->before);
+    if ((moved || several_) && (!frame->provisional || frame->input_spread)) add_histogram(std::move(before), frame->before);
     Series now = series_of_run(frame->run, moved ? "now" : several_ ? "now" : "input");
     now.kind = several_ ? Series::Kind::Steps : Series::Kind::Bars;
     now.strength = several_ ? 1.0 : 0.75;

@@ -55,6 +55,7 @@ std::pair<double, double> colour_range(const ViewState& state, std::optional<std
   if (state.range_mode == RangeMode::Percentile && input != nullptr)
     wanted = input->percentiles(state.range_low_percent, state.range_high_percent);
   const bool tidied = state.range_mode == RangeMode::Input || state.range_mode == RangeMode::Percentile;
+  if (tidied && input == nullptr) wanted = own;
   if (wanted && tidied) return tidy_range(*wanted);
   return wanted && wanted->second > wanted->first ? *wanted : std::pair{0.0, 1.0};
 }

@@ -189,7 +189,7 @@ struct ViewState {
 /// tells. None where no element has one.
 [[nodiscard]] std::optional<std::pair<double, double>> own_range(const Frame& frame);
 /// Range of qualities that the colours span now. `own`: see own_range; `seen`: what all the frames so far had, for RangeMode::Expanding;
-/// `input`: null: not known.
+/// `input`: null: not known, `own` stands in for it.
 [[nodiscard]] std::pair<double, double> colour_range(const ViewState& state, std::optional<std::pair<double, double>> own,
                                                      std::optional<std::pair<double, double>> seen = {},
                                                      const InputSpread* input = nullptr);

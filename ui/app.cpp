@@ -215,7 +215,8 @@ std::vector<Rect> App::pane_places(PanelContext& context, const Rect& rect) {
 
 void App::update_viewports(PanelContext& context, const Rect& rect) {
   redraw_in_ = kNotByItself;
-  const bool moved = moving(context.now);
+  // The frame that takes a turn of the wheel shall not draw a slice of the full picture first.
+  const bool moved = moving(context.now) || ImGui::GetIO().MouseWheel != 0.0F;
   // A live run counts as movement: its next frame comes soon.
   const bool live = activity_.busy && activity_.busy_seconds > kRestAfter;
   const std::vector<Rect> places = pane_places(context, rect);

@@ -35,6 +35,7 @@ constexpr auto kLines = std::to_array<Line>({{"start to first picture", "first",
                                              {"pick, until seen", "pick", &WindowFigure::pick},
                                              {"fit, until seen", "fit", &WindowFigure::fit},
                                              {"an iteration, until seen", "iteration", &WindowFigure::iteration},
+                                             {"metric shown during a run", "metric", &WindowFigure::metric},
                                              {"60 iterations, drawn", "run", &WindowFigure::run}});
 
 void print_figure(const WindowFigure& figure) {
@@ -45,6 +46,7 @@ void print_figure(const WindowFigure& figure) {
     const WindowCost& cost = figure.*line.cost;
     print("{:<30} {:>12.0f} {:>12.0f}\n", line.what, 1e3 * cost.seconds, 1e3 * cost.processor);
   }
+  print("{:<30} {:>12} frames at most, {:.0f} ms\n", "metric shown during a run", figure.metric_frames, 1e3 * figure.metric_longest);
   print("{:<30} {:>12.0f}\n", "longest answer", 1e3 * figure.longest);
   for (const auto& [what, bytes] : {std::pair{"memory, most until open", figure.memory_open}, {"memory, most after 60", figure.memory_run}})
     print("{:<30} {:>9.2f} GB\n", what, 1e-9 * static_cast<double>(bytes));
@@ -63,6 +65,8 @@ Json json_of(const WindowFigure& figure) {
           {"vertices", figure.vertices},
           {"elements", figure.elements},
           {"costs", std::move(costs)},
+          {"metric_frames", figure.metric_frames},
+          {"metric_longest", json_number(figure.metric_longest)},
           {"longest_answer", json_number(figure.longest)},
           {"memory_open", figure.memory_open},
           {"memory_after_60", figure.memory_run}};

@@ -1,9 +1,11 @@
 #include "app/window/window_bench.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
-#include <fstream>
+#include <condition_variable>
+#include <mutex>
 #include <thread>
 
 #include <fmt/format.h>
@@ -40,6 +42,45 @@ class Timer {
   double before_ = processor_seconds();
 };
 
+/// When the next frame of a window on a screen comes: see Desktop::wait().
+class Pace {
+ public:
+  void wake() {
+    {
+      const std::scoped_lock lock(mutex_);
+      woken_ = true;
+    }
+    changed_.notify_all();
+  }
+  /// Something was pressed.
+  void input() { left_ = kFramesAfterEvent; }
+  /// Until the next frame, which the window wants after `redraw_in` seconds.
+  void wait(double redraw_in) {
+    constexpr std::chrono::duration<double> kRefresh{1.0 / 60.0};
+    constexpr double kMost = 1.0;
+    std::this_thread::sleep_until(drawn_ + kRefresh);
+    {
+      std::unique_lock lock(mutex_);
+      const std::chrono::duration<double> most{std::min(redraw_in, kMost)};
+      if (left_ > 0) {
+        --left_;
+      } else if (changed_.wait_for(lock, most, [&] { return woken_; })) {
+        left_ = kFramesAfterEvent;
+      }
+      woken_ = false;
+    }
+    drawn_ = std::chrono::steady_clock::now();
+  }
+
+ private:
+  static constexpr int kFramesAfterEvent = 4;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool woken_ = false;
+  int left_ = 0;
+  std::chrono::steady_clock::time_point drawn_;
+};
+
 /// A window that is drawn as one on a screen is.
 class Subject {
  public:
@@ -49,7 +90,12 @@ class Subject {
                  .height = subject.height,
                  .threads = subject.threads,
                  .acceleration = subject.acceleration,
-                 .as_on_screen = true}) {}
+                 .as_on_screen = true}) {
+    app().set_wake([this] { pace_.wake(); });
+  }
+  ~Subject() { app().set_wake({}); }
+  Subject(const Subject&) = delete;
+  Subject& operator=(const Subject&) = delete;
 
   [[nodiscard]] ui::App& app() { return window_.app(); }
   [[nodiscard]] ui::ViewState& state() { return window_.app().state(); }
@@ -70,6 +116,16 @@ class Subject {
       std::this_thread::sleep_for(std::chrono::duration<double>(std::min(app().redraw_in(), kWoken)));
     }
   }
+  /// Frames as a screen gets them, until `done()`; returns how many.
+  template <class Done>
+  int frames_on_screen(const Done& done) {
+    for (int count = 1;; ++count) {
+      frame();
+      if (done()) return count;
+      pace_.wait(app().redraw_in());
+    }
+  }
+  [[nodiscard]] Pace& pace() noexcept { return pace_; }
   [[nodiscard]] bool complete() { return app().settled() && !app().activity().reduced && !app().engine().busy(); }
   void rest() {
     frames_until([&] { return complete() && std::isinf(app().redraw_in()); });
@@ -116,6 +172,7 @@ class Subject {
 
  private:
   Progress& progress_;
+  Pace pace_;
   HeadlessWindow window_;
   float x_ = 0, y_ = 0;
   double longest_ = 0.0;
@@ -175,6 +232,28 @@ void measure_answers(Subject& subject, WindowFigure& figure) {
   figure.longest = subject.longest();
 }
 
+/// Until another metric is seen while a run goes on.
+void measure_metric(Subject& subject, WindowFigure& figure) {
+  subject.app().execute("run 1000000");
+  const std::array metrics{Metric::MinAngle, Metric::ScaledJacobian, Metric::RadiusRatio, Metric::MeanRatio};
+  for (const Metric metric : metrics) {
+    const std::uint64_t begun = subject.app().frame()->serial;
+    constexpr std::uint64_t kSeen = 3;  // frames of the run
+    (void)subject.frames_on_screen([&] { return subject.app().frame()->serial >= begun + kSeen; });
+    const Timer timer;
+    subject.app().execute(fmt::format("show {}", info(metric).name));
+    subject.pace().input();
+    const int frames = subject.frames_on_screen([&] { return subject.app().frame()->shown == metric; });
+    const WindowCost cost = timer.cost();
+    figure.metric.seconds += cost.seconds / metrics.size();
+    figure.metric.processor += cost.processor / metrics.size();
+    figure.metric_frames = std::max(figure.metric_frames, frames);
+    figure.metric_longest = std::max(figure.metric_longest, cost.seconds);
+  }
+  subject.app().engine().cancel();
+  subject.frames_until([&] { return subject.complete(); });
+}
+
 }  // namespace
 
 WindowFigure measure_window(const WindowSubject& wanted, Progress& progress) {
@@ -207,6 +286,7 @@ WindowFigure measure_window(const WindowSubject& wanted, Progress& progress) {
   figure.run = run(fmt::format("run {}", wanted.iterations));
   subject.rest();
   figure.memory_run = peak_memory();
+  measure_metric(subject, figure);
   return figure;
 }
 

@@ -35,6 +35,9 @@ struct WindowFigure {
   WindowCost zoom_in_midst;                     // while the full picture is being drawn
   double longest = 0.0;                         // answer of all these by the clock, seconds
   WindowCost iteration;                         // one, until it is seen
+  WindowCost metric;                            // from `show METRIC` in the midst of a run to the end of the frame that shows it, the mean
+  double metric_longest = 0.0;                  // of these, seconds
+  int metric_frames = 0;                        // most frames that were drawn for one, the one that shows it included
   WindowCost run;                               // all of them, with the window drawn meanwhile
   std::size_t memory_open = 0, memory_run = 0;  // the most so far, bytes: at rest after opening, and after the iterations
 };

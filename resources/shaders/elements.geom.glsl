@@ -62,16 +62,24 @@ float turn(vec2 a, vec2 b, vec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a
 
 float wire_strength(float fade, float size) { return fade > 0.0 ? smoothstep(fade, 4.0 * fade, size) : 0.0; }
 
+// Whether no pixel's centre lies in the box: nothing of it would be drawn, which is true of most elements of a big mesh seen whole.
+// Positions are rounded to a part of a pixel before they are drawn, hence the margin.
+bool between_pixels(vec2 low, vec2 high) {
+  const float kMargin = 1.0 / 64.0;
+  vec2 first = 0.5 * u_viewport - 0.5;
+  return any(lessThan(floor(high + first + kMargin), ceil(low + first - kMargin)));
+}
+
 void main() {
+  vec2 low = min(v_pixels[0], min(v_pixels[1], v_pixels[2])), high = max(v_pixels[0], max(v_pixels[1], v_pixels[2]));
+#ifdef QUADRILATERALS
+  low = min(low, v_pixels[3]);
+  high = max(high, v_pixels[3]);
+#endif
+  if (high.x - low.x > u_widest || between_pixels(low, high)) return;
   uint element = order[u_first + uint(gl_PrimitiveIDIn)];
   bool counting = counts(element);
   if (!counting && u_others == 1) return;
-  float west = min(v_pixels[0].x, min(v_pixels[1].x, v_pixels[2].x)), east = max(v_pixels[0].x, max(v_pixels[1].x, v_pixels[2].x));
-#ifdef QUADRILATERALS
-  west = min(west, v_pixels[3].x);
-  east = max(east, v_pixels[3].x);
-#endif
-  if (east - west > u_widest) return;
 #ifdef QUADRILATERALS
   float area = 0.5 * abs(turn(v_pixels[0], v_pixels[1], v_pixels[2]) + turn(v_pixels[0], v_pixels[2], v_pixels[3]));
 #else

@@ -55,7 +55,8 @@ class Engine {
   /// What runs now, as typed; empty when idle.
   [[nodiscard]] std::string current_command() const;
 
-  /// From the next command that smooths on whatever computes gives way to the program's other threads, see give_way(ThreadPool&): for a window.
+  /// From the next command that smooths on whatever computes gives way to the program's other threads, see give_way(ThreadPool&): for a
+  /// window.
   void give_way() { give_way_ = true; }
 
   /// From now on the session is saved by itself; see Autosave. Before the first post. Throws OutputError.

@@ -50,6 +50,7 @@ App::App(Options options)
     post_by_itself(line);
   };
   host_.busy = [this] { return engine_.busy(); };
+  host_.drawing_path = [this] { return activity_.drawing.sentence(); };
   host_.cancel = [this] { cancel(); };
   host_.item = [this](const std::string& name) { return items_.find(name); };
   commands_ = view_commands(state_, host_);

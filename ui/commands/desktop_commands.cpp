@@ -58,6 +58,10 @@ void add_desktop_commands(CommandTable& table, ViewState& state, const CommandHo
               state.panels.*panel = switched(words, 1, state.panels.*panel);
             });
   if (is_session_command("save-state")) add_session_file_commands(table, state, host);
+  table.add({"drawing-path", "drawing-path", "says what smooths and how it reaches the screen"}, [&state, &host](Arguments words) {
+    require(words, 0, 0);
+    add_message(state, {Message::Kind::Info, host.drawing_path(), 0});
+  });
   table.add({"save-script", "save-script FILE", "writes what was done so far as a script that does it again"},
             [&state, &host](Arguments words) {
               require(words, 1, 1);

@@ -19,6 +19,8 @@ struct CommandHost {
   std::function<void()> cancel;
   /// Rectangle (left, top, right, bottom in pixels) of a named item of the interface; throws UsageError for an unknown name.
   std::function<std::array<float, 4>(const std::string&)> item;
+  /// How what smooths reaches the screen; see DrawingPath.
+  std::function<std::string()> drawing_path;
 };
 
 /// The window's commands; the session's are not among them. `state` and `host` must outlive the table.

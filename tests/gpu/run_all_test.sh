@@ -1,0 +1,165 @@
+#!/usr/bin/env bash
+# run_all_test.sh: what run_all.sh does on machines that are not here. Stand-ins for the driver's and the toolkit's programs, for cmake and
+# for what it would build say what those would; nothing is built, and nothing of it is run on a GPU.
+set -uo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+failed=0 tried=0
+
+check() {
+  local what=$1
+  shift
+  tried=$((tried + 1))
+  "$@" && return
+  printf '%s: not so\n' "$what"
+  failed=$((failed + 1))
+}
+says() { grep -qF -- "$1" "$folder/out/gpu-results.md"; }
+says_not() { ! says "$1"; }
+ended() { [[ $code -eq $1 ]]; }
+# before A B: the step A began before the step B.
+before() { [[ $(grep -n "^--- $1:" "$folder/log" | cut -d: -f1) -lt $(grep -n "^--- $2:" "$folder/log" | cut -d: -f1) ]]; }
+
+stand_in() {
+  cat >"$folder/bin/$1"
+  chmod +x "$folder/bin/$1"
+}
+# machine: a tree and stand-ins where everything works: one H100.
+machine() {
+  rm -rf "$folder/bin" "$folder/tree" "$folder/out"
+  mkdir -p "$folder/bin" "$folder/tree/tests" "$folder/tree/cmake"
+  cp -r "$root/tests/gpu" "$folder/tree/tests/"
+  cp -r "$root/resources" "$folder/tree/"
+  mkdir -p "$folder/tree/tests/gui"
+  printf '#!/bin/sh\n' >"$folder/tree/cmake/install-packages.sh"
+  chmod +x "$folder/tree/cmake/install-packages.sh"
+  stand_in nvcc <<<'#!/bin/sh
+echo "Cuda compilation tools, release 12.4, V12.4.99"'
+  gpus 'NVIDIA H100 PCIe, 9.0, 81559 MiB' Disabled
+  stand_in compute-sanitizer <<<'#!/bin/sh
+echo "[       OK ] Cuda.SameBitsOnTheZoo (3 ms)"
+echo "========= ERROR SUMMARY: 0 errors"'
+  stand_in ctest <<<'#!/bin/sh
+echo "100% tests passed, 0 tests failed out of 12"'
+  cuda_line='toolkit 12.4, compiled for 90-real;75-virtual'
+  make_cmake
+}
+# make_cmake: configures with $cuda_line, and builds programs that print little.
+make_cmake() {
+  stand_in cmake <<END
+#!/bin/sh
+if [ "\$1" = --build ]; then
+  mkdir -p "\$2/tests"
+  for p in tests/test_gpu tests/test_gui dmoscope; do
+    printf '#!/bin/sh\necho "[       OK ] Cuda.One (1 ms)"; echo "cuda with interop"; echo "\$*"\n' >"\$2/\$p"; chmod +x "\$2/\$p"
+  done
+  exit 0
+fi
+while [ "\$1" != -B ]; do shift; done
+mkdir -p "\$2"; : >"\$2/build.ninja"
+echo "-- CUDA: $cuda_line"
+END
+}
+# gpus LINE MIG [LINE...]: what nvidia-smi shows.
+gpus() {
+  local first=$1 mig=$2
+  shift 2
+  stand_in nvidia-smi <<END
+#!/bin/sh
+case "\$*" in
+  *" -l 1"*) while :; do echo "0, 1755 MHz, 1755 MHz, 1593 MHz, 300 W, 350 W, 40, 99 %"; sleep 1; done ;;
+  *compute_cap*) printf '%s\n' "$first" "\$@" | sed '\$d' >/dev/null; printf '%s\n' "$first"$(printf ' "%s"' "$@") ;;
+  *mig.mode*) echo $mig ;;
+  *driver_version*) echo 550.54 ;;
+  *) echo "a table" ;;
+esac
+END
+}
+# run [VARIABLE=VALUE...] [-- OPTION...]
+run() {
+  local settings=()
+  while [[ $# -gt 0 && $1 != -- ]]; do settings+=("$1"); shift; done
+  [[ $# -gt 0 ]] && shift
+  code=0
+  env -u DISPLAY -u WAYLAND_DISPLAY CUDA_HOME="$folder/none" PATH="$folder/bin:/usr/bin:/bin" "${settings[@]}" "$folder/tree/tests/gpu/run_all.sh" --commit abc --out "$folder/out" "$@" \
+    >"$folder/log" 2>&1 || code=$?
+}
+
+machine
+run
+check "all is well" ended 0
+check "the GPU is named" says 'NVIDIA H100 PCIe, 9.0'
+check "commit, driver, toolkit" says '| commit | abc |'
+check "driver" says '| driver | 550.54 |'
+check "toolkit" says '| CUDA toolkit | 12.4 |'
+check "what CUDA was compiled for" says 'compiled for 90-real;75-virtual'
+check "speed is measured before the sanitizers" before bench compute-sanitizer
+check "tests of drawing are run" says "| tests of drawing from the GPU's memory | 1 passed"
+check "the window is told of" says '| a window (glx) | not run: DISPLAY is not set |'
+check "sanitizers" says 'ERROR SUMMARY: 0 errors'
+check "clocks" says '1755 MHz'
+
+run DISPLAY=:7 WAYLAND_DISPLAY=wayland-7
+check "a window by GLX" says '| a window (glx) | cuda with interop |'
+check "a window by Wayland" says '| a window (wayland) | cuda with interop |'
+
+machine
+cuda_line='toolkit 11.8 (/usr/bin/nvcc) is too old, 12.0 or later is needed; built without the cuda backend'
+make_cmake
+run
+check "CUDA 11: fails" ended 1
+check "CUDA 11: says why" says 'is too old, 12.0 or later is needed'
+check "CUDA 11: stops" says '**NOT RUN**: CUDA was left out of the build'
+check "CUDA 11: builds nothing" test ! -e "$folder/tree/build/gpu/dmoscope"
+cuda_line='toolkit 12.4 (/usr/bin/nvcc) takes no C++ compiler that is here; built without the cuda backend. It says: unsupported GNU version!'
+make_cmake
+run
+check "refused g++: says why" says 'unsupported GNU version!'
+check "refused g++: fails" ended 1
+machine
+cuda_line='toolkit 12.0, compiled for 75-virtual;90-virtual; the toolkit does not know compute capability 12.0'
+make_cmake
+run
+check "a new GPU: goes on, and says so" says 'does not know compute capability 12.0'
+check "a new GPU: passes" ended 0
+
+machine
+gpus 'NVIDIA H100 PCIe, 9.0, 81559 MiB' Enabled
+run
+check "MIG is told" says '(MIG)'
+gpus 'NVIDIA A100, 8.0, 40960 MiB' Disabled B C D E F G H
+run
+check "eight GPUs are told" says '8 GPUs: the program takes the one with most memory that works'
+
+machine
+stand_in nvidia-smi <<<'#!/bin/sh
+echo "NVIDIA-SMI has failed because it could not communicate with the NVIDIA driver."
+exit 9'
+run
+check "no driver: the file says that nothing ran" says 'NO GPU: NOTHING HERE WAS RUN ON ONE'
+
+machine
+rm "$folder/bin/compute-sanitizer"
+run
+check "no sanitizer: fails" ended 1
+check "no sanitizer: says so" says '**NOT RUN**: it is not installed'
+machine
+stand_in ctest <<<'#!/bin/sh
+echo " 1/2 Test #1: Cuda ....***Skipped"
+echo " 2/2 Test #2: Cuda ....***Skipped"
+echo "100% tests passed, 0 tests failed out of 2"'
+run
+check "all tests skipped: fails" ended 1
+check "all tests skipped: says so" says '**NOTHING RAN**'
+machine
+stand_in ctest <<<'#!/bin/sh
+exit 3'
+run
+check "a step that fails is told, and the next are run" says '**FAILED**: exit code 3'
+check "and the next are run" says '| bench of generated meshes | done |'
+run -- --limit 2
+check "a limit: what was cut is told" says 'out of time'
+
+printf '%d answers, %d wrong\n' "$tried" "$failed"
+[[ $failed -eq 0 ]]

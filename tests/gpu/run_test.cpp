@@ -78,6 +78,19 @@ TEST(DeviceRun, StepsGoBackAndSeekAlike) {
   }
 }
 
+/// A run that gave its device's memory back goes on from where it stood, not from the input.
+TEST(DeviceRun, GoesOnAfterARest) {
+  for (const Moment& place : {Moment{0, 0}, Moment{2, 0}, Moment{1, 7}}) {
+    Pair pair(dmoscope::testing::lattice(12, 0.35, 98));
+    for (dmoscope::Run* run : {&pair.cpu, &pair.device}) {
+      run->seek(place, pair.progress);
+      run->rest();
+      run->iterate(2, pair.progress);
+    }
+    pair.expect_same_place();
+  }
+}
+
 TEST(DeviceRun, ConvergesAlike) {
   Pair pair(dmoscope::testing::lattice(12, 0.35, 96, dmoscope::testing::Cells::Mixed), Metric::ScaledJacobian);
   const Outcome here = pair.cpu.until_converged({}, pair.progress), there = pair.device.until_converged({}, pair.progress);

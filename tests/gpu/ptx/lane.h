@@ -39,7 +39,9 @@ struct Entry {
   std::vector<std::string> texts;
   std::vector<std::uint64_t> initial;   // of every slot; what is no constant holds kPoison
   std::vector<std::size_t> parameters;  // where each lies in the block of parameters
+  std::vector<std::size_t> parameter_sizes;
   std::size_t parameter_bytes = 0, local_bytes = 0;
+  std::size_t most_threads = 1024;  // of a block
 };
 inline constexpr std::uint64_t kPoison = 0x7ff4cdcd7fa4cdcd;  // not a number, in both formats
 

@@ -18,17 +18,17 @@
 
 namespace dmoscope::gpu::ptx {
 
-namespace {
-
-constexpr std::size_t kBlockSize = 128, kTeamSize = 8;
-constexpr std::align_val_t kAlignment{256};  // as a device's
-
 std::string demangled(const char* name) {
   int status = 0;
   const std::unique_ptr<char, void (*)(void*)> text(abi::__cxa_demangle(name, nullptr, nullptr, &status), std::free);
   if (status != 0) throw Fault(fmt::format("no mangled name: {}", name));
   return text.get();
 }
+
+namespace {
+
+constexpr std::size_t kBlockSize = 128, kTeamSize = 8;
+constexpr std::align_val_t kAlignment{256};  // as a device's
 
 template <class Body>
 Kernels::Name solo() {
@@ -192,8 +192,9 @@ Kernels::Kernels(const std::filesystem::path& folder) {
     if (!by_name_.emplace(demangled(texts_[i].name.c_str()), i).second) throw Fault(fmt::format("two kernels {}", texts_[i].name));
 }
 
-const Entry& Kernels::find(Work work, Metric metric) {
-  const std::string name = name_of(work, metric).text;
+const Entry& Kernels::find(Work work, Metric metric) { return find(name_of(work, metric).text); }
+
+const Entry& Kernels::find(const std::string& name) {
   if (const auto found = decoded_.find(name); found != decoded_.end()) return found->second;
   const auto text = by_name_.find(name);
   if (text == by_name_.end()) throw Fault(fmt::format("no kernel {}", name));

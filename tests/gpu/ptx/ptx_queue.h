@@ -13,6 +13,9 @@
 
 namespace dmoscope::gpu::ptx {
 
+/// "_Z3addPff" -> "add(float*, float)". Throws Fault where it is no such name.
+[[nodiscard]] std::string demangled(const char* name);
+
 /// The kernels in a folder's .ptx files.
 class Kernels {
  public:
@@ -21,6 +24,8 @@ class Kernels {
   [[nodiscard]] const std::vector<EntryText>& texts() const noexcept { return texts_; }
   /// Decoded when it is first asked for. Throws Fault where there is not exactly one.
   [[nodiscard]] const Entry& find(Work work, Metric metric);
+  /// By its name as a compiler prints it.
+  [[nodiscard]] const Entry& find(const std::string& name);
 
   struct Name {
     std::string text;  // as a compiler prints it

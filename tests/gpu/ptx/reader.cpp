@@ -110,8 +110,10 @@ class Decoder {
       parameters.remove_prefix(std::min(parameters.size(), end + 1));
     }
     const std::string_view directive = take_until(text, "{");
-    if (directive != ".maxntid 128, 1, 1" && directive != ".maxntid 128")
-      throw Fault(fmt::format("{} is not meant for blocks of 128: {}", entry_.name, directive));
+    if (directive.empty()) return;
+    constexpr std::string_view kMost = ".maxntid ";
+    if (!directive.starts_with(kMost)) throw Fault(fmt::format("not known of {}: {}", entry_.name, directive));
+    entry_.most_threads = number<std::size_t>(directive.substr(kMost.size(), directive.find(',') - kMost.size()));
   }
   /// ".param .align 8 .b8 NAME[424]" or ".param .u64 NAME"
   void add_parameter(std::string_view text) {
@@ -134,6 +136,7 @@ class Decoder {
     slots_[std::string(name)] = static_cast<Slot>(entry_.initial.size());
     entry_.initial.push_back(kPoison);
     entry_.parameters.push_back(at);
+    entry_.parameter_sizes.push_back(bytes);
     entry_.parameter_bytes = at + bytes;
   }
 
@@ -285,8 +288,8 @@ std::vector<EntryText> find_entries(std::string_view ptx) {
   for (std::string_view text = trimmed(kept); !text.empty(); text = trimmed(text)) {
     if (text.starts_with(".version ") || text.starts_with(".target ") || text.starts_with(".address_size ")) {
       (void)take_until(text, "\n");
-    } else if (text.starts_with(".visible .entry ")) {
-      const std::string_view rest = text.substr(std::string_view(".visible .entry ").size());
+    } else if (text.starts_with(".visible .entry ") || text.starts_with(".entry ")) {
+      const std::string_view rest = text.substr(text.find(".entry ") + std::string_view(".entry ").size());
       const std::size_t end = text.find("\n}");  // those of inner blocks are indented, or behind other things
       if (end == std::string_view::npos) throw Fault("PTX breaks off in an entry");
       entries.push_back({std::string(trimmed(rest.substr(0, rest.find('(')))), std::string(text.substr(0, end + 2))});

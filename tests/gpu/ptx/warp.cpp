@@ -10,7 +10,6 @@ namespace dmoscope::gpu::ptx {
 namespace {
 
 using State = Lane::State;
-constexpr std::size_t kThreads = 128;
 
 bool shuffles(const Lane& lane) { return lane.state() == State::AtButterfly || lane.state() == State::AtIndexedShuffle; }
 bool is_member(std::uint32_t members, std::size_t lane) { return (members >> lane & 1U) != 0; }
@@ -20,20 +19,25 @@ std::uint32_t members_of(const Lane& lane) { return lane.get<std::uint32_t>(lane
 }  // namespace
 
 void run_blocks(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::size_t blocks,
-                Schedule schedule) {
+                Schedule schedule, std::size_t threads) {
+  if (threads == 0 || threads > entry.most_threads)
+    throw Fault(fmt::format("{} is not meant for blocks of {} but of up to {}", entry.name, threads, entry.most_threads));
   if (parameters.size() != entry.parameter_bytes)
     throw Fault(fmt::format("{} takes {} bytes of parameters, not {}", entry.name, entry.parameter_bytes, parameters.size()));
   Warp warp;
   for (std::size_t k = 0; k < blocks; ++k) {
     const std::size_t block = schedule.backwards ? blocks - 1 - k : k;
-    for (std::size_t first = 0; first < kThreads; first += Warp::kSize)
-      warp.run(entry, global, parameters, static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(first), schedule);
+    for (std::size_t first = 0; first < threads; first += Warp::kSize)
+      warp.run(entry, global, parameters, static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(first), schedule, threads);
   }
 }
 
 void Warp::run(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::uint32_t block,
-               std::uint32_t first, Schedule schedule) {
-  for (std::uint32_t i = 0; i < kSize; ++i) lanes_[i].start(entry, global, parameters, block, first + i);
+               std::uint32_t first, Schedule schedule, std::size_t threads) {
+  for (std::uint32_t i = 0; i < kSize; ++i) {
+    lanes_[i].start(entry, global, parameters, block, first + i);
+    if (first + i >= threads) lanes_[i].finish();  // there is none
+  }
   for (;;) {
     for (std::size_t i = 0; i < kSize; ++i) lanes_[schedule.backwards ? kSize - 1 - i : i].run();
     if (std::ranges::all_of(lanes_, [](const Lane& lane) { return lane.state() == State::Done; })) return;

@@ -15,17 +15,18 @@ struct Schedule {
   bool backwards = false;  // the last lane and the last block first
 };
 
-/// A launch: blocks of 128 threads, of which one runs after the other. Throws Fault, which names kernel and instruction.
+/// A launch: blocks of some threads, of which one runs after the other. Throws Fault, which names kernel and instruction.
 void run_blocks(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::size_t blocks,
-                Schedule schedule);
+                Schedule schedule, std::size_t threads = 128);
 
 class Warp {
  public:
   static constexpr std::size_t kSize = 32;
 
-  /// Runs threads first to first + 31 of a block to their end. Lanes run one by one until they must wait for each other.
+  /// Runs threads first to first + 31 of a block, as far as it has them, to their end. Lanes run one by one until they must wait for each
+  /// other.
   void run(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::uint32_t block,
-           std::uint32_t first, Schedule schedule);
+           std::uint32_t first, Schedule schedule, std::size_t threads = 128);
 
  private:
   /// Each returns whether any lane could go on.

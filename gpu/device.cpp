@@ -18,6 +18,16 @@ std::string why(cudaError_t error) {
   return cudaGetErrorString(error);
 }
 
+/// All but whether its kernels run.
+Device describe(int number) {
+  cudaDeviceProp properties{};
+  if (const cudaError_t error = cudaGetDeviceProperties(&properties, number); error != cudaSuccess) {
+    (void)cudaGetLastError();
+    return {.name = "CUDA device " + std::to_string(number), .problem = cudaGetErrorString(error)};
+  }
+  return {.name = properties.name, .major = properties.major, .minor = properties.minor, .memory = properties.totalGlobalMem};
+}
+
 }  // namespace
 #endif
 
@@ -33,10 +43,8 @@ Availability availability() {
   result.reason = "no CUDA device found";
   std::size_t most_memory = 0;
   for (int i = 0; i < count; ++i) {
-    cudaDeviceProp properties{};
-    if (cudaGetDeviceProperties(&properties, i) != cudaSuccess) continue;
-    Device& device = result.devices.emplace_back();
-    device = {properties.name, properties.major, properties.minor, properties.totalGlobalMem, probe(i)};
+    Device& device = result.devices.emplace_back(describe(i));
+    if (device.problem.empty()) device.problem = probe(i);
     if (!device.problem.empty()) {
       if (result.best < 0) result.reason = device.name + ": " + device.problem;
     } else if (device.memory > most_memory) {

@@ -8,17 +8,17 @@
 namespace dmoscope::gpu {
 
 struct Device {
-  std::string name;
+  std::string name{};
   int major = 0, minor = 0;  // compute capability
   std::size_t memory = 0;    // bytes
-  std::string problem;       // why it cannot run this program's kernels; empty when it can
+  std::string problem{};     // why it cannot run this program's kernels; empty when it can
 };
 
 struct Availability {
-  bool built = false;  // was the program built with a CUDA toolkit?
-  std::vector<Device> devices;
-  int best = -1;       // the usable device with the most memory
-  std::string reason;  // why the cuda backend cannot be used; empty when it can
+  bool built = false;           // was the program built with a CUDA toolkit?
+  std::vector<Device> devices;  // in the order of their numbers
+  int best = -1;                // the usable device with the most memory
+  std::string reason;           // why the cuda backend cannot be used; empty when it can
 };
 
 /// Asks the driver, and tries each device (some 0.2 s, once it is there). Never throws; a machine without a driver gives a reason.

@@ -54,6 +54,7 @@ class Scope {
   ~Scope() {
     (void)cudaFree(values_);
     (void)cudaSetDevice(before_);
+    (void)cudaGetLastError();  // what went wrong with this device is not the next one's
   }
   Scope(const Scope&) = delete;
   Scope& operator=(const Scope&) = delete;
@@ -69,9 +70,12 @@ class Scope {
 std::string probe(int device) {
   try {
     const Scope scope(device);
-    const Inputs in;
-    probe_kernel<<<1, 1>>>(in, scope.values());
-    DMOSCOPE_CUDA_CHECK(cudaGetLastError());
+    Inputs in;
+    Values* values = scope.values();
+    void* arguments[] = {&in, &values};
+    // Not <<<>>>: its status would be that of whatever failed last on this thread, and where the first device has no such kernel it would
+    // not ask the others for it.
+    DMOSCOPE_CUDA_CHECK(cudaLaunchKernel(probe_kernel, dim3(1), dim3(1), arguments, 0, nullptr));
     Values out{};
     DMOSCOPE_CUDA_CHECK(cudaMemcpy(&out, scope.values(), sizeof out, cudaMemcpyDeviceToHost));
     return same_bits(out, compute(in)) ? "" : "its arithmetic differs from the processor's";

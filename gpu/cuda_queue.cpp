@@ -148,9 +148,9 @@ class CudaQueue final : public Queue {
     DMOSCOPE_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));  // where the device reads ordinary memory, nothing else says when it has
   }
   void download(void* to, const void* from, std::size_t bytes) override {
-    use(device_);
     fetch(to, from, bytes);
-    wait();
+    // At once: nothing that could fail stands between, or the device would write memory that its owner gave up meanwhile.
+    DMOSCOPE_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));
   }
   void* allocate_on_host(std::size_t bytes) override {
     use(device_);
@@ -160,6 +160,7 @@ class CudaQueue final : public Queue {
   }
   void release_on_host(void* memory) noexcept override {
     (void)cudaSetDevice(device_);
+    (void)cudaStreamSynchronize(stream_.get());  // the device may have yet to write it, where something failed in between
     (void)cudaFreeHost(memory);
   }
   void fetch(void* to, const void* from, std::size_t bytes) override {

@@ -31,7 +31,7 @@ breach "render knows no interface, program or GPU backend" "${include}(ui|app|gp
 breach "render knows no ImGui and no CUDA" "${include}(${imgui}|${cuda})" render
 breach "ui knows no program and no GPU backend" "${include}(app|gpu)/" ui
 breach "ui calls no OpenGL, CUDA or GLFW" "${include}(glad|GL|EGL|GLFW|${cuda})|(^|[^A-Za-z0-9_:])(gl[A-Z][A-Za-z0-9]+|glfw[A-Z][A-Za-z0-9]+|egl[A-Z][A-Za-z0-9]+)\(" ui
-breach "only gpu includes CUDA" "${include}${cuda}" app tests
+breach "only gpu includes CUDA" "${include}${cuda}" app $(find tests -mindepth 1 -maxdepth 1 ! -name gpu) $(find tests/gpu -mindepth 1 -maxdepth 1 ! -name fake)
 
 breach "ui's state, analysis and commands know no ImGui" "${include}${imgui}" ui/state ui/analysis ui/commands
 

@@ -1,0 +1,79 @@
+#pragma once
+// Devices that are not there: what the stand-ins for the CUDA runtime's calls (calls.cpp) do their work on, and what tests set and ask.
+// Work is kept until something waits for it, kernels are the PTX that nvcc made of them, and whoever breaks a rule of the runtime's
+// documentation is told in words: see breaches().
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dmoscope::gpu::fake {
+
+/// The runtime's numbers of the errors that tests name. From Lost on they take the device away: every call after it fails, too.
+enum Code : int {
+  kOutOfMemory = 2,
+  kDriverTooOld = 35,
+  kUnavailable = 46,
+  kNoDevice = 100,
+  kNoKernelImage = 209,
+  kWrongPtxVersion = 222,
+  kOperatingSystem = 304,
+  kIllegalAddress = 700,
+  kTimeout = 702
+};
+
+struct FakeDevice {
+  std::string name = "Stand-in";
+  int major = 9, minor = 0;
+  std::size_t memory = std::size_t{1} << 30U;
+  int multiprocessors = 1;  // each takes 256 lanes at once
+  int refuses = 0;          // the error with which it refuses to be used
+  bool too_old = false;     // there is no kernel for it
+  bool flushes = false;     // subnormals become zero
+};
+
+/// OpenGL, as far as the runtime asks it; tests that draw have one.
+class OpenGl {
+ public:
+  OpenGl() = default;
+  OpenGl(const OpenGl&) = delete;
+  OpenGl& operator=(const OpenGl&) = delete;
+  virtual ~OpenGl() = default;
+  /// Of the calling thread; null: none is current.
+  [[nodiscard]] virtual const void* current_context() = 0;
+  /// In bytes; nothing where there is no such buffer.
+  [[nodiscard]] virtual std::optional<std::size_t> size_of(std::uint32_t buffer) = 0;
+  virtual void write(std::uint32_t buffer, std::span<const std::byte> content) = 0;
+};
+
+/// Sets the devices up anew; what the program still holds of the old ones it may not use any more.
+struct Equipment {
+  std::vector<FakeDevice> devices{FakeDevice{}};
+  int driver = 13000;     // its version; 0: none is installed
+  int drawing = 0;        // the device that OpenGL draws on; negative: none
+  OpenGl* gl = nullptr;   // null: no context is current anywhere
+  bool together = false;  // which lanes are said to be active at once, see ptx::Schedule
+};
+void set_up(Equipment setup);
+
+/// The call number `call` from now on, the next being 1, fails with `code`.
+void fail_at(std::size_t call, int code);
+/// Was that call reached?
+[[nodiscard]] bool has_failed();
+/// The names of all calls since set_up(), in their order. Those that only translate an error into words are not among them.
+[[nodiscard]] std::vector<std::string> calls();
+/// What was done against the rules since set_up().
+[[nodiscard]] std::vector<std::string> breaches();
+/// What was made and not given back since set_up().
+[[nodiscard]] std::vector<std::string> leaks();
+/// All that any test program of this process called so far, and how often something failed on demand.
+struct Totals {
+  std::size_t calls = 0, failures = 0, launches = 0;
+};
+[[nodiscard]] Totals totals();
+
+}  // namespace dmoscope::gpu::fake

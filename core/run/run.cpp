@@ -188,7 +188,7 @@ void Run::ensure_smoother() {
   } else {
     executor_ = make_executor(parameters_.backend, acceleration_, task());
   }
-  executor_.smoother->positions_replaced();  // it may have taken the input's
+  if (executor_.smoother->positions_on_device()) executor_.smoother->positions_replaced();  // it has taken the input's
   blocks_ = BlockPlan(executor_.smoother->positions_on_device());
   begun_.reset();
 }

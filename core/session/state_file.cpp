@@ -122,8 +122,10 @@ Json json_of(const RunParameters& p) {
     if (row.in_session) json[std::string(row.name)] = parameter_json(row, p);
   if (p.combination) json["combination"] = to_text(p.metric, *p.combination);
   if (p.combination && p.combination->size() != nullptr) json["size_function"] = to_text(*p.combination->size());
-  if (p.then_mean)
-    json["then_mean"] = {{"patience", p.then_mean->patience}, {"rise", p.then_mean->rise}, {"from_best", p.then_mean->from_best}};
+  if (p.then_mean) {
+    json["then_mean"] = {{"patience", p.then_mean->patience}, {"rise", p.then_mean->rise}};
+    if (p.then_mean->from_best) json["then_mean"]["from_best"] = true;  // files of before do not have it
+  }
   return json;
 }
 

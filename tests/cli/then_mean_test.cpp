@@ -44,7 +44,7 @@ Judged judge(const std::string& file) {
   return {minimum, sum / count, all["inverted"]};
 }
 
-Json smooth(const std::string& in, const std::string& out, std::vector<std::string> how) {
+Json converge(const std::string& in, const std::string& out, std::vector<std::string> how) {
   how.insert(how.begin(), {"smooth", in, "-o", out, "--backend", "cpu", "--until-converged", "--patience", "60", "--json"});
   return json_of(run(how));
 }
@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ThenMean,
 TEST_P(ThenMean, IsNoWorseThanTheBestOfTheFirstPhaseInTheFile) {
   const Folder folder;
   const std::string in = made(folder, GetParam());
-  const Json best = smooth(in, folder / "best.vtk", {}), raised = smooth(in, folder / "raised.vtk", {"--then", "mean"});
+  const Json best = converge(in, folder / "best.vtk", {}), raised = converge(in, folder / "raised.vtk", {"--then", "mean"});
   const Judged before = judge(in), first = judge(folder / "best.vtk"), second = judge(folder / "raised.vtk");
   EXPECT_NEAR(best["after"]["minimum"], first.minimum, 1e-12);
   EXPECT_NEAR(best["after"]["mean"], first.mean, 1e-9);
@@ -76,8 +76,8 @@ TEST_P(ThenMean, IsNoWorseThanTheBestOfTheFirstPhaseInTheFile) {
 TEST_P(ThenMean, HasTheSameBytesWithOtherThreads) {
   const Folder folder;
   const std::string in = made(folder, GetParam());
-  smooth(in, folder / "one.vtk", {"--then", "mean", "--threads", "1"});
-  smooth(in, folder / "three.vtk", {"--then", "mean", "--threads", "3"});
+  converge(in, folder / "one.vtk", {"--then", "mean", "--threads", "1"});
+  converge(in, folder / "three.vtk", {"--then", "mean", "--threads", "3"});
   EXPECT_EQ(read_file(folder / "one.vtk"), read_file(folder / "three.vtk"));
 }
 
@@ -85,7 +85,7 @@ TEST_P(ThenMean, HasTheSameBytesWithOtherThreads) {
 TEST_P(ThenMean, ComparedTheRunsStandAtTheirBest) {
   const Folder folder;
   const std::string in = made(folder, GetParam());
-  const Json best = smooth(in, folder / "best.vtk", {}), raised = smooth(in, folder / "raised.vtk", {"--then", "mean"});
+  const Json best = converge(in, folder / "best.vtk", {}), raised = converge(in, folder / "raised.vtk", {"--then", "mean"});
   const Output output = run({"compare", in, "--run", "dmo", "--run", "dmo,then mean", "--backend", "cpu", "--until-converged", "--patience",
                              "60", "--table", folder / "t.csv", "--json"});
   const Json all = json_of(output)["runs"];
@@ -104,7 +104,7 @@ TEST_P(ThenMean, ComparedTheRunsStandAtTheirBest) {
 TEST(ThenMeanSays, WhereTheSecondPhaseBeginsAndWhereAComparisonStands) {
   const Folder folder;
   const std::string in = made(folder, "random");
-  const Json best = smooth(in, folder / "best.vtk", {});
+  const Json best = converge(in, folder / "best.vtk", {});
   const std::size_t written = best["written_iteration"];
   ASSERT_LT(written, best["iterations"].get<std::size_t>()) << "else this test shows nothing";
   const std::vector<std::string> how{"--backend", "cpu", "--until-converged", "--patience", "60"};

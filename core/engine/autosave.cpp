@@ -73,10 +73,21 @@ Autosave::Mark Autosave::mark_of(Session& session) {
   return mark;
 }
 
+/// An iteration begins, and nobody knows how long it takes: in its midst only its begin can be saved, and the visits done since then.
+void Autosave::note_start(Session& session, const Run& run) {
+  if (!run.moment().is_iteration_end() || run.history().kept(run.moment().iteration)) return;
+  const auto begin = Clock::now();
+  if (begin < next_start_) return;
+  for (std::size_t i = 0; i < session.run_count(); ++i)
+    if (&session.run(i) == &run) starts_.note(session.identity(i));
+  const auto end = Clock::now();
+  next_start_ = end + std::chrono::duration_cast<Clock::duration>((end - begin) / options_.share);
+}
+
 void Autosave::while_running(Session& session, const Run& run) {
-  if (Clock::now() < next_ || !run.moment().is_iteration_end()) return;
   try {
-    save(session, {});
+    note_start(session, run);
+    if (Clock::now() >= next_) save(session, {});
   } catch (const std::bad_alloc&) {  // the run needs it more
   }
 }
@@ -106,7 +117,7 @@ void Autosave::save(Session& session, const std::function<bool()>& go_on) {
   // Where it cannot be had, as in the midst of an iteration whose begin is not known any more, a moment a second later will do.
   constexpr std::chrono::milliseconds kAgain{1000};
   next_ = Clock::now() + std::min(kAgain, options_.every);
-  auto standing = standing_of(session, go_on);
+  auto standing = standing_of(session, starts_, go_on);
   if (!standing) return;
   next_ = Clock::now() + options_.every;
   known_ = std::move(mark);

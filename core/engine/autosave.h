@@ -23,6 +23,7 @@ namespace dmoscope {
 struct AutosaveOptions {
   std::filesystem::path folder;             // one place there is this window's
   std::chrono::milliseconds every{20'000};  // of work
+  double share = 0.05;                      // of a run's time, at most, for copies of positions in case they are needed
 };
 
 /// Looks at the session on the engine's thread, where it takes no more than references and, at times, a copy of positions; writes on a
@@ -42,7 +43,8 @@ class Autosave {
   // On the engine's thread:
   /// The session came of these files: once it was saved by itself again, those that a window had saved by itself are removed.
   void supersede(const std::vector<std::filesystem::path>& recovered);
-  /// Between two blocks of visits of `run`: saves where it is time and the run has come to the end of an iteration. Throws DeviceError.
+  /// Between two blocks of visits of `run`: saves where it is time, in the midst of an iteration too, so that no more is lost of one that
+  /// takes long. Throws DeviceError.
   void while_running(Session& session, const Run& run);
   /// When there is to be saved next; none: what there is is safe.
   [[nodiscard]] std::optional<Clock::time_point> due(Session& session);
@@ -68,6 +70,7 @@ class Autosave {
     bool remove = false;  // there is nothing to be kept any more
   };
   [[nodiscard]] static Mark mark_of(Session& session);
+  void note_start(Session& session, const Run& run);
   void save(Session& session, const std::function<bool()>& go_on);
   void hand_over(Job job);
   void write(const std::stop_token& stop);
@@ -77,8 +80,10 @@ class Autosave {
   const std::function<void(const std::string&)> say_;
   const SafePlace place_;
   Clock::time_point next_;
-  Mark known_;         // the state that was looked at last
-  bool kept_ = false;  // there is, or will be, a file of it
+  Mark known_;  // the state that was looked at last
+  IterationStarts starts_;
+  Clock::time_point next_start_{};  // when the next of these may be noted
+  bool kept_ = false;               // there is, or will be, a file of it
 
   std::mutex mutex_;
   std::condition_variable_any changed_;

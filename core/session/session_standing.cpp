@@ -9,10 +9,13 @@ namespace dmoscope {
 
 namespace {
 
+void share(RunStanding& standing, const IterationStarts::Positions& positions) {
+  standing.start = *positions;
+  standing.owner = positions;
+}
+
 void own(RunStanding& standing, std::vector<Vec3> positions) {
-  const auto kept = std::make_shared<const std::vector<Vec3>>(std::move(positions));
-  standing.start = *kept;
-  standing.owner = kept;
+  share(standing, std::make_shared<const std::vector<Vec3>>(std::move(positions)));
 }
 
 }  // namespace
@@ -36,7 +39,7 @@ RunStanding without_positions(const Run& run, std::span<const MeshStanding> mesh
           {}};
 }
 
-std::optional<SessionStanding> standing_of(Session& session, const std::function<bool()>& go_on) {
+std::optional<SessionStanding> standing_of(Session& session, const IterationStarts& starts, const std::function<bool()>& go_on) {
   SessionStanding standing = without_runs(session);
   for (std::size_t i = 0; i < session.run_count(); ++i) {
     const Run& run = session.run(i);
@@ -46,6 +49,8 @@ std::optional<SessionStanding> standing_of(Session& session, const std::function
       const History::Kept& kept = run.history().nearest(iteration);
       one.start = kept.positions;
       one.owner = kept.owner;
+    } else if (const auto start = iteration > 0 ? starts.of(run) : nullptr) {
+      share(one, start);
     } else if (iteration > 0 && run.moment().is_iteration_end()) {
       const auto now = run.positions();
       own(one, {now.begin(), now.end()});

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/session/iteration_starts.h"
 #include "core/session/session.h"
 
 namespace dmoscope {
@@ -45,9 +46,10 @@ struct SessionStanding {
 /// The same but for the positions. `meshes`: the session's.
 [[nodiscard]] RunStanding without_positions(const Run& run, std::span<const MeshStanding> meshes);
 
-/// All of it, without moving any run. Positions that the history keeps are shared, others copied. None where a run stands in the midst of
-/// an iteration at whose begin it no longer knows the positions, and `go_on`, by which they are computed again (see positions_at), is
-/// missing or says no. Throws DeviceError.
-[[nodiscard]] std::optional<SessionStanding> standing_of(Session& session, const std::function<bool()>& go_on = {});
+/// All of it, without moving any run. Positions that the history or `starts` keep are shared, others copied. None where a run stands in the
+/// midst of an iteration at whose begin nobody knows the positions any more, and `go_on`, by which they are computed again (see
+/// positions_at), is missing or says no. Throws DeviceError.
+[[nodiscard]] std::optional<SessionStanding> standing_of(Session& session, const IterationStarts& starts,
+                                                         const std::function<bool()>& go_on = {});
 
 }  // namespace dmoscope

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/engine/engine.h"
+#include "tests/session/spoken_session.h"
 #include "tests/support/temporary_folder.h"
 
 namespace dmoscope {
@@ -116,6 +117,77 @@ TEST_F(AutosaveTest, InTheMidstOfAnIterationThatIsNoLongerKept) {
   EXPECT_EQ(positions(), before);
   EXPECT_EQ(engine_->view()->runs[0].moment.iteration, 5U);
   EXPECT_GT(engine_->view()->runs[0].moment.visits, 0U);
+}
+
+/// A session whose history keeps nothing, saved by itself between any two blocks of visits and at no other time.
+class AutosaveOnItsWayTest : public testing::SpokenSession {
+ protected:
+  AutosaveOnItsWayTest() {
+    constexpr double kAllTheTime = 1e30;
+    safe_ = std::make_unique<Autosave>(AutosaveOptions{folder_.path(), 0ms, kAllTheTime}, [](const std::string&) {});
+    session_.observe([this](const auto& run) { safe_->while_running(session_, run); });
+    say("history 0");
+    say("generate coast 500");
+  }
+  [[nodiscard]] std::vector<Vec3> positions() {
+    const auto now = session_.active().positions();
+    return {now.begin(), now.end()};
+  }
+  /// As a process that was killed leaves it; opens what is found.
+  void lose_and_recover() {
+    ASSERT_TRUE(safe_->flush(60s));
+    session_.observe({});
+    safe_.reset();
+    const auto found = find_recoverable(folder_.path());
+    ASSERT_EQ(found.size(), 1U);
+    say("open-state " + found[0].names.session.string());
+  }
+  const test::TemporaryFolder folder_;
+  std::unique_ptr<Autosave> safe_;
+};
+
+TEST_F(AutosaveOnItsWayTest, InTheMidstOfALongIterationToo) {
+  say("run 5");
+  say("step class");
+  say("step class");
+  const Moment before = session_.active().moment();
+  ASSERT_EQ(before.iteration, 5U);
+  ASSERT_GT(before.visits, 0U);
+  ASSERT_FALSE(session_.active().history().kept(5));
+  const std::vector<Vec3> there = positions();
+  lose_and_recover();
+  EXPECT_EQ(session_.active().moment(), before);
+  EXPECT_EQ(positions(), there);
+}
+
+TEST_F(AutosaveOnItsWayTest, OfARunThatWaitsInTheMidstOfAnIterationWhileAnotherOneGoesOn) {
+  say("run 3");
+  say("step class");
+  const std::vector<Vec3> there = positions();
+  say("add-run laplace");
+  say("run 2");
+  say("step class");
+  lose_and_recover();
+  ASSERT_EQ(session_.run_count(), 2U);
+  EXPECT_EQ(session_.active().moment().iteration, 2U);
+  EXPECT_GT(session_.active().moment().visits, 0U);
+  say("select-run 1");
+  EXPECT_EQ(session_.active().moment().iteration, 3U);
+  EXPECT_EQ(positions(), there);
+}
+
+TEST_F(AutosaveOnItsWayTest, ABeginOfAPathThatWasLeftIsNotTakenForThisOne) {
+  say("run 3");
+  say("step class");
+  say("seek 2");
+  const auto fixed = session_.active().fixed();
+  const auto free = std::ranges::find(fixed, 0) - fixed.begin();
+  say("visit " + std::to_string(free));
+  say("run 1");
+  say("step class");
+  const std::vector<Vec3> there = positions();
+  lose_and_recover();
+  EXPECT_EQ(positions(), there);
 }
 
 TEST_F(AutosaveTest, WhatIsInAFileIsNotKeptBesides) {

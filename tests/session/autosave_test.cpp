@@ -1,6 +1,7 @@
 // What is saved by itself: in time, also during a run; found after a bad end, gone after a good one.
 #include "core/engine/autosave.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -176,18 +177,28 @@ TEST_F(AutosaveOnItsWayTest, OfARunThatWaitsInTheMidstOfAnIterationWhileAnotherO
   EXPECT_EQ(positions(), there);
 }
 
-TEST_F(AutosaveOnItsWayTest, ABeginOfAPathThatWasLeftIsNotTakenForThisOne) {
+/// What was noted while nobody looked at what became of the path since then.
+class IterationStartsTest : public testing::SpokenSession {};
+
+TEST_F(IterationStartsTest, ABeginOfAPathThatWasLeftIsNotTakenForThisOne) {
+  say("history 0");
+  say("generate coast 500");
   say("run 3");
+  IterationStarts starts;
+  starts.note(session_.identity(0));
+  const auto noted = starts.of(session_.active());
+  ASSERT_NE(noted, nullptr);
   say("step class");
-  say("seek 2");
+  EXPECT_EQ(starts.of(session_.active()), noted) << "it stands in the iteration that begins there";
   const auto fixed = session_.active().fixed();
-  const auto free = std::ranges::find(fixed, 0) - fixed.begin();
-  say("visit " + std::to_string(free));
-  say("run 1");
-  say("step class");
-  const std::vector<Vec3> there = positions();
-  lose_and_recover();
-  EXPECT_EQ(positions(), there);
+  const std::string visit = "visit " + std::to_string(std::ranges::find(fixed, 0) - fixed.begin());
+  say(visit);
+  EXPECT_EQ(starts.of(session_.active()), noted) << "an edit in the midst of the iteration leaves its begin as it was";
+  say("seek 2");
+  EXPECT_EQ(starts.of(session_.active()), nullptr);
+  say(visit);
+  say("seek 3");
+  EXPECT_EQ(starts.of(session_.active()), nullptr) << "it came there by another path";
 }
 
 TEST_F(AutosaveTest, WhatIsInAFileIsNotKeptBesides) {

@@ -105,10 +105,7 @@ int run_script(const ScriptOptions& options) {
   const CommandTable view = ui::view_commands(state, host);
   for (std::size_t k = 0; k < options.lines.size(); ++k) {
     try {
-      const std::vector<std::string> words = split_words(options.lines[k]);
-      if (!words.empty() && !view.knows(words.front()) && !ui::is_session_command(options.lines[k])) {
-        throw UsageError(fmt::format("unknown command '{}'", words.front()));
-      }
+      ui::require_known_command(view, options.lines[k]);
     } catch (const UsageError& error) {
       return fail(options, k, {Message::Kind::Error, error.what(), error.exit_code()});
     }

@@ -7,17 +7,12 @@
 #include "core/base/unknown_value.h"
 
 namespace dmoscope {
-namespace {
-
-/// There are too many commands to list; the help lists them.
-std::string unknown_command(std::string_view word, const std::vector<CommandInfo>& known) {
+std::string unknown_command(std::string_view word, std::span<const CommandInfo> known) {
   std::vector<std::string_view> names;
   for (const CommandInfo& command : known) names.push_back(command.name);
   const auto guess = closest_word(word, names);
   return fmt::format("unknown command '{}'{}", word, guess ? fmt::format("; did you mean {}?", *guess) : std::string());
 }
-
-}  // namespace
 
 void CommandTable::add(CommandInfo info, Handler handler) {
   infos_.push_back(std::move(info));

@@ -17,6 +17,9 @@ struct CommandInfo {
   std::string doc;    // one line
 };
 
+/// "unknown command 'stpe'; did you mean step?": there are too many to list; the help lists them.
+[[nodiscard]] std::string unknown_command(std::string_view word, std::span<const CommandInfo> known);
+
 /// Commands and what they do. Each module that has commands fills its own table.
 class CommandTable {
  public:

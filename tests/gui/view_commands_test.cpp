@@ -53,6 +53,25 @@ TEST_F(ViewCommands, SessionVerbsArePassedOn) {
   EXPECT_THROW(run("frobnicate"), UsageError);
 }
 
+TEST_F(ViewCommands, OfAnUnknownCommandTheClosestIsNamedWhoseverItIs) {
+  const auto refusal = [&](std::string_view line) -> std::string {
+    try {
+      require_known_command(table_, line);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal("wirefame on"), "unknown command 'wirefame'; did you mean wireframe?");  // of the view
+  EXPECT_EQ(refusal("setp class"), "unknown command 'setp'; did you mean step?");            // of the session
+  EXPECT_EQ(refusal("frobnicate"), "unknown command 'frobnicate'");
+  EXPECT_EQ(refusal("step class"), "");
+  EXPECT_EQ(refusal("wireframe on"), "");
+  EXPECT_EQ(refusal("# wirefame"), "");
+  EXPECT_THROW(run("setp class"), UsageError);
+  EXPECT_TRUE(posted_.empty());
+}
+
 TEST_F(ViewCommands, SwitchesSwitch) {
   run("wireframe off");
   EXPECT_FALSE(state_.wireframe);

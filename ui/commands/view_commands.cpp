@@ -288,9 +288,18 @@ bool is_session_command(std::string_view line) {
   return std::any_of(commands.begin(), commands.end(), [&](const CommandInfo& command) { return command.name == words[0]; });
 }
 
+void require_known_command(const CommandTable& view, std::string_view line) {
+  const auto words = split_words(line);
+  if (words.empty() || view.knows(words[0]) || is_session_command(line)) return;
+  std::vector<CommandInfo> known = view.commands();
+  known.insert(known.end(), session_commands().begin(), session_commands().end());
+  throw UsageError(unknown_command(words[0], known));
+}
+
 void dispatch(const CommandTable& view, const CommandHost& host, std::string_view line) {
   const auto words = split_words(line);
   if (words.empty()) return;
+  require_known_command(view, line);
   if (is_session_command(line)) {
     host.post(std::string(line));
   } else {

@@ -35,6 +35,9 @@ void dispatch(const CommandTable& view, const CommandHost& host, std::string_vie
 /// True when the line's command is one of the session's.
 [[nodiscard]] bool is_session_command(std::string_view line);
 
+/// Throws UsageError for a line whose command is neither the session's nor the view's; names the one that is most likely meant.
+void require_known_command(const CommandTable& view, std::string_view line);
+
 /// "1920x1080": width and height, each 1 to 32768. Throws UsageError.
 [[nodiscard]] std::pair<int, int> parse_size(const std::string& word);
 

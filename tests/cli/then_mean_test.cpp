@@ -120,7 +120,8 @@ TEST(ThenMeanSays, WhereTheSecondPhaseBeginsAndWhereAComparisonStands) {
 
 /// A hybrid mesh whose mean fell from 0.938 to 0.844 in the first phase, and came back to 0.922 only when the second began there.
 TEST(ThenMeanSays, OvertHybridKeepsTheMeanOfItsBestIteration) {
-  REQUIRE_SHARED(overt, "mixed2d/overt_hyb_1.vtk");
+  const std::string overt = shared_mesh("mixed2d/overt_hyb_1.vtk");
+  if (overt.empty()) GTEST_SKIP() << "no shared meshes beside this checkout";
   const Folder folder;
   const std::string out = folder / "out.vtk";
   ASSERT_EQ(run({"smooth", overt, "-o", out, "--backend", "cpu", "--until-converged", "--then", "mean"}).code, 0);

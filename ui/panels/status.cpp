@@ -67,11 +67,23 @@ std::string fit_parts(const std::vector<std::string>& parts, float room) {
   return text;
 }
 
+/// Shorter work comes and goes before it could be read.
+bool shows_work(const PanelContext& context) {
+  constexpr double kShowAfter = 0.2;
+  return !context.state.sequence && context.activity.busy && context.activity.busy_seconds >= kShowAfter;
+}
+
+/// Before all that changes its width meanwhile, so that it stays under the pointer.
+void draw_cancel(PanelContext& context) {
+  if (!shows_work(context)) return;
+  ImGui::SameLine(0, context.px(16));
+  if (ImGui::SmallButton("Cancel")) context.send("cancel");
+  context.items.record_last("cancel");
+}
+
 void draw_progress(PanelContext& context) {
   if (context.state.sequence) return draw_sequence_progress(context, *context.state.sequence);
-  // Shorter work than this comes and goes before it could be read.
-  constexpr double kShowAfter = 0.2;
-  if (!context.activity.busy || context.activity.busy_seconds < kShowAfter) return;
+  if (!shows_work(context)) return;
   ImGui::SameLine(0, context.px(16));
   const auto fraction = static_cast<float>(context.activity.progress);
   const RunView* run = run_at_work(context.session);
@@ -80,13 +92,9 @@ void draw_progress(PanelContext& context) {
     draw_bar(context, fraction);
     ImGui::SameLine();
   }
-  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize("Cancel").x - 4 * context.em();
-  ImGui::TextUnformatted(fit_parts(progress_said(context, run), room).c_str());
+  ImGui::TextUnformatted(fit_parts(progress_said(context, run), ImGui::GetContentRegionAvail().x).c_str());
   context.items.record_last("status-progress");
   next_item_tooltip(fit_parts(progress_said(context, run), 1e9F) + "\n" + context.activity.command);
-  ImGui::SameLine();
-  if (ImGui::SmallButton("Cancel")) context.send("cancel");
-  context.items.record_last("cancel");
 }
 
 void strip(PanelContext& context, const char* side_name, const Rect& rect, const char* label, const char* tooltip, bool open) {
@@ -121,6 +129,7 @@ void draw_status(PanelContext& context, const Rect& rect) {
   for (const std::string& line : {activity.backend_reason, on_cpu ? std::string() : activity.drawing.reason, activity.renderer})
     if (!line.empty()) more += (more.empty() ? "" : "\n") + line;
   next_item_tooltip(more);
+  draw_cancel(context);
   const bool at_work = activity.busy && run_at_work(context.session) != nullptr;
   if (const std::string speed = speed_sentence(context); !at_work && !speed.empty()) {
     ImGui::SameLine(0, context.px(16));

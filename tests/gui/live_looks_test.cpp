@@ -57,6 +57,19 @@ TEST_F(LiveLooks, KeyMShowsTheNextMetricAndTheRunGoesOn) {
   EXPECT_EQ(session()->runs[0].parameters.metric, Metric::MeanRatio);
 }
 
+TEST_F(LiveLooks, CancelStaysWhereItIsWhateverIsSaidOfTheRun) {
+  begin();
+  const auto box = [&](const char* item) { return window_->app().items().find(item); };
+  const auto there = [&](const char* item) {
+    const auto& boxes = window_->app().items().boxes();
+    return boxes.find(item) != boxes.end();
+  };
+  ASSERT_TRUE(frames_until([&] { return there("cancel") && there("status-progress"); }));
+  const auto cancel = box("cancel"), said = box("status-progress");
+  ASSERT_TRUE(frames_until([&] { return box("status-progress") != said; })) << "else this test shows nothing";
+  EXPECT_EQ(box("cancel"), cancel);
+}
+
 TEST_F(LiveLooks, AChoiceOfTheShownMetricIsDrawnAndRecorded) {
   begin();
   window_->app().submit("show min-angle");

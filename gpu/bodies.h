@@ -119,11 +119,16 @@ class PartSum {
     part_.defined += is_defined ? 1U : 0U;
     part_.inverted += inverted ? 1U : 0U;
     if (quality < part_.minimum) part_.minimum = quality, part_.worst = element;
-    double& bound = immovable ? part_.ceiling : part_.movable;
-    if (quality < bound) bound = quality;
+    // Not a reference to either, which would put both into memory on a device.
+    part_.ceiling = immovable && quality < part_.ceiling ? quality : part_.ceiling;
+    part_.movable = !immovable && quality < part_.movable ? quality : part_.movable;
   }
   DMOSCOPE_ANYWHERE void add(const Part& other) {
     part_.sum += other.sum;
+    add_all_but_sum(other);
+  }
+  /// What may be added in any order.
+  DMOSCOPE_ANYWHERE void add_all_but_sum(const Part& other) {
     part_.defined += other.defined;
     part_.inverted += other.inverted;
     if (other.minimum < part_.minimum || (other.minimum == part_.minimum && other.worst < part_.worst))
@@ -135,7 +140,7 @@ class PartSum {
 
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Part part_{0.0, kInfinity, kInfinity, kInfinity, kNoIndex, 0, 0};
+  Part part_{0.0, kInfinity, kInfinity, kInfinity, kNoIndex, 0, 0, 0};
 };
 
 /// Part i % kParts of stretch i / kParts.
@@ -166,27 +171,59 @@ struct Sum {
   static constexpr std::size_t kBatch = 16;  // loads that are waited for together
 };
 
-/// The sum of all parts i, i + kParts, ...; it stands behind them all.
+/// The sum of all parts i, i + kParts, ...; it stands behind them all. The lanes of a team load side by side, for the parts are many and
+/// the teams few; the first adds the sums, one after the other.
 struct Total {
   template <class Team>
-  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
-    PartSum sum;
+  static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& team) {
+    PartSum all;
+    double sum = 0.0;
     const std::size_t parts = stretches(task) * kParts;
-    std::size_t k = i;
-    for (; k + (kBatch - 1) * kParts < parts; k += kBatch * kParts) {
+    for (std::size_t first = i; first < parts; first += kBatch * Team::kSize * kParts) {
       Part batch[kBatch];
       DMOSCOPE_UNROLL
-      for (std::size_t b = 0; b < kBatch; ++b) batch[b] = task.parts[k + b * kParts];
+      for (std::size_t b = 0; b < kBatch; ++b) {
+        const std::size_t k = first + (b * Team::kSize + team.lane()) * kParts;
+        batch[b] = task.parts[k < parts ? k : i];
+        if (k >= parts) leave_out(batch[b]);
+      }
       DMOSCOPE_UNROLL
-      for (const Part& part : batch) sum.add(part);
+      for (const Part& part : batch) {
+        all.add_all_but_sum(part);
+        sum = add_in_order(sum, part.sum, team);
+      }
     }
-    for (; k < parts; k += kParts) sum.add(task.parts[k]);
-    task.parts[parts + i] = sum.part();
+    all = fold(team, all, [](PartSum a, const PartSum& b) {
+      a.add_all_but_sum(b.part());
+      return a;
+    });
+    if (team.lane() != 0) return;
+    task.parts[parts + i] = all.part();
+    task.parts[parts + i].sum = sum;
   }
   [[nodiscard]] static DMOSCOPE_ANYWHERE std::size_t stretches(const Task& task) { return (task.element_count + kStretch - 1) / kStretch; }
 
  private:
-  static constexpr std::size_t kBatch = 8;
+  static constexpr std::size_t kBatch = 4;  // loads of a lane that are waited for together
+
+  /// Makes a part add nothing. Field by field, for a constant Part would be read from memory.
+  static DMOSCOPE_LANE void leave_out(Part& part) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    part.sum = 0.0;
+    part.minimum = kInfinity, part.movable = kInfinity, part.ceiling = kInfinity;
+    part.worst = kNoIndex, part.inverted = 0, part.defined = 0;
+  }
+
+  /// In lane 0: `sum` and the lanes' values, in the order of lanes. What other lanes get means nothing.
+  template <class Team>
+  static DMOSCOPE_LANE double add_in_order(double sum, double value, const Team& team) {
+    sum += value;
+    if constexpr (Team::kSize > 1) {
+      DMOSCOPE_UNROLL
+      for (unsigned lane = 1; lane < Team::kSize; ++lane) sum += team.exchange(value, lane);
+    }
+    return sum;
+  }
 };
 
 /// The statistics out of the totals.
@@ -229,10 +266,14 @@ struct Shade {
   }
 };
 
+/// A device counts a block's elements in the block's own memory first: see count_kernel.
 struct Count {
+  static constexpr std::size_t kCount = kSlotNowhere + 1;
+  static constexpr std::size_t kEach = 16;  // elements that a device's lane counts
+  [[nodiscard]] static DMOSCOPE_LANE std::size_t of(const Task& task, std::size_t i) { return histogram_slot(task.quality[i]); }
   template <class Team>
   static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& /*team*/) {
-    count_one(task.counts + histogram_slot(task.quality[i]));
+    count_one(task.counts + of(task, i));
   }
 };
 

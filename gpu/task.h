@@ -26,6 +26,7 @@ struct Deferred {
 struct Part {
   double sum = 0.0, minimum = 0.0, movable = 0.0, ceiling = 0.0;
   Index worst = kNoIndex, inverted = 0, defined = 0;
+  Index none = 0;  // where padding would be, which lanes could not pass on word by word
 };
 
 /// Every pointer is one of the device's. Ranks: see StarTable.

@@ -12,7 +12,7 @@ enum class Work {
   Judge,        // one element per lane: its quality and whether it is inverted
   JudgeVolume,  // the same of a volume
   Sum,          // one part of the statistics per lane
-  Total,        // one sum of all parts per lane
+  Total,        // one sum of all parts per team of lanes
   Conclude,     // one lane: the statistics
   Load,         // one vertex per lane: positions -> ranked, and awake
   Store,        // one vertex per lane: ranked -> positions

@@ -239,6 +239,25 @@ class RatioSearch {
     }
   }
 
+  /// The columns' offsets two by two, in four registers instead of a table.
+  class Columns {
+   public:
+    explicit DMOSCOPE_ANYWHERE Columns(R width) {
+      DMOSCOPE_UNROLL
+      for (std::size_t k = 0; k < kHalf; ++k) next_[k] = -(width * part(kHalf - 1 - k));
+    }
+    /// Of the next column and the one behind it.
+    [[nodiscard]] DMOSCOPE_ANYWHERE R offset(std::size_t k) const { return next_[k]; }
+    /// From columns i and i + 1 to those behind them: the second half are the first half's negatives, backwards.
+    DMOSCOPE_ANYWHERE void pass(unsigned i) {
+      const bool turns = i == kHalf - 2;
+      next_ = {turns ? -next_[1] : next_[2], turns ? -next_[0] : next_[3], turns ? -next_[3] : next_[0], turns ? -next_[2] : next_[1]};
+    }
+
+   private:
+    std::array<R, kHalf> next_;
+  };
+
   /// Margins at threshold `t`, as a part of each column and one of each row.
   DMOSCOPE_ANYWHERE void fill_tables(R t) {
     [[maybe_unused]] Line xx;
@@ -295,7 +314,18 @@ class RatioSearch {
       if constexpr (Team::kSize > 1) best.second = max(best.second, second);
       best.margin = max(best.margin, high);
     };
-    if constexpr (Team::kSize == 1) {
+    if constexpr (Team::kSize == 1 && Kept != Tables::Full) {
+      Columns columns(width_);
+      DMOSCOPE_NO_UNROLL
+      for (unsigned i = 0; i < kPoints; i += 2) {
+        DMOSCOPE_UNROLL
+        for (std::size_t k = 0; k < 2; ++k) {
+          const R x = columns.offset(k);
+          take(least_margins_of_column(i + k, x).largest(), R(0) - huge(), x);
+        }
+        columns.pass(i);
+      }
+    } else if constexpr (Team::kSize == 1) {
       DMOSCOPE_NO_UNROLL
       for (std::size_t i = 0; i < kPoints; ++i) {
         const R x = column_offset(i);

@@ -48,6 +48,32 @@ TEST(PtxInterpreter, EightLanesPassValues) {
   for (U32 i = 0; i < 32; ++i) EXPECT_EQ(out[i], 100 + i / 8 * 8 + 3);
 }
 
+/// Every lane leaves its word in the block's memory; after the barrier it takes that of the lane on the other side.
+TEST(PtxInterpreter, LanesShareMemoryAcrossABarrier) {
+  const std::string body =
+      ".shared .align 4 .b8 words[128];\nmov.u32 %base, words; shl.b32 %own, %tid, 2; add.s32 %to, %base, %own; st.shared.u32 [%to], %v;\n"
+      "bar.sync 0;\nsub.s32 %far, 124, %own; add.s32 %other, %base, %far; ld.shared.u32 %w, [%other]; st.global.u32 [%mine], %w;";
+  for (const bool backwards : {false, true}) {
+    const Words out = run_words(body, {.backwards = backwards});
+    for (U32 i = 0; i < 32; ++i) EXPECT_EQ(out[i], 100 + 31 - i);
+  }
+}
+TEST(PtxInterpreter, LanesAddInSharedMemory) {
+  const Words out = run_words(
+      ".shared .align 4 .b8 sum[4];\nmov.u32 %at0, sum; mov.u32 %zero, 0; st.shared.u32 [%at0], %zero; bar.sync 0;\n"
+      "atom.shared.add.u32 %before, [%at0], 2; bar.sync 0; ld.shared.u32 %w, [%at0]; st.global.u32 [%mine], %w;");
+  for (const U32 word : out) EXPECT_EQ(word, 64U);
+}
+TEST(PtxInterpreter, SharedMemoryHasBounds) {
+  EXPECT_THAT([] { (void)run_words(".shared .align 4 .b8 sum[4];\nmov.u32 %at0, sum; st.shared.u32 [%at0+4], %v;"); },
+              ThrowsMessage<Fault>(HasSubstr("shared memory")));
+}
+/// Who is gone never comes to the barrier.
+TEST(PtxInterpreter, ABarrierWantsAll) {
+  EXPECT_THAT([] { (void)run_words("setp.eq.s32 %p, %tid, 3; @%p bra $L__BB0_1;\nbar.sync 0;\n$L__BB0_1:\n"); },
+              ThrowsMessage<Fault>(HasSubstr("wait for each other")));
+}
+
 /// As CUDA documents __shfl_xor_sync: a later group of lanes may read an earlier one's values, not the other way round.
 TEST(PtxInterpreter, BeyondItsSegmentALaneKeepsItsValue) {
   const Words out = run_words(

@@ -8,8 +8,8 @@ namespace {
 constexpr std::uint64_t kMostJumps = 1U << 24U;
 }
 
-void Lane::start(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::uint32_t block,
-                 std::uint32_t thread) {
+void Lane::start(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::span<std::byte> shared,
+                 std::uint32_t block, std::uint32_t thread) {
   if (entry_ != &entry) {  // no register is read before it is written (see assigned.h): those of the lane before need not be wiped out
     slots_ = entry.initial;
     local_memory_.resize((entry.local_bytes + sizeof(std::max_align_t) - 1) / sizeof(std::max_align_t));
@@ -17,6 +17,7 @@ void Lane::start(const Entry& entry, const GlobalMemory& global, const std::vect
   if (entry.local_bytes > 0) std::memset(static_cast<void*>(local_memory_.data()), 0xcd, entry.local_bytes);
   entry_ = &entry;
   global_ = &global;
+  shared_ = shared;
   local_ = {reinterpret_cast<std::uintptr_t>(local_memory_.data()), entry.local_bytes};
   parameters_ = {reinterpret_cast<std::uintptr_t>(parameters.data()), parameters.size()};
   put(kThread, thread);
@@ -42,6 +43,12 @@ void Lane::run() {
 }
 
 std::byte* Lane::memory(Space space, std::uintptr_t address, std::size_t size, std::size_t aligned) const {
+  if (space == Space::Shared) {
+    if (!Extent{kSharedBase, shared_.size()}.holds(address, size))
+      throw Fault(fmt::format("out of bounds: {} bytes at {:#x} of shared memory", size, address));
+    if (address % aligned != 0) throw Fault(fmt::format("misaligned: {:#x} is no multiple of {}", address, aligned));
+    return shared_.data() + (address - kSharedBase);
+  }
   const bool there = (space == Space::Global && global_->holds(address, size)) || (space == Space::Local && local_.holds(address, size)) ||
                      (space == Space::Parameter && parameters_.holds(address, size)) ||
                      (space == Space::Generic && (local_.holds(address, size) || global_->holds(address, size)));

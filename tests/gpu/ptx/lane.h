@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -40,18 +41,20 @@ struct Entry {
   std::vector<std::uint64_t> initial;   // of every slot; what is no constant holds kPoison
   std::vector<std::size_t> parameters;  // where each lies in the block of parameters
   std::vector<std::size_t> parameter_sizes;
-  std::size_t parameter_bytes = 0, local_bytes = 0;
+  std::size_t parameter_bytes = 0, local_bytes = 0, shared_bytes = 0;
   std::size_t most_threads = 1024;  // of a block
 };
+/// Where a block's shared memory begins; below it nothing is.
+inline constexpr std::uintptr_t kSharedBase = 256;
 inline constexpr std::uint64_t kPoison = 0x7ff4cdcd7fa4cdcd;  // not a number, in both formats
 
 class Lane {
  public:
-  enum class State { Running, AtButterfly, AtIndexedShuffle, AtActiveMask, Done };
+  enum class State { Running, AtButterfly, AtIndexedShuffle, AtActiveMask, AtBarrier, Done };
 
-  /// At the beginning of a kernel. `parameters`: as the entry lays them out.
-  void start(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::uint32_t block,
-             std::uint32_t thread);
+  /// At the beginning of a kernel. `parameters`: as the entry lays them out. `shared`: the block's memory, as large as the entry says.
+  void start(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::span<std::byte> shared,
+             std::uint32_t block, std::uint32_t thread);
   /// Until it is done or waits for others.
   void run();
 
@@ -93,7 +96,7 @@ class Lane {
     slots_[slot] = bits;
   }
 
-  enum class Space { Global, Local, Parameter, Generic };
+  enum class Space { Global, Local, Shared, Parameter, Generic };
   /// Throws Fault where the lane has nothing there, or the address is not a multiple of `aligned`.
   [[nodiscard]] std::byte* memory(Space space, std::uintptr_t address, std::size_t size, std::size_t aligned) const;
 
@@ -103,6 +106,7 @@ class Lane {
   std::vector<std::uint64_t> slots_;
   std::vector<std::max_align_t> local_memory_;
   Extent local_, parameters_;
+  std::span<std::byte> shared_;
   std::size_t at_ = 0;
   std::uint64_t jumps_left_ = 0;
   State state_ = State::Done;

@@ -279,6 +279,7 @@ void add_comparisons(Table& t) {
 
 void add_control(Table& t) {
   t["ret"] = {[](Lane& lane, const Instruction& /*i*/) { lane.finish(); }, 0, 0};
+  t["bar.sync"] = {[](Lane& lane, const Instruction& /*i*/) { lane.wait(Lane::State::AtBarrier); }, 0, 1};
   t["activemask.b32"] = {[](Lane& lane, const Instruction& /*i*/) { lane.wait(Lane::State::AtActiveMask); }, 1, 1};
   t["shfl.sync.bfly.b32"] = {[](Lane& lane, const Instruction& /*i*/) { lane.wait(Lane::State::AtButterfly); }, 2, 6, kSecond};
   t["shfl.sync.idx.b32"] = {[](Lane& lane, const Instruction& /*i*/) { lane.wait(Lane::State::AtIndexedShuffle); }, 2, 6, kSecond};
@@ -312,9 +313,10 @@ void store(Lane& lane, const Instruction& i) {
   const T value = lane.get<T>(i.slots[1]);
   std::memcpy(lane.memory(S, address, sizeof(T), i.aligned), &value, sizeof(T));
 }
+template <Space S>
 void add_atomically(Lane& lane, const Instruction& i) {
   const U64 address = lane.get<U64>(i.slots[1]) + static_cast<U64>(i.offset);
-  std::byte* const memory = lane.memory(Space::Global, address, sizeof(U32), i.aligned);
+  std::byte* const memory = lane.memory(S, address, sizeof(U32), i.aligned);
   U32 value = 0;
   std::memcpy(&value, memory, sizeof value);
   const U32 sum = value + lane.get<U32>(i.slots[2]);
@@ -353,7 +355,8 @@ std::optional<Operation> find_operation(std::string_view opcode) {
 }
 
 std::optional<Access> find_access(std::string_view opcode) {
-  if (opcode == "atom.global.add.u32") return Access{{add_atomically, 1, 3}, sizeof(U32), 1, true};
+  if (opcode == "atom.global.add.u32") return Access{{add_atomically<Space::Global>, 1, 3}, sizeof(U32), 1, true};
+  if (opcode == "atom.shared.add.u32") return Access{{add_atomically<Space::Shared>, 1, 3}, sizeof(U32), 1, true};
   const bool is_load = take(opcode, "ld.");
   if (!is_load && !take(opcode, "st.")) return std::nullopt;
   Space space = Space::Generic;
@@ -361,6 +364,8 @@ std::optional<Access> find_access(std::string_view opcode) {
     space = Space::Global;
   else if (take(opcode, "local."))
     space = Space::Local;
+  else if (take(opcode, "shared."))
+    space = Space::Shared;
   else if (is_load && take(opcode, "param."))
     space = Space::Parameter;
   std::size_t count = 1;
@@ -371,6 +376,7 @@ std::optional<Access> find_access(std::string_view opcode) {
   std::optional<Access> found;
   if (space == Space::Global) found = access_of<Space::Global>(opcode, is_load);
   if (space == Space::Local) found = access_of<Space::Local>(opcode, is_load);
+  if (space == Space::Shared) found = access_of<Space::Shared>(opcode, is_load);
   if (space == Space::Parameter) found = access_of<Space::Parameter>(opcode, is_load);
   if (space == Space::Generic) found = access_of<Space::Generic>(opcode, is_load);
   if (found) found->count = count;

@@ -34,7 +34,10 @@ void run_probe(const std::string& body, const std::array<In, N>& in, std::array<
   const std::array<const void*, 2> pointers{in.data(), out.data()};
   std::vector<std::byte> parameters(sizeof pointers);
   std::memcpy(parameters.data(), pointers.data(), sizeof pointers);
-  Warp().run(entry, global, parameters, 0, 0, schedule);
+  Warp warp;
+  std::vector<std::byte> shared(entry.shared_bytes);
+  warp.start(entry, global, parameters, shared, 0, 0);
+  while (!warp.run(schedule)) warp.pass_barrier();
 }
 
 /// What one instruction computes from the operands.

@@ -61,7 +61,7 @@ Kernels::Name name_for(Work work) {
     case Work::Sum:
       return solo<bodies::Sum>();
     case Work::Total:
-      return solo<bodies::Total>();
+      return in_team<bodies::Total>();
     case Work::Conclude:
       return solo<bodies::Conclude>();
     case Work::Load:
@@ -71,7 +71,9 @@ Kernels::Name name_for(Work work) {
     case Work::Shade:
       return solo<bodies::Shade>();
     case Work::Count:
-      return solo<bodies::Count>();
+      return {
+          fmt::format("void dmoscope::gpu::count_kernel<{}>(dmoscope::gpu::Task, unsigned long)", demangled(typeid(bodies::Count).name())),
+          1, bodies::Count::kEach};
     case Work::Project:
       return solo<bodies::Project>();
     case Work::CopyShades:
@@ -166,7 +168,8 @@ class PtxQueue final : public Queue, public std::enable_shared_from_this<PtxQueu
       std::vector<std::byte> parameters(sizeof(Task) + sizeof(std::uint64_t));
       std::memcpy(parameters.data(), &task, sizeof(Task));
       std::memcpy(parameters.data() + sizeof(Task), &count, sizeof(std::uint64_t));
-      const std::size_t lanes = count * Kernels::name_of(work, metric).team;
+      const Kernels::Name name = Kernels::name_of(work, metric);
+      const std::size_t lanes = (count + name.each - 1) / name.each * name.team;
       run_blocks(entry, global_, parameters, (lanes + kBlockSize - 1) / kBlockSize, device_.schedule);
     } catch (const Fault& fault) {
       throw DeviceError(fault.what());

@@ -30,6 +30,7 @@ class Kernels {
   struct Name {
     std::string text;  // as a compiler prints it
     std::size_t team = 1;
+    std::size_t each = 1;  // how much of the work a lane does
   };
   /// The name of the kernel that does some work, chosen as gpu/cuda_launch.cuh does.
   [[nodiscard]] static Name name_of(Work work, Metric metric);

@@ -109,11 +109,16 @@ class Decoder {
       add_parameter(parameters.substr(0, end));
       parameters.remove_prefix(std::min(parameters.size(), end + 1));
     }
-    const std::string_view directive = take_until(text, "{");
-    if (directive.empty()) return;
-    constexpr std::string_view kMost = ".maxntid ";
-    if (!directive.starts_with(kMost)) throw Fault(fmt::format("not known of {}: {}", entry_.name, directive));
-    entry_.most_threads = number<std::size_t>(directive.substr(kMost.size(), directive.find(',') - kMost.size()));
+    std::string_view directives = take_until(text, "{");
+    while (!directives.empty()) {
+      const std::string_view directive = trimmed(directives.substr(0, directives.find('\n')));
+      directives = trimmed(directives.substr(std::min(directives.size(), directives.find('\n'))));
+      constexpr std::string_view kMost = ".maxntid ";
+      if (directive.starts_with(kMost))
+        entry_.most_threads = number<std::size_t>(directive.substr(kMost.size(), directive.find(',') - kMost.size()));
+      else if (!directive.starts_with(".minnctapersm "))
+        throw Fault(fmt::format("not known of {}: {}", entry_.name, directive));
+    }
   }
   /// ".param .align 8 .b8 NAME[424]" or ".param .u64 NAME"
   void add_parameter(std::string_view text) {
@@ -158,6 +163,7 @@ class Decoder {
   void read_statement(std::string_view statement) {
     if (statement.starts_with(".reg ") || statement.starts_with(".pragma ")) return;
     if (statement.starts_with(".local ")) return add_local(statement);
+    if (statement.starts_with(".shared ")) return add_shared(statement);
     entry_.texts.emplace_back(statement);
     try {
       read_instruction(statement);
@@ -172,6 +178,22 @@ class Decoder {
       throw Fault(fmt::format("{}: {}: not the one local memory", entry_.name, text));
     slots_[std::string(text.substr(name, open - name))] = kLocal;
     entry_.local_bytes = number<std::size_t>(text.substr(open + 1, text.size() - open - 2));
+  }
+
+  /// ".shared .align 4 .b8 NAME[268]"
+  void add_shared(std::string_view text) {
+    std::string_view rest = text;
+    (void)take_word(rest);
+    if (take_word(rest) != ".align") throw Fault(fmt::format("{}: {}: not known", entry_.name, text));
+    const auto align = number<std::size_t>(take_word(rest));
+    const std::size_t open = rest.find('[');
+    if (take_word(rest) != ".b8" || open == std::string_view::npos || !rest.ends_with(']'))
+      throw Fault(fmt::format("{}: {}: not known", entry_.name, text));
+    const std::string_view name = rest.substr(0, rest.find('['));
+    const std::size_t at = (entry_.shared_bytes + align - 1) / align * align;
+    slots_[std::string(name)] = static_cast<Slot>(entry_.initial.size());
+    entry_.initial.push_back(kSharedBase + at);
+    entry_.shared_bytes = at + number<std::size_t>(rest.substr(name.size() + 1, rest.size() - name.size() - 2));
   }
 
   void read_instruction(std::string_view text) {

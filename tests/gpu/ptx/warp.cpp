@@ -16,6 +16,17 @@ bool is_member(std::uint32_t members, std::size_t lane) { return (members >> lan
 /// shfl.sync d|p, a, b, c, members
 std::uint32_t members_of(const Lane& lane) { return lane.get<std::uint32_t>(lane.instruction().slots[5]); }
 
+/// All warps to the end, and at every barrier all together.
+void run_block(std::vector<Warp>& warps, const Entry& entry, Schedule schedule) {
+  for (;;) {
+    std::size_t done = 0;
+    for (std::size_t i = 0; i < warps.size(); ++i) done += warps[schedule.backwards ? warps.size() - 1 - i : i].run(schedule) ? 1 : 0;
+    if (done == warps.size()) return;
+    if (done > 0) throw Fault(fmt::format("{}: some of a block are at a barrier, and others are gone", entry.name));
+    for (Warp& warp : warps) warp.pass_barrier();
+  }
+}
+
 }  // namespace
 
 void run_blocks(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::size_t blocks,
@@ -24,30 +35,48 @@ void run_blocks(const Entry& entry, const GlobalMemory& global, const std::vecto
     throw Fault(fmt::format("{} is not meant for blocks of {} but of up to {}", entry.name, threads, entry.most_threads));
   if (parameters.size() != entry.parameter_bytes)
     throw Fault(fmt::format("{} takes {} bytes of parameters, not {}", entry.name, entry.parameter_bytes, parameters.size()));
-  Warp warp;
+  std::vector<Warp> warps((threads + Warp::kSize - 1) / Warp::kSize);
+  std::vector<std::byte> shared(entry.shared_bytes);
   for (std::size_t k = 0; k < blocks; ++k) {
     const std::size_t block = schedule.backwards ? blocks - 1 - k : k;
-    for (std::size_t first = 0; first < threads; first += Warp::kSize)
-      warp.run(entry, global, parameters, static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(first), schedule, threads);
+    std::ranges::fill(shared, std::byte{0xcd});
+    for (std::size_t i = 0; i < warps.size(); ++i)
+      warps[i].start(entry, global, parameters, shared, static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(i * Warp::kSize),
+                     threads);
+    run_block(warps, entry, schedule);
   }
 }
 
-void Warp::run(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::uint32_t block,
-               std::uint32_t first, Schedule schedule, std::size_t threads) {
+void Warp::start(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::span<std::byte> shared,
+                 std::uint32_t block, std::uint32_t first, std::size_t threads) {
+  entry_ = &entry;
+  present_ = std::min(kSize, threads - first);
   for (std::uint32_t i = 0; i < kSize; ++i) {
-    lanes_[i].start(entry, global, parameters, block, first + i);
-    if (first + i >= threads) lanes_[i].finish();  // there is none
+    lanes_[i].start(entry, global, parameters, shared, block, first + i);
+    if (i >= present_) lanes_[i].finish();  // there is none
   }
+}
+
+bool Warp::run(Schedule schedule) {
+  const auto all_are = [&](State state) {
+    return std::all_of(lanes_.begin(), lanes_.begin() + static_cast<std::ptrdiff_t>(present_),
+                       [&](const Lane& lane) { return lane.state() == state; });
+  };
   for (;;) {
     for (std::size_t i = 0; i < kSize; ++i) lanes_[schedule.backwards ? kSize - 1 - i : i].run();
-    if (std::ranges::all_of(lanes_, [](const Lane& lane) { return lane.state() == State::Done; })) return;
+    if (all_are(State::Done)) return true;
+    if (all_are(State::AtBarrier)) return false;
     try {
       if (exchange() || tell_who_is_active(schedule.together)) continue;
     } catch (const Fault& fault) {
-      throw Fault(fmt::format("{}: {}", entry.name, fault.what()));
+      throw Fault(fmt::format("{}: {}", entry_->name, fault.what()));
     }
-    throw Fault(fmt::format("{}: lanes wait for each other for ever", entry.name));
+    throw Fault(fmt::format("{}: lanes wait for each other for ever", entry_->name));
   }
+}
+
+void Warp::pass_barrier() {
+  for (std::size_t i = 0; i < present_; ++i) lanes_[i].go_on();
 }
 
 bool Warp::has_arrived(std::size_t lane, std::uint32_t members) const {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "tests/gpu/ptx/lane.h"
@@ -23,10 +24,14 @@ class Warp {
  public:
   static constexpr std::size_t kSize = 32;
 
-  /// Runs threads first to first + 31 of a block, as far as it has them, to their end. Lanes run one by one until they must wait for each
+  /// Threads first to first + 31 of a block, as far as it has them. `shared`: see Lane::start().
+  void start(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::span<std::byte> shared,
+             std::uint32_t block, std::uint32_t first, std::size_t threads = 128);
+  /// Until all lanes are done or at the block's barrier; returns whether they are done. Lanes run one by one until they must wait for each
   /// other.
-  void run(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::uint32_t block,
-           std::uint32_t first, Schedule schedule, std::size_t threads = 128);
+  bool run(Schedule schedule);
+  /// From the barrier on, at which all of the block are.
+  void pass_barrier();
 
  private:
   /// Each returns whether any lane could go on.
@@ -36,6 +41,8 @@ class Warp {
   [[nodiscard]] bool has_arrived(std::size_t lane, std::uint32_t members) const;
   void pass_values(std::uint32_t members);
 
+  const Entry* entry_ = nullptr;
+  std::size_t present_ = kSize;  // lanes that the block has
   std::array<Lane, kSize> lanes_;
 };
 

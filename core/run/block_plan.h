@@ -10,8 +10,18 @@ namespace dmoscope {
 /// So many that a block takes some 20 ms, judged by the slower ones of late. The result of a run does not depend on it.
 class BlockPlan {
  public:
-  /// `far`: see Smoother::positions_on_device; there a block is as much as fits the time, so a whole iteration of most meshes.
-  explicit BlockPlan(bool far = false) : most_(far ? kMostFar : kMost), visits_(far ? kMostFar : kFirst), warming_up_(far) {}
+  /// On whom visits are made.
+  enum class On {
+    Host,
+    Device,        // see Smoother::positions_on_device; a block is as much as fits the time, so a whole iteration of most meshes
+    DeviceSolids,  // the same; a visit of a volume may take a small device so long that what all take must be known first
+  };
+  explicit BlockPlan(On on = On::Host)
+      : most_(on == On::Host ? kMost : kMostFar),
+        visits_(on == On::Host     ? kFirst
+                : on == On::Device ? kMostFar
+                                   : kFirstOfSolids),
+        warming_up_(on != On::Host) {}
 
   /// Visits of the next block, at least 1; an iteration may have fewer left.
   [[nodiscard]] std::uint64_t visits() const noexcept { return visits_; }
@@ -28,6 +38,8 @@ class BlockPlan {
   static constexpr double kSeconds = 0.02;
   /// Before anything is known of what visits take.
   static constexpr std::uint64_t kFirst = 2048;
+  /// Enough for any device's lanes; at 250,000 operations in double a visit, a consumer's device takes some 10 ms for them.
+  static constexpr std::uint64_t kFirstOfSolids = 32768;
   /// Visits to vertices at rest cost next to nothing, and the next may be to others: no more than are done before a person would wait.
   static constexpr std::uint64_t kMost = std::uint64_t{1} << 18U;
   /// Where a call is dear and a visit is not: far more than an iteration of any mesh.

@@ -65,7 +65,7 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
       size_(make_size_field(input_, parameters_.combination)),
       executor_(choose_executor(parameters_.backend, acceleration_, task())),
       positions_(working_copy(input_->mesh.positions)),
-      blocks_(executor_.smoother && executor_.smoother->positions_on_device()),
+      blocks_(block_plan()),
       history_(history_bytes),
       first_phase_(parameters_) {
   history_.record_input({0, statistics(), 0, 0.0}, {input_, &input_->mesh.positions});
@@ -181,6 +181,11 @@ void Run::rest() {
   executor_.smoother.reset();
 }
 
+BlockPlan Run::block_plan() const {
+  if (!executor_.smoother || !executor_.smoother->positions_on_device()) return BlockPlan(BlockPlan::On::Host);
+  return BlockPlan(input_->is_volume() ? BlockPlan::On::DeviceSolids : BlockPlan::On::Device);
+}
+
 void Run::ensure_smoother() {
   if (executor_.smoother) return;
   if (executor_.backend == Backend::Cpu) {  // also where a device failed before
@@ -189,7 +194,7 @@ void Run::ensure_smoother() {
     executor_ = make_executor(parameters_.backend, acceleration_, task());
   }
   if (executor_.smoother->positions_on_device()) executor_.smoother->positions_replaced();  // it has taken the input's
-  blocks_ = BlockPlan(executor_.smoother->positions_on_device());
+  blocks_ = block_plan();
   begun_.reset();
 }
 
@@ -200,7 +205,7 @@ void Run::recover() {
   executor_ = executor_after_failure(fmt::format("{} failed: {}", name(executor_.backend), failure_), task());
   failure_.clear();
   begun_.reset();
-  blocks_ = BlockPlan(executor_.smoother->positions_on_device());
+  blocks_ = block_plan();
   const History::Kept& kept = history_.nearest(at_.moment.iteration);
   const Moment of_history{kept.iteration};
   if (!positions_.host_shows() || positions_.host_shows()->moment < of_history) positions_.assign(kept.positions, {of_history});

@@ -185,6 +185,7 @@ class Run {
 
  private:
   [[nodiscard]] SmoothingTask task() const;
+  [[nodiscard]] BlockPlan block_plan() const;
   void ensure_smoother();
   void download() const;
   void keep();

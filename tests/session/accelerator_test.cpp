@@ -145,7 +145,7 @@ TEST(BlockPlan, TakesAboutTheSameTimeWhateverVisitsTake) {
 
 TEST(BlockPlan, OfADeviceIsAWholeIterationUnlessThatTakesLong) {
   constexpr std::uint64_t kMillions = 30'000'000;
-  BlockPlan far(true), near(false);
+  BlockPlan far(BlockPlan::On::Device), near(BlockPlan::On::Host);
   EXPECT_GE(far.visits(), kMillions) << "nothing is known, but calls are dear";
   far.learn(kMillions, 10.0);
   EXPECT_GE(far.visits(), kMillions) << "the first call is no measure";
@@ -154,6 +154,22 @@ TEST(BlockPlan, OfADeviceIsAWholeIterationUnlessThatTakesLong) {
   EXPECT_LT(near.visits(), kMillions);
   far.learn(kMillions, 0.1);
   EXPECT_NEAR(static_cast<double>(far.visits()), 0.2 * kMillions, 1.0);
+}
+
+/// A volume's iteration may take a small device minutes: what a person cancels, or a display's watchdog, must not wait for it.
+TEST(BlockPlan, OfADevicesVolumeBeginsSmallAndGrowsToAWholeIteration) {
+  constexpr std::uint64_t kMillions = 30'000'000;
+  BlockPlan fast(BlockPlan::On::DeviceSolids), slow = fast;
+  for (const bool warming_up : {true, false}) {
+    EXPECT_LE(fast.visits(), 100'000U) << "nothing is known";
+    EXPECT_GE(fast.visits(), 16'384U) << "enough for all lanes";
+    if (warming_up)
+      for (BlockPlan* plan : {&fast, &slow}) plan->learn(plan->visits(), 2.0);
+  }
+  slow.learn(slow.visits(), 0.1);
+  EXPECT_LE(slow.visits(), 20'000U);
+  for (int i = 0; i < 40; ++i) fast.learn(fast.visits(), 1e-9 * static_cast<double>(fast.visits()));
+  EXPECT_GE(fast.visits(), kMillions / 2);
 }
 
 TEST(Accelerated, NothingIsCopiedUntilPositionsAreAskedFor) {

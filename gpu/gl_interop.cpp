@@ -57,18 +57,25 @@ class Mapping {
 
 }  // namespace
 
+namespace {
+/// Of laptops with two: the other one draws unless it is told not to.
+constexpr std::string_view kTwoGpus =
+    "; on a computer with two GPUs, start the program with __NV_PRIME_RENDER_OFFLOAD=1 __GLX_VENDOR_LIBRARY_NAME=nvidia";
+}  // namespace
+
 std::string gl_obstacle(int device) {
   std::array<int, 16> devices{};
   unsigned count = 0;
   const cudaError_t error = cudaGLGetDevices(&count, devices.data(), devices.size(), cudaGLDeviceListAll);
   if (error != cudaSuccess) {
     (void)cudaGetLastError();
-    return fmt::format("OpenGL does not draw on a device of CUDA ({}: {})", cudaGetErrorName(error), cudaGetErrorString(error));
+    return fmt::format("OpenGL does not draw on a device of CUDA ({}: {}){}", cudaGetErrorName(error), cudaGetErrorString(error), kTwoGpus);
   }
   const auto end = devices.begin() + std::min<std::size_t>(count, devices.size());
   if (std::find(devices.begin(), end, device) != end) return {};
-  if (count == 0) return "OpenGL does not draw on a device of CUDA";
-  return fmt::format("OpenGL draws on CUDA device {}, but device {} smooths", devices[0], device);
+  if (count == 0) return fmt::format("OpenGL does not draw on a device of CUDA{}", kTwoGpus);
+  return fmt::format("OpenGL draws on CUDA device {0}, but device {1} smooths; with CUDA_VISIBLE_DEVICES={0} one does both", devices[0],
+                     device);
 }
 
 GlTarget::GlTarget(int device, std::uint32_t point_buffer, std::uint32_t shade_buffer) : device_(device) {

@@ -35,10 +35,11 @@ class FakeDrawing : public WithOpenGl {
 TEST_F(FakeDrawing, WhatIsInTheWay) {
   EXPECT_EQ(gl_obstacle(0), "");
   set_up({.devices = std::vector<FakeDevice>(2), .drawing = 1, .gl = &gl});
-  EXPECT_EQ(gl_obstacle(0), "OpenGL draws on CUDA device 1, but device 0 smooths");
+  EXPECT_EQ(gl_obstacle(0), "OpenGL draws on CUDA device 1, but device 0 smooths; with CUDA_VISIBLE_DEVICES=1 one does both");
   EXPECT_EQ(gl_obstacle(1), "");
   set_up({.drawing = -1, .gl = &gl});
   EXPECT_THAT(gl_obstacle(0), HasSubstr("OpenGL does not draw on a device of CUDA"));
+  EXPECT_THAT(gl_obstacle(0), HasSubstr("__NV_PRIME_RENDER_OFFLOAD=1 __GLX_VENDOR_LIBRARY_NAME=nvidia")) << "as on many a laptop";
   set_up({});
   EXPECT_THAT(gl_obstacle(0), HasSubstr("OpenGL does not draw on a device of CUDA"));
   set_up({.gl = &gl});

@@ -20,7 +20,7 @@ class CudaAccelerator final : public Accelerator {
   std::unique_ptr<Smoother> make_dmo(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring, Metric metric,
                                      const SearchParameters& parameters, std::span<const Index> immovable,
                                      ThreadPool* pool) const override {
-    return make_device_dmo(first_->sibling(), std::move(input), std::move(colouring), metric, parameters, immovable, pool);
+    return make_device_dmo(first_->sibling(Urgency::Last), std::move(input), std::move(colouring), metric, parameters, immovable, pool);
   }
 
  private:

@@ -3,6 +3,7 @@
 #ifdef DMOSCOPE_HAVE_CUDA
 
 #include <mutex>
+#include <optional>
 #include <string>
 #include <unordered_map>
 
@@ -12,7 +13,9 @@
 #include "core/quality/formulas.h"
 #include "core/quality/volumes.h"
 #include "gpu/cuda_error.h"
+#include "gpu/cuda_handles.h"
 #include "gpu/cuda_launch.h"
+#include "gpu/cuda_staging.h"
 #include "gpu/gl_interop.h"
 #include "gpu/task.h"
 
@@ -22,24 +25,6 @@ namespace {
 
 /// Threads that a multiprocessor runs at once in the search's kernel, which takes nearly all registers a thread may have.
 constexpr std::size_t kThreadsAtOnce = 256;
-/// Makes the calling thread's CUDA calls go to a device; each thread has its own.
-void use(int device) { DMOSCOPE_CUDA_CHECK(cudaSetDevice(device)); }
-
-class CudaStream {
- public:
-  explicit CudaStream(int device) {
-    use(device);
-    DMOSCOPE_CUDA_CHECK(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking));
-  }
-  ~CudaStream() { (void)cudaStreamDestroy(stream_); }
-  CudaStream(const CudaStream&) = delete;
-  CudaStream& operator=(const CudaStream&) = delete;
-  [[nodiscard]] cudaStream_t get() const noexcept { return stream_; }
-
- private:
-  cudaStream_t stream_ = nullptr;
-};
-
 /// How large each piece of a device's memory is; any thread may give some back.
 class Memory {
  public:
@@ -92,26 +77,27 @@ class CudaRecording final : public Queue::Recording {
 
 class CudaMark final : public Queue::Mark {
  public:
-  explicit CudaMark(cudaStream_t stream) {
-    DMOSCOPE_CUDA_CHECK(cudaEventCreateWithFlags(&event_, cudaEventDisableTiming));
-    if (const cudaError_t status = cudaEventRecord(event_, stream); status != cudaSuccess) {
-      (void)cudaEventDestroy(event_);
-      DMOSCOPE_CUDA_CHECK(status);
-    }
-  }
-  ~CudaMark() override { (void)cudaEventDestroy(event_); }
-  [[nodiscard]] cudaEvent_t get() const noexcept { return event_; }
+  explicit CudaMark(cudaStream_t stream) { event_.record(stream); }
+  [[nodiscard]] const CudaEvent& event() const noexcept { return event_; }
 
  private:
-  cudaEvent_t event_ = nullptr;
+  CudaEvent event_;
+};
+
+/// The second stream of a queue, for what need not wait for the first's work nor the first for its.
+struct Side {
+  explicit Side(int device, Urgency urgency) : stream(device, urgency) {}
+  CudaStream stream;
+  CudaEvent forked, joined;
 };
 
 class CudaQueue final : public Queue {
  public:
-  CudaQueue(std::shared_ptr<const CudaDevice> device, std::shared_ptr<Counters> counters)
-      : Queue(std::move(counters)), about_(std::move(device)), device_(about_->number), stream_(device_) {}
+  CudaQueue(std::shared_ptr<const CudaDevice> device, std::shared_ptr<Counters> counters, Urgency urgency)
+      : Queue(std::move(counters)), about_(std::move(device)), device_(about_->number), urgency_(urgency), stream_(device_, urgency) {}
   ~CudaQueue() override {
     (void)cudaSetDevice(device_);
+    if (side_) (void)cudaStreamSynchronize(side_->stream.get());
     (void)cudaStreamSynchronize(stream_.get());
   }
 
@@ -142,12 +128,15 @@ class CudaQueue final : public Queue {
     counters().bytes_allocated -= about_->memory->take(memory);
   }
 
-  void upload(void* to, const void* from, std::size_t bytes) override {
+  void upload(void* to, const void* from, std::size_t bytes, ThreadPool* pool) override {
     use(device_);
+    if (bytes >= CudaStaging::kWorthIt) return staging().upload(stream_.get(), to, from, bytes, pool);
     DMOSCOPE_CUDA_CHECK(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream_.get()));
     DMOSCOPE_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));  // where the device reads ordinary memory, nothing else says when it has
   }
-  void download(void* to, const void* from, std::size_t bytes) override {
+  void download(void* to, const void* from, std::size_t bytes, ThreadPool* pool) override {
+    use(device_);
+    if (bytes >= CudaStaging::kWorthIt) return staging().download(stream_.get(), to, from, bytes, pool);
     fetch(to, from, bytes);
     // At once: nothing that could fail stands between, or the device would write memory that its owner gave up meanwhile.
     DMOSCOPE_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));
@@ -174,7 +163,7 @@ class CudaQueue final : public Queue {
   void launch(Work work, Metric metric, const Task& task, std::size_t count) override {
     if (count == 0) return;
     use(device_);
-    launcher(work, metric)(task, count, stream_.get());
+    launcher(work, metric)(task, count, (on_side_ ? side_->stream : stream_).get());
   }
   void wait() override {
     use(device_);
@@ -186,14 +175,14 @@ class CudaQueue final : public Queue {
     DMOSCOPE_CUDA_CHECK(cudaGraphLaunch(static_cast<CudaRecording&>(recording).get(), stream_.get()));
   }
 
-  std::shared_ptr<Queue> sibling() const override { return std::make_shared<CudaQueue>(about_, shared_counters()); }
+  std::shared_ptr<Queue> sibling(Urgency urgency) const override { return std::make_shared<CudaQueue>(about_, shared_counters(), urgency); }
   std::unique_ptr<Mark> mark() override {
     use(device_);
     return std::make_unique<CudaMark>(stream_.get());
   }
   void wait_for(const Mark& mark) override {
     use(device_);
-    DMOSCOPE_CUDA_CHECK(cudaStreamWaitEvent(stream_.get(), static_cast<const CudaMark&>(mark).get(), 0));
+    DMOSCOPE_CUDA_CHECK(cudaStreamWaitEvent(stream_.get(), static_cast<const CudaMark&>(mark).event().get(), 0));
   }
 
   std::unique_ptr<DeviceTarget> make_target(std::uint32_t point_buffer, std::uint32_t shade_buffer) override {
@@ -232,6 +221,25 @@ class CudaQueue final : public Queue {
     (void)cudaGetLastError();
   }
 
+  void begin_side() override {
+    use(device_);
+    if (!side_) side_.emplace(device_, urgency_);
+    side_->forked.record(stream_.get());
+    DMOSCOPE_CUDA_CHECK(cudaStreamWaitEvent(side_->stream.get(), side_->forked.get(), 0));
+    on_side_ = true;
+  }
+  void end_side() noexcept override { on_side_ = false; }
+  void join_side() override {
+    use(device_);
+    side_->joined.record(side_->stream.get());
+    DMOSCOPE_CUDA_CHECK(cudaStreamWaitEvent(stream_.get(), side_->joined.get(), 0));
+  }
+
+  CudaStaging& staging() {
+    if (!staging_) staging_.emplace();
+    return *staging_;
+  }
+
   static Launcher launcher(Work work, Metric metric) {
     if (const Launcher plain = plain_launcher(work)) return plain;
     if (is_of_solids(work)) return formulas::with_volume_metric(metric, [work]<Metric M>() { return volume_launcher<M>(work); });
@@ -240,13 +248,17 @@ class CudaQueue final : public Queue {
 
   std::shared_ptr<const CudaDevice> about_;
   int device_;
+  Urgency urgency_;
   CudaStream stream_;
+  std::optional<Side> side_;
+  bool on_side_ = false;  // is work asked of that?
+  std::optional<CudaStaging> staging_;
 };
 
 }  // namespace
 
 std::shared_ptr<Queue> make_cuda_queue(int device) {
-  return std::make_shared<CudaQueue>(std::make_shared<const CudaDevice>(device), std::make_shared<Counters>());
+  return std::make_shared<CudaQueue>(std::make_shared<const CudaDevice>(device), std::make_shared<Counters>(), Urgency::Last);
 }
 
 }  // namespace dmoscope::gpu

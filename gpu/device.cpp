@@ -1,5 +1,9 @@
 #include "gpu/device.h"
 
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
 #ifdef DMOSCOPE_HAVE_CUDA
 #include <cuda_runtime_api.h>
 
@@ -41,17 +45,19 @@ Availability availability() {
     return result;
   }
   result.reason = "no CUDA device found";
-  std::size_t most_memory = 0;
-  for (int i = 0; i < count; ++i) {
-    Device& device = result.devices.emplace_back(describe(i));
-    if (device.problem.empty()) device.problem = probe(i);
-    if (!device.problem.empty()) {
-      if (result.best < 0) result.reason = device.name + ": " + device.problem;
-    } else if (device.memory > most_memory) {
-      result.best = i;
-      most_memory = device.memory;
+  for (int i = 0; i < count; ++i) result.devices.push_back(describe(i));
+  std::vector<int> by_memory(result.devices.size());
+  std::iota(by_memory.begin(), by_memory.end(), 0);
+  const auto device = [&](int number) -> Device& { return result.devices[static_cast<std::size_t>(number)]; };
+  std::ranges::stable_sort(by_memory, std::greater{}, [&](int number) { return device(number).memory; });
+  for (const int number : by_memory) {
+    if (device(number).problem.empty()) device(number).problem = probe(number);
+    if (device(number).problem.empty()) {
+      result.best = number;
       result.reason.clear();
+      break;  // to try one takes time and some of its memory
     }
+    if (number == by_memory.front()) result.reason = device(number).name + ": " + device(number).problem;
   }
 #else
   result.reason = "built without a CUDA toolkit";

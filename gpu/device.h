@@ -11,7 +11,7 @@ struct Device {
   std::string name{};
   int major = 0, minor = 0;  // compute capability
   std::size_t memory = 0;    // bytes
-  std::string problem{};     // why it cannot run this program's kernels; empty when it can
+  std::string problem{};     // why it cannot run this program's kernels; empty when it can, or was not tried
 };
 
 struct Availability {
@@ -21,7 +21,8 @@ struct Availability {
   std::string reason;           // why the cuda backend cannot be used; empty when it can
 };
 
-/// Asks the driver, and tries each device (some 0.2 s, once it is there). Never throws; a machine without a driver gives a reason.
+/// Asks the driver, and tries the devices from the one with the most memory on until one is usable (some 0.2 s each). Never throws; a
+/// machine without a driver gives a reason.
 [[nodiscard]] Availability availability();
 
 }  // namespace dmoscope::gpu

@@ -32,7 +32,7 @@ class DeviceDmo final : public Smoother {
     task_.deferred = deferred_.data();
     task_.moved = counts_.data();
     warm_up();
-    load(input->mesh.positions);
+    load(input->mesh.positions, pool);
     queue_->wait();
   }
 
@@ -45,8 +45,8 @@ class DeviceDmo final : public Smoother {
     queue_->launch(Work::Load, metric_, task_, task_.vertex_count);
   }
 
-  std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* /*pool*/) override {
-    if (stale_) load(positions);
+  std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
+    if (stale_) load(positions, pool);
     stored_ = judged_ = false;
     visited_ = true;
     if (first == 0 && count == colouring_->order.size()) {
@@ -59,10 +59,10 @@ class DeviceDmo final : public Smoother {
     return moved_.value();
   }
 
-  void store(std::span<Vec3> positions, ThreadPool* /*pool*/) override {
+  void store(std::span<Vec3> positions, ThreadPool* pool) override {
     if (stored_ || stale_ || !visited_) return;
     queue_->launch(Work::Store, metric_, task_, positions.size());
-    mesh_.positions().download(positions);
+    mesh_.positions().download(positions, pool);
     queue_->counters().bytes_to_host += positions.size_bytes();
     stored_ = true;
   }
@@ -123,8 +123,14 @@ class DeviceDmo final : public Smoother {
       queue_->launch(Work::VisitInTeam, metric_, task_, count);
       return;
     }
-    if (in_fans() && stars.fans) queue_->launch(Work::VisitFans, metric_, task_, count);
-    if (!in_fans() || stars.others) queue_->launch(Work::VisitOthers, metric_, task_, count);
+    const auto fans = [&] { queue_->launch(Work::VisitFans, metric_, task_, count); };
+    const auto others = [&] { queue_->launch(Work::VisitOthers, metric_, task_, count); };
+    if (in_fans() && stars.fans && stars.others)
+      queue_->both(fans, others);  // no two vertices of a class see each other
+    else if (in_fans() && stars.fans)
+      fans();
+    else
+      others();
     queue_->launch(Work::Settle, metric_, task_, std::min(count, kSettlers));
   }
 
@@ -145,10 +151,11 @@ class DeviceDmo final : public Smoother {
     }
     for (const Work work : {Work::VisitInTeam, Work::VisitOthers, Work::Settle}) queue_->launch(work, metric_, task_, 1);
     if (in_fans()) queue_->launch(Work::VisitFans, metric_, task_, 1);
+    queue_->both([] {}, [] {});  // what it is done with cannot be made in a recording
   }
 
-  void load(std::span<const Vec3> positions) {
-    mesh_.positions().upload(positions);
+  void load(std::span<const Vec3> positions, ThreadPool* pool) {
+    mesh_.positions().upload(positions, pool);
     queue_->launch(Work::Load, metric_, task_, positions.size());
     stale_ = false;
   }

@@ -38,25 +38,25 @@ std::size_t part_count(std::size_t elements) { return ((elements + bodies::kStre
 
 DeviceMesh::DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, const Colouring& colouring, std::span<const Index> immovable,
                        ThreadPool* pool)
-    : DeviceMesh(std::move(queue), input, colouring, star_table_of(input, colouring, pool), immovable) {}
+    : DeviceMesh(std::move(queue), input, colouring, star_table_of(input, colouring, pool), immovable, pool) {}
 
 DeviceMesh::DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, const Colouring& colouring, const StarTable& table,
-                       std::span<const Index> immovable)
+                       std::span<const Index> immovable, ThreadPool* pool)
     : queue_(std::move(queue)),
-      shapes_(queue_, table.shapes),
-      others_(queue_, table.others),
-      star_offsets_(queue_, input.topology.star_offsets()),
-      incidences_(queue_, input.topology.incidences()),
-      corner_offsets_(queue_, input.mesh.elements.offsets()),
-      corners_(queue_, input.mesh.elements.all_corners()),
-      reference_measure_(queue_, input.reference_measure),
-      rank_of_vertex_(queue_, table.rank_of_vertex),
-      vertex_of_rank_(queue_, table.vertex_of_rank),
+      shapes_(queue_, table.shapes, pool),
+      others_(queue_, table.others, pool),
+      star_offsets_(queue_, input.topology.star_offsets(), pool),
+      incidences_(queue_, input.topology.incidences(), pool),
+      corner_offsets_(queue_, input.mesh.elements.offsets(), pool),
+      corners_(queue_, input.mesh.elements.all_corners(), pool),
+      reference_measure_(queue_, input.reference_measure, pool),
+      rank_of_vertex_(queue_, table.rank_of_vertex, pool),
+      vertex_of_rank_(queue_, table.vertex_of_rank, pool),
       positions_(queue_, input.mesh.positions.size()),
       ranked_(queue_, input.mesh.positions.size()),
       awake_(queue_, input.mesh.positions.size()),
       inverted_(queue_, input.mesh.elements.size()),
-      immovable_(queue_, flags(input.mesh.elements.size(), immovable)),
+      immovable_(queue_, flags(input.mesh.elements.size(), immovable), pool),
       quality_(queue_, input.mesh.elements.size()),
       parts_(queue_, part_count(input.mesh.elements.size())),
       statistics_(queue_, 1),

@@ -40,7 +40,7 @@ class DeviceMesh {
 
  private:
   DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, const Colouring& colouring, const StarTable& table,
-             std::span<const Index> immovable);
+             std::span<const Index> immovable, ThreadPool* pool);
 
   std::shared_ptr<Queue> queue_;
   Buffer<StarShape> shapes_;

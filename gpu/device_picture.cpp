@@ -36,8 +36,8 @@ class Picture final : public DevicePicture {
     task.origin = origin;
     task.points = pictures_->projected_.with_room_for(points.size());
     reader().launch(Work::Project, Metric::MeanRatio, task, points.size());
-    reader().download(points.data(), task.points, points.size_bytes());
-    reader().download(shades.data(), memory_->shades.data(), shades.size_bytes());
+    reader().download(points.data(), task.points, points.size_bytes(), nullptr);
+    reader().download(shades.data(), memory_->shades.data(), shades.size_bytes(), nullptr);
     reader().counters().bytes_to_host += points.size_bytes() + shades.size_bytes();
   }
 
@@ -47,11 +47,11 @@ class Picture final : public DevicePicture {
     if (found.empty()) return found;
     Task task = task_;
     Index* wanted = pictures_->wanted_.with_room_for(found.size());
-    reader().upload(wanted, vertices.data(), vertices.size_bytes());
+    reader().upload(wanted, vertices.data(), vertices.size_bytes(), nullptr);
     task.wanted = wanted;
     task.picked = pictures_->picked_.with_room_for(found.size());
     reader().launch(Work::Pick, Metric::MeanRatio, task, found.size());
-    reader().download(found.data(), task.picked, found.size() * sizeof(Vec3));
+    reader().download(found.data(), task.picked, found.size() * sizeof(Vec3), nullptr);
     reader().counters().bytes_to_host += found.size() * sizeof(Vec3);
     return found;
   }

@@ -13,7 +13,7 @@ namespace dmoscope::gpu {
 /// Makes pictures of one mesh and uses their memory again.
 class Pictures : public std::enable_shared_from_this<Pictures> {
  public:
-  explicit Pictures(std::shared_ptr<Queue> maker) : maker_(std::move(maker)), reader_(maker_->sibling()) {}
+  explicit Pictures(std::shared_ptr<Queue> maker) : maker_(std::move(maker)), reader_(maker_->sibling(Urgency::First)) {}
 
   /// A picture of the mesh as it is now, judged by `shown`. To be called on the thread that steps. Throws DeviceError.
   [[nodiscard]] std::shared_ptr<const DevicePicture> make(DeviceMesh& mesh, Metric shown);

@@ -101,11 +101,11 @@ class Host final : public HostQueue, public std::enable_shared_from_this<Host> {
     sizes_.erase(found);
     ::operator delete(memory);
   }
-  void upload(void* to, const void* from, std::size_t bytes) override {
+  void upload(void* to, const void* from, std::size_t bytes, ThreadPool* /*pool*/) override {
     check_lost();
     std::memcpy(to, from, bytes);
   }
-  void download(void* to, const void* from, std::size_t bytes) override {
+  void download(void* to, const void* from, std::size_t bytes, ThreadPool* /*pool*/) override {
     check_lost();
     std::memcpy(to, from, bytes);
   }
@@ -132,7 +132,7 @@ class Host final : public HostQueue, public std::enable_shared_from_this<Host> {
     for (const auto& step : static_cast<Recorded&>(recording).steps) step();
   }
 
-  std::shared_ptr<Queue> sibling() const override { return std::const_pointer_cast<Host>(shared_from_this()); }
+  std::shared_ptr<Queue> sibling(Urgency /*urgency*/) const override { return std::const_pointer_cast<Host>(shared_from_this()); }
   std::unique_ptr<Mark> mark() override {
     check_lost();
     return std::make_unique<Mark>();

@@ -40,20 +40,15 @@ bool same_bits(const Values& one, const Values& other) {
   return bits(one) == bits(other);
 }
 
-/// The device's memory for one Values, and the device that was current before.
+/// The device's memory for one Values. The device stays the thread's: to make another one current again might take that one's memory.
 class Scope {
  public:
   explicit Scope(int device) {
-    DMOSCOPE_CUDA_CHECK(cudaGetDevice(&before_));
     DMOSCOPE_CUDA_CHECK(cudaSetDevice(device));
-    if (const cudaError_t error = cudaMalloc(&values_, sizeof(Values)); error != cudaSuccess) {
-      (void)cudaSetDevice(before_);
-      throw_cuda_error(static_cast<int>(error), "cudaMalloc", __FILE__, __LINE__);
-    }
+    DMOSCOPE_CUDA_CHECK(cudaMalloc(&values_, sizeof(Values)));
   }
   ~Scope() {
     (void)cudaFree(values_);
-    (void)cudaSetDevice(before_);
     (void)cudaGetLastError();  // what went wrong with this device is not the next one's
   }
   Scope(const Scope&) = delete;
@@ -61,7 +56,6 @@ class Scope {
   [[nodiscard]] Values* values() const { return values_; }
 
  private:
-  int before_ = 0;
   Values* values_ = nullptr;
 };
 

@@ -7,7 +7,7 @@ namespace dmoscope::gpu {
 
 /// Runs a tiny kernel on device number `device`. Empty when that works and its arithmetic gives the bits that the processor's does
 /// (no contraction, no flushed subnormals, IEEE division and square root); otherwise what is wrong, as part of a sentence. Never throws.
-/// Leaves the calling thread's current device as it was.
+/// The device stays the calling thread's.
 [[nodiscard]] std::string probe(int device);
 
 }  // namespace dmoscope::gpu

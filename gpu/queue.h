@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/thread_pool.h"
 #include "core/quality/metric.h"
 #include "core/run/device_picture.h"
 #include "gpu/work.h"
@@ -25,6 +26,9 @@ struct Counters {
   std::atomic<std::uint64_t> bytes_allocated{0};
 };
 
+/// Whose work a device takes up first, once it has room.
+enum class Urgency { Last, First };
+
 /// Work is done in the order in which it was asked for. For one thread at a time. Everything throws DeviceError, which may tell of earlier
 /// work; a device that was lost stays so.
 class Queue {
@@ -37,10 +41,10 @@ class Queue {
   [[nodiscard]] virtual void* allocate(std::size_t bytes) = 0;
   virtual void release(void* memory) noexcept = 0;
 
-  /// Host to device; `from` may be changed on return.
-  virtual void upload(void* to, const void* from, std::size_t bytes) = 0;
+  /// Host to device; `from` may be changed on return. `pool`, if any, copies within the host's memory where that is needed.
+  virtual void upload(void* to, const void* from, std::size_t bytes, ThreadPool* pool) = 0;
   /// Device to host, after all work so far; done on return.
-  virtual void download(void* to, const void* from, std::size_t bytes) = 0;
+  virtual void download(void* to, const void* from, std::size_t bytes, ThreadPool* pool) = 0;
   /// Memory of the host that the device writes directly.
   [[nodiscard]] virtual void* allocate_on_host(std::size_t bytes) = 0;
   virtual void release_on_host(void* memory) noexcept = 0;
@@ -50,6 +54,21 @@ class Queue {
   virtual void clear(void* memory, std::size_t bytes) = 0;
   /// Runs the body of `work` for lanes (or teams) 0 to count - 1. Metric: for the kinds of work that depend on one.
   virtual void launch(Work work, Metric metric, const Task& task, std::size_t count) = 0;
+  /// What `one` and `other` ask for, only launches, does not depend on each other: it may be done at once, by lanes that either leaves
+  /// idle. What is asked for afterwards begins after both.
+  template <class One, class Other>
+  void both(const One& one, const Other& other) {
+    begin_side();
+    try {
+      other();
+    } catch (...) {
+      end_side();
+      throw;
+    }
+    end_side();
+    one();
+    join_side();
+  }
   /// Until all work is done.
   virtual void wait() = 0;
 
@@ -76,7 +95,7 @@ class Queue {
   virtual void replay(Recording& recording) = 0;
 
   /// Another queue of the same device, for another thread; work of the two is done in any order.
-  [[nodiscard]] virtual std::shared_ptr<Queue> sibling() const = 0;
+  [[nodiscard]] virtual std::shared_ptr<Queue> sibling(Urgency urgency) const = 0;
   /// A point in a queue's work that another queue of the device can wait for.
   class Mark {
    public:
@@ -106,6 +125,10 @@ class Queue {
   virtual void start_recording() = 0;
   [[nodiscard]] virtual std::unique_ptr<Recording> stop_recording() = 0;
   virtual void drop_recording() noexcept = 0;
+  /// See both(). Where they do nothing, all is done in the order in which it was asked for.
+  virtual void begin_side() {}
+  virtual void end_side() noexcept {}
+  virtual void join_side() {}
   explicit Queue(std::shared_ptr<Counters> counters = std::make_shared<Counters>()) : counters_(std::move(counters)) {}
   [[nodiscard]] const std::shared_ptr<Counters>& shared_counters() const noexcept { return counters_; }
 
@@ -120,7 +143,9 @@ class Buffer {
   Buffer() = default;
   Buffer(std::shared_ptr<Queue> queue, std::size_t size)
       : queue_(std::move(queue)), data_(size == 0 ? nullptr : static_cast<T*>(queue_->allocate(size * sizeof(T)))), size_(size) {}
-  Buffer(std::shared_ptr<Queue> queue, std::span<const T> content) : Buffer(std::move(queue), content.size()) { upload(content); }
+  Buffer(std::shared_ptr<Queue> queue, std::span<const T> content, ThreadPool* pool = nullptr) : Buffer(std::move(queue), content.size()) {
+    upload(content, pool);
+  }
   ~Buffer() {
     if (data_ != nullptr) queue_->release(data_);
   }
@@ -135,11 +160,11 @@ class Buffer {
   [[nodiscard]] T* data() const noexcept { return data_; }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   /// At most size() objects, to the beginning.
-  void upload(std::span<const T> content) const {
-    if (!content.empty()) queue_->upload(data_, content.data(), content.size_bytes());
+  void upload(std::span<const T> content, ThreadPool* pool = nullptr) const {
+    if (!content.empty()) queue_->upload(data_, content.data(), content.size_bytes(), pool);
   }
-  void download(std::span<T> content) const {
-    if (!content.empty()) queue_->download(content.data(), data_, content.size_bytes());
+  void download(std::span<T> content, ThreadPool* pool = nullptr) const {
+    if (!content.empty()) queue_->download(content.data(), data_, content.size_bytes(), pool);
   }
   void clear() const {
     if (size_ > 0) queue_->clear(data_, size_ * sizeof(T));

@@ -1,6 +1,7 @@
 // The calls of the CUDA runtime that gpu makes, in place of the runtime's own. One that gpu makes and that is not here links the runtime,
 // which then defines them all twice: the linker says so.
 
+#include <algorithm>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -28,6 +29,14 @@ cudaError_t give_back(Machine& machine, Map& live, Handle handle, const char* ca
   return cudaErrorInvalidResourceHandle;
 }
 
+/// Has a device yet to read or write this piece of memory of the host? Null: no piece.
+bool is_waited_for(const Machine& machine, const void* pinned) {
+  if (pinned == nullptr) return false;
+  for (const auto& [handle, stream] : machine.streams)
+    if (std::ranges::any_of(stream->waiting, [&](const Step& step) { return step.pinned == pinned; })) return true;
+  return false;
+}
+
 /// A copy between a device's memory and the host's, which is read or written when the step is done.
 cudaError_t copy_later(Machine& machine, void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind, cudaStream_t handle) {
   const auto stream = machine.find(handle, "cudaMemcpyAsync");
@@ -37,7 +46,7 @@ cudaError_t copy_later(Machine& machine, void* to, const void* from, std::size_t
   if (!machine.require_device_memory(up ? to : from, bytes, stream->device, "a copy")) return cudaErrorInvalidValue;
   const void* const pinned = machine.pinned_with(up ? from : to, bytes);
   if (pinned == nullptr) {
-    if (stream->capture != nullptr) {
+    if (stream->kept_in() != nullptr) {
       machine.breach("a copy of ordinary memory in a capture");
       return cudaErrorStreamCaptureUnsupported;
     }
@@ -51,17 +60,53 @@ cudaError_t copy_later(Machine& machine, void* to, const void* from, std::size_t
                           },
                           pinned});
   } else {
-    if (stream->capture == nullptr) std::memset(to, 0xcd, bytes);  // whoever reads it too early shall see it
+    if (stream->kept_in() == nullptr && !is_waited_for(machine, pinned))
+      std::memset(to, 0xcd, bytes);  // whoever reads it too early shall see it
     machine.ask(*stream, {[to, from, bytes] { std::memcpy(to, from, bytes); }, pinned});
   }
   return cudaSuccess;
 }
 
+/// Was the event recorded in a capture that goes on?
+bool is_kept(const Machine& machine, const CUevent_st& event) {
+  return event.kept_in != nullptr &&
+         std::ranges::any_of(machine.streams, [&](const auto& stream) { return stream.second->capture.get() == event.kept_in; });
+}
+
+/// A stream that waits for one that is captured is captured with it; if it was captured before, the other is joined to it.
+cudaError_t wait_in_capture(Machine& machine, const std::shared_ptr<CUstream_st>& stream, const CUevent_st& event) {
+  if (!is_kept(machine, event)) {
+    machine.breach("a capture waits for what is not captured");
+    return cudaErrorStreamCaptureIsolation;
+  }
+  if (stream->kept_in() == nullptr) {
+    if (!stream->waiting.empty()) machine.breach("a stream joins a capture while it has work to do");
+    stream->forked_from = event.stream->forked_from != nullptr ? event.stream->forked_from : event.stream;
+    stream->joined = false;
+  } else if (stream->kept_in() != event.kept_in) {
+    machine.breach("a capture waits for another one");
+    return cudaErrorStreamCaptureMerge;
+  } else if (event.stream->forked_from == stream) {
+    event.stream->joined = event.after_kept == event.stream->kept;
+  }
+  return cudaSuccess;
+}
+
+/// The streams captured with `origin` are by themselves again. Was what they did waited for?
+bool join_all(Machine& machine, const std::shared_ptr<CUstream_st>& origin) {
+  bool all = true;
+  for (const auto& [handle, stream] : machine.streams)
+    if (stream->forked_from == origin) {
+      all = all && stream->joined;
+      stream->forked_from.reset();
+    }
+  return all;
+}
+
 cudaError_t free_on_host(Machine& machine, void* memory) {
   if (machine.forbidden_in_capture("cudaFreeHost")) return cudaErrorStreamCaptureUnsupported;
-  for (const auto& [handle, stream] : machine.streams)
-    for (const Step& step : stream->waiting)
-      if (step.pinned == memory && machine.lost == cudaSuccess) machine.breach("cudaFreeHost of memory that a device has yet to write");
+  if (machine.lost == cudaSuccess && is_waited_for(machine, memory))
+    machine.breach("cudaFreeHost of memory that a device has yet to write");
   return give_back(machine, machine.pinned, static_cast<const std::byte*>(memory), "cudaFreeHost", "piece of memory");
 }
 
@@ -110,6 +155,7 @@ cudaError_t cudaSetDevice(int device) {
     if (thread.device != device && machine.forbidden_in_capture("cudaSetDevice")) return cudaErrorStreamCaptureUnsupported;
     if (const int refused = device_of(machine, device).refuses; refused != 0) return static_cast<cudaError_t>(refused);
     thread.device = device;
+    machine.used.insert(device);
     return cudaSuccess;
   });
 }
@@ -242,10 +288,11 @@ cudaError_t cudaMemsetAsync(void* memory, int value, std::size_t bytes, cudaStre
 
 // Streams and events.
 
-cudaError_t cudaStreamCreateWithPriority(cudaStream_t* stream, unsigned flags, int /*priority*/) {
+cudaError_t cudaStreamCreateWithPriority(cudaStream_t* stream, unsigned flags, int priority) {
   return call("cudaStreamCreateWithPriority", [&](Machine& machine) {
+    if (machine.forbidden_in_capture("cudaStreamCreateWithPriority")) return cudaErrorStreamCaptureUnsupported;
     if (flags != cudaStreamNonBlocking) machine.breach("a stream that waits for the default one");
-    const auto made = std::make_shared<CUstream_st>(CUstream_st{.device = this_thread().device});
+    const auto made = std::make_shared<CUstream_st>(CUstream_st{.device = this_thread().device, .priority = priority});
     machine.streams[made.get()] = made;
     *stream = made.get();
     return cudaSuccess;
@@ -262,7 +309,7 @@ cudaError_t cudaDeviceGetStreamPriorityRange(int* least, int* greatest) {
 cudaError_t cudaStreamDestroy(cudaStream_t stream) {
   return giving_back("cudaStreamDestroy", [&](Machine& machine) {
     if (const auto found = machine.streams.find(stream); found != machine.streams.end()) {
-      if (found->second->capture != nullptr) machine.breach("cudaStreamDestroy in a capture");
+      if (found->second->kept_in() != nullptr) machine.breach("cudaStreamDestroy in a capture");
       machine.run(*found->second);  // what was asked for is done all the same
     }
     return give_back(machine, machine.streams, stream, "cudaStreamDestroy", "stream");
@@ -284,10 +331,7 @@ cudaError_t cudaStreamWaitEvent(cudaStream_t handle, cudaEvent_t event, unsigned
     const auto found = machine.events.find(event);
     if (found == machine.events.end()) machine.breach("cudaStreamWaitEvent for an event that does not exist");
     if (stream == nullptr || found == machine.events.end()) return cudaErrorInvalidResourceHandle;
-    if (stream->capture != nullptr) {
-      machine.breach("a capture waits for what is not captured");
-      return cudaErrorStreamCaptureIsolation;
-    }
+    if (stream->kept_in() != nullptr || is_kept(machine, *found->second)) return wait_in_capture(machine, stream, *found->second);
     if (const auto other = found->second->stream; other != nullptr)
       machine.ask(*stream, {[&machine, other, after = found->second->after] { machine.run(*other, after); }});
     return cudaSuccess;
@@ -308,10 +352,23 @@ cudaError_t cudaEventRecord(cudaEvent_t event, cudaStream_t handle) {
     if (found == machine.events.end()) machine.breach("cudaEventRecord of an event that does not exist");
     if (stream == nullptr || found == machine.events.end()) return cudaErrorInvalidResourceHandle;
     if (found->second->device != stream->device) machine.breach("cudaEventRecord of an event of another device");
-    if (stream->capture != nullptr) machine.breach("cudaEventRecord in a capture");
     found->second->stream = stream;
+    found->second->after_kept = stream->kept;
+    found->second->kept_in = stream->kept_in();
     found->second->after = stream->asked;
     return cudaSuccess;
+  });
+}
+cudaError_t cudaEventSynchronize(cudaEvent_t event) {
+  return giving_back("cudaEventSynchronize", [&](Machine& machine) {
+    if (machine.forbidden_in_capture("cudaEventSynchronize")) return cudaErrorStreamCaptureUnsupported;
+    const auto found = machine.events.find(event);
+    if (found == machine.events.end()) {
+      machine.breach("cudaEventSynchronize with an event that does not exist");
+      return cudaErrorInvalidResourceHandle;
+    }
+    if (const auto stream = found->second->stream; stream != nullptr) machine.run(*stream, found->second->after);
+    return machine.lost;
   });
 }
 cudaError_t cudaEventDestroy(cudaEvent_t event) {
@@ -324,7 +381,7 @@ cudaError_t cudaEventDestroy(cudaEvent_t event) {
 cudaError_t cudaStreamBeginCapture(cudaStream_t handle, cudaStreamCaptureMode mode) {
   return call("cudaStreamBeginCapture", [&](Machine& machine) {
     const auto stream = handle == nullptr ? nullptr : machine.find(handle, "cudaStreamBeginCapture");
-    if (stream == nullptr || stream->capture != nullptr) {
+    if (stream == nullptr || stream->kept_in() != nullptr) {
       machine.breach("cudaStreamBeginCapture of a stream that cannot be captured");
       return cudaErrorIllegalState;
     }
@@ -346,7 +403,9 @@ cudaError_t cudaStreamEndCapture(cudaStream_t handle, cudaGraph_t* graph) {
       return cudaErrorIllegalState;
     }
     --this_thread().captures;
+    const bool all_joined = join_all(machine, stream);
     auto made = std::move(stream->capture);
+    if (!all_joined && !stream->invalid && machine.lost == cudaSuccess) return cudaErrorStreamCaptureUnjoined;
     if (stream->invalid || machine.lost != cudaSuccess) return cudaErrorStreamCaptureInvalidated;
     fails = false;
     *graph = made.get();

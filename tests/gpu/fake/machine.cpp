@@ -38,7 +38,7 @@ void Machine::set_up(Equipment wanted) {
   ++setups_;
   for (const auto& [handle, stream] : streams) stream->waiting.clear();
   memory.clear(), pinned.clear(), streams.clear(), default_streams.clear(), events.clear(), graphs.clear(), executables.clear();
-  resources.clear(), called.clear(), broken.clear(), global_.clear(), loaded_.clear();
+  resources.clear(), called.clear(), broken.clear(), used.clear(), global_.clear(), loaded_.clear();
   arena.clear();
   fail_call = 0;
   failed = false;
@@ -97,8 +97,10 @@ std::shared_ptr<CUstream_st> Machine::find(cudaStream_t stream, const char* call
 }
 
 void Machine::ask(CUstream_st& stream, Step step) {
-  if (stream.capture != nullptr) {
-    stream.capture->steps.push_back(std::move(step));
+  if (CUgraph_st* const kept_in = stream.kept_in()) {
+    kept_in->steps.push_back(std::move(step));
+    ++stream.kept;
+    stream.joined = false;
   } else {
     stream.waiting.push_back(std::move(step));
     ++stream.asked;
@@ -146,7 +148,7 @@ cudaError_t Machine::launch(const void* function, dim3 grid, dim3 block, void** 
     return cudaErrorInvalidConfiguration;
   }
   // To load a kernel may wait for all of the device, which a capture forbids.
-  if (loaded_.insert({device, entry.name}).second && stream->capture != nullptr)
+  if (loaded_.insert({device, entry.name}).second && stream->kept_in() != nullptr)
     breach(fmt::format("{} is launched for the first time in a capture", entry.name));
   ++totals.launches;
   std::vector<std::byte> parameters(entry.parameter_bytes);
@@ -212,6 +214,14 @@ bool has_failed() { return Machine::get().failed; }
 std::vector<std::string> calls() { return Machine::get().called; }
 std::vector<std::string> breaches() { return Machine::get().broken; }
 Totals totals() { return Machine::get().totals; }
+
+std::vector<int> priorities() {
+  std::vector<int> found;
+  for (const auto& [handle, stream] : Machine::get().streams) found.push_back(stream->priority);
+  std::ranges::sort(found);
+  return found;
+}
+std::set<int> devices_used() { return Machine::get().used; }
 
 std::vector<std::string> leaks() {
   const Machine& machine = Machine::get();

@@ -35,14 +35,23 @@ struct CUstream_st {
   int device = 0;
   std::deque<Step> waiting{};
   std::size_t asked = 0, done = 0;  // steps
+  int priority = 0;
   std::unique_ptr<CUgraph_st> capture{};
   std::thread::id capturing{};
-  bool invalid = false;  // the capture
+  bool invalid = false;                        // the capture
+  std::shared_ptr<CUstream_st> forked_from{};  // the stream whose capture has this one's work, too; null: none
+  std::size_t kept = 0;                        // steps of it in captures
+  bool joined = false;                         // does that one wait for all of it?
+
+  /// What its work is kept in; null: it is done.
+  [[nodiscard]] CUgraph_st* kept_in() const { return forked_from != nullptr ? forked_from->capture.get() : capture.get(); }
 };
 struct CUevent_st {
   int device = 0;
   std::shared_ptr<CUstream_st> stream{};  // that it was recorded in; null: in none
   std::size_t after = 0;                  // steps of it
+  std::size_t after_kept = 0;
+  const CUgraph_st* kept_in = nullptr;  // the capture that the stream was in
 };
 struct cudaGraphicsResource {
   int device = 0;
@@ -119,6 +128,7 @@ class Machine {
   Arena arena;
 
   std::vector<std::string> called, broken;
+  std::set<int> used;         // devices that have a context
   std::size_t fail_call = 0;  // 0: none
   int fail_code = 0;
   bool failed = false;

@@ -101,14 +101,91 @@ TEST_F(FakeQueue, APictureIsASnapshotAndItsMemoryIsUsedAgain) {
   EXPECT_GT(count_of("cudaStreamWaitEvent"), 0U) << "it was read by another stream";
 }
 
+/// Longer than a piece of the memory in between, and no multiple of it.
+TEST_F(FakeQueue, LongCopiesComeThroughWhole) {
+  ThreadPool pool(3);
+  for (const std::size_t size : {std::size_t{262144}, std::size_t{1048576}, std::size_t{3000001}}) {
+    SCOPED_TRACE(size);
+    const auto queue = make_cuda_queue(0);
+    std::vector<std::uint32_t> sent(size), found(size);
+    for (std::size_t i = 0; i < size; ++i) sent[i] = static_cast<std::uint32_t>(i * 2654435761U);
+    const std::vector<std::uint32_t> copy = sent;
+    Buffer<std::uint32_t> memory(queue, size);
+    for (ThreadPool* threads : {static_cast<ThreadPool*>(nullptr), &pool}) {
+      memory.clear();
+      memory.upload(sent, threads);
+      std::ranges::fill(sent, 0U);  // on return it may be changed
+      memory.download(found, threads);
+      EXPECT_TRUE(found == copy);
+      sent = copy;
+    }
+  }
+}
+
+TEST_F(FakeQueue, AFailureInALongCopyIsSaidAndNextTimeItComesThrough) {
+  constexpr std::size_t kSize = 3000000;
+  std::vector<std::uint32_t> sent(kSize, 5U), found(kSize);
+  const auto both_ways = [&](Queue& queue, void* memory) {
+    queue.upload(memory, sent.data(), kSize * 4, nullptr);
+    queue.download(found.data(), memory, kSize * 4, nullptr);
+  };
+  bool failed = true;
+  for (std::size_t n = 1; failed; ++n) {
+    SCOPED_TRACE(n);
+    set_up({});
+    const auto queue = make_cuda_queue(0);
+    void* const memory = queue->allocate(kSize * 4);
+    fail_at(n, kOperatingSystem);
+    try {
+      both_ways(*queue, memory);
+    } catch (const DeviceError& error) {
+      EXPECT_THAT(error.what(), ::testing::HasSubstr("OS call failed"));
+    }
+    failed = has_failed();
+    fail_at(0, 0);
+    std::ranges::fill(found, 0U);
+    both_ways(*queue, memory);
+    EXPECT_TRUE(found == sent);
+    queue->release(memory);
+    ASSERT_THAT(breaches(), ::testing::IsEmpty());
+  }
+}
+
+/// Fans and other stars of a class are visited side by side, in the recording as without one.
+TEST_F(FakeQueue, WhatDoesNotDependOnEachOtherIsAskedOfTwoStreams) {
+  const auto waits_in = [](Cells cells, bool whole) {
+    const Subject subject = subject_of(lattice(18, 0.35, 95, cells));
+    const auto smoother =
+        make_device_dmo(make_cuda_queue(0), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+    std::vector<Vec3> positions = subject.input->mesh.positions;
+    const std::size_t before = count_of("cudaStreamWaitEvent");
+    smoother->visit(0, whole ? subject.visits() : subject.visits() - 1, positions, nullptr);
+    return count_of("cudaStreamWaitEvent") - before;
+  };
+  for (const bool whole : {true, false}) EXPECT_GT(waits_in(Cells::Mixed, whole), 0U) << whole;
+}
+
+/// A picture does not wait for the blocks of a smoothing kernel that have yet to begin.
+TEST_F(FakeQueue, OnlyWhatReadsPicturesIsUrgent) {
+  const Subject subject = subject_of(lattice(8, 0.35, 97));
+  const Acceleration acceleration = make_accelerator();
+  ASSERT_NE(acceleration.accelerator, nullptr) << acceleration.reason;
+  const auto smoother =
+      acceleration.accelerator->make_dmo(subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+  const std::vector<int> all = priorities();  // of the accelerator, the run and its side, and who reads
+  ASSERT_EQ(all.size(), 4U);
+  EXPECT_LT(all[0], all[1]) << "the lower is the more urgent";
+  EXPECT_EQ(all[1], all[3]);
+}
+
 /// Work of two queues is done in any order, but for what stands before a mark.
 TEST_F(FakeQueue, AMarkIsWaitedFor) {
-  const auto maker = make_cuda_queue(0), reader = maker->sibling();
+  const auto maker = make_cuda_queue(0), reader = maker->sibling(Urgency::First);
   Buffer<std::uint32_t> memory(maker, 4);
   memory.upload(std::vector<std::uint32_t>{1, 2, 3, 4});
   const auto seen_by_reader = [&] {
     std::vector<std::uint32_t> seen(4);
-    reader->download(seen.data(), memory.data(), 16);
+    reader->download(seen.data(), memory.data(), 16, nullptr);
     return seen;
   };
   maker->clear(memory.data(), 16);

@@ -1,6 +1,7 @@
 // The stand-ins see when a rule of the runtime is broken: each of these breaks one, and they say which.
 
 #include <cstring>
+#include <thread>
 
 #include <cuda_runtime_api.h>
 
@@ -84,6 +85,71 @@ TEST_F(FakeRules, OrdinaryMemoryInACapture) {
   begin_capture();
   EXPECT_NE(cudaMemcpyAsync(host, memory, 64, cudaMemcpyDeviceToHost, stream), cudaSuccess);
   expect_told("a copy of ordinary memory in a capture");
+}
+
+/// A stream that waits for one that is captured is captured with it, until that one waits for it.
+class FakeForks : public FakeRules {
+ protected:
+  void SetUp() override {
+    FakeRules::SetUp();
+    ASSERT_EQ(cudaStreamCreateWithFlags(&side, cudaStreamNonBlocking), cudaSuccess);
+    for (cudaEvent_t* event : {&forked, &joined}) ASSERT_EQ(cudaEventCreateWithFlags(event, cudaEventDisableTiming), cudaSuccess);
+    begin_capture();
+    EXPECT_EQ(cudaEventRecord(forked, stream), cudaSuccess);
+    EXPECT_EQ(cudaStreamWaitEvent(side, forked, 0), cudaSuccess);
+    work();
+  }
+  void work() { EXPECT_EQ(cudaMemsetAsync(memory, 7, 64, side), cudaSuccess); }
+  void join() {
+    EXPECT_EQ(cudaEventRecord(joined, side), cudaSuccess);
+    EXPECT_EQ(cudaStreamWaitEvent(stream, joined, 0), cudaSuccess);
+  }
+  cudaError_t end() { return cudaStreamEndCapture(stream, &graph); }
+  std::byte first_byte() {
+    EXPECT_EQ(cudaStreamSynchronize(side), cudaSuccess);
+    EXPECT_EQ(cudaStreamSynchronize(stream), cudaSuccess);
+    EXPECT_EQ(cudaMemcpyAsync(host, memory, 64, cudaMemcpyDeviceToHost, stream), cudaSuccess);
+    EXPECT_EQ(cudaStreamSynchronize(stream), cudaSuccess);
+    return host[0];
+  }
+  cudaStream_t side = nullptr;
+  cudaEvent_t forked = nullptr, joined = nullptr;
+  cudaGraph_t graph = nullptr;
+};
+
+TEST_F(FakeForks, AreKeptWithTheCapture) {
+  join();
+  ASSERT_EQ(end(), cudaSuccess);
+  EXPECT_NE(first_byte(), std::byte{7}) << "it is kept, not done";
+  cudaGraphExec_t executable = nullptr;
+  ASSERT_EQ(cudaGraphInstantiate(&executable, graph, 0), cudaSuccess);
+  EXPECT_EQ(cudaGraphLaunch(executable, stream), cudaSuccess);
+  EXPECT_EQ(first_byte(), std::byte{7});
+  EXPECT_THAT(breaches(), ::testing::IsEmpty());
+}
+TEST_F(FakeForks, ThatNobodyWaitsForVoidTheCapture) {
+  EXPECT_EQ(end(), cudaErrorStreamCaptureUnjoined);
+  EXPECT_EQ(graph, nullptr);
+  work();
+  EXPECT_EQ(first_byte(), std::byte{7}) << "the stream is by itself again";
+}
+TEST_F(FakeForks, WithWorkAfterTheirMarkVoidTheCapture) {
+  EXPECT_EQ(cudaEventRecord(joined, side), cudaSuccess);
+  work();
+  EXPECT_EQ(cudaStreamWaitEvent(stream, joined, 0), cudaSuccess);
+  EXPECT_EQ(end(), cudaErrorStreamCaptureUnjoined);
+}
+TEST_F(FakeForks, ACaptureWaitsForWhatIsNotCaptured) {
+  join();
+  cudaStream_t third = nullptr;
+  ASSERT_EQ(cudaEventDestroy(forked), cudaSuccess);
+  std::thread([&] {
+    EXPECT_EQ(cudaStreamCreateWithFlags(&third, cudaStreamNonBlocking), cudaSuccess);
+    EXPECT_EQ(cudaEventCreateWithFlags(&forked, cudaEventDisableTiming), cudaSuccess);
+    EXPECT_EQ(cudaEventRecord(forked, third), cudaSuccess);
+  }).join();
+  EXPECT_EQ(cudaStreamWaitEvent(stream, forked, 0), cudaErrorStreamCaptureIsolation);
+  expect_told("a capture waits for what is not captured");
 }
 
 TEST_F(FakeRules, WhatIsReadTooEarlyIsNotThere) {

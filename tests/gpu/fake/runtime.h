@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -70,6 +71,10 @@ void fail_at(std::size_t call, int code);
 [[nodiscard]] std::vector<std::string> breaches();
 /// What was made and not given back since set_up().
 [[nodiscard]] std::vector<std::string> leaks();
+/// Of the streams that there are, ascending: the most urgent first.
+[[nodiscard]] std::vector<int> priorities();
+/// The devices that were made a thread's own since set_up(): each has taken memory and time for it.
+[[nodiscard]] std::set<int> devices_used();
 /// All that any test program of this process called so far, and how often something failed on demand.
 struct Totals {
   std::size_t calls = 0, failures = 0, launches = 0;

@@ -109,11 +109,11 @@ class PtxQueue final : public Queue, public std::enable_shared_from_this<PtxQueu
     counters().bytes_allocated -= global_.remove(memory);
     ::operator delete(memory, kAlignment);
   }
-  void upload(void* to, const void* from, std::size_t bytes) override {
+  void upload(void* to, const void* from, std::size_t bytes, ThreadPool* /*pool*/) override {
     check(to, bytes);
     std::memcpy(to, from, bytes);
   }
-  void download(void* to, const void* from, std::size_t bytes) override {
+  void download(void* to, const void* from, std::size_t bytes, ThreadPool* /*pool*/) override {
     check(from, bytes);
     std::memcpy(to, from, bytes);
   }
@@ -136,7 +136,7 @@ class PtxQueue final : public Queue, public std::enable_shared_from_this<PtxQueu
     for (const auto& step : static_cast<Recorded&>(recording).steps) step();
   }
 
-  std::shared_ptr<Queue> sibling() const override { return std::const_pointer_cast<PtxQueue>(shared_from_this()); }
+  std::shared_ptr<Queue> sibling(Urgency /*urgency*/) const override { return std::const_pointer_cast<PtxQueue>(shared_from_this()); }
   std::unique_ptr<Mark> mark() override { return std::make_unique<Mark>(); }
   void wait_for(const Mark& /*mark*/) override {}
   std::unique_ptr<DeviceTarget> make_target(std::uint32_t /*point_buffer*/, std::uint32_t /*shade_buffer*/) override {

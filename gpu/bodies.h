@@ -59,10 +59,10 @@ struct Visit {
   template <class Team>
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& team) {
     const auto rank = static_cast<Index>(task.first + i);
-    if (!is_set(task.awake + rank)) return;
     const StarShape shape = task.shapes[rank];
     if constexpr (S != Stars::All)
-      if (in_registers<M>(shape, task.parameters) != (S == Stars::Fans)) return;
+      if (in_registers<M>(shape, task.parameters) != (S == Stars::Fans)) return;  // its flag may be written at this moment
+    if (!is_set(task.awake + rank)) return;
     using Search = FastVisit<M, Team, S, Task>;
     typename Search::Outcome outcome;
     const bool in_lanes = S == Stars::Fans || shape.kind != StarShape::Kind::Alone;

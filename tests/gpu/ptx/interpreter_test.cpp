@@ -74,6 +74,43 @@ TEST(PtxInterpreter, ABarrierWantsAll) {
               ThrowsMessage<Fault>(HasSubstr("wait for each other")));
 }
 
+/// What lanes do with the words of `out` beside their own.
+class PtxRaces : public ::testing::Test {
+ protected:
+  void run(const std::string& body) {
+    for (const bool backwards : {false, true}) {
+      races.forget();
+      Words out{};
+      run_probe(kOwnWord + body, counted(), out, {.backwards = backwards, .races = &races});
+    }
+  }
+  void expect_race(const std::string& body, const std::string& what) {
+    SCOPED_TRACE(body);
+    EXPECT_THAT([&] { run(body); }, ThrowsMessage<Fault>(HasSubstr("race: ")));
+    EXPECT_THAT([&] { run(body); }, ThrowsMessage<Fault>(HasSubstr(what)));
+  }
+  Races races;
+};
+
+TEST_F(PtxRaces, AreSeen) {
+  expect_race("st.global.u32 [%out], %v;", "to something else");
+  expect_race("st.global.u32 [%mine], %v; ld.global.u32 %w, [%out+12];", "another");
+  expect_race("ld.global.u32 %w, [%out+12]; st.global.u32 [%mine], %w;", "another");
+  expect_race("atom.global.add.u32 %old, [%out+12], 1; ld.global.u32 %w, [%out+12];", "counted up");
+  expect_race("atom.global.add.u32 %old, [%out+12], 1; st.global.u32 [%mine], %v;", "another");
+  expect_race("mov.u64 %wide, %at; st.global.u64 [%out+8], %wide;", "to something else");
+}
+TEST_F(PtxRaces, AreNoneWhereTheOrderDoesNotMatter) {
+  EXPECT_NO_THROW(run("st.global.u32 [%mine], %v; ld.global.u32 %w, [%mine]; st.global.u32 [%mine], %w;"));
+  EXPECT_NO_THROW(run("mov.u32 %one, 1; st.global.u32 [%out+12], %one;")) << "a flag";
+  EXPECT_NO_THROW(run("atom.global.add.u32 %old, [%out+12], 1;"));
+  EXPECT_NO_THROW(run("ld.global.u32 %w, [%in+12]; add.s32 %w, %w, %v; st.global.u32 [%mine], %w;"));
+  EXPECT_NO_THROW(
+      run("and.b32 %low, %tid, 3; mul.wide.u32 %byte, %tid, 1; add.s64 %to, %out, %byte; cvt.u16.u32 %s, %low;\n"
+          "st.global.u8 [%to], %s;"))
+      << "bytes side by side";
+}
+
 /// As CUDA documents __shfl_xor_sync: a later group of lanes may read an earlier one's values, not the other way round.
 TEST(PtxInterpreter, BeyondItsSegmentALaneKeepsItsValue) {
   const Words out = run_words(

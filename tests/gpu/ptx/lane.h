@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/gpu/ptx/memory.h"
+#include "tests/gpu/ptx/races.h"
 
 namespace dmoscope::gpu::ptx {
 
@@ -43,6 +44,7 @@ struct Entry {
   std::vector<std::size_t> parameter_sizes;
   std::size_t parameter_bytes = 0, local_bytes = 0, shared_bytes = 0;
   std::size_t most_threads = 1024;  // of a block
+  std::size_t team = 1;             // lanes that work together
 };
 /// Where a block's shared memory begins; below it nothing is.
 inline constexpr std::uintptr_t kSharedBase = 256;
@@ -53,8 +55,14 @@ class Lane {
   enum class State { Running, AtButterfly, AtIndexedShuffle, AtActiveMask, AtBarrier, Done };
 
   /// At the beginning of a kernel. `parameters`: as the entry lays them out. `shared`: the block's memory, as large as the entry says.
+  /// See also watch_for_races().
   void start(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::span<std::byte> shared,
              std::uint32_t block, std::uint32_t thread);
+  /// Null: nobody watches.
+  void watch_for_races(Races* races, Agent agent) noexcept {
+    races_ = races;
+    agent_ = agent;
+  }
   /// Until it is done or waits for others.
   void run();
 
@@ -99,8 +107,28 @@ class Lane {
   enum class Space { Global, Local, Shared, Parameter, Generic };
   /// Throws Fault where the lane has nothing there, or the address is not a multiple of `aligned`.
   [[nodiscard]] std::byte* memory(Space space, std::uintptr_t address, std::size_t size, std::size_t aligned) const;
+  /// What the lane does with such memory. Throws Fault where another lane of the launch is in the way.
+  template <class T>
+  void reads(std::uintptr_t address) const {
+    if (is_watched(address))
+      for (std::size_t at = 0; at < sizeof(T); at += kWord) races_->read(address + at, agent_);
+  }
+  template <class T>
+  void writes(std::uintptr_t address, T value) const {
+    if (is_watched(address))
+      for (std::size_t at = 0; at < sizeof(T); at += kWord) races_->write(address + at, agent_, std::uint64_t{value} >> (8 * at));
+  }
+  void counts_up(std::uintptr_t address) const {
+    if (is_watched(address)) races_->count_up(address, agent_);
+  }
 
  private:
+  static constexpr std::size_t kWord = 4;
+  /// Its own memory is nobody else's, and parameters are not written.
+  [[nodiscard]] bool is_watched(std::uintptr_t address) const {
+    return races_ != nullptr && !local_.holds(address, 1) && global_->holds(address, 1);
+  }
+
   const Entry* entry_ = nullptr;
   const GlobalMemory* global_ = nullptr;
   std::vector<std::uint64_t> slots_;
@@ -110,6 +138,8 @@ class Lane {
   std::size_t at_ = 0;
   std::uint64_t jumps_left_ = 0;
   State state_ = State::Done;
+  Races* races_ = nullptr;
+  Agent agent_ = 0;
 };
 
 }  // namespace dmoscope::gpu::ptx

@@ -305,6 +305,7 @@ void load(Lane& lane, const Instruction& i) {
   const U64 address = lane.get<U64>(i.slots[1]) + static_cast<U64>(i.offset);
   T value;
   std::memcpy(&value, lane.memory(S, address, sizeof(T), i.aligned), sizeof(T));
+  if constexpr (S == Space::Global || S == Space::Generic) lane.reads<T>(address);
   lane.put(i.slots[0], value);
 }
 template <class T, Space S>
@@ -312,11 +313,13 @@ void store(Lane& lane, const Instruction& i) {
   const U64 address = lane.get<U64>(i.slots[0]) + static_cast<U64>(i.offset);
   const T value = lane.get<T>(i.slots[1]);
   std::memcpy(lane.memory(S, address, sizeof(T), i.aligned), &value, sizeof(T));
+  if constexpr (S == Space::Global || S == Space::Generic) lane.writes<T>(address, value);
 }
 template <Space S>
 void add_atomically(Lane& lane, const Instruction& i) {
   const U64 address = lane.get<U64>(i.slots[1]) + static_cast<U64>(i.offset);
   std::byte* const memory = lane.memory(S, address, sizeof(U32), i.aligned);
+  if constexpr (S == Space::Global) lane.counts_up(address);
   U32 value = 0;
   std::memcpy(&value, memory, sizeof value);
   const U32 sum = value + lane.get<U32>(i.slots[2]);

@@ -37,6 +37,7 @@ void run_probe(const std::string& body, const std::array<In, N>& in, std::array<
   Warp warp;
   std::vector<std::byte> shared(entry.shared_bytes);
   warp.start(entry, global, parameters, shared, 0, 0);
+  warp.watch_for_races(schedule.races, schedule.races != nullptr ? schedule.races->first_agent() : 0);
   while (!warp.run(schedule)) warp.pass_barrier();
 }
 

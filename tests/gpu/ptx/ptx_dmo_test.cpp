@@ -71,13 +71,23 @@ TEST_P(PtxDmo, SameBitsAlone) {
   for (Specimen& specimen : specimens()) expect_same(singles({.together = true, .backwards = true}), std::move(specimen), 2);
 }
 
+/// What the bits of one order of the lanes cannot show: that no other order gives others.
+TEST_P(PtxDmo, NoLaneMinglesInAnothersWork) {
+  Races races;
+  const auto queues = {teams({.races = &races}), singles({.races = &races})};
+  for (const std::shared_ptr<Queue>& queue : queues) {
+    expect_same(queue, {"mixed", lattice(18, 0.5, 95, Cells::Mixed)}, 2);
+    expect_same(queue, {"tangled", lattice(8, 0.9, 46)}, 2);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Metrics, PtxDmo, every_metric(), name_of_metric);
 
 /// Volumes, always in teams.
 class PtxVolumeDmo : public PtxTest {
  protected:
-  void expect_same(const SearchParameters& parameters, Schedule schedule) {
-    for (const VolumeSample& sample : volume_samples(64)) {
+  void expect_same(const SearchParameters& parameters, Schedule schedule, std::size_t size = 64) {
+    for (const VolumeSample& sample : volume_samples(size)) {
       if (!defined_for_all(GetParam(), sample.input->mesh)) continue;
       SCOPED_TRACE(sample.name);
       expect_same_visits(teams(schedule), Subject(sample.input), GetParam(), parameters, 2);
@@ -88,6 +98,11 @@ class PtxVolumeDmo : public PtxTest {
 TEST_P(PtxVolumeDmo, SameBitsInFloat) { expect_same({}, {}); }
 TEST_P(PtxVolumeDmo, SameBitsInDouble) {
   expect_same({.grid_points = 6, .precision = Precision::Double}, {.together = true, .backwards = true});
+}
+
+TEST_P(PtxVolumeDmo, NoTeamMinglesInAnothersWork) {
+  Races races;
+  expect_same({}, {.races = &races}, 32);
 }
 
 INSTANTIATE_TEST_SUITE_P(Metrics, PtxVolumeDmo, every_volume_metric(), name_of_metric);

@@ -151,6 +151,15 @@ class PtxQueue final : public Queue, public std::enable_shared_from_this<PtxQueu
   void start_recording() override { recording_ = std::make_unique<Recorded>(); }
   std::unique_ptr<Recording> stop_recording() override { return std::move(recording_); }
   void drop_recording() noexcept override { recording_.reset(); }
+  void begin_side() override {
+    enqueue([this] {
+      if (device_.schedule.races != nullptr) device_.schedule.races->forget();
+      at_once_ = true;
+    });
+  }
+  void join_side() override {
+    enqueue([this] { at_once_ = false; });
+  }
 
   void check(const void* memory, std::size_t bytes) const {
     if (!global_.holds(reinterpret_cast<std::uintptr_t>(memory), bytes)) throw DeviceError("a copy beyond what was allocated");
@@ -170,6 +179,7 @@ class PtxQueue final : public Queue, public std::enable_shared_from_this<PtxQueu
       std::memcpy(parameters.data() + sizeof(Task), &count, sizeof(std::uint64_t));
       const Kernels::Name name = Kernels::name_of(work, metric);
       const std::size_t lanes = (count + name.each - 1) / name.each * name.team;
+      if (device_.schedule.races != nullptr && !at_once_) device_.schedule.races->forget();
       run_blocks(entry, global_, parameters, (lanes + kBlockSize - 1) / kBlockSize, device_.schedule);
     } catch (const Fault& fault) {
       throw DeviceError(fault.what());
@@ -180,6 +190,7 @@ class PtxQueue final : public Queue, public std::enable_shared_from_this<PtxQueu
   PtxDevice device_;
   GlobalMemory global_;
   std::unique_ptr<Recorded> recording_;
+  bool at_once_ = false;  // are launches done at once?
 };
 
 }  // namespace

@@ -43,7 +43,7 @@ class Kernels {
 
 struct PtxDevice {
   std::size_t lanes_at_once = 4096;
-  Schedule schedule;
+  Schedule schedule{};  // with races: they forget what a launch did when it is done, or all that were asked for at once
 };
 /// Faults become DeviceErrors.
 [[nodiscard]] std::shared_ptr<Queue> make_ptx_queue(std::shared_ptr<Kernels> kernels, const PtxDevice& device = {});

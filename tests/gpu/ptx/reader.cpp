@@ -81,6 +81,7 @@ class Decoder {
  public:
   explicit Decoder(const EntryText& source) {
     entry_.name = source.name;
+    entry_.team = entry_.name.find("CudaTeam") != std::string::npos ? 8 : 1;  // see gpu/cuda_team.cuh
     slots_ = {{"%tid.x", kThread}, {"%ctaid.x", kBlock}};
     entry_.initial.assign(kFirstParameter, kPoison);
     std::string_view text = source.text;

@@ -37,12 +37,15 @@ void run_blocks(const Entry& entry, const GlobalMemory& global, const std::vecto
     throw Fault(fmt::format("{} takes {} bytes of parameters, not {}", entry.name, entry.parameter_bytes, parameters.size()));
   std::vector<Warp> warps((threads + Warp::kSize - 1) / Warp::kSize);
   std::vector<std::byte> shared(entry.shared_bytes);
+  const Agent first_agent = schedule.races != nullptr ? schedule.races->first_agent() : 0;
   for (std::size_t k = 0; k < blocks; ++k) {
     const std::size_t block = schedule.backwards ? blocks - 1 - k : k;
     std::ranges::fill(shared, std::byte{0xcd});
-    for (std::size_t i = 0; i < warps.size(); ++i)
+    for (std::size_t i = 0; i < warps.size(); ++i) {
       warps[i].start(entry, global, parameters, shared, static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(i * Warp::kSize),
                      threads);
+      warps[i].watch_for_races(schedule.races, first_agent + (block * threads + i * Warp::kSize) / entry.team);
+    }
     run_block(warps, entry, schedule);
   }
 }
@@ -73,6 +76,10 @@ bool Warp::run(Schedule schedule) {
     }
     throw Fault(fmt::format("{}: lanes wait for each other for ever", entry_->name));
   }
+}
+
+void Warp::watch_for_races(Races* races, Agent first) {
+  for (std::size_t i = 0; i < kSize; ++i) lanes_[i].watch_for_races(races, first + i / entry_->team);
 }
 
 void Warp::pass_barrier() {

@@ -14,6 +14,7 @@ namespace dmoscope::gpu::ptx {
 struct Schedule {
   bool together = false;   // activemask: all lanes that stand there, else each by itself
   bool backwards = false;  // the last lane and the last block first
+  Races* races = nullptr;  // who watches for them; null: nobody
 };
 
 /// A launch: blocks of some threads, of which one runs after the other. Throws Fault, which names kernel and instruction.
@@ -30,6 +31,8 @@ class Warp {
   /// Until all lanes are done or at the block's barrier; returns whether they are done. Lanes run one by one until they must wait for each
   /// other.
   bool run(Schedule schedule);
+  /// `first`: the agent that its first lane is, or is one of.
+  void watch_for_races(Races* races, Agent first);
   /// From the barrier on, at which all of the block are.
   void pass_barrier();
 

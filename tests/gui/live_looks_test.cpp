@@ -1,10 +1,12 @@
 // What is only looked at changes while a run computes.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <thread>
 
 #include "core/base/stopwatch.h"
 #include "tests/gui/headless_test.h"
+#include "tests/support/nice_values.h"
 #include "ui/plots/plot_series.h"
 
 namespace dmoscope::app {
@@ -69,6 +71,18 @@ TEST_F(LiveLooks, CancelStaysWhereItIsWhateverIsSaidOfTheRun) {
   ASSERT_TRUE(frames_until([&] { return box("status-progress") != said; })) << "else this test shows nothing";
   EXPECT_EQ(box("cancel"), cancel);
 }
+
+#ifdef __linux__
+TEST_F(LiveLooks, WhatComputesGivesWayToWhatDraws) {
+  if (testing::own_nice_value() != 0) GTEST_SKIP() << "the tests themselves give way";
+  good("generate annulus 400");
+  const auto behind = [] { return std::ranges::count_if(testing::nice_values(), [](int value) { return value > 0; }); };
+  const auto before = behind();  // of OpenGL's own threads some do, too
+  good("run 1");
+  EXPECT_GT(behind(), before);
+  EXPECT_EQ(testing::own_nice_value(), 0) << "who draws goes first";
+}
+#endif
 
 TEST_F(LiveLooks, AChoiceOfTheShownMetricIsDrawnAndRecorded) {
   begin();

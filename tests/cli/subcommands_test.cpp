@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string>
@@ -144,6 +145,30 @@ TEST(Render, LooksInsideAVolume) {
     pictures.insert(read_file(picture));
   }
   EXPECT_EQ(pictures.size(), looks.size()) << "each look differs";
+}
+
+TEST(Render, TakesEveryWordOfTheWindowsRanges) {
+  const Folder folder;
+  const std::string mesh = folder / "globe.14";  // whose least quality is far above 0
+  ASSERT_EQ(run({"generate", "globe", "-o", mesh}).code, 0);
+  std::map<std::string, std::string> pictures;
+  for (const std::string range : {"", "input", "fixed", "auto", "expanding", "percentile", "percentile:2:98", "percentile:20:60", "0:1"}) {
+    const std::string picture = folder / "out.png";
+    std::vector<std::string> arguments{"render", mesh, "-o", picture, "--size", "160x120"};
+    if (!range.empty()) arguments.insert(arguments.end(), {"--range", range});
+    const Output output = run(arguments);
+    if (output.code == 3 && output.err.find("EGL") != std::string::npos) GTEST_SKIP() << output.err;
+    if (output.err.find("without OpenGL") != std::string::npos) GTEST_SKIP() << output.err;
+    ASSERT_EQ(output.code, 0) << range << output.err;
+    pictures[range] = read_file(picture);
+  }
+  EXPECT_EQ(pictures["input"], pictures[""]) << "colours start from the mesh";
+  EXPECT_NE(pictures["input"], pictures["fixed"]);
+  EXPECT_EQ(pictures["0:1"], pictures["fixed"]);
+  EXPECT_EQ(pictures["expanding"], pictures["auto"]) << "of one mesh";
+  EXPECT_NE(pictures["auto"], pictures["fixed"]);
+  EXPECT_EQ(pictures["percentile:2:98"], pictures["percentile"]);
+  EXPECT_NE(pictures["percentile:20:60"], pictures["percentile"]);
 }
 
 TEST(Usage, CountsAreWholeNumbersInTheirRange) {

@@ -79,6 +79,20 @@ TEST_F(RangeWindow, TheMenuOfTheBarOffersAllOthers) {
   }
 }
 
+/// Of another metric the input's spread comes a little later than the colours.
+TEST(Range, OfWhatIsSeenStandsInForAnInputsThatIsNotKnownYet) {
+  ViewState state;
+  const Pair own{0.3127, 0.9483};
+  for (const RangeMode mode : {RangeMode::Input, RangeMode::Percentile}) {
+    state.range_mode = mode;
+    EXPECT_EQ(colour_range(state, own), tidy_range(own));
+    EXPECT_EQ(colour_range(state, std::nullopt), (Pair{0.0, 1.0})) << "no element has a quality";
+    InputSpread input;
+    for (const double quality : {0.5, 0.6}) input.add(quality);
+    EXPECT_EQ(colour_range(state, own, {}, &input), (Pair{0.5, 0.6})) << "what is known goes first";
+  }
+}
+
 TEST(Range, IsRememberedAndRepeated) {
   for (const RangeModeInfo& one : kRangeModes) {
     ViewState state;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <imgui.h>
 
 #include "tests/gui/headless_test.h"
 #include "ui/state/format.h"
@@ -85,6 +86,17 @@ TEST_F(StepWindow, TheStatusBarSaysItUntilSomethingElseIsSaid) {
   EXPECT_EQ(news().messages, state().messages) << "it is the newest";
   add_message(state(), {Message::Kind::Info, "something else", 0});
   EXPECT_NE(news().messages, state().messages);
+}
+
+TEST_F(StepWindow, TheStatusBarShowsItWhole) {
+  open(1920, 1080);  // with room for it all
+  good("generate annulus 400");
+  for (const char* step : {"step vertex", "step class", "key N"}) {
+    good(step);
+    ASSERT_FALSE(news().sentence.empty()) << step;
+    const auto said = window_->app().items().find("status-message");
+    EXPECT_NEAR(said[2] - said[0], ImGui::CalcTextSize(news().sentence.c_str()).x, 1.0F) << step;
+  }
 }
 
 TEST_F(StepWindow, AFlashIsForAMomentAndOnlyWhereItIsAskedFor) {

@@ -186,6 +186,18 @@ TEST_F(Window, ABadFileOpensTheErrorDialogAndLeavesTheMesh) {
   EXPECT_EQ(state().dialog, Dialog::None);
 }
 
+TEST_F(Window, ASuccessTakesAnOldErrorAway) {
+  good("generate annulus");
+  for (const char* success : {"theme light", "wireframe toggle", "step iteration"}) {
+    EXPECT_TRUE(window_->run("open /none.off").has_value());
+    good("key Escape");
+    ASSERT_TRUE(state().result.newest());
+    EXPECT_EQ(state().result.newest()->kind, Message::Kind::Error);
+    good(success);
+    EXPECT_TRUE(!state().result.newest() || state().result.newest()->kind != Message::Kind::Error) << success;
+  }
+}
+
 TEST_F(Window, ThePaletteRunsWhatIsTyped) {
   good("generate annulus");
   good("key Ctrl+P");

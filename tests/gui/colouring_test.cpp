@@ -1,8 +1,10 @@
 // Colours, filters and labels: what the verbs do, what elements are coloured by, and the window's handles and legends.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
+#include <set>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -334,6 +336,28 @@ TEST_F(ColourWindow, HandlesOfTheBarSetTheRangeAndADoubleClickResetsIt) {
   good("double-click range:bar");
   EXPECT_EQ(state().range_mode, RangeMode::Fixed);
   EXPECT_EQ(state().camera, camera);
+}
+
+TEST_F(ColourWindow, TheBarSaysItsEndsWhateverTheyAre) {
+  good("generate annulus");
+  good("move 5 5");
+  for (const char* line : {"range 0.313 0.777", "range 0.0432 0.9876", "range auto"}) {
+    good(line);
+    const render::Image picture = window_->picture();
+    const auto bar = window_->app().items().find("range:bar");
+    // Below the ends, where no round number has its place, and below the handles.
+    const auto inks = [&](float left) {
+      std::set<std::array<int, 3>> seen;
+      for (int y = static_cast<int>(bar[3]) + 6; y < static_cast<int>(bar[3]) + 13; ++y)
+        for (int x = static_cast<int>(left); x < static_cast<int>(left) + 16; ++x) {
+          const render::Rgba ink = picture.at(x, y);
+          seen.insert({ink.r, ink.g, ink.b});
+        }
+      return seen.size();
+    };
+    EXPECT_GT(inks(bar[0]), 3U) << line;
+    EXPECT_GT(inks(bar[2] - 16), 3U) << line;
+  }
 }
 
 TEST_F(ColourWindow, VerbsAreCheckedAndChangeWhatTheySay) {

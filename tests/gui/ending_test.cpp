@@ -157,6 +157,7 @@ TEST_F(Ending, LaplaceIsToldWhatItMadeWorse) {
   good("run 30");
   EXPECT_THAT(notice().sentences, ::testing::Contains("laplace made elements worse: 2 are inverted now, 0 before."));
   good("until-converged best 3 20");
+  ASSERT_FALSE(notice().empty());
   EXPECT_THAT(notice().sentences.back(), HasSubstr("the run is back there."));
   EXPECT_FALSE(has_item("notice:best"));
 }

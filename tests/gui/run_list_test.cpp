@@ -43,6 +43,9 @@ TEST_F(RunList, ScrollsByItselfHoweverManyRunsThereAre) {
   EXPECT_EQ(box("method"), method) << "the parameters stay in sight";
   EXPECT_EQ(box("run-list"), list);
   EXPECT_TRUE(on_screen(fmt::format("run:{}", session()->active))) << "the list goes to the active run";
+  good("select-run 51");
+  EXPECT_TRUE(on_screen("run:50"));
+  EXPECT_FALSE(on_screen("run:0"));
   good("select-run 1");
   EXPECT_TRUE(on_screen("run:0"));
   EXPECT_FALSE(on_screen("run:40"));

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # real_window.sh PROGRAM MESH: the true program on a virtual display. A script steps by command, key and click, takes pictures of the
 # window and lets it close itself; one that fails ends with the failing line's exit code; and, where xdotool is, a window opened on a
-# mesh takes true key presses. Exits 77 (skipped) where there is no Xvfb.
+# mesh takes true key presses, asks before it is closed, and is as large the next time. Exits 77 (skipped) where there is no Xvfb.
 set -euo pipefail
-program=$1 mesh=$2
+program=$1 mesh=$2 tests=$(dirname "$(realpath "$0")")
 for tool in xvfb-run Xvfb xauth; do
   command -v "$tool" >/dev/null || { echo "skipped: $tool is not installed"; exit 77; }
 done
@@ -51,7 +51,7 @@ grep -q "bad.txt:2: .*none.off" "$folder/said" || fail "the failing line is not 
 
 command -v xdotool >/dev/null || { echo "no xdotool: keys of a person not tried"; exit 0; }
 cat >"$folder/person.sh" <<'PERSON'
-program=$1 mesh=$2
+program=$1 mesh=$2 tests=$3
 "$program" "$mesh" &
 id=$!
 window=$(timeout 60 xdotool search --sync --onlyvisible --class dmoscope | head -n 1)
@@ -63,6 +63,7 @@ for _ in $(seq 100); do
   sleep 0.1
 done
 [[ $title == *" – dmoscope" ]] || { echo "the mesh did not open: $title"; kill "$id"; exit 1; }
+xdotool windowsize "$window" 1000 700
 for key in n space w space n ctrl+q; do
   xdotool key --window 0 "$key"
   sleep 0.3
@@ -71,17 +72,37 @@ sleep 1
 kill -0 "$id" 2>/dev/null || { echo "the window closed over an iteration that is in no file, without a question"; exit 1; }
 xdotool key --window 0 Escape  # the answer: no
 sleep 0.5
+if command -v python3 >/dev/null && python3 "$tests/ask_to_close.py" "$window" 2>/dev/null; then
+  sleep 1
+  kill -0 "$id" 2>/dev/null || { echo "the button of its frame closed the window without a question"; exit 1; }
+  xdotool key --window 0 Escape
+  sleep 0.5
+fi
 xdotool key --window 0 r  # back at the input there is nothing to lose
 sleep 1
 for _ in $(seq 20); do
   sleep 0.5
-  kill -0 "$id" 2>/dev/null || { wait "$id"; exit; }
+  kill -0 "$id" 2>/dev/null || break
   xdotool key --window 0 ctrl+q || true  # a display without a window manager may lose one
 done
-echo "Ctrl+Q did not close the window"
+if kill -0 "$id" 2>/dev/null; then
+  echo "Ctrl+Q did not close the window"
+  kill "$id"
+  exit 1
+fi
+wait "$id" || { echo "the window ended with $?"; exit 1; }
+"$program" &
+id=$!
+window=$(timeout 60 xdotool search --sync --onlyvisible --class dmoscope | head -n 1)
+for _ in $(seq 50); do
+  size=$(xdotool getwindowgeometry "$window" | sed -n 's/.*Geometry: //p')
+  [[ $size == 1000x700 ]] && break
+  sleep 0.1
+done
 kill "$id"
-exit 1
+wait "$id" || true
+[[ $size == 1000x700 ]] || { echo "the window was left 1000x700 and is $size the next time"; exit 1; }
 PERSON
 status=0
-on_display bash "$folder/person.sh" "$program" "$mesh" || status=$?
+on_display bash "$folder/person.sh" "$program" "$mesh" "$tests" || status=$?
 [[ $status -eq 0 ]] || fail "a person's window ended with $status"

@@ -74,12 +74,11 @@ xdotool key --window 0 Escape  # the answer: no
 sleep 0.5
 grep -q "\"$(realpath "$mesh")\"" "$XDG_STATE_HOME/dmoscope/recent.json" || { echo "the mesh is not among the recent files yet"; exit 1; }
 grep -q '"wireframe": false' "$XDG_CONFIG_HOME/dmoscope/settings.json" || { echo "settings wait for the window's end"; exit 1; }
-if command -v python3 >/dev/null && python3 "$tests/ask_to_close.py" "$window" 2>/dev/null; then
-  sleep 1
-  kill -0 "$id" 2>/dev/null || { echo "the button of its frame closed the window without a question"; exit 1; }
-  xdotool key --window 0 Escape
-  sleep 0.5
-fi
+python3 "$tests/ask_to_close.py" "$window"
+sleep 1
+kill -0 "$id" 2>/dev/null || { echo "the button of its frame closed the window without a question"; exit 1; }
+xdotool key --window 0 Escape
+sleep 0.5
 xdotool key --window 0 r  # back at the input there is nothing to lose
 sleep 1
 for _ in $(seq 20); do

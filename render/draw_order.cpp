@@ -93,15 +93,14 @@ std::vector<std::array<Index, 2>> boundary_edges(const Mesh& mesh, std::span<con
 }
 
 /// A box is found from each of a block's vertices once; as corners they come up six times.
-void gather_block_vertices(Batch& batch, Index vertex_count) {
-  std::vector<Index> last_block(vertex_count, kNoIndex);
+void gather_block_vertices(const Mesh& mesh, Batch& batch) {
+  std::vector<Index> last_block(mesh.vertex_count(), kNoIndex);
   batch.block_begins.reserve(std::size_t{batch.block_count()} + 1);
   for (Index b = 0; b < batch.block_count(); ++b) {
     const DrawRange range = batch.block(b);
-    for (const Index v :
-         std::span(batch.corners)
-             .subspan(std::size_t{range.first} * batch.corner_count, std::size_t{range.last - range.first} * batch.corner_count))
-      if (std::exchange(last_block[v], b) != b) batch.block_vertices.push_back(v);
+    for (Index drawn = range.first; drawn < range.last; ++drawn)
+      for (const Index v : mesh.elements.corners(batch.order[drawn]))
+        if (std::exchange(last_block[v], b) != b) batch.block_vertices.push_back(v);
     batch.block_begins.push_back(batch.block_vertices.size());
   }
   batch.block_vertices.shrink_to_fit();
@@ -116,12 +115,24 @@ bool Layout::is_across(std::span<const Index> corners, std::span<const Vec2<doub
   return high - low > widest();
 }
 
-std::shared_ptr<const Layout> build_layout(const Mesh& mesh, const Plane& plane, std::span<const std::uint8_t> boundary) {
+std::vector<Index> Layout::corners_of(const Batch& batch) const {
+  std::vector<Index> corners;
+  reserve_large(corners, std::size_t{batch.size()} * batch.corner_count);
+  for (const Index element : batch.order) {
+    const auto of_element = corners_of(element);
+    corners.insert(corners.end(), of_element.begin(), of_element.end());
+  }
+  return corners;
+}
+
+std::shared_ptr<const Layout> build_layout(std::shared_ptr<const Mesh> of, const Plane& plane, std::span<const std::uint8_t> boundary) {
+  const Mesh& mesh = *of;
   for (const ElementKind kind : mesh.elements.kinds()) {
     if (info(kind).dimension != 2)
       throw UsageError(std::string("only triangles and quadrilaterals can be drawn, not ") + std::string(info(kind).plural));
   }
   auto layout = std::make_shared<Layout>();
+  layout->mesh = std::move(of);
   layout->plane = plane;
   layout->vertex_count = mesh.vertex_count();
   const std::vector<Vec2<double>> points = project(mesh.positions, plane);
@@ -132,20 +143,15 @@ std::shared_ptr<const Layout> build_layout(const Mesh& mesh, const Plane& plane,
   const auto keys = curve_order(mesh, points, bounds);
   std::array<std::size_t, 2> counts{};
   for (const ElementKind kind : mesh.elements.kinds()) ++counts[kind == ElementKind::Triangle ? 0 : 1];
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    reserve_large(layout->batches[i].order, counts[i]);
-    reserve_large(layout->batches[i].corners, counts[i] * layout->batches[i].corner_count);
-  }
+  for (std::size_t i = 0; i < counts.size(); ++i) reserve_large(layout->batches[i].order, counts[i]);
   for (const auto& [key, element] : keys) {
     Batch& batch = layout->batches[mesh.elements.kind(element) == ElementKind::Triangle ? 0 : 1];
     layout->slots[element] = batch.size();
     batch.order.push_back(element);
-    const auto corners = mesh.elements.corners(element);
-    batch.corners.insert(batch.corners.end(), corners.begin(), corners.end());
   }
   for (const Index element : layout->batches[1].order) layout->slots[element] += layout->batches[0].size();
   for (Batch& batch : layout->batches)
-    if (batch.size() > 0) gather_block_vertices(batch, layout->vertex_count);
+    if (batch.size() > 0) gather_block_vertices(mesh, batch);
   layout->boundary_edges = boundary_edges(mesh, boundary);
   return layout;
 }

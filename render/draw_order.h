@@ -26,13 +26,9 @@ struct Batch {
   static constexpr Index kBlock = 1024;  // elements per block; the last has fewer
   Index corner_count = 3;
   std::vector<Index> order;                  // drawn index to element
-  std::vector<Index> corners;                // of the drawn elements, corner_count each
   std::vector<Index> block_vertices;         // the corners of each block's elements, every vertex once a block
   std::vector<std::size_t> block_begins{0};  // where those of each block begin, and the end of the last
   [[nodiscard]] Index size() const noexcept { return static_cast<Index>(order.size()); }
-  [[nodiscard]] std::span<const Index> corners_of(Index drawn) const noexcept {
-    return {corners.data() + std::size_t{drawn} * corner_count, corner_count};
-  }
   [[nodiscard]] Index block_count() const noexcept { return (size() + kBlock - 1) / kBlock; }
   [[nodiscard]] std::span<const Index> vertices_of_block(Index b) const noexcept {
     return std::span(block_vertices).subspan(block_begins[b], block_begins[b + 1] - block_begins[b]);
@@ -46,6 +42,7 @@ struct Batch {
 }
 
 struct Layout {
+  std::shared_ptr<const Mesh> mesh;  // whose elements these are
   Plane plane;
   Vec2<double> origin;  // middle of the bounding box at build: what positions on the OpenGL side are relative to
   Index vertex_count = 0;
@@ -57,15 +54,15 @@ struct Layout {
   /// What is wider lies across the seam of a mesh that wraps, from one end of the picture to the other, and is left out of it.
   [[nodiscard]] double widest() const noexcept { return plane.period > 0.0 ? 0.5 * plane.period : std::numeric_limits<double>::infinity(); }
   [[nodiscard]] bool is_across(std::span<const Index> corners, std::span<const Vec2<double>> points) const noexcept;
-  [[nodiscard]] std::span<const Index> corners_of_element(Index element) const noexcept {
-    const Index slot = slots[element], triangles = batches[0].size();
-    return slot < triangles ? batches[0].corners_of(slot) : batches[1].corners_of(slot - triangles);
-  }
+  [[nodiscard]] std::span<const Index> corners_of(Index element) const { return mesh->elements.corners(element); }
+  /// Of all drawn elements of a batch, one after another, as OpenGL takes them.
+  [[nodiscard]] std::vector<Index> corners_of(const Batch& batch) const;
 };
 
 /// Builds the layout; about 0.1 s per million elements, on any thread. `boundary`: see Topology::boundary, empty where nobody knows. Throws
 /// UsageError when an element is not a triangle or a quadrilateral.
-[[nodiscard]] std::shared_ptr<const Layout> build_layout(const Mesh& mesh, const Plane& plane, std::span<const std::uint8_t> boundary = {});
+[[nodiscard]] std::shared_ptr<const Layout> build_layout(std::shared_ptr<const Mesh> of, const Plane& plane,
+                                                         std::span<const std::uint8_t> boundary = {});
 
 /// Where the vertices of a layout are now, and which part of the plane each block covers. No OpenGL.
 class Placement {

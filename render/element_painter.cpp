@@ -41,7 +41,7 @@ void ElementPainter::upload_topology(const Layout& layout) {
     elements_[i].order = Buffer();
     elements_[i].corners = Buffer();
     elements_[i].order.write(std::span<const Index>(layout.batches[i].order));
-    elements_[i].corners.write(std::span<const Index>(layout.batches[i].corners));
+    elements_[i].corners.write(std::span<const Index>(layout.corners_of(layout.batches[i])));
   }
   edges_.write(std::span<const std::array<Index, 2>>(layout.boundary_edges));
   edge_count_ = static_cast<GLsizei>(layout.boundary_edges.size());

@@ -52,8 +52,9 @@ bool PlanarScene::Impl::prepare(const Frame& wanted, Loading loading) {
       pending.wait();
     }
     pending_serial = wanted.input_serial;
-    pending = std::async(background ? std::launch::async : std::launch::deferred,
-                         [input = wanted.input] { return build_layout(input->mesh, input->geometry.plane, input->topology.boundary()); });
+    pending = std::async(background ? std::launch::async : std::launch::deferred, [input = wanted.input] {
+      return build_layout({input, &input->mesh}, input->geometry.plane, input->topology.boundary());
+    });
   }
   if (background && pending.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) return false;
   adopt(pending.get());
@@ -91,7 +92,7 @@ bool PlanarScene::show(std::shared_ptr<const Frame> frame, Loading loading) {
 void PlanarScene::draw_through_host(std::string why) { impl_->device.never_direct(std::move(why)); }
 
 void PlanarScene::set_mesh(const Mesh& mesh, const Plane& plane) {
-  auto layout = build_layout(mesh, plane);
+  auto layout = build_layout(std::make_shared<const Mesh>(mesh), plane);
   impl_->adopt(std::move(layout));
   impl_->frame.reset();
   impl_->has_input = false;

@@ -27,10 +27,10 @@ void PlanarScene::Impl::gather_mesh_marks(const Camera2D& camera, const Style& s
   const Layout& layout = placement.layout();
   std::vector<std::span<const Index>> shapes;  // outlined elements, and last the worst
   for (const Index e : wanted.elements) {
-    if (e < layout.element_count()) shapes.push_back(layout.corners_of_element(e));
+    if (e < layout.element_count()) shapes.push_back(layout.corners_of(e));
   }
   const std::size_t outlined = shapes.size();
-  if (wanted.worst && *wanted.worst < layout.element_count()) shapes.push_back(layout.corners_of_element(*wanted.worst));
+  if (wanted.worst && *wanted.worst < layout.element_count()) shapes.push_back(layout.corners_of(*wanted.worst));
   std::vector<Index> vertices;
   for (const auto& shape : shapes) vertices.insert(vertices.end(), shape.begin(), shape.end());
   const std::size_t corner_count = vertices.size();
@@ -88,7 +88,7 @@ void PlanarScene::Impl::gather_vertices(const Camera2D& camera, const Style& sty
     for (const DrawRange& range : placement.visible(batch, window)) {
       for (Index drawn = range.first; drawn < range.last; ++drawn) {
         if (hidden(elements_of.order[drawn])) continue;
-        const auto corners = elements_of.corners_of(drawn);
+        const auto corners = placement.layout().corners_of(elements_of.order[drawn]);
         const Vec2<double> a = placement.points()[corners[0]], b = placement.points()[corners[1]], c = placement.points()[corners[2]];
         if (std::abs(cross(b - a, c - a)) < room * room) continue;
         seen.insert(seen.end(), corners.begin(), corners.end());

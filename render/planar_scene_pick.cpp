@@ -30,7 +30,7 @@ Pick PlanarScene::pick(const Camera& seen_from, Vec2<double> viewport, Vec2<doub
       for (Index drawn = range.first; drawn < range.last; ++drawn) {
         const Index element = elements.order[drawn];
         if (s.hidden(element)) continue;
-        const auto corners = elements.corners_of(drawn);
+        const auto corners = s.placement.layout().corners_of(elements.order[drawn]);
         for (const Index v : corners) {
           const Vec2<double> away = s.placement.points()[v] - point;
           const double square = dot(away, away);
@@ -68,7 +68,7 @@ std::vector<Index> PlanarScene::vertices_near(const Camera2D& camera, Vec2<doubl
     for (const DrawRange& range : s.placement.visible(batch, window)) {
       for (Index drawn = range.first; drawn < range.last; ++drawn) {
         if (s.hidden(elements.order[drawn])) continue;
-        for (const Index v : elements.corners_of(drawn)) {
+        for (const Index v : s.placement.layout().corners_of(elements.order[drawn])) {
           const Vec2<double> away = s.placement.points()[v] - point;
           if (dot(away, away) <= reach * reach) found.push_back(v);
         }
@@ -155,7 +155,7 @@ std::vector<Label> PlanarScene::labels(const Camera& seen_from, Vec2<double> vie
       for (Index drawn = range.first; drawn < range.last; ++drawn) {
         const Index element = elements.order[drawn];
         if (s.hidden(element)) continue;
-        const auto corners = elements.corners_of(drawn);
+        const auto corners = s.placement.layout().corners_of(elements.order[drawn]);
         if (s.placement.layout().is_across(corners, points)) continue;
         if (wish.elements) {
           const FreeSpace room = room_of(corners, points);

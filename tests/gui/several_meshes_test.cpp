@@ -143,6 +143,34 @@ TEST_F(SeveralMeshesWindow, AtOtherPlacesEachIsSeenWhole) {
   EXPECT_TRUE(sees(0, {somewhere.x, somewhere.y}));
 }
 
+TEST_F(SeveralMeshesWindow, EachStaysFittedWhenTheWindowIsResizedUnlessItWasMoved) {
+  std::ofstream(folder_ / "far.off") << "OFF\n3 1 0\n1000 1000 0\n1010 1000 0\n1000 1010 0\n3 0 1 2\n";
+  good("open-beside " + (folder_ / "far.off").string());
+  const auto is_whole = [&](std::size_t pane) {
+    const auto& positions = session()->meshes[pane].input->mesh.positions;
+    return std::ranges::all_of(positions, [&](const Vec3& p) {
+      const Vec2<double> pixel = state().camera_of(pane).to_pixel({p.x, p.y}, state().viewport);
+      return pixel.x > 0 && pixel.y > 0 && pixel.x < state().viewport.x && pixel.y < state().viewport.y;
+    });
+  };
+  for (const char* size : {"size 800 600", "size 1920 1080", "size 700 500"}) {
+    SCOPED_TRACE(size);
+    good(size);
+    EXPECT_TRUE(is_whole(0));
+    EXPECT_TRUE(is_whole(1));
+  }
+  const auto moved = [&] {
+    good("select-run 1");
+    good("zoom 3");
+    good("select-run 2");
+    return state().camera_of(0);
+  };
+  const render::Camera2D by_hand = moved();
+  good("size 1280 800");
+  EXPECT_EQ(state().camera_of(0), by_hand) << "somebody looks at something there";
+  EXPECT_TRUE(is_whole(1));
+}
+
 TEST_F(SeveralMeshesWindow, AClickPicksOnTheMeshThatIsClicked) {
   good("open-beside " + other_.string());
   good("select-run 1");

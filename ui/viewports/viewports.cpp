@@ -242,8 +242,12 @@ bool Viewports::fit(ViewState& state, double em) {
   const bool all = std::exchange(state.requests.fit_all, false);
   for (std::size_t k = 0; k < Panes::kMost; ++k) {
     Pane& pane = state.panes.panes[k];
-    const bool other_mesh = shows_another(k);
-    if (all || (pane.camera == fitted_ && !other_mesh)) pane.camera = other_mesh ? camera_for(box_of_pane(k)) : camera;
+    if (!shows_another(k)) {
+      if (all || pane.camera == fitted_) pane.camera = camera;
+    } else if (all || (fitted_others_[k] && *fitted_others_[k] == pane.camera)) {
+      pane.camera = camera_for(box_of_pane(k));
+      fitted_others_[k] = pane.camera;
+    }
   }
   state.camera = camera;
   fitted_ = camera;

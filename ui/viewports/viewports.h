@@ -86,6 +86,7 @@ class Viewports {
   /// Somebody else has set the cameras.
   void forget_fit() {
     fitted_.reset();
+    fitted_others_ = {};
     fitted_orbit_.reset();
   }
   [[nodiscard]] std::span<const PaneFacts> facts() const noexcept { return facts_; }
@@ -145,6 +146,8 @@ class Viewports {
   std::vector<std::shared_ptr<const Frame>> frames_;
   std::vector<PaneFacts> facts_;
   std::optional<render::Camera2D> fitted_;  // the camera of the last fit, while nobody has moved it
+  std::array<std::optional<render::Camera2D>, Panes::kMost>
+      fitted_others_;  // the same of viewports that show another mesh by a camera of their own
   std::optional<render::OrbitCamera> fitted_orbit_;
   // As followed last: a command may have changed the state since.
   PaneLayout layout_ = PaneLayout::One;

@@ -73,8 +73,8 @@ void draw_clip(PanelContext& context, const render::Bounds3& box) {
       context.send(fmt::format("clip {}:{:.4g}", axis_name(axis, looks_along(context.state.orbit, axis)),
                                clip.on && across ? std::clamp(across->fraction, 0.0, 1.0) : 0.5));
   }
-  beside_or_below("flip", context.px(5));
   ImGui::BeginDisabled(!clip.on);
+  labelled(context, "side", "which one is taken away");
   const bool flipped = clip.on && across && across->flip;
   if (toggle_button(context, "inside:flip", "flip", flipped, "takes the other side away   Shift+J")) context.send("clip flip");
   if (clip.on) {
@@ -195,15 +195,18 @@ void draw_looks(PanelContext& context) {
 
 void draw_from(PanelContext& context) {
   const render::OrbitCamera& orbit = context.state.orbit;
-  ImGui::AlignTextToFramePadding();
-  dim_text(context, "look from", false);
+  labelled(context, "look from", "all of the mesh from there");
   const ImVec2 padding = ImGui::GetStyle().FramePadding;
+  const float column = ImGui::GetCursorPosX();
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {context.px(4), padding.y});  // seven in a row
   for (const render::ViewPresetInfo& preset : render::view_preset_table()) {
-    ImGui::SameLine(0, context.px(4));
     const std::string name(preset.name);
     const float width = ImGui::CalcTextSize(name.c_str()).x + context.px(8);
-    if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+    if (&preset != &render::view_preset_table().front()) ImGui::SameLine(0, context.px(4));
+    if (ImGui::GetContentRegionAvail().x < width) {
+      ImGui::NewLine();
+      ImGui::SetCursorPosX(column);
+    }
     if (ImGui::Button(fmt::format("{}##from", name).c_str(), {width, 0})) context.send("view-from " + name);
     context.items.record_last("from:" + name);
     next_item_tooltip("all of the mesh from there");

@@ -26,6 +26,13 @@ std::string kinds_sentence(const Derived& derived) {
   return text;
 }
 
+/// A title without the remark that ADCIRC's files have behind it: "bahama_g02      ! a grid's name".
+std::string first_words(const std::string& title) {
+  std::string words = title.substr(0, std::min(title.find('\n'), title.find(" !")));
+  words.erase(words.find_last_not_of(" \t\r") + 1);
+  return words.empty() ? title : words;
+}
+
 void draw_mesh(PanelContext& context, const Frame& frame) {
   const Mesh& mesh = frame.input->mesh;
   heading(context, "Mesh");
@@ -33,7 +40,10 @@ void draw_mesh(PanelContext& context, const Frame& frame) {
   ImGui::TextUnformatted(context.shown(mesh.name).c_str());
   ImGui::PopTextWrapPos();
   if (!frame.input->path.empty()) next_item_tooltip(context.shown(frame.input->path.string()));
-  if (!mesh.title.empty() && mesh.title != mesh.name) dim_text(context, mesh.title);
+  if (!mesh.title.empty() && mesh.title != mesh.name) {
+    dim_text(context, fit_text(context.shown(first_words(mesh.title)), ImGui::GetContentRegionAvail().x), false);
+    next_item_tooltip(context.shown(mesh.title));
+  }
   dim_text(context, kinds_sentence(context.derived));
   value_row(context, "vertices", count(mesh.vertex_count()));
   if (frame.input->is_volume()) {

@@ -113,9 +113,10 @@ void draw_splitters(PanelContext& context, const Layout& layout) {
     fold_tab(context, kFolding[0], {mesh.x, middle, across, along});
     fold_tab(context, kFolding[1], {mesh.x + mesh.w - across, middle, across, along});
   }
+  const float share = mesh.w < context.em() * 62 ? 0.66F : 0.5F;                       // in a narrow one the colour bar reaches the middle
   const bool bottom_as_wished = context.state.panels.bottom != layout.bottom.empty();  // else there is no room for it
   if (bottom_as_wished)
-    fold_tab(context, kFolding[2], {std::round(mesh.x + mesh.w / 2 - along / 2), mesh.y + mesh.h - across, along, across});
+    fold_tab(context, kFolding[2], {std::round(mesh.x + mesh.w * share - along / 2), mesh.y + mesh.h - across, along, across});
 }
 
 }  // namespace dmoscope::ui

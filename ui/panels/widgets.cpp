@@ -119,7 +119,9 @@ void labelled(const PanelContext& context, const char* label, const char* toolti
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   const float beside_label = ImGui::GetCursorPosX() + ImGui::CalcTextSize(label).x + ImGui::GetStyle().ItemSpacing.x;
-  const float at = std::max(ImGui::GetWindowContentRegionMax().x * 0.42F, beside_label);
+  // One column for all but the longest labels.
+  const float usual = ImGui::GetCursorPosX() + ImGui::CalcTextSize("grid points").x + ImGui::GetStyle().ItemSpacing.x;
+  const float at = std::max({ImGui::GetWindowContentRegionMax().x * 0.42F, usual, beside_label});
   const bool below = wanted > 0 && at + wanted > ImGui::GetWindowContentRegionMax().x;
   if (!below) ImGui::AlignTextToFramePadding();
   dim_text(context, label, false);

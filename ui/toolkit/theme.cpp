@@ -123,7 +123,8 @@ void apply_colours(const Palette& p) {
   c[ImGuiCol_ScrollbarGrab] = colour_vector(mix(p.panel, p.dim, 0.35));
   c[ImGuiCol_ScrollbarGrabHovered] = colour_vector(mix(p.panel, p.dim, 0.55));
   c[ImGuiCol_ScrollbarGrabActive] = colour_vector(p.dim);
-  c[ImGuiCol_CheckMark] = c[ImGuiCol_SliderGrab] = c[ImGuiCol_SliderGrabActive] = c[ImGuiCol_NavHighlight] = colour_vector(p.accent);
+  c[ImGuiCol_CheckMark] = c[ImGuiCol_NavHighlight] = colour_vector(p.accent);
+  c[ImGuiCol_SliderGrab] = c[ImGuiCol_SliderGrabActive] = colour_vector(p.accent, 0.55F);  // it passes under the slider's number
   c[ImGuiCol_Header] = colour_vector(p.accent, 0.22F);
   c[ImGuiCol_HeaderHovered] = colour_vector(p.accent, 0.30F);
   c[ImGuiCol_HeaderActive] = colour_vector(p.accent, 0.40F);

@@ -233,7 +233,7 @@ TEST_F(LiveLooks, WhatIsWatchedFromNowOnComesWhileTheRunGoesOn) {
 
 TEST(RunsInPursuit, TellHowFarTheyGoAndHowMuchPatienceIsLeft) {
   Engine engine(1);
-  engine.post("generate random 3000");
+  engine.post("generate random 1000");
   engine.post("step iteration 2");
   engine.post("until-converged 30 100000");
   std::optional<Pursuit> seen;
@@ -256,7 +256,7 @@ TEST(RunsInPursuit, TellHowFarTheyGoAndHowMuchPatienceIsLeft) {
 
 TEST(Searched, CountsNoVertexThatWasPassedOver) {
   Engine engine(2);
-  engine.post("generate random 3000");
+  engine.post("generate random 2000");
   engine.post("until-converged");
   engine.wait_idle();
   const RunView& run = engine.view()->runs[0];

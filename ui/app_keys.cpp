@@ -24,8 +24,10 @@ bool is_step(std::string_view command) { return command.starts_with("step ") || 
 
 }  // namespace
 
+/// Not while the desktop's dialog is open: what is typed before it is seen is meant for it.
 bool App::takes_commands() const {
-  return !ImGui::GetIO().WantTextInput && state_.dialog == Dialog::None && !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+  return !widgets_.chooser.open && !ImGui::GetIO().WantTextInput && state_.dialog == Dialog::None &&
+         !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
 }
 
 /// Steps that are asked for faster than they are made are all made.

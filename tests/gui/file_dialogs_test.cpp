@@ -241,6 +241,8 @@ TEST_F(DesktopsDialog, TheWindowGoesOnWhileItIsOpenAndEndsIt) {
   good("key Ctrl+O");
   ASSERT_TRUE(comes([&] { return !text_of(at("pid")).empty(); }));
   good("key N");
+  EXPECT_EQ(session()->frame->moment.iteration, 0U) << "what is typed while it comes is meant for it";
+  good("click step-iteration");
   EXPECT_EQ(session()->frame->moment.iteration, 1U);
   const std::string words = text_of(at("zenity.args"));
   EXPECT_NE(words.find("--filename=" + folder_.path().string() + "/"), std::string::npos) << words;  // beside the mesh
@@ -260,6 +262,8 @@ TEST_F(DesktopsDialog, CancelledItLeavesAllAsItWas) {
   window_->settle();
   EXPECT_EQ(session()->input, before->input);
   EXPECT_EQ(state().dialog, Dialog::None);
+  good("key N");
+  EXPECT_EQ(session()->frame->moment.iteration, 1U) << "and keys are commands again";
 }
 
 TEST_F(DesktopsDialog, WhereItDoesNotOpenOursDoes) {

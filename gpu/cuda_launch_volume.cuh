@@ -6,10 +6,9 @@
 
 namespace dmoscope::gpu {
 
-/// A team has the places of its candidates in common, not its vertices, so its lanes read the same elements at once: there is no other way.
 template <Metric M>
 Launcher volume_launcher(Work work) {
-  if (work == Work::VisitVolume) return launch<bodies::VisitVolume<M>, CudaTeam>;
+  if (work == Work::VisitVolume) return launch<bodies::VisitVolume<M>, StagingCudaTeam<kBlock, kStageBytes>>;
   return launch<bodies::JudgeVolume<M>, Solo>;
 }
 

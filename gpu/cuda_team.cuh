@@ -1,6 +1,7 @@
 #pragma once
 // Eight lanes of a warp that search one star together: see core/search/team.h.
 
+#include <cstddef>
 #include <cstring>
 #include <type_traits>
 
@@ -23,8 +24,22 @@ class CudaTeam {
     return value;
   }
 
- private:
+ protected:
   unsigned lane_, members_;
+};
+
+/// The same with memory in common. In blocks of `Threads`; each team is for one search.
+template <unsigned Threads, std::size_t Bytes>
+class StagingCudaTeam : public CudaTeam {
+ public:
+  static constexpr std::size_t kScratchBytes = Bytes;
+  [[nodiscard]] __device__ void* scratch() const {
+    // An odd number of words of four: the teams of a warp, which read at the same place each of its own, come to other banks.
+    __shared__ uint4 memory[Threads / kSize][(Bytes + sizeof(uint4) - 1) / sizeof(uint4) | 1U];
+    return memory[threadIdx.x / kSize];
+  }
+  /// What any lane of the team wrote there before, all can read after.
+  __device__ void meet() const { __syncwarp(members_); }
 };
 
 }  // namespace dmoscope::gpu

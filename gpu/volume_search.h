@@ -1,6 +1,8 @@
 #pragma once
 // The fast search of a volume's star by lanes: the bits of core/smooth/kernels/volume_kernel_impl.h, which has packs of candidates.
 
+#include <type_traits>
+
 #include "core/search/grid_search.h"
 #include "core/smooth/kernels/volume_form.h"
 #include "gpu/lane.h"
@@ -30,13 +32,26 @@ template <class Narrow, class Wide>
 [[nodiscard]] DMOSCOPE_ANYWHERE StarWedge<float> narrow(const StarWedge<double>& w) { return narrow_others<StarWedge<float>>(w); }
 [[nodiscard]] DMOSCOPE_ANYWHERE StarPyramid<float> narrow(const StarPyramid<double>& p) { return narrow_others<StarPyramid<float>>(p); }
 
+/// What a team with memory in common keeps of a star's elements there: so much that nearly all stars of tetrahedra, of hexahedra eight,
+/// have room, and so little that it does not limit how many teams work at once.
+inline constexpr std::size_t kStaged = 32, kStageBytes = kStaged * sizeof(StarTetrahedron<float>);
+
+/// Has a team memory in common? It brings kScratchBytes, scratch(), which is the same for its lanes, and meet(), after which each lane sees
+/// what the others wrote there.
+template <class Team>
+concept HasScratch = requires(const Team& team) {
+  team.scratch();
+};
+
 /// The lanes of a team share the columns of the grid; some candidates of a column are ranked at a time, so that an element is read once for
-/// them all.
+/// them all. Where the team has memory in common, the lanes also share the elements: each is read in double and narrowed once a search.
 template <Metric M, class Team>
 class VolumeRankSearch {
  public:
-  DMOSCOPE_ANYWHERE VolumeRankSearch(const MeshStar<Space>& star, const SearchParameters& parameters, const Team& team)
-      : star_(star), parameters_(parameters), team_(team), box_(narrow(star.box())) {}
+  DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE VolumeRankSearch(const MeshStar<Space>& star, const SearchParameters& parameters, const Team& team)
+      : star_(star), parameters_(parameters), team_(team), box_(narrow(star.box())) {
+    if constexpr (HasScratch<Team>) stage();
+  }
 
   [[nodiscard]] DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE VolumeFound run() {
     Found best = rank({});
@@ -55,6 +70,9 @@ class VolumeRankSearch {
   using Form = volumes::MeanRatioForm<float>;
   static constexpr bool kCorners = formulas::kDefinedForCorners<M>;
   static constexpr int kAtOnce = 4;
+  /// What all candidates need of an element: of corners a form each; by other metrics the element, if it is a tetrahedron.
+  using Staged = std::conditional_t<M == Metric::MeanRatio, Form, StarTetrahedron<float>>;
+  static_assert(sizeof(Staged) * kStaged <= kStageBytes);
 
   /// Some candidates, and the least rank of the star with its vertex there.
   struct Some {
@@ -72,7 +90,52 @@ class VolumeRankSearch {
   DMOSCOPE_ANYWHERE void rank(Some& some) const {
     DMOSCOPE_UNROLL
     for (float& worth : some.worth) worth = std::numeric_limits<float>::max();
+    if constexpr (HasScratch<Team>) {
+      for (unsigned i = 0; i < staged_; ++i) lower(some, stage_[i]);
+      if (staged_ > 0) return;
+    }
     star_.template for_each<kCorners>([&some](const auto& element) { lower(some, narrow(element)); });
+  }
+
+  /// Puts the star's elements into the team's memory, in their order, each by one lane; none where they have no room.
+  DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE void stage() {
+    static_assert(Team::kScratchBytes >= kStageBytes);
+    stage_ = static_cast<Staged*>(team_.scratch());
+    unsigned element = 0;
+    bool has_room = true;
+    star_.template for_each<kCorners>([&](const auto& wide) {
+      const bool is_mine = element++ % Team::kSize == team_.lane();
+      has_room = put(wide, is_mine) && has_room;
+    });
+    if (!has_room) staged_ = 0;
+    team_.meet();
+  }
+  DMOSCOPE_ANYWHERE bool put(const StarTetrahedron<double>& wide, bool is_mine) {
+    const unsigned at = staged_++;
+    if (at >= kStaged) return false;
+    if (!is_mine) return true;
+    const StarTetrahedron<float> t = narrow(wide);
+    if constexpr (M == Metric::MeanRatio)
+      stage_[at] = volumes::tetrahedron_form(t.b, t.c, t.d);
+    else
+      stage_[at] = t;
+    return true;
+  }
+  template <class Element>
+  DMOSCOPE_ANYWHERE bool put(const Element& wide, bool is_mine) {
+    if constexpr (M != Metric::MeanRatio) return false;
+    const auto element = narrow(wide);
+    const auto for_forms = [&](const auto& f) { volumes::for_corner_forms(element.with(Point{}), element.kMoving, f); };
+    if constexpr (M == Metric::MeanRatio) {
+      if (is_mine)
+        for_forms([this](const Form& form) {
+          if (staged_ < kStaged) stage_[staged_] = form;
+          ++staged_;
+        });
+      else
+        for_forms([this](const Form& /*form*/) { ++staged_; });  // nothing is computed
+    }
+    return staged_ <= kStaged;
   }
   static DMOSCOPE_ANYWHERE void lower(Some& some, const StarTetrahedron<float>& t) {
     if constexpr (M == Metric::MeanRatio) {
@@ -127,6 +190,8 @@ class VolumeRankSearch {
   const SearchParameters& parameters_;
   const Team& team_;
   Point box_;
+  Staged* stage_ = nullptr;  // the team's memory, and how much of it is used
+  unsigned staged_ = 0;
 };
 
 }  // namespace dmoscope::gpu

@@ -58,6 +58,27 @@ TEST(PtxInterpreter, LanesShareMemoryAcrossABarrier) {
     for (U32 i = 0; i < 32; ++i) EXPECT_EQ(out[i], 100 + 31 - i);
   }
 }
+/// The eight of a team meet without the others of their warp.
+TEST(PtxInterpreter, TeamsShareMemoryAcrossTheirMeetings) {
+  const std::string body =
+      ".shared .align 4 .b8 words[128];\nmov.u32 %base, words; shl.b32 %own, %tid, 2; add.s32 %to, %base, %own; st.shared.u32 [%to], %v;\n"
+      "bar.warp.sync %team;\nxor.b32 %other, %tid, 7; shl.b32 %far, %other, 2; add.s32 %there, %base, %far; ld.shared.u32 %w, [%there];\n"
+      "st.global.u32 [%mine], %w;";
+  for (const bool backwards : {false, true}) {
+    const Words out = run_words(body, {.backwards = backwards});
+    for (U32 i = 0; i < 32; ++i) EXPECT_EQ(out[i], 100 + (i ^ 7U));
+  }
+}
+/// As nvcc declares the memory of a function that two kernels have.
+TEST(PtxInterpreter, SharedMemoryIsDeclaredBeforeAKernelToo) {
+  const std::string text =
+      ".shared .align 16 .b8 first[32];\n.shared .align 4 .b8 other[8];\n.visible .entry probe(\n)\n{\nmov.u32 %a, first; ret;\n\n}\n"
+      ".visible .entry none(\n)\n{\nret;\n\n}\n";
+  const auto entries = find_entries(text);
+  ASSERT_EQ(entries.size(), 2U);
+  EXPECT_EQ(decode(entries[0]).shared_bytes, 32U);
+  EXPECT_EQ(decode(entries[1]).shared_bytes, 0U);
+}
 TEST(PtxInterpreter, LanesAddInSharedMemory) {
   const Words out = run_words(
       ".shared .align 4 .b8 sum[4];\nmov.u32 %at0, sum; mov.u32 %zero, 0; st.shared.u32 [%at0], %zero; bar.sync 0;\n"

@@ -52,7 +52,7 @@ inline constexpr std::uint64_t kPoison = 0x7ff4cdcd7fa4cdcd;  // not a number, i
 
 class Lane {
  public:
-  enum class State { Running, AtButterfly, AtIndexedShuffle, AtActiveMask, AtBarrier, Done };
+  enum class State { Running, AtButterfly, AtIndexedShuffle, AtActiveMask, AtBarrier, AtMeeting, Done };
 
   /// At the beginning of a kernel. `parameters`: as the entry lays them out. `shared`: the block's memory, as large as the entry says.
   /// See also watch_for_races().
@@ -82,6 +82,8 @@ class Lane {
     at_ = static_cast<std::size_t>(to);
   }
   [[nodiscard]] std::size_t at() const noexcept { return at_; }
+  /// Instructions since the kernel's beginning.
+  [[nodiscard]] std::uint64_t executed() const noexcept { return executed_; }
   [[nodiscard]] const Instruction& instruction() const { return entry_->code[at_]; }
 
   /// The low bits of a slot.
@@ -138,6 +140,7 @@ class Lane {
   std::size_t at_ = 0;
   std::uint64_t jumps_left_ = 0;
   State state_ = State::Done;
+  std::uint64_t executed_ = 0;
   Races* races_ = nullptr;
   Agent agent_ = 0;
 };

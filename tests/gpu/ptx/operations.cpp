@@ -280,6 +280,7 @@ void add_comparisons(Table& t) {
 void add_control(Table& t) {
   t["ret"] = {[](Lane& lane, const Instruction& /*i*/) { lane.finish(); }, 0, 0};
   t["bar.sync"] = {[](Lane& lane, const Instruction& /*i*/) { lane.wait(Lane::State::AtBarrier); }, 0, 1};
+  t["bar.warp.sync"] = {[](Lane& lane, const Instruction& /*i*/) { lane.wait(Lane::State::AtMeeting); }, 0, 1};
   t["activemask.b32"] = {[](Lane& lane, const Instruction& /*i*/) { lane.wait(Lane::State::AtActiveMask); }, 1, 1};
   t["shfl.sync.bfly.b32"] = {[](Lane& lane, const Instruction& /*i*/) { lane.wait(Lane::State::AtButterfly); }, 2, 6, kSecond};
   t["shfl.sync.idx.b32"] = {[](Lane& lane, const Instruction& /*i*/) { lane.wait(Lane::State::AtIndexedShuffle); }, 2, 6, kSecond};

@@ -86,7 +86,10 @@ Kernels::Name name_for(Work work) {
 
 template <Metric M>
 Kernels::Name volume_name_for(Work work) {
-  return work == Work::VisitVolume ? in_team<bodies::VisitVolume<M>>() : solo<bodies::JudgeVolume<M>>();
+  if (work == Work::JudgeVolume) return solo<bodies::JudgeVolume<M>>();
+  return {fmt::format("void dmoscope::gpu::kernel<{}, dmoscope::gpu::StagingCudaTeam<{}u, {}ul> >(dmoscope::gpu::Task, unsigned long)",
+                      demangled(typeid(bodies::VisitVolume<M>).name()), kBlockSize, kStageBytes),
+          kTeamSize};
 }
 
 class Recorded final : public Queue::Recording {

@@ -86,6 +86,8 @@ class Decoder {
     entry_.initial.assign(kFirstParameter, kPoison);
     std::string_view text = source.text;
     read_head(text);
+    for (const std::string& declaration : source.shared)
+      if (source.text.find(shared_name(declaration)) != std::string::npos) add_shared(declaration);
     read_body(text);
   }
   [[nodiscard]] Entry finish() {
@@ -181,6 +183,10 @@ class Decoder {
     entry_.local_bytes = number<std::size_t>(text.substr(open + 1, text.size() - open - 2));
   }
 
+  static std::string_view shared_name(std::string_view declaration) {
+    const std::string_view named = declaration.substr(0, declaration.find('['));
+    return named.substr(named.find_last_of(kSpaces) + 1);
+  }
   /// ".shared .align 4 .b8 NAME[268]"
   void add_shared(std::string_view text) {
     std::string_view rest = text;
@@ -308,6 +314,7 @@ class Decoder {
 std::vector<EntryText> find_entries(std::string_view ptx) {
   const std::string kept = without_comments(ptx);
   std::vector<EntryText> entries;
+  std::vector<std::string> shared;
   for (std::string_view text = trimmed(kept); !text.empty(); text = trimmed(text)) {
     if (text.starts_with(".version ") || text.starts_with(".target ") || text.starts_with(".address_size ")) {
       (void)take_until(text, "\n");
@@ -315,8 +322,10 @@ std::vector<EntryText> find_entries(std::string_view ptx) {
       const std::string_view rest = text.substr(text.find(".entry ") + std::string_view(".entry ").size());
       const std::size_t end = text.find("\n}");  // those of inner blocks are indented, or behind other things
       if (end == std::string_view::npos) throw Fault("PTX breaks off in an entry");
-      entries.push_back({std::string(trimmed(rest.substr(0, rest.find('(')))), std::string(text.substr(0, end + 2))});
+      entries.push_back({std::string(trimmed(rest.substr(0, rest.find('(')))), std::string(text.substr(0, end + 2)), shared});
       text.remove_prefix(end + 2);
+    } else if (text.starts_with(".shared ")) {  // of a function that several kernels have
+      shared.emplace_back(take_until(text, ";"));
     } else {
       throw Fault(fmt::format("not known in PTX: {}", text.substr(0, std::min<std::size_t>(text.find('\n'), 200))));
     }

@@ -12,9 +12,10 @@ namespace {
 using State = Lane::State;
 
 bool shuffles(const Lane& lane) { return lane.state() == State::AtButterfly || lane.state() == State::AtIndexedShuffle; }
+bool meets(const Lane& lane) { return shuffles(lane) || lane.state() == State::AtMeeting; }
 bool is_member(std::uint32_t members, std::size_t lane) { return (members >> lane & 1U) != 0; }
-/// shfl.sync d|p, a, b, c, members
-std::uint32_t members_of(const Lane& lane) { return lane.get<std::uint32_t>(lane.instruction().slots[5]); }
+/// shfl.sync d|p, a, b, c, members; bar.warp.sync members
+std::uint32_t members_of(const Lane& lane) { return lane.get<std::uint32_t>(lane.instruction().slots[shuffles(lane) ? 5 : 0]); }
 
 /// All warps to the end, and at every barrier all together.
 void run_block(std::vector<Warp>& warps, const Entry& entry, Schedule schedule) {
@@ -47,6 +48,7 @@ void run_blocks(const Entry& entry, const GlobalMemory& global, const std::vecto
       warps[i].watch_for_races(schedule.races, first_agent + (block * threads + i * Warp::kSize) / entry.team);
     }
     run_block(warps, entry, schedule);
+    for (std::size_t i = 0; schedule.executed != nullptr && i < warps.size(); ++i) *schedule.executed += warps[i].executed();
   }
 }
 
@@ -78,6 +80,12 @@ bool Warp::run(Schedule schedule) {
   }
 }
 
+std::uint64_t Warp::executed() const {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < present_; ++i) sum += lanes_[i].executed();
+  return sum;
+}
+
 void Warp::watch_for_races(Races* races, Agent first) {
   for (std::size_t i = 0; i < kSize; ++i) lanes_[i].watch_for_races(races, first + i / entry_->team);
 }
@@ -91,7 +99,7 @@ bool Warp::has_arrived(std::size_t lane, std::uint32_t members) const {
   for (std::size_t i = 0; i < kSize; ++i) {
     if (!is_member(members, i)) continue;
     if (lanes_[i].state() == State::Done) throw Fault(fmt::format("lane {} shuffles with lane {}, which is gone", lane, i));
-    if (!shuffles(lanes_[i]) || lanes_[i].at() != lanes_[lane].at()) return false;
+    if (!meets(lanes_[i]) || lanes_[i].at() != lanes_[lane].at()) return false;
     if (members_of(lanes_[i]) != members) throw Fault("lanes at one shuffle name different members");
   }
   return true;
@@ -100,10 +108,15 @@ bool Warp::has_arrived(std::size_t lane, std::uint32_t members) const {
 bool Warp::exchange() {
   bool any = false;
   for (std::size_t i = 0; i < kSize; ++i) {
-    if (!shuffles(lanes_[i])) continue;
+    if (!meets(lanes_[i])) continue;
     const std::uint32_t members = members_of(lanes_[i]);
     if (!has_arrived(i, members)) continue;
-    pass_values(members);
+    if (shuffles(lanes_[i])) {
+      pass_values(members);
+    } else {
+      for (std::size_t k = 0; k < kSize; ++k)
+        if (is_member(members, k)) lanes_[k].go_on();
+    }
     any = true;
   }
   return any;

@@ -12,9 +12,10 @@ namespace dmoscope::gpu::ptx {
 
 /// What a device may do this way or that.
 struct Schedule {
-  bool together = false;   // activemask: all lanes that stand there, else each by itself
-  bool backwards = false;  // the last lane and the last block first
-  Races* races = nullptr;  // who watches for them; null: nobody
+  bool together = false;              // activemask: all lanes that stand there, else each by itself
+  bool backwards = false;             // the last lane and the last block first
+  Races* races = nullptr;             // who watches for them; null: nobody
+  std::uint64_t* executed = nullptr;  // instructions of all lanes are added to it
 };
 
 /// A launch: blocks of some threads, of which one runs after the other. Throws Fault, which names kernel and instruction.
@@ -31,6 +32,8 @@ class Warp {
   /// Until all lanes are done or at the block's barrier; returns whether they are done. Lanes run one by one until they must wait for each
   /// other.
   bool run(Schedule schedule);
+  /// Instructions of its lanes since start().
+  [[nodiscard]] std::uint64_t executed() const;
   /// `first`: the agent that its first lane is, or is one of.
   void watch_for_races(Races* races, Agent first);
   /// From the barrier on, at which all of the block are.

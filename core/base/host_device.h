@@ -6,9 +6,11 @@
 #if defined(__CUDACC__)
 #define DMOSCOPE_ANYWHERE __host__ __device__ constexpr
 #define DMOSCOPE_INLINE __forceinline__
+#define DMOSCOPE_INLINE_LAMBDA __attribute__((always_inline))
 #else
 #define DMOSCOPE_ANYWHERE constexpr
-#define DMOSCOPE_INLINE  // inlined in a device's code: a call would put values into memory that registers hold otherwise
+#define DMOSCOPE_INLINE         // inlined in a device's code: a call would put values into memory that registers hold otherwise
+#define DMOSCOPE_INLINE_LAMBDA  // the same behind a lambda's parameters
 #endif
 
 /// Unrolls loops over a few numbers that a GPU's lane must keep in registers, which takes indices that the compiler knows. Elsewhere the

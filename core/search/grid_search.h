@@ -132,7 +132,7 @@ struct CandidateGrid {
   }
   /// Calls f(index, candidate) for all of one i, in the order of their indices.
   template <class F>
-  DMOSCOPE_ANYWHERE void for_slice(int i, F f) const {
+  DMOSCOPE_INLINE DMOSCOPE_ANYWHERE void for_slice(int i, F f) const {
     for (int j = 0; j < points; ++j) {
       if constexpr (std::is_same_v<Point, Vec2<Real>>) {
         f(i * points + j, at(i, j));
@@ -206,7 +206,7 @@ template <class Real, class ObjectiveAt, class Point = Vec2<Real>, class Trace =
     trace.level(grid);
     [[maybe_unused]] int index = -1;  // of the best so far in this level: for a team alone
     for (int i = static_cast<int>(team.lane()); i < grid.points; i += static_cast<int>(Team::kSize)) {
-      grid.for_slice(i, [&](int candidate, const Point& p) {
+      grid.for_slice(i, [&](int candidate, const Point& p) DMOSCOPE_INLINE_LAMBDA {
         const Real value = objective(p);
         trace.candidate(candidate, p, value);
         const auto better = value > best.objective;

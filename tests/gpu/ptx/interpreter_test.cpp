@@ -48,6 +48,14 @@ TEST(PtxInterpreter, EightLanesPassValues) {
   for (U32 i = 0; i < 32; ++i) EXPECT_EQ(out[i], 100 + i / 8 * 8 + 3);
 }
 
+TEST(PtxInterpreter, InstructionsAreCounted) {
+  const Entry entry = probe("mov.u32 %left, %tid;\n$L__BB0_1:\nadd.s32 %left, %left, -1; setp.ge.s32 %q, %left, 0; @%q bra $L__BB0_1;\n");
+  const std::vector<std::byte> parameters(2 * sizeof(std::uint64_t));
+  const GlobalMemory global;
+  const std::uint64_t rounds = 32 * 33 / 2;  // lane 0 goes round once, each one more than the lane before
+  EXPECT_EQ(run_blocks(entry, global, parameters, 3, {}, 32), 3 * (32 * 5 + 3 * rounds)) << "five are no part of the round";
+}
+
 /// Every lane leaves its word in the block's memory; after the barrier it takes that of the lane on the other side.
 TEST(PtxInterpreter, LanesShareMemoryAcrossABarrier) {
   const std::string body =

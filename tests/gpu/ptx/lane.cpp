@@ -27,7 +27,6 @@ void Lane::start(const Entry& entry, const GlobalMemory& global, const std::vect
     put(static_cast<Slot>(kFirstParameter + i), parameters_.begin + entry.parameters[i]);
   at_ = 0;
   jumps_left_ = kMostJumps;
-  executed_ = 0;
   state_ = State::Running;
 }
 
@@ -35,7 +34,7 @@ void Lane::run() {
   const Instruction* const code = entry_->code.data();
   while (state_ == State::Running) {
     const Instruction& instruction = code[at_++];
-    ++executed_;
+    ++instructions_;
     try {
       instruction.run(*this, instruction);
     } catch (const Fault& fault) {

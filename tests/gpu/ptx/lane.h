@@ -67,6 +67,8 @@ class Lane {
   void run();
 
   [[nodiscard]] State state() const noexcept { return state_; }
+  /// Done so far, in all kernels that it was started in.
+  [[nodiscard]] std::uint64_t instructions() const noexcept { return instructions_; }
   void wait(State why) noexcept {
     state_ = why;
     --at_;
@@ -82,8 +84,6 @@ class Lane {
     at_ = static_cast<std::size_t>(to);
   }
   [[nodiscard]] std::size_t at() const noexcept { return at_; }
-  /// Instructions since the kernel's beginning.
-  [[nodiscard]] std::uint64_t executed() const noexcept { return executed_; }
   [[nodiscard]] const Instruction& instruction() const { return entry_->code[at_]; }
 
   /// The low bits of a slot.
@@ -139,8 +139,8 @@ class Lane {
   std::span<std::byte> shared_;
   std::size_t at_ = 0;
   std::uint64_t jumps_left_ = 0;
+  std::uint64_t instructions_ = 0;
   State state_ = State::Done;
-  std::uint64_t executed_ = 0;
   Races* races_ = nullptr;
   Agent agent_ = 0;
 };

@@ -87,6 +87,10 @@ T remainder_of(T a, T b) {
   return a % b;
 }
 
+U32 unsigned_quotient_of(U32 a, U32 b) {
+  if (b == 0) throw Fault("a division without a quotient");
+  return a / b;
+}
 /// Towards zero.
 U32 quotient_of(I32 a, I32 b) {
   if (b == 0 || (b == -1 && a == std::numeric_limits<I32>::min())) throw Fault("a division without a quotient");
@@ -178,12 +182,14 @@ void add_integers(Table& t) {
   t["max.u64"] = op([](U64 a, U64 b) { return a < b ? b : a; });
   t["mul.lo.s32"] = op([](U32 a, U32 b) { return a * b; });
   t["mul.lo.s64"] = op([](U64 a, U64 b) { return a * b; });
+  t["mul.hi.u32"] = op([](U32 a, U32 b) { return static_cast<U32>(U64{a} * b >> 32U); });
   t["mul.hi.u64"] = op([](U64 a, U64 b) { return static_cast<U64>(static_cast<U128>(a) * b >> 64U); });
   t["mul.wide.s32"] = op([](I32 a, I32 b) { return static_cast<I64>(a) * b; });
   t["mul.wide.u32"] = op([](U32 a, U32 b) { return U64{a} * b; });
   t["mad.lo.s64"] = op([](U64 a, U64 b, U64 c) { return a * b + c; });
   t["mad.lo.s32"] = op([](U32 a, U32 b, U32 c) { return a * b + c; });
   t["div.s32"] = op([](I32 a, I32 b) { return quotient_of(a, b); });
+  t["div.u32"] = op([](U32 a, U32 b) { return unsigned_quotient_of(a, b); });
   t["rem.u32"] = op([](U32 a, U32 b) { return remainder_of(a, b); });
   t["rem.u64"] = op([](U64 a, U64 b) { return remainder_of(a, b); });
 

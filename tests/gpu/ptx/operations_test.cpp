@@ -121,6 +121,7 @@ TEST(PtxOperations, Integers) {
   EXPECT_EQ(result<U64>("sub.s64", U64{1}, U64{2}), ~U64{0});
   EXPECT_EQ(result<U64>("mul.lo.s64", U64{1} << 63U, U64{3}), U64{1} << 63U);
   EXPECT_EQ(result<U64>("mul.hi.u64", ~U64{0}, U64{5}), 4U);
+  EXPECT_EQ(result<U64>("mul.hi.u32", 0xffffffffU, 5U), 4U);
   EXPECT_EQ(result<std::int64_t>("mul.wide.s32", -3, 0x7fffffff), -3 * std::int64_t{0x7fffffff});
   EXPECT_EQ(result<U64>("mul.wide.u32", 0xffffffffU, 24U), 103079215080U);
   EXPECT_EQ(result<U64>("mad.lo.s32", 7U, 6U, 0xffffffffU), 41U);
@@ -149,6 +150,8 @@ TEST(PtxOperations, Bits) {
   EXPECT_EQ(result<U64>("mul.wide.u16", std::uint16_t{300}, std::uint16_t{300}), 90000U);
   EXPECT_EQ(result<std::int32_t>("div.s32", -7, 2), -3) << "towards zero";
   EXPECT_THROW((void)result<std::int32_t>("div.s32", 7, 0), Fault);
+  EXPECT_EQ(result<U64>("div.u32", 0xfffffff9U, 2U), 0x7ffffffcU);
+  EXPECT_THROW((void)result<U64>("div.u32", 7U, 0U), Fault);
   EXPECT_EQ(result<U64>("popc.b32", 0xf0f00001U), 9U);
   EXPECT_EQ(result<U64>("clz.b64", U64{1} << 40U), 23U);
   EXPECT_EQ(result<U64>("clz.b64", U64{0}), 64U);

@@ -17,7 +17,7 @@ namespace dmoscope::gpu::ptx::testing {
 /// A kernel of two pointers, which are in %in and %out; its lane is in %tid.
 inline Entry probe(const std::string& body) {
   const std::string text =
-      ".version 9.0\n.target sm_75\n\n.visible .entry probe(\n\t.param .u64 probe_param_0,\n\t.param .u64 probe_param_1\n)\n"
+      ".version 9.0\n.target sm_75\n\n.visible .entry probe(\n\t.param .u64 probe_param_0,\n\t.param .u64 .ptr .align 1 probe_param_1\n)\n"
       ".maxntid 128, 1, 1\n{\n\t.local .align 8 .b8 \t__local_depot0[16];\n\tld.param.u64 %in, [probe_param_0];\n"
       "\tld.param.u64 \t%out, [probe_param_1]; // a comment\n\tmov.u32 %tid, %tid.x;\n" +
       body + "\nret;\n\n}\n";

@@ -21,11 +21,8 @@ using dmoscope::testing::Specimen;
 class PtxTest : public ::testing::TestWithParam<Metric> {
  protected:
   void SetUp() override {
-#ifdef DMOSCOPE_PTX_DIR
-    kernels = std::make_shared<Kernels>(DMOSCOPE_PTX_DIR);
-#else
-    GTEST_SKIP() << "needs the kernels' PTX; built without a CUDA toolkit";
-#endif
+    if (kernels_folder().empty()) GTEST_SKIP() << "needs the kernels' PTX; built without a CUDA toolkit";
+    kernels = std::make_shared<Kernels>(kernels_folder());
   }
   /// Some lanes alone, some in teams; some forwards, some backwards.
   [[nodiscard]] std::shared_ptr<Queue> teams(Schedule schedule = {}) const { return make_ptx_queue(kernels, {1U << 20U, schedule}); }

@@ -25,6 +25,15 @@ std::string demangled(const char* name) {
   return text.get();
 }
 
+std::filesystem::path kernels_folder() {
+#ifdef DMOSCOPE_PTX_ROOT
+  const char* const asked = std::getenv("DMOSCOPE_PTX");
+  return std::filesystem::path(DMOSCOPE_PTX_ROOT) / (asked != nullptr && *asked != '\0' ? asked : DMOSCOPE_PTX_ARCHITECTURE);
+#else
+  return {};
+#endif
+}
+
 namespace {
 
 constexpr std::size_t kBlockSize = 128, kTeamSize = 8;
@@ -183,7 +192,8 @@ class PtxQueue final : public Queue, public std::enable_shared_from_this<PtxQueu
       const Kernels::Name name = Kernels::name_of(work, metric);
       const std::size_t lanes = (count + name.each - 1) / name.each * name.team;
       if (device_.schedule.races != nullptr && !at_once_) device_.schedule.races->forget();
-      run_blocks(entry, global_, parameters, (lanes + kBlockSize - 1) / kBlockSize, device_.schedule);
+      const std::uint64_t instructions = run_blocks(entry, global_, parameters, (lanes + kBlockSize - 1) / kBlockSize, device_.schedule);
+      if (device_.instructions != nullptr) (*device_.instructions)[work] += instructions;
     } catch (const Fault& fault) {
       throw DeviceError(fault.what());
     }

@@ -2,6 +2,7 @@
 // A device whose kernels are what nvcc made of them, run instruction by instruction on the host: slow, and exact.
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <unordered_map>
@@ -15,6 +16,10 @@ namespace dmoscope::gpu::ptx {
 
 /// "_Z3addPff" -> "add(float*, float)". Throws Fault where it is no such name.
 [[nodiscard]] std::string demangled(const char* name);
+
+/// Where the build put the PTX of one compute capability, whose number is the folder's name: the one that the environment variable
+/// DMOSCOPE_PTX names, else the one that CMake was given. Empty: the build found no CUDA toolkit.
+[[nodiscard]] std::filesystem::path kernels_folder();
 
 /// The kernels in a folder's .ptx files.
 class Kernels {
@@ -44,6 +49,7 @@ class Kernels {
 struct PtxDevice {
   std::size_t lanes_at_once = 4096;
   Schedule schedule{};  // with races: they forget what a launch did when it is done, or all that were asked for at once
+  std::map<Work, std::uint64_t>* instructions = nullptr;  // counted up by what each launch's lanes did; null: nobody asks
 };
 /// Faults become DeviceErrors.
 [[nodiscard]] std::shared_ptr<Queue> make_ptx_queue(std::shared_ptr<Kernels> kernels, const PtxDevice& device = {});

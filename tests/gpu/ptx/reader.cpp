@@ -123,7 +123,7 @@ class Decoder {
         throw Fault(fmt::format("not known of {}: {}", entry_.name, directive));
     }
   }
-  /// ".param .align 8 .b8 NAME[424]" or ".param .u64 NAME"
+  /// ".param .align 8 .b8 NAME[424]", ".param .u64 NAME" or ".param .u64 .ptr .align 1 NAME"
   void add_parameter(std::string_view text) {
     std::string_view rest = text;
     std::size_t bytes = 8, align = 8;
@@ -132,6 +132,10 @@ class Decoder {
     if (type == ".align") {
       align = number<std::size_t>(take_word(rest));
       type = take_word(rest);
+    }
+    if (rest.starts_with(".ptr ")) {  // what it points to is of no matter
+      (void)take_word(rest);
+      if (take_word(rest) == ".align") (void)number<std::size_t>(take_word(rest));
     }
     std::string_view name = rest;
     if (type == ".b8" && name.ends_with(']')) {

@@ -30,8 +30,8 @@ void run_block(std::vector<Warp>& warps, const Entry& entry, Schedule schedule) 
 
 }  // namespace
 
-void run_blocks(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::size_t blocks,
-                Schedule schedule, std::size_t threads) {
+std::uint64_t run_blocks(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::size_t blocks,
+                         Schedule schedule, std::size_t threads) {
   if (threads == 0 || threads > entry.most_threads)
     throw Fault(fmt::format("{} is not meant for blocks of {} but of up to {}", entry.name, threads, entry.most_threads));
   if (parameters.size() != entry.parameter_bytes)
@@ -48,8 +48,10 @@ void run_blocks(const Entry& entry, const GlobalMemory& global, const std::vecto
       warps[i].watch_for_races(schedule.races, first_agent + (block * threads + i * Warp::kSize) / entry.team);
     }
     run_block(warps, entry, schedule);
-    for (std::size_t i = 0; schedule.executed != nullptr && i < warps.size(); ++i) *schedule.executed += warps[i].executed();
   }
+  std::uint64_t instructions = 0;
+  for (const Warp& warp : warps) instructions += warp.instructions();
+  return instructions;
 }
 
 void Warp::start(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::span<std::byte> shared,
@@ -80,14 +82,14 @@ bool Warp::run(Schedule schedule) {
   }
 }
 
-std::uint64_t Warp::executed() const {
-  std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < present_; ++i) sum += lanes_[i].executed();
-  return sum;
-}
-
 void Warp::watch_for_races(Races* races, Agent first) {
   for (std::size_t i = 0; i < kSize; ++i) lanes_[i].watch_for_races(races, first + i / entry_->team);
+}
+
+std::uint64_t Warp::instructions() const {
+  std::uint64_t sum = 0;
+  for (const Lane& lane : lanes_) sum += lane.instructions();
+  return sum;
 }
 
 void Warp::pass_barrier() {

@@ -12,15 +12,15 @@ namespace dmoscope::gpu::ptx {
 
 /// What a device may do this way or that.
 struct Schedule {
-  bool together = false;              // activemask: all lanes that stand there, else each by itself
-  bool backwards = false;             // the last lane and the last block first
-  Races* races = nullptr;             // who watches for them; null: nobody
-  std::uint64_t* executed = nullptr;  // instructions of all lanes are added to it
+  bool together = false;   // activemask: all lanes that stand there, else each by itself
+  bool backwards = false;  // the last lane and the last block first
+  Races* races = nullptr;  // who watches for them; null: nobody
 };
 
-/// A launch: blocks of some threads, of which one runs after the other. Throws Fault, which names kernel and instruction.
-void run_blocks(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::size_t blocks,
-                Schedule schedule, std::size_t threads = 128);
+/// A launch: blocks of some threads, of which one runs after the other. Returns how many instructions its lanes did in all. Throws Fault,
+/// which names kernel and instruction.
+std::uint64_t run_blocks(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::size_t blocks,
+                         Schedule schedule, std::size_t threads = 128);
 
 class Warp {
  public:
@@ -32,10 +32,10 @@ class Warp {
   /// Until all lanes are done or at the block's barrier; returns whether they are done. Lanes run one by one until they must wait for each
   /// other.
   bool run(Schedule schedule);
-  /// Instructions of its lanes since start().
-  [[nodiscard]] std::uint64_t executed() const;
   /// `first`: the agent that its first lane is, or is one of.
   void watch_for_races(Races* races, Agent first);
+  /// Done by its lanes in all.
+  [[nodiscard]] std::uint64_t instructions() const;
   /// From the barrier on, at which all of the block are.
   void pass_barrier();
 

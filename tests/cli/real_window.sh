@@ -50,60 +50,6 @@ grep -q "bad.txt:2: .*none.off" "$folder/said" || fail "the failing line is not 
 [[ ! -e $folder/never.png ]] || fail "the script went on after its failing line"
 
 command -v xdotool >/dev/null || { echo "no xdotool: keys of a person not tried"; exit 0; }
-cat >"$folder/person.sh" <<'PERSON'
-program=$1 mesh=$2 tests=$3
-"$program" "$mesh" &
-id=$!
-window=$(timeout 60 xdotool search --sync --onlyvisible --class dmoscope | head -n 1)
-xdotool windowfocus "$window"
-title=""
-for _ in $(seq 100); do
-  title=$(xdotool getwindowname "$window")
-  [[ $title == *" – dmoscope" ]] && break
-  sleep 0.1
-done
-[[ $title == *" – dmoscope" ]] || { echo "the mesh did not open: $title"; kill "$id"; exit 1; }
-xdotool windowsize "$window" 1000 700
-for key in n space w space n ctrl+q; do
-  xdotool key --window 0 "$key"
-  sleep 0.3
-done
-sleep 1
-kill -0 "$id" 2>/dev/null || { echo "the window closed over an iteration that is in no file, without a question"; exit 1; }
-xdotool key --window 0 Escape  # the answer: no
-sleep 0.5
-grep -q "\"$(realpath "$mesh")\"" "$XDG_STATE_HOME/dmoscope/recent.json" || { echo "the mesh is not among the recent files yet"; exit 1; }
-grep -q '"wireframe": false' "$XDG_CONFIG_HOME/dmoscope/settings.json" || { echo "settings wait for the window's end"; exit 1; }
-python3 "$tests/ask_to_close.py" "$window"
-sleep 1
-kill -0 "$id" 2>/dev/null || { echo "the button of its frame closed the window without a question"; exit 1; }
-xdotool key --window 0 Escape
-sleep 0.5
-xdotool key --window 0 r  # back at the input there is nothing to lose
-sleep 1
-for _ in $(seq 20); do
-  sleep 0.5
-  kill -0 "$id" 2>/dev/null || break
-  xdotool key --window 0 ctrl+q || true  # a display without a window manager may lose one
-done
-if kill -0 "$id" 2>/dev/null; then
-  echo "Ctrl+Q did not close the window"
-  kill "$id"
-  exit 1
-fi
-wait "$id" || { echo "the window ended with $?"; exit 1; }
-"$program" &
-id=$!
-window=$(timeout 60 xdotool search --sync --onlyvisible --class dmoscope | head -n 1)
-for _ in $(seq 50); do
-  size=$(xdotool getwindowgeometry "$window" | sed -n 's/.*Geometry: //p')
-  [[ $size == 1000x700 ]] && break
-  sleep 0.1
-done
-kill "$id"
-wait "$id" || true
-[[ $size == 1000x700 ]] || { echo "the window was left 1000x700 and is $size the next time"; exit 1; }
-PERSON
 status=0
-on_display bash "$folder/person.sh" "$program" "$mesh" "$tests" || status=$?
+on_display bash "$tests/person_at_the_window.sh" "$program" "$mesh" || status=$?
 [[ $status -eq 0 ]] || fail "a person's window ended with $status"

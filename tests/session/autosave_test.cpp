@@ -92,14 +92,17 @@ TEST_F(AutosaveTest, ALongRunIsSavedOnItsWay) {
   lose();
   const auto found = find_recoverable(folder_.path());
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_GT(found[0].iteration, 0U);
   open(1h);
   good("recover " + found[0].names.session.string());
   const std::vector<Vec3> recovered = positions();
   const Moment at = engine_->view()->runs[0].moment;
-  EXPECT_TRUE(at.is_iteration_end());
+  EXPECT_NE(at, Moment{});
+  EXPECT_EQ(found[0].iteration, at.iteration);
   good("generate coast 2000");
-  good("run " + std::to_string(at.iteration));
+  // A slow machine is saved in the midst of an iteration.
+  if (at.iteration > 0) good("run " + std::to_string(at.iteration));
+  if (at.visits > 0) good("step vertex " + std::to_string(at.visits));
+  EXPECT_EQ(engine_->view()->runs[0].moment, at);
   EXPECT_EQ(positions(), recovered);
 }
 

@@ -29,6 +29,7 @@ struct SpaceMarks {
   std::vector<Index> cells;     // all their edges
   std::vector<Index> vertices;  // dots
   std::optional<Index> worst;   // cell with a ring around it
+  bool worst_behind = false;    // others hide it: the ring is faint
   std::vector<SpaceLine> lines;
   std::vector<SpaceDot> dots;          // the nearest on top
   bool triad = true;                   // the axes, in the right lower corner

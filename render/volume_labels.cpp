@@ -18,9 +18,7 @@ struct Outline {
 };
 
 std::optional<Outline> outline_of(std::span<const Vec3> polygon, const Projection& projection) {
-  // The diagonal along which a quadrilateral is drawn as two triangles; of a triangle its mean.
-  const Vec3 on_it = polygon.size() == 4 ? 0.5 * (polygon[0] + polygon[2]) : 1.0 / 3.0 * (polygon[0] + polygon[1] + polygon[2]);
-  Outline outline{{}, on_it};
+  Outline outline{{}, point_on(polygon)};
   for (const Vec3& point : polygon) {
     const auto place = projection.place(point);
     if (!place) return std::nullopt;

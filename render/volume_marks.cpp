@@ -74,7 +74,7 @@ void gather_marks(const SeenFaces& seen, const Projection& projection, const Sty
       painter.dot(*place, 9.0F * style.scale, DotShape::Round, of_vertex.highlight, of_vertex.casing);
   }
   if (marks.worst && *marks.worst < seen.elements.size())
-    ring(seen, *marks.worst, projection, style, inks(seen.has_cell(*marks.worst)), painter);
+    ring(seen, *marks.worst, projection, style, inks(seen.has_cell(*marks.worst) && !marks.worst_behind), painter);
   for (const SpaceLine& l : marks.lines) line(projection, l.from, l.to, l.width * style.scale, l.colour, painter);
   std::vector<std::pair<double, std::size_t>> order;  // farthest first
   order.reserve(marks.dots.size());

@@ -106,6 +106,30 @@ std::optional<RayHit> first_hit(const SeenFaces& seen, const ViewRay& ray) {
   return hit;
 }
 
+Vec3 point_on(std::span<const Vec3> polygon) {
+  return polygon.size() == 4 ? 0.5 * (polygon[0] + polygon[2]) : 1.0 / 3.0 * (polygon[0] + polygon[1] + polygon[2]);
+}
+
+bool is_unhidden(const SeenFaces& seen, const Bounds3& bounds, const OrbitCamera& camera, Vec2<double> viewport, Index cell) {
+  const Projection projection = camera.projection(viewport, bounds);
+  const auto shows = [&](Vec3 point) {
+    const auto place = cut_away(seen, point) ? std::nullopt : projection.place(point);
+    if (!place) return false;
+    const auto hit = first_hit(seen, camera.ray({0.5 * viewport.x + place->x, 0.5 * viewport.y - place->y}, viewport));
+    return hit && hit->element == cell;
+  };
+  const auto shows_some = [&](std::span<const Vec3> polygon) {
+    const Vec3 middle = point_on(polygon);
+    return shows(middle) || std::ranges::any_of(polygon, [&](Vec3 corner) { return shows(0.5 * (middle + corner)); });
+  };
+  const PlaneCuts& cuts = seen.faces.cuts;
+  return std::ranges::any_of(seen.faces.faces,
+                             [&](ElementFace face) { return face.element == cell && shows_some(drawn_face(seen, face).corners()); }) ||
+         std::ranges::any_of(cuts.polygons, [&](const CutPolygon& polygon) {
+           return polygon.element == cell && shows_some(std::span(cuts.points).subspan(polygon.first, polygon.count));
+         });
+}
+
 Pick pick(const SeenFaces& seen, const Bounds3& bounds, const OrbitCamera& camera, Vec2<double> viewport, Vec2<double> pixel,
           double radius) {
   Pick result;

@@ -31,6 +31,8 @@ struct DrawnFace {
   [[nodiscard]] std::span<const Vec3> corners() const { return {points.data(), count}; }
 };
 [[nodiscard]] DrawnFace drawn_face(const SeenFaces& seen, ElementFace face);
+/// A point where a polygon is drawn: of a quadrilateral on the diagonal along which it is two triangles, of a triangle its mean.
+[[nodiscard]] Vec3 point_on(std::span<const Vec3> polygon);
 /// Whether a plane that cuts cells through leaves this point of one out.
 [[nodiscard]] bool cut_away(const SeenFaces& seen, Vec3 point);
 
@@ -41,6 +43,10 @@ struct RayHit {
   double along = 0.0;
 };
 [[nodiscard]] std::optional<RayHit> first_hit(const SeenFaces& seen, const ViewRay& ray);
+
+/// Whether some place of what is drawn of a cell, looked at in the middles of its faces and cuts and half way to their corners, is not
+/// behind others. A ray for each of these places, until one is seen.
+[[nodiscard]] bool is_unhidden(const SeenFaces& seen, const Bounds3& bounds, const OrbitCamera& camera, Vec2<double> viewport, Index cell);
 
 /// See VolumeScene::pick. `bounds`: of the mesh.
 [[nodiscard]] Pick pick(const SeenFaces& seen, const Bounds3& bounds, const OrbitCamera& camera, Vec2<double> viewport, Vec2<double> pixel,

@@ -19,6 +19,9 @@
 namespace dmoscope::render {
 namespace {
 
+// Looked through in a moment: once, and by a dozen rays.
+constexpr std::size_t kMostFaces = 300'000, kMostFacesOfRays = 100'000;
+
 FacePainter::Point point_of(Vec3 p) { return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}; }
 
 }  // namespace
@@ -58,7 +61,16 @@ struct VolumeScene::Impl {
     OrbitCamera camera;
     Vec2<double> viewport;
     std::uint64_t revision;
+    friend bool operator==(const SeenFrom& a, const SeenFrom& b) {
+      return a.camera == b.camera && a.viewport.x == b.viewport.x && a.viewport.y == b.viewport.y && a.revision == b.revision;
+    }
   };
+  struct ShownCell {
+    SeenFrom from;
+    Index cell;
+    bool shown;
+  };
+  std::optional<ShownCell> shown_cell;  // that was asked for last
   std::optional<SeenFrom> depths_of;
   std::optional<DepthMap> depths;  // likewise
 
@@ -252,12 +264,10 @@ SeenFaces VolumeScene::Impl::seen_vertices() {
 
 /// Null where it would take too long.
 const DepthMap* VolumeScene::Impl::depth_map(const OrbitCamera& camera, Vec2<double> viewport) {
-  constexpr std::size_t kMostFaces = 300'000;
   if (elements == nullptr || bounds.empty() || seen().faces.size() > kMostFaces) return nullptr;
-  const bool same = depths_of && depths_of->camera == camera && depths_of->viewport.x == viewport.x &&
-                    depths_of->viewport.y == viewport.y && depths_of->revision == revision;
-  if (!same) depths.emplace(seen_faces(), camera.projection(viewport, bounds));
-  depths_of = {camera, viewport, revision};
+  const SeenFrom from{camera, viewport, revision};
+  if (depths_of != from) depths.emplace(seen_faces(), camera.projection(viewport, bounds));
+  depths_of = from;
   return &*depths;
 }
 
@@ -267,6 +277,16 @@ bool VolumeScene::sees_cell(Index cell) const {
 
 bool VolumeScene::sees_vertex(Index vertex) const {
   return !impl_->inside || vertex >= impl_->state.positions.size() || impl_->seen_vertices().has_vertex(vertex);
+}
+
+bool VolumeScene::shows_cell(const OrbitCamera& camera, Vec2<double> viewport, Index cell) const {
+  Impl& s = *impl_;
+  if (!sees_cell(cell)) return false;
+  if (s.elements == nullptr || s.bounds.empty() || s.seen().faces.size() > kMostFacesOfRays) return true;
+  const Impl::SeenFrom from{camera, viewport, s.revision};
+  if (!s.shown_cell || s.shown_cell->cell != cell || !(s.shown_cell->from == from))
+    s.shown_cell = {from, cell, is_unhidden(s.seen_faces(), s.bounds, camera, viewport, cell)};
+  return s.shown_cell->shown;
 }
 
 std::optional<Unhidden> VolumeScene::unhidden(const OrbitCamera& camera, Vec2<double> viewport) const {

@@ -61,6 +61,9 @@ class VolumeScene final : public Scene {
   /// Whether a cell, or some cell around a vertex, is seen: not taken away, though others may hide it. True where there is none such.
   [[nodiscard]] bool sees_cell(Index cell) const;
   [[nodiscard]] bool sees_vertex(Index vertex) const;
+  /// Whether something of a cell is in the picture: not taken away, and not behind others. True while more faces are drawn than can be
+  /// looked through in a moment.
+  [[nodiscard]] bool shows_cell(const OrbitCamera& camera, Vec2<double> viewport, Index cell) const;
   /// None while more faces are drawn than can be looked through in a moment.
   [[nodiscard]] std::optional<Unhidden> unhidden(const OrbitCamera& camera, Vec2<double> viewport) const;
   /// The ids that have space in a viewport of that size: of a cell within one of its faces, of a vertex between it and its neighbours,

@@ -1,5 +1,6 @@
 // Arrows, ghosts, dots and labels over volume meshes: where they begin and end, and that the window draws them of what is seen.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -143,6 +144,17 @@ TEST_F(VolumeStepping, WhatIsMarkedAndTakenAwayIsNamed) {
   good("worst-cells 1");
   good("keep-quality off");
   EXPECT_EQ(note(), "") << worst;
+}
+
+TEST_F(VolumeStepping, AWorstElementBehindOthersIsNamed) {
+  const Index worst = session()->frame->worst.front().element;
+  const std::array<Index, 3> place{worst % 4, worst / 4 % 4, worst / 16};
+  constexpr std::array kSides{"-x", "+x", "-y", "+y", "-z", "+z"};
+  for (std::size_t side = 0; side < kSides.size(); ++side) {
+    good(std::string("view-from ") + kSides[side]);
+    const bool lies_there = place[side / 2] == (side % 2 == 0 ? 0U : 3U);
+    EXPECT_EQ(note(), lies_there ? "" : "hidden, so marked faintly: the worst element") << kSides[side] << " of " << worst;
+  }
 }
 
 TEST_F(VolumeStepping, AFittedMeshStaysFittedInPerspective) {

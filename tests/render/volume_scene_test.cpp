@@ -353,6 +353,30 @@ TEST_F(VolumePicture, MarksOfWhatWasTakenAwayAreFaint) {
   EXPECT_GT(most_light(), 240);
 }
 
+/// From +x cells of odd numbers hide the others, in whose place a ring would seem to be of them.
+TEST_F(VolumePicture, AWorstCellBehindOthersHasAFaintRing) {
+  const auto shown = [&] {
+    std::vector<Index> cells;
+    for (Index cell = 0; cell < 8; ++cell)
+      if (space->shows_cell(camera, kViewport, cell)) cells.push_back(cell);
+    return cells;
+  };
+  EXPECT_EQ(shown(), (std::vector<Index>{1, 3, 5, 7}));
+  camera.look_from(ViewPreset::MinusX);
+  EXPECT_EQ(shown(), (std::vector<Index>{0, 2, 4, 6}));
+  camera.look_from(ViewPreset::Isometric);  // from (1, -1, 1)
+  EXPECT_EQ(shown(), (std::vector<Index>{0, 1, 3, 4, 5, 6, 7}));
+  camera.look_from(ViewPreset::PlusX);
+  ClippingView view;
+  view.clip = {.on = true, .normal = {1, 0, 0}, .offset = 0.25, .flip = false, .mode = ClipPlane::Mode::Cut};
+  space->set_view(view);
+  EXPECT_EQ(shown(), (std::vector<Index>{0, 2, 4, 6})) << "their cuts";
+  plain.worst = 6;
+  const Image clear = shot();
+  plain.worst_behind = true;
+  EXPECT_NE(shot().rgba, clear.rgba);
+}
+
 /// Which vertices are seen of a cube of 2 x 2 x 2 cells from a corner: those of the three sides that look there.
 TEST_F(VolumePicture, NothingHidesTheVerticesOfTheSidesThatAreSeen) {
   camera.look_from(ViewPreset::Isometric);  // from (1, -1, 1)

@@ -105,7 +105,10 @@ render::SpaceMarks PaneView::space_marks(const Scenery& scenery, Vec2<double> vi
   if (is_active_mesh(scenery) && !state.selection.empty() && state.selection.vertices().size() <= kMostDots)
     for (const Index v : state.selection.vertices())
       if (v < frame()->vertex_count()) marks.vertices.push_back(v);
-  if (marks_worst(state, inspecting)) marks.worst = frame()->worst.front().element;
+  if (marks_worst(state, inspecting)) {
+    marks.worst = frame()->worst.front().element;
+    marks.worst_behind = !volume_->shows_cell(state.orbit, viewport, *marks.worst);
+  }
   if (inspecting) {
     render::Style of_quality = scene_style(state);
     of_quality.colours = colour_scale(state, scenery.derived);  // of candidates, whatever the cells show
@@ -123,7 +126,7 @@ std::string PaneView::note(const ViewState& state) const {
   const render::VolumeScene& scene = *volume_;
   std::string faint;
   const auto add = [&faint](const std::string& what) { faint += (faint.empty() ? "" : " and ") + what; };
-  if (marks_worst(state, false) && !scene.sees_cell(frame()->worst.front().element)) add("the worst element");
+  if (marks_worst(state, false) && !scene.shows_cell(state.orbit, state.viewport, frame()->worst.front().element)) add("the worst element");
   const Picked& picked = state.picked;
   if (picked.kind == Picked::Kind::Element && !scene.sees_cell(picked.id)) add(fmt::format("element {}", picked.id));
   if (picked.kind == Picked::Kind::Vertex && !scene.sees_vertex(picked.id)) add(fmt::format("vertex {}", picked.id));

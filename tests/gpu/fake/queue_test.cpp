@@ -124,8 +124,10 @@ TEST_F(FakeQueue, LongCopiesComeThroughWhole) {
 
 TEST_F(FakeQueue, AFailureInALongCopyIsSaidAndNextTimeItComesThrough) {
   constexpr std::size_t kSize = 3000000;
-  std::vector<std::uint32_t> sent(kSize, 5U), found(kSize);
+  std::vector<std::uint32_t> sent(kSize), found(kSize);
+  std::uint32_t value = 0;  // another one each time: what a failure left under way must not get among what comes next
   const auto both_ways = [&](Queue& queue, void* memory) {
+    std::ranges::fill(sent, ++value);
     queue.upload(memory, sent.data(), kSize * 4, nullptr);
     queue.download(found.data(), memory, kSize * 4, nullptr);
   };

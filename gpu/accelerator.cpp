@@ -17,10 +17,8 @@ class CudaAccelerator final : public Accelerator {
   explicit CudaAccelerator(int device) : device_(device), first_(make_cuda_queue(device)) {}
   int number() const noexcept override { return device_; }
   std::string description() const override { return first_->description(); }
-  std::unique_ptr<Smoother> make_dmo(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring, Metric metric,
-                                     const SearchParameters& parameters, std::span<const Index> immovable,
-                                     ThreadPool* pool) const override {
-    return make_device_dmo(first_->sibling(Urgency::Last), std::move(input), std::move(colouring), metric, parameters, immovable, pool);
+  std::unique_ptr<Smoother> make_dmo(const SmoothingTask& task) const override {
+    return make_device_dmo(first_->sibling(Urgency::Last), task);
   }
 
  private:

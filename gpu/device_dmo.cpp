@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/smooth/methods/composite_dmo.h"
 #include "gpu/bodies.h"
 #include "gpu/device_mesh.h"
 #include "gpu/device_picture.h"
@@ -17,28 +18,33 @@ constexpr std::size_t kSettlers = 2048;
 
 class DeviceDmo final : public Smoother {
  public:
-  DeviceDmo(std::shared_ptr<Queue> queue, std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring, Metric metric,
-            const SearchParameters& parameters, std::span<const Index> immovable, ThreadPool* pool)
+  DeviceDmo(std::shared_ptr<Queue> queue, const SmoothingTask& task)
       : queue_(std::move(queue)),
-        colouring_(std::move(colouring)),
-        metric_(metric),
-        mesh_(queue_, *input, *colouring_, immovable, pool),
+        colouring_(task.colouring),
+        metric_(task.metric),
+        combination_(task.combination),
+        size_(task.size),
+        aims_(aims_of({})),
+        mesh_(queue_, *task.input, *colouring_, task.immovable, task.pool),
         counts_(queue_, colouring_->class_count() + std::size_t{1}),
         moved_(queue_),
-        deferred_(queue_, mesh_.is_volume() ? 0 : largest_class()),
+        deferred_(queue_, mesh_.is_volume() || combination_ ? 0 : largest_class()),
         pictures_(std::make_shared<Pictures>(queue_)),
         task_(mesh_.task()) {
-    task_.parameters = parameters;
+    task_.parameters = task.search;
     task_.deferred = deferred_.data();
     task_.moved = counts_.data();
-    warm_up();
-    load(input->mesh.positions, pool);
+    warm_up(task.then_mean);
+    load(task.input->mesh.positions, task.pool);
     queue_->wait();
   }
 
   void begin(const Sweep& sweep) override {
-    if (sweep.untangling == task_.untangling) return;
-    task_.untangling = sweep.untangling;
+    const std::optional<Aims> aims = aims_of(sweep);
+    const Untangling untangling = sweep.floor ? Untangling{} : sweep.untangling;  // to raise the mean is to worsen nothing anyway
+    if (untangling == task_.untangling && aims == aims_) return;
+    task_.untangling = untangling;
+    set_aims(aims);
     iteration_.reset();  // it has the old ones
     if (stale_) return;  // who is loaded is awake
     queue_->launch(Work::Store, metric_, task_, task_.vertex_count);
@@ -91,6 +97,17 @@ class DeviceDmo final : public Smoother {
   }
 
  private:
+  /// What a sweep's visits aim at besides the metric.
+  [[nodiscard]] std::optional<Aims> aims_of(const Sweep& sweep) const {
+    const auto composite = composite_objective_of_visit(metric_, combination_, size_, sweep);
+    return composite ? plain_aims(*composite) : std::nullopt;
+  }
+  void set_aims(const std::optional<Aims>& aims) {
+    aims_ = aims;
+    task_.aims = aims.value_or(Aims{});
+  }
+  [[nodiscard]] Work two_aims() const { return mesh_.is_volume() ? Work::VisitVolumeTwoAims : Work::VisitTwoAims; }
+
   [[nodiscard]] std::size_t largest_class() const {
     std::size_t largest = 0;
     for (Index c = 0; c < colouring_->class_count(); ++c) largest = std::max(largest, colouring_->members(c).size());
@@ -114,8 +131,8 @@ class DeviceDmo final : public Smoother {
   }
 
   void launch_visits(Index colour, std::size_t count) {
-    if (mesh_.is_volume()) {
-      queue_->launch(Work::VisitVolume, metric_, task_, count);
+    if (aims_ || mesh_.is_volume()) {
+      queue_->launch(aims_ ? two_aims() : Work::VisitVolume, metric_, task_, count);
       return;
     }
     const DeviceMesh::ClassStars& stars = mesh_.stars_of_class(colour);
@@ -140,11 +157,14 @@ class DeviceDmo final : public Smoother {
   }
 
   /// Runs every kernel once, for one vertex that needs no visit: to load it and reserve the memory of its lanes takes long, the first time.
-  void warm_up() {
+  void warm_up(bool then_mean) {
+    set_aims(aims_);
     mesh_.put_to_sleep();
     counts_.clear();
     task_.deferred_count = counts_.data() + 1;
     if (colouring_->order.empty()) return;
+    if (aims_ || then_mean) queue_->launch(two_aims(), metric_, task_, 1);
+    if (aims_) return;
     if (mesh_.is_volume()) {
       queue_->launch(Work::VisitVolume, metric_, task_, 1);
       return;
@@ -163,6 +183,9 @@ class DeviceDmo final : public Smoother {
   std::shared_ptr<Queue> queue_;
   std::shared_ptr<const Colouring> colouring_;
   Metric metric_;
+  std::optional<Combination> combination_;
+  std::shared_ptr<const SizeField> size_;
+  std::optional<Aims> aims_;  // of the visits now; none: the metric alone
   DeviceMesh mesh_;
   Buffer<std::uint32_t> counts_;  // moved, then the deferred visits of each class
   Fetched<std::uint32_t> moved_;
@@ -178,10 +201,8 @@ class DeviceDmo final : public Smoother {
 
 }  // namespace
 
-std::unique_ptr<Smoother> make_device_dmo(std::shared_ptr<Queue> queue, std::shared_ptr<const InputMesh> input,
-                                          std::shared_ptr<const Colouring> colouring, Metric metric, const SearchParameters& parameters,
-                                          std::span<const Index> immovable, ThreadPool* pool) {
-  return std::make_unique<DeviceDmo>(std::move(queue), std::move(input), std::move(colouring), metric, parameters, immovable, pool);
+std::unique_ptr<Smoother> make_device_dmo(std::shared_ptr<Queue> queue, const SmoothingTask& task) {
+  return std::make_unique<DeviceDmo>(std::move(queue), task);
 }
 
 }  // namespace dmoscope::gpu

@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "gpu/bodies.h"
+#include "gpu/two_aims_bodies.h"
 #include "gpu/volume_bodies.h"
 
 namespace dmoscope::gpu {
@@ -32,11 +33,14 @@ Lanes lanes_of(Work work) {
       return run_lanes<bodies::Visit<M, Stars::Others>>;
     case Work::VisitInTeam:
       return run_lanes<bodies::Visit<M, Stars::All, true>>;
+    case Work::VisitTwoAims:
+      return run_lanes<bodies::VisitTwoAims<M, Plane>>;
     case Work::Settle:
       return run_lanes<bodies::Settle<M>>;
     case Work::Judge:
       return run_lanes<bodies::Judge<M>>;
     case Work::VisitVolume:
+    case Work::VisitVolumeTwoAims:
     case Work::JudgeVolume:
       break;  // see volume_lanes_of()
     case Work::Sum:
@@ -65,6 +69,7 @@ Lanes lanes_of(Work work) {
 
 template <Metric M>
 Lanes volume_lanes_of(Work work) {
+  if (work == Work::VisitVolumeTwoAims) return run_lanes<bodies::VisitTwoAims<M, Space>>;
   return work == Work::VisitVolume ? run_lanes<bodies::VisitVolume<M>> : run_lanes<bodies::JudgeVolume<M>>;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "core/base/host_device.h"
 #include "core/mesh/mesh_view.h"
@@ -12,6 +13,7 @@
 #include "core/search/untangling.h"
 #include "core/smooth/kernels/search_frame.h"
 #include "core/smooth/kernels/star_table.h"
+#include "core/smooth/two_aims.h"
 
 namespace dmoscope::gpu {
 
@@ -44,6 +46,7 @@ struct Task {
   SearchFrame frame{};
   SearchParameters parameters;
   Untangling untangling{};
+  Aims aims{};  // of visits with two; the first metric is the launch's
 
   // A class's deferred visits: space for as many as the largest class has, and how many there are.
   Deferred* deferred = nullptr;
@@ -75,6 +78,14 @@ struct Task {
 [[nodiscard]] DMOSCOPE_ANYWHERE VolumeView volume_of(const Task& task) {
   const PlanarView& mesh = task.mesh;
   return {mesh.star_offsets, mesh.incidences, mesh.corner_offsets, mesh.corners, mesh.reference_measure, {}};
+}
+/// The mesh as the frame has it: Plane or Space.
+template <class Frame>
+[[nodiscard]] DMOSCOPE_ANYWHERE MeshView<Frame> mesh_in(const Task& task) {
+  if constexpr (std::is_same_v<Frame, Plane>)
+    return task.mesh;
+  else
+    return volume_of(task);
 }
 [[nodiscard]] DMOSCOPE_ANYWHERE PositionView positions_of(const Task& task) { return {task.ranked, task.rank_of_vertex}; }
 

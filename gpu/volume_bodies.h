@@ -4,6 +4,8 @@
 #include "core/quality/element_shape.h"
 #include "core/smooth/reference_visit.h"
 #include "gpu/lane.h"
+#include "gpu/listed_star.h"
+#include "gpu/star_visit.h"
 #include "gpu/task.h"
 #include "gpu/volume_search.h"
 #include "gpu/work.h"
@@ -17,7 +19,7 @@ struct VisitVolume {
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& team) {
     const auto rank = static_cast<Index>(task.first + i);
     if (!is_set(task.awake + rank)) return;
-    const ListedStar star(volume_of(task), positions_of(task), task.vertex_of_rank[rank]);
+    const ListedStar<Space> star(volume_of(task), positions_of(task), task.vertex_of_rank[rank]);
     const Vec3 found = search(task, star, team);
     if (team.lane() == 0) judge(task, rank, times(found, star.star().scale()));
   }
@@ -25,7 +27,7 @@ struct VisitVolume {
  private:
   /// The offset of the best candidate in units of the star's scale; 0 where none is better than the vertex's own place.
   template <class Team>
-  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE Vec3 search(const Task& task, const ListedStar& star, const Team& team) {
+  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE Vec3 search(const Task& task, const ListedStar<Space>& star, const Team& team) {
     if (task.parameters.precision == Precision::Float && !task.untangling.repair && star.fits()) {
       const VolumeFound found = VolumeRankSearch<M, Team>(star.star(), task.parameters, team).run();
       if (found.ready) return {found.offset.x, found.offset.y, found.offset.z};
@@ -38,21 +40,10 @@ struct VisitVolume {
     const PositionView positions = positions_of(task);
     const Index vertex = task.vertex_of_rank[rank];
     const Vec3 to = displaced(mesh.frame, positions[vertex], offset, task.frame.single_precision);
-    const bool is_offset = !(offset == Vec3{}) && is_number(offset.x) && is_number(offset.y) && is_number(offset.z);
-    if (is_offset && gains_at<M>(mesh, positions, vertex, to, task.untangling))
-      move(task, rank, vertex, to);
+    if (leads_away(offset) && gains_at<M>(mesh, positions, vertex, to, task.untangling))
+      move(task, mesh, rank, to);
     else
       set_flag(task.awake + rank, false);
-  }
-  static DMOSCOPE_LANE bool is_number(double a) { return scalar::abs(a) <= std::numeric_limits<double>::max(); }
-
-  /// The vertices of its star stay awake or wake; none of them is of its class.
-  static DMOSCOPE_LANE void move(const Task& task, Index rank, Index vertex, Vec3 to) {
-    task.ranked[rank] = to;
-    const VolumeView mesh = volume_of(task);
-    for (const Incidence& at : mesh.star(vertex))
-      for (const Index other : mesh.corners_of(at.element)) set_flag(task.awake + task.rank_of_vertex[other], true);
-    (void)increment(task.moved);
   }
 };
 

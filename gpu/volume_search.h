@@ -6,7 +6,7 @@
 #include "core/search/grid_search.h"
 #include "core/smooth/kernels/volume_form.h"
 #include "gpu/lane.h"
-#include "gpu/volume_star.h"
+#include "gpu/listed_star.h"
 
 namespace dmoscope::gpu {
 

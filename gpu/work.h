@@ -4,26 +4,30 @@
 namespace dmoscope::gpu {
 
 enum class Work {
-  VisitFans,    // one vertex per lane: the fast search of rank first + i, where its star is one of Stars::Fans
-  VisitOthers,  // the same, where it is not
-  VisitInTeam,  // all stars, one vertex per team of lanes, settled at once: for classes too small to fill the device
-  Settle,       // what the first two deferred, shared among all teams
-  VisitVolume,  // of a volume, one vertex per team of lanes: rank first + i
-  Judge,        // one element per lane: its quality and whether it is inverted
-  JudgeVolume,  // the same of a volume
-  Sum,          // one part of the statistics per lane
-  Total,        // one sum of all parts per team of lanes
-  Conclude,     // one lane: the statistics
-  Load,         // one vertex per lane: positions -> ranked, and awake
-  Store,        // one vertex per lane: ranked -> positions
-  Shade,        // one element per lane: what the renderer colours it by
-  Count,        // one element per lane: the histogram
-  Project,      // one vertex per lane: positions -> points in the plane
-  CopyShades,   // one element per lane: shades -> drawn_shades
-  Pick,         // one of some vertices per lane: positions -> picked
+  VisitFans,           // one vertex per lane: the fast search of rank first + i, where its star is one of Stars::Fans
+  VisitOthers,         // the same, where it is not
+  VisitInTeam,         // all stars, one vertex per team of lanes, settled at once: for classes too small to fill the device
+  Settle,              // what the first two deferred, shared among all teams
+  VisitVolume,         // of a volume, one vertex per team of lanes: rank first + i
+  VisitTwoAims,        // the same with two aims, of a planar mesh
+  VisitVolumeTwoAims,  // and of a volume
+  Judge,               // one element per lane: its quality and whether it is inverted
+  JudgeVolume,         // the same of a volume
+  Sum,                 // one part of the statistics per lane
+  Total,               // one sum of all parts per team of lanes
+  Conclude,            // one lane: the statistics
+  Load,                // one vertex per lane: positions -> ranked, and awake
+  Store,               // one vertex per lane: ranked -> positions
+  Shade,               // one element per lane: what the renderer colours it by
+  Count,               // one element per lane: the histogram
+  Project,             // one vertex per lane: positions -> points in the plane
+  CopyShades,          // one element per lane: shades -> drawn_shades
+  Pick,                // one of some vertices per lane: positions -> picked
 };
 
 /// Whether work is on volumes, whose metrics are those of formulas::with_volume_metric().
-[[nodiscard]] constexpr bool is_of_solids(Work work) { return work == Work::VisitVolume || work == Work::JudgeVolume; }
+[[nodiscard]] constexpr bool is_of_solids(Work work) {
+  return work == Work::VisitVolume || work == Work::VisitVolumeTwoAims || work == Work::JudgeVolume;
+}
 
 }  // namespace dmoscope::gpu

@@ -116,8 +116,6 @@ void combine(BenchPlan& plan, const std::string& text) {
   const auto [first, combination] = parse_combination(text);
   plan.metrics = {first};
   plan.combination = combination;
-  if (plan.acceleration.accelerator && !plan.cpu) throw UsageError("combined metrics run on the CPU alone");
-  if (plan.acceleration.accelerator) plan.acceleration = {nullptr, "combined metrics run on the CPU alone"};
 }
 
 /// A name that stands for something to measure must not be dropped silently: each has to fit one of the others.

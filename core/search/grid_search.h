@@ -192,12 +192,18 @@ template <class Real, class ObjectiveAt, class Point = Vec2<Real>, class Trace =
                                                                                    const SearchParameters& parameters, Trace&& trace = {},
                                                                                    const Team& team = {}, const Point* start = nullptr) {
   using scalar::select;
-  Candidate<Real, Point> best{{}, objective(Point{})};
-  trace.begin(best.objective);
-  if (start != nullptr) {
-    const Real value = objective(*start);
+  Candidate<Real, Point> best{{}, Real{}};
+  DMOSCOPE_NO_UNROLL  // two copies of the objective in a device's code, here and below, take long enough to compile
+      for (int i = 0; i < (start != nullptr ? 2 : 1); ++i) {
+    const Point p = i == 0 ? Point{} : *start;
+    const Real value = objective(p);
+    if (i == 0) {
+      best.objective = value;
+      trace.begin(value);
+      continue;
+    }
     const auto better = value > best.objective;
-    best = {select_point(better, *start, Point{}), select(better, value, best.objective)};
+    best = {select_point(better, p, Point{}), select(better, value, best.objective)};
     trace.start(best);
   }
   double omega = parameters.omega;

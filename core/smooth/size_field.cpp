@@ -83,12 +83,13 @@ void SizeField::read_field() {
 }
 
 double SizeField::at(Index vertex, Vec3 place) const {
-  using Kind = SizeFunction::Kind;
-  if (function_.kind == Kind::Constant) return 1.0;
-  if (function_.kind == Kind::Field) return field_->at(vertex, place);
-  const Vec2<double> away = input_->geometry.plane.offset(place, function_.point);
-  const double distance = std::max(std::sqrt(dot(away, away)), least_distance_);
-  return function_.kind == Kind::Distance ? distance : 1.0 / distance;
+  if (field_) return field_->at(vertex, place);
+  return formula()->at(input_->geometry.plane, place);
+}
+
+std::optional<SizeFormula> SizeField::formula() const {
+  if (field_) return std::nullopt;
+  return SizeFormula{function_.kind, function_.point, least_distance_};
 }
 
 double local_edge_length(const PlanarView& mesh, PositionView positions, Index vertex) {

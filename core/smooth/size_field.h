@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -10,6 +11,7 @@
 #include "core/mesh/nodal_field.h"
 #include "core/mesh/position_view.h"
 #include "core/smooth/composite_objective.h"
+#include "core/smooth/two_aims.h"
 
 namespace dmoscope {
 
@@ -20,6 +22,8 @@ class SizeField {
 
   /// h > 0, up to a factor, where `vertex` stands when it is at `place`.
   [[nodiscard]] double at(Index vertex, Vec3 place) const;
+  /// The same as plain data; none for a nodal field.
+  [[nodiscard]] std::optional<SizeFormula> formula() const;
   [[nodiscard]] const SizeFunction& function() const noexcept { return function_; }
   /// A note for the person ("depth is not positive at 12 vertices: ..."), usually empty.
   [[nodiscard]] const std::string& note() const noexcept { return note_; }

@@ -6,7 +6,7 @@
 #include "gpu/device.h"
 #include "gpu/task.h"
 #include "tests/gpu/meshes.h"
-#include "tests/gpu/same_bits.h"
+#include "tests/gpu/two_aims.h"
 #include "tests/gpu/volumes.h"
 #include "tests/smooth/zoo.h"
 
@@ -70,6 +70,23 @@ TEST_P(CudaDmo, SameBitsOnALargeMesh) {
   }
 }
 
+TEST_P(CudaDmo, SameBitsOfTwoAims) {
+  for (auto& specimen : dmoscope::testing::zoo()) {
+    if (!defined_for_all(GetParam(), specimen.mesh)) continue;
+    SCOPED_TRACE(specimen.name);
+    Progress progress;
+    const Subject subject(prepare_input(std::move(specimen.mesh), {}, Need::Smoothing, progress));
+    expect_same_mean(queue, subject, GetParam(), specimen.search);
+    expect_same_combinations(queue, subject, GetParam(), specimen.search);
+  }
+  for (const auto& mesh : bundled_meshes()) {
+    if (!defined_for_all(GetParam(), mesh->mesh)) continue;
+    SCOPED_TRACE(mesh->mesh.name);
+    expect_same_mean(queue, Subject(mesh), GetParam(), {});
+    expect_same_combinations(queue, Subject(mesh), GetParam(), {});
+  }
+}
+
 class CudaVolumeDmo : public CudaTest {};
 
 TEST_P(CudaVolumeDmo, SameBits) {
@@ -79,6 +96,14 @@ TEST_P(CudaVolumeDmo, SameBits) {
       SCOPED_TRACE(sample.name);
       expect_same_visits(queue, Subject(sample.input), GetParam(), {.precision = precision}, 2);
     }
+}
+TEST_P(CudaVolumeDmo, SameBitsOfTwoAims) {
+  for (const VolumeSample& sample : volume_samples(125)) {
+    if (!defined_for_all(GetParam(), sample.input->mesh)) continue;
+    SCOPED_TRACE(sample.name);
+    expect_same_mean(queue, Subject(sample.input), GetParam(), {});
+    expect_same_combinations(queue, Subject(sample.input), GetParam(), {});
+  }
 }
 TEST_P(CudaVolumeDmo, SameBitsOnTheSharedMeshes) {
   const auto meshes = shared_volumes(30000);
@@ -114,7 +139,7 @@ TEST_P(CudaQueueTest, GivesItsMemoryBack) {
   Progress progress;
   const Subject subject(prepare_input(dmoscope::testing::lattice(12, 0.35, 83), {}, Need::Smoothing, progress));
   {
-    const auto smoother = make_device_dmo(queue, subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+    const auto smoother = make_device_dmo(queue, subject.task(Metric::MeanRatio));
     std::vector<Vec3> positions = subject.input->mesh.positions;
     smoother->visit(0, subject.visits(), positions, nullptr);
     EXPECT_NE(smoother->picture(Metric::MeanRatio), nullptr);
@@ -129,7 +154,7 @@ TEST_P(CudaQueueTest, ALostDeviceIsSaidAndTheHostsPositionsStay) {
   const auto lose_it = [&] {
     Progress progress;
     const Subject subject(prepare_input(dmoscope::testing::lattice(12, 0.35, 84), {}, Need::Smoothing, progress));
-    const auto smoother = make_device_dmo(queue, subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+    const auto smoother = make_device_dmo(queue, subject.task(Metric::MeanRatio));
     std::vector<Vec3> positions = subject.input->mesh.positions;
     smoother->visit(0, subject.visits(), positions, nullptr);
     smoother->store(positions, nullptr);

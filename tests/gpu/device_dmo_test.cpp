@@ -32,7 +32,7 @@ TEST_P(DeviceDmo, SameBitsInRepairs) {
     SCOPED_TRACE(specimen.name);
     Progress progress;
     const Subject subject(prepare_input(std::move(specimen.mesh), {}, Need::Smoothing, progress));
-    expect_same_visits(host(), subject, GetParam(), specimen.search, 1, nullptr, {.untangling = {.repair = true}});
+    expect_same_visits(host(), subject, GetParam(), specimen.search, 1, {.untangling = {.repair = true}});
   }
 }
 
@@ -99,9 +99,8 @@ TEST(DeviceDmoVisits, AnExactVisitRefusesWhatDoesNotGain) {
 TEST(DeviceDmoVisits, NeitherThreadsNorCutsChangeTheResult) {
   const Subject subject = jittered(30);
   ThreadPool pool(4);
-  const auto whole = make_device_dmo(host(), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
-  const auto cut =
-      make_device_dmo(host({.pool = &pool}), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, &pool);
+  const auto whole = make_device_dmo(host(), subject.task(Metric::MeanRatio));
+  const auto cut = make_device_dmo(host({.pool = &pool}), subject.task(Metric::MeanRatio, {}, &pool));
   std::vector<Vec3> one = subject.input->mesh.positions, other = one;
   for (int iteration = 0; iteration < 3; ++iteration) {
     const std::uint64_t moved = whole->visit(0, subject.visits(), one, nullptr);
@@ -118,7 +117,7 @@ TEST(DeviceDmoVisits, NeitherThreadsNorCutsChangeTheResult) {
 
 TEST(DeviceDmoVisits, ReplacedPositionsAreTakenUp) {
   const Subject subject = jittered(12);
-  const auto smoother = make_device_dmo(host(), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+  const auto smoother = make_device_dmo(host(), subject.task(Metric::MeanRatio));
   std::vector<Vec3> positions = subject.input->mesh.positions;
   smoother->visit(0, subject.visits(), positions, nullptr);
   smoother->store(positions, nullptr);
@@ -137,7 +136,7 @@ TEST(DeviceDmoVisits, ReplacedPositionsAreTakenUp) {
 TEST(DeviceDmoVisits, PositionsStayOnTheDevice) {
   const Subject subject = jittered(12);
   const auto queue = host();
-  const auto smoother = make_device_dmo(queue, subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+  const auto smoother = make_device_dmo(queue, subject.task(Metric::MeanRatio));
   std::vector<Vec3> positions = subject.input->mesh.positions;
   for (int i = 0; i < 5; ++i) {
     smoother->visit(0, subject.visits(), positions, nullptr);
@@ -155,7 +154,7 @@ TEST(DeviceDmoErrors, OutOfMemoryNamesTheSizesAndLeavesNothingBehind) {
   const Subject subject = jittered(20);
   const auto queue = host({.memory = 30000});
   try {
-    (void)make_device_dmo(queue, subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+    (void)make_device_dmo(queue, subject.task(Metric::MeanRatio));
     FAIL() << "it cannot fit";
   } catch (const DeviceError& error) {
     EXPECT_NE(std::string(error.what()).find("out of memory"), std::string::npos) << error.what();
@@ -168,7 +167,7 @@ TEST(DeviceDmoErrors, ALostDeviceLeavesTheHostsPositions) {
   const Subject subject = jittered(20);
   const auto queue = host();
   {
-    const auto smoother = make_device_dmo(queue, subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+    const auto smoother = make_device_dmo(queue, subject.task(Metric::MeanRatio));
     std::vector<Vec3> positions = subject.input->mesh.positions;
     smoother->visit(0, subject.visits(), positions, nullptr);
     smoother->store(positions, nullptr);
@@ -185,7 +184,7 @@ TEST(DeviceDmoVisits, AMeshWithoutFreeVertices) {
   Progress progress;
   const Subject subject(prepare_input(dmoscope::testing::lattice(1, 0.0, 1), {}, Need::Smoothing, progress));
   ASSERT_EQ(subject.visits(), 0U);
-  const auto smoother = make_device_dmo(host(), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+  const auto smoother = make_device_dmo(host(), subject.task(Metric::MeanRatio));
   std::vector<Vec3> positions = subject.input->mesh.positions;
   EXPECT_EQ(smoother->visit(0, 0, positions, nullptr), 0U);
   ASSERT_TRUE(smoother->statistics().has_value());

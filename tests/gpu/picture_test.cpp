@@ -21,7 +21,7 @@ struct Stepped {
   std::vector<Vec3> positions;
 
   explicit Stepped(Mesh mesh) : subject(prepare(std::move(mesh))), positions(subject.input->mesh.positions) {
-    smoother = make_device_dmo(queue, subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+    smoother = make_device_dmo(queue, subject.task(Metric::MeanRatio));
     step();
   }
   static std::shared_ptr<const InputMesh> prepare(Mesh mesh) {

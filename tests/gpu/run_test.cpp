@@ -15,11 +15,7 @@ using namespace testing;
 class HostAccelerator final : public Accelerator {
  public:
   std::string description() const override { return queue->description(); }
-  std::unique_ptr<Smoother> make_dmo(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring, Metric metric,
-                                     const SearchParameters& parameters, std::span<const Index> immovable,
-                                     ThreadPool* pool) const override {
-    return make_device_dmo(queue, std::move(input), std::move(colouring), metric, parameters, immovable, pool);
-  }
+  std::unique_ptr<Smoother> make_dmo(const SmoothingTask& task) const override { return make_device_dmo(queue, task); }
   std::shared_ptr<HostQueue> queue = make_host_queue({});
 };
 
@@ -30,15 +26,20 @@ struct Pair {
   Progress progress;
 
   explicit Pair(Mesh mesh, Metric metric = Metric::MeanRatio, const SearchParameters& search = {})
-      : input(prepare(std::move(mesh))), cpu(run(metric, search, Backend::Cpu)), device(run(metric, search, Backend::Cuda)) {}
+      : Pair(std::move(mesh), parameters_of(metric, search)) {}
+  Pair(Mesh mesh, const RunParameters& parameters)
+      : input(prepare(std::move(mesh))), cpu(run(parameters, Backend::Cpu)), device(run(parameters, Backend::Cuda)) {}
+  static RunParameters parameters_of(Metric metric, const SearchParameters& search) {
+    RunParameters parameters;
+    parameters.search = search;
+    parameters.metric = metric;
+    return parameters;
+  }
   static std::shared_ptr<const InputMesh> prepare(Mesh mesh) {
     Progress none;
     return prepare_input(std::move(mesh), {}, Need::Smoothing, none);
   }
-  [[nodiscard]] Run run(Metric metric, const SearchParameters& search, Backend backend) const {
-    RunParameters parameters;
-    parameters.search = search;
-    parameters.metric = metric;
+  [[nodiscard]] Run run(RunParameters parameters, Backend backend) const {
     parameters.backend = backend;
     return {input, parameters, std::make_shared<ThreadPool>(2), std::size_t{1} << 24U, {accelerator, ""}};
   }
@@ -98,6 +99,41 @@ TEST(DeviceRun, ConvergesAlike) {
   EXPECT_EQ(here.last_rise, there.last_rise);
   EXPECT_EQ(here.reason, there.reason);
   pair.expect_same_place();
+}
+
+void expect_alike_until_converged(Pair& pair) {
+  EXPECT_EQ(pair.device.backend(), Backend::Cuda);
+  const Outcome here = pair.cpu.until_converged({}, pair.progress), there = pair.device.until_converged({}, pair.progress);
+  EXPECT_EQ(here.iterations, there.iterations);
+  EXPECT_EQ(here.reason, there.reason);
+  pair.expect_same_place();
+  for (dmoscope::Run* run : {&pair.cpu, &pair.device}) run->seek({2, 5}, pair.progress);
+  pair.expect_same_place();
+}
+
+/// The second phase too, whose start is the best of the first, out of the history.
+TEST(DeviceRun, RaisesTheMeanAlike) {
+  RunParameters parameters;
+  parameters.then_mean = MeanPhase{};
+  for (const double jitter : {0.35, 0.9}) {  // with inverted elements, the latter
+    Pair pair(dmoscope::testing::lattice(10, jitter, 99, dmoscope::testing::Cells::Mixed), parameters);
+    expect_alike_until_converged(pair);
+    const auto& records = pair.device.history().records();
+    EXPECT_GT(records.back().statistics.mean, records.front().statistics.mean);
+  }
+  Progress progress;
+  Pair volume(generate_mesh("tetrahedra", 64, 9, progress), parameters);
+  expect_alike_until_converged(volume);
+}
+
+TEST(DeviceRun, CombinesAlike) {
+  for (const Combination& combination :
+       {Combination{0.4, Metric::MinAngle}, Combination{0.4, SizeFunction{SizeFunction::Kind::Distance, {2, 3, 0}, {}}}}) {
+    RunParameters parameters;
+    parameters.combination = combination;
+    Pair pair(dmoscope::testing::lattice(10, 0.9, 93), parameters);
+    expect_alike_until_converged(pair);
+  }
 }
 
 TEST(DeviceRun, OfAVolumeIsAlikeInEitherPrecision) {

@@ -35,6 +35,9 @@ struct Subject {
     colouring = std::make_shared<const Colouring>(std::move(classes));
     immovable = immovable_elements(input->mesh, boundary, nullptr);
   }
+  [[nodiscard]] SmoothingTask task(Metric metric, const SearchParameters& search = {}, ThreadPool* pool = nullptr) const {
+    return {.input = input, .colouring = colouring, .metric = metric, .search = search, .immovable = immovable, .pool = pool};
+  }
   [[nodiscard]] std::uint64_t visits() const { return colouring->order.size(); }
 };
 
@@ -74,25 +77,28 @@ inline void expect_same_statistics(Smoother& device, const Subject& subject, Met
   EXPECT_EQ(there->worst_element, here.worst_element);
 }
 
-/// Iterations on both, compared after each, bit for bit, with their statistics.
-inline void expect_same_visits(const std::shared_ptr<Queue>& queue, const Subject& subject, Metric metric,
-                               const SearchParameters& parameters, int iterations, ThreadPool* pool = nullptr, const Sweep& sweep = {}) {
-  const auto cpu = make_smoother({.input = subject.input, .colouring = subject.colouring, .metric = metric, .search = parameters});
-  const auto device = make_device_dmo(queue, subject.input, subject.colouring, metric, parameters, subject.immovable, pool);
+/// An iteration a sweep on both, compared after each, bit for bit, with their statistics. `task`: of the subject.
+inline void expect_same_sweeps(const std::shared_ptr<Queue>& queue, const Subject& subject, const SmoothingTask& task,
+                               std::span<const Sweep> sweeps) {
+  const auto cpu = make_smoother(task), device = make_device_dmo(queue, task);
   EXPECT_FALSE(device->statistics().has_value()) << "nothing was visited yet";
-  cpu->begin(sweep);
-  device->begin(sweep);
   std::vector<Vec3> expected = subject.input->mesh.positions, found = expected;
-  for (int i = 1; i <= iterations; ++i) {
-    SCOPED_TRACE("iteration " + std::to_string(i));
+  for (std::size_t i = 0; i < sweeps.size(); ++i) {
+    SCOPED_TRACE("iteration " + std::to_string(i + 1));
+    cpu->begin(sweeps[i]);
+    device->begin(sweeps[i]);
     const std::uint64_t moved = cpu->visit(0, subject.visits(), expected, nullptr);
     cpu->store(expected, nullptr);
     const std::uint64_t moved_there = device->visit(0, subject.visits(), found, nullptr);
     device->store(found, nullptr);
     for (Index v = 0; v < expected.size(); ++v) ASSERT_TRUE(same(expected[v], found[v])) << "vertex " << v;
     ASSERT_EQ(moved, moved_there);
-    expect_same_statistics(*device, subject, metric, found);
+    expect_same_statistics(*device, subject, task.metric, found);
   }
+}
+inline void expect_same_visits(const std::shared_ptr<Queue>& queue, const Subject& subject, Metric metric,
+                               const SearchParameters& parameters, int iterations, const Sweep& sweep = {}) {
+  expect_same_sweeps(queue, subject, subject.task(metric, parameters), std::vector<Sweep>(static_cast<std::size_t>(iterations), sweep));
 }
 
 }  // namespace dmoscope::gpu::testing

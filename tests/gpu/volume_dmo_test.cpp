@@ -1,7 +1,7 @@
 // DMO of volumes on a device, with the host in the device's place: the very bits of the processor, in either precision.
 
 #include "gpu/host_queue.h"
-#include "gpu/volume_star.h"
+#include "gpu/listed_star.h"
 #include "tests/gpu/meshes.h"
 #include "tests/gpu/same_bits.h"
 #include "tests/gpu/volumes.h"
@@ -37,7 +37,7 @@ TEST_P(VolumeDeviceDmo, SameBitsInRepairs) {
   for (const VolumeSample& sample : volume_samples(64)) {
     if (!defined_for_all(GetParam(), sample.input->mesh)) continue;
     SCOPED_TRACE(sample.name);
-    expect_same_visits(volume_host(), Subject(sample.input), GetParam(), {}, 1, nullptr, {.untangling = {.repair = true}});
+    expect_same_visits(volume_host(), Subject(sample.input), GetParam(), {}, 1, {.untangling = {.repair = true}});
   }
 }
 /// 7 and 2 candidates per axis are not a whole number of what a lane ranks at a time.
@@ -72,7 +72,7 @@ TEST(VolumeDeviceStar, HasItsElementsListAfterList) {
     gather_star(MeshStar<Space>(input->view<Space>(), positions, vertex), expected);
     using Seen = std::pair<unsigned, double>;  // its list and its reference
     std::vector<Seen> there, here;
-    const ListedStar star(input->view<Space>(), positions, vertex);
+    const ListedStar<Space> star(input->view<Space>(), positions, vertex);
     star.for_each<true>([&here](const auto& e) { here.emplace_back(kListOf<std::remove_cvref_t<decltype(e)>>, e.reference); });
     VolumeStarView<double>(expected).for_each<true>(
         [&there](const auto& e) { there.emplace_back(kListOf<std::remove_cvref_t<decltype(e)>>, e.reference); });
@@ -91,9 +91,8 @@ Subject jittered_volumes() {
 TEST(VolumeDeviceVisits, NeitherThreadsNorCutsChangeTheResult) {
   const Subject subject = jittered_volumes();
   ThreadPool pool(4);
-  const auto whole = make_device_dmo(volume_host(), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
-  const auto cut =
-      make_device_dmo(volume_host({.pool = &pool}), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, &pool);
+  const auto whole = make_device_dmo(volume_host(), subject.task(Metric::MeanRatio));
+  const auto cut = make_device_dmo(volume_host({.pool = &pool}), subject.task(Metric::MeanRatio, {}, &pool));
   std::vector<Vec3> one = subject.input->mesh.positions, other = one;
   for (int iteration = 0; iteration < 3; ++iteration) {
     const std::uint64_t moved = whole->visit(0, subject.visits(), one, nullptr);
@@ -111,7 +110,7 @@ TEST(VolumeDeviceVisits, NeitherThreadsNorCutsChangeTheResult) {
 /// Who draws takes a volume's positions from the host.
 TEST(VolumeDeviceVisits, HasNoPicture) {
   const Subject subject = jittered_volumes();
-  const auto smoother = make_device_dmo(volume_host(), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+  const auto smoother = make_device_dmo(volume_host(), subject.task(Metric::MeanRatio));
   std::vector<Vec3> positions = subject.input->mesh.positions;
   smoother->visit(0, subject.visits(), positions, nullptr);
   EXPECT_EQ(smoother->picture(Metric::MeanRatio), nullptr);

@@ -82,6 +82,23 @@ TEST(Backend, AutoTakesTheCpuForWhatADeviceCannotDoAndSaysWhy) {
   }
 }
 
+TEST(Backend, TwoAimsAreADevicesUnlessSizesAreLookedUp) {
+  const auto device = std::make_shared<FakeDevice>();
+  RunParameters mean, metrics, sizes;
+  mean.then_mean = MeanPhase{};
+  metrics.combination = {0.5, Metric::MinAngle};
+  metrics.search.precision = Precision::Double;  // that of two aims anyway
+  sizes.combination = {0.5, SizeFunction{SizeFunction::Kind::Distance, {0.3, 0.4, 0}, {}}};
+  for (const RunParameters& parameters : {mean, metrics, sizes})
+    EXPECT_EQ(run_with(parameters, acceleration(device)).backend(), Backend::Cuda);
+  Mesh mesh = lattice(6, 0.2, 31);
+  mesh.fields.push_back({.name = "depth", .values = std::vector<double>(mesh.vertex_count(), 2.0)});
+  sizes.combination->second = SizeFunction{SizeFunction::Kind::Field, {}, "depth"};
+  const dmoscope::Run looked_up(input(std::move(mesh)), sizes, std::make_shared<ThreadPool>(2), kPlenty, acceleration(device));
+  EXPECT_EQ(looked_up.backend(), Backend::Cpu);
+  EXPECT_THAT(looked_up.backend_reason(), HasSubstr("nodal field"));
+}
+
 TEST(Backend, WithoutAnAcceleratorTheReasonIsGiven) {
   const Acceleration none{nullptr, "built without a CUDA toolkit"};
   EXPECT_EQ(run_with({}, none).backend_sentence(), "cpu, 2 threads (no cuda: built without a CUDA toolkit)");

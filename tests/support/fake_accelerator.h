@@ -37,6 +37,7 @@ class FakeSmoother final : public Smoother {
         metric_(metric),
         immovable_(immovable.begin(), immovable.end()) {}
 
+  void begin(const Sweep& sweep) override { cpu_->begin(sweep); }
   std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
     if (stale_) {
       on_device_.assign(positions.begin(), positions.end());
@@ -88,12 +89,9 @@ class FakeAccelerator final : public Accelerator {
  public:
   explicit FakeAccelerator(std::shared_ptr<FakeDevice> device = std::make_shared<FakeDevice>()) : device_(std::move(device)) {}
   [[nodiscard]] std::string description() const override { return "Fake H1"; }
-  [[nodiscard]] std::unique_ptr<Smoother> make_dmo(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring,
-                                                   Metric metric, const SearchParameters& parameters, std::span<const Index> immovable,
-                                                   ThreadPool* pool) const override {
+  [[nodiscard]] std::unique_ptr<Smoother> make_dmo(const SmoothingTask& task) const override {
     if (device_->fail_to_make) throw DeviceError("out of memory: 3 GiB asked for, 2 GiB free");
-    auto cpu = make_smoother({.input = input, .colouring = std::move(colouring), .metric = metric, .search = parameters, .pool = pool});
-    return std::make_unique<FakeSmoother>(device_, std::move(cpu), std::move(input), metric, immovable);
+    return std::make_unique<FakeSmoother>(device_, make_smoother(task), task.input, task.metric, task.immovable);
   }
 
  private:

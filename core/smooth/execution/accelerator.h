@@ -2,7 +2,6 @@
 // Who can smooth besides the CPU. core knows only this much of it; the program makes the one there is and hands it to the session.
 
 #include <memory>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -30,13 +29,10 @@ class Accelerator {
   [[nodiscard]] virtual std::string description() const = 0;
   /// The runtime's number of the device, by which OpenGL's interfaces know it.
   [[nodiscard]] virtual int number() const noexcept { return 0; }
-  /// DMO on this device, of planar meshes in float, of volumes in either precision; the same contract as make_smoother's, which also checks
-  /// the arguments. `immovable`: see immovable_elements; needed for Smoother::statistics() and only read here. Throws DeviceError, which
-  /// for memory says how much was asked for and how much is free.
-  [[nodiscard]] virtual std::unique_ptr<Smoother> make_dmo(std::shared_ptr<const InputMesh> input,
-                                                           std::shared_ptr<const Colouring> colouring, Metric metric,
-                                                           const SearchParameters& parameters, std::span<const Index> immovable,
-                                                           ThreadPool* pool) const = 0;
+  /// DMO on this device, of planar meshes in float, of volumes in either precision, of two aims in double; the same contract as
+  /// make_smoother's, which also checks the task. Its `immovable` is needed for Smoother::statistics() and only read here. Throws
+  /// DeviceError, which for memory says how much was asked for and how much is free.
+  [[nodiscard]] virtual std::unique_ptr<Smoother> make_dmo(const SmoothingTask& task) const = 0;
 };
 
 /// The accelerator of this machine, or why there is none.

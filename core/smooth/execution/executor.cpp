@@ -9,6 +9,7 @@
 #include "core/base/unknown_value.h"
 #include "core/smooth/execution/choose_executor.h"
 #include "core/smooth/execution/method_table.h"
+#include "core/smooth/size_field.h"
 
 namespace dmoscope {
 
@@ -21,9 +22,9 @@ constexpr std::array<std::string_view, 3> kBackendNames{"auto", "cpu", "cuda"}; 
 /// Why no accelerator does this; empty when one can.
 std::string obstacle(const Acceleration& acceleration, const SmoothingTask& task) {
   if (!method_info(task.method).accelerated) return fmt::format("{} runs on the CPU alone", task.method);
-  if (task.combination) return "combined metrics run on the CPU alone";
-  if (task.then_mean) return "the phase that raises the mean runs on the CPU alone";
-  if (task.search.precision == Precision::Double && !task.input->is_volume()) return "the search in double runs on the CPU alone";
+  if (task.size && !task.size->formula()) return "sizes out of a nodal field are looked up on the CPU alone";
+  if (task.search.precision == Precision::Double && !task.input->is_volume() && !task.combination)
+    return "the search in double runs on the CPU alone";
   if (task.input->geometry.plane.period > 0.0) return "meshes that go round in longitude run on the CPU alone";
   if (task.search.simd) return "SIMD instructions were asked for, which are the CPU's";
   return acceleration.accelerator ? std::string() : acceleration.reason;
@@ -36,7 +37,7 @@ Executor on_cpu(const SmoothingTask& task, OnCpu when, std::string reason) {
 }
 
 Executor on_device(const Accelerator& accelerator, const SmoothingTask& task) {
-  auto smoother = accelerator.make_dmo(task.input, task.colouring, task.metric, task.search, task.immovable, task.pool);
+  auto smoother = accelerator.make_dmo(task);
   return {std::move(smoother), accelerator.backend(), accelerator.description(), {}};
 }
 

@@ -10,11 +10,7 @@ namespace {
 
 template <Metric M, class Frame>
 double mean_of_star(const MeshView<Frame>& mesh, PositionView positions, Index vertex, Vec3 place) {
-  const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
-  double sum = 0.0;
-  for (const Incidence& incidence : mesh.star(vertex))
-    visit_shape(mesh.frame, mesh.corners_of(incidence.element), at, [&sum](const auto& shape) { sum += evaluate<M>(shape); });
-  return sum / static_cast<double>(mesh.star(vertex).size());
+  return mean_at_place<M>(mesh, positions, vertex, place);
 }
 
 template <Metric M, class Frame>
@@ -34,12 +30,7 @@ double untangling_at(const StarViewIn<Frame, double>& star, const Untangling& ru
 
 template <Metric M, class Frame>
 double mean_at(const StarViewIn<Frame, double>& star, OffsetIn<Frame, double> p) {
-  double sum = 0.0, count = 0.0;
-  star.template for_each<true>([&](const auto& element) {
-    sum += evaluate<M>(element.with(p));
-    count += 1.0;
-  });
-  return sum / count;
+  return mean_of<M>(star, p);
 }
 
 template <Metric M, class Frame>
@@ -85,21 +76,22 @@ std::optional<CompositeObjective> composite_objective_of_visit(Metric metric, co
   return std::nullopt;
 }
 
+std::optional<Aims> plain_aims(const CompositeObjective& composite) {
+  Aims aims{.threshold = composite.threshold};
+  if (const auto* metric = std::get_if<Metric>(&composite.second)) {
+    aims.second = Aims::Second::Metric;
+    aims.metric = *metric;
+  } else if (const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&composite.second)) {
+    const auto formula = (*size)->formula();
+    if (!formula) return std::nullopt;
+    aims.second = Aims::Second::Density;
+    aims.size = *formula;
+  }
+  return aims;
+}
+
 DensityTarget<Plane> density_target(const SizeField& size, const PlanarView& mesh, PositionView positions, Index vertex) {
-  const Vec3 here = positions[vertex];
-  Vec2<double> sum{};
-  double weights = 0.0, lengths = 0.0;
-  std::size_t count = 0;
-  for_edge_neighbours(mesh, vertex, [&](Index other) {
-    const Vec2<double> edge = mesh.frame.offset(positions[other], here);
-    const double weight = 1.0 / size.at(other, positions[other]);
-    sum = {sum.x + weight * edge.x, sum.y + weight * edge.y};
-    weights += weight;
-    lengths += std::sqrt(dot(edge, edge));
-    ++count;
-  });
-  if (count == 0) return {};
-  return {{sum.x / weights, sum.y / weights}, lengths / static_cast<double>(count)};
+  return density_target_by(mesh, positions, vertex, [&size](Index other, Vec3 place) { return size.at(other, place); });
 }
 
 template <class Frame>
@@ -147,8 +139,7 @@ DensityTarget<Frame> CompositeRule<Frame>::density_of(const Scratch& star, Posit
   const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&composite_.second);
   if (size == nullptr) return {};
   if constexpr (std::is_same_v<Frame, Plane>) {
-    const DensityTarget<Plane> found = density_target(**size, mesh_.view, positions, vertex);
-    return {times(found.offset, 1.0 / star.scale), found.edge / star.scale};
+    return density_target(**size, mesh_.view, positions, vertex).in_units(star.scale);
   }
   return {};  // sizes are of planar meshes: see require_possible()
 }
@@ -171,15 +162,8 @@ bool CompositeRule<Frame>::gains(PositionView positions, Index vertex, Vec3 targ
   const Vec3 here = positions[vertex];
   const StarState before = state(mesh_.view, positions, vertex, here), after = state(mesh_.view, positions, vertex, target);
   const auto second_rises = [&] { return second(positions, vertex, target) > second(positions, vertex, here); };
-  if (!(before.jacobian > 0.0)) {
-    if (!after.better_than(before, mesh_.untangling)) return false;
-    if (!mesh_.untangling.attempt && !keeps_sound(mesh_.view, positions, vertex, target)) return false;
-    // Raising the mean lowers neither the minimum nor the mean, not even for the sake of untangling.
-    return !composite_.raise_mean() || (after.quality >= before.quality && second_rises());
-  }
-  if (mesh_.untangling.repair || !(after.jacobian > 0.0)) return false;
-  if (!composite_.beyond(before.quality)) return after.quality > before.quality;
-  return composite_.beyond(after.quality) && second_rises();
+  return gains_by_two(
+      composite_, before, after, mesh_.untangling, [&] { return keeps_sound(mesh_.view, positions, vertex, target); }, second_rises);
 }
 
 template <class Frame>

@@ -9,6 +9,7 @@
 
 #include "core/smooth/kernels/composite_kernel.h"
 #include "core/smooth/size_field.h"
+#include "core/smooth/two_aims.h"
 #include "core/smooth/vertex_rule.h"
 
 namespace dmoscope {
@@ -26,13 +27,13 @@ struct CompositeObjective {
   std::variant<Metric, std::shared_ptr<const SizeField>, MeanOfStar> second = MeanOfStar{};
 
   [[nodiscard]] bool raise_mean() const noexcept { return std::holds_alternative<MeanOfStar>(second); }
-  [[nodiscard]] bool beyond(double least) const noexcept {
-    return raise_mean() ? least > 0.0 && least >= threshold : least > threshold;  // with inverted elements it is never beyond
-  }
+  [[nodiscard]] bool beyond(double least) const noexcept { return is_beyond(least, threshold, raise_mean()); }
 };
 
 /// What a combination aims at; `size`: its size function, null where the second aim is a metric.
 [[nodiscard]] CompositeObjective composite_objective(Metric first, const Combination& combination, std::shared_ptr<const SizeField> size);
+/// The same as plain data; none where its sizes are those of a nodal field.
+[[nodiscard]] std::optional<Aims> plain_aims(const CompositeObjective& composite);
 /// What a phase that raises the mean aims at.
 [[nodiscard]] CompositeObjective raise_mean_above(Metric metric, double floor);
 
@@ -58,19 +59,6 @@ struct MetricFunctions {
 template <class Frame>
 [[nodiscard]] const MetricFunctions<Frame>& metric_functions(Metric metric);
 
-/// Where a vertex would stand for the sake of density (paper eq. 7), and what other places are worth (eq. 6, but bounded and free of
-/// scale).
-template <class Frame>
-struct DensityTarget {
-  using Offset = OffsetIn<Frame, double>;
-  Offset offset;      // from where the vertex stands
-  double edge = 0.0;  // mean edge of the star
-  /// 1 / (1 + d^2 / h^2); `at`: relative to where the vertex stands.
-  [[nodiscard]] double density(Offset at) const noexcept {
-    const Offset away = at - offset;
-    return edge > 0.0 ? 1.0 / (1.0 + dot(away, away) / (edge * edge)) : 0.0;
-  }
-};
 /// The mean of the edge neighbours, weighted by the inverse of the size where each stands now.
 [[nodiscard]] DensityTarget<Plane> density_target(const SizeField& size, const PlanarView& mesh, PositionView positions, Index vertex);
 

@@ -7,7 +7,7 @@
 #include "gpu/cuda_queue.h"
 #include "gpu/task.h"
 #include "tests/gpu/fake/fixture.h"
-#include "tests/gpu/same_bits.h"
+#include "tests/gpu/two_aims.h"
 #include "tests/gpu/volumes.h"
 #include "tests/smooth/zoo.h"
 
@@ -44,6 +44,18 @@ TEST_F(FakeQueue, SameBitsInThePlane) {
     }
 }
 
+/// Another phase needs another recording.
+TEST_F(FakeQueue, SameBitsOfTwoAims) {
+  const Subject subject = subject_of(lattice(8, 0.35, 95, Cells::Mixed));
+  set_up({});
+  expect_same_mean(make_cuda_queue(0), subject, Metric::MeanRatio, {});
+  EXPECT_EQ(count_of("cudaStreamBeginCapture"), 4U) << "of five iterations two are of the same phase";
+  expect_same_combinations(make_cuda_queue(0), subject, Metric::MeanRatio, {}, 4);
+  expect_same_mean(make_cuda_queue(0), Subject(volume_samples(64).front().input), Metric::MeanRatio, {.grid_points = 4, .levels = 2});
+  EXPECT_THAT(leaks(), ::testing::IsEmpty());
+  EXPECT_THAT(breaches(), ::testing::IsEmpty());
+}
+
 TEST_F(FakeQueue, SameBitsOfAVolume) {
   const auto samples = volume_samples(64);
   const Subject subject(samples.back().input);
@@ -55,8 +67,8 @@ TEST_F(FakeQueue, EveryCallGoesToItsDevice) {
   set_up({.devices = std::vector<FakeDevice>(2)});
   const Subject subject = subject_of(lattice(8, 0.35, 96));
   const auto first = make_cuda_queue(0), second = make_cuda_queue(1);
-  const auto here = make_device_dmo(first, subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
-  const auto there = make_device_dmo(second, subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+  const auto here = make_device_dmo(first, subject.task(Metric::MeanRatio));
+  const auto there = make_device_dmo(second, subject.task(Metric::MeanRatio));
   std::vector<Vec3> one = subject.input->mesh.positions, other = one;
   for (int i = 0; i < 2; ++i) EXPECT_EQ(here->visit(0, subject.visits(), one, nullptr), there->visit(0, subject.visits(), other, nullptr));
   here->store(one, nullptr);
@@ -67,7 +79,7 @@ TEST_F(FakeQueue, EveryCallGoesToItsDevice) {
 TEST_F(FakeQueue, APictureIsASnapshotAndItsMemoryIsUsedAgain) {
   const Subject subject = subject_of(lattice(8, 0.35, 97));
   const auto queue = make_cuda_queue(0);
-  const auto smoother = make_device_dmo(queue, subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+  const auto smoother = make_device_dmo(queue, subject.task(Metric::MeanRatio));
   std::vector<Vec3> positions = subject.input->mesh.positions;
   const std::vector<Vec3> before = positions;
   std::vector<Index> all(positions.size());
@@ -157,8 +169,7 @@ TEST_F(FakeQueue, AFailureInALongCopyIsSaidAndNextTimeItComesThrough) {
 TEST_F(FakeQueue, WhatDoesNotDependOnEachOtherIsAskedOfTwoStreams) {
   const auto waits_in = [](Cells cells, bool whole) {
     const Subject subject = subject_of(lattice(18, 0.35, 95, cells));
-    const auto smoother =
-        make_device_dmo(make_cuda_queue(0), subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+    const auto smoother = make_device_dmo(make_cuda_queue(0), subject.task(Metric::MeanRatio));
     std::vector<Vec3> positions = subject.input->mesh.positions;
     const std::size_t before = count_of("cudaStreamWaitEvent");
     smoother->visit(0, whole ? subject.visits() : subject.visits() - 1, positions, nullptr);
@@ -172,8 +183,7 @@ TEST_F(FakeQueue, OnlyWhatReadsPicturesIsUrgent) {
   const Subject subject = subject_of(lattice(8, 0.35, 97));
   const Acceleration acceleration = make_accelerator();
   ASSERT_NE(acceleration.accelerator, nullptr) << acceleration.reason;
-  const auto smoother =
-      acceleration.accelerator->make_dmo(subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+  const auto smoother = acceleration.accelerator->make_dmo(subject.task(Metric::MeanRatio));
   const std::vector<int> all = priorities();  // of the accelerator, the run and its side, and who reads
   ASSERT_EQ(all.size(), 4U);
   EXPECT_LT(all[0], all[1]) << "the lower is the more urgent";
@@ -216,7 +226,7 @@ TEST_F(FakeQueue, OutOfMemoryIsSaidAndForgotten) {
 TEST_F(FakeQueue, AKernelThatTouchesWhatIsNotItsOwnLosesTheDeviceAndThePositionsStay) {
   const Subject subject = subject_of(lattice(8, 0.35, 98));
   auto queue = make_cuda_queue(0);
-  auto smoother = make_device_dmo(queue, subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+  auto smoother = make_device_dmo(queue, subject.task(Metric::MeanRatio));
   std::vector<Vec3> positions = subject.input->mesh.positions;
   smoother->visit(0, subject.visits(), positions, nullptr);
   smoother->store(positions, nullptr);

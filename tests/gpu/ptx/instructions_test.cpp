@@ -37,7 +37,7 @@ class PtxInstructions : public ::testing::Test {
     const Subject subject(prepare_input(std::move(mesh), {}, Need::Smoothing, progress));
     std::map<Work, std::uint64_t> instructions;
     const auto queue = make_ptx_queue(kernels, {.lanes_at_once = lanes_at_once, .instructions = &instructions});
-    const auto device = make_device_dmo(queue, subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+    const auto device = make_device_dmo(queue, subject.task(Metric::MeanRatio));
     device->begin({});
     instructions.clear();  // what went before visits nobody
     std::vector<Vec3> positions = subject.input->mesh.positions;

@@ -5,7 +5,7 @@
 #include "gpu/host_queue.h"
 #include "tests/gpu/ptx/operations.h"
 #include "tests/gpu/ptx/ptx_queue.h"
-#include "tests/gpu/same_bits.h"
+#include "tests/gpu/two_aims.h"
 #include "tests/gpu/volumes.h"
 #include "tests/smooth/zoo.h"
 
@@ -104,6 +104,46 @@ TEST_P(PtxVolumeDmo, NoTeamMinglesInAnothersWork) {
 
 INSTANTIATE_TEST_SUITE_P(Metrics, PtxVolumeDmo, every_volume_metric(), name_of_metric);
 
+/// Each first metric with the mean, and with some second aims: on some of the meshes, each kind of aims on some of these.
+class PtxTwoAims : public PtxTest {};
+
+TEST_P(PtxTwoAims, SameBits) {
+  std::size_t turn = 0;
+  for (Specimen& specimen : specimens()) {
+    if (++turn % 3 != static_cast<std::size_t>(GetParam()) % 3 || !defined_for_all(GetParam(), specimen.mesh)) continue;
+    SCOPED_TRACE(specimen.name);
+    const Subject subject = subject_of(std::move(specimen.mesh));
+    const auto queue = teams({.together = turn % 2 == 0, .backwards = turn % 2 == 0});
+    expect_same_mean(queue, subject, GetParam(), specimen.search);
+    expect_same_combinations(queue, subject, GetParam(), specimen.search, 5, turn);
+  }
+}
+TEST_P(PtxTwoAims, NoTeamMinglesInAnothersWork) {
+  Races races;
+  const Subject subject = subject_of(lattice(8, 0.6, 96));
+  if (!defined_for_all(GetParam(), subject.input->mesh)) return;
+  expect_same_mean(teams({.races = &races}), subject, GetParam(), {});
+  expect_same_combinations(teams({.races = &races}), subject, GetParam(), {}, 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Metrics, PtxTwoAims, every_metric(), name_of_metric);
+
+class PtxVolumeTwoAims : public PtxTest {};
+
+TEST_P(PtxVolumeTwoAims, SameBits) {
+  std::size_t turn = 0;
+  for (const VolumeSample& sample : volume_samples(64)) {
+    if (!defined_for_all(GetParam(), sample.input->mesh) || ++turn % 4 != 1) continue;
+    SCOPED_TRACE(sample.name);
+    Races races;
+    const auto queue = teams({.together = turn % 2 == 0, .backwards = turn % 2 == 0, .races = &races});
+    expect_same_mean(queue, Subject(sample.input), GetParam(), {.grid_points = 6, .levels = 2});
+    expect_same_combinations(queue, Subject(sample.input), GetParam(), {.grid_points = 4, .levels = 2}, 2, turn);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Metrics, PtxVolumeTwoAims, every_volume_metric(), name_of_metric);
+
 /// What is drawn, made by the kernels and by their source compiled for the host.
 class PtxPicture : public PtxTest {};
 INSTANTIATE_TEST_SUITE_P(Shown, PtxPicture, ::testing::Values(Metric::MeanRatio, Metric::ScaledJacobian, Metric::MinAngle));
@@ -119,7 +159,7 @@ TEST_P(PtxPicture, IsThatOfTheHost) {
     ElementSummary summary;
   };
   const auto see = [&](const std::shared_ptr<Queue>& queue) {
-    const auto smoother = make_device_dmo(queue, subject.input, subject.colouring, Metric::MeanRatio, {}, subject.immovable, nullptr);
+    const auto smoother = make_device_dmo(queue, subject.task(Metric::MeanRatio));
     std::vector<Vec3> positions = subject.input->mesh.positions;
     smoother->visit(0, subject.visits(), positions, nullptr);
     const auto picture = smoother->picture(GetParam());
@@ -159,8 +199,9 @@ TEST_P(PtxText, KernelsAreWhole) {
   std::size_t visits = 0;
   for (const EntryText& text : kernels->texts()) {
     const Entry entry = decode(text);
-    const bool is_visit =
-        entry.name.find("bodies5Visit") != std::string::npos || entry.name.find("bodies11VisitVolume") != std::string::npos;
+    const bool is_visit = entry.name.find("bodies5Visit") != std::string::npos ||
+                          entry.name.find("bodies11VisitVolume") != std::string::npos ||
+                          entry.name.find("bodies12VisitTwoAims") != std::string::npos;
     visits += is_visit ? 1 : 0;
     EXPECT_GT(entry.code.size(), is_visit ? 500U : 10U) << entry.name;
     for (std::size_t i = 0; i < entry.code.size(); ++i)
@@ -169,8 +210,8 @@ TEST_P(PtxText, KernelsAreWhole) {
   std::size_t expected = 0;
   for (const MetricInfo& metric : metric_table())
     if (metric.metric != Metric::Condition)  // in the plane it is the mean ratio
-      expected += formulas::with_planar_metric(metric.metric, []<Metric M>() { return kIsRatio<M>; }) ? 3 : 2;
-  for (const MetricInfo& metric : metric_table()) expected += metric.defined_for(ElementKind::Tetrahedron) ? 1 : 0;
+      expected += formulas::with_planar_metric(metric.metric, []<Metric M>() { return kIsRatio<M>; }) ? 4 : 3;
+  for (const MetricInfo& metric : metric_table()) expected += metric.defined_for(ElementKind::Tetrahedron) ? 2 : 0;
   EXPECT_EQ(visits, expected);
 }
 

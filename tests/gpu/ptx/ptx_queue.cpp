@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/quality/formulas.h"
 #include "gpu/bodies.h"
+#include "gpu/two_aims_bodies.h"
 #include "gpu/volume_bodies.h"
 
 namespace dmoscope::gpu::ptx {
@@ -60,11 +61,14 @@ Kernels::Name name_for(Work work) {
       return solo<bodies::Visit<M, Stars::Others>>();
     case Work::VisitInTeam:
       return in_team<bodies::Visit<M, Stars::All, true>>();
+    case Work::VisitTwoAims:
+      return in_team<bodies::VisitTwoAims<M, dmoscope::Plane>>();
     case Work::Settle:
       return in_team<bodies::Settle<M>>();
     case Work::Judge:
       return solo<bodies::Judge<M>>();
     case Work::VisitVolume:
+    case Work::VisitVolumeTwoAims:
     case Work::JudgeVolume:
       break;  // see volume_name_for()
     case Work::Sum:
@@ -96,6 +100,7 @@ Kernels::Name name_for(Work work) {
 template <Metric M>
 Kernels::Name volume_name_for(Work work) {
   if (work == Work::JudgeVolume) return solo<bodies::JudgeVolume<M>>();
+  if (work == Work::VisitVolumeTwoAims) return in_team<bodies::VisitTwoAims<M, dmoscope::Space>>();
   return {fmt::format("void dmoscope::gpu::kernel<{}, dmoscope::gpu::StagingCudaTeam<{}u, {}ul> >(dmoscope::gpu::Task, unsigned long)",
                       demangled(typeid(bodies::VisitVolume<M>).name()), kBlockSize, kStageBytes),
           kTeamSize};

@@ -1,5 +1,5 @@
 #pragma once
-// The star of a volume's vertex as a lane sees it.
+// The star of a vertex as a lane sees it, where the order of its elements matters.
 
 #include <cstdint>
 #include <type_traits>
@@ -9,9 +9,11 @@
 
 namespace dmoscope::gpu {
 
-/// Which of VolumeStar's lists an element is in.
+/// Which of the lists of a Star or VolumeStar an element is in.
 template <class Element>
 inline constexpr unsigned kListOf = 0;
+template <class Real>
+inline constexpr unsigned kListOf<StarQuadrilateral<Real>> = 1;
 template <class Real>
 inline constexpr unsigned kListOf<StarHexahedron<Real>> = 1;
 template <class Real>
@@ -21,42 +23,43 @@ inline constexpr unsigned kListOf<StarPyramid<Real>> = 3;
 template <class Real>
 inline constexpr unsigned kListOf<StarTip<Real>> = 4;
 
-/// Straight from the mesh, as a lane has no memory for lists, and still list after list as VolumeStarView has them: a mean over the
-/// elements is summed in that order.
+/// Straight from the mesh, as a lane has no memory for lists, and still list after list as StarView and VolumeStarView have them: a mean
+/// over the elements is summed in that order. Frame: Plane or Space.
+template <class Frame>
 class ListedStar {
  public:
-  DMOSCOPE_ANYWHERE ListedStar(const VolumeView& mesh, PositionView positions, Index vertex) : star_(mesh, positions, vertex) {
+  DMOSCOPE_ANYWHERE ListedStar(const MeshView<Frame>& mesh, PositionView positions, Index vertex) : star_(mesh, positions, vertex) {
     std::size_t sizes[kLists] = {};
-    star_.for_each<true>([&sizes](const auto& element) { ++sizes[list_of(element)]; });
+    star_.template for_each<true>([&sizes](const auto& element) { ++sizes[list_of(element)]; });
     for (unsigned list = 0; list < kLists; ++list) {
       if (sizes[list] > 0) lists_ |= 1U << list;
       if (sizes[list] > kMaxSolids) fits_ = false;
     }
   }
 
-  [[nodiscard]] DMOSCOPE_ANYWHERE const MeshStar<Space>& star() const { return star_; }
-  /// Has no list more elements than the fast search takes?
+  [[nodiscard]] DMOSCOPE_ANYWHERE const MeshStar<Frame>& star() const { return star_; }
+  /// Has no list more elements than the fast search of volumes takes?
   [[nodiscard]] DMOSCOPE_ANYWHERE bool fits() const { return fits_; }
 
-  /// See VolumeStarView.
+  /// See StarView and VolumeStarView.
   template <bool Others, class F>
   DMOSCOPE_ANYWHERE void for_each(F f) const {
     for (unsigned list = 0; list < (Others ? kLists : 1U); ++list) {
       if ((lists_ >> list & 1U) == 0) continue;
-      star_.for_each<Others>([&f, list](const auto& element) {
+      star_.template for_each<Others>([&f, list](const auto& element) {
         if (list_of(element) == list) f(element);
       });
     }
   }
 
  private:
-  static constexpr unsigned kLists = 5;
+  static constexpr unsigned kLists = std::is_same_v<Frame, Plane> ? 2 : 5;
   template <class Element>
   [[nodiscard]] static DMOSCOPE_ANYWHERE unsigned list_of(const Element& /*element*/) {
     return kListOf<Element>;
   }
 
-  MeshStar<Space> star_;
+  MeshStar<Frame> star_;
   unsigned lists_ = 0;  // one bit a list: has it elements?
   bool fits_ = true;
 };

@@ -1,0 +1,123 @@
+#pragma once
+// What a visit with two aims (see composite_dmo.h) computes, for any processor: the second aims, and how a place is judged by both.
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/mesh/mesh_view.h"
+#include "core/mesh/position_view.h"
+#include "core/numeric/scalar.h"
+#include "core/search/star.h"
+#include "core/smooth/composite_objective.h"
+#include "core/smooth/edge_neighbours.h"
+#include "core/smooth/reference_visit.h"
+
+namespace dmoscope {
+
+/// A size function that a formula gives, as plain data: see SizeFunction, all of whose kinds but Field these are.
+struct SizeFormula {
+  SizeFunction::Kind kind = SizeFunction::Kind::Constant;
+  Vec3 point{};
+  double least_distance = 0.0;  // a vertex at the very point has a size, too
+  [[nodiscard]] DMOSCOPE_ANYWHERE double at(const Plane& plane, Vec3 place) const {
+    if (kind == SizeFunction::Kind::Constant) return 1.0;
+    const Vec2<double> away = plane.offset(place, point);
+    const double distance = scalar::max(std::sqrt(dot(away, away)), least_distance);
+    return kind == SizeFunction::Kind::Distance ? distance : 1.0 / distance;
+  }
+  friend bool operator==(const SizeFormula&, const SizeFormula&) = default;
+};
+
+/// Is a star whose least first metric is `least` beyond the threshold? Beyond means above it or, `inclusive`, not below it; with inverted
+/// elements never.
+[[nodiscard]] DMOSCOPE_ANYWHERE bool is_beyond(double least, double threshold, bool inclusive) {
+  return inclusive ? least > 0.0 && least >= threshold : least > threshold;
+}
+
+/// Two aims but for the first metric, as plain data. Not for sizes out of a nodal field.
+struct Aims {
+  enum class Second : std::uint8_t { Mean, Metric, Density };
+  Second second = Second::Mean;
+  dmoscope::Metric metric = dmoscope::Metric::MeanRatio;  // Second::Metric
+  double threshold = 0.0;
+  SizeFormula size{};  // Second::Density
+  [[nodiscard]] DMOSCOPE_ANYWHERE bool raise_mean() const { return second == Second::Mean; }
+  [[nodiscard]] DMOSCOPE_ANYWHERE bool beyond(double least) const { return is_beyond(least, threshold, raise_mean()); }
+  friend bool operator==(const Aims&, const Aims&) = default;
+};
+
+/// Where a vertex would stand for the sake of density (paper eq. 7), and what other places are worth (eq. 6, but bounded and free of
+/// scale).
+template <class Frame>
+struct DensityTarget {
+  using Offset = OffsetIn<Frame, double>;
+  Offset offset{};    // from where the vertex stands
+  double edge = 0.0;  // mean edge of the star
+  /// 1 / (1 + d^2 / h^2); `at`: relative to where the vertex stands.
+  [[nodiscard]] DMOSCOPE_ANYWHERE double density(Offset at) const {
+    const Offset away = at - offset;
+    return edge > 0.0 ? 1.0 / (1.0 + dot(away, away) / (edge * edge)) : 0.0;
+  }
+  /// The same in units of `scale`.
+  [[nodiscard]] DMOSCOPE_ANYWHERE DensityTarget in_units(double scale) const { return {times(offset, 1.0 / scale), edge / scale}; }
+};
+
+/// The mean of the edge neighbours, weighted by the inverse of the size where each stands now. size_at(vertex, place): h > 0.
+template <class SizeAt>
+[[nodiscard]] DMOSCOPE_ANYWHERE DensityTarget<Plane> density_target_by(const PlanarView& mesh, PositionView positions, Index vertex,
+                                                                       const SizeAt& size_at) {
+  const Vec3 here = positions[vertex];
+  Vec2<double> sum{};
+  double weights = 0.0, lengths = 0.0, count = 0.0;
+  for_edge_neighbours(mesh, vertex, [&](Index other) {
+    const Vec2<double> edge = mesh.frame.offset(positions[other], here);
+    const double weight = 1.0 / size_at(other, positions[other]);
+    sum = {sum.x + weight * edge.x, sum.y + weight * edge.y};
+    weights += weight;
+    lengths += std::sqrt(dot(edge, edge));
+    count += 1.0;
+  });
+  if (!(count > 0.0)) return {};
+  return {{sum.x / weights, sum.y / weights}, lengths / count};
+}
+
+/// The mean metric of a star with its vertex at an offset, by the search's formulas; summed in the star's order.
+template <Metric M, class StarT, class Point>
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double mean_of(const StarT& star, Point p) {
+  double sum = 0.0, count = 0.0;
+  star.template for_each<true>([&](const auto& element) {
+    sum += evaluate<M>(element.with(p));
+    count += 1.0;
+  });
+  return sum / count;
+}
+
+/// The same by the statistics', with the vertex at a place.
+template <Metric M, class Frame>
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double mean_at_place(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
+                                                                     Vec3 place) {
+  const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
+  double sum = 0.0;
+  for (const Incidence& incidence : mesh.star(vertex))
+    visit_shape(mesh.frame, mesh.corners_of(incidence.element), at, [&sum](const auto& shape) { sum += evaluate<M>(shape); });
+  return sum / static_cast<double>(mesh.star(vertex).size());
+}
+
+/// Does a vertex gain by going from where its star is `before` to where it is `after`? `aims`: Aims or what else has its beyond() and
+/// raise_mean(); keeps_sound(): see keeps_sound(); second_rises(): is the second aim greater there?
+template <class AimsT, class KeepsSound, class SecondRises>
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE bool gains_by_two(const AimsT& aims, const StarState& before, const StarState& after,
+                                                                  const Untangling& untangling, const KeepsSound& keeps_sound,
+                                                                  const SecondRises& second_rises) {
+  if (!(before.jacobian > 0.0)) {
+    if (!after.better_than(before, untangling)) return false;
+    if (!untangling.attempt && !keeps_sound()) return false;
+    // Raising the mean lowers neither the minimum nor the mean, not even for the sake of untangling.
+    return !aims.raise_mean() || (after.quality >= before.quality && second_rises());
+  }
+  if (untangling.repair || !(after.jacobian > 0.0)) return false;
+  if (!aims.beyond(before.quality)) return after.quality > before.quality;
+  return aims.beyond(after.quality) && second_rises();
+}
+
+}  // namespace dmoscope

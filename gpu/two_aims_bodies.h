@@ -1,0 +1,142 @@
+#pragma once
+// The bodies of the kernels for two aims: combined metrics, and the phase that raises the mean. The CPU's CompositeRule is their like.
+
+#include "core/smooth/two_aims.h"
+#include "gpu/lane.h"
+#include "gpu/listed_star.h"
+#include "gpu/star_visit.h"
+#include "gpu/task.h"
+
+namespace dmoscope::gpu::bodies {
+
+/// Calls f.template operator()<M>() with a metric that is defined in the frame.
+template <class Frame, class F>
+DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE decltype(auto) with_metric_in(Metric metric, F&& f) {
+  if constexpr (std::is_same_v<Frame, Plane>)
+    return formulas::with_planar_metric(metric, f);
+  else
+    return formulas::with_volume_metric(metric, f);
+}
+
+/// What the search maximises: see CompositeScore.
+template <Metric M, class Frame>
+class TwoAimsScore {
+ public:
+  using Offset = OffsetIn<Frame, double>;
+  using StarT = ListedStar<Frame>;
+  DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE TwoAimsScore(const Aims& aims, const StarT& star, const Untangling& rule,
+                                                      const DensityTarget<Frame>& target)
+      : aims_(aims), star_(star), target_(target), untangling_(star, rule) {}
+
+  [[nodiscard]] DMOSCOPE_ANYWHERE bool tangled() const { return untangling_.tangled(); }
+  [[nodiscard]] DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE double operator()(Offset p) const {
+    const double least = tangled() ? untangling_(p) : least_of<M>(p);
+    return aims_.beyond(least) ? aims_.threshold + second(p) : least;
+  }
+
+ private:
+  template <Metric S>
+  [[nodiscard]] DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE double least_of(Offset p) const {
+    return Objective<S, false, double, Value::Metric, const StarT&>(star_)(p);
+  }
+  [[nodiscard]] DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE double second(Offset p) const {
+    if (aims_.second == Aims::Second::Density) return target_.density(p);
+    if (aims_.second == Aims::Second::Mean) return mean_of<M>(star_, p);
+    double least = std::numeric_limits<float>::max();  // as Worth begins
+    star_.template for_each<true>([&](const auto& element) { least = scalar::min(least, worth_of(element, p)); });
+    return least;
+  }
+  /// Of an element alone. The metric is chosen element by element, so that the code that reads an element is there once; the least of these
+  /// is what an Objective of the metric finds, for a sound element is worth more than any that is not.
+  template <class Element>
+  [[nodiscard]] DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE double worth_of(const Element& element, Offset p) const {
+    return with_metric_in<Frame>(aims_.metric, [&]<Metric S>() DMOSCOPE_INLINE_LAMBDA {
+      Worth<S, false, double, Value::Metric, Offset> worth;
+      if constexpr (decltype(worth)::kOthers || kListOf<Element> == 0) worth.take(element, p);
+      return worth.value();
+    });
+  }
+
+  const Aims& aims_;
+  const StarT& star_;
+  DensityTarget<Frame> target_;  // in units of the star's scale
+  UntanglingObjective<M, const StarT&, Offset> untangling_;
+};
+
+/// A visit of rank first + i by the plain search in double, by all lanes of a team.
+template <Metric M, class Frame>
+struct VisitTwoAims {
+  template <class Team>
+  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& team) {
+    const auto rank = static_cast<Index>(task.first + i);
+    if (!is_set(task.awake + rank)) return;
+    const ListedStar<Frame> star(mesh_in<Frame>(task), positions_of(task), task.vertex_of_rank[rank]);
+    const Offset found = search(task, rank, star, team);
+    if (team.lane() == 0) judge(task, rank, times(found, star.star().scale()));
+  }
+
+ private:
+  using Offset = OffsetIn<Frame, double>;
+
+  /// The offset of the best candidate in units of the star's scale; 0 where none is better than the vertex's own place.
+  template <class Team>
+  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE Offset search(const Task& task, Index rank, const ListedStar<Frame>& star, const Team& team) {
+    const TwoAimsScore<M, Frame> score(task.aims, star, task.untangling, density_of(task, task.vertex_of_rank[rank], star.star().scale()));
+    if (task.untangling.repair && !score.tangled()) return {};
+    const Offset middle = score.tangled() ? middle_of<Offset>(star) : Offset{};
+    return grid_search<double>(score, star.star().box(), task.parameters, NoTrace{}, team, score.tangled() ? &middle : nullptr).offset;
+  }
+  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE DensityTarget<Frame> density_of(const Task& task, Index vertex, double scale) {
+    if constexpr (std::is_same_v<Frame, Plane>)
+      if (task.aims.second == Aims::Second::Density) return wanted(task, vertex).in_units(scale);
+    return {};  // sizes are of planar meshes
+  }
+  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE DensityTarget<Plane> wanted(const Task& task, Index vertex) {
+    return density_target_by(task.mesh, positions_of(task), vertex,
+                             [&task](Index /*vertex*/, Vec3 place) { return task.aims.size.at(task.mesh.frame, place); });
+  }
+
+  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void judge(const Task& task, Index rank, Offset offset) {
+    const MeshView<Frame> mesh = mesh_in<Frame>(task);
+    const PositionView positions = positions_of(task);
+    const Index vertex = task.vertex_of_rank[rank];
+    const Vec3 here = positions[vertex], to = displaced(mesh.frame, here, offset, task.frame.single_precision);
+    if (leads_away(offset) && !(to == here) && gains(task, mesh, vertex, to))
+      move(task, mesh, rank, to);
+    else
+      set_flag(task.awake + rank, false);
+  }
+  /// Here and there in a loop, so that there is one copy of what judges a star.
+  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE bool gains(const Task& task, const MeshView<Frame>& mesh, Index vertex, Vec3 target) {
+    const PositionView positions = positions_of(task);
+    StarState before, after;
+    DMOSCOPE_NO_UNROLL
+    for (int i = 0; i < 2; ++i) {
+      before = after;
+      after = star_state<M>(mesh, positions, vertex, i == 0 ? positions[vertex] : target);
+    }
+    return gains_by_two(
+        task.aims, before, after, task.untangling, [&] { return keeps_sound(mesh, positions, vertex, target); },
+        [&] { return second_rises(task, mesh, vertex, target); });
+  }
+  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE bool second_rises(const Task& task, const MeshView<Frame>& mesh, Index vertex, Vec3 target) {
+    double here = 0.0, there = 0.0;
+    DMOSCOPE_NO_UNROLL
+    for (int i = 0; i < 2; ++i) {
+      here = there;
+      there = second(task, mesh, vertex, i == 0 ? positions_of(task)[vertex] : target);
+    }
+    return there > here;
+  }
+  /// The second aim with the vertex at `place`, by the statistics' formulas.
+  static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE double second(const Task& task, const MeshView<Frame>& mesh, Index vertex, Vec3 place) {
+    const PositionView positions = positions_of(task);
+    if constexpr (std::is_same_v<Frame, Plane>)
+      if (task.aims.second == Aims::Second::Density) return wanted(task, vertex).density(mesh.frame.offset(place, positions[vertex]));
+    if (task.aims.raise_mean()) return mean_at_place<M>(mesh, positions, vertex, place);
+    return with_metric_in<Frame>(task.aims.metric,
+                                 [&]<Metric S>() DMOSCOPE_INLINE_LAMBDA { return star_state<S>(mesh, positions, vertex, place).quality; });
+  }
+};
+
+}  // namespace dmoscope::gpu::bodies

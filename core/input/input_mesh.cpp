@@ -190,15 +190,6 @@ bool find_strays(const Mesh& mesh, const Geometry& geometry, const Topology& top
 
 }  // namespace
 
-std::vector<std::uint8_t> standing_vertices(const InputMesh& input, InterfaceRule rule) {
-  const auto boundary = input.topology.boundary();
-  std::vector<std::uint8_t> standing(boundary.begin(), boundary.end());
-  for (Index v = 0; v < standing.size(); ++v) {
-    if (input.topology.star(v).empty() || (rule == InterfaceRule::Fixed && input.interfaces.holds(v))) standing[v] = 1;
-  }
-  return standing;
-}
-
 MeshReport examine(const Mesh& mesh, const Geometry& geometry) {
   EdgeSurvey edges;
   Progress unwatched;

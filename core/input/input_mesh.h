@@ -44,9 +44,6 @@ struct InputMesh {
   [[nodiscard]] PlanarView planar_view() const { return view<Plane>(); }
 };
 
-/// 1 where a vertex of the mesh may not move whatever a person fixes: on the boundary, of no element and, by this rule, on an interface.
-[[nodiscard]] std::vector<std::uint8_t> standing_vertices(const InputMesh& input, InterfaceRule rule);
-
 enum class Need { Smoothing, QualityOnly };
 
 /// Classifies, orients, examines and indexes a mesh. With Need::Smoothing a curved surface is refused (InputError that names the file).

@@ -41,14 +41,6 @@ std::string first_listed(std::vector<std::string> names) {
 
 std::string quoted(const std::string& name) { return fmt::format("\"{}\"", name); }
 
-bool is_string(const Group& group) { return group.dimension == 0 && group.role.ends_with("boundary"); }
-/// MEDIT's RequiredVertices, RequiredEdges, RequiredTriangles and RequiredQuadrilaterals, in whatever case.
-bool is_required(const Group& group) {
-  constexpr std::string_view kBegins = "required";
-  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  return group.role == "mark" && group.name.size() >= kBegins.size() &&
-         std::equal(kBegins.begin(), kBegins.end(), group.name.begin(), [&](char a, char b) { return a == small(b); });
-}
 /// Does a group of elements tell them apart? Required ones are of the same material as others.
 bool is_material(const Group& group) { return group.of_elements() && !is_required(group); }
 
@@ -137,6 +129,7 @@ class Interfaces::Finder {
   }
 
  private:
+  [[nodiscard]] bool on_boundary(Index v) const { return topology_.boundary()[v] != 0; }
   [[nodiscard]] bool inside(Index v) const { return topology_.boundary()[v] == 0 && !topology_.star(v).empty(); }
   [[nodiscard]] bool held(Index v) const { return reason_[v] != kNoIndex; }
   Index add_reason(std::string text) {
@@ -183,13 +176,18 @@ class Interfaces::Finder {
     std::map<Labels, Index> reasons;
     Labels labels;
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
-      if (!inside(v) || held(v)) continue;
+      if (!(inside(v) || on_boundary(v)) || held(v)) continue;
       labels.clear();
       for (const Incidence& at : topology_.star(v)) {
         const Index label = label_of[at.element];
         if (std::ranges::find(labels, label) == labels.end()) labels.push_back(label);
       }
       if (labels.size() < 2) continue;
+      if (on_boundary(v)) {
+        found_.meets_.resize(reason_.size(), 0);
+        found_.meets_[v] = 1;
+        continue;
+      }
       std::ranges::sort(labels);
       auto known = reasons.find(labels);
       if (known == reasons.end())

@@ -42,6 +42,8 @@ class Interfaces {
   [[nodiscard]] bool holds(Index vertex) const noexcept { return any() && reason_[vertex] != kNoIndex; }
   /// "it lies on the interface between "steel" and "air", which stays"; empty for a vertex that is not held.
   [[nodiscard]] std::string why(Index vertex) const { return holds(vertex) ? reasons_[reason_[vertex]] : std::string(); }
+  /// Does an interface between materials end at this vertex of the boundary?
+  [[nodiscard]] bool meets_boundary_at(Index vertex) const noexcept { return !meets_.empty() && meets_[vertex] != 0; }
   /// Held vertices, each counted once.
   [[nodiscard]] Index count(HeldBy by) const noexcept { return counts_[static_cast<std::size_t>(by)]; }
   [[nodiscard]] Index count() const noexcept;
@@ -54,6 +56,7 @@ class Interfaces {
 
   std::vector<Index> reason_;  // of every vertex, into reasons_; kNoIndex: not held. Empty where none is held
   std::vector<std::string> reasons_;
+  std::vector<std::uint8_t> meets_;  // of every vertex; empty where no interface ends at the boundary
   std::array<Index, kHeldByCount> counts_{};
   Index between_groups_ = 0, between_values_ = 0;  // how many pairs of materials meet
   std::string value_names_;                        // "mat_id", "mat_id and region"

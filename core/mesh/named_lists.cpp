@@ -5,6 +5,16 @@
 #include "core/mesh/faces.h"
 
 namespace dmoscope {
+
+bool is_string(const Group& group) { return group.dimension == 0 && group.role.ends_with("boundary"); }
+
+bool is_required(const Group& group) {
+  constexpr std::string_view kBegins = "required";
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return group.role == "mark" && group.name.size() >= kBegins.size() &&
+         std::equal(kBegins.begin(), kBegins.end(), group.name.begin(), [&](char a, char b) { return a == small(b); });
+}
+
 namespace {
 
 /// Calls visit(corners) for every edge or face of an element that has this vertex, edges of volumes more than once; stops when it returns

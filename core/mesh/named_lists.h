@@ -11,6 +11,11 @@
 
 namespace dmoscope {
 
+/// A boundary string of a fort.14: vertices in order.
+[[nodiscard]] bool is_string(const Group& group);
+/// MEDIT's RequiredVertices, RequiredEdges, RequiredTriangles and RequiredQuadrilaterals, in whatever case.
+[[nodiscard]] bool is_required(const Group& group);
+
 enum class NamedKind : std::uint8_t { Faces, Lines, Points };
 
 /// All that groups of one kind name in a mesh, which must outlive it.

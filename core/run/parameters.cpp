@@ -22,7 +22,8 @@ int to_int(const std::string& word) {
 using P = RunParameters;
 using Word = const std::string&;
 
-constexpr std::array<std::string_view, 2> kPrecisions{"float", "double"}, kDirections{"random", "axes"}, kInterfaces{"fixed", "free"};
+constexpr std::array<std::string_view, 2> kPrecisions{"float", "double"}, kDirections{"random", "axes"}, kInterfaces{"fixed", "free"},
+    kBoundary{"fixed", "slide"};
 constexpr std::array<std::string_view, 3> kBackends{"auto", "cpu", "cuda"};
 
 const std::array kTable{
@@ -130,6 +131,45 @@ const std::array kTable{
                   .from_text = [](P& p, Word word) { p.interfaces = parse_interface_rule(word); },
                   .in_title = [](const P& p) { return fmt::format("interfaces {}", name(p.interfaces)); },
                   .before = "free"},
+    ParameterInfo{.name = "boundary",
+                  .title = "boundary",
+                  .type = "fixed|slide",
+                  .doc =
+                      "Whether the vertices of a planar mesh's boundary stay or slide along the boundary of the input. Corners stay, and "
+                      "what the file names",
+                  .kind = ParameterKind::Choice,
+                  .choices = kBoundary,
+                  .reader = &MethodInfo::slides,
+                  .to_text = [](const P& p) { return std::string(name(p.boundary)); },
+                  .from_text = [](P& p, Word word) { p.boundary = parse_boundary_rule(word); },
+                  .in_title = [](const P& p) { return fmt::format("boundary {}", name(p.boundary)); },
+                  .before = "fixed"},
+    ParameterInfo{.name = "corner-angle",
+                  .title = "corner angle",
+                  .type = "X",
+                  .doc = "Degrees: a vertex where the boundary turns by more is a corner, which stays where others slide",
+                  .kind = ParameterKind::Real,
+                  .most = 180.0,
+                  .reader = &MethodInfo::slides,
+                  .condition = [](const P& p) { return p.boundary == BoundaryRule::Slide; },
+                  .to_text = [](const P& p) { return fmt::format("{}", p.corner_angle); },
+                  .from_text = [](P& p, Word word) { p.corner_angle = to_number(word); },
+                  .in_title = [](const P& p) { return fmt::format("corner angle {:g}", p.corner_angle); },
+                  .before = "20"},
+    ParameterInfo{
+        .name = "max-deviation",
+        .title = "max deviation",
+        .type = "X",
+        .doc = "How far edges of a boundary that slides may come to lie from the boundary of the input, as a share of the diagonal of "
+               "the mesh's box",
+        .kind = ParameterKind::Real,
+        .most = 1.0,
+        .reader = &MethodInfo::slides,
+        .condition = [](const P& p) { return p.boundary == BoundaryRule::Slide; },
+        .to_text = [](const P& p) { return fmt::format("{}", p.max_deviation); },
+        .from_text = [](P& p, Word word) { p.max_deviation = to_number(word); },
+        .in_title = [](const P& p) { return fmt::format("max deviation {:g}", p.max_deviation); },
+        .before = "0.001"},
     ParameterInfo{.name = "backend",
                   .title = "backend",
                   .type = "auto|cpu|cuda",

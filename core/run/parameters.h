@@ -10,6 +10,7 @@
 
 #include "core/mesh/interfaces.h"
 #include "core/quality/metric.h"
+#include "core/reference/standing.h"
 #include "core/run/mean_phase.h"
 #include "core/run/visit_order.h"
 #include "core/search/parameters.h"
@@ -28,8 +29,12 @@ struct RunParameters {
   VisitOrder order{};
   std::vector<Index> fixed{};  // the user's fixed set, besides boundary and unused vertices and, as `interfaces` says, those on interfaces
   InterfaceRule interfaces = InterfaceRule::Fixed;
+  BoundaryRule boundary = BoundaryRule::Fixed;
+  double corner_angle = StandingRule{}.corner_angle;  // degrees; where the boundary slides
+  double max_deviation = 1e-3;                        // of the boundary, as a share of the diagonal of the mesh's box
   Backend backend = Backend::Auto;
   friend bool operator==(const RunParameters&, const RunParameters&) = default;
+  [[nodiscard]] StandingRule standing() const noexcept { return {interfaces, boundary, corner_angle}; }
 };
 
 enum class ParameterKind { Whole, Real, Choice, Text };

@@ -30,7 +30,9 @@ std::string Run::why_fixed(Index vertex) const {
   if (vertex >= fixed().size()) return fmt::format("the mesh has {} vertices", fixed().size());
   if (fixed()[vertex] == 0) return {};
   if (input_->topology.star(vertex).empty()) return "it belongs to no element";
-  if (input_->topology.boundary()[vertex] != 0) return "it lies on the boundary, which stays";
+  if (input_->topology.boundary()[vertex] != 0)
+    return parameters_.boundary == BoundaryRule::Slide ? "it is a corner of the boundary, or named by the file"
+                                                       : "it lies on the boundary, which stays";
   if (parameters_.interfaces == InterfaceRule::Fixed && input_->interfaces.holds(vertex)) return input_->interfaces.why(vertex);
   return "it was fixed by hand";
 }

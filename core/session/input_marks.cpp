@@ -35,7 +35,7 @@ std::multimap<std::string, std::string> by_name(const std::vector<DataMark>& mar
 
 }  // namespace
 
-std::string standing_mark(const InputMesh& input, InterfaceRule rule) {
+std::string standing_mark(const InputMesh& input, const StandingRule& rule) {
   Fnv1a hash;
   const std::vector<std::uint8_t> standing = standing_vertices(input, rule);
   for (Index v = 0; v < standing.size(); ++v)

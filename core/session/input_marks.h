@@ -5,13 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/input/input_mesh.h"
+#include "core/reference/standing.h"
 #include "core/smooth/size_field.h"
 
 namespace dmoscope {
 
 /// Hash of the vertices that stay in place whatever a person fixes.
-[[nodiscard]] std::string standing_mark(const InputMesh& input, InterfaceRule rule);
+[[nodiscard]] std::string standing_mark(const InputMesh& input, const StandingRule& rule);
 
 /// Hash of the nodal field that a size function reads; empty where it reads none.
 [[nodiscard]] std::string size_mark(const InputMesh& input, const SizeField* size);

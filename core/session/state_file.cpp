@@ -237,7 +237,7 @@ Json json_of(const RunStanding& run, const InputMesh& input, bool several) {
   Json json{{"parameters", json_of(run.parameters)}, {"moment", json_of(run.moment)}, {"edits", edits}, {"records", records}};
   if (!run.name.empty()) json["name"] = run.name;
   if (run.moment.iteration > 0) json["positions"] = pack_positions(run.start);
-  json["standing"] = standing_mark(input, run.parameters.interfaces);
+  json["standing"] = standing_mark(input, run.parameters.standing());
   if (const std::string size = size_mark(input, run.size.get()); !size.empty()) json["size"] = size;
   if (several) json["mesh"] = run.mesh;
   json["checksums"] = checksums_of(json);
@@ -248,7 +248,7 @@ Json json_of(const RunStanding& run, const InputMesh& input, bool several) {
 /// before there were these says nothing of them.
 void require_same_data(const Json& json, const Run& run, const std::vector<DataMark>& then) {
   const InputMesh& input = run.input();
-  if (json.contains("standing") && json.at("standing") != standing_mark(input, run.parameters().interfaces)) {
+  if (json.contains("standing") && json.at("standing") != standing_mark(input, run.parameters().standing())) {
     const std::string what = changed_data(then, data_marks(input.mesh));
     throw UsageError(fmt::format("{} has changed since this was saved: other vertices keep their place now ({})", input.mesh.name,
                                  what.empty() ? "this version of the program holds others" : what));

@@ -11,6 +11,7 @@
 #include "core/input/input_mesh.h"
 #include "core/mesh/colouring.h"
 #include "core/quality/metric.h"
+#include "core/reference/standing.h"
 #include "core/search/parameters.h"
 #include "core/smooth/composite_objective.h"
 
@@ -47,7 +48,10 @@ struct SmoothingTask {
   std::optional<Combination> combination{};  // dmo alone: `metric` is its first one
   std::shared_ptr<const SizeField> size{};   // of a combination with a size function
   bool then_mean = false;                    // whether a second phase may come, see Sweep
-  std::span<const Index> immovable{};        // see immovable_elements; for statistics on a device
+  BoundaryRule boundary = BoundaryRule::Fixed;
+  std::shared_ptr<const Curves> curves{};  // where vertices of the boundary slide: curves_for() the rule
+  double max_deviation = 0.0;              // of the boundary from that of the input, in mesh units: see slide.h
+  std::span<const Index> immovable{};      // see immovable_elements; for statistics on a device
   ThreadPool* pool = nullptr;
 };
 

@@ -91,8 +91,7 @@ std::shared_ptr<const InputSpread> FrameBuilder::spread_at(Session& session, Inp
 
 bool FrameBuilder::FrameKey::is(const FrameKey& other) const {
   const bool same_run = index == Frame::kNoRun || (!run.expired() && run.lock() == other.run.lock());
-  return same_run && index == other.index && path == other.path && moment == other.moment && shown == other.shown &&
-         interfaces == other.interfaces;
+  return same_run && index == other.index && path == other.path && moment == other.moment && shown == other.shown && rule == other.rule;
 }
 
 FrameBuilder::FrameKey FrameBuilder::key_of(Session& session, std::size_t index) {
@@ -189,11 +188,11 @@ std::shared_ptr<const Frame> FrameBuilder::past(Session& session, std::size_t in
 std::shared_ptr<const Frame> FrameBuilder::input_frame(Session& session, FrameDetail detail) {
   FrameKey key;
   key.shown = session.shown();
-  key.interfaces = session.active().parameters().interfaces;
+  key.rule = session.active().parameters().standing();
   if (const Known* known = find(session, key, detail)) return known->frame;
   auto frame = begin(session, key, detail);
   frame->positions = session.input()->mesh.positions;
-  const std::vector<std::uint8_t> standing = standing_vertices(*frame->input, key.interfaces);
+  const std::vector<std::uint8_t> standing = standing_vertices(*frame->input, key.rule);
   judge_elements(*frame, immovable_elements(frame->input->mesh, standing, session.pool().get()), session.pool().get());
   frame->statistics = frame->shown_statistics;
   return keep(std::move(key), std::move(frame));

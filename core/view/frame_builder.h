@@ -40,7 +40,7 @@ class FrameBuilder {
     std::uint64_t path = 0;
     Moment moment;
     Metric shown = Metric::MeanRatio;
-    InterfaceRule interfaces = InterfaceRule::Fixed;  // of the input: what stays there, as for the active run
+    StandingRule rule{};  // of the input: what stays there, as for the active run
     [[nodiscard]] bool is(const FrameKey& other) const;
   };
   struct Known {

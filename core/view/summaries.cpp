@@ -43,10 +43,10 @@ std::shared_ptr<const RunSummary> Summaries::of(Session& session, std::size_t ru
   return nullptr;
 }
 
-InterfaceRule Summaries::rule_of(Session& session, const std::shared_ptr<const InputMesh>& input) {
+StandingRule Summaries::rule_of(Session& session, const std::shared_ptr<const InputMesh>& input) {
   std::size_t run = session.active_index();
   for (std::size_t i = 0; session.run(run).shared_input() != input; ++i) run = i;
-  return session.run(run).parameters().interfaces;
+  return session.run(run).parameters().standing();
 }
 
 std::shared_ptr<const InputSummary> Summaries::of_input(Session& session, const std::shared_ptr<const InputMesh>& input) const {
@@ -61,7 +61,7 @@ bool Summaries::find_inputs(Session& session, const std::function<bool()>& go_on
   std::vector<KnownInput> known;
   ThreadPool* pool = session.pool().get();
   for (const auto& input : session.inputs()) {
-    const InterfaceRule rule = rule_of(session, input);
+    const StandingRule rule = rule_of(session, input);
     auto summary = of_input(session, input);
     if (!summary && go_on()) {
       const QualityContext context = input->quality_context();

@@ -39,11 +39,11 @@ class Summaries {
   [[nodiscard]] SizeCourse sizes_of(Session& session, std::size_t run, std::span<const Vec3> positions) const;
   struct KnownInput {
     std::weak_ptr<const InputMesh> input;
-    InterfaceRule rule = InterfaceRule::Fixed;  // what stays there, as for its run that is active, or its first one
+    StandingRule rule{};  // what stays there, as for its run that is active, or its first one
     std::shared_ptr<const InputSummary> summary;
   };
   bool find_inputs(Session& session, const std::function<bool()>& go_on);
-  [[nodiscard]] static InterfaceRule rule_of(Session& session, const std::shared_ptr<const InputMesh>& input);
+  [[nodiscard]] static StandingRule rule_of(Session& session, const std::shared_ptr<const InputMesh>& input);
   [[nodiscard]] static bool fits(const Known& known, Session& session, std::size_t run);
   std::vector<Known> known_;        // one a run
   std::vector<KnownInput> inputs_;  // one a mesh

@@ -27,7 +27,8 @@ constexpr auto kMethods = std::to_array<MethodInfo>(
       .untangles = true,
       .combines = true,
       .accelerated = true,
-      .searches_grid = true},
+      .searches_grid = true,
+      .slides = true},
      {.name = "laplace",
       .doc = "Laplacian smoothing: to the mean of the edge neighbours, whatever becomes of the elements",
       .make = make_laplace_smoother,
@@ -57,6 +58,12 @@ constexpr auto kMethods = std::to_array<MethodInfo>(
      {.name = "active-set",
       .doc = "Active-set ascent: along the steepest way on which none of the worst elements loses (Freitag, Jones and Plassmann 1995)",
       .make = make_active_set_smoother}});
+
+void require_sliding(const SmoothingTask& task) {
+  if (!method_info(task.method).slides) throw UsageError(fmt::format("only dmo slides vertices along the boundary, not {}", task.method));
+  if (task.input->is_volume()) throw UsageError("only boundaries of planar meshes slide in this version, and the mesh is a volume");
+  if (task.input->geometry.plane.period > 0.0) throw UsageError("boundaries of meshes that go round in longitude do not slide");
+}
 
 void require_possible(const Combination& combination, const SmoothingTask& task) {
   validate(task.metric, combination);
@@ -92,6 +99,7 @@ void require_possible(const SmoothingTask& task) {
     throw UsageError(fmt::format("{} optimises only the mean ratio, not {}", method.name, info(task.metric).name));
   if (method.planar_only && task.input->is_volume()) throw UsageError(fmt::format("{} is defined only for planar meshes", method.name));
   if (task.combination) require_possible(*task.combination, task);
+  if (task.boundary == BoundaryRule::Slide) require_sliding(task);
 }
 
 std::unique_ptr<Smoother> make_smoother(const SmoothingTask& task) {

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "core/smooth/edge_neighbours.h"
+#include "core/smooth/methods/curve_slide.h"
 
 namespace dmoscope {
 
@@ -168,7 +169,7 @@ bool CompositeRule<Frame>::gains(PositionView positions, Index vertex, Vec3 targ
 
 template <class Frame>
 std::optional<Vec3> CompositeRule<Frame>::target(PositionView positions, Index vertex, Scratch& star) const {
-  gather_star(MeshStar(mesh_.view, positions, vertex), star);
+  gather(positions, vertex, star);
   const Offset found = search(star, positions, vertex).offset;
   if (found == Offset{}) return std::nullopt;
   const auto target = mesh_.moved(positions[vertex], times(found, star.scale));
@@ -180,7 +181,8 @@ template class CompositeRule<Space>;
 
 std::unique_ptr<Smoother> make_composite_smoother(const SmoothingTask& task, CompositeObjective composite) {
   if (task.input->is_volume()) return make_rule_smoother(task, CompositeRule<Space>(*task.input, std::move(composite), task.search));
-  return make_rule_smoother(task, CompositeRule<Plane>(*task.input, std::move(composite), task.search));
+  CurveSlide slide(task, composite);
+  return make_rule_smoother(task, SlidingRule(CompositeRule<Plane>(*task.input, std::move(composite), task.search), std::move(slide)));
 }
 
 std::unique_ptr<Smoother> make_composite_smoother(const SmoothingTask& task) {

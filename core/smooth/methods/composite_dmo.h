@@ -118,10 +118,17 @@ class CompositeRule {
     const StarViewIn<Frame, double> view(star);
     const bool untangling = is_tangled(star);
     if (mesh_.untangling.repair && !untangling) return {};
-    const CompositeScore<Frame> objective(composite_, untangling ? std::optional(mesh_.untangling) : std::nullopt, view,
-                                          density_of(star, positions, vertex));
+    const CompositeScore<Frame> objective = score_of(star, positions, vertex, untangling);
     const Offset middle = untangling ? middle_of<Offset>(view) : Offset{};
     return {grid_search<double>(objective, star.box, parameters_, trace, Solo{}, untangling ? &middle : nullptr).offset, untangling};
+  }
+  /// The star of a vertex, whether an element of it is inverted, and what the search maximises in it.
+  void gather(PositionView positions, Index vertex, Scratch& star) const { gather_star(MeshStar(mesh_.view, positions, vertex), star); }
+  [[nodiscard]] bool is_tangled(const Scratch& star) const {
+    return metric_functions<Frame>(composite_.first).is_tangled(StarViewIn<Frame, double>(star));
+  }
+  [[nodiscard]] CompositeScore<Frame> score_of(const Scratch& star, PositionView positions, Index vertex, bool tangled) const {
+    return {composite_, tangled ? std::optional(mesh_.untangling) : std::nullopt, star, density_of(star, positions, vertex)};
   }
   /// Judged by the statistics' own formulas: does the vertex gain by standing at `target`?
   [[nodiscard]] bool gains(PositionView positions, Index vertex, Vec3 target) const;
@@ -129,9 +136,6 @@ class CompositeRule {
   [[nodiscard]] std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& star) const;
 
  private:
-  [[nodiscard]] bool is_tangled(const Scratch& star) const {
-    return metric_functions<Frame>(composite_.first).is_tangled(StarViewIn<Frame, double>(star));
-  }
   [[nodiscard]] CompositeSearch<Frame> task_of(const Scratch& star, PositionView positions, Index vertex) const;
   [[nodiscard]] DensityTarget<Frame> density_of(const Scratch& star, PositionView positions, Index vertex) const;
   [[nodiscard]] double second(PositionView positions, Index vertex, Vec3 place) const;

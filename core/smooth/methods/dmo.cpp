@@ -8,6 +8,7 @@
 
 #include "core/base/memory.h"
 #include "core/smooth/kernels/lane_kernel.h"
+#include "core/smooth/methods/curve_slide.h"
 #include "core/smooth/methods/fast_volume_search.h"
 #include "core/smooth/vertex_rule.h"
 
@@ -45,19 +46,23 @@ class Reference {
 template <Metric M>
 class LaneDmo final : public Smoother {
  public:
-  LaneDmo(std::shared_ptr<const InputMesh> input, std::shared_ptr<const Colouring> colouring, const SearchParameters& parameters,
-          ThreadPool* pool)
-      : input_(std::move(input)),
-        colouring_(std::move(colouring)),
-        reference_(*input_, parameters),
-        table_(build_star_table(input_->mesh, input_->topology, *colouring_, pool)),
-        kernel_(lane_kernel(parameters.simd.value_or(best_simd_level()), M)),
+  explicit LaneDmo(const SmoothingTask& task)
+      : input_(task.input),
+        colouring_(task.colouring),
+        reference_(*input_, task.search),
+        slide_(task, single_objective(M)),
+        table_(build_star_table(input_->mesh, input_->topology, *colouring_, task.pool)),
+        kernel_(lane_kernel(task.search.simd.value_or(best_simd_level()), M)),
         ranked_(large_vector<Vec3>(table_.vertex_of_rank.size())),
         awake_(large_vector<std::uint8_t>(table_.vertex_of_rank.size())),
-        task_(describe(parameters)) {}
+        task_(describe(task.search)) {
+    for (std::size_t rank = 0; rank < colouring_->order.size(); ++rank)
+      if (slide_.slides(colouring_->order[rank])) table_.shapes[rank].kind = StarShape::Kind::Alone;
+  }
 
   void begin(const Sweep& sweep) override {
     reference_.begin(sweep);
+    slide_.begin(sweep);
     if (sweep.untangling != untangling_) std::ranges::fill(awake_, std::uint8_t{1});
     untangling_ = sweep.untangling;
   }
@@ -107,7 +112,9 @@ class LaneDmo final : public Smoother {
     task.visit_alone = [](void* owner, Index rank) {
       auto& self = *static_cast<LaneDmo*>(owner);
       thread_local Star<double> star;  // kept: stepping allocates nothing
-      const auto target = self.reference_.target(self.view(), self.table_.vertex_of_rank[rank], star);
+      const Index vertex = self.table_.vertex_of_rank[rank];
+      const auto target =
+          self.slide_.slides(vertex) ? self.slide_.target(self.view(), vertex, star) : self.reference_.target(self.view(), vertex, star);
       if (target) self.ranked_[rank] = *target;
       return target.has_value();
     };
@@ -136,6 +143,7 @@ class LaneDmo final : public Smoother {
   std::shared_ptr<const InputMesh> input_;
   std::shared_ptr<const Colouring> colouring_;
   Reference<M, Plane> reference_;
+  CurveSlide slide_;
   StarTable table_;
   LaneKernel kernel_;
   std::vector<Vec3> ranked_;
@@ -158,11 +166,15 @@ std::unique_ptr<Smoother> make_dmo_smoother(const SmoothingTask& task) {
   return with_metric_and_frame(*task.input, task.metric, [&]<Metric M, class Frame>() -> std::unique_ptr<Smoother> {
     if (task.search.precision == Precision::Float) {
       if constexpr (std::is_same_v<Frame, Plane>)
-        return std::make_unique<LaneDmo<M>>(task.input, task.colouring, task.search, task.pool);
+        return std::make_unique<LaneDmo<M>>(task);
       else
         return make_rule_smoother(task, FastVolumeSearch<M>(*task.input, task.search));
     }
-    return make_rule_smoother(task, Reference<M, Frame>(*task.input, task.search));
+    Reference<M, Frame> reference(*task.input, task.search);
+    if constexpr (std::is_same_v<Frame, Plane>)
+      return make_rule_smoother(task, SlidingRule(std::move(reference), CurveSlide(task, single_objective(M))));
+    else
+      return make_rule_smoother(task, std::move(reference));
   });
 }
 

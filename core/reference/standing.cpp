@@ -1,0 +1,38 @@
+#include "core/reference/standing.h"
+
+#include <array>
+
+#include "core/base/error.h"
+#include "core/base/unknown_value.h"
+#include "core/reference/curves.h"
+
+namespace dmoscope {
+
+std::string_view name(BoundaryRule rule) noexcept { return rule == BoundaryRule::Fixed ? "fixed" : "slide"; }
+
+BoundaryRule parse_boundary_rule(std::string_view word) {
+  for (const BoundaryRule rule : {BoundaryRule::Fixed, BoundaryRule::Slide})
+    if (word == name(rule)) return rule;
+  throw UsageError(unknown_value("rule for the boundary", word, std::array{name(BoundaryRule::Fixed), name(BoundaryRule::Slide)}));
+}
+
+std::shared_ptr<const Curves> curves_for(const InputMesh& input, const StandingRule& rule) {
+  if (rule.boundary == BoundaryRule::Fixed || input.geometry.shape != Shape::Planar) return nullptr;
+  return std::make_shared<const Curves>(input, rule.corner_angle, rule.interfaces);
+}
+
+std::vector<std::uint8_t> standing_vertices(const InputMesh& input, const StandingRule& rule, const Curves* curves) {
+  const auto boundary = input.topology.boundary();
+  std::vector<std::uint8_t> standing(boundary.begin(), boundary.end());
+  for (Index v = 0; v < standing.size(); ++v) {
+    if (curves != nullptr && curves->slides(v)) standing[v] = 0;
+    if (input.topology.star(v).empty() || (rule.interfaces == InterfaceRule::Fixed && input.interfaces.holds(v))) standing[v] = 1;
+  }
+  return standing;
+}
+
+std::vector<std::uint8_t> standing_vertices(const InputMesh& input, const StandingRule& rule) {
+  return standing_vertices(input, rule, curves_for(input, rule).get());
+}
+
+}  // namespace dmoscope

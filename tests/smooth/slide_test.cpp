@@ -1,0 +1,286 @@
+// Vertices that slide along the boundary: they never leave the input's, keep their order on it, deviate by no more than the bound, and
+// gain. All of it by plain geometry against the input's edges.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <gmock/gmock.h>
+
+#include "core/base/error.h"
+#include "core/mesh/generate.h"
+#include "core/numeric/simd.h"
+#include "core/reference/curves.h"
+#include "tests/smooth/promises.h"
+#include "tests/support/sanitized.h"
+
+namespace dmoscope {
+namespace {
+
+using namespace testing;
+using ::testing::HasSubstr;
+
+using Segment = std::pair<Index, Index>;
+
+/// The edges of exactly one element, found by counting.
+std::vector<Segment> boundary_edges(const Mesh& mesh) {
+  std::map<Segment, int> count;
+  for (Index e = 0; e < mesh.elements.size(); ++e) {
+    const auto corners = mesh.elements.corners(e);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Index a = corners[i], b = corners[(i + 1) % corners.size()];
+      ++count[{std::min(a, b), std::max(a, b)}];
+    }
+  }
+  std::vector<Segment> found;
+  for (const auto& [edge, times] : count)
+    if (times == 1) found.push_back(edge);
+  return found;
+}
+double distance(Vec3 p, Vec3 a, Vec3 b) {
+  const Vec3 d = b - a;
+  const double t = dot(d, d) > 0.0 ? std::clamp(dot(p - a, d) / dot(d, d), 0.0, 1.0) : 0.0;
+  return length(p - (a + t * d));
+}
+double distance(Vec3 p, std::span<const Vec3> positions, const std::vector<Segment>& edges) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [a, b] : edges) least = std::min(least, distance(p, positions[a], positions[b]));
+  return least;
+}
+
+/// Maps a lattice on the unit square to something else.
+Mesh bent(Index n, double jitter, std::uint64_t seed, Cells cells, Vec3 (*map)(Vec3)) {
+  return mapped(lattice(n, jitter, seed, cells), map);
+}
+
+/// A ring of quadrilaterals or triangles, round inside and outside.
+Mesh ring(Index sectors, Index layers, std::uint64_t seed) {
+  Mesh mesh;
+  dmoscope::testing::Random random(seed);
+  for (Index j = 0; j <= layers; ++j)
+    for (Index i = 0; i < sectors; ++i) {
+      const bool inside = j > 0 && j < layers;
+      const double angle = 2 * M_PI * (i + random(-0.3, 0.3)) / sectors, radius = 1.0 + (j + (inside ? random(-0.3, 0.3) : 0.0)) / layers;
+      mesh.positions.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
+    }
+  for (Index j = 0; j < layers; ++j)
+    for (Index i = 0; i < sectors; ++i) {
+      const Index a = j * sectors + i, b = j * sectors + (i + 1) % sectors, c = b + sectors, d = a + sectors;
+      if (i % 3 == 0) {
+        testing::add(mesh, {a, d, c, b});
+      } else {
+        testing::add(mesh, {a, d, c});
+        testing::add(mesh, {a, c, b});
+      }
+    }
+  return mesh;
+}
+
+std::vector<Specimen> specimens() {
+  std::vector<Specimen> all;
+  std::uint64_t seed = 40;
+  for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals, Cells::Mixed}) {
+    ++seed;
+    all.push_back({"square", lattice(10, 0.45, seed, cells)});
+    all.push_back({"square, tangled", lattice(10, 0.9, seed, cells)});
+    all.push_back({"stretched", bent(10, 0.4, seed, cells, [](Vec3 p) { return Vec3{1000 * p.x * p.x * p.x, p.y, 0}; })});
+    all.push_back({"waves", bent(14, 0.4, seed, cells, [](Vec3 p) { return Vec3{p.x, p.y + 0.1 * std::sin(5 * p.x), 0}; })});
+    all.push_back({"steep, tangled", bent(14, 0.9, seed, cells, [](Vec3 p) { return Vec3{p.x, p.y * (1 + 2 * p.x * p.x * p.x), 0}; })});
+    all.push_back({"tilted, far", bent(8, 0.4, seed, cells, [](Vec3 p) { return Vec3{1e6 + 0.6 * p.x, p.y - 1e6, 0.8 * p.x}; })});
+    all.push_back({"tiny", bent(8, 0.4, seed, cells, [](Vec3 p) { return 1e-9 * p; })});
+    Mesh single = bent(8, 0.4, seed, cells, [](Vec3 p) {
+      return Vec3{static_cast<float>(p.x), static_cast<float>(p.y + 0.1 * p.x * p.x), 0};
+    });
+    single.single_precision = true;
+    all.push_back({"single precision", std::move(single)});
+  }
+  all.push_back({"ring", ring(40, 3, 50)});
+  all.push_back({"fine ring", ring(90, 2, 51)});
+  Progress progress;
+  for (const std::uint64_t s : {1U, 2U, 3U}) all.push_back({"coast", generate_mesh("coast", 400, s, progress)});
+  all.push_back({"random", generate_mesh("random", 300, 5, progress)});
+  return all;
+}
+
+RunParameters sliding(double max_deviation = 1e-3) {
+  RunParameters parameters;
+  parameters.boundary = BoundaryRule::Slide;
+  parameters.max_deviation = max_deviation;
+  return parameters;
+}
+
+/// What holds whatever slides.
+void expect_on_the_boundary(const Specimen& specimen, const dmoscope::Run& run, const std::vector<Segment>& edges, double max_deviation) {
+  const InputMesh& mesh = run.input();
+  const std::span<const Vec3> before = mesh.mesh.positions, now = run.positions();
+  const double size = mesh.geometry.size, rounding = mesh.mesh.single_precision ? 4e-7 : 1e-12;
+  double far = 0.0;
+  for (const Vec3& p : before) far = std::max({far, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  const double tolerance = rounding * std::max(size, mesh.mesh.single_precision ? far : 4e-4 * far);
+  const double bound = max_deviation * size + tolerance;
+  for (Index v = 0; v < now.size(); ++v) {
+    if (mesh.topology.boundary()[v] == 0) continue;
+    ASSERT_LE(distance(now[v], before, edges), tolerance) << specimen.name << ": vertex " << v << " left the boundary";
+    if (run.curves()->slides(v)) continue;
+    ASSERT_TRUE(same_bits(now.subspan(v, 1), before.subspan(v, 1))) << specimen.name << ": corner " << v;
+  }
+  for (const auto& [a, b] : edges)
+    for (const double t : {0.1, 0.25, 0.5, 0.65, 0.9}) {
+      ASSERT_LE(distance(now[a] + t * (now[b] - now[a]), before, edges), bound) << specimen.name << ": edge " << a << ' ' << b;
+      ASSERT_LE(distance(before[a] + t * (before[b] - before[a]), now, edges), bound)
+          << specimen.name << ": the input at " << a << ' ' << b;
+    }
+}
+
+/// Along every curve places rise strictly from one corner to the next, and around a closed one by its length.
+void expect_in_order(const Specimen& specimen, const dmoscope::Run& run) {
+  const Curves& curves = *run.curves();
+  for (Index v = 0; v < run.positions().size(); ++v) {
+    if (!curves.slides(v)) continue;
+    const auto place = curves.place(v, run.positions()[v]);
+    ASSERT_TRUE(place) << specimen.name << ": vertex " << v;
+    const auto beside = curves.neighbours(v, *place, run.positions());
+    ASSERT_TRUE(beside) << specimen.name << ": vertex " << v;
+    ASSERT_LT(beside->place_before, *place) << specimen.name << ": vertex " << v;
+    ASSERT_LT(*place, beside->place_after) << specimen.name << ": vertex " << v;
+  }
+}
+
+class Sliding : public ::testing::TestWithParam<Metric> {};
+
+TEST_P(Sliding, KeepsItsPromisesAfterEveryIteration) {
+  std::size_t moved = 0;
+  for (const Specimen& specimen : specimens()) {
+    if (!defined_for_all(GetParam(), specimen.mesh)) continue;
+    const auto mesh = input(specimen.mesh);
+    const auto edges = boundary_edges(mesh->mesh);
+    for (const double bound : {1e-3, 0.05}) {
+      RunParameters parameters = sliding(bound);
+      parameters.metric = GetParam();
+      dmoscope::Run run = make_run(mesh, parameters);
+      ASSERT_NE(run.curves(), nullptr);
+      for (std::uint64_t iteration = 1; iteration <= (kSanitized ? 3 : 6); ++iteration) {
+        expect_promise_one(specimen, run, iteration);
+        expect_on_the_boundary(specimen, run, edges, bound);
+        expect_in_order(specimen, run);
+        if (::testing::Test::HasFatalFailure()) return;
+      }
+      for (Index v = 0; v < run.positions().size(); ++v)
+        moved +=
+            run.curves()->slides(v) && !same_bits(run.positions().subspan(v, 1), std::span(mesh->mesh.positions).subspan(v, 1)) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(moved, 200U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Metrics, Sliding,
+                         ::testing::Values(Metric::MeanRatio, Metric::MinAngle, Metric::ScaledJacobian, Metric::Rectangularity),
+                         [](const auto& tested) {
+                           std::string name(dmoscope::info(tested.param).name);
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+/// What is bad at a boundary that stays gets good where it slides: its vertices crowd two by two.
+TEST(SlidingGains, WhatTheBoundaryHolds) {
+  Mesh mesh = lattice(8, 0.0, 3, Cells::Quadrilaterals);
+  for (Index i = 1; i < 8; ++i) mesh.positions[i].x += (i % 2 == 0 ? -0.45 : 0.45) / 8;
+  const auto prepared = input(mesh);
+  Progress progress;
+  dmoscope::Run held = make_run(prepared, {}), free = make_run(prepared, sliding());
+  held.iterate(50, progress);
+  free.iterate(50, progress);
+  EXPECT_LT(held.statistics().minimum, 0.3);
+  EXPECT_GT(free.statistics().minimum, 0.95);
+}
+
+/// The same bits by any number of threads and any instructions, in one go or in steps, after going back, and where others aim.
+TEST(SlidingBits, AreTheSame) {
+  for (const Specimen& specimen : specimens()) {
+    const auto mesh = input(specimen.mesh);
+    Progress progress;
+    for (const int aims : {0, 1, 2}) {
+      RunParameters parameters = sliding();
+      if (aims == 1) parameters.then_mean = MeanPhase{.patience = 2};
+      if (aims == 2) parameters.combination = Combination{0.3, Metric::MinAngle};
+      if (aims == 2 && !defined_for_all(Metric::MinAngle, specimen.mesh)) continue;
+      dmoscope::Run expected = make_run(mesh, parameters);
+      expected.iterate(5, progress);
+      const auto expect_same = [&](const dmoscope::Run& run, const char* what) {
+        ASSERT_TRUE(same_bits(run.positions(), expected.positions())) << specimen.name << ", aims " << aims << ": " << what;
+      };
+      for (const unsigned threads : {2U, 8U}) {
+        dmoscope::Run run = make_run(mesh, parameters, threads);
+        run.iterate(5, progress);
+        expect_same(run, "threads");
+      }
+      for (const SimdLevel level : supported_simd_levels()) {
+        RunParameters other = parameters;
+        other.search.simd = level;
+        dmoscope::Run run = make_run(mesh, other);
+        run.iterate(5, progress);
+        expect_same(run, "instructions");
+      }
+      dmoscope::Run stepped = make_run(mesh, parameters, 2);
+      stepped.seek({2, stepped.visits_per_iteration() / 3}, progress);
+      stepped.seek({5, 7 % stepped.visits_per_iteration()}, progress);
+      stepped.seek({1, 0}, progress);
+      stepped.seek({5, 0}, progress);
+      expect_same(stepped, "seek");
+    }
+  }
+}
+
+/// Where neighbours stand outside, on the wrong side of the boundary, elements would turn over if its vertices changed places.
+TEST(SlidingChoice, NobodyGoesPastANeighbour) {
+  for (const std::uint64_t seed : {5U, 6U, 7U, 8U}) {
+    Mesh mesh = lattice(9, 0.3, seed);
+    RunParameters parameters = sliding(1.0);
+    for (Index v = 10; v < 20; ++v) {
+      if (v % 10 == 0 || v % 10 == 9) continue;
+      mesh.positions[v].y = -mesh.positions[v].y;
+      parameters.fixed.push_back(v);
+    }
+    const Specimen specimen{"outside", mesh};
+    dmoscope::Run run = make_run(input(mesh), parameters);
+    Progress progress;
+    for (int i = 0; i < 10; ++i) {
+      run.iterate(1, progress);
+      expect_in_order(specimen, run);
+      for (Index v = 1; v <= 9; ++v) ASSERT_LT(run.positions()[v - 1].x, run.positions()[v].x) << "seed " << seed << ", iteration " << i;
+    }
+  }
+}
+
+TEST(SlidingRefusals, AreSaid) {
+  const auto expect_refused = [](const std::shared_ptr<const InputMesh>& mesh, const RunParameters& parameters, const char* why) {
+    try {
+      (void)make_run(mesh, parameters);
+      ADD_FAILURE() << why;
+    } catch (const UsageError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(why));
+    }
+  };
+  Progress progress;
+  RunParameters other = sliding();
+  other.method = "active-set";
+  expect_refused(input(lattice(4, 0.1, 1)), other, "only dmo slides");
+  expect_refused(input(generate_mesh("tetrahedra", 64, 1, progress)), sliding(), "volume");
+}
+
+/// Vertices that a person fixes stay, also on a curve, and the others slide between them.
+TEST(SlidingChoice, AFixedVertexStays) {
+  const auto mesh = input(lattice(8, 0.45, 4));
+  RunParameters parameters = sliding();
+  parameters.fixed = {4};
+  dmoscope::Run run = make_run(mesh, parameters);
+  Progress progress;
+  run.iterate(10, progress);
+  EXPECT_TRUE(same_bits(run.positions().subspan(4, 1), std::span(mesh->mesh.positions).subspan(4, 1)));
+  EXPECT_LT(run.positions()[3].x, run.positions()[4].x);
+  EXPECT_GT(run.positions()[5].x, run.positions()[4].x);
+}
+
+}  // namespace
+}  // namespace dmoscope

@@ -31,6 +31,7 @@
 #include "core/io/mesh_io.h"
 #include "core/io/source_file.h"
 #include "core/numeric/simd.h"
+#include "core/reference/curves.h"
 #include "core/run/left_inverted.h"
 #include "core/run/mean_given_up.h"
 #include "core/run/retry_on_cpu.h"
@@ -129,6 +130,7 @@ Json json_of(const Result& r) {
   parameters["fixed_by_user"] = p.fixed.size();
   object["parameters"] = std::move(parameters);
   object["held_on_interfaces"] = p.interfaces == InterfaceRule::Fixed ? r.run.input().interfaces.count() : 0;
+  object["sliding"] = r.run.curves() ? r.run.curves()->count() : 0;
   object["iterations"] = r.outcome.iterations;
   object["stopped"] = reason_name(r.outcome.reason);
   object["last_rise"] = r.outcome.last_rise;
@@ -151,6 +153,7 @@ void print_summary(const Result& r) {
   const Mesh& mesh = r.run.input().mesh;
   print("{}: {}, {}, {} free; {}, {}\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
         counted(mesh.elements.size(), "element", "elements"), grouped(r.run.visits_per_iteration()), r.run.title(), name(r.run.backend()));
+  if (const auto& curves = r.run.curves()) print("  {}\n", curves->sentence());
   print("  {:<16} {:>10} -> {}\n", "minimum", brief(before.minimum), brief(after.minimum));
   print("  {:<16} {:>10} -> {}\n", "movable minimum", brief(before.movable_minimum), brief(after.movable_minimum));
   print("  {:<16} {:>10}    (elements whose corners are all fixed)\n", "ceiling", brief(after.ceiling));

@@ -7,6 +7,7 @@
 
 #include "core/commands/command_rows.h"
 #include "core/mesh/vertex_words.h"
+#include "core/reference/curves.h"
 #include "core/smooth/execution/method_table.h"
 
 namespace dmoscope {
@@ -49,18 +50,23 @@ void set_backend(CommandContext& context, Arguments arguments) {
   set(parameter_info("backend"), context, arguments);
   tell(context, context.session.active().backend_sentence());
 }
+void set_boundary(CommandContext& context, Arguments arguments) {
+  set(parameter_info("boundary"), context, arguments);
+  if (const auto& curves = context.session.active().curves()) tell(context, curves->sentence());
+}
 void set_interfaces(CommandContext& context, Arguments arguments) {
   set(parameter_info("interfaces"), context, arguments);
   tell_interfaces(context);
 }
 
-/// A command for every row of the table; two tell more.
+/// A command for every row of the table; three tell more.
 void add_parameters(std::vector<CommandRow>& table) {
   for (const ParameterInfo& row : parameter_table()) {
     if (!row.in_session) continue;
     CommandRow command{{std::string(row.name), fmt::format("{} {}", row.name, row.type), row.help() + "."},
                        [&row](CommandContext& context, Arguments arguments) { set(row, context, arguments); }};
     if (row.name == "backend") command.handler = set_backend;
+    if (row.name == "boundary") command.handler = set_boundary;
     if (row.name == "interfaces") command.handler = set_interfaces;
     table.push_back(std::move(command));
   }

@@ -6,6 +6,9 @@
 #include <limits>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "core/base/number_text.h"
 #include "core/base/rounding.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/named_lists.h"
@@ -195,6 +198,12 @@ Curves::Curves(const InputMesh& input, double corner_angle, InterfaceRule interf
       curve_of_(input.mesh.vertex_count(), kNoIndex),
       index_on_(input.mesh.vertex_count(), 0) {
   Builder(*this, input).build(corner_angle, interfaces);
+}
+
+std::string Curves::sentence() const {
+  return fmt::format("{} {} along {} of the boundary; {} of its vertices {}", counted(sliding_, "vertex", "vertices"),
+                     sliding_ == 1 ? "slides" : "slide", counted(curve_count(), "curve", "curves"), grouped(corners_),
+                     corners_ == 1 ? "stays" : "stay");
 }
 
 std::optional<double> Curves::place_on(const Curve& curve, std::size_t segment, Vec3 position) const {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/input/input_mesh.h"
@@ -24,6 +25,8 @@ class Curves {
   [[nodiscard]] bool slides(Index vertex) const noexcept { return curve_of_[vertex] != kNoIndex; }
   [[nodiscard]] Index count() const noexcept { return sliding_; }    // of vertices that slide
   [[nodiscard]] Index corners() const noexcept { return corners_; }  // of the boundary's others
+  /// "122 vertices slide along 12 curves of the boundary; 34 of its vertices stay".
+  [[nodiscard]] std::string sentence() const;
   [[nodiscard]] Index curve_count() const noexcept { return static_cast<Index>(curves_.size()); }
 
   /// Where on its curve a vertex that slides stands; nowhere for one that was put beside it.

@@ -19,6 +19,13 @@ int to_int(const std::string& word) {
   return static_cast<int>(value);
 }
 
+/// A share of something, or an angle: above 0.
+double to_positive(const std::string& word, double most, std::string_view what) {
+  const double value = to_number(word);
+  if (!(value > 0.0 && value <= most)) throw UsageError(fmt::format("the {} must be above 0 and at most {}, not {}", what, most, word));
+  return value;
+}
+
 using P = RunParameters;
 using Word = const std::string&;
 
@@ -140,6 +147,7 @@ const std::array kTable{
                   .kind = ParameterKind::Choice,
                   .choices = kBoundary,
                   .reader = &MethodInfo::slides,
+                  .planar_only = true,
                   .to_text = [](const P& p) { return std::string(name(p.boundary)); },
                   .from_text = [](P& p, Word word) { p.boundary = parse_boundary_rule(word); },
                   .in_title = [](const P& p) { return fmt::format("boundary {}", name(p.boundary)); },
@@ -151,9 +159,10 @@ const std::array kTable{
                   .kind = ParameterKind::Real,
                   .most = 180.0,
                   .reader = &MethodInfo::slides,
+                  .planar_only = true,
                   .condition = [](const P& p) { return p.boundary == BoundaryRule::Slide; },
                   .to_text = [](const P& p) { return fmt::format("{}", p.corner_angle); },
-                  .from_text = [](P& p, Word word) { p.corner_angle = to_number(word); },
+                  .from_text = [](P& p, Word word) { p.corner_angle = to_positive(word, 180.0, "corner angle"); },
                   .in_title = [](const P& p) { return fmt::format("corner angle {:g}", p.corner_angle); },
                   .before = "20"},
     ParameterInfo{
@@ -165,9 +174,10 @@ const std::array kTable{
         .kind = ParameterKind::Real,
         .most = 1.0,
         .reader = &MethodInfo::slides,
+        .planar_only = true,
         .condition = [](const P& p) { return p.boundary == BoundaryRule::Slide; },
         .to_text = [](const P& p) { return fmt::format("{}", p.max_deviation); },
-        .from_text = [](P& p, Word word) { p.max_deviation = to_number(word); },
+        .from_text = [](P& p, Word word) { p.max_deviation = to_positive(word, 1.0, "greatest deviation"); },
         .in_title = [](const P& p) { return fmt::format("max deviation {:g}", p.max_deviation); },
         .before = "0.001"},
     ParameterInfo{.name = "backend",

@@ -48,6 +48,7 @@ struct ParameterInfo {
   double least = 0.0, most = 0.0;                     // of numbers; of Real, `least` is not among them
   std::span<const std::string_view> choices{};        // of Choice
   bool MethodInfo::*reader = nullptr;                 // the methods that read it; null: all
+  bool planar_only = false;                           // says nothing of volumes
   bool (*condition)(const RunParameters&) = nullptr;  // besides: whether it is read now; null: always
   std::string (*to_text)(const RunParameters&);
   /// Throws UsageError for what is no such value. The range is checked where it is read.

@@ -92,7 +92,7 @@ TEST(Backend, TwoAimsAreADevicesUnlessSizesAreLookedUp) {
   for (const RunParameters& parameters : {mean, metrics, sizes})
     EXPECT_EQ(run_with(parameters, acceleration(device)).backend(), Backend::Cuda);
   Mesh mesh = lattice(6, 0.2, 31);
-  mesh.fields.push_back({.name = "depth", .values = std::vector<double>(mesh.vertex_count(), 2.0)});
+  mesh.fields.push_back({.name = "depth", .role = "depth", .values = std::vector<double>(mesh.vertex_count(), 2.0)});
   sizes.combination->second = SizeFunction{SizeFunction::Kind::Field, {}, "depth"};
   const dmoscope::Run looked_up(input(std::move(mesh)), sizes, std::make_shared<ThreadPool>(2), kPlenty, acceleration(device));
   EXPECT_EQ(looked_up.backend(), Backend::Cpu);

@@ -222,6 +222,10 @@ Inspection inspect(const SessionView& session, Index vertex) {
     inspection.trouble = "This vertex is of no element: nothing moves it.";
     return inspection;
   }
+  if (run.fixed[vertex] == 0 && frame.input->topology.boundary()[vertex] != 0) {
+    inspection.trouble = "This vertex slides along the boundary: it is searched on a line, not on a grid.";
+    return inspection;
+  }
   try {
     gather_star(inspection, frame, vertex);
     const Sweep sweep = sweep_of(run, frame.moment, *frame.input);

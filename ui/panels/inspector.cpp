@@ -101,7 +101,8 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
   const Interfaces& interfaces = frame.input->interfaces;
   const bool interface = fixed && run->parameters.interfaces == InterfaceRule::Fixed && interfaces.holds(vertex);
   value_row(context, "may move",
-            !fixed                          ? "free"
+            !fixed && boundary              ? "along the boundary"
+            : !fixed                        ? "free"
             : boundary                      ? "fixed: boundary"
             : topology.star(vertex).empty() ? "fixed: unused"
             : interface                     ? "fixed: interface"

@@ -14,7 +14,7 @@ std::vector<std::string> tell_findings(const InputMesh& input) {
 }
 
 void tell_interfaces(const InputMesh& input, const RunParameters& parameters, std::vector<std::string>& warnings) {
-  if (parameters.interfaces == InterfaceRule::Free) return;
+  if (parameters.interfaces != InterfaceRule::Fixed) return;
   std::string sentence = input.interfaces.sentence("--interfaces free");
   if (sentence.empty()) return;
   complain(fmt::format("{}: {}", input.mesh.name, sentence));

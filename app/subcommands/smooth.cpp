@@ -129,7 +129,9 @@ Json json_of(const Result& r) {
   parameters["precision"] = in_packs(p) && !p.combination ? "float" : "double";  // what was computed with
   parameters["fixed_by_user"] = p.fixed.size();
   object["parameters"] = std::move(parameters);
-  object["held_on_interfaces"] = p.interfaces == InterfaceRule::Fixed ? r.run.input().interfaces.count() : 0;
+  object["held_on_interfaces"] = p.interfaces == InterfaceRule::Free ? 0 : r.run.input().interfaces.count();
+  if (p.interfaces == InterfaceRule::Slide)
+    object["held_on_interfaces"] = r.run.input().interfaces.count() - r.run.curves()->count_inside();
   object["sliding"] = r.run.curves() ? r.run.curves()->count() : 0;
   object["iterations"] = r.outcome.iterations;
   object["stopped"] = reason_name(r.outcome.reason);

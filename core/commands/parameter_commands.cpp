@@ -50,13 +50,17 @@ void set_backend(CommandContext& context, Arguments arguments) {
   set(parameter_info("backend"), context, arguments);
   tell(context, context.session.active().backend_sentence());
 }
+void tell_curves(CommandContext& context) {
+  if (const auto& curves = context.session.active().curves()) tell(context, curves->sentence());
+}
 void set_boundary(CommandContext& context, Arguments arguments) {
   set(parameter_info("boundary"), context, arguments);
-  if (const auto& curves = context.session.active().curves()) tell(context, curves->sentence());
+  tell_curves(context);
 }
 void set_interfaces(CommandContext& context, Arguments arguments) {
   set(parameter_info("interfaces"), context, arguments);
   tell_interfaces(context);
+  tell_curves(context);
 }
 
 /// A command for every row of the table; three tell more.

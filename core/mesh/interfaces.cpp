@@ -170,9 +170,19 @@ class Interfaces::Finder {
     }
   }
 
+  /// Elements of the same material have all labels in common.
+  void add_material(const std::vector<Index>& label_of) {
+    std::vector<Index>& material = found_.material_;
+    material.resize(label_of.size(), 0);
+    std::map<std::pair<Index, Index>, Index> known;
+    for (std::size_t e = 0; e < label_of.size(); ++e)
+      material[e] = known.try_emplace({material[e], label_of[e]}, static_cast<Index>(known.size())).first->second;
+  }
+
   /// Holds the vertices whose elements have different labels; returns how many pairs of labels meet along more than single points.
   template <class Names>
   Index between(HeldBy by, const std::vector<Index>& label_of, const Names& names) {
+    add_material(label_of);
     std::map<Labels, Index> reasons;
     Labels labels;
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
@@ -293,12 +303,16 @@ std::string Interfaces::sentence(std::string_view way_out) const {
                      text.empty() ? "" : text + "; ", counted(listed_, "vertex is", "vertices are"));
 }
 
-std::string_view name(InterfaceRule rule) noexcept { return rule == InterfaceRule::Fixed ? "fixed" : "free"; }
+namespace {
+constexpr std::array<std::string_view, 3> kRules{"fixed", "free", "slide"};  // in the order of InterfaceRule
+}
+
+std::string_view name(InterfaceRule rule) noexcept { return kRules[static_cast<std::size_t>(rule)]; }
 
 InterfaceRule parse_interface_rule(std::string_view word) {
-  for (const InterfaceRule rule : {InterfaceRule::Fixed, InterfaceRule::Free})
-    if (word == name(rule)) return rule;
-  throw UsageError(unknown_value("rule for interfaces", word, std::array{name(InterfaceRule::Fixed), name(InterfaceRule::Free)}));
+  const auto found = std::ranges::find(kRules, word);
+  if (found == kRules.end()) throw UsageError(unknown_value("rule for interfaces", word, kRules));
+  return static_cast<InterfaceRule>(found - kRules.begin());
 }
 
 }  // namespace dmoscope

@@ -14,7 +14,8 @@ namespace dmoscope {
 class Topology;
 
 /// What becomes of a mesh's interfaces when it is smoothed.
-enum class InterfaceRule : std::uint8_t { Fixed, Free };
+/// Slide: those between materials move, but only along themselves.
+enum class InterfaceRule : std::uint8_t { Fixed, Free, Slide };
 [[nodiscard]] std::string_view name(InterfaceRule rule) noexcept;  // "fixed"
 /// Throws UsageError for an unknown word.
 [[nodiscard]] InterfaceRule parse_interface_rule(std::string_view word);
@@ -44,6 +45,10 @@ class Interfaces {
   [[nodiscard]] std::string why(Index vertex) const { return holds(vertex) ? reasons_[reason_[vertex]] : std::string(); }
   /// Does an interface between materials end at this vertex of the boundary?
   [[nodiscard]] bool meets_boundary_at(Index vertex) const noexcept { return !meets_.empty() && meets_[vertex] != 0; }
+  /// Does an interface between materials lie between two elements?
+  [[nodiscard]] bool between(Index element, Index other) const noexcept {
+    return !material_.empty() && material_[element] != material_[other];
+  }
   /// Held vertices, each counted once.
   [[nodiscard]] Index count(HeldBy by) const noexcept { return counts_[static_cast<std::size_t>(by)]; }
   [[nodiscard]] Index count() const noexcept;
@@ -56,6 +61,7 @@ class Interfaces {
 
   std::vector<Index> reason_;  // of every vertex, into reasons_; kNoIndex: not held. Empty where none is held
   std::vector<std::string> reasons_;
+  std::vector<Index> material_;      // of every element, numbered; empty where nothing tells them apart
   std::vector<std::uint8_t> meets_;  // of every vertex; empty where no interface ends at the boundary
   std::array<Index, kHeldByCount> counts_{};
   Index between_groups_ = 0, between_values_ = 0;  // how many pairs of materials meet

@@ -81,18 +81,23 @@ class Curves::Builder {
  public:
   Builder(Curves& out, const InputMesh& input) : out_(out), input_(input), ends_(input.mesh.vertex_count(), kNone) {}
 
-  void build(double corner_angle, InterfaceRule interfaces) {
-    const EdgeSurvey survey = survey_edges(input_.mesh, input_.topology, nullptr);
-    for (const auto& each : survey.boundary) join(each.edge.low, each.edge.high), join(each.edge.high, each.edge.low);
-    for (const Edge& edge : survey.non_manifold) hold(edge.low), hold(edge.high);
-    hold_corners(corner_angle);
-    hold_named(interfaces);
+  void build(const StandingRule& rule) {
+    const bool boundary = rule.boundary == BoundaryRule::Slide, interfaces = rule.interfaces == InterfaceRule::Slide;
+    for_each_edge(input_.mesh, input_.topology, [&](const Edge& edge, std::span<const EdgeSide> sides) {
+      if (sides.size() > 2) return hold(edge.low), hold(edge.high);
+      const bool along = sides.size() == 1 ? boundary : interfaces && input_.interfaces.between(sides[0].element, sides[1].element);
+      if (along) join(edge.low, edge.high), join(edge.high, edge.low);
+    });
+    for (Index v = 0; v < ends_.size() && !boundary; ++v)
+      if (on_boundary(v)) hold(v);
+    hold_corners(rule.corner_angle);
+    hold_named(rule.interfaces);
     for (Index v = 0; v < ends_.size(); ++v)
       if (slides(v) && out_.curve_of_[v] == kNoIndex) chain(v);
     for (Index v = 0; v < ends_.size(); ++v) {
-      const bool on_boundary = input_.topology.boundary()[v] != 0;
       out_.sliding_ += out_.slides(v) ? 1 : 0;
-      out_.corners_ += on_boundary && !out_.slides(v) ? 1 : 0;
+      out_.inside_ += out_.slides(v) && !on_boundary(v) ? 1 : 0;
+      out_.corners_ += boundary && on_boundary(v) && !out_.slides(v) ? 1 : 0;
     }
   }
 
@@ -100,6 +105,7 @@ class Curves::Builder {
   using Ends = std::array<Index, 2>;  // the neighbours along the boundary; kNoIndex: none. {kNoIndex, 0}: the vertex is held
   static constexpr Ends kNone{kNoIndex, kNoIndex}, kHeld{kNoIndex, 0};
 
+  [[nodiscard]] bool on_boundary(Index v) const { return input_.topology.boundary()[v] != 0; }
   [[nodiscard]] bool slides(Index v) const { return ends_[v][0] != kNoIndex && ends_[v][1] != kNoIndex; }
   void hold(Index v) { ends_[v] = kHeld; }
   void join(Index v, Index other) {
@@ -131,6 +137,10 @@ class Curves::Builder {
     for (Index v = 0; v < ends_.size(); ++v)
       if (slides(v) && !edges.same(v, ends_[v][0], ends_[v][1])) hold(v);
     hold_points();
+    for (const Group& group : mesh.groups)
+      if (group.of_elements() && is_required(group))
+        for (const Index e : group.members)
+          for (const Index v : mesh.elements.corners(e)) hold(v);
     if (interfaces == InterfaceRule::Free) return;
     for (Index v = 0; v < ends_.size(); ++v)
       if (slides(v) && input_.interfaces.meets_boundary_at(v)) hold(v);
@@ -191,19 +201,23 @@ class Curves::Builder {
   std::vector<Ends> ends_;
 };
 
-Curves::Curves(const InputMesh& input, double corner_angle, InterfaceRule interfaces)
+Curves::Curves(const InputMesh& input, const StandingRule& rule)
     : points_(input.mesh.positions),
       plane_(input.geometry.plane),
       single_precision_(input.mesh.single_precision),
       curve_of_(input.mesh.vertex_count(), kNoIndex),
       index_on_(input.mesh.vertex_count(), 0) {
-  Builder(*this, input).build(corner_angle, interfaces);
+  Builder(*this, input).build(rule);
 }
 
 std::string Curves::sentence() const {
-  return fmt::format("{} {} along {} of the boundary; {} of its vertices {}", counted(sliding_, "vertex", "vertices"),
-                     sliding_ == 1 ? "slides" : "slide", counted(curve_count(), "curve", "curves"), grouped(corners_),
-                     corners_ == 1 ? "stays" : "stay");
+  const auto slide = [](Index n) { return fmt::format("{} {}", counted(n, "vertex", "vertices"), n == 1 ? "slides" : "slide"); };
+  std::string text;
+  if (sliding_ > inside_ || corners_ > 0)
+    text = fmt::format("{} along the boundary, and {} of it {}", slide(sliding_ - inside_), grouped(corners_),
+                       corners_ == 1 ? "stays" : "stay");
+  if (inside_ > 0 || text.empty()) text += fmt::format("{}{} along interfaces", text.empty() ? "" : "; ", slide(inside_));
+  return text;
 }
 
 std::optional<double> Curves::place_on(const Curve& curve, std::size_t segment, Vec3 position) const {

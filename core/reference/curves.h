@@ -1,5 +1,5 @@
 #pragma once
-// The boundary of the input as curves along which vertices slide: polylines that no vertex ever leaves.
+// The boundary and the interfaces of the input as curves along which vertices slide: polylines that no vertex ever leaves.
 
 #include <optional>
 #include <span>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/input/input_mesh.h"
+#include "core/reference/standing.h"
 
 namespace dmoscope {
 
@@ -15,17 +16,19 @@ namespace dmoscope {
 /// to where the vertex was in the input. The mesh must outlive them.
 class Curves {
  public:
-  /// A vertex of the boundary slides unless
-  /// - it has other than two edges of the boundary, or an edge with more than two elements;
-  /// - the boundary turns there by more than `corner_angle` (degrees), or has no direction;
-  /// - the file gives it a meaning: it is a named point, an end of a string or line that the file names, or, unless interfaces are free,
-  ///   the end of an interface or of a named line inside.
-  Curves(const InputMesh& input, double corner_angle, InterfaceRule interfaces);
+  /// A vertex of the boundary, or of an interface between materials, slides where the rule lets these, unless
+  /// - it has other than two edges of them, or an edge with more than two elements;
+  /// - they turn there by more than the corner angle, or have no direction;
+  /// - the file gives it a meaning: it is a named point, an end of a string or line that the file names, a corner of a required element,
+  /// or,
+  ///   unless interfaces are free, the end of an interface or of a named line inside.
+  Curves(const InputMesh& input, const StandingRule& rule);
 
   [[nodiscard]] bool slides(Index vertex) const noexcept { return curve_of_[vertex] != kNoIndex; }
-  [[nodiscard]] Index count() const noexcept { return sliding_; }    // of vertices that slide
-  [[nodiscard]] Index corners() const noexcept { return corners_; }  // of the boundary's others
-  /// "122 vertices slide along 12 curves of the boundary; 34 of its vertices stay".
+  [[nodiscard]] Index count() const noexcept { return sliding_; }        // of vertices that slide
+  [[nodiscard]] Index count_inside() const noexcept { return inside_; }  // of these, off the boundary
+  [[nodiscard]] Index corners() const noexcept { return corners_; }      // of the boundary's others, where it slides
+  /// "122 vertices slide along the boundary, of which 34 stay; 36 slide along interfaces".
   [[nodiscard]] std::string sentence() const;
   [[nodiscard]] Index curve_count() const noexcept { return static_cast<Index>(curves_.size()); }
 
@@ -67,7 +70,7 @@ class Curves {
   std::vector<Curve> curves_;
   std::vector<Index> curve_of_;  // of every vertex; kNoIndex: it does not slide
   std::vector<Index> index_on_;  // where on its curve a vertex that slides is
-  Index sliding_ = 0, corners_ = 0;
+  Index sliding_ = 0, inside_ = 0, corners_ = 0;
 };
 
 }  // namespace dmoscope

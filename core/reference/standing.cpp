@@ -17,16 +17,16 @@ BoundaryRule parse_boundary_rule(std::string_view word) {
 }
 
 std::shared_ptr<const Curves> curves_for(const InputMesh& input, const StandingRule& rule) {
-  if (rule.boundary == BoundaryRule::Fixed || input.geometry.shape != Shape::Planar) return nullptr;
-  return std::make_shared<const Curves>(input, rule.corner_angle, rule.interfaces);
+  if (!rule.slides() || input.geometry.shape != Shape::Planar) return nullptr;
+  return std::make_shared<const Curves>(input, rule);
 }
 
 std::vector<std::uint8_t> standing_vertices(const InputMesh& input, const StandingRule& rule, const Curves* curves) {
   const auto boundary = input.topology.boundary();
   std::vector<std::uint8_t> standing(boundary.begin(), boundary.end());
   for (Index v = 0; v < standing.size(); ++v) {
+    if (input.topology.star(v).empty() || (rule.interfaces != InterfaceRule::Free && input.interfaces.holds(v))) standing[v] = 1;
     if (curves != nullptr && curves->slides(v)) standing[v] = 0;
-    if (input.topology.star(v).empty() || (rule.interfaces == InterfaceRule::Fixed && input.interfaces.holds(v))) standing[v] = 1;
   }
   return standing;
 }

@@ -22,13 +22,14 @@ struct StandingRule {
   InterfaceRule interfaces = InterfaceRule::Fixed;
   BoundaryRule boundary = BoundaryRule::Fixed;
   double corner_angle = 20.0;  // degrees: where the boundary turns by more, a vertex stays
+  [[nodiscard]] bool slides() const noexcept { return boundary == BoundaryRule::Slide || interfaces == InterfaceRule::Slide; }
   friend bool operator==(const StandingRule&, const StandingRule&) = default;
 };
 
 /// The curves along which the rule lets vertices slide; null where it lets none, and for a mesh that is not planar.
 [[nodiscard]] std::shared_ptr<const Curves> curves_for(const InputMesh& input, const StandingRule& rule);
 
-/// 1 where a vertex may not move: on the boundary unless it slides, of no element and, by the rule, on an interface.
+/// 1 where a vertex may not move: of no element and, by the rule and unless it slides, on the boundary or on an interface.
 [[nodiscard]] std::vector<std::uint8_t> standing_vertices(const InputMesh& input, const StandingRule& rule);
 /// The same; `curves`: curves_for() the rule.
 [[nodiscard]] std::vector<std::uint8_t> standing_vertices(const InputMesh& input, const StandingRule& rule, const Curves* curves);

@@ -29,9 +29,8 @@ double to_positive(const std::string& word, double most, std::string_view what) 
 using P = RunParameters;
 using Word = const std::string&;
 
-constexpr std::array<std::string_view, 2> kPrecisions{"float", "double"}, kDirections{"random", "axes"}, kInterfaces{"fixed", "free"},
-    kBoundary{"fixed", "slide"};
-constexpr std::array<std::string_view, 3> kBackends{"auto", "cpu", "cuda"};
+constexpr std::array<std::string_view, 2> kPrecisions{"float", "double"}, kDirections{"random", "axes"}, kBoundary{"fixed", "slide"};
+constexpr std::array<std::string_view, 3> kBackends{"auto", "cpu", "cuda"}, kInterfaces{"fixed", "free", "slide"};
 
 const std::array kTable{
     ParameterInfo{.name = "grid",
@@ -127,17 +126,19 @@ const std::array kTable{
                   .to_text = [](const P& p) { return to_text(p.order); },
                   .from_text = [](P& p, Word word) { p.order = parse_order(word); },
                   .in_title = [](const P& p) { return to_text(p.order); }},
-    ParameterInfo{.name = "interfaces",
-                  .title = "interfaces",
-                  .type = "fixed|free",
-                  .doc = "Whether vertices stay that lie between groups of elements (or between values of material, region, mat_id and the "
-                         "like), or on inner lines and faces, boundary strings and points that the file names",
-                  .kind = ParameterKind::Choice,
-                  .choices = kInterfaces,
-                  .to_text = [](const P& p) { return std::string(name(p.interfaces)); },
-                  .from_text = [](P& p, Word word) { p.interfaces = parse_interface_rule(word); },
-                  .in_title = [](const P& p) { return fmt::format("interfaces {}", name(p.interfaces)); },
-                  .before = "free"},
+    ParameterInfo{
+        .name = "interfaces",
+        .title = "interfaces",
+        .type = "fixed|free|slide",
+        .doc = "Whether vertices stay that lie between groups of elements (or between values of material, region, mat_id and the "
+               "like), or on inner lines and faces, boundary strings and points that the file names. Slide: those between materials of a "
+               "planar mesh move along themselves",
+        .kind = ParameterKind::Choice,
+        .choices = kInterfaces,
+        .to_text = [](const P& p) { return std::string(name(p.interfaces)); },
+        .from_text = [](P& p, Word word) { p.interfaces = parse_interface_rule(word); },
+        .in_title = [](const P& p) { return fmt::format("interfaces {}", name(p.interfaces)); },
+        .before = "free"},
     ParameterInfo{.name = "boundary",
                   .title = "boundary",
                   .type = "fixed|slide",
@@ -160,7 +161,7 @@ const std::array kTable{
                   .most = 180.0,
                   .reader = &MethodInfo::slides,
                   .planar_only = true,
-                  .condition = [](const P& p) { return p.boundary == BoundaryRule::Slide; },
+                  .condition = [](const P& p) { return p.standing().slides(); },
                   .to_text = [](const P& p) { return fmt::format("{}", p.corner_angle); },
                   .from_text = [](P& p, Word word) { p.corner_angle = to_positive(word, 180.0, "corner angle"); },
                   .in_title = [](const P& p) { return fmt::format("corner angle {:g}", p.corner_angle); },
@@ -175,7 +176,7 @@ const std::array kTable{
         .most = 1.0,
         .reader = &MethodInfo::slides,
         .planar_only = true,
-        .condition = [](const P& p) { return p.boundary == BoundaryRule::Slide; },
+        .condition = [](const P& p) { return p.standing().slides(); },
         .to_text = [](const P& p) { return fmt::format("{}", p.max_deviation); },
         .from_text = [](P& p, Word word) { p.max_deviation = to_positive(word, 1.0, "greatest deviation"); },
         .in_title = [](const P& p) { return fmt::format("max deviation {:g}", p.max_deviation); },

@@ -102,7 +102,7 @@ SmoothingTask Run::task() const {
           parameters_.combination,
           size_,
           parameters_.then_mean.has_value(),
-          parameters_.boundary,
+          parameters_.standing().slides(),
           curves_,
           parameters_.max_deviation * input_->geometry.size,
           immovable_,

@@ -33,7 +33,7 @@ std::string Run::why_fixed(Index vertex) const {
   if (input_->topology.boundary()[vertex] != 0)
     return parameters_.boundary == BoundaryRule::Slide ? "it is a corner of the boundary, or named by the file"
                                                        : "it lies on the boundary, which stays";
-  if (parameters_.interfaces == InterfaceRule::Fixed && input_->interfaces.holds(vertex)) return input_->interfaces.why(vertex);
+  if (parameters_.interfaces != InterfaceRule::Free && input_->interfaces.holds(vertex)) return input_->interfaces.why(vertex);
   return "it was fixed by hand";
 }
 

@@ -94,7 +94,8 @@ struct RunView {
   std::uint64_t visits_per_iteration = 0;
   std::shared_ptr<const Colouring> colouring;  // of the free vertices, in the order of the visits
   Index free_vertices = 0;
-  SharedVector<std::uint8_t> fixed;  // see Run::fixed
+  SharedVector<std::uint8_t> fixed;      // see Run::fixed
+  std::shared_ptr<const Curves> curves;  // see Run::curves; the input must be at hand
   SharedVector<IterationRecord> records;
   SharedVector<Percentiles> percentiles;      // of the metric it optimises, one a record; empty while `percentiles` is off
   std::shared_ptr<const RunSummary> summary;  // null until it has been worked out, which is once the session is at rest

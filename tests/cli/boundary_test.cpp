@@ -21,7 +21,7 @@ TEST(BoundaryOnTheCommandLine, SlidesAndIsSaid) {
   EXPECT_EQ(slides["parameters"]["boundary"], "slide");
   EXPECT_GE(slides["after"]["minimum"], slides["before"]["minimum"]);
   const Output said = run({"smooth", in, "-o", folder / "c.14", "--iterations", "1", "--boundary", "slide"});
-  EXPECT_THAT(said.out, HasSubstr("of the boundary; "));
+  EXPECT_THAT(said.out, HasSubstr("slide along the boundary, and "));
   for (const auto& wrong : {std::vector<std::string>{"--boundary", "up"},
                             {"--boundary", "slide", "--corner-angle", "0"},
                             {"--boundary", "slide", "--max-deviation", "2"},

@@ -26,7 +26,7 @@ TEST_F(BoundaryInASession, SlidesIsSaidAndUndone) {
   say("generate coast 300 2");
   const std::uint64_t before = session_.active().visits_per_iteration();
   say("boundary slide");
-  EXPECT_THAT(messages_, Contains(HasSubstr("of the boundary;")));
+  EXPECT_THAT(messages_, Contains(HasSubstr("slide along the boundary, and ")));
   EXPECT_GT(session_.active().visits_per_iteration(), before);
   EXPECT_THAT(session_.active().title(), HasSubstr("boundary slide"));
   say("step iteration");

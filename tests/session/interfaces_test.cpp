@@ -97,7 +97,7 @@ TEST_F(InterfacesInASession, FixTakesTheWordsOfTheCommandLine) {
   EXPECT_EQ(fixed(), 43U);
   EXPECT_TRUE(fails("fix 1")) << "a vertex, or the group of this number";
   EXPECT_TRUE(fails("fix group:middle"));
-  EXPECT_TRUE(fails("interfaces slide"));
+  EXPECT_TRUE(fails("interfaces up"));
   EXPECT_EQ(fixed(), 43U);
 }
 

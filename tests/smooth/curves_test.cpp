@@ -19,6 +19,8 @@ using testing::input;
 using ::testing::IsEmpty;
 using testing::lattice;
 
+constexpr StandingRule kSlide{InterfaceRule::Fixed, BoundaryRule::Slide, 20.0};
+
 /// A fan around its middle: a regular polygon.
 Mesh polygon(Index sides) {
   Mesh mesh;
@@ -29,7 +31,7 @@ Mesh polygon(Index sides) {
 }
 
 std::set<Index> sliding(const InputMesh& mesh, double corner_angle = 20.0, InterfaceRule interfaces = InterfaceRule::Fixed) {
-  const Curves curves(mesh, corner_angle, interfaces);
+  const Curves curves(mesh, {interfaces, BoundaryRule::Slide, corner_angle});
   std::set<Index> found;
   for (Index v = 0; v < mesh.mesh.vertex_count(); ++v)
     if (curves.slides(v)) found.insert(v);
@@ -45,7 +47,7 @@ Group of_lines(std::string name, std::vector<Index> ends) {
 
 TEST(Curves, OfASquareAreItsSidesWithoutTheCorners) {
   const auto mesh = input(lattice(4, 0.2, 1));
-  const Curves curves(*mesh, 20.0, InterfaceRule::Fixed);
+  const Curves curves(*mesh, kSlide);
   EXPECT_EQ(curves.count(), 12U);
   EXPECT_EQ(curves.corners(), 4U);
   EXPECT_EQ(curves.curve_count(), 4U);
@@ -69,7 +71,7 @@ TEST(Curves, CornersAreWhereTheBoundaryTurnsByMore) {
 TEST(Curves, AClosedCurveGoesAround) {
   constexpr Index kSides = 40;
   const auto mesh = input(polygon(kSides));
-  const Curves curves(*mesh, 20.0, InterfaceRule::Fixed);
+  const Curves curves(*mesh, kSlide);
   ASSERT_EQ(curves.curve_count(), 1U);
   const double side = 2 * std::sin(M_PI / kSides);
   for (Index v = 1; v <= kSides; ++v) {
@@ -95,7 +97,7 @@ TEST(Curves, AClosedCurveGoesAround) {
 
 TEST(Curves, APlaceBesideTheCurveIsNone) {
   const auto mesh = input(lattice(4, 0.2, 1));
-  const Curves curves(*mesh, 20.0, InterfaceRule::Fixed);
+  const Curves curves(*mesh, kSlide);
   EXPECT_TRUE(curves.place(at(4, 2, 0), {0.4, 0.0, 0}));
   EXPECT_FALSE(curves.place(at(4, 2, 0), {0.4, 1e-9, 0}));
   EXPECT_FALSE(curves.place(at(4, 2, 0), {0.4, 1.0, 0})) << "that is another side";
@@ -163,6 +165,41 @@ TEST(Curves, WhatTheFileNamesStays) {
   mesh.groups = {steel};
   EXPECT_THAT(held(mesh), ElementsAre(at(n, 2, 0), at(n, 2, n))) << "the ends of an interface";
   EXPECT_THAT(held(mesh, InterfaceRule::Free), IsEmpty());
+}
+
+/// Between materials a curve goes from one end or corner of the interface to the next, off the boundary.
+TEST(Curves, OfInterfacesAreWhatLiesBetweenMaterials) {
+  constexpr Index n = 6;
+  Mesh mesh = lattice(n, 0.0, 1, Cells::Quadrilaterals);
+  Group steel{.name = "steel", .role = "physical group", .code = 0, .dimension = 2, .members = {}};
+  for (Index e = 0; e < mesh.elements.size(); ++e)
+    if (e % n < 2) steel.members.push_back(e);
+  mesh.groups = {steel};
+  const auto slides = [](const Mesh& each, BoundaryRule boundary) {
+    const auto prepared = input(each);
+    const Curves curves(*prepared, {InterfaceRule::Slide, boundary, 20.0});
+    std::set<Index> inside;
+    for (Index v = 0; v < each.vertex_count(); ++v)
+      if (curves.slides(v) && prepared->topology.boundary()[v] == 0) inside.insert(v);
+    EXPECT_EQ(inside.size(), curves.count_inside());
+    EXPECT_EQ(curves.count() == curves.count_inside(), boundary == BoundaryRule::Fixed);
+    return inside;
+  };
+  const std::set<Index> all{at(n, 2, 1), at(n, 2, 2), at(n, 2, 3), at(n, 2, 4), at(n, 2, 5)};
+  EXPECT_EQ(slides(mesh, BoundaryRule::Fixed), all);
+  EXPECT_EQ(slides(mesh, BoundaryRule::Slide), all);
+  mesh.groups.push_back({.name = "bolt", .role = "physical group", .code = 0, .dimension = 0, .members = {at(n, 2, 3)}});
+  EXPECT_EQ(slides(mesh, BoundaryRule::Fixed), (std::set<Index>{at(n, 2, 1), at(n, 2, 2), at(n, 2, 4), at(n, 2, 5)}));
+  mesh.groups.back() = of_lines("weld", {at(n, 2, 4), at(n, 3, 4)});
+  EXPECT_EQ(slides(mesh, BoundaryRule::Fixed), (std::set<Index>{at(n, 2, 1), at(n, 2, 2), at(n, 2, 3), at(n, 2, 5)}));
+  // A square of another material has four corners, which stay.
+  Group core{.name = "core", .role = "physical group", .code = 0, .dimension = 2, .members = {}};
+  for (Index j = 1; j < 4; ++j)
+    for (Index i = 1; i < 4; ++i) core.members.push_back(i + j * n);
+  mesh.groups = {core};
+  EXPECT_EQ(slides(mesh, BoundaryRule::Fixed).size(), 8U);
+  mesh.groups.clear();
+  EXPECT_THAT(slides(mesh, BoundaryRule::Slide), IsEmpty());
 }
 
 /// A list of all edges, which some mesh generators write, names nothing.

@@ -23,12 +23,15 @@ using ::testing::HasSubstr;
 
 using Segment = std::pair<Index, Index>;
 
-/// The edges of exactly one element, found by counting.
-std::vector<Segment> boundary_edges(const Mesh& mesh) {
+/// The edges of exactly one element, found by counting; or those between elements of the first group and others.
+std::vector<Segment> boundary_edges(const Mesh& mesh, bool of_group = false) {
   std::map<Segment, int> count;
+  std::vector<bool> in_group(mesh.elements.size(), false);
+  if (of_group)
+    for (const Index e : mesh.groups[0].members) in_group[e] = true;
   for (Index e = 0; e < mesh.elements.size(); ++e) {
     const auto corners = mesh.elements.corners(e);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
+    for (std::size_t i = 0; i < corners.size() && (!of_group || in_group[e]); ++i) {
       const Index a = corners[i], b = corners[(i + 1) % corners.size()];
       ++count[{std::min(a, b), std::max(a, b)}];
     }
@@ -193,6 +196,60 @@ TEST(SlidingGains, WhatTheBoundaryHolds) {
   free.iterate(50, progress);
   EXPECT_LT(held.statistics().minimum, 0.3);
   EXPECT_GT(free.statistics().minimum, 0.95);
+}
+
+/// Interfaces between materials, straight and curved, with a boundary that stays or slides.
+TEST(SlidingInside, InterfacesStayWhereTheyAre) {
+  std::vector<Specimen> all;
+  Progress progress;
+  for (const std::uint64_t seed : {1U, 2U}) all.push_back({"nested", generate_mesh("nested", 400, seed, progress)});
+  for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals}) {
+    constexpr Index n = 12;
+    Mesh mesh = bent(n, 0.4, 60, cells, [](Vec3 p) { return Vec3{p.x, p.y, 0}; });
+    for (Index v = 0; v < mesh.vertex_count(); ++v)  // the lattice's middle row lies on a curve, and is crowded there
+      if (v / (n + 1) == n / 2)
+        mesh.positions[v] = {std::pow((v % (n + 1)) / 12.0, 1.3), 0.5 + 0.02 * std::sin(3.0 * std::pow((v % (n + 1)) / 12.0, 1.3)), 0};
+    Group lower{.name = "lower", .role = "physical group", .code = 0, .dimension = 2, .members = {}};
+    for (Index e = 0; e < mesh.elements.size(); ++e)
+      if (e < mesh.elements.size() / 2) lower.members.push_back(e);
+    mesh.groups = {lower};
+    all.push_back({"curved", mesh});
+  }
+  std::size_t moved = 0;
+  for (const Specimen& specimen : all) {
+    const auto mesh = input(specimen.mesh);
+    const auto edges = boundary_edges(mesh->mesh, true);
+    std::vector<Segment> inner;  // of the group's edges, those that are not the mesh's boundary
+    for (const auto& edge : edges)
+      if (mesh->topology.boundary()[edge.first] == 0 || mesh->topology.boundary()[edge.second] == 0) inner.push_back(edge);
+    for (const BoundaryRule boundary : {BoundaryRule::Fixed, BoundaryRule::Slide}) {
+      RunParameters parameters;
+      parameters.interfaces = InterfaceRule::Slide;
+      parameters.boundary = boundary;
+      dmoscope::Run run = make_run(mesh, parameters);
+      EXPECT_GT(run.curves()->count_inside(), 0U) << specimen.name;
+      for (std::uint64_t iteration = 1; iteration <= 6; ++iteration) {
+        expect_promise_one(specimen, run, iteration);
+        expect_in_order(specimen, run);
+        const std::span<const Vec3> before = mesh->mesh.positions, now = run.positions();
+        const double size = mesh->geometry.size;
+        for (const auto& [a, b] : inner) {
+          for (const Index v : {a, b}) {
+            const double way = mesh->topology.boundary()[v] == 0 ? distance(now[v], before, edges) : 0.0;
+            ASSERT_LE(way, 1e-12 * size) << specimen.name << ": vertex " << v;
+          }
+          for (const double t : {0.25, 0.5, 0.75}) {
+            ASSERT_LE(distance(now[a] + t * (now[b] - now[a]), before, edges), 1.0001e-3 * size) << specimen.name;
+            ASSERT_LE(distance(before[a] + t * (before[b] - before[a]), now, edges), 1.0001e-3 * size) << specimen.name;
+          }
+        }
+      }
+      for (Index v = 0; v < run.positions().size(); ++v)
+        moved +=
+            run.curves()->slides(v) && !same_bits(run.positions().subspan(v, 1), std::span(mesh->mesh.positions).subspan(v, 1)) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(moved, 50U);
 }
 
 /// The same bits by any number of threads and any instructions, in one go or in steps, after going back, and where others aim.

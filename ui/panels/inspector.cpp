@@ -9,6 +9,7 @@
 
 #include "core/mesh/volume.h"
 #include "core/quality/quality.h"
+#include "core/reference/curves.h"
 #include "ui/panels/panels.h"
 #include "ui/state/format.h"
 
@@ -63,7 +64,7 @@ void draw_mesh(PanelContext& context, const Frame& frame) {
     ImGui::PopStyleColor();
   }
   const RunView* active = context.run();
-  const bool fixed = active != nullptr && active->parameters.interfaces == InterfaceRule::Fixed;
+  const bool fixed = active != nullptr && active->parameters.interfaces != InterfaceRule::Free;
   const std::string& interfaces = fixed ? context.derived.interfaces : context.derived.free_interfaces;
   if (!interfaces.empty()) dim_text(context, interfaces);
 }
@@ -98,10 +99,11 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
   if (at.z != 0.0 || context.state.is_volume) value_row(context, "z", fmt::format("{:.8g}", at.z), full);
   const bool boundary = topology.boundary()[vertex] != 0;
   const bool fixed = run != nullptr && vertex < run->fixed.size() && run->fixed[vertex] != 0;
+  const bool slides = !fixed && run != nullptr && run->curves != nullptr && run->curves->slides(vertex);
   const Interfaces& interfaces = frame.input->interfaces;
-  const bool interface = fixed && run->parameters.interfaces == InterfaceRule::Fixed && interfaces.holds(vertex);
+  const bool interface = fixed && run->parameters.interfaces != InterfaceRule::Free && interfaces.holds(vertex);
   value_row(context, "may move",
-            !fixed && boundary              ? "along the boundary"
+            slides                          ? boundary ? "along the boundary" : "along the interface"
             : !fixed                        ? "free"
             : boundary                      ? "fixed: boundary"
             : topology.star(vertex).empty() ? "fixed: unused"

@@ -108,10 +108,11 @@ void draw_interfaces(PanelContext& context, const RunParameters& parameters) {
   labelled(context, "interfaces", "whether what lies between materials, and on lines, faces and points that the file names, stays");
   const bool open = ImGui::BeginCombo("##interfaces", std::string(name(parameters.interfaces)).c_str());
   context.items.record_last("interfaces");
-  const bool fixed = parameters.interfaces == InterfaceRule::Fixed;
+  const bool fixed = parameters.interfaces != InterfaceRule::Free;
   next_item_tooltip(fixed ? context.derived.interfaces : context.derived.free_interfaces);
   if (!open) return;
-  for (const InterfaceRule rule : {InterfaceRule::Fixed, InterfaceRule::Free}) {
+  for (const InterfaceRule rule : {InterfaceRule::Fixed, InterfaceRule::Free, InterfaceRule::Slide}) {
+    if (rule == InterfaceRule::Slide && context.state.is_volume) continue;
     const std::string word(name(rule));
     if (ImGui::Selectable(word.c_str(), rule == parameters.interfaces)) context.send("interfaces " + word);
     context.items.record_last("interfaces:" + word);

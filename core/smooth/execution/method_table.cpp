@@ -60,9 +60,11 @@ constexpr auto kMethods = std::to_array<MethodInfo>(
       .make = make_active_set_smoother}});
 
 void require_sliding(const SmoothingTask& task) {
-  if (!method_info(task.method).slides) throw UsageError(fmt::format("only dmo slides vertices along the boundary, not {}", task.method));
-  if (task.input->is_volume()) throw UsageError("only boundaries of planar meshes slide in this version, and the mesh is a volume");
-  if (task.input->geometry.plane.period > 0.0) throw UsageError("boundaries of meshes that go round in longitude do not slide");
+  if (!method_info(task.method).slides)
+    throw UsageError(fmt::format("only dmo slides vertices along boundaries and interfaces, not {}", task.method));
+  if (task.input->is_volume())
+    throw UsageError("only boundaries and interfaces of planar meshes slide in this version, and the mesh is a volume");
+  if (task.input->geometry.plane.period > 0.0) throw UsageError("nothing slides in meshes that go round in longitude");
 }
 
 void require_possible(const Combination& combination, const SmoothingTask& task) {
@@ -99,7 +101,7 @@ void require_possible(const SmoothingTask& task) {
     throw UsageError(fmt::format("{} optimises only the mean ratio, not {}", method.name, info(task.metric).name));
   if (method.planar_only && task.input->is_volume()) throw UsageError(fmt::format("{} is defined only for planar meshes", method.name));
   if (task.combination) require_possible(*task.combination, task);
-  if (task.boundary == BoundaryRule::Slide) require_sliding(task);
+  if (task.slides) require_sliding(task);
 }
 
 std::unique_ptr<Smoother> make_smoother(const SmoothingTask& task) {

@@ -58,6 +58,8 @@ figures() {
       sub(/.*Metric\)/, "", number); sub(/[^0-9].*/, "", number)
       if (name ~ /bodies::Visit</)
         name = name ~ /Stars\)0/ ? "VisitFans" : name ~ /Stars\)1/ ? "VisitOthers" : "VisitInTeam"
+      else if (name ~ /bodies::VisitTwoAims</)
+        name = name ~ /dmoscope::Space/ ? "VisitVolumeTwoAims" : "VisitTwoAims"
       else { sub(/.*bodies::/, "", name); sub(/[^A-Za-z].*/, "", name) }
       return number == "" ? name : name " " (number in metric ? metric[number] : "metric" number)
     }

@@ -234,7 +234,8 @@ TEST(Interfaces, OfNestedMaterialsAreWhatLiesBetweenThem) {
 TEST(Interfaces, RulesHaveNames) {
   EXPECT_EQ(parse_interface_rule("fixed"), InterfaceRule::Fixed);
   EXPECT_EQ(parse_interface_rule(name(InterfaceRule::Free)), InterfaceRule::Free);
-  EXPECT_THROW((void)parse_interface_rule("slide"), UsageError);
+  EXPECT_EQ(parse_interface_rule(name(InterfaceRule::Slide)), InterfaceRule::Slide);
+  EXPECT_THROW((void)parse_interface_rule("sliding"), UsageError);
 }
 
 }  // namespace

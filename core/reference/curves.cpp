@@ -63,8 +63,9 @@ class NamedEdges {
   };
   void add(Index a, Index b, Index group) { names_.push_back({std::min(a, b), std::max(a, b), group}); }
   [[nodiscard]] std::span<const Name> of(Index a, Index b) const {
-    const auto key = std::pair(std::min(a, b), std::max(a, b));
-    const auto [first, last] = std::ranges::equal_range(names_, key, {}, [](const Name& n) { return std::pair(n.low, n.high); });
+    const Index low = std::min(a, b), high = std::max(a, b);
+    const auto first = std::lower_bound(names_.begin(), names_.end(), Name{low, high, 0});
+    const auto last = std::upper_bound(first, names_.end(), Name{low, high, kNoIndex});
     return {first, last};
   }
 

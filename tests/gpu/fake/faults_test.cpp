@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/mesh/generate.h"
 #include "core/run/retry_on_cpu.h"
 #include "gpu/accelerator.h"
 #include "tests/gpu/fake/opengl.h"
@@ -28,9 +29,15 @@ class FakeFaults : public WithOpenGl {
  protected:
   void SetUp() override {
     WithOpenGl::SetUp();
-    if (context == nullptr) return;
+    if (context != nullptr) begin(lattice(6, 0.35, 71, dmoscope::testing::Cells::Mixed), {});
+  }
+  /// What the tests are about from now on.
+  void begin(Mesh mesh, const RunParameters& what) {
     Progress progress;
-    input = prepare_input(lattice(6, 0.35, 71, dmoscope::testing::Cells::Mixed), {}, Need::Smoothing, progress);
+    parameters = what;
+    input = prepare_input(std::move(mesh), {}, Need::Smoothing, progress);
+    finished.clear();
+    statistics.clear();
     drawn = std::make_unique<Drawn>(input->mesh.vertex_count(), input->mesh.elements.size());
     auto cpu = make_run(Backend::Cpu, {});
     for (std::uint64_t i = 0; i <= kIterations; ++i) {
@@ -47,9 +54,9 @@ class FakeFaults : public WithOpenGl {
   void set_up_again() { set_up({.devices = std::vector<FakeDevice>(2), .gl = &gl}); }
 
   [[nodiscard]] dmoscope::Run make_run(Backend backend, Acceleration acceleration) const {
-    RunParameters parameters;
-    parameters.backend = backend;
-    return {input, parameters, std::make_shared<ThreadPool>(1), std::size_t{1} << 24U, std::move(acceleration)};
+    RunParameters asked = parameters;
+    asked.backend = backend;
+    return {input, asked, std::make_shared<ThreadPool>(1), std::size_t{1} << 24U, std::move(acceleration)};
   }
   [[nodiscard]] bool is_finished(std::size_t iteration, std::span<const Vec3> positions) const {
     return std::ranges::equal(positions, finished[iteration], [](Vec3 a, Vec3 b) { return same(a, b); });
@@ -155,7 +162,18 @@ class FakeFaults : public WithOpenGl {
     EXPECT_THAT(leaks(), ::testing::IsEmpty());
   }
 
+  /// Every call fails in two ways: memory that is not there, and the loss of the device.
+  void fail_all() {
+    const std::vector<std::string> all = calls_of(Backend::Auto);
+    EXPECT_THAT(all, ::testing::Contains("cudaGraphLaunch")) << "it runs on the device";
+    for (const int each : {kOutOfMemory, kIllegalAddress}) {
+      code = each;
+      for (std::size_t n = 1; n <= all.size() && !HasFailure(); ++n) fail(Backend::Auto, n, all[n - 1]);
+    }
+  }
+
   static constexpr std::uint64_t kIterations = 2;
+  RunParameters parameters;
   std::shared_ptr<const InputMesh> input;
   std::unique_ptr<Drawn> drawn;
   std::vector<std::vector<Vec3>> finished;  // of each iteration
@@ -180,6 +198,17 @@ TEST_F(FakeFaults, EveryCallWhereTheDeviceIsAskedForByName) {
     code = each;
     for (std::size_t n = 1; n <= all.size() && !HasFailure(); ++n) fail(Backend::Cuda, n, all[n - 1]);
   }
+}
+
+TEST_F(FakeFaults, EveryCallOfAVolume) {
+  Progress progress;
+  begin(generate_mesh("tetrahedra", 64, 3, progress), {.search = {.levels = 1}});
+  fail_all();
+}
+
+TEST_F(FakeFaults, EveryCallOfTwoAims) {
+  begin(lattice(5, 0.35, 72), {.search = {.grid_points = 4, .levels = 1}, .combination = Combination{0.3, Metric::MinAngle}});
+  fail_all();
 }
 
 }  // namespace

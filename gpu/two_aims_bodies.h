@@ -92,8 +92,9 @@ struct VisitTwoAims {
     return {};  // sizes are of planar meshes
   }
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE DensityTarget<Plane> wanted(const Task& task, Index vertex) {
-    return density_target_by(task.mesh, positions_of(task), vertex,
-                             [&task](Index /*vertex*/, Vec3 place) { return task.aims.size.at(task.mesh.frame, place); });
+    return density_target_by(task.mesh, positions_of(task), vertex, [&task](Index /*vertex*/, Vec3 place) DMOSCOPE_INLINE_LAMBDA {
+      return task.aims.size.at(task.mesh.frame, place);
+    });
   }
 
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void judge(const Task& task, Index rank, Offset offset) {
@@ -116,8 +117,8 @@ struct VisitTwoAims {
       after = star_state<M>(mesh, positions, vertex, i == 0 ? positions[vertex] : target);
     }
     return gains_by_two(
-        task.aims, before, after, task.untangling, [&] { return keeps_sound(mesh, positions, vertex, target); },
-        [&] { return second_rises(task, mesh, vertex, target); });
+        task.aims, before, after, task.untangling, [&]() DMOSCOPE_INLINE_LAMBDA { return keeps_sound(mesh, positions, vertex, target); },
+        [&]() DMOSCOPE_INLINE_LAMBDA { return second_rises(task, mesh, vertex, target); });
   }
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE bool second_rises(const Task& task, const MeshView<Frame>& mesh, Index vertex, Vec3 target) {
     double here = 0.0, there = 0.0;

@@ -338,7 +338,7 @@ inline constexpr bool kDefinedForQuadrilaterals = requires(const Quadrilateral<V
 /// Calls f.template operator()<M>() with the run-time metric as a template argument. Of those that are defined in the plane: Condition is
 /// the mean ratio there, and MeanRatio is called for it.
 template <class F>
-DMOSCOPE_ANYWHERE decltype(auto) with_planar_metric(Metric metric, F&& f) {
+DMOSCOPE_INLINE DMOSCOPE_ANYWHERE decltype(auto) with_planar_metric(Metric metric, F&& f) {
   switch (metric) {
     case Metric::MeanRatioArea:
       return f.template operator()<Metric::MeanRatioArea>();

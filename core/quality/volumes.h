@@ -367,7 +367,7 @@ DMOSCOPE_ANYWHERE RealOf<V> rank_around(const CorneredSolid<V, Ideal, N, Corners
 
 /// Calls f.template operator()<M>() with a metric that is defined for some volume element; with MeanRatio for any other.
 template <class F>
-DMOSCOPE_ANYWHERE decltype(auto) with_volume_metric(Metric metric, F&& f) {
+DMOSCOPE_INLINE DMOSCOPE_ANYWHERE decltype(auto) with_volume_metric(Metric metric, F&& f) {
   switch (metric) {
     case Metric::RadiusRatio:
       return f.template operator()<Metric::RadiusRatio>();

@@ -113,11 +113,14 @@ template <class AimsT, class KeepsSound, class SecondRises>
     if (!after.better_than(before, untangling)) return false;
     if (!untangling.attempt && !keeps_sound()) return false;
     // Raising the mean lowers neither the minimum nor the mean, not even for the sake of untangling.
-    return !aims.raise_mean() || (after.quality >= before.quality && second_rises());
+    if (!aims.raise_mean()) return true;
+    if (!(after.quality >= before.quality)) return false;
+  } else {
+    if (untangling.repair || !(after.jacobian > 0.0)) return false;
+    if (!aims.beyond(before.quality)) return after.quality > before.quality;
+    if (!aims.beyond(after.quality)) return false;
   }
-  if (untangling.repair || !(after.jacobian > 0.0)) return false;
-  if (!aims.beyond(before.quality)) return after.quality > before.quality;
-  return aims.beyond(after.quality) && second_rises();
+  return second_rises();  // in one place: a device's code has a copy for each
 }
 
 }  // namespace dmoscope

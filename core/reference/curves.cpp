@@ -215,7 +215,7 @@ std::string Curves::sentence() const {
   const auto slide = [](Index n) { return fmt::format("{} {}", counted(n, "vertex", "vertices"), n == 1 ? "slides" : "slide"); };
   std::string text;
   if (sliding_ > inside_ || corners_ > 0)
-    text = fmt::format("{} along the boundary, and {} of it {}", slide(sliding_ - inside_), grouped(corners_),
+    text = fmt::format("{} along the boundary, and {} of its vertices {}", slide(sliding_ - inside_), grouped(corners_),
                        corners_ == 1 ? "stays" : "stay");
   if (inside_ > 0 || text.empty()) text += fmt::format("{}{} along interfaces", text.empty() ? "" : "; ", slide(inside_));
   return text;

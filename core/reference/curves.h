@@ -28,7 +28,7 @@ class Curves {
   [[nodiscard]] Index count() const noexcept { return sliding_; }        // of vertices that slide
   [[nodiscard]] Index count_inside() const noexcept { return inside_; }  // of these, off the boundary
   [[nodiscard]] Index corners() const noexcept { return corners_; }      // of the boundary's others, where it slides
-  /// "122 vertices slide along the boundary, of which 34 stay; 36 slide along interfaces".
+  /// "122 vertices slide along the boundary, and 34 of its vertices stay; 36 vertices slide along interfaces".
   [[nodiscard]] std::string sentence() const;
   [[nodiscard]] Index curve_count() const noexcept { return static_cast<Index>(curves_.size()); }
 

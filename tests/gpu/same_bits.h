@@ -101,4 +101,23 @@ inline void expect_same_visits(const std::shared_ptr<Queue>& queue, const Subjec
   expect_same_sweeps(queue, subject, subject.task(metric, parameters), std::vector<Sweep>(static_cast<std::size_t>(iterations), sweep));
 }
 
+/// An iteration a sweep by both, in one call and in calls of `part` visits: the same moves, and the same places at the end.
+inline void expect_cuts_change_nothing(Smoother& whole, Smoother& cut, const Subject& subject, std::uint64_t part,
+                                       std::span<const Sweep> sweeps) {
+  std::vector<Vec3> one = subject.input->mesh.positions, other = one;
+  for (const Sweep& sweep : sweeps) {
+    whole.begin(sweep);
+    cut.begin(sweep);
+    const std::uint64_t moved = whole.visit(0, subject.visits(), one, nullptr);
+    std::uint64_t in_parts = 0;
+    for (std::uint64_t first = 0; first < subject.visits(); first += part)
+      in_parts += cut.visit(first, std::min<std::uint64_t>(part, subject.visits() - first), other, nullptr);
+    EXPECT_EQ(moved, in_parts);
+    EXPECT_GT(moved, 0U);
+  }
+  whole.store(one, nullptr);
+  cut.store(other, nullptr);
+  for (Index v = 0; v < one.size(); ++v) ASSERT_TRUE(same(one[v], other[v])) << v;
+}
+
 }  // namespace dmoscope::gpu::testing

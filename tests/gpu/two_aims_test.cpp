@@ -97,20 +97,7 @@ TEST(DeviceTwoAimsVisits, ThreadsCutsAndRecordingsChangeNothing) {
   SmoothingTask task = subject.task(Metric::MeanRatio);
   task.then_mean = true;
   const auto whole = make_device_dmo(make_host_queue({}), task), cut = make_device_dmo(make_host_queue({.pool = &pool}), task);
-  std::vector<Vec3> one = subject.input->mesh.positions, other = one;
-  for (const Sweep& sweep : {Sweep{}, Sweep{.floor = 0.3}, Sweep{.floor = 0.3}, Sweep{.floor = 0.2}, Sweep{}}) {
-    whole->begin(sweep);
-    cut->begin(sweep);
-    const std::uint64_t moved = whole->visit(0, subject.visits(), one, nullptr);
-    std::uint64_t in_parts = 0;
-    for (std::uint64_t first = 0; first < subject.visits(); first += 97)
-      in_parts += cut->visit(first, std::min<std::uint64_t>(97, subject.visits() - first), other, nullptr);
-    EXPECT_EQ(moved, in_parts);
-    EXPECT_GT(moved, 0U);
-  }
-  whole->store(one, nullptr);
-  cut->store(other, nullptr);
-  for (Index v = 0; v < one.size(); ++v) ASSERT_TRUE(same(one[v], other[v])) << v;
+  expect_cuts_change_nothing(*whole, *cut, subject, 97, std::vector<Sweep>{{}, {.floor = 0.3}, {.floor = 0.3}, {.floor = 0.2}, {}});
 }
 
 }  // namespace

@@ -93,18 +93,7 @@ TEST(VolumeDeviceVisits, NeitherThreadsNorCutsChangeTheResult) {
   ThreadPool pool(4);
   const auto whole = make_device_dmo(volume_host(), subject.task(Metric::MeanRatio));
   const auto cut = make_device_dmo(volume_host({.pool = &pool}), subject.task(Metric::MeanRatio, {}, &pool));
-  std::vector<Vec3> one = subject.input->mesh.positions, other = one;
-  for (int iteration = 0; iteration < 3; ++iteration) {
-    const std::uint64_t moved = whole->visit(0, subject.visits(), one, nullptr);
-    std::uint64_t in_parts = 0;
-    for (std::uint64_t first = 0; first < subject.visits(); first += 37)
-      in_parts += cut->visit(first, std::min<std::uint64_t>(37, subject.visits() - first), other, nullptr);
-    EXPECT_EQ(moved, in_parts);
-    EXPECT_GT(moved, 0U);
-  }
-  whole->store(one, nullptr);
-  cut->store(other, nullptr);
-  for (Index v = 0; v < one.size(); ++v) ASSERT_TRUE(same(one[v], other[v])) << v;
+  expect_cuts_change_nothing(*whole, *cut, subject, 37, std::vector<Sweep>(3));
 }
 
 /// Who draws takes a volume's positions from the host.

@@ -31,7 +31,7 @@
 #include "core/io/mesh_io.h"
 #include "core/io/source_file.h"
 #include "core/numeric/simd.h"
-#include "core/reference/curves.h"
+#include "core/reference/domain.h"
 #include "core/run/left_inverted.h"
 #include "core/run/mean_given_up.h"
 #include "core/run/retry_on_cpu.h"
@@ -131,8 +131,8 @@ Json json_of(const Result& r) {
   object["parameters"] = std::move(parameters);
   object["held_on_interfaces"] = p.interfaces == InterfaceRule::Free ? 0 : r.run.input().interfaces.count();
   if (p.interfaces == InterfaceRule::Slide)
-    object["held_on_interfaces"] = r.run.input().interfaces.count() - r.run.curves()->count_inside();
-  object["sliding"] = r.run.curves() ? r.run.curves()->count() : 0;
+    object["held_on_interfaces"] = r.run.input().interfaces.count() - r.run.domain()->count_inside();
+  object["sliding"] = r.run.domain() ? r.run.domain()->count() : 0;
   object["iterations"] = r.outcome.iterations;
   object["stopped"] = reason_name(r.outcome.reason);
   object["last_rise"] = r.outcome.last_rise;
@@ -155,7 +155,7 @@ void print_summary(const Result& r) {
   const Mesh& mesh = r.run.input().mesh;
   print("{}: {}, {}, {} free; {}, {}\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
         counted(mesh.elements.size(), "element", "elements"), grouped(r.run.visits_per_iteration()), r.run.title(), name(r.run.backend()));
-  if (const auto& curves = r.run.curves()) print("  {}\n", curves->sentence());
+  if (const auto& domain = r.run.domain()) print("  {}\n", domain->sentence());
   print("  {:<16} {:>10} -> {}\n", "minimum", brief(before.minimum), brief(after.minimum));
   print("  {:<16} {:>10} -> {}\n", "movable minimum", brief(before.movable_minimum), brief(after.movable_minimum));
   print("  {:<16} {:>10}    (elements whose corners are all fixed)\n", "ceiling", brief(after.ceiling));

@@ -7,7 +7,7 @@
 
 #include "core/commands/command_rows.h"
 #include "core/mesh/vertex_words.h"
-#include "core/reference/curves.h"
+#include "core/reference/domain.h"
 #include "core/smooth/execution/method_table.h"
 
 namespace dmoscope {
@@ -50,17 +50,17 @@ void set_backend(CommandContext& context, Arguments arguments) {
   set(parameter_info("backend"), context, arguments);
   tell(context, context.session.active().backend_sentence());
 }
-void tell_curves(CommandContext& context) {
-  if (const auto& curves = context.session.active().curves()) tell(context, curves->sentence());
+void tell_sliding(CommandContext& context) {
+  if (const auto& domain = context.session.active().domain()) tell(context, domain->sentence());
 }
 void set_boundary(CommandContext& context, Arguments arguments) {
   set(parameter_info("boundary"), context, arguments);
-  tell_curves(context);
+  tell_sliding(context);
 }
 void set_interfaces(CommandContext& context, Arguments arguments) {
   set(parameter_info("interfaces"), context, arguments);
   tell_interfaces(context);
-  tell_curves(context);
+  tell_sliding(context);
 }
 
 /// A command for every row of the table; three tell more.

@@ -87,15 +87,11 @@ Vec3 smallest_eigenvector(Matrix3 a) {
   return {vectors[0][k], vectors[1][k], vectors[2][k]};
 }
 
-/// The frame with this normal (its largest component made positive) that lies nearest to the coordinate plane's own.
+/// tangent_plane(); the largest component of the normal, of any length, is made positive.
 Plane frame(Vec3 normal) {
   normal = (1.0 / length(normal)) * normal;
-  const int axis = largest_component(normal);
-  if (components(normal)[static_cast<std::size_t>(axis)] < 0) normal = -1.0 * normal;
-  Vec3 u = coordinate_plane(axis).u;
-  u = u - dot(u, normal) * normal;
-  u = (1.0 / length(u)) * u;
-  return {u, cross(normal, u), normal};
+  if (components(normal)[static_cast<std::size_t>(largest_component(normal))] < 0) normal = -1.0 * normal;
+  return tangent_plane(normal);
 }
 
 Vec3 mean_area_vector(const Mesh& mesh) {
@@ -146,6 +142,13 @@ void fit(const Mesh& mesh, const std::vector<std::uint8_t>& used, const Box& box
 }
 
 }  // namespace
+
+Plane tangent_plane(Vec3 normal) {
+  Vec3 u = coordinate_plane(largest_component(normal)).u;
+  u = u - dot(u, normal) * normal;
+  u = (1.0 / length(u)) * u;
+  return {u, cross(normal, u), normal};
+}
 
 Vec3 area_vector(const Mesh& mesh, Index element, const Plane& plane) {
   const auto c = mesh.elements.corners(element);

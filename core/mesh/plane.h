@@ -68,6 +68,9 @@ struct PlaneAxes {
   }
 };
 
+/// The frame with this normal, of length 1, that lies nearest to the coordinate plane's own.
+[[nodiscard]] Plane tangent_plane(Vec3 normal);
+
 enum class Shape { Planar, Surface, Volume };
 
 /// What kind of mesh this is.

@@ -1,13 +1,15 @@
 #pragma once
-// The boundary and the interfaces of the input as curves along which vertices slide: polylines that no vertex ever leaves.
+// Curves of the input along which vertices slide, its boundary and interfaces or the feature edges of its surface: polylines that no
+// vertex ever leaves.
 
+#include <array>
 #include <optional>
 #include <span>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/input/input_mesh.h"
-#include "core/reference/standing.h"
+#include "core/reference/curve_ends.h"
 
 namespace dmoscope {
 
@@ -16,20 +18,10 @@ namespace dmoscope {
 /// to where the vertex was in the input. The mesh must outlive them.
 class Curves {
  public:
-  /// A vertex of the boundary, or of an interface between materials, slides where the rule lets these, unless
-  /// - it has other than two edges of them, or an edge with more than two elements;
-  /// - they turn there by more than the corner angle, or have no direction;
-  /// - the file gives it a meaning: it is a named point, an end of a string or line that the file names, a corner of a required element,
-  /// or,
-  ///   unless interfaces are free, the end of an interface or of a named line inside.
-  Curves(const InputMesh& input, const StandingRule& rule);
+  /// `ends`: who slides, and between whom.
+  Curves(const InputMesh& input, const CurveEnds& ends);
 
   [[nodiscard]] bool slides(Index vertex) const noexcept { return curve_of_[vertex] != kNoIndex; }
-  [[nodiscard]] Index count() const noexcept { return sliding_; }        // of vertices that slide
-  [[nodiscard]] Index count_inside() const noexcept { return inside_; }  // of these, off the boundary
-  [[nodiscard]] Index corners() const noexcept { return corners_; }      // of the boundary's others, where it slides
-  /// "122 vertices slide along the boundary, and 34 of its vertices stay; 36 vertices slide along interfaces".
-  [[nodiscard]] std::string sentence() const;
   [[nodiscard]] Index curve_count() const noexcept { return static_cast<Index>(curves_.size()); }
 
   /// Where on its curve a vertex that slides stands; nowhere for one that was put beside it.
@@ -49,6 +41,30 @@ class Curves {
   /// points between two places, first <= last, from the segment between the positions there.
   [[nodiscard]] double deviation(Index vertex, double first, double last, Vec3 from, Vec3 to) const;
 
+  /// Segments of a curve, from the first to the last; of a closed curve `first` may be greater than `last`.
+  struct Stretch {
+    Index curve;
+    std::size_t first, last;
+    [[nodiscard]] bool holds(std::size_t segment) const noexcept {
+      return first <= last ? first <= segment && segment <= last : segment >= first || segment <= last;
+    }
+  };
+  /// What lies between a vertex that slides and a neighbour along the curve; none where `other` is no neighbour, or either beside the
+  /// curve.
+  [[nodiscard]] std::optional<Stretch> stretch_to(Index vertex, Vec3 position, Index other, Vec3 position_of_other) const;
+  /// The edges of the input around a place of the vertex's curve: the one it lies on, and the one before where it is that one's first end.
+  /// kNoIndex: none.
+  [[nodiscard]] std::array<std::pair<Index, Index>, 2> edges_at(Index vertex, double place) const;
+  /// Calls visit(curve, segment, from, to) for all segments.
+  template <class Visit>
+  void for_segments(const Visit& visit) const {
+    for (Index c = 0; c < curves_.size(); ++c)
+      for (std::size_t i = 0; i < curves_[c].segments(); ++i) {
+        const auto [from, to] = ends_of(curves_[c], i);
+        visit(c, i, from, to);
+      }
+  }
+
  private:
   struct Curve {
     std::vector<Index> vertices;  // along it; of a closed one without a corner each once
@@ -59,6 +75,9 @@ class Curves {
   };
   class Builder;
 
+  [[nodiscard]] static std::pair<Index, Index> ends_of(const Curve& curve, std::size_t segment) {
+    return {curve.vertices[segment], curve.vertices[(segment + 1) % curve.vertices.size()]};
+  }
   [[nodiscard]] Vec3 point(const Curve& curve, std::size_t i) const { return points_[curve.vertices[i % curve.vertices.size()]]; }
   [[nodiscard]] std::optional<double> place_on(const Curve& curve, std::size_t segment, Vec3 position) const;
   [[nodiscard]] std::optional<double> place_of(const Curve& curve, std::size_t index, Vec3 position) const;
@@ -70,7 +89,6 @@ class Curves {
   std::vector<Curve> curves_;
   std::vector<Index> curve_of_;  // of every vertex; kNoIndex: it does not slide
   std::vector<Index> index_on_;  // where on its curve a vertex that slides is
-  Index sliding_ = 0, inside_ = 0, corners_ = 0;
 };
 
 }  // namespace dmoscope

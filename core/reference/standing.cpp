@@ -4,7 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/base/unknown_value.h"
-#include "core/reference/curves.h"
+#include "core/reference/domain.h"
 
 namespace dmoscope {
 
@@ -16,23 +16,18 @@ BoundaryRule parse_boundary_rule(std::string_view word) {
   throw UsageError(unknown_value("rule for the boundary", word, std::array{name(BoundaryRule::Fixed), name(BoundaryRule::Slide)}));
 }
 
-std::shared_ptr<const Curves> curves_for(const InputMesh& input, const StandingRule& rule) {
-  if (!rule.slides() || input.geometry.shape != Shape::Planar) return nullptr;
-  return std::make_shared<const Curves>(input, rule);
-}
-
-std::vector<std::uint8_t> standing_vertices(const InputMesh& input, const StandingRule& rule, const Curves* curves) {
+std::vector<std::uint8_t> standing_vertices(const InputMesh& input, const StandingRule& rule, const Domain* domain) {
   const auto boundary = input.topology.boundary();
   std::vector<std::uint8_t> standing(boundary.begin(), boundary.end());
   for (Index v = 0; v < standing.size(); ++v) {
     if (input.topology.star(v).empty() || (rule.interfaces != InterfaceRule::Free && input.interfaces.holds(v))) standing[v] = 1;
-    if (curves != nullptr && curves->slides(v)) standing[v] = 0;
+    if (domain != nullptr && domain->slides(v)) standing[v] = 0;
   }
   return standing;
 }
 
 std::vector<std::uint8_t> standing_vertices(const InputMesh& input, const StandingRule& rule) {
-  return standing_vertices(input, rule, curves_for(input, rule).get());
+  return standing_vertices(input, rule, domain_for(input, rule).get());
 }
 
 }  // namespace dmoscope

@@ -2,7 +2,6 @@
 // Which vertices stay where they are, whatever a person fixes besides.
 
 #include <cstdint>
-#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -10,7 +9,7 @@
 
 namespace dmoscope {
 
-class Curves;
+class Domain;
 
 /// What becomes of the vertices of the boundary: they stay, or they slide along the boundary of the input.
 enum class BoundaryRule : std::uint8_t { Fixed, Slide };
@@ -21,17 +20,15 @@ enum class BoundaryRule : std::uint8_t { Fixed, Slide };
 struct StandingRule {
   InterfaceRule interfaces = InterfaceRule::Fixed;
   BoundaryRule boundary = BoundaryRule::Fixed;
-  double corner_angle = 20.0;  // degrees: where the boundary turns by more, a vertex stays
+  double corner_angle = 20.0;   // degrees: where the boundary, or a feature edge, turns by more, a vertex stays
+  double feature_angle = 40.0;  // degrees: where the surface of a volume folds by more, it has a feature edge
   [[nodiscard]] bool slides() const noexcept { return boundary == BoundaryRule::Slide || interfaces == InterfaceRule::Slide; }
   friend bool operator==(const StandingRule&, const StandingRule&) = default;
 };
 
-/// The curves along which the rule lets vertices slide; null where it lets none, and for a mesh that is not planar.
-[[nodiscard]] std::shared_ptr<const Curves> curves_for(const InputMesh& input, const StandingRule& rule);
-
 /// 1 where a vertex may not move: of no element and, by the rule and unless it slides, on the boundary or on an interface.
 [[nodiscard]] std::vector<std::uint8_t> standing_vertices(const InputMesh& input, const StandingRule& rule);
-/// The same; `curves`: curves_for() the rule.
-[[nodiscard]] std::vector<std::uint8_t> standing_vertices(const InputMesh& input, const StandingRule& rule, const Curves* curves);
+/// The same; `domain`: domain_for() the rule.
+[[nodiscard]] std::vector<std::uint8_t> standing_vertices(const InputMesh& input, const StandingRule& rule, const Domain* domain);
 
 }  // namespace dmoscope

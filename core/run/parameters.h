@@ -30,11 +30,12 @@ struct RunParameters {
   std::vector<Index> fixed{};  // the user's fixed set, besides boundary and unused vertices and, as `interfaces` says, those on interfaces
   InterfaceRule interfaces = InterfaceRule::Fixed;
   BoundaryRule boundary = BoundaryRule::Fixed;
-  double corner_angle = StandingRule{}.corner_angle;  // degrees; where the boundary slides
-  double max_deviation = 1e-3;                        // of the boundary, as a share of the diagonal of the mesh's box
+  double corner_angle = StandingRule{}.corner_angle;    // degrees; where the boundary slides
+  double feature_angle = StandingRule{}.feature_angle;  // degrees; of volumes, likewise
+  double max_deviation = 1e-3;                          // of the boundary, as a share of the diagonal of the mesh's box
   Backend backend = Backend::Auto;
   friend bool operator==(const RunParameters&, const RunParameters&) = default;
-  [[nodiscard]] StandingRule standing() const noexcept { return {interfaces, boundary, corner_angle}; }
+  [[nodiscard]] StandingRule standing() const noexcept { return {interfaces, boundary, corner_angle, feature_angle}; }
 };
 
 enum class ParameterKind { Whole, Real, Choice, Text };
@@ -48,7 +49,7 @@ struct ParameterInfo {
   double least = 0.0, most = 0.0;                     // of numbers; of Real, `least` is not among them
   std::span<const std::string_view> choices{};        // of Choice
   bool MethodInfo::*reader = nullptr;                 // the methods that read it; null: all
-  bool planar_only = false;                           // says nothing of volumes
+  bool volume_only = false;                           // says nothing of planar meshes
   bool (*condition)(const RunParameters&) = nullptr;  // besides: whether it is read now; null: always
   std::string (*to_text)(const RunParameters&);
   /// Throws UsageError for what is no such value. The range is checked where it is read.

@@ -7,7 +7,7 @@
 #include "core/base/memory.h"
 #include "core/base/stopwatch.h"
 #include "core/quality/metric_phrase.h"
-#include "core/reference/curves.h"
+#include "core/reference/domain.h"
 #include "core/run/sweep_after.h"
 #include "core/smooth/execution/choose_executor.h"
 #include "core/smooth/execution/method_table.h"
@@ -16,8 +16,8 @@ namespace dmoscope {
 
 namespace {
 
-std::vector<std::uint8_t> fixed_vertices(const InputMesh& input, const RunParameters& parameters, const Curves* curves) {
-  std::vector<std::uint8_t> fixed = standing_vertices(input, parameters.standing(), curves);
+std::vector<std::uint8_t> fixed_vertices(const InputMesh& input, const RunParameters& parameters, const Domain* domain) {
+  std::vector<std::uint8_t> fixed = standing_vertices(input, parameters.standing(), domain);
   for (const Index v : parameters.fixed) {
     if (v >= fixed.size()) throw UsageError(fmt::format("fixed vertex {} does not exist: the mesh has {} vertices", v, fixed.size()));
     fixed[v] = 1;
@@ -60,8 +60,8 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
       parameters_(std::move(parameters)),
       pool_(std::move(pool)),
       acceleration_(std::move(acceleration)),
-      curves_(curves_for(*input_, parameters_.standing())),
-      fixed_(std::make_shared<const std::vector<std::uint8_t>>(fixed_vertices(*input_, parameters_, curves_.get()))),
+      domain_(domain_for(*input_, parameters_.standing())),
+      fixed_(std::make_shared<const std::vector<std::uint8_t>>(fixed_vertices(*input_, parameters_, domain_.get()))),
       colouring_(make_colouring(*input_, free_vertices(fixed(), parameters_.order), pool_.get())),
       immovable_(immovable_elements(input_->mesh, fixed(), pool_.get())),
       size_(make_size_field(input_, parameters_.combination)),
@@ -103,7 +103,7 @@ SmoothingTask Run::task() const {
           size_,
           parameters_.then_mean.has_value(),
           parameters_.standing().slides(),
-          curves_,
+          domain_,
           parameters_.max_deviation * input_->geometry.size,
           immovable_,
           pool_.get()};

@@ -121,8 +121,8 @@ class Run {
   [[nodiscard]] const std::shared_ptr<const Colouring>& shared_colouring() const noexcept { return colouring_; }
   /// 1 where a vertex may not move: boundary, unused, on an interface that is fixed, or the user's.
   [[nodiscard]] std::span<const std::uint8_t> fixed() const noexcept { return fixed_; }
-  /// The curves along which vertices of the boundary slide; null: none.
-  [[nodiscard]] const std::shared_ptr<const Curves>& curves() const noexcept { return curves_; }
+  /// Where vertices slide; null: none does.
+  [[nodiscard]] const std::shared_ptr<const Domain>& domain() const noexcept { return domain_; }
   [[nodiscard]] const SharedVector<std::uint8_t>& shared_fixed() const noexcept { return fixed_; }
   /// "it lies on the boundary, which stays"; empty for a free vertex.
   [[nodiscard]] std::string why_fixed(Index vertex) const;
@@ -219,7 +219,7 @@ class Run {
   RunParameters parameters_;
   std::shared_ptr<ThreadPool> pool_;
   Acceleration acceleration_;
-  std::shared_ptr<const Curves> curves_;  // along which vertices slide; null: none
+  std::shared_ptr<const Domain> domain_;  // where vertices slide; null: none does
   SharedVector<std::uint8_t> fixed_;
   std::shared_ptr<const Colouring> colouring_;
   std::vector<Index> immovable_;

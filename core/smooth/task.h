@@ -49,8 +49,8 @@ struct SmoothingTask {
   std::shared_ptr<const SizeField> size{};   // of a combination with a size function
   bool then_mean = false;                    // whether a second phase may come, see Sweep
   bool slides = false;                       // whether vertices of the boundary or of interfaces slide
-  std::shared_ptr<const Curves> curves{};    // along which: curves_for() the rule
-  double max_deviation = 0.0;                // of edges from the curve, in mesh units: see curve_slide.h
+  std::shared_ptr<const Domain> domain{};    // where: domain_for() the rule
+  double max_deviation = 0.0;                // of edges and faces from the input, in mesh units: see slide.h
   std::span<const Index> immovable{};        // see immovable_elements; for statistics on a device
   ThreadPool* pool = nullptr;
 };

@@ -46,7 +46,7 @@ RunView view_of(Run& run, bool percentiles) {
   view.colouring = run.shared_colouring();
   view.free_vertices = static_cast<Index>(run.visits_per_iteration());
   view.fixed = run.shared_fixed();
-  view.curves = run.curves();
+  view.domain = run.domain();
   view.records = run.history().shared_records();
   if (percentiles) view.percentiles = run.history().shared_percentiles();
   view.edits = run.edits().all().size();

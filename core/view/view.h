@@ -95,7 +95,7 @@ struct RunView {
   std::shared_ptr<const Colouring> colouring;  // of the free vertices, in the order of the visits
   Index free_vertices = 0;
   SharedVector<std::uint8_t> fixed;      // see Run::fixed
-  std::shared_ptr<const Curves> curves;  // see Run::curves; the input must be at hand
+  std::shared_ptr<const Domain> domain;  // see Run::domain; the input must be at hand
   SharedVector<IterationRecord> records;
   SharedVector<Percentiles> percentiles;      // of the metric it optimises, one a record; empty while `percentiles` is off
   std::shared_ptr<const RunSummary> summary;  // null until it has been worked out, which is once the session is at rest

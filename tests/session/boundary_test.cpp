@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/reference/curves.h"
+#include "core/reference/domain.h"
 #include "tests/session/spoken_session.h"
 #include "tests/support/temporary_folder.h"
 
@@ -38,9 +38,23 @@ TEST_F(BoundaryInASession, SlidesIsSaidAndUndone) {
   EXPECT_EQ(positions(), there);
   say("corner-angle 1");
   EXPECT_THAT(session_.active().title(), HasSubstr("corner angle 1"));
-  EXPECT_LT(session_.active().curves()->count(), session_.input()->mesh.vertex_count());
+  EXPECT_LT(session_.active().domain()->count(), session_.input()->mesh.vertex_count());
   say("generate coast 300 3");
   EXPECT_EQ(boundary(), "fixed") << "another mesh has a boundary of its own";
+}
+
+TEST_F(BoundaryInASession, OfAVolumeSlidesOnItsSurface) {
+  say("generate hexahedra 200 2");
+  say("boundary slide");
+  EXPECT_THAT(messages_, Contains(HasSubstr("on feature edges")));
+  say("run 2");
+  say("step vertex");
+  const std::vector<Vec3> there = positions();
+  const Index on_edges = session_.active().domain()->count_on_curves();
+  say("feature-angle 120");
+  EXPECT_LT(session_.active().domain()->count_on_curves(), on_edges);
+  say("undo");
+  EXPECT_EQ(positions(), there);
 }
 
 TEST_F(BoundaryInASession, WhyFixedTellsCorners) {
@@ -79,7 +93,7 @@ TEST_F(BoundaryInASession, StateFilesKeepIt) {
   json.erase("checksums");
   for (auto& run : json["runs"]) {
     run.erase("checksums");
-    for (const char* each : {"boundary", "corner-angle", "max-deviation"}) run["parameters"].erase(each);
+    for (const char* each : {"boundary", "corner-angle", "feature-angle", "max-deviation"}) run["parameters"].erase(each);
   }
   std::ofstream(file) << json;
   say("open-state " + file);
@@ -93,7 +107,7 @@ TEST_F(BoundaryInASession, WhatCannotBeIsRefused) {
   say("boundary slide");
   EXPECT_TRUE(fails("method laplace"));
   EXPECT_EQ(session_.active().parameters().method, "dmo");
-  say("generate tetrahedra 64 1");
+  say("generate globe 300 1");
   EXPECT_TRUE(fails("boundary slide"));
   EXPECT_EQ(boundary(), "fixed");
 }

@@ -1,13 +1,12 @@
 // Who slides along which curve of the boundary, and where places on it are: against shapes whose answers are known.
 
-#include "core/reference/curves.h"
-
 #include <cmath>
 #include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/reference/domain.h"
 #include "tests/support/meshes.h"
 
 namespace dmoscope {
@@ -31,11 +30,11 @@ Mesh polygon(Index sides) {
 }
 
 std::set<Index> sliding(const InputMesh& mesh, double corner_angle = 20.0, InterfaceRule interfaces = InterfaceRule::Fixed) {
-  const Curves curves(mesh, {interfaces, BoundaryRule::Slide, corner_angle});
+  const Domain domain(mesh, {interfaces, BoundaryRule::Slide, corner_angle});
   std::set<Index> found;
   for (Index v = 0; v < mesh.mesh.vertex_count(); ++v)
-    if (curves.slides(v)) found.insert(v);
-  EXPECT_EQ(curves.count(), found.size());
+    if (domain.slides(v)) found.insert(v);
+  EXPECT_EQ(domain.count(), found.size());
   return found;
 }
 /// Vertex (i, j) of a lattice of n x n squares.
@@ -47,9 +46,10 @@ Group of_lines(std::string name, std::vector<Index> ends) {
 
 TEST(Curves, OfASquareAreItsSidesWithoutTheCorners) {
   const auto mesh = input(lattice(4, 0.2, 1));
-  const Curves curves(*mesh, kSlide);
-  EXPECT_EQ(curves.count(), 12U);
-  EXPECT_EQ(curves.corners(), 4U);
+  const Domain domain(*mesh, kSlide);
+  const Curves& curves = domain.curves();
+  EXPECT_EQ(domain.count(), 12U);
+  EXPECT_EQ(domain.corners(), 4U);
   EXPECT_EQ(curves.curve_count(), 4U);
   for (const Index corner : {at(4, 0, 0), at(4, 4, 0), at(4, 0, 4), at(4, 4, 4)}) EXPECT_FALSE(curves.slides(corner));
   for (const Index v : {at(4, 1, 0), at(4, 2, 0), at(4, 3, 0)}) {
@@ -71,7 +71,8 @@ TEST(Curves, CornersAreWhereTheBoundaryTurnsByMore) {
 TEST(Curves, AClosedCurveGoesAround) {
   constexpr Index kSides = 40;
   const auto mesh = input(polygon(kSides));
-  const Curves curves(*mesh, kSlide);
+  const Domain domain(*mesh, kSlide);
+  const Curves& curves = domain.curves();
   ASSERT_EQ(curves.curve_count(), 1U);
   const double side = 2 * std::sin(M_PI / kSides);
   for (Index v = 1; v <= kSides; ++v) {
@@ -97,7 +98,8 @@ TEST(Curves, AClosedCurveGoesAround) {
 
 TEST(Curves, APlaceBesideTheCurveIsNone) {
   const auto mesh = input(lattice(4, 0.2, 1));
-  const Curves curves(*mesh, kSlide);
+  const Domain domain(*mesh, kSlide);
+  const Curves& curves = domain.curves();
   EXPECT_TRUE(curves.place(at(4, 2, 0), {0.4, 0.0, 0}));
   EXPECT_FALSE(curves.place(at(4, 2, 0), {0.4, 1e-9, 0}));
   EXPECT_FALSE(curves.place(at(4, 2, 0), {0.4, 1.0, 0})) << "that is another side";
@@ -177,12 +179,12 @@ TEST(Curves, OfInterfacesAreWhatLiesBetweenMaterials) {
   mesh.groups = {steel};
   const auto slides = [](const Mesh& each, BoundaryRule boundary) {
     const auto prepared = input(each);
-    const Curves curves(*prepared, {InterfaceRule::Slide, boundary, 20.0});
+    const Domain domain(*prepared, {InterfaceRule::Slide, boundary, 20.0});
     std::set<Index> inside;
     for (Index v = 0; v < each.vertex_count(); ++v)
-      if (curves.slides(v) && prepared->topology.boundary()[v] == 0) inside.insert(v);
-    EXPECT_EQ(inside.size(), curves.count_inside());
-    EXPECT_EQ(curves.count() == curves.count_inside(), boundary == BoundaryRule::Fixed);
+      if (domain.slides(v) && prepared->topology.boundary()[v] == 0) inside.insert(v);
+    EXPECT_EQ(inside.size(), domain.count_inside());
+    EXPECT_EQ(domain.count() == domain.count_inside(), boundary == BoundaryRule::Fixed);
     return inside;
   };
   const std::set<Index> all{at(n, 2, 1), at(n, 2, 2), at(n, 2, 3), at(n, 2, 4), at(n, 2, 5)};

@@ -11,8 +11,7 @@
 #include "core/base/error.h"
 #include "core/mesh/generate.h"
 #include "core/numeric/simd.h"
-#include "core/reference/curves.h"
-#include "tests/smooth/promises.h"
+#include "tests/smooth/sliding.h"
 #include "tests/support/sanitized.h"
 
 namespace dmoscope {
@@ -106,13 +105,6 @@ std::vector<Specimen> specimens() {
   return all;
 }
 
-RunParameters sliding(double max_deviation = 1e-3) {
-  RunParameters parameters;
-  parameters.boundary = BoundaryRule::Slide;
-  parameters.max_deviation = max_deviation;
-  return parameters;
-}
-
 /// What holds whatever slides.
 void expect_on_the_boundary(const Specimen& specimen, const dmoscope::Run& run, const std::vector<Segment>& edges, double max_deviation) {
   const InputMesh& mesh = run.input();
@@ -125,7 +117,7 @@ void expect_on_the_boundary(const Specimen& specimen, const dmoscope::Run& run, 
   for (Index v = 0; v < now.size(); ++v) {
     if (mesh.topology.boundary()[v] == 0) continue;
     ASSERT_LE(distance(now[v], before, edges), tolerance) << specimen.name << ": vertex " << v << " left the boundary";
-    if (run.curves()->slides(v)) continue;
+    if (run.domain()->slides(v)) continue;
     ASSERT_TRUE(same_bits(now.subspan(v, 1), before.subspan(v, 1))) << specimen.name << ": corner " << v;
   }
   for (const auto& [a, b] : edges)
@@ -134,20 +126,6 @@ void expect_on_the_boundary(const Specimen& specimen, const dmoscope::Run& run, 
       ASSERT_LE(distance(before[a] + t * (before[b] - before[a]), now, edges), bound)
           << specimen.name << ": the input at " << a << ' ' << b;
     }
-}
-
-/// Along every curve places rise strictly from one corner to the next, and around a closed one by its length.
-void expect_in_order(const Specimen& specimen, const dmoscope::Run& run) {
-  const Curves& curves = *run.curves();
-  for (Index v = 0; v < run.positions().size(); ++v) {
-    if (!curves.slides(v)) continue;
-    const auto place = curves.place(v, run.positions()[v]);
-    ASSERT_TRUE(place) << specimen.name << ": vertex " << v;
-    const auto beside = curves.neighbours(v, *place, run.positions());
-    ASSERT_TRUE(beside) << specimen.name << ": vertex " << v;
-    ASSERT_LT(beside->place_before, *place) << specimen.name << ": vertex " << v;
-    ASSERT_LT(*place, beside->place_after) << specimen.name << ": vertex " << v;
-  }
 }
 
 class Sliding : public ::testing::TestWithParam<Metric> {};
@@ -159,19 +137,17 @@ TEST_P(Sliding, KeepsItsPromisesAfterEveryIteration) {
     const auto mesh = input(specimen.mesh);
     const auto edges = boundary_edges(mesh->mesh);
     for (const double bound : {1e-3, 0.05}) {
-      RunParameters parameters = sliding(bound);
+      RunParameters parameters = sliding_by(bound);
       parameters.metric = GetParam();
       dmoscope::Run run = make_run(mesh, parameters);
-      ASSERT_NE(run.curves(), nullptr);
+      ASSERT_NE(run.domain(), nullptr);
       for (std::uint64_t iteration = 1; iteration <= (kSanitized ? 3 : 6); ++iteration) {
         expect_promise_one(specimen, run, iteration);
         expect_on_the_boundary(specimen, run, edges, bound);
         expect_in_order(specimen, run);
         if (::testing::Test::HasFatalFailure()) return;
       }
-      for (Index v = 0; v < run.positions().size(); ++v)
-        moved +=
-            run.curves()->slides(v) && !same_bits(run.positions().subspan(v, 1), std::span(mesh->mesh.positions).subspan(v, 1)) ? 1 : 0;
+      moved += slid(run);
     }
   }
   EXPECT_GT(moved, 200U);
@@ -191,7 +167,7 @@ TEST(SlidingGains, WhatTheBoundaryHolds) {
   for (Index i = 1; i < 8; ++i) mesh.positions[i].x += (i % 2 == 0 ? -0.45 : 0.45) / 8;
   const auto prepared = input(mesh);
   Progress progress;
-  dmoscope::Run held = make_run(prepared, {}), free = make_run(prepared, sliding());
+  dmoscope::Run held = make_run(prepared, {}), free = make_run(prepared, sliding_by());
   held.iterate(50, progress);
   free.iterate(50, progress);
   EXPECT_LT(held.statistics().minimum, 0.3);
@@ -227,7 +203,7 @@ TEST(SlidingInside, InterfacesStayWhereTheyAre) {
       parameters.interfaces = InterfaceRule::Slide;
       parameters.boundary = boundary;
       dmoscope::Run run = make_run(mesh, parameters);
-      EXPECT_GT(run.curves()->count_inside(), 0U) << specimen.name;
+      EXPECT_GT(run.domain()->count_inside(), 0U) << specimen.name;
       for (std::uint64_t iteration = 1; iteration <= 6; ++iteration) {
         expect_promise_one(specimen, run, iteration);
         expect_in_order(specimen, run);
@@ -244,9 +220,7 @@ TEST(SlidingInside, InterfacesStayWhereTheyAre) {
           }
         }
       }
-      for (Index v = 0; v < run.positions().size(); ++v)
-        moved +=
-            run.curves()->slides(v) && !same_bits(run.positions().subspan(v, 1), std::span(mesh->mesh.positions).subspan(v, 1)) ? 1 : 0;
+      moved += slid(run);
     }
   }
   EXPECT_GT(moved, 50U);
@@ -258,7 +232,7 @@ TEST(SlidingBits, AreTheSame) {
     const auto mesh = input(specimen.mesh);
     Progress progress;
     for (const int aims : {0, 1, 2}) {
-      RunParameters parameters = sliding();
+      RunParameters parameters = sliding_by();
       if (aims == 1) parameters.then_mean = MeanPhase{.patience = 2};
       if (aims == 2) parameters.combination = Combination{0.3, Metric::MinAngle};
       if (aims == 2 && !defined_for_all(Metric::MinAngle, specimen.mesh)) continue;
@@ -293,7 +267,7 @@ TEST(SlidingBits, AreTheSame) {
 TEST(SlidingChoice, NobodyGoesPastANeighbour) {
   for (const std::uint64_t seed : {5U, 6U, 7U, 8U}) {
     Mesh mesh = lattice(9, 0.3, seed);
-    RunParameters parameters = sliding(1.0);
+    RunParameters parameters = sliding_by(1.0);
     for (Index v = 10; v < 20; ++v) {
       if (v % 10 == 0 || v % 10 == 9) continue;
       mesh.positions[v].y = -mesh.positions[v].y;
@@ -320,16 +294,16 @@ TEST(SlidingRefusals, AreSaid) {
     }
   };
   Progress progress;
-  RunParameters other = sliding();
+  RunParameters other = sliding_by();
   other.method = "active-set";
   expect_refused(input(lattice(4, 0.1, 1)), other, "only dmo slides");
-  expect_refused(input(generate_mesh("tetrahedra", 64, 1, progress)), sliding(), "volume");
+  expect_refused(input(generate_mesh("globe", 300, 1, progress)), sliding_by(), "longitude");
 }
 
 /// Vertices that a person fixes stay, also on a curve, and the others slide between them.
 TEST(SlidingChoice, AFixedVertexStays) {
   const auto mesh = input(lattice(8, 0.45, 4));
-  RunParameters parameters = sliding();
+  RunParameters parameters = sliding_by();
   parameters.fixed = {4};
   dmoscope::Run run = make_run(mesh, parameters);
   Progress progress;

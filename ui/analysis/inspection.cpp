@@ -8,7 +8,7 @@
 #include "core/base/error.h"
 #include "core/drawing/ticks.h"
 #include "core/quality/quality.h"
-#include "core/reference/curves.h"
+#include "core/reference/domain.h"
 #include "core/run/sweep_after.h"
 #include "core/smooth/execution/method_table.h"
 
@@ -223,7 +223,7 @@ Inspection inspect(const SessionView& session, Index vertex) {
     inspection.trouble = "This vertex is of no element: nothing moves it.";
     return inspection;
   }
-  if (run.fixed[vertex] == 0 && run.curves != nullptr && run.curves->slides(vertex)) {
+  if (run.fixed[vertex] == 0 && run.domain != nullptr && run.domain->slides(vertex)) {
     inspection.trouble = "This vertex slides along a curve: it is searched on a line, not on a grid.";
     return inspection;
   }

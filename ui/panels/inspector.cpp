@@ -9,7 +9,7 @@
 
 #include "core/mesh/volume.h"
 #include "core/quality/quality.h"
-#include "core/reference/curves.h"
+#include "core/reference/domain.h"
 #include "ui/panels/panels.h"
 #include "ui/state/format.h"
 
@@ -99,7 +99,7 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
   if (at.z != 0.0 || context.state.is_volume) value_row(context, "z", fmt::format("{:.8g}", at.z), full);
   const bool boundary = topology.boundary()[vertex] != 0;
   const bool fixed = run != nullptr && vertex < run->fixed.size() && run->fixed[vertex] != 0;
-  const bool slides = !fixed && run != nullptr && run->curves != nullptr && run->curves->slides(vertex);
+  const bool slides = !fixed && run != nullptr && run->domain != nullptr && run->domain->slides(vertex);
   const Interfaces& interfaces = frame.input->interfaces;
   const bool interface = fixed && run->parameters.interfaces != InterfaceRule::Free && interfaces.holds(vertex);
   value_row(context, "may move",

@@ -82,7 +82,7 @@ void draw_parameter(PanelContext& context, const ParameterInfo& row, const RunPa
 /// What the run's method can be told, and nothing else.
 void draw_options(PanelContext& context, const RunParameters& parameters) {
   for (const ParameterInfo& row : parameter_table())
-    if (row.in_session && row.reader != nullptr && row.read_by(parameters) && !(row.planar_only && context.state.is_volume))
+    if (row.in_session && row.reader != nullptr && row.read_by(parameters) && !(row.volume_only && !context.state.is_volume))
       draw_parameter(context, row, parameters);
 }
 

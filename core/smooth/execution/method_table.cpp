@@ -62,8 +62,6 @@ constexpr auto kMethods = std::to_array<MethodInfo>(
 void require_sliding(const SmoothingTask& task) {
   if (!method_info(task.method).slides)
     throw UsageError(fmt::format("only dmo slides vertices along boundaries and interfaces, not {}", task.method));
-  if (task.input->is_volume())
-    throw UsageError("only boundaries and interfaces of planar meshes slide in this version, and the mesh is a volume");
   if (task.input->geometry.plane.period > 0.0) throw UsageError("nothing slides in meshes that go round in longitude");
 }
 

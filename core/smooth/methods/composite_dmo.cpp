@@ -3,7 +3,7 @@
 #include <array>
 
 #include "core/smooth/edge_neighbours.h"
-#include "core/smooth/methods/curve_slide.h"
+#include "core/smooth/methods/slide.h"
 
 namespace dmoscope {
 
@@ -179,10 +179,15 @@ std::optional<Vec3> CompositeRule<Frame>::target(PositionView positions, Index v
 template class CompositeRule<Plane>;
 template class CompositeRule<Space>;
 
+namespace {
+template <class Frame>
+std::unique_ptr<Smoother> make_composite_smoother_in(const SmoothingTask& task, const CompositeObjective& composite) {
+  return make_sliding_smoother<Frame>(task, CompositeRule<Frame>(*task.input, composite, task.search), composite);
+}
+}  // namespace
+
 std::unique_ptr<Smoother> make_composite_smoother(const SmoothingTask& task, CompositeObjective composite) {
-  if (task.input->is_volume()) return make_rule_smoother(task, CompositeRule<Space>(*task.input, std::move(composite), task.search));
-  CurveSlide slide(task, composite);
-  return make_rule_smoother(task, SlidingRule(CompositeRule<Plane>(*task.input, std::move(composite), task.search), std::move(slide)));
+  return task.input->is_volume() ? make_composite_smoother_in<Space>(task, composite) : make_composite_smoother_in<Plane>(task, composite);
 }
 
 std::unique_ptr<Smoother> make_composite_smoother(const SmoothingTask& task) {

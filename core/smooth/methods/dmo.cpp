@@ -8,7 +8,7 @@
 
 #include "core/base/memory.h"
 #include "core/smooth/kernels/lane_kernel.h"
-#include "core/smooth/methods/curve_slide.h"
+#include "core/smooth/methods/slide.h"
 #include "core/smooth/methods/fast_volume_search.h"
 #include "core/smooth/vertex_rule.h"
 
@@ -111,10 +111,10 @@ class LaneDmo final : public Smoother {
     };
     task.visit_alone = [](void* owner, Index rank) {
       auto& self = *static_cast<LaneDmo*>(owner);
-      thread_local Star<double> star;  // kept: stepping allocates nothing
+      thread_local Slide<Plane>::Scratch room;  // kept: stepping allocates nothing
       const Index vertex = self.table_.vertex_of_rank[rank];
       const auto target =
-          self.slide_.slides(vertex) ? self.slide_.target(self.view(), vertex, star) : self.reference_.target(self.view(), vertex, star);
+          self.slide_.slides(vertex) ? self.slide_.target(self.view(), vertex, room) : self.reference_.target(self.view(), vertex, room.star);
       if (target) self.ranked_[rank] = *target;
       return target.has_value();
     };
@@ -143,7 +143,7 @@ class LaneDmo final : public Smoother {
   std::shared_ptr<const InputMesh> input_;
   std::shared_ptr<const Colouring> colouring_;
   Reference<M, Plane> reference_;
-  CurveSlide slide_;
+  Slide<Plane> slide_;
   StarTable table_;
   LaneKernel kernel_;
   std::vector<Vec3> ranked_;
@@ -168,13 +168,9 @@ std::unique_ptr<Smoother> make_dmo_smoother(const SmoothingTask& task) {
       if constexpr (std::is_same_v<Frame, Plane>)
         return std::make_unique<LaneDmo<M>>(task);
       else
-        return make_rule_smoother(task, FastVolumeSearch<M>(*task.input, task.search));
+        return make_sliding_smoother<Space>(task, FastVolumeSearch<M>(*task.input, task.search), single_objective(M));
     }
-    Reference<M, Frame> reference(*task.input, task.search);
-    if constexpr (std::is_same_v<Frame, Plane>)
-      return make_rule_smoother(task, SlidingRule(std::move(reference), CurveSlide(task, single_objective(M))));
-    else
-      return make_rule_smoother(task, std::move(reference));
+    return make_sliding_smoother<Frame>(task, Reference<M, Frame>(*task.input, task.search), single_objective(M));
   });
 }
 

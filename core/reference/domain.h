@@ -1,0 +1,60 @@
+#pragma once
+// Where the vertices of a mesh may go that slide: the curves and, of a volume, the surfaces of the input.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/reference/curves.h"
+#include "core/reference/facets.h"
+#include "core/reference/standing.h"
+#include "core/reference/surface_ends.h"
+
+namespace dmoscope {
+
+/// The mesh must outlive it.
+class Domain {
+ public:
+  /// In a plane a vertex of the boundary, or of an interface between materials, slides along it where the rule lets these. In a volume it
+  /// slides on the boundary's surface, or on that of an interface; along its feature edges where it lies on one. A feature edge is one
+  /// - where the surface folds by more than the feature angle, ends, or where other than two faces meet;
+  /// - between faces that the file gives different names, or that it names itself.
+  /// A vertex stays
+  /// - where other than two of these edges meet, or where they turn by more than the corner angle or have no direction;
+  /// - where sheets of the surface touch in it alone, or along an edge of the boundary with more than two faces;
+  /// - that the file names: a point, an end of a string or line, a corner of a required element, or, unless interfaces are free, the end of
+  ///   an interface or of a named line or face inside.
+  Domain(const InputMesh& input, const StandingRule& rule);
+
+  [[nodiscard]] bool slides(Index vertex) const noexcept { return on_curve(vertex) || on_surface(vertex); }
+  [[nodiscard]] bool on_curve(Index vertex) const noexcept { return curves_.slides(vertex); }
+  [[nodiscard]] bool on_surface(Index vertex) const noexcept { return facets_.any() && facets_.carries(vertex); }
+  [[nodiscard]] const Curves& curves() const noexcept { return curves_; }
+  [[nodiscard]] const Facets& facets() const noexcept { return facets_; }  // none in a plane
+
+  [[nodiscard]] Index count() const noexcept { return sliding_; }        // of vertices that slide
+  [[nodiscard]] Index count_inside() const noexcept { return inside_; }  // of these, off the boundary
+  [[nodiscard]] Index count_on_curves() const noexcept { return on_curves_; }
+  [[nodiscard]] Index corners() const noexcept { return corners_; }  // of the boundary's others, where it slides
+  /// Is an edge of the input a segment of one of these stretches?
+  [[nodiscard]] bool is_within(std::span<const Curves::Stretch> stretches, Index a, Index b) const;
+  /// "122 vertices slide along the boundary, and 34 of its vertices stay; 36 vertices slide along interfaces".
+  [[nodiscard]] std::string sentence() const;
+
+ private:
+  struct Segment {
+    Index low, high, curve, segment;
+    friend auto operator<=>(const Segment&, const Segment&) = default;
+  };
+  Domain(const InputMesh& input, const StandingRule& rule, SurfaceEnds ends);
+
+  Curves curves_;
+  Facets facets_;
+  std::vector<Segment> segments_;  // of all curves, ascending
+  Index sliding_ = 0, inside_ = 0, on_curves_ = 0, corners_ = 0;
+};
+
+/// Where the rule lets vertices slide; null where it lets none, and for a surface mesh.
+[[nodiscard]] std::shared_ptr<const Domain> domain_for(const InputMesh& input, const StandingRule& rule);
+
+}  // namespace dmoscope

@@ -1,0 +1,229 @@
+#include "core/reference/facets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace dmoscope {
+
+namespace {
+
+/// Roundings of a coordinate that a point of a facet, computed, may lie beside it.
+constexpr double kFacetRoundings = 8.0;
+/// What a weight may be below 0 where the line just about meets the facet.
+constexpr double kWeightRounding = 1e-10;
+constexpr int kLongestWalk = 256;
+
+double most(Vec3 p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+
+Vec3 unit(Vec3 a) {
+  const double l = length(a);
+  return l > 0.0 ? (1.0 / l) * a : Vec3{};
+}
+
+std::size_t next(std::size_t corner) { return corner == 2 ? 0 : corner + 1; }
+
+}  // namespace
+
+Facets::Facets(const InputMesh& input, ElementTable faces, std::span<const Index> links)
+    : points_(input.mesh.positions),
+      rounding_(kFacetRoundings *
+                (input.mesh.single_precision ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon())),
+      faces_(std::move(faces)) {
+  split(faces_, links);
+  find_patches();
+  find_normals();
+  find_sides();
+  index_faces(input.mesh.vertex_count());
+  std::vector<std::array<Vec3, 3>> triangles;
+  std::vector<Index> patch_of;
+  Index patches = 0;
+  for (const Facet& facet : facets_) {
+    triangles.push_back({points_[facet.corners[0]], points_[facet.corners[1]], points_[facet.corners[2]]});
+    patch_of.push_back(facet.patch);
+    patches = std::max(patches, facet.patch + 1);
+  }
+  tree_ = FacetTree(std::move(triangles), patch_of, patches);
+  home_.assign(input.mesh.vertex_count(), kNoIndex);
+}
+
+void Facets::split(const ElementTable& faces, std::span<const Index> links) {
+  struct Side {
+    Index facet, corner;
+  };
+  std::vector<Side> side_of(faces.all_corners().size());  // by the face's corner that the edge leaves from
+  for (Index f = 0; f < faces.size(); ++f) {
+    const auto c = faces.corners(f);
+    const Index first = faces.offsets()[f], number = static_cast<Index>(facets_.size());
+    first_facet_.push_back(number);
+    const auto add = [&](std::array<Index, 3> local) {
+      facets_.push_back({{c[local[0]], c[local[1]], c[local[2]]}, {kNoIndex, kNoIndex, kNoIndex}});
+    };
+    if (c.size() == 3) {
+      add({0, 1, 2});
+      for (Index i = 0; i < 3; ++i) side_of[first + i] = {number, (i + 2) % 3};
+      continue;
+    }
+    const Vec3 one = points_[c[2]] - points_[c[0]], other = points_[c[3]] - points_[c[1]];
+    if (dot(one, one) <= dot(other, other)) {
+      add({0, 1, 2}), add({0, 2, 3});
+      facets_[number].across[1] = number + 1, facets_[number + 1].across[2] = number;
+      side_of[first] = {number, 2}, side_of[first + 1] = {number, 0};
+      side_of[first + 2] = {number + 1, 0}, side_of[first + 3] = {number + 1, 1};
+    } else {
+      add({0, 1, 3}), add({1, 2, 3});
+      facets_[number].across[0] = number + 1, facets_[number + 1].across[1] = number;
+      side_of[first] = {number, 2}, side_of[first + 3] = {number, 1};
+      side_of[first + 1] = {number + 1, 2}, side_of[first + 2] = {number + 1, 0};
+    }
+  }
+  for (std::size_t i = 0; i < links.size(); ++i)
+    if (links[i] != kNoIndex) facets_[side_of[i].facet].across[side_of[i].corner] = side_of[links[i]].facet;
+}
+
+void Facets::find_patches() {
+  Index patches = 0;
+  std::vector<Index> waiting;
+  for (Index start = 0; start < facets_.size(); ++start) {
+    if (facets_[start].patch != kNoIndex) continue;
+    facets_[start].patch = patches;
+    waiting.push_back(start);
+    while (!waiting.empty()) {
+      const Index f = waiting.back();
+      waiting.pop_back();
+      for (const Index g : facets_[f].across) {
+        if (g == kNoIndex || facets_[g].patch != kNoIndex) continue;
+        facets_[g].patch = patches;
+        waiting.push_back(g);
+      }
+    }
+    ++patches;
+  }
+}
+
+std::vector<Index> Facets::fan_at(Index facet, Index vertex) const {
+  std::vector<Index> found{facet};
+  for (const std::size_t way : {std::size_t{1}, std::size_t{2}}) {
+    for (Index f = facet;;) {
+      const auto at = static_cast<std::size_t>(std::ranges::find(facets_[f].corners, vertex) - facets_[f].corners.begin());
+      f = facets_[f].across[(at + way) % 3];
+      if (f == kNoIndex || std::ranges::find(found, f) != found.end()) break;
+      found.push_back(f);
+    }
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+void Facets::find_normals() {
+  normals_.resize(facets_.size());
+  const auto weighted = [this](Index f, Index vertex) {
+    const auto& c = facets_[f].corners;
+    const auto at = static_cast<std::size_t>(std::ranges::find(c, vertex) - c.begin());
+    const Vec3 a = points_[c[next(at)]] - points_[vertex], b = points_[c[next(next(at))]] - points_[vertex], across = cross(a, b);
+    return std::atan2(length(across), dot(a, b)) * unit(across);
+  };
+  for (Index f = 0; f < facets_.size(); ++f) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      Vec3 sum;
+      for (const Index g : fan_at(f, facets_[f].corners[i])) sum = sum + weighted(g, facets_[f].corners[i]);
+      normals_[f][i] = unit(sum);
+    }
+  }
+}
+
+void Facets::find_sides() {
+  for (Index f = 0; f < facets_.size(); ++f) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (facets_[f].across[i] != kNoIndex) continue;
+      const Index a = facets_[f].corners[next(i)], b = facets_[f].corners[next(next(i))];
+      sides_.push_back({std::min(a, b), std::max(a, b), f, static_cast<Index>(i)});
+    }
+  }
+  std::ranges::sort(sides_);
+}
+
+std::span<const FacetSide> Facets::sides_of(Index a, Index b) const {
+  const Index low = std::min(a, b), high = std::max(a, b);
+  const auto first = std::lower_bound(sides_.begin(), sides_.end(), FacetSide{low, high, 0, 0});
+  const auto last = std::upper_bound(first, sides_.end(), FacetSide{low, high, kNoIndex, kNoIndex});
+  return {first, last};
+}
+
+void Facets::index_faces(Index vertices) {
+  face_offsets_.assign(vertices + std::size_t{1}, 0);
+  for (const Index v : faces_.all_corners()) ++face_offsets_[v + std::size_t{1}];
+  std::partial_sum(face_offsets_.begin(), face_offsets_.end(), face_offsets_.begin());
+  faces_at_.resize(faces_.all_corners().size());
+  facets_at_.assign(vertices, 0);
+  for (const Facet& facet : facets_)
+    for (const Index v : facet.corners) ++facets_at_[v];
+  std::vector<Index> at(face_offsets_.begin(), face_offsets_.end() - 1);
+  for (Index f = 0; f < faces_.size(); ++f)
+    for (const Index v : faces_.corners(f)) faces_at_[at[v]++] = f;
+}
+
+void Facets::carry(std::span<const std::uint8_t> may) {
+  std::vector<Index> one(home_.size(), kNoIndex);
+  for (Index f = 0; f < facets_.size(); ++f)
+    for (const Index v : facets_[f].corners) one[v] = f;
+  for (Index v = 0; v < home_.size(); ++v)
+    if (may[v] != 0 && one[v] != kNoIndex && fan_at(one[v], v).size() == facets_at_[v]) home_[v] = one[v];
+}
+
+std::optional<FacetPlace> Facets::place(Index vertex, Vec3 position) const {
+  const auto [facet, point] = tree_.nearest(facets_[home_[vertex]].patch, position);
+  if (facet == kNoIndex) return std::nullopt;
+  double largest = most(position);
+  for (const Index corner : facets_[facet].corners) largest = std::max(largest, most(points_[corner]));
+  if (!(point.square <= rounding_ * largest * (rounding_ * largest))) return std::nullopt;
+  return FacetPlace{facet, point.weights};
+}
+
+Vec3 Facets::at(const FacetPlace& place) const {
+  const auto& c = facets_[place.facet].corners;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (place.weights[i] == 1.0) return points_[c[i]];
+  const Vec3 a = points_[c[0]];
+  return a + place.weights[1] * (points_[c[1]] - a) + place.weights[2] * (points_[c[2]] - a);  // coordinates that all share stay
+}
+
+Vec3 Facets::normal(const FacetPlace& place) const {
+  const auto& n = normals_[place.facet];
+  return unit(place.weights[0] * n[0] + place.weights[1] * n[1] + place.weights[2] * n[2]);
+}
+
+std::optional<FacetPlace> Facets::walk(Index facet, const Plane& plane, Vec3 origin, Vec2<double> target, double least_cosine) const {
+  Index before = kNoIndex;
+  for (int step = 0; step < kLongestWalk; ++step) {
+    const Facet& here = facets_[facet];
+    std::array<Vec3, 3> p;
+    std::array<Vec2<double>, 3> q;  // from the target
+    for (std::size_t i = 0; i < 3; ++i) p[i] = points_[here.corners[i]], q[i] = plane.project(p[i] - origin) - target;
+    const std::array<double, 3> part{cross(q[1], q[2]), cross(q[2], q[0]), cross(q[0], q[1])};
+    const double area = cross(q[1] - q[0], q[2] - q[0]);
+    if (!(area > least_cosine * length(cross(p[1] - p[0], p[2] - p[0])))) return std::nullopt;
+    const double below = -kWeightRounding * area;
+    if (part[0] >= below && part[1] >= below && part[2] >= below) {
+      FacetPlace found{facet, {std::max(part[0], 0.0), std::max(part[1], 0.0), std::max(part[2], 0.0)}};
+      const double sum = found.weights[0] + found.weights[1] + found.weights[2];
+      for (double& weight : found.weights) weight /= sum;
+      return found;
+    }
+    // Across the edge that the target is farthest beyond; back only where there is no other way.
+    std::size_t through = 3;
+    for (const bool back : {false, true}) {
+      for (std::size_t i = 0; i < 3 && (!back || through == 3); ++i)
+        if (part[i] < below && here.across[i] != kNoIndex && (here.across[i] == before) == back &&
+            (through == 3 || part[i] < part[through]))
+          through = i;
+    }
+    if (through == 3) return std::nullopt;
+    before = facet;
+    facet = here.across[through];
+  }
+  return std::nullopt;
+}
+
+}  // namespace dmoscope

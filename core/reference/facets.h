@@ -1,0 +1,95 @@
+#pragma once
+// The surface of the input as flat triangles, on which vertices slide and which none of them ever leaves.
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/input/input_mesh.h"
+#include "core/reference/facet_tree.h"
+
+namespace dmoscope {
+
+/// A triangle of the input's surface: a triangular face, or half a quadrilateral one, split by its shorter diagonal.
+struct Facet {
+  std::array<Index, 3> corners;
+  std::array<Index, 3> across;  // by corner: the facet beyond the edge opposite to it; kNoIndex: a feature edge, which nothing crosses
+  Index patch = kNoIndex;       // facets that no feature edge parts
+};
+
+/// A facet, and the weights of its corners, which are >= 0 and add up to 1.
+struct FacetPlace {
+  Index facet = kNoIndex;
+  std::array<double, 3> weights{};
+};
+
+/// A feature edge as a side of a facet.
+struct FacetSide {
+  Index low, high;  // its ends
+  Index facet, corner;
+  friend auto operator<=>(const FacetSide&, const FacetSide&) = default;
+};
+
+/// Faces are those of the mesh that move with their vertices; facets stay where the faces were in the input. The mesh must outlive them.
+class Facets {
+ public:
+  /// None.
+  Facets() = default;
+  /// `faces`: triangles and quadrilaterals. `links`: by the corners of all faces, the other corner (an index of the same kind) whose edge
+  /// is the same one, where nothing parts the two faces; else kNoIndex. An edge belongs to the corner it leaves from.
+  Facets(const InputMesh& input, ElementTable faces, std::span<const Index> links);
+  /// Those vertices of the faces slide on them whose star is one closed fan, and which `may`.
+  void carry(std::span<const std::uint8_t> may);
+
+  [[nodiscard]] bool any() const noexcept { return !facets_.empty(); }
+  [[nodiscard]] bool carries(Index vertex) const noexcept { return home_[vertex] != kNoIndex; }
+  [[nodiscard]] const ElementTable& faces() const noexcept { return faces_; }
+  /// The faces at a vertex.
+  [[nodiscard]] std::span<const Index> faces_at(Index vertex) const {
+    return {faces_at_.data() + face_offsets_[vertex], faces_at_.data() + face_offsets_[vertex + 1]};
+  }
+  [[nodiscard]] Index patch_of_face(Index face) const { return facets_[first_facet_[face]].patch; }
+  [[nodiscard]] std::span<const Facet> facets() const noexcept { return facets_; }
+  [[nodiscard]] Vec3 point(Index vertex) const { return points_[vertex]; }
+  /// The facets beside a feature edge of the input, or the edge of a surface.
+  [[nodiscard]] std::span<const FacetSide> sides_of(Index a, Index b) const;
+  /// The facets around a vertex, from one of them on as far as no feature edge parts them, ascending.
+  [[nodiscard]] std::vector<Index> fan_at(Index facet, Index vertex) const;
+  /// How many facets have the vertex as a corner.
+  [[nodiscard]] Index count_at(Index vertex) const { return facets_at_[vertex]; }
+
+  /// Where a vertex that slides on the surface stands; nowhere for one that was put beside its patch. The nearest facet, of equals the
+  /// first: a place follows from the position alone.
+  [[nodiscard]] std::optional<FacetPlace> place(Index vertex, Vec3 position) const;
+  [[nodiscard]] Vec3 at(const FacetPlace& place) const;
+  /// Of length 1; the mean of the facets around each corner, as far as no feature edge parts them. Zero where these cancel out.
+  [[nodiscard]] Vec3 normal(const FacetPlace& place) const;
+
+  /// From a facet on to the one that a line along the plane's normal meets, from facet to facet and across no feature edge. `target`: in
+  /// the plane, from `origin`. `least_cosine`: facets that are steeper than this, or turned away, end the walk. None: it does not get
+  /// there.
+  [[nodiscard]] std::optional<FacetPlace> walk(Index facet, const Plane& plane, Vec3 origin, Vec2<double> target,
+                                               double least_cosine) const;
+
+ private:
+  void split(const ElementTable& faces, std::span<const Index> links);
+  void find_patches();
+  void find_normals();
+  void find_sides();
+  void index_faces(Index vertices);
+
+  std::span<const Vec3> points_;  // of the input
+  double rounding_ = 0.0;         // of its coordinates
+  ElementTable faces_;
+  std::vector<Index> face_offsets_, faces_at_;  // by vertex
+  std::vector<Index> first_facet_;              // by face
+  std::vector<Facet> facets_;
+  std::vector<Index> facets_at_;              // by vertex: how many
+  std::vector<std::array<Vec3, 3>> normals_;  // at the corners of each facet
+  std::vector<FacetSide> sides_;              // ascending
+  std::vector<Index> home_;                   // by vertex: a facet that it was a corner of; kNoIndex: it does not slide on the surface
+  FacetTree tree_;
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,19 @@
+#pragma once
+// What holds vertices that could slide: corners, and the meaning that the file gives them.
+
+#include "core/input/input_mesh.h"
+#include "core/reference/curve_ends.h"
+#include "core/reference/named_edges.h"
+
+namespace dmoscope {
+
+inline constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+/// Holds who slides along a curve where that turns by more degrees, or has no direction.
+void hold_corners(const InputMesh& input, double corner_angle, CurveEnds& ends);
+/// Holds who slides along a curve between two edges that different groups name.
+void hold_ends_of_names(const NamedEdges& names, CurveEnds& ends);
+/// Holds points that the file names, but in lists of all that there are, and the corners of required elements and faces.
+void hold_named_points(const InputMesh& input, CurveEnds& ends);
+
+}  // namespace dmoscope

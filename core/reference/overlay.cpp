@@ -1,0 +1,179 @@
+#include "core/reference/overlay.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace dmoscope {
+
+namespace {
+
+/// Lengths below this share of a triangle's longest edge, and areas below it of the triangle's, are rounding.
+constexpr double kRounding = 1e-9;
+constexpr double kUncovered = 1e-6;
+constexpr std::size_t kMostFacets = 4096;
+
+Plane tangent(Vec3 normal, Vec3 along) {
+  const Vec3 u = (1.0 / length(along)) * along;
+  return {u, cross(normal, u), normal};
+}
+
+}  // namespace
+
+/// A triangle as the plane that facets are projected on.
+struct Overlay::Ground {
+  Plane plane;
+  Vec3 origin;
+  std::array<Vec2<double>, 3> corners;                                // counter-clockwise
+  double size, area;                                                  // the longest edge; twice the area
+  [[nodiscard]] std::array<double, 3> beyond(Vec2<double> p) const {  // distances from the edges, positive inside
+    std::array<double, 3> result;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2<double> a = corners[i], way = corners[(i + 1) % 3] - a;
+      result[i] = cross(way, p - a) / std::sqrt(dot(way, way));
+    }
+    return result;
+  }
+};
+
+/// Does a segment run inside the triangle, and not only along its edge?
+bool Overlay::crosses(const Ground& ground, Vec2<double> from, Vec2<double> to) const {
+  const double margin = kRounding * ground.size;
+  const auto a = ground.beyond(from), b = ground.beyond(to);
+  double first = 0.0, last = 1.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double at_first = a[i] - margin, at_last = b[i] - margin;
+    if (at_first <= 0.0 && at_last <= 0.0) return false;
+    if (at_first < 0.0) first = std::max(first, at_first / (at_first - at_last));
+    if (at_last < 0.0) last = std::min(last, at_first / (at_first - at_last));
+  }
+  const Vec2<double> way = to - from;
+  return (last - first) * std::sqrt(dot(way, way)) > margin;
+}
+
+/// Lays one facet under the triangle and notes the facets beyond its edges; false where the triangle lies across a feature edge.
+bool Overlay::lay(const Ground& ground, Index facet, std::span<const Curves::Stretch> allowed, Fit& fit, double& covered) {
+  const Facet& here = facets_.facets()[facet];
+  room_.polygon.clear();
+  std::array<Vec3, 3> p;
+  for (std::size_t i = 0; i < 3; ++i) {
+    p[i] = facets_.point(here.corners[i]);
+    const Vec3 way = p[i] - ground.origin;
+    room_.polygon.push_back({ground.plane.project(way), dot(way, ground.plane.normal)});
+  }
+  const std::array<Vec2<double>, 3> q{room_.polygon[0].at, room_.polygon[1].at, room_.polygon[2].at};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
+    if (!crosses(ground, q[a], q[b])) continue;
+    const Index across = here.across[i];
+    if (across != kNoIndex) {
+      if (std::ranges::find(room_.found, across) == room_.found.end()) room_.found.push_back(across);
+    } else if (!domain_.is_within(allowed, here.corners[a], here.corners[b])) {
+      return false;
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) {  // Sutherland and Hodgman, edge by edge of the triangle
+    const Vec2<double> a = ground.corners[i], way = ground.corners[(i + 1) % 3] - a;
+    room_.clipped.clear();
+    for (std::size_t k = 0; k < room_.polygon.size(); ++k) {
+      const Corner& from = room_.polygon[k];
+      const Corner& to = room_.polygon[k + 1 < room_.polygon.size() ? k + 1 : 0];
+      const double at_from = cross(way, from.at - a), at_to = cross(way, to.at - a);
+      if (at_from >= 0.0) room_.clipped.push_back(from);
+      if ((at_from >= 0.0) == (at_to >= 0.0)) continue;
+      const double t = at_from / (at_from - at_to);
+      room_.clipped.push_back(
+          {{from.at.x + t * (to.at.x - from.at.x), from.at.y + t * (to.at.y - from.at.y)}, from.height + t * (to.height - from.height)});
+    }
+    std::swap(room_.polygon, room_.clipped);
+  }
+  double area = 0.0;
+  for (std::size_t k = 2; k < room_.polygon.size(); ++k)
+    area += cross(room_.polygon[k - 1].at - room_.polygon[0].at, room_.polygon[k].at - room_.polygon[0].at);
+  covered += area;
+  for (const Corner& corner : room_.polygon) fit.deviation = std::max(fit.deviation, std::abs(corner.height));
+  if (std::abs(area) > kUncovered * ground.area)
+    fit.least_cosine = std::min(fit.least_cosine, cross(q[1] - q[0], q[2] - q[0]) / length(cross(p[1] - p[0], p[2] - p[0])));
+  return true;
+}
+
+Fit Overlay::triangle(const std::array<Vec3, 3>& corners, Index from, std::span<const Curves::Stretch> allowed) {
+  const Vec3 across = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const double area = length(across);
+  if (!(area > 0.0)) return kNoFit;
+  Ground ground{tangent((1.0 / area) * across, corners[1] - corners[0]), corners[0], {}, 0.0, area};
+  for (std::size_t i = 0; i < 3; ++i) {
+    ground.corners[i] = ground.plane.project(corners[i] - corners[0]);
+    ground.size = std::max(ground.size, length(corners[(i + 1) % 3] - corners[i]));
+  }
+  const Vec2<double> centre{(ground.corners[0].x + ground.corners[1].x + ground.corners[2].x) / 3.0,
+                            (ground.corners[0].y + ground.corners[1].y + ground.corners[2].y) / 3.0};
+  const auto start = facets_.walk(from, ground.plane, ground.origin, centre, 0.0);
+  if (!start) return kNoFit;
+  Fit fit;
+  double covered = 0.0;
+  room_.found.assign(1, start->facet);
+  for (std::size_t i = 0; i < room_.found.size(); ++i)
+    if (i > kMostFacets || !lay(ground, room_.found[i], allowed, fit, covered) || !(fit.least_cosine > 0.0)) return kNoFit;
+  // What lies beyond a curve is nearer to it than its chord is, and that is bounded where vertices slide along it.
+  const bool whole = covered >= (1.0 - kUncovered) * area && covered <= (1.0 + kUncovered) * area;
+  return whole || !allowed.empty() ? fit : kNoFit;
+}
+
+/// The stretches of curves along a face's edges.
+void Overlay::find_stretches(PositionView positions, Index face, Index vertex, Vec3 target) {
+  room_.stretches.clear();
+  const Curves& curves = domain_.curves();
+  const auto c = facets_.faces().corners(face);
+  const auto position = [&](Index v) { return v == vertex ? target : positions[v]; };
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    const Index a = c[i], b = c[i + 1 < c.size() ? i + 1 : 0];
+    const Index slider = curves.slides(a) ? a : b, other = slider == a ? b : a;
+    if (!curves.slides(slider)) continue;
+    if (const auto stretch = curves.stretch_to(slider, position(slider), other, position(other))) room_.stretches.push_back(*stretch);
+  }
+}
+
+/// Facets of a patch beside the place of a vertex on a curve.
+std::span<const Index> Overlay::starts_beside(Index vertex, Vec3 target, Index patch) {
+  room_.starts.clear();
+  const Curves& curves = domain_.curves();
+  const auto place = curves.place(vertex, target);
+  if (!place) return {};
+  for (const auto& [from, to] : curves.edges_at(vertex, *place)) {
+    if (from == kNoIndex) continue;
+    for (const FacetSide& side : facets_.sides_of(from, to))
+      if (facets_.facets()[side.facet].patch == patch) room_.starts.push_back(side.facet);
+  }
+  return room_.starts;
+}
+
+Fit Overlay::face(PositionView positions, Index face, Index vertex, Vec3 target, std::span<const Index> starts) {
+  find_stretches(positions, face, vertex, target);
+  const auto c = facets_.faces().corners(face);
+  const auto at = [&](std::size_t i) { return c[i] == vertex ? target : positions[c[i]]; };
+  const auto lay = [&](std::size_t i, std::size_t j, std::size_t k) {
+    for (const Index start : starts) {
+      const Fit fit = triangle({at(i), at(j), at(k)}, start, room_.stretches);
+      if (fit.deviation < kNoFit.deviation) return fit;
+    }
+    return kNoFit;
+  };
+  Fit fit = lay(0, 1, 2);
+  if (c.size() == 3 || fit.deviation == kNoFit.deviation) return fit;
+  for (const auto& [i, j, k] : {std::array<std::size_t, 3>{0, 2, 3}, {0, 1, 3}, {1, 2, 3}}) fit.add(lay(i, j, k));
+  return fit;
+}
+
+Fit Overlay::star(PositionView positions, Index vertex, Vec3 target, const FacetPlace* beneath) {
+  Fit fit;
+  for (const Index f : facets_.faces_at(vertex)) {
+    const std::span<const Index> starts =
+        beneath != nullptr ? std::span<const Index>(&beneath->facet, 1) : starts_beside(vertex, target, facets_.patch_of_face(f));
+    fit.add(face(positions, f, vertex, target, starts));
+    if (fit.deviation == kNoFit.deviation) return kNoFit;
+  }
+  return fit;
+}
+
+}  // namespace dmoscope

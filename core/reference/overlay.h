@@ -1,0 +1,61 @@
+#pragma once
+// How near the faces of a mesh stay to the surface of the input: exactly, by laying each over the facets beneath it.
+
+#include <limits>
+#include <span>
+
+#include "core/mesh/position_view.h"
+#include "core/reference/domain.h"
+
+namespace dmoscope {
+
+/// Where the greatest distance between a triangle and the facets beneath it stands, both are known: at its corners, at theirs, and where
+/// its edges cross theirs. Distances are taken straight along the triangle's normal, so none is shorter than that to the surface.
+struct Fit {
+  double deviation = 0.0;     // the greatest distance, in mesh units; infinite where the facets beneath do not cover it all
+  double least_cosine = 1.0;  // of the angles between it and the facets beneath
+  void add(const Fit& other) noexcept {
+    deviation = other.deviation > deviation ? other.deviation : deviation;
+    least_cosine = other.least_cosine < least_cosine ? other.least_cosine : least_cosine;
+  }
+};
+inline constexpr Fit kNoFit{std::numeric_limits<double>::infinity(), -1.0};
+
+/// What an overlay works in, kept from one to the next.
+struct OverlayRoom {
+  struct Corner {
+    Vec2<double> at;
+    double height;
+  };
+  std::vector<Index> found, starts;
+  std::vector<Corner> polygon, clipped;
+  std::vector<Curves::Stretch> stretches;
+};
+
+/// Domain and room must outlive it.
+class Overlay {
+ public:
+  Overlay(const Domain& domain, OverlayRoom& room) : domain_(domain), facets_(domain.facets()), room_(room) {}
+
+  /// The faces at a vertex, with it at `target`; a quadrilateral by both ways to split it. `beneath`: where that is, of a vertex on a
+  /// surface; of one on a curve nothing.
+  [[nodiscard]] Fit star(PositionView positions, Index vertex, Vec3 target, const FacetPlace* beneath);
+  /// A triangle, whose corners stand on a patch. `from`: a facet near it. `allowed`: stretches of curves along its edges; what of it lies
+  /// beyond these is near the curve.
+  [[nodiscard]] Fit triangle(const std::array<Vec3, 3>& corners, Index from, std::span<const Curves::Stretch> allowed);
+
+ private:
+  using Corner = OverlayRoom::Corner;
+  struct Ground;
+  [[nodiscard]] Fit face(PositionView positions, Index face, Index vertex, Vec3 target, std::span<const Index> starts);
+  [[nodiscard]] std::span<const Index> starts_beside(Index vertex, Vec3 target, Index patch);
+  void find_stretches(PositionView positions, Index face, Index vertex, Vec3 target);
+  [[nodiscard]] bool lay(const Ground& ground, Index facet, std::span<const Curves::Stretch> allowed, Fit& fit, double& covered);
+  [[nodiscard]] bool crosses(const Ground& ground, Vec2<double> from, Vec2<double> to) const;
+
+  const Domain& domain_;
+  const Facets& facets_;
+  OverlayRoom& room_;
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,195 @@
+#include "core/reference/surface_ends.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "core/reference/hold.h"
+
+namespace dmoscope {
+
+namespace {
+
+/// Collects the faces, parts them at feature edges, and says who is held.
+class SurfaceFinder {
+ public:
+  SurfaceFinder(const InputMesh& input, const StandingRule& rule)
+      : input_(input), rule_(rule), ends_(input.mesh.vertex_count()), names_(input.mesh, input.topology) {}
+
+  SurfaceEnds find() {
+    collect_faces();
+    find_named_edges();
+    const std::vector<Index> links = part();
+    hold_what_stays();
+    Facets facets(input_, std::move(faces_), links);
+    hold_touching(facets);
+    return {std::move(ends_), std::move(facets)};
+  }
+
+ private:
+  using Key = std::array<Index, 4>;
+  using Edge = std::array<Index, 2>;
+  [[nodiscard]] bool on_boundary(Index v) const { return input_.topology.boundary()[v] != 0; }
+  static Key key_of(std::span<const Index> corners) {
+    Key key{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
+    std::ranges::copy(corners, key.begin());
+    std::ranges::sort(key);
+    return key;
+  }
+  static Edge edge_of(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
+
+  void collect_faces() {
+    if (rule_.boundary == BoundaryRule::Slide)
+      for (const ElementFace& face : input_.faces.boundary()) add(face);
+    boundary_faces_ = faces_.size();
+    if (rule_.interfaces == InterfaceRule::Slide) {
+      for (Index e = 0; e < input_.mesh.elements.size(); ++e) {
+        const auto across = input_.faces.of(e);
+        for (Index f = 0; f < across.size(); ++f)
+          if (across[f] != kNoIndex && across[f] > e && input_.interfaces.between(e, across[f])) add({e, f});
+      }
+    }
+    name_faces();
+  }
+
+  void add(ElementFace face) {
+    const Key corners = vertices_of(input_.mesh.elements, face);
+    const std::size_t count = corners[3] == kNoIndex ? 3 : 4;
+    faces_.add(count == 3 ? ElementKind::Triangle : ElementKind::Quadrilateral, std::span(corners).first(count));
+  }
+
+  /// Gives each face the set of groups that name it, numbered; holds the corners of the faces that groups name elsewhere.
+  void name_faces() {
+    name_of_.assign(faces_.size(), 0);
+    std::vector<const Group*> groups;
+    for (const Group& group : input_.mesh.groups)
+      if (group.dimension == 2 && group.faces.size() > 0) groups.push_back(&group);
+    if (groups.empty()) return;
+    std::map<Key, Index> face_of;
+    for (Index f = 0; f < faces_.size(); ++f) face_of.emplace(key_of(faces_.corners(f)), f);
+    NamedList list(NamedKind::Faces, groups, input_.mesh, input_.topology);
+    std::map<std::pair<Index, Index>, Index> sets;  // a set and a group besides
+    for (Index g = 0; g < groups.size(); ++g) {
+      const ElementTable& named = groups[g]->faces;
+      for (Index i = 0; i < named.size(); ++i) {
+        const auto found = face_of.find(key_of(named.corners(i)));
+        if (found != face_of.end()) {
+          Index& name = name_of_[found->second];
+          name = sets.try_emplace({name, g}, static_cast<Index>(sets.size() + 1)).first->second;
+        } else if (rule_.interfaces != InterfaceRule::Free) {
+          for (const Index v : named.corners(i))
+            if (!list.surrounds(v)) ends_.hold(v);
+        }
+      }
+    }
+  }
+
+  void find_named_edges() {
+    names_.for_lines([this](Index a, Index b) { named_edges_.push_back(edge_of(a, b)); });
+    std::ranges::sort(named_edges_);
+  }
+
+  /// Joins feature edges, and returns the links of all others; see Facets.
+  std::vector<Index> part() {
+    struct Side {
+      Edge edge;
+      Index face, corner;  // the corner: of all
+      bool forwards;
+    };
+    std::vector<Side> sides;
+    for (Index f = 0; f < faces_.size(); ++f) {
+      const auto c = faces_.corners(f);
+      for (Index i = 0; i < c.size(); ++i) {
+        const Index a = c[i], b = c[i + 1 < c.size() ? i + 1 : 0];
+        sides.push_back({edge_of(a, b), f, faces_.offsets()[f] + i, a < b});
+      }
+    }
+    std::ranges::sort(sides, {}, [](const Side& s) { return std::pair(s.edge, s.corner); });
+    std::vector<Index> links(faces_.all_corners().size(), kNoIndex);
+    for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
+      while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
+      const Side &one = sides[first], &other = sides[last - 1];
+      const auto [a, b] = one.edge;
+      if (first + 2 < last && sides[first + 2].face < boundary_faces_) ends_.hold(a), ends_.hold(b);  // the boundary touches itself
+      if (last - first == 2 && one.forwards != other.forwards && !is_feature(one.edge, one.face, other.face)) {
+        links[one.corner] = other.corner;
+        links[other.corner] = one.corner;
+      } else {
+        ends_.join(a, b);
+      }
+    }
+    settle_named_edges();
+    return links;
+  }
+
+  [[nodiscard]] bool is_feature(const Edge& edge, Index face, Index other) const {
+    if (name_of_[face] != name_of_[other] || std::ranges::binary_search(named_edges_, edge)) return true;
+    const Vec3 a = normal(face), b = normal(other);
+    return !(std::atan2(length(cross(a, b)), dot(a, b)) <= rule_.feature_angle * kDegree) || a == Vec3{} || b == Vec3{};
+  }
+  [[nodiscard]] Vec3 normal(Index face) const {
+    const auto c = faces_.corners(face);
+    const auto at = [&](std::size_t i) { return input_.mesh.positions[c[i]]; };
+    const Vec3 across = c.size() == 3 ? cross(at(1) - at(0), at(2) - at(0)) : cross(at(2) - at(0), at(3) - at(1));
+    const double size = length(across);
+    return size > 0.0 ? (1.0 / size) * across : Vec3{};
+  }
+
+  /// Lines that the file names inside hold their ends, where what is inside is not free.
+  void settle_named_edges() {
+    if (rule_.interfaces == InterfaceRule::Free) return;
+    for (const auto& [a, b] : named_edges_) {
+      const bool along_a = ends_.slides(a) && (ends_.of(a)[0] == b || ends_.of(a)[1] == b);
+      const bool along_b = ends_.slides(b) && (ends_.of(b)[0] == a || ends_.of(b)[1] == a);
+      if (!along_a) ends_.hold(a);
+      if (!along_b) ends_.hold(b);
+    }
+  }
+
+  void hold_what_stays() {
+    for (const ElementFace& face : input_.faces.non_manifold())
+      for (const Index v : vertices_of(input_.mesh.elements, face))
+        if (v != kNoIndex) ends_.hold(v);
+    for (Index v = 0; v < ends_.size(); ++v) {
+      const bool stays = rule_.boundary != BoundaryRule::Slide && on_boundary(v);
+      if (stays || (rule_.interfaces == InterfaceRule::Fixed && input_.interfaces.meets_boundary_at(v))) ends_.hold(v);
+    }
+    hold_corners(input_, rule_.corner_angle, ends_);
+    hold_ends_of_names(names_, ends_);
+    hold_named_points(input_, ends_);
+  }
+
+  /// Holds a vertex of a curve where a sheet of the surface touches it that does not reach from one of its edges to the other.
+  void hold_touching(const Facets& facets) {
+    for (Index v = 0; v < ends_.size(); ++v) {
+      if (!ends_.slides(v)) continue;
+      const auto [a, b] = ends_.of(v);
+      std::vector<Index> reached;
+      for (const FacetSide& side : facets.sides_of(v, a)) {
+        const auto fan = facets.fan_at(side.facet, v);
+        const auto ends_there = [&](const FacetSide& s) { return std::ranges::find(fan, s.facet) != fan.end(); };
+        if (std::ranges::any_of(facets.sides_of(v, b), ends_there)) reached.insert(reached.end(), fan.begin(), fan.end());
+      }
+      std::ranges::sort(reached);
+      reached.erase(std::unique(reached.begin(), reached.end()), reached.end());
+      if (reached.size() != facets.count_at(v)) ends_.hold(v);
+    }
+  }
+
+  const InputMesh& input_;
+  const StandingRule& rule_;
+  CurveEnds ends_;
+  NamedEdges names_;
+  ElementTable faces_;
+  Index boundary_faces_ = 0;  // of these, the first; the others are those of interfaces
+  std::vector<Index> name_of_;
+  std::vector<Edge> named_edges_;  // ascending
+};
+
+}  // namespace
+
+SurfaceEnds surface_ends(const InputMesh& input, const StandingRule& rule) { return SurfaceFinder(input, rule).find(); }
+
+}  // namespace dmoscope

@@ -1,0 +1,91 @@
+#pragma once
+// The visit of a vertex that slides along a curve or on a surface of the input: see core/reference/domain.h.
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "core/reference/overlay.h"
+#include "core/smooth/methods/composite_dmo.h"
+
+namespace dmoscope {
+
+/// On a curve: searches the stretch between a vertex's neighbours, level by level, as the grid search does: grid points squared candidates
+/// a level, so that it looks at as many as where a vertex is free, and each level as much finer. Of the candidates that lie between the
+/// neighbours the best wins.
+/// On a surface: the very grid search in the tangent plane, each candidate taken straight down to the facet beneath it; those beyond a
+/// feature edge, and where the surface turns away, do not count.
+/// The vertex goes to the winner if it gains there, by the rules for all vertices (promise 1), and if no edge of a curve and no face of the
+/// surface then deviates from the input by more than the bound, or leans more than 60 degrees away from it, or than before. In space it
+/// tries half of the way where it may not go all of it, and half of that, twice more. The mesh must outlive it.
+/// Frame: Plane, where all slide along curves, or Space.
+template <class Frame>
+class Slide {
+ public:
+  struct Scratch {
+    StarIn<Frame, double> star;
+    OverlayRoom room;
+  };
+  /// `composite`: what the vertices aim at.
+  Slide(const SmoothingTask& task, CompositeObjective composite);
+
+  [[nodiscard]] bool slides(Index vertex) const { return domain_ != nullptr && domain_->slides(vertex); }
+  void begin(const Sweep& sweep);
+  /// Where a vertex that slides goes.
+  [[nodiscard]] std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const;
+
+ private:
+  using Offset = OffsetIn<Frame, double>;
+  struct Visit;
+  struct Stretch;
+  [[nodiscard]] std::optional<Vec3> along_curve(const Visit& visit) const;
+  [[nodiscard]] std::optional<Vec3> on_surface(const Visit& visit) const;
+  [[nodiscard]] double search(const Visit& visit, const Stretch& stretch) const;
+  [[nodiscard]] std::optional<Vec3> possible(const Visit& visit, const Stretch& stretch, double place) const;
+  [[nodiscard]] bool keeps_near(const Visit& visit, const Stretch& stretch, double place, Vec3 target) const;
+  [[nodiscard]] bool fits(const Visit& visit, Vec3 target, const FacetPlace* here, const FacetPlace* there) const;
+
+  std::shared_ptr<const Domain> domain_;  // null: nothing slides
+  CompositeRule<Frame> rule_;
+  MeshView<Frame> mesh_;
+  SearchParameters parameters_;
+  Untangling untangling_{};
+  double max_deviation_;
+  bool single_precision_;
+};
+
+/// A rule for vertices that are free, and for those that slide.
+template <class Rule, class Frame>
+class SlidingRule {
+ public:
+  struct Scratch {
+    typename Rule::Scratch free;
+    typename Slide<Frame>::Scratch slide;
+  };
+  static constexpr bool kDependsOnStarAlone = requires { requires Rule::kDependsOnStarAlone; };
+  static constexpr std::size_t kGrain = Rule::kGrain;
+  SlidingRule(Rule rule, Slide<Frame> slide) : rule_(std::move(rule)), slide_(std::move(slide)) {}
+  void begin(const Sweep& sweep) {
+    rule_.begin(sweep);
+    slide_.begin(sweep);
+  }
+  [[nodiscard]] std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const {
+    return slide_.slides(vertex) ? slide_.target(positions, vertex, scratch.slide) : rule_.target(positions, vertex, scratch.free);
+  }
+
+ private:
+  Rule rule_;
+  Slide<Frame> slide_;
+};
+
+/// A smoother by a rule for vertices that are free, and by the grid search for those that slide.
+template <class Frame, class Rule>
+[[nodiscard]] std::unique_ptr<Smoother> make_sliding_smoother(const SmoothingTask& task, Rule rule, CompositeObjective composite) {
+  if (!task.domain) return make_rule_smoother(task, std::move(rule));
+  return make_rule_smoother(task, SlidingRule<Rule, Frame>(std::move(rule), Slide<Frame>(task, std::move(composite))));
+}
+
+/// A metric as the only aim.
+[[nodiscard]] CompositeObjective single_objective(Metric metric);
+
+}  // namespace dmoscope

@@ -110,12 +110,6 @@ void refuse_what_cannot_be_done(const Mesh& mesh, const Geometry& geometry, cons
         throw InputError(file, 0,
                          fmt::format("the mesh mixes volume elements with {} (element {})", info(mesh.elements.kind(e)).plural, e));
   }
-  if (geometry.shape == Shape::Surface && need == Need::Smoothing) {
-    throw InputError(file, 0,
-                     fmt::format("this is a curved surface mesh (its vertices lie up to {:.4g} from one plane, its size is {:.4g}); "
-                                 "this version smooths planar meshes and volumes only",
-                                 geometry.deviation, geometry.size));
-  }
 }
 
 /// Area or volume, at least 0.

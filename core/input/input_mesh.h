@@ -33,12 +33,14 @@ struct InputMesh {
   bool has_strays = false;  // a vertex of an inverted element, off the boundary, that lies outside the box of its star's other vertices
   [[nodiscard]] QualityContext quality_context() const { return {mesh, geometry}; }
   [[nodiscard]] bool is_volume() const noexcept { return geometry.shape == Shape::Volume; }
-  /// The mesh as kernels read it. Frame: Plane for a planar mesh, Space for a volume mesh.
+  [[nodiscard]] bool is_surface() const noexcept { return geometry.shape == Shape::Surface; }
+  /// The mesh as kernels read it. Frame: Plane for a planar mesh, Space for a volume mesh, Curved for a surface.
   template <class Frame>
   [[nodiscard]] MeshView<Frame> view() const {
     MeshView<Frame> view{topology.star_offsets().data(),     topology.incidences().data(), mesh.elements.offsets().data(),
                          mesh.elements.all_corners().data(), reference_measure.data(),     {}};
     if constexpr (std::is_same_v<Frame, Plane>) view.frame = geometry.plane;
+    if constexpr (std::is_same_v<Frame, Curved>) view.frame = {geometry.plane.normal, geometry.mostly_flat};
     return view;
   }
   [[nodiscard]] PlanarView planar_view() const { return view<Plane>(); }

@@ -52,9 +52,27 @@ struct Space {
   [[nodiscard]] DMOSCOPE_ANYWHERE Vec3 lift(Vec3 offset) const { return offset; }
 };
 
-/// An offset from a vertex in a frame (Plane or Space), in whatever scalar computes with it.
+/// A vector of a curved surface: its cross product is taken against a given unit normal.
+struct SurfaceVector {
+  Vec3 v{}, normal{};
+  friend SurfaceVector operator-(SurfaceVector a, SurfaceVector b) { return {a.v - b.v, b.normal}; }
+  friend bool operator==(const SurfaceVector&, const SurfaceVector&) = default;
+};
+[[nodiscard]] inline double dot(SurfaceVector a, SurfaceVector b) { return dot(a.v, b.v); }
+[[nodiscard]] inline double cross(SurfaceVector a, SurfaceVector b) { return dot(cross(a.v, b.v), b.normal); }
+[[nodiscard]] inline SurfaceVector times(SurfaceVector a, double s) { return {s * a.v, a.normal}; }
+
+/// What a mesh of a curved surface has: all of space, with elements judged in their own planes.
+struct Curved {
+  Vec3 normal{};             // of elements that have none
+  bool mostly_flat = false;  // quadrilaterals are judged against `normal`: see Geometry
+  [[nodiscard]] SurfaceVector offset(Vec3 at, Vec3 origin) const { return {at - origin, {}}; }
+};
+
+/// An offset from a vertex in a frame (Plane, Space or Curved), in whatever scalar computes with it.
 template <class Frame, class Real>
-using OffsetIn = std::conditional_t<std::is_same_v<Frame, Plane>, Vec2<Real>, Vec3Of<Real>>;
+using OffsetIn = std::conditional_t<std::is_same_v<Frame, Plane>, Vec2<Real>,
+                                    std::conditional_t<std::is_same_v<Frame, Curved>, SurfaceVector, Vec3Of<Real>>>;
 
 /// Which coordinates (0 x, 1 y, 2 z) u and v of a plane are, exactly; -1 and -1 where it is parallel to no coordinate plane. One component
 /// of 1 is not enough: a plane tilted by 1e-9 has that too, and the other components count.

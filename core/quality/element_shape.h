@@ -11,14 +11,6 @@
 
 namespace dmoscope {
 
-/// A vector of a curved surface: its cross product is taken against a given unit normal.
-struct SurfaceVector {
-  Vec3 v, normal;
-  friend SurfaceVector operator-(SurfaceVector a, SurfaceVector b) { return {a.v - b.v, b.normal}; }
-};
-[[nodiscard]] inline double dot(SurfaceVector a, SurfaceVector b) { return dot(a.v, b.v); }
-[[nodiscard]] inline double cross(SurfaceVector a, SurfaceVector b) { return dot(cross(a.v, b.v), b.normal); }
-
 [[nodiscard]] inline Vec3 unit_normal(Vec3 a, Vec3 b, Vec3 fallback) {
   const Vec3 n = cross(a, b);
   const double l = length(n);
@@ -65,17 +57,17 @@ DMOSCOPE_ANYWHERE auto visit_shape(const Space& /*space*/, std::span<const Index
 }
 
 /// The shape of a triangle or quadrilateral of a curved mesh.
-template <class Visitor>
-[[nodiscard]] auto visit_surface(const Geometry& geometry, std::span<const Index> corners, PositionView positions, Visitor visitor) {
-  const Vec3 origin = positions[corners[0]];
-  const Vec3 b = positions[corners[1]] - origin, c = positions[corners[2]] - origin;
+template <class At, class Visitor>
+[[nodiscard]] auto visit_shape(const Curved& frame, std::span<const Index> corners, At at, Visitor visitor) {
+  const Vec3 origin = at(corners[0]);
+  const Vec3 b = at(corners[1]) - origin, c = at(corners[2]) - origin;
   using V = SurfaceVector;
   if (corners.size() == 3) {
-    const Vec3 n = unit_normal(b, c, geometry.plane.normal);  // a surface triangle has no sign
+    const Vec3 n = unit_normal(b, c, frame.normal);  // a surface triangle has no sign
     return visitor(formulas::Triangle<V>({{}, n}, {b, n}, {c, n}));
   }
-  const Vec3 d = positions[corners[3]] - origin;
-  const Vec3 n = geometry.mostly_flat ? geometry.plane.normal : unit_normal(c, d - b, geometry.plane.normal);
+  const Vec3 d = at(corners[3]) - origin;
+  const Vec3 n = frame.mostly_flat ? frame.normal : unit_normal(c, d - b, frame.normal);
   return visitor(formulas::Quadrilateral<V>({{}, n}, {b, n}, {c, n}, {d, n}));
 }
 
@@ -86,7 +78,7 @@ template <class Visitor>
   const auto at = [&](Index vertex) { return positions[vertex]; };
   if (info(context.mesh.elements.kind(element)).dimension == 3) return visit_volume(corners, at, visitor);
   if (context.geometry.shape == Shape::Planar) return visit_planar(context.geometry.plane, corners, at, visitor);
-  return visit_surface(context.geometry, corners, positions, visitor);
+  return visit_shape(Curved{context.geometry.plane.normal, context.geometry.mostly_flat}, corners, at, visitor);
 }
 
 /// The metric of a triangle or quadrilateral of vectors V; NaN where it is not defined. Never -0: double and packs of it would choose

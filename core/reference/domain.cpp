@@ -11,7 +11,7 @@
 namespace dmoscope {
 
 Domain::Domain(const InputMesh& input, const StandingRule& rule)
-    : Domain(input, rule, input.is_volume() ? surface_ends(input, rule) : SurfaceEnds{planar_ends(input, rule), {}}) {}
+    : Domain(input, rule, input.geometry.shape == Shape::Planar ? SurfaceEnds{planar_ends(input, rule), {}} : surface_ends(input, rule)) {}
 
 Domain::Domain(const InputMesh& input, const StandingRule& rule, SurfaceEnds ends)
     : curves_(input, ends.curves), facets_(std::move(ends.facets)) {
@@ -53,7 +53,7 @@ std::string Domain::sentence() const {
 }
 
 std::shared_ptr<const Domain> domain_for(const InputMesh& input, const StandingRule& rule) {
-  if (!rule.slides() || input.geometry.shape == Shape::Surface) return nullptr;
+  if (!rule.slides() && !input.is_surface()) return nullptr;
   return std::make_shared<const Domain>(input, rule);
 }
 

@@ -16,7 +16,8 @@ namespace dmoscope {
 class Domain {
  public:
   /// In a plane a vertex of the boundary, or of an interface between materials, slides along it where the rule lets these. In a volume it
-  /// slides on the boundary's surface, or on that of an interface; along its feature edges where it lies on one. A feature edge is one
+  /// slides on the boundary's surface, or on that of an interface; in a curved surface all vertices off its boundary do, and along this
+  /// where the rule lets them. On feature edges they slide along these. A feature edge is one
   /// - where the surface folds by more than the feature angle, ends, or where other than two faces meet;
   /// - between faces that the file gives different names, or that it names itself.
   /// A vertex stays
@@ -54,7 +55,7 @@ class Domain {
   Index sliding_ = 0, inside_ = 0, on_curves_ = 0, corners_ = 0;
 };
 
-/// Where the rule lets vertices slide; null where it lets none, and for a surface mesh.
+/// Where the rule lets vertices slide; null where it lets none. On a curved surface whatever moves slides.
 [[nodiscard]] std::shared_ptr<const Domain> domain_for(const InputMesh& input, const StandingRule& rule);
 
 }  // namespace dmoscope

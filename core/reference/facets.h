@@ -50,6 +50,8 @@ class Facets {
     return {faces_at_.data() + face_offsets_[vertex], faces_at_.data() + face_offsets_[vertex + 1]};
   }
   [[nodiscard]] Index patch_of_face(Index face) const { return facets_[first_facet_[face]].patch; }
+  /// Where a face was in the input: this facet, and of a quadrilateral the next one, too.
+  [[nodiscard]] Index first_facet(Index face) const { return first_facet_[face]; }
   [[nodiscard]] std::span<const Facet> facets() const noexcept { return facets_; }
   [[nodiscard]] Vec3 point(Index vertex) const { return points_[vertex]; }
   /// The facets beside a feature edge of the input, or the edge of a surface.

@@ -134,43 +134,53 @@ void Overlay::find_stretches(PositionView positions, Index face, Index vertex, V
   }
 }
 
-/// Facets of a patch beside the place of a vertex on a curve.
-std::span<const Index> Overlay::starts_beside(Index vertex, Vec3 target, Index patch) {
+/// Facets near a face: beneath its vertex, or beside that on its curve, and where the face was in the input.
+void Overlay::find_starts(Index vertex, Vec3 target, Index face, const FacetPlace* beneath) {
   room_.starts.clear();
-  const Curves& curves = domain_.curves();
-  const auto place = curves.place(vertex, target);
-  if (!place) return {};
-  for (const auto& [from, to] : curves.edges_at(vertex, *place)) {
-    if (from == kNoIndex) continue;
-    for (const FacetSide& side : facets_.sides_of(from, to))
-      if (facets_.facets()[side.facet].patch == patch) room_.starts.push_back(side.facet);
+  if (beneath != nullptr) {
+    room_.starts.push_back(beneath->facet);
+  } else if (const auto place = domain_.curves().place(vertex, target)) {
+    for (const auto& [from, to] : domain_.curves().edges_at(vertex, *place)) {
+      if (from == kNoIndex) continue;
+      for (const FacetSide& side : facets_.sides_of(from, to))
+        if (facets_.facets()[side.facet].patch == facets_.patch_of_face(face)) room_.starts.push_back(side.facet);
+    }
   }
-  return room_.starts;
+  const Index first = facets_.first_facet(face), count = static_cast<Index>(facets_.faces().corners(face).size()) - 2;
+  for (Index i = 0; i < count; ++i) room_.starts.push_back(first + i);
 }
 
-Fit Overlay::face(PositionView positions, Index face, Index vertex, Vec3 target, std::span<const Index> starts) {
+Fit Overlay::face(PositionView positions, Index face, Index vertex, Vec3 target) {
   find_stretches(positions, face, vertex, target);
   const auto c = facets_.faces().corners(face);
   const auto at = [&](std::size_t i) { return c[i] == vertex ? target : positions[c[i]]; };
   const auto lay = [&](std::size_t i, std::size_t j, std::size_t k) {
-    for (const Index start : starts) {
+    for (const Index start : room_.starts) {
       const Fit fit = triangle({at(i), at(j), at(k)}, start, room_.stretches);
       if (fit.deviation < kNoFit.deviation) return fit;
     }
     return kNoFit;
   };
-  Fit fit = lay(0, 1, 2);
-  if (c.size() == 3 || fit.deviation == kNoFit.deviation) return fit;
-  for (const auto& [i, j, k] : {std::array<std::size_t, 3>{0, 2, 3}, {0, 1, 3}, {1, 2, 3}}) fit.add(lay(i, j, k));
+  if (c.size() == 3) return lay(0, 1, 2);
+  const auto both = [&](std::size_t first) {  // from one end of a diagonal to the other
+    const Fit one = lay(first, first + 1, first + 2), other = lay(first, first + 2, (first + 3) % 4);
+    return Fit{std::max(one.deviation, other.deviation), 0.0, std::min(one.least_cosine, other.least_cosine)};
+  };
+  const Vec3 one = at(2) - at(0), other = at(3) - at(1);
+  const bool by_first = dot(one, one) <= dot(other, other);
+  Fit fit = both(by_first ? 0 : 1);
+  fit.other_split = both(by_first ? 1 : 0).deviation;
   return fit;
 }
 
 Fit Overlay::star(PositionView positions, Index vertex, Vec3 target, const FacetPlace* beneath) {
   Fit fit;
   for (const Index f : facets_.faces_at(vertex)) {
-    const std::span<const Index> starts =
-        beneath != nullptr ? std::span<const Index>(&beneath->facet, 1) : starts_beside(vertex, target, facets_.patch_of_face(f));
-    fit.add(face(positions, f, vertex, target, starts));
+    find_starts(vertex, target, f, beneath);
+    const Fit here = face(positions, f, vertex, target);
+    fit.deviation = std::max(fit.deviation, here.deviation);
+    fit.other_split = std::max(fit.other_split, here.other_split);
+    fit.least_cosine = std::min(fit.least_cosine, here.least_cosine);
     if (fit.deviation == kNoFit.deviation) return kNoFit;
   }
   return fit;

@@ -11,15 +11,13 @@ namespace dmoscope {
 
 /// Where the greatest distance between a triangle and the facets beneath it stands, both are known: at its corners, at theirs, and where
 /// its edges cross theirs. Distances are taken straight along the triangle's normal, so none is shorter than that to the surface.
+/// Quadrilaterals count as split by their shorter diagonals, as facets are.
 struct Fit {
   double deviation = 0.0;     // the greatest distance, in mesh units; infinite where the facets beneath do not cover it all
+  double other_split = 0.0;   // the same of quadrilaterals split by their longer diagonals: as far as they are warped
   double least_cosine = 1.0;  // of the angles between it and the facets beneath
-  void add(const Fit& other) noexcept {
-    deviation = other.deviation > deviation ? other.deviation : deviation;
-    least_cosine = other.least_cosine < least_cosine ? other.least_cosine : least_cosine;
-  }
 };
-inline constexpr Fit kNoFit{std::numeric_limits<double>::infinity(), -1.0};
+inline constexpr Fit kNoFit{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), -1.0};
 
 /// What an overlay works in, kept from one to the next.
 struct OverlayRoom {
@@ -37,7 +35,7 @@ class Overlay {
  public:
   Overlay(const Domain& domain, OverlayRoom& room) : domain_(domain), facets_(domain.facets()), room_(room) {}
 
-  /// The faces at a vertex, with it at `target`; a quadrilateral by both ways to split it. `beneath`: where that is, of a vertex on a
+  /// The faces at a vertex, with it at `target`. `beneath`: where that is, of a vertex on a
   /// surface; of one on a curve nothing.
   [[nodiscard]] Fit star(PositionView positions, Index vertex, Vec3 target, const FacetPlace* beneath);
   /// A triangle, whose corners stand on a patch. `from`: a facet near it. `allowed`: stretches of curves along its edges; what of it lies
@@ -47,8 +45,8 @@ class Overlay {
  private:
   using Corner = OverlayRoom::Corner;
   struct Ground;
-  [[nodiscard]] Fit face(PositionView positions, Index face, Index vertex, Vec3 target, std::span<const Index> starts);
-  [[nodiscard]] std::span<const Index> starts_beside(Index vertex, Vec3 target, Index patch);
+  [[nodiscard]] Fit face(PositionView positions, Index face, Index vertex, Vec3 target);
+  void find_starts(Index vertex, Vec3 target, Index face, const FacetPlace* beneath);
   void find_stretches(PositionView positions, Index face, Index vertex, Vec3 target);
   [[nodiscard]] bool lay(const Ground& ground, Index facet, std::span<const Curves::Stretch> allowed, Fit& fit, double& covered);
   [[nodiscard]] bool crosses(const Ground& ground, Vec2<double> from, Vec2<double> to) const;

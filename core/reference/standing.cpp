@@ -21,7 +21,10 @@ std::vector<std::uint8_t> standing_vertices(const InputMesh& input, const Standi
   std::vector<std::uint8_t> standing(boundary.begin(), boundary.end());
   for (Index v = 0; v < standing.size(); ++v) {
     if (input.topology.star(v).empty() || (rule.interfaces != InterfaceRule::Free && input.interfaces.holds(v))) standing[v] = 1;
-    if (domain != nullptr && domain->slides(v)) standing[v] = 0;
+    if (domain != nullptr && domain->slides(v))
+      standing[v] = 0;
+    else if (input.is_surface())
+      standing[v] = 1;
   }
   return standing;
 }

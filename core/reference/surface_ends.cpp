@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "core/mesh/orientation.h"
 #include "core/reference/hold.h"
 
 namespace dmoscope {
@@ -41,6 +42,7 @@ class SurfaceFinder {
   static Edge edge_of(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
   void collect_faces() {
+    if (input_.is_surface()) return collect_elements();
     if (rule_.boundary == BoundaryRule::Slide)
       for (const ElementFace& face : input_.faces.boundary()) add(face);
     boundary_faces_ = faces_.size();
@@ -52,6 +54,19 @@ class SurfaceFinder {
       }
     }
     name_faces();
+  }
+
+  /// Of a surface the elements themselves, wound alike as far as that goes.
+  void collect_elements() {
+    Index contradictions = 0;
+    const auto against = relate_windings(input_.mesh, input_.topology, contradictions);
+    faces_ = input_.mesh.elements;
+    for (Index e = 0; e < faces_.size(); ++e)
+      if (against[e] != 0) faces_.flip(e);
+    name_of_.assign(faces_.size(), 0);
+    if (rule_.interfaces == InterfaceRule::Free) return;
+    for (Index v = 0; v < ends_.size() && rule_.interfaces == InterfaceRule::Fixed; ++v)
+      if (input_.interfaces.holds(v) || input_.interfaces.meets_boundary_at(v)) ends_.hold(v);
   }
 
   void add(ElementFace face) {
@@ -87,6 +102,7 @@ class SurfaceFinder {
   }
 
   void find_named_edges() {
+    if (input_.is_surface() && rule_.interfaces == InterfaceRule::Free) return;
     names_.for_lines([this](Index a, Index b) { named_edges_.push_back(edge_of(a, b)); });
     std::ranges::sort(named_edges_);
   }
@@ -112,7 +128,9 @@ class SurfaceFinder {
       while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
       const Side &one = sides[first], &other = sides[last - 1];
       const auto [a, b] = one.edge;
-      if (first + 2 < last && sides[first + 2].face < boundary_faces_) ends_.hold(a), ends_.hold(b);  // the boundary touches itself
+      const bool touches = input_.is_surface() ? last - first > 2 : first + 2 < last && sides[first + 2].face < boundary_faces_;
+      const bool twisted = input_.is_surface() && last - first == 2 && one.forwards == other.forwards;  // as a Moebius band is
+      if (touches || twisted) ends_.hold(a), ends_.hold(b);
       if (last - first == 2 && one.forwards != other.forwards && !is_feature(one.edge, one.face, other.face)) {
         links[one.corner] = other.corner;
         links[other.corner] = one.corner;
@@ -125,6 +143,7 @@ class SurfaceFinder {
   }
 
   [[nodiscard]] bool is_feature(const Edge& edge, Index face, Index other) const {
+    if (input_.is_surface() && rule_.interfaces != InterfaceRule::Free && input_.interfaces.between(face, other)) return true;
     if (name_of_[face] != name_of_[other] || std::ranges::binary_search(named_edges_, edge)) return true;
     const Vec3 a = normal(face), b = normal(other);
     return !(std::atan2(length(cross(a, b)), dot(a, b)) <= rule_.feature_angle * kDegree) || a == Vec3{} || b == Vec3{};
@@ -139,7 +158,7 @@ class SurfaceFinder {
 
   /// Lines that the file names inside hold their ends, where what is inside is not free.
   void settle_named_edges() {
-    if (rule_.interfaces == InterfaceRule::Free) return;
+    if (rule_.interfaces == InterfaceRule::Free || input_.is_surface()) return;
     for (const auto& [a, b] : named_edges_) {
       const bool along_a = ends_.slides(a) && (ends_.of(a)[0] == b || ends_.of(a)[1] == b);
       const bool along_b = ends_.slides(b) && (ends_.of(b)[0] == a || ends_.of(b)[1] == a);

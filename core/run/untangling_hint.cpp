@@ -20,7 +20,7 @@ std::optional<UntanglingHint> untangling_hint(const Run& run, std::shared_ptr<co
   Index fewest = run.history().records()[run.moment().iteration].statistics.inverted;
   std::optional<UntanglingHint> hint;
   for (const MethodInfo& method : method_table()) {
-    if (!method.untangles) continue;
+    if (!method.untangles || (input->is_surface() && !method.slides)) continue;
     if (method.name == run.parameters().method || (input->is_volume() && method.planar_only)) continue;
     RunParameters parameters = run.parameters();
     parameters.method = method.name;

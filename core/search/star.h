@@ -213,7 +213,7 @@ template <class Real>
   return {list_of(star.tetrahedra), list_of(star.hexahedra), list_of(star.wedges), list_of(star.pyramids), list_of(star.tips)};
 }
 
-/// What a star is in a frame.
+/// What a star is in a frame, Plane or Space.
 template <class Frame, class Real>
 using StarIn = std::conditional_t<std::is_same_v<Frame, Plane>, Star<Real>, VolumeStar<Real>>;
 template <class Frame, class Real>

@@ -36,7 +36,7 @@ inline void expect_no_worse(const Specimen& specimen, const dmoscope::Run& run, 
   if (run.input().mesh.single_precision) {
     for (const double x : {p.x, p.y, p.z}) EXPECT_EQ(x, static_cast<float>(x));
   }
-  if (run.input().is_volume()) return;
+  if (run.input().geometry.shape != Shape::Planar) return;
   const double before_along[] = {old.x, old.y, old.z}, along[] = {p.x, p.y, p.z}, across[] = {normal.x, normal.y, normal.z};
   for (std::size_t i = 0; i < 3; ++i) {
     if (across[i] != 1.0) continue;  // else the coordinate that is the same for all

@@ -50,8 +50,16 @@ inline std::vector<std::vector<Index>> boundary_faces(const Mesh& mesh) {
   return faces;
 }
 
-/// Quadrilaterals split: by their shorter diagonal, or by both.
-inline std::vector<Triangle> triangles_of(const std::vector<std::vector<Index>>& faces, std::span<const Vec3> positions, bool both) {
+/// The boundary of a volume; of a surface all of it.
+inline std::vector<std::vector<Index>> surface_faces(const Mesh& mesh) {
+  if (info(mesh.elements.kind(0)).dimension == 3) return boundary_faces(mesh);
+  std::vector<std::vector<Index>> faces;
+  for (Index e = 0; e < mesh.elements.size(); ++e) faces.emplace_back(mesh.elements.corners(e).begin(), mesh.elements.corners(e).end());
+  return faces;
+}
+
+/// Quadrilaterals split by their shorter diagonals.
+inline std::vector<Triangle> triangles_of(const std::vector<std::vector<Index>>& faces, std::span<const Vec3> positions) {
   std::vector<Triangle> all;
   for (const auto& f : faces) {
     if (f.size() == 3) {
@@ -59,24 +67,12 @@ inline std::vector<Triangle> triangles_of(const std::vector<std::vector<Index>>&
       continue;
     }
     const Vec3 one = positions[f[2]] - positions[f[0]], other = positions[f[3]] - positions[f[1]];
-    const bool by_one = dot(one, one) <= dot(other, other);
-    if (both || by_one) all.push_back({f[0], f[1], f[2]}), all.push_back({f[0], f[2], f[3]});
-    if (both || !by_one) all.push_back({f[0], f[1], f[3]}), all.push_back({f[1], f[2], f[3]});
+    if (dot(one, one) <= dot(other, other))
+      all.push_back({f[0], f[1], f[2]}), all.push_back({f[0], f[2], f[3]});
+    else
+      all.push_back({f[0], f[1], f[3]}), all.push_back({f[1], f[2], f[3]});
   }
   return all;
-}
-
-/// How far the diagonals of a quadrilateral pass each other, along the normal of one of the triangles that it can be split into: the most.
-inline double warp(const std::vector<Index>& f, std::span<const Vec3> positions) {
-  if (f.size() == 3) return 0.0;
-  const auto at = [&](std::size_t i) { return positions[f[i]]; };
-  const Vec3 across = unit(cross(at(2) - at(0), at(3) - at(1)));
-  double most = 0.0;
-  for (const auto& [i, j, k] : {std::array{0U, 1U, 2U}, {0U, 2U, 3U}, {0U, 1U, 3U}, {1U, 2U, 3U}}) {
-    const double cosine = std::abs(dot(unit(cross(at(j) - at(i), at(k) - at(i))), across));
-    most = std::max(most, std::abs(dot(at(1) - at(0), across)) / cosine);
-  }
-  return most;
 }
 
 inline double distance_to(Vec3 p, std::span<const Vec3> positions, const std::vector<Triangle>& triangles) {

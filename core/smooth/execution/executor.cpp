@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, 3> kBackendNames{"auto", "cpu", "cuda"}; 
 /// Why no accelerator does this; empty when one can.
 std::string obstacle(const Acceleration& acceleration, const SmoothingTask& task) {
   if (!method_info(task.method).accelerated) return fmt::format("{} runs on the CPU alone", task.method);
-  if (task.slides) return "vertices slide on the CPU alone";
+  if (task.slides || task.input->is_surface()) return "vertices slide on the CPU alone";
   if (task.size && !task.size->formula()) return "sizes out of a nodal field are looked up on the CPU alone";
   if (task.search.precision == Precision::Double && !task.input->is_volume() && !task.combination)
     return "the search in double runs on the CPU alone";

@@ -69,8 +69,9 @@ void require_possible(const Combination& combination, const SmoothingTask& task)
   validate(task.metric, combination);
   if (!method_info(task.method).combines) throw UsageError(fmt::format("only dmo combines metrics, not {}", task.method));
   if (task.then_mean) throw UsageError("a combination has a second aim of its own, which a phase that raises the mean would undo");
-  if (combination.size() != nullptr && task.input->is_volume())
-    throw UsageError("sizes are of planar meshes in this version, and the mesh is a volume");
+  if (combination.size() != nullptr && task.input->geometry.shape != Shape::Planar)
+    throw UsageError(fmt::format("sizes are of planar meshes in this version, and the mesh is a {}",
+                                 task.input->is_volume() ? "volume" : "curved surface"));
   if (const auto* second = std::get_if<Metric>(&combination.second)) require_defined(*second, task.input->mesh);
 }
 
@@ -99,6 +100,8 @@ void require_possible(const SmoothingTask& task) {
     throw UsageError(fmt::format("{} optimises only the mean ratio, not {}", method.name, info(task.metric).name));
   if (method.planar_only && task.input->is_volume()) throw UsageError(fmt::format("{} is defined only for planar meshes", method.name));
   if (task.combination) require_possible(*task.combination, task);
+  if (task.input->is_surface() && !method.slides)
+    throw UsageError(fmt::format("of the methods only dmo smooths curved surfaces, not {}", method.name));
   if (task.slides) require_sliding(task);
 }
 

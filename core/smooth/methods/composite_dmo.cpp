@@ -15,22 +15,22 @@ double mean_of_star(const MeshView<Frame>& mesh, PositionView positions, Index v
 }
 
 template <Metric M, class Frame>
-double least_at(const StarViewIn<Frame, double>& star, OffsetIn<Frame, double> p) {
-  return Objective<M, false, double, Value::Metric, StarViewIn<Frame, double>>(star)(p);
+double least_at(const JudgedStarView<Frame>& star, OffsetIn<Frame, double> p) {
+  return Objective<M, false, double, Value::Metric, JudgedStarView<Frame>>(star)(p);
 }
 
 template <Metric M, class Frame>
-bool is_tangled(const StarViewIn<Frame, double>& star) {
-  return UntanglingObjective<M, StarViewIn<Frame, double>, OffsetIn<Frame, double>>(star, {}).tangled();
+bool is_tangled(const JudgedStarView<Frame>& star) {
+  return UntanglingObjective<M, JudgedStarView<Frame>, OffsetIn<Frame, double>>(star, {}).tangled();
 }
 
 template <Metric M, class Frame>
-double untangling_at(const StarViewIn<Frame, double>& star, const Untangling& rule, OffsetIn<Frame, double> p) {
-  return UntanglingObjective<M, StarViewIn<Frame, double>, OffsetIn<Frame, double>>(star, rule)(p);
+double untangling_at(const JudgedStarView<Frame>& star, const Untangling& rule, OffsetIn<Frame, double> p) {
+  return UntanglingObjective<M, JudgedStarView<Frame>, OffsetIn<Frame, double>>(star, rule)(p);
 }
 
 template <Metric M, class Frame>
-double mean_at(const StarViewIn<Frame, double>& star, OffsetIn<Frame, double> p) {
+double mean_at(const JudgedStarView<Frame>& star, OffsetIn<Frame, double> p) {
   return mean_of<M>(star, p);
 }
 
@@ -45,10 +45,10 @@ std::array<MetricFunctions<Frame>, kMetricCount> make_table() {
   std::array<MetricFunctions<Frame>, kMetricCount> table{};
   for (const MetricInfo& entry : metric_table()) {
     auto& functions = table[static_cast<std::size_t>(entry.metric)];
-    if constexpr (std::is_same_v<Frame, Plane>)
-      functions = formulas::with_planar_metric(entry.metric, []<Metric M>() { return functions_of<M, Plane>(); });
-    else
+    if constexpr (std::is_same_v<Frame, Space>)
       functions = formulas::with_volume_metric(entry.metric, []<Metric M>() { return functions_of<M, Space>(); });
+    else
+      functions = formulas::with_planar_metric(entry.metric, []<Metric M>() { return functions_of<M, Frame>(); });
   }
   return table;
 }
@@ -62,6 +62,7 @@ const MetricFunctions<Frame>& metric_functions(Metric metric) {
 }
 template const MetricFunctions<Plane>& metric_functions<Plane>(Metric);
 template const MetricFunctions<Space>& metric_functions<Space>(Metric);
+template const MetricFunctions<Curved>& metric_functions<Curved>(Metric);
 
 CompositeObjective composite_objective(Metric first, const Combination& combination, std::shared_ptr<const SizeField> size) {
   if (size) return {first, combination.threshold, std::move(size)};
@@ -97,16 +98,16 @@ DensityTarget<Plane> density_target(const SizeField& size, const PlanarView& mes
 
 template <class Frame>
 CompositeRule<Frame>::CompositeRule(const InputMesh& input, CompositeObjective composite, const SearchParameters& parameters)
-    : mesh_(input),
-      composite_(std::move(composite)),
+    : StarJudge<Frame>(input, std::move(composite)),
+      mesh_(input),
       parameters_(parameters),
       kernel_(parameters.precision == Precision::Double
                   ? nullptr
-                  : composite_kernel<Frame>(parameters.simd.value_or(best_simd_level()), composite_.first)) {}
+                  : composite_kernel<Frame>(parameters.simd.value_or(best_simd_level()), this->composite().first)) {}
 
 template <class Frame>
 typename CompositeRule<Frame>::Found CompositeRule<Frame>::search(const Scratch& star, PositionView positions, Index vertex) const {
-  if (kernel_ != nullptr && !mesh_.untangling.repair && !is_tangled(star)) {
+  if (kernel_ != nullptr && !this->untangling().repair && !this->is_tangled(star)) {
     const CompositeFound<Frame> found = kernel_(task_of(star, positions, vertex));
     if (found.ready) return {found.offset, false};
   }
@@ -121,14 +122,14 @@ CompositeSearch<Frame> CompositeRule<Frame>::task_of(const Scratch& star, Positi
   task.points = parameters_.grid_points;
   task.levels = parameters_.levels;
   task.omega = parameters_.omega;
-  task.threshold = composite_.threshold;
-  task.inclusive = composite_.raise_mean();
-  if (const auto* metric = std::get_if<Metric>(&composite_.second)) {
+  task.threshold = this->composite().threshold;
+  task.inclusive = this->composite().raise_mean();
+  if (const auto* metric = std::get_if<Metric>(&this->composite().second)) {
     task.second = CompositeSearch<Frame>::Second::Metric;
     task.metric = *metric;
-  } else if (!composite_.raise_mean()) {
+  } else if (!this->composite().raise_mean()) {
     task.second = CompositeSearch<Frame>::Second::Density;
-    const DensityTarget<Frame> target = density_of(star, positions, vertex);
+    const DensityTarget<Frame> target = this->density_of(star, positions, vertex);
     task.wanted = target.offset;
     task.edge = target.edge;
   }
@@ -136,44 +137,56 @@ CompositeSearch<Frame> CompositeRule<Frame>::task_of(const Scratch& star, Positi
 }
 
 template <class Frame>
-DensityTarget<Frame> CompositeRule<Frame>::density_of(const Scratch& star, PositionView positions, Index vertex) const {
+DensityTarget<Frame> StarJudge<Frame>::density_of(const Star& star, PositionView positions, Index vertex) const {
   const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&composite_.second);
   if (size == nullptr) return {};
   if constexpr (std::is_same_v<Frame, Plane>) {
-    return density_target(**size, mesh_.view, positions, vertex).in_units(star.scale);
+    return density_target(**size, view_, positions, vertex).in_units(star.scale);
   }
   return {};  // sizes are of planar meshes: see require_possible()
 }
 
 /// The second aim with the vertex at `place`.
 template <class Frame>
-double CompositeRule<Frame>::second(PositionView positions, Index vertex, Vec3 place) const {
+double StarJudge<Frame>::second(PositionView positions, Index vertex, Vec3 place) const {
   if constexpr (std::is_same_v<Frame, Plane>) {
     if (const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&composite_.second))
-      return density_target(**size, mesh_.view, positions, vertex).density(mesh_.view.frame.offset(place, positions[vertex]));
+      return density_target(**size, view_, positions, vertex).density(view_.frame.offset(place, positions[vertex]));
   }
   if (const auto* metric = std::get_if<Metric>(&composite_.second))
-    return metric_functions<Frame>(*metric).state(mesh_.view, positions, vertex, place).quality;
-  return metric_functions<Frame>(composite_.first).mean(mesh_.view, positions, vertex, place);
+    return metric_functions<Frame>(*metric).state(view_, positions, vertex, place).quality;
+  return metric_functions<Frame>(composite_.first).mean(view_, positions, vertex, place);
 }
 
 template <class Frame>
-bool CompositeRule<Frame>::gains(PositionView positions, Index vertex, Vec3 target) const {
+bool StarJudge<Frame>::gains(PositionView positions, Index vertex, Vec3 target) const {
   const auto state = metric_functions<Frame>(composite_.first).state;
   const Vec3 here = positions[vertex];
-  const StarState before = state(mesh_.view, positions, vertex, here), after = state(mesh_.view, positions, vertex, target);
+  const StarState before = state(view_, positions, vertex, here), after = state(view_, positions, vertex, target);
   const auto second_rises = [&] { return second(positions, vertex, target) > second(positions, vertex, here); };
   return gains_by_two(
-      composite_, before, after, mesh_.untangling, [&] { return keeps_sound(mesh_.view, positions, vertex, target); }, second_rises);
+      composite_, before, after, untangling_, [&] { return keeps_sound(view_, positions, vertex, target); }, second_rises);
 }
+
+template <class Frame>
+void StarJudge<Frame>::gather(PositionView positions, Index vertex, Star& star) const {
+  if constexpr (std::is_same_v<Frame, Curved>)
+    gather_star(view_, positions, vertex, star);
+  else
+    gather_star(MeshStar(view_, positions, vertex), star);
+}
+
+template class StarJudge<Plane>;
+template class StarJudge<Space>;
+template class StarJudge<Curved>;
 
 template <class Frame>
 std::optional<Vec3> CompositeRule<Frame>::target(PositionView positions, Index vertex, Scratch& star) const {
-  gather(positions, vertex, star);
+  this->gather(positions, vertex, star);
   const Offset found = search(star, positions, vertex).offset;
   if (found == Offset{}) return std::nullopt;
   const auto target = mesh_.moved(positions[vertex], times(found, star.scale));
-  return target && gains(positions, vertex, *target) ? target : std::nullopt;
+  return target && this->gains(positions, vertex, *target) ? target : std::nullopt;
 }
 
 template class CompositeRule<Plane>;
@@ -187,6 +200,7 @@ std::unique_ptr<Smoother> make_composite_smoother_in(const SmoothingTask& task, 
 }  // namespace
 
 std::unique_ptr<Smoother> make_composite_smoother(const SmoothingTask& task, CompositeObjective composite) {
+  if (task.input->is_surface()) return make_surface_smoother(task, std::move(composite));
   return task.input->is_volume() ? make_composite_smoother_in<Space>(task, composite) : make_composite_smoother_in<Plane>(task, composite);
 }
 

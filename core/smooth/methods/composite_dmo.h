@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/search/surface_star.h"
 #include "core/smooth/kernels/composite_kernel.h"
 #include "core/smooth/size_field.h"
 #include "core/smooth/two_aims.h"
@@ -42,10 +43,26 @@ struct CompositeObjective {
                                                                              const std::shared_ptr<const SizeField>& size,
                                                                              const Sweep& sweep);
 
-/// What is needed of a metric, so that any two can be combined without a template for each pair. Frame: Plane or Space.
+/// The star of a vertex in double: Frame is Plane, Space or Curved.
+template <class Frame>
+struct JudgedStarOf {
+  using Star = StarIn<Frame, double>;
+  using View = StarViewIn<Frame, double>;
+};
+template <>
+struct JudgedStarOf<Curved> {
+  using Star = SurfaceStar;
+  using View = SurfaceStarView;
+};
+template <class Frame>
+using JudgedStar = typename JudgedStarOf<Frame>::Star;
+template <class Frame>
+using JudgedStarView = typename JudgedStarOf<Frame>::View;
+
+/// What is needed of a metric, so that any two can be combined without a template for each pair.
 template <class Frame>
 struct MetricFunctions {
-  using View = StarViewIn<Frame, double>;
+  using View = JudgedStarView<Frame>;
   using Offset = OffsetIn<Frame, double>;
   // By the statistics' formulas, with the vertex at a place.
   StarState (*state)(const MeshView<Frame>&, PositionView, Index vertex, Vec3 place);
@@ -67,7 +84,7 @@ template <class Frame>
 template <class Frame>
 class CompositeScore {
  public:
-  using View = StarViewIn<Frame, double>;
+  using View = JudgedStarView<Frame>;
   using Offset = OffsetIn<Frame, double>;
   /// `untangling`: of a star with inverted elements; else none.
   CompositeScore(const CompositeObjective& composite, const std::optional<Untangling>& untangling, View star,
@@ -92,9 +109,42 @@ class CompositeScore {
   double (*second_)(const View&, Offset);  // null: the density
 };
 
+/// Judges a star by two aims. The mesh must outlive it.
+template <class Frame>
+class StarJudge {
+ public:
+  using Star = JudgedStar<Frame>;
+  StarJudge(const InputMesh& input, CompositeObjective composite) : view_(input.view<Frame>()), composite_(std::move(composite)) {}
+  void begin(const Sweep& sweep) { untangling_ = sweep.untangling; }
+  [[nodiscard]] const Untangling& untangling() const noexcept { return untangling_; }
+
+  /// The star of a vertex, whether an element of it is inverted, and what a search maximises in it.
+  void gather(PositionView positions, Index vertex, Star& star) const;
+  [[nodiscard]] bool is_tangled(const Star& star) const {
+    return metric_functions<Frame>(composite_.first).is_tangled(JudgedStarView<Frame>(star));
+  }
+  [[nodiscard]] CompositeScore<Frame> score_of(const Star& star, PositionView positions, Index vertex, bool tangled) const {
+    return {composite_, tangled ? std::optional(untangling_) : std::nullopt, star, density_of(star, positions, vertex)};
+  }
+  /// Judged by the statistics' own formulas: does the vertex gain by standing at `target`?
+  [[nodiscard]] bool gains(PositionView positions, Index vertex, Vec3 target) const;
+
+ protected:
+  [[nodiscard]] DensityTarget<Frame> density_of(const Star& star, PositionView positions, Index vertex) const;
+  [[nodiscard]] const MeshView<Frame>& view() const noexcept { return view_; }
+  [[nodiscard]] const CompositeObjective& composite() const noexcept { return composite_; }
+
+ private:
+  [[nodiscard]] double second(PositionView positions, Index vertex, Vec3 place) const;
+
+  MeshView<Frame> view_;
+  CompositeObjective composite_;
+  Untangling untangling_{};
+};
+
 /// One vertex's visit: a rule for RuleSmoother. The mesh must outlive it.
 template <class Frame>
-class CompositeRule {
+class CompositeRule : public StarJudge<Frame> {
  public:
   using Scratch = StarIn<Frame, double>;
   using Offset = OffsetIn<Frame, double>;
@@ -102,7 +152,6 @@ class CompositeRule {
   static constexpr bool kDependsOnStarAlone = true;
   static constexpr std::size_t kGrain = std::is_same_v<Frame, Plane> ? 32 : 1;  // in space a visit may take half a millisecond
   CompositeRule(const InputMesh& input, CompositeObjective composite, const SearchParameters& parameters);
-  void begin(const Sweep& sweep) { mesh_.untangling = sweep.untangling; }
 
   /// What was found: the offset in units of the star's scale, and whether an element was inverted.
   struct Found {
@@ -116,32 +165,19 @@ class CompositeRule {
   template <class Trace = NoTrace>
   [[nodiscard]] Found search_plainly(const Scratch& star, PositionView positions, Index vertex, Trace&& trace = {}) const {
     const StarViewIn<Frame, double> view(star);
-    const bool untangling = is_tangled(star);
-    if (mesh_.untangling.repair && !untangling) return {};
-    const CompositeScore<Frame> objective = score_of(star, positions, vertex, untangling);
+    const bool untangling = this->is_tangled(star);
+    if (this->untangling().repair && !untangling) return {};
+    const CompositeScore<Frame> objective = this->score_of(star, positions, vertex, untangling);
     const Offset middle = untangling ? middle_of<Offset>(view) : Offset{};
     return {grid_search<double>(objective, star.box, parameters_, trace, Solo{}, untangling ? &middle : nullptr).offset, untangling};
   }
-  /// The star of a vertex, whether an element of it is inverted, and what the search maximises in it.
-  void gather(PositionView positions, Index vertex, Scratch& star) const { gather_star(MeshStar(mesh_.view, positions, vertex), star); }
-  [[nodiscard]] bool is_tangled(const Scratch& star) const {
-    return metric_functions<Frame>(composite_.first).is_tangled(StarViewIn<Frame, double>(star));
-  }
-  [[nodiscard]] CompositeScore<Frame> score_of(const Scratch& star, PositionView positions, Index vertex, bool tangled) const {
-    return {composite_, tangled ? std::optional(mesh_.untangling) : std::nullopt, star, density_of(star, positions, vertex)};
-  }
-  /// Judged by the statistics' own formulas: does the vertex gain by standing at `target`?
-  [[nodiscard]] bool gains(PositionView positions, Index vertex, Vec3 target) const;
   /// Where the vertex goes, if it gains there.
   [[nodiscard]] std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& star) const;
 
  private:
   [[nodiscard]] CompositeSearch<Frame> task_of(const Scratch& star, PositionView positions, Index vertex) const;
-  [[nodiscard]] DensityTarget<Frame> density_of(const Scratch& star, PositionView positions, Index vertex) const;
-  [[nodiscard]] double second(PositionView positions, Index vertex, Vec3 place) const;
 
   RuleMesh<Frame> mesh_;
-  CompositeObjective composite_;
   SearchParameters parameters_;
   CompositeKernel<Frame> kernel_;  // null: the plain search alone
 };

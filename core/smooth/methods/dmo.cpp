@@ -8,8 +8,8 @@
 
 #include "core/base/memory.h"
 #include "core/smooth/kernels/lane_kernel.h"
-#include "core/smooth/methods/slide.h"
 #include "core/smooth/methods/fast_volume_search.h"
+#include "core/smooth/methods/slide.h"
 #include "core/smooth/vertex_rule.h"
 
 namespace dmoscope {
@@ -113,8 +113,8 @@ class LaneDmo final : public Smoother {
       auto& self = *static_cast<LaneDmo*>(owner);
       thread_local Slide<Plane>::Scratch room;  // kept: stepping allocates nothing
       const Index vertex = self.table_.vertex_of_rank[rank];
-      const auto target =
-          self.slide_.slides(vertex) ? self.slide_.target(self.view(), vertex, room) : self.reference_.target(self.view(), vertex, room.star);
+      const auto target = self.slide_.slides(vertex) ? self.slide_.target(self.view(), vertex, room)
+                                                     : self.reference_.target(self.view(), vertex, room.star);
       if (target) self.ranked_[rank] = *target;
       return target.has_value();
     };
@@ -158,11 +158,13 @@ class LaneDmo final : public Smoother {
 }  // namespace
 
 StarState star_state(const InputMesh& input, PositionView positions, Metric metric, Index vertex) {
+  if (input.is_surface()) return metric_functions<Curved>(metric).state(input.view<Curved>(), positions, vertex, positions[vertex]);
   return with_metric_and_frame(
       input, metric, [&]<Metric M, class Frame>() { return star_state<M>(input.view<Frame>(), positions, vertex, positions[vertex]); });
 }
 
 std::unique_ptr<Smoother> make_dmo_smoother(const SmoothingTask& task) {
+  if (task.input->is_surface()) return make_surface_smoother(task, single_objective(task.metric));
   return with_metric_and_frame(*task.input, task.metric, [&]<Metric M, class Frame>() -> std::unique_ptr<Smoother> {
     if (task.search.precision == Precision::Float) {
       if constexpr (std::is_same_v<Frame, Plane>)

@@ -11,7 +11,8 @@ namespace dmoscope {
 namespace {
 
 /// Width and height of the box around the star's other vertices in a plane, in units of `scale`.
-Vec2<double> box_of_star(const VolumeView& mesh, PositionView positions, Index vertex, const Plane& plane, double scale) {
+template <class Frame>
+Vec2<double> box_of_star(const MeshView<Frame>& mesh, PositionView positions, Index vertex, const Plane& plane, double scale) {
   Vec2<double> low{}, high{};
   for (const Incidence& at : mesh.star(vertex)) {
     for (const Index other : mesh.corners_of(at.element)) {
@@ -53,7 +54,7 @@ CompositeObjective single_objective(Metric metric) { return {metric, std::numeri
 template <class Frame>
 Slide<Frame>::Slide(const SmoothingTask& task, CompositeObjective composite)
     : domain_(task.domain),
-      rule_(*task.input, std::move(composite), task.search),
+      judge_(*task.input, std::move(composite)),
       mesh_(task.input->view<Frame>()),
       parameters_(task.search),
       max_deviation_(task.max_deviation),
@@ -61,16 +62,15 @@ Slide<Frame>::Slide(const SmoothingTask& task, CompositeObjective composite)
 
 template <class Frame>
 void Slide<Frame>::begin(const Sweep& sweep) {
-  untangling_ = sweep.untangling;
-  rule_.begin(sweep);
+  judge_.begin(sweep);
 }
 
 template <class Frame>
 std::optional<Vec3> Slide<Frame>::target(PositionView positions, Index vertex, Scratch& scratch) const {
-  rule_.gather(positions, vertex, scratch.star);
-  const bool tangled = rule_.is_tangled(scratch.star);
-  if (untangling_.repair && !tangled) return std::nullopt;
-  const auto score = rule_.score_of(scratch.star, positions, vertex, tangled);
+  judge_.gather(positions, vertex, scratch.star);
+  const bool tangled = judge_.is_tangled(scratch.star);
+  if (judge_.untangling().repair && !tangled) return std::nullopt;
+  const auto score = judge_.score_of(scratch.star, positions, vertex, tangled);
   const Visit visit{vertex, positions[vertex], positions, scratch.star.scale, score, scratch.room};
   return domain_->on_curve(vertex) ? along_curve(visit) : on_surface(visit);
 }
@@ -117,7 +117,7 @@ std::optional<Vec3> Slide<Frame>::possible(const Visit& visit, const Stretch& st
   // What rounding put elsewhere must still be between the neighbours.
   const auto landed = curves.place(visit.vertex, target);
   if (!landed || !curves.neighbours(visit.vertex, *landed, visit.positions)) return std::nullopt;
-  if (!rule_.gains(visit.positions, visit.vertex, target) || !keeps_near(visit, stretch, place, target)) return std::nullopt;
+  if (!judge_.gains(visit.positions, visit.vertex, target) || !keeps_near(visit, stretch, place, target)) return std::nullopt;
   return fits(visit, target, nullptr, nullptr) ? std::optional(target) : std::nullopt;
 }
 
@@ -144,10 +144,12 @@ bool Slide<Frame>::fits(const Visit& visit, Vec3 target, const FacetPlace* here,
   if (!domain_->facets().any()) return true;
   Overlay overlay(*domain_, visit.room);
   const Fit fit = overlay.star(visit.positions, visit.vertex, target, there);
-  if (fit.deviation <= max_deviation_ && fit.least_cosine >= kLeastCosine) return true;
+  if (std::max(fit.deviation, fit.other_split) <= max_deviation_ && fit.least_cosine >= kLeastCosine) return true;
   if (fit.deviation == kNoFit.deviation) return false;
   const Fit now = overlay.star(visit.positions, visit.vertex, visit.here, here);
-  return fit.deviation <= std::max(max_deviation_, now.deviation) && fit.least_cosine >= std::min(kLeastCosine, now.least_cosine);
+  if (now.deviation == kNoFit.deviation) return false;
+  return fit.deviation <= std::max(max_deviation_, now.deviation) && fit.other_split <= std::max(max_deviation_, now.other_split) &&
+         fit.least_cosine >= std::min(kLeastCosine, now.least_cosine);
 }
 
 template <class Frame>
@@ -167,7 +169,8 @@ std::optional<Vec3> Slide<Frame>::on_surface(const Visit& visit) const {
     const auto worth = [&](Vec2<double> p) {
       if (p == Vec2<double>{}) return visit.score({});
       const auto found = walk(p);
-      return found ? visit.score(times(facets.at(*found) - visit.here, 1.0 / visit.scale)) : -std::numeric_limits<double>::infinity();
+      return found ? visit.score(times(mesh_.frame.offset(facets.at(*found), visit.here), 1.0 / visit.scale))
+                   : -std::numeric_limits<double>::infinity();
     };
     Vec2<double> step =
         grid_search<double>(worth, box_of_star(mesh_, visit.positions, visit.vertex, tangent, visit.scale), parameters_).offset;
@@ -177,7 +180,7 @@ std::optional<Vec3> Slide<Frame>::on_surface(const Visit& visit) const {
       Vec3 target = facets.at(*there);
       if (single_precision_) target = {nearest_float(target.x), nearest_float(target.y), nearest_float(target.z)};
       if (!facets.place(visit.vertex, target)) continue;
-      if (rule_.gains(visit.positions, visit.vertex, target) && fits(visit, target, &*place, &*there)) return target;
+      if (judge_.gains(visit.positions, visit.vertex, target) && fits(visit, target, &*place, &*there)) return target;
     }
     return std::nullopt;
   }
@@ -185,5 +188,23 @@ std::optional<Vec3> Slide<Frame>::on_surface(const Visit& visit) const {
 
 template class Slide<Plane>;
 template class Slide<Space>;
+template class Slide<Curved>;
+
+namespace {
+/// Nothing moves by it.
+struct NobodyIsFree {
+  struct Scratch {};
+  static constexpr bool kDependsOnStarAlone = true;
+  static constexpr std::size_t kGrain = 32;
+  void begin(const Sweep& /*sweep*/) {}
+  [[nodiscard]] std::optional<Vec3> target(PositionView /*positions*/, Index /*vertex*/, Scratch& /*scratch*/) const {
+    return std::nullopt;
+  }
+};
+}  // namespace
+
+std::unique_ptr<Smoother> make_surface_smoother(const SmoothingTask& task, CompositeObjective composite) {
+  return make_sliding_smoother<Curved>(task, NobodyIsFree{}, std::move(composite));
+}
 
 }  // namespace dmoscope

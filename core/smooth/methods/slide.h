@@ -18,12 +18,12 @@ namespace dmoscope {
 /// The vertex goes to the winner if it gains there, by the rules for all vertices (promise 1), and if no edge of a curve and no face of the
 /// surface then deviates from the input by more than the bound, or leans more than 60 degrees away from it, or than before. In space it
 /// tries half of the way where it may not go all of it, and half of that, twice more. The mesh must outlive it.
-/// Frame: Plane, where all slide along curves, or Space.
+/// Frame: Plane, where all slide along curves, Space, or Curved.
 template <class Frame>
 class Slide {
  public:
   struct Scratch {
-    StarIn<Frame, double> star;
+    JudgedStar<Frame> star;
     OverlayRoom room;
   };
   /// `composite`: what the vertices aim at.
@@ -46,10 +46,9 @@ class Slide {
   [[nodiscard]] bool fits(const Visit& visit, Vec3 target, const FacetPlace* here, const FacetPlace* there) const;
 
   std::shared_ptr<const Domain> domain_;  // null: nothing slides
-  CompositeRule<Frame> rule_;
+  StarJudge<Frame> judge_;
   MeshView<Frame> mesh_;
   SearchParameters parameters_;
-  Untangling untangling_{};
   double max_deviation_;
   bool single_precision_;
 };
@@ -84,6 +83,9 @@ template <class Frame, class Rule>
   if (!task.domain) return make_rule_smoother(task, std::move(rule));
   return make_rule_smoother(task, SlidingRule<Rule, Frame>(std::move(rule), Slide<Frame>(task, std::move(composite))));
 }
+
+/// A smoother of a curved surface, where all that moves slides.
+[[nodiscard]] std::unique_ptr<Smoother> make_surface_smoother(const SmoothingTask& task, CompositeObjective composite);
 
 /// A metric as the only aim.
 [[nodiscard]] CompositeObjective single_objective(Metric metric);

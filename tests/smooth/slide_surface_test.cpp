@@ -1,0 +1,272 @@
+// Curved surfaces: vertices never leave the input's, faces deviate by no more than the bound, nothing folds over.
+
+#include <algorithm>
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "core/base/error.h"
+#include "core/mesh/generate.h"
+#include "tests/smooth/surface_judge.h"
+#include "tests/support/sanitized.h"
+#include "tests/support/volume_grids.h"
+
+namespace dmoscope {
+namespace {
+
+using namespace testing;
+using ::testing::HasSubstr;
+
+/// The boundary of a volume as a mesh of its own; quadrilaterals as they are, or every other one, or all of them split.
+Mesh skin(const Mesh& volume, Cells cells) {
+  Mesh mesh;
+  std::vector<Index> now(volume.vertex_count(), kNoIndex);
+  Index count = 0;
+  for (auto face : boundary_faces(volume)) {
+    for (Index& v : face) {
+      if (now[v] == kNoIndex) {
+        now[v] = mesh.vertex_count();
+        mesh.positions.push_back(volume.positions[v]);
+      }
+      v = now[v];
+    }
+    const bool whole = cells == Cells::Quadrilaterals || (cells == Cells::Mixed && count++ % 2 == 0);
+    if (face.size() == 3) {
+      testing::add(mesh, {face[0], face[1], face[2]});
+    } else if (whole) {
+      testing::add(mesh, {face[0], face[1], face[2], face[3]});
+    } else {
+      testing::add(mesh, {face[0], face[1], face[2]});
+      testing::add(mesh, {face[0], face[2], face[3]});
+    }
+  }
+  return mesh;
+}
+
+/// A lattice closed in one direction, or both; `half`: with half a turn, as a Moebius band.
+Mesh wound(Index n, Index m, bool both, bool half, std::uint64_t seed, Cells cells, Vec3 (*map)(double, double)) {
+  Mesh mesh;
+  dmoscope::testing::Random random(seed);
+  const Index rows = both ? m : m + 1;
+  for (Index j = 0; j < rows; ++j)
+    for (Index i = 0; i < n; ++i) {
+      const bool inside = both || (j > 0 && j < m);
+      mesh.positions.push_back(map((i + random(-0.25, 0.25)) / n, (j + (inside ? random(-0.25, 0.25) : 0.0)) / m));
+    }
+  const auto at = [&](Index i, Index j) {
+    if (i == n && half) return (m - j) * n;
+    return (j % rows) * n + i % n;
+  };
+  for (Index j = 0; j < m; ++j)
+    for (Index i = 0; i < n; ++i) {
+      if (cells == Cells::Quadrilaterals || (cells == Cells::Mixed && (i + j) % 2 == 0)) {
+        testing::add(mesh, {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+      } else {
+        testing::add(mesh, {at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+        testing::add(mesh, {at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+      }
+    }
+  return mesh;
+}
+Vec3 on_torus(double u, double v) {
+  const double a = 2 * M_PI * u, b = 2 * M_PI * v;
+  return {(2 + 0.7 * std::cos(b)) * std::cos(a), (2 + 0.7 * std::cos(b)) * std::sin(a), 0.7 * std::sin(b)};
+}
+Vec3 on_cylinder(double u, double v) { return {std::cos(2 * M_PI * u), std::sin(2 * M_PI * u), 3 * v}; }
+Vec3 on_moebius(double u, double v) {
+  const double a = 2 * M_PI * u, w = 0.6 * (v - 0.5);
+  return {(1 + w * std::cos(a / 2)) * std::cos(a), (1 + w * std::cos(a / 2)) * std::sin(a), w * std::sin(a / 2)};
+}
+
+std::vector<Specimen> surfaces() {
+  std::vector<Specimen> all;
+  std::uint64_t seed = 90;
+  const auto graph = [&](double jitter, Cells cells, Vec3 (*map)(Vec3)) { return mapped(lattice(8, jitter, seed, cells), map); };
+  for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals, Cells::Mixed}) {
+    ++seed;
+    const Mesh block = shaken(test::volume_grid(4, test::Fill::Hexahedra), 0.08, seed);
+    all.push_back({"cube", skin(block, cells)});
+    all.push_back({"sphere", skin(mapped(block, ball), cells)});
+    all.push_back({"torus", wound(24, 9, true, false, seed, cells, on_torus)});
+    all.push_back({"cylinder", wound(16, 6, false, false, seed, cells, on_cylinder)});
+    all.push_back({"Moebius band", wound(24, 4, false, true, seed, cells, on_moebius)});
+    all.push_back({"hill", graph(0.35, cells, [](Vec3 p) { return Vec3{p.x, p.y, 0.2 * std::sin(5 * p.x) * std::cos(4 * p.y)}; })});
+    all.push_back({"crease that ends inside", graph(0.2, cells, [](Vec3 p) {
+                     return Vec3{p.x, p.y, p.y > 0.5 ? 2 * (p.y - 0.5) * std::max(0.0, 0.6 - p.x) : 0.0};
+                   })});
+    all.push_back({"folded", graph(0.9, cells, [](Vec3 p) { return Vec3{p.x, p.y, 0.3 * p.x * p.x}; })});
+    all.push_back({"tiny", graph(0.3, cells, [](Vec3 p) { return Vec3{1e-9 * p.x, 1e-9 * p.y, 2e-10 * p.x * p.y}; })});
+    all.push_back({"far", graph(0.3, cells, [](Vec3 p) { return Vec3{1e4 + p.x, p.y - 1e4, 0.2 * p.x * p.y + 1e4}; })});
+    all.push_back({"stretched", graph(0.3, cells, [](Vec3 p) { return Vec3{200 * p.x, p.y, 0.1 * p.y * p.y}; })});
+    Mesh single = graph(0.3, cells, [](Vec3 p) {
+      return Vec3{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(0.3 * p.x * p.x)};
+    });
+    single.single_precision = true;
+    all.push_back({"single precision", std::move(single)});
+    all.push_back({"thin plate", skin(mapped(block, [](Vec3 p) { return Vec3{p.x, p.y, 1e-5 * p.z}; }), cells)});
+    // A third sheet on the middle row, whose edges have three elements then; and a sheet that touches in one vertex alone.
+    Mesh tee = graph(0.3, cells, [](Vec3 p) { return Vec3{p.x, p.y, 0.1 * p.x * p.x}; });
+    const Index first = tee.vertex_count();
+    for (Index i = 0; i <= 8; ++i) tee.positions.push_back(tee.positions[4 * 9 + i] + Vec3{0, 0, 0.3});
+    for (Index i = 0; i < 8; ++i) testing::add(tee, {36 + i, 37 + i, first + i + 1, first + i});
+    tee.positions.push_back({0.3, 0.3, 1}), tee.positions.push_back({0.4, 0.3, 1});
+    testing::add(tee, {22, first + 9, first + 10});
+    all.push_back({"three sheets", std::move(tee)});
+  }
+  return all;
+}
+
+TEST(SlidingOnSurfaces, KeepTheirPromisesAfterEveryIteration) {
+  for (const Specimen& specimen : surfaces()) {
+    const auto mesh = input(specimen.mesh);
+    ASSERT_EQ(mesh->geometry.shape, Shape::Surface) << specimen.name;
+    for (const Metric metric : {Metric::MeanRatio, Metric::MinAngle, Metric::ScaledJacobian}) {
+      if (!defined_for_all(metric, specimen.mesh)) continue;
+      for (const BoundaryRule boundary : {BoundaryRule::Fixed, BoundaryRule::Slide}) {
+        const SurfaceJudge judge(specimen, *mesh, 1e-3);
+        RunParameters parameters = sliding_by();
+        parameters.metric = metric;
+        parameters.boundary = boundary;
+        dmoscope::Run run = make_run(mesh, parameters);
+        for (std::uint64_t iteration = 1; iteration <= (kSanitized ? 1 : 3); ++iteration) {
+          expect_promise_one(specimen, run, iteration);
+          judge.expect_kept(run);
+          expect_in_order(specimen, run);
+          expect_fixed_stay(specimen, run);
+          if (::testing::Test::HasFatalFailure()) return;
+        }
+        EXPECT_GT(slid(run), 3U) << specimen.name;
+      }
+    }
+  }
+}
+
+/// A thousand surfaces, smooth and rough, some of which fold over themselves.
+TEST(SlidingOnSurfaces, RandomOnesKeepTheirPromises) {
+  std::size_t moved = 0;
+  for (std::uint64_t seed = 1; seed <= (kSanitized ? 60U : 1000U); ++seed) {
+    dmoscope::testing::Random random(seed);
+    Mesh start = lattice(5, random(0.0, 0.8), seed,
+                         seed % 3 == 0   ? Cells::Mixed
+                         : seed % 3 == 1 ? Cells::Triangles
+                                         : Cells::Quadrilaterals);
+    const double rough = random(0.0, 1.0), noise = 0.3 * rough * rough, bend = random(-3.0, 3.0), wave = random(0.0, 0.3),
+                 way = random(2.0, 9.0);
+    for (Vec3& p : start.positions) {
+      const double x = p.x, z = wave * std::sin(way * x + p.y) + noise * random(-1.0, 1.0);
+      p = std::abs(bend) < 0.1 ? Vec3{x, p.y, z} : Vec3{(1 / bend + z) * std::sin(bend * x), p.y, (1 / bend + z) * std::cos(bend * x)};
+    }
+    const Specimen specimen{"random " + std::to_string(seed), start};
+    const auto mesh = input(start);
+    if (!mesh->is_surface()) continue;
+    const SurfaceJudge judge(specimen, *mesh, 1e-2);
+    RunParameters parameters = sliding_by(1e-2);
+    parameters.boundary = seed % 2 == 0 ? BoundaryRule::Fixed : BoundaryRule::Slide;
+    dmoscope::Run run = make_run(mesh, parameters);
+    if (run.visits_per_iteration() == 0) continue;  // so rough that each vertex is a corner
+    for (std::uint64_t iteration = 1; iteration <= 2; ++iteration) {
+      expect_promise_one(specimen, run, iteration);
+      judge.expect_kept(run, true);
+      if (::testing::Test::HasFatalFailure()) return;
+    }
+    moved += slid(run);
+  }
+  EXPECT_GT(moved, kSanitized ? 300U : 5000U);
+}
+
+/// Vertices of a sphere, a torus and a cylinder stay between the surface itself and its facets' middles.
+TEST(SlidingOnSurfaces, AnalyticDistances) {
+  struct Case {
+    const char* name;
+    Mesh mesh;
+    double (*off)(Vec3);  // the distance from the surface, negative inside
+  };
+  std::vector<Case> cases;
+  cases.push_back({"sphere", skin(mapped(shaken(test::volume_grid(8, test::Fill::Hexahedra), 0.03, 7), ball), Cells::Triangles),
+                   [](Vec3 p) { return length(p) - 1; }});
+  cases.push_back({"torus", wound(40, 14, true, false, 8, Cells::Triangles, on_torus),
+                   [](Vec3 p) { return std::hypot(std::hypot(p.x, p.y) - 2, p.z) - 0.7; }});
+  cases.push_back(
+      {"cylinder", wound(24, 8, false, false, 9, Cells::Triangles, on_cylinder), [](Vec3 p) { return std::hypot(p.x, p.y) - 1; }});
+  for (const Case& one : cases) {
+    const auto mesh = input(one.mesh);
+    dmoscope::Run run = make_run(mesh, sliding_by(0.01));
+    Progress progress;
+    run.iterate(10, progress);
+    double most = 0.0;  // how far the facets' points are from the surface that their corners lie on
+    for (Index e = 0; e < mesh->mesh.elements.size(); ++e) {
+      const auto c = mesh->mesh.elements.corners(e);
+      for (double u = 0; u <= 1.0; u += 0.1)
+        for (double v = 0; u + v <= 1.0 + 1e-9; v += 0.1)
+          most = std::max(most, std::abs(one.off((1 - u - v) * one.mesh.positions[c[0]] + u * one.mesh.positions[c[1]] +
+                                                 v * one.mesh.positions[c[2]])));
+    }
+    EXPECT_GT(slid(run), 50U) << one.name;
+    EXPECT_GT(run.statistics().minimum, run.history().records().front().statistics.minimum) << one.name;
+    for (const Vec3& p : run.positions()) ASSERT_LE(std::abs(one.off(p)), 1.1 * most) << one.name;
+  }
+}
+
+/// The same bits by any number of threads, in one go or in steps, after going back, and where others aim.
+TEST(SlidingOnSurfaces, AreTheSameBits) {
+  const auto all = surfaces();
+  for (std::size_t i = 0; i < all.size(); i += 4) {  // each kind once, with one kind of cells or another
+    const Specimen& specimen = all[i];
+    const auto mesh = input(specimen.mesh);
+    Progress progress;
+    for (const int aims : {0, 1, 2}) {
+      RunParameters parameters = sliding_by();
+      if (aims == 1) parameters.then_mean = MeanPhase{.patience = 2};
+      if (aims == 2) parameters.combination = Combination{0.3, Metric::ScaledJacobian};
+      dmoscope::Run expected = make_run(mesh, parameters);
+      expected.iterate(3, progress);
+      for (const unsigned threads : {2U, 8U}) {
+        dmoscope::Run run = make_run(mesh, parameters, threads);
+        run.iterate(3, progress);
+        ASSERT_TRUE(same_bits(run.positions(), expected.positions())) << specimen.name << ", aims " << aims;
+      }
+      dmoscope::Run stepped = make_run(mesh, parameters, 2);
+      stepped.seek({2, stepped.visits_per_iteration() / 3}, progress);
+      stepped.seek({1, 0}, progress);
+      stepped.seek({3, 0}, progress);
+      ASSERT_TRUE(same_bits(stepped.positions(), expected.positions())) << specimen.name << ", aims " << aims << ": seek";
+    }
+  }
+}
+
+/// Borders between groups of elements stay, slide along themselves, or are nothing.
+TEST(SlidingOnSurfaces, BordersOfGroups) {
+  Mesh start = mapped(lattice(10, 0.0, 3), [](Vec3 p) { return Vec3{p.x + 0.03 * std::sin(40 * p.x * p.y), p.y, 0.2 * p.x * p.x}; });
+  Group left{.name = "left", .role = "physical group", .code = 0, .dimension = 2, .members = {}};
+  for (Index e = 0; e < start.elements.size() / 2; ++e) left.members.push_back(e);
+  start.groups = {left};
+  const auto mesh = input(start);
+  const auto row = [](Index v) { return v / 11 == 5 && v % 11 > 0 && v % 11 < 10; };
+  for (const InterfaceRule rule : {InterfaceRule::Fixed, InterfaceRule::Slide, InterfaceRule::Free}) {
+    RunParameters parameters;
+    parameters.interfaces = rule;
+    dmoscope::Run run = make_run(mesh, parameters);
+    for (Index v = 0; v < start.vertex_count(); ++v) {
+      if (!row(v)) continue;
+      EXPECT_EQ(run.domain()->on_curve(v), rule == InterfaceRule::Slide) << "vertex " << v;
+      EXPECT_EQ(run.domain()->on_surface(v), rule == InterfaceRule::Free) << "vertex " << v;
+    }
+  }
+}
+
+TEST(SlidingOnSurfaces, WhatCannotBeIsSaid) {
+  const auto mesh = input(wound(12, 5, true, false, 3, Cells::Triangles, on_torus));
+  for (const char* method : {"laplace", "smart-laplace", "dvr", "active-set", "pattern-search", "angle-based"}) {
+    RunParameters parameters;
+    parameters.method = method;
+    try {
+      (void)make_run(mesh, parameters);
+      ADD_FAILURE() << method;
+    } catch (const UsageError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("only dmo smooths curved surfaces")) << method;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dmoscope

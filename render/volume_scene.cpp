@@ -116,9 +116,6 @@ bool VolumeScene::show(std::shared_ptr<const Frame> frame, Loading /*loading*/) 
 }
 
 void VolumeScene::set_mesh(const ElementTable& elements, const FaceNeighbours& faces, std::shared_ptr<const void> owner) {
-  if (std::ranges::any_of(elements.kinds(), [](ElementKind kind) { return info(kind).dimension != 3; })) {
-    throw UsageError("only elements of a volume have an inside to be seen");
-  }
   Impl& s = *impl_;
   s.forget();
   s.inside = std::make_unique<Clipping>(elements, faces);

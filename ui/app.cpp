@@ -194,7 +194,7 @@ void App::notice_new_input() {
 void App::show_beside() {
   if (state_.panes.one()) state_.set_layout(PaneLayout::Two);
   state_.follow(*session_);  // which mesh comes into which viewport
-  if (state_.is_volume) return;
+  if (state_.in_space) return;
   const auto alike = [&](const InputView& mesh) { return cover_alike(*mesh.input, *session_->input); };
   if (!std::ranges::all_of(session_->meshes, alike)) state_.link_cameras(false);
 }

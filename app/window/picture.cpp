@@ -80,7 +80,7 @@ render::Shot shot_of(const InputMesh& input, const JudgedElements& judged, const
 }
 
 std::string picture_png(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look, const Progress& progress) {
-  if (input.is_volume()) return volume_picture_png(input, positions, look, {}, progress);
+  if (input.in_space()) return volume_picture_png(input, positions, look, {}, progress);
   const JudgedElements judged = judge(input, positions, look.metric, progress);
   const auto context = render::create_headless_context();
   render::PlanarScene scene;
@@ -106,13 +106,13 @@ int render_picture(const std::filesystem::path& input, const std::filesystem::pa
                    const InsideLook& inside, const IoContext& context) {
   const Progress& progress = context.progress;
   const auto mesh = load_input(input, Need::QualityOnly, context);
-  if (!mesh->is_volume() && inside.asked_for()) {
+  if (!mesh->in_space() && inside.asked_for()) {
     throw UsageError(fmt::format("{}: this option works only on volume meshes", input.string()));
   }
   if (const std::string left_out = left_out_of_pictures(mesh->report.seam_elements, mesh->geometry.plane); !left_out.empty())
     complain(fmt::format("{}: {}", mesh->mesh.name, left_out));
   const std::span<const Vec3> positions = mesh->mesh.positions;
-  write_file_atomically(output, mesh->is_volume() ? volume_picture_png(*mesh, positions, look, inside, progress)
+  write_file_atomically(output, mesh->in_space() ? volume_picture_png(*mesh, positions, look, inside, progress)
                                                   : picture_png(*mesh, positions, look, progress));
   return 0;
 }

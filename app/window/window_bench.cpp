@@ -154,7 +154,7 @@ class Subject {
   }
   /// The camera under which the mesh is drawn.
   [[nodiscard]] render::Camera camera() {
-    if (state().is_volume) return state().orbit;
+    if (state().in_space) return state().orbit;
     return state().camera;
   }
   /// Frames until `changed`, and the one that shows it.

@@ -43,6 +43,7 @@ Crossings crossings_of(ElementKind kind, const std::array<bool, kMostCorners>& b
 
 void cut_element(const ElementTable& elements, std::span<const Vec3> positions, Index element, const ClipPlane& plane, double shrink,
                  PlaneCuts& cuts) {
+  if (info(elements.kind(element)).dimension != 3) return;  // a plane cuts a surface along a line
   const auto corners = elements.corners(element);
   std::array<Vec3, kMostCorners> points{};
   Vec3 mean{};

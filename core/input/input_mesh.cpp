@@ -240,7 +240,10 @@ std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path 
   progress.begin("checking");
   MeshReport report = examine(mesh, geometry, topology, edges, progress);
   edges = {};
-  return assemble(std::move(mesh), geometry, std::move(topology), {}, std::move(report), std::move(path), progress, std::move(generator));
+  FaceNeighbours faces;
+  if (geometry.shape == Shape::Surface) faces = FaceNeighbours(mesh, &progress);
+  return assemble(std::move(mesh), geometry, std::move(topology), std::move(faces), std::move(report), std::move(path), progress,
+                  std::move(generator));
 }
 
 }  // namespace dmoscope

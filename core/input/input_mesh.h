@@ -23,7 +23,7 @@ struct InputMesh {
   Mesh mesh;  // orientation normalised
   Geometry geometry;
   Topology topology;
-  FaceNeighbours faces;  // of a volume
+  FaceNeighbours faces;  // of a volume, and the elements of a surface, each of which is a face
   MeshReport report;
   std::filesystem::path path;             // empty for a generated mesh
   std::vector<double> reference_measure;  // > 0, divides an element's Jacobian while untangling: mean over its corners of the mean |area|
@@ -33,6 +33,8 @@ struct InputMesh {
   bool has_strays = false;  // a vertex of an inverted element, off the boundary, that lies outside the box of its star's other vertices
   [[nodiscard]] QualityContext quality_context() const { return {mesh, geometry}; }
   [[nodiscard]] bool is_volume() const noexcept { return geometry.shape == Shape::Volume; }
+  /// Drawn in space: a volume or a curved surface.
+  [[nodiscard]] bool in_space() const noexcept { return geometry.shape != Shape::Planar; }
   [[nodiscard]] bool is_surface() const noexcept { return geometry.shape == Shape::Surface; }
   /// The mesh as kernels read it. Frame: Plane for a planar mesh, Space for a volume mesh, Curved for a surface.
   template <class Frame>

@@ -10,6 +10,7 @@ namespace dmoscope {
 
 namespace {
 
+constexpr std::array<LocalFace, 1> kTriangle{{{3, {0, 1, 2}}}}, kQuadrilateral{{{4, {0, 1, 2, 3}}}};
 constexpr std::array<LocalFace, 4> kTetrahedron{{{3, {0, 2, 1}}, {3, {0, 1, 3}}, {3, {1, 2, 3}}, {3, {0, 3, 2}}}};
 constexpr std::array<LocalFace, 6> kHexahedron{
     {{4, {0, 3, 2, 1}}, {4, {4, 5, 6, 7}}, {4, {0, 1, 5, 4}}, {4, {1, 2, 6, 5}}, {4, {2, 3, 7, 6}}, {4, {3, 0, 4, 7}}}};
@@ -46,8 +47,9 @@ std::span<const LocalFace> faces_of(ElementKind kind) noexcept {
     case ElementKind::Pyramid:
       return kPyramid;
     case ElementKind::Triangle:
+      return kTriangle;
     case ElementKind::Quadrilateral:
-      break;
+      return kQuadrilateral;
   }
   return {};
 }

@@ -1,6 +1,7 @@
 #include "core/reference/domain.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -14,7 +15,7 @@ Domain::Domain(const InputMesh& input, const StandingRule& rule)
     : Domain(input, rule, input.geometry.shape == Shape::Planar ? SurfaceEnds{planar_ends(input, rule), {}} : surface_ends(input, rule)) {}
 
 Domain::Domain(const InputMesh& input, const StandingRule& rule, SurfaceEnds ends)
-    : curves_(input, ends.curves), facets_(std::move(ends.facets)) {
+    : curves_(input, ends.curves), facets_(std::move(ends.facets)), is_surface_(input.is_surface()) {
   curves_.for_segments([this](Index curve, std::size_t segment, Index from, Index to) {
     segments_.push_back({std::min(from, to), std::max(from, to), curve, static_cast<Index>(segment)});
   });
@@ -24,7 +25,10 @@ Domain::Domain(const InputMesh& input, const StandingRule& rule, SurfaceEnds end
     for (Index v = 0; v < may.size(); ++v) may[v] = ends.curves.off(v) ? 1 : 0;
     facets_.carry(may);
   }
+  held_.reserve(ends.curves.size());
   for (Index v = 0; v < ends.curves.size(); ++v) {
+    const bool of_surface = facets_.any() && facets_.count_at(v) > 0 && !slides(v);
+    held_.push_back(of_surface && ends.curves.off(v) ? HeldOn::Touching : slides(v) ? HeldOn::Nothing : ends.curves.why(v));
     const bool on_boundary = input.topology.boundary()[v] != 0;
     sliding_ += slides(v) ? 1 : 0;
     on_curves_ += on_curve(v) ? 1 : 0;
@@ -41,14 +45,24 @@ bool Domain::is_within(std::span<const Curves::Stretch> stretches, Index a, Inde
                              [&](const auto& stretch) { return stretch.curve == found->curve && stretch.holds(found->segment); });
 }
 
+std::string_view Domain::why_held(Index vertex) const {
+  constexpr std::array<std::string_view, 7> kWhy{
+      {"", "it is a corner: the boundary or feature edge turns there by more than the corner angle", "feature edges meet there", "a feature edge ends there",
+       "parts of the mesh touch there, or cannot be wound alike", "the file gives it a meaning", "what it lies on stays"}};
+  return kWhy[static_cast<std::size_t>(held_[vertex])];
+}
+
 std::string Domain::sentence() const {
   const auto slide = [](Index n) { return fmt::format("{} {}", counted(n, "vertex", "vertices"), n == 1 ? "slides" : "slide"); };
   std::string text;
   if (sliding_ > inside_ || corners_ > 0)
     text = fmt::format("{} along the boundary, and {} of its vertices {}", slide(sliding_ - inside_), grouped(corners_),
                        corners_ == 1 ? "stays" : "stay");
-  if (inside_ > 0 || text.empty()) text += fmt::format("{}{} along interfaces", text.empty() ? "" : "; ", slide(inside_));
+  if (inside_ > 0 || text.empty())
+    text += fmt::format("{}{} {}", text.empty() ? "" : "; ", slide(inside_), is_surface_ ? "on the surface" : "along interfaces");
   if (facets_.any() && on_curves_ > 0) text += fmt::format(" ({} on feature edges)", grouped(on_curves_));
+  const auto held = std::ranges::count_if(held_, [](HeldOn why) { return why != HeldOn::Nothing && why != HeldOn::Rule; });
+  if (is_surface_ && held > 0) text += fmt::format("; corners and ends of feature edges hold {}", grouped(static_cast<Index>(held)));
   return text;
 }
 

@@ -2,7 +2,9 @@
 // Where the vertices of a mesh may go that slide: the curves and, of a volume, the surfaces of the input.
 
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/reference/curves.h"
@@ -33,6 +35,8 @@ class Domain {
   [[nodiscard]] const Curves& curves() const noexcept { return curves_; }
   [[nodiscard]] const Facets& facets() const noexcept { return facets_; }  // none in a plane
 
+  /// What holds a vertex of the boundary, of an interface, or of a surface; "feature edges meet there". Empty for others.
+  [[nodiscard]] std::string_view why_held(Index vertex) const;
   [[nodiscard]] Index count() const noexcept { return sliding_; }        // of vertices that slide
   [[nodiscard]] Index count_inside() const noexcept { return inside_; }  // of these, off the boundary
   [[nodiscard]] Index count_on_curves() const noexcept { return on_curves_; }
@@ -52,6 +56,8 @@ class Domain {
   Curves curves_;
   Facets facets_;
   std::vector<Segment> segments_;  // of all curves, ascending
+  std::vector<HeldOn> held_;       // by vertex
+  bool is_surface_;
   Index sliding_ = 0, inside_ = 0, on_curves_ = 0, corners_ = 0;
 };
 

@@ -14,13 +14,13 @@ void hold_corners(const InputMesh& input, double corner_angle, CurveEnds& ends) 
     const Vec3 out = plane.difference(input.mesh.positions[ends.of(v)[1]], here);
     const double turn = std::atan2(length(cross(in, out)), dot(in, out));
     const bool has_direction = dot(in, in) > 0.0 && dot(out, out) > 0.0;
-    if (!has_direction || !(turn <= corner_angle * kDegree)) ends.hold(v);
+    if (!has_direction || !(turn <= corner_angle * kDegree)) ends.hold(v, HeldOn::Corner);
   }
 }
 
 void hold_ends_of_names(const NamedEdges& names, CurveEnds& ends) {
   for (Index v = 0; v < ends.size(); ++v)
-    if (ends.slides(v) && !names.same(v, ends.of(v)[0], ends.of(v)[1])) ends.hold(v);
+    if (ends.slides(v) && !names.same(v, ends.of(v)[0], ends.of(v)[1])) ends.hold(v, HeldOn::Named);
 }
 
 void hold_named_points(const InputMesh& input, CurveEnds& ends) {
@@ -29,16 +29,16 @@ void hold_named_points(const InputMesh& input, CurveEnds& ends) {
   for (const Group& group : mesh.groups) {
     if (group.dimension == 0 && !is_string(group)) points.push_back(&group);
     if (group.dimension != 2 || !is_required(group)) continue;
-    for (const Index v : group.faces.all_corners()) ends.hold(v);
+    for (const Index v : group.faces.all_corners()) ends.hold(v, HeldOn::Named);
     if (!group.of_elements()) continue;
     for (const Index e : group.members)
-      for (const Index v : mesh.elements.corners(e)) ends.hold(v);
+      for (const Index v : mesh.elements.corners(e)) ends.hold(v, HeldOn::Named);
   }
   if (points.empty()) return;
   NamedList list(NamedKind::Points, points, mesh, input.topology);
   for (const Group* group : points)
     for (const Index v : group->members)
-      if (is_required(*group) || !list.surrounds(v)) ends.hold(v);
+      if (is_required(*group) || !list.surrounds(v)) ends.hold(v, HeldOn::Named);
 }
 
 }  // namespace dmoscope

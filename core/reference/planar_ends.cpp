@@ -9,22 +9,22 @@ CurveEnds planar_ends(const InputMesh& input, const StandingRule& rule) {
   CurveEnds ends(input.mesh.vertex_count());
   const bool boundary = rule.boundary == BoundaryRule::Slide, interfaces = rule.interfaces == InterfaceRule::Slide;
   for_each_edge(input.mesh, input.topology, [&](const Edge& edge, std::span<const EdgeSide> sides) {
-    if (sides.size() > 2) return ends.hold(edge.low), ends.hold(edge.high);
+    if (sides.size() > 2) return ends.hold(edge.low, HeldOn::Touching), ends.hold(edge.high, HeldOn::Touching);
     const bool along = sides.size() == 1 ? boundary : interfaces && input.interfaces.between(sides[0].element, sides[1].element);
     if (along) ends.join(edge.low, edge.high);
   });
   for (Index v = 0; v < ends.size() && !boundary; ++v)
-    if (input.topology.boundary()[v] != 0) ends.hold(v);
+    if (input.topology.boundary()[v] != 0) ends.hold(v, HeldOn::Rule);
   hold_corners(input, rule.corner_angle, ends);
   NamedEdges names(input.mesh, input.topology);
   hold_ends_of_names(names, ends);
   hold_named_points(input, ends);
   if (rule.interfaces == InterfaceRule::Free) return ends;
   for (Index v = 0; v < ends.size(); ++v)
-    if (input.interfaces.meets_boundary_at(v)) ends.hold(v);
+    if (input.interfaces.meets_boundary_at(v)) ends.hold(v, HeldOn::Rule);
   names.for_lines([&ends](Index a, Index b) {
-    if (ends.slides(a) && ends.of(a)[0] != b && ends.of(a)[1] != b) ends.hold(a);
-    if (ends.slides(b) && ends.of(b)[0] != a && ends.of(b)[1] != a) ends.hold(b);
+    if (ends.slides(a) && ends.of(a)[0] != b && ends.of(a)[1] != b) ends.hold(a, HeldOn::Named);
+    if (ends.slides(b) && ends.of(b)[0] != a && ends.of(b)[1] != a) ends.hold(b, HeldOn::Named);
   });
   return ends;
 }

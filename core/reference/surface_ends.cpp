@@ -66,7 +66,7 @@ class SurfaceFinder {
     name_of_.assign(faces_.size(), 0);
     if (rule_.interfaces == InterfaceRule::Free) return;
     for (Index v = 0; v < ends_.size() && rule_.interfaces == InterfaceRule::Fixed; ++v)
-      if (input_.interfaces.holds(v) || input_.interfaces.meets_boundary_at(v)) ends_.hold(v);
+      if (input_.interfaces.holds(v) || input_.interfaces.meets_boundary_at(v)) ends_.hold(v, HeldOn::Rule);
   }
 
   void add(ElementFace face) {
@@ -95,7 +95,7 @@ class SurfaceFinder {
           name = sets.try_emplace({name, g}, static_cast<Index>(sets.size() + 1)).first->second;
         } else if (rule_.interfaces != InterfaceRule::Free) {
           for (const Index v : named.corners(i))
-            if (!list.surrounds(v)) ends_.hold(v);
+            if (!list.surrounds(v)) ends_.hold(v, HeldOn::Named);
         }
       }
     }
@@ -130,7 +130,7 @@ class SurfaceFinder {
       const auto [a, b] = one.edge;
       const bool touches = input_.is_surface() ? last - first > 2 : first + 2 < last && sides[first + 2].face < boundary_faces_;
       const bool twisted = input_.is_surface() && last - first == 2 && one.forwards == other.forwards;  // as a Moebius band is
-      if (touches || twisted) ends_.hold(a), ends_.hold(b);
+      if (touches || twisted) ends_.hold(a, HeldOn::Touching), ends_.hold(b, HeldOn::Touching);
       if (last - first == 2 && one.forwards != other.forwards && !is_feature(one.edge, one.face, other.face)) {
         links[one.corner] = other.corner;
         links[other.corner] = one.corner;
@@ -162,18 +162,18 @@ class SurfaceFinder {
     for (const auto& [a, b] : named_edges_) {
       const bool along_a = ends_.slides(a) && (ends_.of(a)[0] == b || ends_.of(a)[1] == b);
       const bool along_b = ends_.slides(b) && (ends_.of(b)[0] == a || ends_.of(b)[1] == a);
-      if (!along_a) ends_.hold(a);
-      if (!along_b) ends_.hold(b);
+      if (!along_a) ends_.hold(a, HeldOn::Named);
+      if (!along_b) ends_.hold(b, HeldOn::Named);
     }
   }
 
   void hold_what_stays() {
     for (const ElementFace& face : input_.faces.non_manifold())
       for (const Index v : vertices_of(input_.mesh.elements, face))
-        if (v != kNoIndex) ends_.hold(v);
+        if (v != kNoIndex) ends_.hold(v, HeldOn::Touching);
     for (Index v = 0; v < ends_.size(); ++v) {
       const bool stays = rule_.boundary != BoundaryRule::Slide && on_boundary(v);
-      if (stays || (rule_.interfaces == InterfaceRule::Fixed && input_.interfaces.meets_boundary_at(v))) ends_.hold(v);
+      if (stays || (rule_.interfaces == InterfaceRule::Fixed && input_.interfaces.meets_boundary_at(v))) ends_.hold(v, HeldOn::Rule);
     }
     hold_corners(input_, rule_.corner_angle, ends_);
     hold_ends_of_names(names_, ends_);
@@ -193,7 +193,7 @@ class SurfaceFinder {
       }
       std::ranges::sort(reached);
       reached.erase(std::unique(reached.begin(), reached.end()), reached.end());
-      if (reached.size() != facets.count_at(v)) ends_.hold(v);
+      if (reached.size() != facets.count_at(v)) ends_.hold(v, HeldOn::Touching);
     }
   }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/reference/domain.h"
 #include "core/run/run.h"
 
 namespace dmoscope {
@@ -30,11 +31,12 @@ std::string Run::why_fixed(Index vertex) const {
   if (vertex >= fixed().size()) return fmt::format("the mesh has {} vertices", fixed().size());
   if (fixed()[vertex] == 0) return {};
   if (input_->topology.star(vertex).empty()) return "it belongs to no element";
-  if (input_->topology.boundary()[vertex] != 0)
-    return parameters_.boundary == BoundaryRule::Slide ? "it is a corner of the boundary, or named by the file"
-                                                       : "it lies on the boundary, which stays";
+  if (domain_ && domain_->slides(vertex)) return "it was fixed by hand";
+  if (input_->topology.boundary()[vertex] != 0 && parameters_.boundary == BoundaryRule::Fixed)
+    return "it lies on the boundary, which stays";
   if (parameters_.interfaces != InterfaceRule::Free && input_->interfaces.holds(vertex)) return input_->interfaces.why(vertex);
-  return "it was fixed by hand";
+  const std::string_view why = domain_ ? domain_->why_held(vertex) : std::string_view();
+  return why.empty() ? "it was fixed by hand" : std::string(why);
 }
 
 /// Visits vertices (distinct, in the order of the visits) and goes one edit on; returns how many moved.

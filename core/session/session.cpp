@@ -84,9 +84,10 @@ void Session::replace_input(std::shared_ptr<const InputMesh> input) {
 void Session::open_beside(const std::filesystem::path& path, Progress& progress) {
   auto input = load_input(path, Need::Smoothing, reading(progress));
   if (!has_input()) return replace_input(std::move(input));
-  if (const bool volume = input_->is_volume(); input->is_volume() != volume)
-    throw UsageError(fmt::format("{} is a {} mesh, and cannot be shown beside a {} one: open it by itself", input->mesh.name,
-                                 volume ? "planar" : "volume", volume ? "volume" : "planar"));
+  const auto kind = [](const InputMesh& mesh) { return mesh.is_volume() ? "volume" : mesh.is_surface() ? "surface" : "planar"; };
+  if (input->in_space() != input_->in_space())
+    throw UsageError(fmt::format("{} is a {} mesh, and cannot be shown beside a {} one: open it by itself", input->mesh.name, kind(*input),
+                                 kind(*input_)));
   auto run = first_run(input);
   if (!input->path.empty()) read_files_.add(input->mesh, input->path);
   run->set_id(++last_id_);

@@ -345,8 +345,8 @@ std::vector<OpenedMesh> to_meshes(const Json& json, const std::filesystem::path&
   std::vector<OpenedMesh> meshes;
   for (const Json& mesh : described) {
     meshes.push_back({to_input(mesh, path, context, nullptr), to_data_marks(mesh)});
-    if (meshes.back().input->is_volume() != meshes.front().input->is_volume())
-      throw UsageError("its meshes are planar and volume ones, which cannot be shown beside each other");
+    if (meshes.back().input->in_space() != meshes.front().input->in_space())
+      throw UsageError("some of its meshes are planar and others in space, which cannot be shown beside each other");
   }
   return meshes;
 }

@@ -94,7 +94,7 @@ TEST_F(VolumeWindow, TheMenuHasEverySampleThatCanBeMade) {
   }
   for (const char* line : {"click menu:File", "click menu:Samples", "click menu:sample-tangled-solids"}) good(line);
   EXPECT_EQ(session()->input->mesh.name, "tangled-solids");
-  EXPECT_TRUE(state().is_volume);
+  EXPECT_TRUE(state().in_space);
 }
 
 TEST_F(VolumeWindow, AnInsideIsOfVolumesAlone) {

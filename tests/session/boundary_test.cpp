@@ -60,7 +60,7 @@ TEST_F(BoundaryInASession, OfAVolumeSlidesOnItsSurface) {
 TEST_F(BoundaryInASession, WhyFixedTellsCorners) {
   say("generate nested 100 1");
   say("boundary slide");
-  EXPECT_EQ(session_.active().why_fixed(0), "it is a corner of the boundary, or named by the file");
+  EXPECT_EQ(session_.active().why_fixed(0), "it is a corner: the boundary or feature edge turns there by more than the corner angle");
   EXPECT_EQ(session_.active().why_fixed(1), "");
   say("visit 1");
 }

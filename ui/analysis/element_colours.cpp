@@ -172,6 +172,10 @@ double size_of_element(const Frame& frame, Index e) {
   const auto& at = frame.positions;
   const auto corners = elements.corners(e);
   if (frame.input->is_volume()) return std::abs(signed_volume(elements, at, e));
+  if (frame.input->is_surface()) {
+    const Vec3 a = at[corners[0]], b = at[corners[1]], c = at[corners[2]];
+    return 0.5 * length(corners.size() == 3 ? cross(b - a, c - a) : cross(c - a, at[corners[3]] - b));
+  }
   const Plane& plane = frame.input->geometry.plane;
   double twice = 0.0;
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
@@ -245,7 +249,7 @@ void by_own_edges(Work& work) {
 
 void by_edge_length(Work& work) {
   work.out.title = "mean edge length";
-  if (work.request.frame->input->is_volume()) return by_own_edges(work);
+  if (work.request.frame->input->in_space()) return by_own_edges(work);
   by_corners(work, edge_logarithms(*work.request.frame, nullptr));
 }
 
@@ -364,7 +368,7 @@ ElementColours colour_elements(const ColourRequest& request) {
 }
 
 std::optional<std::string> why_not_drawn(ColourBy by, const InputMesh& input) {
-  if (!input.is_volume()) return std::nullopt;
+  if (!input.in_space()) return std::nullopt;
   const auto of_elements = [](const Group& group) { return group.of_elements(); };
   const bool around_vertices =
       by == ColourBy::Valence || by == ColourBy::Class || (by == ColourBy::Group && std::ranges::none_of(input.mesh.groups, of_elements));

@@ -208,7 +208,7 @@ std::string no_inspection(const SessionView& session) {
   const RunView* run = active_run(session);
   if (run == nullptr || session.frame == nullptr) return "no mesh is open";
   if (session.frame->device) return "The run is at work on its device. When it rests, its visits can be looked into.";
-  if (session.input->geometry.shape == Shape::Surface) return "Only visits in a planar or volume mesh can be looked into.";
+  if (session.input->geometry.shape == Shape::Surface) return "Visits on a curved surface cannot be looked into yet.";
   return {};
 }
 
@@ -224,7 +224,8 @@ Inspection inspect(const SessionView& session, Index vertex) {
     return inspection;
   }
   if (run.fixed[vertex] == 0 && run.domain != nullptr && run.domain->slides(vertex)) {
-    inspection.trouble = "This vertex slides along a curve: it is searched on a line, not on a grid.";
+    inspection.trouble = run.domain->on_surface(vertex) ? "This vertex slides on the surface: its grid lies there, and is not shown yet."
+                                                        : "This vertex slides along a curve: it is searched on a line, not on a grid.";
     return inspection;
   }
   try {

@@ -16,7 +16,7 @@ namespace {
 render::Bounds3 box_of_volume(const CommandHost& host) {
   const auto view = host.session();
   if (!view || !view->input) throw UsageError("no mesh is open");
-  if (!view->input->is_volume()) throw UsageError("this mesh has no inside: it is not one of volume elements");
+  if (!view->input->in_space()) throw UsageError("this mesh has no inside: it is not one of volume elements");
   render::Bounds3 box;
   for (const Vec3& p : view->frame ? view->frame->positions : view->input->mesh.positions) box.include(p);
   return box;

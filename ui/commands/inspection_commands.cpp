@@ -27,7 +27,7 @@ std::shared_ptr<const SessionView> session_of(const CommandHost& host) {
 void look_at_star(ViewState& state, const Frame& frame, Index vertex) {
   constexpr double kLeastShare = 1.0 / 8.0, kShare = 0.5;
   if (frame.device) return;
-  if (frame.input->is_volume()) {
+  if (frame.input->in_space()) {
     look_at_picked(state, frame);
     return;
   }
@@ -337,7 +337,7 @@ void add_slice_command(CommandTable& table, ViewState& state, const CommandHost&
             [&state, &host](Arguments words) {
               require(words, 1, 1);
               const auto session = session_of(host);
-              if (!session->input->is_volume()) throw UsageError("the grids of a planar mesh have no slices");
+              if (!session->input->in_space()) throw UsageError("the grids of a planar mesh have no slices");
               follow_pick(state);
               InspectionState& inspection = state.inspection;
               const std::string& word = words[0];

@@ -63,7 +63,7 @@ void add_pane_commands(CommandTable& table, ViewState& state) {
             [&state](Arguments words) {
               require(words, 0, 1);
               const bool linked = switched(words, 0, state.panes.linked);
-              if (!linked && state.is_volume) throw UsageError("of a volume mesh all viewports share one camera");
+              if (!linked && state.in_space) throw UsageError("of a volume mesh all viewports share one camera");
               state.link_cameras(linked);
             });
   table.add({"pane-camera", "pane-camera K X Y UNITS-PER-PIXEL", "as camera, for one viewport while they are not linked"},

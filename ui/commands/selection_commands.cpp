@@ -88,7 +88,7 @@ void add_selection_commands(CommandTable& table, ViewState& state, const Command
             [&state](Arguments words) {
               require(words, 0, 1);
               const bool on = switched(words, 0, state.brush.on);
-              if (on && state.is_volume) throw UsageError("the brush is of planar meshes: select vertices of a volume mesh by their ids");
+              if (on && state.in_space) throw UsageError("the brush is of planar meshes: select vertices of a volume mesh by their ids");
               state.brush.on = on;
             });
   table.add({"leave", "leave", "ends what the mouse is doing besides picking, such as brushing; else clears the selection"},

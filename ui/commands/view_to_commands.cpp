@@ -57,7 +57,7 @@ std::vector<std::string> view_lines(const ViewState& state, bool with_camera) {
     lines.push_back(fmt::format("pane-camera {} {} {} {}", k + 1, pane.camera.centre.x, pane.camera.centre.y, pane.camera.units_per_pixel));
   }
   if (!panes.one()) lines.push_back(fmt::format("focus-pane {}", panes.focus + 1));
-  if (state.is_volume) {
+  if (state.in_space) {
     for (std::string& line : inside_lines(state, with_camera)) lines.push_back(std::move(line));
     return lines;
   }

@@ -164,7 +164,7 @@ void draw_colours(PanelContext& context) {
   metric_combo(context, "shown", context.session.shown, "show");
   draw_map(context);
   draw_range(context);
-  if (context.state.is_volume) draw_depth(context);
+  if (context.state.in_space) draw_depth(context);
   labelled(context, "labels", "ids, where there is room for them and nothing hides what they name");
   static constexpr std::array<std::pair<std::string_view, int>, 4> kLabels{{{"off", 0}, {"vertices", 1}, {"elements", 2}, {"both", 3}}};
   const ColouringState& state = context.state.colouring;

@@ -226,7 +226,7 @@ void draw_from(PanelContext& context) {
 
 void draw_clipping(PanelContext& context) {
   const PaneFacts* pane = active_pane(context);
-  if (!context.state.is_volume || pane == nullptr) return;
+  if (!context.state.in_space || pane == nullptr) return;
   heading(context, "Inside");
   ImGui::SameLine();
   const std::size_t all = pane->frame()->element_count();

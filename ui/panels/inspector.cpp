@@ -96,20 +96,25 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
   const std::string full = fmt::format("{} {} {}", full_number(at.x), full_number(at.y), full_number(at.z));
   value_row(context, "x", fmt::format("{:.8g}", at.x), full);
   value_row(context, "y", fmt::format("{:.8g}", at.y), full);
-  if (at.z != 0.0 || context.state.is_volume) value_row(context, "z", fmt::format("{:.8g}", at.z), full);
+  if (at.z != 0.0 || context.state.in_space) value_row(context, "z", fmt::format("{:.8g}", at.z), full);
   const bool boundary = topology.boundary()[vertex] != 0;
   const bool fixed = run != nullptr && vertex < run->fixed.size() && run->fixed[vertex] != 0;
   const bool slides = !fixed && run != nullptr && run->domain != nullptr && run->domain->slides(vertex);
   const Interfaces& interfaces = frame.input->interfaces;
   const bool interface = fixed && run->parameters.interfaces != InterfaceRule::Free && interfaces.holds(vertex);
+  const bool on_surface = slides && run->domain->on_surface(vertex), in_space = frame.input->in_space();
+  const std::string_view held = fixed && run->domain != nullptr ? run->domain->why_held(vertex) : std::string_view();
   value_row(context, "may move",
-            slides                          ? boundary ? "along the boundary" : "along the interface"
+            on_surface                      ? "on the surface"
+            : slides && in_space            ? "along a feature edge"
+            : slides                        ? boundary ? "along the boundary" : "along the interface"
             : !fixed                        ? "free"
-            : boundary                      ? "fixed: boundary"
             : topology.star(vertex).empty() ? "fixed: unused"
             : interface                     ? "fixed: interface"
+            : !held.empty()                 ? "fixed: feature"
+            : boundary                      ? "fixed: boundary"
                                             : "fixed",
-            interface ? interfaces.why(vertex) : std::string());
+            interface ? interfaces.why(vertex) : std::string(held));
   value_row(context, "valence", count(topology.star(vertex).size()), {}, {}, "elements of its star");
   number_row(context, "quality now", facts.now, "minimum over its star, of the shown metric");
   number_row(context, "at the input", facts.before);

@@ -56,8 +56,8 @@ bool is_checked(const ViewState& state, std::string_view id) {
   for (const auto& [name, layout] : kPaneLayouts) {
     if (id.starts_with("viewports-") && id.substr(10) == name) return state.panes.layout == layout;
   }
-  if (id == "link-cameras") return state.panes.linked || state.is_volume;
-  if (state.is_volume && (id.starts_with("inside-") || id.starts_with("from-"))) return inside_checked(state, id);
+  if (id == "link-cameras") return state.panes.linked || state.in_space;
+  if (state.in_space && (id.starts_with("inside-") || id.starts_with("from-"))) return inside_checked(state, id);
   if (id == "panel-left") return state.panels.left;
   if (id == "panel-right") return state.panels.right;
   if (id == "panel-bottom") return state.panels.bottom;
@@ -108,9 +108,9 @@ const Submenu* submenu_of(const Action& action) {
 }
 
 void draw_submenu(PanelContext& context, const Submenu& submenu) {
-  const bool open = ImGui::BeginMenu(submenu.title, context.state.is_volume);
+  const bool open = ImGui::BeginMenu(submenu.title, context.state.in_space);
   context.items.record_last(fmt::format("menu:{}", submenu.title));
-  if (!context.state.is_volume) next_item_tooltip("of meshes of volume elements");
+  if (!context.state.in_space) next_item_tooltip("of meshes of volume elements");
   if (!open) return;
   for (const Action& action : actions())
     if (submenu_of(action) == &submenu) draw_entry(context, action);

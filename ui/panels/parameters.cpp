@@ -82,7 +82,7 @@ void draw_parameter(PanelContext& context, const ParameterInfo& row, const RunPa
 /// What the run's method can be told, and nothing else.
 void draw_options(PanelContext& context, const RunParameters& parameters) {
   for (const ParameterInfo& row : parameter_table())
-    if (row.in_session && row.reader != nullptr && row.read_by(parameters) && !(row.volume_only && !context.state.is_volume))
+    if (row.in_session && row.reader != nullptr && row.read_by(parameters) && !(row.volume_only && !context.state.in_space))
       draw_parameter(context, row, parameters);
 }
 
@@ -112,7 +112,6 @@ void draw_interfaces(PanelContext& context, const RunParameters& parameters) {
   next_item_tooltip(fixed ? context.derived.interfaces : context.derived.free_interfaces);
   if (!open) return;
   for (const InterfaceRule rule : {InterfaceRule::Fixed, InterfaceRule::Free, InterfaceRule::Slide}) {
-    if (rule == InterfaceRule::Slide && context.state.is_volume) continue;
     const std::string word(name(rule));
     if (ImGui::Selectable(word.c_str(), rule == parameters.interfaces)) context.send("interfaces " + word);
     context.items.record_last("interfaces:" + word);

@@ -177,7 +177,7 @@ void pick_at(PanelContext& context, const PaneFacts& pane, Vec2<double> pixel) {
   ViewState& state = context.state;
   if (state.placing_size_point) {
     state.placing_size_point = false;
-    if (pane.frame()->input->is_volume()) return;  // in a plane alone a pixel is a point
+    if (pane.frame()->input->in_space()) return;  // in a plane alone a pixel is a point
     const Vec2<double> there =
         state.camera.to_pixel(pane.camera.to_plane(pixel, state.viewport), state.viewport);  // as the active one has it
     context.send(size_point_command(state, context.session.input->geometry.plane, there));
@@ -211,7 +211,7 @@ void draw_vertex_entries(PanelContext& context, Index vertex) {
   copy_entry(context, "vertex id", fmt::format("{}", vertex), fmt::format("{}", vertex));
   if (facts.picked.kind == Picked::Kind::None) return;  // a device that tells nothing
   const Vec3 at = facts.at;
-  const std::string height = context.state.is_volume ? fmt::format(", {:.6g}", at.z) : "";
+  const std::string height = context.state.in_space ? fmt::format(", {:.6g}", at.z) : "";
   copy_entry(context, "vertex coordinates", fmt::format("{:.6g}, {:.6g}{}", at.x, at.y, height),
              fmt::format("{} {} {}", full_number(at.x), full_number(at.y), full_number(at.z)));
   copy_entry(context, "vertex quality", short_number(facts.now), full_number(facts.now));
@@ -249,8 +249,8 @@ void draw_context_menu(PanelContext& context) {
                          "inside-all", "wireframe", "vertices", "worst-marker", "screenshot"}) {
     const Action& action = *find_action(id);
     if (action.needs == Needs::Selected && !context.situation().selected) continue;
-    if (action.needs == Needs::Volume && !context.state.is_volume) continue;
-    if (action.needs == Needs::Planar && context.state.is_volume) continue;
+    if (action.needs == Needs::Volume && !context.state.in_space) continue;
+    if (action.needs == Needs::Planar && context.state.in_space) continue;
     if (ImGui::MenuItem(std::string(action.title).c_str(), std::string(action.key).c_str(), false, enabled(action, context.situation()))) {
       context.send(std::string(action.command));
     }
@@ -310,7 +310,7 @@ void handle_volume_mouse(PanelContext& context, const PaneFacts& pane) {
 }
 
 void handle_mouse(PanelContext& context, const PaneFacts& pane) {
-  if (pane.frame()->input->is_volume()) return handle_volume_mouse(context, pane);
+  if (pane.frame()->input->in_space()) return handle_volume_mouse(context, pane);
   const ImGuiIO& io = ImGui::GetIO();
   ViewState& state = context.state;
   render::Camera2D& camera = state.camera_of(pane.number);
@@ -405,7 +405,7 @@ void draw_pane(PanelContext& context, const PaneFacts& pane) {
   ImGui::PushClipRect({clip.x, clip.y}, {clip.x + clip.w, clip.y + clip.h}, true);
   if (pane.frame() != nullptr) draw_labels(context, pane);
   if (pane.frame() != nullptr && !pane.current) draw_preparing(context, pane);
-  if (pane.frame() != nullptr && !pane.frame()->input->is_volume()) draw_field_in_view(context, pane);
+  if (pane.frame() != nullptr && !pane.frame()->input->in_space()) draw_field_in_view(context, pane);
   draw_clip_plane(context, pane);
   if (pane.frame() != nullptr && pane.inspected) draw_level_label(context, pane);
   const bool plain = context.state.panes.one() && pane.session->frame == context.session.frame;

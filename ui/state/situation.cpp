@@ -11,7 +11,7 @@ Situation situation_of(const SessionView& session, const ViewState& state, bool 
   now.selected = !state.selection.empty();
   now.undo = session.undo_label;
   now.redo = session.redo_label;
-  now.volume = state.is_volume;
+  now.volume = state.in_space;
   now.better = session.active < session.runs.size() && !session.runs[session.active].at_best();
   now.leavable = state.brush.on || state.placing_size_point || state.renaming_run;
   return now;

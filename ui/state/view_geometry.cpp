@@ -41,7 +41,7 @@ void look_at_picked(ViewState& state, const Frame& frame) {
   const Picked& picked = state.picked;
   if (picked.kind == Picked::Kind::None) return;
   const bool vertex = picked.kind == Picked::Kind::Vertex;
-  if (frame.input->is_volume()) {
+  if (frame.input->in_space()) {
     render::Bounds3 box;
     const auto include = [&](Index element) {
       for (const Index v : frame.input->mesh.elements.corners(element)) box.include(frame.positions[v]);

@@ -76,7 +76,7 @@ void ViewState::focus_pane(std::size_t pane) {
 }
 
 void ViewState::follow(const SessionView& session) {
-  is_volume = session.input && session.input->is_volume();
+  in_space = session.input && session.input->in_space();
   focus_pane(panes.follow(session));
   PaneContent& reference = colouring.reference;
   using Kind = PaneContent::Kind;

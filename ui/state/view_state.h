@@ -104,7 +104,7 @@ struct ViewState {
   render::OrbitCamera orbit;              // of volume meshes, in all panes
   bool trackball = false;                 // a drag rolls them as a ball instead of turning them about the upright axis
   ClippingView inside;                    // what is seen of them
-  bool is_volume = false;                 // such a mesh is on show; set by follow()
+  bool in_space = false;                  // a volume or a curved surface is on show; set by follow()
   Vec2<double> viewport{800, 600};        // pixels of a pane, set by the drawing code
   std::pair<int, int> window_size{0, 0};  // likewise; 0: not known yet
   bool wireframe = true;

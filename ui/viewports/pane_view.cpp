@@ -45,13 +45,13 @@ void PaneView::update_colours(const ViewState& state, std::shared_ptr<const Fram
   worker_.update(state, *session_, std::move(reference));
   colours_ = worker_.colours();
   // Around its vertices a volume has no colours of its own: quality is shown, and said.
-  if (is_volume() && colours_ && (!colours_->shading || colours_->shading->by != render::Shading::By::Elements)) colours_.reset();
+  if (in_space() && colours_ && (!colours_->shading || colours_->shading->by != render::Shading::By::Elements)) colours_.reset();
 }
 
 void PaneView::update_stepping(bool busy) { stepping_.update(*session_, busy); }
 
 bool PaneView::bring(render::Loading loading) {
-  if (is_volume()) {
+  if (in_space()) {
     if (!volume_) {
       volume_ = std::make_unique<render::VolumeScene>();
       picture_.forget();
@@ -67,7 +67,7 @@ bool PaneView::bring(render::Loading loading) {
 }
 
 render::Camera PaneView::seen_from(const ViewState& state, const render::Camera2D& camera) const {
-  if (is_volume()) return state.orbit;
+  if (in_space()) return state.orbit;
   return camera;
 }
 
@@ -122,7 +122,7 @@ render::SpaceMarks PaneView::space_marks(const Scenery& scenery, Vec2<double> vi
 
 std::string PaneView::note(const ViewState& state) const {
   std::string text = stepping_.note(state, *session_);
-  if (!is_volume() || !volume_ || state.inspection.open) return text;
+  if (!in_space() || !volume_ || state.inspection.open) return text;
   const render::VolumeScene& scene = *volume_;
   std::string faint;
   const auto add = [&faint](const std::string& what) { faint += (faint.empty() ? "" : " and ") + what; };
@@ -184,14 +184,14 @@ void PaneView::update_planar(const Scenery& scenery) {
 
 void PaneView::draw(const Scenery& scenery, const Wish& wish) {
   const ViewState& state = scenery.state;
-  if (is_volume()) {
+  if (in_space()) {
     update_volume(scenery, wish);
   } else {
     update_planar(scenery);
   }
   find_labels(scenery, wish.camera);
   const auto marked = [&]() -> render::SceneMarks {
-    if (is_volume()) return space_marks(scenery, state.viewport, wish.inspected);
+    if (in_space()) return space_marks(scenery, state.viewport, wish.inspected);
     return marks(scenery, {wish.camera, state.viewport, state.scale}, wish.inspected);
   };
   const auto w = static_cast<int>(std::lround(state.viewport.x)), h = static_cast<int>(std::lround(state.viewport.y));

@@ -61,16 +61,16 @@ class PaneView {
   void set_pool(ThreadPool* pool) noexcept { pool_ = pool; }
 
   /// The scene of the mesh that it shows.
-  [[nodiscard]] render::Scene& scene() noexcept { return is_volume() && volume_ ? static_cast<render::Scene&>(*volume_) : planar_; }
+  [[nodiscard]] render::Scene& scene() noexcept { return in_space() && volume_ ? static_cast<render::Scene&>(*volume_) : planar_; }
   [[nodiscard]] const render::Scene& scene() const noexcept {
-    return is_volume() && volume_ ? static_cast<const render::Scene&>(*volume_) : planar_;
+    return in_space() && volume_ ? static_cast<const render::Scene&>(*volume_) : planar_;
   }
   /// Of planar meshes.
   [[nodiscard]] render::PlanarScene& planar() noexcept { return planar_; }
   [[nodiscard]] const render::PlanarScene& planar() const noexcept { return planar_; }
   /// From where its mesh is seen; `camera`: of a planar one.
   [[nodiscard]] render::Camera seen_from(const ViewState& state, const render::Camera2D& camera) const;
-  [[nodiscard]] bool is_volume() const noexcept { return frame() != nullptr && frame()->input->is_volume(); }
+  [[nodiscard]] bool in_space() const noexcept { return frame() != nullptr && frame()->input->in_space(); }
   /// Of a volume mesh; null until the first one.
   [[nodiscard]] render::VolumeScene* volume() noexcept { return volume_.get(); }
   [[nodiscard]] const render::VolumeScene* volume() const noexcept { return volume_.get(); }

@@ -196,10 +196,10 @@ std::string SteppingView::note(const ViewState& state, const SessionView& sessio
   const bool wanted = s.next_class || s.arrows != Reference::None || s.ghost != Reference::None || !state.selection.empty();
   if (wanted && frame->device) return "stepping is shown when the run rests";
   if (!state.selection.empty()) add(fmt::format("{} selected", count(state.selection.vertices().size())));
-  if (state.brush.on && !state.is_volume) add("brush");
+  if (state.brush.on && !state.in_space) add("brush");
   if (s.click_smooths) add("a click smooths");
   if (s.flash_level > 0 && flash_factor_ > 0.0) add(fmt::format("moved just now, arrows × {:.3g}", flash_factor_));
-  if (state.is_volume && too_many_faces_ && (s.next_class || s.arrows != Reference::None || s.ghost != Reference::None)) {
+  if (state.in_space && too_many_faces_ && (s.next_class || s.arrows != Reference::None || s.ghost != Reference::None)) {
     add("too many faces for arrows, ghosts and classes");
     return text;
   }
@@ -207,7 +207,7 @@ std::string SteppingView::note(const ViewState& state, const SessionView& sessio
     add(fmt::format("next: class {} of {}, {} vertices", next.number, next.count, count(next.vertices.size())));
   if (s.arrows != Reference::None && !positions_of(state, s.arrows, *frame)) {
     add(fmt::format("no arrows: {}", why_not(s.arrows)));
-  } else if (s.arrows != Reference::None && state.is_volume && arrows_drawn_ == 0) {
+  } else if (s.arrows != Reference::None && state.in_space && arrows_drawn_ == 0) {
     const bool cut = state.inside.clip.on && state.inside.clip.mode == ClipPlane::Mode::Cut;
     add(fmt::format("arrows: no vertex in sight has moved since {}{}", since(s.arrows),
                     cut ? "; whole cells show more than cut ones" : ""));

@@ -77,12 +77,12 @@ render::Image Viewports::picture_of(std::size_t pane, const Scenery& scenery, co
   const bool inspected = facts_[pane].inspected;
   const render::Camera camera = view.seen_from(state, planar);
   const auto marked = [&]() -> render::SceneMarks {
-    if (view.is_volume()) return view.space_marks(scenery, viewport, inspected);
+    if (view.in_space()) return view.space_marks(scenery, viewport, inspected);
     return view.marks(scenery, {planar, viewport, state.scale}, inspected);
   };
   render::Image image = render::render_image(view.scene(), camera, look, marked(), shot).image;
   // Of a volume labels are in pixels already.
-  render::draw_labels(image, view.scene().labels(camera, viewport, wish), view.is_volume() ? render::Camera2D{} : planar, viewport, look,
+  render::draw_labels(image, view.scene().labels(camera, viewport, wish), view.in_space() ? render::Camera2D{} : planar, viewport, look,
                       shot.scale);
   return image;
 }

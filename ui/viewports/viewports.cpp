@@ -25,7 +25,7 @@ std::optional<Watch> watch_of(const PaneContent& content) {
 /// Of a volume as it is seen from a corner, from where it is seen first: viewports do not change their places while it is turned.
 render::Bounds2 input_box(const InputMesh& input) {
   render::Bounds2 box;
-  if (input.is_volume()) {
+  if (input.in_space()) {
     render::OrbitCamera camera;
     camera.look_from(render::ViewPreset::Isometric);
     for (const Vec3& position : input.mesh.positions) box.include(Vec2<double>{dot(position, camera.right), dot(position, camera.up)});
@@ -222,7 +222,7 @@ bool Viewports::fit(ViewState& state, double em) {
   const double top = 2.4 * em, bottom = bar_within ? 4.4 * em : 0.5 * em;
   const Vec2<double> free{state.viewport.x, std::max(1.0, state.viewport.y - top - bottom)};
   const double margin = std::min(1.2 * em, 0.05 * std::min(free.x, free.y));
-  if (views_[focus_]->is_volume()) {
+  if (views_[focus_]->in_space()) {
     views_[focus_]->volume()->fit(state.orbit, state.viewport,
                                   {{margin, top + margin}, {state.viewport.x - margin, state.viewport.y - bottom - margin}});
     state.requests.fit_all = false;
@@ -281,7 +281,7 @@ bool Viewports::draw(ViewState& state, const Derived& derived, const Inspection&
   state.viewport = {std::max(1.0, static_cast<double>(rect.w)), std::max(1.0, static_cast<double>(rect.h))};
   // A fitted mesh stays fitted when the window or a panel changes its size, or its projection does.
   const bool resized = before.x != state.viewport.x || before.y != state.viewport.y;
-  const bool volume = views_[focus_]->is_volume();
+  const bool volume = views_[focus_]->in_space();
   if (volume ? keeps_fit(state.orbit, resized) : resized && fitted_ && *fitted_ == state.camera) state.requests.fit = true;
   loading_ = refining_ = false;
   if (volume && !pool_) pool_ = std::make_unique<ThreadPool>(std::clamp(std::thread::hardware_concurrency(), 1U, kMostThreads));
@@ -328,14 +328,14 @@ PaneFacts Viewports::facts_of_pane(ViewState& state, std::size_t pane, const Rec
   facts.colours = view.colours();
   facts.labels = view.labels();
   // Of a volume labels are in pixels already.
-  facts.camera = view.is_volume() ? render::Camera2D{} : state.camera_of(pane);
+  facts.camera = view.in_space() ? render::Camera2D{} : state.camera_of(pane);
   facts.texture = view.texture();
   facts.focus = pane == focus_;
   facts.inspected = inspected(state, pane);
   facts.reduced = view.frame() != nullptr && !view.complete();
   facts.current = view.current();
   facts.lacks_room = view.labels_lack_room();
-  if (const render::VolumeScene* volume = view.volume(); volume != nullptr && view.is_volume()) {
+  if (const render::VolumeScene* volume = view.volume(); volume != nullptr && view.in_space()) {
     facts.cells_seen = volume->faces().visible_cells;
     facts.box = volume->bounds();
   }

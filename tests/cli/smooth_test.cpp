@@ -250,14 +250,19 @@ TEST(Smooth, UntilConvergedWritesTheBestByMinimumThenMean) {
   EXPECT_EQ(read_file(folder / "all.off"), read_file(folder / "last.off"));
 }
 
-TEST(Smooth, RefusesSurfaces) {
+TEST(Smooth, SurfacesByDmoAlone) {
   const Folder folder;
-  const std::string corner = folder.file("corner.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 2 3\n3 0 3 1\n");
-  const Output output = run({"smooth", corner, "-o", folder / "out.off"});
-  EXPECT_EQ(output.code, 3);
-  EXPECT_THAT(output.err, HasSubstr(corner));
-  EXPECT_FALSE(exists(folder / "out.off"));
-  EXPECT_EQ(run({"quality", corner}).code, 0);
+  // Four squares around the origin, bent along the x axis; the middle is not where it should be.
+  const std::string bent = folder.file(
+      "bent.off", "OFF\n9 4 0\n-1 -1 0.2\n0 -1 0.2\n1 -1 0.2\n-1 0 0\n0.4 0 0\n1 0 0\n-1 1 0.2\n0 1 0.2\n1 1 0.2\n"
+                  "4 0 1 4 3\n4 1 2 5 4\n4 3 4 7 6\n4 4 5 8 7\n");
+  const auto json = smooth(bent, folder / "out.off", {"--iterations", "5"});
+  EXPECT_EQ(json["sliding"], 1);
+  EXPECT_GT(json["after"]["minimum"], json["before"]["minimum"]);
+  const Output refused = run({"smooth", bent, "-o", folder / "other.off", "--method", "laplace"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("only dmo smooths curved surfaces"));
+  EXPECT_FALSE(exists(folder / "other.off"));
 }
 
 TEST(Smooth, EastCoast) {

@@ -27,10 +27,10 @@ inline std::vector<std::shared_ptr<const InputMesh>> meshes_below(const std::fil
     Progress progress;
     try {
       Mesh mesh = read_mesh(file, {progress});
-      if (mesh.vertex_count() > most_vertices || (classify(mesh).shape == Shape::Volume) != volumes) continue;
+      if (mesh.vertex_count() > most_vertices || classify(mesh).shape != (volumes ? Shape::Volume : Shape::Planar)) continue;
       meshes.push_back(prepare_input(std::move(mesh), file, Need::Smoothing, progress));
     } catch (const Error&) {
-      continue;  // a surface, a text
+      continue;  // a text
     }
   }
   return meshes;

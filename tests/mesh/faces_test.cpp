@@ -110,13 +110,15 @@ TEST(FaceNeighbours, AFaceOfThreeElementsBelongsToNoPair) {
   for (Index e = 0; e < 3; ++e) EXPECT_EQ(faces.of(e)[0], kNoIndex);
 }
 
-TEST(FaceNeighbours, PlanarElementsHaveNone) {
+TEST(FaceNeighbours, APlanarElementIsItsOwnFace) {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.elements.add(ElementKind::Triangle, std::vector<Index>{0, 1, 2});
   const FaceNeighbours faces(mesh);
-  EXPECT_TRUE(faces.of(0).empty());
-  EXPECT_EQ(faces.face_count(), 0U);
+  ASSERT_EQ(faces.of(0).size(), 1U);
+  EXPECT_EQ(faces.of(0)[0], kNoIndex);
+  EXPECT_EQ(faces.face_count(), 1U);
+  EXPECT_EQ(faces.boundary().size(), 1U);
 }
 
 }  // namespace

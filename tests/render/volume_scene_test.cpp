@@ -386,9 +386,6 @@ TEST_F(VolumePicture, WhatDoesNotFitIsRefused) {
   view.shrink = 2.0;
   EXPECT_THROW(space->set_view(view), UsageError);
   EXPECT_EQ(space->view(), ClippingView{});
-  const Mesh flat = triangle_and_quadrilateral();
-  const FaceNeighbours none(flat);
-  EXPECT_THROW(space->set_mesh(flat.elements, none), UsageError);
 }
 
 }  // namespace

@@ -116,18 +116,10 @@ typename CompositeRule<Frame>::Found CompositeRule<Frame>::search(const Scratch&
 
 template <class Frame>
 CompositeSearch<Frame> CompositeRule<Frame>::task_of(const Scratch& star, PositionView positions, Index vertex) const {
-  CompositeSearch<Frame> task;
+  CompositeSearch<Frame> task = search_for<Frame>(this->composite(), parameters_);
   task.star = lists_of(star);
   task.box = star.box;
-  task.points = parameters_.grid_points;
-  task.levels = parameters_.levels;
-  task.omega = parameters_.omega;
-  task.threshold = this->composite().threshold;
-  task.inclusive = this->composite().raise_mean();
-  if (const auto* metric = std::get_if<Metric>(&this->composite().second)) {
-    task.second = CompositeSearch<Frame>::Second::Metric;
-    task.metric = *metric;
-  } else if (!this->composite().raise_mean()) {
+  if (std::holds_alternative<std::shared_ptr<const SizeField>>(this->composite().second)) {
     task.second = CompositeSearch<Frame>::Second::Density;
     const DensityTarget<Frame> target = this->density_of(star, positions, vertex);
     task.wanted = target.offset;

@@ -109,6 +109,22 @@ class CompositeScore {
   double (*second_)(const View&, Offset);  // null: the density
 };
 
+/// What a kernel needs to know of the aims, but for densities.
+template <class Frame>
+[[nodiscard]] CompositeSearch<Frame> search_for(const CompositeObjective& composite, const SearchParameters& parameters) {
+  CompositeSearch<Frame> task;
+  task.points = parameters.grid_points;
+  task.levels = parameters.levels;
+  task.omega = parameters.omega;
+  task.threshold = composite.threshold;
+  task.inclusive = composite.raise_mean();
+  if (const auto* metric = std::get_if<Metric>(&composite.second)) {
+    task.second = CompositeSearch<Frame>::Second::Metric;
+    task.metric = *metric;
+  }
+  return task;
+}
+
 /// Judges a star by two aims. The mesh must outlive it.
 template <class Frame>
 class StarJudge {
@@ -129,10 +145,10 @@ class StarJudge {
   /// Judged by the statistics' own formulas: does the vertex gain by standing at `target`?
   [[nodiscard]] bool gains(PositionView positions, Index vertex, Vec3 target) const;
 
+  [[nodiscard]] const CompositeObjective& composite() const noexcept { return composite_; }
+
  protected:
   [[nodiscard]] DensityTarget<Frame> density_of(const Star& star, PositionView positions, Index vertex) const;
-  [[nodiscard]] const MeshView<Frame>& view() const noexcept { return view_; }
-  [[nodiscard]] const CompositeObjective& composite() const noexcept { return composite_; }
 
  private:
   [[nodiscard]] double second(PositionView positions, Index vertex, Vec3 place) const;

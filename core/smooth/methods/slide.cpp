@@ -28,6 +28,8 @@ Vec2<double> box_of_star(const MeshView<Frame>& mesh, PositionView positions, In
 constexpr int kHalvings = 3;
 /// Of 60 degrees: how far a face may lean away from the facets beneath it.
 constexpr double kLeastCosine = 0.5;
+/// Facets that lean more than that away from the tangent plane end the way of a candidate.
+constexpr double kSteepest = 0.1;
 
 }  // namespace
 
@@ -38,6 +40,7 @@ struct Slide<Frame>::Visit {
   Vec3 here;
   PositionView positions;
   double scale;
+  bool tangled;
   const CompositeScore<Frame>& score;
   OverlayRoom& room;
 };
@@ -58,7 +61,10 @@ Slide<Frame>::Slide(const SmoothingTask& task, CompositeObjective composite)
       mesh_(task.input->view<Frame>()),
       parameters_(task.search),
       max_deviation_(task.max_deviation),
-      single_precision_(task.input->mesh.single_precision) {}
+      single_precision_(task.input->mesh.single_precision) {
+  if (std::is_same_v<Frame, Curved> && task.search.precision != Precision::Double)
+    kernel_ = composite_kernel<Plane>(task.search.simd.value_or(best_simd_level()), judge_.composite().first);
+}
 
 template <class Frame>
 void Slide<Frame>::begin(const Sweep& sweep) {
@@ -71,8 +77,8 @@ std::optional<Vec3> Slide<Frame>::target(PositionView positions, Index vertex, S
   const bool tangled = judge_.is_tangled(scratch.star);
   if (judge_.untangling().repair && !tangled) return std::nullopt;
   const auto score = judge_.score_of(scratch.star, positions, vertex, tangled);
-  const Visit visit{vertex, positions[vertex], positions, scratch.star.scale, score, scratch.room};
-  return domain_->on_curve(vertex) ? along_curve(visit) : on_surface(visit);
+  const Visit visit{vertex, positions[vertex], positions, scratch.star.scale, tangled, score, scratch.room};
+  return domain_->on_curve(vertex) ? along_curve(visit) : on_surface(visit, scratch);
 }
 
 /// The best place; the vertex's own where none is better.
@@ -152,38 +158,88 @@ bool Slide<Frame>::fits(const Visit& visit, Vec3 target, const FacetPlace* here,
          fit.least_cosine >= std::min(kLeastCosine, now.least_cosine);
 }
 
+/// Where a vertex on a surface stands, and the plane that touches it there.
 template <class Frame>
-std::optional<Vec3> Slide<Frame>::on_surface(const Visit& visit) const {
-  if constexpr (std::is_same_v<Frame, Plane>) {
+struct Slide<Frame>::Tangent {
+  FacetPlace place;
+  Plane plane;
+  Vec2<double> box;  // around the star's other vertices, in units of the star's scale
+};
+
+/// The winner in the tangent plane, of elements as they look from above; none where the kernel does not take the star.
+template <class Frame>
+std::optional<Vec2<double>> Slide<Frame>::search_flat(const Tangent& tangent, Scratch& scratch) const {
+  if constexpr (!std::is_same_v<Frame, Curved>) {
     return std::nullopt;
   } else {
-    const Facets& facets = domain_->facets();
-    const auto place = facets.place(visit.vertex, visit.here);
-    if (!place) return std::nullopt;
-    const Vec3 normal = facets.normal(*place);
-    if (normal == Vec3{}) return std::nullopt;
-    const Plane tangent = tangent_plane(normal);
-    const auto walk = [&](Vec2<double> p) {
-      return facets.walk(place->facet, tangent, visit.here, times(p, visit.scale), kLeastCosine / 5.0);
-    };
-    const auto worth = [&](Vec2<double> p) {
-      if (p == Vec2<double>{}) return visit.score({});
-      const auto found = walk(p);
-      return found ? visit.score(times(mesh_.frame.offset(facets.at(*found), visit.here), 1.0 / visit.scale))
-                   : -std::numeric_limits<double>::infinity();
-    };
-    Vec2<double> step =
-        grid_search<double>(worth, box_of_star(mesh_, visit.positions, visit.vertex, tangent, visit.scale), parameters_).offset;
-    for (int i = 0; i <= kHalvings && !(step == Vec2<double>{}); ++i, step = times(step, 0.5)) {
-      const auto there = walk(step);
-      if (!there) continue;
-      Vec3 target = facets.at(*there);
-      if (single_precision_) target = {nearest_float(target.x), nearest_float(target.y), nearest_float(target.z)};
-      if (!facets.place(visit.vertex, target)) continue;
-      if (judge_.gains(visit.positions, visit.vertex, target) && fits(visit, target, &*place, &*there)) return target;
+    if (kernel_ == nullptr) return std::nullopt;
+    Star<double>& flat = scratch.flat;
+    flat.triangles.clear();
+    flat.quadrilaterals.clear();
+    const auto from_above = [&](Vec3 p) { return tangent.plane.project(p); };
+    for (const SurfaceTriangle& t : scratch.star.triangles) {
+      const Vec2<double> b = from_above(t.b), c = from_above(t.c);
+      flat.triangles.push_back(cross(b, c) > 0.0 ? StarTriangle<double>{b, c, 1.0} : StarTriangle<double>{c, b, 1.0});
     }
-    return std::nullopt;
+    for (const SurfaceQuadrilateral& q : scratch.star.quadrilaterals) {
+      const Vec2<double> b = from_above(q.b), c = from_above(q.c), d = from_above(q.d);
+      flat.quadrilaterals.push_back(cross(c, d - b) > 0.0 ? StarQuadrilateral<double>{b, c, d, 1.0}
+                                                          : StarQuadrilateral<double>{d, c, b, 1.0});
+    }
+    CompositeSearch<Plane> task = search_for<Plane>(judge_.composite(), parameters_);
+    task.star = lists_of(flat);
+    task.box = tangent.box;
+    const CompositeFound<Plane> found = kernel_(task);
+    return found.ready ? std::optional(found.offset) : std::nullopt;
   }
+}
+
+/// The winner among places on the surface.
+template <class Frame>
+Vec2<double> Slide<Frame>::search_on_surface(const Visit& visit, const Tangent& tangent) const {
+  const Facets& facets = domain_->facets();
+  const auto worth = [&](Vec2<double> p) {
+    if (p == Vec2<double>{}) return visit.score({});
+    const auto found = facets.walk(tangent.place.facet, tangent.plane, visit.here, times(p, visit.scale), kSteepest);
+    return found ? visit.score(times(mesh_.frame.offset(facets.at(*found), visit.here), 1.0 / visit.scale))
+                 : -std::numeric_limits<double>::infinity();
+  };
+  return grid_search<double>(worth, tangent.box, parameters_).offset;
+}
+
+/// Where the vertex comes to stand a step away in the tangent plane, or half of it, and so on; nowhere if it may not.
+template <class Frame>
+std::optional<Vec3> Slide<Frame>::possible_on_surface(const Visit& visit, const Tangent& tangent, Vec2<double> step) const {
+  const Facets& facets = domain_->facets();
+  for (int i = 0; i <= kHalvings && !(step == Vec2<double>{}); ++i, step = times(step, 0.5)) {
+    const auto there = facets.walk(tangent.place.facet, tangent.plane, visit.here, times(step, visit.scale), kSteepest);
+    if (!there) continue;
+    Vec3 target = facets.at(*there);
+    if (single_precision_) target = {nearest_float(target.x), nearest_float(target.y), nearest_float(target.z)};
+    if (!facets.place(visit.vertex, target)) continue;
+    if (judge_.gains(visit.positions, visit.vertex, target) && fits(visit, target, &tangent.place, &*there)) return target;
+  }
+  return std::nullopt;
+}
+
+template <class Frame>
+std::optional<Vec3> Slide<Frame>::on_surface(const Visit& visit, Scratch& scratch) const {
+  if constexpr (!std::is_same_v<Frame, Plane>) {
+    const auto place = domain_->facets().place(visit.vertex, visit.here);
+    if (!place) return std::nullopt;
+    const Vec3 normal = domain_->facets().normal(*place);
+    if (normal == Vec3{}) return std::nullopt;
+    Tangent tangent{*place, tangent_plane(normal), {}};
+    tangent.box = box_of_star(mesh_, visit.positions, visit.vertex, tangent.plane, visit.scale);
+    if (!visit.tangled) {
+      if (const auto step = search_flat(tangent, scratch)) {
+        if (*step == Vec2<double>{}) return std::nullopt;
+        if (const auto target = possible_on_surface(visit, tangent, *step)) return target;
+      }
+    }
+    return possible_on_surface(visit, tangent, search_on_surface(visit, tangent));
+  }
+  return std::nullopt;
 }
 
 template class Slide<Plane>;

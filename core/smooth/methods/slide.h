@@ -14,16 +14,17 @@ namespace dmoscope {
 /// a level, so that it looks at as many as where a vertex is free, and each level as much finer. Of the candidates that lie between the
 /// neighbours the best wins.
 /// On a surface: the very grid search in the tangent plane, each candidate taken straight down to the facet beneath it; those beyond a
-/// feature edge, and where the surface turns away, do not count.
-/// The vertex goes to the winner if it gains there, by the rules for all vertices (promise 1), and if no edge of a curve and no face of the
-/// surface then deviates from the input by more than the bound, or leans more than 60 degrees away from it, or than before. In space it
-/// tries half of the way where it may not go all of it, and half of that, twice more. The mesh must outlive it.
-/// Frame: Plane, where all slide along curves, Space, or Curved.
+/// feature edge, and where the surface turns away, do not count. Of a curved surface the search is in the plane, with the star's elements
+/// as they look from above, by packs of candidates; only where its winner may not stay, the other is done. The vertex goes to the winner if
+/// it gains there, by the rules for all vertices (promise 1), and if no edge of a curve and no face of the surface then deviates from the
+/// input by more than the bound, or leans more than 60 degrees away from it, or than before. In space it tries half of the way where it may
+/// not go all of it, and half of that, twice more. The mesh must outlive it. Frame: Plane, where all slide along curves, Space, or Curved.
 template <class Frame>
 class Slide {
  public:
   struct Scratch {
     JudgedStar<Frame> star;
+    Star<double> flat;  // of a curved surface: the star in the tangent plane
     OverlayRoom room;
   };
   /// `composite`: what the vertices aim at.
@@ -39,7 +40,11 @@ class Slide {
   struct Visit;
   struct Stretch;
   [[nodiscard]] std::optional<Vec3> along_curve(const Visit& visit) const;
-  [[nodiscard]] std::optional<Vec3> on_surface(const Visit& visit) const;
+  struct Tangent;
+  [[nodiscard]] std::optional<Vec3> on_surface(const Visit& visit, Scratch& scratch) const;
+  [[nodiscard]] std::optional<Vec2<double>> search_flat(const Tangent& tangent, Scratch& scratch) const;
+  [[nodiscard]] Vec2<double> search_on_surface(const Visit& visit, const Tangent& tangent) const;
+  [[nodiscard]] std::optional<Vec3> possible_on_surface(const Visit& visit, const Tangent& tangent, Vec2<double> step) const;
   [[nodiscard]] double search(const Visit& visit, const Stretch& stretch) const;
   [[nodiscard]] std::optional<Vec3> possible(const Visit& visit, const Stretch& stretch, double place) const;
   [[nodiscard]] bool keeps_near(const Visit& visit, const Stretch& stretch, double place, Vec3 target) const;
@@ -48,6 +53,7 @@ class Slide {
   std::shared_ptr<const Domain> domain_;  // null: nothing slides
   StarJudge<Frame> judge_;
   MeshView<Frame> mesh_;
+  CompositeKernel<Plane> kernel_ = nullptr;  // of a curved surface
   SearchParameters parameters_;
   double max_deviation_;
   bool single_precision_;

@@ -47,8 +47,9 @@ bool Domain::is_within(std::span<const Curves::Stretch> stretches, Index a, Inde
 
 std::string_view Domain::why_held(Index vertex) const {
   constexpr std::array<std::string_view, 7> kWhy{
-      {"", "it is a corner: the boundary or feature edge turns there by more than the corner angle", "feature edges meet there", "a feature edge ends there",
-       "parts of the mesh touch there, or cannot be wound alike", "the file gives it a meaning", "what it lies on stays"}};
+      {"", "it is a corner: the boundary or feature edge turns there by more than the corner angle", "feature edges meet there",
+       "a feature edge ends there", "parts of the mesh touch there, or cannot be wound alike", "the file gives it a meaning",
+       "what it lies on stays"}};
   return kWhy[static_cast<std::size_t>(held_[vertex])];
 }
 

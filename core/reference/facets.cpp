@@ -36,6 +36,10 @@ Facets::Facets(const InputMesh& input, ElementTable faces, std::span<const Index
   find_normals();
   find_sides();
   index_faces(input.mesh.vertex_count());
+  for (const Facet& facet : facets_) {
+    const Vec3 a = points_[facet.corners[0]];
+    twice_areas_.push_back(length(cross(points_[facet.corners[1]] - a, points_[facet.corners[2]] - a)));
+  }
   std::vector<std::array<Vec3, 3>> triangles;
   std::vector<Index> patch_of;
   Index patches = 0;
@@ -198,12 +202,11 @@ std::optional<FacetPlace> Facets::walk(Index facet, const Plane& plane, Vec3 ori
   Index before = kNoIndex;
   for (int step = 0; step < kLongestWalk; ++step) {
     const Facet& here = facets_[facet];
-    std::array<Vec3, 3> p;
     std::array<Vec2<double>, 3> q;  // from the target
-    for (std::size_t i = 0; i < 3; ++i) p[i] = points_[here.corners[i]], q[i] = plane.project(p[i] - origin) - target;
+    for (std::size_t i = 0; i < 3; ++i) q[i] = plane.project(points_[here.corners[i]] - origin) - target;
     const std::array<double, 3> part{cross(q[1], q[2]), cross(q[2], q[0]), cross(q[0], q[1])};
     const double area = cross(q[1] - q[0], q[2] - q[0]);
-    if (!(area > least_cosine * length(cross(p[1] - p[0], p[2] - p[0])))) return std::nullopt;
+    if (!(area > least_cosine * twice_areas_[facet])) return std::nullopt;
     const double below = -kWeightRounding * area;
     if (part[0] >= below && part[1] >= below && part[2] >= below) {
       FacetPlace found{facet, {std::max(part[0], 0.0), std::max(part[1], 0.0), std::max(part[2], 0.0)}};

@@ -54,6 +54,7 @@ class Facets {
   [[nodiscard]] Index first_facet(Index face) const { return first_facet_[face]; }
   [[nodiscard]] std::span<const Facet> facets() const noexcept { return facets_; }
   [[nodiscard]] Vec3 point(Index vertex) const { return points_[vertex]; }
+  [[nodiscard]] double twice_area(Index facet) const { return twice_areas_[facet]; }
   /// The facets beside a feature edge of the input, or the edge of a surface.
   [[nodiscard]] std::span<const FacetSide> sides_of(Index a, Index b) const;
   /// The facets around a vertex, from one of them on as far as no feature edge parts them, ascending.
@@ -87,6 +88,7 @@ class Facets {
   std::vector<Index> face_offsets_, faces_at_;  // by vertex
   std::vector<Index> first_facet_;              // by face
   std::vector<Facet> facets_;
+  std::vector<double> twice_areas_;
   std::vector<Index> facets_at_;              // by vertex: how many
   std::vector<std::array<Vec3, 3>> normals_;  // at the corners of each facet
   std::vector<FacetSide> sides_;              // ascending

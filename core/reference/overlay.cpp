@@ -24,47 +24,62 @@ Plane tangent(Vec3 normal, Vec3 along) {
 struct Overlay::Ground {
   Plane plane;
   Vec3 origin;
-  std::array<Vec2<double>, 3> corners;                                // counter-clockwise
-  double size, area;                                                  // the longest edge; twice the area
-  [[nodiscard]] std::array<double, 3> beyond(Vec2<double> p) const {  // distances from the edges, positive inside
-    std::array<double, 3> result;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec2<double> a = corners[i], way = corners[(i + 1) % 3] - a;
-      result[i] = cross(way, p - a) / std::sqrt(dot(way, way));
-    }
+  std::array<Vec2<double>, 3> corners;  // counter-clockwise
+  std::array<Vec2<double>, 3> inwards;  // of length 1, across each edge
+  double size, area;                    // the longest edge; twice the area
+  [[nodiscard]] Corner corner(Vec3 p) const {
+    const Vec3 way = p - origin;
+    Corner result{plane.project(way), dot(way, plane.normal), {}};
+    for (std::size_t i = 0; i < 3; ++i) result.inside[i] = dot(inwards[i], result.at - corners[i]);
     return result;
   }
 };
 
-/// Does a segment run inside the triangle, and not only along its edge?
-bool Overlay::crosses(const Ground& ground, Vec2<double> from, Vec2<double> to) const {
-  const double margin = kRounding * ground.size;
-  const auto a = ground.beyond(from), b = ground.beyond(to);
+/// Does a segment run inside the triangle by more than a margin, and not only along its edge?
+bool Overlay::crosses(const Corner& from, const Corner& to, double margin) {
   double first = 0.0, last = 1.0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double at_first = a[i] - margin, at_last = b[i] - margin;
+    const double at_first = from.inside[i] - margin, at_last = to.inside[i] - margin;
     if (at_first <= 0.0 && at_last <= 0.0) return false;
     if (at_first < 0.0) first = std::max(first, at_first / (at_first - at_last));
     if (at_last < 0.0) last = std::min(last, at_first / (at_first - at_last));
   }
-  const Vec2<double> way = to - from;
-  return (last - first) * std::sqrt(dot(way, way)) > margin;
+  if (!(last > first)) return false;
+  const Vec2<double> way = to.at - from.at;
+  return (last - first) * (last - first) * dot(way, way) > margin * margin;
+}
+
+/// Cuts off what of the polygon lies beyond one of the triangle's edges (Sutherland and Hodgman).
+void Overlay::clip(std::size_t edge) {
+  auto& polygon = room_.polygon;
+  if (std::ranges::all_of(polygon, [edge](const Corner& corner) { return corner.inside[edge] >= 0.0; })) return;
+  auto& clipped = room_.clipped;
+  clipped.clear();
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Corner& from = polygon[k];
+    const Corner& to = polygon[k + 1 < polygon.size() ? k + 1 : 0];
+    const double at_from = from.inside[edge], at_to = to.inside[edge];
+    if (at_from >= 0.0) clipped.push_back(from);
+    if ((at_from >= 0.0) == (at_to >= 0.0)) continue;
+    const double t = at_from / (at_from - at_to);
+    const auto between = [t](double a, double b) { return a + t * (b - a); };
+    Corner& cut = clipped.emplace_back();
+    cut.at = {between(from.at.x, to.at.x), between(from.at.y, to.at.y)};
+    cut.height = between(from.height, to.height);
+    for (std::size_t i = 0; i < 3; ++i) cut.inside[i] = between(from.inside[i], to.inside[i]);
+  }
+  std::swap(polygon, clipped);
 }
 
 /// Lays one facet under the triangle and notes the facets beyond its edges; false where the triangle lies across a feature edge.
 bool Overlay::lay(const Ground& ground, Index facet, std::span<const Curves::Stretch> allowed, Fit& fit, double& covered) {
   const Facet& here = facets_.facets()[facet];
-  room_.polygon.clear();
-  std::array<Vec3, 3> p;
-  for (std::size_t i = 0; i < 3; ++i) {
-    p[i] = facets_.point(here.corners[i]);
-    const Vec3 way = p[i] - ground.origin;
-    room_.polygon.push_back({ground.plane.project(way), dot(way, ground.plane.normal)});
-  }
-  const std::array<Vec2<double>, 3> q{room_.polygon[0].at, room_.polygon[1].at, room_.polygon[2].at};
+  auto& polygon = room_.polygon;
+  polygon.clear();
+  for (const Index corner : here.corners) polygon.push_back(ground.corner(facets_.point(corner)));
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
-    if (!crosses(ground, q[a], q[b])) continue;
+    if (!crosses(polygon[a], polygon[b], kRounding * ground.size)) continue;
     const Index across = here.across[i];
     if (across != kNoIndex) {
       if (std::ranges::find(room_.found, across) == room_.found.end()) room_.found.push_back(across);
@@ -72,28 +87,13 @@ bool Overlay::lay(const Ground& ground, Index facet, std::span<const Curves::Str
       return false;
     }
   }
-  for (std::size_t i = 0; i < 3; ++i) {  // Sutherland and Hodgman, edge by edge of the triangle
-    const Vec2<double> a = ground.corners[i], way = ground.corners[(i + 1) % 3] - a;
-    room_.clipped.clear();
-    for (std::size_t k = 0; k < room_.polygon.size(); ++k) {
-      const Corner& from = room_.polygon[k];
-      const Corner& to = room_.polygon[k + 1 < room_.polygon.size() ? k + 1 : 0];
-      const double at_from = cross(way, from.at - a), at_to = cross(way, to.at - a);
-      if (at_from >= 0.0) room_.clipped.push_back(from);
-      if ((at_from >= 0.0) == (at_to >= 0.0)) continue;
-      const double t = at_from / (at_from - at_to);
-      room_.clipped.push_back(
-          {{from.at.x + t * (to.at.x - from.at.x), from.at.y + t * (to.at.y - from.at.y)}, from.height + t * (to.height - from.height)});
-    }
-    std::swap(room_.polygon, room_.clipped);
-  }
+  const double whole = cross(polygon[1].at - polygon[0].at, polygon[2].at - polygon[0].at);
+  for (const std::size_t edge : {0U, 1U, 2U}) clip(edge);
   double area = 0.0;
-  for (std::size_t k = 2; k < room_.polygon.size(); ++k)
-    area += cross(room_.polygon[k - 1].at - room_.polygon[0].at, room_.polygon[k].at - room_.polygon[0].at);
+  for (std::size_t k = 2; k < polygon.size(); ++k) area += cross(polygon[k - 1].at - polygon[0].at, polygon[k].at - polygon[0].at);
   covered += area;
-  for (const Corner& corner : room_.polygon) fit.deviation = std::max(fit.deviation, std::abs(corner.height));
-  if (std::abs(area) > kUncovered * ground.area)
-    fit.least_cosine = std::min(fit.least_cosine, cross(q[1] - q[0], q[2] - q[0]) / length(cross(p[1] - p[0], p[2] - p[0])));
+  for (const Corner& corner : polygon) fit.deviation = std::max(fit.deviation, std::abs(corner.height));
+  if (std::abs(area) > kUncovered * ground.area) fit.least_cosine = std::min(fit.least_cosine, whole / facets_.twice_area(facet));
   return true;
 }
 
@@ -101,10 +101,13 @@ Fit Overlay::triangle(const std::array<Vec3, 3>& corners, Index from, std::span<
   const Vec3 across = cross(corners[1] - corners[0], corners[2] - corners[0]);
   const double area = length(across);
   if (!(area > 0.0)) return kNoFit;
-  Ground ground{tangent((1.0 / area) * across, corners[1] - corners[0]), corners[0], {}, 0.0, area};
+  Ground ground{tangent((1.0 / area) * across, corners[1] - corners[0]), corners[0], {}, {}, 0.0, area};
+  for (std::size_t i = 0; i < 3; ++i) ground.corners[i] = ground.plane.project(corners[i] - corners[0]);
   for (std::size_t i = 0; i < 3; ++i) {
-    ground.corners[i] = ground.plane.project(corners[i] - corners[0]);
-    ground.size = std::max(ground.size, length(corners[(i + 1) % 3] - corners[i]));
+    const Vec2<double> edge = ground.corners[(i + 1) % 3] - ground.corners[i];
+    const double size = std::sqrt(dot(edge, edge));
+    ground.inwards[i] = {-edge.y / size, edge.x / size};
+    ground.size = std::max(ground.size, size);
   }
   const Vec2<double> centre{(ground.corners[0].x + ground.corners[1].x + ground.corners[2].x) / 3.0,
                             (ground.corners[0].y + ground.corners[1].y + ground.corners[2].y) / 3.0};

@@ -1,6 +1,7 @@
 #pragma once
 // How near the faces of a mesh stay to the surface of the input: exactly, by laying each over the facets beneath it.
 
+#include <array>
 #include <limits>
 #include <span>
 
@@ -24,6 +25,7 @@ struct OverlayRoom {
   struct Corner {
     Vec2<double> at;
     double height;
+    std::array<double, 3> inside;  // distances from the triangle's edges, positive inside
   };
   std::vector<Index> found, starts;
   std::vector<Corner> polygon, clipped;
@@ -49,7 +51,8 @@ class Overlay {
   void find_starts(Index vertex, Vec3 target, Index face, const FacetPlace* beneath);
   void find_stretches(PositionView positions, Index face, Index vertex, Vec3 target);
   [[nodiscard]] bool lay(const Ground& ground, Index facet, std::span<const Curves::Stretch> allowed, Fit& fit, double& covered);
-  [[nodiscard]] bool crosses(const Ground& ground, Vec2<double> from, Vec2<double> to) const;
+  [[nodiscard]] static bool crosses(const Corner& from, const Corner& to, double margin);
+  void clip(std::size_t edge);
 
   const Domain& domain_;
   const Facets& facets_;

@@ -215,8 +215,10 @@ std::optional<Vec3> Slide<Frame>::possible_on_surface(const Visit& visit, const 
     const auto there = facets.walk(tangent.place.facet, tangent.plane, visit.here, times(step, visit.scale), kSteepest);
     if (!there) continue;
     Vec3 target = facets.at(*there);
-    if (single_precision_) target = {nearest_float(target.x), nearest_float(target.y), nearest_float(target.z)};
-    if (!facets.place(visit.vertex, target)) continue;
+    if (single_precision_) {
+      target = {nearest_float(target.x), nearest_float(target.y), nearest_float(target.z)};
+      if (!facets.place(visit.vertex, target)) continue;
+    }
     if (judge_.gains(visit.positions, visit.vertex, target) && fits(visit, target, &tangent.place, &*there)) return target;
   }
   return std::nullopt;

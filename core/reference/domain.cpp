@@ -45,6 +45,15 @@ bool Domain::is_within(std::span<const Curves::Stretch> stretches, Index a, Inde
                              [&](const auto& stretch) { return stretch.curve == found->curve && stretch.holds(found->segment); });
 }
 
+std::vector<std::array<Index, 2>> Domain::feature_edges() const {
+  std::vector<std::array<Index, 2>> edges;
+  for (const Segment& segment : segments_) edges.push_back({segment.low, segment.high});
+  for (const FacetSide& side : facets_.sides()) edges.push_back({side.low, side.high});
+  std::ranges::sort(edges);
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
 std::string_view Domain::why_held(Index vertex) const {
   constexpr std::array<std::string_view, 7> kWhy{
       {"", "it is a corner: the boundary or feature edge turns there by more than the corner angle", "feature edges meet there",
@@ -62,8 +71,9 @@ std::string Domain::sentence() const {
   if (inside_ > 0 || text.empty())
     text += fmt::format("{}{} {}", text.empty() ? "" : "; ", slide(inside_), is_surface_ ? "on the surface" : "along interfaces");
   if (facets_.any() && on_curves_ > 0) text += fmt::format(" ({} on feature edges)", grouped(on_curves_));
-  const auto held = std::ranges::count_if(held_, [](HeldOn why) { return why != HeldOn::Nothing && why != HeldOn::Rule; });
-  if (is_surface_ && held > 0) text += fmt::format("; corners and ends of feature edges hold {}", grouped(static_cast<Index>(held)));
+  Index held = 0;
+  for (Index v = 0; v < held_.size(); ++v) held += is_held(v) ? 1 : 0;
+  if (is_surface_ && held > 0) text += fmt::format("; corners and ends of feature edges hold {}", grouped(held));
   return text;
 }
 

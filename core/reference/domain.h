@@ -1,6 +1,7 @@
 #pragma once
 // Where the vertices of a mesh may go that slide: the curves and, of a volume, the surfaces of the input.
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -35,6 +36,10 @@ class Domain {
   [[nodiscard]] const Curves& curves() const noexcept { return curves_; }
   [[nodiscard]] const Facets& facets() const noexcept { return facets_; }  // none in a plane
 
+  /// The edges of the mesh along which it slides or that nothing crosses, each once, low end first, ascending.
+  [[nodiscard]] std::vector<std::array<Index, 2>> feature_edges() const;
+  /// Corners, junctions and ends of feature edges, and what else is held by more than a rule.
+  [[nodiscard]] bool is_held(Index vertex) const noexcept { return held_[vertex] != HeldOn::Nothing && held_[vertex] != HeldOn::Rule; }
   /// What holds a vertex of the boundary, of an interface, or of a surface; "feature edges meet there". Empty for others.
   [[nodiscard]] std::string_view why_held(Index vertex) const;
   [[nodiscard]] Index count() const noexcept { return sliding_; }        // of vertices that slide

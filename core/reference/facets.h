@@ -57,6 +57,7 @@ class Facets {
   [[nodiscard]] double twice_area(Index facet) const { return twice_areas_[facet]; }
   /// The facets beside a feature edge of the input, or the edge of a surface.
   [[nodiscard]] std::span<const FacetSide> sides_of(Index a, Index b) const;
+  [[nodiscard]] std::span<const FacetSide> sides() const noexcept { return sides_; }
   /// The facets around a vertex, from one of them on as far as no feature edge parts them, ascending.
   [[nodiscard]] std::vector<Index> fan_at(Index facet, Index vertex) const;
   /// How many facets have the vertex as a corner.

@@ -111,6 +111,12 @@ void add_look_commands(CommandTable& table, ViewState& state) {
     require(words, 0, 1);
     state.worst_marker = switched(words, 0, state.worst_marker);
   });
+  table.add(
+      {"features", "features [on|off|toggle]", "where vertices slide: boundary, interfaces and feature edges as lines, corners as squares"},
+      [&state](Arguments words) {
+        require(words, 0, 1);
+        state.features = switched(words, 0, state.features);
+      });
   table.add({"theme", "theme dark|light|contrast|next", "colours of the interface"}, [&state](Arguments words) {
     require(words, 1, 1);
     state.theme = words[0] == "next" ? static_cast<Theme>((static_cast<int>(state.theme) + 1) % 3) : choose(words[0], kThemes);

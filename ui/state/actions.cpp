@@ -109,6 +109,7 @@ constexpr std::array kActions{
     Action{"wireframe", "View", "Wireframe", "W", "wireframe toggle"},
     Action{"vertices", "View", "Vertices", "D", "vertices toggle", Needs::Planar},
     Action{"worst-marker", "View", "Mark the worst element", "K", "worst toggle"},
+    Action{"features", "View", "Feature edges and corners, where vertices slide", "Alt+K", "features toggle"},
     Action{"inside-clip", "View", "Clip plane", "J", "clip toggle", Needs::Volume},
     Action{"inside-axis", "View", "Clip plane across the next axis", "Ctrl+J", "clip next", Needs::Volume},
     Action{"inside-flip", "View", "Clip plane: the other side", "Shift+J", "clip flip", Needs::Volume},

@@ -110,6 +110,7 @@ struct ViewState {
   bool wireframe = true;
   bool vertices = false;
   bool worst_marker = true;
+  bool features = false;  // curves along which vertices slide, and what holds them
   bool shading = false;   // volumes' faces by a light, too: it changes what colours tell
   bool occlusion = true;  // volumes are darker in their corners and along their edges
   render::ColourMap colour_map = render::ColourMap::Beacon;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "ui/state/format.h"
+#include "ui/viewports/feature_marks.h"
 #include "ui/viewports/step_flash.h"
 
 namespace dmoscope::ui {
@@ -66,10 +67,10 @@ std::string SteppingView::key(const ViewState& state, const Frame& frame, const 
   const SteppingState& s = state.stepping;
   const Brush& brush = state.brush;
   const auto serial = [](const std::shared_ptr<const Frame>& of) { return of ? of->serial : 0; };
-  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", s.flash_level, s.news.serial, frame.serial, serial(previous_),
-                     serial(state.timeline.a.frame), serial(state.timeline.b.frame), view, static_cast<int>(state.theme), s.next_class,
-                     static_cast<int>(s.arrows), s.arrow_scale, static_cast<int>(s.ghost), state.selection.serial(), brush.painting,
-                     static_cast<int>(brush.kind), brush.stroke.serial());
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", state.features, s.flash_level, s.news.serial, frame.serial,
+                     serial(previous_), serial(state.timeline.a.frame), serial(state.timeline.b.frame), view, static_cast<int>(state.theme),
+                     s.next_class, static_cast<int>(s.arrows), s.arrow_scale, static_cast<int>(s.ghost), state.selection.serial(),
+                     brush.painting, static_cast<int>(brush.kind), brush.stroke.serial());
 }
 
 void SteppingView::add_marks(render::Marks& marks, const ViewState& state, const SessionView& session, const MarkView& view,
@@ -108,9 +109,16 @@ void SteppingView::make_marks(const ViewState& state, const SessionView& session
     factor_ = arrow_factor(view, moved_, state.stepping.arrow_scale);
     arrows_left_out_ = add_arrows(marks_, view, moved_, factor_, solid(colours.run(frame.run)), solid(colours.background, 230));
   }
+  if (const Domain* domain = state.features ? domain_of(session) : nullptr)
+    add_features(marks_, view, *domain, *frame.input, frame.positions, solid(colours.text));
   if (state.stepping.next_class) add_next_class(state, session, view);
   flash_factor_ = state.stepping.news.serial == frame.serial ? add_flash(marks_, view, state, frame) : 0.0;
   add_selection(state, frame, view);
+}
+
+const Domain* SteppingView::domain_of(const SessionView& session) const {
+  const Frame* frame = session.frame.get();
+  return frame != nullptr && frame->run < session.runs.size() ? session.runs[frame->run].domain.get() : nullptr;
 }
 
 NextClass SteppingView::class_of(const SessionView& session) const {
@@ -134,7 +142,10 @@ void SteppingView::add_space_marks(render::SpaceMarks& marks, const ViewState& s
   const Frame* frame = session.frame.get();
   const SteppingState& s = state.stepping;
   const bool flashes = s.flash_level > 0 && frame != nullptr && s.news.serial == frame->serial;
-  if (frame == nullptr || frame->device || !(flashes || s.next_class || s.arrows != Reference::None || s.ghost != Reference::None)) return;
+  const bool features = state.features && domain_of(session) != nullptr;
+  if (frame == nullptr || frame->device ||
+      !(features || flashes || s.next_class || s.arrows != Reference::None || s.ghost != Reference::None))
+    return;
   const render::OrbitCamera& camera = state.orbit;
   const Vec3 &c = camera.centre, &r = camera.right, &u = camera.up;
   std::string wanted = key(state, *frame,
@@ -171,6 +182,8 @@ void SteppingView::make_space_marks(const ViewState& state, const SessionView& s
     arrows_drawn_ = added.drawn;
     arrows_left_out_ = added.left_out;
   }
+  if (const Domain* domain = state.features ? domain_of(session) : nullptr)
+    add_space_features(space_marks_, *domain, frame.positions, *unhidden, solid(colours.text), solid(colours.background, 200));
   const bool flashes = state.stepping.news.serial == frame.serial;
   flash_factor_ = flashes ? add_space_flash(space_marks_, view, state, frame, unhidden->vertices) : 0.0;
   const NextClass next = state.stepping.next_class ? class_of(session) : NextClass{};

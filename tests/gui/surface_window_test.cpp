@@ -1,0 +1,86 @@
+// A curved surface in the window: seen in space, stepped, picked, with its feature edges.
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "core/io/mesh_io.h"
+#include "tests/gui/headless_test.h"
+#include "tests/smooth/surface_judge.h"
+#include "tests/support/plain_surface.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/volume_grids.h"
+#include "ui/analysis/inspection.h"
+#include "ui/viewports/feature_marks.h"
+
+namespace dmoscope::app {
+namespace {
+
+/// The surface of a cube of n x n x n cells, shaken on its sides.
+Mesh cube(Index n) {
+  const Mesh volume = dmoscope::testing::shaken(test::volume_grid(n, test::Fill::Hexahedra), 0.05, 3);
+  Mesh mesh;
+  mesh.positions = volume.positions;
+  for (const auto& face : dmoscope::testing::boundary_faces(volume)) mesh.elements.add(ElementKind::Quadrilateral, face);
+  return mesh;
+}
+
+class SurfaceWindow : public HeadlessTest {
+ protected:
+  void SetUp() override {
+    HeadlessTest::SetUp();
+    if (IsSkipped()) return;
+    const Mesh mesh = cube(5);
+    Progress progress;
+    write_mesh(folder_.path() / "cube.vtk", mesh, mesh.positions, progress);
+    good("open \"" + (folder_.path() / "cube.vtk").string() + "\"");
+  }
+  [[nodiscard]] std::vector<std::uint8_t> picture() { return window_->picture().rgba; }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(SurfaceWindow, IsSeenInSpaceSteppedAndPicked) {
+  EXPECT_TRUE(state().in_space);
+  std::vector<std::vector<std::uint8_t>> pictures{picture()};
+  for (const char* line : {"view-from +x", "turn 40 20", "clip x:0.6", "clip off", "worst-cells 5", "show-all", "color-by size",
+                           "color-by quality", "step iteration 3", "features on", "shrink 0.7"}) {
+    good(line);
+    pictures.push_back(picture());
+    EXPECT_TRUE(pictures.back() != pictures[pictures.size() - 2]) << line;
+  }
+  good("view-from iso");
+  good("click 640 330");
+  EXPECT_NE(state().picked.kind, ui::Picked::Kind::None);
+  EXPECT_GT(session()->frame->statistics.minimum, session()->input_summary->statistics.minimum);
+}
+
+TEST_F(SurfaceWindow, AVisitThatCannotBeLookedIntoSaysSo) {
+  EXPECT_THAT(ui::no_inspection(*session()), ::testing::HasSubstr("curved surface"));
+}
+
+/// A cube's twelve edges of n segments and its eight corners, however many of them are seen.
+TEST(FeatureMarks, OfACube) {
+  constexpr Index n = 5;
+  const auto mesh = dmoscope::testing::input(cube(n));
+  const Domain domain(*mesh, {});
+  EXPECT_EQ(domain.feature_edges().size(), 12U * n);
+  render::Unhidden all;
+  for (Index v = 0; v < mesh->mesh.vertex_count(); ++v)
+    if (!mesh->topology.star(v).empty()) all.vertices.push_back(v);
+  for (Index e = 0; e < mesh->mesh.elements.size(); ++e) {
+    const auto c = mesh->mesh.elements.corners(e);
+    for (std::size_t i = 0; i < 4; ++i)
+      if (c[i] < c[(i + 1) % 4]) all.edges.push_back({c[i], c[(i + 1) % 4]});
+  }
+  render::SpaceMarks marks;
+  ui::add_space_features(marks, domain, mesh->mesh.positions, all, {0, 0, 0, 255}, {255, 255, 255, 255});
+  EXPECT_EQ(marks.lines.size(), 2 * 12U * n) << "each with a casing";
+  EXPECT_EQ(marks.dots.size(), 8U);
+  for (const auto& dot : marks.dots)
+    for (const double x : {dot.point.x, dot.point.y, dot.point.z}) EXPECT_TRUE(x == 0.0 || x == 1.0);
+  render::SpaceMarks none;
+  ui::add_space_features(none, domain, mesh->mesh.positions, {}, {0, 0, 0, 255}, {255, 255, 255, 255});
+  EXPECT_TRUE(none.lines.empty() && none.dots.empty()) << "what is hidden is not drawn";
+}
+
+}  // namespace
+}  // namespace dmoscope::app

@@ -17,33 +17,35 @@ Vec3 upper(Vec3 a, Vec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std
 
 }  // namespace
 
-/// By the region of the plane in which the point's projection lies (Ericson, Real-Time Collision Detection, 5.1.5).
+/// The nearest of the foot of the perpendicular, where it lies inside, and the nearest points of the sides. The foot is found twice, the
+/// second time from the first: of a needle, whose sides are nearly one line, the first is no better than rounding times the needle's
+/// length over its width.
 NearestPoint nearest_point(const std::array<Vec3, 3>& triangle, Vec3 p) {
-  const Vec3 a = triangle[0], b = triangle[1], c = triangle[2];
-  const auto result = [&](double wb, double wc) {
-    const Vec3 way = p - (a + wb * (b - a) + wc * (c - a));
-    return NearestPoint{{1.0 - wb - wc, wb, wc}, dot(way, way)};
+  const Vec3 a = triangle[0], ab = triangle[1] - a, ac = triangle[2] - a, ap = p - a;
+  const Vec3 normal = cross(ab, ac);
+  const double area = dot(normal, normal);
+  NearestPoint best{{}, std::numeric_limits<double>::infinity()};
+  const auto take = [&](double wb, double wc) {
+    const Vec3 way = ap - (wb * ab + wc * ac);
+    const double square = dot(way, way);
+    if (square < best.square) best = {{1.0 - wb - wc, wb, wc}, square};
   };
-  const Vec3 ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0.0 && d2 <= 0.0) return result(0.0, 0.0);
-  const Vec3 bp = p - b;
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0.0 && d4 <= d3) return result(1.0, 0.0);
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return result(d1 / (d1 - d3), 0.0);
-  const Vec3 cp = p - c;
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0.0 && d5 <= d6) return result(0.0, 1.0);
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return result(0.0, d2 / (d2 - d6));
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
-    const double t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    return result(1.0 - t, t);
+  if (area > 0.0) {
+    double wb = dot(cross(ap, ac), normal) / area, wc = dot(cross(ab, ap), normal) / area;
+    const Vec3 rest = ap - (wb * ab + wc * ac);
+    wb += dot(cross(rest, ac), normal) / area;
+    wc += dot(cross(ab, rest), normal) / area;
+    if (wb >= 0.0 && wc >= 0.0 && wb + wc <= 1.0) take(wb, wc);
   }
-  const double whole = va + vb + vc;
-  return result(vb / whole, vc / whole);
+  const auto along = [](Vec3 way, Vec3 from) {
+    const double square = dot(way, way);
+    return square > 0.0 ? std::clamp(dot(from, way) / square, 0.0, 1.0) : 0.0;
+  };
+  const double on_bc = along(ac - ab, ap - ab);
+  take(along(ab, ap), 0.0);
+  take(1.0 - on_bc, on_bc);
+  take(0.0, along(ac, ap));
+  return best;
 }
 
 FacetTree::FacetTree(std::vector<std::array<Vec3, 3>> triangles, std::span<const Index> patch_of, Index patches)

@@ -11,6 +11,8 @@ namespace {
 
 /// Roundings of a coordinate that a point of a facet, computed, may lie beside it.
 constexpr double kFacetRoundings = 8.0;
+/// As a share of the mesh's size: what is nearer than that to a facet is on it. The nearest point of a needle is not known better.
+constexpr double kBeside = 1e-12;
 /// What a weight may be below 0 where the line just about meets the facet.
 constexpr double kWeightRounding = 1e-10;
 constexpr int kLongestWalk = 256;
@@ -30,6 +32,7 @@ Facets::Facets(const InputMesh& input, ElementTable faces, std::span<const Index
     : points_(input.mesh.positions),
       rounding_(kFacetRoundings *
                 (input.mesh.single_precision ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon())),
+      size_(input.geometry.size),
       faces_(std::move(faces)) {
   split(faces_, links);
   find_patches();
@@ -181,7 +184,8 @@ std::optional<FacetPlace> Facets::place(Index vertex, Vec3 position) const {
   if (facet == kNoIndex) return std::nullopt;
   double largest = most(position);
   for (const Index corner : facets_[facet].corners) largest = std::max(largest, most(points_[corner]));
-  if (!(point.square <= rounding_ * largest * (rounding_ * largest))) return std::nullopt;
+  const double tolerance = std::max(rounding_ * largest, kBeside * size_);
+  if (!(point.square <= tolerance * tolerance)) return std::nullopt;
   return FacetPlace{facet, point.weights};
 }
 

@@ -85,6 +85,7 @@ class Facets {
 
   std::span<const Vec3> points_;  // of the input
   double rounding_ = 0.0;         // of its coordinates
+  double size_ = 0.0;             // of the mesh
   ElementTable faces_;
   std::vector<Index> face_offsets_, faces_at_;  // by vertex
   std::vector<Index> first_facet_;              // by face

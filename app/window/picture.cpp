@@ -113,7 +113,7 @@ int render_picture(const std::filesystem::path& input, const std::filesystem::pa
     complain(fmt::format("{}: {}", mesh->mesh.name, left_out));
   const std::span<const Vec3> positions = mesh->mesh.positions;
   write_file_atomically(output, mesh->in_space() ? volume_picture_png(*mesh, positions, look, inside, progress)
-                                                  : picture_png(*mesh, positions, look, progress));
+                                                 : picture_png(*mesh, positions, look, progress));
   return 0;
 }
 

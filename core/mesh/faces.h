@@ -17,8 +17,9 @@ struct LocalFace {
   [[nodiscard]] constexpr std::span<const Index> span() const noexcept { return {corners.data(), count}; }
 };
 
-/// The faces of a volume element; a triangle or quadrilateral is its own and only one. Positive are: a tetrahedron whose corner 3 lies on the side to which the normal of
-/// 0, 1, 2 points; likewise a wedge's 3, 4, 5 above 0, 1, 2, a hexahedron's 4 to 7 above 0 to 3, a pyramid's 4 above 0 to 3.
+/// The faces of a volume element; a triangle or quadrilateral is its own and only one. Positive are: a tetrahedron whose corner 3 lies on
+/// the side to which the normal of 0, 1, 2 points; likewise a wedge's 3, 4, 5 above 0, 1, 2, a hexahedron's 4 to 7 above 0 to 3, a
+/// pyramid's 4 above 0 to 3.
 [[nodiscard]] std::span<const LocalFace> faces_of(ElementKind kind) noexcept;
 
 /// One face of one element.

@@ -253,9 +253,9 @@ TEST(Smooth, UntilConvergedWritesTheBestByMinimumThenMean) {
 TEST(Smooth, SurfacesByDmoAlone) {
   const Folder folder;
   // Four squares around the origin, bent along the x axis; the middle is not where it should be.
-  const std::string bent = folder.file(
-      "bent.off", "OFF\n9 4 0\n-1 -1 0.2\n0 -1 0.2\n1 -1 0.2\n-1 0 0\n0.4 0 0\n1 0 0\n-1 1 0.2\n0 1 0.2\n1 1 0.2\n"
-                  "4 0 1 4 3\n4 1 2 5 4\n4 3 4 7 6\n4 4 5 8 7\n");
+  const std::string bent = folder.file("bent.off",
+                                       "OFF\n9 4 0\n-1 -1 0.2\n0 -1 0.2\n1 -1 0.2\n-1 0 0\n0.4 0 0\n1 0 0\n-1 1 0.2\n0 1 0.2\n1 1 0.2\n"
+                                       "4 0 1 4 3\n4 1 2 5 4\n4 3 4 7 6\n4 4 5 8 7\n");
   const auto json = smooth(bent, folder / "out.off", {"--iterations", "5"});
   EXPECT_EQ(json["sliding"], 1);
   EXPECT_GT(json["after"]["minimum"], json["before"]["minimum"]);

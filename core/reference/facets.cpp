@@ -35,10 +35,10 @@ Facets::Facets(const InputMesh& input, ElementTable faces, std::span<const Index
       size_(input.geometry.size),
       faces_(std::move(faces)) {
   split(faces_, links);
+  index_faces(input.mesh.vertex_count());
   find_patches();
   find_normals();
   find_sides();
-  index_faces(input.mesh.vertex_count());
   for (const Facet& facet : facets_) {
     const Vec3 a = points_[facet.corners[0]];
     twice_areas_.push_back(length(cross(points_[facet.corners[1]] - a, points_[facet.corners[2]] - a)));
@@ -111,11 +111,14 @@ void Facets::find_patches() {
 
 std::vector<Index> Facets::fan_at(Index facet, Index vertex) const {
   std::vector<Index> found{facet};
+  bool around = false;
   for (const std::size_t way : {std::size_t{1}, std::size_t{2}}) {
-    for (Index f = facet;;) {
+    // Of a face that has a corner twice the way may lead round without coming back.
+    for (Index f = facet; !around && found.size() <= facets_at_[vertex];) {
       const auto at = static_cast<std::size_t>(std::ranges::find(facets_[f].corners, vertex) - facets_[f].corners.begin());
       f = facets_[f].across[(at + way) % 3];
-      if (f == kNoIndex || std::ranges::find(found, f) != found.end()) break;
+      around = f == facet;
+      if (around || f == kNoIndex) break;
       found.push_back(f);
     }
   }
@@ -131,11 +134,17 @@ void Facets::find_normals() {
     const Vec3 a = points_[c[next(at)]] - points_[vertex], b = points_[c[next(next(at))]] - points_[vertex], across = cross(a, b);
     return std::atan2(length(across), dot(a, b)) * unit(across);
   };
+  std::vector<std::array<bool, 3>> known(facets_.size());
   for (Index f = 0; f < facets_.size(); ++f) {
     for (std::size_t i = 0; i < 3; ++i) {
+      if (known[f][i]) continue;
+      const Index vertex = facets_[f].corners[i];
+      const std::vector<Index> around = fan_at(f, vertex);
       Vec3 sum;
-      for (const Index g : fan_at(f, facets_[f].corners[i])) sum = sum + weighted(g, facets_[f].corners[i]);
-      normals_[f][i] = unit(sum);
+      for (const Index g : around) sum = sum + weighted(g, vertex);
+      for (const Index g : around)
+        for (std::size_t k = 0; k < 3; ++k)
+          if (facets_[g].corners[k] == vertex) normals_[g][k] = unit(sum), known[g][k] = true;
     }
   }
 }

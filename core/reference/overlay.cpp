@@ -72,7 +72,7 @@ void Overlay::clip(std::size_t edge) {
 }
 
 /// Lays one facet under the triangle and notes the facets beyond its edges; false where the triangle lies across a feature edge.
-bool Overlay::lay(const Ground& ground, Index facet, std::span<const Curves::Stretch> allowed, Fit& fit, double& covered) {
+bool Overlay::lay(const Ground& ground, Index facet, std::span<const Curves::Stretch> allowed, Laid& laid) {
   const Facet& here = facets_.facets()[facet];
   auto& polygon = room_.polygon;
   polygon.clear();
@@ -83,17 +83,18 @@ bool Overlay::lay(const Ground& ground, Index facet, std::span<const Curves::Str
     const Index across = here.across[i];
     if (across != kNoIndex) {
       if (std::ranges::find(room_.found, across) == room_.found.end()) room_.found.push_back(across);
-    } else if (!domain_.is_within(allowed, here.corners[a], here.corners[b])) {
-      return false;
+    } else {
+      if (!domain_.is_within(allowed, here.corners[a], here.corners[b])) return false;
+      laid.beyond = true;
     }
   }
   const double whole = cross(polygon[1].at - polygon[0].at, polygon[2].at - polygon[0].at);
   for (const std::size_t edge : {0U, 1U, 2U}) clip(edge);
   double area = 0.0;
   for (std::size_t k = 2; k < polygon.size(); ++k) area += cross(polygon[k - 1].at - polygon[0].at, polygon[k].at - polygon[0].at);
-  covered += area;
-  for (const Corner& corner : polygon) fit.deviation = std::max(fit.deviation, std::abs(corner.height));
-  if (std::abs(area) > kUncovered * ground.area) fit.least_cosine = std::min(fit.least_cosine, whole / facets_.twice_area(facet));
+  laid.covered += area;
+  for (const Corner& corner : polygon) laid.fit.deviation = std::max(laid.fit.deviation, std::abs(corner.height));
+  if (std::abs(area) > kUncovered * ground.area) laid.fit.least_cosine = std::min(laid.fit.least_cosine, whole / facets_.twice_area(facet));
   return true;
 }
 
@@ -113,14 +114,13 @@ Fit Overlay::triangle(const std::array<Vec3, 3>& corners, Index from, std::span<
                             (ground.corners[0].y + ground.corners[1].y + ground.corners[2].y) / 3.0};
   const auto start = facets_.walk(from, ground.plane, ground.origin, centre, 0.0);
   if (!start) return kNoFit;
-  Fit fit;
-  double covered = 0.0;
+  Laid laid;
   room_.found.assign(1, start->facet);
   for (std::size_t i = 0; i < room_.found.size(); ++i)
-    if (i > kMostFacets || !lay(ground, room_.found[i], allowed, fit, covered) || !(fit.least_cosine > 0.0)) return kNoFit;
+    if (i > kMostFacets || !lay(ground, room_.found[i], allowed, laid) || !(laid.fit.least_cosine > 0.0)) return kNoFit;
   // What lies beyond a curve is nearer to it than its chord is, and that is bounded where vertices slide along it.
-  const bool whole = covered >= (1.0 - kUncovered) * area && covered <= (1.0 + kUncovered) * area;
-  return whole || !allowed.empty() ? fit : kNoFit;
+  const bool whole = laid.covered >= (1.0 - kUncovered) * area && laid.covered <= (1.0 + kUncovered) * area;
+  return whole || laid.beyond ? laid.fit : kNoFit;
 }
 
 /// The stretches of curves along a face's edges.

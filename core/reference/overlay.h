@@ -50,7 +50,12 @@ class Overlay {
   [[nodiscard]] Fit face(PositionView positions, Index face, Index vertex, Vec3 target);
   void find_starts(Index vertex, Vec3 target, Index face, const FacetPlace* beneath);
   void find_stretches(PositionView positions, Index face, Index vertex, Vec3 target);
-  [[nodiscard]] bool lay(const Ground& ground, Index facet, std::span<const Curves::Stretch> allowed, Fit& fit, double& covered);
+  struct Laid {
+    Fit fit;
+    double covered = 0.0;  // twice the area
+    bool beyond = false;   // the triangle reaches across one of the stretches
+  };
+  [[nodiscard]] bool lay(const Ground& ground, Index facet, std::span<const Curves::Stretch> allowed, Laid& laid);
   [[nodiscard]] static bool crosses(const Corner& from, const Corner& to, double margin);
   void clip(std::size_t edge);
 

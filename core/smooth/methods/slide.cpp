@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/rounding.h"
+#include "core/search/compass_search.h"
 
 namespace dmoscope {
 
@@ -55,11 +56,12 @@ struct Slide<Frame>::Stretch {
 CompositeObjective single_objective(Metric metric) { return {metric, std::numeric_limits<double>::infinity(), metric}; }
 
 template <class Frame>
-Slide<Frame>::Slide(const SmoothingTask& task, CompositeObjective composite)
+Slide<Frame>::Slide(const SmoothingTask& task, CompositeObjective composite, SlideChoice choice)
     : domain_(task.domain),
       judge_(*task.input, std::move(composite)),
       mesh_(task.input->view<Frame>()),
       parameters_(task.search),
+      choice_(choice),
       max_deviation_(task.max_deviation),
       single_precision_(task.input->mesh.single_precision) {
   if (std::is_same_v<Frame, Curved> && task.search.precision != Precision::Double)
@@ -75,32 +77,55 @@ template <class Frame>
 std::optional<Vec3> Slide<Frame>::target(PositionView positions, Index vertex, Scratch& scratch) const {
   judge_.gather(positions, vertex, scratch.star);
   const bool tangled = judge_.is_tangled(scratch.star);
-  if (judge_.untangling().repair && !tangled) return std::nullopt;
+  if (judge_.untangling().repair && choice_.must_gain && !tangled) return std::nullopt;
   const auto score = judge_.score_of(scratch.star, positions, vertex, tangled);
   const Visit visit{vertex, positions[vertex], positions, scratch.star.scale, tangled, score, scratch.room};
   return domain_->on_curve(vertex) ? along_curve(visit) : on_surface(visit, scratch);
 }
 
-/// The best place; the vertex's own where none is better.
+/// What a place is worth; -infinity where it is not between the neighbours.
+template <class Frame>
+double Slide<Frame>::worth(const Visit& visit, const Stretch& stretch, double place) const {
+  if (!(stretch.beside.place_before < place && place < stretch.beside.place_after)) return -std::numeric_limits<double>::infinity();
+  const Vec3 there = domain_->curves().at(visit.vertex, place);
+  return visit.score(times(mesh_.frame.offset(there, visit.here), 1.0 / visit.scale));
+}
+
+/// The place that the method chooses; the vertex's own where none is better.
 template <class Frame>
 double Slide<Frame>::search(const Visit& visit, const Stretch& stretch) const {
-  const Curves& curves = domain_->curves();
-  const auto worth = [&](double place) {
-    return visit.score(times(mesh_.frame.offset(curves.at(visit.vertex, place), visit.here), 1.0 / visit.scale));
-  };
+  const auto [before, after] = std::pair(stretch.beside.place_before, stretch.beside.place_after);
+  switch (choice_.by) {
+    case SlideChoice::By::Grid:
+      return search_grid(visit, stretch);
+    case SlideChoice::By::Mean:
+      return stretch.place + choice_.relaxation * (0.5 * (before + after) - stretch.place);
+    case SlideChoice::By::Compass:
+      break;
+  }
+  const auto from_here = [&](double way) { return way == 0.0 ? visit.score({}) : worth(visit, stretch, stretch.place + way); };
+  return stretch.place + compass_search<double>(from_here, 0.5 * (after - before));
+}
+
+template <class Frame>
+double Slide<Frame>::search_grid(const Visit& visit, const Stretch& stretch) const {
   const int candidates = parameters_.grid_points * parameters_.grid_points;
   double best = stretch.place, objective = visit.score({}), omega = parameters_.omega;
   for (int level = 0; level < parameters_.levels; ++level) {
     const double centre = best, width = omega * (stretch.beside.place_after - stretch.beside.place_before);
     for (int i = 0; i < candidates; ++i) {
       const double place = centre + width * (static_cast<double>(i) / (candidates - 1) - 0.5);
-      if (!(stretch.beside.place_before < place && place < stretch.beside.place_after)) continue;
-      const double value = worth(place);
+      const double value = worth(visit, stretch, place);
       if (value > objective) best = place, objective = value;
     }
     omega *= 2.0 / (candidates - 1);
   }
   return best;
+}
+
+template <class Frame>
+bool Slide<Frame>::may_go(const Visit& visit, Vec3 target) const {
+  return !choice_.must_gain || judge_.gains(visit.positions, visit.vertex, target);
 }
 
 template <class Frame>
@@ -123,7 +148,7 @@ std::optional<Vec3> Slide<Frame>::possible(const Visit& visit, const Stretch& st
   // What rounding put elsewhere must still be between the neighbours.
   const auto landed = curves.place(visit.vertex, target);
   if (!landed || !curves.neighbours(visit.vertex, *landed, visit.positions)) return std::nullopt;
-  if (!judge_.gains(visit.positions, visit.vertex, target) || !keeps_near(visit, stretch, place, target)) return std::nullopt;
+  if (!may_go(visit, target) || !keeps_near(visit, stretch, place, target)) return std::nullopt;
   return fits(visit, target, nullptr, nullptr) ? std::optional(target) : std::nullopt;
 }
 
@@ -198,13 +223,39 @@ std::optional<Vec2<double>> Slide<Frame>::search_flat(const Tangent& tangent, Sc
 template <class Frame>
 Vec2<double> Slide<Frame>::search_on_surface(const Visit& visit, const Tangent& tangent) const {
   const Facets& facets = domain_->facets();
-  const auto worth = [&](Vec2<double> p) {
+  const auto worth_at = [&](Vec2<double> p) {
     if (p == Vec2<double>{}) return visit.score({});
     const auto found = facets.walk(tangent.place.facet, tangent.plane, visit.here, times(p, visit.scale), kSteepest);
     return found ? visit.score(times(mesh_.frame.offset(facets.at(*found), visit.here), 1.0 / visit.scale))
                  : -std::numeric_limits<double>::infinity();
   };
-  return grid_search<double>(worth, tangent.box, parameters_).offset;
+  if (choice_.by == SlideChoice::By::Compass) {
+    double sum = 0.0, count = 0.0;
+    for_neighbours_on_surface(visit, [&](Vec3 way) { sum += length(way), count += 1.0; });
+    return compass_search<Vec2<double>>(worth_at, sum / (count * visit.scale));
+  }
+  return grid_search<double>(worth_at, tangent.box, parameters_).offset;
+}
+
+/// Calls f(way) with the way to the other end of each edge of the surface at the vertex; each comes twice.
+template <class Frame>
+template <class F>
+void Slide<Frame>::for_neighbours_on_surface(const Visit& visit, const F& f) const {
+  const ElementTable& faces = domain_->facets().faces();
+  for (const Index face : domain_->facets().faces_at(visit.vertex)) {
+    const auto corners = faces.corners(face);
+    const auto at = static_cast<std::size_t>(std::ranges::find(corners, visit.vertex) - corners.begin());
+    for (const std::size_t steps : {std::size_t{1}, corners.size() - 1})
+      f(visit.positions[corners[(at + steps) % corners.size()]] - visit.here);
+  }
+}
+
+template <class Frame>
+Vec2<double> Slide<Frame>::step_to_mean(const Visit& visit, const Tangent& tangent) const {
+  Vec3 sum{};
+  double count = 0.0;
+  for_neighbours_on_surface(visit, [&](Vec3 way) { sum = sum + way, count += 1.0; });
+  return times(tangent.plane.project(sum), choice_.relaxation / (count * visit.scale));
 }
 
 /// Where the vertex comes to stand a step away in the tangent plane, or half of it, and so on; nowhere if it may not.
@@ -219,7 +270,7 @@ std::optional<Vec3> Slide<Frame>::possible_on_surface(const Visit& visit, const 
       target = {nearest_float(target.x), nearest_float(target.y), nearest_float(target.z)};
       if (!facets.place(visit.vertex, target)) continue;
     }
-    if (judge_.gains(visit.positions, visit.vertex, target) && fits(visit, target, &tangent.place, &*there)) return target;
+    if (may_go(visit, target) && fits(visit, target, &tangent.place, &*there)) return target;
   }
   return std::nullopt;
 }
@@ -232,8 +283,9 @@ std::optional<Vec3> Slide<Frame>::on_surface(const Visit& visit, Scratch& scratc
     const Vec3 normal = domain_->facets().normal(*place);
     if (normal == Vec3{}) return std::nullopt;
     Tangent tangent{*place, tangent_plane(normal), {}};
+    if (choice_.by == SlideChoice::By::Mean) return possible_on_surface(visit, tangent, step_to_mean(visit, tangent));
     tangent.box = box_of_star(mesh_, visit.positions, visit.vertex, tangent.plane, visit.scale);
-    if (!visit.tangled) {
+    if (!visit.tangled && choice_.by == SlideChoice::By::Grid) {
       if (const auto step = search_flat(tangent, scratch)) {
         if (*step == Vec2<double>{}) return std::nullopt;
         if (const auto target = possible_on_surface(visit, tangent, *step)) return target;
@@ -261,8 +313,8 @@ struct NobodyIsFree {
 };
 }  // namespace
 
-std::unique_ptr<Smoother> make_surface_smoother(const SmoothingTask& task, CompositeObjective composite) {
-  return make_sliding_smoother<Curved>(task, NobodyIsFree{}, std::move(composite));
+std::unique_ptr<Smoother> make_surface_smoother(const SmoothingTask& task, CompositeObjective composite, SlideChoice choice) {
+  return make_sliding_smoother<Curved>(task, NobodyIsFree{}, std::move(composite), choice);
 }
 
 }  // namespace dmoscope

@@ -31,6 +31,8 @@ constexpr int kHalvings = 3;
 constexpr double kLeastCosine = 0.5;
 /// Facets that lean more than that away from the tangent plane end the way of a candidate.
 constexpr double kSteepest = 0.1;
+/// What a place is worth where no vertex may stand.
+constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -44,6 +46,7 @@ struct Slide<Frame>::Visit {
   bool tangled;
   const CompositeScore<Frame>& score;
   OverlayRoom& room;
+  mutable std::optional<Fit> fit_now{};  // of the faces around, once it is known
 };
 
 /// What a visit knows of its curve.
@@ -66,6 +69,7 @@ Slide<Frame>::Slide(const SmoothingTask& task, CompositeObjective composite, Sli
       single_precision_(task.input->mesh.single_precision) {
   if (std::is_same_v<Frame, Curved> && task.search.precision != Precision::Double)
     kernel_ = composite_kernel<Plane>(task.search.simd.value_or(best_simd_level()), judge_.composite().first);
+  if (domain_ != nullptr && domain_->facets().any()) last_facet_.assign(task.input->mesh.positions.size(), kNoIndex);
 }
 
 template <class Frame>
@@ -83,12 +87,12 @@ std::optional<Vec3> Slide<Frame>::target(PositionView positions, Index vertex, S
   return domain_->on_curve(vertex) ? along_curve(visit) : on_surface(visit, scratch);
 }
 
-/// What a place is worth; -infinity where it is not between the neighbours.
+/// What a place is worth, or no more than `best`; -infinity where it is not between the neighbours.
 template <class Frame>
-double Slide<Frame>::worth(const Visit& visit, const Stretch& stretch, double place) const {
-  if (!(stretch.beside.place_before < place && place < stretch.beside.place_after)) return -std::numeric_limits<double>::infinity();
+double Slide<Frame>::worth(const Visit& visit, const Stretch& stretch, double place, double best) const {
+  if (!(stretch.beside.place_before < place && place < stretch.beside.place_after)) return kNothing;
   const Vec3 there = domain_->curves().at(visit.vertex, place);
-  return visit.score(times(mesh_.frame.offset(there, visit.here), 1.0 / visit.scale));
+  return visit.score(times(mesh_.frame.offset(there, visit.here), 1.0 / visit.scale), best);
 }
 
 /// The place that the method chooses; the vertex's own where none is better.
@@ -103,7 +107,7 @@ double Slide<Frame>::search(const Visit& visit, const Stretch& stretch) const {
     case SlideChoice::By::Compass:
       break;
   }
-  const auto from_here = [&](double way) { return way == 0.0 ? visit.score({}) : worth(visit, stretch, stretch.place + way); };
+  const auto from_here = [&](double way) { return way == 0.0 ? visit.score({}) : worth(visit, stretch, stretch.place + way, kNothing); };
   return stretch.place + compass_search<double>(from_here, 0.5 * (after - before));
 }
 
@@ -115,7 +119,7 @@ double Slide<Frame>::search_grid(const Visit& visit, const Stretch& stretch) con
     const double centre = best, width = omega * (stretch.beside.place_after - stretch.beside.place_before);
     for (int i = 0; i < candidates; ++i) {
       const double place = centre + width * (static_cast<double>(i) / (candidates - 1) - 0.5);
-      const double value = worth(visit, stretch, place);
+      const double value = worth(visit, stretch, place, objective);
       if (value > objective) best = place, objective = value;
     }
     omega *= 2.0 / (candidates - 1);
@@ -174,13 +178,15 @@ template <class Frame>
 bool Slide<Frame>::fits(const Visit& visit, Vec3 target, const FacetPlace* here, const FacetPlace* there) const {
   if (!domain_->facets().any()) return true;
   Overlay overlay(*domain_, visit.room);
-  const Fit fit = overlay.star(visit.positions, visit.vertex, target, there);
-  if (std::max(fit.deviation, fit.other_split) <= max_deviation_ && fit.least_cosine >= kLeastCosine) return true;
-  if (fit.deviation == kNoFit.deviation) return false;
-  const Fit now = overlay.star(visit.positions, visit.vertex, visit.here, here);
-  if (now.deviation == kNoFit.deviation) return false;
-  return fit.deviation <= std::max(max_deviation_, now.deviation) && fit.other_split <= std::max(max_deviation_, now.other_split) &&
-         fit.least_cosine >= std::min(kLeastCosine, now.least_cosine);
+  const Fit bound{max_deviation_, max_deviation_, kLeastCosine};
+  if (is_within(overlay.star(visit.positions, visit.vertex, target, there, bound), bound)) return true;
+  // No worse than it is now will do, too.
+  if (!visit.fit_now) visit.fit_now = overlay.star(visit.positions, visit.vertex, visit.here, here, kNoFit);
+  const Fit& now = *visit.fit_now;
+  if (now.deviation == kNoFit.deviation || is_within(now, bound)) return false;
+  const Fit worst{std::max(bound.deviation, now.deviation), std::max(bound.other_split, now.other_split),
+                  std::min(bound.least_cosine, now.least_cosine)};
+  return is_within(overlay.star(visit.positions, visit.vertex, target, there, worst), worst);
 }
 
 /// Where a vertex on a surface stands, and the plane that touches it there.
@@ -223,18 +229,23 @@ std::optional<Vec2<double>> Slide<Frame>::search_flat(const Tangent& tangent, Sc
 template <class Frame>
 Vec2<double> Slide<Frame>::search_on_surface(const Visit& visit, const Tangent& tangent) const {
   const Facets& facets = domain_->facets();
-  const auto worth_at = [&](Vec2<double> p) {
+  const auto worth_at = [&](Vec2<double> p, double best) {
     if (p == Vec2<double>{}) return visit.score({});
     const auto found = facets.walk(tangent.place.facet, tangent.plane, visit.here, times(p, visit.scale), kSteepest);
-    return found ? visit.score(times(mesh_.frame.offset(facets.at(*found), visit.here), 1.0 / visit.scale))
-                 : -std::numeric_limits<double>::infinity();
+    return found ? visit.score(times(mesh_.frame.offset(facets.at(*found), visit.here), 1.0 / visit.scale), best) : kNothing;
   };
   if (choice_.by == SlideChoice::By::Compass) {
     double sum = 0.0, count = 0.0;
     for_neighbours_on_surface(visit, [&](Vec3 way) { sum += length(way), count += 1.0; });
-    return compass_search<Vec2<double>>(worth_at, sum / (count * visit.scale));
+    return compass_search<Vec2<double>>([&](Vec2<double> p) { return worth_at(p, kNothing); }, sum / (count * visit.scale));
   }
-  return grid_search<double>(worth_at, tangent.box, parameters_).offset;
+  double best = kNothing;
+  const auto worth_beyond = [&](Vec2<double> p) {
+    const double value = worth_at(p, best);
+    best = std::max(best, value);
+    return value;
+  };
+  return grid_search<double>(worth_beyond, tangent.box, parameters_).offset;
 }
 
 /// Calls f(way) with the way to the other end of each edge of the surface at the vertex; each comes twice.
@@ -278,8 +289,10 @@ std::optional<Vec3> Slide<Frame>::possible_on_surface(const Visit& visit, const 
 template <class Frame>
 std::optional<Vec3> Slide<Frame>::on_surface(const Visit& visit, Scratch& scratch) const {
   if constexpr (!std::is_same_v<Frame, Plane>) {
-    const auto place = domain_->facets().place(visit.vertex, visit.here);
+    Index& last_facet = last_facet_[visit.vertex];
+    const auto place = domain_->facets().place(visit.vertex, visit.here, last_facet);
     if (!place) return std::nullopt;
+    last_facet = place->facet;
     const Vec3 normal = domain_->facets().normal(*place);
     if (normal == Vec3{}) return std::nullopt;
     Tangent tangent{*place, tangent_plane(normal), {}};

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/reference/overlay.h"
 #include "core/smooth/methods/composite_dmo.h"
@@ -62,7 +63,7 @@ class Slide {
   void for_neighbours_on_surface(const Visit& visit, const F& f) const;
   [[nodiscard]] Vec2<double> step_to_mean(const Visit& visit, const Tangent& tangent) const;
   [[nodiscard]] std::optional<Vec3> possible_on_surface(const Visit& visit, const Tangent& tangent, Vec2<double> step) const;
-  [[nodiscard]] double worth(const Visit& visit, const Stretch& stretch, double place) const;
+  [[nodiscard]] double worth(const Visit& visit, const Stretch& stretch, double place, double best) const;
   [[nodiscard]] double search(const Visit& visit, const Stretch& stretch) const;
   [[nodiscard]] double search_grid(const Visit& visit, const Stretch& stretch) const;
   [[nodiscard]] std::optional<Vec3> possible(const Visit& visit, const Stretch& stretch, double place) const;
@@ -78,6 +79,8 @@ class Slide {
   SlideChoice choice_;
   double max_deviation_;
   bool single_precision_;
+  // By vertex, the facet that it was last seen on: where to look first. No result depends on it, and one visit at a time looks at it.
+  mutable std::vector<Index> last_facet_;
 };
 
 /// A rule for vertices that are free, and for those that slide.

@@ -153,6 +153,18 @@ INSTANTIATE_TEST_SUITE_P(Metrics, SlidingInSpace, ::testing::Values(Metric::Mean
                            return name;
                          });
 
+/// Rods whose worst elements touch the surface: held there, they stay as bad.
+TEST(SlidingInSpaceGains, SweptRods) {
+  for (const char* name : {"screw", "elbow"}) {
+    Progress progress;
+    const auto mesh = input(generate_mesh(name, 1000, 4, progress));
+    dmoscope::Run held = make_run(mesh, {}), free = make_run(mesh, sliding_by());
+    held.iterate(15, progress);
+    free.iterate(15, progress);
+    EXPECT_GT(free.statistics().minimum, 1.1 * held.statistics().minimum) << name;
+  }
+}
+
 /// Of a cube the sides are planes, which coordinates never leave by a bit.
 TEST(SlidingInSpaceExactly, ACubeStaysOne) {
   for (const Fill fill : {Fill::Hexahedra, Fill::Tetrahedra, Fill::Mixed}) {

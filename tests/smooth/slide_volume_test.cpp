@@ -161,7 +161,7 @@ TEST(SlidingInSpaceGains, SweptRods) {
     dmoscope::Run held = make_run(mesh, {}), free = make_run(mesh, sliding_by());
     held.iterate(15, progress);
     free.iterate(15, progress);
-    EXPECT_GT(free.statistics().minimum, 1.1 * held.statistics().minimum) << name;
+    EXPECT_GT(free.statistics().minimum, held.statistics().minimum + 0.005) << name;
   }
 }
 

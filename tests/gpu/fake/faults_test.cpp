@@ -25,11 +25,14 @@ const std::map<int, std::string> kWords{
     {kOutOfMemory, "out of memory"},      {kUnavailable, "busy or unavailable"},      {kWrongPtxVersion, "unsupported toolchain"},
     {kOperatingSystem, "OS call failed"}, {kIllegalAddress, "illegal memory access"}, {kTimeout, "timed out"}};
 
+/// The calls are the same however long a search takes.
+const SearchParameters kShort{.grid_points = 4, .levels = 1};
+
 class FakeFaults : public WithOpenGl {
  protected:
   void SetUp() override {
     WithOpenGl::SetUp();
-    if (context != nullptr) begin(lattice(6, 0.35, 71, dmoscope::testing::Cells::Mixed), {});
+    if (context != nullptr) begin(lattice(6, 0.35, 71, dmoscope::testing::Cells::Mixed), {.search = kShort});
   }
   /// What the tests are about from now on.
   void begin(Mesh mesh, const RunParameters& what) {
@@ -207,7 +210,7 @@ TEST_F(FakeFaults, EveryCallOfAVolume) {
 }
 
 TEST_F(FakeFaults, EveryCallOfTwoAims) {
-  begin(lattice(5, 0.35, 72), {.search = {.grid_points = 4, .levels = 1}, .combination = Combination{0.3, Metric::MinAngle}});
+  begin(lattice(5, 0.35, 72), {.search = kShort, .combination = Combination{0.3, Metric::MinAngle}});
   fail_all();
 }
 

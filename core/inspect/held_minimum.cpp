@@ -318,8 +318,15 @@ bool HeldMinimum::rises() const noexcept { return gains(quality, unchanged); }
 
 std::string_view HeldMinimum::brief() const noexcept {
   if (change) return phrase(by);
-  if (rises()) return "nothing: it still rises";
-  return is_fixed(by) ? phrase(by) : unchanged > quality ? "nothing: it still rises" : "a local optimum";
+  if (rises()) return "nothing";
+  return is_fixed(by) ? phrase(by) : unchanged > quality ? "nothing" : "a local optimum";
+}
+
+std::string HeldMinimum::outlook() const {
+  if (change) return {};
+  if (rises()) return fmt::format("more iterations: about {:.2g}", unchanged);
+  if (is_fixed(by)) return "no switch gains here";
+  return unchanged > quality ? "it rises slowly" : "its vertices gain nothing";
 }
 
 /// "4 of its 8 vertices, 1 by corners, 3 free"

@@ -65,8 +65,10 @@ struct HeldMinimum {
 
   /// Does the run still raise it without any change?
   [[nodiscard]] bool rises() const noexcept;
-  /// "the fixed boundary", "more iterations raise it", "a local optimum"
+  /// After "held by": "the fixed boundary", "nothing", "a local optimum"
   [[nodiscard]] std::string_view brief() const noexcept;
+  /// Where no switch would free it, what is to be expected, in a few words.
+  [[nodiscard]] std::string outlook() const;
   /// All of it in words; `as_option`: as the command line has switches.
   [[nodiscard]] std::string sentence(bool as_option = false) const;
 

@@ -72,7 +72,7 @@ void draw_mesh(PanelContext& context, const Frame& frame) {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr Statistics kNotKnownYet{kUnknown, kUnknown, kUnknown, kUnknown};
 
-/// A click does what would free the worst element; the room is kept while a run goes, so that nothing below moves.
+/// A click does what would free the worst element.
 void draw_switch(PanelContext& context, const RunView& run, const HeldMinimum& held) {
   const std::string gain = fmt::format("→ {:.2g}", held.changed);
   const float right = ImGui::GetWindowContentRegionMax().x, room = ImGui::GetContentRegionAvail().x;
@@ -90,10 +90,12 @@ void draw_switch(PanelContext& context, const RunView& run, const HeldMinimum& h
   next_item_tooltip("the least quality around the worst element, tried out there on a copy of the positions");
 }
 
-/// What keeps the minimum from rising, and what would let it.
+/// What keeps the minimum from rising, and what would let it: two lines, whatever they say, so that nothing below moves.
 void draw_hold(PanelContext& context, const RunView& run) {
   constexpr const char* kAbout = "what keeps the worst element as it is";
   const HeldMinimum* held = run.held.found.get();
+  const ImVec2 row = ImGui::GetCursorScreenPos();
+  context.items.record("held-by", {row.x, row.y, row.x + ImGui::GetContentRegionAvail().x, row.y + ImGui::GetTextLineHeight()});
   if (held == nullptr) {
     dim_text(context, "held by", false);
     next_item_tooltip(kAbout);
@@ -103,14 +105,17 @@ void draw_hold(PanelContext& context, const RunView& run) {
     ImGui::BeginDisabled(context.activity.busy);
     if (ImGui::SmallButton(kAsk)) context.send("held-by");
     ImGui::EndDisabled();
-    context.items.record_last("held-by");
+    context.items.record_last("held-by:ask");
     next_item_tooltip("looks at the worst element and tries what would free it; of a large mesh that takes some seconds");
+    dim_text(context, " ");
     return;
   }
   const auto ink = run.held.now ? std::nullopt : std::optional(context.palette.dim);
   value_row(context, "held by", std::string(held->brief()), held->sentence(), ink, kAbout);
-  context.items.record_last("held-by");
-  if (held->change) draw_switch(context, run, *held);
+  if (held->change)
+    draw_switch(context, run, *held);
+  else
+    dim_text(context, fit_text(held->outlook(), ImGui::GetContentRegionAvail().x), false);
 }
 
 /// `run`: whose minimum it is; null: nobody's.

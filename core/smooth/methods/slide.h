@@ -10,6 +10,11 @@
 
 namespace dmoscope {
 
+/// Of 60 degrees: how far a face may lean away from the facets beneath it.
+inline constexpr double kLeastCosine = 0.5;
+/// Facets that lean more than that away from the tangent plane end the way of a candidate.
+inline constexpr double kSteepest = 0.1;
+
 /// On a curve: searches the stretch between a vertex's neighbours, level by level, as the grid search does: grid points squared candidates
 /// a level, so that it looks at as many as where a vertex is free, and each level as much finer. Of the candidates that lie between the
 /// neighbours the best wins.

@@ -75,7 +75,7 @@ class SurfaceLook {
     trace.value_here = trace.value_at_start = recorder.here;
     trace.levels = std::move(recorder.levels);
     Overlay overlay(*task_.domain, room_);
-    const Fit now = overlay.star(positions_, vertex_, here_, &stands);
+    const Fit now = overlay.star(positions_, vertex_, here_, &stands, kNoFit);
     for (TracedLevel& level : trace.levels) {
       SurfaceGrid::Level& on_surface = visit_.grid.levels.emplace_back();
       for (const Vec2<double> offset : level.offsets) {
@@ -83,7 +83,7 @@ class SurfaceLook {
         CandidateFate fate = CandidateFate::Counts;
         if (!found)
           fate = walk(offset, -1.0) ? CandidateFate::TurnedAway : CandidateFate::Feature;
-        else if (!fits(overlay.star(positions_, vertex_, facets_.at(*found), &*found), now))
+        else if (!fits(overlay.star(positions_, vertex_, facets_.at(*found), &*found, kNoFit), now))
           fate = CandidateFate::Deviates;
         on_surface.fates.push_back(fate);
         on_surface.places.push_back(found ? facets_.at(*found) - here_ : plane.lift(offset));

@@ -18,7 +18,7 @@ struct Generator {
   std::size_t smallest, largest;  // range of size
 };
 
-constexpr std::size_t kGenerators = 16;
+constexpr std::size_t kGenerators = 18;
 constexpr std::array<GeneratorInfo, kGenerators> kInfos{{
     {"coast", "an irregular coastline with islands and an open sea; triangles graded from fine at the coast to coarse offshore", 4000},
     {"block", "fifteen blocks of triangles that meet in irregular vertices, smoothly distorted", 2500},
@@ -35,6 +35,8 @@ constexpr std::array<GeneratorInfo, kGenerators> kInfos{{
     {"solids", "a cube of hexahedra, wedges, pyramids and tetrahedra, jittered inside", 2000},
     {"tangled-solids", "a cube of all four kinds of volume elements with some vertices thrown out of place, so that elements are inverted",
      1000},
+    {"screw", "a twisted rod of hexahedra, jittered inside and along its surface, which its worst elements touch", 2000},
+    {"elbow", "a bent rod of hexahedra that gets thicker, jittered inside and along its surface, which its worst elements touch", 2000},
     {"nested", "a square of triangles in a square of another material, jittered but for what lies between them", 1000},
     {"nested-solids", "a cube of tetrahedra in a cube of another material, jittered but for what lies between them", 2000},
 }};
@@ -53,6 +55,8 @@ constexpr std::array<Generator, kGenerators> kMakers{{
     {generators::hexahedra, 27, 5000000},
     {generators::mixed_volumes, 27, 5000000},
     {generators::tangled_volumes, 125, 5000000},
+    {generators::screw, 63, 5000000},
+    {generators::elbow, 63, 5000000},
     {generators::nested, 25, 5000000},
     {generators::nested_volumes, 64, 5000000},
 }};

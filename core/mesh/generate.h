@@ -15,7 +15,7 @@ struct GeneratorInfo {
   std::string_view doc;      // one line
   std::size_t default_size;  // about how many vertices without --size
 };
-/// coast, block, annulus, random, quads, mixed, tangled, grid, wrapped, globe; tetrahedra, hexahedra, solids, tangled-solids; nested,
+/// coast, block, annulus, random, quads, mixed, tangled, grid, wrapped, globe; tetrahedra, hexahedra, solids, tangled-solids, screw, elbow; nested,
 /// nested-solids.
 [[nodiscard]] std::span<const GeneratorInfo> generator_table();
 

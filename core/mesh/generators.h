@@ -33,6 +33,8 @@ struct Request {
 [[nodiscard]] Mesh hexahedra(const Request& request);
 [[nodiscard]] Mesh mixed_volumes(const Request& request);
 [[nodiscard]] Mesh tangled_volumes(const Request& request);
+[[nodiscard]] Mesh screw(const Request& request);
+[[nodiscard]] Mesh elbow(const Request& request);
 [[nodiscard]] Mesh nested(const Request& request);
 [[nodiscard]] Mesh nested_volumes(const Request& request);
 

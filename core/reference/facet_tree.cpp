@@ -1,6 +1,7 @@
 #include "core/reference/facet_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -8,7 +9,8 @@ namespace dmoscope {
 
 namespace {
 
-constexpr std::size_t kLeaf = 4;
+constexpr std::size_t kLeaf = 1;
+constexpr double kRoundings = 16.0;   // of the largest coordinate, in a distance
 constexpr std::size_t kDeepest = 64;  // halves of 2^32 triangles
 
 double coordinate(Vec3 p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
@@ -50,6 +52,10 @@ NearestPoint nearest_point(const std::array<Vec3, 3>& triangle, Vec3 p) {
 
 FacetTree::FacetTree(std::vector<std::array<Vec3, 3>> triangles, std::span<const Index> patch_of, Index patches)
     : triangles_(std::move(triangles)), order_(triangles_.size()), roots_(patches) {
+  double largest = 0.0;
+  for (const auto& triangle : triangles_)
+    for (const Vec3 p : triangle) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  rounding_ = std::pow(kRoundings * std::numeric_limits<double>::epsilon() * largest, 2);
   std::iota(order_.begin(), order_.end(), Index{0});
   std::ranges::stable_sort(order_, {}, [&](Index t) { return patch_of[t]; });
   for (std::size_t first = 0; first < order_.size();) {
@@ -96,17 +102,19 @@ double FacetTree::square_to(const Node& node, Vec3 p) {
   return x * x + y * y + z * z;
 }
 
-FacetTree::Nearest FacetTree::nearest(Index patch, Vec3 p) const {
-  Nearest best{kNoIndex, {{}, std::numeric_limits<double>::infinity()}};
+FacetTree::Nearest FacetTree::nearest(Index patch, Vec3 p, Index near) const {
+  Nearest best{near, nearest_point(triangles_[near], p)};
   std::array<Index, kDeepest> waiting;
   std::size_t count = 0;
   waiting[count++] = roots_[patch];
   while (count > 0) {
     const Node& node = nodes_[waiting[--count]];
-    if (square_to(node, p) > best.point.square) continue;
+    // Both are rounded, and the one found must not depend on where the search began.
+    if (square_to(node, p) > 2.0 * (best.point.square + rounding_)) continue;
     if (node.left == kNoIndex) {
       for (Index i = node.first; i < node.first + node.count; ++i) {
         const Index t = order_[i];
+        if (t == near) continue;
         const NearestPoint found = nearest_point(triangles_[t], p);
         const bool equal = found.square == best.point.square;
         if (found.square < best.point.square || (equal && t < best.triangle)) best = {t, found};

@@ -27,8 +27,8 @@ class FacetTree {
     Index triangle = kNoIndex;
     NearestPoint point;
   };
-  /// Of the triangles of a patch the nearest; of equals the first.
-  [[nodiscard]] Nearest nearest(Index patch, Vec3 p) const;
+  /// Of the triangles of a patch the nearest; of equals the first. `near`: one of them to begin with, any.
+  [[nodiscard]] Nearest nearest(Index patch, Vec3 p, Index near) const;
 
  private:
   struct Node {
@@ -43,6 +43,7 @@ class FacetTree {
   std::vector<Index> order_;
   std::vector<Node> nodes_;
   std::vector<Index> roots_;  // by patch
+  double rounding_ = 0.0;     // of a distance, squared
 };
 
 }  // namespace dmoscope

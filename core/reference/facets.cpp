@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 namespace dmoscope {
@@ -128,6 +129,7 @@ std::vector<Index> Facets::fan_at(Index facet, Index vertex) const {
 
 void Facets::find_normals() {
   normals_.resize(facets_.size());
+  covers_once_.resize(facets_.size());
   const auto weighted = [this](Index f, Index vertex) {
     const auto& c = facets_[f].corners;
     const auto at = static_cast<std::size_t>(std::ranges::find(c, vertex) - c.begin());
@@ -142,11 +144,31 @@ void Facets::find_normals() {
       const std::vector<Index> around = fan_at(f, vertex);
       Vec3 sum;
       for (const Index g : around) sum = sum + weighted(g, vertex);
+      const bool once = go_round_once(around, vertex, unit(sum));
       for (const Index g : around)
         for (std::size_t k = 0; k < 3; ++k)
-          if (facets_[g].corners[k] == vertex) normals_[g][k] = unit(sum), known[g][k] = true;
+          if (facets_[g].corners[k] == vertex) {
+            normals_[g][k] = unit(sum), known[g][k] = true;
+            covers_once_[g][k] = once;
+          }
     }
   }
+}
+
+/// How facets around a vertex look from the tip of a normal.
+bool Facets::go_round_once(std::span<const Index> around, Index vertex, Vec3 normal) const {
+  if (normal == Vec3{}) return false;
+  const Plane plane = tangent_plane(normal);
+  double angle = 0.0;
+  for (const Index g : around) {
+    const auto& c = facets_[g].corners;
+    const auto at = static_cast<std::size_t>(std::ranges::find(c, vertex) - c.begin());
+    const Vec2<double> a = plane.project(points_[c[next(at)]] - points_[vertex]),
+                       b = plane.project(points_[c[next(next(at))]] - points_[vertex]);
+    if (!(cross(a, b) > 0.0)) return false;
+    angle += std::atan2(cross(a, b), dot(a, b));
+  }
+  return angle < 1.5 * 2.0 * std::numbers::pi;
 }
 
 void Facets::find_sides() {
@@ -188,8 +210,8 @@ void Facets::carry(std::span<const std::uint8_t> may) {
     if (may[v] != 0 && one[v] != kNoIndex && fan_at(one[v], v).size() == facets_at_[v]) home_[v] = one[v];
 }
 
-std::optional<FacetPlace> Facets::place(Index vertex, Vec3 position) const {
-  const auto [facet, point] = tree_.nearest(facets_[home_[vertex]].patch, position);
+std::optional<FacetPlace> Facets::place(Index vertex, Vec3 position, Index near) const {
+  const auto [facet, point] = tree_.nearest(facets_[home_[vertex]].patch, position, near == kNoIndex ? home_[vertex] : near);
   if (facet == kNoIndex) return std::nullopt;
   double largest = most(position);
   for (const Index corner : facets_[facet].corners) largest = std::max(largest, most(points_[corner]));

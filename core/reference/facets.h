@@ -60,12 +60,15 @@ class Facets {
   [[nodiscard]] std::span<const FacetSide> sides() const noexcept { return sides_; }
   /// The facets around a vertex, from one of them on as far as no feature edge parts them, ascending.
   [[nodiscard]] std::vector<Index> fan_at(Index facet, Index vertex) const;
+  /// Do the facets around a corner of a facet, seen from where all of them look up, go round it once? So where no feature edge ends there,
+  /// but for vertices of high valence that wind like a stair; false, too, where no such side was found.
+  [[nodiscard]] bool covers_once(Index facet, std::size_t corner) const { return covers_once_[facet][corner]; }
   /// How many facets have the vertex as a corner.
   [[nodiscard]] Index count_at(Index vertex) const { return facets_at_[vertex]; }
 
   /// Where a vertex that slides on the surface stands; nowhere for one that was put beside its patch. The nearest facet, of equals the
-  /// first: a place follows from the position alone.
-  [[nodiscard]] std::optional<FacetPlace> place(Index vertex, Vec3 position) const;
+  /// first: a place follows from the position alone. `near`: a facet of the patch to begin with, which makes it faster where that is near.
+  [[nodiscard]] std::optional<FacetPlace> place(Index vertex, Vec3 position, Index near = kNoIndex) const;
   [[nodiscard]] Vec3 at(const FacetPlace& place) const;
   /// Of length 1; the mean of the facets around each corner, as far as no feature edge parts them. Zero where these cancel out.
   [[nodiscard]] Vec3 normal(const FacetPlace& place) const;
@@ -80,6 +83,7 @@ class Facets {
   void split(const ElementTable& faces, std::span<const Index> links);
   void find_patches();
   void find_normals();
+  [[nodiscard]] bool go_round_once(std::span<const Index> around, Index vertex, Vec3 normal) const;
   void find_sides();
   void index_faces(Index vertices);
 
@@ -93,8 +97,9 @@ class Facets {
   std::vector<double> twice_areas_;
   std::vector<Index> facets_at_;              // by vertex: how many
   std::vector<std::array<Vec3, 3>> normals_;  // at the corners of each facet
-  std::vector<FacetSide> sides_;              // ascending
-  std::vector<Index> home_;                   // by vertex: a facet that it was a corner of; kNoIndex: it does not slide on the surface
+  std::vector<std::array<bool, 3>> covers_once_;
+  std::vector<FacetSide> sides_;  // ascending
+  std::vector<Index> home_;       // by vertex: a facet that it was a corner of; kNoIndex: it does not slide on the surface
   FacetTree tree_;
 };
 

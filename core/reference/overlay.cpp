@@ -11,6 +11,8 @@ namespace {
 /// Lengths below this share of a triangle's longest edge, and areas below it of the triangle's, are rounding.
 constexpr double kRounding = 1e-9;
 constexpr double kUncovered = 1e-6;
+/// Of 60 degrees: facets that lean farther away are laid slowly.
+constexpr double kFarAway = 0.5;
 constexpr std::size_t kMostFacets = 4096;
 
 Plane tangent(Vec3 normal, Vec3 along) {
@@ -35,18 +37,19 @@ struct Overlay::Ground {
   }
 };
 
-/// Does a segment run inside the triangle by more than a margin, and not only along its edge?
-bool Overlay::crosses(const Corner& from, const Corner& to, double margin) {
+/// The part of a segment that runs inside the triangle by more than a margin, if it is more than a point and not only along an edge.
+std::optional<Overlay::Part> Overlay::part_inside(const Corner& from, const Corner& to, double margin) {
   double first = 0.0, last = 1.0;
   for (std::size_t i = 0; i < 3; ++i) {
     const double at_first = from.inside[i] - margin, at_last = to.inside[i] - margin;
-    if (at_first <= 0.0 && at_last <= 0.0) return false;
+    if (at_first <= 0.0 && at_last <= 0.0) return std::nullopt;
     if (at_first < 0.0) first = std::max(first, at_first / (at_first - at_last));
     if (at_last < 0.0) last = std::min(last, at_first / (at_first - at_last));
   }
-  if (!(last > first)) return false;
+  if (!(last > first)) return std::nullopt;
   const Vec2<double> way = to.at - from.at;
-  return (last - first) * (last - first) * dot(way, way) > margin * margin;
+  if (!((last - first) * (last - first) * dot(way, way) > margin * margin)) return std::nullopt;
+  return Part{first, last};
 }
 
 /// Cuts off what of the polygon lies beyond one of the triangle's edges (Sutherland and Hodgman).
@@ -79,7 +82,7 @@ bool Overlay::lay(const Ground& ground, Index facet, std::span<const Curves::Str
   for (const Index corner : here.corners) polygon.push_back(ground.corner(facets_.point(corner)));
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
-    if (!crosses(polygon[a], polygon[b], kRounding * ground.size)) continue;
+    if (!part_inside(polygon[a], polygon[b], kRounding * ground.size)) continue;
     const Index across = here.across[i];
     if (across != kNoIndex) {
       if (std::ranges::find(room_.found, across) == room_.found.end()) room_.found.push_back(across);
@@ -98,6 +101,50 @@ bool Overlay::lay(const Ground& ground, Index facet, std::span<const Curves::Str
   return true;
 }
 
+/// Without cutting any facet: the distance is greatest where a facet's edge begins or ends inside the triangle, or at a corner of the
+/// triangle. None where that may not be all: at feature edges, where a facet leans far away, and around vertices where facets might cover
+/// the triangle more than once.
+std::optional<Fit> Overlay::lay_quickly(const Ground& ground, Index start) {
+  const double margin = kRounding * ground.size;
+  auto& crossed = room_.crossed;
+  crossed.assign(1, {start, 3});
+  Fit fit;
+  for (std::size_t k = 0; k < crossed.size(); ++k) {
+    if (k > kMostFacets) return std::nullopt;
+    const auto [facet, from] = crossed[k];
+    const Facet& here = facets_.facets()[facet];
+    const std::array<Corner, 3> corner{ground.corner(facets_.point(here.corners[0])), ground.corner(facets_.point(here.corners[1])),
+                                       ground.corner(facets_.point(here.corners[2]))};
+    const double area = cross(corner[1].at - corner[0].at, corner[2].at - corner[0].at), cosine = area / facets_.twice_area(facet);
+    if (!(cosine >= kFarAway)) return std::nullopt;
+    fit.least_cosine = std::min(fit.least_cosine, cosine);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Corner &a = corner[(i + 1) % 3], &b = corner[(i + 2) % 3];
+      if (std::min({corner[i].inside[0], corner[i].inside[1], corner[i].inside[2]}) > margin && !facets_.covers_once(facet, i))
+        return std::nullopt;
+      if (i == from) continue;
+      const auto part = part_inside(a, b, margin);
+      if (!part) continue;
+      const double rise = b.height - a.height;
+      fit.deviation = std::max({fit.deviation, std::abs(a.height + part->first * rise), std::abs(a.height + part->last * rise)});
+      const Index across = here.across[i];
+      if (across == kNoIndex) return std::nullopt;
+      if (std::ranges::find(crossed, across, &OverlayRoom::Crossed::facet) != crossed.end()) continue;
+      const auto& back = facets_.facets()[across].across;
+      crossed.push_back({across, static_cast<std::size_t>(std::ranges::find(back, facet) - back.begin())});
+    }
+    const double least = -kRounding * area;
+    for (const Vec2<double> p : ground.corners) {
+      const Vec2<double> to_0 = corner[0].at - p, to_1 = corner[1].at - p, to_2 = corner[2].at - p;
+      const double at_0 = cross(to_1, to_2), at_1 = cross(to_2, to_0), at_2 = area - at_0 - at_1;
+      if (at_0 < least || at_1 < least || at_2 < least) continue;
+      const double height = (at_0 * corner[0].height + at_1 * corner[1].height + at_2 * corner[2].height) / area;
+      fit.deviation = std::max(fit.deviation, std::abs(height));
+    }
+  }
+  return fit;
+}
+
 Fit Overlay::triangle(const std::array<Vec3, 3>& corners, Index from, std::span<const Curves::Stretch> allowed) {
   const Vec3 across = cross(corners[1] - corners[0], corners[2] - corners[0]);
   const double area = length(across);
@@ -114,6 +161,7 @@ Fit Overlay::triangle(const std::array<Vec3, 3>& corners, Index from, std::span<
                             (ground.corners[0].y + ground.corners[1].y + ground.corners[2].y) / 3.0};
   const auto start = facets_.walk(from, ground.plane, ground.origin, centre, 0.0);
   if (!start) return kNoFit;
+  if (const auto fit = lay_quickly(ground, start->facet)) return *fit;
   Laid laid;
   room_.found.assign(1, start->facet);
   for (std::size_t i = 0; i < room_.found.size(); ++i)
@@ -176,7 +224,7 @@ Fit Overlay::face(PositionView positions, Index face, Index vertex, Vec3 target)
   return fit;
 }
 
-Fit Overlay::star(PositionView positions, Index vertex, Vec3 target, const FacetPlace* beneath) {
+Fit Overlay::star(PositionView positions, Index vertex, Vec3 target, const FacetPlace* beneath, const Fit& within) {
   Fit fit;
   for (const Index f : facets_.faces_at(vertex)) {
     find_starts(vertex, target, f, beneath);
@@ -185,6 +233,7 @@ Fit Overlay::star(PositionView positions, Index vertex, Vec3 target, const Facet
     fit.other_split = std::max(fit.other_split, here.other_split);
     fit.least_cosine = std::min(fit.least_cosine, here.least_cosine);
     if (fit.deviation == kNoFit.deviation) return kNoFit;
+    if (!is_within(fit, within)) break;
   }
   return fit;
 }

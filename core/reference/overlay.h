@@ -3,6 +3,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "core/mesh/position_view.h"
@@ -18,16 +19,25 @@ struct Fit {
   double other_split = 0.0;   // the same of quadrilaterals split by their longer diagonals: as far as they are warped
   double least_cosine = 1.0;  // of the angles between it and the facets beneath
 };
+/// Is a fit as good as another everywhere?
+[[nodiscard]] inline bool is_within(const Fit& fit, const Fit& other) {
+  return fit.deviation <= other.deviation && fit.other_split <= other.other_split && fit.least_cosine >= other.least_cosine;
+}
 inline constexpr Fit kNoFit{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), -1.0};
 
 /// What an overlay works in, kept from one to the next.
 struct OverlayRoom {
+  struct Crossed {  // a facet, and the side through which it was reached
+    Index facet;
+    std::size_t from;
+  };
   struct Corner {
     Vec2<double> at;
     double height;
     std::array<double, 3> inside;  // distances from the triangle's edges, positive inside
   };
   std::vector<Index> found, starts;
+  std::vector<Crossed> crossed;
   std::vector<Corner> polygon, clipped;
   std::vector<Curves::Stretch> stretches;
 };
@@ -37,9 +47,9 @@ class Overlay {
  public:
   Overlay(const Domain& domain, OverlayRoom& room) : domain_(domain), facets_(domain.facets()), room_(room) {}
 
-  /// The faces at a vertex, with it at `target`. `beneath`: where that is, of a vertex on a
-  /// surface; of one on a curve nothing.
-  [[nodiscard]] Fit star(PositionView positions, Index vertex, Vec3 target, const FacetPlace* beneath);
+  /// The faces at a vertex, with it at `target`. `beneath`: where that is, of a vertex on a surface; of one on a curve nothing. The first
+  /// face that is not `within` ends it: the result is not, either.
+  [[nodiscard]] Fit star(PositionView positions, Index vertex, Vec3 target, const FacetPlace* beneath, const Fit& within);
   /// A triangle, whose corners stand on a patch. `from`: a facet near it. `allowed`: stretches of curves along its edges; what of it lies
   /// beyond these is near the curve.
   [[nodiscard]] Fit triangle(const std::array<Vec3, 3>& corners, Index from, std::span<const Curves::Stretch> allowed);
@@ -55,8 +65,13 @@ class Overlay {
     double covered = 0.0;  // twice the area
     bool beyond = false;   // the triangle reaches across one of the stretches
   };
+  [[nodiscard]] std::optional<Fit> lay_quickly(const Ground& ground, Index start);
   [[nodiscard]] bool lay(const Ground& ground, Index facet, std::span<const Curves::Stretch> allowed, Laid& laid);
-  [[nodiscard]] static bool crosses(const Corner& from, const Corner& to, double margin);
+  /// As shares of the way from one corner to the other.
+  struct Part {
+    double first, last;
+  };
+  [[nodiscard]] static std::optional<Part> part_inside(const Corner& from, const Corner& to, double margin);
   void clip(std::size_t edge);
 
   const Domain& domain_;

@@ -6,16 +6,6 @@
 
 namespace dmoscope {
 
-formulas::Triangle<SurfaceVector> SurfaceTriangle::with(SurfaceVector p) const {
-  const Vec3 n = unit_normal(b - p.v, c - p.v, fallback);
-  return {{p.v, n}, {b, n}, {c, n}};
-}
-
-formulas::Quadrilateral<SurfaceVector> SurfaceQuadrilateral::with(SurfaceVector p) const {
-  const Vec3 n = is_fixed ? fallback : unit_normal(c - p.v, d - b, fallback);
-  return {{p.v, n}, {b, n}, {c, n}, {d, n}};
-}
-
 void gather_star(const MeshView<Curved>& mesh, PositionView positions, Index vertex, SurfaceStar& out) {
   out.triangles.clear();
   out.quadrilaterals.clear();

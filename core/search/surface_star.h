@@ -15,7 +15,10 @@ struct SurfaceTriangle {
   Vec3 b, c;
   double reference;
   Vec3 fallback;  // the normal of one that is shrunk to a line
-  [[nodiscard]] formulas::Triangle<SurfaceVector> with(SurfaceVector p) const;
+  [[nodiscard, gnu::always_inline]] formulas::Triangle<SurfaceVector> with(SurfaceVector p) const {
+    const Vec3 n = unit_normal(b - p.v, c - p.v, fallback);
+    return {{p.v, n}, {b, n}, {c, n}};
+  }
 };
 /// An incident quadrilateral: its other three corners in the element's order.
 struct SurfaceQuadrilateral {
@@ -24,7 +27,10 @@ struct SurfaceQuadrilateral {
   double reference;
   Vec3 fallback;
   bool is_fixed;  // the normal, whatever the shape: see Curved
-  [[nodiscard]] formulas::Quadrilateral<SurfaceVector> with(SurfaceVector p) const;
+  [[nodiscard]] formulas::Quadrilateral<SurfaceVector> with(SurfaceVector p) const {
+    const Vec3 n = is_fixed ? fallback : unit_normal(c - p.v, d - b, fallback);
+    return {{p.v, n}, {b, n}, {c, n}, {d, n}};
+  }
 };
 
 /// In units of `scale`, its largest offset.

@@ -74,6 +74,13 @@ concept VertexRule = requires(const Rule& rule, PositionView positions, Index ve
   { rule.target(positions, vertex, scratch) } -> std::same_as<std::optional<Vec3>>;
 };
 
+/// Vertices a chunk: work of some 0.1 ms.
+template <VertexRule Rule>
+[[nodiscard]] constexpr std::size_t grain_of() {
+  if constexpr (requires { Rule::kGrain; }) return Rule::kGrain;
+  return 128;
+}
+
 /// Applies a rule class after class, by many threads.
 template <VertexRule Rule>
 class RuleSmoother final : public Smoother {
@@ -93,7 +100,7 @@ class RuleSmoother final : public Smoother {
     std::atomic<std::uint64_t> moved{0}, searched{0};
     for_classes(*colouring_, first, count, [&](std::uint64_t from, std::uint64_t to) {
       const auto vertices = std::span(colouring_->order).subspan(from, to - from);
-      for_chunks(pool, vertices.size(), grain(), [&](std::size_t begin, std::size_t end) {
+      for_chunks(pool, vertices.size(), grain_of<Rule>(), [&](std::size_t begin, std::size_t end) {
         thread_local typename Rule::Scratch room;  // kept: stepping allocates nothing
         std::uint64_t here = 0, passed_over = 0;
         for (const Index vertex : vertices.subspan(begin, end - begin)) here += visit(vertex, positions, room, passed_over) ? 1U : 0U;
@@ -109,11 +116,6 @@ class RuleSmoother final : public Smoother {
   void positions_replaced() override { std::ranges::fill(awake_, std::uint8_t{1}); }
 
  private:
-  /// Vertices a chunk: work of some 0.1 ms.
-  static constexpr std::size_t grain() {
-    if constexpr (requires { Rule::kGrain; }) return Rule::kGrain;
-    return 128;
-  }
   static constexpr bool kSleeps = requires { requires Rule::kDependsOnStarAlone; };
 
   bool visit(Index vertex, std::span<Vec3> positions, typename Rule::Scratch& room, [[maybe_unused]] std::uint64_t& passed_over) {

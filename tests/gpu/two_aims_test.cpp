@@ -80,9 +80,9 @@ TEST(DeviceTwoAimsScore, SumsAsTheProcessorDoes) {
     const Aims aims{.threshold = 0.1};
     const bodies::TwoAimsScore<Metric::MeanRatio, Plane> score(aims, star, {}, {});
     const Vec2<double> place{0.01, -0.02};
-    const double least = metric_functions<Plane>(Metric::MeanRatio).least_at(expected, place);
+    const double least = metric_functions<Plane>(Metric::MeanRatio).least_at(expected, place, -1.0);
     if (score.tangled() || !aims.beyond(least)) continue;
-    const double mean = metric_functions<Plane>(Metric::MeanRatio).mean_at(expected, place);
+    const double mean = metric_functions<Plane>(Metric::MeanRatio).mean_at(expected, place, -1.0);
     EXPECT_TRUE(same(score(place), 0.1 + mean)) << vertex;
     if (!same(mean_of<Metric::MeanRatio>(star.star(), place), mean)) ++otherwise;
   }

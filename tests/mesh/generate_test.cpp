@@ -68,6 +68,8 @@ TEST(Generate, SmallestSizesWork) {
                                    {"hexahedra", 27},
                                    {"solids", 27},
                                    {"tangled-solids", 125},
+                                   {"screw", 63},
+                                   {"elbow", 63},
                                    {"nested", 25},
                                    {"nested-solids", 64}}) {
     SCOPED_TRACE(name);
@@ -92,6 +94,20 @@ TEST(Generate, ThereIsRoomForImprovement) {
     // Vertices of a lattice's cells have less room before something is inverted.
     EXPECT_LT(s.minimum, kind.name == "solids" || kind.name == "hexahedra" ? 0.5 : 0.35) << kind.name;
     EXPECT_GT(s.ceiling, s.movable_minimum) << kind.name;
+  }
+}
+
+/// The elements that bound the minimum of swept rods touch the surface: at a line where a square's corner lies on a smooth curve.
+TEST(Generate, TheWorstOfRodsTouchesTheSurface) {
+  for (const char* name : {"screw", "elbow"}) {
+    const Mesh mesh = generated(name, 0, 2);
+    Progress progress;
+    const auto input = prepare_input(mesh, {}, Need::Smoothing, progress);
+    std::vector<double> qualities(mesh.elements.size());
+    element_qualities(input->quality_context(), mesh.positions, Metric::MeanRatio, nullptr, qualities);
+    const auto worst = static_cast<Index>(std::ranges::min_element(qualities) - qualities.begin());
+    const auto corners = mesh.elements.corners(worst);
+    EXPECT_TRUE(std::ranges::any_of(corners, [&](Index v) { return input->topology.boundary()[v] != 0; })) << name;
   }
 }
 

@@ -113,7 +113,7 @@ TEST(CompositeKernel, AStarAtTheFloorIsBeyondIt) {
   for (Index v = 0; v < mesh->mesh.vertex_count(); ++v) {
     if (mesh->topology.boundary()[v] != 0) continue;
     gather_star(MeshStar(mesh->view<Plane>(), mesh->mesh.positions, v), star);
-    const double least = metric_functions<Plane>(Metric::MeanRatio).least_at(star, {});
+    const double least = metric_functions<Plane>(Metric::MeanRatio).least_at(star, {}, -1.0);
     if (!(least > 0.0)) continue;
     const CompositeRule<Plane> search(*mesh, raise_mean_above(Metric::MeanRatio, least), {});
     const auto fast = search.search(star, mesh->mesh.positions, v), plain = search.search_plainly(star, mesh->mesh.positions, v);

@@ -37,8 +37,13 @@ TEST(FacetTree, FindsTheNearestOfItsPatch) {
       double least = 1e9;
       for (std::size_t i = patch; i < triangles.size(); i += 3)
         least = std::min(least, distance_to_triangle(p, triangles[i][0], triangles[i][1], triangles[i][2]));
-      const auto found = tree.nearest(patch, p);
+      const auto found = tree.nearest(patch, p, patch);
       ASSERT_EQ(patch_of[found.triangle], patch);
+      for (Index near = patch; near < 60; near += 3) {  // wherever the search begins
+        const auto again = tree.nearest(patch, p, near);
+        ASSERT_EQ(again.triangle, found.triangle);
+        ASSERT_EQ(again.point.weights, found.point.weights);
+      }
       if (on_one) {
         ASSERT_LE(std::sqrt(found.point.square), 1e-14) << "width " << width;
       } else {

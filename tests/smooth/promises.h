@@ -70,6 +70,13 @@ inline void expect_promise_one(const Specimen& specimen, dmoscope::Run& run, std
   }
 }
 
+/// The same where the method promises it; others only go on to this iteration.
+inline void expect_promise_one_if(bool promised, const Specimen& specimen, dmoscope::Run& run, std::uint64_t iterations) {
+  if (promised) return expect_promise_one(specimen, run, iterations);
+  Progress progress;
+  run.iterate(iterations - run.moment().iteration, progress);
+}
+
 inline void expect_fixed_stay(const Specimen& specimen, const dmoscope::Run& run) {
   const std::span<const Vec3> start = run.input().mesh.positions;
   for (Index v = 0; v < start.size(); ++v)

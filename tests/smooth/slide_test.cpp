@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/mesh/generate.h"
 #include "core/numeric/simd.h"
+#include "core/smooth/execution/method_table.h"
 #include "tests/smooth/sliding.h"
 #include "tests/support/sanitized.h"
 
@@ -151,6 +152,47 @@ TEST_P(Sliding, KeepsItsPromisesAfterEveryIteration) {
     }
   }
   EXPECT_GT(moved, 200U);
+}
+
+TEST(SlidingByOthers, KeepTheirPromisesAfterEveryIteration) {
+  for (const char* method : {"smart-laplace", "pattern-search", "laplace"}) {
+    std::size_t moved = 0;
+    for (const Specimen& specimen : specimens()) {
+      const auto mesh = input(specimen.mesh);
+      const auto edges = boundary_edges(mesh->mesh);
+      RunParameters parameters = sliding_by();
+      parameters.method = method;
+      dmoscope::Run run = make_run(mesh, parameters);
+      for (std::uint64_t iteration = 1; iteration <= 3; ++iteration) {
+        expect_promise_one_if(method_info(method).optimises, specimen, run, iteration);
+        expect_on_the_boundary(specimen, run, edges, 1e-3);
+        expect_in_order(specimen, run);
+        if (::testing::Test::HasFatalFailure()) return;
+      }
+      moved += slid(run);
+    }
+    EXPECT_GT(moved, 100U) << method;
+  }
+}
+
+/// On a straight side the mean of two neighbours is the middle between them.
+TEST(SlidingByOthers, LaplaceGoesToTheMiddle) {
+  const Mesh start = lattice(4, 0.3, 9);
+  RunParameters parameters = sliding_by(1.0);
+  parameters.method = "laplace";
+  parameters.options.relaxation = 0.25;
+  dmoscope::Run run = make_run(input(start), parameters);
+  Progress progress;
+  std::vector<Vec3> before(start.positions);
+  while (run.moment().iteration < 1) {
+    const Index v = run.colouring().order[run.moment().visits];
+    run.step(StepUnit::Vertex, progress);
+    if (v > 0 && v < 4) {
+      EXPECT_NEAR(run.positions()[v].x, 0.75 * before[v].x + 0.125 * (before[v - 1].x + before[v + 1].x), 1e-15);
+      EXPECT_EQ(run.positions()[v].y, 0.0);
+    }
+    before.assign(run.positions().begin(), run.positions().end());
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Metrics, Sliding,
@@ -296,7 +338,7 @@ TEST(SlidingRefusals, AreSaid) {
   Progress progress;
   RunParameters other = sliding_by();
   other.method = "active-set";
-  expect_refused(input(lattice(4, 0.1, 1)), other, "only dmo slides");
+  expect_refused(input(lattice(4, 0.1, 1)), other, "only dmo, laplace, smart-laplace and pattern-search slide");
   expect_refused(input(generate_mesh("globe", 300, 1, progress)), sliding_by(), "longitude");
 }
 

@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/mesh/generate.h"
 #include "core/numeric/simd.h"
+#include "core/smooth/execution/method_table.h"
 #include "tests/smooth/surface_judge.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/volume_grids.h"
@@ -123,12 +124,46 @@ TEST_P(SlidingInSpace, KeepsItsPromisesAfterEveryIteration) {
   EXPECT_GT(moved, kSanitized ? 100U : 400U);
 }
 
+TEST(SlidingInSpaceByOthers, KeepTheirPromisesAfterEveryIteration) {
+  for (const char* method : {"smart-laplace", "pattern-search", "laplace"}) {
+    std::size_t moved = 0;
+    const auto all = volume_specimens();
+    for (std::size_t i = 0; i < all.size(); i += kSanitized ? 5 : 2) {
+      const auto mesh = input(all[i].mesh);
+      const SurfaceJudge judge(all[i], *mesh, 1e-3);
+      RunParameters parameters = sliding_by();
+      parameters.method = method;
+      dmoscope::Run run = make_run(mesh, parameters);
+      for (std::uint64_t iteration = 1; iteration <= (kSanitized ? 1 : 2); ++iteration) {
+        expect_promise_one_if(method_info(method).optimises, all[i], run, iteration);
+        judge.expect_kept(run);
+        expect_in_order(all[i], run);
+        if (::testing::Test::HasFatalFailure()) return;
+      }
+      moved += slid(run);
+    }
+    EXPECT_GT(moved, kSanitized ? 5U : 50U) << method;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Metrics, SlidingInSpace, ::testing::Values(Metric::MeanRatio, Metric::ScaledJacobian, Metric::MinAngle),
                          [](const auto& tested) {
                            std::string name(dmoscope::info(tested.param).name);
                            std::erase(name, '-');
                            return name;
                          });
+
+/// Rods whose worst elements touch the surface: held there, they stay as bad.
+TEST(SlidingInSpaceGains, SweptRods) {
+  for (const char* name : {"screw", "elbow"}) {
+    Progress progress;
+    const auto mesh = input(generate_mesh(name, 1000, 4, progress));
+    dmoscope::Run held = make_run(mesh, {}), free = make_run(mesh, sliding_by());
+    held.iterate(15, progress);
+    free.iterate(15, progress);
+    EXPECT_GT(free.statistics().minimum, held.statistics().minimum + 0.005) << name;
+  }
+}
 
 /// Of a cube the sides are planes, which coordinates never leave by a bit.
 TEST(SlidingInSpaceExactly, ACubeStaysOne) {

@@ -46,7 +46,7 @@ Sweep sweep_of(const RunView& run, const Moment& shown, const InputMesh& input) 
 SmoothingTask task_of(const RunView& run, const Frame& frame) {
   const RunParameters& p = run.parameters;
   SmoothingTask task;
-  task.method = p.method;
+  task.method = method_info(p.method).searches_grid ? std::string_view(p.method) : "dmo";  // else it is what dmo would do
   task.input = frame.input;
   task.metric = p.metric;
   task.search = p.search;

@@ -31,6 +31,8 @@ constexpr std::array kActions{
     Action{"sample-hexahedra", "File", "Sample: hexahedra", "", "generate hexahedra"},
     Action{"sample-solids", "File", "Sample: solids", "", "generate solids"},
     Action{"sample-tangled-solids", "File", "Sample: tangled-solids", "", "generate tangled-solids"},
+    Action{"sample-screw", "File", "Sample: screw", "", "generate screw"},
+    Action{"sample-elbow", "File", "Sample: elbow", "", "generate elbow"},
     Action{"sample-nested", "File", "Sample: nested", "", "generate nested"},
     Action{"sample-nested-solids", "File", "Sample: nested-solids", "", "generate nested-solids"},
     Action{"native-dialogs", "File", "The desktop's file dialogs", "", "native-dialogs toggle", Needs::Nothing, true},

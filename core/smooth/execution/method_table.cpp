@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/error.h"
 #include "core/base/unknown_value.h"
@@ -34,10 +37,12 @@ constexpr auto kMethods = std::to_array<MethodInfo>(
       .make = make_laplace_smoother,
       .optimises = false,
       .untangles = true,
+      .slides = true,
       .relaxes = true},
      {.name = "smart-laplace",
       .doc = "Laplacian smoothing, only where the vertex gains (Freitag 1997)",
       .make = make_smart_laplace_smoother,
+      .slides = true,
       .relaxes = true},
      {.name = "angle-based",
       .doc = "Angle-based smoothing: to the mean of the places that halve the ring's angles, whatever becomes of the elements (Zhou and "
@@ -54,14 +59,23 @@ constexpr auto kMethods = std::to_array<MethodInfo>(
       .has_directions = true},
      {.name = "pattern-search",
       .doc = "Compass search: the best of four steps, which grow or shrink (Park and Shontz 2010)",
-      .make = make_pattern_search_smoother},
+      .make = make_pattern_search_smoother,
+      .slides = true},
      {.name = "active-set",
       .doc = "Active-set ascent: along the steepest way on which none of the worst elements loses (Freitag, Jones and Plassmann 1995)",
       .make = make_active_set_smoother}});
 
+/// "dmo, laplace, smart-laplace and pattern-search".
+std::string those_that_slide() {
+  std::vector<std::string_view> names;
+  for (const MethodInfo& method : kMethods)
+    if (method.slides) names.push_back(method.name);
+  return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
+}
+
 void require_sliding(const SmoothingTask& task) {
   if (!method_info(task.method).slides)
-    throw UsageError(fmt::format("only dmo slides vertices along boundaries and interfaces, not {}", task.method));
+    throw UsageError(fmt::format("only {} slide vertices along boundaries and interfaces, not {}", those_that_slide(), task.method));
   if (task.input->geometry.plane.period > 0.0) throw UsageError("nothing slides in meshes that go round in longitude");
 }
 
@@ -101,7 +115,7 @@ void require_possible(const SmoothingTask& task) {
   if (method.planar_only && task.input->is_volume()) throw UsageError(fmt::format("{} is defined only for planar meshes", method.name));
   if (task.combination) require_possible(*task.combination, task);
   if (task.input->is_surface() && !method.slides)
-    throw UsageError(fmt::format("of the methods only dmo smooths curved surfaces, not {}", method.name));
+    throw UsageError(fmt::format("only {} smooth curved surfaces, not {}", those_that_slide(), method.name));
   if (task.slides) require_sliding(task);
 }
 

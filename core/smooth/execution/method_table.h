@@ -21,7 +21,7 @@ struct MethodInfo {
   bool combines = false;         // it can optimise a composite objective
   bool accelerated = false;      // accelerators can do it
   bool searches_grid = false;    // reads SearchParameters
-  bool slides = false;           // it can move vertices along curves
+  bool slides = false;           // it can move vertices along curves and on surfaces
   bool relaxes = false;          // reads MethodOptions::relaxation
   bool has_directions = false;   // reads MethodOptions::directions and seed
 };

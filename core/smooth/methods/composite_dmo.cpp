@@ -15,8 +15,13 @@ double mean_of_star(const MeshView<Frame>& mesh, PositionView positions, Index v
 }
 
 template <Metric M, class Frame>
-double least_at(const JudgedStarView<Frame>& star, OffsetIn<Frame, double> p) {
-  return Objective<M, false, double, Value::Metric, JudgedStarView<Frame>>(star)(p);
+double least_at(const JudgedStarView<Frame>& star, OffsetIn<Frame, double> p, double enough) {
+  using At = Worth<M, false, double, Value::Metric, OffsetIn<Frame, double>>;
+  At worth;
+  star.template for_each<At::kOthers>([&](const auto& element) {
+    if (!(worth.value() <= enough)) worth.take(element, p);
+  });
+  return worth.value();
 }
 
 template <Metric M, class Frame>
@@ -30,7 +35,7 @@ double untangling_at(const JudgedStarView<Frame>& star, const Untangling& rule, 
 }
 
 template <Metric M, class Frame>
-double mean_at(const JudgedStarView<Frame>& star, OffsetIn<Frame, double> p) {
+double mean_at(const JudgedStarView<Frame>& star, OffsetIn<Frame, double> p, double /*enough*/) {
   return mean_of<M>(star, p);
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 // The search for two aims at once (see composite_objective.h): the very grid search, with an objective that goes on beyond a threshold.
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -68,8 +71,8 @@ struct MetricFunctions {
   StarState (*state)(const MeshView<Frame>&, PositionView, Index vertex, Vec3 place);
   double (*mean)(const MeshView<Frame>&, PositionView, Index vertex, Vec3 place);
   // By the search's, with the vertex at an offset.
-  double (*least_at)(const View&, Offset);
-  double (*mean_at)(const View&, Offset);
+  double (*least_at)(const View&, Offset, double enough);  // what is no more than `enough` may be greater than it is
+  double (*mean_at)(const View&, Offset, double enough);
   bool (*is_tangled)(const View&);
   double (*untangling_at)(const View&, const Untangling&, Offset);
 };
@@ -90,23 +93,28 @@ class CompositeScore {
   CompositeScore(const CompositeObjective& composite, const std::optional<Untangling>& untangling, View star,
                  const DensityTarget<Frame>& target)
       : composite_(composite), star_(star), target_(target), untangling_(untangling), first_(metric_functions<Frame>(composite.first)) {
+    greatest_below_ = composite.raise_mean() ? std::nextafter(composite.threshold, -1.0) : composite.threshold;
     second_ = first_.mean_at;
     if (const auto* metric = std::get_if<Metric>(&composite.second)) second_ = metric_functions<Frame>(*metric).least_at;
     if (std::holds_alternative<std::shared_ptr<const SizeField>>(composite.second)) second_ = nullptr;
   }
-  [[nodiscard]] double operator()(Offset p) const {
-    const double least = untangling_ ? first_.untangling_at(star_, *untangling_, p) : first_.least_at(star_, p);
+  /// `best`: what is worth no more may come out greater than it is, but never above this: nobody goes there.
+  [[nodiscard]] double operator()(Offset p, double best = kAll) const {
+    const double least =
+        untangling_ ? first_.untangling_at(star_, *untangling_, p) : first_.least_at(star_, p, std::min(best, greatest_below_));
     if (!composite_.beyond(least)) return least;
-    return composite_.threshold + (second_ != nullptr ? second_(star_, p) : target_.density(p));
+    return composite_.threshold + (second_ != nullptr ? second_(star_, p, kAll) : target_.density(p));
   }
 
  private:
+  static constexpr double kAll = -std::numeric_limits<double>::infinity();
   const CompositeObjective& composite_;
   View star_;
   DensityTarget<Frame> target_;  // in units of the star's scale
   std::optional<Untangling> untangling_;
   const MetricFunctions<Frame>& first_;
-  double (*second_)(const View&, Offset);  // null: the density
+  double greatest_below_;                                 // the greatest number not beyond the threshold
+  double (*second_)(const View&, Offset, double enough);  // null: the density
 };
 
 /// What a kernel needs to know of the aims, but for densities.

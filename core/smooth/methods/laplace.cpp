@@ -1,7 +1,7 @@
 #include "core/smooth/methods/laplace.h"
 
 #include "core/smooth/edge_neighbours.h"
-#include "core/smooth/vertex_rule.h"
+#include "core/smooth/methods/slide.h"
 
 namespace dmoscope {
 
@@ -72,13 +72,19 @@ class SmartLaplace : private Laplace<Frame> {
 }  // namespace
 
 std::unique_ptr<Smoother> make_laplace_smoother(const SmoothingTask& task) {
-  if (task.input->is_volume()) return make_rule_smoother(task, Laplace<Space>(task));
-  return make_rule_smoother(task, Laplace<Plane>(task));
+  const SlideChoice choice{.by = SlideChoice::By::Mean, .relaxation = task.options.relaxation, .must_gain = false};
+  const CompositeObjective objective = single_objective(task.metric);
+  if (task.input->is_surface()) return make_surface_smoother(task, objective, choice);
+  if (task.input->is_volume()) return make_sliding_smoother<Space>(task, Laplace<Space>(task), objective, choice);
+  return make_sliding_smoother<Plane>(task, Laplace<Plane>(task), objective, choice);
 }
 
 std::unique_ptr<Smoother> make_smart_laplace_smoother(const SmoothingTask& task) {
-  return with_metric_and_frame(*task.input, task.metric,
-                               [&]<Metric M, class Frame>() { return make_rule_smoother(task, SmartLaplace<M, Frame>(task)); });
+  const SlideChoice choice{.by = SlideChoice::By::Mean, .relaxation = task.options.relaxation};
+  if (task.input->is_surface()) return make_surface_smoother(task, single_objective(task.metric), choice);
+  return with_metric_and_frame(*task.input, task.metric, [&]<Metric M, class Frame>() {
+    return make_sliding_smoother<Frame>(task, SmartLaplace<M, Frame>(task), single_objective(M), choice);
+  });
 }
 
 }  // namespace dmoscope

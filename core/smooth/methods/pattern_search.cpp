@@ -1,17 +1,13 @@
 #include "core/smooth/methods/pattern_search.h"
 
-#include <array>
+#include <initializer_list>
 
-#include "core/smooth/vertex_rule.h"
+#include "core/search/compass_search.h"
+#include "core/smooth/methods/slide.h"
 
 namespace dmoscope {
 
 namespace {
-
-// Ended at 1e-2 it leaves a mean less high, at 1e-4 the same at 1.5 times the cost; shrunk by 0.5 it ends 0.003 lower on one real mesh.
-constexpr double kFirst = 0.25, kLast = 1e-3;  // step, in mean edges
-constexpr double kGrow = 1.5, kShrink = 0.25, kBacktrack = 0.9;
-constexpr int kMostPolls = 100;
 
 /// Mean of lengths.
 class Mean {
@@ -49,9 +45,6 @@ double mean_edge(const VolumeStar<double>& star) {
   return mean.value();
 }
 
-constexpr std::array<Vec2<double>, 4> compass(Vec2<double> /*of a plane*/) { return {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}}; }
-constexpr std::array<Vec3, 6> compass(Vec3 /*of space*/) { return {{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}}; }
-
 template <Metric M, class Frame>
 class PatternSearch {
  public:
@@ -68,48 +61,12 @@ class PatternSearch {
 
  private:
   using Offset = OffsetIn<Frame, double>;
-  struct Try {
-    Offset at;
-    double worth;
-  };
-
   [[nodiscard]] Offset search(const Scratch& star) const {
     using View = StarViewIn<Frame, double>;
     const UntanglingObjective<M, View, Offset> untangling(View(star), mesh_.untangling);
-    if (untangling.tangled()) return search(star, untangling);
-    return search(star, Objective<M, false, double, Value::Metric, View>(View(star)));
-  }
-
-  template <class Worth>
-  static Offset search(const Scratch& star, const Worth& worth) {
-    Try best{{}, worth(Offset{})};
-    const double edge = mean_edge(star), last = kLast * edge;
-    double step = kFirst * edge;
-    for (int poll = 0; poll < kMostPolls && step > last; ++poll) {
-      const Try found = best_around(worth, best, step, last);
-      const bool better = found.worth > best.worth;
-      if (better) best = found;
-      step *= better ? kGrow : kShrink;
-    }
-    return best.at;
-  }
-
-  /// One step along each axis, forth and back.
-  template <class Worth>
-  static Try best_around(const Worth& worth, const Try& from, double step, double least) {
-    Try best = from;
-    for (const Offset d : compass(Offset{})) {
-      double length = step;
-      const auto at = [&] { return from.at + times(d, length); };
-      double value = worth(at());
-      // Shorter, while it would invert an element where none is inverted.
-      while (from.worth > 0.0 && !(value > 0.0) && length > least) {
-        length *= kBacktrack;
-        value = worth(at());
-      }
-      if (value > best.worth) best = {at(), value};
-    }
-    return best;
+    const double edge = mean_edge(star);
+    if (untangling.tangled()) return compass_search<Offset>(untangling, edge);
+    return compass_search<Offset>(Objective<M, false, double, Value::Metric, View>(View(star)), edge);
   }
 
   RuleMesh<Frame> mesh_;
@@ -118,8 +75,11 @@ class PatternSearch {
 }  // namespace
 
 std::unique_ptr<Smoother> make_pattern_search_smoother(const SmoothingTask& task) {
-  return with_metric_and_frame(*task.input, task.metric,
-                               [&]<Metric M, class Frame>() { return make_rule_smoother(task, PatternSearch<M, Frame>(task)); });
+  const SlideChoice choice{.by = SlideChoice::By::Compass};
+  if (task.input->is_surface()) return make_surface_smoother(task, single_objective(task.metric), choice);
+  return with_metric_and_frame(*task.input, task.metric, [&]<Metric M, class Frame>() {
+    return make_sliding_smoother<Frame>(task, PatternSearch<M, Frame>(task), single_objective(M), choice);
+  });
 }
 
 }  // namespace dmoscope

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/rounding.h"
+#include "core/search/compass_search.h"
 
 namespace dmoscope {
 
@@ -26,6 +27,8 @@ Vec2<double> box_of_star(const MeshView<Frame>& mesh, PositionView positions, In
 
 /// How often the way is halved where a vertex may not go all of it.
 constexpr int kHalvings = 3;
+/// What a place is worth where no vertex may stand.
+constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -39,6 +42,7 @@ struct Slide<Frame>::Visit {
   bool tangled;
   const CompositeScore<Frame>& score;
   OverlayRoom& room;
+  mutable std::optional<Fit> fit_now{};  // of the faces around, once it is known
 };
 
 /// What a visit knows of its curve.
@@ -51,15 +55,17 @@ struct Slide<Frame>::Stretch {
 CompositeObjective single_objective(Metric metric) { return {metric, std::numeric_limits<double>::infinity(), metric}; }
 
 template <class Frame>
-Slide<Frame>::Slide(const SmoothingTask& task, CompositeObjective composite)
+Slide<Frame>::Slide(const SmoothingTask& task, CompositeObjective composite, SlideChoice choice)
     : domain_(task.domain),
       judge_(*task.input, std::move(composite)),
       mesh_(task.input->view<Frame>()),
       parameters_(task.search),
+      choice_(choice),
       max_deviation_(task.max_deviation),
       single_precision_(task.input->mesh.single_precision) {
   if (std::is_same_v<Frame, Curved> && task.search.precision != Precision::Double)
     kernel_ = composite_kernel<Plane>(task.search.simd.value_or(best_simd_level()), judge_.composite().first);
+  if (domain_ != nullptr && domain_->facets().any()) last_facet_.assign(task.input->mesh.positions.size(), kNoIndex);
 }
 
 template <class Frame>
@@ -71,32 +77,55 @@ template <class Frame>
 std::optional<Vec3> Slide<Frame>::target(PositionView positions, Index vertex, Scratch& scratch) const {
   judge_.gather(positions, vertex, scratch.star);
   const bool tangled = judge_.is_tangled(scratch.star);
-  if (judge_.untangling().repair && !tangled) return std::nullopt;
+  if (judge_.untangling().repair && choice_.must_gain && !tangled) return std::nullopt;
   const auto score = judge_.score_of(scratch.star, positions, vertex, tangled);
   const Visit visit{vertex, positions[vertex], positions, scratch.star.scale, tangled, score, scratch.room};
   return domain_->on_curve(vertex) ? along_curve(visit) : on_surface(visit, scratch);
 }
 
-/// The best place; the vertex's own where none is better.
+/// What a place is worth, or no more than `best`; -infinity where it is not between the neighbours.
+template <class Frame>
+double Slide<Frame>::worth(const Visit& visit, const Stretch& stretch, double place, double best) const {
+  if (!(stretch.beside.place_before < place && place < stretch.beside.place_after)) return kNothing;
+  const Vec3 there = domain_->curves().at(visit.vertex, place);
+  return visit.score(times(mesh_.frame.offset(there, visit.here), 1.0 / visit.scale), best);
+}
+
+/// The place that the method chooses; the vertex's own where none is better.
 template <class Frame>
 double Slide<Frame>::search(const Visit& visit, const Stretch& stretch) const {
-  const Curves& curves = domain_->curves();
-  const auto worth = [&](double place) {
-    return visit.score(times(mesh_.frame.offset(curves.at(visit.vertex, place), visit.here), 1.0 / visit.scale));
-  };
+  const auto [before, after] = std::pair(stretch.beside.place_before, stretch.beside.place_after);
+  switch (choice_.by) {
+    case SlideChoice::By::Grid:
+      return search_grid(visit, stretch);
+    case SlideChoice::By::Mean:
+      return stretch.place + choice_.relaxation * (0.5 * (before + after) - stretch.place);
+    case SlideChoice::By::Compass:
+      break;
+  }
+  const auto from_here = [&](double way) { return way == 0.0 ? visit.score({}) : worth(visit, stretch, stretch.place + way, kNothing); };
+  return stretch.place + compass_search<double>(from_here, 0.5 * (after - before));
+}
+
+template <class Frame>
+double Slide<Frame>::search_grid(const Visit& visit, const Stretch& stretch) const {
   const int candidates = parameters_.grid_points * parameters_.grid_points;
   double best = stretch.place, objective = visit.score({}), omega = parameters_.omega;
   for (int level = 0; level < parameters_.levels; ++level) {
     const double centre = best, width = omega * (stretch.beside.place_after - stretch.beside.place_before);
     for (int i = 0; i < candidates; ++i) {
       const double place = centre + width * (static_cast<double>(i) / (candidates - 1) - 0.5);
-      if (!(stretch.beside.place_before < place && place < stretch.beside.place_after)) continue;
-      const double value = worth(place);
+      const double value = worth(visit, stretch, place, objective);
       if (value > objective) best = place, objective = value;
     }
     omega *= 2.0 / (candidates - 1);
   }
   return best;
+}
+
+template <class Frame>
+bool Slide<Frame>::may_go(const Visit& visit, Vec3 target) const {
+  return !choice_.must_gain || judge_.gains(visit.positions, visit.vertex, target);
 }
 
 template <class Frame>
@@ -119,7 +148,7 @@ std::optional<Vec3> Slide<Frame>::possible(const Visit& visit, const Stretch& st
   // What rounding put elsewhere must still be between the neighbours.
   const auto landed = curves.place(visit.vertex, target);
   if (!landed || !curves.neighbours(visit.vertex, *landed, visit.positions)) return std::nullopt;
-  if (!judge_.gains(visit.positions, visit.vertex, target) || !keeps_near(visit, stretch, place, target)) return std::nullopt;
+  if (!may_go(visit, target) || !keeps_near(visit, stretch, place, target)) return std::nullopt;
   return fits(visit, target, nullptr, nullptr) ? std::optional(target) : std::nullopt;
 }
 
@@ -145,13 +174,15 @@ template <class Frame>
 bool Slide<Frame>::fits(const Visit& visit, Vec3 target, const FacetPlace* here, const FacetPlace* there) const {
   if (!domain_->facets().any()) return true;
   Overlay overlay(*domain_, visit.room);
-  const Fit fit = overlay.star(visit.positions, visit.vertex, target, there);
-  if (std::max(fit.deviation, fit.other_split) <= max_deviation_ && fit.least_cosine >= kLeastCosine) return true;
-  if (fit.deviation == kNoFit.deviation) return false;
-  const Fit now = overlay.star(visit.positions, visit.vertex, visit.here, here);
-  if (now.deviation == kNoFit.deviation) return false;
-  return fit.deviation <= std::max(max_deviation_, now.deviation) && fit.other_split <= std::max(max_deviation_, now.other_split) &&
-         fit.least_cosine >= std::min(kLeastCosine, now.least_cosine);
+  const Fit bound{max_deviation_, max_deviation_, kLeastCosine};
+  if (is_within(overlay.star(visit.positions, visit.vertex, target, there, bound), bound)) return true;
+  // No worse than it is now will do, too.
+  if (!visit.fit_now) visit.fit_now = overlay.star(visit.positions, visit.vertex, visit.here, here, kNoFit);
+  const Fit& now = *visit.fit_now;
+  if (now.deviation == kNoFit.deviation || is_within(now, bound)) return false;
+  const Fit worst{std::max(bound.deviation, now.deviation), std::max(bound.other_split, now.other_split),
+                  std::min(bound.least_cosine, now.least_cosine)};
+  return is_within(overlay.star(visit.positions, visit.vertex, target, there, worst), worst);
 }
 
 /// Where a vertex on a surface stands, and the plane that touches it there.
@@ -194,13 +225,44 @@ std::optional<Vec2<double>> Slide<Frame>::search_flat(const Tangent& tangent, Sc
 template <class Frame>
 Vec2<double> Slide<Frame>::search_on_surface(const Visit& visit, const Tangent& tangent) const {
   const Facets& facets = domain_->facets();
-  const auto worth = [&](Vec2<double> p) {
+  const auto worth_at = [&](Vec2<double> p, double best) {
     if (p == Vec2<double>{}) return visit.score({});
     const auto found = facets.walk(tangent.place.facet, tangent.plane, visit.here, times(p, visit.scale), kSteepest);
-    return found ? visit.score(times(mesh_.frame.offset(facets.at(*found), visit.here), 1.0 / visit.scale))
-                 : -std::numeric_limits<double>::infinity();
+    return found ? visit.score(times(mesh_.frame.offset(facets.at(*found), visit.here), 1.0 / visit.scale), best) : kNothing;
   };
-  return grid_search<double>(worth, tangent.box, parameters_).offset;
+  if (choice_.by == SlideChoice::By::Compass) {
+    double sum = 0.0, count = 0.0;
+    for_neighbours_on_surface(visit, [&](Vec3 way) { sum += length(way), count += 1.0; });
+    return compass_search<Vec2<double>>([&](Vec2<double> p) { return worth_at(p, kNothing); }, sum / (count * visit.scale));
+  }
+  double best = kNothing;
+  const auto worth_beyond = [&](Vec2<double> p) {
+    const double value = worth_at(p, best);
+    best = std::max(best, value);
+    return value;
+  };
+  return grid_search<double>(worth_beyond, tangent.box, parameters_).offset;
+}
+
+/// Calls f(way) with the way to the other end of each edge of the surface at the vertex; each comes twice.
+template <class Frame>
+template <class F>
+void Slide<Frame>::for_neighbours_on_surface(const Visit& visit, const F& f) const {
+  const ElementTable& faces = domain_->facets().faces();
+  for (const Index face : domain_->facets().faces_at(visit.vertex)) {
+    const auto corners = faces.corners(face);
+    const auto at = static_cast<std::size_t>(std::ranges::find(corners, visit.vertex) - corners.begin());
+    for (const std::size_t steps : {std::size_t{1}, corners.size() - 1})
+      f(visit.positions[corners[(at + steps) % corners.size()]] - visit.here);
+  }
+}
+
+template <class Frame>
+Vec2<double> Slide<Frame>::step_to_mean(const Visit& visit, const Tangent& tangent) const {
+  Vec3 sum{};
+  double count = 0.0;
+  for_neighbours_on_surface(visit, [&](Vec3 way) { sum = sum + way, count += 1.0; });
+  return times(tangent.plane.project(sum), choice_.relaxation / (count * visit.scale));
 }
 
 /// Where the vertex comes to stand a step away in the tangent plane, or half of it, and so on; nowhere if it may not.
@@ -215,7 +277,7 @@ std::optional<Vec3> Slide<Frame>::possible_on_surface(const Visit& visit, const 
       target = {nearest_float(target.x), nearest_float(target.y), nearest_float(target.z)};
       if (!facets.place(visit.vertex, target)) continue;
     }
-    if (judge_.gains(visit.positions, visit.vertex, target) && fits(visit, target, &tangent.place, &*there)) return target;
+    if (may_go(visit, target) && fits(visit, target, &tangent.place, &*there)) return target;
   }
   return std::nullopt;
 }
@@ -223,13 +285,16 @@ std::optional<Vec3> Slide<Frame>::possible_on_surface(const Visit& visit, const 
 template <class Frame>
 std::optional<Vec3> Slide<Frame>::on_surface(const Visit& visit, Scratch& scratch) const {
   if constexpr (!std::is_same_v<Frame, Plane>) {
-    const auto place = domain_->facets().place(visit.vertex, visit.here);
+    Index& last_facet = last_facet_[visit.vertex];
+    const auto place = domain_->facets().place(visit.vertex, visit.here, last_facet);
     if (!place) return std::nullopt;
+    last_facet = place->facet;
     const Vec3 normal = domain_->facets().normal(*place);
     if (normal == Vec3{}) return std::nullopt;
     Tangent tangent{*place, tangent_plane(normal), {}};
+    if (choice_.by == SlideChoice::By::Mean) return possible_on_surface(visit, tangent, step_to_mean(visit, tangent));
     tangent.box = box_of_star(mesh_, visit.positions, visit.vertex, tangent.plane, visit.scale);
-    if (!visit.tangled) {
+    if (!visit.tangled && choice_.by == SlideChoice::By::Grid) {
       if (const auto step = search_flat(tangent, scratch)) {
         if (*step == Vec2<double>{}) return std::nullopt;
         if (const auto target = possible_on_surface(visit, tangent, *step)) return target;
@@ -257,8 +322,8 @@ struct NobodyIsFree {
 };
 }  // namespace
 
-std::unique_ptr<Smoother> make_surface_smoother(const SmoothingTask& task, CompositeObjective composite) {
-  return make_sliding_smoother<Curved>(task, NobodyIsFree{}, std::move(composite));
+std::unique_ptr<Smoother> make_surface_smoother(const SmoothingTask& task, CompositeObjective composite, SlideChoice choice) {
+  return make_sliding_smoother<Curved>(task, NobodyIsFree{}, std::move(composite), choice);
 }
 
 }  // namespace dmoscope

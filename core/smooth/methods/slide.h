@@ -1,9 +1,12 @@
 #pragma once
 // The visit of a vertex that slides along a curve or on a surface of the input: see core/reference/domain.h.
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/reference/overlay.h"
 #include "core/smooth/methods/composite_dmo.h"
@@ -14,6 +17,18 @@ namespace dmoscope {
 inline constexpr double kLeastCosine = 0.5;
 /// Facets that lean more than that away from the tangent plane end the way of a candidate.
 inline constexpr double kSteepest = 0.1;
+
+/// How a method chooses among the places to which a vertex may slide.
+struct SlideChoice {
+  enum class By : std::uint8_t {
+    Grid,    // the best of a grid, level by level
+    Mean,    // of the neighbours: on a curve of the two, on a surface of those that share an edge of it
+    Compass  // see compass_search
+  };
+  By by = By::Grid;
+  double relaxation = 1.0;  // Mean: the share of the way that is gone
+  bool must_gain = true;    // else it goes wherever the surface lets it, whatever becomes of the elements
+};
 
 /// On a curve: searches the stretch between a vertex's neighbours, level by level, as the grid search does: grid points squared candidates
 /// a level, so that it looks at as many as where a vertex is free, and each level as much finer. Of the candidates that lie between the
@@ -33,7 +48,7 @@ class Slide {
     OverlayRoom room;
   };
   /// `composite`: what the vertices aim at.
-  Slide(const SmoothingTask& task, CompositeObjective composite);
+  Slide(const SmoothingTask& task, CompositeObjective composite, SlideChoice choice = {});
 
   [[nodiscard]] bool slides(Index vertex) const { return domain_ != nullptr && domain_->slides(vertex); }
   void begin(const Sweep& sweep);
@@ -49,9 +64,15 @@ class Slide {
   [[nodiscard]] std::optional<Vec3> on_surface(const Visit& visit, Scratch& scratch) const;
   [[nodiscard]] std::optional<Vec2<double>> search_flat(const Tangent& tangent, Scratch& scratch) const;
   [[nodiscard]] Vec2<double> search_on_surface(const Visit& visit, const Tangent& tangent) const;
+  template <class F>
+  void for_neighbours_on_surface(const Visit& visit, const F& f) const;
+  [[nodiscard]] Vec2<double> step_to_mean(const Visit& visit, const Tangent& tangent) const;
   [[nodiscard]] std::optional<Vec3> possible_on_surface(const Visit& visit, const Tangent& tangent, Vec2<double> step) const;
+  [[nodiscard]] double worth(const Visit& visit, const Stretch& stretch, double place, double best) const;
   [[nodiscard]] double search(const Visit& visit, const Stretch& stretch) const;
+  [[nodiscard]] double search_grid(const Visit& visit, const Stretch& stretch) const;
   [[nodiscard]] std::optional<Vec3> possible(const Visit& visit, const Stretch& stretch, double place) const;
+  [[nodiscard]] bool may_go(const Visit& visit, Vec3 target) const;
   [[nodiscard]] bool keeps_near(const Visit& visit, const Stretch& stretch, double place, Vec3 target) const;
   [[nodiscard]] bool fits(const Visit& visit, Vec3 target, const FacetPlace* here, const FacetPlace* there) const;
 
@@ -60,8 +81,11 @@ class Slide {
   MeshView<Frame> mesh_;
   CompositeKernel<Plane> kernel_ = nullptr;  // of a curved surface
   SearchParameters parameters_;
+  SlideChoice choice_;
   double max_deviation_;
   bool single_precision_;
+  // By vertex, the facet that it was last seen on: where to look first. No result depends on it, and one visit at a time looks at it.
+  mutable std::vector<Index> last_facet_;
 };
 
 /// A rule for vertices that are free, and for those that slide.
@@ -73,10 +97,10 @@ class SlidingRule {
     typename Slide<Frame>::Scratch slide;
   };
   static constexpr bool kDependsOnStarAlone = requires { requires Rule::kDependsOnStarAlone; };
-  static constexpr std::size_t kGrain = Rule::kGrain;
+  static constexpr std::size_t kGrain = std::min<std::size_t>(grain_of<Rule>(), 32);
   SlidingRule(Rule rule, Slide<Frame> slide) : rule_(std::move(rule)), slide_(std::move(slide)) {}
   void begin(const Sweep& sweep) {
-    rule_.begin(sweep);
+    if constexpr (requires { rule_.begin(sweep); }) rule_.begin(sweep);
     slide_.begin(sweep);
   }
   [[nodiscard]] std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const {
@@ -88,15 +112,17 @@ class SlidingRule {
   Slide<Frame> slide_;
 };
 
-/// A smoother by a rule for vertices that are free, and by the grid search for those that slide.
+/// A smoother by a rule for vertices that are free, and by a choice for those that slide.
 template <class Frame, class Rule>
-[[nodiscard]] std::unique_ptr<Smoother> make_sliding_smoother(const SmoothingTask& task, Rule rule, CompositeObjective composite) {
+[[nodiscard]] std::unique_ptr<Smoother> make_sliding_smoother(const SmoothingTask& task, Rule rule, CompositeObjective composite,
+                                                              SlideChoice choice = {}) {
   if (!task.domain) return make_rule_smoother(task, std::move(rule));
-  return make_rule_smoother(task, SlidingRule<Rule, Frame>(std::move(rule), Slide<Frame>(task, std::move(composite))));
+  return make_rule_smoother(task, SlidingRule<Rule, Frame>(std::move(rule), Slide<Frame>(task, std::move(composite), choice)));
 }
 
 /// A smoother of a curved surface, where all that moves slides.
-[[nodiscard]] std::unique_ptr<Smoother> make_surface_smoother(const SmoothingTask& task, CompositeObjective composite);
+[[nodiscard]] std::unique_ptr<Smoother> make_surface_smoother(const SmoothingTask& task, CompositeObjective composite,
+                                                              SlideChoice choice = {});
 
 /// A metric as the only aim.
 [[nodiscard]] CompositeObjective single_objective(Metric metric);

@@ -36,6 +36,7 @@
 #include "core/run/mean_given_up.h"
 #include "core/run/retry_on_cpu.h"
 #include "core/run/untangling_hint.h"
+#include "core/run/what_holds.h"
 #include "core/session/csv.h"
 #include "core/session/parameter_json.h"
 #include "core/session/session.h"
@@ -76,6 +77,19 @@ Json json_of(const Statistics& s) {
           {"inverted", s.inverted}};
 }
 
+Json json_of(const HeldMinimum& held) {
+  Json vertices = Json::array();
+  for (const HeldVertex& one : held.vertices) vertices.push_back({{"vertex", one.vertex}, {"held_by", name(one.by)}});
+  Json object{{"element", held.element},         {"quality", json_number(held.quality)},     {"by", name(held.by)},
+              {"vertices", std::move(vertices)}, {"unchanged", json_number(held.unchanged)}, {"switch", nullptr},
+              {"would_raise_to", nullptr},       {"sentence", held.sentence(true)}};
+  if (held.change) {
+    object["switch"] = held.change->option();
+    object["would_raise_to"] = json_number(held.changed);
+  }
+  return object;
+}
+
 /// What came of it, as both the person and --json are told.
 struct Result {
   const SmoothOptions& options;
@@ -84,6 +98,7 @@ struct Result {
   Outcome outcome;
   double seconds;
   std::optional<LeftInverted> left;  // of what is written
+  std::optional<HeldMinimum> held;   // likewise
   std::vector<std::string> warnings;
   std::optional<Provenance> provenance{};
 
@@ -139,6 +154,7 @@ Json json_of(const Result& r) {
   object["written_iteration"] = r.after().iteration;
   object["left_inverted"] = nullptr;
   if (r.left) object["left_inverted"] = {{"count", r.left->count}, {"element", r.left->element}, {"vertex", r.left->vertex}};
+  object["held_by"] = r.held ? json_of(*r.held) : Json(nullptr);
   object["before"] = json_of(r.before().statistics);
   object["after"] = json_of(r.after().statistics);
   add_composite(object, r.run);
@@ -163,6 +179,7 @@ void print_summary(const Result& r) {
   print("  {:<16} {:>10} -> {}\n", "inverted", grouped(before.inverted), grouped(after.inverted));
   print_composite(r.run);
   print("  {}\n", r.outcome.sentence());
+  if (r.held) print("  {}\n", r.held->sentence(true));
   const std::string fell = mean_given_up(r.run.parameters(), r.run.history().records(), r.run.moment().iteration);
   if (r.options.goal.until_converged && !fell.empty()) print("  {} (--then mean)\n", fell);
   print("  {} in {:.3f} s, {}vertices/s on {}\n", counted(r.outcome.iterations, "iteration", "iterations"), r.seconds,
@@ -241,6 +258,15 @@ std::optional<LeftInverted> tell_left_inverted(const Run& run, const std::shared
   return left;
 }
 
+/// What holds the minimum of what is written. Nobody waits for it who does not want to.
+std::optional<HeldMinimum> find_hold(const Run& run, ThreadPool* pool, Progress& progress) {
+  try {
+    return what_holds(run, pool, progress);
+  } catch (const Cancelled&) {  // what was asked for has been written
+    return std::nullopt;
+  }
+}
+
 /// Warns where --then mean was asked for and the second phase never began.
 template <class Warn>
 void tell_missing_phase(const Run& run, const Outcome& outcome, const Warn& warn) {
@@ -301,7 +327,9 @@ int smooth(const SmoothOptions& options) {
   const std::string seen = written_as_floats(options.output, *input, run.positions(), run.parameters().metric, pool.get());
   if (!seen.empty()) warn(fmt::format("{}: {}", options.output.string(), seen));
   std::optional<LeftInverted> left = tell_left_inverted(run, input, pool, progress, warn);
-  const Result result{options, run, pool->size(), outcome, seconds, std::move(left), std::move(warnings), std::move(provenance)};
+  std::optional<HeldMinimum> held = find_hold(run, pool.get(), progress);
+  const Result result{
+      options, run, pool->size(), outcome, seconds, std::move(left), std::move(held), std::move(warnings), std::move(provenance)};
   if (options.json) {
     print_json(json_of(result));
   } else {

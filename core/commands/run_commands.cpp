@@ -91,6 +91,14 @@ void say(CommandContext& context, Arguments arguments) {
   tell(context, std::move(text));
 }
 
+/// Says what holds the active run's minimum, and what would free it.
+void tell_hold(CommandContext& context, Arguments arguments) {
+  require(arguments, 0, 0);
+  Session& session = context.session;
+  (void)session.active();
+  const auto found = session.holds().find(session, session.active_index(), context.progress);
+  tell(context, found ? found->sentence() : "no element has a quality by this metric");
+}
 void set_percentiles(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 1);
   if (arguments[0] != "on" && arguments[0] != "off") throw WrongArguments(fmt::format("'{}' is neither on nor off", arguments[0]));
@@ -123,6 +131,10 @@ std::span<const CommandRow> run_commands() {
        set_percentiles,
        true,
        CommandReach::Look},
+      {{"held-by", "held-by", "Says what holds the minimum: why the worst element stays as it is, and which switch would free it."},
+       tell_hold,
+       false,
+       CommandReach::Paths},
       {{"expect", "expect minimum|movable|mean|inverted|iteration|moved <|<=|==|>=|> VALUE", "Fails when it does not hold."},
        expect,
        true,

@@ -51,6 +51,7 @@ enum class VisitEnd {
   Moved,         // the vertex gains
   NothingFound,  // no candidate is better than where it stands
   NotConfirmed,  // the search found one, but judged exactly it gains nothing
+  Deviates,      // it found one on a surface, where faces would leave the input by more than the bound
   Fixed,         // it may not move, and was not searched
   Waits          // its star is sound, and this iteration moves no such vertex: see Untangling::repair
 };

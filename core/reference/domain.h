@@ -42,6 +42,7 @@ class Domain {
   [[nodiscard]] bool is_held(Index vertex) const noexcept { return held_[vertex] != HeldOn::Nothing && held_[vertex] != HeldOn::Rule; }
   /// What holds a vertex of the boundary, of an interface, or of a surface; "feature edges meet there". Empty for others.
   [[nodiscard]] std::string_view why_held(Index vertex) const;
+  [[nodiscard]] HeldOn held_on(Index vertex) const noexcept { return held_[vertex]; }
   [[nodiscard]] Index count() const noexcept { return sliding_; }        // of vertices that slide
   [[nodiscard]] Index count_inside() const noexcept { return inside_; }  // of these, off the boundary
   [[nodiscard]] Index count_on_curves() const noexcept { return on_curves_; }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/run/run.h"
+#include "core/session/holds.h"
 #include "core/session/read_files.h"
 #include "core/session/saved_marks.h"
 #include "core/session/undo.h"
@@ -111,6 +112,8 @@ class Session {
   /// Observes all runs, also those that are added later; see Run::set_observer.
   void observe(std::function<void(const Run&)> observer);
   [[nodiscard]] const std::shared_ptr<ThreadPool>& pool() const noexcept { return pool_; }
+  /// What holds the runs' minima, as far as it has been asked for.
+  [[nodiscard]] Holds& holds() noexcept { return holds_; }
 
  private:
   [[nodiscard]] std::shared_ptr<Run> first_run(const std::shared_ptr<const InputMesh>& input) const;
@@ -138,6 +141,7 @@ class Session {
   std::uint64_t most_memory_ = 0;
   std::uint64_t last_id_ = 0;  // of all runs there were
   UndoStack undo_;
+  Holds holds_;
 };
 
 }  // namespace dmoscope

@@ -247,7 +247,10 @@ bool FrameBuilder::work_at_rest(Session& session, std::span<const Watch> watched
   return found;
 }
 
-bool FrameBuilder::work_long_at_rest(Session& session, const std::function<bool()>& go_on) { return endings_.find_hint(session, go_on); }
+bool FrameBuilder::work_long_at_rest(Session& session, const std::function<bool()>& go_on) {
+  const bool hint = endings_.find_hint(session, go_on);
+  return session.holds().find_at_rest(session, go_on) || hint;
+}
 
 void FrameBuilder::add_meshes(Session& session, SessionView& view) {
   for (const auto& input : session.inputs())
@@ -272,6 +275,7 @@ std::shared_ptr<const SessionView> FrameBuilder::build(Session& session, FrameDe
     view->runs.back().unsaved = session.would_lose(i);
     view->runs.back().summary = summaries_.of(session, i);
     view->runs.back().ending = endings_.of(session, i);
+    view->runs.back().held = session.holds().of(session, i);
   }
   for (Known& known : known_) known.wanted = false;
   view->frame = standing(session, session.active_index(), detail);

@@ -106,6 +106,7 @@ struct RunView {
   std::optional<std::uint64_t> ended{};       // the iteration that it ended with before it went back to the best, where it did
   std::uint64_t best_iteration = 0;           // see best_iteration()
   std::shared_ptr<const RunEnding> ending{};  // see Endings
+  Holds::Latest held{};                       // what holds its minimum
   /// Whether there is no better iteration to go to.
   [[nodiscard]] bool at_best() const noexcept { return moment == Moment{best_iteration}; }
 };

@@ -20,6 +20,12 @@ TEST(BoundaryOnTheCommandLine, SlidesAndIsSaid) {
   EXPECT_EQ(slides["free"], held["free"].get<int>() + slides["sliding"].get<int>());
   EXPECT_EQ(slides["parameters"]["boundary"], "slide");
   EXPECT_GE(slides["after"]["minimum"], slides["before"]["minimum"]);
+  for (const auto& json : {held, slides}) {
+    EXPECT_EQ(json["held_by"]["quality"], json["after"]["minimum"]);
+    EXPECT_GE(json["held_by"]["vertices"].size(), 3U);
+    EXPECT_EQ(json["held_by"]["switch"].is_null(), json["held_by"]["would_raise_to"].is_null());
+    EXPECT_THAT(json["held_by"]["sentence"].get<std::string>(), HasSubstr("is the worst of all"));
+  }
   const Output said = run({"smooth", in, "-o", folder / "c.14", "--iterations", "1", "--boundary", "slide"});
   EXPECT_THAT(said.out, HasSubstr("slide along the boundary, and "));
   for (const auto& wrong : {std::vector<std::string>{"--boundary", "up"},

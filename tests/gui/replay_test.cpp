@@ -64,7 +64,8 @@ class Replay : public HeadlessTest {
 };
 
 TEST_F(Replay, ClicksKeysWheelAndDragsComeToTheSameMeshAndPicture) {
-  for (const char* line : {"click sample:coast",
+  for (const char* line : {"size 1280 880",
+                           "click sample:coast",
                            "key N",
                            "click step-class",
                            "key V",

@@ -53,8 +53,27 @@ TEST_F(SurfaceWindow, IsSeenInSpaceSteppedAndPicked) {
   EXPECT_GT(session()->frame->statistics.minimum, session()->input_summary->statistics.minimum);
 }
 
-TEST_F(SurfaceWindow, AVisitThatCannotBeLookedIntoSaysSo) {
-  EXPECT_THAT(ui::no_inspection(*session()), ::testing::HasSubstr("curved surface"));
+TEST_F(SurfaceWindow, VisitsAreLookedIntoWhereVerticesSlideOnIt) {
+  const RunView& run = session()->runs[0];
+  Index inside = kNoIndex, corner = kNoIndex, edge = kNoIndex;
+  for (Index v = 0; v < run.fixed.size(); ++v) {
+    if (run.domain->on_surface(v) && inside == kNoIndex) inside = v;
+    if (run.domain->on_curve(v) && edge == kNoIndex) edge = v;
+    if (run.domain->is_held(v) && corner == kNoIndex) corner = v;
+  }
+  const auto before = picture();
+  good("inspect vertex " + std::to_string(inside));
+  EXPECT_TRUE(window_->app().inspection().trouble.empty());
+  ASSERT_TRUE(window_->app().inspection().grid);
+  EXPECT_EQ(window_->app().inspection().level_count(), 3U);
+  const auto level = picture();
+  EXPECT_TRUE(level != before);
+  good("level next");
+  EXPECT_TRUE(picture() != level);
+  good("inspect vertex " + std::to_string(edge));
+  EXPECT_THAT(window_->app().inspection().trouble, ::testing::HasSubstr("along a curve"));
+  good("inspect vertex " + std::to_string(corner));
+  EXPECT_THAT(window_->app().inspection().trouble, ::testing::HasSubstr("is fixed: "));
 }
 
 /// A cube's twelve edges of n segments and its eight corners, however many of them are seen.

@@ -62,7 +62,8 @@ TEST(VolumeColours, WhatIsOfVerticesOrOfThePlaneIsNotDrawn) {
   const auto frame = frame_of(test::volume_grid(2, test::Fill::Tetrahedra));
   for (const ColourBy by : {ColourBy::Valence, ColourBy::Class, ColourBy::Group, ColourBy::SizeOverTarget})
     EXPECT_TRUE(why_not_drawn(by, *frame->input).has_value()) << info(by).name;
-  for (const ColourBy by : {ColourBy::Quality, ColourBy::Kind, ColourBy::Size, ColourBy::EdgeLength, ColourBy::Difference})
+  for (const ColourBy by : {ColourBy::Quality, ColourBy::Kind, ColourBy::Size, ColourBy::EdgeLength, ColourBy::Difference,
+                            ColourBy::Deviation, ColourBy::Tilt, ColourBy::Freedom})
     EXPECT_FALSE(why_not_drawn(by, *frame->input).has_value()) << info(by).name;
 }
 

@@ -6,7 +6,8 @@
 namespace dmoscope::ui {
 namespace {
 
-constexpr Index kBigMesh = 100'000;  // elements whose colours take long enough to be felt
+constexpr Index kBigMesh = 100'000;   // elements whose colours take long enough to be felt
+constexpr Index kBigSurface = 1'000;  // the same of colours that take long
 
 }  // namespace
 
@@ -26,7 +27,8 @@ void ColourWorker::update(const ViewState& state, const SessionView& session, st
     key_.reset();
     return;
   }
-  const bool by_class = by == ColourBy::Class, ordered = by == ColourBy::Valence;
+  const bool by_class = by == ColourBy::Class, ordered = by == ColourBy::Valence || by == ColourBy::Freedom;
+  const bool by_domain = takes_long(by) || by == ColourBy::Freedom;
   const RunView& run = session.runs[session.active];
   ColourRequest request{by,
                         session.frame,
@@ -36,19 +38,26 @@ void ColourWorker::update(const ViewState& state, const SessionView& session, st
                         by == ColourBy::SizeOverTarget ? run.size : nullptr,
                         by == ColourBy::Difference ? std::move(reference) : nullptr};
   if (request.reference) request.comparable = comparable_(frame->input, request.reference->input);
+  if (by_domain) request.domain = run.domain;
+  if (by == ColourBy::Freedom) request.fixed = run.fixed;
+  const void* depends = request.size.get();
+  if (by_class) depends = request.classes.get();
+  if (by_domain) depends = by == ColourBy::Freedom ? static_cast<const void*>(request.fixed.data()) : request.domain.get();
   const Key key{by,
                 frame->input_serial,
                 needs_positions(by) ? frame->serial : 0,
                 request.reference ? request.reference->serial : 0,
-                by_class ? static_cast<const void*>(request.classes.get()) : request.size.get(),
+                depends,
                 ordered ? static_cast<int>(request.map) : 0,
                 ordered && request.reversed};
   if (colours_ && (colours_->by != by || colours_->input_serial != frame->input_serial)) colours_.reset();
   if (key_ == key || pending_.valid()) return;
   key_ = key;
   classes_ = request.classes;
+  domain_ = request.domain;
+  fixed_ = request.fixed;
   const auto work = [request = std::move(request)] { return std::make_shared<const ElementColours>(colour_elements(request)); };
-  if (frame->element_count() < kBigMesh) {
+  if (frame->element_count() < (takes_long(by) ? kBigSurface : kBigMesh)) {
     colours_ = work();
   } else {
     pending_ = std::async(std::launch::async, work);

@@ -25,8 +25,8 @@ class ColourWorker {
   [[nodiscard]] bool settled() const noexcept { return !pending_.valid(); }
 
  private:
-  /// What the colours depend on: by, input, frame where positions count, reference, classes or size, map and its direction where there is
-  /// an order.
+  /// What the colours depend on: by, input, frame where positions count, reference, classes, size or what may move, map and its direction
+  /// where there is an order.
   using Key = std::tuple<ColourBy, std::uint64_t, std::uint64_t, std::uint64_t, const void*, int, bool>;
   void take();
 
@@ -35,6 +35,8 @@ class ColourWorker {
   std::shared_ptr<const ElementColours> colours_;
   std::future<std::shared_ptr<const ElementColours>> pending_;
   std::shared_ptr<const Colouring> classes_;  // kept, so that the key's pointer stays its own
+  std::shared_ptr<const Domain> domain_;      // likewise
+  SharedVector<std::uint8_t> fixed_;          // likewise
 };
 
 }  // namespace dmoscope::ui

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "ui/analysis/freedom.h"
 #include "ui/analysis/group_list.h"
 
 namespace dmoscope::ui {
@@ -50,7 +51,8 @@ std::vector<std::uint8_t> members_of_group(const Mesh& mesh, const std::string& 
   return elements;
 }
 
-std::vector<std::uint8_t> members_of_isolation(const Isolation& isolation, const Frame& frame, const Colouring* classes) {
+std::vector<std::uint8_t> members_of_isolation(const Isolation& isolation, const Frame& frame, const RunView* run) {
+  const Colouring* classes = run == nullptr ? nullptr : run->colouring.get();
   const Mesh& mesh = frame.input->mesh;
   std::vector<std::uint8_t> elements(mesh.elements.size(), 0);
   bool open = false;
@@ -75,6 +77,12 @@ std::vector<std::uint8_t> members_of_isolation(const Isolation& isolation, const
         for (const Index v : classes->members(static_cast<Index>(*number - 1))) vertices[v] = 1;
       }
       mark_around(mesh, vertices, elements);
+      break;
+    case ColourBy::Freedom:
+      if (run != nullptr && run->fixed.size() == vertices.size()) {
+        const auto freedom = freedom_of_elements(mesh, {run->fixed.data(), run->fixed.size()}, run->domain.get());
+        for (std::size_t e = 0; e < elements.size(); ++e) elements[e] = kFreedoms[freedom[e]] == isolation.name ? 1 : 0;
+      }
       break;
     case ColourBy::Inverted:
       if (frame.inverted.size() == elements.size()) elements = frame.inverted;
@@ -116,16 +124,20 @@ std::optional<std::string> why_unknown(const Isolation& isolation, const InputMe
     case ColourBy::Class:
       if (number_in(isolation.name, open)) return std::nullopt;
       return fmt::format("\"{}\": expected a number", isolation.name);
+    case ColourBy::Freedom:
+      if (std::ranges::find(kFreedoms, isolation.name) != kFreedoms.end()) return std::nullopt;
+      names.assign(kFreedoms.begin(), kFreedoms.end());
+      return among(names, "elements that are");
     default:
       return std::nullopt;
   }
 }
 
-std::shared_ptr<const std::vector<std::uint8_t>> members_of(const ColouringState& state, const Frame& frame, const Colouring* classes) {
+std::shared_ptr<const std::vector<std::uint8_t>> members_of(const ColouringState& state, const Frame& frame, const RunView* run) {
   if (!state.isolated && state.worst == 0) return nullptr;
   const std::size_t size = frame.element_count();
   auto members = std::make_shared<std::vector<std::uint8_t>>(size, std::uint8_t{1});
-  if (state.isolated) *members = members_of_isolation(*state.isolated, frame, classes);
+  if (state.isolated) *members = members_of_isolation(*state.isolated, frame, run);
   if (state.worst > 0) {
     std::vector<std::uint8_t> among(size, 0);
     const std::size_t most = std::min(frame.worst.size(), static_cast<std::size_t>(state.worst));

@@ -15,8 +15,9 @@ namespace dmoscope::ui {
 /// Whether `isolation` names something of this mesh; else why not.
 [[nodiscard]] std::optional<std::string> why_unknown(const Isolation& isolation, const InputMesh& input);
 
-/// Of a vertex' own category (valence, colour class, boundary) the elements around it are members. Null: all elements count.
+/// `run`: whose colour classes and fixed vertices count; null: none. Of a vertex' own category (valence, colour class, boundary) the
+/// elements around it are members. Null: all elements count.
 [[nodiscard]] std::shared_ptr<const std::vector<std::uint8_t>> members_of(const ColouringState& state, const Frame& frame,
-                                                                          const Colouring* classes);
+                                                                          const RunView* run);
 
 }  // namespace dmoscope::ui

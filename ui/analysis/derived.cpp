@@ -191,7 +191,7 @@ void refresh_members(ColourFacts& facts, const ViewState& state, const SessionVi
                                     colouring.isolated ? classes : nullptr};
   if (facts.members_key == key) return;
   facts.members_key = key;
-  facts.members = members_of(colouring, frame, classes);
+  facts.members = members_of(colouring, frame, session.runs.empty() ? nullptr : &session.runs[session.active]);
 }
 
 void refresh(Derived& derived, const ViewState& state, const SessionView& session, std::span<const std::shared_ptr<const Frame>> frames) {
@@ -270,6 +270,7 @@ render::Legend legend_of(const ViewState& state, const Derived& derived, const F
       legend.beside = {{"better", render::sample(render::ColourMap::OrangeBlue, 0.9), colours->better},
                        {"worse", render::sample(render::ColourMap::OrangeBlue, 0.1), colours->worse}};
     }
+    for (const Category& category : colours->beside) legend.beside.push_back({category.name, category.colour, category.count});
     for (const Category& category : colours->categories) legend.categories.push_back({category.name, category.colour, category.count});
   }
   if (derived.colouring.counting) {

@@ -12,6 +12,7 @@
 #include "core/mesh/volume.h"
 #include "core/smooth/size_field.h"
 #include "ui/analysis/group_list.h"
+#include "ui/analysis/sliding_colours.h"
 
 namespace dmoscope::ui {
 namespace {
@@ -358,6 +359,11 @@ ElementColours colour_elements(const ColourRequest& request) {
     case ColourBy::Difference:
       by_difference(work);
       break;
+    case ColourBy::Deviation:
+    case ColourBy::Tilt:
+    case ColourBy::Freedom:
+      colour_by_sliding(request, work.out, work.shading);
+      break;
   }
   if (work.out.common_title.empty()) work.out.common_title = work.out.title;
   for (const Category& category : work.out.categories) work.shading.palette.push_back(category.colour);
@@ -368,7 +374,7 @@ ElementColours colour_elements(const ColourRequest& request) {
 }
 
 std::optional<std::string> why_not_drawn(ColourBy by, const InputMesh& input) {
-  if (!input.in_space()) return std::nullopt;
+  if (!input.in_space()) return by == ColourBy::Tilt ? std::optional<std::string>("tilt is of surfaces in space") : std::nullopt;
   const auto of_elements = [](const Group& group) { return group.of_elements(); };
   const bool around_vertices =
       by == ColourBy::Valence || by == ColourBy::Class || (by == ColourBy::Group && std::ranges::none_of(input.mesh.groups, of_elements));
@@ -392,6 +398,8 @@ bool tells_nothing(ColourBy by, const Frame& opened) {
       return opened.shown_statistics.inverted == 0;
     case ColourBy::Displacement:
     case ColourBy::Difference:
+    case ColourBy::Deviation:
+    case ColourBy::Tilt:
     case ColourBy::SizeOverTarget:
       return opened.moment == Moment{};  // nothing has moved, and no run has a size function yet
     default:

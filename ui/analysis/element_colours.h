@@ -38,6 +38,7 @@ struct ElementColours {
   bool diverging = false;                 // the values are differences
   std::size_t better = 0, worse = 0;      // of differences: elements above and below 0
   std::string note;                       // what is to be known about it, may be empty
+  std::vector<Category> beside;           // elements without a value, such as those inside
 };
 
 struct ColourRequest {
@@ -49,13 +50,18 @@ struct ColourRequest {
   std::shared_ptr<const SizeField> size{};   // for ColourBy::SizeOverTarget; null: the run has none
   std::shared_ptr<const Frame> reference{};  // for ColourBy::Difference: whole
   bool comparable = true;                    // the reference has the same elements
+  std::shared_ptr<const Domain> domain{};    // for ColourBy::Deviation, Tilt and Freedom; null: nothing slides
+  SharedVector<std::uint8_t> fixed{};        // for ColourBy::Freedom; see Run::fixed
 };
 
 /// Whether it depends on where the vertices are, so that it is worked out for every frame, and cannot be for a light one.
 [[nodiscard]] constexpr bool needs_positions(ColourBy by) {
   return by == ColourBy::Displacement || by == ColourBy::Size || by == ColourBy::EdgeLength || by == ColourBy::SizeOverTarget ||
-         by == ColourBy::Difference;
+         by == ColourBy::Difference || by == ColourBy::Deviation || by == ColourBy::Tilt;
 }
+
+/// Whether it takes so long that even a small mesh is not to wait for it.
+[[nodiscard]] constexpr bool takes_long(ColourBy by) { return by == ColourBy::Deviation || by == ColourBy::Tilt; }
 
 /// Why the elements of a mesh cannot be coloured so; none where they can.
 [[nodiscard]] std::optional<std::string> why_not_drawn(ColourBy by, const InputMesh& input);
@@ -63,7 +69,8 @@ struct ColourRequest {
 /// Whether colours would be the same all over a mesh that has just been opened, or cannot be drawn at all.
 [[nodiscard]] bool tells_nothing(ColourBy by, const Frame& opened);
 
-/// Takes some 20 ms a million elements, on any thread. `by` must not be ColourBy::Quality.
+/// Takes some 20 ms a million elements, on any thread; what takes_long() some 5 s a million faces, by many threads. `by` must not be
+/// ColourBy::Quality.
 [[nodiscard]] ElementColours colour_elements(const ColourRequest& request);
 
 /// A colour-blind safe colour for the k-th of some things without an order (Okabe and Ito 2008; lighter, then darker ones from the eighth

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/base/error.h"
 #include "core/drawing/ticks.h"
 #include "core/quality/quality.h"
@@ -38,6 +40,24 @@ Sweep sweep_of(const RunView& run, const Moment& shown, const InputMesh& input) 
   if (shown.iteration >= run.records.size())
     throw UsageError("The run has no record of this iteration any more, nor the floor that its visits keep to.");
   return sweep_after(run.records.whole(), shown.iteration, run.mean_since, input.has_strays);
+}
+
+/// What the run's smoother is made from, but for the order of its visits.
+SmoothingTask task_of(const RunView& run, const Frame& frame) {
+  const RunParameters& p = run.parameters;
+  SmoothingTask task;
+  task.method = method_info(p.method).searches_grid ? std::string_view(p.method) : "dmo";  // else it is what dmo would do
+  task.input = frame.input;
+  task.metric = p.metric;
+  task.search = p.search;
+  task.options = p.options;
+  task.combination = p.combination;
+  task.size = run.size;
+  task.then_mean = p.then_mean.has_value();
+  task.slides = p.standing().slides();
+  task.domain = run.domain;
+  task.max_deviation = p.max_deviation * frame.input->geometry.size;
+  return task;
 }
 
 /// Of the star, each once.
@@ -79,7 +99,7 @@ void gather_star(Inspection& inspection, const Frame& frame, Index vertex) {
   std::sort(corners.begin(), corners.end());
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   for (const Index corner : corners) inspection.corners_at.push_back(frame.positions[corner]);
-  if (input.is_volume()) {
+  if (input.in_space()) {
     inspection.stood = origin;
     for (const auto& [a, b] : edges_of(input, vertex)) inspection.space_edges.push_back({away(a), away(b)});
     inspection.space_box.include(Vec3{});
@@ -208,7 +228,6 @@ std::string no_inspection(const SessionView& session) {
   const RunView* run = active_run(session);
   if (run == nullptr || session.frame == nullptr) return "no mesh is open";
   if (session.frame->device) return "The run is at work on its device. When it rests, its visits can be looked into.";
-  if (session.input->geometry.shape == Shape::Surface) return "Visits on a curved surface cannot be looked into yet.";
   return {};
 }
 
@@ -223,9 +242,14 @@ Inspection inspect(const SessionView& session, Index vertex) {
     inspection.trouble = "This vertex is of no element: nothing moves it.";
     return inspection;
   }
-  if (run.fixed[vertex] == 0 && run.domain != nullptr && run.domain->slides(vertex)) {
-    inspection.trouble = run.domain->on_surface(vertex) ? "This vertex slides on the surface: its grid lies there, and is not shown yet."
-                                                        : "This vertex slides along a curve: it is searched on a line, not on a grid.";
+  const bool slides = run.fixed[vertex] == 0 && run.domain != nullptr && run.domain->slides(vertex);
+  if (slides && !run.domain->on_surface(vertex)) {
+    inspection.trouble = "This vertex slides along a curve: it is searched on a line, not on a grid.";
+    return inspection;
+  }
+  if (frame.input->is_surface() && !slides) {
+    const std::string_view why = run.domain != nullptr ? run.domain->why_held(vertex) : std::string_view();
+    inspection.trouble = fmt::format("This vertex is fixed{}{}.", why.empty() ? "" : ": ", why);
     return inspection;
   }
   try {
@@ -233,6 +257,12 @@ Inspection inspect(const SessionView& session, Index vertex) {
     const Sweep sweep = sweep_of(run, frame.moment, *frame.input);
     const auto composite = composite_objective_of_visit(run.parameters.metric, run.parameters.combination, run.size, sweep);
     if (!composite && !method_info(run.parameters.method).searches_grid) inspection.other_method = run.parameters.method;
+    if (slides) {
+      SurfaceVisit visit = trace_surface_visit(task_of(run, frame), frame.positions, vertex, sweep, composite);
+      inspection.trace = std::move(visit.trace);
+      inspection.grid = std::move(visit.grid);
+      return inspection;
+    }
     const auto trace = [&](auto traced) {
       return traced(*frame.input, frame.positions, run.fixed, run.parameters.metric, run.parameters.search, vertex, composite,
                     sweep.untangling);
@@ -245,6 +275,7 @@ Inspection inspect(const SessionView& session, Index vertex) {
     if (!composite) inspection.optimum = local_optimum(*frame.input, frame.positions, run.parameters.metric, vertex);
   } catch (const Error& error) {
     inspection.trace.reset();
+    inspection.grid.reset();
     inspection.solid.reset();
     inspection.trouble = error.what();
   }
@@ -281,6 +312,7 @@ void refresh(Inspection& inspection, ViewState& state, const SessionView& sessio
     if (!(plane == inspection.field_slice)) inspection.field.reset();
     inspection.field_slice = plane;
   }
+  if (inspection.grid) return;  // a surface has no field around the vertex
   const bool wants_field = wanted.field || (wanted.field_in_view && inspection.trace);
   if (wants_field && !inspection.field) sample_field(inspection, session);
 }

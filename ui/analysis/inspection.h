@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/inspect/quality_field.h"
+#include "core/inspect/surface_trace.h"
 #include "core/inspect/visit_trace.h"
 #include "core/view/view.h"
 #include "render/camera.h"
@@ -46,14 +47,15 @@ struct Inspection {
   std::string trouble;  // why there is no trace
   /// Whose trace it is: empty for the run's own; else the run's method, which tries no grid, and the trace is what dmo would do.
   std::string other_method;
-  std::optional<VisitTrace> trace;   // of a planar mesh
+  std::optional<VisitTrace> trace;   // of a planar mesh, and of a vertex that slides on a surface
+  std::optional<SurfaceGrid> grid;   // of the latter: where its candidates lie
   std::optional<VolumeTrace> solid;  // of a volume, in its place
   Vec2<double> origin;               // where the vertex stood: in the plane. Everything below is relative to it, in mesh units
   std::vector<std::array<Vec2<double>, 2>> edges;  // of the star, each once
   render::Bounds2 box;                             // of the star
   std::optional<LocalOptimum> optimum;
   std::optional<FieldPicture> field;
-  // Of a volume, in the place of origin, edges and box.
+  // In space, in the place of origin, edges and box.
   Vec3 stood;
   std::vector<std::array<Vec3, 2>> space_edges;
   render::Bounds3 space_box;

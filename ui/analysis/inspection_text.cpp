@@ -56,6 +56,8 @@ std::string stuck_sentence(const Inspection& inspection) {
     return "It waits: none of its elements is inverted, and this iteration only takes back vertices whose place alone is wrong, to where "
            "all "
            "their elements are sound.";
+  if (trace.end == VisitEnd::Deviates)
+    return "It may not go to the best candidate, nor part of the way: faces would leave the input by more than the bound (max-deviation).";
   std::string text = trace.end == VisitEnd::NotConfirmed ? "The search found a candidate, but the exact check shows no gain."
                      : trace.combined
                          ? fmt::format("No candidate is better than where it stands by what the search compares: {}.", trace.value_phrase)
@@ -92,6 +94,9 @@ std::string candidate_text(const Inspection& inspection, int number, int index) 
   const LevelValues& level = inspection.level(number);
   const VisitSummary& trace = *inspection.visit();
   std::string text = inspection.trace ? name_of(inspection.trace->levels[of], index) : name_of(inspection.solid->levels[of], index);
+  const CandidateFate fate = inspection.grid ? inspection.grid->levels[of].fates[slot] : CandidateFate::Counts;
+  if (fate == CandidateFate::Feature || fate == CandidateFate::TurnedAway) return text + fmt::format("does not count: {}", phrase(fate));
+  if (fate == CandidateFate::Deviates) text += fmt::format("{}\n", phrase(fate));
   text += is_valid(level.quality[slot]) ? fmt::format("quality {}\n", full_number(level.quality[slot]))
                                         : fmt::format("an element is inverted: least Jacobian {}\n", full_number(level.quality[slot]));
   text += fmt::format("{} {}", trace.value_phrase, full_number(level.values[slot]));
@@ -144,6 +149,8 @@ std::string trace_csv(const Inspection& inspection, int level) {
 std::string grid_phrase(const Inspection& inspection) {
   if (inspection.level_count() == 0) return {};
   const int n = inspection.level(1).points;
+  if (inspection.grid)
+    return fmt::format("{} × {} candidates a level, on the surface; crosses do not count, squares deviate too far", n, n);
   return inspection.trace ? fmt::format("{} × {} candidates a level", n, n) : fmt::format("{} × {} × {} candidates a level", n, n, n);
 }
 

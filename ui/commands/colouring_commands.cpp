@@ -109,8 +109,8 @@ void add_colour_commands(CommandTable& table, ViewState& state, const CommandHos
        "the input (2 98), or given"},
       [&state](Arguments words) { set_range(state, words); });
   table.add({"color-by",
-             "color-by quality|kind|group|valence|class|displacement|size|edge-length|size-over-target|inverted|difference [input|run "
-             "N|mark a|b]",
+             "color-by quality|kind|group|valence|class|displacement|size|edge-length|size-over-target|inverted|deviation|tilt|freedom|"
+             "difference [input|run N|mark a|b]",
              "what the elements' colours tell; difference: quality less that of the input, of a run or of a mark"},
             [&state, &host](Arguments words) {
               require(words, 1, 4);
@@ -140,7 +140,7 @@ void add_filter_commands(CommandTable& table, ViewState& state, const CommandHos
               require(words, 1, 1);
               state.colouring.others = choose(words[0], kFilterModes);
             });
-  table.add({"isolate", "isolate kind|group|valence|class|inverted NAME  or  isolate off", "only elements of this category count"},
+  table.add({"isolate", "isolate kind|group|valence|class|freedom|inverted NAME  or  isolate off", "only elements of this category count"},
             [&state, &host](Arguments words) {
               if (words.size() == 1 && words[0] == "off") {
                 state.colouring.isolated.reset();

@@ -49,14 +49,16 @@ void leave_close_up(ViewState& state) {
   space.reset();
 }
 
-/// The grid of a volume's level fills a good part of the view where it would be too small to read.
+/// The grid of a level in space fills a good part of the view where it would be too small to read.
 void close_up_in_space(ViewState& state, const Inspection& look) {
+  const auto number = static_cast<std::size_t>(state.inspection.level - 1);
   constexpr double kLeastShare = 0.4, kShare = 0.6;  // of the view's height
-  const VolumeLevel& level = look.solid->levels[static_cast<std::size_t>(state.inspection.level - 1)];
-  const double extent = length(level.size);
+  const Vec3 size = look.solid ? look.solid->levels[number].size : look.grid->plane.lift(look.trace->levels[number].size);
+  const Vec3 centre = look.solid ? look.solid->levels[number].centre : look.grid->plane.lift(look.trace->levels[number].centre);
+  const double extent = length(size);
   if (!(extent > 0.0) || extent >= kLeastShare * state.orbit.height) return;
   const render::OrbitCamera before = state.orbit;
-  state.orbit.orbit_about(look.stood + level.centre);
+  state.orbit.orbit_about(look.stood + centre);
   state.orbit.height = extent / kShare;
   state.inspection.space_close_up = {before, state.orbit};
 }
@@ -68,7 +70,7 @@ void close_up_on(ViewState& state, const Inspection& look) {
   InspectionState& inspection = state.inspection;
   if (!inspection.zoom || look.visit() == nullptr || inspection.applied || inspection.all_levels || inspection.level < 1) return;
   if (static_cast<std::size_t>(inspection.level) > look.level_count()) return;
-  if (look.solid) return close_up_in_space(state, look);
+  if (look.solid || look.grid) return close_up_in_space(state, look);
   const TracedLevel& level = look.trace->levels[static_cast<std::size_t>(inspection.level - 1)];
   const double extent = std::max(level.size.x, level.size.y), spacing = least_spacing(level);
   if (!(spacing > 0.0) || spacing / state.camera.units_per_pixel >= kLeastSpacing * state.scale) return;

@@ -54,7 +54,7 @@ void draw_story(PanelContext& context, const Inspection& inspection) {
     number_row(context, "gap", std::max(0.0, inspection.optimum->quality - quality_of(trace.after)), gap_sentence(inspection).c_str());
   }
   dim_text(context, fmt::format("{} · {}", metric_phrase(trace.metric), search_phrase(trace)));
-  if (inspection.solid && inspection.level_count() > 0) dim_text(context, grid_phrase(inspection));
+  if ((inspection.solid || inspection.grid) && inspection.level_count() > 0) dim_text(context, grid_phrase(inspection));
   if (inspection.level_count() == 0) return;
   next_item_tooltip(
       fmt::format("The candidates were compared by their {}. Shown of them is the quality as the statistics have it.", trace.value_phrase));

@@ -72,7 +72,54 @@ void draw_mesh(PanelContext& context, const Frame& frame) {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr Statistics kNotKnownYet{kUnknown, kUnknown, kUnknown, kUnknown};
 
-void draw_statistics(PanelContext& context, const char* title, Metric metric, const Statistics& statistics) {
+/// A click does what would free the worst element.
+void draw_switch(PanelContext& context, const RunView& run, const HeldMinimum& held) {
+  const std::string gain = fmt::format("→ {:.2g}", held.changed);
+  const float right = ImGui::GetWindowContentRegionMax().x, room = ImGui::GetContentRegionAvail().x;
+  const float frame = 2 * ImGui::GetStyle().FramePadding.x, gain_width = ImGui::CalcTextSize(gain.c_str()).x;
+  const std::string label = fit_text(held.change->command(), room - frame - gain_width - context.px(8));
+  const bool begun = run.moment != Moment{} || run.edits > 0 || run.records.size() > 1;
+  ImGui::BeginDisabled(context.activity.busy || !run.held.now);
+  if (ImGui::SmallButton(label.c_str())) context.send(held.change->command());
+  ImGui::EndDisabled();
+  context.items.record_last("held-by:switch");
+  next_item_tooltip(held.sentence() + (begun ? "\nClick: a new run with it, beside this one." : "\nClick: this run gets it."));
+  ImGui::SameLine();
+  ImGui::SetCursorPosX(right - gain_width);
+  dim_text(context, gain, false);
+  next_item_tooltip("the least quality around the worst element, tried out there on a copy of the positions");
+}
+
+/// What keeps the minimum from rising, and what would let it: two lines, whatever they say, so that nothing below moves.
+void draw_hold(PanelContext& context, const RunView& run) {
+  constexpr const char* kAbout = "what keeps the worst element as it is";
+  const HeldMinimum* held = run.held.found.get();
+  const ImVec2 row = ImGui::GetCursorScreenPos();
+  context.items.record("held-by", {row.x, row.y, row.x + ImGui::GetContentRegionAvail().x, row.y + ImGui::GetTextLineHeight()});
+  if (held == nullptr) {
+    dim_text(context, "held by", false);
+    next_item_tooltip(kAbout);
+    constexpr const char* kAsk = "find out";
+    ImGui::SameLine();
+    ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(kAsk).x - 2 * ImGui::GetStyle().FramePadding.x);
+    ImGui::BeginDisabled(context.activity.busy);
+    if (ImGui::SmallButton(kAsk)) context.send("held-by");
+    ImGui::EndDisabled();
+    context.items.record_last("held-by:ask");
+    next_item_tooltip("looks at the worst element and tries what would free it; of a large mesh that takes some seconds");
+    dim_text(context, " ");
+    return;
+  }
+  const auto ink = run.held.now ? std::nullopt : std::optional(context.palette.dim);
+  value_row(context, "held by", std::string(held->brief()), held->sentence(), ink, kAbout);
+  if (held->change)
+    draw_switch(context, run, *held);
+  else
+    dim_text(context, fit_text(held->outlook(), ImGui::GetContentRegionAvail().x), false);
+}
+
+/// `run`: whose minimum it is; null: nobody's.
+void draw_statistics(PanelContext& context, const char* title, Metric metric, const Statistics& statistics, const RunView* run) {
   ImGui::Dummy({0, context.px(2)});
   heading(context, title);
   metric_tooltip(context, info(metric));
@@ -80,6 +127,7 @@ void draw_statistics(PanelContext& context, const char* title, Metric metric, co
   dim_text(context, metric_phrase(metric), false);
   metric_tooltip(context, info(metric));
   number_row(context, "minimum", statistics.minimum, "the worst element of all");
+  if (run != nullptr) draw_hold(context, *run);
   number_row(context, "movable minimum", statistics.movable_minimum,
              "over elements with at least one free corner: what smoothing can raise");
   number_row(context, "ceiling", statistics.ceiling,
@@ -285,10 +333,10 @@ void draw_inspector(PanelContext& context) {
   value_row(context, "inverted", count(inverted), {}, inverted != 0 ? std::optional(context.palette.error) : std::nullopt,
             "elements with a corner Jacobian of 0 or less");
   if (optimised == frame->shown) {
-    draw_statistics(context, "Quality", frame->shown, frame->shown_statistics);
+    draw_statistics(context, "Quality", frame->shown, frame->shown_statistics, run);
   } else {
-    draw_statistics(context, "Optimised", optimised, frame->provisional ? kNotKnownYet : frame->statistics);
-    draw_statistics(context, "Shown", frame->shown, frame->shown_statistics);
+    draw_statistics(context, "Optimised", optimised, frame->provisional ? kNotKnownYet : frame->statistics, run);
+    draw_statistics(context, "Shown", frame->shown, frame->shown_statistics, nullptr);
   }
   const PickedFacts& facts = context.derived.facts;  // of what was picked when this drawing began
   ImGui::Dummy({0, context.px(2)});

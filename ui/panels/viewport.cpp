@@ -78,7 +78,7 @@ void draw_level_label(PanelContext& context, const PaneFacts& pane) {
   if (label.empty()) return;
   const Inspection& inspection = context.inspection;
   Vec2<double> pixel;  // of a volume the upper left corner
-  if (inspection.trace) {
+  if (inspection.trace && !inspection.grid) {
     Vec2<double> corner{inspection.box.low.x, inspection.box.high.y};
     if (!state.applied && !state.all_levels && state.level >= 1 && !inspection.trace->levels.empty()) {
       const TracedLevel& level = inspection.trace->levels[static_cast<std::size_t>(state.level - 1)];
@@ -140,12 +140,30 @@ void read_candidate_in_space(PanelContext& context, const PaneFacts& pane) {
   if (state.hovered && !ImGui::IsAnyMouseDown()) next_item_tooltip(candidate_text(context.inspection, state.level, state.hovered->index));
 }
 
+/// The same of a vertex that slides on a surface.
+void read_candidate_on_surface(PanelContext& context, const PaneFacts& pane) {
+  InspectionState& state = context.state.inspection;
+  const auto& places = context.inspection.grid->levels[static_cast<std::size_t>(state.level - 1)].places;
+  const SeenInSpace seen(context.state, context.inspection);
+  const Vec2<double> mouse = mouse_in(pane.rect);
+  double nearest = 9.0 * context.state.scale;  // pixels
+  for (std::size_t index = 0; index < places.size(); ++index) {
+    const auto pixel = seen.pixel(places[index]);
+    const double away = pixel ? std::hypot(pixel->x - mouse.x, pixel->y - mouse.y) : nearest;
+    if (away >= nearest) continue;
+    nearest = away;
+    state.hovered = CandidateName{state.level, static_cast<int>(index)};
+  }
+  if (state.hovered && !ImGui::IsAnyMouseDown()) next_item_tooltip(candidate_text(context.inspection, state.level, state.hovered->index));
+}
+
 /// The candidate under the mouse, in words; the inspector marks it, too.
 void read_candidate(PanelContext& context, const PaneFacts& pane) {
   InspectionState& state = context.state.inspection;
   if (!state.open || state.applied || state.all_levels || state.level < 1 || !ImGui::IsItemHovered()) return;
   if (static_cast<std::size_t>(state.level) > context.inspection.level_count()) return;
   if (context.inspection.solid) return read_candidate_in_space(context, pane);
+  if (context.inspection.grid) return read_candidate_on_surface(context, pane);
   const VisitTrace& trace = *context.inspection.trace;
   const TracedLevel& level = trace.levels[static_cast<std::size_t>(state.level - 1)];
   const Vec2<double> mouse = mouse_in(pane.rect);

@@ -31,12 +31,27 @@ inline constexpr std::array<RangeModeInfo, 6> kRangeModes{{
 [[nodiscard]] constexpr const RangeModeInfo& info(RangeMode mode) { return kRangeModes[static_cast<std::size_t>(mode)]; }
 
 /// What the elements' colours tell.
-enum class ColourBy { Quality, Kind, Group, Valence, Class, Displacement, Size, Inverted, EdgeLength, SizeOverTarget, Difference };
+enum class ColourBy {
+  Quality,
+  Kind,
+  Group,
+  Valence,
+  Class,
+  Displacement,
+  Size,
+  Inverted,
+  EdgeLength,
+  SizeOverTarget,
+  Difference,
+  Deviation,
+  Tilt,
+  Freedom
+};
 struct ColourByInfo {
   ColourBy by;
   std::string_view name, title, doc;
 };
-inline constexpr std::array<ColourByInfo, 11> kColourBys{{
+inline constexpr std::array<ColourByInfo, 14> kColourBys{{
     {ColourBy::Quality, "quality", "Quality", "of the shown metric"},
     {ColourBy::Kind, "kind", "Kind of element", "triangle or quadrilateral"},
     {ColourBy::Group, "group", "Group", "boundaries, markers and element groups that the file carried"},
@@ -49,13 +64,16 @@ inline constexpr std::array<ColourByInfo, 11> kColourBys{{
     {ColourBy::SizeOverTarget, "size-over-target", "Size over target",
      "edge length over the size that the run's size function wants, logarithmic; 1: as large as the rest of the mesh allows"},
     {ColourBy::Difference, "difference", "Difference", "quality less that of the input, or of another run or a mark"},
+    {ColourBy::Deviation, "deviation", "Deviation", "how far the boundary of an element is from that of the input, where vertices slide"},
+    {ColourBy::Tilt, "tilt", "Tilt", "the greatest angle between a face and the input's surface beneath it, where vertices slide"},
+    {ColourBy::Freedom, "freedom", "Freedom to move", "what the least free of an element's vertices may do: stay, slide or go anywhere"},
 }};
 [[nodiscard]] constexpr const ColourByInfo& info(ColourBy by) { return kColourBys[static_cast<std::size_t>(by)]; }
 
 /// Whether the colours are those of categories, whose elements can be looked at alone.
 [[nodiscard]] constexpr bool has_categories(ColourBy by) {
   return by != ColourBy::Quality && by != ColourBy::Displacement && by != ColourBy::Size && by != ColourBy::EdgeLength &&
-         by != ColourBy::SizeOverTarget && by != ColourBy::Difference;
+         by != ColourBy::SizeOverTarget && by != ColourBy::Difference && by != ColourBy::Deviation && by != ColourBy::Tilt;
 }
 
 inline constexpr std::array<std::pair<std::string_view, render::Selection::Others>, 3> kFilterModes{

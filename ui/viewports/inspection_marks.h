@@ -30,6 +30,9 @@ struct InspectionLook {
 void add_inspection_marks(render::SpaceMarks& marks, const InspectionState& state, const Inspection& inspection,
                           const InspectionLook& look);
 
+/// Of a vertex that slides on a surface: candidates lie there; crosses lie on none that counts, squares deviate too far.
+void add_surface_marks(render::SpaceMarks& marks, const InspectionState& state, const Inspection& inspection, const InspectionLook& look);
+
 /// Adds the star, and of the levels shown: the grid's outline, a dot or cross for every candidate, a ring around the one chosen, the next
 /// grid's outline, and the way from where the vertex stood.
 void add_inspection_marks(render::Marks& marks, const InspectionState& state, const Inspection& inspection, const InspectionLook& look);

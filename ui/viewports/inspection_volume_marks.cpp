@@ -86,6 +86,7 @@ void add_ring(SpacePen& pen, const VolumeLevel& level, int index) {
 
 void add_inspection_marks(render::SpaceMarks& marks, const InspectionState& state, const Inspection& inspection,
                           const InspectionLook& look) {
+  if (inspection.grid && inspection.trace) return add_surface_marks(marks, state, inspection, look);
   if (!inspection.solid) return;
   const VolumeTrace& trace = *inspection.solid;
   SpacePen pen(marks, inspection, look);

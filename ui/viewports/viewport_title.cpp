@@ -60,6 +60,7 @@ std::vector<TitlePiece> title_of(const PaneFacts& pane, Metric shown) {
   if (difference) pieces.push_back({difference_words(*pane.colours), Role::Plain, 1});
   if (pane.colours && pane.colours->by == ColourBy::SizeOverTarget && !pane.colours->has_values)
     pieces.push_back({"no target size", Role::Warning, 1});
+  if (pane.colours && takes_long(pane.colours->by) && !pane.colours->has_values) pieces.push_back({"nothing slides", Role::Warning, 1});
   if (pane.colours && pane.colours->by == ColourBy::Difference && !pane.colours->has_values)
     pieces.push_back({"other elements: no difference", Role::Warning, 1});
   const bool other_metric = frame->shown != shown;

@@ -27,10 +27,6 @@ Vec2<double> box_of_star(const MeshView<Frame>& mesh, PositionView positions, In
 
 /// How often the way is halved where a vertex may not go all of it.
 constexpr int kHalvings = 3;
-/// Of 60 degrees: how far a face may lean away from the facets beneath it.
-constexpr double kLeastCosine = 0.5;
-/// Facets that lean more than that away from the tangent plane end the way of a candidate.
-constexpr double kSteepest = 0.1;
 /// What a place is worth where no vertex may stand.
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 

@@ -13,6 +13,11 @@
 
 namespace dmoscope {
 
+/// Of 60 degrees: how far a face may lean away from the facets beneath it.
+inline constexpr double kLeastCosine = 0.5;
+/// Facets that lean more than that away from the tangent plane end the way of a candidate.
+inline constexpr double kSteepest = 0.1;
+
 /// How a method chooses among the places to which a vertex may slide.
 struct SlideChoice {
   enum class By : std::uint8_t {

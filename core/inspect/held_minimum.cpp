@@ -1,0 +1,389 @@
+#include "core/inspect/held_minimum.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/number_text.h"
+#include "core/mesh/colouring.h"
+#include "core/quality/quality.h"
+#include "core/reference/hold.h"
+#include "core/smooth/execution/method_table.h"
+
+namespace dmoscope {
+
+namespace {
+
+constexpr int kRounds = 12;            // of visits in a trial
+constexpr double kAngleStep = 5.0;     // degrees: angles are proposed in multiples of it
+constexpr double kMoreDeviation = 10;  // times the bound
+
+constexpr std::array<std::string_view, 10> kNames{"free", "slides", "deviation", "boundary", "interface",
+                                                  "file", "corner", "feature",   "touching", "hand"};
+constexpr std::array<std::string_view, 10> kPhrases{
+    "nothing", "nothing: it slides", "the bound of deviation", "the fixed boundary",   "a fixed interface", "the file",
+    "corners", "feature edges",      "parts that touch there", "what is fixed by hand"};
+
+bool is_fixed(Holding by) { return by != Holding::Nothing && by != Holding::Slides; }
+
+/// Whether a quality rose by what a person would call a gain.
+bool gains(double before, double after) { return after - before > 1e-4 + 0.02 * std::abs(before); }
+
+/// A few words changed about what may move.
+struct Conditions {
+  StandingRule rule;
+  double max_deviation;
+  std::vector<Index> by_hand;
+};
+
+double angle_between(Vec3 a, Vec3 b) { return std::atan2(length(cross(a, b)), dot(a, b)) / kDegree; }
+
+/// The next proposed angle that is greater.
+double angle_above(double angle) { return std::min(180.0, kAngleStep * (std::floor((angle + 0.5) / kAngleStep) + 1.0)); }
+
+/// What is asked about one element.
+class Look {
+ public:
+  Look(const HeldQuestion& question, Index element, std::span<const std::uint8_t> standing)
+      : q_(question), mesh_(question.input->mesh), element_(element), standing_(standing) {
+    gather();
+  }
+
+  [[nodiscard]] HeldMinimum find(Progress& progress, const std::function<bool()>& go_on) const {
+    HeldMinimum found;
+    found.element = element_;
+    found.quality = quality_of(q_.positions, element_);
+    for (const Index v : std::set<Index>(corners().begin(), corners().end())) found.vertices.push_back({v, holding(v)});
+    const std::vector<HoldSwitch> all = switches(found);
+    const auto check = [&](std::size_t done) {
+      progress.check();
+      if (go_on && !go_on()) throw Cancelled();
+      progress.set(static_cast<double>(done) / static_cast<double>(all.size() + 1));
+    };
+    check(0);
+    found.unchanged = std::max(found.quality, after({q_.rule, q_.max_deviation, {q_.by_hand.begin(), q_.by_hand.end()}}, q_.domain));
+    double best = found.unchanged;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      check(i + 1);
+      const double there = after_switch(all[i]);
+      if (gains(best, there)) {
+        if (found.change) found.in_vain.push_back(*found.change);
+        best = found.changed = there;
+        found.change = all[i];
+      } else if (!gains(found.unchanged, there)) {
+        found.in_vain.push_back(all[i]);
+      }
+    }
+    if (found.change) std::erase_if(found.in_vain, [&](const HoldSwitch& one) { return one.frees == found.change->frees; });
+    settle(found);
+    return found;
+  }
+
+ private:
+  [[nodiscard]] std::span<const Index> corners() const { return mesh_.elements.corners(element_); }
+  [[nodiscard]] double quality_of(PositionView positions, Index e) const {
+    return element_quality(q_.input->quality_context(), positions, q_.metric, e);
+  }
+  [[nodiscard]] bool on_boundary(Index v) const { return q_.input->topology.boundary()[v] != 0; }
+
+  /// The elements that are judged, around the worst one, and the vertices that are visited, two rings of them.
+  void gather() {
+    std::set<Index> around(corners().begin(), corners().end()), elements;
+    for (int ring = 0; ring < 2; ++ring) {
+      std::set<Index> touched;
+      for (const Index v : around)
+        for (const Incidence& at : q_.input->topology.star(v)) touched.insert(at.element);
+      if (ring == 0) judged_.assign(touched.begin(), touched.end());
+      for (const Index e : touched) around.insert(mesh_.elements.corners(e).begin(), mesh_.elements.corners(e).end());
+    }
+    visited_.assign(around.begin(), around.end());
+  }
+
+  [[nodiscard]] bool between_materials(Index v) const {
+    const auto star = q_.input->topology.star(v);
+    return std::ranges::any_of(star, [&](const Incidence& at) { return q_.input->interfaces.between(star[0].element, at.element); });
+  }
+
+  [[nodiscard]] Holding holding(Index v) const {
+    if (q_.fixed[v] == 0) return q_.domain != nullptr && q_.domain->slides(v) ? Holding::Slides : Holding::Nothing;
+    if (standing_[v] == 0) return Holding::Hand;
+    switch (q_.domain != nullptr ? q_.domain->held_on(v) : HeldOn::Nothing) {
+      case HeldOn::Corner:
+        return Holding::Corner;
+      case HeldOn::Junction:
+      case HeldOn::End:
+        return Holding::Feature;
+      case HeldOn::Touching:
+        return Holding::Touching;
+      case HeldOn::Named:
+        return Holding::Named;
+      case HeldOn::Nothing:
+      case HeldOn::Rule:
+        break;
+    }
+    if (on_boundary(v) && q_.rule.boundary == BoundaryRule::Fixed) return Holding::Boundary;
+    if (q_.input->interfaces.meets_boundary_at(v) || between_materials(v)) return Holding::Interface;
+    return on_boundary(v) ? Holding::Touching : Holding::Named;
+  }
+
+  /// What concerns the vertices of the element.
+  [[nodiscard]] std::vector<HoldSwitch> switches(const HeldMinimum& found) const {
+    std::vector<HoldSwitch> all;
+    std::string by_hand;
+    const auto any = [&](Holding by) { return std::ranges::find(found.vertices, by, &HeldVertex::by) != found.vertices.end(); };
+    const bool slides = method_info(q_.method).slides && !(q_.input->geometry.plane.period > 0.0);
+    for (const HeldVertex& one : found.vertices)
+      if (one.by == Holding::Hand) by_hand += fmt::format("{}{}", by_hand.empty() ? "" : " ", one.vertex);
+    if (!by_hand.empty()) all.push_back({"unfix", by_hand, Holding::Hand});
+    if (!slides) return all;
+    if (any(Holding::Boundary)) all.push_back({"boundary", "slide", Holding::Boundary});
+    if (any(Holding::Interface) && q_.rule.interfaces == InterfaceRule::Fixed) all.push_back({"interfaces", "slide", Holding::Interface});
+    if (q_.domain != nullptr) add_angles(found, all);
+    if (any(Holding::Slides) && q_.max_deviation < 1.0)
+      all.push_back({"max-deviation", fmt::format("{:.6g}", std::min(1.0, kMoreDeviation * q_.max_deviation)), Holding::Deviation});
+    return all;
+  }
+
+  /// The least angles that would make something else of the vertices, and the greatest.
+  void add_angles(const HeldMinimum& found, std::vector<HoldSwitch>& all) const {
+    std::set<double> turns, folds;
+    for (const HeldVertex& one : found.vertices) {
+      const bool on_edge = one.by == Holding::Slides && q_.domain->on_curve(one.vertex);
+      if (one.by != Holding::Corner && one.by != Holding::Feature && !on_edge) continue;
+      const std::vector<Index> beside = along_curves(one.vertex);
+      if (one.by == Holding::Corner && beside.size() == 2) turns.insert(angle_above(turn(beside[0], one.vertex, beside[1])));
+      for (const Index other : beside)
+        if (const auto angle = fold(one.vertex, other)) folds.insert(angle_above(*angle));
+    }
+    const auto add = [&all](const char* name, const std::set<double>& angles, double now, Holding frees) {
+      std::set<double> ends;
+      if (!angles.empty()) ends = {*angles.begin(), *angles.rbegin()};
+      for (const double angle : ends)
+        if (angle > now) all.push_back({name, fmt::format("{:g}", angle), frees});
+    };
+    add("corner-angle", turns, q_.rule.corner_angle, Holding::Corner);
+    add("feature-angle", folds, q_.rule.feature_angle, Holding::Feature);
+  }
+  /// Where the edges of curves at a vertex lead to: of the boundary or an interface in a plane, else feature edges.
+  [[nodiscard]] std::vector<Index> along_curves(Index v) const {
+    const Facets& facets = q_.domain->facets();
+    std::map<Index, std::vector<Index>> beside;  // by neighbour: the elements or faces at the edge
+    const auto add = [&](std::span<const Index> c, Index of) {
+      const auto i = static_cast<std::size_t>(std::ranges::find(c, v) - c.begin());
+      for (const std::size_t other : {(i + 1) % c.size(), (i + c.size() - 1) % c.size()}) beside[c[other]].push_back(of);
+    };
+    if (facets.any())
+      for (const Index f : facets.faces_at(v)) add(facets.faces().corners(f), f);
+    else
+      for (const Incidence& at : q_.input->topology.star(v)) add(mesh_.elements.corners(at.element), at.element);
+    std::vector<Index> found;
+    for (const auto& [other, at] : beside) {
+      const bool along =
+          facets.any() ? !facets.sides_of(v, other).empty() : at.size() == 1 || q_.input->interfaces.between(at.front(), at.back());
+      if (along) found.push_back(other);
+    }
+    return found;
+  }
+  /// By how many degrees a curve of the input turns at a vertex.
+  [[nodiscard]] double turn(Index before, Index v, Index after) const {
+    const Plane& plane = q_.input->geometry.plane;
+    const auto& at = mesh_.positions;
+    return angle_between(plane.difference(at[v], at[before]), plane.difference(at[after], at[v]));
+  }
+  /// By how many degrees the surface of the input folds along an edge; none where other than two facets meet.
+  [[nodiscard]] std::optional<double> fold(Index a, Index b) const {
+    const Facets& facets = q_.domain->facets();
+    if (!facets.any()) return std::nullopt;
+    const auto sides = facets.sides_of(a, b);
+    if (sides.size() != 2) return std::nullopt;
+    const auto normal = [&](const FacetSide& side) {
+      const auto& c = facets.facets()[side.facet].corners;
+      return cross(facets.point(c[1]) - facets.point(c[0]), facets.point(c[2]) - facets.point(c[0]));
+    };
+    return angle_between(normal(sides[0]), normal(sides[1]));
+  }
+
+  /// The least quality of what is judged, after a switch; as bad as can be where it is not possible.
+  [[nodiscard]] double after_switch(const HoldSwitch& change) const {
+    Conditions then{q_.rule, q_.max_deviation, {q_.by_hand.begin(), q_.by_hand.end()}};
+    if (change.name == "boundary") then.rule.boundary = BoundaryRule::Slide;
+    if (change.name == "interfaces") then.rule.interfaces = InterfaceRule::Slide;
+    if (change.name == "corner-angle") then.rule.corner_angle = std::stod(change.value);
+    if (change.name == "feature-angle") then.rule.feature_angle = std::stod(change.value);
+    if (change.name == "max-deviation") then.max_deviation = std::stod(change.value);
+    if (change.name == "unfix") std::erase_if(then.by_hand, [&](Index v) { return std::ranges::find(corners(), v) != corners().end(); });
+    std::shared_ptr<const Domain> made;
+    const Domain* domain = q_.domain;
+    if (then.rule != q_.rule) {
+      made = q_.domains ? q_.domains(then.rule) : domain_for(*q_.input, then.rule);
+      domain = made.get();
+    }
+    return after(then, domain);
+  }
+  [[nodiscard]] double after(const Conditions& then, const Domain* domain) const {
+    std::vector<std::uint8_t> fixed = standing_vertices(*q_.input, then.rule, domain);
+    for (const Index v : then.by_hand) fixed[v] = 1;
+    std::vector<Index> free;
+    for (const Index v : visited_)
+      if (fixed[v] == 0) free.push_back(v);
+    SmoothingTask task;
+    task.method = q_.method;
+    task.input = q_.input;
+    task.colouring = std::make_shared<const Colouring>(colour_vertices(mesh_, q_.input->topology, free));
+    task.metric = q_.metric;
+    task.search = q_.search;
+    task.slides = then.rule.slides();
+    task.domain = std::shared_ptr<const Domain>(std::shared_ptr<const Domain>(), domain);  // borrowed: it outlives the trial
+    task.max_deviation = then.max_deviation * q_.input->geometry.size;
+    std::vector<Vec3> positions(q_.positions.begin(), q_.positions.end());
+    try {
+      const auto smoother = make_smoother(task);
+      smoother->positions_replaced();
+      for (int round = 0; round < kRounds; ++round) {
+        smoother->begin({static_cast<std::uint64_t>(round)});
+        if (smoother->visit(0, task.colouring->order.size(), positions, nullptr) == 0) break;
+      }
+      smoother->store(positions, nullptr);
+    } catch (const UsageError&) {  // such as a mesh in which nothing slides
+      return -std::numeric_limits<double>::infinity();
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (const Index e : judged_) {
+      const double quality = quality_of(positions, e);
+      if (!std::isnan(quality)) least = std::min(least, quality);
+    }
+    return least;
+  }
+
+  /// Says what keeps it in one word.
+  void settle(HeldMinimum& found) const {
+    if (found.change) {
+      found.by = found.change->frees;
+      for (HeldVertex& one : found.vertices)
+        if (one.by == Holding::Slides &&
+            (found.by == Holding::Deviation || (found.by == Holding::Feature && q_.domain->on_curve(one.vertex))))
+          one.by = found.by;
+      return;
+    }
+    std::ptrdiff_t most = 0;
+    for (const HeldVertex& one : found.vertices) {
+      if (!is_fixed(one.by)) continue;
+      const auto count = std::ranges::count(found.vertices, one.by, &HeldVertex::by);
+      if (count > most) most = count, found.by = one.by;
+    }
+    const bool slides = std::ranges::find(found.vertices, Holding::Slides, &HeldVertex::by) != found.vertices.end();
+    if (most == 0 && slides) found.by = Holding::Slides;
+  }
+
+  const HeldQuestion& q_;
+  const Mesh& mesh_;
+  Index element_;
+  std::span<const std::uint8_t> standing_;
+  std::vector<Index> judged_, visited_;
+};
+
+/// The worst element of all, and of those with a corner that is not fixed; kNoIndex: there is none.
+std::pair<Index, Index> worst_elements(const HeldQuestion& question, ThreadPool* pool) {
+  const Mesh& mesh = question.input->mesh;
+  std::vector<double> qualities(mesh.elements.size());
+  element_qualities(question.input->quality_context(), question.positions, question.metric, pool, qualities);
+  Index worst = kNoIndex, movable = kNoIndex;
+  for (Index e = 0; e < qualities.size(); ++e) {
+    if (std::isnan(qualities[e])) continue;
+    if (worst == kNoIndex || qualities[e] < qualities[worst]) worst = e;
+    if (movable != kNoIndex && !(qualities[e] < qualities[movable])) continue;
+    const auto corners = mesh.elements.corners(e);
+    if (std::ranges::any_of(corners, [&](Index v) { return question.fixed[v] == 0; })) movable = e;
+  }
+  return {worst, movable};
+}
+
+}  // namespace
+
+std::string_view name(Holding holding) noexcept { return kNames[static_cast<std::size_t>(holding)]; }
+std::string_view phrase(Holding holding) noexcept { return kPhrases[static_cast<std::size_t>(holding)]; }
+
+std::string HoldSwitch::option() const {
+  return name == "unfix" ? fmt::format("--fix without {}", value) : fmt::format("--{} {}", name, value);
+}
+
+bool HeldMinimum::rises() const noexcept { return gains(quality, unchanged); }
+
+std::string_view HeldMinimum::brief() const noexcept {
+  if (change) return phrase(by);
+  if (rises()) return "nothing";
+  return is_fixed(by) ? phrase(by) : unchanged > quality ? "nothing" : "a local optimum";
+}
+
+std::string HeldMinimum::outlook() const {
+  if (change) return {};
+  if (rises()) return fmt::format("more iterations: about {:.2g}", unchanged);
+  if (is_fixed(by)) return "no switch gains here";
+  return unchanged > quality ? "it rises slowly" : "its vertices gain nothing";
+}
+
+/// "4 of its 8 vertices, 1 by corners, 3 free"
+std::string HeldMinimum::shares() const {
+  std::string text;
+  const auto count = [this](Holding one) { return std::ranges::count(vertices, one, &HeldVertex::by); };
+  if (count(by) > 0) text = fmt::format("{} of its {} vertices", count(by), vertices.size());
+  for (std::size_t k = kNames.size(); k-- > 0;) {
+    const auto other = static_cast<Holding>(k);
+    if (other == by || count(other) == 0) continue;
+    const std::string how = other == Holding::Nothing ? "free" : other == Holding::Slides ? "sliding" : fmt::format("by {}", phrase(other));
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count(other), how);
+  }
+  return text;
+}
+
+/// What was tried in vain; each parameter once.
+std::string HeldMinimum::tried(bool as_option) const {
+  std::vector<std::string_view> names;
+  std::string text;
+  for (const HoldSwitch& one : in_vain) {
+    if (std::ranges::find(names, one.name) != names.end()) continue;
+    names.push_back(one.name);
+    text += (text.empty() ? " Tried without a gain here: " : ", ") + (as_option ? one.option() : one.command());
+  }
+  return text.empty() ? text : text + ".";
+}
+
+std::string HeldMinimum::sentence(bool as_option) const {
+  std::string text;
+  if (ceiling)
+    text = fmt::format("No switch frees element {} at {}, whose vertices all stay. ", ceiling->first, four_digits(ceiling->second));
+  text += fmt::format("{} {} at {} is {}", ceiling ? "Of those that move element" : "Element", element, four_digits(quality),
+                      ceiling ? "the worst" : "the worst of all");
+  if (!change && rises()) return text + fmt::format(", and nothing holds it: more iterations raise it to about {:.2g} here.", unchanged);
+  if (!change && !is_fixed(by))
+    return text + (unchanged > quality ? ". Nothing holds it: more iterations raise it slowly." : ". It is at a local optimum.") +
+           tried(as_option);
+  text += fmt::format(". It is held by {} ({})", phrase(by), shares());
+  if (!change) return text + '.' + tried(as_option);
+  text += fmt::format(": {} would raise it from {:.2g} to about {:.2g} here", as_option ? change->option() : change->command(), quality,
+                      changed);
+  return text + (rises() ? fmt::format(", more iterations alone to {:.2g}.", unchanged) : ".");
+}
+
+std::optional<HeldMinimum> held_minimum(const HeldQuestion& question, ThreadPool* pool, Progress& progress,
+                                        const std::function<bool()>& go_on) {
+  const auto [worst, movable] = worst_elements(question, pool);
+  if (worst == kNoIndex) return std::nullopt;
+  const std::vector<std::uint8_t> standing = standing_vertices(*question.input, question.rule, question.domain);
+  HeldMinimum found = Look(question, worst, standing).find(progress, go_on);
+  if (found.change || movable == kNoIndex || movable == worst || found.rises()) return found;
+  const bool stays = std::ranges::all_of(found.vertices, [](const HeldVertex& one) { return is_fixed(one.by); });
+  if (!stays) return found;
+  HeldMinimum next = Look(question, movable, standing).find(progress, go_on);
+  next.ceiling = {found.element, found.quality};
+  return next;
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,105 @@
+#pragma once
+// What keeps the worst element of a mesh from getting better, and which switch would free it.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/input/input_mesh.h"
+#include "core/quality/metric.h"
+#include "core/reference/domain.h"
+#include "core/reference/standing.h"
+#include "core/search/parameters.h"
+
+namespace dmoscope {
+
+/// What keeps a vertex where it is.
+enum class Holding : std::uint8_t {
+  Nothing,    // it is free
+  Slides,     // it slides, and gains nothing more
+  Deviation,  // it slides, and the bound of deviation ends its way
+  Boundary,   // the boundary stays
+  Interface,  // the interface between materials stays
+  Named,      // the file gives it a meaning
+  Corner,     // the boundary, or a feature edge, turns there by more than the corner angle
+  Feature,    // feature edges meet or end there, or keep it on them
+  Touching,   // parts of the mesh touch there
+  Hand        // it was fixed by hand
+};
+/// For machines: "free", "slides", "boundary".
+[[nodiscard]] std::string_view name(Holding holding) noexcept;
+/// For people, after "held by": "the fixed boundary".
+[[nodiscard]] std::string_view phrase(Holding holding) noexcept;
+
+struct HeldVertex {
+  Index vertex = kNoIndex;
+  Holding by = Holding::Nothing;
+};
+
+/// What a person can change: a parameter, or vertices that are no longer fixed by hand.
+struct HoldSwitch {
+  std::string name, value;  // "boundary", "slide"
+  Holding frees = Holding::Nothing;
+  /// "boundary slide", "unfix 4 7"
+  [[nodiscard]] std::string command() const { return name + ' ' + value; }
+  /// On the command line: "--boundary slide".
+  [[nodiscard]] std::string option() const;
+};
+
+struct HeldMinimum {
+  Index element = kNoIndex;                         // the worst element, or the worst that can move
+  double quality = 0.0;                             // its
+  std::vector<HeldVertex> vertices;                 // its corners
+  Holding by = Holding::Nothing;                    // what keeps it, in one word
+  double unchanged = 0.0;                           // the least quality around it after some more visits as things are
+  std::optional<HoldSwitch> change;                 // what would free it
+  double changed = 0.0;                             // the same with that
+  std::vector<HoldSwitch> in_vain;                  // what was tried and gains nothing here
+  std::optional<std::pair<Index, double>> ceiling;  // an element that is worse, and that nothing moves
+
+  /// Does the run still raise it without any change?
+  [[nodiscard]] bool rises() const noexcept;
+  /// After "held by": "the fixed boundary", "nothing", "a local optimum"
+  [[nodiscard]] std::string_view brief() const noexcept;
+  /// Where no switch would free it, what is to be expected, in a few words.
+  [[nodiscard]] std::string outlook() const;
+  /// All of it in words; `as_option`: as the command line has switches.
+  [[nodiscard]] std::string sentence(bool as_option = false) const;
+
+ private:
+  [[nodiscard]] std::string shares() const;
+  [[nodiscard]] std::string tried(bool as_option) const;
+};
+
+/// Where vertices slide by a rule, see domain_for(): for those who keep domains.
+using DomainSource = std::function<std::shared_ptr<const Domain>(const StandingRule&)>;
+
+/// Of what the question is. What it points to must outlive the call.
+struct HeldQuestion {
+  std::shared_ptr<const InputMesh> input;
+  std::span<const Vec3> positions;
+  std::span<const std::uint8_t> fixed;  // see Run::fixed
+  std::span<const Index> by_hand;       // what the user fixed
+  StandingRule rule;
+  const Domain* domain = nullptr;  // by that rule
+  double max_deviation = 0.0;      // a share of the diagonal
+  std::string_view method = "dmo";
+  Metric metric = Metric::MeanRatio;
+  SearchParameters search{};
+  DomainSource domains{};  // empty: each is made anew
+};
+
+/// Looks at the worst element: what keeps its vertices, and what each switch that concerns them would gain. For that the vertices around
+/// it are visited some times by the product's own smoother, on a copy of the positions. Where no switch frees an element that cannot move,
+/// it looks at the worst that can. None for a mesh without a quality. Costs a look at each element, and a Domain for each switch.
+/// Throws Cancelled, also once `go_on`, which is asked between two trials, says no.
+[[nodiscard]] std::optional<HeldMinimum> held_minimum(const HeldQuestion& question, ThreadPool* pool, Progress& progress,
+                                                      const std::function<bool()>& go_on = {});
+
+}  // namespace dmoscope

@@ -1,0 +1,192 @@
+#include "core/inspect/surface_trace.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/inspect/recorder.h"
+#include "core/quality/metric_phrase.h"
+#include "core/reference/overlay.h"
+#include "core/smooth/execution/method_table.h"
+#include "core/smooth/methods/slide.h"
+
+namespace dmoscope {
+
+namespace {
+
+/// One look at one vertex. Frame: Space or Curved.
+template <class Frame>
+class SurfaceLook {
+ public:
+  SurfaceLook(const SmoothingTask& task, std::span<const Vec3> positions, Index vertex, const Sweep& sweep, CompositeObjective composite)
+      : task_(task),
+        positions_(positions),
+        vertex_(vertex),
+        here_(positions[vertex]),
+        sweep_(sweep),
+        facets_(task.domain->facets()),
+        mesh_(task.input->view<Frame>()),
+        judge_(*task.input, std::move(composite)) {
+    judge_.begin(sweep);
+    judge_.gather(positions_, vertex_, star_);
+  }
+
+  SurfaceVisit run(bool combined) {
+    VisitTrace& trace = visit_.trace;
+    trace.vertex = vertex_;
+    trace.metric = task_.metric;
+    trace.combined = combined;
+    trace.from = trace.to = here_;
+    trace.before = trace.after = state(here_);
+    trace.untangling = judge_.is_tangled(star_);
+    trace.value_phrase = combined ? "its two aims" : metric_phrase(task_.metric);
+    const auto place = facets_.place(vertex_, here_);
+    const Vec3 normal = place ? facets_.normal(*place) : Vec3{};
+    if (place && !(normal == Vec3{})) {
+      visit_.grid.plane = tangent_plane(normal);
+      search(*place);
+    }
+    settle();
+    add_elements();
+    return std::move(visit_);
+  }
+
+ private:
+  [[nodiscard]] StarState state(Vec3 at) const { return metric_functions<Frame>(task_.metric).state(mesh_, positions_, vertex_, at); }
+
+  /// As Slide does it.
+  void search(const FacetPlace& stands) {
+    const Plane& plane = visit_.grid.plane;
+    const auto score = judge_.score_of(star_, positions_, vertex_, visit_.trace.untangling);
+    const auto walk = [&](Vec2<double> way, double least_cosine) { return facets_.walk(stands.facet, plane, here_, way, least_cosine); };
+    const auto worth = [&](Vec2<double> p) {
+      if (p == Vec2<double>{}) return score({});
+      const auto found = walk(times(p, star_.scale), kSteepest);
+      return found ? score(times(mesh_.frame.offset(facets_.at(*found), here_), 1.0 / star_.scale))
+                   : -std::numeric_limits<double>::infinity();
+    };
+    Recorder<Vec2<double>> recorder(star_.scale);
+    (void)grid_search<double>(worth, box(), task_.search, recorder);
+    VisitTrace& trace = visit_.trace;
+    trace.value_here = trace.value_at_start = recorder.here;
+    trace.levels = std::move(recorder.levels);
+    Overlay overlay(*task_.domain, room_);
+    const Fit now = overlay.star(positions_, vertex_, here_, &stands, kNoFit);
+    for (TracedLevel& level : trace.levels) {
+      SurfaceGrid::Level& on_surface = visit_.grid.levels.emplace_back();
+      for (const Vec2<double> offset : level.offsets) {
+        const auto found = walk(offset, kSteepest);
+        CandidateFate fate = CandidateFate::Counts;
+        if (!found)
+          fate = walk(offset, -1.0) ? CandidateFate::TurnedAway : CandidateFate::Feature;
+        else if (!fits(overlay.star(positions_, vertex_, facets_.at(*found), &*found, kNoFit), now))
+          fate = CandidateFate::Deviates;
+        on_surface.fates.push_back(fate);
+        on_surface.places.push_back(found ? facets_.at(*found) - here_ : plane.lift(offset));
+        level.quality.push_back(found ? quality_of(state(facets_.at(*found))) : 0.0);
+      }
+      if (level.best) trace.found = level.at(*level.best);
+    }
+  }
+  [[nodiscard]] bool fits(const Fit& there, const Fit& now) const {
+    if (std::max(there.deviation, there.other_split) <= task_.max_deviation && there.least_cosine >= kLeastCosine) return true;
+    if (there.deviation == kNoFit.deviation || now.deviation == kNoFit.deviation) return false;
+    return there.deviation <= std::max(task_.max_deviation, now.deviation) &&
+           there.other_split <= std::max(task_.max_deviation, now.other_split) &&
+           there.least_cosine >= std::min(kLeastCosine, now.least_cosine);
+  }
+  /// Of the star's other vertices in the tangent plane, in units of its scale.
+  [[nodiscard]] Vec2<double> box() const {
+    Vec2<double> low{}, high{};
+    for (const Incidence& at : mesh_.star(vertex_)) {
+      for (const Index other : mesh_.corners_of(at.element)) {
+        const Vec2<double> p = visit_.grid.plane.offset(positions_[other], here_);
+        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+      }
+    }
+    return times(high - low, 1.0 / star_.scale);
+  }
+
+  /// Where the smoother itself takes the vertex.
+  void settle() {
+    SmoothingTask alone = task_;
+    alone.colouring = std::make_shared<const Colouring>(Colouring{{vertex_}, {0, 1}});
+    const auto smoother = make_smoother(alone);
+    std::vector<Vec3> moved(positions_.begin(), positions_.end());
+    smoother->positions_replaced();
+    smoother->begin(sweep_);
+    (void)smoother->visit(0, 1, moved, nullptr);
+    smoother->store(moved, nullptr);
+    VisitTrace& trace = visit_.trace;
+    trace.to = moved[vertex_];
+    trace.step = visit_.grid.plane.project(trace.to - here_);
+    if (!(trace.to == here_)) {
+      trace.end = VisitEnd::Moved;
+      trace.after = state(trace.to);
+    } else if (sweep_.untangling.repair && trace.before.jacobian > 0.0) {
+      trace.end = VisitEnd::Waits;
+    } else if (trace.found == Vec2<double>{}) {
+      trace.end = VisitEnd::NothingFound;
+    } else {
+      trace.end = best_deviates() ? VisitEnd::Deviates : VisitEnd::NotConfirmed;
+    }
+  }
+  [[nodiscard]] bool best_deviates() const {
+    for (std::size_t k = visit_.trace.levels.size(); k-- > 0;)
+      if (const auto best = visit_.trace.levels[k].best)
+        return visit_.grid.levels[k].fates[static_cast<std::size_t>(*best)] == CandidateFate::Deviates;
+    return false;
+  }
+
+  void add_elements() {
+    std::vector<Vec3> after(positions_.begin(), positions_.end());
+    after[vertex_] = visit_.trace.to;
+    const QualityContext context = task_.input->quality_context();
+    for (const Incidence& at : mesh_.star(vertex_)) {
+      ElementChange change{at.element};
+      change.before = element_quality(context, positions_, task_.metric, at.element);
+      change.after = element_quality(context, after, task_.metric, at.element);
+      change.inverted_before = smallest_jacobian(context, positions_, at.element) <= 0.0;
+      change.inverted_after = smallest_jacobian(context, after, at.element) <= 0.0;
+      visit_.trace.elements.push_back(change);
+      visit_.trace.by_corners = visit_.trace.by_corners || (std::is_same_v<Frame, Space> && mesh_.corners_of(at.element).size() > 4);
+    }
+  }
+
+  const SmoothingTask& task_;
+  std::span<const Vec3> positions_;
+  Index vertex_;
+  Vec3 here_;
+  Sweep sweep_;
+  const Facets& facets_;
+  MeshView<Frame> mesh_;
+  StarJudge<Frame> judge_;
+  JudgedStar<Frame> star_;
+  OverlayRoom room_;
+  SurfaceVisit visit_;
+};
+
+}  // namespace
+
+std::string_view phrase(CandidateFate fate) noexcept {
+  constexpr std::array<std::string_view, 4> kPhrases{"", "it lies beyond a feature edge, or where the surface ends",
+                                                     "the surface is turned away there",
+                                                     "with the vertex there, faces would leave the input by more than the bound"};
+  return kPhrases[static_cast<std::size_t>(fate)];
+}
+
+SurfaceVisit trace_surface_visit(const SmoothingTask& task, std::span<const Vec3> positions, Index vertex, const Sweep& sweep,
+                                 const std::optional<CompositeObjective>& composite) {
+  if (!task.domain || vertex >= task.input->mesh.vertex_count() || !task.domain->on_surface(vertex))
+    throw UsageError(fmt::format("vertex {} does not slide on a surface", vertex));
+  const CompositeObjective aims = composite.value_or(single_objective(task.metric));
+  if (task.input->is_volume()) return SurfaceLook<Space>(task, positions, vertex, sweep, aims).run(composite.has_value());
+  return SurfaceLook<Curved>(task, positions, vertex, sweep, aims).run(composite.has_value());
+}
+
+}  // namespace dmoscope

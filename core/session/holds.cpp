@@ -1,0 +1,65 @@
+#include "core/session/holds.h"
+
+#include <algorithm>
+
+#include "core/base/error.h"
+#include "core/session/session.h"
+
+namespace dmoscope {
+
+namespace {
+
+constexpr Index kSmall = 300'000;            // elements: a domain takes some 0.3 s at most
+constexpr std::size_t kMostHoldDomains = 3;  // that are kept: the next moment asks for the same
+
+}  // namespace
+
+const Holds::Known* Holds::find_known(Session& session, std::size_t index) const {
+  const Run& run = session.run(index);
+  const auto at = std::ranges::find_if(known_, [&](const Known& known) {
+    return known.run.lock() == session.identity(index).lock() && known.path == run.path() && known.moment == run.moment();
+  });
+  return at == known_.end() ? nullptr : &*at;
+}
+
+Holds::Latest Holds::of(Session& session, std::size_t index) const {
+  const auto run = session.identity(index).lock();
+  const auto at = std::ranges::find_if(known_, [&](const Known& known) { return known.run.lock() == run; });
+  if (at == known_.end()) return {};
+  return {at->found, at->path == run->path() && at->moment == run->moment()};
+}
+
+std::shared_ptr<const Domain> Holds::domain(const std::shared_ptr<const InputMesh>& input, const StandingRule& rule) {
+  std::erase_if(domains_, [](const KnownDomain& one) { return one.input.expired(); });
+  const auto known = std::ranges::find_if(domains_, [&](const KnownDomain& one) { return one.input.lock() == input && one.rule == rule; });
+  if (known != domains_.end()) return known->domain;
+  auto made = domain_for(*input, rule);
+  if (domains_.size() >= kMostHoldDomains) domains_.erase(domains_.begin());
+  domains_.push_back({input, rule, made});
+  return made;
+}
+
+std::shared_ptr<const HeldMinimum> Holds::find(Session& session, std::size_t index, Progress& progress,
+                                               const std::function<bool()>& go_on) {
+  if (const Known* known = find_known(session, index)) return known->found;
+  const Run& run = session.run(index);
+  const auto domains = [&](const StandingRule& rule) { return domain(run.shared_input(), rule); };
+  auto found = what_holds(run, session.pool().get(), progress, domains, go_on);
+  const auto here = session.identity(index);
+  std::erase_if(known_, [&](const Known& known) { return known.run.expired() || known.run.lock() == here.lock(); });
+  known_.push_back({here, run.path(), run.moment(), found ? std::make_shared<const HeldMinimum>(std::move(*found)) : nullptr});
+  return known_.back().found;
+}
+
+bool Holds::find_at_rest(Session& session, const std::function<bool()>& go_on) {
+  if (!session.has_input() || session.input()->mesh.elements.size() > kSmall) return false;
+  if (find_known(session, session.active_index()) != nullptr || !go_on()) return false;
+  Progress unwatched;
+  try {
+    return find(session, session.active_index(), unwatched, go_on) != nullptr;
+  } catch (const Cancelled&) {
+    return false;
+  }
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,49 @@
+#pragma once
+// What holds the minima of a session's runs, worked out once for each moment.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/run/what_holds.h"
+
+namespace dmoscope {
+
+class Session;
+
+class Holds {
+ public:
+  /// Of a run as it stood when that was worked out last; null: it never was.
+  struct Latest {
+    std::shared_ptr<const HeldMinimum> found;
+    bool now = false;  // it is of the run as it stands
+  };
+  [[nodiscard]] Latest of(Session& session, std::size_t run) const;
+  /// Works it out where it is missing. Null where no element has a quality. Throws Cancelled, also once `go_on` says no, and DeviceError.
+  std::shared_ptr<const HeldMinimum> find(Session& session, std::size_t run, Progress& progress, const std::function<bool()>& go_on = {});
+  /// Works it out for the active run, of a mesh on which that takes no time to speak of. Returns whether there is something new. Throws
+  /// DeviceError.
+  bool find_at_rest(Session& session, const std::function<bool()>& go_on);
+
+ private:
+  struct Known {
+    std::weak_ptr<const Run> run;
+    std::uint64_t path = 0;
+    Moment moment;
+    std::shared_ptr<const HeldMinimum> found;
+  };
+  struct KnownDomain {
+    std::weak_ptr<const InputMesh> input;
+    StandingRule rule;
+    std::shared_ptr<const Domain> domain;
+  };
+  [[nodiscard]] const Known* find_known(Session& session, std::size_t run) const;
+  [[nodiscard]] std::shared_ptr<const Domain> domain(const std::shared_ptr<const InputMesh>& input, const StandingRule& rule);
+
+  std::vector<Known> known_;          // one a run
+  std::vector<KnownDomain> domains_;  // of what was tried last, latest last; they look into their meshes
+};
+
+}  // namespace dmoscope

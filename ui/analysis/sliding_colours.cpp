@@ -1,0 +1,88 @@
+#include "ui/analysis/sliding_colours.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "core/base/thread_pool.h"
+#include "core/inspect/element_fit.h"
+#include "ui/analysis/freedom.h"
+
+namespace dmoscope::ui {
+namespace {
+
+constexpr std::size_t kWorthThreads = 20'000;  // faces
+
+void by_freedom(const ColourRequest& request, ElementColours& colours, render::Shading& shading) {
+  const Mesh& mesh = request.frame->input->mesh;
+  colours.counted = "elements";
+  colours.title = "freedom to move";
+  shading.values.assign(mesh.elements.size(), -1.0F);
+  if (request.fixed.size() != mesh.vertex_count()) return;
+  const auto freedom = freedom_of_elements(mesh, {request.fixed.data(), request.fixed.size()}, request.domain.get());
+  std::array<std::size_t, kFreedoms.size()> counts{}, category{};
+  for (const std::uint8_t each : freedom) ++counts[each];
+  for (std::size_t k = 0; k < kFreedoms.size(); ++k) {
+    if (counts[k] == 0) continue;
+    category[k] = colours.categories.size();
+    const double t = static_cast<double>(k) / static_cast<double>(kFreedoms.size() - 1);
+    const render::Rgb colour = render::sample(request.map, request.reversed ? 1.0 - t : t);
+    colours.categories.push_back({std::string(kFreedoms[k]), colour, counts[k]});
+  }
+  for (std::size_t e = 0; e < freedom.size(); ++e) shading.values[e] = static_cast<float>(category[freedom[e]]);
+}
+
+ElementFit fit_of(const ColourRequest& request) {
+  const Frame& frame = *request.frame;
+  if (request.domain->facets().faces().size() < kWorthThreads) return element_fit(*frame.input, *request.domain, frame.positions);
+  ThreadPool pool(std::max(1U, std::thread::hardware_concurrency()));
+  return element_fit(*frame.input, *request.domain, frame.positions, &pool);
+}
+
+void by_fit(const ColourRequest& request, ElementColours& colours, render::Shading& shading) {
+  const Frame& frame = *request.frame;
+  const bool tilt = request.by == ColourBy::Tilt;
+  if (!request.domain) {
+    shading.values.assign(frame.element_count(), std::numeric_limits<float>::quiet_NaN());
+    colours.title = colours.common_title = std::string(info(request.by).name);
+    colours.note = "nothing slides in this run, so its boundary is that of the input (boundary slide lets it)";
+    colours.has_values = false;
+    return;
+  }
+  ElementFit fit = fit_of(request);
+  shading.values = std::move(tilt ? fit.tilt : fit.deviation);
+  double most = 0.0;
+  std::size_t inside = 0;
+  for (const float value : shading.values) {
+    if (std::isnan(value))
+      ++inside;
+    else
+      most = std::max(most, static_cast<double>(value));
+  }
+  if (inside > 0) colours.beside.push_back({"inside", render::kUndefinedColour, inside});
+  const double size = frame.input->geometry.size;
+  const double least = tilt ? 1.0 : 1e-6 * size;  // less is no range to spread colours over
+  colours.range = {0.0, std::max(most, least)};
+  colours.common_title = tilt ? "tilt from the input's surface, degrees" : "deviation from the input";
+  if (most == 0.0)
+    colours.title = colours.common_title + ": none";
+  else if (tilt)
+    colours.title = fmt::format("{}: up to {:.3g}", colours.common_title, most);
+  else
+    colours.title = fmt::format("{}: up to {:.3g}, {:.2g} of the diagonal", colours.common_title, most, most / size);
+}
+
+}  // namespace
+
+void colour_by_sliding(const ColourRequest& request, ElementColours& colours, render::Shading& shading) {
+  if (request.by == ColourBy::Freedom)
+    by_freedom(request, colours, shading);
+  else
+    by_fit(request, colours, shading);
+}
+
+}  // namespace dmoscope::ui

@@ -31,7 +31,7 @@ TEST(BoundaryOnTheCommandLine, SlidesAndIsSaid) {
   for (const auto& wrong : {std::vector<std::string>{"--boundary", "up"},
                             {"--boundary", "slide", "--corner-angle", "0"},
                             {"--boundary", "slide", "--max-deviation", "2"},
-                            {"--boundary", "slide", "--method", "laplace"}}) {
+                            {"--boundary", "slide", "--method", "dvr"}}) {
     std::vector<std::string> words{"smooth", in, "-o", folder / "d.14"};
     words.insert(words.end(), wrong.begin(), wrong.end());
     EXPECT_EQ(run(words).code, 2) << wrong.back();

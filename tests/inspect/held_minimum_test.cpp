@@ -173,7 +173,7 @@ TEST(WhatHolds, TheSurfaceOfAVolume) {
 
 TEST(WhatHolds, AMethodThatSlidesNothingIsOfferedNothing) {
   RunParameters parameters;
-  parameters.method = "smart-laplace";
+  parameters.method = "active-set";
   const HeldMinimum held = held_of(run_of(spoiled(3, 0), parameters));
   EXPECT_EQ(held.by, Holding::Boundary);
   EXPECT_FALSE(held.change);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/reference/domain.h"
 #include "core/run/run.h"
 #include "tests/support/meshes.h"
 #include "tests/support/plain_surface.h"

@@ -32,7 +32,8 @@ TEST(HoldsOfAnEngine, AreThereOnceItRests) {
   engine.post("generate coast 400");
   engine.post("step iteration 3");
   engine.wait_idle();
-  const auto& held = engine.view()->runs[0].held;
+  const auto view = engine.view();
+  const auto& held = view->runs[0].held;
   ASSERT_TRUE(held.found);
   EXPECT_TRUE(held.now);
   EXPECT_DOUBLE_EQ(held.found->quality, engine.view()->frame->statistics.minimum);

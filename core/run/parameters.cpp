@@ -161,7 +161,7 @@ const std::array kTable{
                   .kind = ParameterKind::Real,
                   .most = 180.0,
                   .reader = &MethodInfo::slides,
-                  .condition = [](const P& p) { return p.standing().slides(); },
+                  .sliding_only = true,
                   .to_text = [](const P& p) { return fmt::format("{}", p.corner_angle); },
                   .from_text = [](P& p, Word word) { p.corner_angle = to_positive(word, 180.0, "corner angle"); },
                   .in_title = [](const P& p) { return fmt::format("corner angle {:g}", p.corner_angle); },
@@ -175,7 +175,7 @@ const std::array kTable{
         .most = 180.0,
         .reader = &MethodInfo::slides,
         .volume_only = true,
-        .condition = [](const P& p) { return p.standing().slides(); },
+        .sliding_only = true,
         .to_text = [](const P& p) { return fmt::format("{}", p.feature_angle); },
         .from_text = [](P& p, Word word) { p.feature_angle = to_positive(word, 180.0, "feature angle"); },
         .in_title = [](const P& p) { return fmt::format("feature angle {:g}", p.feature_angle); },
@@ -188,7 +188,7 @@ const std::array kTable{
                   .kind = ParameterKind::Real,
                   .most = 1.0,
                   .reader = &MethodInfo::slides,
-                  .condition = [](const P& p) { return p.standing().slides(); },
+                  .sliding_only = true,
                   .to_text = [](const P& p) { return fmt::format("{}", p.max_deviation); },
                   .from_text = [](P& p, Word word) { p.max_deviation = to_positive(word, 1.0, "greatest deviation"); },
                   .in_title = [](const P& p) { return fmt::format("max deviation {:g}", p.max_deviation); },
@@ -205,8 +205,9 @@ const std::array kTable{
 
 }  // namespace
 
-bool ParameterInfo::read_by(const RunParameters& parameters) const {
+bool ParameterInfo::read_by(const RunParameters& parameters, bool surface) const {
   if (reader != nullptr && !(method_info(parameters.method).*reader)) return false;
+  if (sliding_only && !surface && !parameters.standing().slides()) return false;
   return condition == nullptr || condition(parameters);
 }
 
@@ -229,13 +230,13 @@ const ParameterInfo& parameter_info(std::string_view name) {
   return *found;
 }
 
-std::string other_than_usual(const RunParameters& parameters) {
+std::string other_than_usual(const RunParameters& parameters, bool surface) {
   const RunParameters usual;
   const SizeFunction* size = parameters.combination ? parameters.combination->size() : nullptr;
   std::string text;
   if (size != nullptr && size->has_point()) text += fmt::format(", at {:g} {:g}", size->point.x, size->point.y);
   for (const ParameterInfo& row : kTable)
-    if (row.in_title != nullptr && row.read_by(parameters) && row.to_text(parameters) != row.to_text(usual))
+    if (row.in_title != nullptr && row.read_by(parameters, surface) && row.to_text(parameters) != row.to_text(usual))
       text += ", " + row.in_title(parameters);
   return text;
 }

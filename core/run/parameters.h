@@ -50,6 +50,7 @@ struct ParameterInfo {
   std::span<const std::string_view> choices{};        // of Choice
   bool MethodInfo::*reader = nullptr;                 // the methods that read it; null: all
   bool volume_only = false;                           // says nothing of planar meshes
+  bool sliding_only = false;                          // says nothing where no vertex slides
   bool (*condition)(const RunParameters&) = nullptr;  // besides: whether it is read now; null: always
   std::string (*to_text)(const RunParameters&);
   /// Throws UsageError for what is no such value. The range is checked where it is read.
@@ -59,7 +60,8 @@ struct ParameterInfo {
   std::string_view item{};                                  // of its widget in the window, where that is not the name
   bool in_session = true;                                   // a command, and saved; else an option of the command line alone
 
-  [[nodiscard]] bool read_by(const RunParameters& parameters) const;
+  /// `surface`: of a curved surface, where all vertices slide whatever the rule says?
+  [[nodiscard]] bool read_by(const RunParameters& parameters, bool surface) const;
   /// The doc, with the range of a number and, where not all do, the methods that read it.
   [[nodiscard]] std::string help() const;
 };
@@ -68,7 +70,7 @@ struct ParameterInfo {
 /// Throws UsageError.
 [[nodiscard]] const ParameterInfo& parameter_info(std::string_view name);
 
-/// What tells a run from others by the same method and aims: ", grid 16, shuffle:3"; empty where nothing does.
-[[nodiscard]] std::string other_than_usual(const RunParameters& parameters);
+/// What tells a run from others by the same method and aims: ", grid 16, shuffle:3"; empty where nothing does. `surface`: see read_by.
+[[nodiscard]] std::string other_than_usual(const RunParameters& parameters, bool surface);
 
 }  // namespace dmoscope

@@ -82,7 +82,7 @@ std::string Run::title() const {
   const RunParameters& p = parameters_;
   std::string title = fmt::format("{} · {}", p.method, p.combination ? phrase(p.metric, *p.combination) : metric_phrase(p.metric));
   if (p.then_mean) title += ", then mean";
-  return title + other_than_usual(p);
+  return title + other_than_usual(p, input_->is_surface());
 }
 
 std::string Run::backend_sentence() const {

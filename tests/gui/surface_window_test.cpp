@@ -53,6 +53,19 @@ TEST_F(SurfaceWindow, IsSeenInSpaceSteppedAndPicked) {
   EXPECT_GT(session()->frame->statistics.minimum, session()->input_summary->statistics.minimum);
 }
 
+/// What concerns sliding can be told to every run of a surface, and its name says it.
+TEST_F(SurfaceWindow, SaysWhatItsRunsReadOfSliding) {
+  const auto has = [&](const char* item) { return window_->app().items().boxes().contains(item); };
+  good("size 1280 1500");  // so that nothing is scrolled away
+  (void)picture();
+  for (const char* item : {"feature-angle", "corner-angle", "max-deviation"}) EXPECT_TRUE(has(item)) << item;
+  good("feature-angle 95");
+  EXPECT_THAT(session()->runs[0].title, ::testing::HasSubstr("feature angle 95"));
+  good("generate annulus");
+  (void)picture();
+  for (const char* item : {"feature-angle", "corner-angle", "max-deviation"}) EXPECT_FALSE(has(item)) << item;
+}
+
 TEST_F(SurfaceWindow, VisitsAreLookedIntoWhereVerticesSlideOnIt) {
   const RunView& run = session()->runs[0];
   Index inside = kNoIndex, corner = kNoIndex, edge = kNoIndex;

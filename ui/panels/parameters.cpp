@@ -80,9 +80,9 @@ void draw_parameter(PanelContext& context, const ParameterInfo& row, const RunPa
 }
 
 /// What the run's method can be told, and nothing else.
-void draw_options(PanelContext& context, const RunParameters& parameters) {
+void draw_options(PanelContext& context, const RunParameters& parameters, bool surface) {
   for (const ParameterInfo& row : parameter_table())
-    if (row.in_session && row.reader != nullptr && row.read_by(parameters) && !(row.volume_only && !context.state.in_space))
+    if (row.in_session && row.reader != nullptr && row.read_by(parameters, surface) && !(row.volume_only && !context.state.in_space))
       draw_parameter(context, row, parameters);
 }
 
@@ -170,7 +170,7 @@ void draw_parameters(PanelContext& context) {
     labelled(context, "judged by", "the metric of the run's statistics; the method goes by none", metric_combo_width(context));
   metric_combo(context, "metric", parameters.metric, "metric");
   draw_composite(context, *run);
-  draw_options(context, parameters);
+  draw_options(context, parameters, run->input && run->input->is_surface());
   draw_interfaces(context, parameters);
   draw_order(context, parameters);
   draw_backend(context, *run);

@@ -14,7 +14,7 @@ using Parts = std::array<std::string, 4>;
 Parts parts_of(const RunView& run) {
   const RunParameters& p = run.parameters;
   std::string aim = p.combination ? phrase(p.metric, *p.combination) : metric_phrase(p.metric);
-  std::string others = other_than_usual(p);
+  std::string others = other_than_usual(p, run.input && run.input->is_surface());
   if (others.starts_with(", ")) others.erase(0, 2);
   return {std::move(aim), p.then_mean ? "then mean" : "", std::move(others), run.input ? run.input->mesh.name : std::string()};
 }

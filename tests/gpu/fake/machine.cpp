@@ -141,8 +141,8 @@ cudaError_t Machine::launch(const void* function, dim3 grid, dim3 block, void** 
   if (stream == nullptr || named == functions.end()) return cudaErrorInvalidResourceHandle;
   const int device = stream->device;
   if (setup.devices[static_cast<std::size_t>(device)].too_old) return cudaErrorNoKernelImageForDevice;
-  if (kernels_ == nullptr) kernels_ = std::make_unique<ptx::Kernels>(ptx::kernels_folder());
-  const ptx::Entry& entry = kernels_->find(ptx::demangled(named->second.c_str()));
+  static ptx::Kernels kernels(ptx::kernels_folder());  // read once, not for each of a thousand machines
+  const ptx::Entry& entry = kernels.find(ptx::demangled(named->second.c_str()));
   if (const std::string fault = fault_of(entry, grid, block, shared, *stream); !fault.empty()) {
     breach(fmt::format("a launch of {} with {}", entry.name, fault));
     return cudaErrorInvalidConfiguration;

@@ -140,7 +140,6 @@ class Machine {
   [[nodiscard]] std::string fault_of(const ptx::Entry& entry, dim3 grid, dim3 block, std::size_t shared, const CUstream_st& stream);
   void run_kernel(const ptx::Entry& entry, const std::vector<std::byte>& parameters, dim3 grid, dim3 block, int device);
 
-  std::unique_ptr<ptx::Kernels> kernels_;
   std::map<int, ptx::GlobalMemory> global_;
   std::set<std::pair<int, std::string>> loaded_;  // kernels that a device has had
   unsigned setups_ = 0;

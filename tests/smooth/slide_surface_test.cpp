@@ -7,7 +7,6 @@
 
 #include "core/base/error.h"
 #include "core/mesh/generate.h"
-#include "core/smooth/execution/method_table.h"
 #include "tests/smooth/surface_judge.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/volume_grids.h"
@@ -144,28 +143,9 @@ TEST(SlidingOnSurfaces, KeepTheirPromisesAfterEveryIteration) {
   EXPECT_GT(moved, kSanitized ? 400U : 1500U);
 }
 
-/// Whatever a method does with the elements: vertices stay on the surface, and faces near it; those that optimise worsen no star.
 TEST(SlidingOnSurfaces, OtherMethodsKeepToTheSurface) {
-  const auto all = surfaces();
-  for (const char* method : {"smart-laplace", "pattern-search", "laplace"}) {
-    std::size_t moved = 0;
-    for (std::size_t i = 0; i < all.size(); i += kSanitized ? 5 : 2) {
-      const auto mesh = input(all[i].mesh);
-      const SurfaceJudge judge(all[i], *mesh, 1e-3);
-      RunParameters parameters = sliding_by();
-      parameters.method = method;
-      dmoscope::Run run = make_run(mesh, parameters);
-      for (std::uint64_t iteration = 1; iteration <= (kSanitized ? 1 : 3); ++iteration) {
-        expect_promise_one_if(method_info(method).optimises, all[i], run, iteration);
-        judge.expect_kept(run);
-        expect_in_order(all[i], run);
-        expect_fixed_stay(all[i], run);
-        if (::testing::Test::HasFatalFailure()) return;
-      }
-      moved += slid(run);
-    }
-    EXPECT_GT(moved, kSanitized ? 20U : 300U) << method;
-  }
+  for (const char* method : {"smart-laplace", "pattern-search", "laplace"})
+    EXPECT_GT(expect_kept_by(method, surfaces(), kSanitized ? 5 : 2, kSanitized ? 1 : 3), kSanitized ? 20U : 300U) << method;
 }
 
 /// On a sphere that is round enough the mean of the neighbours, straight down, is where Laplacian smoothing goes.

@@ -9,7 +9,6 @@
 #include "core/base/error.h"
 #include "core/mesh/generate.h"
 #include "core/numeric/simd.h"
-#include "core/smooth/execution/method_table.h"
 #include "tests/smooth/surface_judge.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/volume_grids.h"
@@ -125,25 +124,8 @@ TEST_P(SlidingInSpace, KeepsItsPromisesAfterEveryIteration) {
 }
 
 TEST(SlidingInSpaceByOthers, KeepTheirPromisesAfterEveryIteration) {
-  for (const char* method : {"smart-laplace", "pattern-search", "laplace"}) {
-    std::size_t moved = 0;
-    const auto all = volume_specimens();
-    for (std::size_t i = 0; i < all.size(); i += kSanitized ? 5 : 2) {
-      const auto mesh = input(all[i].mesh);
-      const SurfaceJudge judge(all[i], *mesh, 1e-3);
-      RunParameters parameters = sliding_by();
-      parameters.method = method;
-      dmoscope::Run run = make_run(mesh, parameters);
-      for (std::uint64_t iteration = 1; iteration <= (kSanitized ? 1 : 2); ++iteration) {
-        expect_promise_one_if(method_info(method).optimises, all[i], run, iteration);
-        judge.expect_kept(run);
-        expect_in_order(all[i], run);
-        if (::testing::Test::HasFatalFailure()) return;
-      }
-      moved += slid(run);
-    }
-    EXPECT_GT(moved, kSanitized ? 5U : 50U) << method;
-  }
+  for (const char* method : {"smart-laplace", "pattern-search", "laplace"})
+    EXPECT_GT(expect_kept_by(method, volume_specimens(), kSanitized ? 5 : 2, kSanitized ? 1 : 2), kSanitized ? 5U : 50U) << method;
 }
 
 INSTANTIATE_TEST_SUITE_P(Metrics, SlidingInSpace, ::testing::Values(Metric::MeanRatio, Metric::ScaledJacobian, Metric::MinAngle),

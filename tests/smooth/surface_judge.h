@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/smooth/execution/method_table.h"
 #include "tests/smooth/sliding.h"
 #include "tests/support/plain_surface.h"
 
@@ -104,5 +105,27 @@ class SurfaceJudge {
   double tolerance_, bound_;
   bool is_folded_;
 };
+
+/// Whatever a method does with the elements: vertices stay on the surface, and faces near it; those that optimise worsen no star. Of some
+/// of the meshes, by a method that is not dmo; returns how many vertices slid.
+inline std::size_t expect_kept_by(const char* method, const std::vector<Specimen>& all, std::size_t step, std::uint64_t iterations) {
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < all.size(); i += step) {
+    const auto mesh = input(all[i].mesh);
+    const SurfaceJudge judge(all[i], *mesh, 1e-3);
+    RunParameters parameters = sliding_by();
+    parameters.method = method;
+    dmoscope::Run run = make_run(mesh, parameters);
+    for (std::uint64_t iteration = 1; iteration <= iterations; ++iteration) {
+      expect_promise_one_if(method_info(method).optimises, all[i], run, iteration);
+      judge.expect_kept(run);
+      expect_in_order(all[i], run);
+      expect_fixed_stay(all[i], run);
+      if (::testing::Test::HasFatalFailure()) return moved;
+    }
+    moved += slid(run);
+  }
+  return moved;
+}
 
 }  // namespace dmoscope::testing

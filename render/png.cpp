@@ -19,7 +19,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/io/mesh_io.h"
+#include "core/io/writing/atomic_file.h"
 #include "render/image.h"
 
 namespace dmoscope::render {

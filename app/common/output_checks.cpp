@@ -6,8 +6,8 @@
 #include <unistd.h>
 
 #include "core/base/error.h"
-#include "core/io/atomic_file.h"
 #include "core/io/mesh_io.h"
+#include "core/io/writing/atomic_file.h"
 
 namespace dmoscope::app {
 void require_writable(const std::filesystem::path& path) {

@@ -4,7 +4,7 @@
 
 #include "app/common/machine.h"
 #include "core/base/sha256.h"
-#include "core/io/source_file.h"
+#include "core/io/reading/source_file.h"
 
 namespace dmoscope::app {
 

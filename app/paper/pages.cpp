@@ -9,7 +9,7 @@
 #include "app/pages/page.h"
 #include "core/base/csv_text.h"
 #include "core/base/error.h"
-#include "core/io/mesh_io.h"
+#include "core/io/writing/atomic_file.h"
 
 namespace dmoscope::app {
 

@@ -6,7 +6,7 @@
 
 #include "app/common/output_checks.h"
 #include "core/base/error.h"
-#include "core/io/mesh_io.h"
+#include "core/io/writing/atomic_file.h"
 #ifdef DMOSCOPE_HAVE_GUI
 #include "render/drawing_picture.h"
 #endif

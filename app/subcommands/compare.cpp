@@ -18,8 +18,8 @@
 #include "app/subcommands/subcommands.h"
 #include "core/base/error.h"
 #include "core/input/declared_floats.h"
-#include "core/io/atomic_file.h"
 #include "core/io/mesh_io.h"
+#include "core/io/writing/atomic_file.h"
 
 namespace dmoscope::app {
 namespace {

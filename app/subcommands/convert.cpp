@@ -13,7 +13,7 @@
 #include "app/common/text.h"
 #include "app/subcommands/subcommands.h"
 #include "core/io/mesh_io.h"
-#include "core/io/source_file.h"
+#include "core/io/reading/source_file.h"
 #include "core/mesh/faces.h"
 #include "core/mesh/volume.h"
 

@@ -20,7 +20,7 @@
 #include "app/subcommands/subcommands.h"
 #include "core/base/error.h"
 #include "core/base/unknown_value.h"
-#include "core/io/mesh_io.h"
+#include "core/io/writing/atomic_file.h"
 
 namespace dmoscope::app {
 namespace {

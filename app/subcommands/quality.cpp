@@ -24,7 +24,7 @@
 #include "core/base/thread_pool.h"
 #include "core/input/declared_floats.h"
 #include "core/input/input_mesh.h"
-#include "core/io/mesh_io.h"
+#include "core/io/writing/atomic_file.h"
 #include "core/session/csv.h"
 #include "core/smooth/displace.h"
 

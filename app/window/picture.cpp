@@ -10,6 +10,7 @@
 #include "app/window/volume_picture.h"
 #include "core/base/error.h"
 #include "core/io/mesh_io.h"
+#include "core/io/writing/atomic_file.h"
 #include "core/mesh/seam.h"
 #include "core/quality/quality.h"
 #include "core/view/input_spread.h"

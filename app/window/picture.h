@@ -10,7 +10,7 @@
 
 #include "core/base/progress.h"
 #include "core/input/input_mesh.h"
-#include "core/io/io_context.h"
+#include "core/io/reading/io_context.h"
 
 namespace dmoscope::app {
 

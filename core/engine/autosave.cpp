@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/io/mesh_io.h"
+#include "core/io/writing/atomic_file.h"
 #include "core/session/state_file.h"
 
 namespace dmoscope {

@@ -8,7 +8,7 @@
 
 #include "core/base/rounding.h"
 #include "core/io/mesh_io.h"
-#include "core/io/source_file.h"
+#include "core/io/reading/source_file.h"
 #include "core/quality/quality.h"
 
 namespace dmoscope {

@@ -10,7 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/input/volume_input.h"
-#include "core/io/source_file.h"
+#include "core/io/reading/source_file.h"
 #include "core/mesh/edges.h"
 #include "core/mesh/orientation.h"
 #include "core/mesh/seam.h"

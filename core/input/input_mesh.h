@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/progress.h"
-#include "core/io/io_context.h"
+#include "core/io/reading/io_context.h"
 #include "core/mesh/faces.h"
 #include "core/mesh/interfaces.h"
 #include "core/mesh/mesh.h"

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/io/tokenizer.h"
+#include "core/io/reading/tokenizer.h"
 
 namespace dmoscope {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/vec.h"
-#include "core/io/array_file.h"
+#include "core/io/arrays/array_file.h"
 #include "core/io/format.h"
 
 namespace dmoscope {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/io/format.h"
-#include "core/io/source_file.h"
+#include "core/io/reading/source_file.h"
 #include "core/mesh/mesh.h"
 
 namespace dmoscope {

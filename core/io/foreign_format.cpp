@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "core/io/array_file.h"
+#include "core/io/arrays/array_file.h"
 #include "core/io/mesh_io.h"
-#include "core/io/tokenizer.h"
+#include "core/io/reading/tokenizer.h"
 
 namespace dmoscope {
 namespace {

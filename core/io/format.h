@@ -1,7 +1,7 @@
 #pragma once
 // What a format has to give (for readers and writers only; others use mesh_io.h), and what writers share.
 //
-// A new format is one header-less source file core/io/<name>.cpp with a function `const FormatHandler& <name>_format()`, declared
+// A new format is a source in a folder beside those of the others, with a function `const FormatHandler& <name>_format()`, declared
 // below and listed in formats.cpp.
 
 #include <array>
@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/io/atomic_file.h"
-#include "core/io/io_context.h"
 #include "core/io/mesh_io.h"
-#include "core/io/source_file.h"
+#include "core/io/reading/io_context.h"
+#include "core/io/reading/source_file.h"
+#include "core/io/writing/atomic_file.h"
 #include "core/mesh/mesh.h"
 
 namespace dmoscope {

@@ -12,10 +12,10 @@
 #include "core/io/commented_mesh.h"
 #include "core/io/foreign_format.h"
 #include "core/io/format.h"
-#include "core/io/gzip.h"
 #include "core/io/mesh_io.h"
-#include "core/io/patch_writer.h"
-#include "core/io/tokenizer.h"
+#include "core/io/reading/gzip.h"
+#include "core/io/reading/tokenizer.h"
+#include "core/io/writing/patch_writer.h"
 
 namespace dmoscope {
 namespace {

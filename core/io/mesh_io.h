@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/io/io_context.h"
+#include "core/io/reading/io_context.h"
 #include "core/mesh/mesh.h"
 
 namespace dmoscope {
@@ -42,8 +42,5 @@ void require_known_format(const std::filesystem::path& path, const IoContext& co
 /// UsageError (unknown extension), Cancelled.
 std::vector<std::string> write_mesh(const std::filesystem::path& path, const Mesh& mesh, std::span<const Vec3> positions,
                                     const IoContext& context);
-
-/// Writes bytes beside `path` and renames: all or nothing. Throws OutputError.
-void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace dmoscope

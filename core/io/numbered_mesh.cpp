@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/io/tokenizer.h"
+#include "core/io/reading/tokenizer.h"
 
 namespace dmoscope {
 

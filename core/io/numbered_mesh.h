@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/io/cell_table.h"
-#include "core/io/gmsh_tags.h"
-#include "core/io/source_file.h"
+#include "core/io/reading/source_file.h"
+#include "core/io/tag_places.h"
 #include "core/mesh/mesh.h"
 
 namespace dmoscope {
@@ -48,7 +48,7 @@ class NumberedMesh {
   std::vector<CellShape> shapes_;
   std::vector<std::uint32_t> origins_;
   std::vector<std::uint64_t> places_;  // of cells
-  GmshTags node_tags_, cell_tags_;
+  TagPlaces node_tags_, cell_tags_;
   CellTable cells_;
 };
 

@@ -16,7 +16,7 @@
 
 namespace dmoscope {
 
-class SourceFile;  // core/io/source_file.h: the bytes a mesh was read from, with the place of every coordinate
+class SourceFile;  // core/io/reading/source_file.h: the bytes a mesh was read from, with the place of every coordinate
 
 enum class ElementKind : std::uint8_t { Triangle, Quadrilateral, Tetrahedron, Hexahedron, Wedge, Pyramid };
 inline constexpr std::size_t kElementKindCount = 6;

@@ -7,8 +7,8 @@
 
 #include "core/base/error.h"
 #include "core/base/words.h"
-#include "core/io/atomic_file.h"
-#include "core/io/source_file.h"
+#include "core/io/reading/source_file.h"
+#include "core/io/writing/atomic_file.h"
 
 namespace dmoscope {
 namespace {

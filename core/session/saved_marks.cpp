@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/io/atomic_file.h"
+#include "core/io/writing/atomic_file.h"
 
 namespace dmoscope {
 

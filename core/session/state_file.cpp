@@ -14,7 +14,8 @@
 
 #include "core/base/fnv1a.h"
 #include "core/io/mesh_io.h"
-#include "core/io/source_file.h"
+#include "core/io/reading/source_file.h"
+#include "core/io/writing/atomic_file.h"
 #include "core/session/input_marks.h"
 #include "core/session/parameter_json.h"
 #include "core/session/position_text.h"

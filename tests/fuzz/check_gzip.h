@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/io/gzip.h"
+#include "core/io/reading/gzip.h"
 #include "tests/fuzz/check_reader.h"
 
 namespace dmoscope::testing {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/io/field_number.h"
+#include "core/io/writing/field_number.h"
 #include "tests/fuzz/memory_files.h"
 
 namespace dmoscope::testing {

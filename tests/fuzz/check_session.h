@@ -13,7 +13,7 @@
 
 #include "core/base/error.h"
 #include "core/commands/session_commands.h"
-#include "core/io/mesh_io.h"
+#include "core/io/writing/atomic_file.h"
 #include "core/session/state_file.h"
 #include "tests/fuzz/memory_files.h"
 

@@ -4,7 +4,7 @@
 #include <exception>
 #include <filesystem>
 
-#include "core/io/mesh_io.h"
+#include "core/io/writing/atomic_file.h"
 #include "tests/fuzz/check_session.h"
 #include "tests/fuzz/samples.h"
 

@@ -13,8 +13,8 @@
 #include <unistd.h>
 
 #include "core/io/format.h"
-#include "core/io/patch_writer.h"
-#include "core/io/source_file.h"
+#include "core/io/reading/source_file.h"
+#include "core/io/writing/patch_writer.h"
 
 namespace dmoscope::testing {
 

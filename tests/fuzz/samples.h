@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/io/binary.h"
 #include "core/io/mesh_io.h"
+#include "core/io/reading/binary.h"
 #include "tests/fuzz/array_samples.h"
 #include "tests/fuzz/vtu_samples.h"
 

@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/io/field_number.h"
 #include "core/io/mesh_io.h"
-#include "core/io/source_file.h"
+#include "core/io/reading/source_file.h"
+#include "core/io/writing/field_number.h"
 #include "core/mesh/faces.h"
 #include "tests/fuzz/samples.h"
 #include "tests/io/files.h"

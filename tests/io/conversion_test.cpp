@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/io/mesh_io.h"
+#include "core/io/writing/atomic_file.h"
 #include "tests/fuzz/check_reader.h"
 #include "tests/fuzz/samples.h"
 

@@ -1,6 +1,6 @@
 // Exodus II. The files are made by netCDF4 (tests/fuzz/array_samples.py); what they hold stands here again.
 
-#include "core/io/exodus.h"
+#include "core/io/exodus/exodus.h"
 
 #include <cmath>
 #include <string>
@@ -11,7 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/io/mesh_io.h"
-#include "core/io/source_file.h"
+#include "core/io/reading/source_file.h"
 #include "core/mesh/volume.h"
 #include "tests/fuzz/array_samples.h"
 #include "tests/io/files.h"

@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/io/field_number.h"
 #include "core/io/format.h"
-#include "core/io/source_file.h"
+#include "core/io/reading/source_file.h"
+#include "core/io/writing/field_number.h"
 #include "tests/fuzz/memory_files.h"
 #include "tests/fuzz/samples.h"
 

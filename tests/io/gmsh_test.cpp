@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/io/mesh_io.h"
-#include "core/io/source_file.h"
+#include "core/io/reading/source_file.h"
 #include "tests/fuzz/samples.h"
 #include "tests/io/files.h"
 

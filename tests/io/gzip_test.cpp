@@ -1,6 +1,6 @@
 // Files packed by gzip: read by their content, written where the name says so, and no bombs.
 
-#include "core/io/gzip.h"
+#include "core/io/reading/gzip.h"
 
 #include <cstdint>
 #include <random>
@@ -12,7 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/io/mesh_io.h"
-#include "core/io/source_file.h"
+#include "core/io/reading/source_file.h"
 #include "tests/fuzz/check_gzip.h"
 #include "tests/fuzz/samples.h"
 #include "tests/io/files.h"

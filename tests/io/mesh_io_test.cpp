@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "core/io/writing/atomic_file.h"
 #include "tests/io/files.h"
 
 namespace dmoscope::test {

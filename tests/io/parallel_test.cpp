@@ -8,9 +8,9 @@
 
 #include "core/base/error.h"
 #include "core/base/thread_pool.h"
-#include "core/io/line_chunks.h"
 #include "core/io/mesh_io.h"
-#include "core/io/source_file.h"
+#include "core/io/reading/line_chunks.h"
+#include "core/io/reading/source_file.h"
 #include "core/mesh/generate.h"
 #include "core/mesh/random.h"
 #include "tests/io/files.h"

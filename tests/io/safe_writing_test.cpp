@@ -14,11 +14,11 @@
 #include <unistd.h>
 
 #include "core/base/error.h"
-#include "core/io/atomic_file.h"
 #include "core/io/commented_mesh.h"
-#include "core/io/litter.h"
-#include "core/io/source_file.h"
-#include "core/io/unpack_budget.h"
+#include "core/io/reading/source_file.h"
+#include "core/io/reading/unpack_budget.h"
+#include "core/io/writing/atomic_file.h"
+#include "core/io/writing/litter.h"
 #include "tests/io/files.h"
 
 namespace dmoscope::test {

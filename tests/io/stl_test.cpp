@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/io/stl_facets.h"
+#include "core/io/polygons/stl_facets.h"
 #include "tests/fuzz/check_reader.h"
 #include "tests/fuzz/samples.h"
 

@@ -1,6 +1,6 @@
 // The tokenizer by itself: lines, comments, numbers, counts.
 
-#include "core/io/tokenizer.h"
+#include "core/io/reading/tokenizer.h"
 
 #include <bit>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/io/mesh_io.h"
+#include "core/io/writing/atomic_file.h"
 #include "ui/commands/command_words.h"
 #include "ui/commands/view_json.h"
 #include "ui/commands/view_to_commands.h"

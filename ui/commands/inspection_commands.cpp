@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/io/mesh_io.h"
+#include "core/io/writing/atomic_file.h"
 #include "ui/analysis/inspection_text.h"
 #include "ui/commands/command_words.h"
 #include "ui/state/view_geometry.h"

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/io/mesh_io.h"
+#include "core/io/writing/atomic_file.h"
 
 namespace dmoscope::ui {
 namespace {

@@ -6,8 +6,8 @@
 #include <imgui.h>
 
 #include "core/commands/commands.h"
-#include "core/io/atomic_file.h"
 #include "core/io/mesh_io.h"
+#include "core/io/writing/atomic_file.h"
 #include "core/session/original_copy.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/save_rows.h"

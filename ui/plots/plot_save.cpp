@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/io/mesh_io.h"
+#include "core/io/writing/atomic_file.h"
 #include "render/drawing_picture.h"
 #include "ui/plots/plot_drawing.h"
 #include "ui/plots/run_rows.h"

@@ -1,0 +1,182 @@
+// Reads CGNS: zones, sections, boundary conditions and families are groups, solutions are fields.
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/io/cgns/cgns.h"
+#include "core/io/reading/tokenizer.h"
+
+namespace dmoscope {
+namespace {
+
+class CgnsReader {
+ public:
+  CgnsReader(SourceFile& source, const IoContext& context)
+      : source_(source), progress_(context.progress), file_(source.bytes(), source.path().string(), context), tree_(file_) {}
+
+  Mesh read() {
+    CgnsPoints points = read_cgns_points(tree_, &source_);
+    CoordinateLayout layout;
+    if (!points.coordinates.describe(layout)) source_.set_not_patchable("its coordinates are whole numbers");
+    source_.set_layout(layout);
+    mesh_.title = points.base;
+    CgnsCells cells = read_cgns_cells(tree_, points, source_, progress_);
+    if (cells.cells.dimension() < 2) file_.fail("the file has no element of two or three dimensions");
+    mesh_.positions = std::move(points.positions);
+    rows_ = split_cells(cells.cells, cells.labels, mesh_, source_);
+    for (Group& group : cells.vertex_groups) {
+      if (!group.members.empty()) mesh_.groups.push_back(std::move(group));
+    }
+    element_of_cells(cells);
+    for (std::size_t z = 0; z < points.zones.size(); ++z) solutions(points, z);
+    for (Field& field : fields_) mesh_.fields.push_back(std::move(field));
+    say(points);
+    return std::move(mesh_);
+  }
+
+ private:
+  /// The elements of each zone, one behind the other.
+  void element_of_cells(const CgnsCells& cells) {
+    Index element = 0;
+    for (const std::size_t first : cells.first_cell) {
+      while (element < mesh_.elements.size() && (rows_.empty() ? element : rows_[element]) < first) ++element;
+      first_element_.push_back(element);
+    }
+  }
+
+  void solutions(const CgnsPoints& points, std::size_t z) {
+    const CgnsZone& zone = points.zones[z];
+    std::optional<CgnsNode> of_vertices, of_cells;
+    std::size_t many = 0;
+    for (const CgnsNode& node : tree_.children(zone.node, "FlowSolution_t")) {
+      const auto location = tree_.child(node, "GridLocation_t");
+      const std::string where = location ? tree_.text(*location) : "Vertex";
+      ++many;
+      if (where == "Vertex")
+        of_vertices = node;
+      else if (where == "CellCenter")
+        of_cells = node;
+      else
+        source_.add_only_in_file("solutions elsewhere than at vertices and cells");
+    }
+    if (many > std::size_t{of_vertices.has_value()} + std::size_t{of_cells.has_value()}) source_.add_only_in_file("earlier solutions");
+    if (of_vertices) solution(points, z, *of_vertices, Field::On::Vertices);
+    if (of_cells) solution(points, z, *of_cells, Field::On::Elements);
+  }
+
+  void solution(const CgnsPoints& points, std::size_t z, const CgnsNode& node, Field::On on) {
+    if (!tree_.children(node, "Rind_t").empty()) return source_.add_only_in_file("solutions with rind cells");
+    const CgnsZone& zone = points.zones[z];
+    const std::size_t expected = on == Field::On::Vertices ? zone.count : first_element_[z + 1] - first_element_[z];
+    for (const CgnsNode& array : tree_.children(node, "DataArray_t")) {
+      const auto info = file_.find(CgnsTree::array(array));
+      if (!info || info->text) {
+        source_.add_only_in_file("parts of solutions");
+        continue;
+      }
+      if (info->count() != expected) {
+        tree_.fail(array, fmt::format("{} numbers for {} {}", info->count(), expected, on == Field::On::Vertices ? "points" : "cells"));
+      }
+      const std::vector<double> values = file_.numbers(CgnsTree::array(array));
+      Field& field = field_of(array.name, on, *info);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        field.values[on == Field::On::Vertices ? points.vertex_of[zone.first + i] : first_element_[z] + i] = values[i];
+      }
+    }
+  }
+
+  /// The field of this name; where there is none yet, one without numbers: zones need not all have it.
+  Field& field_of(const std::string& name, Field::On on, const ArrayInfo& info) {
+    for (Field& field : fields_) {
+      if (field.name == name && field.on == on) return field;
+    }
+    const std::size_t things = on == Field::On::Vertices ? mesh_.positions.size() : mesh_.elements.size();
+    file_.take_room(things, sizeof(double));
+    fields_.push_back({.name = name,
+                       .on = on,
+                       .components = 1,
+                       .type = std::string(vtk_word(info.type)),
+                       .role = "",
+                       .values = std::vector<double>(things, std::numeric_limits<double>::quiet_NaN())});
+    return fields_.back();
+  }
+
+  void say(const CgnsPoints& points) {
+    if (points.zones.size() > 1) {
+      source_.add_note(fmt::format("{} zones were read as one mesh; {} points that lie on one of another zone are one vertex with it.",
+                                   points.zones.size(), points.joined));
+      source_.add_only_in_file(fmt::format("division into {} zones", points.zones.size()));
+    }
+    if (std::ranges::any_of(points.zones, &CgnsZone::structured)) source_.add_only_in_file("order of its points in blocks");
+    for (const CgnsZone& zone : points.zones) {
+      for (const auto& [label, thing] :
+           {std::pair{"ZoneGridConnectivity_t", "connections of its zones"}, std::pair{"DiscreteData_t", "discrete data"},
+            std::pair{"ZoneSubRegion_t", "regions of its zones"}, std::pair{"ZoneIterativeData_t", "what it says of time steps"}}) {
+        if (tree_.child(zone.node, label)) source_.add_only_in_file(thing);
+      }
+    }
+  }
+
+  SourceFile& source_;
+  Progress& progress_;
+  Hdf5File file_;
+  CgnsTree tree_;
+  Mesh mesh_;
+  std::vector<Index> rows_;           // the cell of each element; empty: every cell is one
+  std::vector<Index> first_element_;  // of each zone, and one more
+  std::vector<Field> fields_;
+};
+
+/// An older kind of CGNS file, without HDF5.
+bool is_adf(std::string_view bytes) { return bytes.substr(0, 32).find("ADF Database") != std::string_view::npos; }
+
+Notes write_cgns(AtomicFile& file, const Mesh&, std::span<const Vec3>, const IoContext&) {
+  throw OutputError(file.path().string(), "CGNS files are written only where one was read: write it as .vtu or .msh");
+}
+
+Notes patch_cgns(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
+  Notes notes;
+  if (same_positions(mesh.positions, positions)) {
+    file.write(mesh.source->bytes());
+    return notes;
+  }
+  Hdf5File arrays(mesh.source->bytes(), mesh.source->path().string(), context);
+  const CgnsPoints points = read_cgns_points(CgnsTree(arrays), nullptr);
+  file.write(points.coordinates.replaced(arrays, mesh.positions, positions, file.path().string(), notes));
+  return notes;
+}
+
+bool recognises_cgns(std::string_view bytes) {
+  constexpr std::size_t kLook = std::size_t{1} << 18U;
+  return is_adf(bytes) || (is_hdf5(bytes) && bytes.substr(0, kLook).find("CGNSLibraryVersion") != std::string_view::npos);
+}
+
+}  // namespace
+
+Mesh read_cgns(SourceFile& source, const IoContext& context) {
+  if (is_adf(source.bytes())) {
+    throw InputError(source.path().string(), 0,
+                     "this is a CGNS file of the older kind (ADF), which is not read: convert it with adf2hdf or cgnsconvert -h");
+  }
+  if (!is_hdf5(source.bytes())) throw InputError(source.path().string(), 0, "this is no HDF5 file, which a CGNS file is");
+  return CgnsReader(source, context).read();
+}
+
+const FormatHandler& cgns_format() {
+  static const FormatHandler handler{
+      {"cgns", "CGNS", ".cgns",
+       "unstructured and structured zones in HDF5, boundary conditions, families, solutions; only written where it was read"},
+      recognises_cgns,
+      read_cgns,
+      write_cgns,
+      patch_cgns};
+  return handler;
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,103 @@
+// Exodus' words for elements, and the numbering of their sides.
+
+#include <algorithm>
+#include <array>
+
+#include "core/io/exodus/exodus.h"
+#include "core/io/reading/tokenizer.h"
+
+namespace dmoscope {
+namespace {
+
+struct ExodusWord {
+  std::string_view begins;  // in capitals; digits may follow
+  CellShape shape;
+};
+constexpr auto kExodusWords = std::to_array<ExodusWord>({{"SPHERE", CellShape::Point},
+                                                         {"CIRCLE", CellShape::Point},
+                                                         {"POINT", CellShape::Point},
+                                                         {"TRUSS", CellShape::Line},
+                                                         {"BEAM", CellShape::Line},
+                                                         {"BAR", CellShape::Line},
+                                                         {"ROD", CellShape::Line},
+                                                         {"EDGE", CellShape::Line},
+                                                         {"LINE", CellShape::Line},
+                                                         {"SPRING", CellShape::Line},
+                                                         {"TRI", CellShape::Triangle},
+                                                         {"QUAD", CellShape::Quadrilateral},
+                                                         {"SHELL", CellShape::Quadrilateral},
+                                                         {"MEMBRANE", CellShape::Quadrilateral},
+                                                         {"TET", CellShape::Tetrahedron},
+                                                         {"HEX", CellShape::Hexahedron},
+                                                         {"WEDGE", CellShape::Wedge},
+                                                         {"PENTA", CellShape::Wedge},
+                                                         {"PYR", CellShape::Pyramid}});
+
+struct Side {
+  Index count;
+  std::array<Index, 4> corners;
+};
+// The manual's table of sides, its numbers less one.
+constexpr std::array kTriangleEdges{Side{2, {0, 1}}, Side{2, {1, 2}}, Side{2, {2, 0}}};
+constexpr std::array kQuadrilateralEdges{Side{2, {0, 1}}, Side{2, {1, 2}}, Side{2, {2, 3}}, Side{2, {3, 0}}};
+constexpr std::array kTriangleShell{Side{3, {0, 1, 2}}, Side{3, {0, 2, 1}}, Side{2, {0, 1}}, Side{2, {1, 2}}, Side{2, {2, 0}}};
+constexpr std::array kQuadrilateralShell{Side{4, {0, 1, 2, 3}}, Side{4, {0, 3, 2, 1}}, Side{2, {0, 1}},
+                                         Side{2, {1, 2}},       Side{2, {2, 3}},       Side{2, {3, 0}}};
+constexpr std::array kTetrahedron{Side{3, {0, 1, 3}}, Side{3, {1, 2, 3}}, Side{3, {0, 3, 2}}, Side{3, {0, 2, 1}}};
+constexpr std::array kHexahedron{Side{4, {0, 1, 5, 4}}, Side{4, {1, 2, 6, 5}}, Side{4, {2, 3, 7, 6}},
+                                 Side{4, {0, 4, 7, 3}}, Side{4, {0, 3, 2, 1}}, Side{4, {4, 5, 6, 7}}};
+constexpr std::array kWedge{Side{4, {0, 1, 4, 3}}, Side{4, {1, 2, 5, 4}}, Side{4, {0, 3, 5, 2}}, Side{3, {0, 2, 1}}, Side{3, {3, 4, 5}}};
+constexpr std::array kPyramid{Side{3, {0, 1, 4}}, Side{3, {1, 2, 4}}, Side{3, {2, 3, 4}}, Side{3, {3, 0, 4}}, Side{4, {0, 3, 2, 1}}};
+
+std::span<const Side> sides_of(CellShape shape, bool faces_too) noexcept {
+  switch (shape) {
+    case CellShape::Triangle:
+      return faces_too ? std::span<const Side>(kTriangleShell) : std::span<const Side>(kTriangleEdges);
+    case CellShape::Quadrilateral:
+      return faces_too ? std::span<const Side>(kQuadrilateralShell) : std::span<const Side>(kQuadrilateralEdges);
+    case CellShape::Tetrahedron:
+      return kTetrahedron;
+    case CellShape::Hexahedron:
+      return kHexahedron;
+    case CellShape::Wedge:
+      return kWedge;
+    case CellShape::Pyramid:
+      return kPyramid;
+    default:
+      return {};
+  }
+}
+
+std::string capitals_of(std::string_view word) {
+  std::string text(word);
+  for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return text;
+}
+
+}  // namespace
+
+std::optional<CellShape> exodus_shape(std::string_view word, std::uint64_t nodes) noexcept {
+  const std::string text = capitals_of(trimmed(word));
+  const auto* const found =
+      std::find_if(kExodusWords.begin(), kExodusWords.end(), [&](const ExodusWord& one) { return text.starts_with(one.begins); });
+  if (found == kExodusWords.end()) return std::nullopt;
+  CellShape shape = found->shape;
+  if (shape == CellShape::Quadrilateral && nodes == 3 && !text.starts_with("QUAD")) shape = CellShape::Triangle;  // SHELL3
+  if (shape == CellShape::Quadrilateral && nodes == 2 && text.starts_with("SHELL")) shape = CellShape::Line;      // of a plane
+  if (corners_of(shape) != nodes) return std::nullopt;
+  return shape;
+}
+
+bool is_exodus_shell(std::string_view word) noexcept {
+  const std::string text = capitals_of(word);
+  return text.find("SHELL") != std::string::npos || text.starts_with("MEMBRANE") || text.starts_with("TRI");
+}
+
+std::span<const Index> exodus_side(CellShape shape, bool shell, int space, std::int64_t side) noexcept {
+  const std::span<const Side> sides = sides_of(shape, shell && space == 3);
+  if (side < 1 || static_cast<std::uint64_t>(side) > sides.size()) return {};
+  const Side& one = sides[static_cast<std::size_t>(side - 1)];
+  return {one.corners.data(), one.count};
+}
+
+}  // namespace dmoscope

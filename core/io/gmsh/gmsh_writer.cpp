@@ -1,0 +1,177 @@
+// Makes an MSH file anew: version 2.2, ASCII. Groups become physical groups with their names, fields data of nodes and elements.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/io/boundary_strings.h"
+#include "core/io/gmsh/gmsh.h"
+#include "core/io/writing/text_writer.h"
+
+namespace dmoscope {
+namespace {
+
+class GmshWriter {
+ public:
+  GmshWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
+      : out_(file, context),
+        mesh_(mesh),
+        positions_(positions),
+        groups_(groups_with_edges(mesh, "physical group", notes_)),
+        numbers_(numbers_of_groups(groups_)) {}
+
+  Notes write() {
+    out_ << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+    if (!mesh_.title.empty()) out_ << "$Comments\n" << one_line(mesh_.title) << "\n$EndComments\n";
+    const std::vector<int> physical = numbers_of_elements(mesh_, numbers_, gmsh_format().info.title, notes_);
+    names();
+    nodes();
+    elements(physical);
+    for (std::size_t i = 0; i < mesh_.fields.size(); ++i) data(i);
+    out_.finish();
+    note_dropped(mesh_, kept_fields_, kept_groups_, gmsh_format().info.title, notes_);
+    return std::move(notes_);
+  }
+
+ private:
+  static std::string one_line(std::string text) {
+    for (char& c : text) {
+      if (c == '\n' || c == '\r') c = ' ';
+      if (c == '"') c = '\'';
+    }
+    return text;
+  }
+
+  /// The dimension of a group's members.
+  [[nodiscard]] int dimension(const Group& group) const {
+    if (!group.of_elements() || group.members.empty()) return group.dimension;
+    return info(mesh_.elements.kind(group.members.front())).dimension;
+  }
+
+  [[nodiscard]] static std::size_t members(const Group& group) {
+    if (group.of_elements()) return 0;  // these are no lines of their own
+    return group.dimension == 2 ? group.faces.size() : group.members.size() / static_cast<std::size_t>(group.dimension + 1);
+  }
+
+  void names() {
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      if (members(groups_[i]) > 0 || !groups_[i].members.empty()) kept_groups_.push_back(i);
+    }
+    if (kept_groups_.empty()) return;
+    out_ << "$PhysicalNames\n" << kept_groups_.size() << '\n';
+    for (const std::size_t i : kept_groups_) {
+      out_ << dimension(groups_[i]) << ' ' << numbers_[i] << " \"" << one_line(groups_[i].name) << "\"\n";
+    }
+    out_ << "$EndPhysicalNames\n";
+  }
+
+  void nodes() {
+    out_ << "$Nodes\n" << positions_.size() << '\n';
+    out_.for_each(positions_.size(), [&](TextBuffer& part, std::size_t v) {
+      part << v + 1 << ' ' << positions_[v].x << ' ' << positions_[v].y << ' ' << positions_[v].z << '\n';
+    });
+    out_ << "$EndNodes\n";
+  }
+
+  static void line(TextBuffer& part, std::size_t number, CellShape shape, int physical, int entity, std::span<const Index> corners) {
+    part << number << ' ' << kGmshTypes[static_cast<std::size_t>(shape)] << " 2 " << physical << ' ' << entity;
+    for (const Index c : corners) part << ' ' << c + 1;
+    part << '\n';
+  }
+
+  /// The members of groups first, then the elements, as Gmsh itself does.
+  void elements(std::span<const int> physical) {
+    std::size_t before = 0;
+    for (const Group& group : groups_) before += members(group);
+    const std::vector<int> entities = entities_of(physical);
+    out_ << "$Elements\n" << before + mesh_.elements.size() << '\n';
+    std::size_t number = 1;
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      const Group& group = groups_[i];
+      const auto corners = static_cast<std::size_t>(group.dimension + 1);  // of vertices and edges
+      out_.for_each(members(group), [&](TextBuffer& part, std::size_t m) {
+        if (group.dimension == 2) {
+          const auto face = static_cast<Index>(m);
+          line(part, number + m, shape_of(group.faces.kind(face)), numbers_[i], numbers_[i], group.faces.corners(face));
+        } else {
+          const auto shape = group.dimension == 0 ? CellShape::Point : CellShape::Line;
+          line(part, number + m, shape, numbers_[i], numbers_[i], std::span(group.members).subspan(m * corners, corners));
+        }
+      });
+      number += members(group);
+    }
+    out_.for_each(mesh_.elements.size(), [&](TextBuffer& part, std::size_t i) {
+      const auto e = static_cast<Index>(i);
+      std::array<Index, 8> buffer{};
+      line(part, number + i, shape_of(mesh_.elements.kind(e)), physical[i], entities[i], file_corners(mesh_, e, buffer));
+    });
+    out_ << "$EndElements\n";
+    first_element_ = number;
+  }
+
+  /// Gmsh's own entities where the mesh has kept them, else one for each physical group; they count from 1.
+  std::vector<int> entities_of(std::span<const int> physical) {
+    std::vector<int> entities(physical.begin(), physical.end());
+    std::replace(entities.begin(), entities.end(), 0, 1);
+    const auto positive = [](double v) { return v == std::nearbyint(v) && v >= 1.0 && v <= 2147483647.0; };
+    for (std::size_t i = 0; i < mesh_.fields.size(); ++i) {
+      const Field& field = mesh_.fields[i];
+      if (field.name != kGmshGeometrical || field.on != Field::On::Elements || field.values.size() != entities.size() ||
+          !std::all_of(field.values.begin(), field.values.end(), positive)) {
+        continue;
+      }
+      std::transform(field.values.begin(), field.values.end(), entities.begin(), [](double v) { return static_cast<int>(v); });
+      kept_fields_.push_back(i);
+      break;
+    }
+    return entities;
+  }
+
+  void data(std::size_t i) {
+    const Field& field = mesh_.fields[i];
+    if (std::find(kept_fields_.begin(), kept_fields_.end(), i) != kept_fields_.end()) return;
+    const bool of_nodes = field.on == Field::On::Vertices;
+    const std::size_t things = of_nodes ? positions_.size() : mesh_.elements.size();
+    const auto n = static_cast<std::size_t>(field.components);
+    if (field.components < 1 || field.values.size() != things * n) return;
+    kept_fields_.push_back(i);
+    const auto has_some = [&](std::size_t thing) {
+      const auto row = std::span(field.values).subspan(thing * n, n);
+      return !std::all_of(row.begin(), row.end(), [](double v) { return std::isnan(v); });
+    };
+    std::size_t with = 0;
+    for (std::size_t thing = 0; thing < things; ++thing) with += has_some(thing) ? 1 : 0;
+    const std::string_view section = of_nodes ? "NodeData" : "ElementData";
+    out_ << '$' << section << "\n1\n\"" << one_line(field.name) << "\"\n1\n0\n3\n0\n" << n << '\n' << with << '\n';
+    const std::size_t first = of_nodes ? 1 : first_element_;
+    out_.for_each(things, [&](TextBuffer& part, std::size_t thing) {
+      if (!has_some(thing)) return;
+      part << first + thing;
+      for (std::size_t k = 0; k < n; ++k) part << ' ' << field.values[thing * n + k];
+      part << '\n';
+    });
+    out_ << "$End" << section << '\n';
+  }
+
+  TextWriter out_;
+  const Mesh& mesh_;
+  std::span<const Vec3> positions_;
+  Notes notes_;
+  std::vector<Group> groups_;  // the mesh's, boundary strings by their edges
+  std::vector<int> numbers_;   // of groups
+  std::size_t first_element_ = 1;
+  std::vector<std::size_t> kept_fields_, kept_groups_;
+};
+
+}  // namespace
+
+Notes write_gmsh(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
+  return GmshWriter(file, mesh, positions, context).write();
+}
+
+}  // namespace dmoscope

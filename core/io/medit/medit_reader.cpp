@@ -1,0 +1,211 @@
+// Reads MEDIT's ASCII format: a keyword, a count, and that number of lines, in any order; everything with a reference number.
+// https://www.ljll.fr/frey/publications/RT-0253.pdf, and what mmg and tetgen add to it.
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/memory.h"
+#include "core/io/medit/medit.h"
+#include "core/io/medit/medit_contents.h"
+#include "core/io/reading/tokenizer.h"
+
+namespace dmoscope {
+namespace {
+
+constexpr TextSyntax kMeditSyntax{.comment = '#', .comma_is_blank = false, .backslash_joins_lines = false, .free_form = true};
+
+bool is_letter(char c) noexcept { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+/// TrianglesP2, HexahedraQ2, ...: elements with nodes beyond their corners.
+bool is_higher_order(std::string_view keyword) {
+  if (keyword.size() < 3) return false;
+  const char family = keyword[keyword.size() - 2];
+  const char order = keyword.back();
+  const std::string_view linear = keyword.substr(0, keyword.size() - 2);
+  return (family == 'P' || family == 'Q') && order >= '2' && order <= '9' &&
+         std::any_of(kMeditCells.begin(), kMeditCells.end(), [&](const MeditCells& s) { return equal_ignoring_case(s.keyword, linear); });
+}
+
+class MeditReader {
+ public:
+  MeditReader(SourceFile& source, Progress& progress)
+      : source_(source), progress_(progress), tokens_(source.bytes(), source.path().string(), kMeditSyntax, progress), contents_(source) {}
+
+  Mesh read() {
+    const std::string_view first = tokens_.token();
+    if (!equal_ignoring_case(first, kMeditSignature)) {
+      tokens_.fail(fmt::format("a MEDIT file begins with {}, this one with {}", kMeditSignature, quote_token(first)));
+    }
+    const std::int64_t version = tokens_.read_integer("version after MeshVersionFormatted");
+    if (version < 1 || version > 4) tokens_.fail(fmt::format("MeshVersionFormatted {}: versions 1 to 4 are read", version));
+    while (!tokens_.at_end()) {
+      const std::string_view keyword = tokens_.token();
+      if (equal_ignoring_case(keyword, "End")) break;
+      section(keyword);
+    }
+    return finish();
+  }
+
+ private:
+  void section(std::string_view keyword) {
+    if (!is_letter(keyword.front()))
+      tokens_.fail(fmt::format("expected a keyword, got {} (more lines than the count says?)", quote_token(keyword)));
+    const auto is = [&](std::string_view word) { return equal_ignoring_case(keyword, word); };
+    const auto cells = std::find_if(kMeditCells.begin(), kMeditCells.end(), [&](const MeditCells& s) { return is(s.keyword); });
+    if (!is_known(keyword)) return skip(keyword);
+    if (std::ranges::any_of(met_, is)) tokens_.fail(fmt::format("{} a second time", keyword));
+    met_.emplace_back(keyword);
+    if (is("Dimension")) {
+      dimension();
+    } else if (is("Vertices")) {
+      vertices();
+    } else if (cells != kMeditCells.end()) {
+      read_cells(*cells);
+    } else {
+      marks(keyword);
+    }
+  }
+
+  [[nodiscard]] bool is_known(std::string_view keyword) const {
+    if (is_higher_order(keyword)) {
+      tokens_.fail(fmt::format("{} are elements of higher order, of which only the linear ones are read: export linear elements", keyword));
+    }
+    const auto same = [&](std::string_view word) { return equal_ignoring_case(keyword, word); };
+    return same("Dimension") || same("Vertices") || medit_mark(keyword) != nullptr ||
+           std::any_of(kMeditCells.begin(), kMeditCells.end(), [&](const MeditCells& s) { return same(s.keyword); });
+  }
+
+  /// What follows a keyword that we do not know, up to the next one.
+  void skip(std::string_view keyword) {
+    source_.add_only_in_file(keyword);
+    while (!tokens_.at_end()) {
+      const std::size_t offset = tokens_.offset();
+      const std::size_t line = tokens_.line();
+      if (!is_letter(tokens_.token().front())) continue;
+      return tokens_.seek(offset, line);
+    }
+  }
+
+  void dimension() {
+    dimension_ = static_cast<int>(tokens_.read_integer("dimension"));
+    if (dimension_ != 2 && dimension_ != 3) tokens_.fail(fmt::format("Dimension {}: only 2 and 3 dimensions are read", dimension_));
+    CoordinateLayout layout;
+    layout.components = dimension_;
+    layout.syntax = kMeditSyntax;
+    source_.set_layout(layout);
+  }
+
+  int reference() {
+    const std::int64_t value = tokens_.read_integer("reference");
+    if (!std::in_range<int>(value)) tokens_.fail(fmt::format("reference {} is too large", value));
+    return static_cast<int>(value);
+  }
+
+  void vertices() {
+    if (dimension_ == 0) tokens_.fail("Vertices before Dimension");
+    const std::size_t shortest = dimension_ == 2 ? 6 : 8;  // "0 0 0\n"
+    const std::size_t count = tokens_.read_count("number of Vertices", shortest);
+    vertex_count_ = count;
+    reserve_large(contents_.mesh.positions, count);
+    source_.reserve_places(count);
+    contents_.references.reserve(count);
+    for (std::size_t v = 0; v < count; ++v) {
+      if (tokens_.at_end()) tokens_.fail_at_end("x coordinate");
+      source_.add_place(tokens_.offset());
+      Vec3 p;
+      p.x = tokens_.read_double("x coordinate");
+      p.y = tokens_.read_double("y coordinate");
+      if (dimension_ == 3) p.z = tokens_.read_double("z coordinate");
+      contents_.mesh.positions.push_back(p);
+      contents_.references.push_back(reference());
+    }
+  }
+
+  /// How many vertices the file has: elements may come before them.
+  std::size_t vertex_count() {
+    if (vertex_count_) return *vertex_count_;
+    Tokenizer ahead(source_.bytes(), source_.path().string(), kMeditSyntax, progress_);
+    ahead.seek(tokens_.offset(), tokens_.line());
+    while (!ahead.at_end()) {
+      if (equal_ignoring_case(ahead.token(), "Vertices")) {
+        vertex_count_ = ahead.read_count("number of Vertices", 6);
+        return *vertex_count_;
+      }
+    }
+    tokens_.fail("the file has no Vertices");
+  }
+
+  void read_cells(const MeditCells& section) {
+    const Index corners = corners_of(section.shape);
+    const std::size_t vertices = vertex_count();
+    const std::size_t count = tokens_.read_count(fmt::format("number of {}", section.keyword), 2 * (std::size_t{corners} + 1));
+    contents_.reserve_cells(section.shape, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::array<Index, 8> of_cell{};
+      for (Index k = 0; k < corners; ++k) of_cell[k] = tokens_.read_index("vertex index", vertices, "vertices", 1);
+      contents_.add_cell(section.shape, of_cell.data(), reference());
+    }
+  }
+
+  /// Corners, Ridges, ...: numbers of vertices, edges or faces, which may come later.
+  void marks(std::string_view keyword) {
+    const std::size_t count = tokens_.read_count(fmt::format("number of {}", keyword), 2);
+    MeditMarks marks{std::string(keyword), {}, {}};
+    marks.numbers.reserve(count);
+    marks.lines.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      marks.numbers.push_back(tokens_.read_integer(fmt::format("number in {}", keyword)));
+      marks.lines.push_back(tokens_.line());
+    }
+    contents_.add_marks(std::move(marks));
+  }
+
+  Mesh finish() {
+    if (dimension_ == 0) tokens_.fail_at_end("Dimension");
+    if (contents_.mesh.positions.empty()) tokens_.fail_at_end("Vertices");
+    if (source_.bytes().find('#') != std::string_view::npos) source_.add_only_in_file("comments");
+    return contents_.finish();
+  }
+
+  SourceFile& source_;
+  Progress& progress_;
+  Tokenizer tokens_;
+  MeditContents contents_;
+  int dimension_ = 0;
+  std::optional<std::size_t> vertex_count_;
+  std::vector<std::string> met_;  // sections, in whatever case they were written
+};
+
+bool recognises_medit(std::string_view bytes) {
+  constexpr std::size_t kLook = 65536;  // bytes in which comments end
+  Progress unwatched;
+  Tokenizer tokens(bytes.substr(0, kLook), {}, kMeditSyntax, unwatched);
+  return equal_ignoring_case(tokens.token(), kMeditSignature);
+}
+
+Mesh read_medit(SourceFile& source, const IoContext& context) { return MeditReader(source, context.progress).read(); }
+
+}  // namespace
+
+const MeditMark* medit_mark(std::string_view keyword) noexcept {
+  const auto* const found =
+      std::ranges::find_if(kMeditMarks, [&](const MeditMark& mark) { return equal_ignoring_case(mark.keyword, keyword); });
+  return found == kMeditMarks.end() ? nullptr : found;
+}
+
+const FormatHandler& medit_format() {
+  static const FormatHandler handler{
+      {"medit", "MEDIT", ".mesh", "2D and 3D elements, references, corners, ridges, required vertices, edges and faces; ASCII"},
+      recognises_medit,
+      read_medit,
+      write_medit};
+  return handler;
+}
+
+}  // namespace dmoscope

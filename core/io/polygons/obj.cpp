@@ -1,0 +1,201 @@
+// Wavefront OBJ: vertices and faces; all else in it is kept when it is written again.
+// http://www.martinreddy.net/gfx/3d/OBJ.spec
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/io/format.h"
+#include "core/io/reading/tokenizer.h"
+#include "core/io/writing/one_line.h"
+#include "core/io/writing/text_writer.h"
+
+namespace dmoscope {
+namespace {
+
+constexpr TextSyntax kObjSyntax{.comment = '#', .backslash_joins_lines = true};
+
+/// Statements that Mesh has no room for, and what a person calls them.
+struct Statement {
+  std::string_view word;
+  std::string_view thing;
+};
+constexpr std::array<Statement, 8> kKept{{{"vt", "texture coordinates"},
+                                          {"vn", "normals"},
+                                          {"vp", "parameter space vertices"},
+                                          {"o", "object names"},
+                                          {"g", "group names"},
+                                          {"s", "smoothing groups"},
+                                          {"usemtl", "materials"},
+                                          {"mtllib", "materials"}}};
+
+class ObjReader {
+ public:
+  ObjReader(SourceFile& source, Progress& progress)
+      : source_(source), tokens_(source.bytes(), source.path().string(), kObjSyntax, progress) {
+    CoordinateLayout layout;
+    layout.syntax = kObjSyntax;
+    source.set_layout(layout);
+  }
+
+  Mesh read() {
+    while (!tokens_.at_end()) {
+      const std::size_t line = tokens_.line();
+      statement(tokens_.token_on_line(), line);
+      tokens_.end_line();
+    }
+    check_forward_references();
+    add_notes();
+    return std::move(mesh_);
+  }
+
+ private:
+  /// A corner that names a vertex further down in the file: checked when all are read.
+  struct ForwardReference {
+    std::size_t line;
+    std::int64_t index;  // from 1
+  };
+
+  void statement(std::string_view word, std::size_t line) {
+    if (word == "v") {
+      vertex();
+    } else if (word == "f") {
+      face();
+    } else if (word == "l") {
+      ++lines_;
+    } else if (word == "p") {
+      ++points_;
+    } else if (const auto* kept = std::find_if(kKept.begin(), kKept.end(), [word](const Statement& s) { return s.word == word; });
+               kept != kKept.end()) {
+      source_.add_only_in_file(kept->thing);
+    } else {
+      unknown(word, line);
+    }
+  }
+
+  void vertex() {
+    if (mesh_.positions.size() + 1 >= kNoIndex) tokens_.fail(fmt::format("a mesh can have {} vertices at most", kNoIndex - 1));
+    Vec3 p;
+    const std::string_view x = tokens_.read_token("x coordinate");
+    source_.add_place(tokens_.offset_of(x));
+    p.x = tokens_.parse_double(x, "x coordinate");
+    p.y = tokens_.read_double("y coordinate");
+    p.z = tokens_.read_double("z coordinate");
+    mesh_.positions.push_back(p);
+    int extras = 0;
+    while (!tokens_.token_on_line().empty()) ++extras;
+    if (extras == 1 || extras == 4) source_.add_only_in_file("vertex weights");
+    if (extras >= 3) source_.add_only_in_file("vertex colours");
+  }
+
+  void face() {
+    std::array<Index, 4> corners{};
+    std::size_t count = 0;
+    for (std::string_view token = tokens_.token_on_line(); !token.empty(); token = tokens_.token_on_line()) {
+      if (count < corners.size()) corners[count] = corner(token);
+      ++count;
+    }
+    if (count != 3 && count != 4) {
+      tokens_.fail(fmt::format("face with {} corners: only triangles and quadrilaterals are read", count));
+    }
+    add_element(mesh_, count == 3 ? ElementKind::Triangle : ElementKind::Quadrilateral, {corners.data(), count}, source_);
+  }
+
+  /// "v", "v/vt", "v//vn" or "v/vt/vn"; a negative v counts back from the vertex read last.
+  Index corner(std::string_view token) {
+    const std::size_t slash = token.find('/');
+    const std::int64_t index = tokens_.parse_integer(token.substr(0, slash), "vertex index");
+    check_references(token, slash);
+    const auto so_far = static_cast<std::int64_t>(mesh_.positions.size());
+    if (index < 0) {
+      if (-index > so_far) tokens_.fail(fmt::format("vertex index {} out of range ({} vertices come before it)", index, so_far));
+      return static_cast<Index>(so_far + index);
+    }
+    if (index == 0) tokens_.fail("vertex index 0 out of range (OBJ counts from 1)");
+    if (index >= static_cast<std::int64_t>(kNoIndex)) tokens_.fail(fmt::format("vertex index {} out of range", index));
+    if (index > so_far) forward_.push_back({tokens_.line(), index});
+    return static_cast<Index>(index - 1);
+  }
+
+  void check_references(std::string_view token, std::size_t slash) const {
+    for (int part = 0; slash != std::string_view::npos; ++part) {
+      if (part == 2) tokens_.fail(fmt::format("expected v, v/vt, v//vn or v/vt/vn, got {}", quote_token(token)));
+      const std::size_t next = token.find('/', slash + 1);
+      const std::string_view number = token.substr(slash + 1, next == std::string_view::npos ? next : next - slash - 1);
+      if (!number.empty()) (void)tokens_.parse_integer(number, part == 0 ? "texture coordinate index" : "normal index");
+      slash = next;
+    }
+  }
+
+  void check_forward_references() const {
+    for (const ForwardReference& reference : forward_) {
+      if (static_cast<std::size_t>(reference.index) > mesh_.positions.size()) {
+        tokens_.fail_at(reference.line,
+                        fmt::format("vertex index {} out of range (the file has {} vertices)", reference.index, mesh_.positions.size()));
+      }
+    }
+  }
+
+  void unknown(std::string_view word, std::size_t line) {
+    const bool readable = std::all_of(word.begin(), word.end(), [](char c) { return c > ' ' && c < '\x7f'; });
+    if (!readable) tokens_.fail(fmt::format("this is no OBJ file: {}", quote_token(word)));
+    if (std::find(unknown_.begin(), unknown_.end(), word) != unknown_.end()) return;
+    constexpr std::size_t kMostNamed = 20;  // a file of another format should not fill the screen
+    if (unknown_.size() == kMostNamed) return;
+    unknown_.emplace_back(word);
+    source_.add_note(fmt::format("Statement {} (line {}) is not understood and was passed over.", quote_token(word), line));
+    source_.add_only_in_file(fmt::format("statements {}", quote_token(word)));
+  }
+
+  void add_notes() {
+    if (lines_ > 0) source_.add_note(fmt::format("{} line elements (l) were passed over.", lines_));
+    if (lines_ > 0) source_.add_only_in_file("line elements");
+    if (points_ > 0) source_.add_note(fmt::format("{} point elements (p) were passed over.", points_));
+    if (points_ > 0) source_.add_only_in_file("point elements");
+    if (source_.bytes().find('#') != std::string_view::npos) source_.add_only_in_file("comments");
+  }
+
+  SourceFile& source_;
+  Tokenizer tokens_;
+  Mesh mesh_;
+  std::vector<ForwardReference> forward_;
+  std::vector<std::string> unknown_;
+  std::size_t lines_ = 0;
+  std::size_t points_ = 0;
+};
+
+Mesh read_obj(SourceFile& source, const IoContext& context) { return ObjReader(source, context.progress).read(); }
+
+Notes write_obj(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
+  Notes notes;
+  require_surface_elements(file, mesh, obj_format().info.title);
+  note_dropped(mesh, {}, {}, obj_format().info.title, notes);
+  TextWriter out(file, context);
+  if (!mesh.title.empty()) out << "# " << one_line(mesh.title) << '\n';
+  out.for_each(positions.size(), [&](TextBuffer& part, std::size_t v) {
+    part << "v " << positions[v].x << ' ' << positions[v].y << ' ' << positions[v].z << '\n';
+  });
+  out.for_each(mesh.elements.size(), [&](TextBuffer& part, std::size_t e) {
+    std::array<Index, 8> buffer{};
+    part << 'f';
+    for (const Index c : file_corners(mesh, static_cast<Index>(e), buffer)) part << ' ' << c + 1;
+    part << '\n';
+  });
+  out.finish();
+  return notes;
+}
+
+}  // namespace
+
+const FormatHandler& obj_format() {
+  static const FormatHandler handler{
+      {"obj", "Wavefront OBJ", ".obj", "positions, triangles and quadrilaterals"}, nullptr, read_obj, write_obj};
+  return handler;
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,64 @@
+#pragma once
+// Many lines of one kind, parsed by several threads.
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "core/io/reading/io_context.h"
+#include "core/io/reading/tokenizer.h"
+
+namespace dmoscope {
+
+/// Where the lines of a chunk lie in a text. Both ends are begins of lines (or the text's end).
+struct LineChunk {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+/// The next chunks of about `size` bytes each, at most `most` of them. Fewer, or none, where lines do not end with a line feed.
+[[nodiscard]] std::vector<LineChunk> next_chunks(std::string_view text, std::size_t begin, std::size_t size, std::size_t most);
+
+/// Parses lines from `tokens` on in chunks, one per thread at a time, for as long as all is well:
+///
+/// - parse(Tokenizer&, Part&) takes all lines of a chunk. Its Tokenizer ends where the chunk ends; offsets are those of the text.
+/// - take(Part&) adds what a chunk gave, chunk after chunk; false if it must not (it has more than is wanted).
+///
+/// Stops before the first chunk with an error or one that was not taken, and leaves `tokens` there: a reader that goes on line by line from
+/// there meets the error where it is, and finds where the lines of this kind end. Does nothing without threads to share the work.
+/// Throws Cancelled.
+template <class Part, class Parse, class Take>
+void read_in_chunks(Tokenizer& tokens, const IoContext& context, Parse parse, Take take) {
+  constexpr std::size_t kBytes = std::size_t{1} << 19U;
+  if (context.pool == nullptr || context.pool->size() < 2) return;
+  struct Parsed {
+    Part part;
+    std::size_t lines = 0;
+    bool well = false;
+  };
+  std::vector<Parsed> parsed(4 * std::size_t{context.pool->size()});
+  for (;;) {
+    const std::vector<LineChunk> chunks = next_chunks(tokens.text(), tokens.offset(), kBytes, parsed.size());
+    if (chunks.empty()) return;
+    context.pool->parallel_for(chunks.size(), 1, [&](std::size_t i, std::size_t) {
+      Progress unwatched;
+      Tokenizer lines = tokens.over(chunks[i].begin, chunks[i].end, unwatched);
+      parsed[i].part.clear();
+      try {
+        parse(lines, parsed[i].part);
+        parsed[i].well = true;
+      } catch (const InputError&) {
+        parsed[i].well = false;
+      }
+      parsed[i].lines = lines.line() - 1;
+    });
+    for (std::size_t i = 0; i < chunks.size(); ++i) {
+      if (!parsed[i].well || !take(parsed[i].part)) return;
+      tokens.seek(chunks[i].end, tokens.line() + parsed[i].lines);
+    }
+    tokens.report();
+  }
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,94 @@
+#include "core/io/reading/source_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <new>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/base/memory.h"
+
+namespace dmoscope {
+namespace {
+
+constexpr std::size_t kChunk = std::size_t{1} << 22;  // bytes between two looks at the progress
+
+/// An open file, closed when it goes.
+class Descriptor {
+ public:
+  explicit Descriptor(const std::filesystem::path& path)
+      : value_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK))  // of a pipe: without waiting
+  {}
+  ~Descriptor() {
+    if (value_ >= 0) ::close(value_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  [[nodiscard]] int get() const noexcept { return value_; }
+
+ private:
+  int value_;
+};
+
+[[noreturn]] void fail(const std::filesystem::path& path, int error) {
+  throw InputError(path.string(), 0, std::generic_category().message(error));
+}
+
+std::string_view kind_of(mode_t mode) {
+  if (S_ISFIFO(mode)) return "a pipe";
+  if (S_ISSOCK(mode)) return "a socket";
+  return "a device";
+}
+
+}  // namespace
+
+FileBytes::FileBytes(std::string_view bytes) {
+  std::ranges::copy(bytes, room(bytes.size()).begin());
+  took(bytes.size());
+}
+
+std::span<char> FileBytes::room(std::size_t most) {
+  if (capacity_ - size_ < most) {
+    const std::size_t capacity = size_ + most;
+    std::unique_ptr<char, Free> larger(static_cast<char*>(std::malloc(std::max<std::size_t>(capacity, 1))));
+    if (!larger) throw std::bad_alloc();
+    advise_large_pages(larger.get(), capacity);
+    std::ranges::copy(view(), larger.get());
+    data_ = std::move(larger);
+    capacity_ = capacity;
+  }
+  return {data_.get() + size_, capacity_ - size_};
+}
+
+void SourceFile::add_only_in_file(std::string_view thing) {
+  if (met_only_in_file_.emplace(thing).second) only_in_file_.emplace_back(thing);
+}
+
+FileBytes read_whole_file(const std::filesystem::path& path, Progress& progress) {
+  const Descriptor file(path);
+  if (file.get() < 0) fail(path, errno);
+  struct stat status {};
+  if (::fstat(file.get(), &status) != 0) fail(path, errno);
+  if (S_ISDIR(status.st_mode)) fail(path, EISDIR);
+  // Others may never end (/dev/zero), or keep us waiting for ever.
+  if (!S_ISREG(status.st_mode)) throw InputError(path.string(), 0, fmt::format("{} is no file that can be read", kind_of(status.st_mode)));
+  FileBytes bytes;
+  // A file tells its size; it may still grow: go on until nothing comes.
+  (void)bytes.room(static_cast<std::size_t>(std::max<off_t>(status.st_size, 0)) + 1);
+  for (;;) {
+    progress.check();
+    std::span<char> room = bytes.room(0);
+    if (room.empty()) room = bytes.room(std::max(bytes.view().size(), kChunk));
+    const ssize_t got = ::read(file.get(), room.data(), std::min(kChunk, room.size()));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail(path, errno);
+    if (got == 0) return bytes;
+    bytes.took(static_cast<std::size_t>(got));
+  }
+}
+
+}  // namespace dmoscope

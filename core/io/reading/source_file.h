@@ -1,0 +1,140 @@
+#pragma once
+// The bytes a mesh was read from and the place of every coordinate in them, so that a moved mesh can be written with nothing else
+// changed.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "core/base/memory.h"
+#include "core/base/progress.h"
+#include "core/base/vec.h"
+#include "core/io/reading/tokenizer.h"
+
+namespace dmoscope {
+
+enum class CoordinateScalar : std::uint8_t { Float32, Float64 };
+
+/// How the coordinates of one vertex lie at its place in the file.
+struct CoordinateLayout {
+  bool binary = false;
+  int components = 3;  // coordinates of a vertex that the file holds: 2 (x y, z is 0) or 3
+  /// Where x, y and z are, from the vertex's place on. Text: how many tokens come before it; binary: how many bytes.
+  std::array<std::uint32_t, 3> at{0, 1, 2};
+  TextSyntax syntax;                                                 // text: what separates the tokens
+  std::uint8_t width = 0;                                            // text: the most characters that the format has for a number; 0: any
+  std::array<CoordinateScalar, 3> scalar{CoordinateScalar::Float64,  // of x, y, z; text: what the file declares, the digits may be more
+                                         CoordinateScalar::Float64, CoordinateScalar::Float64};
+  bool big_endian = false;  // binary
+};
+
+/// The bytes of a file, in memory of their own.
+class FileBytes {
+ public:
+  FileBytes() = default;
+  explicit FileBytes(std::string_view bytes);
+  [[nodiscard]] std::string_view view() const noexcept { return {data_.get(), size_}; }
+
+  // For filling it.
+  /// Uninitialised space behind the bytes, at least `most` of it.
+  [[nodiscard]] std::span<char> room(std::size_t most);
+  /// Counts `count` bytes of that space as the file's, after they were filled.
+  void took(std::size_t count) noexcept { size_ += count; }
+
+ private:
+  struct Free {
+    void operator()(char* bytes) const noexcept { std::free(bytes); }
+  };
+  std::unique_ptr<char, Free> data_;
+  std::size_t size_ = 0;
+  std::size_t capacity_ = 0;
+};
+
+/// A file as it was read. A reader fills in the layout, the places and what only the file holds; afterwards nothing changes it.
+///
+/// The file is read whole into memory of our own: a mapping would crash the program when the file is truncated while it is
+/// open, and would show a file that another program is just writing anew.
+class SourceFile {
+ public:
+  SourceFile(std::filesystem::path path, FileBytes bytes)
+      : path_(std::move(path)), bytes_(std::move(bytes)), size_on_disk_(bytes_.view().size()) {}
+
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+  [[nodiscard]] std::string_view bytes() const noexcept { return bytes_.view(); }
+  /// Bytes of the file itself, which gzip may have packed; UnpackBudget derives from them how much memory the contents may take.
+  [[nodiscard]] std::size_t size_on_disk() const noexcept { return size_on_disk_; }
+  /// FormatInfo::name of the format that it was read as.
+  [[nodiscard]] std::string_view format() const noexcept { return format_; }
+  [[nodiscard]] const CoordinateLayout& layout() const noexcept { return layout_; }
+
+  /// The second file of a format that has two (see CompanionFile in format.h); null for all others.
+  [[nodiscard]] const SourceFile* companion() const noexcept { return companion_.get(); }
+
+  /// How many places hold coordinates: one per vertex, but more where a format repeats its vertices (STL).
+  [[nodiscard]] std::size_t place_count() const noexcept { return stride_ != 0 ? uniform_count_ : places_.size(); }
+  /// Byte offset of a place. Ascending.
+  [[nodiscard]] std::uint64_t place(std::size_t i) const noexcept { return stride_ != 0 ? first_ + i * stride_ : places_[i]; }
+  /// The vertex whose coordinates lie at a place.
+  [[nodiscard]] std::size_t vertex_at(std::size_t i) const noexcept { return place_vertices_.empty() ? i : place_vertices_[i]; }
+
+  /// Why coordinates cannot be replaced in place (an integer scalar, say); empty if they can.
+  [[nodiscard]] const std::string& not_patchable() const noexcept { return not_patchable_; }
+  /// What the file holds and Mesh does not, in words that go on "... dropped": "vertex colours", "texture coordinates".
+  /// It is kept when the same format is written, and named when another one is.
+  [[nodiscard]] const std::vector<std::string>& only_in_file() const noexcept { return only_in_file_; }
+  /// One sentence for each thing that the reader passed over and a person may miss ("3 line elements (l) are not shown").
+  [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return notes_; }
+
+  // For readers of formats.
+  void set_size_on_disk(std::size_t size) { size_on_disk_ = size; }
+  void set_format(std::string_view name) { format_ = name; }
+  void set_companion(std::shared_ptr<const SourceFile> file) { companion_ = std::move(file); }
+  void set_layout(const CoordinateLayout& layout) { layout_ = layout; }
+  void reserve_places(std::size_t count) { reserve_large(places_, count); }
+  void add_place(std::size_t offset) { places_.push_back(offset); }
+  void add_places(std::span<const std::uint64_t> offsets) { places_.insert(places_.end(), offsets.begin(), offsets.end()); }
+  /// Places at first, first + stride, ... (no memory for each); stride > 0.
+  void set_uniform_places(std::size_t first, std::size_t stride, std::size_t count) {
+    first_ = first;
+    stride_ = stride;
+    uniform_count_ = count;
+  }
+  /// One vertex per place, where that is not the i-th vertex at the i-th place.
+  void set_place_vertices(std::vector<Index> vertices) { place_vertices_ = std::move(vertices); }
+  void set_not_patchable(std::string why) { not_patchable_ = std::move(why); }
+  /// Adds a thing once, however often it is met.
+  void add_only_in_file(std::string_view thing);
+  void add_note(std::string sentence) { notes_.push_back(std::move(sentence)); }
+
+ private:
+  std::filesystem::path path_;
+  FileBytes bytes_;
+  std::size_t size_on_disk_;
+  std::string format_;
+  std::shared_ptr<const SourceFile> companion_;
+  CoordinateLayout layout_;
+  std::vector<std::uint64_t> places_;
+  std::uint64_t first_ = 0;
+  std::uint64_t stride_ = 0;  // 0: places_ has them
+  std::size_t uniform_count_ = 0;
+  std::vector<Index> place_vertices_;
+  std::string not_patchable_;
+  std::vector<std::string> only_in_file_;
+  std::unordered_set<std::string> met_only_in_file_;  // the same, to be found at once
+  std::vector<std::string> notes_;
+};
+
+/// Reads a whole file. Throws InputError with the system's reason (missing, a directory, no permission), and for what is no file: a pipe,
+/// a device. Throws Cancelled.
+[[nodiscard]] FileBytes read_whole_file(const std::filesystem::path& path, Progress& progress);
+
+}  // namespace dmoscope

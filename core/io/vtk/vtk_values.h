@@ -1,0 +1,90 @@
+#pragma once
+// Runs of numbers in a VTK legacy file: words in an ASCII file, big-endian blocks in a BINARY one.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/io/reading/binary_scalar.h"
+#include "core/io/reading/mixed_input.h"
+
+namespace dmoscope {
+
+/// What VTK calls a data type. Bits are packed eight to a byte in binary files; strings and variants are skipped only, and so is what VTK
+/// does not know.
+struct VtkType {
+  enum class Kind : std::uint8_t { Scalar, Bit, String, Unknown };
+  Kind kind = Kind::Scalar;
+  ScalarType scalar = ScalarType::Float64;
+};
+
+class VtkValues {
+ public:
+  VtkValues(const SourceFile& source, Progress& progress) : in(source, progress) {}
+
+  /// Takes the word for a data type. Throws InputError for one that VTK does not know.
+  VtkType type();
+  /// The same, but the kind is Unknown for a word that VTK does not know.
+  VtkType any_type();
+  /// Takes a count of values of `type` that start on the next line, checked against what is left of the file.
+  std::size_t count(std::string_view what, const VtkType& type);
+  /// Bytes that one value needs at least in this file.
+  [[nodiscard]] double least_bytes(const VtkType& type) const noexcept;
+  /// n numbers: each(value, offset of the value in the file). Bits are 0 and 1.
+  template <class Each>
+  void numbers(const VtkType& type, std::size_t n, std::string_view what, Each&& each);
+  /// n whole numbers, exactly.
+  template <class Each>
+  void wholes(const VtkType& type, std::size_t n, std::string_view what, Each&& each);
+  /// Skips n values of a type that is not known, which `what` names. Throws InputError in a binary file: nothing tells their size.
+  void skip_unknown(std::size_t n, std::string_view what);
+  /// Skips n strings.
+  void skip_strings(std::size_t n);
+  /// Skips a METADATA block, whose word was taken: everything up to an empty line.
+  void skip_metadata();
+
+  MixedInput in;
+  bool binary = false;
+
+ private:
+  /// Binary data starts right after the newline that ends its header.
+  std::string_view block(std::size_t n, std::size_t bytes_each, std::string_view what);
+};
+
+template <class Each>
+void VtkValues::numbers(const VtkType& type, std::size_t n, std::string_view what, Each&& each) {
+  in.need(n, least_bytes(type), what);
+  if (!binary) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const double value = in.number(what);
+      each(value, in.token());
+    }
+  } else if (type.kind == VtkType::Kind::Bit) {
+    const std::string_view bits = block((n + 7) / 8, 1, what);
+    for (std::size_t i = 0; i < n; ++i) each(static_cast<double>((bits[i / 8] >> (7 - i % 8)) & 1), in.token() + i / 8);
+  } else {
+    const std::size_t size = size_of(type.scalar);
+    const std::string_view data = block(n, size, what);
+    for (std::size_t i = 0; i < n; ++i) each(load_scalar(data.data() + i * size, type.scalar, true), in.token() + i * size);
+  }
+}
+
+template <class Each>
+void VtkValues::wholes(const VtkType& type, std::size_t n, std::string_view what, Each&& each) {
+  in.need(n, least_bytes(type), what);
+  if (type.kind != VtkType::Kind::Scalar || !is_whole(type.scalar)) in.fail(std::string(what) + " must be of a whole-number type");
+  if (!binary) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::int64_t value = in.integer(what);
+      each(value, in.token());
+    }
+  } else {
+    const std::size_t size = size_of(type.scalar);
+    const std::string_view data = block(n, size, what);
+    const std::size_t start = in.token();
+    for (std::size_t i = 0; i < n; ++i) each(load_whole(data.data() + i * size, type.scalar, true), start + i * size);
+  }
+}
+
+}  // namespace dmoscope

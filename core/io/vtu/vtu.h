@@ -1,0 +1,26 @@
+#pragma once
+// VTU files: VTK's XML UnstructuredGrid; and its structured grids (.vts, .vtr, .vti), which are read alone. ASCII, base64 (inline or
+// appended) and raw appended data, uncompressed or zlib, either byte order, sizes of 32 or 64 bits.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/io/reading/io_context.h"
+#include "core/io/reading/source_file.h"
+#include "core/io/writing/atomic_file.h"
+#include "core/mesh/mesh.h"
+
+namespace dmoscope {
+
+/// Reads a VTU file; see FormatHandler::read. Several pieces become one mesh, without joining points on their seams. Cells of fewer
+/// dimensions than the elements are passed over as in VTK legacy files.
+[[nodiscard]] Mesh read_vtu(SourceFile& source, const IoContext& context);
+
+/// Makes a VTU file anew: appended raw data of double precision, zlib, 64-bit sizes; see FormatHandler::write.
+std::vector<std::string> write_vtu(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
+
+/// Writes mesh.source again with moved coordinates, in its own encoding; all but the points stays byte for byte.
+std::vector<std::string> patch_vtu(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
+
+}  // namespace dmoscope

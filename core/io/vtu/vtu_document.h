@@ -1,0 +1,93 @@
+#pragma once
+// The XML of a VTU file (VTK's UnstructuredGrid), and what its arrays say of themselves.
+// Format: https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <pugixml.hpp>
+
+#include "core/base/progress.h"
+#include "core/io/reading/binary_scalar.h"
+#include "core/io/reading/source_file.h"
+
+namespace dmoscope {
+
+/// A DataArray element.
+struct VtuArray {
+  pugi::xml_node node;
+  std::string name;
+  ScalarType type = ScalarType::Float64;
+  std::size_t components = 1;
+  bool ascii = false;
+  bool appended = false;
+  bool base64 = false;
+  std::size_t begin = 0, limit = 0;  // bytes of the file between which its numbers lie: they start at `begin` and end at `limit` or before
+};
+
+class VtuDocument {
+ public:
+  /// Parses; `source` must outlive this. Throws InputError with the line.
+  VtuDocument(const SourceFile& source, Progress& progress);
+
+  [[nodiscard]] pugi::xml_node grid() const noexcept { return grid_; }
+  /// Is it one of the grids whose cells are not listed (.vts, .vtr, .vti)?
+  [[nodiscard]] bool structured() const noexcept { return structured_; }
+  [[nodiscard]] bool big_endian() const noexcept { return big_endian_; }
+  [[nodiscard]] ScalarType header() const noexcept { return header_; }
+  [[nodiscard]] bool compressed() const noexcept { return !compressor_.empty(); }
+  [[nodiscard]] const std::string& compressor() const noexcept { return compressor_; }
+  [[nodiscard]] std::string_view bytes() const noexcept { return source_.bytes(); }
+  [[nodiscard]] std::string file() const { return source_.path().string(); }
+  [[nodiscard]] Progress& progress() const noexcept { return progress_; }
+  /// The bytes before the appended data: all that is XML.
+  [[nodiscard]] std::string_view xml() const noexcept { return bytes().substr(0, appended_begin_); }
+
+  /// A count in an attribute; `most` at most.
+  [[nodiscard]] std::size_t count(pugi::xml_node node, const char* attribute, std::size_t most) const;
+  /// What a DataArray says of itself. Throws InputError; none for an array of strings or another type that holds no numbers.
+  [[nodiscard]] std::optional<VtuArray> array(pugi::xml_node node) const;
+  /// Every array in appended data: its element, and where it starts in the file.
+  struct Appended {
+    pugi::xml_node node;
+    std::size_t offset;  // as the attribute says it
+    std::size_t begin;
+  };
+  [[nodiscard]] std::vector<Appended> appended() const;
+  /// Where the value of an element's attribute lies in the file: begin and size.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> attribute_place(pugi::xml_node node, std::string_view attribute) const;
+
+  /// 1-based line of a byte. Counts from the place that was asked for last: cheap for places that are near each other.
+  [[nodiscard]] std::size_t line_at(std::size_t offset) const;
+  /// Throws InputError at the line of an element, naming it.
+  [[noreturn]] void fail(pugi::xml_node node, const std::string& what) const;
+  [[noreturn]] void fail_at(std::size_t offset, const std::string& what) const;
+
+ private:
+  void cut_appended();
+  void parse();
+  void attributes(pugi::xml_node file);
+  [[nodiscard]] std::size_t place_of(pugi::xml_node node) const;
+  void find_inline_text(VtuArray& array) const;
+
+  const SourceFile& source_;
+  Progress& progress_;
+  std::string xml_;  // parsed in place
+  pugi::xml_document document_;
+  pugi::xml_node grid_;
+  bool structured_ = false;
+  bool big_endian_ = false;
+  ScalarType header_ = ScalarType::UInt32;
+  std::string compressor_;
+  std::size_t appended_begin_ = 0, appended_end_ = 0;      // of the data itself, behind its underscore
+  mutable std::size_t counted_at_ = 0, counted_line_ = 1;  // a byte and its line
+  bool has_appended_ = false;
+  bool appended_base64_ = false;
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,172 @@
+#include "core/io/writing/atomic_file.h"
+
+#include <atomic>
+#include <cerrno>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/base/error.h"
+#include "core/io/reading/gzip.h"
+#include "core/io/writing/kept_attributes.h"
+#include "core/io/writing/litter.h"
+
+namespace dmoscope {
+namespace {
+
+/// Some file systems cannot tell that something is on the disk; then there is nothing to wait for.
+bool cannot_sync(int error) { return error == EINVAL || error == ENOTSUP || error == ENOSYS || error == EROFS; }
+
+/// The folder's own entry for a new name. Best effort: the file is whole by then, under its old contents or its new ones.
+void sync_folder(const std::filesystem::path& file) noexcept {
+  const std::filesystem::path folder = file.parent_path();
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  (void)::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+std::filesystem::path follow_links(const std::filesystem::path& path) {
+  constexpr int kMostLinks = 40;  // as the system's own limit
+  std::filesystem::path target = path;
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(target, error); ++i) {
+    const std::filesystem::path next = std::filesystem::read_symlink(target, error);
+    if (error) break;
+    target = next.is_absolute() ? next : target.parent_path() / next;
+  }
+  return target;
+}
+
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  namespace fs = std::filesystem;
+  if (a.empty() || b.empty()) return false;
+  std::error_code error;
+  // equivalent() follows links but needs both files; the absolute names also tell of one that is still to be made.
+  if (fs::equivalent(a, b, error)) return true;
+  const fs::path first = fs::weakly_canonical(fs::absolute(follow_links(a)), error);
+  if (error) return false;
+  const fs::path second = fs::weakly_canonical(fs::absolute(follow_links(b)), error);
+  return !error && first == second;
+}
+
+AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), target_(follow_links(path)) {
+  struct stat status {};
+  const bool exists = ::stat(target_.c_str(), &status) == 0;
+  if (!exists && errno == ELOOP) fail(ELOOP);
+  if (exists && S_ISDIR(status.st_mode)) fail(EISDIR);
+  if (exists && ::access(target_.c_str(), W_OK) != 0) fail(errno);
+  if (exists && !S_ISREG(status.st_mode)) {
+    descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0) fail(errno);
+    return;
+  }
+  if (!target_.has_filename()) fail(path_.empty() ? ENOENT : EISDIR);
+  remove_litter(target_.parent_path());
+  open_temporary();
+  if (!exists) return;
+  if (status.st_nlink > 1) note_ = fmt::format("It had {} names (hard links): the others keep what it held before.", status.st_nlink);
+  if (const int error = keep_attributes(target_, status, descriptor_); error != 0) {
+    discard();
+    fail(error);
+  }
+}
+
+void AtomicFile::open_temporary() {
+  static std::atomic<unsigned> counter{0};  // so that two threads never meet; other processes differ by their id
+  for (;;) {
+    // Short, whatever the target's name, so that it never is too long for the file system.
+    temporary_ = target_.parent_path() / litter_name(::getpid(), counter++);
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ < 0 && errno == EEXIST) continue;
+    if (descriptor_ < 0) {
+      const int error = errno;
+      temporary_.clear();
+      fail(error);
+    }
+    // Whoever cleans up takes a file that nobody has locked for litter, and this one was not for a moment: who has locked it by now is
+    // about to remove it, which is waited for, and then it has no name.
+    struct stat status {};
+    while (::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
+    }  // where there are no locks, nobody cleans up
+    if (::fstat(descriptor_, &status) == 0 && status.st_nlink > 0) return;
+    ::close(descriptor_);
+  }
+}
+
+AtomicFile::~AtomicFile() { discard(); }
+
+void AtomicFile::discard() noexcept {
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (descriptor_ >= 0) ::close(descriptor_);
+  descriptor_ = -1;
+  temporary_.clear();
+}
+
+void AtomicFile::pack() {
+  packer_ = std::make_unique<GzipPacker>([this](std::string_view packed) { write_plain(packed); });
+}
+
+void AtomicFile::write(std::string_view bytes) {
+  if (packer_) {
+    packer_->add(bytes);
+  } else {
+    write_plain(bytes);
+  }
+}
+
+void AtomicFile::write_plain(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail(errno);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void AtomicFile::finish() {
+  if (packer_) packer_->finish();
+  packer_.reset();
+  if (!temporary_.empty() && ::fsync(descriptor_) != 0 && !cannot_sync(errno)) fail(errno);
+}
+
+void AtomicFile::commit() {
+  finish();
+  // Renamed before it is closed: closing would unlock it.
+  if (!temporary_.empty()) {
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
+    temporary_.clear();
+    sync_folder(target_);
+  }
+  const int closed = ::close(descriptor_);
+  descriptor_ = -1;
+  if (closed != 0 && errno != EINTR) fail(errno);
+}
+
+void AtomicFile::fail(int error) const { throw OutputError(path_.string(), std::generic_category().message(error)); }
+
+void AtomicFiles::add(const std::filesystem::path& path, std::string_view bytes) {
+  auto file = std::make_unique<AtomicFile>(path);
+  file->write(bytes);
+  file->finish();
+  files_.push_back(std::move(file));
+}
+
+void AtomicFiles::commit() {
+  for (const auto& file : files_) file->commit();
+  files_.clear();
+}
+
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
+  AtomicFiles file;
+  file.add(path, bytes);
+  file.commit();
+}
+
+}  // namespace dmoscope

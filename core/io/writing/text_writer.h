@@ -1,0 +1,99 @@
+#pragma once
+// Fast output of text and bytes: into memory, and into a file, where several threads can share the work.
+
+#include <charconv>
+#include <concepts>
+#include <cstddef>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "core/io/reading/io_context.h"
+#include "core/io/writing/atomic_file.h"
+
+namespace dmoscope {
+
+/// Output into memory.
+class TextBuffer {
+ public:
+  explicit TextBuffer(std::size_t capacity = 0) : bytes_(std::make_unique_for_overwrite<char[]>(capacity)), capacity_(capacity) {}
+
+  TextBuffer& operator<<(std::string_view text) {
+    make_room(text.size());
+    std::memcpy(bytes_.get() + size_, text.data(), text.size());
+    size_ += text.size();
+    return *this;
+  }
+  TextBuffer& operator<<(const char* text) { return *this << std::string_view(text); }
+  TextBuffer& operator<<(const std::string& text) { return *this << std::string_view(text); }
+  TextBuffer& operator<<(char c) {
+    make_room(1);
+    bytes_[size_++] = c;
+    return *this;
+  }
+  /// The shortest decimal number that reads back as the same double.
+  TextBuffer& operator<<(double value) { return number(value); }
+  template <std::integral Integer>
+  requires(!std::same_as<Integer, char> && !std::same_as<Integer, bool>) TextBuffer& operator<<(Integer value) { return number(value); }
+
+  [[nodiscard]] std::string_view text() const noexcept { return {bytes_.get(), size_}; }
+  void clear() noexcept { size_ = 0; }
+
+ private:
+  template <class Number>
+  TextBuffer& number(Number value) {
+    constexpr std::size_t kLongestNumber = 64;
+    make_room(kLongestNumber);
+    char* const begin = bytes_.get() + size_;
+    size_ += static_cast<std::size_t>(std::to_chars(begin, begin + kLongestNumber, value).ptr - begin);
+    return *this;
+  }
+  void make_room(std::size_t count) {
+    if (capacity_ - size_ < count) grow(size_ + count);
+  }
+  void grow(std::size_t least);
+
+  std::unique_ptr<char[]> bytes_;
+  std::size_t size_ = 0;
+  std::size_t capacity_;
+};
+
+/// Collects output for a file and hands it on in large pieces. Call finish() at the end: the destructor writes nothing.
+/// Throws OutputError, Cancelled.
+class TextWriter {
+ public:
+  TextWriter(AtomicFile& file, const IoContext& context) : file_(&file), context_(context), buffer_(kPiece + kPiece / 4) {}
+
+  template <class Thing>
+  TextWriter& operator<<(const Thing& thing) {
+    buffer_ << thing;
+    if (buffer_.text().size() >= kPiece) finish();
+    return *this;
+  }
+  /// Bytes that are there already: they are not copied.
+  void bytes(std::string_view bytes);
+  /// Calls format(part, first, last) for chunks of at most `grain` of `count` things, on the context's threads, and writes the parts one
+  /// after the other in the things' order. The first exception in that order is thrown.
+  void in_parts(std::size_t count, std::size_t grain,
+                const std::function<void(TextBuffer& part, std::size_t first, std::size_t last)>& format);
+  /// The same for things that are formatted one by one: each(part, i).
+  template <class Each>
+  void for_each(std::size_t count, Each each) {
+    constexpr std::size_t kGrain = 16384;
+    in_parts(count, kGrain, [&](TextBuffer& part, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) each(part, i);
+    });
+  }
+  void finish();
+
+ private:
+  static constexpr std::size_t kPiece = std::size_t{1} << 20;
+
+  AtomicFile* file_;
+  IoContext context_;
+  TextBuffer buffer_;
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,35 @@
+#pragma once
+// XDMF files (.xdmf, .xmf) with their numbers in the XML.
+// https://www.xdmf.org/index.php/XDMF_Model_and_Format
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "core/io/array_patch.h"
+#include "core/io/cell_table.h"
+#include "core/io/format.h"
+#include "core/io/xdmf/xdmf_document.h"
+
+namespace dmoscope {
+
+/// XDMF's number of each CellShape in a mixed topology, and its name of a topology. It says nothing of how the corners of volume elements
+/// are wound: they are taken as they are, as most programs that write such files do.
+inline constexpr std::array<std::int64_t, kCellShapeCount> kXdmfTypes{1, 2, 4, 5, 6, 9, 8, 7};
+inline constexpr std::array<std::string_view, kCellShapeCount> kXdmfNames{"Polyvertex",  "Polyline",   "Triangle", "Quadrilateral",
+                                                                          "Tetrahedron", "Hexahedron", "Wedge",    "Pyramid"};
+
+/// See FormatHandler. One uniform grid, unstructured, of first order. Throws InputError, Cancelled.
+Mesh read_xdmf(SourceFile& source, const IoContext& context);
+/// See FormatHandler. Throws OutputError, Cancelled.
+Notes write_xdmf(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
+
+/// See FormatHandler. Where the numbers are in an HDF5 file, that is written beside the XML, under its own name or, where the XML has
+/// another name than the one that was read, under that one with .h5. Throws OutputError, Cancelled.
+Notes patch_xdmf(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
+
+/// The points of a DataItem whose numbers are in an HDF5 file, into `positions`. Throws InputError.
+[[nodiscard]] CoordinateArrays read_xdmf_points(const XdmfDocument& document, pugi::xml_node item, bool plane,
+                                                std::vector<Vec3>& positions);
+
+}  // namespace dmoscope

@@ -1,0 +1,76 @@
+#pragma once
+// The XML of an XDMF file, and the numbers of its DataItems.
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <pugixml.hpp>
+
+#include "core/base/progress.h"
+#include "core/io/arrays/array_file.h"
+#include "core/io/reading/io_context.h"
+#include "core/io/reading/source_file.h"
+
+namespace dmoscope {
+
+class XdmfDocument {
+ public:
+  /// Where a DataItem's numbers are that are not in the XML: "mesh.h5:/points".
+  struct Elsewhere {
+    std::string file, array;
+    std::size_t begin, end;  // where the file's name stands
+  };
+
+  /// Parses; `source` must outlive this. Throws InputError with the line.
+  XdmfDocument(const SourceFile& source, const IoContext& context);
+
+  /// The one grid that the file holds. Throws InputError where it has none, or several.
+  [[nodiscard]] pugi::xml_node grid() const;
+  /// The one DataItem of an element. Throws InputError.
+  [[nodiscard]] pugi::xml_node item(pugi::xml_node of) const;
+  /// The numbers of a DataItem; `places`: their offsets in the file. Throws InputError: no inline XML, no numbers, not as many as it says.
+  [[nodiscard]] std::vector<double> numbers(pugi::xml_node item, std::vector<std::uint64_t>* places = nullptr) const;
+  [[nodiscard]] std::vector<std::int64_t> wholes(pugi::xml_node item) const;
+  /// Throws InputError unless an item's Dimensions give this number of values, or nothing.
+  void require_expected(pugi::xml_node item, std::size_t found) const;
+  /// Nothing where the numbers are in the XML. Throws InputError for a binary file, and for words that are no place.
+  [[nodiscard]] std::optional<Elsewhere> elsewhere(pugi::xml_node item) const;
+  /// The HDF5 file of that name beside the XML; opened once. Throws InputError.
+  [[nodiscard]] ArrayFile& arrays(const std::string& file) const;
+  /// What was opened, by the names that the XML has for them.
+  [[nodiscard]] const std::map<std::string, std::shared_ptr<SourceFile>>& files() const noexcept { return files_; }
+  /// All DataItems of the document whose numbers are in HDF5 files.
+  [[nodiscard]] std::vector<Elsewhere> all_elsewhere() const;
+  /// The first of these attributes that the element has; empty if none.
+  [[nodiscard]] static std::string_view attribute(pugi::xml_node node, const char* name, const char* other_name);
+
+  /// Throws InputError at the line of an element, naming it.
+  [[noreturn]] void fail(pugi::xml_node node, const std::string& what) const;
+
+ private:
+  template <class Value, class Read>
+  std::vector<Value> values(pugi::xml_node item, std::vector<std::uint64_t>* places, Read read) const;
+  [[noreturn]] void fail_at(std::size_t offset, const std::string& what) const;
+  [[nodiscard]] std::size_t line_at(std::size_t offset) const;
+
+  /// How many numbers an item's Dimensions say; `most`: what is believed.
+  [[nodiscard]] std::size_t expected(pugi::xml_node item, std::size_t most) const;
+
+  const SourceFile& source_;
+  const IoContext& context_;
+  Progress& progress_;
+  std::string xml_;  // parsed in place
+  pugi::xml_document document_;
+  mutable std::map<std::string, std::shared_ptr<SourceFile>> files_;  // HDF5
+  mutable std::map<std::string, std::unique_ptr<ArrayFile>> arrays_;  // what is open of them
+};
+
+/// What separates the numbers of a DataItem: the next tag ends them.
+[[nodiscard]] TextSyntax xdmf_text_syntax();
+
+}  // namespace dmoscope

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/mesh/generate.h"
+#include "core/numeric/simd.h"
 #include "tests/smooth/surface_judge.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/volume_grids.h"
@@ -241,7 +242,7 @@ TEST(SlidingOnSurfaces, AnalyticDistances) {
   }
 }
 
-/// The same bits by any number of threads, in one go or in steps, after going back, and where others aim.
+/// The same bits by any number of threads and every width of instructions, in one go or in steps, after going back, and where others aim.
 TEST(SlidingOnSurfaces, AreTheSameBits) {
   const auto all = surfaces();
   for (std::size_t i = 0; i < all.size(); i += 4) {  // each kind once, with one kind of cells or another
@@ -258,6 +259,13 @@ TEST(SlidingOnSurfaces, AreTheSameBits) {
         dmoscope::Run run = make_run(mesh, parameters, threads);
         run.iterate(3, progress);
         ASSERT_TRUE(same_bits(run.positions(), expected.positions())) << specimen.name << ", aims " << aims;
+      }
+      for (const SimdLevel level : supported_simd_levels()) {
+        RunParameters other = parameters;
+        other.search.simd = level;
+        dmoscope::Run run = make_run(mesh, other);
+        run.iterate(3, progress);
+        ASSERT_TRUE(same_bits(run.positions(), expected.positions())) << specimen.name << ", aims " << aims << ": " << name(level);
       }
       dmoscope::Run stepped = make_run(mesh, parameters, 2);
       stepped.seek({2, stepped.visits_per_iteration() / 3}, progress);

@@ -1,0 +1,71 @@
+#pragma once
+// Random elements of every kind, for tests of their atoms.
+
+#include <array>
+#include <vector>
+
+#include "core/joint/atoms.h"
+#include "core/quality/quality.h"
+#include "tests/support/meshes.h"
+
+namespace dmoscope::testing {
+
+/// Where the corners of the ideal element of a kind stand, but for their scale.
+inline std::vector<Vec3> ideal_corners(ElementKind kind) {
+  const double h = std::sqrt(3.0) / 2.0;
+  switch (kind) {
+    case ElementKind::Triangle:
+      return {{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}};
+    case ElementKind::Quadrilateral:
+      return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    case ElementKind::Tetrahedron:
+      return {{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {0.5, h / 3.0, std::sqrt(2.0 / 3.0)}};
+    case ElementKind::Hexahedron:
+      return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    case ElementKind::Wedge:
+      return {{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {0, 0, 1}, {1, 0, 1}, {0.5, h, 1}};
+    case ElementKind::Pyramid:
+      return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, std::sqrt(0.5)}};
+  }
+  return {};
+}
+
+/// One element with its corners displaced at random by up to `jitter` edges.
+inline Mesh random_element(ElementKind kind, double jitter, Random& random) {
+  Mesh mesh;
+  mesh.positions = ideal_corners(kind);
+  std::vector<Index> corners;
+  for (Vec3& p : mesh.positions) {
+    corners.push_back(static_cast<Index>(corners.size()));
+    p = p + Vec3{random(-jitter, jitter), random(-jitter, jitter), info(kind).dimension == 3 ? random(-jitter, jitter) : 0.0};
+  }
+  mesh.elements.add(kind, corners);
+  return mesh;
+}
+
+template <int D>
+std::vector<Atom<D>> atoms_of(const Mesh& mesh, Metric metric) {
+  std::vector<Atom<D>> atoms;
+  for (Index e = 0; e < mesh.elements.size(); ++e) append_atoms<D>(mesh.elements, metric, e, atoms);
+  return atoms;
+}
+
+template <int D>
+AtomEdges<D> edges_of(const Atom<D>& atom, std::span<const Vec3> positions) {
+  AtomEdges<D> edges{};
+  for (std::size_t j = 0; j < D; ++j) {
+    const Vec3 e = positions[atom.vertices[j + 1]] - positions[atom.vertices[0]];
+    edges[j][0] = e.x;
+    edges[j][1] = e.y;
+    if constexpr (D == 3) edges[j][2] = e.z;
+  }
+  return edges;
+}
+
+inline Geometry geometry_of(ElementKind kind) {
+  Geometry geometry;
+  geometry.shape = info(kind).dimension == 3 ? Shape::Volume : Shape::Planar;
+  return geometry;
+}
+
+}  // namespace dmoscope::testing

@@ -1,0 +1,420 @@
+#include "core/joint/cluster_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/base/same_bits.h"
+#include "core/quality/quality.h"
+
+namespace dmoscope {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kFirstRings = 3, kMostRings = 64;
+constexpr int kThirdGrowth = 2;  // from this growth on a cluster may become the whole mesh
+constexpr double kEarlyGap = 0.05, kEarlyRim = 0.02;
+constexpr double kClosedRim = 5e-4;  // share of the multipliers on the rim below which nothing outside holds the cluster
+constexpr double kNearTau = 0.05;    // an atom further below tau does not hold the cluster
+constexpr double kActiveSlack = 2e-3, kActiveMultiplier = 0.01;
+constexpr double kSameLevel = 1e-3, kSameMinimum = 1e-4;  // relative
+constexpr double kLeastGain = 1e-4;                       // of the minimum, in a pass
+constexpr double kPassBand = 0.01;                        // how far above the minimum a pass looks, relative
+constexpr double kNoticed = 0.01;                         // of the mean multiplier
+
+void sort_and_unique(std::vector<Index>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+}  // namespace
+
+template <int D>
+ClusterSearch<D>::ClusterSearch(const JointMesh<D>& mesh, std::span<Vec3> positions, JointState& state, const JointOptions& options,
+                                Progress& progress)
+    : mesh_(mesh),
+      positions_(positions),
+      state_(state),
+      options_(options),
+      progress_(progress),
+      function_(mesh.metric(), AtomMeasure::InverseQuality),
+      whole_at_most_(options.whole_at_most > 0 ? options.whole_at_most
+                     : D == 2                  ? 20000
+                                               : 3000),
+      cluster_at_most_(options.cluster_at_most > 0 ? options.cluster_at_most
+                       : D == 2                    ? 20000
+                                                   : 1500) {}
+
+template <int D>
+ClusterSearch<D>::~ClusterSearch() {
+  if (finished_) return;
+  for (auto move = moved_from_.rbegin(); move != moved_from_.rend(); ++move) positions_[move->first] = move->second;
+}
+
+template <int D>
+std::optional<JointCluster> ClusterSearch<D>::run() {
+  begin();
+  std::optional<JointCluster> result;
+  if (options_.push_first && !state_.pushed) {
+    state_.pushed = true;
+    allow_above(-kInfinity);
+    if (mesh_.free_vertices().size() <= whole_at_most_ && std::ranges::count(allowed_, 1) > 0) result = push();
+  }
+  if (!result && state_.end == JointState::End::None)
+    if (const std::optional<Index> worst = find_worst()) result = raise(*worst);
+  if (result) ++state_.clusters;
+  finished_ = true;
+  return result;
+}
+
+template <int D>
+void ClusterSearch<D>::begin() {
+  const std::size_t vertices = positions_.size();
+  qualities_ = mesh_.qualities(positions_);
+  frozen_.assign(vertices, 0);
+  allowed_.assign(vertices, 0);
+  inside_.assign(vertices, 0);
+  for (std::size_t a = 0; a < qualities_.size(); ++a)
+    if (qualities_[a] <= 0.0)
+      for (const Index v : mesh_.input().mesh.elements.corners(mesh_.atoms()[a].element)) frozen_[v] = 1;
+  if (!state_.atoms.empty()) return;
+  state_.atoms.assign(qualities_.size(), JointState::Of::Open);
+  state_.levels.assign(vertices, kInfinity);
+  state_.pass_began_at = -kInfinity;
+}
+
+// ---- which atom ----
+
+/// The worst that is open and can be raised; sets which vertices may move for it.
+template <int D>
+std::optional<Index> ClusterSearch<D>::find_worst() {
+  for (;;) {
+    double minimum = kInfinity, worst = kInfinity;
+    Index found = kNoIndex;
+    for (Index a = 0; a < qualities_.size(); ++a) {
+      if (qualities_[a] <= 0.0) continue;
+      minimum = std::min(minimum, qualities_[a]);
+      if (state_.atoms[a] != JointState::Of::Open || qualities_[a] >= worst) continue;
+      worst = qualities_[a];
+      found = a;
+    }
+    if (state_.pass_began_at == -kInfinity) state_.pass_began_at = minimum;
+    if (!options_.beyond_minimum && certified_minimum()) {
+      state_.end = JointState::End::Certified;
+      return std::nullopt;
+    }
+    const bool beyond_pass = !options_.beyond_minimum && worst > (1.0 + kPassBand) * minimum;
+    if (found == kNoIndex || beyond_pass) {
+      if (!next_pass()) return std::nullopt;
+      continue;
+    }
+    allow_above(worst);
+    const auto& vertices = mesh_.atoms()[found].vertices;
+    if (!grown({vertices.begin(), vertices.end()}, kFirstRings).empty()) return found;
+    // Held by what is certified already, unless it is the neighbour of an inverted element.
+    const bool beside = std::ranges::any_of(vertices, [this](Index v) { return frozen_[v] != 0; });
+    state_.atoms[found] = beside ? JointState::Of::Tried : JointState::Of::Closed;
+  }
+}
+
+/// Is the worst of all one that is certified?
+template <int D>
+bool ClusterSearch<D>::certified_minimum() const {
+  double minimum = kInfinity, closed = kInfinity;
+  for (std::size_t a = 0; a < qualities_.size(); ++a) {
+    if (qualities_[a] <= 0.0) continue;
+    minimum = std::min(minimum, qualities_[a]);
+    if (state_.atoms[a] == JointState::Of::Closed) closed = std::min(closed, qualities_[a]);
+  }
+  return closed < kInfinity && closed <= (1.0 + kSameMinimum) * minimum;
+}
+
+/// What was tried in vain is open again, if there is any and the minimum rose. False: all is over.
+template <int D>
+bool ClusterSearch<D>::next_pass() {
+  const bool any = std::ranges::find(state_.atoms, JointState::Of::Tried) != state_.atoms.end();
+  double minimum = kInfinity;
+  for (const double q : qualities_)
+    if (q > 0.0) minimum = std::min(minimum, q);
+  if (!any || !(minimum - state_.pass_began_at >= kLeastGain)) {
+    state_.end = any ? JointState::End::NoGain : JointState::End::Certified;
+    return false;
+  }
+  std::ranges::replace(state_.atoms, JointState::Of::Tried, JointState::Of::Open);
+  state_.pass_began_at = minimum;
+  ++state_.passes;
+  return true;
+}
+
+// ---- which vertices ----
+
+template <int D>
+void ClusterSearch<D>::allow_above(double quality) {
+  for (const Index v : mesh_.free_vertices()) allowed_[v] = frozen_[v] == 0 && state_.levels[v] > quality * (1.0 + kSameLevel) ? 1 : 0;
+}
+
+/// The seeds that may move, and what may within so many rings of elements around them: ascending, as many as are allowed.
+template <int D>
+std::vector<Index> ClusterSearch<D>::grown(std::vector<Index> seeds, int rings) const {
+  const InputMesh& input = mesh_.input();
+  std::vector<std::uint8_t> seen(positions_.size(), 0);
+  std::vector<Index> all, next;
+  sort_and_unique(seeds);
+  const auto take = [&](Index v) {
+    if (allowed_[v] != 0 && all.size() < cluster_at_most_) all.push_back(v);
+  };
+  for (const Index v : seeds) {
+    seen[v] = 1;
+    take(v);
+  }
+  for (int ring = 0; ring < rings && all.size() < cluster_at_most_; ++ring) {
+    next.clear();
+    for (const Index v : seeds)
+      for (const Incidence& incidence : input.topology.star(v))
+        for (const Index w : input.mesh.elements.corners(incidence.element)) {
+          if (seen[w] != 0 || allowed_[w] == 0) continue;
+          seen[w] = 1;
+          next.push_back(w);
+        }
+    std::ranges::sort(next);
+    for (const Index w : next) take(w);
+    seeds.swap(next);
+  }
+  std::ranges::sort(all);
+  return all;
+}
+
+template <int D>
+std::vector<Index> ClusterSearch<D>::enlarged(const std::vector<Index>& cluster, int growth, int rings) const {
+  const bool full = cluster.size() >= cluster_at_most_;
+  std::vector<Index> larger;
+  if (mesh_.free_vertices().size() <= whole_at_most_ && (growth >= kThirdGrowth || full)) {
+    for (const Index v : mesh_.free_vertices())
+      if (allowed_[v] != 0) larger.push_back(v);
+    return larger;
+  }
+  if (full) return cluster;
+  larger = grown(solved_.rim, rings);
+  larger.insert(larger.end(), cluster.begin(), cluster.end());
+  sort_and_unique(larger);
+  return larger;
+}
+
+// ---- one cluster ----
+
+template <int D>
+void ClusterSearch<D>::solve(const std::vector<Index>& cluster, const InteriorPointOptions& options, bool may_leave) {
+  solved_ = {};
+  solved_.local = mesh_.problem(cluster, positions_);
+  std::ranges::fill(inside_, std::uint8_t{0});
+  for (const Index v : cluster) inside_[v] = 1;
+  JointCallbacks<D> callbacks;
+  if (may_leave)
+    callbacks.leave_early = [this](const JointIterate<D>& at) {
+      measure_rim(at);
+      return solved_.rim_share > kEarlyRim;
+    };
+  std::vector<Vec3> places;
+  if (options_.on_step)
+    callbacks.step = [&](const JointIterate<D>& at) {
+      places.clear();
+      for (std::size_t i = 0; i < cluster.size(); ++i)
+        places.push_back(mesh_.placed(positions_[cluster[i]], at.displacements[i], solved_.local.scale));
+      options_.on_step({newton_steps_ + at.steps, 1.0 / at.worst, 1.0 / (at.tau - at.gap()), cluster, places});
+    };
+  solved_.solution = solve_joint<D>(solved_.local.problem, function_, options, callbacks, progress_);
+  newton_steps_ += solved_.solution.last.steps;
+  ++solutions_;
+  commit();
+  measure_rim(solved_.solution.last);
+}
+
+/// Moves the mesh's vertices where that is better by the program's own judgement.
+template <int D>
+void ClusterSearch<D>::commit() {
+  if (!(solved_.solution.best_worst < solved_.solution.start_worst)) return;
+  const JudgedMove move = mesh_.move(solved_.local, solved_.solution.best, positions_);
+  const bool better = move.after > move.before && move.inverted_after <= move.inverted_before;
+  for (std::size_t i = 0; i < move.moved_from.size(); ++i) {
+    const Index v = solved_.local.vertices[i];
+    if (better)
+      moved_from_.emplace_back(v, move.moved_from[i]);
+    else
+      positions_[v] = move.moved_from[i];
+  }
+}
+
+template <int D>
+void ClusterSearch<D>::measure_rim(const JointIterate<D>& at) {
+  solved_.rim.clear();
+  solved_.rim_share = 0.0;
+  const auto count = static_cast<double>(at.multipliers.size());
+  for (std::size_t i = 0; i < at.multipliers.size(); ++i) {
+    if (at.tau - at.values[i] > kNearTau * at.tau) continue;
+    const auto& vertices = mesh_.atoms()[solved_.local.atoms[i]].vertices;
+    if (std::ranges::none_of(vertices, [this](Index v) { return allowed_[v] != 0 && inside_[v] == 0; })) continue;
+    solved_.rim_share += at.multipliers[i];
+    if (at.multipliers[i] > kNoticed / count) solved_.rim.insert(solved_.rim.end(), vertices.begin(), vertices.end());
+  }
+  sort_and_unique(solved_.rim);
+}
+
+template <int D>
+JointCluster ClusterSearch<D>::push() {
+  std::vector<Index> all;
+  for (const Index v : mesh_.free_vertices())
+    if (allowed_[v] != 0) all.push_back(v);
+  solve(all, {.gap = options_.push_gap, .max_steps = options_.max_steps}, false);
+  JointCluster result = told(all);
+  result.is_push = true;
+  result.why_not = "the first push leaves the rest to the clusters";
+  return result;
+}
+
+template <int D>
+JointCluster ClusterSearch<D>::raise(Index worst) {
+  const InteriorPointOptions options{.gap = options_.gap, .early_gap = kEarlyGap, .max_steps = options_.max_steps};
+  const auto& vertices = mesh_.atoms()[worst].vertices;
+  int rings = kFirstRings;
+  std::vector<Index> cluster = grown({vertices.begin(), vertices.end()}, rings);
+  for (int growth = 0;; ++growth) {
+    solve(cluster, options, true);
+    if (solved_.rim_share < kClosedRim) break;
+    rings = std::min(2 * rings, kMostRings);
+    std::vector<Index> larger = enlarged(cluster, growth, rings);
+    if (larger.size() <= cluster.size()) {
+      if (solved_.solution.end == InteriorPointEnd::LeftEarly) solve(cluster, options, false);
+      break;
+    }
+    cluster = std::move(larger);
+  }
+  JointCluster result = told(cluster);
+  result.worst_element = mesh_.atoms()[worst].element;
+  if (result.moved.empty()) {
+    result.before = result.after =
+        element_quality(mesh_.input().quality_context(), std::span<const Vec3>(positions_), mesh_.metric(), result.worst_element);
+  }
+  result.why_not = why_not(cluster);
+  result.certified = result.why_not.empty();
+  settle(worst, result.certified);
+  return result;
+}
+
+template <int D>
+std::string ClusterSearch<D>::why_not(const std::vector<Index>& cluster) const {
+  const JointSolution<D>& solution = solved_.solution;
+  if (solution.end == InteriorPointEnd::Steps) return fmt::format("{} Newton steps did not suffice", options_.max_steps);
+  if (solution.end != InteriorPointEnd::Gap) return "no step was found that leads further";
+  if (!(solved_.rim_share < kClosedRim))
+    return fmt::format("{:.2g} % of what holds it lies on the rim of the {} vertices, and they are as many as may move together",
+                       100.0 * solved_.rim_share, cluster.size());
+  const double bound = 1.0 / (solution.last.tau - solution.last.gap());
+  if (!(bound - reached() <= 4.0 * options_.gap * bound)) return "the metric as judged did not rise as the solution did";
+  return {};
+}
+
+/// The least quality of the cluster's atoms where the vertices stand now.
+template <int D>
+double ClusterSearch<D>::reached() const {
+  double most = 0.0;
+  for (const Index a : solved_.local.atoms) {
+    const Atom<D>& atom = mesh_.atoms()[a];
+    most = std::max(most, function_.value(atom.shape, mesh_.edges(atom, positions_), 1.0));
+  }
+  return 1.0 / most;
+}
+
+/// Closes what holds the cluster, or marks it as tried.
+template <int D>
+void ClusterSearch<D>::settle(Index worst, bool certified) {
+  const JointIterate<D>& at = solved_.solution.last;
+  const double level = reached();
+  const auto set = [&](Index a) {
+    state_.atoms[a] = certified ? JointState::Of::Closed : JointState::Of::Tried;
+    if (!certified) return;
+    for (const Index v : mesh_.atoms()[a].vertices) state_.levels[v] = std::min(state_.levels[v], level);
+  };
+  set(worst);
+  for (std::size_t i = 0; i < at.multipliers.size(); ++i)
+    if (at.tau - at.values[i] <= kActiveSlack * at.tau || at.multipliers[i] > kActiveMultiplier) set(solved_.local.atoms[i]);
+}
+
+// ---- what is told of it ----
+
+template <int D>
+JointCluster ClusterSearch<D>::told(const std::vector<Index>& cluster) const {
+  JointCluster result;
+  result.vertices = cluster;
+  result.newton_steps = newton_steps_;
+  result.solutions = solutions_;
+  result.bound = 1.0 / (solved_.solution.last.tau - solved_.solution.last.gap());
+  const double least = reached();
+  result.gap = std::max(0.0, (result.bound - least) / least);
+
+  std::vector<Vec3> old(positions_.begin(), positions_.end());
+  for (auto move = moved_from_.rbegin(); move != moved_from_.rend(); ++move) old[move->first] = move->second;
+  for (const Index v : cluster)
+    if (!same_bits(old[v], positions_[v])) result.moved.push_back({v, positions_[v]});
+  const QualityContext context = mesh_.input().quality_context();
+  result.before = result.after = kInfinity;
+  for (const Index e : mesh_.elements_at(cluster)) {
+    const double before = element_quality(context, old, mesh_.metric(), e);
+    const double after = element_quality(context, std::span<const Vec3>(positions_), mesh_.metric(), e);
+    if (before == after) continue;
+    result.before = std::min(result.before, before);
+    result.after = std::min(result.after, after);
+  }
+  tell_forces(result);
+  return result;
+}
+
+template <int D>
+void ClusterSearch<D>::tell_forces(JointCluster& result) const {
+  const JointIterate<D>& at = solved_.solution.last;
+  const auto count = static_cast<double>(at.multipliers.size());
+  double sum = 0.0;
+  for (const double multiplier : at.multipliers)
+    if (multiplier > kNoticed / count) sum += multiplier;
+  AtomDerivatives<D> derivatives;
+  const auto& problem = solved_.local.problem;
+  // Local atoms go by element.
+  for (std::size_t i = 0; i < at.multipliers.size(); ++i) {
+    if (!(at.multipliers[i] > kNoticed / count)) continue;
+    const Atom<D>& atom = mesh_.atoms()[solved_.local.atoms[i]];
+    const double share = at.multipliers[i] / sum;
+    if (result.active.empty() || result.active.back().element != atom.element) result.active.push_back({atom.element, 0.0});
+    result.active.back().multiplier += share;
+    function_.derive(atom.shape, displaced_edges<D>(problem, i, at.displacements), 1.0, Curvature::Exact, derivatives);
+    // Of q = 1 / f at f = tau, where all that hold the cluster nearly are.
+    const double factor = -share * solved_.local.scale / (at.tau * at.tau);
+    std::array<std::array<double, D>, D + 1> forces{};
+    for (std::size_t j = 0; j < D; ++j)
+      for (std::size_t r = 0; r < D; ++r) {
+        forces[j + 1][r] = factor * derivatives.gradient[j * D + r];
+        forces[0][r] -= forces[j + 1][r];
+      }
+    for (std::size_t k = 0; k <= D; ++k) result.forces.push_back({atom.element, atom.vertices[k], mesh_.lifted(forces[k])});
+  }
+  std::ranges::stable_sort(result.active, [](const auto& a, const auto& b) {
+    return a.multiplier != b.multiplier ? a.multiplier > b.multiplier : a.element < b.element;
+  });
+  std::ranges::stable_sort(
+      result.forces, [](const auto& a, const auto& b) { return a.element != b.element ? a.element < b.element : a.vertex < b.vertex; });
+  std::vector<JointCluster::Force> merged;  // an element's atoms in one
+  for (const JointCluster::Force& each : result.forces) {
+    const bool same = !merged.empty() && merged.back().element == each.element && merged.back().vertex == each.vertex;
+    if (same)
+      merged.back().force = merged.back().force + each.force;
+    else
+      merged.push_back(each);
+  }
+  result.forces = std::move(merged);
+}
+
+template class ClusterSearch<2>;
+template class ClusterSearch<3>;
+
+}  // namespace dmoscope

@@ -1,0 +1,66 @@
+#pragma once
+// One call of JointClusters::raise_worst: finds the worst open atom, grows a cluster around it, solves it, and settles what came of it.
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/joint/joint_clusters.h"
+#include "core/joint/joint_mesh.h"
+
+namespace dmoscope {
+
+/// For one call. The state may be left in any state on an exception; the positions are then as they were.
+template <int D>
+class ClusterSearch {
+ public:
+  ClusterSearch(const JointMesh<D>& mesh, std::span<Vec3> positions, JointState& state, const JointOptions& options, Progress& progress);
+  ~ClusterSearch();  // takes back what is not finished
+  ClusterSearch(const ClusterSearch&) = delete;
+  ClusterSearch& operator=(const ClusterSearch&) = delete;
+  [[nodiscard]] std::optional<JointCluster> run();
+
+ private:
+  /// A solved cluster, in the mesh's terms.
+  struct Solved {
+    LocalProblem<D> local;
+    JointSolution<D> solution;
+    std::vector<Index> rim;  // vertices of atoms that hold the cluster and have vertices outside it that could move; ascending
+    double rim_share = 0.0;  // of the multipliers' sum
+  };
+
+  void begin();
+  [[nodiscard]] std::optional<Index> find_worst();
+  [[nodiscard]] bool certified_minimum() const;
+  bool next_pass();
+  void allow_above(double quality);
+  [[nodiscard]] std::vector<Index> grown(std::vector<Index> seeds, int rings) const;
+  [[nodiscard]] JointCluster push();
+  [[nodiscard]] JointCluster raise(Index worst);
+  void solve(const std::vector<Index>& cluster, const InteriorPointOptions& options, bool may_leave);
+  void commit();
+  void measure_rim(const JointIterate<D>& at);
+  [[nodiscard]] std::vector<Index> enlarged(const std::vector<Index>& cluster, int growth, int rings) const;
+  void settle(Index worst, bool certified);
+  [[nodiscard]] double reached() const;
+  [[nodiscard]] JointCluster told(const std::vector<Index>& cluster) const;
+  void tell_forces(JointCluster& result) const;
+  [[nodiscard]] std::string why_not(const std::vector<Index>& cluster) const;
+
+  const JointMesh<D>& mesh_;
+  std::span<Vec3> positions_;
+  JointState& state_;
+  const JointOptions& options_;
+  Progress& progress_;
+  AtomFunction<D> function_;
+  std::size_t whole_at_most_, cluster_at_most_;
+  std::vector<double> qualities_;                   // of all atoms, where they stood at the start
+  std::vector<std::uint8_t> allowed_, inside_;      // of all vertices: may move, are in the cluster
+  std::vector<std::uint8_t> frozen_;                // of all vertices: of an inverted element
+  std::vector<std::pair<Index, Vec3>> moved_from_;  // in the order of the moves
+  Solved solved_;
+  int newton_steps_ = 0, solutions_ = 0;
+  bool finished_ = false;
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,378 @@
+#include "core/joint/interior_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/joint/block_cholesky.h"
+#include "core/numeric/product_log.h"
+
+namespace dmoscope {
+
+namespace {
+
+constexpr double kFirstMargin = 0.05;  // tau begins this far above the greatest f
+constexpr double kLeastSlack = 0.005;  // of its slack an atom keeps in one step
+constexpr double kCentred = 10.0;      // Newton's decrement below which a full step suffices before mu falls
+constexpr double kFall = 0.3;          // of mu
+constexpr double kFirstDamping = 0.1, kLeastDamping = 1e-4, kMostDamping = 1e4;
+constexpr double kOntoDiagonal = 1e-9;  // what rounding could take from it
+
+template <int D>
+class InteriorPoint {
+ public:
+  InteriorPoint(const JointProblem<D>& problem, const AtomFunction<D>& function);
+  JointSolution<D> solve(const InteriorPointOptions& options, const JointCallbacks<D>& callbacks, Progress& progress);
+
+ private:
+  static constexpr std::size_t kD = D, kVertices = kD + 1, kEdges = kD * kD;
+  using Cholesky = BlockCholesky<D>;
+  using Place = std::array<double, kD>;
+  /// Of an atom's free vertices k >= l, at k (k + 1) / 2 + l.
+  using Slots = std::array<typename Cholesky::Slot, kVertices*(kVertices + 1) / 2>;
+
+  static Adjacency adjacency(const JointProblem<D>& problem);
+  [[nodiscard]] bool is_free(std::size_t atom, std::size_t k) const { return problem_.atoms[atom].vertices[k] < problem_.free_vertices; }
+  [[nodiscard]] double value(std::size_t atom, const std::vector<Place>& displacements) const;
+  [[nodiscard]] double slack(std::size_t atom) const { return at_.tau - at_.values[atom]; }
+  bool start();
+  void assemble(Curvature curvature);
+  void add_atom(std::size_t atom, const AtomDerivatives<D>& derivatives);
+  using Damping = std::array<double, kVertices>;
+  [[nodiscard]] Damping damping(std::size_t atom, const AtomDerivatives<D>& derivatives) const;
+  [[nodiscard]] bool factorise();
+  void find_direction();
+  [[nodiscard]] bool search_line();
+  void step_multipliers();
+  [[nodiscard]] bool is_centred() const { return (alpha_ > 0.9 && -slope_ < kCentred) || -slope_ < 1e-3; }
+
+  const JointProblem<D>& problem_;
+  const AtomFunction<D>& function_;
+  Cholesky cholesky_;
+  std::vector<Slots> slots_;
+  JointIterate<D> at_;
+  // Of the step under way.
+  std::vector<std::array<double, kEdges>> gradients_;  // by edges
+  std::vector<double> ratios_, changes_, new_values_;  // multiplier / slack, multipliers' steps
+  std::vector<double> direction_, tau_direction_;      // dx, and of it what goes with dtau
+  std::vector<double> force_;                          // sum of mu / slack * gradient
+  std::vector<Place> trial_;
+  double ratio_sum_ = 0.0, barrier_sum_ = 0.0;  // of the multiplier / slack, of mu / slack
+  double dtau_ = 0.0, slope_ = 0.0, alpha_ = 0.0;
+  double sigma_ = kFirstDamping;
+  bool exact_ = true;
+};
+
+template <int D>
+InteriorPoint<D>::InteriorPoint(const JointProblem<D>& problem, const AtomFunction<D>& function)
+    : problem_(problem),
+      function_(function),
+      cholesky_(adjacency(problem), std::span(problem.places).first(problem.free_vertices)),
+      slots_(problem.atoms.size()) {
+  for (std::size_t a = 0; a < slots_.size(); ++a)
+    for (std::size_t k = 0; k < kVertices; ++k)
+      for (std::size_t l = 0; l <= k; ++l)
+        if (is_free(a, k) && is_free(a, l))
+          slots_[a][k * (k + 1) / 2 + l] = cholesky_.slot(problem.atoms[a].vertices[k], problem.atoms[a].vertices[l]);
+}
+
+/// Free vertices that share an atom.
+template <int D>
+Adjacency InteriorPoint<D>::adjacency(const JointProblem<D>& problem) {
+  std::vector<std::vector<Index>> neighbours(problem.free_vertices);
+  for (const Atom<D>& atom : problem.atoms)
+    for (const Index v : atom.vertices)
+      for (const Index w : atom.vertices)
+        if (v != w && v < problem.free_vertices && w < problem.free_vertices) neighbours[v].push_back(w);
+  Adjacency graph;
+  for (std::vector<Index>& each : neighbours) {
+    std::sort(each.begin(), each.end());
+    each.erase(std::unique(each.begin(), each.end()), each.end());
+    graph.neighbours.insert(graph.neighbours.end(), each.begin(), each.end());
+    graph.offsets.push_back(static_cast<Index>(graph.neighbours.size()));
+  }
+  return graph;
+}
+
+template <int D>
+double InteriorPoint<D>::value(std::size_t atom, const std::vector<Place>& displacements) const {
+  return function_.value(problem_.atoms[atom].shape, displaced_edges<D>(problem_, atom, displacements), problem_.reference(atom));
+}
+
+/// False where an f is infinite.
+template <int D>
+bool InteriorPoint<D>::start() {
+  const std::size_t count = problem_.atoms.size();
+  at_.displacements.assign(problem_.free_vertices, Place{});
+  at_.values.resize(count);
+  at_.multipliers.resize(count);
+  for (std::size_t a = 0; a < count; ++a) at_.values[a] = value(a, at_.displacements);
+  at_.worst = *std::ranges::max_element(at_.values);
+  if (!std::isfinite(at_.worst)) return false;
+  at_.tau = at_.worst + kFirstMargin * std::fabs(at_.worst);
+  double sum = 0.0;
+  for (std::size_t a = 0; a < count; ++a) sum += 1.0 / slack(a);
+  at_.mu = 1.0 / sum;
+  for (std::size_t a = 0; a < count; ++a) at_.multipliers[a] = at_.mu / slack(a);
+  gradients_.resize(count);
+  ratios_.resize(count);
+  changes_.resize(count);
+  new_values_.resize(count);
+  trial_ = at_.displacements;
+  return true;
+}
+
+/// The Hessian of the Lagrangian and the barrier, K, and the sums that go with it, with damping.
+template <int D>
+void InteriorPoint<D>::assemble(Curvature curvature) {
+  cholesky_.clear();
+  force_.assign(problem_.free_vertices * kD, 0.0);
+  tau_direction_.assign(problem_.free_vertices * kD, 0.0);
+  ratio_sum_ = barrier_sum_ = 0.0;
+  AtomDerivatives<D> derivatives;
+  for (std::size_t a = 0; a < problem_.atoms.size(); ++a) {
+    function_.derive(problem_.atoms[a].shape, displaced_edges<D>(problem_, a, at_.displacements), problem_.reference(a), curvature,
+                     derivatives);
+    add_atom(a, derivatives);
+  }
+  for (Index v = 0; v < problem_.free_vertices; ++v) {
+    auto& block = cholesky_.diagonal(v);
+    for (std::size_t r = 0; r < kD; ++r) block[r * kD + r] *= 1.0 + kOntoDiagonal;
+  }
+}
+
+/// What makes an atom's vertices stiff, times its multiplier: the mean of its Hessian's diagonal there, or where that may vanish the
+/// gradient over the edges' length.
+template <int D>
+typename InteriorPoint<D>::Damping InteriorPoint<D>::damping(std::size_t atom, const AtomDerivatives<D>& derivatives) const {
+  Damping result{};
+  const double multiplier = at_.multipliers[atom];
+  if (function_.convex_by_vertex()) {
+    for (std::size_t r = 0; r < kD; ++r) {
+      double of_first = 0.0;
+      for (std::size_t i = 0; i < kD; ++i) {
+        for (std::size_t j = 0; j < kD; ++j) of_first += derivatives.hessian[(i * kD + r) * kEdges + j * kD + r];
+        result[i + 1] += std::fabs(derivatives.hessian[(i * kD + r) * kEdges + i * kD + r]);
+      }
+      result[0] += std::fabs(of_first);
+    }
+    for (double& x : result) x *= multiplier / D;
+    return result;
+  }
+  double slope = 0.0, length = 0.0;
+  for (const double g : derivatives.gradient) slope += g * g;
+  for (const Place& edge : displaced_edges<D>(problem_, atom, at_.displacements))
+    for (const double x : edge) length += x * x;
+  const double stiff = length > 0.0 ? multiplier * std::sqrt(slope / length) : 0.0;
+  result.fill(stiff);
+  result[0] = D * stiff;  // it is in every edge
+  return result;
+}
+
+template <int D>
+void InteriorPoint<D>::add_atom(std::size_t atom, const AtomDerivatives<D>& derivatives) {
+  const auto& vertices = problem_.atoms[atom].vertices;
+  const double multiplier = at_.multipliers[atom], s = slack(atom), ratio = multiplier / s, barrier = at_.mu / s;
+  const auto& g = gradients_[atom] = derivatives.gradient;
+  const Damping damped = damping(atom, derivatives);
+  // Derivatives by edges: vertex k >= 1 has those of edge k - 1, the first vertex the negative sum.
+  std::array<double, kEdges * kEdges> h;
+  for (std::size_t i = 0; i < kEdges; ++i)
+    for (std::size_t j = 0; j < kEdges; ++j) h[i * kEdges + j] = multiplier * derivatives.hessian[i * kEdges + j] + ratio * g[i] * g[j];
+  std::array<double, kD * kEdges> first_row{};  // of the first vertex by the edges
+  for (std::size_t i = 0; i < kD; ++i)
+    for (std::size_t n = 0; n < kD * kEdges; ++n) first_row[n] -= h[i * kD * kEdges + n];
+  std::array<double, kD> first_gradient{};
+  for (std::size_t i = 0; i < kEdges; ++i) first_gradient[i % kD] -= g[i];
+
+  for (std::size_t k = 0; k < kVertices; ++k) {
+    if (!is_free(atom, k)) continue;
+    const double* gradient = k == 0 ? first_gradient.data() : &g[(k - 1) * kD];
+    for (std::size_t r = 0; r < kD; ++r) {
+      force_[vertices[k] * kD + r] += barrier * gradient[r];
+      tau_direction_[vertices[k] * kD + r] += ratio * gradient[r];
+    }
+    const double* row = k == 0 ? first_row.data() : &h[(k - 1) * kD * kEdges];
+    for (std::size_t l = 0; l <= k; ++l) {
+      if (!is_free(atom, l)) continue;
+      typename Cholesky::Block block{};
+      for (std::size_t r = 0; r < kD; ++r)
+        for (std::size_t c = 0; c < kD; ++c) {
+          if (l > 0) {
+            block[r * kD + c] = row[r * kEdges + (l - 1) * kD + c];
+            continue;
+          }
+          for (std::size_t j = 0; j < kD; ++j) block[r * kD + c] -= row[r * kEdges + j * kD + c];
+        }
+      if (k == l)
+        for (std::size_t r = 0; r < kD; ++r) block[r * kD + r] += sigma_ * damped[k];
+      cholesky_.add(slots_[atom][k * (k + 1) / 2 + l], block);
+    }
+  }
+  ratios_[atom] = ratio;
+  ratio_sum_ += ratio;
+  barrier_sum_ += barrier;
+}
+
+/// Assembles and factorises: with the exact Hessian, then with the convex one, then with more and more damping.
+template <int D>
+bool InteriorPoint<D>::factorise() {
+  assemble(exact_ ? Curvature::Exact : Curvature::Convex);
+  for (int attempt = 0; attempt < 12; ++attempt) {
+    if (cholesky_.factorise()) {
+      if (attempt == 0) exact_ = true;  // it may have become definite again
+      return true;
+    }
+    if (exact_)
+      exact_ = false;
+    else
+      sigma_ = std::max(10.0 * sigma_, 1e-3);
+    assemble(Curvature::Convex);
+  }
+  return false;
+}
+
+/// Newton's step in displacements and tau. Eliminating the multipliers leaves K dx = b dtau - r, and b . dx - sum(ratio) dtau =
+/// 1 - sum(mu / slack).
+template <int D>
+void InteriorPoint<D>::find_direction() {
+  const auto dot = [](const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+    return sum;
+  };
+  const std::vector<double> b = tau_direction_;
+  direction_ = force_;
+  for (double& x : direction_) x = -x;
+  cholesky_.solve(direction_);
+  cholesky_.solve(tau_direction_);
+  dtau_ = (1.0 - barrier_sum_ - dot(b, direction_)) / (dot(b, tau_direction_) - ratio_sum_);
+  for (std::size_t i = 0; i < direction_.size(); ++i) direction_[i] += dtau_ * tau_direction_[i];
+  slope_ = (dtau_ * (1.0 - barrier_sum_) + dot(force_, direction_)) / at_.mu;
+}
+
+/// Shortens the step until every atom keeps some slack and tau / mu - sum of log(slack) falls. Then takes it.
+template <int D>
+bool InteriorPoint<D>::search_line() {
+  alpha_ = 1.0;
+  for (int attempt = 0; attempt < 30; ++attempt, alpha_ *= 0.6) {
+    const double tau = at_.tau + alpha_ * dtau_;
+    for (std::size_t v = 0; v < trial_.size(); ++v)
+      for (std::size_t r = 0; r < kD; ++r) trial_[v][r] = at_.displacements[v][r] + alpha_ * direction_[v * kD + r];
+    ProductLog slacks;  // of new ones over old ones
+    bool inside = true;
+    for (std::size_t a = 0; a < new_values_.size() && inside; ++a) {
+      new_values_[a] = value(a, trial_);
+      const double left = (tau - new_values_[a]) / slack(a);
+      inside = left > kLeastSlack && std::isfinite(left);
+      if (inside) slacks.multiply(left);
+    }
+    if (!inside) continue;
+    const double change = alpha_ * dtau_ / at_.mu - slacks.value();
+    if (!(change <= 1e-4 * alpha_ * slope_ + 1e-12 * (1.0 + std::fabs(at_.tau / at_.mu)))) continue;
+    step_multipliers();
+    at_.tau = tau;
+    at_.displacements.swap(trial_);
+    at_.values.swap(new_values_);
+    at_.worst = *std::ranges::max_element(at_.values);
+    return true;
+  }
+  return false;
+}
+
+/// Changes of the multipliers that go with the full step; slacks are still the old ones.
+template <int D>
+void InteriorPoint<D>::step_multipliers() {
+  double longest = 1.0;
+  for (std::size_t a = 0; a < changes_.size(); ++a) {
+    const auto& vertices = problem_.atoms[a].vertices;
+    double rise = 0.0;  // of f, to first order
+    for (std::size_t j = 0; j < kD; ++j)
+      for (std::size_t r = 0; r < kD; ++r) {
+        const double other = is_free(a, j + 1) ? direction_[vertices[j + 1] * kD + r] : 0.0;
+        const double first = is_free(a, 0) ? direction_[vertices[0] * kD + r] : 0.0;
+        rise += gradients_[a][j * kD + r] * (other - first);
+      }
+    changes_[a] = at_.mu / slack(a) - at_.multipliers[a] - ratios_[a] * (dtau_ - rise);
+    if (changes_[a] < 0.0) longest = std::min(longest, -0.995 * at_.multipliers[a] / changes_[a]);
+  }
+  for (std::size_t a = 0; a < changes_.size(); ++a) at_.multipliers[a] += longest * changes_[a];
+}
+
+template <int D>
+JointSolution<D> InteriorPoint<D>::solve(const InteriorPointOptions& options, const JointCallbacks<D>& callbacks, Progress& progress) {
+  JointSolution<D> solution;
+  const bool sound = start();
+  solution.best = at_.displacements;
+  solution.best_worst = solution.start_worst = at_.worst;
+  if (!sound) {
+    solution.last = std::move(at_);
+    return solution;
+  }
+  solution.end = InteriorPointEnd::Steps;
+  const auto within = [&](double gap) { return at_.gap() < gap * std::fabs(at_.tau); };
+  bool asked = options.early_gap <= 0.0 || !callbacks.leave_early;
+  for (int attempt = 0; attempt < options.max_steps; ++attempt) {
+    progress.check();
+    if (!factorise()) {
+      solution.end = InteriorPointEnd::Stuck;
+      break;
+    }
+    find_direction();
+    if (!search_line()) {
+      if (!within(options.gap) && sigma_ < kMostDamping) {
+        sigma_ = std::min(std::max(sigma_, 1e-3) * 16.0, kMostDamping);
+        continue;
+      }
+      solution.end = within(options.gap) ? InteriorPointEnd::Gap : InteriorPointEnd::Stuck;
+      break;
+    }
+    ++at_.steps;
+    if (alpha_ < 0.3)
+      sigma_ = std::min(4.0 * sigma_, kMostDamping);
+    else if (alpha_ > 0.7)
+      sigma_ = std::max(sigma_ / 4.0, kLeastDamping);
+    for (std::size_t a = 0; a < at_.values.size(); ++a) {
+      const double plain = at_.mu / slack(a);
+      at_.multipliers[a] = std::clamp(at_.multipliers[a], 1e-3 * plain, 1e3 * plain);
+    }
+    if (at_.worst < solution.best_worst) {
+      solution.best_worst = at_.worst;
+      solution.best = at_.displacements;
+    }
+    if (callbacks.step) callbacks.step(at_);
+    if (solution.best_worst <= options.enough) {
+      solution.end = InteriorPointEnd::Enough;
+      break;
+    }
+    if (!is_centred()) continue;
+    if (within(options.gap)) {
+      solution.end = InteriorPointEnd::Gap;
+      break;
+    }
+    if (!asked && within(options.early_gap)) {
+      asked = true;
+      if (callbacks.leave_early(at_)) {
+        solution.end = InteriorPointEnd::LeftEarly;
+        break;
+      }
+    }
+    at_.mu *= kFall;
+  }
+  solution.last = std::move(at_);
+  return solution;
+}
+
+}  // namespace
+
+template <int D>
+JointSolution<D> solve_joint(const JointProblem<D>& problem, const AtomFunction<D>& function, const InteriorPointOptions& options,
+                             const JointCallbacks<D>& callbacks, Progress& progress) {
+  return InteriorPoint<D>(problem, function).solve(options, callbacks, progress);
+}
+template JointSolution<2> solve_joint<2>(const JointProblem<2>&, const AtomFunction<2>&, const InteriorPointOptions&,
+                                         const JointCallbacks<2>&, Progress&);
+template JointSolution<3> solve_joint<3>(const JointProblem<3>&, const AtomFunction<3>&, const InteriorPointOptions&,
+                                         const JointCallbacks<3>&, Progress&);
+
+}  // namespace dmoscope

@@ -1,0 +1,81 @@
+#pragma once
+// Raises the least quality of a set of atoms by moving all their free vertices together: minimises tau subject to f <= tau for every
+// atom's f, by a primal-dual interior point (Nocedal and Wright 2006, chapter 19).
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/joint/atoms.h"
+
+namespace dmoscope {
+
+/// Vertices are numbered for this problem: first those that may move. Unknown are their displacements from `places`.
+template <int D>
+struct JointProblem {
+  std::size_t free_vertices = 0;
+  std::vector<std::array<double, D>> places;  // of all vertices, where only differences of the free ones' matter, and only roughly
+  std::vector<Atom<D>> atoms;                 // each has a free vertex; `element` is of no account
+  std::vector<AtomEdges<D>> edges;            // of each atom, undisplaced; about as long as 1
+  std::vector<double> references;             // one an atom for AtomMeasure::RelativeJacobian; else empty
+  [[nodiscard]] double reference(std::size_t atom) const { return references.empty() ? 1.0 : references[atom]; }
+};
+
+/// An atom's edges with the free vertices displaced.
+template <int D>
+[[nodiscard]] AtomEdges<D> displaced_edges(const JointProblem<D>& problem, std::size_t atom,
+                                           const std::vector<std::array<double, D>>& displacements) {
+  const auto& vertices = problem.atoms[atom].vertices;
+  const auto displacement = [&](Index v) { return v < problem.free_vertices ? displacements[v] : std::array<double, D>{}; };
+  AtomEdges<D> result = problem.edges[atom];
+  const auto first = displacement(vertices[0]);
+  for (std::size_t j = 0; j < result.size(); ++j) {
+    const auto other = displacement(vertices[j + 1]);
+    for (std::size_t r = 0; r < other.size(); ++r) result[j][r] += other[r] - first[r];
+  }
+  return result;
+}
+
+struct InteriorPointOptions {
+  double gap = 2e-4;       // relative: ends when tau may be that far above the least possible
+  double early_gap = 0.0;  // on the way there, `leave_early` is asked at this one
+  double enough = -1.0;    // ends when all f are at most this
+  int max_steps = 150;     // Newton steps
+};
+
+enum class InteriorPointEnd { Gap, LeftEarly, Enough, Steps, Stuck, NotSound };
+
+/// Where it stands after a Newton step, and at the end.
+template <int D>
+struct JointIterate {
+  std::vector<std::array<double, D>> displacements;  // of the free vertices
+  std::vector<double> values;                        // f of each atom
+  std::vector<double> multipliers;                   // of each atom, > 0, their sum is about 1
+  double worst = 0.0;                                // greatest f
+  double tau = 0.0, mu = 0.0;                        // f < tau; multiplier * (tau - f) is about mu
+  int steps = 0;                                     // Newton steps so far
+  /// How far tau may be above the least possible, by duality; for convex f a bound, else an estimate.
+  [[nodiscard]] double gap() const { return mu * static_cast<double>(values.size()); }
+};
+
+template <int D>
+struct JointSolution {
+  JointIterate<D> last;                     // multipliers belong to it
+  std::vector<std::array<double, D>> best;  // the displacements with the least `worst`; all 0 where nothing is better than that
+  double best_worst = 0.0, start_worst = 0.0;
+  InteriorPointEnd end = InteriorPointEnd::NotSound;  // NotSound: an f was infinite at the start; nothing was done
+};
+
+template <int D>
+struct JointCallbacks {
+  std::function<void(const JointIterate<D>&)> step{};         // after every Newton step
+  std::function<bool(const JointIterate<D>&)> leave_early{};  // see early_gap; asked once
+};
+
+/// Throws Cancelled within one Newton step of Progress::request_cancel(). Every sum has a fixed order: the same bits everywhere.
+template <int D>
+[[nodiscard]] JointSolution<D> solve_joint(const JointProblem<D>& problem, const AtomFunction<D>& function,
+                                           const InteriorPointOptions& options, const JointCallbacks<D>& callbacks, Progress& progress);
+
+}  // namespace dmoscope

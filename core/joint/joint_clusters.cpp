@@ -1,0 +1,66 @@
+#include "core/joint/joint_clusters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/joint/cluster_search.h"
+
+namespace dmoscope {
+
+class JointClusters::Base {
+ public:
+  Base() = default;
+  Base(const Base&) = delete;
+  Base& operator=(const Base&) = delete;
+  virtual ~Base() = default;
+  virtual std::optional<JointCluster> raise_worst(std::span<Vec3> positions, JointState& state, const JointOptions& options,
+                                                  Progress& progress) const = 0;
+  [[nodiscard]] virtual std::size_t free_vertices() const noexcept = 0;
+};
+
+template <int D>
+class JointClusters::Of final : public Base {
+ public:
+  Of(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed) : mesh_(input, metric, fixed) {}
+  std::optional<JointCluster> raise_worst(std::span<Vec3> positions, JointState& state, const JointOptions& options,
+                                          Progress& progress) const override {
+    JointState next = state;
+    ClusterSearch<D> search(mesh_, positions, next, options, progress);
+    std::optional<JointCluster> result = search.run();
+    state = std::move(next);
+    return result;
+  }
+  [[nodiscard]] std::size_t free_vertices() const noexcept override { return mesh_.free_vertices().size(); }
+
+ private:
+  JointMesh<D> mesh_;
+};
+
+JointClusters::JointClusters(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed) {
+  if (input.is_surface()) throw UsageError("joint moves work on planar and volume meshes, not on curved surfaces");
+  const int dimension = input.is_volume() ? 3 : 2;
+  KindSet kinds = 0;
+  for (const ElementKind kind : input.mesh.elements.kinds())
+    if (info(kind).dimension == dimension) kinds = static_cast<KindSet>(kinds | kind_set(kind));
+  if (const std::string obstacle = joint_obstacle(metric, kinds); !obstacle.empty()) throw UsageError("joint moves: " + obstacle);
+  if (dimension == 3)
+    mesh_ = std::make_unique<Of<3>>(input, metric, fixed);
+  else
+    mesh_ = std::make_unique<Of<2>>(input, metric, fixed);
+}
+JointClusters::~JointClusters() = default;
+JointClusters::JointClusters(JointClusters&&) noexcept = default;
+JointClusters& JointClusters::operator=(JointClusters&&) noexcept = default;
+
+std::optional<JointCluster> JointClusters::raise_worst(std::span<Vec3> positions, JointState& state, const JointOptions& options,
+                                                       Progress& progress) {
+  return mesh_->raise_worst(positions, state, options, progress);
+}
+
+std::size_t JointClusters::free_vertices() const noexcept { return mesh_->free_vertices(); }
+
+}  // namespace dmoscope

@@ -1,0 +1,107 @@
+#pragma once
+// Joint moves: raises a mesh's minimum where no single vertex can, one cluster of vertices at a time, and says why it stops.
+//
+// A cluster grows around the worst element until what holds it lies inside; then the optimality conditions of the cluster are those of the
+// whole mesh: to first order no joint move whatever raises all its active elements.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/input/input_mesh.h"
+
+namespace dmoscope {
+
+/// A Newton step, as a watcher sees it.
+struct JointStep {
+  int steps = 0;                      // Newton steps of this call so far
+  double minimum = 0.0, bound = 0.0;  // least quality in the cluster; what it can reach at most, by duality
+  std::span<const Index> vertices{};  // the cluster, ascending
+  std::span<const Vec3> positions{};  // where they stand in this step, which is not yet the mesh
+};
+
+struct JointOptions {
+  double gap = 2e-4;        // a cluster ends when its minimum is within this share of its bound
+  bool push_first = false;  // first all free vertices together, down to `push_gap`: raises the mean as well
+  double push_gap = 0.03;
+  bool beyond_minimum = false;      // goes on where the minimum is certified, with the next worst elements
+  int max_steps = 150;              // Newton steps a solution
+  std::size_t whole_at_most = 0;    // a cluster may become the whole mesh when this many vertices are free; 0: 20000, of volumes 3000
+  std::size_t cluster_at_most = 0;  // vertices of any other; 0: 20000, of volumes 1500
+  std::function<void(const JointStep&)> on_step{};
+};
+
+/// What later calls must know of earlier ones, as a value: with the same positions and the same state a call has the same result to the
+/// last bit. A new one begins anew; so must whoever moves vertices otherwise.
+struct JointState {
+  enum class Of : std::uint8_t { Open, Tried, Closed };  // Tried: in this pass, in vain; Closed: certified to be as good as can be
+  enum class End : std::uint8_t { None, Certified, NoGain };
+  std::vector<Of> atoms{};       // of each of JointClusters's atoms; empty: none was tried
+  std::vector<double> levels{};  // of each vertex: it holds elements that are certified at this quality; +infinity: none
+  std::uint32_t clusters = 0, passes = 0;
+  double pass_began_at = 0.0;  // the minimum then
+  bool pushed = false;
+  End end = End::None;
+  friend bool operator==(const JointState&, const JointState&) = default;
+};
+
+/// What one call did.
+struct JointCluster {
+  struct Moved {
+    Index vertex;
+    Vec3 to;
+  };
+  struct Active {
+    Index element;
+    double multiplier;  // its share in what holds the minimum; they add up to 1
+  };
+  /// How an active element would move a vertex for its own good: its multiplier times the gradient of its quality, per mesh unit. At the
+  /// end the forces on every vertex of the cluster balance.
+  struct Force {
+    Index element, vertex;
+    Vec3 force;
+  };
+  std::vector<Index> vertices;       // ascending
+  std::vector<Moved> moved;          // empty where nothing rose
+  std::vector<Active> active;        // greatest multiplier first, ties by element; empty where there was nothing to solve
+  std::vector<Force> forces;         // of these, by element and vertex
+  Index worst_element = kNoIndex;    // around which it grew; none in the first push
+  double before = 0.0, after = 0.0;  // least quality of the elements that changed, or where none did of the worst one
+  double bound = 0.0;                // what the cluster's minimum can reach at most (for convex 1 / quality; else an estimate)
+  double gap = 0.0;                  // (bound - what it reached) / that
+  bool certified = false;            // no joint move raises all the active elements, to first order
+  std::string why_not{};             // one sentence where it is not certified
+  int newton_steps = 0, solutions = 0;
+  bool is_push = false;
+};
+
+/// The input must outlive it. It works in memory of its own, so one thread at a time.
+class JointClusters {
+ public:
+  /// `fixed`: one entry a vertex, non-zero where it may not move. Throws UsageError for a curved surface and where joint_obstacle() has
+  /// something to say of the metric.
+  JointClusters(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed);
+  ~JointClusters();
+  JointClusters(JointClusters&&) noexcept;
+  JointClusters& operator=(JointClusters&&) noexcept;
+
+  /// Raises the worst open element with the vertices around it. `positions`: of the whole mesh, changed only where the least quality of the
+  /// elements that change rises, judged by the program's metric in double, and no more of them are inverted. The vertices of inverted
+  /// elements stay; see untangle.h. None: state.end says why there is nothing more to do. On Cancelled positions and state are as before.
+  [[nodiscard]] std::optional<JointCluster> raise_worst(std::span<Vec3> positions, JointState& state, const JointOptions& options,
+                                                        Progress& progress);
+  [[nodiscard]] std::size_t free_vertices() const noexcept;
+
+ private:
+  class Base;
+  template <int D>
+  class Of;
+  std::unique_ptr<Base> mesh_;
+};
+
+}  // namespace dmoscope

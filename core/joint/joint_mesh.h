@@ -1,0 +1,71 @@
+#pragma once
+// A mesh as joint moves see it: its atoms, which of them meet where, and problems made of some of its vertices.
+
+#include <span>
+#include <vector>
+
+#include "core/input/input_mesh.h"
+#include "core/joint/interior_point.h"
+
+namespace dmoscope {
+
+/// A problem over some vertices of a mesh.
+template <int D>
+struct LocalProblem {
+  JointProblem<D> problem;
+  std::vector<Index> vertices;  // the mesh's vertex for each of the problem's, first those that may move, ascending
+  std::vector<Index> atoms;     // the mesh's atom for each of the problem's, ascending
+  double scale = 1.0;           // the problem's unit of length in a mesh unit: a power of two
+  [[nodiscard]] std::span<const Index> free() const { return std::span(vertices).first(problem.free_vertices); }
+};
+
+/// What a move did to the elements at its vertices, judged by the program's own metric in double.
+struct JudgedMove {
+  std::vector<Vec3> moved_from;                   // of the problem's free vertices
+  double before = 0.0, after = 0.0;               // least quality of the elements that it changed; both +infinity where it changed none
+  Index inverted_before = 0, inverted_after = 0;  // of all elements at its vertices
+};
+
+/// Immutable but for what it works in; one thread at a time. Elements all of whose vertices are fixed are left out.
+template <int D>
+class JointMesh {
+ public:
+  using Offset = std::array<double, static_cast<std::size_t>(D)>;
+  /// `metric`: see joint_obstacle. `fixed`: one entry a vertex, non-zero where it may not move. The input must outlive it.
+  JointMesh(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed);
+
+  /// Those with a free vertex.
+  [[nodiscard]] std::span<const Atom<D>> atoms() const noexcept { return atoms_; }
+  /// Of a vertex, ascending.
+  [[nodiscard]] std::span<const Index> atoms_at(Index vertex) const {
+    return {star_.data() + star_offsets_[vertex], star_.data() + star_offsets_[vertex + 1]};
+  }
+  /// Those of an element that is not left out, ascending.
+  [[nodiscard]] std::span<const Index> free_vertices() const noexcept { return free_; }
+  [[nodiscard]] const InputMesh& input() const noexcept { return *input_; }
+  [[nodiscard]] Metric metric() const noexcept { return metric_; }
+
+  /// An atom's edges where the vertices stand.
+  [[nodiscard]] AtomEdges<D> edges(const Atom<D>& atom, std::span<const Vec3> positions) const;
+  /// The metric of every atom; 0 where it is not positive; +infinity where a part of its element that cannot move is no better.
+  [[nodiscard]] std::vector<double> qualities(std::span<const Vec3> positions) const;
+  /// `free`: ascending. All other vertices stay.
+  [[nodiscard]] LocalProblem<D> problem(std::span<const Index> free, std::span<const Vec3> positions) const;
+  /// Where a vertex comes to stand that the problem displaced.
+  [[nodiscard]] Vec3 placed(Vec3 position, const Offset& displacement, double scale) const;
+  /// A direction of the problem in space.
+  [[nodiscard]] Vec3 lifted(const Offset& offset) const;
+  /// Elements with one of the vertices, ascending.
+  [[nodiscard]] std::vector<Index> elements_at(std::span<const Index> vertices) const;
+  /// Moves the free vertices and judges that. It may be undone by moved_from.
+  JudgedMove move(const LocalProblem<D>& local, std::span<const Offset> displacements, std::span<Vec3> positions) const;
+
+ private:
+  const InputMesh* input_;
+  Metric metric_;
+  AtomFunction<D> function_;
+  std::vector<Atom<D>> atoms_, held_;  // held: all of whose vertices are fixed, of elements that are not left out
+  std::vector<Index> star_offsets_, star_, free_;
+};
+
+}  // namespace dmoscope

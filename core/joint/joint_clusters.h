@@ -92,7 +92,7 @@ class JointClusters {
 
   /// Raises the worst open element with the vertices around it. `positions`: of the whole mesh, changed only where the least quality of the
   /// elements that change rises, judged by the program's metric in double, and no more of them are inverted. The vertices of inverted
-  /// elements stay; see untangle.h. None: state.end says why there is nothing more to do. On Cancelled positions and state are as before.
+  /// elements stay. None: state.end says why there is nothing more to do. On Cancelled positions and state are as before.
   [[nodiscard]] std::optional<JointCluster> raise_worst(std::span<Vec3> positions, JointState& state, const JointOptions& options,
                                                         Progress& progress);
   [[nodiscard]] std::size_t free_vertices() const noexcept;

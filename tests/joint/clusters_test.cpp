@@ -87,7 +87,10 @@ TEST_P(JointClustersOfRealMeshes, RaiseWhatDmoCannot) {
 }
 INSTANTIATE_TEST_SUITE_P(Wanted, JointClustersOfRealMeshes,
                          ::testing::Values(Wanted{"tri/shashkov.vtk", 0.26}, Wanted{"ocean/east.14", 0.81649},
-                                           Wanted{"ocean/bahamas.14", 0.76908}, Wanted{"mixed2d/overt_hyb_1.vtk", 0.697}));
+                                           Wanted{"ocean/bahamas.14", 0.76908}, Wanted{"mixed2d/overt_hyb_1.vtk", 0.697},
+                                           Wanted{"tet/cube-clip-5.vtk", 0.379}, Wanted{"mixed3d/mixed-hex-pyr-tet.vtk", 0.449},
+                                           Wanted{"quad/shashkov_quad.vtk", 0.22}, Wanted{"tet/cinolib_sphere.mesh", 0.467},
+                                           Wanted{"tet/tire.vtk", 0.3655}));
 
 }  // namespace
 }  // namespace dmoscope

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <ostream>
+#include <string>
 
 #include <gmock/gmock.h>
 
@@ -66,6 +68,7 @@ TEST(JointClusters, NeverWorseAndWhatIsFixedStays) {
 struct Wanted {
   const char* file;
   double minimum;
+  friend void PrintTo(const Wanted& wanted, std::ostream* out) { *out << wanted.file; }
 };
 class JointClustersOfRealMeshes : public ::testing::TestWithParam<Wanted> {};
 

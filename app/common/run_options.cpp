@@ -74,8 +74,11 @@ void add_run_options(CLI::App& subcommand, RunOptions& options) {
                   "(falls with it), constant, or field:NAME (a nodal field of the file)")
       ->type_name("SIZE")
       ->needs(combine);
-  subcommand.add_option("--then", options.then, "After the minimum has converged: mean (raise the mean without lowering the minimum)")
-      ->type_name("mean")
+  subcommand
+      .add_option("--then", options.then,
+                  "After the minimum has converged: joint (joint moves, which raise the minimum further), mean (raise the mean without "
+                  "lowering the minimum), or both")
+      ->type_name("mean|joint|joint,mean")
       ->excludes(combine);
   subcommand.add_option("--threads", options.threads, "Number of threads; 0 uses every processor thread. The result does not depend on it")
       ->transform(whole_number(0, kMostThreads))
@@ -96,9 +99,11 @@ RunParameters parameters_of(const RunOptions& options) {
   if (!options.combine.empty())
     std::tie(parameters.metric, parameters.combination) = parse_combination(options.combine, options.size_function);
   if (!options.then.empty()) {
-    if (options.then != "mean")
-      throw UsageError("--then: " + unknown_value("second phase", options.then, std::array<std::string_view, 1>{"mean"}));
-    parameters.then_mean.emplace();
+    try {
+      set_then(parameters, options.then, {});
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("--then: {}", error.what()));
+    }
   }
   for (const ParameterInfo& row : parameter_table()) row.from_text(parameters, options.parameters.at(std::string(row.name)));
   validate(parameters.search);

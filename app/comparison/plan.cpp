@@ -53,7 +53,7 @@ Contender parse_spec(const std::string& spec, const RunOptions& open) {
     if (words.size() > 2) contender.name += fmt::format(":{}", words[2]);
     if (const auto& combination = contender.parameters.combination)
       contender.name = fmt::format("{}:{}", chosen.method, phrase(contender.parameters.metric, *combination));
-    if (contender.parameters.then_mean) contender.name += ", then mean";
+    contender.name += then_text(contender.parameters);
     return contender;
   } catch (const UsageError& error) {
     throw UsageError(fmt::format("--run {}: {}", spec, error.what()));
@@ -99,6 +99,7 @@ std::string obstacle(const Contender& contender, const std::shared_ptr<const Inp
                         .search = p.search,
                         .options = p.options,
                         .combination = p.combination,
+                        .then_joint = p.then_joint.has_value(),
                         .then_mean = p.then_mean.has_value()});
   } catch (const UsageError& error) {
     return error.what();

@@ -32,7 +32,7 @@ std::vector<const JudgedRun*> every_run(const Comparison& comparison) {
 std::vector<std::string> endings(const Comparison& comparison) {
   std::vector<std::string> lines;
   for (const JudgedRun* run : every_run(comparison))
-    if (run->outcome.best || run->outcome.mean_from) lines.push_back(fmt::format("{}: {}", run->name, run->outcome.sentence()));
+    if (run->outcome.best || run->outcome.phases != RunPhases{}) lines.push_back(fmt::format("{}: {}", run->name, run->outcome.sentence()));
   return lines;
 }
 

@@ -122,8 +122,8 @@ LinePlot mean_plot(const Comparison& comparison) {
   LinePlot plot = course_plot(comparison, "the mean of all elements", "mean", &Statistics::mean);
   std::string since;
   for (const JudgedRun& run : comparison.runs) {
-    if (run.outcome.mean_since)
-      since += fmt::format("{}{} from iteration {} on", since.empty() ? "raised by " : "; ", run.name, *run.outcome.mean_since + 1);
+    if (run.outcome.phases.mean_since)
+      since += fmt::format("{}{} from iteration {} on", since.empty() ? "raised by " : "; ", run.name, *run.outcome.phases.mean_since + 1);
   }
   plot.subtitle = since;
   return plot;

@@ -53,7 +53,7 @@ std::optional<JudgedRun> Lab::run(const std::shared_ptr<const InputMesh>& input,
   std::string name = parameters.method;
   if (parameters.metric != Metric::MeanRatio) name += fmt::format(", {}", info(parameters.metric).name);
   if (parameters.combination) name += ", combined";
-  if (parameters.then_mean) name += ", then mean";
+  name += then_text(parameters);
   workshop_.progress.begin(fmt::format("figure {}: {} on {}:", figure.id, name, input->mesh.name));
   parameters.interfaces = InterfaceRule::Free;  // the paper knows none
   try {

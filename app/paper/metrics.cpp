@@ -118,7 +118,7 @@ void mean_phase(Lab& lab, Figure& figure) {
   const auto raise = [&](const std::shared_ptr<const InputMesh>& input, std::uint64_t iterations, std::optional<double> least_mean) {
     const std::string mesh = input->mesh.name;
     const auto plain = lab.run(input, {}, iterations, figure);
-    const auto raised = lab.run(input, {.then_mean = MeanPhase{.patience = 5}}, iterations, figure);
+    const auto raised = lab.run(input, {.then_mean = PhaseBegin{.patience = 5}}, iterations, figure);
     if (!plain || !raised) return;
     figure.check(mesh, "minimum with the second phase, less that without", raised->after.minimum - plain->after.minimum,
                  {"kept", 0.0, -0.001, 1.0, "Not in the paper: it is its eq. (8) with the mean as second metric."});

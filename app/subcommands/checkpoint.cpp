@@ -35,6 +35,7 @@ namespace {
 
 void refuse_another_run(const Run& run, RunParameters wanted, const std::filesystem::path& file) {
   wanted.search.simd = run.parameters().search.simd;  // the same bits by any
+  if (wanted.then_joint && run.parameters().then_joint) wanted.then_joint->from_best = run.parameters().then_joint->from_best;
   if (wanted.then_mean && run.parameters().then_mean) wanted.then_mean->from_best = run.parameters().then_mean->from_best;  // no option
   if (run.parameters() == wanted) return;
   RunParameters but_fixed = wanted;

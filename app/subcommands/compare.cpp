@@ -70,8 +70,7 @@ int compare(const CompareOptions& options, const std::string& command_line) {
   refuse_early(options);
   ComparisonPlan plan = plan_of(options);
   if (options.goal.until_converged)  // the first phase is as patient as it would be alone
-    for (Contender& contender : plan.contenders)
-      if (contender.parameters.then_mean) contender.parameters.then_mean->patience = options.goal.until_converged->patience;
+    for (Contender& contender : plan.contenders) be_patient(contender.parameters, options.goal.until_converged->patience);
   Watch watch;
   Progress& progress = watch.progress();
   const auto pool = std::make_shared<ThreadPool>(options.run.threads);

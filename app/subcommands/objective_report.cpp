@@ -31,11 +31,16 @@ Json json_of(const Combination& combination, const Run& run) {
 void add_composite(Json& object, const Run& run) {
   const RunParameters& p = run.parameters();
   object["combination"] = p.combination ? json_of(*p.combination, run) : Json(nullptr);
-  object["then"] = p.then_mean ? Json("mean") : Json(nullptr);
-  const auto since = run.mean_since();
-  object["mean_since"] = since ? Json(*since) : Json(nullptr);
-  const auto from = run.mean_from();
-  object["mean_from"] = from ? Json(*from) : Json(nullptr);
+  object["then"] = p.then_joint || p.then_mean ? Json(then_words(p)) : Json(nullptr);
+  const RunPhases phases = run.phases();
+  const auto say = [&](const char* key, const std::optional<std::uint64_t>& iteration) {
+    object[key] = iteration ? Json(*iteration) : Json(nullptr);
+  };
+  say("joint_since", phases.joint_since);
+  say("joint_from", phases.joint_from);
+  say("joint_over", phases.joint_over);
+  say("mean_since", phases.mean_since);
+  say("mean_from", phases.mean_from);
 }
 
 void print_composite(const Run& run) {

@@ -63,6 +63,10 @@ std::string_view reason_name(StopReason reason) {
       return "nothing-moved";
     case StopReason::NoRise:
       return "no-rise";
+    case StopReason::Certified:
+      return "certified";
+    case StopReason::NoJointGain:
+      return "no-joint-gain";
     case StopReason::IterationLimit:
       return "iteration-limit";
   }
@@ -267,10 +271,13 @@ std::optional<HeldMinimum> find_hold(const Run& run, ThreadPool* pool, Progress&
   }
 }
 
-/// Warns where --then mean was asked for and the second phase never began.
+/// Warns where a later phase was asked for and never began.
 template <class Warn>
 void tell_missing_phase(const Run& run, const Outcome& outcome, const Warn& warn) {
-  if (!run.parameters().then_mean || run.mean_since()) return;
+  const RunPhases phases = run.phases();
+  if (run.parameters().then_joint && !phases.joint_since)
+    warn("vertices were not moved jointly, because the minimum had not converged yet (add --until-converged)");
+  if (!run.parameters().then_mean || phases.mean_since) return;
   warn(outcome.inverted > 0 ? "the mean was not raised: that begins only once no element is inverted"
                             : "the mean was not raised, because the minimum had not converged yet (add --until-converged)");
 }
@@ -278,7 +285,7 @@ void tell_missing_phase(const Run& run, const Outcome& outcome, const Warn& warn
 int smooth(const SmoothOptions& options) {
   refuse_early(options);
   RunParameters parameters = parameters_of(options.run);
-  if (parameters.then_mean && options.goal.until_converged) parameters.then_mean->patience = options.goal.limits.patience;
+  if (options.goal.until_converged) be_patient(parameters, options.goal.limits.patience);
   const Acceleration acceleration = acceleration_for(parameters.backend);
 
   block_interrupts();  // before the session's threads start

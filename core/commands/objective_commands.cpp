@@ -46,14 +46,16 @@ void set_size_point(CommandContext& context, Arguments arguments) {
 
 void then(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 2);
-  std::optional<MeanPhase> phase;
-  if (arguments[0] == "mean") {
-    phase.emplace();
-    if (arguments.size() > 1) phase->patience = to_count(arguments[1], 1);
-  } else if (arguments[0] != "nothing" || arguments.size() > 1) {
-    throw WrongArguments(unknown_value("second phase", arguments.back(), std::array<std::string_view, 2>{"mean", "nothing"}));
+  PhaseBegin begin;
+  if (arguments.size() > 1) begin.patience = to_count(arguments[1], 1);
+  RunParameters tried;  // a wrong word is told before anything is done
+  try {
+    set_then(tried, arguments[0], begin);
+  } catch (const UsageError& error) {
+    throw WrongArguments(error.what());
   }
-  change_run(context, [&](RunParameters& p) { p.then_mean = phase; });
+  if (arguments[0] == "nothing") require(arguments, 1, 1);
+  change_run(context, [&](RunParameters& p) { set_then(p, arguments[0], begin); });
 }
 
 }  // namespace
@@ -64,7 +66,9 @@ std::span<const CommandRow> objective_commands() {
         "Raises the metric FIRST up to THRESHOLD, beyond it SECOND: a metric, or density by SIZE (h1:X,Y, h2:X,Y, constant, field:NAME)."},
        combine},
       {{"size-point", "size-point X Y [Z]", "Moves the point of the size function h1 or h2."}, set_size_point},
-      {{"then", "then mean [PATIENCE]|nothing", "Raises the mean once the minimum has converged, with the minimum as floor."}, then},
+      {{"then", "then mean|joint|joint,mean [PATIENCE]|nothing",
+        "What follows once the minimum has converged: joint moves, which raise it further; the rise of the mean, with it as floor."},
+       then},
   };
   return table;
 }

@@ -67,7 +67,7 @@ void until_converged(CommandContext& context, Arguments arguments) {
 }
 void raise_mean(CommandContext& context, Arguments arguments) {
   require(arguments, 0, 2);
-  MeanPhase phase;
+  PhaseBegin phase;
   if (!arguments.empty()) phase.patience = to_count(arguments[0], 1);
   if (!context.session.active().parameters().then_mean) {
     change_run(context, [&](RunParameters& p) { p.then_mean = phase; });

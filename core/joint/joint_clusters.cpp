@@ -20,6 +20,7 @@ class JointClusters::Base {
   virtual std::optional<JointCluster> raise_worst(std::span<Vec3> positions, JointState& state, const JointOptions& options,
                                                   Progress& progress) const = 0;
   [[nodiscard]] virtual std::size_t free_vertices() const noexcept = 0;
+  [[nodiscard]] virtual bool fits(const JointState& state) const noexcept = 0;
 };
 
 template <int D>
@@ -35,19 +36,27 @@ class JointClusters::Of final : public Base {
     return result;
   }
   [[nodiscard]] std::size_t free_vertices() const noexcept override { return mesh_.free_vertices().size(); }
+  [[nodiscard]] bool fits(const JointState& state) const noexcept override {
+    if (state.atoms.empty()) return state.levels.empty();
+    return state.atoms.size() == mesh_.atoms().size() && state.levels.size() == mesh_.input().mesh.vertex_count();
+  }
 
  private:
   JointMesh<D> mesh_;
 };
 
-JointClusters::JointClusters(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed) {
+void require_joint(const InputMesh& input, Metric metric) {
   if (input.is_surface()) throw UsageError("joint moves work on planar and volume meshes, not on curved surfaces");
   const int dimension = input.is_volume() ? 3 : 2;
   KindSet kinds = 0;
   for (const ElementKind kind : input.mesh.elements.kinds())
     if (info(kind).dimension == dimension) kinds = static_cast<KindSet>(kinds | kind_set(kind));
   if (const std::string obstacle = joint_obstacle(metric, kinds); !obstacle.empty()) throw UsageError("joint moves: " + obstacle);
-  if (dimension == 3)
+}
+
+JointClusters::JointClusters(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed) {
+  require_joint(input, metric);
+  if (input.is_volume())
     mesh_ = std::make_unique<Of<3>>(input, metric, fixed);
   else
     mesh_ = std::make_unique<Of<2>>(input, metric, fixed);
@@ -62,5 +71,7 @@ std::optional<JointCluster> JointClusters::raise_worst(std::span<Vec3> positions
 }
 
 std::size_t JointClusters::free_vertices() const noexcept { return mesh_->free_vertices(); }
+
+bool JointClusters::fits(const JointState& state) const noexcept { return mesh_->fits(state); }
 
 }  // namespace dmoscope

@@ -80,11 +80,13 @@ struct JointCluster {
   bool is_push = false;
 };
 
+/// Throws UsageError for a curved surface and where joint_obstacle() has something to say of the metric.
+void require_joint(const InputMesh& input, Metric metric);
+
 /// The input must outlive it. It works in memory of its own, so one thread at a time.
 class JointClusters {
  public:
-  /// `fixed`: one entry a vertex, non-zero where it may not move. Throws UsageError for a curved surface and where joint_obstacle() has
-  /// something to say of the metric.
+  /// `fixed`: one entry a vertex, non-zero where it may not move. Throws as require_joint() does.
   JointClusters(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed);
   ~JointClusters();
   JointClusters(JointClusters&&) noexcept;
@@ -96,6 +98,8 @@ class JointClusters {
   [[nodiscard]] std::optional<JointCluster> raise_worst(std::span<Vec3> positions, JointState& state, const JointOptions& options,
                                                         Progress& progress);
   [[nodiscard]] std::size_t free_vertices() const noexcept;
+  /// Whether a state that came from a file can be one of this mesh.
+  [[nodiscard]] bool fits(const JointState& state) const noexcept;
 
  private:
   class Base;

@@ -4,16 +4,27 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/base/shared_vector.h"
+#include "core/joint/joint_clusters.h"
 #include "core/quality/quality.h"
 #include "core/run/moment.h"
 #include "core/run/percentiles.h"
 
 namespace dmoscope {
+
+/// Of an iteration of joint moves, which is one cluster.
+struct JointFigures {
+  JointState::End end = JointState::End::None;  // not None: there was nothing more to do, and all else is of no account
+  bool certified = false, is_push = false;      // see JointCluster
+  double bound = 0.0, gap = 0.0;                // likewise
+  Index vertices = 0;                           // of the cluster
+  int newton_steps = 0;
+};
 
 struct IterationRecord {
   std::uint64_t iteration = 0;  // 0 is the input
@@ -21,6 +32,7 @@ struct IterationRecord {
   std::uint64_t moved = 0;
   double seconds = 0.0;        // this iteration's smoothing alone
   std::uint64_t searched = 0;  // vertices visited without those passed over, see Smoother::searched; 0 also where that is not known
+  std::optional<JointFigures> joint{};
 };
 
 /// Positions that lie far from the host (on a device) are worth bringing only to keep them where that takes but a modest share of the time:

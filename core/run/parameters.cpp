@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/base/unknown_value.h"
 #include "core/base/words.h"
 
 namespace dmoscope {
@@ -228,6 +229,27 @@ const ParameterInfo& parameter_info(std::string_view name) {
   const auto found = std::ranges::find(kTable, name, &ParameterInfo::name);
   if (found == kTable.end()) throw UsageError(fmt::format("there is no parameter '{}'", name));
   return *found;
+}
+
+void set_then(RunParameters& parameters, std::string_view words, const PhaseBegin& begin) {
+  constexpr std::array<std::string_view, 4> kThen{"mean", "joint", "joint,mean", "nothing"};
+  if (std::ranges::find(kThen, words) == kThen.end()) throw UsageError(unknown_value("later phases", std::string(words), kThen));
+  parameters.then_joint = words.starts_with("joint") ? std::optional(begin) : std::nullopt;
+  parameters.then_mean = words.ends_with("mean") ? std::optional(begin) : std::nullopt;
+}
+
+void be_patient(RunParameters& parameters, std::uint64_t patience) {
+  if (parameters.then_joint) parameters.then_joint->patience = patience;
+  if (parameters.then_mean) parameters.then_mean->patience = patience;
+}
+
+std::string then_words(const RunParameters& parameters) {
+  if (parameters.then_joint) return parameters.then_mean ? "joint,mean" : "joint";
+  return parameters.then_mean ? "mean" : "nothing";
+}
+
+std::string then_text(const RunParameters& parameters) {
+  return fmt::format("{}{}", parameters.then_joint ? ", then joint" : "", parameters.then_mean ? ", then mean" : "");
 }
 
 std::string other_than_usual(const RunParameters& parameters, bool surface) {

@@ -11,7 +11,7 @@
 #include "core/mesh/interfaces.h"
 #include "core/quality/metric.h"
 #include "core/reference/standing.h"
-#include "core/run/mean_phase.h"
+#include "core/run/phases.h"
 #include "core/run/visit_order.h"
 #include "core/search/parameters.h"
 #include "core/smooth/execution/accelerator.h"
@@ -25,7 +25,8 @@ struct RunParameters {
   SearchParameters search{};
   MethodOptions options{};
   std::optional<Combination> combination{};  // of `metric`, the first, with a second aim
-  std::optional<MeanPhase> then_mean{};      // a second phase
+  std::optional<PhaseBegin> then_joint{};    // a phase of joint moves after the method's
+  std::optional<PhaseBegin> then_mean{};     // a phase that raises the mean, the last one
   VisitOrder order{};
   std::vector<Index> fixed{};  // the user's fixed set, besides boundary and unused vertices and, as `interfaces` says, those on interfaces
   InterfaceRule interfaces = InterfaceRule::Fixed;
@@ -69,6 +70,15 @@ struct ParameterInfo {
 [[nodiscard]] std::span<const ParameterInfo> parameter_table();
 /// Throws UsageError.
 [[nodiscard]] const ParameterInfo& parameter_info(std::string_view name);
+
+/// Sets the phases after the method's: "mean", "joint", "joint,mean" or "nothing". Throws UsageError.
+void set_then(RunParameters& parameters, std::string_view words, const PhaseBegin& begin);
+/// The first phase ends no sooner than it would alone.
+void be_patient(RunParameters& parameters, std::uint64_t patience);
+/// The words of set_then().
+[[nodiscard]] std::string then_words(const RunParameters& parameters);
+/// ", then joint, then mean"; empty where the method's phase is the only one.
+[[nodiscard]] std::string then_text(const RunParameters& parameters);
 
 /// What tells a run from others by the same method and aims: ", grid 16, shuffle:3"; empty where nothing does. `surface`: see read_by.
 [[nodiscard]] std::string other_than_usual(const RunParameters& parameters, bool surface);

@@ -8,6 +8,7 @@
 
 #include "core/base/stopwatch.h"
 #include "core/mesh/mesh.h"
+#include "core/run/history.h"
 #include "core/run/moment.h"
 
 namespace dmoscope {
@@ -18,6 +19,7 @@ struct RunProgress {
   std::uint64_t moved = 0;
   double seconds = 0.0;        // of smoothing
   std::uint64_t searched = 0;  // see IterationRecord
+  std::optional<JointFigures> joint{};
 };
 
 /// The host's copy of a run's positions, and which moment it shows. A smoother that keeps positions on a device runs ahead of it until

@@ -81,7 +81,7 @@ std::string Run::title() const {
   if (!given_name_.empty()) return given_name_;
   const RunParameters& p = parameters_;
   std::string title = fmt::format("{} · {}", p.method, p.combination ? phrase(p.metric, *p.combination) : metric_phrase(p.metric));
-  if (p.then_mean) title += ", then mean";
+  title += then_text(p);
   return title + other_than_usual(p, input_->is_surface());
 }
 
@@ -101,6 +101,7 @@ SmoothingTask Run::task() const {
           parameters_.options,
           parameters_.combination,
           size_,
+          parameters_.then_joint.has_value(),
           parameters_.then_mean.has_value(),
           parameters_.standing().slides(),
           domain_,
@@ -130,22 +131,9 @@ std::shared_ptr<const DevicePicture> Run::picture(Metric shown) const {
   return executor_.smoother ? executor_.smoother->picture(shown) : nullptr;
 }
 
-std::optional<std::uint64_t> Run::mean_since() const {
-  if (!parameters_.then_mean) return std::nullopt;
-  return turn_.find(*parameters_.then_mean, history_.records(),
-                    still_iterations(method_info(parameters_.method), parameters_.options, input_->is_volume()));
-}
-
-std::optional<std::uint64_t> Run::mean_from() const {
-  const auto since = mean_since();
-  if (!since) return std::nullopt;
-  const auto& records = history_.records();
-  const auto best = mean_phase_start(parameters_, records, *since);
-  return best && same_state(records[*best].statistics, records[*since].statistics) ? best : std::nullopt;
-}
-
 void Run::forget_after(std::uint64_t iteration) {
   history_.forget_after(iteration);
+  joint_course_.forget_after(iteration);
   turn_.forget_after(iteration);
   first_phase_.forget_after(iteration);
 }
@@ -184,6 +172,7 @@ bool Run::find_percentiles(const std::function<bool(double)>& go_on) {
 void Run::rest() {
   sync_to_host();
   executor_.smoother.reset();
+  joint_clusters_.reset();
 }
 
 BlockPlan Run::block_plan() const {
@@ -203,7 +192,7 @@ void Run::ensure_smoother() {
   begun_.reset();
 }
 
-RunSnapshot Run::point() const { return {at_.moment, edits_.share(), history_.shared_records(), last_outcome_, path_}; }
+RunSnapshot Run::point() const { return {at_.moment, edits_.share(), history_.shared_records(), last_outcome_, path_, joint_course_.share()}; }
 
 void Run::recover() {
   if (failure_.empty()) return;
@@ -225,14 +214,14 @@ void Run::recover() {
 void Run::record(const RunProgress& done) {
   const std::uint64_t iteration = at_.moment.iteration;
   if (iteration < history_.records().size()) return;  // been here before
-  history_.record({iteration, statistics(), done.moved, done.seconds, done.searched});
+  history_.record({iteration, statistics(), done.moved, done.seconds, done.searched, done.joint});
   unkept_seconds_ += done.seconds;
-  if (parameters_.then_mean) {
-    const auto since = mean_since();
+  if (next_phase(parameters_) != nullptr) {
+    const auto since = first_phase_end();
     if (since == iteration)
-      if (const auto best = mean_phase_start(parameters_, history_.records(), iteration)) {
+      if (const auto best = next_phase_start(parameters_, history_.records(), iteration)) {
         history_.amend_last(history_.records()[*best].statistics);
-        return;  // begin_mean_phase() brings the positions
+        return;  // begin_next_phase() brings the positions
       }
     if (!since) first_phase_.take(history_.records(), positions());
   }

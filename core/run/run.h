@@ -21,9 +21,10 @@
 #include "core/run/block_plan.h"
 #include "core/run/edit.h"
 #include "core/run/history.h"
-#include "core/run/mean_phase.h"
-#include "core/run/mean_start.h"
+#include "core/run/joint_course.h"
 #include "core/run/parameters.h"
+#include "core/run/phase_start.h"
+#include "core/run/phases.h"
 #include "core/run/position_buffer.h"
 #include "core/run/pursuit.h"
 #include "core/search/parameters.h"
@@ -40,16 +41,15 @@ struct ConvergenceLimits {
   std::uint64_t max_iterations = 10000;
   double rise = kLeastRise;
 };
-enum class StopReason { NothingMoved, NoRise, IterationLimit };
+enum class StopReason { NothingMoved, NoRise, Certified, NoJointGain, IterationLimit };
 struct Outcome {
   StopReason reason = StopReason::IterationLimit;
   std::uint64_t iterations = 0;               // done by this call
   std::uint64_t ended = 0;                    // the iteration that it ended with
   std::uint64_t last_rise = 0;                // iteration in which a minimum last rose by limits.rise; 0: never
-  std::optional<std::uint64_t> mean_since{};  // the iteration after which the mean was raised, where that phase was reached
-  std::optional<std::uint64_t> mean_from{};   // the iteration to which it went back for that, where that was not the last before
-  Index inverted = 0;                         // elements, at the end
-  std::optional<std::uint64_t> best{};        // the iteration that end_at_best() went back to
+  RunPhases phases{};                   // those that were reached
+  Index inverted = 0;                   // elements, at the end
+  std::optional<std::uint64_t> best{};  // the iteration that end_at_best() went back to
   ConvergenceLimits limits;
   /// "converged: no vertex moved any more; the minimum last rose in iteration 9"
   [[nodiscard]] std::string sentence() const;
@@ -62,6 +62,7 @@ struct RunSnapshot {
   SharedVector<IterationRecord> records{};
   std::optional<Outcome> outcome{};
   std::uint64_t path = 0;  // Run::path()
+  JointPath joint{};
 };
 
 class Run {
@@ -86,10 +87,14 @@ class Run {
   [[nodiscard]] const RunParameters& parameters() const noexcept { return parameters_; }
   /// Its name; where it has none, what it does: "dmo · mean ratio, grid 12".
   [[nodiscard]] std::string title() const;
-  /// The iteration at whose end the phase that raises the mean begins, where there is one and as far as is known.
+  [[nodiscard]] RunPhases phases() const;
+  /// See RunPhases; looks at no more than it must.
+  [[nodiscard]] std::optional<std::uint64_t> joint_since() const;
   [[nodiscard]] std::optional<std::uint64_t> mean_since() const;
-  /// The iteration to whose state the run goes back there, the best of the first phase; none where it goes on from the last.
-  [[nodiscard]] std::optional<std::uint64_t> mean_from() const;
+  /// What an iteration of joint moves did, as far as that is at hand; else null.
+  [[nodiscard]] std::shared_ptr<const JointIteration> joint_iteration(std::uint64_t iteration) const { return joint_course_.find(iteration); }
+  /// What joint moves know at the end of the iteration in which the run stands; null outside their phase.
+  [[nodiscard]] std::shared_ptr<const JointStanding> joint_standing() const;
   /// What the next visits are part of.
   [[nodiscard]] Sweep sweep() const;
   /// Of a combination with a size function; else null.
@@ -134,7 +139,7 @@ class Run {
   void set_pool(std::shared_ptr<ThreadPool> pool) { pool_ = std::move(pool); }
 
   /// One vertex, one colour class (the rest of it when in its midst), or one iteration (likewise) forwards. Edits on the way are done
-  /// again; one is a step like a vertex. Returns vertices moved, not counting those that edits moved. On Cancelled the run stands at an
+  /// again; one is a step like a vertex. In a phase of joint moves each is a whole iteration, which is one cluster. Returns vertices moved, not counting those that edits moved. On Cancelled the run stands at an
   /// exact moment between two visits; nothing is lost. On DeviceError (here and in all below) the run has recovered: see there.
   std::uint64_t step(StepUnit unit, Progress& progress);
   /// The reverse: to the previous vertex, class start or iteration start. At the input: does nothing, returns false.
@@ -203,7 +208,14 @@ class Run {
   void visit_block(std::uint64_t count);
   void end_iteration();
   void record(const RunProgress& done);
-  void begin_mean_phase(Progress& progress);
+  void begin_next_phase(Progress& progress);
+  [[nodiscard]] std::optional<std::uint64_t> first_phase_end() const;
+  [[nodiscard]] std::optional<std::uint64_t> first_phase_best() const;
+  [[nodiscard]] std::optional<std::uint64_t> joint_over() const;
+  [[nodiscard]] bool joint_follows(std::uint64_t iteration) const;
+  [[nodiscard]] JointClusters& joint_clusters();
+  void move_jointly(Progress& progress);
+  void end_joint_iteration(std::span<const Vec3> positions, const JointIteration& done, double seconds);
   void copy_unkept(std::vector<Vec3>& copy) const;
   [[nodiscard]] bool attempts_to_untangle(std::uint64_t iteration) const;
   Outcome advance(const ConvergenceLimits& limits, bool stop_when_still, std::uint64_t from, Progress& progress,
@@ -234,6 +246,8 @@ class Run {
   History history_;
   mutable PhaseSwitchDetector turn_;
   BestPositions first_phase_;
+  JointCourse joint_course_;
+  std::unique_ptr<JointClusters> joint_clusters_;  // null while nobody needs it
   std::optional<Sweep> begun_;  // what the smoother was told last
   Edits edits_;
   std::uint64_t path_ = 0;

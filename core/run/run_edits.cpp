@@ -111,6 +111,9 @@ void Run::adopt(const RunSnapshot& point, std::span<const Vec3> positions, Progr
   edits_.replace(point.edits);
   ++path_;
   history_.restore_records(point.records);
+  joint_course_.restore(point.joint);
+  if (point.joint.standing && !joint_clusters().fits(point.joint.standing->state))
+    throw UsageError("what joint moves know is of another mesh or of other fixed vertices");
   if (point.moment.iteration > 0) {
     history_.hold(point.moment.iteration, positions, pool_.get());
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -17,15 +18,22 @@ std::string Outcome::sentence() const {
   std::string rose =
       last_rise == 0 ? "the minimum rose in none of these iterations" : fmt::format("the minimum last rose in iteration {}", last_rise);
   if (inverted > 0) rose += fmt::format("; {} element{} still inverted", inverted, inverted == 1 ? " is" : "s are");
-  if (mean_since) rose += fmt::format("; the mean was raised from iteration {} on", *mean_since + 1);
-  if (mean_from) rose += fmt::format(", which begins with the state of {}, the best one before", iteration_name(*mean_from));
+  const auto begin = [](const std::optional<std::uint64_t>& from) {
+    return from ? fmt::format(", which begins with the state of {}, the best one before", iteration_name(*from)) : std::string();
+  };
+  if (phases.joint_since) rose += fmt::format("; vertices moved jointly from iteration {} on{}", *phases.joint_since + 1, begin(phases.joint_from));
+  if (phases.mean_since) rose += fmt::format("; the mean was raised from iteration {} on{}", *phases.mean_since + 1, begin(phases.mean_from));
   if (best) rose += fmt::format("; back at {}, the best one", iteration_name(*best));
   switch (reason) {
     case StopReason::NothingMoved:
       return fmt::format("converged: no vertex moved any more; {}", rose);
     case StopReason::NoRise:
       return fmt::format("converged: neither the minimum nor {} rose by {} in {} iterations; {}",
-                         mean_since ? "the mean" : "the movable minimum", limits.rise, limits.patience, rose);
+                         phases.mean_since ? "the mean" : "the movable minimum", limits.rise, limits.patience, rose);
+    case StopReason::Certified:
+      return fmt::format("converged: the minimum is certified, no joint move raises it; {}", rose);
+    case StopReason::NoJointGain:
+      return fmt::format("converged: joint moves raise the minimum no further; {}", rose);
     case StopReason::IterationLimit:
       break;
   }
@@ -38,7 +46,7 @@ void Run::visit(std::uint64_t count, Progress& progress) {
     progress.check();
     const std::uint64_t block = std::min({count, visits_per_iteration() - at_.moment.visits, blocks_.visits()});
     recovering([&] { visit_block(block); });
-    begin_mean_phase(progress);
+    begin_next_phase(progress);
     count -= block;
     const double done = at_.moment.visits == 0 ? 1.0 : static_cast<double>(at_.moment.visits) / whole;
     progress.set(done);
@@ -46,11 +54,11 @@ void Run::visit(std::uint64_t count, Progress& progress) {
   }
 }
 
-/// At the end of the first phase: goes to the state that the second begins from. After it the run stands there for good, whichever way it
+/// At the end of the first phase: goes to the state that the next begins from. After it the run stands there for good, whichever way it
 /// has come: the records alone tell which state that is.
-void Run::begin_mean_phase(Progress& progress) {
-  if (!parameters_.then_mean || !at_.moment.is_iteration_end() || mean_since() != at_.moment.iteration) return;
-  const auto best = mean_from();
+void Run::begin_next_phase(Progress& progress) {
+  if (!at_.moment.is_iteration_end() || first_phase_end() != at_.moment.iteration) return;
+  const auto best = first_phase_best();
   if (!best) return;
   const std::uint64_t turn = at_.moment.iteration;
   std::vector<Vec3> positions;
@@ -104,10 +112,12 @@ void Run::walk_to(const Moment& target, Progress& progress) {
   while (at_.moment < target) {
     const Moment& now = at_.moment;
     progress.check();
-    if (whole == 0) {  // nothing is free: an iteration visits nobody
-      recovering([this] { end_iteration(); });
-    } else if (const Edit* edit = edits_.at(now)) {
+    if (const Edit* edit = edits_.at(now)) {
       recovering([&] { do_edit(edit->vertices); });
+    } else if (now.visits == 0 && joint_follows(now.iteration)) {
+      move_jointly(progress);
+    } else if (whole == 0) {  // nothing is free: an iteration visits nobody
+      recovering([this] { end_iteration(); });
     } else {
       std::uint64_t stop = now.iteration < target.iteration ? whole : target.visits;
       if (const Edit* next = edits_.after(now); next != nullptr && next->at.iteration == now.iteration)
@@ -139,7 +149,10 @@ Moment Run::moment_before(StepUnit unit) const {
   const std::uint64_t whole = visits_per_iteration();
   Moment target = at_.moment;
   // The end of an iteration is the same place as the start of the next; from there "back" goes into the iteration before.
-  if (target.is_iteration_end()) target = {target.iteration - 1, whole};
+  if (target.is_iteration_end()) {
+    target = {target.iteration - 1, whole};
+    if (unit != StepUnit::Iteration && joint_follows(target.iteration)) return {target.iteration, 0, edits_.count_at({target.iteration})};
+  }
   if (unit == StepUnit::Iteration || whole == 0) return {target.iteration};
   if (unit == StepUnit::Vertex) {
     if (target.edits > 0) return {target.iteration, target.visits, target.edits - 1};
@@ -187,6 +200,7 @@ void Run::go_to(const RunSnapshot& point, Progress& progress) {
     ++path_;
   }
   history_.restore_records(point.records);
+  joint_course_.restore(point.joint);
   seek(point.moment, progress);
   last_outcome_ = point.outcome;
 }
@@ -252,8 +266,9 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
   Outcome outcome{.limits = limits};
   recover();
   // A second phase must not begin while the first may still gain. Where none has begun, the iterations so far are those of any patience.
-  if (stop_when_still && parameters_.then_mean && !mean_since())
-    parameters_.then_mean->patience = std::max(parameters_.then_mean->patience, limits.patience);
+  if (std::optional<PhaseBegin>& next = parameters_.then_joint ? parameters_.then_joint : parameters_.then_mean;
+      stop_when_still && next && !first_phase_end())
+    next->patience = std::max(next->patience, limits.patience);
   // Where we stand now may be the midst of an iteration, of which the history has no record.
   from = std::min(from, at_.moment.iteration);  // after a failure the run may stand before it
   const Statistics start = from < at_.moment.iteration ? history_.records()[from].statistics : recovering([this] { return statistics(); });
@@ -262,16 +277,28 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
   double minimum = start.minimum, movable = start.movable_minimum, mean = start.mean;
   std::uint64_t since_rise = 0, quiet = 0;  // quiet: iterations in a row in which nothing moved
   bool stopped = false;
+  const bool joint_comes = parameters_.then_joint || method_info(parameters_.method).joint;
+  const Phase last_phase = parameters_.then_mean ? Phase::Mean : joint_comes ? Phase::Joint : Phase::Method;
   BestState best(parameters_);
   for (const IterationRecord& record : std::span(history_.records()).first(from + 1)) best.take(record);
   std::vector<Vec3> positions_of_best;  // where the history has no room for them, so that nobody need compute them again
+  const auto phase_of = [this](std::uint64_t iteration) {
+    return RunPhases{.joint_since = joint_since(), .mean_since = mean_since()}.of(iteration);
+  };
+  // What is known of a later phase may come of records behind those that are gone through.
+  const auto phases_reached = [this](Phase phase) {
+    RunPhases reached_so_far = phases();
+    if (phase == Phase::Joint) reached_so_far.joint_over = reached_so_far.mean_since = reached_so_far.mean_from = std::nullopt;
+    return reached_so_far;
+  };
+  Phase phase_before = Phase::Method;
   pursuit_ = Pursuit{from, from + limits.max_iterations, stop_when_still};
   const std::unique_ptr<std::optional<Pursuit>, void (*)(std::optional<Pursuit>*)> at_the_end(&pursuit_, [](auto* mine) { mine->reset(); });
   while (!stopped && outcome.iterations < limits.max_iterations) {
     const bool whole = at_.moment.visits == 0;
     const bool anew = reached == at_.moment.iteration;
-    const bool first_phase = parameters_.then_mean && !outcome.mean_since && outcome.inverted == 0;
-    if (stop_when_still && !first_phase) pursuit_->patience_left = limits.patience - std::min(since_rise, limits.patience);
+    const bool counts = last_phase == outcome.phases.of(reached + 1) && last_phase != Phase::Joint;
+    if (stop_when_still && (counts || (outcome.inverted > 0 && !joint_comes))) pursuit_->patience_left = limits.patience - std::min(since_rise, limits.patience);
     if (anew) {
       const Progress::Part part(progress, outcome.iterations, limits.max_iterations);
       step(StepUnit::Iteration, progress);
@@ -290,19 +317,25 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
       minimum = std::max(minimum, now.minimum);
       movable = std::max(movable, now.movable_minimum);
     }
-    const auto since = mean_since();
-    const bool raising_mean = since && *since < reached;
-    if (raising_mean && (!outcome.mean_since || now.mean - mean >= limits.rise)) {
-      if (!outcome.mean_since) outcome.mean_from = mean_from();
-      outcome.mean_since = since;
+    const Phase phase = phase_of(reached);
+    const bool begins = phase != std::exchange(phase_before, phase);
+    if (begins) outcome.phases = phases_reached(phase);
+    if (begins || (phase == Phase::Mean && now.mean - mean >= limits.rise)) {
       since_rise = 0;
       mean = now.mean;
     }
     if (after && anew) recovering([&] { after(*this); });
     outcome.inverted = now.inverted;
-    if (parameters_.then_mean && !raising_mean && now.inverted == 0) continue;  // the first phase's end is not the run's
-    // The second phase searches as DMO does, whatever the method.
-    auto needed = raising_mean ? 1 : still_iterations(method_info(parameters_.method), parameters_.options, input_->is_volume());
+    const auto joint_end = phase == Phase::Joint && record.joint ? record.joint->end : JointState::End::None;
+    if (joint_end != JointState::End::None) outcome.phases.joint_over = reached;
+    if (stop_when_still && joint_end != JointState::End::None && (last_phase == Phase::Joint || now.inverted > 0)) {
+      stopped = true;
+      outcome.reason = joint_end == JointState::End::Certified ? StopReason::Certified : StopReason::NoJointGain;
+    }
+    // A phase's end is not the run's; joint moves know themselves when they are over.
+    if (phase == Phase::Joint || (phase != last_phase && (now.inverted == 0 || joint_comes))) continue;
+    // The last phase searches as DMO does, whatever the method.
+    auto needed = phase == Phase::Mean ? 1 : still_iterations(method_info(parameters_.method), parameters_.options, input_->is_volume());
     if (needed && attempts_to_untangle(reached)) *needed += UntanglingPlan::kCycle;
     quiet = whole && record.moved == 0 ? quiet + 1 : 0;
     const bool still = needed && quiet >= *needed;

@@ -25,6 +25,7 @@ std::optional<UntanglingHint> untangling_hint(const Run& run, std::shared_ptr<co
     RunParameters parameters = run.parameters();
     parameters.method = method.name;
     parameters.combination.reset();
+    parameters.then_joint.reset();
     parameters.then_mean.reset();
     parameters.backend = Backend::Cpu;
     Run other(input, std::move(parameters), pool, 0);

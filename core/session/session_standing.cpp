@@ -36,7 +36,8 @@ RunStanding without_positions(const Run& run, std::span<const MeshStanding> mesh
           run.given_name(),
           mesh,
           {},
-          {}};
+          {},
+          run.joint_standing()};
 }
 
 std::optional<SessionStanding> standing_of(Session& session, const IterationStarts& starts, const std::function<bool()>& go_on) {

@@ -25,6 +25,7 @@ struct RunStanding {
   std::size_t mesh = 0;               // its place in SessionStanding::meshes
   std::span<const Vec3> start;        // positions at the end of iteration moment.iteration; empty at the input
   std::shared_ptr<const void> owner;  // of these
+  std::shared_ptr<const JointStanding> joint{};  // see Run::joint_standing
 };
 
 struct MeshStanding {

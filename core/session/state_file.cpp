@@ -17,6 +17,8 @@
 #include "core/io/reading/source_file.h"
 #include "core/io/writing/atomic_file.h"
 #include "core/session/input_marks.h"
+#include "core/session/joint_json.h"
+#include "core/session/json_values.h"
 #include "core/session/parameter_json.h"
 #include "core/session/position_text.h"
 #include "core/session/run_name.h"
@@ -25,7 +27,7 @@ namespace dmoscope {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = StateJson;
 
 constexpr std::string_view kSessionFormat = "dmoscope session";
 constexpr int kVersion = 3;  // 1: without checksums but that of the mesh; 3: several meshes
@@ -78,43 +80,25 @@ bool check_parts(const Json& object, const std::string& what) {
   return view_as_saved;
 }
 
-/// JSON has no number for what is not finite.
-Json number_in_json(double value) {
-  return std::isnan(value) ? Json("nan") : std::isinf(value) ? Json(value > 0 ? "inf" : "-inf") : Json(value);
-}
-
-double to_double(const Json& json) {
-  if (json.is_number()) return json.get<double>();
-  const auto word = json.get<std::string>();
-  if (word == "inf") return std::numeric_limits<double>::infinity();
-  if (word == "-inf") return -std::numeric_limits<double>::infinity();
-  if (word == "nan") return std::numeric_limits<double>::quiet_NaN();
-  throw UsageError(fmt::format("'{}' is no number", word));
-}
-
-std::uint64_t to_whole(const Json& json) {
-  if (!json.is_number_unsigned()) throw UsageError("a whole number is expected where there is none");
-  return json.get<std::uint64_t>();
-}
-
-Index to_index(const Json& json) {
-  const std::uint64_t value = to_whole(json);
-  if (value >= kNoIndex) throw UsageError(fmt::format("{} is too large an index", value));
-  return static_cast<Index>(value);
-}
-
-std::vector<Index> to_indices(const Json& json) {
-  if (!json.is_array()) throw UsageError("a list of vertices is expected where there is none");
-  std::vector<Index> indices;
-  for (const Json& entry : json) indices.push_back(to_index(entry));
-  return indices;
-}
-
 Json json_of(const Moment& moment) { return {moment.iteration, moment.visits, moment.edits}; }
 
 Moment to_moment(const Json& json) {
   if (!json.is_array() || json.size() != 3) throw UsageError("a moment is a list of iteration, visits and edits");
   return {to_whole(json[0]), to_whole(json[1]), to_whole(json[2])};
+}
+
+Json json_of(const PhaseBegin& phase) {
+  Json json{{"patience", phase.patience}, {"rise", phase.rise}};
+  if (phase.from_best) json["from_best"] = true;  // files of before do not have it
+  return json;
+}
+
+std::optional<PhaseBegin> to_phase(const Json& json, const char* key) {
+  if (!json.contains(key)) return std::nullopt;
+  const Json& phase = json.at(key);
+  const PhaseBegin read{to_whole(phase.at("patience")), to_double(phase.at("rise")), phase.value("from_best", false)};
+  if (read.patience == 0) throw UsageError("a second phase needs a patience of at least 1");
+  return read;
 }
 
 Json json_of(const RunParameters& p) {
@@ -123,10 +107,8 @@ Json json_of(const RunParameters& p) {
     if (row.in_session) json[std::string(row.name)] = parameter_json(row, p);
   if (p.combination) json["combination"] = to_text(p.metric, *p.combination);
   if (p.combination && p.combination->size() != nullptr) json["size_function"] = to_text(*p.combination->size());
-  if (p.then_mean) {
-    json["then_mean"] = {{"patience", p.then_mean->patience}, {"rise", p.then_mean->rise}};
-    if (p.then_mean->from_best) json["then_mean"]["from_best"] = true;  // files of before do not have it
-  }
+  if (p.then_joint) json["then_joint"] = json_of(*p.then_joint);
+  if (p.then_mean) json["then_mean"] = json_of(*p.then_mean);
   return json;
 }
 
@@ -150,18 +132,15 @@ RunParameters to_parameters(const Json& json) {
   }
   if (json.contains("combination"))
     std::tie(p.metric, p.combination) = parse_combination(json.at("combination").get<std::string>(), json.value("size_function", ""));
-  if (json.contains("then_mean")) {
-    const Json& phase = json.at("then_mean");
-    p.then_mean = MeanPhase{to_whole(phase.at("patience")), to_double(phase.at("rise")), phase.value("from_best", false)};
-    if (p.then_mean->patience == 0) throw UsageError("a second phase needs a patience of at least 1");
-  }
+  p.then_joint = to_phase(json, "then_joint");
+  p.then_mean = to_phase(json, "then_mean");
   return p;
 }
 
-/// [minimum, mean, movable minimum, ceiling, worst element, inverted, moved, seconds]
+/// [minimum, mean, movable minimum, ceiling, worst element, inverted, moved, seconds], and of joint moves what joint_json() says.
 Json json_of(const IterationRecord& r) {
   const Statistics& s = r.statistics;
-  return {number_in_json(s.minimum),
+  Json json{number_in_json(s.minimum),
           number_in_json(s.mean),
           number_in_json(s.movable_minimum),
           number_in_json(s.ceiling),
@@ -169,13 +148,16 @@ Json json_of(const IterationRecord& r) {
           s.inverted,
           r.moved,
           number_in_json(r.seconds)};
+  if (r.joint) json.push_back(joint_json(*r.joint));
+  return json;
 }
 
 IterationRecord to_record(const Json& json, std::uint64_t iteration) {
-  if (!json.is_array() || json.size() != 8) throw UsageError("a record of an iteration has 8 values");
+  if (!json.is_array() || json.size() < 8 || json.size() > 9) throw UsageError("a record of an iteration has 8 values, or 9");
   IterationRecord record{iteration, {}, to_whole(json[6]), to_double(json[7])};
   record.statistics = {to_double(json[0]), to_double(json[1]), to_double(json[2]), to_double(json[3]), kNoIndex, to_index(json[5])};
   if (to_whole(json[4]) != kNoIndex) record.statistics.worst_element = to_index(json[4]);
+  if (json.size() == 9) record.joint = to_joint_figures(json[8]);
   return record;
 }
 
@@ -238,6 +220,7 @@ Json json_of(const RunStanding& run, const InputMesh& input, bool several) {
   Json json{{"parameters", json_of(run.parameters)}, {"moment", json_of(run.moment)}, {"edits", edits}, {"records", records}};
   if (!run.name.empty()) json["name"] = run.name;
   if (run.moment.iteration > 0) json["positions"] = pack_positions(run.start);
+  if (run.joint) json["joint"] = joint_json(run.joint->state);
   json["standing"] = standing_mark(input, run.parameters.standing());
   if (const std::string size = size_mark(input, run.size.get()); !size.empty()) json["size"] = size;
   if (several) json["mesh"] = run.mesh;
@@ -283,6 +266,9 @@ std::shared_ptr<Run> to_run(const Json& json, const Session& session, const std:
         throw UsageError(fmt::format("vertex {} is fixed, but has moved", v));
   }
   if (point.moment.iteration > 0) require_record(*run, point.records.whole(), point.moment.iteration, positions);
+  if (json.contains("joint"))
+    point.joint.standing = std::make_shared<const JointStanding>(
+        JointStanding{point.moment.iteration, to_joint_state(json.at("joint"), input->mesh.vertex_count())});
   run->adopt(point, positions, progress);
   if (json.contains("name")) {
     auto name = json.at("name").get<std::string>();

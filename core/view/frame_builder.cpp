@@ -40,7 +40,8 @@ RunView view_of(Run& run, bool percentiles) {
   view.moment = run.moment();
   view.pursuit = run.pursuit();
   view.sweep = run.sweep();
-  view.mean_since = run.mean_since();
+  view.phases = run.phases();
+  if (view.moment.is_iteration_end()) view.joint = run.joint_iteration(view.moment.iteration);
   view.size = run.size_field();
   view.visits_per_iteration = run.visits_per_iteration();
   view.colouring = run.shared_colouring();

@@ -114,7 +114,7 @@ void expect_alike_until_converged(Pair& pair) {
 /// The second phase too, whose start is the best of the first, out of the history.
 TEST(DeviceRun, RaisesTheMeanAlike) {
   RunParameters parameters;
-  parameters.then_mean = MeanPhase{};
+  parameters.then_mean = PhaseBegin{};
   for (const double jitter : {0.35, 0.9}) {  // with inverted elements, the latter
     Pair pair(dmoscope::testing::lattice(10, jitter, 99, dmoscope::testing::Cells::Mixed), parameters);
     expect_alike_until_converged(pair);

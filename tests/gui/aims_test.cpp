@@ -60,8 +60,8 @@ TEST_F(AimsInTheWindow, AMarkIsLookedIntoWithTheAimOfItsOwnPhase) {
   good("step iteration");
   good("run 400");
   good("mark b");
-  ASSERT_TRUE(run().mean_since);
-  ASSERT_LT(*run().mean_since, run().moment.iteration);
+  ASSERT_TRUE(run().phases.mean_since);
+  ASSERT_LT(*run().phases.mean_since, run().moment.iteration);
   const Index vertex = run().colouring->order.front();
   good("inspect on");
   good("pick vertex " + std::to_string(vertex));
@@ -124,7 +124,7 @@ TEST_F(AimsInTheWindow, ARunWithoutSizesDoesNotStretchTheColours) {
 TEST(PlotSeries, TheSecondPhaseIsMarked) {
   SessionView session = ui::session_of(2, 9);
   EXPECT_TRUE(std::ranges::none_of(ui::plot_of(session).marks, [](const ui::PlotMark& mark) { return !mark.label.empty(); }));
-  session.runs[1].mean_since = 4;
+  session.runs[1].phases.mean_since = 4;
   const auto marks = ui::plot_of(session).marks;
   const auto found = std::ranges::find(marks, std::string("2 mean"), &ui::PlotMark::label);
   ASSERT_NE(found, marks.end());
@@ -133,7 +133,7 @@ TEST(PlotSeries, TheSecondPhaseIsMarked) {
 
 TEST(PlotSeries, PhasesThatBeginTogetherAreBothReadable) {
   SessionView session = ui::session_of(2, 9);
-  for (RunView& run : session.runs) run.mean_since = 4;
+  for (RunView& run : session.runs) run.phases.mean_since = 4;
   const Drawing drawing = ui::whole_plot(ui::plot_of(session), {}, 900, 600, ui::ink_of(ui::colours()));
   const auto label = [&](const char* text) { return *std::ranges::find(drawing.labels, std::string(text), &Drawing::Label::text); };
   EXPECT_EQ(label("1 mean").at.x, label("2 mean").at.x);

@@ -115,7 +115,7 @@ TEST(CompositeTrace, OfDensity) {
 TEST(CompositeTrace, OfTheMeanAboveTheFloor) {
   const auto mesh = testing::input(testing::lattice(9, 0.3, 5));
   RunParameters parameters;
-  parameters.then_mean = MeanPhase{.patience = 2};
+  parameters.then_mean = PhaseBegin{.patience = 2};
   auto run = make_run(mesh, parameters);
   Progress progress;
   while (!run.mean_since()) run.iterate(1, progress);

@@ -95,7 +95,7 @@ TEST(Paper, TheSecondPhaseRaisesTheMeanAndKeepsTheMinimum) {
     REQUIRE_MESH(mesh, name);
     if (testing::kSanitized && mesh->mesh.vertex_count() > 5000) continue;
     const Statistics plain = smoothed(mesh, {}, 60).statistics();
-    const Statistics raised = smoothed(mesh, {.then_mean = MeanPhase{.patience = 5}}, 60).statistics();
+    const Statistics raised = smoothed(mesh, {.then_mean = PhaseBegin{.patience = 5}}, 60).statistics();
     EXPECT_GE(raised.minimum, plain.minimum - 0.001) << name;
     EXPECT_GE(raised.mean, mean) << name;
   }

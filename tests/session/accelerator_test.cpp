@@ -85,7 +85,7 @@ TEST(Backend, AutoTakesTheCpuForWhatADeviceCannotDoAndSaysWhy) {
 TEST(Backend, TwoAimsAreADevicesUnlessSizesAreLookedUp) {
   const auto device = std::make_shared<FakeDevice>();
   RunParameters mean, metrics, sizes;
-  mean.then_mean = MeanPhase{};
+  mean.then_mean = PhaseBegin{};
   metrics.combination = {0.5, Metric::MinAngle};
   metrics.search.precision = Precision::Double;  // that of two aims anyway
   sizes.combination = {0.5, SizeFunction{SizeFunction::Kind::Distance, {0.3, 0.4, 0}, {}}};

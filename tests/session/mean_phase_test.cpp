@@ -1,6 +1,6 @@
 // The phase that raises the mean: when it begins, what it keeps, and that a run goes over its beginning both ways with the same bits.
 
-#include "core/run/mean_phase.h"
+#include "core/run/phases.h"
 
 #include <cstring>
 #include <limits>
@@ -40,7 +40,7 @@ std::vector<IterationRecord> records(std::initializer_list<double> minima) {
 TEST(PhaseSwitchDetector, AMethodOfDirectionsIsNotAtRestWhileAnotherOneIsLeft) {
   std::vector<IterationRecord> rising = records({0.1, 0.2, 0.3, 0.4, 0.5});
   for (const std::size_t i : {1UL, 3UL, 4UL}) rising[i].moved = 0;
-  const MeanPhase patient{.patience = 4};
+  const PhaseBegin patient{.patience = 4};
   EXPECT_EQ(PhaseSwitchDetector().find(patient, rising, 1), 1U);
   EXPECT_EQ(PhaseSwitchDetector().find(patient, rising, 2), 4U);
   EXPECT_EQ(PhaseSwitchDetector().find(patient, rising, std::nullopt), std::nullopt);
@@ -108,7 +108,7 @@ TEST(PhaseSwitchDetector, AddsUpSmallRises) {
 
 RunParameters two_phases(std::uint64_t patience = 2) {
   RunParameters parameters;
-  parameters.then_mean = MeanPhase{.patience = patience};
+  parameters.then_mean = PhaseBegin{.patience = patience};
   return parameters;
 }
 
@@ -182,7 +182,7 @@ TEST_P(MeanPhaseAfterWear, BeginsWithTheBestStateOfTheFirst) {
   one.iterate(since, progress);
   const std::uint64_t best = best_by_hand(one.history().records());
   ASSERT_LT(best, since) << "else this test shows nothing";
-  EXPECT_EQ(two.mean_from(), best);
+  EXPECT_EQ(two.phases().mean_from, best);
   const Statistics there = one.history().records()[best].statistics, worn = one.history().records()[since].statistics;
   ASSERT_GT(there.mean, worn.mean);
   EXPECT_EQ(two.history().records()[since].statistics.mean, there.mean);
@@ -206,7 +206,7 @@ TEST_P(MeanPhaseAfterWear, BeginsWithTheBestStateOfTheFirst) {
 TEST_P(MeanPhaseAfterWear, BeginsWithTheSameStateAfterItWasRead) {
   const auto mesh = input(lattice(14, 0.45, 8, GetParam()));
   auto whole = make_run(mesh, two_phases(40)), read = make_run(mesh, two_phases(40), 0);
-  const std::uint64_t since = go_beyond(whole), best = *whole.mean_from();
+  const std::uint64_t since = go_beyond(whole), best = *whole.phases().mean_from;
   ASSERT_LT(best + 1, since - 1);
   Progress progress;
   whole.seek({since - 1}, progress);
@@ -218,7 +218,7 @@ TEST_P(MeanPhaseAfterWear, BeginsWithTheSameStateAfterItWasRead) {
   ASSERT_FALSE(read.mean_since());
   read.iterate(4, progress);
   whole.seek({since + 3}, progress);
-  EXPECT_EQ(read.mean_from(), best);
+  EXPECT_EQ(read.phases().mean_from, best);
   EXPECT_TRUE(same_bits(read.positions(), whole.positions()));
 }
 
@@ -295,9 +295,9 @@ TEST(MeanPhase, UntilConvergedGoesThroughBoth) {
   auto run = make_run(input(lattice(10, 0.3, 5)), two_phases(3));
   Progress progress;
   const Outcome outcome = run.until_converged({.patience = 3}, progress);
-  ASSERT_TRUE(outcome.mean_since);
+  ASSERT_TRUE(outcome.phases.mean_since);
   EXPECT_NE(outcome.reason, StopReason::IterationLimit);
-  EXPECT_GT(run.moment().iteration, *outcome.mean_since);
+  EXPECT_GT(run.moment().iteration, *outcome.phases.mean_since);
   EXPECT_THAT(outcome.sentence(), HasSubstr("the mean was raised"));
   const auto& all = run.history().records();
   const double last_rise = all.back().statistics.mean - all[all.size() - 4].statistics.mean;
@@ -315,7 +315,7 @@ TEST(MeanPhase, NothingMovesAnyMoreAlsoAfterDvr) {
   Progress progress;
   const Outcome outcome = run.until_converged({.patience = 3, .max_iterations = 90}, progress);
   EXPECT_EQ(outcome.reason, StopReason::NothingMoved);
-  EXPECT_TRUE(outcome.mean_since);
+  EXPECT_TRUE(outcome.phases.mean_since);
 }
 
 /// A session that is told what to do.
@@ -368,8 +368,8 @@ TEST(MeanPhase, IsUndoneAndSaved) {
   other.say("open-state " + file);
   EXPECT_EQ(other.session.active().parameters(), told.session.active().parameters());
   EXPECT_EQ(other.session.active().mean_since(), told.session.active().mean_since());
-  EXPECT_EQ(other.session.active().mean_from(), told.session.active().mean_from());
-  ASSERT_TRUE(told.session.active().mean_from()) << "else this test shows less";
+  EXPECT_EQ(other.session.active().phases().mean_from, told.session.active().phases().mean_from);
+  ASSERT_TRUE(told.session.active().phases().mean_from) << "else this test shows less";
   EXPECT_TRUE(same_bits(other.session.active().positions(), end));
   // What was saved in the second phase has no positions of the first: they are computed again, and its beginning with them.
   const std::uint64_t since = *told.session.active().mean_since();

@@ -171,7 +171,7 @@ INSTANTIATE_TEST_SUITE_P(Optimisers, NeverWorse, ::testing::ValuesIn(optimisers(
 TEST(NeverWorseAlso, WithBothPhasesOtherGridsAndTheSearchInDouble) {
   Tried tried;
   for_spoiled(planar_meshes(6), Metric::MeanRatio, 5, [&](const auto& mesh, const std::string& what) {
-    expect_never_worse(mesh, {.then_mean = MeanPhase{.patience = 3}}, 30, what + ", then mean", tried);
+    expect_never_worse(mesh, {.then_mean = PhaseBegin{.patience = 3}}, 30, what + ", then mean", tried);
     expect_never_worse(mesh, {.search = {.omega = 1.0}}, 8, what + ", omega 1", tried);
     expect_never_worse(mesh, {.search = {.grid_points = 5, .levels = 1, .precision = Precision::Double}}, 8, what + ", in double", tried);
   });

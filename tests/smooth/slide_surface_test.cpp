@@ -251,7 +251,7 @@ TEST(SlidingOnSurfaces, AreTheSameBits) {
     Progress progress;
     for (const int aims : {0, 1, 2}) {
       RunParameters parameters = sliding_by();
-      if (aims == 1) parameters.then_mean = MeanPhase{.patience = 2};
+      if (aims == 1) parameters.then_mean = PhaseBegin{.patience = 2};
       if (aims == 2) parameters.combination = Combination{0.3, Metric::ScaledJacobian};
       dmoscope::Run expected = make_run(mesh, parameters);
       expected.iterate(3, progress);

@@ -275,7 +275,7 @@ TEST(SlidingBits, AreTheSame) {
     Progress progress;
     for (const int aims : {0, 1, 2}) {
       RunParameters parameters = sliding_by();
-      if (aims == 1) parameters.then_mean = MeanPhase{.patience = 2};
+      if (aims == 1) parameters.then_mean = PhaseBegin{.patience = 2};
       if (aims == 2) parameters.combination = Combination{0.3, Metric::MinAngle};
       if (aims == 2 && !defined_for_all(Metric::MinAngle, specimen.mesh)) continue;
       dmoscope::Run expected = make_run(mesh, parameters);

@@ -238,7 +238,7 @@ TEST(SlidingInSpaceBits, AreTheSame) {
     Progress progress;
     for (const int aims : {0, 1, 2}) {
       RunParameters parameters = sliding_by();
-      if (aims == 1) parameters.then_mean = MeanPhase{.patience = 2};
+      if (aims == 1) parameters.then_mean = PhaseBegin{.patience = 2};
       if (aims == 2) parameters.combination = Combination{0.3, Metric::ScaledJacobian};
       dmoscope::Run expected = make_run(mesh, parameters);
       expected.iterate(4, progress);

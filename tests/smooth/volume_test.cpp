@@ -413,7 +413,7 @@ TEST(Volume, NoTwoOfAClassShareAnElement) {
 TEST(Volume, ACubeOfHexahedraBecomesPerfectWithTheSecondPhase) {
   Progress progress;
   const auto mesh = input(generate_mesh("hexahedra", 125, 3, progress));
-  dmoscope::Run run = make_run(mesh, {.then_mean = MeanPhase{}});
+  dmoscope::Run run = make_run(mesh, {.then_mean = PhaseBegin{}});
   run.iterate(60, progress);
   EXPECT_GT(run.statistics().minimum, 0.99) << "the lattice it was made from is worth 1";
 }
@@ -458,7 +458,7 @@ Statistics smoothed(const char* file, std::uint64_t iterations, bool then_mean =
   const std::filesystem::path path = std::filesystem::path(DMOSCOPE_SHARED_DIR) / "meshes" / file;
   Progress progress;
   const auto mesh = load_input(path, Need::Smoothing, progress);
-  dmoscope::Run run = make_run(mesh, {.then_mean = then_mean ? std::optional(MeanPhase{}) : std::nullopt}, 2);
+  dmoscope::Run run = make_run(mesh, {.then_mean = then_mean ? std::optional(PhaseBegin{}) : std::nullopt}, 2);
   Statistics before = run.statistics();
   for (std::uint64_t i = 0; i < iterations; ++i) {
     run.iterate(i + 1, progress);

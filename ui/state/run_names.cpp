@@ -15,8 +15,10 @@ Parts parts_of(const RunView& run) {
   const RunParameters& p = run.parameters;
   std::string aim = p.combination ? phrase(p.metric, *p.combination) : metric_phrase(p.metric);
   std::string others = other_than_usual(p, run.input && run.input->is_surface());
-  if (others.starts_with(", ")) others.erase(0, 2);
-  return {std::move(aim), p.then_mean ? "then mean" : "", std::move(others), run.input ? run.input->mesh.name : std::string()};
+  std::string then = then_text(p);
+  for (std::string* text : {&others, &then})
+    if (text->starts_with(", ")) text->erase(0, 2);
+  return {std::move(aim), std::move(then), std::move(others), run.input ? run.input->mesh.name : std::string()};
 }
 
 RunName name_among(const SessionView& session, const std::vector<Parts>& parts, std::size_t k) {

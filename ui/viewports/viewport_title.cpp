@@ -48,8 +48,10 @@ std::vector<TitlePiece> title_of(const PaneFacts& pane, Metric shown) {
       pieces.push_back({"· " + (run.parameters.combination ? phrase(run.parameters.metric, *run.parameters.combination)
                                                            : metric_phrase(run.parameters.metric)),
                         Role::Name, 5});
-    const bool in_mean_phase = frame != nullptr && run.mean_since && *run.mean_since < frame->moment.iteration;
-    if (in_mean_phase && name.rest.find("then mean") == std::string::npos) pieces.push_back({"· then mean", Role::Name, 4});
+    const Phase phase = frame != nullptr ? run.phases.of(frame->moment.iteration) : Phase::Method;
+    if (phase == Phase::Mean && name.rest.find("then mean") == std::string::npos) pieces.push_back({"· then mean", Role::Name, 4});
+    if (phase == Phase::Joint && run.parameters.then_joint && name.rest.find("then joint") == std::string::npos)
+      pieces.push_back({"· then joint", Role::Name, 4});
   }
   if (frame == nullptr) return pieces;
   const bool difference = pane.colours && pane.colours->diverging;

@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/unknown_value.h"
+#include "core/joint/joint_clusters.h"
 #include "core/smooth/methods/active_set_ascent.h"
 #include "core/smooth/methods/angle_based.h"
 #include "core/smooth/methods/composite_dmo.h"
@@ -63,7 +64,11 @@ constexpr auto kMethods = std::to_array<MethodInfo>(
       .slides = true},
      {.name = "active-set",
       .doc = "Active-set ascent: along the steepest way on which none of the worst elements loses (Freitag, Jones and Plassmann 1995)",
-      .make = make_active_set_smoother}});
+      .make = make_active_set_smoother},
+     {.name = "joint",
+      .doc = "Joint moves: a cluster of vertices together, by an interior point, until nothing can raise the worst element",
+      .make = make_dmo_smoother,
+      .joint = true}});
 
 /// "dmo, laplace, smart-laplace and pattern-search".
 std::string those_that_slide() {
@@ -117,6 +122,11 @@ void require_possible(const SmoothingTask& task) {
   if (task.input->is_surface() && !method.slides)
     throw UsageError(fmt::format("only {} smooth curved surfaces, not {}", those_that_slide(), method.name));
   if (task.slides) require_sliding(task);
+  if (method.joint && task.then_joint) throw UsageError("joint moves cannot follow joint moves");
+  if (method.joint || task.then_joint) {
+    if (task.combination) throw UsageError("joint moves have one aim, and a combination two");
+    require_joint(*task.input, task.metric);
+  }
 }
 
 std::unique_ptr<Smoother> make_smoother(const SmoothingTask& task) {

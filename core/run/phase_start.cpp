@@ -1,16 +1,25 @@
-#include "core/run/mean_start.h"
+#include "core/run/phase_start.h"
 
 #include <algorithm>
 
+#include "core/smooth/execution/method_table.h"
+
 namespace dmoscope {
+
+const PhaseBegin* next_phase(const RunParameters& parameters) {
+  if (method_info(parameters.method).joint) return nullptr;
+  if (parameters.then_joint) return &*parameters.then_joint;
+  return parameters.then_mean ? &*parameters.then_mean : nullptr;
+}
 
 bool same_state(const Statistics& a, const Statistics& b) {
   return a.inverted == b.inverted && a.minimum == b.minimum && a.movable_minimum == b.movable_minimum && a.mean == b.mean;
 }
 
-std::optional<std::uint64_t> mean_phase_start(const RunParameters& parameters, std::span<const IterationRecord> records,
+std::optional<std::uint64_t> next_phase_start(const RunParameters& parameters, std::span<const IterationRecord> records,
                                               std::uint64_t turn) {
-  if (turn == 0 || !parameters.then_mean || !parameters.then_mean->from_best) return std::nullopt;
+  const PhaseBegin* next = next_phase(parameters);
+  if (turn == 0 || next == nullptr || !next->from_best) return std::nullopt;
   BestState best(parameters);
   for (const IterationRecord& record : records.first(turn)) best.take(record);
   const std::uint64_t before = best.iteration();

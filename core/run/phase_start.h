@@ -1,5 +1,5 @@
 #pragma once
-// Which state the second phase of a run, which raises the mean, begins from.
+// Which state the phase after the first begins from.
 
 #include <cstdint>
 #include <optional>
@@ -10,10 +10,13 @@
 
 namespace dmoscope {
 
+/// When the phase after the first begins; null: none follows, or the first is one of joint moves, which know themselves when they are over.
+[[nodiscard]] const PhaseBegin* next_phase(const RunParameters& parameters);
+
 /// The best iteration before `turn`, the last of the first phase: to its state the run goes back at the end of `turn`. None where that one
 /// is better than all before it, or where nothing has moved since. After its last rise the minimum has nothing to gain, and the mean falls:
 /// see BestState.
-[[nodiscard]] std::optional<std::uint64_t> mean_phase_start(const RunParameters& parameters, std::span<const IterationRecord> records,
+[[nodiscard]] std::optional<std::uint64_t> next_phase_start(const RunParameters& parameters, std::span<const IterationRecord> records,
                                                             std::uint64_t turn);
 
 /// By their records: whether both are one state.

@@ -1,28 +1,34 @@
-#include "core/run/mean_phase.h"
+#include "core/run/phases.h"
 
 #include <algorithm>
 
+#include "core/run/sweep_after.h"
+
 namespace dmoscope {
 
-std::optional<std::uint64_t> PhaseSwitchDetector::find(const MeanPhase& phase, std::span<const IterationRecord> records,
-                                                       std::optional<std::uint64_t> still) {
+std::optional<std::uint64_t> PhaseSwitchDetector::find(const PhaseBegin& next, std::span<const IterationRecord> records,
+                                                       std::optional<std::uint64_t> still, Inverted inverted) {
   if (records.empty()) return std::nullopt;
   if (seen_ == 0) highest_ = records.front().statistics.movable_minimum;
   for (std::uint64_t i = seen_ + 1; !turn_ && i < records.size(); ++i) {
     seen_ = i;
     const Statistics& now = records[i].statistics;
     // As a difference: where nothing is movable both are infinite, and that is no rise.
-    if (now.movable_minimum - highest_ >= phase.rise) {
+    if (now.movable_minimum - highest_ >= next.rise) {
       highest_ = now.movable_minimum;
       last_rise_ = i;
     }
+    std::uint64_t patience = next.patience;
     if (now.inverted > 0) {
-      last_rise_ = i;
-      continue;
+      if (inverted == Inverted::Wait || now.inverted < records[i - 1].statistics.inverted) {
+        last_rise_ = i;
+        continue;
+      }
+      patience = std::min(patience, UntanglingPlan::kCycle);
     }
     const auto rests = [](const IterationRecord& record) { return record.moved == 0; };
     const bool at_rest = still && i >= *still && std::ranges::all_of(records.subspan(i + 1 - *still, *still), rests);
-    if (at_rest || i - last_rise_ >= phase.patience) turn_ = i;
+    if (at_rest || i - last_rise_ >= patience) turn_ = i;
   }
   return turn_;
 }

@@ -12,6 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/base/number_text.h"
+#include "core/inspect/joint_hold.h"
 #include "core/mesh/colouring.h"
 #include "core/quality/quality.h"
 #include "core/reference/hold.h"
@@ -25,11 +26,11 @@ constexpr int kRounds = 12;            // of visits in a trial
 constexpr double kAngleStep = 5.0;     // degrees: angles are proposed in multiples of it
 constexpr double kMoreDeviation = 10;  // times the bound
 
-constexpr std::array<std::string_view, 10> kNames{"free", "slides", "deviation", "boundary", "interface",
-                                                  "file", "corner", "feature",   "touching", "hand"};
-constexpr std::array<std::string_view, 10> kPhrases{
-    "nothing", "nothing: it slides", "the bound of deviation", "the fixed boundary",   "a fixed interface", "the file",
-    "corners", "feature edges",      "parts that touch there", "what is fixed by hand"};
+constexpr std::array<std::string_view, 11> kNames{"free",   "slides",  "deviation", "boundary", "interface", "file",
+                                                  "corner", "feature", "touching",  "hand",     "neighbours"};
+constexpr std::array<std::string_view, 11> kPhrases{
+    "nothing", "nothing: it slides", "the bound of deviation", "the fixed boundary",    "a fixed interface", "the file",
+    "corners", "feature edges",      "parts that touch there", "what is fixed by hand", "its neighbours"};
 
 bool is_fixed(Holding by) { return by != Holding::Nothing && by != Holding::Slides; }
 
@@ -81,12 +82,33 @@ class Look {
         found.in_vain.push_back(all[i]);
       }
     }
+    try_joint(found, best, progress, go_on);
     if (found.change) std::erase_if(found.in_vain, [&](const HoldSwitch& one) { return one.frees == found.change->frees; });
     settle(found);
     return found;
   }
 
  private:
+  /// Joint moves, where a vertex may move: of sliding ones they hold the place.
+  void try_joint(HeldMinimum& found, double& best, Progress& progress, const std::function<bool()>& go_on) const {
+    std::vector<std::uint8_t> fixed(q_.fixed.begin(), q_.fixed.end());
+    if (q_.domain != nullptr)
+      for (Index v = 0; v < fixed.size(); ++v)
+        if (q_.domain->slides(v)) fixed[v] = 1;
+    auto cluster = joint_hold(*q_.input, q_.positions, fixed, q_.metric, element_, q_.joint_at_most, progress, go_on);
+    if (!cluster) return;
+    if (gains(best, cluster->after)) {
+      if (!q_.joint_phase.empty()) {
+        if (found.change) found.in_vain.push_back(*found.change);
+        found.change = HoldSwitch{"then", q_.joint_phase, Holding::Neighbours};
+        found.changed = cluster->after;
+      } else if (!found.change) {
+        found.unchanged = cluster->after;
+      }
+      best = cluster->after;
+    }
+    found.joint = std::make_shared<const JointCluster>(std::move(*cluster));
+  }
   [[nodiscard]] std::span<const Index> corners() const { return mesh_.elements.corners(element_); }
   [[nodiscard]] double quality_of(PositionView positions, Index e) const {
     return element_quality(q_.input->quality_context(), positions, q_.metric, e);
@@ -316,15 +338,21 @@ std::string HoldSwitch::option() const {
 
 bool HeldMinimum::rises() const noexcept { return gains(quality, unchanged); }
 
+bool HeldMinimum::certified() const noexcept { return joint && joint->certified && !gains(quality, joint->after); }
+
 std::string_view HeldMinimum::brief() const noexcept {
   if (change) return phrase(by);
   if (rises()) return "nothing";
-  return is_fixed(by) ? phrase(by) : unchanged > quality ? "nothing" : "a local optimum";
+  if (is_fixed(by)) return phrase(by);
+  return certified() ? "a certified optimum" : unchanged > quality ? "nothing" : "a local optimum";
 }
 
 std::string HeldMinimum::outlook() const {
   if (change) return {};
   if (rises()) return fmt::format("more iterations: about {:.2g}", unchanged);
+  if (certified())
+    return fmt::format("certified: {}", holders(*joint).size() > 1 ? fmt::format("{} elements hold one another", holders(*joint).size())
+                                                                   : std::string("no joint move raises it"));
   if (is_fixed(by)) return "no switch gains here";
   return unchanged > quality ? "it rises slowly" : "its vertices gain nothing";
 }
@@ -356,6 +384,12 @@ std::string HeldMinimum::tried(bool as_option) const {
 }
 
 std::string HeldMinimum::sentence(bool as_option) const {
+  const std::string text = hold_sentence(as_option);
+  const bool still = joint && !change && !rises();
+  return still ? text + ' ' + certificate_sentence(*joint) : text;
+}
+
+std::string HeldMinimum::hold_sentence(bool as_option) const {
   std::string text;
   if (ceiling)
     text = fmt::format("No switch frees element {} at {}, whose vertices all stay. ", ceiling->first, four_digits(ceiling->second));

@@ -12,6 +12,7 @@
 
 #include "core/base/progress.h"
 #include "core/input/input_mesh.h"
+#include "core/joint/joint_clusters.h"
 #include "core/quality/metric.h"
 #include "core/reference/domain.h"
 #include "core/reference/standing.h"
@@ -30,7 +31,8 @@ enum class Holding : std::uint8_t {
   Corner,     // the boundary, or a feature edge, turns there by more than the corner angle
   Feature,    // feature edges meet or end there, or keep it on them
   Touching,   // parts of the mesh touch there
-  Hand        // it was fixed by hand
+  Hand,       // it was fixed by hand
+  Neighbours  // no single move gains, joint ones do
 };
 /// For machines: "free", "slides", "boundary".
 [[nodiscard]] std::string_view name(Holding holding) noexcept;
@@ -62,9 +64,12 @@ struct HeldMinimum {
   double changed = 0.0;                             // the same with that
   std::vector<HoldSwitch> in_vain;                  // what was tried and gains nothing here
   std::optional<std::pair<Index, double>> ceiling;  // an element that is worse, and that nothing moves
+  std::shared_ptr<const JointCluster> joint;        // what joint moves make of it; null where they cannot be
 
   /// Does the run still raise it without any change?
   [[nodiscard]] bool rises() const noexcept;
+  /// Is it known that no joint move raises it, to first order?
+  [[nodiscard]] bool certified() const noexcept;
   /// After "held by": "the fixed boundary", "nothing", "a local optimum"
   [[nodiscard]] std::string_view brief() const noexcept;
   /// Where no switch would free it, what is to be expected, in a few words.
@@ -73,6 +78,7 @@ struct HeldMinimum {
   [[nodiscard]] std::string sentence(bool as_option = false) const;
 
  private:
+  [[nodiscard]] std::string hold_sentence(bool as_option) const;
   [[nodiscard]] std::string shares() const;
   [[nodiscard]] std::string tried(bool as_option) const;
 };
@@ -92,11 +98,13 @@ struct HeldQuestion {
   std::string_view method = "dmo";
   Metric metric = Metric::MeanRatio;
   SearchParameters search{};
-  DomainSource domains{};  // empty: each is made anew
+  DomainSource domains{};       // empty: each is made anew
+  std::string joint_phase{};    // what "then" must be told for joint moves; empty: the run has them
+  std::size_t joint_at_most{};  // see joint_hold
 };
 
 /// Looks at the worst element: what keeps its vertices, and what each switch that concerns them would gain. For that the vertices around
-/// it are visited some times by the product's own smoother, on a copy of the positions. Where no switch frees an element that cannot move,
+/// it are visited some times by the product's own smoother, and moved jointly, on a copy of the positions. Where no switch frees an element that cannot move,
 /// it looks at the worst that can. None for a mesh without a quality. Costs a look at each element, and a Domain for each switch.
 /// Throws Cancelled, also once `go_on`, which is asked between two trials, says no.
 [[nodiscard]] std::optional<HeldMinimum> held_minimum(const HeldQuestion& question, ThreadPool* pool, Progress& progress,

@@ -1,5 +1,7 @@
 #include "core/run/what_holds.h"
 
+#include "core/smooth/execution/method_table.h"
+
 namespace dmoscope {
 
 std::optional<HeldMinimum> what_holds(const Run& run, ThreadPool* pool, Progress& progress, const DomainSource& domains,
@@ -12,6 +14,9 @@ std::optional<HeldMinimum> what_holds(const Run& run, ThreadPool* pool, Progress
   question.metric = p.metric;
   question.search = p.search;
   question.domains = domains;
+  if (!method_info(p.method).joint && !p.then_joint) question.joint_phase = p.then_mean ? "joint,mean" : "joint";
+  constexpr std::size_t kMostAtRest = 4000;  // nobody has asked for it then
+  if (go_on) question.joint_at_most = kMostAtRest;
   return held_minimum(question, pool, progress, go_on);
 }
 

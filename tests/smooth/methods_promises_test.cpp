@@ -85,6 +85,7 @@ TEST_P(MethodsOfAnyMetric, KeepTheirPromises) {
       for (const double jitter : {0.25, 0.9}) {  // valid, tangled
         const Specimen specimen{std::string(info(metric).name), lattice(10, jitter, 51, cells)};
         if (!testing::defined_for_all(metric, specimen.mesh)) continue;
+        if (!testing::can_optimise(GetParam(), metric, *input(specimen.mesh))) continue;
         RunParameters parameters = parameters_of(GetParam(), metric);
         parameters.fixed = {40, 41, 80};
         dmoscope::Run run = make_run(input(specimen.mesh), parameters);

@@ -1,0 +1,51 @@
+#include "core/inspect/joint_hold.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/quality/quality.h"
+
+namespace dmoscope {
+
+std::optional<JointCluster> joint_hold(const InputMesh& input, std::span<const Vec3> positions, std::span<const std::uint8_t> fixed,
+                                       Metric metric, Index element, std::size_t at_most, Progress& progress,
+                                       const std::function<bool()>& go_on) {
+  if (!(element_quality(input.quality_context(), positions, metric, element) > 0.0)) return std::nullopt;
+  try {
+    require_joint(input, metric);
+  } catch (const UsageError&) {
+    return std::nullopt;
+  }
+  JointOptions options;
+  options.whole_at_most = options.cluster_at_most = at_most;
+  if (go_on)
+    options.on_step = [&go_on](const JointStep&) {
+      if (!go_on()) throw Cancelled();
+    };
+  std::vector<Vec3> copy(positions.begin(), positions.end());
+  JointState state;
+  auto cluster = JointClusters(input, metric, fixed).raise_worst(copy, state, options, progress);
+  return cluster && cluster->worst_element == element ? std::move(cluster) : std::nullopt;
+}
+
+std::span<const JointCluster::Active> holders(const JointCluster& cluster) {
+  constexpr double kWorthAWord = 0.01;
+  const auto end = std::ranges::find_if(cluster.active, [](const JointCluster::Active& one) { return one.multiplier < kWorthAWord; });
+  return std::span(cluster.active).first(static_cast<std::size_t>(end - cluster.active.begin()));
+}
+
+std::string certificate_sentence(const JointCluster& cluster) {
+  constexpr std::size_t kNamed = 5;
+  if (!cluster.certified) return fmt::format("Whether joint moves raise it is not certain: {}.", cluster.why_not);
+  const auto all = holders(cluster);
+  if (all.size() < 2) return "Certified: no joint move raises it, to first order.";
+  std::string text = fmt::format("Certified: no joint move raises it, to first order. {} elements hold one another:", all.size());
+  for (std::size_t i = 0; i < std::min(all.size(), kNamed); ++i)
+    text += fmt::format("{} {} ({:.0f} %)", i > 0 ? "," : "", all[i].element, 100.0 * all[i].multiplier);
+  return text + (all.size() > kNamed ? ", …" : ".");
+}
+
+}  // namespace dmoscope

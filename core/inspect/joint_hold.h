@@ -1,0 +1,28 @@
+#pragma once
+// What joint moves can make of the worst element, tried on a copy of the positions.
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/joint/joint_clusters.h"
+
+namespace dmoscope {
+
+/// Solves the cluster around the worst element that can move. None where joint moves cannot be (see require_joint), where they see another
+/// element than `element` as the worst, or where elements are inverted. `fixed`: one entry a vertex. `at_most`: vertices of the cluster;
+/// 0: as many as in a run. Throws Cancelled, also once `go_on`, which is asked after every Newton step, says no.
+[[nodiscard]] std::optional<JointCluster> joint_hold(const InputMesh& input, std::span<const Vec3> positions,
+                                                     std::span<const std::uint8_t> fixed, Metric metric, Index element, std::size_t at_most,
+                                                     Progress& progress, const std::function<bool()>& go_on);
+
+/// Of a cluster that nothing raised: "Certified: no joint move raises it, to first order. 5 elements hold one another: 12 (40 %), 7
+/// (31 %), ..." or why that is not certain.
+[[nodiscard]] std::string certificate_sentence(const JointCluster& cluster);
+
+/// The elements that hold one another: those with a share worth a word.
+[[nodiscard]] std::span<const JointCluster::Active> holders(const JointCluster& cluster);
+
+}  // namespace dmoscope

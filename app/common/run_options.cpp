@@ -15,6 +15,7 @@
 #include "core/commands/session_commands.h"
 #include "core/mesh/vertex_words.h"
 #include "core/quality/metric.h"
+#include "core/run/recipe.h"
 #include "core/smooth/execution/method_table.h"
 
 namespace dmoscope::app {
@@ -80,6 +81,15 @@ void add_run_options(CLI::App& subcommand, RunOptions& options) {
                   "lowering the minimum), or both")
       ->type_name("mean|joint|joint,mean")
       ->excludes(combine);
+  std::string recipes = "Method and phases under one name:";
+  for (const Recipe& one : recipe_table())
+    recipes += fmt::format("{} {} ({}{})", &one == recipe_table().data() ? "" : ";", one.name, one.doc,
+                           one.name == "best" ? "; recommended" : "");
+  subcommand.add_option("--recipe", options.recipe, recipes)
+      ->type_name("NAME")
+      ->excludes(combine)
+      ->excludes(subcommand.get_option("--then"))
+      ->excludes(subcommand.get_option("--method"));
   subcommand.add_option("--threads", options.threads, "Number of threads; 0 uses every processor thread. The result does not depend on it")
       ->transform(whole_number(0, kMostThreads))
       ->type_name("N")
@@ -98,6 +108,7 @@ RunParameters parameters_of(const RunOptions& options) {
   parameters.metric = parse_metric(options.metric);
   if (!options.combine.empty())
     std::tie(parameters.metric, parameters.combination) = parse_combination(options.combine, options.size_function);
+  if (!options.recipe.empty()) static_cast<void>(recipe(options.recipe));
   if (!options.then.empty()) {
     try {
       set_then(parameters, options.then, {});

@@ -24,7 +24,8 @@ struct RunOptions {
   std::string metric = "mean-ratio";
   std::string combine;        // FIRST:THRESHOLD:SECOND; empty: one metric alone
   std::string size_function;  // of a combination with density; empty: constant
-  std::string then;           // "mean" or empty
+  std::string then;           // see set_then(); empty: nothing
+  std::string recipe;         // of recipe_table(); empty: none
   unsigned threads = 0;
   std::vector<std::string> fix;                                                     // for vertices_to_fix()
   std::map<std::string, std::string, std::less<>> parameters = usual_parameters();  // of parameter_table(): name, value

@@ -36,6 +36,8 @@
 #include "core/run/mean_given_up.h"
 #include "core/run/retry_on_cpu.h"
 #include "core/run/untangling_hint.h"
+#include "core/inspect/joint_hold.h"
+#include "core/run/recipe.h"
 #include "core/run/what_holds.h"
 #include "core/session/csv.h"
 #include "core/session/parameter_json.h"
@@ -81,6 +83,19 @@ Json json_of(const Statistics& s) {
           {"inverted", s.inverted}};
 }
 
+/// Of joint moves, tried or in the run: what they reach, the bound, and by how much each element holds the others.
+Json json_of(const JointCluster& cluster) {
+  Json elements = Json::array();
+  for (const JointCluster::Active& one : holders(cluster)) elements.push_back({{"element", one.element}, {"multiplier", one.multiplier}});
+  return {{"certified", cluster.certified},
+          {"why_not", cluster.why_not.empty() ? Json(nullptr) : Json(cluster.why_not)},
+          {"reaches", json_number(cluster.after)},
+          {"bound", json_number(cluster.bound)},
+          {"gap", json_number(cluster.gap)},
+          {"vertices", cluster.vertices.size()},
+          {"elements", std::move(elements)}};
+}
+
 Json json_of(const HeldMinimum& held) {
   Json vertices = Json::array();
   for (const HeldVertex& one : held.vertices) vertices.push_back({{"vertex", one.vertex}, {"held_by", name(one.by)}});
@@ -91,6 +106,7 @@ Json json_of(const HeldMinimum& held) {
     object["switch"] = held.change->option();
     object["would_raise_to"] = json_number(held.changed);
   }
+  object["certificate"] = held.joint ? json_of(*held.joint) : Json(nullptr);
   return object;
 }
 
@@ -285,7 +301,6 @@ void tell_missing_phase(const Run& run, const Outcome& outcome, const Warn& warn
 int smooth(const SmoothOptions& options) {
   refuse_early(options);
   RunParameters parameters = parameters_of(options.run);
-  if (options.goal.until_converged) be_patient(parameters, options.goal.limits.patience);
   const Acceleration acceleration = acceleration_for(parameters.backend);
 
   block_interrupts();  // before the session's threads start
@@ -301,12 +316,15 @@ int smooth(const SmoothOptions& options) {
   std::vector<std::string> warnings = tell_findings(*input);
   parameters.fixed = vertices_to_fix(input->mesh, options.run.fix);
   tell_interfaces(*input, parameters, warnings);
-
-  Run& run = begin_run(session, input, parameters, options.checkpoints, progress);
   const auto warn = [&warnings](std::string sentence) {
     complain(sentence);
     warnings.push_back(std::move(sentence));
   };
+  if (!options.run.recipe.empty())
+    if (std::string without = follow_recipe(recipe(options.run.recipe), *input, parameters); !without.empty()) warn(std::move(without));
+  if (options.goal.until_converged) be_patient(parameters, options.goal.limits.patience);
+
+  Run& run = begin_run(session, input, parameters, options.checkpoints, progress);
   if (std::string warning = run.take_warning(); !warning.empty()) warn(std::move(warning));
   if (run.size_field() && !run.size_field()->note().empty()) warn(run.size_field()->note());
   const auto smooth_all = [&] {  // from the input on: without history nothing else is left after a failure

@@ -10,6 +10,7 @@
 #include "core/commands/command_rows.h"
 #include "core/run/left_inverted.h"
 #include "core/run/mean_given_up.h"
+#include "core/run/recipe.h"
 
 namespace dmoscope {
 
@@ -77,6 +78,21 @@ void raise_mean(CommandContext& context, Arguments arguments) {
   words.insert(words.end(), arguments.begin(), arguments.end());
   until_converged(context, words);
 }
+void make_good(CommandContext& context, Arguments arguments) {
+  require(arguments, 0, 1);
+  RunParameters wanted = context.session.active().parameters();
+  const std::string without = follow_recipe(recipe(arguments.empty() ? recipe_table().front().name : arguments[0]),
+                                            context.session.active().input(), wanted);
+  if (!without.empty()) tell(context, without);
+  const RunParameters before = context.session.active().parameters();
+  if (wanted != before) {
+    change_run(context, [&](RunParameters& p) { p = wanted; });
+    if (before.combination) context.done.emplace_back("combine off");
+    if (before.method != wanted.method) context.done.push_back("method " + wanted.method);
+    context.done.push_back("then " + then_words(wanted));
+  }
+  until_converged(context, std::array<std::string, 1>{"best"});
+}
 void best(CommandContext& context, Arguments arguments) {
   require(arguments, 0, 0);
   Run& active = context.session.active();
@@ -140,6 +156,10 @@ std::span<const CommandRow> stepping_commands() {
       {{"raise-mean", "raise-mean [PATIENCE [MAX]]",
         "Then mean and until-converged in one: as a new run beside the active one, where that has moved without a second phase."},
        raise_mean},
+      {{"make-good", "make-good [RECIPE]",
+        "Follows a recipe until it has converged: best (recommended), minimum, mean or paper. As a new run beside the active one, where "
+        "that has moved otherwise."},
+       make_good},
       {{"visit", "visit VERTEX|A-B...", "Visits these vertices now, out of their turn."}, visit, true, kPaths},
       {{"seek", "seek ITERATION [VISITS [EDITS]]", "Goes to any iteration, or into its midst."}, seek, true, kPaths},
       {{"look-at", "look-at ITERATION [VISITS [EDITS]]", "Goes there as seek does, but for a look: undo knows nothing of it."},

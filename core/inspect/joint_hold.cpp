@@ -32,9 +32,11 @@ std::optional<JointCluster> joint_hold(const InputMesh& input, std::span<const V
 }
 
 std::span<const JointCluster::Active> holders(const JointCluster& cluster) {
-  constexpr double kWorthAWord = 0.01;
-  const auto end = std::ranges::find_if(cluster.active, [](const JointCluster::Active& one) { return one.multiplier < kWorthAWord; });
-  return std::span(cluster.active).first(static_cast<std::size_t>(end - cluster.active.begin()));
+  constexpr double kNearlyAll = 0.99;
+  double sum = 0.0;
+  std::size_t count = 0;
+  while (count < cluster.active.size() && sum < kNearlyAll) sum += cluster.active[count++].multiplier;
+  return std::span(cluster.active).first(count);
 }
 
 std::string certificate_sentence(const JointCluster& cluster) {

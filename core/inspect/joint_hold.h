@@ -22,7 +22,7 @@ namespace dmoscope {
 /// (31 %), ..." or why that is not certain.
 [[nodiscard]] std::string certificate_sentence(const JointCluster& cluster);
 
-/// The elements that hold one another: those with a share worth a word.
+/// The elements that hold one another: the fewest that have nearly all of the multipliers.
 [[nodiscard]] std::span<const JointCluster::Active> holders(const JointCluster& cluster);
 
 }  // namespace dmoscope

@@ -108,6 +108,8 @@ struct RunView {
   std::uint64_t best_iteration = 0;           // see best_iteration()
   std::shared_ptr<const RunEnding> ending{};  // see Endings
   Holds::Latest held{};                       // what holds its minimum
+  /// What holds the minimum as the run stands, by joint moves; null: it is not known, or they cannot be.
+  [[nodiscard]] std::shared_ptr<const JointCluster> hold() const { return held.now && held.found ? held.found->joint : nullptr; }
   /// Whether there is no better iteration to go to.
   [[nodiscard]] bool at_best() const noexcept { return moment == Moment{best_iteration}; }
 };

@@ -40,7 +40,8 @@ void ColourWorker::update(const ViewState& state, const SessionView& session, st
   if (request.reference) request.comparable = comparable_(frame->input, request.reference->input);
   if (by_domain) request.domain = run.domain;
   if (by == ColourBy::Freedom) request.fixed = run.fixed;
-  const void* depends = request.size.get();
+  if (by == ColourBy::Multiplier) request.hold = run.hold();
+  const void* depends = by == ColourBy::Multiplier ? static_cast<const void*>(request.hold.get()) : request.size.get();
   if (by_class) depends = request.classes.get();
   if (by_domain) depends = by == ColourBy::Freedom ? static_cast<const void*>(request.fixed.data()) : request.domain.get();
   const Key key{by,
@@ -56,6 +57,7 @@ void ColourWorker::update(const ViewState& state, const SessionView& session, st
   classes_ = request.classes;
   domain_ = request.domain;
   fixed_ = request.fixed;
+  hold_ = request.hold;
   const auto work = [request = std::move(request)] { return std::make_shared<const ElementColours>(colour_elements(request)); };
   if (frame->element_count() < (takes_long(by) ? kBigSurface : kBigMesh)) {
     colours_ = work();

@@ -37,6 +37,7 @@ class ColourWorker {
   std::shared_ptr<const Colouring> classes_;  // kept, so that the key's pointer stays its own
   std::shared_ptr<const Domain> domain_;      // likewise
   SharedVector<std::uint8_t> fixed_;          // likewise
+  std::shared_ptr<const JointCluster> hold_;  // likewise
 };
 
 }  // namespace dmoscope::ui

@@ -12,6 +12,7 @@
 #include "core/mesh/volume.h"
 #include "core/smooth/size_field.h"
 #include "ui/analysis/group_list.h"
+#include "ui/analysis/holding_colours.h"
 #include "ui/analysis/sliding_colours.h"
 
 namespace dmoscope::ui {
@@ -363,6 +364,9 @@ ElementColours colour_elements(const ColourRequest& request) {
     case ColourBy::Tilt:
     case ColourBy::Freedom:
       colour_by_sliding(request, work.out, work.shading);
+      break;
+    case ColourBy::Multiplier:
+      colour_by_multiplier(request, work.out, work.shading);
       break;
   }
   if (work.out.common_title.empty()) work.out.common_title = work.out.title;

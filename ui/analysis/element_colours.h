@@ -52,6 +52,7 @@ struct ColourRequest {
   bool comparable = true;                    // the reference has the same elements
   std::shared_ptr<const Domain> domain{};    // for ColourBy::Deviation, Tilt and Freedom; null: nothing slides
   SharedVector<std::uint8_t> fixed{};        // for ColourBy::Freedom; see Run::fixed
+  std::shared_ptr<const JointCluster> hold{};  // for ColourBy::Multiplier: what holds the minimum; null: not known
 };
 
 /// Whether it depends on where the vertices are, so that it is worked out for every frame, and cannot be for a light one.

@@ -117,6 +117,12 @@ void add_look_commands(CommandTable& table, ViewState& state) {
         require(words, 0, 1);
         state.features = switched(words, 0, state.features);
       });
+  table.add({"holders", "holders [on|off|toggle]",
+             "what holds the minimum: the elements that hold one another, the forces on their vertices, and the cluster around them"},
+            [&state](Arguments words) {
+              require(words, 0, 1);
+              state.holders = switched(words, 0, state.holders);
+            });
   table.add({"theme", "theme dark|light|contrast|next", "colours of the interface"}, [&state](Arguments words) {
     require(words, 1, 1);
     state.theme = words[0] == "next" ? static_cast<Theme>((static_cast<int>(state.theme) + 1) % 3) : choose(words[0], kThemes);

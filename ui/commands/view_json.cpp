@@ -350,6 +350,7 @@ void describe(Archive& archive, State& state) {
   archive.flag("vertices", state.vertices);
   archive.flag("worst_marker", state.worst_marker);
   archive.flag("features", state.features);
+  archive.flag("holders", state.holders);
   archive.flag("shading", state.shading);
   archive.flag("occlusion", state.occlusion);
   archive.choice("colormap", state.colour_map, colour_map_names());

@@ -103,15 +103,40 @@ void draw_size(PanelContext& context, const RunView& run, const SizeFunction& si
 
 }  // namespace
 
+namespace {
+
+bool joint_possible(const RunView& run) {
+  if (!run.input || method_info(run.parameters.method).joint) return false;
+  try {
+    require_joint(*run.input, run.parameters.metric);
+    return true;
+  } catch (const UsageError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
 void draw_composite(PanelContext& context, const RunView& run) {
   const RunParameters& p = run.parameters;
   if (!p.combination) {
-    bool then_mean = p.then_mean.has_value();
-    if (ImGui::Checkbox("then mean", &then_mean)) context.send(then_mean ? "then mean" : "then nothing");
+    bool then_joint = p.then_joint.has_value(), then_mean = p.then_mean.has_value();
+    const auto say_then = [&] {
+      RunParameters wanted;
+      if (then_joint) wanted.then_joint.emplace();
+      if (then_mean) wanted.then_mean.emplace();
+      context.send("then " + then_words(wanted));
+    };
+    if (joint_possible(run)) {
+      if (ImGui::Checkbox("then joint", &then_joint)) say_then();
+      context.items.record_last("then-joint");
+      next_item_tooltip("once the minimum has converged, moves vertices together where single ones gain nothing, until nothing does");
+    }
+    if (ImGui::Checkbox("then mean", &then_mean)) say_then();
     context.items.record_last("then-mean");
     next_item_tooltip("once the minimum has converged, raises the mean quality, with the minimum as floor");
   }
-  if (!method_info(p.method).combines || p.then_mean) return;
+  if (!method_info(p.method).combines || p.then_mean || p.then_joint) return;
   bool combined = p.combination.has_value();
   if (ImGui::Checkbox("combine", &combined)) {
     if (combined)

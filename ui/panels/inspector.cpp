@@ -112,10 +112,20 @@ void draw_hold(PanelContext& context, const RunView& run) {
   }
   const auto ink = run.held.now ? std::nullopt : std::optional(context.palette.dim);
   value_row(context, "held by", std::string(held->brief()), held->sentence(), ink, kAbout);
-  if (held->change)
+  if (held->change) {
     draw_switch(context, run, *held);
-  else
-    dim_text(context, fit_text(held->outlook(), ImGui::GetContentRegionAvail().x), false);
+    return;
+  }
+  const bool shows = run.hold() != nullptr && !run.hold()->active.empty();
+  constexpr const char* kWhy = "why?";
+  const float button = shows ? ImGui::CalcTextSize(kWhy).x + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetStyle().ItemSpacing.x : 0.0F;
+  dim_text(context, fit_text(held->outlook(), ImGui::GetContentRegionAvail().x - button), false);
+  next_item_tooltip(held->sentence());
+  if (!shows) return;
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - button + ImGui::GetStyle().ItemSpacing.x);
+  if (ImGui::SmallButton(kWhy)) context.send(context.state.holders ? "holders off" : "holders on");
+  context.items.record_last("held-by:why");
+  next_item_tooltip("shows the elements that hold one another, their forces and the cluster around them (Alt+O)");
 }
 
 /// `run`: whose minimum it is; null: nobody's.

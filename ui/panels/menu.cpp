@@ -38,6 +38,7 @@ bool is_checked(const ViewState& state, std::string_view id) {
   if (id == "click-smooths") return state.stepping.click_smooths;
   if (id == "worst-marker") return state.worst_marker;
   if (id == "features") return state.features;
+  if (id == "holders") return state.holders;
   if (const std::optional<bool> colouring = colouring_checked(state, id)) return *colouring;
   for (const auto& [name, tab] : kPlotTabs) {
     if (id.starts_with("plot-") && id.substr(5) == name) return state.plot == tab;

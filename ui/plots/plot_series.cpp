@@ -222,7 +222,7 @@ class Builder {
     plot_.empty_text = "open a mesh and run to see how its quality rises";
     if (session_.runs.empty()) return;
     plot_.y_title = metric_phrase(session_.runs[session_.active].parameters.metric);
-    bool movable_differs = false, inverted = false;
+    bool movable_differs = false, inverted = false, joint = false;
     for (std::size_t k = 0; k < session_.runs.size(); ++k) {
       if (!is_shown(k)) continue;
       const RunView& run = session_.runs[k];
@@ -230,6 +230,7 @@ class Builder {
       for (const IterationRecord& record : run.records) {
         movable_differs = movable_differs || record.statistics.movable_minimum != record.statistics.minimum;
         inverted = inverted || record.statistics.inverted > 0;
+        joint = joint || record.joint.has_value();
       }
     }
     plot_.title = fmt::format("{} by {}", plot_.y_title.substr(0, plot_.y_title.find(',')), plot_.x_name);
@@ -241,6 +242,15 @@ class Builder {
         add_course(k, series_of_run(k, "movable minimum", 5.0),
                    [](const IterationRecord& record) { return record.statistics.movable_minimum; });
         add_to_legend(plot_.series.back(), "of the worst element that has a free corner");
+      }
+      if (joint) {
+        Series bound = series_of_run(k, "bound", 2.0);
+        bound.width = 1.2;
+        add_course(k, std::move(bound), [](const IterationRecord& record) {
+          const bool known = record.joint && record.joint->end == JointState::End::None;
+          return known ? record.joint->bound : std::numeric_limits<double>::quiet_NaN();
+        });
+        add_to_legend(plot_.series.back(), "what the cluster that moved can reach at most, by duality");
       }
       Series mean = series_of_run(k, "mean", 0.0, 0.7);
       mean.width = 1.2;

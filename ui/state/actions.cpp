@@ -47,6 +47,7 @@ constexpr std::array kActions{
 
     Action{"run-pause", "Run", "Run / pause", "Space", "run-pause", Needs::Mesh},
     Action{"run-10", "Run", "Run 10 iterations", "Shift+N", "run 10", Needs::MeshAndIdle},
+    Action{"make-good", "Run", "Make it good", "Shift+U", "make-good", Needs::MeshAndIdle},
     Action{"until-converged", "Run", "Until converged", "U", "until-converged best", Needs::MeshAndIdle},
     Action{"cancel", "Run", "Cancel", "Shift+Escape", "cancel", Needs::Work},
     Action{"step-iteration", "Run", "Next iteration", "N", "step iteration", Needs::MeshAndIdle, true},
@@ -112,6 +113,7 @@ constexpr std::array kActions{
     Action{"vertices", "View", "Vertices", "D", "vertices toggle", Needs::Planar},
     Action{"worst-marker", "View", "Mark the worst element", "K", "worst toggle"},
     Action{"features", "View", "Feature edges and corners, where vertices slide", "Alt+K", "features toggle"},
+    Action{"holders", "View", "What holds the minimum: elements that hold one another", "Alt+O", "holders toggle", Needs::Mesh},
     Action{"inside-clip", "View", "Clip plane", "J", "clip toggle", Needs::Volume},
     Action{"inside-axis", "View", "Clip plane across the next axis", "Ctrl+J", "clip next", Needs::Volume},
     Action{"inside-flip", "View", "Clip plane: the other side", "Shift+J", "clip flip", Needs::Volume},
@@ -188,6 +190,7 @@ constexpr std::array kActions{
     Action{"color-by-deviation", "Colours", "Deviation from the input", "", "color-by deviation"},
     Action{"color-by-tilt", "Colours", "Tilt from the input", "", "color-by tilt"},
     Action{"color-by-freedom", "Colours", "Freedom to move", "", "color-by freedom"},
+    Action{"color-by-multiplier", "Colours", "Multiplier, where elements hold the minimum", "", "color-by multiplier"},
     Action{"color-by-inverted", "Colours", "Only inverted elements", "", "color-by inverted"},
     Action{"color-by-difference", "Colours", "Difference", "", "color-by difference", Needs::Mesh},
     Action{"range-input", "Colours", "Range: the input's", "", "range input", Needs::Nothing, true},

@@ -45,13 +45,14 @@ enum class ColourBy {
   Difference,
   Deviation,
   Tilt,
-  Freedom
+  Freedom,
+  Multiplier
 };
 struct ColourByInfo {
   ColourBy by;
   std::string_view name, title, doc;
 };
-inline constexpr std::array<ColourByInfo, 14> kColourBys{{
+inline constexpr std::array<ColourByInfo, 15> kColourBys{{
     {ColourBy::Quality, "quality", "Quality", "of the shown metric"},
     {ColourBy::Kind, "kind", "Kind of element", "triangle or quadrilateral"},
     {ColourBy::Group, "group", "Group", "boundaries, markers and element groups that the file carried"},
@@ -67,13 +68,14 @@ inline constexpr std::array<ColourByInfo, 14> kColourBys{{
     {ColourBy::Deviation, "deviation", "Deviation", "how far the boundary of an element is from that of the input, where vertices slide"},
     {ColourBy::Tilt, "tilt", "Tilt", "the greatest angle between a face and the input's surface beneath it, where vertices slide"},
     {ColourBy::Freedom, "freedom", "Freedom to move", "what the least free of an element's vertices may do: stay, slide or go anywhere"},
+    {ColourBy::Multiplier, "multiplier", "Multiplier", "how much an element holds the minimum, within the cluster around the worst one"},
 }};
 [[nodiscard]] constexpr const ColourByInfo& info(ColourBy by) { return kColourBys[static_cast<std::size_t>(by)]; }
 
 /// Whether the colours are those of categories, whose elements can be looked at alone.
 [[nodiscard]] constexpr bool has_categories(ColourBy by) {
   return by != ColourBy::Quality && by != ColourBy::Displacement && by != ColourBy::Size && by != ColourBy::EdgeLength &&
-         by != ColourBy::SizeOverTarget && by != ColourBy::Difference && by != ColourBy::Deviation && by != ColourBy::Tilt;
+         by != ColourBy::SizeOverTarget && by != ColourBy::Difference && by != ColourBy::Deviation && by != ColourBy::Tilt && by != ColourBy::Multiplier;
 }
 
 inline constexpr std::array<std::pair<std::string_view, render::Selection::Others>, 3> kFilterModes{

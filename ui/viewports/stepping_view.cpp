@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include "ui/state/format.h"
+#include "core/inspect/joint_hold.h"
 #include "ui/viewports/feature_marks.h"
+#include "ui/viewports/hold_marks.h"
 #include "ui/viewports/step_flash.h"
 
 namespace dmoscope::ui {
@@ -63,11 +65,11 @@ std::optional<std::span<const Vec3>> SteppingView::positions_of(const ViewState&
   return std::span(before->positions);
 }
 
-std::string SteppingView::key(const ViewState& state, const Frame& frame, const std::string& view) const {
+std::string SteppingView::key(const ViewState& state, const Frame& frame, const JointCluster* hold, const std::string& view) const {
   const SteppingState& s = state.stepping;
   const Brush& brush = state.brush;
   const auto serial = [](const std::shared_ptr<const Frame>& of) { return of ? of->serial : 0; };
-  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", state.features, s.flash_level, s.news.serial, frame.serial,
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", state.features, fmt::ptr(hold), s.flash_level, s.news.serial, frame.serial,
                      serial(previous_), serial(state.timeline.a.frame), serial(state.timeline.b.frame), view, static_cast<int>(state.theme),
                      s.next_class, static_cast<int>(s.arrows), s.arrow_scale, static_cast<int>(s.ghost), state.selection.serial(),
                      brush.painting, static_cast<int>(brush.kind), brush.stroke.serial());
@@ -77,7 +79,7 @@ void SteppingView::add_marks(render::Marks& marks, const ViewState& state, const
                              const ElementsInView& elements_in_view) {
   const Frame* frame = session.frame.get();
   if (frame == nullptr || frame->device) return;
-  std::string wanted = key(state, *frame,
+  std::string wanted = key(state, *frame, hold_of(state, session),
                            fmt::format("{} {} {} {} {} {}", view.camera.centre.x, view.camera.centre.y, view.camera.units_per_pixel,
                                        view.viewport.x, view.viewport.y, view.scale));
   if (wanted != marks_key_) {
@@ -111,6 +113,8 @@ void SteppingView::make_marks(const ViewState& state, const SessionView& session
   }
   if (const Domain* domain = state.features ? domain_of(session) : nullptr)
     add_features(marks_, view, *domain, *frame.input, frame.positions, solid(colours.text));
+  if (const JointCluster* hold = hold_of(state, session))
+    add_holders(marks_, view, *hold, *frame.input, frame.positions, solid(colours.run(frame.run)), solid(colours.background, 220));
   if (state.stepping.next_class) add_next_class(state, session, view);
   flash_factor_ = state.stepping.news.serial == frame.serial ? add_flash(marks_, view, state, frame) : 0.0;
   add_selection(state, frame, view);
@@ -119,6 +123,13 @@ void SteppingView::make_marks(const ViewState& state, const SessionView& session
 const Domain* SteppingView::domain_of(const SessionView& session) const {
   const Frame* frame = session.frame.get();
   return frame != nullptr && frame->run < session.runs.size() ? session.runs[frame->run].domain.get() : nullptr;
+}
+
+const JointCluster* SteppingView::hold_of(const ViewState& state, const SessionView& session) {
+  const Frame* frame = session.frame.get();
+  if (!state.holders || frame == nullptr || frame->run >= session.runs.size()) return nullptr;
+  const RunView& run = session.runs[frame->run];
+  return frame->moment == run.moment ? run.hold().get() : nullptr;
 }
 
 NextClass SteppingView::class_of(const SessionView& session) const {
@@ -144,11 +155,11 @@ void SteppingView::add_space_marks(render::SpaceMarks& marks, const ViewState& s
   const bool flashes = s.flash_level > 0 && frame != nullptr && s.news.serial == frame->serial;
   const bool features = state.features && domain_of(session) != nullptr;
   if (frame == nullptr || frame->device ||
-      !(features || flashes || s.next_class || s.arrows != Reference::None || s.ghost != Reference::None))
+      !(features || hold_of(state, session) != nullptr || flashes || s.next_class || s.arrows != Reference::None || s.ghost != Reference::None))
     return;
   const render::OrbitCamera& camera = state.orbit;
   const Vec3 &c = camera.centre, &r = camera.right, &u = camera.up;
-  std::string wanted = key(state, *frame,
+  std::string wanted = key(state, *frame, hold_of(state, session),
                            fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", c.x, c.y, c.z, r.x, r.y, r.z, u.x, u.y, u.z,
                                        camera.height, camera.perspective, viewport.x, viewport.y, state.scale, scene.revision()));
   if (wanted != marks_key_) {
@@ -158,6 +169,7 @@ void SteppingView::add_space_marks(render::SpaceMarks& marks, const ViewState& s
   }
   marks.lines.insert(marks.lines.end(), space_marks_.lines.begin(), space_marks_.lines.end());
   marks.dots.insert(marks.dots.end(), space_marks_.dots.begin(), space_marks_.dots.end());
+  marks.cells.insert(marks.cells.end(), space_marks_.cells.begin(), space_marks_.cells.end());
 }
 
 void SteppingView::make_space_marks(const ViewState& state, const SessionView& session, const render::VolumeScene& scene,
@@ -184,6 +196,8 @@ void SteppingView::make_space_marks(const ViewState& state, const SessionView& s
   }
   if (const Domain* domain = state.features ? domain_of(session) : nullptr)
     add_space_features(space_marks_, *domain, frame.positions, *unhidden, solid(colours.text), solid(colours.background, 200));
+  if (const JointCluster* hold = hold_of(state, session))
+    add_space_holders(space_marks_, view, *hold, frame.positions, accent, solid(colours.background, 220));
   const bool flashes = state.stepping.news.serial == frame.serial;
   flash_factor_ = flashes ? add_space_flash(space_marks_, view, state, frame, unhidden->vertices) : 0.0;
   const NextClass next = state.stepping.next_class ? class_of(session) : NextClass{};
@@ -200,6 +214,12 @@ void SteppingView::add_selection(const ViewState& state, const Frame& frame, con
   add_dots(marks_, view, *frame.input, frame.positions, selection.vertices(), solid(palette(state.theme).text), 8.0);
 }
 
+std::string SteppingView::hold_note(const ViewState& state, const SessionView& session) {
+  const JointCluster* hold = hold_of(state, session);
+  if (hold == nullptr) return "what holds the minimum is not known here";
+  return fmt::format("{} elements hold one another{}", holders(*hold).size(), hold->certified ? "" : " (not certified)");
+}
+
 std::string SteppingView::note(const ViewState& state, const SessionView& session) const {
   const Frame* frame = session.frame.get();
   if (frame == nullptr) return {};
@@ -210,6 +230,7 @@ std::string SteppingView::note(const ViewState& state, const SessionView& sessio
   if (wanted && frame->device) return "stepping is shown when the run rests";
   if (!state.selection.empty()) add(fmt::format("{} selected", count(state.selection.vertices().size())));
   if (state.brush.on && !state.in_space) add("brush");
+  if (state.holders) add(hold_note(state, session));
   if (s.click_smooths) add("a click smooths");
   if (s.flash_level > 0 && flash_factor_ > 0.0) add(fmt::format("moved just now, arrows × {:.3g}", flash_factor_));
   if (state.in_space && too_many_faces_ && (s.next_class || s.arrows != Reference::None || s.ghost != Reference::None)) {

@@ -35,11 +35,14 @@ class SteppingView {
  private:
   void make_marks(const ViewState& state, const SessionView& session, const MarkView& view, const ElementsInView& elements_in_view);
   /// Changes whenever the marks do.
-  [[nodiscard]] std::string key(const ViewState& state, const Frame& frame, const std::string& view) const;
+  [[nodiscard]] std::string key(const ViewState& state, const Frame& frame, const JointCluster* hold, const std::string& view) const;
   [[nodiscard]] std::optional<std::span<const Vec3>> positions_of(const ViewState& state, Reference reference, const Frame& frame) const;
   void make_space_marks(const ViewState& state, const SessionView& session, const render::VolumeScene& scene, const SpaceMarkView& view);
   /// Where vertices of the run on show slide; null: none does.
   [[nodiscard]] const Domain* domain_of(const SessionView& session) const;
+  /// What holds the minimum of the frame on show; null: not known, or not wanted.
+  [[nodiscard]] static const JointCluster* hold_of(const ViewState& state, const SessionView& session);
+  [[nodiscard]] static std::string hold_note(const ViewState& state, const SessionView& session);
   [[nodiscard]] NextClass class_of(const SessionView& session) const;
   void add_next_class(const ViewState& state, const SessionView& session, const MarkView& view);
   void add_selection(const ViewState& state, const Frame& frame, const MarkView& view);

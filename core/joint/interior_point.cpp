@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/joint/block_cholesky.h"
+#include "core/joint/atom_blocks.h"
 #include "core/numeric/product_log.h"
 
 namespace dmoscope {
@@ -26,13 +26,8 @@ class InteriorPoint {
 
  private:
   static constexpr std::size_t kD = D, kVertices = kD + 1, kEdges = kD * kD;
-  using Cholesky = BlockCholesky<D>;
   using Place = std::array<double, kD>;
-  /// Of an atom's free vertices k >= l, at k (k + 1) / 2 + l.
-  using Slots = std::array<typename Cholesky::Slot, kVertices*(kVertices + 1) / 2>;
 
-  static Adjacency adjacency(const JointProblem<D>& problem);
-  [[nodiscard]] bool is_free(std::size_t atom, std::size_t k) const { return problem_.atoms[atom].vertices[k] < problem_.free_vertices; }
   [[nodiscard]] double value(std::size_t atom, const std::vector<Place>& displacements) const;
   [[nodiscard]] double slack(std::size_t atom) const { return at_.tau - at_.values[atom]; }
   bool start();
@@ -48,8 +43,7 @@ class InteriorPoint {
 
   const JointProblem<D>& problem_;
   const AtomFunction<D>& function_;
-  Cholesky cholesky_;
-  std::vector<Slots> slots_;
+  AtomBlocks<D> system_;
   JointIterate<D> at_;
   // Of the step under way.
   std::vector<std::array<double, kEdges>> gradients_;  // by edges
@@ -65,34 +59,7 @@ class InteriorPoint {
 
 template <int D>
 InteriorPoint<D>::InteriorPoint(const JointProblem<D>& problem, const AtomFunction<D>& function)
-    : problem_(problem),
-      function_(function),
-      cholesky_(adjacency(problem), std::span(problem.places).first(problem.free_vertices)),
-      slots_(problem.atoms.size()) {
-  for (std::size_t a = 0; a < slots_.size(); ++a)
-    for (std::size_t k = 0; k < kVertices; ++k)
-      for (std::size_t l = 0; l <= k; ++l)
-        if (is_free(a, k) && is_free(a, l))
-          slots_[a][k * (k + 1) / 2 + l] = cholesky_.slot(problem.atoms[a].vertices[k], problem.atoms[a].vertices[l]);
-}
-
-/// Free vertices that share an atom.
-template <int D>
-Adjacency InteriorPoint<D>::adjacency(const JointProblem<D>& problem) {
-  std::vector<std::vector<Index>> neighbours(problem.free_vertices);
-  for (const Atom<D>& atom : problem.atoms)
-    for (const Index v : atom.vertices)
-      for (const Index w : atom.vertices)
-        if (v != w && v < problem.free_vertices && w < problem.free_vertices) neighbours[v].push_back(w);
-  Adjacency graph;
-  for (std::vector<Index>& each : neighbours) {
-    std::sort(each.begin(), each.end());
-    each.erase(std::unique(each.begin(), each.end()), each.end());
-    graph.neighbours.insert(graph.neighbours.end(), each.begin(), each.end());
-    graph.offsets.push_back(static_cast<Index>(graph.neighbours.size()));
-  }
-  return graph;
-}
+    : problem_(problem), function_(function), system_(problem) {}
 
 template <int D>
 double InteriorPoint<D>::value(std::size_t atom, const std::vector<Place>& displacements) const {
@@ -125,7 +92,7 @@ bool InteriorPoint<D>::start() {
 /// The Hessian of the Lagrangian and the barrier, K, and the sums that go with it, with damping.
 template <int D>
 void InteriorPoint<D>::assemble(Curvature curvature) {
-  cholesky_.clear();
+  system_.cholesky.clear();
   force_.assign(problem_.free_vertices * kD, 0.0);
   tau_direction_.assign(problem_.free_vertices * kD, 0.0);
   ratio_sum_ = barrier_sum_ = 0.0;
@@ -135,10 +102,7 @@ void InteriorPoint<D>::assemble(Curvature curvature) {
                      derivatives);
     add_atom(a, derivatives);
   }
-  for (Index v = 0; v < problem_.free_vertices; ++v) {
-    auto& block = cholesky_.diagonal(v);
-    for (std::size_t r = 0; r < kD; ++r) block[r * kD + r] *= 1.0 + kOntoDiagonal;
-  }
+  system_.scale_diagonal(1.0 + kOntoDiagonal);
 }
 
 /// What makes an atom's vertices stiff, times its multiplier: the mean of its Hessian's diagonal there, or where that may vanish the
@@ -171,44 +135,16 @@ typename InteriorPoint<D>::Damping InteriorPoint<D>::damping(std::size_t atom, c
 
 template <int D>
 void InteriorPoint<D>::add_atom(std::size_t atom, const AtomDerivatives<D>& derivatives) {
-  const auto& vertices = problem_.atoms[atom].vertices;
   const double multiplier = at_.multipliers[atom], s = slack(atom), ratio = multiplier / s, barrier = at_.mu / s;
   const auto& g = gradients_[atom] = derivatives.gradient;
-  const Damping damped = damping(atom, derivatives);
-  // Derivatives by edges: vertex k >= 1 has those of edge k - 1, the first vertex the negative sum.
+  Damping damped = damping(atom, derivatives);
+  for (double& x : damped) x *= sigma_;
   std::array<double, kEdges * kEdges> h;
   for (std::size_t i = 0; i < kEdges; ++i)
     for (std::size_t j = 0; j < kEdges; ++j) h[i * kEdges + j] = multiplier * derivatives.hessian[i * kEdges + j] + ratio * g[i] * g[j];
-  std::array<double, kD * kEdges> first_row{};  // of the first vertex by the edges
-  for (std::size_t i = 0; i < kD; ++i)
-    for (std::size_t n = 0; n < kD * kEdges; ++n) first_row[n] -= h[i * kD * kEdges + n];
-  std::array<double, kD> first_gradient{};
-  for (std::size_t i = 0; i < kEdges; ++i) first_gradient[i % kD] -= g[i];
-
-  for (std::size_t k = 0; k < kVertices; ++k) {
-    if (!is_free(atom, k)) continue;
-    const double* gradient = k == 0 ? first_gradient.data() : &g[(k - 1) * kD];
-    for (std::size_t r = 0; r < kD; ++r) {
-      force_[vertices[k] * kD + r] += barrier * gradient[r];
-      tau_direction_[vertices[k] * kD + r] += ratio * gradient[r];
-    }
-    const double* row = k == 0 ? first_row.data() : &h[(k - 1) * kD * kEdges];
-    for (std::size_t l = 0; l <= k; ++l) {
-      if (!is_free(atom, l)) continue;
-      typename Cholesky::Block block{};
-      for (std::size_t r = 0; r < kD; ++r)
-        for (std::size_t c = 0; c < kD; ++c) {
-          if (l > 0) {
-            block[r * kD + c] = row[r * kEdges + (l - 1) * kD + c];
-            continue;
-          }
-          for (std::size_t j = 0; j < kD; ++j) block[r * kD + c] -= row[r * kEdges + j * kD + c];
-        }
-      if (k == l)
-        for (std::size_t r = 0; r < kD; ++r) block[r * kD + r] += sigma_ * damped[k];
-      cholesky_.add(slots_[atom][k * (k + 1) / 2 + l], block);
-    }
-  }
+  system_.add_hessian(atom, h, damped);
+  system_.add_gradient(atom, barrier, g, force_);
+  system_.add_gradient(atom, ratio, g, tau_direction_);
   ratios_[atom] = ratio;
   ratio_sum_ += ratio;
   barrier_sum_ += barrier;
@@ -219,7 +155,7 @@ template <int D>
 bool InteriorPoint<D>::factorise() {
   assemble(exact_ ? Curvature::Exact : Curvature::Convex);
   for (int attempt = 0; attempt < 12; ++attempt) {
-    if (cholesky_.factorise()) {
+    if (system_.cholesky.factorise()) {
       if (attempt == 0) exact_ = true;  // it may have become definite again
       return true;
     }
@@ -244,8 +180,8 @@ void InteriorPoint<D>::find_direction() {
   const std::vector<double> b = tau_direction_;
   direction_ = force_;
   for (double& x : direction_) x = -x;
-  cholesky_.solve(direction_);
-  cholesky_.solve(tau_direction_);
+  system_.cholesky.solve(direction_);
+  system_.cholesky.solve(tau_direction_);
   dtau_ = (1.0 - barrier_sum_ - dot(b, direction_)) / (dot(b, tau_direction_) - ratio_sum_);
   for (std::size_t i = 0; i < direction_.size(); ++i) direction_[i] += dtau_ * tau_direction_[i];
   slope_ = (dtau_ * (1.0 - barrier_sum_) + dot(force_, direction_)) / at_.mu;
@@ -289,8 +225,8 @@ void InteriorPoint<D>::step_multipliers() {
     double rise = 0.0;  // of f, to first order
     for (std::size_t j = 0; j < kD; ++j)
       for (std::size_t r = 0; r < kD; ++r) {
-        const double other = is_free(a, j + 1) ? direction_[vertices[j + 1] * kD + r] : 0.0;
-        const double first = is_free(a, 0) ? direction_[vertices[0] * kD + r] : 0.0;
+        const double other = system_.is_free(a, j + 1) ? direction_[vertices[j + 1] * kD + r] : 0.0;
+        const double first = system_.is_free(a, 0) ? direction_[vertices[0] * kD + r] : 0.0;
         rise += gradients_[a][j * kD + r] * (other - first);
       }
     changes_[a] = at_.mu / slack(a) - at_.multipliers[a] - ratios_[a] * (dtau_ - rise);

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/joint/cluster_search.h"
+#include "core/joint/untangler.h"
 
 namespace dmoscope {
 
@@ -30,6 +31,10 @@ class JointClusters::Of final : public Base {
   std::optional<JointCluster> raise_worst(std::span<Vec3> positions, JointState& state, const JointOptions& options,
                                           Progress& progress) const override {
     JointState next = state;
+    if (std::optional<JointCluster> untangled = untangle(positions, next, options, progress)) {
+      state = std::move(next);
+      return untangled;
+    }
     ClusterSearch<D> search(mesh_, positions, next, options, progress);
     std::optional<JointCluster> result = search.run();
     state = std::move(next);
@@ -42,6 +47,14 @@ class JointClusters::Of final : public Base {
   }
 
  private:
+  std::optional<JointCluster> untangle(std::span<Vec3> positions, JointState& state, const JointOptions& options,
+                                       Progress& progress) const {
+    if (mesh_.metric() == Metric::MeanRatio) return Untangler<D>(mesh_, Metric::MeanRatio, positions, state, options, progress).run();
+    std::vector<std::uint8_t> fixed(positions.size(), 1);
+    for (const Index v : mesh_.free_vertices()) fixed[v] = 0;
+    const JointMesh<D> by_mean_ratio(mesh_.input(), Metric::MeanRatio, fixed);
+    return Untangler<D>(by_mean_ratio, mesh_.metric(), positions, state, options, progress).run();
+  }
   JointMesh<D> mesh_;
 };
 

@@ -44,7 +44,8 @@ struct JointState {
   std::vector<Of> atoms{};       // of each of JointClusters's atoms; empty: none was tried
   std::vector<double> levels{};  // of each vertex: it holds elements that are certified at this quality; +infinity: none
   std::uint32_t clusters = 0, passes = 0;
-  double pass_began_at = 0.0;  // the minimum then
+  double pass_began_at = 0.0;     // the minimum then
+  std::uint32_t untanglings = 0;  // attempts to turn inverted elements, in vain or not
   bool pushed = false;
   End end = End::None;
   friend bool operator==(const JointState&, const JointState&) = default;
@@ -78,6 +79,7 @@ struct JointCluster {
   std::string why_not{};             // one sentence where it is not certified
   int newton_steps = 0, solutions = 0;
   bool is_push = false;
+  bool is_untangling = false;  // fewer elements are inverted; it has no bound, and nothing is active
 };
 
 /// Throws UsageError for a curved surface and where joint_obstacle() has something to say of the metric.
@@ -93,8 +95,9 @@ class JointClusters {
   JointClusters& operator=(JointClusters&&) noexcept;
 
   /// Raises the worst open element with the vertices around it. `positions`: of the whole mesh, changed only where the least quality of the
-  /// elements that change rises, judged by the program's metric in double, and no more of them are inverted. The vertices of inverted
-  /// elements stay. None: state.end says why there is nothing more to do. On Cancelled positions and state are as before.
+  /// elements that change rises, judged by the program's metric in double, and no more of them are inverted. Where elements are inverted,
+  /// the first calls untangle: fewer are inverted then, and the least quality is no lower. The vertices of what is left inverted stay.
+  /// None: state.end says why there is nothing more to do. On Cancelled positions and state are as before.
   [[nodiscard]] std::optional<JointCluster> raise_worst(std::span<Vec3> positions, JointState& state, const JointOptions& options,
                                                         Progress& progress);
   [[nodiscard]] std::size_t free_vertices() const noexcept;

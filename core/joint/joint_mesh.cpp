@@ -160,14 +160,15 @@ std::vector<Index> JointMesh<D>::elements_at(std::span<const Index> vertices) co
 }
 
 template <int D>
-JudgedMove JointMesh<D>::move(const LocalProblem<D>& local, std::span<const Offset> displacements, std::span<Vec3> positions) const {
+JudgedMove JointMesh<D>::move(const LocalProblem<D>& local, std::span<const Offset> displacements, std::span<Vec3> positions,
+                              Metric metric) const {
   const QualityContext context = input_->quality_context();
   const std::vector<Index> elements = elements_at(local.free());
   JudgedMove move;
   std::vector<double> before;
   before.reserve(elements.size());
   for (const Index e : elements) {
-    before.push_back(element_quality(context, positions, metric_, e));
+    before.push_back(element_quality(context, positions, metric, e));
     move.inverted_before += smallest_jacobian(context, positions, e) <= 0.0 ? 1 : 0;
   }
   for (std::size_t i = 0; i < displacements.size(); ++i) {
@@ -177,7 +178,7 @@ JudgedMove JointMesh<D>::move(const LocalProblem<D>& local, std::span<const Offs
   }
   move.before = move.after = kInfinity;
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    const double after = element_quality(context, positions, metric_, elements[i]);
+    const double after = element_quality(context, positions, metric, elements[i]);
     move.inverted_after += smallest_jacobian(context, positions, elements[i]) <= 0.0 ? 1 : 0;
     if (after == before[i]) continue;
     move.before = std::min(move.before, before[i]);

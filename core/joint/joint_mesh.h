@@ -58,7 +58,11 @@ class JointMesh {
   /// Elements with one of the vertices, ascending.
   [[nodiscard]] std::vector<Index> elements_at(std::span<const Index> vertices) const;
   /// Moves the free vertices and judges that. It may be undone by moved_from.
-  JudgedMove move(const LocalProblem<D>& local, std::span<const Offset> displacements, std::span<Vec3> positions) const;
+  JudgedMove move(const LocalProblem<D>& local, std::span<const Offset> displacements, std::span<Vec3> positions) const {
+    return move(local, displacements, positions, metric_);
+  }
+  /// Judged by another metric.
+  JudgedMove move(const LocalProblem<D>& local, std::span<const Offset> displacements, std::span<Vec3> positions, Metric metric) const;
 
  private:
   const InputMesh* input_;

@@ -50,6 +50,7 @@ StateJson joint_json(const JointState& state) {
           {"levels", levels},
           {"clusters", state.clusters},
           {"passes", state.passes},
+          {"untanglings", state.untanglings},
           {"pass_began_at", number_in_json(state.pass_began_at)},
           {"pushed", state.pushed},
           {"end", word(state.end)}};
@@ -75,6 +76,7 @@ JointState to_joint_state(const StateJson& json, std::size_t vertices) {
   }
   state.clusters = to_index(json.at("clusters"));
   state.passes = to_index(json.at("passes"));
+  if (json.contains("untanglings")) state.untanglings = to_index(json.at("untanglings"));  // older files have none
   state.pass_began_at = to_double(json.at("pass_began_at"));
   state.pushed = json.at("pushed").get<bool>();
   state.end = to_end(json.at("end"));

@@ -15,11 +15,14 @@ namespace {
 /// Takes what follows the comma of a SPEC: another aim than --combine and --then give every run.
 void choose_aim(RunOptions& chosen, std::string aim) {
   aim.erase(0, aim.find_first_not_of(' '));
-  if (aim != "alone" && aim != "then mean") throw UsageError("after the comma stands 'alone' or 'then mean'");
+  constexpr std::string_view kThen = "then ";
+  const std::string then = aim.starts_with(kThen) ? aim.substr(kThen.size()) : "nothing";
+  if (aim != "alone" && then == "nothing")
+    throw UsageError("after the comma stands 'alone', 'then mean', 'then joint' or 'then joint,mean'");
   if (!chosen.combine.empty()) chosen.metric = info(parse_combination(chosen.combine, chosen.size_function).first).name;
   chosen.combine.clear();
   chosen.size_function.clear();
-  chosen.then = aim == "alone" ? "" : "mean";
+  chosen.then = aim == "alone" ? "" : then;
 }
 
 /// The parameters of METHOD[:METRIC[:BACKEND]][,AIM].

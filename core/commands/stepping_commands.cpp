@@ -90,6 +90,7 @@ void make_good(CommandContext& context, Arguments arguments) {
     if (before.combination) context.done.emplace_back("combine off");
     if (before.method != wanted.method) context.done.push_back("method " + wanted.method);
     context.done.push_back("then " + then_words(wanted));
+    if (before.joint_gap != wanted.joint_gap) context.done.push_back(fmt::format("joint-gap {}", wanted.joint_gap));
   }
   until_converged(context, std::array<std::string, 1>{"best"});
 }

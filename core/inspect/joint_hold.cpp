@@ -13,12 +13,8 @@ namespace dmoscope {
 std::optional<JointCluster> joint_hold(const InputMesh& input, std::span<const Vec3> positions, std::span<const std::uint8_t> fixed,
                                        Metric metric, Index element, std::size_t at_most, Progress& progress,
                                        const std::function<bool()>& go_on) {
+  if (!why_not_joint(input, metric).empty()) return std::nullopt;
   if (!(element_quality(input.quality_context(), positions, metric, element) > 0.0)) return std::nullopt;
-  try {
-    require_joint(input, metric);
-  } catch (const UsageError&) {
-    return std::nullopt;
-  }
   JointOptions options;
   options.whole_at_most = options.cluster_at_most = at_most;
   if (go_on)

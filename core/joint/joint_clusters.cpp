@@ -58,13 +58,18 @@ class JointClusters::Of final : public Base {
   JointMesh<D> mesh_;
 };
 
-void require_joint(const InputMesh& input, Metric metric) {
-  if (input.is_surface()) throw UsageError("joint moves work on planar and volume meshes, not on curved surfaces");
+std::string why_not_joint(const InputMesh& input, Metric metric) {
+  if (input.is_surface()) return "joint moves work on planar and volume meshes, not on curved surfaces";
   const int dimension = input.is_volume() ? 3 : 2;
   KindSet kinds = 0;
   for (const ElementKind kind : input.mesh.elements.kinds())
     if (info(kind).dimension == dimension) kinds = static_cast<KindSet>(kinds | kind_set(kind));
-  if (const std::string obstacle = joint_obstacle(metric, kinds); !obstacle.empty()) throw UsageError("joint moves: " + obstacle);
+  const std::string obstacle = joint_obstacle(metric, kinds);
+  return obstacle.empty() ? obstacle : "joint moves: " + obstacle;
+}
+
+void require_joint(const InputMesh& input, Metric metric) {
+  if (const std::string why_not = why_not_joint(input, metric); !why_not.empty()) throw UsageError(why_not);
 }
 
 JointClusters::JointClusters(const InputMesh& input, Metric metric, std::span<const std::uint8_t> fixed) {

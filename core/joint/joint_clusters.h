@@ -82,7 +82,9 @@ struct JointCluster {
   bool is_untangling = false;  // fewer elements are inverted; it has no bound, and nothing is active
 };
 
-/// Throws UsageError for a curved surface and where joint_obstacle() has something to say of the metric.
+/// Why vertices of a mesh cannot be moved jointly: it is a curved surface, or see joint_obstacle(). Empty where they can.
+[[nodiscard]] std::string why_not_joint(const InputMesh& input, Metric metric);
+/// Throws UsageError with that.
 void require_joint(const InputMesh& input, Metric metric);
 
 /// The input must outlive it. It works in memory of its own, so one thread at a time.

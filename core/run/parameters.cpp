@@ -194,6 +194,18 @@ const std::array kTable{
                   .from_text = [](P& p, Word word) { p.max_deviation = to_positive(word, 1.0, "greatest deviation"); },
                   .in_title = [](const P& p) { return fmt::format("max deviation {:g}", p.max_deviation); },
                   .before = "0.001"},
+    ParameterInfo{.name = "joint-gap",
+                  .title = "joint gap",
+                  .type = "X",
+                  .doc = "How near joint moves bring the minimum of a cluster to what it can reach, as a share of that. The last half "
+                         "percent costs the mean",
+                  .kind = ParameterKind::Real,
+                  .most = 0.5,
+                  .joint_only = true,
+                  .to_text = [](const P& p) { return fmt::format("{}", p.joint_gap); },
+                  .from_text = [](P& p, Word word) { p.joint_gap = to_positive(word, 0.5, "gap of joint moves"); },
+                  .in_title = [](const P& p) { return fmt::format("joint gap {:g}", p.joint_gap); },
+                  .before = "0.0002"},
     ParameterInfo{.name = "backend",
                   .title = "backend",
                   .type = "auto|cpu|cuda",
@@ -209,6 +221,7 @@ const std::array kTable{
 bool ParameterInfo::read_by(const RunParameters& parameters, bool surface) const {
   if (reader != nullptr && !(method_info(parameters.method).*reader)) return false;
   if (sliding_only && !surface && !parameters.standing().slides()) return false;
+  if (joint_only && !parameters.then_joint && !method_info(parameters.method).joint) return false;
   return condition == nullptr || condition(parameters);
 }
 

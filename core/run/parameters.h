@@ -33,6 +33,7 @@ struct RunParameters {
   BoundaryRule boundary = BoundaryRule::Fixed;
   double corner_angle = StandingRule{}.corner_angle;    // degrees; where the boundary slides
   double feature_angle = StandingRule{}.feature_angle;  // degrees; of volumes, likewise
+  double joint_gap = JointOptions{}.gap;                // of joint moves, see JointOptions
   double max_deviation = 1e-3;                          // of the boundary, as a share of the diagonal of the mesh's box
   Backend backend = Backend::Auto;
   friend bool operator==(const RunParameters&, const RunParameters&) = default;
@@ -50,6 +51,7 @@ struct ParameterInfo {
   double least = 0.0, most = 0.0;                     // of numbers; of Real, `least` is not among them
   std::span<const std::string_view> choices{};        // of Choice
   bool MethodInfo::*reader = nullptr;                 // the methods that read it; null: all
+  bool joint_only = false;                            // says nothing where vertices are not moved jointly
   bool volume_only = false;                           // says nothing of planar meshes
   bool sliding_only = false;                          // says nothing where no vertex slides
   bool (*condition)(const RunParameters&) = nullptr;  // besides: whether it is read now; null: always

@@ -12,11 +12,12 @@
 namespace dmoscope {
 
 namespace {
-constexpr std::array<Recipe, 4> kRecipes{
-    {{"best", "the best minimum that is known how to reach, then the best mean that keeps it", "dmo", "joint,mean"},
-     {"minimum", "the best minimum, whatever the mean", "dmo", "joint"},
-     {"mean", "what single vertices reach, then the best mean that keeps it", "dmo", "mean"},
-     {"paper", "the method of the paper alone", "dmo", "nothing"}}};
+const double kUsualGap = JointOptions{}.gap;
+const std::array<Recipe, 4> kRecipes{
+    {{"best", "a minimum within 0.3 % of what can be reached, then the best mean that keeps it", "dmo", "joint,mean", 3e-3},
+     {"minimum", "the best minimum, whatever the mean", "dmo", "joint", kUsualGap},
+     {"mean", "what single vertices reach, then the best mean that keeps it", "dmo", "mean", kUsualGap},
+     {"paper", "the method of the paper alone", "dmo", "nothing", kUsualGap}}};
 }  // namespace
 
 std::span<const Recipe> recipe_table() { return kRecipes; }
@@ -30,15 +31,12 @@ const Recipe& recipe(std::string_view name) {
 std::string follow_recipe(const Recipe& recipe, const InputMesh& input, RunParameters& parameters) {
   parameters.method = recipe.method;
   parameters.combination.reset();
+  parameters.joint_gap = recipe.joint_gap;
   set_then(parameters, recipe.then, {});
-  if (!parameters.then_joint) return {};
-  try {
-    require_joint(input, parameters.metric);
-  } catch (const UsageError& error) {
-    parameters.then_joint.reset();
-    return fmt::format("the recipe \"{}\" goes without joint moves: {}", recipe.name, error.what());
-  }
-  return {};
+  const std::string why_not = parameters.then_joint ? why_not_joint(input, parameters.metric) : std::string();
+  if (why_not.empty()) return {};
+  parameters.then_joint.reset();
+  return fmt::format("the recipe \"{}\" goes without joint moves: {}", recipe.name, why_not);
 }
 
 }  // namespace dmoscope

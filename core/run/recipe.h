@@ -12,6 +12,7 @@ namespace dmoscope {
 struct Recipe {
   std::string_view name, doc;
   std::string_view method, then;  // see set_then()
+  double joint_gap;               // see RunParameters
 };
 /// The recommended one first.
 [[nodiscard]] std::span<const Recipe> recipe_table();

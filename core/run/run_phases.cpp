@@ -15,16 +15,17 @@ namespace dmoscope {
 
 namespace {
 
-JointOptions joint_options() {
+JointOptions joint_options(const RunParameters& parameters) {
   JointOptions options;
+  options.gap = parameters.joint_gap;
   options.push_first = true;  // it raises the mean as well
+  options.push_gap = std::max(options.push_gap, options.gap);
   return options;
 }
 
 /// How far a cluster is, by how far it still is from its bound.
-double share_done(double gap) {
-  constexpr double kGoal = 2e-4;
-  return gap > 0.0 ? std::clamp(std::log(gap) / std::log(kGoal), 0.0, 1.0) : 1.0;
+double share_done(double gap, double goal) {
+  return gap > 0.0 ? std::clamp(std::log(gap) / std::log(goal), 0.0, 1.0) : 1.0;
 }
 
 }  // namespace
@@ -125,9 +126,9 @@ void Run::move_jointly(Progress& progress) {
   const bool anew = at_.moment.edits > 0;
   std::optional<JointState> before = anew ? JointState{} : joint_course_.state_after(iteration, since);
   if (!before) return restore(since);
-  JointOptions options = joint_options();
+  JointOptions options = joint_options(parameters_);
   options.on_step = [&](const JointStep& step) {
-    progress.set(share_done((step.bound - step.minimum) / step.bound));
+    progress.set(share_done((step.bound - step.minimum) / step.bound, options.gap));
     if (observer_) observer_(*this);
   };
   JointState after = *before;

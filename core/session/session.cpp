@@ -68,6 +68,10 @@ std::shared_ptr<Run> Session::first_run(const std::shared_ptr<const InputMesh>& 
     parameters.interfaces = InterfaceRule::Fixed;  // who freed those of one mesh has not seen the next one's
   }
   if (!defined_for_all(parameters.metric, input->mesh)) parameters.metric = Metric::MeanRatio;
+  if (!why_not_joint(*input, parameters.metric).empty()) {
+    if (method_info(parameters.method).joint) parameters.method = RunParameters{}.method;
+    parameters.then_joint.reset();
+  }
   parameters.combination.reset();  // its point, its field and its threshold are of the mesh before
   return make_run(input, std::move(parameters));
 }

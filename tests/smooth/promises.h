@@ -29,13 +29,7 @@ inline dmoscope::Run make_run(const std::shared_ptr<const InputMesh>& mesh, RunP
 
 /// Whether a method can optimise a metric there; joint moves cannot where it has no smooth pieces.
 inline bool can_optimise(const MethodInfo& method, Metric metric, const InputMesh& mesh) {
-  if (!method.joint) return true;
-  try {
-    require_joint(mesh, metric);
-    return true;
-  } catch (const UsageError&) {
-    return false;
-  }
+  return !method.joint || why_not_joint(mesh, metric).empty();
 }
 
 /// A visit left the star no worse, and better if its vertex moved; which it did within its plane. Of joint moves one star may fall, not

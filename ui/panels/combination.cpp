@@ -106,13 +106,7 @@ void draw_size(PanelContext& context, const RunView& run, const SizeFunction& si
 namespace {
 
 bool joint_possible(const RunView& run) {
-  if (!run.input || method_info(run.parameters.method).joint) return false;
-  try {
-    require_joint(*run.input, run.parameters.metric);
-    return true;
-  } catch (const UsageError&) {
-    return false;
-  }
+  return run.input && !method_info(run.parameters.method).joint && why_not_joint(*run.input, run.parameters.metric).empty();
 }
 
 }  // namespace

@@ -76,16 +76,19 @@ constexpr Statistics kNotKnownYet{kUnknown, kUnknown, kUnknown, kUnknown};
 void draw_switch(PanelContext& context, const RunView& run, const HeldMinimum& held) {
   const std::string gain = fmt::format("→ {:.2g}", held.changed);
   const float right = ImGui::GetWindowContentRegionMax().x, room = ImGui::GetContentRegionAvail().x;
-  const float frame = 2 * ImGui::GetStyle().FramePadding.x, gain_width = ImGui::CalcTextSize(gain.c_str()).x;
+  const float frame = 2 * ImGui::GetStyle().FramePadding.x, gain_width = std::max(ImGui::CalcTextSize(gain.c_str()).x, ImGui::CalcTextSize("→ 0.0000").x);
   const std::string label = fit_text(held.change->command(), room - frame - gain_width - context.px(8));
   const bool begun = run.moment != Moment{} || run.edits > 0 || run.records.size() > 1;
   ImGui::BeginDisabled(context.activity.busy || !run.held.now);
-  if (ImGui::SmallButton(label.c_str())) context.send(held.change->command());
+  // As wide whatever it says, so that nothing moves under the hand.
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, 0});
+  if (ImGui::Button(label.c_str(), {room - gain_width - context.px(8), 0})) context.send(held.change->command());
+  ImGui::PopStyleVar();
   ImGui::EndDisabled();
   context.items.record_last("held-by:switch");
   next_item_tooltip(held.sentence() + (begun ? "\nClick: a new run with it, beside this one." : "\nClick: this run gets it."));
   ImGui::SameLine();
-  ImGui::SetCursorPosX(right - gain_width);
+  ImGui::SetCursorPosX(right - ImGui::CalcTextSize(gain.c_str()).x);
   dim_text(context, gain, false);
   next_item_tooltip("the least quality around the worst element, tried out there on a copy of the positions");
 }

@@ -18,17 +18,14 @@ std::optional<std::uint64_t> PhaseSwitchDetector::find(const PhaseBegin& next, s
       highest_ = now.movable_minimum;
       last_rise_ = i;
     }
-    std::uint64_t patience = next.patience;
     if (now.inverted > 0) {
-      if (inverted == Inverted::Wait || now.inverted < records[i - 1].statistics.inverted) {
-        last_rise_ = i;
-        continue;
-      }
-      patience = std::min(patience, UntanglingPlan::kCycle);
+      if (inverted == Inverted::Wait) last_rise_ = i;
+      // The method's own attempts first: where it cannot finish, it leaves less to do.
+      if (inverted == Inverted::Wait || iterations_since_untangled(records, i) < UntanglingPlan::kEnd) continue;
     }
     const auto rests = [](const IterationRecord& record) { return record.moved == 0; };
     const bool at_rest = still && i >= *still && std::ranges::all_of(records.subspan(i + 1 - *still, *still), rests);
-    if (at_rest || i - last_rise_ >= patience) turn_ = i;
+    if (at_rest || i - last_rise_ >= next.patience) turn_ = i;
   }
   return turn_;
 }

@@ -330,7 +330,7 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
     if (joint_end != JointState::End::None) outcome.phases.joint_over = reached;
     if (stop_when_still && joint_end != JointState::End::None && (last_phase == Phase::Joint || now.inverted > 0)) {
       stopped = true;
-      outcome.reason = joint_end == JointState::End::Certified ? StopReason::Certified : StopReason::NoJointGain;
+      outcome.reason = joint_end == JointState::End::Certified && now.inverted == 0 ? StopReason::Certified : StopReason::NoJointGain;
     }
     // A phase's end is not the run's; joint moves know themselves when they are over.
     if (phase == Phase::Joint || (phase != last_phase && (now.inverted == 0 || joint_comes))) continue;

@@ -68,6 +68,7 @@ constexpr auto kMethods = std::to_array<MethodInfo>(
      {.name = "joint",
       .doc = "Joint moves: a cluster of vertices together, by an interior point, until nothing can raise the worst element",
       .make = make_dmo_smoother,
+      .untangles = true,
       .joint = true}});
 
 /// "dmo, laplace, smart-laplace and pattern-search".

@@ -83,8 +83,8 @@ void add_run_options(CLI::App& subcommand, RunOptions& options) {
       ->excludes(combine);
   std::string recipes = "Method and phases under one name:";
   for (const Recipe& one : recipe_table())
-    recipes += fmt::format("{} {} ({}{})", &one == recipe_table().data() ? "" : ";", one.name, one.doc,
-                           one.name == "best" ? "; recommended" : "");
+    recipes +=
+        fmt::format("{} {} ({}{})", &one == recipe_table().data() ? "" : ";", one.name, one.doc, one.name == "best" ? "; recommended" : "");
   subcommand.add_option("--recipe", options.recipe, recipes)
       ->type_name("NAME")
       ->excludes(combine)

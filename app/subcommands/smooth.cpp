@@ -26,6 +26,7 @@
 #include "app/subcommands/subcommands.h"
 #include "core/base/unknown_value.h"
 #include "core/input/declared_floats.h"
+#include "core/inspect/joint_hold.h"
 #include "core/io/commented_mesh.h"
 #include "core/io/mesh_io.h"
 #include "core/io/reading/source_file.h"
@@ -34,10 +35,9 @@
 #include "core/reference/domain.h"
 #include "core/run/left_inverted.h"
 #include "core/run/mean_given_up.h"
+#include "core/run/recipe.h"
 #include "core/run/retry_on_cpu.h"
 #include "core/run/untangling_hint.h"
-#include "core/inspect/joint_hold.h"
-#include "core/run/recipe.h"
 #include "core/run/what_holds.h"
 #include "core/session/csv.h"
 #include "core/session/parameter_json.h"
@@ -83,16 +83,21 @@ Json json_of(const Statistics& s) {
           {"inverted", s.inverted}};
 }
 
-/// Of joint moves, tried or in the run: what they reach, the bound, and by how much each element holds the others.
+/// Of joint moves, tried or in the run: what they reach, the bound, how many elements hold one another, and by how much those that hold
+/// most.
 Json json_of(const JointCluster& cluster) {
+  constexpr std::size_t kMostNamed = 1000;
+  const auto all = holders(cluster);
   Json elements = Json::array();
-  for (const JointCluster::Active& one : holders(cluster)) elements.push_back({{"element", one.element}, {"multiplier", one.multiplier}});
+  for (const JointCluster::Active& one : all.first(std::min(kMostNamed, all.size())))
+    elements.push_back({{"element", one.element}, {"multiplier", one.multiplier}});
   return {{"certified", cluster.certified},
           {"why_not", cluster.why_not.empty() ? Json(nullptr) : Json(cluster.why_not)},
           {"reaches", json_number(cluster.after)},
           {"bound", json_number(cluster.bound)},
           {"gap", json_number(cluster.gap)},
           {"vertices", cluster.vertices.size()},
+          {"holders", all.size()},
           {"elements", std::move(elements)}};
 }
 

@@ -81,8 +81,8 @@ void raise_mean(CommandContext& context, Arguments arguments) {
 void make_good(CommandContext& context, Arguments arguments) {
   require(arguments, 0, 1);
   RunParameters wanted = context.session.active().parameters();
-  const std::string without = follow_recipe(recipe(arguments.empty() ? recipe_table().front().name : arguments[0]),
-                                            context.session.active().input(), wanted);
+  const std::string without =
+      follow_recipe(recipe(arguments.empty() ? recipe_table().front().name : arguments[0]), context.session.active().input(), wanted);
   if (!without.empty()) tell(context, without);
   const RunParameters before = context.session.active().parameters();
   if (wanted != before) {

@@ -351,8 +351,8 @@ std::string HeldMinimum::outlook() const {
   if (change) return {};
   if (rises()) return fmt::format("more iterations: about {:.2g}", unchanged);
   if (certified())
-    return fmt::format("certified: {}", holders(*joint).size() > 1 ? fmt::format("{} hold it", holders(*joint).size())
-                                                                   : std::string("nothing raises it"));
+    return fmt::format("certified: {}",
+                       holders(*joint).size() > 1 ? fmt::format("{} hold it", holders(*joint).size()) : std::string("nothing raises it"));
   if (is_fixed(by)) return "no switch gains here";
   return unchanged > quality ? "it rises slowly" : "its vertices gain nothing";
 }

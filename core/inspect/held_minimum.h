@@ -104,9 +104,9 @@ struct HeldQuestion {
 };
 
 /// Looks at the worst element: what keeps its vertices, and what each switch that concerns them would gain. For that the vertices around
-/// it are visited some times by the product's own smoother, and moved jointly, on a copy of the positions. Where no switch frees an element that cannot move,
-/// it looks at the worst that can. None for a mesh without a quality. Costs a look at each element, and a Domain for each switch.
-/// Throws Cancelled, also once `go_on`, which is asked between two trials, says no.
+/// it are visited some times by the product's own smoother, and moved jointly, on a copy of the positions. Where no switch frees an element
+/// that cannot move, it looks at the worst that can. None for a mesh without a quality. Costs a look at each element, and a Domain for each
+/// switch. Throws Cancelled, also once `go_on`, which is asked between two trials, says no.
 [[nodiscard]] std::optional<HeldMinimum> held_minimum(const HeldQuestion& question, ThreadPool* pool, Progress& progress,
                                                       const std::function<bool()>& go_on = {});
 

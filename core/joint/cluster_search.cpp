@@ -46,7 +46,10 @@ ClusterSearch<D>::ClusterSearch(const JointMesh<D>& mesh, std::span<Vec3> positi
                                                : 3000),
       cluster_at_most_(options.cluster_at_most > 0 ? options.cluster_at_most
                        : D == 2                    ? 20000
-                                                   : 1500) {}
+                                                   : 1500),
+      push_at_most_(options.push_at_most > 0 ? options.push_at_most
+                    : D == 2                 ? 100000
+                                             : 3000) {}
 
 template <int D>
 ClusterSearch<D>::~ClusterSearch() {
@@ -61,7 +64,7 @@ std::optional<JointCluster> ClusterSearch<D>::run() {
   if (options_.push_first && !state_.pushed) {
     state_.pushed = true;
     allow_above(-kInfinity);
-    if (mesh_.free_vertices().size() <= whole_at_most_ && std::ranges::count(allowed_, 1) > 0) result = push();
+    if (mesh_.free_vertices().size() <= push_at_most_ && std::ranges::count(allowed_, 1) > 0) result = push();
   }
   if (!result && state_.end == JointState::End::None)
     if (const std::optional<Index> worst = find_worst()) result = raise(*worst);

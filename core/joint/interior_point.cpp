@@ -14,6 +14,7 @@ namespace {
 constexpr double kFirstMargin = 0.05;  // tau begins this far above the greatest f
 constexpr double kLeastSlack = 0.005;  // of its slack an atom keeps in one step
 constexpr double kCentred = 10.0;      // Newton's decrement below which a full step suffices before mu falls
+constexpr int kEnoughFullSteps = 4;    // in a row: mu falls even where they do not centre, as where elements differ much in size
 constexpr double kFall = 0.3;          // of mu
 constexpr double kFirstDamping = 0.1, kLeastDamping = 1e-4, kMostDamping = 1e4;
 constexpr double kOntoDiagonal = 1e-9;  // what rounding could take from it
@@ -248,6 +249,7 @@ JointSolution<D> InteriorPoint<D>::solve(const InteriorPointOptions& options, co
   solution.end = InteriorPointEnd::Steps;
   const auto within = [&](double gap) { return at_.gap() < gap * std::fabs(at_.tau); };
   bool asked = options.early_gap <= 0.0 || !callbacks.leave_early;
+  int full_steps = 0;
   for (int attempt = 0; attempt < options.max_steps; ++attempt) {
     progress.check();
     if (!factorise()) {
@@ -281,7 +283,9 @@ JointSolution<D> InteriorPoint<D>::solve(const InteriorPointOptions& options, co
       solution.end = InteriorPointEnd::Enough;
       break;
     }
-    if (!is_centred()) continue;
+    full_steps = alpha_ > 0.9 ? full_steps + 1 : 0;
+    if (!is_centred() && full_steps < kEnoughFullSteps) continue;
+    full_steps = 0;
     if (within(options.gap)) {
       solution.end = InteriorPointEnd::Gap;
       break;

@@ -14,8 +14,8 @@ namespace dmoscope {
 
 /// One iteration: a cluster, and what later ones must know of it.
 struct JointIteration {
-  std::optional<JointCluster> cluster{};  // none: there was nothing more to do
-  bool anew = false;                      // it knew nothing of those before it, because vertices had been moved otherwise
+  std::optional<JointCluster> cluster{};                  // none: there was nothing more to do
+  bool anew = false;                                      // it knew nothing of those before it, because vertices had been moved otherwise
   std::size_t atom_count = 0, vertex_count = 0;           // of the state after it
   std::vector<std::pair<Index, JointState::Of>> atoms{};  // those that are something else than before it
   std::vector<std::pair<Index, double>> levels{};         // likewise of vertices

@@ -192,7 +192,9 @@ void Run::ensure_smoother() {
   begun_.reset();
 }
 
-RunSnapshot Run::point() const { return {at_.moment, edits_.share(), history_.shared_records(), last_outcome_, path_, joint_course_.share()}; }
+RunSnapshot Run::point() const {
+  return {at_.moment, edits_.share(), history_.shared_records(), last_outcome_, path_, joint_course_.share()};
+}
 
 void Run::recover() {
   if (failure_.empty()) return;

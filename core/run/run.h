@@ -44,9 +44,9 @@ struct ConvergenceLimits {
 enum class StopReason { NothingMoved, NoRise, Certified, NoJointGain, IterationLimit };
 struct Outcome {
   StopReason reason = StopReason::IterationLimit;
-  std::uint64_t iterations = 0;               // done by this call
-  std::uint64_t ended = 0;                    // the iteration that it ended with
-  std::uint64_t last_rise = 0;                // iteration in which a minimum last rose by limits.rise; 0: never
+  std::uint64_t iterations = 0;         // done by this call
+  std::uint64_t ended = 0;              // the iteration that it ended with
+  std::uint64_t last_rise = 0;          // iteration in which a minimum last rose by limits.rise; 0: never
   RunPhases phases{};                   // those that were reached
   Index inverted = 0;                   // elements, at the end
   std::optional<std::uint64_t> best{};  // the iteration that end_at_best() went back to
@@ -92,7 +92,9 @@ class Run {
   [[nodiscard]] std::optional<std::uint64_t> joint_since() const;
   [[nodiscard]] std::optional<std::uint64_t> mean_since() const;
   /// What an iteration of joint moves did, as far as that is at hand; else null.
-  [[nodiscard]] std::shared_ptr<const JointIteration> joint_iteration(std::uint64_t iteration) const { return joint_course_.find(iteration); }
+  [[nodiscard]] std::shared_ptr<const JointIteration> joint_iteration(std::uint64_t iteration) const {
+    return joint_course_.find(iteration);
+  }
   /// What joint moves know at the end of the iteration in which the run stands; null outside their phase.
   [[nodiscard]] std::shared_ptr<const JointStanding> joint_standing() const;
   /// What the next visits are part of.
@@ -139,8 +141,9 @@ class Run {
   void set_pool(std::shared_ptr<ThreadPool> pool) { pool_ = std::move(pool); }
 
   /// One vertex, one colour class (the rest of it when in its midst), or one iteration (likewise) forwards. Edits on the way are done
-  /// again; one is a step like a vertex. In a phase of joint moves each is a whole iteration, which is one cluster. Returns vertices moved, not counting those that edits moved. On Cancelled the run stands at an
-  /// exact moment between two visits; nothing is lost. On DeviceError (here and in all below) the run has recovered: see there.
+  /// again; one is a step like a vertex. In a phase of joint moves each is a whole iteration, which is one cluster. Returns vertices moved,
+  /// not counting those that edits moved. On Cancelled the run stands at an exact moment between two visits; nothing is lost. On
+  /// DeviceError (here and in all below) the run has recovered: see there.
   std::uint64_t step(StepUnit unit, Progress& progress);
   /// The reverse: to the previous vertex, class start or iteration start. At the input: does nothing, returns false.
   bool back(StepUnit unit, Progress& progress);
@@ -248,7 +251,7 @@ class Run {
   BestPositions first_phase_;
   JointCourse joint_course_;
   std::unique_ptr<JointClusters> joint_clusters_;  // null while nobody needs it
-  std::optional<Sweep> begun_;  // what the smoother was told last
+  std::optional<Sweep> begun_;                     // what the smoother was told last
   Edits edits_;
   std::uint64_t path_ = 0;
   std::vector<Index> rank_of_;  // of every vertex in the colouring's order; empty until there is an edit

@@ -24,9 +24,7 @@ JointOptions joint_options(const RunParameters& parameters) {
 }
 
 /// How far a cluster is, by how far it still is from its bound.
-double share_done(double gap, double goal) {
-  return gap > 0.0 ? std::clamp(std::log(gap) / std::log(goal), 0.0, 1.0) : 1.0;
-}
+double share_done(double gap, double goal) { return gap > 0.0 ? std::clamp(std::log(gap) / std::log(goal), 0.0, 1.0) : 1.0; }
 
 }  // namespace
 
@@ -47,8 +45,7 @@ RunPhases Run::phases() const {
 std::optional<std::uint64_t> Run::first_phase_end() const {
   const PhaseBegin* next = next_phase(parameters_);
   if (next == nullptr) return std::nullopt;
-  return turn_.find(*next, history_.records(),
-                    still_iterations(method_info(parameters_.method), parameters_.options, input_->is_volume()),
+  return turn_.find(*next, history_.records(), still_iterations(method_info(parameters_.method), parameters_.options, input_->is_volume()),
                     parameters_.then_joint ? Inverted::Leave : Inverted::Wait);
 }
 
@@ -70,9 +67,8 @@ std::optional<std::uint64_t> Run::joint_over() const {
   const auto since = joint_since();
   const auto& records = history_.records();
   if (!since || *since >= records.size()) return std::nullopt;
-  const auto over = std::find_if(records.begin() + static_cast<std::ptrdiff_t>(*since), records.end(), [](const IterationRecord& record) {
-    return record.joint && record.joint->end != JointState::End::None;
-  });
+  const auto over = std::find_if(records.begin() + static_cast<std::ptrdiff_t>(*since), records.end(),
+                                 [](const IterationRecord& record) { return record.joint && record.joint->end != JointState::End::None; });
   return over == records.end() ? std::nullopt : std::optional(over->iteration);
 }
 
@@ -142,8 +138,9 @@ void Run::end_joint_iteration(std::span<const Vec3> positions, const JointIterat
   std::uint64_t moved = 0;
   if (done.cluster) {
     const JointCluster& cluster = *done.cluster;
-    figures = {JointState::End::None, cluster.certified, cluster.is_push, cluster.bound, cluster.gap,
-               static_cast<Index>(cluster.vertices.size()), cluster.newton_steps};
+    figures = {JointState::End::None, cluster.certified, cluster.is_push,
+               cluster.bound,         cluster.gap,       static_cast<Index>(cluster.vertices.size()),
+               cluster.newton_steps};
     moved = cluster.moved.size();
   } else {
     figures.end = done.rest.end;

@@ -21,8 +21,10 @@ std::string Outcome::sentence() const {
   const auto begin = [](const std::optional<std::uint64_t>& from) {
     return from ? fmt::format(", which begins with the state of {}, the best one before", iteration_name(*from)) : std::string();
   };
-  if (phases.joint_since) rose += fmt::format("; vertices moved jointly from iteration {} on{}", *phases.joint_since + 1, begin(phases.joint_from));
-  if (phases.mean_since) rose += fmt::format("; the mean was raised from iteration {} on{}", *phases.mean_since + 1, begin(phases.mean_from));
+  if (phases.joint_since)
+    rose += fmt::format("; vertices moved jointly from iteration {} on{}", *phases.joint_since + 1, begin(phases.joint_from));
+  if (phases.mean_since)
+    rose += fmt::format("; the mean was raised from iteration {} on{}", *phases.mean_since + 1, begin(phases.mean_from));
   if (best) rose += fmt::format("; back at {}, the best one", iteration_name(*best));
   switch (reason) {
     case StopReason::NothingMoved:
@@ -298,7 +300,8 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
     const bool whole = at_.moment.visits == 0;
     const bool anew = reached == at_.moment.iteration;
     const bool counts = last_phase == outcome.phases.of(reached + 1) && last_phase != Phase::Joint;
-    if (stop_when_still && (counts || (outcome.inverted > 0 && !joint_comes))) pursuit_->patience_left = limits.patience - std::min(since_rise, limits.patience);
+    if (stop_when_still && (counts || (outcome.inverted > 0 && !joint_comes)))
+      pursuit_->patience_left = limits.patience - std::min(since_rise, limits.patience);
     if (anew) {
       const Progress::Part part(progress, outcome.iterations, limits.max_iterations);
       step(StepUnit::Iteration, progress);

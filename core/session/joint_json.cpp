@@ -32,8 +32,13 @@ StateJson joint_json(const JointFigures& f) {
 
 JointFigures to_joint_figures(const StateJson& json) {
   if (!json.is_array() || json.size() != 7) throw UsageError("joint moves of an iteration have 7 values");
-  return {to_end(json[0]),     json[1].get<bool>(),  json[2].get<bool>(),
-          to_double(json[3]), to_double(json[4]), to_index(json[5]), static_cast<int>(std::min<std::uint64_t>(to_whole(json[6]), 1U << 30U))};
+  return {to_end(json[0]),
+          json[1].get<bool>(),
+          json[2].get<bool>(),
+          to_double(json[3]),
+          to_double(json[4]),
+          to_index(json[5]),
+          static_cast<int>(std::min<std::uint64_t>(to_whole(json[6]), 1U << 30U))};
 }
 
 StateJson joint_json(const JointState& state) {

@@ -21,10 +21,10 @@ struct RunStanding {
   SharedVector<Edit> edits;
   SharedVector<IterationRecord> records;
   std::shared_ptr<const SizeField> size;
-  std::string name;                   // see Run::given_name
-  std::size_t mesh = 0;               // its place in SessionStanding::meshes
-  std::span<const Vec3> start;        // positions at the end of iteration moment.iteration; empty at the input
-  std::shared_ptr<const void> owner;  // of these
+  std::string name;                              // see Run::given_name
+  std::size_t mesh = 0;                          // its place in SessionStanding::meshes
+  std::span<const Vec3> start;                   // positions at the end of iteration moment.iteration; empty at the input
+  std::shared_ptr<const void> owner;             // of these
   std::shared_ptr<const JointStanding> joint{};  // see Run::joint_standing
 };
 

@@ -141,13 +141,13 @@ RunParameters to_parameters(const Json& json) {
 Json json_of(const IterationRecord& r) {
   const Statistics& s = r.statistics;
   Json json{number_in_json(s.minimum),
-          number_in_json(s.mean),
-          number_in_json(s.movable_minimum),
-          number_in_json(s.ceiling),
-          s.worst_element,
-          s.inverted,
-          r.moved,
-          number_in_json(r.seconds)};
+            number_in_json(s.mean),
+            number_in_json(s.movable_minimum),
+            number_in_json(s.ceiling),
+            s.worst_element,
+            s.inverted,
+            r.moved,
+            number_in_json(r.seconds)};
   if (r.joint) json.push_back(joint_json(*r.joint));
   return json;
 }

@@ -87,11 +87,11 @@ struct RunView {
   Backend backend = Backend::Cpu;  // see Run
   std::string backend_reason;
   Moment moment;
-  std::optional<Pursuit> pursuit{};         // see Run
-  Sweep sweep;                              // what the next visits are part of
-  RunPhases phases;                         // see Run
+  std::optional<Pursuit> pursuit{};             // see Run
+  Sweep sweep;                                  // what the next visits are part of
+  RunPhases phases;                             // see Run
   std::shared_ptr<const JointIteration> joint;  // what the iteration at whose end the run stands did, where that was a joint move
-  std::shared_ptr<const SizeField> size;    // see Run::size_field
+  std::shared_ptr<const SizeField> size;        // see Run::size_field
   std::uint64_t visits_per_iteration = 0;
   std::shared_ptr<const Colouring> colouring;  // of the free vertices, in the order of the visits
   Index free_vertices = 0;

@@ -28,8 +28,8 @@ class Menus : public HeadlessTest {
   /// Two runs, a history, something picked and marked; the same every time.
   void begin() {
     state() = fresh_;
-    for (const char* line : {"generate grid 100", "then nothing", "joint-gap 0.0002", "pick vertex 40", "show mean-ratio", "step iteration 3", "add-run dmo",
-                             "step iteration 4", "seek 2", "step class", "mark a", "fit", "move 3 3"}) {
+    for (const char* line : {"generate grid 100", "then nothing", "joint-gap 0.0002", "pick vertex 40", "show mean-ratio",
+                             "step iteration 3", "add-run dmo", "step iteration 4", "seek 2", "step class", "mark a", "fit", "move 3 3"}) {
       const auto failure = window_->run(line);
       ASSERT_FALSE(failure.has_value()) << line << ": " << failure->text;
     }

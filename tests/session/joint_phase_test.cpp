@@ -95,8 +95,8 @@ TEST_P(JointPhaseOf, HasTheSameBitsWhicheverWayItIsReached) {
   RunParameters same = then_joint(true);
   same.then_joint = same.then_mean = straight.parameters().then_joint;
   auto forgetful = joint_run(mesh, same, 0);
-  for (const std::uint64_t iteration : {end, *phases.joint_since, *phases.joint_since + 1, *phases.mean_since, *phases.joint_since - 1,
-                                        *phases.mean_since - 1, end})
+  for (const std::uint64_t iteration :
+       {end, *phases.joint_since, *phases.joint_since + 1, *phases.mean_since, *phases.joint_since - 1, *phases.mean_since - 1, end})
     expect_same(forgetful, {iteration}, "seek");
   auto stepped = joint_run(mesh, same);
   while (stepped.moment().iteration < *phases.mean_since) stepped.step(StepUnit::Class, progress);

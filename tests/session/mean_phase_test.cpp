@@ -1,7 +1,5 @@
 // The phase that raises the mean: when it begins, what it keeps, and that a run goes over its beginning both ways with the same bits.
 
-#include "core/run/phases.h"
-
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -12,6 +10,7 @@
 
 #include "core/base/same_bits.h"
 #include "core/commands/session_commands.h"
+#include "core/run/phases.h"
 #include "core/run/run.h"
 #include "core/session/state_file.h"
 #include "tests/support/meshes.h"

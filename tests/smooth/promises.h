@@ -40,7 +40,7 @@ inline void expect_no_worse(const Specimen& specimen, const dmoscope::Run& run, 
   if (same_bits(std::span(&old, 1), run.positions().subspan(vertex, 1))) return;
   if (!method_info(run.parameters().method).joint) {
     EXPECT_TRUE(after.better_than(before, rule)) << specimen.name << ": vertex " << vertex << " from " << before.jacobian << ' '
-                                               << before.quality << " to " << after.jacobian << ' ' << after.quality;
+                                                 << before.quality << " to " << after.jacobian << ' ' << after.quality;
   }
   const Vec3 p = run.positions()[vertex], normal = run.input().geometry.plane.normal;
   if (run.input().mesh.single_precision) {

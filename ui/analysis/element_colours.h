@@ -47,11 +47,11 @@ struct ColourRequest {
   std::shared_ptr<const Colouring> classes;            // for ColourBy::Class
   render::ColourMap map = render::ColourMap::Viridis;  // of ordered categories
   bool reversed = false;
-  std::shared_ptr<const SizeField> size{};   // for ColourBy::SizeOverTarget; null: the run has none
-  std::shared_ptr<const Frame> reference{};  // for ColourBy::Difference: whole
-  bool comparable = true;                    // the reference has the same elements
-  std::shared_ptr<const Domain> domain{};    // for ColourBy::Deviation, Tilt and Freedom; null: nothing slides
-  SharedVector<std::uint8_t> fixed{};        // for ColourBy::Freedom; see Run::fixed
+  std::shared_ptr<const SizeField> size{};     // for ColourBy::SizeOverTarget; null: the run has none
+  std::shared_ptr<const Frame> reference{};    // for ColourBy::Difference: whole
+  bool comparable = true;                      // the reference has the same elements
+  std::shared_ptr<const Domain> domain{};      // for ColourBy::Deviation, Tilt and Freedom; null: nothing slides
+  SharedVector<std::uint8_t> fixed{};          // for ColourBy::Freedom; see Run::fixed
   std::shared_ptr<const JointCluster> hold{};  // for ColourBy::Multiplier: what holds the minimum; null: not known
 };
 

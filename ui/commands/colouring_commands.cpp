@@ -109,7 +109,8 @@ void add_colour_commands(CommandTable& table, ViewState& state, const CommandHos
        "the input (2 98), or given"},
       [&state](Arguments words) { set_range(state, words); });
   table.add({"color-by",
-             "color-by quality|kind|group|valence|class|displacement|size|edge-length|size-over-target|inverted|deviation|tilt|freedom|multiplier|"
+             "color-by "
+             "quality|kind|group|valence|class|displacement|size|edge-length|size-over-target|inverted|deviation|tilt|freedom|multiplier|"
              "difference [input|run N|mark a|b]",
              "what the elements' colours tell; difference: quality less that of the input, of a run or of a mark"},
             [&state, &host](Arguments words) {

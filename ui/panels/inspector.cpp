@@ -76,7 +76,8 @@ constexpr Statistics kNotKnownYet{kUnknown, kUnknown, kUnknown, kUnknown};
 void draw_switch(PanelContext& context, const RunView& run, const HeldMinimum& held) {
   const std::string gain = fmt::format("→ {:.2g}", held.changed);
   const float right = ImGui::GetWindowContentRegionMax().x, room = ImGui::GetContentRegionAvail().x;
-  const float frame = 2 * ImGui::GetStyle().FramePadding.x, gain_width = std::max(ImGui::CalcTextSize(gain.c_str()).x, ImGui::CalcTextSize("→ 0.0000").x);
+  const float frame = 2 * ImGui::GetStyle().FramePadding.x,
+              gain_width = std::max(ImGui::CalcTextSize(gain.c_str()).x, ImGui::CalcTextSize("→ 0.0000").x);
   const std::string label = fit_text(held.change->command(), room - frame - gain_width - context.px(8));
   const bool begun = run.moment != Moment{} || run.edits > 0 || run.records.size() > 1;
   ImGui::BeginDisabled(context.activity.busy || !run.held.now);

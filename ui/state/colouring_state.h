@@ -75,7 +75,8 @@ inline constexpr std::array<ColourByInfo, 15> kColourBys{{
 /// Whether the colours are those of categories, whose elements can be looked at alone.
 [[nodiscard]] constexpr bool has_categories(ColourBy by) {
   return by != ColourBy::Quality && by != ColourBy::Displacement && by != ColourBy::Size && by != ColourBy::EdgeLength &&
-         by != ColourBy::SizeOverTarget && by != ColourBy::Difference && by != ColourBy::Deviation && by != ColourBy::Tilt && by != ColourBy::Multiplier;
+         by != ColourBy::SizeOverTarget && by != ColourBy::Difference && by != ColourBy::Deviation && by != ColourBy::Tilt &&
+         by != ColourBy::Multiplier;
 }
 
 inline constexpr std::array<std::pair<std::string_view, render::Selection::Others>, 3> kFilterModes{

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "ui/state/format.h"
 #include "core/inspect/joint_hold.h"
+#include "ui/state/format.h"
 #include "ui/viewports/feature_marks.h"
 #include "ui/viewports/hold_marks.h"
 #include "ui/viewports/step_flash.h"
@@ -69,10 +69,10 @@ std::string SteppingView::key(const ViewState& state, const Frame& frame, const 
   const SteppingState& s = state.stepping;
   const Brush& brush = state.brush;
   const auto serial = [](const std::shared_ptr<const Frame>& of) { return of ? of->serial : 0; };
-  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", state.features, fmt::ptr(hold), s.flash_level, s.news.serial, frame.serial,
-                     serial(previous_), serial(state.timeline.a.frame), serial(state.timeline.b.frame), view, static_cast<int>(state.theme),
-                     s.next_class, static_cast<int>(s.arrows), s.arrow_scale, static_cast<int>(s.ghost), state.selection.serial(),
-                     brush.painting, static_cast<int>(brush.kind), brush.stroke.serial());
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", state.features, fmt::ptr(hold), s.flash_level, s.news.serial,
+                     frame.serial, serial(previous_), serial(state.timeline.a.frame), serial(state.timeline.b.frame), view,
+                     static_cast<int>(state.theme), s.next_class, static_cast<int>(s.arrows), s.arrow_scale, static_cast<int>(s.ghost),
+                     state.selection.serial(), brush.painting, static_cast<int>(brush.kind), brush.stroke.serial());
 }
 
 void SteppingView::add_marks(render::Marks& marks, const ViewState& state, const SessionView& session, const MarkView& view,
@@ -155,7 +155,8 @@ void SteppingView::add_space_marks(render::SpaceMarks& marks, const ViewState& s
   const bool flashes = s.flash_level > 0 && frame != nullptr && s.news.serial == frame->serial;
   const bool features = state.features && domain_of(session) != nullptr;
   if (frame == nullptr || frame->device ||
-      !(features || hold_of(state, session) != nullptr || flashes || s.next_class || s.arrows != Reference::None || s.ghost != Reference::None))
+      !(features || hold_of(state, session) != nullptr || flashes || s.next_class || s.arrows != Reference::None ||
+        s.ghost != Reference::None))
     return;
   const render::OrbitCamera& camera = state.orbit;
   const Vec3 &c = camera.centre, &r = camera.right, &u = camera.up;

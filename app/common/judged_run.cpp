@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/run/retry_on_cpu.h"
+#include "core/run/what_holds.h"
 
 namespace dmoscope::app {
 
@@ -51,6 +52,9 @@ JudgedRun run_judged(std::string name, std::shared_ptr<const InputMesh> input, R
 
   JudgedRun done;
   done.outcome = retry_on_cpu(run, smooth_all, workshop.warn);
+  if (done.outcome.phases.joint_since)
+    if (const auto held = what_holds(run, pool, workshop.progress)) done.held = held->sentence(true);
+  if (done.held.ends_with('.')) done.held.pop_back();
   done.name = std::move(name);
   done.parameters = run.parameters();
   done.backend_reason = run.backend_reason();

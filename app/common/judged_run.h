@@ -26,6 +26,7 @@ struct JudgedRun {
   RunRow row;                  // its title is `name`; iterations and seconds are those of all that was done
   Statistics after;            // by the judge, where the run stands: until converged, at its best iteration (see Run::end_at_best)
   Outcome outcome;
+  std::string held;                      // of a run that moved vertices jointly: what holds its minimum, without a point; else empty
   std::vector<IterationRecord> records;  // their statistics are the judge's; the first is the input
   std::vector<double> qualities;         // of all elements by the judge, ascending
   std::vector<Vec3> positions;

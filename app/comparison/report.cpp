@@ -28,11 +28,12 @@ std::vector<const JudgedRun*> every_run(const Comparison& comparison) {
   return runs;
 }
 
-/// How those runs ended that have gone back to an iteration before their last.
+/// How those runs ended that have gone back to an iteration before their last, or had later phases.
 std::vector<std::string> endings(const Comparison& comparison) {
   std::vector<std::string> lines;
   for (const JudgedRun* run : every_run(comparison))
-    if (run->outcome.best || run->outcome.phases != RunPhases{}) lines.push_back(fmt::format("{}: {}", run->name, run->outcome.sentence()));
+    if (run->outcome.best || run->outcome.phases != RunPhases{})
+      lines.push_back(fmt::format("{}: {}{}{}", run->name, run->outcome.sentence(), run->held.empty() ? "" : ". ", run->held));
   return lines;
 }
 
@@ -69,7 +70,8 @@ Json json_of(const JudgedRun& run) {
               {"iterations", run.row.iterations},
               {"judged_iteration", run.outcome.best.value_or(run.outcome.ended)},
               {"converged", run.outcome.reason != StopReason::IterationLimit},
-              {"outcome", run.outcome.sentence()}};
+              {"outcome", run.outcome.sentence()},
+              {"held_by", run.held.empty() ? Json(nullptr) : Json(run.held)}};
   for (const RunColumn& column : run_columns()) {
     if (column.is_word() || object.contains(column.name)) continue;
     const double value = std::get<double>(cell(run.row, column));

@@ -11,8 +11,8 @@
 
 namespace dmoscope {
 
-/// Solves the cluster around the worst element that can move. None where joint moves cannot be (see require_joint), where they see another
-/// element than `element` as the worst, or where elements are inverted. `fixed`: one entry a vertex. `at_most`: vertices of the cluster;
+/// Solves the cluster around the worst element that can move. None where joint moves cannot be (see require_joint), where the worst that
+/// they see is better than `element`, or where elements are inverted. `fixed`: one entry a vertex. `at_most`: vertices of the cluster;
 /// 0: as many as in a run. Throws Cancelled, also once `go_on`, which is asked after every Newton step, says no.
 [[nodiscard]] std::optional<JointCluster> joint_hold(const InputMesh& input, std::span<const Vec3> positions,
                                                      std::span<const std::uint8_t> fixed, Metric metric, Index element, std::size_t at_most,

@@ -303,6 +303,10 @@ JointCluster ClusterSearch<D>::raise(Index worst) {
   result.why_not = why_not(cluster);
   result.certified = result.why_not.empty();
   settle(worst, result.certified);
+  // Another of its elements would lead to the same vertices, in vain again.
+  if (!result.certified && result.moved.empty())
+    for (const Index a : solved_.local.atoms)
+      if (state_.atoms[a] == JointState::Of::Open) state_.atoms[a] = JointState::Of::Tried;
   return result;
 }
 

@@ -393,7 +393,10 @@ void add_smooth(CLI::App& app, Action& action, const std::string& command_line) 
       "--provenance", options->provenance,
       "Say in a comment of the mesh written what made it: the input's hash, version, options; where the format has comments");
   subcommand->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
-  subcommand->callback([options, &action] {
+  const CLI::Option* iterations = subcommand->get_option("--iterations");
+  subcommand->callback([options, iterations, &action] {
+    // A recipe's later phases begin once the minimum has converged.
+    if (!options->run.recipe.empty() && iterations->count() == 0) options->goal.until_converged = true;
     action = [options] { return within_memory(options->memory, options->input, [options] { return smooth(*options); }); };
   });
 }

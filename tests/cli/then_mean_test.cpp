@@ -130,5 +130,22 @@ TEST(ThenMeanSays, OvertHybridKeepsTheMeanOfItsBestIteration) {
   EXPECT_GT(judged.mean, 0.955);
 }
 
+TEST(Recipe, BestIsNoLowerThanDmoAloneAndSaysWhatHoldsIt) {
+  const Folder folder;
+  for (const std::string kind : {"random", "mixed", "tetrahedra"}) {
+    const std::string input = made(folder, kind), alone = folder / (kind + "_dmo.vtk"), best = folder / (kind + "_best.vtk");
+    (void)run({"smooth", input, "-o", alone, "--until-converged"});
+    const Json told = json_of(run({"smooth", input, "-o", best, "--recipe", "best", "--json"}));
+    EXPECT_GE(judge(best).minimum, judge(alone).minimum) << kind;
+    EXPECT_EQ(told["then"], "joint,mean");
+    EXPECT_FALSE(told["joint_over"].is_null());
+    // A quadrilateral may be held by a corner that no vertex moves: of it joint moves know nothing.
+    EXPECT_EQ(told["held_by"]["certificate"].is_object(), kind != "mixed") << kind;
+  }
+  const std::string input = made(folder, "random"), output = folder / "none.vtk";
+  EXPECT_NE(run({"smooth", input, "-o", output, "--recipe", "best", "--then", "mean"}).code, 0);
+  EXPECT_NE(run({"smooth", input, "-o", output, "--recipe", "worst"}).code, 0);
+}
+
 }  // namespace
 }  // namespace dmoscope::test

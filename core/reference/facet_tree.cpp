@@ -9,7 +9,6 @@ namespace dmoscope {
 
 namespace {
 
-constexpr std::size_t kLeaf = 1;
 constexpr double kRoundings = 16.0;   // of the largest coordinate, in a distance
 constexpr std::size_t kDeepest = 64;  // halves of 2^32 triangles
 
@@ -50,82 +49,89 @@ NearestPoint nearest_point(const std::array<Vec3, 3>& triangle, Vec3 p) {
   return best;
 }
 
-FacetTree::FacetTree(std::vector<std::array<Vec3, 3>> triangles, std::span<const Index> patch_of, Index patches)
-    : triangles_(std::move(triangles)), order_(triangles_.size()), roots_(patches) {
+FacetTree::FacetTree(std::vector<std::array<Vec3, 3>> triangles, std::span<const Index> patch_of)
+    : triangles_(std::move(triangles)), node_of_(triangles_.size()) {
   double largest = 0.0;
   for (const auto& triangle : triangles_)
     for (const Vec3 p : triangle) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   rounding_ = std::pow(kRoundings * std::numeric_limits<double>::epsilon() * largest, 2);
-  std::iota(order_.begin(), order_.end(), Index{0});
-  std::ranges::stable_sort(order_, {}, [&](Index t) { return patch_of[t]; });
-  for (std::size_t first = 0; first < order_.size();) {
+  std::vector<Index> order(triangles_.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  std::ranges::stable_sort(order, {}, [&](Index t) { return patch_of[t]; });
+  nodes_.reserve(2 * order.size());
+  for (std::size_t first = 0; first < order.size();) {
     std::size_t last = first;
-    while (last < order_.size() && patch_of[order_[last]] == patch_of[order_[first]]) ++last;
-    const Index patch = patch_of[order_[first]];
-    roots_[patch] = build(first, last);
+    while (last < order.size() && patch_of[order[last]] == patch_of[order[first]]) ++last;
+    build(std::span(order).subspan(first, last - first), kNoIndex);
     first = last;
   }
 }
 
 /// Splits in the middle of the triangles along the longest side of the box of their centres; among equals by number, so that the tree is
 /// the same on every machine.
-Index FacetTree::build(std::size_t first, std::size_t last) {
+Index FacetTree::build(std::span<Index> order, Index up) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const auto centre = [this](Index t) { return triangles_[t][0] + triangles_[t][1] + triangles_[t][2]; };
-  Node node{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}, kNoIndex, kNoIndex,
-            static_cast<Index>(first),         static_cast<Index>(last - first)};
+  Node node{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}, up, kNoIndex, kNoIndex};
   Vec3 low = node.low, high = node.high;  // of the centres
-  for (std::size_t i = first; i < last; ++i) {
-    for (const Vec3 corner : triangles_[order_[i]]) node.low = lower(node.low, corner), node.high = upper(node.high, corner);
-    low = lower(low, centre(order_[i])), high = upper(high, centre(order_[i]));
+  for (const Index t : order) {
+    for (const Vec3 corner : triangles_[t]) node.low = lower(node.low, corner), node.high = upper(node.high, corner);
+    low = lower(low, centre(t)), high = upper(high, centre(t));
   }
   const auto number = static_cast<Index>(nodes_.size());
   nodes_.push_back(node);
-  if (last - first <= kLeaf) return number;
+  if (order.size() == 1) {
+    nodes_[number].triangle = order[0];
+    node_of_[order[0]] = number;
+    return number;
+  }
   const Vec3 extent = high - low;
   const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-  const std::size_t middle = first + (last - first) / 2;
-  const auto at = [this](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(first), at(middle), at(last), [&](Index a, Index b) {
+  const std::size_t middle = order.size() / 2;
+  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(middle), order.end(), [&](Index a, Index b) {
     const double ca = coordinate(centre(a), axis), cb = coordinate(centre(b), axis);
     return ca < cb || (ca == cb && a < b);
   });
-  const Index left = build(first, middle), right = build(middle, last);
-  nodes_[number].left = left;
-  nodes_[number].right = right;
+  build(order.first(middle), number);
+  nodes_[number].right = build(order.subspan(middle), number);
   return number;
 }
 
 double FacetTree::square_to(const Node& node, Vec3 p) {
-  const double x = std::max({node.low.x - p.x, 0.0, p.x - node.high.x}), y = std::max({node.low.y - p.y, 0.0, p.y - node.high.y}),
-               z = std::max({node.low.z - p.z, 0.0, p.z - node.high.z});
+  const auto beyond = [](double low, double at, double high) { return std::max(std::max(low - at, at - high), 0.0); };
+  const double x = beyond(node.low.x, p.x, node.high.x), y = beyond(node.low.y, p.y, node.high.y), z = beyond(node.low.z, p.z, node.high.z);
   return x * x + y * y + z * z;
 }
 
-FacetTree::Nearest FacetTree::nearest(Index patch, Vec3 p, Index near) const {
+/// From the triangle to begin with upwards, and at each step through the other half: where that triangle is near, little is left to look
+/// at.
+FacetTree::Nearest FacetTree::nearest(Vec3 p, Index near) const {
   Nearest best{near, nearest_point(triangles_[near], p)};
+  for (Index below = node_of_[near], here = nodes_[below].up; here != kNoIndex; below = here, here = nodes_[here].up)
+    look_through(nodes_[here].right == below ? here + 1 : nodes_[here].right, p, best);
+  return best;
+}
+
+/// Through all below a node.
+void FacetTree::look_through(Index from, Vec3 p, Nearest& best) const {
   std::array<Index, kDeepest> waiting;
   std::size_t count = 0;
-  waiting[count++] = roots_[patch];
+  waiting[count++] = from;
   while (count > 0) {
-    const Node& node = nodes_[waiting[--count]];
+    const Index number = waiting[--count];
+    const Node& node = nodes_[number];
     // Both are rounded, and the one found must not depend on where the search began.
     if (square_to(node, p) > 2.0 * (best.point.square + rounding_)) continue;
-    if (node.left == kNoIndex) {
-      for (Index i = node.first; i < node.first + node.count; ++i) {
-        const Index t = order_[i];
-        if (t == near) continue;
-        const NearestPoint found = nearest_point(triangles_[t], p);
-        const bool equal = found.square == best.point.square;
-        if (found.square < best.point.square || (equal && t < best.triangle)) best = {t, found};
-      }
+    if (node.right == kNoIndex) {
+      const NearestPoint found = nearest_point(triangles_[node.triangle], p);
+      const bool equal = found.square == best.point.square;
+      if (found.square < best.point.square || (equal && node.triangle < best.triangle)) best = {node.triangle, found};
       continue;
     }
-    const bool left_first = square_to(nodes_[node.left], p) < square_to(nodes_[node.right], p);
-    waiting[count++] = left_first ? node.right : node.left;
-    waiting[count++] = left_first ? node.left : node.right;
+    const bool left_first = square_to(nodes_[number + 1], p) < square_to(nodes_[node.right], p);
+    waiting[count++] = left_first ? node.right : number + 1;
+    waiting[count++] = left_first ? number + 1 : node.right;
   }
-  return best;
 }
 
 }  // namespace dmoscope

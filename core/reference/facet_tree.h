@@ -20,30 +20,31 @@ struct NearestPoint {
 class FacetTree {
  public:
   FacetTree() = default;
-  /// `patch_of`: by triangle, 0 to patches - 1.
-  FacetTree(std::vector<std::array<Vec3, 3>> triangles, std::span<const Index> patch_of, Index patches);
+  /// `patch_of`: by triangle.
+  FacetTree(std::vector<std::array<Vec3, 3>> triangles, std::span<const Index> patch_of);
 
   struct Nearest {
     Index triangle = kNoIndex;
     NearestPoint point;
   };
-  /// Of the triangles of a patch the nearest; of equals the first. `near`: one of them to begin with, any.
-  [[nodiscard]] Nearest nearest(Index patch, Vec3 p, Index near) const;
+  /// Of the triangles of a patch the nearest; of equals the first. `near`: one of them to begin with, any; the nearer, the faster.
+  [[nodiscard]] Nearest nearest(Vec3 p, Index near) const;
 
  private:
   struct Node {
     Vec3 low, high;
-    Index left, right;   // kNoIndex: none, it holds triangles
-    Index first, count;  // of order_
+    Index up;        // kNoIndex: it is a patch's whole tree
+    Index right;     // the second half; the first half is the next node; kNoIndex: it is one triangle
+    Index triangle;  // of one
   };
-  Index build(std::size_t first, std::size_t last);
+  Index build(std::span<Index> order, Index up);
+  void look_through(Index from, Vec3 p, Nearest& best) const;
   [[nodiscard]] static double square_to(const Node& node, Vec3 p);
 
   std::vector<std::array<Vec3, 3>> triangles_;
-  std::vector<Index> order_;
   std::vector<Node> nodes_;
-  std::vector<Index> roots_;  // by patch
-  double rounding_ = 0.0;     // of a distance, squared
+  std::vector<Index> node_of_;  // by triangle
+  double rounding_ = 0.0;       // of a distance, squared
 };
 
 }  // namespace dmoscope

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/reference/facet_walk.h"
+
 namespace dmoscope {
 
 namespace {
@@ -14,9 +16,6 @@ namespace {
 constexpr double kFacetRoundings = 8.0;
 /// As a share of the mesh's size: what is nearer than that to a facet is on it. The nearest point of a needle is not known better.
 constexpr double kBeside = 1e-12;
-/// What a weight may be below 0 where the line just about meets the facet.
-constexpr double kWeightRounding = 1e-10;
-constexpr int kLongestWalk = 256;
 
 double most(Vec3 p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
@@ -46,13 +45,11 @@ Facets::Facets(const InputMesh& input, ElementTable faces, std::span<const Index
   }
   std::vector<std::array<Vec3, 3>> triangles;
   std::vector<Index> patch_of;
-  Index patches = 0;
   for (const Facet& facet : facets_) {
     triangles.push_back({points_[facet.corners[0]], points_[facet.corners[1]], points_[facet.corners[2]]});
     patch_of.push_back(facet.patch);
-    patches = std::max(patches, facet.patch + 1);
   }
-  tree_ = FacetTree(std::move(triangles), patch_of, patches);
+  tree_ = FacetTree(std::move(triangles), patch_of);
   home_.assign(input.mesh.vertex_count(), kNoIndex);
 }
 
@@ -211,7 +208,7 @@ void Facets::carry(std::span<const std::uint8_t> may) {
 }
 
 std::optional<FacetPlace> Facets::place(Index vertex, Vec3 position, Index near) const {
-  const auto [facet, point] = tree_.nearest(facets_[home_[vertex]].patch, position, near == kNoIndex ? home_[vertex] : near);
+  const auto [facet, point] = tree_.nearest(position, near == kNoIndex ? home_[vertex] : near);
   if (facet == kNoIndex) return std::nullopt;
   double largest = most(position);
   for (const Index corner : facets_[facet].corners) largest = std::max(largest, most(points_[corner]));
@@ -233,35 +230,14 @@ Vec3 Facets::normal(const FacetPlace& place) const {
   return unit(place.weights[0] * n[0] + place.weights[1] * n[1] + place.weights[2] * n[2]);
 }
 
+std::array<Vec2<double>, 3> Facets::from_above(Index facet, const Plane& plane, Vec3 origin) const {
+  std::array<Vec2<double>, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i) corners[i] = plane.project(points_[facets_[facet].corners[i]] - origin);
+  return corners;
+}
+
 std::optional<FacetPlace> Facets::walk(Index facet, const Plane& plane, Vec3 origin, Vec2<double> target, double least_cosine) const {
-  Index before = kNoIndex;
-  for (int step = 0; step < kLongestWalk; ++step) {
-    const Facet& here = facets_[facet];
-    std::array<Vec2<double>, 3> q;  // from the target
-    for (std::size_t i = 0; i < 3; ++i) q[i] = plane.project(points_[here.corners[i]] - origin) - target;
-    const std::array<double, 3> part{cross(q[1], q[2]), cross(q[2], q[0]), cross(q[0], q[1])};
-    const double area = cross(q[1] - q[0], q[2] - q[0]);
-    if (!(area > least_cosine * twice_areas_[facet])) return std::nullopt;
-    const double below = -kWeightRounding * area;
-    if (part[0] >= below && part[1] >= below && part[2] >= below) {
-      FacetPlace found{facet, {std::max(part[0], 0.0), std::max(part[1], 0.0), std::max(part[2], 0.0)}};
-      const double sum = found.weights[0] + found.weights[1] + found.weights[2];
-      for (double& weight : found.weights) weight /= sum;
-      return found;
-    }
-    // Across the edge that the target is farthest beyond; back only where there is no other way.
-    std::size_t through = 3;
-    for (const bool back : {false, true}) {
-      for (std::size_t i = 0; i < 3 && (!back || through == 3); ++i)
-        if (part[i] < below && here.across[i] != kNoIndex && (here.across[i] == before) == back &&
-            (through == 3 || part[i] < part[through]))
-          through = i;
-    }
-    if (through == 3) return std::nullopt;
-    before = facet;
-    facet = here.across[through];
-  }
-  return std::nullopt;
+  return walk_facets(*this, facet, target, least_cosine, [&](Index f) { return from_above(f, plane, origin); });
 }
 
 }  // namespace dmoscope

@@ -73,6 +73,8 @@ class Facets {
   /// Of length 1; the mean of the facets around each corner, as far as no feature edge parts them. Zero where these cancel out.
   [[nodiscard]] Vec3 normal(const FacetPlace& place) const;
 
+  /// The corners of a facet in a plane.
+  [[nodiscard]] std::array<Vec2<double>, 3> from_above(Index facet, const Plane& plane, Vec3 origin) const;
   /// From a facet on to the one that a line along the plane's normal meets, from facet to facet and across no feature edge. `target`: in
   /// the plane, from `origin`. `least_cosine`: facets that are steeper than this, or turned away, end the walk. None: it does not get
   /// there.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace dmoscope {
 
@@ -14,10 +15,30 @@ constexpr double kUncovered = 1e-6;
 /// Of 60 degrees: facets that lean farther away are laid slowly.
 constexpr double kFarAway = 0.5;
 constexpr std::size_t kMostFacets = 4096;
+/// Off 1 by more than what rounding makes of a height.
+constexpr double kSurely = 1.0 - 1e-8, kAbove = 1.0 + 1e-8;
 
 Plane tangent(Vec3 normal, Vec3 along) {
   const Vec3 u = (1.0 / length(along)) * along;
   return {u, cross(normal, u), normal};
+}
+
+/// The part of a segment that runs inside the triangle by more than a margin, as shares of the way.
+struct Part {
+  double first = 0.0, last = 1.0;
+};
+/// Is there one, more than a point and not only along an edge?
+[[nodiscard, gnu::always_inline]] inline bool find_part_inside(const OverlayRoom::Corner& from, const OverlayRoom::Corner& to,
+                                                               double margin, Part& part) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double at_first = from.inside[i] - margin, at_last = to.inside[i] - margin;
+    if (at_first <= 0.0 && at_last <= 0.0) return false;
+    if (at_first < 0.0) part.first = std::max(part.first, at_first / (at_first - at_last));
+    if (at_last < 0.0) part.last = std::min(part.last, at_first / (at_first - at_last));
+  }
+  if (!(part.last > part.first)) return false;
+  const Vec2<double> way = to.at - from.at;
+  return (part.last - part.first) * (part.last - part.first) * dot(way, way) > margin * margin;
 }
 
 }  // namespace
@@ -36,21 +57,6 @@ struct Overlay::Ground {
     return result;
   }
 };
-
-/// The part of a segment that runs inside the triangle by more than a margin, if it is more than a point and not only along an edge.
-std::optional<Overlay::Part> Overlay::part_inside(const Corner& from, const Corner& to, double margin) {
-  double first = 0.0, last = 1.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double at_first = from.inside[i] - margin, at_last = to.inside[i] - margin;
-    if (at_first <= 0.0 && at_last <= 0.0) return std::nullopt;
-    if (at_first < 0.0) first = std::max(first, at_first / (at_first - at_last));
-    if (at_last < 0.0) last = std::min(last, at_first / (at_first - at_last));
-  }
-  if (!(last > first)) return std::nullopt;
-  const Vec2<double> way = to.at - from.at;
-  if (!((last - first) * (last - first) * dot(way, way) > margin * margin)) return std::nullopt;
-  return Part{first, last};
-}
 
 /// Cuts off what of the polygon lies beyond one of the triangle's edges (Sutherland and Hodgman).
 void Overlay::clip(std::size_t edge) {
@@ -82,7 +88,7 @@ bool Overlay::lay(const Ground& ground, Index facet, std::span<const Curves::Str
   for (const Index corner : here.corners) polygon.push_back(ground.corner(facets_.point(corner)));
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
-    if (!part_inside(polygon[a], polygon[b], kRounding * ground.size)) continue;
+    if (Part part; !find_part_inside(polygon[a], polygon[b], kRounding * ground.size, part)) continue;
     const Index across = here.across[i];
     if (across != kNoIndex) {
       if (std::ranges::find(room_.found, across) == room_.found.end()) room_.found.push_back(across);
@@ -104,51 +110,104 @@ bool Overlay::lay(const Ground& ground, Index facet, std::span<const Curves::Str
 /// Without cutting any facet: the distance is greatest where a facet's edge begins or ends inside the triangle, or at a corner of the
 /// triangle. None where that may not be all: at feature edges, where a facet leans far away, and around vertices where facets might cover
 /// the triangle more than once.
-std::optional<Fit> Overlay::lay_quickly(const Ground& ground, Index start) {
-  const double margin = kRounding * ground.size;
-  auto& crossed = room_.crossed;
-  crossed.assign(1, {start, 3});
+std::optional<Fit> Overlay::lay_quickly(const Ground& ground, Index start, const Need& need) {
+  room_.found.assign(1, start);
+  Crossed& first = room_for(0);
+  first.from = 3;
   Fit fit;
-  for (std::size_t k = 0; k < crossed.size(); ++k) {
-    if (k > kMostFacets) return std::nullopt;
-    const auto [facet, from] = crossed[k];
-    const Facet& here = facets_.facets()[facet];
-    const std::array<Corner, 3> corner{ground.corner(facets_.point(here.corners[0])), ground.corner(facets_.point(here.corners[1])),
-                                       ground.corner(facets_.point(here.corners[2]))};
-    const double area = cross(corner[1].at - corner[0].at, corner[2].at - corner[0].at), cosine = area / facets_.twice_area(facet);
-    if (!(cosine >= kFarAway)) return std::nullopt;
-    fit.least_cosine = std::min(fit.least_cosine, cosine);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Corner &a = corner[(i + 1) % 3], &b = corner[(i + 2) % 3];
-      if (std::min({corner[i].inside[0], corner[i].inside[1], corner[i].inside[2]}) > margin && !facets_.covers_once(facet, i))
-        return std::nullopt;
-      if (i == from) continue;
-      const auto part = part_inside(a, b, margin);
-      if (!part) continue;
-      const double rise = b.height - a.height;
-      fit.deviation = std::max({fit.deviation, std::abs(a.height + part->first * rise), std::abs(a.height + part->last * rise)});
-      const Index across = here.across[i];
-      if (across == kNoIndex) return std::nullopt;
-      if (std::ranges::find(crossed, across, &OverlayRoom::Crossed::facet) != crossed.end()) continue;
-      const auto& back = facets_.facets()[across].across;
-      crossed.push_back({across, static_cast<std::size_t>(std::ranges::find(back, facet) - back.begin())});
-    }
-    const double least = -kRounding * area;
-    for (const Vec2<double> p : ground.corners) {
-      const Vec2<double> to_0 = corner[0].at - p, to_1 = corner[1].at - p, to_2 = corner[2].at - p;
-      const double at_0 = cross(to_1, to_2), at_1 = cross(to_2, to_0), at_2 = area - at_0 - at_1;
-      if (at_0 < least || at_1 < least || at_2 < least) continue;
-      const double height = (at_0 * corner[0].height + at_1 * corner[1].height + at_2 * corner[2].height) / area;
-      fit.deviation = std::max(fit.deviation, std::abs(height));
-    }
+  double highest = 0.0;  // of all the facets' corners, and so of all that lies on them
+  for (std::size_t i = 0; i < 3; ++i) {
+    first.corners[i] = ground.corner(facets_.point(facets_.facets()[start].corners[i]));
+    highest = std::max(highest, std::abs(first.corners[i].height));
   }
+  for (std::size_t k = 0; k < room_.found.size(); ++k) {
+    if (k > kMostFacets || !cross_sides(ground, k, fit)) return std::nullopt;
+    if (fit.deviation > need.limit) return fit;
+    const Crossed& here = room_.crossed[k];
+    if (here.from < 3) highest = std::max(highest, std::abs(here.corners[here.from].height));
+  }
+  if (!(highest <= kSurely * need.enough)) fit.deviation = std::max(fit.deviation, deviation_at_corners(ground));
   return fit;
 }
 
-Fit Overlay::triangle(const std::array<Vec3, 3>& corners, Index from, std::span<const Curves::Stretch> allowed) {
+/// Follows the sides of one of the facets that were reached, and notes those beyond them; false where the quick way does not do.
+bool Overlay::cross_sides(const Ground& ground, std::size_t k, Fit& fit) {
+  const double margin = kRounding * ground.size;
+  const Index number = room_.found[k];
+  const Facet& facet = facets_.facets()[number];
+  const std::size_t from = room_.crossed[k].from;
+  {
+    Crossed& here = room_.crossed[k];
+    const auto& corner = here.corners;
+    here.area = cross(corner[1].at - corner[0].at, corner[2].at - corner[0].at);
+    const double cosine = here.area / facets_.twice_area(number);
+    if (!(cosine >= kFarAway)) return false;
+    fit.least_cosine = std::min(fit.least_cosine, cosine);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& corner = room_.crossed[k].corners;  // which move where another facet is reached
+    const auto is_inside = [margin](const Corner& c) { return c.inside[0] > margin && c.inside[1] > margin && c.inside[2] > margin; };
+    if ((from == 3 || i == from) && is_inside(corner[i]) && !facets_.covers_once(number, i)) return false;  // of others it is known
+    if (i == from) continue;
+    const Corner &a = corner[(i + 1) % 3], &b = corner[(i + 2) % 3];
+    Part part;
+    if (!find_part_inside(a, b, margin, part)) continue;
+    const double rise = b.height - a.height;
+    fit.deviation = std::max(fit.deviation, std::max(std::abs(a.height + part.first * rise), std::abs(a.height + part.last * rise)));
+    const Index across = facet.across[i];
+    if (across == kNoIndex) return false;
+    if (std::ranges::find(room_.found, across) == room_.found.end()) reach(ground, across, k, i);
+  }
+  return true;
+}
+
+OverlayRoom::Crossed& Overlay::room_for(std::size_t k) {
+  if (k >= room_.crossed.size()) room_.crossed.resize(k + 1);
+  return room_.crossed[k];
+}
+
+/// Notes the facet beyond a side of another, two of whose corners are known.
+void Overlay::reach(const Ground& ground, Index across, std::size_t through, std::size_t side) {
+  const Facet &beyond = facets_.facets()[across], &before = facets_.facets()[room_.found[through]];
+  const auto from = static_cast<std::size_t>(std::ranges::find(beyond.across, room_.found[through]) - beyond.across.begin());
+  Crossed& reached = room_for(room_.found.size());
+  room_.found.push_back(across);
+  reached.from = from;
+  const auto& known = room_.crossed[through].corners;
+  const std::size_t a = (side + 1) % 3, b = (side + 2) % 3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Index corner = beyond.corners[i];
+    reached.corners[i] = corner == before.corners[a]   ? known[a]
+                         : corner == before.corners[b] ? known[b]
+                                                       : ground.corner(facets_.point(corner));
+  }
+}
+
+/// The distance of the triangle's own corners from the facets that were reached.
+double Overlay::deviation_at_corners(const Ground& ground) const {
+  double deviation = 0.0;
+  for (std::size_t k = 0; k < room_.found.size(); ++k) {
+    const Crossed& here = room_.crossed[k];
+    const auto& corner = here.corners;
+    const double least = -kRounding * here.area;
+    for (const Vec2<double> p : ground.corners) {
+      const Vec2<double> to_0 = corner[0].at - p, to_1 = corner[1].at - p, to_2 = corner[2].at - p;
+      const double at_0 = cross(to_1, to_2);
+      if (at_0 < least) continue;
+      const double at_1 = cross(to_2, to_0), at_2 = here.area - at_0 - at_1;
+      if (at_1 < least || at_2 < least) continue;
+      const double height = (at_0 * corner[0].height + at_1 * corner[1].height + at_2 * corner[2].height) / here.area;
+      deviation = std::max(deviation, std::abs(height));
+    }
+  }
+  return deviation;
+}
+
+/// None of one that is shrunk to a line.
+std::optional<Overlay::Ground> Overlay::ground_of(const std::array<Vec3, 3>& corners) {
   const Vec3 across = cross(corners[1] - corners[0], corners[2] - corners[0]);
   const double area = length(across);
-  if (!(area > 0.0)) return kNoFit;
+  if (!(area > 0.0)) return std::nullopt;
   Ground ground{tangent((1.0 / area) * across, corners[1] - corners[0]), corners[0], {}, {}, 0.0, area};
   for (std::size_t i = 0; i < 3; ++i) ground.corners[i] = ground.plane.project(corners[i] - corners[0]);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -157,26 +216,42 @@ Fit Overlay::triangle(const std::array<Vec3, 3>& corners, Index from, std::span<
     ground.inwards[i] = {-edge.y / size, edge.x / size};
     ground.size = std::max(ground.size, size);
   }
+  return ground;
+}
+
+std::optional<FacetPlace> Overlay::beneath_centre(const Ground& ground, Index from) const {
   const Vec2<double> centre{(ground.corners[0].x + ground.corners[1].x + ground.corners[2].x) / 3.0,
                             (ground.corners[0].y + ground.corners[1].y + ground.corners[2].y) / 3.0};
-  const auto start = facets_.walk(from, ground.plane, ground.origin, centre, 0.0);
+  return facets_.walk(from, ground.plane, ground.origin, centre, 0.0);
+}
+
+Fit Overlay::triangle(const std::array<Vec3, 3>& corners, Index from, std::span<const Curves::Stretch> allowed) {
+  return triangle(corners, from, {}, [allowed] { return allowed; });
+}
+
+template <class Allowed>
+Fit Overlay::triangle(const std::array<Vec3, 3>& corners, Index from, const Need& need, const Allowed& allowed) {
+  const auto ground = ground_of(corners);
+  if (!ground) return kNoFit;
+  const auto start = beneath_centre(*ground, from);
   if (!start) return kNoFit;
-  if (const auto fit = lay_quickly(ground, start->facet)) return *fit;
+  if (const auto fit = lay_quickly(*ground, start->facet, need)) return *fit;
+  const std::span<const Curves::Stretch> stretches = allowed();
   Laid laid;
   room_.found.assign(1, start->facet);
   for (std::size_t i = 0; i < room_.found.size(); ++i)
-    if (i > kMostFacets || !lay(ground, room_.found[i], allowed, laid) || !(laid.fit.least_cosine > 0.0)) return kNoFit;
+    if (i > kMostFacets || !lay(*ground, room_.found[i], stretches, laid) || !(laid.fit.least_cosine > 0.0)) return kNoFit;
   // What lies beyond a curve is nearer to it than its chord is, and that is bounded where vertices slide along it.
-  const bool whole = laid.covered >= (1.0 - kUncovered) * area && laid.covered <= (1.0 + kUncovered) * area;
+  const bool whole = laid.covered >= (1.0 - kUncovered) * ground->area && laid.covered <= (1.0 + kUncovered) * ground->area;
   return whole || laid.beyond ? laid.fit : kNoFit;
 }
 
 /// The stretches of curves along a face's edges.
-void Overlay::find_stretches(PositionView positions, Index face, Index vertex, Vec3 target) {
+void Overlay::find_stretches(const Face& face) {
   room_.stretches.clear();
   const Curves& curves = domain_.curves();
-  const auto c = facets_.faces().corners(face);
-  const auto position = [&](Index v) { return v == vertex ? target : positions[v]; };
+  const auto c = facets_.faces().corners(face.face);
+  const auto position = [&](Index v) { return v == face.vertex ? face.target : face.positions[v]; };
   for (std::size_t i = 0; i < c.size(); ++i) {
     const Index a = c[i], b = c[i + 1 < c.size() ? i + 1 : 0];
     const Index slider = curves.slides(a) ? a : b, other = slider == a ? b : a;
@@ -186,32 +261,40 @@ void Overlay::find_stretches(PositionView positions, Index face, Index vertex, V
 }
 
 /// Facets near a face: beneath its vertex, or beside that on its curve, and where the face was in the input.
-void Overlay::find_starts(Index vertex, Vec3 target, Index face, const FacetPlace* beneath) {
+void Overlay::find_starts(const Face& face) {
   room_.starts.clear();
-  if (beneath != nullptr) {
-    room_.starts.push_back(beneath->facet);
-  } else if (const auto place = domain_.curves().place(vertex, target)) {
-    for (const auto& [from, to] : domain_.curves().edges_at(vertex, *place)) {
+  if (face.beneath != nullptr) {
+    room_.starts.push_back(face.beneath->facet);
+  } else if (const auto place = domain_.curves().place(face.vertex, face.target)) {
+    for (const auto& [from, to] : domain_.curves().edges_at(face.vertex, *place)) {
       if (from == kNoIndex) continue;
       for (const FacetSide& side : facets_.sides_of(from, to))
-        if (facets_.facets()[side.facet].patch == facets_.patch_of_face(face)) room_.starts.push_back(side.facet);
+        if (facets_.facets()[side.facet].patch == facets_.patch_of_face(face.face)) room_.starts.push_back(side.facet);
     }
   }
-  const Index first = facets_.first_facet(face), count = static_cast<Index>(facets_.faces().corners(face).size()) - 2;
+  const Index first = facets_.first_facet(face.face), count = static_cast<Index>(facets_.faces().corners(face.face).size()) - 2;
   for (Index i = 0; i < count; ++i) room_.starts.push_back(first + i);
 }
 
-Fit Overlay::face(PositionView positions, Index face, Index vertex, Vec3 target) {
-  find_stretches(positions, face, vertex, target);
-  const auto c = facets_.faces().corners(face);
-  const auto at = [&](std::size_t i) { return c[i] == vertex ? target : positions[c[i]]; };
-  const auto lay = [&](std::size_t i, std::size_t j, std::size_t k) {
-    for (const Index start : room_.starts) {
-      const Fit fit = triangle({at(i), at(j), at(k)}, start, room_.stretches);
-      if (fit.deviation < kNoFit.deviation) return fit;
-    }
-    return kNoFit;
+/// A face, or half of one.
+Fit Overlay::triangle_of(const Face& face, const std::array<Vec3, 3>& corners) {
+  bool known = false;  // the stretches, which are mostly not asked for
+  const auto stretches = [&] {
+    if (!std::exchange(known, true)) find_stretches(face);
+    return std::span<const Curves::Stretch>(room_.stretches);
   };
+  for (const Index start : room_.starts) {
+    const Fit fit = triangle(corners, start, face.need, stretches);
+    if (fit.deviation < kNoFit.deviation) return fit;
+  }
+  return kNoFit;
+}
+
+Fit Overlay::face(const Face& face) {
+  find_starts(face);
+  const auto c = facets_.faces().corners(face.face);
+  const auto at = [&](std::size_t i) { return c[i] == face.vertex ? face.target : face.positions[c[i]]; };
+  const auto lay = [&](std::size_t i, std::size_t j, std::size_t k) { return triangle_of(face, {at(i), at(j), at(k)}); };
   if (c.size() == 3) return lay(0, 1, 2);
   const auto both = [&](std::size_t first) {  // from one end of a diagonal to the other
     const Fit one = lay(first, first + 1, first + 2), other = lay(first, first + 2, (first + 3) % 4);
@@ -224,14 +307,49 @@ Fit Overlay::face(PositionView positions, Index face, Index vertex, Vec3 target)
   return fit;
 }
 
+/// The triangles around a vertex of a surface, each with the facet beneath its centre.
+struct Overlay::Sketch {
+  static constexpr std::size_t kMost = 12;
+  struct Part {
+    std::optional<Ground> ground;
+    std::optional<FacetPlace> start;
+  };
+  std::array<Part, kMost> parts;
+};
+
+/// False where the deviation at the centre of one is beyond the limit already: most that do not fit are told by that, at little cost.
+bool Overlay::sketch(PositionView positions, Index vertex, Vec3 target, const FacetPlace& beneath, double limit, Sketch& out) const {
+  const auto around = facets_.faces_at(vertex);
+  for (std::size_t k = 0; k < std::min(around.size(), Sketch::kMost); ++k) {
+    const auto c = facets_.faces().corners(around[k]);
+    if (c.size() != 3) continue;
+    const auto at = [&](std::size_t i) { return c[i] == vertex ? target : positions[c[i]]; };
+    auto& [ground, start] = out.parts[k];
+    ground = ground_of({at(0), at(1), at(2)});
+    if (!ground) continue;
+    start = beneath_centre(*ground, beneath.facet);
+    if (start && std::abs(dot(facets_.at(*start) - ground->origin, ground->plane.normal)) > limit) return false;
+  }
+  return true;
+}
+
 Fit Overlay::star(PositionView positions, Index vertex, Vec3 target, const FacetPlace* beneath, const Fit& within) {
+  // Where a fit is only to be within some other, no more than that need be known of it.
+  Need need;
+  if (within.deviation < kNoFit.deviation)
+    need = {std::min(within.deviation, within.other_split), kAbove * std::max(within.deviation, within.other_split)};
+  Sketch drawn;
+  if (beneath != nullptr && !sketch(positions, vertex, target, *beneath, need.limit, drawn)) return kNoFit;
   Fit fit;
+  std::size_t k = 0;
   for (const Index f : facets_.faces_at(vertex)) {
-    find_starts(vertex, target, f, beneath);
-    const Fit here = face(positions, f, vertex, target);
-    fit.deviation = std::max(fit.deviation, here.deviation);
-    fit.other_split = std::max(fit.other_split, here.other_split);
-    fit.least_cosine = std::min(fit.least_cosine, here.least_cosine);
+    std::optional<Fit> here;
+    if (k < Sketch::kMost && drawn.parts[k].start) here = lay_quickly(*drawn.parts[k].ground, drawn.parts[k].start->facet, need);
+    if (!here) here = face({positions, f, vertex, target, beneath, need});
+    ++k;
+    fit.deviation = std::max(fit.deviation, here->deviation);
+    fit.other_split = std::max(fit.other_split, here->other_split);
+    fit.least_cosine = std::min(fit.least_cosine, here->least_cosine);
     if (fit.deviation == kNoFit.deviation) return kNoFit;
     if (!is_within(fit, within)) break;
   }

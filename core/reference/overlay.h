@@ -27,17 +27,18 @@ inline constexpr Fit kNoFit{std::numeric_limits<double>::infinity(), std::numeri
 
 /// What an overlay works in, kept from one to the next.
 struct OverlayRoom {
-  struct Crossed {  // a facet, and the side through which it was reached
-    Index facet;
-    std::size_t from;
-  };
   struct Corner {
     Vec2<double> at;
     double height;
     std::array<double, 3> inside;  // distances from the triangle's edges, positive inside
   };
-  std::vector<Index> found, starts;
-  std::vector<Crossed> crossed;
+  struct Crossed {  // a facet that was reached, and the side through which
+    std::size_t from;
+    std::array<Corner, 3> corners;
+    double area;  // twice, as the triangle sees it
+  };
+  std::vector<Index> found, starts;  // found: facets that were reached
+  std::vector<Crossed> crossed;      // at least as many
   std::vector<Corner> polygon, clipped;
   std::vector<Curves::Stretch> stretches;
 };
@@ -57,21 +58,40 @@ class Overlay {
  private:
   using Corner = OverlayRoom::Corner;
   struct Ground;
-  [[nodiscard]] Fit face(PositionView positions, Index face, Index vertex, Vec3 target);
-  void find_starts(Index vertex, Vec3 target, Index face, const FacetPlace* beneath);
-  void find_stretches(PositionView positions, Index face, Index vertex, Vec3 target);
+  struct Sketch;
+  using Crossed = OverlayRoom::Crossed;
+  /// What need be known of a deviation: up to `enough` not more than that, beyond `limit` no more than that.
+  struct Need {
+    double enough = 0.0, limit = kNoFit.deviation;
+  };
+  /// A face with its vertex at `target`.
+  struct Face {
+    PositionView positions;
+    Index face, vertex;
+    Vec3 target;
+    const FacetPlace* beneath;
+    const Need& need;
+  };
+  [[nodiscard]] bool sketch(PositionView positions, Index vertex, Vec3 target, const FacetPlace& beneath, double limit, Sketch& out) const;
+  [[nodiscard]] Fit face(const Face& face);
+  [[nodiscard]] Fit triangle_of(const Face& face, const std::array<Vec3, 3>& corners);
+  void find_starts(const Face& face);
+  void find_stretches(const Face& face);
+  template <class Allowed>
+  [[nodiscard]] Fit triangle(const std::array<Vec3, 3>& corners, Index from, const Need& need, const Allowed& allowed);
+  [[nodiscard]] static std::optional<Ground> ground_of(const std::array<Vec3, 3>& corners);
+  [[nodiscard]] std::optional<FacetPlace> beneath_centre(const Ground& ground, Index from) const;
   struct Laid {
     Fit fit;
     double covered = 0.0;  // twice the area
     bool beyond = false;   // the triangle reaches across one of the stretches
   };
-  [[nodiscard]] std::optional<Fit> lay_quickly(const Ground& ground, Index start);
+  [[nodiscard]] std::optional<Fit> lay_quickly(const Ground& ground, Index start, const Need& need);
+  [[nodiscard]] bool cross_sides(const Ground& ground, std::size_t k, Fit& fit);
+  [[nodiscard]] Crossed& room_for(std::size_t k);
+  void reach(const Ground& ground, Index across, std::size_t through, std::size_t side);
+  [[nodiscard]] double deviation_at_corners(const Ground& ground) const;
   [[nodiscard]] bool lay(const Ground& ground, Index facet, std::span<const Curves::Stretch> allowed, Laid& laid);
-  /// As shares of the way from one corner to the other.
-  struct Part {
-    double first, last;
-  };
-  [[nodiscard]] static std::optional<Part> part_inside(const Corner& from, const Corner& to, double margin);
   void clip(std::size_t edge);
 
   const Domain& domain_;

@@ -26,7 +26,7 @@ TEST(FacetTree, FindsTheNearestOfItsPatch) {
       triangles.push_back({a, b, c});
       patch_of.push_back(i % 3);
     }
-    const FacetTree tree(triangles, patch_of, 3);
+    const FacetTree tree(triangles, patch_of);
     for (int k = 0; k < 300; ++k) {
       // Anywhere, and on one of the triangles.
       const auto& t = triangles[static_cast<std::size_t>(k) % triangles.size()];
@@ -37,10 +37,10 @@ TEST(FacetTree, FindsTheNearestOfItsPatch) {
       double least = 1e9;
       for (std::size_t i = patch; i < triangles.size(); i += 3)
         least = std::min(least, distance_to_triangle(p, triangles[i][0], triangles[i][1], triangles[i][2]));
-      const auto found = tree.nearest(patch, p, patch);
+      const auto found = tree.nearest(p, patch);
       ASSERT_EQ(patch_of[found.triangle], patch);
       for (Index near = patch; near < 60; near += 3) {  // wherever the search begins
-        const auto again = tree.nearest(patch, p, near);
+        const auto again = tree.nearest(p, near);
         ASSERT_EQ(again.triangle, found.triangle);
         ASSERT_EQ(again.point.weights, found.point.weights);
       }
@@ -113,6 +113,37 @@ TEST(Overlay, WhatCannotBeIsNoFit) {
   EXPECT_EQ(overlay.triangle({good[0], good[2], good[1]}, 0, {}).deviation, kNoFit.deviation) << "turned over";
   EXPECT_EQ(overlay.triangle({good[0], good[1], good[1]}, 0, {}).deviation, kNoFit.deviation) << "a line";
   EXPECT_EQ(overlay.triangle({good[0], good[1], {0.5, 1.4, 0}}, 0, {}).deviation, kNoFit.deviation) << "beyond the boundary";
+}
+
+/// Told a bound, the faces around a vertex are looked at no more than it takes: what is said of the bound is the same.
+TEST(Overlay, ABoundShortensItOnly) {
+  dmoscope::testing::Random random(9);
+  int within = 0, beyond = 0;
+  for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals, Cells::Mixed}) {
+    const auto mesh = hills(8, cells);
+    const Domain domain(*mesh, {});
+    const Facets& facets = domain.facets();
+    const std::vector<Vec3>& positions = mesh->mesh.positions;
+    OverlayRoom room;
+    Overlay overlay(domain, room);
+    for (Index v = 0; v < positions.size(); ++v) {
+      if (!domain.on_surface(v)) continue;
+      const auto here = facets.place(v, positions[v]);
+      ASSERT_TRUE(here);
+      const auto there = facets.walk(here->facet, Plane{}, positions[v], {random(-0.06, 0.06), random(-0.06, 0.06)}, 0.0);
+      if (!there) continue;
+      const Vec3 target = facets.at(*there);
+      const Fit whole = overlay.star(positions, v, target, &*there, kNoFit);
+      for (const double size : {1e-4, 1e-3, 2e-3, 4e-3, 1e-2, 0.999 * whole.deviation, 1.001 * whole.deviation}) {
+        const Fit bound{size, 2.0 * size, 0.5};
+        const bool fits = is_within(whole, bound);
+        ASSERT_EQ(is_within(overlay.star(positions, v, target, &*there, bound), bound), fits) << "vertex " << v << ", " << size;
+        ++(fits ? within : beyond);
+      }
+    }
+  }
+  EXPECT_GT(within, 200);
+  EXPECT_GT(beyond, 200);
 }
 
 }  // namespace

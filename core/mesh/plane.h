@@ -53,13 +53,21 @@ struct Space {
 };
 
 /// A vector of a curved surface: its cross product is taken against a given unit normal.
-struct SurfaceVector {
-  Vec3 v{}, normal{};
-  friend SurfaceVector operator-(SurfaceVector a, SurfaceVector b) { return {a.v - b.v, b.normal}; }
-  friend bool operator==(const SurfaceVector&, const SurfaceVector&) = default;
+template <class Real>
+struct SurfaceVectorOf {
+  Vec3Of<Real> v{}, normal{};
+  friend DMOSCOPE_ANYWHERE SurfaceVectorOf operator-(SurfaceVectorOf a, SurfaceVectorOf b) { return {a.v - b.v, b.normal}; }
+  friend bool operator==(const SurfaceVectorOf&, const SurfaceVectorOf&) = default;
 };
-[[nodiscard]] inline double dot(SurfaceVector a, SurfaceVector b) { return dot(a.v, b.v); }
-[[nodiscard]] inline double cross(SurfaceVector a, SurfaceVector b) { return dot(cross(a.v, b.v), b.normal); }
+using SurfaceVector = SurfaceVectorOf<double>;
+template <class Real>
+[[nodiscard]] DMOSCOPE_ANYWHERE Real dot(SurfaceVectorOf<Real> a, SurfaceVectorOf<Real> b) {
+  return dot(a.v, b.v);
+}
+template <class Real>
+[[nodiscard]] DMOSCOPE_ANYWHERE Real cross(SurfaceVectorOf<Real> a, SurfaceVectorOf<Real> b) {
+  return dot(cross(a.v, b.v), b.normal);
+}
 [[nodiscard]] inline SurfaceVector times(SurfaceVector a, double s) { return {s * a.v, a.normal}; }
 
 /// What a mesh of a curved surface has: all of space, with elements judged in their own planes.
@@ -72,7 +80,7 @@ struct Curved {
 /// An offset from a vertex in a frame (Plane, Space or Curved), in whatever scalar computes with it.
 template <class Frame, class Real>
 using OffsetIn = std::conditional_t<std::is_same_v<Frame, Plane>, Vec2<Real>,
-                                    std::conditional_t<std::is_same_v<Frame, Curved>, SurfaceVector, Vec3Of<Real>>>;
+                                    std::conditional_t<std::is_same_v<Frame, Curved>, SurfaceVectorOf<Real>, Vec3Of<Real>>>;
 
 /// Which coordinates (0 x, 1 y, 2 z) u and v of a plane are, exactly; -1 and -1 where it is parallel to no coordinate plane. One component
 /// of 1 is not enough: a plane tilted by 1e-9 has that too, and the other components count.

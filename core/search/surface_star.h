@@ -5,9 +5,21 @@
 
 #include "core/mesh/mesh_view.h"
 #include "core/mesh/position_view.h"
-#include "core/quality/element_shape.h"
+#include "core/quality/formulas.h"
+#include "core/search/star.h"
 
 namespace dmoscope {
+
+/// The unit vector of a x b, or `fallback` where that is none. Real: double, or a pack of it whose slots get the bits that a double gets.
+template <class Real>
+[[nodiscard]] Vec3Of<Real> unit_normal_of(Vec3Of<Real> a, Vec3Of<Real> b, Vec3 fallback) {
+  using scalar::select, scalar::sqrt;
+  const Vec3Of<Real> n = cross(a, b), other = point_of<Real>(fallback);
+  const Real length = sqrt(dot(n, n));
+  const auto has_one = length > Real(0);
+  const Vec3Of<Real> unit = (Real(1) / select(has_one, length, Real(1))) * n;
+  return {select(has_one, unit.x, other.x), select(has_one, unit.y, other.y), select(has_one, unit.z, other.z)};
+}
 
 /// An incident triangle: its other two corners in the element's order, and its reference measure for untangling.
 struct SurfaceTriangle {
@@ -15,9 +27,10 @@ struct SurfaceTriangle {
   Vec3 b, c;
   double reference;
   Vec3 fallback;  // the normal of one that is shrunk to a line
-  [[nodiscard, gnu::always_inline]] formulas::Triangle<SurfaceVector> with(SurfaceVector p) const {
-    const Vec3 n = unit_normal(b - p.v, c - p.v, fallback);
-    return {{p.v, n}, {b, n}, {c, n}};
+  template <class Real>
+  [[nodiscard, gnu::always_inline]] formulas::Triangle<SurfaceVectorOf<Real>> with(SurfaceVectorOf<Real> p) const {
+    const Vec3Of<Real> to_b = point_of<Real>(b), to_c = point_of<Real>(c), n = unit_normal_of<Real>(to_b - p.v, to_c - p.v, fallback);
+    return {{p.v, n}, {to_b, n}, {to_c, n}};
   }
 };
 /// An incident quadrilateral: its other three corners in the element's order.
@@ -27,9 +40,11 @@ struct SurfaceQuadrilateral {
   double reference;
   Vec3 fallback;
   bool is_fixed;  // the normal, whatever the shape: see Curved
-  [[nodiscard]] formulas::Quadrilateral<SurfaceVector> with(SurfaceVector p) const {
-    const Vec3 n = is_fixed ? fallback : unit_normal(c - p.v, d - b, fallback);
-    return {{p.v, n}, {b, n}, {c, n}, {d, n}};
+  template <class Real>
+  [[nodiscard]] formulas::Quadrilateral<SurfaceVectorOf<Real>> with(SurfaceVectorOf<Real> p) const {
+    const Vec3Of<Real> to_b = point_of<Real>(b), to_c = point_of<Real>(c), to_d = point_of<Real>(d);
+    const Vec3Of<Real> n = is_fixed ? point_of<Real>(fallback) : unit_normal_of<Real>(to_c - p.v, to_d - to_b, fallback);
+    return {{p.v, n}, {to_b, n}, {to_c, n}, {to_d, n}};
   }
 };
 
@@ -54,6 +69,17 @@ class SurfaceStarView {
  private:
   const SurfaceStar* star_;
 };
+
+/// The lists of one: see PlanarLists.
+struct SurfaceLists {
+  ListView<SurfaceTriangle> simplices;
+  ListView<SurfaceQuadrilateral> quadrilaterals;
+  template <class F>
+  void for_others(F f) const {
+    for (std::size_t i = 0; i < quadrilaterals.size; ++i) f(quadrilaterals.data[i]);
+  }
+};
+[[nodiscard]] inline SurfaceLists lists_of(const SurfaceStar& star) { return {list_of(star.triangles), list_of(star.quadrilaterals)}; }
 
 /// Fills `out`, whose vectors are reused.
 void gather_star(const MeshView<Curved>& mesh, PositionView positions, Index vertex, SurfaceStar& out);

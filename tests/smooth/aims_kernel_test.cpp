@@ -1,6 +1,7 @@
 // The search for two aims by packs of candidates finds what the plain one finds, to the bit, by any instructions; and speaks for every star
 // that it is meant for.
 
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -103,6 +104,63 @@ TEST(CompositeKernel, FindsWhatThePlainSearchFinds) {
   }
   EXPECT_GT(count.moved, count.vertices / 2);
   EXPECT_GT(count.tangled, 0);
+}
+
+/// Of candidates anywhere the first of the best, whatever the instructions: what a plain loop finds.
+template <class Frame>
+void compare_lists(const std::shared_ptr<const InputMesh>& mesh, const CompositeObjective& composite, testing::Random& random,
+                   Count& count) {
+  using Offset = OffsetIn<Frame, double>;
+  StarJudge<Frame> judge(*mesh, composite);
+  const std::vector<Vec3>& positions = mesh->mesh.positions;
+  JudgedStar<Frame> star;
+  CandidateList candidates;
+  for (Index v = 0; v < positions.size(); ++v) {
+    if (mesh->topology.boundary()[v] != 0 || mesh->topology.star(v).empty()) continue;
+    judge.gather(positions, v, star);
+    if (judge.is_tangled(star)) continue;
+    const auto score = judge.score_of(star, positions, v, false);
+    candidates.clear();
+    for (Index i = 0; i < v % 20; ++i) {  // none, less than a pack, and more; some twice
+      const Vec3 p{random(-0.5, 0.5), random(-0.5, 0.5), std::is_same_v<Frame, Plane> ? 0.0 : random(-0.3, 0.3)};
+      for (Index times = 0; times < 1 + i % 2; ++times) candidates.add(p);
+    }
+    const double here = score({});
+    double best = here;
+    std::size_t first = candidates.size();
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      if (const double value = score(candidates.get<Offset>(i)); value > best) best = value, first = i;
+    CompositeSearch<Frame> task = search_for<Frame>(composite, {});
+    task.star = lists_of(star);
+    for (const SimdLevel level : supported_simd_levels()) {
+      const CompositeBest found = composite_list_kernel<Frame>(level, composite.first)(task, candidates.view(), here);
+      ASSERT_TRUE(found.ready);
+      ASSERT_EQ(found.index, first) << "vertex " << v << ", " << name(level);
+      ASSERT_EQ(found.worth, best) << "vertex " << v << ", " << name(level);
+    }
+    ++count.vertices;
+    count.moved += first < candidates.size() ? 1 : 0;
+  }
+}
+
+TEST(CompositeKernel, FindsTheFirstBestOfAList) {
+  using testing::Cells;
+  testing::Random random(8);
+  Count flat, curved, solid;
+  const auto hilly = [](Vec3 p) { return Vec3{p.x, p.y, 0.1 * std::sin(4 * p.x) * std::cos(3 * p.y)}; };
+  for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals}) {
+    const auto plane = testing::input(testing::lattice(7, 0.4, 47, cells)), hills = testing::input(testing::mapped(plane->mesh, hilly));
+    for (const CompositeObjective& aims : kinds_of_aims(hills)) {
+      if (std::holds_alternative<std::shared_ptr<const SizeField>>(aims.second)) continue;
+      compare_lists<Plane>(plane, aims, random, flat);
+      compare_lists<Curved>(hills, aims, random, curved);
+    }
+  }
+  for (const test::Fill fill : {test::Fill::Tetrahedra, test::Fill::Mixed}) {
+    const auto volume = testing::input(test::volume_grid(3, fill, 0.2));
+    for (const CompositeObjective& aims : kinds_of_aims(volume)) compare_lists<Space>(volume, aims, random, solid);
+  }
+  for (const Count& count : {flat, curved, solid}) EXPECT_GT(count.moved, 20);
 }
 
 /// The floor of the phase that raises the mean is mostly the least of some star: that star is not below it.

@@ -2,22 +2,37 @@
 // The grid search for two aims (composite_dmo.h) of a star without inverted elements: a pack of candidates at a time, in double. The same
 // code compiled for several processors, chosen at run time; each slot gets the bits that the plain search gets, so that it finds the same.
 
+#include <array>
 #include <cstddef>
+#include <vector>
 
 #include "core/quality/metric.h"
 #include "core/search/parameters.h"
 #include "core/search/star.h"
+#include "core/search/surface_star.h"
 
 namespace dmoscope {
 
-/// A star and its aims as plain data. Frame: Plane or Space. Lengths are in units of the star's scale.
+template <class Frame>
+struct CompositeListsOf {
+  using Lists = StarListsIn<Frame, double>;
+};
+template <>
+struct CompositeListsOf<Curved> {
+  using Lists = SurfaceLists;
+};
+/// The lists of a star, whatever the frame: Plane, Space or Curved.
+template <class Frame>
+using CompositeLists = typename CompositeListsOf<Frame>::Lists;
+
+/// A star and its aims as plain data. Lengths are in units of the star's scale.
 template <class Frame>
 struct CompositeSearch {
   using Offset = OffsetIn<Frame, double>;
   enum class Second { Mean, Metric, Density };
 
-  StarListsIn<Frame, double> star;
-  Offset box;
+  CompositeLists<Frame> star;
+  Offset box{};
   int points = 8, levels = 3;
   double omega = 0.5;
 
@@ -45,5 +60,59 @@ using CompositeKernel = CompositeFound<Frame> (*)(const CompositeSearch<Frame>& 
 /// The kernel whose first aim is a metric that is defined for the frame. `level` must be one of supported_simd_levels().
 template <class Frame>
 [[nodiscard]] CompositeKernel<Frame> composite_kernel(SimdLevel level, Metric first);
+
+/// Candidates wherever they are, as plain data: `count` offsets, coordinate by coordinate (of a plane two). Behind the last of each list it
+/// stands again, so that all packs are whole.
+struct CompositeCandidates {
+  std::array<const double*, 3> at{};
+  std::size_t count = 0;
+};
+/// The first of the best candidates.
+struct CompositeBest {
+  bool ready = false;     // false: the search is the plain one's
+  std::size_t index = 0;  // as many as there are where none is better
+  double worth = 0.0;
+};
+/// Of candidates those that are worth more than `best`, which a place is that the star has no inverted elements at.
+template <class Frame>
+using CompositeListKernel = CompositeBest (*)(const CompositeSearch<Frame>& search, const CompositeCandidates& candidates, double best);
+template <class Frame>
+[[nodiscard]] CompositeListKernel<Frame> composite_list_kernel(SimdLevel level, Metric first);
+
+/// Makes such a list.
+class CandidateList {
+ public:
+  void clear() {
+    for (auto& list : at_) list.clear();
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return at_[0].size(); }
+  void add(Vec2<double> p) { add(Vec3{p.x, p.y, 0.0}); }
+  void add(Vec3 p) { at_[0].push_back(p.x), at_[1].push_back(p.y), at_[2].push_back(p.z); }
+  void add(SurfaceVector p) { add(p.v); }
+  template <class Offset>
+  [[nodiscard]] Offset get(std::size_t i) const {
+    if constexpr (std::is_same_v<Offset, Vec2<double>>)
+      return {at_[0][i], at_[1][i]};
+    else if constexpr (std::is_same_v<Offset, Vec3>)
+      return {at_[0][i], at_[1][i], at_[2][i]};
+    else
+      return {{at_[0][i], at_[1][i], at_[2][i]}, {}};
+  }
+  /// Valid until it changes.
+  [[nodiscard]] CompositeCandidates view() {
+    CompositeCandidates result{{}, size()};
+    for (std::size_t axis = 0; axis < at_.size(); ++axis) {
+      auto& list = at_[axis];
+      list.reserve(list.size() + kWidest);
+      for (std::size_t i = 0; i < kWidest && result.count > 0; ++i) list.data()[result.count + i] = list[result.count - 1];
+      result.at[axis] = list.data();
+    }
+    return result;
+  }
+
+ private:
+  static constexpr std::size_t kWidest = 8;  // doubles of the widest pack
+  std::array<std::vector<double>, 3> at_;
+};
 
 }  // namespace dmoscope

@@ -15,16 +15,16 @@ namespace dmoscope::composite {
 /// Calls f.template operator()<M>() with a metric of the frame.
 template <class Frame, class F>
 [[gnu::always_inline]] inline decltype(auto) with_metric_of(Metric metric, F f) {
-  if constexpr (std::is_same_v<Frame, Plane>)
-    return formulas::with_planar_metric(metric, f);
-  else
+  if constexpr (std::is_same_v<Frame, Space>)
     return formulas::with_volume_metric(metric, f);
+  else
+    return formulas::with_planar_metric(metric, f);
 }
 
 /// What Objective asks of a star.
 template <class Frame>
 struct Lists {
-  const StarListsIn<Frame, double>* star;
+  const CompositeLists<Frame>* star;
   template <bool Others, class F>
   void for_each(F f) const {
     for (std::size_t i = 0; i < star->simplices.size; ++i) f(star->simplices.data[i]);
@@ -73,7 +73,7 @@ struct Sieve {
 
 /// Finds what stays of the elements that are no simplices.
 template <Metric M, class Frame, class D>
-void find_elsewhere(const StarListsIn<Frame, double>& star, Sieve<D>& sieve) {
+void find_elsewhere(const CompositeLists<Frame>& star, Sieve<D>& sieve) {
   std::size_t k = 0;
   star.for_others([&](const auto& element) {
     const auto shape = element.with(OffsetIn<Frame, D>{});
@@ -84,7 +84,7 @@ void find_elsewhere(const StarListsIn<Frame, double>& star, Sieve<D>& sieve) {
 
 /// `least`: of the simplices.
 template <Metric M, class Frame, class D, class Hopeful>
-D least_of_others(const StarListsIn<Frame, double>& star, const OffsetIn<Frame, D>& p, Sieve<D>& sieve, D least, const Hopeful& hopeful) {
+D least_of_others(const CompositeLists<Frame>& star, const OffsetIn<Frame, D>& p, Sieve<D>& sieve, D least, const Hopeful& hopeful) {
   using scalar::min;
   bool goes_on = true;
   std::size_t k = 0;
@@ -111,7 +111,7 @@ D least_of_others(const StarListsIn<Frame, double>& star, const OffsetIn<Frame, 
 /// The least of a metric with the vertex at each of the places, as Objective finds it; where no slot is hopeful any more, hopeful(least so
 /// far), whatever it is then.
 template <Metric M, class Frame, class D, class Hopeful>
-D least_at(const StarListsIn<Frame, double>& star, const OffsetIn<Frame, D>& p, Sieve<D>& sieve, const Hopeful& hopeful) {
+D least_at(const CompositeLists<Frame>& star, const OffsetIn<Frame, D>& p, Sieve<D>& sieve, const Hopeful& hopeful) {
   using Point = OffsetIn<Frame, D>;
   using scalar::min;
   D least(static_cast<double>(std::numeric_limits<float>::max()));
@@ -134,9 +134,9 @@ D least_at(const StarListsIn<Frame, double>& star, const OffsetIn<Frame, D>& p, 
 /// `threshold` plus the least value of the second metric; in slots where that does not exceed `best`, any value that does not either. One
 /// function for each metric, so that no kernel is needed for each pair of metrics.
 template <class Frame, class D>
-using SecondMetric = D (*)(const StarListsIn<Frame, double>& star, const OffsetIn<Frame, D>& p, Sieve<D>& sieve, D threshold, D best);
+using SecondMetric = D (*)(const CompositeLists<Frame>& star, const OffsetIn<Frame, D>& p, Sieve<D>& sieve, D threshold, D best);
 template <Metric M, class Frame, class D>
-D second_metric(const StarListsIn<Frame, double>& star, const OffsetIn<Frame, D>& p, Sieve<D>& sieve, D threshold, D best) {
+D second_metric(const CompositeLists<Frame>& star, const OffsetIn<Frame, D>& p, Sieve<D>& sieve, D threshold, D best) {
   return threshold + least_at<M, Frame, D>(star, p, sieve, [&](D least) { return xsimd::any(threshold + least > best); });
 }
 
@@ -145,11 +145,14 @@ template <Metric M, class Frame, class D>
 class Kernel {
  public:
   static CompositeFound<Frame> run(const CompositeSearch<Frame>& task) {
-    std::size_t others = 0;
-    task.star.for_others([&others](const auto&) { ++others; });
-    if (task.star.simplices.size > kMaxSimplices || others > kMaxOthers || task.points > kMaxCompositePoints) return {};
+    if (!has_room(task) || task.points > kMaxCompositePoints) return {};
     Kernel kernel(task);
     return kernel.search();
+  }
+  static CompositeBest run_list(const CompositeSearch<Frame>& task, const CompositeCandidates& candidates, double best) {
+    if (!has_room(task) || !(best > 0.0)) return {};
+    Kernel kernel(task);
+    return kernel.best_of(candidates, best);
   }
 
  private:
@@ -161,6 +164,12 @@ class Kernel {
   static constexpr std::size_t kMaxPoints = kMaxCompositePoints;
   static constexpr std::size_t kMaxPlane = kMaxPoints * kMaxPoints + kWidth;
 
+  static bool has_room(const Task& task) {
+    std::size_t others = 0;
+    task.star.for_others([&others](const auto&) { ++others; });
+    return task.star.simplices.size <= kMaxSimplices && others <= kMaxOthers;
+  }
+
   explicit Kernel(const Task& task)
       : task_(task), first_(task.star.simplices.size, task.second == Second::Mean), second_(task.star.simplices.size, false) {
     if (task.second == Second::Metric)
@@ -168,11 +177,11 @@ class Kernel {
           with_metric_of<Frame>(task.metric, []<Metric Other>() -> SecondMetric<Frame, D> { return &second_metric<Other, Frame, D>; });
     if constexpr (formulas::kSignTellsInversion<M, Point> && formulas::kDefinedForOthers<M, Point>)
       if (first_.keeps_others) find_elsewhere<M, Frame>(task.star, first_);
-    const auto n = static_cast<std::size_t>(task_.points);
-    for (std::size_t i = 0; i < n; ++i) part_[i] = static_cast<double>(i) / static_cast<double>(n - 1) - 0.5;
   }
 
   CompositeFound<Frame> search() {
+    const auto n = static_cast<std::size_t>(task_.points);
+    for (std::size_t i = 0; i < n; ++i) part_[i] = static_cast<double>(i) / static_cast<double>(n - 1) - 0.5;
     CompositeFound<Frame> found;
     best_ = worth(Point{}, D(-1.0)).get(0);
     found.ready = best_ > 0.0;
@@ -186,6 +195,28 @@ class Kernel {
       found.offset = {at_[2], at_[0], at_[1]};
     else
       found.offset = {at_[0], at_[1]};
+    return found;
+  }
+
+  CompositeBest best_of(const CompositeCandidates& candidates, double best) {
+    best_ = best;
+    CompositeBest found{true, candidates.count, best};
+    for (std::size_t c = 0; c < candidates.count; c += kWidth) {
+      const auto along = [&](std::size_t axis) { return D::load_unaligned(candidates.at[axis] + c); };
+      Point p;
+      if constexpr (std::is_same_v<Frame, Plane>)
+        p = {along(0), along(1)};
+      else if constexpr (kSpace)
+        p = {along(0), along(1), along(2)};
+      else
+        p.v = {along(0), along(1), along(2)};
+      const D value = worth(p, D(best_));
+      if (!xsimd::any(value > D(best_))) continue;
+      alignas(64) double values[kWidth];
+      value.store_aligned(values);
+      for (std::size_t k = 0; k < kWidth; ++k)
+        if (values[k] > best_) best_ = values[k], found = {true, c + k, best_};
+    }
     return found;
   }
 
@@ -205,9 +236,12 @@ class Kernel {
     const D threshold(task_.threshold);
     if (task_.second == Second::Metric) return second_metric_(task_.star, p, second_, threshold, best);
     if (task_.second == Second::Mean) return threshold + mean(p);
-    if (!(task_.edge > 0.0)) return threshold;
-    const Point away = p - point_of<D>(task_.wanted);
-    return threshold + D(1.0) / (D(1.0) + dot(away, away) / D(task_.edge * task_.edge));
+    if constexpr (!std::is_same_v<Frame, Curved>) {  // sizes are of planar meshes
+      if (!(task_.edge > 0.0)) return threshold;
+      const Point away = p - point_of<D>(task_.wanted);
+      return threshold + D(1.0) / (D(1.0) + dot(away, away) / D(task_.edge * task_.edge));
+    }
+    return threshold;
   }
   /// Over all elements, as they were found just before.
   [[nodiscard]] D mean(const Point& p) const {
@@ -294,6 +328,10 @@ class Kernel {
 template <class Frame, class D>
 CompositeKernel<Frame> kernel_for(Metric first) {
   return with_metric_of<Frame>(first, []<Metric M>() -> CompositeKernel<Frame> { return &Kernel<M, Frame, D>::run; });
+}
+template <class Frame, class D>
+CompositeListKernel<Frame> list_kernel_for(Metric first) {
+  return with_metric_of<Frame>(first, []<Metric M>() -> CompositeListKernel<Frame> { return &Kernel<M, Frame, D>::run_list; });
 }
 
 }  // namespace dmoscope::composite

@@ -41,7 +41,7 @@ struct Slide<Frame>::Visit {
   double scale;
   bool tangled;
   const CompositeScore<Frame>& score;
-  OverlayRoom& room;
+  Scratch& scratch;
   mutable std::optional<Fit> fit_now{};  // of the faces around, once it is known
 };
 
@@ -63,9 +63,16 @@ Slide<Frame>::Slide(const SmoothingTask& task, CompositeObjective composite, Sli
       choice_(choice),
       max_deviation_(task.max_deviation),
       single_precision_(task.input->mesh.single_precision) {
-  if (std::is_same_v<Frame, Curved> && task.search.precision != Precision::Double)
-    kernel_ = composite_kernel<Plane>(task.search.simd.value_or(best_simd_level()), judge_.composite().first);
-  if (domain_ != nullptr && domain_->facets().any()) last_facet_.assign(task.input->mesh.positions.size(), kNoIndex);
+  const CompositeObjective& aims = judge_.composite();
+  if (task.search.precision != Precision::Double) {
+    const SimdLevel level = task.search.simd.value_or(best_simd_level());
+    if (std::is_same_v<Frame, Curved>) flat_kernel_ = composite_kernel<Plane>(level, aims.first);
+    if (!std::holds_alternative<std::shared_ptr<const SizeField>>(aims.second))
+      list_kernel_ = composite_list_kernel<Frame>(level, aims.first);
+  }
+  flat_aims_ = search_for<Plane>(aims, parameters_);
+  aims_ = search_for<Frame>(aims, parameters_);
+  if (domain_ != nullptr && domain_->facets().any()) found_.resize(task.input->mesh.positions.size());
 }
 
 template <class Frame>
@@ -79,16 +86,36 @@ std::optional<Vec3> Slide<Frame>::target(PositionView positions, Index vertex, S
   const bool tangled = judge_.is_tangled(scratch.star);
   if (judge_.untangling().repair && choice_.must_gain && !tangled) return std::nullopt;
   const auto score = judge_.score_of(scratch.star, positions, vertex, tangled);
-  const Visit visit{vertex, positions[vertex], positions, scratch.star.scale, tangled, score, scratch.room};
-  return domain_->on_curve(vertex) ? along_curve(visit) : on_surface(visit, scratch);
+  const Visit visit{vertex, positions[vertex], positions, scratch.star.scale, tangled, score, scratch};
+  return domain_->on_curve(vertex) ? along_curve(visit) : on_surface(visit);
 }
 
-/// What a place is worth, or no more than `best`; -infinity where it is not between the neighbours.
+/// In units of the star's scale.
 template <class Frame>
-double Slide<Frame>::worth(const Visit& visit, const Stretch& stretch, double place, double best) const {
-  if (!(stretch.beside.place_before < place && place < stretch.beside.place_after)) return kNothing;
-  const Vec3 there = domain_->curves().at(visit.vertex, place);
-  return visit.score(times(mesh_.frame.offset(there, visit.here), 1.0 / visit.scale), best);
+typename Slide<Frame>::Offset Slide<Frame>::offset_to(const Visit& visit, Vec3 there) const {
+  return times(mesh_.frame.offset(there, visit.here), 1.0 / visit.scale);
+}
+
+/// Of the candidates that were listed the first of those that are worth most, if that is more than `best`, which it becomes; else their
+/// number. By packs where that can be; that finds the same.
+template <class Frame>
+std::size_t Slide<Frame>::first_best(const Visit& visit, double& best) const {
+  CandidateList& candidates = visit.scratch.candidates;
+  if (list_kernel_ != nullptr && !visit.tangled) {
+    CompositeSearch<Frame> task = aims_;
+    task.star = lists_of(visit.scratch.star);
+    const CompositeBest found = list_kernel_(task, candidates.view(), best);
+    if (found.ready) {
+      best = found.worth;
+      return found.index;
+    }
+  }
+  std::size_t first = candidates.size();
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const double value = visit.score(candidates.get<Offset>(i), best);
+    if (value > best) best = value, first = i;
+  }
+  return first;
 }
 
 /// The place that the method chooses; the vertex's own where none is better.
@@ -103,22 +130,31 @@ double Slide<Frame>::search(const Visit& visit, const Stretch& stretch) const {
     case SlideChoice::By::Compass:
       break;
   }
-  const auto from_here = [&](double way) { return way == 0.0 ? visit.score({}) : worth(visit, stretch, stretch.place + way, kNothing); };
+  const auto from_here = [&](double way) {
+    const double place = stretch.place + way;
+    if (way == 0.0) return visit.score({});
+    return before < place && place < after ? visit.score(offset_to(visit, domain_->curves().at(visit.vertex, place))) : kNothing;
+  };
   return stretch.place + compass_search<double>(from_here, 0.5 * (after - before));
 }
 
 template <class Frame>
 double Slide<Frame>::search_grid(const Visit& visit, const Stretch& stretch) const {
-  const int candidates = parameters_.grid_points * parameters_.grid_points;
+  const int count = parameters_.grid_points * parameters_.grid_points;
+  CandidateList& candidates = visit.scratch.candidates;
+  std::vector<double>& places = visit.scratch.places;
   double best = stretch.place, objective = visit.score({}), omega = parameters_.omega;
   for (int level = 0; level < parameters_.levels; ++level) {
-    const double centre = best, width = omega * (stretch.beside.place_after - stretch.beside.place_before);
-    for (int i = 0; i < candidates; ++i) {
-      const double place = centre + width * (static_cast<double>(i) / (candidates - 1) - 0.5);
-      const double value = worth(visit, stretch, place, objective);
-      if (value > objective) best = place, objective = value;
+    const double width = omega * (stretch.beside.place_after - stretch.beside.place_before);
+    candidates.clear(), places.clear();
+    for (int i = 0; i < count; ++i) {
+      const double place = best + width * (static_cast<double>(i) / (count - 1) - 0.5);
+      if (!(stretch.beside.place_before < place && place < stretch.beside.place_after)) continue;
+      candidates.add(offset_to(visit, domain_->curves().at(visit.vertex, place)));
+      places.push_back(place);
     }
-    omega *= 2.0 / (candidates - 1);
+    if (const std::size_t found = first_best(visit, objective); found < places.size()) best = places[found];
+    omega *= 2.0 / (count - 1);
   }
   return best;
 }
@@ -173,7 +209,7 @@ std::optional<Vec3> Slide<Frame>::along_curve(const Visit& visit) const {
 template <class Frame>
 bool Slide<Frame>::fits(const Visit& visit, Vec3 target, const FacetPlace* here, const FacetPlace* there) const {
   if (!domain_->facets().any()) return true;
-  Overlay overlay(*domain_, visit.room);
+  Overlay overlay(*domain_, visit.scratch.room);
   const Fit bound{max_deviation_, max_deviation_, kLeastCosine};
   if (is_within(overlay.star(visit.positions, visit.vertex, target, there, bound), bound)) return true;
   // No worse than it is now will do, too.
@@ -195,28 +231,28 @@ struct Slide<Frame>::Tangent {
 
 /// The winner in the tangent plane, of elements as they look from above; none where the kernel does not take the star.
 template <class Frame>
-std::optional<Vec2<double>> Slide<Frame>::search_flat(const Tangent& tangent, Scratch& scratch) const {
+std::optional<Vec2<double>> Slide<Frame>::search_flat(const Visit& visit, const Tangent& tangent) const {
   if constexpr (!std::is_same_v<Frame, Curved>) {
     return std::nullopt;
   } else {
-    if (kernel_ == nullptr) return std::nullopt;
-    Star<double>& flat = scratch.flat;
+    if (flat_kernel_ == nullptr) return std::nullopt;
+    Star<double>& flat = visit.scratch.flat;
     flat.triangles.clear();
     flat.quadrilaterals.clear();
     const auto from_above = [&](Vec3 p) { return tangent.plane.project(p); };
-    for (const SurfaceTriangle& t : scratch.star.triangles) {
+    for (const SurfaceTriangle& t : visit.scratch.star.triangles) {
       const Vec2<double> b = from_above(t.b), c = from_above(t.c);
       flat.triangles.push_back(cross(b, c) > 0.0 ? StarTriangle<double>{b, c, 1.0} : StarTriangle<double>{c, b, 1.0});
     }
-    for (const SurfaceQuadrilateral& q : scratch.star.quadrilaterals) {
+    for (const SurfaceQuadrilateral& q : visit.scratch.star.quadrilaterals) {
       const Vec2<double> b = from_above(q.b), c = from_above(q.c), d = from_above(q.d);
       flat.quadrilaterals.push_back(cross(c, d - b) > 0.0 ? StarQuadrilateral<double>{b, c, d, 1.0}
                                                           : StarQuadrilateral<double>{d, c, b, 1.0});
     }
-    CompositeSearch<Plane> task = search_for<Plane>(judge_.composite(), parameters_);
+    CompositeSearch<Plane> task = flat_aims_;
     task.star = lists_of(flat);
     task.box = tangent.box;
-    const CompositeFound<Plane> found = kernel_(task);
+    const CompositeFound<Plane> found = flat_kernel_(task);
     return found.ready ? std::optional(found.offset) : std::nullopt;
   }
 }
@@ -225,23 +261,40 @@ std::optional<Vec2<double>> Slide<Frame>::search_flat(const Tangent& tangent, Sc
 template <class Frame>
 Vec2<double> Slide<Frame>::search_on_surface(const Visit& visit, const Tangent& tangent) const {
   const Facets& facets = domain_->facets();
-  const auto worth_at = [&](Vec2<double> p, double best) {
+  const FacetWalks walks(facets, tangent.place.facet, tangent.plane, visit.here, kSteepest, visit.scratch.walks);
+  if (choice_.by == SlideChoice::By::Grid) return search_grid(visit, tangent, walks);
+  const auto worth_at = [&](Vec2<double> p) {
     if (p == Vec2<double>{}) return visit.score({});
-    const auto found = facets.walk(tangent.place.facet, tangent.plane, visit.here, times(p, visit.scale), kSteepest);
-    return found ? visit.score(times(mesh_.frame.offset(facets.at(*found), visit.here), 1.0 / visit.scale), best) : kNothing;
+    const auto found = walks.to(times(p, visit.scale));
+    return found ? visit.score(offset_to(visit, facets.at(*found))) : kNothing;
   };
-  if (choice_.by == SlideChoice::By::Compass) {
-    double sum = 0.0, count = 0.0;
-    for_neighbours_on_surface(visit, [&](Vec3 way) { sum += length(way), count += 1.0; });
-    return compass_search<Vec2<double>>([&](Vec2<double> p) { return worth_at(p, kNothing); }, sum / (count * visit.scale));
+  double sum = 0.0, count = 0.0;
+  for_neighbours_on_surface(visit, [&](Vec3 way) { sum += length(way), count += 1.0; });
+  return compass_search<Vec2<double>>(worth_at, sum / (count * visit.scale));
+}
+
+/// As grid_search() has it; a level at once.
+template <class Frame>
+Vec2<double> Slide<Frame>::search_grid(const Visit& visit, const Tangent& tangent, const FacetWalks& walks) const {
+  CandidateList& candidates = visit.scratch.candidates;
+  std::vector<Vec2<double>>& steps = visit.scratch.steps;
+  Vec2<double> best{};
+  double objective = visit.score({}), omega = parameters_.omega;
+  for (int level = 0; level < parameters_.levels; ++level) {
+    const CandidateGrid<double> grid{best, times(tangent.box, omega), parameters_.grid_points};
+    candidates.clear(), steps.clear();
+    for (int i = 0; i < grid.points; ++i) {
+      grid.for_slice(i, [&](int /*index*/, Vec2<double> step) {
+        const auto found = step == Vec2<double>{} ? std::nullopt : walks.to(times(step, visit.scale));
+        if (!found) return;  // or where it stands: no better than that
+        candidates.add(offset_to(visit, domain_->facets().at(*found)));
+        steps.push_back(step);
+      });
+    }
+    if (const std::size_t found = first_best(visit, objective); found < steps.size()) best = steps[found];
+    omega *= 2.0 / (grid.points - 1);
   }
-  double best = kNothing;
-  const auto worth_beyond = [&](Vec2<double> p) {
-    const double value = worth_at(p, best);
-    best = std::max(best, value);
-    return value;
-  };
-  return grid_search<double>(worth_beyond, tangent.box, parameters_).offset;
+  return best;
 }
 
 /// Calls f(way) with the way to the other end of each edge of the surface at the vertex; each comes twice.
@@ -277,25 +330,37 @@ std::optional<Vec3> Slide<Frame>::possible_on_surface(const Visit& visit, const 
       target = {nearest_float(target.x), nearest_float(target.y), nearest_float(target.z)};
       if (!facets.place(visit.vertex, target)) continue;
     }
-    if (may_go(visit, target) && fits(visit, target, &tangent.place, &*there)) return target;
+    if (!may_go(visit, target) || !fits(visit, target, &tangent.place, &*there)) continue;
+    Found& found = found_[visit.vertex];
+    found.place.facet = there->facet;  // where to look next time
+    found.valid = false;
+    return target;
   }
   return std::nullopt;
 }
 
 template <class Frame>
-std::optional<Vec3> Slide<Frame>::on_surface(const Visit& visit, Scratch& scratch) const {
+std::optional<FacetPlace> Slide<Frame>::place_on_surface(const Visit& visit) const {
+  Found& found = found_[visit.vertex];
+  if (found.valid && found.position == visit.here) return found.place;
+  const auto place = domain_->facets().place(visit.vertex, visit.here, found.place.facet);
+  found.valid = place.has_value();
+  if (place) found.position = visit.here, found.place = *place;
+  return place;
+}
+
+template <class Frame>
+std::optional<Vec3> Slide<Frame>::on_surface(const Visit& visit) const {
   if constexpr (!std::is_same_v<Frame, Plane>) {
-    Index& last_facet = last_facet_[visit.vertex];
-    const auto place = domain_->facets().place(visit.vertex, visit.here, last_facet);
+    const auto place = place_on_surface(visit);
     if (!place) return std::nullopt;
-    last_facet = place->facet;
     const Vec3 normal = domain_->facets().normal(*place);
     if (normal == Vec3{}) return std::nullopt;
     Tangent tangent{*place, tangent_plane(normal), {}};
     if (choice_.by == SlideChoice::By::Mean) return possible_on_surface(visit, tangent, step_to_mean(visit, tangent));
     tangent.box = box_of_star(mesh_, visit.positions, visit.vertex, tangent.plane, visit.scale);
     if (!visit.tangled && choice_.by == SlideChoice::By::Grid) {
-      if (const auto step = search_flat(tangent, scratch)) {
+      if (const auto step = search_flat(visit, tangent)) {
         if (*step == Vec2<double>{}) return std::nullopt;
         if (const auto target = possible_on_surface(visit, tangent, *step)) return target;
       }

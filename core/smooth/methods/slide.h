@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/reference/facet_walk.h"
 #include "core/reference/overlay.h"
 #include "core/smooth/methods/composite_dmo.h"
 
@@ -45,6 +46,10 @@ class Slide {
   struct Scratch {
     JudgedStar<Frame> star;
     Star<double> flat;  // of a curved surface: the star in the tangent plane
+    CandidateList candidates;
+    std::vector<double> places;       // of the candidates on a curve
+    std::vector<Vec2<double>> steps;  // of those on a surface, in the tangent plane
+    FacetWalks::Room walks;
     OverlayRoom room;
   };
   /// `composite`: what the vertices aim at.
@@ -61,14 +66,17 @@ class Slide {
   struct Stretch;
   [[nodiscard]] std::optional<Vec3> along_curve(const Visit& visit) const;
   struct Tangent;
-  [[nodiscard]] std::optional<Vec3> on_surface(const Visit& visit, Scratch& scratch) const;
-  [[nodiscard]] std::optional<Vec2<double>> search_flat(const Tangent& tangent, Scratch& scratch) const;
+  [[nodiscard]] std::optional<Vec3> on_surface(const Visit& visit) const;
+  [[nodiscard]] std::optional<FacetPlace> place_on_surface(const Visit& visit) const;
+  [[nodiscard]] std::optional<Vec2<double>> search_flat(const Visit& visit, const Tangent& tangent) const;
   [[nodiscard]] Vec2<double> search_on_surface(const Visit& visit, const Tangent& tangent) const;
+  [[nodiscard]] Vec2<double> search_grid(const Visit& visit, const Tangent& tangent, const FacetWalks& walks) const;
+  [[nodiscard]] std::size_t first_best(const Visit& visit, double& best) const;
   template <class F>
   void for_neighbours_on_surface(const Visit& visit, const F& f) const;
   [[nodiscard]] Vec2<double> step_to_mean(const Visit& visit, const Tangent& tangent) const;
   [[nodiscard]] std::optional<Vec3> possible_on_surface(const Visit& visit, const Tangent& tangent, Vec2<double> step) const;
-  [[nodiscard]] double worth(const Visit& visit, const Stretch& stretch, double place, double best) const;
+  [[nodiscard]] Offset offset_to(const Visit& visit, Vec3 there) const;
   [[nodiscard]] double search(const Visit& visit, const Stretch& stretch) const;
   [[nodiscard]] double search_grid(const Visit& visit, const Stretch& stretch) const;
   [[nodiscard]] std::optional<Vec3> possible(const Visit& visit, const Stretch& stretch, double place) const;
@@ -79,13 +87,22 @@ class Slide {
   std::shared_ptr<const Domain> domain_;  // null: nothing slides
   StarJudge<Frame> judge_;
   MeshView<Frame> mesh_;
-  CompositeKernel<Plane> kernel_ = nullptr;  // of a curved surface
+  CompositeKernel<Plane> flat_kernel_ = nullptr;      // of a curved surface
+  CompositeListKernel<Frame> list_kernel_ = nullptr;  // null: the plain search alone
+  CompositeSearch<Plane> flat_aims_;                  // for the kernels
+  CompositeSearch<Frame> aims_;
   SearchParameters parameters_;
   SlideChoice choice_;
   double max_deviation_;
   bool single_precision_;
-  // By vertex, the facet that it was last seen on: where to look first. No result depends on it, and one visit at a time looks at it.
-  mutable std::vector<Index> last_facet_;
+  /// Where a vertex was last found on the surface. A place follows from the position, so no result depends on it; one visit at a time looks
+  /// at it.
+  struct Found {
+    Vec3 position{};
+    FacetPlace place{};  // facet: from where on to look for another position; kNoIndex: not found yet
+    bool valid = false;  // of the position
+  };
+  mutable std::vector<Found> found_;  // by vertex
 };
 
 /// A rule for vertices that are free, and for those that slide.

@@ -138,6 +138,7 @@ class Look {
     if (standing_[v] == 0) return Holding::Hand;
     switch (q_.domain != nullptr ? q_.domain->held_on(v) : HeldOn::Nothing) {
       case HeldOn::Corner:
+      case HeldOn::Hand:
         return Holding::Corner;
       case HeldOn::Junction:
       case HeldOn::End:
@@ -165,12 +166,22 @@ class Look {
       if (one.by == Holding::Hand) by_hand += fmt::format("{}{}", by_hand.empty() ? "" : " ", one.vertex);
     if (!by_hand.empty()) all.push_back({"unfix", by_hand, Holding::Hand});
     if (!slides) return all;
+    if (const std::string made = made_corners(found); !made.empty()) all.push_back({"auto-corner", made, Holding::Corner});
     if (any(Holding::Boundary)) all.push_back({"boundary", "slide", Holding::Boundary});
     if (any(Holding::Interface) && q_.rule.interfaces == InterfaceRule::Fixed) all.push_back({"interfaces", "slide", Holding::Interface});
     if (q_.domain != nullptr) add_angles(found, all);
     if (any(Holding::Slides) && q_.max_deviation < 1.0)
       all.push_back({"max-deviation", fmt::format("{:.6g}", std::min(1.0, kMoreDeviation * q_.max_deviation)), Holding::Deviation});
     return all;
+  }
+
+  /// "4 7": those that a person made corners.
+  [[nodiscard]] std::string made_corners(const HeldMinimum& found) const {
+    std::string text;
+    for (const HeldVertex& one : found.vertices)
+      if (one.by == Holding::Corner && q_.rule.kinds.has_corner(one.vertex))
+        text += fmt::format("{}{}", text.empty() ? "" : " ", one.vertex);
+    return text;
   }
 
   /// The least angles that would make something else of the vertices, and the greatest.
@@ -239,6 +250,8 @@ class Look {
     if (change.name == "interfaces") then.rule.interfaces = InterfaceRule::Slide;
     if (change.name == "corner-angle") then.rule.corner_angle = std::stod(change.value);
     if (change.name == "feature-angle") then.rule.feature_angle = std::stod(change.value);
+    if (change.name == "auto-corner")
+      std::erase_if(then.rule.kinds.corners, [&](Index v) { return std::ranges::find(corners(), v) != corners().end(); });
     if (change.name == "max-deviation") then.max_deviation = std::stod(change.value);
     if (change.name == "unfix") std::erase_if(then.by_hand, [&](Index v) { return std::ranges::find(corners(), v) != corners().end(); });
     std::shared_ptr<const Domain> made;
@@ -261,7 +274,7 @@ class Look {
     task.colouring = std::make_shared<const Colouring>(colour_vertices(mesh_, q_.input->topology, free));
     task.metric = q_.metric;
     task.search = q_.search;
-    task.slides = then.rule.slides();
+    task.slides = lets_slide(*q_.input, then.rule);
     task.domain = std::shared_ptr<const Domain>(std::shared_ptr<const Domain>(), domain);  // borrowed: it outlives the trial
     task.max_deviation = then.max_deviation * q_.input->geometry.size;
     std::vector<Vec3> positions(q_.positions.begin(), q_.positions.end());
@@ -333,7 +346,8 @@ std::string_view name(Holding holding) noexcept { return kNames[static_cast<std:
 std::string_view phrase(Holding holding) noexcept { return kPhrases[static_cast<std::size_t>(holding)]; }
 
 std::string HoldSwitch::option() const {
-  return name == "unfix" ? fmt::format("--fix without {}", value) : fmt::format("--{} {}", name, value);
+  if (name == "unfix") return fmt::format("--fix without {}", value);
+  return name == "auto-corner" ? fmt::format("--corner without {}", value) : fmt::format("--{} {}", name, value);
 }
 
 bool HeldMinimum::rises() const noexcept { return gains(quality, unchanged); }

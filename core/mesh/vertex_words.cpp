@@ -67,6 +67,14 @@ class VertexWord {
     return std::move(found_);
   }
 
+  [[nodiscard]] std::vector<const Group*> named_groups() const {
+    const std::size_t colon = word_.find(':');
+    const std::string_view head = word_.substr(0, colon == std::string_view::npos ? 0 : colon);
+    if (head == "group") return require_groups(word_.substr(colon + 1), "");
+    if (head == "points" || head == "lines" || head == "faces" || head == "elements") return require_groups(word_.substr(colon + 1), head);
+    return require_groups(word_, "");
+  }
+
  private:
   [[noreturn]] void fail(const std::string& what) const { throw UsageError(fmt::format("{}: {}", word_, what)); }
   [[noreturn]] void fail_choice(const std::vector<std::string>& choices) const {
@@ -123,7 +131,7 @@ class VertexWord {
     return precise.size() == 1 ? short_ones : precise;
   }
 
-  void groups(std::string_view name, std::string_view of) {
+  std::vector<const Group*> require_groups(std::string_view name, std::string_view of) const {
     const auto called = groups_called(name, of);
     if (called.empty()) {
       std::vector<std::string> names;
@@ -134,7 +142,11 @@ class VertexWord {
     }
     const auto ways = ways_to_say(called);
     if (ways.size() > 1) fail_choice(ways);
-    for (const Group* group : called) {
+    return called;
+  }
+
+  void groups(std::string_view name, std::string_view of) {
+    for (const Group* group : require_groups(name, of)) {
       const auto some = vertices_of(mesh_, *group);
       found_.insert(found_.end(), some.begin(), some.end());
     }
@@ -245,6 +257,8 @@ class VertexWord {
 };
 
 }  // namespace
+
+std::vector<const Group*> groups_named(const Mesh& mesh, std::string_view word) { return VertexWord(mesh, word).named_groups(); }
 
 std::vector<Index> vertices_named(const Mesh& mesh, std::string_view word) { return VertexWord(mesh, word).vertices(); }
 

@@ -27,6 +27,10 @@ inline constexpr std::string_view kVertexWords =
 /// that can mean more than one thing, with the choices.
 [[nodiscard]] std::vector<Index> vertices_named(const Mesh& mesh, std::string_view word);
 
+/// The groups that one word names: group:NAME, points:NAME, lines:NAME, faces:NAME, elements:NAME, or a name alone; by its name, or else by
+/// its number in the file. Throws UsageError, which begins with the word: for one that names none, and for one that can mean several kinds.
+[[nodiscard]] std::vector<const Group*> groups_named(const Mesh& mesh, std::string_view word);
+
 /// The vertices that any of several words names.
 [[nodiscard]] std::vector<Index> vertices_named(const Mesh& mesh, std::span<const std::string> words);
 

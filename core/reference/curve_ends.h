@@ -17,7 +17,8 @@ enum class HeldOn : std::uint8_t {
   End,       // a feature edge ends there
   Touching,  // parts of the surface touch there, or it cannot be wound alike
   Named,     // the file gives it a meaning
-  Rule       // boundary or interfaces stay
+  Rule,      // boundary or interfaces stay
+  Hand       // a person made it a corner
 };
 
 /// A vertex slides between two neighbours once exactly two edges of curves have met at it, unless it is held.

@@ -20,6 +20,7 @@ Domain::Domain(const InputMesh& input, const StandingRule& rule, SurfaceEnds end
     segments_.push_back({std::min(from, to), std::max(from, to), curve, static_cast<Index>(segment)});
   });
   std::ranges::sort(segments_);
+  if (input.geometry.shape == Shape::Planar) said_ = rule.kinds.features;
   if (facets_.any()) {
     std::vector<std::uint8_t> may(ends.curves.size());
     for (Index v = 0; v < may.size(); ++v) may[v] = ends.curves.off(v) ? 1 : 0;
@@ -45,8 +46,8 @@ bool Domain::is_within(std::span<const Curves::Stretch> stretches, Index a, Inde
                              [&](const auto& stretch) { return stretch.curve == found->curve && stretch.holds(found->segment); });
 }
 
-std::vector<std::array<Index, 2>> Domain::feature_edges() const {
-  std::vector<std::array<Index, 2>> edges;
+std::vector<EdgeEnds> Domain::feature_edges() const {
+  std::vector<EdgeEnds> edges = said_;
   for (const Segment& segment : segments_) edges.push_back({segment.low, segment.high});
   for (const FacetSide& side : facets_.sides()) edges.push_back({side.low, side.high});
   std::ranges::sort(edges);
@@ -54,11 +55,18 @@ std::vector<std::array<Index, 2>> Domain::feature_edges() const {
   return edges;
 }
 
+bool Domain::is_feature(Index a, Index b) const {
+  const Segment edge{std::min(a, b), std::max(a, b), 0, 0};
+  const auto found = std::ranges::lower_bound(segments_, edge);
+  const bool on_curve = found != segments_.end() && found->low == edge.low && found->high == edge.high;
+  return on_curve || std::ranges::binary_search(said_, edge_ends(a, b)) || !facets_.sides_of(a, b).empty();
+}
+
 std::string_view Domain::why_held(Index vertex) const {
-  constexpr std::array<std::string_view, 7> kWhy{
+  constexpr std::array<std::string_view, 8> kWhy{
       {"", "it is a corner: the boundary or feature edge turns there by more than the corner angle", "feature edges meet there",
        "a feature edge ends there", "parts of the mesh touch there, or cannot be wound alike", "the file gives it a meaning",
-       "what it lies on stays"}};
+       "what it lies on stays", "it was made a corner by hand"}};
   return kWhy[static_cast<std::size_t>(held_[vertex])];
 }
 
@@ -69,7 +77,10 @@ std::string Domain::sentence() const {
     text = fmt::format("{} along the boundary, and {} of its vertices {}", slide(sliding_ - inside_), grouped(corners_),
                        corners_ == 1 ? "stays" : "stay");
   if (inside_ > 0 || text.empty())
-    text += fmt::format("{}{} {}", text.empty() ? "" : "; ", slide(inside_), is_surface_ ? "on the surface" : "along interfaces");
+    text += fmt::format("{}{} {}", text.empty() ? "" : "; ", slide(inside_),
+                        is_surface_     ? "on the surface"
+                        : said_.empty() ? "along interfaces"
+                                        : "along interfaces and feature edges");
   if (facets_.any() && on_curves_ > 0) text += fmt::format(" ({} on feature edges)", grouped(on_curves_));
   Index held = 0;
   for (Index v = 0; v < held_.size(); ++v) held += is_held(v) ? 1 : 0;
@@ -78,7 +89,8 @@ std::string Domain::sentence() const {
 }
 
 std::shared_ptr<const Domain> domain_for(const InputMesh& input, const StandingRule& rule) {
-  if (!rule.slides() && !input.is_surface()) return nullptr;
+  require_there(input, rule.kinds);
+  if (!lets_slide(input, rule) && !input.is_surface()) return nullptr;
   return std::make_shared<const Domain>(input, rule);
 }
 

@@ -28,6 +28,9 @@ class Domain {
   /// - where sheets of the surface touch in it alone, or along an edge of the boundary with more than two faces;
   /// - that the file names: a point, an end of a string or line, a corner of a required element, or, unless interfaces are free, the end of
   ///   an interface or of a named line or face inside.
+  /// A person's kinds count for more than angles: the rule's corners stay, its no-corners slide however much their curve turns, its
+  /// features are feature edges, also inside a plane, and its no-features none. They do not count for more than the file, or than what
+  /// touches.
   Domain(const InputMesh& input, const StandingRule& rule);
 
   [[nodiscard]] bool slides(Index vertex) const noexcept { return on_curve(vertex) || on_surface(vertex); }
@@ -37,7 +40,8 @@ class Domain {
   [[nodiscard]] const Facets& facets() const noexcept { return facets_; }  // none in a plane
 
   /// The edges of the mesh along which it slides or that nothing crosses, each once, low end first, ascending.
-  [[nodiscard]] std::vector<std::array<Index, 2>> feature_edges() const;
+  [[nodiscard]] std::vector<EdgeEnds> feature_edges() const;
+  [[nodiscard]] bool is_feature(Index a, Index b) const;
   /// Corners, junctions and ends of feature edges, and what else is held by more than a rule.
   [[nodiscard]] bool is_held(Index vertex) const noexcept { return held_[vertex] != HeldOn::Nothing && held_[vertex] != HeldOn::Rule; }
   /// What holds a vertex of the boundary, of an interface, or of a surface; "feature edges meet there". Empty for others.
@@ -62,12 +66,14 @@ class Domain {
   Curves curves_;
   Facets facets_;
   std::vector<Segment> segments_;  // of all curves, ascending
+  std::vector<EdgeEnds> said_;     // in a plane, the feature edges that a person names
   std::vector<HeldOn> held_;       // by vertex
   bool is_surface_;
   Index sliding_ = 0, inside_ = 0, on_curves_ = 0, corners_ = 0;
 };
 
-/// Where the rule lets vertices slide; null where it lets none. On a curved surface whatever moves slides.
+/// Where the rule lets vertices slide; null where it lets none. On a curved surface whatever moves slides. Throws UsageError for kinds of
+/// what the mesh does not have.
 [[nodiscard]] std::shared_ptr<const Domain> domain_for(const InputMesh& input, const StandingRule& rule);
 
 }  // namespace dmoscope

@@ -5,7 +5,7 @@
 
 namespace dmoscope {
 
-void hold_corners(const InputMesh& input, double corner_angle, CurveEnds& ends) {
+void hold_corners(const InputMesh& input, const StandingRule& rule, CurveEnds& ends) {
   const Plane& plane = input.geometry.plane;
   for (Index v = 0; v < ends.size(); ++v) {
     if (!ends.slides(v)) continue;
@@ -14,7 +14,8 @@ void hold_corners(const InputMesh& input, double corner_angle, CurveEnds& ends) 
     const Vec3 out = plane.difference(input.mesh.positions[ends.of(v)[1]], here);
     const double turn = std::atan2(length(cross(in, out)), dot(in, out));
     const bool has_direction = dot(in, in) > 0.0 && dot(out, out) > 0.0;
-    if (!has_direction || !(turn <= corner_angle * kDegree)) ends.hold(v, HeldOn::Corner);
+    const bool turns = !(turn <= rule.corner_angle * kDegree) && !rule.kinds.has_no_corner(v);
+    if (!has_direction || turns) ends.hold(v, HeldOn::Corner);
   }
 }
 

@@ -4,13 +4,15 @@
 #include "core/input/input_mesh.h"
 #include "core/reference/curve_ends.h"
 #include "core/reference/named_edges.h"
+#include "core/reference/standing.h"
 
 namespace dmoscope {
 
 inline constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
-/// Holds who slides along a curve where that turns by more degrees, or has no direction.
-void hold_corners(const InputMesh& input, double corner_angle, CurveEnds& ends);
+/// Holds who slides along a curve where that turns by more than the corner angle, unless a person says that it is no corner, or where it
+/// has no direction.
+void hold_corners(const InputMesh& input, const StandingRule& rule, CurveEnds& ends);
 /// Holds who slides along a curve between two edges that different groups name.
 void hold_ends_of_names(const NamedEdges& names, CurveEnds& ends);
 /// Holds points that the file names, but in lists of all that there are, and the corners of required elements and faces.

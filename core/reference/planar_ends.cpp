@@ -11,11 +11,17 @@ CurveEnds planar_ends(const InputMesh& input, const StandingRule& rule) {
   for_each_edge(input.mesh, input.topology, [&](const Edge& edge, std::span<const EdgeSide> sides) {
     if (sides.size() > 2) return ends.hold(edge.low, HeldOn::Touching), ends.hold(edge.high, HeldOn::Touching);
     const bool along = sides.size() == 1 ? boundary : interfaces && input.interfaces.between(sides[0].element, sides[1].element);
-    if (along) ends.join(edge.low, edge.high);
+    const bool said = !along && sides.size() == 2 && rule.kinds.has_feature({edge.low, edge.high});
+    if (along || said) ends.join(edge.low, edge.high);
+    if (!said || rule.interfaces == InterfaceRule::Free) return;
+    for (const Index v : {edge.low, edge.high})
+      if (input.interfaces.holds(v)) ends.hold(v, HeldOn::Rule);
   });
   for (Index v = 0; v < ends.size() && !boundary; ++v)
     if (input.topology.boundary()[v] != 0) ends.hold(v, HeldOn::Rule);
-  hold_corners(input, rule.corner_angle, ends);
+  for (const Index v : rule.kinds.corners)
+    if (!ends.off(v)) ends.hold(v, HeldOn::Hand);
+  hold_corners(input, rule, ends);
   NamedEdges names(input.mesh, input.topology);
   hold_ends_of_names(names, ends);
   hold_named_points(input, ends);

@@ -16,6 +16,10 @@ BoundaryRule parse_boundary_rule(std::string_view word) {
   throw UsageError(unknown_value("rule for the boundary", word, std::array{name(BoundaryRule::Fixed), name(BoundaryRule::Slide)}));
 }
 
+bool lets_slide(const InputMesh& input, const StandingRule& rule) {
+  return rule.slides() || (input.geometry.shape == Shape::Planar && !rule.kinds.features.empty());
+}
+
 std::vector<std::uint8_t> standing_vertices(const InputMesh& input, const StandingRule& rule, const Domain* domain) {
   const auto boundary = input.topology.boundary();
   std::vector<std::uint8_t> standing(boundary.begin(), boundary.end());
@@ -26,6 +30,11 @@ std::vector<std::uint8_t> standing_vertices(const InputMesh& input, const Standi
     else if (input.is_surface())
       standing[v] = 1;
   }
+  // Inside a plane the ends of feature edges that a person names would be free.
+  if (domain == nullptr || input.geometry.shape != Shape::Planar) return standing;
+  for (const auto& edge : rule.kinds.features)
+    for (const Index v : edge)
+      if (!domain->slides(v)) standing[v] = 1;
   return standing;
 }
 

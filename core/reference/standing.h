@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/input/input_mesh.h"
+#include "core/reference/kinds.h"
 
 namespace dmoscope {
 
@@ -22,9 +23,13 @@ struct StandingRule {
   BoundaryRule boundary = BoundaryRule::Fixed;
   double corner_angle = 20.0;   // degrees: where the boundary, or a feature edge, turns by more, a vertex stays
   double feature_angle = 40.0;  // degrees: where the surface of a volume folds by more, it has a feature edge
+  Kinds kinds{};                // what a person says against angles
   [[nodiscard]] bool slides() const noexcept { return boundary == BoundaryRule::Slide || interfaces == InterfaceRule::Slide; }
   friend bool operator==(const StandingRule&, const StandingRule&) = default;
 };
+
+/// Does the rule let vertices slide, besides those of a curved surface? In a plane feature edges that a person names do so, too.
+[[nodiscard]] bool lets_slide(const InputMesh& input, const StandingRule& rule);
 
 /// 1 where a vertex may not move: of no element and, by the rule and unless it slides, on the boundary or on an interface.
 [[nodiscard]] std::vector<std::uint8_t> standing_vertices(const InputMesh& input, const StandingRule& rule);

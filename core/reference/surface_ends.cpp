@@ -161,7 +161,8 @@ class SurfaceFinder {
     if (input_.is_surface() && rule_.interfaces != InterfaceRule::Free && input_.interfaces.between(face, other)) return true;
     if (name_of_[face] != name_of_[other] || std::ranges::binary_search(named_edges_, edge)) return true;
     const Vec3 a = normal(face), b = normal(other);
-    return !(std::atan2(length(cross(a, b)), dot(a, b)) <= rule_.feature_angle * kDegree) || a == Vec3{} || b == Vec3{};
+    if (a == Vec3{} || b == Vec3{} || rule_.kinds.has_feature(edge)) return true;
+    return !(std::atan2(length(cross(a, b)), dot(a, b)) <= rule_.feature_angle * kDegree) && !rule_.kinds.has_no_feature(edge);
   }
   [[nodiscard]] Vec3 normal(Index face) const {
     const auto c = faces_.corners(face);
@@ -190,9 +191,17 @@ class SurfaceFinder {
       const bool stays = rule_.boundary != BoundaryRule::Slide && on_boundary(v);
       if (stays || (rule_.interfaces == InterfaceRule::Fixed && input_.interfaces.meets_boundary_at(v))) ends_.hold(v, HeldOn::Rule);
     }
-    hold_corners(input_, rule_.corner_angle, ends_);
+    hold_said_corners();
+    hold_corners(input_, rule_, ends_);
     hold_ends_of_names(names_, ends_);
     hold_named_points(input_, ends_);
+  }
+
+  /// Off the faces nothing slides that could be a corner.
+  void hold_said_corners() {
+    if (rule_.kinds.corners.empty()) return;
+    for (const Index v : faces_.all_corners())
+      if (rule_.kinds.has_corner(v)) ends_.hold(v, HeldOn::Hand);
   }
 
   /// Holds a vertex of a curve where a sheet of the surface touches it that does not reach from one of its edges to the other.

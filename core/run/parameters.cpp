@@ -218,9 +218,17 @@ const std::array kTable{
 
 }  // namespace
 
+namespace {
+
+bool something_slides(const RunParameters& p) {
+  return p.boundary == BoundaryRule::Slide || p.interfaces == InterfaceRule::Slide || !p.kinds.features.empty();
+}
+
+}  // namespace
+
 bool ParameterInfo::read_by(const RunParameters& parameters, bool surface) const {
   if (reader != nullptr && !(method_info(parameters.method).*reader)) return false;
-  if (sliding_only && !surface && !parameters.standing().slides()) return false;
+  if (sliding_only && !surface && !something_slides(parameters)) return false;
   if (joint_only && !parameters.then_joint && !method_info(parameters.method).joint) return false;
   return condition == nullptr || condition(parameters);
 }
@@ -273,6 +281,7 @@ std::string other_than_usual(const RunParameters& parameters, bool surface) {
   for (const ParameterInfo& row : kTable)
     if (row.in_title != nullptr && row.read_by(parameters, surface) && row.to_text(parameters) != row.to_text(usual))
       text += ", " + row.in_title(parameters);
+  if (const std::string kinds = phrase(parameters.kinds); !kinds.empty() && (surface || something_slides(parameters))) text += ", " + kinds;
   return text;
 }
 

@@ -33,11 +33,12 @@ struct RunParameters {
   BoundaryRule boundary = BoundaryRule::Fixed;
   double corner_angle = StandingRule{}.corner_angle;    // degrees; where the boundary slides
   double feature_angle = StandingRule{}.feature_angle;  // degrees; of volumes, likewise
+  Kinds kinds{};                                        // of vertices and edges, what the user says against angles
   double joint_gap = JointOptions{}.gap;                // of joint moves, see JointOptions
   double max_deviation = 1e-3;                          // of the boundary, as a share of the diagonal of the mesh's box
   Backend backend = Backend::Auto;
   friend bool operator==(const RunParameters&, const RunParameters&) = default;
-  [[nodiscard]] StandingRule standing() const noexcept { return {interfaces, boundary, corner_angle, feature_angle}; }
+  [[nodiscard]] StandingRule standing() const { return {interfaces, boundary, corner_angle, feature_angle, kinds}; }
 };
 
 enum class ParameterKind { Whole, Real, Choice, Text };

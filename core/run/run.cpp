@@ -103,7 +103,7 @@ SmoothingTask Run::task() const {
           size_,
           parameters_.then_joint.has_value(),
           parameters_.then_mean.has_value(),
-          parameters_.standing().slides(),
+          lets_slide(*input_, parameters_.standing()),
           domain_,
           parameters_.max_deviation * input_->geometry.size,
           immovable_,

@@ -54,7 +54,7 @@ SmoothingTask task_of(const RunView& run, const Frame& frame) {
   task.combination = p.combination;
   task.size = run.size;
   task.then_mean = p.then_mean.has_value();
-  task.slides = p.standing().slides();
+  task.slides = lets_slide(*frame.input, p.standing());
   task.domain = run.domain;
   task.max_deviation = p.max_deviation * frame.input->geometry.size;
   return task;

@@ -17,9 +17,11 @@ struct CommandRow {
   CommandReach reach = CommandReach::Session;
 };
 
-/// Meshes and files; parameters of the active run; its second aims; its steps; runs and the session; all runs at once.
+/// Meshes and files; parameters of the active run; kinds of its vertices and edges; its second aims; its steps; runs and the session; all
+/// runs at once.
 [[nodiscard]] std::span<const CommandRow> file_commands();
 [[nodiscard]] std::span<const CommandRow> parameter_commands();
+[[nodiscard]] std::span<const CommandRow> kind_commands();
 [[nodiscard]] std::span<const CommandRow> objective_commands();
 [[nodiscard]] std::span<const CommandRow> stepping_commands();
 [[nodiscard]] std::span<const CommandRow> run_commands();

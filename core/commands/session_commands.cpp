@@ -22,8 +22,8 @@ void tell_warnings(CommandContext& context) {
 /// Calls `take` with every command, theme after theme.
 template <class Take>
 void for_command_rows(const Take& take) {
-  for (const std::span<const CommandRow> theme :
-       {file_commands(), parameter_commands(), objective_commands(), stepping_commands(), run_commands(), comparison_commands()})
+  for (const std::span<const CommandRow> theme : {file_commands(), parameter_commands(), kind_commands(), objective_commands(),
+                                                  stepping_commands(), run_commands(), comparison_commands()})
     for (const CommandRow& command : theme) take(command);
 }
 

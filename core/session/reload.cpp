@@ -10,6 +10,19 @@
 
 namespace dmoscope {
 
+namespace {
+
+bool has_all(const InputMesh& input, const Kinds& kinds) {
+  try {
+    require_there(input, kinds);
+    return true;
+  } catch (const UsageError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
 std::string Session::reload(Progress& progress) {
   const std::shared_ptr<const InputMesh> stale = input();
   if (stale->path.empty()) throw UsageError("this mesh was made here: there is no file to read again");
@@ -28,6 +41,10 @@ std::string Session::reload(Progress& progress) {
       if (!same_vertices && !parameters.fixed.empty()) {
         add_note("the file has another number of vertices now: what was fixed by hand is free again");
         parameters.fixed.clear();
+      }
+      if (!parameters.kinds.empty() && (!same_vertices || !has_all(*fresh, parameters.kinds))) {
+        add_note("the file has other edges now: corners and feature edges are as file and angles say again");
+        parameters.kinds = {};
       }
       try {
         run = make_run(fresh, std::move(parameters));

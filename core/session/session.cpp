@@ -64,6 +64,7 @@ std::shared_ptr<Run> Session::first_run(const std::shared_ptr<const InputMesh>& 
   if (!runs_.empty()) {
     parameters = runs_[active_]->parameters();
     parameters.fixed.clear();
+    parameters.kinds = {};
     parameters.boundary = BoundaryRule::Fixed;
     parameters.interfaces = InterfaceRule::Fixed;  // who freed those of one mesh has not seen the next one's
   }

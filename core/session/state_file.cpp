@@ -101,12 +101,37 @@ std::optional<PhaseBegin> to_phase(const Json& json, const char* key) {
   return read;
 }
 
+Json json_of(const Kinds& kinds) {
+  return {{"corners", kinds.corners}, {"no_corners", kinds.no_corners}, {"features", kinds.features}, {"no_features", kinds.no_features}};
+}
+
+std::vector<EdgeEnds> to_edges(const Json& json) {
+  if (!json.is_array()) throw UsageError("edges are a list of pairs of vertices");
+  std::vector<EdgeEnds> edges;
+  for (const Json& edge : json) {
+    const std::vector<Index> ends = to_indices(edge);
+    if (ends.size() != 2) throw UsageError("an edge is a pair of vertices");
+    edges.push_back({ends[0], ends[1]});
+  }
+  return edges;
+}
+
+Kinds to_kinds(const Json& json) {
+  Kinds kinds;
+  say_corners(kinds, to_indices(json.at("corners")), Saying::Is);
+  say_corners(kinds, to_indices(json.at("no_corners")), Saying::IsNot);
+  say_features(kinds, to_edges(json.at("features")), Saying::Is);
+  say_features(kinds, to_edges(json.at("no_features")), Saying::IsNot);
+  return kinds;
+}
+
 Json json_of(const RunParameters& p) {
   Json json{{"method", p.method}, {"metric", info(p.metric).name}, {"fixed", p.fixed}};
   for (const ParameterInfo& row : parameter_table())
     if (row.in_session) json[std::string(row.name)] = parameter_json(row, p);
   if (p.combination) json["combination"] = to_text(p.metric, *p.combination);
   if (p.combination && p.combination->size() != nullptr) json["size_function"] = to_text(*p.combination->size());
+  if (!p.kinds.empty()) json["kinds"] = json_of(p.kinds);  // files of before do not have it
   if (p.then_joint) json["then_joint"] = json_of(*p.then_joint);
   if (p.then_mean) json["then_mean"] = json_of(*p.then_mean);
   return json;
@@ -132,6 +157,7 @@ RunParameters to_parameters(const Json& json) {
   }
   if (json.contains("combination"))
     std::tie(p.metric, p.combination) = parse_combination(json.at("combination").get<std::string>(), json.value("size_function", ""));
+  if (json.contains("kinds")) p.kinds = to_kinds(json.at("kinds"));
   p.then_joint = to_phase(json, "then_joint");
   p.then_mean = to_phase(json, "then_mean");
   return p;

@@ -15,6 +15,7 @@
 #include "core/commands/session_commands.h"
 #include "core/mesh/vertex_words.h"
 #include "core/quality/metric.h"
+#include "core/reference/edge_words.h"
 #include "core/run/recipe.h"
 #include "core/smooth/execution/method_table.h"
 
@@ -44,6 +45,17 @@ void add_parameter(CLI::App& subcommand, const ParameterInfo& row, std::string& 
                                    row.most < kAny ? static_cast<std::uint64_t>(row.most) : std::numeric_limits<std::uint64_t>::max()));
   }
   if (row.kind == ParameterKind::Real) option->check(real_number());
+}
+
+void add_kind_options(CLI::App& subcommand, KindWords& words) {
+  const auto add = [&](const char* name, std::vector<std::string>& into, const char* type, const std::string& help) {
+    subcommand.add_option(name, into, help)->type_name(type)->take_all()->expected(1);
+  };
+  add("--corner", words.corner, "VERTICES", "Vertices that stay where others slide, named as those to fix are");
+  add("--no-corner", words.no_corner, "VERTICES", "Vertices that slide though their curve turns there by more than the corner angle");
+  add("--feature", words.feature, "EDGES",
+      fmt::format("Feature edges, which nothing crosses and along which their vertices slide: {}", kEdgeWords));
+  add("--no-feature", words.no_feature, "EDGES", "Edges that are smooth though the surface folds there by more than the feature angle");
 }
 
 }  // namespace
@@ -99,6 +111,7 @@ void add_run_options(CLI::App& subcommand, RunOptions& options) {
       ->type_name("VERTICES")
       ->take_all()
       ->expected(1);
+  add_kind_options(subcommand, options.kinds);
 }
 
 RunParameters parameters_of(const RunOptions& options) {

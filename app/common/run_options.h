@@ -19,6 +19,11 @@ inline constexpr unsigned kMostThreads = 1024;
 /// The defaults.
 [[nodiscard]] std::map<std::string, std::string, std::less<>> usual_parameters();
 
+/// Words that name vertices or edges, by the option that they follow.
+struct KindWords {
+  std::vector<std::string> corner, no_corner, feature, no_feature;
+};
+
 struct RunOptions {
   std::string method = "dmo";
   std::string metric = "mean-ratio";
@@ -28,16 +33,19 @@ struct RunOptions {
   std::string recipe;         // of recipe_table(); empty: none
   unsigned threads = 0;
   std::vector<std::string> fix;                                                     // for vertices_to_fix()
+  KindWords kinds;                                                                  // for kinds_of()
   std::map<std::string, std::string, std::less<>> parameters = usual_parameters();  // of parameter_table(): name, value
 };
 
 /// Declares --backend.
 void add_backend_option(CLI::App& subcommand, std::string& backend);
 
-/// Declares --method, --metric, --combine, --size-function, --then, --threads, --fix, and an option for every row of parameter_table().
+/// Declares --method, --metric, --combine, --size-function, --then, --threads, --fix, --corner and the like, and an option for every row of
+/// parameter_table().
 void add_run_options(CLI::App& subcommand, RunOptions& options);
 
-/// The parameters without the fixed set, which needs the mesh. Throws UsageError for names that do not exist and values out of range.
+/// The parameters without the fixed set and the kinds, which need the mesh. Throws UsageError for names that do not exist and values out of
+/// range.
 [[nodiscard]] RunParameters parameters_of(const RunOptions& options);
 
 }  // namespace dmoscope::app

@@ -128,11 +128,12 @@ ComparisonPlan plan_of(const CompareOptions& options) {
   return plan;
 }
 
-void fit_to_mesh(ComparisonPlan& plan, const std::shared_ptr<const InputMesh>& input, const std::vector<Index>& fixed) {
+void fit_to_mesh(ComparisonPlan& plan, const std::shared_ptr<const InputMesh>& input, const std::vector<Index>& fixed, const Kinds& kinds) {
   require_defined(plan.judge, input->mesh);
   std::vector<Contender> possible;
   for (Contender& contender : plan.contenders) {
     contender.parameters.fixed = fixed;
+    contender.parameters.kinds = kinds;
     std::string reason = obstacle(contender, input, plan.acceleration);
     if (reason.empty()) {
       possible.push_back(std::move(contender));

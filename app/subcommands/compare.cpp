@@ -76,7 +76,8 @@ int compare(const CompareOptions& options, const std::string& command_line) {
   const auto pool = std::make_shared<ThreadPool>(options.run.threads);
   const auto input = load_input(options.file, Need::Smoothing, {progress, pool.get(), options.memory.bytes()});
   std::vector<std::string> warnings = tell_findings(*input);
-  fit_to_mesh(plan, input, vertices_to_fix(input->mesh, options.run.fix));
+  const Kinds kinds = kinds_of(*input, plan.contenders.front().parameters, options.run.kinds, warnings);
+  fit_to_mesh(plan, input, vertices_to_fix(input->mesh, options.run.fix), kinds);
   tell_interfaces(*input, plan.contenders.front().parameters, warnings);
 
   const auto warn = [&warnings](std::string sentence) {

@@ -5,6 +5,8 @@
 #include "app/common/console.h"
 #include "core/base/error.h"
 #include "core/mesh/vertex_words.h"
+#include "core/reference/edge_words.h"
+#include "core/reference/kind_facts.h"
 
 namespace dmoscope::app {
 std::vector<std::string> tell_findings(const InputMesh& input) {
@@ -27,6 +29,44 @@ std::vector<Index> vertices_to_fix(const Mesh& mesh, const std::vector<std::stri
   } catch (const UsageError& error) {
     throw UsageError(fmt::format("--fix {}", error.what()));
   }
+}
+
+Kinds kinds_of(const InputMesh& input, const RunParameters& parameters, const KindWords& words, std::vector<std::string>& warnings) {
+  StandingRule rule = parameters.standing();
+  std::vector<std::pair<const char*, Kinds>> said;
+  const auto by_option = [](const char* option, const auto& work) {
+    try {
+      return work();
+    } catch (const UsageError& error) {
+      throw UsageError(fmt::format("{} {}", option, error.what()));
+    }
+  };
+  const auto corners = [&](const char* option, const std::vector<std::string>& names, Saying saying) {
+    if (names.empty()) return;
+    const auto vertices = by_option(option, [&] { return vertices_named(input.mesh, names); });
+    say_corners(rule.kinds, vertices, saying);
+    said.emplace_back(option, only_corners(vertices, saying));
+  };
+  const auto features = [&](const char* option, const std::vector<std::string>& names, Saying saying) {
+    if (names.empty()) return;
+    const auto domain = domain_for(input, rule);
+    const auto edges = by_option(option, [&] { return edges_named(input, rule, domain.get(), names); });
+    say_features(rule.kinds, edges, saying);
+    said.emplace_back(option, only_features(edges, saying));
+  };
+  features("--feature", words.feature, Saying::Is);
+  features("--no-feature", words.no_feature, Saying::IsNot);
+  corners("--corner", words.corner, Saying::Is);
+  corners("--no-corner", words.no_corner, Saying::IsNot);
+  if (said.empty()) return {};
+  const auto domain = domain_for(input, rule);
+  for (const auto& [option, kinds] : said) {
+    const std::string not_met = by_option(option, [&] { return require_met(input, rule, domain.get(), kinds); });
+    if (not_met.empty()) continue;
+    warnings.push_back(fmt::format("{}: {}", option, not_met));
+    complain(fmt::format("{}: {}", input.mesh.name, warnings.back()));
+  }
+  return rule.kinds;
 }
 
 }  // namespace dmoscope::app

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/common/run_options.h"
 #include "core/run/run.h"
 
 namespace dmoscope::app {
@@ -16,5 +17,9 @@ void tell_interfaces(const InputMesh& input, const RunParameters& parameters, st
 
 /// What the words of --fix name, see vertices_named(). Sorted, each once. Throws UsageError.
 [[nodiscard]] std::vector<Index> vertices_to_fix(const Mesh& mesh, const std::vector<std::string>& words);
+/// The corners and feature edges that --corner and the like name. Says, and adds to `warnings`, what of them does not come true by the
+/// parameters; throws UsageError where nothing that an option names does.
+[[nodiscard]] Kinds kinds_of(const InputMesh& input, const RunParameters& parameters, const KindWords& words,
+                             std::vector<std::string>& warnings);
 
 }  // namespace dmoscope::app

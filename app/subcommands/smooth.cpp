@@ -168,6 +168,10 @@ Json json_of(const Result& r) {
     if (row.in_session) parameters[std::string(row.name)] = parameter_json(row, p);
   parameters["precision"] = in_packs(p) && !p.combination ? "float" : "double";  // what was computed with
   parameters["fixed_by_user"] = p.fixed.size();
+  parameters["kinds_by_user"] = {{"corners", p.kinds.corners.size()},
+                                 {"no_corners", p.kinds.no_corners.size()},
+                                 {"features", p.kinds.features.size()},
+                                 {"no_features", p.kinds.no_features.size()}};
   object["parameters"] = std::move(parameters);
   object["held_on_interfaces"] = p.interfaces == InterfaceRule::Free ? 0 : r.run.input().interfaces.count();
   if (p.interfaces == InterfaceRule::Slide)
@@ -320,6 +324,7 @@ int smooth(const SmoothOptions& options) {
   const auto input = load_input(options.input, Need::Smoothing, {progress, pool.get(), options.memory.bytes()});
   std::vector<std::string> warnings = tell_findings(*input);
   parameters.fixed = vertices_to_fix(input->mesh, options.run.fix);
+  parameters.kinds = kinds_of(*input, parameters, options.run.kinds, warnings);
   tell_interfaces(*input, parameters, warnings);
   const auto warn = [&warnings](std::string sentence) {
     complain(sentence);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "ui/commands/command_words.h"
 
 namespace dmoscope::ui {
@@ -67,6 +69,18 @@ std::vector<Index> free_of(const ViewState& state, const SessionView& view) {
   return free;
 }
 
+/// The selected vertices, or else the one that is picked, as words of a command.
+std::string chosen_vertices(const ViewState& state, const SessionView& view) {
+  if (!state.selection.empty()) {
+    std::string list = id_ranges(state.selection.vertices());
+    std::ranges::replace(list, ' ', ',');
+    return "vertices:" + list;
+  }
+  if (state.picked.kind != Picked::Kind::Vertex || state.picked.id >= view.frame->vertex_count())
+    throw UsageError("no vertex is picked: click one, or select some with the brush");
+  return fmt::format("vertices:{}", state.picked.id);
+}
+
 /// One thing at a time, the latest first: what the mouse is to do, then what is picked.
 void leave(ViewState& state) {
   if (std::exchange(state.placing_size_point, false)) return;
@@ -117,6 +131,14 @@ void add_selection_commands(CommandTable& table, ViewState& state, const Command
     std::ranges::replace(list, ' ', ',');
     host.post("fix vertices:" + list);  // a number alone may also be a group's
   });
+  table.add({"make", "make corner|no-corner|auto-corner", "gives the selected vertices, or else the picked one, this kind"},
+            [&state, &host](Arguments words) {
+              require(words, 1, 1);
+              if (words[0] != "corner" && words[0] != "no-corner" && words[0] != "auto-corner")
+                unexpected(words[0], "corner, no-corner or auto-corner");
+              const auto view = host.session();
+              host.post(words[0] + ' ' + chosen_vertices(state, open_session(view)));
+            });
   table.add({"click-smooths", "click-smooths [on|off|toggle]", "a click on a free vertex visits it"}, [&state](Arguments words) {
     require(words, 0, 1);
     state.stepping.click_smooths = switched(words, 0, state.stepping.click_smooths);

@@ -149,6 +149,25 @@ void draw_statistics(PanelContext& context, const char* title, Metric metric, co
   number_row(context, "mean", statistics.mean, "over all elements");
 }
 
+const char* held_word(HeldOn held) {
+  switch (held) {
+    case HeldOn::Corner:
+      return "fixed: corner";
+    case HeldOn::Hand:
+      return "fixed: corner by hand";
+    case HeldOn::Junction:
+      return "fixed: features meet";
+    case HeldOn::End:
+      return "fixed: feature ends";
+    case HeldOn::Touching:
+      return "fixed: parts touch";
+    case HeldOn::Named:
+      return "fixed: by the file";
+    default:
+      return "fixed: boundary";
+  }
+}
+
 void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
   heading(context, fmt::format("Vertex {}", vertex).c_str());
   const Topology& topology = frame.input->topology;
@@ -173,10 +192,11 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
             : !fixed                        ? "free"
             : topology.star(vertex).empty() ? "fixed: unused"
             : interface                     ? "fixed: interface"
-            : !held.empty()                 ? "fixed: feature"
+            : !held.empty()                 ? held_word(run->domain->held_on(vertex))
             : boundary                      ? "fixed: boundary"
                                             : "fixed",
             interface ? interfaces.why(vertex) : std::string(held));
+  if (run != nullptr) draw_vertex_kind(context, frame, *run, vertex);
   value_row(context, "valence", count(topology.star(vertex).size()), {}, {}, "elements of its star");
   number_row(context, "quality now", facts.now, "minimum over its star, of the shown metric");
   number_row(context, "at the input", facts.before);
@@ -294,6 +314,7 @@ void draw_element(PanelContext& context, const Frame& frame, Index element) {
   context.items.record_last("why");
   next_item_tooltip("looks into the search of its worst free corner");
   draw_metric_table(context);
+  if (const RunView* run = context.run()) draw_element_edges(context, frame, *run, element);
 }
 
 /// At the right end of a row of the worst list: leads to the search of its worst free corner, or says that there is none.
@@ -334,6 +355,7 @@ std::string id_text(Index element, float room) {
 }  // namespace
 
 void draw_inspector(PanelContext& context) {
+  context.state.edge_under_mouse.reset();
   const Frame* frame = context.frame();
   if (frame == nullptr) {
     heading(context, "Inspector");

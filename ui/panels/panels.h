@@ -21,6 +21,9 @@ void draw_clipping(PanelContext& context);
 void handle_clip_plane(PanelContext& context, const PaneFacts& pane);
 void draw_clip_plane(const PanelContext& context, const PaneFacts& pane);
 void draw_inspector(PanelContext& context);
+/// Of a picked vertex, and of the edges of a picked element, where the run's vertices slide: their kinds, and what changes them.
+void draw_vertex_kind(PanelContext& context, const Frame& frame, const RunView& run, Index vertex);
+void draw_element_edges(PanelContext& context, const Frame& frame, const RunView& run, Index element);
 void draw_worst(PanelContext& context);
 void draw_inspection(PanelContext& context);
 /// The quality around the inspected vertex over the mesh, when it is wanted, and over it the marks that it covers.

@@ -168,6 +168,12 @@ constexpr std::array kActions{
     Action{"inspect-next", "Inspect", "The vertex visited next", "Shift+G", "inspect-next", Needs::MeshAndIdle},
     Action{"inspect-worst", "Inspect", "The worst element that can be changed", "Ctrl+G", "inspect-worst", Needs::MeshAndIdle},
     Action{"held-by", "Inspect", "What holds the minimum", "", "held-by", Needs::MeshAndIdle},
+    Action{"make-corner", "Inspect", "Corner: the picked vertex stays", "Alt+V", "make corner", Needs::Chosen, true},
+    Action{"make-no-corner", "Inspect", "No corner: the picked vertex slides", "Shift+Alt+V", "make no-corner", Needs::Chosen},
+    Action{"make-auto-corner", "Inspect", "The picked vertex is a corner where file and angles say so", "", "make auto-corner",
+           Needs::Chosen},
+    Action{"all-automatic", "Inspect", "All corners as file and angles say", "", "auto-corner", Needs::MeshAndIdle},
+    Action{"all-features-automatic", "Inspect", "All feature edges as file and angles say", "", "auto-feature", Needs::MeshAndIdle},
     Action{"level-next", "Inspect", "Next level, then apply", "L", "level next", Needs::MeshAndIdle, true},
     Action{"level-back", "Inspect", "Previous level", "Shift+L", "level back", Needs::MeshAndIdle},
     Action{"level-all", "Inspect", "All levels at once", "Ctrl+L", "level all", Needs::MeshAndIdle},
@@ -269,6 +275,8 @@ bool enabled(const Action& action, const Situation& now) {
       return now.picked || now.leavable;
     case Needs::Selected:
       return now.mesh && !now.busy && now.selected;
+    case Needs::Chosen:
+      return now.mesh && !now.busy && (now.selected || now.picked);
     case Needs::Undo:
       return !now.busy && !now.undo.empty();
     case Needs::Redo:

@@ -11,7 +11,23 @@
 namespace dmoscope::ui {
 
 /// What must be so for an action to be possible.
-enum class Needs { Nothing, Mesh, Idle, MeshAndIdle, Work, SeveralRuns, Picked, Selected, Undo, Redo, Volume, Planar, Better, Leavable };
+enum class Needs {
+  Nothing,
+  Mesh,
+  Idle,
+  MeshAndIdle,
+  Work,
+  SeveralRuns,
+  Picked,
+  Selected,
+  Undo,
+  Redo,
+  Volume,
+  Planar,
+  Better,
+  Leavable,
+  Chosen
+};
 
 struct Action {
   std::string_view id;       // "step-iteration"; also the name of its items

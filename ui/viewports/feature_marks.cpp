@@ -5,7 +5,7 @@
 namespace dmoscope::ui {
 namespace {
 
-constexpr float kLine = 2.0F, kCasing = 4.5F, kSquare = 7.0F;  // pixels at scale 1
+constexpr float kLine = 2.0F, kCasing = 4.5F, kSquare = 7.0F, kFound = 4.0F, kFoundCasing = 7.5F;  // pixels at scale 1
 
 }  // namespace
 
@@ -37,6 +37,20 @@ void add_space_features(render::SpaceMarks& marks, const Domain& domain, std::sp
   for (const auto& [a, b] : seen) marks.lines.push_back({positions[a], positions[b], kLine, ink});
   for (const Index v : unhidden.vertices)
     if (domain.is_held(v)) marks.dots.push_back({positions[v], kSquare, ink, render::DotShape::Square});
+}
+
+void add_edge(render::Marks& marks, const InputMesh& input, std::span<const Vec3> positions, const EdgeEnds& edge, render::Rgba ink,
+              render::Rgba casing) {
+  const Plane& plane = input.geometry.plane;
+  const Vec2<double> from = plane.place(positions[edge[0]]), to = plane.place(positions[edge[1]]);
+  marks.lines.push_back({from, to, kFoundCasing, casing});
+  marks.lines.push_back({from, to, kFound, ink});
+}
+
+void add_space_edge(render::SpaceMarks& marks, std::span<const Vec3> positions, const EdgeEnds& edge, render::Rgba ink,
+                    render::Rgba casing) {
+  marks.lines.push_back({positions[edge[0]], positions[edge[1]], kFoundCasing, casing});
+  marks.lines.push_back({positions[edge[0]], positions[edge[1]], kFound, ink});
 }
 
 }  // namespace dmoscope::ui

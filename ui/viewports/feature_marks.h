@@ -16,4 +16,10 @@ void add_features(render::Marks& marks, const MarkView& view, const Domain& doma
 void add_space_features(render::SpaceMarks& marks, const Domain& domain, std::span<const Vec3> positions, const render::Unhidden& unhidden,
                         render::Rgba ink, render::Rgba casing);
 
+/// One edge, so that it is found among the others.
+void add_edge(render::Marks& marks, const InputMesh& input, std::span<const Vec3> positions, const EdgeEnds& edge, render::Rgba ink,
+              render::Rgba casing);
+void add_space_edge(render::SpaceMarks& marks, std::span<const Vec3> positions, const EdgeEnds& edge, render::Rgba ink,
+                    render::Rgba casing);
+
 }  // namespace dmoscope::ui

@@ -68,11 +68,13 @@ std::optional<std::span<const Vec3>> SteppingView::positions_of(const ViewState&
 std::string SteppingView::key(const ViewState& state, const Frame& frame, const JointCluster* hold, const std::string& view) const {
   const SteppingState& s = state.stepping;
   const Brush& brush = state.brush;
+  const auto edge = state.edge_under_mouse.value_or(std::array{kNoIndex, kNoIndex});
   const auto serial = [](const std::shared_ptr<const Frame>& of) { return of ? of->serial : 0; };
-  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", state.features, fmt::ptr(hold), s.flash_level, s.news.serial,
-                     frame.serial, serial(previous_), serial(state.timeline.a.frame), serial(state.timeline.b.frame), view,
-                     static_cast<int>(state.theme), s.next_class, static_cast<int>(s.arrows), s.arrow_scale, static_cast<int>(s.ghost),
-                     state.selection.serial(), brush.painting, static_cast<int>(brush.kind), brush.stroke.serial());
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", state.features, edge[0], edge[1], fmt::ptr(hold),
+                     s.flash_level, s.news.serial, frame.serial, serial(previous_), serial(state.timeline.a.frame),
+                     serial(state.timeline.b.frame), view, static_cast<int>(state.theme), s.next_class, static_cast<int>(s.arrows),
+                     s.arrow_scale, static_cast<int>(s.ghost), state.selection.serial(), brush.painting, static_cast<int>(brush.kind),
+                     brush.stroke.serial());
 }
 
 void SteppingView::add_marks(render::Marks& marks, const ViewState& state, const SessionView& session, const MarkView& view,
@@ -113,6 +115,8 @@ void SteppingView::make_marks(const ViewState& state, const SessionView& session
   }
   if (const Domain* domain = state.features ? domain_of(session) : nullptr)
     add_features(marks_, view, *domain, *frame.input, frame.positions, solid(colours.text));
+  if (const auto& edge = state.edge_under_mouse; edge && (*edge)[1] < frame.positions.size())
+    add_edge(marks_, *frame.input, frame.positions, *edge, solid(colours.run(frame.run)), solid(colours.background, 230));
   if (const JointCluster* hold = hold_of(state, session))
     add_holders(marks_, view, *hold, *frame.input, frame.positions, solid(colours.run(frame.run)), solid(colours.background, 220));
   if (state.stepping.next_class) add_next_class(state, session, view);
@@ -155,8 +159,8 @@ void SteppingView::add_space_marks(render::SpaceMarks& marks, const ViewState& s
   const bool flashes = s.flash_level > 0 && frame != nullptr && s.news.serial == frame->serial;
   const bool features = state.features && domain_of(session) != nullptr;
   if (frame == nullptr || frame->device ||
-      !(features || hold_of(state, session) != nullptr || flashes || s.next_class || s.arrows != Reference::None ||
-        s.ghost != Reference::None))
+      !(features || state.edge_under_mouse || hold_of(state, session) != nullptr || flashes || s.next_class ||
+        s.arrows != Reference::None || s.ghost != Reference::None))
     return;
   const render::OrbitCamera& camera = state.orbit;
   const Vec3 &c = camera.centre, &r = camera.right, &u = camera.up;
@@ -197,6 +201,8 @@ void SteppingView::make_space_marks(const ViewState& state, const SessionView& s
   }
   if (const Domain* domain = state.features ? domain_of(session) : nullptr)
     add_space_features(space_marks_, *domain, frame.positions, *unhidden, solid(colours.text), solid(colours.background, 200));
+  if (const auto& edge = state.edge_under_mouse; edge && (*edge)[1] < frame.positions.size())
+    add_space_edge(space_marks_, frame.positions, *edge, accent, solid(colours.background, 230));
   if (const JointCluster* hold = hold_of(state, session))
     add_space_holders(space_marks_, view, *hold, frame.positions, accent, solid(colours.background, 220));
   const bool flashes = state.stepping.news.serial == frame.serial;

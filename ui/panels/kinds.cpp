@@ -1,0 +1,163 @@
+// Right, in the inspector: of what kind a picked vertex and the edges around it are where vertices slide, and what changes that.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/reference/kind_facts.h"
+#include "ui/panels/panels.h"
+#include "ui/state/format.h"
+
+namespace dmoscope::ui {
+namespace {
+
+/// Of a vertex or an edge, one of three small buttons: lit while it is in force.
+struct KindButton {
+  const char* label;
+  std::string item, command, tooltip;
+  bool on;
+  bool enabled = true;
+};
+
+void draw_button(PanelContext& context, const KindButton& one) {
+  if (one.on) ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent, 0.45F));
+  ImGui::BeginDisabled(!one.enabled || context.activity.busy);
+  if (ImGui::SmallButton(one.label)) context.send(one.command);
+  ImGui::EndDisabled();
+  if (one.on) ImGui::PopStyleColor();
+  context.items.record_last(one.item);
+  next_item_tooltip(one.tooltip);
+}
+
+float button_width(const char* label) { return ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x; }
+
+/// What a click on the button of an edge does.
+struct EdgeTurn {
+  std::string_view command;  // empty: nothing, the file or the mesh decides
+  std::string tooltip;
+};
+EdgeTurn turn_of(EdgeKind kind, const Kinds& kinds, EdgeEnds edge) {
+  const bool by_hand = kinds.has_feature(edge) || kinds.has_no_feature(edge);
+  switch (kind) {
+    case EdgeKind::Smooth:
+      if (by_hand) return {"auto-feature", "smooth, because it was made so by hand. Click: as the angle says"};
+      return {"feature", "smooth: vertices may cross it. Click: a feature edge, which nothing crosses and along which vertices slide"};
+    case EdgeKind::Hand:
+      return {"auto-feature", "a feature edge, because it was made one by hand. Click: as the angle says"};
+    case EdgeKind::Angle:
+      return {"no-feature", "a feature edge, because the surface folds there. Click: smooth"};
+    default:
+      return {{}, fmt::format("a feature edge: {}", phrase(kind))};
+  }
+}
+
+struct EdgeRow {
+  Index from, to;
+  bool of_vertex;  // the picked vertex is `from`
+};
+
+void draw_edge(PanelContext& context, const InputMesh& input, const RunView& run, const StandingRule& rule, const EdgeRow& row) {
+  const Domain& domain = *run.domain;
+  const EdgeKind kind = edge_kind(input, rule, domain, row.from, row.to);
+  const EdgeEnds ends = edge_ends(row.from, row.to);
+  const EdgeTurn turn = turn_of(kind, rule.kinds, ends);
+  const std::string name = fmt::format("{}-{}", ends[0], ends[1]);
+  const ImVec2 top = ImGui::GetCursorScreenPos();
+  const float right = ImGui::GetWindowContentRegionMax().x;
+  constexpr const char *kFeature = "feature", *kChain = "chain";
+  const float gap = context.px(4), first = right - button_width(kFeature) - button_width(kChain) - gap;
+  const std::string label = row.of_vertex ? fmt::format("to {}", row.to) : name;
+  ImGui::TextUnformatted(label.c_str());
+  if (const auto fold = fold_of(input, domain, row.from, row.to)) {
+    const std::string angle = fmt::format("{:.0f}°", *fold);
+    const float width = ImGui::CalcTextSize(angle.c_str()).x, left = first - gap - width;
+    if (left > ImGui::GetCursorPosX() + ImGui::CalcTextSize(label.c_str()).x + gap) {
+      ImGui::SameLine(left);
+      dim_text(context, angle, false);
+      next_item_tooltip("by how much the surface of the input folds there");
+    }
+  }
+  ImGui::SameLine(first);
+  draw_button(context, {kFeature, "edge:" + name, fmt::format("{} edges:{}", turn.command, name), turn.tooltip, is_feature(kind),
+                        !turn.command.empty()});
+  ImGui::SameLine(0, gap);
+  const bool chained = !turn.command.empty() && turn.command != "feature";
+  draw_button(context,
+              {kChain, "chain:" + name, fmt::format("{} chain:{}", turn.command, name),
+               chained ? "the same for all feature edges that continue it, both ways up to the next corner" : "no chain goes on here",
+               false, chained});
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const bool over = mouse.y >= top.y && mouse.y < ImGui::GetCursorScreenPos().y && mouse.x >= top.x;
+  if (over && ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem)) context.state.edge_under_mouse = ends;
+}
+
+void draw_edges(PanelContext& context, const InputMesh& input, const RunView& run, const std::vector<EdgeRow>& rows) {
+  const StandingRule rule = run.parameters.standing();
+  std::vector<EdgeRow> on_domain;
+  for (const EdgeRow& row : rows)
+    if (edge_kind(input, rule, *run.domain, row.from, row.to) != EdgeKind::Off) on_domain.push_back(row);
+  if (on_domain.empty()) return;
+  dim_text(context, "edges", false);
+  next_item_tooltip("feature edges, which nothing crosses, and others; the mouse shows which is which in the mesh");
+  for (const EdgeRow& row : on_domain) draw_edge(context, input, run, rule, row);
+}
+
+/// Why a vertex cannot be made to slide by hand; empty where it can.
+std::string why_stays(const Domain& domain, Index vertex) {
+  switch (domain.held_on(vertex)) {
+    case HeldOn::Nothing:
+    case HeldOn::Corner:
+    case HeldOn::Hand:
+      return {};
+    default:
+      return std::string(domain.why_held(vertex));
+  }
+}
+
+}  // namespace
+
+void draw_vertex_kind(PanelContext& context, const Frame& frame, const RunView& run, Index vertex) {
+  if (run.domain == nullptr) return;
+  const Domain& domain = *run.domain;
+  if (!domain.slides(vertex) && domain.held_on(vertex) == HeldOn::Nothing) return;
+  const Kinds& kinds = run.parameters.kinds;
+  const bool corner = kinds.has_corner(vertex), none = kinds.has_no_corner(vertex);
+  const std::string stays = why_stays(domain, vertex), words = fmt::format(" vertices:{}", vertex);
+  const float gap = context.px(4);
+  const float width = button_width("corner") + button_width("no corner") + button_width("auto") + 2 * gap;
+  dim_text(context, "corner", false);
+  next_item_tooltip("a corner stays where others slide");
+  const float left = ImGui::GetWindowContentRegionMax().x - width;
+  if (left > ImGui::CalcTextSize("corner").x + context.px(12)) ImGui::SameLine(left);
+  draw_button(context, {"corner", "kind:corner", "corner" + words, "it stays, though it could slide", corner, stays.empty() || corner});
+  ImGui::SameLine(0, gap);
+  draw_button(context,
+              {"no corner", "kind:no-corner", "no-corner" + words,
+               stays.empty() ? "it slides along its curve, however much that turns there" : "it stays: " + stays, none, stays.empty()});
+  ImGui::SameLine(0, gap);
+  draw_button(context, {"auto", "kind:auto", "auto-corner" + words,
+                        "a corner where the file says so, or its curve turns by more than the "
+                        "corner angle",
+                        !corner && !none, corner || none});
+  std::vector<EdgeRow> rows;
+  for (const Index other : edges_at(*frame.input, vertex)) rows.push_back({vertex, other, true});
+  draw_edges(context, *frame.input, run, rows);
+}
+
+void draw_element_edges(PanelContext& context, const Frame& frame, const RunView& run, Index element) {
+  if (run.domain == nullptr) return;
+  const ElementTable& elements = frame.input->mesh.elements;
+  const auto corners = elements.corners(element);
+  std::vector<EdgeEnds> edges;
+  for (const LocalFace& face : faces_of(elements.kind(element)))
+    for (std::size_t i = 0; i < face.count; ++i)
+      edges.push_back(edge_ends(corners[face.corners[i]], corners[face.corners[i + 1 < face.count ? i + 1 : 0]]));
+  std::ranges::sort(edges);
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  std::vector<EdgeRow> rows;
+  for (const auto& [a, b] : edges)
+    if (a != b) rows.push_back({a, b, false});
+  draw_edges(context, *frame.input, run, rows);
+}
+
+}  // namespace dmoscope::ui

@@ -187,7 +187,7 @@ void draw_vertex(PanelContext& context, const Frame& frame, Index vertex) {
   const std::string_view held = fixed && run->domain != nullptr ? run->domain->why_held(vertex) : std::string_view();
   value_row(context, "may move",
             on_surface                      ? "on the surface"
-            : slides && in_space            ? "along a feature edge"
+            : slides && in_space            ? "along a feature"
             : slides                        ? boundary ? "along the boundary" : "along the interface"
             : !fixed                        ? "free"
             : topology.star(vertex).empty() ? "fixed: unused"

@@ -1,6 +1,7 @@
-// Right, in the inspector: of what kind a picked vertex and the edges around it are where vertices slide, and what changes that.
+// Of what kind vertices and edges are where vertices slide, and what changes that: in the inspector, and in a viewport's menu.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -11,10 +12,10 @@
 namespace dmoscope::ui {
 namespace {
 
-/// Of a vertex or an edge, one of three small buttons: lit while it is in force.
+/// A small button of a vertex or an edge, lit while what it says is in force.
 struct KindButton {
   const char* label;
-  std::string item, command, tooltip;
+  std::string item, command, tooltip;  // without a command a click does nothing
   bool on;
   bool enabled = true;
 };
@@ -22,7 +23,7 @@ struct KindButton {
 void draw_button(PanelContext& context, const KindButton& one) {
   if (one.on) ImGui::PushStyleColor(ImGuiCol_Button, colour_vector(context.palette.accent, 0.45F));
   ImGui::BeginDisabled(!one.enabled || context.activity.busy);
-  if (ImGui::SmallButton(one.label)) context.send(one.command);
+  if (ImGui::SmallButton(one.label) && !one.command.empty()) context.send(one.command);
   ImGui::EndDisabled();
   if (one.on) ImGui::PopStyleColor();
   context.items.record_last(one.item);
@@ -62,6 +63,7 @@ void draw_edge(PanelContext& context, const InputMesh& input, const RunView& run
   const EdgeEnds ends = edge_ends(row.from, row.to);
   const EdgeTurn turn = turn_of(kind, rule.kinds, ends);
   const std::string name = fmt::format("{}-{}", ends[0], ends[1]);
+  ImGui::PushID(name.c_str());
   const ImVec2 top = ImGui::GetCursorScreenPos();
   const float right = ImGui::GetWindowContentRegionMax().x;
   constexpr const char *kFeature = "feature", *kChain = "chain";
@@ -86,6 +88,7 @@ void draw_edge(PanelContext& context, const InputMesh& input, const RunView& run
               {kChain, "chain:" + name, fmt::format("{} chain:{}", turn.command, name),
                chained ? "the same for all feature edges that continue it, both ways up to the next corner" : "no chain goes on here",
                false, chained});
+  ImGui::PopID();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const bool over = mouse.y >= top.y && mouse.y < ImGui::GetCursorScreenPos().y && mouse.x >= top.x;
   if (over && ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem)) context.state.edge_under_mouse = ends;
@@ -100,6 +103,20 @@ void draw_edges(PanelContext& context, const InputMesh& input, const RunView& ru
   dim_text(context, "edges", false);
   next_item_tooltip("feature edges, which nothing crosses, and others; the mouse shows which is which in the mesh");
   for (const EdgeRow& row : on_domain) draw_edge(context, input, run, rule, row);
+}
+
+/// Of an element, each once.
+std::vector<EdgeEnds> edges_of(const Frame& frame, Index element) {
+  const ElementTable& elements = frame.input->mesh.elements;
+  const auto corners = elements.corners(element);
+  std::vector<EdgeEnds> edges;
+  for (const LocalFace& face : faces_of(elements.kind(element)))
+    for (std::size_t i = 0; i < face.count; ++i)
+      edges.push_back(edge_ends(corners[face.corners[i]], corners[face.corners[i + 1 < face.count ? i + 1 : 0]]));
+  std::erase_if(edges, [](const EdgeEnds& edge) { return edge[0] == edge[1]; });
+  std::ranges::sort(edges);
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
 }
 
 /// Why a vertex cannot be made to slide by hand; empty where it can.
@@ -124,21 +141,15 @@ void draw_vertex_kind(PanelContext& context, const Frame& frame, const RunView& 
   const bool corner = kinds.has_corner(vertex), none = kinds.has_no_corner(vertex);
   const std::string stays = why_stays(domain, vertex), words = fmt::format(" vertices:{}", vertex);
   const float gap = context.px(4);
-  const float width = button_width("corner") + button_width("no corner") + button_width("auto") + 2 * gap;
-  dim_text(context, "corner", false);
-  next_item_tooltip("a corner stays where others slide");
-  const float left = ImGui::GetWindowContentRegionMax().x - width;
-  if (left > ImGui::CalcTextSize("corner").x + context.px(12)) ImGui::SameLine(left);
-  draw_button(context, {"corner", "kind:corner", "corner" + words, "it stays, though it could slide", corner, stays.empty() || corner});
+  draw_button(context, {"corner", "kind:corner", corner ? "" : "corner" + words, "it stays, though it could slide", corner,
+                        stays.empty() || corner});
   ImGui::SameLine(0, gap);
   draw_button(context,
-              {"no corner", "kind:no-corner", "no-corner" + words,
+              {"no corner", "kind:no-corner", none ? "" : "no-corner" + words,
                stays.empty() ? "it slides along its curve, however much that turns there" : "it stays: " + stays, none, stays.empty()});
   ImGui::SameLine(0, gap);
-  draw_button(context, {"auto", "kind:auto", "auto-corner" + words,
-                        "a corner where the file says so, or its curve turns by more than the "
-                        "corner angle",
-                        !corner && !none, corner || none});
+  draw_button(context, {"auto", "kind:auto", corner || none ? "auto-corner" + words : "",
+                        "a corner where the file says so, or its curve turns by more than the corner angle", !corner && !none});
   std::vector<EdgeRow> rows;
   for (const Index other : edges_at(*frame.input, vertex)) rows.push_back({vertex, other, true});
   draw_edges(context, *frame.input, run, rows);
@@ -146,18 +157,55 @@ void draw_vertex_kind(PanelContext& context, const Frame& frame, const RunView& 
 
 void draw_element_edges(PanelContext& context, const Frame& frame, const RunView& run, Index element) {
   if (run.domain == nullptr) return;
-  const ElementTable& elements = frame.input->mesh.elements;
-  const auto corners = elements.corners(element);
-  std::vector<EdgeEnds> edges;
-  for (const LocalFace& face : faces_of(elements.kind(element)))
-    for (std::size_t i = 0; i < face.count; ++i)
-      edges.push_back(edge_ends(corners[face.corners[i]], corners[face.corners[i + 1 < face.count ? i + 1 : 0]]));
-  std::ranges::sort(edges);
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   std::vector<EdgeRow> rows;
-  for (const auto& [a, b] : edges)
-    if (a != b) rows.push_back({a, b, false});
+  for (const auto& [a, b] : edges_of(frame, element)) rows.push_back({a, b, false});
   draw_edges(context, *frame.input, run, rows);
+}
+
+bool draw_kind_entries(PanelContext& context, const Frame& frame, const RunView& run, Index vertex, EdgeEnds edge) {
+  if (run.domain == nullptr) return false;
+  bool any = false;
+  const Domain& domain = *run.domain;
+  const StandingRule rule = run.parameters.standing();
+  const auto entry = [&](const std::string& label, const char* item, const std::string& command, bool possible) {
+    if (ImGui::MenuItem(label.c_str(), nullptr, false, possible && !context.activity.busy)) context.send(command);
+    context.items.record_last(item);
+    any = true;
+  };
+  if (vertex < frame.vertex_count() && (domain.slides(vertex) || domain.held_on(vertex) != HeldOn::Nothing)) {
+    const bool said = rule.kinds.has_corner(vertex) || rule.kinds.has_no_corner(vertex), held = !why_stays(domain, vertex).empty();
+    const std::string words = fmt::format(" vertices:{}", vertex);
+    entry(fmt::format("Vertex {}: corner, which stays", vertex), "menu:corner", "corner" + words, !rule.kinds.has_corner(vertex) && !held);
+    entry(fmt::format("Vertex {}: no corner", vertex), "menu:no-corner", "no-corner" + words, !rule.kinds.has_no_corner(vertex) && !held);
+    if (said) entry(fmt::format("Vertex {}: as file and angles say", vertex), "menu:auto-corner", "auto-corner" + words, true);
+  }
+  if (edge[1] >= frame.vertex_count()) return any;
+  const EdgeKind kind = edge_kind(*frame.input, rule, domain, edge[0], edge[1]);
+  if (kind == EdgeKind::Off) return any;
+  const EdgeTurn turn = turn_of(kind, rule.kinds, edge);
+  const std::string name = fmt::format("{}-{}", edge[0], edge[1]);
+  const char* what = turn.command == "feature" ? "feature edge" : turn.command == "no-feature" ? "smooth" : "as file and angles say";
+  if (turn.command.empty()) {
+    entry(fmt::format("Edge {}: a feature edge", name), "menu:edge", {}, false);
+    return any;
+  }
+  entry(fmt::format("Edge {}: {}", name, what), "menu:edge", fmt::format("{} edges:{}", turn.command, name), true);
+  if (turn.command != "feature")
+    entry(fmt::format("Edge {} and its chain: {}", name, what), "menu:chain", fmt::format("{} chain:{}", turn.command, name), true);
+  return any;
+}
+
+EdgeEnds nearest_edge(const Frame& frame, Index element, Vec3 at) {
+  EdgeEnds nearest{kNoIndex, kNoIndex};
+  double least = std::numeric_limits<double>::infinity();
+  if (frame.device || element >= frame.element_count()) return nearest;
+  for (const EdgeEnds& edge : edges_of(frame, element)) {
+    const Vec3 from = frame.positions[edge[0]], along = frame.positions[edge[1]] - from;
+    const double square = dot(along, along), share = square > 0.0 ? std::clamp(dot(at - from, along) / square, 0.0, 1.0) : 0.0;
+    const double far = length(at - (from + share * along));
+    if (far < least) least = far, nearest = edge;
+  }
+  return nearest;
 }
 
 }  // namespace dmoscope::ui

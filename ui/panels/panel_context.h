@@ -106,8 +106,9 @@ struct WidgetState {
   bool dragged = false;                                    // the button held in the viewport has moved
   std::size_t menu_pane = 0, brush_pane = 0;               // viewport whose menu is open; in which the brush paints
   std::pair<Index, Index> under_menu{kNoIndex, kNoIndex};  // vertex and element where the menu was opened
-  PickedFacts vertex_under_menu, element_under_menu;       // and what there is to copy of them
-  double moved_at = -1e9;                                  // when the view last moved
+  std::array<Index, 2> edge_under_menu{kNoIndex, kNoIndex};
+  PickedFacts vertex_under_menu, element_under_menu;  // and what there is to copy of them
+  double moved_at = -1e9;                             // when the view last moved
 };
 
 struct PanelContext {

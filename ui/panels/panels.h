@@ -1,6 +1,7 @@
 #pragma once
 // The parts of the window. Each reads the context and sends command lines; none changes the session, none calls OpenGL.
 
+#include "core/reference/kinds.h"
 #include "ui/panels/panel_context.h"
 #include "ui/panels/widgets.h"
 
@@ -24,6 +25,10 @@ void draw_inspector(PanelContext& context);
 /// Of a picked vertex, and of the edges of a picked element, where the run's vertices slide: their kinds, and what changes them.
 void draw_vertex_kind(PanelContext& context, const Frame& frame, const RunView& run, Index vertex);
 void draw_element_edges(PanelContext& context, const Frame& frame, const RunView& run, Index element);
+/// The same as entries of a viewport's menu, for what is under the mouse; kNoIndex: nothing is. True: there are some.
+bool draw_kind_entries(PanelContext& context, const Frame& frame, const RunView& run, Index vertex, EdgeEnds edge);
+/// The edge of an element that is nearest to a point.
+[[nodiscard]] EdgeEnds nearest_edge(const Frame& frame, Index element, Vec3 at);
 void draw_worst(PanelContext& context);
 void draw_inspection(PanelContext& context);
 /// The quality around the inspected vertex over the mesh, when it is wanted, and over it the marks that it covers.

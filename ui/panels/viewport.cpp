@@ -263,6 +263,12 @@ void draw_context_menu(PanelContext& context) {
   if (vertex != kNoIndex && element != kNoIndex) ImGui::Separator();
   if (element != kNoIndex) draw_element_entries(context, element);
   if (vertex != kNoIndex || element != kNoIndex) ImGui::Separator();
+  const RunView* run = context.run();
+  const bool of_run = context.widgets.menu_pane < context.panes.size() && run != nullptr && run->domain != nullptr &&
+                      context.panes[context.widgets.menu_pane].session->input == context.session.input;
+  if (of_run && context.frame() != nullptr && (vertex != kNoIndex || element != kNoIndex)) {
+    if (draw_kind_entries(context, *context.frame(), *run, vertex, context.widgets.edge_under_menu)) ImGui::Separator();
+  }
   for (const char* id : {"smooth-selected", "fix-selected", "step-iteration", "run-pause", "reset", "fit", "inside-clip", "inside-worst",
                          "inside-all", "wireframe", "vertices", "worst-marker", "screenshot"}) {
     const Action& action = *find_action(id);
@@ -276,14 +282,26 @@ void draw_context_menu(PanelContext& context) {
   ImGui::EndPopup();
 }
 
+/// The edge that is nearest to the mouse, of the element below it.
+EdgeEnds edge_at(const PanelContext& context, const PaneFacts& pane, Index element, Vec2<double> pixel) {
+  const Frame& frame = *pane.frame();
+  if (frame.input->in_space()) {
+    const auto point = context.point_at(pane.number, pixel);
+    return point ? nearest_edge(frame, element, *point) : EdgeEnds{kNoIndex, kNoIndex};
+  }
+  return nearest_edge(frame, element, frame.input->geometry.plane.lift(pane.camera.to_plane(pixel, context.state.viewport)));
+}
+
 void open_menu(PanelContext& context, const PaneFacts& pane, Vec2<double> at) {
   WidgetState& widgets = context.widgets;
   widgets.menu_pane = pane.number;
   widgets.under_menu = {kNoIndex, kNoIndex};
+  widgets.edge_under_menu = {kNoIndex, kNoIndex};
   if (pane.frame() != nullptr) {
     widgets.under_menu = context.pick(pane.number, at);
     const auto [vertex, element] = widgets.under_menu;
     widgets.vertex_under_menu = facts_of(*pane.frame(), {vertex == kNoIndex ? Picked::Kind::None : Picked::Kind::Vertex, vertex});
+    widgets.edge_under_menu = edge_at(context, pane, element, at);
     widgets.element_under_menu = facts_of(*pane.frame(), {element == kNoIndex ? Picked::Kind::None : Picked::Kind::Element, element});
   }
   ImGui::OpenPopup("viewport menu");

@@ -29,6 +29,7 @@ struct State {
     MethodOptions options;
     VisitOrder order;
     std::vector<Index> fixed;
+    Kinds kinds;
     Backend backend;
     Moment moment;
     std::vector<Edit> edits;
@@ -42,7 +43,7 @@ State state_of(Session& session) {
   for (std::size_t i = 0; i < session.run_count(); ++i) {
     dmoscope::Run& run = session.run(i);
     const RunParameters& p = run.parameters();
-    state.runs.push_back({p.method, p.metric, p.search, p.options, p.order, p.fixed, p.backend, run.moment(), run.edits().all(),
+    state.runs.push_back({p.method, p.metric, p.search, p.options, p.order, p.fixed, p.kinds, p.backend, run.moment(), run.edits().all(),
                           std::vector<Vec3>(run.positions().begin(), run.positions().end())});
   }
   return state;
@@ -59,6 +60,7 @@ void expect_same(const State& a, const State& b, const std::string& what) {
     EXPECT_EQ(x.options, y.options) << what;
     EXPECT_EQ(x.order, y.order) << what;
     EXPECT_EQ(x.fixed, y.fixed) << what;
+    EXPECT_EQ(x.kinds, y.kinds) << what;
     EXPECT_EQ(x.backend, y.backend) << what;
     EXPECT_EQ(x.moment, y.moment) << what;
     EXPECT_EQ(x.edits, y.edits) << what;
@@ -84,6 +86,9 @@ TEST_F(Undo, TakesBackEveryCommandAndDoesItAgain) {
   say("generate random 300");
   say("run 3");
   const std::string vertex = std::to_string(free_vertex());
+  Index outside = 0;
+  while (session_.input()->topology.boundary()[outside] == 0) ++outside;
+  const std::string at_boundary = std::to_string(outside);
   for (const std::string& line : std::vector<std::string>{"step vertex",
                                                           "step class 2",
                                                           "step iteration",
@@ -110,6 +115,9 @@ TEST_F(Undo, TakesBackEveryCommandAndDoesItAgain) {
                                                           "backend cpu",
                                                           "fix " + vertex,
                                                           "unfix",
+                                                          "corner " + at_boundary,
+                                                          "no-corner " + at_boundary,
+                                                          "auto-corner",
                                                           "add-run dmo:radius-ratio",
                                                           "run 1",
                                                           "remove-run 1",

@@ -136,6 +136,22 @@ TEST_F(KindsInTheWindow, TheMouseFindsAnEdge) {
   EXPECT_FALSE(state().edge_under_mouse);
 }
 
+/// A right click offers the edge that is nearest to the mouse.
+TEST_F(KindsInTheWindow, AMenuTurnsTheNearestEdge) {
+  good("view-from +z");
+  good("fit");
+  good("right-click 640 400");
+  (void)picture();
+  EXPECT_TRUE(has("menu:edge"));
+  good("click menu:edge");
+  ASSERT_EQ(kinds().features.size(), 1U);
+  for (const Index v : kinds().features[0]) EXPECT_EQ(session()->frame->positions[v].z, 1.0);
+  good("right-click 640 400");
+  (void)picture();
+  good("click menu:edge");
+  EXPECT_TRUE(kinds().empty()) << "the same edge, back";
+}
+
 TEST_F(KindsInTheWindow, KeysGiveThePickedVertexItsKind) {
   EXPECT_TRUE(window_->run("make corner").has_value()) << "nothing is picked";
   good("pick vertex 2");

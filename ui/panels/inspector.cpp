@@ -355,7 +355,6 @@ std::string id_text(Index element, float room) {
 }  // namespace
 
 void draw_inspector(PanelContext& context) {
-  context.state.edge_under_mouse.reset();
   const Frame* frame = context.frame();
   if (frame == nullptr) {
     heading(context, "Inspector");

@@ -172,11 +172,16 @@ bool draw_kind_entries(PanelContext& context, const Frame& frame, const RunView&
     context.items.record_last(item);
     any = true;
   };
+  const auto edge_entry = [&](const std::string& label, const char* item, const std::string& command, bool possible) {
+    entry(label, item, command, possible);
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) context.state.edge_under_mouse = edge;
+  };
   if (vertex < frame.vertex_count() && (domain.slides(vertex) || domain.held_on(vertex) != HeldOn::Nothing)) {
     const bool said = rule.kinds.has_corner(vertex) || rule.kinds.has_no_corner(vertex), held = !why_stays(domain, vertex).empty();
     const std::string words = fmt::format(" vertices:{}", vertex);
-    entry(fmt::format("Vertex {}: corner, which stays", vertex), "menu:corner", "corner" + words, !rule.kinds.has_corner(vertex) && !held);
-    entry(fmt::format("Vertex {}: no corner", vertex), "menu:no-corner", "no-corner" + words, !rule.kinds.has_no_corner(vertex) && !held);
+    entry(fmt::format("Vertex {}: make it a corner", vertex), "menu:corner", "corner" + words, !rule.kinds.has_corner(vertex) && !held);
+    entry(fmt::format("Vertex {}: no corner, let it slide", vertex), "menu:no-corner", "no-corner" + words,
+          !rule.kinds.has_no_corner(vertex) && !held);
     if (said) entry(fmt::format("Vertex {}: as file and angles say", vertex), "menu:auto-corner", "auto-corner" + words, true);
   }
   if (edge[1] >= frame.vertex_count()) return any;
@@ -184,14 +189,16 @@ bool draw_kind_entries(PanelContext& context, const Frame& frame, const RunView&
   if (kind == EdgeKind::Off) return any;
   const EdgeTurn turn = turn_of(kind, rule.kinds, edge);
   const std::string name = fmt::format("{}-{}", edge[0], edge[1]);
-  const char* what = turn.command == "feature" ? "feature edge" : turn.command == "no-feature" ? "smooth" : "as file and angles say";
+  const char* what = turn.command == "feature"      ? "make it a feature edge"
+                     : turn.command == "no-feature" ? "make it smooth"
+                                                    : "as file and angles say";
   if (turn.command.empty()) {
-    entry(fmt::format("Edge {}: a feature edge", name), "menu:edge", {}, false);
+    edge_entry(fmt::format("Edge {}: it stays a feature edge", name), "menu:edge", {}, false);
     return any;
   }
-  entry(fmt::format("Edge {}: {}", name, what), "menu:edge", fmt::format("{} edges:{}", turn.command, name), true);
+  edge_entry(fmt::format("Edge {}: {}", name, what), "menu:edge", fmt::format("{} edges:{}", turn.command, name), true);
   if (turn.command != "feature")
-    entry(fmt::format("Edge {} and its chain: {}", name, what), "menu:chain", fmt::format("{} chain:{}", turn.command, name), true);
+    edge_entry(fmt::format("Edge {} and its chain: {}", name, what), "menu:chain", fmt::format("{} chain:{}", turn.command, name), true);
   return any;
 }
 

@@ -457,6 +457,7 @@ void draw_pane(PanelContext& context, const PaneFacts& pane) {
 
 void draw_viewports(PanelContext& context, const Rect& rect) {
   context.state.inspection.hovered.reset();
+  context.state.edge_under_mouse.reset();
   if (rect.empty()) return;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, colour_vector(context.palette.background));

@@ -111,7 +111,7 @@ struct ViewState {
   bool vertices = false;
   bool worst_marker = true;
   bool features = false;                                 // curves along which vertices slide, and what holds them
-  std::optional<std::array<Index, 2>> edge_under_mouse;  // in the inspector, to be seen in the mesh
+  std::optional<std::array<Index, 2>> edge_under_mouse;  // in the inspector or a menu, to be seen in the mesh
   bool holders = false;   // what holds the minimum: elements that hold one another, their forces, and the cluster
   bool shading = false;   // volumes' faces by a light, too: it changes what colours tell
   bool occlusion = true;  // volumes are darker in their corners and along their edges

@@ -87,6 +87,7 @@ TEST_F(KindsInASession, AChangeAfterAStepStartsARunBeside) {
   EXPECT_NE(positions(), there);
   say("select-run 1");
   EXPECT_EQ(positions(), there);
+  say("select-run 2");
   say("generate coast 300 2");
   EXPECT_TRUE(kinds().empty()) << "of another mesh";
 }

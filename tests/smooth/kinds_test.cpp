@@ -349,6 +349,31 @@ TEST(KindsByHand, InAPlaneVerticesSlideAlongALineThatAPersonDraws) {
   EXPECT_THROW((void)make_run(mesh, parameters), UsageError) << "it cannot slide vertices";
 }
 
+TEST(KindsByHand, InAPlaneCornersOfTheBoundaryAreSaid) {
+  const auto mesh = input(lattice(6, 0.0, 3));
+  StandingRule rule{InterfaceRule::Fixed, BoundaryRule::Slide};
+  const auto slides = [&](Index v) { return domain_for(*mesh, rule)->slides(v); };
+  EXPECT_FALSE(slides(0));
+  EXPECT_TRUE(slides(2));
+  rule.kinds.no_corners = {0};
+  rule.kinds.corners = {2, 24};  // the latter is inside
+  EXPECT_TRUE(slides(0)) << "round the square's corner";
+  EXPECT_FALSE(slides(2));
+  const auto standing = standing_vertices(*mesh, rule);
+  EXPECT_EQ(standing[0], 0);
+  EXPECT_EQ(standing[2], 1);
+  EXPECT_EQ(standing[24], 0) << "what is free inside is fixed by another word";
+  RunParameters parameters = sliding_by();
+  parameters.kinds = rule.kinds;
+  const Specimen specimen{"square", mesh->mesh};
+  dmoscope::Run run = make_run(mesh, parameters);
+  for (std::uint64_t iteration = 1; iteration <= 3; ++iteration) {
+    expect_promise_one(specimen, run, iteration);
+    expect_in_order(specimen, run);
+    expect_fixed_stay(specimen, run);
+  }
+}
+
 /// A line that a person draws across an interface does not free what lies on that.
 TEST(KindsByHand, InAPlaneInterfacesStay) {
   constexpr Index n = 6;

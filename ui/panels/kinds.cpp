@@ -68,8 +68,10 @@ void draw_edge(PanelContext& context, const InputMesh& input, const RunView& run
   const float right = ImGui::GetWindowContentRegionMax().x;
   constexpr const char *kFeature = "feature", *kChain = "chain";
   const float gap = context.px(4), first = right - button_width(kFeature) - button_width(kChain) - gap;
-  const std::string label = row.of_vertex ? fmt::format("to {}", row.to) : name;
+  const std::string whole = row.of_vertex ? fmt::format("to {}", row.to) : name;
+  const std::string label = fit_text(whole, first - gap - ImGui::GetCursorPosX());
   ImGui::TextUnformatted(label.c_str());
+  next_item_tooltip("edge " + name);
   if (const auto fold = fold_of(input, domain, row.from, row.to)) {
     const std::string angle = fmt::format("{:.0f}°", *fold);
     const float width = ImGui::CalcTextSize(angle.c_str()).x, left = first - gap - width;

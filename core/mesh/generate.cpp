@@ -18,7 +18,7 @@ struct Generator {
   std::size_t smallest, largest;  // range of size
 };
 
-constexpr std::size_t kGenerators = 18;
+constexpr std::size_t kGenerators = 19;
 constexpr std::array<GeneratorInfo, kGenerators> kInfos{{
     {"coast", "an irregular coastline with islands and an open sea; triangles graded from fine at the coast to coarse offshore", 4000},
     {"block", "fifteen blocks of triangles that meet in irregular vertices, smoothly distorted", 2500},
@@ -37,6 +37,7 @@ constexpr std::array<GeneratorInfo, kGenerators> kInfos{{
      1000},
     {"screw", "a twisted rod of hexahedra, jittered inside and along its surface, which its worst elements touch", 2000},
     {"elbow", "a bent rod of hexahedra that gets thicker, jittered inside and along its surface, which its worst elements touch", 2000},
+    {"can", "a closed can of triangles in space, jittered on its surface and along its two rims", 2000},
     {"nested", "a square of triangles in a square of another material, jittered but for what lies between them", 1000},
     {"nested-solids", "a cube of tetrahedra in a cube of another material, jittered but for what lies between them", 2000},
 }};
@@ -57,6 +58,7 @@ constexpr std::array<Generator, kGenerators> kMakers{{
     {generators::tangled_volumes, 125, 5000000},
     {generators::screw, 63, 5000000},
     {generators::elbow, 63, 5000000},
+    {generators::can, 50, 5000000},
     {generators::nested, 25, 5000000},
     {generators::nested_volumes, 64, 5000000},
 }};

@@ -1,10 +1,11 @@
 // Rods of hexahedra that are swept along a curve: their worst elements touch the surface, where a round section has the corners of a
-// square.
+// square. And the skin of one.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include "core/mesh/generators.h"
 
@@ -70,6 +71,57 @@ Mesh elbow(const Request& request) {
     const double size = 0.3 + 0.3 * along * along, c = cos_turns(0.25 * along), s = sin_turns(0.25 * along), across = 1.0 + size * p.x;
     return Vec3{across * c, across * s, -size * p.y};
   });
+}
+
+/// The skin of a rod twice as long as it is wide. Each cell is split through its corner where one is a square's, which lies on a smooth
+/// curve, else at random.
+Mesh can(const Request& request) {
+  const auto n = std::max<Index>(2, static_cast<Index>(std::lround(std::sqrt(static_cast<double>(request.size) / 10.0))));
+  const Index m = 2 * n, row = n + 1;
+  Mesh mesh;
+  Random random(request.seed);
+  std::vector<Index> number(std::size_t{row} * row * (m + 1), kNoIndex);  // of a point of the lattice
+  const auto jittered = [&random](Index at, Index last) {
+    const double way = 2.0 * kJitter * random.between(-1.0, 1.0);
+    return (at + (at > 0 && at < last ? way : 0.0)) / last;
+  };
+  const auto on_skin = [n, m](Index i, Index j, Index k) { return i == 0 || i == n || j == 0 || j == n || k == 0 || k == m; };
+  const auto point = [row](Index i, Index j, Index k) { return i + row * (j + row * std::size_t{k}); };
+  for (Index k = 0; k <= m; ++k) {
+    request.progress.check();
+    request.progress.set(static_cast<double>(k) / m);
+    for (Index j = 0; j <= n; ++j)
+      for (Index i = 0; i <= n; ++i) {
+        if (!on_skin(i, j, k)) continue;
+        number[point(i, j, k)] = mesh.vertex_count();
+        const double u = 2.0 * jittered(i, n) - 1.0, v = 2.0 * jittered(j, n) - 1.0, along = jittered(k, m);
+        const Vec2<double> p = on_disc(u, v);
+        mesh.positions.push_back({neat(p.x), neat(p.y), neat(4.0 * along)});
+      }
+  }
+  const auto add = [&](std::array<std::size_t, 4> points, bool first) {
+    std::array<Index, 4> c{};
+    std::ranges::transform(points, c.begin(), [&number](std::size_t p) { return number[p]; });
+    if (!first) std::ranges::rotate(c, c.begin() + 1);
+    mesh.elements.add(ElementKind::Triangle, std::array{c[0], c[1], c[2]});
+    mesh.elements.add(ElementKind::Triangle, std::array{c[0], c[2], c[3]});
+  };
+  const auto any = [&random] { return random.between(0.0, 1.0) < 0.5; };
+  for (Index j = 0; j < n; ++j)
+    for (Index i = 0; i < n; ++i) {
+      const bool rises = (i == 0 && j == 0) || (i + 1 == n && j + 1 == n), falls = (i == 0 && j + 1 == n) || (i + 1 == n && j == 0);
+      const bool chance = any(), first = rises || (!falls && chance), second = rises || (!falls && any());
+      add({point(i, j, m), point(i + 1, j, m), point(i + 1, j + 1, m), point(i, j + 1, m)}, first);
+      add({point(i, j, 0), point(i, j + 1, 0), point(i + 1, j + 1, 0), point(i + 1, j, 0)}, second);
+    }
+  for (Index k = 0; k < m; ++k)
+    for (Index i = 0; i < n; ++i) {
+      add({point(i, 0, k), point(i + 1, 0, k), point(i + 1, 0, k + 1), point(i, 0, k + 1)}, any());
+      add({point(i + 1, n, k), point(i, n, k), point(i, n, k + 1), point(i + 1, n, k + 1)}, any());
+      add({point(0, i + 1, k), point(0, i, k), point(0, i, k + 1), point(0, i + 1, k + 1)}, any());
+      add({point(n, i, k), point(n, i + 1, k), point(n, i + 1, k + 1), point(n, i, k + 1)}, any());
+    }
+  return mesh;
 }
 
 }  // namespace dmoscope::generators

@@ -35,6 +35,7 @@ struct Request {
 [[nodiscard]] Mesh tangled_volumes(const Request& request);
 [[nodiscard]] Mesh screw(const Request& request);
 [[nodiscard]] Mesh elbow(const Request& request);
+[[nodiscard]] Mesh can(const Request& request);
 [[nodiscard]] Mesh nested(const Request& request);
 [[nodiscard]] Mesh nested_volumes(const Request& request);
 

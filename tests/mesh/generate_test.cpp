@@ -27,7 +27,7 @@ bool same(const Mesh& a, const Mesh& b) {
 void expect_valid(const Mesh& mesh, bool tangled) {
   Progress progress;
   const auto input = prepare_input(mesh, {}, Need::Smoothing, progress);
-  if (!input->is_volume()) {
+  if (!input->in_space()) {
     EXPECT_EQ(input->geometry.plane.normal, (Vec3{0, 0, 1}));
   }
   const MeshReport& report = input->report;
@@ -70,6 +70,7 @@ TEST(Generate, SmallestSizesWork) {
                                    {"tangled-solids", 125},
                                    {"screw", 63},
                                    {"elbow", 63},
+                                   {"can", 50},
                                    {"nested", 25},
                                    {"nested-solids", 64}}) {
     SCOPED_TRACE(name);

@@ -201,8 +201,17 @@ std::shared_ptr<const InputMesh> assemble(Mesh mesh, Geometry geometry, Topology
   Interfaces interfaces(mesh, topology);
   progress.check();
   const bool has_strays = find_strays(mesh, geometry, topology, report);
-  return std::make_shared<const InputMesh>(InputMesh{std::move(mesh), geometry, std::move(topology), std::move(faces), std::move(report),
-                                                     std::move(path), std::move(reference), std::move(generator), std::move(interfaces),
+  return std::make_shared<const InputMesh>(InputMesh{std::move(mesh),
+                                                     geometry,
+                                                     std::move(topology),
+                                                     std::move(faces),
+                                                     std::move(report),
+                                                     std::move(path),
+                                                     std::move(reference),
+                                                     std::move(generator),
+                                                     std::move(interfaces),
+                                                     {},
+                                                     {},
                                                      has_strays});
 }
 

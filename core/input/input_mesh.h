@@ -30,8 +30,10 @@ struct InputMesh {
                                           // or |volume| in their stars, at input; of a volume the Jacobian of an ideal element of that size
   std::string generator{};                // "coast 4000 1": the words that make this mesh again; empty for any other
   Interfaces interfaces{};
+  std::shared_ptr<const InputMesh> surface{};  // on which vertices slide instead of on the mesh's own; null: that. See slide_on()
+  std::vector<Vec3> surface_normals{};  // of a curved surface, by element: which way it looks where that surface says so; zero: unknown
   bool has_strays = false;  // a vertex of an inverted element, off the boundary, that lies outside the box of its star's other vertices
-  [[nodiscard]] QualityContext quality_context() const { return {mesh, geometry}; }
+  [[nodiscard]] QualityContext quality_context() const { return {mesh, geometry, surface_normals}; }
   [[nodiscard]] bool is_volume() const noexcept { return geometry.shape == Shape::Volume; }
   /// Drawn in space: a volume or a curved surface.
   [[nodiscard]] bool in_space() const noexcept { return geometry.shape != Shape::Planar; }
@@ -42,7 +44,8 @@ struct InputMesh {
     MeshView<Frame> view{topology.star_offsets().data(),     topology.incidences().data(), mesh.elements.offsets().data(),
                          mesh.elements.all_corners().data(), reference_measure.data(),     {}};
     if constexpr (std::is_same_v<Frame, Plane>) view.frame = geometry.plane;
-    if constexpr (std::is_same_v<Frame, Curved>) view.frame = {geometry.plane.normal, geometry.mostly_flat};
+    if constexpr (std::is_same_v<Frame, Curved>)
+      view.frame = {geometry.plane.normal, geometry.mostly_flat, surface_normals.empty() ? nullptr : surface_normals.data()};
     return view;
   }
   [[nodiscard]] PlanarView planar_view() const { return view<Plane>(); }

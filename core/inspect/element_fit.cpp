@@ -28,11 +28,11 @@ void raise(float& value, double other) {
 class FaceLayer {
  public:
   FaceLayer(const Domain& domain, PositionView positions)
-      : domain_(domain), facets_(domain.facets()), positions_(positions), overlay_(domain, room_) {}
+      : domain_(domain), faces_(domain.faces()), facets_(faces_.facets()), positions_(positions), overlay_(domain, room_) {}
 
   [[nodiscard]] Fit fit(Index face) {
-    const auto c = facets_.faces().corners(face);
-    if (std::ranges::all_of(c, [this](Index v) { return positions_[v] == facets_.point(v); })) return {};
+    const auto c = faces_.table().corners(face);
+    if (faces_.are_own() && std::ranges::all_of(c, [this](Index v) { return positions_[v] == facets_.point(v); })) return {};
     find_starts(face);
     find_stretches(face);
     if (c.size() == 3) return lay(c[0], c[1], c[2]);
@@ -46,27 +46,28 @@ class FaceLayer {
   /// Facets near the face: beneath its corners, and where it was in the input.
   void find_starts(Index face) {
     starts_.clear();
-    const auto c = facets_.faces().corners(face);
+    const auto c = faces_.table().corners(face);
     for (const Index v : c) {
       if (domain_.on_surface(v)) {
-        if (const auto place = facets_.place(v, positions_[v])) starts_.push_back(place->facet);
+        if (const auto place = faces_.place(v, positions_[v])) starts_.push_back(place->facet);
       } else if (domain_.on_curve(v)) {
         if (const auto place = domain_.curves().place(v, positions_[v])) add_sides(v, *place, face);
       }
     }
-    for (Index i = 0; i + 2 < c.size(); ++i) starts_.push_back(facets_.first_facet(face) + i);
+    const auto [first, count] = faces_.beneath(face);
+    for (Index i = 0; i < count; ++i) starts_.push_back(first + i);
   }
   void add_sides(Index v, double place, Index face) {
     for (const auto& ends : domain_.curves().edges_at(v, place)) {
       if (ends.first == kNoIndex) continue;
       for (const FacetSide& side : facets_.sides_of(ends.first, ends.second))
-        if (facets_.facets()[side.facet].patch == facets_.patch_of_face(face)) starts_.push_back(side.facet);
+        if (facets_.facets()[side.facet].patch == faces_.patch_of(face)) starts_.push_back(side.facet);
     }
   }
   /// The stretches of curves along the face's edges.
   void find_stretches(Index face) {
     stretches_.clear();
-    const auto c = facets_.faces().corners(face);
+    const auto c = faces_.table().corners(face);
     for (std::size_t i = 0; i < c.size(); ++i) {
       const Index a = c[i], b = c[i + 1 < c.size() ? i + 1 : 0];
       const Index slider = domain_.on_curve(a) ? a : b, other = slider == a ? b : a;
@@ -84,6 +85,7 @@ class FaceLayer {
   }
 
   const Domain& domain_;
+  const SlidingFaces& faces_;
   const Facets& facets_;
   PositionView positions_;
   OverlayRoom room_;
@@ -112,7 +114,7 @@ std::vector<ElementFace> owners_of(const InputMesh& input, const ElementTable& f
 }
 
 ElementFit fit_in_space(const InputMesh& input, const Domain& domain, PositionView positions, ThreadPool* pool) {
-  const ElementTable& faces = domain.facets().faces();
+  const ElementTable& faces = domain.faces().table();
   std::vector<float> deviation(faces.size(), kNone), tilt(faces.size(), kNone);
   for_chunks(pool, faces.size(), kFaceGrain, [&](std::size_t begin, std::size_t end) {
     FaceLayer layer(domain, positions);

@@ -144,6 +144,7 @@ class Look {
       case HeldOn::End:
         return Holding::Feature;
       case HeldOn::Touching:
+      case HeldOn::Unmatched:
         return Holding::Touching;
       case HeldOn::Named:
         return Holding::Named;
@@ -206,20 +207,20 @@ class Look {
   }
   /// Where the edges of curves at a vertex lead to: of the boundary or an interface in a plane, else feature edges.
   [[nodiscard]] std::vector<Index> along_curves(Index v) const {
-    const Facets& facets = q_.domain->facets();
+    const SlidingFaces& faces = q_.domain->faces();
     std::map<Index, std::vector<Index>> beside;  // by neighbour: the elements or faces at the edge
     const auto add = [&](std::span<const Index> c, Index of) {
       const auto i = static_cast<std::size_t>(std::ranges::find(c, v) - c.begin());
       for (const std::size_t other : {(i + 1) % c.size(), (i + c.size() - 1) % c.size()}) beside[c[other]].push_back(of);
     };
-    if (facets.any())
-      for (const Index f : facets.faces_at(v)) add(facets.faces().corners(f), f);
+    if (faces.any())
+      for (const Index f : faces.at(v)) add(faces.table().corners(f), f);
     else
       for (const Incidence& at : q_.input->topology.star(v)) add(mesh_.elements.corners(at.element), at.element);
     std::vector<Index> found;
     for (const auto& [other, at] : beside) {
       const bool along =
-          facets.any() ? !facets.sides_of(v, other).empty() : at.size() == 1 || q_.input->interfaces.between(at.front(), at.back());
+          faces.any() ? q_.domain->is_feature(v, other) : at.size() == 1 || q_.input->interfaces.between(at.front(), at.back());
       if (along) found.push_back(other);
     }
     return found;
@@ -232,8 +233,8 @@ class Look {
   }
   /// By how many degrees the surface of the input folds along an edge; none where other than two facets meet.
   [[nodiscard]] std::optional<double> fold(Index a, Index b) const {
-    const Facets& facets = q_.domain->facets();
-    if (!facets.any()) return std::nullopt;
+    if (!q_.domain->faces().any() || !q_.domain->faces().are_own()) return std::nullopt;
+    const Facets& facets = q_.domain->faces().facets();
     const auto sides = facets.sides_of(a, b);
     if (sides.size() != 2) return std::nullopt;
     const auto normal = [&](const FacetSide& side) {

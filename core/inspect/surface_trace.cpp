@@ -28,7 +28,7 @@ class SurfaceLook {
         vertex_(vertex),
         here_(positions[vertex]),
         sweep_(sweep),
-        facets_(task.domain->facets()),
+        facets_(task.domain->faces().facets()),
         mesh_(task.input->view<Frame>()),
         judge_(*task.input, std::move(composite)) {
     judge_.begin(sweep);
@@ -44,7 +44,7 @@ class SurfaceLook {
     trace.before = trace.after = state(here_);
     trace.untangling = judge_.is_tangled(star_);
     trace.value_phrase = combined ? "its two aims" : metric_phrase(task_.metric);
-    const auto place = facets_.place(vertex_, here_);
+    const auto place = task_.domain->faces().place(vertex_, here_);
     const Vec3 normal = place ? facets_.normal(*place) : Vec3{};
     if (place && !(normal == Vec3{})) {
       visit_.grid.plane = tangent_plane(normal);
@@ -76,6 +76,7 @@ class SurfaceLook {
     trace.levels = std::move(recorder.levels);
     Overlay overlay(*task_.domain, room_);
     const Fit now = overlay.star(positions_, vertex_, here_, &stands, kNoFit);
+    const Fit bound{task_.max_deviation, task_.max_deviation, kLeastCosine};
     for (TracedLevel& level : trace.levels) {
       SurfaceGrid::Level& on_surface = visit_.grid.levels.emplace_back();
       for (const Vec2<double> offset : level.offsets) {
@@ -83,7 +84,9 @@ class SurfaceLook {
         CandidateFate fate = CandidateFate::Counts;
         if (!found)
           fate = walk(offset, -1.0) ? CandidateFate::TurnedAway : CandidateFate::Feature;
-        else if (!fits(overlay.star(positions_, vertex_, facets_.at(*found), &*found, kNoFit), now))
+        else if (now.deviation == kNoFit.deviation && !task_.domain->faces().are_own()
+                     ? !overlay.keeps_what_lies(positions_, vertex_, here_, &stands, facets_.at(*found), &*found, bound)
+                     : !fits(overlay.star(positions_, vertex_, facets_.at(*found), &*found, kNoFit), now))
           fate = CandidateFate::Deviates;
         on_surface.fates.push_back(fate);
         on_surface.places.push_back(found ? facets_.at(*found) - here_ : plane.lift(offset));

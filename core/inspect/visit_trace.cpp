@@ -221,7 +221,7 @@ class Look {
       ElementChange change{incidence.element};
       const auto judge = [&](Vec3 place, double& quality, bool& inverted) {
         const auto at = [&](Index v) { return v == trace_.vertex ? place : positions_[v]; };
-        visit_shape(mesh_.frame, mesh_.corners_of(incidence.element), at, [&](const auto& shape) {
+        visit_shape(mesh_.frame_of(incidence.element), mesh_.corners_of(incidence.element), at, [&](const auto& shape) {
           quality = evaluate<M>(shape);
           inverted = formulas::smallest_jacobian(shape) <= 0.0;
         });

@@ -20,6 +20,13 @@ struct MeshView {
   const double* reference_measure = nullptr;  // see InputMesh
   Frame frame;
 
+  /// What an element is judged in.
+  [[nodiscard]] DMOSCOPE_ANYWHERE decltype(auto) frame_of([[maybe_unused]] Index element) const {
+    if constexpr (requires { frame.of(element); })
+      return frame.of(element);
+    else
+      return (frame);
+  }
   [[nodiscard]] DMOSCOPE_ANYWHERE std::span<const Incidence> star(Index vertex) const {
     return {incidences + star_offsets[vertex], incidences + star_offsets[vertex + 1]};
   }

@@ -72,8 +72,12 @@ template <class Real>
 
 /// What a mesh of a curved surface has: all of space, with elements judged in their own planes.
 struct Curved {
-  Vec3 normal{};             // of elements that have none
-  bool mostly_flat = false;  // quadrilaterals are judged against `normal`: see Geometry
+  Vec3 normal{};                  // of elements that have none
+  bool mostly_flat = false;       // quadrilaterals are judged against `normal`: see Geometry
+  const Vec3* normals = nullptr;  // by element, see InputMesh::surface_normals; null: none
+  bool against = false;           // all elements are: one that looks away from `normal` is inverted
+  /// The frame of one element.
+  [[nodiscard]] Curved of(Index element) const { return normals == nullptr ? *this : Curved{normals[element], false, nullptr, true}; }
   [[nodiscard]] SurfaceVector offset(Vec3 at, Vec3 origin) const { return {at - origin, {}}; }
 };
 

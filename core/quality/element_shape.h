@@ -17,6 +17,13 @@ namespace dmoscope {
   return l > 0.0 ? (1.0 / l) * n : fallback;
 }
 
+/// The unit normal of an element of a curved mesh, whose edges or diagonals span it. Where the frame's has a say, that of an element which
+/// looks away from it: so its areas, as they look from above, are negative, and go to 0 as it turns.
+[[nodiscard]] inline Vec3 curved_normal(Vec3 a, Vec3 b, Vec3 frame_normal, bool against) {
+  const Vec3 n = unit_normal(a, b, frame_normal);
+  return against && dot(n, frame_normal) < 0.0 ? frame_normal : n;
+}
+
 /// The shape of a planar triangle or quadrilateral (by the number of its corners) from differences from its first corner, so that nothing
 /// is lost far from the origin: visitor(Triangle) or visitor(Quadrilateral). at(vertex): its position.
 template <class At, class Visitor>
@@ -63,11 +70,11 @@ template <class At, class Visitor>
   const Vec3 b = at(corners[1]) - origin, c = at(corners[2]) - origin;
   using V = SurfaceVector;
   if (corners.size() == 3) {
-    const Vec3 n = unit_normal(b, c, frame.normal);  // a surface triangle has no sign
+    const Vec3 n = curved_normal(b, c, frame.normal, frame.against);  // else a surface triangle has no sign
     return visitor(formulas::Triangle<V>({{}, n}, {b, n}, {c, n}));
   }
   const Vec3 d = at(corners[3]) - origin;
-  const Vec3 n = frame.mostly_flat ? frame.normal : unit_normal(c, d - b, frame.normal);
+  const Vec3 n = frame.mostly_flat ? frame.normal : curved_normal(c, d - b, frame.normal, frame.against);
   return visitor(formulas::Quadrilateral<V>({{}, n}, {b, n}, {c, n}, {d, n}));
 }
 
@@ -78,7 +85,9 @@ template <class Visitor>
   const auto at = [&](Index vertex) { return positions[vertex]; };
   if (info(context.mesh.elements.kind(element)).dimension == 3) return visit_volume(corners, at, visitor);
   if (context.geometry.shape == Shape::Planar) return visit_planar(context.geometry.plane, corners, at, visitor);
-  return visit_shape(Curved{context.geometry.plane.normal, context.geometry.mostly_flat}, corners, at, visitor);
+  const Curved frame{context.geometry.plane.normal, context.geometry.mostly_flat,
+                     context.normals.empty() ? nullptr : context.normals.data()};
+  return visit_shape(frame.of(element), corners, at, visitor);
 }
 
 /// The metric of a triangle or quadrilateral of vectors V; NaN where it is not defined. Never -0: double and packs of it would choose

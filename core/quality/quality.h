@@ -18,8 +18,9 @@ class ThreadPool;
 /// What quality needs to know of a mesh besides its positions. A view: the mesh and geometry must outlive it.
 struct QualityContext {
   const Mesh& mesh;
-  const Geometry& geometry;  // Planar: signed in the plane. Surface: triangles unsigned, quadrilaterals against
-                             // geometry.plane.normal if that is mostly_flat, else against their own mean normal.
+  const Geometry& geometry;         // Planar: signed in the plane. Surface: triangles unsigned, quadrilaterals against
+                                    // geometry.plane.normal if that is mostly_flat, else against their own mean normal.
+  std::span<const Vec3> normals{};  // of a Surface, by element, which then are signed by them: see InputMesh::surface_normals
 };
 
 /// Quality of one element with the mesh's vertices at `positions`. NaN where the metric is not defined for its kind.

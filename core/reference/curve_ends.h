@@ -11,14 +11,15 @@ namespace dmoscope {
 
 /// What holds a vertex that could slide.
 enum class HeldOn : std::uint8_t {
-  Nothing,   // it slides, or is not of what slides
-  Corner,    // the boundary, or the feature edge, turns there
-  Junction,  // more than two feature edges meet there, or parts of the boundary
-  End,       // a feature edge ends there
-  Touching,  // parts of the surface touch there, or it cannot be wound alike
-  Named,     // the file gives it a meaning
-  Rule,      // boundary or interfaces stay
-  Hand       // a person made it a corner
+  Nothing,    // it slides, or is not of what slides
+  Corner,     // the boundary, or the feature edge, turns there
+  Junction,   // more than two feature edges meet there, or parts of the boundary
+  End,        // a feature edge ends there
+  Touching,   // parts of the surface touch there, or it cannot be wound alike
+  Named,      // the file gives it a meaning
+  Rule,       // boundary or interfaces stay
+  Unmatched,  // the surface of another mesh that it should slide on is too far away, or has no feature edge there
+  Hand        // a person made it a corner
 };
 
 /// A vertex slides between two neighbours once exactly two edges of curves have met at it, unless it is held.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "core/base/rounding.h"
@@ -25,95 +26,159 @@ double distance_to_segment(const Plane& plane, Vec3 p, Vec3 a, Vec3 b) {
 
 }  // namespace
 
-/// Chains the edges along which vertices slide.
-class Curves::Builder {
- public:
-  Builder(Curves& out, const CurveEnds& ends) : out_(out), ends_(ends) {}
-
-  void build() {
-    for (Index v = 0; v < ends_.size(); ++v)
-      if (slides(v) && out_.curve_of_[v] == kNoIndex) chain(v);
-  }
-
- private:
-  [[nodiscard]] bool slides(Index v) const { return ends_.slides(v); }
-  [[nodiscard]] Index beyond(Index from, Index v) const { return ends_.of(v)[0] == from ? ends_.of(v)[1] : ends_.of(v)[0]; }
-
-  /// The curve of a vertex that slides, from one held vertex to the next, or all around.
-  void chain(Index start) {
-    Index before = start, first = ends_.of(start)[0];
-    while (first != start && slides(first)) before = std::exchange(first, beyond(before, first));
-    Curve curve;
-    curve.closed = first == start;
+std::vector<FeatureLine> chains(const CurveEnds& ends) {
+  std::vector<FeatureLine> lines;
+  std::vector<std::uint8_t> done(ends.size(), 0);
+  const auto beyond = [&ends](Index from, Index v) { return ends.of(v)[0] == from ? ends.of(v)[1] : ends.of(v)[0]; };
+  for (Index start = 0; start < ends.size(); ++start) {
+    if (!ends.slides(start) || done[start] != 0) continue;
+    Index before = start, first = ends.of(start)[0];
+    while (first != start && ends.slides(first)) before = std::exchange(first, beyond(before, first));
+    FeatureLine line;
+    line.closed = first == start;
     // From `first` on, away from where the way back came from.
     const Index end = first;
-    Index v = curve.closed ? ends_.of(start)[1] : before, last = first;
-    curve.vertices.push_back(first);
-    while (v != end && slides(v)) {
-      curve.vertices.push_back(v);
+    Index v = line.closed ? ends.of(start)[1] : before, last = first;
+    line.points.push_back(first);
+    while (v != end && ends.slides(v)) {
+      line.points.push_back(v);
       v = beyond(std::exchange(last, v), v);
     }
-    if (!curve.closed) curve.vertices.push_back(v);
-    if (curve.closed && curve.vertices.size() < 3) return;
-    add(std::move(curve));
+    if (!line.closed) line.points.push_back(v);
+    for (const Index point : line.points) done[point] = 1;
+    if (!line.closed || line.points.size() >= 3) lines.push_back(std::move(line));
   }
-
-  void add(Curve curve) {
-    const auto number = static_cast<Index>(out_.curves_.size());
-    const std::size_t count = curve.vertices.size(), first = curve.closed ? 0 : 1, last = curve.closed ? count : count - 1;
-    for (std::size_t i = first; i < last; ++i) {
-      out_.curve_of_[curve.vertices[i]] = number;
-      out_.index_on_[curve.vertices[i]] = static_cast<Index>(i);
-    }
-    curve.lengths.push_back(0.0);
-    for (std::size_t i = 1; i < count + (curve.closed ? 1 : 0); ++i)
-      curve.lengths.push_back(curve.lengths.back() +
-                              dmoscope::length(out_.plane_.difference(out_.point(curve, i), out_.point(curve, i - 1))));
-    out_.curves_.push_back(std::move(curve));
-  }
-
-  Curves& out_;
-  const CurveEnds& ends_;
-};
+  return lines;
+}
 
 Curves::Curves(const InputMesh& input, const CurveEnds& ends)
     : points_(input.mesh.positions),
       plane_(input.geometry.plane),
       single_precision_(input.mesh.single_precision),
-      curve_of_(input.mesh.vertex_count(), kNoIndex),
+      string_of_(input.mesh.vertex_count(), kNoIndex),
       index_on_(input.mesh.vertex_count(), 0) {
-  Builder(*this, ends).build();
+  take_strings(ends);
+  for (String& string : strings_) {  // each along a curve of its own
+    string.curve = static_cast<Index>(curves_.size());
+    Curve& curve = curves_.emplace_back(Curve{string.members, {}, string.closed});
+    measure(curve);
+    string.near.resize(string.members.size());
+    std::iota(string.near.begin(), string.near.end(), std::size_t{0});
+  }
 }
 
-std::optional<double> Curves::place_on(const Curve& curve, std::size_t segment, Vec3 position) const {
+Curves::Curves(const InputMesh& input, const CurveEnds& ends, const OntoLines& onto)
+    : points_(input.surface->mesh.positions),
+      plane_(input.geometry.plane),
+      single_precision_(input.mesh.single_precision),
+      beside_(onto.beside),
+      string_of_(input.mesh.vertex_count(), kNoIndex),
+      index_on_(input.mesh.vertex_count(), 0) {
+  take_strings(ends);
+  put_along(onto);
+  for (String& string : strings_) {
+    const Curve& curve = curves_[string.curve];
+    for (const Index v : string.members) {
+      const auto place = place_of(curve, 0, input.mesh.positions[v]);
+      string.near.push_back(place ? segment_at(curve, *place) : 0);
+    }
+    turn_along(string);
+  }
+  for (Index s = 0; s < strings_.size(); ++s)
+    for (std::size_t i = 0; i < strings_[s].members.size(); ++i)
+      if (string_of_[strings_[s].members[i]] == s) index_on_[strings_[s].members[i]] = static_cast<Index>(i);
+}
+
+void Curves::take_strings(const CurveEnds& ends) {
+  for (FeatureLine& line : chains(ends)) {
+    const std::size_t count = line.points.size(), from = line.closed ? 0 : 1, to = line.closed ? count : count - 1;
+    for (std::size_t i = from; i < to; ++i) {
+      string_of_[line.points[i]] = static_cast<Index>(strings_.size());
+      index_on_[line.points[i]] = static_cast<Index>(i);
+    }
+    strings_.push_back({kNoIndex, std::move(line.points), {}, line.closed});
+  }
+}
+
+void Curves::measure(Curve& curve) const {
+  const std::size_t count = curve.points.size();
+  curve.lengths.assign(1, 0.0);
+  for (std::size_t i = 1; i < count + (curve.closed ? 1 : 0); ++i)
+    curve.lengths.push_back(curve.lengths.back() + dmoscope::length(plane_.difference(point(curve, i), point(curve, i - 1))));
+}
+
+/// Gives each string the line near which its members stand.
+void Curves::put_along(const OntoLines& onto) {
+  for (const FeatureLine& line : onto.lines) {
+    Curve& curve = curves_.emplace_back(Curve{line.points, {}, line.closed});
+    measure(curve);
+  }
+  for (String& string : strings_) string.curve = onto.line_of[string.members[string.closed ? 0 : 1]];
+}
+
+/// Reverses a string that runs against its curve: of one that closes, the way forwards from member to member is then the shorter way round.
+void Curves::turn_along(String& string) const {
+  const Curve& curve = curves_[string.curve];
+  double forwards = 0.0, backwards = 0.0;
+  for (std::size_t i = 1; i < string.near.size(); ++i) {
+    const double from = curve.lengths[string.near[i - 1]], to = curve.lengths[string.near[i]];
+    double way = to - from;
+    if (curve.closed && std::abs(way) > 0.5 * curve.length()) way += way > 0.0 ? -curve.length() : curve.length();
+    (way > 0.0 ? forwards : backwards) += std::abs(way);
+  }
+  if (forwards >= backwards) return;
+  std::ranges::reverse(string.members);
+  std::ranges::reverse(string.near);
+}
+
+Curves::Member Curves::beside(Index vertex, bool after) const {
+  const String& string = strings_[string_of_[vertex]];
+  const std::size_t count = string.members.size(), i = (index_on_[vertex] + (after ? 1 : count - 1)) % count;
+  return {string.members[i], string.near[i]};
+}
+
+/// The place of the segment's point that is nearest.
+double Curves::place_near(const Curve& curve, std::size_t segment, Vec3 position, double& distance) const {
   const Vec3 a = point(curve, segment), b = point(curve, segment + 1);
   const Vec3 d = plane_.difference(b, a), r = plane_.difference(position, a);
   const double square = dot(d, d), t = square > 0.0 ? std::clamp(dot(r, d) / square, 0.0, 1.0) : 0.0;
-  const double rounding = single_precision_ ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
-  if (!(length(r - t * d) <= kRoundings * rounding * std::max(largest_coordinate(a), largest_coordinate(b)))) return std::nullopt;
+  distance = length(r - t * d);
   return curve.lengths[segment] + t * std::sqrt(square);
 }
 
-std::optional<double> Curves::place_of(const Curve& curve, std::size_t index, Vec3 position) const {
+std::optional<double> Curves::place_on(const Curve& curve, std::size_t segment, Vec3 position) const {
+  const double rounding = single_precision_ ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
+  const double largest = std::max(largest_coordinate(point(curve, segment)), largest_coordinate(point(curve, segment + 1)));
+  double distance = 0.0;
+  const double place = place_near(curve, segment, position, distance);
+  return distance <= kRoundings * rounding * largest ? std::optional(place) : std::nullopt;
+}
+
+std::optional<double> Curves::place_of(const Curve& curve, std::size_t near, Vec3 position) const {
   const std::size_t count = curve.segments();
   for (std::size_t step = 0; step <= count; ++step) {  // the segments on either side, nearest first
     for (const bool forwards : {true, false}) {
       std::size_t segment = 0;
       if (curve.closed)
-        segment = (index + (forwards ? step : count - 1 - step % count)) % count;
-      else if (forwards ? index + step < count : index >= step + 1)
-        segment = forwards ? index + step : index - step - 1;
+        segment = (near + (forwards ? step : count - 1 - step % count)) % count;
+      else if (forwards ? near + step < count : near >= step + 1)
+        segment = forwards ? near + step : near - step - 1;
       else
         continue;
       if (const auto found = place_on(curve, segment, position)) return found;
     }
   }
-  return std::nullopt;
+  std::optional<double> nearest;
+  double least = beside_;
+  for (std::size_t segment = 0; beside_ > 0.0 && segment < count; ++segment) {
+    double distance = 0.0;
+    const double place = place_near(curve, segment, position, distance);
+    if (distance < least) least = distance, nearest = place;
+  }
+  return nearest;
 }
 
-std::optional<double> Curves::place(Index vertex, Vec3 position) const {
-  return place_of(curves_[curve_of_[vertex]], index_on_[vertex], position);
-}
+std::optional<double> Curves::place(Index vertex, Vec3 position) const { return place_of(curve_of(vertex), near_of(vertex), position); }
 
 std::size_t Curves::segment_at(const Curve& curve, double place) {
   const auto next = std::upper_bound(curve.lengths.begin(), curve.lengths.end(), place);
@@ -122,7 +187,7 @@ std::size_t Curves::segment_at(const Curve& curve, double place) {
 }
 
 Vec3 Curves::at(Index vertex, double place) const {
-  const Curve& curve = curves_[curve_of_[vertex]];
+  const Curve& curve = curve_of(vertex);
   if (curve.closed && place < 0.0) place += curve.length();
   if (curve.closed && place >= curve.length()) place -= curve.length();
   const std::size_t segment = segment_at(curve, place);
@@ -135,13 +200,12 @@ Vec3 Curves::at(Index vertex, double place) const {
 }
 
 std::optional<Curves::Neighbours> Curves::neighbours(Index vertex, double place, PositionView positions) const {
-  const Curve& curve = curves_[curve_of_[vertex]];
-  const std::size_t count = curve.vertices.size(), i = index_on_[vertex];
-  const std::size_t before = (i + count - 1) % count, after = (i + 1) % count;
-  const auto place_before = place_of(curve, before, positions[curve.vertices[before]]);
-  const auto place_after = place_of(curve, after, positions[curve.vertices[after]]);
+  const Curve& curve = curve_of(vertex);
+  const Member before = beside(vertex, false), after = beside(vertex, true);
+  const auto place_before = place_of(curve, before.near, positions[before.vertex]);
+  const auto place_after = place_of(curve, after.near, positions[after.vertex]);
   if (!place_before || !place_after) return std::nullopt;
-  Neighbours found{curve.vertices[before], curve.vertices[after], *place_before, *place_after};
+  Neighbours found{before.vertex, after.vertex, *place_before, *place_after};
   if (curve.closed && found.place_before >= place) found.place_before -= curve.length();
   if (curve.closed && found.place_after <= place) found.place_after += curve.length();
   if (!(found.place_before < place && place < found.place_after)) return std::nullopt;
@@ -149,21 +213,21 @@ std::optional<Curves::Neighbours> Curves::neighbours(Index vertex, double place,
 }
 
 std::optional<Curves::Stretch> Curves::stretch_to(Index vertex, Vec3 position, Index other, Vec3 position_of_other) const {
-  const Curve& curve = curves_[curve_of_[vertex]];
-  const std::size_t count = curve.vertices.size(), i = index_on_[vertex], before = (i + count - 1) % count, after = (i + 1) % count;
-  const bool forwards = curve.vertices[after] == other;
-  if (!forwards && curve.vertices[before] != other) return std::nullopt;
-  const auto here = place_of(curve, i, position), there = place_of(curve, forwards ? after : before, position_of_other);
+  const Curve& curve = curve_of(vertex);
+  const bool forwards = beside(vertex, true).vertex == other;
+  const Member end = beside(vertex, forwards);
+  if (end.vertex != other) return std::nullopt;
+  const auto here = place_of(curve, near_of(vertex), position), there = place_of(curve, end.near, position_of_other);
   if (!here || !there) return std::nullopt;
   const double from = forwards ? *here : *there, to = forwards ? *there : *here;
   const std::size_t first = segment_at(curve, from);
   std::size_t last = segment_at(curve, to);
   if (to <= curve.lengths[last] && last != first) last = last > 0 ? last - 1 : curve.segments() - 1;
-  return Stretch{curve_of_[vertex], first, last};
+  return Stretch{strings_[string_of_[vertex]].curve, first, last};
 }
 
 std::array<std::pair<Index, Index>, 2> Curves::edges_at(Index vertex, double place) const {
-  const Curve& curve = curves_[curve_of_[vertex]];
+  const Curve& curve = curve_of(vertex);
   const std::size_t i = segment_at(curve, place);
   std::array<std::pair<Index, Index>, 2> edges{ends_of(curve, i), {kNoIndex, kNoIndex}};
   if (place <= curve.lengths[i] && (i > 0 || curve.closed)) edges[1] = ends_of(curve, i > 0 ? i - 1 : curve.segments() - 1);
@@ -171,7 +235,7 @@ std::array<std::pair<Index, Index>, 2> Curves::edges_at(Index vertex, double pla
 }
 
 double Curves::deviation(Index vertex, double first, double last, Vec3 from, Vec3 to) const {
-  const Curve& curve = curves_[curve_of_[vertex]];
+  const Curve& curve = curve_of(vertex);
   double shift = 0.0;
   if (curve.closed) shift = first < 0.0 ? -curve.length() : first >= curve.length() ? curve.length() : 0.0;
   const auto count = static_cast<std::ptrdiff_t>(curve.segments());  // points of a closed curve; else one less

@@ -13,6 +13,22 @@
 
 namespace dmoscope {
 
+/// A polyline along feature edges of a mesh.
+struct FeatureLine {
+  std::vector<Index> points;  // vertices; of a closed one each once
+  bool closed = false;
+};
+/// Those edges of which two meet at a vertex, chained: from one vertex that is held to the next, or all around; by the lowest vertex that
+/// slides on each.
+[[nodiscard]] std::vector<FeatureLine> chains(const CurveEnds& ends);
+
+/// Feature lines of another mesh, along which vertices slide instead of along edges of their own.
+struct OntoLines {
+  std::vector<FeatureLine> lines;
+  std::vector<Index> line_of;  // by vertex of the mesh: the line near which one that slides stands
+  double beside = 0.0;         // how far from it, in mesh units
+};
+
 /// Places on a curve are lengths along it, in mesh units, from its first point; those of a closed curve without a corner start anew after
 /// its length. A vertex's place follows from its position: it is where its curve passes through that, and of several passes the one nearest
 /// to where the vertex was in the input. The mesh must outlive them.
@@ -20,8 +36,10 @@ class Curves {
  public:
   /// `ends`: who slides, and between whom.
   Curves(const InputMesh& input, const CurveEnds& ends);
+  /// Along lines of input.surface; `ends` tell the neighbours still.
+  Curves(const InputMesh& input, const CurveEnds& ends, const OntoLines& onto);
 
-  [[nodiscard]] bool slides(Index vertex) const noexcept { return curve_of_[vertex] != kNoIndex; }
+  [[nodiscard]] bool slides(Index vertex) const noexcept { return string_of_[vertex] != kNoIndex; }
   [[nodiscard]] Index curve_count() const noexcept { return static_cast<Index>(curves_.size()); }
 
   /// Where on its curve a vertex that slides stands; nowhere for one that was put beside it.
@@ -52,8 +70,8 @@ class Curves {
   /// What lies between a vertex that slides and a neighbour along the curve; none where `other` is no neighbour, or either beside the
   /// curve.
   [[nodiscard]] std::optional<Stretch> stretch_to(Index vertex, Vec3 position, Index other, Vec3 position_of_other) const;
-  /// The edges of the input around a place of the vertex's curve: the one it lies on, and the one before where it is that one's first end.
-  /// kNoIndex: none.
+  /// The edges of the mesh that it slides along, around a place of the vertex's curve: the one it lies on, and the one before where it is
+  /// that one's first end. kNoIndex: none.
   [[nodiscard]] std::array<std::pair<Index, Index>, 2> edges_at(Index vertex, double place) const;
   /// Calls visit(curve, segment, from, to) for all segments.
   template <class Visit>
@@ -65,30 +83,58 @@ class Curves {
       }
   }
 
+  /// Calls visit(a, b) for all edges of the mesh along curves.
+  template <class Visit>
+  void for_edges(const Visit& visit) const {
+    for (const String& string : strings_)
+      for (std::size_t i = string.closed ? 0 : 1; i < string.members.size(); ++i)
+        visit(string.members[i > 0 ? i - 1 : string.members.size() - 1], string.members[i]);
+  }
+
  private:
   struct Curve {
-    std::vector<Index> vertices;  // along it; of a closed one without a corner each once
+    std::vector<Index> points;    // along it, of points_; of a closed one without a corner each once
     std::vector<double> lengths;  // from the first point to each; of a closed one, to the first again, too
     bool closed = false;
     [[nodiscard]] std::size_t segments() const { return lengths.size() - 1; }
     [[nodiscard]] double length() const { return lengths.back(); }
   };
-  class Builder;
+  /// Vertices of the mesh along a curve, one after the other, each joined to the next by an edge; the ends of an open one are held.
+  struct String {
+    Index curve = kNoIndex;
+    std::vector<Index> members;
+    std::vector<std::size_t> near;  // by member: a segment near which it was in the input
+    bool closed = false;
+  };
+  struct Member {
+    Index vertex;
+    std::size_t near;
+  };
 
+  void take_strings(const CurveEnds& ends);
+  void measure(Curve& curve) const;
+  void put_along(const OntoLines& onto);
+  void turn_along(String& string) const;
+  [[nodiscard]] const Curve& curve_of(Index vertex) const { return curves_[strings_[string_of_[vertex]].curve]; }
+  [[nodiscard]] std::size_t near_of(Index vertex) const { return strings_[string_of_[vertex]].near[index_on_[vertex]]; }
+  [[nodiscard]] Member beside(Index vertex, bool after) const;
   [[nodiscard]] static std::pair<Index, Index> ends_of(const Curve& curve, std::size_t segment) {
-    return {curve.vertices[segment], curve.vertices[(segment + 1) % curve.vertices.size()]};
+    return {curve.points[segment], curve.points[(segment + 1) % curve.points.size()]};
   }
-  [[nodiscard]] Vec3 point(const Curve& curve, std::size_t i) const { return points_[curve.vertices[i % curve.vertices.size()]]; }
+  [[nodiscard]] Vec3 point(const Curve& curve, std::size_t i) const { return points_[curve.points[i % curve.points.size()]]; }
+  [[nodiscard]] double place_near(const Curve& curve, std::size_t segment, Vec3 position, double& distance) const;
   [[nodiscard]] std::optional<double> place_on(const Curve& curve, std::size_t segment, Vec3 position) const;
-  [[nodiscard]] std::optional<double> place_of(const Curve& curve, std::size_t index, Vec3 position) const;
+  [[nodiscard]] std::optional<double> place_of(const Curve& curve, std::size_t near, Vec3 position) const;
   [[nodiscard]] static std::size_t segment_at(const Curve& curve, double place);
 
-  std::span<const Vec3> points_;  // of the input
+  std::span<const Vec3> points_;  // of the mesh that it slides along
   Plane plane_;
   bool single_precision_ = false;
+  double beside_ = 0.0;  // how far from its curve a vertex may stand, in mesh units; 0: not at all, but for rounding
   std::vector<Curve> curves_;
-  std::vector<Index> curve_of_;  // of every vertex; kNoIndex: it does not slide
-  std::vector<Index> index_on_;  // where on its curve a vertex that slides is
+  std::vector<String> strings_;
+  std::vector<Index> string_of_;  // of every vertex; kNoIndex: it does not slide
+  std::vector<Index> index_on_;   // where on its string a vertex that slides is
 };
 
 }  // namespace dmoscope

@@ -15,20 +15,20 @@ Domain::Domain(const InputMesh& input, const StandingRule& rule)
     : Domain(input, rule, input.geometry.shape == Shape::Planar ? SurfaceEnds{planar_ends(input, rule), {}} : surface_ends(input, rule)) {}
 
 Domain::Domain(const InputMesh& input, const StandingRule& rule, SurfaceEnds ends)
-    : curves_(input, ends.curves), facets_(std::move(ends.facets)), is_surface_(input.is_surface()) {
+    : curves_(ends.onto ? Curves(input, ends.curves, *ends.onto) : Curves(input, ends.curves)),
+      faces_(std::move(ends.faces)),
+      surface_(ends.onto ? input.surface->mesh.name : ""),
+      is_surface_(input.is_surface()) {
   curves_.for_segments([this](Index curve, std::size_t segment, Index from, Index to) {
     segments_.push_back({std::min(from, to), std::max(from, to), curve, static_cast<Index>(segment)});
   });
   std::ranges::sort(segments_);
-  if (input.geometry.shape == Shape::Planar) said_ = rule.kinds.features;
-  if (facets_.any()) {
-    std::vector<std::uint8_t> may(ends.curves.size());
-    for (Index v = 0; v < may.size(); ++v) may[v] = ends.curves.off(v) ? 1 : 0;
-    facets_.carry(may);
-  }
+  said_in_plane_ = input.geometry.shape == Shape::Planar && !rule.kinds.features.empty();
+  if (said_in_plane_) feature_edges_ = rule.kinds.features;
+  find_feature_edges();
   held_.reserve(ends.curves.size());
   for (Index v = 0; v < ends.curves.size(); ++v) {
-    const bool of_surface = facets_.any() && facets_.count_at(v) > 0 && !slides(v);
+    const bool of_surface = faces_.any() && !faces_.at(v).empty() && !slides(v);
     held_.push_back(of_surface && ends.curves.off(v) ? HeldOn::Touching : slides(v) ? HeldOn::Nothing : ends.curves.why(v));
     const bool on_boundary = input.topology.boundary()[v] != 0;
     sliding_ += slides(v) ? 1 : 0;
@@ -46,27 +46,22 @@ bool Domain::is_within(std::span<const Curves::Stretch> stretches, Index a, Inde
                              [&](const auto& stretch) { return stretch.curve == found->curve && stretch.holds(found->segment); });
 }
 
-std::vector<EdgeEnds> Domain::feature_edges() const {
-  std::vector<EdgeEnds> edges = said_;
-  for (const Segment& segment : segments_) edges.push_back({segment.low, segment.high});
-  for (const FacetSide& side : facets_.sides()) edges.push_back({side.low, side.high});
+void Domain::find_feature_edges() {
+  auto& edges = feature_edges_;
+  curves_.for_edges([&edges](Index a, Index b) { edges.push_back(edge_ends(a, b)); });
+  if (faces_.any() && faces_.are_own())
+    for (const FacetSide& side : faces_.facets().sides()) edges.push_back({side.low, side.high});
   std::ranges::sort(edges);
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
 }
 
-bool Domain::is_feature(Index a, Index b) const {
-  const Segment edge{std::min(a, b), std::max(a, b), 0, 0};
-  const auto found = std::ranges::lower_bound(segments_, edge);
-  const bool on_curve = found != segments_.end() && found->low == edge.low && found->high == edge.high;
-  return on_curve || std::ranges::binary_search(said_, edge_ends(a, b)) || !facets_.sides_of(a, b).empty();
-}
+bool Domain::is_feature(Index a, Index b) const { return std::ranges::binary_search(feature_edges_, edge_ends(a, b)); }
 
 std::string_view Domain::why_held(Index vertex) const {
-  constexpr std::array<std::string_view, 8> kWhy{
+  constexpr std::array<std::string_view, 9> kWhy{
       {"", "it is a corner: the boundary or feature edge turns there by more than the corner angle", "feature edges meet there",
        "a feature edge ends there", "parts of the mesh touch there, or cannot be wound alike", "the file gives it a meaning",
-       "what it lies on stays", "it was made a corner by hand"}};
+       "what it lies on stays", "the surface to slide on is too far away, or has no feature edge there", "it was made a corner by hand"}};
   return kWhy[static_cast<std::size_t>(held_[vertex])];
 }
 
@@ -78,13 +73,19 @@ std::string Domain::sentence() const {
                        corners_ == 1 ? "stays" : "stay");
   if (inside_ > 0 || text.empty())
     text += fmt::format("{}{} {}", text.empty() ? "" : "; ", slide(inside_),
-                        is_surface_     ? "on the surface"
-                        : said_.empty() ? "along interfaces"
-                                        : "along interfaces and feature edges");
-  if (facets_.any() && on_curves_ > 0) text += fmt::format(" ({} on feature edges)", grouped(on_curves_));
-  Index held = 0;
-  for (Index v = 0; v < held_.size(); ++v) held += is_held(v) ? 1 : 0;
-  if (is_surface_ && held > 0) text += fmt::format("; corners and ends of feature edges hold {}", grouped(held));
+                        is_surface_      ? "on the surface"
+                        : said_in_plane_ ? "along interfaces and feature edges"
+                                         : "along interfaces");
+  if (faces_.any() && on_curves_ > 0) text += fmt::format(" ({} on feature edges)", grouped(on_curves_));
+  Index held = 0, unmatched = 0;
+  for (Index v = 0; v < held_.size(); ++v) {
+    held += is_held(v) ? 1 : 0;
+    unmatched += held_[v] == HeldOn::Unmatched ? 1 : 0;
+  }
+  if (is_surface_ && held > unmatched) text += fmt::format("; corners and ends of feature edges hold {}", grouped(held - unmatched));
+  if (unmatched > 0)
+    text += fmt::format("; {} {}, for {} is too far away, or has no feature edge there", counted(unmatched, "vertex", "vertices"),
+                        unmatched == 1 ? "stays" : "stay", surface_);
   return text;
 }
 

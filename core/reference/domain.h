@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/reference/curves.h"
-#include "core/reference/facets.h"
+#include "core/reference/sliding_faces.h"
 #include "core/reference/standing.h"
 #include "core/reference/surface_ends.h"
 
@@ -18,6 +18,8 @@ namespace dmoscope {
 /// The mesh must outlive it.
 class Domain {
  public:
+  /// Of a mesh that slides on the surface of another one, feature edges and corners are those of that surface; a vertex of the mesh belongs
+  /// to one where it stands near it, and an edge where it runs along it. Else:
   /// In a plane a vertex of the boundary, or of an interface between materials, slides along it where the rule lets these. In a volume it
   /// slides on the boundary's surface, or on that of an interface; in a curved surface all vertices off its boundary do, and along this
   /// where the rule lets them. On feature edges they slide along these. A feature edge is one
@@ -35,12 +37,12 @@ class Domain {
 
   [[nodiscard]] bool slides(Index vertex) const noexcept { return on_curve(vertex) || on_surface(vertex); }
   [[nodiscard]] bool on_curve(Index vertex) const noexcept { return curves_.slides(vertex); }
-  [[nodiscard]] bool on_surface(Index vertex) const noexcept { return facets_.any() && facets_.carries(vertex); }
+  [[nodiscard]] bool on_surface(Index vertex) const noexcept { return faces_.any() && faces_.carries(vertex); }
   [[nodiscard]] const Curves& curves() const noexcept { return curves_; }
-  [[nodiscard]] const Facets& facets() const noexcept { return facets_; }  // none in a plane
+  [[nodiscard]] const SlidingFaces& faces() const noexcept { return faces_; }  // none in a plane
 
   /// The edges of the mesh along which it slides or that nothing crosses, each once, low end first, ascending.
-  [[nodiscard]] std::vector<EdgeEnds> feature_edges() const;
+  [[nodiscard]] std::span<const EdgeEnds> feature_edges() const noexcept { return feature_edges_; }
   [[nodiscard]] bool is_feature(Index a, Index b) const;
   /// Corners, junctions and ends of feature edges, and what else is held by more than a rule.
   [[nodiscard]] bool is_held(Index vertex) const noexcept { return held_[vertex] != HeldOn::Nothing && held_[vertex] != HeldOn::Rule; }
@@ -51,7 +53,7 @@ class Domain {
   [[nodiscard]] Index count_inside() const noexcept { return inside_; }  // of these, off the boundary
   [[nodiscard]] Index count_on_curves() const noexcept { return on_curves_; }
   [[nodiscard]] Index corners() const noexcept { return corners_; }  // of the boundary's others, where it slides
-  /// Is an edge of the input a segment of one of these stretches?
+  /// Is an edge of what it slides on a segment of one of these stretches?
   [[nodiscard]] bool is_within(std::span<const Curves::Stretch> stretches, Index a, Index b) const;
   /// "122 vertices slide along the boundary, and 34 of its vertices stay; 36 vertices slide along interfaces".
   [[nodiscard]] std::string sentence() const;
@@ -62,12 +64,15 @@ class Domain {
     friend auto operator<=>(const Segment&, const Segment&) = default;
   };
   Domain(const InputMesh& input, const StandingRule& rule, SurfaceEnds ends);
+  void find_feature_edges();
 
   Curves curves_;
-  Facets facets_;
+  SlidingFaces faces_;
   std::vector<Segment> segments_;  // of all curves, ascending
-  std::vector<EdgeEnds> said_;     // in a plane, the feature edges that a person names
-  std::vector<HeldOn> held_;       // by vertex
+  std::vector<EdgeEnds> feature_edges_;
+  std::vector<HeldOn> held_;    // by vertex
+  std::string surface_;         // the name of the mesh on whose surface it slides; empty: its own
+  bool said_in_plane_ = false;  // whether a person names feature edges of a planar mesh
   bool is_surface_;
   Index sliding_ = 0, inside_ = 0, on_curves_ = 0, corners_ = 0;
 };

@@ -89,7 +89,8 @@ class EdgeWord {
     const EdgeEnds first = edge(id(ends[0]), id(ends[1]));
     std::map<Index, std::vector<Index>> beside;
     const auto add = [&](const EdgeEnds& one) { beside[one[0]].push_back(one[1]), beside[one[1]].push_back(one[0]); };
-    std::vector<EdgeEnds> all = domain_ != nullptr ? domain_->feature_edges() : std::vector<EdgeEnds>{};
+    std::vector<EdgeEnds> all;
+    if (domain_ != nullptr) all.assign(domain_->feature_edges().begin(), domain_->feature_edges().end());
     for (const auto* list : {&rule_.kinds.features, &rule_.kinds.no_features}) all.insert(all.end(), list->begin(), list->end());
     std::ranges::sort(all);
     all.erase(std::unique(all.begin(), all.end()), all.end());

@@ -2,22 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <numeric>
 
 #include "core/reference/facet_walk.h"
 
 namespace dmoscope {
 
 namespace {
-
-/// Roundings of a coordinate that a point of a facet, computed, may lie beside it.
-constexpr double kFacetRoundings = 8.0;
-/// As a share of the mesh's size: what is nearer than that to a facet is on it. The nearest point of a needle is not known better.
-constexpr double kBeside = 1e-12;
-
-double most(Vec3 p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
 Vec3 unit(Vec3 a) {
   const double l = length(a);
@@ -28,14 +19,11 @@ std::size_t next(std::size_t corner) { return corner == 2 ? 0 : corner + 1; }
 
 }  // namespace
 
-Facets::Facets(const InputMesh& input, ElementTable faces, std::span<const Index> links)
-    : points_(input.mesh.positions),
-      rounding_(kFacetRoundings *
-                (input.mesh.single_precision ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon())),
-      size_(input.geometry.size),
-      faces_(std::move(faces)) {
-  split(faces_, links);
-  index_faces(input.mesh.vertex_count());
+Facets::Facets(const Mesh& mesh, const ElementTable& faces, std::span<const Index> links) : points_(mesh.positions) {
+  split(faces, links);
+  facets_at_.assign(mesh.vertex_count(), 0);
+  for (const Facet& facet : facets_)
+    for (const Index v : facet.corners) ++facets_at_[v];
   find_patches();
   find_normals();
   find_sides();
@@ -50,7 +38,6 @@ Facets::Facets(const InputMesh& input, ElementTable faces, std::span<const Index
     patch_of.push_back(facet.patch);
   }
   tree_ = FacetTree(std::move(triangles), patch_of);
-  home_.assign(input.mesh.vertex_count(), kNoIndex);
 }
 
 void Facets::split(const ElementTable& faces, std::span<const Index> links) {
@@ -61,7 +48,7 @@ void Facets::split(const ElementTable& faces, std::span<const Index> links) {
   for (Index f = 0; f < faces.size(); ++f) {
     const auto c = faces.corners(f);
     const Index first = faces.offsets()[f], number = static_cast<Index>(facets_.size());
-    first_facet_.push_back(number);
+    first_of_.push_back(number);
     const auto add = [&](std::array<Index, 3> local) {
       facets_.push_back({{c[local[0]], c[local[1]], c[local[2]]}, {kNoIndex, kNoIndex, kNoIndex}});
     };
@@ -186,35 +173,13 @@ std::span<const FacetSide> Facets::sides_of(Index a, Index b) const {
   return {first, last};
 }
 
-void Facets::index_faces(Index vertices) {
-  face_offsets_.assign(vertices + std::size_t{1}, 0);
-  for (const Index v : faces_.all_corners()) ++face_offsets_[v + std::size_t{1}];
-  std::partial_sum(face_offsets_.begin(), face_offsets_.end(), face_offsets_.begin());
-  faces_at_.resize(faces_.all_corners().size());
-  facets_at_.assign(vertices, 0);
-  for (const Facet& facet : facets_)
-    for (const Index v : facet.corners) ++facets_at_[v];
-  std::vector<Index> at(face_offsets_.begin(), face_offsets_.end() - 1);
-  for (Index f = 0; f < faces_.size(); ++f)
-    for (const Index v : faces_.corners(f)) faces_at_[at[v]++] = f;
-}
-
-void Facets::carry(std::span<const std::uint8_t> may) {
-  std::vector<Index> one(home_.size(), kNoIndex);
+std::vector<Index> Facets::whole_fans() const {
+  std::vector<Index> one(facets_at_.size(), kNoIndex);
   for (Index f = 0; f < facets_.size(); ++f)
     for (const Index v : facets_[f].corners) one[v] = f;
-  for (Index v = 0; v < home_.size(); ++v)
-    if (may[v] != 0 && one[v] != kNoIndex && fan_at(one[v], v).size() == facets_at_[v]) home_[v] = one[v];
-}
-
-std::optional<FacetPlace> Facets::place(Index vertex, Vec3 position, Index near) const {
-  const auto [facet, point] = tree_.nearest(position, near == kNoIndex ? home_[vertex] : near);
-  if (facet == kNoIndex) return std::nullopt;
-  double largest = most(position);
-  for (const Index corner : facets_[facet].corners) largest = std::max(largest, most(points_[corner]));
-  const double tolerance = std::max(rounding_ * largest, kBeside * size_);
-  if (!(point.square <= tolerance * tolerance)) return std::nullopt;
-  return FacetPlace{facet, point.weights};
+  for (Index v = 0; v < one.size(); ++v)
+    if (one[v] != kNoIndex && fan_at(one[v], v).size() != facets_at_[v]) one[v] = kNoIndex;
+  return one;
 }
 
 Vec3 Facets::at(const FacetPlace& place) const {

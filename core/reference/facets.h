@@ -6,7 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/input/input_mesh.h"
+#include "core/mesh/mesh.h"
+#include "core/mesh/plane.h"
 #include "core/reference/facet_tree.h"
 
 namespace dmoscope {
@@ -31,27 +32,15 @@ struct FacetSide {
   friend auto operator<=>(const FacetSide&, const FacetSide&) = default;
 };
 
-/// Faces are those of the mesh that move with their vertices; facets stay where the faces were in the input. The mesh must outlive them.
+/// Facets stay where the faces were; the mesh must outlive them.
 class Facets {
  public:
-  /// None.
-  Facets() = default;
   /// `faces`: triangles and quadrilaterals. `links`: by the corners of all faces, the other corner (an index of the same kind) whose edge
   /// is the same one, where nothing parts the two faces; else kNoIndex. An edge belongs to the corner it leaves from.
-  Facets(const InputMesh& input, ElementTable faces, std::span<const Index> links);
-  /// Those vertices of the faces slide on them whose star is one closed fan, and which `may`.
-  void carry(std::span<const std::uint8_t> may);
+  Facets(const Mesh& mesh, const ElementTable& faces, std::span<const Index> links);
 
-  [[nodiscard]] bool any() const noexcept { return !facets_.empty(); }
-  [[nodiscard]] bool carries(Index vertex) const noexcept { return home_[vertex] != kNoIndex; }
-  [[nodiscard]] const ElementTable& faces() const noexcept { return faces_; }
-  /// The faces at a vertex.
-  [[nodiscard]] std::span<const Index> faces_at(Index vertex) const {
-    return {faces_at_.data() + face_offsets_[vertex], faces_at_.data() + face_offsets_[vertex + 1]};
-  }
-  [[nodiscard]] Index patch_of_face(Index face) const { return facets_[first_facet_[face]].patch; }
-  /// Where a face was in the input: this facet, and of a quadrilateral the next one, too.
-  [[nodiscard]] Index first_facet(Index face) const { return first_facet_[face]; }
+  /// What a face was split into: this facet, and of a quadrilateral the next one, too.
+  [[nodiscard]] Index first_of(Index face) const { return first_of_[face]; }
   [[nodiscard]] std::span<const Facet> facets() const noexcept { return facets_; }
   [[nodiscard]] Vec3 point(Index vertex) const { return points_[vertex]; }
   [[nodiscard]] double twice_area(Index facet) const { return twice_areas_[facet]; }
@@ -65,10 +54,11 @@ class Facets {
   [[nodiscard]] bool covers_once(Index facet, std::size_t corner) const { return covers_once_[facet][corner]; }
   /// How many facets have the vertex as a corner.
   [[nodiscard]] Index count_at(Index vertex) const { return facets_at_[vertex]; }
+  /// By vertex: the last facet of which it is a corner; kNoIndex for a vertex of none, and where its facets are more than one fan.
+  [[nodiscard]] std::vector<Index> whole_fans() const;
 
-  /// Where a vertex that slides on the surface stands; nowhere for one that was put beside its patch. The nearest facet, of equals the
-  /// first: a place follows from the position alone. `near`: a facet of the patch to begin with, which makes it faster where that is near.
-  [[nodiscard]] std::optional<FacetPlace> place(Index vertex, Vec3 position, Index near = kNoIndex) const;
+  /// See FacetTree.
+  [[nodiscard]] FacetTree::Nearest nearest(Vec3 p, Index near) const { return tree_.nearest(p, near); }
   [[nodiscard]] Vec3 at(const FacetPlace& place) const;
   /// Of length 1; the mean of the facets around each corner, as far as no feature edge parts them. Zero where these cancel out.
   [[nodiscard]] Vec3 normal(const FacetPlace& place) const;
@@ -87,21 +77,15 @@ class Facets {
   void find_normals();
   [[nodiscard]] bool go_round_once(std::span<const Index> around, Index vertex, Vec3 normal) const;
   void find_sides();
-  void index_faces(Index vertices);
 
-  std::span<const Vec3> points_;  // of the input
-  double rounding_ = 0.0;         // of its coordinates
-  double size_ = 0.0;             // of the mesh
-  ElementTable faces_;
-  std::vector<Index> face_offsets_, faces_at_;  // by vertex
-  std::vector<Index> first_facet_;              // by face
+  std::span<const Vec3> points_;  // of the mesh
+  std::vector<Index> first_of_;   // by face
   std::vector<Facet> facets_;
   std::vector<double> twice_areas_;
   std::vector<Index> facets_at_;              // by vertex: how many
   std::vector<std::array<Vec3, 3>> normals_;  // at the corners of each facet
   std::vector<std::array<bool, 3>> covers_once_;
   std::vector<FacetSide> sides_;  // ascending
-  std::vector<Index> home_;       // by vertex: a facet that it was a corner of; kNoIndex: it does not slide on the surface
   FacetTree tree_;
 };
 

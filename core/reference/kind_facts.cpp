@@ -28,11 +28,11 @@ bool could_slide(const InputMesh& input, Index v) {
 }
 
 /// The faces at an edge, and whether each runs it from a to b.
-std::vector<std::pair<Index, bool>> faces_at_edge(const Facets& facets, Index a, Index b) {
+std::vector<std::pair<Index, bool>> faces_at_edge(const SlidingFaces& faces, Index a, Index b) {
   std::vector<std::pair<Index, bool>> found;
-  if (!facets.any()) return found;
-  for (const Index f : facets.faces_at(a)) {
-    const auto c = facets.faces().corners(f);
+  if (!faces.any()) return found;
+  for (const Index f : faces.at(a)) {
+    const auto c = faces.table().corners(f);
     for (std::size_t i = 0; i < c.size(); ++i) {
       const Index next = c[i + 1 < c.size() ? i + 1 : 0];
       if (c[i] == a && next == b) found.emplace_back(f, true);
@@ -42,8 +42,8 @@ std::vector<std::pair<Index, bool>> faces_at_edge(const Facets& facets, Index a,
   return found;
 }
 
-Vec3 normal_of(const InputMesh& input, const Facets& facets, Index face) {
-  const auto c = facets.faces().corners(face);
+Vec3 normal_of(const InputMesh& input, const SlidingFaces& faces, Index face) {
+  const auto c = faces.table().corners(face);
   const auto at = [&](std::size_t i) { return input.mesh.positions[c[i]]; };
   return c.size() == 3 ? cross(at(1) - at(0), at(2) - at(0)) : cross(at(2) - at(0), at(3) - at(1));
 }
@@ -88,6 +88,8 @@ class UnmetFinder {
       found_.push_back({fmt::format("vertex {} lies on no boundary, interface or surface{}", v, what), true});
     } else if (held == HeldOn::Nothing) {
       found_.push_back({fmt::format("vertex {}: {}", v, kAsleep), false});
+    } else if (held == HeldOn::Corner && input_.surface) {
+      found_.push_back({fmt::format("vertex {} stays: the surface that it slides on has a corner there", v), true});
     } else if (held == HeldOn::Corner) {
       found_.push_back({fmt::format("vertex {} stays: its curve has no direction there", v), true});
     } else {
@@ -104,6 +106,8 @@ class UnmetFinder {
       found_.push_back(
           {could ? fmt::format("edge {}-{}: {}", a, b, kAsleep) : fmt::format("edge {}-{} lies on no boundary, interface or surface", a, b),
            !could});
+    } else if (feature && input_.surface && !is_feature(kind)) {
+      found_.push_back({fmt::format("edge {}-{}: feature edges are those of the surface that the mesh slides on", a, b), true});
     } else if (!feature && is_feature(kind)) {
       found_.push_back({fmt::format("edge {}-{} stays a feature: {}", a, b, phrase(kind)), true});
     }
@@ -118,29 +122,30 @@ class UnmetFinder {
 }  // namespace
 
 std::string_view phrase(EdgeKind kind) noexcept {
-  constexpr std::array<std::string_view, 7> kPhrases{{"", "", "the surface folds there", "it was made one by hand",
-                                                      "the file names it, or parts materials there", "the mesh ends there",
-                                                      "other than two faces meet there, or they cannot be wound alike"}};
+  constexpr std::array<std::string_view, 8> kPhrases{
+      {"", "", "the surface folds there", "it was made one by hand", "the file names it, or parts materials there", "the mesh ends there",
+       "other than two faces meet there, or they cannot be wound alike", "the surface that it slides on has one there"}};
   return kPhrases[static_cast<std::size_t>(kind)];
 }
 
 std::optional<double> fold_of(const InputMesh& input, const Domain& domain, Index a, Index b) {
-  const auto faces = faces_at_edge(domain.facets(), a, b);
+  const auto faces = faces_at_edge(domain.faces(), a, b);
   if (faces.size() != 2) return std::nullopt;
-  const Vec3 one = normal_of(input, domain.facets(), faces[0].first), other = normal_of(input, domain.facets(), faces[1].first);
+  const Vec3 one = normal_of(input, domain.faces(), faces[0].first), other = normal_of(input, domain.faces(), faces[1].first);
   return std::atan2(length(cross(one, other)), dot(one, other)) / kDegree;
 }
 
 EdgeKind edge_kind(const InputMesh& input, const StandingRule& rule, const Domain& domain, Index a, Index b) {
   const EdgeEnds edge = edge_ends(a, b);
   if (input.geometry.shape == Shape::Planar) return kind_in_plane(input, rule, domain, edge[0], edge[1]);
-  const auto faces = faces_at_edge(domain.facets(), a, b);
+  const auto faces = faces_at_edge(domain.faces(), a, b);
   if (faces.empty()) return EdgeKind::Off;
   if (!domain.is_feature(a, b)) return EdgeKind::Smooth;
   if (faces.size() == 1) return EdgeKind::Border;
-  const Vec3 one = normal_of(input, domain.facets(), faces[0].first), other = normal_of(input, domain.facets(), faces[1].first);
+  const Vec3 one = normal_of(input, domain.faces(), faces[0].first), other = normal_of(input, domain.faces(), faces[1].first);
   const bool odd = faces.size() > 2 || faces[0].second == faces[1].second || one == Vec3{} || other == Vec3{};
   if (odd) return EdgeKind::Touching;
+  if (input.surface) return EdgeKind::Reference;
   if (rule.kinds.has_feature(edge)) return EdgeKind::Hand;
   const bool folds = !(*fold_of(input, domain, a, b) <= rule.feature_angle) && !rule.kinds.has_no_feature(edge);
   return folds ? EdgeKind::Angle : EdgeKind::File;

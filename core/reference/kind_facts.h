@@ -11,13 +11,14 @@
 namespace dmoscope {
 
 enum class EdgeKind : std::uint8_t {
-  Off,      // on nothing where vertices slide
-  Smooth,   // vertices may cross it
-  Angle,    // a feature edge, because the surface folds there
-  Hand,     // because a person says so
-  File,     // because the file names it, or parts materials there
-  Border,   // because the surface ends there
-  Touching  // because other than two faces meet there, they cannot be wound alike, or one of them has no normal
+  Off,       // on nothing where vertices slide
+  Smooth,    // vertices may cross it
+  Angle,     // a feature edge, because the surface folds there
+  Hand,      // because a person says so
+  File,      // because the file names it, or parts materials there
+  Border,    // because the surface ends there
+  Touching,  // because other than two faces meet there, they cannot be wound alike, or one of them has no normal
+  Reference  // because the surface of another mesh, that it slides on, has one there
 };
 [[nodiscard]] inline bool is_feature(EdgeKind kind) noexcept { return kind > EdgeKind::Smooth; }
 /// Why it is a feature edge: "the surface folds there". Empty for others.

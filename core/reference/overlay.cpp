@@ -250,7 +250,7 @@ Fit Overlay::triangle(const std::array<Vec3, 3>& corners, Index from, const Need
 void Overlay::find_stretches(const Face& face) {
   room_.stretches.clear();
   const Curves& curves = domain_.curves();
-  const auto c = facets_.faces().corners(face.face);
+  const auto c = faces_.table().corners(face.face);
   const auto position = [&](Index v) { return v == face.vertex ? face.target : face.positions[v]; };
   for (std::size_t i = 0; i < c.size(); ++i) {
     const Index a = c[i], b = c[i + 1 < c.size() ? i + 1 : 0];
@@ -269,10 +269,10 @@ void Overlay::find_starts(const Face& face) {
     for (const auto& [from, to] : domain_.curves().edges_at(face.vertex, *place)) {
       if (from == kNoIndex) continue;
       for (const FacetSide& side : facets_.sides_of(from, to))
-        if (facets_.facets()[side.facet].patch == facets_.patch_of_face(face.face)) room_.starts.push_back(side.facet);
+        if (facets_.facets()[side.facet].patch == faces_.patch_of(face.face)) room_.starts.push_back(side.facet);
     }
   }
-  const Index first = facets_.first_facet(face.face), count = static_cast<Index>(facets_.faces().corners(face.face).size()) - 2;
+  const auto [first, count] = faces_.beneath(face.face);
   for (Index i = 0; i < count; ++i) room_.starts.push_back(first + i);
 }
 
@@ -292,7 +292,7 @@ Fit Overlay::triangle_of(const Face& face, const std::array<Vec3, 3>& corners) {
 
 Fit Overlay::face(const Face& face) {
   find_starts(face);
-  const auto c = facets_.faces().corners(face.face);
+  const auto c = faces_.table().corners(face.face);
   const auto at = [&](std::size_t i) { return c[i] == face.vertex ? face.target : face.positions[c[i]]; };
   const auto lay = [&](std::size_t i, std::size_t j, std::size_t k) { return triangle_of(face, {at(i), at(j), at(k)}); };
   if (c.size() == 3) return lay(0, 1, 2);
@@ -319,9 +319,9 @@ struct Overlay::Sketch {
 
 /// False where the deviation at the centre of one is beyond the limit already: most that do not fit are told by that, at little cost.
 bool Overlay::sketch(PositionView positions, Index vertex, Vec3 target, const FacetPlace& beneath, double limit, Sketch& out) const {
-  const auto around = facets_.faces_at(vertex);
+  const auto around = faces_.at(vertex);
   for (std::size_t k = 0; k < std::min(around.size(), Sketch::kMost); ++k) {
-    const auto c = facets_.faces().corners(around[k]);
+    const auto c = faces_.table().corners(around[k]);
     if (c.size() != 3) continue;
     const auto at = [&](std::size_t i) { return c[i] == vertex ? target : positions[c[i]]; };
     auto& [ground, start] = out.parts[k];
@@ -342,18 +342,35 @@ Fit Overlay::star(PositionView positions, Index vertex, Vec3 target, const Facet
   if (beneath != nullptr && !sketch(positions, vertex, target, *beneath, need.limit, drawn)) return kNoFit;
   Fit fit;
   std::size_t k = 0;
-  for (const Index f : facets_.faces_at(vertex)) {
+  for (const Index f : faces_.at(vertex)) {
     std::optional<Fit> here;
     if (k < Sketch::kMost && drawn.parts[k].start) here = lay_quickly(*drawn.parts[k].ground, drawn.parts[k].start->facet, need);
     if (!here) here = face({positions, f, vertex, target, beneath, need});
     ++k;
-    fit.deviation = std::max(fit.deviation, here->deviation);
-    fit.other_split = std::max(fit.other_split, here->other_split);
-    fit.least_cosine = std::min(fit.least_cosine, here->least_cosine);
+    fit = worse(fit, *here);
     if (fit.deviation == kNoFit.deviation) return kNoFit;
     if (!is_within(fit, within)) break;
   }
   return fit;
+}
+
+bool Overlay::keeps_what_lies(PositionView positions, Index vertex, Vec3 here, const FacetPlace* here_beneath, Vec3 target,
+                              const FacetPlace* beneath, const Fit& bound) {
+  const Need all;
+  const auto faces = faces_.at(vertex);
+  Fit worst = bound;
+  std::vector<bool> lies;
+  for (const Index f : faces) {
+    const Fit now = face({positions, f, vertex, here, here_beneath, all});
+    lies.push_back(now.deviation < kNoFit.deviation);
+    if (lies.back()) worst = worse(worst, now);
+  }
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const Fit there = face({positions, faces[i], vertex, target, beneath, all});
+    const bool lies_there = there.deviation < kNoFit.deviation;
+    if (lies_there ? !is_within(there, worst) : lies[i]) return false;
+  }
+  return true;
 }
 
 }  // namespace dmoscope

@@ -1,6 +1,7 @@
 #pragma once
 // How near the faces of a mesh stay to the surface of the input: exactly, by laying each over the facets beneath it.
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>
@@ -22,6 +23,10 @@ struct Fit {
 /// Is a fit as good as another everywhere?
 [[nodiscard]] inline bool is_within(const Fit& fit, const Fit& other) {
   return fit.deviation <= other.deviation && fit.other_split <= other.other_split && fit.least_cosine >= other.least_cosine;
+}
+/// The worse of the two in everything.
+[[nodiscard]] inline Fit worse(const Fit& a, const Fit& b) {
+  return {std::max(a.deviation, b.deviation), std::max(a.other_split, b.other_split), std::min(a.least_cosine, b.least_cosine)};
 }
 inline constexpr Fit kNoFit{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), -1.0};
 
@@ -46,11 +51,16 @@ struct OverlayRoom {
 /// Domain and room must outlive it.
 class Overlay {
  public:
-  Overlay(const Domain& domain, OverlayRoom& room) : domain_(domain), facets_(domain.facets()), room_(room) {}
+  Overlay(const Domain& domain, OverlayRoom& room) : domain_(domain), faces_(domain.faces()), facets_(faces_.facets()), room_(room) {}
 
   /// The faces at a vertex, with it at `target`. `beneath`: where that is, of a vertex on a surface; of one on a curve nothing. The first
   /// face that is not `within` ends it: the result is not, either.
   [[nodiscard]] Fit star(PositionView positions, Index vertex, Vec3 target, const FacetPlace* beneath, const Fit& within);
+  /// Of a star with faces that lie over no facets, such as those that are turned away: with the vertex at `target`, does every face lie
+  /// that lies with it at `here`, and is each that lies within the bound, or as near as the farthest of those is? `here_beneath`,
+  /// `beneath`: see star().
+  [[nodiscard]] bool keeps_what_lies(PositionView positions, Index vertex, Vec3 here, const FacetPlace* here_beneath, Vec3 target,
+                                     const FacetPlace* beneath, const Fit& bound);
   /// A triangle, whose corners stand on a patch. `from`: a facet near it. `allowed`: stretches of curves along its edges; what of it lies
   /// beyond these is near the curve.
   [[nodiscard]] Fit triangle(const std::array<Vec3, 3>& corners, Index from, std::span<const Curves::Stretch> allowed);
@@ -95,6 +105,7 @@ class Overlay {
   void clip(std::size_t edge);
 
   const Domain& domain_;
+  const SlidingFaces& faces_;
   const Facets& facets_;
   OverlayRoom& room_;
 };

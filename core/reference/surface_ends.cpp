@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "core/mesh/orientation.h"
+#include "core/reference/attachment.h"
 #include "core/reference/hold.h"
 
 namespace dmoscope {
@@ -22,14 +24,35 @@ class SurfaceFinder {
   SurfaceEnds find() {
     collect_faces();
     find_named_edges();
+    if (input_.surface) return find_on_another();
     const std::vector<Index> links = part();
     hold_what_stays();
-    Facets facets(input_, std::move(faces_), links);
-    hold_touching(facets);
-    return {std::move(ends_), std::move(facets)};
+    const auto facets = std::make_shared<const Facets>(input_.mesh, faces_, links);
+    hold_touching(*facets);
+    SlidingFaces faces(input_, std::move(faces_), facets);
+    const std::vector<Index> home = facets->whole_fans();
+    for (Index v = 0; v < ends_.size(); ++v)
+      if (ends_.off(v)) faces.carry(v, home[v]);
+    return {std::move(ends_), std::move(faces)};
   }
 
  private:
+  /// Feature edges and corners are those of the other surface, and where the file names edges that run along none of these they stay.
+  SurfaceEnds find_on_another() {
+    const StandingRule of_reference{InterfaceRule::Slide, BoundaryRule::Slide, rule_.corner_angle, rule_.feature_angle};
+    SurfaceEnds reference = surface_ends(*input_.surface, of_reference);
+    Attachment attachment(input_, faces_, *input_.surface, reference.faces.shared_facets(), reference.curves);
+    attachment_ = &attachment;
+    for (Index v = 0; v < ends_.size(); ++v)
+      if (attachment.on_corner(v)) ends_.hold(v, HeldOn::Corner);
+    const std::vector<Index> links = part();
+    hold_what_stays();
+    const Facets own(input_.mesh, faces_, links);
+    hold_touching(own);
+    SlidingFaces faces = attachment.lay(std::move(faces_), own, ends_);
+    return {std::move(ends_), std::move(faces), attachment.take_lines()};
+  }
+
   using Key = std::array<Index, 4>;
   using Edge = std::array<Index, 2>;
   [[nodiscard]] bool on_boundary(Index v) const { return input_.topology.boundary()[v] != 0; }
@@ -149,8 +172,10 @@ class SurfaceFinder {
       if (last - first == 2 && one.forwards != other.forwards && !is_feature(one.edge, one.face, other.face)) {
         links[one.corner] = other.corner;
         links[other.corner] = one.corner;
-      } else {
+      } else if (attachment_ == nullptr || attachment_->is_along(a, b)) {
         ends_.join(a, b);
+      } else {
+        for (const Index v : one.edge) ends_.hold(v, last - first == 2 ? HeldOn::Named : HeldOn::Unmatched);
       }
     }
     settle_named_edges();
@@ -160,6 +185,7 @@ class SurfaceFinder {
   [[nodiscard]] bool is_feature(const Edge& edge, Index face, Index other) const {
     if (input_.is_surface() && rule_.interfaces != InterfaceRule::Free && input_.interfaces.between(face, other)) return true;
     if (name_of_[face] != name_of_[other] || std::ranges::binary_search(named_edges_, edge)) return true;
+    if (attachment_ != nullptr) return attachment_->is_along(edge[0], edge[1]);
     const Vec3 a = normal(face), b = normal(other);
     if (a == Vec3{} || b == Vec3{} || rule_.kinds.has_feature(edge)) return true;
     return !(std::atan2(length(cross(a, b)), dot(a, b)) <= rule_.feature_angle * kDegree) && !rule_.kinds.has_no_feature(edge);
@@ -192,7 +218,7 @@ class SurfaceFinder {
       if (stays || (rule_.interfaces == InterfaceRule::Fixed && input_.interfaces.meets_boundary_at(v))) ends_.hold(v, HeldOn::Rule);
     }
     hold_said_corners();
-    hold_corners(input_, rule_, ends_);
+    if (attachment_ == nullptr) hold_corners(input_, rule_, ends_);
     hold_ends_of_names(names_, ends_);
     hold_named_points(input_, ends_);
   }
@@ -223,6 +249,7 @@ class SurfaceFinder {
 
   const InputMesh& input_;
   const StandingRule& rule_;
+  const Attachment* attachment_ = nullptr;  // to the surface of another mesh
   CurveEnds ends_;
   NamedEdges names_;
   ElementTable faces_;

@@ -21,10 +21,11 @@ void gather_star(const MeshView<Curved>& mesh, PositionView positions, Index ver
       return way;
     };
     const double reference = mesh.reference_measure[at.element];
+    const Curved frame = mesh.frame_of(at.element);
     if (corners.size() == 3)
-      out.triangles.push_back({after(1), after(2), reference, mesh.frame.normal});
+      out.triangles.push_back({after(1), after(2), reference, frame.normal, frame.against});
     else
-      out.quadrilaterals.push_back({after(1), after(2), after(3), reference, mesh.frame.normal, mesh.frame.mostly_flat});
+      out.quadrilaterals.push_back({after(1), after(2), after(3), reference, frame.normal, frame.mostly_flat, frame.against});
   }
   out.scale = extent > 0.0 && std::isfinite(extent) ? extent : 1.0;
   const double inverse = 1.0 / out.scale;

@@ -21,15 +21,28 @@ template <class Real>
   return {select(has_one, unit.x, other.x), select(has_one, unit.y, other.y), select(has_one, unit.z, other.z)};
 }
 
+/// See curved_normal().
+template <class Real>
+[[nodiscard]] Vec3Of<Real> curved_normal_of(Vec3Of<Real> a, Vec3Of<Real> b, Vec3 frame_normal, bool against) {
+  using scalar::select;
+  const Vec3Of<Real> n = unit_normal_of<Real>(a, b, frame_normal);
+  if (!against) return n;
+  const Vec3Of<Real> above = point_of<Real>(frame_normal);
+  const auto looks_away = dot(n, above) < Real(0);
+  return {select(looks_away, above.x, n.x), select(looks_away, above.y, n.y), select(looks_away, above.z, n.z)};
+}
+
 /// An incident triangle: its other two corners in the element's order, and its reference measure for untangling.
 struct SurfaceTriangle {
   static constexpr Index kMoving = 0;
   Vec3 b, c;
   double reference;
-  Vec3 fallback;  // the normal of one that is shrunk to a line
+  Vec3 fallback;         // the normal of one that is shrunk to a line
+  bool against = false;  // see Curved
   template <class Real>
   [[nodiscard, gnu::always_inline]] formulas::Triangle<SurfaceVectorOf<Real>> with(SurfaceVectorOf<Real> p) const {
-    const Vec3Of<Real> to_b = point_of<Real>(b), to_c = point_of<Real>(c), n = unit_normal_of<Real>(to_b - p.v, to_c - p.v, fallback);
+    const Vec3Of<Real> to_b = point_of<Real>(b), to_c = point_of<Real>(c),
+                       n = curved_normal_of<Real>(to_b - p.v, to_c - p.v, fallback, against);
     return {{p.v, n}, {to_b, n}, {to_c, n}};
   }
 };
@@ -39,11 +52,12 @@ struct SurfaceQuadrilateral {
   Vec3 b, c, d;
   double reference;
   Vec3 fallback;
-  bool is_fixed;  // the normal, whatever the shape: see Curved
+  bool is_fixed;         // the normal, whatever the shape: see Curved
+  bool against = false;  // see Curved
   template <class Real>
   [[nodiscard]] formulas::Quadrilateral<SurfaceVectorOf<Real>> with(SurfaceVectorOf<Real> p) const {
     const Vec3Of<Real> to_b = point_of<Real>(b), to_c = point_of<Real>(c), to_d = point_of<Real>(d);
-    const Vec3Of<Real> n = is_fixed ? point_of<Real>(fallback) : unit_normal_of<Real>(to_c - p.v, to_d - to_b, fallback);
+    const Vec3Of<Real> n = is_fixed ? point_of<Real>(fallback) : curved_normal_of<Real>(to_c - p.v, to_d - to_b, fallback, against);
     return {{p.v, n}, {to_b, n}, {to_c, n}, {to_d, n}};
   }
 };

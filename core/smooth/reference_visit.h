@@ -43,7 +43,7 @@ template <Metric M, class Frame>
   for (const Incidence& incidence : mesh.star(vertex)) {
     const double reference = mesh.reference_measure[incidence.element];
     const Index moving = incidence.corner;
-    visit_shape(mesh.frame, mesh.corners_of(incidence.element), at, [&](const auto& shape) {
+    visit_shape(mesh.frame_of(incidence.element), mesh.corners_of(incidence.element), at, [&](const auto& shape) {
       const auto jacobian = corner_jacobians(shape, moving, [&](double each) { mean.add(each, reference); });
       const double quality = evaluate_around<M>(shape, moving);
       state.jacobian = scalar::min(state.jacobian, jacobian.around / reference);
@@ -65,7 +65,7 @@ template <class Frame>
   for (const Incidence& incidence : mesh.star(vertex)) {
     const auto is_inverted = [&](Vec3 place) {
       const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
-      return visit_shape(mesh.frame, mesh.corners_of(incidence.element), at,
+      return visit_shape(mesh.frame_of(incidence.element), mesh.corners_of(incidence.element), at,
                          [](const auto& shape) { return formulas::smallest_jacobian(shape) <= 0.0; });
     };
     if (is_inverted(target) && !is_inverted(positions[vertex])) return false;

@@ -99,7 +99,8 @@ template <Metric M, class Frame>
   const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
   double sum = 0.0;
   for (const Incidence& incidence : mesh.star(vertex))
-    visit_shape(mesh.frame, mesh.corners_of(incidence.element), at, [&sum](const auto& shape) { sum += evaluate<M>(shape); });
+    visit_shape(mesh.frame_of(incidence.element), mesh.corners_of(incidence.element), at,
+                [&sum](const auto& shape) { sum += evaluate<M>(shape); });
   return sum / static_cast<double>(mesh.star(vertex).size());
 }
 

@@ -69,8 +69,10 @@ void expect_as_said(const Specimen& specimen, const dmoscope::Run& run) {
   const auto stands = [&](Index v) {
     return same_bits(run.positions().subspan(v, 1), std::span(run.input().mesh.positions).subspan(v, 1));
   };
-  for (const Index v : kinds.corners)
-    if (domain.held_on(v) != HeldOn::Nothing) ASSERT_TRUE(stands(v)) << specimen.name << ": corner " << v;
+  for (const Index v : kinds.corners) {
+    if (domain.held_on(v) == HeldOn::Nothing) continue;
+    ASSERT_TRUE(stands(v)) << specimen.name << ": corner " << v;
+  }
   for (const EdgeEnds& edge : kinds.features) {
     if (!domain.is_feature(edge[0], edge[1])) continue;  // inside a volume
     for (const Index v : edge) {
@@ -154,7 +156,9 @@ TEST(KindsByHand, AreWhatAnglesSay) {
     dmoscope::Run held = make_run(mesh, told);
     held.iterate(3, progress);
     EXPECT_TRUE(same_bits(held.positions(), by_angle.positions())) << specimen.name;
-    if (specimen.name.starts_with("cube")) EXPECT_FALSE(same_bits(none.positions(), by_angle.positions()));
+    if (specimen.name.starts_with("cube")) {
+      EXPECT_FALSE(same_bits(none.positions(), by_angle.positions()));
+    }
   }
 }
 
@@ -336,14 +340,13 @@ TEST(KindsByHand, InAPlaneVerticesSlideAlongALineThatAPersonDraws) {
   EXPECT_EQ(standing[at(n - 1, 3)], 1) << "the line ends there";
   for (Index i = 1; i + 1 < n; ++i) EXPECT_TRUE(domain->on_curve(at(i, 3)) && standing[at(i, 3)] == 0) << i;
   EXPECT_EQ(standing[at(2, 2)], 0);
-  EXPECT_EQ(domain->feature_edges(), row);
+  EXPECT_EQ(std::vector<EdgeEnds>(domain->feature_edges().begin(), domain->feature_edges().end()), row);
   RunParameters parameters;
   parameters.kinds = rule.kinds;
   dmoscope::Run run = make_run(mesh, parameters);
   Progress progress;
   run.iterate(5, progress);
-  for (Index i = 0; i <= n; ++i)
-    if (i < n) EXPECT_EQ(run.positions()[at(i, 3)].y, start.positions[at(i, 3)].y);
+  for (Index i = 0; i < n; ++i) EXPECT_EQ(run.positions()[at(i, 3)].y, start.positions[at(i, 3)].y);
   EXPECT_THAT(run.title(), HasSubstr("5 feature edges by hand"));
   parameters.method = "active-set";
   EXPECT_THROW((void)make_run(mesh, parameters), UsageError) << "it cannot slide vertices";

@@ -66,8 +66,8 @@ TEST(Overlay, IsTheGreatestDistance) {
   for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals, Cells::Mixed}) {
     const auto mesh = hills(6, cells);
     const Domain domain(*mesh, {});
-    const Facets& facets = domain.facets();
-    ASSERT_TRUE(facets.any());
+    const Facets& facets = domain.faces().facets();
+    ASSERT_TRUE(domain.faces().any());
     const auto triangles = triangles_of(surface_faces(mesh->mesh), mesh->mesh.positions);
     ASSERT_EQ(facets.facets().size(), triangles.size());
     OverlayRoom room;
@@ -107,7 +107,9 @@ TEST(Overlay, WhatCannotBeIsNoFit) {
   const Domain domain(*mesh, {});
   OverlayRoom room;
   Overlay overlay(domain, room);
-  const auto at = [&](double x, double y) { return domain.facets().at(*domain.facets().walk(0, Plane{}, {}, {x, y}, 0.0)); };
+  const auto at = [&](double x, double y) {
+    return domain.faces().facets().at(*domain.faces().facets().walk(0, Plane{}, {}, {x, y}, 0.0));
+  };
   const std::array<Vec3, 3> good{at(0.4, 0.4), at(0.6, 0.4), at(0.5, 0.6)};
   EXPECT_LT(overlay.triangle(good, 0, {}).deviation, 0.1);
   EXPECT_EQ(overlay.triangle({good[0], good[2], good[1]}, 0, {}).deviation, kNoFit.deviation) << "turned over";
@@ -122,13 +124,13 @@ TEST(Overlay, ABoundShortensItOnly) {
   for (const Cells cells : {Cells::Triangles, Cells::Quadrilaterals, Cells::Mixed}) {
     const auto mesh = hills(8, cells);
     const Domain domain(*mesh, {});
-    const Facets& facets = domain.facets();
+    const Facets& facets = domain.faces().facets();
     const std::vector<Vec3>& positions = mesh->mesh.positions;
     OverlayRoom room;
     Overlay overlay(domain, room);
     for (Index v = 0; v < positions.size(); ++v) {
       if (!domain.on_surface(v)) continue;
-      const auto here = facets.place(v, positions[v]);
+      const auto here = domain.faces().place(v, positions[v]);
       ASSERT_TRUE(here);
       const auto there = facets.walk(here->facet, Plane{}, positions[v], {random(-0.06, 0.06), random(-0.06, 0.06)}, 0.0);
       if (!there) continue;

@@ -49,7 +49,7 @@ class SurfaceJudge {
       if (mesh_.topology.star(v).empty()) continue;
       ASSERT_LE(distance_to(now[v], before_, facets_), tolerance_) << name_ << ": vertex " << v << " left the surface";
       if (run.domain()->on_surface(v)) {
-        ASSERT_TRUE(run.domain()->facets().place(v, now[v])) << name_ << ": vertex " << v << " is not found again";
+        ASSERT_TRUE(run.domain()->faces().place(v, now[v])) << name_ << ": vertex " << v << " is not found again";
       }
       if (run.domain()->slides(v)) continue;
       ASSERT_TRUE(same_bits(now.subspan(v, 1), before_.subspan(v, 1))) << name_ << ": corner " << v;

@@ -72,7 +72,7 @@ Slide<Frame>::Slide(const SmoothingTask& task, CompositeObjective composite, Sli
   }
   flat_aims_ = search_for<Plane>(aims, parameters_);
   aims_ = search_for<Frame>(aims, parameters_);
-  if (domain_ != nullptr && domain_->facets().any()) found_.resize(task.input->mesh.positions.size());
+  if (domain_ != nullptr && domain_->faces().any()) found_.resize(task.input->mesh.positions.size());
 }
 
 template <class Frame>
@@ -208,16 +208,17 @@ std::optional<Vec3> Slide<Frame>::along_curve(const Visit& visit) const {
 /// Do the faces around keep near the input with the vertex at `target`? `here`, `there`: the facets beneath, of a vertex on a surface.
 template <class Frame>
 bool Slide<Frame>::fits(const Visit& visit, Vec3 target, const FacetPlace* here, const FacetPlace* there) const {
-  if (!domain_->facets().any()) return true;
+  if (!domain_->faces().any()) return true;
   Overlay overlay(*domain_, visit.scratch.room);
   const Fit bound{max_deviation_, max_deviation_, kLeastCosine};
   if (is_within(overlay.star(visit.positions, visit.vertex, target, there, bound), bound)) return true;
   // No worse than it is now will do, too.
   if (!visit.fit_now) visit.fit_now = overlay.star(visit.positions, visit.vertex, visit.here, here, kNoFit);
   const Fit& now = *visit.fit_now;
+  if (now.deviation == kNoFit.deviation && !domain_->faces().are_own())
+    return overlay.keeps_what_lies(visit.positions, visit.vertex, visit.here, here, target, there, bound);
   if (now.deviation == kNoFit.deviation || is_within(now, bound)) return false;
-  const Fit worst{std::max(bound.deviation, now.deviation), std::max(bound.other_split, now.other_split),
-                  std::min(bound.least_cosine, now.least_cosine)};
+  const Fit worst = worse(bound, now);
   return is_within(overlay.star(visit.positions, visit.vertex, target, there, worst), worst);
 }
 
@@ -260,7 +261,7 @@ std::optional<Vec2<double>> Slide<Frame>::search_flat(const Visit& visit, const 
 /// The winner among places on the surface.
 template <class Frame>
 Vec2<double> Slide<Frame>::search_on_surface(const Visit& visit, const Tangent& tangent) const {
-  const Facets& facets = domain_->facets();
+  const Facets& facets = domain_->faces().facets();
   const FacetWalks walks(facets, tangent.place.facet, tangent.plane, visit.here, kSteepest, visit.scratch.walks);
   if (choice_.by == SlideChoice::By::Grid) return search_grid(visit, tangent, walks);
   const auto worth_at = [&](Vec2<double> p) {
@@ -287,7 +288,7 @@ Vec2<double> Slide<Frame>::search_grid(const Visit& visit, const Tangent& tangen
       grid.for_slice(i, [&](int /*index*/, Vec2<double> step) {
         const auto found = step == Vec2<double>{} ? std::nullopt : walks.to(times(step, visit.scale));
         if (!found) return;  // or where it stands: no better than that
-        candidates.add(offset_to(visit, domain_->facets().at(*found)));
+        candidates.add(offset_to(visit, domain_->faces().facets().at(*found)));
         steps.push_back(step);
       });
     }
@@ -301,9 +302,9 @@ Vec2<double> Slide<Frame>::search_grid(const Visit& visit, const Tangent& tangen
 template <class Frame>
 template <class F>
 void Slide<Frame>::for_neighbours_on_surface(const Visit& visit, const F& f) const {
-  const ElementTable& faces = domain_->facets().faces();
-  for (const Index face : domain_->facets().faces_at(visit.vertex)) {
-    const auto corners = faces.corners(face);
+  const SlidingFaces& faces = domain_->faces();
+  for (const Index face : faces.at(visit.vertex)) {
+    const auto corners = faces.table().corners(face);
     const auto at = static_cast<std::size_t>(std::ranges::find(corners, visit.vertex) - corners.begin());
     for (const std::size_t steps : {std::size_t{1}, corners.size() - 1})
       f(visit.positions[corners[(at + steps) % corners.size()]] - visit.here);
@@ -321,14 +322,14 @@ Vec2<double> Slide<Frame>::step_to_mean(const Visit& visit, const Tangent& tange
 /// Where the vertex comes to stand a step away in the tangent plane, or half of it, and so on; nowhere if it may not.
 template <class Frame>
 std::optional<Vec3> Slide<Frame>::possible_on_surface(const Visit& visit, const Tangent& tangent, Vec2<double> step) const {
-  const Facets& facets = domain_->facets();
+  const Facets& facets = domain_->faces().facets();
   for (int i = 0; i <= kHalvings && !(step == Vec2<double>{}); ++i, step = times(step, 0.5)) {
     const auto there = facets.walk(tangent.place.facet, tangent.plane, visit.here, times(step, visit.scale), kSteepest);
     if (!there) continue;
     Vec3 target = facets.at(*there);
     if (single_precision_) {
       target = {nearest_float(target.x), nearest_float(target.y), nearest_float(target.z)};
-      if (!facets.place(visit.vertex, target)) continue;
+      if (!domain_->faces().place(visit.vertex, target)) continue;
     }
     if (!may_go(visit, target) || !fits(visit, target, &tangent.place, &*there)) continue;
     Found& found = found_[visit.vertex];
@@ -343,7 +344,7 @@ template <class Frame>
 std::optional<FacetPlace> Slide<Frame>::place_on_surface(const Visit& visit) const {
   Found& found = found_[visit.vertex];
   if (found.valid && found.position == visit.here) return found.place;
-  const auto place = domain_->facets().place(visit.vertex, visit.here, found.place.facet);
+  const auto place = domain_->faces().place(visit.vertex, visit.here, found.place.facet);
   found.valid = place.has_value();
   if (place) found.position = visit.here, found.place = *place;
   return place;
@@ -354,7 +355,7 @@ std::optional<Vec3> Slide<Frame>::on_surface(const Visit& visit) const {
   if constexpr (!std::is_same_v<Frame, Plane>) {
     const auto place = place_on_surface(visit);
     if (!place) return std::nullopt;
-    const Vec3 normal = domain_->facets().normal(*place);
+    const Vec3 normal = domain_->faces().facets().normal(*place);
     if (normal == Vec3{}) return std::nullopt;
     Tangent tangent{*place, tangent_plane(normal), {}};
     if (choice_.by == SlideChoice::By::Mean) return possible_on_surface(visit, tangent, step_to_mean(visit, tangent));

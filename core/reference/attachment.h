@@ -1,0 +1,66 @@
+#pragma once
+// How a mesh lies on the surface of another one, its reference.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/input/input_mesh.h"
+#include "core/reference/curve_ends.h"
+#include "core/reference/curves.h"
+#include "core/reference/sliding_faces.h"
+
+namespace dmoscope {
+
+/// Finds which vertices and edges of the mesh stand on corners and feature lines of the reference, and which facets lie beneath its faces.
+/// All that it is given must outlive it.
+class Attachment {
+ public:
+  /// `faces`: of the mesh, those that slide. `facets`, `ends`: of the reference, with its own feature edges.
+  Attachment(const InputMesh& input, const ElementTable& faces, const InputMesh& reference, std::shared_ptr<const Facets> facets,
+             const CurveEnds& ends);
+
+  /// Is a vertex of the mesh the nearest one to a corner of the reference, and near it?
+  [[nodiscard]] bool on_corner(Index vertex) const { return corner_[vertex] != 0; }
+  /// Does an edge of the mesh run along a feature line of the reference?
+  [[nodiscard]] bool is_along(Index a, Index b) const;
+
+  /// The faces over the facets, wound as these are. `own`: the same faces as facets of the mesh itself, parted along feature edges: each
+  /// patch of them lies on one patch of the reference. Vertices that are off all edges in `ends`, and near enough, are carried; others off
+  /// them are held.
+  [[nodiscard]] SlidingFaces lay(ElementTable faces, const Facets& own, CurveEnds& ends) const;
+  /// The lines, and who stands near which of them.
+  [[nodiscard]] OntoLines take_lines() { return {std::move(lines_), std::move(line_of_), beside_}; }
+
+ private:
+  using Edge = std::array<Index, 2>;
+  struct Standing {
+    double along;  // segments, and the share of the last one
+    Index vertex;
+    friend auto operator<=>(const Standing&, const Standing&) = default;
+  };
+  void find_lines(const CurveEnds& ends);
+  void measure_faces(const ElementTable& faces);
+  void find_corners(const CurveEnds& ends);
+  void find_standing();
+  void find_edges();
+  [[nodiscard]] Vec3 middle_of(const ElementTable& faces, Index face) const;
+  [[nodiscard]] bool runs_along(const FeatureLine& line, const Standing& from, const Standing& to) const;
+  [[nodiscard]] std::vector<Index> patches_beneath(const ElementTable& faces, const Facets& own, std::vector<Index>& near) const;
+
+  const InputMesh& input_;
+  const InputMesh& reference_;
+  std::shared_ptr<const Facets> facets_;
+  double beside_;
+  std::vector<FeatureLine> lines_;
+  std::vector<Edge> edges_;                      // of the faces, ascending
+  std::vector<double> reach_;                    // by vertex: how near it must be to what it stands on; 0 for one of no face
+  std::vector<std::uint8_t> corner_;             // by vertex
+  std::vector<Index> corner_points_;             // by vertex, of those: the corner
+  std::vector<Index> line_of_;                   // by vertex
+  std::vector<std::vector<Standing>> standing_;  // by line
+  std::vector<Edge> along_;                      // ascending
+};
+
+}  // namespace dmoscope

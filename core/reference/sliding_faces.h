@@ -1,0 +1,66 @@
+#pragma once
+// The faces of a mesh that move with their vertices, over facets that stay.
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/input/input_mesh.h"
+#include "core/reference/facets.h"
+
+namespace dmoscope {
+
+/// Which facets lie beneath a face, or near it, before anything moves.
+struct FacetsBeneath {
+  Index first = kNoIndex, count = 0;  // one after the other
+};
+
+/// The mesh must outlive it.
+class SlidingFaces {
+ public:
+  /// None.
+  SlidingFaces() = default;
+  /// Faces that are themselves the facets: `facets` were split from them.
+  SlidingFaces(const InputMesh& input, ElementTable faces, std::shared_ptr<const Facets> facets);
+  /// Faces over facets of another mesh. `near`: by face, a facet near it, whose patch is the face's. `beside`: how far from its patch a
+  /// vertex may stand, in mesh units.
+  SlidingFaces(const InputMesh& input, ElementTable faces, std::shared_ptr<const Facets> facets, std::vector<Index> near, double beside);
+
+  [[nodiscard]] bool any() const noexcept { return facets_ != nullptr; }
+  /// Of faces there must be some.
+  [[nodiscard]] const Facets& facets() const noexcept { return *facets_; }
+  [[nodiscard]] const std::shared_ptr<const Facets>& shared_facets() const noexcept { return facets_; }
+  [[nodiscard]] const ElementTable& table() const noexcept { return faces_; }
+  /// The faces at a vertex.
+  [[nodiscard]] std::span<const Index> at(Index vertex) const {
+    return {faces_at_.data() + offsets_[vertex], faces_at_.data() + offsets_[vertex + 1]};
+  }
+  [[nodiscard]] FacetsBeneath beneath(Index face) const {
+    return {near_[face], is_own_ ? static_cast<Index>(faces_.corners(face).size()) - 2 : 1};
+  }
+  [[nodiscard]] Index patch_of(Index face) const { return facets_->facets()[near_[face]].patch; }
+  /// Are the facets those that the faces of the input were?
+  [[nodiscard]] bool are_own() const noexcept { return is_own_; }
+
+  /// Lets a vertex slide on the surface. `home`: a facet of the patch that it never leaves.
+  void carry(Index vertex, Index home) { home_[vertex] = home; }
+  [[nodiscard]] bool carries(Index vertex) const noexcept { return home_[vertex] != kNoIndex; }
+  /// Where a vertex that slides on the surface stands; nowhere for one that was put beside its patch. The nearest facet, of equals the
+  /// first: a place follows from the position alone. `near`: a facet of the patch to begin with, which makes it faster where that is near.
+  [[nodiscard]] std::optional<FacetPlace> place(Index vertex, Vec3 position, Index near = kNoIndex) const;
+
+ private:
+  void index(Index vertices);
+
+  std::shared_ptr<const Facets> facets_;
+  ElementTable faces_;
+  std::vector<Index> offsets_, faces_at_;  // by vertex
+  std::vector<Index> near_;                // by face
+  std::vector<Index> home_;                // by vertex: a facet; kNoIndex: it does not slide on the surface
+  double rounding_ = 0.0;                  // of the mesh's coordinates
+  double beside_ = 0.0;
+  bool is_own_ = true;
+};
+
+}  // namespace dmoscope

@@ -32,6 +32,9 @@ void tell(CommandContext& context, std::string text, Message::Kind kind = Messag
 /// Says what the active run holds on interfaces, if anything.
 void tell_interfaces(CommandContext& context);
 
+/// Says who slides in the active run, if anybody does.
+void tell_sliding(CommandContext& context);
+
 /// Changes the active run's parameters; says so when that made a new run beside the old one.
 void change_run(CommandContext& context, const std::function<void(RunParameters&)>& edit);
 

@@ -45,6 +45,18 @@ void reload(CommandContext& context, Arguments arguments) {
   if (!note.empty()) tell(context, note, Message::Kind::Warning);
 }
 
+void surface(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  const std::string note = context.session.slide_on_surface(arguments[0] == "own" ? "" : arguments[0], context.progress);
+  tell_report(context);
+  tell_sliding(context);
+  const Run& run = context.session.active();
+  if (run.input().surface && !run.domain())
+    tell(context, fmt::format("nothing slides yet: 'boundary slide' lets vertices slide on {}", run.input().surface->mesh.name),
+         Message::Kind::Warning);
+  if (!note.empty()) tell(context, note, Message::Kind::Warning);
+}
+
 void generate(CommandContext& context, Arguments arguments) {
   require(arguments, 1, 3);
   std::string words = arguments[0];
@@ -176,6 +188,9 @@ std::span<const CommandRow> file_commands() {
       {{"open", "open FILE", "Opens a mesh and starts a run on it."}, open},
       {{"open-beside", "open-beside FILE", "Opens a mesh beside those that are open, and starts a run on it."}, open_beside},
       {{"reload", "reload", "Reads the active mesh's file again; its runs keep their parameters and start anew."}, reload},
+      {{"surface", "surface FILE|own",
+        "Lets vertices slide on the surface of another mesh, or on their own mesh's again; its runs keep their parameters and start anew."},
+       surface},
       {{"generate", "generate KIND [SIZE [SEED]]", "Makes a sample mesh and starts a run on it."}, generate},
       {{"export", "export FILE", "Writes the active run's mesh; the extension chooses the format."}, export_mesh},
       {{"export-over", "export-over FILE", "Writes it over the file that it was read from, and keeps a copy of that beside it."},

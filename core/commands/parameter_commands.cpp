@@ -12,6 +12,10 @@
 
 namespace dmoscope {
 
+void tell_sliding(CommandContext& context) {
+  if (const auto& domain = context.session.active().domain()) tell(context, domain->sentence());
+}
+
 namespace {
 
 void set_metric(CommandContext& context, Arguments arguments) {
@@ -49,9 +53,6 @@ void set(const ParameterInfo& row, CommandContext& context, Arguments arguments)
 void set_backend(CommandContext& context, Arguments arguments) {
   set(parameter_info("backend"), context, arguments);
   tell(context, context.session.active().backend_sentence());
-}
-void tell_sliding(CommandContext& context) {
-  if (const auto& domain = context.session.active().domain()) tell(context, domain->sentence());
 }
 void set_boundary(CommandContext& context, Arguments arguments) {
   set(parameter_info("boundary"), context, arguments);

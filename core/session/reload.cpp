@@ -1,4 +1,4 @@
-// Reading the mesh's file again.
+// Another mesh in the place of one that has runs: its file read again, or the surface to slide on changed.
 
 #include <algorithm>
 #include <string>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/reference/slide_on.h"
 #include "core/session/session.h"
 
 namespace dmoscope {
@@ -26,7 +27,24 @@ bool has_all(const InputMesh& input, const Kinds& kinds) {
 std::string Session::reload(Progress& progress) {
   const std::shared_ptr<const InputMesh> stale = input();
   if (stale->path.empty()) throw UsageError("this mesh was made here: there is no file to read again");
-  const auto fresh = load_input(stale->path, Need::Smoothing, reading(progress));
+  auto fresh = load_input(stale->path, Need::Smoothing, reading(progress));
+  if (stale->surface) fresh = slide_on(*fresh, stale->surface);
+  return exchange(stale, fresh);
+}
+
+std::string Session::slide_on_surface(const std::filesystem::path& path, Progress& progress) {
+  const std::shared_ptr<const InputMesh> stale = input();
+  const auto surface = path.empty() ? nullptr : load_input(path, Need::QualityOnly, reading(progress));
+  const auto fresh = slide_on(*stale, surface);
+  const std::filesystem::path source = source_path(stale);
+  std::string note = exchange(stale, fresh);
+  if (surface) read_files_.add(surface->mesh, surface->path);
+  if (source != source_path(fresh)) originals_.emplace_back(fresh, source);
+  return note;
+}
+
+/// Gives all runs on a mesh another one in its place, from which they start anew. Returns what could not be kept.
+std::string Session::exchange(const std::shared_ptr<const InputMesh>& stale, const std::shared_ptr<const InputMesh>& fresh) {
   const bool same_vertices = fresh->mesh.vertex_count() == stale->mesh.vertex_count();
   std::string note;
   const auto add_note = [&note](std::string_view sentence) {
@@ -64,7 +82,7 @@ std::string Session::reload(Progress& progress) {
     runs.back()->set_id(++last_id_);
     active = runs.size() - 1;
   }
-  read_files_.add(fresh->mesh, fresh->path);
+  if (!fresh->path.empty()) read_files_.add(fresh->mesh, fresh->path);
   runs_ = std::move(runs);
   activate(active);
   share_history();

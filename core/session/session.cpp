@@ -47,7 +47,8 @@ std::shared_ptr<Run> Session::make_run(std::shared_ptr<const InputMesh> input, R
 void Session::replace(std::vector<std::shared_ptr<Run>> runs, std::size_t active, Metric shown) {
   runs_ = std::move(runs);
   for (const auto& input : inputs())
-    if (!input->path.empty()) read_files_.add(input->mesh, input->path);
+    for (const InputMesh* mesh : {input.get(), input->surface.get()})
+      if (mesh != nullptr && !mesh->path.empty()) read_files_.add(mesh->mesh, mesh->path);
   for (const auto& run : runs_) run->set_id(++last_id_);
   activate(active);
   shown_ = shown;

@@ -45,6 +45,9 @@ class Session {
   /// as vertices fixed by hand, when there is another number of them now), else nothing. Throws UsageError for a mesh without a file; on
   /// any error the session stays as it was.
   [[nodiscard]] std::string reload(Progress& progress);
+  /// Lets the vertices of the active run's mesh slide on the surface of another mesh, see slide_on(); empty: on its own again. Its runs
+  /// keep their parameters and start anew, as by reload(). Throws UsageError; on any error the session stays as it was.
+  [[nodiscard]] std::string slide_on_surface(const std::filesystem::path& path, Progress& progress);
   /// Throws UsageError when `command` would write over a mesh that was opened in this session.
   void require_not_read(const std::filesystem::path& target, std::string_view command) const {
     read_files_.require_another(target, command);
@@ -118,6 +121,7 @@ class Session {
  private:
   [[nodiscard]] std::shared_ptr<Run> first_run(const std::shared_ptr<const InputMesh>& input) const;
   void replace_input(std::shared_ptr<const InputMesh> input);
+  [[nodiscard]] std::string exchange(const std::shared_ptr<const InputMesh>& stale, const std::shared_ptr<const InputMesh>& fresh);
   void activate(std::size_t index);
   void share_history();
   void go_to(const SessionPoint& point, bool with_shown, Progress& progress);

@@ -16,6 +16,7 @@
 #include "core/io/mesh_io.h"
 #include "core/io/reading/source_file.h"
 #include "core/io/writing/atomic_file.h"
+#include "core/reference/slide_on.h"
 #include "core/session/input_marks.h"
 #include "core/session/joint_json.h"
 #include "core/session/json_values.h"
@@ -335,6 +336,17 @@ std::shared_ptr<const InputMesh> to_input(const Json& json, const std::filesyste
   return input;
 }
 
+/// The same with the surface that it slides on. `given`: whether the mesh was.
+std::shared_ptr<const InputMesh> on_surface(const Json& json, const std::filesystem::path& state, const IoContext& context,
+                                            const std::shared_ptr<const InputMesh>& input, bool given) {
+  const bool slides = json.contains("surface");
+  if (given && slides != (input->surface != nullptr))
+    throw UsageError(fmt::format("{} slid on {} when this was saved", input->mesh.name, slides ? "another surface" : "its own surface"));
+  if (!slides) return input;
+  const auto surface = to_input(json.at("surface"), state, context, given ? input->surface : nullptr);
+  return given ? input : slide_on(*input, surface);
+}
+
 /// The marks of the mesh's groups and fields in the file; nothing in an older file, which has none.
 std::vector<DataMark> to_data_marks(const Json& input) {
   std::vector<DataMark> marks;
@@ -351,13 +363,16 @@ struct OpenedMesh {
 /// The meshes of a saved session: one as "input", several as "inputs". `input`: see open_state().
 std::vector<OpenedMesh> to_meshes(const Json& json, const std::filesystem::path& path, const IoContext& context,
                                   const std::shared_ptr<const InputMesh>& input) {
-  if (!json.contains("inputs")) return {{to_input(json.at("input"), path, context, input), to_data_marks(json.at("input"))}};
+  const auto to_mesh = [&](const Json& mesh, const std::shared_ptr<const InputMesh>& given) {
+    return OpenedMesh{on_surface(mesh, path, context, to_input(mesh, path, context, given), given != nullptr), to_data_marks(mesh)};
+  };
+  if (!json.contains("inputs")) return {to_mesh(json.at("input"), input)};
   if (input) throw UsageError("this session has several meshes, where one of a single mesh is expected");
   const Json& described = json.at("inputs");
   if (!described.is_array() || described.empty()) throw UsageError("the session has no meshes");
   std::vector<OpenedMesh> meshes;
   for (const Json& mesh : described) {
-    meshes.push_back({to_input(mesh, path, context, nullptr), to_data_marks(mesh)});
+    meshes.push_back(to_mesh(mesh, nullptr));
     if (meshes.back().input->in_space() != meshes.front().input->in_space())
       throw UsageError("some of its meshes are planar and others in space, which cannot be shown beside each other");
   }
@@ -422,7 +437,7 @@ Json parse(std::string_view text, const std::string& file) {
 namespace {
 
 /// What a session says of a mesh, to find it again. Throws UsageError for one that cannot be found again.
-Json json_of(const MeshStanding& mesh) {
+Json json_of(const MeshStanding& mesh) {  // NOLINT(misc-no-recursion): a surface has none of its own
   const InputMesh& input = *mesh.input;
   Json source{{"vertices", input.mesh.vertex_count()}, {"elements", input.mesh.elements.size()}, {"checksum", checksum(input.mesh)}};
   source["single"] = input.mesh.single_precision;
@@ -435,6 +450,7 @@ Json json_of(const MeshStanding& mesh) {
   } else {
     throw UsageError("this mesh came from no file and no generator: export it and open it first");
   }
+  if (input.surface) source["surface"] = json_of({input.surface, std::filesystem::absolute(input.surface->path)});
   return source;
 }
 

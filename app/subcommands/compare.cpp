@@ -12,6 +12,7 @@
 #include "app/common/option_checks.h"
 #include "app/common/output_checks.h"
 #include "app/common/provenance.h"
+#include "app/common/surface_option.h"
 #include "app/comparison/report.h"
 #include "app/pictures/plot_file.h"
 #include "app/subcommands/input_report.h"
@@ -44,6 +45,7 @@ void refuse_early(const CompareOptions& options) {
   const std::vector<Target> targets = targets_of(options);
   for (std::size_t i = 0; i < targets.size(); ++i) {
     require_another_file(targets[i].path, targets[i].option, options.file);
+    if (!options.surface.empty()) require_another_file(targets[i].path, targets[i].option, options.surface);
     for (std::size_t k = 0; k < i; ++k) require_another_file(targets[i].path, targets[i].option, targets[k].path);
   }
   if (!options.plot.empty()) require_plot_target(options.plot);
@@ -74,7 +76,7 @@ int compare(const CompareOptions& options, const std::string& command_line) {
   Watch watch;
   Progress& progress = watch.progress();
   const auto pool = std::make_shared<ThreadPool>(options.run.threads);
-  const auto input = load_input(options.file, Need::Smoothing, {progress, pool.get(), options.memory.bytes()});
+  const auto input = load_input_on(options.file, options.surface, Need::Smoothing, {progress, pool.get(), options.memory.bytes()});
   std::vector<std::string> warnings = tell_findings(*input);
   const Kinds kinds = kinds_of(*input, plan.contenders.front().parameters, options.run.kinds, warnings);
   fit_to_mesh(plan, input, vertices_to_fix(input->mesh, options.run.fix), kinds);
@@ -137,6 +139,7 @@ void add_compare(CLI::App& app, Action& action, const std::string& command_line)
       ->type_name("N");
   add_goal_options(*subcommand, *goal);
   add_run_options(*subcommand, options->run);
+  add_surface_option(*subcommand, options->surface);
   subcommand->remove_option(subcommand->get_option("--method"));  // a SPEC's business; --metric and --backend are what it leaves open
   subcommand->add_option("--stats", options->stats, "Write the statistics of every iteration of every run")->type_name("FILE.csv");
   subcommand->add_option("--table", options->table, "Write the table, with all columns")->type_name("FILE.csv");

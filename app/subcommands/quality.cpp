@@ -17,6 +17,7 @@
 #include "app/common/memory_limit.h"
 #include "app/common/option_checks.h"
 #include "app/common/output_checks.h"
+#include "app/common/surface_option.h"
 #include "app/common/text.h"
 #include "app/subcommands/group_table.h"
 #include "app/subcommands/input_report.h"
@@ -24,7 +25,9 @@
 #include "core/base/thread_pool.h"
 #include "core/input/declared_floats.h"
 #include "core/input/input_mesh.h"
+#include "core/inspect/element_fit.h"
 #include "core/io/writing/atomic_file.h"
+#include "core/reference/domain.h"
 #include "core/session/csv.h"
 #include "core/smooth/displace.h"
 
@@ -32,7 +35,7 @@ namespace dmoscope::app {
 namespace {
 
 struct QualityOptions {
-  std::filesystem::path input, elements;
+  std::filesystem::path input, surface, elements;
   std::string metric = "all";
   std::size_t worst = 0;
   MemoryLimit memory;
@@ -176,13 +179,38 @@ void print_worst(const InputMesh& input, const Column& column, std::size_t count
     print("{:>10} {:<14} {:>12} {}\n", e, info(input.mesh.elements.kind(e)).name, brief(column.values[e]), place(centroid(input, e)));
 }
 
+/// How near the mesh lies to the surface that it is to slide on.
+struct Nearness {
+  double deviation = 0.0;       // the greatest one, in mesh units
+  double tilt = 0.0;            // likewise, degrees
+  std::size_t not_over_it = 0;  // elements with a face that the surface does not lie beneath
+};
+
+Nearness nearness_of(const InputMesh& input, ThreadPool& pool) {
+  const Domain domain(input, {InterfaceRule::Slide, BoundaryRule::Slide});
+  const ElementFit fit = element_fit(input, domain, input.mesh.positions, &pool);
+  std::vector<std::uint8_t> has_face(input.mesh.elements.size(), input.is_surface() ? 1 : 0);
+  for (const ElementFace& face : input.faces.boundary()) has_face[face.element] = 1;
+  Nearness near;
+  for (Index e = 0; e < has_face.size(); ++e) {
+    if (std::isnan(fit.deviation[e])) {
+      near.not_over_it += has_face[e];
+      continue;
+    }
+    near.deviation = std::max(near.deviation, static_cast<double>(fit.deviation[e]));
+    near.tilt = std::max(near.tilt, static_cast<double>(fit.tilt[e]));
+  }
+  return near;
+}
+
 int quality(const QualityOptions& options) {
   const std::vector<Metric> metrics = wanted_metrics(options.metric);
   if (!options.elements.empty()) require_writable(options.elements);
   require_another_file(options.elements, "--elements", options.input);
+  if (!options.surface.empty()) require_another_file(options.elements, "--elements", options.surface);
 
   Watch watch;
-  const auto input = load_input(options.input, Need::QualityOnly, {watch.progress(), nullptr, options.memory.bytes()});
+  const auto input = load_input_on(options.input, options.surface, Need::QualityOnly, {watch.progress(), nullptr, options.memory.bytes()});
   const Mesh& mesh = input->mesh;
   std::vector<std::string> warnings = tell_findings(*input);
   ThreadPool pool;
@@ -203,20 +231,32 @@ int quality(const QualityOptions& options) {
     break;  // one metric says it
   }
   const std::size_t inverted = count_inverted(*input);
+  const auto near = input->surface ? std::optional(nearness_of(*input, pool)) : std::nullopt;
+  const double share = near ? near->deviation / input->geometry.size : 0.0;
   if (options.json) {
     Json list = Json::array();
     for (const Column& column : columns) list.push_back(json_of(*input, column, options.worst));
-    print_json({{"input", options.input.string()},
+    Json object{{"input", options.input.string()},
                 {"vertices", mesh.vertex_count()},
                 {"elements", mesh.elements.size()},
                 {"inverted", inverted},
                 {"metrics", std::move(list)},
                 {"groups", json_of_groups(mesh)},
-                {"warnings", warnings}});
+                {"warnings", warnings}};
+    if (near)
+      object["surface"] = {{"file", options.surface.string()},
+                           {"deviation", near->deviation},
+                           {"share_of_size", share},
+                           {"tilt", near->tilt},
+                           {"not_over_it", near->not_over_it}};
+    print_json(object);
     return 0;
   }
   print("{}: {}, {}, {} inverted\n\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
         counted(mesh.elements.size(), "element", "elements"), grouped(inverted));
+  if (near)
+    print("on {}: at most {:.3g} away ({:.2g} of the mesh's size), tilted by at most {:.1f} degrees; {} not over it\n\n",
+          input->surface->mesh.name, near->deviation, share, near->tilt, counted(near->not_over_it, "element lies", "elements lie"));
   print_table(columns);
   for (const Column& column : columns) print_worst(*input, column, options.worst);
   constexpr std::size_t kMostGroups = 20;
@@ -238,6 +278,7 @@ void add_quality(CLI::App& app, Action& action) {
       ->type_name("N");
   subcommand->add_option("--elements", options->elements, "Write the quality of every element; empty where a metric is not defined")
       ->type_name("FILE.csv");
+  add_surface_option(*subcommand, options->surface);
   add_memory_option(*subcommand, options->memory);
   subcommand->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
   subcommand->callback([options, &action] {

@@ -19,6 +19,7 @@
 #include "app/common/output_checks.h"
 #include "app/common/provenance.h"
 #include "app/common/run_options.h"
+#include "app/common/surface_option.h"
 #include "app/common/text.h"
 #include "app/subcommands/checkpoint.h"
 #include "app/subcommands/input_report.h"
@@ -48,7 +49,7 @@ namespace dmoscope::app {
 namespace {
 
 struct SmoothOptions {
-  std::filesystem::path input, output, stats;
+  std::filesystem::path input, surface, output, stats;
   RunOptions run;
   GoalOptions goal;
   std::string write = "best";
@@ -222,6 +223,10 @@ void refuse_early(const SmoothOptions& options) {
     throw UsageError("--write: " + unknown_value("moment", options.write, std::array<std::string_view, 2>{"best", "last"}));
   require_mesh_target(options.output, options.input);
   require_another_file(options.stats, "--stats", options.input);
+  if (!options.surface.empty()) {
+    require_another_file(options.output, "--output", options.surface);
+    require_another_file(options.stats, "--stats", options.surface);
+  }
   require_another_file(options.stats, "--stats", options.output);
   if (!options.stats.empty()) require_writable(options.stats);
   refuse_early(options.checkpoints, {options.input, options.output, options.stats});
@@ -321,7 +326,7 @@ int smooth(const SmoothOptions& options) {
     if (!checkpoints.end_soon()) progress.request_cancel();
   });
   const auto pool = session.pool();
-  const auto input = load_input(options.input, Need::Smoothing, {progress, pool.get(), options.memory.bytes()});
+  const auto input = load_input_on(options.input, options.surface, Need::Smoothing, {progress, pool.get(), options.memory.bytes()});
   std::vector<std::string> warnings = tell_findings(*input);
   parameters.fixed = vertices_to_fix(input->mesh, options.run.fix);
   parameters.kinds = kinds_of(*input, parameters, options.run.kinds, warnings);
@@ -337,6 +342,8 @@ int smooth(const SmoothOptions& options) {
   Run& run = begin_run(session, input, parameters, options.checkpoints, progress);
   if (std::string warning = run.take_warning(); !warning.empty()) warn(std::move(warning));
   if (run.size_field() && !run.size_field()->note().empty()) warn(run.size_field()->note());
+  if (input->surface && !run.domain())
+    warn(fmt::format("nothing slides on {}: --boundary slide lets the vertices of a volume's boundary", input->surface->mesh.name));
   const auto smooth_all = [&] {  // from the input on: without history nothing else is left after a failure
     const auto after = [&](const Run&) { checkpoints.after_iteration(); };
     const Outcome done = options.goal.until_converged ? run.until_converged_from_input(options.goal.limits, progress, after)
@@ -384,6 +391,7 @@ void add_smooth(CLI::App& app, Action& action, const std::string& command_line) 
   subcommand->add_option("IN", options->input, "Mesh to read")->required();
   subcommand->add_option("-o,--output", options->output, "Where to write it; the format is the extension's")->required()->type_name("OUT");
   add_run_options(*subcommand, options->run);
+  add_surface_option(*subcommand, options->surface);
   add_goal_options(*subcommand, options->goal);
   subcommand
       ->add_option("--write", options->write,

@@ -38,5 +38,36 @@ TEST(BoundaryOnTheCommandLine, SlidesAndIsSaid) {
   }
 }
 
+/// A can that was made coarse slides on a finer one, and `quality` says how near it stays.
+TEST(BoundaryOnTheCommandLine, SlidesOnTheSurfaceOfAnotherMesh) {
+  const Folder folder;
+  const std::string fine = folder / "fine.off", coarse = folder / "coarse.off", out = folder / "out.off";
+  ASSERT_EQ(run({"generate", "can", "--size", "4000", "-o", fine}).code, 0);
+  ASSERT_EQ(run({"generate", "can", "--size", "400", "--seed", "3", "-o", coarse}).code, 0);
+  const auto own = smooth(coarse, out, {"--iterations", "5"});
+  const auto on = smooth(coarse, out, {"--iterations", "5", "--surface", fine});
+  EXPECT_GT(on["after"]["minimum"], on["before"]["minimum"]);
+  EXPECT_NE(on["after"]["mean"], own["after"]["mean"]);
+  const auto near = json_of(run({"quality", out, "--surface", fine, "--json"}));
+  EXPECT_GT(near["surface"]["deviation"], 0.0);
+  EXPECT_LT(near["surface"]["share_of_size"], 0.03);  // a coarse can's chords
+  EXPECT_EQ(near["surface"]["not_over_it"], 0);
+  EXPECT_EQ(near["inverted"], 0);
+  EXPECT_THAT(run({"quality", out, "--surface", fine}).out, HasSubstr("on fine.off: at most"));
+
+  for (const char* verb : {"smooth", "compare"}) {
+    std::vector<std::string> words{verb, sample("coast.14"), "--surface", fine};
+    if (std::string(verb) == "smooth")
+      words.insert(words.end(), {"-o", folder / "no.14"});
+    else
+      words.insert(words.end(), {"--run", "dmo"});
+    const Output refused = run(words);
+    EXPECT_EQ(refused.code, 2) << verb;
+    EXPECT_THAT(refused.err, HasSubstr("planar")) << verb;
+  }
+  EXPECT_EQ(run({"smooth", coarse, "-o", fine, "--surface", fine}).code, 2) << "it would write over the surface";
+  EXPECT_EQ(run({"smooth", coarse, "-o", out, "--surface", folder / "none.off"}).code, 3);
+}
+
 }  // namespace
 }  // namespace dmoscope::test

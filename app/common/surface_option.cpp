@@ -1,0 +1,24 @@
+#include "app/common/surface_option.h"
+
+#include <CLI/CLI.hpp>
+
+#include "core/reference/slide_on.h"
+
+namespace dmoscope::app {
+
+void add_surface_option(CLI::App& subcommand, std::filesystem::path& surface) {
+  subcommand
+      .add_option("--surface", surface,
+                  "Another mesh, of a curved surface or of a volume: vertices slide on its surface and along its feature edges, instead of "
+                  "those of the mesh itself, and elements of a curved surface that look away from it are inverted")
+      ->type_name("FILE");
+}
+
+std::shared_ptr<const InputMesh> load_input_on(const std::filesystem::path& mesh, const std::filesystem::path& surface, Need need,
+                                               const IoContext& context) {
+  auto input = load_input(mesh, need, context);
+  if (surface.empty()) return input;
+  return slide_on(*input, load_input(surface, Need::QualityOnly, context));
+}
+
+}  // namespace dmoscope::app

@@ -44,7 +44,7 @@ void App::take_chosen_file() {
     case ChooserOutcome::Kind::Chosen:
       if (rows == nullptr) {
         const std::string path = outcome->path.string();
-        submit_by_person(state_.opens_beside ? open_beside_command(path) : open_command(path));
+        submit_by_person(command_to_open(state_.open_for, path));
       } else {
         rows->target.set_path(outcome->path);
         ++rows->taken;
@@ -62,12 +62,8 @@ void App::serve_chooser() {
   if (turn.usable && state_.dialog == Dialog::Open && widgets_.dialog_shown != Dialog::Open) {
     state_.dialog = Dialog::None;
     const std::filesystem::path mesh = session_->input ? session_->input->path : std::filesystem::path();
-    ChooserWish wish{false,
-                     state_.opens_beside ? "Open a mesh beside" : "Open a mesh",
-                     first_folder(mesh),
-                     {},
-                     "meshes and sessions",
-                     {std::string(kSessionExtension)}};
+    ChooserWish wish{false, title_to_open(state_.open_for), first_folder(mesh),
+                     {},    "meshes and sessions",          {std::string(kSessionExtension)}};
     for (const FormatInfo& format : format_table()) {
       std::string_view rest = format.extensions;
       while (!rest.empty()) {

@@ -127,7 +127,7 @@ TEST_F(SeveralMeshesWindow, TheMenuOpensBeside) {
   good("wait");
   ASSERT_EQ(session()->meshes.size(), 2U);
   good("key Ctrl+O");
-  EXPECT_FALSE(state().opens_beside);
+  EXPECT_EQ(state().open_for, ui::OpenFor::Alone);
 }
 
 TEST_F(SeveralMeshesWindow, AtOtherPlacesEachIsSeenWhole) {

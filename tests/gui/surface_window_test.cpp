@@ -89,6 +89,28 @@ TEST_F(SurfaceWindow, VisitsAreLookedIntoWhereVerticesSlideOnIt) {
   EXPECT_THAT(window_->app().inspection().trouble, ::testing::HasSubstr("is fixed: "));
 }
 
+TEST_F(SurfaceWindow, SlidesOnTheSurfaceOfAnotherMesh) {
+  const Mesh fine = cube(8);
+  const std::string file = (folder_.path() / "fine.vtk").string();
+  Progress progress;
+  write_mesh(file, fine, fine.positions, progress);
+  good("dialog open-surface");
+  EXPECT_EQ(state().dialog, ui::Dialog::Open);
+  EXPECT_EQ(ui::command_to_open(state().open_for, file), "surface " + file);
+  good("dialog none");
+  good("run 2");
+  good("surface " + file);
+  ASSERT_NE(session()->frame->input->surface, nullptr);
+  EXPECT_EQ(session()->runs[0].moment.iteration, 0U);
+  EXPECT_EQ(session()->runs[0].domain->feature_edges().size(), 12U * 5U) << "edges of the mesh along those of the other";
+  good("run 2");
+  good("color-by deviation");
+  (void)picture();
+  EXPECT_THAT(window_->app().colours()->title, ::testing::HasSubstr("deviation from fine.vtk"));
+  good("surface own");
+  EXPECT_EQ(session()->frame->input->surface, nullptr);
+}
+
 /// A cube's twelve edges of n segments and its eight corners, however many of them are seen.
 TEST(FeatureMarks, OfACube) {
   constexpr Index n = 5;

@@ -38,7 +38,7 @@ void by_freedom(const ColourRequest& request, ElementColours& colours, render::S
 
 ElementFit fit_of(const ColourRequest& request) {
   const Frame& frame = *request.frame;
-  if (request.domain->facets().faces().size() < kWorthThreads) return element_fit(*frame.input, *request.domain, frame.positions);
+  if (request.domain->faces().table().size() < kWorthThreads) return element_fit(*frame.input, *request.domain, frame.positions);
   ThreadPool pool(std::max(1U, std::thread::hardware_concurrency()));
   return element_fit(*frame.input, *request.domain, frame.positions, &pool);
 }
@@ -63,11 +63,12 @@ void by_fit(const ColourRequest& request, ElementColours& colours, render::Shadi
     else
       most = std::max(most, static_cast<double>(value));
   }
-  if (inside > 0) colours.beside.push_back({"inside", render::kUndefinedColour, inside});
+  if (inside > 0) colours.beside.push_back({frame.input->is_surface() ? "beside it" : "inside", render::kUndefinedColour, inside});
   const double size = frame.input->geometry.size;
   const double least = tilt ? 1.0 : 1e-6 * size;  // less is no range to spread colours over
   colours.range = {0.0, std::max(most, least)};
-  colours.common_title = tilt ? "tilt from the input's surface, degrees" : "deviation from the input";
+  const std::string from = frame.input->surface ? frame.input->surface->mesh.name : tilt ? "the input's surface" : "the input";
+  colours.common_title = tilt ? fmt::format("tilt from {}, degrees", from) : fmt::format("deviation from {}", from);
   if (most == 0.0)
     colours.title = colours.common_title + ": none";
   else if (tilt)

@@ -155,13 +155,13 @@ void add_panel_commands(CommandTable& table, ViewState& state) {
     bool Panels::*panel = choose(words[0], names);
     state.panels.*panel = switched(words, 1, state.panels.*panel);
   });
-  table.add(
-      {"dialog", "dialog NAME|none", "opens or closes a dialog; open-beside: that of open, for another mesh beside those that are open"},
-      [&state](Arguments words) {
-        require(words, 1, 1);
-        state.opens_beside = words[0] == "open-beside";
-        state.dialog = state.opens_beside ? Dialog::Open : choose(words[0], kDialogs);
-      });
+  table.add({"dialog", "dialog NAME|none",
+             "opens or closes a dialog; open-beside, open-surface: that of open, for a mesh beside those that are open, or to slide on"},
+            [&state](Arguments words) {
+              require(words, 1, 1);
+              state.open_for = words[0] == "open-beside" ? OpenFor::Beside : words[0] == "open-surface" ? OpenFor::Surface : OpenFor::Alone;
+              state.dialog = state.open_for != OpenFor::Alone ? Dialog::Open : choose(words[0], kDialogs);
+            });
 }
 
 void add_output_commands(CommandTable& table, ViewState& state) {

@@ -46,6 +46,10 @@ void draw_mesh(PanelContext& context, const Frame& frame) {
     next_item_tooltip(context.shown(mesh.title));
   }
   dim_text(context, kinds_sentence(context.derived));
+  if (const auto& surface = frame.input->surface) {
+    dim_text(context, "slides on " + context.shown(surface->mesh.name));
+    if (!surface->path.empty()) next_item_tooltip(context.shown(surface->path.string()));
+  }
   value_row(context, "vertices", count(mesh.vertex_count()));
   if (frame.input->is_volume()) {
     value_row(context, "faces", count(frame.input->faces.face_count()));

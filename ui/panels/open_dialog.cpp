@@ -27,7 +27,7 @@ void enter_folder(WidgetState& widgets, const fs::path& folder) {
 
 void open_file(PanelContext& context, const fs::path& file) {
   context.state.dialog = Dialog::None;
-  context.send(context.state.opens_beside ? open_beside_command(file.string()) : open_command(file.string()));
+  context.send(command_to_open(context.state.open_for, file.string()));
 }
 
 /// A folder is entered, a file opened; anything else gets a sentence.
@@ -144,7 +144,7 @@ void draw_recent_column(PanelContext& context) {
 }  // namespace
 
 void draw_open_dialog(PanelContext& context) {
-  if (!begin_dialog(context, context.state.opens_beside ? "Open a mesh beside" : "Open a mesh", 56, 36)) return;
+  if (!begin_dialog(context, title_to_open(context.state.open_for), 56, 36)) return;
   WidgetState& widgets = context.widgets;
   if (widgets.dialog_opened) begin_open(context);
   if (ImGui::Button("↑ up")) enter_folder(widgets, parent_folder(widgets.open.folder));

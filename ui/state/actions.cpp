@@ -11,6 +11,8 @@ namespace {
 constexpr std::array kActions{
     Action{"open", "File", "Open…", "Ctrl+O", "dialog open"},
     Action{"open-beside", "File", "Open beside…", "Ctrl+Shift+O", "dialog open-beside", Needs::Mesh},
+    Action{"surface", "File", "Slide on the surface of…", "", "dialog open-surface", Needs::MeshAndIdle},
+    Action{"own-surface", "File", "Slide on its own surface", "", "surface own", Needs::MeshAndIdle},
     Action{"export", "File", "Export mesh…", "Ctrl+S", "dialog export", Needs::Mesh},
     Action{"screenshot", "File", "Screenshot…", "Ctrl+Shift+S", "dialog screenshot", Needs::Mesh},
     Action{"save-session", "File", "Save the session…", "", "dialog save-session", Needs::Mesh},
@@ -33,6 +35,7 @@ constexpr std::array kActions{
     Action{"sample-tangled-solids", "File", "Sample: tangled-solids", "", "generate tangled-solids"},
     Action{"sample-screw", "File", "Sample: screw", "", "generate screw"},
     Action{"sample-elbow", "File", "Sample: elbow", "", "generate elbow"},
+    Action{"sample-can", "File", "Sample: can", "", "generate can"},
     Action{"sample-nested", "File", "Sample: nested", "", "generate nested"},
     Action{"sample-nested-solids", "File", "Sample: nested-solids", "", "generate nested-solids"},
     Action{"native-dialogs", "File", "The desktop's file dialogs", "", "native-dialogs toggle", Needs::Nothing, true},

@@ -36,6 +36,12 @@ namespace dmoscope::ui {
 enum class Theme { Dark, Light, Contrast };
 /// "dark", "light", "contrast"
 [[nodiscard]] std::string_view theme_name(Theme theme);
+/// What a file that is opened is for.
+enum class OpenFor : std::uint8_t {
+  Alone,   // in the place of all that is open
+  Beside,  // another mesh beside those that are open
+  Surface  // what the active mesh slides on
+};
 enum class Dialog { None, Open, Export, Screenshot, Find, Palette, Keys, About, Error, Log, Sequence, Plot, SaveSession, Unsaved, Recover };
 
 /// What a person picked.
@@ -127,7 +133,7 @@ struct ViewState {
   double monitor_scale = 1.0;  // what of that is the monitor's; 1 for scripts, so that they draw the same everywhere
   Panels panels;
   Dialog dialog = Dialog::None;
-  bool opens_beside = false;  // of Dialog::Open: another mesh beside those that are open
+  OpenFor open_for = OpenFor::Alone;  // of Dialog::Open
   PlotTab plot = PlotTab::Convergence;
   std::array<PlotView, kPlotTabs.size()> plots;
   PlotOptions plot_options;

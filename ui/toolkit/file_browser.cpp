@@ -36,6 +36,30 @@ std::string open_beside_command(const std::string& file) {
   return is_session_name(file) ? open_command(file) : "open-beside " + quote_word(file);
 }
 
+std::string command_to_open(OpenFor open_for, const std::string& file) {
+  switch (open_for) {
+    case OpenFor::Beside:
+      return open_beside_command(file);
+    case OpenFor::Surface:
+      return "surface " + quote_word(file);
+    case OpenFor::Alone:
+      break;
+  }
+  return open_command(file);
+}
+
+const char* title_to_open(OpenFor open_for) {
+  switch (open_for) {
+    case OpenFor::Beside:
+      return "Open a mesh beside";
+    case OpenFor::Surface:
+      return "Slide on the surface of a mesh";
+    case OpenFor::Alone:
+      break;
+  }
+  return "Open a mesh";
+}
+
 std::vector<std::string> open_commands(const std::vector<std::filesystem::path>& files) {
   std::vector<std::string> commands;
   for (const std::filesystem::path& file : files) {

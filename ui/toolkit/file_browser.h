@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "ui/state/view_state.h"
+
 namespace dmoscope::ui {
 
 struct FolderEntry {
@@ -24,6 +26,9 @@ inline constexpr std::string_view kSessionExtension = ".dmoscope";
 [[nodiscard]] std::string open_command(const std::string& file);
 /// The command that opens a mesh beside those that are open; a session in their place.
 [[nodiscard]] std::string open_beside_command(const std::string& file);
+/// The command, and the title of the dialog, for what a file is opened for.
+[[nodiscard]] std::string command_to_open(OpenFor open_for, const std::string& file);
+[[nodiscard]] const char* title_to_open(OpenFor open_for);
 /// The commands that open several files: a mesh after another is opened beside it.
 [[nodiscard]] std::vector<std::string> open_commands(const std::vector<std::filesystem::path>& files);
 

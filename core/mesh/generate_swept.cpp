@@ -102,7 +102,7 @@ Mesh can(const Request& request) {
   const auto add = [&](std::array<std::size_t, 4> points, bool first) {
     std::array<Index, 4> c{};
     std::ranges::transform(points, c.begin(), [&number](std::size_t p) { return number[p]; });
-    if (!first) std::ranges::rotate(c, c.begin() + 1);
+    if (!first) std::rotate(c.begin(), c.begin() + 1, c.end());
     mesh.elements.add(ElementKind::Triangle, std::array{c[0], c[1], c[2]});
     mesh.elements.add(ElementKind::Triangle, std::array{c[0], c[2], c[3]});
   };

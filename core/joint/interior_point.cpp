@@ -181,8 +181,7 @@ void InteriorPoint<D>::find_direction() {
   const std::vector<double> b = tau_direction_;
   direction_ = force_;
   for (double& x : direction_) x = -x;
-  system_.cholesky.solve(direction_);
-  system_.cholesky.solve(tau_direction_);
+  system_.cholesky.solve(direction_, tau_direction_);
   dtau_ = (1.0 - barrier_sum_ - dot(b, direction_)) / (dot(b, tau_direction_) - ratio_sum_);
   for (std::size_t i = 0; i < direction_.size(); ++i) direction_[i] += dtau_ * tau_direction_[i];
   slope_ = (dtau_ * (1.0 - barrier_sum_) + dot(force_, direction_)) / at_.mu;

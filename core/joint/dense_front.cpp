@@ -83,11 +83,16 @@ DMOSCOPE_INLINE void update_tile(const double* a, const double* b, std::size_t c
 }
 
 /// A tile's entries that the front has, copied to where there is room for all.
+template <class S>
 struct Copy {
   double entries[kBlock][kTile];
   double* columns[kBlock];
-  Copy() : entries{} {
-    for (std::size_t c = 0; c < kBlock; ++c) columns[c] = entries[c];
+  DMOSCOPE_INLINE Copy() {
+    const typename S::Vector zero{};
+    for (std::size_t c = 0; c < kBlock; ++c) {
+      columns[c] = entries[c];
+      for (std::size_t r = 0; r < kTile; r += S::kLanes) store<S>(zero, entries[c] + r);
+    }
   }
 };
 
@@ -97,13 +102,14 @@ DMOSCOPE_INLINE void update_block(const DenseFront& front, const Packed& packed,
                                   std::size_t first, std::size_t end) {
   const std::size_t row = tile * kTile, column = block * kBlock;
   const double *a = packed.at(row, packed.first), *b = packed.at(column, packed.first);
-  if (column >= first && column + kBlock <= end && row + 1 >= column + kBlock && row >= column && row + kTile <= front.height) {
+  const bool has_rows = (row >= front.width || column + kBlock <= front.width) && row + kTile <= front.height;  // if above the diagonal
+  if (has_rows && column >= first && column + kBlock <= end) {
     double* columns[kBlock];
     for (std::size_t c = 0; c < kBlock; ++c) columns[c] = front.column(column + c) + row;
     update_tile<S>(a, b, count, columns);
     return;
   }
-  Copy copy;
+  Copy<S> copy;
   const std::size_t from = std::max(column, first), to = std::min(column + kBlock, end), last = std::min(row + kTile, front.height);
   for (std::size_t c = from; c < to; ++c)
     for (std::size_t r = std::max(row, c); r < last; ++r) copy.entries[c - column][r - row] = front.column(c)[r];
@@ -166,7 +172,7 @@ DMOSCOPE_INLINE bool eliminate_block(const DenseFront& front, const Packed& pack
       solve_tile<S>(corner, n, columns, packed.at(row, first));
       continue;
     }
-    Copy copy;
+    Copy<S> copy;
     for (std::size_t c = 0; c < n; ++c)
       for (std::size_t r = from; r < to; ++r) copy.entries[c][r - row] = front.column(first + c)[r];
     solve_tile<S>(corner, n, copy.columns, packed.at(row, first));

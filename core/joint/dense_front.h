@@ -9,7 +9,7 @@
 namespace dmoscope {
 
 /// The lower half of a symmetric matrix of `height` rows, column by column: the first `width` columns, which are eliminated, with all rows;
-/// and of the others the rows from `width` on. What is above the diagonal is neither read nor written.
+/// and of the others the rows from `width` on. What is above the diagonal is of no account, and written to.
 struct DenseFront {
   std::size_t height, width;
   double* pivots;

@@ -61,7 +61,7 @@ Kinds kinds_of(const InputMesh& input, const RunParameters& parameters, const Ki
   if (said.empty()) return {};
   const auto domain = domain_for(input, rule);
   for (const auto& [option, kinds] : said) {
-    const std::string not_met = by_option(option, [&] { return require_met(input, rule, domain.get(), kinds); });
+    const std::string not_met = by_option(option, [&, &these = kinds] { return require_met(input, rule, domain.get(), these); });
     if (not_met.empty()) continue;
     warnings.push_back(fmt::format("{}: {}", option, not_met));
     complain(fmt::format("{}: {}", input.mesh.name, warnings.back()));

@@ -35,6 +35,7 @@ Attachment::Attachment(const InputMesh& input, const ElementTable& faces, const 
       facets_(std::move(facets)),
       beside_(kBeside * reference.geometry.size),
       reach_(input.mesh.vertex_count(), 0.0),
+      longest_(input.mesh.vertex_count(), 0.0),
       corner_(input.mesh.vertex_count(), 0),
       corner_points_(input.mesh.vertex_count(), kNoIndex),
       line_of_(input.mesh.vertex_count(), kNoIndex) {
@@ -68,7 +69,10 @@ void Attachment::measure_faces(const ElementTable& faces) {
       longest = std::max(longest, length(at(next) - at(i)));
     }
     const double area = length(c.size() == 3 ? cross(at(1) - at(0), at(2) - at(0)) : 0.5 * cross(at(2) - at(0), at(3) - at(1)));
-    for (const Index v : c) height[v] = std::min(height[v], longest > 0.0 ? area / longest : 0.0);
+    for (const Index v : c) {
+      height[v] = std::min(height[v], longest > 0.0 ? area / longest : 0.0);
+      longest_[v] = std::max(longest_[v], longest);
+    }
   }
   std::ranges::sort(edges_);
   edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
@@ -168,19 +172,11 @@ Vec3 Attachment::middle_of(const ElementTable& faces, Index face) const {
   return (1.0 / static_cast<double>(c.size())) * sum;
 }
 
-/// By patch of the faces the patch of the reference over most of which they lie; `near`: by face the facet nearest to its middle.
-std::vector<Index> Attachment::patches_beneath(const ElementTable& faces, const Facets& own, std::vector<Index>& near) const {
-  std::vector<std::array<Vec3, 3>> triangles;
-  for (const Facet& facet : facets_->facets())
-    triangles.push_back({facets_->point(facet.corners[0]), facets_->point(facet.corners[1]), facets_->point(facet.corners[2])});
-  const FacetTree tree = tree_of(std::move(triangles));
+/// By patch of the faces the patch of the reference over most of which they lie. `near`: by face the facet nearest to its middle.
+std::vector<Index> Attachment::patches_beneath(const ElementTable& faces, const Facets& own, std::span<const Index> near) const {
   std::map<std::pair<Index, Index>, double> areas;  // of a patch of the mesh over one of the reference
-  Index before = 0;
-  for (Index f = 0; f < faces.size(); ++f) {
-    before = tree.nearest(middle_of(faces, f), before).triangle;
-    near.push_back(before);
-    areas[{own.facets()[own.first_of(f)].patch, facets_->facets()[before].patch}] += own.twice_area(own.first_of(f));
-  }
+  for (Index f = 0; f < faces.size(); ++f)
+    areas[{own.facets()[own.first_of(f)].patch, facets_->facets()[near[f]].patch}] += own.twice_area(own.first_of(f));
   std::vector<Index> beneath;
   std::vector<double> most;
   for (const auto& [patches, area] : areas) {
@@ -191,18 +187,30 @@ std::vector<Index> Attachment::patches_beneath(const ElementTable& faces, const 
   return beneath;
 }
 
+/// The nearest facet, or the nearest one of a patch where that is farther by no more than `most`.
+FacetTree::Nearest Attachment::nearest_of(const FacetTree& all, Vec3 p, Index near, Index of_patch, double most) const {
+  const FacetTree::Nearest nearest = all.nearest(p, near);
+  const FacetTree::Nearest wanted = facets_->nearest(p, of_patch);
+  return std::sqrt(wanted.point.square) <= std::sqrt(nearest.point.square) + most ? wanted : nearest;
+}
+
 SlidingFaces Attachment::lay(ElementTable faces, const Facets& own, CurveEnds& ends) const {
-  std::vector<Index> near;
-  const std::vector<Index> beneath = patches_beneath(faces, own, near);
+  std::vector<std::array<Vec3, 3>> triangles;
   std::vector<Index> one_of(facets_->facets().size(), kNoIndex);  // by patch of the reference: a facet
-  for (Index f = 0; f < facets_->facets().size(); ++f) one_of[facets_->facets()[f].patch] = f;
+  for (const Facet& facet : facets_->facets()) {
+    one_of[facet.patch] = static_cast<Index>(triangles.size());
+    triangles.push_back({facets_->point(facet.corners[0]), facets_->point(facet.corners[1]), facets_->point(facet.corners[2])});
+  }
+  const FacetTree all = tree_of(std::move(triangles));
+  std::vector<Index> near;
+  for (Index f = 0; f < faces.size(); ++f) near.push_back(all.nearest(middle_of(faces, f), near.empty() ? 0 : near.back()).triangle);
+  const std::vector<Index> beneath = patches_beneath(faces, own, near);
   const auto patch_of = [&](Index f) { return own.facets()[own.first_of(f)].patch; };
-  // Where a face's middle is nearer to another patch, the facet nearest to it of its own.
+
   std::vector<double> alike(beneath.size(), 0.0);
   for (Index f = 0; f < faces.size(); ++f) {
     const auto c = faces.corners(f);
-    const Index wanted = beneath[patch_of(f)];
-    if (facets_->facets()[near[f]].patch != wanted) near[f] = facets_->nearest(middle_of(faces, f), one_of[wanted]).triangle;
+    near[f] = nearest_of(all, middle_of(faces, f), near[f], one_of[beneath[patch_of(f)]], kReach * longest_[c[0]]).triangle;
     const auto at = [&](std::size_t i) { return input_.mesh.positions[c[i]]; };
     const auto& facet = facets_->facets()[near[f]].corners;
     const Vec3 a = facets_->point(facet[0]);
@@ -213,12 +221,14 @@ SlidingFaces Attachment::lay(ElementTable faces, const Facets& own, CurveEnds& e
   }
   for (Index f = 0; f < faces.size(); ++f)
     if (alike[patch_of(f)] < 0.0) faces.flip(f);
+
   SlidingFaces laid(input_, std::move(faces), facets_, std::move(near), beside_);
   const std::vector<Index> fan = own.whole_fans();
   for (Index v = 0; v < ends.size(); ++v) {
     if (!ends.off(v) || laid.at(v).empty() || fan[v] == kNoIndex) continue;
     const Index patch = beneath[own.facets()[fan[v]].patch];
-    const auto found = facets_->nearest(input_.mesh.positions[v], one_of[patch]);
+    const Index beside = laid.beneath(laid.at(v).front()).first;
+    const auto found = nearest_of(all, input_.mesh.positions[v], beside, one_of[patch], kReach * longest_[v]);
     if (found.point.square <= beside_ * beside_)
       laid.carry(v, found.triangle);
     else

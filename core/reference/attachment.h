@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/input/input_mesh.h"
@@ -47,7 +48,8 @@ class Attachment {
   void find_edges();
   [[nodiscard]] Vec3 middle_of(const ElementTable& faces, Index face) const;
   [[nodiscard]] bool runs_along(const FeatureLine& line, const Standing& from, const Standing& to) const;
-  [[nodiscard]] std::vector<Index> patches_beneath(const ElementTable& faces, const Facets& own, std::vector<Index>& near) const;
+  [[nodiscard]] std::vector<Index> patches_beneath(const ElementTable& faces, const Facets& own, std::span<const Index> near) const;
+  [[nodiscard]] FacetTree::Nearest nearest_of(const FacetTree& all, Vec3 p, Index near, Index of_patch, double most) const;
 
   const InputMesh& input_;
   const InputMesh& reference_;
@@ -56,6 +58,7 @@ class Attachment {
   std::vector<FeatureLine> lines_;
   std::vector<Edge> edges_;                      // of the faces, ascending
   std::vector<double> reach_;                    // by vertex: how near it must be to what it stands on; 0 for one of no face
+  std::vector<double> longest_;                  // by vertex: the longest edge of its faces
   std::vector<std::uint8_t> corner_;             // by vertex
   std::vector<Index> corner_points_;             // by vertex, of those: the corner
   std::vector<Index> line_of_;                   // by vertex

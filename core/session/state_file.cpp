@@ -16,13 +16,13 @@
 #include "core/io/mesh_io.h"
 #include "core/io/reading/source_file.h"
 #include "core/io/writing/atomic_file.h"
-#include "core/reference/slide_on.h"
 #include "core/session/input_marks.h"
 #include "core/session/joint_json.h"
 #include "core/session/json_values.h"
 #include "core/session/parameter_json.h"
 #include "core/session/position_text.h"
 #include "core/session/run_name.h"
+#include "core/session/saved_inputs.h"
 
 namespace dmoscope {
 
@@ -33,17 +33,6 @@ using Json = StateJson;
 constexpr std::string_view kSessionFormat = "dmoscope session";
 constexpr int kVersion = 3;  // 1: without checksums but that of the mesh; 3: several meshes
 constexpr int kVersionOfOneMesh = 2;
-
-/// Checksum of positions and elements.
-std::string checksum(const Mesh& mesh) {
-  Fnv1a hash;
-  const auto add = [&](std::uint64_t value) { hash.add_number(value); };
-  for (const Vec3& p : mesh.positions)
-    for (const double coordinate : {p.x, p.y, p.z}) add(std::bit_cast<std::uint64_t>(coordinate));
-  for (const ElementKind kind : mesh.elements.kinds()) add(static_cast<std::uint64_t>(kind));
-  for (const Index corner : mesh.elements.all_corners()) add(corner);
-  return hash.text();
-}
 
 /// One checksum for each part of an object, to tell which part is damaged. Taken from the part's compact JSON, so that the file's layout
 /// does not matter.
@@ -305,80 +294,6 @@ std::shared_ptr<Run> to_run(const Json& json, const Session& session, const std:
   return run;
 }
 
-/// The path as the file says, or beside the state file where it is not there any more.
-std::filesystem::path find_mesh(const std::filesystem::path& written, const std::filesystem::path& state) {
-  std::error_code ignored;
-  if (std::filesystem::exists(written, ignored)) return written;
-  const std::filesystem::path beside = state.parent_path() / written.filename();
-  return std::filesystem::exists(beside, ignored) ? beside : written;
-}
-
-std::shared_ptr<const InputMesh> to_input(const Json& json, const std::filesystem::path& state, const IoContext& context,
-                                          std::shared_ptr<const InputMesh> input) {
-  Progress& progress = context.progress;
-  std::string source;
-  if (input) {
-    source = input->mesh.name;
-  } else if (json.contains("generate")) {
-    source = json.at("generate").get<std::string>();
-    input = generate_input(source, progress);
-  } else {
-    const std::filesystem::path path = find_mesh(json.at("path").get<std::string>(), state);
-    source = path.string();
-    input = load_input(path, Need::Smoothing, context);
-  }
-  if (json.contains("single") && json.at("single") != input->mesh.single_precision)
-    throw UsageError(fmt::format("{} has changed since the session was saved: it holds {}-bit coordinates now", source,
-                                 input->mesh.single_precision ? 32 : 64));
-  if (to_whole(json.at("vertices")) != input->mesh.vertex_count() || to_whole(json.at("elements")) != input->mesh.elements.size() ||
-      checksum(input->mesh) != json.at("checksum").get<std::string>())
-    throw UsageError(fmt::format("{} has changed since the session was saved: its positions or elements are others", source));
-  return input;
-}
-
-/// The same with the surface that it slides on. `given`: whether the mesh was.
-std::shared_ptr<const InputMesh> on_surface(const Json& json, const std::filesystem::path& state, const IoContext& context,
-                                            const std::shared_ptr<const InputMesh>& input, bool given) {
-  const bool slides = json.contains("surface");
-  if (given && slides != (input->surface != nullptr))
-    throw UsageError(fmt::format("{} slid on {} when this was saved", input->mesh.name, slides ? "another surface" : "its own surface"));
-  if (!slides) return input;
-  const auto surface = to_input(json.at("surface"), state, context, given ? input->surface : nullptr);
-  return given ? input : slide_on(*input, surface);
-}
-
-/// The marks of the mesh's groups and fields in the file; nothing in an older file, which has none.
-std::vector<DataMark> to_data_marks(const Json& input) {
-  std::vector<DataMark> marks;
-  if (!input.contains("data")) return marks;
-  for (const Json& mark : input.at("data")) marks.emplace_back(mark.at(0).get<std::string>(), mark.at(1).get<std::string>());
-  return marks;
-}
-
-struct OpenedMesh {
-  std::shared_ptr<const InputMesh> input;
-  std::vector<DataMark> data;
-};
-
-/// The meshes of a saved session: one as "input", several as "inputs". `input`: see open_state().
-std::vector<OpenedMesh> to_meshes(const Json& json, const std::filesystem::path& path, const IoContext& context,
-                                  const std::shared_ptr<const InputMesh>& input) {
-  const auto to_mesh = [&](const Json& mesh, const std::shared_ptr<const InputMesh>& given) {
-    return OpenedMesh{on_surface(mesh, path, context, to_input(mesh, path, context, given), given != nullptr), to_data_marks(mesh)};
-  };
-  if (!json.contains("inputs")) return {to_mesh(json.at("input"), input)};
-  if (input) throw UsageError("this session has several meshes, where one of a single mesh is expected");
-  const Json& described = json.at("inputs");
-  if (!described.is_array() || described.empty()) throw UsageError("the session has no meshes");
-  std::vector<OpenedMesh> meshes;
-  for (const Json& mesh : described) {
-    meshes.push_back(to_mesh(mesh, nullptr));
-    if (meshes.back().input->in_space() != meshes.front().input->in_space())
-      throw UsageError("some of its meshes are planar and others in space, which cannot be shown beside each other");
-  }
-  return meshes;
-}
-
 struct Opened {
   std::vector<std::shared_ptr<Run>> runs;
   std::size_t active = 0;
@@ -434,28 +349,6 @@ Json parse(std::string_view text, const std::string& file) {
 
 }  // namespace
 
-namespace {
-
-/// What a session says of a mesh, to find it again. Throws UsageError for one that cannot be found again.
-Json json_of(const MeshStanding& mesh) {  // NOLINT(misc-no-recursion): a surface has none of its own
-  const InputMesh& input = *mesh.input;
-  Json source{{"vertices", input.mesh.vertex_count()}, {"elements", input.mesh.elements.size()}, {"checksum", checksum(input.mesh)}};
-  source["single"] = input.mesh.single_precision;
-  // To be able to say what it was where other vertices keep their place one day.
-  for (const DataMark& mark : data_marks(input.mesh)) source["data"].push_back({mark.first, mark.second});
-  if (!input.generator.empty()) {
-    source["generate"] = input.generator;
-  } else if (!mesh.source.empty()) {
-    source["path"] = mesh.source.string();
-  } else {
-    throw UsageError("this mesh came from no file and no generator: export it and open it first");
-  }
-  if (input.surface) source["surface"] = json_of({input.surface, std::filesystem::absolute(input.surface->path)});
-  return source;
-}
-
-}  // namespace
-
 void save_state(const std::filesystem::path& path, Session& session, const std::string& view, Progress& progress) {
   (void)session.input();  // there is one
   SessionStanding standing = without_runs(session);
@@ -470,9 +363,9 @@ void write_state(const std::filesystem::path& path, const SessionStanding& sessi
   const bool several = session.meshes.size() > 1;
   Json json{{"format", kSessionFormat}, {"version", several ? kVersion : kVersionOfOneMesh}};
   if (several) {
-    for (const MeshStanding& mesh : session.meshes) json["inputs"].push_back(json_of(mesh));
+    for (const MeshStanding& mesh : session.meshes) json["inputs"].push_back(input_json(mesh));
   } else {
-    json["input"] = json_of(session.meshes.front());
+    json["input"] = input_json(session.meshes.front());
   }
   json["runs"] = Json::array();
   for (const RunStanding& run : session.runs) {

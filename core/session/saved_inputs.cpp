@@ -1,0 +1,118 @@
+#include "core/session/saved_inputs.h"
+
+#include <bit>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+#include "core/base/fnv1a.h"
+#include "core/reference/slide_on.h"
+
+namespace dmoscope {
+
+namespace {
+
+using Json = StateJson;
+
+/// Checksum of positions and elements.
+std::string checksum(const Mesh& mesh) {
+  Fnv1a hash;
+  const auto add = [&](std::uint64_t value) { hash.add_number(value); };
+  for (const Vec3& p : mesh.positions)
+    for (const double coordinate : {p.x, p.y, p.z}) add(std::bit_cast<std::uint64_t>(coordinate));
+  for (const ElementKind kind : mesh.elements.kinds()) add(static_cast<std::uint64_t>(kind));
+  for (const Index corner : mesh.elements.all_corners()) add(corner);
+  return hash.text();
+}
+
+/// The path as the file says, or beside the state file where it is not there any more.
+std::filesystem::path find_mesh(const std::filesystem::path& written, const std::filesystem::path& state) {
+  std::error_code ignored;
+  if (std::filesystem::exists(written, ignored)) return written;
+  const std::filesystem::path beside = state.parent_path() / written.filename();
+  return std::filesystem::exists(beside, ignored) ? beside : written;
+}
+
+std::shared_ptr<const InputMesh> to_input(const Json& json, const std::filesystem::path& state, const IoContext& context,
+                                          std::shared_ptr<const InputMesh> input) {
+  Progress& progress = context.progress;
+  std::string source;
+  if (input) {
+    source = input->mesh.name;
+  } else if (json.contains("generate")) {
+    source = json.at("generate").get<std::string>();
+    input = generate_input(source, progress);
+  } else {
+    const std::filesystem::path path = find_mesh(json.at("path").get<std::string>(), state);
+    source = path.string();
+    input = load_input(path, Need::Smoothing, context);
+  }
+  if (json.contains("single") && json.at("single") != input->mesh.single_precision)
+    throw UsageError(fmt::format("{} has changed since the session was saved: it holds {}-bit coordinates now", source,
+                                 input->mesh.single_precision ? 32 : 64));
+  if (to_whole(json.at("vertices")) != input->mesh.vertex_count() || to_whole(json.at("elements")) != input->mesh.elements.size() ||
+      checksum(input->mesh) != json.at("checksum").get<std::string>())
+    throw UsageError(fmt::format("{} has changed since the session was saved: its positions or elements are others", source));
+  return input;
+}
+
+/// The same with the surface that it slides on. `given`: whether the mesh was.
+std::shared_ptr<const InputMesh> on_surface(const Json& json, const std::filesystem::path& state, const IoContext& context,
+                                            const std::shared_ptr<const InputMesh>& input, bool given) {
+  const bool slides = json.contains("surface");
+  if (given && slides != (input->surface != nullptr))
+    throw UsageError(fmt::format("{} slid on {} when this was saved", input->mesh.name, slides ? "another surface" : "its own surface"));
+  if (!slides) return input;
+  const auto surface = to_input(json.at("surface"), state, context, given ? input->surface : nullptr);
+  return given ? input : slide_on(*input, surface);
+}
+
+/// The marks of the mesh's groups and fields in the file; nothing in an older file, which has none.
+std::vector<DataMark> to_data_marks(const Json& input) {
+  std::vector<DataMark> marks;
+  if (!input.contains("data")) return marks;
+  for (const Json& mark : input.at("data")) marks.emplace_back(mark.at(0).get<std::string>(), mark.at(1).get<std::string>());
+  return marks;
+}
+
+}  // namespace
+
+std::vector<OpenedMesh> to_meshes(const Json& json, const std::filesystem::path& path, const IoContext& context,
+                                  const std::shared_ptr<const InputMesh>& input) {
+  const auto to_mesh = [&](const Json& mesh, const std::shared_ptr<const InputMesh>& given) {
+    return OpenedMesh{on_surface(mesh, path, context, to_input(mesh, path, context, given), given != nullptr), to_data_marks(mesh)};
+  };
+  if (!json.contains("inputs")) return {to_mesh(json.at("input"), input)};
+  if (input) throw UsageError("this session has several meshes, where one of a single mesh is expected");
+  const Json& described = json.at("inputs");
+  if (!described.is_array() || described.empty()) throw UsageError("the session has no meshes");
+  std::vector<OpenedMesh> meshes;
+  for (const Json& mesh : described) {
+    meshes.push_back(to_mesh(mesh, nullptr));
+    if (meshes.back().input->in_space() != meshes.front().input->in_space())
+      throw UsageError("some of its meshes are planar and others in space, which cannot be shown beside each other");
+  }
+  return meshes;
+}
+
+StateJson input_json(const MeshStanding& mesh) {  // NOLINT(misc-no-recursion): a surface has none of its own
+  const InputMesh& input = *mesh.input;
+  Json source{{"vertices", input.mesh.vertex_count()}, {"elements", input.mesh.elements.size()}, {"checksum", checksum(input.mesh)}};
+  source["single"] = input.mesh.single_precision;
+  // To be able to say what it was where other vertices keep their place one day.
+  for (const DataMark& mark : data_marks(input.mesh)) source["data"].push_back({mark.first, mark.second});
+  if (!input.generator.empty()) {
+    source["generate"] = input.generator;
+  } else if (!mesh.source.empty()) {
+    source["path"] = mesh.source.string();
+  } else {
+    throw UsageError("this mesh came from no file and no generator: export it and open it first");
+  }
+  if (input.surface) source["surface"] = input_json({input.surface, std::filesystem::absolute(input.surface->path)});
+  return source;
+}
+
+}  // namespace dmoscope

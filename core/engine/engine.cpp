@@ -341,7 +341,7 @@ void Engine::rest(const std::stop_token& stop) {
   };
   try {
     if (frames_.work_at_rest(session_, watched(), go_on)) publish(FrameDetail::Whole);
-    if (frames_.work_long_at_rest(session_, go_on)) publish(FrameDetail::Whole);
+    if (long_work_ && frames_.work_long_at_rest(session_, go_on)) publish(FrameDetail::Whole);
   } catch (const Error& error) {
     say({Message::Kind::Warning, error.what(), 0});
   } catch (const std::bad_alloc&) {

@@ -58,6 +58,9 @@ class Engine {
   /// From the next command that smooths on whatever computes gives way to the program's other threads, see give_way(ThreadPool&): for a
   /// window.
   void give_way() { give_way_ = true; }
+  /// From now on what takes long is not worked out while the session rests, such as what holds the minimum: views show it where it was
+  /// asked for.
+  void rest_without_long_work() { long_work_ = false; }
 
   /// From now on the session is saved by itself; see Autosave. Before the first post. Throws OutputError.
   void autosave(AutosaveOptions options);
@@ -122,7 +125,7 @@ class Engine {
   std::vector<Message> messages_;
   std::shared_ptr<const SessionView> view_;
   std::atomic<bool> taken_{true};
-  std::atomic<bool> give_way_{false};
+  std::atomic<bool> give_way_{false}, long_work_{true};
   FrameBuilder frames_;
   std::chrono::steady_clock::time_point next_publication_;
   std::unique_ptr<Autosave> autosave_;  // null: nothing is saved by itself

@@ -450,6 +450,7 @@ TEST_F(ColourWindow, TheMenuUnderTheMouseCopiesInFull) {
 }
 
 TEST_F(ColourWindow, EveryColouringIsDrawnInEveryThemeAndInPictures) {
+  open_explaining();  // one colouring shows the multipliers
   good("generate mixed");
   good("boundary slide");
   good("step iteration");

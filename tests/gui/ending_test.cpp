@@ -68,6 +68,7 @@ TEST_F(Ending, IsHiddenUntilAnotherRunEnds) {
 }
 
 TEST_F(Ending, AMethodThatGetsFurtherIsOffered) {
+  open_explaining();
   good("generate tangled");
   good("method dvr");
   good("run 1");

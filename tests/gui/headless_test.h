@@ -17,8 +17,8 @@ class HeadlessTest : public testing::Test {
   void open(int width = 1280, int height = 800, Backend backend = Backend::Auto) {
     window_.reset();
     try {
-      window_ = std::make_unique<HeadlessWindow>(
-          HeadlessWindow::Options{.width = width, .height = height, .threads = 1, .backend = backend, .sample_pictures = false});
+      window_ = std::make_unique<HeadlessWindow>(HeadlessWindow::Options{
+          .width = width, .height = height, .threads = 1, .backend = backend, .sample_pictures = false, .explains = explains_});
     } catch (const Error& error) {
       GTEST_SKIP() << "no OpenGL without a screen: " << error.what();
     }
@@ -30,7 +30,16 @@ class HeadlessTest : public testing::Test {
   [[nodiscard]] ui::ViewState& state() { return window_->app().state(); }
   [[nodiscard]] std::shared_ptr<const SessionView> session() { return window_->app().engine().view(); }
 
+  /// For tests of what holds the minimum, which otherwise is most of the work.
+  void open_explaining(int width = 1280, int height = 800) {
+    explains_ = true;
+    open(width, height);
+  }
+
   std::unique_ptr<HeadlessWindow> window_;
+
+ private:
+  bool explains_ = false;
 };
 
 }  // namespace dmoscope::app

@@ -122,7 +122,7 @@ TEST_F(SlidingWindow, ColoursFollowTheRun) {
 }
 
 TEST_F(SlidingWindow, WhatHoldsTheMinimumIsSaidAndSwitched) {
-  open(1280, 1000);
+  open_explaining(1280, 1000);
   Mesh mesh = testing::lattice(6, 0.0, 1, testing::Cells::Quadrilaterals);
   mesh.positions[3].x -= 0.15;  // along the boundary, almost to the next vertex
   show(mesh, "spoiled.off");

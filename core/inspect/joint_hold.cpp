@@ -11,13 +11,14 @@
 namespace dmoscope {
 
 std::optional<JointCluster> joint_hold(const InputMesh& input, std::span<const Vec3> positions, std::span<const std::uint8_t> fixed,
-                                       Metric metric, Index element, std::size_t at_most, Progress& progress,
+                                       Metric metric, Index element, std::size_t at_most, ThreadPool* pool, Progress& progress,
                                        const std::function<bool()>& go_on) {
   if (!why_not_joint(input, metric).empty()) return std::nullopt;
   const auto quality = [&](Index e) { return element_quality(input.quality_context(), positions, metric, e); };
   if (!(quality(element) > 0.0)) return std::nullopt;
   JointOptions options;
   options.whole_at_most = options.cluster_at_most = at_most;
+  options.pool = pool;
   if (go_on)
     options.on_step = [&go_on](const JointStep&) {
       if (!go_on()) throw Cancelled();
@@ -25,10 +26,7 @@ std::optional<JointCluster> joint_hold(const InputMesh& input, std::span<const V
   std::vector<Vec3> copy(positions.begin(), positions.end());
   JointState state;
   auto cluster = JointClusters(input, metric, fixed).raise_worst(copy, state, options, progress);
-  // Elements that hold one another are equally bad but for the last digits.
-  constexpr double kAsBad = 1e-4;
-  const bool same = cluster && cluster->worst_element != kNoIndex && quality(cluster->worst_element) <= (1.0 + kAsBad) * quality(element);
-  return same ? std::move(cluster) : std::nullopt;
+  return cluster && cluster->worst_element != kNoIndex ? std::move(cluster) : std::nullopt;
 }
 
 std::span<const JointCluster::Active> holders(const JointCluster& cluster) {

@@ -39,8 +39,9 @@ class AtomBlocks {
   using Hessian = std::array<double, kEdges * kEdges>;  // row by row
   using ByVertex = std::array<double, kVertices>;
 
-  explicit AtomBlocks(const JointProblem<D>& problem)
-      : cholesky(atom_adjacency(problem), std::span(problem.places).first(problem.free_vertices)),
+  /// `pool`: see BlockCholesky.
+  explicit AtomBlocks(const JointProblem<D>& problem, ThreadPool* pool = nullptr)
+      : cholesky(atom_adjacency(problem), std::span(problem.places).first(problem.free_vertices), pool),
         problem_(problem),
         slots_(problem.atoms.size()) {
     for (std::size_t a = 0; a < slots_.size(); ++a)

@@ -1,16 +1,16 @@
 #include "core/joint/block_cholesky.h"
 
 #include <algorithm>
-
-#include "core/joint/dense_solve.h"
+#include <numeric>
 
 namespace dmoscope {
 
 template <int D>
-BlockCholesky<D>::BlockCholesky(const Adjacency& graph, std::span<const std::array<double, D>> places, SimdLevel level)
-    : level_(level), tree_(find_supernodes(graph, nested_dissection<D>(graph, places))), place_(tree_.order.size()) {
+BlockCholesky<D>::BlockCholesky(const Adjacency& graph, std::span<const std::array<double, D>> places, ThreadPool* pool, SimdLevel level)
+    : level_(level), pool_(pool), tree_(find_supernodes(graph, nested_dissection<D>(graph, places))), place_(tree_.order.size()) {
   for (std::size_t k = 0; k < tree_.order.size(); ++k) place_[tree_.order[k]] = static_cast<Index>(k);
   index_columns(graph);
+  find_branches();
   place_fronts();
 }
 
@@ -33,32 +33,94 @@ void BlockCholesky<D>::index_columns(const Adjacency& graph) {
   values_.resize(tree_.order.size() + rows_.size());
 }
 
+/// Splits the heaviest subtree while it is too heavy for one thread among many. The same whatever the pool.
+template <int D>
+void BlockCholesky<D>::find_branches() {
+  constexpr double kWorthThreads = 3e6;  // multiplications in all
+  constexpr std::size_t kMostBranches = 32;
+  constexpr double kHeavy = 1.0 / 16.0;  // of all
+  const std::size_t n = tree_.nodes.size();
+  children_.resize(n);
+  std::vector<double> work(n, 0.0);
+  std::vector<std::size_t> first(n), size(n, 1);
+  double all = 0.0;
+  for (std::size_t s = 0; s < n; ++s) {
+    const Supernode& node = tree_.nodes[s];
+    const double height = static_cast<double>(node.height() * kD), below = static_cast<double>(node.below() * kD);
+    const double own = (height * height * height - below * below * below) / 3.0;
+    work[s] += own, all += own;
+    first[s] = s + 1 - size[s];
+    if (node.parent == kNoIndex) continue;
+    children_[node.parent].push_back(static_cast<Index>(s));
+    work[node.parent] += work[s], size[node.parent] += size[s];
+  }
+  std::vector<std::size_t> roots;
+  if (all > kWorthThreads)
+    for (std::size_t s = 0; s < n; ++s)
+      if (tree_.nodes[s].parent == kNoIndex) roots.push_back(s);
+  while (!roots.empty() && roots.size() < kMostBranches) {
+    const auto heaviest = std::ranges::max_element(roots, {}, [&](std::size_t s) { return work[s]; });
+    const std::size_t root = *heaviest;
+    if (work[root] <= kHeavy * all || children_[root].empty()) break;
+    roots.erase(heaviest);
+    roots.insert(roots.end(), children_[root].begin(), children_[root].end());
+  }
+  std::ranges::sort(roots);
+  std::size_t next = 0;
+  for (const std::size_t root : roots) {
+    branches_.push_back({first[root], root});
+    for (; next < first[root]; ++next) trunk_.push_back(next);
+    next = root + 1;
+  }
+  for (; next < n; ++next) trunk_.push_back(next);
+}
+
 /// Rests go to two stacks, by whether their depth in the tree is even: when a front is begun its children's are on top of the one, and its
-/// own goes to the other.
+/// own goes to the other. For several threads each branch has two of its own, and what its root leaves stays until the trunk has taken it.
 template <int D>
 void BlockCholesky<D>::place_fronts() {
   const std::size_t n = tree_.nodes.size();
   places_.resize(n);
-  children_.resize(n);
   std::vector<std::size_t> depth(n, 0);
   for (std::size_t s = n; s-- > 0;)
     if (tree_.nodes[s].parent != kNoIndex) depth[s] = depth[tree_.nodes[s].parent] + 1;
-  std::array<std::size_t, 2> top{}, most{};
-  std::size_t pivots = 0;
+  std::size_t pivots = 0, begin = 0;
+  const auto size_of_rest = [&](std::size_t s) { return tree_.nodes[s].below() * tree_.nodes[s].below() * kD * kD; };
   for (std::size_t s = 0; s < n; ++s) {
-    const Supernode& node = tree_.nodes[s];
-    const std::size_t rest = node.below() * node.below() * kD * kD, stack = depth[s] % 2;
-    places_[s] = {pivots, top[stack]};
-    pivots += node.height() * node.width() * kD * kD;
-    top[stack] += rest;
-    most[stack] = std::max(most[stack], top[stack]);
-    if (!children_[s].empty()) top[1 - stack] = places_[children_[s].front()].rest;
-    if (node.parent != kNoIndex) children_[node.parent].push_back(static_cast<Index>(s));
+    places_[s].pivots = pivots;
+    pivots += tree_.nodes[s].height() * tree_.nodes[s].width() * kD * kD;
   }
-  for (std::size_t s = 0; s < n; ++s)
-    if (depth[s] % 2 == 1) places_[s].rest += most[0];
+  std::vector<bool> is_kept(n, false);  // what a branch leaves, which is on no stack of the trunk's
+  const auto place = [&](std::span<const std::size_t> nodes) {
+    std::array<std::size_t, 2> top{}, most{};
+    for (const std::size_t s : nodes) {
+      const std::size_t stack = depth[s] % 2;
+      places_[s].rest = top[stack];
+      top[stack] += size_of_rest(s);
+      most[stack] = std::max(most[stack], top[stack]);
+      const auto on_stack = std::ranges::find_if(children_[s], [&](Index child) { return !is_kept[child]; });
+      if (on_stack != children_[s].end()) top[1 - stack] = places_[*on_stack].rest;
+    }
+    for (const std::size_t s : nodes) places_[s].rest += begin + (depth[s] % 2 == 1 ? most[0] : 0);
+    begin += most[0] + most[1];
+  };
+  const auto place_all = [&](std::size_t first, std::size_t last) {
+    std::vector<std::size_t> nodes(last + 1 - first);
+    std::iota(nodes.begin(), nodes.end(), first);
+    place(nodes);
+  };
+  if (is_alone() && n > 0) {
+    place_all(0, n - 1);
+  } else {
+    for (const Branch& branch : branches_) {
+      place_all(branch.first, branch.root);
+      is_kept[branch.root] = true;
+    }
+    place(trunk_);
+  }
   factor_.resize(pivots);
-  rests_.resize(most[0] + most[1]);
+  rests_.resize(begin);
+  rooms_.resize(branches_.size() + 1);
 }
 
 template <int D>
@@ -98,17 +160,27 @@ DenseFront BlockCholesky<D>::front(std::size_t s) {
 
 template <int D>
 bool BlockCholesky<D>::factorise() {
-  for (std::size_t s = 0; s < tree_.nodes.size(); ++s)
-    if (!factorise_front(s)) return false;
-  return true;
+  if (is_alone()) {
+    for (std::size_t s = 0; s < tree_.nodes.size(); ++s)
+      if (!factorise_front(s, rooms_.back(), nullptr)) return false;
+    return true;
+  }
+  std::vector<std::uint8_t> is_definite(branches_.size(), 1);
+  for_chunks(pool_, branches_.size(), 1, [&](std::size_t from, std::size_t to) {
+    for (std::size_t k = from; k < to; ++k)
+      for (std::size_t s = branches_[k].first; s <= branches_[k].root && is_definite[k] != 0; ++s)
+        is_definite[k] = factorise_front(s, rooms_[k], nullptr) ? 1 : 0;
+  });
+  if (std::ranges::count(is_definite, 0) > 0) return false;
+  return std::ranges::all_of(trunk_, [this](std::size_t s) { return factorise_front(s, rooms_.back(), pool_); });
 }
 
 template <int D>
-bool BlockCholesky<D>::factorise_front(std::size_t s) {
+bool BlockCholesky<D>::factorise_front(std::size_t s, std::vector<double>& room, ThreadPool* pool) {
   const DenseFront dense = front(s);
   start_front(s, dense);
   for (const Index child : children_[s]) add_rest(child, dense);
-  return eliminate(dense, room_, level_);
+  return eliminate(dense, room, level_, pool);
 }
 
 /// With the matrix's columns.
@@ -158,41 +230,105 @@ template <int D>
 template <std::size_t Q>
 void BlockCholesky<D>::solve_all(const std::array<double*, Q>& b) const {
   const std::size_t n = tree_.order.size();
-  std::array<std::vector<double>, Q> y;
+  Sides<Q> y;
   for (std::size_t q = 0; q < Q; ++q) {
     y[q].resize(n * kD);
     for (std::size_t i = 0; i < n; ++i) std::copy_n(b[q] + tree_.order[i] * kD, kD, y[q].data() + i * kD);
   }
-  for (std::size_t s = 0; s < tree_.nodes.size(); ++s) solve_front<Q>(s, y, false);
-  for (std::size_t s = tree_.nodes.size(); s-- > 0;) solve_front<Q>(s, y, true);
+  solve_lower_all<Q>(y);
+  solve_upper_all<Q>(y);
   for (std::size_t q = 0; q < Q; ++q)
     for (std::size_t i = 0; i < n; ++i) std::copy_n(y[q].data() + i * kD, kD, b[q] + tree_.order[i] * kD);
 }
 
 template <int D>
 template <std::size_t Q>
-void BlockCholesky<D>::solve_front(std::size_t s, std::array<std::vector<double>, Q>& y, bool upper) const {
+void BlockCholesky<D>::solve_lower_all(Sides<Q>& y) const {
+  std::vector<Aside<Q>> asides(branches_.size());
+  for_chunks(pool_, branches_.size(), 1, [&](std::size_t from, std::size_t to) {
+    std::vector<double> room;
+    for (std::size_t k = from; k < to; ++k) {
+      const Supernode& root = tree_.nodes[branches_[k].root];
+      asides[k].end = root.end;
+      asides[k].rows = std::span(tree_.rows).subspan(root.rows, root.below());
+      for (auto& sums : asides[k].sums) sums.assign(root.below() * kD, 0.0);
+      for (std::size_t s = branches_[k].first; s <= branches_[k].root; ++s) solve_lower_front<Q>(s, y, room, &asides[k]);
+    }
+  });
+  for (const Aside<Q>& aside : asides)
+    for (std::size_t q = 0; q < Q; ++q)
+      for (std::size_t i = 0; i < aside.rows.size(); ++i)
+        for (std::size_t r = 0; r < kD; ++r) y[q][aside.rows[i] * kD + r] += aside.sums[q][i * kD + r];
+  std::vector<double> room;
+  for (const std::size_t s : trunk_) solve_lower_front<Q>(s, y, room, nullptr);
+}
+
+template <int D>
+template <std::size_t Q>
+void BlockCholesky<D>::solve_upper_all(Sides<Q>& y) const {
+  std::vector<double> room_of_trunk;
+  for (std::size_t i = trunk_.size(); i-- > 0;) solve_upper_front<Q>(trunk_[i], y, room_of_trunk);
+  for_chunks(pool_, branches_.size(), 1, [&](std::size_t from, std::size_t to) {
+    std::vector<double> room;
+    for (std::size_t k = from; k < to; ++k)
+      for (std::size_t s = branches_[k].root + 1; s-- > branches_[k].first;) solve_upper_front<Q>(s, y, room);
+  });
+}
+
+template <int D>
+FactorColumns BlockCholesky<D>::columns_of(std::size_t s) const {
   const Supernode& node = tree_.nodes[s];
-  const std::size_t height = node.height() * kD, width = node.width() * kD;
-  gathered_.resize(std::max(gathered_.size(), Q * height));
+  return {factor_.data() + places_[s].pivots, node.height() * kD, node.width() * kD};
+}
+
+/// `aside`: of the branch, none in the trunk.
+template <int D>
+template <std::size_t Q>
+void BlockCholesky<D>::solve_lower_front(std::size_t s, Sides<Q>& y, std::vector<double>& room, Aside<Q>* aside) const {
+  const Supernode& node = tree_.nodes[s];
+  const FactorColumns columns = columns_of(s);
+  room.resize(std::max(room.size(), Q * columns.height));
+  std::array<double*, Q> x;
+  // Calls f(entry of the front, entry of a right-hand side) for all below the columns.
+  const auto for_rest = [&](std::size_t q, const auto& f) {
+    std::size_t behind = 0;
+    for (std::size_t i = 0; i < node.below(); ++i) {
+      const Index row = tree_.rows[node.rows + i];
+      double* to = y[q].data() + row * kD;
+      if (aside != nullptr && row >= aside->end) {
+        while (aside->rows[behind] != row) ++behind;
+        to = aside->sums[q].data() + behind * kD;
+      }
+      for (std::size_t r = 0; r < kD; ++r) f(x[q][columns.width + i * kD + r], to[r]);
+    }
+  };
+  for (std::size_t q = 0; q < Q; ++q) {
+    x[q] = room.data() + q * columns.height;
+    std::copy_n(y[q].data() + node.first * kD, columns.width, x[q]);
+    for_rest(q, [](double& entry, const double& side) { entry = side; });
+  }
+  solve_lower<Q>(columns, x);
+  for (std::size_t q = 0; q < Q; ++q) {
+    std::copy_n(x[q], columns.width, y[q].data() + node.first * kD);
+    for_rest(q, [](const double& entry, double& side) { side = entry; });
+  }
+}
+
+template <int D>
+template <std::size_t Q>
+void BlockCholesky<D>::solve_upper_front(std::size_t s, Sides<Q>& y, std::vector<double>& room) const {
+  const Supernode& node = tree_.nodes[s];
+  const FactorColumns columns = columns_of(s);
+  room.resize(std::max(room.size(), Q * columns.height));
   std::array<double*, Q> x;
   for (std::size_t q = 0; q < Q; ++q) {
-    x[q] = gathered_.data() + q * height;
-    std::copy_n(y[q].data() + node.first * kD, width, x[q]);
+    x[q] = room.data() + q * columns.height;
+    std::copy_n(y[q].data() + node.first * kD, columns.width, x[q]);
     for (std::size_t i = 0; i < node.below(); ++i)
-      for (std::size_t r = 0; r < kD; ++r) x[q][width + i * kD + r] = y[q][tree_.rows[node.rows + i] * kD + r];
+      std::copy_n(y[q].data() + tree_.rows[node.rows + i] * kD, kD, x[q] + columns.width + i * kD);
   }
-  const FactorColumns columns{factor_.data() + places_[s].pivots, height, width};
-  if (upper)
-    solve_upper<Q>(columns, x);
-  else
-    solve_lower<Q>(columns, x);
-  for (std::size_t q = 0; q < Q; ++q) {
-    std::copy_n(x[q], width, y[q].data() + node.first * kD);
-    if (upper) continue;
-    for (std::size_t i = 0; i < node.below(); ++i)
-      for (std::size_t r = 0; r < kD; ++r) y[q][tree_.rows[node.rows + i] * kD + r] = x[q][width + i * kD + r];
-  }
+  solve_upper<Q>(columns, x);
+  for (std::size_t q = 0; q < Q; ++q) std::copy_n(x[q], columns.width, y[q].data() + node.first * kD);
 }
 
 template class BlockCholesky<2>;

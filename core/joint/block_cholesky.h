@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/joint/dense_front.h"
+#include "core/joint/dense_solve.h"
 #include "core/joint/nested_dissection.h"
 #include "core/joint/supernodes.h"
 #include "core/numeric/simd.h"
@@ -26,8 +27,10 @@ class BlockCholesky {
     bool transposed = false;
   };
 
-  /// `graph`: which blocks off the diagonal are not 0. `places`: see nested_dissection.
-  BlockCholesky(const Adjacency& graph, std::span<const std::array<double, D>> places, SimdLevel level = best_simd_level());
+  /// `graph`: which blocks off the diagonal are not 0. `places`: see nested_dissection. `pool`: what it factorises on, which must outlive
+  /// it; null: the calling thread.
+  BlockCholesky(const Adjacency& graph, std::span<const std::array<double, D>> places, ThreadPool* pool = nullptr,
+                SimdLevel level = best_simd_level());
   /// Of row i and column j, which must be the same vertex or neighbours.
   [[nodiscard]] Slot slot(Index i, Index j) const;
 
@@ -53,18 +56,41 @@ class BlockCholesky {
     std::size_t pivots = 0;  // in factor_
     std::size_t rest = 0;    // in rests_, until its parent has taken it
   };
+  /// A subtree of the elimination tree that needs nothing of the others until its root is done: nodes first to root.
+  struct Branch {
+    std::size_t first = 0, root = 0;
+  };
+  [[nodiscard]] bool is_alone() const { return pool_ == nullptr || pool_->size() == 1; }
   void index_columns(const Adjacency& graph);
+  void find_branches();
   void place_fronts();
-  [[nodiscard]] bool factorise_front(std::size_t s);
+  [[nodiscard]] bool factorise_front(std::size_t s, std::vector<double>& room, ThreadPool* pool);
   void start_front(std::size_t s, const DenseFront& front) const;
   void add_rest(std::size_t child, const DenseFront& front) const;
   [[nodiscard]] DenseFront front(std::size_t s);
+  /// What a branch takes from the right-hand sides of the rows below its root, which are summed up once all branches are done.
+  template <std::size_t Q>
+  struct Aside {
+    Index end = 0;  // of the branch's columns
+    std::span<const Index> rows{};
+    std::array<std::vector<double>, Q> sums{};
+  };
+  template <std::size_t Q>
+  using Sides = std::array<std::vector<double>, Q>;
   template <std::size_t Q>
   void solve_all(const std::array<double*, Q>& b) const;
   template <std::size_t Q>
-  void solve_front(std::size_t s, std::array<std::vector<double>, Q>& y, bool upper) const;
+  void solve_lower_all(Sides<Q>& y) const;
+  template <std::size_t Q>
+  void solve_upper_all(Sides<Q>& y) const;
+  template <std::size_t Q>
+  void solve_lower_front(std::size_t s, Sides<Q>& y, std::vector<double>& room, Aside<Q>* aside) const;
+  template <std::size_t Q>
+  void solve_upper_front(std::size_t s, Sides<Q>& y, std::vector<double>& room) const;
+  [[nodiscard]] FactorColumns columns_of(std::size_t s) const;
 
   SimdLevel level_;
+  ThreadPool* pool_;
   SupernodeTree tree_;
   std::vector<Index> place_;                  // the column of each vertex
   std::vector<Index> column_offsets_, rows_;  // blocks of the matrix below the diagonal
@@ -72,9 +98,10 @@ class BlockCholesky {
   std::vector<Block> values_;                 // the diagonal, then those
   std::vector<Place> places_;                 // of each supernode
   std::vector<std::vector<Index>> children_;  // likewise
+  std::vector<Branch> branches_;              // ascending; one thread each
+  std::vector<std::size_t> trunk_;            // all other nodes, ascending
   std::vector<double> factor_, rests_;
-  std::vector<double> room_;              // to work in
-  mutable std::vector<double> gathered_;  // likewise
+  std::vector<std::vector<double>> rooms_;  // to work in, of each branch and of the trunk
 };
 
 }  // namespace dmoscope

@@ -270,7 +270,7 @@ JointCluster ClusterSearch<D>::push() {
   std::vector<Index> all;
   for (const Index v : mesh_.free_vertices())
     if (allowed_[v] != 0) all.push_back(v);
-  solve(all, {.gap = options_.push_gap, .max_steps = options_.max_steps}, false);
+  solve(all, {.gap = options_.push_gap, .max_steps = options_.max_steps, .pool = options_.pool}, false);
   JointCluster result = told(all);
   result.is_push = true;
   result.why_not = "the first push leaves the rest to the clusters";
@@ -279,7 +279,7 @@ JointCluster ClusterSearch<D>::push() {
 
 template <int D>
 JointCluster ClusterSearch<D>::raise(Index worst) {
-  const InteriorPointOptions options{.gap = options_.gap, .early_gap = kEarlyGap, .max_steps = options_.max_steps};
+  const InteriorPointOptions options{.gap = options_.gap, .early_gap = kEarlyGap, .max_steps = options_.max_steps, .pool = options_.pool};
   const auto& vertices = mesh_.atoms()[worst].vertices;
   int rings = kFirstRings;
   std::vector<Index> cluster = grown({vertices.begin(), vertices.end()}, rings);

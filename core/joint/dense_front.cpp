@@ -41,6 +41,8 @@ struct Packed {
   }
 };
 
+std::size_t tiles_of(const DenseFront& front) { return (front.height + kTile - 1) / kTile; }
+
 template <class S>
 DMOSCOPE_INLINE void load(typename S::Vector& v, const double* from) {
   std::memcpy(&v, from, sizeof v);
@@ -158,79 +160,163 @@ DMOSCOPE_INLINE void solve_tile(const Corner& corner, std::size_t n, double* con
     }
 }
 
-/// Columns [first, first + n) of one block, from the diagonal down.
+/// Columns [first, first + n) of one block, which the packed ones before are to be subtracted from.
+struct Panel {
+  const DenseFront& front;
+  const Packed& packed;
+  std::size_t first, n;
+  Corner& corner;
+};
+
+/// The block's corner, on the diagonal. False where a pivot is not positive.
 template <class S>
-DMOSCOPE_INLINE bool eliminate_block(const DenseFront& front, const Packed& packed, std::size_t first, std::size_t n) {
-  Corner corner;
-  if (!factorise_corner(front, first, n, corner)) return false;
-  const std::size_t below = first + n;
-  for (std::size_t tile = first / kTile; tile * kTile < front.height; ++tile) {
-    const std::size_t row = tile * kTile, from = std::max(row, below), to = std::min(row + kTile, front.height);
-    if (from == row && to == row + kTile) {
-      double* columns[kBlock];
-      for (std::size_t c = 0; c < n; ++c) columns[c] = front.column(first + c) + row;
-      solve_tile<S>(corner, n, columns, packed.at(row, first));
-      continue;
-    }
-    Copy<S> copy;
-    for (std::size_t c = 0; c < n; ++c)
-      for (std::size_t r = from; r < to; ++r) copy.entries[c][r - row] = front.column(first + c)[r];
-    solve_tile<S>(corner, n, copy.columns, packed.at(row, first));
-    for (std::size_t c = 0; c < n; ++c) {
-      for (std::size_t r = from; r < to; ++r) front.column(first + c)[r] = copy.entries[c][r - row];
-      for (std::size_t r = std::max(row, first + c); r < std::min(below, row + kTile); ++r)
-        *packed.at(r, first + c) = corner.l[r - first][c];
-    }
-  }
-  return true;
+DMOSCOPE_INLINE bool begin_panel(const Panel& panel) {
+  const auto& [front, packed, first, n, corner] = panel;
+  if (first > packed.first) update_block<S>(front, packed, first - packed.first, first / kTile, first / kBlock, first, first + n);
+  return factorise_corner(front, first, n, corner);
 }
 
-/// Subtracts the products of a chunk's columns from all columns behind it.
+/// Its rows in a tile, below the corner and not above its tile.
 template <class S>
-DMOSCOPE_INLINE void update_behind(const DenseFront& front, const Packed& packed) {
-  const std::size_t first = packed.first + packed.count, tiles = (front.height + kTile - 1) / kTile;
-  for (std::size_t from = first / kTile; from < tiles; from += kRowTiles) {
-    const std::size_t to = std::min(from + kRowTiles, tiles);
-    for (std::size_t block = first / kBlock; block * kBlock < std::min(to * kTile, front.height); ++block)
-      for (std::size_t tile = std::max(from, block * kBlock / kTile); tile < to; ++tile)
-        update_block<S>(front, packed, packed.count, tile, block, first, front.height);
+DMOSCOPE_INLINE void finish_tile(const Panel& panel, std::size_t tile) {
+  const auto& [front, packed, first, n, corner] = panel;
+  const std::size_t below = first + n, row = tile * kTile, from = std::max(row, below), to = std::min(row + kTile, front.height);
+  if (first > packed.first && tile > first / kTile)
+    update_block<S>(front, packed, first - packed.first, tile, first / kBlock, first, first + n);
+  if (from == row && to == row + kTile) {
+    double* columns[kBlock];
+    for (std::size_t c = 0; c < n; ++c) columns[c] = front.column(first + c) + row;
+    solve_tile<S>(corner, n, columns, packed.at(row, first));
+    return;
+  }
+  Copy<S> copy;
+  for (std::size_t c = 0; c < n; ++c)
+    for (std::size_t r = from; r < to; ++r) copy.entries[c][r - row] = front.column(first + c)[r];
+  solve_tile<S>(corner, n, copy.columns, packed.at(row, first));
+  for (std::size_t c = 0; c < n; ++c) {
+    for (std::size_t r = from; r < to; ++r) front.column(first + c)[r] = copy.entries[c][r - row];
+    for (std::size_t r = std::max(row, first + c); r < std::min(below, row + kTile); ++r) *packed.at(r, first + c) = corner.l[r - first][c];
   }
 }
 
 template <class S>
-DMOSCOPE_INLINE bool eliminate_for(const DenseFront& front, std::vector<double>& room) {
-  const std::size_t tiles = (front.height + kTile - 1) / kTile;
-  room.resize(std::max(room.size(), tiles * kTile * std::min(front.width, kChunk)));
+DMOSCOPE_INLINE void finish_panel(const Panel& panel, std::size_t from, std::size_t to) {
+  // Copies, which nothing else writes to: the compiler keeps them in registers.
+  const DenseFront front = panel.front;
+  const Packed packed = panel.packed;
+  Corner corner = panel.corner;
+  const Panel own{front, packed, panel.first, panel.n, corner};
+  for (std::size_t tile = from; tile < to; ++tile) finish_tile<S>(own, tile);
+}
+
+/// Subtracts the products of a chunk's columns from all columns behind it, in some tiles of rows.
+template <class S>
+DMOSCOPE_INLINE void update_behind(const DenseFront front, const Packed packed, std::size_t from, std::size_t to) {
+  const std::size_t first = packed.first + packed.count;
+  for (std::size_t block = first / kBlock; block * kBlock < std::min(to * kTile, front.height); ++block)
+    for (std::size_t tile = std::max(from, block * kBlock / kTile); tile < to; ++tile)
+      update_block<S>(front, packed, packed.count, tile, block, first, front.height);
+}
+
+/// All of it, on one thread.
+template <class S>
+DMOSCOPE_INLINE bool eliminate_alone(const DenseFront& front, double* room) {
+  const std::size_t tiles = tiles_of(front);
   for (std::size_t first = 0; first < front.width; first += kChunk) {
-    const Packed packed{room.data(), first, std::min(kChunk, front.width - first)};
+    const Packed packed{room, first, std::min(kChunk, front.width - first)};
     const std::size_t end = first + packed.count;
     for (std::size_t column = first; column < end; column += kBlock) {
-      const std::size_t n = std::min(kBlock, end - column);
-      if (column > first)
-        for (std::size_t tile = column / kTile; tile < tiles; ++tile)
-          update_block<S>(front, packed, column - first, tile, column / kBlock, column, column + n);
-      if (!eliminate_block<S>(front, packed, column, n)) return false;
+      Corner corner;
+      const Panel panel{front, packed, column, std::min(kBlock, end - column), corner};
+      if (!begin_panel<S>(panel)) return false;
+      for (std::size_t tile = column / kTile; tile < tiles; ++tile) finish_tile<S>(panel, tile);
     }
-    if (end < front.height) update_behind<S>(front, packed);
+    for (std::size_t from = end / kTile; end < front.height && from < tiles; from += kRowTiles)
+      update_behind<S>(front, packed, from, std::min(from + kRowTiles, tiles));
   }
   return true;
 }
 
+/// All that is compiled for a level. Lambdas would not be.
+struct Level {
+  bool (*eliminate_alone)(const DenseFront& front, double* room);
+  bool (*begin_panel)(const Panel& panel);
+  void (*finish_panel)(const Panel& panel, std::size_t from, std::size_t to);
+  void (*update_behind)(const DenseFront& front, const Packed& packed, std::size_t from, std::size_t to);
+};
+constexpr Level kBaseline{[](const DenseFront& front, double* room) { return eliminate_alone<Baseline>(front, room); },
+                          [](const Panel& panel) { return begin_panel<Baseline>(panel); },
+                          [](const Panel& panel, std::size_t from, std::size_t to) { finish_panel<Baseline>(panel, from, to); },
+                          [](const DenseFront& front, const Packed& packed, std::size_t from, std::size_t to) {
+                            update_behind<Baseline>(front, packed, from, to);
+                          }};
+
 #if defined(__x86_64__)
-[[gnu::target("avx2")]] bool eliminate_avx2(const DenseFront& front, std::vector<double>& room) { return eliminate_for<Avx2>(front, room); }
-[[gnu::target("avx512f,avx512dq,avx512vl")]] bool eliminate_avx512(const DenseFront& front, std::vector<double>& room) {
-  return eliminate_for<Avx512>(front, room);
-}
+#define DMOSCOPE_LEVEL(S, name, instructions)                                                                              \
+  [[gnu::target(instructions)]] bool eliminate_alone_##name(const DenseFront& front, double* room) {                       \
+    return eliminate_alone<S>(front, room);                                                                                \
+  }                                                                                                                        \
+  [[gnu::target(instructions)]] bool begin_panel_##name(const Panel& panel) { return begin_panel<S>(panel); }              \
+  [[gnu::target(instructions)]] void finish_panel_##name(const Panel& panel, std::size_t from, std::size_t to) {           \
+    finish_panel<S>(panel, from, to);                                                                                      \
+  }                                                                                                                        \
+  [[gnu::target(instructions)]] void update_behind_##name(const DenseFront& front, const Packed& packed, std::size_t from, \
+                                                          std::size_t to) {                                                \
+    update_behind<S>(front, packed, from, to);                                                                             \
+  }                                                                                                                        \
+  constexpr Level k##S{eliminate_alone_##name, begin_panel_##name, finish_panel_##name, update_behind_##name};
+DMOSCOPE_LEVEL(Avx2, avx2, "avx2")
+DMOSCOPE_LEVEL(Avx512, avx512, "avx512f,avx512dq,avx512vl")
+#undef DMOSCOPE_LEVEL
 #endif
+
+const Level& level_of([[maybe_unused]] SimdLevel level) {
+#if defined(__x86_64__)
+  if (level == SimdLevel::Avx512) return kAvx512;
+  if (level == SimdLevel::Avx2) return kAvx2;
+#endif
+  return kBaseline;
+}
+
+/// Multiplications below which threads would wait for each other longer than they work.
+constexpr double kWorthThreads = 300'000.0;
+
+/// Calls f(from, to) for all of `count` tiles; in parallel where there are enough multiplications.
+template <class F>
+void for_tiles(ThreadPool& pool, std::size_t count, std::size_t multiplications, const F& f) {
+  if (static_cast<double>(multiplications) < kWorthThreads)
+    f(0, count);
+  else
+    pool.parallel_for(count, kRowTiles, f);
+}
 
 }  // namespace
 
-bool eliminate(const DenseFront& front, std::vector<double>& room, SimdLevel level) {
-#if defined(__x86_64__)
-  if (level == SimdLevel::Avx512) return eliminate_avx512(front, room);
-  if (level == SimdLevel::Avx2) return eliminate_avx2(front, room);
-#endif
-  return eliminate_for<Baseline>(front, room);
+bool eliminate(const DenseFront& front, std::vector<double>& room, SimdLevel simd, ThreadPool* pool) {
+  const Level& level = level_of(simd);
+  const std::size_t tiles = tiles_of(front);
+  room.resize(std::max(room.size(), tiles * kTile * std::min(front.width, kChunk)));
+  if (pool == nullptr || static_cast<double>(front.height * front.height * front.width) < kWorthThreads)
+    return level.eliminate_alone(front, room.data());
+  for (std::size_t first = 0; first < front.width; first += kChunk) {
+    const Packed packed{room.data(), first, std::min(kChunk, front.width - first)};
+    const std::size_t end = first + packed.count;
+    Corner corner;
+    for (std::size_t column = first; column < end; column += kBlock) {
+      const Panel panel{front, packed, column, std::min(kBlock, end - column), corner};
+      if (!level.begin_panel(panel)) return false;
+      const std::size_t top = column / kTile;
+      for_tiles(*pool, tiles - top, (tiles - top) * kTile * kBlock * (column - first + kBlock),
+                [&](std::size_t from, std::size_t to) { level.finish_panel(panel, top + from, top + to); });
+    }
+    if (end >= front.height) continue;
+    const std::size_t top = end / kTile, rows = front.height - end;
+    for_tiles(*pool, tiles - top, rows * rows * packed.count / 2, [&](std::size_t from, std::size_t to) {
+      for (std::size_t tile = from; tile < to; tile += kRowTiles)
+        level.update_behind(front, packed, top + tile, top + std::min(tile + kRowTiles, to));
+    });
+  }
+  return true;
 }
 
 }  // namespace dmoscope

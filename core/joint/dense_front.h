@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/base/thread_pool.h"
 #include "core/numeric/simd.h"
 
 namespace dmoscope {
@@ -21,7 +22,8 @@ struct DenseFront {
 };
 
 /// Its first columns become those of the Cholesky factor, the rest what is left to factorise. False where a pivot is not positive; the
-/// front is in any state then. `room` is room to work in. Every sum has the same order for any level: the same bits.
-[[nodiscard]] bool eliminate(const DenseFront& front, std::vector<double>& room, SimdLevel level);
+/// front is in any state then. `room` is room to work in; `pool` may be null. Every sum has the same order for any level and any number of
+/// threads: the same bits.
+[[nodiscard]] bool eliminate(const DenseFront& front, std::vector<double>& room, SimdLevel level, ThreadPool* pool);
 
 }  // namespace dmoscope

@@ -17,12 +17,14 @@ constexpr double kCentred = 10.0;      // Newton's decrement below which a full 
 constexpr int kEnoughFullSteps = 4;    // in a row: mu falls even where they do not centre, as where elements differ much in size
 constexpr double kFall = 0.3;          // of mu
 constexpr double kFirstDamping = 0.1, kLeastDamping = 1e-4, kMostDamping = 1e4;
-constexpr double kOntoDiagonal = 1e-9;  // what rounding could take from it
+constexpr double kOntoDiagonal = 1e-9;                     // what rounding could take from it
+constexpr std::size_t kGrain = 128;                        // atoms that a thread takes at once
+constexpr std::size_t kAloneAtOnce = 256, kAtOnce = 2048;  // atoms that one thread, or all, take before what follows in order
 
 template <int D>
 class InteriorPoint {
  public:
-  InteriorPoint(const JointProblem<D>& problem, const AtomFunction<D>& function);
+  InteriorPoint(const JointProblem<D>& problem, const AtomFunction<D>& function, ThreadPool* pool);
   JointSolution<D> solve(const InteriorPointOptions& options, const JointCallbacks<D>& callbacks, Progress& progress);
 
  private:
@@ -30,6 +32,8 @@ class InteriorPoint {
   using Place = std::array<double, kD>;
 
   [[nodiscard]] double value(std::size_t atom, const std::vector<Place>& displacements) const;
+  void evaluate(std::size_t first, std::size_t end, const std::vector<Place>& displacements, std::vector<double>& values) const;
+  [[nodiscard]] std::size_t at_once() const { return pool_ != nullptr ? kAtOnce : kAloneAtOnce; }
   [[nodiscard]] double slack(std::size_t atom) const { return at_.tau - at_.values[atom]; }
   bool start();
   void assemble(Curvature curvature);
@@ -44,9 +48,11 @@ class InteriorPoint {
 
   const JointProblem<D>& problem_;
   const AtomFunction<D>& function_;
+  ThreadPool* pool_;
   AtomBlocks<D> system_;
   JointIterate<D> at_;
   // Of the step under way.
+  std::vector<AtomDerivatives<D>> derivatives_;        // of some atoms
   std::vector<std::array<double, kEdges>> gradients_;  // by edges
   std::vector<double> ratios_, changes_, new_values_;  // multiplier / slack, multipliers' steps
   std::vector<double> direction_, tau_direction_;      // dx, and of it what goes with dtau
@@ -59,12 +65,21 @@ class InteriorPoint {
 };
 
 template <int D>
-InteriorPoint<D>::InteriorPoint(const JointProblem<D>& problem, const AtomFunction<D>& function)
-    : problem_(problem), function_(function), system_(problem) {}
+InteriorPoint<D>::InteriorPoint(const JointProblem<D>& problem, const AtomFunction<D>& function, ThreadPool* pool)
+    : problem_(problem), function_(function), pool_(pool), system_(problem, pool) {}
 
 template <int D>
 double InteriorPoint<D>::value(std::size_t atom, const std::vector<Place>& displacements) const {
   return function_.value(problem_.atoms[atom].shape, displaced_edges<D>(problem_, atom, displacements), problem_.reference(atom));
+}
+
+/// Of some atoms.
+template <int D>
+void InteriorPoint<D>::evaluate(std::size_t first, std::size_t end, const std::vector<Place>& displacements,
+                                std::vector<double>& values) const {
+  for_chunks(end - first > kGrain ? pool_ : nullptr, end - first, kGrain, [&](std::size_t from, std::size_t to) {
+    for (std::size_t a = first + from; a < first + to; ++a) values[a] = value(a, displacements);
+  });
 }
 
 /// False where an f is infinite.
@@ -74,7 +89,7 @@ bool InteriorPoint<D>::start() {
   at_.displacements.assign(problem_.free_vertices, Place{});
   at_.values.resize(count);
   at_.multipliers.resize(count);
-  for (std::size_t a = 0; a < count; ++a) at_.values[a] = value(a, at_.displacements);
+  evaluate(0, count, at_.displacements, at_.values);
   at_.worst = *std::ranges::max_element(at_.values);
   if (!std::isfinite(at_.worst)) return false;
   at_.tau = at_.worst + kFirstMargin * std::fabs(at_.worst);
@@ -97,11 +112,27 @@ void InteriorPoint<D>::assemble(Curvature curvature) {
   force_.assign(problem_.free_vertices * kD, 0.0);
   tau_direction_.assign(problem_.free_vertices * kD, 0.0);
   ratio_sum_ = barrier_sum_ = 0.0;
-  AtomDerivatives<D> derivatives;
-  for (std::size_t a = 0; a < problem_.atoms.size(); ++a) {
-    function_.derive(problem_.atoms[a].shape, displaced_edges<D>(problem_, a, at_.displacements), problem_.reference(a), curvature,
-                     derivatives);
-    add_atom(a, derivatives);
+  // While one thread adds up some atoms, the others derive the next.
+  const std::size_t count = problem_.atoms.size(), size = at_once();
+  derivatives_.resize(2 * std::min(count, size));
+  const auto derive = [&](std::size_t from, std::size_t to) {
+    for (std::size_t a = from; a < to; ++a)
+      function_.derive(problem_.atoms[a].shape, displaced_edges<D>(problem_, a, at_.displacements), problem_.reference(a), curvature,
+                       derivatives_[a % (2 * size)]);
+  };
+  derive(0, std::min(count, size));
+  for (std::size_t first = 0; first < count; first += size) {
+    const std::size_t next = std::min(first + size, count), end = std::min(next + size, count), parts = (end - next + kGrain - 1) / kGrain;
+    const auto work = [&](std::size_t from, std::size_t to) {
+      for (std::size_t part = from; part < to; ++part) {
+        if (part > 0) {
+          derive(next + (part - 1) * kGrain, std::min(next + part * kGrain, end));
+          continue;
+        }
+        for (std::size_t a = first; a < next; ++a) add_atom(a, derivatives_[a % (2 * size)]);
+      }
+    };
+    for_chunks(parts > 1 ? pool_ : nullptr, 1 + parts, 1, work);
   }
   system_.scale_diagonal(1.0 + kOntoDiagonal);
 }
@@ -198,7 +229,7 @@ bool InteriorPoint<D>::search_line() {
     ProductLog slacks;  // of new ones over old ones
     bool inside = true;
     for (std::size_t a = 0; a < new_values_.size() && inside; ++a) {
-      new_values_[a] = value(a, trial_);
+      if (a % at_once() == 0) evaluate(a, std::min(a + at_once(), new_values_.size()), trial_, new_values_);
       const double left = (tau - new_values_[a]) / slack(a);
       inside = left > kLeastSlack && std::isfinite(left);
       if (inside) slacks.multiply(left);
@@ -307,7 +338,7 @@ JointSolution<D> InteriorPoint<D>::solve(const InteriorPointOptions& options, co
 template <int D>
 JointSolution<D> solve_joint(const JointProblem<D>& problem, const AtomFunction<D>& function, const InteriorPointOptions& options,
                              const JointCallbacks<D>& callbacks, Progress& progress) {
-  return InteriorPoint<D>(problem, function).solve(options, callbacks, progress);
+  return InteriorPoint<D>(problem, function, options.pool).solve(options, callbacks, progress);
 }
 template JointSolution<2> solve_joint<2>(const JointProblem<2>&, const AtomFunction<2>&, const InteriorPointOptions&,
                                          const JointCallbacks<2>&, Progress&);

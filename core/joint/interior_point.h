@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/progress.h"
+#include "core/base/thread_pool.h"
 #include "core/joint/atoms.h"
 
 namespace dmoscope {
@@ -38,10 +39,11 @@ template <int D>
 }
 
 struct InteriorPointOptions {
-  double gap = 2e-4;       // relative: ends when tau may be that far above the least possible
-  double early_gap = 0.0;  // on the way there, `leave_early` is asked at this one
-  double enough = -1.0;    // ends when all f are at most this
-  int max_steps = 150;     // Newton steps
+  double gap = 2e-4;           // relative: ends when tau may be that far above the least possible
+  double early_gap = 0.0;      // on the way there, `leave_early` is asked at this one
+  double enough = -1.0;        // ends when all f are at most this
+  int max_steps = 150;         // Newton steps
+  ThreadPool* pool = nullptr;  // null: the calling thread alone
 };
 
 enum class InteriorPointEnd { Gap, LeftEarly, Enough, Steps, Stuck, NotSound };
@@ -73,7 +75,8 @@ struct JointCallbacks {
   std::function<bool(const JointIterate<D>&)> leave_early{};  // see early_gap; asked once
 };
 
-/// Throws Cancelled within one Newton step of Progress::request_cancel(). Every sum has a fixed order: the same bits everywhere.
+/// Throws Cancelled within one Newton step of Progress::request_cancel(). Every sum has a fixed order: the same bits everywhere, for any
+/// pool.
 template <int D>
 [[nodiscard]] JointSolution<D> solve_joint(const JointProblem<D>& problem, const AtomFunction<D>& function,
                                            const InteriorPointOptions& options, const JointCallbacks<D>& callbacks, Progress& progress);

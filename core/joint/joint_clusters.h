@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/base/progress.h"
+#include "core/base/thread_pool.h"
 #include "core/input/input_mesh.h"
 
 namespace dmoscope {
@@ -35,6 +36,7 @@ struct JointOptions {
   std::size_t cluster_at_most = 0;  // vertices of any other; 0: 20000, of volumes 1500
   std::size_t push_at_most = 0;     // the first push is left out where more are free; 0: 100000, of volumes 3000
   std::function<void(const JointStep&)> on_step{};
+  ThreadPool* pool = nullptr;  // null: the calling thread alone; the same bits for any
 };
 
 /// What later calls must know of earlier ones, as a value: with the same positions and the same state a call has the same result to the

@@ -199,8 +199,9 @@ template <int D>
 typename Untangler<D>::Offsets Untangler<D>::by_interior_point(const LocalProblem<D>& local) {
   JointCallbacks<D> callbacks;
   callbacks.step = [&](const JointIterate<D>& at) { show(local, at.displacements, at.steps, 1.0 - at.worst); };
-  JointSolution<D> solution = solve_joint<D>(local.problem, AtomFunction<D>(Metric::MeanRatio, AtomMeasure::SignedPower),
-                                             {.enough = kEnough, .max_steps = kInteriorPointSteps}, callbacks, progress_);
+  JointSolution<D> solution =
+      solve_joint<D>(local.problem, AtomFunction<D>(Metric::MeanRatio, AtomMeasure::SignedPower),
+                     {.enough = kEnough, .max_steps = kInteriorPointSteps, .pool = options_.pool}, callbacks, progress_);
   newton_steps_ += solution.last.steps;
   if (!(solution.best_worst < solution.start_worst)) return {};
   return std::move(solution.best);

@@ -123,6 +123,7 @@ void Run::move_jointly(Progress& progress) {
   std::optional<JointState> before = anew ? JointState{} : joint_course_.state_after(iteration, since);
   if (!before) return restore(since);
   JointOptions options = joint_options(parameters_);
+  options.pool = pool_.get();
   options.on_step = [&](const JointStep& step) {
     progress.set(share_done((step.bound - step.minimum) / step.bound, options.gap));
     if (observer_) observer_(*this);

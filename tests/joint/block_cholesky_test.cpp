@@ -178,11 +178,17 @@ TEST(BlockCholesky, SolvesAsADenseOneDoes) {
   }
 }
 
-/// The solution for two right-hand sides, one after the other.
+constexpr Index kSquare = 50;  // of a lattice whose factor is worth threads
+
+/// The solution for two right-hand sides, one after the other. `by_lattice`: places are those of lattices(kSquare, ...).
 template <int D>
-std::vector<double> solved(const Adjacency& graph, SimdLevel level, bool at_once) {
+std::vector<double> solved(const Adjacency& graph, SimdLevel level, bool at_once, ThreadPool* pool = nullptr, bool by_lattice = false) {
   testing::Random random(7);
-  BlockCholesky<D> cholesky(graph, random_places<D>(graph, random), level);
+  auto places = random_places<D>(graph, random);
+  if (by_lattice)
+    for (std::size_t v = 0; v < places.size(); ++v)
+      places[v][0] = static_cast<double>(v % kSquare), places[v][1] = static_cast<double>(v / kSquare);
+  BlockCholesky<D> cholesky(graph, places, pool, level);
   cholesky.clear();
   fill<D>(graph, random, [&](Index i, Index j, const auto& block) { cholesky.add(cholesky.slot(i, j), block); });
   EXPECT_TRUE(cholesky.factorise());
@@ -211,6 +217,41 @@ void expect_same_bits() {
 TEST(BlockCholesky, HasTheSameBitsForAnySimdLevelAndForTwoSidesAtOnce) {
   expect_same_bits<2>();
   expect_same_bits<3>();
+}
+
+TEST(BlockCholesky, HasTheSameBitsForAnyThreads) {
+  for (const bool one : {false, true}) {
+    const Adjacency graph = one ? lattices(kSquare, 1) : lattices(kSquare, 3);
+    const auto flat = solved<2>(graph, SimdLevel::Baseline, true, nullptr, true),
+               solid = solved<3>(graph, SimdLevel::Baseline, true, nullptr, true);
+    for (const unsigned threads : {2U, 3U, 5U}) {
+      ThreadPool pool(threads);
+      EXPECT_EQ(solved<2>(graph, best_simd_level(), true, &pool, true), flat) << threads;
+      EXPECT_EQ(solved<3>(graph, best_simd_level(), true, &pool, true), solid) << threads;
+    }
+  }
+}
+
+/// In whichever branch of the elimination it is, on several threads.
+TEST(BlockCholesky, RefusesABadPivotOnAnyThread) {
+  const Adjacency graph = lattices(kSquare, 2);
+  ThreadPool pool(3);
+  std::vector<std::array<double, 2>> places(graph.offsets.size() - 1);
+  for (std::size_t v = 0; v < places.size(); ++v) places[v] = {static_cast<double>(v % kSquare), static_cast<double>(v / kSquare)};
+  BlockCholesky<2> cholesky(graph, places, &pool);
+  std::vector<double> ones(places.size() * 2, 1.0);
+  for (Index bad = 0; bad < places.size(); bad += 97) {
+    cholesky.clear();
+    for (Index v = 0; v < places.size(); ++v) cholesky.diagonal(v) = {1, 0, 0, 1};
+    ASSERT_TRUE(cholesky.factorise());
+    cholesky.diagonal(bad)[0] = -1.0;
+    ASSERT_FALSE(cholesky.factorise()) << bad;
+  }
+  for (Index v = 0; v < places.size(); ++v) cholesky.diagonal(v) = {1, 0, 0, 1};
+  ASSERT_TRUE(cholesky.factorise());
+  std::vector<double> b = ones;
+  cholesky.solve(b);
+  EXPECT_EQ(b, ones);
 }
 
 TEST(BlockCholesky, RefusesWhatIsNotPositiveDefinite) {

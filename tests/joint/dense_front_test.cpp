@@ -22,9 +22,9 @@ struct Front {
   }
   [[nodiscard]] DenseFront dense() { return {height, width, pivots.data(), rest.data()}; }
   double& at(std::size_t i, std::size_t j) { return j < width ? pivots[j * height + i] : rest[(j - width) * (height - width) + i - width]; }
-  bool eliminate_at(SimdLevel level) {
+  bool eliminate_at(SimdLevel level, ThreadPool* pool = nullptr) {
     std::vector<double> room;
-    return eliminate(dense(), room, level);
+    return eliminate(dense(), room, level, pool);
   }
   void eliminate_plainly() {
     for (std::size_t k = 0; k < width; ++k) {
@@ -71,6 +71,21 @@ TEST(DenseFront, EliminatesAsTheTextbookDoes) {
   expect_eliminates(256, 256);
   expect_eliminates(300, 257);
   expect_eliminates(611, 523);
+}
+
+TEST(DenseFront, HasTheSameBitsForAnyThreads) {
+  for (const auto& [height, width] : std::initializer_list<std::pair<std::size_t, std::size_t>>{{700, 523}, {701, 100}, {513, 513}}) {
+    Front alone(height, width, 9);
+    ASSERT_TRUE(alone.eliminate_at(SimdLevel::Baseline));
+    for (const unsigned threads : {2U, 3U, 5U}) {
+      ThreadPool pool(threads);
+      for (const SimdLevel level : supported_simd_levels()) {
+        Front front(height, width, 9);
+        ASSERT_TRUE(front.eliminate_at(level, &pool));
+        EXPECT_EQ(front.lower_half(), alone.lower_half()) << threads << " threads, " << name(level);
+      }
+    }
+  }
 }
 
 TEST(DenseFront, RefusesABadPivotAnywhere) {

@@ -13,23 +13,27 @@ BestState::BestState(const RunParameters& parameters)
                                                        : Rule::Values) {}
 
 void BestState::take(const IterationRecord& record) {
-  if (!first_ && !is_better(record.statistics)) return;
+  if (!first_ && !is_better(record)) return;
   if (first_) std::tie(minimum_, movable_) = std::tuple(record.statistics.minimum, record.statistics.movable_minimum);
   first_ = false;
   best_ = record.iteration;
   statistics_ = record.statistics;
 }
 
-bool BestState::rises(const Statistics& now) const {
+bool BestState::rises(const IterationRecord& record) const {
+  const Statistics& now = record.statistics;
   if (now.inverted != statistics_.inverted) return now.inverted < statistics_.inverted;
+  // The worst element may have a part between fixed vertices that nothing changes, so that joint moves raise others alone.
+  if (record.joint && record.moved > 0 && !(now.minimum < minimum_) && !(now.movable_minimum < movable_)) return true;
   // As differences: where nothing is movable both are infinite, and that is no rise.
   return now.minimum - minimum_ >= kLeastRise || now.movable_minimum - movable_ >= kLeastRise;
 }
 
-bool BestState::is_better(const Statistics& now) {
+bool BestState::is_better(const IterationRecord& record) {
+  const Statistics& now = record.statistics;
   if (rule_ == Rule::Last) return true;
   if (rule_ == Rule::MinimumThenMean) {
-    if (!rises(now))
+    if (!rises(record))
       return now.inverted == statistics_.inverted && !(now.minimum < minimum_) && !(now.movable_minimum < movable_) &&
              !(now.mean < statistics_.mean);
     const bool untangled = now.inverted < statistics_.inverted;

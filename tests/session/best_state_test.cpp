@@ -47,6 +47,20 @@ TEST(BestState, OfAnOptimisingMethodIsByTheMinimumThenByTheMean) {
   EXPECT_EQ(best_iteration(dmo, course({{-0.1, 0.8, 0, 3}, {-0.1, 0.7, 0, 2}, {-0.1, 0.6, 0, 2}})), 1U) << "and what is untangled";
 }
 
+/// As where the worst element has a corner between three vertices that stay.
+TEST(BestState, WhatJointMovesRaiseCountsThoughAnotherElementStaysWorse) {
+  RunParameters dmo;
+  dmo.then_joint.emplace();
+  auto records = course({{0.1, 0.8}, {0.1, 0.7}, {0.1, 0.6}, {0.1, 0.65}, {0.1, 0.6}});
+  EXPECT_EQ(best_iteration(dmo, records), 0U);
+  for (const std::size_t joint : {1U, 2U}) records[joint].joint = JointFigures{};
+  EXPECT_EQ(best_iteration(dmo, records), 3U) << "the last cluster, and then the greater mean";
+  records[2].moved = 0;
+  EXPECT_EQ(best_iteration(dmo, records), 1U) << "it moved nothing";
+  records[1].statistics.minimum = 0.09;
+  EXPECT_EQ(best_iteration(dmo, records), 0U) << "no minimum is given up";
+}
+
 TEST(BestState, WhatIsNoRiseIsNoReasonToGiveUpTheMeanUnlessItAddsUp) {
   const RunParameters dmo;
   EXPECT_EQ(best_iteration(dmo, course({{0.4, 0.7}, {0.4 + 4e-7, 0.6}, {0.4 + 8e-7, 0.5}})), 0U);

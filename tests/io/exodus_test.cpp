@@ -91,7 +91,7 @@ TEST(Exodus, EverySideLooksOutward) {
     Vec3 middle{};
     for (const Index c : corners) middle = middle + (1.0 / static_cast<double>(corners.size())) * mesh.positions[c];
     for (std::int64_t s = 1; s < 9; ++s) {
-      const auto side = exodus_side(shape_of(mesh.elements.kind(e)), false, 3, s);
+      const auto side = exodus_side(shape_of(mesh.elements.kind(e)), false, s);
       if (side.empty()) continue;
       ++sides;
       const Vec3 a = mesh.positions[corners[side[0]]], b = mesh.positions[corners[side[1]]], c = mesh.positions[corners[side[2]]];
@@ -111,6 +111,18 @@ TEST(Exodus, PlanarInOneArrayOfFloats) {
               ElementsAre(0, 1, 2, 0, 2, 3, 1, 4, 5, 2));
   EXPECT_THAT(group_named(mesh, "below").members, ElementsAre(0, 1, 1, 4));
   EXPECT_EQ(group_named(mesh, "below").dimension, 1);
+}
+
+/// As libMesh writes them: a triangle that is a shell, though the file is planar, has its edges behind two faces.
+TEST(Exodus, EdgesOfShellsInThePlane) {
+  std::string plane = testing::exodus_plane();
+  const std::string sides("\0\0\0\x01\0\0\0\x01", 8);  // of elements 1 and 3
+  ASSERT_TRUE(plane.ends_with(sides));
+  const auto with_side = [&](char side) { return plane.substr(0, plane.size() - 8) + std::string("\0\0\0", 3) + side + sides.substr(4); };
+  EXPECT_THAT(group_named(read_bytes("a.exo", with_side(3)), "below").members, ElementsAre(2, 0, 1, 4)) << "the third of three";
+  EXPECT_THAT(group_named(read_bytes("a.exo", with_side(4)), "below").members, ElementsAre(1, 2, 1, 4)) << "the second";
+  EXPECT_THAT(group_named(read_bytes("a.exo", with_side(5)), "below").members, ElementsAre(2, 0, 1, 4)) << "the third";
+  expect_refused("a.exo", with_side(6), 0, "side set 1: element 1 has no side 6");
 }
 
 TEST(Exodus, NetCdf4AndShells) {

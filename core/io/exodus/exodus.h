@@ -25,8 +25,8 @@ inline constexpr std::string_view kExodusSideSet = "side set";
 [[nodiscard]] std::optional<CellShape> exodus_shape(std::string_view word, std::uint64_t nodes) noexcept;
 
 /// A side of an element, from 1 as in the file, by the element's own corners from 0, outward; 2 to 4 of them. Empty where it has no such
-/// side. `space`: the file's coordinates, 2 or 3; in space a shell's first two sides are its front and its back.
-[[nodiscard]] std::span<const Index> exodus_side(CellShape shape, bool shell, int space, std::int64_t side) noexcept;
+/// side. `has_faces`: it is a shell whose first two sides are its front and its back, as they are in space.
+[[nodiscard]] std::span<const Index> exodus_side(CellShape shape, bool has_faces, std::int64_t side) noexcept;
 /// Does the word mean shells, which have faces among their sides?
 [[nodiscard]] bool is_exodus_shell(std::string_view word) noexcept;
 

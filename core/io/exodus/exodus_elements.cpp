@@ -93,8 +93,8 @@ bool is_exodus_shell(std::string_view word) noexcept {
   return text.find("SHELL") != std::string::npos || text.starts_with("MEMBRANE") || text.starts_with("TRI");
 }
 
-std::span<const Index> exodus_side(CellShape shape, bool shell, int space, std::int64_t side) noexcept {
-  const std::span<const Side> sides = sides_of(shape, shell && space == 3);
+std::span<const Index> exodus_side(CellShape shape, bool has_faces, std::int64_t side) noexcept {
+  const std::span<const Side> sides = sides_of(shape, has_faces);
   if (side < 1 || static_cast<std::uint64_t>(side) > sides.size()) return {};
   const Side& one = sides[static_cast<std::size_t>(side - 1)];
   return {one.corners.data(), one.count};

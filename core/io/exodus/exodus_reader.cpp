@@ -105,7 +105,8 @@ class ExodusReader {
   void elements(Block& block, std::uint64_t number) {
     const std::string array = fmt::format("connect{}", number + 1);
     const auto info = file_->find(array);
-    const std::string word = file_->attribute(array, "elem_type");
+    std::string word = file_->attribute(array, "elem_type");
+    word.resize(std::min(word.find('\0'), word.size()));
     const std::uint64_t nodes = info->sizes.size() == 2 ? info->sizes[1] : 0;
     if (info->sizes.empty() || info->sizes[0] == 0) return;
     if (equal_ignoring_case(word.substr(0, 6), "nsided") || equal_ignoring_case(word.substr(0, 6), "nfaced")) {
@@ -151,12 +152,29 @@ class ExodusReader {
     const std::uint64_t n = count("num_side_sets");
     const std::vector<GroupLabel> labels = labels_of("ss", kExodusSideSet, n);
     cell_corners();
+    shells_have_faces_ = space_ == 3;
+    for (std::uint64_t s = 0; s < n && !shells_have_faces_; ++s) shells_have_faces_ = has_edge_behind_faces(s + 1);
     for (std::uint64_t s = 0; s < n; ++s) {
       const std::string elements = fmt::format("elem_ss{}", s + 1), sides = fmt::format("side_ss{}", s + 1);
       if (!file_->find(elements) || !file_->find(sides)) continue;  // empty
       progress_.check();
       side_set(s + 1, labels[s], file_->wholes(elements), file_->wholes(sides));
     }
+  }
+
+  /// Writers differ about shells in a plane: whether their edges come first, or behind two faces, as they do in space. A side beyond the
+  /// number of corners is one of the latter.
+  [[nodiscard]] bool has_edge_behind_faces(std::uint64_t set) {
+    const std::string elements = fmt::format("elem_ss{}", set), sides = fmt::format("side_ss{}", set);
+    if (!file_->find(elements) || !file_->find(sides)) return false;
+    const std::vector<std::int64_t> of = file_->wholes(elements), number = file_->wholes(sides);
+    for (std::size_t i = 0; i < std::min(of.size(), number.size()); ++i) {
+      if (of[i] < 1 || static_cast<std::uint64_t>(of[i]) > cells_.size()) continue;  // side_set() refuses it
+      const auto cell = static_cast<std::size_t>(of[i] - 1);
+      const auto corners = static_cast<std::int64_t>(corners_of(cells_.shape(cell)));
+      if (blocks_[cells_.origin(cell)].shell && number[i] > corners && number[i] <= corners + 2) return true;
+    }
+    return false;
   }
 
   /// Where the corners of each cell begin, and the element that it is.
@@ -184,7 +202,7 @@ class ExodusReader {
         fail(fmt::format("{}: element {} out of range (the file has {} elements)", called, elements[i], cells_.size()));
       }
       const auto cell = static_cast<std::size_t>(elements[i] - 1);
-      const auto side = exodus_side(cells_.shape(cell), blocks_[cells_.origin(cell)].shell, space_, sides[i]);
+      const auto side = exodus_side(cells_.shape(cell), blocks_[cells_.origin(cell)].shell && shells_have_faces_, sides[i]);
       if (side.empty()) fail(fmt::format("{}: element {} has no side {}", called, elements[i], sides[i]));
       std::array<Index, 4> corners{};
       for (std::size_t k = 0; k < side.size(); ++k) corners[k] = cells_.all_corners()[starts_[cell] + side[k]];
@@ -278,6 +296,7 @@ class ExodusReader {
   std::unique_ptr<ArrayFile> file_;
   Mesh mesh_;
   int space_ = 3;
+  bool shells_have_faces_ = true;  // before their edges, in the order of their sides
   CellTable cells_;
   std::vector<OriginLabels> labels_;
   std::vector<Block> blocks_;

@@ -109,6 +109,16 @@ void OrbitCamera::look_from(ViewPreset preset) {
   set(normalised({1, 1, 0}), normalised({-1, 1, 2}));
 }
 
+void OrbitCamera::face(Vec3 outward) {
+  constexpr double kWellEnough = 0.3;  // of the cosine
+  const double size = length(outward);
+  if (!(size > 0.0) || dot(outward, back()) >= kWellEnough * size) return;
+  const Vec3 towards = (1.0 / size) * outward;
+  const Vec3 upright = std::abs(towards.z) < 0.99 ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
+  right = normalised(cross(upright, towards));
+  up = cross(towards, right);
+}
+
 bool OrbitCamera::is_valid() const {
   constexpr double kRounding = 1e-6;
   const auto unit = [](Vec3 v) { return std::abs(length(v) - 1.0) < kRounding; };

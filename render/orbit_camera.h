@@ -81,6 +81,9 @@ struct OrbitCamera {
   [[nodiscard]] bool is_valid() const;
   /// Looks from there, at the same centre; z is up, or y where that is the line of sight.
   void look_from(ViewPreset preset);
+  /// Turns to where a surface looks, along `outward`, unless it is seen well enough from here; z is up, or y where that is the line of
+  /// sight.
+  void face(Vec3 outward);
   /// Shows all of `points` within that part of the viewport, as large as can be: they reach two opposite borders of it, and are in the
   /// middle between the other two. Half-way into their depth they are turned about. None or a single point give a sensible view.
   void fit(std::span<const Vec3> points, Vec2<double> viewport, const PicturePart& room);

@@ -37,6 +37,25 @@ Vec2<double> pixel_of(const OrbitCamera& camera, Vec3 point) {
   return place ? Vec2<double>{0.5 * kSize.x + place->x, 0.5 * kSize.y - place->y} : Vec2<double>{-1e9, -1e9};
 }
 
+TEST(OrbitCamera, FacesWhatLooksAway) {
+  OrbitCamera camera;
+  camera.look_from(ViewPreset::PlusX);
+  const OrbitCamera before = camera;
+  camera.face({2, 1, -1});
+  EXPECT_EQ(camera, before) << "it is seen from here";
+  for (const Vec3 outward : {Vec3{-3, 0, 0}, Vec3{0.2, 5, 1}, Vec3{0, 0, 2}, Vec3{-1, 0, -1000}}) {
+    camera.look_from(ViewPreset::PlusX);
+    camera.face(outward);
+    expect_straight(camera);
+    expect_near(camera.back(), (1.0 / length(outward)) * outward);
+    EXPECT_TRUE(camera.is_valid());
+    if (std::abs(outward.z) < length(outward) * 0.9) {
+      EXPECT_GT(camera.up.z, 0.0) << "upright";
+      EXPECT_NEAR(camera.right.z, 0.0, 1e-12);
+    }
+  }
+}
+
 TEST(OrbitCamera, PresetsLookFromWhereTheySay) {
   OrbitCamera camera;
   const std::pair<const char*, Vec3> wanted[] = {{"+x", {1, 0, 0}},

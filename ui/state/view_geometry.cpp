@@ -18,6 +18,28 @@ render::Bounds2 box_of(const Frame& frame, std::span<const Index> vertices) {
   return box;
 }
 
+/// Perpendicular to an element of a surface, as long as twice its area.
+Vec3 area_vector(const Frame& frame, Index element) {
+  const auto c = frame.input->mesh.elements.corners(element);
+  Vec3 sum;
+  for (std::size_t i = 2; i < c.size(); ++i)
+    sum = sum + cross(frame.positions[c[i - 1]] - frame.positions[c[0]], frame.positions[c[i]] - frame.positions[c[0]]);
+  return sum;
+}
+
+/// Where a surface looks at some elements: outward if it is closed, else as its elements are oriented.
+Vec3 outward(const Frame& frame, std::span<const Index> elements) {
+  const Mesh& mesh = frame.input->mesh;
+  Vec3 sum;
+  for (const Index e : elements) sum = sum + area_vector(frame, e);
+  if (std::ranges::count(frame.input->topology.boundary(), 0) < std::ssize(frame.input->topology.boundary())) return sum;
+  double volume = 0.0;
+  const Vec3 origin = frame.positions[mesh.elements.corners(0)[0]];
+  for (Index e = 0; e < mesh.elements.size(); ++e)
+    volume += dot(frame.positions[mesh.elements.corners(e)[0]] - origin, area_vector(frame, e));
+  return volume < 0.0 ? -1.0 * sum : sum;
+}
+
 }  // namespace
 
 Vec2<double> plane_point(const Frame& frame, Index vertex) {
@@ -43,14 +65,16 @@ void look_at_picked(ViewState& state, const Frame& frame) {
   const bool vertex = picked.kind == Picked::Kind::Vertex;
   if (frame.input->in_space()) {
     render::Bounds3 box;
+    std::vector<Index> around{picked.id};
+    if (vertex) {
+      around.clear();
+      for (const Incidence& incidence : frame.input->topology.star(picked.id)) around.push_back(incidence.element);
+    }
+    if (frame.input->is_surface()) state.orbit.face(outward(frame, around));
     const auto include = [&](Index element) {
       for (const Index v : frame.input->mesh.elements.corners(element)) box.include(frame.positions[v]);
     };
-    if (vertex) {
-      for (const Incidence& incidence : frame.input->topology.star(picked.id)) include(incidence.element);
-    } else {
-      include(picked.id);
-    }
+    for (const Index element : around) include(element);
     state.orbit.orbit_about(vertex ? frame.positions[picked.id] : box.centre());
     state.orbit.height = kSurroundings * std::max(box.radius(), 1e-9 * frame.input->geometry.size);
     return;

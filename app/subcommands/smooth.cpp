@@ -109,7 +109,7 @@ Json json_of(const HeldMinimum& held) {
               {"vertices", std::move(vertices)}, {"unchanged", json_number(held.unchanged)}, {"switch", nullptr},
               {"would_raise_to", nullptr},       {"sentence", held.sentence(true)}};
   if (held.change) {
-    object["switch"] = held.change->option();
+    object["switch"] = held.options();
     object["would_raise_to"] = json_number(held.changed);
   }
   object["certificate"] = held.joint ? json_of(*held.joint) : Json(nullptr);

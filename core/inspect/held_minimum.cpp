@@ -1,7 +1,6 @@
 #include "core/inspect/held_minimum.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -11,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/number_text.h"
 #include "core/inspect/joint_hold.h"
+#include "core/inspect/surface_trace.h"
 #include "core/mesh/colouring.h"
 #include "core/quality/quality.h"
 #include "core/reference/hold.h"
@@ -25,17 +24,6 @@ namespace {
 constexpr int kRounds = 12;            // of visits in a trial
 constexpr double kAngleStep = 5.0;     // degrees: angles are proposed in multiples of it
 constexpr double kMoreDeviation = 10;  // times the bound
-
-constexpr std::array<std::string_view, 11> kNames{"free",   "slides",  "deviation", "boundary", "interface", "file",
-                                                  "corner", "feature", "touching",  "hand",     "neighbours"};
-constexpr std::array<std::string_view, 11> kPhrases{
-    "nothing", "nothing: it slides", "the bound of deviation", "the fixed boundary",    "a fixed interface", "the file",
-    "corners", "feature edges",      "parts that touch there", "what is fixed by hand", "its neighbours"};
-
-bool is_fixed(Holding by) { return by != Holding::Nothing && by != Holding::Slides; }
-
-/// Whether a quality rose by what a person would call a gain.
-bool gains(double before, double after) { return after - before > 1e-4 + 0.02 * std::abs(before); }
 
 /// A few words changed about what may move.
 struct Conditions {
@@ -52,8 +40,8 @@ double angle_above(double angle) { return std::min(180.0, kAngleStep * (std::flo
 /// What is asked about one element.
 class Look {
  public:
-  Look(const HeldQuestion& question, Index element, std::span<const std::uint8_t> standing)
-      : q_(question), mesh_(question.input->mesh), element_(element), standing_(standing) {
+  Look(const HeldQuestion& question, Index element, std::span<const std::uint8_t> standing, ThreadPool* pool)
+      : q_(question), mesh_(question.input->mesh), element_(element), standing_(standing), pool_(pool) {
     gather();
   }
 
@@ -73,31 +61,57 @@ class Look {
     double best = found.unchanged;
     for (std::size_t i = 0; i < all.size(); ++i) {
       check(i + 1);
-      const double there = after_switch(all[i]);
-      if (gains(best, there)) {
+      const double there = after_switches({&all[i], 1});
+      if (is_gain(best, there)) {
         if (found.change) found.in_vain.push_back(*found.change);
         best = found.changed = there;
         found.change = all[i];
-      } else if (!gains(found.unchanged, there)) {
+      } else if (!is_gain(found.unchanged, there)) {
         found.in_vain.push_back(all[i]);
       }
     }
-    try_joint(found, best, progress, go_on);
+    const bool stays = std::ranges::all_of(found.vertices, [](const HeldVertex& one) { return is_fixed(one.by); });
+    if (!stays || found.change) try_joint(found, best, progress, go_on);
+    if (!found.change && !found.rises()) try_pairs(found, all, check);
     if (found.change) std::erase_if(found.in_vain, [&](const HoldSwitch& one) { return one.frees == found.change->frees; });
     settle(found);
     return found;
   }
 
  private:
+  /// Two switches together, where none gains alone.
+  template <class Check>
+  void try_pairs(HeldMinimum& found, std::vector<HoldSwitch> all, const Check& check) const {
+    const auto has = [&all](std::string_view name) { return std::ranges::find(all, name, &HoldSwitch::name) != all.end(); };
+    // What does not slide as long as it is a corner may need more room afterwards; so may its neighbours, before.
+    if ((has("corner-angle") || has("feature-angle")) && !has("max-deviation") && q_.max_deviation < 1.0) {
+      all.push_back(more_deviation());
+      if (const double there = after_switches({&all.back(), 1}); is_gain(found.unchanged, there)) {
+        found.change = all.back();
+        found.changed = there;
+        return;
+      }
+    }
+    for (std::size_t i = 0; i < all.size(); ++i)
+      for (std::size_t k = i + 1; k < all.size(); ++k) {
+        if (all[i].name == all[k].name) continue;
+        check(all.size());
+        const double there = after_switches({{all[i], all[k]}});
+        if (!is_gain(found.change ? found.changed : found.unchanged, there)) continue;
+        found.change = all[i], found.also = all[k];
+        found.changed = there;
+      }
+  }
   /// Joint moves, where a vertex may move: of sliding ones they hold the place.
   void try_joint(HeldMinimum& found, double& best, Progress& progress, const std::function<bool()>& go_on) const {
     std::vector<std::uint8_t> fixed(q_.fixed.begin(), q_.fixed.end());
     if (q_.domain != nullptr)
       for (Index v = 0; v < fixed.size(); ++v)
         if (q_.domain->slides(v)) fixed[v] = 1;
-    auto cluster = joint_hold(*q_.input, q_.positions, fixed, q_.metric, element_, q_.joint_at_most, progress, go_on);
+    auto cluster = joint_hold(*q_.input, q_.positions, fixed, q_.metric, element_, q_.joint_at_most, pool_, progress, go_on);
     if (!cluster) return;
-    if (gains(best, cluster->after)) {
+    const bool same = is_as_bad(quality_of(q_.positions, cluster->worst_element), found.quality);
+    if (same && is_gain(best, cluster->after)) {
       if (!q_.joint_phase.empty()) {
         if (found.change) found.in_vain.push_back(*found.change);
         found.change = HoldSwitch{"then", q_.joint_phase, Holding::Neighbours};
@@ -171,9 +185,11 @@ class Look {
     if (any(Holding::Boundary)) all.push_back({"boundary", "slide", Holding::Boundary});
     if (any(Holding::Interface) && q_.rule.interfaces == InterfaceRule::Fixed) all.push_back({"interfaces", "slide", Holding::Interface});
     if (q_.domain != nullptr) add_angles(found, all);
-    if (any(Holding::Slides) && q_.max_deviation < 1.0)
-      all.push_back({"max-deviation", fmt::format("{:.6g}", std::min(1.0, kMoreDeviation * q_.max_deviation)), Holding::Deviation});
+    if (any(Holding::Slides) && q_.max_deviation < 1.0) all.push_back(more_deviation());
     return all;
+  }
+  [[nodiscard]] HoldSwitch more_deviation() const {
+    return {"max-deviation", fmt::format("{:.6g}", std::min(1.0, kMoreDeviation * q_.max_deviation)), Holding::Deviation};
   }
 
   /// "4 7": those that a person made corners.
@@ -244,17 +260,20 @@ class Look {
     return angle_between(normal(sides[0]), normal(sides[1]));
   }
 
-  /// The least quality of what is judged, after a switch; as bad as can be where it is not possible.
-  [[nodiscard]] double after_switch(const HoldSwitch& change) const {
-    Conditions then{q_.rule, q_.max_deviation, {q_.by_hand.begin(), q_.by_hand.end()}};
+  void apply(const HoldSwitch& change, Conditions& then) const {
+    const auto is_corner = [&](Index v) { return std::ranges::find(corners(), v) != corners().end(); };
     if (change.name == "boundary") then.rule.boundary = BoundaryRule::Slide;
     if (change.name == "interfaces") then.rule.interfaces = InterfaceRule::Slide;
     if (change.name == "corner-angle") then.rule.corner_angle = std::stod(change.value);
     if (change.name == "feature-angle") then.rule.feature_angle = std::stod(change.value);
-    if (change.name == "auto-corner")
-      std::erase_if(then.rule.kinds.corners, [&](Index v) { return std::ranges::find(corners(), v) != corners().end(); });
+    if (change.name == "auto-corner") std::erase_if(then.rule.kinds.corners, is_corner);
     if (change.name == "max-deviation") then.max_deviation = std::stod(change.value);
-    if (change.name == "unfix") std::erase_if(then.by_hand, [&](Index v) { return std::ranges::find(corners(), v) != corners().end(); });
+    if (change.name == "unfix") std::erase_if(then.by_hand, is_corner);
+  }
+  /// The least quality of what is judged, after switches; as bad as can be where they are not possible.
+  [[nodiscard]] double after_switches(std::span<const HoldSwitch> changes) const {
+    Conditions then{q_.rule, q_.max_deviation, {q_.by_hand.begin(), q_.by_hand.end()}};
+    for (const HoldSwitch& change : changes) apply(change, then);
     std::shared_ptr<const Domain> made;
     const Domain* domain = q_.domain;
     if (then.rule != q_.rule) {
@@ -263,12 +282,7 @@ class Look {
     }
     return after(then, domain);
   }
-  [[nodiscard]] double after(const Conditions& then, const Domain* domain) const {
-    std::vector<std::uint8_t> fixed = standing_vertices(*q_.input, then.rule, domain);
-    for (const Index v : then.by_hand) fixed[v] = 1;
-    std::vector<Index> free;
-    for (const Index v : visited_)
-      if (fixed[v] == 0) free.push_back(v);
+  [[nodiscard]] SmoothingTask task_of(const Conditions& then, const Domain* domain, std::span<const Index> free) const {
     SmoothingTask task;
     task.method = q_.method;
     task.input = q_.input;
@@ -279,6 +293,15 @@ class Look {
     task.slides = lets_slide(*q_.input, then.rule);
     task.domain = std::shared_ptr<const Domain>(std::shared_ptr<const Domain>(), domain);  // borrowed: it outlives the trial
     task.max_deviation = then.max_deviation * q_.input->geometry.size;
+    return task;
+  }
+  [[nodiscard]] double after(const Conditions& then, const Domain* domain) const {
+    std::vector<std::uint8_t> fixed = standing_vertices(*q_.input, then.rule, domain);
+    for (const Index v : then.by_hand) fixed[v] = 1;
+    std::vector<Index> free;
+    for (const Index v : visited_)
+      if (fixed[v] == 0) free.push_back(v);
+    const SmoothingTask task = task_of(then, domain, free);
     std::vector<Vec3> positions(q_.positions.begin(), q_.positions.end());
     try {
       const auto smoother = make_smoother(task);
@@ -316,13 +339,28 @@ class Look {
       if (count > most) most = count, found.by = one.by;
     }
     const bool slides = std::ranges::find(found.vertices, Holding::Slides, &HeldVertex::by) != found.vertices.end();
-    if (most == 0 && slides) found.by = Holding::Slides;
+    if (most > 0 || !slides) return;
+    found.by = Holding::Slides;
+    if (!found.rises()) look_into_visits(found);
+  }
+
+  /// Whether what the vertices on a surface could gain is refused to them.
+  void look_into_visits(HeldMinimum& found) const {
+    const SmoothingTask task = task_of({q_.rule, q_.max_deviation, {}}, q_.domain, {});
+    for (HeldVertex& one : found.vertices) {
+      if (one.by != Holding::Slides || !q_.domain->on_surface(one.vertex) || q_.method != "dmo") continue;
+      const VisitEnd end = trace_surface_visit(task, q_.positions, one.vertex, {}).trace.end;
+      if (end == VisitEnd::Leans) one.by = Holding::Tilt;
+      if (end == VisitEnd::Deviates) one.by = Holding::Deviation;
+      if (one.by != Holding::Slides) found.by = one.by;
+    }
   }
 
   const HeldQuestion& q_;
   const Mesh& mesh_;
   Index element_;
   std::span<const std::uint8_t> standing_;
+  ThreadPool* pool_;
   std::vector<Index> judged_, visited_;
 };
 
@@ -344,94 +382,16 @@ std::pair<Index, Index> worst_elements(const HeldQuestion& question, ThreadPool*
 
 }  // namespace
 
-std::string_view name(Holding holding) noexcept { return kNames[static_cast<std::size_t>(holding)]; }
-std::string_view phrase(Holding holding) noexcept { return kPhrases[static_cast<std::size_t>(holding)]; }
-
-std::string HoldSwitch::option() const {
-  if (name == "unfix") return fmt::format("--fix without {}", value);
-  return name == "auto-corner" ? fmt::format("--corner without {}", value) : fmt::format("--{} {}", name, value);
-}
-
-bool HeldMinimum::rises() const noexcept { return gains(quality, unchanged); }
-
-bool HeldMinimum::certified() const noexcept { return joint && joint->certified && !gains(quality, joint->after); }
-
-std::string_view HeldMinimum::brief() const noexcept {
-  if (change) return phrase(by);
-  if (rises()) return "nothing";
-  if (is_fixed(by)) return phrase(by);
-  return certified() ? "a certified optimum" : unchanged > quality ? "nothing" : "a local optimum";
-}
-
-std::string HeldMinimum::outlook() const {
-  if (change) return {};
-  if (rises()) return fmt::format("more iterations: about {:.2g}", unchanged);
-  if (certified())
-    return fmt::format("certified: {}",
-                       holders(*joint).size() > 1 ? fmt::format("{} hold it", holders(*joint).size()) : std::string("nothing raises it"));
-  if (is_fixed(by)) return "no switch gains here";
-  return unchanged > quality ? "it rises slowly" : "its vertices gain nothing";
-}
-
-/// "4 of its 8 vertices, 1 by corners, 3 free"
-std::string HeldMinimum::shares() const {
-  std::string text;
-  const auto count = [this](Holding one) { return std::ranges::count(vertices, one, &HeldVertex::by); };
-  if (count(by) > 0) text = fmt::format("{} of its {} vertices", count(by), vertices.size());
-  for (std::size_t k = kNames.size(); k-- > 0;) {
-    const auto other = static_cast<Holding>(k);
-    if (other == by || count(other) == 0) continue;
-    const std::string how = other == Holding::Nothing ? "free" : other == Holding::Slides ? "sliding" : fmt::format("by {}", phrase(other));
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count(other), how);
-  }
-  return text;
-}
-
-/// What was tried in vain; each parameter once.
-std::string HeldMinimum::tried(bool as_option) const {
-  std::vector<std::string_view> names;
-  std::string text;
-  for (const HoldSwitch& one : in_vain) {
-    if (std::ranges::find(names, one.name) != names.end()) continue;
-    names.push_back(one.name);
-    text += (text.empty() ? " Tried without a gain here: " : ", ") + (as_option ? one.option() : one.command());
-  }
-  return text.empty() ? text : text + ".";
-}
-
-std::string HeldMinimum::sentence(bool as_option) const {
-  const std::string text = hold_sentence(as_option);
-  const bool still = joint && !change && !rises();
-  return still ? text + ' ' + certificate_sentence(*joint) : text;
-}
-
-std::string HeldMinimum::hold_sentence(bool as_option) const {
-  std::string text;
-  if (ceiling)
-    text = fmt::format("No switch frees element {} at {}, whose vertices all stay. ", ceiling->first, four_digits(ceiling->second));
-  text += fmt::format("{} {} at {} is {}", ceiling ? "Of those that move element" : "Element", element, four_digits(quality),
-                      ceiling ? "the worst" : "the worst of all");
-  if (!change && rises()) return text + fmt::format(", and nothing holds it: more iterations raise it to about {:.2g} here.", unchanged);
-  if (!change && !is_fixed(by))
-    return text + (unchanged > quality ? ". Nothing holds it: more iterations raise it slowly." : ". It is at a local optimum.") +
-           tried(as_option);
-  text += fmt::format(". It is held by {} ({})", phrase(by), shares());
-  if (!change) return text + '.' + tried(as_option);
-  text += fmt::format(": {} would raise it from {:.2g} to about {:.2g} here", as_option ? change->option() : change->command(), quality,
-                      changed);
-  return text + (rises() ? fmt::format(", more iterations alone to {:.2g}.", unchanged) : ".");
-}
-
 std::optional<HeldMinimum> held_minimum(const HeldQuestion& question, ThreadPool* pool, Progress& progress,
                                         const std::function<bool()>& go_on) {
   const auto [worst, movable] = worst_elements(question, pool);
   if (worst == kNoIndex) return std::nullopt;
   const std::vector<std::uint8_t> standing = standing_vertices(*question.input, question.rule, question.domain);
-  HeldMinimum found = Look(question, worst, standing).find(progress, go_on);
+  HeldMinimum found = Look(question, worst, standing, pool).find(progress, go_on);
   if (found.change || movable == kNoIndex || movable == worst || found.rises()) return found;
   const bool stays = std::ranges::all_of(found.vertices, [](const HeldVertex& one) { return is_fixed(one.by); });
   if (!stays) return found;
-  HeldMinimum next = Look(question, movable, standing).find(progress, go_on);
+  HeldMinimum next = Look(question, movable, standing, pool).find(progress, go_on);
   next.ceiling = {found.element, found.quality};
   return next;
 }

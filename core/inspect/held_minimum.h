@@ -1,6 +1,7 @@
 #pragma once
 // What keeps the worst element of a mesh from getting better, and which switch would free it.
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -25,6 +26,7 @@ enum class Holding : std::uint8_t {
   Nothing,    // it is free
   Slides,     // it slides, and gains nothing more
   Deviation,  // it slides, and the bound of deviation ends its way
+  Tilt,       // it slides, and faces would lean over the input by more than 60 degrees
   Boundary,   // the boundary stays
   Interface,  // the interface between materials stays
   Named,      // the file gives it a meaning
@@ -34,6 +36,13 @@ enum class Holding : std::uint8_t {
   Hand,       // it was fixed by hand
   Neighbours  // no single move gains, joint ones do
 };
+/// Does it keep a vertex from a place that would be better?
+[[nodiscard]] inline bool is_fixed(Holding by) { return by != Holding::Nothing && by != Holding::Slides; }
+/// Whether a quality rose by what a person would call a gain.
+[[nodiscard]] inline bool is_gain(double before, double after) { return after - before > 1e-4 + 0.02 * std::abs(before); }
+/// Elements that hold one another are equally bad but for the last digits.
+[[nodiscard]] inline bool is_as_bad(double quality, double than) { return quality <= (1.0 + 1e-4) * than; }
+
 /// For machines: "free", "slides", "boundary".
 [[nodiscard]] std::string_view name(Holding holding) noexcept;
 /// For people, after "held by": "the fixed boundary".
@@ -61,13 +70,20 @@ struct HeldMinimum {
   Holding by = Holding::Nothing;                    // what keeps it, in one word
   double unchanged = 0.0;                           // the least quality around it after some more visits as things are
   std::optional<HoldSwitch> change;                 // what would free it
-  double changed = 0.0;                             // the same with that
+  std::optional<HoldSwitch> also;                   // where that alone gains nothing: what must go with it
+  double changed = 0.0;                             // the same with these
   std::vector<HoldSwitch> in_vain;                  // what was tried and gains nothing here
   std::optional<std::pair<Index, double>> ceiling;  // an element that is worse, and that nothing moves
-  std::shared_ptr<const JointCluster> joint;        // what joint moves make of it; null where they cannot be
+  std::shared_ptr<const JointCluster> joint;        // what joint moves make of the worst that they can change; null where they cannot be
 
+  /// The switches that would free it together: "boundary slide".
+  [[nodiscard]] std::vector<std::string> commands() const;
+  /// On the command line: "--feature-angle 60 --max-deviation 0.01".
+  [[nodiscard]] std::string options() const;
   /// Does the run still raise it without any change?
   [[nodiscard]] bool rises() const noexcept;
+  /// Is what joint moves can change better than the worst element, which they cannot?
+  [[nodiscard]] bool is_of_another() const noexcept;
   /// Is it known that no joint move raises it, to first order?
   [[nodiscard]] bool certified() const noexcept;
   /// After "held by": "the fixed boundary", "nothing", "a local optimum"

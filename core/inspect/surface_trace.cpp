@@ -84,9 +84,9 @@ class SurfaceLook {
         CandidateFate fate = CandidateFate::Counts;
         if (!found)
           fate = walk(offset, -1.0) ? CandidateFate::TurnedAway : CandidateFate::Feature;
-        else if (now.deviation == kNoFit.deviation && !task_.domain->faces().are_own()
-                     ? !overlay.keeps_what_lies(positions_, vertex_, here_, &stands, facets_.at(*found), &*found, bound)
-                     : !fits(overlay.star(positions_, vertex_, facets_.at(*found), &*found, kNoFit), now))
+        else if (!(now.deviation == kNoFit.deviation && !task_.domain->faces().are_own()))
+          fate = fate_of(overlay.star(positions_, vertex_, facets_.at(*found), &*found, kNoFit), now);
+        else if (!overlay.keeps_what_lies(positions_, vertex_, here_, &stands, facets_.at(*found), &*found, bound))
           fate = CandidateFate::Deviates;
         on_surface.fates.push_back(fate);
         on_surface.places.push_back(found ? facets_.at(*found) - here_ : plane.lift(offset));
@@ -95,12 +95,13 @@ class SurfaceLook {
       if (level.best) trace.found = level.at(*level.best);
     }
   }
-  [[nodiscard]] bool fits(const Fit& there, const Fit& now) const {
-    if (std::max(there.deviation, there.other_split) <= task_.max_deviation && there.least_cosine >= kLeastCosine) return true;
-    if (there.deviation == kNoFit.deviation || now.deviation == kNoFit.deviation) return false;
-    return there.deviation <= std::max(task_.max_deviation, now.deviation) &&
-           there.other_split <= std::max(task_.max_deviation, now.other_split) &&
-           there.least_cosine >= std::min(kLeastCosine, now.least_cosine);
+  /// Of a candidate with a place on the surface: as near as the bound, or no worse than where it stands.
+  [[nodiscard]] CandidateFate fate_of(const Fit& there, const Fit& now) const {
+    const bool lay = now.deviation < kNoFit.deviation, lies = there.deviation < kNoFit.deviation;
+    if (!lies || there.least_cosine < (lay ? std::min(kLeastCosine, now.least_cosine) : kLeastCosine)) return CandidateFate::Leans;
+    const double most = lay ? std::max(task_.max_deviation, now.deviation) : task_.max_deviation,
+                 most_other = lay ? std::max(task_.max_deviation, now.other_split) : task_.max_deviation;
+    return there.deviation <= most && there.other_split <= most_other ? CandidateFate::Counts : CandidateFate::Deviates;
   }
   /// Of the star's other vertices in the tangent plane, in units of its scale.
   [[nodiscard]] Vec2<double> box() const {
@@ -136,14 +137,16 @@ class SurfaceLook {
     } else if (trace.found == Vec2<double>{}) {
       trace.end = VisitEnd::NothingFound;
     } else {
-      trace.end = best_deviates() ? VisitEnd::Deviates : VisitEnd::NotConfirmed;
+      const CandidateFate fate = fate_of_best();
+      trace.end = fate == CandidateFate::Deviates ? VisitEnd::Deviates
+                  : fate == CandidateFate::Leans  ? VisitEnd::Leans
+                                                  : VisitEnd::NotConfirmed;
     }
   }
-  [[nodiscard]] bool best_deviates() const {
+  [[nodiscard]] CandidateFate fate_of_best() const {
     for (std::size_t k = visit_.trace.levels.size(); k-- > 0;)
-      if (const auto best = visit_.trace.levels[k].best)
-        return visit_.grid.levels[k].fates[static_cast<std::size_t>(*best)] == CandidateFate::Deviates;
-    return false;
+      if (const auto best = visit_.trace.levels[k].best) return visit_.grid.levels[k].fates[static_cast<std::size_t>(*best)];
+    return CandidateFate::Counts;
   }
 
   void add_elements() {
@@ -177,9 +180,10 @@ class SurfaceLook {
 }  // namespace
 
 std::string_view phrase(CandidateFate fate) noexcept {
-  constexpr std::array<std::string_view, 4> kPhrases{"", "it lies beyond a feature edge, or where the surface ends",
+  constexpr std::array<std::string_view, 5> kPhrases{"", "it lies beyond a feature edge, or where the surface ends",
                                                      "the surface is turned away there",
-                                                     "with the vertex there, faces would leave the input by more than the bound"};
+                                                     "with the vertex there, faces would leave the input by more than the bound",
+                                                     "with the vertex there, faces would lean over the input by more than 60 degrees"};
   return kPhrases[static_cast<std::size_t>(fate)];
 }
 

@@ -18,7 +18,8 @@ enum class CandidateFate : std::uint8_t {
   Counts,
   Feature,     // beyond a feature edge, or the end of the surface
   TurnedAway,  // the surface is too steep there, or turned away
-  Deviates     // it is compared, but with the vertex there faces would leave the input by more than the bound
+  Deviates,    // it is compared, but with the vertex there faces would leave the input by more than the bound
+  Leans        // likewise, but faces would lean over the input by more than 60 degrees, or not lie over it at all
 };
 /// "it lies beyond a feature edge"; empty for one that counts.
 [[nodiscard]] std::string_view phrase(CandidateFate fate) noexcept;

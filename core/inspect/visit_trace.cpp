@@ -274,6 +274,8 @@ std::string VisitSummary::sentence() const {
       return "stays: the best candidate gains nothing when judged exactly";
     case VisitEnd::Deviates:
       return "stays: with it at the best candidate, faces would leave the input by more than the bound";
+    case VisitEnd::Leans:
+      return "stays: with it at the best candidate, faces would lean over the input by more than 60 degrees";
     case VisitEnd::Waits:
       return "waits: none of its elements is inverted, and this iteration only takes back vertices whose place alone is wrong";
     case VisitEnd::Fixed:

@@ -52,6 +52,7 @@ enum class VisitEnd {
   NothingFound,  // no candidate is better than where it stands
   NotConfirmed,  // the search found one, but judged exactly it gains nothing
   Deviates,      // it found one on a surface, where faces would leave the input by more than the bound
+  Leans,         // likewise, where faces would lean over the input by more than 60 degrees
   Fixed,         // it may not move, and was not searched
   Waits          // its star is sound, and this iteration moves no such vertex: see Untangling::repair
 };

@@ -135,6 +135,46 @@ TEST(WhatHolds, TheBoundOfDeviation) {
   expect_estimates(held.changed, minimum_with(mesh, parameters));
 }
 
+/// The same, where the spoiled vertices are corners by their angles: neither switch gains alone.
+TEST(WhatHolds, TwoThingsAtOnce) {
+  Mesh mesh = spoiled(3, 0);
+  for (Index i = 1; i < kCells; ++i) mesh.positions[vertex_at(i, 0)].y += i % 2 == 0 ? 0.004 : -0.004;
+  RunParameters parameters;
+  parameters.boundary = BoundaryRule::Slide;
+  parameters.corner_angle = 20.0;
+  parameters.max_deviation = 1e-3;
+  parameters.fixed = {vertex_at(1, 0), vertex_at(4, 0)};  // so that nothing else gives way
+  const HeldMinimum held = held_of(run_of(mesh, parameters));
+  EXPECT_EQ(held.by, Holding::Corner) << held.sentence();
+  ASSERT_TRUE(held.change && held.also) << held.sentence();
+  EXPECT_EQ(held.also->command(), "max-deviation 0.01");
+  EXPECT_EQ(held.options(), "--" + held.commands()[0] + " --max-deviation 0.01");
+  parameters.corner_angle = std::stod(held.change->value);
+  EXPECT_LT(minimum_with(mesh, parameters), held.quality + 0.02) << "the corners alone";
+  parameters.max_deviation = 1e-2;
+  expect_estimates(held.changed, minimum_with(mesh, parameters));
+  parameters.corner_angle = 20.0;
+  EXPECT_LT(minimum_with(mesh, parameters), held.quality + 0.02) << "the bound alone";
+}
+
+/// A quadrilateral with a corner of nearly 180 degrees between three vertices that stay: its fourth gains nothing, and what joint moves say
+/// is said of the next.
+TEST(WhatHolds, ACornerThatStaysAndACertificateOfTheNext) {
+  Mesh mesh = lattice(kCells, 0.0, 1, testing::Cells::Quadrilaterals);
+  mesh.positions[vertex_at(0, 0)] = {0.48 / kCells, 0.48 / kCells, 0.0};
+  mesh.positions[vertex_at(3, 0)].x -= 0.5 / kCells;
+  const dmoscope::Run run = run_of(mesh, {}, 200);
+  const HeldMinimum held = held_of(run);
+  EXPECT_EQ(held.element, 0U);
+  ASSERT_TRUE(held.joint);
+  EXPECT_TRUE(held.is_of_another());
+  EXPECT_TRUE(held.joint->worst_element == 2U || held.joint->worst_element == 3U) << "those at the vertex that was put elsewhere";
+  EXPECT_GT(held.joint->before, held.quality);
+  if (!held.change) {
+    EXPECT_THAT(held.sentence(), HasSubstr("Of those that moves can change, element"));
+  }
+}
+
 TEST(WhatHolds, NothingAtAnOptimumOrOnTheWay) {
   const Mesh mesh = spoiled(3, 3);
   const HeldMinimum still = held_of(run_of(mesh, {}, 0));

@@ -2,6 +2,8 @@
 
 #include "core/inspect/surface_trace.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -63,7 +65,8 @@ TEST(SurfaceTrace, EndsAsTheRunDoesAndLiesOnTheInput) {
           const Vec2<double> flat = visit.grid.plane.project(level.places[i]), offset = visit.trace.levels[k].offsets[i];
           EXPECT_NEAR(flat.x, offset.x, 1e-9) << "straight above or below";
           EXPECT_NEAR(flat.y, offset.y, 1e-9);
-          const bool counts = level.fates[i] == CandidateFate::Counts || level.fates[i] == CandidateFate::Deviates;
+          const bool counts = level.fates[i] == CandidateFate::Counts || level.fates[i] == CandidateFate::Deviates ||
+                              level.fates[i] == CandidateFate::Leans;
           if (counts && k == 0) {
             EXPECT_LE(testing::distance_to(before[v] + level.places[i], run.input().mesh.positions, facets), 1e-9);
           }
@@ -110,6 +113,55 @@ TEST(SurfaceTrace, OfAFlatSideCountsWhatIsOnIt) {
   }
   EXPECT_GT(outside, 0U);
   EXPECT_THROW((void)trace_surface_visit(task, run.positions(), 0, {}), UsageError) << "a corner";
+}
+
+/// A floor and a steep slope, and no feature between them: a vertex of the floor that would go up the slope takes faces along that stand on
+/// the floor.
+TEST(SurfaceTrace, FacesThatWouldLeanAreTold) {
+  Mesh mesh = testing::lattice(6, 0.2, 3);
+  const double slope = 75.0 * 3.14159265358979 / 180.0;
+  const auto folded = [&](Vec3 p) {
+    return p.x <= 0.5 ? p : Vec3{0.5 + (p.x - 0.5) * std::cos(slope), p.y, (p.x - 0.5) * std::sin(slope)};
+  };
+  for (Vec3& p : mesh.positions) p = folded(p);
+  RunParameters parameters;
+  parameters.feature_angle = 180.0;
+  parameters.max_deviation = 1.0;
+  parameters.search.omega = 1.5;
+  dmoscope::Run run(testing::input(mesh), parameters, std::make_shared<ThreadPool>(1), 0);
+  const SmoothingTask task = task_of(run);
+  std::size_t leaning = 0, flat = 0, up = 0;
+  for (Index v = 0; v < run.positions().size(); ++v) {
+    if (!run.domain()->on_surface(v)) continue;
+    const Vec3 here = run.positions()[v];
+    const auto star = run.input().topology.star(v);
+    const bool all_on_floor = std::ranges::all_of(star, [&](const Incidence& at) {
+      return std::ranges::all_of(mesh.elements.corners(at.element), [&](Index w) { return mesh.positions[w].z == 0.0; });
+    });
+    if (here.z > 0.0) continue;
+    const SurfaceVisit visit = trace_surface_visit(task, run.positions(), v, {});
+    for (std::size_t k = 0; k < visit.grid.levels.size(); ++k)
+      for (std::size_t i = 0; i < visit.grid.levels[k].places.size(); ++i) {
+        const CandidateFate fate = visit.grid.levels[k].fates[i];
+        const Vec3 there = here + visit.grid.levels[k].places[i];
+        const bool turns = std::ranges::any_of(star, [&](const Incidence& at) {
+          std::array<Vec3, 3> c{};
+          std::ranges::transform(mesh.elements.corners(at.element), c.begin(), [&](Index w) { return w == v ? there : mesh.positions[w]; });
+          return cross(c[1] - c[0], c[2] - c[0]).z < 1e-9;
+        });
+        if (fate == CandidateFate::Leans) {
+          ++leaning;
+          up += there.z > 0.0 && !turns ? 1 : 0;
+          EXPECT_TRUE(!all_on_floor || there.z > 0.0 || turns) << "on the floor nothing leans that looks up";
+        } else if (there.z == 0.0 && there.x < 0.5 && fate == CandidateFate::Counts) {
+          ++flat;
+        }
+        EXPECT_NE(fate, CandidateFate::Deviates) << "the bound is the whole mesh";
+      }
+  }
+  EXPECT_GT(flat, 0U);
+  EXPECT_GT(leaning, 0U);
+  EXPECT_GT(up, 0U) << "some of them up the slope, with no face turned";
 }
 
 }  // namespace

@@ -58,6 +58,8 @@ std::string stuck_sentence(const Inspection& inspection) {
            "their elements are sound.";
   if (trace.end == VisitEnd::Deviates)
     return "It may not go to the best candidate, nor part of the way: faces would leave the input by more than the bound (max-deviation).";
+  if (trace.end == VisitEnd::Leans)
+    return "It may not go to the best candidate, nor part of the way: faces would lean over the input by more than 60 degrees.";
   std::string text = trace.end == VisitEnd::NotConfirmed ? "The search found a candidate, but the exact check shows no gain."
                      : trace.combined
                          ? fmt::format("No candidate is better than where it stands by what the search compares: {}.", trace.value_phrase)
@@ -96,7 +98,7 @@ std::string candidate_text(const Inspection& inspection, int number, int index) 
   std::string text = inspection.trace ? name_of(inspection.trace->levels[of], index) : name_of(inspection.solid->levels[of], index);
   const CandidateFate fate = inspection.grid ? inspection.grid->levels[of].fates[slot] : CandidateFate::Counts;
   if (fate == CandidateFate::Feature || fate == CandidateFate::TurnedAway) return text + fmt::format("does not count: {}", phrase(fate));
-  if (fate == CandidateFate::Deviates) text += fmt::format("{}\n", phrase(fate));
+  if (fate == CandidateFate::Deviates || fate == CandidateFate::Leans) text += fmt::format("{}\n", phrase(fate));
   text += is_valid(level.quality[slot]) ? fmt::format("quality {}\n", full_number(level.quality[slot]))
                                         : fmt::format("an element is inverted: least Jacobian {}\n", full_number(level.quality[slot]));
   text += fmt::format("{} {}", trace.value_phrase, full_number(level.values[slot]));

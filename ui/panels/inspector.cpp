@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/mesh/volume.h"
 #include "core/quality/quality.h"
@@ -82,12 +83,13 @@ void draw_switch(PanelContext& context, const RunView& run, const HeldMinimum& h
   const float right = ImGui::GetWindowContentRegionMax().x, room = ImGui::GetContentRegionAvail().x;
   const float frame = 2 * ImGui::GetStyle().FramePadding.x,
               gain_width = std::max(ImGui::CalcTextSize(gain.c_str()).x, ImGui::CalcTextSize("→ 0.0000").x);
-  const std::string label = fit_text(held.change->command(), room - frame - gain_width - context.px(8));
+  const std::string label = fit_text(fmt::format("{}", fmt::join(held.commands(), ", ")), room - frame - gain_width - context.px(8));
   const bool begun = run.moment != Moment{} || run.edits > 0 || run.records.size() > 1;
   ImGui::BeginDisabled(context.activity.busy || !run.held.now);
   // As wide whatever it says, so that nothing moves under the hand.
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, 0});
-  if (ImGui::Button(label.c_str(), {room - gain_width - context.px(8), 0})) context.send(held.change->command());
+  if (ImGui::Button(label.c_str(), {room - gain_width - context.px(8), 0}))
+    for (const std::string& command : held.commands()) context.send(command);
   ImGui::PopStyleVar();
   ImGui::EndDisabled();
   context.items.record_last("held-by:switch");

@@ -70,7 +70,7 @@ void add_surface_marks(render::SpaceMarks& marks, const InspectionState& state, 
       const auto ring = look.colours.colour(quality);
       const render::Rgba ink = good ? render::Rgba{ring.r, ring.g, ring.b, 255}
                                     : render::Rgba{kInvalidCandidate.r, kInvalidCandidate.g, kInvalidCandidate.b, 255};
-      const DotShape shape = !good ? DotShape::Cross : fate == CandidateFate::Deviates ? DotShape::Square : DotShape::Round;
+      const DotShape shape = !good ? DotShape::Cross : fate == CandidateFate::Counts ? DotShape::Round : DotShape::Square;
       pen.dot(places(number).places[i], candidate_diameter(spacing(number), good ? part_of(valid, quality) : 0.0), ink, shape);
     }
   }

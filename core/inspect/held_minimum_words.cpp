@@ -1,0 +1,134 @@
+// What holds the minimum, in words.
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/number_text.h"
+#include "core/inspect/held_minimum.h"
+#include "core/inspect/joint_hold.h"
+
+namespace dmoscope {
+
+namespace {
+
+constexpr std::array<std::string_view, 12> kNames{"free", "slides", "deviation", "tilt",     "boundary", "interface",
+                                                  "file", "corner", "feature",   "touching", "hand",     "neighbours"};
+constexpr std::array<std::string_view, 12> kPhrases{"nothing",
+                                                    "nothing: it slides",
+                                                    "the bound of deviation",
+                                                    "how far faces may lean",
+                                                    "the fixed boundary",
+                                                    "a fixed interface",
+                                                    "the file",
+                                                    "corners",
+                                                    "feature edges",
+                                                    "parts that touch there",
+                                                    "what is fixed by hand",
+                                                    "its neighbours"};
+
+}  // namespace
+
+std::string_view name(Holding holding) noexcept { return kNames[static_cast<std::size_t>(holding)]; }
+std::string_view phrase(Holding holding) noexcept { return kPhrases[static_cast<std::size_t>(holding)]; }
+
+std::string HoldSwitch::option() const {
+  if (name == "unfix") return fmt::format("--fix without {}", value);
+  return name == "auto-corner" ? fmt::format("--corner without {}", value) : fmt::format("--{} {}", name, value);
+}
+
+std::vector<std::string> HeldMinimum::commands() const {
+  std::vector<std::string> all;
+  if (change) all.push_back(change->command());
+  if (also) all.push_back(also->command());
+  return all;
+}
+
+std::string HeldMinimum::options() const {
+  std::string text = change ? change->option() : "";
+  if (also) text += ' ' + also->option();
+  return text;
+}
+
+bool HeldMinimum::rises() const noexcept { return is_gain(quality, unchanged); }
+
+bool HeldMinimum::is_of_another() const noexcept { return joint && !is_as_bad(joint->before, quality); }
+
+bool HeldMinimum::certified() const noexcept { return joint && joint->certified && !is_of_another() && !is_gain(quality, joint->after); }
+
+std::string_view HeldMinimum::brief() const noexcept {
+  if (change) return phrase(by);
+  if (rises()) return "nothing";
+  if (is_fixed(by)) return phrase(by);
+  return certified() ? "a certified optimum" : unchanged > quality ? "nothing" : "a local optimum";
+}
+
+std::string HeldMinimum::outlook() const {
+  if (change) return {};
+  if (rises()) return fmt::format("more iterations: about {:.2g}", unchanged);
+  if (certified() && is_fixed(by)) return fmt::format("no joint move gains, either: {} hold it", holders(*joint).size());
+  if (certified())
+    return fmt::format("certified: {}",
+                       holders(*joint).size() > 1 ? fmt::format("{} hold it", holders(*joint).size()) : std::string("nothing raises it"));
+  if (is_fixed(by)) return "no switch gains here";
+  return unchanged > quality ? "it rises slowly" : "its vertices gain nothing";
+}
+
+/// "4 of its 8 vertices, 1 by corners, 3 free"
+std::string HeldMinimum::shares() const {
+  std::string text;
+  const auto count = [this](Holding one) { return std::ranges::count(vertices, one, &HeldVertex::by); };
+  if (count(by) > 0) text = fmt::format("{} of its {} vertices", count(by), vertices.size());
+  for (std::size_t k = kNames.size(); k-- > 0;) {
+    const auto other = static_cast<Holding>(k);
+    if (other == by || count(other) == 0) continue;
+    const std::string how = other == Holding::Nothing ? "free" : other == Holding::Slides ? "sliding" : fmt::format("by {}", phrase(other));
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count(other), how);
+  }
+  return text;
+}
+
+/// What was tried in vain; each parameter once.
+std::string HeldMinimum::tried(bool as_option) const {
+  std::vector<std::string_view> names;
+  std::string text;
+  for (const HoldSwitch& one : in_vain) {
+    if (std::ranges::find(names, one.name) != names.end()) continue;
+    names.push_back(one.name);
+    text += (text.empty() ? " Tried without a gain here: " : ", ") + (as_option ? one.option() : one.command());
+  }
+  return text.empty() ? text : text + ".";
+}
+
+std::string HeldMinimum::sentence(bool as_option) const {
+  const std::string text = hold_sentence(as_option);
+  if (!joint || change || rises()) return text;
+  if (!is_of_another()) return text + ' ' + certificate_sentence(*joint);
+  return text +
+         fmt::format(" Of those that moves can change, element {} at {} is the worst. ", joint->worst_element, four_digits(joint->before)) +
+         (is_gain(joint->before, joint->after) ? fmt::format("Joint moves raise it to about {:.2g}.", joint->after)
+                                               : certificate_sentence(*joint));
+}
+
+std::string HeldMinimum::hold_sentence(bool as_option) const {
+  std::string text;
+  if (ceiling)
+    text = fmt::format("No switch frees element {} at {}, whose vertices all stay. ", ceiling->first, four_digits(ceiling->second));
+  text += fmt::format("{} {} at {} is {}", ceiling ? "Of those that move element" : "Element", element, four_digits(quality),
+                      ceiling ? "the worst" : "the worst of all");
+  if (!change && rises()) return text + fmt::format(", and nothing holds it: more iterations raise it to about {:.2g} here.", unchanged);
+  if (!change && !is_fixed(by))
+    return text + (unchanged > quality ? ". Nothing holds it: more iterations raise it slowly." : ". It is at a local optimum.") +
+           tried(as_option);
+  text += fmt::format(". It is held by {} ({})", phrase(by), shares());
+  if (!change) return text + '.' + tried(as_option);
+  text += fmt::format(": {} would raise it from {:.2g} to about {:.2g} here",
+                      as_option ? options() : fmt::format("{}", fmt::join(commands(), " with ")), quality, changed);
+  return text + (rises() ? fmt::format(", more iterations alone to {:.2g}.", unchanged) : ".");
+}
+
+}  // namespace dmoscope

@@ -244,9 +244,12 @@ void App::draw_side(PanelContext& context, const char* name, const Rect& rect, b
     draw_parameters(context);
     draw_colours(context);
   } else {
-    draw_clipping(context);
+    // Of a surface little is inside: what it is comes first.
+    const bool surface = context.frame() != nullptr && context.frame()->input->is_surface();
+    if (!surface) draw_clipping(context);
     if (state_.inspection.open) draw_inspection(context);
     draw_inspector(context);
+    if (surface) draw_clipping(context);
     draw_worst(context);
   }
   end_panel();

@@ -87,7 +87,7 @@ TEST(PlotHome, NoPeakOfManyIterationsIsLostInALogarithmicPlot) {
   const Plot plot = plot_of(session);
   const PlotLayout layout = *lay_out(plot, {}, kArea);
   Drawing drawing;
-  draw_clipping(drawing, plot, {}, layout, ink_of(colours()), 12, 1);
+  draw_plot_area(drawing, plot, {}, layout, ink_of(colours()), 12, 1);
   const double top = layout.y.place(0.9), at = layout.x.place(3);
   double before = 0.0, peak = 0.0;
   for (const Drawing::Line& line : drawing.lines) {

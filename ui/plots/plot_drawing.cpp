@@ -227,8 +227,8 @@ void draw_sample(Drawing& drawing, const Series& look, double x, double y, const
 
 PlotInk ink_of(const Palette& palette) { return {palette.panel, palette.text, palette.dim, palette.grid, palette.accent}; }
 
-void draw_clipping(Drawing& drawing, const Plot& plot, const PlotView& view, const PlotLayout& layout, const PlotInk& colours, double font,
-                   double unit) {
+void draw_plot_area(Drawing& drawing, const Plot& plot, const PlotView& view, const PlotLayout& layout, const PlotInk& colours, double font,
+                    double unit) {
   draw_axes(drawing, plot, layout, colours, font, unit);
   SeriesDrawer drawer(drawing, plot, layout, colours, unit);
   // The thick ones, the active run's, over the others; among these the first over later ones, as their order in the legend has it.
@@ -270,7 +270,7 @@ Drawing whole_plot(const Plot& plot, const PlotView& view, double width, double 
   drawing.labels.push_back({{width - kMargin, height - 8.0}, plot.x_title, kFont, ink(colours.dim), Drawing::Anchor::End});
   const PlotArea area{kMargin, y + 4.0, width - 2.0 * kMargin + 0.8 * kFont, height - y - 4.0 - 22.0, kFont};
   if (const auto layout = lay_out(plot, view, area)) {
-    draw_clipping(drawing, plot, view, *layout, colours, kFont, 1.0);
+    draw_plot_area(drawing, plot, view, *layout, colours, kFont, 1.0);
   } else {
     drawing.labels.push_back({{width / 2, height / 2}, plot.empty_text, kFont, ink(colours.dim), Drawing::Anchor::Middle});
   }

@@ -246,7 +246,7 @@ class Widget {
     const double font = static_cast<double>(ImGui::GetFontSize());
     cache_.layout = lay_out(plot_, view_, {origin.x, origin.y, size.x, size.y, font});
     if (cache_.layout) {
-      draw_clipping(cache_.drawing, plot_, view_, *cache_.layout, ink_of(palette_), font, scale_);
+      draw_plot_area(cache_.drawing, plot_, view_, *cache_.layout, ink_of(palette_), font, scale_);
     } else {
       const std::string text = plot_.series.empty() ? plot_.empty_text : "no value here that this axis could show";
       const DrawingColour dim{palette_.dim.r, palette_.dim.g, palette_.dim.b};

@@ -104,46 +104,73 @@ std::vector<Index> Untangler<D>::inverted_elements() const {
   return result;
 }
 
-/// Free vertices within so many rings of the inverted elements, by connected patches; those that are too large are left out.
+/// How many rings a free vertex is away from the inverted elements, up to `most`; kFar beyond that, and for others.
 template <int D>
-std::vector<std::vector<Index>> Untangler<D>::patches(const std::vector<Index>& inverted, int rings) const {
-  const InputMesh& input = mesh_.input();
-  enum : std::uint8_t { Far, Free, Taken };
-  std::vector<std::uint8_t> near(positions_.size(), Far), movable(positions_.size(), 0);
+std::vector<int> Untangler<D>::rings_from(const std::vector<Index>& inverted, int most) const {
+  const Mesh& mesh = mesh_.input().mesh;
+  std::vector<std::uint8_t> movable(positions_.size(), 0);
   for (const Index v : mesh_.free_vertices()) movable[v] = 1;
-  const auto for_neighbours = [&](Index v, const auto& body) {
-    for (const Incidence& incidence : input.topology.star(v))
-      for (const Index w : input.mesh.elements.corners(incidence.element)) body(w);
-  };
+  std::vector<int> rings(positions_.size(), kFar);
   std::vector<Index> last, next;
   for (const Index e : inverted)
-    for (const Index v : input.mesh.elements.corners(e)) {
+    for (const Index v : mesh.elements.corners(e)) {
       last.push_back(v);
-      if (movable[v] != 0) near[v] = Free;
+      if (movable[v] != 0) rings[v] = 0;
     }
-  for (int ring = 0; ring < rings && !last.empty(); ++ring) {
+  for (int ring = 1; ring <= most && !last.empty(); ++ring) {
     next.clear();
     for (const Index v : last)
-      for_neighbours(v, [&](Index w) {
-        if (movable[w] == 0 || near[w] != Far) return;
-        near[w] = Free;
-        next.push_back(w);
-      });
+      for (const Incidence& incidence : mesh_.input().topology.star(v))
+        for (const Index w : mesh.elements.corners(incidence.element)) {
+          if (movable[w] == 0 || rings[w] != kFar) continue;
+          rings[w] = ring;
+          next.push_back(w);
+        }
     last.swap(next);
   }
+  return rings;
+}
+
+/// Of those among `vertices` that are up to so many rings away the connected patches, in pieces of at most `most` vertices; each ascending.
+template <int D>
+std::vector<std::vector<Index>> Untangler<D>::connected(std::span<const Index> vertices, const std::vector<int>& rings, int limit,
+                                                        std::size_t most) const {
+  std::vector<std::uint8_t> open(positions_.size(), 0);
+  for (const Index v : vertices) open[v] = rings[v] <= limit ? 1 : 0;
   std::vector<std::vector<Index>> result;
-  for (const Index first : mesh_.free_vertices()) {
-    if (near[first] != Free) continue;
+  for (const Index first : vertices) {
+    if (open[first] == 0) continue;
     std::vector<Index> patch{first};
-    near[first] = Taken;
+    open[first] = 0;
     for (std::size_t i = 0; i < patch.size(); ++i)
-      for_neighbours(patch[i], [&](Index w) {
-        if (near[w] != Free) return;
-        near[w] = Taken;
-        patch.push_back(w);
-      });
+      for (const Incidence& incidence : mesh_.input().topology.star(patch[i]))
+        for (const Index w : mesh_.input().mesh.elements.corners(incidence.element)) {
+          if (open[w] == 0 || patch.size() == most) continue;
+          open[w] = 0;
+          patch.push_back(w);
+        }
     std::ranges::sort(patch);
-    if (patch.size() <= most_together_) result.push_back(std::move(patch));
+    result.push_back(std::move(patch));
+  }
+  return result;
+}
+
+/// Free vertices within so many rings of the inverted elements, by connected patches. Those that are too large have fewer rings, and at
+/// last are cut.
+template <int D>
+std::vector<std::vector<Index>> Untangler<D>::patches(const std::vector<Index>& inverted, int most) const {
+  const std::vector<int> rings = rings_from(inverted, most);
+  int limit = 0;
+  for (const int ring : rings)
+    if (ring != kFar) limit = std::max(limit, ring);
+  std::vector<std::vector<Index>> result, large{{mesh_.free_vertices().begin(), mesh_.free_vertices().end()}};
+  for (bool is_last = false; !large.empty() && !is_last; limit /= 2) {
+    is_last = limit == 0;
+    std::vector<std::vector<Index>> next;
+    for (const std::vector<Index>& one : large)
+      for (std::vector<Index>& patch : connected(one, rings, limit, is_last ? most_together_ : one.size()))
+        (patch.size() <= most_together_ ? result : next).push_back(std::move(patch));
+    large = std::move(next);
   }
   return result;
 }

@@ -38,7 +38,7 @@ class Untangler {
     int rings;
     Way way;
   };
-  static constexpr int kWhole = 1 << 20;  // rings: as far as it goes
+  static constexpr int kWhole = 1 << 20, kFar = kWhole + 1;  // rings: as far as it goes
   static constexpr std::array<Attempt, 9> kAttempts{{{2, Way::FoldoverFree},
                                                      {2, Way::Sprung},
                                                      {2, Way::SignedPower},
@@ -52,7 +52,10 @@ class Untangler {
 
   void attempt_all(const std::vector<Index>& inverted);
   [[nodiscard]] std::vector<Index> inverted_elements() const;
-  [[nodiscard]] std::vector<std::vector<Index>> patches(const std::vector<Index>& inverted, int rings) const;
+  [[nodiscard]] std::vector<int> rings_from(const std::vector<Index>& inverted, int most) const;
+  [[nodiscard]] std::vector<std::vector<Index>> connected(std::span<const Index> vertices, const std::vector<int>& rings, int limit,
+                                                          std::size_t most) const;
+  [[nodiscard]] std::vector<std::vector<Index>> patches(const std::vector<Index>& inverted, int most) const;
   [[nodiscard]] double reference(const LocalProblem<D>& local) const;
   [[nodiscard]] bool untangle(const std::vector<Index>& patch, Way way);
   [[nodiscard]] Offsets by_interior_point(const LocalProblem<D>& local);

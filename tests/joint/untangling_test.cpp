@@ -182,6 +182,21 @@ TEST(Untangling, MovesFewVerticesWhereFewElementsAreInverted) {
   EXPECT_EQ(tangle.state.untanglings, 1U);
 }
 
+/// Rings around what is inverted meet and make a patch that is too large to be solved at once: there are fewer rings then.
+TEST(Untangling, TakesFewerRingsWherePatchesWouldBeTooLarge) {
+  Mesh mesh = test::volume_grid(12, test::Fill::Hexahedra, 0.05, 2);
+  constexpr Index kRow = 13;
+  const auto at = [](Index i, Index j, Index k) { return (k * kRow + j) * kRow + i; };
+  for (const Index i : {3U, 6U, 9U})
+    for (const Index j : {3U, 6U, 9U})
+      for (const Index k : {3U, 6U, 9U}) mesh.positions[at(i, j, k)] = mesh.positions[at(i, j, k)] + Vec3{1.4 / 12, 0.0, 0.0};
+  Tangle tangle(input(std::move(mesh)));
+  ASSERT_GE(tangle.judge().inverted, 27U);
+  tangle.options.whole_at_most = 200;  // of 1,331 vertices
+  tangle.untangle();
+  EXPECT_EQ(tangle.judge().inverted, 0U);
+}
+
 TEST(Untangling, LeavesAloneWhatCannotBeTurned) {
   // A vertex of the boundary has crossed the mesh: what it inverts is held by fixed vertices.
   Mesh mesh = lattice(5, 0.0, 1);

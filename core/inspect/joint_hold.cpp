@@ -42,7 +42,10 @@ std::string certificate_sentence(const JointCluster& cluster) {
   if (!cluster.certified) return fmt::format("Whether joint moves raise it is not certain: {}.", cluster.why_not);
   const auto all = holders(cluster);
   if (all.size() < 2) return "Certified: no joint move raises it, to first order.";
-  std::string text = fmt::format("Certified: no joint move raises it, to first order. {} elements hold one another:", all.size());
+  std::string text = fmt::format("Certified: no joint move raises it, to first order. {} elements hold one another", all.size());
+  constexpr double kWorthNaming = 0.005;
+  if (all[0].multiplier < kWorthNaming) return text + ", each with less than 1 %.";
+  text += ':';
   for (std::size_t i = 0; i < std::min(all.size(), kNamed); ++i)
     text += fmt::format("{} {} ({:.0f} %)", i > 0 ? "," : "", all[i].element, 100.0 * all[i].multiplier);
   return text + (all.size() > kNamed ? ", …" : ".");

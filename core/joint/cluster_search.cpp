@@ -42,10 +42,10 @@ ClusterSearch<D>::ClusterSearch(const JointMesh<D>& mesh, std::span<Vec3> positi
       progress_(progress),
       function_(mesh.metric(), AtomMeasure::InverseQuality),
       whole_at_most_(options.whole_at_most > 0 ? options.whole_at_most
-                     : D == 2                  ? 20000
+                     : D == 2                  ? 80000
                                                : 3000),
       cluster_at_most_(options.cluster_at_most > 0 ? options.cluster_at_most
-                       : D == 2                    ? 20000
+                       : D == 2                    ? 80000
                                                    : 1500),
       push_at_most_(options.push_at_most > 0 ? options.push_at_most
                     : D == 2                 ? 100000

@@ -32,8 +32,8 @@ struct JointOptions {
   double push_gap = 0.03;
   bool beyond_minimum = false;      // goes on where the minimum is certified, with the next worst elements
   int max_steps = 150;              // Newton steps a solution
-  std::size_t whole_at_most = 0;    // a cluster may become the whole mesh when this many vertices are free; 0: 20000, of volumes 3000
-  std::size_t cluster_at_most = 0;  // vertices of any other; 0: 20000, of volumes 1500
+  std::size_t whole_at_most = 0;    // a cluster may become the whole mesh when this many vertices are free; 0: 80000, of volumes 3000
+  std::size_t cluster_at_most = 0;  // vertices of any other; 0: 80000, of volumes 1500
   std::size_t push_at_most = 0;     // the first push is left out where more are free; 0: 100000, of volumes 3000
   std::function<void(const JointStep&)> on_step{};
   ThreadPool* pool = nullptr;  // null: the calling thread alone; the same bits for any

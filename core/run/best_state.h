@@ -13,9 +13,8 @@ namespace dmoscope {
 inline constexpr double kLeastRise = 1e-6;
 
 /// The best iteration, from records that are told one after another, the input's first.
-/// - Of a method that optimises: of those since an element was last untangled, a minimum last rose by kLeastRise, or joint moves raised
-/// what
-///   they can change, the one of greatest mean. The minimum does not rise noticeably any more there, but goes on to cost the mean.
+/// - Of a method that optimises: the one of greatest mean since an element was last untangled, a minimum last rose by kLeastRise, or joint
+///   moves raised what they can change. The minimum does not rise noticeably any more there, but goes on to cost the mean.
 /// - Of another method: fewest inverted elements, then greatest minimum, then greatest movable minimum, then greatest mean.
 /// - Of a run for two aims, which gives up some of the first for the second: the last.
 /// Among equals the last.

@@ -119,10 +119,15 @@ TEST(WhatHolds, ACornerAndTheAngleThatItIsNot) {
   EXPECT_LT(std::stod(held.change->value), turn + 7.0);
 }
 
-/// Corners along the bottom lie by turns above and below: chords between vertices that slid would leave it.
-TEST(WhatHolds, TheBoundOfDeviation) {
+/// Vertices along the bottom lie by turns above and below: chords between those that slid would leave it.
+Mesh spoiled_and_jagged() {
   Mesh mesh = spoiled(3, 0);
   for (Index i = 1; i < kCells; ++i) mesh.positions[vertex_at(i, 0)].y += i % 2 == 0 ? 0.004 : -0.004;
+  return mesh;
+}
+
+TEST(WhatHolds, TheBoundOfDeviation) {
+  const Mesh mesh = spoiled_and_jagged();
   RunParameters parameters;
   parameters.boundary = BoundaryRule::Slide;
   parameters.corner_angle = 80.0;
@@ -137,8 +142,7 @@ TEST(WhatHolds, TheBoundOfDeviation) {
 
 /// The same, where the spoiled vertices are corners by their angles: neither switch gains alone.
 TEST(WhatHolds, TwoThingsAtOnce) {
-  Mesh mesh = spoiled(3, 0);
-  for (Index i = 1; i < kCells; ++i) mesh.positions[vertex_at(i, 0)].y += i % 2 == 0 ? 0.004 : -0.004;
+  const Mesh mesh = spoiled_and_jagged();
   RunParameters parameters;
   parameters.boundary = BoundaryRule::Slide;
   parameters.corner_angle = 20.0;

@@ -219,6 +219,47 @@ TEST(BlockCholesky, HasTheSameBitsForAnySimdLevelAndForTwoSidesAtOnce) {
   expect_same_bits<3>();
 }
 
+/// Where the elimination has branches: the matrix times the solution is the right-hand side.
+template <int D>
+void expect_small_residual(const Adjacency& graph, ThreadPool* pool) {
+  testing::Random random(11);
+  std::vector<std::array<double, D>> places(graph.offsets.size() - 1);
+  for (std::size_t v = 0; v < places.size(); ++v)
+    places[v][0] = static_cast<double>(v % kSquare), places[v][1] = static_cast<double>(v / kSquare);
+  struct Entry {
+    Index i, j;
+    typename BlockCholesky<D>::Block block;
+  };
+  std::vector<Entry> entries;
+  BlockCholesky<D> cholesky(graph, places, pool);
+  cholesky.clear();
+  fill<D>(graph, random, [&](Index i, Index j, const auto& block) {
+    cholesky.add(cholesky.slot(i, j), block);
+    entries.push_back({i, j, block});
+  });
+  ASSERT_TRUE(cholesky.factorise());
+  std::vector<double> b(places.size() * D);
+  for (double& v : b) v = random(-1.0, 1.0);
+  std::vector<double> x = b;
+  cholesky.solve(x);
+  for (const auto& [i, j, block] : entries)
+    for (std::size_t r = 0; r < D; ++r)
+      for (std::size_t c = 0; c < D; ++c) {
+        b[i * D + r] -= block[r * D + c] * x[j * D + c];
+        if (i != j) b[j * D + c] -= block[r * D + c] * x[i * D + r];
+      }
+  for (const double left : b) ASSERT_NEAR(left, 0.0, 1e-12);
+}
+
+TEST(BlockCholesky, SolvesLargeSystemsOnOneThreadAndOnSeveral) {
+  ThreadPool pool(3);
+  for (ThreadPool* const threads : {static_cast<ThreadPool*>(nullptr), &pool}) {
+    expect_small_residual<2>(lattices(kSquare, 1), threads);
+    expect_small_residual<2>(lattices(kSquare, 3), threads);
+    expect_small_residual<3>(lattices(kSquare, 1), threads);
+  }
+}
+
 TEST(BlockCholesky, HasTheSameBitsForAnyThreads) {
   for (const bool one : {false, true}) {
     const Adjacency graph = one ? lattices(kSquare, 1) : lattices(kSquare, 3);

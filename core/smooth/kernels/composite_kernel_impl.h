@@ -9,6 +9,7 @@
 // After the packs:
 #include "core/search/grid_search.h"
 #include "core/smooth/kernels/composite_kernel.h"
+#include "core/smooth/kernels/ratio_bounds.h"
 
 namespace dmoscope::composite {
 
@@ -160,9 +161,11 @@ class Kernel {
   using Second = typename Task::Second;
   using Point = OffsetIn<Frame, D>;
   static constexpr bool kSpace = std::is_same_v<Frame, Space>;
-  static constexpr std::size_t kWidth = D::size;
+  using F = Pack<float>;
+  static constexpr std::size_t kWidth = D::size, kFloats = F::size;
   static constexpr std::size_t kMaxPoints = kMaxCompositePoints;
-  static constexpr std::size_t kMaxPlane = kMaxPoints * kMaxPoints + kWidth;
+  static constexpr std::size_t kMaxPlane = kMaxPoints * kMaxPoints + kFloats;
+  static constexpr bool kBounded = kSpace && M == Metric::MeanRatio;
 
   static bool has_room(const Task& task) {
     std::size_t others = 0;
@@ -186,6 +189,7 @@ class Kernel {
     best_ = worth(Point{}, D(-1.0)).get(0);
     found.ready = best_ > 0.0;
     if (!found.ready) return found;
+    if constexpr (kBounded) bounds_.take(task_.star, first_.keeps_others ? first_.elsewhere.data() : nullptr);
     double omega = task_.omega;
     for (int level = 0; level < task_.levels; ++level) {
       search_level(omega);
@@ -271,9 +275,15 @@ class Kernel {
         plane_[1][c] = centre1 + width1 * part_[j];
       }
     }
-    for (; c % kWidth != 0; ++c) {  // once more the last, which cannot be better than itself
+    for (; c % kFloats != 0; ++c) {  // once more the last, which cannot be better than itself
       plane_[0][c] = plane_[0][n * n - 1];
       plane_[1][c] = plane_[1][n * n - 1];
+    }
+    if constexpr (kBounded) {
+      for (std::size_t i = 0; i < c; ++i) {
+        from_centre_[0][i] = static_cast<float>(plane_[0][i] - centre0);
+        from_centre_[1][i] = static_cast<float>(plane_[1][i] - centre1);
+      }
     }
   }
 
@@ -281,10 +291,49 @@ class Kernel {
     if constexpr (kSpace) {
       const double centre = at_[2], width = task_.box.x * omega;
       set_plane(task_.box.y * omega, task_.box.z * omega);
-      for (std::size_t i = 0; i < static_cast<std::size_t>(task_.points); ++i) search_plane(centre + width * part_[i]);
+      if constexpr (kBounded) {
+        const double half = 0.5 * omega;
+        bounds_.move_to({at_[2], at_[0], at_[1]}, {half * task_.box.x, half * task_.box.y, half * task_.box.z});
+        set_needs();
+      }
+      for (std::size_t i = 0; i < static_cast<std::size_t>(task_.points); ++i) {
+        const double x = centre + width * part_[i];
+        if constexpr (kBounded)
+          search_hopeful(x, static_cast<float>(x - centre));
+        else
+          search_plane(x);
+      }
     } else {
       set_plane(task_.box.x * omega, task_.box.y * omega);
       search_plane(0.0);
+    }
+  }
+
+  /// What a candidate must reach to win.
+  void set_needs() {
+    const bool is_beyond = best_ >= task_.threshold;
+    const bool by_mean = is_beyond && task_.second == Second::Mean;
+    bounds_.set_needs(is_beyond ? task_.threshold : best_, by_mean ? best_ - task_.threshold : 0.0);
+  }
+
+  /// Looks at those of these candidates that may win by their bounds. `x`: the first coordinate of all of them; `from_centre`: the same
+  /// from the grid's centre.
+  void search_hopeful(double x, float from_centre) {
+    const std::size_t candidates = static_cast<std::size_t>(task_.points) * static_cast<std::size_t>(task_.points);
+    for (std::size_t c = 0; c < candidates; c += kFloats) {
+      const auto hope = bounds_.may_reach({F(from_centre), F::load_aligned(from_centre_[0] + c), F::load_aligned(from_centre_[1] + c)});
+      if (!xsimd::any(hope)) continue;
+      alignas(64) float hopeful[kFloats];
+      xsimd::select(hope, F(1.0F), F(0.0F)).store_aligned(hopeful);
+      for (std::size_t k = 0; k < kFloats; k += kWidth) {
+        bool any = false;
+        for (std::size_t i = k; i < k + kWidth; ++i) any = any || hopeful[i] > 0.0F;
+        if (!any) continue;
+        const D value = worth({D(x), D::load_aligned(plane_[0] + c + k), D::load_aligned(plane_[1] + c + k)}, D(best_));
+        if (!xsimd::any(value > D(best_))) continue;
+        take_best(value, c + k, x);
+        set_needs();
+      }
     }
   }
 
@@ -322,6 +371,8 @@ class Kernel {
   double at_[3] = {0.0, 0.0, 0.0};  // where: along the last two axes, and in space along the first
   double part_[kMaxPoints];         // an axis' candidates, as parts of the grid's size
   alignas(64) double plane_[2][kMaxPlane];
+  alignas(64) float from_centre_[2][kBounded ? kMaxPlane : 1];
+  std::conditional_t<kBounded, RatioBounds<D, F>, int> bounds_;
 };
 
 /// The kernel for the first metric with this translation unit's widest packs.

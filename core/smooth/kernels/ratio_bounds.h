@@ -1,0 +1,179 @@
+#pragma once
+// Bounds of the mean ratio of a volume's star, for packs of places and in float: a candidate that cannot win by them need not be looked at
+// exactly. Only composite_kernel_impl.h includes it; see lane_kernel_impl.h for what that asks of the code.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "core/numeric/pack.h"
+// After the packs:
+#include "core/smooth/kernels/composite_kernel.h"
+#include "core/smooth/kernels/volume_form.h"
+
+namespace dmoscope::composite {
+
+/// Every tetrahedron, and every corner of another element that changes with the vertex, is a form (see MeanRatioForm): its rank is v |v| /
+/// s^3, with v affine and s quadratic in the place. Both are taken around the centre of a grid and, in float, with room for all rounding:
+/// never below the true v, never above the true s. The mean ratio is the cube root of the rank, which is concave: at most the tangent at
+/// the rank that the element has in the centre. So no root is needed, and the bound is closest where the grid is fine.
+/// D, F: packs of doubles and of floats of one processor.
+template <class D, class F>
+class RatioBounds {
+ public:
+  using Lists = CompositeLists<Space>;
+  using Place = Vec3Of<F>;
+  using Hope = typename F::batch_bool_type;
+
+  /// `elsewhere`: by element that is no tetrahedron, the least mean ratio of the corners that stay; null: not known.
+  void take(const Lists& star, const D* elsewhere) {
+    pieces_ = elements_ = 0;
+    for (std::size_t i = 0; i < star.simplices.size; ++i) {
+      const StarTetrahedron<double>& t = star.simplices.data[i];
+      begin_element(1.0);
+      take(volumes::tetrahedron_form(point_of<D>(t.b), point_of<D>(t.c), point_of<D>(t.d)));
+    }
+    const Vec3Of<D> origin{D(0.0), D(0.0), D(0.0)};
+    std::size_t k = 0;
+    star.for_others([&](const auto& element) {
+      const double known = elsewhere != nullptr ? elsewhere[k++].get(0) : 1.0;
+      begin_element(known * known * known);
+      volumes::for_corner_forms(element.with(origin), element.kMoving, [this](const volumes::MeanRatioForm<D>& form) { take(form); });
+    });
+    first_[elements_] = static_cast<std::uint16_t>(pieces_);
+    for (std::size_t i = 0; i < elements_; ++i) order_[i] = static_cast<std::uint16_t>(i);
+  }
+
+  /// For places that are no farther from `centre` than `half` along each axis.
+  void move_to(const std::array<double, 3>& centre, const std::array<double, 3>& half) {
+    greatest_sum_ = 0.0;
+    for (std::size_t i = 0; i < elements_; ++i) {
+      double rank = caps_[i], most = caps_[i];
+      for (std::size_t k = first_[i]; k < first_[i + 1]; ++k) {
+        const Reach reach = move_piece(k, centre, half);
+        rank = rank < reach.here ? rank : reach.here;
+        most = most < reach.most ? most : reach.most;
+      }
+      // The tangent of the cube root at the element's rank; an upper bound wherever it touches.
+      const double at = rank > kLeastTangent ? rank : kLeastTangent, root = scalar::refined_cube_root(at, scalar::rough_cube_root(at)),
+                   slope = 1.0 / (3.0 * root * root);
+      slopes_[i] = static_cast<float>(slope);
+      most_[i] = static_cast<float>(most * kMore);
+      greatest_sum_ += 2.0 / 3.0 * root + slope * most * kMore;
+    }
+  }
+
+  /// What a place must reach: the least mean ratio around the vertex, and the mean of all elements; 0: whatever it is.
+  void set_needs(double least, double mean) {
+    const auto elements = static_cast<double>(elements_);
+    least_ = static_cast<float>(least * least * least * kLess);
+    sum_ = mean > 0.0 ? static_cast<float>(mean * elements - (elements + 8.0) * 0x1p-22 * (greatest_sum_ + 1.0)) : -kMost;
+  }
+
+  /// May a place reach what is needed? `d`: from the centre.
+  [[nodiscard]] Hope may_reach(const Place& d) {
+    const F square = xsimd::fma(d.x, d.x, xsimd::fma(d.y, d.y, d.z * d.z));
+    const F least(least_), sum(sum_);
+    F possible(static_cast<float>(greatest_sum_));
+    Hope hope = square == square;
+    for (std::size_t n = 0; n < elements_; ++n) {
+      const std::size_t i = order_[n];
+      F rank(most_[i]);
+      for (std::size_t k = first_[i]; k < first_[i + 1]; ++k) {
+        const F of_piece = rank_of(near_[k], d, square);
+        hope = hope & (of_piece >= least);
+        rank = xsimd::min(rank, of_piece);
+      }
+      possible = possible - F(slopes_[i]) * (F(most_[i]) - rank);
+      hope = hope & (possible >= sum);
+      if (xsimd::any(hope)) continue;
+      to_front(n);
+      break;
+    }
+    return hope;
+  }
+
+ private:
+  static constexpr std::size_t kMaxElements = kMaxSimplices + kMaxOthers, kMaxPieces = kMaxSimplices + 4 * kMaxOthers;
+  // Room for rounding. Of a float's 24 bits a sum of four products loses less than 4, a product or quotient less than 1; of a double's 53,
+  // which moving to another centre costs a few, those of the exact search among them, less than 9.
+  static constexpr double kOfFloats = 0x1p-20, kOfDoubles = 0x1p-44, kMore = 1.0 + 0x1p-19, kLess = 1.0 - 0x1p-19;
+  static constexpr double kLeastTangent = 1e-3;
+  static constexpr float kMost = std::numeric_limits<float>::max();
+  static constexpr float kLeastSquares = 1e-6F;  // of 1, beneath which a norm may be rounding alone
+
+  /// A form around the centre, where its squared norm is 1.
+  struct Near {
+    float v0, vx, vy, vz, s0, sx, sy, sz, square;
+  };
+  /// The rank of a piece in the centre, and the most that it may be anywhere.
+  struct Reach {
+    double here, most;
+  };
+
+  void begin_element(double cap) {
+    first_[elements_] = static_cast<std::uint16_t>(pieces_);
+    caps_[elements_++] = cap < 0.0 ? 0.0 : cap < 1.0 ? cap : 1.0;  // no mean ratio is above 1
+  }
+  void take(const volumes::MeanRatioForm<D>& f) {
+    forms_[pieces_++] = {f.v0.get(0), f.vx.get(0), f.vy.get(0), f.vz.get(0),    f.s0.get(0),
+                         f.sx.get(0), f.sy.get(0), f.sz.get(0), f.square.get(0)};
+  }
+
+  static double size(double a) { return a < 0.0 ? -a : a; }
+
+  Reach move_piece(std::size_t k, const std::array<double, 3>& c, const std::array<double, 3>& half) {
+    const volumes::MeanRatioForm<double>& f = forms_[k];
+    const double cc = c[0] * c[0] + c[1] * c[1] + c[2] * c[2], hh = half[0] * half[0] + half[1] * half[1] + half[2] * half[2];
+    const double v_moved = f.v0 + f.vx * c[0] + f.vy * c[1] + f.vz * c[2];
+    const double s_moved = f.s0 + f.sx * c[0] + f.sy * c[1] + f.sz * c[2] + f.square * cc;
+    if (!(s_moved > 0.0)) return give_up(k);
+    const double by_s = 1.0 / s_moved, by_v = by_s * xsimd::sqrt(D(by_s)).get(0);
+    const double v = v_moved * by_v, vx = f.vx * by_v, vy = f.vy * by_v, vz = f.vz * by_v, square = f.square * by_s;
+    const double sx = (f.sx + 2.0 * f.square * c[0]) * by_s, sy = (f.sy + 2.0 * f.square * c[1]) * by_s,
+                 sz = (f.sz + 2.0 * f.square * c[2]) * by_s;
+    const double v_way = size(vx) * half[0] + size(vy) * half[1] + size(vz) * half[2];
+    const double s_way = size(sx) * half[0] + size(sy) * half[1] + size(sz) * half[2];
+    const double v_terms = (size(f.v0) + size(f.vx * c[0]) + size(f.vy * c[1]) + size(f.vz * c[2])) * by_v;
+    const double s_terms = (size(f.s0) + size(f.sx * c[0]) + size(f.sy * c[1]) + size(f.sz * c[2]) + f.square * cc) * by_s;
+    const double v_room = kOfFloats * (size(v) + v_way) + kOfDoubles * v_terms;
+    const double s_room = kOfFloats * (1.0 + s_way + square * hh) + kOfDoubles * s_terms;
+    near_[k] = {static_cast<float>(v + v_room), static_cast<float>(vx),           static_cast<float>(vy),
+                static_cast<float>(vz),         static_cast<float>(1.0 - s_room), static_cast<float>(sx),
+                static_cast<float>(sy),         static_cast<float>(sz),           static_cast<float>(square)};
+    const double most_v = v + v_room + v_way, least_s = 1.0 - s_room - s_way;
+    const double most = least_s > 0.1 ? most_v * size(most_v) / (least_s * least_s * least_s) : 1.0;
+    return {v * size(v), most < 1.0 ? most : 1.0};
+  }
+  /// A norm that rounding has eaten says nothing.
+  Reach give_up(std::size_t k) {
+    near_[k] = {1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 0.0F};
+    return {1.0, 1.0};
+  }
+
+  static F rank_of(const Near& f, const Place& d, const F& square) {
+    const F v = xsimd::fma(F(f.vx), d.x, xsimd::fma(F(f.vy), d.y, xsimd::fma(F(f.vz), d.z, F(f.v0))));
+    const F s = xsimd::fma(F(f.sx), d.x, xsimd::fma(F(f.sy), d.y, xsimd::fma(F(f.sz), d.z, xsimd::fma(F(f.square), square, F(f.s0)))));
+    const F inverse = F(1.0F) / xsimd::max(s, F(kLeastSquares)), part = v * inverse;
+    return part * xsimd::abs(part) * inverse;
+  }
+
+  /// The one that decided is likely to decide the next.
+  void to_front(std::size_t n) {
+    const std::uint16_t i = order_[n];
+    for (; n > 0; --n) order_[n] = order_[n - 1];
+    order_[0] = i;
+  }
+
+  std::size_t pieces_ = 0, elements_ = 0;
+  double greatest_sum_ = 0.0;
+  float least_ = 0.0F, sum_ = 0.0F;
+  std::uint16_t first_[kMaxElements + 1];  // of an element's pieces
+  std::uint16_t order_[kMaxElements];
+  double caps_[kMaxElements];                        // the most that an element's rank may be, by its corners that stay
+  float slopes_[kMaxElements], most_[kMaxElements];  // of the tangent; the most that the rank may be near the centre
+  volumes::MeanRatioForm<double> forms_[kMaxPieces];
+  Near near_[kMaxPieces];
+};
+
+}  // namespace dmoscope::composite

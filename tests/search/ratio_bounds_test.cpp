@@ -1,0 +1,169 @@
+// Bounds of the mean ratio never say that a place falls short of what it reaches, and say it of most that do.
+
+#include "core/smooth/kernels/ratio_bounds.h"
+
+#include <algorithm>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/mesh/random.h"
+
+namespace dmoscope {
+namespace {
+
+using D = Pack<double>;
+using F = Pack<float>;
+using Bounds = composite::RatioBounds<D, F>;
+
+Vec3 random_point(dmoscope::Random& random, Vec3 size) {
+  return {random.between(-size.x, size.x), random.between(-size.y, size.y), random.between(-size.z, size.z)};
+}
+
+/// A star around the origin and what grows of it: its lengths times `stretch`, its corners away from the vertex by 1, give or take `jolt`.
+struct Sample {
+  VolumeStar<double> star;
+  Vec3 stretch;
+  Sample(dmoscope::Random& random, Vec3 by, double jolt) : stretch(by) {
+    const auto jolted = [&](Vec3 corner) {
+      const Vec3 p = corner + random_point(random, {jolt, jolt, jolt});
+      return Vec3{p.x * by.x, p.y * by.y, p.z * by.z};
+    };
+    for (const double x : {-1.0, 1.0})
+      for (const double y : {-1.0, 1.0})
+        for (const double z : {-1.0, 1.0}) {
+          Vec3 a = jolted({x, 0, 0}), b = jolted({0, y, 0}), c = jolted({0, 0, z});
+          if (x * y * z < 0.0) std::swap(a, b);
+          star.tetrahedra.push_back({a, b, c, 1.0});
+          const Vec3 ab = a + b, bc = b + c, ca = c + a;
+          star.hexahedra.push_back({{a, ab, b, c, ca, ab + c, bc}, 1.0});
+          star.wedges.push_back({{a, b, c, a + c, bc}, 1.0});
+          star.pyramids.push_back({{a, ab, b, c}, 1.0});
+          star.tips.push_back({{c - a - b, c - a + b, c + a + b, c + a - b}, 1.0});
+        }
+  }
+};
+
+struct Worth {
+  double least = 1.0, sum = 0.0, count = 0.0;
+};
+Worth worth_at(const VolumeStar<double>& star, Vec3 p) {
+  Worth worth;
+  VolumeStarView<double>(star).for_each<true>([&](const auto& element) {
+    const auto shape = element.with(p);
+    worth.least = std::min(worth.least, formulas::metric_around<Metric::MeanRatio>(shape, element.kMoving));
+    worth.sum += formulas::metric<Metric::MeanRatio>(shape);
+    worth.count += 1.0;
+  });
+  return worth;
+}
+template <class Ideal, std::size_t N, class Corners>
+double least_of_those_that_stay(const formulas::CorneredSolid<Vec3, Ideal, N, Corners>& solid, Index moving) {
+  double least = 1.0;
+  for (const formulas::CornerTable& c : Corners::kTable) {
+    if (std::ranges::find(c, moving) != c.end()) continue;
+    const Vec3 a = solid.at[c[0]], u = solid.at[c[1]] - a, v = solid.at[c[2]] - a, w = solid.at[c[3]] - a;
+    least = std::min(least, formulas::SolidFormula<Metric::MeanRatio>::corner<Ideal>(u, v, w, dot(cross(u, v), w)));
+  }
+  return least;
+}
+/// Of each element that is no tetrahedron.
+std::vector<D> elsewhere(const VolumeStar<double>& star) {
+  std::vector<D> result;
+  lists_of(star).for_others(
+      [&](const auto& element) { result.emplace_back(least_of_those_that_stay(element.with(Vec3{}), element.kMoving)); });
+  return result;
+}
+
+/// Is there hope of a place in the middle slot of a pack of it and of its neighbours?
+bool hopes(Bounds& bounds, Vec3 from_centre) {
+  const auto along = [](double a) { return F(static_cast<float>(a)); };
+  return xsimd::any(bounds.may_reach({along(from_centre.x), along(from_centre.y), along(from_centre.z)}));
+}
+
+struct Case {
+  const char* name;
+  Vec3 stretch;
+  double jolt;
+};
+void PrintTo(const Case& each, std::ostream* out) { *out << each.name; }
+class RatioBounds : public testing::TestWithParam<Case> {};
+class CloseRatioBounds : public RatioBounds {};
+
+/// Calls f(star, bounds, centre, place, half) for places within grids around the vertex and around others where it is sound.
+template <class F>
+void for_places(const Case& parameter, F f) {
+  dmoscope::Random random(7);
+  for (int trial = 0; trial < 30; ++trial) {
+    const Sample sample(random, parameter.stretch, parameter.jolt);
+    const std::vector<D> known = elsewhere(sample.star);
+    Bounds bounds;
+    bounds.take(lists_of(sample.star), known.data());
+    for (const double size : {0.5, 0.1, 0.02}) {
+      const Vec3 half = size * sample.stretch, centre = random_point(random, 0.2 * sample.stretch);
+      if (!(worth_at(sample.star, centre).least > 0.0)) continue;
+      bounds.move_to({centre.x, centre.y, centre.z}, {half.x, half.y, half.z});
+      for (int i = 0; i < 40; ++i) f(sample.star, bounds, centre, centre + random_point(random, half));
+    }
+  }
+}
+
+TEST_P(RatioBounds, LeaveHopeForWhatAPlaceReaches) {
+  int sound = 0;
+  for_places(GetParam(), [&](const auto& star, Bounds& bounds, Vec3 centre, Vec3 place) {
+    const Worth worth = worth_at(star, place);
+    if (!(worth.least > 0.0)) return;
+    ++sound;
+    const double mean = worth.sum / worth.count;
+    bounds.set_needs(worth.least, mean);
+    EXPECT_TRUE(hopes(bounds, place - centre));
+    bounds.set_needs(worth.least, 0.0);
+    EXPECT_TRUE(hopes(bounds, place - centre));
+  });
+  EXPECT_GT(sound, 1000);
+}
+
+TEST_P(CloseRatioBounds, LeaveNoneForMuchMore) {
+  int tried = 0, by_least = 0, by_mean = 0;
+  for_places(GetParam(), [&](const auto& star, Bounds& bounds, Vec3 centre, Vec3 place) {
+    const Worth worth = worth_at(star, place);
+    if (!(worth.least > 0.01)) return;
+    ++tried;
+    const double mean = worth.sum / worth.count;
+    bounds.set_needs(1.001 * worth.least, 0.0);
+    by_least += hopes(bounds, place - centre) ? 0 : 1;
+    bounds.set_needs(0.0, mean + 0.02);
+    by_mean += hopes(bounds, place - centre) ? 0 : 1;
+  });
+  EXPECT_GT(by_least, tried * 95 / 100);
+  EXPECT_GT(by_mean, tried / 2);
+}
+
+/// Inverted elements are worth nothing.
+TEST_P(CloseRatioBounds, LeaveNoneForInvertedElements) {
+  int inverted = 0;
+  for_places(GetParam(), [&](const auto& star, Bounds& bounds, Vec3 centre, Vec3 place) {
+    if (!(worth_at(star, place).least < -1e-3)) return;
+    ++inverted;
+    bounds.set_needs(0.0, 0.0);
+    EXPECT_FALSE(hopes(bounds, place - centre));
+  });
+  EXPECT_GT(inverted, 10);
+}
+
+constexpr auto name_of = [](const auto& each) { return std::string(each.param.name); };
+INSTANTIATE_TEST_SUITE_P(Stars, RatioBounds,
+                         testing::Values(Case{"Regular", {1, 1, 1}, 0.05}, Case{"Jolted", {1, 1, 1}, 0.3}, Case{"Flat", {1, 1, 1e-3}, 0.2},
+                                         Case{"Needle", {1e-4, 1, 1e-4}, 0.2}, Case{"Tiny", {1e-6, 1e-6, 1e-6}, 0.2},
+                                         Case{"Large", {1e5, 1e5, 1e5}, 0.2}),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(Stars, CloseRatioBounds,
+                         testing::Values(Case{"Regular", {1, 1, 1}, 0.05}, Case{"Jolted", {1, 1, 1}, 0.3}, Case{"Long", {1, 1, 3}, 0.2},
+                                         Case{"Tiny", {1e-6, 1e-6, 1e-6}, 0.2}),
+                         name_of);
+
+}  // namespace
+}  // namespace dmoscope

@@ -17,7 +17,7 @@ std::optional<JointCluster> joint_hold(const InputMesh& input, std::span<const V
   const auto quality = [&](Index e) { return element_quality(input.quality_context(), positions, metric, e); };
   if (!(quality(element) > 0.0)) return std::nullopt;
   JointOptions options;
-  options.whole_at_most = options.cluster_at_most = at_most;
+  options.whole_at_most = options.cluster_at_most = options.push_at_most = at_most;
   options.pool = pool;
   if (go_on)
     options.on_step = [&go_on](const JointStep&) {

@@ -316,8 +316,8 @@ std::string ClusterSearch<D>::why_not(const std::vector<Index>& cluster) const {
   if (solution.end == InteriorPointEnd::Steps) return fmt::format("{} Newton steps did not suffice", options_.max_steps);
   if (solution.end != InteriorPointEnd::Gap) return "no step was found that leads further";
   if (!(solved_.rim_share < kClosedRim))
-    return fmt::format("{:.2g} % of what holds it lies on the rim of the {} vertices, and they are as many as may move together",
-                       100.0 * solved_.rim_share, cluster.size());
+    return fmt::format("{:.2g} % of what holds it lies on the rim of the {} vertices, and {}", 100.0 * solved_.rim_share, cluster.size(),
+                       options_.cluster_at_most > 0 ? "no more are tried here" : "they are as many as may move together");
   const double bound = 1.0 / (solution.last.tau - solution.last.gap());
   if (!(bound - reached() <= 4.0 * options_.gap * bound)) return "the metric as judged did not rise as the solution did";
   return {};

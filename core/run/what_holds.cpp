@@ -15,8 +15,10 @@ std::optional<HeldMinimum> what_holds(const Run& run, ThreadPool* pool, Progress
   question.search = p.search;
   question.domains = domains;
   if (!method_info(p.method).joint && !p.then_joint) question.joint_phase = p.then_mean ? "joint,mean" : "joint";
-  constexpr std::size_t kMostAtRest = 4000;  // nobody has asked for it then
-  if (go_on) question.joint_at_most = kMostAtRest;
+  // A run that moves vertices jointly looks at large clusters itself. After any other, and where nobody has asked, the answer is not to
+  // take longer than the run.
+  constexpr std::size_t kMostInThePlane = 4000, kMostInVolumes = 500;
+  if (go_on || !question.joint_phase.empty()) question.joint_at_most = run.input().is_volume() ? kMostInVolumes : kMostInThePlane;
   return held_minimum(question, pool, progress, go_on);
 }
 

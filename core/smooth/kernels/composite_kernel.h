@@ -111,7 +111,7 @@ class CandidateList {
   }
 
  private:
-  static constexpr std::size_t kWidest = 8;  // doubles of the widest pack
+  static constexpr std::size_t kWidest = 16;  // floats of the widest pack
   std::array<std::vector<double>, 3> at_;
 };
 

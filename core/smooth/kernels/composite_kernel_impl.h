@@ -189,7 +189,7 @@ class Kernel {
     best_ = worth(Point{}, D(-1.0)).get(0);
     found.ready = best_ > 0.0;
     if (!found.ready) return found;
-    if constexpr (kBounded) bounds_.take(task_.star, first_.keeps_others ? first_.elsewhere.data() : nullptr);
+    if constexpr (kBounded) take_bounds();
     double omega = task_.omega;
     for (int level = 0; level < task_.levels; ++level) {
       search_level(omega);
@@ -205,7 +205,7 @@ class Kernel {
   CompositeBest best_of(const CompositeCandidates& candidates, double best) {
     best_ = best;
     CompositeBest found{true, candidates.count, best};
-    for (std::size_t c = 0; c < candidates.count; c += kWidth) {
+    const auto look = [&](std::size_t c) {
       const auto along = [&](std::size_t axis) { return D::load_unaligned(candidates.at[axis] + c); };
       Point p;
       if constexpr (std::is_same_v<Frame, Plane>)
@@ -215,13 +215,44 @@ class Kernel {
       else
         p.v = {along(0), along(1), along(2)};
       const D value = worth(p, D(best_));
-      if (!xsimd::any(value > D(best_))) continue;
+      if (!xsimd::any(value > D(best_))) return false;
       alignas(64) double values[kWidth];
       value.store_aligned(values);
       for (std::size_t k = 0; k < kWidth; ++k)
         if (values[k] > best_) best_ = values[k], found = {true, c + k, best_};
+      return true;
+    };
+    if constexpr (kBounded) {
+      look_at_hopeful(candidates, look);
+    } else {
+      for (std::size_t c = 0; c < candidates.count; c += kWidth) look(c);
     }
     return found;
+  }
+
+  /// Calls look(c) for each pack of doubles that may win by its bounds; it tells whether something did.
+  template <class Look>
+  void look_at_hopeful(const CompositeCandidates& candidates, const Look& look) {
+    std::array<double, 3> centre{}, half{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      double low = candidates.count > 0 ? candidates.at[axis][0] : 0.0, high = low;
+      for (std::size_t i = 1; i < candidates.count; ++i) {
+        const double at = candidates.at[axis][i];
+        low = at < low ? at : low;
+        high = at > high ? at : high;
+      }
+      centre[axis] = 0.5 * (low + high), half[axis] = 0.5 * (high - low);
+    }
+    take_bounds();
+    bounds_.move_to(centre, half);
+    set_needs();
+    for (std::size_t c = 0; c < candidates.count; c += kFloats) {
+      alignas(64) float from_centre[3][kFloats];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t k = 0; k < kFloats; ++k) from_centre[axis][k] = static_cast<float>(candidates.at[axis][c + k] - centre[axis]);
+      look_where_hopeful({F::load_aligned(from_centre[0]), F::load_aligned(from_centre[1]), F::load_aligned(from_centre[2])},
+                         [&](std::size_t k) { return c + k < candidates.count && look(c + k); });
+    }
   }
 
   [[nodiscard]] auto beyond(D least) const {
@@ -309,6 +340,7 @@ class Kernel {
     }
   }
 
+  void take_bounds() { bounds_.take(task_.star, first_.keeps_others ? first_.elsewhere.data() : nullptr); }
   /// What a candidate must reach to win.
   void set_needs() {
     const bool is_beyond = best_ >= task_.threshold;
@@ -316,39 +348,46 @@ class Kernel {
     bounds_.set_needs(is_beyond ? task_.threshold : best_, by_mean ? best_ - task_.threshold : 0.0);
   }
 
-  /// Looks at those of these candidates that may win by their bounds. `x`: the first coordinate of all of them; `from_centre`: the same
-  /// from the grid's centre.
+  /// Calls look(k) for each pack of doubles, of those in a pack of floats, of which one may win by its bounds; it tells whether one did.
+  template <class Look>
+  void look_where_hopeful(const Vec3Of<F>& from_centre, const Look& look) {
+    const auto hope = bounds_.may_reach(from_centre);
+    if (!xsimd::any(hope)) return;
+    alignas(64) float hopeful[kFloats];
+    xsimd::select(hope, F(1.0F), F(0.0F)).store_aligned(hopeful);
+    for (std::size_t k = 0; k < kFloats; k += kWidth) {
+      bool any = false;
+      for (std::size_t i = k; i < k + kWidth; ++i) any = any || hopeful[i] > 0.0F;
+      if (any && look(k)) set_needs();
+    }
+  }
+
+  /// Looks at those of these candidates that may win. `x`: the first coordinate of all of them; `from_centre`: the same from the grid's
+  /// centre.
   void search_hopeful(double x, float from_centre) {
     const std::size_t candidates = static_cast<std::size_t>(task_.points) * static_cast<std::size_t>(task_.points);
     for (std::size_t c = 0; c < candidates; c += kFloats) {
-      const auto hope = bounds_.may_reach({F(from_centre), F::load_aligned(from_centre_[0] + c), F::load_aligned(from_centre_[1] + c)});
-      if (!xsimd::any(hope)) continue;
-      alignas(64) float hopeful[kFloats];
-      xsimd::select(hope, F(1.0F), F(0.0F)).store_aligned(hopeful);
-      for (std::size_t k = 0; k < kFloats; k += kWidth) {
-        bool any = false;
-        for (std::size_t i = k; i < k + kWidth; ++i) any = any || hopeful[i] > 0.0F;
-        if (!any) continue;
-        const D value = worth({D(x), D::load_aligned(plane_[0] + c + k), D::load_aligned(plane_[1] + c + k)}, D(best_));
-        if (!xsimd::any(value > D(best_))) continue;
-        take_best(value, c + k, x);
-        set_needs();
-      }
+      look_where_hopeful({F(from_centre), F::load_aligned(from_centre_[0] + c), F::load_aligned(from_centre_[1] + c)},
+                         [&](std::size_t k) { return look_at(c + k, x); });
     }
   }
 
   /// `x`: in space, the first coordinate of all of these candidates.
   void search_plane(double x) {
     const std::size_t candidates = static_cast<std::size_t>(task_.points) * static_cast<std::size_t>(task_.points);
-    for (std::size_t c = 0; c < candidates; c += kWidth) {
-      const D first = D::load_aligned(plane_[0] + c), second = D::load_aligned(plane_[1] + c);
-      D value;
-      if constexpr (kSpace)
-        value = worth({D(x), first, second}, D(best_));
-      else
-        value = worth({first, second}, D(best_));
-      if (xsimd::any(value > D(best_))) take_best(value, c, x);
-    }
+    for (std::size_t c = 0; c < candidates; c += kWidth) look_at(c, x);
+  }
+  /// A pack of them, from number `c` on. Is one better than all before?
+  bool look_at(std::size_t c, double x) {
+    const D first = D::load_aligned(plane_[0] + c), second = D::load_aligned(plane_[1] + c);
+    D value;
+    if constexpr (kSpace)
+      value = worth({D(x), first, second}, D(best_));
+    else
+      value = worth({first, second}, D(best_));
+    if (!xsimd::any(value > D(best_))) return false;
+    take_best(value, c, x);
+    return true;
   }
 
   /// Among equals the candidate of lowest index.

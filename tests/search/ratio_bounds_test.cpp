@@ -17,7 +17,7 @@ namespace {
 
 using D = Pack<double>;
 using F = Pack<float>;
-using Bounds = composite::RatioBounds<D, F>;
+using Bounds = composite::RatioBounds<Space, D, F>;
 
 Vec3 random_point(dmoscope::Random& random, Vec3 size) {
   return {random.between(-size.x, size.x), random.between(-size.y, size.y), random.between(-size.z, size.z)};

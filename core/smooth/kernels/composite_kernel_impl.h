@@ -165,7 +165,7 @@ class Kernel {
   static constexpr std::size_t kWidth = D::size, kFloats = F::size;
   static constexpr std::size_t kMaxPoints = kMaxCompositePoints;
   static constexpr std::size_t kMaxPlane = kMaxPoints * kMaxPoints + kFloats;
-  static constexpr bool kBounded = kSpace && M == Metric::MeanRatio;
+  static constexpr bool kBounded = !std::is_same_v<Frame, Curved> && M == Metric::MeanRatio;
 
   static bool has_room(const Task& task) {
     std::size_t others = 0;
@@ -233,8 +233,9 @@ class Kernel {
   /// Calls look(c) for each pack of doubles that may win by its bounds; it tells whether something did.
   template <class Look>
   void look_at_hopeful(const CompositeCandidates& candidates, const Look& look) {
+    constexpr std::size_t kAxes = kSpace ? 3 : 2;
     std::array<double, 3> centre{}, half{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; axis < kAxes; ++axis) {
       double low = candidates.count > 0 ? candidates.at[axis][0] : 0.0, high = low;
       for (std::size_t i = 1; i < candidates.count; ++i) {
         const double at = candidates.at[axis][i];
@@ -244,14 +245,14 @@ class Kernel {
       centre[axis] = 0.5 * (low + high), half[axis] = 0.5 * (high - low);
     }
     take_bounds();
-    bounds_.move_to(centre, half);
-    set_needs();
+    move_bounds_to(centre, half);
     for (std::size_t c = 0; c < candidates.count; c += kFloats) {
-      alignas(64) float from_centre[3][kFloats];
-      for (std::size_t axis = 0; axis < 3; ++axis)
+      alignas(64) float from_centre[kAxes][kFloats];
+      for (std::size_t axis = 0; axis < kAxes; ++axis)
         for (std::size_t k = 0; k < kFloats; ++k) from_centre[axis][k] = static_cast<float>(candidates.at[axis][c + k] - centre[axis]);
-      look_where_hopeful({F::load_aligned(from_centre[0]), F::load_aligned(from_centre[1]), F::load_aligned(from_centre[2])},
-                         [&](std::size_t k) { return c + k < candidates.count && look(c + k); });
+      OffsetIn<Frame, F> d{F::load_aligned(from_centre[0]), F::load_aligned(from_centre[1])};
+      if constexpr (kSpace) d.z = F::load_aligned(from_centre[2]);
+      look_where_hopeful(d, [&](std::size_t k) { return c + k < candidates.count && look(c + k); });
     }
   }
 
@@ -319,28 +320,29 @@ class Kernel {
   }
 
   void search_level(double omega) {
+    const double half = 0.5 * omega;
     if constexpr (kSpace) {
       const double centre = at_[2], width = task_.box.x * omega;
       set_plane(task_.box.y * omega, task_.box.z * omega);
-      if constexpr (kBounded) {
-        const double half = 0.5 * omega;
-        bounds_.move_to({at_[2], at_[0], at_[1]}, {half * task_.box.x, half * task_.box.y, half * task_.box.z});
-        set_needs();
-      }
+      move_bounds_to({at_[2], at_[0], at_[1]}, {half * task_.box.x, half * task_.box.y, half * task_.box.z});
       for (std::size_t i = 0; i < static_cast<std::size_t>(task_.points); ++i) {
         const double x = centre + width * part_[i];
-        if constexpr (kBounded)
-          search_hopeful(x, static_cast<float>(x - centre));
-        else
-          search_plane(x);
+        search_plane(x, static_cast<float>(x - centre));
       }
     } else {
       set_plane(task_.box.x * omega, task_.box.y * omega);
-      search_plane(0.0);
+      move_bounds_to({at_[0], at_[1], 0.0}, {half * task_.box.x, half * task_.box.y, 0.0});
+      search_plane(0.0, 0.0F);
     }
   }
 
-  void take_bounds() { bounds_.take(task_.star, first_.keeps_others ? first_.elsewhere.data() : nullptr); }
+  void move_bounds_to(const std::array<double, 3>& centre, const std::array<double, 3>& half) {
+    if constexpr (kBounded) {
+      bounds_.move_to(centre, half);
+      set_needs();
+    }
+  }
+  void take_bounds() { bounds_.take(task_.star, kSpace && first_.keeps_others ? first_.elsewhere.data() : nullptr); }
   /// What a candidate must reach to win.
   void set_needs() {
     const bool is_beyond = best_ >= task_.threshold;
@@ -350,7 +352,7 @@ class Kernel {
 
   /// Calls look(k) for each pack of doubles, of those in a pack of floats, of which one may win by its bounds; it tells whether one did.
   template <class Look>
-  void look_where_hopeful(const Vec3Of<F>& from_centre, const Look& look) {
+  void look_where_hopeful(const OffsetIn<Frame, F>& from_centre, const Look& look) {
     const auto hope = bounds_.may_reach(from_centre);
     if (!xsimd::any(hope)) return;
     alignas(64) float hopeful[kFloats];
@@ -362,20 +364,20 @@ class Kernel {
     }
   }
 
-  /// Looks at those of these candidates that may win. `x`: the first coordinate of all of them; `from_centre`: the same from the grid's
-  /// centre.
-  void search_hopeful(double x, float from_centre) {
+  /// Looks at those of a plane's candidates that may win. `x`: in space, the first coordinate of all of them; `from_centre`: the same from
+  /// the grid's centre.
+  void search_plane(double x, [[maybe_unused]] float from_centre) {
     const std::size_t candidates = static_cast<std::size_t>(task_.points) * static_cast<std::size_t>(task_.points);
-    for (std::size_t c = 0; c < candidates; c += kFloats) {
-      look_where_hopeful({F(from_centre), F::load_aligned(from_centre_[0] + c), F::load_aligned(from_centre_[1] + c)},
-                         [&](std::size_t k) { return look_at(c + k, x); });
+    if constexpr (kBounded) {
+      for (std::size_t c = 0; c < candidates; c += kFloats) {
+        const F first = F::load_aligned(from_centre_[0] + c), second = F::load_aligned(from_centre_[1] + c);
+        OffsetIn<Frame, F> d{first, second};
+        if constexpr (kSpace) d = {F(from_centre), first, second};
+        look_where_hopeful(d, [&](std::size_t k) { return look_at(c + k, x); });
+      }
+    } else {
+      for (std::size_t c = 0; c < candidates; c += kWidth) look_at(c, x);
     }
-  }
-
-  /// `x`: in space, the first coordinate of all of these candidates.
-  void search_plane(double x) {
-    const std::size_t candidates = static_cast<std::size_t>(task_.points) * static_cast<std::size_t>(task_.points);
-    for (std::size_t c = 0; c < candidates; c += kWidth) look_at(c, x);
   }
   /// A pack of them, from number `c` on. Is one better than all before?
   bool look_at(std::size_t c, double x) {
@@ -411,7 +413,7 @@ class Kernel {
   double part_[kMaxPoints];         // an axis' candidates, as parts of the grid's size
   alignas(64) double plane_[2][kMaxPlane];
   alignas(64) float from_centre_[2][kBounded ? kMaxPlane : 1];
-  std::conditional_t<kBounded, RatioBounds<D, F>, int> bounds_;
+  std::conditional_t<kBounded, RatioBounds<Frame, D, F>, int> bounds_;
 };
 
 /// The kernel for the first metric with this translation unit's widest packs.

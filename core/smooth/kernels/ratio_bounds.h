@@ -1,50 +1,50 @@
 #pragma once
-// Bounds of the mean ratio of a volume's star, for packs of places and in float: a candidate that cannot win by them need not be looked at
-// exactly. Only composite_kernel_impl.h includes it; see lane_kernel_impl.h for what that asks of the code.
+// Bounds of the mean ratio of a star, for packs of places and in float: a candidate that cannot win by them need not be looked at exactly.
+// Only composite_kernel_impl.h includes it; see lane_kernel_impl.h for what that asks of the code.
 
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "core/numeric/pack.h"
 // After the packs:
+#include "core/search/ratio_form.h"
 #include "core/smooth/kernels/composite_kernel.h"
 #include "core/smooth/kernels/volume_form.h"
 
 namespace dmoscope::composite {
 
-/// Every tetrahedron, and every corner of another element that changes with the vertex, is a form (see MeanRatioForm): its rank is v |v| /
-/// s^3, with v affine and s quadratic in the place. Both are taken around the centre of a grid and, in float, with room for all rounding:
-/// never below the true v, never above the true s. The mean ratio is the cube root of the rank, which is concave: at most the tangent at
-/// the rank that the element has in the centre. So no root is needed, and the bound is closest where the grid is fine.
+/// Every simplex, and every corner of another element that changes with the vertex, is a form: of two functions of the vertex's place, v
+/// affine and s quadratic. In the plane its mean ratio is v / s (see RatioForm), in space the cube root of v |v| / s^3 (see MeanRatioForm).
+/// That without the root is its rank. Both functions are taken around the centre of a grid and, in float, with room for all rounding: never
+/// below the true v, never above the true s. The cube root is concave: at most its tangent at the rank that the element has in the centre.
+/// So no root is needed, and the bound is closest where the grid is fine.
 /// D, F: packs of doubles and of floats of one processor.
-template <class D, class F>
+template <class Frame, class D, class F>
 class RatioBounds {
  public:
-  using Lists = CompositeLists<Space>;
-  using Place = Vec3Of<F>;
+  using Lists = CompositeLists<Frame>;
+  using Place = OffsetIn<Frame, F>;
   using Hope = typename F::batch_bool_type;
 
-  /// `elsewhere`: by element that is no tetrahedron, the least mean ratio of the corners that stay; null: not known.
+  /// `elsewhere`: in space, by element that is no simplex, the least mean ratio of the corners that stay; null: not known.
   void take(const Lists& star, const D* elsewhere) {
     pieces_ = elements_ = 0;
     for (std::size_t i = 0; i < star.simplices.size; ++i) {
-      const StarTetrahedron<double>& t = star.simplices.data[i];
       begin_element(1.0);
-      take(volumes::tetrahedron_form(point_of<D>(t.b), point_of<D>(t.c), point_of<D>(t.d)));
+      take_simplex(star.simplices.data[i]);
     }
-    const Vec3Of<D> origin{D(0.0), D(0.0), D(0.0)};
     std::size_t k = 0;
     star.for_others([&](const auto& element) {
-      const double known = elsewhere != nullptr ? elsewhere[k++].get(0) : 1.0;
-      begin_element(known * known * known);
-      volumes::for_corner_forms(element.with(origin), element.kMoving, [this](const volumes::MeanRatioForm<D>& form) { take(form); });
+      begin_element(elsewhere != nullptr ? rank_of_ratio(elsewhere[k++].get(0)) : 1.0);
+      take_other(element);
     });
     first_[elements_] = static_cast<std::uint16_t>(pieces_);
     for (std::size_t i = 0; i < elements_; ++i) order_[i] = static_cast<std::uint16_t>(i);
   }
 
-  /// For places that are no farther from `centre` than `half` along each axis.
+  /// For places that are no farther from `centre` than `half` along each axis; in the plane of two.
   void move_to(const std::array<double, 3>& centre, const std::array<double, 3>& half) {
     greatest_sum_ = 0.0;
     for (std::size_t i = 0; i < elements_; ++i) {
@@ -54,25 +54,24 @@ class RatioBounds {
         rank = rank < reach.here ? rank : reach.here;
         most = most < reach.most ? most : reach.most;
       }
-      // The tangent of the cube root at the element's rank; an upper bound wherever it touches.
-      const double at = rank > kLeastTangent ? rank : kLeastTangent, root = scalar::refined_cube_root(at, scalar::rough_cube_root(at)),
-                   slope = 1.0 / (3.0 * root * root);
-      slopes_[i] = static_cast<float>(slope);
+      const Tangent tangent = tangent_at(rank);
+      slopes_[i] = static_cast<float>(tangent.slope);
       most_[i] = static_cast<float>(most * kMore);
-      greatest_sum_ += 2.0 / 3.0 * root + slope * most * kMore;
+      greatest_sum_ += tangent.at_zero + tangent.slope * most * kMore;
     }
   }
 
   /// What a place must reach: the least mean ratio around the vertex, and the mean of all elements; 0: whatever it is.
   void set_needs(double least, double mean) {
     const auto elements = static_cast<double>(elements_);
-    least_ = static_cast<float>(least * least * least * kLess);
+    least_ = static_cast<float>(rank_of_ratio(least) * kLess);
     sum_ = mean > 0.0 ? static_cast<float>(mean * elements - (elements + 8.0) * 0x1p-22 * (greatest_sum_ + 1.0)) : -kMost;
   }
 
   /// May a place reach what is needed? `d`: from the centre.
   [[nodiscard]] Hope may_reach(const Place& d) {
-    const F square = xsimd::fma(d.x, d.x, xsimd::fma(d.y, d.y, d.z * d.z));
+    F square = xsimd::fma(d.x, d.x, d.y * d.y);
+    if constexpr (kSpace) square = xsimd::fma(d.z, d.z, square);
     const F least(least_), sum(sum_);
     F possible(static_cast<float>(greatest_sum_));
     Hope hope = square == square;
@@ -94,6 +93,7 @@ class RatioBounds {
   }
 
  private:
+  static constexpr bool kSpace = std::is_same_v<Frame, Space>;
   static constexpr std::size_t kMaxElements = kMaxSimplices + kMaxOthers, kMaxPieces = kMaxSimplices + 4 * kMaxOthers;
   // Room for rounding. Of a float's 24 bits a sum of four products loses less than 4, a product or quotient less than 1; of a double's 53,
   // which moving to another centre costs a few, those of the exact search among them, less than 9.
@@ -111,14 +111,58 @@ class RatioBounds {
     double here, most;
   };
 
-  void begin_element(double cap) {
+  void begin_element(double most) {
     first_[elements_] = static_cast<std::uint16_t>(pieces_);
-    caps_[elements_++] = cap < 0.0 ? 0.0 : cap < 1.0 ? cap : 1.0;  // no mean ratio is above 1
+    caps_[elements_++] = 1.0;  // no mean ratio is above that
+    cap(most);
+  }
+  /// The rank of the element that was begun last is at most this.
+  void cap(double most) {
+    double& known = caps_[elements_ - 1];
+    known = most < 0.0 ? 0.0 : most < known ? most : known;
   }
   void take(const volumes::MeanRatioForm<D>& f) {
     forms_[pieces_++] = {f.v0.get(0), f.vx.get(0), f.vy.get(0), f.vz.get(0),    f.s0.get(0),
                          f.sx.get(0), f.sy.get(0), f.sz.get(0), f.square.get(0)};
   }
+  void take(const RatioForm<D>& f) {
+    forms_[pieces_++] = {f.n0.get(0), f.nx.get(0), f.ny.get(0), 0.0, f.s0.get(0), f.sx.get(0), f.sy.get(0), 0.0, f.s2.get(0)};
+  }
+  template <class Simplex>
+  void take_simplex(const Simplex& t) {
+    if constexpr (kSpace) {
+      take(volumes::tetrahedron_form(point_of<D>(t.b), point_of<D>(t.c), point_of<D>(t.d)));
+    } else {
+      RatioForm<D> form;
+      triangle_form(StarTriangle<D>{point_of<D>(t.b), point_of<D>(t.c), D(1.0)}, form);
+      take(form);
+    }
+  }
+  template <class Element>
+  void take_other(const Element& element) {
+    if constexpr (kSpace) {
+      const Vec3Of<D> origin{D(0.0), D(0.0), D(0.0)};
+      volumes::for_corner_forms(element.with(origin), element.kMoving, [this](const volumes::MeanRatioForm<D>& form) { take(form); });
+    } else {
+      RatioForm<D> forms[kQuadrilateralForms<Metric::MeanRatio>];
+      const StarQuadrilateral<D> q{point_of<D>(element.b), point_of<D>(element.c), point_of<D>(element.d), D(1.0)};
+      cap(quadrilateral_forms<Metric::MeanRatio>(q, forms).get(0));
+      for (const RatioForm<D>& form : forms) take(form);
+    }
+  }
+
+  static double rank_of_ratio(double ratio) { return kSpace ? ratio * ratio * ratio : ratio; }
+  /// What is never below the mean ratio of a rank: at_zero + slope * rank.
+  struct Tangent {
+    double at_zero, slope;
+  };
+  static Tangent tangent_at(double rank) {
+    if constexpr (!kSpace) return {0.0, 1.0};
+    const double at = rank > kLeastTangent ? rank : kLeastTangent, root = scalar::refined_cube_root(at, scalar::rough_cube_root(at));
+    return {2.0 / 3.0 * root, 1.0 / (3.0 * root * root)};
+  }
+  /// The rank of v and s.
+  static double rank(double v, double s) { return kSpace ? v * size(v) / (s * s * s) : v / s; }
 
   static double size(double a) { return a < 0.0 ? -a : a; }
 
@@ -128,7 +172,7 @@ class RatioBounds {
     const double v_moved = f.v0 + f.vx * c[0] + f.vy * c[1] + f.vz * c[2];
     const double s_moved = f.s0 + f.sx * c[0] + f.sy * c[1] + f.sz * c[2] + f.square * cc;
     if (!(s_moved > 0.0)) return give_up(k);
-    const double by_s = 1.0 / s_moved, by_v = by_s * xsimd::sqrt(D(by_s)).get(0);
+    const double by_s = 1.0 / s_moved, by_v = kSpace ? by_s * xsimd::sqrt(D(by_s)).get(0) : by_s;
     const double v = v_moved * by_v, vx = f.vx * by_v, vy = f.vy * by_v, vz = f.vz * by_v, square = f.square * by_s;
     const double sx = (f.sx + 2.0 * f.square * c[0]) * by_s, sy = (f.sy + 2.0 * f.square * c[1]) * by_s,
                  sz = (f.sz + 2.0 * f.square * c[2]) * by_s;
@@ -142,8 +186,8 @@ class RatioBounds {
                 static_cast<float>(vz),         static_cast<float>(1.0 - s_room), static_cast<float>(sx),
                 static_cast<float>(sy),         static_cast<float>(sz),           static_cast<float>(square)};
     const double most_v = v + v_room + v_way, least_s = 1.0 - s_room - s_way;
-    const double most = least_s > 0.1 ? most_v * size(most_v) / (least_s * least_s * least_s) : 1.0;
-    return {v * size(v), most < 1.0 ? most : 1.0};
+    const double most = least_s > 0.1 ? rank(most_v, least_s) : 1.0;
+    return {rank(v, 1.0), most < 1.0 ? most : 1.0};
   }
   /// A norm that rounding has eaten says nothing.
   Reach give_up(std::size_t k) {
@@ -152,10 +196,14 @@ class RatioBounds {
   }
 
   static F rank_of(const Near& f, const Place& d, const F& square) {
-    const F v = xsimd::fma(F(f.vx), d.x, xsimd::fma(F(f.vy), d.y, xsimd::fma(F(f.vz), d.z, F(f.v0))));
-    const F s = xsimd::fma(F(f.sx), d.x, xsimd::fma(F(f.sy), d.y, xsimd::fma(F(f.sz), d.z, xsimd::fma(F(f.square), square, F(f.s0)))));
+    F v = xsimd::fma(F(f.vx), d.x, xsimd::fma(F(f.vy), d.y, F(f.v0)));
+    F s = xsimd::fma(F(f.sx), d.x, xsimd::fma(F(f.sy), d.y, xsimd::fma(F(f.square), square, F(f.s0))));
+    if constexpr (kSpace) {
+      v = xsimd::fma(F(f.vz), d.z, v);
+      s = xsimd::fma(F(f.sz), d.z, s);
+    }
     const F inverse = F(1.0F) / xsimd::max(s, F(kLeastSquares)), part = v * inverse;
-    return part * xsimd::abs(part) * inverse;
+    return kSpace ? part * xsimd::abs(part) * inverse : part;
   }
 
   /// The one that decided is likely to decide the next.

@@ -141,6 +141,41 @@ D second_metric(const CompositeLists<Frame>& star, const OffsetIn<Frame, D>& p, 
   return threshold + least_at<M, Frame, D>(star, p, sieve, [&](D least) { return xsimd::any(threshold + least > best); });
 }
 
+/// What costs less than the second metric, and tells most places that are worse than the best one: the least rank (see formulas::rank) with
+/// the vertex at each of the places or, where none is above `floor`, that so far; and by how much ranks must differ so that it is certain.
+template <class Frame, class D>
+struct SecondRank {
+  D (*least)(const CompositeLists<Frame>& star, const OffsetIn<Frame, D>& p, Sieve<D>& sieve, double floor) = nullptr;
+  double (*doubt)(double rank) = nullptr;
+};
+template <Metric M, class Frame, class D>
+D least_rank(const CompositeLists<Frame>& star, const OffsetIn<Frame, D>& p, Sieve<D>& sieve, double floor) {
+  using scalar::min;
+  D least(static_cast<double>(std::numeric_limits<float>::max()));
+  for (std::size_t i = 0; i < star.simplices.size; ++i) {
+    least = min(least, formulas::rank<M>(star.simplices.data[sieve.order[i]].with(p)));
+    if (xsimd::any(least > D(floor))) continue;
+    sieve.to_front(i);
+    return least;
+  }
+  if constexpr (formulas::kDefinedForOthers<M, OffsetIn<Frame, D>>)
+    star.for_others([&](const auto& element) {
+      if (xsimd::any(least > D(floor))) least = min(least, formulas::rank_around<M>(element.with(p), element.kMoving));
+    });
+  return least;
+}
+/// None of metrics whose rank they are themselves or costs as much, or whose sign does not tell inverted elements.
+template <Metric M, class Frame, class D>
+SecondRank<Frame, D> second_rank() {
+  using Point = OffsetIn<Frame, D>;
+  using Simplex = std::remove_cvref_t<decltype(CompositeLists<Frame>{}.simplices.data->with(Point{}))>;
+  constexpr bool kHasRank = requires(const Simplex& simplex) { formulas::Formula<M>::rank_triangle(simplex); }
+  || requires(const Simplex& simplex) { formulas::SolidFormula<M>::rank_tetrahedron(simplex); };
+  if constexpr (kHasRank && M != Metric::RadiusRatio && formulas::kSignTellsInversion<M, Point>)
+    return {&least_rank<M, Frame, D>, [](double rank) { return formulas::rank_doubt<M>(rank); }};
+  return {};
+}
+
 /// M: the first metric; D: pack of doubles, a candidate per slot.
 template <Metric M, class Frame, class D>
 class Kernel {
@@ -166,6 +201,8 @@ class Kernel {
   static constexpr std::size_t kMaxPoints = kMaxCompositePoints;
   static constexpr std::size_t kMaxPlane = kMaxPoints * kMaxPoints + kFloats;
   static constexpr bool kBounded = !std::is_same_v<Frame, Curved> && M == Metric::MeanRatio;
+  /// In the plane an exact look costs little more than a bound: only where the mean is raised, too, bounds pay.
+  [[nodiscard]] bool is_bounded() const { return kSpace || task_.second == Second::Mean; }
 
   static bool has_room(const Task& task) {
     std::size_t others = 0;
@@ -175,9 +212,11 @@ class Kernel {
 
   explicit Kernel(const Task& task)
       : task_(task), first_(task.star.simplices.size, task.second == Second::Mean), second_(task.star.simplices.size, false) {
-    if (task.second == Second::Metric)
+    if (task.second == Second::Metric) {
       second_metric_ =
           with_metric_of<Frame>(task.metric, []<Metric Other>() -> SecondMetric<Frame, D> { return &second_metric<Other, Frame, D>; });
+      second_rank_ = with_metric_of<Frame>(task.metric, []<Metric Other>() { return second_rank<Other, Frame, D>(); });
+    }
     if constexpr (formulas::kSignTellsInversion<M, Point> && formulas::kDefinedForOthers<M, Point>)
       if (first_.keeps_others) find_elsewhere<M, Frame>(task.star, first_);
   }
@@ -189,17 +228,32 @@ class Kernel {
     best_ = worth(Point{}, D(-1.0)).get(0);
     found.ready = best_ > 0.0;
     if (!found.ready) return found;
-    if constexpr (kBounded) take_bounds();
+    take_bounds();
+    note_second();
     double omega = task_.omega;
     for (int level = 0; level < task_.levels; ++level) {
       search_level(omega);
       omega *= 2.0 / (task_.points - 1);
     }
-    if constexpr (kSpace)
-      found.offset = {at_[2], at_[0], at_[1]};
-    else
-      found.offset = {at_[0], at_[1]};
+    found.offset = best_place();
     return found;
+  }
+  [[nodiscard]] OffsetIn<Frame, double> best_place() const {
+    if constexpr (kSpace)
+      return {at_[2], at_[0], at_[1]};
+    else if constexpr (std::is_same_v<Frame, Plane>)
+      return {at_[0], at_[1]};
+    else
+      return {};  // which is searched by lists alone
+  }
+  /// Where the best place is beyond the threshold: no place whose second metric ranks lower is better.
+  void note_second() {
+    if constexpr (!std::is_same_v<Frame, Curved>) {
+      constexpr double kLeastCertain = 1e-4;  // see formulas::rank_doubt
+      if (second_rank_.least == nullptr || !(best_ > task_.threshold)) return;
+      const double rank = second_rank_.least(task_.star, point_of<D>(best_place()), second_, -1.0).get(0);
+      least_second_ = rank > kLeastCertain ? rank - 2.0 * second_rank_.doubt(rank) : 0.0;
+    }
   }
 
   CompositeBest best_of(const CompositeCandidates& candidates, double best) {
@@ -223,10 +277,12 @@ class Kernel {
       return true;
     };
     if constexpr (kBounded) {
-      look_at_hopeful(candidates, look);
-    } else {
-      for (std::size_t c = 0; c < candidates.count; c += kWidth) look(c);
+      if (is_bounded()) {
+        look_at_hopeful(candidates, look);
+        return found;
+      }
     }
+    for (std::size_t c = 0; c < candidates.count; c += kWidth) look(c);
     return found;
   }
 
@@ -264,6 +320,7 @@ class Kernel {
   /// What CompositeScore says of each of the places; in a slot that is not above `best`, which is positive or below all, anything that
   /// is not.
   D worth(const Point& p, D best) {
+    if (least_second_ > 0.0 && !xsimd::any(second_rank_.least(task_.star, p, second_, least_second_) > D(least_second_))) return best;
     const D least = least_at<M, Frame, D>(task_.star, p, first_, [&](D so_far) { return xsimd::any((so_far > best) | beyond(so_far)); });
     const auto is_beyond = beyond(least);
     return xsimd::any(is_beyond) ? xsimd::select(is_beyond, worth_beyond(p, best), least) : least;
@@ -312,6 +369,7 @@ class Kernel {
       plane_[1][c] = plane_[1][n * n - 1];
     }
     if constexpr (kBounded) {
+      if (!is_bounded()) return;
       for (std::size_t i = 0; i < c; ++i) {
         from_centre_[0][i] = static_cast<float>(plane_[0][i] - centre0);
         from_centre_[1][i] = static_cast<float>(plane_[1][i] - centre1);
@@ -338,11 +396,16 @@ class Kernel {
 
   void move_bounds_to(const std::array<double, 3>& centre, const std::array<double, 3>& half) {
     if constexpr (kBounded) {
+      if (!is_bounded()) return;
       bounds_.move_to(centre, half);
       set_needs();
     }
   }
-  void take_bounds() { bounds_.take(task_.star, kSpace && first_.keeps_others ? first_.elsewhere.data() : nullptr); }
+  void take_bounds() {
+    if constexpr (kBounded) {
+      if (is_bounded()) bounds_.take(task_.star, kSpace && first_.keeps_others ? first_.elsewhere.data() : nullptr);
+    }
+  }
   /// What a candidate must reach to win.
   void set_needs() {
     const bool is_beyond = best_ >= task_.threshold;
@@ -369,15 +432,17 @@ class Kernel {
   void search_plane(double x, [[maybe_unused]] float from_centre) {
     const std::size_t candidates = static_cast<std::size_t>(task_.points) * static_cast<std::size_t>(task_.points);
     if constexpr (kBounded) {
-      for (std::size_t c = 0; c < candidates; c += kFloats) {
-        const F first = F::load_aligned(from_centre_[0] + c), second = F::load_aligned(from_centre_[1] + c);
-        OffsetIn<Frame, F> d{first, second};
-        if constexpr (kSpace) d = {F(from_centre), first, second};
-        look_where_hopeful(d, [&](std::size_t k) { return look_at(c + k, x); });
+      if (is_bounded()) {
+        for (std::size_t c = 0; c < candidates; c += kFloats) {
+          const F first = F::load_aligned(from_centre_[0] + c), second = F::load_aligned(from_centre_[1] + c);
+          OffsetIn<Frame, F> d{first, second};
+          if constexpr (kSpace) d = {F(from_centre), first, second};
+          look_where_hopeful(d, [&](std::size_t k) { return look_at(c + k, x); });
+        }
+        return;
       }
-    } else {
-      for (std::size_t c = 0; c < candidates; c += kWidth) look_at(c, x);
     }
+    for (std::size_t c = 0; c < candidates; c += kWidth) look_at(c, x);
   }
   /// A pack of them, from number `c` on. Is one better than all before?
   bool look_at(std::size_t c, double x) {
@@ -389,6 +454,7 @@ class Kernel {
       value = worth({first, second}, D(best_));
     if (!xsimd::any(value > D(best_))) return false;
     take_best(value, c, x);
+    note_second();
     return true;
   }
 
@@ -408,6 +474,8 @@ class Kernel {
   const Task& task_;
   Sieve<D> first_, second_;  // of the two metrics
   SecondMetric<Frame, D> second_metric_ = nullptr;
+  SecondRank<Frame, D> second_rank_;
+  double least_second_ = 0.0;       // the rank that the second metric must exceed; 0: not known
   double best_ = 0.0;               // worth
   double at_[3] = {0.0, 0.0, 0.0};  // where: along the last two axes, and in space along the first
   double part_[kMaxPoints];         // an axis' candidates, as parts of the grid's size

@@ -1,8 +1,10 @@
-// Bounds of the mean ratio never say that a place falls short of what it reaches, and say it of most that do.
+// Bounds of the mean ratio never say that a place falls short of what it reaches, and say it of most that do fall short.
 
 #include "core/smooth/kernels/ratio_bounds.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -152,6 +154,62 @@ TEST_P(CloseRatioBounds, LeaveNoneForInvertedElements) {
     EXPECT_FALSE(hopes(bounds, place - centre));
   });
   EXPECT_GT(inverted, 10);
+}
+
+/// In the plane: triangles and quadrilaterals around the origin, the latter with corners that no place of the vertex changes.
+Star<double> planar_star(dmoscope::Random& random, double stretch) {
+  constexpr int kAround = 6;
+  std::vector<Vec2<double>> ring;
+  for (int i = 0; i < kAround; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kAround + random.between(-0.2, 0.2), away = random.between(0.6, 1.4);
+    ring.push_back({away * std::cos(angle), stretch * away * std::sin(angle)});
+  }
+  Star<double> star;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2<double> b = ring[i], c = ring[(i + 1) % ring.size()];
+    star.triangles.push_back({b, c, 1.0});
+    star.quadrilaterals.push_back({b, times(b + c, random.between(0.6, 1.2)), c, 1.0});
+  }
+  return star;
+}
+
+TEST(PlanarRatioBounds, LeaveHopeForWhatAPlaceReachesAndNoneForMore) {
+  dmoscope::Random random(8);
+  int sound = 0, by_least = 0, by_mean = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Star<double> star = planar_star(random, trial % 2 == 0 ? 1.0 : 0.05);
+    composite::RatioBounds<Plane, D, F> bounds;
+    bounds.take(lists_of(star), nullptr);
+    const double half = trial % 3 == 0 ? 0.3 : 0.05;
+    const Vec2<double> centre{random.between(-0.1, 0.1), random.between(-0.1, 0.1) * (trial % 2 == 0 ? 1.0 : 0.05)};
+    const auto worth_of = [&star](Vec2<double> p) {
+      Worth worth;
+      StarView<double>(star).for_each<true>([&](const auto& element) {
+        const double quality = formulas::metric<Metric::MeanRatio>(element.with(p));
+        worth.least = std::min(worth.least, quality);
+        worth.sum += quality, worth.count += 1.0;
+      });
+      return worth;
+    };
+    if (!(worth_of(centre).least > 0.0)) continue;
+    bounds.move_to({centre.x, centre.y, 0.0}, {half, half, 0.0});
+    for (int i = 0; i < 40; ++i) {
+      const Vec2<double> way{random.between(-half, half), random.between(-half, half)};
+      const Worth worth = worth_of(centre + way);
+      if (!(worth.least > 0.01)) continue;
+      ++sound;
+      const auto hopes = [&](double least, double mean) {
+        bounds.set_needs(least, mean);
+        return xsimd::any(bounds.may_reach({F(static_cast<float>(way.x)), F(static_cast<float>(way.y))}));
+      };
+      EXPECT_TRUE(hopes(worth.least, worth.sum / worth.count));
+      by_least += hopes(1.001 * worth.least, 0.0) ? 0 : 1;
+      by_mean += hopes(0.0, worth.sum / worth.count + 1e-3) ? 0 : 1;
+    }
+  }
+  EXPECT_GT(sound, 1000);
+  EXPECT_GT(by_least, sound * 4 / 5);  // a corner across the vertex may be the worst
+  EXPECT_GT(by_mean, sound * 95 / 100);
 }
 
 constexpr auto name_of = [](const auto& each) { return std::string(each.param.name); };

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "core/mesh/random.h"
+#include "core/search/grid_search.h"
 
 namespace dmoscope {
 namespace {

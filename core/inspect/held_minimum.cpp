@@ -71,7 +71,8 @@ class Look {
       }
     }
     const bool stays = std::ranges::all_of(found.vertices, [](const HeldVertex& one) { return is_fixed(one.by); });
-    if (found.change || !(stays || found.rises())) try_joint(found, best, progress, go_on);
+    const bool is_moot = stays || (found.rises() && !q_.joint_where_it_rises);
+    if (found.change || !is_moot) try_joint(found, best, progress, go_on);
     if (!found.change && !found.rises()) try_pairs(found, all, check);
     if (found.change) std::erase_if(found.in_vain, [&](const HoldSwitch& one) { return one.frees == found.change->frees; });
     settle(found);

@@ -114,9 +114,10 @@ struct HeldQuestion {
   std::string_view method = "dmo";
   Metric metric = Metric::MeanRatio;
   SearchParameters search{};
-  DomainSource domains{};       // empty: each is made anew
-  std::string joint_phase{};    // what "then" must be told for joint moves; empty: the run has them
-  std::size_t joint_at_most{};  // see joint_hold
+  DomainSource domains{};            // empty: each is made anew
+  std::string joint_phase{};         // what "then" must be told for joint moves; empty: the run has them
+  std::size_t joint_at_most{};       // see joint_hold
+  bool joint_where_it_rises = true;  // are joint moves tried, too, where more iterations raise the minimum?
 };
 
 /// Looks at the worst element: what keeps its vertices, and what each switch that concerns them would gain. For that the vertices around

@@ -19,6 +19,7 @@ std::optional<HeldMinimum> what_holds(const Run& run, ThreadPool* pool, Progress
   // take longer than the run.
   constexpr std::size_t kMostInThePlane = 4000, kMostInVolumes = 500;
   if (go_on || !question.joint_phase.empty()) question.joint_at_most = run.input().is_volume() ? kMostInVolumes : kMostInThePlane;
+  question.joint_where_it_rises = static_cast<bool>(go_on);  // at rest, where the holders are drawn
   return held_minimum(question, pool, progress, go_on);
 }
 

@@ -321,9 +321,14 @@ class Kernel {
   /// is not.
   D worth(const Point& p, D best) {
     if (least_second_ > 0.0 && !xsimd::any(second_rank_.least(task_.star, p, second_, least_second_) > D(least_second_))) return best;
+    // Where no place wins but by the second metric, that is judged first: mostly a few elements tell.
+    const bool by_second = second_metric_ != nullptr && best_ > task_.threshold;
+    const D second = by_second ? second_metric_(task_.star, p, second_, D(task_.threshold), best) : best;
+    if (by_second && !xsimd::any(second > best)) return best;
     const D least = least_at<M, Frame, D>(task_.star, p, first_, [&](D so_far) { return xsimd::any((so_far > best) | beyond(so_far)); });
     const auto is_beyond = beyond(least);
-    return xsimd::any(is_beyond) ? xsimd::select(is_beyond, worth_beyond(p, best), least) : least;
+    if (!xsimd::any(is_beyond)) return least;
+    return xsimd::select(is_beyond, by_second ? second : worth_beyond(p, best), least);
   }
   D worth_beyond(const Point& p, D best) {
     const D threshold(task_.threshold);

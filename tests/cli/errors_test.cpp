@@ -188,7 +188,8 @@ TEST(Interrupt, StopsAScriptWithOne) {
   Call call;
   call.arguments = {"script", "-"};
   call.input = "open \"" + sample("coast.14") + "\"\nsay begun\nrun 1000000000\nsay never\nexport \"" + (folder / "out.14") + "\"\n";
-  call.interrupt = std::chrono::milliseconds(1500);
+  call.interrupt = std::chrono::milliseconds(500);
+  call.interrupt_when = "begun";
   const Output output = run(call);
   EXPECT_EQ(output.code, 1) << output.out << output.err;
   EXPECT_THAT(output.out, HasSubstr("begun"));

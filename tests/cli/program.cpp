@@ -91,6 +91,7 @@ Output run(const Call& call) {
 
   Output output;
   const auto start = Clock::now();
+  auto awaited = start;
   bool interrupted = call.interrupt.count() == 0;
   bool killed = false;
   while (out.read >= 0 || err.read >= 0) {
@@ -98,8 +99,10 @@ Output run(const Call& call) {
     poll(ends, 2, 20);
     if (ends[0].revents != 0) drain(out.read, output.out);
     if (ends[1].revents != 0) drain(err.read, output.err);
-    const auto passed = Clock::now() - start;
-    if (!interrupted && passed >= call.interrupt) {
+    const auto now = Clock::now();
+    const auto passed = now - start;
+    if (output.out.find(call.interrupt_when) == std::string::npos) awaited = now;
+    if (!interrupted && now - awaited >= call.interrupt) {
       kill(child, call.signal);
       interrupted = true;
     }

@@ -22,6 +22,7 @@ struct Call {
   std::string output{};                    // where standard output goes instead of Output::out, "/dev/full"
   bool display = false;                    // keep DISPLAY and WAYLAND_DISPLAY?
   std::chrono::milliseconds interrupt{0};  // > 0: send the signal after that long
+  std::string interrupt_when{};            // ... counted from when standard output holds this
   int signal = 2;                          // SIGINT
   std::uint64_t file_limit = 0;            // > 0: bytes that a file may have, as by ulimit -f
   std::chrono::seconds limit{300};

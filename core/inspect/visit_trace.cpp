@@ -123,25 +123,26 @@ class Look {
 
   /// As FastVolumeSearch does it. What the kernel chose in level L is what it finds in L levels and does not find in L - 1.
   bool search_by_volume_kernel() {
-    VolumeScratch scratch;
-    gather_star(MeshStar(mesh_, positions_, trace_.vertex), scratch.exact);
-    const FastVolumeSearch<M> search(input_, parameters_);
-    if (!search.find(scratch, 0).ready) return false;
+    const VolumeStarSearch search(M, parameters_);
+    const IndexedStars stars(input_.mesh, input_.topology, trace_.vertex);
+    VolumePoints points;
+    const auto find = [&](int levels) { return search.find(stars.of(trace_.vertex), positions_, trace_.vertex, levels, points); };
+    if (!find(0).ready) return false;
     trace_.fast = true;
     trace_.value_phrase = metric_phrase(M);
-    const VolumeStarView<double> star(scratch.exact);
+    VolumeStar<double> star;
+    gather_star(MeshStar(mesh_, positions_, trace_.vertex), star);
     const Objective<M, false, double, Value::Metric, VolumeStarView<double>> objective(star);
-    Recorder<Offset> recorder(scratch.exact.scale);
+    Recorder<Offset> recorder(points.scale);
     recorder.begin(objective(Vec3{}));
-    const Vec3Of<float> box = in_float::narrow(scratch.exact.box);
     Vec3Of<float> centre{};
     double omega = parameters_.omega;
     for (int level = 1; level <= parameters_.levels; ++level) {
-      const CandidateGrid<float, Vec3Of<float>> grid{centre, times(box, static_cast<float>(omega)), parameters_.grid_points};
+      const CandidateGrid<float, Vec3Of<float>> grid{centre, times(points.box, static_cast<float>(omega)), parameters_.grid_points};
       recorder.level(grid);
       for (int i = 0; i < grid.points; ++i)
         grid.for_slice(i, [&](int index, Vec3Of<float> p) { recorder.candidate(index, p, objective(Vec3{p.x, p.y, p.z})); });
-      const Vec3Of<float> found = search.find(scratch, level).offset;
+      const Vec3Of<float> found = find(level).offset;
       if (!(found == centre)) recorder.choose(found);
       centre = found;
       omega *= 2.0 / (parameters_.grid_points - 1);

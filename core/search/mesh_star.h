@@ -31,6 +31,42 @@ namespace turned {
 
 }  // namespace turned
 
+/// Bounding box of offsets.
+template <class Offset>
+class StarBox {
+ public:
+  DMOSCOPE_ANYWHERE void add(Offset p) {
+    low_ = empty_ ? p : lower(low_, p);
+    high_ = empty_ ? p : upper(high_, p);
+    empty_ = false;
+  }
+  /// The largest coordinate.
+  [[nodiscard]] DMOSCOPE_ANYWHERE double largest() const { return scalar::max(greatest(low_), greatest(high_)); }
+  [[nodiscard]] DMOSCOPE_ANYWHERE Offset size() const { return high_ - low_; }
+
+ private:
+  using P2 = Vec2<double>;
+  static DMOSCOPE_ANYWHERE P2 lower(P2 a, P2 b) { return {scalar::min(a.x, b.x), scalar::min(a.y, b.y)}; }
+  static DMOSCOPE_ANYWHERE P2 upper(P2 a, P2 b) { return {scalar::max(a.x, b.x), scalar::max(a.y, b.y)}; }
+  static DMOSCOPE_ANYWHERE double greatest(P2 a) { return scalar::max(scalar::abs(a.x), scalar::abs(a.y)); }
+  static DMOSCOPE_ANYWHERE Vec3 lower(Vec3 a, Vec3 b) { return {scalar::min(a.x, b.x), scalar::min(a.y, b.y), scalar::min(a.z, b.z)}; }
+  static DMOSCOPE_ANYWHERE Vec3 upper(Vec3 a, Vec3 b) { return {scalar::max(a.x, b.x), scalar::max(a.y, b.y), scalar::max(a.z, b.z)}; }
+  static DMOSCOPE_ANYWHERE double greatest(Vec3 a) { return scalar::max3(scalar::abs(a.x), scalar::abs(a.y), scalar::abs(a.z)); }
+
+  Offset low_{}, high_{};
+  bool empty_ = true;
+};
+
+/// The unit of a star whose largest offset is `extent`. In the plane a power of two, so that scaling rounds nothing. In space the extent
+/// itself: the fast search's floats are then the same whatever the unit of length. (In the plane that search has units of its own:
+/// SearchFrame.)
+template <class Frame>
+[[nodiscard]] DMOSCOPE_ANYWHERE double star_scale(double extent) {
+  if (!(extent > 0.0 && extent < HUGE_VAL)) return 1.0;
+  const double power = std::ldexp(1.0, std::ilogb(extent));
+  return std::is_same_v<Frame, Plane> || !(power >= std::numeric_limits<double>::min()) ? power : extent;
+}
+
 /// Reads the mesh whenever it is used, so that it needs no memory, whatever the star's size: for a GPU's lanes. gather_star() makes a copy
 /// for code that reads a star often. Frame: Plane or Space.
 template <class Frame>
@@ -40,16 +76,15 @@ class MeshStar {
 
   DMOSCOPE_ANYWHERE MeshStar(const MeshView<Frame>& mesh, PositionView positions, Index vertex)
       : mesh_(mesh), positions_(positions), vertex_(vertex), origin_(positions[vertex]) {
-    Box box;
+    StarBox<Offset> box;
     for (const Incidence& at : mesh_.star(vertex_)) {
       const auto corners = mesh_.corners_of(at.element);
       for (std::size_t i = 0; i < corners.size(); ++i)
         if (i != at.corner) box.add(offset(corners, i));
     }
-    const double extent = box.largest();
-    scale_ = extent > 0.0 && extent < HUGE_VAL ? unit_of(extent) : 1.0;
+    scale_ = star_scale<Frame>(box.largest());
     inverse_ = 1.0 / scale_;
-    box_ = scaled(box.high - box.low);
+    box_ = scaled(box.size());
   }
 
   /// The bounding box of the other vertices, in units of scale().
@@ -71,31 +106,6 @@ class MeshStar {
   }
 
  private:
-  /// Bounding box of offsets.
-  struct Box {
-    Offset low{}, high{};
-    bool empty = true;
-    DMOSCOPE_ANYWHERE void add(Offset p) {
-      low = empty ? p : lower(low, p);
-      high = empty ? p : upper(high, p);
-      empty = false;
-    }
-    [[nodiscard]] DMOSCOPE_ANYWHERE double largest() const { return scalar::max(greatest(low), greatest(high)); }
-  };
-  using P2 = Vec2<double>;
-  static DMOSCOPE_ANYWHERE P2 lower(P2 a, P2 b) { return {scalar::min(a.x, b.x), scalar::min(a.y, b.y)}; }
-  static DMOSCOPE_ANYWHERE P2 upper(P2 a, P2 b) { return {scalar::max(a.x, b.x), scalar::max(a.y, b.y)}; }
-  static DMOSCOPE_ANYWHERE double greatest(P2 a) { return scalar::max(scalar::abs(a.x), scalar::abs(a.y)); }
-  static DMOSCOPE_ANYWHERE Vec3 lower(Vec3 a, Vec3 b) { return {scalar::min(a.x, b.x), scalar::min(a.y, b.y), scalar::min(a.z, b.z)}; }
-  static DMOSCOPE_ANYWHERE Vec3 upper(Vec3 a, Vec3 b) { return {scalar::max(a.x, b.x), scalar::max(a.y, b.y), scalar::max(a.z, b.z)}; }
-  static DMOSCOPE_ANYWHERE double greatest(Vec3 a) { return scalar::max3(scalar::abs(a.x), scalar::abs(a.y), scalar::abs(a.z)); }
-
-  /// In the plane a power of two, so that scaling rounds nothing. In space the extent itself: the fast search's floats are then the same
-  /// whatever the unit of length. (In the plane that search has units of its own: SearchFrame.)
-  static DMOSCOPE_ANYWHERE double unit_of(double extent) {
-    const double power = std::ldexp(1.0, std::ilogb(extent));
-    return std::is_same_v<Frame, Plane> || !(power >= std::numeric_limits<double>::min()) ? power : extent;
-  }
   /// The factor of areas or volumes where lengths grow by the factor `length`.
   static DMOSCOPE_ANYWHERE double measure_of(double length) {
     return std::is_same_v<Frame, Plane> ? length * length : length * length * length;
@@ -103,7 +113,7 @@ class MeshStar {
   [[nodiscard]] DMOSCOPE_ANYWHERE Offset offset(std::span<const Index> corners, std::size_t corner) const {
     return mesh_.frame.offset(positions_[corners[corner]], origin_);
   }
-  [[nodiscard]] DMOSCOPE_ANYWHERE P2 scaled(P2 p) const { return {p.x * inverse_, p.y * inverse_}; }
+  [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<double> scaled(Vec2<double> p) const { return {p.x * inverse_, p.y * inverse_}; }
   [[nodiscard]] DMOSCOPE_ANYWHERE Vec3 scaled(Vec3 p) const { return {p.x * inverse_, p.y * inverse_, p.z * inverse_}; }
 
   template <bool Others, class F>

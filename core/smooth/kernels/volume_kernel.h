@@ -1,18 +1,19 @@
 #pragma once
-// The fast search of a volume's star: one vertex, a pack of candidates at a time, in float. The same code compiled for several processors,
-// chosen at run time; all give the same bits.
+// The fast search of a volume's star, for one vertex: in float, and what its result is worth in double. The same code compiled for several
+// processors, chosen at run time; all give the same bits.
 
 #include <cstddef>
 
 #include "core/quality/metric.h"
 #include "core/search/parameters.h"
-#include "core/search/star.h"
+#include "core/smooth/kernels/indexed_star.h"
 
 namespace dmoscope {
 
 /// A star in float, and how it is to be searched.
 struct VolumeSearch {
-  SolidLists<float> star;
+  IndexedStar star;
+  const Vec3Of<float>* others = nullptr;  // from the vertex, in units of the star's scale
   Vec3Of<float> box;
   int points = 8, levels = 3;
   double omega = 0.5;
@@ -23,10 +24,22 @@ struct VolumeFound {
   Vec3Of<float> offset{};  // units of the star's scale; 0 where no candidate is better
 };
 
-/// At most this many elements of a kind; others are the reference's.
-inline constexpr std::size_t kMaxSolids = 96;
+/// A star in double, and two places for its vertex.
+struct VolumeComparison {
+  IndexedStar star;
+  const Vec3* others = nullptr;  // positions
+  Vec3 before, after;
+};
 
-using VolumeKernel = VolumeFound (*)(const VolumeSearch& search);
+/// The least rank (formulas::rank) of the elements for which the metric is defined.
+struct VolumeRanks {
+  double before = 0.0, after = 0.0;
+};
+
+struct VolumeKernel {
+  VolumeFound (*search)(const VolumeSearch& search) = nullptr;
+  VolumeRanks (*compare)(const VolumeComparison& comparison) = nullptr;
+};
 
 /// The kernel for a metric that is defined for volumes. `level` must be one of supported_simd_levels().
 [[nodiscard]] VolumeKernel volume_kernel(SimdLevel level, Metric metric);

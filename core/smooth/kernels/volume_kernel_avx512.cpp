@@ -2,6 +2,6 @@
 
 namespace dmoscope {
 
-VolumeKernel volume_kernel_avx512(Metric metric) { return volumes::kernel_for<Pack<float>>(metric); }
+VolumeKernel volume_kernel_avx512(Metric metric) { return volumes::kernel_for<Pack<float>, Pack<double>>(metric); }
 
 }  // namespace dmoscope

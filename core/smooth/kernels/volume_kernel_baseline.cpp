@@ -2,6 +2,6 @@
 
 namespace dmoscope {
 
-VolumeKernel volume_kernel_baseline(Metric metric) { return volumes::kernel_for<Pack<float>>(metric); }
+VolumeKernel volume_kernel_baseline(Metric metric) { return volumes::kernel_for<Pack<float>, Pack<double>>(metric); }
 
 }  // namespace dmoscope

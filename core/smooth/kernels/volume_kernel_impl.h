@@ -8,126 +8,31 @@
 #include "core/numeric/pack.h"
 // After the packs:
 #include "core/search/grid_search.h"
+#include "core/smooth/kernels/mean_ratio_search.h"
+#include "core/smooth/kernels/star_packs.h"
 #include "core/smooth/kernels/volume_form.h"
 #include "core/smooth/kernels/volume_kernel.h"
 
 namespace dmoscope::volumes {
 
-/// F: pack of floats, a candidate per slot.
+/// The grid search by any metric's rank. F: pack of floats, a candidate per slot.
 template <Metric M, class F>
-class Kernel {
+class RankSearch {
  public:
-  static VolumeFound run(const VolumeSearch& task) {
-    Kernel kernel(task);
-    return kernel.search();
+  explicit RankSearch(const VolumeSearch& task) : task_(task) {
+    for_elements<true>([this](const StarTetrahedron<float>& t) {
+      order_[count_] = static_cast<std::uint16_t>(count_);
+      tetrahedra_[count_++] = {point_of<F>(t.b), point_of<F>(t.c), point_of<F>(t.d), F(1)};
+    });
   }
 
- private:
-  using Point = Vec3Of<F>;
-  static constexpr std::size_t kWidth = F::size;
-  static constexpr std::size_t kMaxPlane = 64 * 64 + kWidth;
-  static constexpr bool kForms = M == Metric::MeanRatio;
-  static constexpr bool kCorners = !kForms && formulas::kDefinedForCorners<M>;
-  static constexpr std::size_t kMaxForms = 5 * 4 * kMaxSolids;  // lists, and corners of an element that one vertex changes
-  static constexpr float kMost = std::numeric_limits<float>::max();
+  /// The least rank with the vertex where it is; the search begins there.
+  [[nodiscard]] float begin() { return best_ = least({F(0), F(0), F(0)}, F(-1)).get(0); }
 
-  explicit Kernel(const VolumeSearch& task) : task_(task) {}
-
-  VolumeFound search() {
-    VolumeFound found;
-    take_elements();
-    best_ = least({F(0), F(0), F(0)}, F(-1)).get(0);
-    found.ready = best_ > kLeastRank;
-    if (!found.ready) return found;
-    double omega = task_.omega;
-    for (int level = 0; level < task_.levels; ++level) {
-      search_level(static_cast<float>(omega));
-      omega *= 2.0 / (task_.points - 1);
-    }
-    found.offset = {at_[0], at_[1], at_[2]};
-    return found;
-  }
-
-  void take_elements() {
-    if constexpr (kForms) {
-      for (std::size_t i = 0; i < task_.star.simplices.size; ++i) {
-        const StarTetrahedron<float>& t = task_.star.simplices.data[i];
-        take(volumes::tetrahedron_form(point_of<F>(t.b), point_of<F>(t.c), point_of<F>(t.d)));
-      }
-      const Point origin{F(0), F(0), F(0)};
-      task_.star.for_others([&](const auto& element) {
-        for_corner_forms(element.with(origin), element.kMoving, [this](const MeanRatioForm<F>& form) { take(form); });
-      });
-    } else {
-      count_ = task_.star.simplices.size;
-      for (std::size_t i = 0; i < count_; ++i) {
-        const StarTetrahedron<float>& t = task_.star.simplices.data[i];
-        tetrahedra_[i] = {point_of<F>(t.b), point_of<F>(t.c), point_of<F>(t.d), F(1)};
-      }
-    }
-    for (std::size_t i = 0; i < count_; ++i) order_[i] = static_cast<std::uint16_t>(i);
-  }
-  void take(const MeanRatioForm<F>& f) {
-    forms_[count_++] = {f.v0.get(0), f.vx.get(0), f.vy.get(0), f.vz.get(0),    f.s0.get(0),
-                        f.sx.get(0), f.sy.get(0), f.sz.get(0), f.square.get(0)};
-  }
-
-  /// The least rank of the star with its vertex at each of the places; anything not above `floor` where it is not above it in any slot.
-  F least(Point p, F floor) {
-    using scalar::min;
-    F worth(kMost);
-    if constexpr (kForms) {
-      if (!may_pass(p, floor)) return F(-1);
-      const F square = dot(p, p);
-      for (std::size_t i = 0; i < count_; ++i) worth = min(worth, rank_of(forms_[i], p, square));
-    } else {
-      for (std::size_t i = 0; i < count_; ++i) {
-        const std::size_t k = order_[i];
-        worth = min(worth, formulas::rank<M>(tetrahedra_[k].with(p)));
-        if (!xsimd::any(worth > floor)) {
-          to_front(i);
-          return worth;
-        }
-      }
-    }
-    if constexpr (kCorners) {
-      bool passes = true;
-      task_.star.for_others([&](const auto& element) {
-        if (!passes) return;
-        worth = min(worth, formulas::rank_around<M>(element.with(p), element.kMoving));
-        passes = xsimd::any(worth > floor);
-      });
-    }
-    return worth;
-  }
-
-  /// Without division: can any of the candidates have a rank above the floor? Most cannot, and the first few forms tell.
-  bool may_pass(const Point& p, F floor) {
-    const F square = dot(p, p), threshold = floor * F(1.0F - 1e-4F);
-    auto passes = square == square;
-    for (std::size_t i = 0; i < count_; ++i) {
-      const MeanRatioForm<float>& f = forms_[order_[i]];
-      const F v = determinant_of(f, p), s = squares_of(f, p, square);
-      passes = passes & (v * xsimd::abs(v) >= threshold * s * s * s);
-      if (!xsimd::any(passes)) {
-        to_front(i);
-        return false;
-      }
-    }
-    return true;
-  }
-
-  /// The one that decided is likely to decide the next.
-  void to_front(std::size_t i) {
-    const std::uint16_t k = order_[i];
-    for (; i > 0; --i) order_[i] = order_[i - 1];
-    order_[0] = k;
-  }
-
-  void search_level(float omega) {
-    const auto n = static_cast<std::size_t>(task_.points);
-    const CandidateGrid<F, Point> grid{
-        {F(at_[0]), F(at_[1]), F(at_[2])}, {F(task_.box.x) * F(omega), F(task_.box.y) * F(omega), F(task_.box.z) * F(omega)}, task_.points};
+  /// Goes to the best candidate of a grid around the best place so far, where one is better. Among equals to the one of lowest index.
+  void search_level(float size_x, float size_y, float size_z, int points) {
+    const auto n = static_cast<std::size_t>(points);
+    const CandidateGrid<F, Point> grid{{F(at_[0]), F(at_[1]), F(at_[2])}, {F(size_x), F(size_y), F(size_z)}, points};
     for (std::size_t i = 0; i < n * n; ++i) {
       const Point p = grid.at(0, static_cast<int>(i / n), static_cast<int>(i % n));
       y_[i] = p.y.get(0);
@@ -146,6 +51,53 @@ class Kernel {
     }
   }
 
+  [[nodiscard]] Vec3Of<float> best() const { return {at_[0], at_[1], at_[2]}; }
+
+ private:
+  using Point = Vec3Of<F>;
+  static constexpr std::size_t kWidth = F::size;
+  static constexpr std::size_t kMaxPlane = 64 * 64 + kWidth;
+
+  /// Calls take(element) with the star's tetrahedra, or with all its other elements.
+  template <bool Tetrahedra, class Take>
+  void for_elements(const Take& take) const {
+    for_kinds<float>(task_.star, [&]<class Element>(const std::uint16_t* corners, std::size_t count, std::size_t others) {
+      if constexpr (std::is_same_v<Element, StarTetrahedron<float>> == Tetrahedra)
+        for (std::size_t i = 0; i < count; ++i, corners += others)
+          take(element_of<Element>([&](std::size_t k) { return task_.others[corners[k]]; }));
+    });
+  }
+
+  /// The least rank of the star with its vertex at each of the places; anything not above `floor` where it is not above it in any slot.
+  F least(Point p, F floor) {
+    using scalar::min;
+    F worth(std::numeric_limits<float>::max());
+    for (std::size_t i = 0; i < count_; ++i) {
+      const std::size_t k = order_[i];
+      worth = min(worth, formulas::rank<M>(tetrahedra_[k].with(p)));
+      if (!xsimd::any(worth > floor)) {
+        to_front(i);
+        return worth;
+      }
+    }
+    if constexpr (formulas::kDefinedForCorners<M>) {
+      bool passes = true;
+      for_elements<false>([&](const auto& element) {
+        if (!passes) return;
+        worth = min(worth, formulas::rank_around<M>(element.with(p), element.kMoving));
+        passes = xsimd::any(worth > floor);
+      });
+    }
+    return worth;
+  }
+
+  /// The one that decided is likely to decide the next.
+  void to_front(std::size_t i) {
+    const std::uint16_t k = order_[i];
+    for (; i > 0; --i) order_[i] = order_[i - 1];
+    order_[0] = k;
+  }
+
   /// Among equals the candidate of lowest index.
   void take_best(F rank, F x, std::size_t j) {
     alignas(64) float ranks[kWidth];
@@ -162,17 +114,73 @@ class Kernel {
   const VolumeSearch& task_;
   float best_ = 0.0F;  // rank
   float at_[3] = {0.0F, 0.0F, 0.0F};
-  std::size_t count_ = 0;  // of the forms, or of the tetrahedra
-  std::uint16_t order_[kForms ? kMaxForms : kMaxSolids];
+  std::size_t count_ = 0;  // of the tetrahedra
+  std::uint16_t order_[kMaxSolids];
   alignas(64) float y_[kMaxPlane], z_[kMaxPlane];
-  std::array<MeanRatioForm<float>, kForms ? kMaxForms : 1> forms_;
-  std::array<StarTetrahedron<F>, kForms ? 1 : kMaxSolids> tetrahedra_;
+  std::array<StarTetrahedron<F>, kMaxSolids> tetrahedra_;
 };
 
-/// The kernel for `metric` with this translation unit's widest packs.
+/// By the mean ratio.
 template <class F>
+class FormSearch : public MeanRatioSearch<F> {
+ public:
+  explicit FormSearch(const VolumeSearch& task) {
+    const Vec3Of<F> origin{F(0), F(0), F(0)};
+    for_packs<F>(task.star, task.others, [&]<class Element>(const Element& element) {
+      if constexpr (std::is_same_v<Element, StarTetrahedron<F>>)
+        this->take(tetrahedron_form(element.b, element.c, element.d));
+      else
+        for_corner_forms(element.with(origin), element.kMoving, [this](const MeanRatioForm<F>& forms) { this->take(forms); });
+    });
+  }
+};
+
+template <class Search>
+VolumeFound search(const VolumeSearch& task) {
+  Search search(task);
+  VolumeFound found;
+  found.ready = search.begin() > kLeastRank;
+  if (!found.ready) return found;
+  double omega = task.omega;
+  for (int level = 0; level < task.levels; ++level) {
+    const auto part = static_cast<float>(omega);
+    search.search_level(task.box.x * part, task.box.y * part, task.box.z * part, task.points);
+    omega *= 2.0 / (task.points - 1);
+  }
+  found.offset = search.best();
+  return found;
+}
+
+/// D: pack of doubles, an element per slot.
+template <Metric M, class D>
+VolumeRanks compare(const VolumeComparison& task) {
+  using scalar::min;
+  const Vec3Of<D> before = point_of<D>(task.before), after = point_of<D>(task.after);
+  D least_before(std::numeric_limits<double>::max()), least_after(std::numeric_limits<double>::max());
+  for_packs<D>(task.star, task.others, [&]<class Element>(const Element& element) {
+    if constexpr (std::is_same_v<Element, StarTetrahedron<D>> || formulas::kDefinedForCorners<M>) {
+      least_before = min(least_before, formulas::rank_around<M>(element.with(before), element.kMoving));
+      least_after = min(least_after, formulas::rank_around<M>(element.with(after), element.kMoving));
+    }
+  });
+  alignas(64) double ranks[2][D::size];
+  least_before.store_aligned(ranks[0]);
+  least_after.store_aligned(ranks[1]);
+  VolumeRanks least{ranks[0][0], ranks[1][0]};
+  for (std::size_t k = 1; k < D::size; ++k) {
+    if (ranks[0][k] < least.before) least.before = ranks[0][k];
+    if (ranks[1][k] < least.after) least.after = ranks[1][k];
+  }
+  return least;
+}
+
+/// The kernel for `metric` with this translation unit's widest packs of floats, F, and of doubles, D.
+template <class F, class D>
 VolumeKernel kernel_for(Metric metric) {
-  return formulas::with_volume_metric(metric, []<Metric M>() -> VolumeKernel { return &Kernel<M, F>::run; });
+  return formulas::with_volume_metric(metric, []<Metric M>() -> VolumeKernel {
+    using Search = std::conditional_t<M == Metric::MeanRatio, FormSearch<F>, RankSearch<M, F>>;
+    return {&search<Search>, &compare<M, D>};
+  });
 }
 
 }  // namespace dmoscope::volumes

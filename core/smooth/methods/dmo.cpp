@@ -170,7 +170,7 @@ std::unique_ptr<Smoother> make_dmo_smoother(const SmoothingTask& task) {
       if constexpr (std::is_same_v<Frame, Plane>)
         return std::make_unique<LaneDmo<M>>(task);
       else
-        return make_sliding_smoother<Space>(task, FastVolumeSearch<M>(*task.input, task.search), single_objective(M));
+        return make_sliding_smoother<Space>(task, FastVolumeSearch<M>(task), single_objective(M));
     }
     return make_sliding_smoother<Frame>(task, Reference<M, Frame>(*task.input, task.search), single_objective(M));
   });

@@ -68,6 +68,7 @@ void for_classes(const Colouring& colouring, std::uint64_t first, std::uint64_t 
 /// Rule::Scratch is what it works in, kept from one vertex to the next; no result may depend on what is left there. Besides it may have
 /// - static constexpr bool kDependsOnStarAlone = true: the target depends only on the positions of the star's vertices and on
 ///   Sweep::untangling; so a vertex that stayed is not visited again until a vertex of its star moves;
+/// - others(Index vertex): the other vertices of its star, or none where it has not noted them;
 /// - static constexpr std::size_t kGrain: how many vertices a thread takes at once, if not 128.
 template <class Rule>
 concept VertexRule = requires(const Rule& rule, PositionView positions, Index vertex, typename Rule::Scratch& scratch) {
@@ -136,10 +137,16 @@ class RuleSmoother final : public Smoother {
   }
   /// Vertices of one class have no element in common, but may have a neighbour.
   void wake_around(Index vertex) {
+    if constexpr (requires { rule_.others(vertex); }) {
+      const std::span<const Index> others = rule_.others(vertex);
+      for (const Index other : others) wake(other);
+      if (!others.empty()) return wake(vertex);
+    }
     for (const Incidence& at : input_->topology.star(vertex))
       for (const Index other : input_->mesh.elements.corners(at.element))
-        std::atomic_ref(awake_[other]).store(1, std::memory_order_relaxed);
+        wake(other);
   }
+  void wake(Index vertex) { std::atomic_ref(awake_[vertex]).store(1, std::memory_order_relaxed); }
 
   std::shared_ptr<const InputMesh> input_;  // which the rule looks into
   std::shared_ptr<const Colouring> colouring_;

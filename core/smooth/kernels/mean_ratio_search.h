@@ -7,13 +7,14 @@
 //
 // Only the kernels' sources include it; see lane_kernel_impl.h for what that asks of the code.
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include "core/numeric/pack.h"
 // After the packs:
-#include "core/search/grid_search.h"
 #include "core/smooth/kernels/grid_cuts.h"
 #include "core/smooth/kernels/volume_form.h"
 
@@ -25,10 +26,16 @@ class MeanRatioSearch {
  public:
   static constexpr std::size_t kWidth = F::size;
 
+  explicit MeanRatioSearch(int points) : n_(static_cast<std::size_t>(points)), cuts_(n_) {
+    for (int i = 0; i < points; ++i) part_[i] = static_cast<float>(i) / static_cast<float>(points - 1) - 0.5F;
+    for (std::size_t i = n_; i % kWidth != 0; ++i) part_[i] = 0.0F;
+  }
+
   /// A pack of forms, each slot in use. At most kMaxPacks in all.
   void take(const MeanRatioForm<F>& forms) {
-    const F* fields[kFields] = {&forms.v0, &forms.vx, &forms.vy, &forms.vz, &forms.s0, &forms.sx, &forms.sy, &forms.sz, &forms.square};
-    for (std::size_t i = 0; i < kFields; ++i) fields[i]->store_aligned(forms_[count_][i]);
+    const F* fields[] = {&forms.v0, &forms.vx, &forms.vy, &forms.vz, &forms.s0, &forms.sx, &forms.sy, &forms.sz, &forms.square};
+    for (std::size_t i = 0; i < kFields - 2; ++i) fields[i]->store_aligned(forms_[count_][i]);
+    for (std::size_t slot = 0; slot < kWidth; ++slot) which_[count_][slot] = static_cast<std::uint32_t>(count_ * kWidth + slot);
     ++count_;
   }
 
@@ -39,32 +46,28 @@ class MeanRatioSearch {
   }
 
   /// Goes to the best candidate of a grid around the best place so far, where one is better. Among equals to the one of lowest index.
-  void search_level(float size_x, float size_y, float size_z, int points) {
-    const auto n = static_cast<std::size_t>(points);
-    const CandidateGrid<F, Vec3Of<F>> grid{{F(best_.x), F(best_.y), F(best_.z)}, {F(size_x), F(size_y), F(size_z)}, points};
-    for (std::size_t i = 0; i < n; ++i) {
-      const int at = static_cast<int>(i);
-      const Vec3Of<F> p = grid.at(at, at, at);
-      x_[i] = p.x.get(0);
-      y_[i] = p.y.get(0);
-      z_[i] = p.z.get(0);
+  void search_level(float size_x, float size_y, float size_z) {
+    for (std::size_t i = 0; i < n_; i += kWidth) {  // as CandidateGrid has them
+      const F part = F::load_aligned(part_ + i);
+      (F(best_.x) + F(size_x) * part).store_aligned(x_ + i);
+      (F(best_.y) + F(size_y) * part).store_aligned(y_ + i);
+      (F(best_.z) + F(size_z) * part).store_aligned(z_ + i);
     }
-    if (n != n_) cuts_.set_points(n);
-    n_ = n;
-    index_ = n * n * n;  // of what was there before: higher than all
+    index_ = n_ * n_ * n_;  // of what was there before: higher than all
     cuts_.begin(x_, y_, z_);
-    reach_ = cuts_.reach();
+    note_rounding();
     cut_at(best_);
     while (!cuts_.empty()) {
-      const std::size_t row = cuts_.row(), low = cuts_.low(), high = cuts_.high(), k = low + (high - low) / 2;
-      const Looked here = look(row, k);
-      cut_at(here);
+      const std::size_t row = cuts_.row(), i = cuts_.i(), j = cuts_.j(), k = cuts_.middle();
+      cut_at(look(i, j, k));
       if (!cuts_.in_question(row, k)) continue;
-      // It is as good as the best, or too near to it for the cut to tell: its row is looked at, one by one.
-      for (std::size_t other = low; other <= high; ++other)
-        if (other != k && cuts_.in_question(row, other)) (void)look(row, other);
-      cuts_.drop(row);
-      cuts_.find_longest();
+      // It is as good as the best, or too near to it for the cut to tell.
+      if (!cuts_.drop_end(row, k)) {
+        for (std::size_t other = 0; other < n_; ++other)
+          if (other != k && cuts_.in_question(row, other)) (void)look(i, j, other);
+        cuts_.drop(row);
+      }
+      if (row == cuts_.row()) cuts_.find_longest();
     }
   }
 
@@ -80,26 +83,28 @@ class MeanRatioSearch {
   [[nodiscard]] Looked evaluate(float x, float y, float z) const {
     using scalar::min;
     const Vec3Of<F> p{F(x), F(y), F(z)};
-    const F square = dot(p, p);
-    F least(std::numeric_limits<float>::max()), where(0.0F), pack(0.0F);
+    const F square = dot(p, p), rough = bits_of(~(kForms - 1));
+    F least(std::numeric_limits<float>::max()), worst = least;
     for (std::size_t i = 0; i < count_; ++i) {
       const F rank = rank_of(forms_at(i), p, square);
-      where = xsimd::select(rank < least, pack, where);
-      pack += F(1.0F);
       least = min(least, rank);
+      // The lowest bits tell which form it is: of some that are equally bad but for these bits any will do.
+      worst = min(worst, (rank & rough) | F::load_aligned(reinterpret_cast<const float*>(which_[i])));
     }
-    alignas(64) float ranks[kWidth], packs[kWidth];
-    least.store_aligned(ranks);
-    where.store_aligned(packs);
-    std::size_t worst = 0;
-    for (std::size_t k = 1; k < kWidth; ++k)
-      if (ranks[k] < ranks[worst]) worst = k;
-    return {x, y, z, ranks[worst], static_cast<std::size_t>(packs[worst]) * kWidth + worst};
+    return {x, y, z, least_slot(least), std::bit_cast<std::uint32_t>(least_slot(worst)) & (kForms - 1)};
+  }
+  [[nodiscard]] static F bits_of(std::uint32_t bits) { return F(std::bit_cast<float>(bits)); }
+  [[nodiscard]] static float least_slot(F a) {
+    alignas(64) float slots[kWidth];
+    a.store_aligned(slots);
+    for (std::size_t half = kWidth / 2; half > 0; half /= 2)
+      for (std::size_t k = 0; k < half; ++k) slots[k] = slots[k] < slots[k + half] ? slots[k] : slots[k + half];
+    return slots[0];
   }
 
-  Looked look(std::size_t row, std::size_t k) {
-    const std::size_t index = row * n_ + k;
-    const Looked here = evaluate(x_[row / n_], y_[row % n_], z_[k]);
+  Looked look(std::size_t i, std::size_t j, std::size_t k) {
+    const std::size_t index = (i * n_ + j) * n_ + k;
+    const Looked here = evaluate(x_[i], y_[j], z_[k]);
     if (here.rank > best_.rank || (here.rank == best_.rank && index < index_ && index_ < n_ * n_ * n_)) {
       best_ = here;
       index_ = index;
@@ -112,6 +117,19 @@ class MeanRatioSearch {
     return {of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7), of(8)};
   }
 
+  /// How far rounding may go at any candidate of the level, by the size of what is added up there.
+  void note_rounding() {
+    const Vec3Of<float> reach = cuts_.reach();
+    const F x(reach.x), y(reach.y), z(reach.z), square = x * x + y * y + z * z;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const MeanRatioForm<F> f = forms_at(i);
+      const F v = xsimd::abs(f.v0) + xsimd::abs(f.vx) * x + xsimd::abs(f.vy) * y + xsimd::abs(f.vz) * z;
+      const F s = f.s0 + xsimd::abs(f.sx) * x + xsimd::abs(f.sy) * y + xsimd::abs(f.sz) * z + f.square * square;
+      (F(kRounding) * v).store_aligned(forms_[i][kFields - 2]);
+      (F(kRounding) * s * xsimd::sqrt(s)).store_aligned(forms_[i][kFields - 1]);
+    }
+  }
+
   /// Cuts off what the worst form of a place tells to be no better than the best.
   void cut_at(const Looked& here) {
     const auto of = [&, slot = here.form % kWidth](std::size_t field) { return forms_[here.form / kWidth][field][slot]; };
@@ -119,30 +137,27 @@ class MeanRatioSearch {
     const float v = v0 + vx * here.x + vy * here.y + vz * here.z;
     const float s = s0 + sx * here.x + sy * here.y + sz * here.z + q * (here.x * here.x + here.y * here.y + here.z * here.z);
     const float root = std::sqrt(s), threshold = std::sqrt(best_.rank), steep = 1.5F * threshold * root;
-    // How far rounding may go at any candidate, by the size of what is added up there.
-    const float v_terms = std::fabs(v0) + std::fabs(vx) * reach_.x + std::fabs(vy) * reach_.y + std::fabs(vz) * reach_.z;
-    const float s_terms = s0 + std::fabs(sx) * reach_.x + std::fabs(sy) * reach_.y + std::fabs(sz) * reach_.z +
-                          q * (reach_.x * reach_.x + reach_.y * reach_.y + reach_.z * reach_.z);
     GridCut cut;
     cut.from = {here.x, here.y, here.z};
-    cut.at_least = (v - threshold * s * root) + kRounding * (v_terms + threshold * s_terms * std::sqrt(s_terms));
+    cut.at_least = (v - threshold * s * root) + (of(kFields - 2) + threshold * of(kFields - 1));
     cut.slope = {vx - steep * (sx + 2.0F * q * here.x), vy - steep * (sy + 2.0F * q * here.y), vz - steep * (sz + 2.0F * q * here.z)};
     cuts_.cut(cut);
   }
 
   static constexpr float kRounding = 4e-6F;
-  static constexpr std::size_t kFields = 9;
+  static constexpr std::size_t kFields = 9 + 2;  // of a MeanRatioForm, and how far v and s^(3/2) may be rounded
+  static constexpr std::uint32_t kForms = 8192;
 
  public:
-  static constexpr std::size_t kMaxPacks = 1024;
+  static constexpr std::size_t kMaxPacks = kForms / kWidth;
 
  private:
   Looked best_;
-  std::size_t count_ = 0, n_ = 0, index_ = 0;  // of the best in its level
-  float x_[GridCuts<F>::kMaxPoints], y_[GridCuts<F>::kMaxPoints], z_[GridCuts<F>::kMaxPoints];
-  Vec3Of<float> reach_{};
+  std::size_t n_, count_ = 0, index_ = 0;  // packs of forms; the best's in its level
+  alignas(64) float part_[GridCuts<F>::kMaxPoints], x_[GridCuts<F>::kMaxPoints], y_[GridCuts<F>::kMaxPoints], z_[GridCuts<F>::kMaxPoints];
   GridCuts<F> cuts_;
   alignas(64) float forms_[kMaxPacks][kFields][kWidth];
+  alignas(64) std::uint32_t which_[kMaxPacks][kWidth];
 };
 
 }  // namespace dmoscope::volumes

@@ -30,9 +30,9 @@ class RankSearch {
   [[nodiscard]] float begin() { return best_ = least({F(0), F(0), F(0)}, F(-1)).get(0); }
 
   /// Goes to the best candidate of a grid around the best place so far, where one is better. Among equals to the one of lowest index.
-  void search_level(float size_x, float size_y, float size_z, int points) {
-    const auto n = static_cast<std::size_t>(points);
-    const CandidateGrid<F, Point> grid{{F(at_[0]), F(at_[1]), F(at_[2])}, {F(size_x), F(size_y), F(size_z)}, points};
+  void search_level(float size_x, float size_y, float size_z) {
+    const auto n = static_cast<std::size_t>(task_.points);
+    const CandidateGrid<F, Point> grid{{F(at_[0]), F(at_[1]), F(at_[2])}, {F(size_x), F(size_y), F(size_z)}, task_.points};
     for (std::size_t i = 0; i < n * n; ++i) {
       const Point p = grid.at(0, static_cast<int>(i / n), static_cast<int>(i % n));
       y_[i] = p.y.get(0);
@@ -124,7 +124,7 @@ class RankSearch {
 template <class F>
 class FormSearch : public MeanRatioSearch<F> {
  public:
-  explicit FormSearch(const VolumeSearch& task) {
+  explicit FormSearch(const VolumeSearch& task) : MeanRatioSearch<F>(task.points) {
     const Vec3Of<F> origin{F(0), F(0), F(0)};
     for_packs<F>(task.star, task.others, [&]<class Element>(const Element& element) {
       if constexpr (std::is_same_v<Element, StarTetrahedron<F>>)
@@ -144,7 +144,7 @@ VolumeFound search(const VolumeSearch& task) {
   double omega = task.omega;
   for (int level = 0; level < task.levels; ++level) {
     const auto part = static_cast<float>(omega);
-    search.search_level(task.box.x * part, task.box.y * part, task.box.z * part, task.points);
+    search.search_level(task.box.x * part, task.box.y * part, task.box.z * part);
     omega *= 2.0 / (task.points - 1);
   }
   found.offset = search.best();
@@ -153,7 +153,7 @@ VolumeFound search(const VolumeSearch& task) {
 
 /// D: pack of doubles, an element per slot.
 template <Metric M, class D>
-VolumeRanks compare(const VolumeComparison& task) {
+[[gnu::flatten]] VolumeRanks compare(const VolumeComparison& task) {
   using scalar::min;
   const Vec3Of<D> before = point_of<D>(task.before), after = point_of<D>(task.after);
   D least_before(std::numeric_limits<double>::max()), least_after(std::numeric_limits<double>::max());

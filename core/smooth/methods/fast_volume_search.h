@@ -57,6 +57,7 @@ class FastVolumeSearch {
         stars_(std::make_shared<const IndexedStars>(task.input->mesh, task.input->topology, *task.colouring, task.pool)) {}
 
   void begin(const Sweep& sweep) { mesh_.untangling = sweep.untangling; }
+  [[nodiscard]] std::span<const Index> others(Index vertex) const { return stars_->of(vertex).vertices; }
   std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const {
     const IndexedStars::Star star = stars_->of(vertex);
     const VolumeFound found =

@@ -138,7 +138,7 @@ class Look {
     Vec3Of<float> centre{};
     double omega = parameters_.omega;
     for (int level = 1; level <= parameters_.levels; ++level) {
-      const CandidateGrid<float, Vec3Of<float>> grid{centre, times(points.box, static_cast<float>(omega)), parameters_.grid_points};
+      const CandidateGrid<float, Vec3Of<float>> grid{centre, times(points.narrow_box, static_cast<float>(omega)), parameters_.grid_points};
       recorder.level(grid);
       for (int i = 0; i < grid.points; ++i)
         grid.for_slice(i, [&](int index, Vec3Of<float> p) { recorder.candidate(index, p, objective(Vec3{p.x, p.y, p.z})); });

@@ -113,7 +113,7 @@ Point best_place(const Plain& mesh, Index vertex, const std::function<Worth(Poin
 std::pair<int, int> compare(const InputMesh& mesh, const CompositeObjective& composite, const SecondAim& second) {
   const Plain plain{mesh, mesh.mesh.positions};
   const CompositeRule<Plane> search(mesh, composite, {});
-  Star<double> scratch;
+  CompositeRule<Plane>::Scratch scratch;
   std::pair<int, int> counts{};
   for (Index v = 0; v < mesh.mesh.vertex_count(); ++v) {
     if (mesh.topology.boundary()[v] != 0) continue;

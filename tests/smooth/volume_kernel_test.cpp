@@ -187,7 +187,7 @@ TEST(VolumeKernel, LeavesStarsToThePlainSearchThatAreInvertedOrNearlyFlat) {
       EXPECT_FALSE(volume_kernel(level, Metric::MeanRatio).search(sample->search(8, 3, 0.5)).ready);
 }
 
-/// What volume_kernel()'s compare() tells, from the mesh's own elements.
+/// What volume_kernel()'s least_ranks() tells, from the mesh's own elements.
 template <Metric M>
 double least_rank(const InputMesh& input, Index vertex, Vec3 place) {
   VolumeStar<double> star;
@@ -251,10 +251,10 @@ TEST_P(Generated, ComparisonsAreByTheLeastRankOfTheElements) {
     const Vec3 there = here + Vec3{random.between(-size, size), random.between(-size, size), random.between(-size, size)};
     for (const SimdLevel level : supported_simd_levels()) {
       const VolumeComparison task{star.elements, others.data(), here, there};
-      const VolumeRanks ratio = volume_kernel(level, Metric::MeanRatio).compare(task);
+      const BeforeAndAfter ratio = volume_kernel(level, Metric::MeanRatio).least_ranks(task);
       EXPECT_NEAR(ratio.before, least_rank<Metric::MeanRatio>(*input, vertex, here), 1e-12);
       EXPECT_NEAR(ratio.after, least_rank<Metric::MeanRatio>(*input, vertex, there), 1e-12);
-      const VolumeRanks jacobian = volume_kernel(level, Metric::ScaledJacobian).compare(task);
+      const BeforeAndAfter jacobian = volume_kernel(level, Metric::ScaledJacobian).least_ranks(task);
       EXPECT_NEAR(jacobian.before, least_rank<Metric::ScaledJacobian>(*input, vertex, here), 1e-12);
       EXPECT_NEAR(jacobian.after, least_rank<Metric::ScaledJacobian>(*input, vertex, there), 1e-12);
     }

@@ -39,8 +39,11 @@ class Kernel {
   static constexpr std::size_t kMaxPoints = kMaxCompositePoints;
   static constexpr std::size_t kMaxPlane = kMaxPoints * kMaxPoints + kFloats;
   static constexpr bool kBounded = !std::is_same_v<Frame, Curved> && M == Metric::MeanRatio;
-  /// In the plane an exact look costs little more than a bound: only where the mean is raised, too, bounds pay.
-  [[nodiscard]] bool is_bounded() const { return kSpace || task_.second == Second::Mean; }
+  /// In the plane an exact look costs little more than a bound: only where the mean is raised, too, bounds pay. Where the second metric is
+  /// judged first, mostly a few elements tell as much.
+  [[nodiscard]] bool is_bounded() const { return task_.second == Second::Mean || (kSpace && !is_by_second()); }
+  /// Does no place win but by the second metric?
+  [[nodiscard]] bool is_by_second() const { return second_metric_ != nullptr && best_ > task_.threshold; }
 
   static bool has_room(const Task& task) {
     std::size_t others = 0;
@@ -160,7 +163,7 @@ class Kernel {
   D worth(const Point& p, D best) {
     if (least_second_ > 0.0 && !xsimd::any(second_rank_.least(task_.star, p, second_, least_second_) > D(least_second_))) return best;
     // Where no place wins but by the second metric, that is judged first: mostly a few elements tell.
-    const bool by_second = second_metric_ != nullptr && best_ > task_.threshold;
+    const bool by_second = is_by_second();
     const D second = by_second ? second_metric_(task_.star, p, second_, D(task_.threshold), best) : best;
     if (by_second && !xsimd::any(second > best)) return best;
     const D least = least_at<M, Frame, D>(task_.star, p, first_, [&](D so_far) { return xsimd::any((so_far > best) | beyond(so_far)); });

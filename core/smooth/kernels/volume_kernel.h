@@ -1,5 +1,5 @@
 #pragma once
-// The fast search of a volume's star, for one vertex: in float, and what its result is worth in double. The same code compiled for several
+// The fast search of a volume's star, for one vertex: in float, and what two places are worth in double. The same code compiled for several
 // processors, chosen at run time; all give the same bits.
 
 #include <cstddef>
@@ -31,14 +31,15 @@ struct VolumeComparison {
   Vec3 before, after;
 };
 
-/// The least rank (formulas::rank) of the elements for which the metric is defined.
-struct VolumeRanks {
+struct BeforeAndAfter {
   double before = 0.0, after = 0.0;
 };
 
 struct VolumeKernel {
   VolumeFound (*search)(const VolumeSearch& search) = nullptr;
-  VolumeRanks (*compare)(const VolumeComparison& comparison) = nullptr;
+  // Of the elements for which the metric is defined:
+  BeforeAndAfter (*least_ranks)(const VolumeComparison& comparison) = nullptr;  // formulas::rank_around
+  BeforeAndAfter (*means)(const VolumeComparison& comparison) = nullptr;        // formulas::metric
 };
 
 /// The kernel for a metric that is defined for volumes. `level` must be one of supported_simd_levels().

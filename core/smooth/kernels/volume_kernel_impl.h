@@ -126,7 +126,7 @@ class FormSearch : public MeanRatioSearch<F> {
  public:
   explicit FormSearch(const VolumeSearch& task) : MeanRatioSearch<F>(task.points) {
     const Vec3Of<F> origin{F(0), F(0), F(0)};
-    for_packs<F>(task.star, task.others, [&]<class Element>(const Element& element) {
+    for_packs<F>(task.star, task.others, [&]<class Element>(const Element& element, std::size_t /*used*/) {
       if constexpr (std::is_same_v<Element, StarTetrahedron<F>>)
         this->take(tetrahedron_form(element.b, element.c, element.d));
       else
@@ -151,13 +151,13 @@ VolumeFound search(const VolumeSearch& task) {
   return found;
 }
 
-/// D: pack of doubles, an element per slot.
+/// Of the elements for which the metric is defined. D: pack of doubles, an element per slot.
 template <Metric M, class D>
-[[gnu::flatten]] VolumeRanks compare(const VolumeComparison& task) {
+[[gnu::flatten]] BeforeAndAfter least_ranks(const VolumeComparison& task) {
   using scalar::min;
   const Vec3Of<D> before = point_of<D>(task.before), after = point_of<D>(task.after);
   D least_before(std::numeric_limits<double>::max()), least_after(std::numeric_limits<double>::max());
-  for_packs<D>(task.star, task.others, [&]<class Element>(const Element& element) {
+  for_packs<D>(task.star, task.others, [&]<class Element>(const Element& element, std::size_t /*used*/) {
     if constexpr (std::is_same_v<Element, StarTetrahedron<D>> || formulas::kDefinedForCorners<M>) {
       least_before = min(least_before, formulas::rank_around<M>(element.with(before), element.kMoving));
       least_after = min(least_after, formulas::rank_around<M>(element.with(after), element.kMoving));
@@ -166,12 +166,36 @@ template <Metric M, class D>
   alignas(64) double ranks[2][D::size];
   least_before.store_aligned(ranks[0]);
   least_after.store_aligned(ranks[1]);
-  VolumeRanks least{ranks[0][0], ranks[1][0]};
+  BeforeAndAfter least{ranks[0][0], ranks[1][0]};
   for (std::size_t k = 1; k < D::size; ++k) {
     if (ranks[0][k] < least.before) least.before = ranks[0][k];
     if (ranks[1][k] < least.after) least.after = ranks[1][k];
   }
   return least;
+}
+template <Metric M, class D>
+[[gnu::flatten]] BeforeAndAfter means(const VolumeComparison& task) {
+  const Vec3Of<D> before = point_of<D>(task.before), after = point_of<D>(task.after);
+  alignas(64) double numbers[D::size];
+  for (std::size_t k = 0; k < D::size; ++k) numbers[k] = static_cast<double>(static_cast<std::int32_t>(k));
+  const D slot = D::load_aligned(numbers);
+  D sum_before(0.0), sum_after(0.0);
+  double count = 0.0;
+  for_packs<D>(task.star, task.others, [&]<class Element>(const Element& element, std::size_t used) {
+    if constexpr (std::is_same_v<Element, StarTetrahedron<D>> || formulas::kDefinedForCorners<M>) {
+      const double here = static_cast<double>(static_cast<std::int32_t>(used));
+      const auto counts = slot < D(here);
+      sum_before += xsimd::select(counts, formulas::metric<M>(element.with(before)), D(0.0));
+      sum_after += xsimd::select(counts, formulas::metric<M>(element.with(after)), D(0.0));
+      count += here;
+    }
+  });
+  BeforeAndAfter mean;
+  sum_before.store_aligned(numbers);
+  for (const double each : numbers) mean.before += each / count;
+  sum_after.store_aligned(numbers);
+  for (const double each : numbers) mean.after += each / count;
+  return mean;
 }
 
 /// The kernel for `metric` with this translation unit's widest packs of floats, F, and of doubles, D.
@@ -179,7 +203,7 @@ template <class F, class D>
 VolumeKernel kernel_for(Metric metric) {
   return formulas::with_volume_metric(metric, []<Metric M>() -> VolumeKernel {
     using Search = std::conditional_t<M == Metric::MeanRatio, FormSearch<F>, RankSearch<M, F>>;
-    return {&search<Search>, &compare<M, D>};
+    return {&search<Search>, &least_ranks<M, D>, &means<M, D>};
   });
 }
 

@@ -111,7 +111,14 @@ CompositeRule<Frame>::CompositeRule(const InputMesh& input, CompositeObjective c
                   : composite_kernel<Frame>(parameters.simd.value_or(best_simd_level()), this->composite().first)) {}
 
 template <class Frame>
-typename CompositeRule<Frame>::Found CompositeRule<Frame>::search(const Scratch& star, PositionView positions, Index vertex) const {
+CompositeRule<Frame>::CompositeRule(const SmoothingTask& task, CompositeObjective composite)
+    : CompositeRule(*task.input, std::move(composite), task.search) {
+  if constexpr (std::is_same_v<Frame, Space>)
+    if (kernel_ != nullptr) volume_ = std::make_shared<const VolumeTwoAims>(task, this->composite().first, *plain_aims(this->composite()));
+}
+
+template <class Frame>
+typename CompositeRule<Frame>::Found CompositeRule<Frame>::search(const Star& star, PositionView positions, Index vertex) const {
   if (kernel_ != nullptr && !this->untangling().repair && !this->is_tangled(star)) {
     const CompositeFound<Frame> found = kernel_(task_of(star, positions, vertex));
     if (found.ready) return {found.offset, false};
@@ -120,7 +127,7 @@ typename CompositeRule<Frame>::Found CompositeRule<Frame>::search(const Scratch&
 }
 
 template <class Frame>
-CompositeSearch<Frame> CompositeRule<Frame>::task_of(const Scratch& star, PositionView positions, Index vertex) const {
+CompositeSearch<Frame> CompositeRule<Frame>::task_of(const Star& star, PositionView positions, Index vertex) const {
   CompositeSearch<Frame> task = search_for<Frame>(this->composite(), parameters_);
   task.star = lists_of(star);
   task.box = star.box;
@@ -177,13 +184,27 @@ template class StarJudge<Plane>;
 template class StarJudge<Space>;
 template class StarJudge<Curved>;
 
+/// By the kernel, with little around it; nothing where the star is not for it.
 template <class Frame>
-std::optional<Vec3> CompositeRule<Frame>::target(PositionView positions, Index vertex, Scratch& star) const {
-  this->gather(positions, vertex, star);
-  const Offset found = search(star, positions, vertex).offset;
+std::optional<CompositeFound<Frame>> CompositeRule<Frame>::search_volume(PositionView positions, Index vertex, Scratch& scratch) const {
+  if constexpr (std::is_same_v<Frame, Space>) {
+    if (!volume_ || this->untangling().repair || !volume_->gather(positions, vertex, scratch.points, scratch.star)) return std::nullopt;
+    const CompositeFound<Frame> found = kernel_(task_of(scratch.star, positions, vertex));
+    if (found.ready) return found;
+  }
+  return std::nullopt;
+}
+
+template <class Frame>
+std::optional<Vec3> CompositeRule<Frame>::target(PositionView positions, Index vertex, Scratch& scratch) const {
+  const auto in_volume = search_volume(positions, vertex, scratch);
+  if (!in_volume) this->gather(positions, vertex, scratch.star);
+  const Offset found = in_volume ? in_volume->offset : search(scratch.star, positions, vertex).offset;
   if (found == Offset{}) return std::nullopt;
-  const auto target = mesh_.moved(positions[vertex], times(found, star.scale));
-  return target && this->gains(positions, vertex, *target) ? target : std::nullopt;
+  const auto target = mesh_.moved(positions[vertex], times(found, scratch.star.scale));
+  if (!target) return std::nullopt;
+  const auto known = in_volume ? volume_->gains(vertex, scratch.points, positions[vertex], *target) : std::nullopt;
+  return known.value_or(false) || (!known && this->gains(positions, vertex, *target)) ? target : std::nullopt;
 }
 
 template class CompositeRule<Plane>;
@@ -192,7 +213,7 @@ template class CompositeRule<Space>;
 namespace {
 template <class Frame>
 std::unique_ptr<Smoother> make_composite_smoother_in(const SmoothingTask& task, const CompositeObjective& composite) {
-  return make_sliding_smoother<Frame>(task, CompositeRule<Frame>(*task.input, composite, task.search), composite);
+  return make_sliding_smoother<Frame>(task, CompositeRule<Frame>(task, composite), composite);
 }
 }  // namespace
 

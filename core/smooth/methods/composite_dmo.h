@@ -6,12 +6,14 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
 
 #include "core/search/surface_star.h"
 #include "core/smooth/kernels/composite_kernel.h"
+#include "core/smooth/methods/volume_two_aims.h"
 #include "core/smooth/size_field.h"
 #include "core/smooth/two_aims.h"
 #include "core/smooth/vertex_rule.h"
@@ -170,12 +172,21 @@ class StarJudge {
 template <class Frame>
 class CompositeRule : public StarJudge<Frame> {
  public:
-  using Scratch = StarIn<Frame, double>;
+  using Star = StarIn<Frame, double>;
   using Offset = OffsetIn<Frame, double>;
+  struct Scratch {
+    Star star;
+    VolumePoints points;  // in space
+  };
   /// The visit of a vertex depends only on the positions of its elements' vertices: see RuleSmoother.
   static constexpr bool kDependsOnStarAlone = true;
   static constexpr std::size_t kGrain = std::is_same_v<Frame, Plane> ? 32 : 1;  // in space a visit may take half a millisecond
   CompositeRule(const InputMesh& input, CompositeObjective composite, const SearchParameters& parameters);
+  /// For many visits.
+  CompositeRule(const SmoothingTask& task, CompositeObjective composite);
+  [[nodiscard]] std::span<const Index> others(Index vertex) const {
+    return volume_ ? volume_->star_of(vertex).vertices : std::span<const Index>();
+  }
 
   /// What was found: the offset in units of the star's scale, and whether an element was inverted.
   struct Found {
@@ -184,10 +195,10 @@ class CompositeRule : public StarJudge<Frame> {
   };
   /// By packs of candidates where that can be, else, and where the precision asked for is double, the plain search; both compute in double
   /// and find the same.
-  [[nodiscard]] Found search(const Scratch& star, PositionView positions, Index vertex) const;
+  [[nodiscard]] Found search(const Star& star, PositionView positions, Index vertex) const;
   /// `trace`: see grid_search.
   template <class Trace = NoTrace>
-  [[nodiscard]] Found search_plainly(const Scratch& star, PositionView positions, Index vertex, Trace&& trace = {}) const {
+  [[nodiscard]] Found search_plainly(const Star& star, PositionView positions, Index vertex, Trace&& trace = {}) const {
     const StarViewIn<Frame, double> view(star);
     const bool untangling = this->is_tangled(star);
     if (this->untangling().repair && !untangling) return {};
@@ -196,14 +207,16 @@ class CompositeRule : public StarJudge<Frame> {
     return {grid_search<double>(objective, star.box, parameters_, trace, Solo{}, untangling ? &middle : nullptr).offset, untangling};
   }
   /// Where the vertex goes, if it gains there.
-  [[nodiscard]] std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& star) const;
+  [[nodiscard]] std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const;
 
  private:
-  [[nodiscard]] CompositeSearch<Frame> task_of(const Scratch& star, PositionView positions, Index vertex) const;
+  [[nodiscard]] std::optional<CompositeFound<Frame>> search_volume(PositionView positions, Index vertex, Scratch& scratch) const;
+  [[nodiscard]] CompositeSearch<Frame> task_of(const Star& star, PositionView positions, Index vertex) const;
 
   RuleMesh<Frame> mesh_;
   SearchParameters parameters_;
   CompositeKernel<Frame> kernel_;  // null: the plain search alone
+  std::shared_ptr<const VolumeTwoAims> volume_;  // in space, where there is a kernel; shared: the rule is moved about
 };
 
 /// For any aims.

@@ -2,28 +2,26 @@
 
 namespace dmoscope {
 
+namespace {
+Vec3Of<float> narrow(Vec3 p) { return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}; }
+}  // namespace
+
 VolumeFound VolumeStarSearch::find(const IndexedStars::Star& star, PositionView positions, Index vertex, int levels,
                                    VolumePoints& points) const {
   if (!star.fits) return {};
-  const std::size_t count = star.vertices.size();
-  if (points.exact.size() < count) {
-    points.exact.resize(count);
-    points.fast.resize(count);
-  }
-  const Vec3 origin = positions[vertex];
-  StarBox<Vec3> box;
-  for (std::size_t i = 0; i < count; ++i) {
-    points.exact[i] = positions[star.vertices[i]];
-    box.add(points.exact[i] - origin);
-  }
-  points.scale = star_scale<Space>(box.largest());
-  const double inverse = 1.0 / points.scale;
-  const auto narrow = [inverse](Vec3 p) {
-    return Vec3Of<float>{static_cast<float>(p.x * inverse), static_cast<float>(p.y * inverse), static_cast<float>(p.z * inverse)};
-  };
-  for (std::size_t i = 0; i < count; ++i) points.fast[i] = narrow(points.exact[i] - origin);
-  points.box = narrow(box.size());
-  return kernel_.search({star.elements, points.fast.data(), points.box, parameters_.grid_points, levels, parameters_.omega});
+  gather_points(star, positions, vertex, points);
+  if (points.narrow.size() < points.offsets.size()) points.narrow.resize(points.offsets.size());
+  for (std::size_t i = 0; i < star.vertices.size(); ++i) points.narrow[i] = narrow(points.offsets[i]);
+  points.narrow_box = narrow(points.box);
+  return kernel_.search({star.elements, points.narrow.data(), points.narrow_box, parameters_.grid_points, levels, parameters_.omega});
+}
+
+std::optional<bool> VolumeStarSearch::gains(const IndexedStars::Star& star, const VolumePoints& points, Vec3 from, Vec3 target) const {
+  if (!has_metric(star.elements, metric_)) return std::nullopt;
+  const BeforeAndAfter rank = kernel_.least_ranks({star.elements, points.at.data(), from, target});
+  if (!(rank.before > kLeastCertain)) return std::nullopt;
+  const Certainty rises = compare(rank.after, rank.before);
+  return rises == Certainty::Unsure ? std::nullopt : std::optional(rises == Certainty::Greater);
 }
 
 }  // namespace dmoscope

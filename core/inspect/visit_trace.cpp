@@ -124,8 +124,8 @@ class Look {
   /// As FastVolumeSearch does it. What the kernel chose in level L is what it finds in L levels and does not find in L - 1.
   bool search_by_volume_kernel() {
     const VolumeStarSearch search(M, parameters_);
-    const IndexedStars stars(input_.mesh, input_.topology, trace_.vertex);
-    VolumePoints points;
+    const IndexedStars stars(input_, trace_.vertex);
+    VolumeStarSearch::Points points;
     const auto find = [&](int levels) { return search.find(stars.of(trace_.vertex), positions_, trace_.vertex, levels, points); };
     if (!find(0).ready) return false;
     trace_.fast = true;

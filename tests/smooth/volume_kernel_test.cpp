@@ -19,6 +19,7 @@
 #include "core/mesh/random.h"
 #include "core/search/grid_search.h"
 #include "core/search/mesh_star.h"
+#include "core/smooth/kernels/indexed_stars.h"
 #include "core/smooth/kernels/volume_form.h"
 
 namespace dmoscope {
@@ -82,7 +83,7 @@ class Sample {
   [[nodiscard]] VolumeSearch search(int grid, int levels, double omega) {
     all_.clear();
     VolumeSearch task;
-    for (std::size_t kind = 0; kind < kStarKinds; ++kind) {
+    for (std::size_t kind = 0; kind < kSolidKinds; ++kind) {
       all_.insert(all_.end(), corners_[kind].begin(), corners_[kind].end());
       task.star.counts[kind] = static_cast<std::uint8_t>(corners_[kind].size() / kOtherCorners[kind]);
     }
@@ -106,7 +107,7 @@ class Sample {
   }
 
  private:
-  std::array<std::vector<std::uint16_t>, kStarKinds> corners_;
+  std::array<std::vector<std::uint16_t>, kSolidKinds> corners_;
   std::vector<std::uint16_t> all_;
 };
 
@@ -210,7 +211,7 @@ TEST_P(Generated, StarsByIndicesAreThoseOfTheMesh) {
   for (Index vertex = 0; vertex < input->mesh.positions.size(); ++vertex) {
     VolumeStar<double> expected;
     gather_star(MeshStar<Space>(input->view<Space>(), input->mesh.positions, vertex), expected);
-    const IndexedStars stars(input->mesh, input->topology, vertex);
+    const IndexedStars stars(*input, vertex);
     const IndexedStars::Star star = stars.of(vertex);
     ASSERT_TRUE(star.fits);
     std::vector<Index> sorted(star.vertices.begin(), star.vertices.end());
@@ -242,7 +243,7 @@ TEST_P(Generated, ComparisonsAreByTheLeastRankOfTheElements) {
   const auto input = make();
   dmoscope::Random random(11);
   for (Index vertex = 0; vertex < input->mesh.positions.size(); vertex += 7) {
-    const IndexedStars stars(input->mesh, input->topology, vertex);
+    const IndexedStars stars(*input, vertex);
     const IndexedStars::Star star = stars.of(vertex);
     std::vector<Vec3> others;
     for (const Index other : star.vertices) others.push_back(input->mesh.positions[other]);

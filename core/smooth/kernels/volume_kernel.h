@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "core/base/vec.h"
 #include "core/quality/metric.h"
 #include "core/search/parameters.h"
 #include "core/smooth/kernels/indexed_star.h"

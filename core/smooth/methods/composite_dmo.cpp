@@ -39,6 +39,11 @@ double mean_at(const JudgedStarView<Frame>& star, OffsetIn<Frame, double> p, dou
   return mean_of<M>(star, p);
 }
 
+/// Does its sign tell whether a quadrilateral is inverted?
+bool sees_inversion(Metric metric) {
+  return formulas::with_planar_metric(metric, []<Metric M>() { return formulas::Formula<M>::kSeesInversion; });
+}
+
 template <Metric M, class Frame>
 MetricFunctions<Frame> functions_of() {
   return {star_state<M, Frame>, mean_of_star<M, Frame>, least_at<M, Frame>,
@@ -113,8 +118,10 @@ CompositeRule<Frame>::CompositeRule(const InputMesh& input, CompositeObjective c
 template <class Frame>
 CompositeRule<Frame>::CompositeRule(const SmoothingTask& task, CompositeObjective composite)
     : CompositeRule(*task.input, std::move(composite), task.search) {
+  if (kernel_ == nullptr) return;
+  stars_ = std::make_shared<const IndexedStars>(*task.input, *task.colouring, task.pool);
   if constexpr (std::is_same_v<Frame, Space>)
-    if (kernel_ != nullptr) volume_ = std::make_shared<const VolumeTwoAims>(task, this->composite().first, *plain_aims(this->composite()));
+    comparison_.emplace(task.search.simd.value_or(best_simd_level()), this->composite().first, *plain_aims(this->composite()));
 }
 
 template <class Frame>
@@ -184,26 +191,47 @@ template class StarJudge<Plane>;
 template class StarJudge<Space>;
 template class StarJudge<Curved>;
 
-/// By the kernel, with little around it; nothing where the star is not for it.
+/// By the kernel, of a star by its indices; nothing where the star is not for it.
 template <class Frame>
-std::optional<CompositeFound<Frame>> CompositeRule<Frame>::search_volume(PositionView positions, Index vertex, Scratch& scratch) const {
+std::optional<CompositeFound<Frame>> CompositeRule<Frame>::search_indexed(PositionView positions, Index vertex, Scratch& scratch) const {
+  if (!stars_ || this->untangling().repair) return std::nullopt;
+  const IndexedStars::Star star = stars_->of(vertex);
+  if (!star.fits) return std::nullopt;
+  gather_points(mesh_.view.frame, star, positions, vertex, scratch.points);
+  fill_star(star, scratch.points, scratch.star);
+  const CompositeFound<Frame> found = kernel_(task_of(scratch.star, positions, vertex));
+  return found.ready ? std::optional(found) : std::nullopt;
+}
+
+/// As gains(), by the star as it was searched; nothing where rounding may decide.
+template <class Frame>
+std::optional<bool> CompositeRule<Frame>::gains_for_certain(Index vertex, const Scratch& scratch, Vec3 from, Vec3 target) const {
   if constexpr (std::is_same_v<Frame, Space>) {
-    if (!volume_ || this->untangling().repair || !volume_->gather(positions, vertex, scratch.points, scratch.star)) return std::nullopt;
-    const CompositeFound<Frame> found = kernel_(task_of(scratch.star, positions, vertex));
-    if (found.ready) return found;
+    return comparison_->gains(stars_->of(vertex).elements, scratch.points, from, target);
+  } else {
+    const CompositeObjective& composite = this->composite();
+    const Metric* second = std::get_if<Metric>(&composite.second);
+    // That no corner turns over is for the statistics' formulas to say where the metric does not; what densities are, too.
+    if ((!scratch.star.quadrilaterals.empty() && !sees_inversion(composite.first)) || (second == nullptr && !composite.raise_mean()))
+      return std::nullopt;
+    const JudgedStarView<Frame> star(scratch.star);
+    const Offset step = times(mesh_.view.frame.offset(target, from), 1.0 / scratch.star.scale);
+    const auto values = [&](auto at) { return BeforeAndAfter{at(star, Offset{}, 0.0), at(star, step, 0.0)}; };
+    const MetricFunctions<Frame>& first = metric_functions<Frame>(composite.first);
+    return dmoscope::gains_for_certain(composite.threshold, values(first.least_at),
+                                       [&] { return values(second != nullptr ? metric_functions<Frame>(*second).least_at : first.mean_at); });
   }
-  return std::nullopt;
 }
 
 template <class Frame>
 std::optional<Vec3> CompositeRule<Frame>::target(PositionView positions, Index vertex, Scratch& scratch) const {
-  const auto in_volume = search_volume(positions, vertex, scratch);
-  if (!in_volume) this->gather(positions, vertex, scratch.star);
-  const Offset found = in_volume ? in_volume->offset : search(scratch.star, positions, vertex).offset;
+  const auto indexed = search_indexed(positions, vertex, scratch);
+  if (!indexed) this->gather(positions, vertex, scratch.star);
+  const Offset found = indexed ? indexed->offset : search(scratch.star, positions, vertex).offset;
   if (found == Offset{}) return std::nullopt;
   const auto target = mesh_.moved(positions[vertex], times(found, scratch.star.scale));
   if (!target) return std::nullopt;
-  const auto known = in_volume ? volume_->gains(vertex, scratch.points, positions[vertex], *target) : std::nullopt;
+  const auto known = indexed ? gains_for_certain(vertex, scratch, positions[vertex], *target) : std::nullopt;
   return known.value_or(false) || (!known && this->gains(positions, vertex, *target)) ? target : std::nullopt;
 }
 

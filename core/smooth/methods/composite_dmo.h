@@ -13,7 +13,7 @@
 
 #include "core/search/surface_star.h"
 #include "core/smooth/kernels/composite_kernel.h"
-#include "core/smooth/methods/volume_two_aims.h"
+#include "core/smooth/methods/two_aims_comparison.h"
 #include "core/smooth/size_field.h"
 #include "core/smooth/two_aims.h"
 #include "core/smooth/vertex_rule.h"
@@ -176,7 +176,7 @@ class CompositeRule : public StarJudge<Frame> {
   using Offset = OffsetIn<Frame, double>;
   struct Scratch {
     Star star;
-    VolumePoints points;  // in space
+    StarPoints<Frame> points;
   };
   /// The visit of a vertex depends only on the positions of its elements' vertices: see RuleSmoother.
   static constexpr bool kDependsOnStarAlone = true;
@@ -185,7 +185,7 @@ class CompositeRule : public StarJudge<Frame> {
   /// For many visits.
   CompositeRule(const SmoothingTask& task, CompositeObjective composite);
   [[nodiscard]] std::span<const Index> others(Index vertex) const {
-    return volume_ ? volume_->star_of(vertex).vertices : std::span<const Index>();
+    return stars_ ? stars_->of(vertex).vertices : std::span<const Index>();
   }
 
   /// What was found: the offset in units of the star's scale, and whether an element was inverted.
@@ -210,13 +210,15 @@ class CompositeRule : public StarJudge<Frame> {
   [[nodiscard]] std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const;
 
  private:
-  [[nodiscard]] std::optional<CompositeFound<Frame>> search_volume(PositionView positions, Index vertex, Scratch& scratch) const;
+  [[nodiscard]] std::optional<CompositeFound<Frame>> search_indexed(PositionView positions, Index vertex, Scratch& scratch) const;
+  [[nodiscard]] std::optional<bool> gains_for_certain(Index vertex, const Scratch& scratch, Vec3 from, Vec3 target) const;
   [[nodiscard]] CompositeSearch<Frame> task_of(const Star& star, PositionView positions, Index vertex) const;
 
   RuleMesh<Frame> mesh_;
   SearchParameters parameters_;
   CompositeKernel<Frame> kernel_;  // null: the plain search alone
-  std::shared_ptr<const VolumeTwoAims> volume_;  // in space, where there is a kernel; shared: the rule is moved about
+  std::shared_ptr<const IndexedStars> stars_;     // where there is a kernel; shared: the rule is moved about
+  std::optional<TwoAimsComparison> comparison_;  // likewise, in space
 };
 
 /// For any aims.

@@ -5,8 +5,9 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
-#include "core/smooth/methods/volume_points.h"
+#include "core/smooth/methods/star_points.h"
 #include "core/smooth/task.h"
 #include "core/smooth/vertex_rule.h"
 
@@ -15,15 +16,19 @@ namespace dmoscope {
 /// The fast search by a metric for a star of a volume.
 class VolumeStarSearch {
  public:
+  struct Points : StarPoints<Space> {
+    std::vector<Vec3Of<float>> narrow;  // the offsets
+    Vec3Of<float> narrow_box;
+  };
   VolumeStarSearch(Metric metric, const SearchParameters& parameters)
       : metric_(metric), kernel_(volume_kernel(parameters.simd.value_or(best_simd_level()), metric)), parameters_(parameters) {}
 
   /// What the kernel finds within `levels` levels for the vertex; a search of fewer levels begins like one of more. Not ready where the
   /// plain search has to do it.
-  [[nodiscard]] VolumeFound find(const IndexedStars::Star& star, PositionView positions, Index vertex, int levels, VolumePoints& points) const;
+  [[nodiscard]] VolumeFound find(const IndexedStars::Star& star, PositionView positions, Index vertex, int levels, Points& points) const;
   /// Would the vertex gain by going to `target`, as gains_at() has it where no element is inverted? Nothing where that has to say.
   /// `points`: as find() left them.
-  [[nodiscard]] std::optional<bool> gains(const IndexedStars::Star& star, const VolumePoints& points, Vec3 from, Vec3 target) const;
+  [[nodiscard]] std::optional<bool> gains(const IndexedStars::Star& star, const Points& points, Vec3 from, Vec3 target) const;
 
  private:
   Metric metric_;
@@ -37,7 +42,7 @@ template <Metric M>
 class FastVolumeSearch {
  public:
   struct Scratch {
-    VolumePoints points;
+    VolumeStarSearch::Points points;
     VolumeStar<double> star;  // for the plain search
   };
   static constexpr bool kDependsOnStarAlone = true;
@@ -46,7 +51,7 @@ class FastVolumeSearch {
       : mesh_(*task.input),
         parameters_(task.search),
         search_(M, task.search),
-        stars_(std::make_shared<const IndexedStars>(task.input->mesh, task.input->topology, *task.colouring, task.pool)) {}
+        stars_(std::make_shared<const IndexedStars>(*task.input, *task.colouring, task.pool)) {}
 
   void begin(const Sweep& sweep) { mesh_.untangling = sweep.untangling; }
   [[nodiscard]] std::span<const Index> others(Index vertex) const { return stars_->of(vertex).vertices; }

@@ -1,4 +1,4 @@
-#include "core/smooth/kernels/indexed_star.h"
+#include "core/smooth/kernels/indexed_stars.h"
 
 #include <algorithm>
 
@@ -16,8 +16,13 @@ struct TurnedElement {
 };
 
 /// An element as the star of its corner `at.corner` has it.
-TurnedElement turned_element(std::span<const Index> corners, Index corner) {
+TurnedElement turned_element(std::span<const Index> corners, Index corner, bool planar) {
   TurnedElement element{};
+  if (planar) {
+    element.kind = corners.size() == 3 ? StarKind::Triangles : StarKind::Quadrilaterals;
+    for (std::size_t i = 0; i + 1 < corners.size(); ++i) element.others[i] = corners[(corner + i + 1) % corners.size()];
+    return element;
+  }
   const auto take = [&](StarKind kind, Index (*turn)(Index, Index)) {
     element.kind = kind;
     for (std::size_t i = 0; i + 1 < corners.size(); ++i) element.others[i] = corners[turn(corner, static_cast<Index>(i + 1))];
@@ -37,13 +42,14 @@ TurnedElement turned_element(std::span<const Index> corners, Index corner) {
 
 }  // namespace
 
-void IndexedStars::Chunk::add(const Mesh& mesh, const Topology& topology, Index vertex) {
+void IndexedStars::Chunk::add(const InputMesh& input, Index vertex) {
+  const bool planar = !input.is_volume();
   Shape shape;
   shape.first_vertex = static_cast<std::uint32_t>(vertices.size());
   shape.first_corner = static_cast<std::uint32_t>(corners.size());
   std::array<std::size_t, kStarKinds> counts{};
-  for (const Incidence& at : topology.star(vertex))
-    ++counts[static_cast<std::size_t>(turned_element(mesh.elements.corners(at.element), at.corner).kind)];
+  for (const Incidence& at : input.topology.star(vertex))
+    ++counts[static_cast<std::size_t>(turned_element(input.mesh.elements.corners(at.element), at.corner, planar).kind)];
   shape.fits = std::ranges::all_of(counts, [](std::size_t count) { return count <= kMaxSolids; });
   const auto place_of = [&](Index other) {
     const auto first = vertices.begin() + shape.first_vertex, found = std::find(first, vertices.end(), other);
@@ -54,8 +60,8 @@ void IndexedStars::Chunk::add(const Mesh& mesh, const Topology& topology, Index 
   for (std::size_t kind = 0; shape.fits && kind < kStarKinds; ++kind) {
     shape.counts[kind] = static_cast<std::uint8_t>(counts[kind]);
     if (counts[kind] == 0) continue;
-    for (const Incidence& at : topology.star(vertex)) {
-      const TurnedElement element = turned_element(mesh.elements.corners(at.element), at.corner);
+    for (const Incidence& at : input.topology.star(vertex)) {
+      const TurnedElement element = turned_element(input.mesh.elements.corners(at.element), at.corner, planar);
       if (static_cast<std::size_t>(element.kind) != kind) continue;
       for (std::size_t i = 0; i < kOtherCorners[kind]; ++i) corners.push_back(place_of(element.others[i]));
     }
@@ -64,15 +70,15 @@ void IndexedStars::Chunk::add(const Mesh& mesh, const Topology& topology, Index 
   shapes.push_back(shape);
 }
 
-IndexedStars::IndexedStars(const Mesh& mesh, const Topology& topology, const Colouring& colouring, ThreadPool* pool)
-    : chunks_((colouring.order.size() + kStarsAtOnce - 1) / kStarsAtOnce), visit_of_vertex_(large_vector<Index>(mesh.positions.size())) {
+IndexedStars::IndexedStars(const InputMesh& input, const Colouring& colouring, ThreadPool* pool)
+    : chunks_((colouring.order.size() + kStarsAtOnce - 1) / kStarsAtOnce), visit_of_vertex_(large_vector<Index>(input.mesh.positions.size())) {
   for_chunks(pool, colouring.order.size(), kStarsAtOnce, [&](std::size_t first, std::size_t last) {
     Chunk made;
     made.shapes.reserve(last - first);
     for (std::size_t visit = first; visit < last; ++visit) {
       const Index vertex = colouring.order[visit];
       visit_of_vertex_[vertex] = static_cast<Index>(visit);
-      made.add(mesh, topology, vertex);
+      made.add(input, vertex);
     }
     made.vertices.shrink_to_fit();
     made.corners.shrink_to_fit();
@@ -80,8 +86,8 @@ IndexedStars::IndexedStars(const Mesh& mesh, const Topology& topology, const Col
   });
 }
 
-IndexedStars::IndexedStars(const Mesh& mesh, const Topology& topology, Index vertex) : chunks_(1) {
-  chunks_[0].add(mesh, topology, vertex);
+IndexedStars::IndexedStars(const InputMesh& input, Index vertex) : chunks_(1) {
+  chunks_[0].add(input, vertex);
 }
 
 }  // namespace dmoscope

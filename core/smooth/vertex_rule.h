@@ -143,8 +143,7 @@ class RuleSmoother final : public Smoother {
       if (!others.empty()) return wake(vertex);
     }
     for (const Incidence& at : input_->topology.star(vertex))
-      for (const Index other : input_->mesh.elements.corners(at.element))
-        wake(other);
+      for (const Index other : input_->mesh.elements.corners(at.element)) wake(other);
   }
   void wake(Index vertex) { std::atomic_ref(awake_[vertex]).store(1, std::memory_order_relaxed); }
 

@@ -21,6 +21,7 @@
 #include "core/search/mesh_star.h"
 #include "core/smooth/kernels/indexed_stars.h"
 #include "core/smooth/kernels/volume_form.h"
+#include "core/smooth/two_aims.h"
 
 namespace dmoscope {
 namespace {
@@ -175,7 +176,8 @@ TEST(VolumeKernel, FindsTheFirstOfManyThatAreEquallyGood) {
     Sample moved;
     for (std::size_t i = 0; i + 2 < sample.points.size(); i += 3) {
       const Point off{0.25F, 0.0F, 0.0F};
-      moved.add<StarTetrahedron<float>>(StarKind::Tetrahedra, {sample.points[i] - off, sample.points[i + 1] - off, sample.points[i + 2] - off});
+      moved.add<StarTetrahedron<float>>(StarKind::Tetrahedra,
+                                        {sample.points[i] - off, sample.points[i + 1] - off, sample.points[i + 2] - off});
     }
     expect_the_same(moved, grid, 3, 0.5);
   }
@@ -184,8 +186,7 @@ TEST(VolumeKernel, LeavesStarsToThePlainSearchThatAreInvertedOrNearlyFlat) {
   dmoscope::Random random(10);
   Sample inverted = Sample::octants(random, {1, 1, -1}, 0.1, "t"), flat = Sample::octants(random, {1, 1, 1e-5}, 0.1, "h");
   for (const SimdLevel level : supported_simd_levels())
-    for (Sample* sample : {&inverted, &flat})
-      EXPECT_FALSE(volume_kernel(level, Metric::MeanRatio).search(sample->search(8, 3, 0.5)).ready);
+    for (Sample* sample : {&inverted, &flat}) EXPECT_FALSE(volume_kernel(level, Metric::MeanRatio).search(sample->search(8, 3, 0.5)).ready);
 }
 
 /// What volume_kernel()'s least_ranks() tells, from the mesh's own elements.
@@ -239,7 +240,7 @@ TEST_P(Generated, StarsByIndicesAreThoseOfTheMesh) {
     });
   }
 }
-TEST_P(Generated, ComparisonsAreByTheLeastRankOfTheElements) {
+TEST_P(Generated, ComparisonsAreByTheLeastRankAndTheMeanOfTheElements) {
   const auto input = make();
   dmoscope::Random random(11);
   for (Index vertex = 0; vertex < input->mesh.positions.size(); vertex += 7) {
@@ -255,6 +256,9 @@ TEST_P(Generated, ComparisonsAreByTheLeastRankOfTheElements) {
       const BeforeAndAfter ratio = volume_kernel(level, Metric::MeanRatio).least_ranks(task);
       EXPECT_NEAR(ratio.before, least_rank<Metric::MeanRatio>(*input, vertex, here), 1e-12);
       EXPECT_NEAR(ratio.after, least_rank<Metric::MeanRatio>(*input, vertex, there), 1e-12);
+      const BeforeAndAfter mean = volume_kernel(level, Metric::MeanRatio).means(task);
+      EXPECT_NEAR(mean.before, mean_at_place<Metric::MeanRatio>(input->view<Space>(), input->mesh.positions, vertex, here), 1e-12);
+      EXPECT_NEAR(mean.after, mean_at_place<Metric::MeanRatio>(input->view<Space>(), input->mesh.positions, vertex, there), 1e-12);
       const BeforeAndAfter jacobian = volume_kernel(level, Metric::ScaledJacobian).least_ranks(task);
       EXPECT_NEAR(jacobian.before, least_rank<Metric::ScaledJacobian>(*input, vertex, here), 1e-12);
       EXPECT_NEAR(jacobian.after, least_rank<Metric::ScaledJacobian>(*input, vertex, there), 1e-12);

@@ -183,8 +183,8 @@ class GridCuts {
   std::size_t n_, rows_, begin_ = 0, end_ = 0;  // what is left is between the last two
   std::int32_t longest_ = -1;
   Vec3Of<float> first_{}, step_{}, reach_{};
-  const float *i_, *j_, *key_;  // see GridRows
-  Rows own_;                    // but of the usual grid
+  const float *i_, *j_, *key_;                              // see GridRows
+  Rows own_;                                                // but of the usual grid
   alignas(64) float low_[kMaxRows], minus_high_[kMaxRows];  // of each row; nothing is left where low > high
 };
 

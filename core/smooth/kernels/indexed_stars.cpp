@@ -71,7 +71,8 @@ void IndexedStars::Chunk::add(const InputMesh& input, Index vertex) {
 }
 
 IndexedStars::IndexedStars(const InputMesh& input, const Colouring& colouring, ThreadPool* pool)
-    : chunks_((colouring.order.size() + kStarsAtOnce - 1) / kStarsAtOnce), visit_of_vertex_(large_vector<Index>(input.mesh.positions.size())) {
+    : chunks_((colouring.order.size() + kStarsAtOnce - 1) / kStarsAtOnce),
+      visit_of_vertex_(large_vector<Index>(input.mesh.positions.size())) {
   for_chunks(pool, colouring.order.size(), kStarsAtOnce, [&](std::size_t first, std::size_t last) {
     Chunk made;
     made.shapes.reserve(last - first);
@@ -86,8 +87,6 @@ IndexedStars::IndexedStars(const InputMesh& input, const Colouring& colouring, T
   });
 }
 
-IndexedStars::IndexedStars(const InputMesh& input, Index vertex) : chunks_(1) {
-  chunks_[0].add(input, vertex);
-}
+IndexedStars::IndexedStars(const InputMesh& input, Index vertex) : chunks_(1) { chunks_[0].add(input, vertex); }
 
 }  // namespace dmoscope

@@ -16,6 +16,7 @@
 #include "core/numeric/pack.h"
 // After the packs:
 #include "core/smooth/kernels/grid_cuts.h"
+#include "core/smooth/kernels/indexed_star.h"
 #include "core/smooth/kernels/volume_form.h"
 
 namespace dmoscope::volumes {
@@ -35,7 +36,8 @@ class MeanRatioSearch {
   void take(const MeanRatioForm<F>& forms) {
     const F* fields[] = {&forms.v0, &forms.vx, &forms.vy, &forms.vz, &forms.s0, &forms.sx, &forms.sy, &forms.sz, &forms.square};
     for (std::size_t i = 0; i < kFields - 2; ++i) fields[i]->store_aligned(forms_[count_][i]);
-    for (std::size_t slot = 0; slot < kWidth; ++slot) which_[count_][slot] = static_cast<std::uint32_t>(count_ * kWidth + slot);
+    for (std::size_t slot = 0; slot < kWidth; ++slot)
+      which_[count_][slot] = std::bit_cast<float>(static_cast<std::uint32_t>(count_ * kWidth + slot));
     ++count_;
   }
 
@@ -89,7 +91,7 @@ class MeanRatioSearch {
       const F rank = rank_of(forms_at(i), p, square);
       least = min(least, rank);
       // The lowest bits tell which form it is: of some that are equally bad but for these bits any will do.
-      worst = min(worst, (rank & rough) | F::load_aligned(reinterpret_cast<const float*>(which_[i])));
+      worst = min(worst, (rank & rough) | F::load_aligned(which_[i]));
     }
     return {x, y, z, least_slot(least), std::bit_cast<std::uint32_t>(least_slot(worst)) & (kForms - 1)};
   }
@@ -146,10 +148,11 @@ class MeanRatioSearch {
 
   static constexpr float kRounding = 4e-6F;
   static constexpr std::size_t kFields = 9 + 2;  // of a MeanRatioForm, and how far v and s^(3/2) may be rounded
-  static constexpr std::uint32_t kForms = 8192;
+  static constexpr std::uint32_t kForms = 2048;  // a power of two: more than four corners of kMaxSolids elements of each kind are
 
  public:
   static constexpr std::size_t kMaxPacks = kForms / kWidth;
+  static_assert(kMaxSolids * (1 + 4 * (kSolidKinds - 1)) <= kForms);
 
  private:
   Looked best_;
@@ -157,7 +160,7 @@ class MeanRatioSearch {
   alignas(64) float part_[GridCuts<F>::kMaxPoints], x_[GridCuts<F>::kMaxPoints], y_[GridCuts<F>::kMaxPoints], z_[GridCuts<F>::kMaxPoints];
   GridCuts<F> cuts_;
   alignas(64) float forms_[kMaxPacks][kFields][kWidth];
-  alignas(64) std::uint32_t which_[kMaxPacks][kWidth];
+  alignas(64) float which_[kMaxPacks][kWidth];  // bits: the number of each form
 };
 
 }  // namespace dmoscope::volumes

@@ -49,8 +49,8 @@ template <class R, class F>
   kind.template operator()<StarTip<R>>(StarKind::Tips);
 }
 
-/// Calls take(element, used) with packs of the star's elements, an element per slot; where a kind has no more of them the slots from `used` on
-/// repeat its last one. R: pack; Real: its number; `points`: of the star's other vertices.
+/// Calls take(element, used) with packs of the star's elements, an element per slot; where a kind has no more of them the slots from `used`
+/// on repeat its last one. R: pack; Real: its number; `points`: of the star's other vertices.
 template <class R, class Real, class Take>
 [[gnu::always_inline]] inline void for_packs(const IndexedStar& star, const Vec3Of<Real>* points, const Take& take) {
   constexpr std::size_t kWidth = R::size;
@@ -67,8 +67,8 @@ template <class R, class Real, class Take>
         }
       }
       take(element_of<Element>([&](std::size_t i) -> Vec3Of<R> {
-        return {R::load_aligned(numbers[i][0]), R::load_aligned(numbers[i][1]), R::load_aligned(numbers[i][2])};
-      }),
+             return {R::load_aligned(numbers[i][0]), R::load_aligned(numbers[i][1]), R::load_aligned(numbers[i][2])};
+           }),
            count - first < kWidth ? count - first : kWidth);
     }
   });

@@ -218,8 +218,9 @@ std::optional<bool> CompositeRule<Frame>::gains_for_certain(Index vertex, const 
     const Offset step = times(mesh_.view.frame.offset(target, from), 1.0 / scratch.star.scale);
     const auto values = [&](auto at) { return BeforeAndAfter{at(star, Offset{}, 0.0), at(star, step, 0.0)}; };
     const MetricFunctions<Frame>& first = metric_functions<Frame>(composite.first);
-    return dmoscope::gains_for_certain(composite.threshold, values(first.least_at),
-                                       [&] { return values(second != nullptr ? metric_functions<Frame>(*second).least_at : first.mean_at); });
+    return dmoscope::gains_for_certain(composite.threshold, values(first.least_at), [&] {
+      return values(second != nullptr ? metric_functions<Frame>(*second).least_at : first.mean_at);
+    });
   }
 }
 

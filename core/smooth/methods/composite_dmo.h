@@ -216,8 +216,8 @@ class CompositeRule : public StarJudge<Frame> {
 
   RuleMesh<Frame> mesh_;
   SearchParameters parameters_;
-  CompositeKernel<Frame> kernel_;  // null: the plain search alone
-  std::shared_ptr<const IndexedStars> stars_;     // where there is a kernel; shared: the rule is moved about
+  CompositeKernel<Frame> kernel_;                // null: the plain search alone
+  std::shared_ptr<const IndexedStars> stars_;    // where there is a kernel; shared: the rule is moved about
   std::optional<TwoAimsComparison> comparison_;  // likewise, in space
 };
 

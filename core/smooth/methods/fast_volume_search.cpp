@@ -6,8 +6,7 @@ namespace {
 Vec3Of<float> narrow(Vec3 p) { return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}; }
 }  // namespace
 
-VolumeFound VolumeStarSearch::find(const IndexedStars::Star& star, PositionView positions, Index vertex, int levels,
-                                   Points& points) const {
+VolumeFound VolumeStarSearch::find(const IndexedStars::Star& star, PositionView positions, Index vertex, int levels, Points& points) const {
   if (!star.fits) return {};
   gather_points(Space{}, star, positions, vertex, points);
   if (points.narrow.size() < points.offsets.size()) points.narrow.resize(points.offsets.size());

@@ -65,7 +65,8 @@ class FastVolumeSearch {
     const std::optional<Vec3> target = mesh_.moved(positions[vertex], times(offset, scratch.points.scale));
     if (!target) return std::nullopt;
     const std::optional<bool> known = search_.gains(star, scratch.points, positions[vertex], *target);
-    return known.value_or(false) || (!known && gains_at<M>(mesh_.view, positions, vertex, *target, mesh_.untangling)) ? target : std::nullopt;
+    return known.value_or(false) || (!known && gains_at<M>(mesh_.view, positions, vertex, *target, mesh_.untangling)) ? target
+                                                                                                                      : std::nullopt;
   }
 
  private:

@@ -120,9 +120,8 @@ class SlidingRule {
     if constexpr (requires { rule_.begin(sweep); }) rule_.begin(sweep);
     slide_.begin(sweep);
   }
-  [[nodiscard]] std::span<const Index> others(Index vertex) const requires requires(const Rule& rule) { rule.others(vertex); } {
-    return rule_.others(vertex);
-  }
+  [[nodiscard]] std::span<const Index> others(Index vertex) const requires requires(const Rule& rule) { rule.others(vertex); }
+  { return rule_.others(vertex); }
   [[nodiscard]] std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const {
     return slide_.slides(vertex) ? slide_.target(positions, vertex, scratch.slide) : rule_.target(positions, vertex, scratch.free);
   }

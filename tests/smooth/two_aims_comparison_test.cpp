@@ -1,0 +1,38 @@
+// What the search's formulas tell of a move is believed only where rounding cannot decide.
+
+#include "core/smooth/methods/two_aims_comparison.h"
+
+#include <gtest/gtest.h>
+
+namespace dmoscope {
+namespace {
+
+TEST(TwoAimsComparison, IsUnsureWhereRoundingMayDecide) {
+  for (const double value : {1e-3, 0.5, 1.0}) {
+    EXPECT_EQ(compare(value, value), Certainty::Unsure);
+    EXPECT_EQ(compare(value * (1.0 + 1e-12), value), Certainty::Unsure);
+    EXPECT_EQ(compare(value * (1.0 - 1e-12), value), Certainty::Unsure);
+    EXPECT_EQ(compare(value * (1.0 + 1e-6), value), Certainty::Greater);
+    EXPECT_EQ(compare(value * (1.0 - 1e-6), value), Certainty::Less);
+  }
+}
+
+TEST(TwoAimsComparison, GoesOnToTheSecondAimBeyondTheThresholdAlone) {
+  const BeforeAndAfter up{0.4, 0.6}, down{0.6, 0.4}, same{0.5, 0.5}, flat{1e-9, 0.5};
+  const auto gains = [](BeforeAndAfter first, BeforeAndAfter second) { return gains_for_certain(0.3, first, [&] { return second; }); };
+  const auto below = [](BeforeAndAfter first, BeforeAndAfter second) { return gains_for_certain(0.9, first, [&] { return second; }); };
+  EXPECT_EQ(below(up, down), std::optional(true));
+  EXPECT_EQ(below(down, up), std::optional(false));
+  EXPECT_EQ(below(same, up), std::nullopt);
+  EXPECT_EQ(gains(down, up), std::optional(true)) << "beyond the threshold the first aim may fall";
+  EXPECT_EQ(gains(up, down), std::optional(false));
+  EXPECT_EQ(gains(up, same), std::nullopt);
+  EXPECT_EQ(gains({0.5, 0.2}, up), std::optional(false)) << "but not to below it";
+  EXPECT_EQ(gains({0.5, 0.3}, up), std::nullopt);
+  EXPECT_EQ(gains({0.3, 0.5}, up), std::nullopt);
+  EXPECT_EQ(gains(flat, up), std::nullopt);
+  EXPECT_EQ(gains(up, flat), std::nullopt);
+}
+
+}  // namespace
+}  // namespace dmoscope

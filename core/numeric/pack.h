@@ -7,6 +7,9 @@
 // xsimd 103 / 189 / 348, std::experimental::simd 279 / 521 / 952; Highway 1.0.3 does not accept g++ 12's flags for these processors. And
 // its types carry their architecture, so that code compiled for one can never be linked in place of another's.
 
+#include <cstddef>
+#include <cstdint>
+
 #include <xsimd/xsimd.hpp>
 
 #include "core/numeric/scalar.h"
@@ -82,6 +85,43 @@ inline Pack<double> cube_root(Pack<double> a) {
   for (double& slot : slots) slot = rough_cube_root(slot);
   const R root = refined_cube_root(size, R::load_aligned(slots));
   return xsimd::select(size > R(0.0), xsimd::select(a < R(0.0), R(0.0) - root, root), a);
+}
+
+/// Of a pack without NaN.
+inline float least_slot(Pack<float> a) {
+#if defined(__AVX512F__)
+  return _mm512_reduce_min_ps(a);
+#elif defined(__SSE2__)
+#if defined(__AVX__)
+  const __m128 quarter = _mm_min_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
+#else
+  const __m128 quarter = a;
+#endif
+  const __m128 pair = _mm_min_ps(quarter, _mm_movehl_ps(quarter, quarter));
+  return _mm_cvtss_f32(_mm_min_ss(pair, _mm_shuffle_ps(pair, pair, 1)));
+#else
+  alignas(64) float slots[Pack<float>::size];
+  a.store_aligned(slots);
+  float least = slots[0];
+  for (std::size_t k = 1; k < Pack<float>::size; ++k) least = slots[k] < least ? slots[k] : least;
+  return least;
+#endif
+}
+/// A bit for each slot, the first lowest.
+inline std::uint32_t bits_of(xsimd::batch_bool<float, xsimd::default_arch> slots) {
+#if defined(__AVX512F__)
+  return static_cast<std::uint32_t>(slots.data);
+#elif defined(__AVX__)
+  return static_cast<std::uint32_t>(_mm256_movemask_ps(slots));
+#elif defined(__SSE2__)
+  return static_cast<std::uint32_t>(_mm_movemask_ps(slots));
+#else
+  alignas(64) float ones[Pack<float>::size];
+  xsimd::select(slots, Pack<float>(1.0F), Pack<float>(0.0F)).store_aligned(ones);
+  std::uint32_t bits = 0;
+  for (std::size_t k = 0; k < Pack<float>::size; ++k) bits |= (ones[k] > 0.0F ? 1U : 0U) << k;
+  return bits;
+#endif
 }
 }  // namespace scalar
 

@@ -106,6 +106,50 @@ TEST(CompositeKernel, FindsWhatThePlainSearchFinds) {
   EXPECT_GT(count.tangled, 0);
 }
 
+/// Regular polygons around a hub beside their middle on one of their axes: candidates on both sides of it are equally good but for
+/// rounding.
+Mesh symmetric_wheels() {
+  Mesh mesh;
+  for (Index i = 0; i < 60; ++i) {
+    const Index spokes = 3 + i % 8;
+    const double angle = 0.1 * (i / 8), away = 0.05 * (1 + i % 5), x = 4.0 * i;
+    const auto hub = static_cast<Index>(mesh.positions.size());
+    mesh.positions.push_back({x + away * std::cos(angle), away * std::sin(angle), 0.0});
+    for (Index k = 0; k < spokes; ++k) {
+      const double at = angle + 2 * M_PI * k / spokes;
+      mesh.positions.push_back({x + std::cos(at), std::sin(at), 0.0});
+      testing::add(mesh, {hub, hub + 1 + k, hub + 1 + (k + 1) % spokes});
+    }
+  }
+  return mesh;
+}
+
+TEST(CompositeKernel, CutsLeaveWhatThePlainSearchFinds) {
+  Count count;
+  std::vector<Specimen> all = testing::zoo();
+  all.push_back({"symmetric wheels", symmetric_wheels(), {}});
+  all.push_back({"lattice", testing::lattice(12, 0.0, 1), {}});
+  for (const int points : {2, 3, 5, 8})
+    for (const double omega : {0.3, 1.0})
+      all.push_back({fmt::format("symmetric wheels, {} points", points), symmetric_wheels(), {.grid_points = points, .omega = omega}});
+  std::size_t turn = 0;
+  for (Specimen& specimen : all) {
+    const auto mesh = testing::input(specimen.mesh);
+    const SizeFunction h1{SizeFunction::Kind::Distance, mesh->mesh.positions[0] + Vec3{0.2, 0.1, 0.0}, {}};
+    const auto size = std::make_shared<const SizeField>(mesh, h1);
+    for (const double threshold : {0.0, 0.3, 0.7, 0.95}) {
+      if (kSanitized && ++turn % 3 != 0) continue;
+      for (const Metric second : {Metric::MinAngle, Metric::ScaledJacobian}) {
+        compare<Plane>(specimen, mesh, composite_objective(Metric::MeanRatio, {threshold, second}, nullptr), count);
+        if (HasFatalFailure()) return;
+      }
+      compare<Plane>(specimen, mesh, composite_objective(Metric::MeanRatio, {threshold, h1}, size), count);
+      if (HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(count.moved, count.vertices / 2);
+}
+
 /// Of candidates anywhere the first of the best, whatever the instructions: what a plain loop finds.
 template <class Frame>
 void compare_lists(const std::shared_ptr<const InputMesh>& mesh, const CompositeObjective& composite, testing::Random& random,

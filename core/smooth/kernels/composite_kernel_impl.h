@@ -10,6 +10,7 @@
 #include "core/search/grid_search.h"
 #include "core/smooth/kernels/composite_kernel.h"
 #include "core/smooth/kernels/composite_metrics.h"
+#include "core/smooth/kernels/planar_cuts.h"
 #include "core/smooth/kernels/ratio_bounds.h"
 
 namespace dmoscope::composite {
@@ -39,6 +40,7 @@ class Kernel {
   static constexpr std::size_t kMaxPoints = kMaxCompositePoints;
   static constexpr std::size_t kMaxPlane = kMaxPoints * kMaxPoints + kFloats;
   static constexpr bool kBounded = !std::is_same_v<Frame, Curved> && M == Metric::MeanRatio;
+  static constexpr bool kCut = std::is_same_v<Frame, Plane> && M == Metric::MeanRatio;
   /// In the plane an exact look costs little more than a bound: only where the mean is raised, too, bounds pay. Where the second metric is
   /// judged first, mostly a few elements tell as much.
   [[nodiscard]] bool is_bounded() const { return task_.second == Second::Mean || (kSpace && !is_by_second()); }
@@ -65,6 +67,9 @@ class Kernel {
   CompositeFound<Frame> search() {
     const auto n = static_cast<std::size_t>(task_.points);
     for (std::size_t i = 0; i < n; ++i) part_[i] = static_cast<double>(i) / static_cast<double>(n - 1) - 0.5;
+    if constexpr (kCut) {
+      if (PlanarCuts<F>::speaks_for(task_)) return search_by_cuts();
+    }
     CompositeFound<Frame> found;
     best_ = worth(Point{}, D(-1.0)).get(0);
     found.ready = best_ > 0.0;
@@ -78,6 +83,56 @@ class Kernel {
     }
     found.offset = best_place();
     return found;
+  }
+  /// In the plane: an exact look only where the cuts do not tell for certain which candidate of a level is best.
+  CompositeFound<Frame> search_by_cuts() {
+    constexpr std::size_t kStride = PlanarCuts<F>::kStride;
+    const auto n = static_cast<std::size_t>(task_.points);
+    double x[kStride], y[kStride], omega = task_.omega;
+    cuts_.take(task_);
+    bool is_known = false;  // is best_?
+    for (int level = 0; level < task_.levels; ++level, omega *= 2.0 / (task_.points - 1)) {
+      for (std::size_t i = 0; i < n; ++i) {  // as CandidateGrid has it
+        x[i] = at_[0] + task_.box.x * omega * part_[i];
+        y[i] = at_[1] + task_.box.y * omega * part_[i];
+      }
+      const auto side = cuts_.begin({at_[0], at_[1]}, x, y);
+      if (!is_known && side == PlanarCuts<F>::Side::Unsure) {
+        if (!look_at_best()) return {};
+        is_known = true;
+      }
+      auto [hopeful, has_winner] = cuts_.search(is_known ? best_ > task_.threshold : side == PlanarCuts<F>::Side::Beyond);
+      if (has_winner) {
+        const auto bit = static_cast<std::size_t>(__builtin_ctzll(hopeful));
+        at_[0] = x[bit / kStride];
+        at_[1] = y[bit % kStride];
+        is_known = false;
+      } else if (hopeful != 0) {
+        if (!is_known && !look_at_best()) return {};
+        is_known = true;
+        note_second();
+        look_at_hopeful(hopeful, x, y);
+      }
+    }
+    return {true, best_place()};
+  }
+  /// Finds what the best place so far is worth. Is the star sound there?
+  bool look_at_best() {
+    best_ = least_second_ = 0.0;
+    best_ = worth(point_of<D>(best_place()), D(-1.0)).get(0);
+    return best_ > 0.0;
+  }
+  /// Looks at some candidates of a planar grid, in the order of their indices.
+  void look_at_hopeful(std::uint64_t hopeful, const double* x, const double* y) {
+    while (hopeful != 0) {
+      for (std::size_t k = 0; k < kWidth; ++k) {  // once more the last, which cannot be better than itself
+        const auto bit = static_cast<std::size_t>(__builtin_ctzll(hopeful));
+        if (k + 1 == kWidth || (hopeful & (hopeful - 1)) != 0) hopeful &= hopeful - 1;
+        plane_[0][k] = x[bit / PlanarCuts<F>::kStride];
+        plane_[1][k] = y[bit % PlanarCuts<F>::kStride];
+      }
+      look_at(0, 0.0);
+    }
   }
   [[nodiscard]] OffsetIn<Frame, double> best_place() const {
     if constexpr (kSpace)
@@ -328,6 +383,7 @@ class Kernel {
   alignas(64) double plane_[2][kMaxPlane];
   alignas(64) float from_centre_[2][kBounded ? kMaxPlane : 1];
   std::conditional_t<kBounded, RatioBounds<Frame, D, F>, int> bounds_;
+  std::conditional_t<kCut, PlanarCuts<F>, int> cuts_;
 };
 
 /// The kernel for the first metric with this translation unit's widest packs.

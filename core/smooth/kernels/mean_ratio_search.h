@@ -93,17 +93,9 @@ class MeanRatioSearch {
       // The lowest bits tell which form it is: of some that are equally bad but for these bits any will do.
       worst = min(worst, (rank & rough) | F::load_aligned(which_[i]));
     }
-    return {x, y, z, least_slot(least), std::bit_cast<std::uint32_t>(least_slot(worst)) & (kForms - 1)};
+    return {x, y, z, scalar::least_slot(least), std::bit_cast<std::uint32_t>(scalar::least_slot(worst)) & (kForms - 1)};
   }
   [[nodiscard]] static F bits_of(std::uint32_t bits) { return F(std::bit_cast<float>(bits)); }
-  [[nodiscard]] static float least_slot(F a) {
-    alignas(64) float slots[kWidth];
-    a.store_aligned(slots);
-    for (std::size_t half = kWidth / 2; half > 0; half /= 2)
-      for (std::size_t k = 0; k < half; ++k) slots[k] = slots[k] < slots[k + half] ? slots[k] : slots[k + half];
-    return slots[0];
-  }
-
   Looked look(std::size_t i, std::size_t j, std::size_t k) {
     const std::size_t index = (i * n_ + j) * n_ + k;
     const Looked here = evaluate(x_[i], y_[j], z_[k]);

@@ -24,6 +24,15 @@ double least_at(const JudgedStarView<Frame>& star, OffsetIn<Frame, double> p, do
   return worth.value();
 }
 
+/// The least rank tells as well which of two places is better, and costs less; but where it is as rough as a float (see rank_doubt()).
+template <Metric M, class Frame>
+double least_rank_at(const JudgedStarView<Frame>& star, OffsetIn<Frame, double> p) {
+  using At = Worth<M, false, double, M == Metric::Rectangularity ? Value::Metric : Value::Rank, OffsetIn<Frame, double>>;
+  At worth;
+  star.template for_each<At::kOthers>([&](const auto& element) { worth.take(element, p); });
+  return worth.value();
+}
+
 template <Metric M, class Frame>
 bool is_tangled(const JudgedStarView<Frame>& star) {
   return UntanglingObjective<M, JudgedStarView<Frame>, OffsetIn<Frame, double>>(star, {}).tangled();
@@ -46,7 +55,7 @@ bool sees_inversion(Metric metric) {
 
 template <Metric M, class Frame>
 MetricFunctions<Frame> functions_of() {
-  return {star_state<M, Frame>, mean_of_star<M, Frame>, least_at<M, Frame>,
+  return {star_state<M, Frame>, mean_of_star<M, Frame>, least_at<M, Frame>,     least_rank_at<M, Frame>,
           mean_at<M, Frame>,    is_tangled<M, Frame>,   untangling_at<M, Frame>};
 }
 
@@ -216,10 +225,12 @@ std::optional<bool> CompositeRule<Frame>::gains_for_certain(Index vertex, const 
       return std::nullopt;
     const JudgedStarView<Frame> star(scratch.star);
     const Offset step = times(mesh_.view.frame.offset(target, from), 1.0 / scratch.star.scale);
-    const auto values = [&](auto at) { return BeforeAndAfter{at(star, Offset{}, 0.0), at(star, step, 0.0)}; };
     const MetricFunctions<Frame>& first = metric_functions<Frame>(composite.first);
-    return dmoscope::gains_for_certain(composite.threshold, values(first.least_at), [&] {
-      return values(second != nullptr ? metric_functions<Frame>(*second).least_at : first.mean_at);
+    const BeforeAndAfter least{first.least_at(star, Offset{}, 0.0), first.least_at(star, step, 0.0)};
+    return dmoscope::gains_for_certain(composite.threshold, least, [&]() -> BeforeAndAfter {
+      if (second == nullptr) return {first.mean_at(star, Offset{}, 0.0), first.mean_at(star, step, 0.0)};
+      const auto rank_at = metric_functions<Frame>(*second).least_rank_at;
+      return {rank_at(star, Offset{}), rank_at(star, step)};
     });
   }
 }

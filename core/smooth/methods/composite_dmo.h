@@ -74,6 +74,7 @@ struct MetricFunctions {
   double (*mean)(const MeshView<Frame>&, PositionView, Index vertex, Vec3 place);
   // By the search's, with the vertex at an offset.
   double (*least_at)(const View&, Offset, double enough);  // what is no more than `enough` may be greater than it is
+  double (*least_rank_at)(const View&, Offset);            // a rising function of the least
   double (*mean_at)(const View&, Offset, double enough);
   bool (*is_tangled)(const View&);
   double (*untangling_at)(const View&, const Untangling&, Offset);

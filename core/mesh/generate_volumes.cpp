@@ -24,8 +24,9 @@ class Block {
     return {vertex(i, j, k),     vertex(i + 1, j, k),     vertex(i + 1, j + 1, k),     vertex(i, j + 1, k),
             vertex(i, j, k + 1), vertex(i + 1, j, k + 1), vertex(i + 1, j + 1, k + 1), vertex(i, j + 1, k + 1)};
   }
-  /// Inner vertices up to `jitter` of a cell out of place, along each axis.
-  [[nodiscard]] std::vector<Vec3> positions(double jitter, std::uint64_t seed) const {
+  /// Inner vertices up to `jitter` of a cell out of place, along each axis, and drawn towards the first corner: up to `bias` (below 1/3,
+  /// from where on corners turn over) of a cell beside the surface, and further towards the middle.
+  [[nodiscard]] std::vector<Vec3> positions(double jitter, std::uint64_t seed, double bias = 0.0) const {
     std::vector<Vec3> positions;
     positions.reserve(static_cast<std::size_t>(n_ + 1) * (n_ + 1) * (n_ + 1));
     Random random(seed);
@@ -33,8 +34,11 @@ class Block {
       for (Index j = 0; j <= n_; ++j)
         for (Index i = 0; i <= n_; ++i) {
           const auto inside = [this](Index a) { return a > 0 && a < n_; };
-          const double size = inside(i) && inside(j) && inside(k) ? jitter : 0.0;
-          const auto along = [&](Index a) { return neat(a + size * random.between(-1.0, 1.0)); };
+          const double moves = inside(i) && inside(j) && inside(k) ? 1.0 : 0.0;
+          const auto along = [&](Index a) {
+            const double drawn = bias * a * (1.0 - static_cast<double>(a) / n_);
+            return neat(a + moves * (jitter * random.between(-1.0, 1.0) - drawn));
+          };
           const double x = along(i), y = along(j), z = along(k);
           positions.push_back({x, y, z});
         }
@@ -89,6 +93,14 @@ void add_pyramids(Mesh& mesh, const Block& block, Index i, Index j, Index k) {
   }
 }
 
+Mesh hexahedra(const Request& request, double jitter, double bias) {
+  const Block block(request.size);
+  Mesh mesh;
+  mesh.positions = block.positions(jitter, request.seed, bias);
+  block.for_cells(request.progress, [&](Index i, Index j, Index k) { mesh.elements.add(ElementKind::Hexahedron, block.cell(i, j, k)); });
+  return mesh;
+}
+
 }  // namespace
 
 Mesh tetrahedra(const Request& request) {
@@ -104,13 +116,9 @@ Mesh tetrahedra(const Request& request) {
   return mesh;
 }
 
-Mesh hexahedra(const Request& request) {
-  const Block block(request.size);
-  Mesh mesh;
-  mesh.positions = block.positions(0.22, request.seed);
-  block.for_cells(request.progress, [&](Index i, Index j, Index k) { mesh.elements.add(ElementKind::Hexahedron, block.cell(i, j, k)); });
-  return mesh;
-}
+Mesh hexahedra(const Request& request) { return hexahedra(request, 0.22, 0.0); }
+
+Mesh biased(const Request& request) { return hexahedra(request, 0.02, 0.3); }
 
 Mesh mixed_volumes(const Request& request) {
   const Block block(request.size);

@@ -31,6 +31,7 @@ struct Request {
 [[nodiscard]] Mesh globe(const Request& request);
 [[nodiscard]] Mesh tetrahedra(const Request& request);
 [[nodiscard]] Mesh hexahedra(const Request& request);
+[[nodiscard]] Mesh biased(const Request& request);
 [[nodiscard]] Mesh mixed_volumes(const Request& request);
 [[nodiscard]] Mesh tangled_volumes(const Request& request);
 [[nodiscard]] Mesh screw(const Request& request);

@@ -72,7 +72,8 @@ TEST(Generate, SmallestSizesWork) {
                                    {"elbow", 63},
                                    {"can", 50},
                                    {"nested", 25},
-                                   {"nested-solids", 64}}) {
+                                   {"nested-solids", 64},
+                                   {"biased", 27}}) {
     SCOPED_TRACE(name);
     expect_valid(generated(name, static_cast<std::size_t>(size), 5), std::string_view(name).starts_with("tangled"));
   }

@@ -38,6 +38,7 @@ constexpr std::array kActions{
     Action{"sample-can", "File", "Sample: can", "", "generate can"},
     Action{"sample-nested", "File", "Sample: nested", "", "generate nested"},
     Action{"sample-nested-solids", "File", "Sample: nested-solids", "", "generate nested-solids"},
+    Action{"sample-biased", "File", "Sample: biased", "", "generate biased"},
     Action{"native-dialogs", "File", "The desktop's file dialogs", "", "native-dialogs toggle", Needs::Nothing, true},
     Action{"quit", "File", "Quit", "Ctrl+Q", "quit", Needs::Nothing, true},
 

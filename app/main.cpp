@@ -13,6 +13,7 @@
 
 #include "app/common/console.h"
 #include "app/common/text.h"
+#include "app/completion.h"
 #include "app/man_page.h"
 #include "app/subcommands/subcommands.h"
 #include "core/base/error.h"
@@ -64,6 +65,8 @@ int run(int argc, char** argv) {
   app.add_option("FILE", files, "Meshes to open in the window");
   bool man = false;
   app.add_flag("--man", man, "Print the man page in roff")->group("");
+  std::string shell;
+  app.add_option("--completion", shell, "Print a script by which a shell completes: bash or zsh")->group("");
 
   Action action = [&files, &app] {
     std::vector<std::string> subcommands;
@@ -96,6 +99,12 @@ int run(int argc, char** argv) {
   if (man) {
     action = [&app] {
       print_lines(man_page(app));
+      return 0;
+    };
+  }
+  if (!shell.empty()) {
+    action = [&app, &shell] {
+      print_lines(completion_script(app, shell));
       return 0;
     };
   }

@@ -25,6 +25,8 @@ target_compile_options(dmoscope_settings INTERFACE
 target_include_directories(dmoscope_settings INTERFACE ${PROJECT_SOURCE_DIR})
 # What functions of libraries are called by is settled before the program begins, and can then be written no more.
 target_link_options(dmoscope_settings INTERFACE -Wl,-z,relro,-z,now)
+# No library that nothing is called of.
+target_link_options(dmoscope_settings INTERFACE LINKER:--as-needed)
 if(DMOSCOPE_SANITIZE)
   set(fewer_checks "")
   if(DMOSCOPE_SANITIZE MATCHES "address")
@@ -94,6 +96,8 @@ function(dmoscope_module name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${patterns})
   add_library(${name} STATIC ${sources})
   target_link_libraries(${name} PUBLIC dmoscope_settings)
+  # Modules are part of the shared library, too, which shows nothing but what its headers say.
+  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_compile_options(${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:${DMOSCOPE_HARDENED}>)
   if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")  # in g++'s, libstdc++ loses what keeps g++ from warning of it where it optimises
     target_precompile_headers(${name} PRIVATE ${DMOSCOPE_PRECOMPILED})

@@ -1,0 +1,72 @@
+#pragma once
+// Meshes: from arrays or files, and back.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dmoscope/export.h"
+#include "dmoscope/progress.h"
+
+namespace dmo {
+
+/// Of vertices and cells, from 0 on.
+using Index = std::uint32_t;
+
+/// Kinds of cells. Their corners have VTK's order.
+enum class CellKind : std::uint8_t { Triangle, Quadrilateral, Tetrahedron, Hexahedron, Wedge, Pyramid };
+/// 3, 4, 4, 8, 6, 5.
+[[nodiscard]] DMO_API std::size_t corner_count(CellKind kind);
+
+/// Cells of any mix of kinds, in arrays that somebody else owns.
+struct Cells {
+  std::size_t count = 0;
+  const CellKind* kinds = nullptr;      // count of them
+  const Index* offsets = nullptr;       // count + 1: the corners of cell c are connectivity[offsets[c]] up to offsets[c + 1]
+  const Index* connectivity = nullptr;  // offsets[count] vertices
+};
+
+/// A mesh that does not change: smooth() gives a new one, which shares all but the positions with the old. Cheap to copy. All members may
+/// be called from several threads.
+class DMO_API Mesh {
+ public:
+  /// Copies the arrays. `positions`: vertices x 3, mesh units; of a planar mesh one of the coordinates is the same everywhere. Throws
+  /// InputError: corners that do not exist or repeat, a number of corners that the kind has not, coordinates that are not finite, planar
+  /// and volume cells mixed.
+  Mesh(const double* positions, std::size_t vertices, const Cells& cells, const Progress& progress = {});
+  ~Mesh();
+  Mesh(const Mesh&);
+  Mesh& operator=(const Mesh&);
+
+  /// Reads a file of any format that the program reads. Throws InputError.
+  [[nodiscard]] static Mesh read(const std::string& path, const Progress& progress = {});
+  /// Writes by the name's extension, whole or not at all. What the file held that was read, such as groups, stands in one of its format
+  /// again. Returns a sentence for each thing that the format cannot carry. Throws OutputError, UsageError.
+  std::vector<std::string> write(const std::string& path, const Progress& progress = {}) const;
+
+  [[nodiscard]] std::size_t vertex_count() const;
+  [[nodiscard]] std::size_t cell_count() const;
+  /// vertex_count() x 3, as long as this mesh or a copy lives.
+  [[nodiscard]] const double* positions() const;
+  /// As they came in; likewise.
+  [[nodiscard]] Cells cells() const;
+  /// Has it volume cells?
+  [[nodiscard]] bool is_volume() const;
+  /// Is it curved: planar cells that do not lie in a plane?
+  [[nodiscard]] bool is_surface() const;
+  /// vertex_count() of them: 1 on the boundary, else 0; as long as this mesh or a copy lives.
+  [[nodiscard]] const std::uint8_t* boundary() const;
+  /// The same mesh with its vertices elsewhere: vertex_count() x 3, copied. Throws InputError as the constructor does.
+  [[nodiscard]] Mesh with_positions(const double* positions, const Progress& progress = {}) const;
+
+  struct Data;
+  explicit Mesh(std::shared_ptr<const Data> data);
+  [[nodiscard]] const std::shared_ptr<const Data>& data() const noexcept { return data_; }
+
+ private:
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace dmo

@@ -1,0 +1,149 @@
+#include "library/include/dmoscope/mesh.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/io/mesh_io.h"
+#include "core/io/vtk/vtk_order.h"
+#include "library/mesh_data.h"
+#include "library/translate.h"
+
+namespace dmo {
+
+using dmoscope::ElementKind;
+using dmoscope::InputMesh;
+using dmoscope::Need;
+using dmoscope::Vec3;
+
+static_assert(sizeof(Vec3) == 3 * sizeof(double), "positions are vertices x 3");
+static_assert(static_cast<int>(CellKind::Triangle) == static_cast<int>(ElementKind::Triangle) &&
+              static_cast<int>(CellKind::Pyramid) == static_cast<int>(ElementKind::Pyramid));
+
+namespace {
+
+constexpr const char* kName = "mesh";  // of one that no file has
+
+[[noreturn]] void refuse(const std::string& what) { throw dmoscope::InputError(kName, 0, what); }
+
+std::vector<Vec3> vectors(const double* positions, std::size_t vertices) {
+  std::vector<Vec3> result(vertices);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const double* p = positions + 3 * v;
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+      refuse(fmt::format("vertex {} is at ({}, {}, {}), which is not finite", v, p[0], p[1], p[2]));
+    result[v] = {p[0], p[1], p[2]};
+  }
+  return result;
+}
+
+void add_cell(dmoscope::ElementTable& elements, const Cells& cells, std::size_t c, std::size_t vertices) {
+  if (static_cast<unsigned>(cells.kinds[c]) >= dmoscope::kElementKindCount)
+    refuse(fmt::format("cell {}: there is no kind {}", c, static_cast<unsigned>(cells.kinds[c])));
+  const auto kind = static_cast<ElementKind>(cells.kinds[c]);
+  const std::size_t wanted = info(kind).corners;
+  if (cells.offsets[c + 1] < cells.offsets[c] || cells.offsets[c + 1] - cells.offsets[c] != wanted)
+    refuse(fmt::format("cell {}: a {} has {} corners, but its offsets are {} and {}", c, info(kind).name, wanted, cells.offsets[c],
+                       cells.offsets[c + 1]));
+  std::array<Index, 8> corners{};
+  for (std::size_t i = 0; i < wanted; ++i) {
+    corners[i] = cells.connectivity[cells.offsets[c] + i];
+    if (corners[i] >= vertices) refuse(fmt::format("cell {} has the corner {}, but there are {} vertices", c, corners[i], vertices));
+    for (std::size_t k = 0; k < i; ++k)
+      if (corners[k] == corners[i]) refuse(fmt::format("cell {} has the corner {} twice", c, corners[i]));
+  }
+  dmoscope::exchange_vtk_order(kind, corners.data());
+  elements.add(kind, std::span(corners).first(wanted));
+}
+
+std::shared_ptr<const Mesh::Data> data_of(std::shared_ptr<const InputMesh> input) {
+  auto data = std::make_shared<Mesh::Data>();
+  data->input = std::move(input);
+  return data;
+}
+
+}  // namespace
+
+std::size_t corner_count(CellKind kind) { return info(static_cast<ElementKind>(kind)).corners; }
+
+std::shared_ptr<const InputMesh> Mesh::Data::prepared(dmoscope::Progress& progress) const {
+  if (!moved) return input;
+  dmoscope::Mesh mesh = input->mesh;
+  mesh.positions = *moved;
+  // As the elements came in: what is reversed is noted anew.
+  for (std::size_t e = 0; e < mesh.flipped.size(); ++e)
+    if (mesh.flipped[e] != 0) mesh.elements.flip(static_cast<Index>(e));
+  mesh.flipped.clear();
+  return prepare_input(std::move(mesh), input->path, Need::Smoothing, progress);
+}
+
+const Mesh::Data::Arrays& Mesh::Data::arrays() const {
+  std::call_once(arrays_made_, [this] {
+    const dmoscope::Mesh& mesh = input->mesh;
+    const std::size_t count = mesh.elements.size();
+    arrays_.kinds.resize(count);
+    arrays_.offsets.assign(mesh.elements.offsets().begin(), mesh.elements.offsets().end());
+    arrays_.connectivity.assign(mesh.elements.all_corners().begin(), mesh.elements.all_corners().end());
+    for (std::size_t e = 0; e < count; ++e) {
+      const ElementKind kind = mesh.elements.kind(static_cast<Index>(e));
+      arrays_.kinds[e] = static_cast<CellKind>(kind);
+      Index* corners = arrays_.connectivity.data() + arrays_.offsets[e];
+      if (!mesh.flipped.empty() && mesh.flipped[e] != 0) dmoscope::flip_corners(kind, corners);
+      dmoscope::exchange_vtk_order(kind, corners);
+    }
+  });
+  return arrays_;
+}
+
+Mesh moved_mesh(const Mesh& mesh, std::vector<Vec3> positions) {
+  auto data = std::make_shared<Mesh::Data>();
+  data->input = mesh.data()->input;
+  data->moved = std::make_shared<const std::vector<Vec3>>(std::move(positions));
+  return Mesh(std::shared_ptr<const Mesh::Data>(std::move(data)));
+}
+
+Mesh::Mesh(const double* positions, std::size_t vertices, const Cells& cells, const Progress& progress) {
+  data_ = translated([&] {
+    if (vertices >= dmoscope::kNoIndex) refuse(fmt::format("{} vertices are too many", vertices));
+    dmoscope::Mesh mesh;
+    mesh.name = kName;
+    mesh.positions = vectors(positions, vertices);
+    if (cells.count > 0) mesh.elements.reserve(cells.count, cells.offsets[cells.count]);
+    for (std::size_t c = 0; c < cells.count; ++c) add_cell(mesh.elements, cells, c, vertices);
+    return data_of(prepare_input(std::move(mesh), {}, Need::Smoothing, progress.state().progress));
+  });
+}
+Mesh::Mesh(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+Mesh::~Mesh() = default;
+Mesh::Mesh(const Mesh&) = default;
+Mesh& Mesh::operator=(const Mesh&) = default;
+
+Mesh Mesh::read(const std::string& path, const Progress& progress) {
+  return translated([&] { return Mesh(data_of(load_input(path, Need::Smoothing, {progress.state().progress, nullptr}))); });
+}
+
+std::vector<std::string> Mesh::write(const std::string& path, const Progress& progress) const {
+  return translated([&] { return write_mesh(path, data_->input->mesh, data_->positions(), {progress.state().progress, nullptr}); });
+}
+
+std::size_t Mesh::vertex_count() const { return data_->input->mesh.vertex_count(); }
+std::size_t Mesh::cell_count() const { return data_->input->mesh.elements.size(); }
+const double* Mesh::positions() const { return &data_->positions().data()->x; }
+Cells Mesh::cells() const {
+  const Data::Arrays& arrays = data_->arrays();
+  return {arrays.kinds.size(), arrays.kinds.data(), arrays.offsets.data(), arrays.connectivity.data()};
+}
+bool Mesh::is_volume() const { return data_->input->is_volume(); }
+bool Mesh::is_surface() const { return data_->input->is_surface(); }
+const std::uint8_t* Mesh::boundary() const { return data_->input->topology.boundary().data(); }
+
+Mesh Mesh::with_positions(const double* positions, const Progress& progress) const {
+  return translated([&] {
+    const Mesh moved = moved_mesh(*this, vectors(positions, vertex_count()));
+    return Mesh(data_of(moved.data()->prepared(progress.state().progress)));
+  });
+}
+
+}  // namespace dmo

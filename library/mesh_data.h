@@ -1,0 +1,42 @@
+#pragma once
+// What is behind the library's meshes.
+
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "core/input/input_mesh.h"
+#include "library/include/dmoscope/mesh.h"
+
+namespace dmo {
+
+struct Progress::State {
+  dmoscope::Progress progress;
+};
+
+/// A prepared mesh, and where its vertices are: as it was prepared, or elsewhere.
+struct Mesh::Data {
+  std::shared_ptr<const dmoscope::InputMesh> input;
+  std::shared_ptr<const std::vector<dmoscope::Vec3>> moved;  // null: where `input` has them
+
+  [[nodiscard]] std::span<const dmoscope::Vec3> positions() const { return moved ? *moved : input->mesh.positions; }
+  /// The mesh as it is prepared at its own positions, which is `input` where nothing has moved.
+  [[nodiscard]] std::shared_ptr<const dmoscope::InputMesh> prepared(dmoscope::Progress& progress) const;
+
+  // As they came in; made for who asks first.
+  struct Arrays {
+    std::vector<CellKind> kinds;
+    std::vector<Index> offsets, connectivity;
+  };
+  [[nodiscard]] const Arrays& arrays() const;
+
+ private:
+  mutable std::once_flag arrays_made_;
+  mutable Arrays arrays_;
+};
+
+/// The same mesh with its vertices elsewhere.
+[[nodiscard]] Mesh moved_mesh(const Mesh& mesh, std::vector<dmoscope::Vec3> positions);
+
+}  // namespace dmo

@@ -1,0 +1,44 @@
+#include "library/include/dmoscope/quality.h"
+
+#include "core/base/thread_pool.h"
+#include "core/quality/metric.h"
+#include "core/quality/quality.h"
+#include "library/mesh_data.h"
+#include "library/statistics.h"
+#include "library/translate.h"
+
+namespace dmo {
+
+Statistics statistics_of(const dmoscope::Statistics& s) {
+  return {s.minimum, s.mean, s.movable_minimum, s.inverted, s.worst_element == dmoscope::kNoIndex ? 0 : s.worst_element};
+}
+
+std::vector<Metric> metrics() {
+  std::vector<Metric> all;
+  for (const dmoscope::MetricInfo& m : dmoscope::metric_table())
+    all.push_back({std::string(m.name), std::string(m.title), m.lowest, m.highest, std::string(m.formula), std::string(m.doc)});
+  return all;
+}
+
+std::vector<double> quality(const Mesh& mesh, const std::string& metric, unsigned threads) {
+  return translated([&] {
+    const dmoscope::Metric parsed = dmoscope::parse_metric(metric);
+    dmoscope::ThreadPool pool(threads);
+    std::vector<double> values(mesh.cell_count());
+    dmoscope::element_qualities(mesh.data()->input->quality_context(), mesh.data()->positions(), parsed, &pool, values);
+    return values;
+  });
+}
+
+Statistics statistics(const Mesh& mesh, const std::string& metric, unsigned threads) {
+  return translated([&] {
+    const dmoscope::InputMesh& input = *mesh.data()->input;
+    const dmoscope::Metric parsed = dmoscope::parse_metric(metric);
+    require_defined(parsed, input.mesh);
+    dmoscope::ThreadPool pool(threads);
+    return statistics_of(
+        dmoscope::compute_statistics(input.quality_context(), mesh.data()->positions(), parsed, input.topology.boundary(), &pool));
+  });
+}
+
+}  // namespace dmo

@@ -1,0 +1,93 @@
+#include "library/run_options.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/unknown_value.h"
+#include "core/base/words.h"
+#include "core/mesh/vertex_words.h"
+#include "core/run/recipe.h"
+#include "core/smooth/composite_objective.h"
+
+namespace dmo {
+
+namespace {
+
+using Words = std::map<std::string, std::string>;
+
+/// Takes what is said of an option; empty where nothing is.
+std::string take(Words& words, const std::string& name) {
+  const auto node = words.extract(name);
+  return node.empty() ? std::string() : node.mapped();
+}
+
+template <class Work>
+auto naming(const std::string& option, const Work& work) {
+  try {
+    return work();
+  } catch (const dmoscope::UsageError& error) {
+    throw dmoscope::UsageError(fmt::format("{}: {}", option, error.what()));
+  }
+}
+
+[[noreturn]] void refuse_unknown(const std::string& name) {
+  std::vector<std::string_view> known{"combine",  "fix",    "max-iterations", "method", "metric",
+                                      "patience", "recipe", "size-function",  "then"};
+  for (const dmoscope::ParameterInfo& row : dmoscope::parameter_table()) known.push_back(row.name);
+  std::ranges::sort(known);
+  throw dmoscope::UsageError(dmoscope::unknown_value("option", name, known));
+}
+
+void set_objective(dmoscope::RunParameters& parameters, Words& words) {
+  const std::string metric = take(words, "metric"), combination = take(words, "combine"), size = take(words, "size-function");
+  if (!metric.empty() && !combination.empty()) throw dmoscope::UsageError("metric and combine: only one of them, combine names both metrics");
+  if (combination.empty() && !size.empty()) throw dmoscope::UsageError("size-function is for combine with density");
+  if (!metric.empty()) parameters.metric = naming("metric", [&] { return dmoscope::parse_metric(metric); });
+  if (!combination.empty())
+    std::tie(parameters.metric, parameters.combination) = naming("combine", [&] { return dmoscope::parse_combination(combination, size); });
+}
+
+}  // namespace
+
+RunRequest request_of(const dmoscope::InputMesh& input, const SmoothOptions& options) {
+  RunRequest request;
+  dmoscope::RunParameters& parameters = request.parameters;
+  Words words = options.options;
+  if (const std::string method = take(words, "method"); !method.empty()) {
+    static_cast<void>(dmoscope::method_info(method));
+    parameters.method = method;
+  }
+  set_objective(parameters, words);
+  for (const dmoscope::ParameterInfo& row : dmoscope::parameter_table())
+    if (const auto node = words.extract(std::string(row.name)); !node.empty())
+      naming(node.key(), [&] { row.from_text(parameters, node.mapped()); });
+  if (const std::string then = take(words, "then"); !then.empty()) naming("then", [&] { set_then(parameters, then, {}); });
+  if (const std::string fix = take(words, "fix"); !fix.empty())
+    parameters.fixed = naming("fix", [&] { return dmoscope::vertices_named(input.mesh, fix); });
+  if (const std::string recipe = take(words, "recipe"); !recipe.empty()) {
+    std::string without = follow_recipe(dmoscope::recipe(recipe), input, parameters);
+    if (!without.empty()) request.warnings.push_back(std::move(without));
+  }
+  if (const std::string patience = take(words, "patience"); !patience.empty())
+    request.limits.patience = naming("patience", [&] { return dmoscope::to_count(patience); });
+  if (const std::string most = take(words, "max-iterations"); !most.empty())
+    request.limits.max_iterations = naming("max-iterations", [&] { return dmoscope::to_count(most); });
+  if (!words.empty()) refuse_unknown(words.begin()->first);
+
+  for (const Index vertex : options.fixed)
+    if (vertex >= input.mesh.vertex_count())
+      throw dmoscope::UsageError(fmt::format("fixed: there is no vertex {}, the mesh has {}", vertex, input.mesh.vertex_count()));
+  parameters.fixed.insert(parameters.fixed.end(), options.fixed.begin(), options.fixed.end());
+  std::ranges::sort(parameters.fixed);
+  parameters.fixed.erase(std::ranges::unique(parameters.fixed).begin(), parameters.fixed.end());
+  validate(parameters.search);
+  validate(parameters.options);
+  if (options.until_converged) be_patient(parameters, request.limits.patience);
+  return request;
+}
+
+}  // namespace dmo

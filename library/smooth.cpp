@@ -1,0 +1,62 @@
+#include "library/include/dmoscope/smooth.h"
+
+#include <memory>
+#include <utility>
+
+#include "core/base/thread_pool.h"
+#include "core/run/left_inverted.h"
+#include "core/run/run.h"
+#include "library/mesh_data.h"
+#include "library/run_options.h"
+#include "library/statistics.h"
+#include "library/translate.h"
+
+namespace dmo {
+namespace {
+
+Iteration iteration_of(const dmoscope::IterationRecord& record) {
+  return {record.iteration, statistics_of(record.statistics), record.moved, record.seconds};
+}
+
+/// Runs to the end that is asked for, or until somebody cancels.
+void advance(dmoscope::Run& run, const RunRequest& request, const SmoothOptions& options, Smoothed& result) {
+  dmoscope::Progress& progress = options.progress.state().progress;
+  const auto after = [&](const dmoscope::Run& at) {
+    if (!options.after_iteration) return;
+    if (!options.after_iteration(iteration_of(at.history().records()[at.moment().iteration]))) progress.request_cancel();
+  };
+  try {
+    const dmoscope::Outcome outcome =
+        options.until_converged ? run.until_converged(request.limits, progress, after) : run.iterate(options.iterations, progress, after);
+    const bool optimises = dmoscope::method_info(run.parameters().method).optimises;
+    if (options.until_converged || !optimises) run.end_at_best(progress);
+    result.converged = options.until_converged && outcome.reason != dmoscope::StopReason::IterationLimit;
+    result.sentence = run.last_outcome().value_or(outcome).sentence();
+  } catch (const dmoscope::Cancelled&) {
+    result.cancelled = true;
+    result.sentence = "cancelled";
+  }
+}
+
+}  // namespace
+
+Smoothed smooth(const Mesh& mesh, const SmoothOptions& options) {
+  return translated([&] {
+    dmoscope::Progress& progress = options.progress.state().progress;
+    const auto input = mesh.data()->prepared(progress);
+    RunRequest request = request_of(*input, options);
+    auto pool = std::make_shared<dmoscope::ThreadPool>(options.threads);
+    dmoscope::Run run(input, request.parameters, pool, 0);  // no past positions: nobody asks for them
+    Smoothed result{mesh, {}, 0, false, false, {}, std::move(request.warnings)};
+    if (std::string warning = run.take_warning(); !warning.empty()) result.warnings.push_back(std::move(warning));
+    advance(run, request, options, result);
+    for (const dmoscope::IterationRecord& record : run.history().records()) result.history.push_back(iteration_of(record));
+    result.iteration = run.moment().iteration;
+    if (const auto left = find_left_inverted(run)) result.warnings.push_back(left->sentence());
+    const auto positions = run.positions();
+    result.mesh = moved_mesh(mesh, {positions.begin(), positions.end()});
+    return result;
+  });
+}
+
+}  // namespace dmo

@@ -1,0 +1,30 @@
+#pragma once
+// The program's errors, as the library's users know them.
+
+#include <new>
+#include <utility>
+
+#include "core/base/error.h"
+#include "library/include/dmoscope/error.h"
+
+namespace dmo {
+
+/// Returns work(); what it throws becomes an error of the library.
+template <class Work>
+decltype(auto) translated(const Work& work) {
+  try {
+    return work();
+  } catch (const dmoscope::InputError& error) {
+    throw InputError(error.what(), error.file(), error.line());
+  } catch (const dmoscope::OutputError& error) {
+    throw OutputError(error.what());
+  } catch (const dmoscope::UsageError& error) {
+    throw UsageError(error.what());
+  } catch (const dmoscope::Cancelled& error) {
+    throw Cancelled(error.what());
+  } catch (const dmoscope::Error& error) {
+    throw Error(error.what());
+  }
+}
+
+}  // namespace dmo

@@ -1,0 +1,288 @@
+"""Discrete Mesh Optimization: see how good the cells of a mesh are, and move its vertices so that the worst gets as good as it can.
+
+    import dmoscope
+    mesh = dmoscope.read("coast.14")
+    better = dmoscope.smooth(mesh, until_converged=True)
+    print(better.sentence, mesh.statistics()["minimum"], better.mesh.statistics()["minimum"])
+    better.mesh.write("better.14")
+
+Meshes of meshio and PyVista are taken wherever a mesh is, and smooth() gives the same kind back. Results have the bits of the program's.
+"""
+
+import copy
+import os
+import warnings
+from dataclasses import dataclass, field
+from typing import Any, Callable, Dict, List, Optional
+
+import numpy as np
+
+from . import _dmoscope
+from ._dmoscope import Error, InputError, Iteration, OutputError, UsageError, __version__
+
+__all__ = ["Error", "InputError", "Iteration", "Mesh", "Metric", "OutputError", "Smoothed", "Trace", "TraceLevel", "UsageError",
+           "metrics", "read", "smooth", "trace", "__version__"]
+
+# In the order of the library's CellKind: meshio's name, VTK's number, corners.
+_KINDS = (("triangle", 5, 3), ("quad", 9, 4), ("tetra", 10, 4), ("hexahedron", 12, 8), ("wedge", 13, 6), ("pyramid", 14, 5))
+_KIND_BY_NAME = {name: kind for kind, (name, _, _) in enumerate(_KINDS)}
+_KIND_BY_VTK = {number: kind for kind, (_, number, _) in enumerate(_KINDS)}
+
+
+def _points(points):
+    """n x 3 doubles; of n x 2, z is 0."""
+    points = np.asarray(points, dtype=np.float64)
+    if points.ndim != 2 or points.shape[1] not in (2, 3):
+        raise ValueError(f"points must be an array of n x 2 or n x 3, not {points.shape}")
+    if points.shape[1] == 2:
+        points = np.column_stack([points, np.zeros(len(points))])
+    return np.ascontiguousarray(points)
+
+
+def _indices(array):
+    array = np.asarray(array)
+    if array.size and (array.min() < 0 or array.max() > 0xFFFFFFFF):
+        raise ValueError("cells must be numbers of vertices, from 0 on")
+    return array.astype(np.uint32)
+
+
+def _cell_arrays(cells):
+    """Kinds, offsets and connectivity of cells in meshio's form: {"triangle": m x 3, ...}, or a list of such pairs or blocks."""
+    blocks = list(cells.items()) if isinstance(cells, dict) else [(b.type, b.data) if hasattr(b, "type") else b for b in cells]
+    kinds, corners, connectivity = [], [], []
+    for name, data in blocks:
+        if name not in _KIND_BY_NAME:
+            raise ValueError(f"cells of kind {name!r}: dmoscope has {', '.join(_KIND_BY_NAME)}")
+        kind = _KIND_BY_NAME[name]
+        data = np.asarray(data)
+        if data.ndim != 2 or data.shape[1] != _KINDS[kind][2]:
+            raise ValueError(f"cells of kind {name!r} must be an array of m x {_KINDS[kind][2]}, not {data.shape}")
+        kinds.append(np.full(len(data), kind, dtype=np.uint8))
+        corners.append(np.full(len(data), data.shape[1], dtype=np.int64))
+        connectivity.append(_indices(data).ravel())
+    if not kinds:
+        raise ValueError("a mesh needs cells")
+    offsets = np.concatenate([[0], np.cumsum(np.concatenate(corners))])
+    return np.concatenate(kinds), _indices(offsets), np.concatenate(connectivity)
+
+
+class Mesh:
+    """A mesh of triangles and quadrilaterals, or of tetrahedra, hexahedra, wedges and pyramids. It does not change.
+
+    points: n x 3 (or n x 2) numbers in mesh units. cells: {"triangle": m x 3 vertices from 0 on, "quad": ..., "tetra": ...,
+    "hexahedron": ..., "wedge": ..., "pyramid": ...}, corners in VTK's order, or a list of such pairs.
+    Raises InputError for a mesh that cannot be, ValueError for arrays of another form.
+    """
+
+    def __init__(self, points, cells):
+        self._mesh = _dmoscope.Mesh(_points(points), *_cell_arrays(cells))
+
+    @classmethod
+    def _of(cls, inner):
+        mesh = cls.__new__(cls)
+        mesh._mesh = inner
+        return mesh
+
+    @property
+    def points(self) -> np.ndarray:
+        """Where the vertices are: n x 3 doubles, mesh units; a view, without a copy, that cannot be written."""
+        return self._mesh.points
+
+    @property
+    def cells(self):
+        """The cells as a list of (kind, m x corners array), in their order: a new pair wherever the kind changes."""
+        kinds, offsets, connectivity = self._mesh.kinds, self._mesh.offsets, self._mesh.connectivity
+        starts = np.concatenate([[0], np.flatnonzero(np.diff(kinds)) + 1, [len(kinds)]])
+        return [(_KINDS[kinds[a]][0], connectivity[offsets[a]:offsets[b]].reshape(b - a, -1)) for a, b in zip(starts[:-1], starts[1:])]
+
+    @property
+    def boundary(self) -> np.ndarray:
+        """n booleans: vertices on the boundary."""
+        return self._mesh.boundary.view(np.bool_)
+
+    @property
+    def is_volume(self) -> bool:
+        return self._mesh.is_volume
+
+    @property
+    def is_surface(self) -> bool:
+        """Planar cells that lie in no plane."""
+        return self._mesh.is_surface
+
+    def quality(self, metric: str = "mean-ratio", threads: int = 0) -> np.ndarray:
+        """Of each cell: 1 is ideal, 0 or less inverted; NaN where the metric is not defined for the kind. See metrics()."""
+        return _dmoscope.quality(self._mesh, metric, threads)
+
+    def statistics(self, metric: str = "mean-ratio", threads: int = 0) -> Dict[str, Any]:
+        """minimum, mean, movable_minimum (of cells with a corner off the boundary), inverted (how many), worst_cell."""
+        return _dmoscope.statistics(self._mesh, metric, threads)
+
+    def with_points(self, points) -> "Mesh":
+        """The same cells with the vertices elsewhere: n x 3, copied."""
+        return Mesh._of(self._mesh.with_points(_points(points)))
+
+    def write(self, path) -> None:
+        """Writes a file by its extension, whole or not at all. What the format cannot carry is a warning."""
+        for sentence in self._mesh.write(os.fspath(path)):
+            warnings.warn(f"{path}: {sentence}", stacklevel=2)
+
+    def to_meshio(self):
+        """A meshio.Mesh."""
+        import meshio
+
+        return meshio.Mesh(np.array(self.points), [(kind, np.array(data, dtype=np.int64)) for kind, data in self.cells])
+
+    def to_pyvista(self):
+        """A pyvista.UnstructuredGrid."""
+        import pyvista
+
+        kinds = self._mesh.kinds
+        offsets = self._mesh.offsets.astype(np.int64)
+        counts = np.diff(offsets)
+        cells = np.empty(len(counts) + offsets[-1], dtype=np.int64)
+        heads = offsets[:-1] + np.arange(len(counts))
+        cells[heads] = counts
+        others = np.ones(len(cells), dtype=bool)
+        others[heads] = False
+        cells[others] = self._mesh.connectivity
+        types = np.array([number for _, number, _ in _KINDS], dtype=np.uint8)[kinds]
+        return pyvista.UnstructuredGrid(cells, types, np.array(self.points))
+
+    def __repr__(self):
+        counts = np.bincount(self._mesh.kinds, minlength=len(_KINDS))
+        cells = ", ".join(f"{count} {_KINDS[kind][0]}" for kind, count in enumerate(counts) if count)
+        return f"<dmoscope.Mesh: {len(self.points)} points, {cells}>"
+
+
+def _is_meshio(mesh):
+    return hasattr(mesh, "points") and hasattr(mesh, "cells_dict")
+
+
+def _is_pyvista(mesh):
+    return hasattr(mesh, "points") and hasattr(mesh, "celltypes") and hasattr(mesh, "cell_connectivity")
+
+
+def _mesh_of(mesh) -> Mesh:
+    if isinstance(mesh, Mesh):
+        return mesh
+    if _is_meshio(mesh):
+        return Mesh(mesh.points, mesh.cells)
+    if _is_pyvista(mesh):
+        unknown = sorted(set(np.unique(mesh.celltypes)) - set(_KIND_BY_VTK))
+        if unknown:
+            raise ValueError(f"cells of VTK's kind {unknown[0]}: dmoscope has {', '.join(_KIND_BY_NAME)}")
+        table = np.zeros(256, dtype=np.uint8)
+        for number, kind in _KIND_BY_VTK.items():
+            table[number] = kind
+        inner = _dmoscope.Mesh(_points(mesh.points), table[mesh.celltypes], _indices(mesh.offset), _indices(mesh.cell_connectivity))
+        return Mesh._of(inner)
+    raise TypeError(f"{type(mesh).__name__} is no mesh: dmoscope takes its own, meshio's and PyVista's unstructured grids")
+
+
+def _given_back(original, mesh: Mesh):
+    """The mesh as the kind that the original is, with the original's data."""
+    if isinstance(original, Mesh):
+        return mesh
+    given = original.copy() if _is_pyvista(original) else copy.copy(original)
+    given.points = np.array(mesh.points[:, : np.shape(original.points)[1]])
+    return given
+
+
+def read(path) -> Mesh:
+    """Reads a mesh of any format that the program reads, such as .14, .msh, .su2, .vtk, .vtu, .mesh, .off. Raises InputError."""
+    return Mesh._of(_dmoscope.Mesh.read(os.fspath(path)))
+
+
+@dataclass(frozen=True)
+class Metric:
+    """A metric: 1 for the ideal cell, 0 or less for one that is inverted."""
+
+    name: str
+    title: str
+    lowest: float
+    highest: float
+    formula: str
+    doc: str
+
+
+def metrics() -> Dict[str, Metric]:
+    """All metrics by their names."""
+    return {name: Metric(name, *rest) for name, rest in _dmoscope.metrics().items()}
+
+
+@dataclass
+class Smoothed:
+    """What smooth() gives back."""
+
+    mesh: Any  # of the kind that was smoothed
+    history: Dict[str, np.ndarray] = field(repr=False)  # by iteration, 0 the input: iteration, minimum, mean, movable_minimum, inverted, moved, seconds
+    iteration: int  # whose end `mesh` is
+    converged: bool
+    cancelled: bool  # by the callback or Ctrl+C; `mesh` is what there was then
+    sentence: str  # why it ended
+    warnings: List[str] = field(repr=False)
+
+
+def _options(iterations, until_converged, threads, fixed, points, words):
+    if fixed is None:
+        fixed = []
+    else:
+        fixed = np.asarray(fixed)
+        if fixed.dtype == np.bool_:
+            if fixed.shape != (points,):
+                raise ValueError(f"fixed must be {points} booleans or numbers of vertices, not an array of {fixed.shape}")
+            fixed = np.flatnonzero(fixed)
+        fixed = _indices(fixed).tolist()
+    as_text = {True: "on", False: "off"}
+    words = {name.replace("_", "-"): as_text[value] if isinstance(value, bool) else str(value) for name, value in words.items() if value is not None}
+    return _dmoscope.Options(iterations, until_converged, threads, fixed, words)
+
+
+def smooth(mesh, iterations: int = 20, *, until_converged: bool = False, metric: Optional[str] = None, fixed=None,
+           callback: Optional[Callable[[Iteration], Optional[bool]]] = None, threads: int = 0, **options) -> Smoothed:
+    """Moves vertices so that the worst cell becomes as good as it can. Cells and boundary stay.
+
+    mesh: a Mesh, or one of meshio or PyVista. fixed: vertices that stay besides the boundary, as n booleans or as numbers.
+    callback(iteration): after each one, with number, minimum, mean, movable_minimum, inverted, moved, seconds; False ends the run.
+    options: the long options of `dmoscope smooth`: method="joint", boundary="slide", then="mean", combine="mean-ratio:0.7:min-angle" ...
+    Ctrl+C ends the run, too: what there is then is given back, with a warning. The result does not depend on the number of threads.
+    Raises UsageError (a ValueError) for what does not fit the mesh.
+    """
+    prepared = _mesh_of(mesh)
+    asked = _options(iterations, until_converged, threads, fixed, len(prepared.points), {"metric": metric, **options})
+    inner, history, iteration, converged, cancelled, interrupted, sentence, told = _dmoscope.smooth(prepared._mesh, asked, callback)
+    if interrupted:
+        warnings.warn(f"interrupted after iteration {iteration}; the mesh is what there was then", RuntimeWarning, stacklevel=2)
+    return Smoothed(_given_back(mesh, Mesh._of(inner)), history, iteration, converged, cancelled, sentence, told)
+
+
+@dataclass
+class TraceLevel:
+    """A level of the search, from coarse to fine. p candidates per axis, d = 2 axes in a plane and 3 in space."""
+
+    candidates: np.ndarray = field(repr=False)  # p x p (x p) x 3: places, mesh units
+    values: np.ndarray = field(repr=False)  # p x p (x p): what the search compared; more is better
+    quality: np.ndarray = field(repr=False)  # p x p (x p): the worst cell of the star with the vertex there
+    best: Optional[int]  # the one that was chosen, by its place in values.ravel(); None: none is better than what was found before
+
+
+@dataclass
+class Trace:
+    """What trace() gives back."""
+
+    start: np.ndarray  # where the vertex stands: 3
+    end: np.ndarray  # where it goes: 3
+    before: float  # the worst cell of its star
+    after: float
+    levels: List[TraceLevel] = field(repr=False)
+    value: str  # what `values` are
+    sentence: str
+
+
+def trace(mesh, vertex: int, *, metric: Optional[str] = None, fixed=None, **options) -> Trace:
+    """What the first visit of dmo would do to a vertex: all candidates that the search looks at. Options as in smooth()."""
+    prepared = _mesh_of(mesh)
+    asked = _options(0, False, 1, fixed, len(prepared.points), {"metric": metric, **options})
+    found = _dmoscope.trace(prepared._mesh, vertex, asked)
+    found["levels"] = [TraceLevel(**level) for level in found["levels"]]
+    return Trace(**found)

@@ -1,0 +1,276 @@
+// The Python module's core: meshes, quality, smoothing and traces as NumPy arrays. What makes it pleasant is in dmoscope/__init__.py.
+
+#include <chrono>
+#include <cstdint>
+#include <exception>
+#include <future>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "dmoscope/dmoscope.h"
+
+namespace py = pybind11;
+
+namespace {
+
+template <class T>
+using Array = py::array_t<T, py::array::c_style | py::array::forcecast>;
+
+/// A read-only view of memory that `owner` keeps.
+template <class T>
+py::array_t<T> view_of(const T* data, std::vector<py::ssize_t> shape, const py::object& owner) {
+  py::array_t<T> array(std::move(shape), data, owner);
+  array.attr("flags").attr("writeable") = false;
+  return array;
+}
+/// The vector moves into the array's memory: no copy.
+template <class T>
+py::array array_of(std::vector<T> values, const std::vector<py::ssize_t>& shape) {
+  auto* kept = new std::vector<T>(std::move(values));
+  const py::capsule owner(kept, [](void* memory) { delete static_cast<std::vector<T>*>(memory); });
+  return py::array_t<T>(shape, kept->data(), owner);
+}
+
+py::ssize_t length(std::size_t n) { return static_cast<py::ssize_t>(n); }
+
+/// `points`: n x 3.
+void require_points(const Array<double>& points) {
+  if (points.ndim() != 2 || points.shape(1) != 3) throw py::value_error("points must be an array of n x 3");
+}
+
+dmo::Mesh make_mesh(const Array<double>& points, const Array<std::uint8_t>& kinds, const Array<dmo::Index>& offsets,
+                    const Array<dmo::Index>& connectivity) {
+  require_points(points);
+  if (kinds.ndim() != 1 || offsets.ndim() != 1 || connectivity.ndim() != 1 || offsets.shape(0) != kinds.shape(0) + 1 ||
+      offsets.data()[kinds.shape(0)] > connectivity.shape(0))
+    throw py::value_error("kinds, offsets and connectivity do not fit one another");
+  static_assert(sizeof(dmo::CellKind) == sizeof(std::uint8_t));
+  const dmo::Cells cells{static_cast<std::size_t>(kinds.shape(0)), reinterpret_cast<const dmo::CellKind*>(kinds.data()), offsets.data(),
+                         connectivity.data()};
+  const auto vertices = static_cast<std::size_t>(points.shape(0));
+  const py::gil_scoped_release release;
+  return dmo::Mesh(points.data(), vertices, cells);
+}
+
+/// Does the work on another thread, while this one sees to the signals that Python has for it: at the first one the work is cancelled.
+/// Returns what the signal's handler raised, if one did.
+template <class Work>
+auto interruptible(dmo::Progress progress, const Work& work) {
+  std::optional<py::error_already_set> raised;
+  std::future<decltype(work())> future;
+  {
+    const py::gil_scoped_release release;
+    future = std::async(std::launch::async, work);
+    while (future.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
+      const py::gil_scoped_acquire acquire;
+      if (raised || PyErr_CheckSignals() == 0) continue;
+      raised.emplace();
+      progress.request_cancel();
+    }
+  }
+  return std::pair(std::move(future), std::move(raised));
+}
+
+dmo::Mesh read(const std::string& path) {
+  dmo::Progress progress;
+  auto [future, raised] = interruptible(progress, [&] { return dmo::Mesh::read(path, progress); });
+  if (raised) throw std::move(*raised);
+  return future.get();
+}
+
+py::dict history_of(const std::vector<dmo::Iteration>& iterations) {
+  const auto column = [&](auto get) {
+    std::vector<decltype(get(iterations.front()))> values;
+    for (const dmo::Iteration& one : iterations) values.push_back(get(one));
+    return array_of(std::move(values), {length(iterations.size())});
+  };
+  py::dict columns;
+  columns["iteration"] = column([](const dmo::Iteration& i) { return i.number; });
+  columns["minimum"] = column([](const dmo::Iteration& i) { return i.statistics.minimum; });
+  columns["mean"] = column([](const dmo::Iteration& i) { return i.statistics.mean; });
+  columns["movable_minimum"] = column([](const dmo::Iteration& i) { return i.statistics.movable_minimum; });
+  columns["inverted"] = column([](const dmo::Iteration& i) { return static_cast<std::uint64_t>(i.statistics.inverted); });
+  columns["moved"] = column([](const dmo::Iteration& i) { return i.moved; });
+  columns["seconds"] = column([](const dmo::Iteration& i) { return i.seconds; });
+  return columns;
+}
+
+dmo::SmoothOptions options_of(std::uint64_t iterations, bool until_converged, unsigned threads, std::vector<dmo::Index> fixed,
+                              std::map<std::string, std::string> words) {
+  dmo::SmoothOptions options;
+  options.iterations = iterations;
+  options.until_converged = until_converged;
+  options.threads = threads;
+  options.fixed = std::move(fixed);
+  options.options = std::move(words);
+  return options;
+}
+
+py::tuple smooth(const dmo::Mesh& mesh, dmo::SmoothOptions options, const py::object& callback) {
+  std::exception_ptr failure;  // of the callback
+  if (!callback.is_none()) {
+    options.after_iteration = [&](const dmo::Iteration& at) {
+      const py::gil_scoped_acquire acquire;
+      try {
+        const py::object answer = callback(at);
+        return answer.is_none() || answer.cast<bool>();
+      } catch (...) {
+        failure = std::current_exception();
+        return false;
+      }
+    };
+  }
+  auto [future, raised] = interruptible(options.progress, [&] { return dmo::smooth(mesh, options); });
+  if (failure) std::rethrow_exception(failure);
+  dmo::Smoothed smoothed = future.get();
+  const bool interrupted = raised.has_value();
+  if (raised && !raised->matches(PyExc_KeyboardInterrupt)) throw std::move(*raised);  // a handler of the user's own
+  return py::make_tuple(smoothed.mesh, history_of(smoothed.history), smoothed.iteration, smoothed.converged, smoothed.cancelled,
+                        interrupted, smoothed.sentence, smoothed.warnings);
+}
+
+py::dict trace(const dmo::Mesh& mesh, dmo::Index vertex, const dmo::SmoothOptions& options) {
+  const dmo::Trace traced = [&] {
+    const py::gil_scoped_release release;
+    return dmo::trace(mesh, vertex, options);
+  }();
+  py::list levels;
+  for (const dmo::TraceLevel& level : traced.levels) {
+    std::vector<py::ssize_t> grid(mesh.is_volume() ? 3 : 2, length(level.points)), places = grid;
+    places.push_back(3);
+    py::dict one;
+    one["candidates"] = array_of(level.candidates, places);
+    one["values"] = array_of(level.values, grid);
+    one["quality"] = array_of(level.quality, grid);
+    one["best"] = level.best < 0 ? py::object(py::none()) : py::object(py::int_(level.best));
+    levels.append(std::move(one));
+  }
+  py::dict result;
+  result["start"] = array_of(std::vector<double>(traced.from, traced.from + 3), {3});
+  result["end"] = array_of(std::vector<double>(traced.to, traced.to + 3), {3});
+  result["before"] = traced.before;
+  result["after"] = traced.after;
+  result["levels"] = std::move(levels);
+  result["value"] = traced.value;
+  result["sentence"] = traced.sentence;
+  return result;
+}
+
+void define_mesh(py::module_& module) {
+  py::class_<dmo::Mesh>(module, "Mesh")
+      .def(py::init(&make_mesh), py::arg("points"), py::arg("kinds"), py::arg("offsets"), py::arg("connectivity"))
+      .def_static("read", &read, py::arg("path"))
+      .def(
+          "write", [](const dmo::Mesh& mesh, const std::string& path) { return mesh.write(path); }, py::arg("path"),
+          py::call_guard<py::gil_scoped_release>())
+      .def("with_points",
+           [](const dmo::Mesh& mesh, const Array<double>& points) {
+             require_points(points);
+             if (static_cast<std::size_t>(points.shape(0)) != mesh.vertex_count()) throw py::value_error("another number of points");
+             const py::gil_scoped_release release;
+             return mesh.with_positions(points.data());
+           })
+      .def_property_readonly("points",
+                             [](const py::object& self) {
+                               const auto& mesh = self.cast<const dmo::Mesh&>();
+                               return view_of(mesh.positions(), {length(mesh.vertex_count()), 3}, self);
+                             })
+      .def_property_readonly("kinds",
+                             [](const py::object& self) {
+                               const dmo::Cells cells = self.cast<const dmo::Mesh&>().cells();
+                               return view_of(reinterpret_cast<const std::uint8_t*>(cells.kinds), {length(cells.count)}, self);
+                             })
+      .def_property_readonly("offsets",
+                             [](const py::object& self) {
+                               const dmo::Cells cells = self.cast<const dmo::Mesh&>().cells();
+                               return view_of(cells.offsets, {length(cells.count + 1)}, self);
+                             })
+      .def_property_readonly("connectivity",
+                             [](const py::object& self) {
+                               const dmo::Cells cells = self.cast<const dmo::Mesh&>().cells();
+                               return view_of(cells.connectivity, {length(cells.offsets[cells.count])}, self);
+                             })
+      .def_property_readonly("boundary",
+                             [](const py::object& self) {
+                               const auto& mesh = self.cast<const dmo::Mesh&>();
+                               return view_of(mesh.boundary(), {length(mesh.vertex_count())}, self);
+                             })
+      .def_property_readonly("is_volume", &dmo::Mesh::is_volume)
+      .def_property_readonly("is_surface", &dmo::Mesh::is_surface);
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_dmoscope, module) {
+  module.attr("__version__") = dmo::version();
+  // Never destroyed: the interpreter is gone before static objects are.
+  static const py::object& error = *new py::exception<dmo::Error>(module, "Error", PyExc_RuntimeError);
+  static const py::object& input_error = *new py::exception<dmo::InputError>(module, "InputError", error);
+  static const py::object& output_error = *new py::exception<dmo::OutputError>(module, "OutputError", error);
+  static const py::object& usage_error =
+      *new py::exception<dmo::UsageError>(module, "UsageError", py::make_tuple(error, py::handle(PyExc_ValueError)));
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const dmo::InputError& what) {
+      const py::object made = input_error(what.what());
+      made.attr("file") = what.file();
+      made.attr("line") = what.line();
+      PyErr_SetObject(input_error.ptr(), made.ptr());
+    } catch (const dmo::OutputError& what) {
+      PyErr_SetString(output_error.ptr(), what.what());
+    } catch (const dmo::UsageError& what) {
+      PyErr_SetString(usage_error.ptr(), what.what());
+    } catch (const dmo::Error& what) {
+      PyErr_SetString(error.ptr(), what.what());
+    }
+  });
+
+  define_mesh(module);
+  py::class_<dmo::Iteration>(module, "Iteration")
+      .def_readonly("number", &dmo::Iteration::number)
+      .def_readonly("moved", &dmo::Iteration::moved)
+      .def_readonly("seconds", &dmo::Iteration::seconds)
+      .def_property_readonly("minimum", [](const dmo::Iteration& i) { return i.statistics.minimum; })
+      .def_property_readonly("mean", [](const dmo::Iteration& i) { return i.statistics.mean; })
+      .def_property_readonly("movable_minimum", [](const dmo::Iteration& i) { return i.statistics.movable_minimum; })
+      .def_property_readonly("inverted", [](const dmo::Iteration& i) { return i.statistics.inverted; });
+  py::class_<dmo::SmoothOptions>(module, "Options").def(py::init(&options_of));
+  module.def("smooth", &smooth);
+  module.def("trace", &trace);
+  module.def("quality", [](const dmo::Mesh& mesh, const std::string& metric, unsigned threads) {
+    std::vector<double> values;
+    {
+      const py::gil_scoped_release release;
+      values = dmo::quality(mesh, metric, threads);
+    }
+    const py::ssize_t count = length(values.size());
+    return array_of(std::move(values), {count});
+  });
+  module.def("statistics", [](const dmo::Mesh& mesh, const std::string& metric, unsigned threads) {
+    dmo::Statistics s;
+    {
+      const py::gil_scoped_release release;
+      s = dmo::statistics(mesh, metric, threads);
+    }
+    py::dict result;
+    result["minimum"] = s.minimum;
+    result["mean"] = s.mean;
+    result["movable_minimum"] = s.movable_minimum;
+    result["inverted"] = s.inverted;
+    result["worst_cell"] = s.worst_cell;
+    return result;
+  });
+  module.def("metrics", [] {
+    py::dict all;
+    for (const dmo::Metric& m : dmo::metrics()) all[py::str(m.name)] = py::make_tuple(m.title, m.lowest, m.highest, m.formula, m.doc);
+    return all;
+  });
+}

@@ -1,0 +1,251 @@
+// The library by its public headers alone: arrays in and out, the same positions as the program's own run, errors, cancelling.
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "dmoscope/dmoscope.h"
+
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Arrays {
+  std::vector<double> positions;
+  std::vector<dmo::CellKind> kinds;
+  std::vector<dmo::Index> offsets{0}, connectivity;
+
+  void add(dmo::CellKind kind, const std::vector<dmo::Index>& corners) {
+    kinds.push_back(kind);
+    connectivity.insert(connectivity.end(), corners.begin(), corners.end());
+    offsets.push_back(static_cast<dmo::Index>(connectivity.size()));
+  }
+  [[nodiscard]] dmo::Cells cells() const { return {kinds.size(), kinds.data(), offsets.data(), connectivity.data()}; }
+  [[nodiscard]] dmo::Mesh mesh() const { return {positions.data(), positions.size() / 3, cells()}; }
+};
+
+/// n x n squares, some of them cut into triangles, every inner vertex a third of a cell out of place.
+Arrays sheet(dmo::Index n) {
+  Arrays arrays;
+  for (dmo::Index j = 0; j <= n; ++j)
+    for (dmo::Index i = 0; i <= n; ++i) {
+      const bool inside = i > 0 && i < n && j > 0 && j < n;
+      const double turn = 1.7 * i + 2.9 * j;
+      arrays.positions.insert(arrays.positions.end(),
+                              {i + (inside ? 0.33 * std::cos(turn) : 0.0), j + (inside ? 0.33 * std::sin(turn) : 0.0), 5.0});
+    }
+  for (dmo::Index j = 0; j < n; ++j)
+    for (dmo::Index i = 0; i < n; ++i) {
+      const dmo::Index a = i + (n + 1) * j, b = a + 1, c = b + n + 1, d = a + n + 1;
+      if ((i + j) % 3 == 0) {
+        arrays.add(dmo::CellKind::Quadrilateral, {a, b, c, d});
+      } else {
+        arrays.add(dmo::CellKind::Triangle, {a, b, c});
+        arrays.add(dmo::CellKind::Triangle, {a, c, d});
+      }
+    }
+  return arrays;
+}
+
+/// A cube's corners, its middle near one of them, and six pyramids around that; a wedge on top, in VTK's order.
+Arrays solids() {
+  Arrays arrays;
+  arrays.positions = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1, 0.2, 0.3, 0.25, 0.5, 0, 2, 0.5, 1, 2};
+  using K = dmo::CellKind;
+  for (const std::vector<dmo::Index>& face :
+       {std::vector<dmo::Index>{0, 1, 2, 3, 8}, {4, 7, 6, 5, 8}, {0, 4, 5, 1, 8}, {1, 5, 6, 2, 8}, {2, 6, 7, 3, 8}, {3, 7, 4, 0, 8}})
+    arrays.add(K::Pyramid, face);
+  arrays.add(K::Wedge, {4, 5, 9, 7, 6, 10});
+  return arrays;
+}
+
+TEST(Library, ArraysComeBackAsTheyWentIn) {
+  for (const Arrays& arrays : {sheet(6), solids()}) {
+    const dmo::Mesh mesh = arrays.mesh();
+    ASSERT_EQ(mesh.vertex_count(), arrays.positions.size() / 3);
+    EXPECT_EQ(std::memcmp(mesh.positions(), arrays.positions.data(), arrays.positions.size() * sizeof(double)), 0);
+    const dmo::Cells cells = mesh.cells();
+    ASSERT_EQ(cells.count, arrays.kinds.size());
+    EXPECT_EQ(std::vector(cells.kinds, cells.kinds + cells.count), arrays.kinds);
+    EXPECT_EQ(std::vector(cells.offsets, cells.offsets + cells.count + 1), arrays.offsets);
+    EXPECT_EQ(std::vector(cells.connectivity, cells.connectivity + arrays.connectivity.size()), arrays.connectivity);
+  }
+  EXPECT_FALSE(sheet(3).mesh().is_volume());
+  EXPECT_TRUE(solids().mesh().is_volume());
+}
+
+TEST(Library, ClockwiseTrianglesStayClockwise) {
+  Arrays arrays = sheet(4);
+  std::swap(arrays.connectivity[1], arrays.connectivity[3]);  // a quadrilateral of another winding than all the rest
+  const dmo::Mesh mesh = arrays.mesh();
+  const dmo::Cells cells = mesh.cells();
+  EXPECT_EQ(std::vector(cells.connectivity, cells.connectivity + arrays.connectivity.size()), arrays.connectivity);
+}
+
+TEST(Library, QualityIsWhatTheFormulaSays) {
+  Arrays arrays;  // an equilateral triangle, and one with a right angle and equal legs: mean ratio 4 sqrt(3) A / sum of squares
+  arrays.positions = {0, 0, 0, 1, 0, 0, 0.5, std::sqrt(0.75), 0, 1, -1, 0};
+  arrays.add(dmo::CellKind::Triangle, {0, 1, 2});
+  arrays.add(dmo::CellKind::Triangle, {0, 3, 1});
+  const std::vector<double> q = dmo::quality(arrays.mesh());
+  ASSERT_EQ(q.size(), 2U);
+  EXPECT_NEAR(q[0], 1.0, 1e-15);
+  EXPECT_NEAR(q[1], 4 * std::sqrt(3.0) * 0.5 / (1 + 1 + 2), 1e-15);
+  EXPECT_DOUBLE_EQ(dmo::statistics(arrays.mesh()).minimum, q[1]);
+  EXPECT_EQ(dmo::statistics(arrays.mesh()).worst_cell, 1U);
+  EXPECT_EQ(dmo::metrics().front().name, "mean-ratio");
+  EXPECT_THROW((void)dmo::quality(arrays.mesh(), "no-metric"), dmo::UsageError);
+}
+
+TEST(Library, SmoothingRaisesTheMinimumAndKeepsWhatStays) {
+  for (const Arrays& arrays : {sheet(8), solids()}) {
+    const dmo::Mesh mesh = arrays.mesh();
+    const dmo::Smoothed one = dmo::smooth(mesh), other = [&] {
+      dmo::SmoothOptions options;
+      options.threads = 3;
+      return dmo::smooth(mesh, options);
+    }();
+    EXPECT_GT(dmo::statistics(one.mesh).minimum, dmo::statistics(mesh).minimum + 0.02);
+    ASSERT_FALSE(one.history.empty());
+    EXPECT_DOUBLE_EQ(one.history.front().statistics.minimum, dmo::statistics(mesh).minimum);
+    EXPECT_DOUBLE_EQ(one.history.back().statistics.minimum, dmo::statistics(one.mesh).minimum);
+    const std::size_t bytes = 3 * mesh.vertex_count() * sizeof(double);
+    EXPECT_EQ(std::memcmp(one.mesh.positions(), other.mesh.positions(), bytes), 0) << "another number of threads";
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
+      if (mesh.boundary()[v] != 0) {
+        EXPECT_EQ(std::memcmp(one.mesh.positions() + 3 * v, mesh.positions() + 3 * v, 3 * sizeof(double)), 0) << v;
+      }
+  }
+}
+
+TEST(Library, FixedVerticesAndOptionsAreHeard) {
+  const dmo::Mesh mesh = sheet(8).mesh();
+  dmo::SmoothOptions options;
+  options.iterations = 3;
+  for (dmo::Index v = 0; v < mesh.vertex_count(); ++v)
+    if (v != 40) options.fixed.push_back(v);
+  const dmo::Smoothed one = dmo::smooth(mesh, options);
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
+    EXPECT_EQ(std::memcmp(one.mesh.positions() + 3 * v, mesh.positions() + 3 * v, 3 * sizeof(double)) == 0, v != 40) << v;
+  options.fixed = {99999};
+  EXPECT_THROW((void)dmo::smooth(mesh, options), dmo::UsageError);
+  options.fixed.clear();
+  for (const auto& [name, value, told] : std::vector<std::array<std::string, 3>>{{"methode", "dmo", "method"},
+                                                                                 {"metric", "mean", "mean-ratio"},
+                                                                                 {"grid", "1", "grid"},
+                                                                                 {"grid", "many", "many"},
+                                                                                 {"then", "peace", "mean"},
+                                                                                 {"size-function", "h1:0,0", "combine"}}) {
+    options.options = {{name, value}};
+    try {
+      (void)dmo::smooth(mesh, options);
+      ADD_FAILURE() << name << "=" << value << " was taken";
+    } catch (const dmo::UsageError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(told));
+    }
+  }
+}
+
+TEST(Library, ACallbackEndsARunAndTheMeshIsKept) {
+  const dmo::Mesh mesh = sheet(30).mesh();
+  dmo::SmoothOptions options;
+  options.iterations = 50;
+  std::vector<std::uint64_t> heard;
+  options.after_iteration = [&heard](const dmo::Iteration& at) {
+    heard.push_back(at.number);
+    return at.number < 2;
+  };
+  const dmo::Smoothed cut = dmo::smooth(mesh, options);
+  EXPECT_TRUE(cut.cancelled);
+  EXPECT_EQ(heard, (std::vector<std::uint64_t>{1, 2}));
+  options = {};
+  options.iterations = 2;
+  const dmo::Smoothed two = dmo::smooth(mesh, options);
+  EXPECT_EQ(std::memcmp(cut.mesh.positions(), two.mesh.positions(), 3 * mesh.vertex_count() * sizeof(double)), 0);
+}
+
+TEST(Library, AResultCanBeSmoothedOn) {
+  const dmo::Mesh mesh = sheet(10).mesh();
+  dmo::SmoothOptions two, four;
+  two.iterations = 2;
+  four.iterations = 4;
+  const dmo::Smoothed on = dmo::smooth(dmo::smooth(mesh, two).mesh, two), once = dmo::smooth(mesh, four);
+  EXPECT_NEAR(dmo::statistics(on.mesh).minimum, dmo::statistics(once.mesh).minimum, 0.05);
+  EXPECT_GE(dmo::statistics(on.mesh).minimum, on.history.front().statistics.minimum);
+}
+
+TEST(Library, WrongArraysAreRefusedByName) {
+  const auto refused = [](const Arrays& arrays, const char* told) {
+    try {
+      (void)arrays.mesh();
+      ADD_FAILURE() << told;
+    } catch (const dmo::InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(told));
+    }
+  };
+  Arrays arrays = sheet(2);
+  arrays.connectivity[2] = 77;
+  refused(arrays, "corner 77");
+  arrays = sheet(2);
+  arrays.connectivity[1] = arrays.connectivity[0];
+  refused(arrays, "twice");
+  arrays = sheet(2);
+  arrays.kinds[0] = dmo::CellKind::Triangle;
+  refused(arrays, "has 3 corners");
+  arrays = sheet(2);
+  arrays.kinds[0] = static_cast<dmo::CellKind>(9);
+  refused(arrays, "no kind 9");
+  arrays = sheet(2);
+  arrays.positions[4] = std::numeric_limits<double>::quiet_NaN();
+  refused(arrays, "not finite");
+  refused(Arrays{{0, 0, 0}, {}, {0}, {}}, "no elements");
+}
+
+TEST(Library, FilesAreReadAndWritten) {
+  const std::string path = ::testing::TempDir() + "/library_test.vtk", wrong = ::testing::TempDir() + "/library_test_wrong.off";
+  const dmo::Mesh mesh = solids().mesh();
+  EXPECT_TRUE(mesh.write(path).empty());
+  const dmo::Mesh again = dmo::Mesh::read(path);
+  EXPECT_EQ(std::memcmp(again.positions(), mesh.positions(), 3 * mesh.vertex_count() * sizeof(double)), 0);
+  EXPECT_EQ(std::vector(again.cells().connectivity, again.cells().connectivity + 36),
+            std::vector(mesh.cells().connectivity, mesh.cells().connectivity + 36));
+  EXPECT_THROW(mesh.write(::testing::TempDir() + "/no/such/folder.vtk"), dmo::OutputError);
+  EXPECT_THROW(mesh.write(path + ".nothing"), dmo::UsageError);
+  std::ofstream(wrong) << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 one 0\n3 0 1 2\n";
+  try {
+    (void)dmo::Mesh::read(wrong);
+    ADD_FAILURE();
+  } catch (const dmo::InputError& error) {
+    EXPECT_EQ(error.file(), wrong);
+    EXPECT_EQ(error.line(), 5U);
+  }
+}
+
+TEST(Library, ATraceEndsWhereTheFirstVisitDoes) {
+  for (const Arrays& arrays : {sheet(2), solids()}) {
+    const dmo::Mesh mesh = arrays.mesh();
+    const dmo::Index vertex = mesh.is_volume() ? 8 : 4;
+    const dmo::Trace trace = dmo::trace(mesh, vertex);
+    dmo::SmoothOptions once;
+    once.iterations = 1;
+    const dmo::Smoothed smoothed = dmo::smooth(mesh, once);  // of one free vertex
+    EXPECT_EQ(std::memcmp(trace.to, smoothed.mesh.positions() + 3 * vertex, sizeof trace.to), 0);
+    EXPECT_GT(trace.after, trace.before);
+    ASSERT_EQ(trace.levels.size(), 3U);
+    for (const dmo::TraceLevel& level : trace.levels) {
+      const std::size_t count = mesh.is_volume() ? 512 : 64;
+      EXPECT_EQ(level.candidates.size(), 3 * count);
+      EXPECT_EQ(level.values.size(), count);
+      EXPECT_EQ(level.quality.size(), count);
+    }
+  }
+  EXPECT_THROW((void)dmo::trace(sheet(2).mesh(), 99), dmo::UsageError);
+}
+
+}  // namespace

@@ -1,0 +1,234 @@
+"""The Python module: arrays in and out without copies, the program's bits, interrupts, meshio."""
+
+import gc
+import os
+import signal
+import subprocess
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import dmoscope
+
+PROGRAM = os.environ["DMOSCOPE_PROGRAM"]
+
+
+def run(*arguments):
+    subprocess.run([PROGRAM, *map(str, arguments)], check=True, stdout=subprocess.DEVNULL)
+
+
+@pytest.fixture(scope="session")
+def coast(tmp_path_factory):
+    path = tmp_path_factory.mktemp("meshes") / "coast.14"
+    run("generate", "coast", "-o", path)
+    return path
+
+
+def sheet(n=8):
+    """n x n squares of two triangles, inner vertices out of place; two coordinates."""
+    rng = np.random.default_rng(7)
+    x, y = np.meshgrid(np.arange(n + 1.0), np.arange(n + 1.0))
+    points = np.column_stack([x.ravel(), y.ravel()])
+    inside = (points > 0).all(axis=1) & (points < n).all(axis=1)
+    points[inside] += rng.uniform(-0.3, 0.3, (inside.sum(), 2))
+    a = (np.arange(n)[None, :] + (n + 1) * np.arange(n)[:, None]).ravel()
+    triangles = np.concatenate([np.column_stack([a, a + 1, a + n + 2]), np.column_stack([a, a + n + 2, a + n + 1])])
+    return points, triangles, inside
+
+
+def test_quality_by_hand():
+    mesh = dmoscope.Mesh([[0, 0], [1, 0], [0.5, 0.75**0.5], [1, -1]], {"triangle": [[0, 1, 2], [0, 3, 1]]})
+    q = mesh.quality()
+    assert q.shape == (2,)
+    assert q == pytest.approx([1.0, 4 * 3**0.5 * 0.5 / 4])
+    assert mesh.statistics()["worst_cell"] == 1
+    assert "mean-ratio" in dmoscope.metrics() and dmoscope.metrics()["mean-ratio"].highest == 1
+    with pytest.raises(dmoscope.UsageError, match="mean-ratio"):
+        mesh.quality("mean")
+
+
+def test_points_are_a_view_that_outlives_the_mesh():
+    points, triangles, _ = sheet()
+    mesh = dmoscope.Mesh(points, {"triangle": triangles})
+    view = mesh.points
+    assert not view.flags.owndata and not view.flags.writeable
+    assert mesh.points.__array_interface__["data"] == view.__array_interface__["data"]
+    del mesh
+    gc.collect()
+    assert (view[:, :2] == points).all() and (view[:, 2] == 0).all()
+    with pytest.raises(ValueError):
+        view[0, 0] = 1
+
+
+def test_cells_come_back_in_their_order():
+    cells = [("quad", [[0, 1, 4, 3]]), ("triangle", [[1, 2, 5], [1, 5, 4]]), ("quad", [[3, 4, 7, 6], [4, 5, 8, 7]])]
+    mesh = dmoscope.Mesh([[i, j] for j in range(3) for i in range(3)], cells)
+    back = mesh.cells
+    assert [kind for kind, _ in back] == ["quad", "triangle", "quad"]
+    for (_, given), (_, got) in zip(cells, back):
+        assert (np.asarray(given) == got).all()
+    assert mesh.boundary.sum() == 8 and not mesh.boundary[4]
+    assert "3 quad" in repr(mesh)
+
+
+def test_what_cannot_be_is_refused():
+    points, triangles, _ = sheet(2)
+    for cells, told in [({"line": [[0, 1]]}, "line"), ({"triangle": [[0, 1]]}, "m x 3"), ({"triangle": [[0, 1, -2]]}, "from 0"), ([], "cells")]:
+        with pytest.raises(ValueError, match=told):
+            dmoscope.Mesh(points, cells)
+    with pytest.raises(dmoscope.InputError, match="corner 99"):
+        dmoscope.Mesh(points, {"triangle": [[0, 1, 99]]})
+    with pytest.raises(ValueError, match="n x 3"):
+        dmoscope.Mesh(np.zeros((3, 4)), {"triangle": triangles})
+    with pytest.raises(ValueError, match="booleans"):
+        dmoscope.smooth(dmoscope.Mesh(points, {"triangle": triangles}), fixed=np.zeros(3, dtype=bool))
+    with pytest.raises(TypeError, match="no mesh"):
+        dmoscope.smooth(points)
+    with pytest.raises(dmoscope.UsageError, match="method"):
+        dmoscope.smooth(dmoscope.Mesh(points, {"triangle": triangles}), methode="dmo")
+
+
+def test_bad_file_names_file_and_line(tmp_path):
+    path = tmp_path / "wrong.off"
+    path.write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 one 0\n3 0 1 2\n")
+    with pytest.raises(dmoscope.InputError) as told:
+        dmoscope.read(path)
+    assert told.value.file == str(path) and told.value.line == 5
+
+
+@pytest.mark.parametrize("options, words", [
+    (dict(iterations=7), ["--iterations", 7]),
+    (dict(until_converged=True), ["--until-converged"]),
+    (dict(until_converged=True, then="mean", metric="min-angle"), ["--until-converged", "--then", "mean", "--metric", "min-angle"]),
+    (dict(iterations=5, combine="mean-ratio:0.7:min-angle", boundary="slide", corner_angle=30),
+     ["--iterations", 5, "--combine", "mean-ratio:0.7:min-angle", "--boundary", "slide", "--corner-angle", 30]),
+])
+def test_same_bits_as_the_program(coast, tmp_path, options, words):
+    run("smooth", coast, "-o", tmp_path / "program.14", *words)
+    smoothed = dmoscope.smooth(dmoscope.read(coast), threads=1, **options)
+    smoothed.mesh.write(tmp_path / "module.14")
+    assert (tmp_path / "program.14").read_bytes() == (tmp_path / "module.14").read_bytes()
+    assert (dmoscope.read(tmp_path / "program.14").points == smoothed.mesh.points).all()
+
+
+def test_history_and_callback():
+    points, triangles, inside = sheet(20)
+    mesh = dmoscope.Mesh(points, {"triangle": triangles})
+    heard = []
+    smoothed = dmoscope.smooth(mesh, iterations=6, callback=lambda i: heard.append((i.number, i.minimum)))
+    assert [number for number, _ in heard] == list(range(1, 7))
+    assert smoothed.history["minimum"][1:].tolist() == [minimum for _, minimum in heard]
+    assert smoothed.history["minimum"][0] == mesh.statistics()["minimum"]
+    assert (np.diff(smoothed.history["minimum"]) >= 0).all()
+    assert (smoothed.mesh.points[~inside] == mesh.points[~inside]).all()
+    cut = dmoscope.smooth(mesh, iterations=6, callback=lambda i: i.number < 2)
+    assert cut.cancelled and cut.iteration == 2
+    assert (cut.mesh.points == dmoscope.smooth(mesh, iterations=2).mesh.points).all()
+
+    def fails(iteration):
+        raise KeyError("mine")
+
+    with pytest.raises(KeyError, match="mine"):
+        dmoscope.smooth(mesh, callback=fails)
+
+
+def test_fixed_as_mask_and_as_numbers():
+    points, triangles, inside = sheet()
+    mesh = dmoscope.Mesh(points, {"triangle": triangles})
+    mask = np.ones(len(points), dtype=bool)
+    mask[40] = False
+    for fixed in (mask, np.flatnonzero(mask)):
+        moved = (dmoscope.smooth(mesh, fixed=fixed).mesh.points != mesh.points).any(axis=1)
+        assert moved.sum() == 1 and moved[40]
+
+
+def test_trace_ends_where_the_visit_does():
+    points, triangles, inside = sheet(2)
+    mesh = dmoscope.Mesh(points, {"triangle": triangles})
+    trace = dmoscope.trace(mesh, 4)
+    assert [level.candidates.shape for level in trace.levels] == [(8, 8, 3)] * 3
+    assert (trace.end == dmoscope.smooth(mesh, iterations=1).mesh.points[4]).all()
+    best = trace.levels[-1]
+    if best.best is not None:
+        assert best.values.ravel()[best.best] == best.values.max()
+    assert trace.after >= trace.before
+
+
+def test_interrupt_keeps_the_mesh(tmp_path):
+    run("generate", "grid", "-o", tmp_path / "grid.off", "--size", 250000)
+    mesh = dmoscope.read(tmp_path / "grid.off")
+    begun = threading.Event()
+
+    def interrupt():
+        begun.wait()
+        os.kill(os.getpid(), signal.SIGINT)
+        interrupt.at = time.monotonic()
+
+    thread = threading.Thread(target=interrupt)
+    thread.start()
+    with pytest.warns(RuntimeWarning, match="interrupted"):
+        smoothed = dmoscope.smooth(mesh, iterations=10**6, callback=lambda i: begun.set())
+    thread.join()
+    assert smoothed.cancelled
+    assert smoothed.mesh.statistics()["minimum"] > mesh.statistics()["minimum"]
+    assert smoothed.iteration < 10**6
+
+
+def test_other_threads_run_meanwhile():
+    points, triangles, _ = sheet(150)
+    mesh = dmoscope.Mesh(points, {"triangle": triangles})
+    counted, stop = [0], threading.Event()
+
+    def count():
+        while not stop.is_set():
+            counted[0] += 1
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    before = counted[0]
+    dmoscope.smooth(mesh, iterations=20, threads=1)
+    during = counted[0] - before
+    stop.set()
+    thread.join()
+    assert during > 1000
+
+
+def test_meshio_is_taken_and_given_back(tmp_path):
+    meshio = pytest.importorskip("meshio")
+    run("generate", "mixed", "-o", tmp_path / "mixed.vtk")
+    given = meshio.read(tmp_path / "mixed.vtk")
+    given.point_data["depth"] = np.arange(len(given.points), dtype=float)
+    smoothed = dmoscope.smooth(given, iterations=4)
+    assert isinstance(smoothed.mesh, meshio.Mesh)
+    assert (smoothed.mesh.point_data["depth"] == given.point_data["depth"]).all()
+    assert (given.points != smoothed.mesh.points).any(), "the one that was given is as it was"
+    run("smooth", tmp_path / "mixed.vtk", "-o", tmp_path / "program.vtk", "--iterations", 4)
+    assert (meshio.read(tmp_path / "program.vtk").points == smoothed.mesh.points).all()
+    again = dmoscope.Mesh(given.points, given.cells).to_meshio()
+    assert [(b.type, b.data.tolist()) for b in again.cells] == [(b.type, b.data.tolist()) for b in given.cells]
+
+
+def test_pyvista_is_taken_and_given_back():
+    """By an object with the same members: PyVista is no package of Debian's."""
+
+    class Grid:
+        def __init__(self, points, cells):
+            self.points = points
+            self.celltypes = np.full(len(cells), 5, dtype=np.uint8)
+            self.offset = np.arange(0, 3 * len(cells) + 1, 3)
+            self.cell_connectivity = cells.ravel()
+
+        def copy(self):
+            return Grid(self.points.copy(), self.cell_connectivity.reshape(-1, 3).copy())
+
+    points, triangles, _ = sheet()
+    grid = Grid(np.column_stack([points, np.zeros(len(points))]), triangles)
+    smoothed = dmoscope.smooth(grid, iterations=3)
+    assert isinstance(smoothed.mesh, Grid)
+    mesh = dmoscope.Mesh(points, {"triangle": triangles})
+    assert (smoothed.mesh.points == dmoscope.smooth(mesh, iterations=3).mesh.points).all()
+    grid.celltypes[3] = 22
+    with pytest.raises(ValueError, match="22"):
+        dmoscope.smooth(grid)

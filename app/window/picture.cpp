@@ -80,8 +80,12 @@ render::Shot shot_of(const InputMesh& input, const JudgedElements& judged, const
   return shot;
 }
 
-std::string picture_png(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look, const Progress& progress) {
-  if (input.in_space()) return volume_picture_png(input, positions, look, {}, progress);
+render::Image picture_of(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look, const InsideLook& inside,
+                         const Progress& progress) {
+  if (input.in_space()) return volume_picture(input, positions, look, inside, progress);
+  if (inside.asked_for())
+    throw UsageError(
+        fmt::format("{}: this option works only on volume meshes", input.path.empty() ? input.mesh.name : input.path.string()));
   const JudgedElements judged = judge(input, positions, look.metric, progress);
   const auto context = render::create_headless_context();
   render::PlanarScene scene;
@@ -89,7 +93,11 @@ std::string picture_png(const InputMesh& input, std::span<const Vec3> positions,
   scene.update(positions, judged.quality, judged.inverted);
   const render::Shot shot = shot_of(input, judged, look);
   const render::Camera2D camera = render::Camera2D::fit(scene.bounds(), render::mesh_viewport(shot));
-  return render::encode_png(render::render_image(scene, camera, style_of(look, judged), {}, shot).image);
+  return render::render_image(scene, camera, style_of(look, judged), {}, shot).image;
+}
+
+std::string picture_png(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look, const Progress& progress) {
+  return render::encode_png(picture_of(input, positions, look, {}, progress));
 }
 
 std::string css_gradient(std::string_view colormap) {
@@ -107,14 +115,9 @@ int render_picture(const std::filesystem::path& input, const std::filesystem::pa
                    const InsideLook& inside, const IoContext& context) {
   const Progress& progress = context.progress;
   const auto mesh = load_input(input, Need::QualityOnly, context);
-  if (!mesh->in_space() && inside.asked_for()) {
-    throw UsageError(fmt::format("{}: this option works only on volume meshes", input.string()));
-  }
   if (const std::string left_out = left_out_of_pictures(mesh->report.seam_elements, mesh->geometry.plane); !left_out.empty())
     complain(fmt::format("{}: {}", mesh->mesh.name, left_out));
-  const std::span<const Vec3> positions = mesh->mesh.positions;
-  write_file_atomically(output, mesh->in_space() ? volume_picture_png(*mesh, positions, look, inside, progress)
-                                                 : picture_png(*mesh, positions, look, progress));
+  write_file_atomically(output, render::encode_png(picture_of(*mesh, mesh->mesh.positions, look, inside, progress)));
   return 0;
 }
 

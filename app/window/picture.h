@@ -15,6 +15,11 @@
 namespace dmoscope::app {
 
 struct InsideLook;
+}  // namespace dmoscope::app
+namespace dmoscope::render {
+struct Image;
+}
+namespace dmoscope::app {
 
 /// How a picture of a mesh looks.
 struct PictureLook {
@@ -34,8 +39,11 @@ struct PictureLook {
   int supersample = 2;  // 1 to 8: drawn that much larger and averaged
 };
 
-/// The mesh with its vertices at `positions`, as a PNG file's bytes. Throws Error (no usable EGL, a metric or a colour map that there is
-/// not) and Cancelled.
+/// The mesh with its vertices at `positions`. Throws Error (no usable EGL, a metric or a colour map that there is not, an inside asked for
+/// of a mesh that has none) and Cancelled.
+[[nodiscard]] render::Image picture_of(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look,
+                                       const InsideLook& inside, const Progress& progress);
+/// The same as a PNG file's bytes, of a volume its outside.
 [[nodiscard]] std::string picture_png(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look,
                                       const Progress& progress);
 

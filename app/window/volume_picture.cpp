@@ -25,8 +25,8 @@ void require_sense(const InsideLook& inside) {
   static_cast<void>(render::view_preset_from_name(inside.from));
 }
 
-std::string volume_picture_png(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look, const InsideLook& inside,
-                               const Progress& progress) {
+render::Image volume_picture(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look, const InsideLook& inside,
+                             const Progress& progress) {
   const JudgedElements judged = judge(input, positions, look.metric, progress);
   const auto context = render::create_headless_context();
   ThreadPool pool;
@@ -48,7 +48,7 @@ std::string volume_picture_png(const InputMesh& input, std::span<const Vec3> pos
   const Vec2<double> viewport = render::mesh_viewport(shot);
   constexpr double kMargin = 24.0;  // pixels
   scene.fit(camera, viewport, {{kMargin, kMargin}, {viewport.x - kMargin, viewport.y - kMargin}});
-  return render::encode_png(render::render_image(scene, camera, style_of(look, judged), render::SpaceMarks{}, shot).image);
+  return render::render_image(scene, camera, style_of(look, judged), render::SpaceMarks{}, shot).image;
 }
 
 }  // namespace dmoscope::app

@@ -22,8 +22,8 @@ struct InsideLook {
 /// Throws UsageError for words that mean nothing, before anything is read.
 void require_sense(const InsideLook& inside);
 
-/// picture_png of a volume mesh.
-[[nodiscard]] std::string volume_picture_png(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look,
-                                             const InsideLook& inside, const Progress& progress);
+/// picture_of() a mesh in space.
+[[nodiscard]] render::Image volume_picture(const InputMesh& input, std::span<const Vec3> positions, const PictureLook& look,
+                                           const InsideLook& inside, const Progress& progress);
 
 }  // namespace dmoscope::app

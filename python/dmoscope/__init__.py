@@ -21,7 +21,7 @@ from . import _dmoscope
 from ._dmoscope import Error, InputError, Iteration, OutputError, UsageError, __version__
 
 __all__ = ["Error", "InputError", "Iteration", "Mesh", "Metric", "OutputError", "Smoothed", "Trace", "TraceLevel", "UsageError",
-           "metrics", "read", "smooth", "trace", "__version__"]
+           "metrics", "read", "render", "smooth", "trace", "__version__"]
 
 # In the order of the library's CellKind: meshio's name, VTK's number, corners.
 _KINDS = (("triangle", 5, 3), ("quad", 9, 4), ("tetra", 10, 4), ("hexahedron", 12, 8), ("wedge", 13, 6), ("pyramid", 14, 5))
@@ -286,3 +286,20 @@ def trace(mesh, vertex: int, *, metric: Optional[str] = None, fixed=None, **opti
     found = _dmoscope.trace(prepared._mesh, vertex, asked)
     found["levels"] = [TraceLevel(**level) for level in found["levels"]]
     return Trace(**found)
+
+
+def render(mesh, size=(1280, 800), *, metric: str = "mean-ratio", range=None, colormap: str = "beacon", transparent: bool = False,
+           edges: bool = True, colour_bar: bool = True, clip: str = "", clip_mode: str = "crinkle", view: str = "iso") -> np.ndarray:
+    """A picture of the mesh coloured by quality, inverted cells magenta: height x width x 4 bytes (red, green, blue, opacity).
+
+    size: (width, height) in pixels. range: (low, high), the qualities at the ends of the colours; None: the mesh's own, rounded outwards.
+    Of volumes also: clip ("x", "-y:0.3", "NX,NY,NZ:OFFSET"), clip_mode ("crinkle" or "cut"), view ("iso", "+x", "-z" ...).
+    Needs OpenGL (EGL), but no screen; raises RuntimeError where there is none.
+    """
+    try:
+        from . import _render
+    except ImportError as missing:
+        raise RuntimeError("pictures need the package python3-dmoscope-render, and OpenGL's libraries") from missing
+    inner = _mesh_of(mesh)._mesh
+    return _render.render(inner.points, inner.kinds, inner.offsets, inner.connectivity, metric, tuple(size), colormap, range, transparent,
+                          edges, colour_bar, clip, clip_mode, view)

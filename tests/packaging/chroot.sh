@@ -25,6 +25,7 @@ deb() { for name in "$@"; do (cd "$packages" && printf '/packages/%s\n' "$name"_
 
 inside apt-get update -qq
 first=$(inside dpkg-query -W -f='${Package}\n' | sort)
+install libgl1 fonts-dejavu-core  # every desktop has these
 install $(deb dmoscope)
 inside dmoscope --version
 inside dmoscope smooth /usr/share/dmoscope/samples/coast.14 -o /better.14 --until-converged | tail -2

@@ -3,9 +3,11 @@
 import gc
 import os
 import signal
+import struct
 import subprocess
 import threading
 import time
+import zlib
 
 import numpy as np
 import pytest
@@ -232,3 +234,56 @@ def test_pyvista_is_taken_and_given_back():
     grid.celltypes[3] = 22
     with pytest.raises(ValueError, match="22"):
         dmoscope.smooth(grid)
+
+
+def png(path):
+    """A PNG's pixels, by the standard library alone: 8 bits of red, green, blue and opacity, not interlaced."""
+    data = path.read_bytes()
+    width, height = struct.unpack(">II", data[16:24])
+    assert data[24:26] == b"\x08\x06" and data[28] == 0
+    at, packed = 8, b""
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        if kind == b"IDAT":
+            packed += data[at + 8:at + 8 + length]
+        at += 12 + length
+    raw = np.frombuffer(zlib.decompress(packed), dtype=np.uint8).reshape(height, 1 + 4 * width).astype(np.int64)
+    out = np.zeros((height, width, 4), dtype=np.int64)
+    for y in range(height):
+        kind, line = raw[y, 0], raw[y, 1:].reshape(width, 4)
+        above = out[y - 1] if y else np.zeros((width, 4), dtype=np.int64)
+        if kind == 2:
+            out[y] = (line + above) % 256
+            continue
+        left, corner = np.zeros(4, dtype=np.int64), np.zeros(4, dtype=np.int64)
+        for x in range(width):
+            if kind == 4:
+                p = left + above[x] - corner
+                a, b, c = abs(p - left), abs(p - above[x]), abs(p - corner)
+                guess = np.where((a <= b) & (a <= c), left, np.where(b <= c, above[x], corner))
+            else:
+                guess = [0, left, None, (left + above[x]) // 2][kind]
+            out[y, x] = (line[x] + guess) % 256
+            left, corner = out[y, x], above[x]
+    return out
+
+
+@pytest.mark.parametrize("kind, words, options", [
+    ("coast", [], {}),
+    ("solids", ["--clip", "x:0.4", "--view", "+x", "--metric", "scaled-jacobian"], dict(clip="x:0.4", view="+x", metric="scaled-jacobian")),
+])
+def test_pictures_are_the_program_s(tmp_path, kind, words, options):
+    run("generate", kind, "-o", tmp_path / "mesh.vtk")
+    told = subprocess.run([PROGRAM, "info"], check=True, capture_output=True, text=True).stdout
+    if "opengl not usable" in told.lower():
+        pytest.skip("no OpenGL here")
+    mesh = dmoscope.read(tmp_path / "mesh.vtk")
+    pixels = dmoscope.render(mesh, (240, 160), colour_bar=False, **options)
+    assert pixels.shape == (160, 240, 4) and pixels.dtype == np.uint8
+    assert len(np.unique(pixels.reshape(-1, 4), axis=0)) > 20
+    # With its colour bar, it is the very picture of the program's but for the mesh's name.
+    run("render", tmp_path / "mesh.vtk", "-o", tmp_path / "mesh.png", "--size", "240x160", *words)
+    with_bar = dmoscope.render(mesh, (240, 160), **options)
+    assert (with_bar != png(tmp_path / "mesh.png")).any(axis=2).mean() < 0.05
+    with pytest.raises(ValueError, match="range"):
+        dmoscope.render(mesh, range=(1, 0))

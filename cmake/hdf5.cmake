@@ -29,7 +29,7 @@ if(DMOSCOPE_HDF5 AND NOT DMOSCOPE_PORTABLE)
     set(DMOSCOPE_HDF5_LIBRARIES ${libraries})
     # Debian's static one cannot be part of a shared library.
     if(HDF5_C_STATIC IN_LIST libraries AND HDF5_C_SHARED)
-      set(in_shared $<STREQUAL:$<TARGET_PROPERTY:TYPE>,SHARED_LIBRARY>)
+      set(in_shared $<NOT:$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>>)
       set(DMOSCOPE_HDF5_LIBRARIES $<IF:${in_shared},${HDF5_C_SHARED},${HDF5_C_STATIC}> ${libraries})
       list(REMOVE_ITEM DMOSCOPE_HDF5_LIBRARIES ${HDF5_C_STATIC})
     endif()

@@ -26,6 +26,9 @@ cuda='(cuda|cuda_runtime|cuda_runtime_api|device_launch_parameters)'
 
 breach "core knows no other module" "${include}(gpu|render|ui|app)/" core
 breach "core knows no OpenGL, ImGui or CUDA" "${include}(${opengl}|${imgui}|${cuda})" core
+breach "core, gpu, render and ui know no library and no Python" "${include}(library|python)/" core gpu render ui app
+breach "the library knows core alone" "${include}(gpu|render|ui|app|python|${opengl}|${imgui}|${cuda})" library
+breach "the library's headers know themselves and the standard library alone" "#include \"[^d]|#include <[^>]*[/.]" library/include
 breach "gpu knows neither the screen nor the program" "${include}(render|ui|app)/" gpu
 breach "render knows no interface, program or GPU backend" "${include}(ui|app|gpu)/" render
 breach "render knows no ImGui and no CUDA" "${include}(${imgui}|${cuda})" render

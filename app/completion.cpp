@@ -1,5 +1,6 @@
 #include "app/completion.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -41,7 +42,8 @@ std::vector<std::string> choices_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   if (type.find('|') == std::string::npos) return {};
   std::vector<std::string> words;
-  for (std::string& word : CLI::detail::split(type, '|')) words.push_back(std::move(word));
+  for (std::string& word : CLI::detail::split(type, '|'))  // but for what stands for something, as in shuffle:SEED
+    if (std::none_of(word.begin(), word.end(), [](char c) { return c >= 'A' && c <= 'Z'; })) words.push_back(std::move(word));
   return words;
 }
 

@@ -24,9 +24,7 @@ static_assert(static_cast<int>(CellKind::Triangle) == static_cast<int>(ElementKi
 
 namespace {
 
-constexpr const char* kName = "mesh";  // of one that no file has
-
-[[noreturn]] void refuse(const std::string& what) { throw dmoscope::InputError(kName, 0, what); }
+[[noreturn]] void refuse(const std::string& what) { throw dmoscope::InputError(kNoFile, 0, what); }
 
 std::vector<Vec3> vectors(const double* positions, std::size_t vertices) {
   std::vector<Vec3> result(vertices);
@@ -39,12 +37,31 @@ std::vector<Vec3> vectors(const double* positions, std::size_t vertices) {
   return result;
 }
 
+/// Corners are read only where the offsets are known to lie within connectivity.
+void require_rising_offsets(const Cells& cells) {
+  if (cells.count == 0) return;
+  if (cells.offsets[0] != 0) refuse(fmt::format("the first offset is {}, not 0", cells.offsets[0]));
+  for (std::size_t c = 0; c < cells.count; ++c)
+    if (cells.offsets[c + 1] < cells.offsets[c])
+      refuse(fmt::format("cell {}: its offsets {} and {} do not rise", c, cells.offsets[c], cells.offsets[c + 1]));
+}
+
+void add_data(dmoscope::Mesh& mesh, const CellData& data) {
+  if (data.values.size() != mesh.elements.size())
+    refuse(fmt::format("the data \"{}\" has {} values, the mesh {} cells", data.name, data.values.size(), mesh.elements.size()));
+  dmoscope::Field field;
+  field.name = data.name;
+  field.on = dmoscope::Field::On::Elements;
+  field.values = data.values;
+  mesh.fields.push_back(std::move(field));
+}
+
 void add_cell(dmoscope::ElementTable& elements, const Cells& cells, std::size_t c, std::size_t vertices) {
   if (static_cast<unsigned>(cells.kinds[c]) >= dmoscope::kElementKindCount)
     refuse(fmt::format("cell {}: there is no kind {}", c, static_cast<unsigned>(cells.kinds[c])));
   const auto kind = static_cast<ElementKind>(cells.kinds[c]);
   const std::size_t wanted = info(kind).corners;
-  if (cells.offsets[c + 1] < cells.offsets[c] || cells.offsets[c + 1] - cells.offsets[c] != wanted)
+  if (cells.offsets[c + 1] - cells.offsets[c] != wanted)
     refuse(fmt::format("cell {}: a {} has {} corners, but its offsets are {} and {}", c, info(kind).name, wanted, cells.offsets[c],
                        cells.offsets[c + 1]));
   std::array<Index, 8> corners{};
@@ -104,14 +121,16 @@ Mesh moved_mesh(const Mesh& mesh, std::vector<Vec3> positions) {
   return Mesh(std::shared_ptr<const Mesh::Data>(std::move(data)));
 }
 
-Mesh::Mesh(const double* positions, std::size_t vertices, const Cells& cells, const Progress& progress) {
+Mesh::Mesh(const double* positions, std::size_t vertices, const Cells& cells, const std::vector<CellData>& data, const Progress& progress) {
   data_ = translated([&] {
     if (vertices >= dmoscope::kNoIndex) refuse(fmt::format("{} vertices are too many", vertices));
     dmoscope::Mesh mesh;
-    mesh.name = kName;
+    mesh.name = kNoFile;
     mesh.positions = vectors(positions, vertices);
+    require_rising_offsets(cells);
     if (cells.count > 0) mesh.elements.reserve(cells.count, cells.offsets[cells.count]);
     for (std::size_t c = 0; c < cells.count; ++c) add_cell(mesh.elements, cells, c, vertices);
+    for (const CellData& one : data) add_data(mesh, one);
     return data_of(prepare_input(std::move(mesh), {}, Need::Smoothing, progress.state().progress));
   });
 }

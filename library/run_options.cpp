@@ -44,11 +44,22 @@ auto naming(const std::string& option, const Work& work) {
 
 void set_objective(dmoscope::RunParameters& parameters, Words& words) {
   const std::string metric = take(words, "metric"), combination = take(words, "combine"), size = take(words, "size-function");
-  if (!metric.empty() && !combination.empty()) throw dmoscope::UsageError("metric and combine: only one of them, combine names both metrics");
+  if (!metric.empty() && !combination.empty())
+    throw dmoscope::UsageError("metric and combine: only one of them, combine names both metrics");
   if (combination.empty() && !size.empty()) throw dmoscope::UsageError("size-function is for combine with density");
   if (!metric.empty()) parameters.metric = naming("metric", [&] { return dmoscope::parse_metric(metric); });
   if (!combination.empty())
     std::tie(parameters.metric, parameters.combination) = naming("combine", [&] { return dmoscope::parse_combination(combination, size); });
+}
+
+/// As the program does, which refuses such options together.
+void refuse_together(const Words& words, bool until_converged) {
+  const auto said = [&words](const char* name) { return words.count(name) > 0; };
+  for (const char* other : {"method", "combine", "then"})
+    if (said("recipe") && said(other)) throw dmoscope::UsageError(fmt::format("recipe and {}: only one of them", other));
+  if (said("combine") && said("then")) throw dmoscope::UsageError("combine and then: only one of them");
+  for (const char* limit : {"patience", "max-iterations"})
+    if (said(limit) && !until_converged) throw dmoscope::UsageError(fmt::format("{} is for until_converged", limit));
 }
 
 }  // namespace
@@ -57,6 +68,7 @@ RunRequest request_of(const dmoscope::InputMesh& input, const SmoothOptions& opt
   RunRequest request;
   dmoscope::RunParameters& parameters = request.parameters;
   Words words = options.options;
+  refuse_together(words, options.until_converged);
   if (const std::string method = take(words, "method"); !method.empty()) {
     static_cast<void>(dmoscope::method_info(method));
     parameters.method = method;

@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "core/base/thread_pool.h"
+#include "core/input/input_mesh.h"
 #include "core/run/left_inverted.h"
+#include "core/run/missing_phase.h"
 #include "core/run/run.h"
 #include "library/mesh_data.h"
 #include "library/run_options.h"
@@ -23,13 +25,14 @@ void advance(dmoscope::Run& run, const RunRequest& request, const SmoothOptions&
   dmoscope::Progress& progress = options.progress.state().progress;
   const auto after = [&](const dmoscope::Run& at) {
     if (!options.after_iteration) return;
-    if (!options.after_iteration(iteration_of(at.history().records()[at.moment().iteration]))) progress.request_cancel();
+    if (!options.after_iteration(iteration_of(at.history().records()[at.moment().iteration]))) throw dmoscope::Cancelled();
   };
   try {
     const dmoscope::Outcome outcome =
         options.until_converged ? run.until_converged(request.limits, progress, after) : run.iterate(options.iterations, progress, after);
     const bool optimises = dmoscope::method_info(run.parameters().method).optimises;
     if (options.until_converged || !optimises) run.end_at_best(progress);
+    for (std::string& sentence : missing_phases(run, outcome)) result.warnings.push_back(std::move(sentence));
     result.converged = options.until_converged && outcome.reason != dmoscope::StopReason::IterationLimit;
     result.sentence = run.last_outcome().value_or(outcome).sentence();
   } catch (const dmoscope::Cancelled&) {
@@ -43,12 +46,18 @@ void advance(dmoscope::Run& run, const RunRequest& request, const SmoothOptions&
 Smoothed smooth(const Mesh& mesh, const SmoothOptions& options) {
   return translated([&] {
     dmoscope::Progress& progress = options.progress.state().progress;
-    const auto input = mesh.data()->prepared(progress);
+    std::shared_ptr<const dmoscope::InputMesh> input;
+    try {
+      input = mesh.data()->prepared(progress);
+    } catch (const dmoscope::Cancelled&) {
+      return Smoothed{mesh, {}, 0, false, true, "cancelled", {}};
+    }
     RunRequest request = request_of(*input, options);
     auto pool = std::make_shared<dmoscope::ThreadPool>(options.threads);
     dmoscope::Run run(input, request.parameters, pool, 0);  // no past positions: nobody asks for them
     Smoothed result{mesh, {}, 0, false, false, {}, std::move(request.warnings)};
     if (std::string warning = run.take_warning(); !warning.empty()) result.warnings.push_back(std::move(warning));
+    if (run.size_field() && !run.size_field()->note().empty()) result.warnings.push_back(run.size_field()->note());
     advance(run, request, options, result);
     for (const dmoscope::IterationRecord& record : run.history().records()) result.history.push_back(iteration_of(record));
     result.iteration = run.moment().iteration;

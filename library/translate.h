@@ -1,7 +1,7 @@
 #pragma once
 // The program's errors, as the library's users know them.
 
-#include <new>
+#include <string>
 #include <utility>
 
 #include "core/base/error.h"
@@ -9,13 +9,15 @@
 
 namespace dmo {
 
+inline constexpr const char* kNoFile = "mesh";  // what stands for the file of a mesh that is none's
+
 /// Returns work(); what it throws becomes an error of the library.
 template <class Work>
 decltype(auto) translated(const Work& work) {
   try {
     return work();
   } catch (const dmoscope::InputError& error) {
-    throw InputError(error.what(), error.file(), error.line());
+    throw InputError(error.what(), error.file() == kNoFile ? std::string() : error.file(), error.line());
   } catch (const dmoscope::OutputError& error) {
     throw OutputError(error.what());
   } catch (const dmoscope::UsageError& error) {

@@ -1,9 +1,13 @@
 // The Python module's core: meshes, quality, smoothing and traces as NumPy arrays. What makes it pleasant is in dmoscope/__init__.py.
 
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <exception>
 #include <future>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -46,7 +50,7 @@ void require_points(const Array<double>& points) {
 }
 
 dmo::Mesh make_mesh(const Array<double>& points, const Array<std::uint8_t>& kinds, const Array<dmo::Index>& offsets,
-                    const Array<dmo::Index>& connectivity) {
+                    const Array<dmo::Index>& connectivity, const std::map<std::string, Array<double>>& numbers) {
   require_points(points);
   if (kinds.ndim() != 1 || offsets.ndim() != 1 || connectivity.ndim() != 1 || offsets.shape(0) != kinds.shape(0) + 1 ||
       offsets.data()[kinds.shape(0)] > connectivity.shape(0))
@@ -55,21 +59,67 @@ dmo::Mesh make_mesh(const Array<double>& points, const Array<std::uint8_t>& kind
   const dmo::Cells cells{static_cast<std::size_t>(kinds.shape(0)), reinterpret_cast<const dmo::CellKind*>(kinds.data()), offsets.data(),
                          connectivity.data()};
   const auto vertices = static_cast<std::size_t>(points.shape(0));
+  std::vector<dmo::CellData> data;
+  for (const auto& [name, values] : numbers) data.push_back({name, {values.data(), values.data() + values.size()}});
   const py::gil_scoped_release release;
-  return dmo::Mesh(points.data(), vertices, cells);
+  return dmo::Mesh(points.data(), vertices, cells, data);
 }
 
-/// Does the work on another thread, while this one sees to the signals that Python has for it: at the first one the work is cancelled.
-/// Returns what the signal's handler raised, if one did.
-template <class Work>
-auto interruptible(dmo::Progress progress, const Work& work) {
+/// Lets a thread that works ask the one that has Python.
+class Question {
+ public:
+  /// By the thread that works: waits for the answer.
+  bool ask(const dmo::Iteration& about) {
+    std::unique_lock lock(mutex_);
+    about_ = about;
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return !about_; });
+    return answer_;
+  }
+  /// By the other: answers by look(iteration) what is asked, if anything is.
+  template <class Look>
+  void answer(const Look& look) {
+    const std::scoped_lock lock(mutex_);
+    if (!about_) return;
+    answer_ = look(*about_);
+    about_.reset();
+    changed_.notify_all();
+  }
+  /// By the thread that works: there will be no more questions.
+  void end() {
+    const std::scoped_lock lock(mutex_);
+    ended_ = true;
+    changed_.notify_all();
+  }
+  /// By the other: waits for a question or the end, but not long.
+  void wait() {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, std::chrono::milliseconds(20), [this] { return about_ || ended_; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<dmo::Iteration> about_;
+  bool answer_ = true, ended_ = false;
+};
+
+/// Does the work on another thread, while this one answers its questions by look(iteration), and sees to the signals that Python has for
+/// it: at the first one the work is cancelled. Returns what the signal's handler raised, if one did.
+template <class Work, class Look>
+auto interruptible(dmo::Progress progress, Question& question, const Work& work, const Look& look) {
   std::optional<py::error_already_set> raised;
   std::future<decltype(work())> future;
   {
     const py::gil_scoped_release release;
-    future = std::async(std::launch::async, work);
-    while (future.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
+    future = std::async(std::launch::async, [&] {
+      const std::unique_ptr<Question, void (*)(Question*)> end(&question, [](Question* asked) { asked->end(); });
+      return work();
+    });
+    while (future.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+      question.wait();
       const py::gil_scoped_acquire acquire;
+      question.answer(look);
       if (raised || PyErr_CheckSignals() == 0) continue;
       raised.emplace();
       progress.request_cancel();
@@ -80,7 +130,9 @@ auto interruptible(dmo::Progress progress, const Work& work) {
 
 dmo::Mesh read(const std::string& path) {
   dmo::Progress progress;
-  auto [future, raised] = interruptible(progress, [&] { return dmo::Mesh::read(path, progress); });
+  Question none;
+  auto [future, raised] = interruptible(
+      progress, none, [&] { return dmo::Mesh::read(path, progress); }, [](const dmo::Iteration&) { return true; });
   if (raised) throw std::move(*raised);
   return future.get();
 }
@@ -113,25 +165,30 @@ dmo::SmoothOptions options_of(std::uint64_t iterations, bool until_converged, un
   return options;
 }
 
+/// False itself, or NumPy's.
+bool is_false(const py::object& answer) {
+  if (answer.ptr() == Py_False) return true;
+  return std::string(Py_TYPE(answer.ptr())->tp_name).starts_with("numpy.bool") && PyObject_IsTrue(answer.ptr()) == 0;
+}
+
 py::tuple smooth(const dmo::Mesh& mesh, dmo::SmoothOptions options, const py::object& callback) {
   std::exception_ptr failure;  // of the callback
-  if (!callback.is_none()) {
-    options.after_iteration = [&](const dmo::Iteration& at) {
-      const py::gil_scoped_acquire acquire;
-      try {
-        const py::object answer = callback(at);
-        return answer.is_none() || answer.cast<bool>();
-      } catch (...) {
-        failure = std::current_exception();
-        return false;
-      }
-    };
-  }
-  auto [future, raised] = interruptible(options.progress, [&] { return dmo::smooth(mesh, options); });
+  Question question;
+  if (!callback.is_none()) options.after_iteration = [&question](const dmo::Iteration& at) { return question.ask(at); };
+  const auto look = [&](const dmo::Iteration& at) {
+    try {
+      return !is_false(callback(at));
+    } catch (...) {
+      failure = std::current_exception();
+      return false;
+    }
+  };
+  auto [future, raised] = interruptible(
+      options.progress, question, [&] { return dmo::smooth(mesh, options); }, look);
   if (failure) std::rethrow_exception(failure);
+  if (raised && !raised->matches(PyExc_KeyboardInterrupt)) throw std::move(*raised);  // a handler of the user's own
   dmo::Smoothed smoothed = future.get();
   const bool interrupted = raised.has_value();
-  if (raised && !raised->matches(PyExc_KeyboardInterrupt)) throw std::move(*raised);  // a handler of the user's own
   return py::make_tuple(smoothed.mesh, history_of(smoothed.history), smoothed.iteration, smoothed.converged, smoothed.cancelled,
                         interrupted, smoothed.sentence, smoothed.warnings);
 }
@@ -165,7 +222,7 @@ py::dict trace(const dmo::Mesh& mesh, dmo::Index vertex, const dmo::SmoothOption
 
 void define_mesh(py::module_& module) {
   py::class_<dmo::Mesh>(module, "Mesh")
-      .def(py::init(&make_mesh), py::arg("points"), py::arg("kinds"), py::arg("offsets"), py::arg("connectivity"))
+      .def(py::init(&make_mesh), py::arg("points"), py::arg("kinds"), py::arg("offsets"), py::arg("connectivity"), py::arg("data"))
       .def_static("read", &read, py::arg("path"))
       .def(
           "write", [](const dmo::Mesh& mesh, const std::string& path) { return mesh.write(path); }, py::arg("path"),

@@ -36,6 +36,7 @@
 #include "core/reference/domain.h"
 #include "core/run/left_inverted.h"
 #include "core/run/mean_given_up.h"
+#include "core/run/missing_phase.h"
 #include "core/run/recipe.h"
 #include "core/run/retry_on_cpu.h"
 #include "core/run/untangling_hint.h"
@@ -301,17 +302,6 @@ std::optional<HeldMinimum> find_hold(const Run& run, ThreadPool* pool, Progress&
   }
 }
 
-/// Warns where a later phase was asked for and never began.
-template <class Warn>
-void tell_missing_phase(const Run& run, const Outcome& outcome, const Warn& warn) {
-  const RunPhases phases = run.phases();
-  if (run.parameters().then_joint && !phases.joint_since)
-    warn("vertices were not moved jointly, because the minimum had not converged yet (add --until-converged)");
-  if (!run.parameters().then_mean || phases.mean_since) return;
-  warn(outcome.inverted > 0 ? "the mean was not raised: that begins only once no element is inverted"
-                            : "the mean was not raised, because the minimum had not converged yet (add --until-converged)");
-}
-
 int smooth(const SmoothOptions& options) {
   refuse_early(options);
   RunParameters parameters = parameters_of(options.run);
@@ -356,7 +346,7 @@ int smooth(const SmoothOptions& options) {
   checkpoints.set_running(false);
   require_at_goal(run, outcome);
   const double seconds = smoothing_seconds(run);
-  tell_missing_phase(run, outcome, warn);
+  for (std::string& sentence : missing_phases(run, outcome)) warn(std::move(sentence));
   go_to_what_is_written(run, options, progress, warn);
   if (run.last_outcome()) outcome = *run.last_outcome();
 

@@ -39,10 +39,10 @@ def _points(points):
     return np.ascontiguousarray(points)
 
 
-def _indices(array):
+def _indices(array, what="cells"):
     array = np.asarray(array)
-    if array.size and (array.min() < 0 or array.max() > 0xFFFFFFFF):
-        raise ValueError("cells must be numbers of vertices, from 0 on")
+    if array.size and (array.dtype.kind not in "iu" or array.min() < 0 or array.max() > 0xFFFFFFFF):
+        raise ValueError(f"{what} must be whole numbers from 0 on")
     return array.astype(np.uint32)
 
 
@@ -71,11 +71,13 @@ class Mesh:
 
     points: n x 3 (or n x 2) numbers in mesh units. cells: {"triangle": m x 3 vertices from 0 on, "quad": ..., "tetra": ...,
     "hexahedron": ..., "wedge": ..., "pyramid": ...}, corners in VTK's order, or a list of such pairs.
+    cell_data: {"material": m numbers, ...}. What lies between cells of different materials ("material", "region", "gmsh:physical" ...) stays.
     Raises InputError for a mesh that cannot be, ValueError for arrays of another form.
     """
 
-    def __init__(self, points, cells):
-        self._mesh = _dmoscope.Mesh(_points(points), *_cell_arrays(cells))
+    def __init__(self, points, cells, cell_data=None):
+        data = {str(name): np.asarray(values, dtype=np.float64).ravel() for name, values in (cell_data or {}).items()}
+        self._mesh = _dmoscope.Mesh(_points(points), *_cell_arrays(cells), data)
 
     @classmethod
     def _of(cls, inner):
@@ -130,7 +132,7 @@ class Mesh:
         """A meshio.Mesh."""
         import meshio
 
-        return meshio.Mesh(np.array(self.points), [(kind, np.array(data, dtype=np.int64)) for kind, data in self.cells])
+        return meshio.Mesh(np.array(self.points), [(kind, _in_meshio_order(kind, data).astype(np.int64)) for kind, data in self.cells])
 
     def to_pyvista(self):
         """A pyvista.UnstructuredGrid."""
@@ -148,34 +150,77 @@ class Mesh:
         types = np.array([number for _, number, _ in _KINDS], dtype=np.uint8)[kinds]
         return pyvista.UnstructuredGrid(cells, types, np.array(self.points))
 
+    def __reduce__(self):
+        return (Mesh, (np.array(self.points), [(kind, np.array(data)) for kind, data in self.cells]))
+
     def __repr__(self):
         counts = np.bincount(self._mesh.kinds, minlength=len(_KINDS))
         cells = ", ".join(f"{count} {_KINDS[kind][0]}" for kind, count in enumerate(counts) if count)
         return f"<dmoscope.Mesh: {len(self.points)} points, {cells}>"
 
 
-def _is_meshio(mesh):
-    return hasattr(mesh, "points") and hasattr(mesh, "cells_dict")
+def _in_meshio_order(kind, cells):
+    """From VTK's order to meshio's or back: they differ for wedges, as Gmsh's does."""
+    cells = np.asarray(cells)
+    return cells[:, [0, 2, 1, 3, 5, 4]] if kind == "wedge" else cells
 
 
 def _is_pyvista(mesh):
-    return hasattr(mesh, "points") and hasattr(mesh, "celltypes") and hasattr(mesh, "cell_connectivity")
+    return all(hasattr(mesh, name) for name in ("points", "celltypes", "cell_connectivity", "offset"))
+
+
+def _is_meshio(mesh):
+    return all(hasattr(mesh, name) for name in ("points", "cells", "point_data", "cell_data"))
+
+
+_POINTS_AND_LINES = {"vertex", "line", "line3"}
+_VTK_POINTS_AND_LINES = {1, 2, 3, 4, 21}
+_PLANAR = {"triangle", "quad"}
+
+
+def _from_meshio(mesh) -> Mesh:
+    """Points and lines are left out, and faces where there are solids: they mark boundaries. Numbers that sort cells go along."""
+    blocks = [(b.type, b.data) if hasattr(b, "type") else tuple(b) for b in mesh.cells]
+    solid = any(kind in _KIND_BY_NAME and kind not in _PLANAR for kind, _ in blocks)
+    kept = [i for i, (kind, _) in enumerate(blocks) if kind not in _POINTS_AND_LINES and not (solid and kind in _PLANAR)]
+    data = {}
+    for name, parts in mesh.cell_data.items():
+        parts = [np.asarray(parts[i]) for i in kept]
+        if parts and all(part.ndim == 1 and part.dtype.kind in "iufb" for part in parts):
+            data[name] = np.concatenate(parts)
+    return Mesh(mesh.points, [(blocks[i][0], _in_meshio_order(*blocks[i])) for i in kept], data)
+
+
+def _from_pyvista(grid) -> Mesh:
+    """Likewise."""
+    types, offsets, corners = np.asarray(grid.celltypes), np.asarray(grid.offset), np.asarray(grid.cell_connectivity)
+    left_out = np.isin(types, list(_VTK_POINTS_AND_LINES))
+    if np.isin(types, [10, 12, 13, 14]).any():
+        left_out |= np.isin(types, [5, 9])
+    unknown = sorted(set(np.unique(types[~left_out]).tolist()) - set(_KIND_BY_VTK))
+    if unknown:
+        raise ValueError(f"cells of VTK's kind {unknown[0]}: dmoscope has {', '.join(_KIND_BY_NAME)}")
+    table = np.zeros(256, dtype=np.uint8)
+    for number, kind in _KIND_BY_VTK.items():
+        table[number] = kind
+    counts = np.diff(offsets)
+    connectivity = corners[np.repeat(~left_out, counts)]
+    data = {}
+    for name, values in dict(getattr(grid, "cell_data", {})).items():
+        values = np.asarray(values)
+        if values.ndim == 1 and values.dtype.kind in "iufb":
+            data[str(name)] = values[~left_out].astype(np.float64)
+    ends = np.concatenate([[0], np.cumsum(counts[~left_out])])
+    return Mesh._of(_dmoscope.Mesh(_points(grid.points), table[types[~left_out]], _indices(ends), _indices(connectivity), data))
 
 
 def _mesh_of(mesh) -> Mesh:
     if isinstance(mesh, Mesh):
         return mesh
+    if _is_pyvista(mesh):  # first: it has much of what meshio's have
+        return _from_pyvista(mesh)
     if _is_meshio(mesh):
-        return Mesh(mesh.points, mesh.cells)
-    if _is_pyvista(mesh):
-        unknown = sorted(set(np.unique(mesh.celltypes)) - set(_KIND_BY_VTK))
-        if unknown:
-            raise ValueError(f"cells of VTK's kind {unknown[0]}: dmoscope has {', '.join(_KIND_BY_NAME)}")
-        table = np.zeros(256, dtype=np.uint8)
-        for number, kind in _KIND_BY_VTK.items():
-            table[number] = kind
-        inner = _dmoscope.Mesh(_points(mesh.points), table[mesh.celltypes], _indices(mesh.offset), _indices(mesh.cell_connectivity))
-        return Mesh._of(inner)
+        return _from_meshio(mesh)
     raise TypeError(f"{type(mesh).__name__} is no mesh: dmoscope takes its own, meshio's and PyVista's unstructured grids")
 
 
@@ -183,7 +228,7 @@ def _given_back(original, mesh: Mesh):
     """The mesh as the kind that the original is, with the original's data."""
     if isinstance(original, Mesh):
         return mesh
-    given = original.copy() if _is_pyvista(original) else copy.copy(original)
+    given = original.copy() if hasattr(original, "copy") else copy.deepcopy(original)
     given.points = np.array(mesh.points[:, : np.shape(original.points)[1]])
     return given
 
@@ -232,25 +277,32 @@ def _options(iterations, until_converged, threads, fixed, points, words):
             if fixed.shape != (points,):
                 raise ValueError(f"fixed must be {points} booleans or numbers of vertices, not an array of {fixed.shape}")
             fixed = np.flatnonzero(fixed)
-        fixed = _indices(fixed).tolist()
+        fixed = _indices(fixed, "fixed").tolist()
     as_text = {True: "on", False: "off"}
     words = {name.replace("_", "-"): as_text[value] if isinstance(value, bool) else str(value) for name, value in words.items() if value is not None}
     return _dmoscope.Options(iterations, until_converged, threads, fixed, words)
 
 
-def smooth(mesh, iterations: int = 20, *, until_converged: bool = False, metric: Optional[str] = None, fixed=None,
-           callback: Optional[Callable[[Iteration], Optional[bool]]] = None, threads: int = 0, **options) -> Smoothed:
+def smooth(mesh, iterations: Optional[int] = None, *, until_converged: bool = False, metric: Optional[str] = None, fixed=None,
+           callback: Optional[Callable[[Iteration], Optional[bool]]] = None, threads: int = 0, raise_on_interrupt: bool = False,
+           **options) -> Smoothed:
     """Moves vertices so that the worst cell becomes as good as it can. Cells and boundary stay.
 
-    mesh: a Mesh, or one of meshio or PyVista. fixed: vertices that stay besides the boundary, as n booleans or as numbers.
-    callback(iteration): after each one, with number, minimum, mean, movable_minimum, inverted, moved, seconds; False ends the run.
+    mesh: a Mesh, or one of meshio or PyVista. iterations: 20 unless given; a recipe goes on until it has converged. fixed: vertices that stay besides the boundary, as n booleans or as numbers.
+    callback(iteration): after each one, on this thread, with number, minimum, mean, movable_minimum, inverted, moved, seconds; False ends the run.
     options: the long options of `dmoscope smooth`: method="joint", boundary="slide", then="mean", combine="mean-ratio:0.7:min-angle" ...
-    Ctrl+C ends the run, too: what there is then is given back, with a warning. The result does not depend on the number of threads.
+    Ctrl+C ends the run, too: what there is then is given back, with a warning; with raise_on_interrupt KeyboardInterrupt is raised instead.
+    The result does not depend on the number of threads.
     Raises UsageError (a ValueError) for what does not fit the mesh.
     """
+    if iterations is not None and until_converged:
+        raise UsageError("iterations and until_converged: only one of them")
+    until_converged = until_converged or (iterations is None and "recipe" in options)
     prepared = _mesh_of(mesh)
-    asked = _options(iterations, until_converged, threads, fixed, len(prepared.points), {"metric": metric, **options})
+    asked = _options(20 if iterations is None else iterations, until_converged, threads, fixed, len(prepared.points), {"metric": metric, **options})
     inner, history, iteration, converged, cancelled, interrupted, sentence, told = _dmoscope.smooth(prepared._mesh, asked, callback)
+    if interrupted and raise_on_interrupt:
+        raise KeyboardInterrupt
     if interrupted:
         warnings.warn(f"interrupted after iteration {iteration}; the mesh is what there was then", RuntimeWarning, stacklevel=2)
     return Smoothed(_given_back(mesh, Mesh._of(inner)), history, iteration, converged, cancelled, sentence, told)

@@ -164,10 +164,40 @@ TEST(Library, ACallbackEndsARunAndTheMeshIsKept) {
   const dmo::Smoothed cut = dmo::smooth(mesh, options);
   EXPECT_TRUE(cut.cancelled);
   EXPECT_EQ(heard, (std::vector<std::uint64_t>{1, 2}));
+  heard.clear();
+  EXPECT_EQ(dmo::smooth(mesh, options).iteration, 2U) << "the same options again";
+  EXPECT_EQ(heard.size(), 2U);
   options = {};
   options.iterations = 2;
   const dmo::Smoothed two = dmo::smooth(mesh, options);
   EXPECT_EQ(std::memcmp(cut.mesh.positions(), two.mesh.positions(), 3 * mesh.vertex_count() * sizeof(double)), 0);
+}
+
+TEST(Library, ACancelAtOnceGivesTheMeshBack) {
+  const dmo::Mesh moved = dmo::smooth(sheet(30).mesh()).mesh;
+  dmo::SmoothOptions options;
+  options.progress.request_cancel();
+  const dmo::Smoothed none = dmo::smooth(moved, options);
+  EXPECT_TRUE(none.cancelled);
+  EXPECT_EQ(std::memcmp(none.mesh.positions(), moved.positions(), 3 * moved.vertex_count() * sizeof(double)), 0);
+  EXPECT_THROW((void)dmo::Mesh::read("/nothing", options.progress), dmo::Error);
+}
+
+TEST(Library, MaterialsHoldTheirInterface) {
+  const Arrays arrays = sheet(6);
+  std::vector<double> material;
+  for (std::size_t c = 0; c < arrays.kinds.size(); ++c) material.push_back(c < arrays.kinds.size() / 2 ? 1.0 : 2.0);
+  const dmo::Mesh plain = arrays.mesh();
+  const dmo::Mesh sorted(arrays.positions.data(), arrays.positions.size() / 3, arrays.cells(), {{"material", material}});
+  const auto moved = [](const dmo::Mesh& mesh) {
+    const dmo::Smoothed smoothed = dmo::smooth(mesh);
+    std::size_t count = 0;
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
+      count += std::memcmp(smoothed.mesh.positions() + 3 * v, mesh.positions() + 3 * v, 3 * sizeof(double)) != 0 ? 1 : 0;
+    return count;
+  };
+  EXPECT_GT(moved(sorted), 0U);
+  EXPECT_LT(moved(sorted) + 3, moved(plain));
 }
 
 TEST(Library, AResultCanBeSmoothedOn) {
@@ -205,6 +235,16 @@ TEST(Library, WrongArraysAreRefusedByName) {
   arrays.positions[4] = std::numeric_limits<double>::quiet_NaN();
   refused(arrays, "not finite");
   refused(Arrays{{0, 0, 0}, {}, {0}, {}}, "no elements");
+  arrays = sheet(2);  // offsets that lead far beyond the corners, before they come back
+  arrays.offsets[1] = 400000004;
+  arrays.offsets[2] = 400000007;
+  refused(arrays, "do not rise");
+  arrays = sheet(2);
+  arrays.offsets[0] = 1;
+  refused(arrays, "first offset");
+  arrays = sheet(2);
+  EXPECT_THROW((void)dmo::Mesh(arrays.positions.data(), arrays.positions.size() / 3, arrays.cells(), {{"material", {1.0, 2.0}}}),
+               dmo::InputError);
 }
 
 TEST(Library, FilesAreReadAndWritten) {

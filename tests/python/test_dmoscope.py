@@ -2,6 +2,7 @@
 
 import gc
 import os
+import pickle
 import signal
 import struct
 import subprocess
@@ -210,6 +211,109 @@ def test_meshio_is_taken_and_given_back(tmp_path):
     assert (meshio.read(tmp_path / "program.vtk").points == smoothed.mesh.points).all()
     again = dmoscope.Mesh(given.points, given.cells).to_meshio()
     assert [(b.type, b.data.tolist()) for b in again.cells] == [(b.type, b.data.tolist()) for b in given.cells]
+    before = given.point_data["depth"].copy()
+    smoothed.mesh.point_data["depth"] += 1
+    assert (given.point_data["depth"] == before).all()
+
+
+def test_meshio_s_wedges_have_another_order(tmp_path):
+    meshio = pytest.importorskip("meshio")
+    run("generate", "solids", "-o", tmp_path / "solids.vtk")
+    by_meshio, own = meshio.read(tmp_path / "solids.vtk"), dmoscope.read(tmp_path / "solids.vtk")
+    wedges = {tuple(c) for b in by_meshio.cells if b.type == "wedge" for c in b.data.tolist()}
+    assert wedges == {tuple(c) for b in own.to_meshio().cells if b.type == "wedge" for c in b.data.tolist()} and wedges
+    # One alone has no neighbour that could tell which way is out.
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]], dtype=float)
+    meshio.write(tmp_path / "one.vtk", meshio.Mesh(points, [("wedge", np.array([[0, 1, 2, 3, 4, 5]]))]))
+    of_file = dmoscope.read(tmp_path / "one.vtk")
+    taken = dmoscope.smooth(meshio.read(tmp_path / "one.vtk"), iterations=0)
+    assert of_file.quality()[0] > 0 and taken.history["minimum"][0] == of_file.quality()[0]
+
+
+@pytest.mark.parametrize("extension", [".msh", ".mesh"])
+def test_what_mesh_generators_put_beside_the_cells(tmp_path, extension):
+    """Points, lines and faces of boundaries are passed over, and materials hold their interfaces: as with the program's own reader."""
+    meshio = pytest.importorskip("meshio")
+    run("generate", "nested", "-o", tmp_path / ("nested" + extension))
+    of_file = dmoscope.smooth(dmoscope.read(tmp_path / ("nested" + extension)), iterations=3)
+    given = meshio.read(tmp_path / ("nested" + extension))
+    taken = dmoscope.smooth(given, iterations=3)
+    assert (taken.mesh.points[:, :2] == of_file.mesh.points[:, :2]).all()
+    with_more = meshio.Mesh(given.points, [("vertex", np.array([[0]])), ("line", np.array([[0, 1]]))] + [(b.type, b.data) for b in given.cells],
+                            cell_data={name: [np.zeros(1), np.zeros(1)] + parts for name, parts in given.cell_data.items()})
+    again = dmoscope.smooth(with_more, iterations=3).mesh
+    assert (again.points == taken.mesh.points).all() and len(again.cells) == len(given.cells) + 2
+
+
+def test_faces_beside_solids_are_passed_over(tmp_path):
+    meshio = pytest.importorskip("meshio")
+    run("generate", "tetrahedra", "-o", tmp_path / "t.vtk", "--size", 125)
+    given = meshio.read(tmp_path / "t.vtk")
+    plain = dmoscope.smooth(given, iterations=2).mesh.points
+    faces = given.cells[0].data[:5, :3]
+    both = meshio.Mesh(given.points, [("triangle", faces), ("tetra", given.cells[0].data)])
+    assert (dmoscope.smooth(both, iterations=2).mesh.points == plain).all()
+
+
+def test_materials_hold_their_interface():
+    points, triangles, inside = sheet(8)
+    material = (points[triangles].mean(axis=1)[:, 0] > 4).astype(int)
+    free = dmoscope.smooth(dmoscope.Mesh(points, {"triangle": triangles}))
+    held = dmoscope.smooth(dmoscope.Mesh(points, {"triangle": triangles}, {"material": material}))
+    between = np.intersect1d(triangles[material == 0], triangles[material == 1])
+    assert (held.mesh.points[between, :2] == points[between]).all()
+    assert (free.mesh.points[between, :2] != points[between]).any()
+    with pytest.raises(dmoscope.InputError, match="3 values"):
+        dmoscope.Mesh(points, {"triangle": triangles}, {"material": [1, 2, 3]})
+
+
+def test_callback_is_called_on_the_calling_thread():
+    points, triangles, _ = sheet()
+    seen = set()
+    dmoscope.smooth(dmoscope.Mesh(points, {"triangle": triangles}), callback=lambda i: seen.add(threading.current_thread()))
+    assert seen == {threading.current_thread()}
+    for answer, iterations in ((0.0, 4), ("text", 4), (np.bool_(False), 1), (False, 1)):
+        heard = []
+        dmoscope.smooth(dmoscope.Mesh(points, {"triangle": triangles}), iterations=4, callback=lambda i: (heard.append(1), answer)[1])
+        assert len(heard) == iterations, answer
+
+
+def test_options_are_heard_or_refused():
+    points, triangles, _ = sheet()
+    mesh = dmoscope.Mesh(points, {"triangle": triangles})
+    for options in (dict(max_iterations=2), dict(patience=3), dict(recipe="best", method="laplace"), dict(iterations=3, until_converged=True),
+                    dict(combine="mean-ratio:0.7:min-angle", then="mean")):
+        with pytest.raises(dmoscope.UsageError):
+            dmoscope.smooth(mesh, **options)
+    assert any("until-converged" in told for told in dmoscope.smooth(mesh, iterations=2, then="mean").warnings)
+    assert dmoscope.smooth(mesh, recipe="best").converged
+
+
+def test_an_interrupt_at_once_keeps_the_mesh_or_is_raised(tmp_path):
+    run("generate", "grid", "-o", tmp_path / "grid.off", "--size", 300000)
+    moved = dmoscope.smooth(dmoscope.read(tmp_path / "grid.off"), iterations=1).mesh  # is prepared anew when it is smoothed on
+    for wait in (0.05, 0.3):
+        threading.Timer(wait, os.kill, (os.getpid(), signal.SIGINT)).start()
+        with pytest.warns(RuntimeWarning, match="interrupted"):
+            assert dmoscope.smooth(moved, iterations=10**6).cancelled
+    threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        dmoscope.smooth(moved, iterations=10**6, raise_on_interrupt=True)
+
+
+def test_meshes_can_be_pickled():
+    points, triangles, _ = sheet()
+    mesh = dmoscope.Mesh(points, {"triangle": triangles})
+    again = pickle.loads(pickle.dumps(mesh))
+    assert (again.points == mesh.points).all() and (again.cells[0][1] == mesh.cells[0][1]).all()
+
+
+def test_numbers_that_are_not_whole_are_refused():
+    points, triangles, _ = sheet(2)
+    with pytest.raises(ValueError, match="whole"):
+        dmoscope.Mesh(points, {"triangle": triangles + 0.5})
+    with pytest.raises(ValueError, match="fixed must be whole"):
+        dmoscope.smooth(dmoscope.Mesh(points, {"triangle": triangles}), fixed=[4.9])
 
 
 def test_pyvista_is_taken_and_given_back():
@@ -221,6 +325,9 @@ def test_pyvista_is_taken_and_given_back():
             self.celltypes = np.full(len(cells), 5, dtype=np.uint8)
             self.offset = np.arange(0, 3 * len(cells) + 1, 3)
             self.cell_connectivity = cells.ravel()
+            self.cells = np.column_stack([np.full(len(cells), 3), cells]).ravel()  # as PyVista has them: flat
+            self.cells_dict = {5: cells}
+            self.point_data, self.cell_data = {}, {}
 
         def copy(self):
             return Grid(self.points.copy(), self.cell_connectivity.reshape(-1, 3).copy())

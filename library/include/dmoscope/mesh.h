@@ -28,14 +28,22 @@ struct Cells {
   const Index* connectivity = nullptr;  // offsets[count] vertices
 };
 
+/// A number for each cell. Where its name is one that programs use for materials ("material", "gmsh:physical", "region" ...), what lies
+/// between cells of different numbers is an interface, which stays.
+struct CellData {
+  std::string name;
+  std::vector<double> values;
+};
+
 /// A mesh that does not change: smooth() gives a new one, which shares all but the positions with the old. Cheap to copy. All members may
 /// be called from several threads.
 class DMO_API Mesh {
  public:
   /// Copies the arrays. `positions`: vertices x 3, mesh units; of a planar mesh one of the coordinates is the same everywhere. Throws
-  /// InputError: corners that do not exist or repeat, a number of corners that the kind has not, coordinates that are not finite, planar
-  /// and volume cells mixed.
-  Mesh(const double* positions, std::size_t vertices, const Cells& cells, const Progress& progress = {});
+  /// InputError: corners that do not exist or repeat, a number of corners that the kind has not, offsets that do not rise from 0 on,
+  /// coordinates that are not finite, planar and volume cells mixed, data of another length.
+  Mesh(const double* positions, std::size_t vertices, const Cells& cells, const std::vector<CellData>& data = {},
+       const Progress& progress = {});
   ~Mesh();
   Mesh(const Mesh&);
   Mesh& operator=(const Mesh&);

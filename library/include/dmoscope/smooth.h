@@ -23,12 +23,13 @@ struct Iteration {
 };
 
 struct SmoothOptions {
-  std::uint64_t iterations = 20;  // where it is not until_converged
+  std::uint64_t iterations = 20;  // of no account where it is until_converged
   bool until_converged = false;   // until no vertex moves or the minimum no longer rises; gives back the best iteration
   unsigned threads = 0;           // 0: all processors; the result does not depend on it
   std::vector<Index> fixed;       // vertices that stay, besides the boundary
   /// The long options of `dmoscope smooth` without their dashes, and their values: {"metric", "min-angle"}, {"boundary", "slide"},
-  /// {"then", "mean"}, {"combine", "mean-ratio:0.7:min-angle"}, {"fix", "group:wall"} ...
+  /// {"then", "mean"}, {"combine", "mean-ratio:0.7:min-angle"}, {"fix", "group:wall"} ... But for corner, feature, their opposites,
+  /// surface, and what is about files.
   std::map<std::string, std::string> options;
   /// Called after each iteration, on the thread that called smooth(). False: smooth() ends there, with what it has.
   std::function<bool(const Iteration&)> after_iteration;

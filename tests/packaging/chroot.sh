@@ -40,11 +40,13 @@ inside test -s /usr/share/bash-completion/completions/dmoscope
 # shellcheck disable=SC2046
 install $(deb libdmoscope0.2 python3-dmoscope)
 inside python3 -c 'import dmoscope; m = dmoscope.read("/better.14"); print(m, m.statistics()["minimum"])'
+install $(deb python3-dmoscope-render)
+inside python3 -c 'import dmoscope; print(dmoscope.render(dmoscope.read("/better.14"), (300, 200)).shape)'
 install $(deb libdmoscope-dev) g++ cmake make
 cp -r "$root/examples" "$chroot/examples"
 inside sh -c 'cmake -S /examples -B /built >/dev/null && cmake --build /built >/dev/null && /built/smooth_arrays'
 
-inside apt-get purge -y -qq dmoscope libdmoscope0.2 libdmoscope-dev python3-dmoscope >/dev/null
+inside apt-get purge -y -qq dmoscope libdmoscope0.2 libdmoscope-dev python3-dmoscope python3-dmoscope-render >/dev/null
 left=$(inside sh -c 'find /usr /etc /var/lib -name "*dmoscope*" -not -path "/var/lib/dpkg/*" -not -path "/var/lib/apt/*"')
 [[ -z $left ]] || { printf 'left behind:\n%s\n' "$left" >&2; exit 1; }
 echo "installs, runs and goes again; the Debian had $(wc -w <<<"$first") packages"

@@ -38,7 +38,7 @@ auto naming(const std::string& option, const Work& work) {
   std::vector<std::string_view> known{"combine",  "fix",    "max-iterations", "method", "metric",
                                       "patience", "recipe", "size-function",  "then"};
   for (const dmoscope::ParameterInfo& row : dmoscope::parameter_table()) known.push_back(row.name);
-  std::ranges::sort(known);
+  std::sort(known.begin(), known.end());
   throw dmoscope::UsageError(dmoscope::unknown_value("option", name, known));
 }
 
@@ -94,8 +94,8 @@ RunRequest request_of(const dmoscope::InputMesh& input, const SmoothOptions& opt
     if (vertex >= input.mesh.vertex_count())
       throw dmoscope::UsageError(fmt::format("fixed: there is no vertex {}, the mesh has {}", vertex, input.mesh.vertex_count()));
   parameters.fixed.insert(parameters.fixed.end(), options.fixed.begin(), options.fixed.end());
-  std::ranges::sort(parameters.fixed);
-  parameters.fixed.erase(std::ranges::unique(parameters.fixed).begin(), parameters.fixed.end());
+  std::sort(parameters.fixed.begin(), parameters.fixed.end());
+  parameters.fixed.erase(std::unique(parameters.fixed.begin(), parameters.fixed.end()), parameters.fixed.end());
   validate(parameters.search);
   validate(parameters.options);
   if (options.until_converged) be_patient(parameters, request.limits.patience);

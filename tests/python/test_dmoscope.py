@@ -292,11 +292,11 @@ def test_options_are_heard_or_refused():
 def test_an_interrupt_at_once_keeps_the_mesh_or_is_raised(tmp_path):
     run("generate", "grid", "-o", tmp_path / "grid.off", "--size", 300000)
     moved = dmoscope.smooth(dmoscope.read(tmp_path / "grid.off"), iterations=1).mesh  # is prepared anew when it is smoothed on
-    for wait in (0.05, 0.3):
+    for wait in (0.15, 0.5):
         threading.Timer(wait, os.kill, (os.getpid(), signal.SIGINT)).start()
         with pytest.warns(RuntimeWarning, match="interrupted"):
             assert dmoscope.smooth(moved, iterations=10**6).cancelled
-    threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT)).start()
+    threading.Timer(0.15, os.kill, (os.getpid(), signal.SIGINT)).start()
     with pytest.raises(KeyboardInterrupt):
         dmoscope.smooth(moved, iterations=10**6, raise_on_interrupt=True)
 

@@ -111,7 +111,7 @@ class Kernel {
         if (!is_known && !look_at_best()) return {};
         is_known = true;
         note_second();
-        look_at_hopeful(hopeful, x, y);
+        look_at_bits(hopeful, x, y);
       }
     }
     return {true, best_place()};
@@ -122,8 +122,8 @@ class Kernel {
     best_ = worth(point_of<D>(best_place()), D(-1.0)).get(0);
     return best_ > 0.0;
   }
-  /// Looks at some candidates of a planar grid, in the order of their indices.
-  void look_at_hopeful(std::uint64_t hopeful, const double* x, const double* y) {
+  /// Looks at some candidates of a planar grid (PlanarCuts::Candidates), in the order of their indices.
+  void look_at_bits(std::uint64_t hopeful, const double* x, const double* y) {
     while (hopeful != 0) {
       for (std::size_t k = 0; k < kWidth; ++k) {  // once more the last, which cannot be better than itself
         const auto bit = static_cast<std::size_t>(__builtin_ctzll(hopeful));

@@ -14,6 +14,7 @@
 #include "app/common/console.h"
 #include "app/common/text.h"
 #include "app/completion.h"
+#include "app/handover.h"
 #include "app/man_page.h"
 #include "app/subcommands/subcommands.h"
 #include "core/base/error.h"
@@ -117,10 +118,14 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     dmoscope::app::ignore_file_limit_signal();
+    dmoscope::app::hand_over_to_mpi(argv);
     const int code = dmoscope::app::run(argc, argv);
     // A full disk or closed pipe below standard output must not look like success; whoever failed already said why.
     if (code != dmoscope::app::kBadInputOrOutput) dmoscope::app::flush_output();
     return code;
+  } catch (const dmoscope::Error& error) {
+    dmoscope::app::complain(error.what());
+    return error.exit_code();
   } catch (const std::exception& error) {
     dmoscope::app::complain(error.what());
     return 3;

@@ -9,9 +9,11 @@
 
 #include "app/common/console.h"
 #include "app/common/memory_limit.h"
+#include "app/common/option_checks.h"
 #include "app/common/output_checks.h"
 #include "app/common/text.h"
 #include "app/subcommands/subcommands.h"
+#include "core/base/error.h"
 #include "core/io/mesh_io.h"
 #include "core/io/reading/source_file.h"
 #include "core/mesh/faces.h"
@@ -22,6 +24,7 @@ namespace {
 
 struct Options {
   std::filesystem::path input, output;
+  std::size_t pieces = 0;
   MemoryLimit memory;
 };
 
@@ -40,10 +43,15 @@ void turn_volumes(Mesh& mesh, Progress& progress) {
 
 int convert(const Options& options) {
   require_mesh_target(options.output, options.input);
+  const FormatInfo* format = format_by_extension(mesh_extension(options.output));
+  if (options.pieces != 0 && (format == nullptr || format->name != "pvtu"))
+    throw UsageError(fmt::format("--pieces: only .pvtu has pieces, not {}", options.output.extension().string()));
   Watch watch;
   Mesh mesh = read_mesh(options.input, {watch.progress(), nullptr, options.memory.bytes()});
   if (becomes_another_format(options.output, mesh)) turn_volumes(mesh, watch.progress());
-  for (const std::string& sentence : write_mesh(options.output, mesh, mesh.positions, watch.progress())) {
+  IoContext writing(watch.progress());
+  writing.pieces = options.pieces;
+  for (const std::string& sentence : write_mesh(options.output, mesh, mesh.positions, writing)) {
     complain(fmt::format("{}: {}", options.output.string(), sentence));
   }
   print("wrote {} ({}, {})\n", options.output.string(), counted(mesh.vertex_count(), "vertex", "vertices"),
@@ -58,6 +66,9 @@ void add_convert(CLI::App& app, Action& action) {
   CLI::App* subcommand = app.add_subcommand("convert", "Write a mesh in another format; says what that format cannot carry");
   subcommand->add_option("IN", options->input, "Mesh to read")->required();
   subcommand->add_option("OUT", options->output, "Where to write it; the format is the extension's")->required();
+  subcommand->add_option("--pieces", options->pieces, "Of a .pvtu: how many VTU files it has; by default one for each million elements")
+      ->transform(whole_number(1, 1'000'000))
+      ->type_name("N");
   add_memory_option(*subcommand, options->memory);
   subcommand->callback([options, &action] {
     action = [options] { return within_memory(options->memory, options->input, [options] { return convert(*options); }); };

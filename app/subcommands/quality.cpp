@@ -17,6 +17,7 @@
 #include "app/common/memory_limit.h"
 #include "app/common/option_checks.h"
 #include "app/common/output_checks.h"
+#include "app/common/quality_report.h"
 #include "app/common/surface_option.h"
 #include "app/common/text.h"
 #include "app/subcommands/group_table.h"
@@ -61,17 +62,16 @@ struct Column {
 Column judge(const InputMesh& input, Metric metric, ThreadPool& pool) {
   Column column{metric, std::vector<double>(input.mesh.elements.size()), {}};
   element_qualities(input.quality_context(), input.mesh.positions, metric, &pool, column.values);
-  double sum = 0.0;
   for (Index e = 0; e < input.mesh.elements.size(); ++e) {
     const double q = column.values[e];
     if (std::isnan(q)) continue;
     column.ascending.push_back(e);
-    sum += q;
     if (q < info(metric).acceptable) ++column.unacceptable;
   }
   std::stable_sort(column.ascending.begin(), column.ascending.end(),
                    [&column](Index a, Index b) { return column.values[a] < column.values[b]; });
-  if (column.defined()) column.mean = sum / static_cast<double>(column.ascending.size());
+  if (column.defined())  // added up as everywhere, so that the same mesh has one mean
+    column.mean = compute_statistics(input.quality_context(), input.mesh.positions, metric, std::span<const Index>(), &pool).mean;
   return column;
 }
 
@@ -109,74 +109,18 @@ std::vector<Index> worst_of(const Column& column, std::size_t count) {
   return {column.ascending.begin(), end};
 }
 
-Json json_of(const InputMesh& input, const Column& column, std::size_t worst) {
-  const MetricInfo& metric = info(column.metric);
-  Json object{{"metric", metric.name}, {"elements", column.ascending.size()}};
-  if (!column.defined()) return object;
-  object["minimum"] = json_number(column.percentile(0));
-  object["mean"] = json_number(column.mean);
-  object["percentile_1"] = json_number(column.percentile(1));
-  object["percentile_5"] = json_number(column.percentile(5));
-  object["percentile_50"] = json_number(column.percentile(50));
-  object["acceptable"] = metric.acceptable;
-  object["below_acceptable"] = column.unacceptable;
-  Json list = Json::array();
-  for (const Index e : worst_of(column, worst)) {
-    const Vec3 c = centroid(input, e);
-    list.push_back({{"element", e},
-                    {"kind", info(input.mesh.elements.kind(e)).name},
-                    {"quality", json_number(column.values[e])},
-                    {"centroid", {json_number(c.x), json_number(c.y), json_number(c.z)}}});
-  }
-  if (worst > 0) object["worst"] = std::move(list);
-  return object;
-}
-
-void print_table(const std::vector<Column>& columns) {
-  print("{:<16} {:>9} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11} {:>8}\n", "metric", "elements", "min", "1 %", "5 %", "50 %", "mean",
-        "acceptable", "below");
-  for (const Column& column : columns) {
-    if (!column.defined()) continue;
-    const MetricInfo& metric = info(column.metric);
-    print("{:<16} {:>9} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11} {:>8}\n", metric.name, column.ascending.size(),
-          brief(column.percentile(0)), brief(column.percentile(1)), brief(column.percentile(5)), brief(column.percentile(50)),
-          brief(column.mean), brief(metric.acceptable), column.unacceptable);
-  }
-}
-
-/// Coordinates of places in a mesh, to six digits of the mesh's size; far from the origin that is more digits of the coordinate. Without z
-/// where all of the mesh has the same. --json has all digits.
-class PlaceText {
- public:
-  explicit PlaceText(const InputMesh& input) {
-    const double size = input.geometry.size;
-    const double decimals = size > 0.0 && std::isfinite(size) ? 5.0 - std::floor(std::log10(size)) : kMostDecimals + 1;
-    if (decimals <= kMostDecimals && decimals > -kMostDecimals) decimals_ = std::max(0, static_cast<int>(decimals));
-    const PlaneAxes axes(input.geometry.plane);
-    flat_ = input.geometry.shape == Shape::Planar && axes.u == 0 && axes.v == 1;
-  }
-  [[nodiscard]] std::string operator()(Vec3 p) const {
-    std::string text = fmt::format("{:>13} {:>13}", coordinate(p.x), coordinate(p.y));
-    return flat_ ? text : text + fmt::format(" {:>13}", coordinate(p.z));
-  }
-  [[nodiscard]] std::string head() const { return fmt::format("{:>13} {:>13}{}", "x", "y", flat_ ? "" : fmt::format(" {:>13}", "z")); }
-
- private:
-  static constexpr double kMostDecimals = 9.0;
-  [[nodiscard]] std::string coordinate(double x) const {
-    return decimals_ && std::isfinite(x) ? fmt::format("{:.{}f}", x, *decimals_) : brief(x);
-  }
-  std::optional<int> decimals_;  // none: such numbers are written with an exponent
-  bool flat_ = false;
-};
-
-void print_worst(const InputMesh& input, const Column& column, std::size_t count) {
-  if (count == 0 || !column.defined()) return;
-  const PlaceText place(input);
-  print("\nworst of {}, with the mean of their corners:\n{:>10} {:<14} {:>12} {}\n", info(column.metric).name, "element", "kind", "quality",
-        place.head());
-  for (const Index e : worst_of(column, count))
-    print("{:>10} {:<14} {:>12} {}\n", e, info(input.mesh.elements.kind(e)).name, brief(column.values[e]), place(centroid(input, e)));
+MetricSummary summary_of(const InputMesh& input, const Column& column, std::size_t worst) {
+  MetricSummary summary{.metric = column.metric, .elements = column.ascending.size()};
+  if (!column.defined()) return summary;
+  summary.minimum = column.percentile(0);
+  summary.percentile_1 = column.percentile(1);
+  summary.percentile_5 = column.percentile(5);
+  summary.percentile_50 = column.percentile(50);
+  summary.mean = column.mean;
+  summary.unacceptable = column.unacceptable;
+  for (const Index e : worst_of(column, worst))
+    summary.worst.push_back({e, input.mesh.elements.kind(e), column.values[e], centroid(input, e)});
+  return summary;
 }
 
 /// How near the mesh lies to the surface that it is to slide on.
@@ -230,12 +174,14 @@ int quality(const QualityOptions& options) {
     warnings.push_back(std::move(seen));
     break;  // one metric says it
   }
+  std::vector<MetricSummary> summaries;
+  for (const Column& column : columns) summaries.push_back(summary_of(*input, column, options.worst));
   const std::size_t inverted = count_inverted(*input);
   const auto near = input->surface ? std::optional(nearness_of(*input, pool)) : std::nullopt;
   const double share = near ? near->deviation / input->geometry.size : 0.0;
   if (options.json) {
     Json list = Json::array();
-    for (const Column& column : columns) list.push_back(json_of(*input, column, options.worst));
+    for (const MetricSummary& summary : summaries) list.push_back(json_of(summary, options.worst > 0));
     Json object{{"input", options.input.string()},
                 {"vertices", mesh.vertex_count()},
                 {"elements", mesh.elements.size()},
@@ -257,8 +203,9 @@ int quality(const QualityOptions& options) {
   if (near)
     print("on {}: at most {:.3g} away ({:.2g} of the mesh's size), tilted by at most {:.1f} degrees; {} not over it\n\n",
           input->surface->mesh.name, near->deviation, share, near->tilt, counted(near->not_over_it, "element lies", "elements lie"));
-  print_table(columns);
-  for (const Column& column : columns) print_worst(*input, column, options.worst);
+  print_table(summaries);
+  const PlaceText place(input->geometry);
+  for (const MetricSummary& summary : summaries) print_worst(summary, place);
   constexpr std::size_t kMostGroups = 20;
   print_groups(mesh, kMostGroups);
   return 0;

@@ -19,11 +19,11 @@
 #include "app/common/output_checks.h"
 #include "app/common/provenance.h"
 #include "app/common/run_options.h"
+#include "app/common/smooth_report.h"
 #include "app/common/surface_option.h"
 #include "app/common/text.h"
 #include "app/subcommands/checkpoint.h"
 #include "app/subcommands/input_report.h"
-#include "app/subcommands/objective_report.h"
 #include "app/subcommands/subcommands.h"
 #include "core/base/unknown_value.h"
 #include "core/input/declared_floats.h"
@@ -60,163 +60,6 @@ struct SmoothOptions {
   bool provenance = false;
   std::string command_line;
 };
-
-std::string_view reason_name(StopReason reason) {
-  switch (reason) {
-    case StopReason::NothingMoved:
-      return "nothing-moved";
-    case StopReason::NoRise:
-      return "no-rise";
-    case StopReason::Certified:
-      return "certified";
-    case StopReason::NoJointGain:
-      return "no-joint-gain";
-    case StopReason::IterationLimit:
-      return "iteration-limit";
-  }
-  return "unknown";
-}
-
-Json json_of(const Statistics& s) {
-  return {{"minimum", json_number(s.minimum)},
-          {"mean", json_number(s.mean)},
-          {"movable_minimum", json_number(s.movable_minimum)},
-          {"ceiling", json_number(s.ceiling)},
-          {"inverted", s.inverted}};
-}
-
-/// Of joint moves, tried or in the run: what they reach, the bound, how many elements hold one another, and by how much those that hold
-/// most.
-Json json_of(const JointCluster& cluster) {
-  constexpr std::size_t kMostNamed = 1000;
-  const auto all = holders(cluster);
-  Json elements = Json::array();
-  for (const JointCluster::Active& one : all.first(std::min(kMostNamed, all.size())))
-    elements.push_back({{"element", one.element}, {"multiplier", one.multiplier}});
-  return {{"certified", cluster.certified},
-          {"why_not", cluster.why_not.empty() ? Json(nullptr) : Json(cluster.why_not)},
-          {"reaches", json_number(cluster.after)},
-          {"bound", json_number(cluster.bound)},
-          {"gap", json_number(cluster.gap)},
-          {"vertices", cluster.vertices.size()},
-          {"holders", all.size()},
-          {"elements", std::move(elements)}};
-}
-
-Json json_of(const HeldMinimum& held) {
-  Json vertices = Json::array();
-  for (const HeldVertex& one : held.vertices) vertices.push_back({{"vertex", one.vertex}, {"held_by", name(one.by)}});
-  Json object{{"element", held.element},         {"quality", json_number(held.quality)},     {"by", name(held.by)},
-              {"vertices", std::move(vertices)}, {"unchanged", json_number(held.unchanged)}, {"switch", nullptr},
-              {"would_raise_to", nullptr},       {"sentence", held.sentence(true)}};
-  if (held.change) {
-    object["switch"] = held.options();
-    object["would_raise_to"] = json_number(held.changed);
-  }
-  object["certificate"] = held.joint ? json_of(*held.joint) : Json(nullptr);
-  return object;
-}
-
-/// What came of it, as both the person and --json are told.
-struct Result {
-  const SmoothOptions& options;
-  const Run& run;
-  unsigned threads;
-  Outcome outcome;
-  double seconds;
-  std::optional<LeftInverted> left;  // of what is written
-  std::optional<HeldMinimum> held;   // likewise
-  std::vector<std::string> warnings;
-  std::optional<Provenance> provenance{};
-
-  [[nodiscard]] const IterationRecord& before() const { return run.history().records().front(); }
-  /// What is written.
-  [[nodiscard]] const IterationRecord& after() const { return run.history().records()[run.moment().iteration]; }
-  [[nodiscard]] double visits_per_second() const {
-    const auto visits = static_cast<double>(outcome.iterations * run.visits_per_iteration());
-    return seconds > 0.0 ? visits / seconds : 0.0;
-  }
-};
-
-bool on_cpu(const Run& run) { return run.backend() == Backend::Cpu; }
-
-/// By packs: the grid search alone can do that.
-bool in_packs(const RunParameters& p) { return method_info(p.method).searches_grid && p.search.precision == Precision::Float; }
-
-/// What the search computed with; null on a device.
-Json simd_name(const Run& run) {
-  const RunParameters& p = run.parameters();
-  if (!on_cpu(run)) return nullptr;
-  return in_packs(p) ? name(p.search.simd.value_or(best_simd_level())) : "scalar";
-}
-
-Json json_of(const Result& r) {
-  const RunParameters& p = r.run.parameters();
-  const Mesh& mesh = r.run.input().mesh;
-  Json object;
-  object["input"] = r.options.input.string();
-  object["output"] = r.options.output.string();
-  object["vertices"] = mesh.vertex_count();
-  object["elements"] = mesh.elements.size();
-  object["free"] = r.run.visits_per_iteration();
-  object["method"] = p.method;
-  object["metric"] = info(p.metric).name;
-  object["backend"] = name(r.run.backend());
-  object["backend_reason"] = r.run.backend_reason();
-  object["threads"] = r.threads;
-  object["simd"] = simd_name(r.run);
-  nlohmann::ordered_json parameters;
-  for (const ParameterInfo& row : parameter_table())
-    if (row.in_session) parameters[std::string(row.name)] = parameter_json(row, p);
-  parameters["precision"] = in_packs(p) && !p.combination ? "float" : "double";  // what was computed with
-  parameters["fixed_by_user"] = p.fixed.size();
-  parameters["kinds_by_user"] = {{"corners", p.kinds.corners.size()},
-                                 {"no_corners", p.kinds.no_corners.size()},
-                                 {"features", p.kinds.features.size()},
-                                 {"no_features", p.kinds.no_features.size()}};
-  object["parameters"] = std::move(parameters);
-  object["held_on_interfaces"] = p.interfaces == InterfaceRule::Free ? 0 : r.run.input().interfaces.count();
-  if (p.interfaces == InterfaceRule::Slide)
-    object["held_on_interfaces"] = r.run.input().interfaces.count() - r.run.domain()->count_inside();
-  object["sliding"] = r.run.domain() ? r.run.domain()->count() : 0;
-  object["iterations"] = r.outcome.iterations;
-  object["stopped"] = reason_name(r.outcome.reason);
-  object["last_rise"] = r.outcome.last_rise;
-  object["written_iteration"] = r.after().iteration;
-  object["left_inverted"] = nullptr;
-  if (r.left) object["left_inverted"] = {{"count", r.left->count}, {"element", r.left->element}, {"vertex", r.left->vertex}};
-  object["held_by"] = r.held ? json_of(*r.held) : Json(nullptr);
-  object["before"] = json_of(r.before().statistics);
-  object["after"] = json_of(r.after().statistics);
-  add_composite(object, r.run);
-  object["seconds"] = r.seconds;
-  object["vertices_per_second"] = json_number(r.visits_per_second());
-  object["warnings"] = r.warnings;
-  if (r.provenance) object["provenance"] = json_of(*r.provenance);
-  return object;
-}
-
-void print_summary(const Result& r) {
-  const Statistics& before = r.before().statistics;
-  const Statistics& after = r.after().statistics;
-  const Mesh& mesh = r.run.input().mesh;
-  print("{}: {}, {}, {} free; {}, {}\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
-        counted(mesh.elements.size(), "element", "elements"), grouped(r.run.visits_per_iteration()), r.run.title(), name(r.run.backend()));
-  if (const auto& domain = r.run.domain()) print("  {}\n", domain->sentence());
-  print("  {:<16} {:>10} -> {}\n", "minimum", brief(before.minimum), brief(after.minimum));
-  print("  {:<16} {:>10} -> {}\n", "movable minimum", brief(before.movable_minimum), brief(after.movable_minimum));
-  print("  {:<16} {:>10}    (elements whose corners are all fixed)\n", "ceiling", brief(after.ceiling));
-  print("  {:<16} {:>10} -> {}\n", "mean", brief(before.mean), brief(after.mean));
-  print("  {:<16} {:>10} -> {}\n", "inverted", grouped(before.inverted), grouped(after.inverted));
-  print_composite(r.run);
-  print("  {}\n", r.outcome.sentence());
-  if (r.held) print("  {}\n", r.held->sentence(true));
-  const std::string fell = mean_given_up(r.run.parameters(), r.run.history().records(), r.run.moment().iteration);
-  if (r.options.goal.until_converged && !fell.empty()) print("  {} (--then mean)\n", fell);
-  print("  {} in {:.3f} s, {}vertices/s on {}\n", counted(r.outcome.iterations, "iteration", "iterations"), r.seconds,
-        with_prefix(r.visits_per_second()), on_cpu(r.run) ? counted(r.threads, "thread", "threads") : r.run.backend_reason());
-  print("  wrote {}\n", r.options.output.string());
-}
 
 /// Everything that can be refused without reading the mesh.
 void refuse_early(const SmoothOptions& options) {
@@ -360,8 +203,22 @@ int smooth(const SmoothOptions& options) {
   if (!seen.empty()) warn(fmt::format("{}: {}", options.output.string(), seen));
   std::optional<LeftInverted> left = tell_left_inverted(run, input, pool, progress, warn);
   std::optional<HeldMinimum> held = find_hold(run, pool.get(), progress);
-  const Result result{
-      options, run, pool->size(), outcome, seconds, std::move(left), std::move(held), std::move(warnings), std::move(provenance)};
+  const SmoothReport result{.input = options.input,
+                            .output = options.output,
+                            .until_converged = options.goal.until_converged,
+                            .run = run,
+                            .vertices = input->mesh.vertex_count(),
+                            .elements = input->mesh.elements.size(),
+                            .free = run.visits_per_iteration(),
+                            .fixed_by_user = run.parameters().fixed.size(),
+                            .on_interfaces = input->interfaces.count(),
+                            .threads = pool->size(),
+                            .outcome = outcome,
+                            .seconds = seconds,
+                            .left = std::move(left),
+                            .held = std::move(held),
+                            .warnings = std::move(warnings),
+                            .provenance = std::move(provenance)};
   if (options.json) {
     print_json(json_of(result));
   } else {

@@ -19,6 +19,8 @@
 
 namespace dmoscope {
 
+class MeshShare;
+
 struct InputMesh {
   Mesh mesh;  // orientation normalised
   Geometry geometry;
@@ -33,6 +35,9 @@ struct InputMesh {
   std::shared_ptr<const InputMesh> surface{};  // on which vertices slide instead of on the mesh's own; null: that. See slide_on()
   std::vector<Vec3> surface_normals{};  // of a curved surface, by element: which way it looks where that surface says so; zero: unknown
   bool has_strays = false;  // a vertex of an inverted element, off the boundary, that lies outside the box of its star's other vertices
+  std::shared_ptr<const MeshShare> share{};  // of a mesh that several processes have together; null: this is all of it
+  /// Elements of the whole mesh, whichever processes have them.
+  [[nodiscard]] std::uint64_t whole_element_count() const;
   [[nodiscard]] QualityContext quality_context() const { return {mesh, geometry, surface_normals}; }
   [[nodiscard]] bool is_volume() const noexcept { return geometry.shape == Shape::Volume; }
   /// Drawn in space: a volume or a curved surface.
@@ -53,9 +58,16 @@ struct InputMesh {
 
 enum class Need { Smoothing, QualityOnly };
 
+/// Throws InputError for a mesh so large or so small that numbers do not suffice.
+void require_computable(const Geometry& geometry, const std::string& file, Need need);
+
 /// Classifies, orients, examines and indexes a mesh. With Need::Smoothing a curved surface is refused (InputError that names the file).
 [[nodiscard]] std::shared_ptr<const InputMesh> prepare_input(Mesh mesh, std::filesystem::path path, Need need, Progress& progress,
                                                              std::string generator = {});
+
+/// The same of a share of a mesh; every process prepares its own. `geometry`: of the whole mesh, planar or a volume, which does not wrap.
+[[nodiscard]] std::shared_ptr<const InputMesh> prepare_share(Mesh mesh, const Geometry& geometry, std::shared_ptr<const MeshShare> share,
+                                                             std::filesystem::path path, Progress& progress);
 
 /// A sample for smoothing: `words` is "KIND [SIZE [SEED]]", see generate_mesh. Throws UsageError.
 [[nodiscard]] std::shared_ptr<const InputMesh> generate_input(const std::string& words, Progress& progress);

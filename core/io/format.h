@@ -50,7 +50,8 @@ struct FormatHandler {
 [[nodiscard]] const FormatHandler& ply_format();
 [[nodiscard]] const FormatHandler& stl_format();
 [[nodiscard]] const FormatHandler& vtk_format();
-[[nodiscard]] const FormatHandler& vtu_format();  // needs zlib and pugixml: not in every build
+[[nodiscard]] const FormatHandler& vtu_format();   // needs zlib and pugixml: not in every build
+[[nodiscard]] const FormatHandler& pvtu_format();  // likewise
 [[nodiscard]] const FormatHandler& fort14_format();
 [[nodiscard]] const FormatHandler& su2_format();
 [[nodiscard]] const FormatHandler& gmsh_format();

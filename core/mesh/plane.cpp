@@ -42,14 +42,6 @@ struct Box {
   }
 };
 
-/// The box's diagonal. Squares neither underflow nor overflow unless the length itself does.
-double diagonal(const Box& box) {
-  const Vec3 d = box.high - box.low;
-  const double most = std::max({d.x, d.y, d.z});
-  if (!(most > 0.0) || !std::isfinite(most)) return most;
-  return most * length(Vec3{d.x / most, d.y / most, d.z / most});
-}
-
 /// Normal of the least-squares plane: the eigenvector of the smallest eigenvalue of a symmetric matrix, by cyclic Jacobi rotations.
 Vec3 smallest_eigenvector(Matrix3 a) {
   Matrix3 vectors{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
@@ -143,6 +135,20 @@ void fit(const Mesh& mesh, const std::vector<std::uint8_t>& used, const Box& box
 
 }  // namespace
 
+double diagonal(Vec3 low, Vec3 high) {
+  const Vec3 d = high - low;
+  const double most = std::max({d.x, d.y, d.z});
+  if (!(most > 0.0) || !std::isfinite(most)) return most;
+  return most * length(Vec3{d.x / most, d.y / most, d.z / most});
+}
+
+std::optional<Plane> coordinate_plane_of(Vec3 low, Vec3 high) {
+  if (low.z == high.z) return kZ;
+  if (low.x == high.x) return kX;
+  if (low.y == high.y) return kY;
+  return std::nullopt;
+}
+
 Plane tangent_plane(Vec3 normal) {
   Vec3 u = coordinate_plane(largest_component(normal)).u;
   u = u - dot(u, normal) * normal;
@@ -165,16 +171,12 @@ Geometry classify(const Mesh& mesh) {
     if (used[v] != 0) box.add(mesh.positions[v]);
   }
   if (mesh.elements.size() == 0) return geometry;
-  geometry.size = diagonal(box);
+  geometry.size = diagonal(box.low, box.high);
   const bool volume = std::ranges::any_of(mesh.elements.kinds(), [](ElementKind k) { return info(k).dimension == 3; });
   if (volume) geometry.shape = Shape::Volume;
 
-  if (box.low.z == box.high.z) {
-    geometry.plane = kZ;
-  } else if (box.low.x == box.high.x) {
-    geometry.plane = kX;
-  } else if (box.low.y == box.high.y) {
-    geometry.plane = kY;
+  if (const auto plane = coordinate_plane_of(box.low, box.high)) {
+    geometry.plane = *plane;
   } else {
     fit(mesh, used, box, geometry);
     if (!volume && !(geometry.deviation <= kPlanarTolerance * geometry.size)) {

@@ -1,6 +1,7 @@
 #pragma once
 // The plane of a planar mesh, and the way between it and space.
 
+#include <optional>
 #include <type_traits>
 
 #include "core/base/host_device.h"
@@ -115,6 +116,11 @@ struct Geometry {
 /// Twice the area vector of a triangle or quadrilateral: normal to it, counter-clockwise seen from its tip. Volume elements: meaningless.
 /// `plane`: what says which way differences go.
 [[nodiscard]] Vec3 area_vector(const Mesh& mesh, Index element, const Plane& plane = {});
+
+/// Of a box. Squares neither underflow nor overflow unless the length itself does.
+[[nodiscard]] double diagonal(Vec3 low, Vec3 high);
+/// The coordinate plane that a box lies in; none where it extends along x, y and z.
+[[nodiscard]] std::optional<Plane> coordinate_plane_of(Vec3 low, Vec3 high);
 
 /// Planar when no used vertex lies farther than 1e-6 * size from the best plane. The normal's largest component is positive.
 /// Volume as soon as one element is three-dimensional. Never throws; an empty mesh is planar with z normal.

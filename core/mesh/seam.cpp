@@ -51,14 +51,12 @@ bool is_wide(const Mesh& mesh, Index e, const Shown& shown) {
   for (const Index v : mesh.elements.corners(e)) x.add(shown(mesh.positions[v].x));
   return x.width() > kHalf;
 }
-bool is_wide(const Mesh& mesh, Index e) {
-  return is_wide(mesh, e, [](double x) { return x; });
+
+bool is_in_degrees(const Range& x, const Range& y) {
+  return y.within(-kPole, kPole) && x.width() > kHalf && x.width() <= kCircle + kRounding && x.within(-kFarthest, kFarthest);
 }
 
-bool is_in_degrees(const Degrees& box) {
-  return box.y.within(-kPole, kPole) && box.x.width() > kHalf && box.x.width() <= kCircle + kRounding &&
-         box.x.within(-kFarthest, kFarthest);
-}
+bool is_longitude_and_latitude(const Plane& plane) { return plane.u == Vec3{1, 0, 0} && plane.v == Vec3{0, 1, 0}; }
 
 double west_of(const Range& x) {
   if (x.within(-kHalf, kHalf)) return -kHalf;
@@ -129,11 +127,19 @@ double find_cut(const Mesh& mesh, double plain, double& width) {
 
 }  // namespace
 
+bool might_wrap(const Plane& plane, Vec3 low, Vec3 high) {
+  return is_longitude_and_latitude(plane) && is_in_degrees({low.x, high.x}, {low.y, high.y});
+}
+
+bool is_wide(const Mesh& mesh, Index element) {
+  return is_wide(mesh, element, [](double x) { return x; });
+}
+
 void find_seam(const Mesh& mesh, const Topology& topology, const EdgeSurvey& edges, Geometry& geometry) {
   const Plane plain = geometry.plane;
-  if (geometry.shape != Shape::Planar || !(plain.u == Vec3{1, 0, 0}) || !(plain.v == Vec3{0, 1, 0})) return;
+  if (geometry.shape != Shape::Planar || !is_longitude_and_latitude(plain)) return;
   const Degrees box(mesh);
-  if (!is_in_degrees(box)) return;
+  if (!is_in_degrees(box.x, box.y)) return;
   std::vector<Index> wide;
   for (Index e = 0; e < mesh.elements.size(); ++e)
     if (is_wide(mesh, e)) wide.push_back(e);

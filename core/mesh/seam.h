@@ -18,6 +18,11 @@ struct EdgeSurvey;
 /// quarter of the circle. A mesh that is merely wide stays as it is.
 void find_seam(const Mesh& mesh, const Topology& topology, const EdgeSurvey& edges, Geometry& geometry);
 
+/// Might a mesh in this plane, whose used vertices have this box, wrap? Only one that has elements of which is_wide() is true does.
+[[nodiscard]] bool might_wrap(const Plane& plane, Vec3 low, Vec3 high);
+/// Is an element, as its corners stand, wider than half the circle?
+[[nodiscard]] bool is_wide(const Mesh& mesh, Index element);
+
 /// The elements that are wider than half the period as their corners stand; 0 of a mesh that does not wrap.
 [[nodiscard]] Index count_seam_elements(const Mesh& mesh, const Plane& plane);
 

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/mesh/mesh.h"
@@ -40,6 +41,8 @@ class Topology {
   /// 1 for vertices on the boundary: an end of an edge, a corner of a volume's face, that has exactly one element, or more than two
   /// (non-manifold).
   [[nodiscard]] std::span<const std::uint8_t> boundary() const noexcept { return boundary_; }
+  /// Of a share of a mesh, where others know more of it (see MeshShare): one entry a vertex.
+  void set_boundary(std::vector<std::uint8_t> boundary) { boundary_ = std::move(boundary); }
   [[nodiscard]] Index edge_count() const noexcept { return edge_count_; }
 
  private:

@@ -28,6 +28,7 @@ class BlockPlan {
 
   /// `visits` took `seconds`.
   void learn(std::uint64_t visits, double seconds) {
+    if (visits == 0) return;
     if (std::exchange(warming_up_, false)) return;  // a device's first call also brings it positions and code
     visit_seconds_ = std::max(seconds / static_cast<double>(visits), kForgetting * visit_seconds_);
     const auto most = static_cast<double>(most_);

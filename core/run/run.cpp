@@ -6,6 +6,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/stopwatch.h"
+#include "core/input/mesh_share.h"
 #include "core/quality/metric_phrase.h"
 #include "core/reference/domain.h"
 #include "core/run/sweep_after.h"
@@ -22,6 +23,7 @@ std::vector<std::uint8_t> fixed_vertices(const InputMesh& input, const RunParame
     if (v >= fixed.size()) throw UsageError(fmt::format("fixed vertex {} does not exist: the mesh has {} vertices", v, fixed.size()));
     fixed[v] = 1;
   }
+  if (input.share) input.share->agree(fixed);
   return fixed;
 }
 
@@ -32,8 +34,13 @@ std::vector<Index> free_vertices(std::span<const std::uint8_t> fixed, const Visi
   return order.seed ? shuffled(free, *order.seed) : free;
 }
 
-std::shared_ptr<const Colouring> make_colouring(const InputMesh& input, std::span<const Index> free, ThreadPool* pool) {
-  Colouring colouring = colour_vertices(input.mesh, input.topology, free);
+std::shared_ptr<const Colouring> make_colouring(const InputMesh& input, std::span<const std::uint8_t> fixed, const VisitOrder& order,
+                                                ThreadPool* pool) {
+  if (input.share) {
+    if (order.seed) throw UsageError("several processes visit the vertices in their natural order alone");
+    return std::make_shared<const Colouring>(input.share->colour(input.mesh, input.geometry, input.topology, fixed, pool));
+  }
+  Colouring colouring = colour_vertices(input.mesh, input.topology, free_vertices(fixed, order));
   arrange_classes(colouring, input.mesh, input.is_volume() ? nullptr : &input.geometry.plane, input.topology, pool);
   return std::make_shared<const Colouring>(std::move(colouring));
 }
@@ -62,7 +69,7 @@ Run::Run(std::shared_ptr<const InputMesh> input, RunParameters parameters, std::
       acceleration_(std::move(acceleration)),
       domain_(domain_for(*input_, parameters_.standing())),
       fixed_(std::make_shared<const std::vector<std::uint8_t>>(fixed_vertices(*input_, parameters_, domain_.get()))),
-      colouring_(make_colouring(*input_, free_vertices(fixed(), parameters_.order), pool_.get())),
+      colouring_(make_colouring(*input_, fixed(), parameters_.order, pool_.get())),
       immovable_(immovable_elements(input_->mesh, fixed(), pool_.get())),
       size_(make_size_field(input_, parameters_.combination)),
       executor_(choose_executor(parameters_.backend, acceleration_, task())),
@@ -122,6 +129,7 @@ std::span<const Vec3> Run::positions() const {
 Statistics Run::statistics() const {
   const std::uint64_t iteration = at_.moment.iteration;
   if (at_.moment.is_iteration_end() && iteration < history_.records().size()) return history_.records()[iteration].statistics;
+  if (input_->share) return input_->share->statistics(input_->quality_context(), positions(), parameters_.metric, immovable_, pool_.get());
   if (executor_.smoother)
     if (const auto found = asking_device([this] { return executor_.smoother->statistics(); })) return *found;
   return compute_statistics(input_->quality_context(), positions(), parameters_.metric, immovable_, pool_.get());

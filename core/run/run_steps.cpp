@@ -119,7 +119,7 @@ void Run::walk_to(const Moment& target, Progress& progress) {
     } else if (now.visits == 0 && joint_follows(now.iteration)) {
       move_jointly(progress);
     } else if (whole == 0) {  // nothing is free: an iteration visits nobody
-      recovering([this] { end_iteration(); });
+      recovering([this] { input_->share ? visit_block(0) : end_iteration(); });  // of a share: other processes visit theirs
     } else {
       std::uint64_t stop = now.iteration < target.iteration ? whole : target.visits;
       if (const Edit* next = edits_.after(now); next != nullptr && next->at.iteration == now.iteration)

@@ -49,6 +49,13 @@ class Smoother {
   /// Forgets what was derived from the positions of the last visit, and what store() would bring.
   virtual void positions_replaced() = 0;
 
+  /// Where these vertices stand after all visits so far. `positions`: those of the last visit(); `places`: one a vertex. For a process that
+  /// has a share of a mesh (see MeshShare); throws std::logic_error where that is impossible.
+  virtual void give(std::span<const Index> vertices, std::span<const Vec3> positions, std::span<Vec3> places) const;
+  /// These vertices, none of which is visited here, stand there now: another process visited them. Where one has moved, the vertices that
+  /// share an element with it are visited again. Likewise.
+  virtual void take(std::span<const Index> vertices, std::span<const Vec3> places, std::span<Vec3> positions);
+
   /// Whether positions lie far from the host, on a device: store() and each call of visit() are dear then, so a run asks for neither more
   /// often than it must, and visit() never writes to `positions`.
   [[nodiscard]] virtual bool positions_on_device() const noexcept { return false; }

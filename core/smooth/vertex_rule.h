@@ -115,6 +115,17 @@ class RuleSmoother final : public Smoother {
   [[nodiscard]] std::optional<std::uint64_t> searched() const noexcept override { return searched_; }
   void store(std::span<Vec3> /*positions*/, ThreadPool* /*pool*/) override {}  // they are always up to date
   void positions_replaced() override { std::ranges::fill(awake_, std::uint8_t{1}); }
+  void give(std::span<const Index> vertices, std::span<const Vec3> positions, std::span<Vec3> places) const override {
+    for (std::size_t i = 0; i < vertices.size(); ++i) places[i] = positions[vertices[i]];
+  }
+  void take(std::span<const Index> vertices, std::span<const Vec3> places, std::span<Vec3> positions) override {
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      Vec3& here = positions[vertices[i]];
+      if (here == places[i]) continue;
+      here = places[i];
+      if constexpr (kSleeps) wake_star(vertices[i]);
+    }
+  }
 
  private:
   static constexpr bool kSleeps = requires { requires Rule::kDependsOnStarAlone; };
@@ -142,6 +153,9 @@ class RuleSmoother final : public Smoother {
       for (const Index other : others) wake(other);
       if (!others.empty()) return wake(vertex);
     }
+    wake_star(vertex);
+  }
+  void wake_star(Index vertex) {
     for (const Incidence& at : input_->topology.star(vertex))
       for (const Index other : input_->mesh.elements.corners(at.element)) wake(other);
   }

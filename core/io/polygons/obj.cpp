@@ -11,14 +11,13 @@
 
 #include "core/base/error.h"
 #include "core/io/format.h"
+#include "core/io/polygons/obj_text.h"
 #include "core/io/reading/tokenizer.h"
 #include "core/io/writing/one_line.h"
 #include "core/io/writing/text_writer.h"
 
 namespace dmoscope {
 namespace {
-
-constexpr TextSyntax kObjSyntax{.comment = '#', .backslash_joins_lines = true};
 
 /// Statements that Mesh has no room for, and what a person calls them.
 struct Statement {
@@ -80,13 +79,9 @@ class ObjReader {
 
   void vertex() {
     if (mesh_.positions.size() + 1 >= kNoIndex) tokens_.fail(fmt::format("a mesh can have {} vertices at most", kNoIndex - 1));
-    Vec3 p;
-    const std::string_view x = tokens_.read_token("x coordinate");
-    source_.add_place(tokens_.offset_of(x));
-    p.x = tokens_.parse_double(x, "x coordinate");
-    p.y = tokens_.read_double("y coordinate");
-    p.z = tokens_.read_double("z coordinate");
-    mesh_.positions.push_back(p);
+    std::size_t place = 0;
+    mesh_.positions.push_back(read_obj_vertex(tokens_, place));
+    source_.add_place(place);
     int extras = 0;
     while (!tokens_.token_on_line().empty()) ++extras;
     if (extras == 1 || extras == 4) source_.add_only_in_file("vertex weights");
@@ -94,42 +89,23 @@ class ObjReader {
   }
 
   void face() {
+    std::array<std::int64_t, 4> named{};
     std::array<Index, 4> corners{};
-    std::size_t count = 0;
-    for (std::string_view token = tokens_.token_on_line(); !token.empty(); token = tokens_.token_on_line()) {
-      if (count < corners.size()) corners[count] = corner(token);
-      ++count;
-    }
-    if (count != 3 && count != 4) {
-      tokens_.fail(fmt::format("face with {} corners: only triangles and quadrilaterals are read", count));
-    }
+    const std::size_t count = read_obj_face(tokens_, named);
+    for (std::size_t i = 0; i < count; ++i) corners[i] = corner(named[i]);
     add_element(mesh_, count == 3 ? ElementKind::Triangle : ElementKind::Quadrilateral, {corners.data(), count}, source_);
   }
 
-  /// "v", "v/vt", "v//vn" or "v/vt/vn"; a negative v counts back from the vertex read last.
-  Index corner(std::string_view token) {
-    const std::size_t slash = token.find('/');
-    const std::int64_t index = tokens_.parse_integer(token.substr(0, slash), "vertex index");
-    check_references(token, slash);
+  /// A negative index counts back from the vertex read last.
+  Index corner(std::int64_t index) {
     const auto so_far = static_cast<std::int64_t>(mesh_.positions.size());
     if (index < 0) {
       if (-index > so_far) tokens_.fail(fmt::format("vertex index {} out of range ({} vertices come before it)", index, so_far));
       return static_cast<Index>(so_far + index);
     }
-    if (index == 0) tokens_.fail("vertex index 0 out of range (OBJ counts from 1)");
     if (index >= static_cast<std::int64_t>(kNoIndex)) tokens_.fail(fmt::format("vertex index {} out of range", index));
     if (index > so_far) forward_.push_back({tokens_.line(), index});
     return static_cast<Index>(index - 1);
-  }
-
-  void check_references(std::string_view token, std::size_t slash) const {
-    for (int part = 0; slash != std::string_view::npos; ++part) {
-      if (part == 2) tokens_.fail(fmt::format("expected v, v/vt, v//vn or v/vt/vn, got {}", quote_token(token)));
-      const std::size_t next = token.find('/', slash + 1);
-      const std::string_view number = token.substr(slash + 1, next == std::string_view::npos ? next : next - slash - 1);
-      if (!number.empty()) (void)tokens_.parse_integer(number, part == 0 ? "texture coordinate index" : "normal index");
-      slash = next;
-    }
   }
 
   void check_forward_references() const {

@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/io/format.h"
+#include "core/io/polygons/off_text.h"
 #include "core/io/reading/binary.h"
 #include "core/io/reading/line_chunks.h"
 #include "core/io/reading/tokenizer.h"
@@ -20,49 +21,23 @@
 namespace dmoscope {
 namespace {
 
-/// What the word before the counts says: [ST][C][N]OFF.
-struct Header {
-  bool texture = false;
-  bool colours = false;
-  bool normals = false;
-};
-
-/// Nothing if the word is no such header; a header of four or n dimensions ("4OFF", "nOFF") is none.
-std::optional<Header> parse_header(std::string_view word) {
-  Header header;
-  const auto eat = [&word](std::string_view prefix) {
-    if (!word.starts_with(prefix)) return false;
-    word.remove_prefix(prefix.size());
-    return true;
-  };
-  header.texture = eat("ST");
-  header.colours = eat("C");
-  header.normals = eat("N");
-  if (word != "OFF") return std::nullopt;
-  return header;
-}
-
 /// The word at the very begin, with a count or BINARY after it: "OFF coast" may be the title of another format's file.
 bool recognises_off(std::string_view bytes) {
   const std::string_view word = bytes.substr(0, bytes.substr(0, 16).find_first_of(" \t\r\n#"));
-  if (!parse_header(word)) return false;
+  if (!parse_off_header(word)) return false;
   Progress unwatched;
   Tokenizer tokens(bytes.substr(word.size()), {}, {.comment = '#'}, unwatched);
   const std::string_view next = tokens.token();
   return next == "BINARY" || (!next.empty() && next.front() >= '0' && next.front() <= '9');
 }
 
-void name_extras(const Header& header, SourceFile& source) {
+void name_extras(const OffHeader& header, SourceFile& source) {
   if (header.texture) source.add_only_in_file("texture coordinates");
   if (header.colours) source.add_only_in_file("vertex colours");
   if (header.normals) source.add_only_in_file("vertex normals");
 }
 
 ElementKind kind_of(std::int64_t corners) { return corners == 3 ? ElementKind::Triangle : ElementKind::Quadrilateral; }
-
-std::string wrong_corners(std::int64_t corners) {
-  return fmt::format("face with {} corners: only triangles and quadrilaterals are read", corners);
-}
 
 // --- ASCII ---
 
@@ -78,19 +53,8 @@ struct Vertices {
   }
 };
 
-/// A line's vertex; `place` gets its offset, `extras` becomes true if more follows on the line.
-Vec3 read_vertex(Tokenizer& tokens, std::size_t& place, bool& extras) {
-  place = tokens.offset();
-  Vec3 p;
-  p.x = tokens.read_double("x coordinate");
-  p.y = tokens.read_double("y coordinate");
-  p.z = tokens.read_double("z coordinate");
-  extras = tokens.more_on_line() || extras;
-  tokens.end_line();
-  return p;
-}
-
-void read_vertices(Tokenizer& tokens, std::size_t count, const Header& header, SourceFile& source, Mesh& mesh, const IoContext& context) {
+void read_vertices(Tokenizer& tokens, std::size_t count, const OffHeader& header, SourceFile& source, Mesh& mesh,
+                   const IoContext& context) {
   reserve_large(mesh.positions, count);
   source.reserve_places(count);
   bool extras = false;
@@ -99,7 +63,7 @@ void read_vertices(Tokenizer& tokens, std::size_t count, const Header& header, S
       tokens, context,
       [](Tokenizer& lines, Vertices& part) {
         for (std::size_t at = 0; !lines.at_end();) {
-          part.positions.push_back(read_vertex(lines, at, part.extras));
+          part.positions.push_back(read_off_vertex(lines, at, part.extras));
           part.places.push_back(at);
         }
       },
@@ -112,7 +76,7 @@ void read_vertices(Tokenizer& tokens, std::size_t count, const Header& header, S
       });
   while (mesh.positions.size() < count) {
     if (tokens.at_end()) tokens.fail_at_end("x coordinate");
-    mesh.positions.push_back(read_vertex(tokens, place, extras));
+    mesh.positions.push_back(read_off_vertex(tokens, place, extras));
     source.add_place(place);
   }
   if (extras && !header.texture && !header.colours && !header.normals) source.add_only_in_file("vertex colours");
@@ -128,17 +92,6 @@ struct Faces {
   }
 };
 
-/// A line's face; `extras` becomes true if more follows on the line.
-std::span<const Index> read_face(Tokenizer& tokens, std::size_t vertices, std::array<Index, 4>& corner, bool& extras) {
-  const std::int64_t corners = tokens.read_integer("number of corners");
-  if (corners != 3 && corners != 4) tokens.fail(wrong_corners(corners));
-  const std::span<Index> used(corner.data(), static_cast<std::size_t>(corners));
-  for (Index& c : used) c = tokens.read_index("vertex index", vertices, "vertices");
-  extras = tokens.more_on_line() || extras;
-  tokens.end_line();
-  return used;
-}
-
 void read_faces(Tokenizer& tokens, std::size_t count, SourceFile& source, Mesh& mesh, const IoContext& context) {
   const std::size_t vertices = mesh.positions.size();
   mesh.elements.reserve(count, 4 * count);
@@ -147,7 +100,7 @@ void read_faces(Tokenizer& tokens, std::size_t count, SourceFile& source, Mesh& 
       tokens, context,
       [vertices](Tokenizer& lines, Faces& part) {
         for (std::array<Index, 4> corner{}; !lines.at_end();) {
-          const auto corners = read_face(lines, vertices, corner, part.extras);
+          const auto corners = read_off_face(lines, vertices, corner, part.extras);
           part.elements.add(kind_of(static_cast<std::int64_t>(corners.size())), corners);
         }
       },
@@ -160,19 +113,14 @@ void read_faces(Tokenizer& tokens, std::size_t count, SourceFile& source, Mesh& 
       });
   for (std::array<Index, 4> corner{}; mesh.elements.size() < count;) {
     if (tokens.at_end()) tokens.fail_at_end("number of corners");
-    const auto corners = read_face(tokens, vertices, corner, extras);
+    const auto corners = read_off_face(tokens, vertices, corner, extras);
     add_element(mesh, kind_of(static_cast<std::int64_t>(corners.size())), corners, source);
   }
   if (extras) source.add_only_in_file("face colours");
 }
 
-void read_text(Tokenizer& tokens, const Header& header, SourceFile& source, Mesh& mesh, const IoContext& context) {
-  constexpr std::size_t kShortestVertex = 6;  // "0 0 0\n"
-  constexpr std::size_t kShortestFace = 8;    // "3 0 1 2\n"
-  if (tokens.at_end()) tokens.fail_at_end("number of vertices");
-  const std::size_t vertices = tokens.read_count("number of vertices", kShortestVertex);
-  const std::size_t faces = tokens.read_count("number of faces", kShortestFace);
-  tokens.end_line();  // the number of edges, which nobody needs and some leave out
+void read_text(Tokenizer& tokens, const OffHeader& header, SourceFile& source, Mesh& mesh, const IoContext& context) {
+  const auto [vertices, faces] = read_off_counts(tokens);
   CoordinateLayout layout;
   layout.syntax = {.comment = '#'};
   source.set_layout(layout);
@@ -191,7 +139,7 @@ void read_binary_faces(BinaryReader& reader, std::size_t count, SourceFile& sour
   mesh.elements.reserve(count, 4 * count);
   for (std::size_t f = 0; f < count; ++f) {
     const auto corners = reader.read<std::int32_t>("the faces");
-    if (corners != 3 && corners != 4) reader.fail(wrong_corners(corners));
+    if (corners != 3 && corners != 4) reader.fail(wrong_off_corners(corners));
     std::array<Index, 4> corner{};
     const std::span<Index> used(corner.data(), static_cast<std::size_t>(corners));
     for (Index& c : used) {
@@ -209,7 +157,7 @@ void read_binary_faces(BinaryReader& reader, std::size_t count, SourceFile& sour
   }
 }
 
-void read_binary(BinaryReader reader, const Header& header, SourceFile& source, Mesh& mesh) {
+void read_binary(BinaryReader reader, const OffHeader& header, SourceFile& source, Mesh& mesh) {
   const auto vertices = reader.read<std::int32_t>("the number of vertices");
   const auto faces = reader.read<std::int32_t>("the number of faces");
   (void)reader.read<std::int32_t>("the number of edges");
@@ -243,17 +191,7 @@ Mesh read_off(SourceFile& source, const IoContext& context) {
   Progress& progress = context.progress;
   Tokenizer tokens(source.bytes(), source.path().string(), {.comment = '#'}, progress);
   Mesh mesh;
-  Header header;
-  if (tokens.at_end()) tokens.fail_at_end("OFF");
-  const std::size_t begin = tokens.offset();
-  const std::string_view word = tokens.token_on_line();
-  if (const auto found = parse_header(word)) {
-    header = *found;
-  } else if (word.front() >= '0' && word.front() <= '9' && word.find("OFF") == std::string_view::npos) {
-    tokens.seek(begin, tokens.line());  // the word may be left out
-  } else {
-    tokens.fail(fmt::format("expected OFF (or a form of it such as COFF, NOFF, STOFF), got {}", quote_token(word)));
-  }
+  const OffHeader header = read_off_word(tokens);
   name_extras(header, source);
   const std::size_t after_word = tokens.offset();
   if (tokens.token_on_line() == "BINARY") {

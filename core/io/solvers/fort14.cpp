@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -16,39 +15,11 @@
 #include "core/base/memory.h"
 #include "core/io/format.h"
 #include "core/io/reading/tokenizer.h"
+#include "core/io/solvers/fort14_text.h"
 #include "core/io/writing/text_writer.h"
 
 namespace dmoscope {
 namespace {
-
-// Fortran's list-directed input; whatever follows the numbers of a line is a remark.
-constexpr TextSyntax kFort14Syntax{.comma_is_blank = true};
-constexpr std::string_view kOpen = "open boundary";
-constexpr std::string_view kLand = "land boundary";
-
-/// What follows the node number in a line of a land boundary, by IBTYPE: the node on a weir's other side, then heights and
-/// coefficients.
-struct WeirColumns {
-  bool pair = false;
-  int numbers = 0;
-};
-WeirColumns weir_columns(int type) {
-  switch (type) {
-    case 3:
-    case 13:
-    case 23:
-      return {false, 2};
-    case 4:
-    case 24:
-      return {true, 3};
-    case 5:
-    case 25:
-      return {true, 5};  // and a sixth, the pipe's diameter, that some files lack
-    default:
-      return {};
-  }
-}
-bool is_weir(int type) { return weir_columns(type).numbers > 0; }
 
 /// The numbers by which the file calls its nodes: mostly 1, 2, ... but any will do.
 class NodeNumbers {
@@ -92,24 +63,16 @@ class Reader {
   }
 
   Mesh read() {
-    constexpr std::size_t kShortestElement = 10;  // "1 3 1 2 3\n"
-    constexpr std::size_t kShortestNode = 8;      // "1 0 0 0\n"
-    mesh_.title = trimmed(tokens_.rest_of_line());
-    if (tokens_.at_end()) tokens_.fail_at_end("number of elements");
-    const std::size_t elements = tokens_.read_count("number of elements", kShortestElement);
-    const std::size_t nodes = tokens_.read_count("number of vertices", kShortestNode);
-    tokens_.end_line();
-    read_nodes(nodes);
-    read_elements(elements);
-    read_boundaries();
+    const Fort14Head head = read_fort14_head(tokens_);
+    mesh_.title = head.title;
+    read_nodes(head.nodes);
+    read_elements(head.elements);
+    mesh_.groups = read_fort14_boundaries(
+        tokens_, [this](Tokenizer& tokens, std::string_view what) { return numbers_.read(tokens, what); }, &source_);
     return std::move(mesh_);
   }
 
  private:
-  void begin_line(std::string_view what) {
-    if (tokens_.at_end()) tokens_.fail_at_end(what);
-  }
-
   void read_nodes(std::size_t count) {
     Field depth{.name = "depth", .on = Field::On::Vertices, .components = 1, .type = "double", .role = "depth", .values = {}};
     reserve_large(mesh_.positions, count);
@@ -117,16 +80,11 @@ class Reader {
     numbers_.reserve(count);
     source_.reserve_places(count);
     for (std::size_t v = 0; v < count; ++v) {
-      begin_line("number of a vertex");
-      numbers_.add(tokens_.read_integer("number of a vertex"));
-      const std::string_view x = tokens_.read_token("x coordinate");
-      source_.add_place(tokens_.offset_of(x));
-      Vec3 p;
-      p.x = tokens_.parse_double(x, "x coordinate");
-      p.y = tokens_.read_double("y coordinate");
-      mesh_.positions.push_back(p);
-      depth.values.push_back(tokens_.read_double("depth"));
-      tokens_.end_numbers_of("a vertex");
+      const Fort14Node node = read_fort14_node(tokens_);
+      numbers_.add(node.number);
+      source_.add_place(node.place);
+      mesh_.positions.push_back(node.position);
+      depth.values.push_back(node.depth);
     }
     if (const auto twice = numbers_.finish()) {
       tokens_.fail_at(tokens_.line_at(source_.place(*twice)), fmt::format("vertex {} has the number of one before it", *twice + 1));
@@ -137,91 +95,13 @@ class Reader {
   void read_elements(std::size_t count) {
     mesh_.elements.reserve(count, 3 * count);
     for (std::size_t e = 0; e < count; ++e) {
-      begin_line("number of an element");
-      (void)tokens_.read_integer("number of an element");
-      const std::int64_t corners = tokens_.read_integer("number of corners");
-      if (corners != 3 && corners != 4) {
-        tokens_.fail(fmt::format("element with {} corners: only triangles and quadrilaterals are read", corners));
-      }
+      const std::size_t corners = read_fort14_element(tokens_);
       std::array<Index, 4> corner{};
-      const std::span<Index> used(corner.data(), static_cast<std::size_t>(corners));
+      const std::span<Index> used(corner.data(), corners);
       for (Index& c : used) c = numbers_.read(tokens_, "vertex index");
       add_element(mesh_, corners == 3 ? ElementKind::Triangle : ElementKind::Quadrilateral, used, source_);
       tokens_.end_numbers_of("an element");
     }
-  }
-
-  /// A file may end before the boundaries, or after the open ones.
-  void read_boundaries() {
-    constexpr std::size_t kShortestBoundary = 2;  // "0\n"
-    if (tokens_.at_end()) return;
-    const std::size_t open = tokens_.read_count("number of open boundaries", kShortestBoundary);
-    tokens_.end_line();
-    read_total(open, "number of open boundary vertices");
-    for (std::size_t b = 0; b < open; ++b) read_open(b);
-    if (tokens_.at_end()) return;
-    const std::size_t land = tokens_.read_count("number of land boundaries", kShortestBoundary);
-    tokens_.end_line();
-    read_total(land, "number of land boundary vertices");
-    for (std::size_t b = 0; b < land; ++b) read_land(b);
-    if (tokens_.at_end()) return;
-    source_.add_note(fmt::format("The file goes on after its boundaries (line {}); the rest is kept but not read.", tokens_.line()));
-    source_.add_only_in_file("what follows the boundaries");
-  }
-
-  /// The sum over all boundaries: nothing depends on it, and files often have it wrong. Some end before it if there are none.
-  void read_total(std::size_t boundaries, std::string_view what) {
-    if (boundaries == 0 && tokens_.at_end()) return;
-    begin_line(what);
-    (void)tokens_.read_integer(what);
-    tokens_.end_line();
-  }
-
-  std::size_t read_size() {
-    begin_line("number of vertices of a boundary");
-    return tokens_.read_count("number of vertices of a boundary", 2);
-  }
-
-  void read_open(std::size_t b) {
-    Group group{.name = fmt::format("{} {}", kOpen, b + 1), .role = std::string(kOpen), .code = 0, .dimension = 0, .members = {}};
-    const std::size_t size = read_size();
-    const std::string_view type = tokens_.token_on_line();  // IBTYPEE may be left out; a remark may be there instead
-    int code = 0;
-    if (const auto [end, error] = std::from_chars(type.data(), type.data() + type.size(), code);
-        error == std::errc() && end == type.data() + type.size()) {
-      group.code = code;
-    }
-    tokens_.end_line();
-    group.members.reserve(size);
-    for (std::size_t i = 0; i < size; ++i) {
-      begin_line("vertex of an open boundary");
-      group.members.push_back(numbers_.read(tokens_, "vertex index"));
-      tokens_.end_numbers_of("a vertex of a boundary");
-    }
-    mesh_.groups.push_back(std::move(group));
-  }
-
-  void read_land(std::size_t b) {
-    Group group{.name = fmt::format("{} {}", kLand, b + 1), .role = std::string(kLand), .code = 0, .dimension = 0, .members = {}};
-    const std::size_t size = read_size();
-    const std::int64_t type = tokens_.read_integer("type of a land boundary (IBTYPE)");
-    if (type < -1000000 || type > 1000000) tokens_.fail(fmt::format("type of a land boundary (IBTYPE) out of range: {}", type));
-    group.code = static_cast<int>(type);
-    tokens_.end_line();
-    const WeirColumns columns = weir_columns(group.code);
-    if (is_weir(group.code)) source_.add_only_in_file("heights, coefficients and pairs of vertices of the weirs");
-    // A weir has two banks; the file lists both in one string, the farther one beside the nearer.
-    Group far_side{.name = group.name + ", far side", .role = group.role, .code = group.code, .dimension = 0, .members = {}};
-    group.members.reserve(size);
-    for (std::size_t i = 0; i < size; ++i) {
-      begin_line("vertex of a land boundary");
-      group.members.push_back(numbers_.read(tokens_, "vertex index"));
-      if (columns.pair) far_side.members.push_back(numbers_.read(tokens_, "vertex index"));
-      for (int n = 0; n < columns.numbers; ++n) (void)tokens_.read_double("height or coefficient of a weir");
-      tokens_.end_line();
-    }
-    mesh_.groups.push_back(std::move(group));
-    if (columns.pair) mesh_.groups.push_back(std::move(far_side));
   }
 
   SourceFile& source_;
@@ -266,7 +146,7 @@ std::vector<std::size_t> boundaries(const Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.groups.size(); ++i) {
     const Group& group = mesh.groups[i];
     if (group.dimension != 0) continue;
-    if (group.role == kOpen || (group.role == kLand && !is_weir(group.code))) kept.push_back(i);
+    if (group.role == kFort14Open || (group.role == kFort14Land && !is_fort14_weir(group.code))) kept.push_back(i);
   }
   return kept;
 }
@@ -279,7 +159,7 @@ void write_boundaries(TextWriter& out, const Mesh& mesh, std::span<const std::si
     ++count;
     total += mesh.groups[i].members.size();
   }
-  out << count << " = Number of " << (role == kOpen ? "open" : "land") << " boundaries\n";
+  out << count << " = Number of " << (role == kFort14Open ? "open" : "land") << " boundaries\n";
   out << total << " = Total number of " << role << " nodes\n";
   count = 0;
   for (const std::size_t i : kept) {
@@ -321,8 +201,8 @@ Notes write_fort14(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> pos
     for (const Index c : corners) part << ' ' << c + 1;
     part << '\n';
   });
-  write_boundaries(out, mesh, kept, kOpen);
-  write_boundaries(out, mesh, kept, kLand);
+  write_boundaries(out, mesh, kept, kFort14Open);
+  write_boundaries(out, mesh, kept, kFort14Land);
   out.finish();
   return notes;
 }

@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/io/reading/io_context.h"
@@ -19,6 +20,9 @@ namespace dmoscope {
 
 /// Makes a VTU file anew: appended raw data of double precision, zlib, 64-bit sizes; see FormatHandler::write.
 std::vector<std::string> write_vtu(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);
+
+/// The type that write_vtu() gives a field: its own where that holds all its values exactly, else double; and VTU's word for it.
+[[nodiscard]] std::string_view vtu_type_word(const Field& field);
 
 /// Writes mesh.source again with moved coordinates, in its own encoding; all but the points stays byte for byte.
 std::vector<std::string> patch_vtu(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context);

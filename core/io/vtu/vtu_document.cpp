@@ -60,14 +60,16 @@ std::optional<std::uint64_t> unsigned_number(std::string_view text) {
 
 }  // namespace
 
-VtuDocument::VtuDocument(const SourceFile& source, Progress& progress) : source_(source), progress_(progress) {
+VtuDocument::VtuDocument(const SourceFile& source, std::size_t file_size, Progress& progress)
+    : source_(source), progress_(progress), file_size_(file_size) {
   cut_appended();
   parse();
 }
 
 /// Raw appended data are no XML: only what comes before them is parsed.
 void VtuDocument::cut_appended() {
-  appended_begin_ = appended_end_ = bytes().size();
+  appended_begin_ = bytes().size();
+  appended_end_ = file_size_;
   const std::size_t tag = bytes().find(kAppended);
   const std::size_t end = tag == std::string_view::npos ? tag : tag_end(bytes(), tag);
   if (end == std::string_view::npos || bytes()[end - 1] == '/') {
@@ -108,7 +110,7 @@ void VtuDocument::parse() {
 void VtuDocument::attributes(pugi::xml_node file) {
   const std::string_view type = file.attribute("type").value();
   if (type == "PUnstructuredGrid") {
-    fail(file, "this file (PVTU) only names the pieces of a mesh: open those, or save it as one VTU file");
+    fail(file, "this is a PVTU file, which names the pieces of a mesh: call it .pvtu");
   }
   structured_ = type == "StructuredGrid" || type == "RectilinearGrid" || type == "ImageData";
   if (type != "UnstructuredGrid" && !structured_) {

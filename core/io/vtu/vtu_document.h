@@ -33,7 +33,9 @@ struct VtuArray {
 class VtuDocument {
  public:
   /// Parses; `source` must outlive this. Throws InputError with the line.
-  VtuDocument(const SourceFile& source, Progress& progress);
+  VtuDocument(const SourceFile& source, Progress& progress) : VtuDocument(source, source.bytes().size(), progress) {}
+  /// Of a file of `file_size` bytes of which the source holds but the head, up to the underscore before the appended data.
+  VtuDocument(const SourceFile& source, std::size_t file_size, Progress& progress);
 
   [[nodiscard]] pugi::xml_node grid() const noexcept { return grid_; }
   /// Is it one of the grids whose cells are not listed (.vts, .vtr, .vti)?
@@ -84,6 +86,7 @@ class VtuDocument {
   bool big_endian_ = false;
   ScalarType header_ = ScalarType::UInt32;
   std::string compressor_;
+  std::size_t file_size_;
   std::size_t appended_begin_ = 0, appended_end_ = 0;      // of the data itself, behind its underscore
   mutable std::size_t counted_at_ = 0, counted_line_ = 1;  // a byte and its line
   bool has_appended_ = false;

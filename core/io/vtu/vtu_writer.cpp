@@ -30,6 +30,15 @@ std::string_view vtu_word(ScalarType type) {
   return words[static_cast<std::size_t>(type)];
 }
 
+/// The field's own type where that holds all its values; else double.
+ScalarType type_of(const Field& field) {
+  ScalarType type = ScalarType::Float64;
+  if (field.type == "bit") type = ScalarType::UInt8;
+  if (field.type != "bit" && !scalar_of_word(field.type, type)) return ScalarType::Float64;
+  const bool fits = std::all_of(field.values.begin(), field.values.end(), [type](double v) { return holds_exactly(type, v); });
+  return fits ? type : ScalarType::Float64;
+}
+
 class VtuWriter {
  public:
   VtuWriter(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context)
@@ -142,15 +151,6 @@ class VtuWriter {
     xml_ += fmt::format("      </{}>\n", element);
   }
 
-  /// The field's own type where that holds all its values; else double.
-  static ScalarType type_of(const Field& field) {
-    ScalarType type = ScalarType::Float64;
-    if (field.type == "bit") type = ScalarType::UInt8;
-    if (field.type != "bit" && !scalar_of_word(field.type, type)) return ScalarType::Float64;
-    const bool fits = std::all_of(field.values.begin(), field.values.end(), [type](double v) { return holds_exactly(type, v); });
-    return fits ? type : ScalarType::Float64;
-  }
-
   AtomicFile& file_;
   const Mesh& mesh_;
   std::span<const Vec3> positions_;
@@ -163,6 +163,8 @@ class VtuWriter {
 };
 
 }  // namespace
+
+std::string_view vtu_type_word(const Field& field) { return vtu_word(type_of(field)); }
 
 Notes write_vtu(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
   return VtuWriter(file, mesh, positions, context).write();

@@ -113,6 +113,10 @@ void AtomicFile::pack() {
   packer_ = std::make_unique<GzipPacker>([this](std::string_view packed) { write_plain(packed); });
 }
 
+void AtomicFile::reserve(std::uint64_t bytes) {
+  if (const int error = bytes > 0 ? ::posix_fallocate(descriptor_, 0, static_cast<off_t>(bytes)) : 0; error != 0) fail(error);
+}
+
 void AtomicFile::write(std::string_view bytes) {
   if (packer_) {
     packer_->add(bytes);

@@ -1,6 +1,7 @@
 #pragma once
 // Writing a file all or nothing: into a temporary one beside it, which then takes its name.
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -31,6 +32,8 @@ class AtomicFile {
 
   /// From now on what is written is packed by gzip on its way. Call it before the first write(), and only where gzip_is_here().
   void pack();
+  /// Makes room on the disk for a file of so many bytes, so that no later write can fail for want of it. Throws OutputError (disk full).
+  void reserve(std::uint64_t bytes);
   /// Appends bytes. Throws OutputError (disk full).
   void write(std::string_view bytes);
   /// Waits until what was written is on the disk; nothing can be written afterwards. Then only renaming is left that could fail.
@@ -40,6 +43,8 @@ class AtomicFile {
   void commit();
   /// Path as the caller gave it, for messages.
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+  /// Where others may write besides write(), which then must not be called; empty where the target is written directly.
+  [[nodiscard]] const std::filesystem::path& temporary() const noexcept { return temporary_; }
   /// A sentence for a person where replacing the target does less than it seems: it has other names (hard links). Else empty.
   [[nodiscard]] const std::string& note() const noexcept { return note_; }
 

@@ -15,7 +15,6 @@
 #include "core/io/reading/source_file.h"
 #include "core/io/reading/tokenizer.h"
 #include "core/io/writing/field_number.h"
-#include "core/io/writing/text_writer.h"
 
 namespace dmoscope {
 namespace {
@@ -132,6 +131,14 @@ class Patcher {
 };
 
 }  // namespace
+
+std::size_t patch_part(TextBuffer& out, const std::string& file, const SourceFile& source, std::span<const Vec3> before,
+                       std::span<const Vec3> after) {
+  Patcher patcher(file, source, 0, out);
+  for (std::size_t i = 0; i < source.place_count(); ++i) patcher.place(i, coordinates(before[i]), coordinates(after[i]));
+  patcher.copy_until(source.bytes().size());
+  return patcher.rounded();
+}
 
 std::vector<std::string> write_patched(AtomicFile& file, const Mesh& mesh, std::span<const Vec3> positions, const IoContext& context) {
   constexpr std::size_t kGrain = 16384;

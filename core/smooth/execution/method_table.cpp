@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/unknown_value.h"
+#include "core/input/mesh_share.h"
 #include "core/joint/joint_clusters.h"
 #include "core/smooth/methods/active_set_ascent.h"
 #include "core/smooth/methods/angle_based.h"
@@ -132,9 +133,9 @@ void require_possible(const SmoothingTask& task) {
 
 std::unique_ptr<Smoother> make_smoother(const SmoothingTask& task) {
   require_possible(task);
-  if (task.combination) return make_composite_smoother(task);
-  auto smoother = method_info(task.method).make(task);
-  return task.then_mean ? then_mean(std::move(smoother), task) : std::move(smoother);
+  std::unique_ptr<Smoother> smoother = task.combination ? make_composite_smoother(task) : method_info(task.method).make(task);
+  if (task.then_mean) smoother = then_mean(std::move(smoother), task);
+  return task.input->share ? task.input->share->among_others(std::move(smoother), task) : std::move(smoother);
 }
 
 }  // namespace dmoscope

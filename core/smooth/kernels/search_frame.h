@@ -70,7 +70,7 @@ struct SearchFrame {
 [[nodiscard]] inline SearchFrame make_search_frame(const InputMesh& input) {
   const Plane& plane = input.geometry.plane;
   const PlaneAxes axes(plane);
-  const double edge = input.geometry.size / std::sqrt(1.0 + input.mesh.elements.size());
+  const double edge = input.geometry.size / std::sqrt(1.0 + static_cast<double>(input.whole_element_count()));
   const double scale = edge > 0.0 && std::isfinite(edge) ? std::exp2(std::ilogb(edge)) : 1.0;
   const double half = 0.5 * plane.period / scale;
   const float largest = plane.period > 0.0 && half < static_cast<double>(SearchFrame::kLargestExtent) ? static_cast<float>(half)

@@ -91,6 +91,19 @@ class LaneDmo final : public Smoother {
     stored_ = true;
   }
   void positions_replaced() override { stale_ = true; }
+  void give(std::span<const Index> vertices, std::span<const Vec3> /*positions*/, std::span<Vec3> places) const override {
+    for (std::size_t i = 0; i < vertices.size(); ++i) places[i] = ranked_[table_.rank_of_vertex[vertices[i]]];
+  }
+  void take(std::span<const Index> vertices, std::span<const Vec3> places, std::span<Vec3> /*positions*/) override {
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      Vec3& here = ranked_[table_.rank_of_vertex[vertices[i]]];
+      if (here == places[i]) continue;
+      here = places[i];
+      for (const Incidence& at : input_->topology.star(vertices[i]))
+        for (const Index other : input_->mesh.elements.corners(at.element)) awake_[table_.rank_of_vertex[other]] = 1;
+    }
+    stored_ = false;
+  }
 
  private:
   static constexpr std::size_t kCopyGrain = std::size_t{1} << 16U;

@@ -42,6 +42,13 @@ class ThenMean final : public Smoother {
     if (second_) second_->positions_replaced();
     unstored_ = moved_on_ = false;
   }
+  void give(std::span<const Index> vertices, std::span<const Vec3> positions, std::span<Vec3> places) const override {
+    (second_ ? *second_ : *first_).give(vertices, positions, places);
+  }
+  void take(std::span<const Index> vertices, std::span<const Vec3> places, std::span<Vec3> positions) override {
+    (second_ ? *second_ : *first_).take(vertices, places, positions);
+    unstored_ = unstored_ || !second_;
+  }
 
  private:
   std::uint64_t count_searched(Smoother& who, std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) {

@@ -1,4 +1,4 @@
-#include "app/subcommands/objective_report.h"
+#include "app/common/objective_report.h"
 
 #include <cmath>
 

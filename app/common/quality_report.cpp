@@ -1,0 +1,78 @@
+#include "app/common/quality_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "app/common/console.h"
+
+namespace dmoscope::app {
+
+Json json_of(const MetricSummary& summary, bool with_worst) {
+  const MetricInfo& metric = info(summary.metric);
+  Json object{{"metric", metric.name}, {"elements", summary.elements}};
+  if (summary.elements == 0) return object;
+  object["minimum"] = json_number(summary.minimum);
+  object["mean"] = json_number(summary.mean);
+  object["percentile_1"] = json_number(summary.percentile_1);
+  object["percentile_5"] = json_number(summary.percentile_5);
+  object["percentile_50"] = json_number(summary.percentile_50);
+  object["acceptable"] = metric.acceptable;
+  object["below_acceptable"] = summary.unacceptable;
+  Json list = Json::array();
+  for (const MetricSummary::Worst& one : summary.worst) {
+    const Vec3 c = one.centroid;
+    list.push_back({{"element", one.element},
+                    {"kind", info(one.kind).name},
+                    {"quality", json_number(one.quality)},
+                    {"centroid", {json_number(c.x), json_number(c.y), json_number(c.z)}}});
+  }
+  if (with_worst) object["worst"] = std::move(list);
+  return object;
+}
+
+void print_table(const std::vector<MetricSummary>& summaries) {
+  print("{:<16} {:>9} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11} {:>8}\n", "metric", "elements", "min", "1 %", "5 %", "50 %", "mean",
+        "acceptable", "below");
+  for (const MetricSummary& one : summaries) {
+    if (one.elements == 0) continue;
+    const MetricInfo& metric = info(one.metric);
+    print("{:<16} {:>9} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11} {:>8}\n", metric.name, one.elements, brief(one.minimum),
+          brief(one.percentile_1), brief(one.percentile_5), brief(one.percentile_50), brief(one.mean), brief(metric.acceptable),
+          one.unacceptable);
+  }
+}
+
+namespace {
+constexpr double kMostDecimals = 9.0;
+}
+
+PlaceText::PlaceText(const Geometry& geometry) {
+  const double size = geometry.size;
+  const double decimals = size > 0.0 && std::isfinite(size) ? 5.0 - std::floor(std::log10(size)) : kMostDecimals + 1;
+  if (decimals <= kMostDecimals && decimals > -kMostDecimals) decimals_ = std::max(0, static_cast<int>(decimals));
+  const PlaneAxes axes(geometry.plane);
+  flat_ = geometry.shape == Shape::Planar && axes.u == 0 && axes.v == 1;
+}
+
+std::string PlaceText::operator()(Vec3 p) const {
+  std::string text = fmt::format("{:>13} {:>13}", coordinate(p.x), coordinate(p.y));
+  return flat_ ? text : text + fmt::format(" {:>13}", coordinate(p.z));
+}
+
+std::string PlaceText::head() const { return fmt::format("{:>13} {:>13}{}", "x", "y", flat_ ? "" : fmt::format(" {:>13}", "z")); }
+
+std::string PlaceText::coordinate(double x) const {
+  return decimals_ && std::isfinite(x) ? fmt::format("{:.{}f}", x, *decimals_) : brief(x);
+}
+
+void print_worst(const MetricSummary& summary, const PlaceText& place) {
+  if (summary.worst.empty()) return;
+  print("\nworst of {}, with the mean of their corners:\n{:>10} {:<14} {:>12} {}\n", info(summary.metric).name, "element", "kind",
+        "quality", place.head());
+  for (const MetricSummary::Worst& one : summary.worst)
+    print("{:>10} {:<14} {:>12} {}\n", one.element, info(one.kind).name, brief(one.quality), place(one.centroid));
+}
+
+}  // namespace dmoscope::app

@@ -1,0 +1,159 @@
+#include "app/common/smooth_report.h"
+
+#include <fmt/format.h>
+
+#include "app/common/console.h"
+#include "app/common/objective_report.h"
+#include "core/numeric/simd.h"
+#include "core/reference/domain.h"
+#include "core/run/mean_given_up.h"
+#include "core/session/parameter_json.h"
+#include "core/smooth/execution/method_table.h"
+
+namespace dmoscope::app {
+namespace {
+
+std::string_view reason_name(StopReason reason) {
+  switch (reason) {
+    case StopReason::NothingMoved:
+      return "nothing-moved";
+    case StopReason::NoRise:
+      return "no-rise";
+    case StopReason::Certified:
+      return "certified";
+    case StopReason::NoJointGain:
+      return "no-joint-gain";
+    case StopReason::IterationLimit:
+      return "iteration-limit";
+  }
+  return "unknown";
+}
+
+Json json_of(const Statistics& s) {
+  return {{"minimum", json_number(s.minimum)},
+          {"mean", json_number(s.mean)},
+          {"movable_minimum", json_number(s.movable_minimum)},
+          {"ceiling", json_number(s.ceiling)},
+          {"inverted", s.inverted}};
+}
+
+/// Of joint moves, tried or in the run: what they reach, the bound, how many elements hold one another, and by how much those that hold
+/// most.
+Json json_of(const JointCluster& cluster) {
+  constexpr std::size_t kMostNamed = 1000;
+  const auto all = holders(cluster);
+  Json elements = Json::array();
+  for (const JointCluster::Active& one : all.first(std::min(kMostNamed, all.size())))
+    elements.push_back({{"element", one.element}, {"multiplier", one.multiplier}});
+  return {{"certified", cluster.certified},
+          {"why_not", cluster.why_not.empty() ? Json(nullptr) : Json(cluster.why_not)},
+          {"reaches", json_number(cluster.after)},
+          {"bound", json_number(cluster.bound)},
+          {"gap", json_number(cluster.gap)},
+          {"vertices", cluster.vertices.size()},
+          {"holders", all.size()},
+          {"elements", std::move(elements)}};
+}
+
+Json json_of(const HeldMinimum& held) {
+  Json vertices = Json::array();
+  for (const HeldVertex& one : held.vertices) vertices.push_back({{"vertex", one.vertex}, {"held_by", name(one.by)}});
+  Json object{{"element", held.element},         {"quality", json_number(held.quality)},     {"by", name(held.by)},
+              {"vertices", std::move(vertices)}, {"unchanged", json_number(held.unchanged)}, {"switch", nullptr},
+              {"would_raise_to", nullptr},       {"sentence", held.sentence(true)}};
+  if (held.change) {
+    object["switch"] = held.options();
+    object["would_raise_to"] = json_number(held.changed);
+  }
+  object["certificate"] = held.joint ? json_of(*held.joint) : Json(nullptr);
+  return object;
+}
+
+bool on_cpu(const Run& run) { return run.backend() == Backend::Cpu; }
+
+/// By packs: the grid search alone can do that.
+bool in_packs(const RunParameters& p) { return method_info(p.method).searches_grid && p.search.precision == Precision::Float; }
+
+/// What the search computed with; null on a device.
+Json simd_name(const Run& run) {
+  const RunParameters& p = run.parameters();
+  if (!on_cpu(run)) return nullptr;
+  return in_packs(p) ? name(p.search.simd.value_or(best_simd_level())) : "scalar";
+}
+
+/// "2 threads", "4 ranks of 2 threads each".
+std::string where_computed(const SmoothReport& r) {
+  if (!on_cpu(r.run)) return r.run.backend_reason();
+  const std::string threads = counted(r.threads, "thread", "threads");
+  return r.ranks > 0 ? fmt::format("{} of {}{}", counted(r.ranks, "rank", "ranks"), threads, r.ranks > 1 ? " each" : "") : threads;
+}
+
+}  // namespace
+
+Json json_of(const SmoothReport& r) {
+  const RunParameters& p = r.run.parameters();
+  Json object;
+  object["input"] = r.input.string();
+  object["output"] = r.output.string();
+  object["vertices"] = r.vertices;
+  object["elements"] = r.elements;
+  object["free"] = r.free;
+  object["method"] = p.method;
+  object["metric"] = info(p.metric).name;
+  object["backend"] = name(r.run.backend());
+  object["backend_reason"] = r.run.backend_reason();
+  if (r.ranks > 0) object["ranks"] = r.ranks;
+  object["threads"] = r.threads;
+  object["simd"] = simd_name(r.run);
+  nlohmann::ordered_json parameters;
+  for (const ParameterInfo& row : parameter_table())
+    if (row.in_session) parameters[std::string(row.name)] = parameter_json(row, p);
+  parameters["precision"] = in_packs(p) && !p.combination ? "float" : "double";  // what was computed with
+  parameters["fixed_by_user"] = r.fixed_by_user;
+  parameters["kinds_by_user"] = {{"corners", p.kinds.corners.size()},
+                                 {"no_corners", p.kinds.no_corners.size()},
+                                 {"features", p.kinds.features.size()},
+                                 {"no_features", p.kinds.no_features.size()}};
+  object["parameters"] = std::move(parameters);
+  object["held_on_interfaces"] = p.interfaces == InterfaceRule::Free ? 0 : r.on_interfaces;
+  if (p.interfaces == InterfaceRule::Slide) object["held_on_interfaces"] = r.on_interfaces - r.run.domain()->count_inside();
+  object["sliding"] = r.run.domain() ? r.run.domain()->count() : 0;
+  object["iterations"] = r.outcome.iterations;
+  object["stopped"] = reason_name(r.outcome.reason);
+  object["last_rise"] = r.outcome.last_rise;
+  object["written_iteration"] = r.after().iteration;
+  object["left_inverted"] = nullptr;
+  if (r.left) object["left_inverted"] = {{"count", r.left->count}, {"element", r.left->element}, {"vertex", r.left->vertex}};
+  object["held_by"] = r.held ? json_of(*r.held) : Json(nullptr);
+  object["before"] = json_of(r.before().statistics);
+  object["after"] = json_of(r.after().statistics);
+  add_composite(object, r.run);
+  object["seconds"] = r.seconds;
+  object["vertices_per_second"] = json_number(r.visits_per_second());
+  object["warnings"] = r.warnings;
+  if (r.provenance) object["provenance"] = json_of(*r.provenance);
+  return object;
+}
+
+void print_summary(const SmoothReport& r) {
+  const Statistics& before = r.before().statistics;
+  const Statistics& after = r.after().statistics;
+  print("{}: {}, {}, {} free; {}, {}\n", r.run.input().mesh.name, counted(r.vertices, "vertex", "vertices"),
+        counted(r.elements, "element", "elements"), grouped(r.free), r.run.title(), name(r.run.backend()));
+  if (const auto& domain = r.run.domain()) print("  {}\n", domain->sentence());
+  print("  {:<16} {:>10} -> {}\n", "minimum", brief(before.minimum), brief(after.minimum));
+  print("  {:<16} {:>10} -> {}\n", "movable minimum", brief(before.movable_minimum), brief(after.movable_minimum));
+  print("  {:<16} {:>10}    (elements whose corners are all fixed)\n", "ceiling", brief(after.ceiling));
+  print("  {:<16} {:>10} -> {}\n", "mean", brief(before.mean), brief(after.mean));
+  print("  {:<16} {:>10} -> {}\n", "inverted", grouped(before.inverted), grouped(after.inverted));
+  print_composite(r.run);
+  print("  {}\n", r.outcome.sentence());
+  if (r.held) print("  {}\n", r.held->sentence(true));
+  const std::string fell = mean_given_up(r.run.parameters(), r.run.history().records(), r.run.moment().iteration);
+  if (r.until_converged && !fell.empty()) print("  {} (--then mean)\n", fell);
+  print("  {} in {:.3f} s, {}vertices/s on {}\n", counted(r.outcome.iterations, "iteration", "iterations"), r.seconds,
+        with_prefix(r.visits_per_second()), where_computed(r));
+  print("  wrote {}\n", r.output.string());
+}
+
+}  // namespace dmoscope::app

@@ -1,0 +1,47 @@
+#pragma once
+// What came of smoothing a mesh, for a person and as JSON.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/common/provenance.h"
+#include "app/common/text.h"
+#include "core/inspect/held_minimum.h"
+#include "core/inspect/joint_hold.h"
+#include "core/run/left_inverted.h"
+#include "core/run/run.h"
+
+namespace dmoscope::app {
+
+/// Counts are of the whole mesh, however many processes have it.
+struct SmoothReport {
+  std::filesystem::path input, output;
+  bool until_converged = false;
+  const Run& run;
+  std::uint64_t vertices = 0, elements = 0, free = 0, fixed_by_user = 0;
+  std::uint64_t on_interfaces = 0;  // vertices that interfaces hold
+  unsigned threads = 1;             // of this process
+  unsigned ranks = 0;               // 0: one process alone
+  Outcome outcome{};
+  double seconds = 0.0;
+  std::optional<LeftInverted> left{};  // of what is written
+  std::optional<HeldMinimum> held{};   // likewise
+  std::vector<std::string> warnings{};
+  std::optional<Provenance> provenance{};
+
+  [[nodiscard]] const IterationRecord& before() const { return run.history().records().front(); }
+  /// What is written.
+  [[nodiscard]] const IterationRecord& after() const { return run.history().records()[run.moment().iteration]; }
+  [[nodiscard]] double visits_per_second() const {
+    const auto visits = static_cast<double>(outcome.iterations * free);
+    return seconds > 0.0 ? visits / seconds : 0.0;
+  }
+};
+
+[[nodiscard]] Json json_of(const SmoothReport& report);
+void print_summary(const SmoothReport& report);
+
+}  // namespace dmoscope::app

@@ -1,0 +1,44 @@
+#include "app/handover.h"
+
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "core/base/error.h"
+
+namespace dmoscope::app {
+namespace {
+
+/// What launchers tell their processes: Open MPI, MPICH and Intel MPI, PMIx (srun).
+struct Launcher {
+  const char* rank;
+  const char* size;  // null: it does not say
+};
+constexpr std::array kLaunchers{Launcher{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}, Launcher{"PMI_RANK", "PMI_SIZE"},
+                                Launcher{"PMIX_RANK", nullptr}};
+
+}  // namespace
+
+void hand_over_to_mpi(char** argv) {
+  for (const Launcher& launcher : kLaunchers) {
+    const char* const rank = std::getenv(launcher.rank);
+    if (rank == nullptr) continue;
+    std::error_code error;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / "dmoscope-mpi";
+    if (!error) ::execv(program.c_str(), argv);
+    if (std::string_view(rank) != "0") std::exit(2);
+    const char* const size = launcher.size != nullptr ? std::getenv(launcher.size) : nullptr;
+    throw UsageError(fmt::format(
+        "{} processes of dmoscope were started together (mpirun, srun), and this build has no dmoscope-mpi beside it ({}): each "
+        "would do the whole job. Start one alone, or build with MPI (libopenmpi-dev)",
+        size != nullptr ? size : "several", program.string()));
+  }
+}
+
+}  // namespace dmoscope::app

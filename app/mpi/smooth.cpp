@@ -1,0 +1,234 @@
+// mpirun -n N dmoscope smooth: the verb smooth by many processes.
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/common/console.h"
+#include "app/common/goal_options.h"
+#include "app/common/output_checks.h"
+#include "app/common/run_options.h"
+#include "app/common/smooth_report.h"
+#include "app/common/text.h"
+#include "app/mpi/verbs.h"
+#include "core/base/error.h"
+#include "core/base/thread_pool.h"
+#include "core/base/unknown_value.h"
+#include "core/io/writing/atomic_file.h"
+#include "core/run/missing_phase.h"
+#include "core/run/recipe.h"
+#include "core/session/csv.h"
+#include "core/smooth/execution/executor.h"
+#include "core/smooth/execution/method_table.h"
+#include "mpi/smooth/shared_left_inverted.h"
+#include "mpi/smooth/shared_mesh.h"
+
+namespace dmoscope::app {
+namespace {
+
+struct SharedSmoothOptions {
+  std::filesystem::path input, output, stats;
+  RunOptions run;
+  GoalOptions goal;
+  std::string write = "best", partition = "hilbert";
+  bool json = false;
+};
+
+void refuse(bool is_asked, std::string_view what) {
+  if (is_asked) throw UsageError(fmt::format("several ranks do not do this: {}", what));
+}
+
+/// What needs more of the mesh than a rank has.
+void refuse_what_needs_one_process(const RunOptions& options, const RunParameters& parameters) {
+  refuse(method_info(parameters.method).joint || parameters.then_joint, "joint moves (--method joint, --then joint)");
+  refuse(parameters.standing().slides() || !options.kinds.corner.empty() || !options.kinds.no_corner.empty() ||
+             !options.kinds.feature.empty() || !options.kinds.no_feature.empty(),
+         "vertices that slide (--boundary slide, --interfaces slide, --corner, --feature)");
+  refuse(parameters.combination && parameters.combination->size() != nullptr, "sizes (--combine with density)");
+  refuse(parameters.order.seed.has_value(), "an order of visits but the natural one (--order)");
+  refuse(parameters.backend == Backend::Cuda, "a device (--backend cuda)");
+}
+
+/// `without`: what of a recipe is left out.
+RunParameters shared_parameters(const SharedSmoothOptions& options, std::string& without) {
+  RunParameters parameters = parameters_of(options.run);
+  if (!options.run.recipe.empty()) {
+    const Recipe& wanted = recipe(options.run.recipe);
+    parameters.method = wanted.method;
+    set_then(parameters, wanted.then, {});
+    if (parameters.then_joint)
+      without = fmt::format("the recipe \"{}\" goes without joint moves: several ranks do not do them", wanted.name);
+    parameters.then_joint.reset();
+  }
+  refuse_what_needs_one_process(options.run, parameters);
+  parameters.backend = Backend::Cpu;
+  if (options.goal.until_converged) be_patient(parameters, options.goal.limits.patience);
+  return parameters;
+}
+
+/// Tells of long runs, one line every few seconds, on rank 0.
+class ProgressLines {
+ public:
+  explicit ProgressLines(bool tells) : tells_(tells) {}
+  void after_iteration(const Run& run) {
+    constexpr std::chrono::seconds kEvery{5};
+    const auto now = std::chrono::steady_clock::now();
+    if (!tells_ || now - last_ < kEvery) return;
+    last_ = now;
+    const IterationRecord& record = run.history().records().back();
+    complain(fmt::format("iteration {}: minimum {}, mean {}, {} moved", record.iteration, brief(record.statistics.minimum),
+                         brief(record.statistics.mean), record.moved));
+  }
+
+ private:
+  bool tells_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// Goes to the iteration that is written; says so where it is not the last.
+std::string go_to_what_is_written(Run& run, const SharedSmoothOptions& options, Progress& progress) {
+  const bool optimises = method_info(run.parameters().method).optimises;
+  if (options.write == "last" || (optimises && !options.goal.until_converged)) return {};
+  const std::uint64_t ended = run.moment().iteration;
+  run.end_at_best(progress);
+  const std::uint64_t best = run.moment().iteration;
+  if (optimises || best == ended) return {};
+  return fmt::format("{} {}. Wrote {}, the best one, instead of iteration {} (--write last writes the last)", run.parameters().method,
+                     kMayMakeWorse, iteration_name(best), ended);
+}
+
+void write_results(const World& world, const SharedSmoothOptions& options, const Run& run, const SharedMesh& mesh, SharedMeshFile& file) {
+  AtomicFiles others;
+  world.together([&] {
+    if (!world.is_first() || options.stats.empty()) return;
+    const std::vector<std::string> titles{stats_label(run.parameters())};
+    const std::vector<const std::vector<IterationRecord>*> records{&run.history().records()};
+    others.add(options.stats, stats_csv(titles, records));
+  });
+  file.write(options.output, positions_of_block(mesh, run.positions()));
+  world.together([&] { others.commit(); });
+}
+
+void refuse_early(const SharedSmoothOptions& options) {
+  if (options.write != "best" && options.write != "last")
+    throw UsageError("--write: " + unknown_value("moment", options.write, std::array<std::string_view, 2>{"best", "last"}));
+  require_same_kind(options.input, options.output);
+  require_another_file(options.stats, "--stats", options.input);
+  require_another_file(options.stats, "--stats", options.output);
+}
+
+int smooth(const World& world, const SharedSmoothOptions& options) {
+  refuse_early(options);
+  std::string without;
+  RunParameters parameters = shared_parameters(options, without);
+  const PartitionChoice partition = parse_partition(options.partition);
+  const SharedVertexWords named(options.run.fix);
+  world.together([&] {
+    if (!world.is_first()) return;
+    require_writable(options.output);
+    if (!options.stats.empty()) require_writable(options.stats);
+  });
+  const auto file = open_shared(world, options.input);
+  const SharedMesh mesh = load_shared(world, *file, options.input, partition, named, Need::Smoothing);
+  std::vector<std::string> warnings;
+  const auto warn = [&](std::string sentence) {
+    if (world.is_first()) complain(sentence);
+    warnings.push_back(std::move(sentence));
+  };
+  if (!without.empty()) warn(without);
+  for (const std::string& sentence : mesh.findings.sentences()) warn(fmt::format("{}: {}", mesh.input->mesh.name, sentence));
+  if (mesh.findings.held > 0 && parameters.interfaces == InterfaceRule::Fixed)
+    warn(fmt::format("{}: {} vertices on interfaces and lines stay (--interfaces free moves them)", mesh.input->mesh.name,
+                     mesh.findings.held));
+  parameters.fixed = mesh.named;
+  world.together([&] {
+    require_executable(Backend::Cpu, {},
+                       {.method = parameters.method,
+                        .input = mesh.input,
+                        .metric = parameters.metric,
+                        .search = parameters.search,
+                        .options = parameters.options,
+                        .combination = parameters.combination,
+                        .then_mean = parameters.then_mean.has_value()});
+  });
+
+  const auto pool = std::make_shared<ThreadPool>(threads_of_rank(world, options.run.threads));
+  Run run(mesh.input, parameters, pool, 0);
+  Progress progress;
+  ProgressLines lines(world.is_first());
+  const auto after = [&](const Run& now) { lines.after_iteration(now); };
+  Outcome outcome = options.goal.until_converged ? run.until_converged(options.goal.limits, progress, after)
+                                                 : run.iterate(options.goal.iterations, progress, after);
+  double seconds = 0.0;
+  for (const IterationRecord& record : run.history().records()) seconds += record.seconds;
+  for (std::string& sentence : missing_phases(run, outcome)) warn(std::move(sentence));
+  if (std::string other = go_to_what_is_written(run, options, progress); !other.empty()) warn(std::move(other));
+  if (run.last_outcome()) outcome = *run.last_outcome();
+  write_results(world, options, run, mesh, *file);
+  std::optional<LeftInverted> left = find_left_inverted(run, *mesh.share);
+  if (left) warn(left->sentence());
+
+  const std::uint64_t fixed_by_user = world.sum(std::uint64_t{mesh.named.size()});
+  const SmoothReport report{.input = options.input,
+                            .output = options.output,
+                            .until_converged = options.goal.until_converged,
+                            .run = run,
+                            .vertices = mesh.share->vertex_count(),
+                            .elements = mesh.share->element_count(),
+                            .free = world.sum(run.visits_per_iteration()),
+                            .fixed_by_user = fixed_by_user,
+                            .on_interfaces = mesh.findings.held,
+                            .threads = pool->size(),
+                            .ranks = static_cast<unsigned>(world.size()),
+                            .outcome = outcome,
+                            .seconds = seconds,
+                            .left = std::move(left),
+                            .warnings = std::move(warnings)};
+  const bool reached = !options.goal.until_converged || outcome.reason != StopReason::IterationLimit;
+  const bool all_well = reached && !report.left;
+  if (!world.is_first()) return all_well ? 0 : 1;
+  if (options.json)
+    print_json(json_of(report));
+  else
+    print_summary(report);
+  if (!reached) complain(fmt::format("not converged: {}", outcome.sentence()));
+  return all_well ? 0 : 1;
+}
+
+}  // namespace
+
+void add_shared_smooth(CLI::App& app, SharedAction& action) {
+  auto options = std::make_shared<SharedSmoothOptions>();
+  CLI::App* subcommand = app.add_subcommand("smooth", "Smooth a mesh and write it");
+  subcommand->add_option("IN", options->input, "Mesh to read: .vtu (raw appended data), .pvtu, .obj, .off, .14 or .grd")->required();
+  subcommand->add_option("-o,--output", options->output, "Where to write it, in the format that was read")->required()->type_name("OUT");
+  add_run_options(*subcommand, options->run);
+  subcommand->get_option("--fix")->description(fmt::format("Vertices to keep where they are besides the boundary: {}", kSharedVertexWords));
+  add_goal_options(*subcommand, options->goal);
+  subcommand->add_option("--write", options->write, "What is written: best (of an optimising method with --iterations the last) or last")
+      ->type_name("best|last")
+      ->capture_default_str();
+  subcommand
+      ->add_option(
+          "--partition", options->partition,
+          "Which rank smooths which vertices: hilbert (pieces of a space-filling curve), block (as they lie in the file) or file:PATH "
+          "(a number for each vertex). The result does not depend on it")
+      ->type_name("NAME")
+      ->capture_default_str();
+  subcommand->add_option("--stats", options->stats, "Write the statistics of every iteration; row 0 is the input")->type_name("FILE.csv");
+  subcommand->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
+  const CLI::Option* iterations = subcommand->get_option("--iterations");
+  subcommand->callback([options, iterations, &action] {
+    if (!options->run.recipe.empty() && iterations->count() == 0) options->goal.until_converged = true;
+    action = [options](const World& world) { return smooth(world, *options); };
+  });
+}
+
+}  // namespace dmoscope::app

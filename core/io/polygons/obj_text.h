@@ -1,0 +1,20 @@
+#pragma once
+// The statements of Wavefront OBJ that make a mesh.
+
+#include <array>
+#include <cstdint>
+
+#include "core/base/vec.h"
+#include "core/io/reading/tokenizer.h"
+
+namespace dmoscope {
+
+inline constexpr TextSyntax kObjSyntax{.comment = '#', .backslash_joins_lines = true};
+
+/// Behind the word "v": three coordinates. `place` gets their offset; what follows on the line is left.
+[[nodiscard]] Vec3 read_obj_vertex(Tokenizer& tokens, std::size_t& place);
+/// Behind the word "f": three or four corners, "v", "v/vt", "v//vn" or "v/vt/vn" each; how many. Their vertices count from 1, or back from
+/// the vertex read last (-1); none is 0.
+[[nodiscard]] std::size_t read_obj_face(Tokenizer& tokens, std::array<std::int64_t, 4>& corners);
+
+}  // namespace dmoscope

@@ -1,0 +1,216 @@
+// ADCIRC's fort.14 by many ranks.
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "core/io/solvers/fort14_text.h"
+#include "mpi/files/number_lookup.h"
+#include "mpi/files/text_mesh_file.h"
+
+namespace dmoscope {
+namespace {
+
+class Fort14File final : public TextMeshFile {
+ public:
+  using TextMeshFile::TextMeshFile;
+
+  MeshBlock read(const FieldFilter& filter) override {
+    const RangeFile& file = open();
+    world().together([&] { read_head(file); });
+    const LineBlock mine = lines(file);
+    const Ranges data = world().ranges(count_data_lines(mine.text, '\0'));
+    first_ = data.begin(world().rank());
+    world().together([&] {
+      if (data.size() < nodes_ + elements_)
+        throw InputError(name(), 0, fmt::format("the file ends before its {} vertices and {} elements", nodes_, elements_));
+    });
+    Parsed parsed;
+    world().together([&] { parsed = parse(mine); });
+    const Strings strings = read_strings(file, mine);
+    close();
+
+    MeshBlock block;
+    block.positions = std::move(parsed.positions);
+    block.kinds = std::move(parsed.kinds);
+    block.vertices = world().ranges(block.positions.size());
+    block.elements = world().ranges(block.kinds.size());
+    if (filter.wants("depth", Field::On::Vertices)) block.fields.push_back({"depth", Field::On::Vertices, std::move(parsed.depths)});
+    resolve(mine, parsed, strings, block);
+    return block;
+  }
+
+ private:
+  struct Parsed {
+    std::vector<Vec3> positions;
+    std::vector<double> depths;
+    std::vector<std::int64_t> numbers;  // of the nodes
+    std::vector<ElementKind> kinds;
+    std::vector<std::int64_t> corners;  // by number
+  };
+  /// The boundary strings: their members count into `numbers`, the nodes as the file calls them.
+  struct Strings {
+    std::vector<Group> groups;
+    std::vector<std::int64_t> numbers;
+  };
+
+  [[nodiscard]] LineBlock lines(const RangeFile& file) const override { return read_lines(world(), file, body_, false); }
+  [[nodiscard]] CoordinateLayout layout() const override {
+    CoordinateLayout layout;
+    layout.components = 2;
+    layout.syntax = kFort14Syntax;
+    return layout;
+  }
+
+  void read_head(const RangeFile& file) {
+    const std::string text = file.read(0, kLongestHead);
+    Progress unwatched;
+    Tokenizer tokens(text, name(), kFort14Syntax, unwatched);
+    static_cast<void>(tokens.rest_of_line());
+    if (tokens.at_end()) tokens.fail_at_end("number of elements");
+    const auto count = [&](std::string_view what) {
+      const std::int64_t found = tokens.read_integer(what);
+      if (found < 0 || found >= std::int64_t{kNoIndex}) tokens.fail(fmt::format("{} out of range: {}", what, found));
+      return static_cast<std::uint64_t>(found);
+    };
+    elements_ = count("number of elements");
+    nodes_ = count("number of vertices");
+    tokens.end_line();
+    body_ = tokens.offset();
+  }
+
+  /// Visits the rank's lines by their numbers among all behind the head; false: it has seen enough.
+  template <class Visit>
+  void each_line(const LineBlock& lines, const Visit& visit) const {
+    Progress unwatched;
+    Tokenizer tokens(lines.text, name(), kFort14Syntax, unwatched);
+    tokens.seek(0, lines.first_line);
+    for (std::uint64_t i = first_; !tokens.at_end() && visit(tokens, i); ++i) {
+    }
+  }
+
+  [[nodiscard]] Parsed parse(const LineBlock& lines) const {
+    Parsed parsed;
+    each_line(lines, [&](Tokenizer& tokens, std::uint64_t line) {
+      if (line >= nodes_ + elements_) return false;
+      if (line < nodes_) {
+        const Fort14Node node = read_fort14_node(tokens);
+        parsed.positions.push_back(node.position);
+        parsed.depths.push_back(node.depth);
+        parsed.numbers.push_back(node.number);
+        return true;
+      }
+      const std::size_t count = read_fort14_element(tokens);
+      for (std::size_t i = 0; i < count; ++i) parsed.corners.push_back(tokens.read_integer("vertex index"));
+      tokens.end_numbers_of("an element");
+      parsed.kinds.push_back(count == 3 ? ElementKind::Triangle : ElementKind::Quadrilateral);
+      return true;
+    });
+    return parsed;
+  }
+  [[nodiscard]] VertexLines vertices(const LineBlock& lines) const override {
+    VertexLines found;
+    each_line(lines, [&](Tokenizer& tokens, std::uint64_t line) {
+      if (line >= nodes_) return false;
+      const Fort14Node node = read_fort14_node(tokens);
+      found.positions.push_back(node.position);
+      found.places.push_back(node.place);
+      return true;
+    });
+    return found;
+  }
+
+  /// What follows the elements is little beside them: all ranks read all of it.
+  [[nodiscard]] Strings read_strings(const RangeFile& file, const LineBlock& lines) const {
+    struct Place {
+      std::uint64_t offset, line;
+    };
+    Place begin{file.size(), 0};
+    each_line(lines, [&](Tokenizer& tokens, std::uint64_t line) {
+      if (line == nodes_ + elements_) begin = {lines.offset + tokens.offset(), tokens.line()};
+      if (line < nodes_ + elements_) tokens.end_line();
+      return line < nodes_ + elements_;
+    });
+    for (const Place& one : world().all_of(begin))
+      if (one.offset < begin.offset) begin = one;
+    Strings strings;
+    world().together([&] {
+      const std::string text = file.read(begin.offset, file.size() - begin.offset);
+      Progress unwatched;
+      Tokenizer tokens(text, name(), kFort14Syntax, unwatched);
+      tokens.seek(0, begin.line);
+      strings.groups = read_fort14_boundaries(
+          tokens,
+          [&](Tokenizer& own, std::string_view what) {
+            strings.numbers.push_back(own.read_integer(what));
+            return static_cast<Index>(strings.numbers.size() - 1);
+          },
+          nullptr);
+    });
+    return strings;
+  }
+
+  /// From the numbers by which the file calls its nodes to vertices.
+  void resolve(const LineBlock& lines, const Parsed& parsed, const Strings& strings, MeshBlock& block) const {
+    const std::uint64_t first = block.vertices.begin(world().rank());
+    std::vector<std::int64_t> asked = parsed.corners;
+    asked.insert(asked.end(), strings.numbers.begin(), strings.numbers.end());
+    std::vector<std::uint64_t> found;
+    if (world().any(!counts_up(parsed.numbers, first))) {
+      const NumberLookup lookup = look_up_numbers(world(), parsed.numbers, first, asked);
+      world().together([&] {
+        if (lookup.twice != NumberLookup::kNone)
+          throw InputError(name(), 0, fmt::format("vertex {} has the number of one before it", lookup.twice + 1));
+      });
+      found = lookup.found;
+    } else {
+      for (const std::int64_t number : asked)
+        found.push_back(number >= 1 && static_cast<std::uint64_t>(number) <= nodes_ ? static_cast<std::uint64_t>(number - 1)
+                                                                                    : NumberLookup::kNone);
+    }
+    world().together([&] { require_found(lines, parsed, strings, found); });
+    block.corners.assign(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(parsed.corners.size()));
+    for (const Group& group : strings.groups) {
+      VertexString string{group.name, {}};
+      for (const Index member : group.members) string.vertices.push_back(found[parsed.corners.size() + member]);
+      block.strings.push_back(std::move(string));
+    }
+  }
+  static bool counts_up(const std::vector<std::int64_t>& numbers, std::uint64_t first) {
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      if (numbers[i] != static_cast<std::int64_t>(first + i) + 1) return false;
+    return true;
+  }
+
+  void require_found(const LineBlock& lines, const Parsed& parsed, const Strings& strings, const std::vector<std::uint64_t>& found) const {
+    const auto missing = static_cast<std::size_t>(std::ranges::find(found, NumberLookup::kNone) - found.begin());
+    if (missing == found.size()) return;
+    if (missing >= parsed.corners.size())
+      throw InputError(name(), 0,
+                       fmt::format("a boundary names vertex {}, which does not exist", strings.numbers[missing - parsed.corners.size()]));
+    std::size_t seen = 0;
+    each_line(lines, [&](Tokenizer& tokens, std::uint64_t line) {
+      if (line < nodes_) {
+        tokens.end_line();
+        return true;
+      }
+      seen += read_fort14_element(tokens);
+      if (seen > missing) tokens.fail(fmt::format("vertex index {}: no vertex has this number", parsed.corners[missing]));
+      tokens.end_line();
+      return true;
+    });
+  }
+
+  std::uint64_t nodes_ = 0, elements_ = 0;
+  std::uint64_t body_ = 0;   // where the lines of nodes begin
+  std::uint64_t first_ = 0;  // number of the rank's first line among those behind the head
+};
+
+}  // namespace
+
+std::unique_ptr<SharedMeshFile> open_shared_fort14(const World& world, const std::filesystem::path& path) {
+  return std::make_unique<Fort14File>(world, path);
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,248 @@
+// PVTU by many ranks: whole pieces are dealt to them.
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/base/same_bits.h"
+#include "core/io/mesh_io.h"
+#include "core/io/pvtu/pvtu.h"
+#include "core/io/vtu/vtu.h"
+#include "mpi/files/byte_range.h"
+#include "mpi/files/pvtu_numbering.h"
+#include "mpi/files/shared_mesh_file.h"
+
+namespace dmoscope {
+namespace {
+
+/// The elements and fields of all of a rank's pieces, one after the other.
+struct Pieces {
+  std::vector<Vec3> positions;
+  std::vector<std::uint64_t> vertex_ids, element_ids;
+  bool all_vertex_ids = true, all_element_ids = true;
+  std::vector<ElementKind> kinds;
+  std::vector<std::uint64_t> corners;  // into positions
+  std::vector<BlockField> fields;
+  bool floats = false;
+};
+
+class PvtuFile final : public SharedMeshFile {
+ public:
+  PvtuFile(const World& world, std::filesystem::path path) : world_(world), path_(std::move(path)) {}
+
+  MeshBlock read(const FieldFilter& filter) override {
+    Pieces mine;
+    world_.together([&] {
+      const RangeFile file(path_);
+      text_ = file.read(0, file.size());
+      names_ = pvtu_pieces(text_, path_);
+      if (names_.empty()) throw InputError(path_.string(), 0, "it names no pieces");
+    });
+    pieces_ = Ranges(names_.size(), world_.size());
+    world_.together([&] {
+      for (std::uint64_t p = pieces_.begin(world_.rank()); p < pieces_.end(world_.rank()); ++p) add_piece(p, filter, mine);
+    });
+    share_fields(mine);
+    const bool ids = !world_.any(!mine.all_vertex_ids);
+    SharedNumbers vertices = ids ? number_by_id(world_, mine.vertex_ids) : number_by_place(world_, mine.positions);
+    MeshBlock block;
+    block.single_precision = world_.any(mine.floats);
+    block.vertices = vertices.ranges;
+    take_vertices(mine, vertices, block);
+    for (std::uint64_t& corner : mine.corners) corner = vertices.of_thing[corner];
+    numbers_ = std::move(vertices.of_thing);
+    if (!world_.any(!mine.all_element_ids)) {
+      take_elements_by_id(mine, block);
+    } else {
+      block.elements = world_.ranges(mine.kinds.size());
+      block.kinds = std::move(mine.kinds);
+      block.corners = std::move(mine.corners);
+      for (BlockField& field : mine.fields)
+        if (field.on == Field::On::Elements) block.fields.push_back(std::move(field));
+    }
+    world_.together([&] {
+      if (block.elements.size() == 0) throw InputError(path_.string(), 0, "its pieces hold no elements");
+    });
+    block_vertices_ = block.vertices;
+    return block;
+  }
+
+  void write(const std::filesystem::path& target, std::span<const Vec3> positions) override {
+    const WholeIndex first = block_vertices_.begin(world_.rank());
+    const std::vector<Vec3> mine = ask_holders<Vec3>(world_, block_vertices_, numbers_, [&](WholeIndex v) { return positions[v - first]; });
+    const bool same = same_file(path_, target);
+    std::vector<std::unique_ptr<AtomicFile>> files;
+    world_.together([&] {
+      std::size_t at = 0;
+      for (std::uint64_t p = pieces_.begin(world_.rank()); p < pieces_.end(world_.rank()); ++p) {
+        files.push_back(std::make_unique<AtomicFile>(same ? names_[p] : target.parent_path() / pvtu_piece_name(target, p)));
+        at += write_piece(p, *files.back(), std::span(mine).subspan(at));
+      }
+    });
+    std::unique_ptr<AtomicFile> whole;
+    world_.together([&] {
+      if (!world_.is_first()) return;
+      std::vector<std::string> names;
+      for (std::uint64_t p = 0; p < names_.size(); ++p) names.push_back(pvtu_piece_name(target, p));
+      whole = std::make_unique<AtomicFile>(target);
+      whole->write(same ? text_ : pvtu_with_pieces(text_, path_, names));
+      whole->finish();
+    });
+    world_.together([&] {
+      for (const auto& file : files) file->commit();
+    });
+    world_.together([&] {
+      if (whole) whole->commit();
+    });
+  }
+
+ private:
+  /// The program's own words for a piece; ghosts are left out.
+  void add_piece(std::uint64_t p, const FieldFilter& filter, Pieces& mine) {
+    Progress unwatched;
+    Mesh piece = read_mesh(names_[p], unwatched);
+    const PieceIds ids = piece_ids(piece);
+    const std::uint64_t first = mine.positions.size();
+    mine.floats = mine.floats || piece.single_precision;
+    mine.positions.insert(mine.positions.end(), piece.positions.begin(), piece.positions.end());
+    const auto add_id = [](const Field* field, Index i, std::vector<std::uint64_t>& to, bool& all) {
+      all = all && field != nullptr;
+      if (field != nullptr) to.push_back(static_cast<std::uint64_t>(field->values[i]));
+    };
+    for (Index v = 0; v < piece.vertex_count(); ++v) add_id(ids.vertices, v, mine.vertex_ids, mine.all_vertex_ids);
+    for (Index e = 0; e < piece.elements.size(); ++e) {
+      if (ids.is_ghost(e)) continue;
+      add_id(ids.elements, e, mine.element_ids, mine.all_element_ids);
+      mine.kinds.push_back(piece.elements.kind(e));
+      for (const Index v : piece.elements.corners(e)) mine.corners.push_back(first + v);
+    }
+    add_fields(piece, ids, filter, mine);
+  }
+
+  /// Fields that not all of a rank's pieces have are left out, as those are that not all ranks have.
+  static void add_fields(const Mesh& piece, const PieceIds& ids, const FieldFilter& filter, Pieces& mine) {
+    const bool is_first = mine.positions.size() == piece.positions.size();
+    for (const Field& field : piece.fields) {
+      if (field.components != 1 || !filter.wants(field.name, field.on)) continue;
+      const auto known = std::find_if(mine.fields.begin(), mine.fields.end(),
+                                      [&](const BlockField& one) { return one.name == field.name && one.on == field.on; });
+      if (known == mine.fields.end() && !is_first) continue;
+      BlockField& into = known == mine.fields.end() ? mine.fields.emplace_back(BlockField{field.name, field.on, {}}) : *known;
+      for (Index i = 0; i < field.values.size(); ++i)
+        if (field.on == Field::On::Vertices || !ids.is_ghost(i)) into.values.push_back(field.values[i]);
+    }
+    std::erase_if(mine.fields, [&](const BlockField& one) {
+      return one.values.size() != (one.on == Field::On::Vertices ? mine.positions.size() : mine.kinds.size());
+    });
+  }
+
+  /// Keeps the fields that all ranks with pieces have, in one order.
+  void share_fields(Pieces& mine) const {
+    std::string names;
+    const auto key = [](const BlockField& field) { return (field.on == Field::On::Vertices ? "v" : "e") + field.name; };
+    for (const BlockField& field : mine.fields) names += key(field) + '\n';
+    world_.broadcast(names, 0);  // the first rank has the first piece
+    std::vector<BlockField> kept;
+    for (std::size_t at = 0; at < names.size();) {
+      const std::size_t end = names.find('\n', at);
+      const std::string name = names.substr(at, end - at);
+      at = end + 1;
+      const auto found = std::find_if(mine.fields.begin(), mine.fields.end(), [&](const BlockField& field) { return key(field) == name; });
+      if (world_.any(found == mine.fields.end() && pieces_.count(world_.rank()) > 0)) continue;
+      if (found != mine.fields.end())
+        kept.push_back(std::move(*found));
+      else
+        kept.push_back({name.substr(1), name[0] == 'v' ? Field::On::Vertices : Field::On::Elements, {}});
+    }
+    mine.fields = std::move(kept);
+  }
+
+  /// Sends what stands for all of its number to the number's holder. `of(i)`: of thing i.
+  template <Plain T, class Of>
+  [[nodiscard]] std::vector<T> to_holders(const SharedNumbers& numbers, const Of& of) const {
+    struct HeldValue {
+      WholeIndex number;
+      T value;
+    };
+    Dealer<HeldValue> dealer(world_.size());
+    const auto pass = [&](const auto& give) {
+      for (std::size_t i = 0; i < numbers.of_thing.size(); ++i)
+        if (numbers.first[i] != 0) give(numbers.ranges.holder(numbers.of_thing[i]), HeldValue{numbers.of_thing[i], of(i)});
+    };
+    pass([&](int rank, const HeldValue&) { dealer.count(rank); });
+    dealer.begin();
+    pass([&](int rank, const HeldValue& one) { dealer.put(rank, one); });
+    std::vector<T> held(numbers.ranges.count(world_.rank()));
+    for (const HeldValue& one : world_.exchange(dealer.take()).values) held[one.number - numbers.ranges.begin(world_.rank())] = one.value;
+    return held;
+  }
+
+  void take_vertices(const Pieces& mine, const SharedNumbers& vertices, MeshBlock& block) const {
+    block.positions = to_holders<Vec3>(vertices, [&](std::size_t i) { return mine.positions[i]; });
+    for (const BlockField& field : mine.fields)
+      if (field.on == Field::On::Vertices)
+        block.fields.push_back({field.name, field.on, to_holders<double>(vertices, [&](std::size_t i) { return field.values[i]; })});
+    const WholeIndex first = block.vertices.begin(world_.rank());
+    const std::vector<Vec3> there =
+        ask_holders<Vec3>(world_, block.vertices, vertices.of_thing, [&](WholeIndex v) { return block.positions[v - first]; });
+    world_.together([&] {
+      for (std::size_t i = 0; i < there.size(); ++i)
+        if (!same_bits(there[i], mine.positions[i]))
+          throw InputError(path_.string(), 0, fmt::format("pieces disagree on where vertex {} stands", mine.vertex_ids[i]));
+    });
+  }
+
+  void take_elements_by_id(const Pieces& mine, MeshBlock& block) const {
+    struct Element {
+      ElementKind kind{};
+      std::array<WholeIndex, 8> corners{};
+    };
+    const SharedNumbers elements = number_by_id(world_, mine.element_ids);
+    block.elements = elements.ranges;
+    std::vector<std::uint64_t> first_corner{0};
+    for (const ElementKind kind : mine.kinds) first_corner.push_back(first_corner.back() + info(kind).corners);
+    const auto held = to_holders<Element>(elements, [&](std::size_t e) {
+      Element element{mine.kinds[e], {}};
+      std::copy_n(mine.corners.begin() + static_cast<std::ptrdiff_t>(first_corner[e]), info(element.kind).corners, element.corners.begin());
+      return element;
+    });
+    for (const Element& element : held) {
+      block.kinds.push_back(element.kind);
+      block.corners.insert(block.corners.end(), element.corners.begin(), element.corners.begin() + info(element.kind).corners);
+    }
+    for (const BlockField& field : mine.fields)
+      if (field.on == Field::On::Elements)
+        block.fields.push_back({field.name, field.on, to_holders<double>(elements, [&](std::size_t i) { return field.values[i]; })});
+  }
+
+  /// Returns how many vertices it has.
+  std::size_t write_piece(std::uint64_t p, AtomicFile& file, std::span<const Vec3> positions) const {
+    Progress unwatched;
+    const Mesh piece = read_mesh(names_[p], unwatched);
+    const std::size_t count = piece.positions.size();
+    if (count > positions.size()) throw InputError(names_[p].string(), 0, "the file has changed while it was smoothed");
+    if (piece.source && piece.source->not_patchable().empty())
+      static_cast<void>(patch_vtu(file, piece, positions.first(count), unwatched));
+    else
+      static_cast<void>(write_vtu(file, piece, positions.first(count), unwatched));
+    file.finish();
+    return count;
+  }
+
+  const World& world_;
+  std::filesystem::path path_;
+  std::string text_;
+  std::vector<std::filesystem::path> names_;
+  Ranges pieces_, block_vertices_;
+  std::vector<WholeIndex> numbers_;  // of the vertices of the rank's pieces, one after the other
+};
+
+}  // namespace
+
+std::unique_ptr<SharedMeshFile> open_shared_pvtu(const World& world, const std::filesystem::path& path) {
+  return std::make_unique<PvtuFile>(world, path);
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,58 @@
+#include "mpi/files/text_mesh_file.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/io/writing/patch_writer.h"
+#include "mpi/files/shared_output.h"
+
+namespace dmoscope {
+
+const RangeFile& TextMeshFile::open() {
+  world_.together([&] { file_.emplace(path_); });
+  stamp_ = file_->stamp();
+  return *file_;
+}
+
+void TextMeshFile::write(const std::filesystem::path& target, std::span<const Vec3> positions) {
+  const std::int64_t read = stamp_;
+  const RangeFile& file = open();
+  world_.together([&] { file.require_unchanged(read); });
+  LineBlock mine = lines(file);
+  TextBuffer out;
+  const std::uint64_t offset = mine.offset;
+  world_.together([&] {
+    const VertexLines before = vertices(mine);
+    if (before.positions.size() != positions.size()) throw InputError(name(), 0, "the file has changed while it was smoothed");
+    SourceFile source(path_, FileBytes(mine.text));
+    mine.text = {};
+    source.set_layout(layout());
+    source.add_places(before.places);
+    patch_part(out, target.string(), source, before.positions, positions);
+  });
+  // What stands before the first line that was dealt out comes first.
+  std::uint64_t head = offset;
+  world_.broadcast(head, 0);
+  const Ranges sizes = world_.ranges(out.text().size());
+  SharedOutput output(world_, target, head + sizes.size());
+  world_.together([&] {
+    if (world_.is_first()) output.write(0, file.read(0, head));
+    output.write(head + sizes.begin(world_.rank()), out.text());
+  });
+  output.commit();
+  close();
+}
+
+std::uint64_t count_data_lines(std::string_view text, char comment) {
+  std::uint64_t count = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::size_t first = text.find_first_not_of(" \t\v\f\r", at);
+    if (first < end && (comment == '\0' || text[first] != comment)) ++count;
+    at = end + 1;
+  }
+  return count;
+}
+
+}  // namespace dmoscope

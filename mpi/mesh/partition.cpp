@@ -1,0 +1,98 @@
+#include "mpi/mesh/partition.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/base/unknown_value.h"
+#include "core/io/reading/tokenizer.h"
+#include "core/mesh/hilbert_curve.h"
+#include "mpi/files/byte_range.h"
+
+namespace dmoscope {
+
+PartitionChoice parse_partition(const std::string& word) {
+  constexpr std::string_view kFile = "file:";
+  if (word == "hilbert") return {PartitionChoice::Kind::Hilbert};
+  if (word == "block") return {PartitionChoice::Kind::Block};
+  if (word.starts_with(kFile)) return {PartitionChoice::Kind::File, word.substr(kFile.size())};
+  throw UsageError("--partition: " + unknown_value("partition", word, std::array<std::string_view, 3>{"hilbert", "block", "file:PATH"}));
+}
+
+namespace {
+
+/// The vertices' places along the curve, cut into stretches of about as many vertices.
+std::vector<int> along_curve(const World& world, const MeshBlock& block) {
+  Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (const Vec3& p : block.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  std::array<double, 6> ends{low.x, low.y, low.z, -high.x, -high.y, -high.z};
+  world.least(ends);
+  const HilbertCurve curve({ends[0], ends[1], ends[2]}, {-ends[3], -ends[4], -ends[5]});
+  std::vector<std::uint64_t> keys(block.positions.size());
+  for (std::size_t v = 0; v < keys.size(); ++v) keys[v] = curve.key(block.positions[v]);
+  std::vector<std::uint64_t> sorted = keys;
+  std::ranges::sort(sorted);
+
+  // Where the ranks' stretches begin: for each the least key below which there are enough, bit by bit and all at once.
+  const auto cuts = static_cast<std::size_t>(world.size() - 1);
+  const Ranges wanted(block.vertices.size(), world.size());
+  std::vector<std::uint64_t> cut(cuts, 0), below(cuts);
+  for (std::uint64_t bit = std::uint64_t{1} << 63U; bit > 0 && cuts > 0; bit >>= 1U) {
+    for (std::size_t i = 0; i < cuts; ++i)
+      below[i] = static_cast<std::uint64_t>(std::ranges::lower_bound(sorted, cut[i] | bit) - sorted.begin());
+    world.sum(below);
+    for (std::size_t i = 0; i < cuts; ++i)
+      if (below[i] <= wanted.begin(static_cast<int>(i) + 1)) cut[i] |= bit;
+  }
+  std::vector<int> part(keys.size());
+  for (std::size_t v = 0; v < keys.size(); ++v) part[v] = static_cast<int>(std::ranges::upper_bound(cut, keys[v]) - cut.begin());
+  return part;
+}
+
+std::vector<int> from_file(const World& world, const MeshBlock& block, const std::filesystem::path& path) {
+  std::optional<RangeFile> file;
+  world.together([&] { file.emplace(path); });
+  const LineBlock lines = read_lines(world, *file, 0, false);
+  std::vector<std::uint64_t> numbers;
+  world.together([&] {
+    Progress unwatched;
+    Tokenizer tokens(lines.text, path.string(), {}, unwatched);
+    tokens.seek(0, lines.first_line);
+    while (!tokens.at_end()) {
+      const std::int64_t number = tokens.read_integer("the number of a part");
+      if (number < 0) tokens.fail(fmt::format("the number of a part is {}: they count from 0", number));
+      numbers.push_back(static_cast<std::uint64_t>(number) % static_cast<std::uint64_t>(world.size()));
+      tokens.end_line();
+    }
+  });
+  const Ranges vertices = world.ranges(numbers.size());
+  world.together([&] {
+    if (vertices.size() != block.vertices.size())
+      throw InputError(path.string(), 0, fmt::format("{} parts are named for {} vertices", vertices.size(), block.vertices.size()));
+  });
+  std::vector<std::uint64_t> mine(block.positions.size());
+  std::iota(mine.begin(), mine.end(), block.vertices.begin(world.rank()));
+  return ask_holders<int>(world, vertices, mine,
+                          [&](std::uint64_t v) { return static_cast<int>(numbers[v - vertices.begin(world.rank())]); });
+}
+
+}  // namespace
+
+std::vector<int> partition(const World& world, const MeshBlock& block, const PartitionChoice& choice) {
+  if (choice.kind == PartitionChoice::Kind::File) return from_file(world, block, choice.file);
+  if (choice.kind == PartitionChoice::Kind::Hilbert) return along_curve(world, block);
+  const Ranges even(block.vertices.size(),
+                    world.size());  // a text has its vertices before its elements: the first ranks have read them all
+  std::vector<int> part(block.positions.size());
+  for (std::size_t v = 0; v < part.size(); ++v) part[v] = even.holder(block.vertices.begin(world.rank()) + v);
+  return part;
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,50 @@
+#pragma once
+// Vertices that a person names, in a mesh that many ranks have.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "mpi/mesh/share.h"
+
+namespace dmoscope {
+
+/// How such words are written, in one line for --help: those of vertex_words.h but for groups other than strings.
+inline constexpr std::string_view kSharedVertexWords =
+    "ids from 0 and ranges (3,7-9 or vertices:3,7-9), a boundary string of a fort.14 (group:NAME), those with some number in the file's "
+    "data "
+    "(mat_id=3,5, of elements or points), or those in a box (box:X0,Y0,X1,Y1 or box:X0,Y0,Z0,X1,Y1,Z1)";
+
+/// Words, read but not yet looked up.
+class SharedVertexWords {
+ public:
+  /// Throws UsageError, which begins with the word.
+  explicit SharedVertexWords(const std::vector<std::string>& words);
+  /// The fields that the words speak of.
+  [[nodiscard]] FieldFilter fields() const;
+  /// All ranks together. Throws UsageError (as SharedError on all) for a word that names nothing.
+  [[nodiscard]] BlockMarks find(const World& world, const MeshBlock& block) const;
+
+ private:
+  struct Range {
+    WholeIndex first, last;
+  };
+  /// One word: one of these.
+  struct Word {
+    std::string text;
+    std::vector<Range> ranges{};
+    std::string group{}, field{};
+    std::vector<double> values{};  // of the field
+    std::vector<double> box{};     // low then high, 4 or 6 numbers
+  };
+  static Word read(const std::string& text);
+  static void read_list(Word& word, std::string_view list);
+  static void read_data(Word& word, std::string_view text);
+  static void read_box(Word& word, std::string_view text);
+  [[nodiscard]] static bool mark(const World& world, const MeshBlock& block, const Word& word, BlockMarks& marks);
+  static bool mark_field(const MeshBlock& block, const Word& word, BlockMarks& marks);
+
+  std::vector<Word> words_;
+};
+
+}  // namespace dmoscope

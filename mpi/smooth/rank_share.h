@@ -1,0 +1,55 @@
+#pragma once
+// A rank's share of a mesh as core asks for it.
+
+#include <memory>
+#include <optional>
+
+#include "core/input/mesh_share.h"
+#include "mpi/mesh/halo.h"
+#include "mpi/mesh/shared_colouring.h"
+#include "mpi/smooth/halo_smoother.h"
+#include "mpi/smooth/shared_statistics.h"
+
+namespace dmoscope {
+
+class RankShare final : public MeshShare {
+ public:
+  /// All ranks together. Takes all of the share but its mesh.
+  RankShare(const World& world, Share share);
+
+  [[nodiscard]] std::uint64_t element_count() const noexcept override { return share_.element_count; }
+  [[nodiscard]] std::uint64_t vertex_count() const noexcept { return share_.vertex_count; }
+  [[nodiscard]] bool owns(Index vertex) const noexcept override { return share_.owner[vertex] == world_.rank(); }
+  void agree(std::span<std::uint8_t> values) const override { halo_.agree(values); }
+  void agree(std::span<double> values) const override { halo_.agree(values); }
+  [[nodiscard]] bool any(bool here) const override { return world_.any(here); }
+  [[nodiscard]] double greatest(double here) const override { return world_.greatest(here); }
+  Index orient(Mesh& mesh, const Geometry& geometry, const Topology& topology, const FaceNeighbours* faces) const override;
+  [[nodiscard]] Colouring colour(const Mesh& mesh, const Geometry& geometry, const Topology& topology, std::span<const std::uint8_t> fixed,
+                                 ThreadPool* pool) const override;
+  [[nodiscard]] std::unique_ptr<Smoother> among_others(std::unique_ptr<Smoother> here, const SmoothingTask& task) const override;
+  [[nodiscard]] Statistics statistics(const QualityContext& context, std::span<const Vec3> positions, Metric metric,
+                                      std::span<const Index> immovable, ThreadPool* pool) const override;
+
+  [[nodiscard]] const World& world() const noexcept { return world_; }
+  [[nodiscard]] const Share& share() const noexcept { return share_; }
+  [[nodiscard]] const Halo& halo() const noexcept { return halo_; }
+  [[nodiscard]] const SharedStatistics& sums() const noexcept { return statistics_; }
+  /// Of the last colour(): bytes that an iteration sends from here, classes of the mesh, rounds that the colouring took.
+  [[nodiscard]] std::uint64_t bytes_sent() const { return plan_.bytes(); }
+  /// Of all smoothers so far.
+  [[nodiscard]] const HaloCost& cost() const noexcept { return cost_; }
+  [[nodiscard]] Index classes() const noexcept { return colours_.classes; }
+  [[nodiscard]] std::uint64_t rounds() const noexcept { return colours_.rounds; }
+
+ private:
+  World world_;
+  Share share_;
+  Halo halo_;
+  SharedStatistics statistics_;
+  mutable SharedColours colours_;
+  mutable HaloPlan plan_;
+  mutable HaloCost cost_;
+};
+
+}  // namespace dmoscope

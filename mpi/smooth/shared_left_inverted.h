@@ -1,0 +1,14 @@
+#pragma once
+// What a person should look at where elements of a mesh that ranks share stay inverted.
+
+#include <optional>
+
+#include "core/run/left_inverted.h"
+#include "mpi/smooth/rank_share.h"
+
+namespace dmoscope {
+
+/// As find_left_inverted() has it, with numbers of the whole mesh; on all ranks. None where no element is inverted. All ranks together.
+[[nodiscard]] std::optional<LeftInverted> find_left_inverted(const Run& run, const RankShare& share);
+
+}  // namespace dmoscope

@@ -1,0 +1,49 @@
+#pragma once
+// From a file to the shares of its mesh that ranks smooth, and back.
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "core/input/input_mesh.h"
+#include "mpi/files/shared_mesh_file.h"
+#include "mpi/mesh/partition.h"
+#include "mpi/mesh/vertex_marks.h"
+#include "mpi/smooth/rank_share.h"
+
+namespace dmoscope {
+
+/// What a person should know of the whole mesh; counts, each with the lowest number of such an element.
+struct SharedFindings {
+  struct Some {
+    std::uint64_t count = 0;
+    WholeIndex first = 0;
+  };
+  Some inverted, degenerate;
+  std::uint64_t flipped = 0, held = 0;  // elements turned over; vertices on interfaces
+  bool volume = false;
+  /// One sentence a finding, as MeshReport has them.
+  [[nodiscard]] std::vector<std::string> sentences() const;
+};
+
+struct SharedMesh {
+  std::shared_ptr<const RankShare> share;
+  std::shared_ptr<const InputMesh> input;  // of the share
+  std::vector<Index> named;                // owned vertices that a person named
+  SharedFindings findings;
+  Ranges vertices;  // of the block that positions_of_block() fills
+};
+
+/// All ranks together. Throws InputError for meshes that ranks cannot share: curved surfaces, planar meshes of no coordinate plane, and
+/// those that wrap around the Earth; and what reading throws (as SharedError on all).
+[[nodiscard]] SharedMesh load_shared(const World& world, SharedMeshFile& file, const std::filesystem::path& path,
+                                     const PartitionChoice& partition, const SharedVertexWords& named, Need need);
+
+/// The same of a block that was had another way.
+[[nodiscard]] SharedMesh share_block(const World& world, MeshBlock block, const std::filesystem::path& path,
+                                     const PartitionChoice& partition, const SharedVertexWords& named, Need need);
+
+/// Where the vertices of this rank's block stand. `positions`: of the share. All ranks together.
+[[nodiscard]] std::vector<Vec3> positions_of_block(const SharedMesh& mesh, std::span<const Vec3> positions);
+
+}  // namespace dmoscope

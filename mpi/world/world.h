@@ -1,0 +1,223 @@
+#pragma once
+// The processes of an MPI job, called ranks, and what they ask each other.
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <mpi.h>
+
+#include "core/base/error.h"
+
+namespace dmoscope {
+
+/// MPI itself: one a program, made first and destroyed last.
+class MpiSession {
+ public:
+  MpiSession(int& argc, char**& argv);
+  ~MpiSession();
+  MpiSession(const MpiSession&) = delete;
+  MpiSession& operator=(const MpiSession&) = delete;
+  /// Ends all ranks at once, with this exit code: after an error of which the others cannot be told.
+  [[noreturn]] static void abort(int exit_code);
+};
+
+/// An error of one rank that all ranks throw: what() says which rank's it is.
+class SharedError : public Error {
+ public:
+  SharedError(const std::string& what, int exit_code) : Error(what), exit_code_(exit_code) {}
+  [[nodiscard]] int exit_code() const noexcept override { return exit_code_; }
+
+ private:
+  int exit_code_;
+};
+
+/// One value a rank, whole numbers added up before each rank: rank r has [begin(r), end(r)) of size().
+class Ranges {
+ public:
+  Ranges() = default;
+  explicit Ranges(std::span<const std::uint64_t> counts);
+  /// `size` things dealt out as evenly as multiples of `grain` can be.
+  Ranges(std::uint64_t size, int ranks, std::uint64_t grain = 1);
+  [[nodiscard]] std::uint64_t begin(int rank) const noexcept { return begin_[static_cast<std::size_t>(rank)]; }
+  [[nodiscard]] std::uint64_t end(int rank) const noexcept { return begin_[static_cast<std::size_t>(rank) + 1]; }
+  [[nodiscard]] std::uint64_t count(int rank) const noexcept { return end(rank) - begin(rank); }
+  [[nodiscard]] std::uint64_t size() const noexcept { return begin_.back(); }
+  /// Who has the i-th.
+  [[nodiscard]] int holder(std::uint64_t i) const noexcept;
+
+ private:
+  std::vector<std::uint64_t> begin_{0};
+};
+
+/// What is sent as bytes.
+template <class T>
+concept Plain = std::is_trivially_copyable_v<T>;
+
+/// Parts for each rank, one after the other: part r is [offsets[r], offsets[r + 1]).
+template <Plain T>
+struct Parts {
+  std::vector<T> values;
+  std::vector<std::uint64_t> offsets;
+  [[nodiscard]] std::span<const T> of(int rank) const {
+    const auto r = static_cast<std::size_t>(rank);
+    return {values.data() + offsets[r], values.data() + offsets[r + 1]};
+  }
+};
+
+/// A group of ranks. All of them call the same functions in the same order. A view: whoever made the communicator frees it.
+class World {
+ public:
+  explicit World(MPI_Comm comm = MPI_COMM_WORLD);
+  [[nodiscard]] int rank() const noexcept { return rank_; }
+  [[nodiscard]] int size() const noexcept { return size_; }
+  [[nodiscard]] bool is_first() const noexcept { return rank_ == 0; }
+  [[nodiscard]] MPI_Comm comm() const noexcept { return comm_; }
+
+  void wait_for_all() const { MPI_Barrier(comm_); }
+  [[nodiscard]] double sum(double here) const { return reduced(here, MPI_DOUBLE, MPI_SUM); }
+  [[nodiscard]] double least(double here) const { return reduced(here, MPI_DOUBLE, MPI_MIN); }
+  [[nodiscard]] double greatest(double here) const { return reduced(here, MPI_DOUBLE, MPI_MAX); }
+  [[nodiscard]] std::uint64_t sum(std::uint64_t here) const { return reduced(here, MPI_UINT64_T, MPI_SUM); }
+  [[nodiscard]] std::uint64_t least(std::uint64_t here) const { return reduced(here, MPI_UINT64_T, MPI_MIN); }
+  [[nodiscard]] std::uint64_t greatest(std::uint64_t here) const { return reduced(here, MPI_UINT64_T, MPI_MAX); }
+  [[nodiscard]] bool any(bool here) const { return reduced(here ? 1 : 0, MPI_INT, MPI_MAX) != 0; }
+  /// Element by element, in place.
+  void sum(std::span<std::uint64_t> here) const;
+  void least(std::span<double> here) const;
+
+  /// One value of each rank, on all.
+  template <Plain T>
+  [[nodiscard]] std::vector<T> all_of(const T& here) const {
+    std::vector<T> all(static_cast<std::size_t>(size_));
+    MPI_Allgather(&here, sizeof(T), MPI_BYTE, all.data(), sizeof(T), MPI_BYTE, comm_);
+    return all;
+  }
+  /// Counts of each rank as ranges.
+  [[nodiscard]] Ranges ranges(std::uint64_t here) const { return Ranges(all_of(here)); }
+  /// What one rank has, on all.
+  template <Plain T>
+  void broadcast(T& value, int from) const {
+    MPI_Bcast(&value, sizeof(T), MPI_BYTE, from, comm_);
+  }
+  void broadcast(std::string& text, int from) const;
+  template <Plain T>
+  void broadcast(std::vector<T>& values, int from) const {
+    std::uint64_t count = values.size();
+    broadcast(count, from);
+    values.resize(count);
+    broadcast_bytes(std::as_writable_bytes(std::span(values)), from);
+  }
+  /// Sends to[r] to rank r; what each rank sent here.
+  template <Plain T>
+  [[nodiscard]] Parts<T> exchange(const Parts<T>& to) const {
+    Parts<T> from;
+    from.offsets = exchange_counts(to.offsets);
+    from.values.resize(from.offsets.back());
+    exchange_bytes(std::as_bytes(std::span(to.values)), to.offsets, std::as_writable_bytes(std::span(from.values)), from.offsets,
+                   sizeof(T));
+    return from;
+  }
+  template <Plain T>
+  [[nodiscard]] Parts<T> exchange(const std::vector<std::vector<T>>& to) const {
+    return exchange(joined(to));
+  }
+  /// The same where both sides know how much comes.
+  template <Plain T>
+  void exchange(std::span<const T> to, std::span<const std::uint64_t> to_offsets, std::span<T> from,
+                std::span<const std::uint64_t> from_offsets) const {
+    exchange_bytes(std::as_bytes(to), to_offsets, std::as_writable_bytes(from), from_offsets, sizeof(T));
+  }
+  /// All that the ranks have, in their order, on rank 0; nothing on others.
+  template <Plain T>
+  [[nodiscard]] std::vector<T> gather(const std::vector<T>& here) const {
+    std::vector<std::vector<T>> to(static_cast<std::size_t>(size_));
+    to[0] = here;
+    return exchange(to).values;
+  }
+
+  /// Does work that may fail on some ranks alone and that asks no other rank. Where it does, all ranks throw the error of the first of
+  /// them: a SharedError that names it.
+  void together(const std::function<void()>& work) const;
+
+  template <Plain T>
+  [[nodiscard]] static Parts<T> joined(const std::vector<std::vector<T>>& parts) {
+    Parts<T> all;
+    all.offsets.push_back(0);
+    for (const auto& part : parts) {
+      all.values.insert(all.values.end(), part.begin(), part.end());
+      all.offsets.push_back(all.values.size());
+    }
+    return all;
+  }
+
+ private:
+  template <class T>
+  [[nodiscard]] T reduced(T here, MPI_Datatype type, MPI_Op how) const {
+    T all{};
+    MPI_Allreduce(&here, &all, 1, type, how, comm_);
+    return all;
+  }
+  void broadcast_bytes(std::span<std::byte> bytes, int from) const;
+  [[nodiscard]] std::vector<std::uint64_t> exchange_counts(std::span<const std::uint64_t> offsets) const;
+  void exchange_bytes(std::span<const std::byte> to, std::span<const std::uint64_t> to_offsets, std::span<std::byte> from,
+                      std::span<const std::uint64_t> from_offsets, std::size_t size) const;
+
+  MPI_Comm comm_;
+  int rank_ = 0, size_ = 1;
+};
+
+/// Which of many things goes to which rank: fills Parts without a vector for each rank. Two passes: count(), then put().
+template <Plain T>
+class Dealer {
+ public:
+  explicit Dealer(int ranks) : next_(static_cast<std::size_t>(ranks) + 1, 0) {}
+  void count(int rank, std::uint64_t how_many = 1) { next_[static_cast<std::size_t>(rank) + 1] += how_many; }
+  /// Call it between the passes.
+  void begin() {
+    for (std::size_t r = 1; r < next_.size(); ++r) next_[r] += next_[r - 1];
+    parts_.offsets = next_;
+    parts_.values.resize(next_.back());
+  }
+  /// Where it was put.
+  std::uint64_t put(int rank, const T& value) {
+    const std::uint64_t at = next_[static_cast<std::size_t>(rank)]++;
+    parts_.values[at] = value;
+    return at;
+  }
+  [[nodiscard]] const Parts<T>& parts() const noexcept { return parts_; }
+  [[nodiscard]] Parts<T> take() { return std::move(parts_); }
+
+ private:
+  std::vector<std::uint64_t> next_;
+  Parts<T> parts_;
+};
+
+/// Asks the holders of numbered things for what they know of them: answer(i) of the holder, for each i of `asked`, in its order.
+/// `asked`: numbers below ranges.size().
+template <Plain T, class Answer>
+[[nodiscard]] std::vector<T> ask_holders(const World& world, const Ranges& ranges, std::span<const std::uint64_t> asked, Answer answer) {
+  Dealer<std::uint64_t> questions(world.size());
+  for (const std::uint64_t i : asked) questions.count(ranges.holder(i));
+  questions.begin();
+  std::vector<std::uint64_t> place(asked.size());
+  for (std::size_t k = 0; k < asked.size(); ++k) place[k] = questions.put(ranges.holder(asked[k]), asked[k]);
+  const Parts<std::uint64_t> here = world.exchange(questions.parts());
+  std::vector<T> answers(here.values.size());
+  for (std::size_t k = 0; k < answers.size(); ++k) answers[k] = answer(here.values[k]);
+  std::vector<T> back(asked.size());
+  world.exchange<T>(answers, here.offsets, back, questions.parts().offsets);
+  std::vector<T> in_order(asked.size());
+  for (std::size_t k = 0; k < asked.size(); ++k) in_order[k] = back[place[k]];
+  return in_order;
+}
+
+}  // namespace dmoscope

@@ -24,10 +24,12 @@ opengl='(glad|GL|GLES[0-9]?|EGL|GLFW|glfw)[/0-9]'
 imgui='(imgui|backends/imgui|misc/)'
 cuda='(cuda|cuda_runtime|cuda_runtime_api|device_launch_parameters)'
 
-breach "core knows no other module" "${include}(gpu|render|ui|app)/" core
+breach "core knows no other module" "${include}(gpu|mpi|render|ui|app)/" core
+breach "mpi knows core alone" "${include}(gpu|render|ui|app|library|python)/" mpi
+breach "only mpi and its program know MPI" "${include}mpi\.h|\bMPI_[A-Z]" core gpu render ui library python app/common app/subcommands app/window
 breach "core knows no OpenGL, ImGui or CUDA" "${include}(${opengl}|${imgui}|${cuda})" core
 breach "core, gpu, render and ui know no library and no Python" "${include}(library|python)/" core gpu render ui app
-breach "the library knows core alone" "${include}(gpu|render|ui|app|python|${opengl}|${imgui}|${cuda})" library
+breach "the library knows core alone" "${include}(gpu|mpi|render|ui|app|python|${opengl}|${imgui}|${cuda})" library
 breach "the library's headers know themselves and the standard library alone" "#include \"[^d]|#include <[^>]*[/.]" library/include
 breach "gpu knows neither the screen nor the program" "${include}(render|ui|app)/" gpu
 breach "render knows no interface, program or GPU backend" "${include}(ui|app|gpu)/" render
@@ -55,13 +57,14 @@ layers() {
   printf 'The order of the folders in %s:\n%s\n' "$module" "$found"
 }
 layers core base drawing numeric mesh io/reading io/writing io/arrays io io/polygons io/abaqus io/cgns io/exodus io/gmsh io/medit io/nastran io/vtk \
-  io/solvers io/vtu io/xdmf clipping quality search input reference smooth joint smooth/kernels smooth/methods smooth/execution inspect run session view \
+  io/solvers io/vtu io/pvtu io/xdmf clipping quality search input reference smooth joint smooth/kernels smooth/methods smooth/execution inspect run session view \
   commands engine
 layers ui state analysis commands toolkit plots viewports panels .
-layers app common window pictures pages comparison paper subcommands .
+layers mpi world reading mesh files smooth
+layers app common mpi window pictures pages comparison paper subcommands .
 
 # One name, one type: two headers of a program that define the same name make it call one's functions on the other's objects.
-twice=$(find core gpu render ui app -name '*.h' -print0 | xargs -0 awk '
+twice=$(find core gpu mpi render ui app -name '*.h' -print0 | xargs -0 awk '
   FNR == 1 { space = "" }
   /^namespace [a-z:]+ \{/ { space = $2 }
   /^(struct|class|enum class) [A-Za-z0-9_]+( final)?( :.*)? \{/ {

@@ -10,7 +10,7 @@
 #include "core/io/mesh_io.h"
 #include "core/io/pvtu/pvtu.h"
 #include "core/io/vtu/vtu.h"
-#include "mpi/files/byte_range.h"
+#include "mpi/reading/byte_range.h"
 #include "mpi/files/pvtu_numbering.h"
 #include "mpi/files/shared_mesh_file.h"
 

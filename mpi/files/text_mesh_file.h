@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/io/reading/source_file.h"
-#include "mpi/files/byte_range.h"
+#include "mpi/reading/byte_range.h"
 #include "mpi/files/shared_mesh_file.h"
 
 namespace dmoscope {

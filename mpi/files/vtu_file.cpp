@@ -9,7 +9,7 @@
 #include "core/io/reading/binary_scalar.h"
 #include "core/io/vtk/vtk_cells.h"
 #include "core/io/vtu/vtu_document.h"
-#include "mpi/files/byte_range.h"
+#include "mpi/reading/byte_range.h"
 #include "mpi/files/shared_mesh_file.h"
 #include "mpi/files/shared_output.h"
 

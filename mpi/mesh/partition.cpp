@@ -11,7 +11,7 @@
 #include "core/base/unknown_value.h"
 #include "core/io/reading/tokenizer.h"
 #include "core/mesh/hilbert_curve.h"
-#include "mpi/files/byte_range.h"
+#include "mpi/reading/byte_range.h"
 
 namespace dmoscope {
 

@@ -30,6 +30,7 @@ TEST(Conversion, EverySampleToEveryFormat) {
   for (const Sample& sample : samples()) {
     const Mesh mesh = read_bytes(sample.format, sample.bytes);
     for (const FormatInfo& format : format_table()) {
+      if (format.name == "pvtu") continue;  // of several files, see pvtu_test.cpp
       SCOPED_TRACE(sample.format + " " + sample.name + " to " + std::string(format.name));
       Written written;
       try {

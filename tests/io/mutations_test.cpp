@@ -50,7 +50,8 @@ std::string mutated(std::string bytes, std::mt19937_64& random) {
 TEST(Mutations, EveryFormatHasASample) {
   std::set<std::string> formats;
   for (const Sample& sample : samples()) formats.insert(sample.format);
-  for (const FormatInfo& format : format_table()) EXPECT_TRUE(formats.contains(std::string(format.name))) << format.name;
+  for (const FormatInfo& format : format_table())  // but for the one of several files, see pvtu_test.cpp
+    EXPECT_TRUE(format.name == "pvtu" || formats.contains(std::string(format.name))) << format.name;
 }
 
 TEST(Mutations, SamplesAreValid) {

@@ -52,6 +52,9 @@ std::vector<std::filesystem::path> pvtu_pieces(std::string_view bytes, const std
   std::vector<std::filesystem::path> pieces;
   for (const pugi::xml_node piece : parse(document, bytes, path).children("Piece"))
     pieces.push_back(path.parent_path() / piece.attribute("Source").value());
+  for (const std::filesystem::path& piece : pieces)  // not one that names pieces again
+    if (!equal_ignoring_case(piece.extension().string(), ".vtu"))
+      throw InputError(path.string(), 0, fmt::format("its piece {} is no .vtu", quote_token(piece.filename().string())));
   return pieces;
 }
 

@@ -1,4 +1,4 @@
-#include "mpi/files/byte_range.h"
+#include "mpi/reading/byte_range.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -11,7 +11,7 @@
 
 namespace dmoscope::gpu::bodies {
 
-inline constexpr std::size_t kParts = Tally::kLanes, kStretch = Tally::kStretch;
+inline constexpr std::size_t kParts = Tally::kLanes, kStretch = Tally::kStretch, kGroup = TallyTotal::kGroup;
 
 /// Moves the vertex and wakes its neighbours; it stays awake itself.
 inline DMOSCOPE_LANE void move(const Task& task, Index rank, const double* target) {
@@ -171,15 +171,20 @@ struct Sum {
   static constexpr std::size_t kBatch = 16;  // loads that are waited for together
 };
 
-/// The sum of all parts i, i + kParts, ...; it stands behind them all. The lanes of a team load side by side, for the parts are many and
-/// the teams few; the first adds the sums, one after the other.
+/// The sum of all parts i, i + kParts, ..., group by group; it stands behind them all. The lanes of a team load side by side, for the parts
+/// are many and the teams few; the first adds the sums, one after the other.
 struct Total {
   template <class Team>
   static DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& team) {
+    static_assert(kGroup % (kBatch * Team::kSize) == 0);
     PartSum all;
-    double sum = 0.0;
+    double sum = 0.0, group = 0.0;  // of whole groups of stretches, and of the one under way: see TallyTotal
     const std::size_t parts = stretches(task) * kParts;
     for (std::size_t first = i; first < parts; first += kBatch * Team::kSize * kParts) {
+      if (first / kParts % kGroup == 0) {
+        sum += group;
+        group = 0.0;
+      }
       Part batch[kBatch];
       DMOSCOPE_UNROLL
       for (std::size_t b = 0; b < kBatch; ++b) {
@@ -190,9 +195,10 @@ struct Total {
       DMOSCOPE_UNROLL
       for (const Part& part : batch) {
         all.add_all_but_sum(part);
-        sum = add_in_order(sum, part.sum, team);
+        group = add_in_order(group, part.sum, team);
       }
     }
+    sum += group;
     all = fold(team, all, [](PartSum a, const PartSum& b) {
       a.add_all_but_sum(b.part());
       return a;

@@ -171,6 +171,7 @@ int smooth(const World& world, const SharedSmoothOptions& options) {
   for (std::string& sentence : missing_phases(run, outcome)) warn(std::move(sentence));
   if (std::string other = go_to_what_is_written(run, options, progress); !other.empty()) warn(std::move(other));
   if (run.last_outcome()) outcome = *run.last_outcome();
+  run.rest();  // writing needs memory, and the smoother's is no longer wanted
   write_results(world, options, run, mesh, *file);
   std::optional<LeftInverted> left = find_left_inverted(run, *mesh.share);
   if (left) warn(left->sentence());

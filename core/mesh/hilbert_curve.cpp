@@ -35,6 +35,24 @@ void to_curve(std::array<std::uint32_t, 3>& x, int bits, int n) {
   for (int i = 0; i < n; ++i) at(i) ^= turned;
 }
 
+/// Every second bit of the result is one of `x`.
+std::uint64_t spread_by_two(std::uint64_t x) {
+  x = (x | x << 16U) & 0x0000ffff0000ffffU;
+  x = (x | x << 8U) & 0x00ff00ff00ff00ffU;
+  x = (x | x << 4U) & 0x0f0f0f0f0f0f0f0fU;
+  x = (x | x << 2U) & 0x3333333333333333U;
+  return (x | x << 1U) & 0x5555555555555555U;
+}
+
+/// Every third bit of the result is one of the 21 of `x`.
+std::uint64_t spread_by_three(std::uint64_t x) {
+  x = (x | x << 32U) & 0x001f00000000ffffU;
+  x = (x | x << 16U) & 0x001f0000ff0000ffU;
+  x = (x | x << 8U) & 0x100f00f00f00f00fU;
+  x = (x | x << 4U) & 0x10c30c30c30c30c3U;
+  return (x | x << 2U) & 0x1249249249249249U;
+}
+
 }  // namespace
 
 HilbertCurve::HilbertCurve(Vec3 low, Vec3 high) : low_(low) {
@@ -62,10 +80,8 @@ std::uint64_t HilbertCurve::key(Vec3 point) const {
   }
   if (dimension_ == 1) return x[0];
   to_curve(x, bits, dimension_);
-  std::uint64_t key = 0;
-  for (int bit = bits - 1; bit >= 0; --bit)
-    for (int i = 0; i < dimension_; ++i) key = key << 1U | (x[static_cast<std::size_t>(i)] >> static_cast<unsigned>(bit) & 1U);
-  return key;
+  if (dimension_ == 2) return spread_by_two(x[0]) << 1U | spread_by_two(x[1]);
+  return spread_by_three(x[0]) << 2U | spread_by_three(x[1]) << 1U | spread_by_three(x[2]);
 }
 
 }  // namespace dmoscope

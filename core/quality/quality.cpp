@@ -74,7 +74,7 @@ Statistics compute_statistics(const QualityContext& context, std::span<const Vec
       tallies[begin / kStretch] = tally;
     }
   });
-  Tally total;
+  TallyTotal total;
   for (const Tally& tally : tallies) total.append(tally);  // in the order of the elements: the same sum for any number of threads
   return total.statistics();
 }

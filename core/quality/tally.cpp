@@ -76,4 +76,18 @@ Statistics Tally::statistics() const {
   return {minimum_, mean, movable_, ceiling_, worst_, inverted_};
 }
 
+void TallyTotal::append(const Tally& stretch) {
+  group_.append(stretch);
+  if (++in_group_ < kGroup) return;
+  groups_.append(group_);
+  group_ = {};
+  in_group_ = 0;
+}
+
+Statistics TallyTotal::statistics() const {
+  Tally all = groups_;
+  all.append(group_);
+  return all.statistics();
+}
+
 }  // namespace dmoscope

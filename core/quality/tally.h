@@ -31,4 +31,19 @@ class Tally {
   std::size_t defined_ = 0;
 };
 
+/// The tallies of a mesh's stretches, added up in their order: first those of each group, then the groups. So groups can be added by
+/// different processes.
+class TallyTotal {
+ public:
+  static constexpr std::size_t kGroup = 1024;  // stretches
+
+  /// `stretch`: the next one.
+  void append(const Tally& stretch);
+  [[nodiscard]] Statistics statistics() const;
+
+ private:
+  Tally groups_, group_;
+  std::size_t in_group_ = 0;
+};
+
 }  // namespace dmoscope

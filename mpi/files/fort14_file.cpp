@@ -109,8 +109,7 @@ class Fort14File final : public TextMeshFile {
     });
     return parsed;
   }
-  [[nodiscard]] VertexLines vertices(const LineBlock& lines) const override {
-    VertexLines found;
+  void vertices(const LineBlock& lines, VertexLines& found) const override {
     each_line(lines, [&](Tokenizer& tokens, std::uint64_t line) {
       if (line >= nodes_) return false;
       const Fort14Node node = read_fort14_node(tokens);
@@ -118,7 +117,6 @@ class Fort14File final : public TextMeshFile {
       found.places.push_back(node.place);
       return true;
     });
-    return found;
   }
 
   /// What follows the elements is little beside them: all ranks read all of it.

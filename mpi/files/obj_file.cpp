@@ -23,6 +23,7 @@ class ObjFile final : public TextMeshFile {
     block.vertices = world().ranges(parsed.positions.size());
     block.elements = world().ranges(parsed.kinds.size());
     block.positions = std::move(parsed.positions);
+    block.positions.shrink_to_fit();
     block.kinds = std::move(parsed.kinds);
     world().together([&] { block.corners = corners(mine, parsed, block); });
     return block;
@@ -43,15 +44,13 @@ class ObjFile final : public TextMeshFile {
     layout.syntax = kObjSyntax;
     return layout;
   }
-  [[nodiscard]] VertexLines vertices(const LineBlock& lines) const override {
-    VertexLines found;
+  void vertices(const LineBlock& lines, VertexLines& found) const override {
     each_statement(lines, [&](Tokenizer& tokens, std::string_view word) {
       if (word != "v") return;
       std::size_t place = 0;
       found.positions.push_back(read_obj_vertex(tokens, place));
       found.places.push_back(place);
     });
-    return found;
   }
 
   template <class Visit>

@@ -89,8 +89,7 @@ class OffFile final : public TextMeshFile {
           return true;
         });
   }
-  [[nodiscard]] VertexLines vertices(const LineBlock& lines) const override {
-    VertexLines found;
+  void vertices(const LineBlock& lines, VertexLines& found) const override {
     bool extras = false;
     each_line(
         lines,
@@ -100,7 +99,6 @@ class OffFile final : public TextMeshFile {
           found.places.push_back(place);
         },
         [](Tokenizer&) { return false; });
-    return found;
   }
 
   std::uint64_t vertices_ = 0, faces_ = 0;

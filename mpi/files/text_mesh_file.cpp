@@ -20,13 +20,16 @@ void TextMeshFile::write(const std::filesystem::path& target, std::span<const Ve
   const RangeFile& file = open();
   world_.together([&] { file.require_unchanged(read); });
   LineBlock mine = lines(file);
-  TextBuffer out;
+  TextBuffer out(mine.text.size() + 8 * positions.size());  // digits are added where short numbers move
   const std::uint64_t offset = mine.offset;
   world_.together([&] {
-    const VertexLines before = vertices(mine);
+    VertexLines before;
+    before.positions.reserve(positions.size());
+    before.places.reserve(positions.size());
+    vertices(mine, before);
     if (before.positions.size() != positions.size()) throw InputError(name(), 0, "the file has changed while it was smoothed");
     SourceFile source(path_, FileBytes(mine.text));
-    mine.text = {};
+    std::string().swap(mine.text);
     source.set_layout(layout());
     source.add_places(before.places);
     patch_part(out, target.string(), source, before.positions, positions);

@@ -28,8 +28,8 @@ class TextMeshFile : public SharedMeshFile {
  protected:
   /// The rank's lines; all ranks together.
   [[nodiscard]] virtual LineBlock lines(const RangeFile& file) const = 0;
-  /// The vertices of these, this rank alone; in the order of the block that read() gives.
-  [[nodiscard]] virtual VertexLines vertices(const LineBlock& lines) const = 0;
+  /// Adds the vertices of these, this rank alone; in the order of the block that read() gives.
+  virtual void vertices(const LineBlock& lines, VertexLines& found) const = 0;
   [[nodiscard]] virtual CoordinateLayout layout() const = 0;
 
   /// Opens the file; read() calls it first.

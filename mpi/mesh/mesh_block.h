@@ -36,6 +36,10 @@ struct MeshBlock {
   bool single_precision = false;  // see Mesh
 };
 
+/// Deals a block's vertices and elements out evenly, in their order: of a text the first ranks have read all vertices, and the last ones
+/// all elements. All ranks together.
+void spread_evenly(const World& world, MeshBlock& block);
+
 /// Which of a file's numbers are wanted: those that name materials, and those of these names.
 struct FieldFilter {
   std::vector<std::string> names;

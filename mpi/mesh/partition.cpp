@@ -88,11 +88,7 @@ std::vector<int> from_file(const World& world, const MeshBlock& block, const std
 std::vector<int> partition(const World& world, const MeshBlock& block, const PartitionChoice& choice) {
   if (choice.kind == PartitionChoice::Kind::File) return from_file(world, block, choice.file);
   if (choice.kind == PartitionChoice::Kind::Hilbert) return along_curve(world, block);
-  const Ranges even(block.vertices.size(),
-                    world.size());  // a text has its vertices before its elements: the first ranks have read them all
-  std::vector<int> part(block.positions.size());
-  for (std::size_t v = 0; v < part.size(); ++v) part[v] = even.holder(block.vertices.begin(world.rank()) + v);
-  return part;
+  return std::vector<int>(block.positions.size(), world.rank());
 }
 
 }  // namespace dmoscope

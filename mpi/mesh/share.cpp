@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <initializer_list>
 #include <map>
 
 #include <fmt/format.h>
+
+#include "core/base/radix_sort.h"
 
 namespace dmoscope {
 namespace {
@@ -46,11 +50,27 @@ class NearSearch {
   std::size_t at_ = 0;
 };
 
-std::vector<WholeIndex> sorted_once(std::vector<WholeIndex> numbers) {
-  std::ranges::sort(numbers);
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  numbers.shrink_to_fit();
-  return numbers;
+/// Adds the numbers, each once; stretch by stretch, since neighbours in a list mostly repeat each other.
+void add_once(std::vector<WholeIndex>& all, std::span<const WholeIndex> numbers, unsigned bits) {
+  constexpr std::size_t kStretch = std::size_t{1} << 21U;
+  std::vector<WholeIndex> some;
+  for (std::size_t first = 0; first < numbers.size(); first += kStretch) {
+    const auto stretch = numbers.subspan(first, std::min(kStretch, numbers.size() - first));
+    some.assign(stretch.begin(), stretch.end());
+    radix_sort(some, bits, [](WholeIndex number) { return number; });
+    all.insert(all.end(), some.begin(), std::unique(some.begin(), some.end()));
+  }
+}
+
+/// All numbers of these lists, each once. `most`: no number is greater.
+std::vector<WholeIndex> sorted_once(std::initializer_list<std::span<const WholeIndex>> lists, WholeIndex most) {
+  const auto bits = static_cast<unsigned>(std::bit_width(most));
+  std::vector<WholeIndex> all;
+  for (const std::span<const WholeIndex> list : lists) add_once(all, list, bits);
+  radix_sort(all, bits, [](WholeIndex number) { return number; });
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  all.shrink_to_fit();
+  return all;
 }
 
 /// The ranks that own corners of an element, each once.
@@ -72,7 +92,7 @@ class OwnersOfElement {
 class ElementDealer {
  public:
   ElementDealer(const World& world, MeshBlock& block, const std::vector<int>& part) : world_(world), block_(block) {
-    const std::vector<WholeIndex> used = sorted_once(block.corners);
+    const std::vector<WholeIndex> used = sorted_once({block.corners}, block.vertices.size());
     const WholeIndex first = block.vertices.begin(world.rank());
     const std::vector<int> owners = ask_holders<int>(world, block.vertices, used, [&](WholeIndex v) { return part[v - first]; });
     NearSearch search(used);
@@ -161,9 +181,8 @@ class ShareMaker {
     for (const int rank : part_) dealer.count(rank);
     dealer.begin();
     for (std::size_t v = 0; v < part_.size(); ++v) dealer.put(part_[v], first + v);
-    std::vector<WholeIndex> all = world_.exchange(dealer.take()).values;
-    all.insert(all.end(), corners_.begin(), corners_.end());
-    share_.vertices = sorted_once(std::move(all));
+    const std::vector<WholeIndex> owned = world_.exchange(dealer.take()).values;
+    share_.vertices = sorted_once({owned, corners_}, block_.vertices.size());
     world_.together([&] {
       if (share_.vertices.size() >= kNoIndex || corners_.size() >= kNoIndex)
         throw UsageError("a rank's share of the mesh has 2^32 corners or more: use more ranks");

@@ -108,7 +108,8 @@ SharedMesh load_shared(const World& world, SharedMeshFile& file, const std::file
 SharedMesh share_block(const World& world, MeshBlock block, const std::filesystem::path& path, const PartitionChoice& choice,
                        const SharedVertexWords& named, Need need) {
   SharedMesh shared;
-  shared.vertices = block.vertices;
+  shared.vertices = block.vertices;  // as the file has them
+  spread_evenly(world, block);
   const BlockMarks marks = named.find(world, block);
   const std::vector<std::size_t> materials = material_fields(world, block);
   const std::vector<int> part = partition(world, block, choice);

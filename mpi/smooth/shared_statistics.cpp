@@ -30,6 +30,15 @@ struct Extremes {
   }
 };
 
+using Lanes = std::array<double, Tally::kLanes>;
+
+void add(Lanes& sums, const Lanes& more) {
+  for (std::size_t lane = 0; lane < sums.size(); ++lane) sums[lane] += more[lane];
+}
+
+/// How many stretches, or groups of them, there are up to an element that ends one.
+std::uint64_t up_to(std::uint64_t elements, std::uint64_t size) { return (elements + size - 1) / size; }
+
 }  // namespace
 
 SharedStatistics::SharedStatistics(const World& world, const Share& share)
@@ -47,19 +56,39 @@ SharedStatistics::SharedStatistics(const World& world, const Share& share)
     dealer.put(rank, static_cast<std::uint32_t>(share.elements[e] - stretches_.begin(rank)));
   }
   places_ = world.exchange(dealer.take());
+
+  // Which stretches a rank has, and which it adds up, are both consecutive: what is sent is what both have in common.
+  const std::uint64_t stretches = up_to(share.element_count, Tally::kStretch);
+  groups_ = Ranges(up_to(stretches, TallyTotal::kGroup), world.size());
+  const auto have = [&](int rank, bool end) { return up_to(end ? stretches_.end(rank) : stretches_.begin(rank), Tally::kStretch); };
+  const auto adds = [&](int rank, bool end) {
+    return std::min(stretches, TallyTotal::kGroup * (end ? groups_.end(rank) : groups_.begin(rank)));
+  };
+  sums_to_ = sums_from_ = {0};
+  for (int rank = 0; rank < world.size(); ++rank) {
+    const auto common = [&](int has, int sums) {
+      const std::uint64_t first = std::max(have(has, false), adds(sums, false)), last = std::min(have(has, true), adds(sums, true));
+      return last > first ? last - first : 0;
+    };
+    sums_to_.push_back(sums_to_.back() + common(world.rank(), rank));
+    sums_from_.push_back(sums_from_.back() + common(rank, world.rank()));
+  }
 }
 
 SharedStatistics::Sum SharedStatistics::sum(std::span<const double> values) const {
-  std::vector<double> mine;
-  mine.reserve(to_.size());
-  for (const Index e : to_) mine.push_back(values[e]);
-  std::vector<double> came(places_.values.size());
-  world_.exchange<double>(mine, to_offsets_, came, places_.offsets);
-  std::vector<double> in_order(stretches_.count(world_.rank()));
-  for (std::size_t i = 0; i < came.size(); ++i) in_order[places_.values[i]] = came[i];
+  mine_.resize(to_.size());
+  for (std::size_t i = 0; i < to_.size(); ++i) mine_[i] = values[to_[i]];
+  return sum_of_mine();
+}
 
-  // As Tally adds.
-  using Lanes = std::array<double, Tally::kLanes>;
+SharedStatistics::Sum SharedStatistics::sum_of_mine() const {
+  came_.resize(places_.values.size());
+  world_.exchange<double>(mine_, to_offsets_, came_, places_.offsets);
+  std::vector<double>& in_order = in_order_;
+  in_order.resize(stretches_.count(world_.rank()));
+  for (std::size_t i = 0; i < came_.size(); ++i) in_order[places_.values[i]] = came_[i];
+
+  // As Tally adds, and TallyTotal.
   std::vector<Lanes> sums;
   std::uint64_t defined = 0;
   for (std::size_t first = 0; first < in_order.size(); first += Tally::kStretch) {
@@ -72,9 +101,12 @@ SharedStatistics::Sum SharedStatistics::sum(std::span<const double> values) cons
     }
     sums.push_back(lanes);
   }
+  std::vector<Lanes> of_groups(sums_from_.back());
+  world_.exchange<Lanes>(sums, sums_to_, of_groups, sums_from_);
+  std::vector<Lanes> groups(groups_.count(world_.rank()), Lanes{});
+  for (std::size_t i = 0; i < of_groups.size(); ++i) add(groups[i / TallyTotal::kGroup], of_groups[i]);
   Lanes total{};
-  for (const Lanes& lanes : world_.gather(sums))
-    for (std::size_t lane = 0; lane < lanes.size(); ++lane) total[lane] += lanes[lane];
+  for (const Lanes& group : world_.gather(groups)) add(total, group);
   world_.broadcast(total, 0);
   return {(total[0] + total[1]) + (total[2] + total[3]), world_.sum(defined)};
 }
@@ -82,19 +114,20 @@ SharedStatistics::Sum SharedStatistics::sum(std::span<const double> values) cons
 Statistics SharedStatistics::of(const QualityContext& context, std::span<const Vec3> positions, Metric metric,
                                 std::span<const Index> immovable, ThreadPool* pool) const {
   const std::size_t count = share_->home.size();
-  std::vector<double> qualities(count);
+  mine_.resize(to_.size());
   std::vector<Extremes> parts((count + kElementsAtOnce - 1) / kElementsAtOnce);
   for_chunks(pool, count, kElementsAtOnce, [&](std::size_t first, std::size_t last) {
     Extremes here;
     auto fixed = std::ranges::lower_bound(immovable, static_cast<Index>(first));
+    auto counted = static_cast<std::size_t>(std::ranges::lower_bound(to_, static_cast<Index>(first)) - to_.begin());
     for_blocks(context, positions, metric, first, last, [&](const ElementBlock& block) {
-      std::ranges::copy(block.qualities(), qualities.begin() + block.first);
       for (std::size_t i = 0; i < block.count; ++i) {
         const auto e = static_cast<Index>(block.first + i);
         const bool is_fixed = fixed != immovable.end() && *fixed == e;
         if (is_fixed) ++fixed;
         if (share_->home[e] == 0) continue;
         const double quality = block.quality[i];
+        mine_[counted++] = quality;
         here.inverted += block.jacobian[i] <= 0.0 ? 1U : 0U;
         if (quality < here.minimum) {
           here.minimum = quality;
@@ -110,7 +143,7 @@ Statistics SharedStatistics::of(const QualityContext& context, std::span<const V
   for (const Extremes& part : parts) total.take(part);
   Extremes all;
   for (const Extremes& one : world_.all_of(total)) all.take(one);
-  const Sum sum = this->sum(qualities);
+  const Sum sum = sum_of_mine();
   const double mean = sum.count > 0 ? sum.sum / static_cast<double>(sum.count) : std::numeric_limits<double>::quiet_NaN();
   const Index worst = all.worst < kNoIndex ? static_cast<Index>(all.worst) : kNoIndex;
   return {all.minimum, mean, all.movable, all.ceiling, worst, static_cast<Index>(std::min<std::uint64_t>(all.inverted, kNoIndex))};

@@ -27,12 +27,17 @@ class SharedStatistics {
   [[nodiscard]] Sum sum(std::span<const double> values) const;
 
  private:
+  [[nodiscard]] Sum sum_of_mine() const;
+
   World world_;
   const Share* share_;
   Ranges stretches_;       // elements of the whole mesh, in whole stretches
   std::vector<Index> to_;  // elements that are counted here, by the rank that adds them up
   std::vector<std::uint64_t> to_offsets_;
-  Parts<std::uint32_t> places_;  // where in the rank's stretches come those that others send
+  Ranges groups_;                                       // of stretches: which rank adds up their sums
+  std::vector<std::uint64_t> sums_to_, sums_from_;      // offsets by rank of the sums of stretches that are sent and that come
+  Parts<std::uint32_t> places_;                         // where in the rank's stretches come those that others send
+  mutable std::vector<double> mine_, came_, in_order_;  // kept: fresh memory costs as much as the sums
 };
 
 }  // namespace dmoscope

@@ -121,6 +121,21 @@ TEST(DeviceDmoVisits, ReplacedPositionsAreTakenUp) {
   for (Index v = 0; v < once.size(); ++v) ASSERT_TRUE(same(positions[v], once[v])) << v;
 }
 
+/// More elements than one group of stretches (see TallyTotal).
+TEST(DeviceDmoVisits, AddsUpTheMeanOfManyElementsAsTheHostDoes) {
+  const Subject subject = jittered(760);
+  ASSERT_GT(subject.input->mesh.elements.size(), Index{1} << 20U);
+  const auto smoother = make_device_dmo(host(), subject.task(Metric::MeanRatio));
+  std::vector<Vec3> positions = subject.input->mesh.positions;
+  smoother->visit(0, 1, positions, nullptr);
+  const Statistics found = *smoother->statistics();
+  smoother->store(positions, nullptr);
+  const Statistics want =
+      compute_statistics(subject.input->quality_context(), positions, Metric::MeanRatio, std::span<const Index>(), nullptr);
+  EXPECT_TRUE(same(found.mean, want.mean)) << found.mean << " and " << want.mean;
+  EXPECT_EQ(found.minimum, want.minimum);
+}
+
 /// Positions cross to the host when they are asked for, and not before.
 TEST(DeviceDmoVisits, PositionsStayOnTheDevice) {
   const Subject subject = jittered(12);

@@ -1,5 +1,7 @@
 // Statistics of whole meshes, against plain loops.
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -9,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/thread_pool.h"
+#include "core/mesh/generate.h"
 #include "core/quality/quality.h"
 #include "tests/support/meshes.h"
 
@@ -96,6 +99,31 @@ TEST(Statistics, SameBitsForAnyPool) {
     EXPECT_EQ(at(&pool).minimum, alone.minimum) << threads;
     EXPECT_EQ(at(&pool).worst_element, alone.worst_element) << threads;
   }
+}
+
+/// As many processes and a device add it, too: elements within stretches of 1,024 by four lanes, stretches within groups of 1,024, groups.
+TEST(Statistics, TheMeanIsAddedUpInStretchesAndGroups) {
+  Progress unwatched;
+  const auto mesh = prepare_input(generate_mesh("grid", 560'000, 1, unwatched), {}, Need::QualityOnly, unwatched);
+  const std::size_t count = mesh->mesh.elements.size();
+  ASSERT_GT(count, std::size_t{1} << 20U);
+  std::vector<double> quality(count);
+  element_qualities(mesh->quality_context(), mesh->mesh.positions, Metric::MeanRatio, nullptr, quality);
+  std::array<double, 4> all{};
+  for (std::size_t group = 0; group < count; group += 1024 * 1024) {
+    std::array<double, 4> of_group{};
+    for (std::size_t stretch = group; stretch < std::min(count, group + 1024 * 1024); stretch += 1024) {
+      std::array<double, 4> of_stretch{};
+      for (std::size_t e = stretch; e < std::min(count, stretch + 1024); ++e) of_stretch[e % 4] += quality[e];
+      for (std::size_t lane = 0; lane < 4; ++lane) of_group[lane] += of_stretch[lane];
+    }
+    for (std::size_t lane = 0; lane < 4; ++lane) all[lane] += of_group[lane];
+  }
+  const double mean = ((all[0] + all[1]) + (all[2] + all[3])) / static_cast<double>(count);
+  ThreadPool pool(2);
+  for (ThreadPool* threads : {static_cast<ThreadPool*>(nullptr), &pool})
+    EXPECT_EQ(compute_statistics(mesh->quality_context(), mesh->mesh.positions, Metric::MeanRatio, std::span<const Index>(), threads).mean,
+              mean);
 }
 
 TEST(Statistics, QualityDoesNotDependOnTheOriginOrThePlane) {

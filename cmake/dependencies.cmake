@@ -33,9 +33,9 @@ if(NOT DMOSCOPE_HEADERS)
     message(STATUS "VTU files: left out, they need the libraries zlib and pugixml")
   endif()
   include(${CMAKE_CURRENT_LIST_DIR}/hdf5.cmake)
-  # Its processes read VTU, and the sanitizers take what MPI itself keeps for leaks.
+  # Its processes read VTU. The presets of the sanitizers leave it out, for they take what MPI itself keeps for leaks.
   set(DMOSCOPE_HAS_MPI OFF)
-  if(DMOSCOPE_MPI AND DMOSCOPE_VTU AND NOT DMOSCOPE_SANITIZE AND NOT DMOSCOPE_PORTABLE)
+  if(DMOSCOPE_MPI AND DMOSCOPE_VTU AND NOT DMOSCOPE_PORTABLE)
     find_package(MPI COMPONENTS C)
     set(DMOSCOPE_HAS_MPI ${MPI_C_FOUND})
     if(NOT MPI_C_FOUND)

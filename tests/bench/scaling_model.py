@@ -14,8 +14,8 @@ STRETCH, GROUP = 1024, 1024  # elements of a stretch, stretches of a group: see 
 KINDS = {
     # seconds a visit and a judged element, elements a vertex, classes, neighbours, sent vertices = surface * (vertices of a rank)^power,
     # imbalance
-    "triangles": dict(visit=0.257e-6, judge=VISIT_JUDGE_T, elements=2, classes=8, neighbours=6, surface=2.5, power=1 / 2, imbalance=1.09),
-    "tetrahedra": dict(visit=24e-6, judge=VISIT_JUDGE_V, elements=6, classes=12, neighbours=14, surface=3.3, power=2 / 3, imbalance=1.1),
+    "triangles": dict(visit=0.22e-6, judge=22e-9, elements=2, classes=8, neighbours=6, surface=2.5, power=1 / 2, imbalance=1.06),
+    "tetrahedra": dict(visit=26e-6, judge=230e-9, elements=6, classes=12, neighbours=14, surface=2.4, power=2 / 3, imbalance=1.06),
 }
 
 

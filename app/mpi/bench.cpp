@@ -156,8 +156,16 @@ int bench(const World& world, const SharedBenchOptions& options) {
     for (auto count = counts.rbegin(); count != counts.rend(); ++count) {
       const SomeRanks some(world, *count);
       const std::uint64_t part = options.vertices / static_cast<std::uint64_t>(world.size()) * static_cast<std::uint64_t>(*count);
-      if (some.has_me()) into.push_back(measure(some.world(), shares_grow ? options.vertices : part, options));
+      std::string failed;
+      try {
+        if (some.has_me()) into.push_back(measure(some.world(), shares_grow ? options.vertices : part, options));
+      } catch (const SharedError& error) {  // those who wait do not know of it
+        failed = error.what();
+      }
       wait_asleep(world);
+      world.together([&] {
+        if (!failed.empty()) throw UsageError(failed);
+      });
     }
   };
   measure_all(weak, false);

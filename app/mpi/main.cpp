@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <sstream>
@@ -53,7 +54,17 @@ int guarded(const World& world, const SharedAction& action) {
   return kBadInputOrOutput;
 }
 
+/// Where the launcher's way of telling its processes of each other is not that of this MPI, each of them is alone.
+void refuse_lonely_tasks(const World& world) {
+  const char* const tasks = std::getenv("SLURM_STEP_NUM_TASKS");
+  if (world.size() > 1 || tasks == nullptr || std::string_view(tasks) == "1") return;
+  const char* const task = std::getenv("SLURM_PROCID");
+  if (task != nullptr && std::string_view(task) != "0") std::exit(kWrongUsage);
+  throw UsageError(fmt::format("srun started {} processes that do not know of each other: try srun --mpi=pmix, or mpirun", tasks));
+}
+
 int run(const World& world, int argc, char** argv) {
+  refuse_lonely_tasks(world);
   CLI::App app("Smooth and judge meshes with many processes: mpirun -n N dmoscope smooth IN -o OUT.", "dmoscope");
   app.set_version_flag("--version", std::string("dmoscope ") + DMOSCOPE_VERSION);
   app.require_subcommand(1);
@@ -99,6 +110,9 @@ int main(int argc, char** argv) {
     const int code = dmoscope::app::run(world, argc, argv);
     if (code != 3 && world.is_first()) dmoscope::app::flush_output();
     return code;
+  } catch (const dmoscope::UsageError& error) {
+    dmoscope::app::complain(error.what());
+    dmoscope::MpiSession::abort(error.exit_code());
   } catch (const std::exception& error) {
     dmoscope::app::complain(error.what());
     dmoscope::MpiSession::abort(3);

@@ -104,7 +104,9 @@ std::string go_to_what_is_written(Run& run, const SharedSmoothOptions& options, 
                      kMayMakeWorse, iteration_name(best), ended);
 }
 
-void write_results(const World& world, const SharedSmoothOptions& options, const Run& run, const SharedMesh& mesh, SharedMeshFile& file) {
+/// Returns what could not be kept, on rank 0.
+std::vector<std::string> write_results(const World& world, const SharedSmoothOptions& options, const Run& run, const SharedMesh& mesh,
+                                       SharedMeshFile& file) {
   AtomicFiles others;
   world.together([&] {
     if (!world.is_first() || options.stats.empty()) return;
@@ -112,8 +114,9 @@ void write_results(const World& world, const SharedSmoothOptions& options, const
     const std::vector<const std::vector<IterationRecord>*> records{&run.history().records()};
     others.add(options.stats, stats_csv(titles, records));
   });
-  file.write(options.output, positions_of_block(mesh, run.positions()));
+  const std::vector<std::string> notes = file.write(options.output, positions_of_block(mesh, run.positions()));
   world.together([&] { others.commit(); });
+  return world.gather_sentences(notes);
 }
 
 void refuse_early(const SharedSmoothOptions& options) {
@@ -172,7 +175,8 @@ int smooth(const World& world, const SharedSmoothOptions& options) {
   if (std::string other = go_to_what_is_written(run, options, progress); !other.empty()) warn(std::move(other));
   if (run.last_outcome()) outcome = *run.last_outcome();
   run.rest();  // writing needs memory, and the smoother's is no longer wanted
-  write_results(world, options, run, mesh, *file);
+  for (const std::string& sentence : write_results(world, options, run, mesh, *file))
+    warn(fmt::format("{}: {}", options.output.string(), sentence));
   std::optional<LeftInverted> left = find_left_inverted(run, *mesh.share);
   if (left) warn(left->sentence());
 

@@ -1,6 +1,7 @@
 #pragma once
 // Which elements are wound against each other, and which winding a component should get. Used to normalise orientation.
 
+#include <algorithm>
 #include <cstdint>
 #include <numeric>
 #include <vector>
@@ -49,14 +50,23 @@ class WindingSets {
 /// What a component's elements vote for when its first element keeps its winding.
 struct WindingVote {
   Index members = 0;
-  std::int64_t balance = 0;  // positive minus negative elements
-  double measure = 0.0;      // signed areas or volumes, added up
+  std::int64_t balance = 0;        // positive minus negative elements
+  double least = 0.0, most = 0.0;  // signed areas or volumes: no sum, which would depend on the order
   void add(double signed_measure) {
     ++members;
     balance += (signed_measure > 0 ? 1 : 0) - (signed_measure < 0 ? 1 : 0);
-    measure += signed_measure;
+    least = std::min(least, signed_measure);
+    most = std::max(most, signed_measure);
   }
-  [[nodiscard]] bool reverse() const { return members > 1 && (balance < 0 || (balance == 0 && measure < 0)); }
+  /// What others voted; `against`: were their first element wound against this one's.
+  void add(const WindingVote& other, bool against) {
+    members += other.members;
+    balance += against ? -other.balance : other.balance;
+    least = std::min(least, against ? -other.most : other.least);
+    most = std::max(most, against ? -other.least : other.most);
+  }
+  /// By the majority; where there is none, by the largest element.
+  [[nodiscard]] bool reverse() const { return members > 1 && (balance < 0 || (balance == 0 && -least > most)); }
 };
 
 /// Reverses an element, and notes that in the mesh.

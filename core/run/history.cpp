@@ -41,7 +41,10 @@ void History::record(const IterationRecord& record) {
   if (record.iteration == records().size()) records_.change().push_back(record);
 }
 
-bool History::wants(std::uint64_t iteration) const { return iteration % stride_ == 0 && size_ <= budget_ && !kept(iteration); }
+// Without a budget nothing, not even of a share without vertices: all processes keep alike.
+bool History::wants(std::uint64_t iteration) const {
+  return budget_ > 0 && iteration % stride_ == 0 && size_ <= budget_ && !kept(iteration);
+}
 
 void History::keep(std::uint64_t iteration, std::span<const Vec3> positions, ThreadPool* pool) {
   if (!wants(iteration)) return;

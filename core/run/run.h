@@ -219,7 +219,7 @@ class Run {
   [[nodiscard]] JointClusters& joint_clusters();
   void move_jointly(Progress& progress);
   void end_joint_iteration(std::span<const Vec3> positions, const JointIteration& done, double seconds);
-  void copy_unkept(std::vector<Vec3>& copy) const;
+  [[nodiscard]] bool copy_unkept(std::vector<Vec3>& copy) const;
   [[nodiscard]] bool attempts_to_untangle(std::uint64_t iteration) const;
   Outcome advance(const ConvergenceLimits& limits, bool stop_when_still, std::uint64_t from, Progress& progress,
                   const AfterIteration& after);

@@ -118,8 +118,9 @@ void Run::walk_to(const Moment& target, Progress& progress) {
       recovering([&] { do_edit(edit->vertices); });
     } else if (now.visits == 0 && joint_follows(now.iteration)) {
       move_jointly(progress);
-    } else if (whole == 0) {  // nothing is free: an iteration visits nobody
+    } else if (whole == 0) {                                                     // nothing is free: an iteration visits nobody
       recovering([this] { input_->share ? visit_block(0) : end_iteration(); });  // of a share: other processes visit theirs
+      begin_next_phase(progress);
     } else {
       std::uint64_t stop = now.iteration < target.iteration ? whole : target.visits;
       if (const Edit* next = edits_.after(now); next != nullptr && next->at.iteration == now.iteration)
@@ -255,11 +256,12 @@ void Run::end_at_best(Progress& progress) {
   last_outcome_ = outcome;
 }
 
-/// The positions at the end of an iteration, where the host has them and the history does not; else none.
-void Run::copy_unkept(std::vector<Vec3>& copy) const {
+/// The positions at the end of an iteration, where the host has them and the history does not; else false, and none.
+bool Run::copy_unkept(std::vector<Vec3>& copy) const {
   copy.clear();
-  if (history_.kept(at_.moment.iteration) || !positions_.host_is_at(at_.moment)) return;
+  if (history_.kept(at_.moment.iteration) || !positions_.host_is_at(at_.moment)) return false;
   copy.assign(positions_.host().begin(), positions_.host().end());
+  return true;
 }
 
 /// `from`: the iteration that counts as the begin; those behind it that were done before are gone through by their records.
@@ -284,6 +286,7 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
   BestState best(parameters_);
   for (const IterationRecord& record : std::span(history_.records()).first(from + 1)) best.take(record);
   std::vector<Vec3> positions_of_best;  // where the history has no room for them, so that nobody need compute them again
+  bool has_best = false;
   const auto phase_of = [this](std::uint64_t iteration) {
     return RunPhases{.joint_since = joint_since(), .mean_since = mean_since()}.of(iteration);
   };
@@ -312,7 +315,7 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
     const IterationRecord record = history_.records()[reached];
     const Statistics& now = record.statistics;
     best.take(record);
-    if (anew && stop_when_still && best.iteration() == reached) copy_unkept(positions_of_best);
+    if (anew && stop_when_still && best.iteration() == reached) has_best = copy_unkept(positions_of_best);
     // As differences: where nothing is movable both are infinite, and that is no rise.
     if (now.minimum - minimum >= limits.rise || now.movable_minimum - movable >= limits.rise) {
       since_rise = 0;
@@ -345,7 +348,7 @@ Outcome Run::advance(const ConvergenceLimits& limits, bool stop_when_still, std:
     stopped = stop_when_still && (still || since_rise >= limits.patience);
     if (stopped) outcome.reason = still ? StopReason::NothingMoved : StopReason::NoRise;
   }
-  if (!positions_of_best.empty() && best.iteration() != reached) history_.hold(best.iteration(), positions_of_best, pool_.get());
+  if (has_best && best.iteration() != reached) history_.hold(best.iteration(), positions_of_best, pool_.get());
   outcome.ended = reached;
   last_outcome_ = outcome;
   return outcome;

@@ -36,6 +36,7 @@ class Fort14File final : public TextMeshFile {
     block.kinds = std::move(parsed.kinds);
     block.vertices = world().ranges(block.positions.size());
     block.elements = world().ranges(block.kinds.size());
+    require_counts(block, nodes_, elements_);
     if (filter.wants("depth", Field::On::Vertices)) block.fields.push_back({"depth", Field::On::Vertices, std::move(parsed.depths)});
     resolve(mine, parsed, strings, block);
     return block;

@@ -31,6 +31,7 @@ class OffFile final : public TextMeshFile {
     world().together([&] { parse(mine, block); });
     block.vertices = world().ranges(block.positions.size());
     block.elements = world().ranges(block.kinds.size());
+    require_counts(block, vertices_, faces_);
     return block;
   }
 

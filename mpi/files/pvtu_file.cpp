@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,9 +12,9 @@
 #include "core/io/mesh_io.h"
 #include "core/io/pvtu/pvtu.h"
 #include "core/io/vtu/vtu.h"
-#include "mpi/reading/byte_range.h"
 #include "mpi/files/pvtu_numbering.h"
 #include "mpi/files/shared_mesh_file.h"
+#include "mpi/reading/byte_range.h"
 
 namespace dmoscope {
 namespace {
@@ -69,16 +71,18 @@ class PvtuFile final : public SharedMeshFile {
     return block;
   }
 
-  void write(const std::filesystem::path& target, std::span<const Vec3> positions) override {
+  std::vector<std::string> write(const std::filesystem::path& target, std::span<const Vec3> positions) override {
     const WholeIndex first = block_vertices_.begin(world_.rank());
     const std::vector<Vec3> mine = ask_holders<Vec3>(world_, block_vertices_, numbers_, [&](WholeIndex v) { return positions[v - first]; });
     const bool same = same_file(path_, target);
     std::vector<std::unique_ptr<AtomicFile>> files;
+    std::vector<std::string> notes;
     world_.together([&] {
+      if (!same) require_other_files(target);
       std::size_t at = 0;
       for (std::uint64_t p = pieces_.begin(world_.rank()); p < pieces_.end(world_.rank()); ++p) {
         files.push_back(std::make_unique<AtomicFile>(same ? names_[p] : target.parent_path() / pvtu_piece_name(target, p)));
-        at += write_piece(p, *files.back(), std::span(mine).subspan(at));
+        at += write_piece(p, *files.back(), std::span(mine).subspan(at), notes);
       }
     });
     std::unique_ptr<AtomicFile> whole;
@@ -96,25 +100,29 @@ class PvtuFile final : public SharedMeshFile {
     world_.together([&] {
       if (whole) whole->commit();
     });
+    return notes;
   }
 
  private:
   /// The program's own words for a piece; ghosts are left out.
   void add_piece(std::uint64_t p, const FieldFilter& filter, Pieces& mine) {
     Progress unwatched;
-    Mesh piece = read_mesh(names_[p], unwatched);
+    const std::int64_t stamp = RangeFile(names_[p]).stamp();
+    const Mesh piece = read_mesh(names_[p], unwatched);
+    facts_.push_back({piece.positions.size(), stamp});
     const PieceIds ids = piece_ids(piece);
     const std::uint64_t first = mine.positions.size();
     mine.floats = mine.floats || piece.single_precision;
     mine.positions.insert(mine.positions.end(), piece.positions.begin(), piece.positions.end());
-    const auto add_id = [](const Field* field, Index i, std::vector<std::uint64_t>& to, bool& all) {
-      all = all && field != nullptr;
+    mine.all_vertex_ids = mine.all_vertex_ids && ids.vertices != nullptr;
+    mine.all_element_ids = mine.all_element_ids && ids.elements != nullptr;
+    const auto add_id = [](const Field* field, Index i, std::vector<std::uint64_t>& to) {
       if (field != nullptr) to.push_back(static_cast<std::uint64_t>(field->values[i]));
     };
-    for (Index v = 0; v < piece.vertex_count(); ++v) add_id(ids.vertices, v, mine.vertex_ids, mine.all_vertex_ids);
+    for (Index v = 0; v < piece.vertex_count(); ++v) add_id(ids.vertices, v, mine.vertex_ids);
     for (Index e = 0; e < piece.elements.size(); ++e) {
       if (ids.is_ghost(e)) continue;
-      add_id(ids.elements, e, mine.element_ids, mine.all_element_ids);
+      add_id(ids.elements, e, mine.element_ids);
       mine.kinds.push_back(piece.elements.kind(e));
       for (const Index v : piece.elements.corners(e)) mine.corners.push_back(first + v);
     }
@@ -124,7 +132,9 @@ class PvtuFile final : public SharedMeshFile {
   /// Fields that not all of a rank's pieces have are left out, as those are that not all ranks have.
   static void add_fields(const Mesh& piece, const PieceIds& ids, const FieldFilter& filter, Pieces& mine) {
     const bool is_first = mine.positions.size() == piece.positions.size();
+    std::set<std::pair<std::string, Field::On>> met;  // of a name that comes twice the first
     for (const Field& field : piece.fields) {
+      if (!met.emplace(field.name, field.on).second) continue;
       if (field.components != 1 || !filter.wants(field.name, field.on)) continue;
       const auto known = std::find_if(mine.fields.begin(), mine.fields.end(),
                                       [&](const BlockField& one) { return one.name == field.name && one.on == field.on; });
@@ -143,7 +153,7 @@ class PvtuFile final : public SharedMeshFile {
     std::string names;
     const auto key = [](const BlockField& field) { return (field.on == Field::On::Vertices ? "v" : "e") + field.name; };
     for (const BlockField& field : mine.fields) names += key(field) + '\n';
-    world_.broadcast(names, 0);  // the first rank has the first piece
+    world_.broadcast(names, pieces_.holder(0));  // the fields of the first piece
     std::vector<BlockField> kept;
     for (std::size_t at = 0; at < names.size();) {
       const std::size_t end = names.find('\n', at);
@@ -217,25 +227,53 @@ class PvtuFile final : public SharedMeshFile {
         block.fields.push_back({field.name, field.on, to_holders<double>(elements, [&](std::size_t i) { return field.values[i]; })});
   }
 
+  /// No piece may take the place of one that was read.
+  void require_other_files(const std::filesystem::path& target) const {
+    std::set<std::filesystem::path> read;
+    for (const std::filesystem::path& name : names_) read.insert(std::filesystem::weakly_canonical(name));
+    for (std::uint64_t p = pieces_.begin(world_.rank()); p < pieces_.end(world_.rank()); ++p) {
+      const std::filesystem::path piece = target.parent_path() / pvtu_piece_name(target, p);
+      if (read.contains(std::filesystem::weakly_canonical(piece)))
+        throw OutputError(piece.string(),
+                          fmt::format("it is a piece of {}, which would be replaced: name the output otherwise", path_.string()));
+    }
+  }
+
   /// Returns how many vertices it has.
-  std::size_t write_piece(std::uint64_t p, AtomicFile& file, std::span<const Vec3> positions) const {
+  std::size_t write_piece(std::uint64_t p, AtomicFile& file, std::span<const Vec3> positions, std::vector<std::string>& notes) const {
     Progress unwatched;
     const Mesh piece = read_mesh(names_[p], unwatched);
     const std::size_t count = piece.positions.size();
-    if (count > positions.size()) throw InputError(names_[p].string(), 0, "the file has changed while it was smoothed");
-    if (piece.source && piece.source->not_patchable().empty())
-      static_cast<void>(patch_vtu(file, piece, positions.first(count), unwatched));
-    else
-      static_cast<void>(write_vtu(file, piece, positions.first(count), unwatched));
+    const Facts& facts = facts_[p - pieces_.begin(world_.rank())];
+    if (count != facts.vertices || RangeFile(names_[p]).stamp() != facts.stamp)
+      throw InputError(names_[p].string(), 0, "the file has changed while it was smoothed");
+    const std::string name = file.path().filename().string();
+    const auto note = [&](const std::string& sentence) { notes.push_back(fmt::format("{}: {}", name, sentence)); };
+    if (piece.source->not_patchable().empty()) {
+      for (const std::string& sentence : patch_vtu(file, piece, positions.first(count), unwatched)) note(sentence);
+    } else {
+      note(fmt::format("The file was made anew: {}.", piece.source->not_patchable()));
+      for (const std::string& sentence : write_vtu(file, piece, positions.first(count), unwatched)) note(sentence);
+      for (const std::string& thing : piece.source->only_in_file())
+        note(fmt::format("Dropped: {} of {}.", thing, names_[p].filename().string()));
+    }
+    if (!file.note().empty()) note(file.note());
     file.finish();
     return count;
   }
+
+  /// A piece as it was read.
+  struct Facts {
+    std::size_t vertices;
+    std::int64_t stamp;
+  };
 
   const World& world_;
   std::filesystem::path path_;
   std::string text_;
   std::vector<std::filesystem::path> names_;
   Ranges pieces_, block_vertices_;
+  std::vector<Facts> facts_;         // of the rank's pieces
   std::vector<WholeIndex> numbers_;  // of the vertices of the rank's pieces, one after the other
 };
 

@@ -21,8 +21,9 @@ class SharedMeshFile {
   [[nodiscard]] virtual MeshBlock read(const FieldFilter& filter) = 0;
   /// Writes the file that was read under another name, or the same, with the vertices elsewhere; all else stays. `positions`: of the
   /// block's vertices, in its ranges. The target is as it was until the new file is whole. All ranks together, after read(). Throws
-  /// OutputError, and InputError where the file read has changed since (as SharedError on all).
-  virtual void write(const std::filesystem::path& target, std::span<const Vec3> positions) = 0;
+  /// OutputError, and InputError where the file read has changed since (as SharedError on all). Returns what of this rank's part could not
+  /// be kept, in sentences.
+  [[nodiscard]] virtual std::vector<std::string> write(const std::filesystem::path& target, std::span<const Vec3> positions) = 0;
 };
 
 /// By the extension: .vtu, .pvtu, .obj, .off, .14 or .grd. Throws UsageError for others. `world` must outlive it.

@@ -16,6 +16,7 @@ SharedOutput::SharedOutput(const World& world, const std::filesystem::path& targ
     temporary = file_->temporary().string();
     if (temporary.empty()) throw OutputError(target.string(), "this is no file whose parts can be written");
     file_->reserve(size);
+    file_->finish();  // what room is made of must not come to a shared disk after the others' parts
   });
   world.broadcast(temporary, 0);
   world.together([&] {
@@ -38,13 +39,15 @@ void SharedOutput::write(std::uint64_t offset, std::string_view bytes) {
   }
 }
 
-void SharedOutput::commit() {
+std::vector<std::string> SharedOutput::commit() {
   world_.together([&] {
     if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP && errno != ENOSYS && errno != EROFS) fail(errno);
   });
   world_.together([&] {
     if (file_) file_->commit();
   });
+  if (!file_ || file_->note().empty()) return {};
+  return {target_.filename().string() + ": " + file_->note()};
 }
 
 void SharedOutput::fail(int error) const { throw OutputError(target_.string(), std::generic_category().message(error)); }

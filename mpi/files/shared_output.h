@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/io/writing/atomic_file.h"
 #include "mpi/world/world.h"
@@ -22,8 +24,8 @@ class SharedOutput {
   SharedOutput& operator=(const SharedOutput&) = delete;
   /// Writes a part; this rank alone. Throws OutputError.
   void write(std::uint64_t offset, std::string_view bytes);
-  /// Throws OutputError (as SharedError on all), with the target as it was.
-  void commit();
+  /// Throws OutputError (as SharedError on all), with the target as it was. Returns, on rank 0, what replacing the target leaves undone.
+  [[nodiscard]] std::vector<std::string> commit();
 
  private:
   [[noreturn]] void fail(int error) const;

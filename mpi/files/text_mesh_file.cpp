@@ -15,7 +15,7 @@ const RangeFile& TextMeshFile::open() {
   return *file_;
 }
 
-void TextMeshFile::write(const std::filesystem::path& target, std::span<const Vec3> positions) {
+std::vector<std::string> TextMeshFile::write(const std::filesystem::path& target, std::span<const Vec3> positions) {
   const std::int64_t read = stamp_;
   const RangeFile& file = open();
   world_.together([&] { file.require_unchanged(read); });
@@ -43,8 +43,15 @@ void TextMeshFile::write(const std::filesystem::path& target, std::span<const Ve
     if (world_.is_first()) output.write(0, file.read(0, head));
     output.write(head + sizes.begin(world_.rank()), out.text());
   });
-  output.commit();
   close();
+  return output.commit();
+}
+
+void TextMeshFile::require_counts(const MeshBlock& block, std::uint64_t vertices, std::uint64_t elements) const {
+  world_.together([&] {
+    if (block.vertices.size() != vertices || block.elements.size() != elements)
+      throw InputError(name(), 0, "some of its lines end with a carriage return alone, which several ranks cannot read");
+  });
 }
 
 std::uint64_t count_data_lines(std::string_view text, char comment) {

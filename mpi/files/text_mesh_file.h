@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/io/reading/source_file.h"
-#include "mpi/reading/byte_range.h"
 #include "mpi/files/shared_mesh_file.h"
+#include "mpi/reading/byte_range.h"
 
 namespace dmoscope {
 
@@ -23,7 +23,7 @@ inline constexpr std::uint64_t kLongestHead = std::uint64_t{1} << 16U;
 class TextMeshFile : public SharedMeshFile {
  public:
   TextMeshFile(const World& world, std::filesystem::path path) : world_(world), path_(std::move(path)) {}
-  void write(const std::filesystem::path& target, std::span<const Vec3> positions) final;
+  [[nodiscard]] std::vector<std::string> write(const std::filesystem::path& target, std::span<const Vec3> positions) final;
 
  protected:
   /// The rank's lines; all ranks together.
@@ -35,6 +35,8 @@ class TextMeshFile : public SharedMeshFile {
   /// Opens the file; read() calls it first.
   [[nodiscard]] const RangeFile& open();
   void close() { file_.reset(); }
+  /// Ranks take a line to end with a line feed. Throws InputError (as SharedError on all) where others count otherwise.
+  void require_counts(const MeshBlock& block, std::uint64_t vertices, std::uint64_t elements) const;
   [[nodiscard]] const World& world() const noexcept { return world_; }
   [[nodiscard]] std::string name() const { return path_.string(); }
 

@@ -9,9 +9,9 @@
 #include "core/io/reading/binary_scalar.h"
 #include "core/io/vtk/vtk_cells.h"
 #include "core/io/vtu/vtu_document.h"
-#include "mpi/reading/byte_range.h"
 #include "mpi/files/shared_mesh_file.h"
 #include "mpi/files/shared_output.h"
+#include "mpi/reading/byte_range.h"
 
 namespace dmoscope {
 namespace {
@@ -72,7 +72,7 @@ class VtuFile final : public SharedMeshFile {
     return block;
   }
 
-  void write(const std::filesystem::path& target, std::span<const Vec3> positions) override {
+  std::vector<std::string> write(const std::filesystem::path& target, std::span<const Vec3> positions) override {
     world_.together([&] {
       file_.emplace(path_);
       file_->require_unchanged(stamp_);
@@ -80,8 +80,8 @@ class VtuFile final : public SharedMeshFile {
     SharedOutput output(world_, target, file_->size());
     world_.together([&] { copy(output); });
     world_.together([&] { write_points(output, target, positions); });
-    output.commit();
     file_.reset();
+    return output.commit();
   }
 
  private:
@@ -212,10 +212,16 @@ class VtuFile final : public SharedMeshFile {
     }
   }
 
+  /// All but the points, which others write: on a shared disk no byte may be written twice.
   void copy(SharedOutput& output) const {
-    const Ranges bytes(file_->size(), world_.size());
-    for (std::uint64_t at = bytes.begin(world_.rank()); at < bytes.end(world_.rank()); at += kCopyBytes)
-      output.write(at, file_->read(at, std::min<std::uint64_t>(kCopyBytes, bytes.end(world_.rank()) - at)));
+    const std::uint64_t begin = points_.begin, end = points_.at(3 * points_count_);
+    const Ranges bytes(file_->size() - (end - begin), world_.size());
+    for (std::uint64_t at = bytes.begin(world_.rank()); at < bytes.end(world_.rank());) {
+      const std::uint64_t stop = std::min(bytes.end(world_.rank()), at < begin ? begin : bytes.end(world_.rank()));
+      const std::uint64_t count = std::min<std::uint64_t>(kCopyBytes, stop - at), offset = at < begin ? at : at + (end - begin);
+      output.write(offset, file_->read(offset, count));
+      at += count;
+    }
   }
 
   void write_points(SharedOutput& output, const std::filesystem::path& target, std::span<const Vec3> positions) const {

@@ -79,11 +79,9 @@ class Colourer {
   void tell_others() {
     constexpr int kTag = 22;
     const auto neighbours = halo_.neighbours();
-    std::vector<std::vector<News>> from(neighbours.size());
     std::vector<MPI_Request> receives(neighbours.size()), sends(neighbours.size());
     for (std::size_t n = 0; n < neighbours.size(); ++n) {
-      from[n].resize(neighbours[n].receive.size());
-      MPI_Irecv(from[n].data(), bytes(from[n]), MPI_BYTE, neighbours[n].rank, kTag, world_.comm(), &receives[n]);
+      MPI_Irecv(from_[n].data(), bytes(from_[n]), MPI_BYTE, neighbours[n].rank, kTag, world_.comm(), &receives[n]);
       MPI_Isend(news_[n].data(), bytes(news_[n]), MPI_BYTE, neighbours[n].rank, kTag, world_.comm(), &sends[n]);
     }
     std::vector<MPI_Status> came(neighbours.size());
@@ -93,8 +91,8 @@ class Colourer {
       int count = 0;
       MPI_Get_count(&came[n], MPI_BYTE, &count);
       news_[n].clear();
-      from[n].resize(static_cast<std::size_t>(count) / sizeof(News));
-      for (const News& one : from[n]) set(neighbours[n].receive[one.place], one.colour);
+      for (const News& one : std::span(from_[n]).first(static_cast<std::size_t>(count) / sizeof(News)))
+        set(neighbours[n].receive[one.place], one.colour);
     }
   }
   template <class T>
@@ -106,6 +104,7 @@ class Colourer {
   void find_listeners() {
     const auto neighbours = halo_.neighbours();
     news_.resize(neighbours.size());
+    for (const Halo::Neighbour& neighbour : neighbours) from_.emplace_back(neighbour.receive.size());
     first_listener_.assign(share_.vertices.size() + 1, 0);
     for (const Halo::Neighbour& neighbour : neighbours)
       for (const Index v : neighbour.send) ++first_listener_[v + 1];
@@ -134,7 +133,7 @@ class Colourer {
   std::vector<Index> ready_, taken_by_;
   std::vector<Index> first_listener_;  // by vertex, into listeners_
   std::vector<Listener> listeners_;
-  std::vector<std::vector<News>> news_;  // for each neighbour
+  std::vector<std::vector<News>> news_, from_;  // for each neighbour, and room for its own
   std::uint64_t left_ = 0;
   Index classes_ = 0;
 };

@@ -22,9 +22,7 @@ struct SetName {
 /// What a rank knows of one of its sets: the votes of those elements that it counts, were the lowest to keep its winding.
 struct SetVotes {
   SetName set;
-  std::uint64_t members;
-  std::int64_t balance;
-  double measure;
+  WindingVote vote;
 };
 
 /// Two sets of different ranks have an element in common.
@@ -84,7 +82,7 @@ class Orienter {
       if (share_.home[e] != 0) vote.add(place.against != 0 ? -measure(e) : measure(e));
     }
     std::vector<SetVotes> all;
-    for (const auto& [root, vote] : votes) all.push_back({name(root), vote.members, vote.balance, vote.measure});
+    for (const auto& [root, vote] : votes) all.push_back({name(root), vote});
     std::ranges::sort(all, {}, &SetVotes::set);
     return all;
   }
@@ -138,11 +136,7 @@ class Orienter {
       std::vector<WindingVote> all(sorted.size());
       for (Index i = 0; i < sorted.size(); ++i) {
         const auto place = joined.find(i);
-        const double sign = place.against != 0 ? -1.0 : 1.0;
-        WindingVote& vote = all[place.root];
-        vote.members += static_cast<Index>(sorted[i].members);
-        vote.balance += place.against != 0 ? -sorted[i].balance : sorted[i].balance;
-        vote.measure += sign * sorted[i].measure;
+        all[place.root].add(sorted[i].vote, place.against != 0);
       }
       for (Index i = 0; i < sorted.size(); ++i) {
         const auto place = joined.find(i);

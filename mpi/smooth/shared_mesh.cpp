@@ -107,6 +107,10 @@ SharedMesh load_shared(const World& world, SharedMeshFile& file, const std::file
 
 SharedMesh share_block(const World& world, MeshBlock block, const std::filesystem::path& path, const PartitionChoice& choice,
                        const SharedVertexWords& named, Need need) {
+  world.together([&] {
+    if (block.vertices.size() == 0) throw InputError(path.string(), 0, "the file holds no vertices");
+    if (block.elements.size() == 0) throw InputError(path.string(), 0, "the file holds no elements");
+  });
   SharedMesh shared;
   shared.vertices = block.vertices;  // as the file has them
   spread_evenly(world, block);

@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -107,6 +108,26 @@ void World::exchange_bytes(std::span<const std::byte> to, std::span<const std::u
   const std::size_t bytes = (to_offsets[own + 1] - to_offsets[own]) * size;
   if (bytes > 0) std::memcpy(from.data() + from_offsets[own] * size, to.data() + to_offsets[own] * size, bytes);
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+}
+
+std::vector<std::string> World::gather_sentences(const std::vector<std::string>& here) const {
+  std::vector<char> text;
+  for (const std::string& sentence : here) {
+    text.insert(text.end(), sentence.begin(), sentence.end());
+    text.push_back('\n');
+  }
+  std::vector<std::string> all;
+  std::string one;
+  for (const char c : gather(text)) {
+    if (c != '\n') {
+      one += c;
+      continue;
+    }
+    all.push_back(std::exchange(one, {}));
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
 }
 
 void World::together(const std::function<void()>& work) const {

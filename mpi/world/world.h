@@ -144,6 +144,9 @@ class World {
     return exchange(to).values;
   }
 
+  /// Different sentences of all ranks, sorted, on rank 0; nothing on others.
+  [[nodiscard]] std::vector<std::string> gather_sentences(const std::vector<std::string>& here) const;
+
   /// Does work that may fail on some ranks alone and that asks no other rank. Where it does, all ranks throw the error of the first of
   /// them: a SharedError that names it.
   void together(const std::function<void()>& work) const;

@@ -91,6 +91,21 @@ TEST(Pvtu, VerticesOfNoElementStay) {
   EXPECT_EQ(read(folder / "a.pvtu").positions, mesh.positions);
 }
 
+TEST(Pvtu, NoPieceTakesThePlaceOfWhatWasRead) {
+  const test::TemporaryFolder folder;
+  Progress unwatched;
+  const Mesh made = generate_mesh("coast", 300, 1, unwatched);
+  write_mesh(folder / "a_0.vtu", made, made.positions, unwatched);
+  const Mesh mesh = read(folder / "a_0.vtu");
+  EXPECT_THROW(write_pieces(folder / "a.pvtu", mesh, 2), OutputError);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.pvtu"));
+  write_pieces(folder / "b.pvtu", mesh, 2);
+  const Mesh pieces = read(folder / "b.pvtu");
+  write_pieces(folder / "b.pvtu", pieces, 3);  // itself
+  std::filesystem::copy_file(folder / "b.pvtu", folder / "c.pvtu");
+  EXPECT_THROW(write_pieces(folder / "b.pvtu", read(folder / "c.pvtu"), 2), OutputError);
+}
+
 /// Two triangles on an edge; `ids`: arrays of the second piece.
 std::string piece(const char* points, const char* cells, const std::string& point_data, const std::string& cell_data) {
   return std::string("<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"3\" NumberOfCells=\"1\"><PointData>") +

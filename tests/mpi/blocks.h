@@ -1,6 +1,9 @@
 #pragma once
 // Meshes that every rank of a test has whole, and their parts.
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -82,6 +85,21 @@ struct Sample {
   return two;
 }
 
+/// A sheet that is folded on itself: as many elements look up as down, and all are of one size.
+[[nodiscard]] inline Mesh folded_lattice(Index cells) {
+  Mesh mesh;
+  const Index side = cells + 1;
+  for (Index j = 0; j < side; ++j)
+    for (Index i = 0; i < side; ++i) mesh.positions.push_back({std::abs(1.0 * i - 0.5 * cells), 1.0 * j, 0.0});
+  for (Index j = 0; j < cells; ++j)
+    for (Index i = 0; i < cells; ++i) {
+      const Index v = j * side + i;
+      for (const std::array<Index, 3>& corners : {std::array{v, v + 1, v + side + 1}, std::array{v, v + side + 1, v + side}})
+        mesh.elements.add(ElementKind::Triangle, corners);
+    }
+  return mesh;
+}
+
 [[nodiscard]] inline std::vector<Sample> samples() {
   std::vector<Sample> all;
   for (const char* name : {"coast", "random", "quads", "mixed", "tangled", "block"}) all.push_back({name, generated(name, 400, 3)});
@@ -93,7 +111,8 @@ struct Sample {
   all.push_back({"stripes", with_stripes(generated("random", 400))});
   all.push_back({"two parts, one turned", twice(generated("mixed", 150))});
   for (Index e = 0; e < all.back().mesh.elements.size() / 2; ++e) all.back().mesh.elements.flip(e);
-  all.push_back({"three triangles", generated("grid", 9)});
+  all.push_back({"nine vertices", generated("grid", 9)});
+  all.push_back({"folded", folded_lattice(8)});
   return all;
 }
 

@@ -223,6 +223,22 @@ class SameBytes(Case):
 
 
 class Pieces(Case):
+    def test_materials_with_fewer_pieces_than_ranks(self):
+        self.pieces_same_as_alone(self.vtu("m.vtu", "random", 400), ("--iterations", 4), (2, 5))
+        self.pieces_same_as_alone(self.vtu("m.vtu", "random", 400), ("--iterations", 4, "--fix", "material=2", "--interfaces", "free"), (5,))
+
+    def test_pieces_that_were_read_stay(self):
+        alone("convert", self.make("a.obj"), self.folder / "a.pvtu", "--pieces", 2)
+        shutil.copy(self.folder / "a.pvtu", self.folder / "old.pvtu")
+        before = (self.folder / "a_0.vtu").read_bytes()
+        done = mpirun(2, "smooth", self.folder / "old.pvtu", "-o", self.folder / "a.pvtu")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("which would be replaced", done.stderr)
+        self.assertEqual((self.folder / "a_0.vtu").read_bytes(), before)
+        done = mpirun(2, "smooth", self.folder / "a.pvtu", "-o", self.folder / "a.pvtu", "--iterations", 3)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotEqual((self.folder / "a_0.vtu").read_bytes(), before)
+
     def test_there_and_back(self):
         mesh = self.make("a.obj", "mixed", 500)
         alone("convert", mesh, self.folder / "a.pvtu", "--pieces", 5)
@@ -393,6 +409,11 @@ class Failures(Case):
                 self.fail(f"ended before it was {when}")
             time.sleep(0.001)
         self.fail(f"never {when}")
+
+    def test_the_desktop_program_needs_no_mpi(self):
+        libraries = subprocess.run(["ldd", str(DMOSCOPE)], capture_output=True, text=True).stdout
+        self.assertIn("libc.so", libraries)
+        self.assertNotIn("mpi", libraries)
 
     def test_a_build_without_mpi_refuses(self):
         lonely = self.folder / "dmoscope"

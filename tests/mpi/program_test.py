@@ -273,7 +273,7 @@ class Pieces(Case):
         alone("smooth", pvtu, "-o", self.folder / "want.obj", "--iterations", 5)
         before = (self.folder / "part_0.vtu").read_bytes()
         for n in (1, 2, 3):
-            done = mpirun(n, "smooth", pvtu, "-o", self.folder / "s.pvtu", "--iterations", 5)
+            done = mpirun(n, "smooth", pvtu, "-o", self.folder / "s.pvtu", "--iterations", 5, "--partition", "hilbert")
             self.assertEqual(done.returncode, 0, done.stderr)
             alone("convert", self.folder / "s.pvtu", self.folder / "s.obj")
             self.assertEqual(read_obj(self.folder / "s.obj")[0], read_obj(self.folder / "want.obj")[0])

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -32,6 +33,8 @@ Json json_of(const MetricSummary& summary, bool with_worst) {
   return object;
 }
 
+namespace {
+
 void print_table(const std::vector<MetricSummary>& summaries) {
   print("{:<16} {:>9} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11} {:>8}\n", "metric", "elements", "min", "1 %", "5 %", "50 %", "mean",
         "acceptable", "below");
@@ -44,10 +47,21 @@ void print_table(const std::vector<MetricSummary>& summaries) {
   }
 }
 
-namespace {
 constexpr double kMostDecimals = 9.0;
-}
 
+/// Coordinates of places in a mesh, to six digits of the mesh's size; far from the origin that is more digits of the coordinate. Without z
+/// where all of the mesh has the same. --json has all digits.
+class PlaceText {
+ public:
+  explicit PlaceText(const Geometry& geometry);
+  [[nodiscard]] std::string operator()(Vec3 p) const;
+  [[nodiscard]] std::string head() const;
+
+ private:
+  [[nodiscard]] std::string coordinate(double x) const;
+  std::optional<int> decimals_;  // none: such numbers are written with an exponent
+  bool flat_ = false;
+};
 PlaceText::PlaceText(const Geometry& geometry) {
   const double size = geometry.size;
   const double decimals = size > 0.0 && std::isfinite(size) ? 5.0 - std::floor(std::log10(size)) : kMostDecimals + 1;
@@ -73,6 +87,19 @@ void print_worst(const MetricSummary& summary, const PlaceText& place) {
         "quality", place.head());
   for (const MetricSummary::Worst& one : summary.worst)
     print("{:>10} {:<14} {:>12} {}\n", one.element, info(one.kind).name, brief(one.quality), place(one.centroid));
+}
+
+}  // namespace
+
+void print_counts(const std::string& mesh, std::uint64_t vertices, std::uint64_t elements, std::uint64_t inverted) {
+  print("{}: {}, {}, {} inverted\n\n", mesh, counted(vertices, "vertex", "vertices"), counted(elements, "element", "elements"),
+        grouped(inverted));
+}
+
+void print_summaries(const std::vector<MetricSummary>& summaries, const Geometry& geometry) {
+  print_table(summaries);
+  const PlaceText place(geometry);
+  for (const MetricSummary& summary : summaries) print_worst(summary, place);
 }
 
 }  // namespace dmoscope::app

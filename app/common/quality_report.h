@@ -2,7 +2,6 @@
 // How good a mesh's elements are, for a person and as JSON.
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,21 +27,9 @@ struct MetricSummary {
 };
 
 [[nodiscard]] Json json_of(const MetricSummary& summary, bool with_worst);
-void print_table(const std::vector<MetricSummary>& summaries);
-
-/// Coordinates of places in a mesh, to six digits of the mesh's size; far from the origin that is more digits of the coordinate. Without z
-/// where all of the mesh has the same. --json has all digits.
-class PlaceText {
- public:
-  explicit PlaceText(const Geometry& geometry);
-  [[nodiscard]] std::string operator()(Vec3 p) const;
-  [[nodiscard]] std::string head() const;
-
- private:
-  [[nodiscard]] std::string coordinate(double x) const;
-  std::optional<int> decimals_;  // none: such numbers are written with an exponent
-  bool flat_ = false;
-};
-void print_worst(const MetricSummary& summary, const PlaceText& place);
+/// "coast.14: 4,934 vertices, 9,290 elements, 0 inverted"
+void print_counts(const std::string& mesh, std::uint64_t vertices, std::uint64_t elements, std::uint64_t inverted);
+/// The table of all metrics, then the worst elements of each.
+void print_summaries(const std::vector<MetricSummary>& summaries, const Geometry& geometry);
 
 }  // namespace dmoscope::app

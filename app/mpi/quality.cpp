@@ -133,11 +133,8 @@ int quality(const World& world, const SharedQualityOptions& options) {
                 {"warnings", warnings}});
     return 0;
   }
-  print("{}: {}, {}, {} inverted\n\n", name, counted(mesh.share->vertex_count(), "vertex", "vertices"),
-        counted(mesh.share->element_count(), "element", "elements"), grouped(inverted));
-  print_table(summaries);
-  const PlaceText place(mesh.input->geometry);
-  for (const MetricSummary& summary : summaries) print_worst(summary, place);
+  print_counts(name, mesh.share->vertex_count(), mesh.share->element_count(), inverted);
+  print_summaries(summaries, mesh.input->geometry);
   return 0;
 }
 

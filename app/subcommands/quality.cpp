@@ -198,14 +198,11 @@ int quality(const QualityOptions& options) {
     print_json(object);
     return 0;
   }
-  print("{}: {}, {}, {} inverted\n\n", mesh.name, counted(mesh.vertex_count(), "vertex", "vertices"),
-        counted(mesh.elements.size(), "element", "elements"), grouped(inverted));
+  print_counts(mesh.name, mesh.vertex_count(), mesh.elements.size(), inverted);
   if (near)
     print("on {}: at most {:.3g} away ({:.2g} of the mesh's size), tilted by at most {:.1f} degrees; {} not over it\n\n",
           input->surface->mesh.name, near->deviation, share, near->tilt, counted(near->not_over_it, "element lies", "elements lie"));
-  print_table(summaries);
-  const PlaceText place(input->geometry);
-  for (const MetricSummary& summary : summaries) print_worst(summary, place);
+  print_summaries(summaries, input->geometry);
   constexpr std::size_t kMostGroups = 20;
   print_groups(mesh, kMostGroups);
   return 0;

@@ -1,7 +1,6 @@
 #include "core/mesh/vertex_words.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -9,18 +8,11 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/number_in.h"
 #include "core/mesh/group_facts.h"
 
 namespace dmoscope {
 namespace {
-
-template <class Number>
-std::optional<Number> number_in(std::string_view word) {
-  Number value{};
-  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || stop != word.data() + word.size()) return std::nullopt;
-  return value;
-}
 
 std::vector<std::string_view> split(std::string_view text) {
   std::vector<std::string_view> words;

@@ -73,7 +73,7 @@ class Orienter {
                                             : 0.5 * dot(area_vector(mesh_, e, geometry_.plane), geometry_.plane.normal);
   }
 
-  /// Sets that are all well and lie within this share alone need nobody else.
+  /// Of each of this share's sets.
   [[nodiscard]] std::vector<SetVotes> votes_here() {
     std::unordered_map<Index, WindingVote> votes;
     for (Index e = 0; e < mesh_.elements.size(); ++e) {

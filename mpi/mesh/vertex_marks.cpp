@@ -1,24 +1,16 @@
 #include "mpi/mesh/vertex_marks.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/number_in.h"
 
 namespace dmoscope {
 namespace {
-
-template <class Number>
-std::optional<Number> number_in(std::string_view word) {
-  Number value{};
-  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || stop != word.data() + word.size()) return std::nullopt;
-  return value;
-}
 
 /// Calls visit(part) for what stands between commas.
 template <class Visit>

@@ -106,6 +106,9 @@ struct Sample {
   for (const char* name : {"tetrahedra", "hexahedra", "solids", "tangled-solids"}) all.push_back({name, generated(name, 300, 2)});
   all.push_back({"coast turned", with_turned_elements(generated("coast", 300), 5)});
   all.push_back({"solids turned", with_turned_elements(generated("solids", 200), 5)});
+  // Most ranks know turned elements alone, and the first none.
+  all.push_back({"later elements turned", generated("grid", 300)});
+  for (Index e = all.back().mesh.elements.size() / 5; e < all.back().mesh.elements.size(); ++e) all.back().mesh.elements.flip(e);
   all.push_back({"random numbers", shuffled_mesh(generated("coast", 500), 7)});
   all.push_back({"volume, random numbers", shuffled_mesh(generated("solids", 250), 7)});
   all.push_back({"stripes", with_stripes(generated("random", 400))});

@@ -84,6 +84,7 @@ int run(int argc, char** argv) {
   add_script(app, action);
   add_bench(app, action);
   add_paper(app, action, command_line);
+  add_formula(app, action);
   add_info(app, action);
   // Last: subcommands would take it over.
   app.footer(

@@ -90,6 +90,7 @@ class DeviceDmo final : public Smoother {
 
   std::shared_ptr<const DevicePicture> picture(Metric shown) override {
     if (stale_ || !visited_ || mesh_.is_volume()) return nullptr;  // which of a volume's faces are seen, the host knows
+    if (!is_built_in(shown)) return nullptr;                       // formulas are the host's
     judged_ = false;
     auto picture = pictures_->make(mesh_, shown);
     judged_ = shown == metric_;

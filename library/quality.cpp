@@ -34,7 +34,7 @@ Statistics statistics(const Mesh& mesh, const std::string& metric, unsigned thre
   return translated([&] {
     const dmoscope::InputMesh& input = *mesh.data()->input;
     const dmoscope::Metric parsed = dmoscope::parse_metric(metric);
-    require_defined(parsed, input.mesh);
+    require_defined(parsed, input);
     dmoscope::ThreadPool pool(threads);
     return statistics_of(
         dmoscope::compute_statistics(input.quality_context(), mesh.data()->positions(), parsed, input.topology.boundary(), &pool));

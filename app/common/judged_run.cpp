@@ -23,7 +23,7 @@ void count_all(RunRow& row, const Run& run) {
 
 JudgedRun run_judged(std::string name, std::shared_ptr<const InputMesh> input, RunParameters parameters, Metric judge, const Goal& goal,
                      const Workshop& workshop) {
-  require_defined(judge, input->mesh);
+  require_defined(judge, *input);
   ThreadPool* const pool = workshop.pool.get();
   const QualityContext context = input->quality_context();
   const bool own = judge == parameters.metric;

@@ -36,12 +36,14 @@ Json json_of(const MetricSummary& summary, bool with_worst) {
 namespace {
 
 void print_table(const std::vector<MetricSummary>& summaries) {
-  print("{:<16} {:>9} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11} {:>8}\n", "metric", "elements", "min", "1 %", "5 %", "50 %", "mean",
+  std::size_t width = 16;
+  for (const MetricSummary& one : summaries) width = std::max(width, info(one.metric).name.size());
+  print("{:<{}} {:>9} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11} {:>8}\n", "metric", width, "elements", "min", "1 %", "5 %", "50 %", "mean",
         "acceptable", "below");
   for (const MetricSummary& one : summaries) {
     if (one.elements == 0) continue;
     const MetricInfo& metric = info(one.metric);
-    print("{:<16} {:>9} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11} {:>8}\n", metric.name, one.elements, brief(one.minimum),
+    print("{:<{}} {:>9} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11} {:>8}\n", metric.name, width, one.elements, brief(one.minimum),
           brief(one.percentile_1), brief(one.percentile_5), brief(one.percentile_50), brief(one.mean), brief(metric.acceptable),
           one.unacceptable);
   }

@@ -74,8 +74,10 @@ void add_backend_option(CLI::App& subcommand, std::string& backend) {
 
 void add_run_options(CLI::App& subcommand, RunOptions& options) {
   subcommand.add_option("--method", options.method, "Method: " + names_of(method_table()))->type_name("NAME")->capture_default_str();
-  auto* metric = subcommand.add_option("--metric", options.metric, "Metric to optimise: " + names_of(metric_table()))->type_name("NAME");
+  auto* metric = subcommand.add_option("--metric", options.metric, "Metric to optimise: " + names_of_metrics())->type_name("NAME");
   metric->capture_default_str();
+  subcommand.add_option("--target", options.target, fmt::format("What elements are wished to be instead of ideal: {}", kTargetHelp))
+      ->type_name("SHAPE");
   auto* combine =
       subcommand.add_option("--combine", options.combine,
                             "Two aims: the metric FIRST up to THRESHOLD, and beyond it SECOND: another metric, or density, which "
@@ -121,6 +123,7 @@ RunParameters parameters_of(const RunOptions& options) {
   parameters.metric = parse_metric(options.metric);
   if (!options.combine.empty())
     std::tie(parameters.metric, parameters.combination) = parse_combination(options.combine, options.size_function);
+  if (!options.target.empty()) aim_at(parameters, parse_target(options.target));
   if (!options.recipe.empty()) static_cast<void>(recipe(options.recipe));
   if (!options.then.empty()) {
     try {

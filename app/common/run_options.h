@@ -27,6 +27,7 @@ struct KindWords {
 struct RunOptions {
   std::string method = "dmo";
   std::string metric = "mean-ratio";
+  std::string target;         // see parse_target(); empty: that of the metric
   std::string combine;        // FIRST:THRESHOLD:SECOND; empty: one metric alone
   std::string size_function;  // of a combination with density; empty: constant
   std::string then;           // see set_then(); empty: nothing

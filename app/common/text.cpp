@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "app/common/console.h"
+#include "core/quality/defined_metric.h"
+#include "core/quality/metric.h"
 
 namespace dmoscope::app {
 
@@ -69,6 +71,12 @@ std::string shell_line(const std::vector<std::string>& words) {
     line += '\'';
   }
   return line;
+}
+
+std::string names_of_metrics() {
+  return fmt::format(
+      "{}, {}; formula:TEXT, or formula:@FILE for one in a file (see dmoscope formula). With @SHAPE behind it: against a target",
+      names_of(metric_table()), names_of(named_formulas()));
 }
 
 }  // namespace dmoscope::app

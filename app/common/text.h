@@ -32,6 +32,8 @@ template <class Table>
   }
   return names;
 }
+/// Those of all metrics that may be named, and how others are written.
+[[nodiscard]] std::string names_of_metrics();
 /// Lines of cells under a head, each column as wide as its widest cell, two blanks apart. `alignment`: an 'l' or an 'r' a column.
 [[nodiscard]] std::string text_table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
                                      std::string_view alignment);

@@ -129,7 +129,7 @@ ComparisonPlan plan_of(const CompareOptions& options) {
 }
 
 void fit_to_mesh(ComparisonPlan& plan, const std::shared_ptr<const InputMesh>& input, const std::vector<Index>& fixed, const Kinds& kinds) {
-  require_defined(plan.judge, input->mesh);
+  require_defined(plan.judge, *input);
   std::vector<Contender> possible;
   for (Contender& contender : plan.contenders) {
     contender.parameters.fixed = fixed;

@@ -105,6 +105,8 @@ std::uint64_t count_inverted(const SharedMesh& mesh) {
 int quality(const World& world, const SharedQualityOptions& options) {
   std::vector<Metric> metrics;
   if (options.metric != "all") metrics = {parse_metric(options.metric)};
+  if (!metrics.empty() && !is_built_in(metrics.front()))
+    throw UsageError(fmt::format("{}: formulas and targets are of one process alone", options.metric));
   for (const MetricInfo& one : metric_table())
     if (options.metric == "all") metrics.push_back(one.metric);
   const auto file = open_shared(world, options.input);

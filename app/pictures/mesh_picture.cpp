@@ -16,7 +16,7 @@ std::string quality_gradient() {
 }
 
 MeshPicture picture_of_mesh(const InputMesh& input, std::span<const Vec3> positions, Metric metric, const Progress& progress, double low) {
-  require_defined(metric, input.mesh);
+  require_defined(metric, input);
 #ifdef DMOSCOPE_HAVE_GUI
   PictureLook look;
   look.metric = metric;

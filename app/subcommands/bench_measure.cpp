@@ -216,7 +216,7 @@ void measure(const BenchPlan& plan, const std::filesystem::path& file, Progress&
   if (!file.empty()) {
     const SharedInput input = load_input(file, Need::Smoothing, progress);
     if (!plan.all_metrics) {
-      for (const Metric metric : plan.metrics) require_defined(metric, input->mesh);
+      for (const Metric metric : plan.metrics) require_defined(metric, *input);
     }
     bench.measure_all_of(input);
     return;

@@ -19,6 +19,7 @@
 #include "core/io/mesh_io.h"
 #include "core/mesh/generate.h"
 #include "core/numeric/simd.h"
+#include "core/quality/defined_metric.h"
 #include "core/quality/metric.h"
 #include "core/run/run.h"
 #include "core/view/drawing_path.h"
@@ -142,6 +143,7 @@ void print_for_a_person() {
   for (const FormatInfo& f : format_table()) print("  {:<16} {}; {}\n", f.extensions, f.title, f.doc);
   print("\nmetrics\n");
   for (const MetricInfo& m : metric_table()) print("  {:<16} {}\n", m.name, m.doc);
+  for (const NamedFormula& m : named_formulas()) print("  {:<16} {}\n", m.name, m.doc);
   print("\nmethods\n");
   for (const MethodInfo& m : method_table()) print("  {:<16} {}\n", m.name, m.doc);
   print("\nsamples (dmoscope generate)\n");

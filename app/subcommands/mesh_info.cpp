@@ -10,6 +10,7 @@
 #include "app/common/text.h"
 #include "app/subcommands/group_table.h"
 #include "app/subcommands/input_report.h"
+#include "core/target/boundary_layers.h"
 
 namespace dmoscope::app {
 
@@ -24,6 +25,7 @@ std::array<std::size_t, kElementKindCount> count_kinds(const Mesh& mesh) {
 Json json_of(const InputMesh& input, const std::filesystem::path& file, const std::vector<std::string>& warnings) {
   const Mesh& mesh = input.mesh;
   const auto counts = count_kinds(mesh);
+  const BoundaryLayers layers = find_boundary_layers(mesh, input.geometry);
   Json kinds = Json::object();
   for (std::size_t k = 0; k < kElementKindCount; ++k)
     if (counts[k] > 0) kinds[std::string(kElementKinds[k].plural)] = counts[k];
@@ -34,6 +36,7 @@ Json json_of(const InputMesh& input, const std::filesystem::path& file, const st
           {"kinds", std::move(kinds)},
           {"groups", json_of_groups(mesh)},
           {"data", json_of_fields(mesh)},
+          {"boundary_layers", {{"elements", layers.elements.size()}, {"stacks", layers.stacks}, {"most", layers.most}}},
           {"held_on_interfaces", input.interfaces.count()},
           {"warnings", warnings}};
 }
@@ -56,6 +59,9 @@ void tell_mesh(const std::filesystem::path& file, bool json) {
   if (!mesh.title.empty()) print("{}\n", mesh.title);
   print_groups(mesh, std::numeric_limits<std::size_t>::max());
   print_fields(mesh);
+  if (const BoundaryLayers layers = find_boundary_layers(mesh, input->geometry); !layers.empty())
+    print("\nboundary layers: {} in {}, up to {} high (--target layers:input keeps them)\n",
+          counted(layers.elements.size(), "element", "elements"), counted(layers.stacks, "stack", "stacks"), layers.most);
   if (const std::string sentence = input->interfaces.sentence("--interfaces free"); !sentence.empty())
     print("\nwhen it is smoothed, {}\n", sentence);
 }

@@ -29,6 +29,7 @@
 #include "core/inspect/element_fit.h"
 #include "core/io/writing/atomic_file.h"
 #include "core/reference/domain.h"
+#include "core/run/parameters.h"
 #include "core/session/csv.h"
 #include "core/smooth/displace.h"
 
@@ -38,6 +39,7 @@ namespace {
 struct QualityOptions {
   std::filesystem::path input, surface, elements;
   std::string metric = "all";
+  std::string target;  // see parse_target(); empty: ideal elements
   std::size_t worst = 0;
   MemoryLimit memory;
   bool json = false;
@@ -97,10 +99,16 @@ Vec3 centroid(const InputMesh& input, Index element) {
   return middle;
 }
 
-std::vector<Metric> wanted_metrics(const std::string& name) {
-  if (name != "all") return {parse_metric(name)};
+std::vector<Metric> wanted_metrics(const std::string& name, const std::string& target) {
   std::vector<Metric> metrics;
-  for (const MetricInfo& metric : metric_table()) metrics.push_back(metric.metric);
+  if (name != "all")
+    metrics.push_back(parse_metric(name));
+  else if (target.empty())
+    for (const MetricInfo& metric : metric_table()) metrics.push_back(metric.metric);
+  else
+    metrics = {Metric::MeanRatio, parse_metric("relative-size"), parse_metric("shape-size"), parse_metric("aspect")};  // of all elements
+  if (!target.empty())
+    for (Metric& metric : metrics) metric = with_target(metric, parse_target(target));
   return metrics;
 }
 
@@ -148,7 +156,7 @@ Nearness nearness_of(const InputMesh& input, ThreadPool& pool) {
 }
 
 int quality(const QualityOptions& options) {
-  const std::vector<Metric> metrics = wanted_metrics(options.metric);
+  const std::vector<Metric> metrics = wanted_metrics(options.metric, options.target);
   if (!options.elements.empty()) require_writable(options.elements);
   require_another_file(options.elements, "--elements", options.input);
   if (!options.surface.empty()) require_another_file(options.elements, "--elements", options.surface);
@@ -157,6 +165,8 @@ int quality(const QualityOptions& options) {
   const auto input = load_input_on(options.input, options.surface, Need::QualityOnly, {watch.progress(), nullptr, options.memory.bytes()});
   const Mesh& mesh = input->mesh;
   std::vector<std::string> warnings = tell_findings(*input);
+  for (const Metric metric : metrics)
+    if (!is_built_in(metric)) require_defined(metric, *input);
   ThreadPool pool;
   std::vector<Column> columns;
   for (const Metric metric : metrics) {
@@ -202,6 +212,7 @@ int quality(const QualityOptions& options) {
   if (near)
     print("on {}: at most {:.3g} away ({:.2g} of the mesh's size), tilted by at most {:.1f} degrees; {} not over it\n\n",
           input->surface->mesh.name, near->deviation, share, near->tilt, counted(near->not_over_it, "element lies", "elements lie"));
+  if (!target_of(metrics.front()).is_ideal()) print("{}\n\n", target_sentence(*input, metrics.front()));
   print_summaries(summaries, input->geometry);
   constexpr std::size_t kMostGroups = 20;
   print_groups(mesh, kMostGroups);
@@ -214,9 +225,9 @@ void add_quality(CLI::App& app, Action& action) {
   auto options = std::make_shared<QualityOptions>();
   CLI::App* subcommand = app.add_subcommand("quality", "Judge the elements of a mesh");
   subcommand->add_option("FILE", options->input, "Mesh to read")->required();
-  subcommand->add_option("--metric", options->metric, "all, or one of " + names_of(metric_table()))
-      ->type_name("NAME|all")
-      ->capture_default_str();
+  subcommand->add_option("--metric", options->metric, "all, or one of " + names_of_metrics())->type_name("NAME|all")->capture_default_str();
+  subcommand->add_option("--target", options->target, fmt::format("What elements are wished to be instead of ideal: {}", kTargetHelp))
+      ->type_name("SHAPE");
   subcommand->add_option("--worst", options->worst, "List the N worst elements of each metric")
       ->transform(whole_number(0, kNoIndex))
       ->type_name("N");

@@ -185,9 +185,7 @@ void add_render(CLI::App& app, Action& action) {
   CLI::App* subcommand = app.add_subcommand("render", "Make a picture of a mesh; needs no screen");
   subcommand->add_option("FILE", options->input, "Mesh to read")->required();
   subcommand->add_option("-o,--output", options->output, "Picture to write")->required()->type_name("SHOT.png");
-  subcommand->add_option("--metric", options->metric, "Metric shown: " + names_of(metric_table()))
-      ->type_name("NAME")
-      ->capture_default_str();
+  subcommand->add_option("--metric", options->metric, "Metric shown: " + names_of_metrics())->type_name("NAME")->capture_default_str();
   subcommand->add_option("--size", options->size, "Pixels")->type_name("WxH")->capture_default_str();
   subcommand->add_option("--colormap", options->colormap, "Colour map")->type_name("NAME")->capture_default_str();
   subcommand

@@ -26,6 +26,7 @@ void add_script(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);
 void add_paper(CLI::App& app, Action& action, const std::string& command_line);
 void add_info(CLI::App& app, Action& action);
+void add_formula(CLI::App& app, Action& action);
 
 /// No subcommand: opens the window on the files. `subcommands`: all there are, for whoever has no screen.
 int open_window(const std::vector<std::filesystem::path>& files, const std::vector<std::string>& subcommands);

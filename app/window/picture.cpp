@@ -21,7 +21,7 @@
 namespace dmoscope::app {
 
 JudgedElements judge(const InputMesh& input, std::span<const Vec3> positions, Metric metric, const Progress& progress) {
-  require_defined(metric, input.mesh);
+  require_defined(metric, input);
   progress.check();
   const std::size_t size = input.mesh.elements.size();
   const QualityContext context = input.quality_context();

@@ -144,6 +144,8 @@ void write_elements(CommandContext& context, Arguments arguments) {
   context.session.require_not_read(arguments[0], "elements");
   std::vector<Metric> metrics;
   for (const MetricInfo& entry : metric_table()) metrics.push_back(entry.metric);
+  for (const Metric own : {run.parameters().metric, context.session.shown()})
+    if (!is_built_in(own) && std::ranges::find(metrics, own) == metrics.end()) metrics.push_back(own);
   write_file_atomically(arguments[0], elements_csv(run.input().quality_context(), run.positions(), metrics));
   tell(context, fmt::format("wrote {}", arguments[0]));
 }

@@ -58,10 +58,25 @@ void then(CommandContext& context, Arguments arguments) {
   change_run(context, [&](RunParameters& p) { set_then(p, arguments[0], begin); });
 }
 
+/// Of the active run's metric, and of the second one of a combination.
+void set_target(CommandContext& context, Arguments arguments) {
+  require(arguments, 1, 1);
+  const Target target = parse_target(arguments[0]);
+  const bool follows = context.session.shown() == context.session.active().parameters().metric;
+  change_run(context, [&](RunParameters& p) { aim_at(p, target); });
+  const Metric metric = context.session.active().parameters().metric;
+  if (follows) context.session.show(metric);
+  tell(context, target_sentence(context.session.active().input(), metric));
+}
+
 }  // namespace
 
 std::span<const CommandRow> objective_commands() {
   static const std::vector<CommandRow> table{
+      {{"target", "target SHAPE",
+        "What elements are wished to be: ideal, input[:ROUNDS], field[:NAME], aspect:RATIO:DEGREES (or X:Y:Z), GROUP:SHAPE+..., such as "
+        "layers:input."},
+       set_target},
       {{"combine", "combine FIRST:THRESHOLD:SECOND [SIZE]|off",
         "Raises the metric FIRST up to THRESHOLD, beyond it SECOND: a metric, or density by SIZE (h1:X,Y, h2:X,Y, constant, field:NAME)."},
        combine},

@@ -51,6 +51,14 @@ void require_computable(const Geometry& geometry, const std::string& file, Need 
   }
 }
 
+void require_defined(Metric metric, const InputMesh& input) {
+  require_defined(metric, input.mesh);
+  if (is_built_in(metric)) return;
+  if (input.share)
+    throw UsageError(fmt::format("{} needs the whole mesh: formulas and targets are of one process alone", info(metric).name));
+  (void)input.quality_context().judge(metric);
+}
+
 std::uint64_t InputMesh::whole_element_count() const { return share ? share->element_count() : mesh.elements.size(); }
 
 namespace {

@@ -38,7 +38,8 @@ struct InputMesh {
   std::shared_ptr<const MeshShare> share{};  // of a mesh that several processes have together; null: this is all of it
   /// Elements of the whole mesh, whichever processes have them.
   [[nodiscard]] std::uint64_t whole_element_count() const;
-  [[nodiscard]] QualityContext quality_context() const { return {mesh, geometry, surface_normals}; }
+  std::shared_ptr<const DefinedJudges> judges = make_defined_judges();  // of metrics that are defined by formulas and targets
+  [[nodiscard]] QualityContext quality_context() const { return {mesh, geometry, surface_normals, judges.get()}; }
   [[nodiscard]] bool is_volume() const noexcept { return geometry.shape == Shape::Volume; }
   /// Drawn in space: a volume or a curved surface.
   [[nodiscard]] bool in_space() const noexcept { return geometry.shape != Shape::Planar; }
@@ -55,6 +56,9 @@ struct InputMesh {
   }
   [[nodiscard]] PlanarView planar_view() const { return view<Plane>(); }
 };
+
+/// Throws UsageError where the metric is not defined for the mesh, or its target or fields are missing there.
+void require_defined(Metric metric, const InputMesh& input);
 
 enum class Need { Smoothing, QualityOnly };
 

@@ -10,6 +10,7 @@
 #include "core/inspect/require_star.h"
 #include "core/quality/element_shape.h"
 #include "core/search/mesh_star.h"
+#include "core/smooth/defined_state.h"
 #include "core/smooth/reference_visit.h"
 
 namespace dmoscope {
@@ -40,10 +41,9 @@ StarState state_at(const View& star, Offset p) {
   return state;
 }
 
-/// offset(point): of the vertex, mesh units.
-template <Metric M, class Frame, class OffsetAt>
-void fill(const StarIn<Frame, double>& star, bool defined, ThreadPool* pool, const OffsetAt& offset, QualityField& field) {
-  const StarViewIn<Frame, double> view(star);
+/// state(offset): of the star with the vertex there; offset(point): of the vertex, mesh units.
+template <class StateAt, class OffsetAt>
+void fill(const StateAt& state_at, bool defined, ThreadPool* pool, const OffsetAt& offset, QualityField& field) {
   const auto width = static_cast<std::size_t>(field.columns);
   const auto middle = [](double from, double to, std::size_t i, int count) {
     return from + (to - from) * ((static_cast<double>(i) + 0.5) / count);
@@ -52,11 +52,35 @@ void fill(const StarIn<Frame, double>& star, bool defined, ThreadPool* pool, con
     for (std::size_t row = first; row < last; ++row)
       for (std::size_t column = 0; column < width; ++column) {
         const Vec2<double> at{middle(field.low.x, field.high.x, column, field.columns), middle(field.low.y, field.high.y, row, field.rows)};
-        const StarState state = state_at<M>(view, times(offset(at), 1.0 / star.scale));
+        const StarState state = state_at(offset(at));
         field.quality[row * width + column] = defined ? static_cast<float>(state.quality) : std::numeric_limits<float>::quiet_NaN();
         field.jacobian[row * width + column] = static_cast<float>(state.jacobian);
       }
   });
+}
+
+/// By any metric.
+template <class Frame, class OffsetAt>
+void fill(const InputMesh& input, PositionView positions, Metric metric, Index vertex, ThreadPool* pool, const OffsetAt& offset,
+          QualityField& field) {
+  const StarIn<Frame, double> star = star_of<Frame>(input, positions, vertex);
+  const bool defined = defined_around(input, metric, vertex);
+  if (!is_built_in(metric)) {
+    const auto judge = input.quality_context().judge(metric);
+    const auto star_judge = defined_star_judge<Frame>(input, *judge);
+    const auto state = [&](OffsetIn<Frame, double> at) {
+      return defined_star_state(star_judge, positions, vertex, positions[vertex] + star_judge.mesh.frame.lift(at));
+    };
+    return fill(state, defined, pool, offset, field);
+  }
+  const StarViewIn<Frame, double> view(star);
+  const auto with = [&]<Metric M>() {
+    fill([&](OffsetIn<Frame, double> at) { return state_at<M>(view, times(at, 1.0 / star.scale)); }, defined, pool, offset, field);
+  };
+  if constexpr (std::is_same_v<Frame, Plane>)
+    formulas::with_planar_metric(metric, with);
+  else
+    formulas::with_volume_metric(metric, with);
 }
 
 QualityField empty_field(Vec2<double> low, Vec2<double> high, int columns, int rows) {
@@ -70,20 +94,16 @@ QualityField empty_field(Vec2<double> low, Vec2<double> high, int columns, int r
 QualityField sample_quality(const InputMesh& input, PositionView positions, Metric metric, Index vertex, Vec2<double> low,
                             Vec2<double> high, int columns, int rows, ThreadPool* pool) {
   QualityField field = empty_field(low, high, columns, rows);
-  const Star<double> star = star_of<Plane>(input, positions, vertex);
-  const bool defined = defined_around(input, metric, vertex);
-  const auto offset = [](Vec2<double> at) { return at; };
-  formulas::with_planar_metric(metric, [&]<Metric M>() { fill<M, Plane>(star, defined, pool, offset, field); });
+  fill<Plane>(
+      input, positions, metric, vertex, pool, [](Vec2<double> at) { return at; }, field);
   return field;
 }
 
 QualityField sample_slice(const InputMesh& input, PositionView positions, Metric metric, Index vertex, const StarSlice& slice,
                           Vec2<double> low, Vec2<double> high, int columns, int rows, ThreadPool* pool) {
   QualityField field = empty_field(low, high, columns, rows);
-  const VolumeStar<double> star = star_of<Space>(input, positions, vertex);
-  const bool defined = defined_around(input, metric, vertex);
-  const auto offset = [&slice](Vec2<double> at) { return slice.lift(at); };
-  formulas::with_volume_metric(metric, [&]<Metric M>() { fill<M, Space>(star, defined, pool, offset, field); });
+  fill<Space>(
+      input, positions, metric, vertex, pool, [&slice](Vec2<double> at) { return slice.lift(at); }, field);
   return field;
 }
 

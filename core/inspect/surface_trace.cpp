@@ -56,7 +56,7 @@ class SurfaceLook {
   }
 
  private:
-  [[nodiscard]] StarState state(Vec3 at) const { return metric_functions<Frame>(task_.metric).state(mesh_, positions_, vertex_, at); }
+  [[nodiscard]] StarState state(Vec3 at) const { return judge_.state(task_.metric, positions_, vertex_, at); }
 
   /// As Slide does it.
   void search(const FacetPlace& stands) {

@@ -10,6 +10,7 @@
 #include "core/inspect/require_star.h"
 #include "core/inspect/single_vertex_task.h"
 #include "core/quality/metric_phrase.h"
+#include "core/smooth/methods/defined_search.h"
 #include "core/smooth/methods/fast_volume_search.h"
 
 namespace dmoscope {
@@ -57,22 +58,28 @@ template <Metric M, class Frame>
 class Look {
  public:
   static constexpr bool kVolume = std::is_same_v<Frame, Space>;
+  static constexpr bool kDefined = M == kDefinedMetric;
   using Offset = OffsetIn<Frame, double>;
   using Trace = VisitTraceIn<Offset>;
 
-  Look(const InputMesh& input, PositionView positions, const SearchParameters& parameters, Index vertex,
+  Look(const InputMesh& input, PositionView positions, Metric metric, const SearchParameters& parameters, Index vertex,
        const std::optional<CompositeObjective>& composite, const Untangling& untangling)
       : input_(input),
+        metric_(metric),
         mesh_(input.view<Frame>()),
         positions_(positions),
         parameters_(parameters),
         composite_(composite),
         untangling_(untangling) {
     trace_.vertex = vertex;
-    trace_.metric = M;
+    trace_.metric = metric;
+    if constexpr (kDefined) {
+      judge_ = input.quality_context().judge(metric);
+      star_judge_.emplace(defined_star_judge<Frame>(input, *judge_));
+    }
     trace_.from = trace_.to = positions[vertex];
     trace_.by_corners = has_corners();
-    trace_.before = trace_.after = star_state<M>(mesh_, positions_, vertex, trace_.from);
+    trace_.before = trace_.after = state(trace_.from);
   }
 
   Trace run(bool fixed) {
@@ -82,10 +89,10 @@ class Look {
       trace_.end = VisitEnd::Waits;
     else if (composite_)
       search_for_both();
-    else if (parameters_.precision == Precision::Double || !search_fast())
+    else if ((parameters_.precision == Precision::Double && !kDefined) || !search_fast())
       search_plainly();
     trace_.step = mesh_.frame.offset(trace_.to, trace_.from);
-    if (trace_.end == VisitEnd::Moved) trace_.after = star_state<M>(mesh_, positions_, trace_.vertex, trace_.to);
+    if (trace_.end == VisitEnd::Moved) trace_.after = state(trace_.to);
     add_elements();
     return std::move(trace_);
   }
@@ -93,10 +100,65 @@ class Look {
  private:
   /// As the fast smoothers do it: false where the star is the plain search's.
   bool search_fast() {
-    if constexpr (kVolume)
+    if constexpr (kDefined)
+      return search_by_formula();
+    else if constexpr (kVolume)
       return search_by_volume_kernel();
     else
       return search_by_lanes();
+  }
+
+  /// The star by the statistics' formulas with the vertex at a place.
+  [[nodiscard]] StarState state(Vec3 place) const {
+    if constexpr (kDefined)
+      return defined_star_state(*star_judge_, positions_, trace_.vertex, place);
+    else
+      return star_state<M>(mesh_, positions_, trace_.vertex, place);
+  }
+
+  /// As DefinedDmo does it. What it chose in level L is what it finds in L levels and does not find in L - 1.
+  bool search_by_formula() requires(M == kDefinedMetric) {
+    if (!(trace_.before.jacobian > 0.0)) return false;
+    const DefinedSearch<Frame> search(*star_judge_, parameters_);
+    typename DefinedSearch<Frame>::Scratch scratch;
+    trace_.fast = !search.in_double();
+    trace_.value_phrase = metric_phrase(metric_);
+    const DefinedStar<Frame> star(*star_judge_, positions_, trace_.vertex);
+    const auto find = [&](int levels) { return search.find(positions_, trace_.vertex, levels, scratch); };
+    const auto start = find(0);
+    Recorder<Offset> recorder(start.scale);
+    recorder.begin(star.least({}));
+    if (search.in_double())
+      record_levels<double>(recorder, start.box, star, find);
+    else
+      record_levels<float>(recorder, start.box, star, find);
+    const auto place = [this](Offset offset) { return stored(offset); };
+    take(std::move(recorder), place);
+    const Vec3 target = place(trace_.found);
+    end(target, gains(target));
+    return true;
+  }
+  template <class Real, class Find>
+  void record_levels(Recorder<Offset>& recorder, Offset box, const DefinedStar<Frame>& star, const Find& find) {
+    using Point = OffsetIn<Frame, Real>;
+    const auto narrow = [](Offset p) {
+      if constexpr (kVolume)
+        return Point{static_cast<Real>(p.x), static_cast<Real>(p.y), static_cast<Real>(p.z)};
+      else
+        return Point{static_cast<Real>(p.x), static_cast<Real>(p.y)};
+    };
+    Point centre{};
+    double omega = parameters_.omega;
+    for (int level = 1; level <= parameters_.levels; ++level) {
+      const CandidateGrid<Real, Point> grid{centre, times(narrow(box), static_cast<Real>(omega)), parameters_.grid_points};
+      recorder.level(grid);
+      for (int i = 0; i < grid.points; ++i)
+        grid.for_slice(i, [&](int index, const Point& p) { recorder.candidate(index, p, star.least(point_of<double>(p))); });
+      const Point found = narrow(find(level).offset);
+      if (!(found == centre)) recorder.choose(found);
+      centre = found;
+      omega *= 2.0 / (parameters_.grid_points - 1);
+    }
   }
 
   /// As LaneDmo does it.
@@ -107,7 +169,7 @@ class Look {
     const auto outcome = FastVisit<M, Solo, Stars::All, SingleVertexTask>(task, 0, Solo{}).run(recorder);
     if (!outcome.ready) return false;
     trace_.fast = true;
-    trace_.value_phrase = rank_phrase(M);
+    trace_.value_phrase = rank_phrase(metric_);
     const auto place = [&](Offset offset) {
       // Exact: the offsets are floats times a power of two.
       const Displacement to = task.frame.displace(&trace_.from.x, static_cast<float>(offset.x * task.frame.inverse),
@@ -129,7 +191,7 @@ class Look {
     const auto find = [&](int levels) { return search.find(stars.of(trace_.vertex), positions_, trace_.vertex, levels, points); };
     if (!find(0).ready) return false;
     trace_.fast = true;
-    trace_.value_phrase = metric_phrase(M);
+    trace_.value_phrase = metric_phrase(metric_);
     VolumeStar<double> star;
     gather_star(MeshStar(mesh_, positions_, trace_.vertex), star);
     const Objective<M, false, double, Value::Metric, VolumeStarView<double>> objective(star);
@@ -156,12 +218,19 @@ class Look {
 
   /// As the reference does it.
   void search_plainly() {
-    StarIn<Frame, double> star;
-    gather_star(MeshStar(mesh_, positions_, trace_.vertex), star);
-    Recorder<Offset> recorder(star.scale);
-    (void)search_star<M>(StarViewIn<Frame, double>(star), star.box, parameters_, untangling_, Solo{}, recorder);
+    Recorder<Offset> recorder(1.0);
+    if constexpr (kDefined) {
+      const DefinedStar<Frame> star(*star_judge_, positions_, trace_.vertex);
+      recorder = Recorder<Offset>(star.scale());
+      (void)search_star<M>(star.view(), star.star().box, parameters_, untangling_, Solo{}, recorder);
+    } else {
+      StarIn<Frame, double> star;
+      gather_star(MeshStar(mesh_, positions_, trace_.vertex), star);
+      recorder = Recorder<Offset>(star.scale);
+      (void)search_star<M>(StarViewIn<Frame, double>(star), star.box, parameters_, untangling_, Solo{}, recorder);
+    }
     trace_.untangling = !(recorder.here > 0.0);
-    trace_.value_phrase = (trace_.untangling ? untangling_phrase(kVolume, untangling_) : "") + metric_phrase(M);
+    trace_.value_phrase = (trace_.untangling ? untangling_phrase(kVolume, untangling_) : "") + metric_phrase(metric_);
     const auto place = [this](Offset offset) { return stored(offset); };
     take(std::move(recorder), place);
     const Vec3 target = place(trace_.found);
@@ -191,7 +260,12 @@ class Look {
 
   /// Where an offset leads as the smoothers in double store it.
   [[nodiscard]] Vec3 stored(Offset offset) const { return displaced(mesh_.frame, trace_.from, offset, input_.mesh.single_precision); }
-  [[nodiscard]] bool gains(Vec3 target) const { return gains_at<M>(mesh_, positions_, trace_.vertex, target, untangling_); }
+  [[nodiscard]] bool gains(Vec3 target) const {
+    if constexpr (kDefined)
+      return defined_gains_at(*star_judge_, positions_, trace_.vertex, target, untangling_);
+    else
+      return gains_at<M>(mesh_, positions_, trace_.vertex, target, untangling_);
+  }
 
   /// place(offset): where the vertex would be stored.
   template <class Place>
@@ -202,8 +276,7 @@ class Look {
     trace_.value_at_start = recorder.at_start;
     for (TracedLevelIn<Offset>& level : trace_.levels) {
       level.quality.reserve(level.offsets.size());
-      for (const Offset& offset : level.offsets)
-        level.quality.push_back(quality_of(star_state<M>(mesh_, positions_, trace_.vertex, place(offset))));
+      for (const Offset& offset : level.offsets) level.quality.push_back(quality_of(state(place(offset))));
       if (level.best) trace_.found = level.at(*level.best);
     }
   }
@@ -223,7 +296,10 @@ class Look {
       const auto judge = [&](Vec3 place, double& quality, bool& inverted) {
         const auto at = [&](Index v) { return v == trace_.vertex ? place : positions_[v]; };
         visit_shape(mesh_.frame_of(incidence.element), mesh_.corners_of(incidence.element), at, [&](const auto& shape) {
-          quality = evaluate<M>(shape);
+          if constexpr (kDefined)
+            quality = star_judge_->quality({incidence.element, kNoIndex}, positions_, trace_.vertex, place);
+          else
+            quality = evaluate<M>(shape);
           inverted = formulas::smallest_jacobian(shape) <= 0.0;
         });
       };
@@ -234,6 +310,9 @@ class Look {
   }
 
   const InputMesh& input_;
+  Metric metric_;
+  std::shared_ptr<const DefinedJudge> judge_;
+  std::optional<DefinedStarJudge<Frame>> star_judge_;  // of a metric that is not built in
   MeshView<Frame> mesh_;
   PositionView positions_;
   const SearchParameters& parameters_;
@@ -289,16 +368,20 @@ VisitTrace trace_visit(const InputMesh& input, PositionView positions, std::span
                        const SearchParameters& parameters, Index vertex, const std::optional<CompositeObjective>& composite,
                        const Untangling& untangling) {
   const bool is_fixed = require_traceable(input, Shape::Planar, fixed, metric, parameters, vertex);
-  return formulas::with_planar_metric(
-      metric, [&]<Metric M>() { return Look<M, Plane>(input, positions, parameters, vertex, composite, untangling).run(is_fixed); });
+  const auto look = [&]<Metric M>() {
+    return Look<M, Plane>(input, positions, metric, parameters, vertex, composite, untangling).run(is_fixed);
+  };
+  return is_built_in(metric) ? formulas::with_planar_metric(metric, look) : look.template operator()<kDefinedMetric>();
 }
 
 VolumeTrace trace_volume_visit(const InputMesh& input, PositionView positions, std::span<const std::uint8_t> fixed, Metric metric,
                                const SearchParameters& parameters, Index vertex, const std::optional<CompositeObjective>& composite,
                                const Untangling& untangling) {
   const bool is_fixed = require_traceable(input, Shape::Volume, fixed, metric, parameters, vertex);
-  return formulas::with_volume_metric(
-      metric, [&]<Metric M>() { return Look<M, Space>(input, positions, parameters, vertex, composite, untangling).run(is_fixed); });
+  const auto look = [&]<Metric M>() {
+    return Look<M, Space>(input, positions, metric, parameters, vertex, composite, untangling).run(is_fixed);
+  };
+  return is_built_in(metric) ? formulas::with_volume_metric(metric, look) : look.template operator()<kDefinedMetric>();
 }
 
 }  // namespace dmoscope

@@ -12,6 +12,7 @@
 #include "core/io/commented_mesh.h"
 #include "core/io/foreign_format.h"
 #include "core/io/format.h"
+#include "core/io/medit/sol.h"
 #include "core/io/mesh_io.h"
 #include "core/io/reading/gzip.h"
 #include "core/io/reading/tokenizer.h"
@@ -246,6 +247,11 @@ Mesh read_whole_mesh(const std::filesystem::path& path, const IoContext& context
   Mesh mesh = read_by(handler, *source, context);
   if (mesh.positions.empty()) throw InputError(path.string(), 0, "the file holds no vertices");
   if (mesh.elements.size() == 0) throw InputError(path.string(), 0, "the file holds no elements");
+  if (const std::filesystem::path solutions = solution_beside(main);
+      &handler == &medit_format() && std::filesystem::is_regular_file(solutions)) {
+    read_solutions(solutions, mesh, progress);
+    source->add_note(fmt::format("fields read from {} beside it", solutions.filename().string()));
+  }
   mesh.name = path.filename().string();
   const CoordinateLayout& layout = source->layout();
   mesh.single_precision = layout.binary && std::ranges::find(layout.scalar, CoordinateScalar::Float32) != layout.scalar.end();

@@ -39,7 +39,7 @@ constexpr std::array<std::array<std::uint8_t, 4>, 6> kEdgesFirst{
     {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
 constexpr std::array<std::array<std::uint8_t, 4>, 1> kAsItIs{{{0, 1, 2, 3}}};
 
-std::span<const formulas::CornerTable> volume_atoms(ElementKind kind, Of of) {
+std::span<const CornerTable> volume_atoms(ElementKind kind, Of of) {
   switch (kind) {
     case ElementKind::Hexahedron:
       return formulas::HexahedronCorners::kTable;
@@ -123,6 +123,7 @@ void with_metric_of(Metric metric, F f) {
 }  // namespace
 
 std::string joint_obstacle(Metric metric, KindSet kinds) {
+  if (!is_built_in(metric)) return "they need a metric's derivatives, which formulas and targets do not give";
   for (std::size_t k = 0; k < kElementKindCount; ++k) {
     const auto kind = static_cast<ElementKind>(k);
     if ((kinds & kind_set(kind)) == 0) continue;
@@ -145,7 +146,7 @@ void append_atoms(const ElementTable& elements, Metric metric, Index element, st
     for (std::size_t i = 0; i < (of == Of::Whole ? 1 : n); ++i)
       atoms.push_back({{corners[i], corners[(i + 1) % n], corners[(i + n - 1) % n]}, element, atom_shape(kind)});
   } else {
-    for (const formulas::CornerTable& row : volume_atoms(kind, of))
+    for (const CornerTable& row : volume_atoms(kind, of))
       atoms.push_back({{corners[row[0]], corners[row[1]], corners[row[2]], corners[row[3]]}, element, atom_shape(kind)});
   }
 }

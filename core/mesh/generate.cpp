@@ -18,7 +18,7 @@ struct Generator {
   std::size_t smallest, largest;  // range of size
 };
 
-constexpr std::size_t kGenerators = 20;
+constexpr std::size_t kGenerators = 21;
 constexpr std::array<GeneratorInfo, kGenerators> kInfos{{
     {"coast", "an irregular coastline with islands and an open sea; triangles graded from fine at the coast to coarse offshore", 4000},
     {"block", "fifteen blocks of triangles that meet in irregular vertices, smoothly distorted", 2500},
@@ -40,6 +40,7 @@ constexpr std::array<GeneratorInfo, kGenerators> kInfos{{
     {"can", "a closed can of triangles in space, jittered on its surface and along its two rims", 2000},
     {"nested", "a square of triangles in a square of another material, jittered but for what lies between them", 1000},
     {"nested-solids", "a cube of tetrahedra in a cube of another material, jittered but for what lies between them", 2000},
+    {"anisotropic", "a square of triangles stretched along a wave, jittered, with the metric field that wants them so", 3000},
     {"biased", "a cube of hexahedra whose inner vertices are drawn towards one corner, which those on its surface are not", 1331},
 }};
 constexpr std::array<Generator, kGenerators> kMakers{{
@@ -62,6 +63,7 @@ constexpr std::array<Generator, kGenerators> kMakers{{
     {generators::can, 50, 5000000},
     {generators::nested, 25, 5000000},
     {generators::nested_volumes, 64, 5000000},
+    {generators::anisotropic, 16, 5000000},
     {generators::biased, 27, 5000000},
 }};
 

@@ -16,7 +16,7 @@ struct GeneratorInfo {
   std::size_t default_size;  // about how many vertices without --size
 };
 /// coast, block, annulus, random, quads, mixed, tangled, grid, wrapped, globe; tetrahedra, hexahedra, solids, tangled-solids, screw, elbow;
-/// can; nested, nested-solids; biased.
+/// can; nested, nested-solids; anisotropic; biased.
 [[nodiscard]] std::span<const GeneratorInfo> generator_table();
 
 /// Makes a sample. `size`: about how many vertices (0: the generator's default; exact for `random`).

@@ -39,6 +39,7 @@ struct Request {
 [[nodiscard]] Mesh can(const Request& request);
 [[nodiscard]] Mesh nested(const Request& request);
 [[nodiscard]] Mesh nested_volumes(const Request& request);
+[[nodiscard]] Mesh anisotropic(const Request& request);
 
 /// Cosine and sine of an angle in turns, from additions and multiplications alone: the same bits with every mathematics library.
 [[nodiscard]] double cos_turns(double turns);

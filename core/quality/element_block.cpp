@@ -2,6 +2,7 @@
 
 #include "core/numeric/pack.h"
 // After the packs:
+#include "core/quality/defined_quality.h"
 #include "core/quality/element_shape.h"
 
 namespace dmoscope {
@@ -152,8 +153,18 @@ void judge(const QualityContext& context, std::span<const Vec3> positions, Eleme
 
 }  // namespace
 
-BlockJudge block_judge(Metric metric) {
-  return formulas::with_metric(metric, []<Metric M>() -> BlockJudge { return &judge<M>; });
+BlockJudge::BlockJudge(const QualityContext& context, Metric metric) {
+  if (is_built_in(metric))
+    built_in_ = formulas::with_metric(metric, []<Metric M>() -> BuiltIn { return &judge<M>; });
+  else
+    defined_ = context.judge(metric);
+}
+
+void BlockJudge::operator()(const QualityContext& context, std::span<const Vec3> positions, ElementBlock& block) const {
+  if (!defined_) return built_in_(context, positions, block);
+  defined_qualities(context, *defined_, positions, block.first, block.count, block.quality.data());
+  for (std::size_t i = 0; i < block.count; ++i)
+    block.jacobian[i] = smallest_jacobian(context, PositionView(positions), block.first + static_cast<Index>(i));
 }
 
 }  // namespace dmoscope

@@ -2,6 +2,7 @@
 // Quality of many elements at once: the same bits as element_quality() and smallest_jacobian(), at the speed of memory.
 
 #include <array>
+#include <memory>
 #include <span>
 
 #include "core/quality/quality.h"
@@ -21,15 +22,24 @@ struct ElementBlock {
   [[nodiscard]] std::span<const double> jacobians() const noexcept { return {jacobian.data(), count}; }
 };
 
-/// Judges the elements block.first .. block.first + block.count of the mesh.
-using BlockJudge = void (*)(const QualityContext& context, std::span<const Vec3> positions, ElementBlock& block);
-[[nodiscard]] BlockJudge block_judge(Metric metric);
+/// Judges the elements block.first .. block.first + block.count of a mesh by one metric.
+class BlockJudge {
+ public:
+  /// Throws as QualityContext::judge does.
+  BlockJudge(const QualityContext& context, Metric metric);
+  void operator()(const QualityContext& context, std::span<const Vec3> positions, ElementBlock& block) const;
+
+ private:
+  using BuiltIn = void (*)(const QualityContext& context, std::span<const Vec3> positions, ElementBlock& block);
+  BuiltIn built_in_ = nullptr;
+  std::shared_ptr<const DefinedJudge> defined_;  // null: the metric is built in
+};
 
 /// Calls take(block) for blocks that together cover the elements [first, last), in their order.
 template <class Take>
 void for_blocks(const QualityContext& context, std::span<const Vec3> positions, Metric metric, std::size_t first, std::size_t last,
                 Take take) {
-  const BlockJudge judge = block_judge(metric);
+  const BlockJudge judge(context, metric);
   ElementBlock block;
   for (std::size_t e = first; e < last; e += ElementBlock::kSize) {
     block.first = static_cast<Index>(e);

@@ -5,24 +5,12 @@
 #include <span>
 
 #include "core/base/host_device.h"
+#include "core/mesh/element_frame.h"
 #include "core/quality/formulas.h"
 #include "core/quality/quality.h"
 #include "core/quality/volumes.h"
 
 namespace dmoscope {
-
-[[nodiscard]] inline Vec3 unit_normal(Vec3 a, Vec3 b, Vec3 fallback) {
-  const Vec3 n = cross(a, b);
-  const double l = length(n);
-  return l > 0.0 ? (1.0 / l) * n : fallback;
-}
-
-/// The unit normal of an element of a curved mesh, whose edges or diagonals span it. Where the frame's has a say, that of an element which
-/// looks away from it: so its areas, as they look from above, are negative, and go to 0 as it turns.
-[[nodiscard]] inline Vec3 curved_normal(Vec3 a, Vec3 b, Vec3 frame_normal, bool against) {
-  const Vec3 n = unit_normal(a, b, frame_normal);
-  return against && dot(n, frame_normal) < 0.0 ? frame_normal : n;
-}
 
 /// The shape of a planar triangle or quadrilateral (by the number of its corners) from differences from its first corner, so that nothing
 /// is lost far from the origin: visitor(Triangle) or visitor(Quadrilateral). at(vertex): its position.

@@ -140,17 +140,24 @@ DMOSCOPE_ANYWHERE RealOf<V> rank(const Quadrilateral<V>& q) {
 
 /// The metric while corner `moving` of an element moves. Simplices and quadrilaterals: the whole metric. Other volume elements (volumes.h):
 /// only the corners that change; the others say nothing about where the vertex should be, and the worst of them would hold it in place.
+/// A shape may know its quality itself: that of a metric that is defined while the program runs.
 template <Metric M, class Shape>
 DMOSCOPE_ANYWHERE auto metric_around(const Shape& shape, Index /*moving*/) {
-  return metric<M>(shape);
+  if constexpr (requires { shape.own_quality(); })
+    return shape.own_quality();
+  else
+    return metric<M>(shape);
 }
 template <Metric M, class Shape>
 DMOSCOPE_ANYWHERE auto rank_around(const Shape& shape, Index /*moving*/) {
   return rank<M>(shape);
 }
 template <class Shape>
-DMOSCOPE_ANYWHERE auto smallest_jacobian_around(const Shape& shape, Index /*moving*/) {
-  return smallest_jacobian(shape);
+DMOSCOPE_ANYWHERE auto smallest_jacobian_around(const Shape& shape, Index moving) {
+  if constexpr (requires { shape.own_quality(); })
+    return smallest_jacobian_around(shape.shape(), moving);
+  else
+    return smallest_jacobian(shape);
 }
 
 /// Paper eq. (4); quadrilateral: Knupp's shape, least corner.
@@ -357,10 +364,16 @@ DMOSCOPE_INLINE DMOSCOPE_ANYWHERE decltype(auto) with_planar_metric(Metric metri
     case Metric::MeanRatio:
     case Metric::Condition:
       break;
+    default:
+#if !defined(__CUDA_ARCH__)
+      refuse_defined_metric();
+#else
+      break;
+#endif
   }
   return f.template operator()<Metric::MeanRatio>();
 }
-/// Calls f with any metric.
+/// Calls f with any built-in metric.
 template <class F>
 decltype(auto) with_metric(Metric metric, F&& f) {
   if (metric == Metric::Condition) return f.template operator()<Metric::Condition>();

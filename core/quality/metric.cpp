@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/base/unknown_value.h"
+#include "core/quality/defined_metric.h"
 
 namespace dmoscope {
 
@@ -48,24 +50,21 @@ constexpr std::array<MetricInfo, kMetricCount> kTable{{
 }};
 }  // namespace
 
-std::string words(KindSet kinds) {
-  std::vector<std::string_view> each;
-  for (std::size_t k = 0; k < kElementKindCount; ++k)
-    if ((kinds & kind_set(static_cast<ElementKind>(k))) != 0) each.push_back(kElementKinds[k].plural);
-  std::string text;
-  for (std::size_t i = 0; i < each.size(); ++i) text += fmt::format("{}{}", i == 0 ? "" : i + 1 < each.size() ? ", " : " and ", each[i]);
-  return text;
-}
-
 std::span<const MetricInfo> metric_table() { return kTable; }
 
-const MetricInfo& info(Metric metric) { return kTable[static_cast<std::size_t>(metric)]; }
+const MetricInfo& info(Metric metric) { return is_built_in(metric) ? kTable[static_cast<std::size_t>(metric)] : defined(metric).info; }
 
 Metric parse_metric(std::string_view name) {
   for (const MetricInfo& entry : kTable)
     if (entry.name == name) return entry.metric;
-  throw UsageError(unknown_row("metric", name, kTable));
+  if (const auto known = define_metric(name)) return *known;
+  std::vector<std::string_view> names;
+  for (const MetricInfo& entry : kTable) names.push_back(entry.name);
+  for (const NamedFormula& entry : named_formulas()) names.push_back(entry.name);
+  throw UsageError(unknown_value("metric", name, names) + "; or formula:TEXT");
 }
+
+void refuse_defined_metric() { throw std::logic_error("a metric that is defined by a formula or a target has no code of its own"); }
 
 void require_defined(Metric metric, const Mesh& mesh) {
   for (const ElementKind kind : {ElementKind::Triangle, ElementKind::Quadrilateral, ElementKind::Tetrahedron, ElementKind::Hexahedron,

@@ -4,6 +4,8 @@
 #include <limits>
 
 #include "core/base/thread_pool.h"
+#include "core/quality/defined_judge.h"
+#include "core/quality/defined_quality.h"
 #include "core/quality/element_shape.h"
 #include "core/quality/tally.h"
 
@@ -20,7 +22,15 @@ double quality_of(const QualityContext& context, PositionView positions, Index e
 
 }  // namespace
 
+std::shared_ptr<const DefinedJudges> make_defined_judges() { return std::make_shared<const DefinedJudges>(); }
+
+std::shared_ptr<const DefinedJudge> QualityContext::judge(Metric metric) const {
+  if (judges == nullptr) refuse_defined_metric();
+  return judges->of(metric, mesh, {geometry, normals});
+}
+
 double element_quality(const QualityContext& context, PositionView positions, Metric metric, Index element) {
+  if (!is_built_in(metric)) return defined_quality(context, *context.judge(metric), positions, element);
   return formulas::with_metric(metric, [&]<Metric M>() { return quality_of<M>(context, positions, element); });
 }
 
@@ -38,6 +48,13 @@ void element_qualities(const QualityContext& context, std::span<const Vec3> posi
 
 double vertex_quality(const QualityContext& context, const Topology& topology, std::span<const Vec3> positions, Metric metric,
                       Index vertex) {
+  if (!is_built_in(metric)) {
+    const auto judge = context.judge(metric);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Incidence& incidence : topology.star(vertex))
+      least = std::min(least, defined_quality(context, *judge, positions, incidence.element));
+    return least;
+  }
   return formulas::with_metric(metric, [&]<Metric M>() {
     double least = std::numeric_limits<double>::infinity();
     for (const Incidence& incidence : topology.star(vertex)) least = std::min(least, quality_of<M>(context, positions, incidence.element));

@@ -2,6 +2,7 @@
 // Quality of elements, vertices and whole meshes, always in double and always by the one definition in formulas.h.
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,15 +14,23 @@
 
 namespace dmoscope {
 
+class DefinedJudge;
+class DefinedJudges;
 class ThreadPool;
 
 /// What quality needs to know of a mesh besides its positions. A view: the mesh and geometry must outlive it.
 struct QualityContext {
   const Mesh& mesh;
-  const Geometry& geometry;         // Planar: signed in the plane. Surface: triangles unsigned, quadrilaterals against
-                                    // geometry.plane.normal if that is mostly_flat, else against their own mean normal.
-  std::span<const Vec3> normals{};  // of a Surface, by element, which then are signed by them: see InputMesh::surface_normals
+  const Geometry& geometry;               // Planar: signed in the plane. Surface: triangles unsigned, quadrilaterals against
+                                          // geometry.plane.normal if that is mostly_flat, else against their own mean normal.
+  std::span<const Vec3> normals{};        // of a Surface, by element, which then are signed by them: see InputMesh::surface_normals
+  const DefinedJudges* judges = nullptr;  // of metrics that are defined by formulas and targets; null: built-in ones alone
+  /// Of a metric that is not built in. Throws UsageError where it is not defined for the mesh.
+  [[nodiscard]] std::shared_ptr<const DefinedJudge> judge(Metric metric) const;
 };
+
+/// None so far.
+[[nodiscard]] std::shared_ptr<const DefinedJudges> make_defined_judges();
 
 /// Quality of one element with the mesh's vertices at `positions`. NaN where the metric is not defined for its kind.
 [[nodiscard]] double element_quality(const QualityContext& context, PositionView positions, Metric metric, Index element);

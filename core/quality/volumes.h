@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "core/mesh/corner_tables.h"
 #include "core/quality/formulas.h"
 
 namespace dmoscope::formulas {
@@ -60,7 +61,6 @@ struct TetrahedronCorner {
   }
 };
 
-using CornerTable = std::array<std::uint8_t, 4>;
 /// One row of a table of corners: the corner and the ends of its three edges. Always inlined: code for different processors shares it, and
 /// must not share one compiled copy.
 template <class Corners>
@@ -126,14 +126,13 @@ struct CorneredSolid {
 };
 
 struct HexahedronCorners {
-  static constexpr std::array<CornerTable, 8> kTable{
-      {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7}, {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}}};
+  static constexpr std::array<CornerTable, 8> kTable = kHexahedronCorners;
 };
 struct WedgeCorners {
-  static constexpr std::array<CornerTable, 6> kTable{{{0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5}, {3, 5, 4, 0}, {4, 3, 5, 1}, {5, 4, 3, 2}}};
+  static constexpr std::array<CornerTable, 6> kTable = kWedgeCorners;
 };
 struct PyramidCorners {
-  static constexpr std::array<CornerTable, 4> kTable{{{0, 1, 3, 4}, {1, 2, 0, 4}, {2, 3, 1, 4}, {3, 0, 2, 4}}};
+  static constexpr std::array<CornerTable, 4> kTable = kPyramidCorners;
 };
 
 template <class V>
@@ -380,6 +379,9 @@ DMOSCOPE_INLINE DMOSCOPE_ANYWHERE decltype(auto) with_volume_metric(Metric metri
     case Metric::Condition:
       return f.template operator()<Metric::Condition>();
     default:
+#if !defined(__CUDA_ARCH__)
+      if (!is_built_in(metric)) refuse_defined_metric();
+#endif
       return f.template operator()<Metric::MeanRatio>();
   }
 }

@@ -9,6 +9,7 @@
 
 #include "core/base/unknown_value.h"
 #include "core/base/words.h"
+#include "core/quality/defined_judge.h"
 
 namespace dmoscope {
 
@@ -250,6 +251,19 @@ const ParameterInfo& parameter_info(std::string_view name) {
   const auto found = std::ranges::find(kTable, name, &ParameterInfo::name);
   if (found == kTable.end()) throw UsageError(fmt::format("there is no parameter '{}'", name));
   return *found;
+}
+
+void aim_at(RunParameters& parameters, const Target& target) {
+  const Metric first = with_target(parameters.metric, target);
+  if (parameters.combination)
+    if (auto* second = std::get_if<Metric>(&parameters.combination->second)) *second = with_target(*second, target);
+  parameters.metric = first;
+}
+
+std::string target_sentence(const InputMesh& input, Metric metric) {
+  const Target target = target_of(metric);
+  if (target.is_ideal()) return "targets: ideal elements";
+  return fmt::format("targets: {}", input.quality_context().judge(metric)->targets().facts().phrase);
 }
 
 void set_then(RunParameters& parameters, std::string_view words, const PhaseBegin& begin) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/mesh/interfaces.h"
+#include "core/quality/defined_metric.h"
 #include "core/quality/metric.h"
 #include "core/reference/standing.h"
 #include "core/run/phases.h"
@@ -73,6 +74,11 @@ struct ParameterInfo {
 [[nodiscard]] std::span<const ParameterInfo> parameter_table();
 /// Throws UsageError.
 [[nodiscard]] const ParameterInfo& parameter_info(std::string_view name);
+
+/// Gives the metric a target, and the second one of a combination. Throws UsageError.
+void aim_at(RunParameters& parameters, const Target& target);
+/// "targets: 1204 elements of layers as they were, ...".
+[[nodiscard]] std::string target_sentence(const InputMesh& input, Metric metric);
 
 /// Sets the phases after the method's: "mean", "joint", "joint,mean" or "nothing". Throws UsageError.
 void set_then(RunParameters& parameters, std::string_view words, const PhaseBegin& begin);

@@ -12,8 +12,14 @@ namespace dmoscope {
 
 namespace {
 
-bool defined_for_all(Metric metric, const Mesh& mesh) {
-  return std::ranges::all_of(mesh.elements.kinds(), [&](ElementKind kind) { return info(metric).defined_for(kind); });
+/// With all that its formula and target need.
+bool defined_for_all(Metric metric, const InputMesh& input) {
+  try {
+    require_defined(metric, input);
+    return true;
+  } catch (const UsageError&) {
+    return false;
+  }
 }
 
 /// Bytes for past positions, of the budget that somebody chose. The default is the most: of it a mesh takes as much as some iterations'
@@ -69,7 +75,7 @@ std::shared_ptr<Run> Session::first_run(const std::shared_ptr<const InputMesh>& 
     parameters.boundary = BoundaryRule::Fixed;
     parameters.interfaces = InterfaceRule::Fixed;  // who freed those of one mesh has not seen the next one's
   }
-  if (!defined_for_all(parameters.metric, input->mesh)) parameters.metric = Metric::MeanRatio;
+  if (!defined_for_all(parameters.metric, *input)) parameters.metric = Metric::MeanRatio;
   if (!why_not_joint(*input, parameters.metric).empty()) {
     if (method_info(parameters.method).joint) parameters.method = RunParameters{}.method;
     parameters.then_joint.reset();
@@ -106,7 +112,7 @@ void Session::open_beside(const std::filesystem::path& path, Progress& progress)
 void Session::activate(std::size_t index) {
   active_ = index;
   input_ = runs_[index]->shared_input();
-  if (!defined_for_all(shown_, input_->mesh)) shown_ = runs_[index]->parameters().metric;
+  if (!defined_for_all(shown_, *input_)) shown_ = runs_[index]->parameters().metric;
 }
 
 std::vector<std::shared_ptr<const InputMesh>> Session::inputs() const {
@@ -197,6 +203,7 @@ void Session::show(Metric metric) {
   const auto kinds = input()->mesh.elements.kinds();
   if (std::ranges::none_of(kinds, [&](ElementKind kind) { return info(metric).defined_for(kind); }))
     throw UsageError(fmt::format("{} is not defined for any element of this mesh", info(metric).name));
+  if (!is_built_in(metric)) require_defined(metric, *input());
   shown_ = metric;
 }
 

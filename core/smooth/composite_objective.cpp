@@ -1,5 +1,6 @@
 #include "core/smooth/composite_objective.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <vector>
@@ -56,6 +57,19 @@ std::string_view short_name(SizeFunction::Kind kind) {
   return "constant";
 }
 
+/// FIRST, THRESHOLD and SECOND. Formulas and targets have colons of their own: the first number between two is the threshold.
+std::array<std::string_view, 3> parts_of_combination(std::string_view text) {
+  const auto words = split(text, ':');
+  std::size_t first = words[0].size();
+  for (std::size_t i = 1; i + 1 < words.size(); first += 1 + words[i++].size()) {
+    double value = 0.0;
+    const bool plain = words.size() == 3;
+    if (plain || (read_number(words[i], value) && value > 0.0 && value < 1.0))
+      return {text.substr(0, first), words[i], text.substr(first + 2 + words[i].size())};
+  }
+  throw UsageError(fmt::format("'{}' is no combination: it is FIRST:THRESHOLD:SECOND, such as mean-ratio:0.7:density", text));
+}
+
 }  // namespace
 
 std::string to_text(const SizeFunction& size) {
@@ -84,12 +98,10 @@ std::string to_text(Metric first, const Combination& combination) {
 }
 
 std::pair<Metric, Combination> parse_combination(std::string_view text, std::string_view size) {
-  const auto parts = split(text, ':');
-  if (parts.size() != 3)
-    throw UsageError(fmt::format("'{}' is no combination: it is FIRST:THRESHOLD:SECOND, such as mean-ratio:0.7:density", text));
   Combination combination;
-  const Metric first = parse_metric(parts[0]);
+  const auto parts = parts_of_combination(text);
   if (!read_number(parts[1], combination.threshold)) throw UsageError(fmt::format("the threshold '{}' is no number", parts[1]));
+  const Metric first = parse_metric(parts[0]);
   if (parts[2] == kDensity) {
     if (!size.empty()) combination.second = parse_size_function(size);
   } else {

@@ -32,10 +32,10 @@ struct StarState {
   }
 };
 
-/// With the vertex at `place`. Frame: Plane or Space.
-template <Metric M, class Frame>
-[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE StarState star_state(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
-                                                                     Vec3 place) {
+/// With the vertex at `place`. Frame: Plane or Space. quality_of(incidence, shape): the metric of one element, of what the vertex changes.
+template <class Frame, class QualityOf>
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE StarState star_state_by(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
+                                                                        Vec3 place, const QualityOf& quality_of) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   StarState state{kInfinity, kInfinity, 0.0, 0, kInfinity};
   UntanglingMean mean;
@@ -45,7 +45,7 @@ template <Metric M, class Frame>
     const Index moving = incidence.corner;
     visit_shape(mesh.frame_of(incidence.element), mesh.corners_of(incidence.element), at, [&](const auto& shape) {
       const auto jacobian = corner_jacobians(shape, moving, [&](double each) { mean.add(each, reference); });
-      const double quality = evaluate_around<M>(shape, moving);
+      const double quality = quality_of(incidence, shape);
       state.jacobian = scalar::min(state.jacobian, jacobian.around / reference);
       state.quality = scalar::min(state.quality, quality);
       if (jacobian.whole <= 0.0)
@@ -56,6 +56,13 @@ template <Metric M, class Frame>
   }
   state.untangling = mean.value();
   return state;
+}
+template <Metric M, class Frame>
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE StarState star_state(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
+                                                                     Vec3 place) {
+  return star_state_by(mesh, positions, vertex, place, [](const Incidence& incidence, const auto& shape) DMOSCOPE_INLINE_LAMBDA {
+    return evaluate_around<M>(shape, incidence.corner);
+  });
 }
 
 /// Is every element of the star that is sound where the vertex stands sound with it at `target`, too?
@@ -73,13 +80,21 @@ template <class Frame>
   return true;
 }
 
+/// Would a vertex whose star is `before` gain by standing at `target`, where it is after()?
+template <class Frame, class After>
+[[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE bool gains_from(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
+                                                                Vec3 target, const Untangling& rule, const StarState& before,
+                                                                const After& after) {
+  if (!after().better_than(before, rule)) return false;
+  return rule.attempt || before.jacobian > 0.0 || keeps_sound(mesh, positions, vertex, target);
+}
+
 /// Exactly: would the vertex gain by standing at `target`? A search may be in float and in other rounding than the statistics.
 template <Metric M, class Frame>
 [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE bool gains_at(const MeshView<Frame>& mesh, PositionView positions, Index vertex,
                                                               Vec3 target, const Untangling& rule) {
-  const StarState before = star_state<M>(mesh, positions, vertex, positions[vertex]);
-  if (!star_state<M>(mesh, positions, vertex, target).better_than(before, rule)) return false;
-  return rule.attempt || before.jacobian > 0.0 || keeps_sound(mesh, positions, vertex, target);
+  return gains_from(mesh, positions, vertex, target, rule, star_state<M>(mesh, positions, vertex, positions[vertex]),
+                    [&]() DMOSCOPE_INLINE_LAMBDA { return star_state<M>(mesh, positions, vertex, target); });
 }
 
 /// The untangling objective costs more and is needed only where an element of the star is inverted now; in a repair nothing else is looked

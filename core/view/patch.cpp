@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/quality/defined_quality.h"
+
 namespace dmoscope {
 
 std::vector<Vec3> positions_of(const Frame& frame, std::span<const Index> vertices) {
@@ -14,7 +16,7 @@ std::vector<Vec3> positions_of(const Frame& frame, std::span<const Index> vertic
 
 Patch patch_of(const Frame& frame, std::span<const Index> elements) {
   const ElementTable& all = frame.input->mesh.elements;
-  Patch patch{{}, {}, frame.input->geometry};
+  Patch patch{{}, {}, frame.input->geometry, {elements.begin(), elements.end()}, frame.input};
   for (const Index element : elements) {
     const auto corners = all.corners(element);
     patch.vertices.insert(patch.vertices.end(), corners.begin(), corners.end());
@@ -31,6 +33,13 @@ Patch patch_of(const Frame& frame, std::span<const Index> elements) {
   }
   patch.mesh.positions = positions_of(frame, patch.vertices);
   return patch;
+}
+
+double Patch::quality(Metric metric, Index k) const {
+  if (is_built_in(metric)) return element_quality({mesh, geometry}, mesh.positions, metric, k);
+  const auto judge = input->quality_context().judge(metric);
+  return defined_quality_at(*judge, {geometry, input->surface_normals}, mesh.elements.kind(k), mesh.elements.corners(k), elements[k],
+                            [this](Index v) { return mesh.positions[v]; });
 }
 
 }  // namespace dmoscope

@@ -13,11 +13,13 @@ namespace dmoscope {
 
 /// Some elements of a frame as a mesh of their own.
 struct Patch {
-  Mesh mesh;                    // its element k is the frame's elements[k]
-  std::vector<Index> vertices;  // of the frame: the mesh's vertex i is its vertices[i]; ascending
-  const Geometry& geometry;     // of the frame's input, which must outlive the patch
+  Mesh mesh;                      // its element k is the frame's elements[k]
+  std::vector<Index> vertices;    // of the frame: the mesh's vertex i is its vertices[i]; ascending
+  const Geometry& geometry;       // of the frame's input, which must outlive the patch
+  std::vector<Index> elements{};  // of the frame, see above
+  std::shared_ptr<const InputMesh> input{};
   /// The same bits as those of the whole mesh.
-  [[nodiscard]] double quality(Metric metric, Index k) const { return element_quality({mesh, geometry}, mesh.positions, metric, k); }
+  [[nodiscard]] double quality(Metric metric, Index k) const;
   [[nodiscard]] bool inverted(Index k) const { return smallest_jacobian({mesh, geometry}, mesh.positions, k) <= 0.0; }
 };
 

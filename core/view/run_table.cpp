@@ -78,7 +78,7 @@ RunRow begin_row(const RunParameters& parameters, Metric judged, std::uint64_t i
 }  // namespace
 
 RunRow row_of(const Run& run, Metric judged, ThreadPool* pool) {
-  require_defined(judged, run.input().mesh);
+  require_defined(judged, run.input());
   const QualityContext context = run.input().quality_context();
   const auto positions = run.positions();
   RunRow row = begin_row(run.parameters(), judged, run.moment().iteration, run.history().records(), run.visits_per_iteration());

@@ -66,7 +66,7 @@ Worth worth_at(const VolumeStar<double>& star, Vec3 p) {
 template <class Ideal, std::size_t N, class Corners>
 double least_of_those_that_stay(const formulas::CorneredSolid<Vec3, Ideal, N, Corners>& solid, Index moving) {
   double least = 1.0;
-  for (const formulas::CornerTable& c : Corners::kTable) {
+  for (const CornerTable& c : Corners::kTable) {
     if (std::ranges::find(c, moving) != c.end()) continue;
     const Vec3 a = solid.at[c[0]], u = solid.at[c[1]] - a, v = solid.at[c[2]] - a, w = solid.at[c[3]] - a;
     least = std::min(least, formulas::SolidFormula<Metric::MeanRatio>::corner<Ideal>(u, v, w, dot(cross(u, v), w)));

@@ -38,7 +38,7 @@ double corner_quality(const Spanned& corner, ElementKind kind) {
 template <Metric M, class Corners>
 double least_moving_corner(std::span<const Index> corners, ElementKind kind, PositionView positions, Index vertex) {
   double least = std::numeric_limits<double>::infinity();
-  for (const formulas::CornerTable& row : Corners::kTable) {
+  for (const CornerTable& row : Corners::kTable) {
     if (std::ranges::none_of(row, [&](std::uint8_t i) { return corners[i] == vertex; })) continue;
     const auto at = [&](std::size_t i) { return positions[corners[row[i]]]; };
     const Vec3 a = at(0);

@@ -30,10 +30,12 @@ void read_element(PickedFacts& facts, const Frame& frame, Index element) {
   const Patch patch = patch_of(frame, {&element, 1});
   const InputMesh& input = *frame.input;
   facts.inverted = patch.inverted(0);
-  for (const MetricInfo& metric : metric_table()) {
+  const auto add = [&](const MetricInfo& metric) {
     facts.metrics.push_back(
         {&metric, patch.quality(metric.metric, 0), element_quality(input.quality_context(), input.mesh.positions, metric.metric, element)});
-  }
+  };
+  for (const MetricInfo& metric : metric_table()) add(metric);
+  if (!is_built_in(frame.shown)) add(info(frame.shown));
 }
 
 }  // namespace

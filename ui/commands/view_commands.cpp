@@ -43,6 +43,7 @@ constexpr auto kDialogs = std::to_array<std::pair<std::string_view, Dialog>>({{"
                                                                               {"log", Dialog::Log},
                                                                               {"sequence", Dialog::Sequence},
                                                                               {"plot", Dialog::Plot},
+                                                                              {"formula", Dialog::Formula},
                                                                               {"save-session", Dialog::SaveSession},
                                                                               {"unsaved", Dialog::Unsaved},
                                                                               {"recover", Dialog::Recover}});

@@ -75,6 +75,8 @@ const char* dialog_title(Dialog dialog) {
       return "Not saved";
     case Dialog::Recover:
       return "Recover";
+    case Dialog::Formula:
+      return "A metric of your own";
     case Dialog::None:
       break;
   }
@@ -137,6 +139,9 @@ void draw_dialogs(PanelContext& context) {
       break;
     case Dialog::Unsaved:
       draw_unsaved_dialog(context);
+      break;
+    case Dialog::Formula:
+      draw_formula_dialog(context);
       break;
     case Dialog::Recover:
       draw_recover_dialog(context);

@@ -2,10 +2,13 @@
 // The dialogs, and what each keeps between frames.
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "ui/analysis/formula_check.h"
+#include "ui/analysis/metric_choices.h"
 #include "ui/state/save_target.h"
 #include "ui/state/view_state.h"
 #include "ui/toolkit/file_browser.h"
@@ -102,9 +105,26 @@ struct RecoverDialog {
 };
 void draw_recover_dialog(PanelContext& context);
 
+/// A metric by a formula and a target.
+struct FormulaDialog {
+  std::string text, target;
+  FormulaCheck check;
+};
+void draw_formula_dialog(PanelContext& context);
+
 void draw_keys_dialog(PanelContext& context);
 void draw_about_dialog(PanelContext& context);
 void draw_error_dialog(PanelContext& context);
+
+/// The targets that fit a mesh, found once for each.
+class TargetChoices {
+ public:
+  [[nodiscard]] const std::vector<TargetChoice>& of(const std::shared_ptr<const InputMesh>& input);
+
+ private:
+  std::shared_ptr<const InputMesh> input_;
+  std::vector<TargetChoice> choices_;
+};
 
 /// The one that is open, if any.
 void draw_dialogs(PanelContext& context);

@@ -90,6 +90,8 @@ struct WidgetState {
   PlotDialog plot_dialog;
   SaveSessionDialog save_session;
   RecoverDialog recover;
+  FormulaDialog formula;
+  TargetChoices target_choices;
   ChooserTurn chooser;
   Dialog dialog_shown = Dialog::None;  // in the last frame
   bool dialog_opened = false;          // in this frame

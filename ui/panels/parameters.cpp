@@ -150,6 +150,25 @@ void draw_what_a_change_does(PanelContext& context, const RunView& run) {
   ImGui::SetCursorPosY(top + height + ImGui::GetStyle().ItemSpacing.y);
 }
 
+/// What elements are wished to be.
+void draw_target(PanelContext& context, const RunView& run) {
+  labelled(context, "target", "what elements are wished to be; the metric is 1 for one that is so");
+  const std::string now = to_text(target_of(run.parameters.metric));
+  const auto& choices = context.widgets.target_choices.of(run.input);
+  const auto current = std::ranges::find(choices, now, &TargetChoice::text);
+  const bool open = ImGui::BeginCombo("##target", context.shown(current != choices.end() ? current->title : now).c_str());
+  context.items.record_last("target");
+  if (!open) return;
+  for (const TargetChoice& one : choices) {
+    if (ImGui::Selectable(context.shown(one.title).c_str(), one.text == now)) context.send("target " + quote_word(one.text));
+    context.items.record_last(fmt::format("target:{}", one.text));
+    next_item_tooltip(one.doc);
+  }
+  if (ImGui::Selectable("another…")) context.state.dialog = Dialog::Formula;
+  context.items.record_last("target:other");
+  ImGui::EndCombo();
+}
+
 }  // namespace
 
 void draw_parameters(PanelContext& context) {
@@ -169,6 +188,7 @@ void draw_parameters(PanelContext& context) {
   else
     labelled(context, "judged by", "the metric of the run's statistics; the method goes by none", metric_combo_width(context));
   metric_combo(context, "metric", parameters.metric, "metric");
+  if (run->input) draw_target(context, *run);
   draw_composite(context, *run);
   draw_options(context, parameters, run->input && run->input->is_surface());
   draw_interfaces(context, parameters);

@@ -193,12 +193,21 @@ void metric_combo(PanelContext& context, const char* item, Metric current, const
     metric_tooltip(context, info(current));
     return;
   }
-  for (const Metric metric : context.derived.metrics) {
+  const auto choice = [&](Metric metric) {
     const MetricInfo& one = info(metric);
-    if (ImGui::Selectable(std::string(one.title).c_str(), metric == current)) context.send(fmt::format("{} {}", command, one.name));
+    ImGui::PushID(static_cast<int>(metric));
+    if (ImGui::Selectable(context.shown(one.title).c_str(), metric == current))
+      context.send(fmt::format("{} {}", command, quote_word(one.name)));
+    ImGui::PopID();
     context.items.record_last(fmt::format("{}:{}", item, one.name));
     metric_tooltip(context, one);
-  }
+  };
+  for (const Metric metric : context.derived.metrics) choice(metric);
+  ImGui::Separator();
+  for (const Metric metric : further_metrics(context.session)) choice(metric);
+  if (ImGui::Selectable("a formula…")) context.state.dialog = Dialog::Formula;
+  context.items.record_last(fmt::format("{}:formula", item));
+  next_item_tooltip("write a metric of your own, or choose what elements are wished to be");
   ImGui::EndCombo();
 }
 

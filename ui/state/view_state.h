@@ -42,7 +42,24 @@ enum class OpenFor : std::uint8_t {
   Beside,  // another mesh beside those that are open
   Surface  // what the active mesh slides on
 };
-enum class Dialog { None, Open, Export, Screenshot, Find, Palette, Keys, About, Error, Log, Sequence, Plot, SaveSession, Unsaved, Recover };
+enum class Dialog {
+  None,
+  Open,
+  Export,
+  Screenshot,
+  Find,
+  Palette,
+  Keys,
+  About,
+  Error,
+  Log,
+  Sequence,
+  Plot,
+  SaveSession,
+  Unsaved,
+  Recover,
+  Formula
+};
 
 /// What a person picked.
 struct Picked {

@@ -10,6 +10,7 @@
 #include "ui/toolkit/theme.h"
 #include "ui/viewports/inspection_marks.h"
 #include "ui/viewports/inverted_marks.h"
+#include "ui/viewports/target_marks.h"
 
 namespace dmoscope::ui {
 
@@ -227,6 +228,12 @@ render::Marks PaneView::marks(const Scenery& scenery, const MarkView& view, bool
     of_quality.colours = colour_scale(state, scenery.derived);  // of candidates, whatever the elements show
     const InspectionLook look = inspection_look(of_quality, palette(state.theme).accent, view.camera.units_per_pixel, view.scale);
     add_inspection_marks(marks, state.inspection, scenery.inspection, look);
+  }
+  if (!searching) {
+    const Metric shown = frame()->shown;
+    const bool of_shown = !is_built_in(shown) || frame()->run == Frame::kNoRun;
+    add_targets(marks, *frame(), of_shown ? shown : session_->runs[session_->active].parameters.metric, marks.elements,
+                plain.highlight_colour, plain.casing_colour);
   }
   if (frame()->run != Frame::kNoRun)
     add_size_point(marks, session_->runs[session_->active], frame()->input->geometry.plane, plain.highlight_colour, plain.casing_colour);

@@ -22,6 +22,9 @@ constexpr std::array<std::string_view, 3> kBackendNames{"auto", "cpu", "cuda"}; 
 /// Why no accelerator does this; empty when one can.
 std::string obstacle(const Acceleration& acceleration, const SmoothingTask& task) {
   if (!method_info(task.method).accelerated) return fmt::format("{} runs on the CPU alone", task.method);
+  if (!is_built_in(task.metric) || (task.combination && std::holds_alternative<Metric>(task.combination->second) &&
+                                    !is_built_in(std::get<Metric>(task.combination->second))))
+    return "formulas and targets are evaluated on the CPU alone";
   if (task.slides || task.input->is_surface()) return "vertices slide on the CPU alone";
   if (task.size && !task.size->formula()) return "sizes out of a nodal field are looked up on the CPU alone";
   if (task.search.precision == Precision::Double && !task.input->is_volume() && !task.combination)

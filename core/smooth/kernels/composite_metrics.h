@@ -40,7 +40,7 @@ formulas::RealOf<V> least_elsewhere(const formulas::CorneredSolid<V, Ideal, N, C
   using scalar::min;
   auto least = scalar::constant<formulas::RealOf<V>>(HUGE_VAL);
   for (std::size_t i = 0; i < Corners::kTable.size(); ++i) {
-    const formulas::CornerTable c = formulas::row_of<Corners>(i);
+    const CornerTable c = formulas::row_of<Corners>(i);
     if (c[0] == moving || c[1] == moving || c[2] == moving || c[3] == moving) continue;
     const V a = solid.at[c[0]], u = solid.at[c[1]] - a, v = solid.at[c[2]] - a, w = solid.at[c[3]] - a;
     least = min(least, formulas::SolidFormula<M>::template corner<Ideal>(u, v, w, formulas::determinant(u, v, w)));

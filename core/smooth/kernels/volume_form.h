@@ -47,7 +47,7 @@ template <class Point, class Ideal, std::size_t N, class Corners, class F>
 DMOSCOPE_ANYWHERE void for_corner_forms(const formulas::CorneredSolid<Point, Ideal, N, Corners>& element, Index moving, F f) {
   using R = formulas::RealOf<Point>;
   for (std::size_t i = 0; i < Corners::kTable.size(); ++i) {
-    const formulas::CornerTable c = formulas::row_of<Corners>(i);
+    const CornerTable c = formulas::row_of<Corners>(i);
     const auto share = [&](std::size_t edge) { return c[0] == moving ? R(-1) : c[edge] == moving ? R(1) : R(0); };
     if (c[0] != moving && c[1] != moving && c[2] != moving && c[3] != moving) continue;
     const Point a = element.at[c[0]];

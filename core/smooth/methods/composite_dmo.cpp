@@ -76,6 +76,7 @@ std::array<MetricFunctions<Frame>, kMetricCount> make_table() {
 
 template <class Frame>
 const MetricFunctions<Frame>& metric_functions(Metric metric) {
+  if (!is_built_in(metric)) refuse_defined_metric();
   static const auto table = make_table<Frame>();
   return table[static_cast<std::size_t>(metric)];
 }
@@ -115,12 +116,17 @@ DensityTarget<Plane> density_target(const SizeField& size, const PlanarView& mes
   return density_target_by(mesh, positions, vertex, [&size](Index other, Vec3 place) { return size.at(other, place); });
 }
 
+bool is_for_kernels(const CompositeObjective& composite) {
+  const auto* second = std::get_if<Metric>(&composite.second);
+  return is_built_in(composite.first) && (second == nullptr || is_built_in(*second));
+}
+
 template <class Frame>
 CompositeRule<Frame>::CompositeRule(const InputMesh& input, CompositeObjective composite, const SearchParameters& parameters)
     : StarJudge<Frame>(input, std::move(composite)),
       mesh_(input),
       parameters_(parameters),
-      kernel_(parameters.precision == Precision::Double
+      kernel_(parameters.precision == Precision::Double || !is_for_kernels(this->composite())
                   ? nullptr
                   : composite_kernel<Frame>(parameters.simd.value_or(best_simd_level()), this->composite().first)) {}
 
@@ -173,16 +179,47 @@ double StarJudge<Frame>::second(PositionView positions, Index vertex, Vec3 place
     if (const auto* size = std::get_if<std::shared_ptr<const SizeField>>(&composite_.second))
       return density_target(**size, view_, positions, vertex).density(view_.frame.offset(place, positions[vertex]));
   }
-  if (const auto* metric = std::get_if<Metric>(&composite_.second))
-    return metric_functions<Frame>(*metric).state(view_, positions, vertex, place).quality;
-  return metric_functions<Frame>(composite_.first).mean(view_, positions, vertex, place);
+  if (const auto* metric = std::get_if<Metric>(&composite_.second)) return state(*metric, positions, vertex, place).quality;
+  return mean(positions, vertex, place);
+}
+
+template <class Frame>
+StarJudge<Frame>::StarJudge(const InputMesh& input, CompositeObjective composite)
+    : input_(&input), view_(input.view<Frame>()), composite_(std::move(composite)) {
+  if (!is_built_in(composite_.first)) first_ = input.quality_context().judge(composite_.first);
+  if (const auto* second = std::get_if<Metric>(&composite_.second); second != nullptr && !is_built_in(*second))
+    second_ = input.quality_context().judge(*second);
+}
+
+template <class Frame>
+DefinedStarJudge<Frame> StarJudge<Frame>::star_judge(const DefinedJudge& judge) const {
+  return defined_star_judge<Frame>(*input_, judge);
+}
+
+template <class Frame>
+StarState StarJudge<Frame>::state(Metric metric, PositionView positions, Index vertex, Vec3 place) const {
+  if (is_built_in(metric)) return metric_functions<Frame>(metric).state(view_, positions, vertex, place);
+  return defined_star_state(star_judge(metric == composite_.first ? *first_ : *second_), positions, vertex, place);
+}
+
+template <class Frame>
+double StarJudge<Frame>::mean(PositionView positions, Index vertex, Vec3 place) const {
+  if (!first_) return metric_functions<Frame>(composite_.first).mean(view_, positions, vertex, place);
+  return defined_mean(star_judge(*first_), positions, vertex, place);
+}
+
+template <class Frame>
+CompositeScore<Frame> StarJudge<Frame>::score_of(const Star& star, PositionView positions, Index vertex, bool tangled) const {
+  DefinedStars<Frame> defined;
+  if (first_) defined.first = std::make_shared<const DefinedStar<Frame>>(star_judge(*first_), positions, vertex);
+  if (second_) defined.second = std::make_shared<const DefinedStar<Frame>>(star_judge(*second_), positions, vertex);
+  return {composite_, tangled ? std::optional(untangling_) : std::nullopt, star, density_of(star, positions, vertex), std::move(defined)};
 }
 
 template <class Frame>
 bool StarJudge<Frame>::gains(PositionView positions, Index vertex, Vec3 target) const {
-  const auto state = metric_functions<Frame>(composite_.first).state;
   const Vec3 here = positions[vertex];
-  const StarState before = state(view_, positions, vertex, here), after = state(view_, positions, vertex, target);
+  const StarState before = state(composite_.first, positions, vertex, here), after = state(composite_.first, positions, vertex, target);
   const auto second_rises = [&] { return second(positions, vertex, target) > second(positions, vertex, here); };
   return gains_by_two(
       composite_, before, after, untangling_, [&] { return keeps_sound(view_, positions, vertex, target); }, second_rises);

@@ -12,6 +12,7 @@
 #include <variant>
 
 #include "core/search/surface_star.h"
+#include "core/smooth/defined_state.h"
 #include "core/smooth/kernels/composite_kernel.h"
 #include "core/smooth/methods/two_aims_comparison.h"
 #include "core/smooth/size_field.h"
@@ -79,11 +80,21 @@ struct MetricFunctions {
   bool (*is_tangled)(const View&);
   double (*untangling_at)(const View&, const Untangling&, Offset);
 };
+/// Of a built-in metric.
 template <class Frame>
 [[nodiscard]] const MetricFunctions<Frame>& metric_functions(Metric metric);
 
+/// Are all of its metrics built in, so that kernels know them?
+[[nodiscard]] bool is_for_kernels(const CompositeObjective& composite);
+
 /// The mean of the edge neighbours, weighted by the inverse of the size where each stands now.
 [[nodiscard]] DensityTarget<Plane> density_target(const SizeField& size, const PlanarView& mesh, PositionView positions, Index vertex);
+
+/// A star by metrics that are defined by formulas or targets; none where the metric is built in.
+template <class Frame>
+struct DefinedStars {
+  std::shared_ptr<const DefinedStar<Frame>> first, second;
+};
 
 /// What the grid search maximises, as the paper's eq. (8) has it: the least first metric (or, untangling, what is raised while an element
 /// is inverted, which is <= 0); beyond the threshold that plus the second aim, which is positive.
@@ -94,30 +105,43 @@ class CompositeScore {
   using Offset = OffsetIn<Frame, double>;
   /// `untangling`: of a star with inverted elements; else none.
   CompositeScore(const CompositeObjective& composite, const std::optional<Untangling>& untangling, View star,
-                 const DensityTarget<Frame>& target)
-      : composite_(composite), star_(star), target_(target), untangling_(untangling), first_(metric_functions<Frame>(composite.first)) {
+                 const DensityTarget<Frame>& target, DefinedStars<Frame> defined = {})
+      : composite_(composite), star_(star), target_(target), untangling_(untangling), defined_(std::move(defined)) {
     greatest_below_ = composite.raise_mean() ? std::nextafter(composite.threshold, -1.0) : composite.threshold;
-    second_ = first_.mean_at;
-    if (const auto* metric = std::get_if<Metric>(&composite.second)) second_ = metric_functions<Frame>(*metric).least_at;
-    if (std::holds_alternative<std::shared_ptr<const SizeField>>(composite.second)) second_ = nullptr;
+    if (!defined_.first) first_ = &metric_functions<Frame>(composite.first);
+    if (const auto* metric = std::get_if<Metric>(&composite.second); metric != nullptr && !defined_.second)
+      second_ = metric_functions<Frame>(*metric).least_at;
+    else if (composite.raise_mean() && !defined_.first)
+      second_ = first_->mean_at;
   }
   /// `best`: what is worth no more may come out greater than it is, but never above this: nobody goes there.
   [[nodiscard]] double operator()(Offset p, double best = kAll) const {
-    const double least =
-        untangling_ ? first_.untangling_at(star_, *untangling_, p) : first_.least_at(star_, p, std::min(best, greatest_below_));
-    if (!composite_.beyond(least)) return least;
-    return composite_.threshold + (second_ != nullptr ? second_(star_, p, kAll) : target_.density(p));
+    const double least = this->least(p, std::min(best, greatest_below_));
+    return composite_.beyond(least) ? composite_.threshold + second(p) : least;
   }
 
  private:
   static constexpr double kAll = -std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] double least(Offset p, double enough) const {
+    if (!defined_.first) return untangling_ ? first_->untangling_at(star_, *untangling_, p) : first_->least_at(star_, p, enough);
+    if (!untangling_) return defined_.first->least(p);
+    return UntanglingObjective<kDefinedMetric, typename DefinedStar<Frame>::View, Offset>(defined_.first->view(), *untangling_)(p);
+  }
+  [[nodiscard]] double second(Offset p) const {
+    if (second_ != nullptr) return second_(star_, p, kAll);
+    if (defined_.second) return defined_.second->least(p);
+    return composite_.raise_mean() ? defined_.first->mean(p) : target_.density(p);
+  }
+
   const CompositeObjective& composite_;
   View star_;
   DensityTarget<Frame> target_;  // in units of the star's scale
   std::optional<Untangling> untangling_;
-  const MetricFunctions<Frame>& first_;
-  double greatest_below_;                                 // the greatest number not beyond the threshold
-  double (*second_)(const View&, Offset, double enough);  // null: the density
+  DefinedStars<Frame> defined_;
+  const MetricFunctions<Frame>* first_ = nullptr;                   // of a built-in metric
+  double greatest_below_;                                           // the greatest number not beyond the threshold
+  double (*second_)(const View&, Offset, double enough) = nullptr;  // likewise, or the mean by one; null: the density, or a defined metric
 };
 
 /// What a kernel needs to know of the aims, but for densities.
@@ -141,18 +165,19 @@ template <class Frame>
 class StarJudge {
  public:
   using Star = JudgedStar<Frame>;
-  StarJudge(const InputMesh& input, CompositeObjective composite) : view_(input.view<Frame>()), composite_(std::move(composite)) {}
+  StarJudge(const InputMesh& input, CompositeObjective composite);
   void begin(const Sweep& sweep) { untangling_ = sweep.untangling; }
   [[nodiscard]] const Untangling& untangling() const noexcept { return untangling_; }
 
   /// The star of a vertex, whether an element of it is inverted, and what a search maximises in it.
   void gather(PositionView positions, Index vertex, Star& star) const;
   [[nodiscard]] bool is_tangled(const Star& star) const {
-    return metric_functions<Frame>(composite_.first).is_tangled(JudgedStarView<Frame>(star));
+    const Metric metric = is_built_in(composite_.first) ? composite_.first : Metric::MeanRatio;  // which sees it
+    return metric_functions<Frame>(metric).is_tangled(JudgedStarView<Frame>(star));
   }
-  [[nodiscard]] CompositeScore<Frame> score_of(const Star& star, PositionView positions, Index vertex, bool tangled) const {
-    return {composite_, tangled ? std::optional(untangling_) : std::nullopt, star, density_of(star, positions, vertex)};
-  }
+  [[nodiscard]] CompositeScore<Frame> score_of(const Star& star, PositionView positions, Index vertex, bool tangled) const;
+  /// How good its star is by a metric, the first or second one, with a vertex at a place; by the statistics' formulas.
+  [[nodiscard]] StarState state(Metric metric, PositionView positions, Index vertex, Vec3 place) const;
   /// Judged by the statistics' own formulas: does the vertex gain by standing at `target`?
   [[nodiscard]] bool gains(PositionView positions, Index vertex, Vec3 target) const;
 
@@ -164,9 +189,14 @@ class StarJudge {
  private:
   [[nodiscard]] double second(PositionView positions, Index vertex, Vec3 place) const;
 
+  [[nodiscard]] double mean(PositionView positions, Index vertex, Vec3 place) const;
+  [[nodiscard]] DefinedStarJudge<Frame> star_judge(const DefinedJudge& judge) const;
+
+  const InputMesh* input_;
   MeshView<Frame> view_;
   CompositeObjective composite_;
   Untangling untangling_{};
+  std::shared_ptr<const DefinedJudge> first_, second_;  // of metrics that are not built in
 };
 
 /// One vertex's visit: a rule for RuleSmoother. The mesh must outlive it.

@@ -8,6 +8,8 @@
 
 #include "core/base/memory.h"
 #include "core/smooth/kernels/lane_kernel.h"
+#include "core/smooth/methods/defined_dmo.h"
+#include "core/smooth/methods/defined_rule.h"
 #include "core/smooth/methods/fast_volume_search.h"
 #include "core/smooth/methods/slide.h"
 #include "core/smooth/vertex_rule.h"
@@ -171,6 +173,13 @@ class LaneDmo final : public Smoother {
 }  // namespace
 
 StarState star_state(const InputMesh& input, PositionView positions, Metric metric, Index vertex) {
+  if (!is_built_in(metric)) {
+    const auto judge = input.quality_context().judge(metric);
+    const auto state = [&]<class Frame>() {
+      return defined_star_state(defined_star_judge<Frame>(input, *judge), positions, vertex, positions[vertex]);
+    };
+    return input.is_surface() ? state.template operator()<Curved>() : with_frame(input, state);
+  }
   if (input.is_surface()) return metric_functions<Curved>(metric).state(input.view<Curved>(), positions, vertex, positions[vertex]);
   return with_metric_and_frame(
       input, metric, [&]<Metric M, class Frame>() { return star_state<M>(input.view<Frame>(), positions, vertex, positions[vertex]); });
@@ -178,6 +187,7 @@ StarState star_state(const InputMesh& input, PositionView positions, Metric metr
 
 std::unique_ptr<Smoother> make_dmo_smoother(const SmoothingTask& task) {
   if (task.input->is_surface()) return make_surface_smoother(task, single_objective(task.metric));
+  if (!is_built_in(task.metric)) return make_defined_dmo_smoother(task);
   return with_metric_and_frame(*task.input, task.metric, [&]<Metric M, class Frame>() -> std::unique_ptr<Smoother> {
     if (task.search.precision == Precision::Float) {
       if constexpr (std::is_same_v<Frame, Plane>)

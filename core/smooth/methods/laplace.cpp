@@ -1,6 +1,7 @@
 #include "core/smooth/methods/laplace.h"
 
 #include "core/smooth/edge_neighbours.h"
+#include "core/smooth/methods/defined_rule.h"
 #include "core/smooth/methods/slide.h"
 
 namespace dmoscope {
@@ -69,6 +70,21 @@ class SmartLaplace : private Laplace<Frame> {
   }
 };
 
+/// By a metric that is defined by a formula or a target.
+template <class Frame>
+class DefinedSmartLaplace : private Laplace<Frame> {
+ public:
+  using typename Laplace<Frame>::Scratch;
+  explicit DefinedSmartLaplace(const SmoothingTask& task) : Laplace<Frame>(task), judged_(*task.input, task.metric) {}
+  void begin(const Sweep& sweep) { judged_.begin(sweep); }
+  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const {
+    return judged_.moved_if_gaining(positions, vertex, this->step(positions, vertex, scratch));
+  }
+
+ private:
+  DefinedRuleMesh<Frame> judged_;
+};
+
 }  // namespace
 
 std::unique_ptr<Smoother> make_laplace_smoother(const SmoothingTask& task) {
@@ -82,6 +98,10 @@ std::unique_ptr<Smoother> make_laplace_smoother(const SmoothingTask& task) {
 std::unique_ptr<Smoother> make_smart_laplace_smoother(const SmoothingTask& task) {
   const SlideChoice choice{.by = SlideChoice::By::Mean, .relaxation = task.options.relaxation};
   if (task.input->is_surface()) return make_surface_smoother(task, single_objective(task.metric), choice);
+  if (!is_built_in(task.metric))
+    return with_frame(*task.input, [&]<class Frame>() {
+      return make_sliding_smoother<Frame>(task, DefinedSmartLaplace<Frame>(task), single_objective(task.metric), choice);
+    });
   return with_metric_and_frame(*task.input, task.metric, [&]<Metric M, class Frame>() {
     return make_sliding_smoother<Frame>(task, SmartLaplace<M, Frame>(task), single_objective(M), choice);
   });

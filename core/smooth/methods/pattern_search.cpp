@@ -1,8 +1,10 @@
 #include "core/smooth/methods/pattern_search.h"
 
 #include <initializer_list>
+#include <variant>
 
 #include "core/search/compass_search.h"
+#include "core/smooth/methods/defined_rule.h"
 #include "core/smooth/methods/slide.h"
 
 namespace dmoscope {
@@ -72,11 +74,40 @@ class PatternSearch {
   RuleMesh<Frame> mesh_;
 };
 
+/// By a metric that is defined by a formula or a target.
+template <class Frame>
+class DefinedPatternSearch {
+ public:
+  using Scratch = std::monostate;
+  explicit DefinedPatternSearch(const SmoothingTask& task) : mesh_(*task.input, task.metric) {}
+
+  void begin(const Sweep& sweep) { mesh_.begin(sweep); }
+  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& /*scratch*/) const {
+    const DefinedStar<Frame> star(mesh_.star_judge(), positions, vertex);
+    using View = typename DefinedStar<Frame>::View;
+    const double edge = mean_edge(star.star());
+    const UntanglingObjective<kDefinedMetric, View, Offset> untangling(star.view(), mesh_.untangling());
+    const Offset found = untangling.tangled()
+                             ? compass_search<Offset>(untangling, edge)
+                             : compass_search<Offset>(Objective<kDefinedMetric, false, double, Value::Metric, View>(star.view()), edge);
+    if (found == Offset{}) return std::nullopt;
+    return mesh_.moved_if_gaining(positions, vertex, times(found, star.scale()));
+  }
+
+ private:
+  using Offset = OffsetIn<Frame, double>;
+  DefinedRuleMesh<Frame> mesh_;
+};
+
 }  // namespace
 
 std::unique_ptr<Smoother> make_pattern_search_smoother(const SmoothingTask& task) {
   const SlideChoice choice{.by = SlideChoice::By::Compass};
   if (task.input->is_surface()) return make_surface_smoother(task, single_objective(task.metric), choice);
+  if (!is_built_in(task.metric))
+    return with_frame(*task.input, [&]<class Frame>() {
+      return make_sliding_smoother<Frame>(task, DefinedPatternSearch<Frame>(task), single_objective(task.metric), choice);
+    });
   return with_metric_and_frame(*task.input, task.metric, [&]<Metric M, class Frame>() {
     return make_sliding_smoother<Frame>(task, PatternSearch<M, Frame>(task), single_objective(M), choice);
   });

@@ -64,7 +64,7 @@ Slide<Frame>::Slide(const SmoothingTask& task, CompositeObjective composite, Sli
       max_deviation_(task.max_deviation),
       single_precision_(task.input->mesh.single_precision) {
   const CompositeObjective& aims = judge_.composite();
-  if (task.search.precision != Precision::Double) {
+  if (task.search.precision != Precision::Double && is_for_kernels(aims)) {
     const SimdLevel level = task.search.simd.value_or(best_simd_level());
     if (std::is_same_v<Frame, Curved>) flat_kernel_ = composite_kernel<Plane>(level, aims.first);
     if (!std::holds_alternative<std::shared_ptr<const SizeField>>(aims.second))

@@ -1,0 +1,79 @@
+#pragma once
+// Evaluates programs for many places or elements at once, with the vector instructions of the processor. The same bits for any of them.
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/formula/program.h"
+#include "core/numeric/simd.h"
+
+namespace dmoscope {
+
+/// How many values a register has.
+inline constexpr std::size_t kFormulaBatch = 64;
+
+/// What a kernel needs to know. Real: float or double.
+template <class Real>
+struct FormulaRun {
+  const FormulaStep* steps;
+  std::size_t step_count;
+  const Real* uniforms;  // the numbers of operands below `uniform_count`
+  std::size_t uniform_count;
+  Real* registers;    // kFormulaBatch values each, aligned for any pack
+  std::size_t count;  // of values, up to kFormulaBatch
+};
+template <class Real>
+using FormulaKernel = void (*)(const FormulaRun<Real>& run);
+/// Runs the steps. `level`: one of supported_simd_levels().
+template <class Real>
+[[nodiscard]] FormulaKernel<Real> formula_kernel(SimdLevel level);
+
+/// Numbers aligned for any pack.
+template <class Real>
+class AlignedNumbers {
+ public:
+  /// Room for so many; what was there is lost where there was less.
+  Real* reserve(std::size_t count) {
+    if (room_.size() < count + kSlack) room_.resize(count + kSlack);
+    const auto address = reinterpret_cast<std::uintptr_t>(room_.data());
+    return room_.data() + ((kAlignment - address % kAlignment) % kAlignment) / sizeof(Real);
+  }
+
+ private:
+  static constexpr std::size_t kAlignment = 64, kSlack = kAlignment / sizeof(Real);
+  std::vector<Real> room_;
+};
+
+/// The uniform numbers of a program for one element: those given, constants, and what follows from these. given(input): its number.
+/// `uniforms`: program.uniforms of them.
+template <class Real, class Given>
+void prepare(const FormulaProgram& program, const Given& given, Real* uniforms);
+/// Its steps with uniform numbers alone.
+template <class Real>
+void run_beforehand(const FormulaProgram& program, Real* uniforms);
+
+/// A result of a run: `count` values, or one for all.
+template <class Real>
+class FormulaResult {
+ public:
+  FormulaResult(const FormulaProgram& program, std::uint16_t operand, const Real* uniforms, const Real* registers)
+      : values_(operand < program.uniforms ? uniforms + operand
+                                           : registers + static_cast<std::size_t>(operand - program.uniforms) * kFormulaBatch),
+        stride_(operand < program.uniforms ? 0 : 1) {}
+  [[nodiscard]] Real operator[](std::size_t i) const { return values_[i * stride_]; }
+
+ private:
+  const Real* values_;
+  std::size_t stride_;
+};
+
+template <class Real, class Given>
+void prepare(const FormulaProgram& program, const Given& given, Real* uniforms) {
+  for (const FormulaProgram::Constant& constant : program.constants) uniforms[constant.at] = static_cast<Real>(constant.value);
+  for (const FormulaProgram::Given& one : program.given) uniforms[one.at] = static_cast<Real>(given(one.input));
+  run_beforehand(program, uniforms);
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,72 @@
+#pragma once
+// What the operations of formulas compute, for any scalar: a plain number, or a pack whose slots get the bits that plain numbers get.
+
+#include "core/formula/program.h"
+#include "core/numeric/elementary.h"
+#include "core/numeric/scalar.h"
+
+namespace dmoscope::operations {
+
+/// Those that have no case here, slot by slot: see apply_alone().
+template <Operation O>
+inline constexpr bool kSlotBySlot =
+    O == Operation::Exponential || O == Operation::Logarithm || O == Operation::Sine || O == Operation::Cosine || O == Operation::Power;
+
+/// Of plain numbers, in double.
+[[nodiscard]] double apply_alone(Operation operation, double a, double b);
+
+/// `cube_root` and `atan2` of the scalar are found where it is.
+template <Operation O, class R>
+[[gnu::always_inline]] inline R apply(R a, R b, R c) {
+  using scalar::abs, scalar::atan2, scalar::cube_root, scalar::max, scalar::min, scalar::select, scalar::sqrt;
+  if constexpr (O == Operation::Add) return a + b;
+  if constexpr (O == Operation::Subtract) return a - b;
+  if constexpr (O == Operation::Multiply) return a * b;
+  if constexpr (O == Operation::Divide) {
+    const auto none = b == R(0);
+    return select(none, R(0), a / select(none, R(1), b));
+  }
+  if constexpr (O == Operation::Minimum) return min(a, b);
+  if constexpr (O == Operation::Maximum) return max(a, b);
+  if constexpr (O == Operation::Absolute) return abs(a);
+  if constexpr (O == Operation::SquareRoot) return sqrt(select(a > R(0), a, R(0)));
+  if constexpr (O == Operation::CubeRoot) return cube_root(a);
+  if constexpr (O == Operation::Less) return select(a < b, R(1), R(0));
+  if constexpr (O == Operation::LessOrEqual) return select(a <= b, R(1), R(0));
+  if constexpr (O == Operation::Equal) return select(a == b, R(1), R(0));
+  if constexpr (O == Operation::Select) return select(a == R(0), c, b);
+  if constexpr (O == Operation::ArcTangent) return atan2(a, b);
+  return R(0);
+}
+
+/// Calls f.template operator()<O>() with the operation.
+template <class F>
+[[gnu::always_inline]] inline void with_operation(Operation operation, const F& f) {
+  switch (operation) {
+#define DMOSCOPE_OPERATION(name) \
+  case Operation::name:          \
+    return f.template operator()<Operation::name>()
+    DMOSCOPE_OPERATION(Add);
+    DMOSCOPE_OPERATION(Subtract);
+    DMOSCOPE_OPERATION(Multiply);
+    DMOSCOPE_OPERATION(Divide);
+    DMOSCOPE_OPERATION(Minimum);
+    DMOSCOPE_OPERATION(Maximum);
+    DMOSCOPE_OPERATION(Absolute);
+    DMOSCOPE_OPERATION(SquareRoot);
+    DMOSCOPE_OPERATION(CubeRoot);
+    DMOSCOPE_OPERATION(Less);
+    DMOSCOPE_OPERATION(LessOrEqual);
+    DMOSCOPE_OPERATION(Equal);
+    DMOSCOPE_OPERATION(Select);
+    DMOSCOPE_OPERATION(ArcTangent);
+    DMOSCOPE_OPERATION(Exponential);
+    DMOSCOPE_OPERATION(Logarithm);
+    DMOSCOPE_OPERATION(Sine);
+    DMOSCOPE_OPERATION(Cosine);
+    DMOSCOPE_OPERATION(Power);
+#undef DMOSCOPE_OPERATION
+  }
+}
+
+}  // namespace dmoscope::operations

@@ -1,0 +1,100 @@
+#pragma once
+// A formula for one kind of element, as code for registers: no branch, the same steps whatever the element looks like.
+
+#include <cstdint>
+#include <vector>
+
+#include "core/mesh/mesh.h"
+
+namespace dmoscope {
+
+enum class Operation : std::uint8_t {
+  Add,
+  Subtract,
+  Multiply,
+  Divide,  // 0 where the divisor is 0
+  Minimum,
+  Maximum,
+  Absolute,
+  SquareRoot,  // of less than 0: 0
+  CubeRoot,
+  Less,         // 1 or 0
+  LessOrEqual,  // likewise
+  Equal,        // likewise
+  Select,       // where a is not 0 b, else c
+  ArcTangent,   // of a over b, as atan2
+  Exponential,
+  Logarithm,
+  Sine,
+  Cosine,
+  Power  // by logarithm; 0 for what is not above 0
+};
+/// How many of the operands a, b, c it reads.
+[[nodiscard]] constexpr int operand_count(Operation operation) {
+  switch (operation) {
+    case Operation::Absolute:
+    case Operation::SquareRoot:
+    case Operation::CubeRoot:
+    case Operation::Exponential:
+    case Operation::Logarithm:
+    case Operation::Sine:
+    case Operation::Cosine:
+      return 1;
+    case Operation::Select:
+      return 3;
+    default:
+      return 2;
+  }
+}
+
+/// A number that a program is given.
+struct FormulaInput {
+  enum class What : std::uint8_t {
+    Corner,       // coordinate `row` of corner `index`
+    Origin,       // coordinate `row` of what corners are relative to
+    Target,       // of corner `index`: row and column of what makes the target's edges of the element's, from the right
+    Stretch,      // row and column of what makes the target's space of the element's, from the left
+    MeanMeasure,  // of the mesh's elements
+    Field         // number `index`
+  };
+  What what = What::Corner;
+  std::uint8_t index = 0, row = 0, column = 0;
+  friend bool operator==(const FormulaInput&, const FormulaInput&) = default;
+};
+
+/// Which numbers vary while a program runs for many places, or many elements, at once.
+enum class FormulaUse : std::uint8_t {
+  Elements,  // all: an element a slot
+  Places     // the coordinates of one corner: a place of it a slot
+};
+
+/// A step: registers[to] = operation(a, b, c). Operands below `uniforms` are uniform numbers, those from there on registers.
+struct FormulaStep {
+  Operation operation;
+  std::uint16_t to, a, b, c;
+};
+
+struct FormulaProgram {
+  ElementKind kind = ElementKind::Triangle;
+  FormulaUse use = FormulaUse::Elements;
+  Index moving = kNoIndex;  // the corner that moves; of Elements none: the formula of the whole element
+  std::uint16_t uniforms = 0, registers = 0;
+  struct Given {
+    FormulaInput input;
+    std::uint16_t at;  // a uniform number or, of `varying`, a register
+  };
+  struct Constant {
+    double value;
+    std::uint16_t at;
+  };
+  std::vector<Given> given, varying;    // what is uniform, what is not
+  std::vector<Constant> constants;      // uniform
+  std::vector<FormulaStep> beforehand;  // with uniform numbers alone: `to` is one, too
+  std::vector<FormulaStep> steps;
+  std::uint16_t quality = 0, jacobian = 0;  // the results, as operands: the metric, and the smallest corner Jacobian
+};
+
+/// A program has at most so many numbers.
+inline constexpr std::size_t kMostNumbers = 20000;
+
+}  // namespace dmoscope

@@ -1,0 +1,163 @@
+#include "core/formula/program_builder.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/formula/operations.h"
+
+namespace dmoscope {
+
+namespace {
+
+using Number = ProgramBuilder::Number;
+
+bool is_symmetric(Operation operation) {
+  return operation == Operation::Add || operation == Operation::Multiply || operation == Operation::Equal;
+}
+
+double folded(Operation operation, double a, double b, double c) {
+  if (operation == Operation::Select) return a == 0.0 ? c : b;
+  return operations::apply_alone(operation, a, b);
+}
+
+}  // namespace
+
+Number ProgramBuilder::keep(const Node& node) {
+  std::uint64_t key = static_cast<std::uint64_t>(node.what) * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(node.operation);
+  const auto mix = [&key](std::uint64_t value) { key = (key ^ value) * 0xff51afd7ed558ccdULL + (key >> 29U); };
+  for (const Number operand : node.operands) mix(operand);
+  mix(std::bit_cast<std::uint64_t>(node.value));
+  mix(static_cast<std::uint64_t>(node.input.what) << 24U | static_cast<std::uint64_t>(node.input.index) << 16U |
+      static_cast<std::uint64_t>(node.input.row) << 8U | node.input.column);
+  const auto [first, last] = known_.equal_range(key);
+  for (auto at = first; at != last; ++at) {
+    const Node& other = nodes_[at->second];
+    if (other.what == node.what && other.operation == node.operation && other.operands == node.operands && other.input == node.input &&
+        std::bit_cast<std::uint64_t>(other.value) == std::bit_cast<std::uint64_t>(node.value))
+      return at->second;
+  }
+  if (nodes_.size() >= kMostNumbers) throw UsageError("the formula is too large: shorten it, or name parts of it");
+  const auto number = static_cast<Number>(nodes_.size());
+  nodes_.push_back(node);
+  known_.emplace(key, number);
+  return number;
+}
+
+Number ProgramBuilder::constant(double value) { return keep({Node::What::Constant, Operation::Add, {}, value, {}}); }
+
+Number ProgramBuilder::input(FormulaInput input) { return keep({Node::What::Input, Operation::Add, {}, 0.0, input}); }
+
+const double* ProgramBuilder::value_of(Number number) const {
+  return nodes_[number].what == Node::What::Constant ? &nodes_[number].value : nullptr;
+}
+
+Number ProgramBuilder::apply(Operation operation, Number a, Number b, Number c) {
+  const int count = operand_count(operation);
+  if (count < 2) b = 0;
+  if (count < 3) c = 0;
+  if (is_symmetric(operation) && b < a) std::swap(a, b);
+  const double *x = value_of(a), *y = value_of(b), *z = value_of(c);
+  if (x != nullptr && (count < 2 || y != nullptr) && (count < 3 || z != nullptr))
+    return constant(folded(operation, *x, count < 2 ? 0.0 : *y, count < 3 ? 0.0 : *z));
+  if ((operation == Operation::Minimum || operation == Operation::Maximum) && a == b) return a;
+  if (operation == Operation::Select && x != nullptr) return *x == 0.0 ? c : b;
+  if (operation == Operation::Multiply && x != nullptr && *x == 1.0) return b;
+  if (operation == Operation::Multiply && y != nullptr && *y == 1.0) return a;
+  return keep({Node::What::Step, operation, {a, b, c}, 0.0, {}});
+}
+
+std::vector<bool> ProgramBuilder::needed(Number quality, Number jacobian) const {
+  std::vector<bool> needed(nodes_.size());
+  needed[quality] = needed[jacobian] = true;
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    if (!needed[i] || nodes_[i].what != Node::What::Step) continue;
+    for (int k = 0; k < operand_count(nodes_[i].operation); ++k) needed[nodes_[i].operands[static_cast<std::size_t>(k)]] = true;
+  }
+  return needed;
+}
+
+namespace {
+
+/// Hands out registers; those that nobody reads any more are used again.
+class Registers {
+ public:
+  std::uint16_t take() {
+    if (free_.empty()) return count_++;
+    const std::uint16_t one = free_.back();
+    free_.pop_back();
+    return one;
+  }
+  void give_back(std::uint16_t one) { free_.push_back(one); }
+  [[nodiscard]] std::uint16_t count() const { return count_; }
+
+ private:
+  std::vector<std::uint16_t> free_;
+  std::uint16_t count_ = 0;
+};
+
+}  // namespace
+
+FormulaProgram ProgramBuilder::finish(ElementKind kind, FormulaUse use, Index moving, Number quality, Number jacobian) const {
+  const std::vector<bool> is_needed = needed(quality, jacobian);
+  const auto varies_as_input = [&](const FormulaInput& in) {
+    if (use == FormulaUse::Elements) return in.what != FormulaInput::What::MeanMeasure;
+    return in.what == FormulaInput::What::Corner && in.index == moving;
+  };
+  std::vector<bool> varies(nodes_.size());
+  std::vector<std::size_t> last_use(nodes_.size());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    if (!is_needed[i]) continue;
+    if (node.what == Node::What::Input) varies[i] = varies_as_input(node.input);
+    if (node.what != Node::What::Step) continue;
+    for (int k = 0; k < operand_count(node.operation); ++k) {
+      const Number operand = node.operands[static_cast<std::size_t>(k)];
+      varies[i] = varies[i] || varies[operand];
+      last_use[operand] = i;
+    }
+  }
+  last_use[quality] = last_use[jacobian] = nodes_.size();
+
+  FormulaProgram program;
+  program.kind = kind;
+  program.use = use;
+  program.moving = moving;
+  std::vector<std::uint16_t> place(nodes_.size());  // of uniform numbers; of others the register
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (is_needed[i] && !varies[i]) place[i] = program.uniforms++;
+  Registers registers;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {  // first, so that they are given where they stand
+    if (!is_needed[i] || nodes_[i].what != Node::What::Input) continue;
+    if (varies[i]) place[i] = registers.take();
+    (varies[i] ? program.varying : program.given).push_back({nodes_[i].input, place[i]});
+  }
+  const auto operand = [&](Number number) {
+    return static_cast<std::uint16_t>(varies[number] ? program.uniforms + place[number] : place[number]);
+  };
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    if (!is_needed[i]) continue;
+    if (node.what == Node::What::Constant) program.constants.push_back({node.value, place[i]});
+    if (node.what != Node::What::Step) continue;
+    const int count = operand_count(node.operation);
+    std::array<std::uint16_t, 3> at{};
+    for (std::size_t k = 0; k < 3; ++k) at[k] = operand(node.operands[static_cast<int>(k) < count ? k : 0]);
+    if (varies[i]) {
+      for (std::size_t k = 0; static_cast<int>(k) < count; ++k) {
+        const Number used = node.operands[k];
+        const bool again = k > 0 && (node.operands[0] == used || (k > 1 && node.operands[1] == used));
+        if (varies[used] && last_use[used] == i && !again) registers.give_back(place[used]);
+      }
+      place[i] = registers.take();
+    }
+    (varies[i] ? program.steps : program.beforehand).push_back({node.operation, place[i], at[0], at[1], at[2]});
+  }
+  program.registers = registers.count();
+  program.quality = operand(quality);
+  program.jacobian = operand(jacobian);
+  return program;
+}
+
+}  // namespace dmoscope

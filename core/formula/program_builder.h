@@ -1,0 +1,56 @@
+#pragma once
+// Puts a program together: the same number is computed once, constants are computed beforehand, and what no result needs is left out.
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "core/formula/program.h"
+
+namespace dmoscope {
+
+class ProgramBuilder {
+ public:
+  using Number = std::uint32_t;  // that the program computes
+
+  [[nodiscard]] Number constant(double value);
+  [[nodiscard]] Number input(FormulaInput input);
+  [[nodiscard]] Number apply(Operation operation, Number a, Number b = 0, Number c = 0);
+  [[nodiscard]] const double* value_of(Number number) const;  // null: no constant
+
+  // What formulas and their vocabulary are written with.
+  [[nodiscard]] Number add(Number a, Number b) { return apply(Operation::Add, a, b); }
+  [[nodiscard]] Number subtract(Number a, Number b) { return apply(Operation::Subtract, a, b); }
+  [[nodiscard]] Number multiply(Number a, Number b) { return apply(Operation::Multiply, a, b); }
+  [[nodiscard]] Number times(double factor, Number a) { return multiply(constant(factor), a); }
+  [[nodiscard]] Number divide(Number a, Number b) { return apply(Operation::Divide, a, b); }
+  [[nodiscard]] Number minimum(Number a, Number b) { return apply(Operation::Minimum, a, b); }
+  [[nodiscard]] Number maximum(Number a, Number b) { return apply(Operation::Maximum, a, b); }
+  [[nodiscard]] Number absolute(Number a) { return apply(Operation::Absolute, a); }
+  [[nodiscard]] Number root(Number a) { return apply(Operation::SquareRoot, a); }
+  [[nodiscard]] Number arc_tangent(Number y, Number x) { return apply(Operation::ArcTangent, y, x); }
+  [[nodiscard]] Number select(Number condition, Number yes, Number no) { return apply(Operation::Select, condition, yes, no); }
+  [[nodiscard]] Number less(Number a, Number b) { return apply(Operation::Less, a, b); }
+
+  /// The program whose results these are; see FormulaProgram.
+  [[nodiscard]] FormulaProgram finish(ElementKind kind, FormulaUse use, Index moving, Number quality, Number jacobian) const;
+
+  [[nodiscard]] std::size_t size() const noexcept { return nodes_.size(); }
+
+ private:
+  struct Node {
+    enum class What : std::uint8_t { Constant, Input, Step } what;
+    Operation operation;
+    std::array<Number, 3> operands;
+    double value;
+    FormulaInput input;
+  };
+  [[nodiscard]] Number keep(const Node& node);
+  [[nodiscard]] std::vector<bool> needed(Number quality, Number jacobian) const;
+
+  std::vector<Node> nodes_;
+  std::unordered_multimap<std::uint64_t, Number> known_;  // by what they are made of
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,97 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/io/medit/sol.h"
+#include "core/io/reading/source_file.h"
+#include "core/io/reading/tokenizer.h"
+
+namespace dmoscope {
+
+namespace {
+
+constexpr TextSyntax kSolSyntax{.comment = '#', .comma_is_blank = false, .backslash_joins_lines = false, .free_form = true};
+
+class SolReader {
+ public:
+  SolReader(std::string_view text, const std::filesystem::path& file, Mesh& mesh, Progress& progress)
+      : tokens_(text, file.string(), kSolSyntax, progress), mesh_(mesh), progress_(progress) {}
+
+  void read() {
+    if (const std::string_view first = tokens_.token(); !equal_ignoring_case(first, "MeshVersionFormatted"))
+      tokens_.fail(fmt::format("a solution file begins with MeshVersionFormatted, this one with {}", quote_token(first)));
+    (void)tokens_.read_integer("version after MeshVersionFormatted");
+    while (!tokens_.at_end()) {
+      const std::string_view keyword = tokens_.token();
+      if (equal_ignoring_case(keyword, "End")) break;
+      if (equal_ignoring_case(keyword, "Dimension"))
+        dimension();
+      else if (equal_ignoring_case(keyword, "SolAtVertices"))
+        solutions();
+      else
+        tokens_.fail(fmt::format("expected Dimension, SolAtVertices or End, got {}", quote_token(keyword)));
+    }
+  }
+
+ private:
+  void dimension() {
+    dimension_ = tokens_.read_integer("dimension");
+    if (dimension_ != 2 && dimension_ != 3) tokens_.fail(fmt::format("Dimension {}: only 2 and 3 dimensions are read", dimension_));
+  }
+
+  void solutions() {
+    if (dimension_ == 0) tokens_.fail("SolAtVertices before Dimension");
+    const std::size_t count = tokens_.read_count("number of SolAtVertices", 2);
+    if (count != mesh_.positions.size())
+      tokens_.fail(fmt::format("solutions at {} vertices, but the mesh has {}", count, mesh_.positions.size()));
+    const std::int64_t kinds = tokens_.read_integer("number of solutions");
+    if (kinds < 1 || kinds > 100) tokens_.fail(fmt::format("{} solutions at a vertex: 1 to 100 are read", kinds));
+    std::vector<Field> fields;
+    for (std::int64_t i = 0; i < kinds; ++i) fields.push_back(begin(tokens_.read_integer("type of a solution"), count));
+    for (std::size_t v = 0; v < count; ++v) {
+      if (v % 65536 == 0) progress_.check();
+      for (Field& field : fields)
+        for (int c = 0; c < field.components; ++c) field.values.push_back(tokens_.read_double("value of a solution"));
+    }
+    for (Field& field : fields) mesh_.fields.push_back(std::move(field));
+  }
+
+  Field begin(std::int64_t type, std::size_t count) {
+    if (type < 1 || type > 3)
+      tokens_.fail(fmt::format("a solution of type {}: 1 (a number), 2 (a vector) and 3 (a symmetric tensor) are read", type));
+    Field field;
+    field.name = type == 1 ? "sol" : type == 2 ? "sol-vector" : "metric";
+    field.role = "solution";
+    field.components = static_cast<int>(type == 1 ? 1 : type == 2 ? dimension_ : dimension_ * (dimension_ + 1) / 2);
+    const std::string name = field.name;
+    for (int n = 2; is_taken(field.name); ++n) field.name = fmt::format("{}-{}", name, n);
+    names_.push_back(field.name);
+    field.values.reserve(count * static_cast<std::size_t>(field.components));
+    return field;
+  }
+  [[nodiscard]] bool is_taken(const std::string& name) const {
+    return std::ranges::find(names_, name) != names_.end() || std::ranges::find(mesh_.fields, name, &Field::name) != mesh_.fields.end();
+  }
+
+  Tokenizer tokens_;
+  Mesh& mesh_;
+  Progress& progress_;
+  std::int64_t dimension_ = 0;
+  std::vector<std::string> names_;
+};
+
+}  // namespace
+
+std::filesystem::path solution_beside(const std::filesystem::path& mesh) {
+  std::filesystem::path file = mesh;
+  return file.replace_extension(".sol");
+}
+
+void read_solutions(const std::filesystem::path& file, Mesh& mesh, Progress& progress) {
+  const FileBytes bytes = read_whole_file(file, progress);
+  SolReader(bytes.view(), file, mesh, progress).read();
+}
+
+}  // namespace dmoscope

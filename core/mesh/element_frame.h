@@ -1,0 +1,61 @@
+#pragma once
+// The corners of an element in the frame that it is judged in.
+
+#include <array>
+
+#include "core/mesh/mesh.h"
+#include "core/mesh/plane.h"
+
+namespace dmoscope {
+
+[[nodiscard]] inline Vec3 unit_normal(Vec3 a, Vec3 b, Vec3 fallback) {
+  const Vec3 n = cross(a, b);
+  const double l = length(n);
+  return l > 0.0 ? (1.0 / l) * n : fallback;
+}
+
+/// The unit normal of an element of a curved mesh, whose edges or diagonals span it. Where the frame's has a say, that of an element which
+/// looks away from it: so its areas, as they look from above, are negative, and go to 0 as it turns.
+[[nodiscard]] inline Vec3 curved_normal(Vec3 a, Vec3 b, Vec3 frame_normal, bool against) {
+  const Vec3 n = unit_normal(a, b, frame_normal);
+  return against && dot(n, frame_normal) < 0.0 ? frame_normal : n;
+}
+
+/// What the elements of a mesh are judged in. A view: the geometry must outlive it.
+struct ElementFrames {
+  const Geometry& geometry;
+  std::span<const Vec3> normals{};  // of a surface, by element: see InputMesh::surface_normals
+
+  /// Corners as (x, y, z): of a planar element relative to its first in its plane (z = 0); of one of a surface likewise, in the plane of
+  /// the element; of a volume element where they stand. at(vertex): its position.
+  template <class At>
+  void gather(std::span<const Index> corners, Index element, int dimension, const At& at, std::array<Vec3, 8>& out) const {
+    if (dimension == 3) {
+      for (std::size_t i = 0; i < corners.size(); ++i) out[i] = at(corners[i]);
+      return;
+    }
+    const Vec3 origin = at(corners[0]);
+    if (geometry.shape == Shape::Planar) {
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Vec2<double> p = geometry.plane.offset(at(corners[i]), origin);
+        out[i] = {p.x, p.y, 0.0};
+      }
+      return;
+    }
+    std::array<Vec3, 4> way{};
+    for (std::size_t i = 0; i < corners.size(); ++i) way[i] = at(corners[i]) - origin;
+    const bool against = !normals.empty();
+    const Vec3 above = against ? normals[element] : geometry.plane.normal;
+    const bool given = corners.size() == 4 && geometry.mostly_flat && !against;
+    const Vec3 normal = given                 ? above
+                        : corners.size() == 3 ? curved_normal(way[1], way[2], above, against)
+                                              : curved_normal(way[2], way[3] - way[1], above, against);
+    const Plane plane = tangent_plane(normal);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vec2<double> p = plane.project(way[i]);
+      out[i] = {p.x, p.y, 0.0};
+    }
+  }
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,143 @@
+#include "core/quality/formula_facts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/mesh/random.h"
+#include "core/quality/element_shape.h"
+#include "core/quality/formula_values.h"
+#include "core/quality/volumes.h"
+
+namespace dmoscope {
+
+namespace {
+
+using Corners = std::array<Vec3, 8>;
+
+/// The ideal element with edges of length 1.
+Corners ideal_corners(ElementKind kind) {
+  const double h = 0.5 * std::numbers::sqrt3;
+  switch (kind) {
+    case ElementKind::Triangle:
+      return {{{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}}};
+    case ElementKind::Quadrilateral:
+      return {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
+    case ElementKind::Tetrahedron:
+      return {{{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {0.5, h / 3.0, std::sqrt(2.0 / 3.0)}}};
+    case ElementKind::Hexahedron:
+      return {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
+    case ElementKind::Wedge:
+      return {{{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {0, 0, 1}, {1, 0, 1}, {0.5, h, 1}}};
+    case ElementKind::Pyramid:
+      break;
+  }
+  return {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, std::sqrt(0.5)}}};
+}
+
+double coordinate(Vec3 p, std::size_t axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+
+double jacobian_of(ElementKind kind, const Corners& p) {
+  const auto at = [&p](Index v) { return p[v]; };
+  constexpr std::array<Index, 8> kInOrder{0, 1, 2, 3, 4, 5, 6, 7};
+  const auto corners = std::span(kInOrder).first(info(kind).corners);
+  const auto smallest = [](const auto& shape) { return formulas::smallest_jacobian(shape); };
+  return info(kind).dimension == 3 ? visit_volume(corners, at, smallest) : visit_planar(Plane{}, corners, at, smallest);
+}
+
+/// Judges many elements of one kind.
+class Sampler {
+ public:
+  Sampler(const Formula& formula, ElementKind kind)
+      : program_(formula.program(kind, FormulaSpace::Plain, FormulaUse::Elements, kNoIndex)), kind_(kind) {}
+
+  [[nodiscard]] double value(const Corners& p) const {
+    FormulaValues values(program_);
+    values.set(0, [&](const FormulaInput& input) {
+      switch (input.what) {
+        case FormulaInput::What::Corner:
+          return coordinate(p[input.index], input.row);
+        case FormulaInput::What::MeanMeasure:
+          return ideal_measure(kind_);
+        case FormulaInput::What::Field:
+          return 1.0;
+        default:
+          return 0.0;
+      }
+    });
+    values.run();
+    return values.quality(0);
+  }
+
+ private:
+  const FormulaProgram& program_;
+  ElementKind kind_;
+};
+
+FormulaFacts::OfKind sample(const Formula& formula, ElementKind kind) {
+  constexpr int kSamples = 3000;
+  const Sampler sampler(formula, kind);
+  const Corners ideal = ideal_corners(kind);
+  FormulaFacts::OfKind facts{kind, sampler.value(ideal)};
+  facts.least = facts.greatest = facts.ideal;
+  facts.greatest_inverted = -std::numeric_limits<double>::infinity();
+  Random random(20181 + static_cast<std::uint64_t>(kind));
+  for (int i = 0; i < kSamples; ++i) {
+    Corners p = ideal;
+    const double reach = 0.02 * std::pow(100.0, random.between(0.0, 1.0));  // a little moved to far beyond
+    const double wide = std::pow(30.0, random.between(-1.0, 1.0)), high = std::pow(30.0, random.between(-1.0, 1.0));
+    for (std::size_t c = 0; c < info(kind).corners; ++c) {
+      const auto moved = [&](double x) { return x + reach * random.between(-1.0, 1.0); };
+      const double x = moved(p[c].x), y = moved(p[c].y), z = info(kind).dimension == 3 ? moved(p[c].z) : 0.0;
+      p[c] = i % 2 == 0 ? Vec3{x, y, z} : Vec3{wide * x, high * y, z};
+    }
+    const double value = sampler.value(p);
+    facts.least = std::min(facts.least, value);
+    facts.greatest = std::max(facts.greatest, value);
+    if (jacobian_of(kind, p) <= 0.0) facts.greatest_inverted = std::max(facts.greatest_inverted, value);
+  }
+  return facts;
+}
+
+std::string short_number(double value) { return fmt::format("{:.4g}", std::abs(value) < 1e-9 ? 0.0 : value); }
+
+}  // namespace
+
+FormulaFacts facts_of(const Formula& formula) {
+  constexpr double kRoom = 1e-6;  // of rounding
+  FormulaFacts facts;
+  facts.least = std::numeric_limits<double>::infinity();
+  facts.greatest = -facts.least;
+  std::string ideals;
+  const KindSet kinds = formula.kinds();
+  for (std::size_t k = 0; k < kElementKindCount; ++k) {
+    const auto kind = static_cast<ElementKind>(k);
+    if (!contains(kinds, kind)) continue;
+    const FormulaFacts::OfKind one = sample(formula, kind);
+    facts.least = std::min(facts.least, one.least);
+    facts.greatest = std::max(facts.greatest, one.greatest);
+    const std::string_view name = info(kind).name;
+    if (one.greatest - one.least < kRoom)
+      facts.warnings.push_back(fmt::format("it is the same for every {}: nothing can be improved by it", name));
+    if (std::abs(one.ideal - 1.0) > kRoom)
+      facts.warnings.push_back(fmt::format("the ideal {} has {}, and should have 1", name, short_number(one.ideal)));
+    if (one.greatest > std::max(one.ideal, 1.0) + kRoom)
+      facts.warnings.push_back(
+          fmt::format("a {} has {}, more than {}", name, short_number(one.greatest), one.ideal >= 1.0 - kRoom ? "the ideal one" : "1"));
+    if (one.greatest_inverted > kRoom)
+      facts.warnings.push_back(
+          fmt::format("an inverted {} has up to {}, and should have 0 or less", name, short_number(one.greatest_inverted)));
+    ideals += fmt::format("{}{} for the ideal {}", ideals.empty() ? "" : ", ", short_number(one.ideal), name);
+    facts.kinds.push_back(one);
+  }
+  if (!formula.scale_free()) facts.warnings.push_back(fmt::format("it changes with the mesh's unit of length: {}", formula.scale_note()));
+  if (formula.uses_place()) facts.warnings.emplace_back("it depends on where elements lie, not on their shapes alone");
+  facts.summary = fmt::format("{}; {}; from {} to {}", formula.scale_free() ? "scale-free" : "not scale-free", ideals,
+                              short_number(facts.least), short_number(facts.greatest));
+  return facts;
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,184 @@
+#pragma once
+// The star of a vertex for the plain search by a metric that is defined by a formula or a target: its elements know their quality.
+
+#include <vector>
+
+#include "core/mesh/mesh_view.h"
+#include "core/quality/defined_quality.h"
+#include "core/search/mesh_star.h"
+#include "core/search/surface_star.h"
+
+namespace dmoscope {
+
+/// Stands for the metric in templates whose metric judges itself: see formulas::metric_around().
+inline constexpr Metric kDefinedMetric = static_cast<Metric>(0xffffffffU);
+
+namespace formulas {
+/// What it says of inverted elements is the formula's affair.
+template <>
+struct Formula<kDefinedMetric> {
+  static constexpr bool kSeesInversion = false;
+  template <class V>
+  static RealOf<V> quadrilateral(const Quadrilateral<V>& q);  // has no body: it says that there are such elements
+};
+template <>
+struct SolidFormula<kDefinedMetric> {
+  template <class Ideal, class V>
+  static RealOf<V> corner(V u, V v, V w, RealOf<V> jacobian);  // likewise
+};
+}  // namespace formulas
+
+/// What judges the elements around a vertex. A view.
+template <class Frame>
+class DefinedStarJudge {
+ public:
+  DefinedStarJudge(const DefinedJudge& by, const ElementFrames& in, std::span<const ElementKind> kinds_of, const MeshView<Frame>& view)
+      : judge(by), frames(in), kinds(kinds_of), mesh(view) {}
+
+  const DefinedJudge& judge;
+  ElementFrames frames;
+  std::span<const ElementKind> kinds;
+  MeshView<Frame> mesh;
+
+  /// Of all elements of the star, in its order, each as quality() has it.
+  void qualities(PositionView positions, Index vertex, Vec3 place, std::vector<double>& out) const {
+    const auto star = mesh.star(vertex);
+    const auto at = [&](Index v) { return v == vertex ? place : positions[v]; };
+    out.resize(star.size());
+    std::array<DefinedJudge::Placed, kMostAtOnce> placed;
+    for (std::size_t i = 0; i < star.size();) {  // stretches that one program judges
+      const FormulaProgram& program = judge.program_for(star[i].element, kinds[star[i].element], star[i].corner);
+      std::size_t n = 0;
+      for (; i + n < star.size() && n < placed.size(); ++n) {
+        const Incidence& one = star[i + n];
+        if (&judge.program_for(one.element, kinds[one.element], one.corner) != &program) break;
+        const auto corners = mesh.corners_of(one.element);
+        placed[n].element = one.element;
+        frames.gather(corners, one.element, info(kinds[one.element]).dimension, at, placed[n].corners);
+        placed[n].origin = origin_of_corners(frames.geometry, at(corners[0]));
+      }
+      judge.qualities(program, std::span(placed).first(n), out.data() + i);
+      i += n;
+    }
+  }
+  /// Of one element of the star with its vertex at `place`; only what the vertex changes.
+  [[nodiscard]] double quality(const Incidence& at, PositionView positions, Index vertex, Vec3 place) const {
+    return defined_quality_at(
+        judge, frames, kinds[at.element], mesh.corners_of(at.element), at.element,
+        [&](Index v) { return v == vertex ? place : positions[v]; }, at.corner);
+  }
+
+ private:
+  static constexpr std::size_t kMostAtOnce = 16;
+};
+
+/// The elements of a star, in the lists' order: simplices first. Owns what its views look at.
+template <class Frame>
+class DefinedStar {
+ public:
+  using Offset = OffsetIn<Frame, double>;
+
+  DefinedStar(const DefinedStarJudge<Frame>& judge, PositionView positions, Index vertex)
+      : judge_(judge), positions_(positions), vertex_(vertex), here_(positions[vertex]) {
+    gather();
+  }
+
+  [[nodiscard]] double scale() const { return star_.scale; }
+  [[nodiscard]] const auto& star() const { return star_; }
+
+  /// An element of the star. E: StarTriangle<double> and so on.
+  template <class E>
+  struct Element : E {
+    const DefinedStar* owner;
+    Incidence incidence;
+
+    /// With the star's vertex somewhere.
+    template <class S>
+    struct Shape : S {
+      const Element* element;
+      Offset p;
+      Shape(const S& plain, const Element& of, Offset offset) : S(plain), element(&of), p(offset) {}
+      [[nodiscard]] const S& shape() const { return *this; }
+      [[nodiscard]] double own_quality() const { return element->owner->quality(element->incidence, p); }
+    };
+    [[nodiscard]] auto with(Offset p) const {
+      const auto shape = E::with(p);
+      return Shape<std::remove_const_t<decltype(shape)>>(shape, *this, p);
+    }
+  };
+
+  /// As StarView and its like. Valid while its star is.
+  class View {
+   public:
+    explicit View(const DefinedStar& star) : star_(&star) {}
+    template <bool Others, class F>
+    void for_each(F f) const {
+      std::size_t i = 0;
+      plain(star_->star_).template for_each<true>([&]<class E>(const E& element) { f(Element<E>{{element}, star_, star_->order_[i++]}); });
+    }
+
+   private:
+    static auto plain(const Star<double>& star) { return StarView<double>(star); }
+    static auto plain(const VolumeStar<double>& star) { return VolumeStarView<double>(star); }
+    static auto plain(const SurfaceStar& star) { return SurfaceStarView(star); }
+    const DefinedStar* star_;
+  };
+  [[nodiscard]] View view() const { return View(*this); }
+
+  /// With the vertex at an offset, in units of scale().
+  [[nodiscard]] double quality(const Incidence& at, Offset p) const { return judge_.quality(at, positions_, vertex_, place(p)); }
+  /// kInverted where an element is inverted there: no metric goes below that.
+  [[nodiscard]] double least(Offset p) const {
+    const Vec3 there = place(p);
+    const auto at = [&](Index v) { return v == vertex_ ? there : positions_[v]; };
+    double least = std::numeric_limits<double>::max();
+    for (const Incidence& one : order_) {
+      const double jacobian = visit_shape(judge_.mesh.frame_of(one.element), judge_.mesh.corners_of(one.element), at,
+                                          [&](const auto& shape) { return formulas::smallest_jacobian_around(shape, one.corner); });
+      if (!(jacobian > 0.0)) return kInverted;
+      least = std::min(least, judge_.quality(one, positions_, vertex_, there));
+    }
+    return std::max(least, kInverted);
+  }
+  static constexpr double kInverted = -1e9;
+  [[nodiscard]] double mean(Offset p) const {
+    double sum = 0.0;
+    for (const Incidence& at : order_) sum += quality(at, p);
+    return sum / static_cast<double>(order_.size());
+  }
+
+ private:
+  [[nodiscard]] Vec3 place(Offset p) const {
+    const Offset offset = times(p, star_.scale);
+    if constexpr (std::is_same_v<Frame, Curved>)
+      return here_ + offset.v;
+    else
+      return here_ + judge_.mesh.frame.lift(offset);
+  }
+
+  void gather() {
+    if constexpr (std::is_same_v<Frame, Curved>)
+      gather_star(judge_.mesh, positions_, vertex_, star_);
+    else
+      gather_star(MeshStar(judge_.mesh, positions_, vertex_), star_);
+    const auto list_of_element = [this](const Incidence& at) {
+      const std::size_t corners = judge_.mesh.corners_of(at.element).size();
+      if constexpr (!std::is_same_v<Frame, Space>) return corners;  // triangles, quadrilaterals
+      return corners == 4 ? 0 : corners == 8 ? 1 : corners == 6 ? 2 : at.corner < 4 ? 3 : std::size_t{4};
+    };
+    order_.assign(judge_.mesh.star(vertex_).begin(), judge_.mesh.star(vertex_).end());
+    std::stable_sort(order_.begin(), order_.end(),
+                     [&](const Incidence& a, const Incidence& b) { return list_of_element(a) < list_of_element(b); });
+  }
+
+  using Gathered = std::conditional_t<std::is_same_v<Frame, Plane>, Star<double>,
+                                      std::conditional_t<std::is_same_v<Frame, Space>, VolumeStar<double>, SurfaceStar>>;
+  DefinedStarJudge<Frame> judge_;
+  PositionView positions_;
+  Index vertex_;
+  Vec3 here_;
+  Gathered star_;
+  std::vector<Incidence> order_;  // of the elements, as the lists have them
+};
+
+}  // namespace dmoscope

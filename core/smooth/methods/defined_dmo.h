@@ -1,0 +1,13 @@
+#pragma once
+// Smoothing by a metric that is defined by a formula or a target.
+
+#include <memory>
+
+#include "core/smooth/smoother.h"
+
+namespace dmoscope {
+
+/// dmo, of planar meshes and volumes. See make_smoother, which checks the arguments.
+[[nodiscard]] std::unique_ptr<Smoother> make_defined_dmo_smoother(const SmoothingTask& task);
+
+}  // namespace dmoscope

@@ -1,0 +1,196 @@
+#include "core/smooth/methods/defined_search.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/search/grid_search.h"
+
+namespace dmoscope {
+
+namespace {
+
+template <class Real>
+Real coordinate(const Vec2<Real>& p, std::size_t axis) {
+  return axis == 0 ? p.x : p.y;
+}
+template <class Real>
+Real coordinate(const Vec3Of<Real>& p, std::size_t axis) {
+  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+template <class Real>
+Vec2<Real> narrowed(Vec2<double> p) {
+  return {static_cast<Real>(p.x), static_cast<Real>(p.y)};
+}
+template <class Real>
+Vec3Of<Real> narrowed(Vec3 p) {
+  return {static_cast<Real>(p.x), static_cast<Real>(p.y), static_cast<Real>(p.z)};
+}
+
+}  // namespace
+
+template <class Frame>
+DefinedSearch<Frame>::DefinedSearch(const DefinedStarJudge<Frame>& judge, const SearchParameters& parameters)
+    : judge_(judge),
+      parameters_(parameters),
+      in_double_(parameters.precision == Precision::Double || judge.judge.unit_matters()),
+      narrow_(formula_kernel<float>(parameters.simd.value_or(best_simd_level()))),
+      wide_(formula_kernel<double>(parameters.simd.value_or(best_simd_level()))) {}
+
+/// One vertex's search.
+template <class Frame>
+template <class Real>
+struct DefinedSearch<Frame>::Visit {
+  using Point = OffsetIn<Frame, Real>;
+  static constexpr std::size_t kAxes = std::is_same_v<Frame, Plane> ? 2 : 3;
+  static constexpr Real kNever = -std::numeric_limits<Real>::max();
+
+  const DefinedSearch& search;
+  const Found& star;
+  Room<Real>& room;
+  double unit;  // of what the programs are given, in units of the star's scale
+
+  /// Takes in the star's elements, the worst first.
+  void gather(PositionView positions, Index vertex) {
+    room.elements.clear();
+    room.uniforms.clear();
+    std::size_t registers = 0;
+    const DefinedStarJudge<Frame>& judge = search.judge_;
+    const Vec3 here = positions[vertex];
+    const double per_unit = unit / star.scale;
+    for (const Incidence& at : judge.mesh.star(vertex)) {
+      const ElementTarget target = judge.judge.targets().of(at.element);
+      const FormulaProgram& program = judge.judge.program(judge.kinds[at.element], target.space, FormulaUse::Places, at.corner);
+      const auto corners = judge.mesh.corners_of(at.element);
+      const std::size_t first = room.uniforms.size();
+      room.uniforms.resize(first + program.uniforms);
+      prepare(
+          program,
+          [&](const FormulaInput& input) {
+            if (input.what == FormulaInput::What::Corner)
+              return coordinate(judge.mesh.frame.offset(positions[corners[input.index]], here), input.row) * per_unit;
+            if (input.what == FormulaInput::What::Origin) return origin(here, input.row);
+            return judge.judge.given(input, at.element, target, star.scale / unit);
+          },
+          room.uniforms.data() + first);
+      room.elements.push_back({&program, target, first, Real(0)});
+      registers = std::max<std::size_t>(registers, program.registers);
+    }
+    room.registers.reserve(registers * kFormulaBatch);
+    room.values.resize(kFormulaBatch);
+    for (auto& element : room.elements) {
+      for (std::size_t axis = 0; axis < kAxes; ++axis) room.at[axis].assign(1, Real(0));
+      evaluate(element, 1);
+      element.here = room.values[0];
+    }
+    std::ranges::stable_sort(room.elements, {}, [](const auto& element) { return element.here; });
+  }
+
+  /// Of what offsets are relative to: only of programs in mesh units.
+  [[nodiscard]] double origin(Vec3 here, std::size_t axis) const {
+    if constexpr (std::is_same_v<Frame, Plane>) return coordinate(search.judge_.mesh.frame.project(here), axis);
+    return coordinate(here, axis);
+  }
+
+  /// The metric of one element for the first `count` places of room.at; what inverts it never wins.
+  void evaluate(const typename Room<Real>::Element& element, std::size_t count) {
+    const FormulaProgram& program = *element.program;
+    Real* registers = room.registers.reserve(0);
+    const Real* uniforms = room.uniforms.data() + element.first;
+    for (const FormulaProgram::Given& one : program.varying) {
+      Real* to = registers + one.at * kFormulaBatch;
+      const Real* from = room.at[one.input.row].data();
+      const Real factor = static_cast<Real>(unit);
+      for (std::size_t i = 0; i < count; ++i) to[i] = from[i] * factor;
+    }
+    const FormulaRun<Real> run{program.steps.data(), program.steps.size(), uniforms, program.uniforms, registers, count};
+    if constexpr (std::is_same_v<Real, float>)
+      search.narrow_(run);
+    else
+      search.wide_(run);
+    const FormulaResult<Real> quality(program, program.quality, uniforms, registers),
+        jacobian(program, program.jacobian, uniforms, registers);
+    const auto steepness = static_cast<Real>(element.target.steepness);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Real q = quality[i];
+      const Real settled = steepness == Real(1) ? q : Real(1) - (Real(1) - q) * steepness;
+      room.values[i] = jacobian[i] > Real(0) && settled > kNever ? settled : kNever;
+    }
+  }
+
+  /// Looks at the candidates that were listed, at most kFormulaBatch; the first of the best becomes `best` where it is better.
+  void look(Real& best, Point& offset) {
+    std::size_t count = room.at[0].size();
+    room.least.assign(count, std::numeric_limits<Real>::max());
+    for (const auto& element : room.elements) {
+      evaluate(element, count);
+      std::size_t left = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        const Real least = std::min(room.least[i], room.values[i]);
+        room.least[left] = least;
+        for (std::size_t axis = 0; axis < kAxes; ++axis) room.at[axis][left] = room.at[axis][i];
+        left += least > best ? 1U : 0U;
+      }
+      count = left;
+      if (count == 0) break;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!(room.least[i] > best)) continue;
+      best = room.least[i];
+      if constexpr (kAxes == 2)
+        offset = {room.at[0][i], room.at[1][i]};
+      else
+        offset = {room.at[0][i], room.at[1][i], room.at[2][i]};
+    }
+    clear();
+  }
+  void clear() {
+    for (auto& axis : room.at) axis.clear();
+  }
+
+  Point run(int levels) {
+    Real best = std::numeric_limits<Real>::max();
+    for (const auto& element : room.elements) best = std::min(best, element.here);
+    Point offset{};
+    const auto box = narrowed<Real>(star.box);
+    double omega = search.parameters_.omega;
+    clear();
+    for (int level = 0; level < levels; ++level) {
+      const CandidateGrid<Real, Point> grid{offset, times(box, static_cast<Real>(omega)), search.parameters_.grid_points};
+      for (int i = 0; i < grid.points; ++i)
+        grid.for_slice(i, [&](int /*index*/, const Point& p) {
+          for (std::size_t axis = 0; axis < kAxes; ++axis) room.at[axis].push_back(coordinate(p, axis));
+          if (room.at[0].size() == kFormulaBatch) look(best, offset);
+        });
+      if (!room.at[0].empty()) look(best, offset);
+      omega *= 2.0 / (search.parameters_.grid_points - 1);
+    }
+    return offset;
+  }
+};
+
+template <class Frame>
+template <class Real>
+typename DefinedSearch<Frame>::Offset DefinedSearch<Frame>::search(PositionView positions, Index vertex, const Found& star, int levels,
+                                                                   Room<Real>& room) const {
+  Visit<Real> visit{*this, star, room, judge_.judge.unit_matters() ? star.scale : 1.0};
+  visit.gather(positions, vertex);
+  const auto found = visit.run(levels);
+  if constexpr (std::is_same_v<Frame, Plane>)
+    return {static_cast<double>(found.x), static_cast<double>(found.y)};
+  else
+    return {static_cast<double>(found.x), static_cast<double>(found.y), static_cast<double>(found.z)};
+}
+
+template <class Frame>
+typename DefinedSearch<Frame>::Found DefinedSearch<Frame>::find(PositionView positions, Index vertex, int levels, Scratch& scratch) const {
+  const MeshStar<Frame> star(judge_.mesh, positions, vertex);
+  Found found{{}, star.scale(), star.box()};
+  found.offset =
+      in_double_ ? search(positions, vertex, found, levels, scratch.wide) : search(positions, vertex, found, levels, scratch.narrow);
+  return found;
+}
+
+template class DefinedSearch<Plane>;
+template class DefinedSearch<Space>;
+
+}  // namespace dmoscope

@@ -1,0 +1,184 @@
+#include "core/target/boundary_layers.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "core/mesh/edges.h"
+#include "core/mesh/faces.h"
+#include "core/mesh/topology.h"
+
+namespace dmoscope {
+
+namespace {
+
+constexpr double kAtWall = 2.0, kAbove = 1.2;  // least width over height of the first element of a stack, and of those above
+constexpr double kShrinks = 0.8;               // layers get higher from the wall on: at least so high against the one below
+constexpr std::uint16_t kHighest = 60000;      // layers of a stack
+
+struct Extent {
+  double width = 0.0, height = 0.0;  // means, along the wall and away from it
+  /// May it be in a stack upon one of that height?
+  [[nodiscard]] bool is_layer_on(double below, double flattest) const {
+    return height > 0.0 && width >= flattest * height && height >= kShrinks * below;
+  }
+};
+
+/// Finds the elements of stacks; by the sides of elements, which are edges in the plane and faces in space.
+class Finder {
+ public:
+  Finder(const Mesh& mesh, const Geometry& geometry) : mesh_(mesh), plane_(geometry.plane), height_(mesh.elements.size()) {}
+
+  BoundaryLayers run(bool volume) {
+    if (volume)
+      from_faces();
+    else
+      from_edges();
+    for (Index e = 0; e < mesh_.elements.size(); ++e) {
+      if (height_[e] == 0) continue;
+      layers_.elements.push_back(e);
+      layers_.heights.push_back(height_[e]);
+      layers_.most = std::max(layers_.most, height_[e]);
+    }
+    return std::move(layers_);
+  }
+
+ private:
+  [[nodiscard]] double distance(Index a, Index b) const { return length(plane_.difference(mesh_.positions[a], mesh_.positions[b])); }
+
+  // In the plane: a side is a quadrilateral's edge i, from corner i to i + 1.
+
+  void from_edges() {
+    const Topology topology(mesh_);
+    across_.assign(4 * std::size_t{mesh_.elements.size()}, kNoIndex);
+    std::vector<std::pair<Index, Index>> walls;  // element, edge
+    for_each_edge(mesh_, topology, [&](Edge edge, std::span<const EdgeSide> sides) {
+      if (sides.size() == 1) walls.emplace_back(sides[0].element, edge_of(sides[0].element, edge));
+      if (sides.size() != 2) return;
+      across_[4 * std::size_t{sides[0].element} + edge_of(sides[0].element, edge)] = sides[1].element;
+      across_[4 * std::size_t{sides[1].element} + edge_of(sides[1].element, edge)] = sides[0].element;
+    });
+    for (const auto& [element, edge] : walls) climb_edges(element, edge);
+  }
+
+  [[nodiscard]] Index edge_of(Index element, Edge edge) const {
+    const auto corners = mesh_.elements.corners(element);
+    const Index n = static_cast<Index>(corners.size());
+    for (Index i = 0; i < n; ++i) {
+      const Index a = corners[i], b = corners[(i + 1) % n];
+      if ((a == edge.low && b == edge.high) || (a == edge.high && b == edge.low)) return i;
+    }
+    return 0;
+  }
+
+  /// Of a quadrilateral that stands on its edge.
+  [[nodiscard]] Extent extent(Index element, Index edge) const {
+    const auto c = mesh_.elements.corners(element);
+    const auto side = [&](Index i) { return distance(c[(edge + i) % 4], c[(edge + i + 1) % 4]); };
+    return {0.5 * (side(0) + side(2)), 0.5 * (side(1) + side(3))};
+  }
+
+  void climb_edges(Index element, Index edge) {
+    double below = 0.0;
+    for (std::uint16_t height = 1; height < kHighest; ++height) {
+      if (mesh_.elements.kind(element) != ElementKind::Quadrilateral || height_[element] != 0) return;
+      const Extent here = extent(element, edge);
+      if (!here.is_layer_on(below, height == 1 ? kAtWall : kAbove)) return;
+      below = here.height;
+      height_[element] = height;
+      if (height == 1) ++layers_.stacks;
+      const Index opposite = (edge + 2) % 4, next = across_[4 * std::size_t{element} + opposite];
+      if (next == kNoIndex) return;
+      const auto c = mesh_.elements.corners(element);
+      const Index a = c[opposite], b = c[(opposite + 1) % 4];
+      edge = edge_of(next, {std::min(a, b), std::max(a, b)});
+      element = next;
+    }
+  }
+
+  // In space: a side is a face.
+
+  void from_faces() {
+    const FaceNeighbours neighbours(mesh_);
+    for (const ElementFace& wall : neighbours.boundary()) climb_faces(neighbours, wall);
+  }
+
+  /// The face that stands opposite to one; none where there is no such face.
+  [[nodiscard]] static std::optional<Index> opposite(ElementKind kind, Index face) {
+    const auto faces = faces_of(kind);
+    for (Index other = 0; other < faces.size(); ++other) {
+      if (faces[other].count != faces[face].count) continue;
+      const bool apart = std::ranges::none_of(
+          faces[other].span(), [&](Index corner) { return std::ranges::find(faces[face].span(), corner) != faces[face].span().end(); });
+      if (apart) return other;
+    }
+    return std::nullopt;
+  }
+
+  /// Of an element between two faces.
+  [[nodiscard]] Extent extent(Index element, Index face, Index other) const {
+    const auto c = mesh_.elements.corners(element);
+    const auto faces = faces_of(mesh_.elements.kind(element));
+    double width = 0.0, height = 0.0;
+    for (const Index one : {face, other}) {
+      const auto corners = faces[one].span();
+      for (std::size_t i = 0; i < corners.size(); ++i) width += distance(c[corners[i]], c[corners[(i + 1) % corners.size()]]);
+    }
+    // Wedges and hexahedra: the corner above is the nearest of the other face by their numbers.
+    for (const Index corner : faces[face].span())
+      height += distance(c[corner], c[above(mesh_.elements.kind(element), face, other, corner)]);
+    const auto edges = static_cast<double>(faces[face].count);
+    return {0.5 * width / edges, height / edges};
+  }
+
+  /// The corner of the other face that an edge joins with one of the first.
+  [[nodiscard]] static Index above(ElementKind kind, Index face, Index other, Index corner) {
+    const auto faces = faces_of(kind);
+    for (const LocalFace& side : faces) {
+      const auto corners = side.span();
+      if (&side == &faces[face] || &side == &faces[other]) continue;
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        if (corners[i] != corner) continue;
+        for (const std::size_t step : {std::size_t{1}, corners.size() - 1}) {
+          const Index end = corners[(i + step) % corners.size()];
+          if (std::ranges::find(faces[other].span(), end) != faces[other].span().end()) return end;
+        }
+      }
+    }
+    return corner;
+  }
+
+  void climb_faces(const FaceNeighbours& neighbours, ElementFace at) {
+    double below = 0.0;
+    for (std::uint16_t height = 1; height < kHighest; ++height) {
+      const ElementKind kind = mesh_.elements.kind(at.element);
+      if ((kind != ElementKind::Hexahedron && kind != ElementKind::Wedge) || height_[at.element] != 0) return;
+      const auto other = opposite(kind, at.face);
+      if (!other) return;
+      const Extent here = extent(at.element, at.face, *other);
+      if (!here.is_layer_on(below, height == 1 ? kAtWall : kAbove)) return;
+      below = here.height;
+      height_[at.element] = height;
+      if (height == 1) ++layers_.stacks;
+      const ElementFace top{at.element, *other};
+      const Index next = neighbours.of(at.element)[*other];
+      if (next == kNoIndex) return;
+      at = {next, neighbours.face_across(mesh_.elements, top)};
+      if (at.face == kNoIndex) return;
+    }
+  }
+
+  const Mesh& mesh_;
+  const Plane& plane_;
+  std::vector<std::uint16_t> height_;  // by element; 0: in no stack
+  std::vector<Index> across_;          // by element and edge
+  BoundaryLayers layers_;
+};
+
+}  // namespace
+
+BoundaryLayers find_boundary_layers(const Mesh& mesh, const Geometry& geometry) {
+  return Finder(mesh, geometry).run(geometry.shape == Shape::Volume);
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,290 @@
+// Smoothing by formulas and targets keeps the program's promises, whatever the formula, and finds what the built-in metrics find.
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/base/same_bits.h"
+#include "core/inspect/quality_field.h"
+#include "core/inspect/visit_trace.h"
+#include "core/mesh/generate.h"
+#include "core/quality/defined_metric.h"
+#include "core/search/grid_search.h"
+#include "core/smooth/methods/defined_rule.h"
+#include "core/smooth/methods/defined_search.h"
+#include "tests/smooth/promises.h"
+#include "tests/support/plain_surface.h"
+#include "tests/support/volume_grids.h"
+
+namespace dmoscope::testing {
+namespace {
+
+std::shared_ptr<const InputMesh> generated(const std::string& words) {
+  Progress progress;
+  return generate_input(words, progress);
+}
+
+/// Does each element say something of its own in this one? It is the whole of the metrics that the search does not look at by corners.
+constexpr std::array kMetrics{
+    "formula:if(measure > 0, lmin/lmax, measure/lmax^2)",  // of all kinds; not seen where an element is inverted by a corner
+    "formula:lmin/lmax",                                   // sees no inversion at all
+    "formula:smin/smax",                                   // by corners
+    "formula:min(1, size)*smin/smax",                      // and by sizes
+    "formula:exp(-3*(smax/smin - 1))*sign(det)",
+    "shape-size",
+    "mean-ratio@input:3",
+    "mean-ratio@input:2:20%",
+    "aspect@input:1",
+};
+
+std::vector<Specimen> specimens() {
+  std::vector<Specimen> all;
+  const auto add = [&all](std::string name, Mesh mesh) { all.push_back({std::move(name), std::move(mesh)}); };
+  add("triangles", lattice(9, 0.35, 21));
+  add("quadrilaterals", lattice(9, 0.35, 22, Cells::Quadrilaterals));
+  add("mixed", lattice(9, 0.35, 23, Cells::Mixed));
+  add("tangled", lattice(9, 0.8, 24, Cells::Mixed));
+  add("stretched", mapped(lattice(9, 0.3, 25, Cells::Mixed), [](Vec3 p) { return Vec3{1e4 * p.x + 3e6, 1e-1 * p.y, 0.0}; }));
+  add("tiny", mapped(lattice(7, 0.35, 26), [](Vec3 p) { return 1e-9 * p; }));
+  add("tilted", mapped(lattice(7, 0.35, 27), [](Vec3 p) {
+        return Vec3{0.6 * p.x - 0.3 * p.y, 0.2 * p.x + 0.9 * p.y, 0.5 * p.x - 0.1 * p.y};
+      }));
+  add("stars", mixed_stars());
+  for (const test::Fill fill : {test::Fill::Hexahedra, test::Fill::Tetrahedra, test::Fill::Mixed})
+    add("volume", test::volume_grid(3, fill, 0.35, 5));
+  add("tangled volume", test::volume_grid(3, test::Fill::Hexahedra, 0.75, 6));
+  return all;
+}
+
+bool possible(const char* metric, const InputMesh& mesh) {
+  try {
+    require_defined(parse_metric(metric), mesh);
+    return true;
+  } catch (const UsageError&) {
+    return false;
+  }
+}
+
+TEST(DefinedMetrics, KeepTheFirstPromise) {
+  for (const Specimen& specimen : specimens())
+    for (const char* metric : kMetrics) {
+      const auto mesh = input(specimen.mesh);
+      ASSERT_TRUE(possible(metric, *mesh)) << metric << " on " << specimen.name;
+      SCOPED_TRACE(metric);
+      auto run = make_run(mesh, {.metric = parse_metric(metric)});
+      expect_promise_one(specimen, run, 3);
+      expect_fixed_stay(specimen, run);
+      if (HasFatalFailure() || HasNonfatalFailure()) return;
+    }
+}
+
+TEST(DefinedMetrics, OtherMethodsKeepItToo) {
+  for (const char* method : {"smart-laplace", "pattern-search"})
+    for (const Specimen& specimen : specimens())
+      for (const char* metric : {kMetrics[0], kMetrics[6]}) {
+        SCOPED_TRACE(std::string(method) + ", " + metric);
+        auto run = make_run(input(specimen.mesh), {.method = method, .metric = parse_metric(metric)});
+        expect_promise_one(specimen, run, 2);
+      }
+}
+
+TEST(DefinedMetrics, MethodsThatNeedDerivativesSaySo) {
+  const auto mesh = input(lattice(4, 0.2, 1));
+  for (const char* method : {"dvr", "active-set", "joint"})
+    EXPECT_THROW((void)make_run(mesh, {.method = method, .metric = parse_metric(kMetrics[0])}), UsageError) << method;
+}
+
+std::vector<Vec3> smoothed(const std::shared_ptr<const InputMesh>& mesh, RunParameters parameters, std::uint64_t iterations,
+                           unsigned threads = 1) {
+  auto run = make_run(mesh, std::move(parameters), threads);
+  Progress progress;
+  run.iterate(iterations, progress);
+  return {run.positions().begin(), run.positions().end()};
+}
+
+TEST(DefinedMetrics, AreTheSameForAllThreadsAndInstructions) {
+  for (const char* words : {"mixed 600", "solids 500", "anisotropic 900", "tangled 400"})
+    for (const char* metric : {kMetrics[1], kMetrics[3], kMetrics[4], kMetrics[6]}) {
+      const auto mesh = generated(words);
+      for (const Precision precision : {Precision::Float, Precision::Double}) {
+        RunParameters parameters{.metric = parse_metric(metric)};
+        parameters.search.precision = precision;
+        const auto expected = smoothed(mesh, parameters, 3);
+        EXPECT_TRUE(same_bits(expected, smoothed(mesh, parameters, 3, 3))) << metric << " on " << words;
+        for (const SimdLevel level : supported_simd_levels()) {
+          parameters.search.simd = level;
+          EXPECT_TRUE(same_bits(expected, smoothed(mesh, parameters, 3, 2))) << metric << " on " << words << ", " << name(level);
+        }
+      }
+    }
+}
+
+/// The search is the same, and so are the values but for the last digits: so are the places.
+TEST(DefinedMetrics, TakeTheCourseOfTheBuiltInOnes) {
+  for (const char* words : {"random 300", "quads 300", "mixed 400", "tetrahedra 200", "coast 600"}) {
+    const auto mesh = generated(words);
+    for (const MetricInfo& entry : metric_table()) {
+      const std::string formula = fmt::format("formula:{}", formula_of(entry.metric));
+      if (!possible(std::string(entry.name).c_str(), *mesh) || entry.metric == Metric::MeanRatioArea) continue;
+      RunParameters built_in{.metric = entry.metric}, written{.metric = parse_metric(formula)};
+      built_in.search.precision = written.search.precision = Precision::Double;
+      const auto expected = smoothed(mesh, built_in, 3), got = smoothed(mesh, written, 3);
+      std::size_t other = 0;
+      for (std::size_t v = 0; v < got.size(); ++v) other += length(got[v] - expected[v]) > 1e-9 * mesh->geometry.size ? 1U : 0U;
+      // The dihedral angle at a face that stands still is the same for all candidates in the plane of another: many are equal, and rounding
+      // chooses.
+      if (entry.metric == Metric::MinAngle && mesh->is_volume()) continue;
+      EXPECT_LE(other, got.size() / 200) << entry.name << " on " << words << ": candidates that are equal but for rounding";
+    }
+  }
+}
+
+/// A look at every candidate finds the same.
+template <class Frame>
+void expect_the_plain_search(const InputMesh& mesh, const char* metric, SearchParameters parameters) {
+  parameters.precision = Precision::Double;
+  const auto judge = mesh.quality_context().judge(parse_metric(metric));
+  const DefinedStarJudge<Frame> star_judge = defined_star_judge<Frame>(mesh, *judge);
+  const DefinedSearch<Frame> search(star_judge, parameters);
+  typename DefinedSearch<Frame>::Scratch scratch;
+  int looked_at = 0;
+  for (Index v = 0; v < mesh.mesh.vertex_count(); ++v) {
+    if (mesh.topology.boundary()[v] != 0 || mesh.topology.star(v).empty()) continue;
+    if (!(defined_star_state(star_judge, mesh.mesh.positions, v, mesh.mesh.positions[v]).jacobian > 0.0)) continue;
+    const DefinedStar<Frame> star(star_judge, mesh.mesh.positions, v);
+    const auto found = search.find(mesh.mesh.positions, v, parameters.levels, scratch);
+    const auto plain = grid_search<double>([&star](auto p) { return star.least(p); }, star.star().box, parameters);
+    EXPECT_NEAR(star.least(found.offset), plain.objective, 1e-9) << metric << ", vertex " << v;
+    ++looked_at;
+  }
+  EXPECT_GT(looked_at, 5);
+}
+TEST(DefinedMetrics, AreSearchedAsByALookAtEveryCandidate) {
+  const auto planar = input(lattice(8, 0.3, 41, Cells::Mixed));
+  const auto volume = input(test::volume_grid(3, test::Fill::Mixed, 0.3, 42));
+  for (const char* metric : kMetrics)
+    for (const int points : {8, 9, 3}) {
+      expect_the_plain_search<Plane>(*planar, metric, {.grid_points = points});
+      if (points < 9) expect_the_plain_search<Space>(*volume, metric, {.grid_points = points, .levels = 2});
+    }
+}
+
+TEST(DefinedMetrics, LooksIntoVisitsShowWhatTheSmootherDoes) {
+  for (const char* words : {"mixed 200", "tangled 200", "solids 150"})
+    for (const char* metric : {kMetrics[1], kMetrics[3], kMetrics[6]})
+      for (const Precision precision : {Precision::Float, Precision::Double}) {
+        const auto mesh = generated(words);
+        SCOPED_TRACE(fmt::format("{} on {}", metric, words));
+        RunParameters parameters{.metric = parse_metric(metric)};
+        parameters.search.precision = precision;
+        auto run = make_run(mesh, parameters);
+        Progress progress;
+        const std::vector<Index> order = run.colouring().order;
+        for (std::size_t i = 0; i < order.size(); ++i) {
+          const Index v = order[i];
+          Vec3 to{};
+          const auto check = [&](const auto& trace) {
+            to = trace.to;
+            EXPECT_EQ(trace.before.quality, star_state(*mesh, run.positions(), parameters.metric, v).quality);
+            if (trace.end == VisitEnd::Moved && trace.before.jacobian > 0.0) {
+              EXPECT_GT(trace.after.quality, trace.before.quality);
+            }
+          };
+          if (mesh->is_volume())
+            check(trace_volume_visit(*mesh, run.positions(), run.fixed(), parameters.metric, parameters.search, v, {},
+                                     run.sweep().untangling));
+          else
+            check(trace_visit(*mesh, run.positions(), run.fixed(), parameters.metric, parameters.search, v, {}, run.sweep().untangling));
+          run.step(StepUnit::Vertex, progress);
+          ASSERT_EQ(run.positions()[v], to) << "vertex " << v;
+        }
+      }
+}
+
+TEST(DefinedMetrics, HaveAFieldAroundAVertex) {
+  const auto planar = input(lattice(6, 0.3, 51, Cells::Mixed));
+  const Metric metric = parse_metric(kMetrics[2]);
+  const Index v = 24;
+  const QualityField field = sample_quality(*planar, planar->mesh.positions, metric, v, {-0.05, -0.05}, {0.05, 0.05}, 5, 5);
+  for (int row = 0; row < 5; ++row)
+    for (int column = 0; column < 5; ++column) {
+      std::vector<Vec3> positions = planar->mesh.positions;
+      positions[v] = positions[v] + Vec3{-0.04 + 0.02 * column, -0.04 + 0.02 * row, 0.0};
+      EXPECT_NEAR(field.quality[static_cast<std::size_t>(5 * row + column)],
+                  vertex_quality(planar->quality_context(), planar->topology, positions, metric, v), 1e-6);
+    }
+}
+
+TEST(DefinedMetrics, ThenMeanAndTwoAims) {
+  for (const char* words : {"mixed 300", "solids 200"}) {
+    const auto mesh = generated(words);
+    Progress progress;
+    RunParameters parameters{.metric = parse_metric("formula:smin/smax")};
+    parameters.then_mean.emplace();
+    auto run = make_run(mesh, parameters);
+    run.iterate(12, progress);
+    const auto& records = run.history().records();
+    for (std::size_t i = 1; i < records.size(); ++i) EXPECT_GE(records[i].statistics.minimum, records[i - 1].statistics.minimum);
+    RunParameters both{.metric = parse_metric("formula:smin/smax")};
+    both.combination = Combination{.threshold = 0.3, .second = parse_metric("shape-size")};
+    Specimen specimen{words, mesh->mesh};
+    auto two = make_run(mesh, both);
+    two.iterate(3, progress);
+    EXPECT_GE(two.statistics().minimum, std::min(0.3, records.front().statistics.minimum));
+    EXPECT_GT(two.statistics().minimum, records.front().statistics.minimum);
+  }
+}
+
+TEST(DefinedMetrics, VerticesSlide) {
+  const auto mesh = generated("mixed 300");
+  RunParameters parameters{.metric = parse_metric("formula:smin/smax")};
+  parameters.boundary = BoundaryRule::Slide;
+  Specimen specimen{"slide", mesh->mesh};
+  auto run = make_run(mesh, parameters);
+  expect_promise_one(specimen, run, 3);
+  const auto can = generated("can 300");
+  RunParameters on_can{.metric = parse_metric("formula:lmin/lmax")};
+  auto surface = make_run(can, on_can);
+  const double before = surface.statistics().minimum;
+  Progress progress;
+  surface.iterate(3, progress);
+  EXPECT_GT(surface.statistics().minimum, before);
+}
+
+/// What targets are for.
+TEST(DefinedMetrics, AMetricFieldIsFollowed) {
+  const auto mesh = generated("anisotropic 1200");
+  Progress progress;
+  auto run = make_run(mesh, {.metric = parse_metric("mean-ratio@field")});
+  const Statistics before = run.statistics();
+  run.iterate(10, progress);
+  EXPECT_GT(run.statistics().minimum, 1.5 * before.minimum);
+  EXPECT_GT(run.statistics().mean, before.mean);
+}
+
+TEST(DefinedMetrics, LayersAreKeptAndTheRestIsImproved) {
+  const auto mesh = generated("mixed 2000");
+  const Metric kept = parse_metric("mean-ratio@layers:input");
+  const auto judge = mesh->quality_context().judge(kept);
+  std::vector<Index> layers;
+  for (Index e = 0; e < mesh->mesh.elements.size(); ++e)
+    if (judge->targets().of(e).space == FormulaSpace::Target) layers.push_back(e);
+  ASSERT_GT(layers.size(), 50U);
+  const auto positions = smoothed(mesh, {.metric = kept}, 20);
+  const Metric aspect = parse_metric("aspect@layers:input:0%");
+  double changed = 0.0;
+  for (const Index e : layers) changed += 1.0 - element_quality(mesh->quality_context(), positions, aspect, e);
+  EXPECT_LT(changed / static_cast<double>(layers.size()), 0.02);
+  double before = 1.0, after = 1.0;
+  for (Index e = 0; e < mesh->mesh.elements.size(); ++e) {
+    if (std::ranges::find(layers, e) != layers.end()) continue;
+    before = std::min(before, element_quality(mesh->quality_context(), mesh->mesh.positions, Metric::MeanRatio, e));
+    after = std::min(after, element_quality(mesh->quality_context(), positions, Metric::MeanRatio, e));
+  }
+  EXPECT_GT(after, before);
+}
+
+}  // namespace
+}  // namespace dmoscope::testing

@@ -1,0 +1,69 @@
+#include "ui/analysis/metric_choices.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/quality/defined_metric.h"
+#include "core/target/target_table.h"
+
+namespace dmoscope::ui {
+
+namespace {
+
+bool fits(Metric metric, const Mesh& mesh) {
+  const auto kinds = mesh.elements.kinds();
+  bool present[kElementKindCount] = {};
+  for (const ElementKind kind : kinds) present[static_cast<std::size_t>(kind)] = true;
+  for (std::size_t k = 0; k < kElementKindCount; ++k)
+    if (present[k] && !info(metric).defined_for(static_cast<ElementKind>(k))) return false;
+  return true;
+}
+
+}  // namespace
+
+std::vector<Metric> further_metrics(const SessionView& session) {
+  std::vector<Metric> metrics;
+  const auto add = [&](Metric metric) {
+    if (!is_built_in(metric) && std::ranges::find(metrics, metric) == metrics.end()) metrics.push_back(metric);
+  };
+  if (!session.input) return metrics;
+  for (const NamedFormula& named : named_formulas())
+    if (const Metric metric = parse_metric(named.name); fits(metric, session.input->mesh)) add(metric);
+  if (session.active < session.runs.size()) {
+    const Metric active = session.runs[session.active].parameters.metric;
+    if (const Target target = target_of(active); !target.is_ideal()) {
+      add(with_target(Metric::MeanRatio, target));
+      for (const NamedFormula& named : named_formulas()) add(with_target(parse_metric(named.name), target));
+    }
+    add(active);
+  }
+  for (const RunView& run : session.runs)
+    if (run.input == session.input) add(run.parameters.metric);
+  add(session.shown);
+  return metrics;
+}
+
+std::vector<TargetChoice> target_choices(const InputMesh& input) {
+  std::vector<TargetChoice> choices{
+      {"ideal", "ideal elements", "equal edges, right corners: what the metric itself takes for best"},
+      {"input", "as they were", "every element as it was in the input"},
+      {"input:3", "as they and their neighbours were", "the mean of three rounds over the neighbours, against noise"}};
+  const bool volume = input.is_volume();
+  const auto kinds = input.mesh.elements.kinds();
+  const bool may_have_layers = std::ranges::any_of(kinds, [](ElementKind kind) {
+    return kind == ElementKind::Quadrilateral || kind == ElementKind::Hexahedron || kind == ElementKind::Wedge;
+  });
+  if (may_have_layers)
+    choices.push_back({"layers:input", "boundary layers kept",
+                       "stacks of stretched elements on the boundary as they were, to 5 % of their aspect; all others ideal"});
+  for (const Field& field : input.mesh.fields)
+    if (is_metric_field(field, volume ? 3 : 2))
+      choices.push_back({"field:" + field.name, "metric field " + field.name, "of unit size in the file's metric tensors"});
+  for (const Group& group : input.mesh.groups)
+    if (group.of_elements() && !group.name.empty() && choices.size() < 20)
+      choices.push_back({group.name + ":input", group.name + " kept", "the elements of this group as they were, all others ideal"});
+  return choices;
+}
+
+}  // namespace dmoscope::ui

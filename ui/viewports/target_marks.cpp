@@ -1,0 +1,77 @@
+#include "ui/viewports/target_marks.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/base/error.h"
+#include "core/inspect/target_shape.h"
+#include "render/draw_order.h"
+
+namespace dmoscope::ui {
+
+namespace {
+
+constexpr std::size_t kMostEllipses = 200;  // more would hide the mesh
+
+/// Of the circle in an ideal element of unit edges, so that an ellipse fills its element.
+constexpr double kRadius = 0.28;
+
+class Ellipse {
+ public:
+  Ellipse(const SmallMatrix& map, Vec2<double> centre) : map_(map), centre_(centre) {}
+  [[nodiscard]] Vec2<double> at(double angle) const {
+    const double x = kRadius * std::cos(angle), y = kRadius * std::sin(angle);
+    return {centre_.x + map_.at[0][0] * x + map_.at[0][1] * y, centre_.y + map_.at[1][0] * x + map_.at[1][1] * y};
+  }
+  void draw(std::vector<render::OverlayLine>& lines, float width, render::Rgba colour) const {
+    constexpr int kParts = 48;
+    for (int i = 0; i < kParts; ++i) lines.push_back({at(angle(i, kParts)), at(angle(i + 1, kParts)), width, colour});
+  }
+  void draw_longer_axis(std::vector<render::OverlayLine>& lines, float width, render::Rgba colour) const {
+    constexpr int kParts = 180;
+    double longest = -1.0, best = 0.0;
+    for (int i = 0; i < kParts; ++i) {
+      const Vec2<double> way = at(angle(i, 2 * kParts)) - centre_;
+      if (dot(way, way) > longest) longest = dot(way, way), best = angle(i, 2 * kParts);
+    }
+    lines.push_back({at(best), at(best + std::numbers::pi), width, colour});
+  }
+
+ private:
+  static double angle(int i, int of) { return 2.0 * std::numbers::pi * i / of; }
+  SmallMatrix map_;
+  Vec2<double> centre_;
+};
+
+}  // namespace
+
+void add_targets(render::Marks& marks, const Frame& frame, Metric metric, std::span<const Index> elements, render::Rgba ink,
+                 render::Rgba casing) {
+  const InputMesh& input = *frame.input;
+  if (input.geometry.shape != Shape::Planar || frame.positions.empty() || elements.size() > kMostEllipses) return;
+  std::vector<render::OverlayLine> inked;
+  for (const Index element : elements) {
+    std::optional<TargetShapeOfElement> shape;
+    try {
+      shape = target_shape(input, frame.positions, metric, element);
+    } catch (const UsageError&) {  // the metric is another mesh's
+      return;
+    }
+    if (!shape) continue;
+    const auto corners = input.mesh.elements.corners(element);
+    Vec2<double> centre{};
+    for (const Index v : corners) {
+      const Vec2<double> p = render::place_near(input.geometry.plane, frame.positions[v], frame.positions[corners[0]]);
+      centre = {centre.x + p.x / static_cast<double>(corners.size()), centre.y + p.y / static_cast<double>(corners.size())};
+    }
+    const double size = std::sqrt(determinant(shape->now) / determinant(shape->wished));
+    const Ellipse wished(scaled(size, shape->wished), centre), now(shape->now, centre);
+    now.draw(marks.lines, 1.0F, casing);
+    wished.draw(marks.lines, 4.0F, casing);
+    wished.draw(inked, 2.0F, ink);
+    wished.draw_longer_axis(inked, 1.0F, ink);
+  }
+  marks.lines.insert(marks.lines.end(), inked.begin(), inked.end());
+}
+
+}  // namespace dmoscope::ui

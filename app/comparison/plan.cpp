@@ -6,6 +6,7 @@
 
 #include "app/common/acceleration.h"
 #include "core/base/error.h"
+#include "core/quality/defined_metric.h"
 #include "core/smooth/execution/method_table.h"
 
 namespace dmoscope::app {
@@ -25,35 +26,56 @@ void choose_aim(RunOptions& chosen, std::string aim) {
   chosen.then = aim == "alone" ? "" : then;
 }
 
-/// The parameters of METHOD[:METRIC[:BACKEND]][,AIM].
-Contender parse_spec(const std::string& spec, const RunOptions& open) {
-  const std::size_t comma = spec.find(',');
-  std::vector<std::string> words(1);
-  for (const char c : spec.substr(0, comma)) {
-    if (c == ':') {
-      words.emplace_back();
-    } else {
-      words.back() += c;
+/// METHOD[:METRIC[:BACKEND]][,AIM] taken apart; formulas and targets have colons and commas of their own.
+struct SpecParts {
+  std::string method, metric, backend;
+  std::optional<std::string> aim;
+};
+SpecParts parts_of(const std::string& spec) {
+  SpecParts parts;
+  std::string rest = spec;
+  const std::size_t colon = spec.find(':');
+  const bool written = colon != std::string::npos && spec.compare(colon + 1, 8, "formula:") == 0;
+  for (std::size_t comma = rest.find(','); comma != std::string::npos; comma = rest.find(',', comma + 1)) {
+    const std::string aim = rest.substr(comma + 1);
+    if (written && aim != "alone" && !aim.starts_with("then ")) continue;
+    parts.aim = aim;
+    rest.resize(comma);
+    break;
+  }
+  parts.method = rest.substr(0, colon);
+  if (colon == std::string::npos || colon >= rest.size()) return parts;
+  parts.metric = rest.substr(colon + 1);
+  for (const std::string_view backend : {":auto", ":cpu", ":cuda"})
+    if (parts.metric.ends_with(backend)) {
+      parts.backend = backend.substr(1);
+      parts.metric.resize(parts.metric.size() - backend.size());
+      break;
     }
-  }
-  if (words.size() > 3 || std::ranges::any_of(words, &std::string::empty)) {
-    throw UsageError(fmt::format("--run {}: expected METHOD, METHOD:METRIC or METHOD:METRIC:BACKEND", spec));
-  }
+  if (parts.metric.empty()) parts.method.clear();
+  return parts;
+}
+
+/// The parameters of such words.
+Contender parse_spec(const std::string& spec, const RunOptions& open) {
+  const SpecParts parts = parts_of(spec);
+  if (parts.method.empty()) throw UsageError(fmt::format("--run {}: expected METHOD, METHOD:METRIC or METHOD:METRIC:BACKEND", spec));
   RunOptions chosen = open;
   try {
-    if (comma != std::string::npos) choose_aim(chosen, spec.substr(comma + 1));
+    if (parts.aim) choose_aim(chosen, *parts.aim);
   } catch (const UsageError& error) {
     throw UsageError(fmt::format("--run {}: {}", spec, error.what()));
   }
-  chosen.method = words[0];
-  if (words.size() > 1) chosen.metric = words[1];
-  if (words.size() > 2) chosen.parameters["backend"] = words[2];
+  chosen.method = parts.method;
+  if (!parts.metric.empty()) chosen.metric = parts.metric;
+  if (!parts.backend.empty()) chosen.parameters["backend"] = parts.backend;
   try {
     Contender contender{{}, parameters_of(chosen)};
-    if (words.size() > 1 && contender.parameters.metric != parse_metric(chosen.metric))
+    if (!parts.metric.empty() && contender.parameters.combination &&
+        with_target(contender.parameters.metric, {}) != with_target(parse_metric(chosen.metric), {}))
       throw UsageError(fmt::format("the metric is {}, the first of --combine", info(contender.parameters.metric).name));
     contender.name = fmt::format("{}:{}", chosen.method, info(contender.parameters.metric).name);
-    if (words.size() > 2) contender.name += fmt::format(":{}", words[2]);
+    if (!parts.backend.empty()) contender.name += fmt::format(":{}", parts.backend);
     if (const auto& combination = contender.parameters.combination)
       contender.name = fmt::format("{}:{}", chosen.method, phrase(contender.parameters.metric, *combination));
     contender.name += then_text(contender.parameters);

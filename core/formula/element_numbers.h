@@ -48,7 +48,7 @@ class ElementNumbers {
 
   // Vectors. A corner's place is relative to what all corners are given relative to.
   [[nodiscard]] Vector place(Index corner);
-  [[nodiscard]] Vector origin();  // of the places, in the mesh's coordinates
+  [[nodiscard]] Vector origin();  // of the places: in the mesh's coordinates, of a planar one those of its plane
   [[nodiscard]] Vector edge(Index from, Index to);
   [[nodiscard]] Vector subtract(const Vector& a, const Vector& b);
   [[nodiscard]] Vector add(const Vector& a, const Vector& b);

@@ -54,15 +54,18 @@ void prepare(const FormulaProgram& program, const Given& given, Real* uniforms);
 template <class Real>
 void run_beforehand(const FormulaProgram& program, Real* uniforms);
 
-/// A result of a run: `count` values, or one for all.
+/// The result of a run: `count` values, or one for all.
 template <class Real>
 class FormulaResult {
  public:
-  FormulaResult(const FormulaProgram& program, std::uint16_t operand, const Real* uniforms, const Real* registers)
-      : values_(operand < program.uniforms ? uniforms + operand
-                                           : registers + static_cast<std::size_t>(operand - program.uniforms) * kFormulaBatch),
-        stride_(operand < program.uniforms ? 0 : 1) {}
+  FormulaResult(const FormulaProgram& program, const Real* uniforms, const Real* registers)
+      : values_(program.result < program.uniforms
+                    ? uniforms + program.result
+                    : registers + static_cast<std::size_t>(program.result - program.uniforms) * kFormulaBatch),
+        stride_(program.result < program.uniforms ? 0 : 1) {}
   [[nodiscard]] Real operator[](std::size_t i) const { return values_[i * stride_]; }
+  /// Of Places, where each place has a value of its own.
+  [[nodiscard]] const Real* values() const { return values_; }
 
  private:
   const Real* values_;

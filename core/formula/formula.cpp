@@ -26,11 +26,13 @@ std::string one_line(std::string_view text) {
     const Token& token = tokens[i];
     const bool first = line.empty();
     switch (token.kind) {
-      case TokenKind::Separator:
-        if (!first && !line.ends_with("; ") && !line.ends_with("{ ") && !line.ends_with("} ") && tokens[i + 1].kind != TokenKind::End &&
-            !tokens[i + 1].is("}"))
-          line += "; ";
+      case TokenKind::Separator: {
+        std::size_t next = i + 1;
+        while (tokens[next].kind == TokenKind::Separator) ++next;
+        const bool ends = tokens[next].kind == TokenKind::End || tokens[next].is("}");
+        if (!first && !ends && !line.ends_with("; ") && !line.ends_with("{ ") && !line.ends_with("} ")) line += "; ";
         break;
+      }
       case TokenKind::Text:
         line += fmt::format("\"{}\"", token.text);
         break;
@@ -100,8 +102,8 @@ void Formula::examine() {
     try {
       const LoweredFormula lowered = lower(syntax_, *body, kind, FormulaSpace::Plain, FormulaUse::Elements, kNoIndex, fields_);
       any = true;
-      if (!lowered.scale_free && scale_free_) {
-        scale_free_ = false;
+      if (!lowered.scale_free) with_unit_ = static_cast<KindSet>(with_unit_ | kind_set(kind));
+      if (!lowered.scale_free && scale_note_.empty()) {
         scale_note_ = !lowered.scale_note.empty()
                           ? lowered.scale_note
                           : fmt::format("of a {} it is a length to the power of {:.4g}", info(kind).name, lowered.power);

@@ -32,9 +32,12 @@ class Formula {
   [[nodiscard]] std::string why_not(ElementKind kind, FormulaSpace space) const;
   /// Names of the fields that it reads, in the order of FormulaInput::index.
   [[nodiscard]] const std::vector<std::string>& fields() const noexcept { return fields_; }
-  /// Does it stay when the mesh is made larger or smaller?
-  [[nodiscard]] bool scale_free() const noexcept { return scale_free_; }
+  /// Does it stay when the mesh is made larger or smaller? For elements of a kind, or of all that it is for.
+  [[nodiscard]] bool scale_free(ElementKind kind) const noexcept { return !contains(with_unit_, kind); }
+  [[nodiscard]] bool scale_free() const noexcept { return with_unit_ == 0; }
   [[nodiscard]] const std::string& scale_note() const noexcept { return scale_note_; }  // why not
+  /// Does it read fields, whose unit nobody knows?
+  [[nodiscard]] bool uses_fields() const noexcept { return !fields_.empty(); }
   /// Does it change when the mesh is moved?
   [[nodiscard]] bool uses_place() const noexcept { return uses_place_; }
 
@@ -51,7 +54,8 @@ class Formula {
   FormulaSyntax syntax_;
   std::string text_;
   std::vector<std::string> fields_;
-  bool scale_free_ = true, uses_place_ = false;
+  KindSet with_unit_ = 0;  // of the kinds it is for: for which it changes with the unit of length
+  bool uses_place_ = false;
   std::string scale_note_;
   std::unique_ptr<Slot[]> slots_;
 };

@@ -21,10 +21,10 @@ class Kernel {
  public:
   explicit Kernel(const FormulaRun<Real>& run) : run_(run) {}
 
-  void run() {
+  void run() const {
     for (std::size_t i = 0; i < run_.step_count; ++i) {
       const FormulaStep& step = run_.steps[i];
-      const Operand a = operand(step.a, 0), b = operand(step.b, 1), c = operand(step.c, 2);
+      const Operand a = operand(step.a), b = operand(step.b), c = operand(step.c);
       Real* to = run_.registers + step.to * kFormulaBatch;
       operations::with_operation(step.operation, [&]<Operation O>() { apply<O>(a, b, c, to); });
     }
@@ -32,44 +32,61 @@ class Kernel {
 
  private:
   static constexpr std::size_t kWidth = R::size;
-  /// A register, or a pack of the same number that all of a register's packs are.
+  /// A register; or a number that is the same for all, and its pack.
   struct Operand {
     const Real* at;
-    std::size_t mask;
+    R same;
+    [[nodiscard]] Real slot(std::size_t i) const { return at != nullptr ? at[i] : same.get(0); }
   };
 
-  Operand operand(std::size_t id, std::size_t which) {
-    if (id >= run_.uniform_count) return {run_.registers + (id - run_.uniform_count) * kFormulaBatch, ~std::size_t{0}};
-    R(run_.uniforms[id]).store_aligned(same_[which]);
-    return {same_[which], 0};
+  [[nodiscard]] Operand operand(std::size_t id) const {
+    if (id >= run_.uniform_count) return {run_.registers + (id - run_.uniform_count) * kFormulaBatch, R(Real(0))};
+    return {nullptr, R(run_.uniforms[id])};
   }
 
   template <Operation O>
-  void apply(Operand a, Operand b, Operand c, Real* to) {
-    for (std::size_t i = 0; i < run_.count; i += kWidth) {
-      if constexpr (operations::kSlotBySlot<O>) {
-        for (std::size_t k = i; k < i + kWidth; ++k)
-          to[k] = static_cast<Real>(
-              operations::apply_alone(O, static_cast<double>(a.at[a.mask == 0 ? 0 : k]), static_cast<double>(b.at[b.mask == 0 ? 0 : k])));
-      } else if constexpr (kInDouble<O> && !std::is_same_v<R, D>) {
-        alignas(64) double x[kWidth], y[kWidth];
-        for (std::size_t k = 0; k < kWidth; ++k) {
-          x[k] = static_cast<double>(a.at[(i & a.mask) + k]);
-          y[k] = static_cast<double>(b.at[(i & b.mask) + k]);
-        }
-        for (std::size_t k = 0; k < kWidth; k += D::size)
-          operations::apply<O>(D::load_aligned(x + k), D::load_aligned(y + k), D(0.0)).store_aligned(x + k);
-        for (std::size_t k = 0; k < kWidth; ++k) to[i + k] = static_cast<Real>(x[k]);
+  void apply(const Operand& a, const Operand& b, const Operand& c, Real* to) const {
+    const std::size_t count = run_.count;
+    if constexpr (operations::kSlotBySlot<O>) {
+      for (std::size_t k = 0; k < count; ++k)
+        to[k] = static_cast<Real>(operations::apply_alone(O, static_cast<double>(a.slot(k)), static_cast<double>(b.slot(k))));
+    } else if constexpr (kInDouble<O> && !std::is_same_v<R, D>) {
+      for (std::size_t i = 0; i < count; i += kWidth) apply_in_double<O>(a, b, i, to);
+    } else if constexpr (operand_count(O) == 1) {
+      for (std::size_t i = 0; i < count; i += kWidth) step<O>(R::load_aligned(a.at + i), R(Real(0)), R(Real(0)), to + i);
+    } else if constexpr (operand_count(O) == 2) {
+      // Which of them vary is decided once, and not pack by pack.
+      if (a.at != nullptr && b.at != nullptr) {
+        for (std::size_t i = 0; i < count; i += kWidth) step<O>(R::load_aligned(a.at + i), R::load_aligned(b.at + i), R(Real(0)), to + i);
+      } else if (a.at != nullptr) {
+        for (std::size_t i = 0; i < count; i += kWidth) step<O>(R::load_aligned(a.at + i), b.same, R(Real(0)), to + i);
       } else {
-        operations::apply<O>(R::load_aligned(a.at + (i & a.mask)), R::load_aligned(b.at + (i & b.mask)),
-                             R::load_aligned(c.at + (i & c.mask)))
-            .store_aligned(to + i);
+        for (std::size_t i = 0; i < count; i += kWidth) step<O>(a.same, R::load_aligned(b.at + i), R(Real(0)), to + i);
       }
+    } else {
+      const auto pack = [](const Operand& one, std::size_t i) { return one.at != nullptr ? R::load_aligned(one.at + i) : one.same; };
+      for (std::size_t i = 0; i < count; i += kWidth) step<O>(pack(a, i), pack(b, i), pack(c, i), to + i);
     }
   }
 
+  template <Operation O>
+  static void step(R a, R b, R c, Real* to) {
+    operations::apply<O>(a, b, c).store_aligned(to);
+  }
+
+  template <Operation O>
+  static void apply_in_double(const Operand& a, const Operand& b, std::size_t i, Real* to) {
+    alignas(64) double x[kWidth], y[kWidth];
+    for (std::size_t k = 0; k < kWidth; ++k) {
+      x[k] = static_cast<double>(a.slot(i + k));
+      y[k] = operand_count(O) > 1 ? static_cast<double>(b.slot(i + k)) : 0.0;
+    }
+    for (std::size_t k = 0; k < kWidth; k += D::size)
+      operations::apply<O>(D::load_aligned(x + k), D::load_aligned(y + k), D(0.0)).store_aligned(x + k);
+    for (std::size_t k = 0; k < kWidth; ++k) to[i + k] = static_cast<Real>(x[k]);
+  }
+
   const FormulaRun<Real>& run_;
-  alignas(64) Real same_[3][kWidth];
 };
 
 }  // namespace dmoscope::formula_kernels

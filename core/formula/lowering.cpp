@@ -75,11 +75,22 @@ class Lowering {
       lowered_.power = result.dimension.power;
       lowered_.scale_free = false;
     }
-    lowered_.program = builder_.finish(kind_, use_, moving_, result.number(), element_.smallest_jacobian(moving_));
+    lowered_.program = builder_.finish(kind_, use_, moving_, use_ == FormulaUse::Places ? worth(result.number()) : result.number());
     return std::move(lowered_);
   }
 
  private:
+  /// What a place of the moving corner is worth.
+  Number worth(Number quality) {
+    const Number one = builder_.constant(1.0);
+    if (space_ == FormulaSpace::Target) {
+      const Number steepness = builder_.input({FormulaInput::What::Steepness, 0, 0, 0});
+      quality = builder_.subtract(one, builder_.multiply(builder_.subtract(one, quality), steepness));
+    }
+    const Number sound = builder_.less(builder_.constant(0.0), element_.smallest_jacobian(moving_));
+    return builder_.select(sound, quality, builder_.constant(kNeverBest));
+  }
+
   [[nodiscard]] const SyntaxNode& node(SyntaxId id) const { return syntax_.nodes[id]; }
 
   // Parts and scopes.
@@ -211,14 +222,20 @@ class Lowering {
   Dimension common(Dimension a, Dimension b, const SyntaxNode& n, std::string_view done) {
     if (a.any) return b;
     if (b.any || std::abs(a.power - b.power) < 1e-9) return a;
-    if (lowered_.scale_note.empty())
-      lowered_.scale_note = fmt::format("it {} {} and {} ({}column {})", done, words(a), words(b),
-                                        n.place.line > 1 ? fmt::format("line {}, ", n.place.line) : std::string(), n.place.column);
-    lowered_.scale_free = false;
+    note_unit(fmt::format("it {} {} and {}", done, words(a), words(b)), n);
     return {0.0, true};
   }
   /// Of what has no unit by its nature.
-  void need_no_unit(const Value& value, const SyntaxNode& n) { (void)common(value.dimension, {}, n, fmt::format("takes '{}' of", n.text)); }
+  void need_no_unit(const Value& value, const SyntaxNode& n) {
+    if (value.dimension.any || std::abs(value.dimension.power) < 1e-9) return;
+    note_unit(fmt::format("it takes '{}' of {}", n.text, words(value.dimension)), n);
+  }
+  void note_unit(const std::string& what, const SyntaxNode& n) {
+    lowered_.scale_free = false;
+    if (!lowered_.scale_note.empty()) return;
+    const std::string line = n.place.line > 1 ? fmt::format("line {}, ", n.place.line) : std::string();
+    lowered_.scale_note = fmt::format("{} ({}column {})", what, line, n.place.column);
+  }
 
   Value negated(Value value, const SyntaxNode& n) {
     if (value.kind == ValueKind::OneCondition) throw FormulaError(n.place, "'-' of a condition makes no sense: '!' turns one round");
@@ -350,7 +367,7 @@ class Lowering {
     if (const FormulaName* entry = name_in_table(n.text)) return named(n, *entry, scope);
     if (const auto corner = corner_named(n.text)) {
       require_corner(*corner, n);
-      return vector(known(n, [&] { return element_.place(*corner); }), 1.0, space_ == FormulaSpace::Plain ? 1.0 : 0.0);
+      return vector(known(n, [&] { return element_.place(*corner); }), 1.0, 1.0);
     }
     if (const auto ends = pair_named(n.text)) {
       require_corner(std::max(ends->first, ends->second), n);
@@ -455,7 +472,7 @@ class Lowering {
     const int given = static_cast<int>(n.operands.size());
     if (given >= function.least && given <= function.most) return;
     throw FormulaError(n.place, fmt::format("{}({}) takes {} argument{}, not {}", function.name, function.arguments,
-                                            function.most > 8 ? "at least 1" : fmt::format("{}", function.least),
+                                            function.most > 8 ? fmt::format("1 to {}", function.most) : fmt::format("{}", function.least),
                                             function.least == 1 && function.most == 1 ? "" : "s", given));
   }
 
@@ -566,7 +583,6 @@ class Lowering {
       fields_.push_back(name.text);
       found = fields_.end() - 1;
     }
-    lowered_.uses_field = true;
     const auto index = static_cast<std::uint8_t>(found - fields_.begin());
     return number(builder_.input({FormulaInput::What::Field, index, 0, 0}), {0.0, true});
   }
@@ -578,10 +594,13 @@ class Lowering {
     std::optional<Value> all;
     std::size_t count = 0;
     for (std::size_t corner = 0; corner < element_.frame_count(); ++corner) {
-      if (outermost && element_.dimension() == 3 && moving_ != kNoIndex && !element_.depends_on(corner, moving_)) continue;
       Scope here = scope;
       here.corner = corner;
-      join(all, number_of(id, parts, here), how, node(id));
+      const Value one = number_of(id, parts, here);
+      // A corner that stays says nothing of where the moving one should be, and the worst of these would hold it in place.
+      const bool may_stay = outermost && element_.dimension() == 3 && moving_ != kNoIndex && !element_.depends_on(corner, moving_);
+      if (may_stay && !builder_.depends_on(one.number(), moving_)) continue;
+      join(all, one, how, node(id));
       ++count;
     }
     return finished(*all, how, count);

@@ -22,7 +22,6 @@ struct LoweredFormula {
   std::string scale_note{};  // why not: "adds a length to a number (column 7)"; empty where it has a unit as a whole
   double power = 0.0;        // of a length, that it has as a whole
   bool uses_place = false;   // it changes when the mesh is moved
-  bool uses_field = false;
 };
 
 /// `fields`: names of the fields used, in the order of FormulaInput::index; new ones are added. `use`, `moving`: see FormulaProgram; where

@@ -55,6 +55,7 @@ struct FormulaInput {
     Target,       // of corner `index`: row and column of what makes the target's edges of the element's, from the right
     Stretch,      // row and column of what makes the target's space of the element's, from the left
     MeanMeasure,  // of the mesh's elements
+    Steepness,    // of Places, in a target's space: how much faster than elsewhere the metric falls below 1
     Field         // number `index`
   };
   What what = What::Corner;
@@ -91,8 +92,11 @@ struct FormulaProgram {
   std::vector<Constant> constants;      // uniform
   std::vector<FormulaStep> beforehand;  // with uniform numbers alone: `to` is one, too
   std::vector<FormulaStep> steps;
-  std::uint16_t quality = 0, jacobian = 0;  // the results, as operands: the metric, and the smallest corner Jacobian
+  std::uint16_t result = 0;  // as an operand: the metric; of Places kNeverBest where the moving corner makes an element inverted
 };
+
+/// What a place is worth that no vertex may go to.
+inline constexpr double kNeverBest = -3e38;
 
 /// A program has at most so many numbers.
 inline constexpr std::size_t kMostNumbers = 20000;

@@ -53,6 +53,15 @@ const double* ProgramBuilder::value_of(Number number) const {
   return nodes_[number].what == Node::What::Constant ? &nodes_[number].value : nullptr;
 }
 
+bool ProgramBuilder::depends_on(Number number, Index corner) const {
+  const std::vector<bool> parts = needed(number);
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (parts[i] && nodes_[i].what == Node::What::Input && nodes_[i].input.what == FormulaInput::What::Corner &&
+        nodes_[i].input.index == corner)
+      return true;
+  return false;
+}
+
 Number ProgramBuilder::apply(Operation operation, Number a, Number b, Number c) {
   const int count = operand_count(operation);
   if (count < 2) b = 0;
@@ -68,9 +77,9 @@ Number ProgramBuilder::apply(Operation operation, Number a, Number b, Number c) 
   return keep({Node::What::Step, operation, {a, b, c}, 0.0, {}});
 }
 
-std::vector<bool> ProgramBuilder::needed(Number quality, Number jacobian) const {
+std::vector<bool> ProgramBuilder::needed(Number result) const {
   std::vector<bool> needed(nodes_.size());
-  needed[quality] = needed[jacobian] = true;
+  needed[result] = true;
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     if (!needed[i] || nodes_[i].what != Node::What::Step) continue;
     for (int k = 0; k < operand_count(nodes_[i].operation); ++k) needed[nodes_[i].operands[static_cast<std::size_t>(k)]] = true;
@@ -99,8 +108,8 @@ class Registers {
 
 }  // namespace
 
-FormulaProgram ProgramBuilder::finish(ElementKind kind, FormulaUse use, Index moving, Number quality, Number jacobian) const {
-  const std::vector<bool> is_needed = needed(quality, jacobian);
+FormulaProgram ProgramBuilder::finish(ElementKind kind, FormulaUse use, Index moving, Number result) const {
+  const std::vector<bool> is_needed = needed(result);
   const auto varies_as_input = [&](const FormulaInput& in) {
     if (use == FormulaUse::Elements) return in.what != FormulaInput::What::MeanMeasure;
     return in.what == FormulaInput::What::Corner && in.index == moving;
@@ -118,7 +127,7 @@ FormulaProgram ProgramBuilder::finish(ElementKind kind, FormulaUse use, Index mo
       last_use[operand] = i;
     }
   }
-  last_use[quality] = last_use[jacobian] = nodes_.size();
+  last_use[result] = nodes_.size();
 
   FormulaProgram program;
   program.kind = kind;
@@ -155,8 +164,7 @@ FormulaProgram ProgramBuilder::finish(ElementKind kind, FormulaUse use, Index mo
     (varies[i] ? program.steps : program.beforehand).push_back({node.operation, place[i], at[0], at[1], at[2]});
   }
   program.registers = registers.count();
-  program.quality = operand(quality);
-  program.jacobian = operand(jacobian);
+  program.result = operand(result);
   return program;
 }
 

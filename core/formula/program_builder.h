@@ -18,6 +18,8 @@ class ProgramBuilder {
   [[nodiscard]] Number input(FormulaInput input);
   [[nodiscard]] Number apply(Operation operation, Number a, Number b = 0, Number c = 0);
   [[nodiscard]] const double* value_of(Number number) const;  // null: no constant
+  /// Does the number change with the element's corner?
+  [[nodiscard]] bool depends_on(Number number, Index corner) const;
 
   // What formulas and their vocabulary are written with.
   [[nodiscard]] Number add(Number a, Number b) { return apply(Operation::Add, a, b); }
@@ -33,8 +35,8 @@ class ProgramBuilder {
   [[nodiscard]] Number select(Number condition, Number yes, Number no) { return apply(Operation::Select, condition, yes, no); }
   [[nodiscard]] Number less(Number a, Number b) { return apply(Operation::Less, a, b); }
 
-  /// The program whose results these are; see FormulaProgram.
-  [[nodiscard]] FormulaProgram finish(ElementKind kind, FormulaUse use, Index moving, Number quality, Number jacobian) const;
+  /// The program whose result this is; see FormulaProgram.
+  [[nodiscard]] FormulaProgram finish(ElementKind kind, FormulaUse use, Index moving, Number result) const;
 
   [[nodiscard]] std::size_t size() const noexcept { return nodes_.size(); }
 
@@ -47,7 +49,7 @@ class ProgramBuilder {
     FormulaInput input;
   };
   [[nodiscard]] Number keep(const Node& node);
-  [[nodiscard]] std::vector<bool> needed(Number quality, Number jacobian) const;
+  [[nodiscard]] std::vector<bool> needed(Number result) const;
 
   std::vector<Node> nodes_;
   std::unordered_multimap<std::uint64_t, Number> known_;  // by what they are made of

@@ -47,7 +47,7 @@ constexpr std::array kFunctions{
     FormulaFunction{"sign", 1, 1, "x", "-1, 0 or 1"},
     FormulaFunction{"sqrt", 1, 1, "x", "square root; of less than 0 it is 0"},
     FormulaFunction{"cbrt", 1, 1, "x", "cube root, with the sign of x"},
-    FormulaFunction{"pow", 2, 2, "x, y", "x^y; of x below 0 only for whole y, else 0"},
+    FormulaFunction{"pow", 2, 2, "x, y", "x^y; of x below 0 only for whole numbers y up to 64, else 0"},
     FormulaFunction{"exp", 1, 1, "x", "e^x"},
     FormulaFunction{"log", 1, 1, "x", "natural logarithm; of 0 and less it is -700"},
     FormulaFunction{"sin", 1, 1, "x", "sine, of radians"},

@@ -12,7 +12,6 @@
 #include "core/io/commented_mesh.h"
 #include "core/io/foreign_format.h"
 #include "core/io/format.h"
-#include "core/io/medit/sol.h"
 #include "core/io/mesh_io.h"
 #include "core/io/reading/gzip.h"
 #include "core/io/reading/tokenizer.h"
@@ -247,11 +246,6 @@ Mesh read_whole_mesh(const std::filesystem::path& path, const IoContext& context
   Mesh mesh = read_by(handler, *source, context);
   if (mesh.positions.empty()) throw InputError(path.string(), 0, "the file holds no vertices");
   if (mesh.elements.size() == 0) throw InputError(path.string(), 0, "the file holds no elements");
-  if (const std::filesystem::path solutions = solution_beside(main);
-      &handler == &medit_format() && std::filesystem::is_regular_file(solutions)) {
-    read_solutions(solutions, mesh, progress);
-    source->add_note(fmt::format("fields read from {} beside it", solutions.filename().string()));
-  }
   mesh.name = path.filename().string();
   const CoordinateLayout& layout = source->layout();
   mesh.single_precision = layout.binary && std::ranges::find(layout.scalar, CoordinateScalar::Float32) != layout.scalar.end();
@@ -298,6 +292,8 @@ std::vector<std::string> write_commented_mesh(const std::filesystem::path& path,
   Notes notes;
   if (can_patch(mesh, *handler)) {
     notes = (handler->patch != nullptr ? handler->patch : write_patched)(file, mesh, positions, context);
+    if (const std::string& beside = mesh.source->beside(); !beside.empty())
+      notes.push_back(fmt::format("The fields of {} were not written: copy it, under the new name, beside the new mesh.", beside));
     if (second) second->write(mesh.source->companion()->bytes());
   } else {
     notes = write_anew(file, *handler, mesh, positions, context);

@@ -35,7 +35,10 @@ std::vector<double> numbers_of(const std::string& name, const Mesh& mesh) {
 }  // namespace
 
 DefinedJudge::DefinedJudge(const DefinedMetric& metric, const Mesh& mesh, const ElementFrames& frames)
-    : metric_(metric), targets_(metric.target, mesh, frames), dimension_(frames.geometry.shape == Shape::Volume ? 3 : 2) {
+    : metric_(metric),
+      targets_(metric.target, mesh, frames,
+               [&metric](ElementKind kind, double ratio) { return value_of_stretched(*metric.formula, kind, ratio); }),
+      dimension_(frames.geometry.shape == Shape::Volume ? 3 : 2) {
   bool seen[kElementKindCount][kFormulaSpaces] = {};
   for (Index e = 0; e < mesh.elements.size(); ++e) {
     const ElementKind kind = mesh.elements.kind(e);
@@ -46,11 +49,14 @@ DefinedJudge::DefinedJudge(const DefinedMetric& metric, const Mesh& mesh, const 
     if (const std::string why = metric.formula->why_not(kind, space); !why.empty())
       throw UsageError(fmt::format("{} is not defined for {}{}: {}", metric.name, info(kind).plural,
                                    space == FormulaSpace::Plain ? "" : " that have a target", why));
-    if (space == FormulaSpace::Plain) unit_matters_ = unit_matters_ || !metric.formula->scale_free();
+    if (space == FormulaSpace::Plain) unit_matters_ = unit_matters_ || !metric.formula->scale_free(kind) || metric.formula->uses_fields();
   }
   unit_matters_ = unit_matters_ || metric.formula->uses_place();
   if (metric.formula->uses_place() && frames.geometry.shape == Shape::Surface)
     throw UsageError(fmt::format("{} depends on where elements lie, which is not possible on curved surfaces", metric.name));
+  if (metric.formula->uses_place() && frames.geometry.plane.period > 0.0)
+    throw UsageError(
+        fmt::format("{} depends on where elements lie, which is not possible in meshes that go round in longitude", metric.name));
   for (const std::string& name : metric.formula->fields()) fields_.push_back(numbers_of(name, mesh));
 }
 
@@ -62,6 +68,8 @@ double DefinedJudge::given(const FormulaInput& input, Index element, const Eleme
       return target.matrices[input.row * dimension_ + input.column] * length;
     case FormulaInput::What::MeanMeasure:
       return targets_.mean_measure() / (dimension_ == 2 ? length * length : length * length * length);
+    case FormulaInput::What::Steepness:
+      return target.steepness;
     case FormulaInput::What::Field:
       return fields_[input.index][element];
     default:
@@ -91,11 +99,26 @@ void DefinedJudge::qualities(const FormulaProgram& program, std::span<const Plac
   for (std::size_t i = 0; i < elements.size(); ++i) out[i] = settled(values.quality(i), targets_.of(elements[i].element));
 }
 
-std::shared_ptr<const DefinedJudge> DefinedJudges::of(Metric metric, const Mesh& mesh, const ElementFrames& frames) const {
+const DefinedJudges::Made& DefinedJudges::made(Metric metric, const Mesh& mesh, const ElementFrames& frames) const {
   const std::lock_guard lock(mutex_);
-  std::shared_ptr<const DefinedJudge>& judge = judges_[metric];
-  if (!judge) judge = std::make_shared<const DefinedJudge>(defined(metric), mesh, frames);
-  return judge;
+  Made& made = judges_[metric];
+  if (made.judge || !made.why_not.empty()) return made;
+  try {
+    made.judge = std::make_shared<const DefinedJudge>(defined(metric), mesh, frames);
+  } catch (const UsageError& error) {
+    made.why_not = error.what();
+  }
+  return made;
+}
+
+std::shared_ptr<const DefinedJudge> DefinedJudges::of(Metric metric, const Mesh& mesh, const ElementFrames& frames) const {
+  const Made& found = made(metric, mesh, frames);
+  if (!found.judge) throw UsageError(found.why_not);
+  return found.judge;
+}
+
+std::shared_ptr<const DefinedJudge> DefinedJudges::find(Metric metric, const Mesh& mesh, const ElementFrames& frames) const {
+  return made(metric, mesh, frames).judge;
 }
 
 }  // namespace dmoscope

@@ -48,8 +48,8 @@ class DefinedJudge {
   }
   /// From what a program says to the metric.
   [[nodiscard]] static double settled(double value, const ElementTarget& target) {
-    if (!(value == value)) return -1.0;  // something overflowed
-    return (target.steepness == 1.0 ? value : 1.0 - (1.0 - value) * target.steepness) + 0.0;
+    const double steep = target.steepness == 1.0 ? value : 1.0 - (1.0 - value) * target.steepness;
+    return steep == steep ? steep + 0.0 : -1.0;  // else something overflowed
   }
 
  private:
@@ -65,10 +65,17 @@ class DefinedJudges {
  public:
   /// Throws as DefinedJudge does. `mesh`: the input, always the same one.
   [[nodiscard]] std::shared_ptr<const DefinedJudge> of(Metric metric, const Mesh& mesh, const ElementFrames& frames) const;
+  /// The same; null where that throws.
+  [[nodiscard]] std::shared_ptr<const DefinedJudge> find(Metric metric, const Mesh& mesh, const ElementFrames& frames) const;
 
  private:
+  struct Made {
+    std::shared_ptr<const DefinedJudge> judge;
+    std::string why_not;
+  };
+  [[nodiscard]] const Made& made(Metric metric, const Mesh& mesh, const ElementFrames& frames) const;
   mutable std::mutex mutex_;
-  mutable std::map<Metric, std::shared_ptr<const DefinedJudge>> judges_;
+  mutable std::map<Metric, Made> judges_;  // whose places stay
 };
 
 }  // namespace dmoscope

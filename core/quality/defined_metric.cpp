@@ -18,7 +18,7 @@ namespace dmoscope {
 
 namespace {
 
-constexpr std::string_view kFormula = "formula:";
+constexpr std::string_view kFormula = "formula:", kFormulaFile = "formula:@";
 
 constexpr std::array kNamed{
     NamedFormula{"relative-size", "Relative size", "s = size; if(s > 0, min(s, 1/s), max(s, -1))",
@@ -57,15 +57,28 @@ constexpr std::array<std::string_view, kMetricCount> kBuiltIn{
 /// A formula and a target in a metric's name.
 struct NameParts {
   std::string_view metric, target;
+  bool has_target;
 };
-/// At the first '@' outside of quotation marks, but for that of "formula:@FILE".
+/// At the first '@' outside of quotation marks and comments. Of "formula:@FILE" at the last one, if all of it is no file.
 NameParts split(std::string_view name) {
-  bool quoted = false;
-  for (std::size_t i = name.starts_with("formula:@") ? 9 : 0; i < name.size(); ++i) {
-    if (name[i] == '"') quoted = !quoted;
-    if (name[i] == '@' && !quoted) return {name.substr(0, i), name.substr(i + 1)};
+  if (name.starts_with(kFormulaFile)) {
+    const std::string_view file = name.substr(kFormulaFile.size());
+    const std::size_t at = file.rfind('@');
+    std::error_code ignored;
+    if (at == std::string_view::npos || std::filesystem::exists(std::filesystem::path(file), ignored)) return {name, {}, false};
+    return {name.substr(0, kFormulaFile.size() + at), file.substr(at + 1), true};
   }
-  return {name, {}};
+  bool quoted = false, comment = false;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const char c = name[i];
+    if (c == '\n') comment = false;
+    if (comment) continue;
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
+    if (c == '#') comment = true;
+    if (c == '@') return {name.substr(0, i), name.substr(i + 1), true};
+  }
+  return {name, {}, false};
 }
 
 std::string text_of_file(const std::string& path) {
@@ -121,8 +134,9 @@ class Definitions {
     const MetricInfo* base = m.base ? &info(*m.base) : nullptr;
     KindSet kinds = m.formula->kinds();
     if (base != nullptr) kinds = base->kinds;
-    const double lowest = m.facts.least >= -1.0 - 1e-9 ? -1.0 : m.facts.least;
-    const double highest = m.facts.greatest <= 1.0 + 1e-9 ? 1.0 : m.facts.greatest;
+    constexpr double kFar = 1e3;  // what a scale can still show
+    const double lowest = m.facts.least >= -1.0 - 1e-9 ? -1.0 : std::max(m.facts.least, -kFar);
+    const double highest = m.facts.greatest <= 1.0 + 1e-9 ? 1.0 : std::min(m.facts.greatest, kFar);
     m.info = {number,
               m.name,
               m.title,
@@ -194,6 +208,11 @@ DefinedMetric targeted(DefinedMetric m, const Target& target) {
   m.name += "@" + words;
   m.title += " @ " + shortened(words);
   m.doc += fmt::format(" Against the target {}.", words);
+  for (const Target::OfGroup& one : target.groups)
+    if (one.shape.tolerance > 0.0) {
+      m.doc += " Elements that are kept fall far below -1 where they change by more than their tolerance.";
+      break;
+    }
   return m;
 }
 
@@ -227,7 +246,7 @@ std::optional<Metric> define_metric(std::string_view name) {
   const NameParts parts = split(name);
   auto metric = without_target(parts.metric);
   if (!metric) return std::nullopt;
-  const Target target = parts.target.empty() && parts.metric.size() == name.size() ? Target{} : parse_target(parts.target);
+  const Target target = parts.has_target ? parse_target(parts.target) : Target{};
   if (target.is_ideal() && metric->base) return *metric->base;
   return definitions().add(targeted(std::move(*metric), target));
 }

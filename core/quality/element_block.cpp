@@ -1,5 +1,8 @@
 #include "core/quality/element_block.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "core/numeric/pack.h"
 // After the packs:
 #include "core/quality/defined_quality.h"
@@ -157,12 +160,15 @@ BlockJudge::BlockJudge(const QualityContext& context, Metric metric) {
   if (is_built_in(metric))
     built_in_ = formulas::with_metric(metric, []<Metric M>() -> BuiltIn { return &judge<M>; });
   else
-    defined_ = context.judge(metric);
+    defined_ = context.find_judge(metric);
 }
 
 void BlockJudge::operator()(const QualityContext& context, std::span<const Vec3> positions, ElementBlock& block) const {
-  if (!defined_) return built_in_(context, positions, block);
-  defined_qualities(context, *defined_, positions, block.first, block.count, block.quality.data());
+  if (built_in_ != nullptr) return built_in_(context, positions, block);
+  if (defined_)
+    defined_qualities(context, *defined_, positions, block.first, block.count, block.quality.data());
+  else
+    std::fill_n(block.quality.begin(), block.count, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < block.count; ++i)
     block.jacobian[i] = smallest_jacobian(context, PositionView(positions), block.first + static_cast<Index>(i));
 }

@@ -25,14 +25,13 @@ struct ElementBlock {
 /// Judges the elements block.first .. block.first + block.count of a mesh by one metric.
 class BlockJudge {
  public:
-  /// Throws as QualityContext::judge does.
   BlockJudge(const QualityContext& context, Metric metric);
   void operator()(const QualityContext& context, std::span<const Vec3> positions, ElementBlock& block) const;
 
  private:
   using BuiltIn = void (*)(const QualityContext& context, std::span<const Vec3> positions, ElementBlock& block);
   BuiltIn built_in_ = nullptr;
-  std::shared_ptr<const DefinedJudge> defined_;  // null: the metric is built in
+  std::shared_ptr<const DefinedJudge> defined_;  // of any other metric; null: it is not defined for the mesh
 };
 
 /// Calls take(block) for blocks that together cover the elements [first, last), in their order.

@@ -48,63 +48,98 @@ double jacobian_of(ElementKind kind, const Corners& p) {
   return info(kind).dimension == 3 ? visit_volume(corners, at, smallest) : visit_planar(Plane{}, corners, at, smallest);
 }
 
-/// Judges many elements of one kind.
+/// Of elements of one kind, up to kFormulaBatch at once; what overflows counts as -1, and is noted.
 class Sampler {
  public:
   Sampler(const Formula& formula, ElementKind kind)
       : program_(formula.program(kind, FormulaSpace::Plain, FormulaUse::Elements, kNoIndex)), kind_(kind) {}
 
-  [[nodiscard]] double value(const Corners& p) const {
+  [[nodiscard]] double value(const Corners& corners) {
+    double value = 0.0;
+    judge({&corners, 1}, &value);
+    return value;
+  }
+  void judge(std::span<const Corners> elements, double* out) {
     FormulaValues values(program_);
-    values.set(0, [&](const FormulaInput& input) {
-      switch (input.what) {
-        case FormulaInput::What::Corner:
-          return coordinate(p[input.index], input.row);
-        case FormulaInput::What::MeanMeasure:
-          return ideal_measure(kind_);
-        case FormulaInput::What::Field:
-          return 1.0;
-        default:
-          return 0.0;
-      }
-    });
+    for (std::size_t i = 0; i < elements.size(); ++i)
+      values.set(i, [&](const FormulaInput& input) {
+        switch (input.what) {
+          case FormulaInput::What::Corner:
+            return coordinate(elements[i][input.index], input.row);
+          case FormulaInput::What::MeanMeasure:
+            return ideal_measure(kind_);
+          case FormulaInput::What::Field:
+            return 1.0;
+          default:
+            return 0.0;
+        }
+      });
     values.run();
-    return values.quality(0);
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      out[i] = values.quality(i);
+      if (std::isfinite(out[i])) continue;
+      out[i] = -1.0;
+      overflows_ = true;
+    }
+  }
+  [[nodiscard]] bool overflows() const { return overflows_; }
+  /// How many elements are worth a look: fewer where each takes long.
+  [[nodiscard]] std::size_t samples() const {
+    constexpr std::size_t kMost = 3072, kLeast = 256, kSteps = 400'000;
+    return std::clamp(kSteps / (program_.steps.size() + 1), kLeast, kMost) / kFormulaBatch * kFormulaBatch;
   }
 
  private:
   const FormulaProgram& program_;
   ElementKind kind_;
+  bool overflows_ = false;
 };
 
+Corners drawn(ElementKind kind, const Corners& ideal, bool stretched, Random& random) {
+  Corners p = ideal;
+  const double reach = 0.02 * std::pow(100.0, random.between(0.0, 1.0));  // a little moved to far beyond
+  const double wide = std::pow(30.0, random.between(-1.0, 1.0)), high = std::pow(30.0, random.between(-1.0, 1.0));
+  for (std::size_t c = 0; c < info(kind).corners; ++c) {
+    const auto moved = [&](double x) { return x + reach * random.between(-1.0, 1.0); };
+    const double x = moved(p[c].x), y = moved(p[c].y), z = info(kind).dimension == 3 ? moved(p[c].z) : 0.0;
+    p[c] = stretched ? Vec3{wide * x, high * y, z} : Vec3{x, y, z};
+  }
+  return p;
+}
+
 FormulaFacts::OfKind sample(const Formula& formula, ElementKind kind) {
-  constexpr int kSamples = 3000;
-  const Sampler sampler(formula, kind);
+  Sampler sampler(formula, kind);
   const Corners ideal = ideal_corners(kind);
   FormulaFacts::OfKind facts{kind, sampler.value(ideal)};
   facts.least = facts.greatest = facts.ideal;
   facts.greatest_inverted = -std::numeric_limits<double>::infinity();
   Random random(20181 + static_cast<std::uint64_t>(kind));
-  for (int i = 0; i < kSamples; ++i) {
-    Corners p = ideal;
-    const double reach = 0.02 * std::pow(100.0, random.between(0.0, 1.0));  // a little moved to far beyond
-    const double wide = std::pow(30.0, random.between(-1.0, 1.0)), high = std::pow(30.0, random.between(-1.0, 1.0));
-    for (std::size_t c = 0; c < info(kind).corners; ++c) {
-      const auto moved = [&](double x) { return x + reach * random.between(-1.0, 1.0); };
-      const double x = moved(p[c].x), y = moved(p[c].y), z = info(kind).dimension == 3 ? moved(p[c].z) : 0.0;
-      p[c] = i % 2 == 0 ? Vec3{x, y, z} : Vec3{wide * x, high * y, z};
+  std::vector<Corners> elements(kFormulaBatch);
+  std::vector<double> values(kFormulaBatch);
+  for (std::size_t first = 0; first < sampler.samples(); first += kFormulaBatch) {
+    for (std::size_t i = 0; i < kFormulaBatch; ++i) elements[i] = drawn(kind, ideal, i % 2 != 0, random);
+    sampler.judge(elements, values.data());
+    for (std::size_t i = 0; i < kFormulaBatch; ++i) {
+      facts.least = std::min(facts.least, values[i]);
+      facts.greatest = std::max(facts.greatest, values[i]);
+      if (jacobian_of(kind, elements[i]) <= 0.0) facts.greatest_inverted = std::max(facts.greatest_inverted, values[i]);
     }
-    const double value = sampler.value(p);
-    facts.least = std::min(facts.least, value);
-    facts.greatest = std::max(facts.greatest, value);
-    if (jacobian_of(kind, p) <= 0.0) facts.greatest_inverted = std::max(facts.greatest_inverted, value);
   }
+  facts.overflows = sampler.overflows();
   return facts;
 }
 
 std::string short_number(double value) { return fmt::format("{:.4g}", std::abs(value) < 1e-9 ? 0.0 : value); }
 
 }  // namespace
+
+double value_of_stretched(const Formula& formula, ElementKind kind, double ratio) {
+  Corners corners = ideal_corners(kind);
+  const int n = info(kind).dimension;
+  const double across = std::pow(ratio, -1.0 / n), along = across * ratio;
+  for (Vec3& p : corners) p = {along * p.x, across * p.y, n == 3 ? across * p.z : 0.0};
+  return Sampler(formula, kind).value(corners);
+}
 
 FormulaFacts facts_of(const Formula& formula) {
   constexpr double kRoom = 1e-6;  // of rounding
@@ -120,6 +155,7 @@ FormulaFacts facts_of(const Formula& formula) {
     facts.least = std::min(facts.least, one.least);
     facts.greatest = std::max(facts.greatest, one.greatest);
     const std::string_view name = info(kind).name;
+    if (one.overflows) facts.warnings.push_back(fmt::format("some {} have no value by it: numbers become too large", info(kind).plural));
     if (one.greatest - one.least < kRoom)
       facts.warnings.push_back(fmt::format("it is the same for every {}: nothing can be improved by it", name));
     if (std::abs(one.ideal - 1.0) > kRoom)
@@ -135,8 +171,8 @@ FormulaFacts facts_of(const Formula& formula) {
   }
   if (!formula.scale_free()) facts.warnings.push_back(fmt::format("it changes with the mesh's unit of length: {}", formula.scale_note()));
   if (formula.uses_place()) facts.warnings.emplace_back("it depends on where elements lie, not on their shapes alone");
-  facts.summary = fmt::format("{}; {}; from {} to {}", formula.scale_free() ? "scale-free" : "not scale-free", ideals,
-                              short_number(facts.least), short_number(facts.greatest));
+  const char* scale = !formula.scale_free() ? "not scale-free" : formula.uses_fields() ? "scale-free if its fields are" : "scale-free";
+  facts.summary = fmt::format("{}; {}; from {} to {}", scale, ideals, short_number(facts.least), short_number(facts.greatest));
   return facts;
 }
 

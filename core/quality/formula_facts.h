@@ -16,6 +16,7 @@ struct FormulaFacts {
     double least = 0.0;              // of all elements that were looked at
     double greatest = 0.0;           // likewise
     double greatest_inverted = 0.0;  // of those that are inverted
+    bool overflows = false;          // some have no value
   };
   std::vector<OfKind> kinds{};
   double least = 0.0, greatest = 0.0;
@@ -27,5 +28,8 @@ struct FormulaFacts {
 
 /// By a few thousand elements of each kind, always the same ones: ideal, stretched, flat, inverted. Fields are taken as 1.
 [[nodiscard]] FormulaFacts facts_of(const Formula& formula);
+
+/// Of an element that is `ratio` times as long as the ideal one against its width, and as large.
+[[nodiscard]] double value_of_stretched(const Formula& formula, ElementKind kind, double ratio);
 
 }  // namespace dmoscope

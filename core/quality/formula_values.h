@@ -21,9 +21,7 @@ class FormulaValues {
   }
   void run();
   /// Of a slot, after run(). The metric as it came out.
-  [[nodiscard]] double quality(std::size_t slot) const {
-    return FormulaResult<double>(program_, program_.quality, uniforms_, registers_)[slot];
-  }
+  [[nodiscard]] double quality(std::size_t slot) const { return FormulaResult<double>(program_, uniforms_, registers_)[slot]; }
 
  private:
   const FormulaProgram& program_;

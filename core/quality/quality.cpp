@@ -29,8 +29,16 @@ std::shared_ptr<const DefinedJudge> QualityContext::judge(Metric metric) const {
   return judges->of(metric, mesh, {geometry, normals});
 }
 
+std::shared_ptr<const DefinedJudge> QualityContext::find_judge(Metric metric) const {
+  if (judges == nullptr) refuse_defined_metric();
+  return judges->find(metric, mesh, {geometry, normals});
+}
+
 double element_quality(const QualityContext& context, PositionView positions, Metric metric, Index element) {
-  if (!is_built_in(metric)) return defined_quality(context, *context.judge(metric), positions, element);
+  if (!is_built_in(metric)) {
+    const auto judge = context.find_judge(metric);
+    return judge ? defined_quality(context, *judge, positions, element) : std::numeric_limits<double>::quiet_NaN();
+  }
   return formulas::with_metric(metric, [&]<Metric M>() { return quality_of<M>(context, positions, element); });
 }
 

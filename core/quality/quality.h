@@ -27,6 +27,8 @@ struct QualityContext {
   const DefinedJudges* judges = nullptr;  // of metrics that are defined by formulas and targets; null: built-in ones alone
   /// Of a metric that is not built in. Throws UsageError where it is not defined for the mesh.
   [[nodiscard]] std::shared_ptr<const DefinedJudge> judge(Metric metric) const;
+  /// The same; null where that throws: the metric is not defined for any element then.
+  [[nodiscard]] std::shared_ptr<const DefinedJudge> find_judge(Metric metric) const;
 };
 
 /// None so far.

@@ -44,11 +44,15 @@ std::string stats_csv(std::span<const std::string> titles, std::span<const std::
 
 std::string elements_csv(const QualityContext& context, std::span<const Vec3> positions, std::span<const Metric> metrics) {
   std::string text = "element,kind";
-  for (const Metric metric : metrics) text += fmt::format(",{}", info(metric).name);
+  std::vector<std::vector<double>> columns;
+  for (const Metric metric : metrics) {
+    text += ',' + csv_text(std::string(info(metric).name));
+    element_qualities(context, positions, metric, nullptr, columns.emplace_back(context.mesh.elements.size()));
+  }
   text += '\n';
   for (Index e = 0; e < context.mesh.elements.size(); ++e) {
     fmt::format_to(std::back_inserter(text), "{},{}", e, info(context.mesh.elements.kind(e)).name);
-    for (const Metric metric : metrics) text += ',' + number(element_quality(context, positions, metric, e));
+    for (const std::vector<double>& column : columns) text += ',' + number(column[e]);
     text += '\n';
   }
   return text;

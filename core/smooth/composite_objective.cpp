@@ -57,15 +57,27 @@ std::string_view short_name(SizeFunction::Kind kind) {
   return "constant";
 }
 
-/// FIRST, THRESHOLD and SECOND. Formulas and targets have colons of their own: the first number between two is the threshold.
+bool is_second(std::string_view text) {
+  if (text == kDensity) return true;
+  try {
+    (void)parse_metric(text);
+    return true;
+  } catch (const UsageError&) {
+    return false;
+  }
+}
+
+/// FIRST, THRESHOLD and SECOND. Formulas and targets have colons and numbers of their own: the threshold is the first number between two
+/// that have metrics on both sides.
 std::array<std::string_view, 3> parts_of_combination(std::string_view text) {
   const auto words = split(text, ':');
+  if (words.size() == 3) return {words[0], words[1], words[2]};
   std::size_t first = words[0].size();
   for (std::size_t i = 1; i + 1 < words.size(); first += 1 + words[i++].size()) {
     double value = 0.0;
-    const bool plain = words.size() == 3;
-    if (plain || (read_number(words[i], value) && value > 0.0 && value < 1.0))
-      return {text.substr(0, first), words[i], text.substr(first + 2 + words[i].size())};
+    if (!read_number(words[i], value)) continue;
+    const std::array<std::string_view, 3> parts{text.substr(0, first), words[i], text.substr(first + 2 + words[i].size())};
+    if (is_second(parts[2]) && parts[0] != kDensity && is_second(parts[0])) return parts;
   }
   throw UsageError(fmt::format("'{}' is no combination: it is FIRST:THRESHOLD:SECOND, such as mean-ratio:0.7:density", text));
 }

@@ -15,14 +15,28 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
+/// At separators outside of quotation marks.
 Words split(std::string_view text, char separator) {
   Words parts;
-  for (std::size_t at = text.find(separator); at != std::string_view::npos; at = text.find(separator)) {
-    parts.push_back(text.substr(0, at));
-    text.remove_prefix(at + 1);
+  bool quoted = false;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') quoted = !quoted;
+    if (quoted || text[i] != separator) continue;
+    parts.push_back(text.substr(first, i - first));
+    first = i + 1;
   }
-  parts.push_back(text);
+  parts.push_back(text.substr(first));
   return parts;
+}
+
+bool is_quoted(std::string_view name) { return name.size() >= 2 && name.starts_with('"') && name.ends_with('"'); }
+std::string unquoted(std::string_view name) { return std::string(is_quoted(name) ? name.substr(1, name.size() - 2) : name); }
+/// With quotation marks where it would be read as something else.
+std::string quoted(const std::string& name) {
+  const bool plain =
+      name.find_first_of("+:@# ") == std::string::npos && name != "input" && name != "ideal" && name != "field" && name != "aspect";
+  return plain ? name : fmt::format("\"{}\"", name);
 }
 
 std::optional<double> number_in(std::string_view word) {
@@ -41,7 +55,8 @@ TargetShape parse_input(std::string_view text, const Words& words, bool of_group
   for (std::size_t i = 1; i < words.size(); ++i) {
     if (words[i].ends_with('%')) {
       const auto percent = number_in(words[i].substr(0, words[i].size() - 1));
-      if (!percent || !(*percent >= 0.0 && *percent <= 100.0)) refuse(text, "a tolerance is 0% to 100%");
+      if (!percent || !(*percent == 0.0 || (*percent >= kLeastTolerance && *percent <= 100.0)))
+        refuse(text, fmt::format("a tolerance is {}% to 100%, or 0% for none", kLeastTolerance));
       shape.tolerance = *percent;
     } else {
       const auto rounds = number_in(words[i]);
@@ -84,7 +99,7 @@ std::optional<TargetShape> parse_shape(std::string_view text, bool of_group) {
   if (words[0] == "input") return parse_input(text, words, of_group);
   if (text == "field") return TargetShape{.kind = TargetShape::Kind::Field};
   if (words[0] == "field" && words.size() > 1 && text.size() > 6)
-    return TargetShape{.kind = TargetShape::Kind::Field, .field = std::string(text.substr(6))};
+    return TargetShape{.kind = TargetShape::Kind::Field, .field = unquoted(text.substr(6))};
   if (words[0] == "aspect") return parse_aspect(text, words);
   return std::nullopt;
 }
@@ -97,7 +112,7 @@ std::string to_text(const TargetShape& shape, bool of_group) {
       return text;
     }
     case TargetShape::Kind::Field:
-      return shape.field.empty() ? "field" : "field:" + shape.field;
+      return shape.field.empty() ? "field" : fmt::format("field:{}", quoted(shape.field));
     case TargetShape::Kind::Aspect:
       if (shape.planar) return fmt::format("aspect:{}:{}", shape.aspect, shape.angle);
       return fmt::format("aspect:{}:{}:{}:{}", shape.aspect, shape.direction.x, shape.direction.y, shape.direction.z);
@@ -112,7 +127,7 @@ std::string to_text(const TargetShape& shape, bool of_group) {
 std::string to_text(const Target& target) {
   std::string text;
   for (const Target::OfGroup& one : target.groups)
-    text += fmt::format("{}{}:{}", text.empty() ? "" : "+", one.group, to_text(one.shape, true));
+    text += fmt::format("{}{}:{}", text.empty() ? "" : "+", quoted(one.group), to_text(one.shape, true));
   if (target.groups.empty()) return to_text(target.others, false);
   if (target.others.kind != TargetShape::Kind::Ideal) text.append(1, '+').append(to_text(target.others, false));
   return text;
@@ -130,10 +145,11 @@ Target parse_target(std::string_view text) {
     }
     // The group's name may have colons itself.
     bool found = false;
-    for (std::size_t colon = piece.find(':'); colon != std::string_view::npos && !found; colon = piece.find(':', colon + 1)) {
+    const std::size_t after = piece.starts_with('"') ? piece.find('"', 1) : 0;
+    for (std::size_t colon = piece.find(':', after); colon != std::string_view::npos && !found; colon = piece.find(':', colon + 1)) {
       const auto shape = parse_shape(piece.substr(colon + 1), true);
       if (!shape || colon == 0) continue;
-      target.groups.push_back({std::string(piece.substr(0, colon)), *shape});
+      target.groups.push_back({unquoted(piece.substr(0, colon)), *shape});
       found = true;
     }
     if (!found) refuse(text, fmt::format("'{}' is neither a shape nor GROUP:SHAPE", piece));

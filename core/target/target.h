@@ -33,7 +33,7 @@ struct TargetShape {
 /// Of all elements, by the groups they are in.
 struct Target {
   struct OfGroup {
-    std::string group;  // its name; "layers": also the boundary layers that are found
+    std::string group;  // its name, without quotation marks; "layers": also the boundary layers that are found
     TargetShape shape;
     friend bool operator==(const OfGroup&, const OfGroup&) = default;
   };
@@ -44,7 +44,7 @@ struct Target {
 };
 
 /// Percent by which the aspect of an element that is kept may change, if nothing else is said.
-inline constexpr double kKeptTolerance = 5.0;
+inline constexpr double kKeptTolerance = 5.0, kLeastTolerance = 0.01;
 inline constexpr std::string_view kLayersName = "layers";
 
 /// "ideal", "input", "input:2", "field", "field:NAME", "aspect:R:DEGREES", "aspect:R:X:Y:Z"; of groups "NAME:SHAPE", joined by "+":

@@ -94,7 +94,8 @@ SmallMatrix metric_tensor(const Field& field, Index vertex, int n) {
 
 class TargetTable::Maker {
  public:
-  Maker(TargetTable& table, const Mesh& mesh, const ElementFrames& frames) : table_(table), mesh_(mesh), frames_(frames) {
+  Maker(TargetTable& table, const Mesh& mesh, const ElementFrames& frames, const OfStretched& of_stretched)
+      : table_(table), mesh_(mesh), frames_(frames), of_stretched_(of_stretched) {
     n_ = frames.geometry.shape == Shape::Volume ? 3 : 2;
     table_.size_ = static_cast<std::size_t>(n_ * n_);
   }
@@ -114,6 +115,7 @@ class TargetTable::Maker {
 
  private:
   static constexpr std::uint8_t kFree = 255;
+  static constexpr std::size_t kMostShapes = kFree / kElementKindCount;
 
   [[nodiscard]] double measure(Index e) const {
     if (n_ == 3) return signed_volume(mesh_, e);
@@ -161,14 +163,20 @@ class TargetTable::Maker {
   // Shapes.
 
   void take(const TargetShape& shape, const std::vector<Index>& elements, const std::string& of) {
-    if (table_.spaces_.size() >= kFree) throw UsageError("a target has at most 250 groups");
-    const auto which = static_cast<std::uint8_t>(table_.spaces_.size());
+    if (table_.spaces_.size() >= kMostShapes) throw UsageError(fmt::format("a target has at most {} groups", kMostShapes - 1));
+    const std::size_t first = table_.spaces_.size() * kElementKindCount;
     std::vector<Index> mine;
     for (const Index e : elements)
       if (table_.which_[e] == kFree) mine.push_back(e);
-    for (const Index e : mine) table_.which_[e] = which;
+    bool present[kElementKindCount] = {};
+    for (const Index e : mine) {
+      const auto kind = static_cast<std::size_t>(mesh_.elements.kind(e));
+      table_.which_[e] = static_cast<std::uint8_t>(first + kind);
+      present[kind] = true;
+    }
     table_.spaces_.push_back(shape.kind == TargetShape::Kind::Input ? FormulaSpace::Target : FormulaSpace::Stretched);
-    table_.steepness_.push_back(steepness(shape));
+    for (std::size_t kind = 0; kind < kElementKindCount; ++kind)
+      table_.steepness_.push_back(present[kind] ? steepness(shape, static_cast<ElementKind>(kind)) : 1.0);
     switch (shape.kind) {
       case TargetShape::Kind::Ideal:
         break;
@@ -185,12 +193,11 @@ class TargetTable::Maker {
     phrases_.push_back({shape, of, mine.size()});
   }
 
-  /// So that the mean ratio of an element whose aspect changes by the tolerance counts 0.
-  [[nodiscard]] double steepness(const TargetShape& shape) const {
+  /// So that the metric of an element whose aspect changes by the tolerance counts 0.
+  [[nodiscard]] double steepness(const TargetShape& shape, ElementKind kind) const {
     if (!(shape.tolerance > 0.0)) return 1.0;
-    const double r = 1.0 + 0.01 * shape.tolerance;
-    const double ratio = n_ == 2 ? 2.0 * r / (1.0 + r * r) : 3.0 * std::cbrt(r * r) / (r * r + 2.0);
-    return 1.0 / (1.0 - ratio);
+    const double lost = 1.0 - of_stretched_(kind, 1.0 + 0.01 * shape.tolerance);
+    return lost > 1e-12 ? std::max(1.0, 1.0 / lost) : 1.0;  // some metrics do not see aspects
   }
 
   void begin(Index e, std::size_t matrices) {
@@ -365,6 +372,8 @@ class TargetTable::Maker {
   }
 
   [[nodiscard]] SmallMatrix log_of(const Field& field, Index v) const {
+    if (field.components == 1 && !(field.values[v] > 0.0))
+      throw UsageError(fmt::format("the size '{}' is not above 0 at vertex {}", field.name, v));
     const SmallMatrix m = metric_tensor(field, v, n_);
     const Eigen e = eigen(m);
     for (std::size_t i = 0; static_cast<int>(i) < n_; ++i)
@@ -408,10 +417,13 @@ class TargetTable::Maker {
   TargetTable& table_;
   const Mesh& mesh_;
   const ElementFrames& frames_;
+  const OfStretched& of_stretched_;
   int n_ = 2;
   std::vector<Part> phrases_;
 };
 
-TargetTable::TargetTable(const Target& target, const Mesh& mesh, const ElementFrames& frames) { Maker(*this, mesh, frames).run(target); }
+TargetTable::TargetTable(const Target& target, const Mesh& mesh, const ElementFrames& frames, const OfStretched& of_stretched) {
+  Maker(*this, mesh, frames, of_stretched).run(target);
+}
 
 }  // namespace dmoscope

@@ -2,6 +2,7 @@
 // What each element of a mesh is wished to be, as matrices.
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,13 +33,15 @@ struct TargetFacts {
 
 class TargetTable {
  public:
-  /// `positions`: those of the input. Throws UsageError: a group or field that is not there or cannot be used.
-  TargetTable(const Target& target, const Mesh& mesh, const ElementFrames& frames);
+  /// What the metric is for an ideal element of a kind that was stretched so many times.
+  using OfStretched = std::function<double(ElementKind kind, double ratio)>;
+  /// `mesh`: with the positions of the input. Throws UsageError: a group or field that is not there or cannot be used.
+  TargetTable(const Target& target, const Mesh& mesh, const ElementFrames& frames, const OfStretched& of_stretched);
 
   [[nodiscard]] ElementTarget of(Index element) const {
     if (first_.empty() || first_[element] == kNone) return {};
     const std::uint8_t which = which_[element];
-    return {spaces_[which], matrices_.data() + first_[element] * size_, steepness_[which]};
+    return {spaces_[which / kElementKindCount], matrices_.data() + first_[element] * size_, steepness_[which]};
   }
   [[nodiscard]] const TargetFacts& facts() const noexcept { return facts_; }
   /// Mean of the elements' |area| or |volume| at input.
@@ -50,10 +53,10 @@ class TargetTable {
 
   std::size_t size_ = 4;              // numbers a matrix
   std::vector<std::uint32_t> first_;  // by element, into matrices_; empty: no element has a target
-  std::vector<std::uint8_t> which_;   // by element: of the shapes
+  std::vector<std::uint8_t> which_;   // by element: of the shapes, times kElementKindCount, plus its kind
   std::vector<double> matrices_;
   std::vector<FormulaSpace> spaces_;  // of the shapes
-  std::vector<double> steepness_;     // likewise
+  std::vector<double> steepness_;     // of the shapes and kinds
   TargetFacts facts_;
   double mean_measure_ = 1.0;
 };

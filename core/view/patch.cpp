@@ -1,6 +1,7 @@
 #include "core/view/patch.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/quality/defined_quality.h"
 
@@ -37,7 +38,8 @@ Patch patch_of(const Frame& frame, std::span<const Index> elements) {
 
 double Patch::quality(Metric metric, Index k) const {
   if (is_built_in(metric)) return element_quality({mesh, geometry}, mesh.positions, metric, k);
-  const auto judge = input->quality_context().judge(metric);
+  const auto judge = input->quality_context().find_judge(metric);
+  if (!judge) return std::numeric_limits<double>::quiet_NaN();
   return defined_quality_at(*judge, {geometry, input->surface_normals}, mesh.elements.kind(k), mesh.elements.corners(k), elements[k],
                             [this](Index v) { return mesh.positions[v]; });
 }

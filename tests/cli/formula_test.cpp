@@ -42,6 +42,25 @@ TEST(Formulas, AreOptimised) {
   EXPECT_THAT(joint.err, HasSubstr("derivatives"));
 }
 
+TEST(Formulas, AreCompared) {
+  const Folder folder;
+  const std::string mesh = folder / "m.vtu";
+  ASSERT_EQ(run({"generate", "mixed", "--size", "300", "-o", mesh}).code, 0);
+  const Output all = run({"compare", mesh, "--iterations", "2", "--run", "dmo:formula:min(lmin, lmax)/lmax:cpu", "--run",
+                          "dmo:mean-ratio@layers:input,then mean", "--run", "laplace", "--judge", "aspect"});
+  EXPECT_EQ(all.code, 0) << all.err;
+  EXPECT_THAT(all.out, HasSubstr("formula:min(lmin, lmax)/lmax"));
+  EXPECT_THAT(all.out, HasSubstr("mean-ratio@layers:input"));
+  EXPECT_EQ(run({"compare", mesh, "--iterations", "1", "--every", "metric", "--target", "layers:input"}).code, 0);
+}
+
+TEST(Formulas, HaveAColumnOfTheirOwn) {
+  const Folder folder;
+  const std::string csv = folder / "e.csv";
+  ASSERT_EQ(run({"quality", sample("coast.14"), "--metric", "formula:\"a, b\"; min(smin, smax)/smax", "--elements", csv}).code, 0);
+  EXPECT_THAT(read_file(csv), HasSubstr("element,kind,\"formula:\"\"a, b\"\"; min(smin, smax)/smax\"\n"));
+}
+
 TEST(Targets, OfAMetricFieldBesideTheMesh) {
   const Folder folder;
   const std::string mesh = folder.file("a.mesh",
@@ -54,23 +73,30 @@ TEST(Targets, OfAMetricFieldBesideTheMesh) {
   const auto judged = json_of(run({"quality", mesh, "--target", "field", "--json"}));
   const auto smoothed = smooth(mesh, folder / "b.mesh", {"--target", "field", "--iterations", "30"});
   EXPECT_EQ(smoothed["metric"], "mean-ratio@field");
+  EXPECT_THAT(smoothed["warnings"].dump(), HasSubstr("The fields of a.sol were not written"));
   EXPECT_NEAR(smoothed["before"]["minimum"].get<double>(), judged["metrics"][0]["minimum"].get<double>(), 1e-12);
   // The middle of the square that it is in the metric: all four alike.
-  EXPECT_NEAR(smoothed["after"]["minimum"].get<double>(), std::sqrt(3.0) / 2.0, 1e-4);
+  EXPECT_NEAR(smoothed["after"]["minimum"].get<double>(), std::sqrt(3.0) / 2.0, 1e-3);  // as near as the finest grid
+  // What is wrong with it does not keep the mesh from being read.
   (void)folder.file("a.sol", sol + "1 2\n");
   const Output cut = run({"quality", mesh, "--target", "field"});
-  EXPECT_EQ(cut.code, 3);
-  EXPECT_THAT(cut.err, HasSubstr("a.sol:"));
+  EXPECT_EQ(cut.code, 2);
+  EXPECT_THAT(cut.err, HasSubstr("the fields beside it were not read: "));
+  EXPECT_THAT(cut.err, HasSubstr("a.sol:5: "));
+  EXPECT_THAT(cut.err, HasSubstr("no metric field"));
   (void)folder.file("a.sol", "MeshVersionFormatted 2\nDimension 2\nSolAtVertices 6\n1 3\n" + values + "0.0625 0 1\nEnd\n");
-  EXPECT_THAT(run({"quality", mesh}).err, HasSubstr("a.sol:3: solutions at 6 vertices, but the mesh has 5"));
+  const Output more = run({"quality", mesh});
+  EXPECT_EQ(more.code, 0);
+  EXPECT_THAT(more.err, HasSubstr("a.sol:3: solutions at 6 vertices, but the mesh has 5"));
 }
 
 TEST(Targets, KeepBoundaryLayers) {
   const Folder folder;
   const std::string su2 = shared_mesh("mixed2d/su2_NACA64A010_hybrid_inv.su2");
   if (su2.empty()) GTEST_SKIP() << "the shared meshes are not here";
-  const auto kept = smooth(su2, folder / "a.su2", {"--target", "layers:input", "--iterations", "20"});
-  EXPECT_GT(kept["after"]["movable_minimum"].get<double>(), kept["before"]["movable_minimum"].get<double>());
+  // Its worst element stands on the airfoil, along which it may slide.
+  const auto kept = smooth(su2, folder / "a.su2", {"--target", "layers:input", "--iterations", "20", "--boundary", "slide"});
+  EXPECT_GT(kept["after"]["movable_minimum"].get<double>(), 1.3 * kept["before"]["movable_minimum"].get<double>());
   const Output info = run({"info", su2});
   EXPECT_THAT(info.out, HasSubstr("boundary layers"));
 }

@@ -108,7 +108,7 @@ const Wrong kWrong[] = {
     {"pow(2)", 1, "takes 2 arguments, not 1"},
     {"if(area > 0, 1)", 1, "takes 3 arguments, not 2"},
     {"clamp(1, 2)", 1, "takes 3 arguments, not 2"},
-    {"min()", 1, "takes at least 1 argument"},
+    {"min()", 1, "takes 1 to 64 arguments, not 0"},
     {"field(depth)", 7, "a field is named in quotation marks"},
     {"field(1)", 7, "a field is named in quotation marks"},
     {"field()", 1, "takes 1 argument, not 0"},

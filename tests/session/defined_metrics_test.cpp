@@ -1,5 +1,6 @@
 // Formulas and targets as commands, in saved sessions, and back.
 
+#include <cmath>
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -112,6 +113,27 @@ TEST_F(DefinedMetricsInASession, CombinationsHaveColonsOfTheirOwn) {
   EXPECT_EQ(p.combination->threshold, 0.25);
   EXPECT_EQ(info(std::get<Metric>(p.combination->second)).name, "shape-size@aspect:2:30");
   EXPECT_THAT(why("combine mean-ratio:2:min-angle"), HasSubstr("threshold"));
+  // Also where a target has a number that could be a threshold.
+  say("combine \"formula:det/norm^2:0.4:aspect@layers:input\"");
+  say("target aspect:4:0.5");
+  const std::string file = (folder_.path() / "c.dmoscope").string();
+  say("save-state \"" + file + "\"");
+  say("open-state \"" + file + "\"");
+  EXPECT_EQ(metric(), "formula:det/norm^2@aspect:4:0.5");
+  EXPECT_EQ(session_.active().parameters().combination->threshold, 0.4);
+}
+
+TEST_F(DefinedMetricsInASession, AMeshThatLacksTheTargetHasNoQualityByIt) {
+  say("generate anisotropic 200");
+  const auto with = session_.active().shared_input();
+  say("generate random 60");
+  const InputMesh& without = session_.active().input();
+  const Metric metric = parse_metric("mean-ratio@field");
+  const Statistics statistics =
+      compute_statistics(without.quality_context(), without.mesh.positions, metric, std::span<const Index>{}, nullptr);
+  EXPECT_TRUE(std::isnan(element_quality(without.quality_context(), without.mesh.positions, metric, 0)));
+  EXPECT_FALSE(statistics.minimum < 1.0);
+  EXPECT_FALSE(std::isnan(element_quality(with->quality_context(), with->mesh.positions, metric, 0)));
 }
 
 }  // namespace

@@ -45,18 +45,20 @@ std::vector<double> qualities(const InputMesh& mesh, const std::string& metric) 
 }
 
 TEST(Targets, AreReadAsTheyAreWritten) {
-  for (const char* text :
-       {"ideal", "input", "input:3", "field", "field:metric", "field:a:b", "aspect:4:30", "aspect:2.5:0:1:0", "layers:input",
-        "layers:input:1%", "layers:input:2:7.5%", "wing:aspect:4:30+tail:ideal+input:2", "2:input", "a:b:field:m"}) {
+  for (const char* text : {"ideal", "input", "input:3", "field", "field:metric", "field:\"a:b\"", "\"input\":input",
+                           "\"a+b: c\":aspect:2:5+x:input", "aspect:4:30", "aspect:2.5:0:1:0", "layers:input", "layers:input:1%",
+                           "layers:input:2:7.5%", "wing:aspect:4:30+tail:ideal+input:2", "2:input", "\"a:b\":field:m"}) {
     const Target target = parse_target(text);
     EXPECT_EQ(to_text(target), text);
     EXPECT_EQ(parse_target(to_text(target)), target);
   }
   EXPECT_EQ(parse_target("layers:input").groups[0].shape.tolerance, kKeptTolerance);
   EXPECT_EQ(parse_target("input").others.tolerance, 0.0);
+  EXPECT_EQ(parse_target("a:b:input").groups[0].group, "a:b");
+  EXPECT_EQ(parse_target("\"field\":input").groups[0].group, "field");
   for (const char* wrong :
-       {"", "idea", "input:-1", "input:1.5", "input:x", "layers:input:200%", "aspect", "aspect:4", "aspect:0.5:3", "aspect:4:x",
-        "aspect:4:0:0:0", "aspect:4:1:2", "layers:", ":input", "input+input", "layers", "layers:inpt", "aspect:nan:1"})
+       {"", "idea", "input:-1", "input:1.5", "input:x", "layers:input:200%", "layers:input:0.000001%", "aspect", "aspect:4", "aspect:0.5:3",
+        "aspect:4:x", "aspect:4:0:0:0", "aspect:4:1:2", "layers:", ":input", "input+input", "layers", "layers:inpt", "aspect:nan:1"})
     EXPECT_THROW((void)parse_target(wrong), UsageError) << wrong;
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/base/error.h"
+#include "core/inspect/target_shape.h"
 #include "core/view/patch.h"
 
 namespace dmoscope::ui {
@@ -35,7 +36,13 @@ void read_element(PickedFacts& facts, const Frame& frame, Index element) {
         {&metric, patch.quality(metric.metric, 0), element_quality(input.quality_context(), input.mesh.positions, metric.metric, element)});
   };
   for (const MetricInfo& metric : metric_table()) add(metric);
-  if (!is_built_in(frame.shown)) add(info(frame.shown));
+  if (is_built_in(frame.shown)) return;
+  add(info(frame.shown));
+  if (frame.positions.empty()) return;
+  if (const auto shape = target_shape(input, frame.positions, frame.shown, element)) {
+    facts.aspect = TargetShapeOfElement::aspect(shape->now);
+    facts.target_aspect = TargetShapeOfElement::aspect(shape->wished);
+  }
 }
 
 }  // namespace
@@ -50,7 +57,7 @@ PickedFacts facts_of(const Frame& frame, const Picked& picked) {
       read_element(facts, frame, picked.id);
       facts.picked = picked;
     }
-  } catch (const DeviceError& error) {
+  } catch (const Error& error) {
     facts = {};
     facts.trouble = error.what();
   }

@@ -1,6 +1,7 @@
 #pragma once
 // What there is to read about the vertex or element that is picked, of a frame.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct PickedFacts {
   };
   std::vector<Row> metrics;
   bool inverted = false;
+  std::optional<double> aspect, target_aspect;  // longest over shortest axis, where the shown metric has a target
 };
 
 /// Never throws: what a device does not tell is said in `trouble`.

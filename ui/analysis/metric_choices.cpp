@@ -57,12 +57,18 @@ std::vector<TargetChoice> target_choices(const InputMesh& input) {
   if (may_have_layers)
     choices.push_back({"layers:input", "boundary layers kept",
                        "stacks of stretched elements on the boundary as they were, to 5 % of their aspect; all others ideal"});
-  for (const Field& field : input.mesh.fields)
-    if (is_metric_field(field, volume ? 3 : 2))
-      choices.push_back({"field:" + field.name, "metric field " + field.name, "of unit size in the file's metric tensors"});
+  const auto is_metric = [&](const Field& field) { return is_metric_field(field, volume ? 3 : 2); };
+  if (std::ranges::count_if(input.mesh.fields, is_metric) == 1)
+    choices.push_back({"field", "the metric field", "of unit size in the file's metric tensors"});
+  else
+    for (const Field& field : input.mesh.fields)
+      if (is_metric(field))
+        choices.push_back({to_text(Target{{}, {.kind = TargetShape::Kind::Field, .field = field.name}}), "metric field " + field.name,
+                           "of unit size in the file's metric tensors"});
   for (const Group& group : input.mesh.groups)
-    if (group.of_elements() && !group.name.empty() && choices.size() < 20)
-      choices.push_back({group.name + ":input", group.name + " kept", "the elements of this group as they were, all others ideal"});
+    if (group.of_elements() && !group.name.empty() && group.name.find('"') == std::string::npos && choices.size() < 20)
+      choices.push_back({to_text(Target{{{group.name, {.kind = TargetShape::Kind::Input, .tolerance = kKeptTolerance}}}, {}}),
+                         group.name + " kept", "the elements of this group as they were, all others ideal"});
   return choices;
 }
 

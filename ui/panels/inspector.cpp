@@ -308,6 +308,10 @@ void draw_element(PanelContext& context, const Frame& frame, Index element) {
   if (context.derived.facts.inverted) value_row(context, "inverted", "yes", {}, context.palette.error);
   if (frame.input->is_volume() && !frame.positions.empty())
     number_row(context, "volume", signed_volume(elements, frame.positions, element), "negative where it is inside out");
+  if (const PickedFacts& facts = context.derived.facts; facts.aspect && facts.target_aspect) {
+    number_row(context, "aspect", *facts.aspect, "longest over shortest axis of what makes it of an ideal element");
+    number_row(context, "of its target", *facts.target_aspect, "the same of what it is wished to be");
+  }
   dim_text(context, "corners", false);
   for (const Index corner : elements.corners(element)) {
     ImGui::SameLine();

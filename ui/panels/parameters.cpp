@@ -152,9 +152,11 @@ void draw_what_a_change_does(PanelContext& context, const RunView& run) {
 
 /// What elements are wished to be.
 void draw_target(PanelContext& context, const RunView& run) {
-  labelled(context, "target", "what elements are wished to be; the metric is 1 for one that is so");
   const std::string now = to_text(target_of(run.parameters.metric));
   const auto& choices = context.widgets.target_choices.of(run.input);
+  float widest = 0;
+  for (const TargetChoice& one : choices) widest = std::max(widest, ImGui::CalcTextSize(context.shown(one.title).c_str()).x);
+  labelled(context, "target", "what elements are wished to be; the metric is 1 for one that is so", combo_width(widest));
   const auto current = std::ranges::find(choices, now, &TargetChoice::text);
   const bool open = ImGui::BeginCombo("##target", context.shown(current != choices.end() ? current->title : now).c_str());
   context.items.record_last("target");

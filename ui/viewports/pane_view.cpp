@@ -232,8 +232,7 @@ render::Marks PaneView::marks(const Scenery& scenery, const MarkView& view, bool
   if (!searching) {
     const Metric shown = frame()->shown;
     const bool of_shown = !is_built_in(shown) || frame()->run == Frame::kNoRun;
-    add_targets(marks, *frame(), of_shown ? shown : session_->runs[session_->active].parameters.metric, marks.elements,
-                plain.highlight_colour, plain.casing_colour);
+    add_targets(marks, *frame(), of_shown ? shown : session_->runs[session_->active].parameters.metric, marks.elements);
   }
   if (frame()->run != Frame::kNoRun)
     add_size_point(marks, session_->runs[session_->active], frame()->input->geometry.plane, plain.highlight_colour, plain.casing_colour);

@@ -12,6 +12,9 @@ namespace dmoscope::ui {
 namespace {
 
 constexpr std::size_t kMostEllipses = 200;  // more would hide the mesh
+constexpr double kLong = 1.05;              // what is less long shows no axis
+// Unlike the outlines of what is picked, on any colour.
+constexpr render::Rgba kInk{255, 255, 255, 255}, kCasing{20, 20, 20, 255};
 
 /// Of the circle in an ideal element of unit edges, so that an ellipse fills its element.
 constexpr double kRadius = 0.28;
@@ -45,8 +48,7 @@ class Ellipse {
 
 }  // namespace
 
-void add_targets(render::Marks& marks, const Frame& frame, Metric metric, std::span<const Index> elements, render::Rgba ink,
-                 render::Rgba casing) {
+void add_targets(render::Marks& marks, const Frame& frame, Metric metric, std::span<const Index> elements) {
   const InputMesh& input = *frame.input;
   if (input.geometry.shape != Shape::Planar || frame.positions.empty() || elements.size() > kMostEllipses) return;
   std::vector<render::OverlayLine> inked;
@@ -66,10 +68,10 @@ void add_targets(render::Marks& marks, const Frame& frame, Metric metric, std::s
     }
     const double size = std::sqrt(determinant(shape->now) / determinant(shape->wished));
     const Ellipse wished(scaled(size, shape->wished), centre), now(shape->now, centre);
-    now.draw(marks.lines, 1.0F, casing);
-    wished.draw(marks.lines, 4.0F, casing);
-    wished.draw(inked, 2.0F, ink);
-    wished.draw_longer_axis(inked, 1.0F, ink);
+    now.draw(marks.lines, 1.0F, kCasing);
+    wished.draw(marks.lines, 3.4F, kCasing);
+    wished.draw(inked, 1.6F, kInk);
+    if (TargetShapeOfElement::aspect(shape->wished) > kLong) wished.draw_longer_axis(inked, 1.0F, kInk);
   }
   marks.lines.insert(marks.lines.end(), inked.begin(), inked.end());
 }

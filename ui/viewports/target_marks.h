@@ -10,7 +10,6 @@ namespace dmoscope::ui {
 
 /// For each element that has a target by `metric` an ellipse of the target's shape and direction, as large as the element, with its longer
 /// axis; and, thinner, that of the element as it stands. Of planar meshes whose frame is on the host; others have none.
-void add_targets(render::Marks& marks, const Frame& frame, Metric metric, std::span<const Index> elements, render::Rgba ink,
-                 render::Rgba casing);
+void add_targets(render::Marks& marks, const Frame& frame, Metric metric, std::span<const Index> elements);
 
 }  // namespace dmoscope::ui

@@ -13,6 +13,7 @@
 #include "core/base/memory.h"
 #include "core/io/medit/medit.h"
 #include "core/io/medit/medit_contents.h"
+#include "core/io/medit/sol.h"
 #include "core/io/reading/tokenizer.h"
 
 namespace dmoscope {
@@ -189,7 +190,11 @@ bool recognises_medit(std::string_view bytes) {
   return equal_ignoring_case(tokens.token(), kMeditSignature);
 }
 
-Mesh read_medit(SourceFile& source, const IoContext& context) { return MeditReader(source, context.progress).read(); }
+Mesh read_medit(SourceFile& source, const IoContext& context) {
+  Mesh mesh = MeditReader(source, context.progress).read();
+  read_solutions_beside(source, mesh, context.progress);
+  return mesh;
+}
 
 }  // namespace
 

@@ -16,6 +16,7 @@
 #include "core/io/format.h"
 #include "core/io/medit/medit.h"
 #include "core/io/medit/medit_contents.h"
+#include "core/io/medit/sol.h"
 #include "core/io/reading/binary.h"
 
 namespace dmoscope {
@@ -189,7 +190,11 @@ class MeshbReader {
   std::vector<std::int32_t> met_;
 };
 
-Mesh read_meshb(SourceFile& source, const IoContext& context) { return MeshbReader(source, context.progress).read(); }
+Mesh read_meshb(SourceFile& source, const IoContext& context) {
+  Mesh mesh = MeshbReader(source, context.progress).read();
+  read_solutions_beside(source, mesh, context.progress);
+  return mesh;
+}
 
 Notes write_meshb(AtomicFile& file, const Mesh&, std::span<const Vec3>, const IoContext&) {
   throw OutputError(file.path().string(), "binary MEDIT files are written only where one was read: write it as .mesh");

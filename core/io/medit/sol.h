@@ -8,12 +8,13 @@
 
 namespace dmoscope {
 
-/// "part.mesh": "part.sol".
-[[nodiscard]] std::filesystem::path solution_beside(const std::filesystem::path& mesh);
-
 /// Reads the solutions at vertices as fields of the mesh: "sol" (a number), "sol-vector", "metric" (a symmetric tensor: 3 components in the
 /// plane, 6 in space, as mmg orders them), with a number behind the name where there are several of a kind. Throws InputError (file and
 /// line), Cancelled.
 void read_solutions(const std::filesystem::path& file, Mesh& mesh, Progress& progress);
+
+/// Those in "part.sol", where the mesh is "part.mesh" or "part.mesh.gz" and such a file lies beside it; a note says so, or why it was not
+/// read.
+void read_solutions_beside(SourceFile& source, Mesh& mesh, Progress& progress);
 
 }  // namespace dmoscope

@@ -84,14 +84,26 @@ class SolReader {
 
 }  // namespace
 
-std::filesystem::path solution_beside(const std::filesystem::path& mesh) {
-  std::filesystem::path file = mesh;
-  return file.replace_extension(".sol");
-}
-
 void read_solutions(const std::filesystem::path& file, Mesh& mesh, Progress& progress) {
   const FileBytes bytes = read_whole_file(file, progress);
   SolReader(bytes.view(), file, mesh, progress).read();
+}
+
+void read_solutions_beside(SourceFile& source, Mesh& mesh, Progress& progress) {
+  std::filesystem::path file = source.path();
+  if (equal_ignoring_case(file.extension().string(), ".gz")) file.replace_extension();
+  file.replace_extension(".sol");
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return;
+  const std::size_t fields = mesh.fields.size();
+  try {
+    read_solutions(file, mesh, progress);
+    source.add_note(fmt::format("fields read from {} beside it", file.filename().string()));
+    source.set_beside(file.filename().string());
+  } catch (const InputError& error) {  // the mesh is sound without it
+    mesh.fields.resize(fields);
+    source.add_note(fmt::format("the fields beside it were not read: {}", error.what()));
+  }
 }
 
 }  // namespace dmoscope

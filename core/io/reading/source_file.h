@@ -94,6 +94,9 @@ class SourceFile {
   /// One sentence for each thing that the reader passed over and a person may miss ("3 line elements (l) are not shown").
   [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return notes_; }
 
+  /// A file whose fields were read with it, and which is never written; empty: none.
+  [[nodiscard]] const std::string& beside() const noexcept { return beside_; }
+
   // For readers of formats.
   void set_size_on_disk(std::size_t size) { size_on_disk_ = size; }
   void set_format(std::string_view name) { format_ = name; }
@@ -114,9 +117,11 @@ class SourceFile {
   /// Adds a thing once, however often it is met.
   void add_only_in_file(std::string_view thing);
   void add_note(std::string sentence) { notes_.push_back(std::move(sentence)); }
+  void set_beside(std::string file) { beside_ = std::move(file); }
 
  private:
   std::filesystem::path path_;
+  std::string beside_;
   FileBytes bytes_;
   std::size_t size_on_disk_;
   std::string format_;

@@ -130,9 +130,11 @@ class CompositeScore {
   }
   [[nodiscard]] double second(Offset p) const {
     if (second_ != nullptr) return second_(star_, p, kAll);
-    if (defined_.second) return defined_.second->least(p);
-    return composite_.raise_mean() ? defined_.first->mean(p) : target_.density(p);
+    if (defined_.second) return positive(defined_.second->least(p));
+    return composite_.raise_mean() ? positive(defined_.first->mean(p)) : target_.density(p);
   }
+  /// A rising function that is above 0: formulas may be below.
+  static double positive(double value) { return value > 0.0 ? 1.0 + value : 1.0 / (1.0 - value); }
 
   const CompositeObjective& composite_;
   View star_;

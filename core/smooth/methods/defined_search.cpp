@@ -1,6 +1,7 @@
 #include "core/smooth/methods/defined_search.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "core/search/grid_search.h"
@@ -42,7 +43,6 @@ template <class Real>
 struct DefinedSearch<Frame>::Visit {
   using Point = OffsetIn<Frame, Real>;
   static constexpr std::size_t kAxes = std::is_same_v<Frame, Plane> ? 2 : 3;
-  static constexpr Real kNever = -std::numeric_limits<Real>::max();
 
   const DefinedSearch& search;
   const Found& star;
@@ -76,11 +76,9 @@ struct DefinedSearch<Frame>::Visit {
       registers = std::max<std::size_t>(registers, program.registers);
     }
     room.registers.reserve(registers * kFormulaBatch);
-    room.values.resize(kFormulaBatch);
     for (auto& element : room.elements) {
       for (std::size_t axis = 0; axis < kAxes; ++axis) room.at[axis].assign(1, Real(0));
-      evaluate(element, 1);
-      element.here = room.values[0];
+      element.here = *evaluate(element, 1);
     }
     std::ranges::stable_sort(room.elements, {}, [](const auto& element) { return element.here; });
   }
@@ -91,15 +89,15 @@ struct DefinedSearch<Frame>::Visit {
     return coordinate(here, axis);
   }
 
-  /// The metric of one element for the first `count` places of room.at; what inverts it never wins.
-  void evaluate(const typename Room<Real>::Element& element, std::size_t count) {
+  /// What one element says of the first `count` places of room.at.
+  [[nodiscard]] const Real* evaluate(const typename Room<Real>::Element& element, std::size_t count) {
     const FormulaProgram& program = *element.program;
     Real* registers = room.registers.reserve(0);
     const Real* uniforms = room.uniforms.data() + element.first;
+    const Real factor = static_cast<Real>(unit);
     for (const FormulaProgram::Given& one : program.varying) {
       Real* to = registers + one.at * kFormulaBatch;
       const Real* from = room.at[one.input.row].data();
-      const Real factor = static_cast<Real>(unit);
       for (std::size_t i = 0; i < count; ++i) to[i] = from[i] * factor;
     }
     const FormulaRun<Real> run{program.steps.data(), program.steps.size(), uniforms, program.uniforms, registers, count};
@@ -107,28 +105,24 @@ struct DefinedSearch<Frame>::Visit {
       search.narrow_(run);
     else
       search.wide_(run);
-    const FormulaResult<Real> quality(program, program.quality, uniforms, registers),
-        jacobian(program, program.jacobian, uniforms, registers);
-    const auto steepness = static_cast<Real>(element.target.steepness);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Real q = quality[i];
-      const Real settled = steepness == Real(1) ? q : Real(1) - (Real(1) - q) * steepness;
-      room.values[i] = jacobian[i] > Real(0) && settled > kNever ? settled : kNever;
-    }
+    return FormulaResult<Real>(program, uniforms, registers).values();
   }
 
   /// Looks at the candidates that were listed, at most kFormulaBatch; the first of the best becomes `best` where it is better.
   void look(Real& best, Point& offset) {
     std::size_t count = room.at[0].size();
     room.least.assign(count, std::numeric_limits<Real>::max());
+    Real* least = room.least.data();
+    std::array<Real*, kAxes> at;
+    for (std::size_t axis = 0; axis < kAxes; ++axis) at[axis] = room.at[axis].data();
     for (const auto& element : room.elements) {
-      evaluate(element, count);
+      const Real* values = evaluate(element, count);
       std::size_t left = 0;
       for (std::size_t i = 0; i < count; ++i) {
-        const Real least = std::min(room.least[i], room.values[i]);
-        room.least[left] = least;
-        for (std::size_t axis = 0; axis < kAxes; ++axis) room.at[axis][left] = room.at[axis][i];
-        left += least > best ? 1U : 0U;
+        const Real worth = values[i] < least[i] ? values[i] : least[i];
+        least[left] = worth;
+        for (Real* coordinates : at) coordinates[left] = coordinates[i];
+        left += worth > best ? 1U : 0U;
       }
       count = left;
       if (count == 0) break;

@@ -37,7 +37,7 @@ class DefinedSearch {
     std::vector<Element> elements;
     std::vector<Real> uniforms;
     AlignedNumbers<Real> registers;
-    std::vector<Real> values, least, at[3];  // of the candidates that are left: the last element's metric, the least so far, where they are
+    std::vector<Real> least, at[3];  // of the candidates that are left: the least so far, and where they are
   };
   struct Scratch {
     Room<float> narrow;

@@ -83,19 +83,26 @@ class DefinedPatternSearch {
 
   void begin(const Sweep& sweep) { mesh_.begin(sweep); }
   std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& /*scratch*/) const {
+    const StarState before = mesh_.state(positions, vertex, positions[vertex]);
     const DefinedStar<Frame> star(mesh_.star_judge(), positions, vertex);
     using View = typename DefinedStar<Frame>::View;
     const double edge = mean_edge(star.star());
-    const UntanglingObjective<kDefinedMetric, View, Offset> untangling(star.view(), mesh_.untangling());
-    const Offset found = untangling.tangled()
-                             ? compass_search<Offset>(untangling, edge)
-                             : compass_search<Offset>(Objective<kDefinedMetric, false, double, Value::Metric, View>(star.view()), edge);
+    const auto worth = [&star](Offset p) { return positive(star.least(p)); };
+    const Offset found =
+        before.jacobian > 0.0
+            ? compass_search<Offset>(worth, edge)
+            : compass_search<Offset>(UntanglingObjective<kDefinedMetric, View, Offset>(star.view(), mesh_.untangling()), edge);
     if (found == Offset{}) return std::nullopt;
-    return mesh_.moved_if_gaining(positions, vertex, times(found, star.scale()));
+    return mesh_.moved_if_gaining(positions, vertex, times(found, star.scale()), before);
   }
 
  private:
   using Offset = OffsetIn<Frame, double>;
+  /// Of a sound star above 0, whatever the metric says of it.
+  static double positive(double least) {
+    if (least <= DefinedStar<Frame>::kInverted) return 0.0;
+    return least > 0.0 ? 1.0 + least : 1.0 / (1.0 - least);
+  }
   DefinedRuleMesh<Frame> mesh_;
 };
 

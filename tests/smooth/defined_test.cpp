@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,6 +15,7 @@
 #include "core/search/grid_search.h"
 #include "core/smooth/methods/defined_rule.h"
 #include "core/smooth/methods/defined_search.h"
+#include "core/target/boundary_layers.h"
 #include "tests/smooth/promises.h"
 #include "tests/support/plain_surface.h"
 #include "tests/support/volume_grids.h"
@@ -333,6 +335,88 @@ TEST(DefinedMetrics, LayersAreKeptAndTheRestIsImproved) {
     after = std::min(after, element_quality(mesh->quality_context(), positions, Metric::MeanRatio, e));
   }
   EXPECT_GT(after, before);
+}
+
+/// Width along the wall over height of a layer's quadrilateral, from its sides; and the least mean ratio of all other elements.
+struct LayersAndRest {
+  double mean_aspect = 0.0, mean_spacing = 0.0, worst_of_rest = 1.0;
+};
+LayersAndRest layers_and_rest(const InputMesh& mesh, const BoundaryLayers& layers, std::span<const Vec3> positions) {
+  LayersAndRest out;
+  const auto side = [&](Index a, Index b) { return length(positions[b] - positions[a]); };
+  const auto input_side = [&](Index a, Index b) { return length(mesh.mesh.positions[b] - mesh.mesh.positions[a]); };
+  double at_wall = 0.0;
+  for (std::size_t i = 0; i < layers.elements.size(); ++i) {
+    const auto c = mesh.mesh.elements.corners(layers.elements[i]);
+    const bool flat = input_side(c[0], c[1]) + input_side(c[2], c[3]) > input_side(c[1], c[2]) + input_side(c[3], c[0]);
+    const double one = side(c[0], c[1]) + side(c[2], c[3]), other = side(c[1], c[2]) + side(c[3], c[0]);
+    out.mean_aspect += (flat ? one / other : other / one) / static_cast<double>(layers.elements.size());
+    if (layers.heights[i] != 1) continue;
+    out.mean_spacing += (flat ? other : one) / 2.0;
+    at_wall += 1.0;
+  }
+  out.mean_spacing /= at_wall;
+  for (Index e = 0; e < mesh.mesh.elements.size(); ++e)
+    if (!std::binary_search(layers.elements.begin(), layers.elements.end(), e))
+      out.worst_of_rest = std::min(out.worst_of_rest, element_quality(mesh.quality_context(), positions, Metric::MeanRatio, e));
+  return out;
+}
+constexpr const char* kMeanOverCorners = "formula:triangle { 4*sqrt(3)*area/l2sum } quadrilateral { 1/mean_corner(norm^2/(2*det)) }";
+
+void expect_kept_layers(const std::shared_ptr<const InputMesh>& mesh, const std::string& metric) {
+  const BoundaryLayers layers = find_boundary_layers(mesh->mesh, mesh->geometry);
+  ASSERT_FALSE(layers.empty());
+  const LayersAndRest before = layers_and_rest(*mesh, layers, mesh->mesh.positions);
+  Progress progress;
+  const auto after_with = [&](const std::string& name) {
+    RunParameters parameters{.metric = parse_metric(name)};
+    parameters.boundary = BoundaryRule::Slide;
+    auto run = make_run(mesh, parameters);
+    run.iterate(20, progress);
+    return layers_and_rest(*mesh, layers, run.positions());
+  };
+  const LayersAndRest kept = after_with(metric + "@layers:input");
+  EXPECT_NEAR(kept.mean_aspect / before.mean_aspect, 1.0, 0.02);
+  EXPECT_NEAR(kept.mean_spacing / before.mean_spacing, 1.0, 0.01);
+  EXPECT_GT(kept.worst_of_rest, 1.2 * before.worst_of_rest);
+  if (metric == kMeanOverCorners) {  // the least over the corners holds rectangles in any case
+    EXPECT_LT(after_with(metric).mean_aspect, 0.9 * before.mean_aspect) << "without the target";
+  }
+}
+
+TEST(BoundaryLayers, AreKeptWhileTheRestGetsBetter) {
+  // Flat layers under a lattice of triangles.
+  Mesh mesh = mapped(lattice(12, 0.25, 61), [](Vec3 p) { return Vec3{p.x, 0.2 + p.y, 0.0}; });
+  const Index columns = 12, below = 5;
+  std::vector<Index> lowest;  // the lattice's own lowest row, from left to right
+  for (Index v = 0; v < mesh.positions.size(); ++v)
+    if (std::abs(mesh.positions[v].y - 0.2) < 1e-9) lowest.push_back(v);
+  ASSERT_EQ(lowest.size(), columns + 1U);
+  std::sort(lowest.begin(), lowest.end(), [&](Index a, Index b) { return mesh.positions[a].x < mesh.positions[b].x; });
+  std::vector<Index> above = lowest;
+  double y = 0.2;
+  const double heights[below] = {0.5, 0.26, 0.13, 0.07, 0.04};  // from the top, shares of 0.08; triangles are 0.083 wide
+  for (const double height : heights) {
+    y -= 0.08 * height;
+    std::vector<Index> row;
+    for (Index i = 0; i <= columns; ++i) {
+      row.push_back(static_cast<Index>(mesh.positions.size()));
+      mesh.positions.push_back({mesh.positions[lowest[i]].x, y, 0.0});
+    }
+    for (Index i = 0; i < columns; ++i) add(mesh, {row[i], row[i + 1], above[i + 1], above[i]});
+    above = row;
+  }
+  for (const char* metric : {"mean-ratio", kMeanOverCorners}) expect_kept_layers(input(mesh), metric);
+}
+
+TEST(BoundaryLayers, OfRealMeshesAreKeptWhileTheRestGetsBetter) {
+  const auto folder = std::filesystem::path(DMOSCOPE_SHARED_DIR) / "meshes";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no shared meshes at " DMOSCOPE_SHARED_DIR;
+  Progress progress;
+  for (const char* file : {"mixed2d/su2_NACA64A010_hybrid_inv.su2", "quad/su2_primitiveVenturi.su2"}) {
+    SCOPED_TRACE(file);
+    expect_kept_layers(load_input(folder / file, Need::Smoothing, progress), kMeanOverCorners);
+  }
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ constexpr std::array kNamed{
                  "triangle, quadrilateral { s = size; 2*det/norm^2 * if(s > 0, min(s, 1/s), 1) } "
                  "tetrahedron, hexahedron, wedge, pyramid { s = size; c = cbrt(det); 3*c*abs(c)/norm^2 * if(s > 0, min(s, 1/s), 1) }",
                  "The mean ratio times the relative size (Knupp)."},
-    NamedFormula{"aspect", "Aspect over target", "sign(det)*smin/smax",
+    NamedFormula{"aspect", "Aspect", "sign(det)*smin/smax",
                  "Width over length of what the worst corner makes of the ideal element, or of its target."},
 };
 

@@ -169,6 +169,9 @@ FormulaFacts facts_of(const Formula& formula) {
     ideals += fmt::format("{}{} for the ideal {}", ideals.empty() ? "" : ", ", short_number(one.ideal), name);
     facts.kinds.push_back(one);
   }
+  const auto as_first = [&](const auto& one) { return short_number(one.ideal) == short_number(facts.kinds.front().ideal); };
+  if (facts.kinds.size() > 1 && std::all_of(facts.kinds.begin(), facts.kinds.end(), as_first))
+    ideals = fmt::format("{} for every ideal element", short_number(facts.kinds.front().ideal));
   if (!formula.scale_free()) facts.warnings.push_back(fmt::format("it changes with the mesh's unit of length: {}", formula.scale_note()));
   if (formula.uses_place()) facts.warnings.emplace_back("it depends on where elements lie, not on their shapes alone");
   const char* scale = !formula.scale_free() ? "not scale-free" : formula.uses_fields() ? "scale-free if its fields are" : "scale-free";

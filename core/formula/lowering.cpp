@@ -75,20 +75,24 @@ class Lowering {
       lowered_.power = result.dimension.power;
       lowered_.scale_free = false;
     }
-    lowered_.program = builder_.finish(kind_, use_, moving_, use_ == FormulaUse::Places ? worth(result.number()) : result.number());
+    lowered_.program = use_ == FormulaUse::Places ? of_places(result.number()) : builder_.finish(kind_, use_, moving_, result.number());
     return std::move(lowered_);
   }
 
  private:
   /// What a place of the moving corner is worth.
-  Number worth(Number quality) {
-    const Number one = builder_.constant(1.0);
+  FormulaProgram of_places(Number quality) {
+    std::optional<Number> ceiling = builder_.ceiling_of(quality, moving_);
     if (space_ == FormulaSpace::Target) {
-      const Number steepness = builder_.input({FormulaInput::What::Steepness, 0, 0, 0});
-      quality = builder_.subtract(one, builder_.multiply(builder_.subtract(one, quality), steepness));
+      quality = steeper(quality);
+      if (ceiling) ceiling = steeper(*ceiling);  // monotone, with its rounding, for steepness is positive
     }
     const Number sound = builder_.less(builder_.constant(0.0), element_.smallest_jacobian(moving_));
-    return builder_.select(sound, quality, builder_.constant(kNeverBest));
+    return builder_.finish(kind_, use_, moving_, builder_.select(sound, quality, builder_.constant(kNeverBest)), ceiling);
+  }
+  Number steeper(Number quality) {
+    const Number one = builder_.constant(1.0), steepness = builder_.input({FormulaInput::What::Steepness, 0, 0, 0});
+    return builder_.subtract(one, builder_.multiply(builder_.subtract(one, quality), steepness));
   }
 
   [[nodiscard]] const SyntaxNode& node(SyntaxId id) const { return syntax_.nodes[id]; }

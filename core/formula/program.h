@@ -2,6 +2,7 @@
 // A formula for one kind of element, as code for registers: no branch, the same steps whatever the element looks like.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/mesh/mesh.h"
@@ -92,6 +93,7 @@ struct FormulaProgram {
   std::vector<Constant> constants;      // uniform
   std::vector<FormulaStep> beforehand;  // with uniform numbers alone: `to` is one, too
   std::vector<FormulaStep> steps;
+  std::optional<std::uint16_t> ceiling;  // of Places: a uniform number that no place's result is above
   std::uint16_t result = 0;  // as an operand: the metric; of Places kNeverBest where the moving corner makes an element inverted
 };
 

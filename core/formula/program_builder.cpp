@@ -53,13 +53,36 @@ const double* ProgramBuilder::value_of(Number number) const {
   return nodes_[number].what == Node::What::Constant ? &nodes_[number].value : nullptr;
 }
 
-bool ProgramBuilder::depends_on(Number number, Index corner) const {
-  const std::vector<bool> parts = needed(number);
-  for (std::size_t i = 0; i < nodes_.size(); ++i)
-    if (parts[i] && nodes_[i].what == Node::What::Input && nodes_[i].input.what == FormulaInput::What::Corner &&
-        nodes_[i].input.index == corner)
-      return true;
-  return false;
+std::vector<bool> ProgramBuilder::changing(Index corner) const {
+  std::vector<bool> changing(nodes_.size());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    if (node.what == Node::What::Input) changing[i] = node.input.what == FormulaInput::What::Corner && node.input.index == corner;
+    if (node.what != Node::What::Step) continue;
+    for (int k = 0; k < operand_count(node.operation); ++k)
+      changing[i] = changing[i] || changing[node.operands[static_cast<std::size_t>(k)]];
+  }
+  return changing;
+}
+
+bool ProgramBuilder::depends_on(Number number, Index corner) const { return changing(corner)[number]; }
+
+std::optional<Number> ProgramBuilder::ceiling_of(Number number, Index corner) {
+  const std::vector<bool> changes = changing(corner);
+  std::vector<bool> seen(nodes_.size());
+  std::vector<Number> open{number};
+  std::optional<Number> ceiling;
+  while (!open.empty()) {
+    const Number at = open.back();
+    open.pop_back();
+    if (seen[at]) continue;
+    seen[at] = true;
+    if (!changes[at])
+      ceiling = ceiling ? minimum(*ceiling, at) : at;
+    else if (nodes_[at].what == Node::What::Step && nodes_[at].operation == Operation::Minimum)
+      open.insert(open.end(), {nodes_[at].operands[0], nodes_[at].operands[1]});
+  }
+  return ceiling;
 }
 
 Number ProgramBuilder::apply(Operation operation, Number a, Number b, Number c) {
@@ -108,8 +131,12 @@ class Registers {
 
 }  // namespace
 
-FormulaProgram ProgramBuilder::finish(ElementKind kind, FormulaUse use, Index moving, Number result) const {
-  const std::vector<bool> is_needed = needed(result);
+FormulaProgram ProgramBuilder::finish(ElementKind kind, FormulaUse use, Index moving, Number result, std::optional<Number> ceiling) const {
+  std::vector<bool> is_needed = needed(result);
+  if (ceiling) {
+    const std::vector<bool> besides = needed(*ceiling);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) is_needed[i] = is_needed[i] || besides[i];
+  }
   const auto varies_as_input = [&](const FormulaInput& in) {
     if (use == FormulaUse::Elements) return in.what != FormulaInput::What::MeanMeasure;
     return in.what == FormulaInput::What::Corner && in.index == moving;
@@ -165,6 +192,7 @@ FormulaProgram ProgramBuilder::finish(ElementKind kind, FormulaUse use, Index mo
   }
   program.registers = registers.count();
   program.result = operand(result);
+  if (ceiling) program.ceiling = operand(*ceiling);
   return program;
 }
 

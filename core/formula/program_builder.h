@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -20,6 +21,8 @@ class ProgramBuilder {
   [[nodiscard]] const double* value_of(Number number) const;  // null: no constant
   /// Does the number change with the element's corner?
   [[nodiscard]] bool depends_on(Number number, Index corner) const;
+  /// Of a minimum the least of its parts that do not change with the corner: the number is never above it. None where all parts change.
+  [[nodiscard]] std::optional<Number> ceiling_of(Number number, Index corner);
 
   // What formulas and their vocabulary are written with.
   [[nodiscard]] Number add(Number a, Number b) { return apply(Operation::Add, a, b); }
@@ -36,7 +39,8 @@ class ProgramBuilder {
   [[nodiscard]] Number less(Number a, Number b) { return apply(Operation::Less, a, b); }
 
   /// The program whose result this is; see FormulaProgram.
-  [[nodiscard]] FormulaProgram finish(ElementKind kind, FormulaUse use, Index moving, Number result) const;
+  [[nodiscard]] FormulaProgram finish(ElementKind kind, FormulaUse use, Index moving, Number result,
+                                      std::optional<Number> ceiling = {}) const;
 
   [[nodiscard]] std::size_t size() const noexcept { return nodes_.size(); }
 
@@ -50,6 +54,7 @@ class ProgramBuilder {
   };
   [[nodiscard]] Number keep(const Node& node);
   [[nodiscard]] std::vector<bool> needed(Number result) const;
+  [[nodiscard]] std::vector<bool> changing(Index corner) const;  // which numbers change with the corner
 
   std::vector<Node> nodes_;
   std::unordered_multimap<std::uint64_t, Number> known_;  // by what they are made of

@@ -345,6 +345,37 @@ TEST(FormulaValues, HaveTheSameBitsAtEverySimdLevel) {
   expect_same_bits_at_every_level<double>();
 }
 
+TEST(FormulaValues, NoPlaceIsAboveTheCeiling) {
+  const Formula triangles("2*det/norm^2"), mean("mean_corner(det)");
+  EXPECT_FALSE(triangles.program(ElementKind::Triangle, FormulaSpace::Plain, FormulaUse::Places, 0).ceiling);
+  EXPECT_FALSE(mean.program(ElementKind::Quadrilateral, FormulaSpace::Plain, FormulaUse::Places, 0).ceiling);
+  // It is what the corner says that does not touch the one that moves.
+  constexpr double kCorners[4][2] = {{0.1, -0.2}, {1.2, 0.1}, {0.9, 1.3}, {-0.2, 0.8}};
+  for (const auto& [text, most] : {std::pair{"2*det/norm^2", 1.0}, std::pair{"min(0.7, 2*det/norm^2)", 0.7}})
+    for (Index moving = 0; moving < 4; ++moving) {
+      const Formula formula(text);
+      const FormulaProgram& program = formula.program(ElementKind::Quadrilateral, FormulaSpace::Plain, FormulaUse::Places, moving);
+      ASSERT_TRUE(program.ceiling) << text;
+      std::vector<double> uniforms(program.uniforms);
+      prepare(
+          program, [&](const FormulaInput& in) { return kCorners[in.index][in.row]; }, uniforms.data());
+      const auto *at = kCorners[(moving + 2) % 4], *next = kCorners[(moving + 3) % 4], *last = kCorners[(moving + 1) % 4];
+      const Vec2<double> u{next[0] - at[0], next[1] - at[1]}, v{last[0] - at[0], last[1] - at[1]};
+      const double untouched = 2.0 * (u.x * v.y - u.y * v.x) / (u.x * u.x + u.y * u.y + v.x * v.x + v.y * v.y);
+      EXPECT_NEAR(uniforms[*program.ceiling], std::min(untouched, most), 1e-14) << text << ", corner " << moving;
+      Random random(moving + 3);
+      AlignedNumbers<double> room;
+      double* registers = room.reserve(program.registers * kFormulaBatch);
+      for (const auto& one : program.varying)
+        for (std::size_t i = 0; i < kFormulaBatch; ++i)
+          registers[one.at * kFormulaBatch + i] = kCorners[moving][one.input.row] + random(-0.4, 0.4);
+      formula_kernel<double>(SimdLevel::Baseline)(
+          {program.steps.data(), program.steps.size(), uniforms.data(), program.uniforms, registers, kFormulaBatch});
+      const FormulaResult<double> quality(program, uniforms.data(), registers);
+      for (std::size_t i = 0; i < kFormulaBatch; ++i) EXPECT_LE(quality[i], uniforms[*program.ceiling]);
+    }
+}
+
 TEST(FormulaValues, ByPlacesAreThoseByElements) {
   const auto mesh = input(lattice(6, 0.3, 2, Cells::Mixed));
   for (const char* text : {kEverything, "amin", "2*det/norm^2", "smin/smax", "lmin/lmax", "min(l12, l23)/l31"}) {

@@ -47,7 +47,8 @@ struct DefinedSearch<Frame>::Visit {
   const DefinedSearch& search;
   const Found& star;
   Room<Real>& room;
-  double unit;  // of what the programs are given, in units of the star's scale
+  double unit;                                      // of what the programs are given, in units of the star's scale
+  Real ceiling = std::numeric_limits<Real>::max();  // no place of the vertex is worth more
 
   /// Takes in the star's elements, the worst first.
   void gather(PositionView positions, Index vertex) {
@@ -72,6 +73,7 @@ struct DefinedSearch<Frame>::Visit {
             return judge.judge.given(input, at.element, target, star.scale / unit);
           },
           room.uniforms.data() + first);
+      if (program.ceiling && room.uniforms[first + *program.ceiling] < ceiling) ceiling = room.uniforms[first + *program.ceiling];
       room.elements.push_back({&program, target, first, Real(0)});
       registers = std::max<std::size_t>(registers, program.registers);
     }
@@ -145,6 +147,7 @@ struct DefinedSearch<Frame>::Visit {
     Real best = std::numeric_limits<Real>::max();
     for (const auto& element : room.elements) best = std::min(best, element.here);
     Point offset{};
+    if (ceiling <= best) return offset;  // its worst corner does not touch the vertex
     const auto box = narrowed<Real>(star.box);
     double omega = search.parameters_.omega;
     clear();

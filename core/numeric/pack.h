@@ -67,10 +67,15 @@ inline Pack<double> atan2(Pack<double> y, Pack<double> x) {
   const R large = xsimd::select(steep, height, width), small = xsimd::select(steep, width, height);
   const auto none = large == R(0.0);
   const R r = xsimd::select(none, R(0.0), small / xsimd::select(none, R(1.0), large));
-  const R nearest = xsimd::floor(r * R(8.0) + R(0.5));
-  R known_angle(KnownAngles::kTable[0]);
-  for (std::size_t k = 1; k <= 8; ++k)
-    known_angle = xsimd::select(nearest < R(static_cast<double>(k)), known_angle, R(KnownAngles::kTable[k]));
+  // Not by xsimd's floor: where a processor has none it goes by way of integers, and slots that nobody reads may hold NaN.
+  const R eighths = r * R(8.0) + R(0.5);
+  R nearest(0.0), known_angle(KnownAngles::kTable[0]);
+  for (std::size_t k = 1; k <= 8; ++k) {
+    const R here(static_cast<double>(k));
+    const auto below = eighths < here;
+    nearest = xsimd::select(below, nearest, here);
+    known_angle = xsimd::select(below, known_angle, R(KnownAngles::kTable[k]));
+  }
   R angle = angle_from_known(r, nearest * R(0.125), known_angle);
   constexpr double kPi = 0x1.921fb54442d18p+1;
   angle = xsimd::select(steep, R(kPi / 2.0) - angle, angle);

@@ -363,46 +363,30 @@ Number ElementNumbers::dihedral_angle(std::size_t at) {
   return builder_.arc_tangent(builder_.multiply(length(e), builder_.absolute(corner(0).jacobian)), dot(n, m));
 }
 
-Number ElementNumbers::least_angle() {
-  if (dimension() == 3) {
-    Number least = dihedral_angle(0);
-    for (std::size_t i = 1; i < edges().size(); ++i) least = builder_.minimum(least, dihedral_angle(i));
-    return least;
-  }
-  require_whole();
-  if (kind_ == ElementKind::Triangle) {  // the largest of u . v has the least angle: one angle to compute
-    Number largest = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Corner c = corner(i);
-      const Number product = dot(c.edges[0], c.edges[1]);
-      largest = i == 0 ? product : builder_.maximum(largest, product);
-    }
-    return builder_.arc_tangent(builder_.absolute(corner(0).jacobian), largest);
-  }
-  Number least = corner_angle(0);
-  for (std::size_t i = 1; i < 4; ++i) least = builder_.minimum(least, corner_angle(i));
-  return least;
-}
+Number ElementNumbers::least_angle() { return extreme_angle(Operation::Minimum); }
 
-Number ElementNumbers::greatest_angle() {
+Number ElementNumbers::greatest_angle() { return extreme_angle(Operation::Maximum); }
+
+Number ElementNumbers::extreme_angle(Operation of) {
   if (dimension() == 3) {
-    Number greatest = dihedral_angle(0);
-    for (std::size_t i = 1; i < edges().size(); ++i) greatest = builder_.maximum(greatest, dihedral_angle(i));
-    return greatest;
+    Number extreme = dihedral_angle(0);
+    for (std::size_t i = 1; i < edges().size(); ++i) extreme = builder_.apply(of, extreme, dihedral_angle(i));
+    return extreme;
   }
   require_whole();
-  if (kind_ == ElementKind::Triangle) {
-    Number least = 0;
+  if (kind_ == ElementKind::Triangle) {  // the largest of u . v has the least angle, the least the greatest: one angle to compute
+    const Operation opposite = of == Operation::Minimum ? Operation::Maximum : Operation::Minimum;
+    Number extreme = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const Corner c = corner(i);
       const Number product = dot(c.edges[0], c.edges[1]);
-      least = i == 0 ? product : builder_.minimum(least, product);
+      extreme = i == 0 ? product : builder_.apply(opposite, extreme, product);
     }
-    return builder_.arc_tangent(builder_.absolute(corner(0).jacobian), least);
+    return builder_.arc_tangent(builder_.absolute(corner(0).jacobian), extreme);
   }
-  Number greatest = corner_angle(0);
-  for (std::size_t i = 1; i < 4; ++i) greatest = builder_.maximum(greatest, corner_angle(i));
-  return greatest;
+  Number extreme = corner_angle(0);
+  for (std::size_t i = 1; i < 4; ++i) extreme = builder_.apply(of, extreme, corner_angle(i));
+  return extreme;
 }
 
 Number ElementNumbers::inradius() {

@@ -94,6 +94,8 @@ class ElementNumbers {
   [[nodiscard]] std::array<Vector, 3> targeted(Index corner, const std::array<Vector, 3>& edges);
   [[nodiscard]] Number jacobian_of(const std::array<Vector, 3>& edges);
   [[nodiscard]] Number volume();
+  /// The least angle (Minimum) or the greatest (Maximum).
+  [[nodiscard]] Number extreme_angle(Operation of);
   [[nodiscard]] Number determinant_of(const Vector& a, const Vector& b, const Vector& c) { return dot(cross_in_space(a, b), c); }
 
   ProgramBuilder& builder_;

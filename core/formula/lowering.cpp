@@ -2,39 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <optional>
-#include <tuple>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/unknown_value.h"
-#include "core/formula/vocabulary.h"
+#include "core/formula/lowering_state.h"
 
 namespace dmoscope {
 
-namespace {
-
-using Number = ProgramBuilder::Number;
-using Vector = ElementNumbers::Vector;
-
-/// Of what a number is a power of a length; `any` of 0 and of what nobody knows.
-struct Dimension {
-  double power = 0.0;
-  bool any = false;
-};
-
-enum class ValueKind : std::uint8_t { OneNumber, OneVector, OneCondition };
-
-struct Value {
-  ValueKind kind = ValueKind::OneNumber;
-  Vector vector{};  // of a number or condition the first
-  Dimension dimension{};
-  double places = 0.0;  // of a vector: how many places it is the sum of; of a difference of two 0
-  [[nodiscard]] Number number() const { return vector.at[0]; }
-};
+namespace formula_lowering {
 
 std::string_view words(ValueKind kind) {
   return kind == ValueKind::OneNumber ? "a number" : kind == ValueKind::OneVector ? "a vector" : "a condition";
@@ -48,614 +25,405 @@ std::string words(Dimension dimension) {
   return fmt::format("a length to the power of {:.4g}", dimension.power);
 }
 
-/// Where an expression is computed: at which corner or edge.
-struct Scope {
-  std::optional<std::size_t> corner{}, edge{};
-  [[nodiscard]] std::pair<std::size_t, std::size_t> key() const { return {corner ? *corner + 1 : 0, edge ? *edge + 1 : 0}; }
-};
-
-class Lowering {
- public:
-  Lowering(const FormulaSyntax& syntax, const FormulaBody& body, ElementKind kind, FormulaSpace space, FormulaUse use, Index moving,
-           std::vector<std::string>& fields)
-      : syntax_(syntax),
-        body_(body),
-        kind_(kind),
-        space_(space),
-        use_(use),
-        moving_(moving),
-        fields_(fields),
-        element_(builder_, kind, space) {}
-
-  LoweredFormula run() {
-    const Value result = result_value();
-    if (result.kind != ValueKind::OneNumber)
-      throw FormulaError(node(body_.result).place, fmt::format("a metric is a number, and this is {}", words(result.kind)));
-    if (!result.dimension.any && result.dimension.power != 0.0) {
-      lowered_.power = result.dimension.power;
-      lowered_.scale_free = false;
-    }
-    lowered_.program = use_ == FormulaUse::Places ? of_places(result.number()) : builder_.finish(kind_, use_, moving_, result.number());
-    return std::move(lowered_);
-  }
-
- private:
-  /// What a place of the moving corner is worth.
-  FormulaProgram of_places(Number quality) {
-    std::optional<Number> ceiling = builder_.ceiling_of(quality, moving_);
-    if (space_ == FormulaSpace::Target) {
-      quality = steeper(quality);
-      if (ceiling) ceiling = steeper(*ceiling);  // monotone, with its rounding, for steepness is positive
-    }
-    const Number sound = builder_.less(builder_.constant(0.0), element_.smallest_jacobian(moving_));
-    return builder_.finish(kind_, use_, moving_, builder_.select(sound, quality, builder_.constant(kNeverBest)), ceiling);
-  }
-  Number steeper(Number quality) {
-    const Number one = builder_.constant(1.0), steepness = builder_.input({FormulaInput::What::Steepness, 0, 0, 0});
-    return builder_.subtract(one, builder_.multiply(builder_.subtract(one, quality), steepness));
-  }
-
-  [[nodiscard]] const SyntaxNode& node(SyntaxId id) const { return syntax_.nodes[id]; }
-
-  // Parts and scopes.
-
-  [[nodiscard]] std::optional<std::size_t> part_named(std::string_view name, std::size_t before) const {
-    for (std::size_t i = before; i-- > 0;)
-      if (body_.parts[i].name == name) return i;
-    return std::nullopt;
-  }
-  [[nodiscard]] static const FormulaName* name_in_table(std::string_view name) {
-    const auto names = formula_names();
-    const auto found = std::ranges::find(names, name, &FormulaName::name);
-    return found == names.end() ? nullptr : &*found;
-  }
-
-  /// Does the expression use a corner's names outside of what gathers them? `parts`: those it may use.
-  bool uses_corner(SyntaxId id, std::size_t parts) {
-    const auto key = std::pair(id, parts);
-    if (const auto known = uses_corner_.find(key); known != uses_corner_.end()) return known->second;
-    const SyntaxNode& n = node(id);
-    bool uses = false;
-    if (n.what == Syntax::Name) {
-      if (const auto part = part_named(n.text, parts))
-        uses = uses_corner(body_.parts[*part].value, *part);
-      else if (const FormulaName* name = name_in_table(n.text))
-        uses = name->scope == NameScope::Corner;
-    } else if (n.what != Syntax::Call || !n.text.ends_with("_corner")) {
-      uses = std::ranges::any_of(n.operands, [&](SyntaxId operand) { return uses_corner(operand, parts); });
-    }
-    return uses_corner_[key] = uses;
-  }
-
-  Value result_value() {
-    SyntaxId id = body_.result;
-    std::size_t parts = body_.parts.size();
-    if (uses_corner(id, parts)) return over_corners("min_corner", id, parts, {}, true);
-    while (node(id).what == Syntax::Name) {  // a name for the whole
-      const auto part = part_named(node(id).text, parts);
-      if (!part) break;
-      id = body_.parts[*part].value;
-      parts = *part;
-    }
-    if (node(id).what == Syntax::Call && node(id).text == "min_corner" && node(id).operands.size() == 1)
-      return over_corners("min_corner", node(id).operands[0], parts, {}, true);
-    return value_of(id, parts, {});
-  }
-
-  /// Memory of what was computed makes a part that many use cost once.
-  Value value_of(SyntaxId id, std::size_t parts, const Scope& scope) {
-    const auto key = std::tuple(id, parts, scope.key());
-    if (const auto known = values_.find(key); known != values_.end()) return known->second;
-    const Value value = compute(id, parts, scope);
-    values_.emplace(key, value);
-    return value;
-  }
-
-  Value compute(SyntaxId id, std::size_t parts, const Scope& scope) {
-    const SyntaxNode& n = node(id);
-    switch (n.what) {
-      case Syntax::Number:
-        return number(builder_.constant(n.number), {0.0, n.number == 0.0});
-      case Syntax::Text:
-        throw FormulaError(n.place, "a text is the name of a field: field(\"name\")");
-      case Syntax::Name:
-        return name(n, parts, scope);
-      case Syntax::Call:
-        return call(n, parts, scope);
-      case Syntax::Not:
-        return condition(builder_.subtract(builder_.constant(1.0), condition_of(n.operands[0], parts, scope)));
-      case Syntax::Negate:
-        return negated(value_of(n.operands[0], parts, scope), n);
-      case Syntax::And:
-      case Syntax::Or: {
-        const Number a = condition_of(n.operands[0], parts, scope), b = condition_of(n.operands[1], parts, scope);
-        return condition(n.what == Syntax::And ? builder_.minimum(a, b) : builder_.maximum(a, b));
-      }
-      case Syntax::Power:
-        return power(n, number_of(n.operands[0], parts, scope), number_of(n.operands[1], parts, scope));
-      default:
-        return binary(n, value_of(n.operands[0], parts, scope), value_of(n.operands[1], parts, scope));
-    }
-  }
-
-  // Values.
-
-  static Value number(Number number, Dimension dimension = {}) { return {ValueKind::OneNumber, {{number}, 1}, dimension}; }
-  static Value condition(Number number) { return {ValueKind::OneCondition, {{number}, 1}}; }
-  Value vector(const Vector& v, double power = 1.0, double places = 0.0) { return {ValueKind::OneVector, v, unit(power), places}; }
-  /// In a target's space nothing has a unit.
-  [[nodiscard]] Dimension unit(double power) const { return {space_ == FormulaSpace::Plain ? power : 0.0, false}; }
-
-  Value number_of(SyntaxId id, std::size_t parts, const Scope& scope) {
-    const Value value = value_of(id, parts, scope);
-    if (value.kind != ValueKind::OneNumber)
-      throw FormulaError(node(id).place, fmt::format("a number is needed here, and this is {}", words(value.kind)));
-    return value;
-  }
-  Number condition_of(SyntaxId id, std::size_t parts, const Scope& scope) {
-    const Value value = value_of(id, parts, scope);
-    if (value.kind != ValueKind::OneCondition)
-      throw FormulaError(node(id).place, fmt::format("a condition such as 'a < b' is needed here, and this is {}", words(value.kind)));
-    return value.number();
-  }
-  /// A difference of places, or what stands for one: with the origin, where it depends on it.
-  Value vector_of(SyntaxId id, std::size_t parts, const Scope& scope) {
-    Value value = value_of(id, parts, scope);
-    if (value.kind != ValueKind::OneVector)
-      throw FormulaError(node(id).place, fmt::format("a vector such as p2 - p1 is needed here, and this is {}", words(value.kind)));
-    if (value.places != 0.0) {
-      lowered_.uses_place = true;
-      const Vector origin = known(node(id), [&] { return element_.origin(); });
-      value.vector = element_.add(value.vector, element_.scaled(builder_.constant(value.places), origin));
-      value.places = 0.0;
-    }
-    return value;
-  }
-
-  /// What an element has, or an error that says that it has not.
-  template <class F>
-  auto known(const SyntaxNode& n, const F& f) -> decltype(f()) {
-    try {
-      return f();
-    } catch (const NoSuchNumber& none) {
-      throw NotForKind(n.place, fmt::format("'{}': a {} {}", n.text, info(kind_).name, none.why));
-    }
-  }
-
-  /// Of two that are added, compared or chosen between.
-  Dimension common(Dimension a, Dimension b, const SyntaxNode& n, std::string_view done) {
-    if (a.any) return b;
-    if (b.any || std::abs(a.power - b.power) < 1e-9) return a;
-    note_unit(fmt::format("it {} {} and {}", done, words(a), words(b)), n);
-    return {0.0, true};
-  }
-  /// Of what has no unit by its nature.
-  void need_no_unit(const Value& value, const SyntaxNode& n) {
-    if (value.dimension.any || std::abs(value.dimension.power) < 1e-9) return;
-    note_unit(fmt::format("it takes '{}' of {}", n.text, words(value.dimension)), n);
-  }
-  void note_unit(const std::string& what, const SyntaxNode& n) {
+LoweredFormula Lowering::run() {
+  const Value result = result_value();
+  if (result.kind != ValueKind::OneNumber)
+    throw FormulaError(node(body_.result).place, fmt::format("a metric is a number, and this is {}", words(result.kind)));
+  if (!result.dimension.any && result.dimension.power != 0.0) {
+    lowered_.power = result.dimension.power;
     lowered_.scale_free = false;
-    if (!lowered_.scale_note.empty()) return;
-    const std::string line = n.place.line > 1 ? fmt::format("line {}, ", n.place.line) : std::string();
-    lowered_.scale_note = fmt::format("{} ({}column {})", what, line, n.place.column);
   }
+  lowered_.program = use_ == FormulaUse::Places ? of_places(result.number()) : builder_.finish(kind_, use_, moving_, result.number());
+  return std::move(lowered_);
+}
 
-  Value negated(Value value, const SyntaxNode& n) {
-    if (value.kind == ValueKind::OneCondition) throw FormulaError(n.place, "'-' of a condition makes no sense: '!' turns one round");
-    value.vector = element_.scaled(builder_.constant(-1.0), value.vector);
-    value.places = -value.places;
-    return value;
+FormulaProgram Lowering::of_places(Number quality) {
+  std::optional<Number> ceiling = builder_.ceiling_of(quality, moving_);
+  if (space_ == FormulaSpace::Target) {
+    quality = steeper(quality);
+    if (ceiling) ceiling = steeper(*ceiling);  // monotone, with its rounding, for steepness is positive
   }
+  const Number sound = builder_.less(builder_.constant(0.0), element_.smallest_jacobian(moving_));
+  return builder_.finish(kind_, use_, moving_, builder_.select(sound, quality, builder_.constant(kNeverBest)), ceiling);
+}
 
-  Value binary(const SyntaxNode& n, Value a, Value b) {
-    const bool comparison = n.what == Syntax::Less || n.what == Syntax::LessOrEqual || n.what == Syntax::Greater ||
-                            n.what == Syntax::GreaterOrEqual || n.what == Syntax::Equal || n.what == Syntax::NotEqual;
-    if (a.kind == ValueKind::OneCondition || b.kind == ValueKind::OneCondition)
-      throw FormulaError(n.place, "conditions are joined with '&&' and '||', and used in if(condition, a, b)");
-    if (comparison) return compared(n, a, b);
-    switch (n.what) {
-      case Syntax::Add:
-      case Syntax::Subtract:
-        return sum(n, a, b);
-      case Syntax::Multiply:
-        if (a.kind == ValueKind::OneVector && b.kind == ValueKind::OneVector)
-          throw FormulaError(n.place, "two vectors are multiplied by dot(a, b) or cross(a, b)");
-        if (a.kind == ValueKind::OneVector) std::swap(a, b);
-        return product(a.number(), a.dimension, b, n, 1.0);
-      default: {
-        if (b.kind == ValueKind::OneVector) throw FormulaError(n.place, "nothing is divided by a vector");
-        if (a.kind == ValueKind::OneNumber) {
-          const Dimension dimension{a.dimension.power - b.dimension.power, a.dimension.any || b.dimension.any};
-          return number(builder_.divide(a.number(), b.number()), dimension);
-        }
-        return product(builder_.divide(builder_.constant(1.0), b.number()), b.dimension, a, n, -1.0);
+Number Lowering::steeper(Number quality) {
+  const Number one = builder_.constant(1.0), steepness = builder_.input({FormulaInput::What::Steepness, 0, 0, 0});
+  return builder_.subtract(one, builder_.multiply(builder_.subtract(one, quality), steepness));
+}
+
+// Parts and scopes.
+
+std::optional<std::size_t> Lowering::part_named(std::string_view name, std::size_t before) const {
+  for (std::size_t i = before; i-- > 0;)
+    if (body_.parts[i].name == name) return i;
+  return std::nullopt;
+}
+
+const FormulaName* Lowering::name_in_table(std::string_view name) {
+  const auto names = formula_names();
+  const auto found = std::ranges::find(names, name, &FormulaName::name);
+  return found == names.end() ? nullptr : &*found;
+}
+
+bool Lowering::uses_corner(SyntaxId id, std::size_t parts) {
+  const auto key = std::pair(id, parts);
+  if (const auto known = uses_corner_.find(key); known != uses_corner_.end()) return known->second;
+  const SyntaxNode& n = node(id);
+  bool uses = false;
+  if (n.what == Syntax::Name) {
+    if (const auto part = part_named(n.text, parts))
+      uses = uses_corner(body_.parts[*part].value, *part);
+    else if (const FormulaName* name = name_in_table(n.text))
+      uses = name->scope == NameScope::Corner;
+  } else if (n.what != Syntax::Call || !n.text.ends_with("_corner")) {
+    uses = std::ranges::any_of(n.operands, [&](SyntaxId operand) { return uses_corner(operand, parts); });
+  }
+  return uses_corner_[key] = uses;
+}
+
+Value Lowering::result_value() {
+  SyntaxId id = body_.result;
+  std::size_t parts = body_.parts.size();
+  if (uses_corner(id, parts)) return over_corners("min_corner", id, parts, {}, true);
+  while (node(id).what == Syntax::Name) {  // a name for the whole
+    const auto part = part_named(node(id).text, parts);
+    if (!part) break;
+    id = body_.parts[*part].value;
+    parts = *part;
+  }
+  if (node(id).what == Syntax::Call && node(id).text == "min_corner" && node(id).operands.size() == 1)
+    return over_corners("min_corner", node(id).operands[0], parts, {}, true);
+  return value_of(id, parts, {});
+}
+
+Value Lowering::value_of(SyntaxId id, std::size_t parts, const Scope& scope) {
+  const auto key = std::tuple(id, parts, scope.key());
+  if (const auto known = values_.find(key); known != values_.end()) return known->second;
+  const Value value = compute(id, parts, scope);
+  values_.emplace(key, value);
+  return value;
+}
+
+Value Lowering::compute(SyntaxId id, std::size_t parts, const Scope& scope) {
+  const SyntaxNode& n = node(id);
+  switch (n.what) {
+    case Syntax::Number:
+      return number(builder_.constant(n.number), {0.0, n.number == 0.0});
+    case Syntax::Text:
+      throw FormulaError(n.place, "a text is the name of a field: field(\"name\")");
+    case Syntax::Name:
+      return name(n, parts, scope);
+    case Syntax::Call:
+      return call(n, parts, scope);
+    case Syntax::Not:
+      return condition(builder_.subtract(builder_.constant(1.0), condition_of(n.operands[0], parts, scope)));
+    case Syntax::Negate:
+      return negated(value_of(n.operands[0], parts, scope), n);
+    case Syntax::And:
+    case Syntax::Or: {
+      const Number a = condition_of(n.operands[0], parts, scope), b = condition_of(n.operands[1], parts, scope);
+      return condition(n.what == Syntax::And ? builder_.minimum(a, b) : builder_.maximum(a, b));
+    }
+    case Syntax::Power:
+      return power(n, number_of(n.operands[0], parts, scope), number_of(n.operands[1], parts, scope));
+    default:
+      return binary(n, value_of(n.operands[0], parts, scope), value_of(n.operands[1], parts, scope));
+  }
+}
+
+// Values.
+
+Value Lowering::number_of(SyntaxId id, std::size_t parts, const Scope& scope) {
+  const Value value = value_of(id, parts, scope);
+  if (value.kind != ValueKind::OneNumber)
+    throw FormulaError(node(id).place, fmt::format("a number is needed here, and this is {}", words(value.kind)));
+  return value;
+}
+
+Number Lowering::condition_of(SyntaxId id, std::size_t parts, const Scope& scope) {
+  const Value value = value_of(id, parts, scope);
+  if (value.kind != ValueKind::OneCondition)
+    throw FormulaError(node(id).place, fmt::format("a condition such as 'a < b' is needed here, and this is {}", words(value.kind)));
+  return value.number();
+}
+
+Value Lowering::vector_of(SyntaxId id, std::size_t parts, const Scope& scope) {
+  Value value = value_of(id, parts, scope);
+  if (value.kind != ValueKind::OneVector)
+    throw FormulaError(node(id).place, fmt::format("a vector such as p2 - p1 is needed here, and this is {}", words(value.kind)));
+  if (value.places != 0.0) {
+    lowered_.uses_place = true;
+    const Vector origin = known(node(id), [&] { return element_.origin(); });
+    value.vector = element_.add(value.vector, element_.scaled(builder_.constant(value.places), origin));
+    value.places = 0.0;
+  }
+  return value;
+}
+
+template <class F>
+auto Lowering::known(const SyntaxNode& n, const F& f) -> decltype(f()) {
+  try {
+    return f();
+  } catch (const NoSuchNumber& none) {
+    throw NotForKind(n.place, fmt::format("'{}': a {} {}", n.text, info(kind_).name, none.why));
+  }
+}
+
+Dimension Lowering::common(Dimension a, Dimension b, const SyntaxNode& n, std::string_view done) {
+  if (a.any) return b;
+  if (b.any || std::abs(a.power - b.power) < 1e-9) return a;
+  note_unit(fmt::format("it {} {} and {}", done, words(a), words(b)), n);
+  return {0.0, true};
+}
+
+void Lowering::need_no_unit(const Value& value, const SyntaxNode& n) {
+  if (value.dimension.any || std::abs(value.dimension.power) < 1e-9) return;
+  note_unit(fmt::format("it takes '{}' of {}", n.text, words(value.dimension)), n);
+}
+
+void Lowering::note_unit(const std::string& what, const SyntaxNode& n) {
+  lowered_.scale_free = false;
+  if (!lowered_.scale_note.empty()) return;
+  const std::string line = n.place.line > 1 ? fmt::format("line {}, ", n.place.line) : std::string();
+  lowered_.scale_note = fmt::format("{} ({}column {})", what, line, n.place.column);
+}
+
+// Operators.
+
+Value Lowering::negated(Value value, const SyntaxNode& n) {
+  if (value.kind == ValueKind::OneCondition) throw FormulaError(n.place, "'-' of a condition makes no sense: '!' turns one round");
+  value.vector = element_.scaled(builder_.constant(-1.0), value.vector);
+  value.places = -value.places;
+  return value;
+}
+
+Value Lowering::binary(const SyntaxNode& n, Value a, Value b) {
+  const bool comparison = n.what == Syntax::Less || n.what == Syntax::LessOrEqual || n.what == Syntax::Greater ||
+                          n.what == Syntax::GreaterOrEqual || n.what == Syntax::Equal || n.what == Syntax::NotEqual;
+  if (a.kind == ValueKind::OneCondition || b.kind == ValueKind::OneCondition)
+    throw FormulaError(n.place, "conditions are joined with '&&' and '||', and used in if(condition, a, b)");
+  if (comparison) return compared(n, a, b);
+  switch (n.what) {
+    case Syntax::Add:
+    case Syntax::Subtract:
+      return sum(n, a, b);
+    case Syntax::Multiply:
+      if (a.kind == ValueKind::OneVector && b.kind == ValueKind::OneVector)
+        throw FormulaError(n.place, "two vectors are multiplied by dot(a, b) or cross(a, b)");
+      if (a.kind == ValueKind::OneVector) std::swap(a, b);
+      return product(a.number(), a.dimension, b, n, 1.0);
+    default: {
+      if (b.kind == ValueKind::OneVector) throw FormulaError(n.place, "nothing is divided by a vector");
+      if (a.kind == ValueKind::OneNumber) {
+        const Dimension dimension{a.dimension.power - b.dimension.power, a.dimension.any || b.dimension.any};
+        return number(builder_.divide(a.number(), b.number()), dimension);
       }
+      return product(builder_.divide(builder_.constant(1.0), b.number()), b.dimension, a, n, -1.0);
     }
   }
+}
 
-  /// factor * b; `turned`: -1 where the factor's unit is that of its inverse.
-  Value product(Number factor, Dimension of_factor, Value b, const SyntaxNode& n, double turned) {
-    const double* constant = builder_.value_of(factor);
-    if (b.places != 0.0) {
-      if (constant == nullptr)
-        throw FormulaError(n.place, "a place times a number that varies makes no sense: take differences of places first");
-      b.places *= *constant;
-    }
-    b.vector = element_.scaled(factor, b.vector);
-    b.dimension = {b.dimension.power + turned * of_factor.power, b.dimension.any || of_factor.any};
-    return b;
+Value Lowering::product(Number factor, Dimension of_factor, Value b, const SyntaxNode& n, double turned) {
+  const double* constant = builder_.value_of(factor);
+  if (b.places != 0.0) {
+    if (constant == nullptr)
+      throw FormulaError(n.place, "a place times a number that varies makes no sense: take differences of places first");
+    b.places *= *constant;
   }
+  b.vector = element_.scaled(factor, b.vector);
+  b.dimension = {b.dimension.power + turned * of_factor.power, b.dimension.any || of_factor.any};
+  return b;
+}
 
-  Value sum(const SyntaxNode& n, const Value& a, const Value& b) {
-    if (a.kind != b.kind) throw FormulaError(n.place, fmt::format("{} and {} cannot be added", words(a.kind), words(b.kind)));
-    const bool plus = n.what == Syntax::Add;
-    Value result = a;
-    result.dimension = common(a.dimension, b.dimension, n, plus ? "adds" : "subtracts");
-    result.vector = plus ? element_.add(a.vector, b.vector) : element_.subtract(a.vector, b.vector);
-    result.places = plus ? a.places + b.places : a.places - b.places;
-    return result;
-  }
+Value Lowering::sum(const SyntaxNode& n, const Value& a, const Value& b) {
+  if (a.kind != b.kind) throw FormulaError(n.place, fmt::format("{} and {} cannot be added", words(a.kind), words(b.kind)));
+  const bool plus = n.what == Syntax::Add;
+  Value result = a;
+  result.dimension = common(a.dimension, b.dimension, n, plus ? "adds" : "subtracts");
+  result.vector = plus ? element_.add(a.vector, b.vector) : element_.subtract(a.vector, b.vector);
+  result.places = plus ? a.places + b.places : a.places - b.places;
+  return result;
+}
 
-  Value compared(const SyntaxNode& n, const Value& a, const Value& b) {
-    if (a.kind != ValueKind::OneNumber || b.kind != ValueKind::OneNumber)
-      throw FormulaError(n.place, "vectors cannot be compared: their lengths can");
-    (void)common(a.dimension, b.dimension, n, "compares");
-    const Number x = a.number(), y = b.number();
-    switch (n.what) {
-      case Syntax::Less:
-        return condition(builder_.apply(Operation::Less, x, y));
-      case Syntax::LessOrEqual:
-        return condition(builder_.apply(Operation::LessOrEqual, x, y));
-      case Syntax::Greater:
-        return condition(builder_.apply(Operation::Less, y, x));
-      case Syntax::GreaterOrEqual:
-        return condition(builder_.apply(Operation::LessOrEqual, y, x));
-      case Syntax::Equal:
-        return condition(builder_.apply(Operation::Equal, x, y));
-      default:
-        return condition(builder_.subtract(builder_.constant(1.0), builder_.apply(Operation::Equal, x, y)));
-    }
+Value Lowering::compared(const SyntaxNode& n, const Value& a, const Value& b) {
+  if (a.kind != ValueKind::OneNumber || b.kind != ValueKind::OneNumber)
+    throw FormulaError(n.place, "vectors cannot be compared: their lengths can");
+  (void)common(a.dimension, b.dimension, n, "compares");
+  const Number x = a.number(), y = b.number();
+  switch (n.what) {
+    case Syntax::Less:
+      return condition(builder_.apply(Operation::Less, x, y));
+    case Syntax::LessOrEqual:
+      return condition(builder_.apply(Operation::LessOrEqual, x, y));
+    case Syntax::Greater:
+      return condition(builder_.apply(Operation::Less, y, x));
+    case Syntax::GreaterOrEqual:
+      return condition(builder_.apply(Operation::LessOrEqual, y, x));
+    case Syntax::Equal:
+      return condition(builder_.apply(Operation::Equal, x, y));
+    default:
+      return condition(builder_.subtract(builder_.constant(1.0), builder_.apply(Operation::Equal, x, y)));
   }
+}
 
-  Value power(const SyntaxNode& n, const Value& base, const Value& exponent) {
-    const double* constant = builder_.value_of(exponent.number());
-    if (constant == nullptr) {
-      SyntaxNode of = n;
-      of.text.assign(1, '^');
-      need_no_unit(base, of);
-      need_no_unit(exponent, of);
-      return number(builder_.apply(Operation::Power, base.number(), exponent.number()));
-    }
-    const Dimension dimension{base.dimension.power * *constant, base.dimension.any};
-    return number(to_the(base.number(), *constant), dimension);
+Value Lowering::power(const SyntaxNode& n, const Value& base, const Value& exponent) {
+  const double* constant = builder_.value_of(exponent.number());
+  if (constant == nullptr) {
+    SyntaxNode of = n;
+    of.text.assign(1, '^');
+    need_no_unit(base, of);
+    need_no_unit(exponent, of);
+    return number(builder_.apply(Operation::Power, base.number(), exponent.number()));
   }
+  const Dimension dimension{base.dimension.power * *constant, base.dimension.any};
+  return number(to_the(base.number(), *constant), dimension);
+}
 
-  /// Whole powers and roots that have operations of their own; others by logarithm.
-  Number to_the(Number base, double exponent) {
-    if (exponent < 0.0) return builder_.divide(builder_.constant(1.0), to_the(base, -exponent));
-    const double thirds = 3.0 * exponent, halves = 2.0 * exponent;
-    if (exponent == std::floor(exponent) && exponent <= 64.0) return whole_power(base, static_cast<unsigned>(exponent));
-    if (halves == std::floor(halves) && halves <= 64.0) return whole_power(builder_.root(base), static_cast<unsigned>(halves));
-    if (std::abs(thirds - std::round(thirds)) < 1e-12 && thirds <= 64.0) {
-      const Number positive = builder_.maximum(base, builder_.constant(0.0));
-      return whole_power(builder_.apply(Operation::CubeRoot, positive), static_cast<unsigned>(std::round(thirds)));
-    }
-    return builder_.apply(Operation::Power, base, builder_.constant(exponent));
+Number Lowering::to_the(Number base, double exponent) {
+  if (exponent < 0.0) return builder_.divide(builder_.constant(1.0), to_the(base, -exponent));
+  const double thirds = 3.0 * exponent, halves = 2.0 * exponent;
+  if (exponent == std::floor(exponent) && exponent <= 64.0) return whole_power(base, static_cast<unsigned>(exponent));
+  if (halves == std::floor(halves) && halves <= 64.0) return whole_power(builder_.root(base), static_cast<unsigned>(halves));
+  if (std::abs(thirds - std::round(thirds)) < 1e-12 && thirds <= 64.0) {
+    const Number positive = builder_.maximum(base, builder_.constant(0.0));
+    return whole_power(builder_.apply(Operation::CubeRoot, positive), static_cast<unsigned>(std::round(thirds)));
   }
-  Number whole_power(Number base, unsigned exponent) {
-    if (exponent == 0) return builder_.constant(1.0);
-    const Number half = whole_power(base, exponent / 2), square = exponent < 2 ? half : builder_.multiply(half, half);
-    return exponent % 2 == 0 ? square : exponent < 2 ? base : builder_.multiply(square, base);
-  }
+  return builder_.apply(Operation::Power, base, builder_.constant(exponent));
+}
 
-  // Names.
+Number Lowering::whole_power(Number base, unsigned exponent) {
+  if (exponent == 0) return builder_.constant(1.0);
+  const Number half = whole_power(base, exponent / 2), square = exponent < 2 ? half : builder_.multiply(half, half);
+  return exponent % 2 == 0 ? square : exponent < 2 ? base : builder_.multiply(square, base);
+}
 
-  /// "p3": 2; none where it is no such name.
-  [[nodiscard]] static std::optional<Index> corner_named(std::string_view text) {
-    if (text.size() != 2 || text[0] != 'p' || text[1] < '1' || text[1] > '8') return std::nullopt;
-    return static_cast<Index>(text[1] - '1');
-  }
-  /// "l13": 0 and 2.
-  [[nodiscard]] static std::optional<std::pair<Index, Index>> pair_named(std::string_view text) {
-    if (text.size() != 3 || text[0] != 'l' || text[1] < '1' || text[1] > '8' || text[2] < '1' || text[2] > '8') return std::nullopt;
-    return std::pair(static_cast<Index>(text[1] - '1'), static_cast<Index>(text[2] - '1'));
-  }
-  void require_corner(Index corner, const SyntaxNode& n) const {
-    if (corner >= element_.corner_count())
-      throw NotForKind(n.place, fmt::format("'{}': a {} has only {} corners", n.text, info(kind_).name, element_.corner_count()));
-  }
+// Names.
 
-  Value name(const SyntaxNode& n, std::size_t parts, const Scope& scope) {
-    if (const auto part = part_named(n.text, parts)) return value_of(body_.parts[*part].value, *part, scope);
-    if (const FormulaName* entry = name_in_table(n.text)) return named(n, *entry, scope);
-    if (const auto corner = corner_named(n.text)) {
-      require_corner(*corner, n);
-      return vector(known(n, [&] { return element_.place(*corner); }), 1.0, 1.0);
-    }
-    if (const auto ends = pair_named(n.text)) {
-      require_corner(std::max(ends->first, ends->second), n);
-      if (ends->first == ends->second) throw FormulaError(n.place, fmt::format("'{}' is no length: its ends are one corner", n.text));
-      return number(known(n, [&] { return element_.length(element_.edge(ends->first, ends->second)); }), unit(1.0));
-    }
-    throw FormulaError(n.place, unknown_name(n.text, parts));
+std::optional<Index> Lowering::corner_named(std::string_view text) {
+  if (text.size() != 2 || text[0] != 'p' || text[1] < '1' || text[1] > '8') return std::nullopt;
+  return static_cast<Index>(text[1] - '1');
+}
+
+std::optional<std::pair<Index, Index>> Lowering::pair_named(std::string_view text) {
+  if (text.size() != 3 || text[0] != 'l' || text[1] < '1' || text[1] > '8' || text[2] < '1' || text[2] > '8') return std::nullopt;
+  return std::pair(static_cast<Index>(text[1] - '1'), static_cast<Index>(text[2] - '1'));
+}
+
+void Lowering::require_corner(Index corner, const SyntaxNode& n) const {
+  if (corner >= element_.corner_count())
+    throw NotForKind(n.place, fmt::format("'{}': a {} has only {} corners", n.text, info(kind_).name, element_.corner_count()));
+}
+
+Value Lowering::name(const SyntaxNode& n, std::size_t parts, const Scope& scope) {
+  if (const auto part = part_named(n.text, parts)) return value_of(body_.parts[*part].value, *part, scope);
+  if (const FormulaName* entry = name_in_table(n.text)) return named(n, *entry, scope);
+  if (const auto corner = corner_named(n.text)) {
+    require_corner(*corner, n);
+    return vector(known(n, [&] { return element_.place(*corner); }), 1.0, 1.0);
   }
-
-  [[nodiscard]] std::string unknown_name(std::string_view text, std::size_t parts) const {
-    const auto functions = formula_functions();
-    if (std::ranges::find(functions, text, &FormulaFunction::name) != functions.end())
-      return fmt::format("'{}' is a function, and its arguments in brackets are missing", text);
-    for (std::size_t i = parts; i < body_.parts.size(); ++i)
-      if (body_.parts[i].name == text) return fmt::format("'{}' has its value only further on", text);
-    std::vector<std::string_view> names;
-    for (const FormulaName& name : formula_names()) names.push_back(name.name);
-    for (std::size_t i = 0; i < parts; ++i) names.push_back(body_.parts[i].name);
-    const auto near = closest_word(text, names);
-    return fmt::format("unknown name '{}'{}", text, near ? fmt::format("; did you mean {}?", *near) : std::string());
+  if (const auto ends = pair_named(n.text)) {
+    require_corner(std::max(ends->first, ends->second), n);
+    if (ends->first == ends->second) throw FormulaError(n.place, fmt::format("'{}' is no length: its ends are one corner", n.text));
+    return number(known(n, [&] { return element_.length(element_.edge(ends->first, ends->second)); }), unit(1.0));
   }
+  throw FormulaError(n.place, unknown_name(n.text, parts));
+}
 
-  Value named(const SyntaxNode& n, const FormulaName& entry, const Scope& scope) {
-    if (entry.scope == NameScope::Corner && !scope.corner)
-      throw FormulaError(n.place, fmt::format("'{}' is of a corner: gather it with min_corner(...) or another of its kind", n.text));
-    if (entry.scope == NameScope::Edge && !scope.edge)
-      throw FormulaError(n.place, fmt::format("'{}' is of an edge: gather it with min_edge(...) or another of its kind", n.text));
-    const int dimension = element_.dimension();
-    const double power = entry.name == "adj" ? dimension - 1.0 : entry.power < 0 ? dimension : entry.power;
-    if (entry.is_vector) return vector(known(n, [&] { return vector_named(n, entry, scope); }));
-    return number(known(n, [&] { return number_named(n, entry, scope); }), entry.name == "pi" ? Dimension{} : unit(power));
+std::string Lowering::unknown_name(std::string_view text, std::size_t parts) const {
+  const auto functions = formula_functions();
+  if (std::ranges::find(functions, text, &FormulaFunction::name) != functions.end())
+    return fmt::format("'{}' is a function, and its arguments in brackets are missing", text);
+  for (std::size_t i = parts; i < body_.parts.size(); ++i)
+    if (body_.parts[i].name == text) return fmt::format("'{}' has its value only further on", text);
+  std::vector<std::string_view> names;
+  for (const FormulaName& name : formula_names()) names.push_back(name.name);
+  for (std::size_t i = 0; i < parts; ++i) names.push_back(body_.parts[i].name);
+  const auto near = closest_word(text, names);
+  return fmt::format("unknown name '{}'{}", text, near ? fmt::format("; did you mean {}?", *near) : std::string());
+}
+
+Value Lowering::named(const SyntaxNode& n, const FormulaName& entry, const Scope& scope) {
+  if (entry.scope == NameScope::Corner && !scope.corner)
+    throw FormulaError(n.place, fmt::format("'{}' is of a corner: gather it with min_corner(...) or another of its kind", n.text));
+  if (entry.scope == NameScope::Edge && !scope.edge)
+    throw FormulaError(n.place, fmt::format("'{}' is of an edge: gather it with min_edge(...) or another of its kind", n.text));
+  const int dimension = element_.dimension();
+  const double power = entry.name == "adj" ? dimension - 1.0 : entry.power < 0 ? dimension : entry.power;
+  if (entry.is_vector) return vector(known(n, [&] { return vector_named(n, entry, scope); }));
+  return number(known(n, [&] { return number_named(n, entry, scope); }), entry.name == "pi" ? Dimension{} : unit(power));
+}
+
+Vector Lowering::vector_named(const SyntaxNode& n, const FormulaName& entry, const Scope& scope) {
+  if (entry.name == "e") {
+    const auto [from, to] = element_.edges()[*scope.edge];
+    return element_.edge(from, to);
   }
+  const std::size_t which = entry.name == "u" ? 0 : entry.name == "v" ? 1 : 2;
+  if (static_cast<int>(which) >= element_.dimension())
+    throw NotForKind(n.place, fmt::format("'w': a {} has two edges at a corner", info(kind_).name));
+  return element_.corner(*scope.corner).edges[which];
+}
 
-  Vector vector_named(const SyntaxNode& n, const FormulaName& entry, const Scope& scope) {
-    if (entry.name == "e") {
-      const auto [from, to] = element_.edges()[*scope.edge];
-      return element_.edge(from, to);
-    }
-    const std::size_t which = entry.name == "u" ? 0 : entry.name == "v" ? 1 : 2;
-    if (static_cast<int>(which) >= element_.dimension())
-      throw NotForKind(n.place, fmt::format("'w': a {} has two edges at a corner", info(kind_).name));
-    return element_.corner(*scope.corner).edges[which];
+Number Lowering::number_named(const SyntaxNode& n, const FormulaName& entry, const Scope& scope) {
+  const std::string_view name = entry.name;
+  const bool volume = element_.dimension() == 3;
+  if (name == "pi") return builder_.constant(std::numbers::pi);
+  if (name == "area" && volume) throw NotForKind(n.place, fmt::format("'area': a {} has a volume", info(kind_).name));
+  if (name == "volume" && !volume) throw NotForKind(n.place, fmt::format("'volume': a {} has an area", info(kind_).name));
+  if (name == "perimeter" && volume) throw NotForKind(n.place, fmt::format("'perimeter': a {} has none", info(kind_).name));
+  if (name == "area" || name == "volume" || name == "measure") return element_.measure();
+  if (name == "surface") return element_.surface();
+  if (name == "perimeter" || name == "lsum") return over_lengths([&](Number a, Number b) { return builder_.add(a, b); }, false);
+  if (name == "lmin") return builder_.root(over_lengths([&](Number a, Number b) { return builder_.minimum(a, b); }, true));
+  if (name == "lmax") return builder_.root(over_lengths([&](Number a, Number b) { return builder_.maximum(a, b); }, true));
+  if (name == "l2sum") return over_lengths([&](Number a, Number b) { return builder_.add(a, b); }, true);
+  if (name == "amin") return element_.least_angle();
+  if (name == "amax") return element_.greatest_angle();
+  if (name == "inradius") return element_.inradius();
+  if (name == "circumradius") return element_.circumradius();
+  if (name == "mean_measure") {
+    if (space_ != FormulaSpace::Plain) throw NoSuchNumber{"is measured against its target here: 'size' says how large it is"};
+    return element_.mean_measure();
   }
-
-  Number number_named(const SyntaxNode& n, const FormulaName& entry, const Scope& scope) {
-    const std::string_view name = entry.name;
-    const bool volume = element_.dimension() == 3;
-    if (name == "pi") return builder_.constant(std::numbers::pi);
-    if (name == "area" && volume) throw NotForKind(n.place, fmt::format("'area': a {} has a volume", info(kind_).name));
-    if (name == "volume" && !volume) throw NotForKind(n.place, fmt::format("'volume': a {} has an area", info(kind_).name));
-    if (name == "perimeter" && volume) throw NotForKind(n.place, fmt::format("'perimeter': a {} has none", info(kind_).name));
-    if (name == "area" || name == "volume" || name == "measure") return element_.measure();
-    if (name == "surface") return element_.surface();
-    if (name == "perimeter" || name == "lsum") return over_lengths([&](Number a, Number b) { return builder_.add(a, b); }, false);
-    if (name == "lmin") return builder_.root(over_lengths([&](Number a, Number b) { return builder_.minimum(a, b); }, true));
-    if (name == "lmax") return builder_.root(over_lengths([&](Number a, Number b) { return builder_.maximum(a, b); }, true));
-    if (name == "l2sum") return over_lengths([&](Number a, Number b) { return builder_.add(a, b); }, true);
-    if (name == "amin") return element_.least_angle();
-    if (name == "amax") return element_.greatest_angle();
-    if (name == "inradius") return element_.inradius();
-    if (name == "circumradius") return element_.circumradius();
-    if (name == "mean_measure") {
-      if (space_ != FormulaSpace::Plain) throw NoSuchNumber{"is measured against its target here: 'size' says how large it is"};
-      return element_.mean_measure();
-    }
-    if (entry.scope == NameScope::Edge) {
-      if (name == "dihedral") return element_.dihedral_angle(*scope.edge);
-      const auto [from, to] = element_.edges()[*scope.edge];
-      return element_.length(element_.edge(from, to));
-    }
-    return corner_number(n, name, *scope.corner);
+  if (entry.scope == NameScope::Edge) {
+    if (name == "dihedral") return element_.dihedral_angle(*scope.edge);
+    const auto [from, to] = element_.edges()[*scope.edge];
+    return element_.length(element_.edge(from, to));
   }
+  return corner_number(n, name, *scope.corner);
+}
 
-  Number corner_number(const SyntaxNode& n, std::string_view name, std::size_t corner) {
-    if (name == "J") return element_.corner(corner).jacobian;
-    if (name == "angle") return element_.corner_angle(corner);
-    if (name == "det") return element_.determinant(corner);
-    if (name == "norm") return builder_.root(element_.squared_norm(corner));
-    if (name == "adj") return element_.adjugate_norm(corner);
-    if (name == "size") return element_.relative_size(corner);
-    if (name == "smid" && element_.dimension() == 2)
-      throw NotForKind(n.place, fmt::format("'smid': a {} has two singular values, smax and smin", info(kind_).name));
-    return element_.singular_value(corner, name == "smax" ? 0 : name == "smid" ? 1 : element_.dimension() - 1);
+Number Lowering::corner_number(const SyntaxNode& n, std::string_view name, std::size_t corner) {
+  if (name == "J") return element_.corner(corner).jacobian;
+  if (name == "angle") return element_.corner_angle(corner);
+  if (name == "det") return element_.determinant(corner);
+  if (name == "norm") return builder_.root(element_.squared_norm(corner));
+  if (name == "adj") return element_.adjugate_norm(corner);
+  if (name == "size") return element_.relative_size(corner);
+  if (name == "smid" && element_.dimension() == 2)
+    throw NotForKind(n.place, fmt::format("'smid': a {} has two singular values, smax and smin", info(kind_).name));
+  return element_.singular_value(corner, name == "smax" ? 0 : name == "smid" ? 1 : element_.dimension() - 1);
+}
+
+template <class F>
+Number Lowering::over_lengths(const F& join, bool squared) {
+  Number all = 0;
+  bool first = true;
+  for (const auto& [from, to] : element_.edges()) {
+    const Vector e = element_.edge(from, to);
+    const Number one = squared ? element_.dot(e, e) : element_.length(e);
+    all = first ? one : join(all, one);
+    first = false;
   }
+  return all;
+}
 
-  template <class F>
-  Number over_lengths(const F& join, bool squared) {
-    Number all = 0;
-    bool first = true;
-    for (const auto& [from, to] : element_.edges()) {
-      const Vector e = element_.edge(from, to);
-      const Number one = squared ? element_.dot(e, e) : element_.length(e);
-      all = first ? one : join(all, one);
-      first = false;
-    }
-    return all;
-  }
-
-  // Calls.
-
-  void require_arguments(const SyntaxNode& n, const FormulaFunction& function) const {
-    const int given = static_cast<int>(n.operands.size());
-    if (given >= function.least && given <= function.most) return;
-    throw FormulaError(n.place, fmt::format("{}({}) takes {} argument{}, not {}", function.name, function.arguments,
-                                            function.most > 8 ? fmt::format("1 to {}", function.most) : fmt::format("{}", function.least),
-                                            function.least == 1 && function.most == 1 ? "" : "s", given));
-  }
-
-  Value call(const SyntaxNode& n, std::size_t parts, const Scope& scope) {
-    const auto functions = formula_functions();
-    const auto found = std::ranges::find(functions, n.text, &FormulaFunction::name);
-    if (found == functions.end()) {
-      if (name_in_table(n.text) != nullptr || part_named(n.text, parts) || corner_named(n.text) || pair_named(n.text))
-        throw FormulaError(n.place, fmt::format("'{}' is no function; a '*' before the bracket may be missing", n.text));
-      throw FormulaError(n.place, unknown_row("function", n.text, functions));
-    }
-    require_arguments(n, *found);
-    const std::string_view name = found->name;
-    if (name.ends_with("_corner")) return over_corners(name, n.operands[0], parts, scope, false, &n);
-    if (name.ends_with("_edge")) return over_edges(name, n, parts, scope);
-    if (name == "field") return field(n);
-    if (name == "if") return choice(n, parts, scope);
-    if (name == "min" || name == "max" || name == "clamp") return extreme(n, name, parts, scope);
-    if (name == "pow") return power(n, number_of(n.operands[0], parts, scope), number_of(n.operands[1], parts, scope));
-    if (name == "atan2") return arc_tangent(n, parts, scope);
-    if (name == "dot" || name == "cross" || name == "length" || name == "x" || name == "y" || name == "z")
-      return of_vectors(n, name, parts, scope);
-    return of_number(n, name, number_of(n.operands[0], parts, scope));
-  }
-
-  Value of_number(const SyntaxNode& n, std::string_view name, const Value& a) {
-    ProgramBuilder& b = builder_;
-    const Number x = a.number();
-    const auto one = [&b] { return b.constant(1.0); };
-    if (name == "abs") return number(b.absolute(x), a.dimension);
-    if (name == "sign") return number(sign(x));
-    if (name == "sqrt") return number(b.root(x), {0.5 * a.dimension.power, a.dimension.any});
-    if (name == "cbrt") return number(b.apply(Operation::CubeRoot, x), {a.dimension.power / 3.0, a.dimension.any});
-    need_no_unit(a, n);
-    if (name == "exp") return number(b.apply(Operation::Exponential, x));
-    if (name == "log") return number(b.apply(Operation::Logarithm, x));
-    if (name == "sin") return number(b.apply(Operation::Sine, x));
-    if (name == "cos") return number(b.apply(Operation::Cosine, x));
-    if (name == "tan") return number(b.divide(b.apply(Operation::Sine, x), b.apply(Operation::Cosine, x)));
-    if (name == "atan") return number(b.arc_tangent(x, one()));
-    const Number sine = b.maximum(b.constant(-1.0), b.minimum(one(), x)), other = b.root(b.subtract(one(), b.multiply(sine, sine)));
-    return number(name == "asin" ? b.arc_tangent(sine, other) : b.arc_tangent(other, sine));
-  }
-
-  Number sign(Number x) {
-    const Number zero = builder_.constant(0.0), one = builder_.constant(1.0);
-    return builder_.select(builder_.less(zero, x), one, builder_.select(builder_.less(x, zero), builder_.constant(-1.0), zero));
-  }
-
-  Value arc_tangent(const SyntaxNode& n, std::size_t parts, const Scope& scope) {
-    const Value y = number_of(n.operands[0], parts, scope), x = number_of(n.operands[1], parts, scope);
-    (void)common(y.dimension, x.dimension, n, "takes the angle of");
-    return number(builder_.arc_tangent(y.number(), x.number()));
-  }
-
-  Value extreme(const SyntaxNode& n, std::string_view name, std::size_t parts, const Scope& scope) {
-    std::vector<Value> all;
-    for (const SyntaxId id : n.operands) all.push_back(number_of(id, parts, scope));
-    Value result = all[0];
-    for (std::size_t i = 1; i < all.size(); ++i) result.dimension = common(result.dimension, all[i].dimension, n, "compares");
-    Number x = all[0].number();
-    if (name == "clamp") {
-      x = builder_.minimum(builder_.maximum(x, all[1].number()), all[2].number());
-    } else {
-      for (std::size_t i = 1; i < all.size(); ++i)
-        x = name == "min" ? builder_.minimum(x, all[i].number()) : builder_.maximum(x, all[i].number());
-    }
-    result.vector.at[0] = x;
-    return result;
-  }
-
-  Value choice(const SyntaxNode& n, std::size_t parts, const Scope& scope) {
-    const Number condition = condition_of(n.operands[0], parts, scope);
-    const Value yes = value_of(n.operands[1], parts, scope), no = value_of(n.operands[2], parts, scope);
-    if (yes.kind != no.kind)
-      throw FormulaError(n.place, fmt::format("if(...) chooses between {} and {}: both must be the same", words(yes.kind), words(no.kind)));
-    if (yes.places != no.places) throw FormulaError(n.place, "if(...) chooses between a place and a difference of places");
-    Value result = yes;
-    result.dimension = common(yes.dimension, no.dimension, n, "chooses between");
-    for (std::size_t i = 0; static_cast<int>(i) < yes.vector.count; ++i)
-      result.vector.at[i] = builder_.select(condition, yes.vector.at[i], no.vector.at[i]);
-    return result;
-  }
-
-  Value of_vectors(const SyntaxNode& n, std::string_view name, std::size_t parts, const Scope& scope) {
-    const Value a = vector_of(n.operands[0], parts, scope);
-    const Dimension& d = a.dimension;
-    if (name == "length") return number(element_.length(a.vector), d);
-    if (name == "dot" || name == "cross") {
-      const Value b = vector_of(n.operands[1], parts, scope);
-      const Dimension both{d.power + b.dimension.power, d.any || b.dimension.any};
-      if (name == "dot") return number(element_.dot(a.vector, b.vector), both);
-      if (a.vector.count == 2) return number(element_.cross_in_plane(a.vector, b.vector), both);
-      return {ValueKind::OneVector, element_.cross_in_space(a.vector, b.vector), both};
-    }
-    const std::size_t which = name == "x" ? 0 : name == "y" ? 1 : 2;
-    if (static_cast<int>(which) >= a.vector.count)
-      throw NotForKind(n.place, fmt::format("'z': vectors of a {} have x and y", info(kind_).name));
-    return number(a.vector.at[which], d);
-  }
-
-  Value field(const SyntaxNode& n) {
-    const SyntaxNode& name = node(n.operands[0]);
-    if (name.what != Syntax::Text) throw FormulaError(name.place, "a field is named in quotation marks: field(\"depth\")");
-    auto found = std::ranges::find(fields_, name.text);
-    if (found == fields_.end()) {
-      if (fields_.size() >= 16) throw FormulaError(n.place, "a formula reads at most 16 fields");
-      fields_.push_back(name.text);
-      found = fields_.end() - 1;
-    }
-    const auto index = static_cast<std::uint8_t>(found - fields_.begin());
-    return number(builder_.input({FormulaInput::What::Field, index, 0, 0}), {0.0, true});
-  }
-
-  /// `outermost`: the formula is this, so that corners that do not change need not be looked at.
-  Value over_corners(std::string_view how, SyntaxId id, std::size_t parts, const Scope& scope, bool outermost,
-                     const SyntaxNode* n = nullptr) {
-    if (scope.corner) throw FormulaError(n != nullptr ? n->place : node(id).place, fmt::format("{} inside of another of its kind", how));
-    std::optional<Value> all;
-    std::size_t count = 0;
-    for (std::size_t corner = 0; corner < element_.frame_count(); ++corner) {
-      Scope here = scope;
-      here.corner = corner;
-      const Value one = number_of(id, parts, here);
-      // A corner that stays says nothing of where the moving one should be, and the worst of these would hold it in place.
-      const bool may_stay = outermost && element_.dimension() == 3 && moving_ != kNoIndex && !element_.depends_on(corner, moving_);
-      if (may_stay && !builder_.depends_on(one.number(), moving_)) continue;
-      join(all, one, how, node(id));
-      ++count;
-    }
-    return finished(*all, how, count);
-  }
-
-  Value over_edges(std::string_view how, const SyntaxNode& n, std::size_t parts, const Scope& scope) {
-    if (scope.edge) throw FormulaError(n.place, fmt::format("{} inside of another of its kind", how));
-    std::optional<Value> all;
-    for (std::size_t edge = 0; edge < element_.edges().size(); ++edge) {
-      Scope here = scope;
-      here.edge = edge;
-      join(all, number_of(n.operands[0], parts, here), how, n);
-    }
-    return finished(*all, how, element_.edges().size());
-  }
-
-  void join(std::optional<Value>& all, const Value& one, std::string_view how, const SyntaxNode& n) {
-    if (!all) {
-      all = one;
-      return;
-    }
-    all->dimension = common(all->dimension, one.dimension, n, "gathers");
-    const Number a = all->number(), b = one.number();
-    all->vector.at[0] = how.starts_with("min")   ? builder_.minimum(a, b)
-                        : how.starts_with("max") ? builder_.maximum(a, b)
-                                                 : builder_.add(a, b);
-  }
-  Value finished(Value all, std::string_view how, std::size_t count) {
-    if (how.starts_with("mean")) all.vector.at[0] = builder_.times(1.0 / static_cast<double>(count), all.number());
-    return all;
-  }
-
-  const FormulaSyntax& syntax_;
-  const FormulaBody& body_;
-  ElementKind kind_;
-  FormulaSpace space_;
-  FormulaUse use_;
-  Index moving_;
-  std::vector<std::string>& fields_;
-  ProgramBuilder builder_;
-  ElementNumbers element_;
-  LoweredFormula lowered_;
-  std::map<std::pair<SyntaxId, std::size_t>, bool> uses_corner_;
-  std::map<std::tuple<SyntaxId, std::size_t, std::pair<std::size_t, std::size_t>>, Value> values_;
-};
-
-}  // namespace
+}  // namespace formula_lowering
 
 LoweredFormula lower(const FormulaSyntax& syntax, const FormulaBody& body, ElementKind kind, FormulaSpace space, FormulaUse use,
                      Index moving, std::vector<std::string>& fields) {
-  return Lowering(syntax, body, kind, space, use, moving, fields).run();
+  return formula_lowering::Lowering(syntax, body, kind, space, use, moving, fields).run();
 }
 
 }  // namespace dmoscope

@@ -20,14 +20,6 @@ using ::testing::HasSubstr;
 
 class DefinedMetricsInASession : public testing::SpokenSession {
  protected:
-  [[nodiscard]] std::string why(const std::string& line) {
-    try {
-      say(line);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return {};
-  }
   [[nodiscard]] std::string metric() { return std::string(info(session_.active().parameters().metric).name); }
   const test::TemporaryFolder folder_;
 };

@@ -25,14 +25,6 @@ class KindsInASession : public testing::SpokenSession {
   [[nodiscard]] const Kinds& kinds() { return session_.active().parameters().kinds; }
   [[nodiscard]] const Domain& domain() { return *session_.active().domain(); }
   [[nodiscard]] std::vector<Vec3> positions() { return {session_.active().positions().begin(), session_.active().positions().end()}; }
-  [[nodiscard]] std::string why(const std::string& line) {
-    try {
-      say(line);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return {};
-  }
   /// A block of 4 x 4 x 4 cells, whose boundary slides; the number of a vertex counts x first.
   void open_block() {
     const Mesh mesh = test::volume_grid(4, test::Fill::Hexahedra, 0.2, 3);

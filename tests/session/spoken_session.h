@@ -25,6 +25,15 @@ class SpokenSession : public ::testing::Test {
     }
     return false;
   }
+  /// What the command says is wrong; empty: it succeeds.
+  [[nodiscard]] std::string why(const std::string& line) {
+    try {
+      say(line);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  }
 
   Session session_;
   Progress progress_;

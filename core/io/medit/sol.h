@@ -2,6 +2,8 @@
 // MEDIT's solution files, .sol: what mmg and others write beside a mesh, numbers at its vertices; above all metrics.
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "core/base/progress.h"
 #include "core/mesh/mesh.h"
@@ -9,9 +11,9 @@
 namespace dmoscope {
 
 /// Reads the solutions at vertices as fields of the mesh: "sol" (a number), "sol-vector", "metric" (a symmetric tensor: 3 components in the
-/// plane, 6 in space, as mmg orders them), with a number behind the name where there are several of a kind. Throws InputError (file and
-/// line), Cancelled.
-void read_solutions(const std::filesystem::path& file, Mesh& mesh, Progress& progress);
+/// plane, 6 in space, as mmg orders them), with a number behind the name where there are several of a kind. Returns the keywords that were
+/// passed over with their numbers: those that say nothing of vertices. Throws InputError (file and line), Cancelled.
+std::vector<std::string> read_solutions(const std::filesystem::path& file, Mesh& mesh, Progress& progress);
 
 /// Those in "part.sol", where the mesh is "part.mesh" or "part.mesh.gz" and such a file lies beside it; a note says so, or why it was not
 /// read.

@@ -19,7 +19,8 @@ class SolReader {
   SolReader(std::string_view text, const std::filesystem::path& file, Mesh& mesh, Progress& progress)
       : tokens_(text, file.string(), kSolSyntax, progress), mesh_(mesh), progress_(progress) {}
 
-  void read() {
+  /// Returns the keywords that were passed over.
+  std::vector<std::string> read() {
     if (const std::string_view first = tokens_.token(); !equal_ignoring_case(first, "MeshVersionFormatted"))
       tokens_.fail(fmt::format("a solution file begins with MeshVersionFormatted, this one with {}", quote_token(first)));
     (void)tokens_.read_integer("version after MeshVersionFormatted");
@@ -31,11 +32,30 @@ class SolReader {
       else if (equal_ignoring_case(keyword, "SolAtVertices"))
         solutions();
       else
-        tokens_.fail(fmt::format("expected Dimension, SolAtVertices or End, got {}", quote_token(keyword)));
+        pass_over(keyword);
     }
+    return std::move(passed_over_);
   }
 
  private:
+  [[nodiscard]] static bool is_word(std::string_view token) {
+    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    return !token.empty() && is_letter(token[0]) && !equal_ignoring_case(token, "nan") && !equal_ignoring_case(token, "inf") &&
+           !equal_ignoring_case(token, "infinity");
+  }
+  /// A keyword that says nothing of vertices, such as Time or SolAtTriangles, and its numbers.
+  void pass_over(std::string_view keyword) {
+    if (!is_word(keyword)) tokens_.fail(fmt::format("expected a keyword such as SolAtVertices or End, got {}", quote_token(keyword)));
+    passed_over_.emplace_back(keyword);
+    for (std::size_t n = 0; !tokens_.at_end(); ++n) {
+      if (n % 65536 == 0) progress_.check();
+      const std::size_t offset = tokens_.offset(), line = tokens_.line();
+      if (!is_word(tokens_.token())) continue;
+      tokens_.seek(offset, line);
+      return;
+    }
+  }
+
   void dimension() {
     dimension_ = tokens_.read_integer("dimension");
     if (dimension_ != 2 && dimension_ != 3) tokens_.fail(fmt::format("Dimension {}: only 2 and 3 dimensions are read", dimension_));
@@ -79,14 +99,14 @@ class SolReader {
   Mesh& mesh_;
   Progress& progress_;
   std::int64_t dimension_ = 0;
-  std::vector<std::string> names_;
+  std::vector<std::string> names_, passed_over_;
 };
 
 }  // namespace
 
-void read_solutions(const std::filesystem::path& file, Mesh& mesh, Progress& progress) {
+std::vector<std::string> read_solutions(const std::filesystem::path& file, Mesh& mesh, Progress& progress) {
   const FileBytes bytes = read_whole_file(file, progress);
-  SolReader(bytes.view(), file, mesh, progress).read();
+  return SolReader(bytes.view(), file, mesh, progress).read();
 }
 
 void read_solutions_beside(SourceFile& source, Mesh& mesh, Progress& progress) {
@@ -97,8 +117,9 @@ void read_solutions_beside(SourceFile& source, Mesh& mesh, Progress& progress) {
   if (!std::filesystem::is_regular_file(file, ignored)) return;
   const std::size_t fields = mesh.fields.size();
   try {
-    read_solutions(file, mesh, progress);
-    source.add_note(fmt::format("fields read from {} beside it", file.filename().string()));
+    const std::vector<std::string> left = read_solutions(file, mesh, progress);
+    source.add_note(fmt::format("fields read from {} beside it{}", file.filename().string(),
+                                left.empty() ? std::string() : fmt::format(", where this was passed over: {}", fmt::join(left, ", "))));
     source.set_beside(file.filename().string());
   } catch (const InputError& error) {  // the mesh is sound without it
     mesh.fields.resize(fields);

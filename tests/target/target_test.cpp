@@ -199,6 +199,18 @@ TEST(Targets, AveragingTakesOutNoise) {
   EXPECT_LT(spread("input:5"), 1.3 * spread("aspect:8:0"));  // ... about as much as from the cell without noise
 }
 
+/// Logarithms of the stretches of an element and of its neighbours, by hand: quadrilaterals 1, 4 and 1 wide in a row.
+TEST(Targets, AveragingIsByTheMeanOfLogarithms) {
+  Mesh mesh;
+  for (const double y : {0.0, 1.0})
+    for (const double x : {0.0, 1.0, 5.0, 6.0}) mesh.positions.push_back({x, y, 0.0});
+  for (Index i = 0; i < 3; ++i) add(mesh, {i, i + 1, i + 5, i + 4});
+  const auto values = qualities(*input(mesh), "aspect@input:1");
+  EXPECT_NEAR(values[0], 0.5, 1e-12);                        // 1 against the mean of 1 and 4: 2
+  EXPECT_NEAR(values[1], std::pow(4.0, -2.0 / 3.0), 1e-12);  // 4 against that of 1, 4 and 1
+  EXPECT_NEAR(values[2], 0.5, 1e-12);
+}
+
 TEST(Targets, ByGroup) {
   Mesh mesh = lattice(6, 0.0, 1, Cells::Quadrilaterals);
   for (Vec3& p : mesh.positions) p.x *= 3.0;
@@ -260,6 +272,13 @@ TEST(BoundaryLayers, EndWhereElementsAreAsHighAsWide) {
   EXPECT_EQ(find_boundary_layers(mesh, classify(mesh)).most, 5);
   EXPECT_TRUE(find_boundary_layers(layered(4, 3, 0.6, 1.0, 2), {}).empty()) << "not twice as wide as high";
   EXPECT_TRUE(find_boundary_layers(lattice(5, 0.0, 1), {}).empty()) << "triangles";
+}
+
+TEST(BoundaryLayers, EndWhereOneIsMuchFlatterThanTheOneBelow) {
+  const Mesh shrinking = layered(4, 3, 0.2, 0.5, 1);  // 0.2, 0.1, 0.05
+  EXPECT_EQ(find_boundary_layers(shrinking, classify(shrinking)).most, 1);
+  const Mesh slowly = layered(4, 3, 0.2, 0.9, 1);
+  EXPECT_EQ(find_boundary_layers(slowly, classify(slowly)).most, 3);
 }
 
 TEST(BoundaryLayers, InVolumes) {

@@ -10,6 +10,9 @@
 #include "core/inspect/require_star.h"
 #include "core/inspect/single_vertex_task.h"
 #include "core/quality/metric_phrase.h"
+#include "core/smooth/kernels/target_visit.h"
+#include "core/smooth/kernels/tetrahedron_targets.h"
+#include "core/smooth/methods/defined_dmo.h"
 #include "core/smooth/methods/defined_search.h"
 #include "core/smooth/methods/fast_volume_search.h"
 
@@ -101,11 +104,18 @@ class Look {
   /// As the fast smoothers do it: false where the star is the plain search's.
   bool search_fast() {
     if constexpr (kDefined)
-      return search_by_formula();
+      return (has_target_kernel(input_, metric_, parameters_) && search_by_targets()) || search_by_formula();
     else if constexpr (kVolume)
       return search_by_volume_kernel();
     else
       return search_by_lanes();
+  }
+
+  bool search_by_targets() {
+    if constexpr (kVolume)
+      return search_by_target_kernel();
+    else
+      return search_by_target_lanes();
   }
 
   /// The star by the statistics' formulas with the vertex at a place.
@@ -170,6 +180,11 @@ class Look {
     if (!outcome.ready) return false;
     trace_.fast = true;
     trace_.value_phrase = rank_phrase(metric_);
+    take_from_lanes(std::move(recorder), task, outcome);
+    return true;
+  }
+  template <class Outcome>
+  void take_from_lanes(Recorder<Offset> recorder, const SingleVertexTask& task, const Outcome& outcome) {
     const auto place = [&](Offset offset) {
       // Exact: the offsets are floats times a power of two.
       const Displacement to = task.frame.displace(&trace_.from.x, static_cast<float>(offset.x * task.frame.inverse),
@@ -180,21 +195,58 @@ class Look {
     using visit_rules::Verdict;
     const Vec3 target{outcome.to.target[0], outcome.to.target[1], outcome.to.target[2]};
     end(target, outcome.verdict == Verdict::Move || (outcome.verdict == Verdict::MoveIfExact && gains(target)));
+  }
+
+  /// As LaneDmo does it where elements have targets.
+  bool search_by_target_lanes() {
+    const TargetTable& targets = judge_->targets();
+    if (has_crossed_targets(targets, static_cast<Index>(input_.mesh.elements.size()))) return search_by_target_lanes<true>(targets);
+    return search_by_target_lanes<false>(targets);
+  }
+  template <bool Crossed>
+  bool search_by_target_lanes(const TargetTable& targets) {
+    const SingleVertexTask task(input_, positions_, parameters_, trace_.vertex);
+    if (task.shapes->kind == StarShape::Kind::Alone) return false;
+    std::vector<Index> others;
+    std::vector<double> numbers;
+    const StarShape shape = star_shape(input_.mesh, input_.topology, trace_.vertex, others);
+    append_star_targets(targets, Crossed, input_.mesh, input_.topology, trace_.vertex, shape, others, numbers);
+    Recorder<Offset> recorder(task.frame.scale);
+    const auto outcome = TargetVisit<Crossed, SingleVertexTask>(task, numbers).run(recorder);
+    if (!outcome.ready) return false;
+    trace_.fast = true;
+    trace_.value_phrase = metric_phrase(metric_);
+    take_from_lanes(std::move(recorder), task, outcome);
     return true;
   }
 
-  /// As FastVolumeSearch does it. What the kernel chose in level L is what it finds in L levels and does not find in L - 1.
+  /// As FastVolumeSearch does it.
   bool search_by_volume_kernel() {
-    const VolumeStarSearch search(M, parameters_);
+    StarIn<Frame, double> star;
+    gather_star(MeshStar(mesh_, positions_, trace_.vertex), star);
+    const Objective<M, false, double, Value::Metric, StarViewIn<Frame, double>> objective(star);
+    return search_by_volume_kernel(VolumeStarSearch(M, parameters_), {}, objective);
+  }
+  /// As TargetVolumeDmo does it.
+  bool search_by_target_kernel() {
+    const auto star = mesh_.star(trace_.vertex);
+    const TetrahedronTargets targets(judge_->targets(), input_.mesh, star);
+    std::vector<Incidence> numbered(star.begin(), star.end());
+    for (Index i = 0; i < numbered.size(); ++i) numbered[i].element = i;
+    if (!targets.fit(numbered)) return false;
+    const DefinedStar<Frame> defined_star(*star_judge_, positions_, trace_.vertex);
+    return search_by_volume_kernel(VolumeStarSearch(parameters_, targets.crossed()), {numbered.data(), targets.numbers()},
+                                   [&](Vec3 p) { return defined_star.least(p); });
+  }
+  /// What the kernel chose in level L is what it finds in L levels and does not find in L - 1. objective(p): what a place is worth.
+  template <class Objective>
+  bool search_by_volume_kernel(const VolumeStarSearch& search, const VolumeTargets& targets, const Objective& objective) {
     const IndexedStars stars(input_, trace_.vertex);
     VolumeStarSearch::Points points;
-    const auto find = [&](int levels) { return search.find(stars.of(trace_.vertex), positions_, trace_.vertex, levels, points); };
+    const auto find = [&](int levels) { return search.find(stars.of(trace_.vertex), positions_, trace_.vertex, levels, points, targets); };
     if (!find(0).ready) return false;
     trace_.fast = true;
     trace_.value_phrase = metric_phrase(metric_);
-    VolumeStar<double> star;
-    gather_star(MeshStar(mesh_, positions_, trace_.vertex), star);
-    const Objective<M, false, double, Value::Metric, VolumeStarView<double>> objective(star);
     Recorder<Offset> recorder(points.scale);
     recorder.begin(objective(Vec3{}));
     Vec3Of<float> centre{};

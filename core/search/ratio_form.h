@@ -10,8 +10,22 @@ namespace dmoscope {
 
 template <class R>
 struct RatioForm {
+  static constexpr bool kCrossed = false, kShifted = false;  // see TargetForm
   R n0, nx, ny;
   R s0, sx, sy, s2;  // all 0 for a condition: N must be positive and counts no further
+
+  /// The part of S that is of second order; `squared`: |p|^2.
+  [[nodiscard]] DMOSCOPE_ANYWHERE R second_order(Vec2<R> /*p*/, R squared) const { return s2 * squared; }
+  [[nodiscard]] DMOSCOPE_ANYWHERE R along_x() const { return s2; }
+  [[nodiscard]] DMOSCOPE_ANYWHERE R along_y() const { return s2; }
+  /// Makes `centre` the origin of sx and sy.
+  DMOSCOPE_ANYWHERE void move_slopes(Vec2<R> centre) {
+    sx = sx + R(2) * s2 * centre.x;
+    sy = sy + R(2) * s2 * centre.y;
+  }
+  /// The metric where N / S is `ratio`; and what N / S must exceed for a metric above t.
+  [[nodiscard]] DMOSCOPE_ANYWHERE R quality(R ratio) const { return ratio; }
+  [[nodiscard]] DMOSCOPE_ANYWHERE R threshold(R t) const { return t; }
 };
 
 /// Can the fast search use threshold rounds for this metric?

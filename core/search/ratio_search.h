@@ -13,6 +13,7 @@
 #include "core/base/host_device.h"
 #include "core/search/grid_search.h"
 #include "core/search/ratio_form.h"
+#include "core/search/target_form.h"
 #include "core/search/team.h"
 
 namespace dmoscope {
@@ -33,7 +34,31 @@ struct LeastMargins {
         m6(sum(row[6], column)),
         m7(sum(row[7], column)) {}
 
+  /// Likewise, and what grows with both: `slope` times the row's place, of which the upper half is given.
+  DMOSCOPE_ANYWHERE LeastMargins(const std::array<R, 8>& row, R column, R slope, const std::array<R, 8>& y) {
+    const R y4 = slope * y[4], y5 = slope * y[5], y6 = slope * y[6], y7 = slope * y[7];
+    m0 = sum(row[0], column) - y7;
+    m1 = sum(row[1], column) - y6;
+    m2 = sum(row[2], column) - y5;
+    m3 = sum(row[3], column) - y4;
+    m4 = sum(row[4], column) + y4;
+    m5 = sum(row[5], column) + y5;
+    m6 = sum(row[6], column) + y6;
+    m7 = sum(row[7], column) + y7;
+  }
+
   /// And of a further one.
+  DMOSCOPE_ANYWHERE void take(const LeastMargins& other) {
+    using scalar::min;
+    m0 = min(m0, other.m0);
+    m1 = min(m1, other.m1);
+    m2 = min(m2, other.m2);
+    m3 = min(m3, other.m3);
+    m4 = min(m4, other.m4);
+    m5 = min(m5, other.m5);
+    m6 = min(m6, other.m6);
+    m7 = min(m7, other.m7);
+  }
   DMOSCOPE_ANYWHERE void take(const std::array<R, 8>& row, R column) {
     using scalar::min;
     m0 = min(m0, sum(row[0], column));
@@ -66,18 +91,18 @@ struct LeastMargins {
 enum class Tables { Full, Rows, None };
 
 /// Searches one star, or one per slot where R is a pack. Large: keep one and use it again. Forms: their number where it is known
-/// beforehand, else 0. What it finds does not depend on Tables and Team.
-template <class R, std::size_t Forms = 0, Tables Kept = Tables::Full, class Team = Solo>
+/// beforehand, else 0. What it finds does not depend on Tables and Team. Form: RatioForm or TargetForm.
+template <class R, std::size_t Forms = 0, Tables Kept = Tables::Full, class Team = Solo, class Form = RatioForm<R>>
 class RatioSearch {
  public:
   static constexpr std::size_t kPoints = 8;  // candidates per axis: the one size this search is made for
   static constexpr std::size_t kMaxForms = Forms == 0 ? 48 : Forms;
-  using FormSpan = std::span<RatioForm<R>, Forms == 0 ? std::dynamic_extent : Forms>;
+  using FormSpan = std::span<Form, Forms == 0 ? std::dynamic_extent : Forms>;
 
   DMOSCOPE_ANYWHERE explicit RatioSearch(Team team = {}) : team_(team) {}
 
   /// Searches all levels. `forms`: 1 to kMaxForms, of which it uses the memory. `cap`: what no candidate's quality can exceed. `box`: of
-  /// the star's other vertices. In every slot the quality at the origin must be positive. Returns the offset and its quality, as
+  /// the star's other vertices. In every slot all N at the origin must be positive. Returns the offset and its quality, as
   /// grid_search does. A trace gets what quality() makes of each candidate; of those that differ by less than its rounding another one than
   /// the first of the best may have won.
   template <class Trace = NoTrace>
@@ -102,10 +127,20 @@ class RatioSearch {
   using Line = std::array<R, kPoints>;
   static_assert(kPoints == 8, "LeastMargins has eight");
   static_assert(Team::kSize == 1 || Team::kSize == kPoints, "a column each");
+  static constexpr bool kCrossed = Form::kCrossed;
   /// N_k - t S_k, times w_k: a + b x + c y - d (x^2 + y^2).
-  struct Margin {
+  struct EvenMargin {
     R a, b, c, d;
+    [[nodiscard]] DMOSCOPE_ANYWHERE R along_x() const { return d; }
+    [[nodiscard]] DMOSCOPE_ANYWHERE R along_y() const { return d; }
   };
+  /// Of a form that is crossed: a + b x + c y - dx x^2 - dy y^2 - e x y.
+  struct CrossedMargin {
+    R a, b, c, dx, dy, e;
+    [[nodiscard]] DMOSCOPE_ANYWHERE R along_x() const { return dx; }
+    [[nodiscard]] DMOSCOPE_ANYWHERE R along_y() const { return dy; }
+  };
+  using Margin = std::conditional_t<kCrossed, CrossedMargin, EvenMargin>;
   struct Best {
     R margin, second;  // the largest least margin and the next
     Vec2<R> at;        // candidate of the former
@@ -126,10 +161,10 @@ class RatioSearch {
     const R squared = dot(p, p);
     DMOSCOPE_UNROLL
     for (std::size_t k = 0; k < count(); ++k) {
-      const RatioForm<R>& f = forms_[k];
+      const Form& f = forms_[k];
       const R n = f.n0 + f.nx * p.x + f.ny * p.y;
-      const R s = f.s0 + f.sx * p.x + f.sy * p.y + f.s2 * squared;
-      least = min(least, n / select(s > R(0), s, R(1)));
+      const R s = f.s0 + f.sx * p.x + f.sy * p.y + f.second_order(p, squared);
+      least = min(least, f.quality(n / select(s > R(0), s, R(1))));
     }
     return least;
   }
@@ -139,28 +174,31 @@ class RatioSearch {
     const R squared = dot(centre, centre);
     DMOSCOPE_UNROLL
     for (std::size_t k = 0; k < count(); ++k) {
-      RatioForm<R>& f = forms_[k];
+      Form& f = forms_[k];
       f.n0 = f.n0 + f.nx * centre.x + f.ny * centre.y;
-      f.s0 = f.s0 + f.sx * centre.x + f.sy * centre.y + f.s2 * squared;
-      f.sx = f.sx + R(2) * f.s2 * centre.x;
-      f.sy = f.sy + R(2) * f.s2 * centre.y;
+      f.s0 = f.s0 + f.sx * centre.x + f.sy * centre.y + f.second_order(centre, squared);
+      f.move_slopes(centre);
     }
   }
 
-  /// Sets the weights; returns a bound of S_k(centre) / S_k(p) over the grid of this size and all elements.
-  DMOSCOPE_ANYWHERE R weigh(Vec2<R> size) {
+  /// Sets the weights; returns a bound of S_k(centre) / S_k(p) over the grid of this size and all elements, where the quality at the centre
+  /// is t.
+  DMOSCOPE_ANYWHERE R weigh(Vec2<R> size, [[maybe_unused]] R t) {
     using scalar::abs, scalar::max, scalar::min, scalar::select;
     const R half(0.5F), hx = half * size.x, hy = half * size.y;
     R least(1);
     DMOSCOPE_UNROLL
     for (std::size_t k = 0; k < count(); ++k) {
-      const RatioForm<R>& f = forms_[k];
+      const Form& f = forms_[k];
       const auto counts = f.s0 > R(0);
       weight_[k] = R(1) / select(counts, f.s0, R(1));
       // S falls from the centre by at most |sx| hx - s2 hx^2, or half of |sx| hx where its minimum lies within; likewise along y.
       const R x = abs(f.sx) * hx, y = abs(f.sy) * hy;
-      const R fall = (x - min(half * x, f.s2 * hx * hx)) + (y - min(half * y, f.s2 * hy * hy));
+      R fall = (x - min(half * x, f.along_x() * hx * hx)) + (y - min(half * y, f.along_y() * hy * hy));
+      if constexpr (kCrossed) fall = fall + abs(f.sxy) * hx * hy;
       least = min(least, select(counts, R(1) - fall * weight_[k], R(1)));
+      // Where the threshold is held at 0, a margin is no gain.
+      if constexpr (Form::kShifted) least = select(t + f.shift < R(0), R(0), least);
     }
     const R smallest = scalar::constant<R>(0.05);
     return select(least > smallest, R(1) / max(least, smallest), huge());
@@ -170,7 +208,7 @@ class RatioSearch {
   DMOSCOPE_ANYWHERE void search_level(Vec2<R> size, Candidate<R>& best, Trace& trace) {
     using scalar::any, scalar::select;
     recentre(moved_by_);
-    const R bound = weigh(size);
+    const R bound = weigh(size, best.objective);
     set_grid(size);
     if constexpr (kTraced<Trace>) show_level(CandidateGrid<R>{best.offset, size, static_cast<int>(kPoints)}, trace);
     R t = best.objective;
@@ -266,13 +304,23 @@ class RatioSearch {
     for (std::size_t i = kHalf; i < kPoints; ++i) yy_[i] = y_[i] * y_[i];
     DMOSCOPE_UNROLL
     for (std::size_t k = 0; k < count(); ++k) {
-      const RatioForm<R>& f = forms_[k];
-      const R w = weight_[k];
-      const Margin m{(f.n0 - t * f.s0) * w, (f.nx - t * f.sx) * w, (f.ny - t * f.sy) * w, (t * f.s2) * w};
+      const Form& f = forms_[k];
+      const R w = weight_[k], threshold = f.threshold(t);
+      Margin m;
+      m.a = (f.n0 - threshold * f.s0) * w;
+      m.b = (f.nx - threshold * f.sx) * w;
+      m.c = (f.ny - threshold * f.sy) * w;
+      if constexpr (kCrossed) {
+        m.dx = (threshold * f.sxx) * w;
+        m.dy = (threshold * f.syy) * w;
+        m.e = (threshold * f.sxy) * w;
+      } else {
+        m.d = (threshold * f.s2) * w;
+      }
       margin_[k] = m;
       if constexpr (Kept == Tables::Full) {
         for (std::size_t i = kHalf; i < kPoints; ++i) {
-          const R even_x = m.a - m.d * xx[i], odd_x = m.b * x_[i];
+          const R even_x = m.a - m.along_x() * xx[i], odd_x = m.b * x_[i];
           column_[k][i] = even_x + odd_x;
           column_[k][kPoints - 1 - i] = even_x - odd_x;
         }
@@ -284,7 +332,7 @@ class RatioSearch {
   DMOSCOPE_ANYWHERE void fill_row(const Margin& m, Line& row) const {
     DMOSCOPE_UNROLL
     for (std::size_t i = kHalf; i < kPoints; ++i) {
-      const R even_y = m.d * yy_[i], odd_y = m.c * y_[i];
+      const R even_y = m.along_y() * yy_[i], odd_y = m.c * y_[i];
       row[i] = odd_y - even_y;
       row[kPoints - 1 - i] = R(0) - odd_y - even_y;
     }
@@ -344,8 +392,8 @@ class RatioSearch {
     // The winning column again, for the row and for the next best beside it.
     const R x = best.at.x, xx = x * x;
     R high = R(0) - huge();
-    least_margins([&](std::size_t k) {
-      return (margin_[k].a - margin_[k].d * xx) + margin_[k].b * x;
+    least_margins(x, [&](std::size_t k) {
+      return (margin_[k].a - margin_[k].along_x() * xx) + margin_[k].b * x;
     }).backwards([&](R margin, std::size_t j) {
       best.at.y = select(margin == best.margin, y_[j], best.at.y);
       best.second = max(best.second, min(high, margin));
@@ -357,17 +405,31 @@ class RatioSearch {
   /// `x`: column_offset(i).
   [[nodiscard]] DMOSCOPE_ANYWHERE LeastMargins<R> least_margins_of_column(std::size_t i, R x) const {
     if constexpr (Kept == Tables::Full) {
-      return least_margins([&](std::size_t k) { return column_[k][i]; });
+      return least_margins(x, [&](std::size_t k) { return column_[k][i]; });
     } else {
       const R xx = x * x;
-      return least_margins([&](std::size_t k) { return (margin_[k].a - margin_[k].d * xx) + margin_[k].b * x; });
+      return least_margins(x, [&](std::size_t k) { return (margin_[k].a - margin_[k].along_x() * xx) + margin_[k].b * x; });
     }
   }
 
-  /// The least margin of every candidate of the column whose part of element k's margin is column(k).
+  /// The least margin of every candidate of the column at x whose part of element k's margin is column(k).
   template <class Column>
-  [[nodiscard]] DMOSCOPE_ANYWHERE LeastMargins<R> least_margins(Column column) const {
-    if constexpr (Kept == Tables::None) {
+  [[nodiscard]] DMOSCOPE_ANYWHERE LeastMargins<R> least_margins([[maybe_unused]] R x, Column column) const {
+    if constexpr (kCrossed) {
+      const auto of = [&](std::size_t k) {
+        const R slope = R(0) - margin_[k].e * x;
+        if constexpr (Kept == Tables::None) {
+          Line row;
+          fill_row(margin_[k], row);
+          return LeastMargins<R>(row, column(k), slope, y_);
+        } else {
+          return LeastMargins<R>(row_[k], column(k), slope, y_);
+        }
+      };
+      LeastMargins<R> least = of(0);
+      for (std::size_t k = 1; k < count(); ++k) least.take(of(k));
+      return least;
+    } else if constexpr (Kept == Tables::None) {
       Line row;
       fill_row(margin_[0], row);
       LeastMargins<R> least(row, column(0));
@@ -385,7 +447,7 @@ class RatioSearch {
   }
 
   [[no_unique_address]] Team team_;
-  RatioForm<R>* forms_;
+  Form* forms_;
   std::size_t count_;
   R cap_;
   Vec2<R> moved_by_;  // from the last level's centre

@@ -19,6 +19,8 @@ struct LaneTask {
   std::uint8_t* awake;  // one per rank: has its star changed since it was last found at its best?
   SearchFrame frame;
   SearchParameters parameters;
+  const double* targets;              // of elements that have targets: see StarTargets; else null
+  const std::uint32_t* first_target;  // likewise, by rank
 
   void* owner;  // for the two below
   /// Exactly: would the vertex of this rank gain by standing at `position` (3 coordinates)? Leaves it where it is.
@@ -33,6 +35,8 @@ using LaneKernel = std::uint64_t (*)(const LaneTask& task, std::size_t first, st
 
 /// The kernel for a metric. `level` must be one of supported_simd_levels(). All give the same bits.
 [[nodiscard]] LaneKernel lane_kernel(SimdLevel level, Metric metric);
+/// The kernel for the mean ratio against targets: see StarTargets. `level` likewise.
+[[nodiscard]] LaneKernel target_lane_kernel(SimdLevel level, bool crossed);
 
 /// Visits a call of a kernel should make: enough to fill its lanes, few enough to share among threads.
 inline constexpr std::size_t kLaneGrain = 1024;

@@ -11,18 +11,29 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "core/numeric/pack.h"
 // After the packs:
 #include "core/smooth/kernels/grid_cuts.h"
 #include "core/smooth/kernels/indexed_star.h"
+#include "core/smooth/kernels/solid_target.h"
 #include "core/smooth/kernels/volume_form.h"
 
 namespace dmoscope::volumes {
 
-/// F: pack of floats, a form per slot.
-template <class F>
+/// A form of its numbers in order: of(i).
+template <template <class> class Form, class R, class Of>
+[[gnu::always_inline]] [[nodiscard]] inline Form<R> form_of(const Of& of) {
+  if constexpr (sizeof(Form<float>) == sizeof(MeanRatioForm<float>))
+    return {of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7), of(8)};
+  else
+    return {of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7), of(8), of(9), of(10), of(11), of(12), of(13)};
+}
+
+/// F: pack of floats, a form per slot. Form: MeanRatioForm or StretchedForm.
+template <class F, template <class> class Form = MeanRatioForm>
 class MeanRatioSearch {
  public:
   static constexpr std::size_t kWidth = F::size;
@@ -33,9 +44,11 @@ class MeanRatioSearch {
   }
 
   /// A pack of forms, each slot in use. At most kMaxPacks in all.
-  void take(const MeanRatioForm<F>& forms) {
-    const F* fields[] = {&forms.v0, &forms.vx, &forms.vy, &forms.vz, &forms.s0, &forms.sx, &forms.sy, &forms.sz, &forms.square};
-    for (std::size_t i = 0; i < kFields - 2; ++i) fields[i]->store_aligned(forms_[count_][i]);
+  void take(const Form<F>& forms) {
+    alignas(64) F fields[kFormFields];
+    static_assert(sizeof(fields) == sizeof(forms));
+    std::memcpy(static_cast<void*>(fields), &forms, sizeof(fields));
+    for (std::size_t i = 0; i < kFormFields; ++i) fields[i].store_aligned(forms_[count_][i]);
     for (std::size_t slot = 0; slot < kWidth; ++slot)
       which_[count_][slot] = std::bit_cast<float>(static_cast<std::uint32_t>(count_ * kWidth + slot));
     ++count_;
@@ -106,9 +119,8 @@ class MeanRatioSearch {
     return here;
   }
 
-  [[nodiscard]] MeanRatioForm<F> forms_at(std::size_t i) const {
-    const auto of = [&](std::size_t field) { return F::load_aligned(forms_[i][field]); };
-    return {of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7), of(8)};
+  [[nodiscard]] Form<F> forms_at(std::size_t i) const {
+    return form_of<Form, F>([&](std::size_t field) { return F::load_aligned(forms_[i][field]); });
   }
 
   /// How far rounding may go at any candidate of the level, by the size of what is added up there.
@@ -116,9 +128,9 @@ class MeanRatioSearch {
     const Vec3Of<float> reach = cuts_.reach();
     const F x(reach.x), y(reach.y), z(reach.z), square = x * x + y * y + z * z;
     for (std::size_t i = 0; i < count_; ++i) {
-      const MeanRatioForm<F> f = forms_at(i);
+      const Form<F> f = forms_at(i);
       const F v = xsimd::abs(f.v0) + xsimd::abs(f.vx) * x + xsimd::abs(f.vy) * y + xsimd::abs(f.vz) * z;
-      const F s = f.s0 + xsimd::abs(f.sx) * x + xsimd::abs(f.sy) * y + xsimd::abs(f.sz) * z + f.square * square;
+      const F s = f.s0 + xsimd::abs(f.sx) * x + xsimd::abs(f.sy) * y + xsimd::abs(f.sz) * z + second_order_bound(f, x, y, z, square);
       (F(kRounding) * v).store_aligned(forms_[i][kFields - 2]);
       (F(kRounding) * s * xsimd::sqrt(s)).store_aligned(forms_[i][kFields - 1]);
     }
@@ -127,20 +139,22 @@ class MeanRatioSearch {
   /// Cuts off what the worst form of a place tells to be no better than the best.
   void cut_at(const Looked& here) {
     const auto of = [&, slot = here.form % kWidth](std::size_t field) { return forms_[here.form / kWidth][field][slot]; };
-    const float v0 = of(0), vx = of(1), vy = of(2), vz = of(3), s0 = of(4), sx = of(5), sy = of(6), sz = of(7), q = of(8);
-    const float v = v0 + vx * here.x + vy * here.y + vz * here.z;
-    const float s = s0 + sx * here.x + sy * here.y + sz * here.z + q * (here.x * here.x + here.y * here.y + here.z * here.z);
+    const Form<float> f = form_of<Form, float>(of);
+    const Vec3Of<float> at{here.x, here.y, here.z};
+    const float v = determinant_of(f, at), s = squares_of(f, at, dot(at, at));
     const float root = std::sqrt(s), threshold = std::sqrt(best_.rank), steep = 1.5F * threshold * root;
+    const Vec3Of<float> slope = slope_of_squares(f, at);
     GridCut cut;
-    cut.from = {here.x, here.y, here.z};
+    cut.from = at;
     cut.at_least = (v - threshold * s * root) + (of(kFields - 2) + threshold * of(kFields - 1));
-    cut.slope = {vx - steep * (sx + 2.0F * q * here.x), vy - steep * (sy + 2.0F * q * here.y), vz - steep * (sz + 2.0F * q * here.z)};
+    cut.slope = {f.vx - steep * slope.x, f.vy - steep * slope.y, f.vz - steep * slope.z};
     cuts_.cut(cut);
   }
 
   static constexpr float kRounding = 4e-6F;
-  static constexpr std::size_t kFields = 9 + 2;  // of a MeanRatioForm, and how far v and s^(3/2) may be rounded
-  static constexpr std::uint32_t kForms = 2048;  // a power of two: more than four corners of kMaxSolids elements of each kind are
+  static constexpr std::size_t kFormFields = sizeof(Form<float>) / sizeof(float);
+  static constexpr std::size_t kFields = kFormFields + 2;  // of a form, and how far v and s^(3/2) may be rounded
+  static constexpr std::uint32_t kForms = 2048;            // a power of two: more than four corners of kMaxSolids elements of each kind are
 
  public:
   static constexpr std::size_t kMaxPacks = kForms / kWidth;

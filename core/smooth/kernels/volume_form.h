@@ -69,6 +69,13 @@ template <class F, class R>
   return formulas::square_over_cube(determinant_of(f, p), squares_of(f, p, square));
 }
 
+/// How the squared norm changes with p.
+template <class F, class R>
+[[nodiscard]] DMOSCOPE_ANYWHERE Vec3Of<F> slope_of_squares(const MeanRatioForm<R>& f, const Vec3Of<F>& p) {
+  const F twice = F(2) * F(f.square);
+  return {F(f.sx) + twice * p.x, F(f.sy) + twice * p.y, F(f.sz) + twice * p.z};
+}
+
 /// Below this rank the search is the reference's, since floats do not tell such elements apart.
 inline constexpr float kLeastRank = 1e-6F;
 

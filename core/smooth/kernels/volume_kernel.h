@@ -5,11 +5,18 @@
 #include <cstddef>
 
 #include "core/base/vec.h"
+#include "core/mesh/topology.h"
 #include "core/quality/metric.h"
 #include "core/search/parameters.h"
 #include "core/smooth/kernels/indexed_star.h"
 
 namespace dmoscope {
+
+/// The targets of a star of tetrahedra: its elements, and by element W^-1, and K where any is crossed (see solid_target.h).
+struct VolumeTargets {
+  const Incidence* star = nullptr;
+  const double* numbers = nullptr;
+};
 
 /// A star in float, and how it is to be searched.
 struct VolumeSearch {
@@ -18,6 +25,7 @@ struct VolumeSearch {
   Vec3Of<float> box;
   int points = 8, levels = 3;
   double omega = 0.5;
+  VolumeTargets targets{};  // of target_volume_kernel()
 };
 
 struct VolumeFound {
@@ -30,6 +38,7 @@ struct VolumeComparison {
   IndexedStar star;
   const Vec3* others = nullptr;  // positions
   Vec3 before, after;
+  VolumeTargets targets{};
 };
 
 struct BeforeAndAfter {
@@ -45,5 +54,7 @@ struct VolumeKernel {
 
 /// The kernel for a metric that is defined for volumes. `level` must be one of supported_simd_levels().
 [[nodiscard]] VolumeKernel volume_kernel(SimdLevel level, Metric metric);
+/// The kernel for the mean ratio of tetrahedra against targets; it has no means. `level` likewise.
+[[nodiscard]] VolumeKernel target_volume_kernel(SimdLevel level, bool crossed);
 
 }  // namespace dmoscope

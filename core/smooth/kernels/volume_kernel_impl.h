@@ -12,6 +12,7 @@
 #include "core/smooth/kernels/star_packs.h"
 #include "core/smooth/kernels/volume_form.h"
 #include "core/smooth/kernels/volume_kernel.h"
+#include "core/smooth/kernels/volume_levels.h"
 
 namespace dmoscope::volumes {
 
@@ -135,22 +136,6 @@ class FormSearch : public MeanRatioSearch<F> {
   }
 };
 
-template <class Search>
-VolumeFound search(const VolumeSearch& task) {
-  Search search(task);
-  VolumeFound found;
-  found.ready = search.begin() > kLeastRank;
-  if (!found.ready) return found;
-  double omega = task.omega;
-  for (int level = 0; level < task.levels; ++level) {
-    const auto part = static_cast<float>(omega);
-    search.search_level(task.box.x * part, task.box.y * part, task.box.z * part);
-    omega *= 2.0 / (task.points - 1);
-  }
-  found.offset = search.best();
-  return found;
-}
-
 /// Of the elements for which the metric is defined. D: pack of doubles, an element per slot.
 template <Metric M, class D>
 [[gnu::flatten]] BeforeAndAfter least_ranks(const VolumeComparison& task) {
@@ -163,15 +148,7 @@ template <Metric M, class D>
       least_after = min(least_after, formulas::rank_around<M>(element.with(after), element.kMoving));
     }
   });
-  alignas(64) double ranks[2][D::size];
-  least_before.store_aligned(ranks[0]);
-  least_after.store_aligned(ranks[1]);
-  BeforeAndAfter least{ranks[0][0], ranks[1][0]};
-  for (std::size_t k = 1; k < D::size; ++k) {
-    if (ranks[0][k] < least.before) least.before = ranks[0][k];
-    if (ranks[1][k] < least.after) least.after = ranks[1][k];
-  }
-  return least;
+  return {least_slot_of(least_before), least_slot_of(least_after)};
 }
 template <Metric M, class D>
 [[gnu::flatten]] BeforeAndAfter means(const VolumeComparison& task) {
@@ -203,7 +180,7 @@ template <class F, class D>
 VolumeKernel kernel_for(Metric metric) {
   return formulas::with_volume_metric(metric, []<Metric M>() -> VolumeKernel {
     using Search = std::conditional_t<M == Metric::MeanRatio, FormSearch<F>, RankSearch<M, F>>;
-    return {&search<Search>, &least_ranks<M, D>, &means<M, D>};
+    return {&search_levels<Search>, &least_ranks<M, D>, &means<M, D>};
   });
 }
 

@@ -1,9 +1,11 @@
 #include "core/smooth/methods/defined_dmo.h"
 
 #include "core/search/grid_search.h"
+#include "core/smooth/kernels/tetrahedron_targets.h"
 #include "core/smooth/methods/defined_rule.h"
 #include "core/smooth/methods/defined_search.h"
-#include "core/smooth/methods/slide.h"
+#include "core/smooth/methods/fast_volume_search.h"
+#include "core/smooth/methods/lane_dmo.h"
 
 namespace dmoscope {
 
@@ -29,6 +31,9 @@ class DefinedDmo {
     if (found == Offset{}) return std::nullopt;
     return mesh_.moved_if_gaining(positions, vertex, found, before);
   }
+  bool gains(Index vertex, Vec3 target, PositionView positions) const {
+    return defined_gains_at(mesh_.star_judge(), positions, vertex, target, mesh_.untangling());
+  }
 
  private:
   using Offset = OffsetIn<Frame, double>;  // in mesh units
@@ -47,9 +52,72 @@ class DefinedDmo {
   DefinedSearch<Frame> search_;
 };
 
+/// For speed: stars of tetrahedra by target_volume_kernel(), all others by the rule for them.
+class TargetVolumeDmo {
+ public:
+  struct Scratch {
+    VolumeStarSearch::Points points;
+    DefinedDmo<Space>::Scratch alone;
+  };
+  static constexpr bool kDependsOnStarAlone = true;
+  static constexpr std::size_t kGrain = 8;
+  explicit TargetVolumeDmo(const SmoothingTask& task)
+      : alone_(task),
+        mesh_(*task.input),
+        targets_(std::make_shared<const TetrahedronTargets>(task.input->quality_context().judge(task.metric)->targets(), task.input->mesh)),
+        search_(task.search, targets_->crossed()),
+        levels_(task.search.levels),
+        stars_(std::make_shared<const IndexedStars>(*task.input, *task.colouring, task.pool)) {}
+
+  void begin(const Sweep& sweep) {
+    alone_.begin(sweep);
+    mesh_.untangling = sweep.untangling;
+  }
+  [[nodiscard]] std::span<const Index> others(Index vertex) const { return stars_->of(vertex).vertices; }
+  std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const {
+    const auto incidences = mesh_.view.star(vertex);
+    const VolumeTargets targets{incidences.data(), targets_->numbers()};
+    const IndexedStars::Star star = stars_->of(vertex);
+    VolumeFound found;
+    if (!mesh_.untangling.repair && targets_->fit(incidences))
+      found = search_.find(star, positions, vertex, levels_, scratch.points, targets);
+    if (!found.ready) return alone_.target(positions, vertex, scratch.alone);
+    const Vec3 offset{found.offset.x, found.offset.y, found.offset.z};
+    if (offset == Vec3{}) return std::nullopt;
+    const std::optional<Vec3> target = mesh_.moved(positions[vertex], times(offset, scratch.points.scale));
+    if (!target) return std::nullopt;
+    const std::optional<bool> known = search_.gains(star, scratch.points, positions[vertex], *target, targets);
+    return known.value_or(false) || (!known && alone_.gains(vertex, *target, positions)) ? target : std::nullopt;
+  }
+
+ private:
+  DefinedDmo<Space> alone_;
+  RuleMesh<Space> mesh_;
+  std::shared_ptr<const TetrahedronTargets> targets_;  // shared: the rule is moved about
+  VolumeStarSearch search_;
+  int levels_;
+  std::shared_ptr<const IndexedStars> stars_;
+};
+
 }  // namespace
 
+bool has_target_kernel(const InputMesh& input, Metric metric, const SearchParameters& parameters) {
+  if (input.is_surface() || is_built_in(metric)) return false;
+  const DefinedMetric& of = defined(metric);
+  return of.base == Metric::MeanRatio && !of.target.is_ideal() && parameters.precision == Precision::Float &&
+         (input.is_volume() || parameters.grid_points == 8);
+}
+
 std::unique_ptr<Smoother> make_defined_dmo_smoother(const SmoothingTask& task) {
+  if (has_target_kernel(*task.input, task.metric, task.search)) {
+    if (task.input->is_volume()) return make_sliding_smoother<Space>(task, TargetVolumeDmo(task), single_objective(task.metric));
+    const auto judge = task.input->quality_context().judge(task.metric);
+    const TargetTable& targets = judge->targets();
+    const bool crossed = has_crossed_targets(targets, static_cast<Index>(task.input->mesh.elements.size()));
+    return std::make_unique<LaneDmo<DefinedDmo<Plane>>>(
+        task, DefinedDmo<Plane>(task), target_lane_kernel(simd_level(task), crossed),
+        [&](const StarTable& table) { return build_star_targets(targets, task.input->mesh, task.input->topology, table, task.pool); });
+  }
   return with_frame(*task.input, [&]<class Frame>() {
     return make_sliding_smoother<Frame>(task, DefinedDmo<Frame>(task), single_objective(task.metric));
   });

@@ -9,5 +9,7 @@ namespace dmoscope {
 
 /// dmo, of planar meshes and volumes. See make_smoother, which checks the arguments.
 [[nodiscard]] std::unique_ptr<Smoother> make_defined_dmo_smoother(const SmoothingTask& task);
+/// Is the search that of target_lane_kernel() or target_volume_kernel()? It is for the mean ratio against targets.
+[[nodiscard]] bool has_target_kernel(const InputMesh& input, Metric metric, const SearchParameters& parameters);
 
 }  // namespace dmoscope

@@ -1,0 +1,72 @@
+#pragma once
+// A star whose elements have targets, for the fast search by the mean ratio: its forms, and what a place is worth. The same code for packs
+// of stars and for one.
+
+#include <cstddef>
+
+#include "core/base/host_device.h"
+#include "core/search/star.h"
+#include "core/search/target_form.h"
+#include "core/smooth/kernels/star_table.h"
+#include "core/smooth/kernels/visit_rules.h"
+
+namespace dmoscope::target_star {
+
+/// The most targets that a star in lanes has, and the most forms.
+inline constexpr std::size_t kMaxTargets = kMaxTriangles + kQuadrilateralTargets * kMaxQuadrilaterals;
+inline constexpr std::size_t kMaxForms = kMaxTriangles + kQuadrilateralTargetForms * kMaxQuadrilaterals;
+static_assert(kMaxForms >= kMaxFan && kMaxTargets >= kMaxFan);
+
+/// Appends a star's forms to `forms`; `cap`: what no place can exceed, for a corner that does not change. Returns where the fast search may
+/// be used: no corner is inverted or nearly so. `at(i)`: CornerTarget i, as StarTargets has them.
+template <bool Crossed, class R, class At>
+[[nodiscard]] DMOSCOPE_ANYWHERE auto take_forms(const StarView<R>& star, At at, TargetForm<R, Crossed>* forms, std::size_t& count, R& cap) {
+  using scalar::min;
+  count = 0;
+  cap = scalar::constant<R>(1e30);
+  std::size_t next = 0;
+  for (const StarTriangle<R>& t : star.triangles()) forms[count++] = target_form_of_triangle<Crossed>(t, at(next++));
+  auto ready = cap > R(0);
+  for (const StarQuadrilateral<R>& q : star.quadrilaterals()) {
+    const CornerTarget<R> targets[kQuadrilateralTargets] = {at(next), at(next + 1), at(next + 2), at(next + 3)};
+    next += kQuadrilateralTargets;
+    target_forms_of_quadrilateral<Crossed>(q, targets, forms + count);
+    count += kQuadrilateralTargetForms;
+    cap = min(cap, target_form::quality<Crossed>(q.d - q.c, q.b - q.c, targets[3]));
+    ready = ready & (target_form::ratio<Crossed>(q.d - q.c, q.b - q.c, targets[3]) > R(visit_rules::kLeastRank));
+  }
+  for (std::size_t i = 0; i < count; ++i) ready = ready & (forms[i].n0 > R(visit_rules::kLeastRank) * forms[i].s0);
+  return ready;
+}
+
+/// The star's metric with its vertex at p; far below all others where a corner is inverted there.
+template <bool Crossed, class R, class At>
+[[nodiscard]] DMOSCOPE_ANYWHERE R quality(const StarView<R>& star, Vec2<R> p, At at) {
+  using scalar::min, scalar::select;
+  R least = scalar::constant<R>(1e30);
+  std::size_t next = 0;
+  const auto take = [&](Vec2<R> a, Vec2<R> b) {
+    const R worth = target_form::quality<Crossed>(a, b, at(next++));
+    least = min(least, select(cross(a, b) > R(0), worth, scalar::constant<R>(-1e30)));
+  };
+  for (const StarTriangle<R>& t : star.triangles()) take(t.b - p, t.c - p);
+  for (const StarQuadrilateral<R>& q : star.quadrilaterals()) {
+    take(q.b - p, q.d - p);
+    take(q.c - q.b, p - q.b);
+    take(p - q.d, q.c - q.d);
+    take(q.d - q.c, q.b - q.c);
+  }
+  return least;
+}
+
+/// How far two values of a star may differ and still be equal but for rounding; `steepest`: the largest of its targets.
+[[gnu::always_inline]] [[nodiscard]] DMOSCOPE_ANYWHERE inline double doubt(double steepest) { return 1e-10 * steepest; }
+
+[[gnu::always_inline]] [[nodiscard]] DMOSCOPE_ANYWHERE inline visit_rules::Verdict judge(double before, double after, double steepest,
+                                                                                         Vec2<double> step) {
+  using visit_rules::Verdict;
+  if (!(after > before - doubt(steepest)) || (step.x == 0.0 && step.y == 0.0)) return Verdict::Stay;
+  return after > before + doubt(steepest) ? Verdict::Move : Verdict::MoveIfExact;
+}
+
+}  // namespace dmoscope::target_star

@@ -1,0 +1,37 @@
+#pragma once
+// The targets of tetrahedra as target_volume_kernel() reads them.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/mesh/mesh.h"
+#include "core/mesh/topology.h"
+#include "core/target/target_table.h"
+
+namespace dmoscope {
+
+class TetrahedronTargets {
+ public:
+  TetrahedronTargets(const TargetTable& targets, const Mesh& mesh);
+  /// Of the elements of a star alone, numbered as it has them.
+  TetrahedronTargets(const TargetTable& targets, const Mesh& mesh, std::span<const Incidence> star);
+
+  /// Has any element a target that is crossed (see solid_target.h)?
+  [[nodiscard]] bool crossed() const noexcept { return crossed_; }
+  [[nodiscard]] const double* numbers() const noexcept { return numbers_.data(); }
+  /// Is a star one of tetrahedra whose metric falls as fast as elsewhere?
+  [[nodiscard]] bool fit(std::span<const Incidence> star) const {
+    for (const Incidence& at : star)
+      if (fits_[at.element] == 0) return false;
+    return true;
+  }
+
+ private:
+  void add(const TargetTable& targets, const Mesh& mesh, Index element);
+  bool crossed_ = false;
+  std::vector<std::uint8_t> fits_;  // by element
+  std::vector<double> numbers_;
+};
+
+}  // namespace dmoscope

@@ -1,0 +1,157 @@
+#pragma once
+// DMO of planar meshes for speed: lanes of many vertices.
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/base/memory.h"
+#include "core/smooth/kernels/lane_kernel.h"
+#include "core/smooth/kernels/star_targets.h"
+#include "core/smooth/methods/slide.h"
+#include "core/smooth/vertex_rule.h"
+
+namespace dmoscope {
+
+[[nodiscard]] inline SimdLevel simd_level(const SmoothingTask& task) { return task.search.simd.value_or(best_simd_level()); }
+
+/// Works on its own copy of the positions in the order of the visits, and keeps who needs no visit because nothing of its star moved since
+/// it was last found at its best. Reference: the rule for single vertices, with gains(vertex, target, positions).
+template <class Reference>
+class LaneDmo final : public Smoother {
+ public:
+  /// `targets`: makes those of the stars where the kernel is for them.
+  using MakeTargets = std::function<StarTargets(const StarTable& table)>;
+  LaneDmo(const SmoothingTask& task, Reference reference, LaneKernel kernel, const MakeTargets& targets = {})
+      : input_(task.input),
+        colouring_(task.colouring),
+        reference_(std::move(reference)),
+        slide_(task, single_objective(task.metric)),
+        table_(build_star_table(input_->mesh, input_->topology, *colouring_, task.pool)),
+        targets_(targets ? targets(table_) : StarTargets{}),
+        kernel_(kernel),
+        ranked_(large_vector<Vec3>(table_.vertex_of_rank.size())),
+        awake_(large_vector<std::uint8_t>(table_.vertex_of_rank.size())),
+        task_(describe(task.search)) {
+    for (std::size_t rank = 0; rank < colouring_->order.size(); ++rank)
+      if (slide_.slides(colouring_->order[rank])) table_.shapes[rank].kind = StarShape::Kind::Alone;
+  }
+
+  void begin(const Sweep& sweep) override {
+    reference_.begin(sweep);
+    slide_.begin(sweep);
+    if (sweep.untangling != untangling_) std::ranges::fill(awake_, std::uint8_t{1});
+    untangling_ = sweep.untangling;
+  }
+  std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
+    if (stale_) load(positions, pool);
+    std::atomic<std::uint64_t> moved{0}, searched{0};
+    stored_ = false;
+    for_classes(*colouring_, first, count, [&](std::uint64_t from, std::uint64_t to) {
+      const auto chunk = [&](std::size_t begin, std::size_t end) {
+        // Those of one class do not wake each other, so who is awake now is who will be visited.
+        const auto here = std::span(awake_).subspan(from + begin, end - begin);
+        searched += untangling_.repair ? here.size() : static_cast<std::uint64_t>(std::ranges::count(here, std::uint8_t{1}));
+        moved += untangling_.repair ? repair(from + begin, from + end) : kernel_(task_, from + begin, from + end);
+      };
+      for_chunks(pool, to - from, kLaneGrain, std::cref(chunk));  // by reference: a function object of this size would be allocated
+    });
+    searched_ += searched;
+    return moved;
+  }
+  [[nodiscard]] std::optional<std::uint64_t> searched() const noexcept override { return searched_; }
+  void store(std::span<Vec3> positions, ThreadPool* pool) override {
+    if (stored_ || stale_) return;
+    for_chunks(pool, positions.size(), kCopyGrain, [&](std::size_t first, std::size_t last) {
+      for (std::size_t v = first; v < last; ++v) positions[v] = ranked_[table_.rank_of_vertex[v]];
+    });
+    stored_ = true;
+  }
+  void positions_replaced() override { stale_ = true; }
+  void give(std::span<const Index> vertices, std::span<const Vec3> /*positions*/, std::span<Vec3> places) const override {
+    for (std::size_t i = 0; i < vertices.size(); ++i) places[i] = ranked_[table_.rank_of_vertex[vertices[i]]];
+  }
+  void take(std::span<const Index> vertices, std::span<const Vec3> places, std::span<Vec3> /*positions*/) override {
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      Vec3& here = ranked_[table_.rank_of_vertex[vertices[i]]];
+      if (here == places[i]) continue;
+      here = places[i];
+      for (const Incidence& at : input_->topology.star(vertices[i]))
+        for (const Index other : input_->mesh.elements.corners(at.element)) awake_[table_.rank_of_vertex[other]] = 1;
+    }
+    stored_ = false;
+  }
+
+ private:
+  static constexpr std::size_t kCopyGrain = std::size_t{1} << 16U;
+
+  /// What does not change between visits.
+  LaneTask describe(const SearchParameters& parameters) {
+    LaneTask task{};
+    task.shapes = table_.shapes.data();
+    task.others = table_.others.data();
+    task.ranked = ranked_.empty() ? nullptr : &ranked_[0].x;
+    task.awake = awake_.data();
+    task.frame = make_search_frame(*input_);
+    task.parameters = parameters;
+    task.targets = targets_.numbers.data();
+    task.first_target = targets_.first.data();
+    task.owner = this;
+    task.gains = [](void* owner, Index rank, const double* p) {
+      auto& self = *static_cast<LaneDmo*>(owner);
+      return self.reference_.gains(self.table_.vertex_of_rank[rank], {p[0], p[1], p[2]}, self.view());
+    };
+    task.visit_alone = [](void* owner, Index rank) {
+      auto& self = *static_cast<LaneDmo*>(owner);
+      thread_local Slide<Plane>::Scratch sliding;  // kept: stepping allocates nothing
+      thread_local typename Reference::Scratch room;
+      const Index vertex = self.table_.vertex_of_rank[rank];
+      const auto target =
+          self.slide_.slides(vertex) ? self.slide_.target(self.view(), vertex, sliding) : self.reference_.target(self.view(), vertex, room);
+      if (target) self.ranked_[rank] = *target;
+      return target.has_value();
+    };
+    return task;
+  }
+
+  /// Lanes are for sound stars, which wait.
+  std::uint64_t repair(std::uint64_t first, std::uint64_t last) {
+    std::uint64_t moved = 0;
+    for (std::uint64_t rank = first; rank < last; ++rank) moved += task_.visit_alone(this, static_cast<Index>(rank)) ? 1U : 0U;
+    return moved;
+  }
+
+  void load(std::span<const Vec3> positions, ThreadPool* pool) {
+    for_chunks(pool, ranked_.size(), kCopyGrain, [&](std::size_t first, std::size_t last) {
+      for (std::size_t rank = first; rank < last; ++rank) {
+        ranked_[rank] = positions[table_.vertex_of_rank[rank]];
+        awake_[rank] = 1;
+      }
+    });
+    stale_ = false;
+  }
+
+  [[nodiscard]] PositionView view() const { return {ranked_, table_.rank_of_vertex}; }
+
+  std::shared_ptr<const InputMesh> input_;
+  std::shared_ptr<const Colouring> colouring_;
+  Reference reference_;
+  Slide<Plane> slide_;
+  StarTable table_;
+  StarTargets targets_;  // empty: ideal ones
+  LaneKernel kernel_;
+  std::vector<Vec3> ranked_;
+  std::vector<std::uint8_t> awake_;
+  LaneTask task_;
+  bool stale_ = true;    // ranked_ is older than the run's positions
+  bool stored_ = false;  // and these are as new as ranked_
+  std::uint64_t searched_ = 0;
+  Untangling untangling_{};  // by which those asleep stay
+};
+
+}  // namespace dmoscope

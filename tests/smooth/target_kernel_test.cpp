@@ -1,0 +1,286 @@
+// The fast search against targets: what its forms are worth against the statistics' own formulas, what it finds against a look at every
+// candidate, and the program's promises.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/base/same_bits.h"
+#include "core/inspect/visit_trace.h"
+#include "core/mesh/generate.h"
+#include "core/quality/defined_metric.h"
+#include "core/smooth/kernels/star_targets.h"
+#include "core/smooth/kernels/target_star.h"
+#include "core/smooth/kernels/tetrahedron_targets.h"
+#include "core/smooth/methods/defined_dmo.h"
+#include "core/smooth/methods/defined_rule.h"
+#include "core/smooth/methods/fast_volume_search.h"
+#include "tests/smooth/promises.h"
+#include "tests/support/volume_grids.h"
+
+namespace dmoscope::testing {
+namespace {
+
+/// As they were, with averages and with a tolerance, which makes them steep; along a direction, which makes them crossed.
+constexpr std::array kPlanar{"mean-ratio@input", "mean-ratio@input:2", "mean-ratio@input:1:20%", "mean-ratio@aspect:3:30"};
+constexpr std::array kSolid{"mean-ratio@input:2", "mean-ratio@input:1:20%", "mean-ratio@aspect:2:1:2:3"};
+
+std::vector<Specimen> planar_specimens() {
+  std::vector<Specimen> all;
+  const auto add = [&all](std::string name, Mesh mesh) { all.push_back({std::move(name), std::move(mesh)}); };
+  add("triangles", lattice(9, 0.35, 121));
+  add("quadrilaterals", lattice(9, 0.35, 122, Cells::Quadrilaterals));
+  add("mixed", lattice(9, 0.35, 123, Cells::Mixed));
+  add("tangled", lattice(9, 0.8, 124, Cells::Mixed));
+  add("stretched", mapped(lattice(9, 0.3, 125, Cells::Mixed), [](Vec3 p) { return Vec3{300.0 * p.x + 3e4, p.y, 0.0}; }));
+  add("far away", mapped(lattice(9, 0.3, 126), [](Vec3 p) { return Vec3{p.x + 4e6, p.y - 7e6, 0.0}; }));
+  add("tiny", mapped(lattice(7, 0.35, 127, Cells::Mixed), [](Vec3 p) { return 1e-9 * p; }));
+  add("stars", mixed_stars());
+  return all;
+}
+std::vector<Specimen> solid_specimens() {
+  std::vector<Specimen> all;
+  const auto add = [&all](std::string name, Mesh mesh) { all.push_back({std::move(name), std::move(mesh)}); };
+  add("tetrahedra", test::volume_grid(3, test::Fill::Tetrahedra, 0.35, 131));
+  add("mixed", test::volume_grid(3, test::Fill::Mixed, 0.3, 132));
+  add("stretched", mapped(test::volume_grid(3, test::Fill::Tetrahedra, 0.3, 133), [](Vec3 p) { return Vec3{50.0 * p.x, p.y, p.z}; }));
+  add("tangled", test::volume_grid(3, test::Fill::Tetrahedra, 0.8, 134));
+  return all;
+}
+
+std::shared_ptr<const InputMesh> generated(const std::string& words) {
+  Progress progress;
+  return generate_input(words, progress);
+}
+
+/// What the forms make of the star of a vertex at a few places, as the lanes judge it, against the statistics.
+template <bool Crossed>
+void expect_star_quality(const InputMesh& mesh, const DefinedJudge& judge, Index vertex, std::mt19937& random) {
+  std::vector<Index> others;
+  std::vector<double> numbers;
+  const StarShape shape = star_shape(mesh.mesh, mesh.topology, vertex, others);
+  if (shape.kind == StarShape::Kind::Alone) return;
+  append_star_targets(judge.targets(), Crossed, mesh.mesh, mesh.topology, vertex, shape, others, numbers);
+  const auto star_judge = defined_star_judge<Plane>(mesh, judge);
+  const Vec3 here = mesh.mesh.positions[vertex];
+  std::vector<StarTriangle<double>> triangles;
+  std::vector<StarQuadrilateral<double>> quadrilaterals;
+  const auto at = [&](std::size_t i) { return star_judge.mesh.frame.offset(mesh.mesh.positions[others[i]], here); };
+  const std::size_t n = shape.triangles;
+  const bool fan = shape.kind == StarShape::Kind::Fan;
+  for (std::size_t i = 0; i < n; ++i)
+    triangles.push_back(fan ? StarTriangle<double>{at(i), at((i + 1) % n), 1.0} : StarTriangle<double>{at(2 * i), at(2 * i + 1), 1.0});
+  for (std::size_t i = 0; i < shape.quadrilaterals; ++i)
+    quadrilaterals.push_back({at(2 * n + 3 * i), at(2 * n + 3 * i + 1), at(2 * n + 3 * i + 2), 1.0});
+  const StarView<double> star(triangles.data(), n, quadrilaterals.data(), quadrilaterals.size());
+  double reach = 0.0;
+  for (std::size_t i = 0; i < others.size(); ++i) reach = std::max(reach, std::sqrt(dot(at(i), at(i))));
+  std::uniform_real_distribution<double> part(-0.3, 0.3);
+  for (int k = 0; k < 5; ++k) {
+    const Vec2<double> wished = k == 0 ? Vec2<double>{} : Vec2<double>{reach * part(random), reach * part(random)};
+    const Vec3 there = here + star_judge.mesh.frame.lift(wished);
+    const Vec2<double> p = star_judge.mesh.frame.offset(there, here);  // as stored
+    const StarState state = defined_star_state(star_judge, mesh.mesh.positions, vertex, there);
+    const double got = target_star::quality<Crossed>(star, p, [&](std::size_t i) {
+      return corner_target<Crossed, double>([&](std::size_t number) { return numbers[target_numbers(Crossed) * i + number]; });
+    });
+    if (state.jacobian > 0.0) {
+      EXPECT_NEAR(got, state.quality, 1e-8 * std::max(1.0, std::abs(state.quality))) << "vertex " << vertex;
+    } else {
+      EXPECT_LT(got, -1e20) << "vertex " << vertex;
+    }
+  }
+}
+
+TEST(TargetKernels, JudgeStarsAsTheStatisticsDo) {
+  std::mt19937 random(7);
+  for (const Specimen& specimen : planar_specimens())
+    for (const char* metric : kPlanar) {
+      SCOPED_TRACE(std::string(metric) + " on " + specimen.name);
+      const auto mesh = input(specimen.mesh);
+      const auto judge = mesh->quality_context().judge(parse_metric(metric));
+      const bool crossed = has_crossed_targets(judge->targets(), static_cast<Index>(mesh->mesh.elements.size()));
+      EXPECT_EQ(crossed, std::string(metric).find("aspect:") != std::string::npos);
+      for (Index v = 0; v < mesh->mesh.vertex_count(); v += 3) {
+        if (mesh->topology.boundary()[v] != 0 || mesh->topology.star(v).empty()) continue;
+        if (crossed)
+          expect_star_quality<true>(*mesh, *judge, v, random);
+        else
+          expect_star_quality<false>(*mesh, *judge, v, random);
+        if (HasFatalFailure()) return;
+      }
+    }
+}
+
+TEST(TargetKernels, JudgeTetrahedraAsTheStatisticsDo) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> part(-0.2, 0.2);
+  for (const Specimen& specimen : solid_specimens())
+    for (const char* metric : {kSolid[0], kSolid[2]}) {
+      SCOPED_TRACE(std::string(metric) + " on " + specimen.name);
+      const auto mesh = input(specimen.mesh);
+      const auto judge = mesh->quality_context().judge(parse_metric(metric));
+      const auto star_judge = defined_star_judge<Space>(*mesh, *judge);
+      const TetrahedronTargets targets(judge->targets(), mesh->mesh);
+      const VolumeStarSearch search({}, targets.crossed());
+      for (const SimdLevel level : supported_simd_levels()) {
+        const VolumeKernel kernel = target_volume_kernel(level, targets.crossed());
+        for (Index v = 0; v < mesh->mesh.vertex_count(); ++v) {
+          const auto incidences = mesh->topology.star(v);
+          if (mesh->topology.boundary()[v] != 0 || !targets.fit(incidences)) continue;
+          const IndexedStars stars(*mesh, v);
+          const IndexedStars::Star star = stars.of(v);
+          std::vector<Vec3> others;
+          for (const Index other : star.vertices) others.push_back(mesh->mesh.positions[other]);
+          const Vec3 here = mesh->mesh.positions[v];
+          const double reach = length(others[0] - here);
+          const Vec3 there = here + reach * Vec3{part(random), part(random), part(random)};
+          const BeforeAndAfter rank =
+              kernel.least_ranks({star.elements, others.data(), here, there, {incidences.data(), targets.numbers()}});
+          for (const auto& [place, got] : {std::pair(here, rank.before), std::pair(there, rank.after)}) {
+            const StarState state = defined_star_state(star_judge, mesh->mesh.positions, v, place);
+            if (state.jacobian > 0.0) {
+              EXPECT_NEAR(std::cbrt(got), state.quality, 1e-9) << "vertex " << v;
+            }
+            EXPECT_EQ(got > 0.0, state.jacobian > 0.0) << "vertex " << v;
+          }
+        }
+      }
+    }
+}
+
+/// Level by level, by the statistics' values of the candidates: the one that was chosen is as good as the best, but for floats.
+template <class Frame, class Trace>
+void expect_best_of_levels(const InputMesh& mesh, const Trace& trace) {
+  const auto judge = mesh.quality_context().judge(trace.metric);
+  const auto star_judge = defined_star_judge<Frame>(mesh, *judge);
+  const auto worth = [&](const auto& offset) {
+    const Vec3 there = trace.from + star_judge.mesh.frame.lift(offset);
+    const StarState state = defined_star_state(star_judge, mesh.mesh.positions, trace.vertex, there);
+    return state.jacobian > 0.0 ? state.quality : -std::numeric_limits<double>::infinity();
+  };
+  double best = trace.before.quality;
+  const double room = 2e-3 * std::max(1.0, std::abs(best));
+  for (const auto& level : trace.levels) {
+    if (level.best) best = worth(level.at(*level.best));
+    for (int i = 0; i < static_cast<int>(level.offsets.size()); ++i)
+      ASSERT_GE(best, worth(level.at(i)) - room) << "vertex " << trace.vertex << ", candidate " << i;
+  }
+}
+
+TEST(TargetKernels, FindTheBestCandidate) {
+  std::size_t fast = 0, slow = 0;
+  const std::vector<std::uint8_t> free(10000);
+  for (const Specimen& specimen : planar_specimens())
+    for (const char* metric : kPlanar) {
+      SCOPED_TRACE(std::string(metric) + " on " + specimen.name);
+      const auto mesh = input(specimen.mesh);
+      for (Index v = 0; v < mesh->mesh.vertex_count(); v += 2) {
+        if (mesh->topology.boundary()[v] != 0 || mesh->topology.star(v).empty()) continue;
+        const VisitTrace trace = trace_visit(*mesh, mesh->mesh.positions, free, parse_metric(metric), {}, v);
+        if (!(trace.before.jacobian > 0.0)) continue;
+        ++(trace.fast ? fast : slow);
+        if (!trace.fast) continue;
+        expect_best_of_levels<Plane>(*mesh, trace);
+      }
+    }
+  for (const Specimen& specimen : solid_specimens())
+    for (const char* metric : kSolid) {
+      SCOPED_TRACE(std::string(metric) + " on " + specimen.name);
+      const auto mesh = input(specimen.mesh);
+      for (Index v = 0; v < mesh->mesh.vertex_count(); ++v) {
+        if (mesh->topology.boundary()[v] != 0 || mesh->topology.star(v).empty()) continue;
+        const VolumeTrace trace = trace_volume_visit(*mesh, mesh->mesh.positions, free, parse_metric(metric), {}, v);
+        if (!(trace.before.jacobian > 0.0)) continue;
+        if (trace.fast) expect_best_of_levels<Space>(*mesh, trace);
+      }
+    }
+  EXPECT_GT(fast, 20 * slow);
+}
+
+TEST(TargetKernels, KeepTheFirstPromise) {
+  const auto keep = [](const Specimen& specimen, const char* metric) {
+    SCOPED_TRACE(std::string(metric) + " on " + specimen.name);
+    const auto mesh = input(specimen.mesh);
+    ASSERT_TRUE(has_target_kernel(*mesh, parse_metric(metric), {}));
+    auto run = make_run(mesh, {.metric = parse_metric(metric)});
+    expect_promise_one(specimen, run, 3);
+    expect_fixed_stay(specimen, run);
+  };
+  for (const Specimen& specimen : planar_specimens())
+    for (const char* metric : kPlanar) keep(specimen, metric);
+  for (const Specimen& specimen : solid_specimens())
+    for (const char* metric : kSolid) keep(specimen, metric);
+}
+
+TEST(TargetKernels, HaveTheSameBitsForAnyThreadsAndInstructions) {
+  const auto expect = [](const char* words, const char* metric) {
+    SCOPED_TRACE(std::string(metric) + " on " + words);
+    const auto mesh = generated(words);
+    const auto smoothed = [&](std::optional<SimdLevel> level, unsigned threads) {
+      RunParameters parameters{.metric = parse_metric(metric)};
+      parameters.search.simd = level;
+      auto run = make_run(mesh, parameters, threads);
+      Progress progress;
+      run.iterate(3, progress);
+      return std::vector<Vec3>(run.positions().begin(), run.positions().end());
+    };
+    const auto expected = smoothed({}, 1);
+    if (std::string(metric) != "mean-ratio@input") {  // by which all is at its best
+      EXPECT_FALSE(same_bits(expected, std::span<const Vec3>(mesh->mesh.positions)));
+    }
+    for (const SimdLevel level : supported_simd_levels()) EXPECT_TRUE(same_bits(expected, smoothed(level, 3))) << name(level);
+  };
+  for (const char* metric : kPlanar)
+    for (const char* words : {"mixed 900", "tangled 400"}) expect(words, metric);
+  expect("anisotropic 900", "mean-ratio@field");
+  for (const char* metric : kSolid) expect("tetrahedra 300", metric);
+}
+
+TEST(TargetKernels, LooksIntoVisitsShowWhatTheyDo) {
+  for (const char* words : {"mixed 100", "tangled 100", "tetrahedra 60"})
+    for (const char* metric : {"mean-ratio@input:1", "mean-ratio@input:1:20%", "crossed"}) {
+      const auto mesh = generated(words);
+      const std::string name = std::string(metric) != "crossed" ? metric : mesh->is_volume() ? kSolid[2] : kPlanar[3];
+      SCOPED_TRACE(name + " on " + words);
+      const RunParameters parameters{.metric = parse_metric(name)};
+      auto run = make_run(mesh, parameters);
+      Progress progress;
+      const std::vector<Index> order = run.colouring().order;
+      for (const Index v : order) {
+        Vec3 to{};
+        if (mesh->is_volume())
+          to = trace_volume_visit(*mesh, run.positions(), run.fixed(), parameters.metric, parameters.search, v, {}, run.sweep().untangling)
+                   .to;
+        else
+          to = trace_visit(*mesh, run.positions(), run.fixed(), parameters.metric, parameters.search, v, {}, run.sweep().untangling).to;
+        run.step(StepUnit::Vertex, progress);
+        ASSERT_EQ(run.positions()[v], to) << "vertex " << v;
+      }
+    }
+}
+
+/// A target that is no other than the ideal element, though it goes through all of the arithmetic.
+TEST(TargetKernels, TakeTheCourseOfTheIdealElementWhereThatIsTheTarget) {
+  for (const auto& [words, metric] : {std::pair("random 500", "mean-ratio@aspect:1:0"), std::pair("mixed 500", "mean-ratio@aspect:1:20"),
+                                      std::pair("tetrahedra 300", "mean-ratio@aspect:1:1:0:0")}) {
+    SCOPED_TRACE(metric);
+    const auto mesh = generated(words);
+    const auto statistics = [&](const char* name) {
+      auto run = make_run(mesh, {.metric = parse_metric(name)});
+      Progress progress;
+      run.iterate(2, progress);
+      return run.statistics();
+    };
+    const Statistics expected = statistics("mean-ratio"), got = statistics(metric);
+    EXPECT_NEAR(got.minimum, expected.minimum, 0.01);
+    EXPECT_NEAR(got.mean, expected.mean, 0.002);
+  }
+}
+
+}  // namespace
+}  // namespace dmoscope::testing

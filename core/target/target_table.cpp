@@ -329,8 +329,9 @@ class TargetTable::Maker {
 
   [[nodiscard]] const Field& field_named(const std::string& name) const {
     std::vector<std::string_view> names;
-    const Field* found = nullptr;
+    const Field *found = nullptr, *size = nullptr;
     for (const Field& field : mesh_.fields) {
+      if (size == nullptr && field.on == Field::On::Vertices && field.components == 1) size = &field;
       if (!name.empty() && field.name == name) {
         if (!is_metric_field(field, n_) && !(field.on == Field::On::Vertices && field.components == 1))
           throw UsageError(fmt::format("the field '{}' has no metric tensors: those have {} components a vertex (or 9), or 1 (a size)",
@@ -342,14 +343,18 @@ class TargetTable::Maker {
       if (found == nullptr) found = &field;
     }
     if (names.empty())
-      throw UsageError(
-          fmt::format("the mesh has no metric field: its file needs symmetric tensors of {} components at the vertices, or a .sol "
-                      "file beside it",
-                      n_ == 2 ? 3 : 6));
+      throw UsageError(fmt::format(
+          "the mesh has no metric field: its file needs symmetric tensors of {} components at the vertices, or a .sol file beside it{}",
+          n_ == 2 ? 3 : 6,
+          size == nullptr ? std::string() : fmt::format(". It has numbers: {} takes them for sizes", as_text(size->name))));
     if (!name.empty()) throw UsageError(unknown_value("metric field", name, names));
     if (names.size() > 1)
       throw UsageError(fmt::format("the mesh has {} metric fields: name one, such as field:{}", names.size(), names[0]));
     return *found;
+  }
+
+  [[nodiscard]] static std::string as_text(const std::string& field) {
+    return to_text({.others = {.kind = TargetShape::Kind::Field, .field = field}});
   }
 
   void by_field(const TargetShape& shape, const std::vector<Index>& elements) {

@@ -152,6 +152,12 @@ TEST(Targets, AScalarFieldIsASize) {
   const auto one = input(mesh);
   for (const double size : qualities(*one, "formula:size@field:h")) EXPECT_NEAR(size, 4.0, 1e-12);
   for (const double shape : qualities(*one, "mean-ratio@field:h")) EXPECT_NEAR(shape, 1.0, 1e-12);
+  try {
+    require_defined(parse_metric("mean-ratio@field"), *one);
+    ADD_FAILURE() << "a size is no tensor";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("It has numbers: field:h takes them for sizes"));
+  }
 }
 
 TEST(Targets, WhatIsMissingIsNamed) {

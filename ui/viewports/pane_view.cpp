@@ -90,6 +90,12 @@ bool PaneView::marks_worst(const ViewState& state, bool inspecting) const {
   return state.worst_marker && !frame()->worst.empty() && !inspecting;
 }
 
+/// The one shown, where it has targets or nothing else can have them; else that of the run.
+Metric PaneView::metric_of_targets() const {
+  const Metric shown = frame()->shown;
+  return !is_built_in(shown) || frame()->run == Frame::kNoRun ? shown : session_->runs[session_->active].parameters.metric;
+}
+
 render::SpaceMarks PaneView::space_marks(const Scenery& scenery, Vec2<double> viewport, bool inspected) {
   const ViewState& state = scenery.state;
   render::SpaceMarks marks;
@@ -117,6 +123,8 @@ render::SpaceMarks PaneView::space_marks(const Scenery& scenery, Vec2<double> vi
     add_inspection_marks(marks, state.inspection, scenery.inspection,
                          inspection_look(of_quality, palette(state.theme).accent, units, state.scale));
   }
+  if (!searching && !marks.cells.empty() && picked.kind == Picked::Kind::Element)
+    add_space_target(marks, *frame(), metric_of_targets(), picked.id);
   if (!searching) stepping_.add_space_marks(marks, state, *session_, *volume_, viewport);
   return marks;
 }
@@ -229,11 +237,7 @@ render::Marks PaneView::marks(const Scenery& scenery, const MarkView& view, bool
     const InspectionLook look = inspection_look(of_quality, palette(state.theme).accent, view.camera.units_per_pixel, view.scale);
     add_inspection_marks(marks, state.inspection, scenery.inspection, look);
   }
-  if (!searching) {
-    const Metric shown = frame()->shown;
-    const bool of_shown = !is_built_in(shown) || frame()->run == Frame::kNoRun;
-    add_targets(marks, *frame(), of_shown ? shown : session_->runs[session_->active].parameters.metric, marks.elements);
-  }
+  if (!searching) add_targets(marks, *frame(), metric_of_targets(), marks.elements);
   if (frame()->run != Frame::kNoRun)
     add_size_point(marks, session_->runs[session_->active], frame()->input->geometry.plane, plain.highlight_colour, plain.casing_colour);
   return marks;

@@ -95,6 +95,7 @@ class PaneView {
   /// Whether it shows the active mesh, or one whose ids mean the same.
   [[nodiscard]] bool is_active_mesh(const Scenery& scenery) const;
   [[nodiscard]] Picked picked_here(const Scenery& scenery) const;
+  [[nodiscard]] Metric metric_of_targets() const;
   [[nodiscard]] bool marks_worst(const ViewState& state, bool inspecting) const;
 
   std::shared_ptr<const SessionView> session_;

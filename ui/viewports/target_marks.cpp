@@ -1,7 +1,10 @@
 #include "ui/viewports/target_marks.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "core/base/error.h"
 #include "core/inspect/target_shape.h"
@@ -46,6 +49,41 @@ class Ellipse {
   Vec2<double> centre_;
 };
 
+/// Of the sphere in an ideal element of unit edges.
+class Ellipsoid {
+ public:
+  Ellipsoid(const SmallMatrix& map, Vec3 centre) : centre_(centre) {
+    const Eigen e = eigen(map * transposed(map));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double half = kRadius * std::sqrt(std::max(e.values[i], 0.0));
+      axes_[i] = {half * e.vectors.at[0][i], half * e.vectors.at[1][i], half * e.vectors.at[2][i]};
+    }
+  }
+  void draw(std::vector<render::SpaceLine>& lines, float width, render::Rgba colour) const {
+    constexpr int kParts = 40;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto at = [&](int i) {
+        const double angle = 2.0 * std::numbers::pi * i / kParts;
+        return centre_ + std::cos(angle) * axes_[k] + std::sin(angle) * axes_[(k + 1) % 3];
+      };
+      for (int i = 0; i < kParts; ++i) lines.push_back({at(i), at(i + 1), width, colour});
+    }
+  }
+
+ private:
+  std::array<Vec3, 3> axes_;
+  Vec3 centre_;
+};
+
+/// None where there is no target, or the metric is another mesh's.
+std::optional<TargetShapeOfElement> shape_of(const Frame& frame, Metric metric, Index element) {
+  try {
+    return target_shape(*frame.input, frame.positions, metric, element);
+  } catch (const UsageError&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 void add_targets(render::Marks& marks, const Frame& frame, Metric metric, std::span<const Index> elements) {
@@ -53,12 +91,7 @@ void add_targets(render::Marks& marks, const Frame& frame, Metric metric, std::s
   if (input.geometry.shape != Shape::Planar || frame.positions.empty() || elements.size() > kMostEllipses) return;
   std::vector<render::OverlayLine> inked;
   for (const Index element : elements) {
-    std::optional<TargetShapeOfElement> shape;
-    try {
-      shape = target_shape(input, frame.positions, metric, element);
-    } catch (const UsageError&) {  // the metric is another mesh's
-      return;
-    }
+    const std::optional<TargetShapeOfElement> shape = shape_of(frame, metric, element);
     if (!shape) continue;
     const auto corners = input.mesh.elements.corners(element);
     Vec2<double> centre{};
@@ -74,6 +107,21 @@ void add_targets(render::Marks& marks, const Frame& frame, Metric metric, std::s
     if (TargetShapeOfElement::aspect(shape->wished) > kLong) wished.draw_longer_axis(inked, 1.0F, kInk);
   }
   marks.lines.insert(marks.lines.end(), inked.begin(), inked.end());
+}
+
+void add_space_target(render::SpaceMarks& marks, const Frame& frame, Metric metric, Index element) {
+  const InputMesh& input = *frame.input;
+  if (!input.is_volume() || frame.positions.empty()) return;
+  const std::optional<TargetShapeOfElement> shape = shape_of(frame, metric, element);
+  if (!shape) return;
+  const auto corners = input.mesh.elements.corners(element);
+  Vec3 centre{};
+  for (const Index v : corners) centre = centre + (1.0 / static_cast<double>(corners.size())) * frame.positions[v];
+  const double size = std::cbrt(determinant(shape->now) / determinant(shape->wished));
+  const Ellipsoid wished(scaled(size, shape->wished), centre), now(shape->now, centre);
+  now.draw(marks.lines, 1.0F, kCasing);
+  wished.draw(marks.lines, 3.4F, kCasing);
+  wished.draw(marks.lines, 1.6F, kInk);
 }
 
 }  // namespace dmoscope::ui

@@ -1,0 +1,91 @@
+// Targets over picked elements: the drawn ellipses against the stretch and direction that were asked for.
+#include "ui/viewports/target_marks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "core/mesh/generate.h"
+#include "core/run/parameters.h"
+#include "tests/support/meshes.h"
+#include "tests/support/volume_grids.h"
+
+namespace dmoscope::app {
+namespace {
+
+Frame frame_of(Mesh mesh) {
+  Frame frame;
+  frame.positions = mesh.positions;
+  frame.input = testing::input(std::move(mesh));
+  return frame;
+}
+
+/// Of the outline that is drawn widest but for its casing: lengths from the centre, and the way to the farthest point.
+template <class Lines, class Point>
+struct Outline {
+  double least = HUGE_VAL, most = 0.0;
+  Point farthest{};
+  Outline(const Lines& lines, Point centre) {
+    for (const auto& line : lines) {
+      if (line.width != 1.6F) continue;
+      const Point way = line.from - centre;
+      const double length = std::sqrt(dot(way, way));
+      least = std::min(least, length);
+      if (length > most) most = length, farthest = way;
+    }
+  }
+};
+
+TEST(TargetMarks, AnEllipseHasTheTargetsStretchAndDirection) {
+  const Frame frame = frame_of(testing::lattice(4, 0.2, 5));
+  const Index element = 12;
+  render::Marks marks;
+  ui::add_targets(marks, frame, parse_metric("mean-ratio@aspect:3:30"), std::vector<Index>{element});
+  Vec2<double> centre{};
+  for (const Index v : frame.input->mesh.elements.corners(element))
+    centre = {centre.x + frame.positions[v].x / 3.0, centre.y + frame.positions[v].y / 3.0};
+  const Outline ellipse(marks.lines, centre);
+  EXPECT_NEAR(ellipse.most / ellipse.least, 3.0, 0.02);
+  const double angle = std::atan2(ellipse.farthest.y, ellipse.farthest.x) * 180.0 / std::numbers::pi;
+  EXPECT_NEAR(std::fmod(angle + 180.0, 180.0), 30.0, 4.0);  // a corner of 48
+}
+
+TEST(TargetMarks, AnEllipsoidToo) {
+  const Frame frame = frame_of(test::volume_grid(2, test::Fill::Tetrahedra, 0.2, 6));
+  const Index element = 7;
+  render::SpaceMarks marks;
+  ui::add_space_target(marks, frame, parse_metric("mean-ratio@aspect:4:0:0:1"), element);
+  Vec3 centre{};
+  for (const Index v : frame.input->mesh.elements.corners(element)) centre = centre + 0.25 * frame.positions[v];
+  const Outline ellipsoid(marks.lines, centre);
+  EXPECT_NEAR(ellipsoid.most / ellipsoid.least, 4.0, 0.02);
+  EXPECT_NEAR(std::abs(ellipsoid.farthest.z) / ellipsoid.most, 1.0, 1e-6);
+  // As large as the element: half axes of 4 a, a and a, whose product is that of the element's own ellipsoid, 0.28^3 times its volume
+  // against the ideal one's.
+  double volume = 0.0;
+  {
+    const auto c = frame.input->mesh.elements.corners(element);
+    const Vec3 u = frame.positions[c[1]] - frame.positions[c[0]], v = frame.positions[c[2]] - frame.positions[c[0]],
+               w = frame.positions[c[3]] - frame.positions[c[0]];
+    volume = dot(cross(u, v), w) / 6.0;
+  }
+  const double ideal = std::numbers::sqrt2 / 12.0;
+  EXPECT_NEAR(ellipsoid.most * ellipsoid.least * ellipsoid.least / (0.28 * 0.28 * 0.28), volume / ideal, 0.05 * volume / ideal);
+}
+
+TEST(TargetMarks, ThereAreNoneWithoutATarget) {
+  const Frame plane = frame_of(testing::lattice(3, 0.2, 7)), space = frame_of(test::volume_grid(2, test::Fill::Hexahedra, 0.1, 8));
+  render::Marks marks;
+  render::SpaceMarks in_space;
+  for (const char* metric : {"mean-ratio", "formula:lmin/lmax", "mean-ratio@nothing:input", "mean-ratio@field"}) {
+    ui::add_targets(marks, plane, parse_metric(metric), std::vector<Index>{0});
+    ui::add_space_target(in_space, space, parse_metric(metric), 0);
+  }
+  EXPECT_TRUE(marks.lines.empty());
+  EXPECT_TRUE(in_space.lines.empty());
+}
+
+}  // namespace
+}  // namespace dmoscope::app

@@ -79,7 +79,7 @@ fi
 
 # Code compiled for one kind of processor must share no compiled copy with the rest: every function that the linker could take for
 # another's carries its packs' architecture (xsimd) in its name. $1: the build folder.
-for object in ${1:+"$1"/core/CMakeFiles/dmoscope_core.dir/{smooth/kernels/{composite,lane,volume},formula/formula}_kernel_avx*.o}; do
+for object in ${1:+"$1"/core/CMakeFiles/dmoscope_core.dir/{smooth/kernels/{composite,lane,target_lane,target_volume,volume},formula/formula}_kernel_avx*.o}; do
   [[ -f $object ]] || continue
   shared=$(nm "$object" | awk '$2 == "W" && $3 !~ /avx2|avx512/ && $3 !~ /^DW\.ref\./ {print $3}' | c++filt)
   [[ -z $shared ]] && continue

@@ -197,8 +197,8 @@ class RatioSearch {
       R fall = (x - min(half * x, f.along_x() * hx * hx)) + (y - min(half * y, f.along_y() * hy * hy));
       if constexpr (kCrossed) fall = fall + abs(f.sxy) * hx * hy;
       least = min(least, select(counts, R(1) - fall * weight_[k], R(1)));
-      // Where the threshold is held at 0, a margin is no gain.
-      if constexpr (Form::kShifted) least = select(t + f.shift < R(0), R(0), least);
+      // Where the threshold is held, a margin is no gain.
+      if constexpr (Form::kShifted) least = select(t + f.shift < scalar::constant<R>(kLeastTargetRatio), R(0), least);
     }
     const R smallest = scalar::constant<R>(0.05);
     return select(least > smallest, R(1) / max(least, smallest), huge());

@@ -18,8 +18,8 @@ struct CornerTarget {
   R k11, k12, k22;  // K
 };
 
-/// How many numbers a CornerTarget has in memory: of one that is crossed the last is unused.
-[[nodiscard]] constexpr std::size_t target_numbers(bool crossed) { return crossed ? 8 : 4; }
+/// How many numbers a CornerTarget has in memory: where none is crossed K is left out.
+[[nodiscard]] constexpr std::size_t target_numbers(bool crossed) { return crossed ? 7 : 4; }
 
 /// number(k): number k in memory.
 template <bool Crossed, class R, class Number>
@@ -33,6 +33,9 @@ template <bool Crossed, class R, class Number>
   return t;
 }
 
+/// Below this mean ratio of a corner nothing is looked for, however little its metric counts beside that of a steep one.
+inline constexpr double kLeastTargetRatio = 1e-6;
+
 /// Crossed: K is not the same along x and y, so that S has three terms of second order.
 template <class R, bool Crossed>
 struct TargetForm;
@@ -43,10 +46,9 @@ struct TargetForm<R, false> : RatioForm<R> {
   R shift;  // the metric is N / S less this
 
   [[nodiscard]] DMOSCOPE_ANYWHERE R quality(R ratio) const { return ratio - shift; }
-  /// N stays positive, however low t is.
   [[nodiscard]] DMOSCOPE_ANYWHERE R threshold(R t) const {
     using scalar::max;
-    return max(t + shift, R(0));
+    return max(t + shift, scalar::constant<R>(kLeastTargetRatio));
   }
 };
 
@@ -69,7 +71,7 @@ struct TargetForm<R, true> {
   [[nodiscard]] DMOSCOPE_ANYWHERE R quality(R ratio) const { return ratio - shift; }
   [[nodiscard]] DMOSCOPE_ANYWHERE R threshold(R t) const {
     using scalar::max;
-    return max(t + shift, R(0));
+    return max(t + shift, scalar::constant<R>(kLeastTargetRatio));
   }
 };
 
@@ -99,9 +101,9 @@ template <bool Crossed, class R>
   return R(2) * cross(a, b) / select(squares > R(0), squares, R(1));
 }
 /// And the metric that it makes.
-template <bool Crossed, class R>
-[[nodiscard]] DMOSCOPE_ANYWHERE R quality(Vec2<R> a, Vec2<R> b, const CornerTarget<R>& t) {
-  return R(1) - (R(1) - ratio<Crossed>(a, b, t)) * t.steepness;
+template <class R>
+[[nodiscard]] DMOSCOPE_ANYWHERE R quality(R ratio, const CornerTarget<R>& t) {
+  return R(1) - (R(1) - ratio) * t.steepness;
 }
 
 /// The form of a corner whose edges are a and b while the vertex is at the origin. `with_a`, `with_b`: by what factor each follows the

@@ -240,7 +240,8 @@ class TargetTable::Maker {
       for (std::size_t row = 0; static_cast<int>(row) < n_; ++row) square += edges.at[row][column] * edges.at[row][column];
       product *= std::sqrt(square);
     }
-    return determinant(edges) > 1e-9 * product;
+    // Of an element that is stretched k times this is about 1/k, of a tetrahedron along one of its edges 1/k^2.
+    return determinant(edges) > (n_ == 2 ? 1e-9 : 1e-13) * product;
   }
 
   /// How each element is stretched against an ideal one, averaged with its neighbours; by the logarithms, so that no mean is flat.

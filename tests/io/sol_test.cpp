@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
+#include "core/io/reading/source_file.h"
 #include "tests/io/files.h"
 #include "tests/support/meshes.h"
 
@@ -75,6 +76,24 @@ TEST_F(SolFiles, AreRefusedWithTheirLine) {
   EXPECT_THAT(why("MeshVersionFormatted 2\nDimension 2\nSolAtVertices\n4\n1 1\n1 2 3 4\n"), HasSubstr("a.sol:4: solutions at 4 vertices"));
   EXPECT_THAT(why("MeshVersionFormatted 2\nDimension 2\nSolAtVertices 3\n1 7\n"), HasSubstr("a.sol:4: a solution of type 7"));
   EXPECT_THAT(why("MeshVersionFormatted 2\nDimension 2\nSolAtVertices 3\n1 1\n1\ntwo\n3\n"), HasSubstr("a.sol:6: "));
+}
+
+TEST_F(SolFiles, ANoteTellsWhatIsThere) {
+  const auto notes_on = [&](const std::string& text) {
+    test::put(folder_ / "part.sol", text);
+    test::put(folder_ / "part.mesh", "MeshVersionFormatted 2\nDimension 2\nVertices\n3\n0 0 0\n1 0 0\n0 1 0\nTriangles\n1\n1 2 3 0\nEnd\n");
+    Progress progress;
+    std::string all;
+    const Mesh mesh = read_mesh(folder_ / "part.mesh", progress);
+    for (const std::string& note : mesh.source->notes()) all += note + "\n";
+    return all;
+  };
+  EXPECT_THAT(notes_on(std::string(kTensors) + "End\n"), HasSubstr("fields read from part.sol beside it\n"));
+  EXPECT_THAT(notes_on("MeshVersionFormatted 2\nDimension 2\nSolAtVertice 3\n1 1\n1 2 3\nTime 1\nTime 2\nEnd\n"),
+              HasSubstr("part.sol beside it has no solutions at vertices, where this was passed over: SolAtVertice, Time\n"));
+  std::string many = kTensors;
+  for (int i = 0; i < 50; ++i) many += "Word" + std::string(1, static_cast<char>('A' + i % 26)) + std::to_string(i) + " 1\n";
+  EXPECT_LT(notes_on(many).size(), 300U);
 }
 
 /// A part of a file has all of a field, or none.

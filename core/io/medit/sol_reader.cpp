@@ -46,7 +46,7 @@ class SolReader {
   /// A keyword that says nothing of vertices, such as Time or SolAtTriangles, and its numbers.
   void pass_over(std::string_view keyword) {
     if (!is_word(keyword)) tokens_.fail(fmt::format("expected a keyword such as SolAtVertices or End, got {}", quote_token(keyword)));
-    passed_over_.emplace_back(keyword);
+    if (std::ranges::find(passed_over_, keyword) == passed_over_.end()) passed_over_.emplace_back(keyword);
     for (std::size_t n = 0; !tokens_.at_end(); ++n) {
       if (n % 65536 == 0) progress_.check();
       const std::size_t offset = tokens_.offset(), line = tokens_.line();
@@ -117,9 +117,18 @@ void read_solutions_beside(SourceFile& source, Mesh& mesh, Progress& progress) {
   if (!std::filesystem::is_regular_file(file, ignored)) return;
   const std::size_t fields = mesh.fields.size();
   try {
-    const std::vector<std::string> left = read_solutions(file, mesh, progress);
-    source.add_note(fmt::format("fields read from {} beside it{}", file.filename().string(),
-                                left.empty() ? std::string() : fmt::format(", where this was passed over: {}", fmt::join(left, ", "))));
+    constexpr std::size_t kMostNamed = 8;
+    std::vector<std::string> left = read_solutions(file, mesh, progress);
+    if (left.size() > kMostNamed) {
+      left.resize(kMostNamed);
+      left.emplace_back("...");
+    }
+    const std::string passed_over = left.empty() ? std::string() : fmt::format(", where this was passed over: {}", fmt::join(left, ", "));
+    if (mesh.fields.size() == fields) {
+      source.add_note(fmt::format("{} beside it has no solutions at vertices{}", file.filename().string(), passed_over));
+      return;
+    }
+    source.add_note(fmt::format("fields read from {} beside it{}", file.filename().string(), passed_over));
     source.set_beside(file.filename().string());
   } catch (const InputError& error) {  // the mesh is sound without it
     mesh.fields.resize(fields);

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include "core/numeric/pack.h"
 // After the packs:
@@ -26,7 +27,7 @@ namespace dmoscope::volumes {
 /// A form of its numbers in order: of(i).
 template <template <class> class Form, class R, class Of>
 [[gnu::always_inline]] [[nodiscard]] inline Form<R> form_of(const Of& of) {
-  if constexpr (sizeof(Form<float>) == sizeof(MeanRatioForm<float>))
+  if constexpr (std::is_same_v<Form<float>, MeanRatioForm<float>>)
     return {of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7), of(8)};
   else
     return {of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7), of(8), of(9), of(10), of(11), of(12), of(13)};

@@ -35,8 +35,8 @@ class Writer {
   void write(Index element, std::size_t matrix, ElementKind kind, const SmallMatrix& first) {
     const ElementTarget target = targets_.of(element);
     SmallMatrix right = inverse(ideal_edges(kind)), left = SmallMatrix::identity(2);
-    if (target.space == FormulaSpace::Target && target.matrices != nullptr) right = at(target.matrices + 4 * matrix) * right;
-    if (target.space == FormulaSpace::Stretched && target.matrices != nullptr) left = at(target.matrices);
+    if (target.space == FormulaSpace::Target) right = at(target.matrices + 4 * matrix) * right;
+    if (target.space == FormulaSpace::Stretched) left = at(target.matrices);
     right = first * right;
     // Turned from the right until it is lower triangular.
     const double l11 = std::hypot(right.at[0][0], right.at[0][1]), c = right.at[0][0] / l11, s = right.at[0][1] / l11;
@@ -45,7 +45,7 @@ class Writer {
     for (const double number : {l11 * size, l21 * size, l22 * size, target.steepness}) to_.push_back(number);
     if (!crossed_) return;
     const double stretch = 1.0 / std::sqrt(left.at[0][0] * left.at[1][1]);
-    for (const double number : {left.at[0][0] * stretch, left.at[0][1] * stretch, left.at[1][1] * stretch, 0.0}) to_.push_back(number);
+    for (const double number : {left.at[0][0] * stretch, left.at[0][1] * stretch, left.at[1][1] * stretch}) to_.push_back(number);
   }
   static SmallMatrix at(const double* m) { return {2, {{{m[0], m[1], 0}, {m[2], m[3], 0}, {}}}}; }
 
@@ -59,10 +59,8 @@ class Writer {
 }  // namespace
 
 bool has_crossed_targets(const TargetTable& targets, Index elements) {
-  for (Index e = 0; e < elements; ++e) {
-    const ElementTarget target = targets.of(e);
-    if (target.matrices != nullptr && target.space == FormulaSpace::Stretched) return true;
-  }
+  for (Index e = 0; e < elements; ++e)
+    if (targets.of(e).space == FormulaSpace::Stretched) return true;
   return false;
 }
 
@@ -91,11 +89,10 @@ void append_star_targets(const TargetTable& targets, bool crossed, const Mesh& m
       for (const Index way : {0U, 1U, 3U, 2U}) writer.corner_of_quadrilateral(at.element, (at.corner + way) % 4);
 }
 
-StarTargets build_star_targets(const TargetTable& targets, const Mesh& mesh, const Topology& topology, const StarTable& table,
+StarTargets build_star_targets(const TargetTable& targets, bool crossed, const Mesh& mesh, const Topology& topology, const StarTable& table,
                                ThreadPool* pool) {
   StarTargets all;
-  all.crossed = has_crossed_targets(targets, static_cast<Index>(mesh.elements.size()));
-  const std::size_t numbers = target_numbers(all.crossed), ranks = table.shapes.size() - 1;
+  const std::size_t numbers = target_numbers(crossed), ranks = table.shapes.size() - 1;
   all.first = large_vector<std::uint32_t>(ranks + 1);
   std::uint64_t end = 0;
   for (std::size_t rank = 0; rank < ranks; ++rank) {
@@ -114,7 +111,7 @@ StarTargets build_star_targets(const TargetTable& targets, const Mesh& mesh, con
       others.clear();
       for (std::uint32_t i = shape.first; i < table.shapes[rank + 1].first; ++i) others.push_back(table.vertex_of_rank[table.others[i]]);
       one.clear();
-      append_star_targets(targets, all.crossed, mesh, topology, table.vertex_of_rank[rank], shape, others, one);
+      append_star_targets(targets, crossed, mesh, topology, table.vertex_of_rank[rank], shape, others, one);
       std::copy(one.begin(), one.end(), all.numbers.begin() + static_cast<std::ptrdiff_t>(all.first[rank] * numbers));
     }
   });

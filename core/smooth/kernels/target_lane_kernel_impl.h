@@ -87,19 +87,19 @@ class TargetKernel : LaneGroup<TargetKernel<Crossed, F, D>, true, F, D> {
       target_star::quality<Crossed>(star, {D(0.0), D(0.0)}, at).store_aligned(before_ + slot);
       const Vec2<D> step{D::load_aligned(step_x_ + slot), D::load_aligned(step_y_ + slot)};
       target_star::quality<Crossed>(star, step, at).store_aligned(after_ + slot);
-      D steepest(1.0);
-      for (std::size_t i = 0; i < target_count(); ++i) steepest = max(steepest, exact_target(i, slot).steepness);
-      steepest.store_aligned(steepest_ + slot);
+      D room(0.0);
+      for (std::size_t i = 0; i < target_count(); ++i) room = max(room, target_star::doubt(exact_target(i, slot)));
+      room.store_aligned(room_ + slot);
     }
   }
 
   [[nodiscard]] visit_rules::Verdict verdict(std::size_t slot) const {
-    return target_star::judge(before_[slot], after_[slot], steepest_[slot], to_[slot].step);
+    return target_star::judge(before_[slot], after_[slot], room_[slot], to_[slot].step);
   }
 
   alignas(64) double exact_targets_[target_star::kMaxTargets][kNumbers][kWidth];
   alignas(64) float targets_[target_star::kMaxTargets][kNumbers][kWidth];
-  alignas(64) double steepest_[kWidth];
+  alignas(64) double room_[kWidth];  // for rounding
   Elements<F, true> elements_;
   std::array<TargetForm<F, Crossed>, target_star::kMaxForms> forms_;
   Rounds rounds_;

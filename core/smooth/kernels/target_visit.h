@@ -91,9 +91,9 @@ class TargetVisit {
     Elements<double> elements;
     const StarView<double> star = gather(elements);
     const auto at = [this](std::size_t i) { return target<double>(i); };
-    double steepest = 1.0;
-    for (std::size_t i = 0; i < targets_.size() / target_numbers(Crossed); ++i) steepest = scalar::max(steepest, at(i).steepness);
-    return target_star::judge(target_star::quality<Crossed>(star, {0.0, 0.0}, at), target_star::quality<Crossed>(star, step, at), steepest,
+    double room = 0.0;
+    for (std::size_t i = 0; i < targets_.size() / target_numbers(Crossed); ++i) room = scalar::max(room, target_star::doubt(at(i)));
+    return target_star::judge(target_star::quality<Crossed>(star, {0.0, 0.0}, at), target_star::quality<Crossed>(star, step, at), room,
                               step);
   }
 

@@ -1,5 +1,6 @@
 #include "core/smooth/kernels/tetrahedron_targets.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/memory.h"
@@ -8,6 +9,9 @@
 namespace dmoscope {
 
 namespace {
+
+/// By how much K may mix one axis into another: floats lose the square of that.
+constexpr double kMostOblique = 1e3;
 
 SmallMatrix matrix_at(const double* m) { return {3, {{{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}}}}; }
 
@@ -41,15 +45,20 @@ TetrahedronTargets::TetrahedronTargets(const TargetTable& targets, const Mesh& m
 void TetrahedronTargets::add(const TargetTable& targets, const Mesh& mesh, Index element) {
   const std::size_t numbers = volumes::solid_target_numbers(crossed_);
   const ElementTarget target = targets.of(element);
-  const bool fits = mesh.elements.kind(element) == ElementKind::Tetrahedron && target.steepness == 1.0;
+  SmallMatrix left = SmallMatrix::identity(3);
+  if (target.space == FormulaSpace::Stretched) left = matrix_at(target.matrices);
+  const auto& k = left.at;
+  const double oblique = std::max({std::abs(k[0][1]), std::abs(k[0][2]), std::abs(k[1][2])});
+  const bool fits = mesh.elements.kind(element) == ElementKind::Tetrahedron && target.steepness == 1.0 &&
+                    oblique < kMostOblique * std::min({k[0][0], k[1][1], k[2][2]});
   fits_.push_back(fits ? 1 : 0);
   if (!fits) {
     numbers_.resize(numbers_.size() + numbers);
     return;
   }
-  SmallMatrix right = inverse(ideal_edges(ElementKind::Tetrahedron)), left = SmallMatrix::identity(3);
+  any_ = true;
+  SmallMatrix right = inverse(ideal_edges(ElementKind::Tetrahedron));
   if (target.space == FormulaSpace::Target) right = matrix_at(target.matrices) * right;
-  if (target.space == FormulaSpace::Stretched) left = matrix_at(target.matrices);
   const double size = 1.0 / std::cbrt(determinant(right)), stretch = 1.0 / std::cbrt(determinant(left));
   turn(right, 0, 1);
   turn(right, 0, 2);
@@ -57,7 +66,6 @@ void TetrahedronTargets::add(const TargetTable& targets, const Mesh& mesh, Index
   const auto& g = right.at;
   for (const double number : {g[0][0], g[1][0], g[1][1], g[2][0], g[2][1], g[2][2]}) numbers_.push_back(size * number);
   if (!crossed_) return;
-  const auto& k = left.at;
   for (const double number : {k[0][0], k[0][1], k[0][2], k[1][1], k[1][2], k[2][2]}) numbers_.push_back(stretch * number);
 }
 

@@ -20,7 +20,9 @@ class TetrahedronTargets {
   /// Has any element a target that is crossed (see solid_target.h)?
   [[nodiscard]] bool crossed() const noexcept { return crossed_; }
   [[nodiscard]] const double* numbers() const noexcept { return numbers_.data(); }
-  /// Is a star one of tetrahedra whose metric falls as fast as elsewhere?
+  /// Is there any element for which the kernel is made?
+  [[nodiscard]] bool any() const noexcept { return any_; }
+  /// Is a star one of tetrahedra whose metric falls as fast as elsewhere, and whose targets floats can hold?
   [[nodiscard]] bool fit(std::span<const Incidence> star) const {
     for (const Incidence& at : star)
       if (fits_[at.element] == 0) return false;
@@ -29,7 +31,7 @@ class TetrahedronTargets {
 
  private:
   void add(const TargetTable& targets, const Mesh& mesh, Index element);
-  bool crossed_ = false;
+  bool crossed_ = false, any_ = false;
   std::vector<std::uint8_t> fits_;  // by element
   std::vector<double> numbers_;
 };

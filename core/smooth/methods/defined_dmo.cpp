@@ -1,5 +1,7 @@
 #include "core/smooth/methods/defined_dmo.h"
 
+#include <utility>
+
 #include "core/search/grid_search.h"
 #include "core/smooth/kernels/tetrahedron_targets.h"
 #include "core/smooth/methods/defined_rule.h"
@@ -61,10 +63,10 @@ class TargetVolumeDmo {
   };
   static constexpr bool kDependsOnStarAlone = true;
   static constexpr std::size_t kGrain = 8;
-  explicit TargetVolumeDmo(const SmoothingTask& task)
+  TargetVolumeDmo(const SmoothingTask& task, std::shared_ptr<const TetrahedronTargets> targets)
       : alone_(task),
         mesh_(*task.input),
-        targets_(std::make_shared<const TetrahedronTargets>(task.input->quality_context().judge(task.metric)->targets(), task.input->mesh)),
+        targets_(std::move(targets)),
         search_(task.search, targets_->crossed()),
         levels_(task.search.levels),
         stars_(std::make_shared<const IndexedStars>(*task.input, *task.colouring, task.pool)) {}
@@ -109,18 +111,22 @@ bool has_target_kernel(const InputMesh& input, Metric metric, const SearchParame
 }
 
 std::unique_ptr<Smoother> make_defined_dmo_smoother(const SmoothingTask& task) {
-  if (has_target_kernel(*task.input, task.metric, task.search)) {
-    if (task.input->is_volume()) return make_sliding_smoother<Space>(task, TargetVolumeDmo(task), single_objective(task.metric));
-    const auto judge = task.input->quality_context().judge(task.metric);
+  const InputMesh& input = *task.input;
+  if (has_target_kernel(input, task.metric, task.search)) {
+    const auto judge = input.quality_context().judge(task.metric);
     const TargetTable& targets = judge->targets();
-    const bool crossed = has_crossed_targets(targets, static_cast<Index>(task.input->mesh.elements.size()));
-    return std::make_unique<LaneDmo<DefinedDmo<Plane>>>(
-        task, DefinedDmo<Plane>(task), target_lane_kernel(simd_level(task), crossed),
-        [&](const StarTable& table) { return build_star_targets(targets, task.input->mesh, task.input->topology, table, task.pool); });
+    if (!input.is_volume()) {
+      const bool crossed = has_crossed_targets(targets, static_cast<Index>(input.mesh.elements.size()));
+      return std::make_unique<LaneDmo<DefinedDmo<Plane>>>(
+          task, DefinedDmo<Plane>(task), target_lane_kernel(simd_level(task), crossed),
+          [&](const StarTable& table) { return build_star_targets(targets, crossed, input.mesh, input.topology, table, task.pool); });
+    }
+    auto tetrahedra = std::make_shared<const TetrahedronTargets>(targets, input.mesh);
+    if (tetrahedra->any())
+      return make_sliding_smoother<Space>(task, TargetVolumeDmo(task, std::move(tetrahedra)), single_objective(task.metric));
   }
-  return with_frame(*task.input, [&]<class Frame>() {
-    return make_sliding_smoother<Frame>(task, DefinedDmo<Frame>(task), single_objective(task.metric));
-  });
+  return with_frame(
+      input, [&]<class Frame>() { return make_sliding_smoother<Frame>(task, DefinedDmo<Frame>(task), single_objective(task.metric)); });
 }
 
 }  // namespace dmoscope

@@ -171,6 +171,11 @@ TEST(DefinedMetrics, AMaximumIsNoCeiling) {
     const auto plain = course("formula:smin/smax");
     EXPECT_FALSE(same_bits(plain, std::span<const Vec3>(mesh->mesh.positions)));
     EXPECT_TRUE(same_bits(plain, course("formula:max(0.01, smin/smax)"))) << "below all values";
+    const auto whole = course("formula:max(0.01, min_corner(smin/smax))");  // of all corners, in space those that stay, too
+    EXPECT_FALSE(same_bits(whole, std::span<const Vec3>(mesh->mesh.positions)));
+    if (!mesh->is_volume()) {
+      EXPECT_TRUE(same_bits(plain, whole));
+    }
     const auto capped = make_run(mesh, {.metric = parse_metric("formula:min(0.01, smin/smax)")}).statistics();
     EXPECT_EQ(capped.minimum, 0.01);
     EXPECT_TRUE(same_bits(course("formula:min(0.01, smin/smax)"), std::span<const Vec3>(mesh->mesh.positions))) << "nothing to gain";

@@ -27,6 +27,9 @@ template <Metric M>
 /// Launches work on volumes: VisitVolume, VisitVolumeTwoAims, JudgeVolume.
 template <Metric M>
 [[nodiscard]] Launcher volume_launcher(Work work);
+/// Launches work by metrics that are defined by formulas or targets. Frame: Plane or Space. `in_double`: the search is.
+template <class Frame>
+[[nodiscard]] Launcher defined_launcher(Work work, bool in_double);
 /// Launches all other work.
 [[nodiscard]] Launcher plain_launcher(Work work);
 

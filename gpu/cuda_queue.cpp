@@ -15,8 +15,11 @@
 #include "gpu/cuda_error.h"
 #include "gpu/cuda_handles.h"
 #include "gpu/cuda_launch.h"
+#include "gpu/cuda_module.h"
 #include "gpu/cuda_staging.h"
+#include "gpu/defined/formula_source.h"
 #include "gpu/gl_interop.h"
+#include "gpu/nvrtc.h"
 #include "gpu/task.h"
 
 namespace dmoscope::gpu {
@@ -45,16 +48,44 @@ class Memory {
   std::unordered_map<void*, std::size_t> sizes_;
 };
 
+class CudaCompiledSearch final : public Queue::CompiledSearch {
+ public:
+  explicit CudaCompiledSearch(const std::string& ptx) : module_(ptx, kFormulaKernel) {}
+  [[nodiscard]] const CudaModule& get() const noexcept { return module_; }
+
+ private:
+  CudaModule module_;
+};
+
+/// The last that were compiled: whoever changes a parameter starts a run by the same formula again. Any thread may ask.
+class CompiledSearches {
+ public:
+  /// On the current device. Throws DeviceError.
+  std::shared_ptr<const CudaCompiledSearch> get(const Nvrtc& compiler, const std::string& source, int capability) {
+    const std::scoped_lock lock(mutex_);
+    if (const auto found = searches_.find(source); found != searches_.end()) return found->second;
+    if (searches_.size() >= kMost) searches_.clear();
+    return searches_[source] = std::make_shared<const CudaCompiledSearch>(compiler.compile(source, formula_headers(), capability));
+  }
+
+ private:
+  static constexpr std::size_t kMost = 32;
+  std::mutex mutex_;
+  std::unordered_map<std::string, std::shared_ptr<const CudaCompiledSearch>> searches_;
+};
+
 /// What all queues of a device share.
 struct CudaDevice {
-  int number = 0;
+  int number = 0, capability = 0;  // 75: 7.5
   std::size_t lanes_at_once = 0;
   std::string description;
   std::shared_ptr<Memory> memory = std::make_shared<Memory>();
+  std::shared_ptr<CompiledSearches> searches = std::make_shared<CompiledSearches>();
 
   explicit CudaDevice(int device) : number(device) {
     cudaDeviceProp properties{};
     DMOSCOPE_CUDA_CHECK(cudaGetDeviceProperties(&properties, device));
+    capability = 10 * properties.major + properties.minor;
     lanes_at_once = static_cast<std::size_t>(properties.multiProcessorCount) * kThreadsAtOnce;
     description = fmt::format("{}, compute capability {}.{}, {:.1f} GiB", properties.name, properties.major, properties.minor,
                               static_cast<double>(properties.totalGlobalMem) / 0x1p30);
@@ -163,7 +194,25 @@ class CudaQueue final : public Queue {
   void launch(Work work, Metric metric, const Task& task, std::size_t count) override {
     if (count == 0) return;
     use(device_);
-    launcher(work, metric)(task, count, (on_side_ ? side_->stream : stream_).get());
+    launcher(work, metric, task.defined)(task, count, (on_side_ ? side_->stream : stream_).get());
+  }
+  Compiled compile(const std::string& source) override {
+    const Nvrtc* compiler = Nvrtc::find();
+    if (compiler == nullptr) return {nullptr, "there is no NVRTC, which is part of CUDA's toolkit"};
+    use(device_);
+    try {
+      return {about_->searches->get(*compiler, source, about_->capability), compiler->description()};
+    } catch (const DeviceError& error) {  // say, a driver that is older than the compiler
+      return {nullptr, error.what()};
+    }
+  }
+  void launch_search(const CompiledSearch& search, const StarSearchTask& task, std::size_t count) override {
+    if (count == 0) return;
+    use(device_);
+    StarSearchTask of = task;
+    void* arguments[] = {&of, &count};
+    const std::size_t blocks = (count * kFormulaWarp + kFormulaBlock - 1) / kFormulaBlock;
+    static_cast<const CudaCompiledSearch&>(search).get().launch(blocks, kFormulaBlock, arguments, stream_.get());
   }
   void wait() override {
     use(device_);
@@ -196,8 +245,8 @@ class CudaQueue final : public Queue {
       Task into = task;
       into.points = reinterpret_cast<Vec2<float>*>(mapped.points);
       into.drawn_shades = mapped.shades;
-      launch(Work::Project, Metric::MeanRatio, into, task.vertex_count);
-      launch(Work::CopyShades, Metric::MeanRatio, into, task.element_count);
+      launch(Work::Project, kNoMetric, into, task.vertex_count);
+      launch(Work::CopyShades, kNoMetric, into, task.element_count);
     });
   }
 
@@ -240,8 +289,10 @@ class CudaQueue final : public Queue {
     return *staging_;
   }
 
-  static Launcher launcher(Work work, Metric metric) {
-    if (const Launcher plain = plain_launcher(work)) return plain;
+  static Launcher launcher(Work work, Metric metric, const DefinedTask& defined) {
+    if (is_by_defined(work))
+      return defined.is_volume ? defined_launcher<Space>(work, defined.in_double) : defined_launcher<Plane>(work, defined.in_double);
+    if (!is_by_metric(work)) return plain_launcher(work);
     if (is_of_solids(work)) return formulas::with_volume_metric(metric, [work]<Metric M>() { return volume_launcher<M>(work); });
     return formulas::with_planar_metric(metric, [work]<Metric M>() { return metric_launcher<M>(work); });
   }

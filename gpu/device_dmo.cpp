@@ -4,6 +4,7 @@
 
 #include "core/smooth/methods/composite_dmo.h"
 #include "gpu/bodies.h"
+#include "gpu/defined/device_metric.h"
 #include "gpu/device_mesh.h"
 #include "gpu/device_picture.h"
 
@@ -28,12 +29,13 @@ class DeviceDmo final : public Smoother {
         mesh_(queue_, *task.input, *colouring_, task.immovable, task.pool),
         counts_(queue_, colouring_->class_count() + std::size_t{1}),
         moved_(queue_),
-        deferred_(queue_, mesh_.is_volume() || combination_ ? 0 : largest_class()),
+        deferred_(queue_, mesh_.is_volume() || combination_ || !is_built_in(metric_) ? 0 : largest_class()),
         pictures_(std::make_shared<Pictures>(queue_)),
         task_(mesh_.task()) {
     task_.parameters = task.search;
     task_.deferred = deferred_.data();
     task_.moved = counts_.data();
+    if (!is_built_in(metric_)) defined_.emplace(queue_, *task.input, *colouring_, metric_, task.search, task_);
     warm_up(task.then_mean);
     load(task.input->mesh.positions, task.pool);
     queue_->wait();
@@ -47,8 +49,8 @@ class DeviceDmo final : public Smoother {
     set_aims(aims);
     iteration_.reset();  // it has the old ones
     if (stale_) return;  // who is loaded is awake
-    queue_->launch(Work::Store, metric_, task_, task_.vertex_count);
-    queue_->launch(Work::Load, metric_, task_, task_.vertex_count);
+    queue_->launch(Work::Store, kNoMetric, task_, task_.vertex_count);
+    queue_->launch(Work::Load, kNoMetric, task_, task_.vertex_count);
   }
 
   std::uint64_t visit(std::uint64_t first, std::uint64_t count, std::span<Vec3> positions, ThreadPool* pool) override {
@@ -67,7 +69,7 @@ class DeviceDmo final : public Smoother {
 
   void store(std::span<Vec3> positions, ThreadPool* pool) override {
     if (stored_ || stale_ || !visited_) return;
-    queue_->launch(Work::Store, metric_, task_, positions.size());
+    queue_->launch(Work::Store, kNoMetric, task_, positions.size());
     mesh_.positions().download(positions, pool);
     queue_->counters().bytes_to_host += positions.size_bytes();
     stored_ = true;
@@ -78,11 +80,12 @@ class DeviceDmo final : public Smoother {
     visited_ = false;
   }
   bool positions_on_device() const noexcept override { return true; }
+  std::string description() const override { return defined_ ? defined_->description() : std::string(); }
 
   std::optional<Statistics> statistics() override {
     if (stale_ || !visited_) return std::nullopt;
     if (!judged_) {
-      mesh_.judge(metric_);
+      judge();
       judged_ = true;
     }
     return mesh_.statistics();
@@ -98,6 +101,11 @@ class DeviceDmo final : public Smoother {
   }
 
  private:
+  void judge() {
+    if (!defined_) return mesh_.judge(metric_);
+    defined_->judge(task_);
+    mesh_.add_up();
+  }
   /// What a sweep's visits aim at besides the metric.
   [[nodiscard]] std::optional<Aims> aims_of(const Sweep& sweep) const {
     const auto composite = composite_objective_of_visit(metric_, combination_, size_, sweep);
@@ -132,6 +140,7 @@ class DeviceDmo final : public Smoother {
   }
 
   void launch_visits(Index colour, std::size_t count) {
+    if (defined_) return defined_->visit(task_, task_.first, task_.first + count);
     if (aims_ || mesh_.is_volume()) {
       queue_->launch(aims_ ? two_aims() : Work::VisitVolume, metric_, task_, count);
       return;
@@ -164,6 +173,7 @@ class DeviceDmo final : public Smoother {
     counts_.clear();
     task_.deferred_count = counts_.data() + 1;
     if (colouring_->order.empty()) return;
+    if (defined_) return defined_->warm_up(task_);
     if (aims_ || then_mean) queue_->launch(two_aims(), metric_, task_, 1);
     if (aims_) return;
     if (mesh_.is_volume()) {
@@ -177,7 +187,7 @@ class DeviceDmo final : public Smoother {
 
   void load(std::span<const Vec3> positions, ThreadPool* pool) {
     mesh_.positions().upload(positions, pool);
-    queue_->launch(Work::Load, metric_, task_, positions.size());
+    queue_->launch(Work::Load, kNoMetric, task_, positions.size());
     stale_ = false;
   }
 
@@ -188,7 +198,8 @@ class DeviceDmo final : public Smoother {
   std::shared_ptr<const SizeField> size_;
   std::optional<Aims> aims_;  // of the visits now; none: the metric alone
   DeviceMesh mesh_;
-  Buffer<std::uint32_t> counts_;  // moved, then the deferred visits of each class
+  std::optional<DeviceMetric> defined_;  // of a metric that is not built in
+  Buffer<std::uint32_t> counts_;         // moved, then the deferred visits of each class
   Fetched<std::uint32_t> moved_;
   Buffer<Deferred> deferred_;
   std::shared_ptr<Pictures> pictures_;

@@ -88,9 +88,13 @@ DeviceMesh::DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, con
 
 void DeviceMesh::judge(Metric metric) {
   queue_->launch(is_volume_ ? Work::JudgeVolume : Work::Judge, metric, task_, task_.element_count);
-  queue_->launch(Work::Sum, metric, task_, parts_.size() - bodies::kParts);
-  queue_->launch(Work::Total, metric, task_, bodies::kParts);
-  queue_->launch(Work::Conclude, metric, task_, 1);
+  add_up();
+}
+
+void DeviceMesh::add_up() {
+  queue_->launch(Work::Sum, kNoMetric, task_, parts_.size() - bodies::kParts);
+  queue_->launch(Work::Total, kNoMetric, task_, bodies::kParts);
+  queue_->launch(Work::Conclude, kNoMetric, task_, 1);
   fetched_.fetch(statistics_.data());
 }
 

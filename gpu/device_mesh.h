@@ -33,9 +33,11 @@ class DeviceMesh {
 
   /// Puts all vertices to sleep: none needs a visit.
   void put_to_sleep() const { awake_.clear(); }
-  /// Finds every element's quality at the positions as they are now, and the statistics.
+  /// Finds every element's quality at the positions as they are now, by a built-in metric, and the statistics.
   void judge(Metric metric);
-  /// Statistics of the last judge(), with the same bits as compute_statistics().
+  /// The statistics of the qualities that were found.
+  void add_up();
+  /// Statistics of the last add_up(), with the same bits as compute_statistics().
   [[nodiscard]] Statistics statistics() const;
 
  private:

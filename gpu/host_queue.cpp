@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "gpu/bodies.h"
+#include "gpu/defined/bodies.h"
 #include "gpu/two_aims_bodies.h"
 #include "gpu/volume_bodies.h"
 
@@ -39,10 +40,35 @@ Lanes lanes_of(Work work) {
       return run_lanes<bodies::Settle<M>>;
     case Work::Judge:
       return run_lanes<bodies::Judge<M>>;
-    case Work::VisitVolume:
-    case Work::VisitVolumeTwoAims:
-    case Work::JudgeVolume:
-      break;  // see volume_lanes_of()
+    default:
+      return nullptr;
+  }
+}
+
+template <Metric M>
+Lanes volume_lanes_of(Work work) {
+  if (work == Work::VisitVolumeTwoAims) return run_lanes<bodies::VisitTwoAims<M, Space>>;
+  return work == Work::VisitVolume ? run_lanes<bodies::VisitVolume<M>> : run_lanes<bodies::JudgeVolume<M>>;
+}
+
+template <class Frame>
+Lanes defined_lanes_of(Work work, bool in_double) {
+  switch (work) {
+    case Work::PrepareDefined:
+      return run_lanes<bodies::PrepareDefined<Frame>>;
+    case Work::SearchDefined:
+      return in_double ? run_lanes<bodies::SearchDefined<Frame, double>> : run_lanes<bodies::SearchDefined<Frame, float>>;
+    case Work::UntangleDefined:
+      return run_lanes<bodies::UntangleDefined<Frame>>;
+    case Work::SettleDefined:
+      return run_lanes<bodies::SettleDefined<Frame>>;
+    default:
+      return run_lanes<bodies::JudgeDefined<Frame>>;
+  }
+}
+
+Lanes plain_lanes_of(Work work) {
+  switch (work) {
     case Work::Sum:
       return run_lanes<bodies::Sum>;
     case Work::Total:
@@ -63,17 +89,15 @@ Lanes lanes_of(Work work) {
       return run_lanes<bodies::CopyShades>;
     case Work::Pick:
       return run_lanes<bodies::Pick>;
+    default:
+      return nullptr;
   }
-  return nullptr;
 }
 
-template <Metric M>
-Lanes volume_lanes_of(Work work) {
-  if (work == Work::VisitVolumeTwoAims) return run_lanes<bodies::VisitTwoAims<M, Space>>;
-  return work == Work::VisitVolume ? run_lanes<bodies::VisitVolume<M>> : run_lanes<bodies::JudgeVolume<M>>;
-}
-
-Lanes lanes_of(Work work, Metric metric) {
+Lanes lanes_of(Work work, Metric metric, const DefinedTask& defined) {
+  if (is_by_defined(work))
+    return defined.is_volume ? defined_lanes_of<Space>(work, defined.in_double) : defined_lanes_of<Plane>(work, defined.in_double);
+  if (!is_by_metric(work)) return plain_lanes_of(work);
   if (is_of_solids(work)) return formulas::with_volume_metric(metric, [work]<Metric M>() { return volume_lanes_of<M>(work); });
   return formulas::with_planar_metric(metric, [work]<Metric M>() { return lanes_of<M>(work); });
 }
@@ -123,7 +147,7 @@ class Host final : public HostQueue, public std::enable_shared_from_this<Host> {
     enqueue([memory, bytes] { std::memset(memory, 0, bytes); });
   }
   void launch(Work work, Metric metric, const Task& task, std::size_t count) override {
-    const Lanes lanes = lanes_of(work, metric);
+    const Lanes lanes = lanes_of(work, metric, task.defined);
     enqueue([this, lanes, task, count] {
       if (launches_left_ == 0) lost_ = true;
       check_lost();

@@ -18,6 +18,7 @@
 
 namespace dmoscope::gpu {
 
+struct StarSearchTask;
 struct Task;
 
 /// What was done on a device; shared by its queues.
@@ -25,6 +26,9 @@ struct Counters {
   std::atomic<std::uint64_t> bytes_to_host{0};  // of positions and element values, counted by the code that downloads them
   std::atomic<std::uint64_t> bytes_allocated{0};
 };
+
+/// For work that depends on no built-in metric.
+inline constexpr Metric kNoMetric = Metric::MeanRatio;
 
 /// Whose work a device takes up first, once it has room.
 enum class Urgency { Last, First };
@@ -52,8 +56,26 @@ class Queue {
   virtual void fetch(void* to, const void* from, std::size_t bytes) = 0;
   /// Sets every byte to zero.
   virtual void clear(void* memory, std::size_t bytes) = 0;
-  /// Runs the body of `work` for lanes (or teams) 0 to count - 1. Metric: for the kinds of work that depend on one.
+  /// Runs the body of `work` for lanes (or teams) 0 to count - 1. Metric: for the kinds of work that depend on one that is built in.
   virtual void launch(Work work, Metric metric, const Task& task, std::size_t count) = 0;
+
+  /// A search of stars that was compiled for the device.
+  class CompiledSearch {
+   public:
+    CompiledSearch() = default;
+    CompiledSearch(const CompiledSearch&) = delete;
+    CompiledSearch& operator=(const CompiledSearch&) = delete;
+    virtual ~CompiledSearch() = default;
+  };
+  struct Compiled {
+    std::shared_ptr<const CompiledSearch> search;  // null: it cannot be
+    std::string how;                               // by what it was compiled, or why not
+  };
+  /// Compiles such a source as formula_source() makes.
+  [[nodiscard]] virtual Compiled compile(const std::string& /*source*/) { return {nullptr, "there is no compiler for it"}; }
+  /// Runs it for `count` teams. It must be there until that is done.
+  virtual void launch_search(const CompiledSearch& /*search*/, const StarSearchTask& /*task*/, std::size_t /*count*/) {}
+
   /// What `one` and `other` ask for, only launches, does not depend on each other: it may be done at once, by lanes that either leaves
   /// idle. What is asked for afterwards begins after both.
   template <class One, class Other>

@@ -14,6 +14,7 @@
 #include "core/smooth/kernels/search_frame.h"
 #include "core/smooth/kernels/star_table.h"
 #include "core/smooth/two_aims.h"
+#include "gpu/defined/defined_task.h"
 
 namespace dmoscope::gpu {
 
@@ -72,6 +73,8 @@ struct Task {
   Vec3* picked = nullptr;
 
   std::size_t first = 0;  // what a launch's lane 0 works on
+
+  DefinedTask defined;  // of visits by a formula or a target
 };
 
 /// The mesh of a volume.

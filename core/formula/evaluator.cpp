@@ -29,12 +29,7 @@ void run_beforehand(const FormulaProgram& program, Real* uniforms) {
   for (const FormulaStep& step : program.beforehand) {
     const Real a = uniforms[step.a], b = uniforms[step.b], c = uniforms[step.c];
     Real& to = uniforms[step.to];
-    operations::with_operation(step.operation, [&]<Operation O>() {
-      if constexpr (operations::kSlotBySlot<O>)
-        to = static_cast<Real>(operations::apply_alone(O, static_cast<double>(a), static_cast<double>(b)));
-      else
-        to = operations::apply<O>(a, b, c);
-    });
+    operations::with_operation(step.operation, [&]<Operation O>() { to = operations::apply_plain<O>(a, b, c); });
   }
 }
 template void run_beforehand<float>(const FormulaProgram&, float*);

@@ -1,7 +1,7 @@
 #pragma once
 // What the operations of formulas compute, for any scalar: a plain number, or a pack whose slots get the bits that plain numbers get.
 
-#include "core/formula/program.h"
+#include "core/formula/operation.h"
 #include "core/numeric/elementary.h"
 #include "core/numeric/scalar.h"
 
@@ -12,12 +12,12 @@ template <Operation O>
 inline constexpr bool kSlotBySlot =
     O == Operation::Exponential || O == Operation::Logarithm || O == Operation::Sine || O == Operation::Cosine || O == Operation::Power;
 
-/// Of plain numbers, in double.
+/// Of plain numbers, in double. For kernels that are compiled for one kind of processor: they must not compile a copy of these.
 [[nodiscard]] double apply_alone(Operation operation, double a, double b);
 
 /// `cube_root` and `atan2` of the scalar are found where it is.
 template <Operation O, class R>
-[[gnu::always_inline]] inline R apply(R a, R b, R c) {
+[[gnu::always_inline]] DMOSCOPE_ANYWHERE R apply(R a, R b, R c) {
   using scalar::abs, scalar::atan2, scalar::cube_root, scalar::max, scalar::min, scalar::select, scalar::sqrt;
   if constexpr (O == Operation::Add) return a + b;
   if constexpr (O == Operation::Subtract) return a - b;
@@ -39,9 +39,20 @@ template <Operation O, class R>
   return R(0);
 }
 
+/// Any operation of plain numbers.
+template <Operation O, class Real>
+[[nodiscard]] DMOSCOPE_ANYWHERE Real apply_plain(Real a, [[maybe_unused]] Real b, [[maybe_unused]] Real c) {
+  if constexpr (O == Operation::Exponential) return static_cast<Real>(elementary::exponential(static_cast<double>(a)));
+  if constexpr (O == Operation::Logarithm) return static_cast<Real>(elementary::logarithm(static_cast<double>(a)));
+  if constexpr (O == Operation::Sine) return static_cast<Real>(elementary::sine(static_cast<double>(a)));
+  if constexpr (O == Operation::Cosine) return static_cast<Real>(elementary::cosine(static_cast<double>(a)));
+  if constexpr (O == Operation::Power) return static_cast<Real>(elementary::power(static_cast<double>(a), static_cast<double>(b)));
+  if constexpr (!kSlotBySlot<O>) return apply<O>(a, b, c);
+}
+
 /// Calls f.template operator()<O>() with the operation.
 template <class F>
-[[gnu::always_inline]] inline void with_operation(Operation operation, const F& f) {
+[[gnu::always_inline]] DMOSCOPE_ANYWHERE void with_operation(Operation operation, const F& f) {
   switch (operation) {
 #define DMOSCOPE_OPERATION(name) \
   case Operation::name:          \

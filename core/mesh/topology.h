@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/mesh/incidence.h"
 #include "core/mesh/mesh.h"
 
 namespace dmoscope {
@@ -13,12 +14,6 @@ namespace dmoscope {
 class FaceNeighbours;
 class Progress;
 struct EdgeSurvey;
-
-/// One incident element of a vertex: which, and which of its corners the vertex is.
-struct Incidence {
-  Index element;
-  Index corner;
-};
 
 /// Stars of all vertices, any valence, incident elements in ascending order. Elements of every dimension have their place in the
 /// stars; edges and boundary are those of the planar elements, or of a volume's faces.

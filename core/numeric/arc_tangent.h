@@ -2,6 +2,7 @@
 // The angle of a point, by operations that every processor rounds alike: the libraries' own functions differ in the last bits.
 
 #include <array>
+#include <cstddef>
 
 #include "core/base/host_device.h"
 

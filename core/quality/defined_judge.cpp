@@ -38,6 +38,7 @@ DefinedJudge::DefinedJudge(const DefinedMetric& metric, const Mesh& mesh, const 
     : metric_(metric),
       targets_(metric.target, mesh, frames,
                [&metric](ElementKind kind, double ratio) { return value_of_stretched(*metric.formula, kind, ratio); }),
+      element_count_(mesh.elements.size()),
       dimension_(frames.geometry.shape == Shape::Volume ? 3 : 2) {
   bool seen[kElementKindCount][kFormulaSpaces] = {};
   for (Index e = 0; e < mesh.elements.size(); ++e) {
@@ -57,23 +58,9 @@ DefinedJudge::DefinedJudge(const DefinedMetric& metric, const Mesh& mesh, const 
   if (metric.formula->uses_place() && frames.geometry.plane.period > 0.0)
     throw UsageError(
         fmt::format("{} depends on where elements lie, which is not possible in meshes that go round in longitude", metric.name));
-  for (const std::string& name : metric.formula->fields()) fields_.push_back(numbers_of(name, mesh));
-}
-
-double DefinedJudge::given(const FormulaInput& input, Index element, const ElementTarget& target, double length) const {
-  switch (input.what) {
-    case FormulaInput::What::Target:
-      return target.matrices[(input.index * dimension_ + input.row) * dimension_ + input.column] * length;
-    case FormulaInput::What::Stretch:
-      return target.matrices[input.row * dimension_ + input.column] * length;
-    case FormulaInput::What::MeanMeasure:
-      return targets_.mean_measure() / (dimension_ == 2 ? length * length : length * length * length);
-    case FormulaInput::What::Steepness:
-      return target.steepness;
-    case FormulaInput::What::Field:
-      return fields_[input.index][element];
-    default:
-      return 0.0;
+  for (const std::string& name : metric.formula->fields()) {
+    const std::vector<double> numbers = numbers_of(name, mesh);
+    fields_.insert(fields_.end(), numbers.begin(), numbers.end());
   }
 }
 

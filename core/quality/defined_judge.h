@@ -11,6 +11,7 @@
 #include "core/mesh/element_frame.h"
 #include "core/mesh/mesh.h"
 #include "core/quality/defined_metric.h"
+#include "core/quality/given_numbers.h"
 #include "core/target/target_table.h"
 
 namespace dmoscope {
@@ -42,21 +43,22 @@ class DefinedJudge {
   }
 
   /// A number that a program is given, but for those of corners and origin. `length`: in mesh units, of the unit of the corners.
-  [[nodiscard]] double given(const FormulaInput& input, Index element, const ElementTarget& target, double length) const;
+  [[nodiscard]] double given(const FormulaInput& input, Index element, const ElementTarget& target, double length) const {
+    return numbers().of(input, element, target.matrices, target.steepness, length);
+  }
+  [[nodiscard]] GivenNumbers numbers() const noexcept { return {fields_.data(), element_count_, dimension_, targets_.mean_measure()}; }
+  [[nodiscard]] std::span<const double> fields() const noexcept { return fields_; }
   [[nodiscard]] const FormulaProgram& program(ElementKind kind, FormulaSpace space, FormulaUse use, Index moving) const {
     return metric_.formula->program(kind, space, use, moving);
   }
   /// From what a program says to the metric.
-  [[nodiscard]] static double settled(double value, const ElementTarget& target) {
-    const double steep = target.steepness == 1.0 ? value : 1.0 - (1.0 - value) * target.steepness;
-    return steep == steep ? steep + 0.0 : -1.0;  // else something overflowed
-  }
+  [[nodiscard]] static double settled(double value, const ElementTarget& target) { return settled_metric(value, target.steepness); }
 
  private:
   const DefinedMetric& metric_;  // which lives as long as the program
   TargetTable targets_;
-  std::vector<std::vector<double>> fields_;  // by element, in the order of Formula::fields()
-  std::size_t dimension_ = 2;
+  std::vector<double> fields_;  // by element, one field after the other in the order of Formula::fields()
+  std::size_t element_count_ = 0, dimension_ = 2;
   bool unit_matters_ = false;
 };
 

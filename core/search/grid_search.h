@@ -9,9 +9,9 @@
 #include "core/base/host_device.h"
 #include "core/quality/formulas.h"
 #include "core/quality/volumes.h"
+#include "core/search/candidate_grid.h"
 #include "core/search/parameters.h"
 #include "core/search/star.h"
-#include "core/search/team.h"
 
 namespace dmoscope {
 
@@ -90,22 +90,7 @@ class Objective {
   StarT star_;
 };
 
-/// The best candidate of all levels: its offset from the vertex (units of the star's scale) and its objective.
-template <class Real, class Point = Vec2<Real>>
-struct Candidate {
-  Point offset{};
-  Real objective{};
-};
-
 /// Coordinate by coordinate.
-template <class Real>
-[[nodiscard]] DMOSCOPE_ANYWHERE Vec2<Real> times(Vec2<Real> a, Real s) {
-  return {a.x * s, a.y * s};
-}
-template <class Real>
-[[nodiscard]] DMOSCOPE_ANYWHERE Vec3Of<Real> times(Vec3Of<Real> a, Real s) {
-  return {a.x * s, a.y * s, a.z * s};
-}
 template <class Condition, class Real>
 [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<Real> select_point(const Condition& condition, Vec2<Real> yes, Vec2<Real> no) {
   using scalar::select;
@@ -116,37 +101,6 @@ template <class Condition, class Real>
   using scalar::select;
   return {select(condition, yes.x, no.x), select(condition, yes.y, no.y), select(condition, yes.z, no.z)};
 }
-
-/// One level's grid of n points per axis: candidate (i, j) or (i, j, k), each from 0 to n - 1, is centre + ((i, j, k) / (n - 1) - 1/2) *
-/// size; its index is i * n + j, or (i * n + j) * n + k.
-template <class Real, class Point = Vec2<Real>>
-struct CandidateGrid {
-  Point centre{};
-  Point size{};
-  int points = 0;
-  [[nodiscard]] DMOSCOPE_ANYWHERE Point at(int i, int j) const requires std::is_same_v<Point, Vec2<Real>> {
-    return {coordinate(centre.x, size.x, i), coordinate(centre.y, size.y, j)};
-  }
-  [[nodiscard]] DMOSCOPE_ANYWHERE Point at(int i, int j, int k) const requires std::is_same_v<Point, Vec3Of<Real>> {
-    return {coordinate(centre.x, size.x, i), coordinate(centre.y, size.y, j), coordinate(centre.z, size.z, k)};
-  }
-  /// Calls f(index, candidate) for all of one i, in the order of their indices.
-  template <class F>
-  DMOSCOPE_INLINE DMOSCOPE_ANYWHERE void for_slice(int i, F f) const {
-    for (int j = 0; j < points; ++j) {
-      if constexpr (std::is_same_v<Point, Vec2<Real>>) {
-        f(i * points + j, at(i, j));
-      } else {
-        for (int k = 0; k < points; ++k) f((i * points + j) * points + k, at(i, j, k));
-      }
-    }
-  }
-
- private:
-  [[nodiscard]] DMOSCOPE_ANYWHERE Real coordinate(Real middle, Real width, int i) const {
-    return middle + width * (scalar::constant<Real>(i) / scalar::constant<Real>(points - 1) - Real(0.5F));
-  }
-};
 
 /// Does nothing at each step of the search; grid inspection passes one that records: what the vertex's own place is worth; where a search
 /// that is told a start begins; then for every
@@ -166,22 +120,6 @@ struct NoTrace {
 /// Is there a trace that records? A search that does not need every candidate's value computes them only then.
 template <class Trace>
 inline constexpr bool kTraced = !std::is_same_v<std::remove_cvref_t<Trace>, NoTrace>;
-
-/// The best of a team's lanes; among equals the one of lowest index.
-template <class Real, class Point, class Team>
-[[nodiscard]] DMOSCOPE_ANYWHERE Candidate<Real, Point> best_of_team(const Team& team, const Candidate<Real, Point>& mine, int index) {
-  struct Found {
-    Candidate<Real, Point> candidate;
-    int index;
-  };
-  return fold(team, Found{mine, index},
-              [](const Found& a, const Found& b) {
-                const bool second =
-                    b.candidate.objective > a.candidate.objective || (b.candidate.objective == a.candidate.objective && b.index < a.index);
-                return second ? b : a;
-              })
-      .candidate;
-}
 
 /// Searches all levels and keeps the best of all. The current position is no candidate (n is even) and so is compared explicitly;
 /// only a strictly better candidate replaces it, so ties go to the earlier level and the lower index. Grids after the first are

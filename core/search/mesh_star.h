@@ -95,14 +95,21 @@ class MeshStar {
   /// See StarView; in the order of the elements. Others: also elements that are no simplices.
   template <bool Others, class F>
   DMOSCOPE_ANYWHERE void for_each(F f) const {
-    for (const Incidence& at : mesh_.star(vertex_)) {
-      const auto corners = mesh_.corners_of(at.element);
-      const double reference = mesh_.reference_measure[at.element] * measure_of(inverse_);
-      if constexpr (std::is_same_v<Frame, Plane>)
-        visit_planar_element<Others>(corners, at.corner, reference, f);
-      else
-        visit_volume_element<Others>(corners, at.corner, reference, f);
-    }
+    for (const Incidence& at : mesh_.star(vertex_)) visit<Others>(at, f);
+  }
+  /// An element's reference measure, in units of the star's.
+  [[nodiscard]] DMOSCOPE_ANYWHERE double reference_of(Index element) const {
+    return mesh_.reference_measure[element] * measure_of(inverse_);
+  }
+  /// Calls f with one element of the star.
+  template <bool Others, class F>
+  DMOSCOPE_ANYWHERE void visit(const Incidence& at, F& f) const {
+    const auto corners = mesh_.corners_of(at.element);
+    const double reference = reference_of(at.element);
+    if constexpr (std::is_same_v<Frame, Plane>)
+      visit_planar_element<Others>(corners, at.corner, reference, f);
+    else
+      visit_volume_element<Others>(corners, at.corner, reference, f);
   }
 
  private:

@@ -29,6 +29,7 @@ template <class R, class Real>
 template <class Real>
 struct StarTriangle {
   static constexpr Index kMoving = 0;  // the corner that the vertex is
+  static constexpr bool kIsTriangle = true;
   Vec2<Real> b, c;
   Real reference;
   /// The element with the star's vertex at `p`: a point, or a pack of points where the element is one of plain numbers.

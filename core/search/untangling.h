@@ -55,9 +55,10 @@ class UntanglingMean {
 /// A planar star may come in the order of the mesh's elements or triangles first: what is summed over its elements is summed for triangles
 /// and for quadrilaterals apart, so that it has the same bits. Which of the two.
 template <class Element>
-inline constexpr unsigned kPartOfSum = 1;
-template <class Real>
-inline constexpr unsigned kPartOfSum<StarTriangle<Real>> = 0;
+inline constexpr unsigned kPartOfSum = requires {
+  Element::kIsTriangle;
+}
+? 0 : 1;
 
 /// Smallest corner Jacobians of an element: of all its corners, and of those that change with corner `moving`. Calls take(J) with each of
 /// the latter (a planar element's least, as one).
@@ -186,8 +187,16 @@ class UntanglingObjective {
   [[nodiscard]] DMOSCOPE_ANYWHERE bool tangled() const { return !(jacobian_ > 0.0 && quality_ > 0.0); }
 
   [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double operator()(Point p) const {
-    if (rule_.repair) return repair(p);
-    return rule_.attempt ? attempt(p) : hold(p);
+    const Jacobians found = jacobians(p);
+    const bool sound = found.least > 0.0;
+    if (rule_.repair && !sound) return bounded(found.least);
+    if (!found.allowed) return kForbidden;
+    const Metrics metrics = judge(p, sound);
+    if (rule_.repair) return scalar::max(metrics.least, 0.0);
+    if (!metrics.allowed) return kForbidden;
+    if (sound && metrics.least > 0.0) return metrics.least;
+    if (!rule_.attempt) return 0.5 * (scalar::min(metrics.sound, 1.0) - 1.0) - found.count;
+    return bounded(scalar::min(found.mean - UntanglingMean::kEnough, 0.0));
   }
 
  private:
@@ -196,73 +205,61 @@ class UntanglingObjective {
   /// From (-infinity, 0] to (-1, 0].
   static DMOSCOPE_ANYWHERE double bounded(double a) { return a / (1.0 - a); }
 
-  [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double repair(Point p) const {
-    double least = kMost;
-    star_.template for_each<kOthers>([&](const auto& each) {
-      least = scalar::min(least, corner_jacobians(each.with(p), each.kMoving, [](double) {}).around / each.reference);
-    });
-    return least > 0.0 ? scalar::max(least_metric(p), 0.0) : bounded(least);
-  }
-
-  /// The metrics of sound elements are needed only where all are sound: they cost most.
-  [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double attempt(Point p) const {
+  /// What the star's Jacobians say of a place.
+  struct Jacobians {
+    double least = kMost, mean = 0.0;  // over their references
+    int count = 0;                     // of inverted elements
+    bool allowed = true;               // as far as these tell; where not, no more is known
+  };
+  [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Jacobians jacobians(Point p) const {
+    Jacobians found;
     UntanglingMean mean[2];
-    double least = kMost;
-    int count = 0;
-    bool allowed = true;
+    int element = 0;
     star_.template for_each<kOthers>([&]<class Element>(const Element& each) {
-      if (!allowed) return;
-      const auto shape = each.with(p);
-      const auto jacobian = corner_jacobians(shape, each.kMoving, [&](double j) { mean[kPartOfSum<Element>].add(j, each.reference); });
+      const int i = element++;
+      if (!found.allowed) return;
+      const auto jacobian =
+          corner_jacobians(each.with(p), each.kMoving, [&](double j) { mean[kPartOfSum<Element>].add(j, each.reference); });
       const double relative = jacobian.around / each.reference;
-      count += jacobian.whole <= 0.0 ? 1 : 0;
-      least = scalar::min(least, relative);
-      const bool doubtful = jacobian.around <= 0.0 || !formulas::kSignTellsInversion<M, Point>;
-      allowed = count <= count_ && relative >= scalar::min(jacobian_, 0.0) &&
-                !(doubtful && formulas::metric_around<M>(shape, each.kMoving) < floor_);
+      const bool is_inverted = jacobian.whole <= 0.0;
+      found.count += is_inverted ? 1 : 0;
+      found.least = scalar::min(found.least, relative);
+      if (rule_.repair) return;
+      found.allowed =
+          rule_.attempt ? found.count <= count_ && relative >= scalar::min(jacobian_, 0.0) : !is_inverted || was_inverted(i, each);
     });
-    if (!allowed) return kForbidden;
-    if (least > 0.0) {
-      const double quality = least_metric(p);
-      if (quality > 0.0) return quality;
-    }
     mean[0].add(mean[1]);
-    return bounded(scalar::min(mean[0].value() - UntanglingMean::kEnough, 0.0));
+    found.mean = mean[0].value();
+    return found;
   }
 
-  [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double hold(Point p) const {
-    double sound = kMost, around = kMost, quality = kMost;
-    int element = 0, count = 0;
+  /// And what the metrics say. They cost most: in an attempt those of sound elements are needed only where all are sound, or where the
+  /// metric does not tell which are.
+  struct Metrics {
+    double least = kMost, sound = kMost;  // of all that were needed, and of the sound elements
     bool allowed = true;
+  };
+  [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE Metrics judge(Point p, bool all) const {
+    Metrics found;
+    const bool of_all = all || !rule_.attempt || !formulas::kSignTellsInversion<M, Point>;
     star_.template for_each<kOthers>([&](const auto& each) {
-      const int i = element++;
-      if (!allowed) return;
+      if (!found.allowed) return;
       const auto shape = each.with(p);
       const auto jacobian = corner_jacobians(shape, each.kMoving, [](double) {});
-      const bool is_inverted = jacobian.whole <= 0.0;
-      if (is_inverted && !was_inverted(i, each)) allowed = false;
+      const bool doubtful = jacobian.around <= 0.0 || !formulas::kSignTellsInversion<M, Point>;
+      if (!of_all && !doubtful) return;
       const double value = formulas::metric_around<M>(shape, each.kMoving);
-      if (value < floor_) allowed = false;
-      count += is_inverted ? 1 : 0;
-      around = scalar::min(around, jacobian.around);
-      quality = scalar::min(quality, value);
-      if (!is_inverted) sound = scalar::min(sound, value);
+      found.least = scalar::min(found.least, value);
+      if (!(jacobian.whole <= 0.0)) found.sound = scalar::min(found.sound, value);
+      if (!rule_.repair && (doubtful || !rule_.attempt)) found.allowed = !(value < floor_);
     });
-    if (!allowed) return kForbidden;
-    if (around > 0.0 && quality > 0.0) return quality;
-    return 0.5 * (scalar::min(sound, 1.0) - 1.0) - count;
+    return found;
   }
 
   template <class Element>
   [[nodiscard]] DMOSCOPE_ANYWHERE bool was_inverted(int i, const Element& each) const {
     if (InvertedSet::keeps(i)) return inverted_.has(i);
     return corner_jacobians(each.with(Point{}), each.kMoving, [](double) {}).whole <= 0.0;
-  }
-  [[nodiscard]] DMOSCOPE_INLINE DMOSCOPE_ANYWHERE double least_metric(Point p) const {
-    double quality = kMost;
-    star_.template for_each<kOthers>(
-        [&](const auto& each) { quality = scalar::min(quality, formulas::metric_around<M>(each.with(p), each.kMoving)); });
-    return quality;
   }
 
   StarT star_;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "core/quality/quality.h"
@@ -59,6 +60,8 @@ class Smoother {
   /// Whether positions lie far from the host, on a device: store() and each call of visit() are dear then, so a run asks for neither more
   /// often than it must, and visit() never writes to `positions`.
   [[nodiscard]] virtual bool positions_on_device() const noexcept { return false; }
+  /// How it works, where there is more to tell than the method's name and where it runs; else empty.
+  [[nodiscard]] virtual std::string description() const { return {}; }
   /// Statistics of the metric that is optimised after all visits so far, found without bringing the positions to the host: the same bits as
   /// compute_statistics(). None where that is impossible, and before the first visit since the start or since positions_replaced(). Throws
   /// DeviceError.

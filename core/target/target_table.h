@@ -43,6 +43,8 @@ class TargetTable {
     const std::uint8_t which = which_[element];
     return {spaces_[which / kElementKindCount], matrices_.data() + first_[element] * size_, steepness_[which]};
   }
+  /// Where all elements' matrices are.
+  [[nodiscard]] std::span<const double> matrices() const noexcept { return matrices_; }
   [[nodiscard]] const TargetFacts& facts() const noexcept { return facts_; }
   /// Mean of the elements' |area| or |volume| at input.
   [[nodiscard]] double mean_measure() const noexcept { return mean_measure_; }

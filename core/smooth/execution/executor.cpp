@@ -9,6 +9,7 @@
 #include "core/base/unknown_value.h"
 #include "core/smooth/execution/choose_executor.h"
 #include "core/smooth/execution/method_table.h"
+#include "core/smooth/methods/defined_dmo.h"
 #include "core/smooth/size_field.h"
 
 namespace dmoscope {
@@ -19,15 +20,24 @@ constexpr std::array<std::string_view, 3> kBackendNames{"auto", "cpu", "cuda"}; 
 
 [[noreturn]] void refuse(const std::string& why) { throw UsageError(fmt::format("the cuda backend cannot be used: {}", why)); }
 
+/// Of metrics that are defined by formulas or targets.
+std::string obstacle_of_defined(const SmoothingTask& task) {
+  const auto* second = task.combination ? std::get_if<Metric>(&task.combination->second) : nullptr;
+  const bool of_defined = !is_built_in(task.metric);
+  if ((second != nullptr && !is_built_in(*second)) || (of_defined && (task.combination || task.then_mean)))
+    return "formulas and targets are joined with another aim on the CPU alone";
+  if (of_defined && has_target_kernel(*task.input, task.metric, task.search))
+    return "the mean ratio against targets is searched on the CPU alone";
+  return {};
+}
+
 /// Why no accelerator does this; empty when one can.
 std::string obstacle(const Acceleration& acceleration, const SmoothingTask& task) {
   if (!method_info(task.method).accelerated) return fmt::format("{} runs on the CPU alone", task.method);
-  if (!is_built_in(task.metric) || (task.combination && std::holds_alternative<Metric>(task.combination->second) &&
-                                    !is_built_in(std::get<Metric>(task.combination->second))))
-    return "formulas and targets are evaluated on the CPU alone";
+  if (const std::string why = obstacle_of_defined(task); !why.empty()) return why;
   if (task.slides || task.input->is_surface()) return "vertices slide on the CPU alone";
   if (task.size && !task.size->formula()) return "sizes out of a nodal field are looked up on the CPU alone";
-  if (task.search.precision == Precision::Double && !task.input->is_volume() && !task.combination)
+  if (task.search.precision == Precision::Double && !task.input->is_volume() && !task.combination && is_built_in(task.metric))
     return "the search in double runs on the CPU alone";
   if (task.input->geometry.plane.period > 0.0) return "meshes that go round in longitude run on the CPU alone";
   if (task.search.simd) return "SIMD instructions were asked for, which are the CPU's";
@@ -42,7 +52,9 @@ Executor on_cpu(const SmoothingTask& task, OnCpu when, std::string reason) {
 
 Executor on_device(const Accelerator& accelerator, const SmoothingTask& task) {
   auto smoother = accelerator.make_dmo(task);
-  return {std::move(smoother), accelerator.backend(), accelerator.description(), {}};
+  std::string where = accelerator.description();
+  if (const std::string how = smoother->description(); !how.empty()) where += "; " + how;
+  return {std::move(smoother), accelerator.backend(), std::move(where), {}};
 }
 
 }  // namespace

@@ -153,8 +153,13 @@ void add_floats(Table& t) {
   t["cvt.rn.f32.u32"] = op([](U32 a) { return static_cast<float>(a); });
   t["cvt.rn.f64.s32"] = op([](I32 a) { return static_cast<double>(a); });
   t["cvt.rn.f64.u32"] = op([](U32 a) { return static_cast<double>(a); });
+  t["cvt.rn.f64.s64"] = op([](I64 a) { return static_cast<double>(a); });
   t["cvt.rn.f64.u64"] = op([](U64 a) { return static_cast<double>(a); });
   t["cvt.rzi.u64.f64"] = op([](double a) { return truncated(a); });
+  t["cvt.rzi.s64.f64"] = op([](double a) {  // what is no number, or out of range: the ends
+    if (!(a > -0x1p63)) return std::numeric_limits<I64>::min();
+    return a < 0x1p63 ? static_cast<I64>(a) : std::numeric_limits<I64>::max();
+  });
   t["cvt.rzi.s32.f64"] = op([](double a) {  // NaN is 0, what is out of range the nearest that is not
     if (a != a) return U32{0};
     const double bounded = std::clamp(std::trunc(a), -0x1p31, 0x1p31 - 1.0);
@@ -190,6 +195,8 @@ void add_integers(Table& t) {
   t["mad.lo.s32"] = op([](U32 a, U32 b, U32 c) { return a * b + c; });
   t["div.s32"] = op([](I32 a, I32 b) { return quotient_of(a, b); });
   t["div.u32"] = op([](U32 a, U32 b) { return unsigned_quotient_of(a, b); });
+  t["rem.s32"] =
+      op([](I32 a, I32 b) { return static_cast<I32>(static_cast<U32>(a) - static_cast<U32>(quotient_of(a, b)) * static_cast<U32>(b)); });
   t["rem.u32"] = op([](U32 a, U32 b) { return remainder_of(a, b); });
   t["rem.u64"] = op([](U64 a, U64 b) { return remainder_of(a, b); });
 
@@ -197,6 +204,7 @@ void add_integers(Table& t) {
   t["cvt.u64.u32"] = op([](U32 a) { return U64{a}; });
   t["cvt.u64.u16"] = op([](U16 a) { return U64{a}; });
   t["cvt.u32.u16"] = op([](U16 a) { return U32{a}; });
+  t["cvt.u16.u64"] = op([](U64 a) { return static_cast<U16>(a); });
   t["cvt.u16.u32"] = op([](U32 a) { return static_cast<U16>(a); });
   t["cvt.s64.s32"] = op([](I32 a) { return static_cast<I64>(a); });
 }

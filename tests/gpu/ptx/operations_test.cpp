@@ -106,6 +106,11 @@ TEST(PtxOperations, Conversions) {
   EXPECT_EQ(result<std::int32_t>("cvt.rzi.s32.f64", std::nan("")), 0);
   EXPECT_EQ(result<double>("cvt.rn.f64.s32", -7), -7.0);
   EXPECT_EQ(result<double>("cvt.rn.f64.u64", ~U64{0}), 0x1p64);
+  EXPECT_EQ(result<double>("cvt.rn.f64.s64", std::int64_t{-7}), -7.0);
+  EXPECT_EQ(result<std::int64_t>("cvt.rzi.s64.f64", -1.9), -1);
+  EXPECT_EQ(result<std::int64_t>("cvt.rzi.s64.f64", -1e30), std::numeric_limits<std::int64_t>::min());
+  EXPECT_EQ(result<std::int64_t>("cvt.rzi.s64.f64", 1e30), std::numeric_limits<std::int64_t>::max());
+  EXPECT_EQ(result<U64>("cvt.u16.u64", U64{0x12345}), 0x2345U);
   EXPECT_EQ(result<U64>("cvt.rzi.u64.f64", 1.99), 1U);
   EXPECT_EQ(result<U64>("cvt.rzi.u64.f64", -5.0), 0U);
   EXPECT_EQ(result<U64>("cvt.rzi.u64.f64", 0x1p70), ~U64{0});
@@ -128,6 +133,7 @@ TEST(PtxOperations, Integers) {
   EXPECT_EQ(result<U64>("mad.lo.s64", U64{1} << 32U, U64{1} << 31U, U64{5}), (U64{1} << 63U) + 5);
   EXPECT_EQ(result<U64>("min.u32", 0xffffffffU, 1U), 1U);
   EXPECT_EQ(result<U64>("rem.u64", U64{103}, U64{10}), 3U);
+  EXPECT_EQ(result<std::int32_t>("rem.s32", -103, 10), -3);
   EXPECT_EQ(result<U64>("abs.s32", -5), 5U);
   EXPECT_EQ(result<U64>("neg.s64", U64{1}), ~U64{0});
 }

@@ -14,6 +14,9 @@
 #include "core/base/error.h"
 #include "core/quality/formulas.h"
 #include "gpu/bodies.h"
+#include "gpu/defined/bodies.h"
+#include "gpu/defined/formula_source.h"
+#include "gpu/nvrtc.h"
 #include "gpu/two_aims_bodies.h"
 #include "gpu/volume_bodies.h"
 
@@ -37,7 +40,7 @@ std::filesystem::path kernels_folder() {
 
 namespace {
 
-constexpr std::size_t kBlockSize = 128, kTeamSize = 8;
+constexpr std::size_t kBlockSize = 128, kTeamSize = 8, kWarpSize = 32;
 constexpr std::align_val_t kAlignment{256};  // as a device's
 
 template <class Body>
@@ -50,6 +53,29 @@ Kernels::Name in_team() {
   return {fmt::format("void dmoscope::gpu::kernel<{}, dmoscope::gpu::CudaTeam>(dmoscope::gpu::Task, unsigned long)",
                       demangled(typeid(Body).name())),
           kTeamSize};
+}
+
+template <class Body>
+Kernels::Name in_warp() {
+  return {fmt::format("void dmoscope::gpu::kernel<{}, dmoscope::gpu::Warp>(dmoscope::gpu::Task, unsigned long)",
+                      demangled(typeid(Body).name())),
+          kWarpSize};
+}
+
+template <class Frame>
+Kernels::Name defined_name_for(Work work, bool in_double) {
+  switch (work) {
+    case Work::PrepareDefined:
+      return solo<bodies::PrepareDefined<Frame>>();
+    case Work::SearchDefined:
+      return in_double ? in_warp<bodies::SearchDefined<Frame, double>>() : in_warp<bodies::SearchDefined<Frame, float>>();
+    case Work::UntangleDefined:
+      return in_team<bodies::UntangleDefined<Frame>>();
+    case Work::SettleDefined:
+      return solo<bodies::SettleDefined<Frame>>();
+    default:
+      return solo<bodies::JudgeDefined<Frame>>();
+  }
 }
 
 template <Metric M>
@@ -67,10 +93,13 @@ Kernels::Name name_for(Work work) {
       return in_team<bodies::Settle<M>>();
     case Work::Judge:
       return solo<bodies::Judge<M>>();
-    case Work::VisitVolume:
-    case Work::VisitVolumeTwoAims:
-    case Work::JudgeVolume:
-      break;  // see volume_name_for()
+    default:
+      return {};
+  }
+}
+
+Kernels::Name plain_name_for(Work work) {
+  switch (work) {
     case Work::Sum:
       return solo<bodies::Sum>();
     case Work::Total:
@@ -93,8 +122,9 @@ Kernels::Name name_for(Work work) {
       return solo<bodies::CopyShades>();
     case Work::Pick:
       return solo<bodies::Pick>();
+    default:
+      return {};
   }
-  return {};
 }
 
 template <Metric M>
@@ -105,6 +135,16 @@ Kernels::Name volume_name_for(Work work) {
                       demangled(typeid(bodies::VisitVolume<M>).name()), kBlockSize, kStageBytes),
           kTeamSize};
 }
+
+/// A search that NVRTC compiled.
+class PtxSearch final : public Queue::CompiledSearch {
+ public:
+  explicit PtxSearch(const std::string& ptx) : entry_(decode(find_entries(ptx).at(0))) {}
+  [[nodiscard]] const Entry& entry() const noexcept { return entry_; }
+
+ private:
+  Entry entry_;
+};
 
 class Recorded final : public Queue::Recording {
  public:
@@ -145,7 +185,24 @@ class PtxQueue final : public Queue, public std::enable_shared_from_this<PtxQueu
     enqueue([memory, bytes] { std::memset(memory, 0, bytes); });
   }
   void launch(Work work, Metric metric, const Task& task, std::size_t count) override {
-    enqueue([this, work, metric, task, count] { run(work, metric, task, count); });
+    enqueue([this, work, metric, task, count] {
+      try {
+        run(work, metric, task, count);
+      } catch (const Fault& fault) {
+        throw DeviceError(fault.what());
+      }
+    });
+  }
+  Compiled compile(const std::string& source) override {
+    const Nvrtc* compiler = device_.compiles ? Nvrtc::find() : nullptr;
+    if (compiler == nullptr) return {nullptr, "nobody was asked to"};
+    return {std::make_shared<const PtxSearch>(compiler->compile(source, formula_headers(), 75)), compiler->description()};
+  }
+  void launch_search(const CompiledSearch& search, const StarSearchTask& task, std::size_t count) override {
+    enqueue([this, &search, task, count] {
+      const Kernels::Name name{kFormulaKernel, kFormulaWarp};
+      run(static_cast<const PtxSearch&>(search).entry(), name, Work::SearchDefined, task, count);
+    });
   }
   void wait() override {}
 
@@ -189,12 +246,15 @@ class PtxQueue final : public Queue, public std::enable_shared_from_this<PtxQueu
       step();
   }
   void run(Work work, Metric metric, const Task& task, std::size_t count) {
+    run(kernels_->find(work, metric, task.defined), Kernels::name_of(work, metric, task.defined), work, task, count);
+  }
+  /// T: of the kernel's first parameter; the second is the count.
+  template <class T>
+  void run(const Entry& entry, const Kernels::Name& name, Work work, const T& task, std::size_t count) {
     try {
-      const Entry& entry = kernels_->find(work, metric);
-      std::vector<std::byte> parameters(sizeof(Task) + sizeof(std::uint64_t));
-      std::memcpy(parameters.data(), &task, sizeof(Task));
-      std::memcpy(parameters.data() + sizeof(Task), &count, sizeof(std::uint64_t));
-      const Kernels::Name name = Kernels::name_of(work, metric);
+      std::vector<std::byte> parameters(sizeof(T) + sizeof(std::uint64_t));
+      std::memcpy(parameters.data(), &task, sizeof(T));
+      std::memcpy(parameters.data() + sizeof(T), &count, sizeof(std::uint64_t));
       const std::size_t lanes = (count + name.each - 1) / name.each * name.team;
       if (device_.schedule.races != nullptr && !at_once_) device_.schedule.races->forget();
       const std::uint64_t instructions = run_blocks(entry, global_, parameters, (lanes + kBlockSize - 1) / kBlockSize, device_.schedule);
@@ -224,7 +284,7 @@ Kernels::Kernels(const std::filesystem::path& folder) {
     if (!by_name_.emplace(demangled(texts_[i].name.c_str()), i).second) throw Fault(fmt::format("two kernels {}", texts_[i].name));
 }
 
-const Entry& Kernels::find(Work work, Metric metric) { return find(name_of(work, metric).text); }
+const Entry& Kernels::find(Work work, Metric metric, const DefinedTask& defined) { return find(name_of(work, metric, defined).text); }
 
 const Entry& Kernels::find(const std::string& name) {
   if (const auto found = decoded_.find(name); found != decoded_.end()) return found->second;
@@ -233,7 +293,11 @@ const Entry& Kernels::find(const std::string& name) {
   return decoded_.emplace(name, decode(texts_[text->second])).first->second;
 }
 
-Kernels::Name Kernels::name_of(Work work, Metric metric) {
+Kernels::Name Kernels::name_of(Work work, Metric metric, const DefinedTask& defined) {
+  if (is_by_defined(work))
+    return defined.is_volume ? defined_name_for<dmoscope::Space>(work, defined.in_double)
+                             : defined_name_for<dmoscope::Plane>(work, defined.in_double);
+  if (!is_by_metric(work)) return plain_name_for(work);
   if (is_of_solids(work)) return formulas::with_volume_metric(metric, [work]<Metric M>() { return volume_name_for<M>(work); });
   return formulas::with_planar_metric(metric, [work]<Metric M>() { return name_for<M>(work); });
 }

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "gpu/defined/defined_task.h"
 #include "gpu/queue.h"
 #include "tests/gpu/ptx/reader.h"
 #include "tests/gpu/ptx/warp.h"
@@ -28,7 +29,7 @@ class Kernels {
   explicit Kernels(const std::filesystem::path& folder);
   [[nodiscard]] const std::vector<EntryText>& texts() const noexcept { return texts_; }
   /// Decoded when it is first asked for. Throws Fault where there is not exactly one.
-  [[nodiscard]] const Entry& find(Work work, Metric metric);
+  [[nodiscard]] const Entry& find(Work work, Metric metric, const DefinedTask& defined);
   /// By its name as a compiler prints it.
   [[nodiscard]] const Entry& find(const std::string& name);
 
@@ -38,7 +39,7 @@ class Kernels {
     std::size_t each = 1;  // how much of the work a lane does
   };
   /// The name of the kernel that does some work, chosen as gpu/cuda_launch.cuh does.
-  [[nodiscard]] static Name name_of(Work work, Metric metric);
+  [[nodiscard]] static Name name_of(Work work, Metric metric, const DefinedTask& defined);
 
  private:
   std::vector<EntryText> texts_;
@@ -48,7 +49,8 @@ class Kernels {
 
 struct PtxDevice {
   std::size_t lanes_at_once = 4096;
-  Schedule schedule{};  // with races: they forget what a launch did when it is done, or all that were asked for at once
+  Schedule schedule{};    // with races: they forget what a launch did when it is done, or all that were asked for at once
+  bool compiles = false;  // formulas, by NVRTC, where that is
   std::map<Work, std::uint64_t>* instructions = nullptr;  // counted up by what each launch's lanes did; null: nobody asks
 };
 /// Faults become DeviceErrors.

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "gpu/defined/formula_source.h"
 #include "tests/gpu/ptx/assigned.h"
 #include "tests/gpu/ptx/operations.h"
 
@@ -82,7 +83,8 @@ class Decoder {
  public:
   explicit Decoder(const EntryText& source) {
     entry_.name = source.name;
-    entry_.team = entry_.name.find("CudaTeam") != std::string::npos ? 8 : 1;  // see gpu/cuda_team.cuh
+    const auto is_of = [this](const char* word) { return entry_.name.find(word) != std::string::npos; };
+    entry_.team = is_of("CudaTeam") ? 8 : is_of("4Warp") || is_of(kFormulaKernel) ? 32 : 1;  // see gpu/cuda_team.cuh, gpu/defined/warp.h
     slots_ = {{"%tid.x", kThread}, {"%ctaid.x", kBlock}};
     entry_.initial.assign(kFirstParameter, kPoison);
     std::string_view text = source.text;
@@ -336,7 +338,7 @@ class Decoder {
 std::vector<EntryText> find_entries(std::string_view ptx) {
   const std::string kept = without_comments(ptx);
   std::vector<EntryText> entries;
-  std::vector<std::string> shared;
+  std::vector<std::string> shared, globals;
   for (std::string_view text = trimmed(kept); !text.empty(); text = trimmed(text)) {
     if (text.starts_with(".version ") || text.starts_with(".target ") || text.starts_with(".address_size ")) {
       (void)take_until(text, "\n");
@@ -348,10 +350,18 @@ std::vector<EntryText> find_entries(std::string_view ptx) {
       text.remove_prefix(end + 2);
     } else if (text.starts_with(".shared ")) {  // of a function that several kernels have
       shared.emplace_back(take_until(text, ";"));
+    } else if (text.starts_with(".global ")) {
+      std::string_view named = take_until(text, ";");
+      named = trimmed(named.substr(0, named.find_first_of("=[")));
+      globals.emplace_back(named.substr(named.find_last_of(kSpaces) + 1));
     } else {
       throw Fault(fmt::format("not known in PTX: {}", text.substr(0, std::min<std::size_t>(text.find('\n'), 200))));
     }
   }
+  // Constants that the compiler wrote down, and whose values it put where they are used.
+  for (const std::string& global : globals)
+    for (const EntryText& entry : entries)
+      if (entry.text.find(global) != std::string::npos) throw Fault(fmt::format("{} reads {}", entry.name, global));
   return entries;
 }
 

@@ -1,0 +1,38 @@
+#pragma once
+// What a program is given that stays when vertices move, as plain data for any processor.
+
+#include <cstddef>
+
+#include "core/base/host_device.h"
+#include "core/base/vec.h"
+#include "core/formula/program.h"
+
+namespace dmoscope {
+
+/// A view.
+struct GivenNumbers {
+  const double* fields = nullptr;  // by element, one field after the other
+  std::size_t elements = 0, dimension = 2;
+  double mean_measure = 1.0;  // of the mesh's elements
+
+  /// Of one element; 0 for what is of its corners and their origin. `matrices`, `steepness`: its target's, see ElementTarget. `length`: in
+  /// mesh units, of the unit of the corners.
+  [[nodiscard]] DMOSCOPE_ANYWHERE double of(const FormulaInput& input, Index element, const double* matrices, double steepness,
+                                            double length) const {
+    using What = FormulaInput::What;
+    if (input.what == What::Target) return matrices[(input.index * dimension + input.row) * dimension + input.column] * length;
+    if (input.what == What::Stretch) return matrices[input.row * dimension + input.column] * length;
+    if (input.what == What::MeanMeasure) return mean_measure / (dimension == 2 ? length * length : length * length * length);
+    if (input.what == What::Steepness) return steepness;
+    if (input.what == What::Field) return fields[input.index * elements + element];
+    return 0.0;
+  }
+};
+
+/// From what a program says of an element to its metric.
+[[nodiscard]] DMOSCOPE_ANYWHERE double settled_metric(double value, double steepness) {
+  const double steep = steepness == 1.0 ? value : 1.0 - (1.0 - value) * steepness;
+  return steep == steep ? steep + 0.0 : -1.0;  // else something overflowed
+}
+
+}  // namespace dmoscope

@@ -1,0 +1,4 @@
+#pragma once
+namespace std {
+using size_t = decltype(sizeof(0));
+}  // namespace std

@@ -30,6 +30,8 @@ template <Metric M>
 /// Launches work by metrics that are defined by formulas or targets. Frame: Plane or Space. `in_double`: the search is.
 template <class Frame>
 [[nodiscard]] Launcher defined_launcher(Work work, bool in_double);
+/// Launches work by the mean ratio against targets. `crossed`: see TargetForm.
+[[nodiscard]] Launcher target_launcher(Work work, bool crossed);
 /// Launches all other work.
 [[nodiscard]] Launcher plain_launcher(Work work);
 

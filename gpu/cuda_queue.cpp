@@ -290,6 +290,7 @@ class CudaQueue final : public Queue {
   }
 
   static Launcher launcher(Work work, Metric metric, const DefinedTask& defined) {
+    if (is_by_targets(work)) return target_launcher(work, defined.crossed);
     if (is_by_defined(work))
       return defined.is_volume ? defined_launcher<Space>(work, defined.in_double) : defined_launcher<Plane>(work, defined.in_double);
     if (!is_by_metric(work)) return plain_launcher(work);

@@ -35,7 +35,7 @@ class DeviceDmo final : public Smoother {
     task_.parameters = task.search;
     task_.deferred = deferred_.data();
     task_.moved = counts_.data();
-    if (!is_built_in(metric_)) defined_.emplace(queue_, *task.input, *colouring_, metric_, task.search, task_);
+    if (!is_built_in(metric_)) defined_.emplace(queue_, task, task_);
     warm_up(task.then_mean);
     load(task.input->mesh.positions, task.pool);
     queue_->wait();

@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "gpu/bodies.h"
 #include "gpu/defined/bodies.h"
+#include "gpu/defined/target_bodies.h"
 #include "gpu/two_aims_bodies.h"
 #include "gpu/volume_bodies.h"
 
@@ -49,6 +50,11 @@ template <Metric M>
 Lanes volume_lanes_of(Work work) {
   if (work == Work::VisitVolumeTwoAims) return run_lanes<bodies::VisitTwoAims<M, Space>>;
   return work == Work::VisitVolume ? run_lanes<bodies::VisitVolume<M>> : run_lanes<bodies::JudgeVolume<M>>;
+}
+
+Lanes target_lanes_of(Work work, bool crossed) {
+  if (work == Work::SearchTargets) return crossed ? run_lanes<bodies::SearchTargets<true>> : run_lanes<bodies::SearchTargets<false>>;
+  return crossed ? run_lanes<bodies::VisitTargets<true>> : run_lanes<bodies::VisitTargets<false>>;
 }
 
 template <class Frame>
@@ -95,6 +101,7 @@ Lanes plain_lanes_of(Work work) {
 }
 
 Lanes lanes_of(Work work, Metric metric, const DefinedTask& defined) {
+  if (is_by_targets(work)) return target_lanes_of(work, defined.crossed);
   if (is_by_defined(work))
     return defined.is_volume ? defined_lanes_of<Space>(work, defined.in_double) : defined_lanes_of<Plane>(work, defined.in_double);
   if (!is_by_metric(work)) return plain_lanes_of(work);

@@ -43,17 +43,23 @@ concept HasScratch = requires(const Team& team) {
   team.scratch();
 };
 
-/// The lanes of a team share the columns of the grid; some candidates of a column are ranked at a time, so that an element is read once for
-/// them all. Where the team has memory in common, the lanes also share the elements: each is read in double and narrowed once a search.
-template <Metric M, class Team>
-class VolumeRankSearch {
- public:
-  DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE VolumeRankSearch(const MeshStar<Space>& star, const SearchParameters& parameters, const Team& team)
-      : star_(star), parameters_(parameters), team_(team), box_(narrow(star.box())) {
-    if constexpr (HasScratch<Team>) stage();
-  }
+/// Some candidates of a column, which are ranked at a time, so that an element is read once for them all; and the least rank of the star
+/// with its vertex there.
+struct SomeCandidates {
+  static constexpr int kCount = 4;
+  Vec3Of<float> at[kCount];
+  float worth[kCount];
+};
 
-  [[nodiscard]] DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE VolumeFound run() {
+/// The search by the lanes of a team, which share the columns of the grid. Ranks: rank(SomeCandidates&) finds what they are worth.
+template <class Ranks, class Team>
+class VolumeLevels {
+ public:
+  DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE VolumeLevels(const Ranks& ranks, Vec3Of<float> box, const SearchParameters& parameters,
+                                                      const Team& team)
+      : ranks_(ranks), box_(box), parameters_(parameters), team_(team) {}
+
+  [[nodiscard]] DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE VolumeFound run() const {
     Found best = rank({});
     if (!(best.objective > volumes::kLeastRank)) return {};
     double omega = parameters_.omega;
@@ -67,27 +73,59 @@ class VolumeRankSearch {
  private:
   using Point = Vec3Of<float>;
   using Found = Candidate<float, Point>;
-  using Form = volumes::MeanRatioForm<float>;
-  static constexpr bool kCorners = formulas::kDefinedForCorners<M>;
-  static constexpr int kAtOnce = 4;
-  /// What all candidates need of an element: of corners a form each; by other metrics the element, if it is a tetrahedron.
-  using Staged = std::conditional_t<M == Metric::MeanRatio, Form, StarTetrahedron<float>>;
-  static_assert(sizeof(Staged) * kStaged <= kStageBytes);
-
-  /// Some candidates, and the least rank of the star with its vertex there.
-  struct Some {
-    Point at[kAtOnce];
-    float worth[kAtOnce];
-  };
+  static constexpr int kAtOnce = SomeCandidates::kCount;
 
   DMOSCOPE_ANYWHERE Found rank(Point p) const {
-    Some some;
+    SomeCandidates some;
     DMOSCOPE_UNROLL
     for (Point& at : some.at) at = p;
-    rank(some);
+    ranks_.rank(some);
     return {p, some.worth[0]};
   }
-  DMOSCOPE_ANYWHERE void rank(Some& some) const {
+  /// One level, around the best so far: among equals the candidate of lowest index.
+  DMOSCOPE_ANYWHERE Found search(Found best, float omega) const {
+    const CandidateGrid<float, Point> grid{best.offset, times(box_, omega), parameters_.grid_points};
+    const int n = grid.points;
+    int index = -1;
+    for (int column = static_cast<int>(team_.lane()); column < n * n; column += static_cast<int>(Team::kSize)) {
+      for (int k = 0; k < n; k += kAtOnce) {
+        SomeCandidates some;
+        DMOSCOPE_UNROLL
+        for (int i = 0; i < kAtOnce; ++i) some.at[i] = grid.at(column / n, column % n, k + i < n ? k + i : n - 1);  // the last once more
+        ranks_.rank(some);
+        DMOSCOPE_UNROLL
+        for (int i = 0; i < kAtOnce; ++i) {
+          if (!(some.worth[i] > best.objective)) continue;
+          best = {some.at[i], some.worth[i]};
+          index = column * n + k + i;
+        }
+      }
+    }
+    if constexpr (Team::kSize > 1) best = best_of_team(team_, best, index);
+    return best;
+  }
+
+  const Ranks& ranks_;
+  Point box_;
+  const SearchParameters& parameters_;
+  const Team& team_;
+};
+
+/// Ranks by a built-in metric. Where the team has memory in common, the lanes share the elements: each is read in double and narrowed once
+/// a search.
+template <Metric M, class Team>
+class VolumeRankSearch {
+ public:
+  DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE VolumeRankSearch(const MeshStar<Space>& star, const SearchParameters& parameters, const Team& team)
+      : star_(star), parameters_(parameters), team_(team) {
+    if constexpr (HasScratch<Team>) stage();
+  }
+
+  [[nodiscard]] DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE VolumeFound run() const {
+    return VolumeLevels<VolumeRankSearch, Team>(*this, narrow(star_.box()), parameters_, team_).run();
+  }
+
+  DMOSCOPE_ANYWHERE void rank(SomeCandidates& some) const {
     DMOSCOPE_UNROLL
     for (float& worth : some.worth) worth = std::numeric_limits<float>::max();
     if constexpr (HasScratch<Team>) {
@@ -96,6 +134,15 @@ class VolumeRankSearch {
     }
     star_.template for_each<kCorners>([&some](const auto& element) { lower(some, narrow(element)); });
   }
+
+ private:
+  using Point = Vec3Of<float>;
+  using Form = volumes::MeanRatioForm<float>;
+  static constexpr bool kCorners = formulas::kDefinedForCorners<M>;
+  static constexpr int kAtOnce = SomeCandidates::kCount;
+  /// What all candidates need of an element: of corners a form each; by other metrics the element, if it is a tetrahedron.
+  using Staged = std::conditional_t<M == Metric::MeanRatio, Form, StarTetrahedron<float>>;
+  static_assert(sizeof(Staged) * kStaged <= kStageBytes);
 
   /// Puts the star's elements into the team's memory, in their order, each by one lane; none where they have no room.
   DMOSCOPE_LANE_INLINE DMOSCOPE_ANYWHERE void stage() {
@@ -137,7 +184,7 @@ class VolumeRankSearch {
     }
     return staged_ <= kStaged;
   }
-  static DMOSCOPE_ANYWHERE void lower(Some& some, const StarTetrahedron<float>& t) {
+  static DMOSCOPE_ANYWHERE void lower(SomeCandidates& some, const StarTetrahedron<float>& t) {
     if constexpr (M == Metric::MeanRatio) {
       lower(some, volumes::tetrahedron_form(t.b, t.c, t.d));
     } else {
@@ -146,7 +193,7 @@ class VolumeRankSearch {
     }
   }
   template <class Element>
-  static DMOSCOPE_ANYWHERE void lower(Some& some, const Element& element) {
+  static DMOSCOPE_ANYWHERE void lower(SomeCandidates& some, const Element& element) {
     if constexpr (M == Metric::MeanRatio) {
       volumes::for_corner_forms(element.with(Point{}), element.kMoving, [&some](const Form& form) { lower(some, form); });
     } else {
@@ -155,7 +202,7 @@ class VolumeRankSearch {
         some.worth[i] = scalar::min(some.worth[i], formulas::rank_around<M>(element.with(some.at[i]), element.kMoving));
     }
   }
-  static DMOSCOPE_ANYWHERE void lower(Some& some, const Form& form) {
+  static DMOSCOPE_ANYWHERE void lower(SomeCandidates& some, const Form& form) {
     DMOSCOPE_UNROLL
     for (int i = 0; i < kAtOnce; ++i) {
       const Point p = some.at[i];
@@ -163,33 +210,9 @@ class VolumeRankSearch {
     }
   }
 
-  /// One level, around the best so far: among equals the candidate of lowest index.
-  DMOSCOPE_ANYWHERE Found search(Found best, float omega) const {
-    const CandidateGrid<float, Point> grid{best.offset, times(box_, omega), parameters_.grid_points};
-    const int n = grid.points;
-    int index = -1;
-    for (int column = static_cast<int>(team_.lane()); column < n * n; column += static_cast<int>(Team::kSize)) {
-      for (int k = 0; k < n; k += kAtOnce) {
-        Some some;
-        DMOSCOPE_UNROLL
-        for (int i = 0; i < kAtOnce; ++i) some.at[i] = grid.at(column / n, column % n, k + i < n ? k + i : n - 1);  // the last once more
-        rank(some);
-        DMOSCOPE_UNROLL
-        for (int i = 0; i < kAtOnce; ++i) {
-          if (!(some.worth[i] > best.objective)) continue;
-          best = {some.at[i], some.worth[i]};
-          index = column * n + k + i;
-        }
-      }
-    }
-    if constexpr (Team::kSize > 1) best = best_of_team(team_, best, index);
-    return best;
-  }
-
   const MeshStar<Space>& star_;
   const SearchParameters& parameters_;
   const Team& team_;
-  Point box_;
   Staged* stage_ = nullptr;  // the team's memory, and how much of it is used
   unsigned staged_ = 0;
 };

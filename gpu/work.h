@@ -11,25 +11,28 @@ enum class Work {
   VisitVolume,         // of a volume, one vertex per team of lanes: rank first + i
   VisitTwoAims,        // the same with two aims, of a planar mesh
   VisitVolumeTwoAims,  // and of a volume
-  // By a metric that is defined by a formula or a target, for a stretch of visits (see gpu/defined/bodies.h), each lane or team for every
-  // so-manieth:
-  PrepareDefined,   // one vertex per lane: what its star is like
-  SearchDefined,    // one vertex per warp: sound stars
-  UntangleDefined,  // one vertex per team: tangled stars
-  SettleDefined,    // one vertex per lane: whether it gains
-  JudgeDefined,     // one element per lane: its quality and whether it is inverted
-  Judge,            // one element per lane: its quality and whether it is inverted
-  JudgeVolume,      // the same of a volume
-  Sum,              // one part of the statistics per lane
-  Total,            // one sum of all parts per team of lanes
-  Conclude,         // one lane: the statistics
-  Load,             // one vertex per lane: positions -> ranked, and awake
-  Store,            // one vertex per lane: ranked -> positions
-  Shade,            // one element per lane: what the renderer colours it by
-  Count,            // one element per lane: the histogram
-  Project,          // one vertex per lane: positions -> points in the plane
-  CopyShades,       // one element per lane: shades -> drawn_shades
-  Pick,             // one of some vertices per lane: positions -> picked
+  // By a metric that is defined by a formula or a target, for a stretch of visits, of which each lane or team has some (see
+  // gpu/defined/bodies.h):
+  VisitTargets,        // one vertex per lane: planar stars by the mean ratio against targets
+  VisitTargetsInTeam,  // the same, one vertex per team
+  SearchTargets,       // one vertex per team: stars of tetrahedra by the same
+  PrepareDefined,      // one vertex per lane: what its star is like
+  SearchDefined,       // one vertex per warp: sound stars
+  UntangleDefined,     // one vertex per team: tangled stars
+  SettleDefined,       // one vertex per lane: whether it gains
+  JudgeDefined,        // one element per lane: its quality and whether it is inverted
+  Judge,               // one element per lane: its quality and whether it is inverted
+  JudgeVolume,         // the same of a volume
+  Sum,                 // one part of the statistics per lane
+  Total,               // one sum of all parts per team of lanes
+  Conclude,            // one lane: the statistics
+  Load,                // one vertex per lane: positions -> ranked, and awake
+  Store,               // one vertex per lane: ranked -> positions
+  Shade,               // one element per lane: what the renderer colours it by
+  Count,               // one element per lane: the histogram
+  Project,             // one vertex per lane: positions -> points in the plane
+  CopyShades,          // one element per lane: shades -> drawn_shades
+  Pick,                // one of some vertices per lane: positions -> picked
 };
 
 /// Whether work is on volumes, whose metrics are those of formulas::with_volume_metric().
@@ -38,10 +41,12 @@ enum class Work {
 }
 
 /// Whether work is by a metric that is defined by a formula or a target.
-[[nodiscard]] constexpr bool is_by_defined(Work work) { return work >= Work::PrepareDefined && work <= Work::JudgeDefined; }
+[[nodiscard]] constexpr bool is_by_defined(Work work) { return work >= Work::VisitTargets && work <= Work::JudgeDefined; }
+/// Whether it is by the mean ratio against targets, which is one of these.
+[[nodiscard]] constexpr bool is_by_targets(Work work) { return work >= Work::VisitTargets && work <= Work::SearchTargets; }
 /// Whether it is by a built-in metric.
 [[nodiscard]] constexpr bool is_by_metric(Work work) {
-  return work < Work::PrepareDefined || work == Work::Judge || work == Work::JudgeVolume;
+  return work < Work::VisitTargets || work == Work::Judge || work == Work::JudgeVolume;
 }
 
 }  // namespace dmoscope::gpu

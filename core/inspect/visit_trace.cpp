@@ -212,7 +212,7 @@ class Look {
     const StarShape shape = star_shape(input_.mesh, input_.topology, trace_.vertex, others);
     append_star_targets(targets, Crossed, input_.mesh, input_.topology, trace_.vertex, shape, others, numbers);
     Recorder<Offset> recorder(task.frame.scale);
-    const auto outcome = TargetVisit<Crossed, SingleVertexTask>(task, numbers).run(recorder);
+    const auto outcome = TargetVisit<Crossed, SingleVertexTask>(task, 0, numbers.data()).run(recorder);
     if (!outcome.ready) return false;
     trace_.fast = true;
     trace_.value_phrase = metric_phrase(metric_);

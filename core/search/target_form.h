@@ -19,11 +19,11 @@ struct CornerTarget {
 };
 
 /// How many numbers a CornerTarget has in memory: where none is crossed K is left out.
-[[nodiscard]] constexpr std::size_t target_numbers(bool crossed) { return crossed ? 7 : 4; }
+[[nodiscard]] DMOSCOPE_ANYWHERE std::size_t target_numbers(bool crossed) { return crossed ? 7 : 4; }
 
 /// number(k): number k in memory.
 template <bool Crossed, class R, class Number>
-[[nodiscard]] CornerTarget<R> corner_target(Number number) {
+[[nodiscard]] DMOSCOPE_ANYWHERE CornerTarget<R> corner_target(Number number) {
   CornerTarget<R> t{number(0), number(1), number(2), number(3), R(1), R(0), R(1)};
   if constexpr (Crossed) {
     t.k11 = number(4);

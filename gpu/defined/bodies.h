@@ -20,12 +20,13 @@ struct PrepareDefined {
 
  private:
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void prepare(const Task& task, std::size_t rank, SoughtStar& star, std::size_t lane) {
-    star.stage = Stage::Over;
-    if (!is_set(task.awake + rank)) return;
+    if (task.defined.star_targets == nullptr) star.stage = is_set(task.awake + rank) ? Stage::Waiting : Stage::Over;
+    if (star.stage == Stage::Over) return;
     const LaneJudge<Frame> judge(task, lane);
     const Index vertex = task.vertex_of_rank[rank];
     const StarState before = judge.state(vertex, judge.positions()[vertex]);
     task.defined.before[rank - task.defined.search.first_of_stretch] = before;
+    if (star.stage == Stage::Found) return;  // by another search
     const bool tangled = !(before.jacobian > 0.0);
     star.offset[0] = star.offset[1] = star.offset[2] = 0.0;
     star.stage = Stage::Found;

@@ -21,6 +21,12 @@ struct DefinedTask {
   GivenNumbers given;
   bool is_volume = false, in_double = false;
 
+  // For the searches by the mean ratio against targets. Planar: see StarTargets; of volumes: see TetrahedronTargets.
+  const double* star_targets = nullptr;  // null: they are not for this metric
+  const std::uint32_t* first_target = nullptr;
+  const std::uint8_t* fits = nullptr;
+  bool crossed = false;
+
   StarSearchTask search;
   StarState* before = nullptr;  // of the stretch's stars, by rank
 

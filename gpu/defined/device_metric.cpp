@@ -7,6 +7,9 @@
 #include <fmt/format.h>
 
 #include "core/formula/evaluator.h"
+#include "core/smooth/kernels/star_targets.h"
+#include "core/smooth/kernels/tetrahedron_targets.h"
+#include "core/smooth/methods/defined_dmo.h"
 #include "gpu/defined/formula_source.h"
 #include "gpu/defined/program_table.h"
 
@@ -18,7 +21,9 @@ namespace {
 constexpr std::size_t kStretchBytes = std::size_t{64} << 20U, kStretchVisits = std::size_t{1} << 16U;
 /// Lanes that run programs at once: enough for any device; and the memory for their registers.
 constexpr std::size_t kMostLanes = std::size_t{1} << 16U, kRegisterBytes = std::size_t{256} << 20U;
-constexpr std::size_t kSearchers = kFormulaWarp, kUntanglers = 8;  // lanes of a team
+constexpr std::size_t kSearchers = kFormulaWarp, kTeam = 8;  // lanes of a team
+/// A stretch that would leave three quarters of the device's lanes idle.
+constexpr std::size_t kTeamShare = 4;
 
 /// All programs' code, one after the other.
 class Code {
@@ -103,9 +108,10 @@ std::vector<std::uint32_t> first_matrices(const TargetTable& targets, std::size_
 
 }  // namespace
 
-DeviceMetric::DeviceMetric(std::shared_ptr<Queue> queue, const InputMesh& input, const Colouring& colouring, Metric metric,
-                           const SearchParameters& parameters, const Task& mesh)
-    : queue_(std::move(queue)), judge_(input.quality_context().judge(metric)) {
+DeviceMetric::DeviceMetric(std::shared_ptr<Queue> queue, const SmoothingTask& task, const Task& mesh)
+    : queue_(std::move(queue)), judge_(task.input->quality_context().judge(task.metric)) {
+  const InputMesh& input = *task.input;
+  const SearchParameters& parameters = task.search;
   const ProgramTable table(input, *judge_);
   const TargetTable& targets = judge_->targets();
   task_.is_volume = input.is_volume();
@@ -131,7 +137,8 @@ DeviceMetric::DeviceMetric(std::shared_ptr<Queue> queue, const InputMesh& input,
                   .grid_points = parameters.grid_points,
                   .levels = parameters.levels,
                   .unit_matters = judge_->unit_matters()};
-  lay_out(input, colouring, table);
+  if (has_target_kernel(input, task.metric, parameters)) upload_targets(task);
+  lay_out(input, *task.colouring, table);
   const auto source = formula_source(table, {task_.is_volume, task_.in_double});
   compiled_ = source ? queue_->compile(*source) : Queue::Compiled{nullptr, "it is too long"};
 }
@@ -147,6 +154,27 @@ void DeviceMetric::upload_programs(const ProgramTable& table) {
   programs_ = {queue_, std::span<const ProgramCode>(codes)};
   task_.programs = programs_.data();
   registers_of_lane_ = code.registers();
+}
+
+void DeviceMetric::upload_targets(const SmoothingTask& task) {
+  const InputMesh& input = *task.input;
+  const TargetTable& targets = judge_->targets();
+  if (input.is_volume()) {
+    const TetrahedronTargets tetrahedra(targets, input.mesh);
+    if (!tetrahedra.any()) return;
+    task_.crossed = tetrahedra.crossed();
+    star_targets_ = {queue_, tetrahedra.all_numbers(), task.pool};
+    fits_ = {queue_, tetrahedra.fits(), task.pool};
+  } else {
+    task_.crossed = has_crossed_targets(targets, static_cast<Index>(input.mesh.elements.size()));
+    const StarTable table = build_star_table(input.mesh, input.topology, *task.colouring, task.pool);
+    const StarTargets stars = build_star_targets(targets, task_.crossed, input.mesh, input.topology, table, task.pool);
+    star_targets_ = {queue_, std::span<const double>(stars.numbers), task.pool};
+    first_target_ = {queue_, std::span<const std::uint32_t>(stars.first), task.pool};
+  }
+  task_.star_targets = star_targets_.data();
+  task_.first_target = first_target_.data();
+  task_.fits = fits_.data();
 }
 
 /// Cuts the visits into stretches, each within a class, and gives every element of a star its place among its stretch's numbers.
@@ -206,13 +234,22 @@ void DeviceMetric::visit(Task task, std::size_t first, std::size_t last) const {
 void DeviceMetric::launch_visits(const Task& task) const {
   const std::size_t visits = task.defined.search.visits;
   const auto launch = [&](Work work, std::size_t team) { queue_->launch(work, kNoMetric, task, std::min(visits, task_.lanes / team)); };
+  if (task_.star_targets != nullptr) launch_targets(task);
   launch(Work::PrepareDefined, 1);
   if (compiled_.search)
     queue_->launch_search(*compiled_.search, task.defined.search, std::min(visits, task_.lanes / kSearchers));
   else
     launch(Work::SearchDefined, kSearchers);
-  launch(Work::UntangleDefined, kUntanglers);
+  launch(Work::UntangleDefined, kTeam);
   launch(Work::SettleDefined, 1);
+}
+
+/// Planar classes that would leave most of a device's lanes idle are visited by teams.
+void DeviceMetric::launch_targets(const Task& task) const {
+  const std::size_t visits = task.defined.search.visits;
+  const bool few = visits * kTeamShare <= queue_->lanes_at_once();
+  const Work work = task_.is_volume ? Work::SearchTargets : few ? Work::VisitTargetsInTeam : Work::VisitTargets;
+  queue_->launch(work, kNoMetric, task, std::min(visits, task_.lanes / (work == Work::VisitTargets ? 1 : kTeam)));
 }
 
 void DeviceMetric::judge(Task task) const {

@@ -7,10 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/input/input_mesh.h"
-#include "core/mesh/colouring.h"
 #include "core/quality/defined_judge.h"
-#include "core/search/parameters.h"
+#include "core/smooth/task.h"
 #include "gpu/queue.h"
 #include "gpu/task.h"
 
@@ -20,9 +18,8 @@ class ProgramTable;
 
 class DeviceMetric {
  public:
-  /// `mesh`: what a kernel knows of the mesh. Throws DeviceError.
-  DeviceMetric(std::shared_ptr<Queue> queue, const InputMesh& input, const Colouring& colouring, Metric metric,
-               const SearchParameters& parameters, const Task& mesh);
+  /// `mesh`: what a kernel knows of the mesh. `task`: whose metric it is. Throws DeviceError.
+  DeviceMetric(std::shared_ptr<Queue> queue, const SmoothingTask& task, const Task& mesh);
 
   /// Visits ranks [first, last), all of one class, as `task` says, whose metric this is.
   void visit(Task task, std::size_t first, std::size_t last) const;
@@ -36,8 +33,10 @@ class DeviceMetric {
 
  private:
   void upload_programs(const ProgramTable& table);
+  void upload_targets(const SmoothingTask& task);
   void lay_out(const InputMesh& input, const Colouring& colouring, const ProgramTable& table);
   void launch_visits(const Task& task) const;
+  void launch_targets(const Task& task) const;
 
   std::shared_ptr<Queue> queue_;
   std::shared_ptr<const DefinedJudge> judge_;
@@ -49,6 +48,9 @@ class DeviceMetric {
   Buffer<std::uint16_t> groups_;
   Buffer<std::uint32_t> first_matrix_, numbers_at_;
   Buffer<std::byte> numbers_;
+  Buffer<double> star_targets_;
+  Buffer<std::uint32_t> first_target_;
+  Buffer<std::uint8_t> fits_;
   Buffer<SoughtStar> stars_;
   Buffer<StarState> before_;
   Queue::Compiled compiled_;            // without a search: the programs are run step by step

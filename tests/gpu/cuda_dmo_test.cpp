@@ -4,7 +4,9 @@
 
 #include "gpu/cuda_queue.h"
 #include "gpu/device.h"
+#include "gpu/nvrtc.h"
 #include "gpu/task.h"
+#include "tests/gpu/defined.h"
 #include "tests/gpu/meshes.h"
 #include "tests/gpu/two_aims.h"
 #include "tests/gpu/volumes.h"
@@ -16,7 +18,8 @@ namespace {
 using namespace testing;
 using dmoscope::testing::defined_for_all;
 
-class CudaTest : public ::testing::TestWithParam<Metric> {
+template <class Tested>
+class CudaTestOf : public ::testing::TestWithParam<Tested> {
  protected:
   void SetUp() override {
     const Availability available = availability();
@@ -25,6 +28,7 @@ class CudaTest : public ::testing::TestWithParam<Metric> {
   }
   std::shared_ptr<Queue> queue;
 };
+using CudaTest = CudaTestOf<Metric>;
 
 class CudaDmo : public CudaTest {
  protected:
@@ -117,6 +121,35 @@ TEST_P(CudaVolumeDmo, SameBitsOnTheSharedMeshes) {
 INSTANTIATE_TEST_SUITE_P(CudaMetrics, CudaVolumeDmo, every_volume_metric(), name_of_metric);
 
 INSTANTIATE_TEST_SUITE_P(CudaMetrics, CudaDmo, every_metric(), name_of_metric);
+
+/// Formulas and targets.
+class CudaDefinedDmo : public CudaTestOf<std::size_t> {};
+
+TEST_P(CudaDefinedDmo, SameBits) {
+  const std::string_view words = kDefinedMetrics[GetParam()];
+  SCOPED_TRACE(words);
+  for (auto& specimen : defined_specimens()) {
+    const auto input = volume_input_of(std::move(specimen.mesh));
+    if (!is_for(words, *input)) continue;
+    SCOPED_TRACE(specimen.name);
+    const Metric metric = parse_metric(words);
+    expect_same_visits(queue, Subject(input), metric, {}, 3);
+    expect_same_visits(queue, Subject(input), metric, {}, 1, {.untangling = {.repair = true}});
+    const auto smoother = make_device_dmo(queue, Subject(input).task(metric));
+    if (Nvrtc::find() != nullptr) EXPECT_EQ(smoother->description(), "the metric compiled by " + Nvrtc::find()->description());
+  }
+}
+/// Several stretches, and classes too large for teams.
+TEST_P(CudaDefinedDmo, SameBitsOnALargeMesh) {
+  const std::string_view words = kDefinedMetrics[GetParam()];
+  SCOPED_TRACE(words);
+  for (const auto cells : {dmoscope::testing::Cells::Triangles, dmoscope::testing::Cells::Mixed}) {
+    const auto input = volume_input_of(with_fields(dmoscope::testing::lattice(600, 0.35, 81, cells)));
+    if (is_for(words, *input)) expect_same_visits(queue, Subject(input), parse_metric(words), {}, 1);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(CudaDefined, CudaDefinedDmo, ::testing::Range(std::size_t{0}, std::size(kDefinedMetrics)),
+                         [](const ::testing::TestParamInfo<std::size_t>& tested) { return std::to_string(tested.param); });
 
 class CudaQueueTest : public CudaTest {};
 INSTANTIATE_TEST_SUITE_P(CudaAny, CudaQueueTest, ::testing::Values(Metric::MeanRatio));

@@ -34,6 +34,12 @@ inline constexpr std::string_view kDefinedMetrics[] = {
     "shape-size@aspect:3:30",
     "scaled-jacobian@aspect:2:1:2:3",
     "shape-size@field:m",
+    // By searches of their own:
+    "mean-ratio@input",
+    "mean-ratio@input:1:20%",
+    "mean-ratio@aspect:3:30",
+    "mean-ratio@aspect:2:1:2:3",
+    "mean-ratio@field:m",
 };
 
 /// With a field "h" of sizes and one "m" of metric tensors.

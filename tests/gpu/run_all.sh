@@ -102,6 +102,10 @@ step bench-warm 300 "$program" bench --backend cuda --sizes 1330000 --threads 0 
 told "bench, warm" "$(outcome)"
 step bench-volumes 300 "$program" bench --backend cpu,cuda --elements tetrahedra,hexahedra --sizes 1e5 --threads 0 --repeats 3
 told "bench of volumes" "$(outcome)"
+# A formula, a target, and the built-in metric that both stand for; a formula is compiled before its run begins.
+step bench-formulas 300 "$program" bench --backend cpu,cuda --sizes 1330000 --threads 0 --repeats 3 \
+  --metric 'mean-ratio,mean-ratio@input,formula:2*det/norm^2'
+told "bench of a formula and a target" "$(outcome)"
 mesh=resources/samples/coast.14
 [[ -f $shared/meshes/ocean/east.14 ]] && mesh=$shared/meshes/ocean/east.14
 step bench-small 120 "$program" bench "$mesh" --backend cpu,cuda --threads 1 --iterations 1000 --repeats 3

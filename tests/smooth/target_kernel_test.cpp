@@ -202,8 +202,8 @@ bool is_of_lanes(const InputMesh& mesh, Metric metric, Index vertex) {
   const StarShape shape = star_shape(mesh.mesh, mesh.topology, vertex, others);
   append_star_targets(judge->targets(), crossed, mesh.mesh, mesh.topology, vertex, shape, others, numbers);
   NoTrace trace;
-  return crossed ? TargetVisit<true, SingleVertexTask>(task, numbers).run(trace).ready
-                 : TargetVisit<false, SingleVertexTask>(task, numbers).run(trace).ready;
+  return crossed ? TargetVisit<true, SingleVertexTask>(task, 0, numbers.data()).run(trace).ready
+                 : TargetVisit<false, SingleVertexTask>(task, 0, numbers.data()).run(trace).ready;
 }
 bool is_of_volume_kernel(const InputMesh& mesh, const TetrahedronTargets& targets, Index vertex) {
   const auto star = mesh.topology.star(vertex);

@@ -9,7 +9,6 @@
 #include "core/base/unknown_value.h"
 #include "core/smooth/execution/choose_executor.h"
 #include "core/smooth/execution/method_table.h"
-#include "core/smooth/methods/defined_dmo.h"
 #include "core/smooth/size_field.h"
 
 namespace dmoscope {
@@ -26,8 +25,6 @@ std::string obstacle_of_defined(const SmoothingTask& task) {
   const bool of_defined = !is_built_in(task.metric);
   if ((second != nullptr && !is_built_in(*second)) || (of_defined && (task.combination || task.then_mean)))
     return "formulas and targets are joined with another aim on the CPU alone";
-  if (of_defined && has_target_kernel(*task.input, task.metric, task.search))
-    return "the mean ratio against targets is searched on the CPU alone";
   return {};
 }
 

@@ -1,8 +1,7 @@
 #pragma once
-// One vertex's visit as target_lane_kernel() does it, for inspecting it. The same bits.
+// One vertex's visit as target_lane_kernel() does it, but for one vertex: for a GPU's lanes, and for inspecting it. The same bits.
 
 #include <array>
-#include <vector>
 
 #include "core/search/ratio_search.h"
 #include "core/smooth/kernels/search_frame.h"
@@ -11,8 +10,8 @@
 
 namespace dmoscope {
 
-/// Task: as FastVisit's.
-template <bool Crossed, class Task>
+/// By a team of lanes; only the first lane learns the verdict. Task: as FastVisit's.
+template <bool Crossed, class Task, class Team = Solo>
 class TargetVisit {
  public:
   struct Outcome {
@@ -21,11 +20,12 @@ class TargetVisit {
     Displacement to{};
   };
 
-  /// Of the vertex of rank 0, whose star is not Alone. `targets`: see append_star_targets.
-  TargetVisit(const Task& task, const std::vector<double>& targets) : task_(task), targets_(targets), shape_(task.shapes[0]) {}
+  /// `rank`: of a vertex whose star is not Alone. `targets`: its own, see append_star_targets().
+  DMOSCOPE_ANYWHERE TargetVisit(const Task& task, Index rank, const double* targets, const Team& team = {})
+      : task_(task), team_(team), targets_(targets), shape_(task.shapes[rank]), origin_(&task.ranked[rank].x) {}
 
-  template <class Trace>
-  [[nodiscard]] Outcome run(Trace& trace) const {
+  template <class Trace = NoTrace>
+  [[nodiscard]] DMOSCOPE_ANYWHERE Outcome run(Trace&& trace = {}) const {
     Elements<float> elements;
     const StarView<float> star = gather(elements);
     const Vec2<float> size = box(star);
@@ -38,9 +38,10 @@ class TargetVisit {
                         star, [this](std::size_t i) { return target<float>(i); }, forms.data(), count, cap) &&
                     extent > visit_rules::kSmallestExtent && extent < task_.frame.largest_extent;
     if (!outcome.ready) return outcome;
-    RatioSearch<float, 0, Tables::None, Solo, TargetForm<float, Crossed>> rounds;
+    RatioSearch<float, 0, Tables::None, Team, TargetForm<float, Crossed>> rounds(team_);
     const Candidate<float> found = rounds.search({forms.data(), count}, cap, size, task_.parameters.levels, task_.parameters.omega, trace);
-    outcome.to = task_.frame.displace(&task_.ranked[0].x, found.offset.x, found.offset.y);
+    if (team_.lane() != 0) return outcome;
+    outcome.to = task_.frame.displace(origin_, found.offset.x, found.offset.y);
     outcome.verdict = judge(outcome.to.step);
     return outcome;
   }
@@ -53,21 +54,21 @@ class TargetVisit {
   };
 
   template <class R>
-  [[nodiscard]] CornerTarget<R> target(std::size_t i) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE CornerTarget<R> target(std::size_t i) const {
     return corner_target<Crossed, R>([&](std::size_t k) { return static_cast<R>(targets_[target_numbers(Crossed) * i + k]); });
   }
   template <class R>
-  [[nodiscard]] Vec2<R> point(std::size_t i) const {
-    const double *at = &task_.ranked[task_.others[shape_.first + i]].x, *origin = &task_.ranked[0].x;
+  [[nodiscard]] DMOSCOPE_ANYWHERE Vec2<R> point(std::size_t i) const {
+    const double* at = &task_.ranked[task_.others[shape_.first + i]].x;
     const Vec2<double> exact =
-        task_.frame.u_axis >= 0 ? task_.frame.template offset<true>(at, origin) : task_.frame.template offset<false>(at, origin);
+        task_.frame.u_axis >= 0 ? task_.frame.template offset<true>(at, origin_) : task_.frame.template offset<false>(at, origin_);
     if constexpr (std::is_same_v<R, double>)
       return exact;
     else
       return {static_cast<float>(exact.x * task_.frame.inverse), static_cast<float>(exact.y * task_.frame.inverse)};
   }
   template <class R>
-  [[nodiscard]] StarView<R> gather(Elements<R>& out) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE StarView<R> gather(Elements<R>& out) const {
     const std::size_t n = shape_.triangles;
     const bool fan = shape_.kind == StarShape::Kind::Fan;
     for (std::size_t i = 0; i < n; ++i)
@@ -77,7 +78,7 @@ class TargetVisit {
       out.quadrilaterals[i] = {point<R>(p), point<R>(p + 1), point<R>(p + 2), R(1)};
     return {out.triangles.data(), n, out.quadrilaterals.data(), shape_.quadrilaterals};
   }
-  [[nodiscard]] static Vec2<float> box(const StarView<float>& star) {
+  [[nodiscard]] static DMOSCOPE_ANYWHERE Vec2<float> box(const StarView<float>& star) {
     Vec2<float> low{1e30F, 1e30F}, high{-1e30F, -1e30F};
     const auto add = [&](Vec2<float> p) {
       low = {scalar::min(low.x, p.x), scalar::min(low.y, p.y)};
@@ -87,19 +88,25 @@ class TargetVisit {
     for (const auto& q : star.quadrilaterals()) add(q.b), add(q.c), add(q.d);
     return high - low;
   }
-  [[nodiscard]] visit_rules::Verdict judge(Vec2<double> step) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE visit_rules::Verdict judge(Vec2<double> step) const {
     Elements<double> elements;
     const StarView<double> star = gather(elements);
     const auto at = [this](std::size_t i) { return target<double>(i); };
     double room = 0.0;
-    for (std::size_t i = 0; i < targets_.size() / target_numbers(Crossed); ++i) room = scalar::max(room, target_star::doubt(at(i)));
+    for (std::size_t i = 0; i < target_count(); ++i) room = scalar::max(room, target_star::doubt(at(i)));
     return target_star::judge(target_star::quality<Crossed>(star, {0.0, 0.0}, at), target_star::quality<Crossed>(star, step, at), room,
                               step);
   }
 
+  [[nodiscard]] DMOSCOPE_ANYWHERE std::size_t target_count() const {
+    return shape_.triangles + kQuadrilateralTargets * shape_.quadrilaterals;
+  }
+
   const Task& task_;
-  const std::vector<double>& targets_;
+  Team team_;
+  const double* targets_;
   StarShape shape_;
+  const double* origin_;
 };
 
 }  // namespace dmoscope

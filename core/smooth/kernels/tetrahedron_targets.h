@@ -20,6 +20,9 @@ class TetrahedronTargets {
   /// Has any element a target that is crossed (see solid_target.h)?
   [[nodiscard]] bool crossed() const noexcept { return crossed_; }
   [[nodiscard]] const double* numbers() const noexcept { return numbers_.data(); }
+  [[nodiscard]] std::span<const double> all_numbers() const noexcept { return numbers_; }
+  /// By element: can the kernel search a star that has it?
+  [[nodiscard]] std::span<const std::uint8_t> fits() const noexcept { return fits_; }
   /// Is there any element for which the kernel is made?
   [[nodiscard]] bool any() const noexcept { return any_; }
   /// Is a star one of tetrahedra whose metric falls as fast as elsewhere, and whose targets floats can hold?

@@ -16,6 +16,7 @@
 #include "gpu/bodies.h"
 #include "gpu/defined/bodies.h"
 #include "gpu/defined/formula_source.h"
+#include "gpu/defined/target_bodies.h"
 #include "gpu/nvrtc.h"
 #include "gpu/two_aims_bodies.h"
 #include "gpu/volume_bodies.h"
@@ -60,6 +61,20 @@ Kernels::Name in_warp() {
   return {fmt::format("void dmoscope::gpu::kernel<{}, dmoscope::gpu::Warp>(dmoscope::gpu::Task, unsigned long)",
                       demangled(typeid(Body).name())),
           kWarpSize};
+}
+
+template <class Body>
+Kernels::Name in_staging_team(std::size_t bytes) {
+  return {fmt::format("void dmoscope::gpu::kernel<{}, dmoscope::gpu::StagingCudaTeam<{}u, {}ul> >(dmoscope::gpu::Task, unsigned long)",
+                      demangled(typeid(Body).name()), kBlockSize, bytes),
+          kTeamSize};
+}
+
+template <bool Crossed>
+Kernels::Name target_name_for(Work work) {
+  if (work == Work::VisitTargets) return solo<bodies::VisitTargets<Crossed>>();
+  if (work == Work::VisitTargetsInTeam) return in_team<bodies::VisitTargets<Crossed>>();
+  return in_staging_team<bodies::SearchTargets<Crossed>>(bodies::kTargetStageBytes);
 }
 
 template <class Frame>
@@ -131,9 +146,7 @@ template <Metric M>
 Kernels::Name volume_name_for(Work work) {
   if (work == Work::JudgeVolume) return solo<bodies::JudgeVolume<M>>();
   if (work == Work::VisitVolumeTwoAims) return in_team<bodies::VisitTwoAims<M, dmoscope::Space>>();
-  return {fmt::format("void dmoscope::gpu::kernel<{}, dmoscope::gpu::StagingCudaTeam<{}u, {}ul> >(dmoscope::gpu::Task, unsigned long)",
-                      demangled(typeid(bodies::VisitVolume<M>).name()), kBlockSize, kStageBytes),
-          kTeamSize};
+  return in_staging_team<bodies::VisitVolume<M>>(kStageBytes);
 }
 
 /// A search that NVRTC compiled.
@@ -294,6 +307,7 @@ const Entry& Kernels::find(const std::string& name) {
 }
 
 Kernels::Name Kernels::name_of(Work work, Metric metric, const DefinedTask& defined) {
+  if (is_by_targets(work)) return defined.crossed ? target_name_for<true>(work) : target_name_for<false>(work);
   if (is_by_defined(work))
     return defined.is_volume ? defined_name_for<dmoscope::Space>(work, defined.in_double)
                              : defined_name_for<dmoscope::Plane>(work, defined.in_double);

@@ -51,7 +51,7 @@ figures() {
   cat "${answers[@]}" | c++filt | awk -v architecture="$1" -v metrics="$metrics" '
     BEGIN { n = split(metrics, pairs, " "); for (i = 1; i <= n; ++i) { split(pairs[i], pair, "="); metric[pair[1]] = pair[2] } }
     # "void dmoscope::gpu::kernel<dmoscope::gpu::bodies::Visit<(dmoscope::Metric)0, (dmoscope::Stars)0, false>, dmoscope::Solo>(...)"
-    function short(name,   number) {
+    function short(name,   number, form, team) {
       sub(/\(dmoscope::gpu::Task.*/, "", name)
       if (name !~ /bodies::/) return "probe"  # the one kernel of probe.cu
       number = name ~ /Metric\)[0-9]/ ? name : ""
@@ -60,7 +60,13 @@ figures() {
         name = name ~ /Stars\)0/ ? "VisitFans" : name ~ /Stars\)1/ ? "VisitOthers" : "VisitInTeam"
       else if (name ~ /bodies::VisitTwoAims</)
         name = name ~ /dmoscope::Space/ ? "VisitVolumeTwoAims" : "VisitTwoAims"
-      else { sub(/.*bodies::/, "", name); sub(/[^A-Za-z].*/, "", name) }
+      else if (name ~ /bodies::[A-Za-z]*(Defined|Targets)</) {  # of which frame and number, or of what targets
+        form = name ~ /Targets</ ? (name ~ /<true>|<\(bool\)1>/ ? "crossed" : "plain") : (name ~ /dmoscope::Space/ ? "space" : "plane")
+        if (name ~ /double>/) form = form "-double"
+        team = name ~ /VisitTargets/ && name ~ /CudaTeam/ ? "InTeam" : ""
+        sub(/.*bodies::/, "", name); sub(/[^A-Za-z].*/, "", name)
+        return name team " " form
+      } else { sub(/.*bodies::/, "", name); sub(/[^A-Za-z].*/, "", name) }
       return number == "" ? name : name " " (number in metric ? metric[number] : "metric" number)
     }
     /Compiling entry function/ { name = $0; sub(/[^\047]*\047/, "", name); sub(/\047 for .*/, "", name); name = short(name) }

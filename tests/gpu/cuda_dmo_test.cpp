@@ -136,7 +136,9 @@ TEST_P(CudaDefinedDmo, SameBits) {
     expect_same_visits(queue, Subject(input), metric, {}, 3);
     expect_same_visits(queue, Subject(input), metric, {}, 1, {.untangling = {.repair = true}});
     const auto smoother = make_device_dmo(queue, Subject(input).task(metric));
-    if (Nvrtc::find() != nullptr) EXPECT_EQ(smoother->description(), "the metric compiled by " + Nvrtc::find()->description());
+    if (Nvrtc::find() != nullptr) {
+      EXPECT_EQ(smoother->description(), "the metric compiled by " + Nvrtc::find()->description());
+    }
   }
 }
 /// Several stretches, and classes too large for teams.

@@ -1,10 +1,16 @@
 #pragma once
 // The star of a vertex for the plain search by a metric that is defined by a formula or a target: its elements know their quality.
 
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
 #include <vector>
 
+#include "core/formula/evaluator.h"
 #include "core/mesh/mesh_view.h"
 #include "core/quality/defined_quality.h"
+#include "core/search/grid_search.h"
 #include "core/search/mesh_star.h"
 #include "core/search/surface_star.h"
 
@@ -61,6 +67,23 @@ class DefinedStarJudge {
       i += n;
     }
   }
+  /// Of one element of the star with its vertex at each of some places; only what the vertex changes.
+  void qualities(const Incidence& at, PositionView positions, Index vertex, std::span<const Vec3> places, double* out) const {
+    const ElementKind kind = kinds[at.element];
+    const FormulaProgram& program = judge.program_for(at.element, kind, at.corner);
+    const auto corners = mesh.corners_of(at.element);
+    std::array<DefinedJudge::Placed, kFormulaBatch> placed;
+    for (std::size_t first = 0; first < places.size(); first += placed.size()) {
+      const std::size_t n = std::min(placed.size(), places.size() - first);
+      for (std::size_t i = 0; i < n; ++i) {
+        const auto there = [&](Index v) { return v == vertex ? places[first + i] : positions[v]; };
+        placed[i].element = at.element;
+        frames.gather(corners, at.element, info(kind).dimension, there, placed[i].corners);
+        placed[i].origin = origin_of_corners(frames.geometry, there(corners[0]));
+      }
+      judge.qualities(program, std::span(placed).first(n), out + first);
+    }
+  }
   /// Of one element of the star with its vertex at `place`; only what the vertex changes.
   [[nodiscard]] double quality(const Incidence& at, PositionView positions, Index vertex, Vec3 place) const {
     return defined_quality_at(
@@ -90,7 +113,7 @@ class DefinedStar {
   template <class E>
   struct Element : E {
     const DefinedStar* owner;
-    Incidence incidence;
+    std::size_t number;  // in the lists' order
 
     /// With the star's vertex somewhere.
     template <class S>
@@ -99,7 +122,7 @@ class DefinedStar {
       Offset p;
       Shape(const S& plain, const Element& of, Offset offset) : S(plain), element(&of), p(offset) {}
       [[nodiscard]] const S& shape() const { return *this; }
-      [[nodiscard]] double own_quality() const { return element->owner->quality(element->incidence, p); }
+      [[nodiscard]] double own_quality() const { return element->owner->quality(element->number, p); }
     };
     [[nodiscard]] auto with(Offset p) const {
       const auto shape = E::with(p);
@@ -114,7 +137,7 @@ class DefinedStar {
     template <bool Others, class F>
     void for_each(F f) const {
       std::size_t i = 0;
-      plain(star_->star_).template for_each<true>([&]<class E>(const E& element) { f(Element<E>{{element}, star_, star_->order_[i++]}); });
+      plain(star_->star_).template for_each<true>([&]<class E>(const E& element) { f(Element<E>{{element}, star_, i++}); });
     }
 
    private:
@@ -125,8 +148,32 @@ class DefinedStar {
   };
   [[nodiscard]] View view() const { return View(*this); }
 
-  /// With the vertex at an offset, in units of scale().
-  [[nodiscard]] double quality(const Incidence& at, Offset p) const { return judge_.quality(at, positions_, vertex_, place(p)); }
+  /// A trace for grid_search() (see NoTrace) that tells the star which candidates come, so that it judges an element at all of a level's
+  /// when it is first asked for one of them.
+  class Levels : public NoTrace {
+   public:
+    explicit Levels(const DefinedStar& star) : star_(star) {}
+    ~Levels() { star_.level_.places.clear(); }
+    Levels(const Levels&) = delete;
+    Levels& operator=(const Levels&) = delete;
+    void level(const CandidateGrid<double, Offset>& grid) { star_.begin(grid); }
+    void candidate(int /*index*/, const Offset& /*offset*/, double /*objective*/) { ++star_.level_.candidate; }
+    void found(const Candidate<double, Offset>& /*best*/) { star_.level_.places.clear(); }
+
+   private:
+    const DefinedStar& star_;
+  };
+
+  /// Of an element with the vertex at an offset, in units of scale(); during a level of Levels at the candidate that comes.
+  [[nodiscard]] double quality(std::size_t number, Offset p) const {
+    if (level_.places.empty()) return judge_.quality(order_[number], positions_, vertex_, place(p));
+    std::vector<double>& known = level_.qualities[number];
+    if (known.empty()) {
+      known.resize(level_.places.size());
+      judge_.qualities(order_[number], positions_, vertex_, level_.places, known.data());
+    }
+    return known[level_.candidate];
+  }
   /// kInverted where an element is inverted there: no metric goes below that.
   [[nodiscard]] double least(Offset p) const {
     const Vec3 there = place(p);
@@ -143,11 +190,24 @@ class DefinedStar {
   static constexpr double kInverted = -1e9;
   [[nodiscard]] double mean(Offset p) const {
     double sum = 0.0;
-    for (const Incidence& at : order_) sum += quality(at, p);
+    for (const Incidence& at : order_) sum += judge_.quality(at, positions_, vertex_, place(p));
     return sum / static_cast<double>(order_.size());
   }
 
  private:
+  /// The candidates of a level, and what is known of them by element; no places: none comes.
+  struct Level {
+    std::vector<Vec3> places;
+    std::size_t candidate = 0;
+    std::vector<std::vector<double>> qualities;
+  };
+  void begin(const CandidateGrid<double, Offset>& grid) const {
+    level_.places.clear();
+    for (int i = 0; i < grid.points; ++i) grid.for_slice(i, [this](int /*index*/, const Offset& p) { level_.places.push_back(place(p)); });
+    level_.candidate = 0;
+    level_.qualities.resize(order_.size());
+    for (auto& known : level_.qualities) known.clear();
+  }
   [[nodiscard]] Vec3 place(Offset p) const {
     const Offset offset = times(p, star_.scale);
     if constexpr (std::is_same_v<Frame, Curved>)
@@ -179,6 +239,7 @@ class DefinedStar {
   Vec3 here_;
   Gathered star_;
   std::vector<Incidence> order_;  // of the elements, as the lists have them
+  mutable Level level_;
 };
 
 }  // namespace dmoscope

@@ -46,7 +46,8 @@ class DefinedDmo {
   }
   [[nodiscard]] Offset search_tangled(PositionView positions, Index vertex) const {
     const DefinedStar<Frame> star(mesh_.star_judge(), positions, vertex);
-    return times(search_star<kDefinedMetric>(star.view(), star.star().box, parameters_, mesh_.untangling()), star.scale());
+    typename DefinedStar<Frame>::Levels levels(star);
+    return times(search_star<kDefinedMetric>(star.view(), star.star().box, parameters_, mesh_.untangling(), Solo{}, levels), star.scale());
   }
 
   DefinedRuleMesh<Frame> mesh_;

@@ -26,9 +26,9 @@ class DefinedDmo {
 
   void begin(const Sweep& sweep) { mesh_.begin(sweep); }
   std::optional<Vec3> target(PositionView positions, Index vertex, Scratch& scratch) const {
+    if (mesh_.untangling().repair && !is_tangled(positions, vertex)) return std::nullopt;
     const StarState before = mesh_.state(positions, vertex, positions[vertex]);
     const bool tangled = !(before.jacobian > 0.0);
-    if (mesh_.untangling().repair && !tangled) return std::nullopt;
     const Offset found = tangled ? search_tangled(positions, vertex) : search_sound(positions, vertex, scratch);
     if (found == Offset{}) return std::nullopt;
     return mesh_.moved_if_gaining(positions, vertex, found, before);
@@ -40,6 +40,11 @@ class DefinedDmo {
  private:
   using Offset = OffsetIn<Frame, double>;  // in mesh units
 
+  /// By the Jacobians alone: a repair asks all vertices, and moves few.
+  [[nodiscard]] bool is_tangled(PositionView positions, Index vertex) const {
+    const auto no_metric = [](const Incidence& /*at*/, const auto& /*shape*/) { return 0.0; };
+    return !(star_state_by(mesh_.mesh().view, positions, vertex, positions[vertex], no_metric).jacobian > 0.0);
+  }
   [[nodiscard]] Offset search_sound(PositionView positions, Index vertex, Scratch& scratch) const {
     const auto found = search_.find(positions, vertex, parameters_.levels, scratch);
     return times(found.offset, found.scale);

@@ -1,9 +1,9 @@
 #pragma once
-// The bodies of the kernels for the mean ratio against targets: the searches of core/smooth/kernels/target_lane_kernel_impl.h and
+// The bodies of the kernels for the mean ratio against targets: the searches of core/smooth/kernels/targets/target_lane_kernel_impl.h and
 // target_volume_kernel_impl.h, which come before the parts of a visit that gpu/defined/bodies.h has and leave these the rest.
 
 #include "core/smooth/kernels/solid_target.h"
-#include "core/smooth/kernels/target_visit.h"
+#include "core/smooth/kernels/targets/target_visit.h"
 #include "gpu/bodies.h"
 #include "gpu/defined/lane_judge.h"
 #include "gpu/star_visit.h"

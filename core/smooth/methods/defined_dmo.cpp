@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/search/grid_search.h"
-#include "core/smooth/kernels/tetrahedron_targets.h"
+#include "core/smooth/kernels/targets/tetrahedron_targets.h"
 #include "core/smooth/methods/defined_rule.h"
 #include "core/smooth/methods/defined_search.h"
 #include "core/smooth/methods/fast_volume_search.h"

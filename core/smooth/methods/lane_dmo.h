@@ -12,7 +12,7 @@
 
 #include "core/base/memory.h"
 #include "core/smooth/kernels/lane_kernel.h"
-#include "core/smooth/kernels/star_targets.h"
+#include "core/smooth/kernels/targets/star_targets.h"
 #include "core/smooth/methods/slide.h"
 #include "core/smooth/vertex_rule.h"
 

@@ -1,4 +1,4 @@
-#include "core/smooth/kernels/tetrahedron_targets.h"
+#include "core/smooth/kernels/targets/tetrahedron_targets.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 // After the packs:
 #include "core/search/ratio_search.h"
 #include "core/smooth/kernels/lane_group.h"
-#include "core/smooth/kernels/target_star.h"
+#include "core/smooth/kernels/targets/target_star.h"
 
 namespace dmoscope::lanes {
 

@@ -1,4 +1,4 @@
-#include "core/smooth/kernels/target_lane_kernel_impl.h"
+#include "core/smooth/kernels/targets/target_lane_kernel_impl.h"
 
 namespace dmoscope {
 

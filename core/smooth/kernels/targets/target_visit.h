@@ -5,8 +5,8 @@
 
 #include "core/search/ratio_search.h"
 #include "core/smooth/kernels/search_frame.h"
-#include "core/smooth/kernels/star_targets.h"
-#include "core/smooth/kernels/target_star.h"
+#include "core/smooth/kernels/targets/star_targets.h"
+#include "core/smooth/kernels/targets/target_star.h"
 
 namespace dmoscope {
 

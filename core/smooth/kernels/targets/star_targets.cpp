@@ -1,4 +1,4 @@
-#include "core/smooth/kernels/star_targets.h"
+#include "core/smooth/kernels/targets/star_targets.h"
 
 #include <array>
 #include <cmath>

@@ -79,6 +79,48 @@ TEST(DeviceRun, StepsGoBackAndSeekAlike) {
   }
 }
 
+/// By a formula and by targets: vertex by vertex, class by class, back, and from anywhere.
+TEST(DeviceRun, StepsByFormulasAndTargetsAlike) {
+  for (const char* words :
+       {"formula:if(det > 0, smin/smax, det/norm^2)", "formula:min(1, area*60)*lmin/lmax", "mean-ratio@input:1", "aspect@aspect:2:20"}) {
+    SCOPED_TRACE(words);
+    Pair pair(dmoscope::testing::lattice(9, 0.7, 97), parse_metric(words));
+    EXPECT_EQ(pair.device.backend(), Backend::Cuda);
+    for (dmoscope::Run* run : {&pair.cpu, &pair.device}) {
+      run->step(StepUnit::Vertex, pair.progress);
+      run->step(StepUnit::Class, pair.progress);
+      run->iterate(3, pair.progress);
+      run->back(StepUnit::Class, pair.progress);
+    }
+    pair.expect_same_place();
+    for (dmoscope::Run* run : {&pair.cpu, &pair.device}) run->seek({2, 11}, pair.progress);
+    pair.expect_same_place();
+    for (dmoscope::Run* run : {&pair.cpu, &pair.device}) run->iterate(2, pair.progress);
+    pair.expect_same_place();
+  }
+}
+
+/// What devices do not do is said, and done by the processor where it may be.
+TEST(DeviceRun, FormulasBesideAnotherAimAreTheProcessors) {
+  RunParameters parameters;
+  parameters.metric = parse_metric("formula:smin/smax");
+  parameters.then_mean = PhaseBegin{};
+  const auto accelerator = std::make_shared<HostAccelerator>();
+  const auto mesh = Pair::prepare(dmoscope::testing::lattice(6, 0.3, 98));
+  const auto run_on = [&](Backend backend) {
+    parameters.backend = backend;
+    return dmoscope::Run(mesh, parameters, std::make_shared<ThreadPool>(1), std::size_t{1} << 24U, {accelerator, ""});
+  };
+  try {
+    (void)run_on(Backend::Cuda);
+    FAIL() << "it is not possible there";
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("formulas and targets are joined with another aim on the CPU alone"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(run_on(Backend::Auto).backend(), Backend::Cpu);
+}
+
 /// A run that gave its device's memory back goes on from where it stood, not from the input.
 TEST(DeviceRun, GoesOnAfterARest) {
   for (const Moment& place : {Moment{0, 0}, Moment{2, 0}, Moment{1, 7}}) {

@@ -197,7 +197,9 @@ TEST(PtxFaults, WhatIsNotKnownIsQuoted) {
   expect_fault("mov.u32 %r, %clock.lo;", "mov.u32", "special register that is not known: %clock.lo");
   expect_fault("bra $L__BB0_9;", "$L__BB0_9", "no label");
   expect_fault("add.s32 %r, 1;", "add.s32 %r, 1", "operands");
-  EXPECT_THROW((void)find_entries(".global .align 4 .b8 table[16];\n"), Fault);
+  const std::string table = ".global .align 4 .b8 table[16] = {1, 2};\n", kernel = ".visible .entry kernel()\n{\n";
+  EXPECT_THROW((void)find_entries(table + kernel + "mov.u64 %rd1, table;\nret;\n}\n"), Fault);
+  EXPECT_EQ(find_entries(table + kernel + "ret;\n}\n").size(), 1U) << "nobody reads the table";
   EXPECT_THROW((void)find_entries(".func helper()\n{\nret;\n}\n"), Fault);
 }
 

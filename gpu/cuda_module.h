@@ -3,7 +3,6 @@
 // is.
 
 #include <cstddef>
-#include <memory>
 #include <string>
 
 #include <cuda.h>

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 
 #include <cuda_runtime.h>
@@ -57,21 +58,31 @@ class CudaCompiledSearch final : public Queue::CompiledSearch {
   CudaModule module_;
 };
 
-/// The last that were compiled: whoever changes a parameter starts a run by the same formula again. Any thread may ask.
+/// The last that were compiled, or could not be: whoever changes a parameter starts a run by the same formula again. Any thread may ask.
 class CompiledSearches {
  public:
-  /// On the current device. Throws DeviceError.
-  std::shared_ptr<const CudaCompiledSearch> get(const Nvrtc& compiler, const std::string& source, int capability) {
+  /// On the current device.
+  Queue::Compiled get(const Nvrtc& compiler, const std::string& source, int capability) {
     const std::scoped_lock lock(mutex_);
     if (const auto found = searches_.find(source); found != searches_.end()) return found->second;
     if (searches_.size() >= kMost) searches_.clear();
-    return searches_[source] = std::make_shared<const CudaCompiledSearch>(compiler.compile(source, formula_headers(), capability));
+    return searches_[source] = compiled(compiler, source, capability);
   }
 
  private:
+  static Queue::Compiled compiled(const Nvrtc& compiler, const std::string& source, int capability) {
+    try {
+      const std::string ptx = compiler.compile(source, formula_headers(), capability);
+      return {std::make_shared<const CudaCompiledSearch>(ptx), compiler.description()};
+    } catch (const DeviceError& error) {
+      const std::string_view what = error.what();
+      return {nullptr, std::string(what.substr(0, what.find('\n')))};
+    }
+  }
+
   static constexpr std::size_t kMost = 32;
   std::mutex mutex_;
-  std::unordered_map<std::string, std::shared_ptr<const CudaCompiledSearch>> searches_;
+  std::unordered_map<std::string, Queue::Compiled> searches_;
 };
 
 /// What all queues of a device share.
@@ -197,14 +208,12 @@ class CudaQueue final : public Queue {
     launcher(work, metric, task.defined)(task, count, (on_side_ ? side_->stream : stream_).get());
   }
   Compiled compile(const std::string& source) override {
-    const Nvrtc* compiler = Nvrtc::find();
-    if (compiler == nullptr) return {nullptr, "there is no NVRTC, which is part of CUDA's toolkit"};
     use(device_);
-    try {
-      return {about_->searches->get(*compiler, source, about_->capability), compiler->description()};
-    } catch (const DeviceError& error) {  // say, a driver that is older than the compiler
-      return {nullptr, error.what()};
-    }
+    int driver = 0;
+    DMOSCOPE_CUDA_CHECK(cudaDriverGetVersion(&driver));
+    const Nvrtc* compiler = Nvrtc::find(driver);
+    if (compiler == nullptr) return {nullptr, "there is no NVRTC that the driver is for; CUDA's toolkit has it"};
+    return about_->searches->get(*compiler, source, about_->capability);
   }
   void launch_search(const CompiledSearch& search, const StarSearchTask& task, std::size_t count) override {
     if (count == 0) return;

@@ -12,8 +12,6 @@ namespace dmoscope::gpu {
 
 namespace {
 
-/// A class that would leave three quarters of the device's lanes idle is visited by teams of eight.
-constexpr std::size_t kTeamShare = 4;
 /// Teams among which a class's deferred visits are shared: enough for any device, and few where, as nearly always, there are none.
 constexpr std::size_t kSettlers = 2048;
 

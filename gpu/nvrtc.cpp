@@ -13,19 +13,14 @@ namespace dmoscope::gpu {
 
 namespace {
 
-/// The toolkits' libraries have the numbers of their major versions, from the newest on.
-constexpr std::array kNames{"libnvrtc.so.13", "libnvrtc.so.12", "libnvrtc.so"};
+/// The toolkits' libraries have the numbers of their major versions; from the newest on. The last is that of the toolkit that dmoscope was
+/// built with.
+std::vector<std::string> library_names() {
+  std::vector<std::string> names{"libnvrtc.so.13", "libnvrtc.so.12", "libnvrtc.so"};
 #ifdef DMOSCOPE_NVRTC_FOLDER
-constexpr const char* kFolder = DMOSCOPE_NVRTC_FOLDER;  // of the toolkit that dmoscope was built with
-#else
-constexpr const char* kFolder = "";
+  names.emplace_back(DMOSCOPE_NVRTC_FOLDER "/libnvrtc.so");
 #endif
-
-void* open_library() {
-  for (const char* name : kNames)
-    if (void* library = ::dlopen(name, RTLD_NOW | RTLD_LOCAL); library != nullptr) return library;
-  if (*kFolder == '\0') return nullptr;
-  return ::dlopen(fmt::format("{}/libnvrtc.so", kFolder).c_str(), RTLD_NOW | RTLD_LOCAL);
+  return names;
 }
 
 }  // namespace
@@ -114,19 +109,24 @@ class Compilation {
 Nvrtc::Nvrtc(std::unique_ptr<Library> library) : library_(std::move(library)) {
   int major = 0, minor = 0;
   (void)library_->version(&major, &minor);
+  version_ = 1000 * major + 10 * minor;
   description_ = fmt::format("NVRTC {}.{}", major, minor);
 }
 Nvrtc::~Nvrtc() = default;
 
-const Nvrtc* Nvrtc::find() {
-  static const std::unique_ptr<const Nvrtc> found = []() -> std::unique_ptr<const Nvrtc> {
-    void* opened = open_library();
-    if (opened == nullptr) return nullptr;
-    auto library = std::make_unique<Library>(opened);
-    if (!library->complete()) return nullptr;
-    return std::unique_ptr<const Nvrtc>(new Nvrtc(std::move(library)));
+const Nvrtc* Nvrtc::find(int newest) {
+  static const std::vector<std::unique_ptr<const Nvrtc>> all = [] {
+    std::vector<std::unique_ptr<const Nvrtc>> found;
+    for (const std::string& name : library_names()) {
+      void* opened = ::dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
+      if (opened == nullptr) continue;
+      auto library = std::make_unique<Library>(opened);
+      if (library->complete()) found.emplace_back(new Nvrtc(std::move(library)));
+    }
+    return found;
   }();
-  return found.get();
+  const auto found = std::ranges::find_if(all, [newest](const auto& each) { return each->version_ <= newest; });
+  return found == all.end() ? nullptr : found->get();
 }
 
 std::string Nvrtc::compile(const std::string& source, std::span<const SourceHeader> headers, int capability) const {
@@ -136,7 +136,8 @@ std::string Nvrtc::compile(const std::string& source, std::span<const SourceHead
     known.resize(static_cast<std::size_t>(count));
     if (library_->archs(known.data()) != 0) known.clear();
   }
-  if (!known.empty()) capability = std::min(capability, *std::ranges::max_element(known));
+  std::erase_if(known, [capability](int each) { return each > capability; });
+  if (!known.empty()) capability = *std::ranges::max_element(known);
   const std::string architecture = fmt::format("--gpu-architecture=compute_{}", capability);
   // The flags are those of gpu/CMakeLists.txt that change what is computed.
   const std::array<const char*, 5> options{architecture.c_str(), "--std=c++20", "--fmad=false", "--device-as-default-execution-space",

@@ -18,7 +18,7 @@ inline constexpr bool kSlotBySlot =
 /// `cube_root` and `atan2` of the scalar are found where it is.
 template <Operation O, class R>
 [[gnu::always_inline]] DMOSCOPE_ANYWHERE R apply(R a, R b, R c) {
-  using scalar::abs, scalar::atan2, scalar::cube_root, scalar::max, scalar::min, scalar::select, scalar::sqrt;
+  using scalar::abs, scalar::atan2, scalar::cube_root, scalar::select, scalar::sqrt;
   if constexpr (O == Operation::Add) return a + b;
   if constexpr (O == Operation::Subtract) return a - b;
   if constexpr (O == Operation::Multiply) return a * b;
@@ -26,8 +26,9 @@ template <Operation O, class R>
     const auto none = b == R(0);
     return select(none, R(0), a / select(none, R(1), b));
   }
-  if constexpr (O == Operation::Minimum) return min(a, b);
-  if constexpr (O == Operation::Maximum) return max(a, b);
+  // Not min() and max(), of which processors differ where one is no number: something may have overflowed.
+  if constexpr (O == Operation::Minimum) return select(a < b, a, b);
+  if constexpr (O == Operation::Maximum) return select(a > b, a, b);
   if constexpr (O == Operation::Absolute) return abs(a);
   if constexpr (O == Operation::SquareRoot) return sqrt(select(a > R(0), a, R(0)));
   if constexpr (O == Operation::CubeRoot) return cube_root(a);

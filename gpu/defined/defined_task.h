@@ -16,7 +16,7 @@ struct DefinedTask {
   static constexpr std::size_t kElements = 8, kWhole = 16;
   // The targets. A group's elements are alike but for their matrices.
   const double* matrices = nullptr;
-  const std::uint32_t* first_matrix = nullptr;  // by element, in numbers
+  const std::uint32_t* first_matrix = nullptr;  // by element, in matrices
   const double* steepness_of_group = nullptr;
   GivenNumbers given;
   bool is_volume = false, in_double = false;
@@ -42,7 +42,8 @@ struct DefinedTask {
     return programs[search.group_of_element[element] * kProgramsOfGroup + which];
   }
   [[nodiscard]] DMOSCOPE_ANYWHERE double number(const FormulaInput& input, Index element, double length) const {
-    return given.of(input, element, matrices + first_matrix[element], steepness_of_group[search.group_of_element[element]], length);
+    const std::size_t first = first_matrix[element] * given.dimension * given.dimension;
+    return given.of(input, element, matrices + first, steepness_of_group[search.group_of_element[element]], length);
   }
 };
 

@@ -1,7 +1,6 @@
 #include "gpu/defined/device_metric.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -22,8 +21,6 @@ constexpr std::size_t kStretchBytes = std::size_t{64} << 20U, kStretchVisits = s
 /// Lanes that run programs at once: enough for any device; and the memory for their registers.
 constexpr std::size_t kMostLanes = std::size_t{1} << 16U, kRegisterBytes = std::size_t{256} << 20U;
 constexpr std::size_t kSearchers = kFormulaWarp, kTeam = 8;  // lanes of a team
-/// A stretch that would leave three quarters of the device's lanes idle.
-constexpr std::size_t kTeamShare = 4;
 
 /// All programs' code, one after the other.
 class Code {
@@ -66,7 +63,6 @@ class Code {
       code.beforehand_count = count(program.beforehand);
       code.step_count = count(program.steps);
       code.uniforms = program.uniforms;
-      code.registers = program.registers;
       code.result = program.result;
       code.ceiling = program.ceiling.value_or(ProgramCode::kNoCeiling);
     }
@@ -98,11 +94,12 @@ class Code {
   std::vector<Place> places_;
 };
 
-std::vector<std::uint32_t> first_matrices(const TargetTable& targets, std::size_t elements) {
+/// By element, of how many matrices its first one comes behind.
+std::vector<std::uint32_t> first_matrices(const TargetTable& targets, std::size_t elements, std::size_t numbers) {
   std::vector<std::uint32_t> first(elements, 0);
   for (Index e = 0; e < elements; ++e)
     if (const double* matrices = targets.of(e).matrices; matrices != nullptr)
-      first[e] = static_cast<std::uint32_t>(matrices - targets.matrices().data());
+      first[e] = static_cast<std::uint32_t>(static_cast<std::size_t>(matrices - targets.matrices().data()) / numbers);
   return first;
 }
 
@@ -125,7 +122,7 @@ DeviceMetric::DeviceMetric(std::shared_ptr<Queue> queue, const SmoothingTask& ta
   for (const ElementGroup& group : table.groups()) steepness.push_back(group.steepness);
   task_.steepness_of_group = upload(steepness_, std::span<const double>(steepness));
   task_.matrices = upload(matrices_, targets.matrices());
-  const std::vector<std::uint32_t> first = first_matrices(targets, input.mesh.elements.size());
+  const std::vector<std::uint32_t> first = first_matrices(targets, input.mesh.elements.size(), input.is_volume() ? 9 : 4);
   task_.first_matrix = upload(first_matrix_, std::span<const std::uint32_t>(first));
   task_.given = judge_->numbers();
   task_.given.fields = upload(fields_, judge_->fields());
@@ -237,7 +234,7 @@ void DeviceMetric::launch_visits(const Task& task) const {
   if (task_.star_targets != nullptr) launch_targets(task);
   launch(Work::PrepareDefined, 1);
   if (compiled_.search)
-    queue_->launch_search(*compiled_.search, task.defined.search, std::min(visits, task_.lanes / kSearchers));
+    queue_->launch_search(*compiled_.search, task.defined.search, visits);
   else
     launch(Work::SearchDefined, kSearchers);
   launch(Work::UntangleDefined, kTeam);
@@ -258,7 +255,13 @@ void DeviceMetric::judge(Task task) const {
 }
 
 void DeviceMetric::warm_up(const Task& task) const {
-  if (stretches_.size() > 1) visit(task, 0, 1);
+  if (stretches_.size() < 2) return;
+  visit(task, 0, 1);
+  if (task_.star_targets == nullptr || task_.is_volume) return;
+  Task other = task;  // so few are visited by teams
+  other.defined = task_;
+  other.defined.search.visits = 1;
+  queue_->launch(Work::VisitTargets, kNoMetric, other, 1);
 }
 
 std::string DeviceMetric::description() const {

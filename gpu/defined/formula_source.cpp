@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
+#include <cmath>
+#include <map>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -15,13 +16,21 @@ namespace dmoscope::gpu {
 namespace {
 
 /// Of all programs together.
-constexpr std::size_t kMostSteps = 20000;
+constexpr std::size_t kMostSteps = 40000;
 
 /// In the order of Operation.
 constexpr std::array<std::string_view, 19> kOperations{
     "Add",         "Subtract", "Multiply", "Divide",     "Minimum",     "Maximum",   "Absolute", "SquareRoot", "CubeRoot", "Less",
     "LessOrEqual", "Equal",    "Select",   "ArcTangent", "Exponential", "Logarithm", "Sine",     "Cosine",     "Power"};
 static_assert(kOperations.size() == static_cast<std::size_t>(Operation::Power) + 1);
+
+/// In steps as long as an addition to compile.
+std::size_t length_of(const FormulaProgram& program) {
+  std::size_t length = 0;
+  for (const FormulaStep& step : program.steps)
+    length += step.operation >= Operation::ArcTangent || step.operation == Operation::CubeRoot ? 20 : 1;
+  return length;
+}
 
 /// One program as a function of its uniform numbers u and the place `at`.
 class FunctionText {
@@ -47,7 +56,7 @@ class FunctionText {
   [[nodiscard]] std::string operand(std::uint16_t id) const {
     if (id >= program_.uniforms) return fmt::format("r{}", id - program_.uniforms);
     const auto constant = std::ranges::find(program_.constants, id, &FormulaProgram::Constant::at);
-    if (constant != program_.constants.end()) return fmt::format("Real({:a})", constant->value);
+    if (constant != program_.constants.end() && std::isfinite(constant->value)) return fmt::format("Real({:a})", constant->value);
     return fmt::format("u[{}]", id);
   }
 
@@ -58,14 +67,18 @@ class FunctionText {
 
 std::optional<std::string> formula_source(const ProgramTable& table, SearchShape shape) {
   std::string functions, cases;
-  std::size_t steps = 0;
+  std::map<const FormulaProgram*, std::size_t> written;  // groups may share them
+  std::size_t length = 0;
   for (std::size_t i = 0; i < table.programs().size(); ++i) {
     const FormulaProgram* program = table.programs()[i];
     if (program == nullptr || program->use != FormulaUse::Places) continue;
-    steps += program->steps.size();
-    if (steps > kMostSteps) return std::nullopt;
-    functions += FunctionText(*program).write(i);
-    cases += fmt::format("      case {0}: return program_{0}(u, at);\n", i);
+    const auto [at, is_new] = written.try_emplace(program, i);
+    if (is_new) {
+      length += length_of(*program);
+      if (length > kMostSteps) return std::nullopt;
+      functions += FunctionText(*program).write(i);
+    }
+    cases += fmt::format("      case {}: return program_{}(u, at);\n", i, at->second);
   }
   const std::string_view real = shape.in_double ? "double" : "float", point = shape.is_volume ? "Vec3Of" : "Vec2";
   return fmt::format(R"(#include "core/formula/operations.h"

@@ -98,7 +98,7 @@ class DefinedLaneStar {
     const DefinedLaneStar* star;
     Incidence incidence;
     double reference;
-    static constexpr Index kMoving = 0;  // nobody asks
+    static constexpr Index kMoving = 0;  // of no meaning: the incidence says which corner moves
     [[nodiscard]] DMOSCOPE_LANE Placed with(Offset p) const { return {star, incidence, p}; }
   };
   struct Triangle : Element {

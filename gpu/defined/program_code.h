@@ -17,7 +17,7 @@ struct ProgramCode {
   const FormulaStep *beforehand = nullptr, *steps = nullptr;
   const double* prepared = nullptr;  // of FormulaUse::Elements: its uniform numbers, which no element changes
   std::uint32_t constant_count = 0, given_count = 0, varying_count = 0, beforehand_count = 0, step_count = 0;
-  std::uint16_t uniforms = 0, registers = 0, result = 0, ceiling = kNoCeiling;
+  std::uint16_t uniforms = 0, result = 0, ceiling = kNoCeiling;
   static constexpr std::uint16_t kNoCeiling = 0xffff;
 };
 

@@ -71,6 +71,16 @@ SmallMatrix inverse(const SmallMatrix& a) {
   return c;
 }
 
+double condition(const SmallMatrix& a) {
+  const auto squares = [](const SmallMatrix& m) {
+    double sum = 0.0;
+    for (const auto& row : m.at)
+      for (const double number : row) sum += number * number;
+    return sum;
+  };
+  return std::sqrt(squares(a) * squares(inverse(a))) / a.n;
+}
+
 Eigen eigen(const SmallMatrix& symmetric) {
   constexpr int kMostSweeps = 40;  // each squares what is left; a few suffice
   SmallMatrix a = symmetric, v = SmallMatrix::identity(a.n);

@@ -21,6 +21,8 @@ struct SmallMatrix {
 [[nodiscard]] double determinant(const SmallMatrix& a);
 /// Of a matrix whose determinant is not 0.
 [[nodiscard]] SmallMatrix inverse(const SmallMatrix& a);
+/// How far it stretches one way more than another, by Frobenius norms: at least 1. Likewise.
+[[nodiscard]] double condition(const SmallMatrix& a);
 
 /// Of a symmetric matrix: values in no order, and vectors of length 1 as columns, by Jacobi's rotations.
 struct Eigen {

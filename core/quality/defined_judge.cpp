@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/base/unknown_value.h"
+#include "core/numeric/small_matrix.h"
 #include "core/quality/formula_values.h"
 
 namespace dmoscope {
@@ -32,6 +33,17 @@ std::vector<double> numbers_of(const std::string& name, const Mesh& mesh) {
   throw UsageError(unknown_value("field of the formula", name, names));
 }
 
+/// From there on a search in floats finds worse places than one in double, along no axis.
+constexpr double kFarStretched = 3e3;
+
+/// Of the first corner, or of all.
+SmallMatrix first_matrix(const ElementTarget& target, std::size_t dimension) {
+  SmallMatrix matrix{static_cast<int>(dimension), {}};
+  for (std::size_t row = 0; row < dimension; ++row)
+    for (std::size_t column = 0; column < dimension; ++column) matrix.at[row][column] = target.matrices[row * dimension + column];
+  return matrix;
+}
+
 }  // namespace
 
 DefinedJudge::DefinedJudge(const DefinedMetric& metric, const Mesh& mesh, const ElementFrames& frames)
@@ -43,7 +55,9 @@ DefinedJudge::DefinedJudge(const DefinedMetric& metric, const Mesh& mesh, const 
   bool seen[kElementKindCount][kFormulaSpaces] = {};
   for (Index e = 0; e < mesh.elements.size(); ++e) {
     const ElementKind kind = mesh.elements.kind(e);
-    const FormulaSpace space = targets_.of(e).space;
+    const ElementTarget target = targets_.of(e);
+    const FormulaSpace space = target.space;
+    stretches_far_ = stretches_far_ || (target.matrices != nullptr && !(condition(first_matrix(target, dimension_)) < kFarStretched));
     bool& known = seen[static_cast<std::size_t>(kind)][static_cast<std::size_t>(space)];
     if (known) continue;
     known = true;

@@ -27,6 +27,8 @@ class DefinedJudge {
   [[nodiscard]] const DefinedMetric& metric() const noexcept { return metric_; }
   [[nodiscard]] const TargetTable& targets() const noexcept { return targets_; }
   [[nodiscard]] bool unit_matters() const noexcept { return unit_matters_; }
+  /// Do floats not hold what it computes? They hold no mesh's own unit, and no target that stretches very far.
+  [[nodiscard]] bool needs_double() const noexcept { return unit_matters_ || stretches_far_; }
 
   /// Of one element with its corners there. `moving`: of volumes, only what changes with that corner counts; kNoIndex: all. `origin`: in
   /// the frame, of what the corners are relative to.
@@ -59,7 +61,7 @@ class DefinedJudge {
   TargetTable targets_;
   std::vector<double> fields_;  // by element, one field after the other in the order of Formula::fields()
   std::size_t element_count_ = 0, dimension_ = 2;
-  bool unit_matters_ = false;
+  bool unit_matters_ = false, stretches_far_ = false;
 };
 
 /// The judges of a mesh, each made when it is first asked for. Any thread may ask.

@@ -112,7 +112,7 @@ DeviceMetric::DeviceMetric(std::shared_ptr<Queue> queue, const SmoothingTask& ta
   const ProgramTable table(input, *judge_);
   const TargetTable& targets = judge_->targets();
   task_.is_volume = input.is_volume();
-  task_.in_double = parameters.precision == Precision::Double || judge_->unit_matters();
+  task_.in_double = parameters.precision == Precision::Double || judge_->needs_double();
   upload_programs(table);
   const auto upload = [this]<class T>(Buffer<T>& buffer, std::span<const T> content) {
     buffer = Buffer<T>(queue_, content);

@@ -33,7 +33,7 @@ template <class Frame>
 DefinedSearch<Frame>::DefinedSearch(const DefinedStarJudge<Frame>& judge, const SearchParameters& parameters)
     : judge_(judge),
       parameters_(parameters),
-      in_double_(parameters.precision == Precision::Double || judge.judge.unit_matters()),
+      in_double_(parameters.precision == Precision::Double || judge.judge.needs_double()),
       narrow_(formula_kernel<float>(parameters.simd.value_or(best_simd_level()))),
       wide_(formula_kernel<double>(parameters.simd.value_or(best_simd_level()))) {}
 

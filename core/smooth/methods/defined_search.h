@@ -17,7 +17,7 @@ class DefinedSearch {
  public:
   using Offset = OffsetIn<Frame, double>;
 
-  /// In float where that can be: not where the metric changes with the unit of length, nor where double is asked for.
+  /// In float where that can be: see DefinedJudge::needs_double(); nor where double is asked for.
   DefinedSearch(const DefinedStarJudge<Frame>& judge, const SearchParameters& parameters);
 
   struct Found {

@@ -12,6 +12,8 @@ namespace {
 
 /// By how much K may mix one axis into another: floats lose the square of that.
 constexpr double kMostOblique = 1e3;
+/// How far a target may stretch: along no axis, floats lose the square of that.
+constexpr double kMostStretched = 3e3;
 
 SmallMatrix matrix_at(const double* m) { return {3, {{{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}}}}; }
 
@@ -50,7 +52,8 @@ void TetrahedronTargets::add(const TargetTable& targets, const Mesh& mesh, Index
   const auto& k = left.at;
   const double oblique = std::max({std::abs(k[0][1]), std::abs(k[0][2]), std::abs(k[1][2])});
   const bool fits = mesh.elements.kind(element) == ElementKind::Tetrahedron && target.steepness == 1.0 &&
-                    oblique < kMostOblique * std::min({k[0][0], k[1][1], k[2][2]});
+                    oblique < kMostOblique * std::min({k[0][0], k[1][1], k[2][2]}) &&
+                    (target.matrices == nullptr || condition(matrix_at(target.matrices)) < kMostStretched);
   fits_.push_back(fits ? 1 : 0);
   if (!fits) {
     numbers_.resize(numbers_.size() + numbers);

@@ -26,6 +26,7 @@ inline constexpr std::string_view kDefinedMetrics[] = {
     "formula:q = min_corner(det/norm^3 + length(p1 - p2)/lmax); q",
     "formula:if(det > 0, smin/smax, det/norm^2) * (1 - 0.3*min(1, max(0, x(p1)/(1 + abs(x(p1))))))",  // hangs on the place
     "formula:s = lmax/field(\"h\"); min(s, 1/s)*smin/smax",
+    "formula:t = exp(60*smax/smin); if(det > 0, 1 - 0.5*(t - 1)/(t + 1), -1)",  // no number where floats overflow
     "shape-size",
     "relative-size",
     "aspect@input:1",

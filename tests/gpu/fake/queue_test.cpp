@@ -6,6 +6,7 @@
 #include "gpu/accelerator.h"
 #include "gpu/cuda_queue.h"
 #include "gpu/task.h"
+#include "tests/gpu/defined.h"
 #include "tests/gpu/fake/fixture.h"
 #include "tests/gpu/two_aims.h"
 #include "tests/gpu/volumes.h"
@@ -60,6 +61,25 @@ TEST_F(FakeQueue, SameBitsOfAVolume) {
   const auto samples = volume_samples(64);
   const Subject subject(samples.back().input);
   expect_same_visits(make_cuda_queue(0), subject, Metric::MeanRatio, {}, 2);
+}
+
+/// No formula can be compiled, for stand-ins load nothing: it is run step by step, and that is said.
+TEST_F(FakeQueue, SameBitsByFormulasAndTargets) {
+  const Subject plane = subject_of(with_fields(lattice(8, 0.6, 97, Cells::Mixed))), volume(volume_samples(64).front().input);
+  for (const int multiprocessors : {1, 132})
+    for (const char* words : {"formula:smin/smax", "mean-ratio@input:1", "mean-ratio@field:m"}) {
+      SCOPED_TRACE(words);
+      set_up({.devices = {{.multiprocessors = multiprocessors}}});
+      const Metric metric = parse_metric(words);
+      expect_same_visits(make_cuda_queue(0), plane, metric, {}, 2);
+      EXPECT_EQ(count_of("cudaStreamBeginCapture"), 1U);
+      EXPECT_THAT(make_device_dmo(make_cuda_queue(0), plane.task(metric))->description(),
+                  ::testing::StartsWith("the metric run step by step: "));
+      EXPECT_THAT(leaks(), ::testing::IsEmpty());
+      EXPECT_THAT(breaches(), ::testing::IsEmpty());
+    }
+  for (const char* words : {"formula:smin/smax", "mean-ratio@input:1"})
+    expect_same_visits(make_cuda_queue(0), volume, parse_metric(words), {.grid_points = 4, .levels = 2}, 1);
 }
 
 /// On the second device, while the thread has used the first in between.

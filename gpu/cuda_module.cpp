@@ -1,6 +1,6 @@
-#include "gpu/cuda_module.h"
-
 #ifdef DMOSCOPE_HAVE_CUDA
+
+#include "gpu/cuda_module.h"
 
 #include <dlfcn.h>
 #include <fmt/format.h>

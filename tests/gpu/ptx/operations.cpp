@@ -245,9 +245,9 @@ void add_moves(Table& t) {
   for (const char* name : {"mov.u64", "mov.b64", "mov.f64"}) t[name] = copies(kFirst, [](U64 a) { return a; });
   for (const char* name : {"cvta.to.global.u64", "cvta.to.local.u64", "cvta.local.u64"}) t[name] = t["mov.u64"];
   for (const char* name : {"selp.u16", "selp.b16"}) t[name] = copies(kFirst | kSecond, [](U16 a, U16 b, bool p) { return p ? a : b; });
-  for (const char* name : {"selp.u32", "selp.b32", "selp.f32"})
+  for (const char* name : {"selp.u32", "selp.s32", "selp.b32", "selp.f32"})
     t[name] = copies(kFirst | kSecond, [](U32 a, U32 b, bool p) { return p ? a : b; });
-  for (const char* name : {"selp.u64", "selp.b64", "selp.f64"})
+  for (const char* name : {"selp.u64", "selp.s64", "selp.b64", "selp.f64"})
     t[name] = copies(kFirst | kSecond, [](U64 a, U64 b, bool p) { return p ? a : b; });
 }
 

@@ -183,6 +183,15 @@ TEST(PtxInterpreter, MemoryInAllItsForms) {
   EXPECT_EQ(out, (std::array<std::uint32_t, 4>{4, 1, 0x3f800000U, 5}));
 }
 
+TEST(PtxInterpreter, HalvesOfARegister) {
+  alignas(16) std::array<std::uint32_t, 4> in{0x00020001U, 0, 0, 0}, out{};
+  run_probe(
+      "ld.global.u32 %whole, [%in]; mov.b32 {%lo, %hi}, %whole; cvt.u32.u16 %a, %lo; cvt.u32.u16 %b, %hi; mov.b32 %turned, {%hi, %lo};\n"
+      "st.global.v2.u32 [%out], {%a, %b}; st.global.u32 [%out+8], %turned;",
+      in, out);
+  EXPECT_EQ(out, (std::array<std::uint32_t, 4>{1, 2, 0x00010002U, 0}));
+}
+
 /// What is wrong, and with which instruction.
 void expect_fault(const std::string& body, const std::string& instruction, const std::string& what) {
   SCOPED_TRACE(body);

@@ -413,5 +413,8 @@ const Operation kJumpUnless{[](Lane& lane, const Instruction& i) {
 const Operation kPack = copies(kFirst | kSecond, [](U32 low, U32 high) { return U64{high} << 32U | low; });
 const Operation kLowHalf = copies(kFirst, [](U64 a) { return static_cast<U32>(a); });
 const Operation kHighHalf = copies(kFirst, [](U64 a) { return static_cast<U32>(a >> 32U); });
+const Operation kPackShort = copies(kFirst | kSecond, [](U16 low, U16 high) { return U32{high} << 16U | low; });
+const Operation kLowShort = copies(kFirst, [](U32 a) { return static_cast<U16>(a); });
+const Operation kHighShort = copies(kFirst, [](U32 a) { return static_cast<U16>(a >> 16U); });
 
 }  // namespace dmoscope::gpu::ptx

@@ -29,5 +29,7 @@ struct Access {
 extern const Operation kJump, kJumpIf, kJumpUnless;
 /// mov.b64 d, {a, b} and its reverse, which is two instructions.
 extern const Operation kPack, kLowHalf, kHighHalf;
+/// The same of mov.b32.
+extern const Operation kPackShort, kLowShort, kHighShort;
 
 }  // namespace dmoscope::gpu::ptx

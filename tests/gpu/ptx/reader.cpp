@@ -229,8 +229,8 @@ class Decoder {
       emit(kJump, {});
     } else if (const auto access = find_access(opcode)) {
       read_access(*access, operands);
-    } else if (opcode == "mov.b64" && operands.size() == 2 && (operands[0][0] == '{' || operands[1][0] == '{')) {
-      read_halves(operands);
+    } else if ((opcode == "mov.b64" || opcode == "mov.b32") && operands.size() == 2 && (operands[0][0] == '{' || operands[1][0] == '{')) {
+      read_halves(operands, opcode == "mov.b64");
     } else if (const auto operation = find_operation(opcode)) {
       read_plain(*operation, operands);
     } else {
@@ -247,13 +247,13 @@ class Decoder {
     }
     emit(operation, slots);
   }
-  void read_halves(const std::vector<std::string>& operands) {
+  void read_halves(const std::vector<std::string>& operands, bool wide) {
     const auto to = members_of(operands[0]), from = members_of(operands[1]);
     if (to.size() == 1 && from.size() == 2) {
-      emit(kPack, {slot_of(to[0]), slot_of(from[0]), slot_of(from[1])});
+      emit(wide ? kPack : kPackShort, {slot_of(to[0]), slot_of(from[0]), slot_of(from[1])});
     } else if (to.size() == 2 && from.size() == 1) {
-      emit(kLowHalf, {slot_of(to[0]), slot_of(from[0])});
-      emit(kHighHalf, {slot_of(to[1]), slot_of(from[0])});
+      emit(wide ? kLowHalf : kLowShort, {slot_of(to[0]), slot_of(from[0])});
+      emit(wide ? kHighHalf : kHighShort, {slot_of(to[1]), slot_of(from[0])});
     } else {
       throw Fault("not known");
     }

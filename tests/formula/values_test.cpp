@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 #include <set>
 
@@ -11,6 +12,7 @@
 
 #include "core/base/thread_pool.h"
 #include "core/formula/evaluator.h"
+#include "core/formula/operations.h"
 #include "core/mesh/generate.h"
 #include "core/numeric/elementary.h"
 #include "core/quality/defined_judge.h"
@@ -420,6 +422,35 @@ TEST(FormulaFacts, SayWhatAFormulaDoesNotKeep) {
   EXPECT_THAT(warnings("exp(lmax)"), HasSubstr("it takes 'exp' of a length (column 1)"));
   EXPECT_TRUE(defined(parse_metric("formula:if(area > 0, lmin/lmax, -1)")).formula->scale_free());
   EXPECT_EQ(info(parse_metric("formula:\"Mine\"; lmin/lmax")).title, "Mine");
+}
+
+/// What overflowed is no number or infinite; least and greatest of it are one for packs and for plain numbers.
+template <class Real>
+void expect_one_order_of_all_numbers() {
+  constexpr Real kInfinity = std::numeric_limits<Real>::infinity(), kNone = std::numeric_limits<Real>::quiet_NaN();
+  const std::vector<Real> numbers{kNone, -kInfinity, Real(-1), Real(0), Real(2), kInfinity};
+  for (const Operation operation : {Operation::Minimum, Operation::Maximum, Operation::Less, Operation::LessOrEqual, Operation::Select})
+    for (const SimdLevel level : supported_simd_levels()) {
+      AlignedNumbers<Real> room;
+      Real* const registers = room.reserve(3 * kFormulaBatch);
+      const std::size_t count = numbers.size() * numbers.size();
+      for (std::size_t i = 0; i < count; ++i) {
+        registers[i] = numbers[i / numbers.size()];
+        registers[kFormulaBatch + i] = numbers[i % numbers.size()];
+      }
+      const FormulaStep step{operation, 2, 0, 1, 1};
+      formula_kernel<Real>(level)({&step, 1, nullptr, 0, registers, count});
+      for (std::size_t i = 0; i < count; ++i) {
+        const Real a = registers[i], b = registers[kFormulaBatch + i], found = registers[2 * kFormulaBatch + i];
+        Real plain{};
+        operations::with_operation(operation, [&]<Operation O>() { plain = operations::apply_plain<O>(a, b, b); });
+        EXPECT_TRUE(found == plain || (found != found && plain != plain)) << static_cast<int>(operation) << " of " << a << " and " << b;
+      }
+    }
+}
+TEST(FormulaValues, OfWhatIsNoNumberAreOneForAllProcessors) {
+  expect_one_order_of_all_numbers<float>();
+  expect_one_order_of_all_numbers<double>();
 }
 
 }  // namespace

@@ -36,7 +36,16 @@ if(NOT DMOSCOPE_HEADERS)
   # Its processes read VTU. The presets of the sanitizers leave it out, for they take what MPI itself keeps for leaks.
   set(DMOSCOPE_HAS_MPI OFF)
   if(DMOSCOPE_MPI AND DMOSCOPE_VTU AND NOT DMOSCOPE_PORTABLE)
-    find_package(MPI COMPONENTS C)
+    # FindMPI ends the configuration with an error where there is a compiler of MPI's and its headers are not.
+    find_program(DMOSCOPE_MPICC mpicc)
+    set(without_headers 0)
+    if(DMOSCOPE_MPICC)
+      execute_process(COMMAND ${CMAKE_COMMAND} -E echo "#include <mpi.h>" COMMAND ${DMOSCOPE_MPICC} -E -x c -
+                      RESULT_VARIABLE without_headers OUTPUT_QUIET ERROR_QUIET)
+    endif()
+    if(without_headers EQUAL 0)
+      find_package(MPI COMPONENTS C)
+    endif()
     set(DMOSCOPE_HAS_MPI ${MPI_C_FOUND})
     if(NOT MPI_C_FOUND)
       message(STATUS "dmoscope-mpi: left out, it needs MPI (libopenmpi-dev)")

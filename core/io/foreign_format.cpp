@@ -16,7 +16,7 @@
 namespace dmoscope {
 namespace {
 
-constexpr std::size_t kLook = 65536;  // bytes
+constexpr std::size_t kHeadBytes = 65536;  // bytes
 
 /// What the tests below look at.
 struct Head {
@@ -24,7 +24,7 @@ struct Head {
   std::string_view extension;           // ".msh"
   std::vector<std::string_view> lines;  // that are not empty, without surrounding blanks; the first of them
 
-  explicit Head(std::string_view file, std::string_view of) : bytes(file.substr(0, kLook)), extension(of) {
+  explicit Head(std::string_view file, std::string_view of) : bytes(file.substr(0, kHeadBytes)), extension(of) {
     constexpr std::size_t kMostLines = 4096;
     std::string_view rest = bytes;
     while (!rest.empty() && lines.size() < kMostLines) {

@@ -43,7 +43,20 @@ echo "========= ERROR SUMMARY: 0 errors"'
   stand_in ctest <<<'#!/bin/sh
 echo "100% tests passed, 0 tests failed out of 12"'
   cuda_line='toolkit 12.4, compiled for 90-real;75-virtual'
+  say 'usable, NVIDIA H100' 'drawn from the device'
   make_cmake
+}
+# say CUDA DRAWN: what the program that is built or carried says of the cuda backend, and its tests of how they drew.
+say() {
+  cat >"$folder/program" <<END
+#!/bin/sh
+case "\$*" in
+  info) printf 'backends\n  cpu    usable\n  cuda   %s\n\nformats\n' "$1" ;;
+  *--gtest_list_tests*) printf 'Cuda.\n  One\n  Two  # of a device\n' ;;
+  *) echo "[       OK ] Cuda.One (1 ms)"; echo "cuda with interop"; echo "$2"; echo "\$*" ;;
+esac
+END
+  chmod +x "$folder/program"
 }
 # make_cmake: configures with $cuda_line, and builds programs that print little.
 make_cmake() {
@@ -51,14 +64,13 @@ make_cmake() {
 #!/bin/sh
 if [ "\$1" = --build ]; then
   mkdir -p "\$2/tests"
-  for p in tests/test_gpu tests/test_gui dmoscope; do
-    printf '#!/bin/sh\necho "[       OK ] Cuda.One (1 ms)"; echo "cuda with interop"; echo "\$*"\n' >"\$2/\$p"; chmod +x "\$2/\$p"
-  done
+  for p in tests/test_gpu tests/test_gui dmoscope; do cp "$folder/program" "\$2/\$p"; done
   exit 0
 fi
 while [ "\$1" != -B ]; do shift; done
 mkdir -p "\$2"; : >"\$2/build.ninja"
 echo "-- CUDA: $cuda_line"
+case "$cuda_line" in *compiled*) printf 'build test_gui: phony\n' >"\$2/build.ninja" ;; esac
 END
 }
 # gpus LINE MIG [LINE...]: what nvidia-smi shows.
@@ -68,7 +80,7 @@ gpus() {
   stand_in nvidia-smi <<END
 #!/bin/sh
 case "\$*" in
-  *" -l 1"*) while :; do echo "0, 1755 MHz, 1755 MHz, 1593 MHz, 300 W, 350 W, 40, 99 %"; sleep 1; done ;;
+  *" -lms "*) while :; do echo "0, 1755 MHz, 1755 MHz, 1593 MHz, 300 W, 350 W, 40, 99 %"; sleep 1; done ;;
   *compute_cap*) printf '%s\n' "$first" "\$@" | sed '\$d' >/dev/null; printf '%s\n' "$first"$(printf ' "%s"' "$@") ;;
   *mig.mode*) echo $mig ;;
   *driver_version*) echo 550.54 ;;
@@ -82,7 +94,7 @@ run() {
   while [[ $# -gt 0 && $1 != -- ]]; do settings+=("$1"); shift; done
   [[ $# -gt 0 ]] && shift
   code=0
-  env -u DISPLAY -u WAYLAND_DISPLAY CUDA_HOME="$folder/none" PATH="$folder/bin:/usr/bin:/bin" "${settings[@]}" "$folder/tree/tests/gpu/run_all.sh" --commit abc --out "$folder/out" "$@" \
+  env -u DISPLAY -u WAYLAND_DISPLAY CUDA_HOME="$folder/none" PATH="$folder/bin:/usr/bin:/bin" "${settings[@]}" "$folder/tree/tests/gpu/${script:-run_all.sh}" --commit abc --out "$folder/out" "$@" \
     >"$folder/log" 2>&1 || code=$?
 }
 
@@ -94,7 +106,11 @@ check "commit, driver, toolkit" says '| commit | abc |'
 check "driver" says '| driver | 550.54 |'
 check "toolkit" says '| CUDA toolkit | 12.4 |'
 check "what CUDA was compiled for" says 'compiled for 90-real;75-virtual'
-check "speed is measured before the sanitizers" before bench compute-sanitizer
+check "bits are compared before anything is measured" before bits bench-warm
+check "speed is measured before all tests" before bench-warm tests
+check "and before the sanitizers" before bench compute-sanitizer
+check "every test is a process of its own" says '| tests that need a GPU | 2 passed, 0 failed, 0 skipped of 2 |'
+check "from the mesh to the mesh" says '--repeats 9 --end-to-end'
 check "tests of drawing are run" says "| tests of drawing from the GPU's memory | 1 passed"
 check "the window is told of" says '| a window (glx) | not run: DISPLAY is not set |'
 check "sanitizers" says 'ERROR SUMMARY: 0 errors'
@@ -136,8 +152,12 @@ machine
 stand_in nvidia-smi <<<'#!/bin/sh
 echo "NVIDIA-SMI has failed because it could not communicate with the NVIDIA driver."
 exit 9'
+say 'not usable: no NVIDIA driver is installed' ''
 run
-check "no driver: the file says that nothing ran" says 'NO GPU: NOTHING HERE WAS RUN ON ONE'
+check "no driver: says why" says '**NOT RUN**: not usable: no NVIDIA driver is installed'
+check "no driver: measures nothing" says_not 'bench'
+check "no driver: fails" ended 1
+check "no driver: the file says that there was no GPU" says 'NO GPU: NOTHING HERE WAS RUN ON ONE'
 
 machine
 rm "$folder/bin/compute-sanitizer"
@@ -153,13 +173,71 @@ run
 check "all tests skipped: fails" ended 1
 check "all tests skipped: says so" says '**NOTHING RAN**'
 machine
-stand_in ctest <<<'#!/bin/sh
+stand_in ncu <<<'#!/bin/sh
+[ "$1 $2" = "--clock-control none" ] || exit 4
 exit 3'
 run
-check "a step that fails is told, and the next are run" says '**FAILED**: exit code 3'
-check "and the next are run" says '| bench of generated meshes | done |'
+check "a step that fails is told" says '| ncu | **FAILED**: exit code 3 |'
+check "and the next are run" says '| tests that need a GPU | 2 passed'
+machine
+say 'usable, NVIDIA H100' 'drawn through the host'
+run
+check "no interop: fails, though the tests of its fallback pass" ended 1
+check "no interop: says so" says "Nothing was drawn from the device's memory"
+
+# A limit is for all of it, and what is left of it never none or less.
+machine
 run -- --limit 2
-check "a limit: what was cut is told" says 'out of time'
+check "a limit: what was cut is told" says '**NOT RUN**: CUDA was left out of the build'
+run -- --limit 2 --build "$folder/tree/build/gpu"
+check "a limit: of a build that is there" says 'out of time'
+run -- --limit soon
+check "a limit is a number" ended 2
+stand_in compute-sanitizer <<<'#!/bin/sh
+sleep 60'
+SECONDS=0
+run -- --limit 6
+check "a limit: the sanitizers keep to it" test "$SECONDS" -lt 20
+check "a limit: and are told" says '| compute-sanitizer memcheck |'
+
+# What was built elsewhere: nothing is built.
+bundle() {
+  machine
+  stand_in cmake <<<'#!/bin/sh
+echo "cmake was asked" >&2
+exit 5'
+  mkdir -p "$folder/bundle/bin" "$folder/bundle/lib/glvnd"
+  for p in dmoscope test_gpu test_gui; do cp "$folder/program" "$folder/bundle/bin/$p"; done
+}
+bundle
+run -- --bundle "$folder/bundle"
+check "a bundle: all is well" ended 0
+check "a bundle: nothing is built" says_not build
+check "a bundle: is measured" says '| bench, warm | done |'
+check "a bundle: is tested" says '| tests that need a GPU | 2 passed'
+run -- --bundle "$folder/none"
+check "a bundle that is not there" ended 2
+
+# The same, packed.
+bundle
+mkdir "$folder/tree/.prebuilt" "$folder/bundle/authors"
+cp "$folder/program" "$folder/bundle/authors/driver"
+tar -cJ -C "$folder/bundle" -f "$folder/tree/.prebuilt/programs.tar.xz" .
+echo def >"$folder/tree/.prebuilt/commit"
+script=prebuilt/run.sh
+run
+check "packed programs: all is well" ended 0
+check "packed programs: the authors' kernel is measured" says "| the authors' kernel | done |"
+rm -r "$folder/bundle/bin/dmoscope"
+printf '#!/bin/sh\nexit 126\n' >"$folder/bundle/bin/dmoscope"
+chmod +x "$folder/bundle/bin/dmoscope"
+tar -cJ -C "$folder/bundle" -f "$folder/tree/.prebuilt/programs.tar.xz" .
+make_cmake
+run
+check "packed programs that do not start: they are built there" says '| build | done |'
+rm "$folder/tree/.prebuilt/programs.tar.xz"
+run
+check "nothing packed" ended 2
 
 printf '%d answers, %d wrong\n' "$tried" "$failed"
 [[ $failed -eq 0 ]]

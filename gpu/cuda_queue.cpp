@@ -105,10 +105,13 @@ struct CudaDevice {
 
 class CudaRecording final : public Queue::Recording {
  public:
-  explicit CudaRecording(cudaGraph_t graph) {
+  CudaRecording(cudaGraph_t graph, cudaStream_t stream) {
     const cudaError_t status = cudaGraphInstantiate(&executable_, graph, 0);
     (void)cudaGraphDestroy(graph);
     DMOSCOPE_CUDA_CHECK(status);
+    const cudaError_t uploaded = cudaGraphUpload(executable_, stream);  // else its first launch does
+    if (uploaded != cudaSuccess) (void)cudaGraphExecDestroy(executable_);
+    DMOSCOPE_CUDA_CHECK(uploaded);
   }
   ~CudaRecording() override { (void)cudaGraphExecDestroy(executable_); }
   [[nodiscard]] cudaGraphExec_t get() const noexcept { return executable_; }
@@ -270,7 +273,7 @@ class CudaQueue final : public Queue {
   std::unique_ptr<Recording> stop_recording() override {
     cudaGraph_t graph = nullptr;
     DMOSCOPE_CUDA_CHECK(cudaStreamEndCapture(stream_.get(), &graph));
-    return std::make_unique<CudaRecording>(graph);
+    return std::make_unique<CudaRecording>(graph, stream_.get());
   }
   void drop_recording() noexcept override {
     cudaGraph_t graph = nullptr;

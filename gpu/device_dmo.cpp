@@ -35,6 +35,7 @@ class DeviceDmo final : public Smoother {
     task_.moved = counts_.data();
     if (!is_built_in(metric_)) defined_.emplace(queue_, task, task_);
     warm_up(task.then_mean);
+    if (!colouring_->order.empty()) record_iteration();  // now, so that no iteration pays for it
     load(task.input->mesh.positions, task.pool);
     queue_->wait();
   }
@@ -56,7 +57,7 @@ class DeviceDmo final : public Smoother {
     stored_ = judged_ = false;
     visited_ = true;
     if (first == 0 && count == colouring_->order.size()) {
-      if (iteration_ == nullptr) iteration_ = queue_->record([&] { visit_classes(first, count); });
+      if (iteration_ == nullptr) record_iteration();
       queue_->replay(*iteration_);
     } else {
       visit_classes(first, count);
@@ -119,6 +120,10 @@ class DeviceDmo final : public Smoother {
     std::size_t largest = 0;
     for (Index c = 0; c < colouring_->class_count(); ++c) largest = std::max(largest, colouring_->members(c).size());
     return largest;
+  }
+
+  void record_iteration() {
+    iteration_ = queue_->record([this] { visit_classes(0, colouring_->order.size()); });
   }
 
   /// The part of [first, first + count) that lies in each class, after the one before: its members see the others' old and new positions

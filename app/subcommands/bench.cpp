@@ -80,17 +80,22 @@ void add_bench(CLI::App& app, Action& action) {
   };
   count("--repeats", options->repeats, 1, kMostRepeats, "Repeats of every measurement, in turn with the others")->capture_default_str();
   count("--iterations", options->iterations, 1, kMostTimed, "Iterations to time, from the input on")->capture_default_str();
-  count("--active", options->active, 2, kMostTimed, "Also compare the time of iteration N with that of the first");
+  auto* active = count("--active", options->active, 2, kMostTimed, "Also compare the time of iteration N with that of the first");
+  auto* end_to_end = subcommand->add_flag(
+      "--end-to-end", options->end_to_end,
+      "Also show the time from the mesh in memory to the smoothed one there: preparation, copies, iterations with statistics");
+  end_to_end->excludes(active);
   auto* draw = count("--draw", options->draw, 1, kMostTimed, "Draw this many iterations as they are made, without a window, instead");
   auto* plot = subcommand->add_option("--plot", options->plot, "Draw visits per second over sizes")->type_name("FILE.svg|.png");
-  draw->excludes(plot)->excludes(combine);
+  draw->excludes(plot)->excludes(combine)->excludes(end_to_end);
   auto* seek = count("--seek", options->seek, 1, kMostTimed, "Number of seeks among 200 iterations, without and with drawing, instead");
-  seek->excludes(plot)->excludes(draw)->excludes(combine);
+  seek->excludes(plot)->excludes(draw)->excludes(combine)->excludes(end_to_end);
   subcommand->add_flag("--window", options->window, "Open the first mesh in the window, off screen: time, memory, answers; instead")
       ->excludes(plot)
       ->excludes(draw)
       ->excludes(seek)
-      ->excludes(combine);
+      ->excludes(combine)
+      ->excludes(end_to_end);
   add_memory_option(*subcommand, options->memory);
   subcommand->add_flag("--json", options->json, "Print one JSON object and nothing else on standard output");
   subcommand->callback([options, &action] {

@@ -62,7 +62,7 @@ struct Series {
   std::shared_ptr<ThreadPool> pool;
   std::uint64_t steps = 0;  // iterations to do; figure.iterations of them count
   Acceleration acceleration{};
-  std::vector<double> seconds{}, first{}, last{}, prepare{}, step{};
+  std::vector<double> seconds{}, first{}, last{}, prepare{}, step{}, end_to_end{};
 
   [[nodiscard]] std::string title() const {
     const std::string what = fmt::format("{}, {}", figure.mesh, info(figure.metric).name);
@@ -92,6 +92,8 @@ void repeat(Series& series, Progress& progress) {
   const auto ready = std::chrono::steady_clock::now();
   run.iterate(series.steps, progress);
   series.step.push_back(seconds_since(ready) / static_cast<double>(series.steps));
+  (void)run.positions();  // brings them to the host
+  series.end_to_end.push_back(seconds_since(start));
   const std::vector<IterationRecord>& records = run.history().records();
   double seconds = 0.0;
   for (std::uint64_t i = 1; i <= series.figure.iterations; ++i) seconds += records[i].seconds;
@@ -189,6 +191,7 @@ class Bench {
       figure.seconds = spread_of(series.seconds);
       figure.prepare_seconds = spread_of(series.prepare);
       figure.step_seconds = spread_of(series.step);
+      if (plan_.end_to_end) figure.end_to_end_seconds = spread_of(series.end_to_end);
       if (figure.reference) reference = figure.vertices_per_second();
       figure.reference_vertices_per_second = reference;
       if (figure.settling) {

@@ -40,10 +40,11 @@ struct Measurement {
   Precision precision = Precision::Float;
   std::optional<SimdLevel> simd;  // none: scalar, or a device
   unsigned threads = 1;
-  std::uint64_t iterations = 0;  // timed
-  Spread seconds;                // of all of them
-  Spread prepare_seconds;        // from the mesh to the first visit: colouring, stars, what a device needs
-  Spread step_seconds;           // of an iteration by the clock, with its statistics and what else a run does for it
+  std::uint64_t iterations = 0;              // timed
+  Spread seconds;                            // of all of them
+  Spread prepare_seconds;                    // from the mesh to the first visit: colouring, stars, what a device needs
+  Spread step_seconds;                       // of an iteration by the clock, with its statistics and what else a run does for it
+  std::optional<Spread> end_to_end_seconds;  // from the mesh on the host to the smoothed positions there: preparation, copies, iterations
   bool reference = false;
   Index subject_vertices = 0;                // of the mesh that the reference was measured for; for the others: vertices
   double reference_vertices_per_second = 0;  // of the reference measured in turn with this one

@@ -161,7 +161,8 @@ BenchPlan plan_of(const BenchOptions& options) {
                  .threads = parse_list(options.threads, parse_threads),
                  .repeats = options.repeats,
                  .iterations = options.iterations,
-                 .active = options.active};
+                 .active = options.active,
+                 .end_to_end = options.end_to_end};
   choose_backends(plan, options.backend);
   if (!options.combine.empty()) combine(plan, options.combine);
   if (!options.file.empty()) return plan;

@@ -30,9 +30,10 @@ struct BenchOptions {
   std::size_t repeats = 5;
   std::uint64_t iterations = 4;
   std::uint64_t active = 0;
-  std::uint64_t draw = 0;  // frames to draw instead; 0: none
-  std::uint64_t seek = 0;  // seeks to make instead; 0: none
-  bool window = false;     // open a mesh in the window instead
+  std::uint64_t draw = 0;   // frames to draw instead; 0: none
+  bool end_to_end = false;  // a column more
+  std::uint64_t seek = 0;   // seeks to make instead; 0: none
+  bool window = false;      // open a mesh in the window instead
   bool full = false;
   bool json = false;
   MemoryLimit memory;
@@ -66,6 +67,7 @@ struct BenchPlan {
   std::size_t repeats;                       // of every measurement
   std::uint64_t iterations;                  // timed, from the input on
   std::uint64_t active;                      // the iteration whose time is compared with the first's; 0: none
+  bool end_to_end = false;                   // whether to show the time from the mesh on the host to the smoothed one there
 };
 
 /// Throws UsageError for what does not exist, is out of range, fits no other choice, or needs more memory than there is.

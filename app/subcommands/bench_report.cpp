@@ -50,6 +50,7 @@ Json json_of(const Measurement& f) {
               {"reference", f.reference},
               {"reference_vertices_per_second", json_number(f.reference_vertices_per_second)},
               {"ratio", json_number(f.ratio())}};
+  if (f.end_to_end_seconds) object["end_to_end_seconds"] = json_of(*f.end_to_end_seconds);
   if (f.settling) {
     object["settling"] = {{"iteration", f.settling->iteration},
                           {"first_seconds", f.settling->first_seconds},
@@ -113,8 +114,9 @@ void print_head(const BenchPlan& plan) {
   }
   print("Smoothing alone, {} from the input; median of {} (lowest to highest).\nRatio to {}.\n\n",
         counted(plan.iterations, "iteration", "iterations"), counted(plan.repeats, "repeat", "repeats"), kReference);
-  print("{:<20} {:<16} {:>9} {:>9} {:>7} {:>9} {:>8} {:>16} {:>9} {:>7} {:>9} {:>9}{}\n", "mesh", "metric", "free", "simd", "threads", "ms",
-        "Mv/s", "spread", "ns/visit", "ratio", "it/s", "prepare",
+  print("{:<20} {:<16} {:>9} {:>9} {:>7} {:>9} {:>8} {:>16} {:>9} {:>7} {:>9} {:>9}{}{}\n", "mesh", "metric", "free", "simd", "threads",
+        "ms", "Mv/s", "spread", "ns/visit", "ratio", "it/s", "prepare",
+        plan.end_to_end ? fmt::format(" {:>11} {:>20}", "end to end", "spread") : "",
         plan.active > 0 ? fmt::format("  iteration {} against 1", plan.active) : "");
 }
 
@@ -124,6 +126,10 @@ void print_rows(const std::vector<Measurement>& figures) {
     print("{:<20} {:<16} {:>9} {:>9} {:>7} {:>9.3f} {:>8.4g} {:>16} {:>9.1f} {:>7.2f} {:>9.4g} {:>6.1f} ms", f.mesh, composite(f), f.free,
           f.reference ? "double" : executor_name(f), f.threads, 1e3 * f.seconds.median, rate(f, f.seconds.median), spread, f.ns_per_visit(),
           f.ratio(), f.iterations_per_second(), 1e3 * f.prepare_seconds.median);
+    if (f.end_to_end_seconds) {
+      const Spread& all = *f.end_to_end_seconds;
+      print(" {:>8.2f} ms {:>20}", 1e3 * all.median, fmt::format("{:.4g} to {:.4g}", 1e3 * all.lowest, 1e3 * all.highest));
+    }
     if (f.settling) {
       print("  {:.3f} ms against {:.3f} ms, {:.2f} x", 1e3 * f.settling->seconds, 1e3 * f.settling->first_seconds,
             f.settling->first_seconds / f.settling->seconds);

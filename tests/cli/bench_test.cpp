@@ -179,6 +179,15 @@ TEST(Bench, ComparesALateIterationWithTheFirst) {
   EXPECT_LE(settling["first_seconds"], all["figures"][1]["seconds"]["median"]);
 }
 
+TEST(Bench, TellsTheTimeFromTheMeshToTheSmoothedOne) {
+  const Json figure = bench_json({"--sizes", "2000", "--threads", "1", "--iterations", "3", "--end-to-end"})["figures"][1];
+  const double prepare = figure["prepare_seconds"]["lowest"], step = figure["step_seconds"]["lowest"];
+  EXPECT_GE(figure["end_to_end_seconds"]["lowest"].get<double>(), prepare + 3 * step);
+  EXPECT_FALSE(bench_json({"--sizes", "2000", "--threads", "1"})["figures"][1].contains("end_to_end_seconds"));
+  EXPECT_THAT(bench({"--sizes", "2000", "--threads", "1", "--end-to-end"}).out, HasSubstr("end to end"));
+  for (const auto& other : {"--active", "--draw", "--seek"}) EXPECT_EQ(bench({"--end-to-end", other, "2"}).code, 2) << other;
+}
+
 TEST(Bench, TakesAMeshOfOnesOwn) {
   const Json small = bench_json({sample("annulus.off"), "--threads", "1"});
   ASSERT_EQ(small["figures"].size(), 2U);

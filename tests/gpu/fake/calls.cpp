@@ -431,6 +431,13 @@ cudaError_t cudaGraphInstantiate(cudaGraphExec_t* executable, cudaGraph_t graph,
     return cudaSuccess;
   });
 }
+cudaError_t cudaGraphUpload(cudaGraphExec_t executable, cudaStream_t handle) {
+  return call("cudaGraphUpload", [&](Machine& machine) {
+    const bool exists = machine.executables.contains(executable);
+    if (!exists) machine.breach("cudaGraphUpload of a graph that does not exist");
+    return machine.find(handle, "cudaGraphUpload") != nullptr && exists ? cudaSuccess : cudaErrorInvalidResourceHandle;
+  });
+}
 cudaError_t cudaGraphDestroy(cudaGraph_t graph) {
   return giving_back("cudaGraphDestroy",
                      [&](Machine& machine) { return give_back(machine, machine.graphs, graph, "cudaGraphDestroy", "graph"); });

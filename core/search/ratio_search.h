@@ -7,8 +7,13 @@
 // t, takes the candidate with the largest least margin, raises t to that candidate's quality, and so on until no margin is positive. With
 // w_k = 1 / S_k(centre) a margin is nearly the gain in quality itself, so the first candidate is mostly the best; and as S_k varies
 // little over the finer grids, the second largest margin mostly proves it without another round.
+//
+// Where another round is needed only few columns of candidates can hold what it looks for: of the others the largest margin was too small
+// already. A lane of a GPU looks at those few alone (ColumnMaxima).
 
 #include <array>
+#include <bit>
+#include <cstdint>
 
 #include "core/base/host_device.h"
 #include "core/search/grid_search.h"
@@ -92,6 +97,32 @@ struct LeastMargins {
 /// registers and little cache, computes the columns' parts again, and the rows' too where the number of elements is not known beforehand.
 enum class Tables { Full, Rows, None };
 
+/// Upper bounds of the largest margins of a grid's eight columns, from a round over all of them: rounded up to 16 bits, two in a register,
+/// for registers are what a lane is short of.
+class ColumnMaxima {
+ public:
+  /// Of the next two columns.
+  DMOSCOPE_ANYWHERE void add(float first, float second) { words_ = {words_[1], words_[2], words_[3], up(first) | up(second) << 16U}; }
+  /// Bit i: whether column i may have a margin above `least`.
+  [[nodiscard]] DMOSCOPE_ANYWHERE std::uint32_t above(float least) const {
+    const std::uint32_t most_dropped = least < 0.0F ? 0U : std::bit_cast<std::uint32_t>(least) >> 16U;
+    std::uint32_t columns = 0;
+    DMOSCOPE_UNROLL
+    for (std::uint32_t i = 0; i < 8; ++i) {
+      const std::uint32_t bound = i % 2 == 0 ? words_[i / 2] & 0xffffU : words_[i / 2] >> 16U;
+      columns |= bound > most_dropped || least < 0.0F ? 1U << i : 0U;
+    }
+    return columns;
+  }
+
+ private:
+  /// The first 16 of a float's bits order floats that are not negative.
+  static DMOSCOPE_ANYWHERE std::uint32_t up(float margin) {
+    return (std::bit_cast<std::uint32_t>(scalar::max(margin, 0.0F)) + 0xffffU) >> 16U;
+  }
+  std::array<std::uint32_t, 4> words_{};
+};
+
 /// Searches one star, or one per slot where R is a pack. Large: keep one and use it again. Forms: their number where it is known
 /// beforehand, else 0. What it finds does not depend on Tables and Team. Form: RatioForm or TargetForm.
 template <class R, std::size_t Forms = 0, Tables Kept = Tables::Full, class Team = Solo, class Form = RatioForm<R>>
@@ -103,10 +134,10 @@ class RatioSearch {
 
   DMOSCOPE_ANYWHERE explicit RatioSearch(Team team = {}) : team_(team) {}
 
-  /// Searches all levels. `forms`: 1 to kMaxForms, of which it uses the memory. `cap`: what no candidate's quality can exceed. `box`: of
-  /// the star's other vertices. In every slot all N at the origin must be positive. Returns the offset and its quality, as
-  /// grid_search does. A trace gets what quality() makes of each candidate; of those that differ by less than its rounding another one than
-  /// the first of the best may have won.
+  /// Searches all levels. `forms`: 1 to kMaxForms, of which it uses the memory. `cap`: what no candidate's quality can exceed; none reaches
+  /// it where Forms is not 0. `box`: of the star's other vertices. In every slot all N at the origin must be positive. Returns the offset
+  /// and its quality, as grid_search does. A trace gets what quality() makes of each candidate; of those that differ by less than its
+  /// rounding another one than the first of the best may have won.
   template <class Trace = NoTrace>
   DMOSCOPE_ANYWHERE Candidate<R> search(FormSpan forms, R cap, Vec2<R> box, int levels, double omega, Trace&& trace = {}) {
     forms_ = forms.data();
@@ -130,6 +161,11 @@ class RatioSearch {
   static_assert(kPoints == 8, "LeastMargins has eight");
   static_assert(Team::kSize == 1 || Team::kSize == kPoints, "a column each");
   static constexpr bool kCrossed = Form::kCrossed;
+  /// May a candidate reach the cap? A fan of triangles, whose number alone is known beforehand, has none.
+  static constexpr bool kCapped = Forms == 0;
+  /// Does a round after a level's first look only at the columns that ColumnMaxima leaves? In the other cases lanes go together.
+  static constexpr bool kPrunes = Team::kSize == 1 && Kept == Tables::Rows;
+  static_assert(!kPrunes || std::is_same_v<Form, RatioForm<float>>, "the bound of rounding is that of float and of a quality of at most 1");
   /// N_k - t S_k, times w_k: a + b x + c y - d (x^2 + y^2).
   struct EvenMargin {
     R a, b, c, d;
@@ -189,6 +225,7 @@ class RatioSearch {
     using scalar::abs, scalar::max, scalar::min, scalar::select;
     const R half(0.5F), hx = half * size.x, hy = half * size.y;
     R least(1);
+    if constexpr (kPrunes) greatest_ = R(1);
     DMOSCOPE_UNROLL
     for (std::size_t k = 0; k < count(); ++k) {
       const Form& f = forms_[k];
@@ -197,6 +234,7 @@ class RatioSearch {
       // S falls from the centre by at most |sx| hx - s2 hx^2, or half of |sx| hx where its minimum lies within; likewise along y.
       const R x = abs(f.sx) * hx, y = abs(f.sy) * hy;
       R fall = (x - min(half * x, f.along_x() * hx * hx)) + (y - min(half * y, f.along_y() * hy * hy));
+      if constexpr (kPrunes) greatest_ = max(greatest_, R(1) + ((x + f.along_x() * hx * hx) + (y + f.along_y() * hy * hy)) * weight_[k]);
       if constexpr (kCrossed) fall = fall + abs(f.sxy) * hx * hy;
       least = min(least, select(counts, R(1) - fall * weight_[k], R(1)));
       // Where the threshold is held, a margin is no gain.
@@ -216,9 +254,11 @@ class RatioSearch {
     R t = best.objective;
     Vec2<R> offset{R(0), R(0)};
     R floor = select(t < cap_, R(0), huge());  // what a margin must exceed: huge in slots that are done
+    [[maybe_unused]] ColumnMaxima maxima;
+    [[maybe_unused]] std::uint32_t columns = kFirstRound;
     for (;;) {
       fill_tables(t);
-      const Best found = largest_margin(floor);
+      const Best found = largest_margin(floor, columns, maxima);
       const auto positive = found.margin > floor;
       if (!any(positive)) break;
       const R q = quality(found.at);
@@ -227,17 +267,27 @@ class RatioSearch {
       const auto open = better & (found.second * bound > q - t) & (q < cap_);
       t = select(better, q, t);
       offset = {select(better, found.at.x, offset.x), select(better, found.at.y, offset.y)};
-      const auto capped = better & !(q < cap_);
-      if (any(capped)) {
-        const Vec2<R> first = first_at_cap(found.at);
-        offset = {select(capped, first.x, offset.x), select(capped, first.y, offset.y)};
+      if constexpr (kCapped) {
+        const auto capped = better & !(q < cap_);
+        if (any(capped)) {
+          const Vec2<R> first = first_at_cap(found.at);
+          offset = {select(capped, first.x, offset.x), select(capped, first.y, offset.y)};
+        }
       }
       if (!any(open)) break;
       floor = select(open, R(0), huge());
+      if constexpr (kPrunes) columns = maxima.above(least_that_may_gain(t - best.objective, bound));
     }
     best.objective = t;
     best.offset = best.offset + offset;
     moved_by_ = offset;
+  }
+
+  /// A candidate whose least margin in a level's first round is no larger has none that is positive once the threshold is higher by `gain`.
+  /// For its margin falls by at least gain / bound, and what rounding adds to two margins is less than the last term: each is of eight
+  /// operations on terms that are, as N is at most S, no larger than 6 greatest_.
+  [[nodiscard]] DMOSCOPE_ANYWHERE R least_that_may_gain(R gain, R bound) const {
+    return gain / bound * scalar::constant<R>(1.0 - 1e-4) - scalar::constant<R>(12 * 8 * 0x1p-24) * greatest_;
   }
 
   template <class Trace>
@@ -277,6 +327,18 @@ class RatioSearch {
       const R x = width_ * s;
       return i < kHalf ? R(0) - x : x;
     }
+  }
+
+  /// column_offset(i) of 1 << i.
+  [[nodiscard]] DMOSCOPE_ANYWHERE R offset_of_bit(std::uint32_t bit) const {
+    R s = part(0);
+    DMOSCOPE_UNROLL
+    for (std::size_t other = 1; other < kHalf; ++other) {
+      const std::uint32_t both = 1U << (kHalf - 1 - other) | 1U << (kHalf + other);
+      s = (bit & both) != 0 ? part(other) : s;
+    }
+    const R x = width_ * s;
+    return bit < 1U << kHalf ? R(0) - x : x;
   }
 
   /// The columns' offsets two by two, in four registers instead of a table.
@@ -354,8 +416,11 @@ class RatioSearch {
     return p;
   }
 
-  /// The candidate with the largest least margin above `floor`; among equals the one of lowest index.
-  [[nodiscard]] DMOSCOPE_ANYWHERE Best largest_margin(R floor) const {
+  static constexpr std::uint32_t kFirstRound = 1U << kPoints;  // no column's bit: a level's first round, over all of them
+  /// The candidate with the largest least margin above `floor`; among equals the one of lowest index. Where kPrunes, of these columns only;
+  /// fills `maxima` where they are all.
+  [[nodiscard]] DMOSCOPE_ANYWHERE Best largest_margin(R floor, [[maybe_unused]] std::uint32_t columns,
+                                                      [[maybe_unused]] ColumnMaxima& maxima) const {
     using scalar::max, scalar::min, scalar::select;
     Best best{floor, R(0) - huge(), {column_offset(0), y_[0]}};
     const auto take = [&best](R high, R second, R x) {
@@ -365,15 +430,33 @@ class RatioSearch {
       best.margin = max(best.margin, high);
     };
     if constexpr (Team::kSize == 1 && Kept != Tables::Full) {
-      Columns columns(width_);
-      DMOSCOPE_NO_UNROLL
-      for (unsigned i = 0; i < kPoints; i += 2) {
-        DMOSCOPE_UNROLL
-        for (std::size_t k = 0; k < 2; ++k) {
-          const R x = columns.offset(k);
-          take(least_margins_of_column(i + k, x).largest(), R(0) - huge(), x);
+      const auto look_at_all = [&] {
+        Columns offsets(width_);
+        DMOSCOPE_NO_UNROLL
+        for (unsigned i = 0; i < kPoints; i += 2) {
+          std::array<R, 2> high;
+          DMOSCOPE_UNROLL
+          for (std::size_t k = 0; k < 2; ++k) {
+            const R x = offsets.offset(k);
+            high[k] = least_margins_of_column(i + k, x).largest();
+            take(high[k], R(0) - huge(), x);
+          }
+          if constexpr (kPrunes) maxima.add(high[0], high[1]);
+          offsets.pass(i);
         }
-        columns.pass(i);
+      };
+      if constexpr (!kPrunes) {
+        look_at_all();
+      } else if (columns == kFirstRound) {
+        look_at_all();
+      } else {
+        DMOSCOPE_NO_UNROLL
+        while (columns != 0) {
+          const std::uint32_t next = columns & (0U - columns);  // its lowest bit
+          columns &= columns - 1U;
+          const R x = offset_of_bit(next);
+          take(least_margins_of_column(0, x).largest(), R(0) - huge(), x);
+        }
       }
     } else if constexpr (Team::kSize == 1) {
       DMOSCOPE_NO_UNROLL
@@ -451,6 +534,7 @@ class RatioSearch {
   R cap_;
   Vec2<R> moved_by_;  // from the last level's centre
   R width_;           // of the grid
+  R greatest_;        // where kPrunes: bound of S_k(p) / S_k(centre) over the grid and all elements
   Line y_, yy_;       // the rows' offsets from the centre, and the squares of their second half
   std::array<R, kMaxForms> weight_;
   std::array<Margin, kMaxForms> margin_;

@@ -32,7 +32,7 @@ enum class Stars { Fans, Others, All };
 /// Is the star one of Stars::Fans?
 template <Metric M>
 [[nodiscard]] DMOSCOPE_ANYWHERE bool in_registers(const StarShape& shape, const SearchParameters& parameters) {
-  return kIsRatio<M> && shape.kind == StarShape::Kind::Fan && shape.triangles >= 4 && shape.triangles <= 7 && parameters.grid_points == 8;
+  return kIsRatio<M> && shape.kind == StarShape::Kind::Fan && shape.triangles >= 4 && shape.triangles <= 8 && parameters.grid_points == 8;
 }
 
 /// One vertex's visit by a team of lanes; only the first lane learns the verdict. Task: anything with the `shapes`, `others` and `ranked`
@@ -62,8 +62,10 @@ class FastVisit {
             return visit_fan<5>(trace);
           case 6:
             return visit_fan<6>(trace);
-          default:
+          case 7:
             return visit_fan<7>(trace);
+          default:
+            if constexpr (Team::kSize == 1) return visit_fan<8>(trace);  // a team's lanes, which keep more in registers, would spill
         }
       }
     }

@@ -58,14 +58,14 @@ template <Metric M, Stars S, bool AtOnce = false>
 struct Visit {
   template <class Team>
   static DMOSCOPE_LANE_INLINE DMOSCOPE_LANE void run(const Task& task, std::size_t i, std::size_t /*count*/, const Team& team) {
-    const auto rank = static_cast<Index>(task.first + i);
+    const Index rank = task.listed != nullptr ? task.listed[i] : static_cast<Index>(task.first + i);
     const StarShape shape = task.shapes[rank];
     if constexpr (S != Stars::All)
-      if (in_registers<M>(shape, task.parameters) != (S == Stars::Fans)) return;  // its flag may be written at this moment
+      if (kind_of_star<M>(shape, task.parameters) != S) return;  // its flag may be written at this moment
     if (!is_set(task.awake + rank)) return;
     using Search = FastVisit<M, Team, S, Task>;
     typename Search::Outcome outcome;
-    const bool in_lanes = S == Stars::Fans || shape.kind != StarShape::Kind::Alone;
+    const bool in_lanes = shape.kind != StarShape::Kind::Alone;
     if (in_lanes && !task.untangling.repair) outcome = Search(task, rank, team).run();
     const double* to = outcome.to.target;
     const Deferred deferred{rank, outcome.ready, {to[0], to[1], to[2]}};

@@ -12,11 +12,15 @@ namespace dmoscope::gpu {
 
 inline constexpr unsigned kBlock = 128;  // threads
 /// Of blocks on a multiprocessor. Left to itself ptxas caps some kernels at 80, 96 or 128 registers, and spills; with two blocks all may
-/// have 255, and with three the searches spill.
+/// have 255, with three 168, which is enough for small fans alone.
 inline constexpr unsigned kBlocksAtOnce = 2;
+template <class Body>
+inline constexpr unsigned kBlocksAtOnceOf = kBlocksAtOnce;
+template <Metric M>
+inline constexpr unsigned kBlocksAtOnceOf<bodies::Visit<M, Stars::SmallFans>> = 3;
 
 template <class Body, class Team>
-__global__ void __launch_bounds__(kBlock, kBlocksAtOnce) kernel(const __grid_constant__ Task task, std::size_t count) {
+__global__ void __launch_bounds__(kBlock, kBlocksAtOnceOf<Body>) kernel(const __grid_constant__ Task task, std::size_t count) {
   const std::size_t i = (std::size_t{blockIdx.x} * kBlock + threadIdx.x) / Team::kSize;
   if (i < count) Body::run(task, i, count, Team{});
 }
@@ -53,8 +57,11 @@ void launch(const Task& task, std::size_t count, cudaStream_t stream) {
 template <Metric M>
 Launcher metric_launcher(Work work) {
   switch (work) {
-    case Work::VisitFans:
-      if constexpr (kIsRatio<M>) return launch<bodies::Visit<M, Stars::Fans>, Solo>;
+    case Work::VisitSmallFans:
+      if constexpr (kIsRatio<M>) return launch<bodies::Visit<M, Stars::SmallFans>, Solo>;
+      return nullptr;
+    case Work::VisitLargeFans:
+      if constexpr (kIsRatio<M>) return launch<bodies::Visit<M, Stars::LargeFans>, Solo>;
       return nullptr;
     case Work::VisitOthers:
       return launch<bodies::Visit<M, Stars::Others>, Solo>;

@@ -1,6 +1,8 @@
 #include "gpu/device_dmo.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "core/smooth/methods/composite_dmo.h"
 #include "gpu/bodies.h"
@@ -14,6 +16,8 @@ namespace {
 
 /// Teams among which a class's deferred visits are shared: enough for any device, and few where, as nearly always, there are none.
 constexpr std::size_t kSettlers = 2048;
+/// The kernels of a class's visits by lanes; without those for fans the last does all.
+constexpr std::array kByStars{Work::VisitSmallFans, Work::VisitLargeFans, Work::VisitOthers};
 
 class DeviceDmo final : public Smoother {
  public:
@@ -137,36 +141,51 @@ class DeviceDmo final : public Smoother {
       if (begin >= end) continue;
       task_.first = begin;
       task_.deferred_count = counts_.data() + 1 + c;
-      launch_visits(c, end - begin);
+      if (in_fans() && end - begin == colouring_->members(c).size())
+        launch_visits(mesh_.stars_of_class(c));
+      else
+        launch_visits(end - begin);
     }
     moved_.fetch(counts_.data());
   }
 
-  void launch_visits(Index colour, std::size_t count) {
+  /// Of a part of a class, or of a whole one that needs no list.
+  void launch_visits(std::size_t count) {
     if (defined_) return defined_->visit(task_, task_.first, task_.first + count);
     if (aims_ || mesh_.is_volume()) {
       queue_->launch(aims_ ? two_aims() : Work::VisitVolume, metric_, task_, count);
       return;
     }
-    const DeviceMesh::ClassStars& stars = mesh_.stars_of_class(colour);
     if (count * kTeamShare <= queue_->lanes_at_once()) {
       queue_->launch(Work::VisitInTeam, metric_, task_, count);
       return;
     }
-    const auto fans = [&] { queue_->launch(Work::VisitFans, metric_, task_, count); };
-    const auto others = [&] { queue_->launch(Work::VisitOthers, metric_, task_, count); };
-    if (in_fans() && stars.fans && stars.others)
-      queue_->both(fans, others);  // no two vertices of a class see each other
-    else if (in_fans() && stars.fans)
-      fans();
-    else
-      others();
+    for (const Work work : std::span(kByStars).last(in_fans() ? kByStars.size() : 1)) queue_->launch(work, metric_, task_, count);
     queue_->launch(Work::Settle, metric_, task_, std::min(count, kSettlers));
   }
 
-  /// Are there stars that the kernel for fans is made for?
+  /// Of a whole class.
+  void launch_visits(const DeviceMesh::ClassStars& stars) {
+    const std::size_t count = stars.small_fans + stars.large_fans + stars.others;
+    if (count * kTeamShare <= queue_->lanes_at_once()) return launch_visits(count);
+    task_.listed = stars.ranks;
+    // No two vertices of a class see each other.
+    queue_->both([&] { queue_->launch(Work::VisitSmallFans, metric_, task_, stars.small_fans); },
+                 [&] {
+                   task_.listed = stars.ranks + stars.small_fans;
+                   queue_->launch(Work::VisitLargeFans, metric_, task_, stars.large_fans);
+                   task_.listed += stars.large_fans;
+                   queue_->launch(Work::VisitOthers, metric_, task_, stars.others);
+                   task_.listed = stars.ranks;
+                 });
+    task_.listed = nullptr;
+    queue_->launch(Work::Settle, metric_, task_, std::min(count, kSettlers));
+  }
+
+  /// Are there kernels for fans?
   [[nodiscard]] bool in_fans() const {
-    return task_.parameters.grid_points == 8 && formulas::with_planar_metric(metric_, []<Metric M>() { return kIsRatio<M>; });
+    return !aims_ && !defined_ && !mesh_.is_volume() && task_.parameters.grid_points == 8 &&
+           formulas::with_planar_metric(metric_, []<Metric M>() { return kIsRatio<M>; });
   }
 
   /// Runs every kernel once, for one vertex that needs no visit: to load it and reserve the memory of its lanes takes long, the first time.
@@ -184,7 +203,8 @@ class DeviceDmo final : public Smoother {
       return;
     }
     for (const Work work : {Work::VisitInTeam, Work::VisitOthers, Work::Settle}) queue_->launch(work, metric_, task_, 1);
-    if (in_fans()) queue_->launch(Work::VisitFans, metric_, task_, 1);
+    if (in_fans())
+      for (const Work work : {Work::VisitSmallFans, Work::VisitLargeFans}) queue_->launch(work, metric_, task_, 1);
     queue_->both([] {}, [] {});  // what it is done with cannot be made in a recording
   }
 

@@ -1,7 +1,10 @@
 #include "gpu/device_mesh.h"
 
+#include <array>
+#include <numeric>
 #include <utility>
 
+#include "core/base/memory.h"
 #include "gpu/bodies.h"
 
 namespace dmoscope::gpu {
@@ -79,11 +82,31 @@ DeviceMesh::DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, con
   task_.parts = parts_.data();
   task_.statistics = statistics_.data();
   task_.positions = positions_.data();
-  for (Index c = 0; c < colouring.class_count() && !is_volume_; ++c) {
-    ClassStars& stars = classes_.emplace_back();
-    for (Index rank = colouring.class_offsets[c]; rank < colouring.class_offsets[c + 1]; ++rank)
-      (in_registers<Metric::MeanRatio>(table.shapes[rank], {}) ? stars.fans : stars.others) = true;
-  }
+  if (!is_volume_) list_stars(colouring, table, pool);
+}
+
+void DeviceMesh::list_stars(const Colouring& colouring, const StarTable& table, ThreadPool* pool) {
+  constexpr std::array<std::size_t, 9> kPlaceOfFan{5, 5, 5, 5, 2,
+                                                   1, 0, 4, 3};  // by its triangles: the dearest first, that none is left to the end
+  constexpr std::size_t kSizes = 5;
+  const auto place_of = [&](Index rank) {
+    const StarShape& shape = table.shapes[rank];
+    return kind_of_star<Metric::MeanRatio>(shape, {}) == Stars::Others ? kSizes : kPlaceOfFan[shape.triangles];
+  };
+  auto ranks = large_vector<Index>(colouring.order.size());
+  classes_.resize(colouring.class_count());
+  for_chunks(pool, classes_.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c) {
+      const Index begin = colouring.class_offsets[c], end = colouring.class_offsets[c + 1];
+      std::array<std::size_t, kSizes + 1> count{}, next{};
+      for (Index rank = begin; rank < end; ++rank) ++count[place_of(rank)];
+      std::exclusive_scan(count.begin(), count.end(), next.begin(), std::size_t{begin});
+      for (Index rank = begin; rank < end; ++rank) ranks[next[place_of(rank)]++] = rank;
+      classes_[c] = {nullptr, count[0] + count[1] + count[2], count[3] + count[4], count[kSizes]};
+    }
+  });
+  listed_ = Buffer<Index>(queue_, ranks, pool);
+  for (Index c = 0; c < colouring.class_count(); ++c) classes_[c].ranks = listed_.data() + colouring.class_offsets[c];
 }
 
 void DeviceMesh::judge(Metric metric) {

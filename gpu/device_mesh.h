@@ -23,9 +23,11 @@ class DeviceMesh {
   /// All that a kernel needs of the mesh.
   [[nodiscard]] const Task& task() const noexcept { return task_; }
   [[nodiscard]] bool is_volume() const noexcept { return is_volume_; }
-  /// Whether a class of a planar mesh has stars that are Stars::Fans, for a metric of ratio form, and whether it has others.
+  /// The ranks of a class of a planar mesh by the kernel that visits them, for a metric of ratio form: Stars::SmallFans first, then
+  /// Stars::LargeFans and Stars::Others. Equal sizes stand together: a multiprocessor's lanes then do the same, and its cache has the code.
   struct ClassStars {
-    bool fans = false, others = false;
+    const Index* ranks = nullptr;
+    std::size_t small_fans = 0, large_fans = 0, others = 0;
   };
   [[nodiscard]] const ClassStars& stars_of_class(Index colour) const { return classes_[colour]; }
   /// By vertices: where positions come from and go to.
@@ -43,6 +45,7 @@ class DeviceMesh {
  private:
   DeviceMesh(std::shared_ptr<Queue> queue, const InputMesh& input, const Colouring& colouring, const StarTable& table,
              std::span<const Index> immovable, ThreadPool* pool);
+  void list_stars(const Colouring& colouring, const StarTable& table, ThreadPool* pool);
 
   std::shared_ptr<Queue> queue_;
   Buffer<StarShape> shapes_;
@@ -61,6 +64,7 @@ class DeviceMesh {
   Task task_;
   bool is_volume_;
   std::vector<ClassStars> classes_;
+  Buffer<Index> listed_;  // their ranks
 };
 
 }  // namespace dmoscope::gpu

@@ -29,8 +29,10 @@ using Lanes = void (*)(const Task& task, std::size_t first, std::size_t last, st
 template <Metric M>
 Lanes lanes_of(Work work) {
   switch (work) {
-    case Work::VisitFans:
-      return run_lanes<bodies::Visit<M, Stars::Fans>>;
+    case Work::VisitSmallFans:
+      return run_lanes<bodies::Visit<M, Stars::SmallFans>>;
+    case Work::VisitLargeFans:
+      return run_lanes<bodies::Visit<M, Stars::LargeFans>>;
     case Work::VisitOthers:
       return run_lanes<bodies::Visit<M, Stars::Others>>;
     case Work::VisitInTeam:

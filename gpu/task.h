@@ -72,7 +72,8 @@ struct Task {
   const Index* wanted = nullptr;
   Vec3* picked = nullptr;
 
-  std::size_t first = 0;  // what a launch's lane 0 works on
+  std::size_t first = 0;          // what a launch's lane 0 works on
+  const Index* listed = nullptr;  // or what its lanes work on, one after the other: ranks to visit; null: those from `first` on
 
   DefinedTask defined;  // of visits by a formula or a target
 };

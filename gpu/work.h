@@ -4,10 +4,11 @@
 namespace dmoscope::gpu {
 
 enum class Work {
-  VisitFans,           // one vertex per lane: the fast search of rank first + i, where its star is one of Stars::Fans
-  VisitOthers,         // the same, where it is not
+  VisitSmallFans,      // one vertex per lane: the fast search of rank listed[i] or first + i, where its star is one of Stars::SmallFans
+  VisitLargeFans,      // the same, Stars::LargeFans
+  VisitOthers,         // the same, Stars::Others
   VisitInTeam,         // all stars, one vertex per team of lanes, settled at once: for classes too small to fill the device
-  Settle,              // what the first two deferred, shared among all teams
+  Settle,              // what the first three deferred, shared among all teams
   VisitVolume,         // of a volume, one vertex per team of lanes: rank first + i
   VisitTwoAims,        // the same with two aims, of a planar mesh
   VisitVolumeTwoAims,  // and of a volume

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
 #include <utility>
 
-#include "core/base/radix_sort.h"
+#include "core/base/memory.h"
 #include "core/base/thread_pool.h"
 #include "core/mesh/random.h"
 
@@ -32,17 +33,19 @@ struct KeyedVertex {
 
 constexpr std::size_t kStretch = 4096;  // vertices: some 200 KB with their rings
 
-/// The items' vertices by the size of their stars, stably.
-void sort_by_star(std::span<const KeyedVertex> items, const Topology& topology, std::span<Index> sorted) {
+/// Sorts vertices, at most kStretch, by the size of their stars, stably.
+void sort_by_star(std::span<Index> vertices, const Topology& topology) {
   constexpr std::size_t kLargest = 63;  // larger ones count as this
   std::array<std::uint8_t, kStretch> star;
+  std::array<Index, kStretch> unsorted;
   std::array<std::size_t, kLargest + 2> start{};
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    star[i] = static_cast<std::uint8_t>(std::min(topology.star(items[i].vertex).size(), kLargest));
+  std::ranges::copy(vertices, unsorted.begin());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    star[i] = static_cast<std::uint8_t>(std::min(topology.star(vertices[i]).size(), kLargest));
     ++start[star[i] + std::size_t{1}];
   }
   std::partial_sum(start.begin(), start.end(), start.begin());
-  for (std::size_t i = 0; i < items.size(); ++i) sorted[start[star[i]]++] = items[i].vertex;
+  for (std::size_t i = 0; i < vertices.size(); ++i) vertices[start[star[i]]++] = unsorted[i];
 }
 
 /// Every third bit of the result is one of the 10 of `x`.
@@ -105,48 +108,126 @@ class Curve {
   double scale_ = 0.0;
 };
 
-}  // namespace
+/// A greedy colouring. Its colours depend on one another along the whole mesh, so one thread finds them; many arrange the classes.
+class Greedy {
+ public:
+  Greedy(const Mesh& mesh, const Topology& topology) : mesh_(mesh), topology_(topology), colour_(mesh.positions.size(), kNone) {}
 
-Colouring colour_vertices(const Mesh& mesh, const Topology& topology, std::span<const Index> free_vertices) {
-  std::vector<Index> colour(mesh.positions.size(), kNoIndex);
-  std::vector<Index> taken_by;  // taken_by[c] == v: colour c is taken near v
-  std::vector<Index> class_size;
-  for (const Index v : free_vertices) {
-    for (const Incidence& incidence : topology.star(v)) {
-      for (const Index other : mesh.elements.corners(incidence.element)) {
-        if (colour[other] != kNoIndex) taken_by[colour[other]] = v;
-      }
-    }
-    Index c = 0;
-    while (c < taken_by.size() && taken_by[c] == v) ++c;
-    if (c == taken_by.size()) {
-      taken_by.push_back(kNoIndex);
-      class_size.push_back(0);
-    }
-    colour[v] = c;
-    ++class_size[c];
+  void colour(std::span<const Index> vertices) {
+    for (const Index v : vertices) colour_[v] = lowest_free(v);
   }
 
-  Colouring result;
-  result.class_offsets.resize(class_size.size() + 1, 0);
-  std::partial_sum(class_size.begin(), class_size.end(), result.class_offsets.begin() + 1);
-  result.order.resize(free_vertices.size());
-  std::vector<Index> next(result.class_offsets.begin(), result.class_offsets.end() - 1);
-  for (const Index v : free_vertices) result.order[next[colour[v]]++] = v;
-  return result;
+  [[nodiscard]] Colouring classes(std::span<const Index> vertices, ThreadPool* pool) const {
+    const std::size_t parts = (vertices.size() + kPart - 1) / kPart;
+    std::vector<std::vector<Index>> next(parts);  // by colours: how many a part has, then where its first one goes
+    for_chunks(pool, vertices.size(), kPart, [&](std::size_t first, std::size_t last) {
+      auto& count = next[first / kPart];
+      for (const Index v : vertices.subspan(first, last - first)) {
+        if (count.size() <= colour_[v]) count.resize(colour_[v] + std::size_t{1});
+        ++count[colour_[v]];
+      }
+    });
+    std::size_t colours = 0;
+    for (const auto& count : next) colours = std::max(colours, count.size());
+    Colouring result;
+    result.class_offsets.assign(colours + 1, 0);
+    Index sum = 0;
+    for (std::size_t c = 0; c < colours; ++c) {
+      result.class_offsets[c] = sum;
+      for (auto& count : next)
+        if (c < count.size()) sum += std::exchange(count[c], sum);
+    }
+    result.class_offsets[colours] = sum;
+    result.order = large_vector<Index>(vertices.size());
+    for_chunks(pool, vertices.size(), kPart, [&](std::size_t first, std::size_t last) {
+      auto& place = next[first / kPart];
+      for (const Index v : vertices.subspan(first, last - first)) result.order[place[colour_[v]]++] = v;
+    });
+    return result;
+  }
+
+ private:
+  /// More colours than this would need more corners than 32 bits can count.
+  using Colour = std::uint16_t;
+  static constexpr Colour kNone = 0xffff;
+  static constexpr std::size_t kPart = 32768;  // vertices
+
+  /// The lowest colour that none of the vertices that share an element with v has.
+  [[nodiscard]] Colour lowest_free(Index v) const {
+    for (unsigned base = 0;; base += 64) {
+      std::uint64_t taken = 0;
+      for (const Incidence& incidence : topology_.star(v))
+        for (const Index other : mesh_.elements.corners(incidence.element)) {
+          const unsigned above = colour_[other] - base;  // wraps where it is below
+          if (above < 64) taken |= std::uint64_t{1} << above;
+        }
+      if (~taken != 0) return static_cast<Colour>(base + static_cast<unsigned>(std::countr_one(taken)));
+    }
+  }
+
+  const Mesh& mesh_;
+  const Topology& topology_;
+  std::vector<Colour> colour_;
+};
+
+/// Sorts the members of every class by their keys, stably: by the highest bits into buckets, and each of these by the rest.
+void sort_classes(Colouring& colouring, const Curve& curve, ThreadPool* pool) {
+  constexpr unsigned kBits = 8;
+  constexpr std::size_t kGrain = 65536;
+  const std::vector<Index>& offsets = colouring.class_offsets;
+  const std::size_t count = colouring.order.size(), buckets = std::size_t{colouring.class_count()} << kBits;
+  auto items = large_vector<KeyedVertex>(count), sorted = large_vector<KeyedVertex>(count);
+  std::vector<std::vector<Index>> next((count + kGrain - 1) / kGrain);  // by buckets: how many a chunk has, then where its first one goes
+  const auto for_buckets = [&](std::size_t first, std::size_t last, const auto& take) {
+    auto c = static_cast<std::size_t>(std::ranges::upper_bound(offsets, first) - offsets.begin()) - 1;
+    for (std::size_t i = first; i < last; ++i) {
+      while (i >= offsets[c + 1]) ++c;
+      take(i, c << kBits | items[i].key >> (32 - kBits));
+    }
+  };
+  for_chunks(pool, count, kGrain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) items[i] = {curve.key(colouring.order[i]), colouring.order[i]};
+    auto& mine = next[first / kGrain];
+    mine.assign(buckets, 0);
+    for_buckets(first, last, [&](std::size_t, std::size_t bucket) { ++mine[bucket]; });
+  });
+  std::vector<Index> begins(buckets + 1);
+  Index sum = 0;
+  for (std::size_t bucket = 0; bucket < buckets; ++bucket) {
+    begins[bucket] = sum;
+    for (auto& chunk : next) sum += std::exchange(chunk[bucket], sum);
+  }
+  begins[buckets] = sum;
+  for_chunks(pool, count, kGrain, [&](std::size_t first, std::size_t last) {
+    auto& mine = next[first / kGrain];
+    for_buckets(first, last, [&](std::size_t i, std::size_t bucket) { sorted[mine[bucket]++] = items[i]; });
+  });
+  for_chunks(pool, buckets, 16, [&](std::size_t first, std::size_t last) {
+    for (std::size_t bucket = first; bucket < last; ++bucket)
+      std::stable_sort(sorted.begin() + begins[bucket], sorted.begin() + begins[bucket + 1],
+                       [](const KeyedVertex& a, const KeyedVertex& b) { return a.key < b.key; });
+    for (std::size_t i = begins[first]; i < begins[last]; ++i) colouring.order[i] = sorted[i].vertex;
+  });
+}
+
+}  // namespace
+
+Colouring colour_vertices(const Mesh& mesh, const Topology& topology, std::span<const Index> free_vertices, ThreadPool* pool) {
+  Greedy greedy(mesh, topology);
+  greedy.colour(free_vertices);
+  return greedy.classes(free_vertices, pool);
 }
 
 void arrange_classes(Colouring& colouring, const Mesh& mesh, const Plane* plane, const Topology& topology, ThreadPool* pool) {
-  const Curve curve(mesh, plane, colouring.order, pool);
-  for_chunks(pool, colouring.class_count(), 1, [&](std::size_t first, std::size_t last) {
-    for (std::size_t c = first; c < last; ++c) {
-      const std::span<Index> members(colouring.order.data() + colouring.class_offsets[c], colouring.members(static_cast<Index>(c)).size());
-      std::vector<KeyedVertex> items(members.size());
-      for (std::size_t i = 0; i < members.size(); ++i) items[i] = {curve.key(members[i]), members[i]};
-      radix_sort(items, 32, [](const KeyedVertex& item) { return item.key; });
-      for (std::size_t begin = 0; begin < items.size(); begin += kStretch)
-        sort_by_star(std::span(items).subspan(begin, std::min(kStretch, items.size() - begin)), topology, members.subspan(begin));
+  sort_classes(colouring, Curve(mesh, plane, colouring.order, pool), pool);
+  std::vector<std::span<Index>> stretches;
+  for (Index c = 0; c < colouring.class_count(); ++c)
+    for (std::span<Index> rest(colouring.order.data() + colouring.class_offsets[c], colouring.members(c).size()); !rest.empty();) {
+      stretches.push_back(rest.first(std::min(kStretch, rest.size())));
+      rest = rest.subspan(stretches.back().size());
     }
+  for_chunks(pool, stretches.size(), 4, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) sort_by_star(stretches[i], topology);
   });
 }
 

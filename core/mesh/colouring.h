@@ -23,13 +23,13 @@ struct Colouring {
 };
 
 /// Greedy colouring in the order given: each vertex gets the lowest colour that no vertex sharing an ELEMENT with it has.
-/// Within a class the vertices keep that order. `free_vertices`: distinct vertex indices.
-[[nodiscard]] Colouring colour_vertices(const Mesh& mesh, const Topology& topology, std::span<const Index> free_vertices);
+/// Within a class the vertices keep that order. `free_vertices`: distinct vertex indices. The same for any pool (null: this thread alone).
+[[nodiscard]] Colouring colour_vertices(const Mesh& mesh, const Topology& topology, std::span<const Index> free_vertices,
+                                        ThreadPool* pool = nullptr);
 
 /// Reorders every class, which changes no result since its members do not see each other: along a space-filling curve of `plane` (null: of
-/// space), so that
-/// neighbours in space are neighbours in memory, and in stretches of it by the size of their stars, so that vertices that are searched
-/// side by side need the same work. The same for any pool (null: this thread alone).
+/// space), so that neighbours in space are neighbours in memory, and in stretches of it by the size of their stars, so that vertices that
+/// are searched side by side need the same work. The same for any pool (null: this thread alone).
 void arrange_classes(Colouring& colouring, const Mesh& mesh, const Plane* plane, const Topology& topology, ThreadPool* pool = nullptr);
 
 /// The vertices in an order shuffled by `seed` with a generator of our own: the same on every platform.

@@ -29,6 +29,7 @@ std::vector<std::uint8_t> fixed_vertices(const InputMesh& input, const RunParame
 
 std::vector<Index> free_vertices(std::span<const std::uint8_t> fixed, const VisitOrder& order) {
   std::vector<Index> free;
+  reserve_large(free, fixed.size());
   for (Index v = 0; v < fixed.size(); ++v)
     if (fixed[v] == 0) free.push_back(v);
   return order.seed ? shuffled(free, *order.seed) : free;
@@ -40,7 +41,7 @@ std::shared_ptr<const Colouring> make_colouring(const InputMesh& input, std::spa
     if (order.seed) throw UsageError("several processes visit the vertices in their natural order alone");
     return std::make_shared<const Colouring>(input.share->colour(input.mesh, input.geometry, input.topology, fixed, pool));
   }
-  Colouring colouring = colour_vertices(input.mesh, input.topology, free_vertices(fixed, order));
+  Colouring colouring = colour_vertices(input.mesh, input.topology, free_vertices(fixed, order), pool);
   arrange_classes(colouring, input.mesh, input.is_volume() ? nullptr : &input.geometry.plane, input.topology, pool);
   return std::make_shared<const Colouring>(std::move(colouring));
 }

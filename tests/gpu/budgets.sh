@@ -57,7 +57,7 @@ figures() {
       number = name ~ /Metric\)[0-9]/ ? name : ""
       sub(/.*Metric\)/, "", number); sub(/[^0-9].*/, "", number)
       if (name ~ /bodies::Visit</)
-        name = name ~ /Stars\)0/ ? "VisitFans" : name ~ /Stars\)1/ ? "VisitOthers" : "VisitInTeam"
+        name = name ~ /Stars\)0/ ? "VisitSmallFans" : name ~ /Stars\)1/ ? "VisitLargeFans" : name ~ /Stars\)2/ ? "VisitOthers" : "VisitInTeam"
       else if (name ~ /bodies::VisitTwoAims</)
         name = name ~ /dmoscope::Space/ ? "VisitVolumeTwoAims" : "VisitTwoAims"
       else if (name ~ /bodies::[A-Za-z]*(Defined|Targets)</) {  # of which frame and number, or of what targets

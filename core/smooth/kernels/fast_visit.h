@@ -25,14 +25,16 @@ struct FanStar {
   }
 };
 
-/// Which stars a kernel is made for: the closed fans of the sizes that nearly all triangle meshes have, whose search runs in registers; all
-/// others that have a place in lanes; or both.
-enum class Stars { Fans, Others, All };
+/// Which stars a kernel is made for: the closed fans of the sizes that nearly all triangle meshes have, whose search runs in registers, 4
+/// to 6 triangles or 7 and 8, which take more of them; all others that have a place in lanes; or all three.
+enum class Stars { SmallFans, LargeFans, Others, All };
 
-/// Is the star one of Stars::Fans?
+/// The first three: which of them the star is.
 template <Metric M>
-[[nodiscard]] DMOSCOPE_ANYWHERE bool in_registers(const StarShape& shape, const SearchParameters& parameters) {
-  return kIsRatio<M> && shape.kind == StarShape::Kind::Fan && shape.triangles >= 4 && shape.triangles <= 8 && parameters.grid_points == 8;
+[[nodiscard]] DMOSCOPE_ANYWHERE Stars kind_of_star(const StarShape& shape, const SearchParameters& parameters) {
+  const bool is_fan = kIsRatio<M> && shape.kind == StarShape::Kind::Fan && shape.triangles >= 4 && shape.triangles <= 8;
+  if (!is_fan || parameters.grid_points != 8) return Stars::Others;
+  return shape.triangles <= 6 ? Stars::SmallFans : Stars::LargeFans;
 }
 
 /// One vertex's visit by a team of lanes; only the first lane learns the verdict. Task: anything with the `shapes`, `others` and `ranked`
@@ -54,22 +56,17 @@ class FastVisit {
   template <class Trace = NoTrace>
   [[nodiscard]] DMOSCOPE_ANYWHERE Outcome run(Trace&& trace = {}) const {
     if constexpr (kIsRatio<M> && S != Stars::Others) {
-      if (S == Stars::Fans || in_registers<M>(shape_, task_.parameters)) {
-        switch (shape_.triangles) {
-          case 4:
-            return visit_fan<4>(trace);
-          case 5:
-            return visit_fan<5>(trace);
-          case 6:
-            return visit_fan<6>(trace);
-          case 7:
-            return visit_fan<7>(trace);
-          default:
-            if constexpr (Team::kSize == 1) return visit_fan<8>(trace);  // a team's lanes, which keep more in registers, would spill
+      const Stars stars = S == Stars::All ? kind_of_star<M>(shape_, task_.parameters) : S;
+      if constexpr (S != Stars::LargeFans)
+        if (stars == Stars::SmallFans) return visit_small_fan(trace);
+      if constexpr (S != Stars::SmallFans)
+        if (stars == Stars::LargeFans) {
+          if (shape_.triangles == 7) return visit_fan<7>(trace);
+          // A team's lanes, which keep more in registers, would spill.
+          if constexpr (Team::kSize == 1) return visit_fan<8>(trace);
         }
-      }
     }
-    if constexpr (S != Stars::Fans) return visit_any(trace);
+    if constexpr (S == Stars::Others || S == Stars::All) return visit_any(trace);
     return {};
   }
 
@@ -100,6 +97,12 @@ class FastVisit {
    private:
     Vec2<float> low_, high_;
   };
+
+  template <class Trace>
+  [[nodiscard]] DMOSCOPE_ANYWHERE Outcome visit_small_fan(Trace& trace) const {
+    if (shape_.triangles == 6) return visit_fan<6>(trace);
+    return shape_.triangles == 5 ? visit_fan<5>(trace) : visit_fan<4>(trace);
+  }
 
   template <std::size_t N, class Trace>
   [[nodiscard]] DMOSCOPE_ANYWHERE Outcome visit_fan(Trace& trace) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "core/base/error.h"
@@ -15,15 +16,20 @@ namespace {
 
 constexpr std::size_t kStarsAtOnce = 8192;  // vertices a chunk
 
+/// Other corners that a star has for each of its elements, at most.
+constexpr std::size_t kOthersAnElement = 3;
+
 /// What one chunk of vertices makes; `first` of its shapes counts from the chunk's own beginning. No ranks: vertices stand for them.
 class Chunk {
  public:
-  Chunk(const Mesh& mesh, const Topology& topology, std::span<const Index> rank) : mesh_(mesh), topology_(topology), rank_(rank) {}
+  /// `others`: where their other corners go; room for kOthersAnElement for each element of each star.
+  Chunk(const Mesh& mesh, const Topology& topology, std::span<const Index> rank, Index* others)
+      : mesh_(mesh), topology_(topology), rank_(rank), others_(others) {}
 
   StarShape add(Index vertex) {
     const auto star = topology_.star(vertex);
     StarShape shape;
-    shape.first = static_cast<std::uint32_t>(others.size());
+    shape.first = size_;
     pairs_.clear();
     triples_.clear();
     for (const Incidence& at : star) {
@@ -35,8 +41,8 @@ class Chunk {
     if (quadrilaterals == 0 && triangles <= kMaxFan && add_ring()) {
       shape.kind = StarShape::Kind::Fan;
     } else {
-      others.insert(others.end(), pairs_.begin(), pairs_.end());
-      others.insert(others.end(), triples_.begin(), triples_.end());
+      put(pairs_);
+      put(triples_);
       if (triangles > kMaxTriangles || quadrilaterals > kMaxQuadrilaterals) return shape;
       shape.kind = StarShape::Kind::General;
     }
@@ -45,9 +51,13 @@ class Chunk {
     return shape;
   }
 
-  std::vector<Index> others;
+  [[nodiscard]] std::uint32_t size() const noexcept { return size_; }
 
  private:
+  void put(std::span<const Index> corners) {
+    std::ranges::copy(corners, others_ + size_);
+    size_ += static_cast<std::uint32_t>(corners.size());
+  }
   [[nodiscard]] Index rank_of(Index vertex) const { return rank_.empty() ? vertex : rank_[vertex]; }
 
   /// Chains the triangles (b, c) of `pairs_` into one closed ring; adds nothing where they form none.
@@ -67,26 +77,33 @@ class Chunk {
       end = pairs_[2 * next + 1];
     }
     if (end != ring[0]) return false;
-    others.insert(others.end(), ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(count));
+    put(std::span(ring).first(count));
     return true;
   }
 
   const Mesh& mesh_;
   const Topology& topology_;
   std::span<const Index> rank_;
+  Index* others_;
+  std::uint32_t size_ = 0;
   std::vector<Index> pairs_, triples_;
 };
 
 /// Ranks of all vertices; fills their inverse.
-std::vector<Index> rank_vertices(std::size_t count, std::span<const Index> visits, std::vector<Index>& vertex_of_rank) {
-  std::vector<Index> rank(count, kNoIndex);
-  vertex_of_rank.assign(visits.begin(), visits.end());
-  vertex_of_rank.reserve(count);
-  for (std::size_t i = 0; i < visits.size(); ++i) rank[visits[i]] = static_cast<Index>(i);
+std::vector<Index> rank_vertices(std::size_t count, std::span<const Index> visits, std::vector<Index>& vertex_of_rank, ThreadPool* pool) {
+  auto rank = large_vector<Index>(count, kNoIndex);
+  vertex_of_rank = large_vector<Index>(count);
+  for_chunks(pool, visits.size(), kStarsAtOnce, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      vertex_of_rank[i] = visits[i];
+      rank[visits[i]] = static_cast<Index>(i);
+    }
+  });
+  auto next = static_cast<Index>(visits.size());
   for (Index v = 0; v < count; ++v) {
     if (rank[v] != kNoIndex) continue;
-    rank[v] = static_cast<Index>(vertex_of_rank.size());
-    vertex_of_rank.push_back(v);
+    vertex_of_rank[next] = v;
+    rank[v] = next++;
   }
   return rank;
 }
@@ -94,33 +111,36 @@ std::vector<Index> rank_vertices(std::size_t count, std::span<const Index> visit
 }  // namespace
 
 StarShape star_shape(const Mesh& mesh, const Topology& topology, Index vertex, std::vector<Index>& others) {
-  Chunk chunk(mesh, topology, {});
+  const std::size_t before = others.size();
+  others.resize(before + kOthersAnElement * topology.star(vertex).size());
+  Chunk chunk(mesh, topology, {}, others.data() + before);
   StarShape shape = chunk.add(vertex);
-  shape.first = static_cast<std::uint32_t>(others.size());
-  others.insert(others.end(), chunk.others.begin(), chunk.others.end());
+  shape.first = static_cast<std::uint32_t>(before);
+  others.resize(before + chunk.size());
   return shape;
 }
 
 StarTable build_star_table(const Mesh& mesh, const Topology& topology, const Colouring& colouring, ThreadPool* pool) {
   StarTable table;
   const std::vector<Index>& visits = colouring.order;
-  table.rank_of_vertex = rank_vertices(mesh.positions.size(), visits, table.vertex_of_rank);
+  table.rank_of_vertex = rank_vertices(mesh.positions.size(), visits, table.vertex_of_rank, pool);
   const std::vector<Index>& rank = table.rank_of_vertex;
   table.shapes = large_vector<StarShape>(visits.size() + 1);
 
   // In the mesh's order, in which a star's elements lie together in memory, and from there to each one's place.
-  std::vector<std::vector<Index>> chunks((rank.size() + kStarsAtOnce - 1) / kStarsAtOnce);
+  // One piece of memory, of which every chunk has its part: to ask the system for many takes longer than to fill them.
+  const std::size_t room = kOthersAnElement * topology.incidences().size();
+  const auto scratch = std::make_unique_for_overwrite<Index[]>(room);
+  const auto others_from = [&](std::size_t first) { return scratch.get() + kOthersAnElement * topology.star_offsets()[first]; };
   auto sizes = large_vector<std::uint32_t>(visits.size());
   for_chunks(pool, rank.size(), kStarsAtOnce, [&](std::size_t first, std::size_t last) {
-    Chunk chunk(mesh, topology, rank);
-    chunk.others.reserve((last - first) * 7);  // most stars are fans of six
+    Chunk chunk(mesh, topology, rank, others_from(first));
     for (std::size_t v = first; v < last; ++v) {
       if (rank[v] >= visits.size()) continue;
       const StarShape shape = chunk.add(static_cast<Index>(v));
       table.shapes[rank[v]] = shape;
-      sizes[rank[v]] = static_cast<std::uint32_t>(chunk.others.size()) - shape.first;
+      sizes[rank[v]] = chunk.size() - shape.first;
     }
-    chunks[first / kStarsAtOnce] = std::move(chunk.others);
   });
 
   std::uint64_t end = 0;
@@ -130,15 +150,13 @@ StarTable build_star_table(const Mesh& mesh, const Topology& topology, const Col
   table.shapes.back().first = static_cast<std::uint32_t>(end);
   table.others = large_vector<Index>(end);
   for_chunks(pool, rank.size(), kStarsAtOnce, [&](std::size_t first, std::size_t last) {
-    std::vector<Index>& chunk = chunks[first / kStarsAtOnce];
-    auto from = chunk.cbegin();
+    const Index* from = others_from(first);
     for (std::size_t v = first; v < last; ++v) {
       if (rank[v] >= visits.size()) continue;
-      const auto next = from + sizes[rank[v]];
+      const Index* next = from + sizes[rank[v]];
       std::copy(from, next, table.others.begin() + table.shapes[rank[v]].first);
       from = next;
     }
-    chunk = {};
   });
   return table;
 }

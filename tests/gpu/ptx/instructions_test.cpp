@@ -20,7 +20,7 @@ struct Budget {
   Work work;
   double older, newer;
 };
-constexpr Budget kFans{Work::VisitFans, 9018, 8812}, kTeam{Work::VisitInTeam, 36490, 35709}, kVolume{Work::VisitVolume, 811974, 823392};
+constexpr Budget kFans{Work::VisitSmallFans, 9018, 8812}, kTeam{Work::VisitInTeam, 36490, 35709}, kVolume{Work::VisitVolume, 811974, 823392};
 
 class PtxInstructions : public ::testing::Test {
  protected:

@@ -96,8 +96,10 @@ Kernels::Name defined_name_for(Work work, bool in_double) {
 template <Metric M>
 Kernels::Name name_for(Work work) {
   switch (work) {
-    case Work::VisitFans:
-      return solo<bodies::Visit<M, Stars::Fans>>();
+    case Work::VisitSmallFans:
+      return solo<bodies::Visit<M, Stars::SmallFans>>();
+    case Work::VisitLargeFans:
+      return solo<bodies::Visit<M, Stars::LargeFans>>();
     case Work::VisitOthers:
       return solo<bodies::Visit<M, Stars::Others>>();
     case Work::VisitInTeam:

@@ -9,7 +9,7 @@
 // little over the finer grids, the second largest margin mostly proves it without another round.
 //
 // Where another round is needed only few columns of candidates can hold what it looks for: of the others the largest margin was too small
-// already. A lane of a GPU looks at those few alone (ColumnMaxima).
+// already. A lane of a GPU looks at those few alone (RoundColumns).
 
 #include <array>
 #include <bit>
@@ -97,30 +97,36 @@ struct LeastMargins {
 /// registers and little cache, computes the columns' parts again, and the rows' too where the number of elements is not known beforehand.
 enum class Tables { Full, Rows, None };
 
-/// Upper bounds of the largest margins of a grid's eight columns, from a round over all of them: rounded up to 16 bits, two in a register,
-/// for registers are what a lane is short of.
-class ColumnMaxima {
+/// The columns of a grid that a round looks at. In a level's first round it is all eight, and upper bounds of their largest margins are
+/// kept: rounded up to 16 bits, two in a register, for registers are what a lane is short of.
+class RoundColumns {
  public:
-  /// Of the next two columns.
-  DMOSCOPE_ANYWHERE void add(float first, float second) { words_ = {words_[1], words_[2], words_[3], up(first) | up(second) << 16U}; }
-  /// Bit i: whether column i may have a margin above `least`.
-  [[nodiscard]] DMOSCOPE_ANYWHERE std::uint32_t above(float least) const {
+  [[nodiscard]] DMOSCOPE_ANYWHERE std::uint32_t bits() const { return bits_; }
+  /// Of the next column, in the order of the columns; counts in the first round.
+  DMOSCOPE_ANYWHERE void keep(float largest) {
+    if (!is_first_) return;
+    // The first 16 of a float's bits order floats that are not negative.
+    const std::uint32_t bound = (std::bit_cast<std::uint32_t>(scalar::max(largest, 0.0F)) + 0xffffU) >> 16U;
+    DMOSCOPE_UNROLL
+    for (std::size_t i = 0; i < 3; ++i) bounds_[i] = bounds_[i] >> 16U | bounds_[i + 1] << 16U;
+    bounds_[3] = bounds_[3] >> 16U | bound << 16U;
+  }
+  /// For the next round: those whose largest margin in the first may have been above `least`.
+  DMOSCOPE_ANYWHERE void take_those_above(float least) {
+    is_first_ = false;
     const std::uint32_t most_dropped = least < 0.0F ? 0U : std::bit_cast<std::uint32_t>(least) >> 16U;
-    std::uint32_t columns = 0;
+    bits_ = 0;
     DMOSCOPE_UNROLL
     for (std::uint32_t i = 0; i < 8; ++i) {
-      const std::uint32_t bound = i % 2 == 0 ? words_[i / 2] & 0xffffU : words_[i / 2] >> 16U;
-      columns |= bound > most_dropped || least < 0.0F ? 1U << i : 0U;
+      const std::uint32_t bound = i % 2 == 0 ? bounds_[i / 2] & 0xffffU : bounds_[i / 2] >> 16U;
+      bits_ |= bound > most_dropped || least < 0.0F ? 1U << i : 0U;
     }
-    return columns;
   }
 
  private:
-  /// The first 16 of a float's bits order floats that are not negative.
-  static DMOSCOPE_ANYWHERE std::uint32_t up(float margin) {
-    return (std::bit_cast<std::uint32_t>(scalar::max(margin, 0.0F)) + 0xffffU) >> 16U;
-  }
-  std::array<std::uint32_t, 4> words_{};
+  std::array<std::uint32_t, 4> bounds_{};
+  std::uint32_t bits_ = 0xff;  // bit i: column i
+  bool is_first_ = true;
 };
 
 /// Searches one star, or one per slot where R is a pack. Large: keep one and use it again. Forms: their number where it is known
@@ -163,7 +169,7 @@ class RatioSearch {
   static constexpr bool kCrossed = Form::kCrossed;
   /// May a candidate reach the cap? A fan of triangles, whose number alone is known beforehand, has none.
   static constexpr bool kCapped = Forms == 0;
-  /// Does a round after a level's first look only at the columns that ColumnMaxima leaves? In the other cases lanes go together.
+  /// Does a round after a level's first look only at the columns that RoundColumns leaves? In the other cases lanes go together.
   static constexpr bool kPrunes = Team::kSize == 1 && Kept == Tables::Rows;
   static_assert(!kPrunes || std::is_same_v<Form, RatioForm<float>>, "the bound of rounding is that of float and of a quality of at most 1");
   /// N_k - t S_k, times w_k: a + b x + c y - d (x^2 + y^2).
@@ -254,11 +260,10 @@ class RatioSearch {
     R t = best.objective;
     Vec2<R> offset{R(0), R(0)};
     R floor = select(t < cap_, R(0), huge());  // what a margin must exceed: huge in slots that are done
-    [[maybe_unused]] ColumnMaxima maxima;
-    [[maybe_unused]] std::uint32_t columns = kFirstRound;
+    [[maybe_unused]] RoundColumns columns;
     for (;;) {
       fill_tables(t);
-      const Best found = largest_margin(floor, columns, maxima);
+      const Best found = largest_margin(floor, columns);
       const auto positive = found.margin > floor;
       if (!any(positive)) break;
       const R q = quality(found.at);
@@ -276,7 +281,7 @@ class RatioSearch {
       }
       if (!any(open)) break;
       floor = select(open, R(0), huge());
-      if constexpr (kPrunes) columns = maxima.above(least_that_may_gain(t - best.objective, bound));
+      if constexpr (kPrunes) columns.take_those_above(least_that_may_gain(t - best.objective, bound));
     }
     best.objective = t;
     best.offset = best.offset + offset;
@@ -341,25 +346,6 @@ class RatioSearch {
     return bit < 1U << kHalf ? R(0) - x : x;
   }
 
-  /// The columns' offsets two by two, in four registers instead of a table.
-  class Columns {
-   public:
-    explicit DMOSCOPE_ANYWHERE Columns(R width) {
-      DMOSCOPE_UNROLL
-      for (std::size_t k = 0; k < kHalf; ++k) next_[k] = -(width * part(kHalf - 1 - k));
-    }
-    /// Of the next column and the one behind it.
-    [[nodiscard]] DMOSCOPE_ANYWHERE R offset(std::size_t k) const { return next_[k]; }
-    /// From columns i and i + 1 to those behind them: the second half are the first half's negatives, backwards.
-    DMOSCOPE_ANYWHERE void pass(unsigned i) {
-      const bool turns = i == kHalf - 2;
-      next_ = {turns ? -next_[1] : next_[2], turns ? -next_[0] : next_[3], turns ? -next_[3] : next_[0], turns ? -next_[2] : next_[1]};
-    }
-
-   private:
-    std::array<R, kHalf> next_;
-  };
-
   /// Margins at threshold `t`, as a part of each column and one of each row.
   DMOSCOPE_ANYWHERE void fill_tables(R t) {
     [[maybe_unused]] Line xx;
@@ -416,11 +402,8 @@ class RatioSearch {
     return p;
   }
 
-  static constexpr std::uint32_t kFirstRound = 1U << kPoints;  // no column's bit: a level's first round, over all of them
-  /// The candidate with the largest least margin above `floor`; among equals the one of lowest index. Where kPrunes, of these columns only;
-  /// fills `maxima` where they are all.
-  [[nodiscard]] DMOSCOPE_ANYWHERE Best largest_margin(R floor, [[maybe_unused]] std::uint32_t columns,
-                                                      [[maybe_unused]] ColumnMaxima& maxima) const {
+  /// The candidate with the largest least margin above `floor`; among equals the one of lowest index. Where kPrunes, of these columns only.
+  [[nodiscard]] DMOSCOPE_ANYWHERE Best largest_margin(R floor, [[maybe_unused]] RoundColumns& columns) const {
     using scalar::max, scalar::min, scalar::select;
     Best best{floor, R(0) - huge(), {column_offset(0), y_[0]}};
     const auto take = [&best](R high, R second, R x) {
@@ -430,33 +413,14 @@ class RatioSearch {
       best.margin = max(best.margin, high);
     };
     if constexpr (Team::kSize == 1 && Kept != Tables::Full) {
-      const auto look_at_all = [&] {
-        Columns offsets(width_);
-        DMOSCOPE_NO_UNROLL
-        for (unsigned i = 0; i < kPoints; i += 2) {
-          std::array<R, 2> high;
-          DMOSCOPE_UNROLL
-          for (std::size_t k = 0; k < 2; ++k) {
-            const R x = offsets.offset(k);
-            high[k] = least_margins_of_column(i + k, x).largest();
-            take(high[k], R(0) - huge(), x);
-          }
-          if constexpr (kPrunes) maxima.add(high[0], high[1]);
-          offsets.pass(i);
-        }
-      };
-      if constexpr (!kPrunes) {
-        look_at_all();
-      } else if (columns == kFirstRound) {
-        look_at_all();
-      } else {
-        DMOSCOPE_NO_UNROLL
-        while (columns != 0) {
-          const std::uint32_t next = columns & (0U - columns);  // its lowest bit
-          columns &= columns - 1U;
-          const R x = offset_of_bit(next);
-          take(least_margins_of_column(0, x).largest(), R(0) - huge(), x);
-        }
+      std::uint32_t left = columns.bits();
+      DMOSCOPE_NO_UNROLL
+      while (left != 0) {
+        const std::uint32_t next = left & (0U - left);  // its lowest bit
+        left ^= next;
+        const R x = offset_of_bit(next), high = least_margins_at(x).largest();
+        if constexpr (kPrunes) columns.keep(high);
+        take(high, R(0) - huge(), x);
       }
     } else if constexpr (Team::kSize == 1) {
       DMOSCOPE_NO_UNROLL
@@ -475,11 +439,8 @@ class RatioSearch {
       take(all.margin, all.second, all.at.x);
     }
     // The winning column again, for the row and for the next best beside it.
-    const R x = best.at.x, xx = x * x;
     R high = R(0) - huge();
-    least_margins(x, [&](std::size_t k) {
-      return (margin_[k].a - margin_[k].along_x() * xx) + margin_[k].b * x;
-    }).backwards([&](R margin, std::size_t j) {
+    least_margins_at(best.at.x).backwards([&](R margin, std::size_t j) {
       best.at.y = select(margin == best.margin, y_[j], best.at.y);
       best.second = max(best.second, min(high, margin));
       high = max(high, margin);
@@ -492,9 +453,14 @@ class RatioSearch {
     if constexpr (Kept == Tables::Full) {
       return least_margins(x, [&](std::size_t k) { return column_[k][i]; });
     } else {
-      const R xx = x * x;
-      return least_margins(x, [&](std::size_t k) { return (margin_[k].a - margin_[k].along_x() * xx) + margin_[k].b * x; });
+      return least_margins_at(x);
     }
+  }
+
+  /// The same without a table of columns.
+  [[nodiscard]] DMOSCOPE_ANYWHERE LeastMargins<R> least_margins_at(R x) const {
+    const R xx = x * x;
+    return least_margins(x, [&](std::size_t k) { return (margin_[k].a - margin_[k].along_x() * xx) + margin_[k].b * x; });
   }
 
   /// The least margin of every candidate of the column at x whose part of element k's margin is column(k).

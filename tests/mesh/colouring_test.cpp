@@ -61,6 +61,36 @@ TEST(Colouring, RegularQuadrilateralsInNaturalOrderNeedFour) {
   EXPECT_EQ(colour_vertices(mesh, topology, interior(mesh, topology)).class_count(), 4U);
 }
 
+TEST(Colouring, IsTheSameForAnyPool) {
+  const Mesh mesh = lattice(400, 300, 3);
+  const Topology topology(mesh);
+  ThreadPool pool(3);
+  for (const std::uint64_t seed : {0U, 4U}) {
+    std::vector<Index> free = interior(mesh, topology);
+    if (seed != 0) free = shuffled(free, seed);
+    Colouring alone = colour_vertices(mesh, topology, free), together = colour_vertices(mesh, topology, free, &pool);
+    EXPECT_EQ(alone.order, together.order);
+    EXPECT_EQ(alone.class_offsets, together.class_offsets);
+    arrange_classes(alone, mesh, &kPlane, topology);
+    arrange_classes(together, mesh, &kPlane, topology, &pool);
+    EXPECT_EQ(alone.order, together.order);
+  }
+}
+
+/// Every two of them share an element, so each needs a colour of its own.
+TEST(Colouring, MoreColoursThanAWordHasBits) {
+  constexpr Index kCount = 150;
+  Mesh mesh;
+  mesh.positions.resize(kCount + 1);
+  for (Index a = 0; a < kCount; ++a)
+    for (Index b = a + 1; b < kCount; ++b) mesh.elements.add(ElementKind::Triangle, std::array{a, b, kCount});
+  std::vector<Index> free(kCount);
+  std::iota(free.begin(), free.end(), 0U);
+  const Colouring colouring = colour_vertices(mesh, Topology(mesh), free);
+  EXPECT_EQ(colouring.class_count(), kCount);
+  EXPECT_EQ(colouring.order, free);
+}
+
 TEST(ArrangeClasses, KeepsClassesAndTheirMembersAndIsDeterministic) {
   for (const Index every : {1U, 2U, 1000U}) {
     const Mesh mesh = lattice(150, 140, every);

@@ -196,6 +196,59 @@ TEST(RatioSearch, TakesTheFirstOfAllCandidatesAtTheCap) {
   EXPECT_GE(same, capped - capped / 50);
 }
 
+/// A lane of a GPU keeps other tables than the processor, and after a level's first round it looks only at columns that may hold something.
+template <std::size_t N>
+void expect_the_same_of_a_lane(Random& random, int trials) {
+  for (int trial = 0; trial < trials; ++trial) {
+    Star<float> star = in_float(random_star(random, N, 0, trial % 2 == 0 ? 0.25 : 0.6));
+    const float stretch = trial % 3 == 0 ? 1.0F : static_cast<float>(std::pow(10.0, random(-3.0, 3.0)));
+    const auto stretched = [stretch](Vec2<float> p) { return Vec2<float>{p.x * stretch, p.y}; };
+    for (StarTriangle<float>& t : star.triangles) t = {stretched(t.b), stretched(t.c), 1.0F};
+    star.box = stretched(star.box);
+    std::array<RatioForm<float>, N> forms;
+    for (std::size_t i = 0; i < N; ++i) triangle_form(star.triangles[i], forms[i]);
+    if (!std::ranges::all_of(forms, [](const RatioForm<float>& form) { return form.n0 > 0.0F; })) continue;
+    const auto expected = rounds<Metric::MeanRatio>(star, star.box, 3);
+    RatioSearch<float, N, Tables::Rows> lane;
+    const auto found = lane.search(std::span<RatioForm<float>, N>(forms), 1e30F, star.box, 3, 0.5);
+    EXPECT_EQ(found.offset.x, expected.offset.x) << N << " triangles, stretched " << stretch;
+    EXPECT_EQ(found.offset.y, expected.offset.y) << N << " triangles, stretched " << stretch;
+    EXPECT_EQ(found.objective, expected.objective);
+  }
+}
+
+TEST(RatioSearch, ALaneFindsTheSameBits) {
+  Random random(77);
+  expect_the_same_of_a_lane<4>(random, 4000);
+  expect_the_same_of_a_lane<5>(random, 4000);
+  expect_the_same_of_a_lane<6>(random, 4000);
+  expect_the_same_of_a_lane<7>(random, 4000);
+  expect_the_same_of_a_lane<8>(random, 4000);
+}
+
+TEST(RatioSearch, ColumnsThatMayHoldMoreAreNeverLeftOut) {
+  Random random(78);
+  int left_out = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    std::array<float, 8> largest;
+    RoundColumns columns;
+    EXPECT_EQ(columns.bits(), 0xffU);
+    for (float& m : largest) columns.keep(m = static_cast<float>(random(-0.2, 1.0) * std::pow(10.0, random(-6.0, 1.0))));
+    const float least = trial % 4 == 0 ? largest[static_cast<std::size_t>(trial / 4 % 8)] : static_cast<float>(random(-0.05, 0.5));
+    columns.take_those_above(least);
+    for (std::size_t i = 0; i < 8; ++i) {
+      const bool looked_at = (columns.bits() >> i & 1U) != 0;
+      if (largest[i] > least) EXPECT_TRUE(looked_at) << largest[i] << " above " << least;
+      if (least > 0.0F && largest[i] < 0.98F * least) EXPECT_FALSE(looked_at) << largest[i] << " far below " << least;
+      left_out += looked_at ? 0 : 1;
+    }
+    columns.keep(1e9F);  // of a later round: is not kept
+    columns.take_those_above(1e6F);
+    EXPECT_EQ(columns.bits(), 0U);
+  }
+  EXPECT_GT(left_out, 4000);
+}
+
 TEST(RatioSearch, BoxesWithoutWidthOrHeight) {
   Random random(73);
   for (int trial = 0; trial < 200; ++trial) {

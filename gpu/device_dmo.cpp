@@ -39,9 +39,9 @@ class DeviceDmo final : public Smoother {
     task_.moved = counts_.data();
     if (!is_built_in(metric_)) defined_.emplace(queue_, task, task_);
     warm_up(task.then_mean);
-    if (!colouring_->order.empty()) record_iteration();  // now, so that no iteration pays for it
     load(task.input->mesh.positions, task.pool);
     queue_->wait();
+    if (!colouring_->order.empty()) record_iteration();  // now, so that no iteration pays for it
   }
 
   void begin(const Sweep& sweep) override {

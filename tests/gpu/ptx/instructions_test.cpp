@@ -20,7 +20,8 @@ struct Budget {
   Work work;
   double older, newer;
 };
-constexpr Budget kFans{Work::VisitSmallFans, 9018, 8812}, kTeam{Work::VisitInTeam, 36490, 35709}, kVolume{Work::VisitVolume, 811974, 823392};
+constexpr Budget kFans{Work::VisitSmallFans, 8551, 8064}, kTeam{Work::VisitInTeam, 32089, 31380},
+    kVolume{Work::VisitVolume, 811964, 823353};
 
 class PtxInstructions : public ::testing::Test {
  protected:

@@ -229,6 +229,7 @@ void add_bits(Table& t) {
   t["shl.b64"] = op([](U64 a, U32 by) { return shifted_left(a, by); });
   t["shr.u32"] = op([](U32 a, U32 by) { return shifted_right(a, by); });
   t["shr.u64"] = op([](U64 a, U32 by) { return shifted_right(a, by); });
+  t["shf.l.wrap.b32"] = op([](U32 low, U32 high, U32 by) { return static_cast<U32>((U64{high} << 32U | low) << (by % 32U) >> 32U); });
   t["bfi.b64"] = op([](U64 from, U64 into, U32 position, U32 length) { return inserted(from, into, position, length); });
   t["bfi.b32"] = op([](U32 from, U32 into, U32 position, U32 length) { return static_cast<U32>(inserted(from, into, position, length)); });
   t["bfe.u32"] = op([](U32 from, U32 position, U32 length) { return extracted(from, position, length); });

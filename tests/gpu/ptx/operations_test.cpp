@@ -165,6 +165,8 @@ TEST(PtxOperations, Bits) {
   EXPECT_EQ(result<U64>("shl.b32", 1U, 32U), 0U) << "not taken modulo 32";
   EXPECT_EQ(result<U64>("shl.b64", U64{1}, 40U), U64{1} << 40U);
   EXPECT_EQ(result<U64>("shr.u64", ~U64{0}, 64U), 0U);
+  EXPECT_EQ(result<U64>("shf.l.wrap.b32", 0x89abcdefU, 0x01234567U, 8U), 0x23456789U);
+  EXPECT_EQ(result<U64>("shf.l.wrap.b32", 0x89abcdefU, 0x01234567U, 32U), 0x01234567U) << "taken modulo 32";
   EXPECT_EQ(result<U64>("not.b32", 1U), 0xfffffffeU);
   EXPECT_EQ(result<U64>("xor.b32", 6U, 3U), 5U);
   EXPECT_TRUE(result<bool>("xor.pred", true, false));

@@ -238,8 +238,12 @@ TEST(RatioSearch, ColumnsThatMayHoldMoreAreNeverLeftOut) {
     columns.take_those_above(least);
     for (std::size_t i = 0; i < 8; ++i) {
       const bool looked_at = (columns.bits() >> i & 1U) != 0;
-      if (largest[i] > least) EXPECT_TRUE(looked_at) << largest[i] << " above " << least;
-      if (least > 0.0F && largest[i] < 0.98F * least) EXPECT_FALSE(looked_at) << largest[i] << " far below " << least;
+      if (largest[i] > least) {
+        EXPECT_TRUE(looked_at) << largest[i] << " above " << least;
+      }
+      if (least > 0.0F && largest[i] < 0.98F * least) {
+        EXPECT_FALSE(looked_at) << largest[i] << " far below " << least;
+      }
       left_out += looked_at ? 0 : 1;
     }
     columns.keep(1e9F);  // of a later round: is not kept

@@ -149,7 +149,8 @@ class DeviceDmo final : public Smoother {
     moved_.fetch(counts_.data());
   }
 
-  /// Of a part of a class, or of a whole one that needs no list.
+  /// Launches the visits of `count` ranks from task_.first on, which no list orders: a part of a class, or a class without kernels for
+  /// fans.
   void launch_visits(std::size_t count) {
     if (defined_) return defined_->visit(task_, task_.first, task_.first + count);
     if (aims_ || mesh_.is_volume()) {
@@ -164,7 +165,7 @@ class DeviceDmo final : public Smoother {
     queue_->launch(Work::Settle, metric_, task_, std::min(count, kSettlers));
   }
 
-  /// Of a whole class.
+  /// Launches the visits of a whole class by the kernels for its stars.
   void launch_visits(const DeviceMesh::ClassStars& stars) {
     const std::size_t count = stars.small_fans + stars.large_fans + stars.others;
     if (count * kTeamShare <= queue_->lanes_at_once()) return launch_visits(count);

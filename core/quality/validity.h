@@ -17,7 +17,7 @@
 
 namespace dmoscope {
 
-/// What is known of a determinant's least value in an element.
+/// The answer to whether a determinant is positive everywhere in an element, and where not.
 struct Validity {
   bool proved = false;  // it is positive everywhere
   double least = 0.0;   // where it is not proved: a value that is not positive, over the cube of the longest edge; 0: undecided
@@ -26,8 +26,8 @@ struct Validity {
 
 namespace validity {
 
-/// What rounding may add to a coefficient of edges whose sums of absolute coordinates are at most 1: of three differences and a scaling, a
-/// determinant, and a mean of up to eight of them.
+/// Bound of the rounding error of a coefficient, where the absolute coordinates of each edge add up to at most 1: differences, scaling, a
+/// determinant, and a mean of up to eight determinants.
 inline constexpr double kRounding = 0x1p-46;
 
 [[nodiscard]] DMOSCOPE_ANYWHERE double sum_of_sizes(Vec3 a) {
@@ -45,7 +45,7 @@ template <std::size_t N>
 /// Coefficients of Bernstein polynomials of degree 2 in three coordinates: (p, q, r) at 9 p + 3 q + r.
 using Coefficients = std::array<double, 27>;
 
-/// Of a hexahedron's determinant over the cube of its longest edge.
+/// Coefficients of a hexahedron's Jacobian determinant over the cube of its longest edge.
 [[nodiscard]] DMOSCOPE_ANYWHERE Coefficients coefficients_of(const formulas::Hexahedron<Vec3>& hexahedron) {
   const std::array<Vec3, 8>& p = hexahedron.at;
   // Along each coordinate, by the two others.

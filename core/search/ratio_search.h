@@ -8,16 +8,16 @@
 // w_k = 1 / S_k(centre) a margin is nearly the gain in quality itself, so the first candidate is mostly the best; and as S_k varies
 // little over the finer grids, the second largest margin mostly proves it without another round.
 //
-// Where another round is needed only few columns of candidates can hold what it looks for: of the others the largest margin was too small
-// already. A lane of a GPU looks at those few alone (RoundColumns).
+// Rounds after the first need to look only at columns of candidates whose largest margin was not too small before. A lane of a GPU leaves
+// the others out (RoundColumns).
 
 #include <array>
-#include <bit>
 #include <cstdint>
 
 #include "core/base/host_device.h"
 #include "core/search/grid_search.h"
 #include "core/search/ratio_form.h"
+#include "core/search/round_columns.h"
 #include "core/search/target_form.h"
 #include "core/search/team.h"
 
@@ -96,38 +96,6 @@ struct LeastMargins {
 /// What is kept between the candidates of a round. A processor keeps both parts of every margin in its cache; a GPU, whose lanes have few
 /// registers and little cache, computes the columns' parts again, and the rows' too where the number of elements is not known beforehand.
 enum class Tables { Full, Rows, None };
-
-/// The columns of a grid that a round looks at. In a level's first round it is all eight, and upper bounds of their largest margins are
-/// kept: rounded up to 16 bits, two in a register, for registers are what a lane is short of.
-class RoundColumns {
- public:
-  [[nodiscard]] DMOSCOPE_ANYWHERE std::uint32_t bits() const { return bits_; }
-  /// Of the next column, in the order of the columns; counts in the first round.
-  DMOSCOPE_ANYWHERE void keep(float largest) {
-    if (!is_first_) return;
-    // The first 16 of a float's bits order floats that are not negative.
-    const std::uint32_t bound = (std::bit_cast<std::uint32_t>(scalar::max(largest, 0.0F)) + 0xffffU) >> 16U;
-    DMOSCOPE_UNROLL
-    for (std::size_t i = 0; i < 3; ++i) bounds_[i] = bounds_[i] >> 16U | bounds_[i + 1] << 16U;
-    bounds_[3] = bounds_[3] >> 16U | bound << 16U;
-  }
-  /// For the next round: those whose largest margin in the first may have been above `least`.
-  DMOSCOPE_ANYWHERE void take_those_above(float least) {
-    is_first_ = false;
-    const std::uint32_t most_dropped = least < 0.0F ? 0U : std::bit_cast<std::uint32_t>(least) >> 16U;
-    bits_ = 0;
-    DMOSCOPE_UNROLL
-    for (std::uint32_t i = 0; i < 8; ++i) {
-      const std::uint32_t bound = i % 2 == 0 ? bounds_[i / 2] & 0xffffU : bounds_[i / 2] >> 16U;
-      bits_ |= bound > most_dropped || least < 0.0F ? 1U << i : 0U;
-    }
-  }
-
- private:
-  std::array<std::uint32_t, 4> bounds_{};
-  std::uint32_t bits_ = 0xff;  // bit i: column i
-  bool is_first_ = true;
-};
 
 /// Searches one star, or one per slot where R is a pack. Large: keep one and use it again. Forms: their number where it is known
 /// beforehand, else 0. What it finds does not depend on Tables and Team. Form: RatioForm or TargetForm.
@@ -457,7 +425,7 @@ class RatioSearch {
     }
   }
 
-  /// The same without a table of columns.
+  /// The least margin of every candidate of the column at x, computed without a table of columns.
   [[nodiscard]] DMOSCOPE_ANYWHERE LeastMargins<R> least_margins_at(R x) const {
     const R xx = x * x;
     return least_margins(x, [&](std::size_t k) { return (margin_[k].a - margin_[k].along_x() * xx) + margin_[k].b * x; });
